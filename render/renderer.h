@@ -1,0 +1,56 @@
+/// SceneState + camera -> pixels, without a display. The drawing itself is a module that is loaded
+/// when the first renderer is made, so a process that only bridges never loads VTK, Mesa or LLVM.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "render/camera.h"
+#include "render/image.h"
+#include "server/core/scene_state.h"
+
+namespace kinescope::render {
+
+/// No GL, no module, a driver that fails. what() is one line: what was tried and the way out.
+class RenderError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct View {
+  int width = 1280;     // px, 16..8192
+  int height = 720;     // px, 16..8192
+  int supersample = 1;  // 1, 2 or 4: drawn so many times larger, then averaged
+  std::string title;    // upper left; "" none
+  bool overlays = true;  // legend, time code, banner
+};
+
+/// Create, use and destroy it on one thread: a GL context does not migrate.
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// `state` as `camera` sees it. The same arguments give the same bytes.
+  /// @throws RenderError if the driver fails; UsageError for a size out of range.
+  Image Render(const SceneState& state, const Camera& camera, const View& view);
+
+  /// GL_RENDERER, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
+  virtual std::string renderer_string() const = 0;
+
+ protected:
+  Renderer();
+
+ private:
+  virtual Image DoRender(const SceneState& state, const Camera& camera, const View& view) = 0;
+  struct Owner;  // the thread that made it
+  std::shared_ptr<const Owner> owner_;
+};
+
+/// Back-ends: "osmesa" (software, the default).
+/// @throws RenderError naming the back-end, why it did not start and what would help.
+std::unique_ptr<Renderer> MakeRenderer(const std::string& backend = "osmesa");
+
+}  // namespace kinescope::render

@@ -1,0 +1,57 @@
+/// One sample of a captured body: the value that every source produces.
+/// World frame: right-handed, z up, metres; x forward and y left at calibration. Orientations are of
+/// *segment* frames (identity in the T-pose), as MVN streams them; see urdf/segments.h.
+/// Plain data, copy it anywhere.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include "urdf/segments.h"
+#include "urdf/skeleton.h"
+
+namespace kinescope {
+
+struct SegmentState {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the segment's origin, world, m
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // world_from_segment, unit
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               // of the origin, world, m/s
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();           // without gravity, world, m/s^2
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       // world axes, rad/s
+  Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();   // world axes, rad/s^2
+};
+
+struct CenterOfMass {  // as the sender computed it (type 24, MVNX centerOfMass); world
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();      // m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      // m/s, zero where not sent
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // m/s^2, zero where not sent
+  bool has_derivatives = false;
+};
+
+struct BodySample {
+  int character = 0;                   // id within the source, from 0
+  std::uint32_t counter = 0;           // sender's sample counter; counts captured frames
+  std::int64_t time_code_millis = 0;   // sender's clock: since its recording began
+  std::int64_t stamp_nanos = 0;        // ROS time (Unix epoch) of this sample
+  std::int64_t arrival_nanos = 0;      // monotonic clock, when its last datagram was read; 0: a file
+  std::array<SegmentState, urdf::kSegmentCount> segments{};
+  bool has_linear = false;   // velocity and acceleration are measured, not zeros
+  bool has_angular = false;  // angular velocity and acceleration likewise
+  std::optional<CenterOfMass> com;
+  /// Joint angles as streamed (type 20, MVNX jointAngle), degrees, MVN's own (x, y, z) order.
+  std::optional<std::array<Eigen::Vector3d, urdf::kJointCount>> streamed_angles_deg;
+};
+
+/// What a source knows about one person, apart from samples; sent again whenever it changes.
+struct Character {
+  int id = 0;
+  std::string name;                        // "" where unknown
+  std::optional<std::uint32_t> color_rgb;  // 0xRRGGBB
+  std::optional<urdf::Skeleton> skeleton;  // from type 13 or MVNX points
+};
+
+}  // namespace kinescope

@@ -1,0 +1,84 @@
+/// What every sink shows: RViz, picture, clip, page and golden check all draw from this value and
+/// compute nothing of their own about the human. Made once per sample (server/app/scene_builder.h),
+/// never changed afterwards, shared as `std::shared_ptr<const SceneState>`.
+/// World frame: z up, metres. Poses are of *link* frames (urdf/segments.h).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "server/core/body_sample.h"
+#include "urdf/human_urdf.h"
+#include "urdf/kinematics.h"
+#include "urdf/robot_model.h"
+
+namespace kinescope {
+
+enum class LoadClass { kUnknown = 0, kLow = 1, kMedium = 2, kHigh = 3 };
+
+/// "unknown", "low", "medium", "high".
+const char* Name(LoadClass load_class);
+
+/// One load sphere. The joints that get one: kScoredJoints (server/loads).
+struct JointLoad {
+  int joint = 0;                                         // urdf::Joint
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();    // of the joint centre, world, m
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();      // N m, parent on child, world axes
+  double ratio = 0;                                      // of capacity; NaN where unknown
+  double deciding_moment = 0;                            // N m, signed, of the channel that decides
+  double capacity = 0;                                   // N m, of that channel
+  std::string channel;                                   // "flexion", "elevation", ...
+  LoadClass load_class = LoadClass::kUnknown;
+  std::string reason;                                    // why unknown; "" otherwise
+};
+
+/// The person as a mechanism. Shared by all states until scale data change it.
+struct PersonModel {
+  urdf::HumanModel human;
+  urdf::BodyDescription description;
+  std::string urdf_xml;        // what robot_description holds
+  urdf::RobotModel robot;      // the same, read back
+  std::uint64_t revision = 0;  // grows with every change; sinks reload when it does
+};
+
+struct PersonState {
+  int character = 0;
+  std::string name;
+  std::shared_ptr<const PersonModel> model;  // never null
+  BodySample sample;                         // as it came
+  urdf::LinkPoses links{};                   // world_from_link
+  urdf::JointAngles angles{};                // rad, from the poses
+  std::optional<Eigen::Vector3d> com;        // MVN's where streamed, else the body model's
+  bool com_is_ours = false;
+  std::optional<Eigen::Vector3d> cop;        // on the floor; absent when not computable
+  std::vector<JointLoad> loads;              // in order of kScoredJoints
+};
+
+enum class Liveness {
+  kNoData,  // nothing came yet
+  kLive,
+  kStale,   // the stream stopped: poses are old, loads are unknown
+};
+
+/// "no data", "live", "stale".
+const char* Name(Liveness liveness);
+
+struct SceneState {
+  Liveness liveness = Liveness::kNoData;
+  std::uint64_t number = 0;          // of this state, +1 each; tells sinks apart what they have seen
+  std::int64_t stamp_nanos = 0;      // of the newest sample, ROS time; 0 before the first
+  std::uint32_t counter = 0;         // its sample counter
+  std::int64_t time_code_millis = 0;  // its time code
+  std::int64_t arrival_nanos = 0;    // monotonic; 0 for files
+  double rate_hz = 0;                // of samples, measured over the last second (file: nominal)
+  std::string source;                // "udp://0.0.0.0:9763"
+  std::vector<PersonState> people;   // one per character seen within the last second
+};
+
+}  // namespace kinescope

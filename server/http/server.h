@@ -1,0 +1,67 @@
+/// The web page and its live data: HTTP and WebSocket on one port (docs/http.md). One thread of its
+/// own; every public function may be called from any thread. Per client only the newest state and
+/// picture are kept, so a slow viewer costs nobody else anything.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/core/latest.h"
+#include "server/core/scene_state.h"
+
+namespace kinescope::http {
+
+/// The server's own picture, encoded once for all viewers.
+struct Picture {
+  std::vector<std::uint8_t> jpeg;
+  std::uint64_t state_number = 0;  // SceneState::number it shows
+  std::int64_t arrival_nanos = 0;  // of that state's sample, monotonic clock
+};
+
+/// Draws for the server. Implemented in server/app; any thread may call it.
+class PictureFeed {
+ public:
+  virtual ~PictureFeed() = default;
+  /// How many clients look at the live picture now; nothing is drawn while it is 0.
+  virtual void SetViewers(int count) = 0;
+  /// Which named camera the live picture uses. False for a name that does not exist.
+  virtual bool SetCamera(const std::string& camera) = 0;
+  /// One picture of the newest state as PNG; blocks until drawn. Empty camera: the live one's.
+  /// @throws std::exception with one line for the client.
+  virtual std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width,
+                                                int height) = 0;
+};
+
+struct HttpConfig {
+  std::string bind_ip = "127.0.0.1";
+  int port = 8080;                 // 0 takes a free one
+  std::string token;               // required as ?token= or cookie when not empty
+  std::filesystem::path web_root;  // folder of index.html
+};
+
+class HttpServer {
+ public:
+  /// Listens when it returns. `states` and `pictures` are watched for new values; `diagnostics` gives
+  /// the JSON of /api/diagnostics. All are borrowed and must outlive the server. `feed` may be null
+  /// (no renderer): the page then says so.
+  /// @throws UsageError naming address and port that could not be bound, and what to do.
+  HttpServer(const HttpConfig& config, Latest<SceneState>& states, Latest<Picture>& pictures,
+             PictureFeed* feed, std::function<std::string()> diagnostics);
+  ~HttpServer();
+  HttpServer(const HttpServer&) = delete;
+  HttpServer& operator=(const HttpServer&) = delete;
+
+  int port() const;         // the one really bound
+  std::string url() const;  // with the token, ready to open
+  int clients() const;      // WebSockets connected now
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace kinescope::http

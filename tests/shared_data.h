@@ -1,0 +1,31 @@
+/// Where the real recordings are, for tests that use them. They are not part of this repository; set
+/// KINESCOPE_SHARED_DATA in the environment, or keep them in ../shared/data.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace kinescope::testing {
+
+inline std::filesystem::path SharedData(const std::string& file) {
+  const char* folder = std::getenv("KINESCOPE_SHARED_DATA");
+  return std::filesystem::path(folder != nullptr ? folder : KINESCOPE_SHARED_DATA_DEFAULT) / file;
+}
+
+inline std::string ReadFile(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace kinescope::testing
+
+/// Skips the test, visibly, where the recording is absent. Not a failure: the licences of the
+/// recordings do not let us ship them.
+#define KINESCOPE_NEEDS_SHARED_DATA(file)                                                      \
+  if (!std::filesystem::exists(::kinescope::testing::SharedData(file)))                        \
+  GTEST_SKIP() << "real recording " << ::kinescope::testing::SharedData(file) << " is absent"

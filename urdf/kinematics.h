@@ -1,0 +1,44 @@
+/// Poses, joint angles and forward kinematics of the human as our URDF chains it.
+///
+/// The URDF turns about y, then x, then z at every joint:
+///     R_parent_child = Ry(y) * Rx(x) * Rz(z)          (link frames)
+/// This is the only order under which the angles that the seed bridge publishes are right
+/// (mvn-protocol.md 6.1). Angles are radians, stored as (x, y, z).
+#pragma once
+
+#include <array>
+
+#include <Eigen/Geometry>
+
+#include "urdf/skeleton.h"
+
+namespace kinescope::urdf {
+
+struct Pose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();             // in the world, m
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // world_from_(link or segment)
+};
+
+using LinkPoses = std::array<Pose, kSegmentCount>;              // link frames
+using JointAngles = std::array<Eigen::Vector3d, kJointCount>;   // (x, y, z) rad
+
+/// Ry(y) * Rx(x) * Rz(z).
+Eigen::Quaterniond RotationFromAngles(const Eigen::Vector3d& xyz);
+
+/// Inverse of RotationFromAngles. Of all triples that mean the same rotation, the one nearest to
+/// `near` is taken (so angles do not jump by 2 pi, and at |x| = 90 deg, where only y and z together
+/// are determined, y stays what it was).
+Eigen::Vector3d AnglesFromRotation(const Eigen::Quaterniond& parent_from_child,
+                                   const Eigen::Vector3d& near = Eigen::Vector3d::Zero());
+
+/// Angles of all joints of a posed human; `near` as above, normally the previous sample's angles.
+JointAngles AnglesFromPoses(const LinkPoses& poses, const JointAngles& near);
+
+/// Every link of the rigid URDF human: the skeleton, hung at `pelvis`, bent by `angles`.
+LinkPoses ForwardKinematics(const Skeleton& skeleton, const Pose& pelvis,
+                            const JointAngles& angles);
+
+/// Between `a` and `b`: positions linear, orientations slerp along the shorter arc. t in [0, 1].
+LinkPoses Interpolate(const LinkPoses& a, const LinkPoses& b, double t);
+
+}  // namespace kinescope::urdf

@@ -1,0 +1,68 @@
+/// The 23 segments and 22 joints of an MVN body: order, names, parents. One table for the whole
+/// program; every per-segment array is indexed by `Segment`, every per-joint array by `Joint`.
+///
+/// Frames. A *segment* frame is what MVN streams: identity in the T-pose, x forward, y left, z up, so
+/// the right arm lies along -y. A *link* frame is what we publish (TF, URDF, as the seed bridge does):
+/// the same, but upper arms, forearms and hands are turned so that identity is the N-pose and every
+/// limb hangs along -z. Origins are equal: the proximal joint centre (pelvis: midpoint of the hips).
+/// Source of order, names and turns: MV0305P and xsens_mvn_ros (mvn-protocol.md 4.1, 4.3, 6.1).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include <Eigen/Geometry>
+
+namespace kinescope::urdf {
+
+constexpr int kSegmentCount = 23;
+constexpr int kJointCount = 22;
+
+/// Value = MVN segment id - 1.
+enum Segment : int {
+  kPelvis, kL5, kL3, kT12, kT8, kNeck, kHead,
+  kRightShoulder, kRightUpperArm, kRightForeArm, kRightHand,
+  kLeftShoulder, kLeftUpperArm, kLeftForeArm, kLeftHand,
+  kRightUpperLeg, kRightLowerLeg, kRightFoot, kRightToe,
+  kLeftUpperLeg, kLeftLowerLeg, kLeftFoot, kLeftToe,
+};
+
+/// Value = MVN joint number - 1; the child of joint j is segment j + 1.
+enum Joint : int {
+  jL5S1, jL4L3, jL1T12, jT9T8, jT1C7, jC1Head,
+  jRightC7Shoulder, jRightShoulder, jRightElbow, jRightWrist,
+  jLeftC7Shoulder, jLeftShoulder, jLeftElbow, jLeftWrist,
+  jRightHip, jRightKnee, jRightAnkle, jRightBallFoot,
+  jLeftHip, jLeftKnee, jLeftAnkle, jLeftBallFoot,
+};
+
+struct SegmentInfo {
+  std::string_view mvn_name;   // "RightForeArm", as in type 13 and MVNX
+  std::string_view link_name;  // "right_forearm", as the seed publishes
+  int parent;                  // -1 for the pelvis
+};
+
+struct JointInfo {
+  std::string_view mvn_name;  // "jRightC7Shoulder" (jRightT4Shoulder in newer files is the same)
+  std::string_view ros_name;  // "right_c7_shoulder"
+  std::string_view label;     // "Right C7 shoulder", for people
+};
+
+extern const std::array<SegmentInfo, kSegmentCount> kSegments;
+extern const std::array<JointInfo, kJointCount> kJoints;
+
+constexpr int ChildOf(int joint) { return joint + 1; }
+inline int ParentOf(int joint) { return kSegments[static_cast<std::size_t>(joint + 1)].parent; }
+
+/// Segment whose MVN name is `mvn_name`; nullopt for a prop, a finger or anything unknown.
+std::optional<Segment> FindSegment(std::string_view mvn_name);
+/// Joint by MVN name; `j·T4Shoulder` (files since MVN 2018) counts as `j·C7Shoulder`.
+std::optional<Joint> FindJoint(std::string_view mvn_name);
+
+/// The constant turn between the two frames of a segment:
+/// world_from_link = world_from_segment * SegmentFromLink(segment). Rx(-90 deg) for the right upper
+/// arm, forearm and hand, Rx(+90 deg) for the left ones, identity elsewhere.
+const Eigen::Quaterniond& SegmentFromLink(int segment);
+
+}  // namespace kinescope::urdf
