@@ -1,11 +1,11 @@
-/// Cameras by name, and where a point of the world lands in the picture. The same name gives the same
-/// view in picture, page and RViz. World: z up, metres. GLM does the matrices; it does not show here.
+/// Cameras by name, and where a point of the world lands in the picture. The same name gives the
+/// same view in picture, page and RViz. World: z up, metres. GLM does the matrices; it does not
+/// show here.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "server/core/scene_state.h"
 
@@ -30,10 +30,10 @@ const std::vector<std::string>& CameraNames();
 Camera NamedCamera(const std::string& name, const SceneState& state);
 
 struct Projected {
-  double x_px = 0;     // from the left edge
-  double y_px = 0;     // from the top edge
-  double depth_m = 0;  // along the view axis; <= 0: behind the camera
-  double px_per_m = 0; // size there of a metre that faces the camera
+  double x_px = 0;      // from the left edge
+  double y_px = 0;      // from the top edge
+  double depth_m = 0;   // along the view axis; <= 0: behind the camera
+  double px_per_m = 0;  // size there of a metre that faces the camera
 };
 
 Projected Project(const Eigen::Vector3d& point_in_world, const Camera& camera, int width_px,

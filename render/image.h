@@ -7,8 +7,8 @@
 namespace kinescope::render {
 
 struct Image {
-  int width = 0;   // px
-  int height = 0;  // px
+  int width = 0;                   // px
+  int height = 0;                  // px
   std::vector<std::uint8_t> rgba;  // (height, width, 4)
 };
 

@@ -11,8 +11,8 @@
 
 namespace kinescope::render {
 
-/// RGB (alpha dropped when every pixel is opaque); `text` becomes tEXt chunks. The file appears under
-/// its name only when it is whole.
+/// RGB (alpha dropped when every pixel is opaque); `text` becomes tEXt chunks. The file appears
+/// under its name only when it is whole.
 /// @throws std::runtime_error naming the path and the reason.
 void WritePng(const std::filesystem::path& path, const Image& image,
               const std::map<std::string, std::string>& text = {});

@@ -2,6 +2,7 @@
 /// when the first renderer is made, so a process that only bridges never loads VTK, Mesa or LLVM.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -26,16 +27,22 @@ struct View {
   bool overlays = true;  // legend, time code, banner
 };
 
+/// Takes one line without a line end: a mesh that is missing (once), a warning of the driver.
+using LogLine = std::function<void(const std::string&)>;
+
 /// Create, use and destroy it on one thread: a GL context does not migrate.
 class Renderer {
  public:
-  virtual ~Renderer() = default;
+  virtual ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
   /// `state` as `camera` sees it. The same arguments give the same bytes.
   /// @throws RenderError if the driver fails; UsageError for a size out of range.
   Image Render(const SceneState& state, const Camera& camera, const View& view);
+
+  /// The same into `image`, whose memory is used again: what a stream of pictures should call.
+  void RenderInto(Image& image, const SceneState& state, const Camera& camera, const View& view);
 
   /// GL_RENDERER, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
   virtual std::string renderer_string() const = 0;
@@ -44,13 +51,18 @@ class Renderer {
   Renderer();
 
  private:
-  virtual Image DoRender(const SceneState& state, const Camera& camera, const View& view) = 0;
+  /// `image` has the size of `view` and every pixel is to be written.
+  virtual void DoRender(Image& image, const SceneState& state, const Camera& camera,
+                        const View& view) = 0;
   struct Owner;  // the thread that made it
-  std::shared_ptr<const Owner> owner_;
+  std::unique_ptr<const Owner> owner_;
 };
 
-/// Back-ends: "osmesa" (software, the default).
+/// Back-ends: "osmesa" (software, the default). `log` is called on the calling thread only; without
+/// one, lines go to stderr.
+/// Sets GALLIUM_OVERRIDE_CPU_CAPS=sse4.1 in the environment unless it is set already: llvmpipe then
+/// rounds alike on every x86-64 machine. Make the first renderer before other threads use getenv().
 /// @throws RenderError naming the back-end, why it did not start and what would help.
-std::unique_ptr<Renderer> MakeRenderer(const std::string& backend = "osmesa");
+std::unique_ptr<Renderer> MakeRenderer(const std::string& backend = "osmesa", LogLine log = {});
 
 }  // namespace kinescope::render

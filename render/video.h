@@ -12,7 +12,7 @@ namespace kinescope::render {
 
 struct VideoOptions {
   double frames_per_second = 30;
-  int crf = 18;  // 0 (lossless) .. 51; x264's constant quality
+  int crf = 18;                                 // 0 (lossless) .. 51; x264's constant quality
   std::map<std::string, std::string> metadata;  // title, comment
 };
 

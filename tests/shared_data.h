@@ -1,14 +1,14 @@
-/// Where the real recordings are, for tests that use them. They are not part of this repository; set
-/// KINESCOPE_SHARED_DATA in the environment, or keep them in ../shared/data.
+/// Where the real recordings are, for tests that use them. They are not part of this repository;
+/// set KINESCOPE_SHARED_DATA in the environment, or keep them in ../shared/data.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
-
-#include <gtest/gtest.h>
 
 namespace kinescope::testing {
 
@@ -26,6 +26,6 @@ inline std::string ReadFile(const std::filesystem::path& path) {
 
 /// Skips the test, visibly, where the recording is absent. Not a failure: the licences of the
 /// recordings do not let us ship them.
-#define KINESCOPE_NEEDS_SHARED_DATA(file)                                                      \
-  if (!std::filesystem::exists(::kinescope::testing::SharedData(file)))                        \
+#define KINESCOPE_NEEDS_SHARED_DATA(file)                               \
+  if (!std::filesystem::exists(::kinescope::testing::SharedData(file))) \
   GTEST_SKIP() << "real recording " << ::kinescope::testing::SharedData(file) << " is absent"

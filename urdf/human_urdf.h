@@ -14,6 +14,7 @@ struct HumanModel {
   std::string model_name = "skeleton";  // prefix of links and joints, name of the robot
   Skeleton skeleton;
   BodyParameters body;
+  std::string mesh_folder;  // absolute; holds <link>.stl (figure_files.h). "": primitives instead
 };
 
 /// `<model>_<link>`, such as "skeleton_right_forearm".

@@ -6,21 +6,20 @@
 /// (mvn-protocol.md 6.1). Angles are radians, stored as (x, y, z).
 #pragma once
 
-#include <array>
-
 #include <Eigen/Geometry>
+#include <array>
 
 #include "urdf/skeleton.h"
 
 namespace kinescope::urdf {
 
 struct Pose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();             // in the world, m
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               // in the world, m
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // world_from_(link or segment)
 };
 
-using LinkPoses = std::array<Pose, kSegmentCount>;              // link frames
-using JointAngles = std::array<Eigen::Vector3d, kJointCount>;   // (x, y, z) rad
+using LinkPoses = std::array<Pose, kSegmentCount>;             // link frames
+using JointAngles = std::array<Eigen::Vector3d, kJointCount>;  // (x, y, z) rad
 
 /// Ry(y) * Rx(x) * Rz(z).
 Eigen::Quaterniond RotationFromAngles(const Eigen::Vector3d& xyz);

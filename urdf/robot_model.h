@@ -1,13 +1,12 @@
-/// A URDF, read: what it takes to draw it and to chain its links. Reading is urdfdom's work; no type
-/// of urdfdom shows here. Metres, radians, kilograms; frames as in the URDF specification.
+/// A URDF, read: what it takes to draw it and to chain its links. Reading is urdfdom's work; no
+/// type of urdfdom shows here. Metres, radians, kilograms; frames as in the URDF specification.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 namespace kinescope::urdf {
 

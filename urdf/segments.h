@@ -1,18 +1,18 @@
 /// The 23 segments and 22 joints of an MVN body: order, names, parents. One table for the whole
 /// program; every per-segment array is indexed by `Segment`, every per-joint array by `Joint`.
 ///
-/// Frames. A *segment* frame is what MVN streams: identity in the T-pose, x forward, y left, z up, so
-/// the right arm lies along -y. A *link* frame is what we publish (TF, URDF, as the seed bridge does):
-/// the same, but upper arms, forearms and hands are turned so that identity is the N-pose and every
-/// limb hangs along -z. Origins are equal: the proximal joint centre (pelvis: midpoint of the hips).
-/// Source of order, names and turns: MV0305P and xsens_mvn_ros (mvn-protocol.md 4.1, 4.3, 6.1).
+/// Frames. A *segment* frame is what MVN streams: identity in the T-pose, x forward, y left, z up,
+/// so the right arm lies along -y. A *link* frame is what we publish (TF, URDF, as the seed bridge
+/// does): the same, but upper arms, forearms and hands are turned so that identity is the N-pose
+/// and every limb hangs along -z. Origins are equal: the proximal joint centre (pelvis: midpoint of
+/// the hips). Source of order, names and turns: MV0305P and xsens_mvn_ros
+/// (mvn-protocol.md 4.1, 4.3, 6.1).
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <optional>
 #include <string_view>
-
-#include <Eigen/Geometry>
 
 namespace kinescope::urdf {
 
@@ -21,20 +21,55 @@ constexpr int kJointCount = 22;
 
 /// Value = MVN segment id - 1.
 enum Segment : int {
-  kPelvis, kL5, kL3, kT12, kT8, kNeck, kHead,
-  kRightShoulder, kRightUpperArm, kRightForeArm, kRightHand,
-  kLeftShoulder, kLeftUpperArm, kLeftForeArm, kLeftHand,
-  kRightUpperLeg, kRightLowerLeg, kRightFoot, kRightToe,
-  kLeftUpperLeg, kLeftLowerLeg, kLeftFoot, kLeftToe,
+  kPelvis,
+  kL5,
+  kL3,
+  kT12,
+  kT8,
+  kNeck,
+  kHead,
+  kRightShoulder,
+  kRightUpperArm,
+  kRightForeArm,
+  kRightHand,
+  kLeftShoulder,
+  kLeftUpperArm,
+  kLeftForeArm,
+  kLeftHand,
+  kRightUpperLeg,
+  kRightLowerLeg,
+  kRightFoot,
+  kRightToe,
+  kLeftUpperLeg,
+  kLeftLowerLeg,
+  kLeftFoot,
+  kLeftToe,
 };
 
 /// Value = MVN joint number - 1; the child of joint j is segment j + 1.
 enum Joint : int {
-  jL5S1, jL4L3, jL1T12, jT9T8, jT1C7, jC1Head,
-  jRightC7Shoulder, jRightShoulder, jRightElbow, jRightWrist,
-  jLeftC7Shoulder, jLeftShoulder, jLeftElbow, jLeftWrist,
-  jRightHip, jRightKnee, jRightAnkle, jRightBallFoot,
-  jLeftHip, jLeftKnee, jLeftAnkle, jLeftBallFoot,
+  jL5S1,
+  jL4L3,
+  jL1T12,
+  jT9T8,
+  jT1C7,
+  jC1Head,
+  jRightC7Shoulder,
+  jRightShoulder,
+  jRightElbow,
+  jRightWrist,
+  jLeftC7Shoulder,
+  jLeftShoulder,
+  jLeftElbow,
+  jLeftWrist,
+  jRightHip,
+  jRightKnee,
+  jRightAnkle,
+  jRightBallFoot,
+  jLeftHip,
+  jLeftKnee,
+  jLeftAnkle,
+  jLeftBallFoot,
 };
 
 struct SegmentInfo {

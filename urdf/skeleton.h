@@ -2,12 +2,11 @@
 /// *link* frame named (N-pose aligned: x forward, y left, z up with arms hanging).
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <map>
 #include <string>
 #include <utility>
-
-#include <Eigen/Core>
 
 #include "urdf/segments.h"
 

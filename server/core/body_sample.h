@@ -1,15 +1,14 @@
 /// One sample of a captured body: the value that every source produces.
-/// World frame: right-handed, z up, metres; x forward and y left at calibration. Orientations are of
-/// *segment* frames (identity in the T-pose), as MVN streams them; see urdf/segments.h.
-/// Plain data, copy it anywhere.
+/// World frame: right-handed, z up, metres; x forward and y left at calibration. Orientations are
+/// of *segment* frames (identity in the T-pose), as MVN streams them; see urdf/segments.h. Plain
+/// data, copy it anywhere.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
-
-#include <Eigen/Geometry>
 
 #include "urdf/segments.h"
 #include "urdf/skeleton.h"
@@ -33,11 +32,11 @@ struct CenterOfMass {  // as the sender computed it (type 24, MVNX centerOfMass)
 };
 
 struct BodySample {
-  int character = 0;                   // id within the source, from 0
-  std::uint32_t counter = 0;           // sender's sample counter; counts captured frames
-  std::int64_t time_code_millis = 0;   // sender's clock: since its recording began
-  std::int64_t stamp_nanos = 0;        // ROS time (Unix epoch) of this sample
-  std::int64_t arrival_nanos = 0;      // monotonic clock, when its last datagram was read; 0: a file
+  int character = 0;                  // id within the source, from 0
+  std::uint32_t counter = 0;          // sender's sample counter; counts captured frames
+  std::int64_t time_code_millis = 0;  // sender's clock: since its recording began
+  std::int64_t stamp_nanos = 0;       // ROS time (Unix epoch) of this sample
+  std::int64_t arrival_nanos = 0;     // monotonic clock, when its last datagram was read; 0: a file
   std::array<SegmentState, urdf::kSegmentCount> segments{};
   bool has_linear = false;   // velocity and acceleration are measured, not zeros
   bool has_angular = false;  // angular velocity and acceleration likewise

@@ -6,7 +6,8 @@
 namespace kinescope {
 
 void CheckFailed(const char* file, int line, const char* condition) {
-  std::fprintf(stderr, "%s:%d: a promise of Kinescope itself is broken: %s\n", file, line, condition);
+  std::fprintf(stderr, "%s:%d: a promise of Kinescope itself is broken: %s\n", file, line,
+               condition);
   std::abort();
 }
 

@@ -7,13 +7,22 @@ namespace {
 double BaseRadius(int joint) {
   using namespace urdf;
   switch (joint) {
-    case jL5S1: case jL4L3: case jL1T12: case jT9T8: return 0.065;
-    case jT1C7: case jC1Head: return 0.048;
-    case jRightShoulder: case jLeftShoulder: return 0.056;
-    case jRightElbow: case jLeftElbow: return 0.046;
-    case jRightWrist: case jLeftWrist: return 0.038;
-    case jRightHip: case jLeftHip: return 0.064;
-    case jRightKnee: case jLeftKnee: return 0.058;
+    case jL5S1:
+    case jL4L3:
+    case jL1T12:
+    case jT9T8: return 0.065;
+    case jT1C7:
+    case jC1Head: return 0.048;
+    case jRightShoulder:
+    case jLeftShoulder: return 0.056;
+    case jRightElbow:
+    case jLeftElbow: return 0.046;
+    case jRightWrist:
+    case jLeftWrist: return 0.038;
+    case jRightHip:
+    case jLeftHip: return 0.064;
+    case jRightKnee:
+    case jLeftKnee: return 0.058;
     default: return 0.046;
   }
 }

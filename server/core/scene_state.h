@@ -4,14 +4,13 @@
 /// World frame: z up, metres. Poses are of *link* frames (urdf/segments.h).
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "server/core/body_sample.h"
 #include "urdf/human_urdf.h"
@@ -27,15 +26,15 @@ const char* Name(LoadClass load_class);
 
 /// One load sphere. The joints that get one: kScoredJoints (server/loads).
 struct JointLoad {
-  int joint = 0;                                         // urdf::Joint
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();    // of the joint centre, world, m
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();      // N m, parent on child, world axes
-  double ratio = 0;                                      // of capacity; NaN where unknown
-  double deciding_moment = 0;                            // N m, signed, of the channel that decides
-  double capacity = 0;                                   // N m, of that channel
-  std::string channel;                                   // "flexion", "elevation", ...
+  int joint = 0;                                       // urdf::Joint
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the joint centre, world, m
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();    // N m, parent on child, world axes
+  double ratio = 0;                                    // of capacity; NaN where unknown
+  double deciding_moment = 0;                          // N m, signed, of the channel that decides
+  double capacity = 0;                                 // N m, of that channel
+  std::string channel;                                 // "flexion", "elevation", ...
   LoadClass load_class = LoadClass::kUnknown;
-  std::string reason;                                    // why unknown; "" otherwise
+  std::string reason;  // why unknown; "" otherwise
 };
 
 /// The person as a mechanism. Shared by all states until scale data change it.
@@ -56,14 +55,14 @@ struct PersonState {
   urdf::JointAngles angles{};                // rad, from the poses
   std::optional<Eigen::Vector3d> com;        // MVN's where streamed, else the body model's
   bool com_is_ours = false;
-  std::optional<Eigen::Vector3d> cop;        // on the floor; absent when not computable
-  std::vector<JointLoad> loads;              // in order of kScoredJoints
+  std::optional<Eigen::Vector3d> cop;  // on the floor; absent when not computable
+  std::vector<JointLoad> loads;        // in order of kScoredJoints
 };
 
 enum class Liveness {
   kNoData,  // nothing came yet
   kLive,
-  kStale,   // the stream stopped: poses are old, loads are unknown
+  kStale,  // the stream stopped: poses are old, loads are unknown
 };
 
 /// "no data", "live", "stale".
@@ -71,14 +70,14 @@ const char* Name(Liveness liveness);
 
 struct SceneState {
   Liveness liveness = Liveness::kNoData;
-  std::uint64_t number = 0;          // of this state, +1 each; tells sinks apart what they have seen
-  std::int64_t stamp_nanos = 0;      // of the newest sample, ROS time; 0 before the first
-  std::uint32_t counter = 0;         // its sample counter
+  std::uint64_t number = 0;      // of this state, +1 each; tells sinks apart what they have seen
+  std::int64_t stamp_nanos = 0;  // of the newest sample, ROS time; 0 before the first
+  std::uint32_t counter = 0;     // its sample counter
   std::int64_t time_code_millis = 0;  // its time code
-  std::int64_t arrival_nanos = 0;    // monotonic; 0 for files
-  double rate_hz = 0;                // of samples, measured over the last second (file: nominal)
-  std::string source;                // "udp://0.0.0.0:9763"
-  std::vector<PersonState> people;   // one per character seen within the last second
+  std::int64_t arrival_nanos = 0;     // monotonic; 0 for files
+  double rate_hz = 0;                 // of samples, measured over the last second (file: nominal)
+  std::string source;                 // "udp://0.0.0.0:9763"
+  std::vector<PersonState> people;    // one per character seen within the last second
 };
 
 }  // namespace kinescope

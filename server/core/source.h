@@ -18,11 +18,11 @@ struct SourceCounters {
   std::uint64_t samples = 0;     // given on
   std::uint64_t incomplete = 0;  // of these, given on without a type that the stream normally has
   std::uint64_t duplicates = 0;
-  std::uint64_t late = 0;                          // for a sample already given on
-  std::uint64_t counter_gaps = 0;                  // steps of the sample counter above the usual one
-  std::uint64_t restarts = 0;                      // the counter started over
-  std::map<std::string, std::uint64_t> ignored;    // good, not needed: "type 25"
-  std::map<std::string, std::uint64_t> rejected;   // bad, by reason: "no MXTP id string"
+  std::uint64_t late = 0;                         // for a sample already given on
+  std::uint64_t counter_gaps = 0;                 // steps of the sample counter above the usual one
+  std::uint64_t restarts = 0;                     // the counter started over
+  std::map<std::string, std::uint64_t> ignored;   // good, not needed: "type 25"
+  std::map<std::string, std::uint64_t> rejected;  // bad, by reason: "no MXTP id string"
 };
 
 class SampleSink {

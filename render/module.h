@@ -1,0 +1,67 @@
+/// The two parts that are loaded only when they are needed, each with its dozens of libraries:
+/// drawing (VTK, Mesa, LLVM) and video (libav). Host and module exchange C++ values, so both must
+/// come from the same build; LoadModule refuses anything else.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/image.h"
+#include "render/renderer.h"
+#include "render/video.h"
+#include "server/core/scene_state.h"
+
+namespace kinescope::render {
+
+/// What must be equal on both sides. A changed struct changes a size here in nearly every case; the
+/// number is raised by hand when it does not.
+struct ModuleAbi {
+  std::size_t number = 1;
+  std::size_t scene_state = sizeof(SceneState);
+  std::size_t person_state = sizeof(PersonState);
+  std::size_t person_model = sizeof(PersonModel);
+  std::size_t joint_load = sizeof(JointLoad);
+  std::size_t camera = sizeof(Camera);
+  std::size_t video_options = sizeof(VideoOptions);
+};
+
+/// Text at a place in the world, drawn by the overlay.
+struct Label {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world, m
+  std::string text;
+};
+
+/// The 3-D picture, without overlays. Belongs to the thread that made it.
+class Drawing {
+ public:
+  virtual ~Drawing() = default;
+  /// Fills `image`, which has its size already, and `labels`. @throws RenderError.
+  virtual void Draw(const SceneState& state, const Camera& camera, int supersample, Image& image,
+                    std::vector<Label>& labels) = 0;
+  virtual std::string renderer_string() const = 0;
+};
+
+struct DrawingModule {
+  ModuleAbi abi;
+  std::unique_ptr<Drawing> (*make)(const LogLine& log);
+};
+
+struct VideoModule {
+  ModuleAbi abi;
+  std::unique_ptr<VideoWriter> (*make)(const std::filesystem::path& path, int width, int height,
+                                       const VideoOptions& options);
+};
+
+/// What each module exports under the name below, as `extern "C"` functions without arguments.
+inline constexpr const char* kDrawingEntry = "KinescopeDrawingModule";  // -> const DrawingModule*
+inline constexpr const char* kVideoEntry = "KinescopeVideoModule";      // -> const VideoModule*
+
+/// The result of `entry` in the module `file_name`, which stays loaded until the process ends.
+/// @throws RenderError naming the file, the reason and what would help.
+const void* LoadModule(const std::string& file_name, const char* entry);
+
+}  // namespace kinescope::render

@@ -1,0 +1,70 @@
+#include "server/loads/load_classifier.h"
+
+#include <cmath>
+#include <limits>
+
+namespace kinescope::loads {
+namespace {
+
+constexpr std::int64_t kNotThere = std::numeric_limits<std::int64_t>::min();
+constexpr double kLongestGapSecs = 0.5;
+
+double SecsBetween(std::int64_t from_nanos, std::int64_t to_nanos) {
+  return static_cast<double>(to_nanos - from_nanos) * 1e-9;
+}
+
+// Since when, without a break, the condition has held.
+void Track(bool holds, std::int64_t now, std::int64_t& since) {
+  if (!holds) {
+    since = kNotThere;
+  } else if (since == kNotThere) {
+    since = now;
+  }
+}
+
+}  // namespace
+
+void LoadClassifier::Restart(double ratio) {
+  filtered_ = ratio;
+  class_ = ratio > settings_.up[1]   ? LoadClass::kHigh
+           : ratio > settings_.up[0] ? LoadClass::kMedium
+                                     : LoadClass::kLow;
+  above_since_ = {kNotThere, kNotThere};
+  below_since_ = {kNotThere, kNotThere};
+}
+
+LoadClass LoadClassifier::Update(double ratio, std::int64_t stamp_nanos) {
+  const double step = SecsBetween(last_nanos_, stamp_nanos);
+  last_nanos_ = stamp_nanos;
+  if (!std::isfinite(ratio)) return class_ = LoadClass::kUnknown;
+  if (class_ == LoadClass::kUnknown || step < 0 || step > kLongestGapSecs) {
+    Restart(ratio);
+    return class_;
+  }
+
+  const double kept = settings_.low_pass_secs > 0 ? std::exp(-step / settings_.low_pass_secs) : 0.0;
+  filtered_ = ratio + kept * (filtered_ - ratio);
+  for (std::size_t i = 0; i < 2; ++i) {
+    Track(filtered_ > settings_.up[i], stamp_nanos, above_since_[i]);
+    Track(filtered_ < settings_.down[i], stamp_nanos, below_since_[i]);
+  }
+  const auto lasted = [&](std::int64_t since, double dwell_secs) {
+    return since != kNotThere && SecsBetween(since, stamp_nanos) >= dwell_secs - 1e-9;
+  };
+  // A jump over two levels passes through both in this one update.
+  if (class_ == LoadClass::kLow && lasted(above_since_[0], settings_.dwell_up_secs)) {
+    class_ = LoadClass::kMedium;
+  }
+  if (class_ == LoadClass::kMedium && lasted(above_since_[1], settings_.dwell_up_secs)) {
+    class_ = LoadClass::kHigh;
+  }
+  if (class_ == LoadClass::kHigh && lasted(below_since_[1], settings_.dwell_down_secs)) {
+    class_ = LoadClass::kMedium;
+  }
+  if (class_ == LoadClass::kMedium && lasted(below_since_[0], settings_.dwell_down_secs)) {
+    class_ = LoadClass::kLow;
+  }
+  return class_;
+}
+
+}  // namespace kinescope::loads

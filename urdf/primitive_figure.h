@@ -1,0 +1,24 @@
+/// The human in boxes, cylinders and spheres: collision shapes of the URDF, and its visuals where a
+/// mesh is not wanted (RViz on a slow machine). Link frames, metres.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "urdf/skeleton.h"
+
+namespace kinescope::urdf {
+
+struct Primitive {
+  enum class Kind { kBox, kCylinder, kSphere };
+  Kind kind = Kind::kBox;
+  Eigen::Vector3d size =
+      Eigen::Vector3d::Ones();  // box: x y z; cylinder: radius, length; sphere: radius
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // in the link
+  Eigen::Vector3d rpy = Eigen::Vector3d::Zero();     // URDF's fixed-axis roll, pitch, yaw
+};
+
+/// The parts of one segment; at least one.
+std::vector<Primitive> PrimitiveFigure(const Skeleton& skeleton, int segment);
+
+}  // namespace kinescope::urdf
