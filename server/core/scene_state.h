@@ -76,6 +76,7 @@ struct SceneState {
   std::int64_t time_code_millis = 0;  // its time code
   std::int64_t arrival_nanos = 0;     // monotonic; 0 for files
   double rate_hz = 0;                 // of samples, measured over the last second (file: nominal)
+  double floor_z = 0;                 // height of the ground, world, m
   std::string source;                 // "udp://0.0.0.0:9763"
   std::vector<PersonState> people;    // one per character seen within the last second
 };

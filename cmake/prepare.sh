@@ -1,0 +1,54 @@
+# What ./demo and ./check share: install what is missing, build. To be sourced from the top folder.
+# shellcheck shell=bash
+
+say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }
+die() { printf '%s: %s\n' "${0##*/}" "$*" >&2; exit 2; }
+
+# A package is there when dpkg says so, or when the program that it is for is on PATH anyway
+# (Node.js often comes from elsewhere, and its packages then conflict with Debian's).
+is_installed() {
+  case $1 in
+    npm) command -v npm >/dev/null && return 0 ;;
+    nodejs) command -v node >/dev/null && return 0 ;;
+  esac
+  [ "$(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+# install_packages [with-tests]
+install_packages() {
+  local marked=' # test' missing=() name
+  [ "${1:-}" = with-tests ] && marked=''
+  while read -r name; do
+    is_installed "$name" || missing+=("$name")
+  done < <(grep -v '^#' packages.txt | { [ -n "$marked" ] && grep -v '# test' || cat; } |
+           sed 's/#.*//' | awk 'NF { print $1 }')
+  [ ${#missing[@]} -eq 0 ] && return 0
+
+  local root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null && sudo -n true 2>/dev/null && root=(sudo) ||
+      die "may not install packages here; run this once as root: apt-get install --no-install-recommends ${missing[*]}"
+  fi
+  say "installing ${#missing[@]} Debian packages"
+  "${root[@]}" apt-get update -q >/dev/null || die "apt-get update failed; is there a network?"
+  "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends \
+    "${missing[@]}" >/dev/null || die "apt-get could not install: ${missing[*]}"
+}
+
+# install_npm FOLDER: what its lock file says, again only when the lock file has changed.
+install_npm() {
+  local stamp=$1/node_modules/.kinescope-lock
+  cmp -s "$1/package-lock.json" "$stamp" && return 0
+  say "installing npm packages of $1"
+  npm ci --prefix "$1" --no-audit --no-fund --loglevel=error >/dev/null || die "npm ci failed in $1; is there a network?"
+  cp "$1/package-lock.json" "$stamp"
+}
+
+# build PRESET [TARGET...]
+build() {
+  local preset=$1
+  shift
+  [ -f "build/$preset/build.ninja" ] || { say "configuring build/$preset"; cmake --preset "$preset" >/dev/null || exit 2; }
+  say "building $preset"
+  cmake --build "build/$preset" ${1:+--target "$@"} || die "the build failed"
+}

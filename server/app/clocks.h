@@ -1,0 +1,21 @@
+/// The two clocks of the program, read in one place.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+namespace kinescope::app {
+
+inline std::int64_t MonotonicNanos() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+inline std::int64_t WallNanos() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace kinescope::app

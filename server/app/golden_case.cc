@@ -1,0 +1,108 @@
+#include "server/app/golden_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "server/app/option_list.h"
+#include "server/app/pipeline_options.h"
+#include "server/app/scene_reader.h"
+
+namespace kinescope::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Takes keys out of the YAML file, remembering which exist.
+class CaseReader {
+ public:
+  explicit CaseReader(const fs::path& path) : values_(path.string()) {}
+
+  template <class T>
+  void operator()(const std::string& name, T& value, const std::string& = {}) {
+    known_.insert(name);
+    if (const auto text = values_(name)) value = ParseOption<T>(name, *text);
+  }
+
+  void RefuseUnknown() const { values_.RefuseUnknown(known_); }
+
+ private:
+  YamlValues values_;
+  std::set<std::string> known_;
+};
+
+Liveness ToLiveness(const fs::path& path, const std::string& text) {
+  for (const Liveness liveness : {Liveness::kLive, Liveness::kStale, Liveness::kNoData}) {
+    if (text == Name(liveness)) return liveness;
+  }
+  throw UsageError(
+      fmt::format("{}: show: {}: expected live, stale or no data", path.string(), text));
+}
+
+SceneState SceneOf(const GoldenCase& golden_case) {
+  SceneReader reader(golden_case.source,
+                     ToSceneOptions(golden_case.person, SceneOptions().stale_secs));
+  if (golden_case.show == Liveness::kNoData) return *reader.Empty();
+  SceneTimeline timeline(reader);
+  std::optional<SceneState> scene = timeline.At(golden_case.time_secs);
+  if (!scene) {
+    throw UsageError(fmt::format("golden case {}: {} ends before {} s", golden_case.name,
+                                 golden_case.source, golden_case.time_secs));
+  }
+  return golden_case.show == Liveness::kStale ? *reader.Stale() : *scene;
+}
+
+}  // namespace
+
+GoldenCase LoadGoldenCase(const fs::path& yaml) {
+  GoldenCase golden_case;
+  golden_case.name = yaml.stem();
+  std::string show = Name(Liveness::kLive);
+  CaseReader read(yaml);
+  read("source", golden_case.source);
+  read("time", golden_case.time_secs);
+  read("show", show);
+  read("camera", golden_case.camera);
+  read("size", golden_case.size);
+  read("supersample", golden_case.supersample);
+  read("why", golden_case.why);
+  golden_case.person.Visit(read);
+  read.RefuseUnknown();
+  if (golden_case.source.empty()) throw UsageError(yaml.string() + ": source: is missing");
+  if (golden_case.source.rfind("demo:", 0) != 0) {
+    golden_case.source = (yaml.parent_path() / golden_case.source).string();
+  }
+  golden_case.show = ToLiveness(yaml, show);
+  return golden_case;
+}
+
+std::vector<GoldenCase> LoadGoldenCases(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  }
+  if (error) throw UsageError(fmt::format("folder '{}': {}", folder.string(), error.message()));
+  if (files.empty())
+    throw UsageError(fmt::format("folder '{}' holds no case (*.yaml)", folder.string()));
+  std::sort(files.begin(), files.end());
+  std::vector<GoldenCase> cases;
+  for (const fs::path& file : files) cases.push_back(LoadGoldenCase(file));
+  return cases;
+}
+
+GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
+  const SceneState scene = SceneOf(golden_case);
+  const auto [width, height] = ToSize("size", golden_case.size);
+  const render::Camera camera = render::NamedCamera(golden_case.camera, scene);
+  GoldenDrawing drawing;
+  drawing.image = renderer.Render(scene, camera,
+                                  {width, height, golden_case.supersample, golden_case.name, true});
+  drawing.spheres = render::LocateSpheres(scene, camera, width, height);
+  return drawing;
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,56 @@
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "server/app/commands.h"
+#include "server/app/stop_signal.h"
+#include "server/ros/bridge.h"
+
+namespace {
+
+// stdout belongs to results (--json, paths); what is said to people goes to stderr.
+void SetUpLog() {
+  auto log = spdlog::stderr_color_mt("kinescope");
+  log->set_pattern("%H:%M:%S.%e %^%l%$: %v");
+  spdlog::set_default_logger(log);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace kinescope;
+  int exit_code = 0;
+  try {
+    SetUpLog();
+    app::CatchStopSignals();
+    ros_bridge::InitRos(argc, argv, "kinescope");  // takes `a:=b` and `__name:=` out of argv
+
+    CLI::App line(
+        "Kinescope: watch a motion-captured human without a screen.\n"
+        "Source: udp://[address]:port, file.mvnx, demo:lift, demo:walk.");
+    line.name("kinescope");
+    line.require_subcommand(1);
+    line.set_version_flag("--version", KINESCOPE_VERSION);
+    line.failure_message(CLI::FailureMessage::simple);
+    const app::CommandLine commands{line, exit_code};
+    app::AddServe(commands);
+    app::AddBridge(commands);
+    app::AddRender(commands);
+    app::AddGolden(commands);
+    app::AddStream(commands);
+    app::AddUrdf(commands);
+    app::AddProbe(commands);
+    try {
+      line.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+      return line.exit(error) == 0 ? 0 : 2;
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "kinescope: %s\n", error.what());
+    return 2;
+  }
+  return exit_code;
+}

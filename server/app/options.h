@@ -1,0 +1,76 @@
+/// The options of the commands. One list each: `Visit` names every option once, and --flag, ~param,
+/// YAML key and --help all come from it (option_list.h).
+#pragma once
+
+#include <string>
+
+namespace kinescope::app {
+
+/// Who is in the suit, and how they are shown.
+struct PersonOptions {
+  std::string model_name = "skeleton";
+  std::string sex = "male";
+  double mass = 0;  // 0: not given
+  double height = 1.75;
+  std::string figure = "smooth";
+
+  template <class Option>
+  void Visit(Option&& option) {
+    option("model_name", model_name, "prefix of links, joints and TF frames");
+    option("sex", sex, "male or female: body table and strength");
+    option("mass", mass, "body mass, kg; 0: not known, 75 (male) or 62 (female) is assumed");
+    option("height", height, "stature, m, until the suit tells its own segment lengths");
+    option("figure", figure, "smooth (mesh files) or primitive (boxes, cylinders, spheres)");
+  }
+};
+
+struct ServeOptions {
+  std::string source = "udp://:9763";
+  int udp_port = 0;
+  bool loop = false;
+  double stale_secs = 0.5;
+  PersonOptions person;
+  // ROS
+  std::string ros = "auto";
+  std::string reference_frame = "world";
+  std::string tf = "flat";
+  std::string joint_states = "computed";
+  // page and pictures
+  std::string bind_ip = "127.0.0.1";
+  int http_port = 8080;
+  std::string token;
+  std::string pictures = "on";
+  std::string camera = "three_quarter";
+  std::string picture_size = "1280x720";
+  double picture_rate_hz = 30;
+
+  template <class Option>
+  void Visit(Option&& option) {
+    VisitBridge(option);
+    option("bind_ip", bind_ip,
+           "address of the page; 0.0.0.0 lets the whole network in (set token)");
+    option("http_port", http_port, "TCP port of the page; 0 takes a free one and prints it");
+    option("token", token, "what a browser must bring; needed for any address but this machine's");
+    option("pictures", pictures, "on or off: the server's own pictures");
+    option("camera", camera,
+           "camera of the live picture: front back left right top iso three_quarter");
+    option("picture_size", picture_size, "of the live picture, px");
+    option("picture_rate_hz", picture_rate_hz, "most pictures a second, whatever comes in");
+  }
+
+  /// Those that make sense without page and pictures.
+  template <class Option>
+  void VisitBridge(Option&& option) {
+    option("source", source, "udp://[address]:port, file.mvnx, demo:lift, demo:walk");
+    option("udp_port", udp_port, "short for source udp://:PORT; 0: as source says");
+    option("loop", loop, "start a file over when it ends");
+    option("stale_secs", stale_secs, "so long without a sample is shown as stale");
+    person.Visit(option);
+    option("ros", ros, "auto (whenever a master is there), off, or required");
+    option("reference_frame", reference_frame, "parent frame of every TF");
+    option("tf", tf, "flat (as xsens_mvn_ros), tree or off");
+    option("joint_states", joint_states, "computed from the poses, or streamed (type 20)");
+  }
+};
+
+}  // namespace kinescope::app

@@ -1,0 +1,205 @@
+#include "server/app/picture_loop.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "render/camera.h"
+#include "render/png_file.h"
+#include "server/core/errors.h"
+
+namespace kinescope::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kJpegQuality = 85;
+constexpr std::size_t kMostSnapshots = 16;  // waiting; more would be a client that misbehaves
+
+double MillisSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+bool IsCamera(const std::string& name) {
+  const auto& names = render::CameraNames();
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+PictureLoop::PictureLoop(const PictureOptions& options, std::shared_ptr<const SceneState> first,
+                         Latest<http::Picture>& pictures)
+    : options_(options), pictures_(pictures), state_(std::move(first)), camera_(options.camera) {
+  render::NamedCamera(camera_, *state_);  // throws for a name that does not exist
+  std::promise<void> started;
+  std::future<void> has_started = started.get_future();
+  thread_ = std::thread(&PictureLoop::Run, this, std::move(started));
+  try {
+    has_started.get();
+  } catch (...) {
+    thread_.join();
+    throw;
+  }
+}
+
+PictureLoop::~PictureLoop() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void PictureLoop::OnState(std::shared_ptr<const SceneState> state) {
+  bool wake = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state_ = std::move(state);
+    live_is_due_ = true;
+    wake = viewers_ > 0;
+  }
+  if (wake) wake_.notify_one();
+}
+
+void PictureLoop::SetViewers(int count) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (count > viewers_) live_is_due_ = true;  // the new one wants to see something now
+    viewers_ = count;
+  }
+  wake_.notify_one();
+}
+
+bool PictureLoop::SetCamera(const std::string& camera) {
+  if (!IsCamera(camera)) return false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    camera_ = camera;
+    live_is_due_ = true;
+  }
+  wake_.notify_one();
+  return true;
+}
+
+std::vector<std::uint8_t> PictureLoop::SnapshotPng(const std::string& camera, int width,
+                                                   int height) {
+  auto snapshot = std::make_unique<Snapshot>();
+  std::future<std::vector<std::uint8_t>> png = snapshot->png.get_future();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (snapshots_.size() >= kMostSnapshots) {
+      throw std::runtime_error("too many pictures are waiting to be drawn; try again");
+    }
+    snapshot->camera = camera.empty() ? camera_ : camera;
+    snapshot->width = width;
+    snapshot->height = height;
+    snapshots_.push_back(std::move(snapshot));
+  }
+  wake_.notify_one();
+  return png.get();
+}
+
+PictureStatus PictureLoop::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return status_;
+}
+
+void PictureLoop::DrawLive(render::Renderer& renderer, const SceneState& state,
+                           const std::string& camera) {
+  const auto start = Clock::now();
+  const render::View view{options_.width, options_.height, 1, "", true};
+  const render::Image image = renderer.Render(state, render::NamedCamera(camera, state), view);
+  const double draw_millis = MillisSince(start);
+  const auto encode_start = Clock::now();
+  auto picture = std::make_shared<http::Picture>();
+  picture->jpeg = render::EncodeJpeg(image, kJpegQuality);
+  picture->state_number = state.number;
+  picture->arrival_nanos = state.arrival_nanos;
+  pictures_.Publish(std::move(picture));
+
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++status_.drawn;
+  status_.draw_millis = draw_millis;
+  status_.encode_millis = MillisSince(encode_start);
+  status_.last_error.clear();
+}
+
+void PictureLoop::DrawSnapshot(render::Renderer& renderer, const SceneState& state,
+                               Snapshot& snapshot) {
+  try {
+    const render::View view{snapshot.width, snapshot.height, 2, "", true};
+    const render::Image image =
+        renderer.Render(state, render::NamedCamera(snapshot.camera, state), view);
+    snapshot.png.set_value(render::EncodePng(image));
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++status_.drawn;
+  } catch (...) {
+    snapshot.png.set_exception(std::current_exception());
+  }
+}
+
+void PictureLoop::Run(std::promise<void> started) {
+  std::unique_ptr<render::Renderer> renderer;
+  try {
+    renderer = render::MakeRenderer();
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      status_.renderer = renderer->renderer_string();
+    }
+    DrawLive(*renderer, *state_, camera_);  // so that the first viewer sees a picture at once
+    started.set_value();
+  } catch (...) {
+    started.set_exception(std::current_exception());
+    return;
+  }
+
+  const auto period = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(1.0 / options_.rate_hz));
+  Clock::time_point next_live = Clock::now();
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (true) {
+    const auto live_wanted = [&] { return viewers_ > 0 && live_is_due_; };
+    const auto something = [&] { return stop_ || !snapshots_.empty() || live_wanted(); };
+    wake_.wait(lock, something);
+    if (!stop_ && snapshots_.empty() && Clock::now() < next_live) {
+      wake_.wait_until(lock, next_live, [&] { return stop_ || !snapshots_.empty(); });
+    }
+    if (stop_) break;
+    const std::shared_ptr<const SceneState> state = state_;
+    const std::string camera = camera_;
+    std::unique_ptr<Snapshot> snapshot;
+    if (!snapshots_.empty()) {
+      snapshot = std::move(snapshots_.front());
+      snapshots_.pop_front();
+    } else if (!live_wanted()) {
+      continue;
+    } else {
+      live_is_due_ = false;
+      next_live = std::max(next_live + period, Clock::now());
+    }
+    lock.unlock();
+    if (snapshot) {
+      DrawSnapshot(*renderer, *state, *snapshot);
+      lock.lock();
+      continue;
+    }
+    std::string error;
+    try {
+      DrawLive(*renderer, *state, camera);
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    lock.lock();
+    if (!error.empty() && status_.last_error != error) spdlog::error("picture: {}", error);
+    if (!error.empty()) status_.last_error = error;
+  }
+  for (auto& waiting : snapshots_) {
+    waiting->png.set_exception(
+        std::make_exception_ptr(std::runtime_error("the server is shutting down")));
+  }
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,82 @@
+/// Draws the server's own pictures on a thread of its own: the live one for the page, while
+/// somebody looks, and snapshots on request. States come in at any rate; at most `rate_hz` pictures
+/// go out.
+#pragma once
+
+#include <condition_variable>
+#include <deque>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "render/renderer.h"
+#include "server/core/latest.h"
+#include "server/core/scene_state.h"
+#include "server/http/server.h"
+
+namespace kinescope::app {
+
+struct PictureOptions {
+  std::string camera = "three_quarter";
+  int width = 1280;
+  int height = 720;
+  double rate_hz = 30;
+};
+
+struct PictureStatus {
+  std::string renderer;      // GL_RENDERER
+  std::uint64_t drawn = 0;   // live pictures and snapshots
+  double draw_millis = 0;    // of the last one, drawn and read back
+  double encode_millis = 0;  // of the last JPEG
+  std::string last_error;    // "" when the last picture went well
+};
+
+class PictureLoop : public http::PictureFeed {
+ public:
+  /// Returns when the first picture (of `first`) has been drawn.
+  /// @throws render::RenderError when no renderer can be had, UsageError for bad options.
+  PictureLoop(const PictureOptions& options, std::shared_ptr<const SceneState> first,
+              Latest<http::Picture>& pictures);
+  ~PictureLoop() override;
+
+  void OnState(std::shared_ptr<const SceneState> state);  // any thread; never waits for drawing
+
+  void SetViewers(int count) override;
+  bool SetCamera(const std::string& camera) override;
+  std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width, int height) override;
+
+  PictureStatus status() const;
+
+ private:
+  struct Snapshot {
+    std::string camera;
+    int width, height;
+    std::promise<std::vector<std::uint8_t>> png;
+  };
+
+  void Run(std::promise<void> started);
+  void DrawLive(render::Renderer& renderer, const SceneState& state, const std::string& camera);
+  void DrawSnapshot(render::Renderer& renderer, const SceneState& state, Snapshot& snapshot);
+
+  const PictureOptions options_;
+  Latest<http::Picture>& pictures_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  // Guarded by mutex_:
+  std::shared_ptr<const SceneState> state_;
+  std::string camera_;
+  int viewers_ = 0;
+  bool live_is_due_ = false;  // the newest state, camera or viewer has not been drawn
+  bool stop_ = false;
+  std::deque<std::unique_ptr<Snapshot>> snapshots_;
+  PictureStatus status_;
+
+  std::thread thread_;
+};
+
+}  // namespace kinescope::app

@@ -1,0 +1,70 @@
+#include "server/app/pipeline_options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "server/core/errors.h"
+
+namespace kinescope::app {
+
+SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs) {
+  SceneOptions scene;
+  scene.model_name = person.model_name;
+  if (person.sex != "male" && person.sex != "female") {
+    throw UsageError(fmt::format("--sex={}: expected male or female", person.sex));
+  }
+  scene.body.sex = urdf::ParseSex(person.sex);
+  scene.body.mass_is_assumed = person.mass == 0;
+  if (scene.body.mass_is_assumed) {
+    scene.body.mass_kg = scene.body.sex == urdf::Sex::kMale ? 75 : 62;
+  } else {
+    if (!(person.mass >= 20 && person.mass <= 300)) {
+      throw UsageError(fmt::format("--mass={}: expected 20 to 300 kg", person.mass));
+    }
+    scene.body.mass_kg = person.mass;
+  }
+  if (!(person.height >= 0.5 && person.height <= 2.5)) {
+    throw UsageError(fmt::format("--height={}: expected 0.5 to 2.5 m", person.height));
+  }
+  scene.height_m = person.height;
+  if (!(stale_secs >= 0.05 && stale_secs <= 60)) {
+    throw UsageError(fmt::format("--stale_secs={}: expected 0.05 to 60 s", stale_secs));
+  }
+  scene.stale_secs = stale_secs;
+  if (person.figure != "smooth" && person.figure != "primitive") {
+    throw UsageError(fmt::format("--figure={}: expected smooth or primitive", person.figure));
+  }
+  scene.smooth_figure = person.figure == "smooth";
+  return scene;
+}
+
+ros_bridge::RosMode ToRosMode(const std::string& ros) {
+  if (ros == "off") return ros_bridge::RosMode::kOff;
+  if (ros == "auto") return ros_bridge::RosMode::kAuto;
+  if (ros == "required") return ros_bridge::RosMode::kRequired;
+  throw UsageError(fmt::format("--ros={}: expected auto, off or required", ros));
+}
+
+bool ToSwitch(const std::string& name, const std::string& on_or_off) {
+  if (on_or_off == "on") return true;
+  if (on_or_off == "off") return false;
+  throw UsageError(fmt::format("--{}={}: expected on or off", name, on_or_off));
+}
+
+std::pair<int, int> ToSize(const std::string& name, const std::string& text) {
+  int width = 0;
+  int height = 0;
+  const char* end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, width);
+  const bool has_x = first.ec == std::errc() && first.ptr != end && *first.ptr == 'x';
+  const auto second = has_x ? std::from_chars(first.ptr + 1, end, height) : first;
+  const auto fits = [](int pixels) { return pixels >= 16 && pixels <= 8192; };
+  if (!has_x || second.ec != std::errc() || second.ptr != end || !fits(width) || !fits(height)) {
+    throw UsageError(fmt::format(
+        "--{}={}: expected WIDTHxHEIGHT, each 16 to 8192, such as 1280x720", name, text));
+  }
+  return {width, height};
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,180 @@
+// `kinescope render`: one picture, or a clip on a fixed time grid, of a recording or the subject.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "render/camera.h"
+#include "render/png_file.h"
+#include "render/renderer.h"
+#include "render/video.h"
+#include "server/app/commands.h"
+#include "server/app/option_list.h"
+#include "server/app/options.h"
+#include "server/app/pipeline_options.h"
+#include "server/app/progress.h"
+#include "server/app/scene_reader.h"
+#include "server/app/stop_signal.h"
+
+namespace kinescope::app {
+namespace {
+
+struct RenderOptions {
+  std::string source;
+  std::string out;
+  std::optional<long> frame;
+  std::optional<double> time;
+  std::optional<double> seconds;
+  std::string size = "1280x720";
+  std::string camera = "three_quarter";
+  double fps = 30;
+  int supersample = 2;
+  std::string title;
+  bool no_overlays = false;
+  bool json = false;
+  PersonOptions person;
+};
+
+// An endless source (the built-in subject) gives a clip of this length unless told otherwise.
+constexpr double kDefaultClipSecs = 10;
+
+render::View ToView(const RenderOptions& options) {
+  const auto [width, height] = ToSize("size", options.size);
+  if (options.supersample != 1 && options.supersample != 2 && options.supersample != 4) {
+    throw UsageError(fmt::format("--supersample={}: expected 1, 2 or 4", options.supersample));
+  }
+  return {width, height, options.supersample, options.title, !options.no_overlays};
+}
+
+std::map<std::string, std::string> Provenance(const RenderOptions& options,
+                                              const render::Renderer& renderer) {
+  return {{"Software", "Kinescope " KINESCOPE_VERSION},
+          {"Source", std::filesystem::path(options.source).filename().string()},
+          {"Camera", options.camera},
+          {"Renderer", renderer.renderer_string()}};
+}
+
+SceneState SceneOfPicture(const RenderOptions& options, SceneReader& reader) {
+  if (options.time) {
+    SceneTimeline timeline(reader);
+    if (auto scene = timeline.At(*options.time)) return *scene;
+    throw UsageError(fmt::format("--time={}: {} ends before", *options.time, options.source));
+  }
+  const long wanted = options.frame.value_or(0);
+  long frame = 0;
+  std::shared_ptr<const SceneState> state;
+  while (frame <= wanted) {
+    state = reader.Next();
+    if (!state || StopRequested()) break;
+    ++frame;
+  }
+  if (!state) {
+    throw UsageError(
+        fmt::format("--frame={}: {} has {} frames, the first is 0", wanted, options.source, frame));
+  }
+  return *state;
+}
+
+nlohmann::json RenderPicture(const RenderOptions& options, SceneReader& reader) {
+  const SceneState scene = SceneOfPicture(options, reader);
+  const auto renderer = render::MakeRenderer();
+  const render::Image image =
+      renderer->Render(scene, render::NamedCamera(options.camera, scene), ToView(options));
+  render::WritePng(options.out, image, Provenance(options, *renderer));
+  return {{"pictures", 1}, {"counter", scene.counter}};
+}
+
+// How many pictures the clip will have, where that can be told; only for the progress line.
+int ExpectedPictures(const RenderOptions& options, std::optional<double> length) {
+  return length ? static_cast<int>(*length * options.fps + 1e-9) + 1 : 0;
+}
+
+nlohmann::json RenderClip(const RenderOptions& options, SceneReader& reader) {
+  if (!(options.fps >= 1 && options.fps <= 240)) {
+    throw UsageError(fmt::format("--fps={}: expected 1 to 240", options.fps));
+  }
+  const bool is_endless = options.source.rfind("demo:", 0) == 0;
+  std::optional<double> length = options.seconds;
+  if (!length && is_endless) length = kDefaultClipSecs;
+  if (length && !(*length > 0)) {
+    throw UsageError(fmt::format("--seconds={}: expected more than 0", *length));
+  }
+
+  const render::View view = ToView(options);
+  const auto renderer = render::MakeRenderer();
+  render::VideoOptions video_options;
+  video_options.frames_per_second = options.fps;
+  video_options.metadata = Provenance(options, *renderer);
+  const auto video = render::MakeVideoWriter(options.out, view.width, view.height, video_options);
+
+  SceneTimeline timeline(reader);
+  Progress progress("pictures:", ExpectedPictures(options, length));
+  int pictures = 0;
+  for (;; ++pictures) {
+    const double secs = pictures / options.fps;  // picture k shows t0 + k / fps, exactly
+    if (length && secs >= *length - 1e-9) break;
+    const auto scene = timeline.At(secs);
+    if (!scene) break;
+    if (StopRequested())
+      throw std::runtime_error("interrupted; " + options.out + " was not written");
+    video->Add(renderer->Render(*scene, render::NamedCamera(options.camera, *scene), view));
+    progress.Step();
+  }
+  if (pictures == 0) throw UsageError(options.source + " has no frame to show");
+  video->Finish();
+  return {{"pictures", pictures},
+          {"seconds", pictures / options.fps},
+          {"pictures_per_second", pictures / progress.secs()}};
+}
+
+void Render(const RenderOptions& options) {
+  const std::string extension = std::filesystem::path(options.out).extension();
+  if (extension != ".png" && extension != ".mp4") {
+    throw UsageError(
+        fmt::format("--out={}: expected a name that ends in .png or .mp4", options.out));
+  }
+  if (extension == ".mp4" && (options.frame || options.time)) {
+    throw UsageError("--frame and --time choose one picture; give --out a name that ends in .png");
+  }
+  SceneReader reader(options.source, ToSceneOptions(options.person, SceneOptions().stale_secs));
+  nlohmann::json result =
+      extension == ".png" ? RenderPicture(options, reader) : RenderClip(options, reader);
+  result["out"] = options.out;
+  if (options.json) {
+    fmt::print("{}\n", result.dump());
+  } else {
+    fmt::print("{}: {} picture{}\n", options.out, result["pictures"].get<int>(),
+               result["pictures"] == 1 ? "" : "s");
+  }
+}
+
+}  // namespace
+
+void AddRender(CommandLine line) {
+  CLI::App* command = line.app.add_subcommand("render", "A recording to a picture or a clip");
+  const auto o = std::make_shared<RenderOptions>();
+  command->add_option("source", o->source, "file.mvnx, demo:lift, demo:walk")->required();
+  command->add_option("--out", o->out, "file to write: .png (one picture) or .mp4 (H.264)")
+      ->required();
+  command->add_option("--frame", o->frame, "which frame of the motion, from 0 (picture)");
+  command->add_option("--time", o->time, "seconds after the first frame (picture)");
+  command->add_option("--seconds", o->seconds, "length of the clip; default: all (demo: 10)");
+  command->add_option("--fps", o->fps, "pictures a second of the clip")->capture_default_str();
+  command->add_option("--size", o->size, "WIDTHxHEIGHT, px")->capture_default_str();
+  command->add_option("--camera", o->camera, "front back left right top iso three_quarter")
+      ->capture_default_str();
+  command->add_option("--supersample", o->supersample, "1, 2 or 4: drawn larger, then averaged")
+      ->capture_default_str();
+  command->add_option("--title", o->title, "text in the upper left corner");
+  command->add_flag("--no_overlays", o->no_overlays, "no legend, time code and title");
+  command->add_flag("--json", o->json, "tell the result as JSON");
+  o->person.Visit(FlagAdder(*command));
+  command->callback([o] { Render(*o); });
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,211 @@
+#include "server/app/scene_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "server/app/figure_files.h"
+#include "urdf/robot_model.h"
+
+namespace kinescope::app {
+namespace {
+
+using Eigen::Vector3d;
+using urdf::LinkPoses;
+
+std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+constexpr double kNanosPerSec = 1e9;
+
+// A person who sent nothing for this long while others do has left.
+constexpr std::int64_t kGoneAfterNanos = 1'000'000'000;
+
+LinkPoses ToLinkPoses(const BodySample& sample) {
+  LinkPoses links;
+  for (int i = 0; i < urdf::kSegmentCount; ++i) {
+    const SegmentState& segment = sample.segments[At(i)];
+    links[At(i)] = {segment.position, segment.orientation * urdf::SegmentFromLink(i)};
+  }
+  return links;
+}
+
+double LowestSole(const LinkPoses& links, const urdf::Skeleton& skeleton) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const urdf::Pose& foot = links[side == urdf::kRight ? urdf::kRightFoot : urdf::kLeftFoot];
+    const urdf::Pose& toe = links[side == urdf::kRight ? urdf::kRightToe : urdf::kLeftToe];
+    lowest = std::min({lowest, (foot.position + foot.orientation * skeleton.heel_in_foot[side]).z(),
+                       (toe.position + toe.orientation * skeleton.toe_tip_in_toe[side]).z()});
+  }
+  return lowest;
+}
+
+bool IsLegJoint(int joint) { return joint >= urdf::jRightHip; }
+
+}  // namespace
+
+SceneBuilder::SceneBuilder(SceneOptions options, std::string source, double nominal_rate_hz,
+                           OnState on_state)
+    : options_(std::move(options)),
+      source_(std::move(source)),
+      nominal_rate_hz_(nominal_rate_hz),
+      on_state_(std::move(on_state)) {}
+
+void SceneBuilder::Start() { Publish(Liveness::kNoData); }
+
+SceneBuilder::Person& SceneBuilder::PersonOf(int character) {
+  const auto [entry, is_new] = people_.try_emplace(character);
+  Person& person = entry->second;
+  if (is_new) {
+    person.character.id = character;
+    person.model = MakeModel(person, people_.size() - 1);
+  }
+  return person;
+}
+
+std::shared_ptr<const PersonModel> SceneBuilder::MakeModel(const Person& person,
+                                                           std::size_t index) const {
+  auto model = std::make_shared<PersonModel>();
+  if (person.model) {
+    model->revision = person.model->revision + 1;
+    model->human.model_name = person.model->human.model_name;
+  } else {
+    model->revision = 1;
+    model->human.model_name =
+        index == 0 ? options_.model_name : options_.model_name + "_" + std::to_string(index);
+  }
+  model->description = options_.body;
+  model->human.skeleton =
+      person.character.skeleton.value_or(urdf::DefaultSkeleton(options_.height_m));
+  model->human.body = urdf::MakeBodyParameters(options_.body, model->human.skeleton);
+  if (options_.smooth_figure) model->human.mesh_folder = WriteFigureFiles(model->human.skeleton);
+  model->urdf_xml = urdf::WriteUrdf(model->human);
+  model->robot = urdf::ParseUrdf(model->urdf_xml);
+  return model;
+}
+
+void SceneBuilder::OnCharacter(const Character& character) {
+  const bool is_known = people_.count(character.id) > 0;
+  Person& person = PersonOf(character.id);
+  const bool same_body = is_known && person.character.skeleton == character.skeleton;
+  person.character = character;
+  if (!same_body && character.skeleton) {
+    person.model = MakeModel(person, 0);
+    person.floor_z.reset();  // judged by the soles, which have just moved
+  }
+}
+
+PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) const {
+  const urdf::Skeleton& skeleton = person.model->human.skeleton;
+  PersonState state;
+  state.character = sample.character;
+  state.name = person.character.name;
+  state.model = person.model;
+  state.sample = sample;
+  state.links = ToLinkPoses(sample);
+  state.angles = person.angles = urdf::AnglesFromPoses(state.links, person.angles);
+
+  if (!person.floor_z) {
+    // Without leg sensors MVN keeps the pelvis near z = 0 and hangs rigid legs below it; with them
+    // the floor is z = 0.
+    const double lowest = LowestSole(state.links, skeleton);
+    person.has_legs = lowest > -0.3;
+    person.floor_z = person.has_legs ? 0.0 : lowest;
+  }
+
+  const loads::StaticSolution solution =
+      loads::SolveStatics(state.links, skeleton, person.model->human.body, *person.floor_z);
+  state.com_is_ours = !sample.com;
+  state.com = sample.com ? sample.com->position : solution.com;
+  if (person.has_legs) state.cop = solution.cop;
+
+  for (std::size_t i = 0; i < loads::kScoredJoints.size(); ++i) {
+    JointLoad load;
+    load.joint = loads::kScoredJoints[i];
+    const std::size_t child = At(urdf::ChildOf(load.joint));
+    load.position = state.links[child].position;
+    load.ratio = std::numeric_limits<double>::quiet_NaN();
+    if (IsLegJoint(load.joint) && !person.has_legs) {
+      load.reason = "legs are not measured in this recording";
+    } else if (IsLegJoint(load.joint) && !solution.cop) {
+      load.reason = "no foot is on the floor";
+    } else {
+      load.moment = solution.moment[child];
+      const loads::Score score =
+          loads::ScoreJoint(load.joint, load.moment, state.links, options_.body.sex);
+      load.ratio = score.ratio;
+      load.deciding_moment = score.moment;
+      load.capacity = score.capacity;
+      load.channel = score.channel;
+    }
+    load.load_class = person.classifiers[i].Update(load.ratio, sample.stamp_nanos);
+    state.loads.push_back(std::move(load));
+  }
+  return state;
+}
+
+void SceneBuilder::OnSample(const BodySample& sample) {
+  Person& person = PersonOf(sample.character);
+  person.state = StateOf(person, sample);
+  MeasureRate(sample.arrival_nanos);
+  current_.stamp_nanos = sample.stamp_nanos;
+  current_.counter = sample.counter;
+  current_.time_code_millis = sample.time_code_millis;
+  current_.arrival_nanos = sample.arrival_nanos;
+  current_.floor_z = *people_.begin()->second.floor_z;
+  Publish(Liveness::kLive);
+}
+
+void SceneBuilder::MeasureRate(std::int64_t arrival_nanos) {
+  if (arrival_nanos == 0) {
+    current_.rate_hz = nominal_rate_hz_;
+    return;
+  }
+  if (rate_window_start_ == 0 || current_.liveness != Liveness::kLive) {
+    rate_window_start_ = arrival_nanos;
+    rate_window_samples_ = 0;
+    return;
+  }
+  ++rate_window_samples_;
+  const double secs = static_cast<double>(arrival_nanos - rate_window_start_) / kNanosPerSec;
+  // A first figure soon, then one a second.
+  if (secs >= 1.0 || (current_.rate_hz == 0 && secs >= 0.2)) {
+    current_.rate_hz = rate_window_samples_ / secs;
+    rate_window_start_ = arrival_nanos;
+    rate_window_samples_ = 0;
+  }
+}
+
+void SceneBuilder::Publish(Liveness liveness) {
+  current_.liveness = liveness;
+  current_.number += 1;
+  current_.source = source_;
+  current_.people.clear();
+  for (auto& [id, person] : people_) {
+    if (!person.state) continue;
+    if (current_.stamp_nanos - person.state->sample.stamp_nanos > kGoneAfterNanos) continue;
+    current_.people.push_back(*person.state);
+    if (liveness == Liveness::kLive) continue;
+    for (JointLoad& load : current_.people.back().loads) {  // old loads must not look valid
+      load.load_class = LoadClass::kUnknown;
+      load.ratio = std::numeric_limits<double>::quiet_NaN();
+      load.reason = "the stream stopped";
+    }
+  }
+  on_state_(std::make_shared<const SceneState>(current_));
+}
+
+void SceneBuilder::Tick(std::int64_t monotonic_nanos) {
+  if (current_.liveness != Liveness::kLive || current_.arrival_nanos == 0) return;
+  const double silent_secs =
+      static_cast<double>(monotonic_nanos - current_.arrival_nanos) / kNanosPerSec;
+  if (silent_secs >= options_.stale_secs) MarkStale();
+}
+
+void SceneBuilder::MarkStale() {
+  current_.rate_hz = 0;
+  Publish(Liveness::kStale);
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,74 @@
+/// Samples -> scene states: poses in link frames, joint angles, CoM, CoP, loads and their classes.
+/// The one place where these are computed; every sink shows what comes out of here. One thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "server/core/scene_state.h"
+#include "server/core/source.h"
+#include "server/loads/load_classifier.h"
+#include "server/loads/static_loads.h"
+
+namespace kinescope::app {
+
+struct SceneOptions {
+  std::string model_name =
+      "skeleton";  // prefix of links and joints; a second person gets _1, _2 ...
+  urdf::BodyDescription body;
+  double height_m = 1.75;     // of the default body, until the source tells its own
+  double stale_secs = 0.5;    // this long without a sample is stale
+  bool smooth_figure = true;  // mesh files; false: boxes, cylinders and spheres
+};
+
+class SceneBuilder : public SampleSink {
+ public:
+  using OnState = std::function<void(std::shared_ptr<const SceneState>)>;
+
+  /// `on_state` gets every new state, on the caller's thread. The first one, "no data", comes from
+  /// Start.
+  SceneBuilder(SceneOptions options, std::string source, double nominal_rate_hz, OnState on_state);
+
+  void Start();
+  void OnCharacter(const Character& character) override;
+  void OnSample(const BodySample& sample) override;
+
+  /// Call at least every 0.1 s with the monotonic clock while a live source is read: this is what
+  /// notices that nothing comes any more.
+  void Tick(std::int64_t monotonic_nanos);
+
+  /// As Tick does when the stream has stopped.
+  void MarkStale();
+
+ private:
+  struct Person {
+    Character character;
+    std::shared_ptr<const PersonModel> model;
+    urdf::JointAngles angles{};
+    std::array<loads::LoadClassifier, loads::kScoredJoints.size()> classifiers;
+    bool has_legs = true;              // false: recorded without leg sensors
+    std::optional<double> floor_z;     // known since the first sample
+    std::optional<PersonState> state;  // of the newest sample
+  };
+
+  Person& PersonOf(int character);
+  std::shared_ptr<const PersonModel> MakeModel(const Person& person, std::size_t index) const;
+  PersonState StateOf(Person& person, const BodySample& sample) const;
+  void Publish(Liveness liveness);
+  void MeasureRate(std::int64_t arrival_nanos);
+
+  SceneOptions options_;
+  std::string source_;
+  double nominal_rate_hz_;
+  OnState on_state_;
+  std::map<int, Person> people_;  // by character id; bounded by the source
+  SceneState current_;
+  std::int64_t rate_window_start_ = 0;  // monotonic
+  int rate_window_samples_ = 0;
+};
+
+}  // namespace kinescope::app

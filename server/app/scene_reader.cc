@@ -1,0 +1,64 @@
+#include "server/app/scene_reader.h"
+
+#include <cmath>
+#include <utility>
+
+#include "server/app/open_source.h"
+#include "server/core/errors.h"
+#include "server/core/scene_interpolation.h"
+
+namespace kinescope::app {
+
+SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
+    : source_(OpenSource(url)),
+      builder_(
+          options, url, source_->nominal_rate_hz(),
+          [this](const std::shared_ptr<const SceneState>& state) { ready_.push_back(state); }) {
+  if (source_->is_live()) {
+    throw UsageError("source '" + url +
+                     "': a live stream has no frames to choose from; give a recording or demo:lift "
+                     "(to watch a stream: kinescope serve)");
+  }
+  builder_.Start();
+  empty_ = std::move(ready_.front());
+  ready_.pop_front();
+}
+
+std::shared_ptr<const SceneState> SceneReader::Next() {
+  while (ready_.empty() && !ended_) {
+    ended_ = source_->Poll(std::chrono::milliseconds(0), builder_) == Source::State::kEnded;
+  }
+  if (ready_.empty()) return nullptr;
+  auto state = std::move(ready_.front());
+  ready_.pop_front();
+  return state;
+}
+
+std::shared_ptr<const SceneState> SceneReader::Stale() {
+  builder_.MarkStale();
+  auto state = std::move(ready_.back());
+  ready_.pop_back();
+  return state;
+}
+
+SceneTimeline::SceneTimeline(SceneReader& reader)
+    : reader_(reader), before_(reader.Next()), after_(before_ ? reader.Next() : nullptr) {
+  if (before_) start_nanos_ = before_->stamp_nanos;
+}
+
+std::optional<SceneState> SceneTimeline::At(double secs) {
+  const std::int64_t stamp = start_nanos_ + std::llround(secs * 1e9);
+  while (after_ && after_->stamp_nanos < stamp) {
+    before_ = std::exchange(after_, reader_.Next());
+  }
+  if (!before_) return std::nullopt;
+  // The grid may miss the last sample by the rounding of its stamps, not by more.
+  constexpr std::int64_t kRoundingNanos = 1000;
+  if (!after_) {
+    if (stamp > before_->stamp_nanos + kRoundingNanos) return std::nullopt;
+    return *before_;
+  }
+  return Interpolate(*before_, *after_, stamp);
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,51 @@
+/// A file or the built-in subject as scene states, one after the other, as fast as they are asked
+/// for.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "server/app/scene_builder.h"
+#include "server/core/source.h"
+
+namespace kinescope::app {
+
+class SceneReader {
+ public:
+  /// @throws SourceError; UsageError for a live source, which has no end and no "frame 60".
+  SceneReader(const std::string& url, const SceneOptions& options);
+
+  /// The next sample's state; null at the end.
+  std::shared_ptr<const SceneState> Next();
+
+  /// The state before the first sample: "no data".
+  std::shared_ptr<const SceneState> Empty() const { return empty_; }
+  /// The newest state, as it looks when nothing more comes.
+  std::shared_ptr<const SceneState> Stale();
+
+  double rate_hz() const { return source_->nominal_rate_hz(); }
+
+ private:
+  std::unique_ptr<Source> source_;
+  std::deque<std::shared_ptr<const SceneState>> ready_;
+  std::shared_ptr<const SceneState> empty_;
+  SceneBuilder builder_;
+  bool ended_ = false;
+};
+
+/// The scene at any time, for times that grow: states read as needed and interpolated between.
+class SceneTimeline {
+ public:
+  explicit SceneTimeline(SceneReader& reader);
+
+  /// `secs` after the first sample; nullopt past the last one. @pre not before the last call's.
+  std::optional<SceneState> At(double secs);
+
+ private:
+  SceneReader& reader_;
+  std::shared_ptr<const SceneState> before_, after_;
+  std::int64_t start_nanos_ = 0;
+};
+
+}  // namespace kinescope::app

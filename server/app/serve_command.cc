@@ -1,0 +1,202 @@
+// `kinescope serve` and `kinescope bridge`: a source, live, to ROS, pictures and page.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "server/app/clocks.h"
+#include "server/app/commands.h"
+#include "server/app/diagnostics.h"
+#include "server/app/open_source.h"
+#include "server/app/option_list.h"
+#include "server/app/options.h"
+#include "server/app/picture_loop.h"
+#include "server/app/pipeline_options.h"
+#include "server/app/scene_builder.h"
+#include "server/app/stop_signal.h"
+#include "server/core/install_paths.h"
+#include "server/core/latest.h"
+#include "server/http/server.h"
+#include "server/ros/bridge.h"
+
+namespace kinescope::app {
+namespace {
+
+// How long reading may wait: what decides how soon Ctrl-C and staleness are noticed.
+constexpr std::chrono::milliseconds kPollTimeout(50);
+
+// Says on the terminal when the stream comes, goes and comes back. Never once per sample.
+class Announcer {
+ public:
+  void OnState(const SceneState& state) {
+    if (has_spoken_ && state.liveness == liveness_) return;
+    has_spoken_ = true;
+    liveness_ = state.liveness;
+    switch (state.liveness) {
+      case Liveness::kNoData:
+        spdlog::info("waiting for {}: nothing has come yet", state.source);
+        break;
+      case Liveness::kLive: spdlog::info("live: {} from {}", PersonIn(state), state.source); break;
+      case Liveness::kStale:
+        spdlog::warn("stale: nothing more from {} since sample {}", state.source, state.counter);
+        break;
+    }
+  }
+
+ private:
+  static std::string PersonIn(const SceneState& state) {
+    if (state.people.empty()) return "a person";
+    const std::string& name = state.people.front().name;
+    return name.empty() ? "a person" : "'" + name + "'";
+  }
+  bool has_spoken_ = false;
+  Liveness liveness_ = Liveness::kNoData;
+};
+
+std::vector<http::CameraView> CameraViews() {
+  std::vector<http::CameraView> views;
+  for (const std::string& name : render::CameraNames()) {
+    const render::Camera camera = render::NamedCamera(name, SceneState{});
+    views.push_back({name, camera.position, camera.target, camera.up, camera.vertical_fov_rad});
+  }
+  return views;
+}
+
+http::HttpConfig ToHttpConfig(const ServeOptions& options) {
+  http::HttpConfig config;
+  config.bind_ip = options.bind_ip;
+  config.port = options.http_port;
+  config.token = options.token;
+  config.web_root = FindResource("web");
+  config.cameras = CameraViews();
+  config.camera = options.camera;
+  return config;
+}
+
+PictureOptions ToPictureOptions(const ServeOptions& options) {
+  PictureOptions pictures;
+  pictures.camera = options.camera;
+  std::tie(pictures.width, pictures.height) = ToSize("picture_size", options.picture_size);
+  if (!(options.picture_rate_hz >= 0.1 && options.picture_rate_hz <= 240)) {
+    throw UsageError(
+        fmt::format("--picture_rate_hz={}: expected 0.1 to 240", options.picture_rate_hz));
+  }
+  pictures.rate_hz = options.picture_rate_hz;
+  return pictures;
+}
+
+void Serve(const ServeOptions& options, bool with_page) {
+  const std::int64_t start_nanos = MonotonicNanos();
+  const SceneOptions scene_options = ToSceneOptions(options.person, options.stale_secs);
+  const std::string url =
+      options.udp_port == 0 ? options.source : fmt::format("udp://:{}", options.udp_port);
+  const std::unique_ptr<Source> source = OpenAtTrueRate(url, options.loop);
+
+  const ros_bridge::RosMode ros_mode = ToRosMode(options.ros);
+  std::unique_ptr<ros_bridge::RosBridge> ros;
+  if (ros_mode == ros_bridge::RosMode::kRequired ||
+      (ros_mode == ros_bridge::RosMode::kAuto && ros_bridge::BuiltWithRos())) {
+    ros = ros_bridge::MakeRosBridge({options.reference_frame, options.tf, options.joint_states},
+                                    ros_mode);
+  }
+
+  Latest<SceneState> states;       // reading thread -> page
+  Latest<http::Picture> pictures;  // drawing thread -> page
+  std::unique_ptr<PictureLoop> drawing;
+  Announcer announcer;
+  SceneBuilder builder(scene_options, source->description(), source->nominal_rate_hz(),
+                       [&](const std::shared_ptr<const SceneState>& state) {
+                         if (ros) ros->Publish(*state);
+                         states.Publish(state);
+                         if (drawing) drawing->OnState(state);
+                         announcer.OnState(*state);
+                       });
+  builder.Start();
+
+  std::optional<http::HttpServer> page;
+  Latest<SourceCounters> counters;  // reading thread -> diagnostics
+  const auto diagnostics = [&] {
+    return DiagnosticsJson(states.Get(), counters.Get(),
+                           ros ? std::optional(ros->status()) : std::nullopt,
+                           drawing ? std::optional(drawing->status()) : std::nullopt);
+  };
+  if (with_page) {
+    if (ToSwitch("pictures", options.pictures)) {
+      drawing = std::make_unique<PictureLoop>(ToPictureOptions(options), states.Get(), pictures);
+      spdlog::info("first picture {:.2f} s after start, drawn by {}",
+                   static_cast<double>(MonotonicNanos() - start_nanos) * 1e-9,
+                   drawing->status().renderer);
+    }
+    page.emplace(ToHttpConfig(options), states, pictures, drawing.get(), diagnostics);
+    spdlog::info("page at {}", page->url());
+  }
+
+  std::int64_t counters_due = 0;
+  while (!StopRequested()) {
+    const Source::State more = source->Poll(kPollTimeout, builder);
+    const std::int64_t now = MonotonicNanos();
+    builder.Tick(now);
+    if (now >= counters_due) {
+      counters.Publish(std::make_shared<const SourceCounters>(source->counters()));
+      counters_due = now + 500'000'000;
+    }
+    if (more == Source::State::kEnded) {
+      if (!with_page) break;
+      std::this_thread::sleep_for(kPollTimeout);  // the page stays up; only Ctrl-C ends it
+    }
+  }
+  spdlog::info("stopping");
+}
+
+// Fills in what the command line left open: the YAML file, then ROS parameters.
+void ReadOtherChannels(const CLI::App& command, const std::string& config, bool with_page,
+                       ServeOptions& options) {
+  const auto visit = [&](auto&& setter) {
+    if (with_page) {
+      options.Visit(setter);
+    } else {
+      options.VisitBridge(setter);
+    }
+  };
+  if (!config.empty()) {
+    const YamlValues yaml(config);
+    ValueSetter setter(command, yaml);
+    visit(setter);
+    yaml.RefuseUnknown(setter.names());
+  }
+  // Parameters of a name like ~bind_ip can only be there when a master is.
+  if (options.ros != "off" && ros_bridge::BuiltWithRos() && ros_bridge::MasterIsReachable()) {
+    visit(ValueSetter(command, ros_bridge::PrivateParameter));
+  }
+}
+
+void Add(CommandLine line, const char* name, const char* description, bool with_page) {
+  CLI::App* command = line.app.add_subcommand(name, description);
+  const auto options = std::make_shared<ServeOptions>();
+  const auto config = std::make_shared<std::string>();
+  if (with_page) {
+    options->Visit(FlagAdder(*command, "source"));
+  } else {
+    options->VisitBridge(FlagAdder(*command, "source"));
+  }
+  command->add_option("--config", *config, "YAML file of `name: value` for any option above");
+  command->footer("Each option is also the ROS parameter ~name.");
+  command->callback([=] {
+    ReadOtherChannels(*command, *config, with_page, *options);
+    Serve(*options, with_page);
+  });
+}
+
+}  // namespace
+
+void AddServe(CommandLine line) {
+  Add(line, "serve", "The main job: a source to ROS topics, pictures and a web page", true);
+}
+
+void AddBridge(CommandLine line) {
+  Add(line, "bridge", "A source to ROS topics only; nothing is drawn", false);
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,50 @@
+#include "server/core/scene_interpolation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinescope {
+namespace {
+
+using Eigen::Vector3d;
+
+std::optional<Vector3d> Between(const std::optional<Vector3d>& a, const std::optional<Vector3d>& b,
+                                double t) {
+  if (!a || !b) return a;
+  return Vector3d((1 - t) * *a + t * *b);
+}
+
+void MoveTowards(PersonState& person, const PersonState& after, double t) {
+  person.links = urdf::Interpolate(person.links, after.links, t);
+  for (std::size_t i = 0; i < person.angles.size(); ++i) {
+    person.angles[i] = (1 - t) * person.angles[i] + t * after.angles[i];
+  }
+  person.com = Between(person.com, after.com, t);
+  person.cop = Between(person.cop, after.cop, t);
+  for (JointLoad& load : person.loads) {
+    load.position = person.links[static_cast<std::size_t>(urdf::ChildOf(load.joint))].position;
+  }
+}
+
+}  // namespace
+
+SceneState Interpolate(const SceneState& before, const SceneState& after,
+                       std::int64_t stamp_nanos) {
+  if (stamp_nanos <= before.stamp_nanos || after.stamp_nanos <= before.stamp_nanos) return before;
+  if (stamp_nanos >= after.stamp_nanos) return after;
+  const double t = static_cast<double>(stamp_nanos - before.stamp_nanos) /
+                   static_cast<double>(after.stamp_nanos - before.stamp_nanos);
+  SceneState scene = before;
+  scene.stamp_nanos = stamp_nanos;
+  scene.time_code_millis = std::llround((1 - t) * static_cast<double>(before.time_code_millis) +
+                                        t * static_cast<double>(after.time_code_millis));
+  for (PersonState& person : scene.people) {
+    const auto match =
+        std::find_if(after.people.begin(), after.people.end(),
+                     [&](const PersonState& p) { return p.character == person.character; });
+    if (match != after.people.end()) MoveTowards(person, *match, t);
+  }
+  return scene;
+}
+
+}  // namespace kinescope

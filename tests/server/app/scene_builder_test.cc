@@ -1,0 +1,156 @@
+#include "server/app/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "server/subject/subject.h"
+
+namespace kinescope::app {
+namespace {
+
+using Eigen::Vector3d;
+
+class Built {
+ public:
+  explicit Built(SceneOptions options = {})
+      : builder(options, "test", 0, [this](std::shared_ptr<const SceneState> state) {
+          states.push_back(std::move(state));
+        }) {}
+  const SceneState& last() const { return *states.back(); }
+
+  std::vector<std::shared_ptr<const SceneState>> states;
+  SceneBuilder builder;
+};
+
+BodySample SampleOf(const char* motion, double secs) {
+  BodySample sample = subject::MakeMotion(motion)->At(secs);
+  sample.stamp_nanos = std::llround(secs * 1e9) + 1;
+  sample.arrival_nanos = sample.stamp_nanos;
+  return sample;
+}
+
+TEST(SceneBuilder, SaysThatNothingHasComeYet) {
+  Built built;
+  built.builder.Start();
+  EXPECT_EQ(built.last().liveness, Liveness::kNoData);
+  EXPECT_TRUE(built.last().people.empty());
+  EXPECT_EQ(built.last().source, "test");
+}
+
+TEST(SceneBuilder, TurnsTheArmsOfTheStreamIntoLinkFrames) {
+  Built built;
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  const PersonState& person = built.last().people.at(0);
+  for (int i = 0; i < urdf::kSegmentCount; ++i) {
+    const Vector3d up = person.links[static_cast<std::size_t>(i)].orientation * Vector3d::UnitZ();
+    EXPECT_GT(up.z(), 0.95) << urdf::kSegments[static_cast<std::size_t>(i)].link_name
+                            << " is not upright in the N-pose";
+  }
+}
+
+TEST(SceneBuilder, PublishesAnglesThatRebuildThePose) {
+  Built built;
+  for (const double secs : {0.0, 1.0, 2.0, 3.0}) {
+    built.builder.OnSample(SampleOf("lift", secs));
+    const PersonState& person = built.last().people.at(0);
+    const urdf::LinkPoses rebuilt =
+        urdf::ForwardKinematics(urdf::DefaultSkeleton(), person.links[0], person.angles);
+    for (std::size_t i = 0; i < rebuilt.size(); ++i) {
+      EXPECT_LT(rebuilt[i].orientation.angularDistance(person.links[i].orientation), 1e-6);
+      EXPECT_LT((rebuilt[i].position - person.links[i].position).norm(), 1e-6);
+    }
+  }
+}
+
+TEST(SceneBuilder, TurnsStaleWhenTheStreamStopsAndLiveWhenItReturns) {
+  Built built;
+  BodySample sample = SampleOf("lift", 2);
+  built.builder.OnSample(sample);
+  built.builder.Tick(sample.arrival_nanos + 400'000'000);
+  EXPECT_EQ(built.last().liveness, Liveness::kLive);
+  built.builder.Tick(sample.arrival_nanos + 500'000'000);
+  EXPECT_EQ(built.last().liveness, Liveness::kStale);
+  for (const JointLoad& load : built.last().people.at(0).loads) {
+    EXPECT_EQ(load.load_class, LoadClass::kUnknown);
+    EXPECT_TRUE(std::isnan(load.ratio));
+    EXPECT_EQ(load.reason, "the stream stopped");
+  }
+  const std::size_t states = built.states.size();
+  built.builder.Tick(sample.arrival_nanos + 900'000'000);
+  EXPECT_EQ(built.states.size(), states) << "stale is said once";
+  sample.stamp_nanos += 2'000'000'000;
+  sample.arrival_nanos += 2'000'000'000;
+  built.builder.OnSample(sample);
+  EXPECT_EQ(built.last().liveness, Liveness::kLive);
+}
+
+TEST(SceneBuilder, TakesTheNewBodyWhenScaleDataArrive) {
+  Built built;
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  const auto before = built.last().people.at(0).model;
+  Character tall;
+  tall.name = "Anna";
+  tall.skeleton = urdf::DefaultSkeleton(1.95);
+  built.builder.OnCharacter(tall);
+  built.builder.OnSample(SampleOf("n_pose", 0.1));
+  const PersonState& person = built.last().people.at(0);
+  EXPECT_EQ(person.name, "Anna");
+  EXPECT_GT(person.model->revision, before->revision);
+  EXPECT_DOUBLE_EQ(person.model->human.skeleton.height, 1.95);
+  built.builder.OnCharacter(tall);
+  built.builder.OnSample(SampleOf("n_pose", 0.2));
+  EXPECT_EQ(built.last().people.at(0).model, person.model) << "the same body again is no news";
+}
+
+TEST(SceneBuilder, KeepsTwoPeopleApart) {
+  Built built;
+  BodySample second = SampleOf("walk", 0);
+  second.character = 3;
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  built.builder.OnSample(second);
+  ASSERT_EQ(built.last().people.size(), 2u);
+  EXPECT_EQ(built.last().people[0].model->human.model_name, "skeleton");
+  EXPECT_EQ(built.last().people[1].model->human.model_name, "skeleton_1");
+}
+
+TEST(SceneBuilder, ForgetsAPersonWhoLeft) {
+  Built built;
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  BodySample second = SampleOf("walk", 2);
+  second.character = 3;
+  built.builder.OnSample(second);
+  ASSERT_EQ(built.last().people.size(), 1u);
+  EXPECT_EQ(built.last().people[0].character, 3);
+}
+
+TEST(SceneBuilder, DoesNotInventLegLoadsOfARecordingWithoutLegs) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  const double pelvis = sample.segments[0].position.z();
+  for (SegmentState& segment : sample.segments) segment.position.z() -= pelvis;
+  built.builder.OnSample(sample);
+  EXPECT_LT(built.last().floor_z, -0.7);
+  const PersonState& person = built.last().people.at(0);
+  EXPECT_FALSE(person.cop);
+  for (const JointLoad& load : person.loads) {
+    const bool is_leg = load.joint >= urdf::jRightHip;
+    EXPECT_EQ(load.load_class == LoadClass::kUnknown, is_leg);
+    EXPECT_EQ(load.reason.empty(), !is_leg);
+  }
+}
+
+TEST(SceneBuilder, MeasuresTheRateOfALiveStream) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  for (int i = 0; i < 300; ++i) {
+    sample.arrival_nanos += 10'000'000;
+    sample.stamp_nanos += 10'000'000;
+    built.builder.OnSample(sample);
+  }
+  EXPECT_NEAR(built.last().rate_hz, 100, 1);
+}
+
+}  // namespace
+}  // namespace kinescope::app
