@@ -1,0 +1,95 @@
+#include "server/mvn/assembler.h"
+
+#include <algorithm>
+
+namespace kinescope::mvn {
+namespace {
+
+// A sender that is restarted takes longer than this; a live one is never silent for so long unless
+// the network is.
+constexpr std::int64_t kTakeOverNanos = 100'000'000;
+constexpr std::int64_t kForgetNanos = 3'000'000'000;
+
+}  // namespace
+
+void Assembler::Add(const Endpoint& sender, std::string_view datagram, const Arrival& arrival,
+                    SampleSink& sink) {
+  ++tally_.datagrams;
+  tally_.bytes += datagram.size();
+  const auto message = ParseDatagram(datagram);
+  if (!message) return tally_.Reject(message.error().reason);
+  if (std::holds_alternative<NotNeeded>(message->body)) {
+    return tally_.Ignore(message->header.type);
+  }
+  Stream* const stream =
+      FindStream(sender, message->header.character, arrival.monotonic_nanos, sink);
+  if (stream == nullptr) return tally_.Reject(Reason::kTooManyStreams);
+  stream->state.Add(*message, arrival, sink);
+}
+
+Assembler::Stream* Assembler::FindStream(const Endpoint& sender, int character, std::int64_t now,
+                                         SampleSink& sink) {
+  for (const auto& stream : streams_) {
+    if (stream->sender == sender && stream->sent_character == character) return stream.get();
+  }
+  for (const auto& stream : streams_) {
+    const bool same_machine = stream->sender.address == sender.address;
+    const bool silent = now - stream->state.last_heard_nanos() > kTakeOverNanos;
+    if (same_machine && silent && stream->sent_character == character) {
+      stream->sender = sender;
+      stream->state.SenderRestarted(sink);
+      ++tally_.restarts;
+      return stream.get();
+    }
+  }
+  return AddStream(sender, character, now, sink);
+}
+
+Assembler::Stream* Assembler::AddStream(const Endpoint& sender, int character, std::int64_t now,
+                                        SampleSink& sink) {
+  if (!MakeRoom(character, now, sink)) return nullptr;
+  streams_.push_back(std::make_unique<Stream>(
+      Stream{sender, character, CharacterStream(FreeId(character), tally_)}));
+  return streams_.back().get();
+}
+
+// Ends a stream that has fallen silent when the newcomer needs its id or its place.
+bool Assembler::MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink) {
+  const bool full = streams_.size() >= kMostStreams;
+  auto victim = streams_.end();
+  for (auto stream = streams_.begin(); stream != streams_.end(); ++stream) {
+    if (now - (*stream)->state.last_heard_nanos() <= kForgetNanos) continue;
+    const bool has_the_id = (*stream)->state.id() == wanted_id;
+    if (has_the_id || (full && victim == streams_.end())) victim = stream;
+  }
+  if (victim == streams_.end()) return !full;
+  (*victim)->state.SenderRestarted(sink);  // gives on what is still open
+  streams_.erase(victim);
+  return true;
+}
+
+int Assembler::FreeId(int wanted) const {
+  const auto taken = [this](int id) {
+    return std::any_of(streams_.begin(), streams_.end(),
+                       [id](const auto& stream) { return stream->state.id() == id; });
+  };
+  if (!taken(wanted)) return wanted;
+  int id = 0;
+  while (taken(id)) ++id;
+  return id;
+}
+
+void Assembler::Expire(std::int64_t now_monotonic_nanos, SampleSink& sink) {
+  for (const auto& stream : streams_) stream->state.Expire(now_monotonic_nanos, sink);
+}
+
+std::optional<std::int64_t> Assembler::deadline_nanos() const {
+  std::optional<std::int64_t> earliest;
+  for (const auto& stream : streams_) {
+    const auto deadline = stream->state.deadline_nanos();
+    if (deadline && (!earliest || *deadline < *earliest)) earliest = deadline;
+  }
+  return earliest;
+}
+
+}  // namespace kinescope::mvn

@@ -1,0 +1,85 @@
+/// Joins the datagrams of a stream to samples: parts of a message, messages of a sample, several
+/// characters and senders side by side. Feed it whatever comes; it never throws and never stops.
+///
+/// - A sample is the messages 02, 20, 21, 22, 24 of equal (sender, character, sample counter). It
+///   needs the poses of all 23 segments: 02, or 21 and 22.
+/// - It is given on as soon as every type that this stream normally sends has come; else
+///   when the next counter comes; else 1.5 of the stream's own periods after its first datagram.
+///   "Normally" is learnt, and follows when a type is switched on or off.
+/// - Samples of one character leave in the order of their counter. What comes for a sample already
+/// given on is
+///   `late`, the same once more is a `duplicate`. A counter that starts over is a restart.
+/// - Types 12 and 13 make the Character; it is announced before its first sample and when it
+/// changes.
+/// - Stamps: see clock_fit.h.
+///
+/// A character's id in samples is the sender's own where it is free, else the next free one (two
+/// senders that both send character 0). A sender whose port changed while the old one is silent is
+/// the same sender, restarted. At most 16 (sender, character) pairs are kept; beyond that
+/// one that has been silent for 3 s makes room, else the newcomer is rejected.
+///
+/// Time is an argument; one thread. Pose data allocate nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "server/core/source.h"
+#include "server/mvn/arrival.h"
+#include "server/mvn/character_stream.h"
+#include "server/mvn/tally.h"
+
+namespace kinescope::mvn {
+
+/// Who sent a datagram.
+struct Endpoint {
+  std::array<std::uint8_t, 16> address{};  // IPv6, or IPv4 mapped into it
+  std::uint16_t port = 0;
+
+  bool operator==(const Endpoint& other) const {
+    return address == other.address && port == other.port;
+  }
+};
+
+class Assembler {
+ public:
+  Assembler() = default;
+  Assembler(const Assembler&) = delete;  // streams point to the tally
+  Assembler& operator=(const Assembler&) = delete;
+
+  static constexpr std::size_t kMostStreams = 16;
+
+  /// Takes one datagram that came from `sender` at `arrival`, not before the one before.
+  void Add(const Endpoint& sender, std::string_view datagram, const Arrival& arrival,
+           SampleSink& sink);
+
+  /// Gives on what has waited long enough.
+  void Expire(std::int64_t now_monotonic_nanos, SampleSink& sink);
+
+  /// When Expire() has something to do (monotonic); nullopt: nothing waits.
+  std::optional<std::int64_t> deadline_nanos() const;
+
+  SourceCounters counters() const { return tally_.ToCounters(); }
+  const Tally& tally() const { return tally_; }
+
+ private:
+  struct Stream {
+    Endpoint sender;
+    int sent_character = 0;
+    CharacterStream state;
+  };
+
+  Stream* FindStream(const Endpoint& sender, int character, std::int64_t now, SampleSink& sink);
+  Stream* AddStream(const Endpoint& sender, int character, std::int64_t now, SampleSink& sink);
+  int FreeId(int wanted) const;
+  bool MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink);
+
+  Tally tally_;
+  std::vector<std::unique_ptr<Stream>> streams_;  // at most kMostStreams
+};
+
+}  // namespace kinescope::mvn

@@ -1,0 +1,201 @@
+#include "server/mvn/datagram.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/mvn/item_reader.h"
+
+namespace kinescope::mvn {
+namespace {
+
+constexpr std::size_t kIdStringBytes = 6;
+
+// What came instead of "MXTP": MVN's own sync texts, another program's text, or anything.
+Reason ReasonForForeign(std::string_view datagram) {
+  const std::size_t first = datagram.find_first_not_of(" \t\r\n");
+  if (first != std::string_view::npos) {
+    if (datagram[first] == '{' || datagram[first] == '[') return Reason::kJsonText;
+    if (datagram[first] == '<') return Reason::kXmlText;
+  }
+  const bool is_text = std::all_of(datagram.begin(), datagram.end(), [](char c) {
+    return (c >= ' ' && c <= '~') || c == '\t' || c == '\r' || c == '\n';
+  });
+  return is_text ? Reason::kForeignText : Reason::kForeign;
+}
+
+// The type of `digits`, or why it is not read.
+tl::expected<Type, Reason> FindType(std::string_view digits) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (!is_digit(digits[0]) || !is_digit(digits[1])) return tl::unexpected(Reason::kUnknownType);
+  switch (const int number = (digits[0] - '0') * 10 + (digits[1] - '0')) {
+    case 1:
+    case 2:
+    case 3:
+    case 12:
+    case 13:
+    case 20:
+    case 21:
+    case 22:
+    case 23:
+    case 24:
+    case 25: return static_cast<Type>(number);
+    case 4: return tl::unexpected(Reason::kType04);
+    case 5: return tl::unexpected(Reason::kType05);
+    case 10: return tl::unexpected(Reason::kType10);
+    case 11: return tl::unexpected(Reason::kType11);
+    default: return tl::unexpected(Reason::kUnknownType);
+  }
+}
+
+template <class Unsigned>
+int ReadInt(ByteReader& in) {
+  Unsigned value = 0;
+  in.Read(value);  // the caller has checked that the whole header is there
+  return value;
+}
+
+bool ParseHeader(ItemReader& in, std::string_view datagram, Header& header) {
+  if (datagram.empty()) return in.Fail(Reason::kEmpty, 0);
+  constexpr std::string_view kMagic = "MXTP";
+  const std::string_view start = datagram.substr(0, kMagic.size());
+  if (start != kMagic.substr(0, start.size())) return in.Fail(ReasonForForeign(datagram), 0);
+  if (datagram.size() < kHeaderBytes) {
+    return in.Fail(Reason::kShortHeader, static_cast<std::int64_t>(datagram.size()));
+  }
+  std::string_view id_string;
+  in.bytes.ReadBytes(kIdStringBytes, id_string);
+  const auto type = FindType(id_string.substr(kMagic.size()));
+  if (!type) return in.Fail(type.error(), 0);
+  header.type = *type;
+  in.bytes.Read(header.sample_counter);
+  const int datagram_counter = ReadInt<std::uint8_t>(in.bytes);
+  header.part = datagram_counter & 0x7F;
+  header.is_last_part = (datagram_counter & 0x80) != 0;
+  header.item_count = ReadInt<std::uint8_t>(in.bytes);
+  in.bytes.Read(header.time_code_millis);
+  header.character = ReadInt<std::uint8_t>(in.bytes);
+  header.body_segments = ReadInt<std::uint8_t>(in.bytes);
+  header.props = ReadInt<std::uint8_t>(in.bytes);
+  header.finger_segments = ReadInt<std::uint8_t>(in.bytes);
+  ReadInt<std::uint16_t>(in.bytes);  // reserved: not checked, so that it may get a meaning
+  header.payload_bytes = ReadInt<std::uint16_t>(in.bytes);
+  return true;
+}
+
+// Where the payload ends: the header's word where there is one, else the datagram's end.
+bool LimitToPayload(ItemReader& in, const Header& header) {
+  const auto announced = static_cast<std::size_t>(header.payload_bytes);
+  if (announced > in.bytes.remaining()) return in.Fail(Reason::kShortPayload, header.payload_bytes);
+  if (announced > 0) in.bytes.CutAt(kHeaderBytes + announced);
+  return true;
+}
+
+bool ReadItem(ItemReader& in, PoseItem& item) {
+  return in.ReadVector(item.position) && in.ReadUnitQuaternion(item.orientation);
+}
+
+bool ReadItem(ItemReader& in, LinearItem& item) {
+  return in.ReadVector(item.position) && in.ReadVector(item.velocity) &&
+         in.ReadVector(item.acceleration);
+}
+
+bool ReadItem(ItemReader& in, AngularItem& item) {
+  return in.ReadUnitQuaternion(item.orientation) && in.ReadVector(item.velocity) &&
+         in.ReadVector(item.acceleration);
+}
+
+constexpr std::size_t WireBytes(const PoseItem&) { return 32; }
+constexpr std::size_t WireBytes(const LinearItem&) { return 40; }
+constexpr std::size_t WireBytes(const AngularItem&) { return 44; }
+
+template <class Item>
+bool ParseBody(ItemReader& in, const Header& header, PerSegment<Item>& out) {
+  ItemLayout layout;
+  if (!in.FindLayout(header, WireBytes(Item()), layout)) return false;
+  for (int i = 0; i < layout.count; ++i) {
+    std::uint32_t id = 0;
+    Item item;
+    // A prop or a finger is read like a body segment, so that its numbers are checked too.
+    if (!in.GoTo(layout, i) || !in.ReadId(id) || !ReadItem(in, item)) return false;
+    if (id > urdf::kSegmentCount) {
+      ++out.skipped;
+      continue;
+    }
+    const std::size_t segment = id - 1;
+    if (out.present.test(segment)) return in.Fail(Reason::kRepeatedId, id);
+    out.present.set(segment);
+    out.items[segment] = item;
+  }
+  return true;
+}
+
+bool ParseBody(ItemReader& in, const Header& header, JointAnglesMessage& out) {
+  return ParseJointAngles(in, header, out);
+}
+
+bool ParseBody(ItemReader& in, const Header&, CenterOfMassMessage& out) {
+  constexpr std::size_t kPositionOnly = 12;
+  constexpr std::size_t kWhole = 36;
+  const std::size_t payload = in.bytes.remaining();
+  if (payload != kPositionOnly && payload < kWhole) {
+    return in.Fail(Reason::kPayloadSize, static_cast<std::int64_t>(payload));
+  }
+  out.has_derivatives = payload >= kWhole;
+  if (!in.ReadVector(out.position)) return false;
+  return !out.has_derivatives || (in.ReadVector(out.velocity) && in.ReadVector(out.acceleration));
+}
+
+bool ParseBody(ItemReader& in, const Header&, MetaDataMessage& out) {
+  return ParseMetaData(in, out);
+}
+bool ParseBody(ItemReader& in, const Header&, ScaleMessage& out) { return ParseScale(in, out); }
+
+// Types that are not used still have to be what they say, or their counter would hide a fault.
+bool ParseBody(ItemReader& in, const Header& header, NotNeeded&) {
+  ItemLayout layout;
+  switch (header.type) {
+    case Type::kEulerPose: return in.FindLayout(header, 28, layout);
+    case Type::kMarkers: return in.FindLayout(header, 16, layout);
+    case Type::kTrackers:  // 68 bytes each; 44 from senders that follow an old specification
+      return in.FindLayout(header, 68, layout) || in.FindLayout(header, 44, layout);
+    default:  // a time code: "HH:MM:SS" at least, with or without a length before it
+      return in.bytes.remaining() >= 8 ||
+             in.Fail(Reason::kPayloadSize, static_cast<std::int64_t>(in.bytes.remaining()));
+  }
+}
+
+template <class Content>
+bool ParseInto(ItemReader& in, Message& message) {
+  return ParseBody(in, message.header, message.body.emplace<Content>());
+}
+
+bool ParseBodyOfType(ItemReader& in, Message& message) {
+  switch (message.header.type) {
+    case Type::kPose: return ParseInto<PoseMessage>(in, message);
+    case Type::kMetaData: return ParseInto<MetaDataMessage>(in, message);
+    case Type::kScale: return ParseInto<ScaleMessage>(in, message);
+    case Type::kJointAngles: return ParseInto<JointAnglesMessage>(in, message);
+    case Type::kLinear: return ParseInto<LinearMessage>(in, message);
+    case Type::kAngular: return ParseInto<AngularMessage>(in, message);
+    case Type::kCenterOfMass: return ParseInto<CenterOfMassMessage>(in, message);
+    case Type::kEulerPose:
+    case Type::kMarkers:
+    case Type::kTrackers:
+    case Type::kTimeCode: break;
+  }
+  return ParseInto<NotNeeded>(in, message);
+}
+
+}  // namespace
+
+tl::expected<Message, ParseError> ParseDatagram(std::string_view datagram) {
+  tl::expected<Message, ParseError> result;
+  ItemReader in(datagram);
+  if (!ParseHeader(in, datagram, result->header) || !LimitToPayload(in, result->header) ||
+      !ParseBodyOfType(in, *result)) {
+    return tl::unexpected(in.error);
+  }
+  return result;
+}
+
+}  // namespace kinescope::mvn

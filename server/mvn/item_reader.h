@@ -1,0 +1,59 @@
+/// Steps shared by the bodies of all message types: reads numbers and texts, and remembers the
+/// first thing that is wrong. Not for use outside the parser.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "server/mvn/byte_order.h"
+#include "server/mvn/datagram.h"
+
+namespace kinescope::mvn {
+
+/// How the items of a message lie in its payload.
+struct ItemLayout {
+  int count = 0;
+  std::size_t stride = 0;
+};
+
+class ItemReader {
+ public:
+  explicit ItemReader(std::string_view datagram) : bytes(datagram) {}
+
+  ByteReader bytes;
+  ParseError error;
+
+  bool Fail(Reason reason, std::int64_t value) {
+    error = {bytes.offset(), reason, value};
+    return false;
+  }
+
+  /// The layout of items that are at least `known_bytes` long.
+  bool FindLayout(const Header& header, std::size_t known_bytes, ItemLayout& layout);
+  /// To the start of item `index` of a payload that begins right after the header.
+  bool GoTo(const ItemLayout& layout, int index) {
+    return bytes.Seek(kHeaderBytes + layout.stride * static_cast<std::size_t>(index));
+  }
+
+  bool ReadId(std::uint32_t& id);
+  bool ReadVector(Eigen::Vector3d& value);
+  bool ReadUnitQuaternion(Eigen::Quaterniond& value);  // in the stream: w x y z
+  bool ReadText(std::string_view& text);
+  /// A count of things that take at least `bytes_each`.
+  bool ReadCount(std::size_t bytes_each, std::uint32_t& count);
+
+ private:
+  bool ReadNumber(double& value);
+};
+
+inline constexpr std::size_t kLongestName = 128;  // of a character, segment or point, in bytes
+
+/// `text` as valid UTF-8: what is not, and control characters, become '?'. At most `longest` bytes.
+std::string CleanText(std::string_view text, std::size_t longest);
+
+/// Bodies of single types; false with `in.error` set.
+bool ParseJointAngles(ItemReader& in, const Header& header, JointAnglesMessage& out);
+bool ParseMetaData(ItemReader& in, MetaDataMessage& out);
+bool ParseScale(ItemReader& in, ScaleMessage& out);
+
+}  // namespace kinescope::mvn

@@ -1,0 +1,43 @@
+/// Counts what became of every datagram. Arrays while running, so that counting allocates nothing;
+/// turned into SourceCounters when somebody asks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "server/core/source.h"
+#include "server/mvn/datagram.h"
+
+namespace kinescope::mvn {
+
+struct Tally {
+  std::uint64_t datagrams = 0;
+  std::uint64_t bytes = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t incomplete = 0;
+  std::uint64_t duplicates = 0;
+  std::uint64_t late = 0;
+  std::uint64_t counter_gaps = 0;
+  std::uint64_t restarts = 0;
+  std::array<std::uint64_t, 100> ignored{};  // by message type
+  std::array<std::uint64_t, kReasonCount> rejected{};
+  std::uint64_t in_samples = 0;     // datagrams of samples given on
+  std::uint64_t in_characters = 0;  // types 12 and 13 that were used
+
+  void Reject(Reason reason, std::uint64_t count = 1) {
+    rejected[static_cast<std::size_t>(reason)] += count;
+  }
+  void Ignore(Type type) { ++ignored[static_cast<std::size_t>(type)]; }
+
+  /// Datagrams that have ended somewhere; the rest of `datagrams` waits for the rest of its sample.
+  std::uint64_t settled() const {
+    std::uint64_t sum = in_samples + in_characters + duplicates + late;
+    for (const std::uint64_t count : ignored) sum += count;
+    for (const std::uint64_t count : rejected) sum += count;
+    return sum;
+  }
+
+  SourceCounters ToCounters() const;
+};
+
+}  // namespace kinescope::mvn

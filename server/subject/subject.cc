@@ -1,0 +1,121 @@
+#include "server/subject/subject.h"
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "server/core/check.h"
+#include "server/core/errors.h"
+#include "server/subject/motions.h"
+
+namespace kinescope::subject {
+namespace {
+
+// 2020-01-01T00:00:00Z: when every recording of the subject began. Fixed, so that the same demo
+// gives the same bytes.
+constexpr std::int64_t kEpochNanos = 1'577'836'800'000'000'000;
+
+constexpr double kHighestRateHz = 10'000;
+
+std::unique_ptr<Choreography> MakeChoreography(const std::string& name,
+                                               const urdf::Skeleton& skeleton) {
+  if (name == "lift") return MakeLift(skeleton);
+  if (name == "walk") return MakeWalk(skeleton);
+  if (name == "n_pose") return MakeStand(skeleton, Arms::kHanging);
+  if (name == "t_pose") return MakeStand(skeleton, Arms::kSideways);
+  std::string known;
+  for (const std::string& motion : MotionNames()) known += (known.empty() ? "" : ", ") + motion;
+  throw SourceError("demo:" + name + ": no such motion; there are " + known);
+}
+
+class BuiltInMotion final : public Motion {
+ public:
+  BuiltInMotion(const std::string& name, double height_m)
+      : skeleton_(urdf::DefaultSkeleton(height_m)),
+        body_(urdf::MakeBodyParameters({}, skeleton_)),
+        choreography_(MakeChoreography(name, skeleton_)) {
+    character_.name = "Demo";
+    character_.skeleton = skeleton_;
+  }
+
+  BodySample At(double seconds) const override {
+    // Time within the period: late samples are as exact as the first.
+    const double period = choreography_->period_secs();
+    const double within = seconds - period * std::floor(seconds / period);
+    BodySample sample = choreography_->PoseAt({within, 1, 0}).ToSample(body_);
+    sample.time_code_millis = std::llround(seconds * 1e3);
+    sample.stamp_nanos = kEpochNanos + std::llround(seconds * 1e9);
+    return sample;
+  }
+
+  const Character& character() const override { return character_; }
+
+ private:
+  const urdf::Skeleton skeleton_;
+  const urdf::BodyParameters body_;
+  const std::unique_ptr<Choreography> choreography_;  // borrows skeleton_
+  Character character_;
+};
+
+class SubjectSource final : public Source {
+ public:
+  SubjectSource(const std::string& motion, double rate_hz, double seconds)
+      : motion_(MakeMotion(motion)),
+        description_("demo:" + motion),
+        rate_hz_(rate_hz),
+        endless_(seconds == 0),
+        sample_count_(endless_ ? 0 : static_cast<std::uint64_t>(std::llround(seconds * rate_hz))) {}
+
+  State Poll(std::chrono::milliseconds, SampleSink& sink) override {
+    if (!endless_ && next_ >= sample_count_) return State::kEnded;
+    if (next_ == 0) sink.OnCharacter(motion_->character());
+    BodySample sample = motion_->At(static_cast<double>(next_) / rate_hz_);
+    sample.counter = static_cast<std::uint32_t>(next_);
+    ++next_;
+    sink.OnSample(sample);
+    return State::kMore;
+  }
+
+  SourceCounters counters() const override {
+    SourceCounters counters;
+    counters.samples = next_;
+    return counters;
+  }
+  std::string description() const override { return description_; }
+  bool is_live() const override { return false; }
+  double nominal_rate_hz() const override { return rate_hz_; }
+
+ private:
+  const std::unique_ptr<Motion> motion_;
+  const std::string description_;
+  const double rate_hz_;
+  const bool endless_;
+  const std::uint64_t sample_count_;
+  std::uint64_t next_ = 0;
+};
+
+}  // namespace
+
+const std::vector<std::string>& MotionNames() {
+  static const std::vector<std::string> kNames = {"lift", "walk", "n_pose", "t_pose"};
+  return kNames;
+}
+
+std::unique_ptr<Motion> MakeMotion(const std::string& name, double height_m) {
+  KINESCOPE_CHECK(height_m >= 0.5 && height_m <= 2.5);
+  return std::make_unique<BuiltInMotion>(name, height_m);
+}
+
+std::unique_ptr<Source> OpenSubject(const std::string& motion, double rate_hz, double seconds) {
+  const auto refuse = [&](const char* what, double value, const char* expected) {
+    std::ostringstream message;
+    message << "demo:" << motion << ": " << what << " " << value << ": expected " << expected;
+    throw SourceError(message.str());
+  };
+  if (!(rate_hz > 0 && rate_hz <= kHighestRateHz))
+    refuse("rate", rate_hz, "above 0, at most 10000 Hz");
+  if (!(seconds >= 0 && seconds <= 1e9)) refuse("duration", seconds, "0 (endless) to 1e9 s");
+  return std::make_unique<SubjectSource>(motion, rate_hz, seconds);
+}
+
+}  // namespace kinescope::subject

@@ -1,0 +1,114 @@
+// Writes the saved corpus: `make_corpus tests/fuzz/corpus`. Everything in it is made by our own
+// encoder, from seeded values, so that it can be made again.
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "server/mvn/byte_order.h"
+#include "server/mvn/encode.h"
+#include "tests/server/mvn/mvn_testing.h"
+#include "tests/server/mvn/synthetic_mvnx.h"
+
+namespace {
+
+using namespace kinescope;
+using mvn::testing::RandomSample;
+using mvn::testing::RandomValues;
+using mvn::testing::RawDatagram;
+namespace fs = std::filesystem;
+
+void Write(const fs::path& path, const std::string& bytes) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+Character Ines() {
+  Character character;
+  character.name = "Ines";
+  character.color_rgb = 0x3C78A0;
+  character.skeleton = urdf::DefaultSkeleton(1.7);
+  return character;
+}
+
+void WriteDatagrams(const fs::path& folder, RandomValues& random) {
+  for (const std::string& datagram : mvn::EncodeSample(RandomSample(random, 1200))) {
+    Write(folder / ("type" + datagram.substr(4, 2)), datagram);
+  }
+  int part = 0;
+  for (const std::string& datagram : mvn::EncodeCharacter(Ines())) {
+    Write(folder / ("type" + datagram.substr(4, 2) + "_" + std::to_string(part++)), datagram);
+  }
+  RawDatagram raw;
+  raw.items = 63;
+  raw.payload = mvn::testing::PoseItems(1, 63);
+  Write(folder / "type02_gloves", raw.Bytes());
+  raw.items = 0;
+  raw.announced_payload = 0;
+  Write(folder / "type02_old_header", raw.Bytes());
+  raw = RawDatagram();
+  raw.type = "23";
+  raw.items = 17;
+  raw.payload = mvn::testing::Items(1, 17, 16, 1);
+  Write(folder / "type23", raw.Bytes());
+  raw.type = "20";
+  raw.items = 2;  // Pelvis_T8 and Vertical_T8
+  raw.payload.clear();
+  for (int i = 0; i < 2; ++i)
+    raw.payload += mvn::testing::Items(0x100, 1, 0, 0) + mvn::testing::Items(0x500, 1, 3, 10);
+  Write(folder / "type20_twins", raw.Bytes());
+  Write(folder / "json", R"({"sync":"start"})");
+}
+
+void WriteSessions(const fs::path& folder, RandomValues& random) {
+  const auto record = [](std::string& out, int sender, int wait, const std::string& datagram) {
+    mvn::ByteWriter writer(out);
+    writer.Write(static_cast<std::uint8_t>(sender));
+    writer.Write(static_cast<std::uint8_t>(wait));
+    writer.WriteText(datagram);
+    out.erase(out.size() - datagram.size() - 4, 2);  // the length is 2 bytes here
+  };
+  std::string good, bad;
+  for (const auto& datagram : mvn::EncodeCharacter(Ines())) record(good, 0, 0, datagram);
+  for (std::uint32_t counter = 100; counter < 108; ++counter) {
+    for (const auto& datagram : mvn::EncodeSample(RandomSample(random, counter))) {
+      record(good, 0, datagram[5] == '2' ? 4 : 0, datagram);
+      if (random.Coin(0.2)) continue;
+      const int sender = random.Coin(0.5) ? 1 : 0x11;
+      record(bad, sender, random.Integer(0, 12), datagram);
+      if (random.Coin(0.2)) record(bad, sender, 0, datagram);
+    }
+    if (counter == 104) record(bad, 1, 255, "<sync/>");
+  }
+  Write(folder / "good", good);
+  Write(folder / "bad_network", bad);
+}
+
+void WriteFiles(const fs::path& folder) {
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
+  for (const int version : {3, 4}) {
+    const std::string text =
+        mvn::testing::WriteMvnx(version, 60, skeleton, mvn::testing::SwingingArms(skeleton, 2));
+    const std::string name = "version" + std::to_string(version);
+    Write(folder / (name + ".mvnx"), text);
+    Write(folder / (name + "_cut.mvnx"), text.substr(0, text.size() * 3 / 4));
+  }
+  Write(folder / "doctype.mvnx",
+        "<!DOCTYPE mvnx [<!ENTITY a \"b\">]><mvnx version=\"4\">&a;</mvnx>");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: make_corpus <folder>\n");
+    return 2;
+  }
+  const fs::path folder = argv[1];
+  RandomValues random(20);
+  WriteDatagrams(folder / "datagram", random);
+  WriteSessions(folder / "assembler", random);
+  WriteFiles(folder / "mvnx");
+  return 0;
+}

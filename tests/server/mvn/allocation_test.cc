@@ -1,0 +1,59 @@
+// The input path allocates nothing per pose datagram. A program of its own, since it counts every
+// allocation of the process.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "server/mvn/assembler.h"
+#include "server/mvn/encode.h"
+#include "tests/server/mvn/mvn_testing.h"
+
+namespace {
+
+std::size_t allocations = 0;
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* const memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace kinescope::mvn {
+namespace {
+
+struct CountingSink : SampleSink {
+  int samples = 0;
+  void OnCharacter(const Character&) override {}
+  void OnSample(const BodySample&) override { ++samples; }
+};
+
+TEST(InputPath, AllocatesNothingPerDatagramOfPoseDataOrRubbish) {
+  testing::RandomValues random(5);
+  std::vector<std::vector<std::string>> sent;
+  for (std::uint32_t counter = 1; counter <= 200; ++counter) {
+    sent.push_back(EncodeSample(testing::RandomSample(random, counter)));
+    sent.back().push_back(R"({"sync":"start"})");
+    sent.back().push_back(sent.back().front().substr(0, 700));
+  }
+  Assembler assembler;
+  CountingSink sink;
+  std::int64_t now = 1'000'000'000;
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    if (i == 20) before = allocations;  // the stream itself is there
+    for (const std::string& datagram : sent[i]) assembler.Add({}, datagram, {now, now}, sink);
+    now += 4'000'000;
+    assembler.Expire(now, sink);
+  }
+  const std::size_t counted = allocations - before;
+  EXPECT_EQ(counted, 0U);
+  EXPECT_EQ(sink.samples, 200);
+}
+
+}  // namespace
+}  // namespace kinescope::mvn

@@ -1,0 +1,160 @@
+// Who is who in a stream: names, skeletons, several characters and senders.
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "tests/server/mvn/assembler_fixture.h"
+
+namespace kinescope::mvn {
+namespace {
+
+using testing::kMilli;
+using testing::kPeriod;
+using testing::Sender;
+
+class CharactersTest : public testing::AssemblerTest {};
+
+TEST_F(CharactersTest, MetaAndScaleDataInTheMiddleLeaveTheSamplesAlone) {
+  LearnFrom(5000);
+  Character character;
+  character.name = "Ines";
+  character.skeleton = urdf::DefaultSkeleton(1.8);
+  for (std::uint32_t counter = 5006; counter < 5010; ++counter) {
+    const auto datagrams = Datagrams(counter);
+    Send(datagrams[0]);
+    Send(EncodeCharacter(character));  // sample counter 0, time code 0, the same part numbers
+    for (std::size_t i = 1; i < datagrams.size(); ++i) Send(datagrams[i]);
+    Wait(kPeriod);
+  }
+  EXPECT_EQ(sink_.samples.size(), 4U);
+  EXPECT_EQ(counters().restarts, 0U);
+  EXPECT_EQ(counters().duplicates, 0U);
+  EXPECT_EQ(counters().incomplete, 0U);
+  // "" first, then the name, then the skeleton; repetitions say nothing new.
+  ASSERT_EQ(sink_.characters.size(), 3U);
+  EXPECT_EQ(sink_.characters[0].name, "");
+  EXPECT_EQ(sink_.characters[2].name, "Ines");
+  ASSERT_TRUE(sink_.characters[2].skeleton);
+  EXPECT_NEAR(sink_.characters[2].skeleton->height, 1.8, 1e-6);
+  ExpectAllAccountedFor();
+}
+
+TEST_F(CharactersTest, ScaleDataGiveBackTheSkeletonThatWasSent) {
+  Character character;
+  character.skeleton = urdf::DefaultSkeleton(1.62);
+  auto datagrams = EncodeCharacter(character);
+  std::swap(datagrams[1], datagrams[2]);  // points overtake segments
+  Send(datagrams);
+  ASSERT_FALSE(sink_.characters.empty());
+  ASSERT_TRUE(sink_.characters.back().skeleton);
+  const urdf::Skeleton& back = *sink_.characters.back().skeleton;
+  for (int i = 0; i < urdf::kSegmentCount; ++i) {
+    EXPECT_LT((urdf::EndOf(back, i) - urdf::EndOf(*character.skeleton, i)).norm(), 1e-6)
+        << urdf::kSegments[static_cast<std::size_t>(i)].mvn_name;
+  }
+  EXPECT_LT((back.heel_in_foot[0] - character.skeleton->heel_in_foot[0]).norm(), 1e-6);
+}
+
+TEST_F(CharactersTest, ScaleDataWithALostPartAreUsedAfterAMoment) {
+  Character character;
+  character.skeleton = urdf::DefaultSkeleton();
+  const auto datagrams = EncodeCharacter(character);
+  Send(datagrams[1]);
+  EXPECT_TRUE(sink_.characters.empty());
+  const auto deadline = assembler_.deadline_nanos();
+  ASSERT_TRUE(deadline);
+  assembler_.Expire(*deadline, sink_);
+  ASSERT_EQ(sink_.characters.size(), 1U);
+  EXPECT_TRUE(sink_.characters[0].skeleton);
+}
+
+TEST_F(CharactersTest, RefusesScaleDataOfNoHuman) {
+  Message message;
+  ScaleMessage scale;
+  for (const auto& segment : urdf::kSegments) {
+    scale.segments.push_back({std::string(segment.mvn_name), Eigen::Vector3d::Zero()});
+  }
+  message.body = scale;
+  Send(Encode(message));
+  scale.segments.pop_back();
+  message.body = scale;
+  Send(Encode(message));
+  EXPECT_EQ(counters().rejected.at(Text(Reason::kScaleNotHuman)), 1U);
+  EXPECT_EQ(counters().rejected.at(Text(Reason::kScaleWithoutBody)), 1U);
+  EXPECT_TRUE(sink_.characters.empty());
+}
+
+TEST_F(CharactersTest, KeepsTwoCharactersOfOneSenderApart) {
+  for (std::uint32_t counter = 1; counter < 12; ++counter) {
+    const auto ines = Datagrams(counter, 0);
+    const auto ben = Datagrams(counter + 1000, 1);
+    for (std::size_t i = 0; i < ines.size(); ++i) {
+      Send(ines[i]);
+      Send(ben[i]);
+    }
+    Wait(kPeriod);
+  }
+  ExpectAllAccountedFor();
+  EXPECT_EQ(counters().samples, 22U);
+  EXPECT_EQ(counters().restarts, 0U);
+  for (const BodySample& sample : sink_.samples) {
+    EXPECT_EQ(sample.character, sample.counter > 1000 ? 1 : 0);
+  }
+}
+
+TEST_F(CharactersTest, GivesTwoSendersOfTheSameCharacterIdsOfTheirOwn) {
+  for (std::uint32_t counter = 1; counter < 6; ++counter) {
+    sender_ = Sender(1);
+    Send(Datagrams(counter));
+    sender_ = Sender(2);
+    Send(Datagrams(counter + 1000));
+    Wait(kPeriod);
+  }
+  for (const BodySample& sample : sink_.samples) {
+    EXPECT_EQ(sample.character, sample.counter > 1000 ? 1 : 0);
+  }
+  EXPECT_EQ(counters().restarts, 0U);
+}
+
+TEST_F(CharactersTest, ASenderThatComesBackFromAnotherPortIsTheSamePerson) {
+  Character character;
+  character.name = "Ines";
+  Send(EncodeCharacter(character));
+  LearnFrom(5000);
+  Wait(1000 * kMilli);
+  sender_ = Sender(1, 2);
+  Send(Datagrams(3));
+  ASSERT_FALSE(sink_.samples.empty());
+  EXPECT_EQ(sink_.samples.back().character, 0);
+  EXPECT_EQ(sink_.samples.back().counter, 3U);
+  EXPECT_EQ(counters().restarts, 1U);
+}
+
+TEST_F(CharactersTest, KeepsABoundedNumberOfStreams) {
+  for (std::uint16_t port = 1; port <= 100; ++port) {
+    sender_ = Sender(static_cast<std::uint8_t>(port), port);
+    Send(Datagrams(1)[0]);
+  }
+  EXPECT_EQ(counters().rejected.at(Text(Reason::kTooManyStreams)), 100U - Assembler::kMostStreams);
+  Wait(4000 * kMilli);
+  sender_ = Sender(200);
+  Send(Datagrams(1)[0]);
+  EXPECT_EQ(counters().rejected.at(Text(Reason::kTooManyStreams)), 100U - Assembler::kMostStreams)
+      << "a silent one makes room";
+  ExpectAllAccountedFor();
+}
+
+TEST_F(CharactersTest, AnnouncesACharacterBeforeItsFirstSample) {
+  struct OrderSink : SampleSink {
+    std::string order;
+    void OnCharacter(const Character&) override { order += 'c'; }
+    void OnSample(const BodySample&) override { order += 's'; }
+  } sink;
+  for (std::uint32_t counter = 1; counter < 4; ++counter) {
+    for (const auto& datagram : Datagrams(counter)) assembler_.Add(sender_, datagram, now(), sink);
+  }
+  EXPECT_EQ(sink.order, "css");
+}
+
+}  // namespace
+}  // namespace kinescope::mvn

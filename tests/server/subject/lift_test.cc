@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include "server/loads/load_classifier.h"
+#include "server/loads/static_loads.h"
+#include "tests/server/subject/subject_checks.h"
+#include "urdf/body_parameters.h"
+
+namespace kinescope::subject {
+namespace {
+
+using Eigen::Vector3d;
+using testing::FootOf;
+using testing::Index;
+using testing::LinksOf;
+
+constexpr double kPeriodSecs = 8;
+
+Vector3d GripOf(const urdf::LinkPoses& links, int hand) {
+  return links[Index(hand)].position + links[Index(hand)].orientation * Vector3d(0, 0, -0.080);
+}
+
+TEST(Lift, KeepsBothFeetFlatAndFixedOnTheFloor) {
+  const auto motion = MakeMotion("lift");
+  const urdf::Skeleton& skeleton = *motion->character().skeleton;
+  const BodySample start = motion->At(0);
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const auto first = FootOf(start, skeleton, side);
+    EXPECT_NEAR(first.heel.z(), 0, 1e-12);
+    EXPECT_NEAR(first.tip.z(), 0, 1e-12);
+    for (double t = 0; t < kPeriodSecs; t += 1e-2) {
+      const auto foot = FootOf(motion->At(t), skeleton, side);
+      ASSERT_LT((foot.heel - first.heel).norm(), 1e-12) << "at " << t;
+      ASSERT_LT((foot.ball - first.ball).norm(), 1e-12) << "at " << t;
+      ASSERT_LT((foot.tip - first.tip).norm(), 1e-12) << "at " << t;
+    }
+  }
+}
+
+TEST(Lift, TakesABoxFromTheFloorToTheChestAndBack) {
+  const auto motion = MakeMotion("lift");
+  const auto box = [&](double t) -> Vector3d {
+    const urdf::LinkPoses links = LinksOf(motion->At(t));
+    return (GripOf(links, urdf::kRightHand) + GripOf(links, urdf::kLeftHand)) / 2;
+  };
+  EXPECT_NEAR(box(1.9).z(), 0.15, 1e-6);
+  EXPECT_GT(box(1.9).x(), 0.35);
+  EXPECT_GT(box(3.2).z(), 1.0);
+  EXPECT_GT(box(4.2).y(), 0.3) << "not turned to the left";
+  EXPECT_NEAR(box(6.45).z(), 0.15, 1e-6);
+  EXPECT_NEAR((box(6.45) - box(1.9)).norm(), 0, 1e-6) << "put down elsewhere";
+}
+
+TEST(Lift, HandsKeepTheirDistanceWhileTheyHoldTheBox) {
+  const auto motion = MakeMotion("lift");
+  for (double t = 1.8; t < 6.4; t += 1e-2) {
+    const urdf::LinkPoses links = LinksOf(motion->At(t));
+    const double width = (GripOf(links, urdf::kRightHand) - GripOf(links, urdf::kLeftHand)).norm();
+    ASSERT_NEAR(width, 0.32, 1e-9) << "at " << t;
+  }
+}
+
+TEST(Lift, StaysInBalance) {
+  const auto motion = MakeMotion("lift");
+  const urdf::Skeleton& skeleton = *motion->character().skeleton;
+  const auto right = FootOf(motion->At(0), skeleton, urdf::kRight);
+  const auto left = FootOf(motion->At(0), skeleton, urdf::kLeft);
+  for (double t = 0; t < kPeriodSecs; t += 1e-2) {
+    const Vector3d com = motion->At(t).com->position;
+    ASSERT_GT(com.x(), std::max(right.heel.x(), left.heel.x()) - 0.01) << "falls back at " << t;
+    ASSERT_LT(com.x(), std::min(right.ball.x(), left.ball.x()) + 0.02) << "falls forward at " << t;
+    ASSERT_GT(com.y(), right.heel.y()) << "at " << t;
+    ASSERT_LT(com.y(), left.heel.y()) << "at " << t;
+  }
+}
+
+TEST(Lift, ShowsEveryClassOfLoad) {
+  const auto motion = MakeMotion("lift");
+  const urdf::Skeleton& skeleton = *motion->character().skeleton;
+  const auto body = urdf::MakeBodyParameters({}, skeleton);
+  std::array<loads::LoadClassifier, loads::kScoredJoints.size()> classifiers;
+  std::array<LoadClass, loads::kScoredJoints.size()> worst;
+  std::array<LoadClass, loads::kScoredJoints.size()> upright;
+  worst.fill(LoadClass::kUnknown);
+  for (int frame = 0; frame < 60 * 16; ++frame) {  // two rounds at 60 Hz; the second is settled
+    const double t = frame / 60.0;
+    const BodySample sample = motion->At(t);
+    const urdf::LinkPoses links = LinksOf(sample);
+    const loads::StaticSolution statics = loads::SolveStatics(links, skeleton, body, 0);
+    for (std::size_t i = 0; i < classifiers.size(); ++i) {
+      const int joint = loads::kScoredJoints[i];
+      const loads::Score score = loads::ScoreJoint(
+          joint, statics.moment[Index(urdf::ChildOf(joint))], links, urdf::Sex::kMale);
+      const LoadClass now = classifiers[i].Update(score.ratio, sample.stamp_nanos);
+      worst[i] = std::max(worst[i], now);
+      if (frame == 8 * 60 + 12) upright[i] = now;  // has stood for longer than any dwell
+    }
+  }
+  const auto of = [](const auto& classes, int joint) {
+    const auto found = std::find(loads::kScoredJoints.begin(), loads::kScoredJoints.end(), joint);
+    return classes[static_cast<std::size_t>(found - loads::kScoredJoints.begin())];
+  };
+  EXPECT_EQ(of(worst, urdf::jRightKnee), LoadClass::kHigh);
+  EXPECT_EQ(of(worst, urdf::jL5S1), LoadClass::kMedium);
+  EXPECT_EQ(of(worst, urdf::jRightShoulder), LoadClass::kMedium);
+  EXPECT_EQ(of(worst, urdf::jLeftShoulder), LoadClass::kMedium);
+  EXPECT_EQ(of(worst, urdf::jRightElbow), LoadClass::kLow);
+  for (const int joint : {urdf::jL5S1, urdf::jRightKnee, urdf::jRightShoulder}) {
+    EXPECT_EQ(of(upright, joint), LoadClass::kLow) << urdf::kJoints[Index(joint)].mvn_name;
+  }
+}
+
+}  // namespace
+}  // namespace kinescope::subject

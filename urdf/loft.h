@@ -1,0 +1,64 @@
+/// Closed surfaces lofted through cross-sections: what the figure is made of.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "urdf/figure.h"
+
+namespace kinescope::urdf {
+
+/// A cross-section: a superellipse with its own half-width to each of four sides, in the plane of
+/// two directions u and v.
+struct Section {
+  enum Field { kPlusU, kMinusU, kPlusV, kMinusV, kCenterU, kCenterV, kPowerPlusU, kPowerMinusU };
+  double at = 0;  // where along the axis
+  Eigen::Matrix<double, 8, 1> shape = Eigen::Matrix<double, 8, 1>::Zero();
+
+  Section& Center(double u, double v);
+  /// 2 is an ellipse, more is boxier; for the halves towards +u and -u.
+  Section& Power(double plus_u, double minus_u);
+};
+
+/// Half-widths towards +u, -u, +v, -v.
+Section Widths(double at, double plus_u, double minus_u, double plus_v, double minus_v);
+
+/// Cross-sections with a smooth transition between them. @pre ascending `at`, two or more
+class Profile {
+ public:
+  explicit Profile(std::vector<Section> sections) : sections_(std::move(sections)) {}
+  /// Constant before the first and after the last.
+  Eigen::Matrix<double, 8, 1> At(double at) const;
+
+ private:
+  std::vector<Section> sections_;
+};
+
+/// Where a profile lives: `at` = 0 is at `origin`, 1 at `end`; sections lie in the plane of the
+/// unit vectors u and v, enlarged by `scale`.
+struct LoftAxis {
+  Eigen::Vector3d origin, end, u, v;
+  double scale = 1;
+};
+
+struct LoftRange {
+  double from = 0, to = 1;             // part of the profile
+  double start_cap = 0, end_cap = 0;   // how far the rounded ends go beyond it, m before scaling
+  int points = 18;                     // around
+  int rings = 8;                       // along, without the caps
+  int start_rings = 4, end_rings = 4;  // of the caps, 1 or more
+  /// The outline runs on smoothly, mostly into a neighbour of the same profile: the normals there
+  /// are the profile's alone, so that no seam shows.
+  bool start_runs_on = false, end_runs_on = false;
+  double crowd_u = 0;  // 0..1: more of the points are on the +u side
+};
+
+/// Adds one closed shell, facing outward, with normals.
+void AddLoft(const LoftAxis& axis, const Profile& profile, const LoftRange& range,
+             TriangleMesh& mesh);
+
+/// Normals of all vertices anew, for a surface that was moved: the mean of the adjacent triangles',
+/// weighted by area.
+void ComputeNormals(TriangleMesh& mesh);
+
+}  // namespace kinescope::urdf
