@@ -29,6 +29,22 @@ const std::vector<std::string>& CameraNames();
 /// @throws UsageError naming the camera asked for and those that exist.
 Camera NamedCamera(const std::string& name, const SceneState& state);
 
+/// A named camera that does not sway with the person: it stands still while they stay near the
+/// middle of the picture, and is drawn along, without jumps, when they walk away. A floor that
+/// stands still is easier on the eye and far cheaper to draw and to encode. One sequence of states
+/// gives one sequence of cameras.
+class SteadyCamera {
+ public:
+  /// Call once per picture. Another name than before starts afresh; with nobody there, it waits.
+  /// @throws UsageError as NamedCamera.
+  Camera Aim(const std::string& name, const SceneState& state);
+
+ private:
+  std::string name_;                                  // "" before the first
+  Eigen::Vector3d ground_ = Eigen::Vector3d::Zero();  // what it is aimed at, on the floor
+  double radius_ = 0;                                 // of the group it has room for, m
+};
+
 struct Projected {
   double x_px = 0;      // from the left edge
   double y_px = 0;      // from the top edge

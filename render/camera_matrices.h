@@ -22,8 +22,8 @@ struct Tile {
   int height = 0;
 };
 
-/// Turns clip coordinates of a picture of width_px x height_px into those of one tile of it, so that
-/// pictures larger than a framebuffer can be drawn piece by piece.
+/// Turns clip coordinates of a picture of width_px x height_px into those of one tile of it, so
+/// that pictures larger than a framebuffer can be drawn piece by piece.
 glm::dmat4 TileFromClip(const Tile& tile, int width_px, int height_px);
 
 }  // namespace kinescope::render

@@ -1,4 +1,5 @@
-/// Do two pictures look the same? For golden checks: how many pixels differ, where, and a picture of it.
+/// Do two pictures look the same? For golden checks: how many pixels differ, where, and a picture
+/// of it.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@ namespace kinescope::render {
 inline constexpr int kChannelTolerance = 2;
 
 struct Comparison {
-  bool same_size = true;      // where not, every pixel counts as different
-  std::int64_t pixels = 0;    // that differ by more than the tolerance in any channel
+  bool same_size = true;       // where not, every pixel counts as different
+  std::int64_t pixels = 0;     // that differ by more than the tolerance in any channel
   int largest_difference = 0;  // levels, of any channel, tolerated ones included
   int left = 0, top = 0, right = 0, bottom = 0;  // px, box of the differing pixels, inclusive
   bool equal() const { return same_size && pixels == 0; }

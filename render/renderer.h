@@ -20,10 +20,10 @@ class RenderError : public std::runtime_error {
 };
 
 struct View {
-  int width = 1280;     // px, 16..8192
-  int height = 720;     // px, 16..8192
-  int supersample = 1;  // 1, 2 or 4: drawn so many times larger, then averaged
-  std::string title;    // upper left; "" none
+  int width = 1280;      // px, 16..8192
+  int height = 720;      // px, 16..8192
+  int supersample = 1;   // 1, 2 or 4: drawn so many times larger, then averaged
+  std::string title;     // upper left; "" none
   bool overlays = true;  // legend, time code, banner
 };
 

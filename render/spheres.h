@@ -13,13 +13,12 @@
 namespace kinescope::render {
 
 struct SphereInPicture {
-  int character = 0;       // whose
-  std::string joint;       // "right_elbow"
+  int character = 0;                           // whose
+  std::string joint;                           // "right_elbow"
   LoadClass load_class = LoadClass::kUnknown;  // what the state says
-  double ratio = 0;        // of capacity; NaN where unknown
+  double ratio = 0;                            // of capacity; NaN where unknown
   double x_px = 0, y_px = 0, radius_px = 0;    // of the picture; the centre may lie outside
-  double depth_m = 0;
-  bool is_readable = false;  // centre inside the picture and not behind another sphere
+  double depth_m = 0;                          // <= 0: behind the camera
 };
 
 /// In the order of people and their loads. @pre width_px, height_px > 0
@@ -29,9 +28,17 @@ std::vector<SphereInPicture> LocateSpheres(const SceneState& state, const Camera
 /// "green", "orange", "red", "grey": the colours of palette.h by their everyday names.
 const char* ColorName(LoadClass load_class);
 
-/// The class whose colour most pixels around the sphere's centre have, by hue, so shading and the
-/// body that a hidden sphere shines through do not matter. nullopt: not readable, or no clear answer.
-std::optional<LoadClass> ClassShown(const Image& image, const SphereInPicture& sphere);
+struct Reading {
+  bool is_readable = false;  // enough of the sphere is in the picture and not behind another one
+  std::optional<LoadClass> shown;  // nullopt: not readable, or no colour has the majority
+};
+
+/// The class whose colour most pixels of `spheres[index]` have. By hue, so neither shading matters
+/// nor the body through which a hidden sphere shines. `spheres`: all that are in the picture.
+/// Pixels that a legend or banner covers are read like any others: read pictures drawn without
+/// overlays, or keep people clear of them.
+Reading ReadSphere(const Image& image, const std::vector<SphereInPicture>& spheres,
+                   std::size_t index);
 
 /// One line for each readable sphere whose picture contradicts the state. Empty: all agree.
 std::vector<std::string> FindSphereMismatches(const Image& image,

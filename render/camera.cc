@@ -1,0 +1,172 @@
+#include "render/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+#include <map>
+
+#include "render/camera_matrices.h"
+#include "server/core/errors.h"
+
+namespace kinescope::render {
+namespace {
+
+glm::dvec3 ToGlm(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+// Where everything that one wants to see of a standing adult fits: soles to fingers overhead.
+constexpr double kTargetHeight = 1.06;  // m
+constexpr double kReach = 2.50;         // m, of the vertical that must be visible
+
+constexpr double kNarrowestAspect = 4.0 / 3;  // that a group must fit into
+
+constexpr double kLeash = 0.35;  // m, that people may go before a steady camera follows
+constexpr double kSlack = 0.5;   // m, by which a group may draw together before it comes nearer
+
+struct Direction {
+  Eigen::Vector3d to_camera;  // from the target
+  Eigen::Vector3d up;
+};
+
+// Horizontal views look down by a few degrees, so that the floor reads as a floor.
+Direction Horizontal(double azimuth_deg, double elevation_deg) {
+  const double azimuth = azimuth_deg * M_PI / 180;
+  const double elevation = elevation_deg * M_PI / 180;
+  return {{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+           std::sin(elevation)},
+          Eigen::Vector3d::UnitZ()};
+}
+
+const std::vector<std::pair<std::string, Direction>>& Directions() {
+  // "left" is the person's left side (+y), as in an anatomical drawing.
+  static const std::vector<std::pair<std::string, Direction>> directions = {
+      {"front", Horizontal(0, 6)},
+      {"back", Horizontal(180, 6)},
+      {"left", Horizontal(90, 6)},
+      {"right", Horizontal(-90, 6)},
+      {"top", {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()}},
+      {"iso", Horizontal(45, 35.264)},
+      {"three_quarter", Horizontal(-38, 14)},
+  };
+  return directions;
+}
+
+// The middle of the people on the floor, and how far the outermost stands from it.
+std::pair<Eigen::Vector3d, double> Ground(const SceneState& state) {
+  if (state.people.empty()) return {Eigen::Vector3d::Zero(), 0};
+  const auto on_floor = [](const PersonState& person) {
+    Eigen::Vector3d point = person.links[urdf::kPelvis].position;
+    point.z() = 0;
+    return point;
+  };
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const PersonState& person : state.people) middle += on_floor(person);
+  middle /= static_cast<double>(state.people.size());
+  double radius = 0;
+  for (const PersonState& person : state.people) {
+    radius = std::max(radius, (on_floor(person) - middle).norm());
+  }
+  return {middle, radius};
+}
+
+}  // namespace
+
+const std::vector<std::string>& CameraNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, direction] : Directions()) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+namespace {
+
+Camera CameraAt(const std::string& name, const Eigen::Vector3d& ground, double radius) {
+  for (const auto& [known, direction] : Directions()) {
+    if (known != name) continue;
+    Camera camera;
+    camera.target = ground + Eigen::Vector3d(0, 0, kTargetHeight);
+    camera.up = direction.up;
+    // Pictures are wider than high, so a group may stand wider than a person is tall; its nearest
+    // member comes closer than its middle.
+    const double half_extent = std::max(0.5 * kReach, (radius + 0.7) / kNarrowestAspect);
+    const double distance = half_extent / std::tan(0.5 * camera.vertical_fov_rad) + radius;
+    camera.position = camera.target + distance * direction.to_camera;
+    camera.far_m = std::max(camera.far_m, 4 * distance);
+    return camera;
+  }
+  std::string known;
+  for (const std::string& each : CameraNames()) known += (known.empty() ? "" : ", ") + each;
+  throw UsageError("camera '" + name + "' is not known; there are: " + known);
+}
+
+}  // namespace
+
+Camera NamedCamera(const std::string& name, const SceneState& state) {
+  const auto [ground, radius] = Ground(state);
+  return CameraAt(name, ground, radius);
+}
+
+Camera SteadyCamera::Aim(const std::string& name, const SceneState& state) {
+  const auto [ground, radius] = Ground(state);
+  if (name != name_) {
+    const Camera camera = CameraAt(name, ground, radius);
+    name_ = state.people.empty() ? "" : name;
+    ground_ = ground;
+    radius_ = radius;
+    return camera;
+  }
+  if (!state.people.empty()) {
+    const Eigen::Vector3d away = ground - ground_;
+    const double distance = away.norm();
+    if (distance > kLeash) ground_ += away * (1 - kLeash / distance);
+    radius_ = std::clamp(radius_, radius, radius + kSlack);
+  }
+  return CameraAt(name, ground_, radius_);
+}
+
+glm::dmat4 ViewFromWorld(const Camera& camera) {
+  const Eigen::Vector3d forward = (camera.target - camera.position).normalized();
+  Eigen::Vector3d up = camera.up;
+  if (forward.cross(up).norm() < 1e-6 * up.norm()) {
+    up = std::abs(forward.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  }
+  return glm::lookAt(ToGlm(camera.position), ToGlm(camera.target), ToGlm(up));
+}
+
+glm::dmat4 ClipFromView(const Camera& camera, double aspect) {
+  return glm::perspective(camera.vertical_fov_rad, aspect, camera.near_m, camera.far_m);
+}
+
+glm::dmat4 TileFromClip(const Tile& tile, int width_px, int height_px) {
+  const double scale_x = static_cast<double>(width_px) / tile.width;
+  const double scale_y = static_cast<double>(height_px) / tile.height;
+  // Centre of the tile in the whole picture's normalised coordinates; y points up there.
+  const double center_x = (2.0 * tile.x + tile.width) / width_px - 1;
+  const double center_y = 1 - (2.0 * tile.y + tile.height) / height_px;
+  glm::dmat4 matrix(1.0);
+  matrix[0][0] = scale_x;
+  matrix[1][1] = scale_y;
+  matrix[3][0] = -center_x * scale_x;
+  matrix[3][1] = -center_y * scale_y;
+  return matrix;
+}
+
+Projected Project(const Eigen::Vector3d& point_in_world, const Camera& camera, int width_px,
+                  int height_px) {
+  const glm::dvec4 in_view = ViewFromWorld(camera) * glm::dvec4(ToGlm(point_in_world), 1);
+  const double aspect = static_cast<double>(width_px) / height_px;
+  Projected projected;
+  projected.depth_m = -in_view.z;
+  if (projected.depth_m <= 0) return projected;
+  const glm::dvec4 clip = ClipFromView(camera, aspect) * in_view;
+  projected.x_px = (clip.x / clip.w + 1) / 2 * width_px;
+  projected.y_px = (1 - clip.y / clip.w) / 2 * height_px;
+  projected.px_per_m =
+      height_px / (2 * std::tan(0.5 * camera.vertical_fov_rad) * projected.depth_m);
+  return projected;
+}
+
+}  // namespace kinescope::render

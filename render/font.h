@@ -1,0 +1,44 @@
+/// Text as coverage: glyphs of one typeface, rasterised once by FreeType and kept. One thread.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace kinescope::render {
+
+struct Glyph {
+  int left = 0, top = 0;  // px, of the bitmap's corner from pen and baseline, top upwards
+  int width = 0, height = 0;
+  double advance = 0;                  // px
+  std::vector<std::uint8_t> coverage;  // (height, width)
+};
+
+class Font {
+ public:
+  /// `file_name` such as "DejaVuSans.ttf". @throws RenderError naming the Debian package it is in.
+  explicit Font(const std::string& file_name);
+  ~Font();
+  Font(const Font&) = delete;
+  Font& operator=(const Font&) = delete;
+
+  /// @pre size_px >= 1
+  const Glyph& Get(char32_t code_point, int size_px);
+
+  /// Width of `utf8` set in one line, px.
+  double Width(std::string_view utf8, int size_px);
+
+ private:
+  struct Face;
+  std::unique_ptr<Face> face_;
+  std::map<std::pair<int, char32_t>, Glyph> glyphs_;  // by size and code point
+};
+
+/// Code points of `utf8`; what is no UTF-8 or no printable character becomes U+FFFD.
+std::u32string DecodeUtf8(std::string_view utf8);
+
+}  // namespace kinescope::render

@@ -1,0 +1,42 @@
+#include "render/module.h"
+
+#include <dlfcn.h>
+
+#include <cstring>
+
+#include "render/renderer.h"
+#include "server/core/install_paths.h"
+
+namespace kinescope::render {
+
+const void* LoadModule(const std::string& file_name, const char* entry) {
+  const std::filesystem::path path = FindModule(file_name);
+  if (path.empty()) {
+    throw RenderError(file_name +
+                      " is neither beside the program nor in ../lib/kinescope; build or "
+                      "install the whole of kinescope");
+  }
+  // Local: a module's own GL must not become everybody's. Never closed: Mesa and LLVM leave threads
+  // and exit handlers behind that must find their code.
+  void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr) {
+    throw RenderError("cannot load " + path.string() + ": " + ::dlerror() +
+                      "; are the packages of packages.txt installed?");
+  }
+  void* symbol = ::dlsym(handle, entry);
+  if (symbol == nullptr)
+    throw RenderError(path.string() + " has no " + entry + "; reinstall kinescope");
+  const void* table = nullptr;
+  using Entry = const void* (*)();
+  table = reinterpret_cast<Entry>(symbol)();
+  // The ABI is the first member of every table, and never moves.
+  const ModuleAbi ours;
+  if (std::memcmp(table, &ours, sizeof ours) != 0) {
+    throw RenderError(path.string() +
+                      " is of another build of kinescope than this program; build or "
+                      "install both again");
+  }
+  return table;
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,237 @@
+#include "render/overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace kinescope::render {
+namespace {
+
+constexpr Ink kText = {{0.13, 0.15, 0.19}, 1};
+constexpr Ink kFaintText = {{0.38, 0.41, 0.46}, 1};
+constexpr Ink kPanel = {{1, 1, 1}, 0.78};
+constexpr Ink kRim = {{0.15, 0.02, 0.02}, 1};
+
+// Of a picture 720 px high; everything scales with it.
+constexpr double kMargin = 20, kTitleSize = 22, kTextSize = 15, kSmallSize = 13;
+
+// `text`, or as much of it as fits with an ellipsis. Looks no further than the room goes: names
+// come from outside and may be of any length.
+std::string Shorten(const std::string& text, Font& font, int size_px, double width) {
+  const double room = width - font.Width("…", size_px);
+  double used = 0;
+  std::size_t fits = 0;  // bytes, together with an ellipsis
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t next = at + 1;
+    while (next < text.size() && (static_cast<unsigned char>(text[next]) & 0xC0) == 0x80) ++next;
+    used += font.Width(std::string_view(text).substr(at, next - at), size_px);
+    if (used > width) return fits > 0 ? text.substr(0, fits) + "…" : "";
+    if (used <= room) fits = next;
+    at = next;
+  }
+  return text;
+}
+
+// Any person of whom nobody said the mass: their loads are only as good as that assumption.
+const PersonState* WithAssumedMass(const SceneState& state) {
+  for (const PersonState& person : state.people) {
+    if (!person.loads.empty() && person.model->description.mass_is_assumed) return &person;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+struct Overlay::Page {
+  Canvas canvas;
+  double width, height, scale;
+  bool is_small;  // room for a lamp without text, and banners
+
+  double Px(double at_720) const { return at_720 * scale; }
+  int FontPx(double at_720) const { return std::max(8, static_cast<int>(std::lround(Px(at_720)))); }
+};
+
+Overlay::Fonts& Overlay::fonts() {
+  if (!fonts_) fonts_ = std::make_unique<Fonts>();
+  return *fonts_;
+}
+
+void Overlay::Paint(Image& image, const SceneState& state, const Camera& camera, const View& view,
+                    const std::vector<Label>& labels) {
+  const double scale = std::max(0.5, std::min(image.height / 720.0, image.width / 1000.0));
+  Page page{Canvas(image), static_cast<double>(image.width), static_cast<double>(image.height),
+            scale, image.width < 300 || image.height < 160};
+  PaintNames(page, state, camera, labels);
+  PaintLamp(page, state);
+  if (!page.is_small) {
+    PaintTitle(page, view.title);
+    PaintLegend(page, state);
+    if (state.liveness != Liveness::kNoData) PaintTimeCode(page, state);
+  }
+  if (state.liveness == Liveness::kStale) PaintStaleBanner(page, state);
+  if (state.liveness == Liveness::kNoData) PaintNoData(page, state);
+}
+
+void Overlay::PaintLamp(Page& page, const SceneState& state) {
+  Rgb lamp = {0.62, 0.64, 0.67};
+  std::string text = "NO DATA";
+  char rate[32] = "";
+  if (state.liveness == Liveness::kStale) {
+    lamp = {0.90, 0.60, 0.05};
+    text = "STALE";
+  } else if (state.liveness == Liveness::kLive) {
+    const bool is_file = state.arrival_nanos == 0;
+    lamp = is_file ? Rgb{0.25, 0.45, 0.75} : Rgb{0.10, 0.70, 0.25};
+    text = is_file ? "RECORDED" : "LIVE";
+    if (state.rate_hz > 0) std::snprintf(rate, sizeof rate, "  %.1f Hz", state.rate_hz);
+  }
+  Fonts& f = fonts();
+  const int size = page.FontPx(kTextSize);
+  if (page.is_small) {
+    page.canvas.Disc(page.width - size, size, 0.36 * size, {lamp, 1});
+    return;
+  }
+  const double width = f.bold.Width(text, size) + f.regular.Width(rate, size);
+  const double left = page.width - page.Px(kMargin) - width;
+  const double baseline = page.Px(kMargin) + size;
+  page.canvas.Disc(left - 0.8 * size, baseline - 0.36 * size, 0.36 * size, {lamp, 1});
+  const double next = page.canvas.Text(left, baseline, text, f.bold, size, kText);
+  page.canvas.Text(next, baseline, rate, f.regular, size, kFaintText);
+}
+
+void Overlay::PaintTitle(Page& page, const std::string& title) {
+  if (title.empty()) return;
+  Fonts& f = fonts();
+  const int size = page.FontPx(kTitleSize);
+  const std::string line = Shorten(title, f.bold, size, 0.6 * page.width);
+  page.canvas.Text(page.Px(kMargin), page.Px(kMargin) + size, line, f.bold, size, kText);
+}
+
+void Overlay::PaintLegend(Page& page, const SceneState& state) {
+  struct Row {
+    Ink ink;
+    double radius;  // px of 720
+    bool has_rim;
+    const char* name;
+    const char* range;
+  };
+  const auto of = [](LoadClass load_class) { return Ink{ColorOf(load_class), 1}; };
+  const std::array<Row, 6> rows = {{
+      {of(LoadClass::kLow), 6.0, false, "low", "≤ 30 %"},
+      {of(LoadClass::kMedium), 7.2, false, "medium", "≤ 60 %"},
+      {of(LoadClass::kHigh), 8.4, true, "high", "> 60 %"},
+      {of(LoadClass::kUnknown), 4.8, false, "no data", "–"},
+      {{kComColor, 1}, 5.0, false, "centre of mass", ""},
+      {{kCopColor, 1}, 5.0, false, "centre of pressure", ""},
+  }};
+  Fonts& f = fonts();
+  const int size = page.FontPx(kSmallSize);
+  const double line = page.Px(21), pad = page.Px(12), column = page.Px(24);
+  const PersonState* assumed = WithAssumedMass(state);
+  const double width = 2 * pad + column +
+                       std::max(f.regular.Width("centre of pressure", size),
+                                f.bold.Width("Joint load, % of capacity", size) - column);
+  const double height = 2 * pad + line * (assumed != nullptr ? 8.6 : 7.0) - page.Px(4);
+  const double left = page.Px(kMargin), top = page.height - page.Px(kMargin) - height;
+  page.canvas.RoundedBox(left, top, width, height, page.Px(8), kPanel);
+  double baseline = top + pad + 0.8 * size;
+  page.canvas.Text(left + pad, baseline, "Joint load, % of capacity", f.bold, size, kText);
+  for (const Row& row : rows) {
+    baseline += line;
+    const double x = left + pad + 0.36 * column, y = baseline - 0.36 * size;
+    const double radius = page.Px(row.radius);
+    if (row.has_rim) page.canvas.Disc(x, y, radius, kRim);
+    page.canvas.Disc(x, y, row.has_rim ? 0.76 * radius : radius, row.ink);
+    page.canvas.Text(left + pad + column, baseline, row.name, f.regular, size, kText);
+    page.canvas.Text(left + width - pad - f.regular.Width(row.range, size), baseline, row.range,
+                     f.regular, size, kText);
+  }
+  if (assumed == nullptr) return;
+  char text[64];
+  std::snprintf(text, sizeof text, "body mass assumed: %.0f kg",
+                assumed->model->description.mass_kg);
+  page.canvas.Text(left + pad, baseline + 1.5 * line, text, f.regular, size, kFaintText);
+}
+
+void Overlay::PaintTimeCode(Page& page, const SceneState& state) {
+  Fonts& f = fonts();
+  const int size = page.FontPx(kTitleSize), small = page.FontPx(kSmallSize);
+  const std::string time = TimeCode(state.time_code_millis);
+  const std::string sample = "sample " + std::to_string(state.counter);
+  const double right = page.width - page.Px(kMargin), bottom = page.height - page.Px(kMargin);
+  const double left = right - f.regular.Width(time, size);
+  page.canvas.Text(left, bottom - page.Px(22), time, f.regular, size, kText);
+  page.canvas.Text(right - f.regular.Width(sample, small), bottom, sample, f.regular, small,
+                   kFaintText);
+}
+
+void Overlay::PaintStaleBanner(Page& page, const SceneState& state) {
+  Fonts& f = fonts();
+  const int size = page.FontPx(18);
+  const std::string full = "STALE – last sample " + TimeCode(state.time_code_millis);
+  const double room = page.width - 4 * size;
+  const std::string text = f.bold.Width(full, size) <= room ? full : "STALE";
+  const double width = f.bold.Width(text, size) + 2 * size;
+  const double left = (page.width - width) / 2, top = page.Px(kMargin + 28);
+  page.canvas.RoundedBox(left, top, width, 2 * size, 0.5 * size, {{0.98, 0.80, 0.35}, 0.95});
+  page.canvas.Text(left + size, top + 1.36 * size, text, f.bold, size, kText);
+}
+
+void Overlay::PaintNoData(Page& page, const SceneState& state) {
+  Fonts& f = fonts();
+  const int size = page.FontPx(44), small = page.FontPx(18);
+  const std::string title = "NO DATA";
+  const std::string source = state.source.empty() ? "a source" : state.source;
+  const std::string detail =
+      Shorten("waiting for " + source, f.regular, small, page.width - 4 * small);
+  const double width =
+      std::max(f.bold.Width(title, size), f.regular.Width(detail, small)) + 2.4 * size;
+  const double height = 2.1 * size + 1.4 * small;
+  const double left = (page.width - width) / 2, top = (page.height - height) / 2;
+  page.canvas.RoundedBox(left, top, width, height, 0.3 * size, {{1, 1, 1}, 0.85});
+  page.canvas.Text((page.width - f.bold.Width(title, size)) / 2, top + 1.4 * size, title, f.bold,
+                   size, kFaintText);
+  page.canvas.Text((page.width - f.regular.Width(detail, small)) / 2,
+                   top + 1.55 * size + 1.3 * small, detail, f.regular, small, kFaintText);
+}
+
+void Overlay::PaintNames(Page& page, const SceneState& state, const Camera& camera,
+                         const std::vector<Label>& labels) {
+  Fonts& f = fonts();
+  const int size = page.FontPx(kSmallSize);
+  const auto paint = [&](const Eigen::Vector3d& position, const std::string& name) {
+    const Projected at =
+        Project(position, camera, static_cast<int>(page.width), static_cast<int>(page.height));
+    if (!(at.depth_m > 0) || name.empty()) return;
+    const std::string text = Shorten(name, f.regular, size, page.Px(220));
+    const double width = f.regular.Width(text, size);
+    // Far outside, coordinates outgrow what a pixel index can hold.
+    if (!(std::abs(at.x_px) < 1e5 && std::abs(at.y_px) < 1e5)) return;
+    page.canvas.RoundedBox(at.x_px - width / 2 - 0.6 * size, at.y_px - size, width + 1.2 * size,
+                           1.7 * size, 0.5 * size, kPanel);
+    page.canvas.Text(at.x_px - width / 2, at.y_px + 0.25 * size, text, f.regular, size, kText);
+  };
+  for (const Label& label : labels) paint(label.position, label.text);
+  if (state.people.size() < 2) return;
+  for (const PersonState& person : state.people) {
+    const urdf::Pose& head = person.links[urdf::kHead];
+    const Eigen::Vector3d top =
+        head.position + head.orientation * person.model->human.skeleton.head_top_in_head;
+    const std::string name =
+        person.name.empty() ? "person " + std::to_string(person.character + 1) : person.name;
+    paint(top + Eigen::Vector3d(0, 0, 0.12), name);
+  }
+}
+
+std::string TimeCode(std::int64_t millis) {
+  char text[48];
+  const auto bits = static_cast<unsigned long long>(millis);
+  const unsigned long long total = millis < 0 ? 0 - bits : bits;
+  std::snprintf(text, sizeof text, "%s%02llu:%02llu:%02llu.%03llu", millis < 0 ? "-" : "",
+                total / 3600000, total / 60000 % 60, total / 1000 % 60, total % 1000);
+  return text;
+}
+
+}  // namespace kinescope::render

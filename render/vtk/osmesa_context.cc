@@ -1,0 +1,67 @@
+#include "render/vtk/osmesa_context.h"
+
+#include <GL/glew.h>
+// GLEW has taken the name away that osmesa.h declares its functions with.
+#define GLAPI extern
+#include <GL/osmesa.h>
+
+#include "render/renderer.h"
+
+// Debian's VTK finds GL functions through the system's GLEW, and that asks GLX, which needs an X
+// display. These two take the place of GLX's for everything inside this module: it is loaded with
+// RTLD_LOCAL, and its own symbols come before those of the libraries it depends on.
+extern "C" {
+
+using AnyFunction = void (*)();
+
+__attribute__((visibility("default"))) AnyFunction glXGetProcAddressARB(const unsigned char* name) {
+  return reinterpret_cast<AnyFunction>(OSMesaGetProcAddress(reinterpret_cast<const char*>(name)));
+}
+
+// GLEW's last step, which opens the display. All GL functions are found by then.
+__attribute__((visibility("default"))) GLenum glxewInit() { return GLEW_OK; }
+
+}  // extern "C"
+
+namespace kinescope::render {
+
+OsmesaContext::OsmesaContext() {
+  const int wanted[] = {OSMESA_FORMAT,
+                        OSMESA_RGBA,
+                        OSMESA_DEPTH_BITS,
+                        0,
+                        OSMESA_STENCIL_BITS,
+                        0,
+                        OSMESA_PROFILE,
+                        OSMESA_CORE_PROFILE,
+                        OSMESA_CONTEXT_MAJOR_VERSION,
+                        3,
+                        OSMESA_CONTEXT_MINOR_VERSION,
+                        2,
+                        0};
+  context_ = OSMesaCreateContextAttribs(wanted, nullptr);
+  if (context_ == nullptr) {
+    throw RenderError(
+        "OSMesa gives no OpenGL 3.2 core context; Mesa 12 to 25.0 with llvmpipe does "
+        "(Debian: libosmesa6). Is GALLIUM_DRIVER set to something else?");
+  }
+  MakeCurrent();
+  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  renderer_string_ = name != nullptr ? name : "unknown";
+}
+
+OsmesaContext::~OsmesaContext() {
+  // A context that is gone must not stay current: the next one may come to lie at its address.
+  OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+  OSMesaDestroyContext(static_cast<OSMesaContext>(context_));
+}
+
+void OsmesaContext::MakeCurrent() {
+  auto* context = static_cast<OSMesaContext>(context_);
+  if (OSMesaGetCurrentContext() == context) return;
+  if (OSMesaMakeCurrent(context, unused_pixels_.data(), GL_UNSIGNED_BYTE, 16, 16) == GL_FALSE) {
+    throw RenderError("OSMesa cannot make its context current");
+  }
+}
+
+}  // namespace kinescope::render

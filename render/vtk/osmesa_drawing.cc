@@ -1,0 +1,224 @@
+#include "render/vtk/osmesa_drawing.h"
+
+#include <GL/glew.h>
+#include <vtkCamera.h>
+#include <vtkCullerCollection.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLRenderer.h>
+#include <vtkOpenGLState.h>
+#include <vtkRendererCollection.h>
+
+#include <algorithm>
+#include <glm/mat4x4.hpp>
+#include <map>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "render/camera_matrices.h"
+#include "render/resample.h"
+#include "render/vtk/floor_cache.h"
+#include "render/vtk/ground.h"
+#include "render/vtk/log_window.h"
+#include "render/vtk/osmesa_context.h"
+#include "render/vtk/person_actors.h"
+
+namespace kinescope::render {
+namespace {
+
+// px, drawn at once; larger pictures are put together from tiles. Bounds the memory that VTK
+// and Mesa need for a picture, and keeps clear of the largest texture.
+constexpr int kLargestTile = 4096;
+
+std::mutex creation;  // GLEW's table of functions and VTK's factories are the process'
+
+class OsmesaDrawing : public Drawing {
+ public:
+  explicit OsmesaDrawing(LogLine log) : log_(std::move(log)), once_(log_) {
+    const VtkLogScope scope(log_);
+    const std::lock_guard<std::mutex> lock(creation);
+    context_ = std::make_unique<OsmesaContext>();
+    window_->SetMultiSamples(0);
+    window_->SetOwnContext(0);
+    window_->SetIsCurrent(true);
+    window_->SetMapped(true);
+    window_->SetSupportsOpenGL(true);
+    window_->SetReadyForRendering(true);
+    window_->SetFrameBlitModeToNoBlit();
+    window_->SetSize(16, 16);
+    camera_->UseExplicitProjectionTransformMatrixOn();
+    camera_->SetExplicitProjectionTransformMatrix(projection_);
+    window_->SetNumberOfLayers(2);
+    for (vtkRenderer* layer : {floor_layer_.Get(), people_layer_.Get()}) {
+      layer->SetActiveCamera(camera_);
+      layer->GetCullers()->RemoveAllItems();  // all is in view; sorting would undo our order
+      window_->AddRenderer(layer);
+    }
+    floor_layer_->SetBackground(kBackground[0], kBackground[1], kBackground[2]);
+    floor_layer_->SetBackgroundAlpha(1);
+    people_layer_->SetLayer(1);
+    window_->Render();  // of nothing: initialises GLEW, under the lock
+    ground_ = std::make_unique<Ground>();
+    floor_layer_->AddActor(ground_->actor());
+    floor_cache_ = std::make_unique<FloorCache>(window_, floor_layer_, people_layer_);
+  }
+
+  ~OsmesaDrawing() override {
+    const VtkLogScope scope(log_);
+    context_->MakeCurrent();
+    floor_cache_.reset();
+    floor_layer_->RemoveAllViewProps();
+    people_layer_->RemoveAllViewProps();
+    window_->Finalize();
+  }
+
+  std::string renderer_string() const override { return context_->renderer_string(); }
+
+  void Draw(const SceneState& state, const Camera& camera, int supersample, Image& image,
+            std::vector<Label>& labels) override {
+    const VtkLogScope scope(log_);
+    context_->MakeCurrent();
+    UpdateActors(state, camera, labels);
+    AimCamera(camera);
+    const int step = kLargestTile / supersample;
+    for (int y = 0; y < image.height; y += step) {
+      for (int x = 0; x < image.width; x += step) {
+        const Tile tile{x, y, std::min(step, image.width - x), std::min(step, image.height - y)};
+        DrawTile(tile, camera, supersample, image);
+      }
+    }
+  }
+
+ private:
+  void UpdateActors(const SceneState& state, const Camera& camera, std::vector<Label>& labels) {
+    // By character: whoever stays keeps their mesh.
+    bool is_changed = people_.size() != state.people.size();
+    for (const PersonState& person : state.people) {
+      auto& actors = people_[person.character];
+      if (actors != nullptr) continue;
+      actors = std::make_unique<PersonActors>();
+      is_changed = true;
+    }
+    for (auto each = people_.begin(); each != people_.end();) {
+      const bool is_here =
+          std::any_of(state.people.begin(), state.people.end(),
+                      [&](const auto& person) { return person.character == each->first; });
+      is_changed = is_changed || !is_here;
+      each = is_here ? std::next(each) : people_.erase(each);
+    }
+    if (is_changed) ListActors();
+    for (const PersonState& person : state.people) {
+      people_.at(person.character)->Update(person, state.liveness, camera, once_, labels);
+    }
+    ground_->SetFocus(camera.target);
+  }
+
+  void ListActors() {
+    people_layer_->RemoveAllViewProps();
+    const auto add = [&](vtkActor* actor) { people_layer_->AddActor(actor); };
+    for (const auto& [id, person] : people_) add(person->shadow());
+    for (const auto& [id, person] : people_) add(person->body());
+    for (const auto& [id, person] : people_) {
+      for (vtkActor* ghost : person->ghosts()) add(ghost);
+    }
+    for (const auto& [id, person] : people_) {
+      for (vtkActor* mark : person->marks()) add(mark);
+    }
+  }
+
+  void AimCamera(const Camera& camera) {
+    // Rows of the view matrix are the camera's axes; ours never lacks an upward one.
+    const glm::dmat4 view = ViewFromWorld(camera);
+    camera_->SetPosition(camera.position.x(), camera.position.y(), camera.position.z());
+    camera_->SetFocalPoint(camera.target.x(), camera.target.y(), camera.target.z());
+    camera_->SetViewUp(view[0][1], view[1][1], view[2][1]);
+  }
+
+  void DrawTile(const Tile& tile, const Camera& camera, int supersample, Image& image) {
+    const double aspect = static_cast<double>(image.width) / image.height;
+    const glm::dmat4 clip =
+        TileFromClip(tile, image.width, image.height) * ClipFromView(camera, aspect);
+    for (int row = 0; row < 4; ++row) {
+      for (int column = 0; column < 4; ++column)
+        projection_->SetElement(row, column, clip[column][row]);
+    }
+    camera_->Modified();
+    const int width = tile.width * supersample, height = tile.height * supersample;
+    window_->SetSize(width, height);
+    floor_cache_->Prepare(FloorKey(camera, width, height));
+    window_->Render();
+    const bool is_whole =
+        supersample == 1 && tile.width == image.width && tile.height == image.height;
+    if (is_whole) {
+      ReadPixels(width, height, image.rgba.data());
+      return;
+    }
+    large_.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    ReadPixels(width, height, large_.data());
+    AverageInto(large_.data(), tile.width, tile.height, supersample, image, tile.x, tile.y);
+  }
+
+  FloorCache::Key FloorKey(const Camera& camera, int width, int height) const {
+    FloorCache::Key key{};
+    const double* matrix = projection_->GetData();
+    std::copy(matrix, matrix + 16, key.begin());
+    const Eigen::Vector3d up = Eigen::Vector3d::Map(camera_->GetViewUp());
+    const double rest[] = {camera.position.x(),
+                           camera.position.y(),
+                           camera.position.z(),
+                           camera.target.x(),
+                           camera.target.y(),
+                           camera.target.z(),
+                           up.x(),
+                           up.y(),
+                           up.z(),
+                           static_cast<double>(width),
+                           static_cast<double>(height)};
+    std::copy(std::begin(rest), std::end(rest), key.begin() + 16);
+    return key;
+  }
+
+  // Straight from VTK's framebuffer into the picture: its own way copies twice, and GL's rows start
+  // at the bottom, which Mesa turns round while it copies.
+  void ReadPixels(int width, int height, std::uint8_t* rgba) {
+    vtkOpenGLState* gl = window_->GetState();
+    gl->PushReadFramebufferBinding();
+    window_->GetRenderFramebuffer()->Bind(GL_READ_FRAMEBUFFER);
+    window_->GetRenderFramebuffer()->ActivateReadBuffer(0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glPixelStorei(GL_PACK_INVERT_MESA, 1);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    glPixelStorei(GL_PACK_INVERT_MESA, 0);
+    gl->PopReadFramebufferBinding();
+    const GLenum error = glGetError();
+    if (error != GL_NO_ERROR) {
+      throw RenderError("OpenGL error " + std::to_string(error) + " while drawing " +
+                        std::to_string(width) + " x " + std::to_string(height) +
+                        " px; a smaller picture may work");
+    }
+  }
+
+  LogLine log_;
+  OnceLog once_;
+  std::unique_ptr<OsmesaContext> context_;  // outlives everything that follows
+  vtkNew<vtkGenericOpenGLRenderWindow> window_;
+  vtkNew<vtkOpenGLRenderer> floor_layer_;   // drawn first, without depth
+  vtkNew<vtkOpenGLRenderer> people_layer_;  // over it
+  vtkNew<vtkCamera> camera_;
+  vtkNew<vtkMatrix4x4> projection_;
+  std::unique_ptr<Ground> ground_;
+  std::unique_ptr<FloorCache> floor_cache_;
+  std::map<int, std::unique_ptr<PersonActors>> people_;
+  std::vector<std::uint8_t> large_;
+};
+
+}  // namespace
+
+std::unique_ptr<Drawing> MakeOsmesaDrawing(const LogLine& log) {
+  return std::make_unique<OsmesaDrawing>(log);
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,44 @@
+/// A mesh whose parts move on their own: a figure of 23 segments, marks on the floor, shadows.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "render/vtk/shaded_actor.h"
+
+namespace kinescope::render {
+
+class PartActor {
+ public:
+  enum class Light {
+    kLit,
+    kFlat,
+    kSoft,  // unlit, and fades out from the part's origin to radius 1 around its z axis
+  };
+
+  /// @pre 1 <= part_count <= 32
+  PartActor(Pass pass, Light light, int part_count);
+
+  void SetMesh(const Mesh& mesh) { shaded_.SetMesh(mesh); }
+  void SetCulling(bool is_on) { shaded_.SetCulling(is_on); }
+
+  /// world_from_part. Hidden parts have a zero matrix. Takes effect with Commit.
+  void Place(int part, const Eigen::Affine3d& world_from_part);
+  void Hide(int part);
+
+  /// One colour instead of the vertices'; alpha is its weight. Takes effect with Commit.
+  void SetOverride(const Eigen::Vector4f& color) { override_ = color; }
+  /// Multiplies every vertex' opacity. Takes effect with Commit.
+  void SetOpacity(float opacity) { opacity_ = opacity; }
+  void Commit();
+
+  vtkActor* actor() { return shaded_.actor(); }
+
+ private:
+  ShadedActor shaded_;
+  std::vector<Eigen::Matrix4f> world_from_part_;
+  Eigen::Vector4f override_ = Eigen::Vector4f::Zero();
+  float opacity_ = 1;
+};
+
+}  // namespace kinescope::render

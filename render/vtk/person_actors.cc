@@ -1,0 +1,162 @@
+#include "render/vtk/person_actors.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "server/core/palette.h"
+
+namespace kinescope::render {
+namespace {
+
+constexpr double kGhostOpacity = 0.45;
+constexpr int kMarkCorners = 32;
+
+enum ShadowPart { kBodyShadow, kRightFootShadow, kLeftFootShadow, kShadowParts };
+enum MarkPart { kComRing, kComLine, kCopEdge, kCopDisc, kMarkParts };
+
+Eigen::Vector4f Color(const Rgb& rgb, float alpha = 1) {
+  return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]),
+          alpha};
+}
+
+Mesh ShadowMesh() {
+  Mesh all;
+  constexpr float kDarkness[kShadowParts] = {0.20f, 0.38f, 0.38f};
+  for (int part = 0; part < kShadowParts; ++part) {
+    const std::size_t first = all.positions.size();
+    all.Append(DiscMesh(12), Eigen::Affine3d::Identity());
+    all.Paint(first, {0.20f, 0.23f, 0.30f, kDarkness[part]}, part);
+  }
+  return all;
+}
+
+Mesh MarkMesh() {
+  Mesh all;
+  const auto add = [&](const Mesh& mesh, const Rgb& rgb, MarkPart part) {
+    const std::size_t first = all.positions.size();
+    all.Append(mesh, Eigen::Affine3d::Identity());
+    all.Paint(first, Color(rgb), part);
+  };
+  add(RingMesh(0.78, kMarkCorners), kComColor, kComRing);
+  add(CylinderMesh(1, 1), kComColor, kComLine);
+  add(DiscMesh(kMarkCorners), {1, 1, 1}, kCopEdge);
+  add(DiscMesh(kMarkCorners), kCopColor, kCopDisc);
+  return all;
+}
+
+Eigen::Affine3d At(double x, double y, double z, double scale_xy, double scale_z = 1) {
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
+  place.translate(Eigen::Vector3d(x, y, z));
+  place.scale(Eigen::Vector3d(scale_xy, scale_xy, scale_z));
+  return place;
+}
+
+}  // namespace
+
+PersonActors::PersonActors()
+    : shadow_(Pass::kBlended, PartActor::Light::kSoft, kShadowParts),
+      body_(Pass::kSolid, PartActor::Light::kLit, urdf::kSegmentCount),
+      ghost_marks_(Pass::kGhost, PartActor::Light::kFlat, kMarkParts),
+      marks_(Pass::kSolid, PartActor::Light::kFlat, kMarkParts),
+      ghost_spheres_(Pass::kGhost, kGhostOpacity),
+      spheres_(Pass::kSolid, 1) {
+  shadow_.SetMesh(ShadowMesh());
+  marks_.SetMesh(MarkMesh());
+  ghost_marks_.SetMesh(MarkMesh());
+  ghost_marks_.SetOpacity(static_cast<float>(kGhostOpacity));
+}
+
+void PersonActors::Update(const PersonState& person, Liveness liveness, const Camera& camera,
+                          OnceLog& log, std::vector<Label>& labels) {
+  UpdateBody(person, liveness, log, labels);
+  UpdateShadow(person);
+  UpdateMarks(person, camera);
+}
+
+void PersonActors::UpdateBody(const PersonState& person, Liveness liveness, OnceLog& log,
+                              std::vector<Label>& labels) {
+  if (model_ != person.model || revision_ != person.model->revision) {
+    FigureMesh figure = MakeFigureMesh(*person.model);
+    body_.SetMesh(figure.mesh);
+    body_.SetCulling(figure.is_closed);
+    placeholders_ = std::move(figure.placeholders);
+    for (const std::string& problem : figure.problems) log(problem);
+    model_ = person.model;
+    revision_ = person.model->revision;
+  }
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    const urdf::Pose& pose = person.links[static_cast<std::size_t>(segment)];
+    body_.Place(segment, Eigen::Translation3d(pose.position) * pose.orientation);
+  }
+  const bool is_stale = liveness == Liveness::kStale;
+  body_.SetOverride(is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()));
+  body_.Commit();
+  for (const FigureMesh::Placeholder& placeholder : placeholders_) {
+    const urdf::Pose& pose = person.links[static_cast<std::size_t>(placeholder.segment)];
+    labels.push_back(
+        {pose.position + pose.orientation * placeholder.center_in_link, placeholder.label});
+  }
+}
+
+// Not where a lamp would cast them, but what tells the eye where the person stands.
+void PersonActors::UpdateShadow(const PersonState& person) {
+  const urdf::Skeleton& skeleton = person.model->human.skeleton;
+  const double size = skeleton.height / 1.75;
+  const Eigen::Vector3d middle =
+      0.5 * (person.links[urdf::kPelvis].position + person.links[urdf::kT8].position);
+  shadow_.Place(kBodyShadow, At(middle.x(), middle.y(), 0.002, 0.55 * size));
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const int part = side == urdf::kRight ? kRightFootShadow : kLeftFootShadow;
+    const urdf::Pose& foot =
+        person.links[side == urdf::kRight ? urdf::kRightFoot : urdf::kLeftFoot];
+    const Eigen::Vector3d heel = foot.position + foot.orientation * skeleton.heel_in_foot[side];
+    const Eigen::Vector3d ball =
+        foot.position +
+        foot.orientation *
+            urdf::EndOf(skeleton, side == urdf::kRight ? urdf::kRightFoot : urdf::kLeftFoot);
+    const double lift = std::max(0.0, std::min(heel.z(), ball.z()));
+    if (lift > 0.5) {
+      shadow_.Hide(part);
+      continue;
+    }
+    const Eigen::Vector3d center = 0.4 * heel + 0.6 * ball;
+    Eigen::Affine3d place = At(center.x(), center.y(), 0.003, 1);
+    place.rotate(Eigen::AngleAxisd(std::atan2(ball.y() - heel.y(), ball.x() - heel.x()),
+                                   Eigen::Vector3d::UnitZ()));
+    place.scale(Eigen::Vector3d(0.24 * size, 0.13 * size, 1) * (1 - lift));
+    shadow_.Place(part, place);
+  }
+  shadow_.Commit();
+}
+
+void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera) {
+  const double height = person.model->human.skeleton.height;
+  const double size = height > 0 ? height / 1.75 : 1;
+  looks_.clear();
+  for (const JointLoad& load : person.loads) {
+    if (looks_.size() + 1 == kSphereCapacity) break;  // the last one is for the centre of mass
+    const double rim = load.load_class == LoadClass::kHigh      ? 1.0
+                       : load.load_class == LoadClass::kUnknown ? 0.35
+                                                                : 0.0;
+    looks_.push_back({load.position, SphereRadius(load.joint, load.load_class, height),
+                      ColorOf(load.load_class), rim});
+  }
+  for (PartActor* marks : {&marks_, &ghost_marks_}) {
+    for (int part = 0; part < kMarkParts; ++part) marks->Hide(part);
+    if (person.com) {
+      const Eigen::Vector3d& com = *person.com;
+      marks->Place(kComRing, At(com.x(), com.y(), 0.004, 0.062 * size));
+      marks->Place(kComLine, At(com.x(), com.y(), 0.5 * com.z(), 0.0035 * size, com.z()));
+    }
+    if (person.cop) {
+      marks->Place(kCopEdge, At(person.cop->x(), person.cop->y(), 0.006, 0.046 * size));
+      marks->Place(kCopDisc, At(person.cop->x(), person.cop->y(), 0.008, 0.038 * size));
+    }
+    marks->Commit();
+  }
+  if (person.com) looks_.push_back({*person.com, 0.034 * size, kComColor, 0});
+  spheres_.Show(looks_, camera);
+  ghost_spheres_.Show(looks_, camera);
+}
+
+}  // namespace kinescope::render

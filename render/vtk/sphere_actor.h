@@ -1,0 +1,36 @@
+/// Up to 16 spheres in one draw call. Each is a dome that faces the camera: round at any size for a
+/// few triangles, and its rim is a ring in the picture from every side.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "render/camera.h"
+#include "render/vtk/shaded_actor.h"
+#include "server/core/palette.h"
+
+namespace kinescope::render {
+
+inline constexpr int kSphereCapacity = 16;
+
+struct SphereLook {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // world, m
+  double radius = 0;                                 // m; 0 hides it
+  Rgb color = {0, 0, 0};
+  double rim = 0;  // darkness of the outer ring, 0..1
+};
+
+class SphereActor {
+ public:
+  SphereActor(Pass pass, double opacity);
+
+  /// Spheres that are not given are hidden.
+  void Show(const std::vector<SphereLook>& spheres, const Camera& camera);
+
+  vtkActor* actor() { return shaded_.actor(); }
+
+ private:
+  ShadedActor shaded_;
+};
+
+}  // namespace kinescope::render

@@ -1,0 +1,348 @@
+#include "render/renderer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <thread>
+
+#include "render/compare.h"
+#include "render/spheres.h"
+#include "server/core/errors.h"
+#include "tests/render/test_scene.h"
+
+namespace kinescope::render {
+namespace {
+
+using kinescope::testing::MakePersonModel;
+using kinescope::testing::MixedScene;
+using kinescope::testing::Posture;
+using kinescope::testing::SceneWith;
+
+View SmallView(bool overlays = false) {
+  View view;
+  view.width = 640;
+  view.height = 360;
+  view.overlays = overlays;
+  return view;
+}
+
+SceneState EmptyScene() {
+  SceneState state;
+  state.liveness = Liveness::kLive;
+  return state;
+}
+
+// Largest channel difference between two pictures where `point` lies.
+int DifferenceAt(const Image& a, const Image& b, const Camera& camera,
+                 const Eigen::Vector3d& point) {
+  const Projected at = Project(point, camera, a.width, a.height);
+  const std::size_t pixel =
+      4 * (static_cast<std::size_t>(at.y_px) * static_cast<std::size_t>(a.width) +
+           static_cast<std::size_t>(at.x_px));
+  int largest = 0;
+  for (std::size_t i = pixel; i < pixel + 3; ++i) {
+    largest = std::max(largest, std::abs(a.rgba.at(i) - b.rgba.at(i)));
+  }
+  return largest;
+}
+
+// Without spheres and marks, so that only the body can be what is seen.
+SceneState BareScene(Posture posture, double x = 0, double y = 0) {
+  SceneState state = SceneWith(posture, LoadClass::kLow, x, y);
+  state.people[0].loads.clear();
+  state.people[0].com.reset();
+  state.people[0].cop.reset();
+  return state;
+}
+
+TEST(Renderer, PutsThePersonWhereTheStateSays) {
+  const auto renderer = MakeRenderer();
+  for (const Posture posture : {Posture::kStanding, Posture::kDeepBend, Posture::kArmsForward}) {
+    const SceneState state = BareScene(posture, 1.5, -0.5);
+    for (const std::string& name : CameraNames()) {
+      const Camera camera = NamedCamera(name, state);
+      const Image picture = renderer->Render(state, camera, SmallView());
+      const Image floor = renderer->Render(EmptyScene(), camera, SmallView());
+      const urdf::Skeleton& skeleton = state.people[0].model->human.skeleton;
+      for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+        const urdf::Pose& pose = state.people[0].links[static_cast<std::size_t>(segment)];
+        const Eigen::Vector3d middle =
+            pose.position + pose.orientation * (0.5 * urdf::EndOf(skeleton, segment));
+        EXPECT_GT(DifferenceAt(picture, floor, camera, middle), 6)
+            << name << ": nothing is drawn at "
+            << urdf::kSegments[static_cast<std::size_t>(segment)].link_name;
+      }
+      const Eigen::Vector3d right = (camera.target - camera.position).cross(camera.up).normalized();
+      for (const double side : {-1.3, 1.3}) {
+        EXPECT_EQ(DifferenceAt(picture, floor, camera, camera.target + side * right), 0)
+            << name << ": something is drawn where nobody is";
+      }
+    }
+  }
+}
+
+TEST(Renderer, TheSameStateIsTheSameBytesWhateverWasDrawnBefore) {
+  const SceneState state = MixedScene(Posture::kDeepBend);
+  const Camera camera = NamedCamera("three_quarter", state);
+  View view = SmallView(true);
+  view.title = "trial";
+  for (const int supersample : {1, 2}) {
+    view.supersample = supersample;
+    const auto first = MakeRenderer();
+    const auto second = MakeRenderer();
+    const Image picture = first->Render(state, camera, view);
+    // The second and third find the floor unchanged and take it from memory.
+    EXPECT_EQ(first->Render(state, camera, view).rgba, picture.rgba);
+    EXPECT_EQ(first->Render(state, camera, view).rgba, picture.rgba);
+    EXPECT_EQ(second->Render(state, camera, view).rgba, picture.rgba);
+    const SceneState other = SceneWith(Posture::kStanding, LoadClass::kHigh);
+    second->Render(other, NamedCamera("top", other), SmallView());
+    second->Render(SceneState(), NamedCamera("top", other), SmallView());
+    EXPECT_EQ(second->Render(state, camera, view).rgba, picture.rgba);
+    EXPECT_EQ(first->Render(state, camera, view).rgba, picture.rgba);
+  }
+}
+
+TEST(Renderer, EveryThreadMayHaveItsOwn) {
+  const SceneState state = MixedScene(Posture::kStanding);
+  const Camera camera = NamedCamera("iso", state);
+  const Image expected = MakeRenderer()->Render(state, camera, SmallView(true));
+  std::array<Image, 2> pictures;
+  std::array<std::thread, 2> threads;
+  for (std::size_t i = 0; i < threads.size(); ++i) {
+    threads[i] = std::thread([&, i] {
+      const auto renderer = MakeRenderer();
+      for (int k = 0; k < 5; ++k) pictures[i] = renderer->Render(state, camera, SmallView(true));
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(pictures[0].rgba, expected.rgba);
+  EXPECT_EQ(pictures[1].rgba, expected.rgba);
+}
+
+TEST(Renderer, EveryPixelIsOpaque) {
+  const Image image =
+      MakeRenderer()->Render(MixedScene(Posture::kStanding), Camera(), SmallView(true));
+  for (std::size_t at = 3; at < image.rgba.size(); at += 4) ASSERT_EQ(image.rgba[at], 255);
+}
+
+TEST(Renderer, RenderIntoReusesMemoryAndTakesAnyFormerSize) {
+  const auto renderer = MakeRenderer();
+  const SceneState state = MixedScene(Posture::kStanding);
+  View view = SmallView();
+  const Image expected = renderer->Render(state, Camera(), view);
+  Image image;
+  view.width = 900;
+  renderer->RenderInto(image, state, Camera(), view);
+  const std::uint8_t* memory = image.rgba.data();
+  view.width = 640;
+  renderer->RenderInto(image, state, Camera(), view);
+  EXPECT_EQ(image.rgba.data(), memory);
+  EXPECT_EQ(image.rgba, expected.rgba);
+  EXPECT_EQ(image.width, 640);
+}
+
+TEST(Renderer, StaleAndNoDataLookLikeNothingElse) {
+  const auto renderer = MakeRenderer();
+  const SceneState live = SceneWith(Posture::kStanding, LoadClass::kUnknown);
+  SceneState stale = live;
+  stale.liveness = Liveness::kStale;
+  const Camera camera = NamedCamera("front", live);
+  const Image live_picture = renderer->Render(live, camera, SmallView(true));
+  const Image stale_picture = renderer->Render(stale, camera, SmallView(true));
+  const Image none_picture = renderer->Render(SceneState(), camera, SmallView(true));
+  EXPECT_GT(Compare(live_picture, stale_picture).pixels, 2000);
+  EXPECT_GT(Compare(live_picture, none_picture).pixels, 2000);
+  EXPECT_GT(Compare(stale_picture, none_picture).pixels, 2000);
+  // The body itself is darker: it shows without any overlay.
+  const Image bare_live = renderer->Render(live, camera, SmallView());
+  const Image bare_stale = renderer->Render(stale, camera, SmallView());
+  const Eigen::Vector3d head =
+      live.people[0].links[urdf::kHead].position + Eigen::Vector3d(0, 0, 0.1);
+  EXPECT_GT(DifferenceAt(bare_live, bare_stale, camera, head), 30);
+}
+
+TEST(Renderer, DrawsThePeopleWhoAreThere) {
+  const auto renderer = MakeRenderer();
+  SceneState one = SceneWith(Posture::kStanding, LoadClass::kLow, 0, -0.8);
+  SceneState two = one;
+  two.people.push_back(SceneWith(Posture::kArmsForward, LoadClass::kHigh, 0, 0.8).people[0]);
+  two.people[1].character = 1;
+  const Camera camera = NamedCamera("front", two);
+  const Image before = renderer->Render(one, camera, SmallView());
+  const Image both = renderer->Render(two, camera, SmallView());
+  EXPECT_GT(Compare(before, both).pixels, 3000);
+  EXPECT_THAT(FindSphereMismatches(both, LocateSpheres(two, camera, 640, 360)),
+              ::testing::IsEmpty());
+  EXPECT_EQ(renderer->Render(one, camera, SmallView()).rgba, before.rgba) << "one has left";
+}
+
+TEST(Renderer, ShowsAChangedModelAtOnce) {
+  const auto renderer = MakeRenderer();
+  SceneState state = BareScene(Posture::kStanding);
+  const Camera camera = NamedCamera("front", state);
+  const Image before = renderer->Render(state, camera, SmallView());
+  auto changed = std::make_shared<PersonModel>(*state.people[0].model);
+  for (urdf::Link& link : changed->robot.links) {
+    for (urdf::Visual& visual : link.visuals) visual.geometry.size *= 1.2;
+  }
+  changed->revision = 2;
+  state.people[0].model = changed;
+  EXPECT_GT(Compare(before, renderer->Render(state, camera, SmallView())).pixels, 500);
+}
+
+TEST(Renderer, SupersamplingSmoothsAndChangesNothingElse) {
+  const auto renderer = MakeRenderer();
+  const SceneState state = MixedScene(Posture::kStanding);
+  const Camera camera = NamedCamera("three_quarter", state);
+  View view = SmallView();
+  const Image rough = renderer->Render(state, camera, view);
+  for (const int supersample : {2, 4}) {
+    view.supersample = supersample;
+    const Image smooth = renderer->Render(state, camera, view);
+    double sum = 0;
+    for (std::size_t i = 0; i < rough.rgba.size(); ++i)
+      sum += std::abs(rough.rgba[i] - smooth.rgba[i]);
+    EXPECT_LT(sum / static_cast<double>(rough.rgba.size()), 1.5) << "levels, on average";
+    EXPECT_GT(Compare(rough, smooth).pixels, 1000) << "edges must have become softer";
+  }
+}
+
+// 4200 px are drawn as two tiles; the person stands on the seam.
+TEST(Renderer, LargePicturesHaveNoSeams) {
+  const auto renderer = MakeRenderer();
+  const SceneState state = MixedScene(Posture::kStanding);
+  View view = SmallView();
+  view.width = 4200;
+  view.height = 300;
+  Camera camera = NamedCamera("front", state);
+  // From afar with a long lens, or spheres at the edge of so wide a picture would be ovals.
+  camera.vertical_fov_rad = 0.05;
+  camera.position.x() = 48;
+  camera.far_m = 100;
+  camera.target.y() -= (4096 - 2100) / Project(camera.target, camera, 4200, 300).px_per_m;
+  camera.position.y() = camera.target.y();
+  const Projected pelvis =
+      Project(state.people[0].links[urdf::kPelvis].position, camera, 4200, 300);
+  ASSERT_NEAR(pelvis.x_px, 4096, 30) << "the test must look at the seam";
+  const Image image = renderer->Render(state, camera, view);
+  EXPECT_THAT(FindSphereMismatches(image, LocateSpheres(state, camera, 4200, 300)),
+              ::testing::IsEmpty());
+  double seam = 0, beside = 0;
+  for (std::size_t y = 0; y < 300; ++y) {
+    const std::uint8_t* row = &image.rgba[4 * 4200 * y];
+    seam += std::abs(row[4 * 4095] - row[4 * 4096]);
+    beside += std::abs(row[4 * 4094] - row[4 * 4095]) + std::abs(row[4 * 4096] - row[4 * 4097]);
+  }
+  EXPECT_LT(seam, beside + 300)
+      << "neighbouring columns differ more across the seam than beside it";
+}
+
+TEST(Renderer, OverlaysKeepClearOfThePerson) {
+  const auto renderer = MakeRenderer();
+  const SceneState state = MixedScene(Posture::kStanding);
+  const Camera camera = NamedCamera("front", state);
+  for (const auto& [width, height] :
+       {std::pair{1280, 720}, {1920, 1080}, {640, 480}, {720, 1280}, {320, 180}, {160, 90}}) {
+    View view;
+    view.width = width;
+    view.height = height;
+    view.title = "A title of usual length";
+    const Image with = renderer->Render(state, camera, view);
+    view.overlays = false;
+    const Image without = renderer->Render(state, camera, view);
+    EXPECT_GT(Compare(with, without).pixels, 20);
+    double left = width, right = 0;
+    for (const urdf::Pose& pose : state.people[0].links) {
+      const double x = Project(pose.position, camera, width, height).x_px;
+      left = std::min(left, x);
+      right = std::max(right, x);
+    }
+    const double head = Project({0, 0, 1.8}, camera, width, height).y_px;
+    for (int y = static_cast<int>(head); y < height; ++y) {
+      for (int x = static_cast<int>(left); x <= static_cast<int>(right); ++x) {
+        const auto at = static_cast<std::size_t>(4 * (y * width + x));
+        ASSERT_EQ(with.rgba[at], without.rgba[at])
+            << width << " x " << height << ": overlay at " << x << ", " << y;
+      }
+    }
+  }
+}
+
+TEST(Renderer, TakesTextOfAnyKind) {
+  const auto renderer = MakeRenderer();
+  SceneState state = MixedScene(Posture::kStanding);
+  state.people.push_back(state.people[0]);
+  state.people[1].character = 1;
+  state.people[0].name = std::string(5000, 'W');
+  state.people[1].name = "\xFF\xFE\xC0 \x01";
+  state.source = std::string(3000, 'x');
+  View view = SmallView(true);
+  view.title = std::string(20000, 'M') + "\xE2\x82";
+  for (const Liveness liveness : {Liveness::kLive, Liveness::kStale, Liveness::kNoData}) {
+    state.liveness = liveness;
+    EXPECT_EQ(renderer->Render(state, NamedCamera("front", state), view).width, 640);
+  }
+}
+
+TEST(Renderer, RefusesSizesThatNobodyCanMean) {
+  const auto renderer = MakeRenderer();
+  for (const auto& [width, height] :
+       {std::pair{0, 720}, {-5, 720}, {15, 720}, {1280, 8193}, {1 << 30, 16}}) {
+    View view;
+    view.width = width;
+    view.height = height;
+    EXPECT_THROW(renderer->Render(SceneState(), Camera(), view), UsageError)
+        << width << " x " << height;
+  }
+  View view;
+  view.supersample = 3;
+  EXPECT_THROW(renderer->Render(SceneState(), Camera(), view), UsageError);
+  view.supersample = 1;
+  view.width = view.height = 16;
+  EXPECT_NO_THROW(renderer->Render(SceneState(), Camera(), view));
+  view.width = 333;
+  view.height = 17;  // odd sizes are sizes
+  EXPECT_EQ(renderer->Render(SceneState(), Camera(), view).rgba.size(), 4u * 333 * 17);
+}
+
+TEST(Renderer, AnUnknownBackEndIsAnsweredWithTheKnownOnes) {
+  try {
+    MakeRenderer("vulkan");
+    FAIL() << "made a back-end that does not exist";
+  } catch (const RenderError& error) {
+    EXPECT_THAT(error.what(),
+                ::testing::AllOf(::testing::HasSubstr("vulkan"), ::testing::HasSubstr("osmesa")));
+  }
+}
+
+TEST(Renderer, SaysWhatDraws) {
+  EXPECT_THAT(MakeRenderer()->renderer_string(), ::testing::HasSubstr("llvmpipe"));
+}
+
+// Only so does a picture not depend on the machine's processor.
+TEST(Renderer, PinsTheInstructionSetUnlessTheUserChose) {
+  ::unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");
+  MakeRenderer();
+  ASSERT_NE(std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"), nullptr);
+  EXPECT_STREQ(std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"), "sse4.1");
+  ::setenv("GALLIUM_OVERRIDE_CPU_CAPS", "avx", 1);
+  MakeRenderer();
+  EXPECT_STREQ(std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"), "avx");
+  ::unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");
+}
+
+TEST(RendererDeathTest, StopsWhoeverUsesItOnAnotherThread) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  EXPECT_DEATH(
+      {
+        const auto renderer = MakeRenderer();
+        std::thread([&] { renderer->Render(SceneState(), Camera(), SmallView()); }).join();
+      },
+      "owner");
+}
+
+}  // namespace
+}  // namespace kinescope::render

@@ -1,0 +1,29 @@
+/// Scenes for the tests of the renderer: the default body in a few poses, with loads of our choice.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "server/core/scene_state.h"
+
+namespace kinescope::testing {
+
+/// The joints that get a sphere, in the order of PersonState::loads.
+extern const std::array<int, 15> kSphereJoints;
+
+/// The default body; primitives for visuals.
+std::shared_ptr<const PersonModel> MakePersonModel(std::uint64_t revision = 1);
+
+enum class Posture { kStanding, kDeepBend, kArmsForward };
+
+/// One live person at (x, y), facing +x, soles on the floor, every sphere of class `load_class`.
+SceneState SceneWith(Posture posture, LoadClass load_class = LoadClass::kLow, double x = 0,
+                     double y = 0);
+
+/// The same with classes as a worker lifting something would have them: all of them occur.
+SceneState MixedScene(Posture posture);
+
+/// The load of `joint` in the first person; it must be there.
+JointLoad& LoadOf(SceneState& state, int joint);
+
+}  // namespace kinescope::testing

@@ -1,0 +1,283 @@
+#include "render/video.h"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/imgutils.h>
+#include <libswscale/swscale.h>
+}
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+
+#include "server/core/errors.h"
+#include "tests/render/temp_folder.h"
+#include "tests/shared_data.h"
+
+namespace kinescope::render {
+namespace {
+
+using kinescope::testing::ReadFile;
+using kinescope::testing::TempFolder;
+
+constexpr int kWidth = 322, kHeight = 182;
+
+// Grey that depends on the frame, with an orange field: colour and order can be checked.
+Image Frame(int k, int width = kWidth, int height = kHeight) {
+  Image image{width, height, {}};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool is_field = x > width / 2 && y > height / 2;
+      const auto grey = static_cast<std::uint8_t>(40 + 4 * k);
+      if (is_field) {
+        image.rgba.insert(image.rgba.end(), {255, 140, 0, 255});
+      } else {
+        image.rgba.insert(image.rgba.end(), {grey, grey, grey, 255});
+      }
+    }
+  }
+  return image;
+}
+
+struct Clip {
+  AVRational rate{};
+  double duration_secs = 0;
+  std::string codec, title;
+  int width = 0, height = 0;
+  AVColorSpace color_space{};
+  AVColorPrimaries primaries{};
+  AVColorTransferCharacteristic transfer{};
+  AVColorRange range{};
+  AVPixelFormat pixel_format{};
+  std::vector<Image> frames;
+  std::vector<double> times_secs;
+};
+
+Image ToRgb(const AVFrame& frame) {
+  Image image{frame.width, frame.height, {}};
+  image.rgba.resize(static_cast<std::size_t>(4 * frame.width * frame.height));
+  SwsContext* scaler =
+      sws_getContext(frame.width, frame.height, AV_PIX_FMT_YUV420P, frame.width, frame.height,
+                     AV_PIX_FMT_RGBA, SWS_BILINEAR | SWS_ACCURATE_RND, nullptr, nullptr, nullptr);
+  const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
+  sws_setColorspaceDetails(scaler, bt709, 0, bt709, 1, 0, 1 << 16, 1 << 16);
+  std::uint8_t* rows[] = {image.rgba.data()};
+  const int strides[] = {4 * frame.width};
+  sws_scale(scaler, frame.data, frame.linesize, 0, frame.height, rows, strides);
+  sws_freeContext(scaler);
+  return image;
+}
+
+// As any player reads it.
+Clip ReadClip(const std::filesystem::path& path) {
+  Clip clip;
+  AVFormatContext* format = nullptr;
+  if (avformat_open_input(&format, path.c_str(), nullptr, nullptr) < 0) return clip;
+  avformat_find_stream_info(format, nullptr);
+  const AVStream* stream = format->streams[0];
+  const AVCodecParameters& codec = *stream->codecpar;
+  clip.rate = stream->avg_frame_rate;
+  clip.duration_secs = static_cast<double>(format->duration) / AV_TIME_BASE;
+  clip.codec = avcodec_get_name(codec.codec_id);
+  clip.width = codec.width;
+  clip.height = codec.height;
+  clip.color_space = codec.color_space;
+  clip.primaries = codec.color_primaries;
+  clip.transfer = codec.color_trc;
+  clip.range = codec.color_range;
+  clip.pixel_format = static_cast<AVPixelFormat>(codec.format);
+  if (const auto* title = av_dict_get(format->metadata, "title", nullptr, 0))
+    clip.title = title->value;
+  AVCodecContext* decoder = avcodec_alloc_context3(avcodec_find_decoder(codec.codec_id));
+  avcodec_parameters_to_context(decoder, &codec);
+  avcodec_open2(decoder, nullptr, nullptr);
+  AVPacket* packet = av_packet_alloc();
+  AVFrame* frame = av_frame_alloc();
+  bool has_more = true;
+  while (has_more) {
+    has_more = av_read_frame(format, packet) >= 0;
+    avcodec_send_packet(decoder, has_more ? packet : nullptr);
+    av_packet_unref(packet);
+    while (avcodec_receive_frame(decoder, frame) >= 0) {
+      clip.frames.push_back(ToRgb(*frame));
+      clip.times_secs.push_back(static_cast<double>(frame->pts) * av_q2d(stream->time_base));
+    }
+  }
+  av_frame_free(&frame);
+  av_packet_free(&packet);
+  avcodec_free_context(&decoder);
+  avformat_close_input(&format);
+  return clip;
+}
+
+void WriteClip(const std::filesystem::path& path, int frames, double rate) {
+  VideoOptions options;
+  options.frames_per_second = rate;
+  options.metadata = {{"title", "trial 3"}};
+  const auto video = MakeVideoWriter(path, kWidth, kHeight, options);
+  for (int k = 0; k < frames; ++k) video->Add(Frame(k));
+  video->Finish();
+}
+
+TEST(Video, EveryPictureIsThereInOrderAndInColour) {
+  const TempFolder folder;
+  WriteClip(folder / "clip.mp4", 45, 30);
+  const Clip clip = ReadClip(folder / "clip.mp4");
+  EXPECT_EQ(clip.codec, "h264");
+  EXPECT_EQ(clip.width, kWidth);
+  EXPECT_EQ(clip.height, kHeight);
+  EXPECT_EQ(clip.title, "trial 3");
+  EXPECT_NEAR(clip.duration_secs, 45 / 30.0, 1e-3);
+  ASSERT_EQ(clip.frames.size(), 45u);
+  for (std::size_t k = 0; k < clip.frames.size(); ++k) {
+    const Image& frame = clip.frames[k];
+    EXPECT_NEAR(frame.rgba[4 * (20 * kWidth + 20)], 40 + 4 * static_cast<int>(k), 3)
+        << "picture " << k;
+    EXPECT_NEAR(clip.times_secs[k], static_cast<double>(k) / 30, 1e-6);
+    const std::uint8_t* field = &frame.rgba[4 * ((kHeight - 20) * kWidth + kWidth - 20)];
+    EXPECT_NEAR(field[0], 255, 4);
+    EXPECT_NEAR(field[1], 140, 4);
+    EXPECT_NEAR(field[2], 0, 4);
+  }
+}
+
+TEST(Video, IsTaggedSoThatPlayersShowTheColoursThatWereDrawn) {
+  const TempFolder folder;
+  WriteClip(folder / "clip.mp4", 3, 25);
+  const Clip clip = ReadClip(folder / "clip.mp4");
+  EXPECT_EQ(clip.pixel_format, AV_PIX_FMT_YUV420P);
+  EXPECT_EQ(clip.color_space, AVCOL_SPC_BT709);
+  EXPECT_EQ(clip.primaries, AVCOL_PRI_BT709);
+  EXPECT_EQ(clip.transfer, AVCOL_TRC_BT709);
+  EXPECT_EQ(clip.range, AVCOL_RANGE_MPEG);
+}
+
+TEST(Video, KeepsTheRateExactly) {
+  const TempFolder folder;
+  struct Case {
+    double rate;
+    AVRational exact;
+  };
+  for (const Case& each : {Case{60, {60, 1}},
+                           {29.97, {30000, 1001}},
+                           {59.94, {60000, 1001}},
+                           {23.976, {24000, 1001}},
+                           {12.5, {25, 2}},
+                           {240, {240, 1}},
+                           {1, {1, 1}}}) {
+    WriteClip(folder / "clip.mp4", 24, each.rate);
+    const Clip clip = ReadClip(folder / "clip.mp4");
+    EXPECT_EQ(av_cmp_q(clip.rate, each.exact), 0)
+        << each.rate << " became " << clip.rate.num << "/" << clip.rate.den;
+    EXPECT_NEAR(clip.duration_secs, 24 / av_q2d(each.exact), 2e-3);
+    EXPECT_EQ(clip.frames.size(), 24u);
+  }
+}
+
+TEST(Video, StartsPlayingBeforeItIsLoaded) {
+  const TempFolder folder;
+  WriteClip(folder / "clip.mp4", 10, 30);
+  const std::string bytes = ReadFile(folder / "clip.mp4");
+  ASSERT_NE(bytes.find("moov"), std::string::npos);
+  EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
+}
+
+TEST(Video, TheSamePicturesAreTheSameBytes) {
+  const TempFolder folder;
+  WriteClip(folder / "a.mp4", 20, 30);
+  WriteClip(folder / "b.mp4", 20, 30);
+  EXPECT_EQ(ReadFile(folder / "a.mp4"), ReadFile(folder / "b.mp4"));
+}
+
+TEST(Video, WorksInSilence) {
+  const TempFolder folder;
+  ::testing::internal::CaptureStderr();
+  WriteClip(folder / "clip.mp4", 5, 30);
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Video, FfprobeCountsTheSameFrames) {
+  if (std::system("command -v ffprobe >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe here";
+  const TempFolder folder;
+  WriteClip(folder / "clip.mp4", 31, 29.97);
+  const std::string command =
+      "ffprobe -v error -count_frames -show_entries stream=nb_read_frames,r_frame_rate,color_space"
+      " -of csv=p=0 " +
+      (folder / "clip.mp4").string();
+  FILE* pipe = ::popen(command.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  char line[200] = "";
+  EXPECT_NE(std::fgets(line, sizeof line, pipe), nullptr);
+  EXPECT_EQ(::pclose(pipe), 0);
+  EXPECT_STREQ(line, "bt709,30000/1001,31\n");
+}
+
+TEST(Video, NothingIsLeftOfAClipThatWasNotFinished) {
+  const TempFolder folder;
+  {
+    const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
+    for (int k = 0; k < 5; ++k) video->Add(Frame(k));
+    EXPECT_THAT(folder.Names(), ::testing::Not(::testing::Contains("clip.mp4")))
+        << "half a clip is there";
+  }
+  EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
+}
+
+TEST(Video, AnOldClipStaysUntilTheNewOneIsWhole) {
+  const TempFolder folder;
+  std::ofstream(folder / "clip.mp4") << "old";
+  {
+    const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
+    video->Add(Frame(0));
+    EXPECT_EQ(ReadFile(folder / "clip.mp4"), "old");
+    video->Finish();
+  }
+  EXPECT_EQ(ReadClip(folder / "clip.mp4").frames.size(), 1u);
+  EXPECT_THAT(folder.Names(), ::testing::ElementsAre("clip.mp4"));
+}
+
+TEST(Video, RefusesAPictureOfAnotherSize) {
+  const TempFolder folder;
+  const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
+  video->Add(Frame(0));
+  EXPECT_THROW(video->Add(Frame(1, 64, 64)), std::runtime_error);
+  video->Add(Frame(1));  // the clip goes on
+  video->Finish();
+  EXPECT_EQ(ReadClip(folder / "clip.mp4").frames.size(), 2u);
+}
+
+TEST(Video, RefusesAnEmptyClip) {
+  const TempFolder folder;
+  const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
+  EXPECT_THROW(video->Finish(), std::runtime_error);
+}
+
+TEST(Video, RefusesWhatCannotBeEncoded) {
+  const TempFolder folder;
+  EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 321, 180, {}), UsageError);
+  EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 320, 181, {}), UsageError);
+  EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 0, 0, {}), UsageError);
+  VideoOptions options;
+  for (const double rate : {0.0, -30.0, 1e9, std::nan("")}) {
+    options.frames_per_second = rate;
+    EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 320, 180, options), UsageError) << rate;
+  }
+  EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
+}
+
+TEST(Video, SaysWhichPathItCannotWrite) {
+  try {
+    MakeVideoWriter("/no/such/folder/clip.mp4", 320, 180, {});
+    FAIL() << "writes into a folder that does not exist";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("/no/such/folder/clip.mp4"));
+  }
+}
+
+}  // namespace
+}  // namespace kinescope::render
