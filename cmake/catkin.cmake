@@ -2,8 +2,9 @@
 # build/<preset>/devel/, whose setup.bash is all that roslaunch needs to find us.
 #
 # kinescope_expose_to_ros(<target> [DEVEL_ONLY])
-#   Installs an executable, and lets ROS find it: `rosrun kinescope <target>` and
-#   <node pkg="kinescope" type="<target>"> work from the devel space and from an install tree. Call it in
+#   Installs an executable, and lets ROS find it as <node pkg="kinescope" type="<target>">, from the
+#   devel space and from an install tree. (rosrun finds it too, but looks into no build folder that lies
+#   inside the sources.) Call it in
 #   the folder that makes the target. DEVEL_ONLY: not installed, for tests.
 #   Without ROS it only installs.
 function(kinescope_expose_to_ros target)

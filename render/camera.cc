@@ -54,10 +54,10 @@ const std::vector<std::pair<std::string, Direction>>& Directions() {
 
 // The middle of the people on the floor, and how far the outermost stands from it.
 std::pair<Eigen::Vector3d, double> Ground(const SceneState& state) {
-  if (state.people.empty()) return {Eigen::Vector3d::Zero(), 0};
-  const auto on_floor = [](const PersonState& person) {
+  if (state.people.empty()) return {Eigen::Vector3d(0, 0, state.floor_z), 0};
+  const auto on_floor = [&](const PersonState& person) {
     Eigen::Vector3d point = person.links[urdf::kPelvis].position;
-    point.z() = 0;
+    point.z() = state.floor_z;
     return point;
   };
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();

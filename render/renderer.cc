@@ -35,6 +35,20 @@ void CheckView(const View& view) {
   }
 }
 
+// The scene and its camera raised so that the floor is at z = 0, where the drawing has it.
+void LiftToFloor(SceneState& state, Camera& camera) {
+  const Eigen::Vector3d lift(0, 0, -state.floor_z);
+  camera.position += lift;
+  camera.target += lift;
+  for (PersonState& person : state.people) {
+    for (urdf::Pose& link : person.links) link.position += lift;
+    for (JointLoad& load : person.loads) load.position += lift;
+    if (person.com) *person.com += lift;
+    if (person.cop) *person.cop += lift;
+  }
+  state.floor_z = 0;
+}
+
 // Drawing by a module, overlays by us.
 class ModuleRenderer : public Renderer {
  public:
@@ -45,6 +59,12 @@ class ModuleRenderer : public Renderer {
  private:
   void DoRender(Image& image, const SceneState& state, const Camera& camera,
                 const View& view) override {
+    if (state.floor_z != 0) {
+      SceneState lifted = state;
+      Camera lifted_camera = camera;
+      LiftToFloor(lifted, lifted_camera);
+      return DoRender(image, lifted, lifted_camera, view);
+    }
     labels_.clear();
     drawing_->Draw(state, camera, view.supersample, image, labels_);
     if (view.overlays) overlay_.Paint(image, state, camera, view, labels_);

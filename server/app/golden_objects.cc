@@ -86,7 +86,8 @@ std::vector<SphereInPicture> ReadObjects(const std::filesystem::path& path) {
   if (!file) throw std::runtime_error(path.string() + ": not there, or it may not be read");
   std::vector<SphereInPicture> spheres;
   try {
-    for (const json& object : json::parse(file).at("spheres")) {
+    const json document = json::parse(file);
+    for (const json& object : document.at("spheres")) {
       SphereInPicture sphere;
       sphere.character = object.at("person");
       sphere.joint = object.at("joint");

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "server/app/commands.h"
 #include "server/app/stop_signal.h"
@@ -34,7 +35,9 @@ int main(int argc, char** argv) {
     line.name("kinescope");
     line.require_subcommand(1);
     line.set_version_flag("--version", KINESCOPE_VERSION);
-    line.failure_message(CLI::FailureMessage::simple);
+    line.failure_message([](const CLI::App*, const CLI::Error& error) {
+      return std::string("kinescope: ") + error.what() + " (see --help)\n";
+    });
     const app::CommandLine commands{line, exit_code};
     app::AddServe(commands);
     app::AddBridge(commands);

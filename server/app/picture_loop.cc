@@ -111,11 +111,11 @@ void PictureLoop::DrawLive(render::Renderer& renderer, const SceneState& state,
                            const std::string& camera) {
   const auto start = Clock::now();
   const render::View view{options_.width, options_.height, 1, "", true};
-  const render::Image image = renderer.Render(state, render::NamedCamera(camera, state), view);
+  renderer.RenderInto(live_image_, state, live_camera_.Aim(camera, state), view);
   const double draw_millis = MillisSince(start);
   const auto encode_start = Clock::now();
   auto picture = std::make_shared<http::Picture>();
-  picture->jpeg = render::EncodeJpeg(image, kJpegQuality);
+  picture->jpeg = render::EncodeJpeg(live_image_, kJpegQuality);
   picture->state_number = state.number;
   picture->arrival_nanos = state.arrival_nanos;
   pictures_.Publish(std::move(picture));

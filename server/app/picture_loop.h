@@ -75,6 +75,9 @@ class PictureLoop : public http::PictureFeed {
   bool stop_ = false;
   std::deque<std::unique_ptr<Snapshot>> snapshots_;
   PictureStatus status_;
+  // Of the drawing thread:
+  render::Image live_image_;
+  render::SteadyCamera live_camera_;
 
   std::thread thread_;
 };

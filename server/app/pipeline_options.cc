@@ -39,6 +39,17 @@ SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs) {
   return scene;
 }
 
+ros_bridge::BridgeConfig ToBridgeConfig(const ServeOptions& options) {
+  if (options.tf != "flat" && options.tf != "tree" && options.tf != "off") {
+    throw UsageError(fmt::format("--tf={}: expected flat, tree or off", options.tf));
+  }
+  if (options.joint_states != "computed" && options.joint_states != "streamed") {
+    throw UsageError(
+        fmt::format("--joint_states={}: expected computed or streamed", options.joint_states));
+  }
+  return {options.reference_frame, options.tf, options.joint_states, ""};
+}
+
 ros_bridge::RosMode ToRosMode(const std::string& ros) {
   if (ros == "off") return ros_bridge::RosMode::kOff;
   if (ros == "auto") return ros_bridge::RosMode::kAuto;

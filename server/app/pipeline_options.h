@@ -12,6 +12,7 @@ namespace kinescope::app {
 
 // All: @throws UsageError naming option, value and what was expected.
 SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs);
+ros_bridge::BridgeConfig ToBridgeConfig(const ServeOptions& options);
 ros_bridge::RosMode ToRosMode(const std::string& ros);
 bool ToSwitch(const std::string& name, const std::string& on_or_off);
 std::pair<int, int> ToSize(const std::string& name, const std::string& width_x_height);

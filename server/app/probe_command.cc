@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "render/renderer.h"
@@ -28,11 +29,21 @@ json ProbeRenderer(const std::string& backend) {
   }
 }
 
+json ProbeH264() {
+  try {  // never finished, so it leaves nothing behind
+    render::MakeVideoWriter(std::filesystem::temp_directory_path() / "kinescope-probe.mp4", 64, 64,
+                            {});
+    return {{"works", true}};
+  } catch (const std::exception& error) {
+    return {{"works", false}, {"reason", error.what()}};
+  }
+}
+
 int Probe(bool as_json) {
   json found;
   found["version"] = KINESCOPE_VERSION;
   found["backends"]["osmesa"] = ProbeRenderer("osmesa");
-  found["encoders"]["h264"] = render::CanEncodeH264();
+  found["encoders"]["h264"] = ProbeH264();
   found["ros"] = {{"built", ros_bridge::BuiltWithRos()},
                   {"master_uri", ros_bridge::MasterUri()},
                   {"master_reachable", ros_bridge::MasterIsReachable()}};
@@ -49,7 +60,8 @@ int Probe(bool as_json) {
   } else {
     fmt::print("osmesa   {}\n", osmesa["reason"].get<std::string>());
   }
-  fmt::print("H.264    {}\n", found["encoders"]["h264"] ? "works" : "missing");
+  const json& h264 = found["encoders"]["h264"];
+  fmt::print("H.264    {}\n", h264["works"] ? "works" : h264["reason"].get<std::string>());
   if (!found["ros"]["built"]) {
     fmt::print("ROS      not built in\n");
   } else {

@@ -106,6 +106,7 @@ nlohmann::json RenderClip(const RenderOptions& options, SceneReader& reader) {
   }
 
   const render::View view = ToView(options);
+  render::NamedCamera(options.camera, SceneState{});  // refuses an unknown name before any work
   const auto renderer = render::MakeRenderer();
   render::VideoOptions video_options;
   video_options.frames_per_second = options.fps;
@@ -113,6 +114,8 @@ nlohmann::json RenderClip(const RenderOptions& options, SceneReader& reader) {
   const auto video = render::MakeVideoWriter(options.out, view.width, view.height, video_options);
 
   SceneTimeline timeline(reader);
+  render::SteadyCamera camera;
+  render::Image image;
   Progress progress("pictures:", ExpectedPictures(options, length));
   int pictures = 0;
   for (;; ++pictures) {
@@ -122,7 +125,8 @@ nlohmann::json RenderClip(const RenderOptions& options, SceneReader& reader) {
     if (!scene) break;
     if (StopRequested())
       throw std::runtime_error("interrupted; " + options.out + " was not written");
-    video->Add(renderer->Render(*scene, render::NamedCamera(options.camera, *scene), view));
+    renderer->RenderInto(image, *scene, camera.Aim(options.camera, *scene), view);
+    video->Add(image);
     progress.Step();
   }
   if (pictures == 0) throw UsageError(options.source + " has no frame to show");

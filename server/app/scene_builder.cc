@@ -41,6 +41,17 @@ double LowestSole(const LinkPoses& links, const urdf::Skeleton& skeleton) {
   return lowest;
 }
 
+JointLoad Unknown(int joint, const Vector3d& position, const std::string& reason) {
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  JointLoad load;
+  load.joint = joint;
+  load.position = position;
+  load.moment = Vector3d::Constant(kNothing);
+  load.ratio = load.deciding_moment = load.capacity = kNothing;
+  load.reason = reason;
+  return load;
+}
+
 bool IsLegJoint(int joint) { return joint >= urdf::jRightHip; }
 
 }  // namespace
@@ -121,19 +132,17 @@ PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) cons
   if (person.has_legs) state.cop = solution.cop;
 
   for (std::size_t i = 0; i < loads::kScoredJoints.size(); ++i) {
-    JointLoad load;
-    load.joint = loads::kScoredJoints[i];
-    const std::size_t child = At(urdf::ChildOf(load.joint));
-    load.position = state.links[child].position;
-    load.ratio = std::numeric_limits<double>::quiet_NaN();
-    if (IsLegJoint(load.joint) && !person.has_legs) {
+    const int joint = loads::kScoredJoints[i];
+    const std::size_t child = At(urdf::ChildOf(joint));
+    JointLoad load = Unknown(joint, state.links[child].position, "");
+    if (IsLegJoint(joint) && !person.has_legs) {
       load.reason = "legs are not measured in this recording";
-    } else if (IsLegJoint(load.joint) && !solution.cop) {
+    } else if (IsLegJoint(joint) && !solution.cop) {
       load.reason = "no foot is on the floor";
     } else {
       load.moment = solution.moment[child];
       const loads::Score score =
-          loads::ScoreJoint(load.joint, load.moment, state.links, options_.body.sex);
+          loads::ScoreJoint(joint, load.moment, state.links, options_.body.sex);
       load.ratio = score.ratio;
       load.deciding_moment = score.moment;
       load.capacity = score.capacity;
@@ -188,9 +197,7 @@ void SceneBuilder::Publish(Liveness liveness) {
     current_.people.push_back(*person.state);
     if (liveness == Liveness::kLive) continue;
     for (JointLoad& load : current_.people.back().loads) {  // old loads must not look valid
-      load.load_class = LoadClass::kUnknown;
-      load.ratio = std::numeric_limits<double>::quiet_NaN();
-      load.reason = "the stream stopped";
+      load = Unknown(load.joint, load.position, "the stream stopped");
     }
   }
   on_state_(std::make_shared<const SceneState>(current_));

@@ -34,6 +34,8 @@ class SceneBuilder : public SampleSink {
   SceneBuilder(SceneOptions options, std::string source, double nominal_rate_hz, OnState on_state);
 
   void Start();
+  /// The URDF of the body that the first person has until the source tells its own.
+  std::string InitialUrdf() const { return MakeModel(Person(), 0)->urdf_xml; }
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
 

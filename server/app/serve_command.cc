@@ -90,21 +90,16 @@ PictureOptions ToPictureOptions(const ServeOptions& options) {
 void Serve(const ServeOptions& options, bool with_page) {
   const std::int64_t start_nanos = MonotonicNanos();
   const SceneOptions scene_options = ToSceneOptions(options.person, options.stale_secs);
+  const ros_bridge::RosMode ros_mode = ToRosMode(options.ros);
+  ros_bridge::BridgeConfig bridge_config = ToBridgeConfig(options);
   const std::string url =
       options.udp_port == 0 ? options.source : fmt::format("udp://:{}", options.udp_port);
   const std::unique_ptr<Source> source = OpenAtTrueRate(url, options.loop);
 
-  const ros_bridge::RosMode ros_mode = ToRosMode(options.ros);
-  std::unique_ptr<ros_bridge::RosBridge> ros;
-  if (ros_mode == ros_bridge::RosMode::kRequired ||
-      (ros_mode == ros_bridge::RosMode::kAuto && ros_bridge::BuiltWithRos())) {
-    ros = ros_bridge::MakeRosBridge({options.reference_frame, options.tf, options.joint_states},
-                                    ros_mode);
-  }
-
   Latest<SceneState> states;       // reading thread -> page
   Latest<http::Picture> pictures;  // drawing thread -> page
   std::unique_ptr<PictureLoop> drawing;
+  std::unique_ptr<ros_bridge::RosBridge> ros;
   Announcer announcer;
   SceneBuilder builder(scene_options, source->description(), source->nominal_rate_hz(),
                        [&](const std::shared_ptr<const SceneState>& state) {
@@ -113,6 +108,11 @@ void Serve(const ServeOptions& options, bool with_page) {
                          if (drawing) drawing->OnState(state);
                          announcer.OnState(*state);
                        });
+  if (ros_mode == ros_bridge::RosMode::kRequired ||
+      (ros_mode == ros_bridge::RosMode::kAuto && ros_bridge::BuiltWithRos())) {
+    bridge_config.initial_urdf = builder.InitialUrdf();
+    ros = ros_bridge::MakeRosBridge(bridge_config, ros_mode);
+  }
   builder.Start();
 
   std::optional<http::HttpServer> page;
@@ -141,6 +141,10 @@ void Serve(const ServeOptions& options, bool with_page) {
     if (now >= counters_due) {
       counters.Publish(std::make_shared<const SourceCounters>(source->counters()));
       counters_due = now + 500'000'000;
+    }
+    if (ros && ros->status().told_to_stop) {
+      spdlog::info("told to stop over ROS");
+      break;
     }
     if (more == Source::State::kEnded) {
       if (!with_page) break;

@@ -1,8 +1,10 @@
 /// The web page and its live data: HTTP and WebSocket on one port (docs/http.md). One thread of its
 /// own; every public function may be called from any thread. Per client only the newest state and
-/// picture are kept, so a slow viewer costs nobody else anything.
+/// picture are kept, so a slow viewer costs nobody else anything. Nothing that a client sends can
+/// stop the server: it is answered, counted under "http" in /api/diagnostics, or both.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -22,7 +24,19 @@ struct Picture {
   std::int64_t arrival_nanos = 0;  // of that state's sample, monotonic clock
 };
 
-/// Draws for the server. Implemented in server/app; any thread may call it.
+/// A view by name, of a person who stands at the world's origin. World frame, metres. The page aims
+/// its own 3-D view with these numbers, so that a name means one view everywhere.
+struct CameraView {
+  std::string name;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  double vertical_fov_rad = 0.52;
+};
+
+/// Draws for the server. Implemented in server/app; any thread may call it. SetViewers and
+/// SetCamera are called on the server's own thread (SetViewers(0) once more by the destructor) and
+/// must return at once; SnapshotPng on a thread of its own.
 class PictureFeed {
  public:
   virtual ~PictureFeed() = default;
@@ -38,19 +52,28 @@ class PictureFeed {
 
 struct HttpConfig {
   std::string bind_ip = "127.0.0.1";
-  int port = 8080;                 // 0 takes a free one
-  std::string token;               // required as ?token= or cookie when not empty
-  std::filesystem::path web_root;  // folder of index.html
+  int port = 8080;                  // 0 takes a free one
+  std::string token;                // required as ?token= or cookie when not empty
+  std::filesystem::path web_root;   // folder of index.html
+  std::vector<CameraView> cameras;  // in the order shown to people
+  std::string camera;               // the live picture's at the start; one of `cameras`
 };
+
+/// Clients at once; the next one is told to come back later.
+inline constexpr int kMaxClients = 64;
 
 class HttpServer {
  public:
-  /// Listens when it returns. `states` and `pictures` are watched for new values; `diagnostics` gives
-  /// the JSON of /api/diagnostics. All are borrowed and must outlive the server. `feed` may be null
-  /// (no renderer): the page then says so.
-  /// @throws UsageError naming address and port that could not be bound, and what to do.
+  /// Listens when it returns. `states` and `pictures` are watched for new values; `diagnostics`
+  /// gives the JSON object of /api/diagnostics, to which the server adds its own "http"; it is
+  /// called on the server's thread. All are borrowed and must outlive the server. `feed` may be
+  /// null (no renderer): the page then says so.
+  /// @throws UsageError naming address and port that could not be bound, and what to do; also for
+  /// an address beyond this machine without a token, and for a token that does not fit into a
+  /// cookie.
   HttpServer(const HttpConfig& config, Latest<SceneState>& states, Latest<Picture>& pictures,
              PictureFeed* feed, std::function<std::string()> diagnostics);
+  /// Interrupts `states` and `pictures`, which ends every other wait on them too.
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;

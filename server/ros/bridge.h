@@ -1,9 +1,8 @@
-/// SceneState -> ROS 1 topics, TF, robot_description (docs/ros.md). No ROS type shows here, so a build
-/// without ROS has the same header and a MakeRosBridge that says what is missing.
+/// SceneState -> ROS 1 topics, TF, robot_description (docs/ros.md). No ROS type shows here, so a
+/// build without ROS has the same header and a MakeRosBridge that says what is missing.
 #pragma once
 
-#include <functional>
-#include <map>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,27 +17,36 @@ struct BridgeConfig {
   std::string reference_frame = "world";  // parent of every TF, header.frame_id of poses
   std::string tf = "flat";                // "flat" as the seed, "tree" or "off"
   std::string joint_states = "computed";  // or "streamed": type 20 with the seed's mapping
+
+  /// What robot_description holds until somebody is seen; "": not set until then. RViz looks for it
+  /// once, when it starts, which with one launch file is before the first sample.
+  std::string initial_urdf;
 };
 
 struct BridgeStatus {
-  bool master_reachable = false;
+  bool master_reachable = false;  // when last asked; asked once a second
   std::string master_uri;
-  std::uint64_t published = 0;          // samples
-  std::uint64_t missed = 0;             // samples that came while no master was there
-  std::uint64_t master_returns = 0;     // times the topics were announced anew
+  std::uint64_t published = 0;       // samples handed to ROS
+  std::uint64_t missed = 0;          // samples that came before their topics could be announced
+  std::uint64_t master_returns = 0;  // times the topics were announced anew to a restarted master
+  /// `rosnode kill`, or another node took our name: nothing is published any more. A program that
+  /// has nothing else to do should end.
+  bool told_to_stop = false;
 };
 
-/// Publishes each state once, from the thread that made it; never blocks on the master.
+/// Publishes each state once, from the thread that made it; never blocks on the master. Destroying
+/// it takes the topics back. roscpp has one node per process: make one bridge, once.
 class RosBridge {
  public:
   virtual ~RosBridge() = default;
   RosBridge(const RosBridge&) = delete;
   RosBridge& operator=(const RosBridge&) = delete;
 
-  /// One message per topic and person, all with the state's stamp. States that are not live, or that
-  /// carry no new sample (the counter and stamp of the last), are not published as motion.
+  /// One message per topic and person, all with the stamp of the person's sample. A sample that was
+  /// published before (same counter and stamp) is not published again, and no motion comes from a
+  /// state that is not live; when a stream stops, its markers turn grey once. One thread calls it.
   virtual void Publish(const SceneState& state) = 0;
-  virtual BridgeStatus status() const = 0;
+  virtual BridgeStatus status() const = 0;  // any thread
 
  protected:
   RosBridge() = default;
@@ -46,15 +54,22 @@ class RosBridge {
 
 /// Takes the ROS remappings (`a:=b`) out of argv. Call first in main. Does not talk to a master.
 /// `default_name`: node name unless __name:= says otherwise.
+/// @throws UsageError when ROS_MASTER_URI or a name cannot be used.
 void InitRos(int& argc, char** argv, const std::string& default_name);
 
 bool BuiltWithRos();
-std::string MasterUri();       // "" when built without ROS
-bool MasterIsReachable();      // asks it, waits at most a second
 
-/// The private parameter `~name` as text; nullopt when not set or no master is there.
+// The following need InitRos first, where built with ROS.
+
+std::string MasterUri();   // "" when built without ROS
+bool MasterIsReachable();  // asks it, waits at most a second
+
+/// The private parameter `~name` as text: what `_name:=value` said on the command line, else what
+/// the master holds. nullopt when neither has it, when it is a list or a map, or when no master is
+/// there. The master is asked once, at the first call. Any thread.
 std::optional<std::string> PrivateParameter(const std::string& name);
 
+/// Null for kOff.
 /// @throws UsageError for a bad config, for kRequired without a master, or when built without ROS.
 std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mode);
 

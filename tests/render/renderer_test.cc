@@ -122,6 +122,23 @@ TEST(Renderer, EveryThreadMayHaveItsOwn) {
   EXPECT_EQ(pictures[1].rgba, expected.rgba);
 }
 
+// Recordings without leg sensors have the pelvis near z = 0 and the floor below it.
+TEST(Renderer, ShowsTheSamePictureWhereverTheFloorIs) {
+  const SceneState here = MixedScene(Posture::kStanding);
+  SceneState lower = here;
+  lower.floor_z = -0.75;  // a power of two and a half: no rounding
+  const Eigen::Vector3d down(0, 0, lower.floor_z);
+  PersonState& person = lower.people.at(0);
+  for (urdf::Pose& link : person.links) link.position += down;
+  for (JointLoad& load : person.loads) load.position += down;
+  *person.com += down;
+  *person.cop += down;
+  const auto renderer = MakeRenderer();
+  const Image a = renderer->Render(here, NamedCamera("front", here), {320, 180});
+  const Image b = renderer->Render(lower, NamedCamera("front", lower), {320, 180});
+  EXPECT_LE(Compare(a, b).pixels, 5) << Describe(Compare(a, b), b);  // of 57600; edges may round
+}
+
 TEST(Renderer, EveryPixelIsOpaque) {
   const Image image =
       MakeRenderer()->Render(MixedScene(Posture::kStanding), Camera(), SmallView(true));
