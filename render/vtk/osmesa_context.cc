@@ -5,6 +5,9 @@
 #define GLAPI extern
 #include <GL/osmesa.h>
 
+#include <cstdlib>
+#include <string>
+
 #include "render/renderer.h"
 
 // Debian's VTK finds GL functions through the system's GLEW, and that asks GLX, which needs an X
@@ -25,7 +28,22 @@ __attribute__((visibility("default"))) GLenum glxewInit() { return GLEW_OK; }
 
 namespace kinescope::render {
 
+namespace {
+
+// Mesa looks for the driver of that name and, finding none, uses it all the same: a crash.
+void CheckDriverChoice() {
+  const char* driver = std::getenv("GALLIUM_DRIVER");
+  if (driver == nullptr || *driver == '\0') return;
+  const std::string name = driver;
+  if (name == "llvmpipe" || name == "softpipe") return;
+  throw RenderError("GALLIUM_DRIVER=" + name +
+                    ": OSMesa has llvmpipe and softpipe; unset it or choose one of them");
+}
+
+}  // namespace
+
 OsmesaContext::OsmesaContext() {
+  CheckDriverChoice();
   const int wanted[] = {OSMESA_FORMAT,
                         OSMESA_RGBA,
                         OSMESA_DEPTH_BITS,

@@ -1,0 +1,76 @@
+#include "server/http/access.h"
+
+#include <algorithm>
+
+namespace kinescope::http {
+namespace {
+
+bool EqualInConstantTime(std::string_view a, std::string_view b) {
+  unsigned difference = a.size() == b.size() ? 0u : 1u;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const char other = b.empty() ? '\0' : b[i % b.size()];
+    difference |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(other);
+  }
+  return difference == 0;
+}
+
+std::string_view Trim(std::string_view text) {
+  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  return text;
+}
+
+std::string_view FindCookie(std::string_view cookies, std::string_view name) {
+  while (!cookies.empty()) {
+    const std::size_t end = cookies.find(';');
+    const std::string_view pair = Trim(cookies.substr(0, end));
+    const std::size_t equals = pair.find('=');
+    if (equals != std::string_view::npos && pair.substr(0, equals) == name) {
+      return pair.substr(equals + 1);
+    }
+    cookies.remove_prefix(end == std::string_view::npos ? cookies.size() : end + 1);
+  }
+  return {};
+}
+
+bool IsAlphaNumeric(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+}  // namespace
+
+Access CheckToken(const std::string& token, const std::string& cookie_name, const Target& target,
+                  std::string_view cookies) {
+  if (token.empty()) return Access::kOpen;
+  const auto asked = target.query.find("token");
+  if (asked != target.query.end() && EqualInConstantTime(asked->second, token)) {
+    return Access::kByQuery;
+  }
+  return EqualInConstantTime(FindCookie(cookies, cookie_name), token) ? Access::kByCookie
+                                                                      : Access::kDenied;
+}
+
+bool FitsIntoCookie(std::string_view token) {
+  return std::all_of(token.begin(), token.end(), [](char c) {
+    return IsAlphaNumeric(c) || c == '-' || c == '.' || c == '_' || c == '~';
+  });
+}
+
+bool IsSameOrigin(std::string_view origin, std::string_view host) {
+  if (origin.empty()) return true;
+  const std::size_t scheme_end = origin.find("://");
+  // "null" (a sandboxed page, a file) has no scheme and is nobody we serve.
+  if (scheme_end == std::string_view::npos || host.empty()) return false;
+  return origin.substr(scheme_end + 3) == host;
+}
+
+bool NamesThisMachine(std::string_view host) {
+  if (host.substr(0, 5) == "[::1]") return host.size() == 5 || host[5] == ':';
+  const std::string_view name = host.substr(0, host.find(':'));
+  if (name == "localhost") return true;
+  if (name.substr(0, 4) != "127.") return false;
+  return std::all_of(name.begin(), name.end(),
+                     [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+}
+
+}  // namespace kinescope::http

@@ -1,0 +1,225 @@
+#include "server/http/api.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "server/core/palette.h"
+#include "server/http/target.h"
+
+namespace kinescope::http {
+namespace {
+
+using nlohmann::json;
+
+std::string Text(const json& document) {
+  return document.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+json ToJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+json ToJson(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+
+json ToJson(const Rgb& color) { return json(color); }
+
+// JSON has no NaN; null is "unknown" to whoever reads it.
+json NumberOrNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+json OptionalPoint(const std::optional<Eigen::Vector3d>& point) {
+  return point ? ToJson(*point) : json(nullptr);
+}
+
+std::string_view JointLabel(int joint) {
+  return urdf::kJoints[static_cast<std::size_t>(joint)].label;
+}
+
+json LoadToJson(const JointLoad& load) {
+  return {{"joint", urdf::kJoints[static_cast<std::size_t>(load.joint)].ros_name},
+          {"label", JointLabel(load.joint)},
+          {"class", Name(load.load_class)},
+          {"ratio", NumberOrNull(load.ratio)},
+          {"moment_nm", NumberOrNull(load.deciding_moment)},
+          {"capacity_nm", NumberOrNull(load.capacity)},
+          {"channel", load.channel},
+          {"reason", load.reason}};
+}
+
+json PersonToJson(const PersonState& person) {
+  json loads = json::array();
+  for (const JointLoad& load : person.loads) loads.push_back(LoadToJson(load));
+  return {{"character", person.character},      {"name", person.name},
+          {"revision", person.model->revision}, {"com", OptionalPoint(person.com)},
+          {"com_is_ours", person.com_is_ours},  {"cop", OptionalPoint(person.cop)},
+          {"loads", std::move(loads)}};
+}
+
+bool IsMesh(const urdf::Visual& visual) {
+  return visual.geometry.kind == urdf::Geometry::Kind::kMesh;
+}
+
+const char* KindName(urdf::Geometry::Kind kind) {
+  switch (kind) {
+    case urdf::Geometry::Kind::kBox: return "box";
+    case urdf::Geometry::Kind::kCylinder: return "cylinder";
+    case urdf::Geometry::Kind::kSphere: return "sphere";
+    case urdf::Geometry::Kind::kMesh: break;
+  }
+  return "mesh";
+}
+
+json VisualToJson(const urdf::Visual& visual, const std::string& mesh_url) {
+  const Eigen::Quaterniond turn(visual.link_from_visual.linear());
+  json entry = {{"kind", KindName(visual.geometry.kind)},
+                {"size", ToJson(visual.geometry.size)},
+                {"position", ToJson(visual.link_from_visual.translation())},
+                {"quaternion", ToJson(turn)},
+                {"rgba", nullptr}};
+  if (visual.rgba)
+    entry["rgba"] = {(*visual.rgba)[0], (*visual.rgba)[1], (*visual.rgba)[2], (*visual.rgba)[3]};
+  if (IsMesh(visual)) entry["mesh"] = mesh_url;
+  return entry;
+}
+
+// One entry per segment, in order: the link that stands at that segment's streamed pose. Links that
+// only carry a joint axis have no visuals and are not told.
+json LinksToJson(const PersonState& person) {
+  const PersonModel& model = *person.model;
+  json links = json::array();
+  std::vector<std::string> names;
+  for (int i = 0; i < urdf::kSegmentCount; ++i) {
+    names.push_back(urdf::LinkName(model.human.model_name, i));
+    links.push_back({{"name", names.back()}, {"visuals", json::array()}});
+  }
+  const std::string mesh_folder =
+      "/api/mesh/" + std::to_string(person.character) + "/" + std::to_string(model.revision) + "/";
+  std::size_t mesh_number = 0;
+  for (const urdf::Link& link : model.robot.links) {
+    const auto found = std::find(names.begin(), names.end(), link.name);
+    for (const urdf::Visual& visual : link.visuals) {
+      const std::string url = mesh_folder + std::to_string(mesh_number);
+      mesh_number += IsMesh(visual) ? 1 : 0;
+      if (found == names.end()) continue;
+      links[static_cast<std::size_t>(found - names.begin())]["visuals"].push_back(
+          VisualToJson(visual, url));
+    }
+  }
+  return links;
+}
+
+json ClassesToJson() {
+  json classes = json::array();
+  for (const LoadClass load_class :
+       {LoadClass::kUnknown, LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh}) {
+    classes.push_back({{"name", Name(load_class)}, {"color", ToJson(ColorOf(load_class))}});
+  }
+  return classes;
+}
+
+}  // namespace
+
+std::string StateJson(const SceneState* state, std::int64_t now_nanos) {
+  const SceneState nothing;
+  if (state == nullptr) state = &nothing;
+  json people = json::array();
+  for (const PersonState& person : state->people) people.push_back(PersonToJson(person));
+  const bool has_age = state->arrival_nanos != 0;
+  const double age_ms = static_cast<double>(now_nanos - state->arrival_nanos) / 1e6;
+  return Text({{"liveness", Name(state->liveness)},
+               {"number", state->number},
+               {"counter", state->counter},
+               {"stamp_nanos", state->stamp_nanos},
+               {"time_code_millis", state->time_code_millis},
+               {"rate_hz", NumberOrNull(state->rate_hz)},
+               {"age_ms", has_age ? json(age_ms) : json(nullptr)},
+               {"source", state->source},
+               {"people", std::move(people)}});
+}
+
+std::string ModelJson(const SceneState* state) {
+  json people = json::array();
+  for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
+    const PersonState& person = state->people[i];
+    const urdf::BodyDescription& body = person.model->description;
+    people.push_back({{"character", person.character},
+                      {"name", person.name},
+                      {"revision", person.model->revision},
+                      {"height_m", person.model->human.skeleton.height},
+                      {"mass_kg", body.mass_kg},
+                      {"mass_is_assumed", body.mass_is_assumed},
+                      {"links", LinksToJson(person)}});
+  }
+  json joints = json::array();
+  for (const urdf::JointInfo& joint : urdf::kJoints) {
+    joints.push_back({{"name", joint.ros_name}, {"label", joint.label}});
+  }
+  return Text({{"people", std::move(people)},
+               {"joints", std::move(joints)},
+               {"palette",
+                {{"classes", ClassesToJson()},
+                 {"cop", ToJson(kCopColor)},
+                 {"com", ToJson(kComColor)},
+                 {"body", ToJson(kBodyColor)},
+                 {"stale_body", ToJson(kStaleBodyColor)}}}});
+}
+
+std::string CamerasJson(const std::vector<CameraView>& cameras, const std::string& live_camera,
+                        bool has_pictures) {
+  json list = json::array();
+  for (const CameraView& camera : cameras) {
+    list.push_back({{"name", camera.name},
+                    {"position", ToJson(camera.position)},
+                    {"target", ToJson(camera.target)},
+                    {"up", ToJson(camera.up)},
+                    {"vertical_fov_rad", camera.vertical_fov_rad}});
+  }
+  return Text(
+      {{"cameras", std::move(list)}, {"live", live_camera}, {"has_pictures", has_pictures}});
+}
+
+std::string DetailsJson(const SceneState* state, const std::string& live_camera,
+                        bool has_pictures) {
+  json people = json::array();
+  for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
+    const PersonState& person = state->people[i];
+    json loads = json::array();
+    for (const JointLoad& load : person.loads) {
+      loads.push_back({{"joint", load.joint}, {"channel", load.channel}, {"reason", load.reason}});
+    }
+    people.push_back({{"character", person.character},
+                      {"name", person.name},
+                      {"mass_kg", person.model->description.mass_kg},
+                      {"mass_is_assumed", person.model->description.mass_is_assumed},
+                      {"loads", std::move(loads)}});
+  }
+  return Text({{"details",
+                {{"source", state != nullptr ? state->source : std::string()},
+                 {"camera", live_camera},
+                 {"has_pictures", has_pictures},
+                 {"people", std::move(people)}}}});
+}
+
+std::optional<std::filesystem::path> FindMesh(const SceneState* state, int character,
+                                              std::uint64_t revision, std::size_t n) {
+  if (state == nullptr) return std::nullopt;
+  for (const PersonState& person : state->people) {
+    if (person.character != character || person.model->revision != revision) continue;
+    std::size_t number = 0;
+    for (const urdf::Link& link : person.model->robot.links) {
+      for (const urdf::Visual& visual : link.visuals) {
+        if (!IsMesh(visual) || number++ != n) continue;
+        const std::string& uri = visual.geometry.mesh_uri;
+        if (uri.rfind("file://", 0) != 0) return std::nullopt;
+        const auto decoded = PercentDecode(std::string_view(uri).substr(7));
+        if (!decoded || decoded->find('\0') != std::string::npos) return std::nullopt;
+        std::filesystem::path path(*decoded);
+        std::string extension = path.extension().string();
+        for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        if (!path.is_absolute() || extension != ".stl") return std::nullopt;
+        return path;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace kinescope::http

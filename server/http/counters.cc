@@ -1,0 +1,42 @@
+#include "server/http/counters.h"
+
+#include <nlohmann/json.hpp>
+
+namespace kinescope::http {
+namespace {
+
+using nlohmann::json;
+
+json ToJson(const ClientCounters& client) {
+  return {{"id", client.id},
+          {"pictures", client.pictures},
+          {"states_sent", client.states_sent},
+          {"states_dropped", client.states_dropped},
+          {"pictures_sent", client.pictures_sent},
+          {"pictures_dropped", client.pictures_dropped}};
+}
+
+}  // namespace
+
+std::string WithHttpCounters(const std::string& diagnostics, const Counters& counters,
+                             const std::vector<ClientCounters>& clients) {
+  json document = json::parse(diagnostics, nullptr, /*allow_exceptions=*/false);
+  if (!document.is_object()) document = {{"error", "the program's own diagnostics are not JSON"}};
+  json connected = json::array();
+  for (const ClientCounters& client : clients) connected.push_back(ToJson(client));
+  json closed = ToJson(counters.closed);
+  closed.erase("id");
+  closed.erase("pictures");
+  document["http"] = {{"requests", counters.requests},
+                      {"snapshots", counters.snapshots},
+                      {"refused", counters.refused},
+                      {"failures", counters.failures},
+                      {"websockets_opened", counters.opened},
+                      {"states_encoded", counters.states_encoded},
+                      {"pictures_encoded", counters.pictures_encoded},
+                      {"clients", std::move(connected)},
+                      {"closed_clients", std::move(closed)}};
+  return document.dump(2, ' ', false, json::error_handler_t::replace);
+}
+
+}  // namespace kinescope::http

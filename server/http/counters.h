@@ -1,0 +1,36 @@
+/// What the server did and refused; shown under "http" in /api/diagnostics. Server's thread only.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace kinescope::http {
+
+struct ClientCounters {
+  std::uint64_t id = 0;  // +1 per WebSocket opened
+  bool pictures = false;
+  std::uint64_t states_sent = 0;
+  std::uint64_t states_dropped = 0;  // replaced by a newer one before the client took it
+  std::uint64_t pictures_sent = 0;
+  std::uint64_t pictures_dropped = 0;
+};
+
+struct Counters {
+  std::uint64_t requests = 0;
+  std::uint64_t snapshots = 0;
+  std::map<std::string, std::uint64_t> refused;  // by reason, one of a fixed set
+  std::uint64_t opened = 0;                      // WebSockets
+  std::uint64_t states_encoded = 0;
+  std::uint64_t pictures_encoded = 0;
+  ClientCounters closed;       // sums over clients that are gone
+  std::uint64_t failures = 0;  // exceptions that ended a request
+};
+
+/// `diagnostics` (a JSON object) with the member "http" added. A text that is no JSON object comes
+/// back under "error", never as an exception.
+std::string WithHttpCounters(const std::string& diagnostics, const Counters& counters,
+                             const std::vector<ClientCounters>& clients);
+
+}  // namespace kinescope::http

@@ -1,0 +1,138 @@
+#include "server/http/hub.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/http/api.h"
+
+namespace kinescope::http {
+namespace {
+
+std::int64_t NowNanos() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Hub::Clock::now().time_since_epoch())
+      .count();
+}
+
+SharedBytes Share(Bytes bytes) { return std::make_shared<const Bytes>(std::move(bytes)); }
+
+}  // namespace
+
+Hub::Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, PictureFeed* feed,
+         std::string camera, Counters& counters)
+    : states_(states),
+      pictures_(pictures),
+      feed_(feed),
+      camera_(std::move(camera)),
+      counters_(counters) {}
+
+bool Hub::Join(HubClient& client) {
+  if (clients_.size() >= static_cast<std::size_t>(kMaxClients)) return false;
+  clients_.insert(&client);
+  client_count_ = static_cast<int>(clients_.size());
+  ++counters_.opened;
+  client.Offer(Slot::kDetails, EncodeDetails());
+  client.Offer(Slot::kState, EncodeNewestState());
+  return true;
+}
+
+void Hub::Leave(HubClient& client) {
+  if (clients_.erase(&client) == 0) return;
+  client_count_ = static_cast<int>(clients_.size());
+  const ClientCounters gone = client.counters();
+  counters_.closed.states_sent += gone.states_sent;
+  counters_.closed.states_dropped += gone.states_dropped;
+  counters_.closed.pictures_sent += gone.pictures_sent;
+  counters_.closed.pictures_dropped += gone.pictures_dropped;
+  CountViewers();
+}
+
+Hub::Clock::duration Hub::SendState(Clock::time_point now) {
+  if (clients_.empty()) return Clock::duration::zero();
+  const Clock::duration wait = state_sent_at_ + kMinStateInterval - now;
+  if (wait > Clock::duration::zero()) return wait;
+  state_sent_at_ = now;
+  const SharedBytes message = EncodeNewestState();
+  ++counters_.states_encoded;
+  for (HubClient* const client : clients_) client->Offer(Slot::kState, message);
+  return Clock::duration::zero();
+}
+
+void Hub::SendPicture() {
+  const std::shared_ptr<const Picture> picture = pictures_.Get();
+  if (viewers_ == 0 || picture == nullptr) return;
+  const SharedBytes message = Share(EncodePicture(*picture));
+  ++counters_.pictures_encoded;
+  for (HubClient* const client : clients_) {
+    if (client->wants_pictures()) client->Offer(Slot::kPicture, message);
+  }
+}
+
+void Hub::Tick(Clock::time_point now) {
+  if (clients_.empty()) return;
+  if (now - state_sent_at_ >= kHeartbeat) SendState(now);
+  SharedBytes details = EncodeDetails();
+  if (details_ != nullptr && *details == *details_) return;
+  details_ = std::move(details);
+  for (HubClient* const client : clients_) client->Offer(Slot::kDetails, details_);
+}
+
+void Hub::OnMessage(HubClient& client, std::string_view text) {
+  const auto command = ParseCommand(text);
+  if (!command) {
+    ++counters_.refused["bad message"];
+    return client.Offer(Slot::kError, Share(EncodeError(command.error())));
+  }
+  if ((command->seen_states && !client.OnSeen(Slot::kState, *command->seen_states)) ||
+      (command->seen_pictures && !client.OnSeen(Slot::kPicture, *command->seen_pictures))) {
+    ++counters_.refused["bad message"];
+    return client.Offer(Slot::kError, Share(EncodeError("more is said to be seen than was sent")));
+  }
+  if (command->pictures) SetPictures(client, *command->pictures);
+  if (command->camera) {
+    if (feed_ != nullptr && feed_->SetCamera(*command->camera)) {
+      camera_ = *command->camera;
+    } else {
+      ++counters_.refused["unknown camera"];
+      client.Offer(Slot::kError, Share(EncodeError("there is no camera " + *command->camera)));
+    }
+  }
+  if (command->ping) client.Offer(Slot::kPong, Share(EncodePong(*command->ping, NowNanos())));
+}
+
+void Hub::SetPictures(HubClient& client, bool wanted) {
+  // While others look on, the newest picture is a current one; otherwise it may be an hour old.
+  const std::shared_ptr<const Picture> picture = viewers_ > 0 ? pictures_.Get() : nullptr;
+  client.SetWantsPictures(wanted);
+  CountViewers();
+  if (wanted && picture != nullptr) client.Offer(Slot::kPicture, Share(EncodePicture(*picture)));
+}
+
+void Hub::CountViewers() {
+  const int viewers =
+      static_cast<int>(std::count_if(clients_.begin(), clients_.end(), [](const HubClient* client) {
+        return client->wants_pictures();
+      }));
+  if (viewers == viewers_) return;
+  viewers_ = viewers;
+  if (feed_ != nullptr) feed_->SetViewers(viewers);
+}
+
+std::vector<ClientCounters> Hub::client_counters() const {
+  std::vector<ClientCounters> all;
+  for (const HubClient* const client : clients_) all.push_back(client->counters());
+  return all;
+}
+
+SharedBytes Hub::EncodeNewestState() const {
+  static const SceneState kNothing;
+  const std::shared_ptr<const SceneState> state = states_.Get();
+  return Share(EncodeState(state != nullptr ? *state : kNothing, NowNanos(), client_count()));
+}
+
+SharedBytes Hub::EncodeDetails() const {
+  const std::shared_ptr<const SceneState> state = states_.Get();
+  const std::string text = DetailsJson(state.get(), camera_, feed_ != nullptr);
+  return Share(Bytes(text.begin(), text.end()));
+}
+
+}  // namespace kinescope::http

@@ -1,0 +1,166 @@
+#include "server/http/protocol.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "server/core/check.h"
+#include "server/core/palette.h"
+
+namespace kinescope::http {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMaxCameraName = 64;
+
+class Writer {
+ public:
+  explicit Writer(std::size_t size) { bytes_.reserve(size); }
+
+  template <class Unsigned>
+  void Put(Unsigned value) {
+    static_assert(std::is_unsigned_v<Unsigned>);
+    for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
+      bytes_.push_back(static_cast<std::uint8_t>((value >> (8 * i)) & 0xFFu));
+    }
+  }
+  void PutFloat(double value) {
+    const auto narrow = static_cast<float>(value);
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &narrow, sizeof bits);
+    Put(bits);
+  }
+  // Whole numbers travel as float64 too: exact up to 2^53, and what JavaScript counts with.
+  void PutDouble(double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    Put(bits);
+  }
+  void PutVector(const Eigen::Vector3d& v) {
+    for (int i = 0; i < 3; ++i) PutFloat(v[i]);
+  }
+  void PutBytes(const Bytes& more) { bytes_.insert(bytes_.end(), more.begin(), more.end()); }
+  std::size_t size() const { return bytes_.size(); }
+  Bytes Take() { return std::move(bytes_); }
+
+ private:
+  Bytes bytes_;
+};
+
+double Micros(std::int64_t nanos) { return static_cast<double>(nanos) / 1e3; }
+
+std::uint8_t CountByte(std::size_t count) {
+  return static_cast<std::uint8_t>(std::min<std::size_t>(count, 255));
+}
+
+void PutLoad(Writer& out, const JointLoad& load, double height) {
+  const double radius_mm = 1000 * SphereRadius(load.joint, load.load_class, height);
+  out.Put(static_cast<std::uint8_t>(load.joint));
+  out.Put(static_cast<std::uint8_t>(load.load_class));
+  out.Put(static_cast<std::uint16_t>(std::clamp(std::round(radius_mm), 0.0, 65535.0)));
+  out.PutVector(load.position);
+  out.PutFloat(load.ratio);
+  out.PutFloat(load.deciding_moment);
+  out.PutFloat(load.capacity);
+}
+
+void PutPerson(Writer& out, const PersonState& person) {
+  KINESCOPE_CHECK(person.model != nullptr);
+  const std::uint8_t loads = CountByte(person.loads.size());
+  const unsigned flags = (person.com ? 1u : 0u) | (person.cop ? 2u : 0u) |
+                         (person.com_is_ours ? 4u : 0u) |
+                         (person.model->description.mass_is_assumed ? 8u : 0u);
+  out.Put(static_cast<std::uint32_t>(person.character));
+  out.Put(static_cast<std::uint8_t>(flags));
+  out.Put(static_cast<std::uint8_t>(person.links.size()));
+  out.Put(loads);
+  out.Put(std::uint8_t{0});
+  out.PutDouble(static_cast<double>(person.model->revision));
+  out.PutVector(person.com.value_or(Eigen::Vector3d::Zero()));
+  out.PutVector(person.cop.value_or(Eigen::Vector3d::Zero()));
+  for (const urdf::Pose& link : person.links) {
+    out.PutVector(link.position);
+    for (const double part :
+         {link.orientation.x(), link.orientation.y(), link.orientation.z(), link.orientation.w()}) {
+      out.PutFloat(part);
+    }
+  }
+  const double height = person.model->human.skeleton.height;
+  for (std::size_t i = 0; i < loads; ++i) PutLoad(out, person.loads[i], height);
+}
+
+Bytes ToBytes(const json& message) {
+  // replace: a name from the stream that is no UTF-8 must not cost us the message.
+  const std::string text = message.dump(-1, ' ', false, json::error_handler_t::replace);
+  return Bytes(text.begin(), text.end());
+}
+
+}  // namespace
+
+Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) {
+  const std::uint8_t people = CountByte(state.people.size());
+  Writer out(kStateHeaderBytes + people * std::size_t{1200});
+  out.Put(static_cast<std::uint8_t>(MessageKind::kState));
+  out.Put(kProtocolVersion);
+  out.Put(static_cast<std::uint8_t>(state.liveness));
+  out.Put(people);
+  out.Put(state.counter);
+  out.PutDouble(static_cast<double>(state.number));
+  out.PutDouble(Micros(now_nanos));
+  out.PutDouble(Micros(state.arrival_nanos));
+  out.PutDouble(Micros(state.stamp_nanos));
+  out.PutDouble(static_cast<double>(state.time_code_millis));
+  out.PutFloat(state.rate_hz);
+  out.Put(static_cast<std::uint32_t>(viewers));
+  KINESCOPE_CHECK(out.size() == kStateHeaderBytes);
+  for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i]);
+  return out.Take();
+}
+
+Bytes EncodePicture(const Picture& picture) {
+  Writer out(kPictureHeaderBytes + picture.jpeg.size());
+  out.Put(static_cast<std::uint8_t>(MessageKind::kPicture));
+  out.Put(kProtocolVersion);
+  out.Put(std::uint16_t{0});
+  out.Put(std::uint32_t{0});
+  out.PutDouble(static_cast<double>(picture.state_number));
+  out.PutDouble(Micros(picture.arrival_nanos));
+  KINESCOPE_CHECK(out.size() == kPictureHeaderBytes);
+  out.PutBytes(picture.jpeg);
+  return out.Take();
+}
+
+tl::expected<ClientCommand, std::string> ParseCommand(std::string_view text) {
+  const json message = json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!message.is_object()) return tl::unexpected(std::string("expected one JSON object"));
+  ClientCommand command;
+  for (const auto& [key, value] : message.items()) {
+    if (key == "pictures" && value.is_boolean()) {
+      command.pictures = value.get<bool>();
+    } else if (key == "camera" && value.is_string() &&
+               value.get_ref<const std::string&>().size() <= kMaxCameraName) {
+      command.camera = value.get<std::string>();
+    } else if (key == "ping" && value.is_number()) {
+      command.ping = value.get<double>();
+    } else if (key == "seen_states" && value.is_number_unsigned()) {
+      command.seen_states = value.get<std::uint64_t>();
+    } else if (key == "seen_pictures" && value.is_number_unsigned()) {
+      command.seen_pictures = value.get<std::uint64_t>();
+    } else {
+      return tl::unexpected(
+          std::string("expected \"pictures\": true|false, \"camera\": a name, \"ping\": a number, "
+                      "\"seen_states\" or \"seen_pictures\": a count"));
+    }
+  }
+  return command;
+}
+
+Bytes EncodePong(double ping, std::int64_t now_nanos) {
+  return ToBytes({{"pong", ping}, {"server_micros", Micros(now_nanos)}});
+}
+
+Bytes EncodeError(const std::string& reason) { return ToBytes({{"error", reason}}); }
+
+}  // namespace kinescope::http

@@ -1,0 +1,55 @@
+/// The WebSocket's messages, byte by byte; docs/http.md is their manual and web/state_codec.js
+/// their reader. Everything is little-endian. Pure functions, any thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "server/core/scene_state.h"
+#include "server/http/server.h"
+
+namespace kinescope::http {
+
+using Bytes = std::vector<std::uint8_t>;
+using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to every client
+
+/// First byte of a binary message.
+enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2 };
+
+inline constexpr std::uint8_t kProtocolVersion = 1;
+inline constexpr std::size_t kStateHeaderBytes = 56;
+inline constexpr std::size_t kPersonHeaderBytes = 40;
+inline constexpr std::size_t kLinkBytes = 28;
+inline constexpr std::size_t kLoadBytes = 28;
+inline constexpr std::size_t kPictureHeaderBytes = 24;
+
+/// `now_nanos`: monotonic clock, so that the page can tell the age of what it shows. At most 255
+/// people, and 255 loads of each, are sent.
+Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers);
+
+Bytes EncodePicture(const Picture& picture);
+
+/// What a client asks for: one JSON object, any of these members.
+struct ClientCommand {
+  std::optional<bool> pictures;       // whether it wants the live picture
+  std::optional<std::string> camera;  // of the live picture
+  std::optional<double> ping;         // the client's clock; comes back as it was
+  // How many states and pictures it has taken since it connected. Whoever says so is not sent more
+  // than a few ahead of that: what waits inside a browser cannot be replaced by something newer.
+  std::optional<std::uint64_t> seen_states;
+  std::optional<std::uint64_t> seen_pictures;
+};
+
+/// The reason is one line for the client. Members that are not known are refused, so that a
+/// misspelt one does not go unnoticed.
+tl::expected<ClientCommand, std::string> ParseCommand(std::string_view text);
+
+Bytes EncodePong(double ping, std::int64_t now_nanos);
+Bytes EncodeError(const std::string& reason);
+
+}  // namespace kinescope::http

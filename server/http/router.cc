@@ -1,0 +1,210 @@
+#include "server/http/router.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "server/http/access.h"
+#include "server/http/api.h"
+
+namespace kinescope::http {
+namespace {
+
+constexpr int kMinPixels = 16;
+constexpr int kMaxPixels = 4096;
+constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
+
+std::int64_t MonotonicNanos() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+template <class Number>
+std::optional<Number> ParseNumber(std::string_view text) {
+  Number value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+bool StartsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+Answer JsonAnswer(std::string body) {
+  Answer answer;
+  answer.body = std::move(body);
+  answer.headers.emplace_back("Cache-Control", "no-store");
+  return answer;
+}
+
+}  // namespace
+
+Answer ErrorAnswer(int status, const std::string& reason) {
+  Answer answer = JsonAnswer(nlohmann::json{{"error", reason}}.dump(
+      -1, ' ', false, nlohmann::json::error_handler_t::replace));
+  answer.status = status;
+  return answer;
+}
+
+Answer Router::Refuse(int status, const char* kind, const std::string& reason) const {
+  site_.count_refusal(kind);
+  return ErrorAnswer(status, reason);
+}
+
+std::optional<Answer> Router::RefuseStranger(const Request& request, const Target& target,
+                                             bool* set_cookie) const {
+  if (site_.token.empty() && !NamesThisMachine(request.host)) {
+    return Refuse(403, "unknown host",
+                  "without a token only this machine is served, as localhost or 127.0.0.1");
+  }
+  const Access access = CheckToken(site_.token, site_.cookie_name, target, request.cookies);
+  *set_cookie = access == Access::kByQuery;
+  if (access != Access::kDenied) return std::nullopt;
+  return Refuse(401, "no token", "open the address with the token that the server printed");
+}
+
+Answer Router::Route(const Request& request) const {
+  const auto target = ParseTarget(request.target);
+  if (!target) return Refuse(400, "bad address", target.error());
+  bool set_cookie = false;
+  if (auto refusal = RefuseStranger(request, *target, &set_cookie)) return *std::move(refusal);
+  if (request.method != "GET" && request.method != "HEAD") {
+    Answer answer = Refuse(405, "bad method", "only GET and HEAD are understood");
+    answer.headers.emplace_back("Allow", "GET, HEAD");
+    return answer;
+  }
+  Answer answer = RouteAdmitted(*target, request);
+  if (set_cookie) {
+    answer.headers.emplace_back("Set-Cookie", site_.cookie_name + "=" + site_.token +
+                                                  "; Path=/; HttpOnly; SameSite=Strict");
+  }
+  return answer;
+}
+
+std::optional<Answer> Router::RefuseWebSocket(const Request& request) const {
+  const auto target = ParseTarget(request.target);
+  if (!target) return Refuse(400, "bad address", target.error());
+  bool set_cookie = false;
+  if (auto refusal = RefuseStranger(request, *target, &set_cookie)) return refusal;
+  if (target->path != kWebSocketPath) {
+    return Refuse(404, "unknown address", "the WebSocket is at /ws");
+  }
+  if (!IsSameOrigin(request.origin, request.host)) {
+    return Refuse(403, "foreign origin", "only the page of this server may open its WebSocket");
+  }
+  return std::nullopt;
+}
+
+Answer Router::RouteAdmitted(const Target& target, const Request& request) const {
+  if (target.path == kWebSocketPath) {
+    Answer answer = Refuse(426, "no upgrade", "this address speaks WebSocket");
+    answer.headers.emplace_back("Upgrade", "websocket");
+    return answer;
+  }
+  if (target.path == "/snapshot.png") return Snapshot(target);
+  if (StartsWith(target.path, "/api/mesh/")) return Mesh(target.path);
+  if (StartsWith(target.path, "/api/")) return Api(target.path);
+  return File(target.path, request);
+}
+
+Answer Router::Api(const std::string& path) const {
+  const std::shared_ptr<const SceneState> state = site_.states->Get();
+  if (path == "/api/state") return JsonAnswer(StateJson(state.get(), MonotonicNanos()));
+  if (path == "/api/model") return JsonAnswer(ModelJson(state.get()));
+  if (path == "/api/diagnostics") return JsonAnswer(site_.diagnostics());
+  if (path == "/api/cameras") {
+    return JsonAnswer(CamerasJson(site_.cameras, site_.live_camera(), site_.has_pictures));
+  }
+  return Refuse(404, "unknown address",
+                "there are /api/state, /api/model, /api/cameras and /api/diagnostics");
+}
+
+Answer Router::Mesh(const std::string& path) const {
+  std::string_view rest = std::string_view(path).substr(std::string_view("/api/mesh/").size());
+  std::vector<std::optional<std::uint64_t>> numbers;
+  while (numbers.size() < 4) {
+    const std::size_t slash = rest.find('/');
+    numbers.push_back(ParseNumber<std::uint64_t>(rest.substr(0, slash)));
+    if (slash == std::string_view::npos) break;
+    rest.remove_prefix(slash + 1);
+  }
+  if (numbers.size() != 3 || !numbers[0] || !numbers[1] || !numbers[2]) {
+    return Refuse(404, "unknown address", "expected /api/mesh/<person>/<revision>/<n>");
+  }
+  const std::shared_ptr<const SceneState> state = site_.states->Get();
+  const auto person = static_cast<int>(std::min<std::uint64_t>(*numbers[0], INT32_MAX));
+  const auto file = FindMesh(state.get(), person, *numbers[1], *numbers[2]);
+  std::error_code error;
+  if (!file || !std::filesystem::is_regular_file(*file, error) ||
+      std::filesystem::file_size(*file, error) > kMaxMeshBytes || error) {
+    return Refuse(404, "no such mesh", "the newest model has no such STL file");
+  }
+  Answer answer;
+  answer.content_type = "model/stl";
+  answer.file = *file;
+  // A revision's meshes never change: that is what a revision is.
+  answer.headers.emplace_back("Cache-Control", "private, max-age=3600");
+  return answer;
+}
+
+Answer Router::Snapshot(const Target& target) const {
+  if (!site_.has_pictures) return Refuse(503, "no renderer", "this server draws no pictures");
+  SnapshotRequest snapshot;
+  for (const auto& [name, value] : target.query) {
+    if (name == "token" || name == "t") continue;  // t: makes an address new for a cache
+    if (name == "camera") {
+      snapshot.camera = value;
+      continue;
+    }
+    int* const pixels = name == "width"    ? &snapshot.width
+                        : name == "height" ? &snapshot.height
+                                           : nullptr;
+    const auto number = ParseNumber<int>(value);
+    if (pixels == nullptr || !number || *number < kMinPixels || *number > kMaxPixels) {
+      return Refuse(400, "bad snapshot",
+                    name + "=" + value + ": expected camera=<name>, width= and height= from " +
+                        std::to_string(kMinPixels) + " to " + std::to_string(kMaxPixels));
+    }
+    *pixels = *number;
+  }
+  const auto is_asked = [&](const CameraView& camera) { return camera.name == snapshot.camera; };
+  if (!snapshot.camera.empty() &&
+      std::none_of(site_.cameras.begin(), site_.cameras.end(), is_asked)) {
+    return Refuse(400, "bad snapshot",
+                  "camera=" + snapshot.camera + ": there is no such camera; see /api/cameras");
+  }
+  Answer answer;
+  answer.content_type = "image/png";
+  answer.headers.emplace_back("Cache-Control", "no-store");
+  answer.snapshot = std::move(snapshot);
+  return answer;
+}
+
+Answer Router::File(const std::string& path, const Request& request) const {
+  const StaticFile* const file = site_.files->Find(path);
+  const std::string tag = file != nullptr ? EntityTag(file->path) : std::string();
+  if (file == nullptr || tag.empty()) {
+    const bool is_library = StartsWith(path, "/lib/");
+    return Refuse(404, "unknown address",
+                  is_library ? "the page's libraries are not installed: npm ci --prefix web"
+                             : "there is no such page");
+  }
+  Answer answer;
+  answer.content_type = file->content_type;
+  // no-cache: keep it, but ask each time whether it changed; an upgrade shows at once.
+  answer.headers.emplace_back("Cache-Control", "no-cache");
+  answer.headers.emplace_back("ETag", tag);
+  if (request.if_none_match == tag) {
+    answer.status = 304;
+  } else {
+    answer.file = file->path;
+  }
+  return answer;
+}
+
+}  // namespace kinescope::http

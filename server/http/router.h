@@ -1,0 +1,55 @@
+/// What each address answers, without any socket: a request in, an answer out. docs/http.md lists
+/// the routes. Called on the server's thread.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "server/core/latest.h"
+#include "server/core/scene_state.h"
+#include "server/http/answer.h"
+#include "server/http/server.h"
+#include "server/http/static_files.h"
+#include "server/http/target.h"
+
+namespace kinescope::http {
+
+class Router {
+ public:
+  struct Site {
+    std::string token;
+    std::string cookie_name;
+    std::vector<CameraView> cameras;
+    bool has_pictures = false;
+    const StaticFiles* files = nullptr;
+    const Latest<SceneState>* states = nullptr;
+    std::function<std::string()> diagnostics;  // complete, with the server's own part
+    std::function<std::string()> live_camera;
+    std::function<void(const std::string& reason)> count_refusal;
+  };
+  explicit Router(Site site) : site_(std::move(site)) {}
+
+  /// An answer for every request; what the router refuses it counts.
+  Answer Route(const Request& request) const;
+
+  /// Whether the request may open a WebSocket; nullopt, or why not.
+  std::optional<Answer> RefuseWebSocket(const Request& request) const;
+
+  static constexpr const char* kWebSocketPath = "/ws";
+
+ private:
+  Answer RouteAdmitted(const Target& target, const Request& request) const;
+  Answer Refuse(int status, const char* kind, const std::string& reason) const;
+  std::optional<Answer> RefuseStranger(const Request& request, const Target& target,
+                                       bool* set_cookie) const;
+  Answer Api(const std::string& path) const;
+  Answer Mesh(const std::string& path) const;
+  Answer Snapshot(const Target& target) const;
+  Answer File(const std::string& path, const Request& request) const;
+
+  Site site_;
+};
+
+}  // namespace kinescope::http

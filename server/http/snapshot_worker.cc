@@ -1,0 +1,58 @@
+#include "server/http/snapshot_worker.h"
+
+#include <exception>
+#include <utility>
+
+#include "server/core/errors.h"
+
+namespace kinescope::http {
+namespace {
+
+SnapshotResult Draw(PictureFeed& feed, const SnapshotRequest& request) {
+  try {
+    return feed.SnapshotPng(request.camera, request.width, request.height);
+  } catch (const UsageError& error) {
+    return tl::unexpected(SnapshotFailure{400, error.what()});
+  } catch (const std::exception& error) {
+    return tl::unexpected(SnapshotFailure{503, error.what()});
+  }
+}
+
+}  // namespace
+
+SnapshotWorker::SnapshotWorker(PictureFeed& feed) : feed_(feed), thread_([this] { Run(); }) {}
+
+SnapshotWorker::~SnapshotWorker() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool SnapshotWorker::Submit(SnapshotRequest request, std::function<void(SnapshotResult)> done) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (jobs_.size() >= kMaxWaiting) return false;
+    jobs_.push_back({std::move(request), std::move(done)});
+  }
+  changed_.notify_one();
+  return true;
+}
+
+void SnapshotWorker::Run() {
+  while (true) {
+    Job job;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
+      if (stopping_) return;
+      job = std::move(jobs_.front());
+      jobs_.pop_front();
+    }
+    job.done(Draw(feed_, job.request));
+  }
+}
+
+}  // namespace kinescope::http

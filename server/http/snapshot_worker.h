@@ -1,0 +1,53 @@
+/// Draws snapshots one after the other on a thread of its own, because PictureFeed blocks until
+/// drawn and the server's thread must not. Few may wait: who comes later is told to try again.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "server/http/answer.h"
+#include "server/http/server.h"
+
+namespace kinescope::http {
+
+struct SnapshotFailure {
+  int status = 500;  // 400 for a UsageError, 503 for anything else
+  std::string reason;
+};
+using SnapshotResult = tl::expected<std::vector<std::uint8_t>, SnapshotFailure>;
+
+class SnapshotWorker {
+ public:
+  static constexpr std::size_t kMaxWaiting = 8;
+
+  explicit SnapshotWorker(PictureFeed& feed);
+  ~SnapshotWorker();  // waits for the picture being drawn; those that wait are dropped
+  SnapshotWorker(const SnapshotWorker&) = delete;
+  SnapshotWorker& operator=(const SnapshotWorker&) = delete;
+
+  /// `done` is called on the worker's thread. False, and `done` is not called, when too many wait.
+  bool Submit(SnapshotRequest request, std::function<void(SnapshotResult)> done);
+
+ private:
+  struct Job {
+    SnapshotRequest request;
+    std::function<void(SnapshotResult)> done;
+  };
+  void Run();
+
+  PictureFeed& feed_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Job> jobs_;   // guarded by mutex_
+  bool stopping_ = false;  // guarded by mutex_
+  std::thread thread_;     // last: starts when all the others are there
+};
+
+}  // namespace kinescope::http

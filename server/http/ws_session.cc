@@ -1,0 +1,146 @@
+#include "server/http/ws_session.h"
+
+#include <boost/asio/buffer.hpp>
+#include <string_view>
+#include <utility>
+
+namespace kinescope::http {
+namespace {
+
+namespace beast = boost::beast;
+namespace websocket = boost::beast::websocket;
+
+constexpr std::size_t kMaxMessageBytes = 4096;
+constexpr int kMaxMessagesPerSecond = 200;
+// Sent, but not yet seen: a tenth of a second at 125 states/s, and one picture under way while one
+// is being shown.
+constexpr std::uint64_t kStatesAhead = 12;
+constexpr std::uint64_t kPicturesAhead = 2;
+
+websocket::stream_base::timeout Timeouts() {
+  websocket::stream_base::timeout timeouts{};
+  timeouts.handshake_timeout = std::chrono::seconds(10);
+  // A client that neither reads nor answers a ping for so long is gone; a page comes back by
+  // itself.
+  timeouts.idle_timeout = std::chrono::seconds(30);
+  timeouts.keep_alive_pings = true;
+  return timeouts;
+}
+
+}  // namespace
+
+WsSession::WsSession(beast::tcp_stream stream, Hub& hub, std::uint64_t id)
+    : socket_(std::move(stream)), hub_(hub) {
+  counters_.id = id;
+  // The stream's own timer would end the connection; from here the WebSocket's timeouts count.
+  socket_.next_layer().expires_never();
+  socket_.set_option(Timeouts());
+  socket_.set_option(websocket::stream_base::decorator(
+      [](websocket::response_type& response) { response.set("Server", "kinescope"); }));
+  socket_.read_message_max(kMaxMessageBytes);
+  socket_.auto_fragment(false);  // one message, one write: no second copy, no second wake-up
+}
+
+WsSession::~WsSession() { hub_.Leave(*this); }
+
+void WsSession::Accept(const Upgrade& request) {
+  socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
+    if (error) return;
+    self->open_ = true;
+    if (!self->hub_.Join(*self)) return self->Close();  // others came while this one shook hands
+    self->Read();
+  });
+}
+
+void WsSession::Offer(Slot slot, SharedBytes message) {
+  if (!open_) return;
+  SharedBytes& place = waiting_[static_cast<std::size_t>(slot)];
+  if (place != nullptr && slot == Slot::kState) ++counters_.states_dropped;
+  if (place != nullptr && slot == Slot::kPicture) ++counters_.pictures_dropped;
+  place = std::move(message);
+  if (sending_ == nullptr) WriteNext();
+}
+
+void WsSession::SetWantsPictures(bool wanted) {
+  counters_.pictures = wanted;
+  if (!wanted) waiting_[static_cast<std::size_t>(Slot::kPicture)] = nullptr;
+}
+
+bool WsSession::OnSeen(Slot slot, std::uint64_t count) {
+  const bool is_state = slot == Slot::kState;
+  // One more may be there already than is known here: the one whose write is just ending.
+  const std::uint64_t sent = (is_state ? counters_.states_sent : counters_.pictures_sent) + 1;
+  if (count > sent) return false;
+  (is_state ? seen_states_ : seen_pictures_) = count;
+  if (sending_ == nullptr) WriteNext();
+  return true;
+}
+
+bool WsSession::MayWrite(std::size_t slot) const {
+  if (waiting_[slot] == nullptr) return false;
+  switch (static_cast<Slot>(slot)) {
+    case Slot::kState: return !seen_states_ || counters_.states_sent < *seen_states_ + kStatesAhead;
+    case Slot::kPicture:
+      return !seen_pictures_ || counters_.pictures_sent < *seen_pictures_ + kPicturesAhead;
+    default: return true;
+  }
+}
+
+void WsSession::Read() {
+  socket_.async_read(incoming_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    self->OnRead(error);
+  });
+}
+
+void WsSession::OnRead(beast::error_code error) {
+  if (error || IsFlooding()) return Close();
+  const auto bytes = incoming_.cdata();
+  hub_.OnMessage(*this, {static_cast<const char*>(bytes.data()), bytes.size()});
+  incoming_.consume(incoming_.size());
+  if (open_) Read();
+}
+
+bool WsSession::IsFlooding() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - second_began_ >= std::chrono::seconds(1)) {
+    second_began_ = now;
+    messages_this_second_ = 0;
+  }
+  return ++messages_this_second_ > kMaxMessagesPerSecond;
+}
+
+void WsSession::WriteNext() {
+  // Round robin: at 240 states a second a picture still gets its turn, and the other way round.
+  for (std::size_t step = 1; step <= kSlotCount; ++step) {
+    const std::size_t index = (last_slot_ + step) % kSlotCount;
+    if (!MayWrite(index)) continue;
+    last_slot_ = index;
+    sending_ = std::move(waiting_[index]);
+    waiting_[index] = nullptr;
+    const auto slot = static_cast<Slot>(index);
+    socket_.binary(IsBinary(slot));
+    socket_.async_write(boost::asio::buffer(*sending_),
+                        [self = shared_from_this(), slot](beast::error_code error, std::size_t) {
+                          self->OnWritten(slot, error);
+                        });
+    return;
+  }
+}
+
+void WsSession::OnWritten(Slot slot, beast::error_code error) {
+  sending_ = nullptr;
+  if (error) return Close();
+  if (slot == Slot::kState) ++counters_.states_sent;
+  if (slot == Slot::kPicture) ++counters_.pictures_sent;
+  if (open_) WriteNext();
+}
+
+void WsSession::Close() {
+  if (!open_) return;
+  open_ = false;
+  hub_.Leave(*this);
+  beast::error_code ignored;
+  beast::get_lowest_layer(socket_).socket().close(ignored);
+}
+
+}  // namespace kinescope::http

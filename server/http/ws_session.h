@@ -1,0 +1,59 @@
+/// One WebSocket client: reads its commands, sends what the hub offers, one message at a time. What
+/// it has not taken when something newer comes is dropped and counted. Server's thread only.
+#pragma once
+
+#include <array>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/websocket/stream.hpp>
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "server/http/hub.h"
+
+namespace kinescope::http {
+
+class WsSession final : public HubClient, public std::enable_shared_from_this<WsSession> {
+ public:
+  using Upgrade = boost::beast::http::request<boost::beast::http::string_body>;
+
+  /// `hub` is borrowed and outlives the session.
+  WsSession(boost::beast::tcp_stream stream, Hub& hub, std::uint64_t id);
+  ~WsSession() override;
+
+  /// Takes up the connection; it lives on by itself from here.
+  void Accept(const Upgrade& request);
+
+  void Offer(Slot slot, SharedBytes message) override;
+  void SetWantsPictures(bool wanted) override;
+  bool wants_pictures() const override { return counters_.pictures; }
+  bool OnSeen(Slot slot, std::uint64_t count) override;
+  ClientCounters counters() const override { return counters_; }
+
+ private:
+  void Read();
+  void OnRead(boost::beast::error_code error);
+  void WriteNext();
+  void OnWritten(Slot slot, boost::beast::error_code error);
+  bool MayWrite(std::size_t slot) const;
+  bool IsFlooding();
+  void Close();
+
+  boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  Hub& hub_;
+  ClientCounters counters_;
+  boost::beast::flat_buffer incoming_;
+  std::array<SharedBytes, kSlotCount> waiting_;  // per Slot
+  SharedBytes sending_;                          // null: nothing under way
+  std::size_t last_slot_ = 0;
+  std::optional<std::uint64_t> seen_states_;  // as the client told; none: it never does
+  std::optional<std::uint64_t> seen_pictures_;
+  std::chrono::steady_clock::time_point second_began_{};
+  int messages_this_second_ = 0;
+  bool open_ = false;
+};
+
+}  // namespace kinescope::http

@@ -1,0 +1,30 @@
+// The page of a running `kinescope serve` (KINESCOPE_PAGE) that a suit streams to; started by
+// tests/system/pipeline_test.cc.
+import assert from 'node:assert/strict';
+import { after, test } from 'node:test';
+import { closeBrowser, countPixels, openPage, pixelsOf, saveScreenshot } from './open_page.mjs';
+
+const LONG = { timeout: 60000 };
+after(closeBrowser);
+
+test('a suit that streams is seen, with its rate', async () => {
+  const { page, problems, close } = await openPage(process.env.KINESCOPE_PAGE);
+  await page.waitForFunction(() => document.getElementById('lamp-word').textContent === 'Live', null, LONG);
+  await page.waitForFunction(() => parseFloat(document.getElementById('rate').textContent) > 100, null, LONG);
+  assert.match(await page.locator('#rate').textContent(), /^1[12]\d\.\d Hz$/);
+  const isBody = (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) < 30 && g > 90 && g < 215;
+  const isGreen = (r, g, b) => g > 120 && r < 0.75 * g && b < 0.75 * g;
+  const until = Date.now() + LONG.timeout;
+  let body = 0, green = 0, size = 1;
+  while ((body < 0.01 * size || green < 100) && Date.now() < until) {
+    const pixels = await pixelsOf(page, '#view');
+    size = pixels.width * pixels.height;
+    body = countPixels(pixels, isBody);
+    green = countPixels(pixels, isGreen);
+  }
+  assert.ok(body >= 0.01 * size, `${body} of ${size} pixels are body`);
+  assert.ok(green >= 100, `${green} pixels are green spheres`);
+  await saveScreenshot(page, 'whole_program');
+  assert.deepEqual(problems, []);
+  await close();
+});

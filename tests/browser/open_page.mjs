@@ -1,0 +1,148 @@
+// Real Chromium on the real page: starts a server program, opens its page, watches what goes wrong.
+//   const site = await startFixture();                  // tests/server/http/page_fixture_server
+//   const visit = await openPage(site.url, { viewport: DESKTOP });
+//   ... visit.page is a Playwright page ...
+//   await visit.close(); await site.stop();
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { existsSync } from 'node:fs';
+import { mkdir } from 'node:fs/promises';
+import { createInterface } from 'node:readline';
+import { fileURLToPath } from 'node:url';
+
+export const DESKTOP = { width: 1440, height: 900 };
+export const PHONE = { width: 390, height: 844 };
+
+const CHROMIUM = process.env.KINESCOPE_CHROMIUM ?? '/usr/bin/chromium';
+// Draws WebGL in software and keeps quiet on the network.
+const FLAGS = [
+  '--no-sandbox', '--disable-gpu', '--use-gl=angle', '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader', '--disable-background-networking', '--disable-component-update',
+  '--disable-sync', '--no-first-run', '--mute-audio',
+];
+const START_MILLIS = 20000;
+
+let browser = null;
+
+async function launch() {
+  if (!existsSync(CHROMIUM)) {
+    throw new Error(`${CHROMIUM} is missing: apt install chromium, or set KINESCOPE_CHROMIUM`);
+  }
+  const { chromium } = await import('playwright-core').catch(() => {
+    throw new Error('playwright-core is missing: npm ci --prefix tests/browser');
+  });
+  return chromium.launch({ executablePath: CHROMIUM, args: FLAGS });
+}
+
+/** Call once when all tests are through. */
+export async function closeBrowser() {
+  await browser?.close();
+  browser = null;
+}
+
+/** Starts `program`, whose first line on standard output is JSON with a "url".
+ *  @param {string} program
+ *  @param {string[]} args */
+export async function startServer(program, args = []) {
+  const child = spawn(program, args, { stdio: ['pipe', 'pipe', 'inherit'] });
+  const lines = createInterface({ input: child.stdout });
+  const timer = setTimeout(() => child.kill('SIGKILL'), START_MILLIS);
+  const [line] = await Promise.race([
+    once(lines, 'line'),
+    once(child, 'exit').then(() => { throw new Error(`${program} ended before it served`); }),
+    once(child, 'error').then(([error]) => { throw error; }),
+  ]);
+  clearTimeout(timer);
+  return {
+    ...JSON.parse(line),
+    pid: child.pid,
+    /** @param {string} order  see the program */
+    say(order) { child.stdin.write(`${order}\n`); },
+    /** Stops it without any goodbye, as a crash would. */
+    async kill() {
+      child.kill('SIGKILL');
+      if (child.exitCode === null && child.signalCode === null) await once(child, 'exit');
+    },
+    async stop() {
+      child.stdin.end();
+      if (child.exitCode === null && child.signalCode === null) await once(child, 'exit');
+    },
+  };
+}
+
+/** @param {string[]} args */
+export function startFixture(args = []) {
+  const program = process.env.KINESCOPE_PAGE_FIXTURE;
+  if (!program) {
+    throw new Error('set KINESCOPE_PAGE_FIXTURE to the built page_fixture_server; ctest does it');
+  }
+  return startServer(program, args);
+}
+
+/** @param {string} url
+ *  @param {{viewport?: {width: number, height: number}, colorScheme?: 'light'|'dark',
+ *    context?: object, beforeLoad?: (page: any) => Promise<void>}} options
+ *  @returns `problems`: console errors, exceptions, failed and foreign requests, as lines */
+export async function openPage(url, options = {}) {
+  browser ??= await launch();
+  const context = await browser.newContext({
+    viewport: options.viewport ?? DESKTOP, colorScheme: options.colorScheme ?? 'light', ...options.context,
+  });
+  const page = await context.newPage();
+  const problems = [];
+  const requests = [];
+  const home = new URL(url).host;
+  page.on('console', (message) => {
+    if (message.type() === 'error') problems.push(`console: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => problems.push(`exception: ${error.message}`));
+  page.on('requestfailed', (request) => problems.push(`failed: ${request.url()}`));
+  page.on('response', (response) => {
+    if (response.status() >= 400) problems.push(`${response.status()}: ${response.url()}`);
+  });
+  page.on('request', (request) => {
+    requests.push(request.url());
+    const { protocol, host } = new URL(request.url());
+    if (protocol !== 'blob:' && host !== home) problems.push(`foreign request: ${request.url()}`);
+  });
+  await options.beforeLoad?.(page);
+  await page.goto(url, { waitUntil: 'load' });
+  return { page, problems, requests, close: () => context.close() };
+}
+
+/** Writes a picture of the page into out/browser of the build or the folder KINESCOPE_SCREENSHOTS. */
+export async function saveScreenshot(page, name) {
+  const folder = process.env.KINESCOPE_SCREENSHOTS
+    ?? fileURLToPath(new URL('../../out/browser', import.meta.url));
+  await mkdir(folder, { recursive: true });
+  await page.screenshot({ path: `${folder}/${name}.png` });
+}
+
+/** What is drawn in `selector`, as pixels: {width, height, data} with RGBA bytes. Overlays that lie
+ *  on it are on the picture too, as a person would see them.
+ *  @param {any} page
+ *  @param {string} selector */
+export async function pixelsOf(page, selector) {
+  const png = await page.locator(selector).screenshot();
+  const { width, height, base64 } = await page.evaluate(async (text) => {
+    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+    const context = canvas.getContext('2d');
+    context.drawImage(bitmap, 0, 0);
+    const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+    let binary = '';
+    for (let i = 0; i < data.length; i += 8192) binary += String.fromCharCode(...data.subarray(i, i + 8192));
+    return { width: bitmap.width, height: bitmap.height, base64: btoa(binary) };
+  }, png.toString('base64'));
+  return { width, height, data: Buffer.from(base64, 'base64') };
+}
+
+/** How many pixels pass `test`.
+ *  @param {{data: Uint8Array}} pixels
+ *  @param {(r: number, g: number, b: number) => boolean} test */
+export function countPixels({ data }, test) {
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) if (test(data[i], data[i + 1], data[i + 2])) ++count;
+  return count;
+}

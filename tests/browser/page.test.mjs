@@ -1,0 +1,314 @@
+// The page in real Chromium, against the real HTTP server with a made-up person.
+import assert from 'node:assert/strict';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { closeBrowser, countPixels, DESKTOP, openPage, PHONE, pixelsOf, saveScreenshot, startFixture }
+  from './open_page.mjs';
+
+const LONG = { timeout: 30000 };  // a busy machine without a graphics chip
+let site;
+before(async () => { site = await startFixture(); });
+after(async () => {
+  await site.stop();
+  await closeBrowser();
+});
+
+const lampIs = (page, word) =>
+  page.waitForFunction((w) => document.getElementById('lamp-word').textContent === w, word, LONG);
+const text = (page, selector) => page.locator(selector).textContent();
+const isRed = (r, g, b) => r > 150 && g < 90 && b < 90;
+const isGreen = (r, g, b) => g > 120 && r < 0.75 * g && b < 0.75 * g;
+const isOrange = (r, g, b) => r > 200 && g > 90 && g < 190 && b < 110;
+
+/** Waits until the view has settled on a picture that `test` accepts. */
+async function seePixels(page, name, test, least) {
+  const until = Date.now() + LONG.timeout;
+  let count = 0;
+  while (Date.now() < until) {
+    count = countPixels(await pixelsOf(page, '#view'), test);
+    if (count >= least) return count;
+  }
+  assert.fail(`${count} ${name} pixels in the view, expected at least ${least}`);
+}
+
+async function openLive(options) {
+  site.say('people 1');
+  site.say('live');
+  const visit = await openPage(site.url, options);
+  await lampIs(visit.page, 'Live');
+  return visit;
+}
+
+test('the human is there, in colours that mean something', async () => {
+  const visit = await openLive();
+  await seePixels(visit.page, 'red', isRed, 300);
+  await seePixels(visit.page, 'orange', isOrange, 200);
+  await seePixels(visit.page, 'green', isGreen, 100);
+  // The body: light grey, darker than the background, on a part of the view that a person fills.
+  const { width, height } = await pixelsOf(visit.page, '#view');
+  const isBody = (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) < 30 && g > 90 && g < 215;
+  const count = await seePixels(visit.page, 'body', isBody, 0.015 * width * height);
+  assert.ok(count < 0.5 * width * height, `${count} pixels are no single person`);
+  await saveScreenshot(visit.page, 'live_desktop');
+  assert.deepEqual(visit.problems, []);
+  await visit.close();
+});
+
+test('the readings are those of the stream', async () => {
+  const { page, close } = await openLive();
+  await page.waitForFunction(() => /^\d+(\.\d)? ms$/.test(document.getElementById('latency').textContent), null, LONG);
+  assert.equal(await text(page, '#rate'), '60.0 Hz');
+  assert.match(await text(page, '#latency-p95'), /^p95 \d+(\.\d)? ms$/);
+  assert.match(await text(page, '#time-code'), /^\d\d:\d\d:\d\d\.\d{3}$/);
+  assert.equal(await text(page, '#source'), 'udp://0.0.0.0:9763');
+  const sample = Number(await text(page, '#sample'));
+  await page.waitForFunction((n) => Number(document.getElementById('sample').textContent) > n, sample, LONG);
+  assert.equal(await page.title(), 'Live · Kinescope');
+  await close();
+});
+
+test('loads stand worst first, in words and numbers', async () => {
+  const { page, close } = await openLive();
+  await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
+  const rows = await page.$$eval('#loads li', (items) => items.map((item) => ({
+    label: item.querySelector('.label').textContent, word: item.querySelector('.word').textContent,
+    ratio: item.querySelector('.ratio').textContent, note: item.querySelector('.note').textContent,
+  })));
+  const rank = { high: 0, medium: 1, low: 2, unknown: 3 };
+  const ranks = rows.map(({ word }) => rank[word]);
+  assert.deepEqual(ranks, [...ranks].sort());
+  assert.deepEqual(new Set(ranks).size, 4, 'the made-up person has every class');
+  assert.equal(rows[0].label, 'L5/S1');
+  assert.match(rows[0].ratio, /^\d+ %$/);
+  assert.match(rows[0].note, /^\d+ of 40 N·m, flexion$/);
+  assert.deepEqual(rows.at(-1),
+    { label: 'Left ankle', word: 'unknown', ratio: '–', note: 'left foot is not on the floor' });
+  await close();
+});
+
+test('the class colours are the server’s palette', async () => {
+  const { page, close } = await openLive();
+  const { palette } = await page.evaluate(() => fetch('api/model').then((answer) => answer.json()));
+  for (const { name, color } of palette.classes) {
+    const shown = await page.evaluate((n) => getComputedStyle(document.documentElement).getPropertyValue(`--class-${n}`), name);
+    const hex = `#${color.map((v) => Math.round(255 * v).toString(16).padStart(2, '0')).join('')}`;
+    assert.equal(shown.trim(), hex, name);
+  }
+  await close();
+});
+
+test('a stream that stops is stale, then no data, then live again, by itself', async () => {
+  const { page, problems, close } = await openLive();
+  await seePixels(page, 'red', isRed, 300);
+  site.say('stale');
+  await lampIs(page, 'Stale');
+  await page.waitForFunction(() => /last sample came \d/.test(document.getElementById('banner').textContent), null, LONG);
+  const words = await page.$$eval('#loads .word', (parts) => [...new Set(parts.map((part) => part.textContent))]);
+  assert.deepEqual(words, ['unknown'], 'an old load is no load');
+  const until = Date.now() + LONG.timeout;
+  let coloured = 1;
+  while (coloured > 0 && Date.now() < until) {
+    const pixels = await pixelsOf(page, '#view canvas');
+    coloured = countPixels(pixels, isRed) + countPixels(pixels, isGreen);
+  }
+  assert.equal(coloured, 0, 'a stale human is grey');
+  await saveScreenshot(page, 'stale_desktop');
+  site.say('nodata');
+  await lampIs(page, 'No data');
+  assert.equal(await text(page, '#banner'), 'Waiting for udp://0.0.0.0:9763');
+  await saveScreenshot(page, 'no_data_desktop');
+  site.say('live');
+  await lampIs(page, 'Live');
+  assert.equal(await page.locator('#banner').isVisible(), false);
+  await seePixels(page, 'red', isRed, 300);
+  assert.deepEqual(problems, []);
+  await close();
+});
+
+test('a server that dies is noticed, one that hangs too', async () => {
+  const mortal = await startFixture();
+  const { page, close } = await openPage(mortal.url);
+  await lampIs(page, 'Live');
+  process.kill(mortal.pid, 'SIGSTOP');
+  await lampIs(page, 'Disconnected');
+  process.kill(mortal.pid, 'SIGCONT');
+  await lampIs(page, 'Live');
+  await mortal.kill();
+  await lampIs(page, 'Disconnected');
+  assert.match(await text(page, '#banner'), /does not answer/);
+  await close();
+});
+
+test('the named cameras turn the view, and a hand takes it over', async () => {
+  const { page, close } = await openLive();
+  await page.locator('#cameras button').first().waitFor(LONG);
+  assert.deepEqual(await page.$$eval('#cameras button', (all) => all.map((button) => button.dataset.camera)),
+    ['front', 'back', 'left', 'right', 'top', 'iso', 'three_quarter']);
+  const pressed = () => page.$$eval('#cameras [aria-pressed="true"]', (all) => all.map((button) => button.dataset.camera));
+  assert.deepEqual(await pressed(), ['three_quarter']);
+  await page.click('[data-camera="front"]');
+  assert.deepEqual(await pressed(), ['front']);
+  // From the front, the person's right shoulder is on the left of the picture: red on both sides.
+  await seePixels(page, 'red', isRed, 300);
+  const box = await page.locator('#view canvas').boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width / 2 + 120, box.y + box.height / 2, { steps: 4 });
+  await page.mouse.up();
+  assert.deepEqual(await pressed(), []);
+  await close();
+});
+
+test('the server’s picture is shown when wanted, and saved at full size', async () => {
+  const { page, problems, close } = await openLive();
+  const image = page.locator('#picture-image');
+  await image.waitFor({ state: 'visible', ...LONG });
+  assert.equal(await image.evaluate((img) => img.naturalWidth), 640);
+  await page.selectOption('#picture-camera', 'iso');
+  await page.waitForFunction(() => fetch('api/cameras').then((a) => a.json()).then(({ live }) => live === 'iso'), null, LONG);
+  const waiting = page.waitForEvent('download', LONG);
+  await page.click('#save-picture');
+  const download = await waiting;
+  assert.match(download.suggestedFilename(), /^kinescope_iso_[\dTZ-]+\.png$/);
+  const png = await readFile(await download.path());
+  assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [1920, 1080]);
+  await page.uncheck('#picture-on');
+  assert.equal(await image.isVisible(), false);
+  assert.deepEqual(problems, []);
+  await close();
+});
+
+test('without a renderer the page says so and works', async () => {
+  const blind = await startFixture(['--no-pictures']);
+  const { page, close } = await openPage(blind.url);
+  await lampIs(page, 'Live');
+  await page.waitForFunction(() => document.getElementById('picture-note').textContent === 'This server draws no pictures.', null, LONG);
+  assert.equal(await page.locator('#save-picture').isDisabled(), true);
+  await close();
+  await blind.stop();
+});
+
+test('without WebGL the server’s picture stands in', async () => {
+  const { page, close } = await openLive({
+    beforeLoad: (fresh) => fresh.addInitScript(() => {
+      HTMLCanvasElement.prototype.getContext = () => null;
+    }),
+  });
+  assert.match(await text(page, '#view'), /no WebGL/);
+  await page.locator('#picture-image').waitFor({ state: 'visible', ...LONG });
+  await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
+  await close();
+});
+
+test('a token is asked for, and does not stay in the address', async () => {
+  const guarded = await startFixture(['--token', 's3cret']);
+  const denied = await openPage(guarded.url.replace(/\?.*/, ''));
+  assert.match(await text(denied.page, 'body'), /token/);
+  await denied.close();
+  const { page, problems, close } = await openPage(guarded.url);
+  await lampIs(page, 'Live');
+  assert.equal(new URL(page.url()).search, '');
+  await page.reload();
+  await lampIs(page, 'Live');
+  assert.deepEqual(problems, []);
+  await close();
+  await guarded.stop();
+});
+
+/** A box as ASCII STL, metres. */
+function boxStl([x, y, z]) {
+  const corner = (i) => [i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z].map((v) => v / 2).join(' ');
+  const faces = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7], [0, 4, 2], [2, 4, 6],
+    [1, 3, 5], [3, 7, 5]];
+  return `solid box\n${faces.map((face) => `facet normal 0 0 0\nouter loop\n${face.map((i) => `vertex ${corner(i)}`)
+    .join('\n')}\nendloop\nendfacet`).join('\n')}\nendsolid box\n`;
+}
+
+test('a body of mesh files is drawn, and a file that is missing is named as missing', async () => {
+  const folder = await mkdtemp(join(tmpdir(), 'kinescope_meshes_'));
+  const meshed = await startFixture(['--meshes', folder]);
+  const links = await fetch(`${meshed.url}api/model`).then((answer) => answer.json())
+    .then(({ people }) => people[0].links.map(({ name }) => name.replace('skeleton_', '')));
+  const [missing, ...others] = links;
+  await Promise.all(others.map((name) => writeFile(join(folder, `${name}.stl`), boxStl([0.15, 0.15, 0.15]))));
+  const { page, problems, close } = await openPage(meshed.url);
+  await lampIs(page, 'Live');
+  await page.waitForFunction(
+    () => document.getElementById('banner').textContent === '1 of the human’s meshes could not be loaded', null, LONG);
+  const isBody = (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) < 30 && g > 90 && g < 215;
+  await seePixels(page, 'body', isBody, 2000);
+  assert.equal(missing, 'pelvis');
+  assert.ok(problems.length > 0 && problems.every((line) => /404|api\/mesh\/0\/1\/0$/.test(line)), problems.join());
+  await close();
+  await meshed.stop();
+  await rm(folder, { recursive: true });
+});
+
+test('two persons are both drawn and listed by name', async () => {
+  const { page, close } = await openLive();
+  site.say('people 2');
+  await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 30, null, LONG);
+  const labels = await page.$$eval('#loads .label', (all) => all.map((label) => label.textContent));
+  assert.ok(labels.includes('Demo: L5/S1') && labels.includes('Demo 2: L5/S1'), labels.join());
+  await close();
+});
+
+for (const [name, viewport, colorScheme] of [
+  ['desktop', DESKTOP, 'light'], ['desktop_dark', DESKTOP, 'dark'], ['phone', PHONE, 'light'], ['phone_dark', PHONE, 'dark']]) {
+  test(`it fits ${name}: nothing is cut off or scrolls sideways`, async () => {
+    const { page, problems, close } = await openLive({ viewport, colorScheme });
+    await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
+    await seePixels(page, 'red', isRed, 100);
+    const { scroll, client } = await page.evaluate(() => ({
+      scroll: document.documentElement.scrollWidth, client: document.documentElement.clientWidth }));
+    assert.ok(scroll <= client, `${scroll} px wide on ${client}`);
+    const cut = await page.evaluate(() => [...document.querySelectorAll(
+      '#lamp, .readings dd, button, select, #loads .label, #loads .word, #loads .ratio, #loads .note, #legend li, h1, h2')]
+      .filter((part) => part.offsetParent && part.scrollWidth > part.clientWidth + 1 && getComputedStyle(part).display !== 'inline'
+        || part.getBoundingClientRect().right > innerWidth + 0.5)
+      .map((part) => `${part.className || part.id || part.tagName}: ${part.textContent}`));
+    assert.deepEqual(cut, []);
+    if (viewport === DESKTOP) {
+      const all = await page.locator('#loads').evaluate((list) => list.scrollHeight - list.clientHeight);
+      assert.ok(all <= 0, `the load list needs ${all} px more`);
+    }
+    await saveScreenshot(page, `live_${name}`);
+    assert.deepEqual(problems, []);
+    await close();
+  });
+}
+
+test('words stand out from their background by at least 4.5 to 1', async () => {
+  for (const colorScheme of ['light', 'dark']) {
+    const { page, close } = await openLive({ colorScheme });
+    await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
+    const poor = await page.evaluate(() => {
+      const canvas = new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true });
+      // Paints one colour over another as the browser would, and reads what comes out.
+      const over = (below, color) => {
+        canvas.fillStyle = below;
+        canvas.fillRect(0, 0, 1, 1);
+        canvas.fillStyle = color;
+        canvas.fillRect(0, 0, 1, 1);
+        return [...canvas.getImageData(0, 0, 1, 1).data].slice(0, 3);
+      };
+      const css = (rgb) => `rgb(${rgb.join()})`;
+      const light = (rgb) => rgb.map((v) => v / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4))
+        .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
+      const background = (part) => (part === null ? [255, 255, 255]
+        : over(css(background(part.parentElement)), getComputedStyle(part).backgroundColor));
+      return [...document.querySelectorAll('#lamp-word, dt, dd, #source, #viewers, button, h1, h2, .label, .note, .word, .ratio, .hint, #legend li')]
+        .filter((part) => part.offsetParent && part.textContent.trim() && !part.disabled)
+        .map((part) => {
+          const behind = background(part);
+          const [a, b] = [light(over(css(behind), getComputedStyle(part).color)), light(behind)].sort((x, y) => y - x);
+          return { part: `${part.id || part.className || part.tagName} ${part.textContent.trim()}`, ratio: (a + 0.05) / (b + 0.05) };
+        })
+        .filter(({ ratio }) => ratio < 4.5).map(({ part, ratio }) => `${part}: ${ratio.toFixed(2)}`);
+    });
+    assert.deepEqual(poor, [], colorScheme);
+    await close();
+  }
+});

@@ -1,0 +1,68 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { byUrgency, explain, rowsOf } from '../../../web/load_list.js';
+
+const row = (key, loadClass, ratio) =>
+  ({ key, label: key, loadClass, ratio, moment: -12.34, capacity: 60, channel: 'flexion', reason: '' });
+const keys = (rows) => rows.map(({ key }) => key);
+
+test('the worst class is on top, within it the largest ratio, unknown last', () => {
+  const rows = [row('a', 'unknown', NaN), row('b', 'low', 0.2), row('c', 'high', 0.7),
+    row('d', 'medium', 0.59), row('e', 'high', 0.9), row('f', 'low', 0.25)];
+  assert.deepEqual(keys(byUrgency(rows)), ['e', 'c', 'd', 'f', 'b', 'a']);
+});
+
+test('the class decides before the ratio: hysteresis may keep a smaller one in the higher class', () => {
+  assert.deepEqual(keys(byUrgency([row('a', 'medium', 0.59), row('b', 'high', 0.56)])), ['b', 'a']);
+});
+
+test('rows that tremble around each other stay where they are', () => {
+  const shown = ['a', 'b'];
+  assert.deepEqual(keys(byUrgency([row('a', 'low', 0.20), row('b', 'low', 0.21)], shown)), ['a', 'b']);
+  assert.deepEqual(keys(byUrgency([row('a', 'low', 0.20), row('b', 'low', 0.23)], shown)), ['b', 'a']);
+});
+
+test('a change of class moves a row at once, however small the ratio', () => {
+  const shown = ['a', 'b'];
+  assert.deepEqual(keys(byUrgency([row('a', 'low', 0.30), row('b', 'medium', 0.30)], shown)), ['b', 'a']);
+});
+
+test('whatever the order before, no class stands below a better one', () => {
+  const classes = ['high', 'medium', 'low', 'unknown'];
+  let seed = 7;
+  const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
+  for (let round = 0; round < 200; ++round) {
+    const rows = Array.from({ length: 15 }, (_, i) => {
+      const loadClass = classes[Math.floor(4 * random())];
+      return row(String(i), loadClass, loadClass === 'unknown' ? NaN : random());
+    });
+    const before = keys(rows).sort(() => random() - 0.5);
+    const ranks = byUrgency(rows, before).map(({ loadClass }) => classes.indexOf(loadClass));
+    assert.deepEqual(ranks, [...ranks].sort());
+    assert.equal(ranks.length, rows.length);
+  }
+});
+
+test('the input is left as it was', () => {
+  const rows = [row('a', 'low', 0.1), row('b', 'high', 0.9)];
+  byUrgency(rows);
+  assert.deepEqual(keys(rows), ['a', 'b']);
+});
+
+test('a row explains itself: how much of what, or why nothing is known', () => {
+  assert.equal(explain(row('a', 'low', 0.2)), '12 of 60 N·m, flexion');
+  assert.equal(explain({ ...row('a', 'low', 0.2), channel: '' }), '12 of 60 N·m');
+  assert.equal(explain({ ...row('a', 'unknown', NaN), reason: 'both feet are off the floor' }),
+    'both feet are off the floor');
+});
+
+test('persons are named when there are several', () => {
+  const load = { joint: 1, loadClass: 'low', ratio: 0.1, moment: 1, capacity: 10 };
+  const joints = [{ label: 'L5/S1' }, { label: 'Neck' }];
+  const one = { people: [{ character: 0, loads: [load] }] };
+  const two = { people: [{ character: 0, loads: [load] }, { character: 3, loads: [load] }] };
+  const details = { people: [{ character: 0, name: 'P05', loads: [{ joint: 1, channel: 'bend', reason: '' }] }] };
+  assert.deepEqual(rowsOf(one, joints, details).map(({ label, channel }) => [label, channel]), [['Neck', 'bend']]);
+  assert.deepEqual(rowsOf(two, joints, details).map(({ label }) => label), ['P05: Neck', 'Person 4: Neck']);
+  assert.equal(new Set(rowsOf(two, joints, details).map(({ key }) => key)).size, 2);
+});

@@ -1,0 +1,66 @@
+// What must hold of the page's files as they lie there.
+import assert from 'node:assert/strict';
+import { createHash } from 'node:crypto';
+import { readdirSync, readFileSync } from 'node:fs';
+import test from 'node:test';
+
+const root = new URL('../../../', import.meta.url);
+const read = (name) => readFileSync(new URL(name, root), 'utf8');
+const modules = readdirSync(new URL('web/', root)).filter((name) => name.endsWith('.js'));
+const html = read('web/index.html');
+
+test('the content security policy allows the import map, by the hash that it has now', () => {
+  const [, map] = html.match(/<script type="importmap">([^]*?)<\/script>/);
+  const hash = createHash('sha256').update(map).digest('base64');
+  assert.ok(read('server/http/http_session.cc').includes(`'sha256-${hash}'`),
+    `server/http/http_session.cc needs 'sha256-${hash}'`);
+});
+
+test('every library of the import map and of the modules is one that the server gives out', () => {
+  const given = read('server/http/static_files.cc');
+  const { imports } = JSON.parse(html.match(/<script type="importmap">([^]*?)<\/script>/)[1]);
+  for (const name of modules) {
+    for (const [, specifier] of read(`web/${name}`).matchAll(/from '([^'.][^']*)'/g)) {
+      const prefix = Object.keys(imports).filter((key) => specifier.startsWith(key)).sort((a, b) => b.length - a.length)[0];
+      const url = (imports[prefix] + specifier.slice(prefix.length)).replace(/^\./, '');
+      assert.ok(given.includes(`"${url}"`), `${name} imports ${specifier}, which is ${url}`);
+    }
+  }
+});
+
+test('the installed files are those that the server gives out', () => {
+  const installed = read('web/CMakeLists.txt');
+  for (const [, path] of read('server/http/static_files.cc').matchAll(/"three\/([^"]+)"/g)) {
+    assert.ok(installed.includes(path), `web/CMakeLists.txt does not install ${path}`);
+  }
+});
+
+test('nothing comes from another site', () => {
+  for (const name of [...modules, 'index.html', 'style.css']) {
+    assert.doesNotMatch(read(`web/${name}`), /(https?|wss?):\/\/|@import|[ :]url\(/, name);
+  }
+});
+
+test('no text from outside can become markup', () => {
+  for (const name of modules) {
+    assert.doesNotMatch(read(`web/${name}`), /innerHTML|outerHTML|insertAdjacentHTML|document\.write|eval\(/, name);
+  }
+});
+
+test('every element that the page’s code asks for is there', () => {
+  const ids = new Set([...html.matchAll(/ id="([^"]+)"/g)].map(([, id]) => id));
+  const code = read('web/app.js') + read('web/boot.js');
+  for (const [, id] of code.matchAll(/(?:element|setText|getElementById)\('([^']+)'/g)) {
+    assert.ok(ids.has(id), `index.html has no #${id}`);
+  }
+});
+
+test('lock files name versions and hashes, no host', () => {
+  for (const folder of ['web', 'tests/browser']) {
+    const lock = read(`${folder}/package-lock.json`);
+    assert.doesNotMatch(lock, /"resolved"|https?:/, folder);
+    for (const [name, entry] of Object.entries(JSON.parse(lock).packages)) {
+      if (name !== '') assert.match(entry.integrity, /^sha512-/, name);
+    }
+  }
+});

@@ -1,0 +1,71 @@
+// Reads bytes that the C++ encoder has just written (page_fixture_server describe).
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import test from 'node:test';
+import { decodePicture, decodeState, KIND, messageKind } from '../../../web/state_codec.js';
+import { THRESHOLDS } from '../../../web/load_list.js';
+
+const program = process.env.KINESCOPE_PAGE_FIXTURE;
+if (!program) throw new Error('set KINESCOPE_PAGE_FIXTURE to the built page_fixture_server; ctest does it');
+const told = JSON.parse(execFileSync(program, ['describe'], { encoding: 'utf8', maxBuffer: 1 << 24 }));
+
+const toBuffer = (hex) => Uint8Array.from(Buffer.from(hex, 'hex')).buffer;
+const state = toBuffer(told.hex);
+
+/** Equal within what float32 (and a radius in whole millimetres) can hold; null stands for NaN. */
+function assertClose(actual, expected, path = 'state') {
+  if (typeof expected === 'number') {
+    const tolerance = path.endsWith('.radius') ? 5e-4 : 1e-6 * Math.max(1, Math.abs(expected));
+    assert.ok(Math.abs(actual - expected) <= tolerance, `${path}: ${actual}, expected ${expected}`);
+  } else if (expected === null) {
+    assert.ok(Number.isNaN(actual), `${path}: ${actual}, expected NaN`);
+  } else if (typeof expected === 'object') {
+    assert.deepEqual(Object.keys(actual).sort(), Object.keys(expected).sort(), path);
+    for (const key of Object.keys(expected)) assertClose(actual[key], expected[key], `${path}.${key}`);
+  } else {
+    assert.equal(actual, expected, path);
+  }
+}
+
+test('a state of two persons comes out as the server meant it', () => {
+  assert.equal(messageKind(state), KIND.state);
+  assertClose(decodeState(state), told.state);
+});
+
+test('a state that is cut short anywhere is refused', () => {
+  for (let size = 0; size < state.byteLength; ++size) {
+    assert.throws(() => decodeState(state.slice(0, size)), /cut short/, `taken at ${size} bytes`);
+  }
+});
+
+test('bytes too many are refused', () => {
+  const longer = new Uint8Array(state.byteLength + 1);
+  longer.set(new Uint8Array(state));
+  assert.throws(() => decodeState(longer.buffer), /too many/);
+});
+
+test('another version of the protocol asks for a reload', () => {
+  const other = new Uint8Array(state.slice(0));
+  other[1] = 9;
+  assert.throws(() => messageKind(other.buffer), /version 9.*reload/);
+  assert.throws(() => messageKind(new ArrayBuffer(1)), /cut short/);
+});
+
+test('classes of a newer server are unknown, not an error', () => {
+  const other = new Uint8Array(state.slice(0));
+  const firstLoad = 56 + 40 + 28 * 23;
+  other[firstLoad + 1] = 200;
+  assert.equal(decodeState(other.buffer).people[0].loads[0].loadClass, 'unknown');
+});
+
+test('a picture carries its state and its JPEG', () => {
+  const picture = toBuffer(told.picture_hex);
+  assert.equal(messageKind(picture), KIND.picture);
+  const { stateNumber, arrivalMicros, jpeg } = decodePicture(picture);
+  assert.deepEqual([stateNumber, arrivalMicros, ...jpeg], [41, 5000000, 0xff, 0xd8, 0xff]);
+  assert.throws(() => decodePicture(picture.slice(0, 23)), /cut short/);
+});
+
+test('the legend shows the thresholds that the server decides by', () => {
+  assert.deepEqual(THRESHOLDS, told.thresholds);
+});

@@ -1,0 +1,145 @@
+#include "server/http/api.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "server/core/palette.h"
+#include "tests/server/http/test_scene.h"
+
+namespace kinescope::http {
+namespace {
+
+using nlohmann::json;
+
+SceneState Scene(const std::string& mesh_folder = "", int people = 1) {
+  return testing::MakeScene(41, 3.25, 5'000'000'000, testing::MakePersonModel(7, mesh_folder),
+                            people);
+}
+
+TEST(ModelJson, HasEverySegmentWithTheVisualsOfItsLink) {
+  const SceneState state = Scene();
+  const json model = json::parse(ModelJson(&state));
+  ASSERT_EQ(model["people"].size(), 1u);
+  const json& person = model["people"][0];
+  EXPECT_EQ(person["revision"], 7);
+  EXPECT_EQ(person["height_m"], 1.75);
+  EXPECT_EQ(person["mass_is_assumed"], true);
+  ASSERT_EQ(person["links"].size(), static_cast<std::size_t>(urdf::kSegmentCount));
+  std::size_t told = 0, known = 0;
+  for (const json& link : person["links"]) {
+    EXPECT_FALSE(link["visuals"].empty()) << link["name"];
+    told += link["visuals"].size();
+  }
+  for (const urdf::Link& link : state.people[0].model->robot.links) known += link.visuals.size();
+  EXPECT_EQ(told, known);
+  EXPECT_EQ(person["links"][urdf::kHead]["name"], "skeleton_head");
+}
+
+TEST(ModelJson, TellsAVisualAsTheUrdfHasIt) {
+  const SceneState state = Scene();
+  const urdf::RobotModel& robot = state.people[0].model->robot;
+  const json model = json::parse(ModelJson(&state));
+  const json& told = model["people"][0]["links"][urdf::kPelvis]["visuals"][0];
+  ASSERT_EQ(robot.links[0].name, "skeleton_pelvis");
+  const urdf::Visual& visual = robot.links[0].visuals[0];
+  EXPECT_EQ(told["kind"], "box");
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(told["size"][static_cast<std::size_t>(i)], visual.geometry.size[i]);
+    EXPECT_EQ(told["position"][static_cast<std::size_t>(i)],
+              visual.link_from_visual.translation()[i]);
+  }
+  EXPECT_EQ(told["quaternion"].size(), 4u);
+}
+
+TEST(ModelJson, HasThePaletteOfEveryOtherSink) {
+  const json palette = json::parse(ModelJson(nullptr))["palette"];
+  EXPECT_EQ(palette["cop"], json(kCopColor));
+  EXPECT_EQ(palette["com"], json(kComColor));
+  EXPECT_EQ(palette["body"], json(kBodyColor));
+  EXPECT_EQ(palette["stale_body"], json(kStaleBodyColor));
+  ASSERT_EQ(palette["classes"].size(), 4u);
+  for (int i = 0; i < 4; ++i) {
+    const auto load_class = static_cast<LoadClass>(i);
+    EXPECT_EQ(palette["classes"][static_cast<std::size_t>(i)]["name"], Name(load_class));
+    EXPECT_EQ(palette["classes"][static_cast<std::size_t>(i)]["color"], json(ColorOf(load_class)));
+  }
+}
+
+TEST(ModelJson, NamesAllJoints) {
+  const json joints = json::parse(ModelJson(nullptr))["joints"];
+  ASSERT_EQ(joints.size(), static_cast<std::size_t>(urdf::kJointCount));
+  EXPECT_EQ(joints[urdf::jRightElbow]["label"], "Right elbow");
+}
+
+TEST(StateJson, SaysNothingThatIsNotKnown) {
+  const json nothing = json::parse(StateJson(nullptr, 1));
+  EXPECT_EQ(nothing["liveness"], "no data");
+  EXPECT_TRUE(nothing["age_ms"].is_null());
+  const SceneState state = Scene();
+  const json told = json::parse(StateJson(&state, 5'002'000'000));
+  EXPECT_EQ(told["liveness"], "live");
+  EXPECT_EQ(told["age_ms"], 2.0);
+  const json& loads = told["people"][0]["loads"];
+  EXPECT_EQ(loads[0]["label"], "L5/S1");
+  EXPECT_EQ(loads[0]["class"], "high");
+  EXPECT_TRUE(loads.back()["ratio"].is_null()) << "NaN is unknown, never a number";
+  EXPECT_EQ(loads.back()["reason"], "left foot is not on the floor");
+}
+
+TEST(Json, RepairsNamesThatAreNoUtf8) {
+  SceneState state = Scene();
+  state.people[0].name = "\xFF\xFE<b>";
+  state.source = "udp://\x80";
+  for (const std::string& text :
+       {StateJson(&state, 0), ModelJson(&state), DetailsJson(&state, "front", true)}) {
+    EXPECT_TRUE(json::accept(text)) << text;
+  }
+}
+
+TEST(DetailsJson, IsEqualForEqualStates) {
+  const SceneState a = Scene();
+  SceneState b = a;
+  b.number = 99;
+  b.people[0].com = Eigen::Vector3d(1, 2, 3);
+  EXPECT_EQ(DetailsJson(&a, "front", true), DetailsJson(&b, "front", true));
+  b.people[0].loads[0].channel = "extension";
+  EXPECT_NE(DetailsJson(&a, "front", true), DetailsJson(&b, "front", true));
+}
+
+TEST(CamerasJson, HasTheNumbersOfEveryView) {
+  const json told = json::parse(CamerasJson(testing::MakeCameras(), "front", false));
+  EXPECT_EQ(told["live"], "front");
+  EXPECT_EQ(told["has_pictures"], false);
+  ASSERT_EQ(told["cameras"].size(), 7u);
+  EXPECT_EQ(told["cameras"][0]["name"], "front");
+  EXPECT_GT(told["cameras"][0]["position"][0], 4.0) << "front is seen from +x";
+}
+
+TEST(FindMesh, GivesOnlyStlFilesThatTheModelNames) {
+  const SceneState state = Scene("/tmp/some meshes%20");
+  const auto first = FindMesh(&state, 0, 7, 0);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(*first, "/tmp/some meshes /pelvis.stl") << "%20 of a URI is a blank";
+  EXPECT_TRUE(FindMesh(&state, 0, 7, 22));
+  EXPECT_FALSE(FindMesh(&state, 0, 7, 23)) << "there are only 23";
+  EXPECT_FALSE(FindMesh(&state, 1, 7, 0)) << "no such person";
+  EXPECT_FALSE(FindMesh(&state, 0, 6, 0)) << "an old revision";
+  EXPECT_FALSE(FindMesh(nullptr, 0, 7, 0));
+}
+
+TEST(FindMesh, RefusesWhatIsNoLocalStlFile) {
+  for (const char* uri :
+       {"package://robot/a.stl", "http://elsewhere/a.stl", "/etc/a.stl", "file://etc/a.stl",
+        "file:///etc/passwd", "file:///etc/a.stl%00", "file:///a%zz.stl", "file://", ""}) {
+    auto model = std::make_shared<PersonModel>(*testing::MakePersonModel(7, "/tmp"));
+    model->robot.links[0].visuals[0].geometry.mesh_uri = uri;
+    SceneState state = Scene();
+    state.people[0].model = model;
+    EXPECT_FALSE(FindMesh(&state, 0, 7, 0)) << uri;
+  }
+}
+
+}  // namespace
+}  // namespace kinescope::http

@@ -1,0 +1,219 @@
+// page_fixture_server [--token T] [--no-pictures] [--meshes FOLDER]: prints one line of JSON with
+// its "url", then obeys lines on its standard input until that ends:
+//   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
+//   people <n>              how many persons it shows
+// page_fixture_server describe: prints one state as the server encodes it (hex) beside what it
+// means, and the thresholds of the load classes, for the page's unit tests.
+#include <poll.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "server/core/install_paths.h"
+#include "server/core/palette.h"
+#include "server/http/protocol.h"
+#include "server/http/server.h"
+#include "server/loads/load_classifier.h"
+#include "tests/server/http/plain_pictures.h"
+#include "tests/server/http/test_scene.h"
+
+namespace kinescope::http::testing {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::nanoseconds kPeriod{1'000'000'000 / 60};
+
+class PlainFeed final : public PictureFeed {
+ public:
+  void SetViewers(int count) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    viewers_ = count;
+  }
+  bool SetCamera(const std::string& camera) override { return camera != "nowhere"; }
+  std::vector<std::uint8_t> SnapshotPng(const std::string&, int width, int height) override {
+    return PlainPng(width, height, {40, 90, 160});
+  }
+  int viewers() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return viewers_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  int viewers_ = 0;
+};
+
+std::string Hex(const Bytes& bytes) {
+  std::string text;
+  for (const std::uint8_t byte : bytes) {
+    char digits[3];
+    std::snprintf(digits, sizeof digits, "%02x", byte);
+    text += digits;
+  }
+  return text;
+}
+
+json Numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+json Describe() {
+  const SceneState state = MakeScene(41, 3.25, 5'000'000'000, MakePersonModel(7), 2);
+  json people = json::array();
+  for (const PersonState& person : state.people) {
+    json links = json::array(), loads = json::array();
+    for (const urdf::Pose& link : person.links) {
+      const Eigen::Quaterniond& q = link.orientation;
+      links.push_back(
+          {{"position", Numbers(link.position)}, {"quaternion", {q.x(), q.y(), q.z(), q.w()}}});
+    }
+    for (const JointLoad& load : person.loads) {
+      const bool is_known = std::isfinite(load.ratio);
+      loads.push_back({{"joint", load.joint},
+                       {"loadClass", Name(load.load_class)},
+                       {"radius", SphereRadius(load.joint, load.load_class, 1.75)},
+                       {"position", Numbers(load.position)},
+                       {"ratio", is_known ? json(load.ratio) : json(nullptr)},
+                       {"moment", is_known ? json(load.deciding_moment) : json(nullptr)},
+                       {"capacity", load.capacity}});
+    }
+    people.push_back({{"character", person.character},
+                      {"revision", 7},
+                      {"com", Numbers(*person.com)},
+                      {"cop", Numbers(*person.cop)},
+                      {"comIsOurs", false},
+                      {"massIsAssumed", true},
+                      {"links", links},
+                      {"loads", loads}});
+  }
+  const loads::LoadClassifier::Settings settings;
+  return {{"hex", Hex(EncodeState(state, 5'004'000'000, 3))},
+          {"state",
+           {{"liveness", "live"},
+            {"counter", state.counter},
+            {"number", 41},
+            {"sentMicros", 5'004'000},
+            {"arrivalMicros", 5'000'000},
+            {"stampMicros", state.stamp_nanos / 1000},
+            {"timeCodeMillis", 3250},
+            {"rateHz", 60},
+            {"viewers", 3},
+            {"people", people}}},
+          {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},
+          {"thresholds", {{"medium", settings.up[0]}, {"high", settings.up[1]}}}};
+}
+
+// What the tests ask for over standard input.
+class Orders {
+ public:
+  std::string mode = "live";
+  int people = 1;
+  bool changed = true;
+  bool ended = false;
+
+  void WaitUntil(Clock::time_point time) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - Clock::now()).count();
+    pollfd input{0, POLLIN, 0};
+    if (::poll(&input, 1, static_cast<int>(std::max<std::int64_t>(0, left))) <= 0) return;
+    char bytes[256];
+    const ssize_t count = ::read(0, bytes, sizeof bytes);
+    ended = count <= 0;
+    if (!ended) pending_.append(bytes, static_cast<std::size_t>(count));
+    for (std::size_t end = pending_.find('\n'); end != std::string::npos;
+         end = pending_.find('\n')) {
+      Obey(pending_.substr(0, end));
+      pending_.erase(0, end + 1);
+    }
+  }
+
+ private:
+  void Obey(const std::string& line) {
+    changed = true;
+    if (line.rfind("people ", 0) == 0) {
+      people = std::stoi(line.substr(7));
+    } else {
+      mode = line;
+    }
+  }
+  std::string pending_;  // of a line that has not come to its end
+};
+
+SceneState NextState(const Orders& orders, const SceneState& last,
+                     const std::shared_ptr<const PersonModel>& model, double seconds) {
+  SceneState next = last;
+  if (orders.mode == "live") {
+    next = MakeScene(last.number, seconds, MonotonicNanos(), model, orders.people);
+  } else if (orders.mode == "nodata") {
+    next = SceneState();
+    next.source = "udp://0.0.0.0:9763";
+  } else {
+    next.liveness = Liveness::kStale;
+    for (PersonState& person : next.people) {
+      for (JointLoad& load : person.loads) {
+        load.load_class = LoadClass::kUnknown;
+        load.ratio = std::nan("");
+        load.reason = "the stream has stopped";
+      }
+    }
+  }
+  next.number = last.number + 1;
+  return next;
+}
+
+void Serve(const HttpConfig& config, const std::string& mesh_folder, PlainFeed* feed) {
+  Latest<SceneState> states;
+  Latest<Picture> pictures;
+  HttpServer server(config, states, pictures, feed, [] { return std::string("{}"); });
+  std::cout << json{{"url", server.url()}}.dump() << std::endl;
+  const auto model = MakePersonModel(1, mesh_folder);
+  SceneState state;
+  Orders orders;
+  const auto began = Clock::now();
+  for (auto due = began; !orders.ended; due = std::max(due + kPeriod, Clock::now() - kPeriod)) {
+    orders.WaitUntil(due);
+    if (orders.mode != "live" && !orders.changed) continue;
+    orders.changed = false;
+    const double seconds = std::chrono::duration<double>(due - began).count();
+    state = NextState(orders, state, model, seconds);
+    states.Publish(std::make_shared<const SceneState>(state));
+    if (feed != nullptr && feed->viewers() > 0 && state.number % 4 == 0) {
+      pictures.Publish(std::make_shared<const Picture>(
+          Picture{PlainJpeg(640, 360, {40, 90, 160}), state.number, state.arrival_nanos}));
+    }
+  }
+}
+
+int Main(const std::vector<std::string>& arguments) {
+  HttpConfig config;
+  config.port = 0;
+  config.web_root = FindResource("web");
+  config.cameras = MakeCameras();
+  config.camera = "front";
+  PlainFeed feed;
+  PlainFeed* used_feed = &feed;
+  std::string mesh_folder;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == "describe") return std::puts(Describe().dump().c_str()) < 0 ? 1 : 0;
+    if (arguments[i] == "--no-pictures") used_feed = nullptr;
+    if (arguments[i] == "--token" && i + 1 < arguments.size()) config.token = arguments[++i];
+    if (arguments[i] == "--meshes" && i + 1 < arguments.size()) mesh_folder = arguments[++i];
+  }
+  Serve(config, mesh_folder, used_feed);
+  return 0;
+}
+
+}  // namespace
+}  // namespace kinescope::http::testing
+
+int main(int argc, char** argv) try {
+  return kinescope::http::testing::Main({argv + 1, argv + argc});
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "page_fixture_server: %s\n", error.what());
+  return 2;
+}

@@ -1,0 +1,175 @@
+#include "server/http/protocol.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "server/core/palette.h"
+#include "tests/server/http/test_scene.h"
+
+namespace kinescope::http {
+namespace {
+
+using Eigen::Vector3d;
+
+// Reads as docs/http.md says, without any code of the writer.
+class Reader {
+ public:
+  explicit Reader(const Bytes& bytes) : bytes_(bytes) {}
+
+  template <class T>
+  T Get() {
+    T value{};
+    if (offset_ + sizeof(T) > bytes_.size()) {
+      ADD_FAILURE() << "the message ends at byte " << bytes_.size();
+      return value;
+    }
+    std::memcpy(&value, bytes_.data() + offset_,
+                sizeof(T));  // every machine we test on is little-endian
+    offset_ += sizeof(T);
+    return value;
+  }
+  Vector3d GetVector() {
+    const float x = Get<float>(), y = Get<float>(), z = Get<float>();
+    return {x, y, z};
+  }
+  bool AtEnd() const { return offset_ == bytes_.size(); }
+
+ private:
+  const Bytes& bytes_;
+  std::size_t offset_ = 0;
+};
+
+SceneState Scene(int people = 1) {
+  return testing::MakeScene(41, 3.25, 5'000'000'000, testing::MakePersonModel(7), people);
+}
+
+void ExpectPerson(Reader& in, const PersonState& person) {
+  EXPECT_EQ(in.Get<std::int32_t>(), person.character);
+  EXPECT_EQ(in.Get<std::uint8_t>(), 1 | 2 | 8) << "CoM, CoP, assumed mass";
+  EXPECT_EQ(in.Get<std::uint8_t>(), urdf::kSegmentCount);
+  EXPECT_EQ(in.Get<std::uint8_t>(), person.loads.size());
+  EXPECT_EQ(in.Get<std::uint8_t>(), 0);
+  EXPECT_EQ(in.Get<double>(), 7);
+  EXPECT_TRUE(in.GetVector().isApprox(*person.com, 1e-6));
+  EXPECT_TRUE(in.GetVector().isApprox(*person.cop, 1e-6));
+  for (const urdf::Pose& link : person.links) {
+    EXPECT_LT((in.GetVector() - link.position).norm(), 1e-6);
+    const float x = in.Get<float>(), y = in.Get<float>(), z = in.Get<float>(), w = in.Get<float>();
+    EXPECT_LT((Eigen::Vector4d(x, y, z, w) - link.orientation.coeffs()).norm(), 1e-6);
+  }
+  for (const JointLoad& load : person.loads) {
+    EXPECT_EQ(in.Get<std::uint8_t>(), load.joint);
+    EXPECT_EQ(in.Get<std::uint8_t>(), static_cast<int>(load.load_class));
+    const double radius = in.Get<std::uint16_t>() / 1000.0;
+    EXPECT_NEAR(radius, SphereRadius(load.joint, load.load_class, 1.75), 0.0005);
+    EXPECT_LT((in.GetVector() - load.position).norm(), 1e-6);
+    for (const double value : {load.ratio, load.deciding_moment, load.capacity}) {
+      const float sent = in.Get<float>();
+      EXPECT_TRUE(std::isnan(value) ? std::isnan(sent) : std::abs(sent - value) < 1e-4) << value;
+    }
+  }
+}
+
+TEST(StateMessage, CarriesEveryFieldWhereTheManualSaysSo) {
+  const SceneState state = Scene(2);
+  const Bytes bytes = EncodeState(state, 5'004'000'000, 3);
+  Reader in(bytes);
+  EXPECT_EQ(in.Get<std::uint8_t>(), 1);
+  EXPECT_EQ(in.Get<std::uint8_t>(), kProtocolVersion);
+  EXPECT_EQ(in.Get<std::uint8_t>(), static_cast<int>(Liveness::kLive));
+  EXPECT_EQ(in.Get<std::uint8_t>(), 2);
+  EXPECT_EQ(in.Get<std::uint32_t>(), state.counter);
+  EXPECT_EQ(in.Get<double>(), 41);
+  EXPECT_EQ(in.Get<double>(), 5'004'000);
+  EXPECT_EQ(in.Get<double>(), 5'000'000);
+  EXPECT_EQ(in.Get<double>(), static_cast<double>(state.stamp_nanos) / 1e3);
+  EXPECT_EQ(in.Get<double>(), 3250);
+  EXPECT_EQ(in.Get<float>(), 60);
+  EXPECT_EQ(in.Get<std::uint32_t>(), 3);
+  for (const PersonState& person : state.people) ExpectPerson(in, person);
+  EXPECT_TRUE(in.AtEnd());
+}
+
+TEST(StateMessage, OfOnePersonStaysBelow1200Bytes) {
+  EXPECT_LT(EncodeState(Scene(), 0, 1).size(), 1200u);
+}
+
+TEST(StateMessage, OfNobodyIsItsHeader) {
+  EXPECT_EQ(EncodeState(SceneState(), 0, 0).size(), kStateHeaderBytes);
+}
+
+TEST(StateMessage, SendsAtMost255People) {
+  SceneState state = Scene();
+  state.people.resize(300, state.people.front());
+  const Bytes bytes = EncodeState(state, 0, 1);
+  EXPECT_EQ(bytes[3], 255);
+  const std::size_t person_bytes = EncodeState(Scene(), 0, 1).size() - kStateHeaderBytes;
+  EXPECT_EQ(bytes.size(), kStateHeaderBytes + 255 * person_bytes);
+}
+
+TEST(StateMessage, SaysWhatIsMissing) {
+  SceneState state = Scene();
+  state.people[0].com.reset();
+  state.people[0].cop.reset();
+  EXPECT_EQ(EncodeState(state, 0, 1)[kStateHeaderBytes + 4] & 3, 0);
+}
+
+TEST(PictureMessage, SaysWhichStateItShows) {
+  const Bytes bytes = EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000});
+  Reader in(bytes);
+  EXPECT_EQ(in.Get<std::uint8_t>(), 2);
+  EXPECT_EQ(in.Get<std::uint8_t>(), kProtocolVersion);
+  in.Get<std::uint16_t>();
+  in.Get<std::uint32_t>();
+  EXPECT_EQ(in.Get<double>(), 41);
+  EXPECT_EQ(in.Get<double>(), 5'000'000);
+  EXPECT_EQ(bytes.size(), kPictureHeaderBytes + 3);
+  EXPECT_EQ(bytes.back(), 0xFF);
+}
+
+TEST(ClientCommand, IsOneJsonObjectWithKnownMembers) {
+  const auto command = ParseCommand(R"({"pictures": true, "camera": "front", "ping": 12.5})");
+  ASSERT_TRUE(command) << command.error();
+  EXPECT_EQ(command->pictures, true);
+  EXPECT_EQ(command->camera, "front");
+  EXPECT_EQ(command->ping, 12.5);
+  EXPECT_TRUE(ParseCommand("{}"));
+  const auto seen = ParseCommand(R"({"seen_states": 7, "seen_pictures": 0})");
+  ASSERT_TRUE(seen) << seen.error();
+  EXPECT_EQ(seen->seen_states, 7u);
+  EXPECT_EQ(seen->seen_pictures, 0u);
+}
+
+TEST(ClientCommand, IsRefusedWhenAnythingIsOdd) {
+  for (const std::string& text :
+       {std::string(), std::string("{"), std::string("[]"), std::string("1"), std::string("null"),
+        std::string(R"({"pictures": 1})"), std::string(R"({"camera": 3})"),
+        std::string(R"({"ping": "1"})"), std::string(R"({"seen_states": -1})"),
+        std::string(R"({"seen_states": 1.5})"), std::string(R"({"picture": true})"),
+        std::string("\xFF\xFE"), R"({"camera": ")" + std::string(65, 'a') + "\"}",
+        std::string(2000, '['), std::string(R"({"ping": 1e999})")}) {
+    const auto command = ParseCommand(text);
+    EXPECT_FALSE(command) << text;
+    EXPECT_TRUE(command || !command.error().empty()) << text;
+  }
+}
+
+TEST(ProtocolManual, KnowsTheSizesAndTheVersion) {
+  std::ifstream file(std::string(KINESCOPE_SOURCE_DIR) + "/docs/http.md");
+  const std::string manual(std::istreambuf_iterator<char>(file), {});
+  const auto expect = [&](const std::string& text) {
+    EXPECT_NE(manual.find(text), std::string::npos) << "docs/http.md does not say: " << text;
+  };
+  expect("protocol version " + std::to_string(kProtocolVersion));
+  expect("header, " + std::to_string(kStateHeaderBytes) + " bytes");
+  expect("person, " + std::to_string(kPersonHeaderBytes) + " bytes");
+  expect("link, " + std::to_string(kLinkBytes) + " bytes");
+  expect("load, " + std::to_string(kLoadBytes) + " bytes");
+  expect("picture header, " + std::to_string(kPictureHeaderBytes) + " bytes");
+}
+
+}  // namespace
+}  // namespace kinescope::http

@@ -1,0 +1,267 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/server/http/test_server.h"
+
+namespace kinescope::http::testing {
+namespace {
+
+using namespace std::string_literals;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+std::string FileText(const std::string& name) {
+  std::ifstream file(std::string(KINESCOPE_SOURCE_DIR) + "/" + name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(HttpServer, ServesThePageAsItLiesInTheFolder) {
+  const TestServer site;
+  const Response page = site.Get("/");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_EQ(page.body, FileText("web/index.html"));
+  EXPECT_EQ(page.headers.at("content-type"), "text/html; charset=utf-8");
+  EXPECT_EQ(page.headers.at("cache-control"), "no-cache");
+  EXPECT_EQ(site.Get("/app.js?v=2").body, FileText("web/app.js"));
+  EXPECT_EQ(site.Get("/app.js").headers.at("content-type"), "text/javascript; charset=utf-8");
+}
+
+TEST(HttpServer, LetsThePageLoadNothingFromElsewhere) {
+  const TestServer site;
+  for (const char* target : {"/", "/app.js", "/api/state", "/nothing"}) {
+    const Response response = site.Get(target);
+    EXPECT_THAT(response.headers.at("content-security-policy"), StartsWith("default-src 'none'"));
+    EXPECT_THAT(response.headers.at("content-security-policy"), Not(HasSubstr("http")));
+    EXPECT_EQ(response.headers.at("x-content-type-options"), "nosniff");
+    EXPECT_EQ(response.headers.at("referrer-policy"), "no-referrer");
+  }
+}
+
+TEST(HttpServer, SendsAFileAgainOnlyWhenItChanged) {
+  const TestServer site;
+  const std::string tag = site.Get("/app.js").headers.at("etag");
+  const Response again = site.Get("/app.js", {{"If-None-Match", tag}});
+  EXPECT_EQ(again.status, 304);
+  EXPECT_EQ(again.body, "");
+  EXPECT_EQ(site.Get("/app.js", {{"If-None-Match", "\"other\""}}).status, 200);
+}
+
+TEST(HttpServer, AnswersHeadWithTheSizeAlone) {
+  const TestServer site;
+  const Response head = Fetch(site.server.port(), "/app.js", {}, "HEAD");
+  EXPECT_EQ(head.status, 200);
+  EXPECT_EQ(head.headers.at("content-length"), std::to_string(FileText("web/app.js").size()));
+  EXPECT_EQ(Fetch(site.server.port(), "/api/state", {}, "HEAD").status, 200);
+}
+
+TEST(HttpServer, AnswersSeveralRequestsOnOneConnection) {
+  const TestServer site;
+  const std::string host = "Host: localhost\r\n";
+  const std::string answer =
+      Exchange(site.server.port(),
+               "GET /api/cameras HTTP/1.1\r\n" + host + "\r\nGET /api/state HTTP/1.1\r\n" + host +
+                   "Connection: close\r\n\r\n",
+               1 << 20);
+  EXPECT_THAT(answer, HasSubstr("three_quarter"));
+  EXPECT_THAT(answer, HasSubstr("liveness"));
+}
+
+TEST(HttpServer, RefusesEveryWayOutOfTheFolder) {
+  const TestServer site;
+  for (const std::string& target : {"/../server/http/server.h"s,
+                                    "/%2e%2e/server/http/server.h"s,
+                                    "/..%2fserver/http/server.h"s,
+                                    "/%2e%2e%2fserver%2fhttp%2fserver.h"s,
+                                    "/lib/../../server/http/server.h"s,
+                                    "/./app.js"s,
+                                    "//app.js"s,
+                                    "/..%5cserver"s,
+                                    "/app.js%00"s,
+                                    "/%00"s,
+                                    "/etc/passwd"s,
+                                    "//etc/passwd"s,
+                                    "/%2fetc%2fpasswd"s,
+                                    "/package.json"s,
+                                    "/package-lock.json"s,
+                                    "/.npmrc"s,
+                                    "/CMakeLists.txt"s,
+                                    "/node_modules/three/package.json"s,
+                                    "/node_modules/three/build/three.module.js"s,
+                                    "/lib/three/../three/three.module.js"s,
+                                    "/lib/three/three.cjs"s,
+                                    "/file:///etc/passwd"s,
+                                    "/app.js/"s,
+                                    "/APP.JS"s,
+                                    "/api/mesh/0/7/0"s,
+                                    "/api/mesh/0/7/../../../etc/passwd"s,
+                                    "/api/mesh/0/7/%2e%2e"s,
+                                    "/api/mesh/-1/7/0"s,
+                                    "/api/mesh/0/7"s,
+                                    "/api/mesh/0/7/0/0"s,
+                                    "/api/mesh/99999999999999999999/7/0"s,
+                                    "/api/mesh/0x0/7/0"s}) {
+    const Response response = site.Get(target);
+    EXPECT_TRUE(response.status == 400 || response.status == 404)
+        << target << ": " << response.status;
+    EXPECT_FALSE(response.json().at("error").get<std::string>().empty()) << target;
+  }
+}
+
+TEST(HttpServer, AnswersOddRequestsAndGoesOn) {
+  const TestServer site;
+  const int port = site.server.port();
+  EXPECT_THAT(Exchange(port, "hello\r\n\r\n"), StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(Exchange(port, "GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(10000, 'a') +
+                                 "\r\n\r\n"),
+              StartsWith("HTTP/1.1 431"));
+  EXPECT_THAT(
+      Exchange(port, "GET /" + std::string(3000, 'a') + " HTTP/1.1\r\nHost: localhost\r\n\r\n"),
+      StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(
+      Exchange(port, "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 9999999\r\n\r\n"),
+      StartsWith("HTTP/1.1 413"));
+  EXPECT_EQ(Exchange(port, std::string("\0\0\0\0", 4) + "\r\n\r\n").substr(0, 12), "HTTP/1.1 400");
+  for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "NONSENSE"}) {
+    const Response response = Fetch(port, "/", {}, method);
+    EXPECT_EQ(response.status, 405) << method;
+    EXPECT_EQ(response.headers.at("allow"), "GET, HEAD");
+  }
+  EXPECT_EQ(site.Get("/").status, 200);
+  EXPECT_GE(site.HttpCounters()["refused"]["bad method"], 5);
+}
+
+TEST(HttpServer, ServesTheNewestState) {
+  TestServer site;
+  EXPECT_EQ(site.Get("/api/state").json()["liveness"], "no data");
+  site.PublishState(12);
+  const Response state = site.Get("/api/state");
+  EXPECT_EQ(state.json()["number"], 12);
+  EXPECT_EQ(state.headers.at("cache-control"), "no-store");
+  EXPECT_EQ(site.Get("/api/model").json()["people"][0]["revision"], 7);
+  EXPECT_EQ(site.Get("/api/cameras").json()["cameras"].size(), 7u);
+}
+
+TEST(HttpServer, ServesMeshesOfTheModelOnly) {
+  const std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) / "kinescope_meshes";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "pelvis.stl") << "solid pelvis";
+  TestServer site("", true, folder.string());
+  EXPECT_EQ(site.Get("/api/mesh/0/7/0").status, 404) << "no state yet";
+  site.PublishState(1);
+  const auto model = site.Get("/api/model").json();
+  const std::string url = model["people"][0]["links"][0]["visuals"][0]["mesh"];
+  EXPECT_EQ(url, "/api/mesh/0/7/0");
+  const Response mesh = site.Get(url);
+  EXPECT_EQ(mesh.status, 200);
+  EXPECT_EQ(mesh.body, "solid pelvis");
+  EXPECT_EQ(mesh.headers.at("content-type"), "model/stl");
+  EXPECT_EQ(site.Get("/api/mesh/0/7/1").status, 404) << "named, but not there";
+  EXPECT_EQ(site.Get("/api/mesh/0/6/0").status, 404) << "an older revision";
+}
+
+TEST(HttpServer, AddsItsOwnPartToTheDiagnostics) {
+  const TestServer site;
+  site.Get("/nothing");
+  const auto diagnostics = site.Get("/api/diagnostics").json();
+  EXPECT_EQ(diagnostics["source"]["datagrams"], 5);
+  EXPECT_EQ(diagnostics["http"]["refused"]["unknown address"], 1);
+  EXPECT_EQ(diagnostics["http"]["clients"].size(), 0u);
+}
+
+TEST(HttpServer, SurvivesDiagnosticsThatFail) {
+  Latest<SceneState> states;
+  Latest<Picture> pictures;
+  const HttpServer broken(TestServer::MakeConfig(""), states, pictures, nullptr,
+                          []() -> std::string { throw std::runtime_error("no diagnosis"); });
+  EXPECT_EQ(Fetch(broken.port(), "/api/diagnostics").status, 500);
+  EXPECT_EQ(Fetch(broken.port(), "/api/state").status, 200);
+  Latest<SceneState> other_states;
+  Latest<Picture> other_pictures;
+  const HttpServer odd(TestServer::MakeConfig(""), other_states, other_pictures, nullptr,
+                       [] { return std::string("no JSON"); });
+  EXPECT_THAT(Fetch(odd.port(), "/api/diagnostics").json()["error"].get<std::string>(),
+              HasSubstr("not JSON"));
+}
+
+TEST(HttpServer, TokenGuardsEveryRoute) {
+  const TestServer site("s3cret");
+  EXPECT_THAT(site.server.url(), HasSubstr("/?token=s3cret"));
+  const std::string cookie = "kinescope_" + std::to_string(site.server.port()) + "=s3cret";
+  for (const char* target :
+       {"/", "/app.js", "/api/state", "/api/model", "/api/cameras", "/api/diagnostics",
+        "/snapshot.png", "/api/mesh/0/7/0", "/lib/three/three.module.js", "/nothing", "/ws"}) {
+    EXPECT_EQ(site.Get(target).status, 401) << target;
+    EXPECT_EQ(site.Get(target + "?token=wrong"s).status, 401) << target;
+    EXPECT_EQ(site.Get(target, {{"Cookie", "kinescope_1=s3cret"}}).status, 401) << target;
+    EXPECT_NE(site.Get(target, {{"Cookie", cookie}}).status, 401) << target;
+    EXPECT_NE(site.Get(target + "?token=s3cret"s).status, 401) << target;
+  }
+  const Response first = site.Get("/?token=s3cret");
+  EXPECT_EQ(first.headers.at("set-cookie"), cookie + "; Path=/; HttpOnly; SameSite=Strict");
+  EXPECT_EQ(site.Get("/", {{"Cookie", cookie}}).headers.count("set-cookie"), 0u);
+}
+
+TEST(HttpServer, WithATokenAnyHostNameMayBeUsed) {
+  const TestServer site("s3cret");
+  EXPECT_EQ(site.Get("/?token=s3cret", {{"Host", "lab.example:8080"}}).status, 200);
+}
+
+TEST(HttpServer, WithoutATokenOnlyNamesOfThisMachineAreServed) {
+  const TestServer site;
+  EXPECT_EQ(site.Get("/api/state", {{"Host", "localhost:1234"}}).status, 200);
+  EXPECT_EQ(site.Get("/api/state", {{"Host", "evil.example"}}).status, 403);
+  EXPECT_EQ(site.Get("/", {{"Host", "127.0.0.1.evil.example:80"}}).status, 403);
+}
+
+TEST(HttpServer, SaysWhatToDoWhenThePortIsTaken) {
+  const TestServer site;
+  HttpConfig config = TestServer::MakeConfig("");
+  config.port = site.server.port();
+  Latest<SceneState> states;
+  Latest<Picture> pictures;
+  try {
+    const HttpServer second(config, states, pictures, nullptr, nullptr);
+    FAIL() << "two servers on one port";
+  } catch (const UsageError& error) {
+    const std::string line = error.what();
+    EXPECT_THAT(line, HasSubstr("127.0.0.1:" + std::to_string(config.port)));
+    EXPECT_THAT(line, HasSubstr("choose another port"));
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+}
+
+TEST(HttpServer, RefusesAConfigurationThatLetsStrangersIn) {
+  Latest<SceneState> states;
+  Latest<Picture> pictures;
+  const auto start = [&](const std::string& ip, const std::string& token, int port) {
+    HttpConfig config = TestServer::MakeConfig(token);
+    config.bind_ip = ip;
+    config.port = port;
+    const HttpServer server(config, states, pictures, nullptr, nullptr);
+  };
+  EXPECT_THROW(start("0.0.0.0", "", 0), UsageError);
+  EXPECT_THROW(start("::", "", 0), UsageError);
+  EXPECT_THROW(start("not.an.ip", "a", 0), UsageError);
+  EXPECT_THROW(start("127.0.0.1", "two words", 0), UsageError);
+  EXPECT_THROW(start("127.0.0.1", "", 70000), UsageError);
+  EXPECT_THROW(start("127.0.0.1", "", -1), UsageError);
+  EXPECT_NO_THROW(start("0.0.0.0", "a", 0));
+}
+
+TEST(HttpServer, NamesAnAddressThatCanBeOpened) {
+  Latest<SceneState> states;
+  Latest<Picture> pictures;
+  HttpConfig config = TestServer::MakeConfig("abc");
+  config.bind_ip = "0.0.0.0";
+  const HttpServer server(config, states, pictures, nullptr, nullptr);
+  EXPECT_EQ(server.url(), "http://localhost:" + std::to_string(server.port()) + "/?token=abc");
+}
+
+}  // namespace
+}  // namespace kinescope::http::testing

@@ -1,0 +1,97 @@
+#include "server/http/static_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace kinescope::http {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+
+class StaticFilesTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = (fs::temp_directory_path() / "kinescope_static_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+    fs::create_directory(web());
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path web() const { return folder_ / "web"; }
+  void Write(const fs::path& path, const std::string& text = "x") {
+    fs::create_directories(path.parent_path());
+    std::ofstream(path) << text;
+  }
+  std::vector<std::string> Listed() const {
+    const StaticFiles files(web());
+    std::vector<std::string> urls;
+    for (const auto& [url, file] : files.all()) urls.push_back(url);
+    return urls;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(StaticFilesTest, ListsThePageAndItsLibrariesOnly) {
+  for (const char* name :
+       {"index.html", "app.js", "style.css", "parts/icon.svg", "package.json", "CMakeLists.txt",
+        ".npmrc", ".secret/a.js", "notes.txt", "node_modules/three/build/three.module.js",
+        "node_modules/three/build/three.cjs", "node_modules/other/index.js"}) {
+    Write(web() / name);
+  }
+  EXPECT_THAT(Listed(), ElementsAre("/", "/app.js", "/index.html", "/lib/three/three.module.js",
+                                    "/parts/icon.svg", "/style.css"));
+}
+
+TEST_F(StaticFilesTest, LeavesOutLinksThatLeadOut) {
+  Write(folder_ / "secret.js");
+  Write(folder_ / "elsewhere/inner.js");
+  Write(web() / "app.js");
+  fs::create_symlink(folder_ / "secret.js", web() / "out.js");
+  fs::create_symlink("../secret.js", web() / "relative_out.js");
+  fs::create_directory_symlink(folder_ / "elsewhere", web() / "elsewhere");
+  fs::create_symlink("app.js", web() / "inside.js");
+  fs::create_symlink("gone.js", web() / "dangling.js");
+  fs::create_directory(web() / "folder.js");
+  EXPECT_THAT(Listed(), ElementsAre("/app.js", "/inside.js"));
+}
+
+TEST_F(StaticFilesTest, IsEmptyWithoutAFolder) {
+  EXPECT_TRUE(StaticFiles(folder_ / "nowhere").all().empty());
+  EXPECT_TRUE(StaticFiles("").all().empty());
+}
+
+TEST_F(StaticFilesTest, GivesANewTagWhenTheFileChanges) {
+  Write(web() / "app.js", "one");
+  const std::string before = EntityTag(web() / "app.js");
+  EXPECT_EQ(EntityTag(web() / "app.js"), before);
+  Write(web() / "app.js", "three");
+  EXPECT_NE(EntityTag(web() / "app.js"), before);
+  EXPECT_EQ(EntityTag(web() / "gone.js"), "");
+}
+
+TEST(StaticFilesOfThePage, AreAllThere) {
+  const StaticFiles files(fs::path(KINESCOPE_SOURCE_DIR) / "web");
+  for (const char* url : {"/", "/index.html", "/app.js", "/style.css", "/favicon.svg"}) {
+    EXPECT_NE(files.Find(url), nullptr) << url;
+  }
+}
+
+TEST(StaticFilesOfThePage, IncludeItsLibraries) {
+  if (!fs::exists(fs::path(KINESCOPE_SOURCE_DIR) / "web/node_modules")) {
+    GTEST_SKIP() << "web/node_modules is absent: npm ci --prefix web";
+  }
+  const StaticFiles files(fs::path(KINESCOPE_SOURCE_DIR) / "web");
+  for (const Library& library : Libraries()) {
+    EXPECT_NE(files.Find(library.url), nullptr) << library.path << " is not in the npm package";
+  }
+}
+
+}  // namespace
+}  // namespace kinescope::http

@@ -1,0 +1,28 @@
+/// A person who moves, with loads of every class: made from the default skeleton, a smooth function
+/// of time, the same each time it is asked for.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "server/core/scene_state.h"
+#include "server/http/server.h"
+
+namespace kinescope::http::testing {
+
+/// `mesh_folder`: as HumanModel's.
+std::shared_ptr<const PersonModel> MakePersonModel(std::uint64_t revision = 1,
+                                                   const std::string& mesh_folder = "");
+
+/// A live state at `seconds`, with `people` persons side by side. stamp, counter and time code
+/// follow from `seconds` at 60 samples a second; arrival is `arrival_nanos`.
+SceneState MakeScene(std::uint64_t number, double seconds, std::int64_t arrival_nanos,
+                     const std::shared_ptr<const PersonModel>& model, int people = 1);
+
+/// The names of render/camera.h, with numbers like its own.
+std::vector<CameraView> MakeCameras();
+
+std::int64_t MonotonicNanos();
+
+}  // namespace kinescope::http::testing

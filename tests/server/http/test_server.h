@@ -1,0 +1,111 @@
+/// A server on a free port, with a feed that a test can hold up and look into.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "server/core/errors.h"
+#include "server/http/server.h"
+#include "tests/server/http/test_client.h"
+#include "tests/server/http/test_scene.h"
+
+namespace kinescope::http::testing {
+
+class FakeFeed final : public PictureFeed {
+ public:
+  void SetViewers(int count) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    viewers_ = count;
+    changed_.notify_all();
+  }
+  bool SetCamera(const std::string& camera) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (camera != "front" && camera != "iso") return false;
+    camera_ = camera;
+    return true;
+  }
+  std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width, int height) override {
+    std::unique_lock<std::mutex> lock(mutex_);
+    ++drawing_;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return !held_; });
+    if (camera == "iso") throw UsageError("iso is out of order");
+    if (camera == "back") throw std::runtime_error("the driver failed");
+    const std::string text = camera + " " + std::to_string(width) + "x" + std::to_string(height);
+    return {text.begin(), text.end()};
+  }
+
+  void Hold(bool held) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    held_ = held;
+    changed_.notify_all();
+  }
+  bool WaitUntilDrawing() {
+    return Wait([this] { return drawing_ > 0; });
+  }
+  bool WaitForViewers(int count) {
+    return Wait([this, count] { return viewers_ == count; });
+  }
+  std::string camera() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return camera_;
+  }
+
+ private:
+  bool Wait(const std::function<bool()>& condition) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(10), condition);
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int viewers_ = -1;
+  int drawing_ = 0;
+  bool held_ = false;
+  std::string camera_;
+};
+
+struct TestServer {
+  explicit TestServer(const std::string& token = "", bool with_feed = true,
+                      const std::string& mesh_folder = "")
+      : model(MakePersonModel(7, mesh_folder)),
+        server(MakeConfig(token), states, pictures, with_feed ? &feed : nullptr,
+               [] { return std::string(R"({"source": {"datagrams": 5}})"); }) {}
+
+  static HttpConfig MakeConfig(const std::string& token) {
+    HttpConfig config;
+    config.port = 0;
+    config.token = token;
+    config.web_root = std::string(KINESCOPE_SOURCE_DIR) + "/web";
+    config.cameras = MakeCameras();
+    config.camera = "front";
+    return config;
+  }
+
+  void PublishState(std::uint64_t number) {
+    states.Publish(std::make_shared<const SceneState>(
+        MakeScene(number, static_cast<double>(number) / 60, MonotonicNanos(), model)));
+  }
+  void PublishPicture(std::uint64_t number, std::size_t size) {
+    Picture picture;
+    picture.jpeg.assign(size, 0xAB);
+    picture.state_number = number;
+    pictures.Publish(std::make_shared<const Picture>(std::move(picture)));
+  }
+  Response Get(const std::string& target, const Headers& headers = {}) const {
+    return Fetch(server.port(), target, headers);
+  }
+  nlohmann::json HttpCounters() const { return Get("/api/diagnostics").json()["http"]; }
+
+  FakeFeed feed;
+  Latest<SceneState> states;
+  Latest<Picture> pictures;
+  std::shared_ptr<const PersonModel> model;
+  HttpServer server;
+};
+
+}  // namespace kinescope::http::testing

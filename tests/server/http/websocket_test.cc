@@ -1,0 +1,306 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "server/http/hub.h"
+#include "tests/server/http/test_server.h"
+
+namespace kinescope::http::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+double SentMicros(const WsClient::Message& state) {
+  double value = 0;
+  std::memcpy(&value, state.bytes.data() + 16, sizeof value);
+  return value;
+}
+
+// Publishes state `number` and waits until `client` has it: the hub has then offered it to all.
+void PublishAndSee(TestServer& site, WsClient& client, std::uint64_t number) {
+  site.PublishState(number);
+  while (client.ReceiveState().state_number() != number) {
+  }
+}
+
+std::string Refusal(const std::function<void()>& connect) {
+  try {
+    connect();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "let in";
+}
+
+TEST(WebSocket, GreetsWithDetailsAndTheNewestState) {
+  TestServer site;
+  site.PublishState(5);
+  WsClient client(site.server.port());
+  const auto details = client.ReceiveText("details")["details"];
+  EXPECT_EQ(details["source"], "udp://0.0.0.0:9763");
+  EXPECT_EQ(details["camera"], "front");
+  EXPECT_EQ(details["has_pictures"], true);
+  EXPECT_EQ(details["people"][0]["loads"][0]["channel"], "flexion");
+  EXPECT_EQ(client.ReceiveState().state_number(), 5u);
+  EXPECT_EQ(site.server.clients(), 1);
+}
+
+TEST(WebSocket, SaysNoDataBeforeAnythingCame) {
+  TestServer site;
+  WsClient client(site.server.port());
+  const WsClient::Message state = client.ReceiveState();
+  EXPECT_EQ(state.bytes.size(), 56u);
+  EXPECT_EQ(state.bytes[2], 0);
+}
+
+TEST(WebSocket, BringsEachStateInOrder) {
+  TestServer site;
+  WsClient client(site.server.port());
+  for (std::uint64_t number = 1; number <= 50; ++number) PublishAndSee(site, client, number);
+}
+
+TEST(WebSocket, RepeatsAnOldStateSoThatSilenceMeansADeadServer) {
+  TestServer site;
+  site.PublishState(5);
+  WsClient client(site.server.port());
+  double last = SentMicros(client.ReceiveState());
+  for (int i = 0; i < 3; ++i) {
+    const WsClient::Message again = client.ReceiveState();
+    EXPECT_EQ(again.state_number(), 5u);
+    const double gap = SentMicros(again) - last;
+    EXPECT_GT(gap, 0);
+    EXPECT_LT(gap, 1e6) << "a page calls the server dead after 1.5 s";
+    last = SentMicros(again);
+  }
+}
+
+TEST(WebSocket, SendsNoMoreStatesThanAScreenShows) {
+  TestServer site;
+  WsClient client(site.server.port());
+  client.ReceiveState();
+  std::set<std::uint64_t> seen;
+  std::vector<double> sent;
+  for (std::uint64_t number = 1; number <= 400; ++number) site.PublishState(number);
+  while (seen.count(400) == 0) {
+    const WsClient::Message state = client.ReceiveState();
+    seen.insert(state.state_number());
+    sent.push_back(SentMicros(state));
+  }
+  for (std::size_t i = 1; i < sent.size(); ++i) EXPECT_GT(sent[i] - sent[i - 1], 7000);
+  EXPECT_EQ(*seen.rbegin(), 400u) << "the newest always comes";
+}
+
+TEST(WebSocket, PicturesGoToThoseWhoAskedOnly) {
+  TestServer site;
+  WsClient viewer(site.server.port()), other(site.server.port());
+  viewer.Send(R"({"pictures": true})");
+  ASSERT_TRUE(site.feed.WaitForViewers(1));
+  site.PublishPicture(8, 1000);
+  const WsClient::Message picture = viewer.ReceivePicture();
+  EXPECT_EQ(picture.state_number(), 8u);
+  EXPECT_EQ(picture.bytes.size(), 1024u);
+  other.Send(R"({"ping": 1})");
+  while (true) {  // everything before the pong is what `other` was sent until now
+    const WsClient::Message message = other.Receive();
+    EXPECT_FALSE(message.IsPicture());
+    if (message.is_text && message.json().contains("pong")) break;
+  }
+  viewer.Send(R"({"pictures": false})");
+  EXPECT_TRUE(site.feed.WaitForViewers(0)) << "nothing is drawn for nobody";
+}
+
+TEST(WebSocket, ViewersWhoLeaveAreNoLongerDrawnFor) {
+  TestServer site;
+  {
+    WsClient viewer(site.server.port());
+    viewer.Send(R"({"pictures": true})");
+    ASSERT_TRUE(site.feed.WaitForViewers(1));
+  }
+  EXPECT_TRUE(site.feed.WaitForViewers(0));
+  EXPECT_EQ(site.server.clients(), 0);
+}
+
+TEST(WebSocket, ASecondViewerGetsTheCurrentPictureAtOnce) {
+  TestServer site;
+  WsClient first(site.server.port()), second(site.server.port());
+  first.Send(R"({"pictures": true})");
+  ASSERT_TRUE(site.feed.WaitForViewers(1));
+  site.PublishPicture(8, 1000);
+  first.ReceivePicture();
+  second.Send(R"({"pictures": true})");
+  EXPECT_EQ(second.ReceivePicture().state_number(), 8u);
+}
+
+TEST(WebSocket, AClientThatDoesNotReadGetsTheNewestWhenItReadsAgain) {
+  TestServer site;
+  WsClient stalled(site.server.port(), "/ws", {}, /*receive_buffer_bytes=*/4096);
+  WsClient other(site.server.port());
+  stalled.Send(R"({"pictures": true})");
+  ASSERT_TRUE(site.feed.WaitForViewers(1));
+  // More than the kernel takes: the server is stuck in the middle of this picture from here on.
+  constexpr std::size_t kHuge = 16u << 20;
+  site.PublishPicture(1, kHuge);
+  constexpr std::uint64_t kLast = 100;
+  for (std::uint64_t number = 1; number <= kLast; ++number) {
+    PublishAndSee(site, other, number);
+    if (number % 20 == 0) site.PublishPicture(number, 5000);
+  }
+  const auto counters = site.HttpCounters();
+  ASSERT_EQ(counters["clients"].size(), 2u);
+  std::uint64_t dropped = 0;
+  for (const auto& client : counters["clients"])
+    dropped += client["states_dropped"].get<std::uint64_t>();
+  EXPECT_GE(dropped, kLast - 10) << counters.dump();
+  EXPECT_LE(counters["states_encoded"], kLast + 100) << "encoded once, not once per client";
+
+  EXPECT_EQ(stalled.ReceivePicture().bytes.size(), kHuge + 24);
+  const WsClient::Message next_picture = stalled.ReceivePicture();
+  EXPECT_EQ(next_picture.state_number(), kLast) << "of the later pictures only the newest was kept";
+  PublishAndSee(site, stalled, kLast + 1);
+}
+
+TEST(WebSocket, AStalledClientKeepsOneStateOnly) {
+  TestServer site;
+  WsClient stalled(site.server.port(), "/ws", {}, 4096), other(site.server.port());
+  stalled.ReceiveState();
+  stalled.Send(R"({"pictures": true})");
+  ASSERT_TRUE(site.feed.WaitForViewers(1));
+  site.PublishPicture(1, 16u << 20);
+  for (std::uint64_t number = 1; number <= 30; ++number) PublishAndSee(site, other, number);
+  stalled.ReceivePicture();
+  EXPECT_EQ(stalled.ReceiveState().state_number(), 30u)
+      << "the first state after the stall is the newest";
+}
+
+TEST(WebSocket, AClientThatTellsWhatItHasSeenIsNeverSentMuchAhead) {
+  TestServer site;
+  site.PublishState(1);
+  WsClient busy(site.server.port()), other(site.server.port());
+  busy.Send(R"({"seen_states": 0, "ping": 1})");
+  busy.ReceiveText("pong");
+  // `busy` reads nothing: without its word the kernel would take all of these.
+  for (std::uint64_t number = 2; number <= 60; ++number) PublishAndSee(site, other, number);
+  busy.Send(R"({"ping": 2})");
+  std::uint64_t last = 0;
+  for (bool is_over = false; !is_over;) {
+    const WsClient::Message message = busy.Receive();
+    if (message.IsState()) last = message.state_number();
+    is_over = message.is_text && message.json().contains("pong");
+  }
+  EXPECT_LE(last, 14u) << "no more than a dozen were under way";
+  busy.Send(R"({"seen_states": 12})");
+  EXPECT_EQ(busy.ReceiveState().state_number(), 60u) << "then the newest at once";
+}
+
+TEST(WebSocket, NobodyHasSeenMoreThanWasSent) {
+  TestServer site;
+  WsClient client(site.server.port());
+  client.ReceiveState();
+  client.Send(R"({"seen_states": 1000})");
+  client.ReceiveText("error");
+  client.Send(R"({"seen_pictures": 2})");
+  client.ReceiveText("error");
+}
+
+TEST(WebSocket, AnswersAPingWithItsOwnClock) {
+  TestServer site;
+  WsClient client(site.server.port());
+  const double before = static_cast<double>(MonotonicNanos()) / 1e3;
+  client.Send(R"({"ping": 1234.5})");
+  const auto answer = client.ReceiveText("pong");
+  const double after = static_cast<double>(MonotonicNanos()) / 1e3;
+  EXPECT_EQ(answer["pong"], 1234.5);
+  EXPECT_GE(answer["server_micros"], before);
+  EXPECT_LE(answer["server_micros"], after);
+}
+
+TEST(WebSocket, ACameraChosenByOneIsToldToAll) {
+  TestServer site;
+  WsClient chooser(site.server.port()), other(site.server.port());
+  other.ReceiveText("details");
+  chooser.Send(R"({"camera": "iso"})");
+  EXPECT_EQ(other.ReceiveText("details")["details"]["camera"], "iso");
+  EXPECT_EQ(site.feed.camera(), "iso");
+  EXPECT_EQ(site.Get("/api/cameras").json()["live"], "iso");
+  chooser.Send(R"({"camera": "nowhere"})");
+  EXPECT_THAT(chooser.ReceiveText("error")["error"].get<std::string>(), HasSubstr("nowhere"));
+  EXPECT_EQ(site.Get("/api/cameras").json()["live"], "iso");
+}
+
+TEST(WebSocket, AnswersNonsenseAndGoesOn) {
+  TestServer site;
+  WsClient client(site.server.port());
+  client.Send("nonsense");
+  client.ReceiveText("error");
+  client.SendBinary(std::string("\x00\xFF", 2));
+  client.ReceiveText("error");
+  client.Send(R"({"ping": 1})");
+  client.ReceiveText("pong");
+  EXPECT_EQ(site.HttpCounters()["refused"]["bad message"], 2);
+}
+
+TEST(WebSocket, HangsUpOnMessagesThatAreTooLargeOrTooMany) {
+  TestServer site;
+  WsClient large(site.server.port());
+  large.Send(std::string(5000, ' '));
+  EXPECT_TRUE(large.WaitForClose());
+  WsClient flood(site.server.port());
+  try {
+    for (int i = 0; i < 1000; ++i) flood.Send(R"({"ping": 1})");
+  } catch (const std::exception&) {
+    // hung up already
+  }
+  EXPECT_TRUE(flood.WaitForClose());
+  WsClient good(site.server.port());
+  good.ReceiveState();
+}
+
+TEST(WebSocket, NeedsTheTokenAndThePageOfThisServer) {
+  const TestServer site("s3cret");
+  const int port = site.server.port();
+  const std::string host = "127.0.0.1:" + std::to_string(port);
+  const Headers cookie = {{"Cookie", "kinescope_" + std::to_string(port) + "=s3cret"}};
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws"); }), "refused: 401");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws?token=wrong"); }), "refused: 401");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws?token=s3cret"); }), "let in");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws", cookie); }), "let in");
+  Headers from_here = cookie, from_elsewhere = cookie, from_file = cookie;
+  from_here["Origin"] = "http://" + host;
+  from_elsewhere["Origin"] = "http://evil.example";
+  from_file["Origin"] = "null";
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws", from_here); }), "let in");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws", from_elsewhere); }), "refused: 403");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws", from_file); }), "refused: 403");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/api/state", cookie); }), "refused: 404");
+}
+
+TEST(WebSocket, TakesAsManyClientsAsItSaysAndNoMore) {
+  TestServer site;
+  std::vector<std::unique_ptr<WsClient>> clients;
+  for (int i = 0; i < kMaxClients; ++i) {
+    clients.push_back(std::make_unique<WsClient>(site.server.port()));
+    clients.back()->ReceiveState();
+  }
+  EXPECT_EQ(site.server.clients(), kMaxClients);
+  EXPECT_EQ(Refusal([&] { WsClient(site.server.port()); }), "refused: 503");
+  clients.front()->Send(R"({"pictures": true})");
+  ASSERT_TRUE(site.feed.WaitForViewers(1));
+  clients.erase(clients.begin());
+  ASSERT_TRUE(site.feed.WaitForViewers(0));  // the server has seen that one go
+  WsClient(site.server.port()).ReceiveState();
+}
+
+TEST(WebSocket, ClosesWhenTheServerStops) {
+  auto site = std::make_unique<TestServer>();
+  WsClient client(site->server.port());
+  client.ReceiveState();
+  site.reset();
+  EXPECT_TRUE(client.WaitForClose());
+}
+
+}  // namespace
+}  // namespace kinescope::http::testing

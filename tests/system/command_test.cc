@@ -1,0 +1,232 @@
+// What a user sees who gets it wrong, and the files that a user gets who gets it right.
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <fstream>
+
+#include "render/compare.h"
+#include "render/png_file.h"
+#include "tests/shared_data.h"
+#include "tests/system/run_program.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using testing::ProgramResult;
+using testing::RunProgram;
+using testing::SharedData;
+using testing::TempFolder;
+
+ProgramResult Kinescope(std::vector<std::string> arguments,
+                        const std::vector<std::string>& environment = {}) {
+  arguments.insert(arguments.begin(), KINESCOPE_PROGRAM);
+  return RunProgram(arguments, environment);
+}
+
+// One line that names what is wrong, exit code 2, nothing on standard output.
+void ExpectRefusal(const ProgramResult& result, const std::string& named) {
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(named));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(result.out, "");
+}
+
+// A port that is taken, by us.
+class TakenPort {
+ public:
+  explicit TakenPort(int type) : fd_(socket(AF_INET, type, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address);
+    bind(fd_, reinterpret_cast<sockaddr*>(&address), size);
+    if (type == SOCK_STREAM) listen(fd_, 1);
+    getsockname(fd_, reinterpret_cast<sockaddr*>(&address), &size);
+    number_ = ntohs(address.sin_port);
+  }
+  ~TakenPort() { close(fd_); }
+  TakenPort(const TakenPort&) = delete;
+  TakenPort& operator=(const TakenPort&) = delete;
+  std::string number() const { return std::to_string(number_); }
+
+ private:
+  int fd_;
+  int number_ = 0;
+};
+
+TEST(Command, RefusesWhatItDoesNotKnowByName) {
+  ExpectRefusal(Kinescope({"frobnicate"}), "frobnicate");
+  ExpectRefusal(Kinescope({"serve", "--prot", "3"}), "--prot");
+  ExpectRefusal(Kinescope({"serve", "--http_port", "80a"}), "80a");
+  ExpectRefusal(Kinescope({"bridge", "--tf", "sideways", "--ros", "off"}), "sideways");
+  ExpectRefusal(Kinescope({"serve", "--mass", "500"}), "500");
+  ExpectRefusal(Kinescope({}), "subcommand");
+}
+
+TEST(Command, RefusesSourcesThatAreNone) {
+  const TempFolder folder;
+  const std::string text = folder.path() / "text.mvnx";
+  std::ofstream(text) << "no XML at all\n";
+  const std::string out = folder.path() / "a.png";
+  ExpectRefusal(Kinescope({"render", "/nowhere.mvnx", "--out", out}), "/nowhere.mvnx");
+  ExpectRefusal(Kinescope({"render", text, "--out", out}), text);
+  ExpectRefusal(Kinescope({"render", "demo:fly", "--out", out}), "fly");
+  ExpectRefusal(Kinescope({"render", "udp://:0", "--out", out}), "live stream");
+  ExpectRefusal(Kinescope({"bridge", "--source", "udp://:99999"}), "99999");
+  EXPECT_FALSE(fs::exists(out));
+}
+
+TEST(Command, RefusesPortsThatAreTaken) {
+  const TakenPort tcp(SOCK_STREAM), udp(SOCK_DGRAM);
+  ExpectRefusal(
+      Kinescope({"bridge", "--source", "udp://127.0.0.1:" + udp.number(), "--ros", "off"}),
+      udp.number());
+  const ProgramResult result = Kinescope({"serve", "--source", "udp://127.0.0.1:0", "--http_port",
+                                          tcp.number(), "--ros", "off", "--pictures", "off"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr(tcp.number()));
+}
+
+TEST(Command, SaysWhenItCannotDraw) {
+  // A program without its module, as after half an installation.
+  const TempFolder folder;
+  fs::copy(KINESCOPE_PROGRAM, folder.path() / "kinescope");
+  std::ofstream(folder.path() / "libkinescope_render_osmesa.so") << "not a library";
+  const ProgramResult result = RunProgram(
+      {folder.path() / "kinescope", "render", "demo:n_pose", "--out", folder.path() / "a.png"});
+  ExpectRefusal(result, "libkinescope_render_osmesa.so");
+  ExpectRefusal(Kinescope({"render", "demo:n_pose", "--out", folder.path() / "a.png"},
+                          {"GALLIUM_DRIVER=hardware"}),
+                "GALLIUM_DRIVER=hardware");
+  EXPECT_FALSE(fs::exists(folder.path() / "a.png"));
+}
+
+TEST(Command, RefusesOutputsThatCannotBe) {
+  ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "/nowhere/a.png"}), "/nowhere/a.png");
+  ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "a.gif"}), "a.gif");
+  for (const char* size : {"0x0", "1000000x10", "wide"}) {
+    ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "a.png", "--size", size}), size);
+  }
+  ExpectRefusal(Kinescope({"golden", "check", "/nowhere"}), "/nowhere");
+}
+
+TEST(Command, HelpsEveryCommand) {
+  for (const char* command : {"serve", "bridge", "render", "golden", "stream", "urdf", "probe"}) {
+    const ProgramResult result = Kinescope({command, "--help"});
+    EXPECT_EQ(result.exit_code, 0) << command;
+    EXPECT_GT(result.out.size(), 100u) << command;
+  }
+}
+
+TEST(Command, RendersTheSamePictureTwice) {
+  const TempFolder folder;
+  const std::string a = folder.path() / "a.png", b = folder.path() / "b.png";
+  for (const std::string& out : {a, b}) {
+    const ProgramResult result = Kinescope(
+        {"render", "demo:lift", "--time", "2.5", "--size", "320x180", "--out", out, "--json"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("\"pictures\":1"));
+  }
+  EXPECT_EQ(testing::ReadFile(a), testing::ReadFile(b));
+}
+
+TEST(Command, RendersRealRecordings) {
+  KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
+  const TempFolder folder;
+  const std::string recording = SharedData("mvnx/test_mocap.mvnx");
+  const std::string picture = folder.path() / "a.png", clip = folder.path() / "a.mp4";
+  EXPECT_EQ(Kinescope({"render", recording, "--frame", "60", "--size", "320x180", "--out", picture})
+                .exit_code,
+            0);
+  EXPECT_EQ(render::ReadPng(picture).width, 320);
+  ExpectRefusal(Kinescope({"render", recording, "--frame", "112", "--out", picture}),
+                "--frame=112");
+  // 112 frames at 60 Hz end at 1.85 s: pictures 0 to 55 at 30 a second.
+  const ProgramResult result = Kinescope(
+      {"render", recording, "--size", "320x180", "--supersample", "1", "--out", clip, "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("\"pictures\":56"));
+}
+
+TEST(Command, WritesAUrdfThatItReadsItself) {
+  const TempFolder folder;
+  const std::string file = folder.path() / "person.urdf";
+  EXPECT_EQ(Kinescope({"urdf", "--height", "1.62", "--out", file}).exit_code, 0);
+  const ProgramResult check = Kinescope({"urdf", "check", file});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_THAT(check.out, HasSubstr("67 links, 66 joints, 75.000 kg"));
+  std::ofstream(file) << "<robot/>";
+  EXPECT_EQ(Kinescope({"urdf", "check", file}).exit_code, 1);
+}
+
+// The tester tested: a golden check that cannot fail is worth nothing.
+class GoldenCheck : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::ofstream(case_ / "bend.yaml")
+        << "source: demo:lift\ntime: 2.5\ncamera: right\nsize: 320x180\n";
+    ASSERT_EQ(Kinescope({"golden", "update", case_}).exit_code, 0);
+  }
+  ProgramResult Check() const {
+    return Kinescope({"golden", "check", case_, "--out", case_ / "out"});
+  }
+
+  TempFolder folder_;
+  fs::path case_ = folder_.path();
+};
+
+TEST_F(GoldenCheck, AcceptsWhatItWrote) { EXPECT_EQ(Check().exit_code, 0) << Check().out; }
+
+TEST_F(GoldenCheck, NamesTheJointWhoseClassIsNotTheAcceptedOne) {
+  std::string objects = testing::ReadFile(case_ / "bend.objects.json");
+  const std::string before = "\"joint\": \"left_wrist\", \"class\": \"low\"";
+  const std::size_t at = objects.find(before);
+  ASSERT_NE(at, std::string::npos) << objects;
+  objects.replace(at, before.size(), "\"joint\": \"left_wrist\", \"class\": \"high\"");
+  std::ofstream(case_ / "bend.objects.json") << objects;
+  const ProgramResult result = Check();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("left_wrist: expected high (red), is low (green)"));
+}
+
+TEST_F(GoldenCheck, NamesTheJointWhenThePersonIsAnother) {
+  std::ofstream(case_ / "bend.yaml", std::ios::app) << "sex: female\nmass: 120\n";
+  const ProgramResult result = Check();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("l5_s1: expected "));
+}
+
+TEST_F(GoldenCheck, SeesPixelsThatDifferAndShowsThem) {
+  render::Image image = render::ReadPng(case_ / "bend.png");
+  for (std::size_t i = 0; i < 400; ++i) image.rgba[i] ^= 0x80;
+  render::WritePng(case_ / "bend.png", image);
+  const ProgramResult result = Check();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("100 pixels differ"));
+  EXPECT_TRUE(fs::exists(case_ / "out/bend.actual.png"));
+  EXPECT_TRUE(fs::exists(case_ / "out/bend.diff.png"));
+}
+
+TEST_F(GoldenCheck, SaysHowToMakeAMissingPicture) {
+  fs::remove(case_ / "bend.png");
+  const ProgramResult result = Check();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("golden update"));
+}
+
+TEST_F(GoldenCheck, RefusesAKeyThatNoCaseHas) {
+  std::ofstream(case_ / "bend.yaml", std::ios::app) << "colour: red\n";
+  ExpectRefusal(Check(), "colour");
+}
+
+}  // namespace
+}  // namespace kinescope

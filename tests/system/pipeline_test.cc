@@ -1,0 +1,274 @@
+// The main job with everything real: a ROS master, `kinescope stream` as the suit, `kinescope
+// serve`, a subscriber, a picture fetched over HTTP, and the page in Chromium.
+#include <fmt/format.h>
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/PointStamped.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <ros/ros.h>
+#include <sensor_msgs/JointState.h>
+#include <sys/socket.h>
+#include <tf2_msgs/TFMessage.h>
+#include <unistd.h>
+#include <urdf/model.h>
+#include <visualization_msgs/MarkerArray.h>
+#include <xsens_mvn_ros_msgs/LinkStateArray.h>
+
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <set>
+
+#include "render/camera.h"
+#include "render/png_file.h"
+#include "server/app/scene_builder.h"
+#include "server/ros/bridge.h"
+#include "server/subject/subject.h"
+#include "tests/server/ros/process.h"
+#include "tests/system/run_program.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Process;
+using testing::RunProgram;
+using Clock = std::chrono::steady_clock;
+
+int FreePort() {
+  const int fd = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof(address);
+  bind(fd, reinterpret_cast<sockaddr*>(&address), size);
+  getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
+  close(fd);
+  return ntohs(address.sin_port);
+}
+
+// A kinescope process whose log can be read line by line.
+std::unique_ptr<Process> Start(const std::string& arguments) {
+  return std::make_unique<Process>(std::vector<std::string>{
+      "/bin/bash", "-c", "exec '" KINESCOPE_PROGRAM "' " + arguments + " 2>&1"});
+}
+
+// The rest of the first line that contains `text`.
+std::string WaitForLine(Process& process, const std::string& text) {
+  std::string seen;
+  while (const auto line = process.ReadLine(30s)) {
+    seen += *line + "\n";
+    const std::size_t at = line->find(text);
+    if (at != std::string::npos) return line->substr(at + text.size());
+  }
+  ADD_FAILURE() << "no line with '" << text << "' in:\n" << seen;
+  return "";
+}
+
+// Counts what comes on each topic of the node, by stamp.
+class Listener {
+ public:
+  explicit Listener(ros::NodeHandle& node) {
+    Hear<sensor_msgs::JointState>(node, "joint_states",
+                                  [](const auto& m) { return m.header.stamp; });
+    Hear<xsens_mvn_ros_msgs::LinkStateArray>(
+        node, "link_states", [](const auto& m) { return m.states.at(0).header.stamp; });
+    Hear<geometry_msgs::Point>(node, "com", [](const auto&) { return ros::Time(1); });
+    Hear<geometry_msgs::PointStamped>(node, "com_stamped",
+                                      [](const auto& m) { return m.header.stamp; });
+    Hear<visualization_msgs::MarkerArray>(
+        node, "markers", [](const auto& m) { return m.markers.at(0).header.stamp; });
+    Hear<tf2_msgs::TFMessage>(node, "/tf", [this](const auto& m) {
+      for (const auto& transform : m.transforms) tf_children_.insert(transform.child_frame_id);
+      return m.transforms.at(0).header.stamp;
+    });
+  }
+
+  bool WaitForPublishers() {
+    return Spin([&] {
+      for (const auto& subscriber : subscribers_)
+        if (subscriber.getNumPublishers() == 0) return false;
+      return true;
+    });
+  }
+
+  // Until `count` messages have come on every topic.
+  bool WaitFor(std::size_t count) {
+    return Spin([&] {
+      for (const auto& [topic, stamps] : stamps_)
+        if (stamps.size() < count) return false;
+      return true;
+    });
+  }
+
+  const std::map<std::string, std::vector<ros::Time>>& stamps() const { return stamps_; }
+  const std::set<std::string>& tf_children() const { return tf_children_; }
+
+ private:
+  template <class Message, class StampOf>
+  void Hear(ros::NodeHandle& node, const std::string& topic, StampOf stamp_of) {
+    const std::string name = topic[0] == '/' ? topic : "/kinescope/" + topic;
+    stamps_[topic];
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+        [this, topic, stamp_of](const auto& message) {
+          stamps_[topic].push_back(stamp_of(*message));
+        };
+    subscribers_.push_back(node.subscribe<Message>(name, 0, callback, ros::VoidConstPtr(),
+                                                   ros::TransportHints().tcpNoDelay()));
+  }
+
+  template <class Condition>
+  static bool Spin(Condition&& condition) {
+    const auto deadline = Clock::now() + 20s;
+    while (!condition() && Clock::now() < deadline) {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+    }
+    return condition();
+  }
+
+  std::vector<ros::Subscriber> subscribers_;
+  std::map<std::string, std::vector<ros::Time>> stamps_;
+  std::set<std::string> tf_children_;
+};
+
+class Pipeline : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (ros::isInitialized()) GTEST_SKIP() << "needs a process of its own: run it through ctest";
+    const int port = FreePort();
+    setenv("ROS_HOME", folder_.path().c_str(), 1);
+    setenv("ROS_LOG_DIR", folder_.path().c_str(), 1);
+    setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1);
+    setenv("ROS_MASTER_URI", fmt::format("http://127.0.0.1:{}", port).c_str(), 1);
+    setenv("ROS_IP", "127.0.0.1", 1);
+    unsetenv("ROS_HOSTNAME");
+    master_ = std::make_unique<Process>(std::vector<std::string>{
+        KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", std::to_string(port)});
+    std::string name = "pipeline_test";
+    char* arguments[] = {name.data(), nullptr};
+    int count = 1;
+    ros::init(count, arguments, "pipeline_test", ros::init_options::NoSigintHandler);
+    const auto deadline = Clock::now() + 30s;
+    while (!ros::master::check() && Clock::now() < deadline) {
+    }
+    ASSERT_TRUE(ros::master::check()) << "the master does not start";
+
+    server_ = Start("serve --source udp://127.0.0.1:0 --http_port 0 --ros required");
+    suit_address_ = WaitForLine(*server_, "waiting for ");
+    suit_address_ = suit_address_.substr(0, suit_address_.find(": "));
+    page_ = WaitForLine(*server_, "page at ");
+  }
+
+  testing::TempFolder folder_;
+  std::unique_ptr<Process> master_;
+  std::unique_ptr<Process> server_;
+  std::string suit_address_;  // udp://127.0.0.1:PORT
+  std::string page_;          // http://127.0.0.1:PORT/
+};
+
+TEST_F(Pipeline, PublishesEverySampleOnceAtTheStreamsRate) {
+  ros::NodeHandle node;
+  Listener listener(node);
+  const auto suit =
+      Start(fmt::format("stream demo:lift --rate_hz 240 --seconds 3 --to {}", suit_address_));
+  // Some samples pass before a subscriber is connected; from the first heard to the last, none may.
+  ASSERT_TRUE(listener.WaitForPublishers());
+  const std::size_t sent = std::stoul(WaitForLine(*suit, "sent "));
+  ASSERT_GT(sent, 600u);
+  ASSERT_TRUE(listener.WaitFor(sent / 2));
+
+  const auto& reference = listener.stamps().at("com_stamped");
+  const double seconds = (reference.back() - reference.front()).toSec();
+  EXPECT_NEAR((reference.size() - 1) / seconds, 240, 3);
+  for (const auto& [topic, stamps] : listener.stamps()) {
+    if (topic == "com") continue;  // carries no stamp
+    const std::set<ros::Time> different(stamps.begin(), stamps.end());
+    EXPECT_EQ(different.size(), stamps.size()) << topic << " has a sample twice";
+    // Every stamp from the first to the last: neighbours are one period apart, give or take jitter.
+    for (std::size_t i = 1; i < stamps.size(); ++i) {
+      EXPECT_LT((stamps[i] - stamps[i - 1]).toSec(), 1.6 / 240) << topic << " lacks a sample";
+    }
+  }
+  for (int i = 0; i < urdf::kSegmentCount; ++i) {
+    EXPECT_EQ(listener.tf_children().count(urdf::LinkName("skeleton", i)), 1u)
+        << urdf::LinkName("skeleton", i);
+  }
+
+  std::string description;
+  ASSERT_TRUE(ros::param::get("/robot_description", description));
+  ::urdf::Model model;
+  ASSERT_TRUE(model.initString(description));
+  EXPECT_EQ(model.joints_.size(), 66u);
+}
+
+// How far a pixel is from the colour of the picture's upper left corner.
+int DistanceFromBackground(const render::Image& image, double x, double y) {
+  const auto at = [&](int column, int row) {
+    return image.rgba.data() +
+           4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                static_cast<std::size_t>(column));
+  };
+  const std::uint8_t* pixel = at(static_cast<int>(x), static_cast<int>(y));
+  const std::uint8_t* background = at(image.width / 2, 2);
+  int distance = 0;
+  for (int i = 0; i < 3; ++i) distance = std::max(distance, std::abs(pixel[i] - background[i]));
+  return distance;
+}
+
+TEST_F(Pipeline, ShowsTheHumanWhereTheStateSaysAndOnThePage) {
+  const auto suit = Start("stream demo:t_pose --to " + suit_address_);
+  WaitForLine(*server_, "live: ");
+
+  const std::string png = folder_.path() / "snapshot.png";
+  const auto fetched = RunProgram(
+      {"/usr/bin/curl", "-sfo", png, page_ + "snapshot.png?camera=front&width=960&height=540"});
+  ASSERT_EQ(fetched.exit_code, 0) << fetched.err;
+  const render::Image image = render::ReadPng(png);
+  std::shared_ptr<const SceneState> state;
+  app::SceneBuilder builder({}, "", 0, [&](const auto& newest) { state = newest; });
+  builder.OnCharacter(subject::MakeMotion("t_pose")->character());
+  builder.OnSample(subject::MakeMotion("t_pose")->At(0));
+  const render::Camera camera = render::NamedCamera("front", *state);
+  const auto project = [&](const Eigen::Vector3d& point) {
+    return render::Project(point, camera, image.width, image.height);
+  };
+  const PersonState& person = state->people.at(0);
+  for (const int segment : {urdf::kHead, urdf::kT8, urdf::kRightHand, urdf::kLeftHand,
+                            urdf::kRightLowerLeg, urdf::kLeftFoot}) {
+    const urdf::Pose& link = person.links[static_cast<std::size_t>(segment)];
+    const Eigen::Vector3d middle =
+        link.position +
+        link.orientation * (0.5 * urdf::EndOf(person.model->human.skeleton, segment));
+    const render::Projected pixel = project(middle);
+    EXPECT_GT(DistanceFromBackground(image, pixel.x_px, pixel.y_px), 25)
+        << urdf::kSegments[static_cast<std::size_t>(segment)].mvn_name << " is not at "
+        << pixel.x_px << ", " << pixel.y_px;
+  }
+  for (const Eigen::Vector3d& air : {Eigen::Vector3d(0, 0.6, 1.8), Eigen::Vector3d(0, -0.6, 1.8)}) {
+    const render::Projected pixel = project(air);
+    EXPECT_LT(DistanceFromBackground(image, pixel.x_px, pixel.y_px), 25)
+        << "something is in the air";
+  }
+
+  const auto page =
+      RunProgram({KINESCOPE_NODE, "--test", KINESCOPE_SOURCE_DIR "/tests/browser/live_page.mjs"},
+                 {"KINESCOPE_PAGE=" + page_, "KINESCOPE_SCREENSHOTS=" KINESCOPE_SCREENSHOTS}, 110);
+  EXPECT_EQ(page.exit_code, 0) << page.out << page.err;
+}
+
+TEST_F(Pipeline, GoesOnWhenTheMasterDies) {
+  const auto suit = Start("stream demo:walk --to " + suit_address_);
+  WaitForLine(*server_, "live: ");
+  master_.reset();
+  const auto state = [&] { return RunProgram({"/usr/bin/curl", "-sf", page_ + "api/state"}).out; };
+  // Live, and the counter goes on: two answers differ, long after the master went.
+  const std::string first = state();
+  const std::string second = state();
+  EXPECT_NE(first.find("\"liveness\":\"live\""), std::string::npos) << first;
+  EXPECT_NE(first, second);
+}
+
+}  // namespace
+}  // namespace kinescope

@@ -1,0 +1,54 @@
+// Named views: the numbers are the server's (/api/cameras), so a name shows the same in page, picture
+// and video. World frame: z up, metres. Pure functions.
+
+/** @typedef {{name: string, position: number[], target: number[], up: number[],
+ *    vertical_fov_rad: number}} CameraView  of a person at the origin
+ *  @typedef {{position: number[], target: number[], fovDegrees: number}} Aim */
+
+/** What a view must show across, in metres: arms stretched out to both sides. */
+const LEAST_WIDTH = 1.9;
+/** A view straight down is tilted by so much, because an orbit has no "up" at its very pole. */
+const POLE_TILT = 1e-3;
+
+const add = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.map((v, i) => v + b[i]);
+const subtract = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.map((v, i) => v - b[i]);
+const scale = (/** @type {number[]} */ a, /** @type {number} */ k) => a.map((v) => v * k);
+const length = (/** @type {number[]} */ a) => Math.hypot(...a);
+
+/** Middle of the people on the floor, and how far the outermost stands from it.
+ *  @param {number[][]} pelvises
+ *  @returns {{middle: number[], radius: number}} */
+export function groundOf(pelvises) {
+  if (pelvises.length === 0) return { middle: [0, 0, 0], radius: 0 };
+  const sum = pelvises.reduce(([x, y], p) => [x + p[0], y + p[1]], [0, 0]);
+  const middle = [sum[0] / pelvises.length, sum[1] / pelvises.length, 0];
+  const radius = Math.max(...pelvises.map((p) => Math.hypot(p[0] - middle[0], p[1] - middle[1])));
+  return { middle, radius };
+}
+
+/** Where a camera stands that shows `view` of the people on `ground`.
+ *  @param {CameraView} view
+ *  @param {{middle: number[], radius: number}} ground
+ *  @param {number} aspect  width / height of what is drawn on
+ *  @returns {Aim} */
+export function aim(view, ground, aspect) {
+  const half = Math.tan(view.vertical_fov_rad / 2);
+  let offset = subtract(view.position, view.target);
+  const distance = length(offset) + ground.radius / half;
+  const widened = Math.max(1, LEAST_WIDTH / (2 * distance * half * aspect));
+  offset = scale(offset, (distance * widened) / length(offset));
+  const isPole = Math.hypot(offset[0], offset[1]) < POLE_TILT * length(offset);
+  if (isPole) offset = subtract(offset, scale(view.up, POLE_TILT * length(offset)));
+  const target = add(ground.middle, view.target);
+  return {
+    position: add(target, offset),
+    target,
+    fovDegrees: (view.vertical_fov_rad * 180) / Math.PI,
+  };
+}
+
+/** For a server that names no cameras. */
+export const FALLBACK_VIEW = {
+  name: 'three_quarter', position: [3.5, -2.7, 2.1], target: [0, 0, 1.02], up: [0, 0, 1],
+  vertical_fov_rad: 0.52,
+};

@@ -1,0 +1,144 @@
+// The page's only connection: one WebSocket for state, pictures and commands, which comes back by
+// itself.
+import { KIND, messageKind } from './state_codec.js';
+import { ServerClock } from './clock.js';
+
+const FIRST_RETRY_MILLIS = 400;
+const LAST_RETRY_MILLIS = 4000;
+const PING_MILLIS = 2000;
+const FIRST_PINGS = 5;  // quickly one after the other, so that the first latency shown is right
+const FIRST_PING_MILLIS = 150;
+const STATES_PER_REPORT = 4;  // the server sends up to 12 ahead of what it knows to be seen
+
+/** @typedef {{onState: (buffer: ArrayBuffer) => void, onPicture: (buffer: ArrayBuffer) => void,
+ *    onDetails: (details: any) => void, onError: (reason: string) => void,
+ *    onOpen: () => void}} Handlers */
+
+export class Connection {
+  clock = new ServerClock();
+  connected = false;
+  everConnected = false;
+  lastMessageAt = 0;  // performance.now()
+  refusal = '';       // why the server did not let us in; "" when it did, or when it is not there
+  #retryMillis = FIRST_RETRY_MILLIS;
+  /** @type {WebSocket|null} */ #socket = null;
+  /** @type {ReturnType<typeof setTimeout>|undefined} */ #pingTimer;
+  #pings = 0;
+  #states = 0;    // seen since the connection was opened
+  #pictures = 0;
+  #closed = false;
+
+  /** @param {Handlers} handlers */
+  constructor(handlers) {
+    this.handlers = handlers;
+    this.#open();
+  }
+
+  /** Dropped while there is no connection; whoever needs it again says so in onOpen.
+   *  @param {object} command */
+  send(command) {
+    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(command));
+  }
+
+  close() {
+    this.#closed = true;
+    this.#socket?.close();
+  }
+
+  /** Milliseconds since the server said anything.
+   *  @param {number} now */
+  silentMillis(now) {
+    return now - this.lastMessageAt;
+  }
+
+  #open() {
+    const url = new URL('ws', location.href);
+    url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
+    url.search = '';
+    const socket = new WebSocket(url);
+    socket.binaryType = 'arraybuffer';
+    socket.onopen = () => this.#onOpen();
+    socket.onmessage = (event) => this.#onMessage(event.data);
+    socket.onclose = () => this.#onClose();
+    this.#socket = socket;
+  }
+
+  #onOpen() {
+    this.connected = true;
+    this.everConnected = true;
+    this.refusal = '';
+    this.lastMessageAt = performance.now();
+    this.#retryMillis = FIRST_RETRY_MILLIS;
+    this.clock.reset();
+    this.#pings = 0;
+    this.#states = 0;
+    this.#pictures = 0;
+    this.send({ seen_states: 0, seen_pictures: 0 });
+    this.#ping();
+    this.handlers.onOpen();
+  }
+
+  async #onClose() {
+    clearTimeout(this.#pingTimer);
+    this.connected = false;
+    if (this.#closed) return;
+    this.refusal = await askWhyRefused();
+    setTimeout(() => this.#open(), this.#retryMillis);
+    this.#retryMillis = Math.min(2 * this.#retryMillis, LAST_RETRY_MILLIS);
+  }
+
+  #ping() {
+    this.send({ ping: performance.now() });
+    this.#pings += 1;
+    const pause = this.#pings < FIRST_PINGS ? FIRST_PING_MILLIS : PING_MILLIS;
+    this.#pingTimer = setTimeout(() => this.#ping(), pause);
+  }
+
+  /** @param {ArrayBuffer|string} data */
+  #onMessage(data) {
+    this.lastMessageAt = performance.now();
+    try {
+      if (typeof data === 'string') return this.#onText(JSON.parse(data));
+      this.#onBinary(data);
+    } catch (error) {
+      this.handlers.onError(/** @type {Error} */ (error).message);
+    }
+  }
+
+  /** Says what it has seen: on a busy machine messages would otherwise pile up in the browser, where
+   *  the server cannot replace them by newer ones.
+   *  @param {ArrayBuffer} data */
+  #onBinary(data) {
+    const kind = messageKind(data);
+    if (kind === KIND.state) {
+      this.#states += 1;
+      if (this.#states % STATES_PER_REPORT === 0) this.send({ seen_states: this.#states });
+      this.handlers.onState(data);
+    } else if (kind === KIND.picture) {
+      this.#pictures += 1;
+      this.send({ seen_pictures: this.#pictures });
+      this.handlers.onPicture(data);
+    }
+  }
+
+  /** @param {any} message */
+  #onText(message) {
+    if ('pong' in message) {
+      this.clock.addPing(message.pong, this.lastMessageAt, message.server_micros / 1000);
+    } else if ('details' in message) {
+      this.handlers.onDetails(message.details);
+    } else if ('error' in message) {
+      this.handlers.onError(message.error);
+    }
+  }
+}
+
+// A WebSocket that is turned away does not say why; a plain request does.
+async function askWhyRefused() {
+  try {
+    const answer = await fetch('api/cameras');
+    return answer.ok ? '' : String((await answer.json()).error ?? '');
+  } catch {
+    return '';  // nobody there
+  }
+}

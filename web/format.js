@@ -1,0 +1,53 @@
+// Numbers as people read them. Pure functions.
+
+/** @param {number} hz */
+export const rate = (hz) => (hz > 0 ? `${hz.toFixed(1)} Hz` : '–');
+
+/** @param {number|null} ms */
+export function latency(ms) {
+  if (ms === null || !Number.isFinite(ms)) return '–';
+  return ms < 9.95 ? `${ms.toFixed(1)} ms` : `${Math.round(ms)} ms`;
+}
+
+/** 83456 -> "00:01:23.456".
+ *  @param {number} millis */
+export function timeCode(millis) {
+  if (!(millis >= 0)) return '–';
+  const whole = Math.floor(millis);
+  const two = (/** @type {number} */ n) => String(n).padStart(2, '0');
+  return `${two(Math.floor(whole / 3600000))}:${two(Math.floor(whole / 60000) % 60)}:`
+    + `${two(Math.floor(whole / 1000) % 60)}.${String(whole % 1000).padStart(3, '0')}`;
+}
+
+/** @param {number} seconds */
+export function age(seconds) {
+  if (seconds < 10) return `${seconds.toFixed(1)} s`;
+  if (seconds < 120) return `${Math.floor(seconds)} s`;
+  return seconds < 7200 ? `${Math.floor(seconds / 60)} min` : `${Math.floor(seconds / 3600)} h`;
+}
+
+/** @param {number} ratio of capacity; NaN where unknown */
+export const percent = (ratio) => (Number.isFinite(ratio) ? `${Math.round(100 * ratio)} %` : '–');
+
+/** "12.3 of 60 N·m": how much, of how much.
+ *  @param {number} moment  N m, signed
+ *  @param {number} capacity  N m */
+export function moment(moment, capacity) {
+  if (!Number.isFinite(moment)) return '';
+  const digits = Math.abs(moment) < 10 ? 1 : 0;
+  const size = Math.abs(moment).toFixed(digits);
+  return capacity > 0 ? `${size} of ${Math.round(capacity)} N·m` : `${size} N·m`;
+}
+
+/** "three_quarter" -> "three quarter".
+ *  @param {string} name */
+export const cameraLabel = (name) => name.replaceAll('_', ' ');
+
+/** The same where there is little room.
+ *  @param {string} name */
+export const shortCameraLabel = (name) => (name === 'three_quarter' ? '¾' : cameraLabel(name));
+
+/** sRGB 0..1 -> "#rrggbb".
+ *  @param {number[]} rgb */
+export const hexColor = (rgb) =>
+  `#${rgb.map((part) => Math.round(255 * part).toString(16).padStart(2, '0')).join('')}`;

@@ -1,0 +1,206 @@
+// The human in the browser: the links of /api/model at the streamed poses, load spheres, CoM and CoP.
+// World frame: z up, metres.
+import * as THREE from 'three';
+import { STLLoader } from 'three/addons/loaders/STLLoader.js';
+import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
+
+const GHOST_OPACITY = 0.45;  // of what shines through the body
+const RIM = 1.14;            // radius of the dark rim of the class "high", of the sphere's
+const CREASE = 0.7;          // rad; a mesh is shaded smooth where its facets meet at less
+const MARK_LIFT = 0.004;     // m above the floor, so that disc and floor do not fight
+
+const unitSphere = new THREE.SphereGeometry(1, 32, 20);
+
+/** @typedef {{kind: string, size: number[], position: number[], quaternion: number[],
+ *    rgba: number[]|null, mesh?: string}} Visual
+ *  @typedef {{character: number, revision: number, links: {name: string, visuals: Visual[]}[]}} PersonModel
+ *  @typedef {{classes: {name: string, color: number[]}[], cop: number[], com: number[],
+ *    body: number[], stale_body: number[]}} Palette */
+
+/** @param {number[]} rgb  sRGB 0..1 */
+export const toColor = (rgb) => new THREE.Color().setRGB(rgb[0], rgb[1], rgb[2], THREE.SRGBColorSpace);
+
+/** Solid where it is seen, and again without depth test so that it shines through the body.
+ *  @param {THREE.Color} color */
+function makeShining(color) {
+  const solid = new THREE.MeshStandardMaterial({ color, roughness: 0.55 });
+  const ghost = new THREE.MeshBasicMaterial({
+    color, transparent: true, opacity: GHOST_OPACITY, depthTest: false, depthWrite: false,
+  });
+  return { solid, ghost };
+}
+
+/** @param {THREE.BufferGeometry} geometry
+ *  @param {ReturnType<typeof makeShining>} materials */
+function shiningMesh(geometry, materials) {
+  const group = new THREE.Group();
+  const solid = new THREE.Mesh(geometry, materials.solid);
+  const ghost = new THREE.Mesh(geometry, materials.ghost);
+  ghost.renderOrder = 10;
+  group.add(solid, ghost);
+  return group;
+}
+
+/** Colours of the marks, shared by all people.
+ *  @param {Palette} palette */
+export function makeMarkMaterials(palette) {
+  return {
+    classes: Object.fromEntries(
+      palette.classes.map(({ name, color }) => [name, makeShining(toColor(color))])),
+    rim: new THREE.MeshBasicMaterial({ color: 0x2a0608, side: THREE.BackSide }),
+    com: makeShining(toColor(palette.com)),
+    cop: new THREE.MeshBasicMaterial({ color: toColor(palette.cop) }),
+    line: new THREE.LineBasicMaterial({ color: toColor(palette.com) }),
+  };
+}
+
+export class Human {
+  group = new THREE.Group();
+  /** @type {string[]} */ failedMeshes = [];
+  #links = /** @type {THREE.Group[]} */ ([]);
+  #materials = /** @type {Map<string, {material: THREE.MeshStandardMaterial, live: THREE.Color}>} */ (new Map());
+  #spheres = /** @type {Map<number, {group: THREE.Group, rim: THREE.Mesh}>} */ (new Map());
+
+  /** @param {PersonModel} model
+   *  @param {Palette} palette
+   *  @param {ReturnType<typeof makeMarkMaterials>} marks
+   *  @param {() => void} onChange  called when a mesh arrived later */
+  constructor(model, palette, marks, onChange) {
+    this.palette = palette;
+    this.marks = marks;
+    this.revision = model.revision;
+    this.staleColor = toColor(palette.stale_body);
+    for (const link of model.links) {
+      const group = new THREE.Group();
+      for (const visual of link.visuals) this.#addVisual(group, visual, onChange);
+      this.#links.push(group);
+      this.group.add(group);
+    }
+    this.com = shiningMesh(unitSphere, marks.com);
+    this.com.scale.setScalar(0.03);
+    this.comLine = new THREE.Line(
+      new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3(0, 0, -1)]), marks.line);
+    this.comRing = new THREE.Mesh(new THREE.RingGeometry(0.035, 0.045, 40), marks.com.solid);
+    this.cop = new THREE.Mesh(new THREE.CircleGeometry(0.04, 40), marks.cop);
+    this.group.add(this.com, this.comLine, this.comRing, this.cop);
+  }
+
+  /** @param {import('./state_codec.js').Person} person
+   *  @param {boolean} isLive */
+  update(person, isLive) {
+    for (const { material, live } of this.#materials.values()) {
+      material.color.copy(isLive ? live : this.staleColor);
+    }
+    person.links.forEach(({ position, quaternion }, i) => {
+      this.#links[i]?.position.fromArray(position);
+      this.#links[i]?.quaternion.fromArray(quaternion);
+    });
+    this.#updateSpheres(person, isLive);
+    this.#updatePoints(person, isLive);
+  }
+
+  dispose() {
+    this.group.removeFromParent();
+    this.group.traverse((/** @type {any} */ part) => {
+      if (part.geometry && part.geometry !== unitSphere) part.geometry.dispose();
+    });
+    for (const { material } of this.#materials.values()) material.dispose();
+  }
+
+  /** @param {import('./state_codec.js').Person} person
+   *  @param {boolean} isLive */
+  #updateSpheres(person, isLive) {
+    for (const load of person.loads) {
+      const sphere = this.#spheres.get(load.joint) ?? this.#addSphere(load.joint);
+      const loadClass = isLive ? load.loadClass : 'unknown';
+      const { solid, ghost } = this.marks.classes[loadClass];
+      const [front, through] = sphere.group.children[0].children;
+      /** @type {THREE.Mesh} */ (front).material = solid;
+      /** @type {THREE.Mesh} */ (through).material = ghost;
+      sphere.rim.visible = loadClass === 'high';
+      sphere.group.position.fromArray(load.position);
+      sphere.group.scale.setScalar(load.radius);
+    }
+    for (const [joint, { group }] of this.#spheres) {
+      group.visible = person.loads.some((load) => load.joint === joint);
+    }
+  }
+
+  /** @param {import('./state_codec.js').Person} person
+   *  @param {boolean} isLive */
+  #updatePoints(person, isLive) {
+    const { com, cop } = person;
+    for (const part of [this.com, this.comLine, this.comRing]) part.visible = com !== null && isLive;
+    this.cop.visible = cop !== null && isLive;
+    if (com) {
+      const floor = cop ? cop[2] : 0;
+      this.com.position.fromArray(com);
+      this.comLine.position.fromArray(com);
+      this.comLine.scale.z = Math.max(0.001, com[2] - floor);
+      this.comRing.position.set(com[0], com[1], floor + MARK_LIFT);
+    }
+    if (cop) this.cop.position.set(cop[0], cop[1], cop[2] + MARK_LIFT / 2);
+  }
+
+  /** @param {number} joint */
+  #addSphere(joint) {
+    const group = new THREE.Group();
+    const rim = new THREE.Mesh(unitSphere, this.marks.rim);
+    rim.scale.setScalar(RIM);
+    group.add(shiningMesh(unitSphere, this.marks.classes.unknown), rim);
+    this.group.add(group);
+    const sphere = { group, rim };
+    this.#spheres.set(joint, sphere);
+    return sphere;
+  }
+
+  /** @param {THREE.Group} link
+   *  @param {Visual} visual
+   *  @param {() => void} onChange */
+  #addVisual(link, visual, onChange) {
+    const part = new THREE.Group();
+    part.position.fromArray(visual.position);
+    part.quaternion.fromArray(visual.quaternion);
+    link.add(part);
+    const material = this.#materialOf(visual);
+    const put = (/** @type {THREE.BufferGeometry} */ geometry) => {
+      const mesh = new THREE.Mesh(geometry, material);
+      mesh.castShadow = true;  // onto the floor; on itself it would only disturb the shading
+      part.add(mesh);
+    };
+    if (visual.kind !== 'mesh' || !visual.mesh) return put(primitive(visual));
+    part.scale.fromArray(visual.size);
+    // The server gives an absolute path; the page may be served below another one.
+    new STLLoader().load(visual.mesh.slice(1), (geometry) => {
+      put(toCreasedNormals(geometry, CREASE));
+      onChange();
+    }, undefined, () => {
+      // A missing mesh is shown as a small sphere at its link, not as nothing, and named.
+      part.scale.setScalar(1);
+      put(new THREE.SphereGeometry(0.04, 16, 12));
+      this.failedMeshes.push(/** @type {string} */ (visual.mesh));
+      onChange();
+    });
+  }
+
+  /** @param {Visual} visual */
+  #materialOf(visual) {
+    const rgba = visual.rgba ?? this.palette.body;
+    const key = rgba.join();
+    const known = this.#materials.get(key);
+    if (known) return known.material;
+    const live = toColor(rgba);
+    const material = new THREE.MeshStandardMaterial({ color: live.clone(), roughness: 0.82 });
+    if (rgba[3] < 1) Object.assign(material, { transparent: true, opacity: rgba[3] });
+    this.#materials.set(key, { material, live });
+    return material;
+  }
+}
+
+/** @param {Visual} visual */
+function primitive({ kind, size }) {
+  if (kind === 'box') return new THREE.BoxGeometry(size[0], size[1], size[2]);
+  if (kind === 'sphere') return new THREE.SphereGeometry(size[0], 32, 20);
+  // URDF's cylinder lies along z, three's along y.
+  return new THREE.CylinderGeometry(size[0], size[0], size[1], 32).rotateX(Math.PI / 2);
+}

@@ -1,0 +1,44 @@
+// What the lamp says. One pure function decides, from the newest state and from the connection
+// itself: a page that has lost its server must not go on showing "live".
+import { age } from './format.js';
+
+/** Without any message for so long the server is taken for gone; it repeats itself every 0.35 s. */
+export const SILENCE_MILLIS = 1500;
+/** A sample that the server still calls live, but so old, is stale: the server hangs. */
+export const OLD_MILLIS = 2000;
+
+/** @typedef {'live'|'stale'|'no-data'|'disconnected'|'wait'} Level
+ *  @typedef {{level: Level, word: string, banner: string}} Lamp  banner "": none
+ *  @typedef {{connected: boolean, everConnected: boolean, silentMillis: number,
+ *    liveness: 'no data'|'live'|'stale'|null, ageMillis: number|null, source: string,
+ *    reason: string}} Situation  reason: why the server refused; "" otherwise
+ */
+
+/** @param {Situation} now
+ *  @returns {Lamp} */
+export function lampOf(now) {
+  if (!now.connected || now.silentMillis > SILENCE_MILLIS) return disconnected(now);
+  if (now.liveness === null) return { level: 'wait', word: 'Connecting', banner: '' };
+  if (now.liveness === 'no data') {
+    const source = now.source || 'the source';
+    return { level: 'no-data', word: 'No data', banner: `Waiting for ${source}` };
+  }
+  const isOld = now.ageMillis !== null && now.ageMillis > OLD_MILLIS;
+  if (now.liveness === 'stale' || isOld) {
+    const since = now.ageMillis === null ? '' : `: the last sample came ${age(now.ageMillis / 1000)} ago`;
+    return { level: 'stale', word: 'Stale', banner: `The stream has stopped${since}` };
+  }
+  return { level: 'live', word: 'Live', banner: '' };
+}
+
+/** @param {Situation} now
+ *  @returns {Lamp} */
+function disconnected(now) {
+  if (now.reason) return { level: 'disconnected', word: 'Refused', banner: now.reason };
+  if (!now.everConnected) return { level: 'wait', word: 'Connecting', banner: 'Connecting to the server' };
+  return {
+    level: 'disconnected',
+    word: 'Disconnected',
+    banner: 'The server does not answer; the page tries again by itself',
+  };
+}

@@ -1,0 +1,137 @@
+// The list of joint loads, worst first.
+import { moment, percent } from './format.js';
+
+/** @typedef {import('./state_codec.js').LoadClass} LoadClass
+ *  @typedef {{key: string, label: string, loadClass: LoadClass, ratio: number, moment: number,
+ *    capacity: number, channel: string, reason: string}} Row */
+
+const RANK = { high: 0, medium: 1, low: 2, unknown: 3 };
+
+/** Where the classes begin, of capacity, while the load rises; the server decides, this is shown. */
+export const THRESHOLDS = { medium: 0.30, high: 0.60 };
+
+/** Rows that differ by less stay as they are, so that the list can be read while numbers tremble. */
+const CALM = 0.02;
+
+/** @param {Row} a
+ *  @param {Row} b */
+function isMoreUrgent(a, b) {
+  if (a.loadClass !== b.loadClass) return RANK[a.loadClass] < RANK[b.loadClass];
+  return Number.isFinite(a.ratio) && !(b.ratio >= a.ratio - CALM);
+}
+
+/** Worst class first, within a class the largest ratio. Starts from the order shown before.
+ *  @param {Row[]} rows
+ *  @param {string[]} shownKeys  in the order shown now
+ *  @returns {Row[]} */
+export function byUrgency(rows, shownKeys = []) {
+  const place = new Map(shownKeys.map((key, i) => [key, i]));
+  const at = (/** @type {Row} */ row) => place.get(row.key) ?? shownKeys.length;
+  const sorted = [...rows].sort((a, b) => at(a) - at(b));
+  for (let i = 1; i < sorted.length; ++i) {
+    for (let k = i; k > 0 && isMoreUrgent(sorted[k], sorted[k - 1]); --k) {
+      [sorted[k - 1], sorted[k]] = [sorted[k], sorted[k - 1]];
+    }
+  }
+  return sorted;
+}
+
+/** The row's second line: how much of what, or why it is not known.
+ *  @param {Row} row */
+export function explain(row) {
+  if (row.loadClass === 'unknown' && row.reason) return row.reason;
+  const amount = moment(row.moment, row.capacity);
+  return row.channel && amount ? `${amount}, ${row.channel}` : amount;
+}
+
+/** The rows of a state; persons are named when there are several.
+ *  @param {import('./state_codec.js').State} state
+ *  @param {{label: string}[]} joints
+ *  @param {{people: {character: number, name: string,
+ *    loads: {joint: number, channel: string, reason: string}[]}[]}} details
+ *  @returns {Row[]} */
+export function rowsOf(state, joints, details) {
+  const several = state.people.length > 1;
+  return state.people.flatMap((person) => {
+    const told = details.people.find(({ character }) => character === person.character);
+    const who = several ? `${told?.name || `Person ${person.character + 1}`}: ` : '';
+    return person.loads.map((load) => {
+      const words = told?.loads.find(({ joint }) => joint === load.joint);
+      return {
+        key: `${person.character}/${load.joint}`,
+        label: `${who}${joints[load.joint]?.label ?? `joint ${load.joint}`}`,
+        loadClass: load.loadClass,
+        ratio: load.ratio,
+        moment: load.moment,
+        capacity: load.capacity,
+        channel: words?.channel ?? '',
+        reason: words?.reason ?? '',
+      };
+    });
+  });
+}
+
+/** @param {HTMLElement} list  an <ol>
+ *  @returns {(rows: Row[]) => void} shows these rows */
+export function mountLoadList(list) {
+  /** @type {Map<string, ReturnType<typeof makeRow>>} */
+  const shown = new Map();
+  let order = /** @type {string[]} */ ([]);
+  return (rows) => {
+    const sorted = byUrgency(rows, order);
+    const keys = sorted.map(({ key }) => key);
+    for (const row of sorted) {
+      if (!shown.has(row.key)) shown.set(row.key, makeRow());
+      shown.get(row.key)?.show(row);
+    }
+    if (keys.join() === order.join()) return;
+    for (const key of shown.keys()) if (!keys.includes(key)) shown.delete(key);
+    order = keys;
+    list.replaceChildren(...keys.map((key) => /** @type {any} */ (shown.get(key)).element));
+  };
+}
+
+function makeRow() {
+  const element = document.createElement('li');
+  const [label, word, ratio, bar, note] = ['label', 'word', 'ratio', 'bar', 'note'].map((name) => {
+    const part = document.createElement('span');
+    part.className = name;
+    return part;
+  });
+  const fill = document.createElement('span');
+  bar.append(fill);
+  bar.ariaHidden = 'true';  // the ratio beside it says the same
+  element.append(label, note, word, ratio, bar);
+  const setText = (/** @type {HTMLElement} */ part, /** @type {string} */ text) => {
+    if (part.textContent !== text) part.textContent = text;
+  };
+  return {
+    element,
+    /** @param {Row} row */
+    show(row) {
+      element.dataset.class = row.loadClass;
+      setText(label, row.label);
+      setText(word, row.loadClass);
+      setText(ratio, percent(row.ratio));
+      setText(note, explain(row));
+      const share = Number.isFinite(row.ratio) ? Math.min(1, Math.max(0, row.ratio)) : 0;
+      fill.style.transform = `scaleX(${share.toFixed(3)})`;
+    },
+  };
+}
+
+/** @param {HTMLElement} legend  a <ul> */
+export function fillLegend(legend) {
+  const words = [
+    ['low', 'low'],
+    ['medium', `medium > ${percent(THRESHOLDS.medium)}`],
+    ['high', `high > ${percent(THRESHOLDS.high)}`],
+    ['unknown', 'unknown'],
+  ];
+  legend.replaceChildren(...words.map(([loadClass, text]) => {
+    const entry = document.createElement('li');
+    entry.dataset.class = loadClass;
+    entry.textContent = text;
+    return entry;
+  }));
+}

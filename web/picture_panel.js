@@ -1,0 +1,107 @@
+// The server's own picture beside the page's: what PNG, video and CI show.
+import { shortCameraLabel } from './format.js';
+import { decodePicture } from './state_codec.js';
+
+const SAVED_SIZE = { width: 1920, height: 1080 };
+
+/** @typedef {{image: HTMLImageElement, note: HTMLElement, on: HTMLInputElement,
+ *    camera: HTMLSelectElement, save: HTMLButtonElement}} Parts */
+
+export class PicturePanel {
+  hasPictures = true;
+  #url = '';
+  #isLoading = false;
+  /** @type {ArrayBuffer|null} */ #next = null;
+
+  /** @param {Parts} parts
+   *  @param {(command: object) => void} send
+   *  @param {(reason: string) => void} report */
+  constructor(parts, send, report) {
+    this.parts = parts;
+    this.send = send;
+    parts.on.addEventListener('change', () => this.ask());
+    parts.camera.addEventListener('change', () => send({ camera: parts.camera.value }));
+    parts.save.addEventListener('click', () => this.#save().catch((error) => report(error.message)));
+    parts.image.addEventListener('load', () => this.#onShown());
+    parts.image.addEventListener('error', () => this.#onShown());
+  }
+
+  /** Tells the server whether pictures are wanted; also after a new connection. */
+  ask() {
+    const isOn = this.parts.on.checked && this.hasPictures;
+    this.send({ pictures: isOn });
+    if (!isOn) this.parts.image.hidden = true;
+    this.#explain();
+  }
+
+  /** @param {{name: string}[]} cameras */
+  setCameras(cameras) {
+    this.parts.camera.replaceChildren(
+      ...cameras.map(({ name }) => new Option(shortCameraLabel(name), name)));
+    this.parts.camera.disabled = cameras.length === 0;
+  }
+
+  /** @param {{has_pictures: boolean, camera: string}} details */
+  setDetails(details) {
+    if (details.has_pictures !== this.hasPictures) {
+      this.hasPictures = details.has_pictures;
+      this.ask();
+    }
+    this.parts.on.disabled = !this.hasPictures;
+    this.parts.save.disabled = !this.hasPictures;
+    // Everybody shares the live picture: another viewer may have chosen its camera.
+    if (document.activeElement !== this.parts.camera) this.parts.camera.value = details.camera;
+    this.#explain();
+  }
+
+  /** The newest wins: what comes while one is being decoded waits, alone.
+   *  @param {ArrayBuffer} buffer */
+  show(buffer) {
+    if (!this.parts.on.checked) return;
+    if (this.#isLoading) {
+      this.#next = buffer;
+      return;
+    }
+    const { jpeg } = decodePicture(buffer);
+    this.#isLoading = true;
+    URL.revokeObjectURL(this.#url);
+    this.#url = URL.createObjectURL(new Blob([/** @type {any} */ (jpeg)], { type: 'image/jpeg' }));
+    this.parts.image.src = this.#url;
+  }
+
+  #onShown() {
+    this.#isLoading = false;
+    this.parts.image.hidden = !this.parts.on.checked;
+    this.#explain();
+    const next = this.#next;
+    this.#next = null;
+    if (next) this.show(next);
+  }
+
+  #explain() {
+    const { on, image, note } = this.parts;
+    if (!this.hasPictures) note.textContent = 'This server draws no pictures.';
+    else if (!on.checked) note.textContent = 'Off: nothing is drawn or sent for this page.';
+    else note.textContent = 'Waiting for a picture';
+    note.hidden = !image.hidden;
+  }
+
+  async #save() {
+    const { save, camera } = this.parts;
+    save.disabled = true;
+    try {
+      const query = new URLSearchParams({
+        camera: camera.value, width: String(SAVED_SIZE.width), height: String(SAVED_SIZE.height),
+      });
+      const answer = await fetch(`snapshot.png?${query}`);
+      if (!answer.ok) throw new Error(`No picture: ${(await answer.json()).error}`);
+      const link = document.createElement('a');
+      link.href = URL.createObjectURL(await answer.blob());
+      link.download = `kinescope_${camera.value}_${new Date().toISOString().replace(/[:.]/g, '-')}.png`;
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    } finally {
+      save.disabled = false;
+    }
+  }
+}

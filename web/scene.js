@@ -1,0 +1,241 @@
+// The 3-D view: camera, lights, floor, and the people in it. Draws only when something changed.
+// World frame: z up, metres.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { aim, FALLBACK_VIEW, groundOf } from './cameras.js';
+import { Human, makeMarkMaterials } from './human.js';
+
+const FOLLOW_SECONDS = 0.35;  // how quickly the view follows a person who walks
+const SLOW_FRAME_MILLIS = 45;
+const FRAMES_JUDGED = 24;
+
+const LOOK = {
+  light: { background: 0xe8ecf1, line: 0xb9c2cd, shadow: 0.2, sky: 2.3 },
+  dark: { background: 0x171c23, line: 0x343d49, shadow: 0.45, sky: 1.9 },
+};
+
+export class Scene {
+  #scene = new THREE.Scene();
+  #camera = new THREE.PerspectiveCamera(30, 1, 0.05, 80);
+  #floor = new THREE.Group();  // goes along with the people, in whole metres, so it has no end
+  #sun = new THREE.DirectionalLight(0xffffff, 2.3);
+  #sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 2);
+  #people = /** @type {Map<number, Human>} */ (new Map());
+  #marks = /** @type {ReturnType<typeof makeMarkMaterials>|null} */ (null);
+  #palette = /** @type {import('./human.js').Palette|null} */ (null);
+  #ground = { middle: [0, 0, 0], radius: 0 };
+  #followed = [0, 0, 0];
+  #view = FALLBACK_VIEW;
+  #viewIsNamed = true;
+  #dirty = true;
+  #lastFrameAt = 0;
+  #frameMillis = /** @type {number[]} */ ([]);
+  #quality = 0;  // steps down that a slow machine made us take
+
+  /** @param {HTMLElement} host  filled with a canvas
+   *  @param {{onOrbit: () => void}} events  the user moved the camera by hand
+   *  @throws where the browser has no WebGL */
+  constructor(host, events) {
+    this.host = host;
+    const software = drawsInSoftware();
+    this.renderer = new THREE.WebGLRenderer({ antialias: !software });
+    this.renderer.shadowMap.enabled = !software;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    const canvas = this.renderer.domElement;
+    canvas.setAttribute('role', 'img');
+    canvas.setAttribute('aria-label', 'The human, drawn from the stream');
+    host.append(canvas);
+    this.#camera.up.set(0, 0, 1);  // before the controls: they take their axis from it
+    this.controls = new OrbitControls(this.#camera, canvas);
+    this.controls.enableDamping = true;
+    this.controls.minDistance = 0.6;
+    this.controls.maxDistance = 30;
+    this.controls.addEventListener('change', () => { this.#dirty = true; });
+    this.controls.addEventListener('start', () => {
+      this.#viewIsNamed = false;
+      events.onOrbit();
+    });
+    this.#furnish();
+    new ResizeObserver(() => this.#resize()).observe(host);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.#paint());
+    this.#paint();
+    this.#resize();
+  }
+
+  /** The persons' bodies; called again whenever a revision changes.
+   *  @param {{people: import('./human.js').PersonModel[], palette: import('./human.js').Palette}} model */
+  setModel(model) {
+    this.#palette = model.palette;
+    this.#marks ??= makeMarkMaterials(model.palette);
+    for (const person of model.people) {
+      if (this.#people.get(person.character)?.revision === person.revision) continue;
+      this.#people.get(person.character)?.dispose();
+      const human = new Human(person, model.palette, this.#marks, () => { this.#dirty = true; });
+      this.#people.set(person.character, human);
+      this.#scene.add(human.group);
+    }
+    this.#dirty = true;
+  }
+
+  /** @param {import('./state_codec.js').Person} person */
+  hasModelOf(person) {
+    return this.#people.get(person.character)?.revision === person.revision;
+  }
+
+  get failedMeshes() {
+    return [...this.#people.values()].flatMap((human) => human.failedMeshes);
+  }
+
+  /** @param {import('./state_codec.js').State} state
+   *  @param {boolean} isLive */
+  update(state, isLive) {
+    for (const [character, human] of this.#people) {
+      const person = state.people.find((each) => each.character === character);
+      human.group.visible = person !== undefined;
+      if (person) human.update(person, isLive);
+    }
+    if (state.people.length > 0) {
+      this.#ground = groundOf(state.people.map(({ links }) => links[0].position));
+    }
+    this.#dirty = true;
+  }
+
+  /** @param {import('./cameras.js').CameraView} view */
+  setView(view) {
+    this.#view = view;
+    this.#viewIsNamed = true;
+    this.#followed = this.#ground.middle;
+    this.#aim();
+  }
+
+  /** Draws if anything changed since the last time.
+   *  @param {number} now  of requestAnimationFrame, ms
+   *  @returns {boolean} whether it drew */
+  draw(now) {
+    const elapsed = now - this.#lastFrameAt;
+    this.#follow(elapsed / 1000);
+    this.controls.update();
+    this.#lastFrameAt = now;
+    if (!this.#dirty) return false;
+    this.#dirty = false;
+    this.#judge(elapsed);
+    this.renderer.render(this.#scene, this.#camera);
+    return true;
+  }
+
+  #aim() {
+    const ground = { middle: this.#followed, radius: this.#ground.radius };
+    const { position, target, fovDegrees } = aim(this.#view, ground, this.#camera.aspect);
+    this.#camera.fov = fovDegrees;
+    this.#camera.updateProjectionMatrix();
+    this.#camera.position.fromArray(position);
+    this.controls.target.fromArray(target);
+    this.controls.update();
+    this.#placeFloor();
+    this.#dirty = true;
+  }
+
+  /** @param {number} seconds  since the last frame */
+  #follow(seconds) {
+    const share = 1 - Math.exp(-Math.min(seconds, 1) / FOLLOW_SECONDS);
+    const step = this.#ground.middle.map((v, i) => share * (v - this.#followed[i]));
+    if (Math.hypot(...step) < 1e-5) return;
+    this.#followed = this.#followed.map((v, i) => v + step[i]);
+    const shift = new THREE.Vector3().fromArray(step);
+    this.#camera.position.add(shift);
+    this.controls.target.add(shift);
+    this.#placeFloor();
+    this.#dirty = true;
+  }
+
+  #placeFloor() {
+    const [x, y] = this.#followed;
+    this.#floor.position.set(Math.round(x), Math.round(y), 0);
+    this.#sun.position.set(x + 1.5, y - 1.2, 4);
+    this.#sun.target.position.set(x, y, 0.6);
+    this.#sun.target.updateMatrixWorld();
+  }
+
+  #furnish() {
+    const shadow = this.#sun.shadow;
+    this.#sun.castShadow = true;
+    shadow.mapSize.set(1024, 1024);
+    Object.assign(shadow.camera, { left: -2, right: 2, top: 2, bottom: -2, near: 0.5, far: 8 });
+    shadow.radius = 5;
+    shadow.normalBias = 0.02;
+    const fill = new THREE.DirectionalLight(0xdfe8ff, 0.55);
+    fill.position.set(-3, 3, 2);
+    this.#scene.add(this.#sky, this.#sun, this.#sun.target, fill, this.#floor);
+    this.shade = new THREE.Mesh(new THREE.PlaneGeometry(5, 5), new THREE.ShadowMaterial());
+    this.shade.receiveShadow = true;
+    this.shade.material.depthWrite = false;  // it lies on the grid and must not hide it
+    this.grid = new THREE.LineSegments(gridGeometry(12, 0.5), new THREE.LineBasicMaterial());
+    this.grid.position.z = -0.002;
+    this.#floor.add(this.shade, this.grid);
+    this.#placeFloor();
+  }
+
+  #paint() {
+    const look = matchMedia('(prefers-color-scheme: dark)').matches ? LOOK.dark : LOOK.light;
+    this.#scene.background = new THREE.Color(look.background);
+    this.#scene.fog = new THREE.Fog(look.background, 7, 15);
+    this.#sky.intensity = look.sky;
+    this.shade.material.opacity = look.shadow;
+    this.grid.material.color.set(look.line);
+    this.#dirty = true;
+  }
+
+  #resize() {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.#camera.aspect = width / height;
+    this.#camera.updateProjectionMatrix();
+    if (this.#viewIsNamed) this.#aim();
+    this.#dirty = true;
+  }
+
+  /** A machine without a graphics chip draws a plainer picture at a useful rate.
+   *  @param {number} elapsed  since the last frame, ms */
+  #judge(elapsed) {
+    if (elapsed > 500) return;  // it was idle or hidden, not slow
+    this.#frameMillis.push(elapsed);
+    if (this.#frameMillis.length < FRAMES_JUDGED) return;
+    const median = this.#frameMillis.sort((a, b) => a - b)[FRAMES_JUDGED / 2];
+    this.#frameMillis = [];
+    if (median < SLOW_FRAME_MILLIS || this.#quality >= 3) return;
+    this.#quality += 1;
+    if (this.#quality === 1) this.renderer.setPixelRatio(1);
+    if (this.#quality === 2) {
+      this.#sun.castShadow = false;
+      this.shade.visible = false;
+    }
+    if (this.#quality === 3) this.renderer.setPixelRatio(0.7);
+    this.#resize();
+  }
+}
+
+/** Lines every `step` from -half to half, in pieces of that length: some drivers drop a line that
+ *  reaches behind the camera.
+ *  @param {number} half
+ *  @param {number} step */
+function gridGeometry(half, step) {
+  const points = [];
+  for (let a = -half; a <= half; a += step) {
+    for (let b = -half; b < half; b += step) {
+      points.push(a, b, 0, a, b + step, 0, b, a, 0, b + step, a, 0);
+    }
+  }
+  return new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
+}
+
+/** Whether this browser has WebGL, but no graphics chip behind it (a virtual machine, a remote
+ *  desktop): then smooth edges and shadows would cost most of the frames. */
+function drawsInSoftware() {
+  if (new URLSearchParams(location.search).get('quality') === 'fine') return false;  // for screenshots
+  const gl = document.createElement('canvas').getContext('webgl2');
+  const info = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name = String(gl?.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER) ?? '');
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
