@@ -3,10 +3,9 @@
 #
 # kinescope_expose_to_ros(<target> [DEVEL_ONLY])
 #   Installs an executable, and lets ROS find it as <node pkg="kinescope" type="<target>">, from the
-#   devel space and from an install tree. (rosrun finds it too, but looks into no build folder that lies
-#   inside the sources.) Call it in
-#   the folder that makes the target. DEVEL_ONLY: not installed, for tests.
-#   Without ROS it only installs.
+#   devel space and from an install tree. Call it in the folder that makes the target. DEVEL_ONLY: not
+#   installed, for tests. Without ROS it only installs.
+#   (rosrun finds it too, but looks into no build folder that lies inside the sources.)
 function(kinescope_expose_to_ros target)
   cmake_parse_arguments(ARG "DEVEL_ONLY" "" "" ${ARGN})
   if(NOT ARG_DEVEL_ONLY)
@@ -22,7 +21,7 @@ function(kinescope_expose_to_ros target)
     VERBATIM)
   if(NOT ARG_DEVEL_ONLY)
     install(CODE "
-      set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION}\")
+      set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${KINESCOPE_ROS_BIN}\")
       file(MAKE_DIRECTORY \"\${folder}\")
       file(CREATE_LINK ../../bin/$<TARGET_FILE_NAME:${target}> \"\${folder}/$<TARGET_FILE_NAME:${target}>\" SYMBOLIC)")
   endif()
@@ -30,6 +29,15 @@ endfunction()
 
 if(NOT KINESCOPE_WITH_ROS)
   return()
+endif()
+
+# In an install tree of a workspace, whose setup.bash knows it, ROS looks for programs in lib/. Elsewhere
+# it looks below share/, where ROS_PACKAGE_PATH leads; and catkin must not be let put a setup.bash into
+# the prefix: it ignores `cmake --install --prefix` and writes to the one given when configuring.
+set(KINESCOPE_ROS_BIN lib/kinescope)
+if(PROJECT_IS_TOP_LEVEL AND NOT CATKIN_DEVEL_PREFIX)
+  set(CATKIN_INSTALL_INTO_PREFIX_ROOT OFF)
+  set(KINESCOPE_ROS_BIN share/kinescope)
 endif()
 
 # catkin runs whatever python3 comes first on PATH; one without catkin_pkg (pyenv, conda) fails there.

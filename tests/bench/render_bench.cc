@@ -129,5 +129,3 @@ BENCHMARK(H264)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseReal
 
 }  // namespace
 }  // namespace kinescope::render
-
-BENCHMARK_MAIN();

@@ -134,8 +134,11 @@ TEST(Renderer, ShowsTheSamePictureWhereverTheFloorIs) {
   *person.com += down;
   *person.cop += down;
   const auto renderer = MakeRenderer();
-  const Image a = renderer->Render(here, NamedCamera("front", here), {320, 180});
-  const Image b = renderer->Render(lower, NamedCamera("front", lower), {320, 180});
+  View view;
+  view.width = 320;
+  view.height = 180;
+  const Image a = renderer->Render(here, NamedCamera("front", here), view);
+  const Image b = renderer->Render(lower, NamedCamera("front", lower), view);
   EXPECT_LE(Compare(a, b).pixels, 5) << Describe(Compare(a, b), b);  // of 57600; edges may round
 }
 

@@ -5,6 +5,7 @@
 #include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
 #include <sys/socket.h>

@@ -1,0 +1,272 @@
+#include "server/ros/announcer.h"
+
+#include <geometry_msgs/PointStamped.h>
+#include <ros/init.h>
+#include <ros/master.h>
+#include <ros/names.h>
+#include <ros/this_node.h>
+#include <ros/xmlrpc_manager.h>
+#include <sensor_msgs/JointState.h>
+#include <spdlog/spdlog.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
+#include <xsens_mvn_ros_msgs/LinkStateArray.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <utility>
+
+#include "server/ros/init.h"
+#include "server/ros/names.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+constexpr std::chrono::seconds kAskEvery{1};
+constexpr std::chrono::seconds kPatience{3};  // a busy machine's master may take a second to answer
+// Messages that wait for one slow subscriber before the oldest is dropped: two seconds at 240 Hz.
+constexpr std::uint32_t kQueue = 480;
+constexpr char kDescription[] = "robot_description";
+
+// A parameter of a launch file has a type and an argument has not: what reads as a number becomes
+// one.
+XmlRpcValue Typed(const std::string& text) {
+  const char* const end = text.data() + text.size();
+  int whole = 0;
+  if (auto [stop, error] = std::from_chars(text.data(), end, whole);
+      error == std::errc() && stop == end) {
+    return XmlRpcValue(whole);
+  }
+  double real = 0;
+  if (auto [stop, error] = std::from_chars(text.data(), end, real);
+      error == std::errc() && stop == end) {
+    return XmlRpcValue(real);
+  }
+  if (text == "true" || text == "false") return XmlRpcValue(text == "true");
+  return XmlRpcValue(text);
+}
+
+}  // namespace
+
+Announcer::Announcer(std::string initial_urdf, bool with_tf)
+    : initial_urdf_(std::move(initial_urdf)), with_tf_(with_tf) {
+  status_.master_uri = ros::master::getURI();
+  // roscpp would otherwise try for ever when the master goes while it registers something.
+  ros::master::setRetryTimeout(ros::WallDuration(1));
+  thread_ = std::thread([this] { Run(); });
+}
+
+Announcer::~Announcer() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  if (!node_) return;
+  // roscpp takes leave of the master topic by topic, without a time limit: one whose machine has
+  // been switched off would hold up our exit for minutes. It then gets no address to call.
+  if (!MasterIsReachable()) const_cast<std::string&>(ros::master::getHost()).clear();
+  ros::shutdown();  // before the publishers go, each of which would take leave by itself
+}
+
+void Announcer::SetPerson(int character, std::shared_ptr<const PersonModel> model) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const bool is_first = slots_.empty();
+    const auto [slot, is_new] = slots_.try_emplace(character);
+    if (is_new && is_first) {
+      slot->second.topics = first_topics_;
+    } else if (is_new) {
+      std::string prefix = AsRosName(model->human.model_name) + "/";
+      for (const auto& [other, other_slot] : slots_) {
+        if (other_slot.prefix == prefix) {
+          prefix.insert(prefix.size() - 1, "_" + std::to_string(character));
+          break;
+        }
+      }
+      slot->second.prefix = prefix;
+    }
+    slot->second.model = std::move(model);
+    has_work_ = true;
+  }
+  changed_.notify_all();
+}
+
+std::shared_ptr<const PersonTopics> Announcer::TopicsOf(int character) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto slot = slots_.find(character);
+  return slot == slots_.end() ? nullptr : slot->second.topics;
+}
+
+BridgeStatus Announcer::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return status_;
+}
+
+bool Announcer::WaitForNext() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait_for(lock, kAskEvery, [&] { return stopping_ || has_work_; });
+  has_work_ = false;
+  return !stopping_ && !status_.told_to_stop;
+}
+
+void Announcer::Run() {
+  do {
+    bool answers = false;
+    const bool is_known = MasterKnowsUs(answers);
+    SetReachable(answers);
+    if (node_ && !ros::ok()) StopForGood("the master, as rosnode kill does, or by ROS itself");
+    if (!answers || status().told_to_stop) continue;
+    if (!is_known) {
+      registered_.clear();
+      described_.clear();
+      has_arguments_ = false;
+    }
+    if (!node_) Start();
+    AdvertiseMissing();
+    if (!RegisterAll()) continue;
+    if (!is_known && was_announced_) {
+      spdlog::info("the ROS master was restarted: all topics are announced again");
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++status_.master_returns;
+    }
+    was_announced_ = true;
+    SetParameters();
+  } while (WaitForNext());
+}
+
+// "Does it know us" and not "is it another process": it also finds a master restarted under the
+// same process number, as in a container, and one that `rosnode cleanup` made forget us.
+bool Announcer::MasterKnowsUs(bool& answers) {
+  XmlRpcValue arguments;
+  arguments[0] = ros::this_node::getName();
+  MasterReply reply = master_.Call("lookupNode", arguments, kPatience);
+  answers = reply.code != MasterReply::Code::kNoAnswer;
+  if (!node_ || reply.code != MasterReply::Code::kGood) return false;
+  if (reply.value.getType() != XmlRpcValue::TypeString) return false;
+  if (static_cast<std::string>(reply.value) == ros::XMLRPCManager::instance()->getServerURI()) {
+    return true;
+  }
+  StopForGood("another node that took our name");
+  return false;
+}
+
+void Announcer::Start() {
+  node_ = std::make_unique<ros::NodeHandle>("~");
+  auto topics = Advertise("");
+  const std::lock_guard<std::mutex> lock(mutex_);
+  first_topics_ = std::move(topics);
+  for (auto& [character, slot] : slots_) {
+    if (slot.prefix.empty()) slot.topics = first_topics_;
+  }
+}
+
+void Announcer::AdvertiseMissing() {
+  std::map<int, std::string> missing;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [character, slot] : slots_) {
+      if (!slot.topics) missing.emplace(character, slot.prefix);
+    }
+  }
+  for (const auto& [character, prefix] : missing) {
+    auto topics = Advertise(prefix);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    slots_[character].topics = std::move(topics);
+  }
+}
+
+template <class Message>
+ros::Publisher Announcer::Topic(const std::string& name) {
+  ros::Publisher publisher = node_->advertise<Message>(name, kQueue);
+  topic_types_[publisher.getTopic()] = ros::message_traits::DataType<Message>::value();
+  return publisher;
+}
+
+std::shared_ptr<const PersonTopics> Announcer::Advertise(const std::string& prefix) {
+  auto topics = std::make_shared<PersonTopics>();
+  topics->joint_states = Topic<sensor_msgs::JointState>(prefix + "joint_states");
+  topics->link_states = Topic<xsens_mvn_ros_msgs::LinkStateArray>(prefix + "link_states");
+  topics->com = Topic<geometry_msgs::Point>(prefix + "com");
+  topics->com_stamped = Topic<geometry_msgs::PointStamped>(prefix + "com_stamped");
+  topics->cop = Topic<geometry_msgs::PointStamped>(prefix + "cop");
+  topics->markers = Topic<visualization_msgs::MarkerArray>(prefix + "markers");
+  if (with_tf_) topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
+  return topics;
+}
+
+// roscpp registers a topic when it is advertised, and never again. So this is said to every master
+// that does not know us, and to the first one twice, which does no harm: only our own question
+// tells whether it arrived.
+bool Announcer::RegisterAll() {
+  const std::string our_uri = ros::XMLRPCManager::instance()->getServerURI();
+  for (const auto& [topic, type] : topic_types_) {
+    if (registered_.count(topic) != 0) continue;
+    XmlRpcValue arguments;
+    arguments[0] = topic;
+    arguments[1] = type;
+    arguments[2] = our_uri;
+    if (master_.Call("registerPublisher", arguments, kPatience).code != MasterReply::Code::kGood)
+      return false;
+    registered_.insert(topic);
+  }
+  return true;
+}
+
+bool Announcer::SetParameter(const std::string& name, const XmlRpcValue& value) {
+  XmlRpcValue arguments;
+  arguments[0] = ros::names::resolve(name);
+  arguments[1] = value;
+  return master_.Call("setParam", arguments, kPatience).code == MasterReply::Code::kGood;
+}
+
+// Gives up at the first that the master does not take; what is missing is tried again at the next
+// turn.
+void Announcer::SetParameters() {
+  if (!has_arguments_) {
+    for (const auto& [name, value] : PrivateArguments()) {
+      if (!SetParameter("~" + name, Typed(value))) return;
+    }
+    has_arguments_ = true;
+  }
+  std::map<std::string, std::shared_ptr<const PersonModel>> models;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& [character, slot] : slots_) models[slot.prefix + kDescription] = slot.model;
+  }
+  if (models.empty() && !initial_urdf_.empty() && described_.count(kDescription) == 0) {
+    if (!SetParameter(kDescription, initial_urdf_)) return;
+    described_[kDescription] = 0;
+  }
+  for (const auto& [name, model] : models) {
+    const auto set = described_.find(name);
+    if (set != described_.end() && set->second == model->revision) continue;
+    if (!SetParameter(name, model->urdf_xml)) return;
+    described_[name] = model->revision;
+  }
+}
+
+void Announcer::SetReachable(bool reachable) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (reachable == status_.master_reachable) return;
+  status_.master_reachable = reachable;
+  if (reachable) {
+    spdlog::info("ROS master at {} answers", status_.master_uri);
+  } else {
+    spdlog::warn("ROS master at {} does not answer; publishing to whoever is connected goes on",
+                 status_.master_uri);
+  }
+}
+
+void Announcer::StopForGood(const char* reason) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (status_.told_to_stop) return;
+  status_.told_to_stop = true;
+  spdlog::warn("publishing to ROS was ended by {}", reason);
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,188 @@
+#include "server/ros/bridge.h"
+
+#include <geometry_msgs/Point.h>
+#include <ros/init.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <atomic>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "server/core/check.h"
+#include "server/core/errors.h"
+#include "server/ros/announcer.h"
+#include "server/ros/joint_states.h"
+#include "server/ros/link_states.h"
+#include "server/ros/markers.h"
+#include "server/ros/names.h"
+#include "server/ros/transforms.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+// One person's way out. Messages are kept from sample to sample, with their memory and their names.
+struct Outlet {
+  explicit Outlet(const PersonState& person)
+      : model(person.model), names(person.model->human.model_name) {}
+
+  std::shared_ptr<const PersonModel> model;
+  PersonNames names;
+  std::shared_ptr<const PersonTopics> topics;  // null until announced
+
+  bool has_last = false;
+  std::uint32_t last_counter = 0;
+  std::int64_t last_stamp_nanos = 0;
+  std::uint64_t seen_in_number = 0;  // of the last live state that had this person
+
+  sensor_msgs::JointState joint_states;
+  xsens_mvn_ros_msgs::LinkStateArray link_states;
+  geometry_msgs::PointStamped com, cop;
+  visualization_msgs::MarkerArray markers;
+  tf2_msgs::TFMessage transforms;
+};
+
+bool IsNew(const BodySample& sample, const Outlet& outlet) {
+  return !outlet.has_last || sample.counter != outlet.last_counter ||
+         sample.stamp_nanos != outlet.last_stamp_nanos;
+}
+
+class Bridge : public RosBridge {
+ public:
+  explicit Bridge(const BridgeConfig& config)
+      : config_(config), announcer_(config.initial_urdf, config.tf != "off") {}
+
+  void Publish(const SceneState& state) override {
+    if (state.liveness == Liveness::kStale && !is_stale_) PublishStaleMarkers();
+    is_stale_ = state.liveness == Liveness::kStale;
+    if (state.liveness != Liveness::kLive) return;
+    last_live_number_ = state.number;
+    for (const PersonState& person : state.people) {
+      Outlet& outlet = OutletOf(person);
+      outlet.seen_in_number = state.number;
+      if (IsNew(person.sample, outlet)) PublishSample(person, outlet);
+    }
+  }
+
+  BridgeStatus status() const override {
+    BridgeStatus status = announcer_.status();
+    status.published = published_;
+    status.missed = missed_;
+    return status;
+  }
+
+ private:
+  Outlet& OutletOf(const PersonState& person) {
+    const auto found = outlets_.find(person.character);
+    if (found != outlets_.end() && found->second.model == person.model) return found->second;
+    announcer_.SetPerson(person.character, person.model);
+    if (found == outlets_.end()) {
+      return outlets_.emplace(person.character, Outlet(person)).first->second;
+    }
+    found->second.model = person.model;
+    found->second.names = PersonNames(person.model->human.model_name);
+    return found->second;
+  }
+
+  void PublishSample(const PersonState& person, Outlet& outlet) {
+    outlet.has_last = true;
+    outlet.last_counter = person.sample.counter;
+    outlet.last_stamp_nanos = person.sample.stamp_nanos;
+    if (!outlet.topics) outlet.topics = announcer_.TopicsOf(person.character);
+    if (!outlet.topics) {
+      ++missed_;
+      return;
+    }
+    Send(person, *outlet.topics, outlet);
+    ++published_;
+  }
+
+  // TF goes first: whoever gets one of the others can look the frames up.
+  void Send(const PersonState& person, const PersonTopics& topics, Outlet& outlet) const {
+    const std::string& frame = config_.reference_frame;
+    if (topics.tf && topics.tf.getNumSubscribers() > 0) {
+      FillTransforms(person, outlet.names, frame,
+                     config_.tf == "tree" ? TfShape::kTree : TfShape::kFlat, outlet.transforms);
+      topics.tf.publish(outlet.transforms);
+    }
+    if (topics.joint_states.getNumSubscribers() > 0 && FillJointStates(person, outlet)) {
+      topics.joint_states.publish(outlet.joint_states);
+    }
+    if (topics.link_states.getNumSubscribers() > 0) {
+      FillLinkStates(person, frame, outlet.link_states);
+      topics.link_states.publish(outlet.link_states);
+    }
+    if (person.com) {
+      FillPoint(person, frame, *person.com, outlet.com);
+      topics.com.publish(outlet.com.point);
+      topics.com_stamped.publish(outlet.com);
+    }
+    if (person.cop) {
+      FillPoint(person, frame, *person.cop, outlet.cop);
+      topics.cop.publish(outlet.cop);
+    }
+    // Filled without a subscriber too: they may have to turn grey when there is one.
+    FillMarkers(person, outlet.names, frame,
+                config_.tf == "off" ? MarkerFrames::kReference : MarkerFrames::kLinks,
+                outlet.markers);
+    topics.markers.publish(outlet.markers);
+  }
+
+  bool FillJointStates(const PersonState& person, Outlet& outlet) const {
+    if (config_.joint_states == "streamed") {
+      return FillStreamedJointStates(person, outlet.names, outlet.joint_states);
+    }
+    FillComputedJointStates(person, outlet.names, outlet.joint_states);
+    return true;
+  }
+
+  void PublishStaleMarkers() {
+    for (auto& [character, outlet] : outlets_) {
+      const bool has_left = outlet.seen_in_number != last_live_number_;  // before it stopped
+      if (has_left || !outlet.topics || outlet.markers.markers.empty()) continue;
+      MakeStale(outlet.model->human.skeleton.height, outlet.markers);
+      outlet.topics->markers.publish(outlet.markers);
+    }
+  }
+
+  const BridgeConfig config_;
+  Announcer announcer_;
+  std::atomic<std::uint64_t> published_ = 0;
+  std::atomic<std::uint64_t> missed_ = 0;
+
+  // The publishing thread's own.
+  std::map<int, Outlet> outlets_;  // by character
+  bool is_stale_ = false;
+  std::uint64_t last_live_number_ = 0;
+};
+
+void RequireOneOf(const char* option, const std::string& value,
+                  std::initializer_list<std::string_view> allowed) {
+  for (const std::string_view good : allowed) {
+    if (value == good) return;
+  }
+  throw UsageError(
+      fmt::format("--{}={}: expected one of {}", option, value, fmt::join(allowed, ", ")));
+}
+
+}  // namespace
+
+std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mode) {
+  KINESCOPE_CHECK(ros::isInitialized());
+  RequireOneOf("tf", config.tf, {"flat", "tree", "off"});
+  RequireOneOf("joint_states", config.joint_states, {"computed", "streamed"});
+  if (config.reference_frame.empty() || config.reference_frame.front() == '/') {
+    throw UsageError(
+        fmt::format("--reference_frame={}: expected the name of a TF frame, without a leading /",
+                    config.reference_frame));
+  }
+  if (mode == RosMode::kOff) return nullptr;
+  if (mode == RosMode::kRequired && !MasterIsReachable()) {
+    throw UsageError(fmt::format(
+        "no ROS master answers at {}: start roscore, set ROS_MASTER_URI, or run with --ros auto",
+        MasterUri()));
+  }
+  return std::make_unique<Bridge>(config);
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,122 @@
+#include "server/ros/joint_states.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "server/ros/stamp.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr std::size_t kNames = 3 * urdf::kJointCount;
+
+void Put(const Vector3d& xyz, std::size_t row, std::vector<double>& out) {
+  for (int axis = 0; axis < 3; ++axis) out[3 * row + At(axis)] = xyz[axis];
+}
+
+void FillVelocities(const PersonState& person, std::vector<double>& out) {
+  out.resize(kNames);
+  std::size_t row = 0;
+  for (const int joint : JointsByName()) {
+    const auto parent = At(urdf::ParentOf(joint));
+    const auto child = At(urdf::ChildOf(joint));
+    const Vector3d in_world = person.sample.segments[child].angular_velocity -
+                              person.sample.segments[parent].angular_velocity;
+    const Vector3d in_parent = person.links[parent].orientation.conjugate() * in_world;
+    Put(AngleRates(person.angles[At(joint)], in_parent), row++, out);
+  }
+}
+
+void FillEfforts(const PersonState& person, std::vector<double>& out) {
+  out.clear();
+  for (const JointLoad& load : person.loads) {
+    if (load.load_class == LoadClass::kUnknown || !load.moment.allFinite()) continue;
+    if (out.empty()) out.assign(kNames, std::numeric_limits<double>::quiet_NaN());
+    const auto& order = JointsByName();
+    const auto row = std::find(order.begin(), order.end(), load.joint) - order.begin();
+    const auto parent = At(urdf::ParentOf(load.joint));
+    const auto child = At(urdf::ChildOf(load.joint));
+    Put(AxisMoments(person.links[parent].orientation, person.links[child].orientation,
+                    person.angles[At(load.joint)].y(), load.moment),
+        static_cast<std::size_t>(row), out);
+  }
+}
+
+void SetNames(const PersonNames& names, sensor_msgs::JointState& message) {
+  if (message.name != names.joints) message.name = names.joints;
+}
+
+}  // namespace
+
+Vector3d AngleRates(const Vector3d& angles, const Vector3d& rate) {
+  // Seen after the turn about y, the rate is (x', y' - z' sin x, z' cos x).
+  const Vector3d turned = Eigen::AngleAxisd(-angles.y(), Vector3d::UnitY()) * rate;
+  const double sine = std::sin(angles.x());
+  const double cosine = std::cos(angles.x());
+  constexpr double kLocked = 1e-3;  // rates would exceed the measured one a thousandfold
+  if (std::abs(cosine) < kLocked) {
+    return {turned.x(), turned.y() / 2, -sine * turned.y() / 2};
+  }
+  const double z_rate = turned.z() / cosine;
+  return {turned.x(), turned.y() + z_rate * sine, z_rate};
+}
+
+Vector3d AxisMoments(const Quaterniond& world_from_parent, const Quaterniond& world_from_child,
+                     double y, const Vector3d& moment) {
+  const Vector3d x_axis =
+      world_from_parent * (Eigen::AngleAxisd(y, Vector3d::UnitY()) * Vector3d::UnitX());
+  return {moment.dot(x_axis), moment.dot(world_from_parent * Vector3d::UnitY()),
+          moment.dot(world_from_child * Vector3d::UnitZ())};  // the last turn leaves its own axis
+}
+
+Vector3d SeedAngles(int joint, const Vector3d& streamed_deg) {
+  using namespace urdf;
+  // MVN counts positive by meaning (away from the body, inwards, flexion); here signs are by axis.
+  Vector3d sign(1, 1, 1);  // of MVN's x, y, z: spine, neck and head
+  const bool is_left = joint == jLeftC7Shoulder || joint == jLeftShoulder || joint == jLeftElbow ||
+                       joint == jLeftWrist || joint >= jLeftHip;
+  const bool is_knee = joint == jRightKnee || joint == jLeftKnee;
+  if (joint > jC1Head) {
+    sign = {is_left ? 1.0 : -1.0, is_left ? -1.0 : 1.0, is_knee ? 1.0 : -1.0};
+  }
+  const Vector3d streamed = streamed_deg * (M_PI / 180);
+  Vector3d angles(sign.x() * streamed.x(), sign.z() * streamed.z(), sign.y() * streamed.y());
+  // MVN's forearm angle is 0 with the palm forward, the link frame's with the arm as in the N-pose.
+  if (joint == jRightElbow) angles.z() -= M_PI_2;
+  if (joint == jLeftElbow) angles.z() += M_PI_2;
+  return angles;
+}
+
+void FillComputedJointStates(const PersonState& person, const PersonNames& names,
+                             sensor_msgs::JointState& message) {
+  message.header.stamp = StampOf(person.sample);
+  SetNames(names, message);
+  message.position.resize(kNames);
+  std::size_t row = 0;
+  for (const int joint : JointsByName()) Put(person.angles[At(joint)], row++, message.position);
+  message.velocity.clear();
+  if (person.sample.has_angular) FillVelocities(person, message.velocity);
+  FillEfforts(person, message.effort);
+}
+
+bool FillStreamedJointStates(const PersonState& person, const PersonNames& names,
+                             sensor_msgs::JointState& message) {
+  if (!person.sample.streamed_angles_deg) return false;
+  message.header.stamp = StampOf(person.sample);
+  SetNames(names, message);
+  message.position.resize(kNames);
+  std::size_t row = 0;
+  for (const int joint : JointsByName()) {
+    Put(SeedAngles(joint, (*person.sample.streamed_angles_deg)[At(joint)]), row++,
+        message.position);
+  }
+  message.velocity.clear();
+  message.effort.clear();
+  return true;
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,23 @@
+/// PersonState -> link states, centre of mass, centre of pressure. Pure: no node, no clock.
+#pragma once
+
+#include <geometry_msgs/PointStamped.h>
+#include <xsens_mvn_ros_msgs/LinkStateArray.h>
+
+#include <string>
+
+#include "server/core/scene_state.h"
+
+namespace kinescope::ros_bridge {
+
+/// All 23 links in alphabetical order; pose, twist and acceleration in the reference frame, m and
+/// rad. As the seed bridge has it, an element's header.frame_id is the bare name of its link.
+/// Velocities that were not measured are zero: the type has no other way to say so.
+void FillLinkStates(const PersonState& person, const std::string& reference_frame,
+                    xsens_mvn_ros_msgs::LinkStateArray& message);
+
+/// `point`, in the reference frame, with the sample's stamp.
+void FillPoint(const PersonState& person, const std::string& reference_frame,
+               const Eigen::Vector3d& point, geometry_msgs::PointStamped& message);
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,44 @@
+#include "server/ros/master_client.h"
+
+#include <ros/master.h>
+#include <ros/this_node.h>
+#include <xmlrpcpp/XmlRpcClient.h>
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+// The master's API wraps everything as [status, words for people, value]; 1 is success.
+MasterReply Unwrap(XmlRpcValue& response) {
+  MasterReply reply;
+  if (response.getType() != XmlRpcValue::TypeArray || response.size() != 3 ||
+      response[0].getType() != XmlRpcValue::TypeInt) {
+    return reply;  // whoever answered is no master
+  }
+  reply.code =
+      static_cast<int>(response[0]) == 1 ? MasterReply::Code::kGood : MasterReply::Code::kRefused;
+  reply.value = response[2];
+  return reply;
+}
+
+}  // namespace
+
+MasterClient::MasterClient()
+    : host_(ros::master::getHost()), port_(static_cast<int>(ros::master::getPort())) {}
+
+MasterReply MasterClient::Call(const char* method, const XmlRpcValue& arguments,
+                               std::chrono::milliseconds timeout) {
+  XmlRpcValue all;
+  all[0] = ros::this_node::getName();
+  for (int i = 0; arguments.valid() && i < arguments.size(); ++i) all[i + 1] = arguments[i];
+
+  XmlRpc::XmlRpcClient client(host_.c_str(), port_, "/");
+  if (!client.executeNonBlock(method, all)) return {};
+  client._disp.work(std::chrono::duration<double>(timeout).count());
+  XmlRpcValue response;
+  if (!client.executeCheckDone(response) || client.isFault()) return {};
+  return Unwrap(response);
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,39 @@
+/// Questions to the ROS master that end in time. roscpp's own calls wait for ever when something
+/// takes the connection and never answers, so whatever we ask ourselves is asked here.
+#pragma once
+
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <chrono>
+#include <string>
+
+namespace kinescope::ros_bridge {
+
+struct MasterReply {
+  enum class Code {
+    kNoAnswer,  // nothing listens there, or it did not answer in time
+    kRefused,   // the master says no: an unknown node, a parameter that is not set
+    kGood,
+  };
+  Code code = Code::kNoAnswer;
+  XmlRpc::XmlRpcValue value;  // what was asked for, when good
+};
+
+/// One thread uses one. Every call makes its own connection: one kept from before would belong to a
+/// master that has been restarted since.
+class MasterClient {
+ public:
+  /// @pre ros::init was called: it says where the master is and what we are called.
+  MasterClient();
+
+  /// Calls `method` with our name and `arguments`, an array. Takes at most about `timeout`; a name
+  /// server that does not answer can make it longer.
+  MasterReply Call(const char* method, const XmlRpc::XmlRpcValue& arguments,
+                   std::chrono::milliseconds timeout = std::chrono::seconds(1));
+
+ private:
+  std::string host_;
+  int port_ = 0;
+};
+
+}  // namespace kinescope::ros_bridge

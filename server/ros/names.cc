@@ -1,0 +1,59 @@
+#include "server/ros/names.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "urdf/human_urdf.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+template <std::size_t n, class NameOf>
+std::array<int, n> SortedBy(const NameOf& name_of) {
+  std::array<int, n> order{};
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return name_of(a) < name_of(b); });
+  return order;
+}
+
+bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+}  // namespace
+
+const std::array<int, urdf::kJointCount>& JointsByName() {
+  static const auto order =
+      SortedBy<urdf::kJointCount>([](int joint) { return urdf::kJoints[At(joint)].ros_name; });
+  return order;
+}
+
+const std::array<int, urdf::kSegmentCount>& SegmentsByName() {
+  static const auto order = SortedBy<urdf::kSegmentCount>(
+      [](int segment) { return urdf::kSegments[At(segment)].link_name; });
+  return order;
+}
+
+PersonNames::PersonNames(const std::string& model_name) {
+  for (const int joint : JointsByName()) {
+    for (int axis = 0; axis < 3; ++axis) {
+      joints.push_back(urdf::JointName(model_name, joint, axis));
+    }
+  }
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    links[At(segment)] = urdf::LinkName(model_name, segment);
+  }
+  for (int joint = 0; joint < urdf::kJointCount; ++joint) {
+    for (const int axis : {1, 0}) {
+      between[At(joint)][At(1 - axis)] = urdf::JointName(model_name, joint, axis) + "_link";
+    }
+  }
+}
+
+std::string AsRosName(const std::string& text) {
+  std::string name;
+  for (const char c : text) name += IsLetter(c) || IsDigit(c) ? c : '_';
+  if (name.empty() || !IsLetter(name.front())) name.insert(0, "person_");
+  return name;
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,35 @@
+/// Names and order of what one person's messages carry, as the seed bridge has them. Made once per
+/// model, so that publishing a sample makes no string.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "urdf/segments.h"
+
+namespace kinescope::ros_bridge {
+
+inline std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
+/// Joints and segments in the alphabetical order of their ROS names: the order in the messages.
+const std::array<int, urdf::kJointCount>& JointsByName();
+const std::array<int, urdf::kSegmentCount>& SegmentsByName();
+
+struct PersonNames {
+  explicit PersonNames(const std::string& model_name);
+
+  /// `<model>_<joint>_{x,y,z}`, three for each of JointsByName().
+  std::vector<std::string> joints;
+  /// `<model>_<link>`, by urdf::Segment.
+  std::array<std::string, urdf::kSegmentCount> links;
+  /// The two links without mass that the URDF has inside joint j: after its turn about y, and after
+  /// its turn about x. By urdf::Joint.
+  std::array<std::array<std::string, 2>, urdf::kJointCount> between;
+};
+
+/// `text` as one element of a ROS name: letters, digits and _, beginning with a letter.
+std::string AsRosName(const std::string& text);
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,32 @@
+// bridge.h in a build without ROS: options and arguments work, publishing is refused with the
+// reason.
+#include <algorithm>
+#include <cstring>
+
+#include "server/core/errors.h"
+#include "server/ros/bridge.h"
+
+namespace kinescope::ros_bridge {
+
+// A launch file or a habit may still pass remappings; they mean nothing here.
+void InitRos(int& argc, char** argv, const std::string& /*default_name*/) {
+  char** const end = std::stable_partition(argv, argv + argc, [](const char* argument) {
+    return std::strstr(argument, ":=") == nullptr;
+  });
+  argc = static_cast<int>(end - argv);
+}
+
+bool BuiltWithRos() { return false; }
+std::string MasterUri() { return ""; }
+bool MasterIsReachable() { return false; }
+std::optional<std::string> PrivateParameter(const std::string& /*name*/) { return std::nullopt; }
+
+std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& /*config*/, RosMode mode) {
+  if (mode == RosMode::kOff) return nullptr;
+  throw UsageError(
+      "this Kinescope was built without ROS: install the ROS packages in packages.txt and "
+      "configure "
+      "with -DKINESCOPE_WITH_ROS=ON, or run with --ros off");
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,163 @@
+/// A bridge against a real master (rosmaster, a process of its own) and a real subscriber
+/// (ros_listener, another). roscpp is one node per process and cannot be started twice, so each
+/// test needs a process of its own, which ctest gives it.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <ros/init.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/ros/bridge.h"
+#include "tests/server/ros/process.h"
+#include "tests/server/ros/test_person.h"
+
+namespace kinescope::ros_bridge {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+inline constexpr std::int64_t kEpochNanos = 1'700'000'000'000'000'000;
+inline constexpr auto kPeriod = std::chrono::nanoseconds(1s) / 240;
+
+inline int FreePort() {
+  const int fd = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof(address);
+  EXPECT_EQ(bind(fd, reinterpret_cast<sockaddr*>(&address), size), 0);
+  EXPECT_EQ(getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  close(fd);
+  return ntohs(address.sin_port);
+}
+
+class RosBridgeWithMaster : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (ros::isInitialized()) GTEST_SKIP() << "needs a process of its own: run it through ctest";
+    std::string folder = std::filesystem::temp_directory_path() / "kinescope_ros_XXXXXX";
+    ASSERT_NE(mkdtemp(folder.data()), nullptr);
+    folder_ = folder;
+    setenv("ROS_HOME", folder.c_str(), 1);
+    setenv("ROS_LOG_DIR", folder.c_str(), 1);
+    setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + std::to_string(port_)).c_str(), 1);
+    setenv("ROS_IP", "127.0.0.1", 1);
+    unsetenv("ROS_HOSTNAME");
+    std::vector<std::string> words = {"test", "left", "_udp_port:=8001", "_tf:=tree", "right"};
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    int argc = static_cast<int>(argv.size());
+    InitRos(argc, argv.data(), "kinescope");
+    argv.resize(static_cast<std::size_t>(argc));
+    remaining_.assign(argv.begin(), argv.end());
+  }
+
+  void TearDown() override {
+    bridge_.reset();
+    std::error_code ignored;
+    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
+  }
+
+  void StartMaster() {
+    master_ = std::make_unique<testing::Process>(std::vector<std::string>{
+        KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", std::to_string(port_)});
+    ASSERT_TRUE(Within(20s, [] { return MasterIsReachable(); })) << "rosmaster does not come up";
+  }
+  void KillMaster() { master_.reset(); }
+
+  void MakeBridge(BridgeConfig config = {}) { bridge_ = MakeRosBridge(config, RosMode::kAuto); }
+
+  // Publishes a new sample every 1/240 s until `done` or the deadline.
+  bool PublishUntil(const std::function<bool()>& done, std::chrono::seconds limit = 20s) {
+    const auto deadline = Clock::now() + limit;
+    for (auto next = Clock::now(); Clock::now() < deadline; next += kPeriod) {
+      if (done()) return true;
+      std::this_thread::sleep_until(next);  // the pace of a suit, not a wait for something
+      PublishNext();
+    }
+    return false;
+  }
+
+  // One more sample of the person. Its stamp counts up; so does ~com's x, which has no stamp.
+  void PublishNext() {
+    ++counter_;
+    PersonState person =
+        testing::MakePerson(model_, testing::Posture(0.01 * counter_), counter_, StampNow());
+    person.com = Eigen::Vector3d(static_cast<double>(StampNow() - kEpochNanos), 0, 1);
+    Publish(testing::SceneWith(std::move(person)));
+  }
+
+  void Publish(const SceneState& state) {
+    const auto before = Clock::now();
+    bridge_->Publish(state);
+    const std::chrono::duration<double, std::milli> took = Clock::now() - before;
+    longest_publish_millis_ = std::max(longest_publish_millis_, took.count());
+  }
+
+  std::int64_t StampNow() const { return kEpochNanos + counter_ * kPeriod.count(); }
+
+  // A node that subscribes to everything and has heard something on every topic.
+  std::unique_ptr<testing::Process> Listen() {
+    auto listener = std::make_unique<testing::Process>(std::vector<std::string>{
+        KINESCOPE_ROS_LISTENER, "/kinescope/", std::to_string(kEpochNanos)});
+    EXPECT_TRUE(PublishUntil([&] { return listener->ReadLine(0ms) == "heard"; }))
+        << "the listener does not hear every topic";
+    return listener;
+  }
+
+  enum class Description { kThere, kNone };
+  enum class Pace { kSuit, kBurst };
+
+  // Publishes `samples` and expects each of them once on every topic.
+  void ExpectEveryOneOnce(testing::Process& listener, int samples,
+                          Description description = Description::kThere, Pace pace = Pace::kSuit) {
+    const std::int64_t first = StampNow() + 1;
+    const std::uint32_t end = counter_ + static_cast<std::uint32_t>(samples);
+    while (pace == Pace::kBurst && counter_ < end) PublishNext();
+    ASSERT_TRUE(PublishUntil([&] { return counter_ == end; }));
+    const std::int64_t last = StampNow();
+    PublishNext();  // tells the listener that nothing of the range is still under way
+    listener.WriteLine("report " + std::to_string(first) + " " + std::to_string(last));
+    const std::string all = " " + std::to_string(samples);
+    for (const char* topic :
+         {"/kinescope/com", "/kinescope/com_stamped", "/kinescope/cop", "/kinescope/joint_states",
+          "/kinescope/link_states", "/kinescope/markers", "/tf"}) {
+      EXPECT_EQ(listener.ReadLine(20s).value_or("nothing"), topic + all + all + " 0");
+    }
+    EXPECT_EQ(listener.ReadLine(20s).value_or("nothing"),
+              description == Description::kThere ? "urdf 67 66" : "urdf 0 0");
+  }
+
+  template <class Condition>
+  static bool Within(std::chrono::seconds limit, const Condition& holds) {
+    const auto deadline = Clock::now() + limit;
+    while (!holds()) {
+      if (Clock::now() > deadline) return false;
+      std::this_thread::sleep_for(10ms);  // another process's progress: there is nothing to wait on
+    }
+    return true;
+  }
+
+  const int port_ = FreePort();
+  std::filesystem::path folder_;
+  std::vector<std::string> remaining_;  // of argv, after InitRos
+  std::shared_ptr<const PersonModel> model_ = testing::MakeModel();
+  std::unique_ptr<testing::Process> master_;
+  std::unique_ptr<RosBridge> bridge_;
+  std::uint32_t counter_ = 0;
+  double longest_publish_millis_ = 0;
+};
+
+}  // namespace kinescope::ros_bridge

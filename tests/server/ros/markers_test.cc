@@ -1,0 +1,112 @@
+#include "server/ros/markers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "server/core/palette.h"
+#include "tests/server/ros/test_person.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using visualization_msgs::Marker;
+
+PersonState Person() {
+  return testing::MakePerson(testing::MakeModel("skeleton", 1.6), testing::Posture(1), 5, 7);
+}
+
+visualization_msgs::MarkerArray Of(const PersonState& person,
+                                   MarkerFrames frames = MarkerFrames::kReference) {
+  visualization_msgs::MarkerArray message;
+  FillMarkers(person, PersonNames("skeleton"), "world", frames, message);
+  return message;
+}
+
+void ExpectColor(const Rgb& rgb, const Marker& marker) {
+  EXPECT_FLOAT_EQ(marker.color.r, static_cast<float>(rgb[0]));
+  EXPECT_FLOAT_EQ(marker.color.g, static_cast<float>(rgb[1]));
+  EXPECT_FLOAT_EQ(marker.color.b, static_cast<float>(rgb[2]));
+  EXPECT_EQ(marker.color.a, 1);
+}
+
+TEST(Markers, ShowEveryLoadAsThePictureDoes) {
+  const PersonState person = Person();
+  const auto message = Of(person);
+  ASSERT_EQ(message.markers.size(), person.loads.size() + 2);
+  for (std::size_t i = 0; i < person.loads.size(); ++i) {
+    const JointLoad& load = person.loads[i];
+    const Marker& marker = message.markers[i];
+    EXPECT_EQ(marker.ns, "loads");
+    EXPECT_EQ(marker.id, load.joint);
+    EXPECT_EQ(marker.type, Marker::SPHERE);
+    EXPECT_EQ(marker.scale.x, 2 * SphereRadius(load.joint, load.load_class, 1.6));
+    EXPECT_EQ(marker.scale.x, marker.scale.z);
+    EXPECT_EQ(marker.pose.position.y, load.position.y());
+    EXPECT_EQ(marker.pose.orientation.w, 1);
+    EXPECT_EQ(marker.header.frame_id, "world");
+    ExpectColor(ColorOf(load.load_class), marker);
+  }
+}
+
+TEST(Markers, LockedToTheLinksAreAtTheSamePlaces) {
+  const PersonState person = Person();
+  const PersonNames names("skeleton");
+  const auto free = Of(person, MarkerFrames::kReference);
+  const auto locked = Of(person, MarkerFrames::kLinks);
+  ASSERT_EQ(free.markers.size(), locked.markers.size());
+  for (std::size_t i = 0; i < free.markers.size(); ++i) {
+    const Marker& marker = locked.markers[i];
+    const auto& p = marker.pose.position;
+    Eigen::Vector3d position(p.x, p.y, p.z);
+    EXPECT_EQ(marker.frame_locked, marker.ns != "cop");
+    EXPECT_FALSE(free.markers[i].frame_locked);
+    if (marker.frame_locked) {
+      const auto link = std::find(names.links.begin(), names.links.end(), marker.header.frame_id);
+      ASSERT_NE(link, names.links.end()) << marker.header.frame_id;
+      const urdf::Pose& pose = person.links[static_cast<std::size_t>(link - names.links.begin())];
+      position = pose.position + pose.orientation * position;
+    }
+    const auto& expected = free.markers[i].pose.position;
+    EXPECT_TRUE(position.isApprox(Eigen::Vector3d(expected.x, expected.y, expected.z), 1e-12));
+  }
+  EXPECT_EQ(locked.markers[0].header.frame_id, "skeleton_l5") << "the child of jL5S1";
+}
+
+TEST(Markers, GoAwayByThemselvesWhenNotRenewed) {
+  const auto message = Of(Person());
+  for (const Marker& marker : message.markers) {
+    EXPECT_EQ(marker.action, Marker::ADD);
+    EXPECT_EQ(marker.lifetime.toSec(), kMarkerLifetime);
+  }
+}
+
+TEST(Markers, OfAnEarlierSampleAreNotCarriedOver) {
+  PersonState person = Person();
+  auto message = Of(person);
+  person.cop.reset();
+  person.loads.pop_back();
+  FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference, message);
+  ASSERT_EQ(message.markers.size(), person.loads.size() + 1);
+  EXPECT_EQ(message.markers.back().ns, "com");
+}
+
+TEST(Markers, OfAStreamThatStoppedAreGreySmallAndStay) {
+  const PersonState person = Person();
+  auto message = Of(person);
+  MakeStale(1.6, message);
+  for (const Marker& marker : message.markers) {
+    ExpectColor(ColorOf(LoadClass::kUnknown), marker);
+    EXPECT_EQ(marker.lifetime.toSec(), 0);
+    EXPECT_EQ(marker.action, marker.ns == "cop" ? Marker::DELETE : Marker::ADD);
+    if (marker.ns != "loads") continue;
+    EXPECT_EQ(marker.scale.y, 2 * SphereRadius(marker.id, LoadClass::kUnknown, 1.6));
+  }
+  FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference,
+              message);  // the stream came back
+  ExpectColor(ColorOf(person.loads[0].load_class), message.markers[0]);
+  EXPECT_EQ(message.markers.back().action, Marker::ADD);
+}
+
+}  // namespace
+}  // namespace kinescope::ros_bridge

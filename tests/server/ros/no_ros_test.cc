@@ -1,0 +1,44 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "server/core/errors.h"
+#include "server/ros/bridge.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(WithoutRos, RemappingsAreTakenOutAndEverythingElseStays) {
+  std::vector<std::string> words = {"kinescope",   "serve",        "__name:=xsens",
+                                    "udp://:9763", "_udp_port:=1", "--tf=off"};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  int argc = static_cast<int>(argv.size());
+  InitRos(argc, argv.data(), "kinescope");
+  ASSERT_EQ(argc, 4);
+  EXPECT_STREQ(argv[0], "kinescope");
+  EXPECT_STREQ(argv[1], "serve");
+  EXPECT_STREQ(argv[2], "udp://:9763");
+  EXPECT_STREQ(argv[3], "--tf=off");
+}
+
+TEST(WithoutRos, PublishingIsRefusedWithAWayOut) {
+  EXPECT_FALSE(BuiltWithRos());
+  EXPECT_FALSE(MasterIsReachable());
+  EXPECT_EQ(MasterUri(), "");
+  EXPECT_EQ(PrivateParameter("tf"), std::nullopt);
+  EXPECT_EQ(MakeRosBridge({}, RosMode::kOff), nullptr);
+  try {
+    MakeRosBridge({}, RosMode::kAuto);
+    FAIL() << "made a bridge without ROS";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("-DKINESCOPE_WITH_ROS=ON"));
+  }
+}
+
+}  // namespace
+}  // namespace kinescope::ros_bridge

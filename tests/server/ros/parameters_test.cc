@@ -1,0 +1,113 @@
+// Parameters and options against a real master: each test runs in a process of its own
+// (bridge_fixture.h).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "server/core/errors.h"
+#include "server/ros/master_client.h"
+#include "tests/server/ros/bridge_fixture.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using ::testing::ElementsAre;
+using testing::MakeModel;
+using testing::MakePerson;
+using testing::Posture;
+using testing::SceneWith;
+
+TEST_F(RosBridgeWithMaster, DescribesEveryPersonAndDescribesAnewWhoeverChanges) {
+  StartMaster();
+  BridgeConfig config;
+  config.initial_urdf = model_->urdf_xml;
+  MakeBridge(config);
+  const auto parameter = [](const std::string& name) {
+    XmlRpc::XmlRpcValue arguments;
+    arguments[0] = name;
+    MasterReply reply = MasterClient().Call("getParam", arguments);
+    return reply.code == MasterReply::Code::kGood ? static_cast<std::string>(reply.value)
+                                                  : std::string();
+  };
+  EXPECT_TRUE(Within(20s, [&] { return parameter("/robot_description") == model_->urdf_xml; }))
+      << "nobody is there yet: the initial one";
+
+  const auto anna = MakeModel("anna", 1.6, 7);
+  SceneState state = SceneWith(MakePerson(MakeModel("skeleton", 1.9, 2), Posture(0), 1, 1));
+  state.people.push_back(MakePerson(anna, Posture(1), 1, 1));
+  state.people[1].character = 3;
+  Publish(state);
+  EXPECT_TRUE(Within(20s, [&] {
+    return parameter("/robot_description") == state.people[0].model->urdf_xml &&
+           parameter("/anna/robot_description") == anna->urdf_xml;
+  }));
+
+  XmlRpc::XmlRpcValue arguments;
+  arguments[0] = "/kinescope";
+  MasterReply topics = MasterClient().Call("getPublishedTopics", arguments);
+  ASSERT_EQ(topics.code, MasterReply::Code::kGood);
+  std::vector<std::string> names;
+  for (int i = 0; i < topics.value.size(); ++i) {
+    names.push_back(static_cast<std::string>(topics.value[i][0]));
+  }
+  std::sort(names.begin(), names.end());
+  EXPECT_THAT(
+      names, ElementsAre("/kinescope/anna/com", "/kinescope/anna/com_stamped",
+                         "/kinescope/anna/cop", "/kinescope/anna/joint_states",
+                         "/kinescope/anna/link_states", "/kinescope/anna/markers", "/kinescope/com",
+                         "/kinescope/com_stamped", "/kinescope/cop", "/kinescope/joint_states",
+                         "/kinescope/link_states", "/kinescope/markers"));
+}
+
+TEST_F(RosBridgeWithMaster, ReadsPrivateParametersOfAnyScalarTypeAndPrefersTheCommandLine) {
+  EXPECT_THAT(remaining_, ElementsAre("test", "left", "right"));
+  StartMaster();
+  const auto set = [](const std::string& name, const XmlRpc::XmlRpcValue& value) {
+    XmlRpc::XmlRpcValue arguments;
+    arguments[0] = "/kinescope/" + name;
+    arguments[1] = value;
+    ASSERT_EQ(MasterClient().Call("setParam", arguments).code, MasterReply::Code::kGood);
+  };
+  set("udp_port", 9763);
+  set("rate", 2.5);
+  set("model_name", std::string("anna"));
+  set("rviz", XmlRpc::XmlRpcValue(true));
+  XmlRpc::XmlRpcValue list;
+  list[0] = 1;
+  set("list", list);
+  EXPECT_EQ(PrivateParameter("udp_port"), "8001") << "_udp_port:=8001 was on the command line";
+  EXPECT_EQ(PrivateParameter("rate"), "2.5");
+  EXPECT_EQ(PrivateParameter("model_name"), "anna");
+  EXPECT_EQ(PrivateParameter("rviz"), "true");
+  EXPECT_EQ(PrivateParameter("list"), std::nullopt);
+  EXPECT_EQ(PrivateParameter("never_set"), std::nullopt);
+
+  MakeBridge();  // shows the arguments to `rosparam get`
+  XmlRpc::XmlRpcValue arguments;
+  arguments[0] = "/kinescope/udp_port";
+  EXPECT_TRUE(Within(20s, [&] {
+    MasterReply reply = MasterClient().Call("getParam", arguments);
+    return reply.code == MasterReply::Code::kGood && static_cast<int>(reply.value) == 8001;
+  }));
+}
+
+TEST_F(RosBridgeWithMaster, ReadsTheCommandLineWithoutAMaster) {
+  EXPECT_EQ(PrivateParameter("tf"), "tree");
+  EXPECT_EQ(PrivateParameter("never_set"), std::nullopt);
+  EXPECT_THROW(MakeRosBridge({}, RosMode::kRequired), UsageError);
+  EXPECT_EQ(MakeRosBridge({}, RosMode::kOff), nullptr);
+}
+
+TEST_F(RosBridgeWithMaster, RefusesAConfigThatMeansNothing) {
+  BridgeConfig config;
+  config.tf = "sideways";
+  EXPECT_THROW(MakeRosBridge(config, RosMode::kAuto), UsageError);
+  config = {};
+  config.joint_states = "guessed";
+  EXPECT_THROW(MakeRosBridge(config, RosMode::kAuto), UsageError);
+  config = {};
+  config.reference_frame = "/world";
+  EXPECT_THROW(MakeRosBridge(config, RosMode::kAuto), UsageError);
+}
+
+}  // namespace
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,33 @@
+/// A child process to talk to by lines. Dies with the test, however that ends.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kinescope::testing {
+
+class Process {
+ public:
+  /// `command[0]` is the path of a program. The environment is ours. @throws std::runtime_error.
+  explicit Process(const std::vector<std::string>& command);
+  ~Process();  // kills it
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void Signal(int number) const;
+  void WriteLine(const std::string& line) const;
+  /// Its next line, waiting up to `timeout`; nullopt when none came or it has ended.
+  std::optional<std::string> ReadLine(std::chrono::milliseconds timeout);
+
+ private:
+  pid_t pid_ = -1;
+  int to_child_ = -1;
+  int from_child_ = -1;
+  std::string unread_;
+};
+
+}  // namespace kinescope::testing

@@ -1,0 +1,18 @@
+#!/bin/sh
+# run_rostest.sh SETUP PYTHON ROSTEST FOLDER FILE: runs one *.test in the devel space of SETUP, on a free
+# UDP port and with a master of its own. FOLDER takes logs and results.
+set -eu
+setup=$1 python=$2 rostest=$3 folder=$4 file=$5
+mkdir -p "$folder"
+export ROS_HOME="$folder" ROS_LOG_DIR="$folder/log" ROS_TEST_RESULTS_DIR="$folder/results"
+export ROS_IP=127.0.0.1
+unset ROS_HOSTNAME ROS_MASTER_URI
+# catkin's setup asks `python3` on PATH, which may be one that has no catkin_pkg.
+PATH=$(dirname "$python"):$PATH
+set +u; . "$setup"; set -u
+port=$("$python" -c '
+import socket
+s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+s.bind(("127.0.0.1", 0))
+print(s.getsockname()[1])')
+exec "$python" "$rostest" "$file" "udp_port:=$port"
