@@ -17,11 +17,12 @@ const length = (/** @type {number[]} */ a) => Math.hypot(...a);
 
 /** Middle of the people on the floor, and how far the outermost stands from it.
  *  @param {number[][]} pelvises
+ *  @param {number} floor  its height, m
  *  @returns {{middle: number[], radius: number}} */
-export function groundOf(pelvises) {
-  if (pelvises.length === 0) return { middle: [0, 0, 0], radius: 0 };
+export function groundOf(pelvises, floor) {
+  if (pelvises.length === 0) return { middle: [0, 0, floor], radius: 0 };
   const sum = pelvises.reduce(([x, y], p) => [x + p[0], y + p[1]], [0, 0]);
-  const middle = [sum[0] / pelvises.length, sum[1] / pelvises.length, 0];
+  const middle = [sum[0] / pelvises.length, sum[1] / pelvises.length, floor];
   const radius = Math.max(...pelvises.map((p) => Math.hypot(p[0] - middle[0], p[1] - middle[1])));
   return { middle, radius };
 }

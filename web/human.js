@@ -86,8 +86,9 @@ export class Human {
   }
 
   /** @param {import('./state_codec.js').Person} person
-   *  @param {boolean} isLive */
-  update(person, isLive) {
+   *  @param {boolean} isLive
+   *  @param {number} floor  its height, m */
+  update(person, isLive, floor) {
     for (const { material, live } of this.#materials.values()) {
       material.color.copy(isLive ? live : this.staleColor);
     }
@@ -96,7 +97,7 @@ export class Human {
       this.#links[i]?.quaternion.fromArray(quaternion);
     });
     this.#updateSpheres(person, isLive);
-    this.#updatePoints(person, isLive);
+    this.#updatePoints(person, isLive, floor);
   }
 
   dispose() {
@@ -127,13 +128,13 @@ export class Human {
   }
 
   /** @param {import('./state_codec.js').Person} person
-   *  @param {boolean} isLive */
-  #updatePoints(person, isLive) {
+   *  @param {boolean} isLive
+   *  @param {number} floor */
+  #updatePoints(person, isLive, floor) {
     const { com, cop } = person;
     for (const part of [this.com, this.comLine, this.comRing]) part.visible = com !== null && isLive;
     this.cop.visible = cop !== null && isLive;
     if (com) {
-      const floor = cop ? cop[2] : 0;
       this.com.position.fromArray(com);
       this.comLine.position.fromArray(com);
       this.comLine.scale.z = Math.max(0.001, com[2] - floor);

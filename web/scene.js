@@ -92,10 +92,10 @@ export class Scene {
     for (const [character, human] of this.#people) {
       const person = state.people.find((each) => each.character === character);
       human.group.visible = person !== undefined;
-      if (person) human.update(person, isLive);
+      if (person) human.update(person, isLive, state.floor);
     }
     if (state.people.length > 0) {
-      this.#ground = groundOf(state.people.map(({ links }) => links[0].position));
+      this.#ground = groundOf(state.people.map(({ links }) => links[0].position), state.floor);
     }
     this.#dirty = true;
   }
@@ -149,10 +149,10 @@ export class Scene {
   }
 
   #placeFloor() {
-    const [x, y] = this.#followed;
-    this.#floor.position.set(Math.round(x), Math.round(y), 0);
-    this.#sun.position.set(x + 1.5, y - 1.2, 4);
-    this.#sun.target.position.set(x, y, 0.6);
+    const [x, y, z] = this.#followed;
+    this.#floor.position.set(Math.round(x), Math.round(y), z);
+    this.#sun.position.set(x + 1.5, y - 1.2, z + 4);
+    this.#sun.target.position.set(x, y, z + 0.6);
     this.#sun.target.updateMatrixWorld();
   }
 

@@ -2,7 +2,7 @@
 
 export const KIND = { state: 1, picture: 2 };
 export const VERSION = 1;
-const STATE_HEADER = 56;
+const STATE_HEADER = 60;
 const PERSON_HEADER = 40;
 const LINK = 28;
 const LOAD = 28;
@@ -19,7 +19,7 @@ const LOAD_CLASS = ['unknown', 'low', 'medium', 'high'];
  *    comIsOurs: boolean, massIsAssumed: boolean, links: Pose[], loads: Load[]}} Person
  *  @typedef {{liveness: 'no data'|'live'|'stale', counter: number, number: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
- *    rateHz: number, viewers: number, people: Person[]}} State  arrivalMicros 0: not known
+ *    rateHz: number, viewers: number, floor: number, people: Person[]}} State  arrivalMicros 0: not known
  */
 
 /** Which kind a message is; throws where the server speaks another version of the protocol.
@@ -48,6 +48,7 @@ export function decodeState(buffer) {
     timeCodeMillis: view.getFloat64(40, true),
     rateHz: view.getFloat32(48, true),
     viewers: view.getUint32(52, true),
+    floor: view.getFloat32(56, true),
     people: [],
   };
   let offset = STATE_HEADER;

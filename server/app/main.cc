@@ -8,6 +8,7 @@
 
 #include "server/app/commands.h"
 #include "server/app/stop_signal.h"
+#include "server/core/errors.h"
 #include "server/ros/bridge.h"
 
 namespace {
@@ -17,6 +18,17 @@ void SetUpLog() {
   auto log = spdlog::stderr_color_mt("kinescope");
   log->set_pattern("%H:%M:%S.%e %^%l%$: %v");
   spdlog::set_default_logger(log);
+}
+
+// CLI11 would only say that a subcommand is required.
+void RefuseUnknownCommand(const CLI::App& line, const std::string& word) {
+  if (word.empty() || word[0] == '-') return;
+  std::string known;
+  for (const CLI::App* command : line.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == word) return;
+    known += " " + command->get_name();
+  }
+  throw kinescope::UsageError("'" + word + "' is no command; there are" + known + " (see --help)");
 }
 
 }  // namespace
@@ -46,6 +58,7 @@ int main(int argc, char** argv) {
     app::AddStream(commands);
     app::AddUrdf(commands);
     app::AddProbe(commands);
+    RefuseUnknownCommand(line, argc > 1 ? argv[1] : "");
     try {
       line.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -114,6 +114,7 @@ Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) 
   out.PutDouble(static_cast<double>(state.time_code_millis));
   out.PutFloat(state.rate_hz);
   out.Put(static_cast<std::uint32_t>(viewers));
+  out.PutFloat(state.floor_z);
   KINESCOPE_CHECK(out.size() == kStateHeaderBytes);
   for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i]);
   return out.Take();

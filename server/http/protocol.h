@@ -22,7 +22,7 @@ using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to ever
 enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2 };
 
 inline constexpr std::uint8_t kProtocolVersion = 1;
-inline constexpr std::size_t kStateHeaderBytes = 56;
+inline constexpr std::size_t kStateHeaderBytes = 60;
 inline constexpr std::size_t kPersonHeaderBytes = 40;
 inline constexpr std::size_t kLinkBytes = 28;
 inline constexpr std::size_t kLoadBytes = 28;

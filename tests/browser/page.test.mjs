@@ -165,7 +165,7 @@ test('the server’s picture is shown when wanted, and saved at full size', asyn
   const { page, problems, close } = await openLive();
   const image = page.locator('#picture-image');
   await image.waitFor({ state: 'visible', ...LONG });
-  assert.equal(await image.evaluate((img) => img.naturalWidth), 640);
+  await page.waitForFunction(() => document.getElementById('picture-image').naturalWidth === 640, null, LONG);
   await page.selectOption('#picture-camera', 'iso');
   await page.waitForFunction(() => fetch('api/cameras').then((a) => a.json()).then(({ live }) => live === 'iso'), null, LONG);
   const waiting = page.waitForEvent('download', LONG);

@@ -36,6 +36,6 @@ test('straight down, the camera leans so that "up" of the view is up on the scre
 });
 
 test('the ground is the middle of the people', () => {
-  assert.deepEqual(groundOf([]), here);
-  assert.deepEqual(groundOf([[0, 0, 0.9], [2, 0, 1]]), { middle: [1, 0, 0], radius: 1 });
+  assert.deepEqual(groundOf([], 0), here);
+  assert.deepEqual(groundOf([[0, 0, 0.9], [2, 0, 1]], -0.5), { middle: [1, 0, -0.5], radius: 1 });
 });

@@ -104,6 +104,7 @@ json Describe() {
             {"timeCodeMillis", 3250},
             {"rateHz", 60},
             {"viewers", 3},
+            {"floor", state.floor_z},
             {"people", people}}},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},
           {"thresholds", {{"medium", settings.up[0]}, {"high", settings.up[1]}}}};

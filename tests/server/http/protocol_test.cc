@@ -74,7 +74,8 @@ void ExpectPerson(Reader& in, const PersonState& person) {
 }
 
 TEST(StateMessage, CarriesEveryFieldWhereTheManualSaysSo) {
-  const SceneState state = Scene(2);
+  SceneState state = Scene(2);
+  state.floor_z = -0.75;
   const Bytes bytes = EncodeState(state, 5'004'000'000, 3);
   Reader in(bytes);
   EXPECT_EQ(in.Get<std::uint8_t>(), 1);
@@ -89,6 +90,7 @@ TEST(StateMessage, CarriesEveryFieldWhereTheManualSaysSo) {
   EXPECT_EQ(in.Get<double>(), 3250);
   EXPECT_EQ(in.Get<float>(), 60);
   EXPECT_EQ(in.Get<std::uint32_t>(), 3);
+  EXPECT_EQ(in.Get<float>(), -0.75);
   for (const PersonState& person : state.people) ExpectPerson(in, person);
   EXPECT_TRUE(in.AtEnd());
 }

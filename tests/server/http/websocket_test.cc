@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/http/hub.h"
+#include "server/http/protocol.h"
 #include "tests/server/http/test_server.h"
 
 namespace kinescope::http::testing {
@@ -53,7 +54,7 @@ TEST(WebSocket, SaysNoDataBeforeAnythingCame) {
   TestServer site;
   WsClient client(site.server.port());
   const WsClient::Message state = client.ReceiveState();
-  EXPECT_EQ(state.bytes.size(), 56u);
+  EXPECT_EQ(state.bytes.size(), kStateHeaderBytes);
   EXPECT_EQ(state.bytes[2], 0);
 }
 
