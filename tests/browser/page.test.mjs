@@ -71,7 +71,10 @@ test('the readings are those of the stream', async () => {
 
 test('loads stand worst first, in words and numbers', async () => {
   const { page, close } = await openLive();
-  await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
+  await page.waitForFunction(() => {
+    const notes = [...document.querySelectorAll('#loads .note')].map((note) => note.textContent);
+    return notes.length === 15 && notes.every((note) => note !== '');
+  }, null, LONG);
   const rows = await page.$$eval('#loads li', (items) => items.map((item) => ({
     label: item.querySelector('.label').textContent, word: item.querySelector('.word').textContent,
     ratio: item.querySelector('.ratio').textContent, note: item.querySelector('.note').textContent,
@@ -249,9 +252,11 @@ test('a body of mesh files is drawn, and a file that is missing is named as miss
 test('two persons are both drawn and listed by name', async () => {
   const { page, close } = await openLive();
   site.say('people 2');
-  await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 30, null, LONG);
-  const labels = await page.$$eval('#loads .label', (all) => all.map((label) => label.textContent));
-  assert.ok(labels.includes('Demo: L5/S1') && labels.includes('Demo 2: L5/S1'), labels.join());
+  // Names come in a message of their own, a moment after the numbers.
+  await page.waitForFunction(() => {
+    const labels = [...document.querySelectorAll('#loads .label')].map((label) => label.textContent);
+    return labels.length === 30 && labels.includes('Demo: L5/S1') && labels.includes('Demo 2: L5/S1');
+  }, null, LONG);
   await close();
 });
 

@@ -8,7 +8,7 @@
 
 #include "render/compare.h"
 #include "render/renderer.h"
-#include "tests/render/temp_folder.h"
+#include "tests/temp_folder.h"
 #include "tests/render/test_scene.h"
 #include "urdf/human_urdf.h"
 

@@ -17,7 +17,7 @@
 #include <png.h>
 #include <zlib.h>
 
-#include "tests/render/temp_folder.h"
+#include "tests/temp_folder.h"
 #include "tests/shared_data.h"
 
 namespace kinescope::render {

@@ -16,7 +16,7 @@ extern "C" {
 #include <memory>
 
 #include "server/core/errors.h"
-#include "tests/render/temp_folder.h"
+#include "tests/temp_folder.h"
 #include "tests/shared_data.h"
 
 namespace kinescope::render {

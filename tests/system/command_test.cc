@@ -9,9 +9,11 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "render/compare.h"
 #include "render/png_file.h"
+#include "tests/process.h"
 #include "tests/shared_data.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
@@ -38,6 +40,16 @@ void ExpectRefusal(const ProgramResult& result, const std::string& named) {
   EXPECT_THAT(result.err, HasSubstr(named));
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   EXPECT_EQ(result.out, "");
+}
+
+// What follows `text` in the first line of `process` that has it.
+std::string RestOfLine(testing::Process& process, const std::string& text) {
+  while (const auto line = process.ReadLine(std::chrono::seconds(30))) {
+    const std::size_t at = line->find(text);
+    if (at != std::string::npos) return line->substr(at + text.size());
+  }
+  ADD_FAILURE() << "it never said '" << text << "'";
+  return "";
 }
 
 // A port that is taken, by us.
@@ -94,6 +106,38 @@ TEST(Command, RefusesPortsThatAreTaken) {
                                           tcp.number(), "--ros", "off", "--pictures", "off"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr(tcp.number()));
+}
+
+// What is no datagram of a suit is counted by reason, and the suit's stream goes on.
+TEST(Command, CountsRubbishByReasonAndGoesOn) {
+  testing::Process server({"/bin/bash", "-c",
+                           "exec '" KINESCOPE_PROGRAM
+                           "' serve --source udp://127.0.0.1:0 --http_port 0 "
+                           "--ros off --pictures off 2>&1"});
+  const std::string address = RestOfLine(server, "waiting for ");
+  const std::string page = RestOfLine(server, "page at ");
+  const std::string port =
+      address.substr(address.rfind(':', address.find(": ") - 1) + 1, std::string::npos);
+  const std::string to = "/dev/udp/127.0.0.1/" + port.substr(0, port.find(':'));
+  const std::vector<std::string> rubbish = {"{\"type\":\"transport\"}", "GET / HTTP/1.0", "MXTP02",
+                                            "MXTP02 says 23 segments follow and stops here"};
+  for (const std::string& text : rubbish) {
+    EXPECT_EQ(RunProgram({"/bin/bash", "-c", "printf %s '" + text + "' > " + to}).exit_code, 0);
+  }
+  const ProgramResult suit = Kinescope({"stream", "demo:n_pose", "--seconds", "1.2", "--to",
+                                        "udp://127.0.0.1:" + port.substr(0, port.find(':'))});
+  EXPECT_EQ(suit.exit_code, 0) << suit.err;
+  const std::string diagnostics =
+      RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
+  const auto source = nlohmann::json::parse(diagnostics).at("source");
+  EXPECT_GT(source.at("samples"), 100) << diagnostics;
+  std::uint64_t rejected = 0;
+  for (const auto& [reason, count] : source.at("rejected").items())
+    rejected += count.get<std::uint64_t>();
+  for (const auto& [reason, count] : source.at("ignored").items())
+    rejected += count.get<std::uint64_t>();
+  EXPECT_EQ(rejected, rubbish.size()) << diagnostics;
+  EXPECT_GE(source.at("rejected").size(), 2u) << diagnostics;
 }
 
 TEST(Command, SaysWhenItCannotDraw) {

@@ -4,11 +4,9 @@
 #include <geometry_msgs/Point.h>
 #include <geometry_msgs/PointStamped.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
-#include <sys/socket.h>
 #include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
 #include <urdf/model.h>
@@ -26,7 +24,8 @@
 #include "server/app/scene_builder.h"
 #include "server/ros/bridge.h"
 #include "server/subject/subject.h"
-#include "tests/server/ros/process.h"
+#include "tests/free_port.h"
+#include "tests/process.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 
@@ -34,21 +33,10 @@ namespace kinescope {
 namespace {
 
 using namespace std::chrono_literals;
+using testing::FreePort;
 using testing::Process;
 using testing::RunProgram;
 using Clock = std::chrono::steady_clock;
-
-int FreePort() {
-  const int fd = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  bind(fd, reinterpret_cast<sockaddr*>(&address), size);
-  getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size);
-  close(fd);
-  return ntohs(address.sin_port);
-}
 
 // A kinescope process whose log can be read line by line.
 std::unique_ptr<Process> Start(const std::string& arguments) {

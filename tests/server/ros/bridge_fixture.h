@@ -4,9 +4,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <ros/init.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,7 +18,8 @@
 #include <vector>
 
 #include "server/ros/bridge.h"
-#include "tests/server/ros/process.h"
+#include "tests/free_port.h"
+#include "tests/process.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::ros_bridge {
@@ -30,18 +29,6 @@ using Clock = std::chrono::steady_clock;
 
 inline constexpr std::int64_t kEpochNanos = 1'700'000'000'000'000'000;
 inline constexpr auto kPeriod = std::chrono::nanoseconds(1s) / 240;
-
-inline int FreePort() {
-  const int fd = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof(address);
-  EXPECT_EQ(bind(fd, reinterpret_cast<sockaddr*>(&address), size), 0);
-  EXPECT_EQ(getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  close(fd);
-  return ntohs(address.sin_port);
-}
 
 class RosBridgeWithMaster : public ::testing::Test {
  protected:
@@ -150,7 +137,7 @@ class RosBridgeWithMaster : public ::testing::Test {
     return true;
   }
 
-  const int port_ = FreePort();
+  const int port_ = testing::FreePort();
   std::filesystem::path folder_;
   std::vector<std::string> remaining_;  // of argv, after InitRos
   std::shared_ptr<const PersonModel> model_ = testing::MakeModel();

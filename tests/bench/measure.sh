@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Whole-program figures for README.md beside this file. Usage: tests/bench/measure.sh [BUILD]
+# BUILD: a build folder with the bench programs, default build/dev. Takes about two minutes.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+build=$PWD/${1:-build/dev}
+kinescope=$build/bin/kinescope
+work=$(mktemp -d)
+children=()
+trap 'kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true; rm -rf "$work"' EXIT
+export ROS_HOME=$work ROS_IP=127.0.0.1
+unset ROS_HOSTNAME
+
+seconds() { local start=$EPOCHREALTIME; "$@" >/dev/null 2>&1; awk "BEGIN { printf \"%.2f\", $EPOCHREALTIME - $start }"; }
+port_of() { /usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("127.0.0.1", 0)); print(s.getsockname()[1])'; }
+cpu_ticks() { awk '{ print $14 + $15 }' "/proc/$1/stat"; }
+rss_mb() { awk '/^VmRSS/ { printf "%.0f", $2 / 1024 }' "/proc/$1/status"; }
+
+echo "machine: $(nproc) cores, $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1), load $(cut -d' ' -f1 /proc/loadavg)"
+echo "start to first picture on disk (1280x720): $(seconds "$kinescope" render demo:n_pose --supersample 1 --out "$work/a.png") s," \
+     "again $(seconds "$kinescope" render demo:n_pose --supersample 1 --out "$work/a.png") s"
+echo "60 s clip, 1280x720, 30/s, H.264: $(seconds "$kinescope" render demo:lift --seconds 60 --supersample 1 --out "$work/a.mp4") s;" \
+     "with 2x supersampling $(seconds "$kinescope" render demo:lift --seconds 60 --out "$work/b.mp4") s"
+
+master_port=$(port_of) http_port=$(port_of) udp_port=$(port_of)
+export ROS_MASTER_URI=http://127.0.0.1:$master_port
+if command -v rosmaster >/dev/null && [ -x "$build/tests/bench/ros_latency" ]; then
+  /usr/bin/python3 "$(command -v rosmaster)" --core -p "$master_port" >/dev/null 2>&1 & children+=($!)
+  until "$kinescope" probe --json | grep -q '"master_reachable": true'; do :; done
+fi
+"$kinescope" serve --source "udp://127.0.0.1:$udp_port" --http_port "$http_port" 2>"$work/log" & server=$!
+children+=("$server")
+until grep -q 'page at' "$work/log"; do kill -0 "$server"; done
+measure_viewers() {  # VIEWERS [pictures]
+  local before; before=$(cpu_ticks "$server")
+  echo "$1 viewer(s) ${2:-}: $("$build/tests/bench/page_viewers" "$http_port" "$1" 10 ${2:+"$2"} | paste -sd';')" \
+       "server CPU $(( $(cpu_ticks "$server") - before ))/1000 of a core, $(rss_mb "$server") MB"
+}
+"$kinescope" stream demo:lift --rate_hz 60 --to "udp://127.0.0.1:$udp_port" 2>/dev/null & suit=$!
+children+=("$suit")
+echo "at 60 Hz:"
+measure_viewers 1
+measure_viewers 20
+measure_viewers 1 pictures
+kill "$suit"; wait "$suit" 2>/dev/null || true
+"$kinescope" stream demo:lift --rate_hz 240 --to "udp://127.0.0.1:$udp_port" 2>/dev/null & children+=($!)
+if [ -x "$build/tests/bench/ros_latency" ]; then
+  before=$(cpu_ticks "$server")
+  echo "at 240 Hz, sample in to ROS subscriber: $("$build/tests/bench/ros_latency" /kinescope/joint_states 2400)"
+  echo "  server CPU $(( $(cpu_ticks "$server") - before ))/1000 of a core, $(rss_mb "$server") MB"
+fi

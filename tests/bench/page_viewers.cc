@@ -1,0 +1,82 @@
+// Sample in -> WebSocket client: connects N viewers to a running `kinescope serve` and prints how
+// long after its arrival at the server's socket each sample reached them. Same machine, same clock.
+//   page_viewers PORT VIEWERS SECONDS [pictures]
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "tests/server/http/test_client.h"
+
+namespace {
+
+using kinescope::http::testing::WsClient;
+
+double NowMicros() {
+  return std::chrono::duration<double, std::micro>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+// Arrival of the sample, docs/http.md: state at byte 24, picture at byte 16.
+double ArrivalMicros(const WsClient::Message& message) {
+  double micros = 0;
+  std::memcpy(&micros, message.bytes.data() + (message.IsState() ? 24 : 16), sizeof micros);
+  return micros;
+}
+
+void Print(const char* what, std::vector<double>& millis, double seconds, int viewers) {
+  if (millis.empty()) return;
+  std::sort(millis.begin(), millis.end());
+  const auto at = [&](double part) {
+    return millis[static_cast<std::size_t>(part * static_cast<double>(millis.size() - 1))];
+  };
+  std::printf("%s: %.1f a second and viewer; ms after arrival: p50 %.2f, p95 %.2f, p99 %.2f\n",
+              what, static_cast<double>(millis.size()) / seconds / viewers, at(0.5), at(0.95),
+              at(0.99));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 4) {
+    std::fprintf(stderr, "page_viewers PORT VIEWERS SECONDS [pictures]\n");
+    return 2;
+  }
+  const int port = std::atoi(argv[1]), viewers = std::atoi(argv[2]);
+  const double seconds = std::atof(argv[3]);
+  std::mutex mutex;
+  std::vector<double> states, pictures;  // ms, guarded by mutex
+  std::vector<std::thread> threads;
+  for (int i = 0; i < viewers; ++i) {
+    threads.emplace_back([&] {
+      WsClient client(port);
+      if (argc > 4) client.Send("{\"pictures\":true}");
+      const double end = NowMicros() + seconds * 1e6;
+      std::uint64_t last_state = 0;
+      std::uint64_t seen_states = 0, seen_pictures = 0;
+      while (NowMicros() < end) {
+        const auto message = client.Receive();
+        if (message.is_text) continue;
+        const double late = (NowMicros() - ArrivalMicros(message)) / 1e3;
+        // As the page does, so that the server goes on sending.
+        (message.IsState() ? seen_states : seen_pictures) += 1;
+        client.Send("{\"seen_states\":" + std::to_string(seen_states) +
+                    ",\"seen_pictures\":" + std::to_string(seen_pictures) + "}");
+        if (message.IsState() && message.state_number() == last_state) continue;  // a heartbeat
+        if (message.IsState()) last_state = message.state_number();
+        const std::lock_guard<std::mutex> lock(mutex);
+        (message.IsState() ? states : pictures).push_back(late);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  Print("states", states, seconds, viewers);
+  Print("pictures", pictures, seconds, viewers);
+  return 0;
+}

@@ -1,0 +1,49 @@
+// Any text as what a browser says over the WebSocket: it is understood or answered with an error,
+// and neither the camera nor the answers leave their bounds.
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "server/core/check.h"
+#include "server/http/hub.h"
+
+namespace {
+
+using namespace kinescope;
+
+class Client : public http::HubClient {
+ public:
+  void Offer(http::Slot, http::SharedBytes message) override {
+    KINESCOPE_CHECK(message != nullptr);
+    KINESCOPE_CHECK(message->size() < 65536);
+  }
+  void SetWantsPictures(bool wanted) override { wants_ = wanted; }
+  bool wants_pictures() const override { return wants_; }
+  bool OnSeen(http::Slot, std::uint64_t) override { return true; }
+  http::ClientCounters counters() const override { return {}; }
+
+ private:
+  bool wants_ = false;
+};
+
+class Feed : public http::PictureFeed {
+ public:
+  void SetViewers(int count) override { KINESCOPE_CHECK(count == 0 || count == 1); }
+  bool SetCamera(const std::string& camera) override { return camera == "front"; }
+  std::vector<std::uint8_t> SnapshotPng(const std::string&, int, int) override { return {}; }
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Latest<SceneState> states;
+  Latest<http::Picture> pictures;
+  Feed feed;
+  http::Counters counters;
+  http::Hub hub(states, pictures, &feed, "iso", counters);
+  Client client;
+  hub.Join(client);
+  hub.OnMessage(client, {reinterpret_cast<const char*>(data), size});
+  hub.Leave(client);
+  return 0;
+}
