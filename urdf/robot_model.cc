@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <mutex>
+#include <set>
 #include <string>
 
 namespace kinescope::urdf {
@@ -155,8 +156,13 @@ RobotModel ParseUrdf(const std::string& xml) {
   model.root_link = parsed->getRoot()->name;
   // Breadth first, so that parents come before children; a list, because chains can be deep.
   std::vector<::urdf::LinkConstSharedPtr> open = {parsed->getRoot()};
+  std::set<std::string> seen;
   for (std::size_t next = 0; next < open.size(); ++next) {
     const ::urdf::LinkConstSharedPtr link = open[next];
+    // urdfdom lets a link hang on two joints, and then a loop be reached from the root.
+    if (!seen.insert(link->name).second) {
+      throw UrdfError("link '" + link->name + "' is the child of two joints");
+    }
     model.links.push_back(ToLink(*link));
     for (const auto& joint : link->child_joints) model.joints.push_back(ToJoint(*joint));
     for (const auto& child : link->child_links) open.push_back(child);

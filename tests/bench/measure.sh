@@ -8,7 +8,7 @@ kinescope=$build/bin/kinescope
 work=$(mktemp -d)
 children=()
 trap 'kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true; rm -rf "$work"' EXIT
-export ROS_HOME=$work ROS_IP=127.0.0.1
+export ROS_HOME=$work/ros ROS_IP=127.0.0.1
 unset ROS_HOSTNAME
 
 seconds() { local start=$EPOCHREALTIME; "$@" >/dev/null 2>&1; awk "BEGIN { printf \"%.2f\", $EPOCHREALTIME - $start }"; }
@@ -28,9 +28,9 @@ if command -v rosmaster >/dev/null && [ -x "$build/tests/bench/ros_latency" ]; t
   /usr/bin/python3 "$(command -v rosmaster)" --core -p "$master_port" >/dev/null 2>&1 & children+=($!)
   until "$kinescope" probe --json | grep -q '"master_reachable": true'; do :; done
 fi
-"$kinescope" serve --source "udp://127.0.0.1:$udp_port" --http_port "$http_port" 2>"$work/log" & server=$!
+"$kinescope" serve --source "udp://127.0.0.1:$udp_port" --http_port "$http_port" 2>"$work/server.log" & server=$!
 children+=("$server")
-until grep -q 'page at' "$work/log"; do kill -0 "$server"; done
+until grep -q 'page at' "$work/server.log"; do kill -0 "$server"; done
 measure_viewers() {  # VIEWERS [pictures]
   local before; before=$(cpu_ticks "$server")
   echo "$1 viewer(s) ${2:-}: $("$build/tests/bench/page_viewers" "$http_port" "$1" 10 ${2:+"$2"} | paste -sd';')" \
@@ -43,6 +43,8 @@ measure_viewers 1
 measure_viewers 20
 measure_viewers 1 pictures
 kill "$suit"; wait "$suit" 2>/dev/null || true
+# Only then is the next sender taken for the same suit and not for a second person.
+until curl -sf "http://127.0.0.1:$http_port/api/state" | grep -q '"liveness":"stale"'; do :; done
 "$kinescope" stream demo:lift --rate_hz 240 --to "udp://127.0.0.1:$udp_port" 2>/dev/null & children+=($!)
 if [ -x "$build/tests/bench/ros_latency" ]; then
   before=$(cpu_ticks "$server")

@@ -51,6 +51,12 @@ TEST(RobotModel, RefusesWhatIsNoUrdfAndSaysWhy) {
       "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
       "<joint name='k' type='fixed'><parent link='b'/><child link='a'/></joint></robot>");
   EXPECT_NE(loop, "accepted");
+  const std::string two_parents = ReasonFor(
+      "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+      "<joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint>"
+      "<joint name='k' type='fixed'><parent link='b'/><child link='c'/></joint>"
+      "<joint name='l' type='fixed'><parent link='c'/><child link='b'/></joint></robot>");
+  EXPECT_NE(two_parents.find("'b'"), std::string::npos) << two_parents;
   const std::string bad_number = ReasonFor(
       "<robot name='r'><link name='a'><visual><origin xyz='nan 0 0'/><geometry>"
       "<box size='1 1 1'/></geometry></visual></link></robot>");
