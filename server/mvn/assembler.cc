@@ -21,28 +21,48 @@ void Assembler::Add(const Endpoint& sender, std::string_view datagram, const Arr
   if (std::holds_alternative<NotNeeded>(message->body)) {
     return tally_.Ignore(message->header.type);
   }
-  Stream* const stream =
-      FindStream(sender, message->header.character, arrival.monotonic_nanos, sink);
-  if (stream == nullptr) return tally_.Reject(Reason::kTooManyStreams);
-  stream->state.Add(*message, arrival, sink);
+  const auto stream = FindStream(sender, message->header.character, arrival.monotonic_nanos, sink);
+  if (!stream) return tally_.Reject(stream.error());
+  (*stream)->state.Add(*message, arrival, sink);
 }
 
-Assembler::Stream* Assembler::FindStream(const Endpoint& sender, int character, std::int64_t now,
-                                         SampleSink& sink) {
+tl::expected<Assembler::Stream*, Reason> Assembler::FindStream(const Endpoint& sender,
+                                                               int character, std::int64_t now,
+                                                               SampleSink& sink) {
   for (const auto& stream : streams_) {
     if (stream->sender == sender && stream->sent_character == character) return stream.get();
   }
+  bool has_rival = false;  // alive, and perhaps this very sender before it was restarted
   for (const auto& stream : streams_) {
     const bool same_machine = stream->sender.address == sender.address;
-    const bool silent = now - stream->state.last_heard_nanos() > kTakeOverNanos;
-    if (same_machine && silent && stream->sent_character == character) {
-      stream->sender = sender;
-      stream->state.SenderRestarted(sink);
-      ++tally_.restarts;
-      return stream.get();
+    if (!same_machine || stream->sent_character != character) continue;
+    if (now - stream->state.last_heard_nanos() <= kTakeOverNanos) {
+      has_rival = true;
+      continue;
+    }
+    stream->sender = sender;
+    stream->state.SenderRestarted(sink);
+    ++tally_.restarts;
+    return stream.get();
+  }
+  if (has_rival && IsOnTrial(sender, character, now)) {
+    return tl::make_unexpected(Reason::kSecondSender);
+  }
+  Stream* const added = AddStream(sender, character, now, sink);
+  if (added == nullptr) return tl::make_unexpected(Reason::kTooManyStreams);
+  return added;
+}
+
+bool Assembler::IsOnTrial(const Endpoint& sender, int character, std::int64_t now) {
+  const auto is_old = [now](const Trial& trial) { return now - trial.since_nanos > kForgetNanos; };
+  trials_.erase(std::remove_if(trials_.begin(), trials_.end(), is_old), trials_.end());
+  for (const Trial& trial : trials_) {
+    if (trial.sender == sender && trial.sent_character == character) {
+      return now - trial.since_nanos <= kTakeOverNanos;
     }
   }
-  return AddStream(sender, character, now, sink);
+  if (trials_.size() < kMostStreams) trials_.push_back({sender, character, now});
+  return true;
 }
 
 Assembler::Stream* Assembler::AddStream(const Endpoint& sender, int character, std::int64_t now,

@@ -14,9 +14,10 @@
 /// - Stamps: see clock_fit.h.
 ///
 /// A character's id in samples is the sender's own where it is free, else the next free one (two
-/// senders that both send character 0). A sender whose port changed while the old one is silent is
-/// the same sender, restarted. At most 16 (sender, character) pairs are kept; beyond that
-/// one that has been silent for 3 s makes room, else the newcomer is rejected.
+/// senders that both send character 0). Who sends a character from another port of the same machine
+/// is that sender, restarted, when the old port is silent, and somebody else when it is not; until
+/// 0.1 s have told, the newcomer's datagrams are rejected. At most 16 (sender, character) pairs are
+/// kept; beyond that one that has been silent for 3 s makes room, else the newcomer is rejected.
 ///
 /// Time is an argument; one thread. Pose data allocate nothing.
 #pragma once
@@ -26,11 +27,13 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <tl/expected.hpp>
 #include <vector>
 
 #include "server/core/source.h"
 #include "server/mvn/arrival.h"
 #include "server/mvn/character_stream.h"
+#include "server/mvn/datagram.h"
 #include "server/mvn/tally.h"
 
 namespace kinescope::mvn {
@@ -73,13 +76,23 @@ class Assembler {
     CharacterStream state;
   };
 
-  Stream* FindStream(const Endpoint& sender, int character, std::int64_t now, SampleSink& sink);
+  // A newcomer of whom it is not yet known whether it replaces another.
+  struct Trial {
+    Endpoint sender;
+    int sent_character = 0;
+    std::int64_t since_nanos = 0;
+  };
+
+  tl::expected<Stream*, Reason> FindStream(const Endpoint& sender, int character, std::int64_t now,
+                                           SampleSink& sink);
+  bool IsOnTrial(const Endpoint& sender, int character, std::int64_t now);
   Stream* AddStream(const Endpoint& sender, int character, std::int64_t now, SampleSink& sink);
   int FreeId(int wanted) const;
   bool MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink);
 
   Tally tally_;
   std::vector<std::unique_ptr<Stream>> streams_;  // at most kMostStreams
+  std::vector<Trial> trials_;                     // likewise
 };
 
 }  // namespace kinescope::mvn

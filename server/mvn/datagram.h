@@ -175,6 +175,7 @@ enum class Reason : std::uint8_t {
   kPartsContradict,
   kNoWholePose,
   kTooManyStreams,
+  kSecondSender,
   kScaleWithoutBody,
   kScaleNotHuman,
 };

@@ -33,6 +33,8 @@ const char* Text(Reason reason) {
     case Reason::kPartsContradict: return "datagram counter contradicts the other parts";
     case Reason::kNoWholePose: return "sample without a whole body pose (type 02)";
     case Reason::kTooManyStreams: return "too many senders or characters";
+    case Reason::kSecondSender:
+      return "second sender at one address, not yet told from a restarted one";
     case Reason::kScaleWithoutBody: return "scale data without all 23 segments";
     case Reason::kScaleNotHuman: return "scale data that fit no human";
   }

@@ -130,6 +130,35 @@ TEST_F(CharactersTest, ASenderThatComesBackFromAnotherPortIsTheSamePerson) {
   EXPECT_EQ(counters().restarts, 1U);
 }
 
+TEST_F(CharactersTest, ASenderRestartedAtOnceIsTheSamePersonToo) {
+  LearnFrom(5000);
+  sender_ = Sender(1, 2);  // within a period of the old one's last sample
+  for (std::uint32_t counter = 1; counter < 60; ++counter) {
+    Send(Datagrams(counter));
+    Wait(kPeriod);
+  }
+  for (const BodySample& sample : sink_.samples) EXPECT_EQ(sample.character, 0);
+  EXPECT_EQ(sink_.samples.back().counter, 59U);
+  EXPECT_EQ(counters().restarts, 1U);
+  EXPECT_GT(counters().rejected.at(Text(Reason::kSecondSender)), 0U);
+  ExpectAllAccountedFor();
+}
+
+TEST_F(CharactersTest, TwoThatSendOnFromOneMachineAreTwoPeople) {
+  for (std::uint32_t counter = 1; counter < 120; ++counter) {
+    sender_ = Sender(1, 1);
+    Send(Datagrams(counter));
+    sender_ = Sender(1, 2);
+    Send(Datagrams(counter + 1000));
+    Wait(kPeriod);
+  }
+  EXPECT_EQ(sink_.samples.back().character, 1);
+  for (const BodySample& sample : sink_.samples) {
+    EXPECT_EQ(sample.character, sample.counter > 1000 ? 1 : 0);
+  }
+  EXPECT_EQ(counters().restarts, 0U);
+}
+
 TEST_F(CharactersTest, KeepsABoundedNumberOfStreams) {
   for (std::uint16_t port = 1; port <= 100; ++port) {
     sender_ = Sender(static_cast<std::uint8_t>(port), port);
