@@ -88,7 +88,9 @@ extern const std::array<SegmentInfo, kSegmentCount> kSegments;
 extern const std::array<JointInfo, kJointCount> kJoints;
 
 constexpr int ChildOf(int joint) { return joint + 1; }
-inline int ParentOf(int joint) { return kSegments[static_cast<std::size_t>(joint + 1)].parent; }
+inline int ParentOf(int joint) {
+  return kSegments[static_cast<std::size_t>(joint) + 1].parent;  // of the child
+}
 
 /// Segment whose MVN name is `mvn_name`; nullopt for a prop, a finger or anything unknown.
 std::optional<Segment> FindSegment(std::string_view mvn_name);

@@ -212,9 +212,9 @@ double CoreRadius(int joint) {
     case jRightBallFoot:
     case jLeftBallFoot: return 0.012;
     case jRightShoulder:
-    case jLeftShoulder: return 0.040;
+    case jLeftShoulder:
     case jRightC7Shoulder:
-    case jLeftC7Shoulder: return 0.040;
+    case jLeftC7Shoulder:
     case jT1C7:
     case jC1Head: return 0.040;
     case jRightKnee:

@@ -36,7 +36,7 @@ TEST(HumanUrdf, Has23LinksWithMassAnd66RevoluteJoints) {
   EXPECT_EQ(with_mass, kSegmentCount);
   EXPECT_NEAR(mass, 75.0, 1e-5);
   EXPECT_EQ(robot.links.size(), std::size_t{kSegmentCount + 2 * kJointCount});
-  ASSERT_EQ(robot.joints.size(), std::size_t{3 * kJointCount});
+  ASSERT_EQ(robot.joints.size(), std::size_t{3} * kJointCount);
   for (const RobotJoint& joint : robot.joints) {
     EXPECT_EQ(joint.type, RobotJoint::Type::kRevolute) << joint.name;
   }

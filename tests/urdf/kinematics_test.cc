@@ -45,7 +45,8 @@ TEST(Kinematics, AnglesDoNotJumpWhenAJointTurnsPastHalfATurn) {
 
 TEST(Kinematics, AnglesStayContinuousThroughGimbalLock) {
   Vector3d before(80 * M_PI / 180, 0.4, -0.2);
-  for (double x_deg = 80; x_deg <= 100; x_deg += 0.5) {
+  for (int step = 0; step <= 40; ++step) {
+    const double x_deg = 80 + 0.5 * step;
     const Vector3d truth(x_deg * M_PI / 180, 0.4, -0.2);
     const Quaterniond rotation = RotationFromAngles(truth);
     const Vector3d now = AnglesFromRotation(rotation, before);
