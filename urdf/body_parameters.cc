@@ -9,8 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
 enum class RadiiOf { kStature, kLength };
 
 struct Column {

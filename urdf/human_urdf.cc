@@ -14,8 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
 constexpr std::array<const char*, 3> kAxisName = {"x", "y", "z"};
 constexpr std::array<int, 3> kChainOrder = {1, 0, 2};  // y, then x, then z
 

@@ -11,8 +11,6 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
 // `angle` + 2 pi n, as near to `near` as can be.
 double Unwind(double angle, double near) {
   return angle + 2 * M_PI * std::round((near - angle) / (2 * M_PI));

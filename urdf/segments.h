@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -87,9 +88,12 @@ struct JointInfo {
 extern const std::array<SegmentInfo, kSegmentCount> kSegments;
 extern const std::array<JointInfo, kJointCount> kJoints;
 
+/// A segment or a joint as an index of the arrays that they count through.
+constexpr std::size_t At(int index) { return static_cast<std::size_t>(index); }
+
 constexpr int ChildOf(int joint) { return joint + 1; }
 inline int ParentOf(int joint) {
-  return kSegments[static_cast<std::size_t>(joint) + 1].parent;  // of the child
+  return kSegments[At(joint) + 1].parent;  // of the child
 }
 
 /// Segment whose MVN name is `mvn_name`; nullopt for a prop, a finger or anything unknown.

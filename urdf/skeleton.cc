@@ -9,8 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
 constexpr std::array<int, 2> kShoulder = {kRightShoulder, kLeftShoulder};
 constexpr std::array<int, 2> kHand = {kRightHand, kLeftHand};
 constexpr std::array<int, 2> kFoot = {kRightFoot, kLeftFoot};

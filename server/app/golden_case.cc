@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include "server/app/option_list.h"
 #include "server/app/pipeline_options.h"
@@ -15,24 +14,6 @@ namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Takes keys out of the YAML file, remembering which exist.
-class CaseReader {
- public:
-  explicit CaseReader(const fs::path& path) : values_(path.string()) {}
-
-  template <class T>
-  void operator()(const std::string& name, T& value, const std::string& = {}) {
-    known_.insert(name);
-    if (const auto text = values_(name)) value = ParseOption<T>(name, *text);
-  }
-
-  void RefuseUnknown() const { values_.RefuseUnknown(known_); }
-
- private:
-  YamlValues values_;
-  std::set<std::string> known_;
-};
 
 Liveness ToLiveness(const fs::path& path, const std::string& text) {
   for (const Liveness liveness : {Liveness::kLive, Liveness::kStale, Liveness::kNoData}) {
@@ -61,7 +42,8 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   GoldenCase golden_case;
   golden_case.name = yaml.stem();
   std::string show = Name(Liveness::kLive);
-  CaseReader read(yaml);
+  const YamlValues values(yaml.string());
+  ValueSetter read(values);
   read("source", golden_case.source);
   read("time", golden_case.time_secs);
   read("show", show);
@@ -70,7 +52,7 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   read("supersample", golden_case.supersample);
   read("why", golden_case.why);
   golden_case.person.Visit(read);
-  read.RefuseUnknown();
+  values.RefuseUnknown(read.names());
   if (golden_case.source.empty()) throw UsageError(yaml.string() + ": source: is missing");
   if (golden_case.source.rfind("demo:", 0) != 0) {
     golden_case.source = (yaml.parent_path() / golden_case.source).string();

@@ -58,18 +58,20 @@ class FlagAdder {
   std::string positional_;
 };
 
-/// Values from elsewhere, for options that the command line did not set.
+/// Values from elsewhere, for options that the command line did not set. Without a `command`: for
+/// all.
 class ValueSetter {
  public:
   using Lookup = std::function<std::optional<std::string>(const std::string& name)>;
 
   ValueSetter(const CLI::App& command, Lookup lookup)
-      : command_(command), lookup_(std::move(lookup)) {}
+      : command_(&command), lookup_(std::move(lookup)) {}
+  explicit ValueSetter(Lookup lookup) : lookup_(std::move(lookup)) {}
 
   template <class T>
-  void operator()(const std::string& name, T& value, const std::string&) {
+  void operator()(const std::string& name, T& value, const std::string& = {}) {
     names_.insert(name);
-    if (command_.count("--" + name) > 0) return;
+    if (command_ != nullptr && command_->count("--" + name) > 0) return;
     if (const auto text = lookup_(name)) value = ParseOption<T>(name, *text);
   }
 
@@ -77,7 +79,7 @@ class ValueSetter {
   const std::set<std::string>& names() const { return names_; }
 
  private:
-  const CLI::App& command_;
+  const CLI::App* command_ = nullptr;
   Lookup lookup_;
   std::set<std::string> names_;
 };

@@ -12,9 +12,8 @@ namespace kinescope::app {
 namespace {
 
 using Eigen::Vector3d;
+using urdf::At;
 using urdf::LinkPoses;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 constexpr double kNanosPerSec = 1e9;
 
@@ -65,13 +64,10 @@ SceneBuilder::SceneBuilder(SceneOptions options, std::string source, double nomi
 
 void SceneBuilder::Start() { Publish(Liveness::kNoData); }
 
-SceneBuilder::Person& SceneBuilder::PersonOf(int character) {
-  const auto [entry, is_new] = people_.try_emplace(character);
-  Person& person = entry->second;
-  if (is_new) {
-    person.character.id = character;
-    person.model = MakeModel(person, people_.size() - 1);
-  }
+SceneBuilder::Person& SceneBuilder::AddPerson(const Character& character) {
+  Person& person = people_[character.id];
+  person.character = character;
+  person.model = MakeModel(person, people_.size() - 1);
   return person;
 }
 
@@ -97,9 +93,13 @@ std::shared_ptr<const PersonModel> SceneBuilder::MakeModel(const Person& person,
 }
 
 void SceneBuilder::OnCharacter(const Character& character) {
-  const bool is_known = people_.count(character.id) > 0;
-  Person& person = PersonOf(character.id);
-  const bool same_body = is_known && person.character.skeleton == character.skeleton;
+  const auto known = people_.find(character.id);
+  if (known == people_.end()) {
+    AddPerson(character);
+    return;
+  }
+  Person& person = known->second;
+  const bool same_body = person.character.skeleton == character.skeleton;
   person.character = character;
   if (!same_body && character.skeleton) {
     person.model = MakeModel(person, 0);
@@ -155,7 +155,9 @@ PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) cons
 }
 
 void SceneBuilder::OnSample(const BodySample& sample) {
-  Person& person = PersonOf(sample.character);
+  const auto known = people_.find(sample.character);
+  Person& person =
+      known != people_.end() ? known->second : AddPerson({sample.character, "", {}, {}});
   person.state = StateOf(person, sample);
   MeasureRate(sample.arrival_nanos);
   current_.stamp_nanos = sample.stamp_nanos;
@@ -190,17 +192,17 @@ void SceneBuilder::Publish(Liveness liveness) {
   current_.liveness = liveness;
   current_.number += 1;
   current_.source = source_;
-  current_.people.clear();
-  for (auto& [id, person] : people_) {
+  const auto scene = std::make_shared<SceneState>(current_);
+  for (const auto& [id, person] : people_) {
     if (!person.state) continue;
     if (current_.stamp_nanos - person.state->sample.stamp_nanos > kGoneAfterNanos) continue;
-    current_.people.push_back(*person.state);
+    scene->people.push_back(*person.state);
     if (liveness == Liveness::kLive) continue;
-    for (JointLoad& load : current_.people.back().loads) {  // old loads must not look valid
+    for (JointLoad& load : scene->people.back().loads) {  // old loads must not look valid
       load = Unknown(load.joint, load.position, "the stream stopped");
     }
   }
-  on_state_(std::make_shared<const SceneState>(current_));
+  on_state_(scene);
 }
 
 void SceneBuilder::Tick(std::int64_t monotonic_nanos) {

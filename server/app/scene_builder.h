@@ -57,7 +57,7 @@ class SceneBuilder : public SampleSink {
     std::optional<PersonState> state;  // of the newest sample
   };
 
-  Person& PersonOf(int character);
+  Person& AddPerson(const Character& character);  // who is not there yet
   std::shared_ptr<const PersonModel> MakeModel(const Person& person, std::size_t index) const;
   PersonState StateOf(Person& person, const BodySample& sample) const;
   void Publish(Liveness liveness);
@@ -67,8 +67,8 @@ class SceneBuilder : public SampleSink {
   std::string source_;
   double nominal_rate_hz_;
   OnState on_state_;
-  std::map<int, Person> people_;  // by character id; bounded by the source
-  SceneState current_;
+  std::map<int, Person> people_;        // by character id; bounded by the source
+  SceneState current_;                  // without its people: Publish adds those
   std::int64_t rate_window_start_ = 0;  // monotonic
   int rate_window_samples_ = 0;
 };

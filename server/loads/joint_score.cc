@@ -10,8 +10,6 @@ namespace {
 using Eigen::Vector3d;
 using namespace urdf;
 
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
 // 50th percentile, N m, one side: for a positive and for a negative moment. joint-loads.md 4.2.
 struct Capacity {
   double positive, negative;

@@ -12,8 +12,6 @@ using namespace urdf;  // segment and joint names
 
 constexpr double kGravity = 9.81;  // m/s^2, as in every reference number
 
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
 struct Foot {
   Vector2d center;    // midpoint of the ground projections of heel and toe tip
   double weight = 0;  // 0 in the air .. 1 on the floor

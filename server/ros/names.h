@@ -11,7 +11,7 @@
 
 namespace kinescope::ros_bridge {
 
-inline std::size_t At(int index) { return static_cast<std::size_t>(index); }
+using urdf::At;
 
 /// Joints and segments in the alphabetical order of their ROS names: the order in the messages.
 const std::array<int, urdf::kJointCount>& JointsByName();

@@ -7,8 +7,7 @@ namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
+using urdf::At;
 
 // MVN measures angles between frames that are those of our links, but for forearms and hands: there
 // it has the palms forward where our links have the thumbs forward.

@@ -15,8 +15,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-std::size_t At(int index) { return static_cast<std::size_t>(index); }
-
 Vector3d Vertex(const TriangleMesh& mesh, std::uint32_t index) {
   return mesh.vertices[index].cast<double>();
 }
