@@ -19,9 +19,12 @@ ALLOWED = {  # folder: folders of ours that it may include
 }
 FOREIGN = {  # whose headers: where they may be included
     r"vtk": ("render/vtk",),
-    r"(ros|tf2_msgs|std_msgs|sensor_msgs|geometry_msgs|visualization_msgs|xmlrpcpp)/": ("server/ros",),
+    r"(ros|rosbag|tf2_msgs|std_msgs|sensor_msgs|geometry_msgs|visualization_msgs|xmlrpcpp)/": ("server/ros",),
     r"boost/": ("server/http", "server/ros"),
     r"lib(av|sw)": ("render",),
+    r"pcap": ("server/mvn",),
+    r"expat": ("server/mvn",),
+    r"archive": ("server/core",),
     r"(urdf_parser|urdf_model)/": ("urdf",),
     r"assimp/": ("render/vtk",),
     r"GL/": ("render/vtk",),

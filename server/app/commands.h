@@ -11,12 +11,14 @@ struct CommandLine {
   int& exit_code;
 };
 
-void AddServe(CommandLine line);   // source -> ROS, pictures, page
-void AddBridge(CommandLine line);  // source -> ROS only
-void AddRender(CommandLine line);  // source -> PNG or MP4
-void AddGolden(CommandLine line);  // check | update golden images
-void AddStream(CommandLine line);  // source -> MVN network stream
-void AddUrdf(CommandLine line);    // the person's URDF; check one
-void AddProbe(CommandLine line);   // what this machine has
+void AddServe(CommandLine line);    // source -> ROS, pictures, page
+void AddBridge(CommandLine line);   // source -> ROS only
+void AddRender(CommandLine line);   // source -> PNG or MP4
+void AddGolden(CommandLine line);   // check | update golden images
+void AddStream(CommandLine line);   // source -> MVN network stream
+void AddRecord(CommandLine line);   // source -> capture file
+void AddInspect(CommandLine line);  // what is in a source
+void AddUrdf(CommandLine line);     // the person's URDF; check one
+void AddProbe(CommandLine line);    // what this machine has
 
 }  // namespace kinescope::app

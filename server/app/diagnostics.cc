@@ -27,6 +27,8 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
     out["source"]["late"] = counters->late;
     out["source"]["counter_gaps"] = counters->counter_gaps;
     out["source"]["restarts"] = counters->restarts;
+    out["source"]["outliers"] = counters->outliers;
+    out["source"]["types"] = counters->types;
     out["source"]["ignored"] = counters->ignored;
     out["source"]["rejected"] = counters->rejected;
   }

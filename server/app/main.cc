@@ -7,6 +7,7 @@
 #include <string>
 
 #include "server/app/commands.h"
+#include "server/app/open_source.h"
 #include "server/app/stop_signal.h"
 #include "server/core/errors.h"
 #include "server/ros/bridge.h"
@@ -43,7 +44,8 @@ int main(int argc, char** argv) {
 
     CLI::App line(
         "Kinescope: watch a motion-captured human without a screen.\n"
-        "Source: udp://[address]:port, file.mvnx, demo:lift, demo:walk.");
+        "Source: " +
+        std::string(app::kSourceKinds) + ".");
     line.name("kinescope");
     line.require_subcommand(1);
     line.set_version_flag("--version", KINESCOPE_VERSION);
@@ -56,6 +58,8 @@ int main(int argc, char** argv) {
     app::AddRender(commands);
     app::AddGolden(commands);
     app::AddStream(commands);
+    app::AddRecord(commands);
+    app::AddInspect(commands);
     app::AddUrdf(commands);
     app::AddProbe(commands);
     RefuseUnknownCommand(line, argc > 1 ? argv[1] : "");

@@ -1,10 +1,14 @@
 #include "server/app/open_source.h"
 
 #include <filesystem>
+#include <utility>
 
 #include "server/app/paced_source.h"
 #include "server/core/errors.h"
-#include "server/mvn/open.h"
+#include "server/core/input_file.h"
+#include "server/mvn/mvnx_source.h"
+#include "server/mvn/recording.h"
+#include "server/ros/bag_source.h"
 #include "server/subject/subject.h"
 
 namespace kinescope::app {
@@ -14,25 +18,51 @@ bool StartsWith(const std::string& text, const std::string& prefix) {
   return text.compare(0, prefix.size(), prefix) == 0;
 }
 
-}  // namespace
-
-std::unique_ptr<Source> OpenSource(const std::string& url, double subject_rate_hz) {
-  if (StartsWith(url, "demo:")) {
-    return subject::OpenSubject(url.substr(std::string("demo:").size()), subject_rate_hz, 0);
+// Opened once only: it may be a pipe.
+std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& settings) {
+  std::error_code ignored;
+  if (path != "-" && !std::filesystem::exists(path, ignored)) {
+    throw SourceError("source '" + path + "': no such file; expected " + kSourceKinds);
   }
-  if (StartsWith(url, "udp:")) return mvn::OpenUdp(url);
-  const std::string extension = std::filesystem::path(url).extension();
-  if (extension == ".mvnx") return mvn::OpenMvnx(url);
-  throw SourceError("source '" + url +
-                    "': expected udp://[address]:port, a file that ends in .mvnx, demo:lift or "
-                    "demo:walk");
+  InputFile file = OpenInputFile(path);
+  const std::string name = NameOfInput(path);
+  switch (mvn::KindOf(file.head())) {
+    case mvn::RecordingKind::kPcap:
+    case mvn::RecordingKind::kDatagrams:
+      return mvn::OpenStream(mvn::OpenRecording(std::move(file), name), settings.stream);
+    case mvn::RecordingKind::kMvnx: return std::make_unique<mvn::MvnxSource>(std::move(file), name);
+    case mvn::RecordingKind::kRosBag:
+      if (path == "-") throw SourceError("a ROS bag cannot be read from a pipe; save it first");
+      return ros_bridge::OpenBag(path);
+    case mvn::RecordingKind::kEmpty:
+    case mvn::RecordingKind::kUnknown: break;
+  }
+  throw SourceError(mvn::DescribeUnfit(path, file.head(), kSourceKinds));
 }
 
-std::unique_ptr<Source> OpenAtTrueRate(const std::string& url, bool loop, double subject_rate_hz) {
-  auto source = OpenSource(url, subject_rate_hz);
+}  // namespace
+
+std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings) {
+  if (StartsWith(url, "demo:")) {
+    return subject::OpenSubject(url.substr(std::string("demo:").size()), settings.subject_rate_hz,
+                                0);
+  }
+  if (StartsWith(url, "udp:") || StartsWith(url, "tcp:")) {
+    return mvn::OpenStream(mvn::OpenDatagrams(url), settings.stream);
+  }
+  return OpenFile(url, settings);
+}
+
+std::unique_ptr<Source> OpenAtTrueRate(const std::string& url, bool loop,
+                                       const SourceSettings& settings) {
+  auto source = OpenSource(url, settings);
   if (source->is_live()) return source;
-  return std::make_unique<PacedSource>(
-      [url, subject_rate_hz] { return OpenSource(url, subject_rate_hz); }, loop);
+  if (loop && url == "-") {
+    throw UsageError("--loop: standard input cannot be read twice; save it as a file");
+  }
+  PacedSource::Open reopen;
+  if (loop) reopen = [url, settings] { return OpenSource(url, settings); };
+  return std::make_unique<PacedSource>(std::move(source), std::move(reopen));
 }
 
 }  // namespace kinescope::app

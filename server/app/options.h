@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "server/app/open_source.h"
+
 namespace kinescope::app {
 
 /// Who is in the suit, and how they are shown.
@@ -28,6 +30,7 @@ struct ServeOptions {
   std::string source = "udp://:9763";
   int udp_port = 0;
   bool loop = false;
+  std::string stamps = "fitted";
   double stale_secs = 0.5;
   PersonOptions person;
   // ROS
@@ -61,9 +64,12 @@ struct ServeOptions {
   /// Those that make sense without page and pictures.
   template <class Option>
   void VisitBridge(Option&& option) {
-    option("source", source, "udp://[address]:port, file.mvnx, demo:lift, demo:walk");
+    option("source", source, kSourceKinds);
     option("udp_port", udp_port, "short for source udp://:PORT; 0: as source says");
     option("loop", loop, "start a file over when it ends");
+    option("stamps", stamps,
+           "fitted (arrival smoothed onto the suit's clock, so that the network does not shake "
+           "velocities) or arrival");
     option("stale_secs", stale_secs, "so long without a sample is shown as stale");
     person.Visit(option);
     option("ros", ros, "auto (whenever a master is there), off, or required");

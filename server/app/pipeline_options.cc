@@ -57,6 +57,12 @@ ros_bridge::RosMode ToRosMode(const std::string& ros) {
   throw UsageError(fmt::format("--ros={}: expected auto, off or required", ros));
 }
 
+mvn::Stamps ToStamps(const std::string& stamps) {
+  if (stamps == "fitted") return mvn::Stamps::kFitted;
+  if (stamps == "arrival") return mvn::Stamps::kArrival;
+  throw UsageError(fmt::format("--stamps={}: expected fitted or arrival", stamps));
+}
+
 bool ToSwitch(const std::string& name, const std::string& on_or_off) {
   if (on_or_off == "on") return true;
   if (on_or_off == "off") return false;

@@ -14,6 +14,7 @@ namespace kinescope::app {
 SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs);
 ros_bridge::BridgeConfig ToBridgeConfig(const ServeOptions& options);
 ros_bridge::RosMode ToRosMode(const std::string& ros);
+mvn::Stamps ToStamps(const std::string& stamps);
 bool ToSwitch(const std::string& name, const std::string& on_or_off);
 std::pair<int, int> ToSize(const std::string& name, const std::string& width_x_height);
 

@@ -162,7 +162,7 @@ void Render(const RenderOptions& options) {
 void AddRender(CommandLine line) {
   CLI::App* command = line.app.add_subcommand("render", "A recording to a picture or a clip");
   const auto o = std::make_shared<RenderOptions>();
-  command->add_option("source", o->source, "file.mvnx, demo:lift, demo:walk")->required();
+  command->add_option("source", o->source, kSourceKinds)->required();
   command->add_option("--out", o->out, "file to write: .png (one picture) or .mp4 (H.264)")
       ->required();
   command->add_option("--frame", o->frame, "which frame of the motion, from 0 (picture)");

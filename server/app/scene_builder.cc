@@ -93,6 +93,10 @@ std::shared_ptr<const PersonModel> SceneBuilder::MakeModel(const Person& person,
 }
 
 void SceneBuilder::OnCharacter(const Character& character) {
+  if (!character.skeleton && !character.extra.empty()) {
+    clusters_[character.id] = character;
+    return;
+  }
   const auto known = people_.find(character.id);
   if (known == people_.end()) {
     AddPerson(character);
@@ -157,15 +161,31 @@ PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) cons
 void SceneBuilder::OnSample(const BodySample& sample) {
   const auto known = people_.find(sample.character);
   Person& person =
-      known != people_.end() ? known->second : AddPerson({sample.character, "", {}, {}});
+      known != people_.end() ? known->second : AddPerson({sample.character, "", {}, {}, {}});
   person.state = StateOf(person, sample);
   MeasureRate(sample.arrival_nanos);
   current_.stamp_nanos = sample.stamp_nanos;
   current_.counter = sample.counter;
   current_.time_code_millis = sample.time_code_millis;
   current_.arrival_nanos = sample.arrival_nanos;
-  current_.floor_z = *people_.begin()->second.floor_z;
+  const auto first = std::find_if(people_.begin(), people_.end(),
+                                  [](const auto& entry) { return entry.second.floor_z; });
+  current_.floor_z = *first->second.floor_z;
   Publish(Liveness::kLive);
+}
+
+// Objects alone are no motion to show: they wait for the next sample of a person.
+void SceneBuilder::OnObjects(const ObjectsSample& sample) {
+  const Character& cluster = clusters_[sample.character];
+  std::vector<TrackedObject>& objects = objects_[sample.character];
+  objects.clear();
+  for (std::size_t i = 0; i < sample.poses.size(); ++i) {
+    if (!sample.present.test(i)) continue;
+    const bool has_name = i < cluster.extra.size() && !cluster.extra[i].name.empty();
+    objects.push_back({sample.character,
+                       has_name ? cluster.extra[i].name : "object_" + std::to_string(i + 1),
+                       sample.poses[i], sample.stamp_nanos});
+  }
 }
 
 void SceneBuilder::MeasureRate(std::int64_t arrival_nanos) {
@@ -200,6 +220,12 @@ void SceneBuilder::Publish(Liveness liveness) {
     if (liveness == Liveness::kLive) continue;
     for (JointLoad& load : scene->people.back().loads) {  // old loads must not look valid
       load = Unknown(load.joint, load.position, "the stream stopped");
+    }
+  }
+  for (const auto& [id, cluster] : objects_) {
+    for (const TrackedObject& object : cluster) {
+      if (current_.stamp_nanos - object.stamp_nanos > kGoneAfterNanos) continue;
+      scene->objects.push_back(object);
     }
   }
   on_state_(scene);

@@ -38,6 +38,7 @@ class SceneBuilder : public SampleSink {
   std::string InitialUrdf() const { return MakeModel(Person(), 0)->urdf_xml; }
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
+  void OnObjects(const ObjectsSample& sample) override;
 
   /// Call at least every 0.1 s with the monotonic clock while a live source is read: this is what
   /// notices that nothing comes any more.
@@ -67,9 +68,11 @@ class SceneBuilder : public SampleSink {
   std::string source_;
   double nominal_rate_hz_;
   OnState on_state_;
-  std::map<int, Person> people_;        // by character id; bounded by the source
-  SceneState current_;                  // without its people: Publish adds those
-  std::int64_t rate_window_start_ = 0;  // monotonic
+  std::map<int, Person> people_;                       // by character id; bounded by the source
+  std::map<int, Character> clusters_;                  // of tracked objects, likewise
+  std::map<int, std::vector<TrackedObject>> objects_;  // of the newest sample of each cluster
+  SceneState current_;                                 // without its people: Publish adds those
+  std::int64_t rate_window_start_ = 0;                 // monotonic
   int rate_window_samples_ = 0;
 };
 

@@ -94,7 +94,9 @@ void Serve(const ServeOptions& options, bool with_page) {
   ros_bridge::BridgeConfig bridge_config = ToBridgeConfig(options);
   const std::string url =
       options.udp_port == 0 ? options.source : fmt::format("udp://:{}", options.udp_port);
-  const std::unique_ptr<Source> source = OpenAtTrueRate(url, options.loop);
+  SourceSettings source_settings;
+  source_settings.stream.stamps = ToStamps(options.stamps);
+  const std::unique_ptr<Source> source = OpenAtTrueRate(url, options.loop, source_settings);
 
   Latest<SceneState> states;       // reading thread -> page
   Latest<http::Picture> pictures;  // drawing thread -> page

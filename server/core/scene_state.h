@@ -59,6 +59,14 @@ struct PersonState {
   std::vector<JointLoad> loads;        // in order of kScoredJoints
 };
 
+/// A thing that is tracked beside the people (mvn-protocol.md 4.2), in its own frame as streamed.
+struct TrackedObject {
+  int character = 0;  // that it streams as
+  std::string name;   // from scale data, else "object_1"
+  urdf::Pose pose;    // world_from_object
+  std::int64_t stamp_nanos = 0;
+};
+
 enum class Liveness {
   kNoData,  // nothing came yet
   kLive,
@@ -73,12 +81,13 @@ struct SceneState {
   std::uint64_t number = 0;      // of this state, +1 each; tells sinks apart what they have seen
   std::int64_t stamp_nanos = 0;  // of the newest sample, ROS time; 0 before the first
   std::uint32_t counter = 0;     // its sample counter
-  std::int64_t time_code_millis = 0;  // its time code
-  std::int64_t arrival_nanos = 0;     // monotonic; 0 for files
-  double rate_hz = 0;                 // of samples, measured over the last second (file: nominal)
-  double floor_z = 0;                 // height of the ground, world, m
-  std::string source;                 // "udp://0.0.0.0:9763"
-  std::vector<PersonState> people;    // one per character seen within the last second
+  std::int64_t time_code_millis = 0;   // its time code
+  std::int64_t arrival_nanos = 0;      // monotonic; 0 for files
+  double rate_hz = 0;                  // of samples, measured over the last second (file: nominal)
+  double floor_z = 0;                  // height of the ground, world, m
+  std::string source;                  // "udp://0.0.0.0:9763"
+  std::vector<PersonState> people;     // one per character seen within the last second
+  std::vector<TrackedObject> objects;  // likewise
 };
 
 }  // namespace kinescope

@@ -10,18 +10,20 @@
 
 namespace kinescope {
 
-/// What a source saw so far. Every datagram ends in exactly one place: a sample, one of the
-/// `rejected` reasons, `ignored` or `duplicates`.
+/// What a source saw so far. Every datagram ends in exactly one place: a sample, a character, one
+/// of the `rejected` reasons, `ignored`, `duplicates`, `late` or `outliers`.
 struct SourceCounters {
   std::uint64_t datagrams = 0;  // all that were read
   std::uint64_t bytes = 0;
   std::uint64_t samples = 0;     // given on
   std::uint64_t incomplete = 0;  // of these, given on without a type that the stream normally has
   std::uint64_t duplicates = 0;
-  std::uint64_t late = 0;                         // for a sample already given on
-  std::uint64_t counter_gaps = 0;                 // steps of the sample counter above the usual one
-  std::uint64_t restarts = 0;                     // the counter started over
-  std::map<std::string, std::uint64_t> ignored;   // good, not needed: "type 25"
+  std::uint64_t late = 0;          // for a sample already given on
+  std::uint64_t counter_gaps = 0;  // steps of the sample counter above the usual one
+  std::uint64_t restarts = 0;      // the counter started over
+  std::uint64_t outliers = 0;      // a counter or a character that nothing else confirmed
+  std::map<std::string, std::uint64_t> types;     // datagrams that were read, by type: "02"
+  std::map<std::string, std::uint64_t> ignored;   // good, not needed: "frame of type tpose"
   std::map<std::string, std::uint64_t> rejected;  // bad, by reason: "no MXTP id string"
 };
 
@@ -30,6 +32,7 @@ class SampleSink {
   virtual ~SampleSink() = default;
   virtual void OnCharacter(const Character& character) = 0;
   virtual void OnSample(const BodySample& sample) = 0;
+  virtual void OnObjects(const ObjectsSample&) {}
 };
 
 class Source {
@@ -41,7 +44,7 @@ class Source {
   enum class State { kMore, kEnded };
 
   /// Waits at most `timeout` for input and hands on what came. A live source never ends; a file
-  /// gives one sample a call, as fast as it is asked, with stamps from its own clock.
+  /// gives a few samples a call, as fast as it is asked, with stamps from its own clock.
   /// @throws SourceError when it cannot go on (a file that breaks off, a socket that fails).
   virtual State Poll(std::chrono::milliseconds timeout, SampleSink& sink) = 0;
 

@@ -122,6 +122,13 @@ std::string StateJson(const SceneState* state, std::int64_t now_nanos) {
   if (state == nullptr) state = &nothing;
   json people = json::array();
   for (const PersonState& person : state->people) people.push_back(PersonToJson(person));
+  json objects = json::array();
+  for (const TrackedObject& object : state->objects) {
+    objects.push_back({{"name", object.name},
+                       {"character", object.character},
+                       {"position", ToJson(object.pose.position)},
+                       {"quaternion", ToJson(object.pose.orientation)}});
+  }
   const bool has_age = state->arrival_nanos != 0;
   const double age_ms = static_cast<double>(now_nanos - state->arrival_nanos) / 1e6;
   return Text({{"liveness", Name(state->liveness)},
@@ -132,7 +139,8 @@ std::string StateJson(const SceneState* state, std::int64_t now_nanos) {
                {"rate_hz", NumberOrNull(state->rate_hz)},
                {"age_ms", has_age ? json(age_ms) : json(nullptr)},
                {"source", state->source},
-               {"people", std::move(people)}});
+               {"people", std::move(people)},
+               {"objects", std::move(objects)}});
 }
 
 std::string ModelJson(const SceneState* state) {

@@ -1,6 +1,7 @@
 #include "server/mvn/assembler.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace kinescope::mvn {
 namespace {
@@ -18,12 +19,11 @@ void Assembler::Add(const Endpoint& sender, std::string_view datagram, const Arr
   tally_.bytes += datagram.size();
   const auto message = ParseDatagram(datagram);
   if (!message) return tally_.Reject(message.error().reason);
-  if (std::holds_alternative<NotNeeded>(message->body)) {
-    return tally_.Ignore(message->header.type);
-  }
+  tally_.CountType(message->header.type);
   const auto stream = FindStream(sender, message->header.character, arrival.monotonic_nanos, sink);
   if (!stream) return tally_.Reject(stream.error());
-  (*stream)->state.Add(*message, arrival, sink);
+  const std::size_t hash = std::hash<std::string_view>()(datagram);
+  (*stream)->state.Add(*message, static_cast<std::uint32_t>(hash), arrival, sink);
 }
 
 tl::expected<Assembler::Stream*, Reason> Assembler::FindStream(const Endpoint& sender,
@@ -69,7 +69,7 @@ Assembler::Stream* Assembler::AddStream(const Endpoint& sender, int character, s
                                         SampleSink& sink) {
   if (!MakeRoom(character, now, sink)) return nullptr;
   streams_.push_back(std::make_unique<Stream>(
-      Stream{sender, character, CharacterStream(FreeId(character), tally_)}));
+      Stream{sender, character, CharacterStream(FreeId(character), stamps_, tally_)}));
   return streams_.back().get();
 }
 
@@ -83,7 +83,11 @@ bool Assembler::MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink) {
     if (has_the_id || (full && victim == streams_.end())) victim = stream;
   }
   if (victim == streams_.end()) return !full;
-  (*victim)->state.SenderRestarted(sink);  // gives on what is still open
+  if ((*victim)->state.is_confirmed()) {
+    (*victim)->state.SenderRestarted(sink);  // gives on what is still open
+  } else {
+    (*victim)->state.Discard();
+  }
   streams_.erase(victim);
   return true;
 }
@@ -99,14 +103,34 @@ int Assembler::FreeId(int wanted) const {
   return id;
 }
 
+void Assembler::DiscardUnconfirmed(std::int64_t now) {
+  const auto is_stray = [now](const std::unique_ptr<Stream>& stream) {
+    if (stream->state.is_confirmed() || now - stream->state.last_heard_nanos() < kForgetNanos) {
+      return false;
+    }
+    stream->state.Discard();
+    return true;
+  };
+  streams_.erase(std::remove_if(streams_.begin(), streams_.end(), is_stray), streams_.end());
+}
+
+void Assembler::Flush(SampleSink& sink) {
+  for (const auto& stream : streams_) stream->state.Flush(sink);
+}
+
 void Assembler::Expire(std::int64_t now_monotonic_nanos, SampleSink& sink) {
+  DiscardUnconfirmed(now_monotonic_nanos);
   for (const auto& stream : streams_) stream->state.Expire(now_monotonic_nanos, sink);
 }
 
 std::optional<std::int64_t> Assembler::deadline_nanos() const {
   std::optional<std::int64_t> earliest;
   for (const auto& stream : streams_) {
-    const auto deadline = stream->state.deadline_nanos();
+    auto deadline = stream->state.deadline_nanos();
+    if (!stream->state.is_confirmed()) {
+      const std::int64_t discard = stream->state.last_heard_nanos() + kForgetNanos;
+      deadline = deadline ? std::min(*deadline, discard) : discard;
+    }
     if (deadline && (!earliest || *deadline < *earliest)) earliest = deadline;
   }
   return earliest;

@@ -1,16 +1,21 @@
 /// Joins the datagrams of a stream to samples: parts of a message, messages of a sample, several
 /// characters and senders side by side. Feed it whatever comes; it never throws and never stops.
 ///
-/// - A sample is the messages 02, 20, 21, 22, 24 of equal (sender, character, sample counter). It
-///   needs the poses of all 23 segments: 02, or 21 and 22.
-/// - It is given on as soon as every type that this stream normally sends has come; else
-///   when the next counter comes; else 1.5 of the stream's own periods after its first datagram.
-///   "Normally" is learnt, and follows when a type is switched on or off.
+/// - A sample is all messages but 12 and 13 of equal (sender, character, sample counter). It is a
+///   person's when it has the poses of all 23 segments: 02, or 21 and 22, or 01. A whole 02 of a
+///   few things that are no body is a sample of tracked objects. Anything else is rejected.
+/// - It is given on as soon as every type that this stream normally sends has come; else when the
+///   next counter has overtaken it (has every type that it has); else 1.5 of the stream's own
+///   periods after its first datagram. "Normally" is learnt, and follows when a type is switched on
+///   or off. So a datagram may come a few places too late, also among those of the next sample.
 /// - Samples of one character leave in the order of their counter. What comes for a sample already
-/// given on is
-///   `late`, the same once more is a `duplicate`. A counter that starts over is a restart.
+///   given on is `late`, the same bytes once more are a `duplicate`.
+/// - A header that contradicts the stream (its counter and time code do not go together, or its
+///   place is taken) is believed when the next such one goes on from it: the sender has started
+///   over, a `restart`. Else it is an `outlier`: damage on the way. Likewise nobody appears from a
+///   single datagram of an unknown character.
 /// - Types 12 and 13 make the Character; it is announced before its first sample and when it
-/// changes.
+///   changes.
 /// - Stamps: see clock_fit.h.
 ///
 /// A character's id in samples is the sender's own where it is free, else the next free one (two
@@ -22,7 +27,6 @@
 /// Time is an argument; one thread. Pose data allocate nothing.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -34,23 +38,15 @@
 #include "server/mvn/arrival.h"
 #include "server/mvn/character_stream.h"
 #include "server/mvn/datagram.h"
+#include "server/mvn/endpoint.h"
+#include "server/mvn/stamps.h"
 #include "server/mvn/tally.h"
 
 namespace kinescope::mvn {
 
-/// Who sent a datagram.
-struct Endpoint {
-  std::array<std::uint8_t, 16> address{};  // IPv6, or IPv4 mapped into it
-  std::uint16_t port = 0;
-
-  bool operator==(const Endpoint& other) const {
-    return address == other.address && port == other.port;
-  }
-};
-
 class Assembler {
  public:
-  Assembler() = default;
+  explicit Assembler(Stamps stamps = Stamps::kFitted) : stamps_(stamps) {}
   Assembler(const Assembler&) = delete;  // streams point to the tally
   Assembler& operator=(const Assembler&) = delete;
 
@@ -62,6 +58,9 @@ class Assembler {
 
   /// Gives on what has waited long enough.
   void Expire(std::int64_t now_monotonic_nanos, SampleSink& sink);
+
+  /// Nothing more will come: gives on whatever waits.
+  void Flush(SampleSink& sink);
 
   /// When Expire() has something to do (monotonic); nullopt: nothing waits.
   std::optional<std::int64_t> deadline_nanos() const;
@@ -89,7 +88,9 @@ class Assembler {
   Stream* AddStream(const Endpoint& sender, int character, std::int64_t now, SampleSink& sink);
   int FreeId(int wanted) const;
   bool MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink);
+  void DiscardUnconfirmed(std::int64_t now);
 
+  Stamps stamps_;
   Tally tally_;
   std::vector<std::unique_ptr<Stream>> streams_;  // at most kMostStreams
   std::vector<Trial> trials_;                     // likewise

@@ -6,8 +6,6 @@
 namespace kinescope::mvn {
 namespace {
 
-constexpr int kSamplesToLearnTypes = 3;
-constexpr int kMissesToForgetType = 5;
 constexpr double kPeriodGain = 1.0 / 16;
 constexpr double kLongestInterval = 0.5e9;  // a pause is no period
 constexpr double kPatienceInPeriods = 1.5;
@@ -15,10 +13,21 @@ constexpr double kLeastPatience = 5e6;
 constexpr double kMostPatience = 100e6;
 constexpr double kFirstPatience = 50e6;  // before the period is known
 
+constexpr std::int32_t kMostFramesReordered = 120;  // half a second at 240 Hz
+constexpr int kPlacesReordered = 3;
+constexpr std::int64_t kSilenceNanos = 250'000'000;  // after it a lower counter is a restart
+constexpr std::int64_t kDoubtNanos = 250'000'000;
+constexpr std::uint32_t kStepsToBelieve = 8;  // how far a second datagram confirms a doubtful one
+constexpr std::int32_t kMillisToBelieve = 1000;
+constexpr int kRunOfRestart = 8;
+
 }  // namespace
 
-void CharacterStream::Add(const Message& message, const Arrival& arrival, SampleSink& sink) {
+void CharacterStream::Add(const Message& message, std::uint32_t digest, const Arrival& arrival,
+                          SampleSink& sink) {
   last_heard_nanos_ = arrival.monotonic_nanos;
+  if (heard_++ == 0) first_heard_nanos_ = arrival.monotonic_nanos;
+  if (heard_ >= 2) is_confirmed_ = true;
   // Types 12 and 13 carry counter and time code 0 in the middle of a stream: they never touch the
   // sample's logic.
   if (const auto* meta = std::get_if<MetaDataMessage>(&message.body)) {
@@ -26,8 +35,9 @@ void CharacterStream::Add(const Message& message, const Arrival& arrival, Sample
   } else if (std::holds_alternative<ScaleMessage>(message.body)) {
     AddScale(message, arrival.monotonic_nanos, sink);
   } else {
-    AddToSample(message, arrival, sink);
+    AddToSample(message, digest, arrival, sink);
   }
+  if (is_confirmed_) AnnounceOnce(sink);
 }
 
 void CharacterStream::AddMetaData(const MetaDataMessage& body, SampleSink& sink) {
@@ -36,117 +46,317 @@ void CharacterStream::AddMetaData(const MetaDataMessage& body, SampleSink& sink)
                        (body.color_rgb && body.color_rgb != character_.color_rgb);
   if (body.name) character_.name = *body.name;
   if (body.color_rgb) character_.color_rgb = body.color_rgb;
-  if (changed || !announced_) Announce(sink);
+  if (changed) Announce(sink);
 }
 
 void CharacterStream::AddScale(const Message& message, std::int64_t now_nanos, SampleSink& sink) {
   const auto refused = scale_.Add(message.header, std::get<ScaleMessage>(message.body), now_nanos);
   if (refused) return tally_->Reject(*refused);
   ++tally_->in_characters;
-  TakeSkeleton(now_nanos, sink);
+  TakeScale(now_nanos, sink);
 }
 
-void CharacterStream::TakeSkeleton(std::int64_t now_nanos, SampleSink& sink) {
-  const auto skeleton = scale_.TakeSkeleton(now_nanos);
-  if (!skeleton || (character_.skeleton && *character_.skeleton == *skeleton)) return;
-  character_.skeleton = skeleton;
+void CharacterStream::TakeScale(std::int64_t now_nanos, SampleSink& sink) {
+  const auto scale = scale_.Take(now_nanos);
+  if (!scale) return;
+  const bool same = character_.skeleton == scale->skeleton && character_.extra == scale->extra;
+  if (same) return;
+  character_.skeleton = scale->skeleton;
+  character_.extra = scale->extra;
   Announce(sink);
 }
 
+// What is known is told with the first datagram that nobody can doubt any more.
 void CharacterStream::Announce(SampleSink& sink) {
-  announced_ = true;
+  wants_announcement_ = true;
+  if (is_confirmed_) AnnounceOnce(sink);
+}
+
+void CharacterStream::AnnounceOnce(SampleSink& sink) {
+  if (!wants_announcement_) return;
+  // A sample alone announces nobody: it may be of a message that has no pose.
+  if (character_.name.empty() && !character_.color_rgb && !character_.skeleton &&
+      character_.extra.empty() && !has_given_) {
+    return;
+  }
+  wants_announcement_ = false;
   sink.OnCharacter(character_);
 }
 
-void CharacterStream::AddToSample(const Message& message, const Arrival& arrival,
-                                  SampleSink& sink) {
-  switch (counters_.Take(message.header.sample_counter, arrival.monotonic_nanos)) {
-    case CounterTracker::Order::kLate: ++tally_->late; return;
-    case CounterTracker::Order::kRestart:
-      ++tally_->restarts;
-      Finish(sink);
-      clock_.Restart();
-      Begin(message, arrival);
-      break;
-    case CounterTracker::Order::kNewer:
-      if (counters_.last_step_was_gap()) ++tally_->counter_gaps;
-      Finish(sink);
-      Begin(message, arrival);
-      break;
-    case CounterTracker::Order::kSame:
-      if (!open_) return AddToClosedSample(message);
+void CharacterStream::AddToSample(const Message& message, std::uint32_t digest,
+                                  const Arrival& arrival, SampleSink& sink) {
+  const Header& header = message.header;
+  const SampleType type = *SampleTypeOf(header.type);
+  const std::int64_t now = arrival.monotonic_nanos;
+  if (doubtful_ && now - doubtful_->arrival.monotonic_nanos > kDoubtNanos) DropDoubtful();
+  const Place place = PlaceOf(header, type, digest, now);
+  switch (place) {
+    case Place::kFits:
+      repeated_length_ = 0;
+      newest_heard_nanos_ = now;
+      // A sender that has started over does not go on as before, but for what was under way.
+      if (doubtful_ && ++doubtful_->fitted_since > kPlacesReordered) DropDoubtful();
+      return Accept(message, digest, arrival, sink);
+    case Place::kDuplicate:
+    case Place::kLate: {
+      if (IsRestartByRun(header.sample_counter)) break;
+      const bool is_late = place == Place::kLate;
+      ++(is_late ? tally_->late : tally_->duplicates);
+      if (is_late && header.sample_counter == closed_) {
+        // A type that has just been switched on comes after a sample that did not wait for it.
+        types_.Expect(type);
+      }
+      return;
+    }
+    case Place::kDoubtful: return Doubt(message, digest, arrival, sink);
+    case Place::kRestart: break;
+  }
+  Restart(sink);
+  newest_heard_nanos_ = now;
+  Accept(message, digest, arrival, sink);
+}
+
+CharacterStream::Place CharacterStream::PlaceOf(const Header& header, SampleType type,
+                                                std::uint32_t digest, std::int64_t now) const {
+  const std::uint32_t counter = header.sample_counter;
+  if (!newest_ || Find(counter) != nullptr) return Place::kFits;
+  const std::int32_t ahead = Ahead(counter, *newest_);
+  if (ahead <= 0 && closed_ && Ahead(counter, *closed_) <= 0) {
+    return PlaceBehind(header, type, digest, now);
+  }
+  switch (line_.Fits(counter, header.time_code_millis)) {
+    case TimeCodeLine::Fit::kYes: return Place::kFits;
+    case TimeCodeLine::Fit::kNo: break;
+    case TimeCodeLine::Fit::kUnknown:
+      const auto plausible = static_cast<std::int32_t>(kStepsToBelieve * steps_.usual());
+      if (ahead <= plausible) return Place::kFits;
       break;
   }
-  switch (pending_.Add(message, arrival.monotonic_nanos)) {
+  return ahead < 0 && now - newest_heard_nanos_ > kSilenceNanos ? Place::kRestart
+                                                                : Place::kDoubtful;
+}
+
+// Of a counter up to which everything is closed.
+CharacterStream::Place CharacterStream::PlaceBehind(const Header& header, SampleType type,
+                                                    std::uint32_t digest, std::int64_t now) const {
+  switch (history_.Find(header, type, digest)) {
+    case ClosedSamples::Known::kSame: return Place::kDuplicate;
+    case ClosedSamples::Known::kMissing: return Place::kLate;
+    case ClosedSamples::Known::kDifferent: break;
+    case ClosedSamples::Known::kNo: {
+      const auto fit = line_.Fits(header.sample_counter, header.time_code_millis);
+      const bool near = Ahead(*newest_, header.sample_counter) <= kMostFramesReordered;
+      // Once the run is on its way, what would lie before its first sample is no late one.
+      const bool before_the_run = Ahead(header.sample_counter, run_start_) < 0 &&
+                                  Ahead(*newest_, run_start_) >=
+                                      static_cast<std::int32_t>(kStepsToBelieve * steps_.usual());
+      if (near && !before_the_run && fit != TimeCodeLine::Fit::kNo) return Place::kLate;
+      break;
+    }
+  }
+  return now - newest_heard_nanos_ > kSilenceNanos ? Place::kRestart : Place::kDoubtful;
+}
+
+// Whether so many late or repeated samples came in a row, each after the one before and nothing
+// new between them, that they are a sender which plays the same again.
+bool CharacterStream::IsRestartByRun(std::uint32_t counter) {
+  if (repeated_length_ > 0 && counter == repeated_counter_) return false;  // same sample, next type
+  const bool in_order = repeated_length_ > 0 && Ahead(counter, repeated_counter_) > 0;
+  repeated_length_ = in_order ? repeated_length_ + 1 : 1;
+  repeated_counter_ = counter;
+  return repeated_length_ >= kRunOfRestart;
+}
+
+void CharacterStream::Accept(const Message& message, std::uint32_t digest, const Arrival& arrival,
+                             SampleSink& sink) {
+  OpenSample* open = Find(message.header.sample_counter);
+  if (open == nullptr) open = &Open(message, arrival, sink);
+  switch (open->sample.Add(message, digest, arrival.monotonic_nanos)) {
     case PendingSample::Added::kDuplicate: ++tally_->duplicates; return;
+    case PendingSample::Added::kOther: return Doubt(message, digest, arrival, sink);
     case PendingSample::Added::kContradiction: tally_->Reject(Reason::kPartsContradict); return;
     case PendingSample::Added::kYes: break;
   }
-  if (IsComplete()) Finish(sink);
+  FinishOvertakenBy(open->sample, sink);
+  if (types_.AreAllIn(open->sample.whole())) FinishUpTo(open->sample.counter(), sink);
 }
 
-void CharacterStream::AddToClosedSample(const Message& message) {
-  if (pending_.Has(message)) {
-    ++tally_->duplicates;
-    return;
+// Whether `next` may follow `first` in a new run of the sender.
+bool CharacterStream::GoesOnFrom(const Header& first, const Header& next) const {
+  const std::int32_t steps = Ahead(next.sample_counter, first.sample_counter);
+  const std::int32_t millis = Ahead(next.time_code_millis, first.time_code_millis);
+  if (steps == 0) return millis == 0;
+  return steps > 0 && steps <= static_cast<std::int32_t>(kStepsToBelieve * steps_.usual()) &&
+         millis >= 0 && millis <= kMillisToBelieve;
+}
+
+// A datagram that contradicts the stream is believed when the next doubtful one goes on from it.
+void CharacterStream::Doubt(const Message& message, std::uint32_t digest, const Arrival& arrival,
+                            SampleSink& sink) {
+  if (doubtful_) {
+    if (GoesOnFrom(doubtful_->message.header, message.header)) {
+      const Doubtful first = *doubtful_;
+      doubtful_.reset();
+      Restart(sink);
+      newest_heard_nanos_ = arrival.monotonic_nanos;
+      Accept(first.message, first.digest, first.arrival, sink);
+      return AddToSample(message, digest, arrival, sink);
+    }
+    DropDoubtful();
   }
-  ++tally_->late;
-  // A type that has just been switched on comes after a sample that did not wait for it.
-  const auto type = static_cast<std::size_t>(PendingSample::TypeOf(message));
-  expected_.set(type);
-  missed_[type] = 0;
+  doubtful_ = Doubtful{message, digest, arrival};
 }
 
-void CharacterStream::Begin(const Message& message, const Arrival& arrival) {
-  const std::int64_t now = arrival.monotonic_nanos;
-  if (last_begin_nanos_) {
-    const auto interval = static_cast<double>(now - *last_begin_nanos_);
+void CharacterStream::DropDoubtful() {
+  if (!doubtful_) return;
+  doubtful_.reset();
+  ++tally_->outliers;
+}
+
+void CharacterStream::Restart(SampleSink& sink) {
+  ++tally_->restarts;
+  SenderRestarted(sink);
+}
+
+void CharacterStream::SenderRestarted(SampleSink& sink) {
+  FinishAll(sink);
+  DropDoubtful();
+  newest_.reset();
+  closed_.reset();
+  history_.Clear();
+  line_.Restart();
+  clock_.Restart();
+  repeated_length_ = 0;
+}
+
+void CharacterStream::Flush(SampleSink& sink) {
+  is_confirmed_ = true;
+  FinishAll(sink);
+  DropDoubtful();
+  AnnounceOnce(sink);
+}
+
+void CharacterStream::Discard() {
+  DropDoubtful();
+  for (OpenSample& open : open_) {
+    if (open.is_open) tally_->outliers += open.sample.datagrams();
+    open.is_open = false;
+  }
+}
+
+CharacterStream::OpenSample* CharacterStream::Find(std::uint32_t counter) {
+  for (OpenSample& open : open_) {
+    if (open.is_open && open.sample.counter() == counter) return &open;
+  }
+  return nullptr;
+}
+
+const CharacterStream::OpenSample* CharacterStream::Find(std::uint32_t counter) const {
+  return const_cast<CharacterStream*>(this)->Find(counter);
+}
+
+CharacterStream::OpenSample* CharacterStream::Oldest() {
+  OpenSample* oldest = nullptr;
+  for (OpenSample& open : open_) {
+    if (!open.is_open) continue;
+    if (oldest == nullptr || Ahead(oldest->sample.counter(), open.sample.counter()) > 0) {
+      oldest = &open;
+    }
+  }
+  return oldest;
+}
+
+CharacterStream::OpenSample& CharacterStream::Open(const Message& message, const Arrival& arrival,
+                                                   SampleSink& sink) {
+  const auto is_free = [](const OpenSample& open) { return !open.is_open; };
+  if (std::none_of(open_.begin(), open_.end(), is_free)) Finish(*Oldest(), sink);
+  OpenSample& open = *std::find_if(open_.begin(), open_.end(), is_free);
+  open.is_open = true;
+  open.sample.Begin(message.header, arrival);
+  if (!newest_ || Ahead(message.header.sample_counter, *newest_) > 0) {
+    if (!newest_) run_start_ = message.header.sample_counter;
+    newest_ = message.header.sample_counter;
+    line_.Add(message.header.sample_counter, message.header.time_code_millis);
+    MeasurePeriod(message.header.time_code_millis, arrival.monotonic_nanos);
+  }
+  return open;
+}
+
+// By the sender's clock, which no burst compresses; by arrival where that clock stands still.
+void CharacterStream::MeasurePeriod(std::uint32_t time_code_millis, std::int64_t now) {
+  if (last_begin_) {
+    const std::int32_t millis = Ahead(time_code_millis, last_begin_->time_code_millis);
+    const auto interval =
+        millis > 0 ? millis * 1e6 : static_cast<double>(now - last_begin_->arrival_nanos);
     if (interval < kLongestInterval) {
       period_nanos_ =
           period_nanos_ ? *period_nanos_ + kPeriodGain * (interval - *period_nanos_) : interval;
     }
   }
-  last_begin_nanos_ = now;
-  pending_.Begin(message.header, arrival);
-  open_ = true;
+  last_begin_ = Begun{time_code_millis, now};
 }
 
-bool CharacterStream::IsComplete() const {
-  return finished_ >= kSamplesToLearnTypes && (expected_ & ~pending_.whole()).none() &&
-         pending_.HasPose();
+void CharacterStream::FinishUpTo(std::uint32_t counter, SampleSink& sink) {
+  for (OpenSample* oldest = Oldest();
+       oldest != nullptr && Ahead(oldest->sample.counter(), counter) <= 0; oldest = Oldest()) {
+    Finish(*oldest, sink);
+  }
 }
 
-void CharacterStream::Finish(SampleSink& sink) {
-  if (!open_) return;
-  open_ = false;
-  const SampleTypes begun = pending_.begun();
-  if (!pending_.HasPose()) {
-    tally_->Reject(Reason::kNoWholePose, pending_.datagrams());
-    return LearnTypes(begun);
+// A sample of which nothing more is to be expected: a newer one has every type that it has, and so
+// many that nothing is under way any more.
+void CharacterStream::FinishOvertakenBy(const PendingSample& newer, SampleSink& sink) {
+  if (types_.are_known() && newer.datagrams() <= kPlacesReordered) return;
+  for (OpenSample& open : open_) {
+    if (!open.is_open || Ahead(newer.counter(), open.sample.counter()) <= 0) continue;
+    if ((open.sample.begun() & ~newer.whole()).none()) FinishUpTo(open.sample.counter(), sink);
+  }
+}
+
+void CharacterStream::FinishAll(SampleSink& sink) {
+  for (OpenSample* oldest = Oldest(); oldest != nullptr; oldest = Oldest()) Finish(*oldest, sink);
+}
+
+void CharacterStream::Finish(OpenSample& open, SampleSink& sink) {
+  const PendingSample& sample = open.sample;
+  open.is_open = false;
+  if (closed_) {
+    const auto step = static_cast<std::uint32_t>(Ahead(sample.counter(), *closed_));
+    if (steps_.IsGap(step)) ++tally_->counter_gaps;
+    steps_.Add(step);
+  }
+  closed_ = sample.counter();
+  history_.Add(sample);
+  tally_->odd_ids += static_cast<std::uint64_t>(sample.odd_ids());
+  const bool is_incomplete = types_.IsAnyMissingIn(sample.begun());
+  types_.Learn(sample.begun());
+  const bool has_pose = sample.HasPose();
+  if (!has_pose && !sample.HasObjects()) {
+    return tally_->Reject(Reason::kNoWholePose, sample.datagrams());
   }
   ++tally_->samples;
-  tally_->in_samples += pending_.datagrams();
-  if ((expected_ & ~begun).any()) ++tally_->incomplete;
-  LearnTypes(begun);
-  if (!announced_) Announce(sink);
-  BodySample sample = pending_.Take();
-  sample.character = character_.id;
-  sample.stamp_nanos =
-      clock_.Stamp(sample.counter, static_cast<std::uint32_t>(sample.time_code_millis),
-                   pending_.first_arrival());
-  sink.OnSample(sample);
+  tally_->in_samples += sample.datagrams();
+  if (is_incomplete) ++tally_->incomplete;
+  has_given_ = true;
+  AnnounceOnce(sink);
+  const std::int64_t stamp = StampOf(sample);
+  if (has_pose) {
+    BodySample body = sample.TakeBody();
+    body.character = character_.id;
+    body.stamp_nanos = stamp;
+    sink.OnSample(body);
+  } else {
+    ObjectsSample objects = sample.TakeObjects();
+    objects.character = character_.id;
+    objects.stamp_nanos = stamp;
+    sink.OnObjects(objects);
+  }
 }
 
-void CharacterStream::LearnTypes(SampleTypes begun) {
-  finished_ = std::min(finished_ + 1, kSamplesToLearnTypes);
-  for (std::size_t type = 0; type < kSampleTypeCount; ++type) {
-    if (begun.test(type)) {
-      expected_.set(type);
-      missed_[type] = 0;
-    } else if (expected_.test(type) && ++missed_[type] >= kMissesToForgetType) {
-      expected_.reset(type);
-    }
-  }
+std::int64_t CharacterStream::StampOf(const PendingSample& sample) {
+  const std::int64_t fitted =
+      clock_.Stamp(sample.counter(), sample.time_code_millis(), sample.first_arrival());
+  return stamps_ == Stamps::kFitted ? fitted : sample.first_arrival().wall_nanos;
 }
 
 std::int64_t CharacterStream::PatienceNanos() const {
@@ -157,24 +367,27 @@ std::int64_t CharacterStream::PatienceNanos() const {
 
 std::optional<std::int64_t> CharacterStream::deadline_nanos() const {
   auto deadline = scale_.deadline_nanos();
-  if (open_) {
-    const std::int64_t sample = pending_.first_arrival().monotonic_nanos + PatienceNanos();
-    deadline = deadline ? std::min(*deadline, sample) : sample;
+  const auto consider = [&](std::int64_t nanos) {
+    deadline = deadline ? std::min(*deadline, nanos) : nanos;
+  };
+  if (doubtful_) consider(doubtful_->arrival.monotonic_nanos + kDoubtNanos);
+  if (!is_confirmed_) return deadline;
+  for (const OpenSample& open : open_) {
+    if (open.is_open) consider(open.sample.first_arrival().monotonic_nanos + PatienceNanos());
   }
   return deadline;
 }
 
 void CharacterStream::Expire(std::int64_t now_nanos, SampleSink& sink) {
-  if (open_ && now_nanos >= pending_.first_arrival().monotonic_nanos + PatienceNanos()) {
-    Finish(sink);
+  if (doubtful_ && now_nanos >= doubtful_->arrival.monotonic_nanos + kDoubtNanos) DropDoubtful();
+  TakeScale(now_nanos, sink);
+  if (!is_confirmed_) return;
+  for (OpenSample& open : open_) {
+    if (open.is_open &&
+        now_nanos >= open.sample.first_arrival().monotonic_nanos + PatienceNanos()) {
+      FinishUpTo(open.sample.counter(), sink);
+    }
   }
-  TakeSkeleton(now_nanos, sink);
-}
-
-void CharacterStream::SenderRestarted(SampleSink& sink) {
-  Finish(sink);
-  counters_.Forget();
-  clock_.Restart();
 }
 
 }  // namespace kinescope::mvn

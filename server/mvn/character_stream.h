@@ -2,15 +2,19 @@
 /// One thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "server/core/source.h"
 #include "server/mvn/arrival.h"
 #include "server/mvn/clock_fit.h"
-#include "server/mvn/counter_tracker.h"
+#include "server/mvn/closed_samples.h"
+#include "server/mvn/learnt_types.h"
 #include "server/mvn/pending_sample.h"
 #include "server/mvn/scale_group.h"
+#include "server/mvn/stamps.h"
+#include "server/mvn/stream_line.h"
 #include "server/mvn/tally.h"
 
 namespace kinescope::mvn {
@@ -18,13 +22,17 @@ namespace kinescope::mvn {
 class CharacterStream {
  public:
   /// `id` is what samples and the character carry; `tally` outlives this.
-  CharacterStream(int id, Tally& tally) : tally_(&tally) { character_.id = id; }
+  CharacterStream(int id, Stamps stamps, Tally& tally) : tally_(&tally), stamps_(stamps) {
+    character_.id = id;
+  }
 
   int id() const { return character_.id; }
   std::int64_t last_heard_nanos() const { return last_heard_nanos_; }
+  /// A second datagram came: this is no damaged header. Nothing is given on before.
+  bool is_confirmed() const { return is_confirmed_; }
 
-  /// Any message but NotNeeded; ends in a sample, a character or the tally.
-  void Add(const Message& message, const Arrival& arrival, SampleSink& sink);
+  /// `digest` stands for the datagram's bytes. Ends in a sample, a character or the tally.
+  void Add(const Message& message, std::uint32_t digest, const Arrival& arrival, SampleSink& sink);
 
   /// Gives on what has waited long enough at `now_nanos`.
   void Expire(std::int64_t now_nanos, SampleSink& sink);
@@ -34,35 +42,95 @@ class CharacterStream {
   /// The sender itself was started anew: counters and clock begin again, the person stays.
   void SenderRestarted(SampleSink& sink);
 
+  /// Nothing more will come: gives on what is there.
+  void Flush(SampleSink& sink);
+
+  /// Never confirmed: what came is an outlier.
+  void Discard();
+
  private:
-  void AddToSample(const Message& message, const Arrival& arrival, SampleSink& sink);
-  void AddToClosedSample(const Message& message);
-  void AddMetaData(const MetaDataMessage& body, SampleSink& sink);
-  void AddScale(const Message& message, std::int64_t now_nanos, SampleSink& sink);
-  void TakeSkeleton(std::int64_t now_nanos, SampleSink& sink);
-  void Begin(const Message& message, const Arrival& arrival);
-  void Finish(SampleSink& sink);
-  void LearnTypes(SampleTypes begun);
-  bool IsComplete() const;
-  void Announce(SampleSink& sink);
+  static constexpr std::size_t kMostOpen = 4;
+
+  struct OpenSample {
+    bool is_open = false;
+    PendingSample sample;
+  };
+
+  // A datagram that does not fit the stream so far: damage, or the first after a restart. Kept
+  // until the next one tells.
+  struct Doubtful {
+    Message message;
+    std::uint32_t digest = 0;
+    Arrival arrival;
+    int fitted_since = 0;  // datagrams after it that went on as before
+  };
+
+  enum class Place { kFits, kDuplicate, kLate, kDoubtful, kRestart };
+
+  void AddToSample(const Message& message, std::uint32_t digest, const Arrival& arrival,
+                   SampleSink& sink);
+  Place PlaceOf(const Header& header, SampleType type, std::uint32_t digest,
+                std::int64_t now) const;
+  Place PlaceBehind(const Header& header, SampleType type, std::uint32_t digest,
+                    std::int64_t now) const;
+  void Accept(const Message& message, std::uint32_t digest, const Arrival& arrival,
+              SampleSink& sink);
+  void Doubt(const Message& message, std::uint32_t digest, const Arrival& arrival,
+             SampleSink& sink);
+  bool GoesOnFrom(const Header& first, const Header& next) const;
+  bool IsRestartByRun(std::uint32_t counter);
+  void DropDoubtful();
+  void Restart(SampleSink& sink);
+
+  OpenSample* Find(std::uint32_t counter);
+  const OpenSample* Find(std::uint32_t counter) const;
+  OpenSample& Open(const Message& message, const Arrival& arrival, SampleSink& sink);
+  OpenSample* Oldest();
+  void FinishUpTo(std::uint32_t counter, SampleSink& sink);
+  void FinishOvertakenBy(const PendingSample& newer, SampleSink& sink);
+  void FinishAll(SampleSink& sink);
+  void Finish(OpenSample& open, SampleSink& sink);
+  void MeasurePeriod(std::uint32_t time_code_millis, std::int64_t now);
+  std::int64_t StampOf(const PendingSample& sample);
   std::int64_t PatienceNanos() const;
 
+  void AddMetaData(const MetaDataMessage& body, SampleSink& sink);
+  void AddScale(const Message& message, std::int64_t now_nanos, SampleSink& sink);
+  void TakeScale(std::int64_t now_nanos, SampleSink& sink);
+  void Announce(SampleSink& sink);
+  void AnnounceOnce(SampleSink& sink);
+
   Tally* tally_;
+  Stamps stamps_;
   Character character_;
-  bool announced_ = false;
+  bool wants_announcement_ = true;
   ScaleGroup scale_;
   std::int64_t last_heard_nanos_ = 0;
+  std::int64_t first_heard_nanos_ = 0;
+  std::uint64_t heard_ = 0;  // datagrams
+  bool is_confirmed_ = false;
 
-  CounterTracker counters_;
+  std::array<OpenSample, kMostOpen> open_;
+  std::uint32_t run_start_ = 0;          // counter of the first sample since the last restart
+  std::optional<std::uint32_t> newest_;  // counter of the newest sample that was begun
+  std::optional<std::uint32_t> closed_;  // up to this counter nothing more is given on
+  std::int64_t newest_heard_nanos_ = 0;  // when something of an open sample last came
+  ClosedSamples history_;
+  TimeCodeLine line_;
+  StepMeter steps_;
+  std::optional<Doubtful> doubtful_;
+  std::uint32_t repeated_counter_ = 0;  // highest of a run of late and repeated ones
+  int repeated_length_ = 0;
   ClockFit clock_;
-  PendingSample pending_;
-  bool open_ = false;  // pending_ is not given on yet
 
-  SampleTypes expected_;                        // what this stream sends with every sample
-  std::array<int, kSampleTypeCount> missed_{};  // samples in a row without it
-  int finished_ = 0;                            // samples, as long as that matters
-  std::optional<double> period_nanos_;          // running mean
-  std::optional<std::int64_t> last_begin_nanos_;
+  LearntTypes types_;
+  bool has_given_ = false;              // a sample
+  std::optional<double> period_nanos_;  // running mean
+  struct Begun {
+    std::uint32_t time_code_millis = 0;
+    std::int64_t arrival_nanos = 0;
+  };
+  std::optional<Begun> last_begin_;
 };
 
 }  // namespace kinescope::mvn

@@ -54,7 +54,7 @@ int ReadInt(ByteReader& in) {
   return value;
 }
 
-bool ParseHeader(ItemReader& in, std::string_view datagram, Header& header) {
+bool ReadHeader(ItemReader& in, std::string_view datagram, Header& header) {
   if (datagram.empty()) return in.Fail(Reason::kEmpty, 0);
   constexpr std::string_view kMagic = "MXTP";
   const std::string_view start = datagram.substr(0, kMagic.size());
@@ -90,45 +90,6 @@ bool LimitToPayload(ItemReader& in, const Header& header) {
   return true;
 }
 
-bool ReadItem(ItemReader& in, PoseItem& item) {
-  return in.ReadVector(item.position) && in.ReadUnitQuaternion(item.orientation);
-}
-
-bool ReadItem(ItemReader& in, LinearItem& item) {
-  return in.ReadVector(item.position) && in.ReadVector(item.velocity) &&
-         in.ReadVector(item.acceleration);
-}
-
-bool ReadItem(ItemReader& in, AngularItem& item) {
-  return in.ReadUnitQuaternion(item.orientation) && in.ReadVector(item.velocity) &&
-         in.ReadVector(item.acceleration);
-}
-
-constexpr std::size_t WireBytes(const PoseItem&) { return 32; }
-constexpr std::size_t WireBytes(const LinearItem&) { return 40; }
-constexpr std::size_t WireBytes(const AngularItem&) { return 44; }
-
-template <class Item>
-bool ParseBody(ItemReader& in, const Header& header, PerSegment<Item>& out) {
-  ItemLayout layout;
-  if (!in.FindLayout(header, WireBytes(Item()), layout)) return false;
-  for (int i = 0; i < layout.count; ++i) {
-    std::uint32_t id = 0;
-    Item item;
-    // A prop or a finger is read like a body segment, so that its numbers are checked too.
-    if (!in.GoTo(layout, i) || !in.ReadId(id) || !ReadItem(in, item)) return false;
-    if (id > urdf::kSegmentCount) {
-      ++out.skipped;
-      continue;
-    }
-    const std::size_t segment = id - 1;
-    if (out.present.test(segment)) return in.Fail(Reason::kRepeatedId, id);
-    out.present.set(segment);
-    out.items[segment] = item;
-  }
-  return true;
-}
-
 bool ParseBody(ItemReader& in, const Header& header, JointAnglesMessage& out) {
   return ParseJointAngles(in, header, out);
 }
@@ -150,18 +111,18 @@ bool ParseBody(ItemReader& in, const Header&, MetaDataMessage& out) {
 }
 bool ParseBody(ItemReader& in, const Header&, ScaleMessage& out) { return ParseScale(in, out); }
 
-// Types that are not used still have to be what they say, or their counter would hide a fault.
-bool ParseBody(ItemReader& in, const Header& header, NotNeeded&) {
-  ItemLayout layout;
-  switch (header.type) {
-    case Type::kEulerPose: return in.FindLayout(header, 28, layout);
-    case Type::kMarkers: return in.FindLayout(header, 16, layout);
-    case Type::kTrackers:  // 68 bytes each; 44 from senders that follow an old specification
-      return in.FindLayout(header, 68, layout) || in.FindLayout(header, 44, layout);
-    default:  // a time code: "HH:MM:SS" at least, with or without a length before it
-      return in.bytes.remaining() >= 8 ||
-             in.Fail(Reason::kPayloadSize, static_cast<std::int64_t>(in.bytes.remaining()));
-  }
+bool ParseBody(ItemReader& in, const Header& header, MarkersMessage& out) {
+  return ParseMarkers(in, header, out);
+}
+bool ParseBody(ItemReader& in, const Header& header, TrackersMessage& out) {
+  return ParseTrackers(in, header, out);
+}
+bool ParseBody(ItemReader& in, const Header&, TimeCodeMessage& out) {
+  return ParseTimeCode(in, out);
+}
+template <class Item>
+bool ParseBody(ItemReader& in, const Header& header, Item& out) {
+  return ParseSegments(in, header, out);
 }
 
 template <class Content>
@@ -171,27 +132,39 @@ bool ParseInto(ItemReader& in, Message& message) {
 
 bool ParseBodyOfType(ItemReader& in, Message& message) {
   switch (message.header.type) {
+    case Type::kEulerPose: return ParseInto<EulerPoseMessage>(in, message);
     case Type::kPose: return ParseInto<PoseMessage>(in, message);
+    case Type::kMarkers: return ParseInto<MarkersMessage>(in, message);
     case Type::kMetaData: return ParseInto<MetaDataMessage>(in, message);
     case Type::kScale: return ParseInto<ScaleMessage>(in, message);
     case Type::kJointAngles: return ParseInto<JointAnglesMessage>(in, message);
     case Type::kLinear: return ParseInto<LinearMessage>(in, message);
     case Type::kAngular: return ParseInto<AngularMessage>(in, message);
+    case Type::kTrackers: return ParseInto<TrackersMessage>(in, message);
     case Type::kCenterOfMass: return ParseInto<CenterOfMassMessage>(in, message);
-    case Type::kEulerPose:
-    case Type::kMarkers:
-    case Type::kTrackers:
     case Type::kTimeCode: break;
   }
-  return ParseInto<NotNeeded>(in, message);
+  return ParseInto<TimeCodeMessage>(in, message);
 }
 
 }  // namespace
 
+std::string TypeDigits(Type type) {
+  const int number = static_cast<int>(type);
+  return {static_cast<char>('0' + number / 10), static_cast<char>('0' + number % 10)};
+}
+
+tl::expected<Header, ParseError> ParseHeader(std::string_view datagram) {
+  Header header;
+  ItemReader in(datagram);
+  if (!ReadHeader(in, datagram, header)) return tl::unexpected(in.error);
+  return header;
+}
+
 tl::expected<Message, ParseError> ParseDatagram(std::string_view datagram) {
   tl::expected<Message, ParseError> result;
   ItemReader in(datagram);
-  if (!ParseHeader(in, datagram, result->header) || !LimitToPayload(in, result->header) ||
+  if (!ReadHeader(in, datagram, result->header) || !LimitToPayload(in, result->header) ||
       !ParseBodyOfType(in, *result)) {
     return tl::unexpected(in.error);
   }

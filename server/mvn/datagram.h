@@ -3,8 +3,8 @@
 /// index inside its array. World frame and segment frames as in body_sample.h; metres, radians,
 /// except joint angles, which the stream has in degrees.
 ///
-/// Pure functions, no state, any thread. Parsing pose data (types 02, 20, 21, 22, 24) allocates
-/// nothing; 12 and 13 hold names.
+/// Pure functions, no state, any thread. Parsing allocates nothing but for
+/// the names in 12 and 13.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -18,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include "server/core/body_sample.h"
 #include "urdf/segments.h"
 
 namespace kinescope::mvn {
@@ -27,17 +28,17 @@ inline constexpr std::size_t kLargestDatagram = 65536;  // more than UDP can car
 
 /// The two digits after "MXTP", read as a decimal number. Types that Kinescope knows.
 enum class Type : std::uint8_t {
-  kEulerPose = 1,  // Y-up, cm: ignored, 02 says the same
+  kEulerPose = 1,
   kPose = 2,
-  kMarkers = 3,  // ignored
+  kMarkers = 3,
   kMetaData = 12,
   kScale = 13,
   kJointAngles = 20,
   kLinear = 21,
   kAngular = 22,
-  kTrackers = 23,  // ignored
+  kTrackers = 23,
   kCenterOfMass = 24,
-  kTimeCode = 25,  // ignored
+  kTimeCode = 25,
 };
 
 struct Header {
@@ -71,18 +72,51 @@ struct AngularItem {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
 };
 
-/// What one datagram says about the body's segments, by urdf::Segment; items that are not `present`
-/// hold their defaults. Props and fingers (ids above 23) are only counted.
+/// Items by slot: the body by urdf::Segment, then what ExtraSegments holds, in its order. A slot
+/// does not depend on how many props are sent; the id in the stream does.
+inline constexpr int kSlotCount = urdf::kSegmentCount + kExtraCount;
+
+/// What one datagram says about segments; items that are not `present` hold their defaults.
 template <class Item>
 struct PerSegment {
-  std::array<Item, urdf::kSegmentCount> items{};
+  std::array<Item, kSlotCount> items{};
+  std::bitset<kSlotCount> present;
+  int skipped = 0;  // ids that are no segment, prop or finger by the header's numbers of them
+  int odd_ids = 0;  // props and fingers told by their place, whose id says something else
+
+  bool HasBody() const {  // all 23
+    constexpr unsigned long long kBody = (1ULL << urdf::kSegmentCount) - 1;
+    return (present & std::bitset<kSlotCount>(kBody)) == std::bitset<kSlotCount>(kBody);
+  }
+};
+
+struct PoseMessage : PerSegment<PoseItem> {};        // 02
+struct LinearMessage : PerSegment<LinearItem> {};    // 21
+struct AngularMessage : PerSegment<AngularItem> {};  // 22
+
+/// 01. In the stream Y-up, centimetres and degrees; here as 02 has it.
+struct EulerPoseMessage : PerSegment<PoseItem> {};
+
+struct MarkerItem {
+  std::uint32_t segment_id = 1;                        // from 1
+  std::uint32_t point_id = 0;                          // within the segment
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world, Z-up, m
+};
+
+struct MarkersMessage {  // 03. In the stream Y-up and centimetres
+  std::array<MarkerItem, 255> markers{};
+  int count = 0;
+};
+
+struct TrackersMessage {  // 23, by the segment that carries the sensor
+  std::array<TrackerState, urdf::kSegmentCount> trackers{};
   std::bitset<urdf::kSegmentCount> present;
   int skipped = 0;
 };
 
-using PoseMessage = PerSegment<PoseItem>;        // 02
-using LinearMessage = PerSegment<LinearItem>;    // 21
-using AngularMessage = PerSegment<AngularItem>;  // 22
+struct TimeCodeMessage {               // 25
+  std::int32_t utc_millis_of_day = 0;  // 0 to 86 399 999; a leap second counts as the one before
+};
 
 /// The six joints after the 22 of the body, in the order of the stream.
 enum ErgonomicJoint : int {
@@ -138,15 +172,17 @@ struct ScaleMessage {  // 13, one part: segments start over, points add to what 
   std::vector<ScalePoint> points;
 };
 
-struct NotNeeded {};  // 01, 03, 23, 25: good, and nothing in them that is used
-
-using Body = std::variant<NotNeeded, PoseMessage, JointAnglesMessage, LinearMessage, AngularMessage,
-                          CenterOfMassMessage, MetaDataMessage, ScaleMessage>;
+using Body = std::variant<PoseMessage, EulerPoseMessage, MarkersMessage, JointAnglesMessage,
+                          LinearMessage, AngularMessage, TrackersMessage, CenterOfMassMessage,
+                          TimeCodeMessage, MetaDataMessage, ScaleMessage>;
 
 struct Message {
   Header header;
   Body body;
 };
+
+/// The two digits of a message type in the stream: "02".
+std::string TypeDigits(Type type);
 
 /// Why a datagram or a sample is not used. A small fixed set, so that each can be a counter.
 enum class Reason : std::uint8_t {
@@ -171,6 +207,7 @@ enum class Reason : std::uint8_t {
   kNotUnit,
   kIdZero,
   kRepeatedId,
+  kTimeOfDay,
   // Found when datagrams are joined:
   kPartsContradict,
   kNoWholePose,
@@ -192,6 +229,9 @@ struct ParseError {
 
 /// One line, such as "byte 24: id 0 (value 0)".
 std::string Describe(const ParseError& error);
+
+/// The header alone, without a look at the body: what can be told of a datagram whatever is in it.
+tl::expected<Header, ParseError> ParseHeader(std::string_view datagram);
 
 tl::expected<Message, ParseError> ParseDatagram(std::string_view datagram);
 

@@ -1,4 +1,4 @@
-// The bodies that are more than rows of numbers per segment: joint angles, meta data, scale data.
+// The bodies that are more than rows of numbers per segment.
 #include <algorithm>
 #include <charconv>
 
@@ -91,7 +91,99 @@ bool ReadScalePoint(ItemReader& in, ScalePoint& point) {
   return true;
 }
 
+// "59" of "23:59:01.250", two digits at `at`; -1 where there are none.
+int TwoDigits(std::string_view text, std::size_t at) {
+  const auto digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
+  if (!digit(at) || !digit(at + 1)) return -1;
+  return (text[at] - '0') * 10 + (text[at + 1] - '0');
+}
+
+// Up to three digits after the point; none, or no point: 0; something else: -1.
+int Millis(std::string_view fraction) {
+  if (fraction.empty()) return 0;
+  if (fraction[0] != '.' || fraction.size() > 4) return -1;
+  int millis = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    const char c = i < fraction.size() ? fraction[i] : '0';
+    if (c < '0' || c > '9') return -1;
+    millis = millis * 10 + (c - '0');
+  }
+  return millis;
+}
+
 }  // namespace
+
+bool ParseMarkers(ItemReader& in, const Header& header, MarkersMessage& out) {
+  constexpr std::size_t kMarkerBytes = 16;
+  ItemLayout layout;
+  if (!in.FindLayout(header, kMarkerBytes, layout)) return false;
+  for (int i = 0; i < layout.count; ++i) {
+    MarkerItem& marker = out.markers[static_cast<std::size_t>(i)];
+    std::uint32_t id = 0;
+    Eigen::Vector3d centimetres;
+    if (!in.GoTo(layout, i) || !in.ReadId(id) || !in.ReadVector(centimetres)) return false;
+    if (id < 256) return in.Fail(Reason::kIdZero, id);  // 256 * segment + point
+    marker = {id / 256, id % 256, FromYUp(centimetres) * kMetresPerCentimetre};
+  }
+  out.count = layout.count;
+  return true;
+}
+
+bool ParseTrackers(ItemReader& in, const Header& header, TrackersMessage& out) {
+  constexpr std::size_t kWhole = 68;
+  constexpr std::size_t kWithoutRates = 44;  // the specification's other section
+  ItemLayout layout;
+  if (!in.FindLayout(header, kWhole, layout) && !in.FindLayout(header, kWithoutRates, layout)) {
+    return false;
+  }
+  for (int i = 0; i < layout.count; ++i) {
+    std::uint32_t id = 0;
+    TrackerState tracker;
+    tracker.has_rates = layout.stride >= kWhole;
+    if (!in.GoTo(layout, i) || !in.ReadId(id) || !in.ReadUnitQuaternion(tracker.orientation) ||
+        !in.ReadVector(tracker.free_acceleration) ||
+        (tracker.has_rates &&
+         !(in.ReadVector(tracker.acceleration) && in.ReadVector(tracker.angular_velocity))) ||
+        !in.ReadVector(tracker.magnetic_field)) {
+      return false;
+    }
+    if (id > urdf::kSegmentCount) {
+      ++out.skipped;
+      continue;
+    }
+    const std::size_t segment = id - 1;
+    if (out.present.test(segment)) return in.Fail(Reason::kRepeatedId, id);
+    out.present.set(segment);
+    out.trackers[segment] = tracker;
+  }
+  return true;
+}
+
+bool ParseTimeCode(ItemReader& in, TimeCodeMessage& out) {
+  constexpr std::size_t kShortest = 8;  // "HH:MM:SS"
+  constexpr std::size_t kLengthBytes = 4;
+  std::string_view text;
+  in.bytes.ReadBytes(in.bytes.remaining(), text);
+  // The specification has no length before the text; what is sent has one. Some sender counts it
+  // wrong, so the length only limits.
+  if (!text.empty() && (text[0] < '0' || text[0] > '9') && text.size() > kLengthBytes) {
+    std::uint32_t length = 0;
+    ByteReader(text).Read(length);
+    text = text.substr(kLengthBytes, length);
+  }
+  if (text.size() < kShortest) {
+    return in.Fail(Reason::kPayloadSize, static_cast<std::int64_t>(text.size()));
+  }
+  const int hours = TwoDigits(text, 0), minutes = TwoDigits(text, 3);
+  const int seconds = TwoDigits(text, 6), millis = Millis(text.substr(kShortest));
+  const bool is_time = text[2] == ':' && text[5] == ':' && hours >= 0 && hours < 24 &&
+                       minutes >= 0 && minutes < 60 && seconds >= 0 && seconds <= 60 && millis >= 0;
+  if (!is_time) return in.Fail(Reason::kTimeOfDay, 0);
+  const bool leap = seconds == 60;
+  out.utc_millis_of_day =
+      ((hours * 60 + minutes) * 60 + (leap ? 59 : seconds)) * 1000 + (leap ? 999 : millis);
+  return true;
+}
 
 PointPair PointsOf(urdf::Joint joint) {
   // A joint is point 2 of its parent, the end of the segment; T8 and pelvis have more than one end.

@@ -1,5 +1,6 @@
 #include "server/mvn/encode.h"
 
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -11,6 +12,8 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr std::size_t kLargestPayload = 65535 - kHeaderBytes;
+constexpr std::size_t kMostItems = 255;
+constexpr double kDegrees = 180 / M_PI;
 
 void WriteVector(ByteWriter& out, const Eigen::Vector3d& value) {
   for (const double number : value) out.WriteFloat(number);
@@ -18,6 +21,22 @@ void WriteVector(ByteWriter& out, const Eigen::Vector3d& value) {
 
 void WriteQuaternion(ByteWriter& out, const Eigen::Quaterniond& value) {
   for (const double number : {value.w(), value.x(), value.y(), value.z()}) out.WriteFloat(number);
+}
+
+void WriteCentimetresYUp(ByteWriter& out, const Eigen::Vector3d& metres_zup) {
+  WriteVector(out, ToYUp(metres_zup) / kMetresPerCentimetre);
+}
+
+// Angles about fixed x, then y, then z, of the rotation about the Y-up axes.
+Eigen::Vector3d YUpAngles(const Eigen::Quaterniond& zup) {
+  const Eigen::Vector3d axis = ToYUp(zup.vec());
+  const Eigen::Matrix3d r =
+      Eigen::Quaterniond(zup.w(), axis.x(), axis.y(), axis.z()).toRotationMatrix();
+  const double cos_y = std::hypot(r(0, 0), r(1, 0));
+  const double y = std::atan2(-r(2, 0), cos_y);
+  constexpr double kLocked = 1e-9;  // x and z turn about the same axis: x takes it all
+  if (cos_y < kLocked) return {std::atan2(-r(1, 2), r(1, 1)), y, 0};
+  return {std::atan2(r(2, 1), r(2, 2)), y, std::atan2(r(1, 0), r(0, 0))};
 }
 
 void WriteItem(ByteWriter& out, const PoseItem& item) {
@@ -37,26 +56,51 @@ void WriteItem(ByteWriter& out, const AngularItem& item) {
   WriteVector(out, item.acceleration);
 }
 
-template <class Item>
-constexpr Type kTypeOf = Type::kPose;
-template <>
-constexpr Type kTypeOf<LinearItem> = Type::kLinear;
-template <>
-constexpr Type kTypeOf<AngularItem> = Type::kAngular;
+void WriteEulerItem(ByteWriter& out, const PoseItem& item) {
+  WriteCentimetresYUp(out, item.position);
+  WriteVector(out, YUpAngles(item.orientation) * kDegrees);
+}
+
+// The id of a slot, which depends on how many props there are: fingers count on behind them.
+std::uint32_t IdOf(std::size_t slot, const Header& header) {
+  constexpr std::size_t kFirstFinger = urdf::kSegmentCount + kMostProps;
+  const auto props = static_cast<std::size_t>(header.props);
+  if (slot < kFirstFinger) {
+    KINESCOPE_CHECK(slot < urdf::kSegmentCount + props);
+    return static_cast<std::uint32_t>(slot + 1);
+  }
+  return static_cast<std::uint32_t>(urdf::kSegmentCount + props + (slot - kFirstFinger) + 1);
+}
 
 // Writes one body; says its type and its number of items.
 struct BodyWriter {
   using TypeAndCount = std::pair<Type, std::size_t>;
   ByteWriter& out;
+  const Header& header;
 
-  template <class Item>
-  TypeAndCount operator()(const PerSegment<Item>& body) const {
-    for (std::size_t segment = 0; segment < body.items.size(); ++segment) {
-      if (!body.present.test(segment)) continue;
-      out.Write(static_cast<std::uint32_t>(segment + 1));
-      WriteItem(out, body.items[segment]);
+  TypeAndCount operator()(const PoseMessage& body) const {
+    return WriteSegments(Type::kPose, body, [this](const PoseItem& item) { WriteItem(out, item); });
+  }
+  TypeAndCount operator()(const EulerPoseMessage& body) const {
+    return WriteSegments(Type::kEulerPose, body,
+                         [this](const PoseItem& item) { WriteEulerItem(out, item); });
+  }
+  TypeAndCount operator()(const LinearMessage& body) const {
+    return WriteSegments(Type::kLinear, body,
+                         [this](const LinearItem& item) { WriteItem(out, item); });
+  }
+  TypeAndCount operator()(const AngularMessage& body) const {
+    return WriteSegments(Type::kAngular, body,
+                         [this](const AngularItem& item) { WriteItem(out, item); });
+  }
+
+  TypeAndCount operator()(const MarkersMessage& body) const {
+    for (int i = 0; i < body.count; ++i) {
+      const MarkerItem& marker = body.markers[static_cast<std::size_t>(i)];
+      out.Write(256 * marker.segment_id + marker.point_id);
+      WriteCentimetresYUp(out, marker.position);
     }
-    return {kTypeOf<Item>, body.present.count()};
+    return {Type::kMarkers, static_cast<std::size_t>(body.count)};
   }
 
   TypeAndCount operator()(const JointAnglesMessage& body) const {
@@ -75,6 +119,26 @@ struct BodyWriter {
     return {Type::kJointAngles, body.joints_present.count() + body.ergonomic_present.count()};
   }
 
+  TypeAndCount operator()(const TrackersMessage& body) const {
+    bool have_rates = false;
+    for (std::size_t i = 0; i < body.trackers.size(); ++i) {
+      have_rates |= body.present.test(i) && body.trackers[i].has_rates;
+    }
+    for (std::size_t i = 0; i < body.trackers.size(); ++i) {
+      if (!body.present.test(i)) continue;
+      const TrackerState& tracker = body.trackers[i];
+      out.Write(static_cast<std::uint32_t>(i + 1));
+      WriteQuaternion(out, tracker.orientation);
+      WriteVector(out, tracker.free_acceleration);
+      if (have_rates) {
+        WriteVector(out, tracker.acceleration);
+        WriteVector(out, tracker.angular_velocity);
+      }
+      WriteVector(out, tracker.magnetic_field);
+    }
+    return {Type::kTrackers, body.present.count()};
+  }
+
   TypeAndCount operator()(const CenterOfMassMessage& body) const {
     WriteVector(out, body.position);
     if (body.has_derivatives) {
@@ -82,6 +146,16 @@ struct BodyWriter {
       WriteVector(out, body.acceleration);
     }
     return {Type::kCenterOfMass, 1};
+  }
+
+  TypeAndCount operator()(const TimeCodeMessage& body) const {
+    const std::int32_t millis = body.utc_millis_of_day;
+    const std::int32_t seconds = millis / 1000;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%02d:%02d:%02d.%03d", seconds / 3600,
+                  seconds / 60 % 60, seconds % 60, millis % 1000);
+    out.WriteText(text.data());
+    return {Type::kTimeCode, 1};
   }
 
   TypeAndCount operator()(const MetaDataMessage& body) const {
@@ -115,9 +189,15 @@ struct BodyWriter {
     return {Type::kScale, 0};  // MVN leaves the item count of type 13 at zero
   }
 
-  TypeAndCount operator()(const NotNeeded&) const {
-    KINESCOPE_CHECK(!"a body that was never read cannot be written");
-    return {};
+ private:
+  template <class Item, class Write>
+  TypeAndCount WriteSegments(Type type, const PerSegment<Item>& body, const Write& write) const {
+    for (std::size_t slot = 0; slot < body.items.size(); ++slot) {
+      if (!body.present.test(slot)) continue;
+      out.Write(IdOf(slot, header));
+      write(body.items[slot]);
+    }
+    return {type, body.present.count()};
   }
 };
 
@@ -136,51 +216,14 @@ void WriteHeader(ByteWriter& out, const Header& header) {
   out.Write(static_cast<std::uint16_t>(header.payload_bytes));
 }
 
-Message MessageFor(int character, Body body) {
-  Message message;
-  message.header.character = character;
-  message.header.body_segments = urdf::kSegmentCount;
-  message.body = std::move(body);
-  return message;
-}
-
-// The points that Kinescope's own reader looks for, numbered as MVN numbers them.
-std::vector<ScalePoint> EndPoints(const urdf::Skeleton& skeleton) {
-  std::vector<ScalePoint> points;
-  const auto add = [&points](int segment, int point_id, std::string name,
-                             const Eigen::Vector3d& in_link) {
-    points.push_back(
-        {segment + 1, point_id, std::move(name), 0, urdf::SegmentFromLink(segment) * in_link});
-  };
-  add(urdf::kHead, 2, "pTopOfHead", skeleton.head_top_in_head);
-  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-    const bool right = side == urdf::kRight;
-    const std::string prefix = right ? "pRight" : "pLeft";
-    add(right ? urdf::kRightHand : urdf::kLeftHand, 2, prefix + "TopOfHand",
-        skeleton.finger_tip_in_hand[side]);
-    add(right ? urdf::kRightFoot : urdf::kLeftFoot, 3, prefix + "HeelFoot",
-        skeleton.heel_in_foot[side]);
-    add(right ? urdf::kRightToe : urdf::kLeftToe, 2, prefix + "Toe", skeleton.toe_tip_in_toe[side]);
-  }
-  return points;
-}
-
-template <class Item, class Fill>
-PerSegment<Item> ForAllSegments(const BodySample& sample, const Fill& fill) {
-  PerSegment<Item> body;
-  body.present.set();
-  for (std::size_t i = 0; i < body.items.size(); ++i) fill(sample.segments[i], body.items[i]);
-  return body;
-}
-
 }  // namespace
 
 std::string Encode(const Message& message) {
   std::string payload;
   ByteWriter payload_out(payload);
   Header header = message.header;
-  const auto [type, items] = std::visit(BodyWriter{payload_out}, message.body);
-  KINESCOPE_CHECK(payload.size() <= kLargestPayload);
+  const auto [type, items] = std::visit(BodyWriter{payload_out, message.header}, message.body);
+  KINESCOPE_CHECK(payload.size() <= kLargestPayload && items <= kMostItems);
   header.type = type;
   header.item_count = static_cast<int>(items);
   header.payload_bytes = static_cast<int>(payload.size());
@@ -190,73 +233,17 @@ std::string Encode(const Message& message) {
   return datagram += payload;
 }
 
-std::array<Eigen::Vector3d, urdf::kSegmentCount> TPoseOrigins(const urdf::Skeleton& skeleton) {
-  std::array<Eigen::Vector3d, urdf::kSegmentCount> origins;
-  origins[urdf::kPelvis] =
-      urdf::NPoseOrigins(skeleton)[urdf::kPelvis];  // legs are as in the N-pose
-  for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
-    const auto index = static_cast<std::size_t>(segment);
-    const int parent = urdf::kSegments[index].parent;
-    origins[index] = origins[static_cast<std::size_t>(parent)] +
-                     urdf::SegmentFromLink(parent) * skeleton.origin_in_parent[index];
-  }
-  return origins;
-}
-
-std::vector<std::string> EncodeSample(const BodySample& sample) {
-  std::vector<std::string> datagrams;
-  const auto add = [&](Body body) {
-    Message message = MessageFor(sample.character, std::move(body));
-    message.header.sample_counter = sample.counter;
-    message.header.time_code_millis = static_cast<std::uint32_t>(sample.time_code_millis);
-    datagrams.push_back(Encode(message));
+void PatchHeader(const HeaderPatch& patch, std::string& datagram) {
+  KINESCOPE_CHECK(datagram.size() >= kHeaderBytes);
+  constexpr std::size_t kCounterAt = 6, kTimeCodeAt = 12, kCharacterAt = 16;
+  const auto write = [&datagram](std::size_t at, auto value) {
+    std::string bytes;
+    ByteWriter(bytes).Write(value);
+    datagram.replace(at, bytes.size(), bytes);
   };
-  add(ForAllSegments<PoseItem>(sample, [](const SegmentState& from, PoseItem& to) {
-    to = {from.position, from.orientation};
-  }));
-  if (sample.streamed_angles_deg) {
-    JointAnglesMessage body;
-    body.joints = *sample.streamed_angles_deg;
-    body.joints_present.set();
-    add(body);
-  }
-  if (sample.has_linear) {
-    add(ForAllSegments<LinearItem>(sample, [](const SegmentState& from, LinearItem& to) {
-      to = {from.position, from.velocity, from.acceleration};
-    }));
-  }
-  if (sample.has_angular) {
-    add(ForAllSegments<AngularItem>(sample, [](const SegmentState& from, AngularItem& to) {
-      to = {from.orientation, from.angular_velocity, from.angular_acceleration};
-    }));
-  }
-  if (sample.com) {
-    add(CenterOfMassMessage{sample.com->position, sample.com->velocity, sample.com->acceleration,
-                            sample.com->has_derivatives});
-  }
-  return datagrams;
-}
-
-std::vector<std::string> EncodeCharacter(const Character& character) {
-  MetaDataMessage meta;
-  if (!character.name.empty()) meta.name = CleanText(character.name, kLongestName);
-  meta.color_rgb = character.color_rgb;
-  std::vector<std::string> datagrams = {Encode(MessageFor(character.id, meta))};
-  if (!character.skeleton) return datagrams;
-  ScaleMessage segments;
-  const auto origins = TPoseOrigins(*character.skeleton);
-  for (std::size_t i = 0; i < origins.size(); ++i) {
-    segments.segments.push_back({std::string(urdf::kSegments[i].mvn_name), origins[i]});
-  }
-  ScaleMessage points;
-  points.points = EndPoints(*character.skeleton);
-  Message first = MessageFor(character.id, segments);
-  first.header.is_last_part = false;
-  Message second = MessageFor(character.id, points);
-  second.header.part = 1;
-  datagrams.push_back(Encode(first));
-  datagrams.push_back(Encode(second));
-  return datagrams;
+  if (patch.sample_counter) write(kCounterAt, *patch.sample_counter);
+  if (patch.time_code_millis) write(kTimeCodeAt, *patch.time_code_millis);
+  if (patch.character) write(kCharacterAt, static_cast<std::uint8_t>(*patch.character));
 }
 
 }  // namespace kinescope::mvn

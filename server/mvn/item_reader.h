@@ -48,10 +48,22 @@ class ItemReader {
 
 inline constexpr std::size_t kLongestName = 128;  // of a character, segment or point, in bytes
 
+/// The vector that the Y-up axes of types 01 and 03 call `yup`, in the Z-up world.
+inline Eigen::Vector3d FromYUp(const Eigen::Vector3d& yup) { return {yup.z(), yup.x(), yup.y()}; }
+inline Eigen::Vector3d ToYUp(const Eigen::Vector3d& zup) { return {zup.y(), zup.z(), zup.x()}; }
+inline constexpr double kMetresPerCentimetre = 0.01;
+
 /// `text` as valid UTF-8: what is not, and control characters, become '?'. At most `longest` bytes.
 std::string CleanText(std::string_view text, std::size_t longest);
 
 /// Bodies of single types; false with `in.error` set.
+bool ParseSegments(ItemReader& in, const Header& header, PoseMessage& out);
+bool ParseSegments(ItemReader& in, const Header& header, EulerPoseMessage& out);
+bool ParseSegments(ItemReader& in, const Header& header, LinearMessage& out);
+bool ParseSegments(ItemReader& in, const Header& header, AngularMessage& out);
+bool ParseMarkers(ItemReader& in, const Header& header, MarkersMessage& out);
+bool ParseTrackers(ItemReader& in, const Header& header, TrackersMessage& out);
+bool ParseTimeCode(ItemReader& in, TimeCodeMessage& out);
 bool ParseJointAngles(ItemReader& in, const Header& header, JointAnglesMessage& out);
 bool ParseMetaData(ItemReader& in, MetaDataMessage& out);
 bool ParseScale(ItemReader& in, ScaleMessage& out);

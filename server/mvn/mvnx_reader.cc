@@ -2,7 +2,6 @@
 
 #include <expat.h>
 
-#include <cerrno>
 #include <cstring>
 #include <utility>
 
@@ -46,8 +45,8 @@ std::optional<std::int64_t> FindInteger(const char** attributes, const char* nam
 // wrong and stops the parser; Run() throws.
 class MvnxReader::Parser {
  public:
-  Parser(std::FILE* file, std::string name)
-      : file_(file, &std::fclose),
+  Parser(InputFile file, std::string name)
+      : file_(std::move(file)),
         name_(std::move(name)),
         expat_(XML_ParserCreate(nullptr), &XML_ParserFree) {
     XML_SetUserData(expat_.get(), this);
@@ -98,8 +97,10 @@ class MvnxReader::Parser {
     void* const buffer = XML_GetBuffer(expat_.get(), kChunkBytes);
     if (buffer == nullptr) Refuse("not enough memory to read on");
     const std::size_t size = std::fread(buffer, 1, kChunkBytes, file_.get());
-    if (std::ferror(file_.get()) != 0)
-      Refuse(std::string("reading failed: ") + std::strerror(errno));
+    if (std::ferror(file_.get()) != 0) {
+      Refuse("the file breaks off here, after " + std::to_string(frames_) +
+             " frames: " + file_.failure() + "; copy or export it again");
+    }
     bytes_read_ += static_cast<std::int64_t>(size);
     at_end_ = size < static_cast<std::size_t>(kChunkBytes);
     return XML_ParseBuffer(expat_.get(), static_cast<int>(size), at_end_ ? 1 : 0);
@@ -271,7 +272,7 @@ class MvnxReader::Parser {
     }
   }
 
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  InputFile file_;
   std::string name_;
   std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> expat_;
 
@@ -297,8 +298,8 @@ class MvnxReader::Parser {
   std::string failure_;
 };
 
-MvnxReader::MvnxReader(std::FILE* file, std::string name)
-    : parser_(std::make_unique<Parser>(file, std::move(name))) {
+MvnxReader::MvnxReader(InputFile file, std::string name)
+    : parser_(std::make_unique<Parser>(std::move(file), std::move(name))) {
   if (!parser_->Run() || !parser_->has_header()) Refuse("MVNX without any <frames>");
 }
 

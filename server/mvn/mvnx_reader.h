@@ -5,12 +5,12 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "server/core/input_file.h"
 #include "urdf/skeleton.h"
 
 namespace kinescope::mvn {
@@ -51,10 +51,10 @@ struct MvnxFrame {
 
 class MvnxReader {
  public:
-  /// Reads the header. Closes `file` at the end; `name` is for errors.
+  /// Reads the header; `name` is for errors.
   /// @throws SourceError naming file, line and reason: not XML, not MVNX, wrong version, a segment
   /// missing.
-  MvnxReader(std::FILE* file, std::string name);
+  MvnxReader(InputFile file, std::string name);
   ~MvnxReader();
 
   const MvnxHeader& header() const;

@@ -1,9 +1,7 @@
 #include "server/mvn/mvnx_source.h"
 
 #include <bitset>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "server/core/errors.h"
@@ -55,8 +53,8 @@ const Eigen::Quaterniond& SegmentFromIsb(int segment) {
   }
 }
 
-MvnxSource::MvnxSource(std::FILE* file, std::string name)
-    : name_(std::move(name)), reader_(file, name_) {
+MvnxSource::MvnxSource(InputFile file, std::string name)
+    : name_(std::move(name)), reader_(std::move(file), name_) {
   previous_.fill(Eigen::Quaterniond::Identity());
   const MvnxHeader& header = reader_.header();
   character_.name = header.subject;
@@ -196,11 +194,7 @@ SourceCounters MvnxSource::counters() const {
 }
 
 std::unique_ptr<Source> OpenMvnx(const std::string& path) {
-  std::FILE* const file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) {
-    throw SourceError(path + ": cannot open the file: " + std::strerror(errno));
-  }
-  return std::make_unique<MvnxSource>(file, path);
+  return std::make_unique<MvnxSource>(OpenInputFile(path), NameOfInput(path));
 }
 
 }  // namespace kinescope::mvn

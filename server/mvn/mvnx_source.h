@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -27,8 +26,8 @@ const Eigen::Quaterniond& SegmentFromIsb(int segment);
 /// - Joint angles (jointAngle, degrees), centre of mass and derivatives where the frame has them.
 class MvnxSource : public Source {
  public:
-  /// Reads the header; closes `file` at the end. `name` is for people. @throws SourceError.
-  MvnxSource(std::FILE* file, std::string name);
+  /// Reads the header; `name` is for people. @throws SourceError.
+  MvnxSource(InputFile file, std::string name);
 
   State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
   SourceCounters counters() const override;

@@ -30,6 +30,7 @@ const char* Text(Reason reason) {
     case Reason::kNotUnit: return "quaternion not of unit length";
     case Reason::kIdZero: return "id 0";
     case Reason::kRepeatedId: return "repeated id";
+    case Reason::kTimeOfDay: return "time code that is no time of day";
     case Reason::kPartsContradict: return "datagram counter contradicts the other parts";
     case Reason::kNoWholePose: return "sample without a whole body pose (type 02)";
     case Reason::kTooManyStreams: return "too many senders or characters";

@@ -13,18 +13,12 @@ constexpr double kLongestBone = 1.0;
 
 using Origins = std::array<Eigen::Vector3d, urdf::kSegmentCount>;
 
-// By name and not by number: props, fingers and tracked objects stand in the same list.
-std::optional<Origins> OriginsOf(const ScaleMessage& part) {
-  Origins origins;
-  std::bitset<urdf::kSegmentCount> found;
-  for (const ScaleSegment& segment : part.segments) {
-    const auto known = urdf::FindSegment(segment.name);
-    if (!known) continue;
-    origins[static_cast<std::size_t>(*known)] = segment.origin_in_world;
-    found.set(static_cast<std::size_t>(*known));
+// The index in ExtraSegments of a finger's segment; nullopt for anything else.
+std::optional<std::size_t> FindFinger(const std::string& name) {
+  for (int index = kMostProps; index < kExtraCount; ++index) {
+    if (ExtraName(index) == name) return static_cast<std::size_t>(index);
   }
-  if (!found.all()) return std::nullopt;
-  return origins;
+  return std::nullopt;
 }
 
 bool IsHuman(const Origins& origins) {
@@ -38,21 +32,52 @@ bool IsHuman(const Origins& origins) {
 
 }  // namespace
 
+// By name and not by number: props, fingers and tracked objects stand in the same list.
+std::optional<Reason> ScaleGroup::Read(const ScaleMessage& part, Segments& segments) {
+  Origins origins;
+  std::bitset<urdf::kSegmentCount> found;
+  std::vector<ScaledSegment> others;
+  for (const ScaleSegment& segment : part.segments) {
+    if (const auto known = urdf::FindSegment(segment.name)) {
+      origins[static_cast<std::size_t>(*known)] = segment.origin_in_world;
+      found.set(static_cast<std::size_t>(*known));
+    } else {
+      others.push_back({segment.name, segment.origin_in_world});
+    }
+  }
+  if (found.none()) {
+    if (others.size() > urdf::kSegmentCount) return Reason::kScaleWithoutBody;
+    segments.extra = std::move(others);
+    return std::nullopt;
+  }
+  if (!found.all()) return Reason::kScaleWithoutBody;
+  if (!IsHuman(origins)) return Reason::kScaleNotHuman;
+  segments.body = origins;
+  int props = 0;
+  for (ScaledSegment& segment : others) {
+    auto index = FindFinger(segment.name);
+    if (!index && props < kMostProps) index = static_cast<std::size_t>(PropIndex(props++));
+    if (!index) continue;
+    segments.extra.resize(kExtraCount);
+    segments.extra[*index] = std::move(segment);
+  }
+  return std::nullopt;
+}
+
 std::optional<Reason> ScaleGroup::Add(const Header& header, const ScaleMessage& part,
                                       std::int64_t now_nanos) {
-  std::optional<Origins> origins;
+  std::optional<Segments> segments;
   if (!part.segments.empty()) {
-    origins = OriginsOf(part);
-    if (!origins) return Reason::kScaleWithoutBody;
-    if (!IsHuman(*origins)) return Reason::kScaleNotHuman;
+    segments.emplace();
+    if (const auto refused = Read(part, *segments)) return refused;
   }
   // Groups repeat with the same numbers, so segments after segments begin the next one. Points
   // that overtook their segments stay.
-  if (taken_ || (origins && origins_)) *this = ScaleGroup();
+  if (taken_ || (segments && segments_)) *this = ScaleGroup();
   parts_.set(static_cast<std::size_t>(header.part));
   if (header.is_last_part) last_part_ = header.part;
   last_part_nanos_ = now_nanos;
-  if (origins) origins_ = origins;
+  if (segments) segments_ = std::move(segments);
   for (const ScalePoint& point : part.points) {
     const double reach = point.offset.norm();
     if (point.segment_id > urdf::kSegmentCount || reach > kLongestBone) continue;
@@ -62,11 +87,14 @@ std::optional<Reason> ScaleGroup::Add(const Header& header, const ScaleMessage& 
   return std::nullopt;
 }
 
-std::optional<urdf::Skeleton> ScaleGroup::TakeSkeleton(std::int64_t now_nanos) {
+std::optional<ScaleGroup::Scale> ScaleGroup::Take(std::int64_t now_nanos) {
   const auto deadline = deadline_nanos();
   if (!deadline || (!IsWhole() && now_nanos < *deadline)) return std::nullopt;
   taken_ = true;
-  return urdf::SkeletonFromTPose(*origins_, landmarks_);
+  Scale scale;
+  if (segments_->body) scale.skeleton = urdf::SkeletonFromTPose(*segments_->body, landmarks_);
+  scale.extra = segments_->extra;
+  return scale;
 }
 
 bool ScaleGroup::IsWhole() const {
@@ -78,7 +106,7 @@ bool ScaleGroup::IsWhole() const {
 }
 
 std::optional<std::int64_t> ScaleGroup::deadline_nanos() const {
-  if (!origins_ || taken_) return std::nullopt;
+  if (!segments_ || taken_) return std::nullopt;
   return last_part_nanos_ + kPatienceNanos;
 }
 

@@ -1,31 +1,35 @@
-/// Sends samples as an MVN suit would: datagrams of types 12, 13, 02, 20, 21, 22, 24 over UDP.
+/// Sends datagrams where a suit would send them. One thread.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <string>
-
-#include "server/core/body_sample.h"
+#include <string_view>
 
 namespace kinescope::mvn {
 
-class Sender {
+class DatagramSender {
  public:
-  virtual ~Sender() = default;
-  Sender(const Sender&) = delete;
-  Sender& operator=(const Sender&) = delete;
+  virtual ~DatagramSender() = default;
+  DatagramSender(const DatagramSender&) = delete;
+  DatagramSender& operator=(const DatagramSender&) = delete;
 
-  /// Types 12 and 13; a receiver that starts later needs them again.
-  virtual void SendCharacter(const Character& character) = 0;
-  /// 02; 20 where the sample has angles; 21 and 22 where it has derivatives; 24 where it has a CoM.
-  virtual void SendSample(const BodySample& sample) = 0;
+  /// Sends `datagram` as it is. Where nobody listens it is gone, as with a real suit.
+  /// @throws SourceError when sending can never work (a datagram too long, an address refused).
+  virtual void Send(std::string_view datagram) = 0;
+
   virtual std::uint64_t datagrams_sent() const = 0;
+  /// Datagrams that found no receiver: TCP without a connection, or one that is too slow.
+  virtual std::uint64_t datagrams_unsent() const = 0;
+  virtual std::string description() const = 0;
 
  protected:
-  Sender() = default;
+  DatagramSender() = default;
 };
 
-/// `url` as "udp://127.0.0.1:9763". @throws SourceError naming what is wrong with it.
-std::unique_ptr<Sender> OpenUdpSender(const std::string& url);
+/// `url`: "udp://127.0.0.1:9763"; "tcp://127.0.0.1:9763" connects as MVN does, and again when the
+/// connection is lost; "tcp://:9763?listen" waits for receivers to connect and sends to all.
+/// @throws SourceError naming the URL, what is wrong with it and what would be right.
+std::unique_ptr<DatagramSender> OpenSender(const std::string& url);
 
 }  // namespace kinescope::mvn

@@ -1,7 +1,5 @@
 #include "server/mvn/tally.h"
 
-#include <string>
-
 namespace kinescope::mvn {
 
 SourceCounters Tally::ToCounters() const {
@@ -14,9 +12,9 @@ SourceCounters Tally::ToCounters() const {
   counters.late = late;
   counters.counter_gaps = counter_gaps;
   counters.restarts = restarts;
-  for (std::size_t type = 0; type < ignored.size(); ++type) {
-    if (ignored[type] == 0) continue;
-    counters.ignored[(type < 10 ? "type 0" : "type ") + std::to_string(type)] = ignored[type];
+  counters.outliers = outliers;
+  for (std::size_t type = 0; type < types.size(); ++type) {
+    if (types[type] > 0) counters.types[TypeDigits(static_cast<Type>(type))] = types[type];
   }
   for (std::size_t i = 0; i < rejected.size(); ++i) {
     if (rejected[i] > 0) counters.rejected[Text(static_cast<Reason>(i))] = rejected[i];

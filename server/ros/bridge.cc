@@ -60,7 +60,7 @@ class Bridge : public RosBridge {
     for (const PersonState& person : state.people) {
       Outlet& outlet = OutletOf(person);
       outlet.seen_in_number = state.number;
-      if (IsNew(person.sample, outlet)) PublishSample(person, outlet);
+      if (IsNew(person.sample, outlet)) PublishSample(state, person, outlet);
     }
   }
 
@@ -84,7 +84,7 @@ class Bridge : public RosBridge {
     return found->second;
   }
 
-  void PublishSample(const PersonState& person, Outlet& outlet) {
+  void PublishSample(const SceneState& state, const PersonState& person, Outlet& outlet) {
     outlet.has_last = true;
     outlet.last_counter = person.sample.counter;
     outlet.last_stamp_nanos = person.sample.stamp_nanos;
@@ -93,16 +93,19 @@ class Bridge : public RosBridge {
       ++missed_;
       return;
     }
-    Send(person, *outlet.topics, outlet);
+    Send(state, person, *outlet.topics, outlet);
     ++published_;
   }
 
   // TF goes first: whoever gets one of the others can look the frames up.
-  void Send(const PersonState& person, const PersonTopics& topics, Outlet& outlet) const {
+  void Send(const SceneState& state, const PersonState& person, const PersonTopics& topics,
+            Outlet& outlet) const {
     const std::string& frame = config_.reference_frame;
     if (topics.tf && topics.tf.getNumSubscribers() > 0) {
       FillTransforms(person, outlet.names, frame,
                      config_.tf == "tree" ? TfShape::kTree : TfShape::kFlat, outlet.transforms);
+      const bool is_first = &person == &state.people.front();
+      if (is_first) AddObjects(state, outlet.names, frame, outlet.transforms);
       topics.tf.publish(outlet.transforms);
     }
     if (topics.joint_states.getNumSubscribers() > 0 && FillJointStates(person, outlet)) {

@@ -17,6 +17,7 @@ std::array<int, n> SortedBy(const NameOf& name_of) {
 }
 
 bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool IsUpper(char c) { return c >= 'A' && c <= 'Z'; }
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
 }  // namespace
@@ -33,7 +34,8 @@ const std::array<int, urdf::kSegmentCount>& SegmentsByName() {
   return order;
 }
 
-PersonNames::PersonNames(const std::string& model_name) {
+PersonNames::PersonNames(const std::string& model_name) : model(model_name) {
+  for (int i = 0; i < kExtraCount; ++i) extra[At(i)] = model + "_" + AsSnakeCase(ExtraName(i));
   for (const int joint : JointsByName()) {
     for (int axis = 0; axis < 3; ++axis) {
       joints.push_back(urdf::JointName(model_name, joint, axis));
@@ -47,6 +49,16 @@ PersonNames::PersonNames(const std::string& model_name) {
       between[At(joint)][At(1 - axis)] = urdf::JointName(model_name, joint, axis) + "_link";
     }
   }
+}
+
+std::string AsSnakeCase(const std::string& text) {
+  std::string name;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool begins_word = IsUpper(text[i]) && i > 0 && !IsUpper(text[i - 1]);
+    if (begins_word) name += '_';
+    name += IsUpper(text[i]) ? static_cast<char>(text[i] - 'A' + 'a') : text[i];
+  }
+  return name;
 }
 
 std::string AsRosName(const std::string& text) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "server/core/extra_segments.h"
 #include "urdf/segments.h"
 
 namespace kinescope::ros_bridge {
@@ -27,7 +28,13 @@ struct PersonNames {
   /// The two links without mass that the URDF has inside joint j: after its turn about y, and after
   /// its turn about x. By urdf::Joint.
   std::array<std::array<std::string, 2>, urdf::kJointCount> between;
+  /// `<model>_left_second_mp`, `<model>_prop1`, by ExtraSegments' index.
+  std::array<std::string, kExtraCount> extra;
+  std::string model;
 };
+
+/// "LeftSecondMP" as the seed would write it: "left_second_mp".
+std::string AsSnakeCase(const std::string& text);
 
 /// `text` as one element of a ROS name: letters, digits and _, beginning with a letter.
 std::string AsRosName(const std::string& text);

@@ -1,9 +1,10 @@
-// bridge.h in a build without ROS: options and arguments work, publishing is refused with the
-// reason.
+// bridge.h and bag_source.h in a build without ROS: options and arguments work, publishing and
+// reading bags are refused with the reason.
 #include <algorithm>
 #include <cstring>
 
 #include "server/core/errors.h"
+#include "server/ros/bag_source.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::ros_bridge {
@@ -27,6 +28,12 @@ std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& /*config*/, RosMode
       "this Kinescope was built without ROS: install the ROS packages in packages.txt and "
       "configure "
       "with -DKINESCOPE_WITH_ROS=ON, or run with --ros off");
+}
+
+std::unique_ptr<Source> OpenBag(const std::string& path) {
+  throw SourceError("bag '" + path +
+                    "': this Kinescope was built without ROS and cannot read bags: install the ROS "
+                    "packages in packages.txt and configure with -DKINESCOPE_WITH_ROS=ON");
 }
 
 }  // namespace kinescope::ros_bridge

@@ -11,16 +11,18 @@
 
 namespace kinescope::ros_bridge {
 
-/// The sample's stamp as ROS has it. What a ROS time cannot hold (before 1970, after 2106) becomes
-/// its nearest value: a stamp out of a file is a stranger's.
-inline ros::Time StampOf(const BodySample& sample) {
+/// `nanos` since the Unix epoch as ROS has it. What a ROS time cannot hold (before 1970, after
+/// 2106) becomes its nearest value: a stamp out of a file is a stranger's.
+inline ros::Time ToRosTime(std::int64_t stamp_nanos) {
   constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
   constexpr std::int64_t kLast =
       std::int64_t{std::numeric_limits<std::uint32_t>::max()} * kNanosPerSecond +
       (kNanosPerSecond - 1);
-  const std::int64_t nanos = std::clamp<std::int64_t>(sample.stamp_nanos, 0, kLast);
+  const std::int64_t nanos = std::clamp<std::int64_t>(stamp_nanos, 0, kLast);
   return {static_cast<std::uint32_t>(nanos / kNanosPerSecond),
           static_cast<std::uint32_t>(nanos % kNanosPerSecond)};
 }
+
+inline ros::Time StampOf(const BodySample& sample) { return ToRosTime(sample.stamp_nanos); }
 
 }  // namespace kinescope::ros_bridge

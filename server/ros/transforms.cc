@@ -84,18 +84,68 @@ void WriteTree(const PersonState& person, const PersonNames& names, Writer& out)
   }
 }
 
+urdf::Side SideOf(int extra) {
+  return extra < FingerIndex(urdf::kRight, 0) ? urdf::kLeft : urdf::kRight;
+}
+
+int HandOf(int extra) { return SideOf(extra) == urdf::kLeft ? urdf::kLeftHand : urdf::kRightHand; }
+
+Pose LinkPoseOf(const PersonState& person, int extra) {
+  Pose pose = person.sample.extra.poses[At(extra)];
+  if (extra >= kMostProps)
+    pose.orientation = pose.orientation * urdf::SegmentFromLink(HandOf(extra));
+  return pose;
+}
+
+void WriteExtra(const PersonState& person, const PersonNames& names, TfShape shape, Writer& out) {
+  for (int extra = 0; extra < kExtraCount; ++extra) {
+    if (!person.sample.extra.present.test(At(extra))) continue;
+    const Pose pose = LinkPoseOf(person, extra);
+    if (shape == TfShape::kFlat || extra < kMostProps) {
+      out.AddToReference(names.extra[At(extra)], pose);
+      continue;
+    }
+    const int first = FingerIndex(SideOf(extra), 0);
+    const int parent = kFingerParents[At(extra - first)];
+    const bool hangs_on_finger =
+        parent >= 0 && person.sample.extra.present.test(At(first + parent));
+    if (hangs_on_finger) {
+      out.Add(names.extra[At(first + parent)], names.extra[At(extra)],
+              Relative(LinkPoseOf(person, first + parent), pose));
+    } else {
+      out.Add(names.links[At(HandOf(extra))], names.extra[At(extra)],
+              Relative(person.links[At(HandOf(extra))], pose));
+    }
+  }
+}
+
 }  // namespace
+
+void AddObjects(const SceneState& scene, const PersonNames& names,
+                const std::string& reference_frame, tf2_msgs::TFMessage& message) {
+  for (const TrackedObject& object : scene.objects) {
+    geometry_msgs::TransformStamped out;
+    out.header.stamp = ToRosTime(object.stamp_nanos);
+    out.header.frame_id = reference_frame;
+    out.child_frame_id = names.model + "_" + AsSnakeCase(AsRosName(object.name));
+    Set(out.transform.translation, object.pose.position);
+    Set(out.transform.rotation, object.pose.orientation);
+    message.transforms.push_back(out);
+  }
+}
 
 void FillTransforms(const PersonState& person, const PersonNames& names,
                     const std::string& reference_frame, TfShape shape,
                     tf2_msgs::TFMessage& message) {
-  message.transforms.resize(urdf::kSegmentCount + 2 * urdf::kJointCount);
+  message.transforms.resize(urdf::kSegmentCount + 2 * urdf::kJointCount +
+                            person.sample.extra.present.count());
   Writer out(message, reference_frame, StampOf(person.sample));
   if (shape == TfShape::kFlat) {
     WriteFlat(person, names, out);
   } else {
     WriteTree(person, names, out);
   }
+  WriteExtra(person, names, shape, out);
 }
 
 }  // namespace kinescope::ros_bridge

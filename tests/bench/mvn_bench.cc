@@ -1,5 +1,5 @@
 // What the input path costs: datagrams decoded and joined to samples, and a sample made into a
-// scene (link poses, angles, static loads, classes). No socket.
+// scene (link poses, angles, static loads, classes), and an MVNX file. No socket.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -8,7 +8,9 @@
 #include "server/app/scene_builder.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/encode.h"
+#include "server/mvn/mvnx_source.h"
 #include "server/subject/subject.h"
+#include "tests/server/mvn/synthetic_mvnx.h"
 
 namespace kinescope {
 namespace {
@@ -81,6 +83,23 @@ void SampleToScene(benchmark::State& run) {
   }
 }
 BENCHMARK(SampleToScene)->Unit(benchmark::kMicrosecond);
+
+// A minute and a half at 240 Hz, as long as its text fits the cache of nobody.
+void ReadMvnx(benchmark::State& run) {
+  constexpr int kFrames = 20'000;
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
+  std::string text =
+      mvn::testing::WriteMvnx(4, kRateHz, skeleton, mvn::testing::SwingingArms(skeleton, kFrames));
+  Nothing sink;
+  for (auto _ : run) {
+    mvn::MvnxSource source(fmemopen(text.data(), text.size(), "rb"), "bench.mvnx");
+    while (source.Poll({}, sink) == Source::State::kMore) {
+    }
+    if (source.counters().samples != kFrames) run.SkipWithError("frames lost");
+  }
+  run.SetBytesProcessed(static_cast<std::int64_t>(run.iterations() * text.size()));
+}
+BENCHMARK(ReadMvnx)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace kinescope

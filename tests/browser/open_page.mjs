@@ -31,12 +31,25 @@ async function launch() {
   const { chromium } = await import('playwright-core').catch(() => {
     throw new Error('playwright-core is missing: npm ci --prefix tests/browser');
   });
-  return chromium.launch({ executablePath: CHROMIUM, args: FLAGS });
+  return chromium.launch({ executablePath: CHROMIUM, args: FLAGS, timeout: 2 * START_MILLIS });
+}
+
+/** `work`, or an error that names `what` when it takes longer than `millis`. */
+async function within(millis, what, work) {
+  let timer;
+  const late = new Promise((_, reject) => {
+    timer = setTimeout(() => reject(new Error(`${what} took more than ${millis / 1000} s`)), millis);
+  });
+  try {
+    return await Promise.race([work, late]);
+  } finally {
+    clearTimeout(timer);
+  }
 }
 
 /** Call once when all tests are through. */
 export async function closeBrowser() {
-  await browser?.close();
+  if (browser) await within(START_MILLIS, 'closing Chromium', browser.close());
   browser = null;
 }
 
@@ -65,7 +78,12 @@ export async function startServer(program, args = []) {
     },
     async stop() {
       child.stdin.end();
-      if (child.exitCode === null && child.signalCode === null) await once(child, 'exit');
+      if (child.exitCode !== null || child.signalCode !== null) return;
+      try {
+        await within(START_MILLIS, `the end of ${program}`, once(child, 'exit'));
+      } finally {
+        child.kill('SIGKILL');
+      }
     },
   };
 }
@@ -85,9 +103,9 @@ export function startFixture(args = []) {
  *  @returns `problems`: console errors, exceptions, failed and foreign requests, as lines */
 export async function openPage(url, options = {}) {
   browser ??= await launch();
-  const context = await browser.newContext({
+  const context = await within(START_MILLIS, 'a new page', browser.newContext({
     viewport: options.viewport ?? DESKTOP, colorScheme: options.colorScheme ?? 'light', ...options.context,
-  });
+  }));
   const page = await context.newPage();
   const problems = [];
   const requests = [];

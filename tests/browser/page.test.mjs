@@ -3,11 +3,13 @@ import assert from 'node:assert/strict';
 import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { after, before, test as nodeTest } from 'node:test';
 import { closeBrowser, countPixels, DESKTOP, openPage, PHONE, pixelsOf, saveScreenshot, startFixture }
   from './open_page.mjs';
 
 const LONG = { timeout: 30000 };  // a busy machine without a graphics chip
+// A test that hangs ends by name instead of taking all the others with it.
+const test = (name, body) => nodeTest(name, { timeout: 90000 }, body);
 let site;
 before(async () => { site = await startFixture(); });
 after(async () => {

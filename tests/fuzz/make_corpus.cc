@@ -8,6 +8,7 @@
 
 #include "server/mvn/byte_order.h"
 #include "server/mvn/encode.h"
+#include "tests/server/mvn/capture_builder.h"
 #include "tests/server/mvn/mvn_testing.h"
 #include "tests/server/mvn/synthetic_mvnx.h"
 
@@ -85,6 +86,32 @@ void WriteSessions(const fs::path& folder, RandomValues& random) {
   Write(folder / "bad_network", bad);
 }
 
+// Datagrams one after the other, as TCP has them, and what can be wrong with that.
+void WriteStreams(const fs::path& folder, RandomValues& random) {
+  constexpr std::size_t kPayloadSizeAt = 22;
+  std::vector<std::string> datagrams = mvn::EncodeSample(RandomSample(random, 1200));
+  Character character = Ines();
+  for (const std::string& datagram : mvn::EncodeCharacter(character)) datagrams.push_back(datagram);
+  character.name = "MXTP02 MXTP13";
+  datagrams.push_back(mvn::EncodeCharacter(character).front());
+  std::string good, old, cut, lying, foreign;
+  for (std::string datagram : datagrams) {
+    good += datagram;
+    const auto size = static_cast<int>(datagram.size());
+    cut += datagram.substr(0, static_cast<std::size_t>(random.Integer(1, size)));
+    foreign += datagram + (random.Coin(0.5) ? R"({"sync":"start"})" : std::string(5, '\0'));
+    datagram[kPayloadSizeAt] = datagram[kPayloadSizeAt + 1] = 0;
+    old += datagram;
+    datagram[kPayloadSizeAt] = static_cast<char>(random.Integer(0, 255));
+    lying += datagram;
+  }
+  Write(folder / "good", good);
+  Write(folder / "old_headers", old);
+  Write(folder / "cut_short", cut + good);
+  Write(folder / "lying_sizes", lying + good);
+  Write(folder / "foreign", foreign);
+}
+
 void WriteFiles(const fs::path& folder) {
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
   for (const int version : {3, 4}) {
@@ -96,6 +123,46 @@ void WriteFiles(const fs::path& folder) {
   }
   Write(folder / "doctype.mvnx",
         "<!DOCTYPE mvnx [<!ENTITY a \"b\">]><mvnx version=\"4\">&a;</mvnx>");
+}
+
+// Every way in which a datagram may lie in a capture.
+void WriteCaptures(const fs::path& folder) {
+  using namespace mvn::testing;
+  const mvn::Endpoint suit = Ipv4(20, 50'001);
+  const mvn::Endpoint us = Ipv4(10, 9763);
+  RawDatagram raw;
+  raw.type = "24";
+  raw.payload = std::string(36, '\0');
+  const std::string small = raw.Bytes();
+  raw = RawDatagram();
+  raw.items = 23;
+  raw.payload = PoseItems(1, 23);
+  const std::string pose = raw.Bytes();
+  const std::string udp = Udp(suit, us, small);
+  const std::string udp6 = Udp(Ipv6(1, 7), Ipv6(2, 9763), small);
+  Write(folder / "ethernet",
+        PcapBuilder(kLinkEthernet).Add(5, Ethernet(udp)).Add(4, Ethernet(udp6, 2)).bytes());
+  Write(folder / "cooked",
+        PcapBuilder(kLinkCooked, false).Add(5, LinuxCooked(udp)).bytes());
+  Write(folder / "cooked2", PcapBuilder(kLinkCooked2).Add(5, LinuxCooked2(udp6)).bytes());
+  Write(folder / "loopback", PcapBuilder(kLinkNull).Add(5, Loopback(udp)).bytes());
+  Write(folder / "pcapng", PcapNgBuilder(kLinkRaw).AddOther("x").Add(5, udp).bytes());
+  PcapBuilder pieces(kLinkRaw);
+  for (const mvn::Endpoint& to : {us, Ipv6(2, 9763)}) {
+    const mvn::Endpoint from = mvn::IsIpv4(to) ? suit : Ipv6(1, 7);
+    for (const std::string& piece : Fragments(Udp(from, to, pose), 400, 3)) pieces.Add(6, piece);
+  }
+  Write(folder / "fragments", pieces.bytes());
+  PcapBuilder tcp(kLinkRaw);
+  tcp.Add(1, Tcp(suit, us, 99, kSyn, ""));
+  tcp.Add(2, Tcp(suit, us, 200, kAck, pose.substr(100)));
+  tcp.Add(3, Tcp(suit, us, 100, kAck, pose.substr(0, 150)));
+  const auto next = static_cast<std::uint32_t>(100 + pose.size());
+  tcp.Add(4, Tcp(suit, us, next + 30, kAck, small));
+  tcp.Add(3'000'000'000, Tcp(suit, us, next + 99, kAck | kFin, small));
+  Write(folder / "tcp", tcp.bytes());
+  Write(folder / "tcp_cut", tcp.bytes().substr(0, tcp.bytes().size() - 9));
+  Write(folder / "raw", small + "<sync/>" + pose);
 }
 
 }  // namespace
@@ -110,5 +177,8 @@ int main(int argc, char** argv) {
   WriteDatagrams(folder / "datagram", random);
   WriteSessions(folder / "assembler", random);
   WriteFiles(folder / "mvnx");
+  WriteCaptures(folder / "pcap");
+  RandomValues streams(21);
+  WriteStreams(folder / "framing", streams);
   return 0;
 }

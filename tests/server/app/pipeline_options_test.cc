@@ -43,6 +43,8 @@ TEST(PipelineOptions, ReadSizes) {
 TEST(PipelineOptions, ReadModesAndSwitches) {
   EXPECT_EQ(ToRosMode("off"), ros_bridge::RosMode::kOff);
   EXPECT_THROW(ToRosMode("maybe"), UsageError);
+  EXPECT_EQ(ToStamps("arrival"), mvn::Stamps::kArrival);
+  EXPECT_THROW(ToStamps("sender"), UsageError);
   EXPECT_TRUE(ToSwitch("pictures", "on"));
   EXPECT_THROW(ToSwitch("pictures", "yes"), UsageError);
 }

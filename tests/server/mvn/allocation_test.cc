@@ -32,11 +32,16 @@ struct CountingSink : SampleSink {
   void OnSample(const BodySample&) override { ++samples; }
 };
 
-TEST(InputPath, AllocatesNothingPerDatagramOfPoseDataOrRubbish) {
+TEST(InputPath, AllocatesNothingPerDatagramOfASampleOrRubbish) {
   testing::RandomValues random(5);
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
+  const TypeSet every_type =
+      MakeTypeSet({Type::kEulerPose, Type::kPose, Type::kMarkers, Type::kJointAngles, Type::kLinear,
+                   Type::kAngular, Type::kTrackers, Type::kCenterOfMass, Type::kTimeCode});
   std::vector<std::vector<std::string>> sent;
   for (std::uint32_t counter = 1; counter <= 200; ++counter) {
-    sent.push_back(EncodeSample(testing::RandomSample(random, counter)));
+    sent.push_back(EncodeSample(testing::RandomFullSample(random, counter), every_type, &skeleton));
+    ASSERT_EQ(sent.back().size(), 9U);
     sent.back().push_back(R"({"sync":"start"})");
     sent.back().push_back(sent.back().front().substr(0, 700));
   }

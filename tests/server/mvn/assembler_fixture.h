@@ -61,7 +61,7 @@ class AssemblerTest : public ::testing::Test {
 
   // Every datagram ended in exactly one place, once the last sample is closed.
   void ExpectAllAccountedFor() {
-    Wait(1000 * kMilli);
+    Wait(4000 * kMilli);
     assembler_.Expire(now_, sink_);
     EXPECT_EQ(assembler_.tally().settled(), assembler_.tally().datagrams);
     EXPECT_EQ(assembler_.deadline_nanos(), std::nullopt);

@@ -59,7 +59,7 @@ std::vector<std::string> EveryType() {
   datagrams.push_back(raw.Bytes());
   raw.type = "23";
   raw.items = 17;
-  raw.payload = Items(1, 17, 16, 1);
+  raw.payload = Items(1, 17, 16, 1, 0);
   datagrams.push_back(raw.Bytes());
   raw.type = "25";
   raw.items = 1;
@@ -256,20 +256,91 @@ TEST(Datagram, ReadsScaleDataInParts) {
   EXPECT_EQ(points.points[0].offset, Eigen::Vector3d(0.125, 0, 0.1875));
 }
 
-TEST(Datagram, KnowsTheTypesItDoesNotNeed) {
+TEST(Datagram, TurnsEulerPosesToTheAxesAndUnitsOfQuaternionPoses) {
   RawDatagram raw;
-  const auto type_of = [&raw](const std::string& type, int items, const std::string& payload) {
-    raw.type = type;
-    raw.items = items;
-    raw.payload = payload;
-    Parsed<NotNeeded>(raw.Bytes());
+  raw.type = "01";
+  raw.items = 1;
+  // Segment 1 at 50, 95, 10 cm; the three turns one at a time.
+  const auto parsed = [&raw](const std::string& degrees) {
+    raw.payload = FromHex("00000001 42480000 42be0000 41200000" + degrees);
+    return Parsed<EulerPoseMessage>(raw.Bytes());
   };
-  type_of("01", 23, Items(1, 23, 6, 1));
-  type_of("03", 38, Items(257, 38, 3, 1));
-  type_of("23", 17, Items(1, 17, 16, 1));
-  type_of("23", 17, Items(1, 17, 10, 1));  // 44 bytes each: an old specification's form
-  type_of("25", 0, FromHex("0000000c") + "08:30:12.250");
-  type_of("25", 1, "08:30:12");
+  const auto about_x = parsed("42b40000 00000000 00000000");  // 90 degrees each
+  EXPECT_TRUE(about_x.items[0].position.isApprox(Eigen::Vector3d(0.1, 0.5, 0.95), 1e-6));
+  const auto turns = [](const EulerPoseMessage& pose, const Eigen::Vector3d& axis) {
+    const Eigen::AngleAxisd turn(pose.items[0].orientation);
+    return turn.axis().isApprox(axis, 1e-6) && std::abs(turn.angle() - M_PI / 2) < 1e-6;
+  };
+  EXPECT_TRUE(turns(about_x, Eigen::Vector3d::UnitY()));
+  EXPECT_TRUE(turns(parsed("00000000 42b40000 00000000"), Eigen::Vector3d::UnitZ()));
+  EXPECT_TRUE(turns(parsed("00000000 00000000 42b40000"), Eigen::Vector3d::UnitX()));
+}
+
+TEST(Datagram, ReadsVirtualMarkersInMetres) {
+  RawDatagram raw;
+  raw.type = "03";
+  raw.items = 1;
+  raw.payload = FromHex("0000010d 42480000 42be0000 41200000");  // pSacrum: segment 1, point 13
+  const auto markers = Parsed<MarkersMessage>(raw.Bytes());
+  ASSERT_EQ(markers.count, 1);
+  EXPECT_EQ(markers.markers[0].segment_id, 1U);
+  EXPECT_EQ(markers.markers[0].point_id, 13U);
+  EXPECT_TRUE(markers.markers[0].position.isApprox(Eigen::Vector3d(0.1, 0.5, 0.95), 1e-6));
+}
+
+TEST(Datagram, ReadsTrackersInBothTheirSizes) {
+  RawDatagram raw;
+  raw.type = "23";
+  raw.items = 2;
+  ByteWriter out(raw.payload);
+  const auto write = [&out](std::uint32_t id, int numbers) {
+    out.Write(id);
+    for (const double part : {0.0, 1.0, 0.0, 0.0}) out.WriteFloat(part);  // w x y z
+    for (int i = 0; i < numbers; ++i) out.WriteFloat(i);
+  };
+  write(5, 12);
+  write(24, 12);  // a tracker on a prop
+  const auto whole = Parsed<TrackersMessage>(raw.Bytes());
+  EXPECT_EQ(whole.present.count(), 1U);
+  EXPECT_EQ(whole.skipped, 1);
+  const TrackerState& tracker = whole.trackers[urdf::kT8];
+  EXPECT_TRUE(tracker.has_rates);
+  EXPECT_EQ(tracker.orientation.coeffs(), Eigen::Vector4d(1, 0, 0, 0));
+  EXPECT_EQ(tracker.free_acceleration, Eigen::Vector3d(0, 1, 2));
+  EXPECT_EQ(tracker.acceleration, Eigen::Vector3d(3, 4, 5));
+  EXPECT_EQ(tracker.angular_velocity, Eigen::Vector3d(6, 7, 8));
+  EXPECT_EQ(tracker.magnetic_field, Eigen::Vector3d(9, 10, 11));
+
+  raw.payload.clear();
+  write(5, 6);
+  write(7, 6);
+  const auto old = Parsed<TrackersMessage>(raw.Bytes());
+  ASSERT_TRUE(old.present.test(urdf::kT8));
+  EXPECT_FALSE(old.trackers[urdf::kT8].has_rates);
+  EXPECT_EQ(old.trackers[urdf::kT8].magnetic_field, Eigen::Vector3d(3, 4, 5));
+}
+
+TEST(Datagram, ReadsTheTimeOfDayHoweverItIsPacked) {
+  RawDatagram raw;
+  raw.type = "25";
+  const auto millis = [&raw](const std::string& payload) {
+    raw.payload = payload;
+    return Parsed<TimeCodeMessage>(raw.Bytes()).utc_millis_of_day;
+  };
+  constexpr int kSeconds = (8 * 60 + 30) * 60 + 12;
+  EXPECT_EQ(millis(FromHex("0000000c") + "08:30:12.250"), kSeconds * 1000 + 250);
+  EXPECT_EQ(millis(FromHex("00000008") + "08:30:12"), kSeconds * 1000);
+  EXPECT_EQ(millis("08:30:12.250"), kSeconds * 1000 + 250);
+  EXPECT_EQ(millis("08:30:12.5"), kSeconds * 1000 + 500);
+  EXPECT_EQ(millis("00:00:00"), 0);
+  raw.payload = FromHex("0000000c") + "08:30:12.250";
+  raw.announced_payload = 12;  // as a sender that forgets the length's own four bytes
+  EXPECT_EQ(Parsed<TimeCodeMessage>(raw.Bytes()).utc_millis_of_day, kSeconds * 1000);
+  raw.announced_payload = -1;
+  for (const std::string wrong : {"24:00:00", "08:60:00", "08-30-12", "08:30:12,250", "ab:cd:ef"}) {
+    raw.payload = FromHex("0000000c") + wrong;
+    EXPECT_EQ(ReasonOf(raw.Bytes()), Text(Reason::kTimeOfDay)) << wrong;
+  }
 }
 
 TEST(Datagram, RefusesLegacyTypesByNameAndSaysWhatToSwitchOn) {
@@ -351,9 +422,9 @@ TEST(Datagram, UnderstandsSendersFromBeforePayloadSizesWereSent) {
   raw.announced_payload = 0;
   std::string old = raw.Bytes();
   for (const std::size_t byte : {17U, 18U, 19U}) old[byte] = 0;  // one reserved block then
-  EXPECT_TRUE(Parsed<PoseMessage>(old).present.all());
+  EXPECT_TRUE(Parsed<PoseMessage>(old).HasBody());
   raw.items = 0;  // and where not even the items are counted
-  EXPECT_TRUE(Parsed<PoseMessage>(raw.Bytes()).present.all());
+  EXPECT_TRUE(Parsed<PoseMessage>(raw.Bytes()).HasBody());
   EXPECT_EQ(ReasonOf(old.substr(0, old.size() - 1)), Text(Reason::kItemCount));
 }
 
@@ -362,28 +433,78 @@ TEST(Datagram, IgnoresBytesAfterThePayload) {
   raw.items = 23;
   raw.payload = PoseItems(1, 23);
   raw.announced_payload = static_cast<int>(raw.payload.size());
-  EXPECT_TRUE(Parsed<PoseMessage>(raw.Bytes() + "and more").present.all());
+  EXPECT_TRUE(Parsed<PoseMessage>(raw.Bytes() + "and more").HasBody());
 }
 
 TEST(Datagram, AcceptsItemsThatALaterVersionMadeLonger) {
   RawDatagram raw;
   raw.items = 23;
   raw.payload = Items(1, 23, 8, 0.25, 3);  // one float more in each
-  EXPECT_TRUE(Parsed<PoseMessage>(raw.Bytes()).present.all());
+  EXPECT_TRUE(Parsed<PoseMessage>(raw.Bytes()).HasBody());
 }
 
-TEST(Datagram, CountsFingersAndPropsWithoutIndexingThem) {
+std::size_t Slot(int extra) { return static_cast<std::size_t>(urdf::kSegmentCount + extra); }
+
+// Items of the ids 1 to `count`, item i at x = i / 100.
+std::string NumberedPoses(int count) {
+  std::string payload;
+  for (int i = 0; i < count; ++i) {
+    payload += Items(static_cast<std::uint32_t>(i + 1), 1, 7, i / 128.0, 3);
+  }
+  return payload;
+}
+
+TEST(Datagram, PutsPropsAndFingersWhereTheyBelongHoweverManyPropsThereAre) {
+  for (int props = 0; props <= kMostProps; ++props) {
+    RawDatagram raw;
+    raw.props = props;
+    raw.fingers = 40;
+    raw.items = 63 + props;
+    raw.payload = NumberedPoses(raw.items);
+    ASSERT_EQ(raw.Bytes().size(), static_cast<std::size_t>(24 + 32 * raw.items));
+    const auto pose = Parsed<PoseMessage>(raw.Bytes());
+    EXPECT_EQ(pose.present.count(), static_cast<std::size_t>(raw.items));
+    EXPECT_EQ(pose.skipped + pose.odd_ids, 0);
+    const auto number = [&](int extra) {
+      return std::lround(pose.items[Slot(extra)].position.x() * 128);
+    };
+    for (int prop = 0; prop < props; ++prop) EXPECT_EQ(number(PropIndex(prop)), 23 + prop);
+    for (int finger = 0; finger < kFingersPerHand; ++finger) {
+      EXPECT_EQ(number(FingerIndex(urdf::kLeft, finger)), 23 + props + finger);
+      EXPECT_EQ(number(FingerIndex(urdf::kRight, finger)), 43 + props + finger);
+    }
+  }
+}
+
+TEST(Datagram, GoesByOrderWherePropsAreNumberedDifferentlyAndSaysSo) {
   RawDatagram raw;
-  raw.items = 63;  // both gloves: 2040 bytes in one datagram
+  raw.props = 1;
+  raw.items = 24;
+  raw.payload = PoseItems(1, 23) + Items(25, 1, 7, 0.5, 3);  // 25, as some senders have it
+  const auto pose = Parsed<PoseMessage>(raw.Bytes());
+  EXPECT_TRUE(pose.present.test(Slot(PropIndex(0))));
+  EXPECT_EQ(pose.odd_ids, 1);
+}
+
+TEST(Datagram, KnowsThePropsOfAnOldHeaderByTheirId) {
+  RawDatagram raw;
+  raw.body_segments = 0;
+  raw.items = 24;
+  raw.payload = PoseItems(1, 24);
+  EXPECT_TRUE(Parsed<PoseMessage>(raw.Bytes()).present.test(Slot(PropIndex(0))));
+}
+
+TEST(Datagram, SkipsWhatItsHeaderDoesNotAnnounce) {
+  RawDatagram raw;
+  raw.items = 63;
   raw.payload = PoseItems(1, 63);
-  ASSERT_EQ(raw.Bytes().size(), 2040U);
   const auto gloves = Parsed<PoseMessage>(raw.Bytes());
-  EXPECT_TRUE(gloves.present.all());
+  EXPECT_TRUE(gloves.HasBody());
   EXPECT_EQ(gloves.skipped, 40);
-  raw.items = 67;  // and four props
+  raw.props = 255;  // no more than four have a place
+  raw.items = 67;
   raw.payload = PoseItems(1, 67);
-  ASSERT_EQ(raw.Bytes().size(), 2168U);
-  EXPECT_EQ(Parsed<PoseMessage>(raw.Bytes()).skipped, 44);
+  EXPECT_EQ(Parsed<PoseMessage>(raw.Bytes()).skipped, 40);
   raw.items = 1;
   raw.payload = PoseItems(0xFFFFFFFF, 1);
   EXPECT_EQ(Parsed<PoseMessage>(raw.Bytes()).skipped, 1);

@@ -1,7 +1,8 @@
 #include "server/mvn/encode.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <array>
 
 #include "tests/server/mvn/mvn_testing.h"
 
@@ -12,16 +13,8 @@ using testing::RandomValues;
 
 constexpr double kFloatNoise = 1e-6;  // of a quaternion that was rounded to floats, then normalised
 
-template <class Item>
-PerSegment<Item> RandomSegments(RandomValues& random, void (*fill)(RandomValues&, Item&)) {
-  PerSegment<Item> body;
-  for (std::size_t i = 0; i < body.items.size(); ++i) {
-    if (i > 0 && random.Coin(0.3)) continue;  // never empty: a body without items is refused
-    body.present.set(i);
-    fill(random, body.items[i]);
-  }
-  return body;
-}
+// Of a length in m that went through centimetres in a float.
+double CentimetreNoise(const Eigen::Vector3d& value) { return 2e-7 * (value.norm() + 1e-3); }
 
 Message RandomMessage(RandomValues& random, Body body) {
   Message message;
@@ -34,6 +27,29 @@ Message RandomMessage(RandomValues& random, Body body) {
   message.header.props = random.Integer(0, 4);
   message.header.finger_segments = random.Coin(0.5) ? 40 : 0;
   message.body = std::move(body);
+  return message;
+}
+
+// Whether a message with `header` may hold an item in `slot`.
+bool HasPlace(const Header& header, std::size_t slot) {
+  if (slot < urdf::kSegmentCount) return true;
+  const std::size_t extra = slot - urdf::kSegmentCount;
+  return extra < kMostProps ? extra < static_cast<std::size_t>(header.props)
+                            : header.finger_segments > 0;
+}
+
+// Body, props and fingers as the header announces them; all of them, or each with a chance.
+template <class Segments, class Item>
+Message RandomSegments(RandomValues& random, void (*fill)(RandomValues&, Item&)) {
+  Message message = RandomMessage(random, Segments());
+  auto& body = std::get<Segments>(message.body);
+  const double missing = random.Coin(0.5) ? 0 : 0.3;
+  for (std::size_t i = 0; i < body.items.size(); ++i) {
+    if (!HasPlace(message.header, i)) continue;
+    if (i > 0 && random.Coin(missing)) continue;  // never empty: a body without items is refused
+    body.present.set(i);
+    fill(random, body.items[i]);
+  }
   return message;
 }
 
@@ -50,6 +66,7 @@ Message ThereAndBack(const Message& message) {
   EXPECT_EQ(back->header.is_last_part, message.header.is_last_part);
   EXPECT_EQ(back->header.time_code_millis, message.header.time_code_millis);
   EXPECT_EQ(back->header.character, message.header.character);
+  EXPECT_EQ(back->header.body_segments, message.header.body_segments);
   EXPECT_EQ(back->header.props, message.header.props);
   EXPECT_EQ(back->header.finger_segments, message.header.finger_segments);
   EXPECT_EQ(back->header.payload_bytes + kHeaderBytes, datagram.size());
@@ -57,18 +74,27 @@ Message ThereAndBack(const Message& message) {
   return *back;
 }
 
+// The body of `message` that comes back.
+template <class Content>
+Content BodyBack(const Message& message) {
+  return std::get<Content>(ThereAndBack(message).body);
+}
+
 class RoundTrip : public ::testing::TestWithParam<std::uint32_t> {
  protected:
   RandomValues random_{GetParam()};
 };
-INSTANTIATE_TEST_SUITE_P(Seeds, RoundTrip, ::testing::Range(1U, 21U));
+INSTANTIATE_TEST_SUITE_P(Seeds, RoundTrip, ::testing::Range(1U, 41U));
 
-TEST_P(RoundTrip, KeepsPoses) {
-  const auto body = RandomSegments<PoseItem>(random_, [](RandomValues& random, PoseItem& item) {
-    item = {random.Vector(10), random.Turn()};
-  });
-  const auto back = std::get<PoseMessage>(ThereAndBack(RandomMessage(random_, body)).body);
+void FillPose(RandomValues& random, PoseItem& item) { item = {random.Vector(10), random.Turn()}; }
+
+TEST_P(RoundTrip, KeepsPosesOfBodyPropsAndFingers) {
+  const Message message = RandomSegments<PoseMessage>(random_, &FillPose);
+  const auto& body = std::get<PoseMessage>(message.body);
+  const auto back = BodyBack<PoseMessage>(message);
   EXPECT_EQ(back.present, body.present);
+  EXPECT_EQ(back.skipped, 0);
+  EXPECT_EQ(back.odd_ids, 0) << "our ids are those of the specification";
   for (std::size_t i = 0; i < body.items.size(); ++i) {
     EXPECT_EQ(back.items[i].position, body.items[i].position);
     EXPECT_LT(back.items[i].orientation.angularDistance(body.items[i].orientation), kFloatNoise);
@@ -76,72 +102,161 @@ TEST_P(RoundTrip, KeepsPoses) {
   }
 }
 
-TEST_P(RoundTrip, KeepsLinearAndAngularKinematics) {
-  const auto linear =
-      RandomSegments<LinearItem>(random_, [](RandomValues& random, LinearItem& item) {
-        item = {random.Vector(10), random.Vector(5), random.Vector(100)};
-      });
-  const auto linear_back =
-      std::get<LinearMessage>(ThereAndBack(RandomMessage(random_, linear)).body);
-  const auto angular =
-      RandomSegments<AngularItem>(random_, [](RandomValues& random, AngularItem& item) {
-        item = {random.Turn(), random.Vector(20), random.Vector(500)};
-      });
-  const auto angular_back =
-      std::get<AngularMessage>(ThereAndBack(RandomMessage(random_, angular)).body);
-  EXPECT_EQ(linear_back.present, linear.present);
-  EXPECT_EQ(angular_back.present, angular.present);
-  for (std::size_t i = 0; i < linear.items.size(); ++i) {
-    EXPECT_EQ(linear_back.items[i].position, linear.items[i].position);
-    EXPECT_EQ(linear_back.items[i].velocity, linear.items[i].velocity);
-    EXPECT_EQ(linear_back.items[i].acceleration, linear.items[i].acceleration);
-    EXPECT_LT(angular_back.items[i].orientation.angularDistance(angular.items[i].orientation),
-              kFloatNoise);
-    EXPECT_EQ(angular_back.items[i].velocity, angular.items[i].velocity);
-    EXPECT_EQ(angular_back.items[i].acceleration, angular.items[i].acceleration);
+TEST_P(RoundTrip, KeepsEulerPosesThroughCentimetresAndYUp) {
+  const Message message = RandomSegments<EulerPoseMessage>(random_, &FillPose);
+  const auto& body = std::get<EulerPoseMessage>(message.body);
+  const auto back = BodyBack<EulerPoseMessage>(message);
+  EXPECT_EQ(back.present, body.present);
+  for (std::size_t i = 0; i < body.items.size(); ++i) {
+    const Eigen::Vector3d& position = body.items[i].position;
+    EXPECT_LT((back.items[i].position - position).norm(), CentimetreNoise(position));
+    EXPECT_LT(back.items[i].orientation.angularDistance(body.items[i].orientation), kFloatNoise);
   }
 }
 
-TEST_P(RoundTrip, KeepsJointAnglesAndCentreOfMass) {
-  JointAnglesMessage angles;
-  for (std::size_t i = 0; i < angles.joints.size(); ++i) {
-    if (i > 0 && random_.Coin(0.2)) continue;
-    angles.joints_present.set(i);
-    angles.joints[i] = random_.Vector(180);
+TEST_P(RoundTrip, KeepsLinearAndAngularKinematics) {
+  const Message linear = RandomSegments<LinearMessage, LinearItem>(
+      random_, [](RandomValues& random, LinearItem& item) {
+        item = {random.Vector(10), random.Vector(5), random.Vector(100)};
+      });
+  const Message angular = RandomSegments<AngularMessage, AngularItem>(
+      random_, [](RandomValues& random, AngularItem& item) {
+        item = {random.Turn(), random.Vector(20), random.Vector(500)};
+      });
+  const auto& linear_sent = std::get<LinearMessage>(linear.body);
+  const auto& angular_sent = std::get<AngularMessage>(angular.body);
+  const auto linear_back = BodyBack<LinearMessage>(linear);
+  const auto angular_back = BodyBack<AngularMessage>(angular);
+  EXPECT_EQ(linear_back.present, linear_sent.present);
+  EXPECT_EQ(angular_back.present, angular_sent.present);
+  for (std::size_t i = 0; i < linear_sent.items.size(); ++i) {
+    EXPECT_EQ(linear_back.items[i].position, linear_sent.items[i].position);
+    EXPECT_EQ(linear_back.items[i].velocity, linear_sent.items[i].velocity);
+    EXPECT_EQ(linear_back.items[i].acceleration, linear_sent.items[i].acceleration);
+    EXPECT_LT(angular_back.items[i].orientation.angularDistance(angular_sent.items[i].orientation),
+              kFloatNoise);
+    EXPECT_EQ(angular_back.items[i].velocity, angular_sent.items[i].velocity);
+    EXPECT_EQ(angular_back.items[i].acceleration, angular_sent.items[i].acceleration);
   }
-  const auto angles_back =
-      std::get<JointAnglesMessage>(ThereAndBack(RandomMessage(random_, angles)).body);
-  EXPECT_EQ(angles_back.joints_present, angles.joints_present);
-  EXPECT_EQ(angles_back.joints, angles.joints);
+}
 
-  CenterOfMassMessage com;
-  com.position = random_.Vector(5);
-  com.has_derivatives = random_.Coin(0.5);
-  if (com.has_derivatives) com.velocity = random_.Vector(5);
-  const auto com_back =
-      std::get<CenterOfMassMessage>(ThereAndBack(RandomMessage(random_, com)).body);
-  EXPECT_EQ(com_back.position, com.position);
-  EXPECT_EQ(com_back.velocity, com.velocity);
-  EXPECT_EQ(com_back.has_derivatives, com.has_derivatives);
+TEST_P(RoundTrip, KeepsMarkers) {
+  MarkersMessage body;
+  body.count = random_.Integer(1, 255);
+  for (int i = 0; i < body.count; ++i) {
+    body.markers[static_cast<std::size_t>(i)] = {
+        static_cast<std::uint32_t>(random_.Integer(1, 67)),
+        static_cast<std::uint32_t>(random_.Integer(0, 255)), random_.Vector(10)};
+  }
+  const auto back = BodyBack<MarkersMessage>(RandomMessage(random_, body));
+  ASSERT_EQ(back.count, body.count);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(body.count); ++i) {
+    EXPECT_EQ(back.markers[i].segment_id, body.markers[i].segment_id);
+    EXPECT_EQ(back.markers[i].point_id, body.markers[i].point_id);
+    EXPECT_LT((back.markers[i].position - body.markers[i].position).norm(),
+              CentimetreNoise(body.markers[i].position));
+  }
+}
+
+TEST_P(RoundTrip, KeepsTwentyTwoTwentySixOrTwentyEightJoints) {
+  JointAnglesMessage body;
+  for (Eigen::Vector3d& angles : body.joints) angles = random_.Vector(180);
+  for (Eigen::Vector3d& angles : body.ergonomic) angles = random_.Vector(180);
+  body.joints_present.set();
+  const std::size_t ergonomic = std::array<std::size_t, 3>{0, 4, 6}[GetParam() % 3];
+  for (std::size_t i = 0; i < ergonomic; ++i) body.ergonomic_present.set(i);
+  const auto back = BodyBack<JointAnglesMessage>(RandomMessage(random_, body));
+  EXPECT_EQ(back.joints_present, body.joints_present);
+  EXPECT_EQ(back.joints, body.joints);
+  EXPECT_EQ(back.ergonomic_present, body.ergonomic_present);
+  for (std::size_t i = 0; i < ergonomic; ++i) EXPECT_EQ(back.ergonomic[i], body.ergonomic[i]);
+}
+
+TEST_P(RoundTrip, KeepsAnyJointsThatArePresent) {
+  JointAnglesMessage body;
+  for (std::size_t i = 0; i < body.joints.size(); ++i) {
+    if (i > 0 && random_.Coin(0.2)) continue;
+    body.joints_present.set(i);
+    body.joints[i] = random_.Vector(180);
+  }
+  const auto back = BodyBack<JointAnglesMessage>(RandomMessage(random_, body));
+  EXPECT_EQ(back.joints_present, body.joints_present);
+  EXPECT_EQ(back.joints, body.joints);
+}
+
+TEST_P(RoundTrip, KeepsTrackersWithAndWithoutRates) {
+  for (const bool have_rates : {true, false}) {
+    TrackersMessage body;
+    for (std::size_t i = 0; i < body.trackers.size(); ++i) {
+      if (i > 0 && random_.Coin(0.3)) continue;
+      TrackerState& tracker = body.trackers[i];
+      body.present.set(i);
+      tracker.orientation = random_.Turn();
+      tracker.free_acceleration = random_.Vector(50);
+      tracker.magnetic_field = random_.Vector(1);
+      tracker.has_rates = have_rates;
+      if (!have_rates) continue;
+      tracker.acceleration = random_.Vector(50);
+      tracker.angular_velocity = random_.Vector(20);
+    }
+    const Message message = RandomMessage(random_, body);
+    EXPECT_EQ(Encode(message).size(), kHeaderBytes + body.present.count() * (have_rates ? 68 : 44));
+    const auto back = BodyBack<TrackersMessage>(message);
+    EXPECT_EQ(back.present, body.present);
+    EXPECT_EQ(back.skipped, 0);
+    for (std::size_t i = 0; i < body.trackers.size(); ++i) {
+      const TrackerState& sent = body.trackers[i];
+      const TrackerState& came = back.trackers[i];
+      EXPECT_LT(came.orientation.angularDistance(sent.orientation), kFloatNoise);
+      EXPECT_EQ(came.free_acceleration, sent.free_acceleration);
+      EXPECT_EQ(came.acceleration, sent.acceleration);
+      EXPECT_EQ(came.angular_velocity, sent.angular_velocity);
+      EXPECT_EQ(came.magnetic_field, sent.magnetic_field);
+      EXPECT_EQ(came.has_rates, sent.has_rates);
+    }
+  }
+}
+
+TEST_P(RoundTrip, KeepsCentresOfMassWithAndWithoutDerivatives) {
+  for (const bool has_derivatives : {true, false}) {
+    CenterOfMassMessage body;
+    body.position = random_.Vector(5);
+    body.has_derivatives = has_derivatives;
+    if (has_derivatives) body.velocity = random_.Vector(5);
+    if (has_derivatives) body.acceleration = random_.Vector(50);
+    const auto back = BodyBack<CenterOfMassMessage>(RandomMessage(random_, body));
+    EXPECT_EQ(back.position, body.position);
+    EXPECT_EQ(back.velocity, body.velocity);
+    EXPECT_EQ(back.acceleration, body.acceleration);
+    EXPECT_EQ(back.has_derivatives, body.has_derivatives);
+  }
+}
+
+TEST_P(RoundTrip, KeepsTimesOfDay) {
+  for (const std::int32_t millis : {0, random_.Integer(0, 86'399'999), 86'399'999}) {
+    const Message message = RandomMessage(random_, TimeCodeMessage{millis});
+    EXPECT_EQ(Encode(message).size(), kHeaderBytes + 16);
+    EXPECT_EQ(BodyBack<TimeCodeMessage>(message).utc_millis_of_day, millis);
+  }
 }
 
 TEST_P(RoundTrip, KeepsMetaAndScaleData) {
   MetaDataMessage meta;
   if (random_.Coin(0.7)) meta.name = "person " + std::to_string(random_.Integer(0, 1000));
   if (random_.Coin(0.7)) meta.color_rgb = static_cast<std::uint32_t>(random_.Integer(0, 0xFFFFFF));
-  const auto meta_back = std::get<MetaDataMessage>(ThereAndBack(RandomMessage(random_, meta)).body);
+  const auto meta_back = BodyBack<MetaDataMessage>(RandomMessage(random_, meta));
   EXPECT_EQ(meta_back.name, meta.name);
   EXPECT_EQ(meta_back.color_rgb, meta.color_rgb);
 
   ScaleMessage scale;
-  for (int i = random_.Integer(0, 30); i > 0; --i) {
+  for (int i = random_.Integer(0, 67); i > 0; --i) {
     scale.segments.push_back({"segment " + std::to_string(i), random_.Vector(2)});
   }
-  for (int i = random_.Integer(0, 30); i > 0; --i) {
-    scale.points.push_back({random_.Integer(1, 63), random_.Integer(0, 20),
+  for (int i = random_.Integer(0, 130); i > 0; --i) {
+    scale.points.push_back({random_.Integer(1, 67), random_.Integer(0, 20),
                             "point " + std::to_string(i), 8U, random_.Vector(0.5)});
   }
-  const auto back = std::get<ScaleMessage>(ThereAndBack(RandomMessage(random_, scale)).body);
+  const auto back = BodyBack<ScaleMessage>(RandomMessage(random_, scale));
   ASSERT_EQ(back.segments.size(), scale.segments.size());
   ASSERT_EQ(back.points.size(), scale.points.size());
   for (std::size_t i = 0; i < scale.segments.size(); ++i) {
@@ -149,74 +264,47 @@ TEST_P(RoundTrip, KeepsMetaAndScaleData) {
     EXPECT_EQ(back.segments[i].origin_in_world, scale.segments[i].origin_in_world);
   }
   for (std::size_t i = 0; i < scale.points.size(); ++i) {
-    EXPECT_EQ(back.points[i].name, scale.points[i].name);
     EXPECT_EQ(back.points[i].segment_id, scale.points[i].segment_id);
     EXPECT_EQ(back.points[i].point_id, scale.points[i].point_id);
+    EXPECT_EQ(back.points[i].name, scale.points[i].name);
     EXPECT_EQ(back.points[i].flags, scale.points[i].flags);
     EXPECT_EQ(back.points[i].offset, scale.points[i].offset);
   }
 }
 
-TEST(Encode, SendsASampleInTheSizesThatMvnHas) {
+// Straight up and down, where two of the three angles turn about the same axis.
+TEST(Encode, WritesEulerAnglesWhereTheyLock) {
+  const auto about = [](double degrees, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(degrees * M_PI / 180, axis);
+  };
+  for (const double pitch : {90.0, -90.0}) {
+    for (const double other : {0.0, 35.0, -170.0}) {
+      Message message;
+      message.header.body_segments = 23;
+      EulerPoseMessage body;
+      // The stream's y is the world's z.
+      body.items[0].orientation = about(other, Eigen::Vector3d::UnitX()) *
+                                  about(pitch, Eigen::Vector3d::UnitZ()) *
+                                  about(other / 2, Eigen::Vector3d::UnitY());
+      body.present.set(0);
+      message.body = body;
+      const auto back = BodyBack<EulerPoseMessage>(message);
+      EXPECT_LT(back.items[0].orientation.angularDistance(body.items[0].orientation), 1e-5)
+          << pitch << " " << other;
+    }
+  }
+}
+
+TEST(Encode, PatchesTheHeaderAndNothingElse) {
   RandomValues random(3);
-  const BodySample sample = testing::RandomSample(random, 1);
-  std::vector<std::pair<std::string, std::size_t>> sizes;
-  for (const std::string& datagram : EncodeSample(sample)) {
-    sizes.emplace_back(datagram.substr(4, 2), datagram.size());
-  }
-  using P = std::pair<std::string, std::size_t>;
-  EXPECT_THAT(sizes, ::testing::ElementsAre(P("02", 760), P("20", 464), P("21", 944), P("22", 1036),
-                                            P("24", 60)));
-}
-
-TEST(Encode, LeavesOutWhatASampleDoesNotHave) {
-  BodySample sample;
-  EXPECT_EQ(EncodeSample(sample).size(), 1U);
-  sample.com = CenterOfMass();
-  const auto datagrams = EncodeSample(sample);
-  ASSERT_EQ(datagrams.size(), 2U);
-  EXPECT_EQ(datagrams[1].size(), 36U) << "without derivatives the centre of mass is 12 bytes";
-}
-
-TEST(Encode, WritesTheHeaderOfACurrentMvn) {
-  BodySample sample;
-  sample.counter = 0x01020304;
-  sample.time_code_millis = 0x0a0b0c0d;
-  sample.character = 5;
-  // Alone in its sample, 23 items, 23 segments, no props or fingers, 23 * 32 bytes.
-  EXPECT_EQ(EncodeSample(sample)[0].substr(0, 24),
-            testing::FromHex("4d5854503032 01020304 80 17 0a0b0c0d 05 17 00 00 0000 02e0"));
-}
-
-TEST(Encode, SplitsScaleDataIntoSegmentsAndPoints) {
-  Character character;
-  character.id = 2;
-  character.name = "Ines\nname:Eve";
-  character.skeleton = urdf::DefaultSkeleton();
-  const auto datagrams = EncodeCharacter(character);
-  ASSERT_EQ(datagrams.size(), 3U);
-  EXPECT_EQ(datagrams[0].substr(0, 24).substr(10, 2), testing::FromHex("80 01"));
-  EXPECT_EQ(datagrams[1].substr(10, 2), testing::FromHex("00 00"));
-  EXPECT_EQ(datagrams[2].substr(10, 2), testing::FromHex("81 00"));
-  const auto meta = ParseDatagram(datagrams[0]);
-  EXPECT_EQ(std::get<MetaDataMessage>(meta->body).name, "Ines?name:Eve")
-      << "a line break in a name must not make a tag of its own";
-  const auto points = ParseDatagram(datagrams[2]);
-  std::vector<std::string> names;
-  for (const ScalePoint& point : std::get<ScaleMessage>(points->body).points) {
-    names.push_back(point.name);
-  }
-  EXPECT_THAT(names, ::testing::UnorderedElementsAre("pTopOfHead", "pRightTopOfHand",
-                                                     "pLeftTopOfHand", "pRightHeelFoot",
-                                                     "pLeftHeelFoot", "pRightToe", "pLeftToe"));
-}
-
-TEST(Encode, StandsTheTPoseOnTheFloorWithArmsSideways) {
-  const auto origins = TPoseOrigins(urdf::DefaultSkeleton());
-  EXPECT_LT(origins[urdf::kRightHand].y(), -0.6);
-  EXPECT_GT(origins[urdf::kLeftHand].y(), 0.6);
-  EXPECT_NEAR(origins[urdf::kRightHand].z(), origins[urdf::kRightUpperArm].z(), 1e-9);
-  EXPECT_NEAR(origins[urdf::kRightFoot].z(), 0.08, 1e-9) << "the ankle of the default body";
+  const std::string before = EncodeSample(testing::RandomSample(random, 9))[0];
+  std::string after = before;
+  PatchHeader({}, after);
+  EXPECT_EQ(after, before);
+  PatchHeader({17, 0x01020304, 0x0a0b0c0d}, after);
+  EXPECT_EQ(after.substr(0, 17), before.substr(0, 6) + testing::FromHex("01020304") +
+                                     before.substr(10, 2) + testing::FromHex("0a0b0c0d 11"));
+  EXPECT_EQ(after.substr(17), before.substr(17));
 }
 
 }  // namespace

@@ -17,9 +17,11 @@ namespace kinescope::mvn::testing {
 struct RecordingSink : SampleSink {
   std::vector<Character> characters;
   std::vector<BodySample> samples;
+  std::vector<ObjectsSample> objects;
 
   void OnCharacter(const Character& character) override { characters.push_back(character); }
   void OnSample(const BodySample& sample) override { samples.push_back(sample); }
+  void OnObjects(const ObjectsSample& sample) override { objects.push_back(sample); }
 };
 
 /// Values that a float holds exactly (up to 4096), so that a round trip through the wire is exact.
@@ -73,6 +75,24 @@ inline BodySample RandomSample(RandomValues& random, std::uint32_t counter) {
   return sample;
 }
 
+/// A sample with gloves, two props, every sensor and a time of day as well.
+inline BodySample RandomFullSample(RandomValues& random, std::uint32_t counter) {
+  BodySample sample = RandomSample(random, counter);
+  sample.utc_millis_of_day = static_cast<std::int32_t>(counter % 86'400'000);
+  for (int i = 0; i < kExtraCount; ++i) {
+    if (i >= 2 && i < kMostProps) continue;
+    sample.extra.present.set(static_cast<std::size_t>(i));
+    sample.extra.poses[static_cast<std::size_t>(i)] = {random.Vector(2), random.Turn()};
+  }
+  for (std::size_t i = 0; i < sample.trackers.size(); i += 2) {
+    sample.has_tracker.set(i);
+    TrackerState& tracker = sample.trackers[i];
+    tracker = {random.Turn(),    random.Vector(50), random.Vector(50),
+               random.Vector(9), random.Vector(1),  true};
+  }
+  return sample;
+}
+
 /// "4d58 5450" as bytes; white space is for the reader.
 inline std::string FromHex(const std::string& hex) {
   std::string bytes;
@@ -95,6 +115,9 @@ struct RawDatagram {
   int items = 0;
   std::uint32_t time_code_millis = 4;
   int character = 0;
+  int body_segments = 23;
+  int props = 0;
+  int fingers = 0;
   std::string payload;
   int announced_payload = -1;  // -1: its real size
 
@@ -105,7 +128,8 @@ struct RawDatagram {
     out.Write(static_cast<std::uint8_t>(datagram_counter));
     out.Write(static_cast<std::uint8_t>(items));
     out.Write(time_code_millis);
-    for (const int byte : {character, 23, 0, 0, 0, 0}) out.Write(static_cast<std::uint8_t>(byte));
+    for (const int byte : {character, body_segments, props, fingers, 0, 0})
+      out.Write(static_cast<std::uint8_t>(byte));
     out.Write(static_cast<std::uint16_t>(announced_payload < 0 ? static_cast<int>(payload.size())
                                                                : announced_payload));
     return bytes + payload;

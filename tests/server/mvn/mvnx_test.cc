@@ -8,6 +8,7 @@
 #include "server/core/errors.h"
 #include "server/mvn/mvnx_source.h"
 #include "server/mvn/open.h"
+#include "tests/heap_in_use.h"
 #include "tests/server/mvn/mvn_testing.h"
 #include "tests/server/mvn/synthetic_mvnx.h"
 #include "tests/shared_data.h"
@@ -178,6 +179,104 @@ TEST(Mvnx, SkipsAPropAmongTheSegments) {
   }
   MvnxSource source = Open(text);
   EXPECT_EQ(ReadAll(source).samples.size(), 1U);
+}
+
+TEST(Mvnx, SkipsFingersAndWhateverElseItDoesNotKnow) {
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
+  const std::string plain = WriteMvnx(4, 60, skeleton, SwingingArms(skeleton, 3));
+  std::string text = Replaced(
+      plain, "</segments>",
+      "</segments><fingerTrackingSegmentsLeft><segments><segment label=\"Pelvis\" id=\"1\">"
+      "<points><point label=\"jLeftWrist\"><pos_b>not numbers</pos_b></point></points></segment>"
+      "</segments><segment label=\"LeftCarpus\" id=\"1\"/></fingerTrackingSegmentsLeft>"
+      "<fingerTrackingJointsLeft><joint label=\"jL5S1\"/></fingerTrackingJointsLeft>");
+  text = Replaced(text, "</position>",
+                  "</position><orientationFingersLeft>1 0 0 0</orientationFingersLeft>"
+                  "<future><orientation>1 2</orientation></future><marker>take 3</marker>");
+  text = Replaced(text, "</subject>", "</subject><securityCode code=\"87b44419\"/>");
+  MvnxSource source = Open(text);
+  const RecordingSink sink = ReadAll(source);
+  std::string untouched = plain;
+  MvnxSource plain_source = Open(untouched);
+  const RecordingSink expected = ReadAll(plain_source);
+  ASSERT_EQ(sink.samples.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < urdf::kSegmentCount; ++k) {
+      const SegmentState& given = sink.samples[i].segments[k];
+      const SegmentState& wanted = expected.samples[i].segments[k];
+      EXPECT_EQ(given.position, wanted.position);
+      EXPECT_EQ(given.orientation.coeffs(), wanted.orientation.coeffs());
+    }
+  }
+}
+
+// A file that is written while it is read: `start`, then `frames` times the text between the two
+// halves of a frame with the next index, then `end`.
+class EndlessFile {
+ public:
+  EndlessFile(std::string start, std::string before, std::string after, std::string end, int frames)
+      : text_(std::move(start)),
+        before_(std::move(before)),
+        after_(std::move(after)),
+        end_(std::move(end)),
+        frames_(frames) {}
+
+  std::FILE* Open() {
+    cookie_io_functions_t functions{};
+    functions.read = [](void* self, char* to, std::size_t size) {
+      return static_cast<EndlessFile*>(self)->Read(to, size);
+    };
+    return fopencookie(this, "rb", functions);
+  }
+
+ private:
+  ssize_t Read(char* to, std::size_t size) {
+    while (at_ == text_.size()) {
+      if (next_ > frames_) return 0;
+      text_ = next_ == frames_ ? end_ : before_ + std::to_string(next_) + after_;
+      ++next_;
+      at_ = 0;
+    }
+    const std::size_t count = std::min(size, text_.size() - at_);
+    std::memcpy(to, text_.data() + at_, count);
+    at_ += count;
+    return static_cast<ssize_t>(count);
+  }
+
+  std::string text_, before_, after_, end_;
+  std::size_t at_ = 0;
+  int next_ = 0;
+  int frames_;
+};
+
+TEST(Mvnx, ItsMemoryDoesNotGrowWithTheFile) {
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
+  const std::string small = WriteMvnx(4, 240, skeleton, SwingingArms(skeleton, 1));
+  const std::string mark = "index=\"0\"";
+  const std::size_t index = small.find(mark);
+  const std::size_t frame = small.rfind("<frame ", index);
+  const std::size_t after = small.find("</frame>", index) + std::strlen("</frame>");
+  ASSERT_LT(frame, index);
+  constexpr int kFrames = 12'000;  // 60 MB
+  EndlessFile file(small.substr(0, frame), small.substr(frame, index - frame) + "index=\"",
+                   "\"" + small.substr(index + mark.size(), after - index - mark.size()),
+                   small.substr(after), kFrames);
+  MvnxSource source(file.Open(), "endless.mvnx");
+  struct Watching : SampleSink {
+    void OnCharacter(const Character&) override {}
+    void OnSample(const BodySample&) override {
+      if (++samples % 100 == 0) most = std::max(most, kinescope::testing::HeapInUse());
+    }
+    int samples = 0;
+    std::size_t most = 0;
+  } sink;
+  while (sink.samples < 100) source.Poll({}, sink);
+  const std::size_t at_the_beginning = sink.most;
+  while (source.Poll({}, sink) == Source::State::kMore) {
+  }
+  EXPECT_EQ(sink.samples, kFrames);
+  EXPECT_GT(source.counters().bytes, 50'000'000U);
+  EXPECT_LT(sink.most, at_the_beginning + 100'000);
 }
 
 TEST(Mvnx, SaysWhichFileAndLineAndWhatIsWrong) {

@@ -1,8 +1,11 @@
 // Datagrams that a real MVN sent. They are not part of this repository: see tests/shared_data.h.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bitset>
+#include <map>
+
 #include "server/mvn/assembler.h"
-#include "server/mvn/byte_order.h"
 #include "server/mvn/datagram.h"
 #include "tests/server/mvn/mvn_testing.h"
 #include "tests/shared_data.h"
@@ -30,7 +33,8 @@ TEST(RecordedDatagram, PoseHasTheCounterTimeCodeAndPelvisOfItsBytes) {
   EXPECT_EQ(message.header.time_code_millis, 27837U);
   EXPECT_EQ(message.header.body_segments, 23);
   const auto& pose = std::get<PoseMessage>(message.body);
-  EXPECT_TRUE(pose.present.all());
+  EXPECT_TRUE(pose.HasBody());
+  EXPECT_EQ(pose.present.count(), 23U) << "no gloves, no props";
   EXPECT_EQ(pose.skipped, 0);
   const PoseItem& pelvis = pose.items[urdf::kPelvis];
   EXPECT_NEAR(pelvis.position.x(), 0.068977, 1e-6);
@@ -40,19 +44,25 @@ TEST(RecordedDatagram, PoseHasTheCounterTimeCodeAndPelvisOfItsBytes) {
   EXPECT_NEAR(pelvis.orientation.z(), -0.128796, 1e-6);
 }
 
-TEST(RecordedDatagram, EulerPoseIsIgnoredAndIsTheSamePelvisInCentimetresAndYUp) {
+// 01 says it in centimetres, degrees and Y-up, 02 in metres, quaternions and Z-up.
+TEST(RecordedDatagram, EulerAndQuaternionPoseOfOneSampleAgreeToFloatPrecision) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp01.bin");
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp02.bin");
-  EXPECT_TRUE(std::holds_alternative<NotNeeded>(Recorded("udp/mxtp01.bin").body));
-  const std::string bytes = ReadFile(SharedData("udp/mxtp01.bin"));
-  ByteReader in(bytes);
-  ASSERT_TRUE(in.Seek(kHeaderBytes + 4));
-  Eigen::Vector3d yup_cm;
-  for (double& value : yup_cm) ASSERT_TRUE(in.ReadFloat(value));
-  const Eigen::Vector3d zup_m = Eigen::Vector3d(yup_cm.z(), yup_cm.x(), yup_cm.y()) / 100;
-  const Message pose = Recorded("udp/mxtp02.bin");
-  const auto& pelvis = std::get<PoseMessage>(pose.body).items[urdf::kPelvis];
-  EXPECT_LT((zup_m - pelvis.position).norm(), 1e-6);
+  const Message euler_message = Recorded("udp/mxtp01.bin");
+  const Message pose_message = Recorded("udp/mxtp02.bin");
+  EXPECT_EQ(euler_message.header.sample_counter, pose_message.header.sample_counter);
+  EXPECT_EQ(euler_message.header.time_code_millis, pose_message.header.time_code_millis);
+  const auto& euler = std::get<EulerPoseMessage>(euler_message.body);
+  const auto& pose = std::get<PoseMessage>(pose_message.body);
+  ASSERT_TRUE(euler.HasBody());
+  ASSERT_TRUE(pose.HasBody());
+  EXPECT_EQ(euler.present, pose.present);
+  for (std::size_t i = 0; i < urdf::kSegmentCount; ++i) {
+    const std::string_view name = urdf::kSegments[i].mvn_name;
+    // Half a unit in the last place of a float between 128 and 256, the largest here, in cm.
+    EXPECT_LT((euler.items[i].position - pose.items[i].position).norm(), 3e-7) << name;
+    EXPECT_LT(euler.items[i].orientation.angularDistance(pose.items[i].orientation), 5e-7) << name;
+  }
 }
 
 TEST(RecordedDatagram, MetaDataHasNameAndColour) {
@@ -119,7 +129,7 @@ TEST(RecordedDatagram, PoseTurnsTheTPoseOntoItsOwnPositions) {
   const auto& pose = std::get<PoseMessage>(pose_message.body);
   const auto& scale = std::get<ScaleMessage>(scale_message.body);
   ASSERT_EQ(scale.segments.size(), 23U);
-  for (std::size_t i = 1; i < pose.items.size(); ++i) {
+  for (std::size_t i = 1; i < urdf::kSegmentCount; ++i) {
     const auto parent = static_cast<std::size_t>(urdf::kSegments[i].parent);
     const Eigen::Vector3d bone =
         scale.segments[i].origin_in_world - scale.segments[parent].origin_in_world;
@@ -148,25 +158,102 @@ TEST(RecordedDatagram, MakesASampleACharacterAndASkeleton) {
   ASSERT_TRUE(character.skeleton);
   EXPECT_NEAR(character.skeleton->origin_in_parent[urdf::kRightForeArm].norm(), 0.3452, 1e-3);
   EXPECT_NEAR(character.skeleton->height, 1.98, 0.06) << "hips at 1.05 m: a tall person";
-  EXPECT_EQ(assembler.counters().ignored.at("type 01"), 1U);
+  EXPECT_EQ(assembler.counters().types,
+            (std::map<std::string, std::uint64_t>{{"01", 1}, {"02", 1}, {"12", 1}, {"13", 1}}));
   EXPECT_TRUE(assembler.counters().rejected.empty());
 }
 
-TEST(RecordedDatagram, HundredAndFiftyTrackersAreIgnoredAndCounted) {
-  KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp23_lowerbody_000-149.bin");
-  const std::string all = ReadFile(SharedData("udp/mxtp23_lowerbody_000-149.bin"));
-  constexpr std::size_t kDatagramBytes = 500;
-  ASSERT_EQ(all.size(), 150 * kDatagramBytes);
+// Seven trackers of a lower body, lying on a table; 17 is picked up from datagram 40 on.
+class RecordedTrackers : public ::testing::Test {
+ protected:
+  static constexpr std::size_t kDatagramBytes = 500;
+  static constexpr std::size_t kDatagrams = 150;
+  static constexpr std::size_t kUntouched = 40;
+  static constexpr const char* kFile = "udp/mxtp23_lowerbody_000-149.bin";
+
+  // Nothing where the recording is absent.
+  static std::vector<std::string> Datagrams() {
+    const std::string all = ReadFile(SharedData(kFile));
+    std::vector<std::string> datagrams;
+    for (std::size_t at = 0; at < all.size(); at += kDatagramBytes) {
+      datagrams.push_back(all.substr(at, kDatagramBytes));
+    }
+    return datagrams;
+  }
+};
+
+TEST_F(RecordedTrackers, AllHundredAndFiftyMeasureGravityAndTheFieldOfTheEarth) {
+  KINESCOPE_NEEDS_SHARED_DATA(kFile);
+  const auto datagrams = Datagrams();
+  ASSERT_EQ(datagrams.size(), kDatagrams);
+  std::bitset<urdf::kSegmentCount> expected;
+  for (const int id : {1, 16, 17, 18, 20, 21, 22}) expected.set(static_cast<std::size_t>(id) - 1);
+  std::uint32_t counter = 0;
+  for (std::size_t n = 0; n < datagrams.size(); ++n) {
+    const auto message = ParseDatagram(datagrams[n]);
+    ASSERT_TRUE(message) << "datagram " << n << ": " << Describe(message.error());
+    EXPECT_EQ(message->header.type, Type::kTrackers);
+    EXPECT_EQ(message->header.item_count, 7);
+    EXPECT_EQ(message->header.body_segments, 23);
+    EXPECT_GT(message->header.sample_counter, counter);
+    EXPECT_LE(message->header.sample_counter, n == 0 ? ~0U : counter + 10);
+    counter = message->header.sample_counter;
+    const auto& body = std::get<TrackersMessage>(message->body);
+    ASSERT_EQ(body.present, expected) << "datagram " << n;
+    EXPECT_EQ(body.skipped, 0);
+    for (std::size_t i = 0; i < urdf::kSegmentCount; ++i) {
+      if (!expected.test(i)) continue;
+      const TrackerState& tracker = body.trackers[i];
+      const std::string where =
+          "datagram " + std::to_string(n) + ", tracker " + std::to_string(i + 1);
+      EXPECT_TRUE(tracker.has_rates) << where;
+      EXPECT_NEAR(tracker.orientation.norm(), 1, 1e-9) << where;
+      EXPECT_GT(tracker.magnetic_field.norm(), 0.2) << where;
+      EXPECT_LT(tracker.magnetic_field.norm(), 2) << where;
+      if (n >= kUntouched && i == urdf::kRightLowerLeg) continue;
+      EXPECT_NEAR(tracker.acceleration.norm(), 9.8, 0.3) << where << " lies still";
+      EXPECT_LT(tracker.angular_velocity.norm(), 0.3) << where << " lies still";
+      EXPECT_LT(tracker.free_acceleration.norm(), 0.5) << where << " lies still";
+    }
+  }
+}
+
+TEST_F(RecordedTrackers, TheOneThatIsPickedUpMoves) {
+  KINESCOPE_NEEDS_SHARED_DATA(kFile);
+  double fastest_before = 0;
+  double fastest_after = 0;
+  const auto datagrams = Datagrams();
+  for (std::size_t n = 0; n < datagrams.size(); ++n) {
+    const auto message = ParseDatagram(datagrams[n]);
+    ASSERT_TRUE(message);
+    const double speed = std::get<TrackersMessage>(message->body)
+                             .trackers[urdf::kRightLowerLeg]
+                             .angular_velocity.norm();
+    double& fastest = n < kUntouched ? fastest_before : fastest_after;
+    fastest = std::max(fastest, speed);
+  }
+  EXPECT_LT(fastest_before, 0.3);
+  EXPECT_GT(fastest_after, 1);
+}
+
+TEST_F(RecordedTrackers, WithoutAPoseTheyMakeNoSampleAndAreCounted) {
+  KINESCOPE_NEEDS_SHARED_DATA(kFile);
   Assembler assembler;
   RecordingSink sink;
-  for (std::size_t at = 0; at < all.size(); at += kDatagramBytes) {
-    const auto now = static_cast<std::int64_t>(at);
-    assembler.Add({}, std::string_view(all).substr(at, kDatagramBytes), {now, now}, sink);
+  std::int64_t now = 1'000'000'000;
+  for (const std::string& datagram : Datagrams()) {
+    const auto header = ParseHeader(datagram);
+    ASSERT_TRUE(header);
+    now = 1'000'000'000 + std::int64_t{header->time_code_millis} * 1'000'000;
+    assembler.Expire(now, sink);
+    assembler.Add({}, datagram, {now, now}, sink);
   }
-  EXPECT_EQ(assembler.counters().ignored.at("type 23"), 150U);
-  EXPECT_EQ(assembler.counters().datagrams, 150U);
-  EXPECT_TRUE(assembler.counters().rejected.empty());
+  assembler.Flush(sink);
   EXPECT_TRUE(sink.samples.empty());
+  EXPECT_EQ(assembler.counters().types.at("23"), kDatagrams);
+  EXPECT_EQ(assembler.counters().rejected,
+            (std::map<std::string, std::uint64_t>{{Text(Reason::kNoWholePose), kDatagrams}}));
+  EXPECT_EQ(assembler.tally().settled(), assembler.tally().datagrams);
 }
 
 }  // namespace

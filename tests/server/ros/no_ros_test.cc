@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "server/core/errors.h"
+#include "server/ros/bag_source.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::ros_bridge {
@@ -36,6 +37,16 @@ TEST(WithoutRos, PublishingIsRefusedWithAWayOut) {
     MakeRosBridge({}, RosMode::kAuto);
     FAIL() << "made a bridge without ROS";
   } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("-DKINESCOPE_WITH_ROS=ON"));
+  }
+}
+
+TEST(WithoutRos, ABagIsRefusedByNameWithAWayOut) {
+  try {
+    OpenBag("take.bag");
+    FAIL() << "opened a bag without ROS";
+  } catch (const SourceError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("bag 'take.bag'"));
     EXPECT_THAT(error.what(), HasSubstr("-DKINESCOPE_WITH_ROS=ON"));
   }
 }

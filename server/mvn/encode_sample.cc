@@ -1,0 +1,310 @@
+// Samples and characters as the messages that a current MVN sends for them.
+#include <algorithm>
+#include <utility>
+
+#include "server/core/check.h"
+#include "server/mvn/encode.h"
+#include "server/mvn/item_reader.h"
+
+namespace kinescope::mvn {
+namespace {
+
+constexpr double kGravity = 9.81;  // m/s^2, as MVN takes it
+constexpr std::int64_t kMillisPerDay = 86'400'000;
+
+// Where a full suit has its sensors (mvn-protocol.md, type 23).
+constexpr std::array<urdf::Segment, 17> kTrackedSegments = {
+    urdf::kPelvis,        urdf::kT8,           urdf::kHead,         urdf::kRightShoulder,
+    urdf::kRightUpperArm, urdf::kRightForeArm, urdf::kRightHand,    urdf::kLeftShoulder,
+    urdf::kLeftUpperArm,  urdf::kLeftForeArm,  urdf::kLeftHand,     urdf::kRightUpperLeg,
+    urdf::kRightLowerLeg, urdf::kRightFoot,    urdf::kLeftUpperLeg, urdf::kLeftLowerLeg,
+    urdf::kLeftFoot};
+
+// The earth's field for trackers that are made up: of unit length, northwards along x and down at
+// the dip of central Europe.
+const Eigen::Vector3d& MagneticFieldInWorld() {
+  constexpr double kDipRadians = 65 * M_PI / 180;
+  static const Eigen::Vector3d kField(std::cos(kDipRadians), 0, -std::sin(kDipRadians));
+  return kField;
+}
+
+struct ExtraCounts {
+  int props = 0;
+  int finger_segments = 0;
+};
+
+// As the header tells them. `is_present` is asked for every index of ExtraSegments.
+template <class IsPresent>
+ExtraCounts CountExtra(const IsPresent& is_present) {
+  ExtraCounts counts;
+  for (int prop = 0; prop < kMostProps; ++prop) {
+    if (is_present(static_cast<std::size_t>(PropIndex(prop)))) counts.props = prop + 1;
+  }
+  for (std::size_t index = kMostProps; index < kExtraCount; ++index) {
+    if (is_present(index)) counts.finger_segments = 2 * kFingersPerHand;
+  }
+  return counts;
+}
+
+// Datagrams of one sample, or of one character, with the same header.
+class Writer {
+ public:
+  Writer(int character, int body_segments, const ExtraCounts& extra) {
+    header_.character = character;
+    header_.body_segments = body_segments;
+    header_.props = extra.props;
+    header_.finger_segments = extra.finger_segments;
+  }
+
+  void SetTime(std::uint32_t counter, std::int64_t time_code_millis) {
+    header_.sample_counter = counter;
+    header_.time_code_millis = static_cast<std::uint32_t>(time_code_millis);
+  }
+
+  void Add(Body body) { AddPart(std::move(body), 0, true); }
+  void AddPart(Body body, int part, bool is_last) {
+    Message message{header_, std::move(body)};
+    message.header.part = part;
+    message.header.is_last_part = is_last;
+    datagrams_.push_back(Encode(message));
+  }
+
+  std::vector<std::string> Take() { return std::move(datagrams_); }
+
+ private:
+  Header header_;
+  std::vector<std::string> datagrams_;
+};
+
+template <class PoseBody>
+PoseBody Poses(const BodySample& sample) {
+  PoseBody body;
+  for (std::size_t i = 0; i < sample.segments.size(); ++i) {
+    body.items[i] = {sample.segments[i].position, sample.segments[i].orientation};
+    body.present.set(i);
+  }
+  for (std::size_t i = 0; i < sample.extra.poses.size(); ++i) {
+    if (!sample.extra.present.test(i)) continue;
+    const std::size_t slot = urdf::kSegmentCount + i;
+    body.items[slot] = {sample.extra.poses[i].position, sample.extra.poses[i].orientation};
+    body.present.set(slot);
+  }
+  return body;
+}
+
+template <class PoseBody>
+PoseBody Poses(const ObjectsSample& sample) {
+  PoseBody body;
+  for (std::size_t i = 0; i < sample.poses.size(); ++i) {
+    if (!sample.present.test(i)) continue;
+    body.items[i] = {sample.poses[i].position, sample.poses[i].orientation};
+    body.present.set(i);
+  }
+  return body;
+}
+
+MarkersMessage Markers(const BodySample& sample, const urdf::Skeleton& skeleton) {
+  MarkersMessage body;
+  for (const ScalePoint& point : ScalePointsOf(skeleton)) {
+    const SegmentState& carrier = sample.segments[urdf::At(point.segment_id - 1)];
+    body.markers[static_cast<std::size_t>(body.count++)] = {
+        static_cast<std::uint32_t>(point.segment_id), static_cast<std::uint32_t>(point.point_id),
+        carrier.position + carrier.orientation * point.offset};
+  }
+  return body;
+}
+
+LinearMessage Linear(const BodySample& sample) {
+  LinearMessage body;
+  for (std::size_t i = 0; i < sample.segments.size(); ++i) {
+    const SegmentState& segment = sample.segments[i];
+    body.items[i] = {segment.position, segment.velocity, segment.acceleration};
+    body.present.set(i);
+  }
+  return body;
+}
+
+AngularMessage Angular(const BodySample& sample) {
+  AngularMessage body;
+  for (std::size_t i = 0; i < sample.segments.size(); ++i) {
+    const SegmentState& segment = sample.segments[i];
+    body.items[i] = {segment.orientation, segment.angular_velocity, segment.angular_acceleration};
+    body.present.set(i);
+  }
+  return body;
+}
+
+// What a sensor at the origin of `segment`, turned as it, would measure.
+TrackerState TrackerOn(const SegmentState& segment) {
+  const Eigen::Quaterniond sensor_from_world = segment.orientation.conjugate();
+  TrackerState tracker;
+  tracker.orientation = segment.orientation;
+  tracker.free_acceleration = segment.acceleration;
+  // An accelerometer feels the floor that holds it up: + g at rest.
+  tracker.acceleration =
+      sensor_from_world * (segment.acceleration + kGravity * Eigen::Vector3d::UnitZ());
+  tracker.angular_velocity = sensor_from_world * segment.angular_velocity;
+  tracker.magnetic_field = sensor_from_world * MagneticFieldInWorld();
+  tracker.has_rates = true;
+  return tracker;
+}
+
+TrackersMessage Trackers(const BodySample& sample) {
+  TrackersMessage body;
+  if (sample.has_tracker.any()) {
+    body.trackers = sample.trackers;
+    body.present = sample.has_tracker;
+    return body;
+  }
+  for (const urdf::Segment segment : kTrackedSegments) {
+    body.trackers[urdf::At(segment)] = TrackerOn(sample.segments[urdf::At(segment)]);
+    body.present.set(urdf::At(segment));
+  }
+  return body;
+}
+
+bool HasTrackers(const BodySample& sample) {
+  return sample.has_tracker.any() || (sample.has_linear && sample.has_angular);
+}
+
+TimeCodeMessage TimeOfDay(const BodySample& sample) {
+  if (sample.utc_millis_of_day) return {*sample.utc_millis_of_day};
+  const std::int64_t millis = sample.stamp_nanos / 1'000'000 % kMillisPerDay;
+  return {static_cast<std::int32_t>(millis < 0 ? millis + kMillisPerDay : millis)};
+}
+
+std::string Cleaned(const std::string& name) { return CleanText(name, kLongestName); }
+
+// The segments of type 13: a person's body, then props, left hand, right hand.
+ScaleMessage ScaleSegments(const Character& character) {
+  ScaleMessage body;
+  if (character.skeleton) {
+    const auto origins = TPoseOrigins(*character.skeleton);
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+      body.segments.push_back({std::string(urdf::kSegments[i].mvn_name), origins[i]});
+    }
+  }
+  for (const ScaledSegment& extra : character.extra) {
+    if (character.skeleton && extra.name.empty()) continue;  // a place that nothing fills
+    body.segments.push_back({Cleaned(extra.name), extra.origin_in_world});
+  }
+  return body;
+}
+
+}  // namespace
+
+const TypeSet& UsualTypes() {
+  static const TypeSet kTypes = MakeTypeSet(
+      {Type::kPose, Type::kJointAngles, Type::kLinear, Type::kAngular, Type::kCenterOfMass});
+  return kTypes;
+}
+
+std::vector<std::string> EncodeSample(const BodySample& sample, const TypeSet& types,
+                                      const urdf::Skeleton* skeleton) {
+  const ExtraCounts extra =
+      CountExtra([&](std::size_t index) { return sample.extra.present.test(index); });
+  Writer out(sample.character, urdf::kSegmentCount, extra);
+  out.SetTime(sample.counter, sample.time_code_millis);
+  const auto add = [&](Type type, bool has_it, const auto& make) {
+    if (has_it && Contains(types, type)) out.Add(make());
+  };
+  add(Type::kEulerPose, true, [&] { return Poses<EulerPoseMessage>(sample); });
+  add(Type::kPose, true, [&] { return Poses<PoseMessage>(sample); });
+  add(Type::kMarkers, skeleton != nullptr, [&] { return Markers(sample, *skeleton); });
+  add(Type::kJointAngles, sample.streamed_angles_deg.has_value(), [&] {
+    JointAnglesMessage body;
+    body.joints = *sample.streamed_angles_deg;
+    body.joints_present.set();
+    return body;
+  });
+  add(Type::kLinear, sample.has_linear, [&] { return Linear(sample); });
+  add(Type::kAngular, sample.has_angular, [&] { return Angular(sample); });
+  add(Type::kTrackers, HasTrackers(sample), [&] { return Trackers(sample); });
+  add(Type::kCenterOfMass, sample.com.has_value(), [&] {
+    return CenterOfMassMessage{sample.com->position, sample.com->velocity, sample.com->acceleration,
+                               sample.com->has_derivatives};
+  });
+  add(Type::kTimeCode, true, [&] { return TimeOfDay(sample); });
+  return out.Take();
+}
+
+std::vector<std::string> EncodeObjects(const ObjectsSample& sample, const TypeSet& types) {
+  int count = 0;
+  for (std::size_t i = 0; i < sample.present.size(); ++i) {
+    if (sample.present.test(i)) count = static_cast<int>(i) + 1;
+  }
+  Writer out(sample.character, count, {});
+  out.SetTime(sample.counter, sample.time_code_millis);
+  if (Contains(types, Type::kEulerPose)) out.Add(Poses<EulerPoseMessage>(sample));
+  if (Contains(types, Type::kPose)) out.Add(Poses<PoseMessage>(sample));
+  return out.Take();
+}
+
+std::vector<std::string> EncodeCharacter(const Character& character) {
+  const bool is_objects = !character.skeleton && !character.extra.empty() &&
+                          character.extra.size() <= urdf::kSegmentCount;
+  const ExtraCounts extra = CountExtra([&](std::size_t index) {
+    return !is_objects && index < character.extra.size() && !character.extra[index].name.empty();
+  });
+  Writer out(character.id,
+             is_objects ? static_cast<int>(character.extra.size()) : urdf::kSegmentCount, extra);
+  MetaDataMessage meta;
+  if (!character.name.empty()) meta.name = Cleaned(character.name);
+  meta.color_rgb = character.color_rgb;
+  out.Add(meta);
+  if (is_objects) {
+    out.Add(ScaleSegments(character));
+  } else if (character.skeleton) {
+    out.AddPart(ScaleSegments(character), 0, false);
+    out.AddPart(ScaleMessage{{}, ScalePointsOf(*character.skeleton)}, 1, true);
+  }
+  return out.Take();
+}
+
+std::vector<ScalePoint> ScalePointsOf(const urdf::Skeleton& skeleton) {
+  std::vector<ScalePoint> points;
+  const auto add_segment_point = [&](int segment, std::uint32_t point, std::string name,
+                                     const Eigen::Vector3d& in_segment) {
+    points.push_back({segment + 1, static_cast<int>(point), std::move(name), 0, in_segment});
+  };
+  const auto add_link_point = [&](int segment, std::uint32_t point, std::string name,
+                                  const Eigen::Vector3d& in_link) {
+    add_segment_point(segment, point, std::move(name), urdf::SegmentFromLink(segment) * in_link);
+  };
+  add_segment_point(urdf::kPelvis, 1, "pHipOrigin", Eigen::Vector3d::Zero());
+  for (int i = 0; i < urdf::kJointCount; ++i) {
+    const auto joint = static_cast<urdf::Joint>(i);
+    const int child = urdf::ChildOf(joint);
+    const std::string name(urdf::kJoints[urdf::At(i)].mvn_name);
+    add_link_point(urdf::ParentOf(joint), PointsOf(joint).parent % 256, name,
+                   skeleton.origin_in_parent[urdf::At(child)]);
+    add_segment_point(child, PointsOf(joint).child % 256, name, Eigen::Vector3d::Zero());
+  }
+  add_link_point(urdf::kHead, 2, "pTopOfHead", skeleton.head_top_in_head);
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const bool right = side == urdf::kRight;
+    const std::string prefix = right ? "pRight" : "pLeft";
+    add_link_point(right ? urdf::kRightHand : urdf::kLeftHand, 2, prefix + "TopOfHand",
+                   skeleton.finger_tip_in_hand[side]);
+    add_link_point(right ? urdf::kRightFoot : urdf::kLeftFoot, 3, prefix + "HeelFoot",
+                   skeleton.heel_in_foot[side]);
+    add_link_point(right ? urdf::kRightToe : urdf::kLeftToe, 2, prefix + "Toe",
+                   skeleton.toe_tip_in_toe[side]);
+  }
+  return points;
+}
+
+std::array<Eigen::Vector3d, urdf::kSegmentCount> TPoseOrigins(const urdf::Skeleton& skeleton) {
+  std::array<Eigen::Vector3d, urdf::kSegmentCount> origins;
+  origins[urdf::kPelvis] =
+      urdf::NPoseOrigins(skeleton)[urdf::kPelvis];  // legs are as in the N-pose
+  for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
+    const int parent = urdf::kSegments[urdf::At(segment)].parent;
+    origins[urdf::At(segment)] =
+        origins[urdf::At(parent)] +
+        urdf::SegmentFromLink(parent) * skeleton.origin_in_parent[urdf::At(segment)];
+  }
+  return origins;
+}
+
+}  // namespace kinescope::mvn

@@ -1,0 +1,55 @@
+/// Durations, counted so that any percentile can be asked for, in memory that does not grow: 32
+/// classes to each doubling, so an answer is right to 2 %. Plain values, one thread.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace kinescope::mvn {
+
+class DurationHistogram {
+ public:
+  void Add(std::int64_t nanos) {
+    ++counts_[ClassOf(nanos)];
+    ++total_;
+    longest_ = std::max(longest_, nanos);
+  }
+
+  std::uint64_t total() const { return total_; }
+  std::int64_t longest_nanos() const { return longest_; }  // exact
+
+  /// So long or shorter were `fraction` (0 to 1) of the durations; 0 without any.
+  std::int64_t PercentileNanos(double fraction) const {
+    const auto wanted =
+        static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(total_)));
+    std::uint64_t seen = 0;
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      seen += counts_[i];
+      if (seen > 0 && seen >= wanted) return std::min(UpperEnd(i), longest_);
+    }
+    return longest_;
+  }
+
+ private:
+  static constexpr int kPerDoubling = 32;
+  static constexpr double kSmallest = 1'000;     // ns; shorter ones are one class
+  static constexpr std::size_t kDoublings = 30;  // to 18 minutes; longer ones are one class
+
+  static std::size_t ClassOf(std::int64_t nanos) {
+    const double ratio = static_cast<double>(std::max<std::int64_t>(nanos, 1)) / kSmallest;
+    const double index = std::floor(std::log2(ratio) * kPerDoubling) + 1;
+    return static_cast<std::size_t>(
+        std::clamp(index, 0.0, static_cast<double>(kPerDoubling * kDoublings)));
+  }
+  static std::int64_t UpperEnd(std::size_t index) {
+    return std::llround(kSmallest * std::exp2(static_cast<double>(index) / kPerDoubling));
+  }
+
+  std::array<std::uint64_t, kPerDoubling * kDoublings + 1> counts_{};
+  std::uint64_t total_ = 0;
+  std::int64_t longest_ = 0;
+};
+
+}  // namespace kinescope::mvn

@@ -1,0 +1,82 @@
+#include "server/mvn/stream_source.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "server/mvn/open.h"
+
+namespace kinescope::mvn {
+namespace {
+
+using std::chrono::nanoseconds;
+
+std::int64_t MonotonicNanos() {
+  return std::chrono::duration_cast<nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+StreamSource::StreamSource(std::unique_ptr<DatagramSource> datagrams, Stamps stamps)
+    : datagrams_(std::move(datagrams)), assembler_(stamps) {}
+
+void StreamSource::OnDatagram(const ReceivedDatagram& datagram) {
+  // In a capture time is what its packets say, so what falls due between two of them is due now.
+  if (!is_live()) assembler_.Expire(datagram.arrival.monotonic_nanos, *this);
+  assembler_.Add(datagram.from, datagram.bytes, datagram.arrival, is_live() ? *sink_ : *this);
+}
+
+void StreamSource::OnCharacter(const Character& character) { sink_->OnCharacter(character); }
+
+void StreamSource::OnSample(const BodySample& sample) {
+  BodySample recorded = sample;
+  recorded.arrival_nanos = 0;
+  sink_->OnSample(recorded);
+}
+
+void StreamSource::OnObjects(const ObjectsSample& sample) {
+  ObjectsSample recorded = sample;
+  recorded.arrival_nanos = 0;
+  sink_->OnObjects(recorded);
+}
+
+Source::State StreamSource::Poll(std::chrono::milliseconds timeout, SampleSink& sink) {
+  sink_ = &sink;
+  nanoseconds wait = timeout;
+  if (is_live()) {
+    if (const auto deadline = assembler_.deadline_nanos()) {
+      wait = std::clamp(nanoseconds(*deadline - MonotonicNanos()), nanoseconds(0), wait);
+    }
+  }
+  switch (datagrams_->Poll(wait, *this)) {
+    case DatagramSource::State::kMore: break;
+    // Only now: the rest of an overdue sample may have lain in the socket.
+    case DatagramSource::State::kIdle:
+      if (is_live()) assembler_.Expire(MonotonicNanos(), sink);
+      break;
+    case DatagramSource::State::kEnded: assembler_.Flush(*this); return State::kEnded;
+  }
+  return State::kMore;
+}
+
+SourceCounters StreamSource::counters() const {
+  SourceCounters counters = assembler_.counters();
+  const TransportCounters transport = datagrams_->counters();
+  if (transport.kernel_drops > 0) {
+    // They never reached us, so they are not among `datagrams`.
+    counters.rejected["dropped by the kernel (receive buffer full)"] = transport.kernel_drops;
+  }
+  if (transport.other_packets > 0) counters.ignored["other packets"] = transport.other_packets;
+  if (transport.incomplete_packets > 0) {
+    counters.rejected["packets cut short by the capture"] = transport.incomplete_packets;
+  }
+  return counters;
+}
+
+std::unique_ptr<Source> OpenStream(std::unique_ptr<DatagramSource> datagrams,
+                                   const StreamSettings& settings) {
+  return std::make_unique<StreamSource>(std::move(datagrams), settings.stamps);
+}
+
+}  // namespace kinescope::mvn

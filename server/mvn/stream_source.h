@@ -1,0 +1,39 @@
+/// A stream of datagrams as a source of samples. One thread.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "server/core/source.h"
+#include "server/mvn/assembler.h"
+#include "server/mvn/datagram_source.h"
+
+namespace kinescope::mvn {
+
+/// - A live stream: stamps on this machine's clock.
+/// - A capture: its time is the capture's, so the same file always gives the same samples, whatever
+///   the machine does; arrival_nanos is 0, as with any file.
+class StreamSource : public Source, private DatagramSink, private SampleSink {
+ public:
+  StreamSource(std::unique_ptr<DatagramSource> datagrams, Stamps stamps);
+
+  State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
+  SourceCounters counters() const override;
+  std::string description() const override { return datagrams_->description(); }
+  bool is_live() const override { return datagrams_->is_live(); }
+
+  TransportCounters transport_counters() const { return datagrams_->counters(); }
+
+ private:
+  void OnDatagram(const ReceivedDatagram& datagram) override;
+  // Of a capture, on the way to the caller's sink.
+  void OnCharacter(const Character& character) override;
+  void OnSample(const BodySample& sample) override;
+  void OnObjects(const ObjectsSample& sample) override;
+
+  std::unique_ptr<DatagramSource> datagrams_;
+  Assembler assembler_;
+  SampleSink* sink_ = nullptr;  // during Poll
+};
+
+}  // namespace kinescope::mvn
