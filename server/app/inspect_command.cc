@@ -16,10 +16,10 @@
 #include "server/app/stop_signal.h"
 #include "server/core/errors.h"
 #include "server/core/input_file.h"
-#include "server/mvn/inspection.h"
-#include "server/mvn/mvnx_source.h"
+#include "server/mvn/file/mvnx_source.h"
+#include "server/mvn/file/recording.h"
+#include "server/mvn/inspect/inspection.h"
 #include "server/mvn/open.h"
-#include "server/mvn/recording.h"
 #include "server/ros/bag_source.h"
 
 namespace kinescope::app {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "server/mvn/inspection.h"
+#include "server/mvn/inspect/inspection.h"
 
 namespace kinescope::app {
 

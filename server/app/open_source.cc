@@ -6,8 +6,8 @@
 #include "server/app/paced_source.h"
 #include "server/core/errors.h"
 #include "server/core/input_file.h"
-#include "server/mvn/mvnx_source.h"
-#include "server/mvn/recording.h"
+#include "server/mvn/file/mvnx_source.h"
+#include "server/mvn/file/recording.h"
 #include "server/ros/bag_source.h"
 #include "server/subject/subject.h"
 

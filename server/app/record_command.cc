@@ -16,8 +16,8 @@
 #include "server/app/stop_signal.h"
 #include "server/core/errors.h"
 #include "server/mvn/assembler.h"
+#include "server/mvn/file/pcap_recorder.h"
 #include "server/mvn/open.h"
-#include "server/mvn/pcap_recorder.h"
 
 namespace kinescope::app {
 namespace {

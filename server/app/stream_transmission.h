@@ -11,7 +11,7 @@
 #include "server/app/progress.h"
 #include "server/app/stream_feed.h"
 #include "server/mvn/faults.h"
-#include "server/mvn/sender.h"
+#include "server/mvn/net/sender.h"
 
 namespace kinescope::app {
 

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "server/mvn/recording.h"
-#include "server/mvn/tcp_datagrams.h"
-#include "server/mvn/udp_datagrams.h"
+#include "server/mvn/file/recording.h"
+#include "server/mvn/net/tcp_datagrams.h"
+#include "server/mvn/net/udp_datagrams.h"
 
 namespace kinescope::mvn {
 namespace {

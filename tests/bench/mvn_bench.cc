@@ -8,9 +8,9 @@
 #include "server/app/scene_builder.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/encode.h"
-#include "server/mvn/mvnx_source.h"
+#include "server/mvn/file/mvnx_source.h"
 #include "server/subject/subject.h"
-#include "tests/server/mvn/synthetic_mvnx.h"
+#include "tests/server/mvn/file/synthetic_mvnx.h"
 
 namespace kinescope {
 namespace {

@@ -29,6 +29,11 @@ struct CheckingSink : SampleSink {
     KINESCOPE_CHECK(sample.stamp_nanos > 0);
     ++samples;
   }
+  void OnObjects(const ObjectsSample& sample) override {
+    KINESCOPE_CHECK(known[sample.character] && sample.present.any() && sample.stamp_nanos > 0);
+    for (const urdf::Pose& pose : sample.poses) KINESCOPE_CHECK(pose.position.allFinite());
+    ++samples;
+  }
   std::map<int, bool> known;
   std::uint64_t samples = 0;
 };

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "server/core/check.h"
-#include "server/mvn/tcp_framing.h"
+#include "server/mvn/stream_framer.h"
 
 namespace {
 

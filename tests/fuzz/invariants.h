@@ -21,6 +21,17 @@ inline void CheckSample(const BodySample& sample) {
     check(segment.angular_acceleration);
     KINESCOPE_CHECK(std::abs(segment.orientation.norm() - 1.0) < 1e-6);
   }
+  for (const urdf::Pose& pose : sample.extra.poses) {
+    check(pose.position);
+    KINESCOPE_CHECK(std::abs(pose.orientation.norm() - 1.0) < 1e-6);
+  }
+  for (const TrackerState& tracker : sample.trackers) {
+    check(tracker.free_acceleration);
+    check(tracker.acceleration);
+    check(tracker.angular_velocity);
+    check(tracker.magnetic_field);
+    KINESCOPE_CHECK(std::abs(tracker.orientation.norm() - 1.0) < 1e-6);
+  }
   if (sample.com) {
     check(sample.com->position);
     check(sample.com->velocity);

@@ -8,13 +8,14 @@
 
 #include "server/mvn/byte_order.h"
 #include "server/mvn/encode.h"
-#include "tests/server/mvn/capture_builder.h"
+#include "tests/server/mvn/file/capture_builder.h"
+#include "tests/server/mvn/file/synthetic_mvnx.h"
 #include "tests/server/mvn/mvn_testing.h"
-#include "tests/server/mvn/synthetic_mvnx.h"
 
 namespace {
 
 using namespace kinescope;
+using mvn::testing::RandomFullSample;
 using mvn::testing::RandomSample;
 using mvn::testing::RandomValues;
 using mvn::testing::RawDatagram;
@@ -33,9 +34,34 @@ Character Ines() {
   return character;
 }
 
+const mvn::TypeSet& EveryType() {
+  using mvn::Type;
+  static const mvn::TypeSet types = mvn::MakeTypeSet(
+      {Type::kEulerPose, Type::kPose, Type::kMarkers, Type::kJointAngles, Type::kLinear,
+       Type::kAngular, Type::kTrackers, Type::kCenterOfMass, Type::kTimeCode});
+  return types;
+}
+
+// One record of a session: see assembler_fuzz.cc and scale_fuzz.cc.
+void AddRecord(std::string& out, int first, int wait, const std::string& bytes) {
+  mvn::ByteWriter writer(out);
+  writer.Write(static_cast<std::uint8_t>(first));
+  writer.Write(static_cast<std::uint8_t>(wait));
+  writer.Write(static_cast<std::uint16_t>(bytes.size()));
+  out += bytes;
+}
+
 void WriteDatagrams(const fs::path& folder, RandomValues& random) {
-  for (const std::string& datagram : mvn::EncodeSample(RandomSample(random, 1200))) {
+  const BodySample sample = RandomSample(random, 1200);
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
+  for (const std::string& datagram : mvn::EncodeSample(sample, EveryType(), &skeleton)) {
     Write(folder / ("type" + datagram.substr(4, 2)), datagram);
+  }
+  for (const std::string& datagram :
+       mvn::EncodeSample(RandomFullSample(random, 1200), EveryType(), &skeleton)) {
+    const std::string type = datagram.substr(4, 2);
+    if (type == "01" || type == "02")
+      Write(folder / ("type" + type + "_gloves_and_props"), datagram);
   }
   int part = 0;
   for (const std::string& datagram : mvn::EncodeCharacter(Ines())) {
@@ -51,8 +77,12 @@ void WriteDatagrams(const fs::path& folder, RandomValues& random) {
   raw = RawDatagram();
   raw.type = "23";
   raw.items = 17;
-  raw.payload = mvn::testing::Items(1, 17, 16, 1);
-  Write(folder / "type23", raw.Bytes());
+  raw.payload = mvn::testing::Items(1, 17, 10, 1, 0);
+  Write(folder / "type23_short", raw.Bytes());
+  raw.type = "24";
+  raw.items = 1;
+  raw.payload = mvn::testing::Items(0, 1, 3, 1).substr(4);
+  Write(folder / "type24_short", raw.Bytes());
   raw.type = "20";
   raw.items = 2;  // Pelvis_T8 and Vertical_T8
   raw.payload.clear();
@@ -63,27 +93,68 @@ void WriteDatagrams(const fs::path& folder, RandomValues& random) {
 }
 
 void WriteSessions(const fs::path& folder, RandomValues& random) {
-  const auto record = [](std::string& out, int sender, int wait, const std::string& datagram) {
-    mvn::ByteWriter writer(out);
-    writer.Write(static_cast<std::uint8_t>(sender));
-    writer.Write(static_cast<std::uint8_t>(wait));
-    writer.WriteText(datagram);
-    out.erase(out.size() - datagram.size() - 4, 2);  // the length is 2 bytes here
-  };
   std::string good, bad;
-  for (const auto& datagram : mvn::EncodeCharacter(Ines())) record(good, 0, 0, datagram);
+  for (const auto& datagram : mvn::EncodeCharacter(Ines())) AddRecord(good, 0, 0, datagram);
   for (std::uint32_t counter = 100; counter < 108; ++counter) {
     for (const auto& datagram : mvn::EncodeSample(RandomSample(random, counter))) {
-      record(good, 0, datagram[5] == '2' ? 4 : 0, datagram);
+      AddRecord(good, 0, datagram[5] == '2' ? 4 : 0, datagram);
       if (random.Coin(0.2)) continue;
       const int sender = random.Coin(0.5) ? 1 : 0x11;
-      record(bad, sender, random.Integer(0, 12), datagram);
-      if (random.Coin(0.2)) record(bad, sender, 0, datagram);
+      AddRecord(bad, sender, random.Integer(0, 12), datagram);
+      if (random.Coin(0.2)) AddRecord(bad, sender, 0, datagram);
     }
-    if (counter == 104) record(bad, 1, 255, "<sync/>");
+    if (counter == 104) AddRecord(bad, 1, 255, "<sync/>");
   }
   Write(folder / "good", good);
   Write(folder / "bad_network", bad);
+
+  // Every type with gloves and props, beside a cluster of objects; then the sender starts over.
+  std::string full;
+  for (const std::uint32_t counter : {50U, 51U, 52U, 53U, 54U, 0U, 1U}) {
+    for (const auto& datagram : mvn::EncodeSample(RandomFullSample(random, counter), EveryType())) {
+      AddRecord(full, 0, datagram[5] == '1' ? 4 : 0, datagram);
+    }
+    RawDatagram objects;
+    objects.counter = counter;
+    objects.character = 1;
+    objects.items = objects.body_segments = 3;
+    objects.payload = mvn::testing::PoseItems(1, 3);
+    AddRecord(full, 0, 0, objects.Bytes());
+  }
+  Write(folder / "every_type", full);
+}
+
+// Groups of type 13: whole, with a part lost, begun again half-way; a body and tracked objects.
+void WriteScaleGroups(const fs::path& folder) {
+  Character person = Ines();
+  person.extra.resize(kExtraCount);
+  for (int i = 1; i < kExtraCount; ++i) {
+    if (i >= 2 && i < kMostProps) continue;
+    person.extra[static_cast<std::size_t>(i)] = {ExtraName(i), {0.1, 0.01 * i, 1.4}};
+  }
+  Character objects;
+  objects.extra = {{"Tracker 1", {0, 0, 1}}, {"Tracker 2", {1, 0, 1}}};
+  std::string whole, lost, again, things;
+  for (const std::string& datagram : mvn::EncodeCharacter(person)) {
+    if (datagram.substr(4, 2) != "13") continue;
+    const int counter = static_cast<unsigned char>(datagram[10]);
+    const std::string payload = datagram.substr(mvn::kHeaderBytes);
+    AddRecord(whole, counter, 0, payload);
+    AddRecord(again, counter, 1, payload);
+    if (counter == 0) {
+      AddRecord(lost, counter, 0, payload);
+      AddRecord(again, counter, 1, payload);
+    }
+  }
+  for (const std::string& datagram : mvn::EncodeCharacter(objects)) {
+    if (datagram.substr(4, 2) != "13") continue;
+    AddRecord(things, static_cast<unsigned char>(datagram[10]), 0,
+              datagram.substr(mvn::kHeaderBytes));
+  }
+  Write(folder / "whole", whole);
+  Write(folder / "part_lost", lost);
+  Write(folder / "begun_again", again);
+  Write(folder / "objects_then_body", things + whole);
 }
 
 // Datagrams one after the other, as TCP has them, and what can be wrong with that.
@@ -142,8 +213,7 @@ void WriteCaptures(const fs::path& folder) {
   const std::string udp6 = Udp(Ipv6(1, 7), Ipv6(2, 9763), small);
   Write(folder / "ethernet",
         PcapBuilder(kLinkEthernet).Add(5, Ethernet(udp)).Add(4, Ethernet(udp6, 2)).bytes());
-  Write(folder / "cooked",
-        PcapBuilder(kLinkCooked, false).Add(5, LinuxCooked(udp)).bytes());
+  Write(folder / "cooked", PcapBuilder(kLinkCooked, false).Add(5, LinuxCooked(udp)).bytes());
   Write(folder / "cooked2", PcapBuilder(kLinkCooked2).Add(5, LinuxCooked2(udp6)).bytes());
   Write(folder / "loopback", PcapBuilder(kLinkNull).Add(5, Loopback(udp)).bytes());
   Write(folder / "pcapng", PcapNgBuilder(kLinkRaw).AddOther("x").Add(5, udp).bytes());
@@ -176,6 +246,7 @@ int main(int argc, char** argv) {
   RandomValues random(20);
   WriteDatagrams(folder / "datagram", random);
   WriteSessions(folder / "assembler", random);
+  WriteScaleGroups(folder / "scale");
   WriteFiles(folder / "mvnx");
   WriteCaptures(folder / "pcap");
   RandomValues streams(21);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "server/core/errors.h"
-#include "server/mvn/mvnx_source.h"
+#include "server/mvn/file/mvnx_source.h"
 #include "tests/fuzz/invariants.h"
 
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "server/core/errors.h"
-#include "server/mvn/assembler.h"
 #include "server/core/input_file.h"
-#include "server/mvn/pcap_datagrams.h"
-#include "server/mvn/raw_file_datagrams.h"
+#include "server/mvn/assembler.h"
+#include "server/mvn/file/pcap_datagrams.h"
+#include "server/mvn/file/raw_file_datagrams.h"
 #include "tests/fuzz/invariants.h"
 
 namespace {

@@ -8,8 +8,8 @@
 
 #include "render/compare.h"
 #include "render/renderer.h"
-#include "tests/temp_folder.h"
 #include "tests/render/test_scene.h"
+#include "tests/temp_folder.h"
 #include "urdf/human_urdf.h"
 
 namespace kinescope::render {

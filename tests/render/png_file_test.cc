@@ -17,8 +17,8 @@
 #include <png.h>
 #include <zlib.h>
 
-#include "tests/temp_folder.h"
 #include "tests/shared_data.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::render {
 namespace {

@@ -16,8 +16,8 @@ extern "C" {
 #include <memory>
 
 #include "server/core/errors.h"
-#include "tests/temp_folder.h"
 #include "tests/shared_data.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::render {
 namespace {

@@ -12,7 +12,7 @@
 #include <regex>
 
 #include "server/mvn/encode.h"
-#include "server/mvn/sender.h"
+#include "server/mvn/net/sender.h"
 #include "tests/process.h"
 #include "tests/server/mvn/mvn_testing.h"
 #include "tests/shared_data.h"

@@ -13,12 +13,12 @@
 #include <thread>
 
 #include "server/mvn/encode.h"
+#include "server/mvn/net/sender.h"
 #include "server/mvn/open.h"
-#include "server/mvn/sender.h"
 #include "server/subject/motions.h"
 #include "server/subject/subject.h"
 #include "tests/process.h"
-#include "tests/server/mvn/datagram_sink.h"
+#include "tests/server/mvn/file/datagram_sink.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 

@@ -1,4 +1,4 @@
-#include "server/mvn/inspection.h"
+#include "server/mvn/inspect/inspection.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "server/mvn/encode.h"
-#include "server/mvn/inspection_histogram.h"
+#include "server/mvn/inspect/histogram.h"
 #include "server/mvn/open.h"
 #include "server/subject/subject.h"
 #include "tests/server/mvn/mvn_testing.h"

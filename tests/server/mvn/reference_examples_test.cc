@@ -9,7 +9,7 @@
 #include <string>
 
 #include "server/mvn/datagram.h"
-#include "server/mvn/tcp_framing.h"
+#include "server/mvn/stream_framer.h"
 #include "tests/server/mvn/mvn_testing.h"
 #include "tests/shared_data.h"
 

@@ -10,9 +10,9 @@
 
 #include "server/mvn/assembler.h"
 #include "server/mvn/datagram.h"
-#include "server/mvn/mvnx_source.h"
+#include "server/mvn/file/mvnx_source.h"
+#include "server/mvn/net/sender.h"
 #include "server/mvn/open.h"
-#include "server/mvn/sender.h"
 #include "tests/server/mvn/mvn_testing.h"
 #include "urdf/kinematics.h"
 

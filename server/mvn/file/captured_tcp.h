@@ -1,0 +1,76 @@
+/// TCP as it was captured, made into MVN datagrams again: segments in order, each byte once,
+/// whatever the network did to them. Only connections on which an MVN datagram begins are followed;
+/// memory is bounded. One thread.
+#pragma once
+
+#include <cstdint>
+#include <list>
+#include <map>
+#include <string>
+
+#include "server/mvn/datagram_source.h"
+#include "server/mvn/file/packet.h"
+#include "server/mvn/stream_framer.h"
+
+namespace kinescope::mvn {
+
+class CapturedTcp {
+ public:
+  /// Takes a segment captured at `arrival` and hands on the datagrams that it completes.
+  /// @return false for data of a connection that is (not yet) known to be MVN's.
+  bool Add(const TcpSegment& segment, const Arrival& arrival, DatagramSink& sink);
+
+  /// Nothing more will come: hands on what still waits for missing segments.
+  void End(const Arrival& arrival, DatagramSink& sink);
+
+  std::uint64_t connections() const { return connections_; }  // that were followed
+  std::uint64_t gaps() const { return gaps_; }                // pieces of them that never came
+  std::uint64_t resyncs() const;
+  std::uint64_t skipped_bytes() const;
+
+  /// For one direction of a connection: beyond any of these a gap is taken for a loss. Less is kept
+  /// of one that is not known to be MVN's.
+  static constexpr std::int64_t kPatienceNanos = 2'000'000'000;  // a retransmission comes sooner
+  static constexpr std::size_t kMostWaitingBytes = 1 << 20;
+  static constexpr std::size_t kMostUndecidedBytes = 16 << 10;
+  static constexpr std::size_t kMostDirections = 32;
+
+ private:
+  // One direction of a connection. Places are counted from an arbitrary 0, in 64 bits, so that they
+  // do not wrap as sequence numbers do.
+  struct Direction {
+    Endpoint from, to;
+    bool is_mvn = false;
+    std::string head;                  // of one that is not yet known to be
+    std::uint32_t first_sequence = 0;  // where the capture met it
+    std::uint32_t next_sequence = 0;
+    std::int64_t next_place = 0;
+    std::map<std::int64_t, std::string> waiting;  // by place; after a gap
+    std::size_t waiting_bytes = 0;
+    std::int64_t waiting_since_nanos = 0;
+    StreamFramer framer;
+  };
+  using Directions = std::list<Direction>;  // the one heard last is last
+
+  Directions::iterator FindOrMake(const TcpSegment& segment, const Arrival& arrival,
+                                  DatagramSink& sink);
+  void Close(Directions::iterator direction, const Arrival& arrival, DatagramSink& sink);
+  void Take(Direction& direction, std::int64_t place, std::string_view bytes,
+            const Arrival& arrival, DatagramSink& sink);
+  void Keep(Direction& direction, std::int64_t place, std::string_view bytes,
+            const Arrival& arrival, DatagramSink& sink);
+  void TakeWaiting(Direction& direction, const Arrival& arrival, DatagramSink& sink);
+  void SkipGap(Direction& direction, std::int64_t to_place, const Arrival& arrival,
+               DatagramSink& sink);
+  void Restart(Direction& direction, const Arrival& arrival, DatagramSink& sink);
+  void Decide(Direction& direction, std::string_view bytes);
+  static void HandOn(Direction& direction, const Arrival& arrival, DatagramSink& sink);
+
+  Directions directions_;
+  std::uint64_t connections_ = 0;
+  std::uint64_t gaps_ = 0;
+  std::uint64_t resyncs_ = 0;        // of framers that are gone
+  std::uint64_t skipped_bytes_ = 0;  // likewise
+};
+
+}  // namespace kinescope::mvn

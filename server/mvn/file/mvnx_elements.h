@@ -1,0 +1,43 @@
+/// The elements of MVNX that are read, and helpers for their text. Only for mvnx_reader.cc.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/mvn/file/mvnx_reader.h"
+
+namespace kinescope::mvn {
+
+enum class Element {
+  kDocument,
+  kMvnx,
+  kSubject,
+  kSegments,
+  kSegment,
+  kPoints,
+  kPoint,
+  kPointPosition,
+  kJoints,
+  kJoint,
+  kFrames,
+  kFrame,
+  kList,
+  kOther,  // skipped, with all that is in it
+};
+
+/// What `name` is inside `parent`; `list` is set for Element::kList. A namespace prefix is ignored.
+Element FindElement(Element parent, std::string_view name, MvnxList& list);
+
+const char* Name(MvnxList list);
+
+/// Numbers separated by white space, whatever the locale. @return what is wrong; "" if nothing.
+std::string ParseNumbers(std::string_view text, std::vector<double>& numbers);
+
+std::optional<std::int64_t> ParseInteger(std::string_view text);
+std::optional<std::uint32_t> ParseColor(std::string_view text);  // "#rrggbb"
+
+}  // namespace kinescope::mvn

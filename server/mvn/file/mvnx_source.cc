@@ -1,0 +1,200 @@
+#include "server/mvn/file/mvnx_source.h"
+
+#include <bitset>
+#include <cmath>
+#include <utility>
+
+#include "server/core/errors.h"
+#include "server/mvn/open.h"
+
+namespace kinescope::mvn {
+namespace {
+
+constexpr double kNormTolerance = 1e-3;
+constexpr std::int64_t kNanosPerMilli = 1'000'000;
+constexpr double kNanosPerSecond = 1e9;
+constexpr std::int64_t kFirstMillisWithoutClock = 1000;
+constexpr std::int64_t kLatestMillis = 4'102'444'800'000;  // the year 2100
+constexpr std::int64_t kLargestIndex = 0xFFFFFFFF;         // what a sample counter can hold
+
+Eigen::Vector3d VectorAt(const std::vector<double>& numbers, std::size_t index) {
+  return {numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2]};
+}
+
+bool IsMotion(const MvnxFrame& frame) { return frame.type.empty() || frame.type == "normal"; }
+
+// The key of a counter must not come from the file: it would let the file fill memory.
+std::string CounterOf(const MvnxFrame& frame) {
+  for (const char* known : {"identity", "npose", "tpose", "tpose-isb"}) {
+    if (frame.type == known) return std::string("frame ") + known;
+  }
+  return "frame of another type";
+}
+
+}  // namespace
+
+const Eigen::Quaterniond& SegmentFromIsb(int segment) {
+  using namespace urdf;
+  // An arm that points sideways in the T-pose points down in its anatomical axes; forearm and hand
+  // are turned about their length as well, palm forward.
+  static const Eigen::Quaterniond kNone = Eigen::Quaterniond::Identity();
+  static const Eigen::Quaterniond kRightUpper(M_SQRT1_2, -M_SQRT1_2, 0, 0);
+  static const Eigen::Quaterniond kRightLower(0.5, -0.5, 0.5, 0.5);
+  static const Eigen::Quaterniond kLeftUpper(M_SQRT1_2, M_SQRT1_2, 0, 0);
+  static const Eigen::Quaterniond kLeftLower(0.5, 0.5, 0.5, -0.5);
+  switch (segment) {
+    case kRightUpperArm: return kRightUpper;
+    case kRightForeArm:
+    case kRightHand: return kRightLower;
+    case kLeftUpperArm: return kLeftUpper;
+    case kLeftForeArm:
+    case kLeftHand: return kLeftLower;
+    default: return kNone;
+  }
+}
+
+MvnxSource::MvnxSource(InputFile file, std::string name)
+    : name_(std::move(name)), reader_(std::move(file), name_) {
+  previous_.fill(Eigen::Quaterniond::Identity());
+  const MvnxHeader& header = reader_.header();
+  character_.name = header.subject;
+  character_.color_rgb = header.color_rgb;
+  if (header.points.empty()) return;  // a file cut down by others: poses are still good
+  try {
+    character_.skeleton = urdf::SkeletonFromLandmarks(header.points);
+  } catch (const std::runtime_error& error) {
+    reader_.Refuse(error.what());
+  }
+}
+
+Source::State MvnxSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink& sink) {
+  if (!std::exchange(character_given_, true)) sink.OnCharacter(character_);
+  while (reader_.Next(frame_)) {
+    if (!IsMotion(frame_)) {
+      ++counters_.ignored[CounterOf(frame_)];
+      continue;
+    }
+    CheckFrame();
+    ++counters_.samples;
+    sink.OnSample(ToSample());
+    return State::kMore;
+  }
+  if (counters_.samples == 0) reader_.Refuse("no frame of motion in the whole file");
+  return State::kEnded;
+}
+
+// After this the frame has poses and an index above the one before.
+void MvnxSource::CheckFrame() {
+  if (frame_[MvnxList::kOrientation].empty() || frame_[MvnxList::kPosition].empty()) {
+    reader_.Refuse("a frame without orientation or position; export those, too");
+  }
+  const std::int64_t expected = first_index_ ? index_ + 1 : 0;
+  const std::int64_t index = frame_.index.value_or(expected);
+  if (index < expected || index > kLargestIndex) {
+    reader_.Refuse("frame index " + std::to_string(index) + ", but at least " +
+                   std::to_string(expected) + " is expected here");
+  }
+  index_ = index;
+  if (first_index_) return;
+  first_index_ = index;
+  const std::int64_t millis = frame_.unix_millis.value_or(0);
+  if (millis < 0 || millis > kLatestMillis) {
+    reader_.Refuse("ms is " + std::to_string(millis) + "; expected the Unix time in milliseconds");
+  }
+  first_unix_nanos_ = (millis > 0 ? millis : kFirstMillisWithoutClock) * kNanosPerMilli;
+}
+
+BodySample MvnxSource::ToSample() {
+  BodySample sample;
+  FillTimes(sample);
+  FillSegments(sample);
+  const std::vector<double>& com = frame_[MvnxList::kCenterOfMass];
+  if (!com.empty()) {
+    sample.com = CenterOfMass();
+    sample.com->position = VectorAt(com, 0);
+    sample.com->has_derivatives = com.size() == 9;
+    if (sample.com->has_derivatives) {
+      sample.com->velocity = VectorAt(com, 1);
+      sample.com->acceleration = VectorAt(com, 2);
+    }
+  }
+  FillAngles(sample);
+  return sample;
+}
+
+void MvnxSource::FillAngles(BodySample& sample) const {
+  const std::vector<double>& angles = frame_[MvnxList::kJointAngle];
+  if (angles.empty()) return;
+  std::array<Eigen::Vector3d, urdf::kJointCount> by_joint;
+  std::bitset<urdf::kJointCount> found;
+  const auto& joints = reader_.header().joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (!joints[i]) continue;
+    const auto joint = static_cast<std::size_t>(*joints[i]);
+    by_joint[joint] = VectorAt(angles, i);
+    found.set(joint);
+  }
+  if (found.all()) sample.streamed_angles_deg = by_joint;
+}
+
+void MvnxSource::FillTimes(BodySample& sample) const {
+  const double rate = reader_.header().rate_hz;
+  const auto since_first = static_cast<double>(index_ - *first_index_);
+  sample.counter = static_cast<std::uint32_t>(index_);
+  sample.time_code_millis =
+      static_cast<std::int64_t>(std::llround(1000.0 * static_cast<double>(index_) / rate));
+  sample.stamp_nanos = first_unix_nanos_ + static_cast<std::int64_t>(
+                                               std::llround(since_first / rate * kNanosPerSecond));
+}
+
+void MvnxSource::FillSegments(BodySample& sample) {
+  const MvnxHeader& header = reader_.header();
+  const std::vector<double>& orientation = frame_[MvnxList::kOrientation];
+  const auto vector_of = [this](MvnxList list, std::size_t i) {
+    return frame_[list].empty() ? Eigen::Vector3d::Zero().eval() : VectorAt(frame_[list], i);
+  };
+  sample.has_linear =
+      !frame_[MvnxList::kVelocity].empty() && !frame_[MvnxList::kAcceleration].empty();
+  sample.has_angular = !frame_[MvnxList::kAngularVelocity].empty() &&
+                       !frame_[MvnxList::kAngularAcceleration].empty();
+  for (std::size_t i = 0; i < header.segments.size(); ++i) {
+    if (!header.segments[i]) continue;  // a prop
+    const auto segment = static_cast<std::size_t>(*header.segments[i]);
+    const double* const q = &orientation[4 * i];
+    Eigen::Quaterniond turned(q[0], q[1], q[2], q[3]);
+    if (std::abs(turned.norm() - 1.0) > kNormTolerance) {
+      reader_.Refuse("orientation of " + std::string(urdf::kSegments[segment].mvn_name) +
+                     " is not a unit quaternion");
+    }
+    turned.normalize();
+    if (header.version == 3) {
+      turned = turned * SegmentFromIsb(*header.segments[i]).conjugate();
+    }
+    if (turned.dot(previous_[segment]) < 0) turned.coeffs() = -turned.coeffs();
+    previous_[segment] = turned;
+
+    SegmentState& state = sample.segments[segment];
+    state.orientation = turned;
+    state.position = vector_of(MvnxList::kPosition, i);
+    if (sample.has_linear) {
+      state.velocity = vector_of(MvnxList::kVelocity, i);
+      state.acceleration = vector_of(MvnxList::kAcceleration, i);
+    }
+    if (sample.has_angular) {
+      state.angular_velocity = vector_of(MvnxList::kAngularVelocity, i);
+      state.angular_acceleration = vector_of(MvnxList::kAngularAcceleration, i);
+    }
+  }
+}
+
+SourceCounters MvnxSource::counters() const {
+  SourceCounters counters = counters_;
+  counters.bytes = reader_.bytes_read();
+  return counters;
+}
+
+std::unique_ptr<Source> OpenMvnx(const std::string& path) {
+  return std::make_unique<MvnxSource>(OpenInputFile(path), NameOfInput(path));
+}
+
+}  // namespace kinescope::mvn

@@ -1,0 +1,72 @@
+/// MVN datagrams out of a capture (pcap, pcapng), as tcpdump, Wireshark or `kinescope record` wrote
+/// it: UDP, also in IP fragments, and TCP, put in order. One thread.
+///
+/// - Of UDP counts what begins with "MXTP", and whatever goes to a port to which such went or to
+///   MVN's own: sync text is part of the stream, a name lookup beside it is not.
+/// - Arrival is the time of capture on both clocks, of the packet that completed the datagram. It
+///   never goes back: where the file's time does by less than a second (packets written out of
+///   order), it stands still; where by more (a clock that was set), it goes on from there.
+/// - A capture that ends inside a packet (its writer was killed) ends there, with a warning.
+#pragma once
+
+#include <bitset>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "server/core/input_file.h"
+#include "server/mvn/datagram_source.h"
+#include "server/mvn/file/captured_tcp.h"
+#include "server/mvn/file/ip_fragments.h"
+
+struct pcap;         // libpcap's
+struct pcap_pkthdr;  // likewise
+
+namespace kinescope::mvn {
+
+class PcapDatagrams : public DatagramSource {
+ public:
+  /// Reads the file's header; `name` is for people.
+  /// @throws SourceError: no capture, or of a kind of network that has no IP packets.
+  PcapDatagrams(InputFile file, std::string name);
+
+  /// Hands on what one packet completes. @throws SourceError where the file is damaged.
+  State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
+
+  TransportCounters counters() const override;
+  std::string description() const override { return name_; }
+  bool is_live() const override { return false; }
+
+ private:
+  struct ClosePcap {
+    void operator()(pcap* handle) const;
+  };
+
+  void Take(std::string_view captured, DatagramSink& sink);
+  void TakeUdp(const IpPacket& packet, DatagramSink& sink);
+  void TakeTcp(const IpPacket& packet, DatagramSink& sink);
+  void Count(PacketFault fault);
+  void AdvanceTo(const pcap_pkthdr& header);
+  void Finish(DatagramSink& sink);
+  [[noreturn]] void Break(const std::string& reason) const;
+
+  std::string name_;
+  InputFile file_;  // asked why reading failed; libpcap reads and closes it
+  std::unique_ptr<pcap, ClosePcap> pcap_;
+  int link_type_ = 0;
+  bool ended_ = false;
+
+  std::uint64_t packets_ = 0;
+  std::uint64_t other_packets_ = 0;
+  std::uint64_t cut_packets_ = 0;
+  std::uint64_t datagrams_ = 0;
+  std::bitset<65536> mvn_ports_;
+  IpFragments fragments_;
+  CapturedTcp tcp_;
+
+  bool has_time_ = false;
+  std::int64_t newest_nanos_ = 0;  // arrival of the newest packet
+  std::int64_t offset_nanos_ = 0;  // from the file's time to arrival
+};
+
+}  // namespace kinescope::mvn

@@ -1,0 +1,253 @@
+#include "server/mvn/file/pcap_writer.h"
+
+#include <fcntl.h>
+#include <pcap/pcap.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "server/core/check.h"
+#include "server/core/errors.h"
+#include "server/mvn/file/packet.h"
+
+namespace kinescope::mvn {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kFlushBytes = 64 * 1024;
+constexpr int kLongestPacket = 1 << 18;  // libpcap's own limit
+constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
+constexpr std::int64_t kLatestNanos = 0xFFFFFFFF * kNanosPerSecond;  // what the format can hold
+
+std::string Number(std::uint64_t count, const char* noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+[[noreturn]] void RefuseToCreate(const fs::path& path, int error) {
+  const char* way_out = "";
+  switch (error) {
+    case EEXIST: way_out = "; choose another name, or --force to replace it"; break;
+    case ENOENT: way_out = "; make its folder first"; break;
+    case EACCES: way_out = "; record into a folder of yours"; break;
+    default: break;
+  }
+  throw SourceError(path.string() + ": cannot create the file: " + std::strerror(error) + way_out);
+}
+
+bool IsDeviceOrPipe(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+}  // namespace
+
+// One capture file. libpcap writes into `pending_`, from which whole packets go to the kernel.
+class PcapWriter::File {
+ public:
+  /// @throws std::system_error
+  File(const fs::path& path, bool replace) : is_special_(IsDeviceOrPipe(path)) {
+    const int creation = is_special_ ? 0 : O_CREAT | (replace ? O_TRUNC : O_EXCL);
+    constexpr int kMode = 0644;
+    descriptor_ = open(path.c_str(), O_WRONLY | O_CLOEXEC | creation, kMode);
+    if (descriptor_ < 0) throw std::system_error(errno, std::generic_category());
+    cookie_io_functions_t functions{};
+    functions.write = [](void* self, const char* bytes, std::size_t size) {
+      static_cast<File*>(self)->pending_.append(bytes, size);
+      return static_cast<ssize_t>(size);
+    };
+    std::FILE* const stream = fopencookie(this, "wb", functions);
+    KINESCOPE_CHECK(stream != nullptr);
+    std::setvbuf(stream, nullptr, _IONBF, 0);
+    dead_ =
+        pcap_open_dead_with_tstamp_precision(DLT_RAW, kLongestPacket, PCAP_TSTAMP_PRECISION_NANO);
+    KINESCOPE_CHECK(dead_ != nullptr);
+    dumper_ = pcap_dump_fopen(dead_, stream);
+    KINESCOPE_CHECK(dumper_ != nullptr);
+  }
+
+  ~File() {
+    pcap_dump_close(dumper_);
+    pcap_close(dead_);
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+
+  std::uint64_t bytes() const { return bytes_ + pending_.size(); }
+  std::uint64_t packets() const { return packets_ + ends_.size(); }
+  std::uint64_t kept_bytes() const { return bytes_; }
+  std::uint64_t kept_packets() const { return packets_; }
+
+  void Add(const pcap_pkthdr& header, const std::string& packet) {
+    pcap_dump(reinterpret_cast<unsigned char*>(dumper_), &header,
+              reinterpret_cast<const unsigned char*>(packet.data()));
+    ends_.push_back(pending_.size());
+    if (pending_.size() >= kFlushBytes) Flush();
+  }
+
+  /// @throws std::system_error after cutting the file back to its last whole packet.
+  void Flush() {
+    std::size_t written = 0;
+    int error = 0;
+    while (written < pending_.size() && error == 0) {
+      const ssize_t count =
+          write(descriptor_, pending_.data() + written, pending_.size() - written);
+      if (count >= 0) written += static_cast<std::size_t>(count);
+      if (count < 0 && errno != EINTR) error = errno;
+    }
+    if (error == 0) {
+      bytes_ += pending_.size();
+      packets_ += ends_.size();
+    } else {
+      const auto whole = std::upper_bound(ends_.begin(), ends_.end(), written);
+      packets_ += static_cast<std::uint64_t>(whole - ends_.begin());
+      if (whole != ends_.begin()) bytes_ += *std::prev(whole);
+      // What the kernel took of the next packet would read as damage.
+      if (!is_special_ && ftruncate(descriptor_, static_cast<off_t>(bytes_)) != 0) error = errno;
+    }
+    pending_.clear();
+    ends_.clear();
+    if (error != 0) throw std::system_error(error, std::generic_category());
+  }
+
+  /// Some file systems tell only now that the disk is full. @throws std::system_error
+  void Close() {
+    if (descriptor_ < 0) return;
+    Flush();
+    const bool is_safe = is_special_ || fsync(descriptor_) == 0;
+    const int sync_error = errno;
+    const bool is_closed = close(std::exchange(descriptor_, -1)) == 0;
+    if (!is_safe) throw std::system_error(sync_error, std::generic_category());
+    if (!is_closed) throw std::system_error(errno, std::generic_category());
+  }
+
+ private:
+  const bool is_special_;
+  int descriptor_ = -1;
+  std::string pending_;            // not yet in the file
+  std::vector<std::size_t> ends_;  // of the packets in it
+  std::uint64_t bytes_ = 0;        // in the file, and whole
+  std::uint64_t packets_ = 0;      // likewise
+  pcap_t* dead_ = nullptr;
+  pcap_dumper_t* dumper_ = nullptr;
+};
+
+PcapWriter::PcapWriter(const PcapWriterSettings& settings) : settings_(settings) { OpenFirst(); }
+
+PcapWriter::~PcapWriter() {
+  try {
+    if (file_ != nullptr) file_->Close();
+  } catch (const std::system_error&) {
+    // Who wants to know calls Close().
+  }
+}
+
+fs::path PcapWriter::PathOf(std::size_t number) const {
+  if (number == 1) return settings_.path;
+  std::string digits = std::to_string(number);
+  digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
+  fs::path path = settings_.path;
+  path.replace_filename(path.stem().string() + "-" + digits + path.extension().string());
+  return path;
+}
+
+void PcapWriter::OpenFirst() {
+  const fs::path& path = settings_.path;
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    throw SourceError(path.string() + ": is a folder; name the file to write in it");
+  }
+  if (settings_.rotate_bytes > 0) {
+    for (std::size_t number = 2; fs::exists(PathOf(number), ignored); ++number) {
+      if (!settings_.force) RefuseToCreate(PathOf(number), EEXIST);
+      fs::remove(PathOf(number), ignored);  // of a longer recording: it would seem part of this one
+    }
+  }
+  try {
+    file_ = std::make_unique<File>(path, settings_.force);
+  } catch (const std::system_error& error) {
+    RefuseToCreate(path, error.code().value());
+  }
+  files_.push_back(path.string());
+  Flush();  // so that it is a capture from the beginning
+}
+
+void PcapWriter::OpenNext() {
+  Close();
+  closed_datagrams_ += file_->kept_packets();
+  closed_bytes_ += file_->kept_bytes();
+  file_.reset();
+  // One that somebody has put there since the beginning is passed over.
+  std::error_code ignored;
+  do {
+    ++number_;
+  } while (fs::exists(PathOf(number_), ignored));
+  Try([this] {
+    file_ = std::make_unique<File>(PathOf(number_), false);
+    files_.push_back(PathOf(number_).string());
+    file_->Flush();
+  });
+}
+
+// Failures of the file as one line that says what is kept.
+template <class Action>
+void PcapWriter::Try(Action&& action) {
+  try {
+    action();
+  } catch (const std::system_error& error) {
+    const std::string path = PathOf(number_).string();
+    if (file_ != nullptr && file_->kept_bytes() == 0) {  // not even a header: no capture
+      std::error_code ignored;
+      if (fs::is_regular_file(path, ignored)) fs::remove(path, ignored);
+      if (files_.back() == path) files_.pop_back();
+    }
+    std::string kept = "nothing was recorded";
+    if (datagrams() > 0) {
+      kept = "kept and readable: " + Number(datagrams(), "datagram") + " in " + files_.front();
+      if (files_.size() > 1) kept += " to " + files_.back();
+    }
+    throw SourceError(path + ": recording stopped: " + std::strerror(error.code().value()) + "; " +
+                      kept);
+  }
+}
+
+void PcapWriter::Write(const Endpoint& from, const Endpoint& to, std::int64_t wall_nanos,
+                       std::string_view datagram) {
+  WriteUdpPacket(from, to, datagram, packet_);
+  const std::int64_t nanos = std::clamp<std::int64_t>(wall_nanos, 0, kLatestNanos);
+  pcap_pkthdr header{};
+  header.ts.tv_sec = nanos / kNanosPerSecond;
+  header.ts.tv_usec = nanos % kNanosPerSecond;  // nanoseconds in this kind of file
+  header.caplen = header.len = static_cast<bpf_u_int32>(packet_.size());
+  constexpr std::size_t kRecordHeaderBytes = 16;
+  const std::uint64_t size = file_->bytes() + kRecordHeaderBytes + packet_.size();
+  if (settings_.rotate_bytes > 0 && file_->packets() > 0 && size > settings_.rotate_bytes) {
+    OpenNext();
+  }
+  Try([&] { file_->Add(header, packet_); });
+}
+
+void PcapWriter::Flush() {
+  Try([this] { file_->Flush(); });
+}
+
+void PcapWriter::Close() {
+  Try([this] { file_->Close(); });
+}
+
+std::uint64_t PcapWriter::datagrams() const {
+  return closed_datagrams_ + (file_ != nullptr ? file_->kept_packets() : 0);
+}
+
+std::uint64_t PcapWriter::bytes() const {
+  return closed_bytes_ + (file_ != nullptr ? file_->kept_bytes() : 0);
+}
+
+}  // namespace kinescope::mvn

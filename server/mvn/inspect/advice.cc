@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "server/mvn/inspect/character.h"
+
+namespace kinescope::mvn {
+namespace {
+
+bool Has(const CharacterReport& character, Type type) {
+  return std::any_of(character.types.begin(), character.types.end(),
+                     [type](const TypeReport& t) { return t.type == static_cast<int>(type); });
+}
+
+std::string SwitchOn(Type type) { return "switch on " + DialogName(static_cast<int>(type)); }
+
+std::string Percent(double fraction) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.1f %%", 100 * fraction);
+  return text;
+}
+
+// Why there is nobody to show.
+std::string NoPose(const CharacterReport& character) {
+  const bool has_pose = Has(character, Type::kPose) || Has(character, Type::kEulerPose);
+  if (has_pose) {
+    return "the pose is never a whole body of 23 segments: choose the full body in MVN, or see "
+           "what "
+           "is not used";
+  }
+  if (Has(character, Type::kLinear) != Has(character, Type::kAngular)) {
+    const Type missing = Has(character, Type::kLinear) ? Type::kAngular : Type::kLinear;
+    return "no pose: " + SwitchOn(Type::kPose) + ", or " + DialogName(static_cast<int>(missing));
+  }
+  return "no pose: " + SwitchOn(Type::kPose);
+}
+
+}  // namespace
+
+std::vector<std::string> AdviceFor(const CharacterReport& character, bool has_scale,
+                                   bool has_name) {
+  std::vector<std::string> advice;
+  if (character.samples == 0) advice.push_back(NoPose(character));
+  const bool is_person = character.kind != CharacterKind::kObjects;
+  if (character.samples > 0 && Has(character, Type::kEulerPose) && !Has(character, Type::kPose)) {
+    advice.push_back("the pose comes as Euler angles: " + SwitchOn(Type::kPose) +
+                     ", which is smaller and has no gimbal lock");
+  }
+  if (is_person && !has_scale) {
+    advice.push_back("segment lengths are assumed: " +
+                     (Has(character, Type::kScale)
+                          ? DialogName(static_cast<int>(Type::kScale)) + " never came whole"
+                          : SwitchOn(Type::kScale)));
+  }
+  if (!has_name) advice.push_back("no name and no colour: " + SwitchOn(Type::kMetaData));
+  if (is_person && character.samples > 0) {
+    const bool linear = character.quantities.count("velocity") > 0;
+    const bool angular = character.quantities.count("angular velocity") > 0;
+    if (!linear && !angular) {
+      advice.push_back(
+          "no velocities and accelerations: switch on Linear and Angular Segment Kinematics");
+    } else if (!linear || !angular) {
+      advice.push_back(
+          std::string("only ") + (linear ? "linear" : "angular") +
+          " velocities and accelerations: " + SwitchOn(linear ? Type::kAngular : Type::kLinear));
+    }
+  }
+  if (character.has_old_header) {
+    advice.push_back(
+        "the header is that of MVN before 2018 (no payload size): gloves, props and "
+        "several characters need a newer MVN");
+  }
+  if (character.lost && *character.lost > 0) {
+    const auto lost = static_cast<double>(*character.lost);
+    advice.push_back(Percent(lost / (lost + static_cast<double>(character.frames))) +
+                     " of the frames are lost: use a cable or TCP, or a lower stream rate");
+  }
+  return advice;
+}
+
+std::vector<std::string> AdviceFor(const InspectionReport& report) {
+  std::vector<std::string> advice;
+  if (report.has_datagrams && report.datagrams == 0) {
+    advice.push_back(report.is_live
+                         ? "nothing came: in MVN, Options, Network Streamer, add this machine's "
+                           "address and this port; let the port through the firewall"
+                         : "there is no datagram in it");
+  }
+  if (report.transport && report.transport->kernel_drops > 0) {
+    advice.push_back(
+        "datagrams were dropped because nobody read them in time: raise "
+        "net.core.rmem_max (sysctl), or give this machine less to do");
+  }
+  return advice;
+}
+
+}  // namespace kinescope::mvn

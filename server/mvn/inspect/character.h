@@ -1,0 +1,49 @@
+/// What samples and scale data say of one character, for the report. Memory does not grow; one
+/// thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "server/core/source.h"
+#include "server/mvn/inspect/inspection.h"
+
+namespace kinescope::mvn {
+
+class CharacterTally : public SampleSink {
+ public:
+  void OnCharacter(const Character& character) override { character_ = character; }
+  void OnSample(const BodySample& sample) override;
+  void OnObjects(const ObjectsSample& sample) override;
+
+  bool has_scale() const {
+    return character_ && (character_->skeleton || !character_->extra.empty());
+  }
+  bool has_name() const { return character_ && !character_->name.empty(); }
+
+  /// Name, kind, size, segments, quantities.
+  void Fill(CharacterReport& report) const;
+
+ private:
+  void AddExtra(const ExtraSegments& extra);
+
+  enum Quantity { kLinear, kAngular, kCom, kAngles, kTrackers, kUtc, kGloves, kProps, kQuantities };
+
+  std::optional<Character> character_;  // the newest
+  std::uint64_t people_samples_ = 0;
+  std::uint64_t objects_samples_ = 0;
+  std::array<std::uint64_t, kQuantities> quantities_{};
+  decltype(ExtraSegments::present) extra_seen_;
+  decltype(ObjectsSample::present) objects_seen_;
+};
+
+/// Counters, losses, rates and silence. `begin_monotonic`: of the whole stream.
+void FillFrames(const FrameTrack& frames, std::int64_t begin_monotonic, CharacterReport& report);
+
+/// What is missing in a stream for Kinescope to show it, and to show it well; each with the switch
+/// in MVN that brings it. Most important first.
+std::vector<std::string> AdviceFor(const CharacterReport& character, bool has_scale, bool has_name);
+std::vector<std::string> AdviceFor(const InspectionReport& report);
+
+}  // namespace kinescope::mvn

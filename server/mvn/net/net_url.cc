@@ -1,0 +1,119 @@
+#include "server/mvn/net/net_url.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "server/core/errors.h"
+
+namespace kinescope::mvn {
+namespace {
+
+constexpr int kLargestPort = 65535;
+
+[[noreturn]] void Refuse(std::string_view url, const std::string& why) {
+  throw SourceError(std::string(url) + ": " + why);
+}
+
+bool StartsWith(std::string_view text, std::string_view start) {
+  return text.substr(0, start.size()) == start;
+}
+
+std::uint16_t ParsePort(std::string_view url, std::string_view text) {
+  int port = 0;
+  const char* const end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data(), end, port);
+  if (text.empty() || parsed.ec == std::errc::invalid_argument || parsed.ptr != end) {
+    Refuse(url, "'" + std::string(text) + "' is no port; expected a whole number, such as 9763");
+  }
+  if (parsed.ec != std::errc() || port < 0 || port > kLargestPort) {
+    Refuse(url, "port " + std::string(text) +
+                    " is out of range; ports are 1 to 65535 (MVN sends to 9763), "
+                    "and 0 takes a free one");
+  }
+  return static_cast<std::uint16_t>(port);
+}
+
+// An address that means "all of this machine's", in any of its spellings.
+bool IsAnyAddress(const std::string& host) {
+  in_addr ipv4{};
+  in6_addr ipv6{};
+  return host.empty() ||
+         (inet_pton(AF_INET, host.c_str(), &ipv4) == 1 && ipv4.s_addr == INADDR_ANY) ||
+         (inet_pton(AF_INET6, host.c_str(), &ipv6) == 1 && IN6_IS_ADDR_UNSPECIFIED(&ipv6));
+}
+
+// Takes "host:port" apart: `rest` is what follows the scheme, without a query.
+void ParseHostAndPort(std::string_view url, std::string_view rest, NetUrl& parsed) {
+  const std::string scheme = Scheme(parsed.protocol);
+  if (!rest.empty() && rest.front() == '[') {
+    const std::size_t bracket = rest.find(']');
+    if (bracket == std::string_view::npos) {
+      Refuse(url, "the bracket is not closed; expected " + scheme + "://[::1]:9763");
+    }
+    parsed.host = rest.substr(1, bracket - 1);
+    rest.remove_prefix(bracket + 1);
+    if (!rest.empty() && rest.front() != ':') {
+      Refuse(url,
+             "'" + std::string(rest) + "' after the bracket; expected " + scheme + "://[::1]:9763");
+    }
+  } else {
+    const std::size_t colon = rest.find(':');
+    parsed.host = rest.substr(0, colon);
+    rest.remove_prefix(parsed.host.size());
+    if (rest.find(':', 1) != std::string_view::npos) {
+      Refuse(url, "an IPv6 address needs brackets: " + scheme + "://[::1]:9763");
+    }
+  }
+  if (parsed.host.find_first_of("/ \t\r\n?#@") != std::string::npos) {
+    Refuse(url, "'" + parsed.host + "' is no host; expected " + scheme + "://host:port, such as " +
+                    scheme + "://:9763");
+  }
+  if (!rest.empty()) parsed.port = ParsePort(url, rest.substr(1));
+}
+
+NetUrl::Mode ParseMode(std::string_view url, std::string_view query, const NetUrl& parsed) {
+  using Mode = NetUrl::Mode;
+  if (query.empty()) {
+    const bool listens = parsed.protocol == Protocol::kUdp || IsAnyAddress(parsed.host);
+    return listens ? Mode::kListen : Mode::kConnect;
+  }
+  if (query != "?listen" && query != "?connect") {
+    Refuse(url, "'" + std::string(query) + "' is not known; expected ?listen, ?connect or nothing");
+  }
+  if (parsed.protocol == Protocol::kUdp) {
+    Refuse(url, "UDP has no connections; leave out '" + std::string(query) + "', or use tcp://");
+  }
+  if (query == "?listen") return Mode::kListen;
+  if (IsAnyAddress(parsed.host)) {
+    Refuse(url, "no host to connect to; expected one, such as tcp://192.168.1.20:9763");
+  }
+  return Mode::kConnect;
+}
+
+}  // namespace
+
+const char* Scheme(Protocol protocol) { return protocol == Protocol::kUdp ? "udp" : "tcp"; }
+
+bool IsNetUrl(std::string_view url) { return StartsWith(url, "udp:") || StartsWith(url, "tcp:"); }
+
+NetUrl ParseNetUrl(std::string_view url) {
+  constexpr std::size_t kPrefixBytes = 6;  // "udp://"
+  const std::string_view prefix = url.substr(0, kPrefixBytes);
+  if (prefix != "udp://" && prefix != "tcp://") {
+    Refuse(url,
+           "no network address; expected udp://host:port or tcp://host:port, such as "
+           "udp://:9763");
+  }
+  NetUrl parsed;
+  parsed.protocol = prefix == "udp://" ? Protocol::kUdp : Protocol::kTcp;
+  const std::string_view rest = url.substr(kPrefixBytes);
+  const std::size_t query = std::min(rest.find('?'), rest.size());
+  ParseHostAndPort(url, rest.substr(0, query), parsed);
+  parsed.mode = ParseMode(url, rest.substr(query), parsed);
+  return parsed;
+}
+
+}  // namespace kinescope::mvn

@@ -1,0 +1,194 @@
+#include "server/mvn/net/tcp_datagrams.h"
+
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <utility>
+
+#include "server/core/errors.h"
+#include "server/mvn/stream_framer.h"
+
+namespace kinescope::mvn {
+namespace {
+
+constexpr std::size_t kReadBytes = 65536;
+constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
+
+// Errors of accept() that say nothing about the next connection.
+bool IsPassing(int error) {
+  return error == EINTR || error == ECONNABORTED || error == EPROTO || error == ENETDOWN ||
+         error == ENETUNREACH || error == EHOSTUNREACH || error == EPERM;
+}
+
+}  // namespace
+
+struct TcpDatagrams::Connection {
+  Socket socket;
+  ReceivedDatagram datagram;  // the one that is handed on; both ends are the same for all
+  StreamFramer framer;
+  bool has_ended = false;
+
+  void HandOn(DatagramSink& sink) {
+    while (const auto bytes = framer.Next()) {
+      datagram.bytes = *bytes;
+      sink.OnDatagram(datagram);
+    }
+  }
+};
+
+TcpDatagrams::TcpDatagrams(const std::string& url) : description_(url), buffer_(kReadBytes, '\0') {
+  const NetUrl parsed = ParseNetUrl(url);
+  connections_.reserve(kMostConnections);
+  descriptors_.reserve(kMostConnections + 1);
+  if (parsed.mode == NetUrl::Mode::kConnect) {
+    port_ = parsed.port;
+    connector_.emplace(parsed, url);
+    return;
+  }
+  listener_ = BindToListen(parsed, url);
+  const SocketAddress bound = LocalAddress(listener_);
+  description_ = FormatUrl(Protocol::kTcp, bound);
+  port_ = EndpointOf(bound).port;
+  counters_.receive_buffer_bytes = ReceiveBufferBytes(listener_);
+}
+
+TcpDatagrams::~TcpDatagrams() = default;
+
+void TcpDatagrams::CollectDescriptors(std::int64_t now) {
+  descriptors_.clear();
+  for (const auto& connection : connections_) {
+    descriptors_.push_back({connection->socket.get(), POLLIN, 0});
+  }
+  if (connector_) {
+    // poll() passes over a descriptor of -1.
+    descriptors_.push_back({connector_->descriptor(), POLLOUT, 0});
+  } else {
+    descriptors_.push_back({now >= accept_again_nanos_ ? listener_.get() : -1, POLLIN, 0});
+  }
+}
+
+// Until when to wait (monotonic).
+std::int64_t TcpDatagrams::Deadline(std::int64_t now, std::chrono::nanoseconds timeout) const {
+  constexpr std::int64_t kLongestWait = 1'000'000 * kNanosPerSecond;
+  std::int64_t deadline = now + std::clamp<std::int64_t>(timeout.count(), 0, kLongestWait);
+  if (connector_ && connections_.empty())
+    deadline = std::min(deadline, connector_->deadline_nanos());
+  if (accept_again_nanos_ > now) deadline = std::min(deadline, accept_again_nanos_);
+  return deadline;
+}
+
+// Fills in what has happened to the descriptors.
+bool TcpDatagrams::WaitForInput(std::chrono::nanoseconds timeout) {
+  const std::int64_t now = ReadClocks().monotonic_nanos;
+  CollectDescriptors(now);
+  const std::int64_t nanos = std::max<std::int64_t>(Deadline(now, timeout) - now, 0);
+  const timespec wait{static_cast<time_t>(nanos / kNanosPerSecond),
+                      static_cast<long>(nanos % kNanosPerSecond)};
+  const int ready = ppoll(descriptors_.data(), descriptors_.size(), &wait, nullptr);
+  if (ready < 0 && errno != EINTR) {
+    throw SourceError(description_ + ": waiting for input failed: " + ErrorText(errno));
+  }
+  return ready > 0;
+}
+
+DatagramSource::State TcpDatagrams::Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) {
+  bool may_have_more = false;
+  if (WaitForInput(timeout)) {
+    for (std::size_t i = 0; i < connections_.size(); ++i) {
+      if (descriptors_[i].revents != 0) may_have_more |= Read(*connections_[i], sink);
+    }
+  }
+  const std::int64_t now = ReadClocks().monotonic_nanos;
+  RemoveEnded(now);
+  if (connector_) {
+    Socket made = connector_->Advance(now);
+    if (made.is_open()) Add(std::move(made));
+  } else if (descriptors_.back().revents != 0) {
+    AcceptAll(now);
+  }
+  return may_have_more ? State::kMore : State::kIdle;
+}
+
+void TcpDatagrams::AcceptAll(std::int64_t now) {
+  for (std::size_t i = 0; i < kMostConnections; ++i) {
+    Socket newcomer(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    if (newcomer.is_open()) {
+      ConfigureConnection(newcomer);
+      Add(std::move(newcomer));
+      continue;
+    }
+    if (errno == EAGAIN || errno == EWOULDBLOCK) return;
+    if (IsPassing(errno)) continue;
+    // Out of descriptors or memory: the connection stays in the queue and would wake us for ever.
+    if (accept_again_nanos_ == 0) {
+      spdlog::warn("{}: cannot accept a connection ({}); trying again once a second", description_,
+                   ErrorText(errno));
+    }
+    accept_again_nanos_ = now + kNanosPerSecond;
+    return;
+  }
+}
+
+void TcpDatagrams::Add(Socket socket) {
+  if (connections_.size() >= kMostConnections) {
+    if (refused_++ == 0) {
+      spdlog::warn("{}: more than {} connections; {} is refused, and so are all further ones",
+                   description_, kMostConnections, Format(EndpointOf(PeerAddress(socket))));
+    }
+    return;
+  }
+  auto connection = std::make_unique<Connection>();
+  connection->datagram.from = EndpointOf(PeerAddress(socket));
+  connection->datagram.to = EndpointOf(LocalAddress(socket));
+  counters_.receive_buffer_bytes = ReceiveBufferBytes(socket);
+  ++counters_.connections;
+  connection->socket = std::move(socket);
+  connections_.push_back(std::move(connection));
+}
+
+// Whether there may be more to read.
+bool TcpDatagrams::Read(Connection& connection, DatagramSink& sink) {
+  const ssize_t size = recv(connection.socket.get(), buffer_.data(), buffer_.size(), MSG_DONTWAIT);
+  if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return false;
+  connection.datagram.arrival = ReadClocks();
+  if (size > 0) {
+    connection.framer.Append(std::string_view(buffer_).substr(0, static_cast<std::size_t>(size)));
+  } else {
+    connection.framer.End();
+    connection.has_ended = true;
+  }
+  connection.HandOn(sink);
+  return size == static_cast<ssize_t>(buffer_.size());
+}
+
+void TcpDatagrams::RemoveEnded(std::int64_t now) {
+  const auto has_ended = [](const auto& connection) { return connection->has_ended; };
+  for (const auto& connection : connections_) {
+    if (!connection->has_ended) continue;
+    counters_.resyncs += connection->framer.resyncs();
+    counters_.skipped_bytes += connection->framer.skipped_bytes();
+    ++counters_.connections_lost;
+    if (connector_) connector_->Restart(now);
+  }
+  connections_.erase(std::remove_if(connections_.begin(), connections_.end(), has_ended),
+                     connections_.end());
+}
+
+TransportCounters TcpDatagrams::counters() const {
+  TransportCounters counters = counters_;
+  counters.connections_open = static_cast<int>(connections_.size());
+  for (const auto& connection : connections_) {
+    counters.resyncs += connection->framer.resyncs();
+    counters.skipped_bytes += connection->framer.skipped_bytes();
+  }
+  return counters;
+}
+
+std::unique_ptr<DatagramSource> OpenTcpDatagrams(const std::string& url) {
+  return std::make_unique<TcpDatagrams>(url);
+}
+
+}  // namespace kinescope::mvn

@@ -1,0 +1,69 @@
+/// The MVN stream over TCP. MVN makes the connection, so this normally waits for it; several
+/// senders may connect, and each is a stream of its own. With a host in its URL it connects
+/// instead, and again whenever the connection is lost. One thread.
+#pragma once
+
+#include <poll.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/mvn/datagram_source.h"
+#include "server/mvn/net/socket.h"
+#include "server/mvn/net/tcp_connector.h"
+
+namespace kinescope::mvn {
+
+/// Arrival is when the bytes were read, on both clocks. `from` and `to` are the connection's ends.
+class TcpDatagrams : public DatagramSource {
+ public:
+  /// Beyond that a newcomer is refused: its connection is closed at once.
+  static constexpr std::size_t kMostConnections = 16;
+
+  /// Listens at once; or resolves the host and begins to connect with the first Poll(). That nobody
+  /// is there yet is no error.
+  /// @throws SourceError: see ParseNetUrl(), BindToListen() and ResolveToSend().
+  explicit TcpDatagrams(const std::string& url);
+  ~TcpDatagrams() override;
+
+  /// Reads once from each connection that has something; kMore when one may have more. Returns
+  /// early when a connection comes or goes.
+  State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
+  TransportCounters counters() const override;
+  std::string description() const override { return description_; }
+  bool is_live() const override { return true; }
+
+  std::uint16_t port() const { return port_; }  // the real one
+  std::uint64_t connections_refused() const { return refused_; }
+
+ private:
+  struct Connection;
+
+  bool WaitForInput(std::chrono::nanoseconds timeout);
+  void CollectDescriptors(std::int64_t now);
+  std::int64_t Deadline(std::int64_t now, std::chrono::nanoseconds timeout) const;
+  void AcceptAll(std::int64_t now);
+  void Add(Socket socket);
+  bool Read(Connection& connection, DatagramSink& sink);
+  void RemoveEnded(std::int64_t now);
+
+  std::string description_;
+  std::uint16_t port_ = 0;
+  Socket listener_;                        // or:
+  std::optional<TcpConnector> connector_;  //
+  std::int64_t accept_again_nanos_ = 0;    // monotonic; before, there is no use in trying
+  std::vector<std::unique_ptr<Connection>> connections_;
+  std::vector<pollfd> descriptors_;  // to wait for: connections in their order, then ours
+  std::string buffer_;
+  TransportCounters counters_;  // of connections that are gone
+  std::uint64_t refused_ = 0;
+};
+
+/// `url`: "tcp://:9763" and the like (net_url.h). @throws SourceError as the constructor does.
+std::unique_ptr<DatagramSource> OpenTcpDatagrams(const std::string& url);
+
+}  // namespace kinescope::mvn

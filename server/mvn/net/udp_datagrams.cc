@@ -1,0 +1,185 @@
+#include "server/mvn/net/udp_datagrams.h"
+
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "server/core/errors.h"
+#include "server/mvn/datagram.h"
+
+namespace kinescope::mvn {
+namespace {
+
+// A burst of 30 frames of four characters is 0.6 MB; the kernel counts its overhead in, and a
+// stalled reader should survive a second of it.
+constexpr int kReceiveBufferBytes = 8 << 20;
+constexpr unsigned kBatchSize = 32;
+constexpr int kBatchesPerPoll = 16;  // then the caller gets its turn, however fast input comes
+constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
+
+// What the kernel says beside a datagram, by its level and type.
+template <class Value>
+bool ReadControl(const cmsghdr& control, int level, int type, Value& value) {
+  if (control.cmsg_level != level || control.cmsg_type != type) return false;
+  std::memcpy(&value, CMSG_DATA(&control), sizeof value);
+  return true;
+}
+
+}  // namespace
+
+// Where recvmmsg writes; made once, used for every read.
+struct UdpDatagrams::Batch {
+  static constexpr std::size_t kControlBytes =
+      CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t)) +
+      CMSG_SPACE(sizeof(in_pktinfo)) + CMSG_SPACE(sizeof(in6_pktinfo));
+
+  struct Slot {
+    std::array<char, kLargestDatagram> bytes;
+    alignas(cmsghdr) std::array<char, kControlBytes> control;
+    SocketAddress sender;
+    iovec vector{};
+  };
+
+  std::vector<Slot> slots = std::vector<Slot>(kBatchSize);
+  std::vector<mmsghdr> headers = std::vector<mmsghdr>(kBatchSize);
+  ReceivedDatagram datagram;  // the one that is handed on
+
+  // The kernel writes lengths into the headers, so each read needs them fresh.
+  void Reset() {
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      Slot& slot = slots[i];
+      slot.vector = {slot.bytes.data(), slot.bytes.size()};
+      msghdr& header = headers[i].msg_hdr;
+      header = {};
+      header.msg_name = slot.sender.get();
+      header.msg_namelen = sizeof slot.sender.storage;
+      header.msg_iov = &slot.vector;
+      header.msg_iovlen = 1;
+      header.msg_control = slot.control.data();
+      header.msg_controllen = slot.control.size();
+    }
+  }
+};
+
+UdpDatagrams::UdpDatagrams(const std::string& url)
+    : socket_(BindToListen(ParseNetUrl(url), url)), batch_(std::make_unique<Batch>()) {
+  const SocketAddress bound = LocalAddress(socket_);
+  description_ = FormatUrl(Protocol::kUdp, bound);
+  local_ = EndpointOf(bound);
+  const auto* any = reinterpret_cast<const sockaddr_in*>(&bound.storage);
+  if (bound.storage.ss_family == AF_INET && any->sin_addr.s_addr == INADDR_ANY) {
+    local_.address = {};  // and not the IPv4 form of it
+  }
+  Configure();
+}
+
+UdpDatagrams::~UdpDatagrams() = default;
+
+void UdpDatagrams::Configure() {
+  const int wanted = kReceiveBufferBytes;
+  // Beyond the system's limit only root may go; others get as much as net.core.rmem_max lets them.
+  if (setsockopt(socket_.get(), SOL_SOCKET, SO_RCVBUFFORCE, &wanted, sizeof wanted) != 0) {
+    setsockopt(socket_.get(), SOL_SOCKET, SO_RCVBUF, &wanted, sizeof wanted);
+  }
+  counters_.receive_buffer_bytes = ReceiveBufferBytes(socket_);
+  // Refinements, each of which may fail: without them drops are not counted, stamps feel the
+  // scheduler, and a socket that listens everywhere cannot tell where a datagram went.
+  const int on = 1;
+  setsockopt(socket_.get(), SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+  setsockopt(socket_.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+  if (LocalAddress(socket_).storage.ss_family == AF_INET6) {
+    setsockopt(socket_.get(), IPPROTO_IPV6, IPV6_RECVPKTINFO, &on, sizeof on);
+  } else {
+    setsockopt(socket_.get(), IPPROTO_IP, IP_PKTINFO, &on, sizeof on);
+  }
+}
+
+bool UdpDatagrams::WaitForInput(std::chrono::nanoseconds timeout) {
+  const std::int64_t nanos = std::max<std::int64_t>(timeout.count(), 0);
+  const timespec wait{static_cast<time_t>(nanos / kNanosPerSecond),
+                      static_cast<long>(nanos % kNanosPerSecond)};
+  pollfd descriptor{socket_.get(), POLLIN, 0};
+  const int ready = ppoll(&descriptor, 1, &wait, nullptr);
+  if (ready < 0 && errno != EINTR) {
+    throw SourceError(description_ + ": waiting for input failed: " + ErrorText(errno));
+  }
+  return ready > 0;
+}
+
+// Arrival of one datagram by the kernel's own stamp, the address it was sent to, and what the
+// kernel says about lost ones.
+void UdpDatagrams::ReadAncillary(const void* message_header, const Arrival& now) {
+  msghdr header = *static_cast<const msghdr*>(message_header);
+  batch_->datagram.arrival = now;
+  batch_->datagram.to = local_;
+  for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr;
+       control = CMSG_NXTHDR(&header, control)) {
+    timespec stamp{};
+    std::uint32_t overflow = 0;
+    in_pktinfo ipv4{};
+    in6_pktinfo ipv6{};
+    if (ReadControl(*control, SOL_SOCKET, SO_TIMESTAMPNS, stamp)) {
+      // The wall clock may have been set in between: then the kernel's stamp is of no use.
+      const std::int64_t queued = now.wall_nanos - (stamp.tv_sec * kNanosPerSecond + stamp.tv_nsec);
+      if (queued >= 0 && queued < kNanosPerSecond) {
+        batch_->datagram.arrival = {now.monotonic_nanos - queued, now.wall_nanos - queued};
+      }
+    } else if (ReadControl(*control, SOL_SOCKET, SO_RXQ_OVFL, overflow)) {
+      counters_.kernel_drops += overflow - last_overflow_;
+      last_overflow_ = overflow;
+    } else if (ReadControl(*control, IPPROTO_IP, IP_PKTINFO, ipv4)) {
+      SocketAddress address;
+      auto& ip = reinterpret_cast<sockaddr_in&>(address.storage);
+      ip.sin_family = AF_INET;
+      ip.sin_addr = ipv4.ipi_addr;
+      batch_->datagram.to.address = EndpointOf(address).address;
+    } else if (ReadControl(*control, IPPROTO_IPV6, IPV6_PKTINFO, ipv6)) {
+      std::memcpy(batch_->datagram.to.address.data(), &ipv6.ipi6_addr, sizeof ipv6.ipi6_addr);
+    }
+  }
+}
+
+// Number of datagrams read; 0 when there are none.
+int UdpDatagrams::ReadBatch(DatagramSink& sink) {
+  batch_->Reset();
+  const int count =
+      recvmmsg(socket_.get(), batch_->headers.data(), kBatchSize, MSG_DONTWAIT, nullptr);
+  if (count < 0) {
+    if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return 0;
+    throw SourceError(description_ + ": reading failed: " + ErrorText(errno));
+  }
+  const Arrival now = ReadClocks();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    ReadAncillary(&batch_->headers[i].msg_hdr, now);
+    batch_->datagram.from = EndpointOf(batch_->slots[i].sender);
+    Arrival& arrival = batch_->datagram.arrival;
+    arrival.monotonic_nanos = std::max(arrival.monotonic_nanos, last_arrival_nanos_);
+    last_arrival_nanos_ = arrival.monotonic_nanos;
+    batch_->datagram.bytes =
+        std::string_view(batch_->slots[i].bytes.data(), batch_->headers[i].msg_len);
+    sink.OnDatagram(batch_->datagram);
+  }
+  return count;
+}
+
+DatagramSource::State UdpDatagrams::Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) {
+  if (!WaitForInput(timeout)) return State::kIdle;
+  for (int batch = 0; batch < kBatchesPerPoll; ++batch) {
+    if (ReadBatch(sink) < static_cast<int>(kBatchSize)) return State::kIdle;
+  }
+  return State::kMore;
+}
+
+std::unique_ptr<DatagramSource> OpenUdpDatagrams(const std::string& url) {
+  return std::make_unique<UdpDatagrams>(url);
+}
+
+}  // namespace kinescope::mvn

@@ -1,0 +1,49 @@
+/// The MVN stream from a UDP socket. One thread.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "server/mvn/datagram_source.h"
+#include "server/mvn/net/socket.h"
+
+namespace kinescope::mvn {
+
+/// Arrival is the kernel's own stamp of each datagram. `to` is the address that the sender wrote on
+/// it, one of this machine's, a broadcast or a multicast address.
+class UdpDatagrams : public DatagramSource {
+ public:
+  /// Listens at once. @throws SourceError: see ParseNetUrl() and BindToListen().
+  explicit UdpDatagrams(const std::string& url);
+  ~UdpDatagrams() override;
+
+  /// kMore after as many datagrams as a call hands on, when there may be more.
+  State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
+  TransportCounters counters() const override { return counters_; }
+  std::string description() const override { return description_; }
+  bool is_live() const override { return true; }
+
+  std::uint16_t port() const { return local_.port; }  // the real one
+
+ private:
+  struct Batch;
+
+  void Configure();
+  bool WaitForInput(std::chrono::nanoseconds timeout);
+  int ReadBatch(DatagramSink& sink);
+  void ReadAncillary(const void* message_header, const Arrival& now);
+
+  Socket socket_;
+  std::string description_;
+  Endpoint local_;  // address zero when it listens on all of them
+  TransportCounters counters_;
+  std::uint32_t last_overflow_ = 0;      // the kernel's own count, which wraps
+  std::int64_t last_arrival_nanos_ = 0;  // monotonic: never goes back, although stamps may
+  std::unique_ptr<Batch> batch_;
+};
+
+/// `url`: "udp://:9763" and the like (net_url.h). @throws SourceError as the constructor does.
+std::unique_ptr<DatagramSource> OpenUdpDatagrams(const std::string& url);
+
+}  // namespace kinescope::mvn
