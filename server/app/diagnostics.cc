@@ -31,6 +31,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
     out["source"]["types"] = counters->types;
     out["source"]["ignored"] = counters->ignored;
     out["source"]["rejected"] = counters->rejected;
+    out["source"]["transport"] = counters->transport;
   }
   out["ros"] = nullptr;
   if (ros) {

@@ -37,6 +37,7 @@ Json TransportOf(const mvn::TransportCounters& transport) {
           {"kernel_drops", transport.kernel_drops},
           {"connections", transport.connections},
           {"connections_open", transport.connections_open},
+          {"connections_refused", transport.connections_refused},
           {"connections_lost", transport.connections_lost},
           {"resyncs", transport.resyncs},
           {"skipped_bytes", transport.skipped_bytes},

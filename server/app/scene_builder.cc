@@ -163,7 +163,7 @@ void SceneBuilder::OnSample(const BodySample& sample) {
   Person& person =
       known != people_.end() ? known->second : AddPerson({sample.character, "", {}, {}, {}});
   person.state = StateOf(person, sample);
-  MeasureRate(sample.arrival_nanos);
+  MeasureRate(sample);
   current_.stamp_nanos = sample.stamp_nanos;
   current_.counter = sample.counter;
   current_.time_code_millis = sample.time_code_millis;
@@ -188,22 +188,28 @@ void SceneBuilder::OnObjects(const ObjectsSample& sample) {
   }
 }
 
-void SceneBuilder::MeasureRate(std::int64_t arrival_nanos) {
-  if (arrival_nanos == 0) {
+// One person's samples are counted, whoever begins the window: two people at 60 Hz are 60 Hz.
+void SceneBuilder::MeasureRate(const BodySample& sample) {
+  const bool is_file = sample.arrival_nanos == 0;
+  if (is_file && nominal_rate_hz_ > 0) {
     current_.rate_hz = nominal_rate_hz_;
     return;
   }
-  if (rate_window_start_ == 0 || current_.liveness != Liveness::kLive) {
-    rate_window_start_ = arrival_nanos;
+  const std::int64_t now = is_file ? sample.stamp_nanos : sample.arrival_nanos;
+  const double secs = static_cast<double>(now - rate_window_start_) / kNanosPerSec;
+  constexpr double kLongestWindow = 2;  // whom we counted has left
+  if (rate_window_start_ == 0 || current_.liveness != Liveness::kLive || secs > kLongestWindow) {
+    rate_window_start_ = now;
     rate_window_samples_ = 0;
+    rate_character_ = sample.character;
     return;
   }
+  if (sample.character != rate_character_) return;
   ++rate_window_samples_;
-  const double secs = static_cast<double>(arrival_nanos - rate_window_start_) / kNanosPerSec;
   // A first figure soon, then one a second.
   if (secs >= 1.0 || (current_.rate_hz == 0 && secs >= 0.2)) {
     current_.rate_hz = rate_window_samples_ / secs;
-    rate_window_start_ = arrival_nanos;
+    rate_window_start_ = now;
     rate_window_samples_ = 0;
   }
 }

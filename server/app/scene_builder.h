@@ -62,7 +62,7 @@ class SceneBuilder : public SampleSink {
   std::shared_ptr<const PersonModel> MakeModel(const Person& person, std::size_t index) const;
   PersonState StateOf(Person& person, const BodySample& sample) const;
   void Publish(Liveness liveness);
-  void MeasureRate(std::int64_t arrival_nanos);
+  void MeasureRate(const BodySample& sample);
 
   SceneOptions options_;
   std::string source_;
@@ -74,6 +74,7 @@ class SceneBuilder : public SampleSink {
   SceneState current_;                                 // without its people: Publish adds those
   std::int64_t rate_window_start_ = 0;                 // monotonic
   int rate_window_samples_ = 0;
+  int rate_character_ = 0;  // whose samples are counted
 };
 
 }  // namespace kinescope::app

@@ -55,6 +55,33 @@ class Announcer {
   Liveness liveness_ = Liveness::kNoData;
 };
 
+// Says once that datagrams come in and none of them can be shown: the likeliest first meeting with
+// a suit whose streamer is set up for something else.
+class UselessStreamWatch {
+ public:
+  void OnCounters(const SourceCounters& counters, const std::string& source, std::int64_t now) {
+    if (has_spoken_ || counters.samples > 0 || counters.datagrams == 0) return;
+    if (since_nanos_ == 0) since_nanos_ = now;
+    if (now - since_nanos_ < kPatienceNanos) return;
+    has_spoken_ = true;
+    std::string reason = "no message of a pose is among them";
+    std::uint64_t most = 0;
+    for (const auto& [text, count] : counters.rejected) {
+      if (count <= most) continue;
+      most = count;
+      reason = text;
+    }
+    spdlog::warn("{} datagrams from {} and nobody to show: {}. `kinescope inspect {}` says more",
+                 counters.datagrams, source, reason, source);
+  }
+
+ private:
+  static constexpr std::int64_t kPatienceNanos = 2'000'000'000;
+
+  std::int64_t since_nanos_ = 0;
+  bool has_spoken_ = false;
+};
+
 std::vector<http::CameraView> CameraViews() {
   std::vector<http::CameraView> views;
   for (const std::string& name : render::CameraNames()) {
@@ -135,13 +162,21 @@ void Serve(const ServeOptions& options, bool with_page) {
     spdlog::info("page at {}", page->url());
   }
 
+  const auto transport = source->counters().transport;
+  if (const auto buffer = transport.find("receive_buffer_bytes"); buffer != transport.end()) {
+    spdlog::info("listening at {}, receive buffer {:.1f} MB", source->description(),
+                 static_cast<double>(buffer->second) * 1e-6);
+  }
+  UselessStreamWatch useless_stream;
   std::int64_t counters_due = 0;
   while (!StopRequested()) {
     const Source::State more = source->Poll(kPollTimeout, builder);
     const std::int64_t now = MonotonicNanos();
     builder.Tick(now);
     if (now >= counters_due) {
-      counters.Publish(std::make_shared<const SourceCounters>(source->counters()));
+      const auto newest = std::make_shared<const SourceCounters>(source->counters());
+      counters.Publish(newest);
+      useless_stream.OnCounters(*newest, source->description(), now);
       counters_due = now + 500'000'000;
     }
     if (ros && ros->status().told_to_stop) {

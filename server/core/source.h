@@ -25,6 +25,9 @@ struct SourceCounters {
   std::map<std::string, std::uint64_t> types;     // datagrams that were read, by type: "02"
   std::map<std::string, std::uint64_t> ignored;   // good, not needed: "frame of type tpose"
   std::map<std::string, std::uint64_t> rejected;  // bad, by reason: "no MXTP id string"
+  /// What the transport saw, such as "receive_buffer_bytes" or "connections_open"; empty where
+  /// there is none.
+  std::map<std::string, std::uint64_t> transport;
 };
 
 class SampleSink {

@@ -33,6 +33,7 @@ struct TransportCounters {
   std::uint64_t kernel_drops = 0;        // datagrams lost because nobody read them in time
   std::uint64_t connections = 0;         // TCP: accepted or made, in all
   int connections_open = 0;              // TCP: now
+  std::uint64_t connections_refused = 0;  // TCP: one too many
   std::uint64_t connections_lost = 0;    // TCP: ended by the other side or by an error
   std::uint64_t resyncs = 0;             // byte streams: times that the next MXTP was searched for
   std::uint64_t skipped_bytes = 0;       // byte streams: passed over by these searches

@@ -63,14 +63,19 @@ Source::State StreamSource::Poll(std::chrono::milliseconds timeout, SampleSink& 
 SourceCounters StreamSource::counters() const {
   SourceCounters counters = assembler_.counters();
   const TransportCounters transport = datagrams_->counters();
-  if (transport.kernel_drops > 0) {
-    // They never reached us, so they are not among `datagrams`.
-    counters.rejected["dropped by the kernel (receive buffer full)"] = transport.kernel_drops;
-  }
-  if (transport.other_packets > 0) counters.ignored["other packets"] = transport.other_packets;
-  if (transport.incomplete_packets > 0) {
-    counters.rejected["packets cut short by the capture"] = transport.incomplete_packets;
-  }
+  const auto tell = [&counters](const char* name, std::uint64_t value) {
+    if (value > 0) counters.transport[name] = value;
+  };
+  tell("receive_buffer_bytes", static_cast<std::uint64_t>(transport.receive_buffer_bytes));
+  tell("kernel_drops", transport.kernel_drops);
+  tell("connections", transport.connections);
+  tell("connections_open", static_cast<std::uint64_t>(transport.connections_open));
+  tell("connections_refused", transport.connections_refused);
+  tell("connections_lost", transport.connections_lost);
+  tell("resyncs", transport.resyncs);
+  tell("skipped_bytes", transport.skipped_bytes);
+  tell("other_packets", transport.other_packets);
+  tell("incomplete_packets", transport.incomplete_packets);
   return counters;
 }
 

@@ -54,7 +54,8 @@ PersonNames::PersonNames(const std::string& model_name) : model(model_name) {
 std::string AsSnakeCase(const std::string& text) {
   std::string name;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool begins_word = IsUpper(text[i]) && i > 0 && !IsUpper(text[i - 1]);
+    const bool begins_word =
+        IsUpper(text[i]) && i > 0 && !IsUpper(text[i - 1]) && text[i - 1] != '_';
     if (begins_word) name += '_';
     name += IsUpper(text[i]) ? static_cast<char>(text[i] - 'A' + 'a') : text[i];
   }

@@ -134,7 +134,7 @@ void TcpDatagrams::AcceptAll(std::int64_t now) {
 
 void TcpDatagrams::Add(Socket socket) {
   if (connections_.size() >= kMostConnections) {
-    if (refused_++ == 0) {
+    if (counters_.connections_refused++ == 0) {
       spdlog::warn("{}: more than {} connections; {} is refused, and so are all further ones",
                    description_, kMostConnections, Format(EndpointOf(PeerAddress(socket))));
     }

@@ -38,7 +38,6 @@ class TcpDatagrams : public DatagramSource {
   bool is_live() const override { return true; }
 
   std::uint16_t port() const { return port_; }  // the real one
-  std::uint64_t connections_refused() const { return refused_; }
 
  private:
   struct Connection;
@@ -60,7 +59,6 @@ class TcpDatagrams : public DatagramSource {
   std::vector<pollfd> descriptors_;  // to wait for: connections in their order, then ours
   std::string buffer_;
   TransportCounters counters_;  // of connections that are gone
-  std::uint64_t refused_ = 0;
 };
 
 /// `url`: "tcp://:9763" and the like (net_url.h). @throws SourceError as the constructor does.

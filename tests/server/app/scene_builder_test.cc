@@ -152,5 +152,60 @@ TEST(SceneBuilder, MeasuresTheRateOfALiveStream) {
   EXPECT_NEAR(built.last().rate_hz, 100, 1);
 }
 
+TEST(SceneBuilder, TheRateOfManyPeopleIsThatOfOne) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  for (int i = 0; i < 300; ++i) {
+    sample.arrival_nanos += 10'000'000;
+    sample.stamp_nanos += 10'000'000;
+    for (sample.character = 0; sample.character < 3; ++sample.character) {
+      built.builder.OnSample(sample);
+    }
+  }
+  EXPECT_NEAR(built.last().rate_hz, 100, 1);
+}
+
+TEST(SceneBuilder, TheRateOfACaptureIsThatOfItsStamps) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  sample.arrival_nanos = 0;
+  for (int i = 0; i < 300; ++i) {
+    sample.stamp_nanos += 10'000'000;
+    built.builder.OnSample(sample);
+  }
+  EXPECT_NEAR(built.last().rate_hz, 100, 1);
+}
+
+TEST(SceneBuilder, SomebodyWhoIsOnlyAnnouncedIsNoReasonToFail) {
+  Built built;
+  built.builder.OnCharacter({0, "Anna", {}, {}, {}});
+  BodySample sample = SampleOf("n_pose", 0);
+  sample.character = 1;
+  built.builder.OnSample(sample);
+  ASSERT_EQ(built.last().people.size(), 1U);
+  EXPECT_EQ(built.last().floor_z, 0);
+}
+
+TEST(SceneBuilder, ShowsTrackedObjectsByTheirNamesUntilTheyLeave) {
+  Built built;
+  built.builder.OnCharacter({7, "Things", {}, {}, {{"HTC Vive Tracker", {0, 0, 1}}}});
+  ObjectsSample objects;
+  objects.character = 7;
+  objects.present.set(0).set(1);
+  objects.poses[1].position = {1, 2, 3};
+  BodySample sample = SampleOf("n_pose", 0);
+  objects.stamp_nanos = sample.stamp_nanos;
+  built.builder.OnObjects(objects);
+  built.builder.OnSample(sample);
+  ASSERT_EQ(built.last().people.size(), 1U);
+  ASSERT_EQ(built.last().objects.size(), 2U);
+  EXPECT_EQ(built.last().objects[0].name, "HTC Vive Tracker");
+  EXPECT_EQ(built.last().objects[1].name, "object_2");
+  EXPECT_EQ(built.last().objects[1].pose.position, Vector3d(1, 2, 3));
+  sample.stamp_nanos += 1'100'000'000;
+  built.builder.OnSample(sample);
+  EXPECT_TRUE(built.last().objects.empty());
+}
+
 }  // namespace
 }  // namespace kinescope::app

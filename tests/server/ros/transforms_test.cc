@@ -121,5 +121,45 @@ TEST_F(Transforms, TreeHasTheParentsOfTheUrdf) {
   }
 }
 
+TEST_F(Transforms, FingersHangBelowTheirHandInATreeAndAreWhereFlatHasThem) {
+  ExtraSegments& extra = person_.sample.extra;
+  for (int i = 0; i < kExtraCount; ++i) {
+    if (i >= 2 && i < kMostProps) continue;  // two props
+    extra.present.set(At(i));
+    extra.poses[At(i)] = {Eigen::Vector3d(0.1, 0.01, 0.02) * i,
+                          Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitX()))};
+  }
+  const auto tree_message = Of(person_, TfShape::kTree);
+  const auto flat = Resolve(Of(person_, TfShape::kFlat), "lab");
+  const auto tree = Resolve(tree_message, "lab");
+  ASSERT_EQ(flat.size(), 67U + 42);
+  for (const auto& [frame, pose] : flat) {
+    EXPECT_TRUE(tree.at(frame).isApprox(pose, 1e-12)) << frame;
+  }
+  // A finger is turned as its hand is, so that in the N-pose it is parallel to it.
+  const int carpus = FingerIndex(urdf::kLeft, 0);
+  const Eigen::Quaterniond turned =
+      extra.poses[At(carpus)].orientation * urdf::SegmentFromLink(urdf::kLeftHand);
+  EXPECT_TRUE(flat.at("skeleton_left_carpus").linear().isApprox(turned.toRotationMatrix(), 1e-12));
+  EXPECT_EQ(flat.at("skeleton_prop2").translation(), extra.poses[1].position);
+  std::map<std::string, std::string> parents;
+  for (const auto& one : tree_message.transforms) parents[one.child_frame_id] = one.header.frame_id;
+  EXPECT_EQ(parents.at("skeleton_left_carpus"), "skeleton_left_hand");
+  EXPECT_EQ(parents.at("skeleton_right_second_mc"), "skeleton_right_carpus");
+  EXPECT_EQ(parents.at("skeleton_right_second_dp"), "skeleton_right_second_mp");
+  EXPECT_EQ(parents.at("skeleton_prop1"), "lab");
+}
+
+TEST_F(Transforms, TrackedObjectsAreFramesOfTheirOwn) {
+  SceneState scene;
+  scene.objects.push_back({7, "HTC Vive 2", {{1, 2, 3}, Eigen::Quaterniond::Identity()}, 5});
+  tf2_msgs::TFMessage message;
+  AddObjects(scene, PersonNames("skeleton"), "lab", message);
+  ASSERT_EQ(message.transforms.size(), 1U);
+  EXPECT_EQ(message.transforms[0].child_frame_id, "skeleton_htc_vive_2");
+  EXPECT_EQ(message.transforms[0].header.frame_id, "lab");
+  EXPECT_EQ(message.transforms[0].transform.translation.z, 3);
+}
+
 }  // namespace
 }  // namespace kinescope::ros_bridge

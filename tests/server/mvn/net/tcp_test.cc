@@ -166,7 +166,7 @@ TEST(TcpDatagrams, RefuseMoreConnectionsThanTheyCanHold) {
   for (std::size_t i = 0; i < TcpDatagrams::kMostConnections + 2; ++i) {
     clients.push_back(std::make_unique<Client>(source.description()));
   }
-  ASSERT_TRUE(PollUntil(source, sink, [&] { return source.connections_refused() == 2; }));
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return source.counters().connections_refused == 2; }));
   EXPECT_EQ(source.counters().connections_open, static_cast<int>(TcpDatagrams::kMostConnections));
   char byte = 0;
   EXPECT_EQ(recv(clients.back()->socket().get(), &byte, 1, 0), 0) << "the newcomer is told at once";
