@@ -51,3 +51,15 @@ if [ -x "$build/tests/bench/ros_latency" ]; then
   echo "at 240 Hz, sample in to ROS subscriber: $("$build/tests/bench/ros_latency" /kinescope/joint_states 2400)"
   echo "  server CPU $(( $(cpu_ticks "$server") - before ))/1000 of a core, $(rss_mb "$server") MB"
 fi
+kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true
+types=01,02,03,12,13,20,21,22,23,24,25
+"$kinescope" record "udp://127.0.0.1:$udp_port" --out "$work/take.pcap" --seconds 8 --json >"$work/take.json" 2>"$work/record.log" & recorder=$!
+until grep -q recording "$work/record.log"; do kill -0 "$recorder"; done
+"$kinescope" stream demo:walk --characters 4 --rate_hz 240 --gloves --props 2 --types $types --to "udp://127.0.0.1:$udp_port" 2>/dev/null & children=($!)
+before=$(cpu_ticks "$recorder")
+while kill -0 "$recorder" 2>/dev/null; do ticks=$(cpu_ticks "$recorder" 2>/dev/null || echo "${ticks:-$before}"); sleep 0.2; done
+echo "four people at 240 Hz with every message, gloves and props, recorded for 8 s: $(/usr/bin/python3 -c '
+import json, sys
+take = json.load(open(sys.argv[1]))
+print(take["datagrams"], "datagrams,", take["samples"], "samples, lost", take["lost"])' "$work/take.json")," \
+  "CPU $(( (ticks - before) * 1000 / 800 ))/1000 of a core"

@@ -17,7 +17,8 @@ import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM, SETUP, RECORDING = sys.argv[1:4]
-DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/ros.md", "docs/http.md", "tests/bench/README.md"]
+DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/ros.md", "docs/http.md", "docs/inspect.md",
+             "tests/bench/README.md"]
 passed, skipped, failed = 0, 0, 0
 
 
@@ -56,14 +57,38 @@ def run_until(words, folder, line):
         return f"never said '{line}': {said}"
 
 
+def with_suit(words, folder, port):
+    """Runs it for a second while a suit sends to `port`."""
+    suit = subprocess.Popen([PROGRAM, "stream", "demo:lift", "--to", "udp://127.0.0.1:" + port],
+                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        return run(words + ["--seconds", "1"], folder)
+    finally:
+        suit.kill()
+        suit.wait()
+
+
+def record_take(folder):
+    port = free_port(socket.SOCK_DGRAM)
+    problem = with_suit([PROGRAM, "record", "udp://127.0.0.1:" + port, "--out", "take.pcap"], folder, port)
+    assert problem is None, problem
+
+
 def try_kinescope(words, folder):
     words = [PROGRAM] + words[1:]
     command = words[1]
+    port = free_port(socket.SOCK_STREAM if words[2:] and words[2].startswith("tcp:") else socket.SOCK_DGRAM)
+    words = [re.sub(r"^(udp|tcp)://(127\.0\.0\.1)?:9763$", r"\1://127.0.0.1:" + port + ("?listen" if w.startswith("tcp:") else ""), w)
+             for w in words]
+    if "take.pcap" in words and command != "record":
+        record_take(folder)
+    if command in ("record", "inspect") and any(w.startswith("udp:") for w in words):
+        return with_suit(words, folder, port)
     if command in ("serve", "bridge"):
         words += ["--ros", "off", "--pictures", "off"] if command == "serve" else ["--ros", "off"]
         if command == "serve":
             words += ["--http_port", "0"]
-        if not any(w.startswith("demo:") or w.startswith("udp:") for w in words):
+        if not any(w.startswith(("demo:", "udp:", "tcp:")) or w == "take.pcap" for w in words):
             words += ["--source", "udp://127.0.0.1:" + free_port(socket.SOCK_DGRAM)]
         return run_until(words, folder, "page at" if command == "serve" else "waiting for")
     if command == "stream":
