@@ -131,6 +131,9 @@ void CheckOptions(const RecordOptions& options) {
                                  options.rotate_mb, kLeastMb));
   }
   std::error_code ignored;  // equivalent() minds files that are not there
+  if (fs::path(options.out).extension() != ".pcap") {
+    throw UsageError("--out=" + options.out + ": expected a name that ends in .pcap");
+  }
   if (fs::equivalent(options.source, options.out, ignored)) {
     throw UsageError("--out " + options.out + ": is the file that would be read");
   }
@@ -215,7 +218,8 @@ void AddRecord(CommandLine line) {
   const auto o = std::make_shared<RecordOptions>();
   command->add_option("source", o->source, "udp://[address]:port, tcp://..., a capture, a .bin")
       ->required();
-  command->add_option("--out", o->out, "the file; never replaced without --force")->required();
+  command->add_option("--out", o->out, "the file, .pcap; never replaced without --force")
+      ->required();
   command->add_option("--rotate_mb", o->rotate_mb,
                       "begin the next file (take-0002.pcap) before one gets larger; 0: one file");
   command->add_option("--seconds", o->seconds, "stop after so long; 0: at Ctrl-C or a file's end");
