@@ -103,6 +103,8 @@ void PcapDatagrams::AdvanceTo(const pcap_pkthdr& header) {
   if (seconds < 0 || seconds > kLatestSecond || nanos < 0 || nanos >= kNanosPerSecond) return;
   const std::int64_t captured = seconds * kNanosPerSecond + nanos;
   if (!std::exchange(has_time_, true)) newest_nanos_ = captured;
+  // Time that was made to run on after steps back must not run out of its type either.
+  if (captured > kLatestSecond * kNanosPerSecond - offset_nanos_) return;
   const std::int64_t arrival = captured + offset_nanos_;
   const std::int64_t back = newest_nanos_ - arrival;
   if (back >= kNanosPerSecond) offset_nanos_ += back;

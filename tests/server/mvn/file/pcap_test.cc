@@ -433,6 +433,20 @@ TEST(Pcap, TimeNeverGoesBack) {
   EXPECT_THAT(times, ElementsAre(0, 5000, 5000, 9000, 9000, 10'000));
 }
 
+TEST(Pcap, TimeThatWouldRunOutStandsStill) {
+  const std::int64_t late = 0xFFFFFFF0LL * kSecond;  // 2106, the last that the format can say
+  PcapBuilder pcap(kLinkRaw);
+  std::uint32_t counter = 0;
+  for (const std::int64_t time : {late, kSecond, late, 2 * kSecond, late}) {
+    pcap.Add(time, Udp(kSuit, kUs, Pose(++counter)));
+  }
+  std::vector<std::int64_t> times;
+  for (const KeptDatagram& datagram : Read(pcap.bytes()).sink.datagrams) {
+    times.push_back(datagram.arrival.wall_nanos - late);
+  }
+  EXPECT_THAT(times, ElementsAre(0, 0, 0, kSecond, kSecond));
+}
+
 TEST(Pcap, SaysSoWhenThereIsNothingOfMvnInIt) {
   ::testing::internal::CaptureStdout();
   const Reading reading = Read(
