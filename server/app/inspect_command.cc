@@ -8,17 +8,18 @@
 #include <string_view>
 #include <utility>
 
-#include "server/app/clocks.h"
 #include "server/app/commands.h"
 #include "server/app/inspection_report.h"
 #include "server/app/open_source.h"
 #include "server/app/progress.h"
 #include "server/app/stop_signal.h"
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/core/input_file.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/recording.h"
 #include "server/mvn/inspect/inspection.h"
+#include "server/mvn/net/net_url.h"
 #include "server/mvn/open.h"
 #include "server/ros/bag_source.h"
 
@@ -108,10 +109,6 @@ mvn::InspectionReport InspectSamples(Source& source, double seconds, bool has_en
   return steps.inspection().Report(source);
 }
 
-bool StartsWith(const std::string& text, const std::string& prefix) {
-  return text.compare(0, prefix.size(), prefix) == 0;
-}
-
 // "MVNX version 4": the version as the first tag says it.
 std::string MvnxFormat(std::string_view head) {
   const std::size_t tag = head.find("<mvnx");
@@ -157,10 +154,10 @@ mvn::InspectionReport InspectFile(const InspectOptions& options) {
 
 mvn::InspectionReport Inspect(const InspectOptions& options) {
   mvn::InspectionReport report;
-  if (StartsWith(options.source, "udp:") || StartsWith(options.source, "tcp:")) {
+  if (mvn::IsNetUrl(options.source)) {
     report = InspectDatagrams(*mvn::OpenDatagrams(options.source), options.seconds);
     report.format = options.source[0] == 'u' ? "UDP" : "TCP";
-  } else if (StartsWith(options.source, "demo:")) {
+  } else if (options.source.rfind("demo:", 0) == 0) {
     report = InspectSamples(*OpenSource(options.source), options.seconds, false);
     report.format = "built-in subject";
   } else {

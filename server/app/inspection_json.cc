@@ -33,16 +33,9 @@ const char* KindName(CharacterKind kind) {
 }
 
 Json TransportOf(const mvn::TransportCounters& transport) {
-  return {{"receive_buffer_bytes", transport.receive_buffer_bytes},
-          {"kernel_drops", transport.kernel_drops},
-          {"connections", transport.connections},
-          {"connections_open", transport.connections_open},
-          {"connections_refused", transport.connections_refused},
-          {"connections_lost", transport.connections_lost},
-          {"resyncs", transport.resyncs},
-          {"skipped_bytes", transport.skipped_bytes},
-          {"other_packets", transport.other_packets},
-          {"incomplete_packets", transport.incomplete_packets}};
+  Json json;
+  transport.Visit([&json](const char* name, std::uint64_t value) { json[name] = value; });
+  return json;
 }
 
 Json TypeOf(const mvn::TypeReport& type) {

@@ -8,15 +8,12 @@
 #include "server/core/input_file.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/recording.h"
+#include "server/mvn/net/net_url.h"
 #include "server/ros/bag_source.h"
 #include "server/subject/subject.h"
 
 namespace kinescope::app {
 namespace {
-
-bool StartsWith(const std::string& text, const std::string& prefix) {
-  return text.compare(0, prefix.size(), prefix) == 0;
-}
 
 // Opened once only: it may be a pipe.
 std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& settings) {
@@ -43,11 +40,11 @@ std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& 
 }  // namespace
 
 std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings) {
-  if (StartsWith(url, "demo:")) {
+  if (url.rfind("demo:", 0) == 0) {
     return subject::OpenSubject(url.substr(std::string("demo:").size()), settings.subject_rate_hz,
                                 0);
   }
-  if (StartsWith(url, "udp:") || StartsWith(url, "tcp:")) {
+  if (mvn::IsNetUrl(url)) {
     return mvn::OpenStream(mvn::OpenDatagrams(url), settings.stream);
   }
   return OpenFile(url, settings);

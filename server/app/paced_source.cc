@@ -4,7 +4,7 @@
 #include <thread>
 #include <utility>
 
-#include "server/app/clocks.h"
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {

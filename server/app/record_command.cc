@@ -11,9 +11,9 @@
 #include <set>
 #include <string>
 
-#include "server/app/clocks.h"
 #include "server/app/commands.h"
 #include "server/app/stop_signal.h"
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/file/pcap_recorder.h"

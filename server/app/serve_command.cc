@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-#include "server/app/clocks.h"
 #include "server/app/commands.h"
 #include "server/app/diagnostics.h"
 #include "server/app/open_source.h"
@@ -16,6 +15,7 @@
 #include "server/app/pipeline_options.h"
 #include "server/app/scene_builder.h"
 #include "server/app/stop_signal.h"
+#include "server/core/clocks.h"
 #include "server/core/install_paths.h"
 #include "server/core/latest.h"
 #include "server/http/server.h"

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "server/app/clocks.h"
 #include "server/app/stream_feed.h"
+#include "server/core/clocks.h"
 #include "server/mvn/open.h"
 
 namespace kinescope::app {
@@ -63,7 +63,7 @@ class DatagramFeed final : public Feed, private mvn::DatagramSink {
 
     mvn::HeaderPatch patch;
     bool begins_sample = false;
-    if (header->type != mvn::Type::kMetaData && header->type != mvn::Type::kScale) {
+    if (mvn::BelongsToSample(header->type)) {
       Track& track = tracks_[header->character];
       begins_sample = Follow(*header, track);
       if (!track.thinner.Keeps(settings_.stream_hz, header->sample_counter,

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
+#include "server/core/clocks.h"
 #include "server/http/access.h"
 #include "server/http/api.h"
 
@@ -16,12 +16,6 @@ namespace {
 constexpr int kMinPixels = 16;
 constexpr int kMaxPixels = 4096;
 constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
-
-std::int64_t MonotonicNanos() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 template <class Number>
 std::optional<Number> ParseNumber(std::string_view text) {

@@ -1,6 +1,7 @@
 #include "server/mvn/character_stream.h"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 namespace kinescope::mvn {
@@ -17,7 +18,7 @@ constexpr std::int32_t kMostFramesReordered = 120;  // half a second at 240 Hz
 constexpr int kPlacesReordered = 3;
 constexpr std::int64_t kSilenceNanos = 250'000'000;  // after it a lower counter is a restart
 constexpr std::int64_t kDoubtNanos = 250'000'000;
-constexpr std::uint32_t kStepsToBelieve = 8;  // how far a second datagram confirms a doubtful one
+constexpr std::uint32_t kStepsToBelieve = 8;
 constexpr std::int32_t kMillisToBelieve = 1000;
 constexpr int kRunOfRestart = 8;
 
@@ -26,8 +27,7 @@ constexpr int kRunOfRestart = 8;
 void CharacterStream::Add(const Message& message, std::uint32_t digest, const Arrival& arrival,
                           SampleSink& sink) {
   last_heard_nanos_ = arrival.monotonic_nanos;
-  if (heard_++ == 0) first_heard_nanos_ = arrival.monotonic_nanos;
-  if (heard_ >= 2) is_confirmed_ = true;
+  if (std::exchange(is_heard_, true)) is_confirmed_ = true;
   // Types 12 and 13 carry counter and time code 0 in the middle of a stream: they never touch the
   // sample's logic.
   if (const auto* meta = std::get_if<MetaDataMessage>(&message.body)) {
@@ -128,8 +128,7 @@ CharacterStream::Place CharacterStream::PlaceOf(const Header& header, SampleType
     case TimeCodeLine::Fit::kYes: return Place::kFits;
     case TimeCodeLine::Fit::kNo: break;
     case TimeCodeLine::Fit::kUnknown:
-      const auto plausible = static_cast<std::int32_t>(kStepsToBelieve * steps_.usual());
-      if (ahead <= plausible) return Place::kFits;
+      if (ahead <= PlausibleStep()) return Place::kFits;
       break;
   }
   return ahead < 0 && now - newest_heard_nanos_ > kSilenceNanos ? Place::kRestart
@@ -148,8 +147,7 @@ CharacterStream::Place CharacterStream::PlaceBehind(const Header& header, Sample
       const bool near = Ahead(*newest_, header.sample_counter) <= kMostFramesReordered;
       // Once the run is on its way, what would lie before its first sample is no late one.
       const bool before_the_run = Ahead(header.sample_counter, run_start_) < 0 &&
-                                  Ahead(*newest_, run_start_) >=
-                                      static_cast<std::int32_t>(kStepsToBelieve * steps_.usual());
+                                  Ahead(*newest_, run_start_) >= PlausibleStep();
       if (near && !before_the_run && fit != TimeCodeLine::Fit::kNo) return Place::kLate;
       break;
     }
@@ -181,13 +179,17 @@ void CharacterStream::Accept(const Message& message, std::uint32_t digest, const
   if (types_.AreAllIn(open->sample.whole())) FinishUpTo(open->sample.counter(), sink);
 }
 
+// By how much a counter may grow at once where nothing else vouches for it.
+std::int32_t CharacterStream::PlausibleStep() const {
+  return static_cast<std::int32_t>(kStepsToBelieve * steps_.usual());
+}
+
 // Whether `next` may follow `first` in a new run of the sender.
 bool CharacterStream::GoesOnFrom(const Header& first, const Header& next) const {
   const std::int32_t steps = Ahead(next.sample_counter, first.sample_counter);
   const std::int32_t millis = Ahead(next.time_code_millis, first.time_code_millis);
   if (steps == 0) return millis == 0;
-  return steps > 0 && steps <= static_cast<std::int32_t>(kStepsToBelieve * steps_.usual()) &&
-         millis >= 0 && millis <= kMillisToBelieve;
+  return steps > 0 && steps <= PlausibleStep() && millis >= 0 && millis <= kMillisToBelieve;
 }
 
 // A datagram that contradicts the stream is believed when the next doubtful one goes on from it.

@@ -77,6 +77,7 @@ class CharacterStream {
               SampleSink& sink);
   void Doubt(const Message& message, std::uint32_t digest, const Arrival& arrival,
              SampleSink& sink);
+  std::int32_t PlausibleStep() const;
   bool GoesOnFrom(const Header& first, const Header& next) const;
   bool IsRestartByRun(std::uint32_t counter);
   void DropDoubtful();
@@ -106,8 +107,7 @@ class CharacterStream {
   bool wants_announcement_ = true;
   ScaleGroup scale_;
   std::int64_t last_heard_nanos_ = 0;
-  std::int64_t first_heard_nanos_ = 0;
-  std::uint64_t heard_ = 0;  // datagrams
+  bool is_heard_ = false;  // a first datagram came
   bool is_confirmed_ = false;
 
   std::array<OpenSample, kMostOpen> open_;

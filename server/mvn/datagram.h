@@ -181,6 +181,10 @@ struct Message {
   Body body;
 };
 
+/// Whether messages of `type` are part of a sample. 12 and 13 are not: they carry counter and time
+/// code 0 in the middle of a stream.
+inline bool BelongsToSample(Type type) { return type != Type::kMetaData && type != Type::kScale; }
+
 /// The two digits of a message type in the stream: "02".
 std::string TypeDigits(Type type);
 

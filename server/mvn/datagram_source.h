@@ -29,16 +29,31 @@ class DatagramSink {
 
 /// What the transport itself saw; what the datagrams say is counted by the assembler.
 struct TransportCounters {
-  int receive_buffer_bytes = 0;          // what the kernel really gave; 0: no socket
-  std::uint64_t kernel_drops = 0;        // datagrams lost because nobody read them in time
-  std::uint64_t connections = 0;         // TCP: accepted or made, in all
-  int connections_open = 0;              // TCP: now
+  int receive_buffer_bytes = 0;           // what the kernel really gave; 0: no socket
+  std::uint64_t kernel_drops = 0;         // datagrams lost because nobody read them in time
+  std::uint64_t connections = 0;          // TCP: accepted or made, in all
+  int connections_open = 0;               // TCP: now
   std::uint64_t connections_refused = 0;  // TCP: one too many
-  std::uint64_t connections_lost = 0;    // TCP: ended by the other side or by an error
-  std::uint64_t resyncs = 0;             // byte streams: times that the next MXTP was searched for
-  std::uint64_t skipped_bytes = 0;       // byte streams: passed over by these searches
-  std::uint64_t other_packets = 0;       // capture files: packets that are no UDP or TCP payload
-  std::uint64_t incomplete_packets = 0;  // capture files: cut short by the capture, lost fragments
+  std::uint64_t connections_lost = 0;     // TCP: ended by the other side or by an error
+  std::uint64_t resyncs = 0;              // byte streams: times that the next MXTP was searched for
+  std::uint64_t skipped_bytes = 0;        // byte streams: passed over by these searches
+  std::uint64_t other_packets = 0;        // capture files: packets that are no UDP or TCP payload
+  std::uint64_t incomplete_packets = 0;   // capture files: cut short by the capture, lost fragments
+
+  /// Each with the name that people read it by.
+  template <class Counter>
+  void Visit(const Counter& counter) const {
+    counter("receive_buffer_bytes", static_cast<std::uint64_t>(receive_buffer_bytes));
+    counter("kernel_drops", kernel_drops);
+    counter("connections", connections);
+    counter("connections_open", static_cast<std::uint64_t>(connections_open));
+    counter("connections_refused", connections_refused);
+    counter("connections_lost", connections_lost);
+    counter("resyncs", resyncs);
+    counter("skipped_bytes", skipped_bytes);
+    counter("other_packets", other_packets);
+    counter("incomplete_packets", incomplete_packets);
+  }
 };
 
 class DatagramSource {

@@ -201,9 +201,8 @@ struct BodyWriter {
   }
 };
 
+// What follows the id string.
 void WriteHeader(ByteWriter& out, const Header& header) {
-  out.Write(static_cast<std::uint8_t>('0' + static_cast<int>(header.type) / 10));
-  out.Write(static_cast<std::uint8_t>('0' + static_cast<int>(header.type) % 10));
   out.Write(header.sample_counter);
   out.Write(static_cast<std::uint8_t>(header.part | (header.is_last_part ? 0x80 : 0)));
   out.Write(static_cast<std::uint8_t>(header.item_count));
@@ -227,7 +226,7 @@ std::string Encode(const Message& message) {
   header.type = type;
   header.item_count = static_cast<int>(items);
   header.payload_bytes = static_cast<int>(payload.size());
-  std::string datagram = "MXTP";
+  std::string datagram = "MXTP" + TypeDigits(type);
   ByteWriter out(datagram);
   WriteHeader(out, header);
   return datagram += payload;

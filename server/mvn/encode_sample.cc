@@ -76,13 +76,22 @@ class Writer {
   std::vector<std::string> datagrams_;
 };
 
-template <class PoseBody>
-PoseBody Poses(const BodySample& sample) {
-  PoseBody body;
+// A body's 23 segments; `item_of` makes the item of one.
+template <class Message, class ItemOf>
+Message ForAllSegments(const BodySample& sample, const ItemOf& item_of) {
+  Message body;
   for (std::size_t i = 0; i < sample.segments.size(); ++i) {
-    body.items[i] = {sample.segments[i].position, sample.segments[i].orientation};
+    body.items[i] = item_of(sample.segments[i]);
     body.present.set(i);
   }
+  return body;
+}
+
+template <class PoseBody>
+PoseBody Poses(const BodySample& sample) {
+  auto body = ForAllSegments<PoseBody>(sample, [](const SegmentState& segment) {
+    return PoseItem{segment.position, segment.orientation};
+  });
   for (std::size_t i = 0; i < sample.extra.poses.size(); ++i) {
     if (!sample.extra.present.test(i)) continue;
     const std::size_t slot = urdf::kSegmentCount + i;
@@ -115,23 +124,15 @@ MarkersMessage Markers(const BodySample& sample, const urdf::Skeleton& skeleton)
 }
 
 LinearMessage Linear(const BodySample& sample) {
-  LinearMessage body;
-  for (std::size_t i = 0; i < sample.segments.size(); ++i) {
-    const SegmentState& segment = sample.segments[i];
-    body.items[i] = {segment.position, segment.velocity, segment.acceleration};
-    body.present.set(i);
-  }
-  return body;
+  return ForAllSegments<LinearMessage>(sample, [](const SegmentState& segment) {
+    return LinearItem{segment.position, segment.velocity, segment.acceleration};
+  });
 }
 
 AngularMessage Angular(const BodySample& sample) {
-  AngularMessage body;
-  for (std::size_t i = 0; i < sample.segments.size(); ++i) {
-    const SegmentState& segment = sample.segments[i];
-    body.items[i] = {segment.orientation, segment.angular_velocity, segment.angular_acceleration};
-    body.present.set(i);
-  }
-  return body;
+  return ForAllSegments<AngularMessage>(sample, [](const SegmentState& segment) {
+    return AngularItem{segment.orientation, segment.angular_velocity, segment.angular_acceleration};
+  });
 }
 
 // What a sensor at the origin of `segment`, turned as it, would measure.

@@ -49,10 +49,6 @@ double* SecsOf(Fault fault, FaultSettings& settings) {
   }
 }
 
-bool CountsSamples(const Header& header) {
-  return header.type != Type::kMetaData && header.type != Type::kScale;
-}
-
 std::int64_t ToNanos(double secs) { return std::llround(secs * kNanos); }
 
 }  // namespace
@@ -144,7 +140,7 @@ void FaultInjector::ScheduleReset(Count& count) {
 
 // Counts from the character's last reset, and resets it with the first datagram of a sample.
 void FaultInjector::Restart(std::string& datagram, Header& header, std::int64_t due_nanos) {
-  if (settings_[Fault::kReset] == 0 || !CountsSamples(header)) return;
+  if (settings_[Fault::kReset] == 0 || !BelongsToSample(header.type)) return;
   const std::uint32_t counter = header.sample_counter;
   const auto [entry, is_new] = characters_.try_emplace(header.character);
   Count& count = entry->second;

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/core/clocks.h"
 #include "server/mvn/open.h"
 
 namespace kinescope::mvn {
 namespace {
 
 using std::chrono::nanoseconds;
-
-std::int64_t MonotonicNanos() {
-  return std::chrono::duration_cast<nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 }  // namespace
 
@@ -62,20 +57,9 @@ Source::State StreamSource::Poll(std::chrono::milliseconds timeout, SampleSink& 
 
 SourceCounters StreamSource::counters() const {
   SourceCounters counters = assembler_.counters();
-  const TransportCounters transport = datagrams_->counters();
-  const auto tell = [&counters](const char* name, std::uint64_t value) {
+  datagrams_->counters().Visit([&counters](const char* name, std::uint64_t value) {
     if (value > 0) counters.transport[name] = value;
-  };
-  tell("receive_buffer_bytes", static_cast<std::uint64_t>(transport.receive_buffer_bytes));
-  tell("kernel_drops", transport.kernel_drops);
-  tell("connections", transport.connections);
-  tell("connections_open", static_cast<std::uint64_t>(transport.connections_open));
-  tell("connections_refused", transport.connections_refused);
-  tell("connections_lost", transport.connections_lost);
-  tell("resyncs", transport.resyncs);
-  tell("skipped_bytes", transport.skipped_bytes);
-  tell("other_packets", transport.other_packets);
-  tell("incomplete_packets", transport.incomplete_packets);
+  });
   return counters;
 }
 

@@ -5,36 +5,27 @@
 #include <iterator>
 #include <utility>
 
+#include "server/mvn/datagram_extent.h"
+
 namespace kinescope::mvn {
 namespace {
 
 // A sequence number further off than any window is not of this connection, or the capture lost
 // more than can be waited for.
 constexpr std::int64_t kFarOff = 1 << 24;
-constexpr std::size_t kBeginningBytes = 6;  // MXTP02
 constexpr std::size_t kMostSegments = 4096;
-
-bool BeginsDatagram(std::string_view bytes) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  for (std::size_t at = bytes.find("MXTP"); at != std::string_view::npos;
-       at = bytes.find("MXTP", at + 1)) {
-    if (at + kBeginningBytes <= bytes.size() && is_digit(bytes[at + 4]) && is_digit(bytes[at + 5]))
-      return true;
-  }
-  return false;
-}
 
 }  // namespace
 
 void CapturedTcp::Decide(Direction& direction, std::string_view bytes) {
   direction.head.append(bytes);
-  if (BeginsDatagram(direction.head)) {
+  if (FindIdString(direction.head, 0) != std::string_view::npos) {
     direction.is_mvn = true;
     ++connections_;
     direction.framer.Append(direction.head);
     direction.head = {};
   } else if (direction.head.size() > kMostUndecidedBytes) {
-    direction.head.erase(0, direction.head.size() - kBeginningBytes);  // it may be cut in two
+    direction.head.erase(0, direction.head.size() - kIdStringBytes);  // it may be cut in two
   }
 }
 

@@ -13,12 +13,9 @@ namespace {
 constexpr std::size_t kChunkBytes = 64 * 1024;
 constexpr std::int64_t kNanosPerMilli = 1'000'000;
 
-// Types 12 and 13 carry 0 in the middle of a stream.
 std::optional<std::uint32_t> TimeCodeOf(std::string_view datagram) {
   const auto header = ParseHeader(datagram);
-  if (!header || header->type == Type::kMetaData || header->type == Type::kScale) {
-    return std::nullopt;
-  }
+  if (!header || !BelongsToSample(header->type)) return std::nullopt;
   return header->time_code_millis;
 }
 

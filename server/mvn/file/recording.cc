@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/core/errors.h"
+#include "server/mvn/datagram_extent.h"
 #include "server/mvn/file/pcap_datagrams.h"
 #include "server/mvn/file/raw_file_datagrams.h"
 
@@ -45,14 +46,7 @@ bool IsXml(std::string_view head) {
 }
 
 // "MXTP" and two digits anywhere: a stream may be cut at its beginning, or start with sync text.
-bool HasDatagram(std::string_view head) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  for (std::size_t at = head.find("MXTP"); at != std::string_view::npos;
-       at = head.find("MXTP", at + 1)) {
-    if (at + 6 <= head.size() && is_digit(head[at + 4]) && is_digit(head[at + 5])) return true;
-  }
-  return false;
-}
+bool HasDatagram(std::string_view head) { return FindIdString(head, 0) != head.npos; }
 
 }  // namespace
 

@@ -8,8 +8,6 @@
 namespace kinescope::mvn {
 namespace {
 
-bool BelongsToFrame(Type type) { return type != Type::kMetaData && type != Type::kScale; }
-
 // How many things a message has, in any of its types.
 struct ItemCounter {
   template <class Item>
@@ -85,7 +83,7 @@ class Inspection::Stream {
     if (header.payload_bytes == 0 && datagram.bytes.size() > kHeaderBytes) has_old_header_ = true;
     if (message != nullptr) {
       CountType(*message, datagram);
-      if (BelongsToFrame(header.type)) {
+      if (BelongsToSample(header.type)) {
         frames_.Add(static_cast<int>(header.type), header.sample_counter, header.time_code_millis,
                     datagram.arrival);
       }
@@ -160,7 +158,7 @@ CharacterReport Inspection::Stream::Report(std::int64_t begin_monotonic,
     if (nanos > 0) {
       filled.rate_hz = static_cast<double>(filled.datagrams - 1) * 1e9 / static_cast<double>(nanos);
     }
-    if (BelongsToFrame(type) && frames_.frames() > 0) {
+    if (BelongsToSample(type) && frames_.frames() > 0) {
       filled.share = static_cast<double>(frames_.frames_with(filled.type)) /
                      static_cast<double>(frames_.frames());
     }
@@ -192,10 +190,11 @@ void Inspection::OnDatagram(const ReceivedDatagram& datagram) {
   bytes_ += datagram.bytes.size();
   if (!is_live_ && datagram.from == Endpoint()) has_arrival_times_ = false;
 
-  const auto header = ParseHeader(datagram.bytes);
-  if (!header) return NoteError(header.error().reason, 1, datagram.from, header.error());
   const auto message = ParseDatagram(datagram.bytes);
   if (!message) NoteError(message.error().reason, 1, datagram.from, message.error());
+  // Of a damaged message too, so that it counts for the character that it names.
+  const auto header = message ? message->header : ParseHeader(datagram.bytes);
+  if (!header) return;
   Stream* const stream = FindStream(datagram.from, header->character);
   if (stream == nullptr) {
     ++not_kept_;

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <memory>
 #include <system_error>
 #include <utility>
 
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 
 namespace kinescope::mvn {
@@ -62,11 +62,6 @@ std::vector<SocketAddress> Resolve(const NetUrl& url, const std::string& text, i
     case EACCES: Refuse(text, "ports below 1024 need root; choose a higher one, such as 9763");
     default: Refuse(text, "cannot listen: " + ErrorText(error));
   }
-}
-
-template <class TimePoint>
-std::int64_t Nanos(const TimePoint& time) {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
 
 }  // namespace
@@ -181,14 +176,13 @@ int ReceiveBufferBytes(const Socket& socket) {
 std::string ErrorText(int error) { return std::generic_category().message(error); }
 
 Arrival ReadClocks() {
-  const auto monotonic = [] { return Nanos(std::chrono::steady_clock::now()); };
   constexpr std::int64_t kAtOnce = 20'000;
   constexpr int kMostTries = 4;
   Arrival arrival;
   for (int i = 0; i < kMostTries; ++i) {
-    const std::int64_t before = monotonic();
-    arrival.wall_nanos = Nanos(std::chrono::system_clock::now());
-    const std::int64_t took = monotonic() - before;
+    const std::int64_t before = MonotonicNanos();
+    arrival.wall_nanos = WallNanos();
+    const std::int64_t took = MonotonicNanos() - before;
     arrival.monotonic_nanos = before + took / 2;
     if (took <= kAtOnce) break;  // else we were interrupted in between
   }

@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "server/core/clocks.h"
 #include "server/core/install_paths.h"
 #include "server/core/palette.h"
 #include "server/http/protocol.h"

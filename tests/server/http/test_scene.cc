@@ -1,7 +1,6 @@
 #include "tests/server/http/test_scene.h"
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -140,12 +139,6 @@ std::vector<CameraView> MakeCameras() {
           top,
           view("iso", 45, 35.26),
           view("three_quarter", -38, 14)};
-}
-
-std::int64_t MonotonicNanos() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
 }
 
 }  // namespace kinescope::http::testing

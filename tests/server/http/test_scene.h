@@ -23,6 +23,4 @@ SceneState MakeScene(std::uint64_t number, double seconds, std::int64_t arrival_
 /// The names of render/camera.h, with numbers like its own.
 std::vector<CameraView> MakeCameras();
 
-std::int64_t MonotonicNanos();
-
 }  // namespace kinescope::http::testing

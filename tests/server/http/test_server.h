@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/http/server.h"
 #include "tests/server/http/test_client.h"

@@ -215,7 +215,7 @@ class FaultyStream : private SampleSink {
     Fate& fate = fates_[static_cast<std::size_t>(std::min(sending_, kSamples - 1))];
     switch (injection.fault) {
       case Fault::kDuplicate:
-        if (injection.header->type != Type::kMetaData && injection.header->type != Type::kScale) {
+        if (BelongsToSample(injection.header->type)) {
           ++duplicates_;  // 12 and 13 are repeated anyway
         }
         return;

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace kinescope::app {
+namespace kinescope {
 
 inline std::int64_t MonotonicNanos() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -18,4 +18,4 @@ inline std::int64_t WallNanos() {
       .count();
 }
 
-}  // namespace kinescope::app
+}  // namespace kinescope
