@@ -28,6 +28,7 @@ void AddUp(SourceCounters& sum, const SourceCounters& more) {
   for (const auto& [type, count] : more.types) sum.types[type] += count;
   for (const auto& [reason, count] : more.ignored) sum.ignored[reason] += count;
   for (const auto& [reason, count] : more.rejected) sum.rejected[reason] += count;
+  for (const auto& [name, count] : more.transport) sum.transport[name] += count;
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/app/clocks.h"
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {
@@ -110,6 +110,7 @@ class Recording : public Source {
     counters.samples = 1000;
     counters.types["02"] = next_;
     counters.rejected["id 0"] = 1;
+    counters.transport["other_packets"] = 1;
     return counters;
   }
   std::string description() const override { return "recording"; }
@@ -219,6 +220,7 @@ TEST(PacedSource, CountsWhatItsSourceCountedInAllRounds) {
   EXPECT_GE(counters.datagrams, 7U);
   EXPECT_EQ(counters.types.at("02"), counters.datagrams);
   EXPECT_GE(counters.rejected.at("id 0"), 4U) << "once a round";
+  EXPECT_EQ(counters.transport.at("other_packets"), counters.rejected.at("id 0"));
 }
 
 TEST(PacedSource, GivesWhatCameBeforeAnErrorAndThenTheError) {
