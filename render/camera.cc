@@ -102,9 +102,37 @@ Camera CameraAt(const std::string& name, const Eigen::Vector3d& ground, double r
   throw UsageError("camera '" + name + "' is not known; there are: " + known);
 }
 
+// Robots come in all sizes, so the view is as large as they are.
+Camera Around(const std::string& name, const Eigen::AlignedBox3d& box) {
+  constexpr double kMargin = 1.15, kSmallest = 0.02;  // m
+  const double radius = std::max(0.5 * box.diagonal().norm(), kSmallest);
+  Camera camera = CameraAt(name, Eigen::Vector3d::Zero(), 0);
+  const Eigen::Vector3d to_camera = (camera.position - camera.target).normalized();
+  const double distance = kMargin * radius / std::sin(0.5 * camera.vertical_fov_rad);
+  camera.target = box.center();
+  camera.position = camera.target + distance * to_camera;
+  camera.near_m = std::min(camera.near_m, 0.02 * distance);
+  camera.far_m = std::max(camera.far_m, 4 * distance);
+  return camera;
+}
+
+Eigen::AlignedBox3d BoxOf(const std::vector<RobotState>& robots) {
+  Eigen::AlignedBox3d box;
+  for (const RobotState& robot : robots) {
+    box.extend(robot.bounds);
+    if (!robot.bounds.isEmpty()) continue;
+    for (const Eigen::Isometry3d& link : robot.world_from_link) box.extend(link.translation());
+  }
+  return box;
+}
+
 }  // namespace
 
 Camera NamedCamera(const std::string& name, const SceneState& state) {
+  if (state.people.empty()) {
+    const Eigen::AlignedBox3d box = BoxOf(state.robots);
+    if (!box.isEmpty()) return Around(name, box);
+  }
   const auto [ground, radius] = Ground(state);
   return CameraAt(name, ground, radius);
 }

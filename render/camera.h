@@ -25,6 +25,7 @@ const std::vector<std::string>& CameraNames();
 
 /// The named camera, aimed at the people in `state` (their pelvis on the ground plane; the origin
 /// when nobody is there) at the distance that shows a standing adult with arms overhead.
+/// With nobody but robots: aimed at the middle of these, at the distance that shows all of them.
 /// front: seen from +x, so that the person looks at the camera.
 /// @throws UsageError naming the camera asked for and those that exist.
 Camera NamedCamera(const std::string& name, const SceneState& state);

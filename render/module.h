@@ -20,11 +20,14 @@ namespace kinescope::render {
 /// What must be equal on both sides. A changed struct changes a size here in nearly every case; the
 /// number is raised by hand when it does not.
 struct ModuleAbi {
-  std::size_t number = 1;
+  std::size_t number = 2;
   std::size_t scene_state = sizeof(SceneState);
   std::size_t person_state = sizeof(PersonState);
   std::size_t person_model = sizeof(PersonModel);
   std::size_t joint_load = sizeof(JointLoad);
+  std::size_t robot_state = sizeof(RobotState);
+  std::size_t robot_link = sizeof(urdf::Link);
+  std::size_t robot_joint = sizeof(urdf::RobotJoint);
   std::size_t camera = sizeof(Camera);
   std::size_t video_options = sizeof(VideoOptions);
 };
@@ -42,6 +45,10 @@ class Drawing {
   /// Fills `image`, which has its size already, and `labels`. @throws RenderError.
   virtual void Draw(const SceneState& state, const Camera& camera, int supersample, Image& image,
                     std::vector<Label>& labels) = 0;
+  /// What is drawn of `robot`, world; empty when that is nothing.
+  virtual Eigen::AlignedBox3d Bounds(const RobotState& robot) = 0;
+  /// Of the newest picture: what it shows as a labelled box instead, one line each.
+  virtual std::vector<std::string> problems() const = 0;
   virtual std::string renderer_string() const = 0;
 };
 

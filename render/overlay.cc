@@ -42,6 +42,11 @@ const PersonState* WithAssumedMass(const SceneState& state) {
   return nullptr;
 }
 
+// Then there is no stream to tell of, and no load.
+bool HasOnlyRobots(const SceneState& state) {
+  return state.people.empty() && !state.robots.empty();
+}
+
 }  // namespace
 
 struct Overlay::Page {
@@ -64,6 +69,10 @@ void Overlay::Paint(Image& image, const SceneState& state, const Camera& camera,
   Page page{Canvas(image), static_cast<double>(image.width), static_cast<double>(image.height),
             scale, image.width < 300 || image.height < 160};
   PaintNames(page, state, camera, labels);
+  if (HasOnlyRobots(state)) {
+    if (!page.is_small) PaintTitle(page, view.title);
+    return;
+  }
   PaintLamp(page, state);
   if (!page.is_small) {
     PaintTitle(page, view.title);

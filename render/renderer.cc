@@ -46,6 +46,9 @@ void LiftToFloor(SceneState& state, Camera& camera) {
     if (person.com) *person.com += lift;
     if (person.cop) *person.cop += lift;
   }
+  for (RobotState& robot : state.robots) {
+    for (Eigen::Isometry3d& link : robot.world_from_link) link.pretranslate(lift);
+  }
   state.floor_z = 0;
 }
 
@@ -55,6 +58,8 @@ class ModuleRenderer : public Renderer {
   explicit ModuleRenderer(std::unique_ptr<Drawing> drawing) : drawing_(std::move(drawing)) {}
 
   std::string renderer_string() const override { return drawing_->renderer_string(); }
+  Eigen::AlignedBox3d Bounds(const RobotState& robot) override { return drawing_->Bounds(robot); }
+  std::vector<std::string> problems() const override { return drawing_->problems(); }
 
  private:
   void DoRender(Image& image, const SceneState& state, const Camera& camera,

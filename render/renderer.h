@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "render/camera.h"
 #include "render/image.h"
@@ -43,6 +44,14 @@ class Renderer {
 
   /// The same into `image`, whose memory is used again: what a stream of pictures should call.
   void RenderInto(Image& image, const SceneState& state, const Camera& camera, const View& view);
+
+  /// The smallest upright box around all that is drawn of `robot`, world, m; empty when that is
+  /// nothing. Reads its meshes, which the next picture of it then need not.
+  virtual Eigen::AlignedBox3d Bounds(const RobotState& robot) = 0;
+
+  /// What the newest picture shows as a labelled box, because its mesh is missing or was refused:
+  /// one line each, naming the file and the reason. The log gets each line once.
+  virtual std::vector<std::string> problems() const = 0;
 
   /// GL_RENDERER, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
   virtual std::string renderer_string() const = 0;

@@ -23,7 +23,7 @@ FOREIGN = {  # whose headers: where they may be included
     r"boost/": ("server/http", "server/ros"),
     r"lib(av|sw)": ("render",),
     r"pcap": ("server/mvn",),
-    r"expat": ("server/mvn",),
+    r"expat": ("server/mvn", "urdf"),
     r"archive": ("server/core",),
     r"(urdf_parser|urdf_model)/": ("urdf",),
     r"assimp/": ("render/vtk",),

@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "urdf/loft.h"
 
@@ -77,23 +79,35 @@ const Profile& GirdleProfile() {
   return kProfile;
 }
 
-// u is towards the thumb, v the back of the hand; the fingers bend a little towards the palm.
-const Profile& HandProfile() {
-  const auto flat = [](double at, double thumb, double small, double thick, double bend) {
-    return Widths(at, thumb, small, thick, thick).Center(0, -bend).Power(2.5, 2.5);
+// From the wrist (0) over the knuckles to where the fingers part; 1 is the tip of the middle
+// finger. u is towards the thumb, v the back of the hand.
+const Profile& PalmProfile() {
+  const auto flat = [](double at, double thumb, double small, double thick) {
+    return Widths(at, thumb, small, thick, thick).Power(2.6, 2.6);
   };
-  static const Profile kProfile(
-      {flat(0.00, .028, .028, .021, 0).Power(2, 2), flat(0.16, .032, .031, .018, 0),
-       flat(0.35, .041, .039, .017, .001), flat(0.52, .043, .041, .014, .003),
-       flat(0.66, .040, .039, .012, .007), flat(0.82, .036, .036, .010, .013),
-       flat(0.95, .028, .030, .008, .020)});
+  static const Profile kProfile({flat(0.00, .028, .028, .021).Power(2, 2),
+                                 flat(0.14, .032, .031, .018), flat(0.30, .040, .038, .017),
+                                 flat(0.44, .042, .040, .0145), flat(0.52, .039, .038, .0115)});
   return kProfile;
 }
 
-const Profile& ThumbProfile() {
-  static const Profile kProfile({Widths(0, .015, .015, .015, .015),
-                                 Widths(0.5, .0125, .0125, .0125, .0125),
-                                 Widths(1, .0105, .0105, .010, .010)});
+struct Finger {
+  double base_u, base_at;  // knuckle: across (m, towards the thumb) and along the hand
+  double tip_u, tip_at;
+  double radius;  // m, at the base
+};
+
+constexpr std::array<Finger, 4> kDigits = {{{.0300, .46, .0370, .92, .0092},
+                                            {.0100, .49, .0120, 1.00, .0096},
+                                            {-.0100, .48, -.0130, .94, .0092},
+                                            {-.0290, .44, -.0370, .79, .0080}}};
+
+// Base (0), middle joint (1) and tip (2) of a finger, or root and tip of the thumb.
+const Profile& FingerProfile() {
+  const auto round = [](double at, double radius) {
+    return Widths(at, radius, radius, radius, radius);
+  };
+  static const Profile kProfile({round(0, 1), round(1, .93), round(2, .72)});
   return kProfile;
 }
 
@@ -134,46 +148,79 @@ const Profile& ToeProfile() {
 
 // A joint-to-joint axis with sections across x (forward) and `v`.
 LoftAxis SegmentAxis(const Skeleton& skeleton, int segment, const Vector3d& v) {
-  return {Vector3d::Zero(), EndOf(skeleton, segment), Vector3d::UnitX(), v, GirthOf(skeleton)};
+  return {Curve({Vector3d::Zero(), EndOf(skeleton, segment)}), Vector3d::UnitX(), v,
+          GirthOf(skeleton)};
 }
 
-// The axis of one segment of a profile that counts segments.
-LoftAxis Shifted(LoftAxis axis, double first) {
-  const Vector3d way = axis.end - axis.origin;
-  axis.origin -= first * way;
-  axis.end = axis.origin + way;
-  return axis;
+// The axis of a chain of segments whose profile counts them: one smooth line from joint to joint in
+// the N-pose, seen from `segment`.
+LoftAxis ChainAxis(const Skeleton& skeleton, int first, int count, int segment, const Vector3d& v) {
+  std::vector<Vector3d> joints = {Vector3d::Zero()};
+  for (int child = first + 1; child <= first + count; ++child) {
+    joints.push_back(joints.back() + skeleton.origin_in_parent[At(child)]);
+  }
+  const Vector3d origin = joints[At(segment - first)];
+  for (Vector3d& joint : joints) joint -= origin;
+  return {Curve(std::move(joints)), Vector3d::UnitX(), v, GirthOf(skeleton)};
+}
+
+// How much wider than the reference body's a person is built, for their height: across the hips and
+// across the shoulders, as the suit has measured them.
+struct Build {
+  double hips = 1, shoulders = 1;
+};
+
+Build BuildOf(const Skeleton& skeleton) {
+  const auto half_width = [](const Skeleton& of, int right, int left) {
+    return 0.5 * (of.origin_in_parent[At(left)].y() - of.origin_in_parent[At(right)].y());
+  };
+  static const Skeleton kReference = DefaultSkeleton(kReferenceHeight);
+  const auto ratio = [&](double own, double reference) {
+    return std::clamp(own / (reference * GirthOf(skeleton)), 0.85, 1.2);
+  };
+  const auto shoulders = [&](const Skeleton& of) {
+    return half_width(of, kRightShoulder, kLeftShoulder) +
+           half_width(of, kRightUpperArm, kLeftUpperArm);
+  };
+  return {ratio(half_width(skeleton, kRightUpperLeg, kLeftUpperLeg),
+                half_width(kReference, kRightUpperLeg, kLeftUpperLeg)),
+          ratio(shoulders(skeleton), shoulders(kReference))};
 }
 
 void AddTrunk(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
-  // Kept wide of the joint on both sides: the fuller half of a spine that bends stays closed.
-  constexpr double kCap = 0.075;
   LoftRange range;
   range.from = segment;
   range.to = segment + 1;
-  range.start_cap = range.end_cap = kCap;
-  range.points = 24;
+  // Kept wide of the joint on both sides: the fuller half of a spine that bends stays closed.
+  range.start_cap = range.end_cap = 0.075;
+  range.points = 28;  // a spine twists: facets of neighbours that are coarse would show each other
   range.rings = 5;
   range.start_runs_on = range.end_runs_on = true;
   switch (segment) {
     case kPelvis:  // begins above the hips, so that its cap is the seat
       range.from = 0.25;
       range.start_cap = 0.112;
-      range.start_rings = 8;
       range.start_runs_on = false;
       break;
     case kT8:
-      range.rings = 9;
+      range.rings = 7;
       range.end_cap = 0.030;
+      range.end_rings = 3;
+      range.end_runs_on = false;
       break;
     case kNeck:
       range.start_cap = range.end_cap = 0.045;
-      range.end_runs_on = false;
+      range.start_runs_on = range.end_runs_on = false;
       break;
     default: break;
   }
-  AddLoft(Shifted(SegmentAxis(skeleton, segment, Vector3d::UnitY()), segment), TrunkProfile(),
-          range, mesh);
+  const Build build = BuildOf(skeleton);
+  const Profile profile = TrunkProfile().Widened([&](double at) {
+    const double up = std::clamp((at - 1) / 2.5, 0.0, 1.0);  // waist to chest
+    if (at > 4.7) return 1.0;                                // the neck
+    return build.hips + (build.shoulders - build.hips) * up;
+  });
+  AddLoft(ChainAxis(skeleton, kPelvis, 6, segment, Vector3d::UnitY()), profile, range, mesh);
 }
 
 // How much a bump centred at 0 with this half-width has left at x.
@@ -194,7 +241,7 @@ double FaceRelief(double y, double z) {
 void AddHead(const Skeleton& skeleton, TriangleMesh& mesh) {
   LoftAxis axis = SegmentAxis(skeleton, kHead, Vector3d::UnitY());
   // Depth and width go with the height of the head, which is measured.
-  const double length = std::max(axis.end.norm(), 0.01);
+  const double length = std::max(EndOf(skeleton, kHead).norm(), 0.01);
   axis.scale = length / 0.190;
   LoftRange range;
   range.from = -0.23;
@@ -216,56 +263,90 @@ void AddHead(const Skeleton& skeleton, TriangleMesh& mesh) {
 }
 
 void AddGirdle(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
-  AddLoft({Vector3d::Zero(), EndOf(skeleton, segment), Vector3d::UnitZ(), Vector3d::UnitX(),
-           GirthOf(skeleton)},
+  AddLoft({Curve({Vector3d::Zero(), EndOf(skeleton, segment)}), Vector3d::UnitZ(),
+           Vector3d::UnitX(), GirthOf(skeleton)},
           GirdleProfile(), {0, 1, 0.030, 0.042, 18, 6}, mesh);
 }
 
 void AddArm(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
-  const LoftAxis axis = SegmentAxis(skeleton, segment, Outward(segment));
+  const bool is_upper = segment == kRightUpperArm || segment == kLeftUpperArm;
   LoftRange range;
-  range.rings = 8;
-  if (segment == kRightUpperArm || segment == kLeftUpperArm) {
+  range.points = 16;
+  if (is_upper) {
+    range.rings = 8;
     range.from = 0.12;  // the rest of it is the deltoid: one long cap, over the joint
     range.start_cap = 0.086;
-    range.start_rings = 7;
+    range.start_rings = 6;
     range.end_cap = 0.039;
-    range.start_runs_on = range.end_runs_on = true;
-    AddLoft(axis, ArmProfile(), range, mesh);
+    range.end_runs_on = true;
   } else {
     range.from = 1;
     range.to = 2;
     range.start_cap = 0.039;
     range.end_cap = 0.022;
+    range.rings = 10;
     range.start_runs_on = true;
-    AddLoft(Shifted(axis, 1), ArmProfile(), range, mesh);
   }
+  const int upper = is_upper ? segment : segment - 1;
+  AddLoft(ChainAxis(skeleton, upper, 2, segment, Outward(segment)), ArmProfile(), range, mesh);
 }
 
 void AddHand(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
-  const LoftAxis axis = SegmentAxis(skeleton, segment, Outward(segment));
-  AddLoft(axis, HandProfile(), {0, 0.95, 0.021, 0.010, 18, 9}, mesh);
+  const LoftAxis hand = SegmentAxis(skeleton, segment, Outward(segment));
+  const Vector3d along = hand.line.At(1);
+  const Vector3d back = Outward(segment);
+  LoftRange palm;
+  palm.to = 0.46;
+  palm.start_cap = 0.021;
+  palm.end_cap = 0.012;
+  palm.points = 14;
+  palm.rings = 5;
+  palm.start_rings = palm.end_rings = 3;
+  AddLoft(hand, PalmProfile(), palm, mesh);
+
+  const auto add_digit = [&](const Vector3d& base, const Vector3d& middle, const Vector3d& tip,
+                             double radius) {
+    // The rounded end reaches the tip.
+    const double end_cap = FingerProfile().At(2)[Section::kPlusU] * radius;
+    const Vector3d last = tip - hand.scale * end_cap * (tip - middle).normalized();
+    LoftRange range;
+    range.to = 2;
+    range.start_cap = 0.5;  // in radii, as the profile is
+    range.end_cap = end_cap / radius;
+    range.points = 8;
+    range.rings = 4;
+    range.start_rings = 1;
+    range.end_rings = 2;
+    AddLoft({Curve({base, middle, last}), hand.u, hand.v, hand.scale * radius}, FingerProfile(),
+            range, mesh);
+  };
+  for (const Finger& finger : kDigits) {
+    // A hand at rest: the fingers bend a little towards the palm.
+    const double middle_at = finger.base_at + 0.42 * (finger.tip_at - finger.base_at);
+    const double middle_u = finger.base_u + 0.42 * (finger.tip_u - finger.base_u);
+    add_digit(finger.base_at * along + hand.scale * finger.base_u * hand.u,
+              middle_at * along + hand.scale * (middle_u * hand.u - 0.004 * back),
+              finger.tip_at * along + hand.scale * (finger.tip_u * hand.u - 0.022 * back),
+              finger.radius);
+  }
   // The thumb springs from the base of the palm and leans to the front.
-  const Vector3d palm = -Outward(segment);
-  const Vector3d root = axis.scale * (Vector3d(0.020, 0, -0.038) + 0.004 * palm);
-  const Vector3d tip = axis.scale * (Vector3d(0.054, 0, -0.098) + 0.020 * palm);
-  const Vector3d along = (tip - root).normalized();
-  const Vector3d u = along.cross(Vector3d::UnitY()).normalized();
-  AddLoft({root, tip, u, along.cross(u), axis.scale}, ThumbProfile(), {0, 1, 0.014, 0.011, 10, 4},
-          mesh);
+  const Vector3d root = 0.20 * along + hand.scale * (0.020 * hand.u - 0.004 * back);
+  const Vector3d joint = 0.38 * along + hand.scale * (0.046 * hand.u - 0.012 * back);
+  const Vector3d tip = 0.57 * along + hand.scale * (0.060 * hand.u - 0.022 * back);
+  add_digit(root, joint, tip, 0.0125);
 }
 
 void AddLeg(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
-  const LoftAxis axis = SegmentAxis(skeleton, segment, Outward(segment));
+  const bool is_thigh = segment == kRightUpperLeg || segment == kLeftUpperLeg;
   LoftRange range;
-  range.points = 20;
-  if (segment == kRightUpperLeg || segment == kLeftUpperLeg) {
+  range.points = 16;
+  if (is_thigh) {
     range.from = 0.10;  // the rest of it is one long cap, within the pelvis while standing
     range.start_cap = 0.118;
-    range.start_rings = 7;
+    range.start_rings = 5;
     range.end_cap = 0.054;
-    range.start_runs_on = range.end_runs_on = true;
-    AddLoft(axis, LegProfile(), range, mesh);
+    range.end_runs_on = true;
+    range.rings = 9;
   } else {
     range.from = 1;
     range.to = 2;
@@ -273,22 +354,24 @@ void AddLeg(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
     range.end_cap = 0.036;
     range.rings = 10;
     range.start_runs_on = true;
-    AddLoft(Shifted(axis, 1), LegProfile(), range, mesh);
   }
+  const int thigh = is_thigh ? segment : segment - 1;
+  AddLoft(ChainAxis(skeleton, thigh, 2, segment, Outward(segment)), LegProfile(), range, mesh);
 }
 
 void AddFoot(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
   const Side side = IsLeft(segment) ? kLeft : kRight;
   const Vector3d& heel = skeleton.heel_in_foot[side];
   const Vector3d& ball = EndOf(skeleton, segment);
-  AddLoft({heel, Vector3d(ball.x(), ball.y(), heel.z()), Vector3d::UnitZ(), Outward(segment),
-           GirthOf(skeleton)},
+  AddLoft({Curve({heel, Vector3d(ball.x(), ball.y(), heel.z())}), Vector3d::UnitZ(),
+           Outward(segment), GirthOf(skeleton)},
           FootProfile(), {0.14, 1, 0.038, 0.020, 18, 8, 5, 3}, mesh);
 }
 
 void AddToe(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
   const Vector3d& tip = EndOf(skeleton, segment);
-  AddLoft({Vector3d(0, 0, tip.z()), tip, Vector3d::UnitZ(), Outward(segment), GirthOf(skeleton)},
+  AddLoft({Curve({Vector3d(0, 0, tip.z()), tip}), Vector3d::UnitZ(), Outward(segment),
+           GirthOf(skeleton)},
           ToeProfile(), {0, 0.85, 0.020, 0.016, 18, 5}, mesh);
 }
 

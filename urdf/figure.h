@@ -20,8 +20,8 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
 };
 
-/// The surface of `segment` (urdf::Segment). Made of one closed shell, a hand of two (palm with
-/// fingers, thumb).
+/// The surface of `segment` (urdf::Segment). Made of one closed shell, a hand of six (palm and
+/// fingers).
 TriangleMesh SegmentMesh(const Skeleton& skeleton, int segment);
 
 /// The mesh as a binary STL file: little-endian, one normal per triangle.

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "urdf/joint_limits.h"
 #include "urdf/primitive_figure.h"
 
 namespace kinescope::urdf {
@@ -16,126 +18,106 @@ using Eigen::Vector3d;
 
 constexpr std::array<const char*, 3> kAxisName = {"x", "y", "z"};
 constexpr std::array<int, 3> kChainOrder = {1, 0, 2};  // y, then x, then z
-
-struct Range {
-  double low, high;  // degrees
-};
-using Ranges = std::array<Range, 3>;  // x, y, z
-
-// Active range of motion, rounded outwards by some 10 degrees, in the axes of the right side's
-// links (forward flexion of arm and hip and bending of the elbow are negative about y). Where the
-// Cardan angles of a wide ranging joint can pass through their singularity, the whole turn is
-// allowed.
-Ranges RangesOf(int joint) {
-  switch (joint) {
-    case jL5S1:
-    case jL4L3:
-    case jL1T12:
-    case jT9T8: return {{{-25, 25}, {-25, 45}, {-25, 25}}};
-    case jT1C7:
-    case jC1Head: return {{{-50, 50}, {-60, 60}, {-80, 80}}};
-    case jRightC7Shoulder:
-    case jLeftC7Shoulder: return {{{-50, 30}, {-35, 35}, {-40, 40}}};
-    case jRightShoulder:
-    case jLeftShoulder: return {{{-200, 200}, {-200, 200}, {-200, 200}}};
-    case jRightElbow:
-    case jLeftElbow: return {{{-30, 30}, {-170, 20}, {-130, 130}}};
-    case jRightWrist:
-    case jLeftWrist: return {{{-100, 100}, {-55, 55}, {-45, 45}}};
-    case jRightHip:
-    case jLeftHip: return {{{-90, 60}, {-150, 50}, {-80, 80}}};
-    case jRightKnee:
-    case jLeftKnee: return {{{-25, 25}, {-20, 170}, {-50, 50}}};
-    case jRightAnkle:
-    case jLeftAnkle: return {{{-50, 50}, {-50, 75}, {-50, 50}}};
-    default: return {{{-25, 25}, {-90, 55}, {-25, 25}}};
-  }
-}
-
-bool IsLeft(int joint) { return kJoints[At(joint)].ros_name.substr(0, 5) == "left_"; }
-
-Range RangeOf(int joint, int axis) {
-  Range range = RangesOf(joint)[At(axis)];
-  if (IsLeft(joint) && axis != 1)
-    range = {-range.high, -range.low};  // mirrored in the sagittal plane
-  return range;
-}
+constexpr std::array<const char*, 2> kSidePrefix = {"right_", "left_"};
 
 std::string Origin(const Vector3d& xyz, const Vector3d& rpy = Vector3d::Zero()) {
-  return fmt::format("<origin xyz=\"{:.9g} {:.9g} {:.9g}\" rpy=\"{:.9g} {:.9g} {:.9g}\"/>", xyz.x(),
-                     xyz.y(), xyz.z(), rpy.x(), rpy.y(), rpy.z());
+  return fmt::format("<origin xyz=\"{} {} {}\" rpy=\"{} {} {}\"/>", xyz.x(), xyz.y(), xyz.z(),
+                     rpy.x(), rpy.y(), rpy.z());
 }
 
-std::string Inertial(const SegmentInertia& segment) {
-  const Vector3d& i = segment.inertia_about_com;
+std::string Inertial(const SegmentInertia& segment, double share) {
+  const Vector3d i = share * segment.inertia_about_com;
   return fmt::format(
-      "    <inertial>\n      {}\n      <mass value=\"{:.9g}\"/>\n"
-      "      <inertia ixx=\"{:.9g}\" ixy=\"0\" ixz=\"0\" iyy=\"{:.9g}\" iyz=\"0\" "
-      "izz=\"{:.9g}\"/>\n"
+      "    <inertial>\n      {}\n      <mass value=\"{}\"/>\n"
+      "      <inertia ixx=\"{}\" ixy=\"0\" ixz=\"0\" iyy=\"{}\" iyz=\"0\" izz=\"{}\"/>\n"
       "    </inertial>\n",
-      Origin(segment.com_in_link), segment.mass, i.x(), i.y(), i.z());
+      Origin(segment.com_in_link), share * segment.mass, i.x(), i.y(), i.z());
 }
 
 std::string Shape(const Primitive& part) {
   switch (part.kind) {
     case Primitive::Kind::kBox:
-      return fmt::format("<box size=\"{:.6g} {:.6g} {:.6g}\"/>", part.size.x(), part.size.y(),
-                         part.size.z());
+      return fmt::format("<box size=\"{} {} {}\"/>", part.size.x(), part.size.y(), part.size.z());
     case Primitive::Kind::kCylinder:
-      return fmt::format("<cylinder radius=\"{:.6g}\" length=\"{:.6g}\"/>", part.size.x(),
-                         part.size.y());
+      return fmt::format("<cylinder radius=\"{}\" length=\"{}\"/>", part.size.x(), part.size.y());
     case Primitive::Kind::kSphere: break;
   }
-  return fmt::format("<sphere radius=\"{:.6g}\"/>", part.size.x());
+  return fmt::format("<sphere radius=\"{}\"/>", part.size.x());
 }
 
-std::string Shapes(const HumanModel& human, int segment) {
+// `material`: of the visuals; null: collision shapes alone.
+std::string Shapes(const std::vector<Primitive>& parts, const char* material) {
   std::string text;
-  const std::string& folder = human.mesh_folder;
-  if (!folder.empty()) {
-    text += fmt::format(
-        "    <visual>\n      {}\n      <geometry><mesh filename=\"file://{}/{}.stl\"/></geometry>\n"
-        "      <material name=\"body\"/>\n    </visual>\n",
-        Origin(Vector3d::Zero()), folder, kSegments[At(segment)].link_name);
-  }
-  for (const Primitive& part : PrimitiveFigure(human.skeleton, segment)) {
+  for (const Primitive& part : parts) {
     const std::string body = fmt::format("      {}\n      <geometry>{}</geometry>\n",
                                          Origin(part.center, part.rpy), Shape(part));
-    if (folder.empty()) {
-      text += "    <visual>\n" + body + "      <material name=\"body\"/>\n    </visual>\n";
+    if (material != nullptr) {
+      text += fmt::format("    <visual>\n{}      <material name=\"{}\"/>\n    </visual>\n", body,
+                          material);
     }
     text += "    <collision>\n" + body + "    </collision>\n";
   }
   return text;
 }
 
-std::string JointElement(const HumanModel& human, int joint, int axis, const std::string& parent,
-                         const std::string& child, const Vector3d& offset) {
-  const Range range = RangeOf(joint, axis);
-  const double to_rad = M_PI / 180;
-  // Effort and velocity only have to be there and to be larger than any person's.
-  return fmt::format(
-      "  <joint name=\"{}\" type=\"revolute\">\n    <parent link=\"{}\"/>\n"
-      "    <child link=\"{}\"/>\n    {}\n    <axis xyz=\"{} {} {}\"/>\n"
-      "    <limit lower=\"{:.6f}\" upper=\"{:.6f}\" effort=\"500\" velocity=\"50\"/>\n  </joint>\n",
-      JointName(human.model_name, joint, axis), parent, child, Origin(offset), axis == 0 ? 1 : 0,
-      axis == 1 ? 1 : 0, axis == 2 ? 1 : 0, range.low * to_rad, range.high * to_rad);
+// As URIs want it, which is safe in XML too: a folder's name is the user's.
+std::string UriOf(const std::string& folder) {
+  if (folder.rfind("package://", 0) == 0) return folder;
+  std::string uri = "file://";
+  for (const char c : folder) {
+    const bool is_plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                          (c >= '0' && c <= '9') ||
+                          std::string_view("/-._~+").find(c) != std::string_view::npos;
+    uri += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return uri;
 }
 
-// The three revolute joints of one human joint and the two links between them. Those have no mass:
-// KDL, robot_state_publisher and RViz take them so, and a mass of our invention would falsify sums.
-std::string JointChain(const HumanModel& human, int joint) {
+std::string SegmentShapes(const HumanModel& human, int segment) {
+  const std::vector<Primitive> parts = PrimitiveFigure(human.skeleton, segment);
+  if (human.mesh_folder.empty()) return Shapes(parts, "body");
+  const std::string mesh = fmt::format(
+      "    <visual>\n      {}\n      <geometry><mesh filename=\"{}/{}.stl\"/></geometry>\n"
+      "      <material name=\"body\"/>\n    </visual>\n",
+      Origin(Vector3d::Zero()), UriOf(human.mesh_folder), kSegments[At(segment)].link_name);
+  return mesh + Shapes(parts, nullptr);
+}
+
+std::string LinkElement(const std::string& name, const std::string& content) {
+  if (content.empty()) return "  <link name=\"" + name + "\"/>\n";
+  return "  <link name=\"" + name + "\">\n" + content + "  </link>\n";
+}
+
+std::string JointElement(const std::string& name, const char* type, const std::string& parent,
+                         const std::string& child, const Vector3d& offset, int axis,
+                         const AxisLimit& limit) {
+  return fmt::format(
+      "  <joint name=\"{}\" type=\"{}\">\n    <parent link=\"{}\"/>\n"
+      "    <child link=\"{}\"/>\n    {}\n    <axis xyz=\"{} {} {}\"/>\n"
+      "    <limit lower=\"{}\" upper=\"{}\" effort=\"{}\" velocity=\"{}\"/>\n  </joint>\n",
+      name, type, parent, child, Origin(offset), axis == 0 ? 1 : 0, axis == 1 ? 1 : 0,
+      axis == 2 ? 1 : 0, limit.lower, limit.upper, limit.effort, limit.velocity);
+}
+
+// The revolute joints `<name>_y`, `_x`, `_z` from one link to another and the two links between.
+struct Ball {
+  std::string name, parent, child;
+  Vector3d offset;                          // of the child, in the parent
+  std::function<AxisLimit(int)> limit;      // by axis
+  std::string content_of_the_links_inside;  // "": they are empty
+};
+
+std::string BallChain(const Ball& ball) {
   std::string text;
-  std::string parent = LinkName(human.model_name, ParentOf(joint));
+  std::string parent = ball.parent;
   for (std::size_t i = 0; i < kChainOrder.size(); ++i) {
     const int axis = kChainOrder[i];
     const bool is_last = i + 1 == kChainOrder.size();
-    const std::string child = is_last ? LinkName(human.model_name, ChildOf(joint))
-                                      : JointName(human.model_name, joint, axis) + "_link";
-    if (!is_last) text += "  <link name=\"" + child + "\"/>\n";
-    const Vector3d offset =
-        i == 0 ? human.skeleton.origin_in_parent[At(ChildOf(joint))] : Vector3d::Zero();
-    text += JointElement(human, joint, axis, parent, child, offset);
+    const std::string joint = ball.name + "_" + kAxisName[At(axis)];
+    const std::string child = is_last ? ball.child : LinkInside(joint);
+    if (!is_last) text += LinkElement(child, ball.content_of_the_links_inside);
+    text += JointElement(joint, "revolute", parent, child, i == 0 ? ball.offset : Vector3d::Zero(),
+                         axis, ball.limit(axis));
     parent = child;
   }
   return text;
@@ -151,6 +133,71 @@ std::string Cleaned(std::string name) {
   return name.empty() ? "skeleton" : name;
 }
 
+std::string BodyJointName(const std::string& model_name, int joint) {
+  return Cleaned(model_name) + "_" + std::string(kJoints[At(joint)].ros_name);
+}
+
+constexpr double kShareInside = 0.01;  // HumanModel::mass_inside_joints
+
+std::string Body(const HumanModel& human) {
+  const double own_share = human.mass_inside_joints ? 1 - 2 * kShareInside : 1;
+  std::string text;
+  for (int segment = 0; segment < kSegmentCount; ++segment) {
+    text += LinkElement(LinkName(human.model_name, segment),
+                        Inertial(human.body[At(segment)], segment == kPelvis ? 1 : own_share) +
+                            SegmentShapes(human, segment));
+  }
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    const int child = ChildOf(joint);
+    text += BallChain(
+        {BodyJointName(human.model_name, joint), LinkName(human.model_name, ParentOf(joint)),
+         LinkName(human.model_name, child), human.skeleton.origin_in_parent[At(child)],
+         [joint](int axis) { return LimitOf(joint, axis); },
+         human.mass_inside_joints ? Inertial(human.body[At(child)], kShareInside) : ""});
+  }
+  return text;
+}
+
+std::string Glove(const HumanModel& human, Side side) {
+  const HandSkeleton& hand = *human.gloves[side];
+  std::string text;
+  for (int finger = 0; finger < kFingersPerHand; ++finger) {
+    const std::string name = FingerLinkName(human.model_name, side, finger);
+    const int parent = kFingerParents[At(finger)];
+    text += LinkElement(name, Shapes(FingerFigure(hand, finger), "glove"));
+    text += BallChain({name,
+                       parent < 0 ? LinkName(human.model_name, HandSegmentOf(side))
+                                  : FingerLinkName(human.model_name, side, parent),
+                       name, hand.origin_in_parent[At(finger)],
+                       [&](int axis) { return LimitOf(KindOf(finger), side == kLeft, axis); }, ""});
+  }
+  return text;
+}
+
+std::string Prop(const HumanModel& human, int prop) {
+  // Wherever it is: nothing holds it. Farther than a suit's radio reaches.
+  constexpr double kFarAway = 100;  // m
+  const AxisLimit anywhere{-kFarAway, kFarAway, 1000, 100};
+  const AxisLimit any_turn{-2 * M_PI, 2 * M_PI, 100, 100};
+  Primitive mark;  // what it looks like is not streamed
+  mark.size = Vector3d::Constant(0.06);
+  const std::string name = PropLinkName(human.model_name, prop);
+  std::string text = LinkElement(name, Shapes({mark}, "prop"));
+  const auto joints = PropJointNames(human.model_name, prop);
+  std::string parent = LinkName(human.model_name, kPelvis);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const bool slides = i < 3;
+    const bool is_last = i + 1 == joints.size();
+    const std::string child = is_last ? name : LinkInside(joints[i]);
+    if (!is_last) text += LinkElement(child, "");
+    text += JointElement(joints[i], slides ? "prismatic" : "revolute", parent, child,
+                         Vector3d::Zero(), slides ? static_cast<int>(i) : kChainOrder[i - 3],
+                         slides ? anywhere : any_turn);
+    parent = child;
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string LinkName(const std::string& model_name, int segment) {
@@ -158,24 +205,60 @@ std::string LinkName(const std::string& model_name, int segment) {
 }
 
 std::string JointName(const std::string& model_name, int joint, int axis) {
-  return Cleaned(model_name) + "_" + std::string(kJoints[At(joint)].ros_name) + "_" +
-         kAxisName[At(axis)];
+  return BodyJointName(model_name, joint) + "_" + kAxisName[At(axis)];
 }
 
+std::string FingerLinkName(const std::string& model_name, Side side, int finger) {
+  std::string name = Cleaned(model_name) + "_" + kSidePrefix[side];
+  const std::string_view words = kFingers[At(finger)];  // "SecondMP" -> "second_mp"
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool is_upper = words[i] >= 'A' && words[i] <= 'Z';
+    const bool begins_word = is_upper && i > 0 && words[i - 1] >= 'a';
+    if (begins_word) name += '_';
+    name += is_upper ? static_cast<char>(words[i] - 'A' + 'a') : words[i];
+  }
+  return name;
+}
+
+std::string FingerJointName(const std::string& model_name, Side side, int finger, int axis) {
+  return FingerLinkName(model_name, side, finger) + "_" + kAxisName[At(axis)];
+}
+
+std::string PropLinkName(const std::string& model_name, int prop) {
+  return fmt::format("{}_prop{}", Cleaned(model_name), prop + 1);
+}
+
+std::array<std::string, 6> PropJointNames(const std::string& model_name, int prop) {
+  const std::string name = PropLinkName(model_name, prop);
+  return {name + "_tx", name + "_ty", name + "_tz", name + "_y", name + "_x", name + "_z"};
+}
+
+std::string LinkInside(const std::string& joint_name) { return joint_name + "_link"; }
+
 std::string WriteUrdf(const HumanModel& human) {
+  const bool has_gloves = human.gloves[kRight] || human.gloves[kLeft];
   std::string text = fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<!-- A person of {:.3f} m and {:.1f} kg, written by Kinescope. Each joint turns about y, "
       "then\n"
       "     x, then z. Link frames: x forward, y left, z up in the N-pose. -->\n"
       "<robot name=\"{}\">\n"
-      "  <material name=\"body\"><color rgba=\"0.78 0.80 0.84 1\"/></material>\n",
-      human.skeleton.height, TotalMass(human.body), Cleaned(human.model_name));
-  for (int segment = 0; segment < kSegmentCount; ++segment) {
-    text += "  <link name=\"" + LinkName(human.model_name, segment) + "\">\n" +
-            Inertial(human.body[At(segment)]) + Shapes(human, segment) + "  </link>\n";
+      "  <material name=\"body\"><color rgba=\"{:.6g} {:.6g} {:.6g} 1\"/></material>\n",
+      human.skeleton.height, TotalMass(human.body), Cleaned(human.model_name), human.body_rgb[0],
+      human.body_rgb[1], human.body_rgb[2]);
+  if (has_gloves) {
+    text += "  <material name=\"glove\"><color rgba=\"0.55 0.60 0.68 1\"/></material>\n";
   }
-  for (int joint = 0; joint < kJointCount; ++joint) text += JointChain(human, joint);
+  if (human.props.any()) {
+    text += "  <material name=\"prop\"><color rgba=\"0.90 0.65 0.25 1\"/></material>\n";
+  }
+  text += Body(human);
+  for (const Side side : {kLeft, kRight}) {
+    if (human.gloves[side]) text += Glove(human, side);
+  }
+  for (int prop = 0; prop < kMostProps; ++prop) {
+    if (human.props.test(At(prop))) text += Prop(human, prop);
+  }
   return text + "</robot>\n";
 }
 

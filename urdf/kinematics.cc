@@ -32,9 +32,7 @@ Vector3d AnglesFromRotation(const Quaterniond& parent_from_child, const Vector3d
   //   [ -sy cz + cy sx sz   sy sz + cy sx cz    cy cx ]
   const Matrix3d r = parent_from_child.normalized().toRotationMatrix();
   const double cos_x = std::hypot(r(1, 0), r(1, 1));
-  // Below this, y and z turn about the same axis to within what the entries can tell.
-  constexpr double kLocked = 1e-9;
-  if (cos_x < kLocked) {
+  if (cos_x < kGimbalLock) {
     const double x = r(1, 2) > 0 ? -M_PI_2 : M_PI_2;
     // y and z now turn about one axis: keep y, give the rest to z.
     const double y = near.y();

@@ -24,9 +24,17 @@ using JointAngles = std::array<Eigen::Vector3d, kJointCount>;  // (x, y, z) rad
 /// Ry(y) * Rx(x) * Rz(z).
 Eigen::Quaterniond RotationFromAngles(const Eigen::Vector3d& xyz);
 
+/// This near to |x| = 90 deg, rad, y and z turn about one axis. How the turn is shared between them
+/// would be read from the last bits of the orientations: MVN streams them with 24 bits, which
+/// leaves up to 3e-7 rad in the turn between two segments.
+constexpr double kGimbalLock = 4e-7;
+
 /// Inverse of RotationFromAngles. Of all triples that mean the same rotation, the one nearest to
-/// `near` is taken (so angles do not jump by 2 pi, and at |x| = 90 deg, where only y and z together
-/// are determined, y stays what it was).
+/// `near` is taken, so angles neither jump by 2 pi nor onto the other solution (180 deg - x,
+/// y + 180 deg, z + 180 deg) when x passes 90 deg. Within kGimbalLock of it x becomes 90 deg, y
+/// stays what it was and z takes the rest: that turns the result by kGimbalLock at most. A motion
+/// that passes close by without touching it truly turns y and z by half a turn; no choice of
+/// solution can avoid that.
 Eigen::Vector3d AnglesFromRotation(const Eigen::Quaterniond& parent_from_child,
                                    const Eigen::Vector3d& near = Eigen::Vector3d::Zero());
 

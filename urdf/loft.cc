@@ -10,12 +10,19 @@ namespace {
 using Eigen::Vector3d;
 using Shape = Eigen::Matrix<double, 8, 1>;
 
-// Angle of the k-th ring of a cap, from where it begins. Evenly spaced; but where the outline runs
-// on into a neighbour, the rings are denser at the beginning: that part shows when the joint turns.
-double CapAngle(int k, int count, bool runs_on) {
+// Where the outline runs on, the first ring of a cap lies this deep below the neighbour's surface:
+// enough for neither to shine through the other. Deeper, and a viewer who takes normals from the
+// triangles would see an edge.
+constexpr double kJustBelow = 2e-4;  // m
+
+double FirstAngle(double depth) { return std::min(std::sqrt(2 * kJustBelow / depth), 0.2); }
+
+// Angle of the k-th ring of a cap that is `depth` long, from where it begins. Evenly spaced; but
+// where the outline runs on, denser at the beginning, which shows when the joint turns.
+double CapAngle(int k, int count, double depth, bool runs_on) {
   if (!runs_on) return M_PI_2 * (k + 1) / (count + 1);
-  constexpr double kFirst = 0.11;
-  return kFirst + (M_PI_2 - kFirst) * std::pow(static_cast<double>(k) / count, 1.5);
+  const double first = FirstAngle(depth);
+  return first + (M_PI_2 - first) * std::pow(static_cast<double>(k) / count, 1.8);
 }
 
 // |x|^(2/power) with the sign of x: the coordinate of a superellipse.
@@ -25,23 +32,42 @@ double Rounded(double x, double power) {
 
 struct Ring {
   double at;
-  double shrink;
+  double into_cap = 0;  // sine of the cap's angle; negative in the cap at the start
+  double shrink = 1;    // its cosine
 };
 
-// The rings from start to end, without the poles that close both ends. Caps take the profile on, so
-// that within a neighbour of the same profile they lie below its surface.
-std::vector<Ring> RingsOf(const LoftRange& range, double start_cap, double end_cap) {
+// The rings between both caps. Where the outline runs on, one lies beside the first ring of the
+// neighbour's cap: else that would look out where a facet cuts a curve short.
+std::vector<Ring> BodyRings(const LoftRange& range, double start_step, double end_step) {
+  const double from = range.from + start_step;
+  const double to = range.to - end_step;
+  const int inner = range.rings - (start_step > 0 ? 1 : 0) - (end_step > 0 ? 1 : 0);
+  std::vector<Ring> rings;
+  if (start_step > 0) rings.push_back({range.from});
+  for (int i = 0; i < inner; ++i) rings.push_back({from + (to - from) * i / (inner - 1)});
+  if (end_step > 0) rings.push_back({range.to});
+  return rings;
+}
+
+// The rings from start to end, without the poles that close both ends. `start_radius` and
+// `end_radius` are the largest there, in the line's parameter.
+std::vector<Ring> RingsOf(const LoftRange& range, double start_radius, double end_radius) {
+  const auto step = [&](bool runs_on, double depth, double radius) {
+    const double longest = 0.25 * (range.to - range.from);
+    return runs_on ? std::min(radius * std::sin(FirstAngle(depth)), longest) : 0;
+  };
   std::vector<Ring> rings;
   for (int k = range.start_rings - 1; k >= 0; --k) {
-    const double angle = CapAngle(k, range.start_rings, range.start_runs_on);
-    rings.push_back({range.from - start_cap * std::sin(angle), std::cos(angle)});
+    const double angle = CapAngle(k, range.start_rings, range.start_cap, range.start_runs_on);
+    rings.push_back({range.from, -std::sin(angle), std::cos(angle)});
   }
-  for (int i = 0; i < range.rings; ++i) {
-    rings.push_back({range.from + (range.to - range.from) * i / (range.rings - 1), 1});
-  }
+  const std::vector<Ring> body =
+      BodyRings(range, step(range.start_runs_on, range.start_cap, start_radius),
+                step(range.end_runs_on, range.end_cap, end_radius));
+  rings.insert(rings.end(), body.begin(), body.end());
   for (int k = 0; k < range.end_rings; ++k) {
-    const double angle = CapAngle(k, range.end_rings, range.end_runs_on);
-    rings.push_back({range.to + end_cap * std::sin(angle), std::cos(angle)});
+    const double angle = CapAngle(k, range.end_rings, range.end_cap, range.end_runs_on);
+    rings.push_back({range.to, std::sin(angle), std::cos(angle)});
   }
   return rings;
 }
@@ -64,34 +90,65 @@ class Lofter {
   Lofter(const LoftAxis& axis, const Profile& profile, const LoftRange& range)
       : axis_(axis), profile_(profile), range_(range) {}
 
-  // `turn` is in radians, from +u towards +v.
+  // `turn` is in radians, from +u towards +v. Caps take profile and line on, so that within a
+  // neighbour of the same they lie below its surface.
   Vector3d Point(const Ring& ring, double turn) const {
-    const Shape shape = profile_.At(ring.at);
     const double angle = turn - range_.crowd_u * std::sin(turn);
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    const double power = shape[c >= 0 ? Section::kPowerPlusU : Section::kPowerMinusU];
-    const double u = Rounded(c, power) * shape[c >= 0 ? Section::kPlusU : Section::kMinusU];
-    const double v = Rounded(s, power) * shape[s >= 0 ? Section::kPlusV : Section::kMinusV];
-    return Center(ring.at) + axis_.scale * ring.shrink * (u * axis_.u + v * axis_.v);
-  }
-
-  // Of the profile itself, as if it had no ends: neighbours that share a profile share the normals
-  // at their joint, and no seam shows. For u, v and the axis right-handed.
-  Vector3d ProfileNormal(double at, double turn) const {
-    constexpr double kStep = 1e-3;
-    const Vector3d around = Point({at, 1}, turn + kStep) - Point({at, 1}, turn - kStep);
-    const Vector3d along = Point({at + kStep, 1}, turn) - Point({at - kStep, 1}, turn);
-    return around.cross(along).normalized();
-  }
-
-  Vector3d Center(double at) const {
+    double at = ring.at;
+    if (ring.into_cap != 0) {
+      const bool at_start = ring.into_cap < 0;
+      double depth = at_start ? range_.start_cap : range_.end_cap;
+      if (at_start ? range_.start_runs_on : range_.end_runs_on) {
+        const double radius = Outline(profile_.At(ring.at), angle).norm();
+        depth += (radius - depth) * ring.shrink * ring.shrink;
+      }
+      at += ring.into_cap * depth * InAt(ring.at);
+    }
     const Shape shape = profile_.At(at);
-    return axis_.origin + at * (axis_.end - axis_.origin) +
-           axis_.scale * (shape[Section::kCenterU] * axis_.u + shape[Section::kCenterV] * axis_.v);
+    const Eigen::Vector2d uv = ring.shrink * Outline(shape, angle);
+    return Center(at, shape) + axis_.scale * (uv.x() * axis_.u + uv.y() * axis_.v);
+  }
+
+  Vector3d StartPole() const {
+    const double at = range_.from - range_.start_cap * InAt(range_.from);
+    return Center(at, profile_.At(at));
+  }
+  Vector3d EndPole() const {
+    const double at = range_.to + range_.end_cap * InAt(range_.to);
+    return Center(at, profile_.At(at));
+  }
+
+  // Of the section `at`, in the line's parameter.
+  double LargestRadius(double at) const {
+    double largest = 0;
+    for (int i = 0; i < range_.points; ++i) {
+      const double turn = 2 * M_PI * i / range_.points;
+      largest = std::max(largest, Outline(profile_.At(at), turn).norm());
+    }
+    return largest * InAt(at);
   }
 
  private:
+  static Eigen::Vector2d Outline(const Shape& shape, double angle) {
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    const double power = shape[c >= 0 ? Section::kPowerPlusU : Section::kPowerMinusU];
+    return {Rounded(c, power) * shape[c >= 0 ? Section::kPlusU : Section::kMinusU],
+            Rounded(s, power) * shape[s >= 0 ? Section::kPlusV : Section::kMinusV]};
+  }
+
+  Vector3d Center(double at, const Shape& shape) const {
+    return axis_.line.At(at) +
+           axis_.scale * (shape[Section::kCenterU] * axis_.u + shape[Section::kCenterV] * axis_.v);
+  }
+
+  // How much of the line's parameter a metre of a cap is.
+  double InAt(double at) const {
+    // A skeleton from a stream may have segments of no length; their surface still has to be one.
+    constexpr double kShortest = 1e-3;
+    return axis_.scale / std::max(axis_.line.Tangent(at).norm(), kShortest);
+  }
+
   const LoftAxis& axis_;
   const Profile& profile_;
   const LoftRange& range_;
@@ -138,17 +195,50 @@ Eigen::Matrix<double, 8, 1> Profile::At(double at) const {
          (3 * s2 - 2 * s3) * b.shape + (s3 - s2) * width * slope(i + 1);
 }
 
+Profile Profile::Widened(const std::function<double(double at)>& factor) const {
+  Profile widened = *this;
+  for (Section& section : widened.sections_) {
+    const double by = factor(section.at);
+    section.shape[Section::kPlusV] *= by;
+    section.shape[Section::kMinusV] *= by;
+  }
+  return widened;
+}
+
+Curve::Curve(std::vector<Vector3d> points) : points_(std::move(points)) {}
+
+Vector3d Curve::TangentOf(std::size_t point) const {
+  const std::size_t before = point == 0 ? 0 : point - 1;
+  const std::size_t after = std::min(point + 1, points_.size() - 1);
+  return (points_[after] - points_[before]) / static_cast<double>(after - before);
+}
+
+Vector3d Curve::At(double at) const {
+  const std::size_t last = points_.size() - 1;
+  if (at <= 0) return points_.front() + at * TangentOf(0);
+  if (at >= static_cast<double>(last)) {
+    return points_.back() + (at - static_cast<double>(last)) * TangentOf(last);
+  }
+  const auto i = std::min(static_cast<std::size_t>(at), last - 1);
+  const double s = at - static_cast<double>(i);
+  const double s2 = s * s;
+  const double s3 = s2 * s;
+  return (2 * s3 - 3 * s2 + 1) * points_[i] + (s3 - 2 * s2 + s) * TangentOf(i) +
+         (3 * s2 - 2 * s3) * points_[i + 1] + (s3 - s2) * TangentOf(i + 1);
+}
+
+Vector3d Curve::Tangent(double at) const {
+  constexpr double kStep = 1e-4;
+  return (At(at + kStep) - At(at - kStep)) / (2 * kStep);
+}
+
 void AddLoft(const LoftAxis& axis, const Profile& profile, const LoftRange& range,
              TriangleMesh& mesh) {
   const Lofter lofter(axis, profile, range);
-  // A skeleton from a stream may have segments of no length; their surface still has to be one.
-  constexpr double kShortest = 1e-3;
-  const Vector3d way = axis.end - axis.origin;
-  const double caps_in_at = axis.scale / std::max(way.norm(), kShortest);
-  const double start_cap = range.start_cap * caps_in_at;
-  const double end_cap = range.end_cap * caps_in_at;
+  const Vector3d way = axis.line.Tangent(0.5 * (range.from + range.to));
   const bool is_left_handed = axis.u.cross(axis.v).dot(way) < 0;
-  const std::vector<Ring> rings = RingsOf(range, start_cap, end_cap);
+  const std::vector<Ring> rings =
+      RingsOf(range, lofter.LargestRadius(range.from), lofter.LargestRadius(range.to));
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   const auto points = static_cast<std::uint32_t>(range.points);
   const auto ring_count = static_cast<std::uint32_t>(rings.size());
@@ -161,8 +251,8 @@ void AddLoft(const LoftAxis& axis, const Profile& profile, const LoftRange& rang
   }
   const std::uint32_t start_pole = first + ring_count * points;
   const std::uint32_t end_pole = start_pole + 1;
-  mesh.vertices.push_back(lofter.Center(range.from - start_cap).cast<float>());
-  mesh.vertices.push_back(lofter.Center(range.to + end_cap).cast<float>());
+  mesh.vertices.push_back(lofter.StartPole().cast<float>());
+  mesh.vertices.push_back(lofter.EndPole().cast<float>());
 
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (is_left_handed) std::swap(b, c);
@@ -183,20 +273,6 @@ void AddLoft(const LoftAxis& axis, const Profile& profile, const LoftRange& rang
   }
 
   AddNormals(first_triangle, mesh);
-  const auto first_of_body = static_cast<std::uint32_t>(range.start_rings);
-  const auto last_of_body = first_of_body + static_cast<std::uint32_t>(range.rings - 1);
-  for (std::uint32_t ring = 0; ring < ring_count; ++ring) {
-    // Where the outline runs on, the first ring of the cap is taken for a part of the profile: that
-    // much of it shows as a narrow ledge when neighbours are turned against each other.
-    const std::uint32_t from = range.start_runs_on ? first_of_body - 1 : first_of_body + 1;
-    const std::uint32_t to = range.end_runs_on ? last_of_body + 1 : last_of_body - 1;
-    if (ring < from || ring > to) continue;
-    for (std::uint32_t i = 0; i < points; ++i) {
-      const Vector3d normal = lofter.ProfileNormal(rings[ring].at, turn(i));
-      mesh.normals[first + ring * points + i] =
-          (is_left_handed ? Vector3d(-normal) : normal).cast<float>();
-    }
-  }
 }
 
 void ComputeNormals(TriangleMesh& mesh) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "urdf/figure.h"
@@ -27,6 +29,8 @@ Section Widths(double at, double plus_u, double minus_u, double plus_v, double m
 class Profile {
  public:
   explicit Profile(std::vector<Section> sections) : sections_(std::move(sections)) {}
+  /// The same, as much wider towards both +v and -v as `factor` says at each section.
+  Profile Widened(const std::function<double(double at)>& factor) const;
   /// Constant before the first and after the last.
   Eigen::Matrix<double, 8, 1> At(double at) const;
 
@@ -34,10 +38,24 @@ class Profile {
   std::vector<Section> sections_;
 };
 
-/// Where a profile lives: `at` = 0 is at `origin`, 1 at `end`; sections lie in the plane of the
-/// unit vectors u and v, enlarged by `scale`.
+/// A smooth line through points: the first is at 0, the next at 1, and so on; straight beyond both
+/// ends.
+class Curve {
+ public:
+  explicit Curve(std::vector<Eigen::Vector3d> points);  // @pre two or more
+  Eigen::Vector3d At(double at) const;
+  Eigen::Vector3d Tangent(double at) const;  // its derivative
+
+ private:
+  Eigen::Vector3d TangentOf(std::size_t point) const;
+  std::vector<Eigen::Vector3d> points_;
+};
+
+/// Where a profile lives: the middle of the section `at` lies on `line`, the section in the plane
+/// of the unit vectors u and v, enlarged by `scale`.
 struct LoftAxis {
-  Eigen::Vector3d origin, end, u, v;
+  Curve line;
+  Eigen::Vector3d u, v;
   double scale = 1;
 };
 
@@ -47,8 +65,10 @@ struct LoftRange {
   int points = 18;                     // around
   int rings = 8;                       // along, without the caps
   int start_rings = 4, end_rings = 4;  // of the caps, 1 or more
-  /// The outline runs on smoothly, mostly into a neighbour of the same profile: the normals there
-  /// are the profile's alone, so that no seam shows.
+  /// The outline runs on into a neighbour of the same profile and line, which turns about this end.
+  /// Seen from there the cap begins as a circle in every direction, as the neighbour's does:
+  /// however they turn, both lie on the same arc and no step shows. The cap's length is that of its
+  /// pole.
   bool start_runs_on = false, end_runs_on = false;
   double crowd_u = 0;  // 0..1: more of the points are on the +u side
 };

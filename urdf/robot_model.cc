@@ -8,15 +8,14 @@
 #include <set>
 #include <string>
 
+#include "urdf/urdf_check.h"
+#include "urdf/xml_outline.h"
+
 namespace kinescope::urdf {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-// Far above any robot; keeps a hostile document from being expanded into gigabytes.
-constexpr std::size_t kMaxDocumentBytes = 32u << 20;
-constexpr std::size_t kMaxElements = 10000;
 
 // urdfdom explains itself to console_bridge only. This collects it for the message of ours.
 class Collector : public console_bridge::OutputHandler {
@@ -44,19 +43,58 @@ class Collector : public console_bridge::OutputHandler {
   int count_ = 0;
 };
 
+// A link owns its children; left alone, a chain would be destroyed by as many nested calls as it
+// has links.
+class Dismantled {
+ public:
+  explicit Dismantled(::urdf::ModelInterfaceSharedPtr model) : model_(std::move(model)) {}
+  ~Dismantled() {
+    if (!model_) return;
+    for (const auto& [name, link] : model_->links_) {
+      link->child_links.clear();
+      link->child_joints.clear();
+    }
+  }
+  Dismantled(const Dismantled&) = delete;
+  Dismantled& operator=(const Dismantled&) = delete;
+  const ::urdf::ModelInterface* operator->() const { return model_.get(); }
+  explicit operator bool() const { return model_ != nullptr && model_->getRoot() != nullptr; }
+
+ private:
+  ::urdf::ModelInterfaceSharedPtr model_;
+};
+
 Vector3d ToEigen(const ::urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
 Isometry3d ToEigen(const ::urdf::Pose& pose, const std::string& where) {
   Eigen::Quaterniond rotation;
   pose.rotation.getQuaternion(rotation.x(), rotation.y(), rotation.z(), rotation.w());
-  if (!ToEigen(pose.position).allFinite() || !rotation.coeffs().allFinite() ||
+  const Vector3d position = ToEigen(pose.position);
+  if (!position.allFinite() || !rotation.coeffs().allFinite() ||
       std::abs(rotation.norm() - 1) > 1e-3) {
     throw UrdfError(where + ": <origin> holds a number that is not finite");
   }
+  if (position.cwiseAbs().maxCoeff() > kMostMeters) {
+    throw UrdfError(where + ": <origin> is further away than a robot can be");
+  }
   Isometry3d transform = Isometry3d::Identity();
   transform.linear() = rotation.normalized().toRotationMatrix();
-  transform.translation() = ToEigen(pose.position);
+  transform.translation() = position;
   return transform;
+}
+
+void CheckSize(const Geometry& geometry, const std::string& where) {
+  const bool is_mesh = geometry.kind == Geometry::Kind::kMesh;
+  const double most = is_mesh ? kMostScale : kMostMeters;
+  if (!geometry.size.allFinite()) {
+    throw UrdfError(where + ": <geometry> has a size that is not finite");
+  }
+  if (!is_mesh && geometry.size.minCoeff() < 0) {
+    throw UrdfError(where + ": <geometry> has a negative size");
+  }
+  if (geometry.size.cwiseAbs().maxCoeff() > most) {
+    throw UrdfError(where + ": <geometry> is larger than a robot can be");
+  }
 }
 
 Geometry ToGeometry(const ::urdf::Geometry& from, const std::string& where) {
@@ -84,51 +122,100 @@ Geometry ToGeometry(const ::urdf::Geometry& from, const std::string& where) {
       break;
     }
   }
-  if (!geometry.size.allFinite())
-    throw UrdfError(where + ": <geometry> has a size that is not finite");
-  const bool is_mesh = geometry.kind == Geometry::Kind::kMesh;
-  if (!is_mesh && geometry.size.minCoeff() < 0) {
-    throw UrdfError(where + ": <geometry> has a negative size");
-  }
+  CheckSize(geometry, where);
   return geometry;
 }
 
-Link ToLink(const ::urdf::Link& from) {
+Visual ToVisual(const ::urdf::Visual& from, const std::string& where,
+                std::vector<std::string>& notes) {
+  Visual to;
+  to.name = from.name;
+  to.material = from.material_name;
+  to.link_from_visual = ToEigen(from.origin, where);
+  to.geometry = ToGeometry(*from.geometry, where);
+  if (!from.material) return to;
+  const auto& color = from.material->color;
+  const Eigen::Vector4d rgba(color.r, color.g, color.b, color.a);
+  const std::string& texture = from.material->texture_filename;
+  // Without <color> urdfdom says black, which only makes sense under a texture.
+  const bool is_default = rgba == Eigen::Vector4d(0, 0, 0, 1);
+  if (!texture.empty()) notes.push_back(where + ": texture '" + texture + "' is not drawn");
+  if (texture.empty() || !is_default) to.rgba = rgba;
+  return to;
+}
+
+Inertial ToInertial(const ::urdf::Inertial& from, const std::string& where) {
+  Inertial to;
+  to.mass = from.mass;
+  to.link_from_inertial = ToEigen(from.origin, where + ", <inertial>");
+  to.inertia << from.ixx, from.ixy, from.ixz,  //
+      from.ixy, from.iyy, from.iyz,            //
+      from.ixz, from.iyz, from.izz;
+  if (!std::isfinite(to.mass) || !to.inertia.allFinite()) {
+    throw UrdfError(where + ": <inertial> holds a number that is not finite");
+  }
+  return to;
+}
+
+Link ToLink(const ::urdf::Link& from, std::vector<std::string>& notes) {
   Link link;
   link.name = from.name;
-  if (from.inertial) link.mass = from.inertial->mass;
   const std::string where = "link '" + from.name + "'";
+  if (from.inertial) {
+    link.inertial = ToInertial(*from.inertial, where);
+    link.mass = link.inertial->mass;
+  }
   for (const auto& visual : from.visual_array) {
-    if (!visual || !visual->geometry) continue;
-    Visual& to = link.visuals.emplace_back();
-    to.link_from_visual = ToEigen(visual->origin, where);
-    to.geometry = ToGeometry(*visual->geometry, where);
-    if (visual->material) {
-      const auto& color = visual->material->color;
-      to.rgba = Eigen::Vector4d(color.r, color.g, color.b, color.a);
-    }
+    if (visual && visual->geometry) link.visuals.push_back(ToVisual(*visual, where, notes));
+  }
+  for (const auto& collision : from.collision_array) {
+    if (!collision || !collision->geometry) continue;
+    link.collisions.push_back({ToEigen(collision->origin, where),
+                               ToGeometry(*collision->geometry, where), collision->name});
   }
   return link;
 }
 
-RobotJoint ToJoint(const ::urdf::Joint& from) {
+RobotJoint::Type ToType(const ::urdf::Joint& from, const std::string& where,
+                        std::vector<std::string>& notes) {
+  using Type = RobotJoint::Type;
+  switch (from.type) {
+    case ::urdf::Joint::FIXED: return Type::kFixed;
+    case ::urdf::Joint::REVOLUTE: return Type::kRevolute;
+    case ::urdf::Joint::CONTINUOUS: return Type::kContinuous;
+    case ::urdf::Joint::PRISMATIC: return Type::kPrismatic;
+    case ::urdf::Joint::FLOATING:
+      notes.push_back(where + ": is floating; drawn at its origin");
+      return Type::kFloating;
+    case ::urdf::Joint::PLANAR:
+      notes.push_back(where + ": is planar; drawn at its origin");
+      return Type::kPlanar;
+    default: break;
+  }
+  throw UrdfError(where + ": has no type that is known");
+}
+
+RobotJoint ToJoint(const ::urdf::Joint& from, std::vector<std::string>& notes) {
   RobotJoint joint;
+  const std::string where = "joint '" + from.name + "'";
   joint.name = from.name;
   joint.parent_link = from.parent_link_name;
   joint.child_link = from.child_link_name;
-  joint.parent_from_joint =
-      ToEigen(from.parent_to_joint_origin_transform, "joint '" + from.name + "'");
+  joint.parent_from_joint = ToEigen(from.parent_to_joint_origin_transform, where);
   joint.axis = ToEigen(from.axis);
-  switch (from.type) {
-    case ::urdf::Joint::FIXED: joint.type = RobotJoint::Type::kFixed; break;
-    case ::urdf::Joint::REVOLUTE: joint.type = RobotJoint::Type::kRevolute; break;
-    case ::urdf::Joint::CONTINUOUS: joint.type = RobotJoint::Type::kContinuous; break;
-    case ::urdf::Joint::PRISMATIC: joint.type = RobotJoint::Type::kPrismatic; break;
-    default: joint.type = RobotJoint::Type::kOther; break;
+  joint.type = ToType(from, where, notes);
+  if (joint.HasPosition() && !(joint.axis.allFinite() && joint.axis.norm() > 1e-6)) {
+    throw UrdfError(where + ": <axis> is not a direction");
   }
-  const bool moves = joint.type != RobotJoint::Type::kFixed;
-  if (moves && !(joint.axis.allFinite() && joint.axis.norm() > 1e-6)) {
-    throw UrdfError("joint '" + from.name + "': <axis> is not a direction");
+  if (from.limits) {
+    joint.limits = {from.limits->lower, from.limits->upper, from.limits->effort,
+                    from.limits->velocity};
+  }
+  if (from.mimic)
+    joint.mimic = {from.mimic->joint_name, from.mimic->multiplier, from.mimic->offset};
+  if (from.dynamics) {
+    joint.damping = from.dynamics->damping;
+    joint.friction = from.dynamics->friction;
   }
   return joint;
 }
@@ -136,19 +223,12 @@ RobotJoint ToJoint(const ::urdf::Joint& from) {
 }  // namespace
 
 RobotModel ParseUrdf(const std::string& xml) {
-  if (xml.size() > kMaxDocumentBytes) {
-    throw UrdfError("the URDF has " + std::to_string(xml.size()) + " bytes; the most we read is " +
-                    std::to_string(kMaxDocumentBytes));
-  }
+  RefuseUnreadable(ReadOutline(xml));
   const Collector collector;
-  const ::urdf::ModelInterfaceSharedPtr parsed = ::urdf::parseURDF(xml);
-  // urdfdom leaves out what it cannot read and goes on; a robot without its arm is worse than none.
-  if (!parsed || !parsed->getRoot() || !collector.is_empty()) {
+  const Dismantled parsed(::urdf::parseURDF(xml));
+  // urdfdom leaves out what it cannot read and goes on.
+  if (!parsed || !collector.is_empty()) {
     throw UrdfError("not a usable URDF: " + collector.reason());
-  }
-  if (parsed->links_.size() > kMaxElements) {
-    throw UrdfError("the URDF has " + std::to_string(parsed->links_.size()) +
-                    " links; the most we draw is " + std::to_string(kMaxElements));
   }
 
   RobotModel model;
@@ -163,8 +243,9 @@ RobotModel ParseUrdf(const std::string& xml) {
     if (!seen.insert(link->name).second) {
       throw UrdfError("link '" + link->name + "' is the child of two joints");
     }
-    model.links.push_back(ToLink(*link));
-    for (const auto& joint : link->child_joints) model.joints.push_back(ToJoint(*joint));
+    model.links.push_back(ToLink(*link, model.notes));
+    for (const auto& joint : link->child_joints)
+      model.joints.push_back(ToJoint(*joint, model.notes));
     for (const auto& child : link->child_links) open.push_back(child);
   }
   return model;

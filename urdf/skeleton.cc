@@ -27,6 +27,17 @@ std::optional<Vector3d> FindLandmark(const Landmarks& landmarks, int segment,
   return ToLink(segment, found->second);
 }
 
+// Where a joint is in its parent, by either of its names.
+std::optional<Vector3d> FindJointPoint(const Landmarks& landmarks, int joint) {
+  std::string name(kJoints[At(joint)].mvn_name);
+  auto offset = FindLandmark(landmarks, ParentOf(joint), name);
+  if (!offset && (joint == jRightC7Shoulder || joint == jLeftC7Shoulder)) {
+    name.replace(name.find("C7"), 2, "T4");  // its name in files since MVN 2018
+    offset = FindLandmark(landmarks, ParentOf(joint), name);
+  }
+  return offset;
+}
+
 // Fractions of stature for end points that nobody measured: joint-loads.md 1.6.
 constexpr double kHeadFraction = 0.108;
 constexpr double kHandFraction = 0.108;
@@ -46,15 +57,33 @@ double HeightOf(const Skeleton& skeleton) {
   return height;
 }
 
-// Fills the end points from landmarks, else from stature; joints must be set.
-void SetEndPoints(const Landmarks& landmarks, Skeleton& skeleton) {
-  // Everything but head and soles is known: (1 - head - ankle fraction) of the stature.
-  const double guessed_height = HeightOf(skeleton) / (1.0 - kHeadFraction - kAnkleHeightFraction);
+// The stature of a skeleton whose end points are still zero, as far as they can be known: all but
+// the head, or all but head and soles, is measured.
+double GuessHeight(const Skeleton& skeleton, std::optional<double> ankle_height) {
+  const double measured = HeightOf(skeleton);  // ankle to C1
+  return ankle_height ? (measured + *ankle_height) / (1 - kHeadFraction)
+                      : measured / (1 - kHeadFraction - kAnkleHeightFraction);
+}
+
+// Half to double the usual: else the pose does not stand on z = 0.
+bool IsAnkleHeight(double height, double stature) {
+  return height > 0.5 * kAnkleHeightFraction * stature &&
+         height < 2 * kAnkleHeightFraction * stature;
+}
+
+// Fills the end points from landmarks, else from stature; joints must be set. `ankle_above_floor`:
+// in the T-pose, where there is one.
+void SetEndPoints(const Landmarks& landmarks, std::optional<double> ankle_above_floor,
+                  Skeleton& skeleton) {
+  if (ankle_above_floor && !IsAnkleHeight(*ankle_above_floor, GuessHeight(skeleton, {}))) {
+    ankle_above_floor.reset();
+  }
+  const double guessed_height = GuessHeight(skeleton, ankle_above_floor);
+  const double ankle_height = ankle_above_floor.value_or(kAnkleHeightFraction * guessed_height);
   skeleton.head_top_in_head = FindLandmark(landmarks, kHead, "pTopOfHead")
                                   .value_or(Vector3d(0, 0, kHeadFraction * guessed_height));
   for (const Side side : {kRight, kLeft}) {
     const std::string prefix = std::string("p") + kSideName[side];
-    const double ankle_height = kAnkleHeightFraction * guessed_height;
     skeleton.finger_tip_in_hand[side] =
         FindLandmark(landmarks, kHand[side], prefix + "TopOfHand")
             .value_or(Vector3d(0, 0, -kHandFraction * guessed_height));
@@ -124,10 +153,14 @@ Skeleton SkeletonFromTPose(const std::array<Vector3d, kSegmentCount>& origin_in_
   Skeleton skeleton;
   for (int segment = 1; segment < kSegmentCount; ++segment) {
     const int parent = kSegments[At(segment)].parent;
-    skeleton.origin_in_parent[At(segment)] =
+    const Vector3d in_t_pose =
         ToLink(parent, origin_in_world[At(segment)] - origin_in_world[At(parent)]);
+    constexpr double kFarthest = 0.03;  // m; a point farther off is another joint's
+    const auto joint = FindJointPoint(landmarks, segment - 1);
+    const bool is_near = joint && (*joint - in_t_pose).norm() < kFarthest;
+    skeleton.origin_in_parent[At(segment)] = is_near ? *joint : in_t_pose;
   }
-  SetEndPoints(landmarks, skeleton);
+  SetEndPoints(landmarks, origin_in_world[kRightFoot].z(), skeleton);
   return skeleton;
 }
 
@@ -135,19 +168,14 @@ Skeleton SkeletonFromLandmarks(const Landmarks& landmarks) {
   Skeleton skeleton;
   for (int joint = 0; joint < kJointCount; ++joint) {
     const int parent = ParentOf(joint);
-    std::string name(kJoints[At(joint)].mvn_name);
-    auto offset = FindLandmark(landmarks, parent, name);
-    if (!offset && (joint == jRightC7Shoulder || joint == jLeftC7Shoulder)) {
-      name.replace(name.find("C7"), 2, "T4");  // its name in files since MVN 2018
-      offset = FindLandmark(landmarks, parent, name);
-    }
+    const auto offset = FindJointPoint(landmarks, joint);
     if (!offset) {
       throw std::runtime_error("segment " + std::string(kSegments[At(parent)].mvn_name) +
                                " has no point '" + std::string(kJoints[At(joint)].mvn_name) + "'");
     }
     skeleton.origin_in_parent[At(ChildOf(joint))] = *offset;
   }
-  SetEndPoints(landmarks, skeleton);
+  SetEndPoints(landmarks, std::nullopt, skeleton);
   return skeleton;
 }
 

@@ -39,8 +39,11 @@ Skeleton DefaultSkeleton(double height_m = 1.75);
 using Landmarks = std::map<std::pair<int, std::string>, Eigen::Vector3d>;
 
 /// The skeleton of MVN's scale data: segment origins in the T-pose (world axes; every segment frame
-/// is identity there) and whatever landmarks came with them. End points that are missing follow the
-/// stature fractions of joint-loads.md 1.6.
+/// is identity there) and whatever landmarks came with them. Joints are where the landmarks have
+/// them (jL5S1 of the pelvis), as in MVNX, else where the T-pose has the next segment. End points
+/// that are missing follow the stature fractions of joint-loads.md 1.6; the sole, where it is
+/// missing, is the floor (z = 0) that the T-pose stands on, if that leaves an ankle as high as a
+/// human's.
 Skeleton SkeletonFromTPose(const std::array<Eigen::Vector3d, kSegmentCount>& origin_in_world,
                            const Landmarks& landmarks);
 

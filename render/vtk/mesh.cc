@@ -12,9 +12,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-// Software GL pays by the triangle when triangles are as small as these.
-constexpr int kCylinderSides = 16;
-
 Vector3f OnCircle(int step, int steps) {
   const double angle = 2 * M_PI * step / steps;
   return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0};
@@ -30,17 +27,17 @@ void Stitch(Mesh& mesh, std::uint32_t upper, std::uint32_t lower, int count) {
   }
 }
 
-void Cap(Mesh& mesh, double radius, double z) {
+void Cap(Mesh& mesh, double radius, double z, int sides) {
   const Vector3f normal(0, 0, z > 0 ? 1 : -1);
   const std::uint32_t center = mesh.AddVertex({0, 0, static_cast<float>(z)}, normal);
-  for (int i = 0; i < kCylinderSides; ++i) {
-    Vector3f point = static_cast<float>(radius) * OnCircle(i, kCylinderSides);
+  for (int i = 0; i < sides; ++i) {
+    Vector3f point = static_cast<float>(radius) * OnCircle(i, sides);
     point.z() = static_cast<float>(z);
     mesh.AddVertex(point, normal);
   }
-  for (int i = 0; i < kCylinderSides; ++i) {
+  for (int i = 0; i < sides; ++i) {
     const std::uint32_t a = center + 1 + static_cast<std::uint32_t>(i);
-    const std::uint32_t b = center + 1 + static_cast<std::uint32_t>((i + 1) % kCylinderSides);
+    const std::uint32_t b = center + 1 + static_cast<std::uint32_t>((i + 1) % sides);
     if (z > 0) {
       mesh.AddTriangle(center, a, b);
     } else {
@@ -107,8 +104,9 @@ bool Mesh::IsClosed() const {
                      [](const auto& edge) { return edge.second == 0; });
 }
 
-Mesh SphereMesh(double radius) {
-  const int around = radius > 0.07 ? 28 : 16;  // a head's outline shows, an elbow's does not
+Mesh SphereMesh(double radius, const ShapeDetail& detail) {
+  const int by_size = radius > 0.07 ? 28 : 16;  // a head's outline shows, an elbow's does not
+  const int around = detail.sphere_sides > 0 ? detail.sphere_sides : by_size;
   const int bands = around / 2;
   Mesh mesh;
   const auto r = static_cast<float>(radius);
@@ -134,8 +132,8 @@ Mesh SphereMesh(double radius) {
 }
 
 // A sphere pulled apart into the eight corners of a box: the rounded edges come by themselves.
-Mesh BoxMesh(const Vector3d& size) {
-  const double round = 0.22 * size.minCoeff();
+Mesh BoxMesh(const Vector3d& size, const ShapeDetail& detail) {
+  const double round = detail.box_rounding * size.minCoeff();
   const Vector3d half = 0.5 * size - Vector3d::Constant(round);
   constexpr int kAroundBox = 16, kRows = 8;  // rows: 4 in the upper corners, 4 in the lower
   Mesh mesh;
@@ -166,18 +164,19 @@ Mesh BoxMesh(const Vector3d& size) {
   return mesh;
 }
 
-Mesh CylinderMesh(double radius, double length) {
+Mesh CylinderMesh(double radius, double length, const ShapeDetail& detail) {
+  const int sides = detail.cylinder_sides;
   Mesh mesh;
   for (const double z : {0.5 * length, -0.5 * length}) {
-    for (int i = 0; i < kCylinderSides; ++i) {
-      const Vector3f normal = OnCircle(i, kCylinderSides);
+    for (int i = 0; i < sides; ++i) {
+      const Vector3f normal = OnCircle(i, sides);
       mesh.AddVertex(static_cast<float>(radius) * normal + Vector3f(0, 0, static_cast<float>(z)),
                      normal);
     }
   }
-  Stitch(mesh, 0, kCylinderSides, kCylinderSides);
-  Cap(mesh, radius, 0.5 * length);
-  Cap(mesh, radius, -0.5 * length);
+  Stitch(mesh, 0, static_cast<std::uint32_t>(sides), sides);
+  Cap(mesh, radius, 0.5 * length, sides);
+  Cap(mesh, radius, -0.5 * length, sides);
   return mesh;
 }
 

@@ -28,11 +28,23 @@ struct Mesh {
   void Paint(std::size_t first, const Eigen::Vector4f& color, int part);
 };
 
-/// As coarse as a figure of some 700 px height allows; edges of boxes are rounded a little, so that
-/// light shows their shape. Sizes as in urdf::Geometry. Colours and parts are left for Paint.
-Mesh BoxMesh(const Eigen::Vector3d& size);
-Mesh CylinderMesh(double radius, double length);
-Mesh SphereMesh(double radius);
+/// How closely the shapes of a URDF are followed.
+struct ShapeDetail {
+  double box_rounding =
+      0;  // radius of its edges, of its shortest side; light shows the shape by it
+  int cylinder_sides = 0;
+  int sphere_sides = 0;  // around its middle, even; 0: by its size
+
+  /// As coarse and as soft as a figure of some 700 px height allows.
+  static constexpr ShapeDetail Figure() { return {0.22, 16, 0}; }
+  /// As the URDF says, but for a thin bright edge.
+  static constexpr ShapeDetail Robot() { return {0.02, 48, 40}; }
+};
+
+/// Sizes as in urdf::Geometry. Colours and parts are left for Paint.
+Mesh BoxMesh(const Eigen::Vector3d& size, const ShapeDetail& detail = ShapeDetail::Figure());
+Mesh CylinderMesh(double radius, double length, const ShapeDetail& detail = ShapeDetail::Figure());
+Mesh SphereMesh(double radius, const ShapeDetail& detail = ShapeDetail::Figure());
 
 /// Flat, in the plane z = 0, facing up, radius 1.
 Mesh DiscMesh(int corners);

@@ -1,15 +1,29 @@
-/// Mesh files that a URDF names: STL, DAE, OBJ, read by assimp.
+/// Mesh files that a URDF names: STL, DAE, OBJ, GLB, read by assimp.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "render/vtk/mesh.h"
 
 namespace kinescope::render {
 
-/// `uri`: file:///absolute/path or an absolute path. Metres, as the file says; COLLADA's up axis is
-/// ignored, as RViz does, so that both show the same.
+/// What one file may hold; beyond is a mistake, or meant to stall every picture.
+constexpr std::uintmax_t kMostMeshBytes = 64u << 20;
+constexpr std::size_t kMostMeshTriangles = 500'000;
+
+/// An absolute path as a surface, in metres, z up. COLLADA's unit and up axis are honoured, and
+/// that GLB has y up; STL and OBJ say neither and are taken as they are. `colors` is as long as
+/// `positions` where the file gives colours, else empty; textures are not read. `parts` is empty.
+/// The file is looked over before assimp is given it: its kind goes by its extension, and a count
+/// in it that its bytes cannot hold, nesting without end or a DOCTYPE refuses it.
 /// @throws std::runtime_error naming the file and what is wrong with it.
-Mesh ReadMeshFile(const std::string& uri);
+Mesh ReadMeshFile(const std::filesystem::path& path);
+
+/// The same for bytes; `extension` such as ".stl", in lower case. Other files that it names (the
+/// colours of an OBJ) are looked for in `folder`; in none when that is empty. @throws likewise,
+/// without a file's name.
+Mesh ReadMesh(const std::string& bytes, const std::string& extension,
+              const std::filesystem::path& folder);
 
 }  // namespace kinescope::render

@@ -25,6 +25,7 @@
 #include "render/vtk/log_window.h"
 #include "render/vtk/osmesa_context.h"
 #include "render/vtk/person_actors.h"
+#include "render/vtk/robot_actors.h"
 
 namespace kinescope::render {
 namespace {
@@ -77,6 +78,25 @@ class OsmesaDrawing : public Drawing {
 
   std::string renderer_string() const override { return context_->renderer_string(); }
 
+  Eigen::AlignedBox3d Bounds(const RobotState& robot) override {
+    const VtkLogScope scope(log_);
+    context_->MakeCurrent();
+    if (spare_ == nullptr) spare_ = std::make_unique<RobotActors>();
+    std::vector<Label> ignored;
+    spare_->Update(robot, once_, ignored);
+    return spare_->Measure(robot);
+  }
+
+  std::vector<std::string> problems() const override {
+    std::vector<std::string> all;
+    const auto add = [&](const std::vector<std::string>& some) {
+      all.insert(all.end(), some.begin(), some.end());
+    };
+    for (const auto& [character, person] : people_) add(person->problems());
+    for (const auto& robot : robots_) add(robot->problems());
+    return all;
+  }
+
   void Draw(const SceneState& state, const Camera& camera, int supersample, Image& image,
             std::vector<Label>& labels) override {
     const VtkLogScope scope(log_);
@@ -109,6 +129,7 @@ class OsmesaDrawing : public Drawing {
       is_changed = is_changed || !is_here;
       each = is_here ? std::next(each) : people_.erase(each);
     }
+    is_changed = UpdateRobots(state, labels) || is_changed;
     if (is_changed) ListActors();
     for (const PersonState& person : state.people) {
       people_.at(person.character)->Update(person, state.liveness, camera, once_, labels);
@@ -116,11 +137,33 @@ class OsmesaDrawing : public Drawing {
     ground_->SetFocus(camera.target);
   }
 
+  // @return whether there are other actors than before.
+  bool UpdateRobots(const SceneState& state, std::vector<Label>& labels) {
+    bool is_changed = robots_.size() != state.robots.size();
+    if (robots_.size() > state.robots.size()) robots_.resize(state.robots.size());
+    for (std::size_t i = 0; i < state.robots.size(); ++i) {
+      const RobotState& robot = state.robots[i];
+      if (i == robots_.size()) robots_.emplace_back();
+      const bool is_measured = spare_ != nullptr && spare_->IsOf(robot);
+      if (is_measured && (robots_[i] == nullptr || !robots_[i]->IsOf(robot))) {
+        robots_[i] = std::move(spare_);
+        is_changed = true;
+      }
+      if (robots_[i] == nullptr) robots_[i] = std::make_unique<RobotActors>();
+      is_changed = robots_[i]->Update(robot, once_, labels) || is_changed;
+    }
+    return is_changed;
+  }
+
   void ListActors() {
     people_layer_->RemoveAllViewProps();
     const auto add = [&](vtkActor* actor) { people_layer_->AddActor(actor); };
     for (const auto& [id, person] : people_) add(person->shadow());
+    for (const auto& robot : robots_) add(robot->shadow());
     for (const auto& [id, person] : people_) add(person->body());
+    for (const auto& robot : robots_) {
+      for (vtkActor* body : robot->bodies()) add(body);
+    }
     for (const auto& [id, person] : people_) {
       for (vtkActor* ghost : person->ghosts()) add(ghost);
     }
@@ -212,6 +255,8 @@ class OsmesaDrawing : public Drawing {
   std::unique_ptr<Ground> ground_;
   std::unique_ptr<FloorCache> floor_cache_;
   std::map<int, std::unique_ptr<PersonActors>> people_;
+  std::vector<std::unique_ptr<RobotActors>> robots_;  // in the order of the state
+  std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet
   std::vector<std::uint8_t> large_;
 };
 

@@ -76,11 +76,12 @@ void PersonActors::Update(const PersonState& person, Liveness liveness, const Ca
 void PersonActors::UpdateBody(const PersonState& person, Liveness liveness, OnceLog& log,
                               std::vector<Label>& labels) {
   if (model_ != person.model || revision_ != person.model->revision) {
-    FigureMesh figure = MakeFigureMesh(*person.model);
+    VisualMesh figure = MakeFigureMesh(*person.model);
     body_.SetMesh(figure.mesh);
     body_.SetCulling(figure.is_closed);
     placeholders_ = std::move(figure.placeholders);
-    for (const std::string& problem : figure.problems) log(problem);
+    problems_ = std::move(figure.problems);
+    for (const std::string& problem : problems_) log(problem);
     model_ = person.model;
     revision_ = person.model->revision;
   }
@@ -91,8 +92,8 @@ void PersonActors::UpdateBody(const PersonState& person, Liveness liveness, Once
   const bool is_stale = liveness == Liveness::kStale;
   body_.SetOverride(is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()));
   body_.Commit();
-  for (const FigureMesh::Placeholder& placeholder : placeholders_) {
-    const urdf::Pose& pose = person.links[static_cast<std::size_t>(placeholder.segment)];
+  for (const VisualMesh::Placeholder& placeholder : placeholders_) {
+    const urdf::Pose& pose = person.links[static_cast<std::size_t>(placeholder.part)];
     labels.push_back(
         {pose.position + pose.orientation * placeholder.center_in_link, placeholder.label});
   }

@@ -3,30 +3,17 @@
 
 #include <cstdint>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "render/module.h"
 #include "render/vtk/figure_mesh.h"
+#include "render/vtk/once_log.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/sphere_actor.h"
 #include "server/core/scene_state.h"
 
 namespace kinescope::render {
-
-/// Says each thing once, however often it comes up.
-class OnceLog {
- public:
-  explicit OnceLog(const LogLine& log) : log_(log) {}
-  void operator()(const std::string& line) {
-    if (said_.insert(line).second) log_(line);
-  }
-
- private:
-  const LogLine& log_;
-  std::set<std::string> said_;
-};
 
 class PersonActors {
  public:
@@ -35,6 +22,9 @@ class PersonActors {
   /// Adds names of missing meshes to `labels`.
   void Update(const PersonState& person, Liveness liveness, const Camera& camera, OnceLog& log,
               std::vector<Label>& labels);
+
+  /// Meshes that are boxes instead.
+  const std::vector<std::string>& problems() const { return problems_; }
 
   // In the order of drawing; all people's shadows come before anybody's body, and so on.
   vtkActor* shadow() { return shadow_.actor(); }
@@ -53,7 +43,8 @@ class PersonActors {
   std::shared_ptr<const PersonModel> model_;  // whose mesh is loaded; held, so that no other model
                                               // can come to lie at its address
   std::uint64_t revision_ = 0;
-  std::vector<FigureMesh::Placeholder> placeholders_;
+  std::vector<VisualMesh::Placeholder> placeholders_;
+  std::vector<std::string> problems_;
   std::vector<SphereLook> looks_;
 };
 

@@ -52,12 +52,12 @@ void WriteAll(const fs::path& folder, const std::array<std::string, urdf::kSegme
 
 }  // namespace
 
-std::string WriteFigureFiles(const urdf::Skeleton& skeleton) {
+std::string WriteFigureFiles(const urdf::Skeleton& skeleton, const FigureMeshes* own) {
   std::array<std::string, urdf::kSegmentCount> meshes;
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (int i = 0; i < urdf::kSegmentCount; ++i) {
     std::string& mesh = meshes[static_cast<std::size_t>(i)];
-    mesh = urdf::ToBinaryStl(urdf::SegmentMesh(skeleton, i));
+    mesh = urdf::ToBinaryStl(FigureMeshOf(own, skeleton, i));
     hash = Hash(mesh, hash);
   }
   try {

@@ -15,6 +15,10 @@ struct PersonOptions {
   double mass = 0;  // 0: not given
   double height = 1.75;
   std::string figure = "smooth";
+  std::string mesh_units = "m";
+  std::string mesh_up = "z";
+  std::string mesh_scale = "fit";
+  std::string mesh_frame = "auto";
 
   template <class Option>
   void Visit(Option&& option) {
@@ -22,7 +26,16 @@ struct PersonOptions {
     option("sex", sex, "male or female: body table and strength");
     option("mass", mass, "body mass, kg; 0: not known, 75 (male) or 62 (female) is assumed");
     option("height", height, "stature, m, until the suit tells its own segment lengths");
-    option("figure", figure, "smooth (mesh files) or primitive (boxes, cylinders, spheres)");
+    option("figure", figure,
+           "smooth, primitive (boxes, cylinders, spheres) or mesh:FOLDER (your own STL, DAE, OBJ or "
+           "GLB files, named after segments, such as RightForeArm.stl)");
+    option("mesh_units", mesh_units, "of mesh:FOLDER's STL and OBJ files: m, cm or mm");
+    option("mesh_up", mesh_up, "likewise, the axis that points up: z or y");
+    option("mesh_scale", mesh_scale,
+           "fit (meshes stretched along their segments to the person's own lengths) or none");
+    option("mesh_frame", mesh_frame,
+           "how arm meshes lie: segment (along y, T-pose), link (along -z, N-pose) or auto (as they "
+           "are longer)");
   }
 };
 

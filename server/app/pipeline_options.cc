@@ -3,10 +3,50 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <vector>
 
+#include "server/app/figure_meshes.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {
+namespace {
+
+template <class Value>
+using Choices = std::vector<std::pair<const char*, Value>>;
+
+template <class Value>
+Value Choose(const char* name, const std::string& given, const Choices<Value>& choices) {
+  std::string known;
+  for (const auto& [text, value] : choices) {
+    if (given == text) return value;
+    known += (known.empty() ? "" : ", ") + std::string(text);
+  }
+  throw UsageError(fmt::format("--{}={}: expected one of {}", name, given, known));
+}
+
+void SetFigure(const PersonOptions& person, SceneOptions& scene) {
+  using Frame = urdf::MeshConvention::Frame;
+  urdf::MeshConvention convention;
+  convention.metres_per_unit =
+      Choose<double>("mesh_units", person.mesh_units, {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}});
+  convention.y_is_up = Choose<bool>("mesh_up", person.mesh_up, {{"z", false}, {"y", true}});
+  convention.fits_person =
+      Choose<bool>("mesh_scale", person.mesh_scale, {{"fit", true}, {"none", false}});
+  convention.frame = Choose<Frame>(
+      "mesh_frame", person.mesh_frame,
+      {{"auto", Frame::kLonger}, {"segment", Frame::kSegment}, {"link", Frame::kLink}});
+
+  const std::string meshes = "mesh:";
+  if (person.figure.rfind(meshes, 0) == 0 && person.figure.size() > meshes.size()) {
+    scene.figure_meshes = ReadFigureMeshes(person.figure.substr(meshes.size()), convention);
+  } else if (person.figure != "smooth" && person.figure != "primitive") {
+    throw UsageError(
+        fmt::format("--figure={}: expected smooth, primitive or mesh:FOLDER", person.figure));
+  }
+  scene.smooth_figure = person.figure != "primitive";
+}
+
+}  // namespace
 
 SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs) {
   SceneOptions scene;
@@ -32,10 +72,7 @@ SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs) {
     throw UsageError(fmt::format("--stale_secs={}: expected 0.05 to 60 s", stale_secs));
   }
   scene.stale_secs = stale_secs;
-  if (person.figure != "smooth" && person.figure != "primitive") {
-    throw UsageError(fmt::format("--figure={}: expected smooth or primitive", person.figure));
-  }
-  scene.smooth_figure = person.figure == "smooth";
+  SetFigure(person, scene);
   return scene;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "server/app/body_color.h"
 #include "server/app/figure_files.h"
 #include "urdf/robot_model.h"
 
@@ -67,28 +68,41 @@ void SceneBuilder::Start() { Publish(Liveness::kNoData); }
 SceneBuilder::Person& SceneBuilder::AddPerson(const Character& character) {
   Person& person = people_[character.id];
   person.character = character;
-  person.model = MakeModel(person, people_.size() - 1);
+  person.index = people_.size() - 1;
+  person.model = MakeModel(person);
   return person;
 }
 
-std::shared_ptr<const PersonModel> SceneBuilder::MakeModel(const Person& person,
-                                                           std::size_t index) const {
+std::shared_ptr<const PersonModel> SceneBuilder::MakeModel(const Person& person) const {
   auto model = std::make_shared<PersonModel>();
   if (person.model) {
     model->revision = person.model->revision + 1;
     model->human.model_name = person.model->human.model_name;
   } else {
     model->revision = 1;
-    model->human.model_name =
-        index == 0 ? options_.model_name : options_.model_name + "_" + std::to_string(index);
+    model->human.model_name = person.index == 0
+                                  ? options_.model_name
+                                  : options_.model_name + "_" + std::to_string(person.index);
   }
   model->description = options_.body;
   model->human.skeleton =
       person.character.skeleton.value_or(urdf::DefaultSkeleton(options_.height_m));
+  if (person.l5_from_poses) {
+    model->human.skeleton.origin_in_parent[urdf::kL5] = *person.l5_from_poses;
+  }
   model->human.body = urdf::MakeBodyParameters(options_.body, model->human.skeleton);
-  if (options_.smooth_figure) model->human.mesh_folder = WriteFigureFiles(model->human.skeleton);
+  model->human.body_rgb = BodyColor(person.character.color_rgb, person.index);
+  if (options_.smooth_figure) {
+    model->human.mesh_folder =
+        WriteFigureFiles(model->human.skeleton, options_.figure_meshes.get());
+  }
+  // Pictures and page draw whole hands: fingers would be drawn into them.
   model->urdf_xml = urdf::WriteUrdf(model->human);
   model->robot = urdf::ParseUrdf(model->urdf_xml);
+  person.worn.AddTo(person.character, model->human);
+  const bool wears_something = model->human.gloves[urdf::kRight] ||
+                               model->human.gloves[urdf::kLeft] || model->human.props.any();
+  if (wears_something) model->urdf_xml = urdf::WriteUrdf(model->human);
   return model;
 }
 
@@ -104,11 +118,35 @@ void SceneBuilder::OnCharacter(const Character& character) {
   }
   Person& person = known->second;
   const bool same_body = person.character.skeleton == character.skeleton;
+  const bool same_extra = person.character.extra == character.extra;
+  const bool same_color = person.character.color_rgb == character.color_rgb;
   person.character = character;
-  if (!same_body && character.skeleton) {
-    person.model = MakeModel(person, 0);
-    person.floor_z.reset();  // judged by the soles, which have just moved
+  if (!same_body) {
+    person.l5_is_checked = false;
+    person.l5_from_poses.reset();
   }
+  const bool is_told_more = character.skeleton && !(same_body && same_extra);
+  if (!is_told_more && same_color) return;
+  person.model = MakeModel(person);
+  if (same_body) return;
+  person.floor_z.reset();  // judged by the soles, which have just moved
+  person.worst_deviation = {};
+}
+
+// Scale data without points can have L5 a centimetre and more off where all poses have it (a tilted
+// pelvis that the T-pose calls upright), and with it everything above. True when the poses are
+// followed.
+bool SceneBuilder::CheckL5(const BodySample& sample, Person& person) {
+  if (person.l5_is_checked || !person.character.skeleton) return false;
+  person.l5_is_checked = true;
+  constexpr double kAgrees = 0.005, kNoLongerL5 = 0.03;  // m
+  const SegmentState& pelvis = sample.segments[urdf::kPelvis];
+  const Vector3d measured =
+      pelvis.orientation.conjugate() * (sample.segments[urdf::kL5].position - pelvis.position);
+  const double off = (measured - person.character.skeleton->origin_in_parent[urdf::kL5]).norm();
+  if (off < kAgrees || off > kNoLongerL5) return false;
+  person.l5_from_poses = measured;
+  return true;
 }
 
 PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) const {
@@ -120,6 +158,10 @@ PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) cons
   state.sample = sample;
   state.links = ToLinkPoses(sample);
   state.angles = person.angles = urdf::AnglesFromPoses(state.links, person.angles);
+  state.deviation = urdf::MeasureDeviation(skeleton, state.links, state.angles);
+  person.worst_deviation.Raise(state.deviation);
+  state.worst_deviation = person.worst_deviation;
+  person.worn.Follow(sample, state);
 
   if (!person.floor_z) {
     // Without leg sensors MVN keeps the pelvis near z = 0 and hangs rigid legs below it; with them
@@ -162,6 +204,8 @@ void SceneBuilder::OnSample(const BodySample& sample) {
   const auto known = people_.find(sample.character);
   Person& person =
       known != people_.end() ? known->second : AddPerson({sample.character, "", {}, {}, {}});
+  const bool l5_moved = CheckL5(sample, person);
+  if (person.worn.Notice(sample) || l5_moved) person.model = MakeModel(person);
   person.state = StateOf(person, sample);
   MeasureRate(sample);
   current_.stamp_nanos = sample.stamp_nanos;

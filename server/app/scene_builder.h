@@ -2,6 +2,7 @@
 /// The one place where these are computed; every sink shows what comes out of here. One thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -9,6 +10,8 @@
 #include <optional>
 #include <string>
 
+#include "server/app/figure_meshes.h"
+#include "server/app/worn_extras.h"
 #include "server/core/scene_state.h"
 #include "server/core/source.h"
 #include "server/loads/load_classifier.h"
@@ -23,6 +26,7 @@ struct SceneOptions {
   double height_m = 1.75;     // of the default body, until the source tells its own
   double stale_secs = 0.5;    // this long without a sample is stale
   bool smooth_figure = true;  // mesh files; false: boxes, cylinders and spheres
+  std::shared_ptr<const FigureMeshes> figure_meshes;  // instead of ours; null: ours
 };
 
 class SceneBuilder : public SampleSink {
@@ -35,7 +39,7 @@ class SceneBuilder : public SampleSink {
 
   void Start();
   /// The URDF of the body that the first person has until the source tells its own.
-  std::string InitialUrdf() const { return MakeModel(Person(), 0)->urdf_xml; }
+  std::string InitialUrdf() const { return MakeModel(Person())->urdf_xml; }
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override;
@@ -50,8 +54,13 @@ class SceneBuilder : public SampleSink {
  private:
   struct Person {
     Character character;
+    std::size_t index = 0;  // in the order of appearance
     std::shared_ptr<const PersonModel> model;
     urdf::JointAngles angles{};
+    urdf::RigidDeviation worst_deviation;
+    bool l5_is_checked = false;                    // against the first pose, see CheckL5
+    std::optional<Eigen::Vector3d> l5_from_poses;  // in the pelvis' link frame
+    WornExtras worn;
     std::array<loads::LoadClassifier, loads::kScoredJoints.size()> classifiers;
     bool has_legs = true;              // false: recorded without leg sensors
     std::optional<double> floor_z;     // known since the first sample
@@ -59,7 +68,8 @@ class SceneBuilder : public SampleSink {
   };
 
   Person& AddPerson(const Character& character);  // who is not there yet
-  std::shared_ptr<const PersonModel> MakeModel(const Person& person, std::size_t index) const;
+  std::shared_ptr<const PersonModel> MakeModel(const Person& person) const;
+  static bool CheckL5(const BodySample& sample, Person& person);
   PersonState StateOf(Person& person, const BodySample& sample) const;
   void Publish(Liveness liveness);
   void MeasureRate(const BodySample& sample);

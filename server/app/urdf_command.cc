@@ -3,28 +3,40 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 
 #include "server/app/commands.h"
 #include "server/app/option_list.h"
 #include "server/app/options.h"
+#include "server/app/person_export.h"
 #include "server/app/pipeline_options.h"
+#include "server/app/robot_source.h"
 #include "server/app/scene_reader.h"
-#include "urdf/robot_model.h"
+#include "server/app/urdf_picture.h"
+#include "server/app/urdf_report.h"
+#include "urdf/mesh_uri.h"
+#include "urdf/urdf_check.h"
 
 namespace kinescope::app {
 namespace {
 
-struct UrdfOptions {
+namespace fs = std::filesystem;
+
+struct WriteOptions {
   std::string source;
   std::string out;
-  std::string file;  // of check
+  std::string package;
   PersonOptions person;
 };
 
-void Write(const UrdfOptions& options) {
+struct CheckOptions {
+  std::string file;
+  bool json = false;
+  std::vector<std::string> package_path;
+};
+
+urdf::HumanModel HumanOf(const WriteOptions& options) {
   // A person without a source is the default body, of the height asked for.
   const std::string source = options.source.empty() ? "demo:n_pose" : options.source;
   SceneOptions scene = ToSceneOptions(options.person, SceneOptions().stale_secs);
@@ -37,6 +49,28 @@ void Write(const UrdfOptions& options) {
     human.body = urdf::MakeBodyParameters(scene.body, human.skeleton);
     human.mesh_folder.clear();
   }
+  return human;
+}
+
+// A name that ends as a URDF does is a file, anything else a folder.
+bool IsFileName(const fs::path& out) {
+  return out.extension() == ".urdf" || out.extension() == ".xml";
+}
+
+void Write(const WriteOptions& options) {
+  const bool is_folder = !options.out.empty() && !IsFileName(options.out);
+  if (!options.package.empty() && !is_folder) {
+    throw UsageError("--package=" + options.package + ": needs --out FOLDER, the package");
+  }
+  if (is_folder && fs::is_regular_file(options.out)) {
+    throw UsageError("--out=" + options.out + ": is a file; name a folder, or a file *.urdf");
+  }
+  const urdf::HumanModel human = HumanOf(options);
+  if (is_folder) {
+    ExportPerson(human, options.out, options.package);
+    fmt::print("{}: person.urdf and its meshes\n", options.out);
+    return;
+  }
   const std::string xml = urdf::WriteUrdf(human);
   if (options.out.empty()) {
     fmt::print("{}", xml);
@@ -47,38 +81,66 @@ void Write(const UrdfOptions& options) {
   if (!file) throw UsageError("--out=" + options.out + ": cannot be written");
 }
 
-bool Check(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw UsageError("file '" + path + "': not there, or it may not be read");
-  const std::string xml((std::istreambuf_iterator<char>(file)), {});
-  try {
-    const urdf::RobotModel robot = urdf::ParseUrdf(xml);
-    double mass = 0;
-    for (const urdf::Link& link : robot.links) mass += link.mass;
-    fmt::print("{}: robot '{}', root '{}', {} links, {} joints, {:.3f} kg\n", path, robot.name,
-               robot.root_link, robot.links.size(), robot.joints.size(), mass);
-    return true;
-  } catch (const urdf::UrdfError& error) {
-    fmt::print(stderr, "{}: {}\n", path, error.what());
-    return false;
-  }
+bool Check(const CheckOptions& options) {
+  const urdf::UrdfReport report = urdf::CheckUrdf(
+      ReadUrdfFile(options.file), urdf::MakeMeshSearch(options.file, options.package_path));
+  fmt::print("{}", options.json ? UrdfReportJson(options.file, report)
+                                : UrdfReportText(options.file, report));
+  return report.is_usable();
+}
+
+constexpr char kPackagePathHelp[] =
+    "folder with packages, for package:// names; may be given again. Before $ROS_PACKAGE_PATH";
+
+void AddCheck(CLI::App& urdf, int& exit_code) {
+  CLI::App* command =
+      urdf.add_subcommand("check", "What is in a URDF, and what is wrong with it, with lines");
+  const auto o = std::make_shared<CheckOptions>();
+  command->add_option("file", o->file, "a URDF")->required();
+  command->add_flag("--json", o->json, "one JSON object with every problem");
+  command->add_option("--package-path", o->package_path, kPackagePathHelp)->allow_extra_args(false);
+  command->footer("Exit code: 0 usable, 1 something is wrong, 2 it could not be read.");
+  command->callback([o, &exit_code] { exit_code = Check(*o) ? 0 : 1; });
+}
+
+void AddPicture(CLI::App& urdf) {
+  CLI::App* command = urdf.add_subcommand("picture", "Any robot as a picture");
+  const auto o = std::make_shared<UrdfPictureOptions>();
+  command->add_option("file", o->file, "a URDF")->required();
+  command->add_option("--out", o->out, "file to write, .png")->required();
+  command->add_option("--camera", o->camera, "front back left right top iso three_quarter")
+      ->capture_default_str();
+  command->add_option("--size", o->size, "WIDTHxHEIGHT, px")->capture_default_str();
+  command->add_option("--supersample", o->supersample, "1, 2 or 4: drawn larger, then averaged")
+      ->capture_default_str();
+  command->add_option("--title", o->title, "text in the upper left corner");
+  command->add_option("--joint", o->joints, "NAME=RADIANS (or metres); may be given again")
+      ->allow_extra_args(false);
+  command->add_option("--package-path", o->package_path, kPackagePathHelp)->allow_extra_args(false);
+  command->add_flag("--json", o->json,
+                    "tell the result as JSON: the camera, and each mesh that is missing");
+  command->callback([o] { DrawUrdf(*o); });
 }
 
 }  // namespace
 
 void AddUrdf(CommandLine line) {
-  CLI::App* command =
-      line.app.add_subcommand("urdf", "Write the URDF of a person; `urdf check FILE` reads one");
-  const auto o = std::make_shared<UrdfOptions>();
-  command->add_option("--source", o->source, "whose; default: the default body of --height");
-  command->add_option("--out", o->out, "file to write; default: standard output");
+  CLI::App* command = line.app.add_subcommand(
+      "urdf",
+      "Write the URDF of a person; `urdf check FILE` looks for faults in one, `urdf picture FILE` "
+      "draws one");
+  const auto o = std::make_shared<WriteOptions>();
+  command->add_option("--source,source", o->source, "whose; default: the default body of --height");
+  command->add_option(
+      "--out", o->out,
+      "FILE.urdf, or a folder for person.urdf and meshes/; default: standard output");
+  command->add_option("--package", o->package,
+                      "the folder is the ROS package of this name: meshes are package://NAME/...");
   o->person.Visit(FlagAdder(*command));
-  CLI::App* check = command->add_subcommand("check", "Read a URDF and say what is in it");
-  check->add_option("file", o->file)->required();
-  int& exit_code = line.exit_code;
-  check->callback([o, &exit_code] { exit_code = Check(o->file) ? 0 : 1; });
-  command->callback([o, check] {
-    if (!check->parsed()) Write(*o);
+  AddCheck(*command, line.exit_code);
+  AddPicture(*command);
+  command->callback([o, command] {
+    if (command->get_subcommands().empty()) Write(*o);
   });
 }
 

@@ -9,21 +9,19 @@
 #include <string_view>
 #include <vector>
 
+#include "urdf/hand.h"
+#include "urdf/human_urdf.h"
 #include "urdf/kinematics.h"
 #include "urdf/skeleton.h"
 
 namespace kinescope {
 
-inline constexpr int kMostProps = 4;
-inline constexpr int kFingersPerHand = 20;  // see kFingers
+using urdf::kFingerParents;
+using urdf::kFingers;
+using urdf::kFingersPerHand;
+using urdf::kMostProps;
+
 inline constexpr int kExtraCount = kMostProps + 2 * kFingersPerHand;
-
-/// The segments of one hand in the order of the stream (mvn-protocol.md 4.2), without the side:
-/// "Carpus", "FirstMC", ..., "FifthDP".
-extern const std::array<std::string_view, kFingersPerHand> kFingers;
-
-/// The parent of each of them as an index of kFingers; -1 for the carpus, whose parent is the hand.
-extern const std::array<int, kFingersPerHand> kFingerParents;
 
 /// Where a prop (0 to 3) or a finger's segment lies in ExtraSegments.
 constexpr int PropIndex(int prop) { return prop; }

@@ -4,7 +4,7 @@
 /// World frame: z up, metres. Poses are of *link* frames (urdf/segments.h).
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -15,6 +15,8 @@
 #include "server/core/body_sample.h"
 #include "urdf/human_urdf.h"
 #include "urdf/kinematics.h"
+#include "urdf/mesh_uri.h"
+#include "urdf/rigid_deviation.h"
 #include "urdf/robot_model.h"
 
 namespace kinescope {
@@ -42,8 +44,19 @@ struct PersonModel {
   urdf::HumanModel human;
   urdf::BodyDescription description;
   std::string urdf_xml;        // what robot_description holds
-  urdf::RobotModel robot;      // the same, read back
+  urdf::RobotModel robot;      // the same, read back; without gloves and props
   std::uint64_t revision = 0;  // grows with every change; sinks reload when it does
+};
+
+/// A gloved hand, complete: what the sample lacks is where it was last against the rest.
+struct GloveState {
+  urdf::FingerPoses links{};    // world_from_link
+  urdf::FingerAngles angles{};  // rad, from the poses
+};
+
+struct PropState {
+  urdf::Pose pose;                                   // world_from_prop
+  Eigen::Vector3d angles = Eigen::Vector3d::Zero();  // against the pelvis, as kinematics.h, rad
 };
 
 struct PersonState {
@@ -53,7 +66,12 @@ struct PersonState {
   BodySample sample;                         // as it came
   urdf::LinkPoses links{};                   // world_from_link
   urdf::JointAngles angles{};                // rad, from the poses
-  std::optional<Eigen::Vector3d> com;        // MVN's where streamed, else the body model's
+  /// Of what model->human has: by urdf::Side, and by number.
+  std::array<std::optional<GloveState>, 2> gloves;
+  std::array<std::optional<PropState>, kMostProps> props;
+  urdf::RigidDeviation deviation;        // of the URDF's rigid body from `links`
+  urdf::RigidDeviation worst_deviation;  // so far, of this skeleton
+  std::optional<Eigen::Vector3d> com;    // MVN's where streamed, else the body model's
   bool com_is_ours = false;
   std::optional<Eigen::Vector3d> cop;  // on the floor; absent when not computable
   std::vector<JointLoad> loads;        // in order of kScoredJoints
@@ -65,6 +83,18 @@ struct TrackedObject {
   std::string name;   // from scale data, else "object_1"
   urdf::Pose pose;    // world_from_object
   std::int64_t stamp_nanos = 0;
+};
+
+/// Any robot from a URDF, beside the people.
+struct RobotState {
+  std::string name;
+  std::shared_ptr<const urdf::RobotModel> model;  // never null
+  std::shared_ptr<const urdf::MeshSearch>
+      meshes;  // where its meshes are; null: absolute names only
+  std::vector<Eigen::Isometry3d> world_from_link;  // in the order of model->links
+                                                   // (urdf::PlaceLinks)
+  Eigen::AlignedBox3d bounds;  // of what is drawn of it (render::Renderer::Bounds), world; empty:
+                               // not known
 };
 
 enum class Liveness {
@@ -88,6 +118,7 @@ struct SceneState {
   std::string source;                  // "udp://0.0.0.0:9763"
   std::vector<PersonState> people;     // one per character seen within the last second
   std::vector<TrackedObject> objects;  // likewise
+  std::vector<RobotState> robots;
 };
 
 }  // namespace kinescope

@@ -44,13 +44,26 @@ json LoadToJson(const JointLoad& load) {
           {"reason", load.reason}};
 }
 
+// By joint; to a thousandth of a millimetre.
+json DeviationToJson(const PersonState& person) {
+  const auto millimetres = [](double metres) { return std::round(metres * 1e6) / 1e3; };
+  json joints = json::object();
+  for (int joint = 0; joint < urdf::kJointCount; ++joint) {
+    const auto child = urdf::At(urdf::ChildOf(joint));
+    joints[std::string(urdf::kJoints[urdf::At(joint)].ros_name)] = {
+        {"now", millimetres(person.deviation.position[child])},
+        {"max", millimetres(person.worst_deviation.position[child])}};
+  }
+  return joints;
+}
+
 json PersonToJson(const PersonState& person) {
   json loads = json::array();
   for (const JointLoad& load : person.loads) loads.push_back(LoadToJson(load));
   return {{"character", person.character},      {"name", person.name},
           {"revision", person.model->revision}, {"com", OptionalPoint(person.com)},
           {"com_is_ours", person.com_is_ours},  {"cop", OptionalPoint(person.cop)},
-          {"loads", std::move(loads)}};
+          {"loads", std::move(loads)},          {"deviation_mm", DeviationToJson(person)}};
 }
 
 bool IsMesh(const urdf::Visual& visual) {

@@ -23,8 +23,7 @@ namespace {
 
 // One person's way out. Messages are kept from sample to sample, with their memory and their names.
 struct Outlet {
-  explicit Outlet(const PersonState& person)
-      : model(person.model), names(person.model->human.model_name) {}
+  explicit Outlet(const PersonState& person) : model(person.model), names(person.model->human) {}
 
   std::shared_ptr<const PersonModel> model;
   PersonNames names;
@@ -80,7 +79,7 @@ class Bridge : public RosBridge {
       return outlets_.emplace(person.character, Outlet(person)).first->second;
     }
     found->second.model = person.model;
-    found->second.names = PersonNames(person.model->human.model_name);
+    found->second.names = PersonNames(person.model->human);
     return found->second;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "server/core/check.h"
 #include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {
@@ -12,14 +13,14 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr std::size_t kNames = 3 * urdf::kJointCount;
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 void Put(const Vector3d& xyz, std::size_t row, std::vector<double>& out) {
   for (int axis = 0; axis < 3; ++axis) out[3 * row + At(axis)] = xyz[axis];
 }
 
-void FillVelocities(const PersonState& person, std::vector<double>& out) {
-  out.resize(kNames);
+void FillVelocities(const PersonState& person, std::size_t joints, std::vector<double>& out) {
+  out.assign(joints, kUnknown);
   std::size_t row = 0;
   for (const int joint : JointsByName()) {
     const auto parent = At(urdf::ParentOf(joint));
@@ -31,11 +32,11 @@ void FillVelocities(const PersonState& person, std::vector<double>& out) {
   }
 }
 
-void FillEfforts(const PersonState& person, std::vector<double>& out) {
+void FillEfforts(const PersonState& person, std::size_t joints, std::vector<double>& out) {
   out.clear();
   for (const JointLoad& load : person.loads) {
     if (load.load_class == LoadClass::kUnknown || !load.moment.allFinite()) continue;
-    if (out.empty()) out.assign(kNames, std::numeric_limits<double>::quiet_NaN());
+    if (out.empty()) out.assign(joints, kUnknown);
     const auto& order = JointsByName();
     const auto row = std::find(order.begin(), order.end(), load.joint) - order.begin();
     const auto parent = At(urdf::ParentOf(load.joint));
@@ -48,6 +49,23 @@ void FillEfforts(const PersonState& person, std::vector<double>& out) {
 
 void SetNames(const PersonNames& names, sensor_msgs::JointState& message) {
   if (message.name != names.joints) message.name = names.joints;
+  message.position.resize(names.joints.size());
+}
+
+// Positions of gloves and props, behind those of the body: in the order of PersonNames::joints.
+void PutExtra(const PersonState& person, std::vector<double>& out) {
+  std::size_t row = urdf::kJointCount;
+  for (const urdf::Side side : {urdf::kLeft, urdf::kRight}) {
+    if (!person.gloves[side]) continue;
+    for (const Vector3d& angles : person.gloves[side]->angles) Put(angles, row++, out);
+  }
+  const urdf::Pose& pelvis = person.links[urdf::kPelvis];
+  for (const auto& prop : person.props) {
+    if (!prop) continue;
+    Put(pelvis.orientation.conjugate() * (prop->pose.position - pelvis.position), row++, out);
+    Put({prop->angles.y(), prop->angles.x(), prop->angles.z()}, row++, out);
+  }
+  KINESCOPE_CHECK(3 * row == out.size());
 }
 
 }  // namespace
@@ -95,12 +113,12 @@ void FillComputedJointStates(const PersonState& person, const PersonNames& names
                              sensor_msgs::JointState& message) {
   message.header.stamp = StampOf(person.sample);
   SetNames(names, message);
-  message.position.resize(kNames);
   std::size_t row = 0;
   for (const int joint : JointsByName()) Put(person.angles[At(joint)], row++, message.position);
+  PutExtra(person, message.position);
   message.velocity.clear();
-  if (person.sample.has_angular) FillVelocities(person, message.velocity);
-  FillEfforts(person, message.effort);
+  if (person.sample.has_angular) FillVelocities(person, message.name.size(), message.velocity);
+  FillEfforts(person, message.name.size(), message.effort);
 }
 
 bool FillStreamedJointStates(const PersonState& person, const PersonNames& names,
@@ -108,12 +126,12 @@ bool FillStreamedJointStates(const PersonState& person, const PersonNames& names
   if (!person.sample.streamed_angles_deg) return false;
   message.header.stamp = StampOf(person.sample);
   SetNames(names, message);
-  message.position.resize(kNames);
   std::size_t row = 0;
   for (const int joint : JointsByName()) {
     Put(SeedAngles(joint, (*person.sample.streamed_angles_deg)[At(joint)]), row++,
         message.position);
   }
+  PutExtra(person, message.position);
   message.velocity.clear();
   message.effort.clear();
   return true;

@@ -12,14 +12,16 @@
 
 namespace kinescope::ros_bridge {
 
-/// Positions from the poses, rad. Velocities, rad/s, where angular rates were measured, else empty.
-/// Efforts, N m, are the load moment about the axis of each joint, NaN where it is not known; empty
-/// when none is.
+/// Positions from the poses, rad (m where a prop slides). Velocities, rad/s, where angular rates
+/// were measured, else empty. Efforts, N m, are the load moment about the axis of each joint, NaN
+/// where it is not known; empty when none is. Fingers and props have neither: NaN.
+/// @pre `names` are those of person.model->human
 void FillComputedJointStates(const PersonState& person, const PersonNames& names,
                              sensor_msgs::JointState& message);
 
-/// Positions alone, from the streamed angles, as the seed bridge maps them. False, and `message` as
-/// it was, when the sample carries none.
+/// Positions alone, from the streamed angles, as the seed bridge maps them; MVN sends none of
+/// fingers and props, whose positions are computed. False, and `message` as it was, when the sample
+/// carries none.
 bool FillStreamedJointStates(const PersonState& person, const PersonNames& names,
                              sensor_msgs::JointState& message);
 

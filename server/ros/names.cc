@@ -35,7 +35,14 @@ const std::array<int, urdf::kSegmentCount>& SegmentsByName() {
 }
 
 PersonNames::PersonNames(const std::string& model_name) : model(model_name) {
-  for (int i = 0; i < kExtraCount; ++i) extra[At(i)] = model + "_" + AsSnakeCase(ExtraName(i));
+  for (int prop = 0; prop < kMostProps; ++prop) {
+    extra[At(PropIndex(prop))] = urdf::PropLinkName(model, prop);
+  }
+  for (const urdf::Side side : {urdf::kLeft, urdf::kRight}) {
+    for (int finger = 0; finger < kFingersPerHand; ++finger) {
+      extra[At(FingerIndex(side, finger))] = urdf::FingerLinkName(model, side, finger);
+    }
+  }
   for (const int joint : JointsByName()) {
     for (int axis = 0; axis < 3; ++axis) {
       joints.push_back(urdf::JointName(model_name, joint, axis));
@@ -46,7 +53,30 @@ PersonNames::PersonNames(const std::string& model_name) : model(model_name) {
   }
   for (int joint = 0; joint < urdf::kJointCount; ++joint) {
     for (const int axis : {1, 0}) {
-      between[At(joint)][At(1 - axis)] = urdf::JointName(model_name, joint, axis) + "_link";
+      between[At(joint)][At(1 - axis)] = urdf::LinkInside(urdf::JointName(model_name, joint, axis));
+    }
+  }
+}
+
+PersonNames::PersonNames(const urdf::HumanModel& human) : PersonNames(human.model_name) {
+  for (const urdf::Side side : {urdf::kLeft, urdf::kRight}) {
+    if (!human.gloves[side]) continue;
+    for (int finger = 0; finger < kFingersPerHand; ++finger) {
+      for (int axis = 0; axis < 3; ++axis) {
+        joints.push_back(urdf::FingerJointName(model, side, finger, axis));
+      }
+      for (const int axis : {1, 0}) {
+        before_extra[At(FingerIndex(side, finger))].push_back(
+            urdf::LinkInside(urdf::FingerJointName(model, side, finger, axis)));
+      }
+    }
+  }
+  for (int prop = 0; prop < kMostProps; ++prop) {
+    if (!human.props.test(At(prop))) continue;
+    const auto chain = urdf::PropJointNames(model, prop);
+    joints.insert(joints.end(), chain.begin(), chain.end());
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      before_extra[At(PropIndex(prop))].push_back(urdf::LinkInside(chain[i]));
     }
   }
 }

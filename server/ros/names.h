@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/core/extra_segments.h"
+#include "urdf/human_urdf.h"
 #include "urdf/segments.h"
 
 namespace kinescope::ros_bridge {
@@ -19,9 +20,12 @@ const std::array<int, urdf::kJointCount>& JointsByName();
 const std::array<int, urdf::kSegmentCount>& SegmentsByName();
 
 struct PersonNames {
-  explicit PersonNames(const std::string& model_name);
+  explicit PersonNames(const std::string& model_name);  // without gloves and props
+  explicit PersonNames(const urdf::HumanModel& human);
 
-  /// `<model>_<joint>_{x,y,z}`, three for each of JointsByName().
+  /// `<model>_<joint>_{x,y,z}`, three for each of JointsByName(); then, where the model has them,
+  /// three for each finger's segment of the left and of the right hand, and the six of each prop in
+  /// the order of their chain.
   std::vector<std::string> joints;
   /// `<model>_<link>`, by urdf::Segment.
   std::array<std::string, urdf::kSegmentCount> links;
@@ -30,6 +34,9 @@ struct PersonNames {
   std::array<std::array<std::string, 2>, urdf::kJointCount> between;
   /// `<model>_left_second_mp`, `<model>_prop1`, by ExtraSegments' index.
   std::array<std::string, kExtraCount> extra;
+  /// Likewise, the links without mass before it, in the order of the chain: two of a finger, five
+  /// of a prop. Empty where the model has none.
+  std::array<std::vector<std::string>, kExtraCount> before_extra;
   std::string model;
 };
 

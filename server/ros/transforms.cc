@@ -84,38 +84,86 @@ void WriteTree(const PersonState& person, const PersonNames& names, Writer& out)
   }
 }
 
-urdf::Side SideOf(int extra) {
-  return extra < FingerIndex(urdf::kRight, 0) ? urdf::kLeft : urdf::kRight;
+// A frame that is being hung below another, for chains that may be seen either way.
+struct Frame {
+  const std::string& name;
+  const Pose& pose;
+};
+
+void Put(TfShape shape, const Frame& parent, const Frame& child, Writer& out) {
+  if (shape == TfShape::kFlat) {
+    out.AddToReference(child.name, child.pose);
+  } else {
+    out.Add(parent.name, child.name, Relative(parent.pose, child.pose));
+  }
 }
 
-int HandOf(int extra) { return SideOf(extra) == urdf::kLeft ? urdf::kLeftHand : urdf::kRightHand; }
+void WriteGlove(const PersonState& person, const PersonNames& names, urdf::Side side, TfShape shape,
+                Writer& out) {
+  const GloveState& glove = *person.gloves[side];
+  const std::size_t hand = At(urdf::HandSegmentOf(side));
+  for (int finger = 0; finger < kFingersPerHand; ++finger) {
+    const int above = kFingerParents[At(finger)];
+    const Frame parent =
+        above < 0 ? Frame{names.links[hand], person.links[hand]}
+                  : Frame{names.extra[At(FingerIndex(side, above))], glove.links[At(above)]};
+    const std::size_t index = At(FingerIndex(side, finger));
+    const Pose& link = glove.links[At(finger)];
+    const Vector3d& angles = glove.angles[At(finger)];
+    // As Between.
+    const Pose after_y{link.position,
+                       parent.pose.orientation * AngleAxisd(angles.y(), Vector3d::UnitY())};
+    const Pose after_x{link.position,
+                       after_y.orientation * AngleAxisd(angles.x(), Vector3d::UnitX())};
+    const Frame y{names.before_extra[index][0], after_y};
+    const Frame x{names.before_extra[index][1], after_x};
+    Put(shape, parent, y, out);
+    Put(shape, y, x, out);
+    Put(shape, x, {names.extra[index], link}, out);
+  }
+}
 
-Pose LinkPoseOf(const PersonState& person, int extra) {
-  Pose pose = person.sample.extra.poses[At(extra)];
-  if (extra >= kMostProps)
-    pose.orientation = pose.orientation * urdf::SegmentFromLink(HandOf(extra));
-  return pose;
+void WriteProp(const PersonState& person, const PersonNames& names, int prop, TfShape shape,
+               Writer& out) {
+  const std::size_t index = At(PropIndex(prop));
+  const PropState& state = *person.props[At(prop)];
+  const Pose& pelvis = person.links[urdf::kPelvis];
+  const Vector3d offset = Relative(pelvis, state.pose).position;
+  std::array<Pose, 6> chain;  // behind each joint: x, y, z; turns about y, x, z
+  for (std::size_t i = 0; i < 3; ++i) {
+    Vector3d slid = Vector3d::Zero();
+    for (std::size_t axis = 0; axis <= i; ++axis) {
+      slid[static_cast<Eigen::Index>(axis)] = offset[static_cast<Eigen::Index>(axis)];
+    }
+    chain[i] = {pelvis.position + pelvis.orientation * slid, pelvis.orientation};
+  }
+  chain[3] = {state.pose.position,
+              pelvis.orientation * AngleAxisd(state.angles.y(), Vector3d::UnitY())};
+  chain[4] = {state.pose.position,
+              chain[3].orientation * AngleAxisd(state.angles.x(), Vector3d::UnitX())};
+  chain[5] = state.pose;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const std::vector<std::string>& before = names.before_extra[index];
+    const Frame parent =
+        i == 0 ? Frame{names.links[urdf::kPelvis], pelvis} : Frame{before[i - 1], chain[i - 1]};
+    Put(shape, parent, {i < before.size() ? before[i] : names.extra[index], chain[i]}, out);
+  }
+}
+
+// How many frames gloves and props have.
+std::size_t CountExtra(const PersonState& person) {
+  std::size_t count = 0;
+  for (const auto& glove : person.gloves) count += glove ? 3 * kFingersPerHand : 0;
+  for (const auto& prop : person.props) count += prop ? 6 : 0;
+  return count;
 }
 
 void WriteExtra(const PersonState& person, const PersonNames& names, TfShape shape, Writer& out) {
-  for (int extra = 0; extra < kExtraCount; ++extra) {
-    if (!person.sample.extra.present.test(At(extra))) continue;
-    const Pose pose = LinkPoseOf(person, extra);
-    if (shape == TfShape::kFlat || extra < kMostProps) {
-      out.AddToReference(names.extra[At(extra)], pose);
-      continue;
-    }
-    const int first = FingerIndex(SideOf(extra), 0);
-    const int parent = kFingerParents[At(extra - first)];
-    const bool hangs_on_finger =
-        parent >= 0 && person.sample.extra.present.test(At(first + parent));
-    if (hangs_on_finger) {
-      out.Add(names.extra[At(first + parent)], names.extra[At(extra)],
-              Relative(LinkPoseOf(person, first + parent), pose));
-    } else {
-      out.Add(names.links[At(HandOf(extra))], names.extra[At(extra)],
-              Relative(person.links[At(HandOf(extra))], pose));
-    }
+  for (const urdf::Side side : {urdf::kLeft, urdf::kRight}) {
+    if (person.gloves[side]) WriteGlove(person, names, side, shape, out);
+  }
+  for (int prop = 0; prop < kMostProps; ++prop) {
+    if (person.props[At(prop)]) WriteProp(person, names, prop, shape, out);
   }
 }
 
@@ -137,8 +185,7 @@ void AddObjects(const SceneState& scene, const PersonNames& names,
 void FillTransforms(const PersonState& person, const PersonNames& names,
                     const std::string& reference_frame, TfShape shape,
                     tf2_msgs::TFMessage& message) {
-  message.transforms.resize(urdf::kSegmentCount + 2 * urdf::kJointCount +
-                            person.sample.extra.present.count());
+  message.transforms.resize(urdf::kSegmentCount + 2 * urdf::kJointCount + CountExtra(person));
   Writer out(message, reference_frame, StampOf(person.sample));
   if (shape == TfShape::kFlat) {
     WriteFlat(person, names, out);

@@ -18,8 +18,8 @@ enum class TfShape {
 /// One transform for each link of the URDF: first the 23 segments in alphabetical order, then the
 /// 44 links without mass inside the joints. Those carry nothing to see, but RViz calls a robot
 /// faulty for which it has no transform of every link. Both shapes give every link the same pose.
-/// Then gloves and props, where streamed: fingers in link frames as their hand is, in a tree below
-/// it; props in segment frames, below the reference frame.
+/// Then gloves and props with the links inside their joints, where the person's model has them: in
+/// a tree below their parents in the URDF.
 void FillTransforms(const PersonState& person, const PersonNames& names,
                     const std::string& reference_frame, TfShape shape,
                     tf2_msgs::TFMessage& message);

@@ -28,4 +28,9 @@ enum class Arms { kHanging, kSideways };
 /// The N-pose or T-pose: every link or segment frame parallel to the world.
 std::unique_ptr<Choreography> MakeStand(const urdf::Skeleton& skeleton, Arms arms);
 
+enum class Held { kSquat, kOverhead, kSit };
+/// Deep in the knees with arms forward; upright with arms raised; as on a chair, which is not there:
+/// the feet carry everything.
+std::unique_ptr<Choreography> MakeHold(const urdf::Skeleton& skeleton, Held posture);
+
 }  // namespace kinescope::subject

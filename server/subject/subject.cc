@@ -23,6 +23,9 @@ std::unique_ptr<Choreography> MakeChoreography(const std::string& name,
   if (name == "walk") return MakeWalk(skeleton);
   if (name == "n_pose") return MakeStand(skeleton, Arms::kHanging);
   if (name == "t_pose") return MakeStand(skeleton, Arms::kSideways);
+  if (name == "squat") return MakeHold(skeleton, Held::kSquat);
+  if (name == "overhead") return MakeHold(skeleton, Held::kOverhead);
+  if (name == "sit") return MakeHold(skeleton, Held::kSit);
   std::string known;
   for (const std::string& motion : MotionNames()) known += (known.empty() ? "" : ", ") + motion;
   throw SourceError("demo:" + name + ": no such motion; there are " + known);
@@ -97,7 +100,8 @@ class SubjectSource final : public Source {
 }  // namespace
 
 const std::vector<std::string>& MotionNames() {
-  static const std::vector<std::string> kNames = {"lift", "walk", "n_pose", "t_pose"};
+  static const std::vector<std::string> kNames = {"lift",  "walk",     "n_pose", "t_pose",
+                                                  "squat", "overhead", "sit"};
   return kNames;
 }
 

@@ -13,7 +13,8 @@ namespace kinescope::subject {
 
 /// "lift": stands at the origin facing +x, picks a box from the floor, carries it at the chest,
 /// holds it out to the left and puts it down; repeats every 8 s. "walk": walks round the origin,
-/// counter-clockwise, at 1.2 m/s and 1.5 m from it. Also "n_pose" and "t_pose", which stand still.
+/// counter-clockwise, at 1.2 m/s and 1.5 m from it. Held still: "n_pose", "t_pose", "squat",
+/// "overhead" (arms raised), "sit" (without a chair: the feet carry everything).
 /// Paths and speeds are those of a person of 1.75 m; others move in proportion, equally fast in
 /// time.
 const std::vector<std::string>& MotionNames();

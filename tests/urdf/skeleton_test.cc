@@ -35,7 +35,7 @@ TEST(Skeleton, DefaultIsAsTallAsAsked) {
 // The T-pose of a skeleton, in segment frames, as type 13 would send it.
 std::array<Vector3d, kSegmentCount> TPoseOrigins(const Skeleton& skeleton) {
   std::array<Vector3d, kSegmentCount> origins;
-  origins[0] = {0, 0, 1};
+  origins[0] = NPoseOrigins(skeleton)[0];  // the legs are as in the N-pose
   for (int i = 1; i < kSegmentCount; ++i) {
     const int parent = kSegments[static_cast<std::size_t>(i)].parent;
     origins[static_cast<std::size_t>(i)] =
@@ -73,6 +73,61 @@ TEST(Skeleton, GuessesMissingEndPointsFromStature) {
   EXPECT_NEAR(back.finger_tip_in_hand[kRight].z(), skeleton.finger_tip_in_hand[kRight].z(), 0.01);
   EXPECT_NEAR(back.heel_in_foot[kLeft].z(), skeleton.heel_in_foot[kLeft].z(), 0.01);
   EXPECT_GT(back.toe_tip_in_toe[kRight].x(), 0.05);
+}
+
+TEST(Skeleton, TakesJointsFromTheLandmarksBeforeTheTPose) {
+  const Skeleton skeleton = DefaultSkeleton(1.8);
+  auto origins = TPoseOrigins(skeleton);
+  for (int i = kL5; i <= kLeftHand; ++i) origins[At(i)].x() -= 0.0125;  // all that L5 carries
+  Landmarks landmarks;
+  landmarks[{kPelvis, "jL5S1"}] = skeleton.origin_in_parent[kL5];
+  landmarks[{kT8, "jRightT4Shoulder"}] =
+      skeleton.origin_in_parent[kRightShoulder] + Vector3d(0, 0, 0.002);
+  landmarks[{kL5, "jL4L3"}] = Vector3d(0, 0.4, 0.4);  // that is no joint
+  const Skeleton told = SkeletonFromTPose(origins, landmarks);
+  EXPECT_EQ(told.origin_in_parent[kL5], skeleton.origin_in_parent[kL5]);
+  EXPECT_EQ(told.origin_in_parent[kRightShoulder],
+            skeleton.origin_in_parent[kRightShoulder] + Vector3d(0, 0, 0.002));
+  EXPECT_LT((told.origin_in_parent[kL3] - skeleton.origin_in_parent[kL3]).norm(), 1e-12);
+}
+
+TEST(Skeleton, TakesTheFloorOfTheTPoseForTheSoleThatNoLandmarkTells) {
+  const Skeleton skeleton = DefaultSkeleton(1.9);
+  const Skeleton back = SkeletonFromTPose(TPoseOrigins(skeleton), {});
+  for (const Side side : {kRight, kLeft}) {
+    EXPECT_NEAR(back.heel_in_foot[side].z(), skeleton.heel_in_foot[side].z(), 1e-12);
+    EXPECT_NEAR(back.toe_tip_in_toe[side].z(), skeleton.toe_tip_in_toe[side].z(), 1e-12);
+  }
+}
+
+TEST(Skeleton, DoesNotTakeZeroForTheFloorOfATPoseThatHangsInTheAir) {
+  auto origins = TPoseOrigins(DefaultSkeleton(1.8));
+  for (Vector3d& origin : origins) origin.z() += 0.3;
+  const Skeleton above = SkeletonFromTPose(origins, {});
+  for (Vector3d& origin : origins) origin.z() -= 1.3;
+  const Skeleton below = SkeletonFromTPose(origins, {});
+  for (const Skeleton& skeleton : {above, below}) {
+    EXPECT_NEAR(skeleton.heel_in_foot[kLeft].z(), -0.046 * skeleton.height, 0.001);
+    EXPECT_NEAR(skeleton.height, 1.8, 0.01);
+  }
+}
+
+// joint-loads.md 1.6, as fractions of the stature that the rest of the body leads to.
+TEST(Skeleton, EndPointsThatNobodyToldAreFractionsOfTheStature) {
+  auto origins = TPoseOrigins(DefaultSkeleton(1.8));
+  for (Vector3d& origin : origins) origin.z() += 5;
+  const Skeleton skeleton = SkeletonFromTPose(origins, {});
+  const double h = skeleton.height;
+  EXPECT_NEAR(skeleton.head_top_in_head.z() / h, 0.108, 1e-9);
+  for (const Side side : {kRight, kLeft}) {
+    EXPECT_NEAR(skeleton.finger_tip_in_hand[side].z() / h, -0.108, 1e-9);
+    EXPECT_NEAR(skeleton.heel_in_foot[side].x() / h, -0.026, 1e-9);
+    EXPECT_NEAR(skeleton.heel_in_foot[side].z() / h, -0.046, 1e-9);
+    EXPECT_NEAR(skeleton.toe_tip_in_toe[side].x() / h, 0.04, 1e-9);
+    const int toe = side == kRight ? kRightToe : kLeftToe;
+    const double sole = skeleton.origin_in_parent[At(toe)].z() + skeleton.toe_tip_in_toe[side].z();
+    EXPECT_LE(sole, skeleton.heel_in_foot[side].z() + 1e-9) << "the toe ends above the sole";
+  }
 }
 
 TEST(Skeleton, NamesTheJointThatTheLandmarksLack) {

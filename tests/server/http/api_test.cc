@@ -118,10 +118,10 @@ TEST(CamerasJson, HasTheNumbersOfEveryView) {
 }
 
 TEST(FindMesh, GivesOnlyStlFilesThatTheModelNames) {
-  const SceneState state = Scene("/tmp/some meshes%20");
+  const SceneState state = Scene("/tmp/some meshes");
   const auto first = FindMesh(&state, 0, 7, 0);
   ASSERT_TRUE(first);
-  EXPECT_EQ(*first, "/tmp/some meshes /pelvis.stl") << "%20 of a URI is a blank";
+  EXPECT_EQ(*first, "/tmp/some meshes/pelvis.stl") << "a blank is %20 in the URI, and one again here";
   EXPECT_TRUE(FindMesh(&state, 0, 7, 22));
   EXPECT_FALSE(FindMesh(&state, 0, 7, 23)) << "there are only 23";
   EXPECT_FALSE(FindMesh(&state, 1, 7, 0)) << "no such person";

@@ -209,5 +209,31 @@ TEST(JointStates, StreamedAnglesThatAreMissingAreNotInvented) {
   EXPECT_TRUE(message.position.empty());
 }
 
+TEST(JointStates, OfGlovesAndPropsComeAfterThoseOfTheBodyAndNobodyMeasuredTheirRates) {
+  PersonState person =
+      testing::MakePerson(testing::MakeGlovedModel(), testing::Posture(1), 5, 2'000'000'003);
+  testing::BendFingers(0.3, person);
+  person.sample.has_angular = true;
+  const PersonNames names(person.model->human);
+  sensor_msgs::JointState message;
+  FillComputedJointStates(person, names, message);
+  constexpr std::size_t kBody = 66, kHand = 60, kProp = 6;
+  const std::size_t all = kBody + 2 * kHand + 2 * kProp;
+  ASSERT_EQ(message.name.size(), all);
+  ASSERT_EQ(message.position.size(), all);
+  ASSERT_EQ(message.velocity.size(), all);
+  EXPECT_EQ(std::vector<std::string>(message.name.begin(), message.name.begin() + kBody),
+            PersonNames("skeleton").joints);
+  EXPECT_EQ(message.name[kBody + 3 * 5], "skeleton_left_second_pp_x");
+  EXPECT_EQ(message.position[kBody + 3 * 5], person.gloves[urdf::kLeft]->angles[5].x());
+  EXPECT_EQ(message.name[kBody + kHand + 2], "skeleton_right_carpus_z");
+  EXPECT_EQ(message.position[kBody + kHand + 2], person.gloves[urdf::kRight]->angles[0].z());
+  EXPECT_EQ(message.name[kBody + 2 * kHand + kProp + 3], "skeleton_prop2_y");
+  EXPECT_EQ(message.position[kBody + 2 * kHand + kProp + 3], person.props[1]->angles.y());
+  EXPECT_FALSE(std::isnan(message.velocity[kBody - 1]));
+  EXPECT_TRUE(std::isnan(message.velocity[kBody]));
+  EXPECT_TRUE(message.effort.empty() || message.effort.size() == all);
+}
+
 }  // namespace
 }  // namespace kinescope::ros_bridge

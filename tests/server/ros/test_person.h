@@ -70,6 +70,40 @@ inline PersonState MakePerson(std::shared_ptr<const PersonModel> model,
   return person;
 }
 
+/// MakeModel's person with gloves on and two props.
+inline std::shared_ptr<const PersonModel> MakeGlovedModel(const std::string& name = "skeleton") {
+  auto model = std::make_shared<PersonModel>(*MakeModel(name));
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const double length = model->human.skeleton.finger_tip_in_hand[side].norm();
+    model->human.gloves[side] = urdf::DefaultHand(side, length);
+  }
+  model->human.props = 0b0011;
+  model->urdf_xml = urdf::WriteUrdf(model->human);
+  model->revision += 1;
+  return model;
+}
+
+/// Fingers and props of a person of that model: as rigid as the URDF, wherever `phase` bends them.
+inline void BendFingers(double phase, PersonState& person) {
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    GloveState& glove = person.gloves[side].emplace();
+    for (std::size_t i = 0; i < glove.angles.size(); ++i) {
+      const double at = phase + static_cast<double>(i);
+      glove.angles[i] = {std::sin(at), 0.2 * std::cos(at), 0.1 * std::sin(2 * at)};
+    }
+    glove.links = urdf::CompleteHand(
+        *person.model->human.gloves[side],
+        person.links[static_cast<std::size_t>(urdf::HandSegmentOf(side))], {}, {}, glove.angles);
+  }
+  const urdf::Pose& pelvis = person.links[urdf::kPelvis];
+  for (std::size_t i = 0; i < 2; ++i) {
+    PropState& prop = person.props[i].emplace();
+    prop.angles = {0.3, 0.2 + phase, -0.4};
+    prop.pose.position = pelvis.position + Eigen::Vector3d(0.5, -0.1, 0.2 * std::sin(phase));
+    prop.pose.orientation = pelvis.orientation * urdf::RotationFromAngles(prop.angles);
+  }
+}
+
 inline SceneState SceneWith(PersonState person) {
   SceneState state;
   state.liveness = Liveness::kLive;

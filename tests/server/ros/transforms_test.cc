@@ -4,7 +4,9 @@
 
 #include <map>
 #include <set>
+#include <string>
 
+#include "server/ros/joint_states.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::ros_bridge {
@@ -89,21 +91,36 @@ TEST_F(Transforms, TreePutsEveryLinkWhereFlatDoesThoughSegmentsAreNotRigid) {
   }
 }
 
-TEST_F(Transforms, AgreeWithTheUrdfAndTheJointAngles) {
-  // What robot_state_publisher would make of them: every joint of the URDF turned by its angle.
+// What robot_state_publisher would make of a URDF and joint states: every joint moved by its
+// position. The root is where `frames` has it.
+std::map<std::string, Isometry3d> Chain(const PersonState& person, const PersonNames& names,
+                                        const std::map<std::string, Isometry3d>& frames) {
+  sensor_msgs::JointState message;
+  FillComputedJointStates(person, names, message);
   std::map<std::string, double> positions;
-  const PersonNames names("skeleton");
-  for (std::size_t row = 0; row < JointsByName().size(); ++row) {
-    const Eigen::Vector3d& angles = person_.angles[At(JointsByName()[row])];
-    for (int axis = 0; axis < 3; ++axis) positions[names.joints[3 * row + At(axis)]] = angles[axis];
+  for (std::size_t i = 0; i < message.name.size(); ++i) {
+    positions[message.name[i]] = message.position[i];
   }
-  const auto frames = Resolve(Of(person_, TfShape::kFlat), "lab");
+  const urdf::RobotModel robot = urdf::ParseUrdf(person.model->urdf_xml);
+  EXPECT_EQ(positions.size(), robot.joints.size());
   std::map<std::string, Isometry3d> chained;
-  chained[model_->robot.root_link] = frames.at(model_->robot.root_link);
-  for (const urdf::RobotJoint& joint : model_->robot.joints) {
-    chained[joint.child_link] = chained.at(joint.parent_link) * joint.parent_from_joint *
-                                Eigen::AngleAxisd(positions.at(joint.name), joint.axis);
+  chained[robot.root_link] = frames.at(robot.root_link);
+  for (const urdf::RobotJoint& joint : robot.joints) {
+    const double position = positions.at(joint.name);
+    Isometry3d motion = Isometry3d::Identity();
+    if (joint.type == urdf::RobotJoint::Type::kPrismatic) {
+      motion.translation() = position * joint.axis;
+    } else {
+      motion.linear() = Eigen::AngleAxisd(position, joint.axis).toRotationMatrix();
+    }
+    chained[joint.child_link] = chained.at(joint.parent_link) * joint.parent_from_joint * motion;
   }
+  return chained;
+}
+
+TEST_F(Transforms, AgreeWithTheUrdfAndTheJointAngles) {
+  const auto frames = Resolve(Of(person_, TfShape::kFlat), "lab");
+  const auto chained = Chain(person_, PersonNames("skeleton"), frames);
   ASSERT_EQ(chained.size(), frames.size());
   for (const auto& [frame, pose] : frames) {
     EXPECT_TRUE(pose.isApprox(chained.at(frame), 1e-9)) << frame;
@@ -121,33 +138,59 @@ TEST_F(Transforms, TreeHasTheParentsOfTheUrdf) {
   }
 }
 
-TEST_F(Transforms, FingersHangBelowTheirHandInATreeAndAreWhereFlatHasThem) {
-  ExtraSegments& extra = person_.sample.extra;
-  for (int i = 0; i < kExtraCount; ++i) {
-    if (i >= 2 && i < kMostProps) continue;  // two props
-    extra.present.set(At(i));
-    extra.poses[At(i)] = {Eigen::Vector3d(0.1, 0.01, 0.02) * i,
-                          Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitX()))};
+class GlovedTransforms : public Transforms {
+ protected:
+  GlovedTransforms() { testing::BendFingers(0.4, person_); }
+
+  static tf2_msgs::TFMessage Of(const PersonState& person, TfShape shape) {
+    tf2_msgs::TFMessage message;
+    FillTransforms(person, PersonNames(person.model->human), "lab", shape, message);
+    return message;
   }
-  const auto tree_message = Of(person_, TfShape::kTree);
+
+  const std::shared_ptr<const PersonModel> gloved_ = testing::MakeGlovedModel();
+  PersonState person_ = testing::MakePerson(gloved_, testing::Posture(2), 5, 1'234'567'890);
+};
+
+TEST_F(GlovedTransforms, AgreeWithTheUrdfAndTheJointAngles) {
+  for (const TfShape shape : {TfShape::kFlat, TfShape::kTree}) {
+    const auto frames = Resolve(Of(person_, shape), "lab");
+    ASSERT_EQ(frames.size(), 67U + 120 + 12);
+    const auto chained = Chain(person_, PersonNames(gloved_->human), frames);
+    ASSERT_EQ(chained.size(), frames.size());
+    for (const auto& [frame, pose] : frames) {
+      EXPECT_TRUE(pose.isApprox(chained.at(frame), 1e-9)) << frame;
+    }
+  }
+}
+
+TEST_F(GlovedTransforms, TreePutsFingersAndPropsWhereFlatDoesThoughNothingIsRigid) {
+  for (auto& glove : person_.gloves) {
+    for (std::size_t i = 0; i < glove->links.size(); ++i) {
+      glove->links[i].position += Eigen::Vector3d(0.003, -0.002, 0.001) * static_cast<double>(i);
+    }
+  }
   const auto flat = Resolve(Of(person_, TfShape::kFlat), "lab");
-  const auto tree = Resolve(tree_message, "lab");
-  ASSERT_EQ(flat.size(), 67U + 42);
+  const auto tree = Resolve(Of(person_, TfShape::kTree), "lab");
   for (const auto& [frame, pose] : flat) {
     EXPECT_TRUE(tree.at(frame).isApprox(pose, 1e-12)) << frame;
   }
-  // A finger is turned as its hand is, so that in the N-pose it is parallel to it.
-  const int carpus = FingerIndex(urdf::kLeft, 0);
-  const Eigen::Quaterniond turned =
-      extra.poses[At(carpus)].orientation * urdf::SegmentFromLink(urdf::kLeftHand);
-  EXPECT_TRUE(flat.at("skeleton_left_carpus").linear().isApprox(turned.toRotationMatrix(), 1e-12));
-  EXPECT_EQ(flat.at("skeleton_prop2").translation(), extra.poses[1].position);
+  const urdf::Pose& tip = person_.gloves[urdf::kLeft]->links[7];
+  EXPECT_EQ(flat.at("skeleton_left_second_dp").translation(), tip.position);
+  EXPECT_EQ(flat.at("skeleton_prop2").translation(), person_.props[1]->pose.position);
+}
+
+TEST_F(GlovedTransforms, TreeHasTheParentsOfTheUrdf) {
   std::map<std::string, std::string> parents;
-  for (const auto& one : tree_message.transforms) parents[one.child_frame_id] = one.header.frame_id;
-  EXPECT_EQ(parents.at("skeleton_left_carpus"), "skeleton_left_hand");
-  EXPECT_EQ(parents.at("skeleton_right_second_mc"), "skeleton_right_carpus");
-  EXPECT_EQ(parents.at("skeleton_right_second_dp"), "skeleton_right_second_mp");
-  EXPECT_EQ(parents.at("skeleton_prop1"), "lab");
+  for (const auto& one : Of(person_, TfShape::kTree).transforms) {
+    parents[one.child_frame_id] = one.header.frame_id;
+  }
+  for (const urdf::RobotJoint& joint : urdf::ParseUrdf(gloved_->urdf_xml).joints) {
+    EXPECT_EQ(parents.at(joint.child_link), joint.parent_link);
+  }
+  EXPECT_EQ(parents.at("skeleton_left_carpus_y_link"), "skeleton_left_hand");
+  EXPECT_EQ(parents.at("skeleton_right_second_mc_y_link"), "skeleton_right_carpus");
+  EXPECT_EQ(parents.at("skeleton_prop1_tx_link"), "skeleton_pelvis");
 }
 
 TEST_F(Transforms, TrackedObjectsAreFramesOfTheirOwn) {

@@ -1,0 +1,57 @@
+/// Everything that is drawn of one robot. New link poses change matrices; a new model, the mesh.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/module.h"
+#include "render/vtk/once_log.h"
+#include "render/vtk/part_actor.h"
+#include "render/vtk/visual_mesh.h"
+#include "server/core/scene_state.h"
+
+namespace kinescope::render {
+
+class RobotActors {
+ public:
+  RobotActors();
+
+  /// Adds names of missing meshes to `labels`. @return whether there are other actors than before.
+  bool Update(const RobotState& robot, OnceLog& log, std::vector<Label>& labels);
+
+  /// The smallest upright box around what Update has placed, world, m. Looks at every vertex.
+  Eigen::AlignedBox3d Measure(const RobotState& robot) const;
+  bool IsOf(const RobotState& robot) const {
+    return model_ == robot.model && meshes_ == robot.meshes;
+  }
+  /// Meshes that are boxes instead.
+  const std::vector<std::string>& problems() const { return problems_; }
+
+  vtkActor* shadow() { return shadow_.actor(); }
+  std::vector<vtkActor*> bodies();
+
+ private:
+  // As many links as one draw call takes.
+  struct Group {
+    std::unique_ptr<PartActor> actor;
+    std::vector<std::size_t> links;               // by part
+    std::vector<Eigen::AlignedBox3d> link_boxes;  // by part, in the link's frame
+    std::vector<Eigen::Vector3f> positions;       // of the mesh, and
+    std::vector<float> parts;                     // the part of each
+    std::vector<VisualMesh::Placeholder> placeholders;
+  };
+  void Load(const RobotState& robot, OnceLog& log);
+  void LoadGroups(const urdf::RobotModel& model, bool is_translucent, VisualReader& reader);
+  void AddGroup(VisualMesh mesh, std::vector<std::size_t> links, bool is_translucent);
+  void UpdateShadow(const Eigen::AlignedBox3d& around);
+
+  PartActor shadow_;
+  std::vector<Group> groups_;
+  std::shared_ptr<const urdf::RobotModel> model_;  // that is loaded; held, so that no other can
+                                                   // come to lie at its address
+  std::shared_ptr<const urdf::MeshSearch> meshes_;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace kinescope::render

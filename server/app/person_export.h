@@ -1,0 +1,20 @@
+/// A person as files that others can use without Kinescope: RViz, Gazebo, a ROS package.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "urdf/human_urdf.h"
+
+namespace kinescope::app {
+
+/// Writes `folder`/person.urdf and `folder`/meshes/<link>.stl; makes the folders. The meshes are
+/// those of human.mesh_folder, or the smooth figure where that is "". The URDF names them as
+/// package://`package`/meshes/..., so that `folder` is, or goes into, the package of that name;
+/// where `package` is "", as file:// URIs of where they now are. Each file appears under its name
+/// only when it is whole, the URDF last. What is there is replaced.
+/// @throws UsageError naming the file and the reason, or a package name that ROS would not take.
+void ExportPerson(const urdf::HumanModel& human, const std::filesystem::path& folder,
+                  const std::string& package);
+
+}  // namespace kinescope::app

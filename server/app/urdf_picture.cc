@@ -1,0 +1,98 @@
+#include "server/app/urdf_picture.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "render/camera.h"
+#include "render/png_file.h"
+#include "render/renderer.h"
+#include "server/app/option_list.h"
+#include "server/app/pipeline_options.h"
+#include "server/app/robot_source.h"
+#include "server/core/errors.h"
+
+namespace kinescope::app {
+namespace {
+
+urdf::JointPositions ToPositions(const std::vector<std::string>& joints) {
+  urdf::JointPositions positions;
+  for (const std::string& text : joints) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UsageError("--joint " + text + ": expected NAME=RADIANS");
+    }
+    const double position =
+        ParseOption<double>("--joint " + text.substr(0, equals), text.substr(equals + 1));
+    if (!std::isfinite(position))
+      throw UsageError("--joint " + text + ": expected a finite number");
+    positions[text.substr(0, equals)] = position;
+  }
+  return positions;
+}
+
+std::vector<double> ToList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+void Tell(const UrdfPictureOptions& options, const RobotState& robot, const render::Camera& camera,
+          const std::vector<std::string>& problems) {
+  if (!options.json) {
+    const std::string boxes =
+        problems.empty() ? "" : fmt::format(", {} mesh files missing or refused", problems.size());
+    fmt::print("{}: robot '{}', {} links{}\n", options.out, robot.name, robot.model->links.size(),
+               boxes);
+    return;
+  }
+  const nlohmann::ordered_json json = {
+      {"out", options.out},
+      {"robot", robot.name},
+      {"links", robot.model->links.size()},
+      {"root_position", ToList(robot.world_from_link.front().translation())},
+      {"bounds", {ToList(robot.bounds.min()), ToList(robot.bounds.max())}},
+      {"camera",
+       {{"position", ToList(camera.position)},
+        {"target", ToList(camera.target)},
+        {"up", ToList(camera.up)},
+        {"vertical_fov_rad", camera.vertical_fov_rad}}},
+      {"problems", problems},
+  };
+  using Handler = nlohmann::ordered_json::error_handler_t;
+  fmt::print("{}\n", json.dump(-1, ' ', false, Handler::replace));
+}
+
+}  // namespace
+
+void DrawUrdf(const UrdfPictureOptions& options) {
+  if (std::filesystem::path(options.out).extension() != ".png") {
+    throw UsageError("--out=" + options.out + ": expected a name that ends in .png");
+  }
+  const auto [width, height] = ToSize("size", options.size);
+  SceneState scene;
+  scene.liveness = Liveness::kLive;
+  scene.source = options.file;
+  scene.robots.push_back(
+      LoadRobot(options.file, options.package_path, ToPositions(options.joints)));
+  RobotState& robot = scene.robots.front();
+  for (const std::string& note : robot.model->notes) spdlog::warn("{}: {}", options.file, note);
+
+  const auto renderer =
+      render::MakeRenderer("osmesa", [](const std::string& line) { spdlog::warn("{}", line); });
+  robot.bounds = renderer->Bounds(robot);
+  if (robot.bounds.isEmpty()) {
+    throw SourceError(options.file + ": has no <visual>, so there is nothing to draw");
+  }
+  StandOnFloor(robot);
+  const render::Camera camera = render::NamedCamera(options.camera, scene);
+  const render::Image image = renderer->Render(
+      scene, camera, {width, height, options.supersample, options.title, /*overlays=*/true});
+  render::WritePng(options.out, image,
+                   {{"Software", "Kinescope " KINESCOPE_VERSION},
+                    {"Source", std::filesystem::path(options.file).filename().string()},
+                    {"Camera", options.camera},
+                    {"Renderer", renderer->renderer_string()}});
+  Tell(options, robot, camera, renderer->problems());
+}
+
+}  // namespace kinescope::app

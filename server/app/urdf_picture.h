@@ -1,0 +1,25 @@
+/// `kinescope urdf picture`: any robot as a picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace kinescope::app {
+
+struct UrdfPictureOptions {
+  std::string file;
+  std::string out;
+  std::string camera = "three_quarter";
+  std::string size = "1280x720";
+  std::string title;
+  int supersample = 2;
+  bool json = false;
+  std::vector<std::string> joints;        // NAME=RADIANS (or metres)
+  std::vector<std::string> package_path;  // folders
+};
+
+/// Draws the robot standing on the floor and writes options.out. Says on the log which meshes are
+/// boxes instead. @throws SourceError, UsageError.
+void DrawUrdf(const UrdfPictureOptions& options);
+
+}  // namespace kinescope::app

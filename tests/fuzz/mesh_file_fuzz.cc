@@ -1,0 +1,35 @@
+// Any bytes as a mesh file of the kind that the first of them says: refused with a reason, or a
+// surface that can be drawn.
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "render/vtk/mesh_file.h"
+#include "server/core/check.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace kinescope::render;
+  static constexpr std::array kExtensions = {".stl", ".dae", ".obj", ".glb"};
+  if (size == 0) return 0;
+  const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+  try {
+    const Mesh mesh = ReadMesh(bytes, kExtensions[data[0] % kExtensions.size()], "");
+    KINESCOPE_CHECK(!mesh.triangles.empty() && mesh.triangles.size() % 3 == 0);
+    KINESCOPE_CHECK(mesh.triangles.size() <= 3 * kMostMeshTriangles);
+    KINESCOPE_CHECK(mesh.normals.size() == mesh.positions.size());
+    KINESCOPE_CHECK(mesh.colors.empty() || mesh.colors.size() == mesh.positions.size());
+    for (const std::uint32_t corner : mesh.triangles) {
+      KINESCOPE_CHECK(corner < mesh.positions.size());
+    }
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      KINESCOPE_CHECK(mesh.positions[i].allFinite() && mesh.normals[i].allFinite());
+    }
+    static_cast<void>(mesh.IsClosed());
+  } catch (const std::runtime_error& error) {
+    KINESCOPE_CHECK(error.what()[0] != '\0');
+  }
+  return 0;
+}

@@ -1,0 +1,246 @@
+#include "render/vtk/mesh_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "tests/render/mesh_samples.h"
+#include "tests/shared_data.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::render {
+namespace {
+
+using kinescope::testing::BoxDae;
+using kinescope::testing::BoxGlb;
+using kinescope::testing::BoxObj;
+using kinescope::testing::BoxStl;
+using kinescope::testing::DaeOptions;
+using kinescope::testing::Glb;
+using kinescope::testing::GlbOptions;
+using kinescope::testing::TempFolder;
+using ::testing::HasSubstr;
+
+std::string Fault(const std::string& bytes, const std::string& extension) {
+  try {
+    ReadMesh(bytes, extension, "");
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+Eigen::AlignedBox3f BoxOf(const Mesh& mesh) {
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& position : mesh.positions) box.extend(position);
+  return box;
+}
+
+double Volume(const Mesh& mesh) {
+  double volume = 0;
+  for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    const auto at = [&](std::size_t k) { return mesh.positions[mesh.triangles[i + k]]; };
+    volume += at(0).dot(at(1).cross(at(2))) / 6;
+  }
+  return volume;
+}
+
+void ExpectBox(const Mesh& mesh, const Eigen::Vector3f& least, const Eigen::Vector3f& most) {
+  const Eigen::AlignedBox3f box = BoxOf(mesh);
+  EXPECT_LT((box.min() - least).norm(), 1e-5) << box.min().transpose();
+  EXPECT_LT((box.max() - most).norm(), 1e-5) << box.max().transpose();
+  EXPECT_TRUE(mesh.IsClosed());
+  EXPECT_NEAR(Volume(mesh), (most - least).prod(), 1e-4) << "inside out?";
+  ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
+  for (const Eigen::Vector3f& normal : mesh.normals) EXPECT_NEAR(normal.norm(), 1, 1e-4);
+}
+
+TEST(MeshFile, StlAndObjAreTakenAsTheyAre) {
+  ExpectBox(ReadMesh(BoxStl(), ".stl", ""), {0, 0, 0}, {1, 2, 3});
+  ExpectBox(ReadMesh(BoxObj(), ".obj", ""), {0, 0, 0}, {1, 2, 3});
+}
+
+TEST(MeshFile, ColladasUnitAndUpAxisAreHonoured) {
+  DaeOptions options;
+  ExpectBox(ReadMesh(BoxDae(options), ".dae", ""), {0, 0, 0}, {1, 2, 3});
+  options.unit = "0.01";
+  ExpectBox(ReadMesh(BoxDae(options), ".dae", ""), {0, 0, 0}, {0.01f, 0.02f, 0.03f});
+  options.unit = "1";
+  options.up = "Y_UP";  // y becomes z, z comes towards us
+  ExpectBox(ReadMesh(BoxDae(options), ".dae", ""), {0, -3, 0}, {1, 0, 2});
+}
+
+TEST(MeshFile, GlbHasYUp) { ExpectBox(ReadMesh(BoxGlb(), ".glb", ""), {0, -3, 0}, {1, 0, 2}); }
+
+TEST(MeshFile, ColoursComeFromTheFileWhereItHasAny) {
+  EXPECT_TRUE(ReadMesh(BoxStl(), ".stl", "").colors.empty());
+  const Mesh dae = ReadMesh(BoxDae(), ".dae", "");
+  ASSERT_EQ(dae.colors.size(), dae.positions.size());
+  EXPECT_LT((dae.colors[0] - Eigen::Vector4f(0.8f, 0.1f, 0.2f, 1)).norm(), 1e-5);
+  const Mesh glb = ReadMesh(BoxGlb(), ".glb", "");
+  ASSERT_EQ(glb.colors.size(), glb.positions.size());
+  EXPECT_NEAR(glb.colors[0].x(), 0.7354, 1e-3) << "linear 0.5 as sRGB";
+
+  const TempFolder folder;
+  std::ofstream(folder / "box.mtl") << "newmtl paint\nKd 0.25 0.5 0.75\n";
+  std::ofstream(folder / "box.obj") << BoxObj("mtllib box.mtl\n");
+  const Mesh obj = ReadMeshFile((folder / "box.obj").string());
+  ASSERT_EQ(obj.colors.size(), obj.positions.size());
+  EXPECT_LT((obj.colors[0] - Eigen::Vector4f(0.25f, 0.5f, 0.75f, 1)).norm(), 1e-5);
+}
+
+TEST(MeshFile, ReadsNothingButTheFileAndColoursBesideIt) {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder / "in");
+  std::ofstream(folder / "secret.mtl") << "newmtl paint\nKd 0.25 0.5 0.75\n";
+  for (const char* library : {"../secret.mtl", "/dev/zero", "/etc/passwd"}) {
+    std::ofstream(folder / "in" / "box.obj") << BoxObj("mtllib " + std::string(library) + "\n");
+    const Mesh mesh = ReadMeshFile((folder / "in").string() + "/box.obj");
+    EXPECT_TRUE(mesh.colors.empty() || mesh.colors[0].head<3>().y() != 0.5f) << library;
+  }
+}
+
+TEST(MeshFile, MirroringNodesKeepsSurfacesOutside) {
+  DaeOptions options;
+  const auto with = [&](const std::string& transform) {
+    options.nodes = "<node id='n'>" + transform + "<instance_geometry url='#g'/></node>";
+    return ReadMesh(BoxDae(options), ".dae", "");
+  };
+  ExpectBox(with("<scale>-1 1 1</scale>"), {-1, 0, 0}, {0, 2, 3});
+  ExpectBox(with("<scale>2 0.5 -1</scale><translate>0 0 1</translate>"), {0, 0, -4}, {2, 1, -1});
+  EXPECT_THROW(with("<scale>0 1 1</scale>"), std::runtime_error);
+}
+
+TEST(MeshFile, CountsThatTheBytesCannotHoldAreToldWithNumbers) {
+  EXPECT_THAT(Fault(BoxStl(4'000'000'000u), ".stl"), HasSubstr("4000000000 triangles"));
+  EXPECT_THAT(Fault(BoxStl(13), ".stl"), HasSubstr("13 triangles (734 bytes), but has 684"));
+  EXPECT_THAT(Fault(std::string(40, '\0'), ".stl"), HasSubstr("40 bytes"));
+  DaeOptions dae;
+  for (const char* count : {"4000000000", "99999999999999999999", "-5", "24x"}) {
+    dae.count = count;
+    EXPECT_THAT(Fault(BoxDae(dae), ".dae"), HasSubstr("<float_array> announces a count of"));
+  }
+  GlbOptions glb;
+  glb.position_count = "4000000000";
+  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("count of 4000000000"));
+  glb.position_count = "9";
+  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("count of 9"));
+  glb.position_count = "-1";
+  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("no whole number"));
+  glb = GlbOptions();
+  glb.buffer_bytes = "1000000000";
+  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("1000000000 bytes"));
+}
+
+TEST(MeshFile, EveryTruncationIsRefusedOrDrawn) {
+  for (const auto& [bytes, extension] :
+       {std::pair(BoxStl(), ".stl"), std::pair(BoxDae(), ".dae"), std::pair(BoxGlb(), ".glb"),
+        std::pair(BoxObj(), ".obj")}) {
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      EXPECT_FALSE(Fault(bytes.substr(0, size), extension).empty());
+    }
+  }
+  for (std::size_t size = 0; size < BoxGlb().size(); ++size) {
+    EXPECT_NE(Fault(BoxGlb().substr(0, size), ".glb"), "accepted") << size;
+  }
+}
+
+TEST(MeshFile, CirclesAndUnfoldingNodesAreRefused) {
+  DaeOptions dae;
+  dae.nodes = "<node id='a'><instance_geometry url='#g'/><instance_node url='#a'/></node>";
+  EXPECT_THAT(Fault(BoxDae(dae), ".dae"), HasSubstr("contains itself"));
+  dae.nodes = "";
+  for (int i = 0; i < 40; ++i) {
+    const std::string next = "<instance_node url='#n" + std::to_string(i + 1) + "'/>";
+    dae.nodes += "<node id='n" + std::to_string(i) + "'>" + next + next + "</node>";
+  }
+  dae.nodes += "<node id='n40'><instance_geometry url='#g'/></node>";
+  EXPECT_THAT(Fault(BoxDae(dae), ".dae"), HasSubstr("unfolds"));
+  dae.nodes.clear();
+  for (int i = 0; i < 100'000; ++i) dae.nodes += "<node>";
+  EXPECT_THAT(Fault(BoxDae(dae), ".dae"), HasSubstr("deep"));
+  GlbOptions glb;
+  glb.nodes = R"([{"mesh":0,"children":[1]},{"children":[0]}])";
+  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("contains itself"));
+  glb.nodes = R"([{"mesh":7}])";
+  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("meshes that is not there"));
+  glb = GlbOptions();
+  glb.more = ",\"extras\":" + std::string(200'000, '[');
+  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("nested too deep"));
+}
+
+TEST(MeshFile, AnIndexThatIsNoneIsRefused) {  // assimp would look at it for ever
+  std::string dae = BoxDae();
+  dae.insert(dae.find("<p>") + 10, "~");
+  EXPECT_THAT(Fault(dae, ".dae"), HasSubstr("<p> holds what is no index"));
+}
+
+TEST(MeshFile, EntitiesAndForeignFilesAreRefused) {
+  std::string dae = BoxDae();
+  dae.insert(dae.find("<COLLADA"), "<!DOCTYPE COLLADA [<!ENTITY a 'b'>]>");
+  EXPECT_THAT(Fault(dae, ".dae"), HasSubstr("DOCTYPE"));
+  EXPECT_THAT(Fault(Glb(R"("asset":{"version":"2.0"},"buffers":[{"uri":"/etc/passwd",)"
+                        R"("byteLength":4}])",
+                        "1234"),
+                    ".glb"),
+              HasSubstr("other files"));
+  EXPECT_THAT(Fault("x", ".blend"), HasSubstr("'.blend' is no kind of mesh"));
+}
+
+TEST(MeshFile, WhatCannotBeDrawnIsRefused) {
+  EXPECT_THAT(Fault("", ".stl"), HasSubstr("empty"));
+  std::string nan = BoxStl();
+  const float not_a_number = std::numeric_limits<float>::quiet_NaN();
+  std::memcpy(nan.data() + 84 + 12, &not_a_number, sizeof not_a_number);
+  EXPECT_THAT(Fault(nan, ".stl"), HasSubstr("not finite"));
+  EXPECT_NE(Fault("v 0 0 0\nv 1 0 0\nv 0 1 0\n", ".obj"), "accepted") << "no faces";
+  EXPECT_NE(Fault("v 0 0 0\nf 1 2 99999\n", ".obj"), "accepted");
+  std::string polygon = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf";
+  for (int i = 0; i < 200'000; ++i) polygon += " " + std::to_string(i % 3 + 1);
+  EXPECT_THAT(Fault(polygon + "\n", ".obj"), HasSubstr("200000 corners"));
+  std::string point = std::string(80, '\0');
+  kinescope::testing::AppendBytes(point, std::uint32_t{400'000});
+  point.resize(84 + 50 * 400'000);
+  EXPECT_THAT(Fault(point, ".stl"), HasSubstr("at one point"));
+  std::string many = std::string(80, '\0');
+  kinescope::testing::AppendBytes(many, std::uint32_t{600'000});
+  many.resize(84 + 50 * 600'000);
+  EXPECT_THAT(Fault(many, ".stl"), HasSubstr("more than 500000 triangles"));
+}
+
+TEST(MeshFile, FilesThatAreNoneAreNamed) {
+  const auto fault = [](const std::string& path) -> std::string {
+    try {
+      ReadMeshFile(path);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const TempFolder folder;
+  std::filesystem::create_directories(folder / "folder.stl");
+  EXPECT_THAT(fault("/no/such/a.stl"), HasSubstr("/no/such/a.stl: No such file"));
+  EXPECT_THAT(fault((folder / "folder.stl").string()), HasSubstr("no regular file"));
+  EXPECT_THAT(fault("/dev/zero"), HasSubstr("no regular file"));
+}
+
+TEST(MeshFile, ReadsTheMeshesOfOthers) {
+  KINESCOPE_NEEDS_SHARED_DATA("models/human-model-generator/meshes/Head.stl");
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           kinescope::testing::SharedData("models/human-model-generator/meshes"))) {
+    const Mesh mesh = ReadMeshFile(entry.path().string());
+    EXPECT_GT(mesh.triangles.size(), 3 * 80u) << entry.path();
+    EXPECT_LT(BoxOf(mesh).diagonal().norm(), 1.0) << entry.path();
+    EXPECT_GT(Volume(mesh), 0) << entry.path();
+    ++files;
+  }
+  EXPECT_EQ(files, 25);
+}
+
+}  // namespace
+}  // namespace kinescope::render

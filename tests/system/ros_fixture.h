@@ -1,0 +1,96 @@
+/// The program as a ROS node beside others, with a real master on a port of its own. roscpp is one
+/// node per process and cannot be started twice: each test needs a process of its own, which ctest
+/// gives it.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/free_port.h"
+#include "tests/process.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::testing {
+
+class RosProgram : public ::testing::Test {
+ protected:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::seconds kPatience{30};  // only a failure takes so long
+
+  void SetUp() override {
+    if (ros::isInitialized()) GTEST_SKIP() << "needs a process of its own: run it through ctest";
+    const int port = FreePort();
+    setenv("ROS_HOME", folder_.path().c_str(), 1);
+    setenv("ROS_LOG_DIR", folder_.path().c_str(), 1);
+    setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1);
+    setenv("ROS_MASTER_URI", fmt::format("http://127.0.0.1:{}", port).c_str(), 1);
+    setenv("ROS_IP", "127.0.0.1", 1);
+    unsetenv("ROS_HOSTNAME");
+    master_ = std::make_unique<Process>(std::vector<std::string>{
+        KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", std::to_string(port)});
+    std::string name = "listening_test";
+    char* arguments[] = {name.data(), nullptr};
+    int count = 1;
+    ros::init(count, arguments, name, ros::init_options::NoSigintHandler);
+    const auto deadline = Clock::now() + kPatience;
+    while (!ros::master::check() && Clock::now() < deadline) {
+    }
+    ASSERT_TRUE(ros::master::check()) << "the master does not start";
+    node_ = std::make_unique<ros::NodeHandle>();
+  }
+
+  /// A kinescope process whose log can be read line by line.
+  static std::unique_ptr<Process> Start(const std::string& arguments) {
+    return std::make_unique<Process>(std::vector<std::string>{
+        "/bin/bash", "-c", "exec '" KINESCOPE_PROGRAM "' " + arguments + " 2>&1"});
+  }
+
+  /// The address that a program waits at for a suit: udp://127.0.0.1:PORT.
+  static std::string WaitForAddress(Process& process) {
+    const std::string before = "waiting for ";
+    std::string seen;
+    while (const auto line = process.ReadLine(kPatience)) {
+      seen += *line + "\n";
+      const std::size_t at = line->find(before);
+      if (at == std::string::npos) continue;
+      const std::string rest = line->substr(at + before.size());
+      return rest.substr(0, rest.find(": "));
+    }
+    ADD_FAILURE() << "no address in:\n" << seen;
+    return "";
+  }
+
+  /// Takes what comes on subscribed topics until `condition` holds; false when it never does.
+  template <class Condition>
+  static bool Spin(const Condition& condition) {
+    const auto deadline = Clock::now() + kPatience;
+    while (!condition()) {
+      if (Clock::now() > deadline) return false;
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
+    }
+    return true;
+  }
+
+  template <class Message, class Callback>
+  void Hear(const std::string& topic, Callback on_message) {
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+        [on_message](const auto& message) { on_message(*message); };
+    subscribers_.push_back(node_->subscribe<Message>(topic, 0, callback, ros::VoidConstPtr(),
+                                                     ros::TransportHints().tcpNoDelay()));
+  }
+
+  TempFolder folder_;
+  std::unique_ptr<Process> master_;
+  std::unique_ptr<ros::NodeHandle> node_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace kinescope::testing
