@@ -82,6 +82,10 @@ def try_kinescope(words, folder):
              for w in words]
     if "take.pcap" in words and command != "record":
         record_take(folder)
+    if "person.urdf" in words and "--height" not in words:
+        problem = run([PROGRAM, "urdf", "--out", "person.urdf"], folder)
+        if problem:
+            return problem
     if command in ("record", "inspect") and any(w.startswith("udp:") for w in words):
         return with_suit(words, folder, port)
     if command in ("serve", "bridge"):
