@@ -3,8 +3,9 @@
 #include <expat.h>
 
 #include <algorithm>
+#include <exception>
 #include <memory>
-#include <optional>
+#include <utility>
 
 namespace kinescope::urdf {
 namespace {
@@ -15,11 +16,14 @@ struct Scan {
   const OnXmlElement& on_element;
   std::size_t elements = 0;
   int depth = 0;
-  std::optional<UrdfError> fault;  // ours; exceptions do not fly through expat
+  std::exception_ptr fault;  // ours or the caller's; exceptions do not fly through expat
 
   int line() const { return static_cast<int>(XML_GetCurrentLineNumber(parser)); }
   void Stop(const std::string& why) {
-    if (!fault) fault.emplace(why, line());
+    Stop(std::make_exception_ptr(UrdfError(why, line())));
+  }
+  void Stop(std::exception_ptr why) {
+    if (!fault) fault = std::move(why);
     XML_StopParser(parser, XML_FALSE);
   }
 };
@@ -34,7 +38,11 @@ void OnStart(void* user, const char* tag, const char** attributes) {
     return scan.Stop("<" + std::string(tag).substr(0, 40) + "> is nested more than " +
                      std::to_string(scan.limits.depth) + " elements deep");
   }
-  scan.on_element(tag, attributes, scan.line(), scan.depth++);
+  try {
+    scan.on_element(tag, attributes, scan.line(), scan.depth++);
+  } catch (...) {
+    scan.Stop(std::current_exception());
+  }
 }
 
 void OnEnd(void* user, const char*) { --static_cast<Scan*>(user)->depth; }
@@ -66,13 +74,13 @@ void ScanXml(std::string_view xml, const XmlLimits& limits, const OnXmlElement& 
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
       XML_ParserCreate(nullptr), XML_ParserFree);
   if (parser == nullptr) throw std::bad_alloc();
-  Scan scan{parser.get(), limits, on_element, 0, 0, std::nullopt};
+  Scan scan{parser.get(), limits, on_element, 0, 0, nullptr};
   XML_SetUserData(parser.get(), &scan);
   XML_SetElementHandler(parser.get(), OnStart, OnEnd);
   XML_SetStartDoctypeDeclHandler(parser.get(), OnDoctype);
   const XML_Status status =
       XML_Parse(parser.get(), xml.data(), static_cast<int>(xml.size()), XML_TRUE);
-  if (scan.fault) throw *scan.fault;
+  if (scan.fault) std::rethrow_exception(scan.fault);
   if (status != XML_STATUS_OK) {
     throw UrdfError(
         "not well-formed XML: " + std::string(XML_ErrorString(XML_GetErrorCode(parser.get()))),

@@ -221,7 +221,7 @@ class GlovedPerson {
         character_(character) {
     builder_.OnCharacter(character);
   }
-  const PersonState& See(double seconds, const std::function<void(BodySample&)>& change = {}) {
+  PersonState See(double seconds, const std::function<void(BodySample&)>& change = {}) {
     BodySample sample = motion_->At(seconds);
     app::AddExtras(true, 1, seconds, character_, sample);
     if (change) change(sample);
