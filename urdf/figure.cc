@@ -7,15 +7,13 @@
 #include <cstring>
 #include <utility>
 
+#include "urdf/figure_profiles.h"
 #include "urdf/loft.h"
 
 namespace kinescope::urdf {
 namespace {
 
 using Eigen::Vector3d;
-
-// All measures below are those of a person of this stature; girths of others are in proportion.
-constexpr double kReferenceHeight = 1.75;
 
 double GirthOf(const Skeleton& skeleton) {
   // Whatever a stream claims, a person is between a toddler and a giant.
@@ -28,123 +26,6 @@ bool IsLeft(int segment) {
 
 // Away from the middle of the body.
 Vector3d Outward(int segment) { return {0, IsLeft(segment) ? 1.0 : -1.0, 0}; }
-
-// Trunk and neck are one profile, so that the outline runs on across their joints: 0 is at the
-// hips, then a whole number for each joint upwards; 6 is C1. u is forward, v to the left.
-const Profile& TrunkProfile() {
-  const auto oval = [](double at, double front, double back, double side, double power) {
-    return Widths(at, front, back, side, side).Power(power, power);
-  };
-  static const Profile kProfile(
-      {oval(0.25, .097, .115, .166, 2.2), oval(0.55, .099, .112, .162, 2.2),
-       oval(1.00, .097, .098, .147, 2.2), oval(1.50, .095, .087, .137, 2.2),
-       oval(2.00, .095, .084, .131, 2.2), oval(2.50, .099, .086, .132, 2.2),
-       oval(3.00, .106, .092, .138, 2.2), oval(3.50, .114, .100, .146, 2.2),
-       oval(4.00, .119, .107, .153, 2.2), oval(4.30, .118, .110, .155, 2.2),
-       oval(4.57, .104, .106, .146, 2.2), oval(4.80, .078, .088, .103, 2.1),
-       oval(5.00, .060, .070, .068, 2.0), oval(5.25, .054, .060, .057, 2.0),
-       oval(6.00, .050, .050, .050, 2.0)});
-  return kProfile;
-}
-
-// Thigh (0 to 1) and shank (1 to 2). u is forward, v outward.
-const Profile& LegProfile() {
-  static const Profile kProfile(
-      {Widths(0.10, .084, .094, .081, .080), Widths(0.22, .087, .089, .083, .080),
-       Widths(0.40, .086, .080, .078, .076), Widths(0.70, .069, .065, .063, .064),
-       Widths(0.90, .058, .055, .055, .057), Widths(1.00, .057, .052, .054, .054),
-       Widths(1.10, .051, .054, .052, .053), Widths(1.26, .045, .067, .056, .056),
-       Widths(1.42, .042, .063, .051, .052), Widths(1.62, .037, .047, .041, .041),
-       Widths(1.82, .033, .036, .034, .034), Widths(2.00, .035, .037, .036, .036)});
-  return kProfile;
-}
-
-// Upper arm (0 to 1) and forearm (1 to 2). u is forward, v outward.
-const Profile& ArmProfile() {
-  static const Profile kProfile(
-      {Widths(0.12, .056, .055, .059, .050), Widths(0.22, .055, .053, .056, .047),
-       Widths(0.36, .050, .047, .049, .044), Widths(0.56, .049, .046, .043, .042),
-       Widths(0.80, .041, .040, .040, .040), Widths(1.00, .038, .040, .041, .040),
-       Widths(1.14, .042, .040, .043, .041), Widths(1.32, .041, .038, .040, .038),
-       Widths(1.56, .034, .033, .032, .031), Widths(1.82, .028, .028, .024, .024),
-       Widths(2.00, .028, .028, .021, .021)});
-  return kProfile;
-}
-
-// From the middle (0) to the shoulder joint (1). u is up, v forward.
-const Profile& GirdleProfile() {
-  static const Profile kProfile(
-      {Widths(0.0, .072, .060, .060, .078), Widths(0.4, .057, .060, .060, .072),
-       Widths(0.8, .046, .052, .050, .054), Widths(1.0, .043, .048, .045, .045)});
-  return kProfile;
-}
-
-// From the wrist (0) over the knuckles to where the fingers part; 1 is the tip of the middle
-// finger. u is towards the thumb, v the back of the hand.
-const Profile& PalmProfile() {
-  const auto flat = [](double at, double thumb, double small, double thick) {
-    return Widths(at, thumb, small, thick, thick).Power(2.6, 2.6);
-  };
-  static const Profile kProfile({flat(0.00, .028, .028, .021).Power(2, 2),
-                                 flat(0.14, .032, .031, .018), flat(0.30, .040, .038, .017),
-                                 flat(0.44, .042, .040, .0145), flat(0.52, .039, .038, .0115)});
-  return kProfile;
-}
-
-struct Finger {
-  double base_u, base_at;  // knuckle: across (m, towards the thumb) and along the hand
-  double tip_u, tip_at;
-  double radius;  // m, at the base
-};
-
-constexpr std::array<Finger, 4> kDigits = {{{.0300, .46, .0370, .92, .0092},
-                                            {.0100, .49, .0120, 1.00, .0096},
-                                            {-.0100, .48, -.0130, .94, .0092},
-                                            {-.0290, .44, -.0370, .79, .0080}}};
-
-// Base (0), middle joint (1) and tip (2) of a finger, or root and tip of the thumb.
-const Profile& FingerProfile() {
-  const auto round = [](double at, double radius) {
-    return Widths(at, radius, radius, radius, radius);
-  };
-  static const Profile kProfile({round(0, 1), round(1, .93), round(2, .72)});
-  return kProfile;
-}
-
-// From C1 (0) to the crown (1), and down to the chin. u is forward, v to the left.
-const Profile& HeadProfile() {
-  const auto egg = [](double at, double front, double back, double side, double center) {
-    return Widths(at, front - center, back + center, side, side).Center(center, 0);
-  };
-  static const Profile kProfile(
-      {egg(-0.23, .086, -.026, .030, .056), egg(-0.13, .097, .022, .047, .040),
-       egg(0.00, .099, .060, .060, .024), egg(0.20, .099, .083, .0715, .012),
-       egg(0.33, .098, .0905, .0755, .006), egg(0.44, .097, .092, .076, .002)});
-  return kProfile;
-}
-
-// Along the sole from the back of the heel (0) to the ball (1). u is up, v outward; the underside
-// is flat.
-const Profile& FootProfile() {
-  const auto shoe = [](double at, double height, double side, double inward) {
-    const double center = 0.36 * height;
-    return Widths(at, height - center, center, side, side).Center(center, -inward).Power(2.0, 3.5);
-  };
-  static const Profile kProfile({shoe(0.14, .084, .033, 0), shoe(0.30, .094, .035, 0),
-                                 shoe(0.48, .080, .036, 0), shoe(0.72, .060, .042, .002),
-                                 shoe(1.00, .047, .046, .003)});
-  return kProfile;
-}
-
-const Profile& ToeProfile() {
-  const auto shoe = [](double at, double height, double side, double inward) {
-    const double center = 0.38 * height;
-    return Widths(at, height - center, center, side, side).Center(center, -inward).Power(2.0, 3.5);
-  };
-  static const Profile kProfile(
-      {shoe(0.0, .047, .046, .003), shoe(0.45, .040, .044, .005), shoe(0.85, .030, .033, .009)});
-  return kProfile;
-}
 
 // A joint-to-joint axis with sections across x (forward) and `v`.
 LoftAxis SegmentAxis(const Skeleton& skeleton, int segment, const Vector3d& v) {
@@ -220,22 +101,31 @@ void AddTrunk(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
     if (at > 4.7) return 1.0;                                // the neck
     return build.hips + (build.shoulders - build.hips) * up;
   });
-  AddLoft(ChainAxis(skeleton, kPelvis, 6, segment, Vector3d::UnitY()), profile, range, mesh);
+  LoftAxis axis = ChainAxis(skeleton, kPelvis, 6, segment, Vector3d::UnitY());
+  axis.relief = [scale = axis.scale](const Vector3d& point, double at) -> Vector3d {
+    const TrunkRelief relief = TrunkReliefAt(point.y() / scale, at);
+    // Sides have none; it begins gently behind them.
+    const double forward = std::clamp(point.x() / (0.06 * scale), -1.0, 1.0);
+    return {scale * forward * std::abs(forward) * (forward > 0 ? relief.front : relief.back), 0, 0};
+  };
+  AddLoft(axis, profile, range, mesh);
 }
 
-// How much a bump centred at 0 with this half-width has left at x.
-double Bump(double x, double width) { return std::exp(-(x * x) / (width * width)); }
-
-// Nose, brow, eyes, lips and chin: how far forward the face is at (y, z), which are fractions of
-// the head's length from C1 to the crown.
-double FaceRelief(double y, double z) {
-  const double across = Bump(y, 0.075);
-  const double nose = z < 0.21 ? Bump(z - 0.21, 0.05) : Bump(z - 0.21, 0.16);
-  const double eyes = Bump(std::abs(y) - 0.17, 0.09) * Bump(z - 0.40, 0.06);
-  const double brow = Bump(y, 0.30) * Bump(z - 0.50, 0.06);
-  const double lips = Bump(y, 0.14) * Bump(z - 0.035, 0.05);
-  const double chin = Bump(y, 0.14) * Bump(z + 0.16, 0.06);
-  return 0.115 * nose * across - 0.040 * eyes + 0.018 * brow + 0.024 * lips + 0.030 * chin;
+// `side` is 1 on the left and -1 on the right.
+void AddEar(double side, double scale, TriangleMesh& mesh) {
+  const Vector3d lobe = scale * Vector3d(0.002, side * 0.066, 0.022);
+  const Vector3d middle = scale * Vector3d(-0.006, side * 0.0735, 0.050);
+  const Vector3d top = scale * Vector3d(-0.012, side * 0.0770, 0.074);
+  LoftRange range;
+  range.to = 2;
+  range.start_cap = 0.006;
+  range.end_cap = 0.010;
+  range.points = 6;
+  range.rings = 4;
+  range.start_rings = 1;
+  range.end_rings = 1;
+  AddLoft({Curve({lobe, middle, top}), Vector3d::UnitX(), side * Vector3d::UnitY(), scale},
+          EarProfile(), range, mesh);
 }
 
 void AddHead(const Skeleton& skeleton, TriangleMesh& mesh) {
@@ -246,26 +136,27 @@ void AddHead(const Skeleton& skeleton, TriangleMesh& mesh) {
   LoftRange range;
   range.from = -0.23;
   range.to = 0.44;
-  range.start_cap = 0.012;
+  range.start_cap = 0.014;
   range.end_cap = (1 - range.to) * 0.190;  // up to the crown
   range.points = 26;
-  range.rings = 12;
-  range.start_rings = 2;
-  range.end_rings = 8;
+  range.rings = 10;
+  range.start_rings = 3;
+  range.end_rings = 7;
   range.crowd_u = 0.62;  // in the face
+  axis.relief = [length](const Vector3d& point, double) -> Vector3d {
+    const Vector3d at = point / length;
+    // The back of the head has no face.
+    const double front = std::clamp((at.x() - 0.15) / 0.15, 0.0, 1.0);
+    return {length * front * FaceRelief(at.y(), at.z()), 0, 0};
+  };
   AddLoft(axis, HeadProfile(), range, mesh);
-  for (Eigen::Vector3f& vertex : mesh.vertices) {
-    const Vector3d at = vertex.cast<double>() / length;
-    if (at.x() < 0.2) continue;  // the back of the head has no face
-    vertex.x() += static_cast<float>(length * FaceRelief(at.y(), at.z()));
-  }
-  ComputeNormals(mesh);
+  for (const double side : {1.0, -1.0}) AddEar(side, axis.scale, mesh);
 }
 
 void AddGirdle(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
   AddLoft({Curve({Vector3d::Zero(), EndOf(skeleton, segment)}), Vector3d::UnitZ(),
            Vector3d::UnitX(), GirthOf(skeleton)},
-          GirdleProfile(), {0, 1, 0.030, 0.042, 18, 6}, mesh);
+          GirdleProfile(), {0, 0.9, 0.030, 0.042, 20, 6}, mesh);
 }
 
 void AddArm(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
@@ -275,7 +166,7 @@ void AddArm(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
   if (is_upper) {
     range.rings = 8;
     range.from = 0.12;  // the rest of it is the deltoid: one long cap, over the joint
-    range.start_cap = 0.086;
+    range.start_cap = 0.084;
     range.start_rings = 6;
     range.end_cap = 0.039;
     range.end_runs_on = true;
@@ -298,7 +189,7 @@ void AddHand(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
   LoftRange palm;
   palm.to = 0.46;
   palm.start_cap = 0.021;
-  palm.end_cap = 0.012;
+  palm.end_cap = 0.016;
   palm.points = 14;
   palm.rings = 5;
   palm.start_rings = palm.end_rings = 3;
@@ -330,23 +221,23 @@ void AddHand(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
               finger.radius);
   }
   // The thumb springs from the base of the palm and leans to the front.
-  const Vector3d root = 0.20 * along + hand.scale * (0.020 * hand.u - 0.004 * back);
-  const Vector3d joint = 0.38 * along + hand.scale * (0.046 * hand.u - 0.012 * back);
-  const Vector3d tip = 0.57 * along + hand.scale * (0.060 * hand.u - 0.022 * back);
-  add_digit(root, joint, tip, 0.0125);
+  const Vector3d root = 0.15 * along + hand.scale * (0.016 * hand.u - 0.005 * back);
+  const Vector3d joint = 0.37 * along + hand.scale * (0.045 * hand.u - 0.014 * back);
+  const Vector3d tip = 0.59 * along + hand.scale * (0.060 * hand.u - 0.026 * back);
+  add_digit(root, joint, tip, 0.0138);
 }
 
 void AddLeg(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
   const bool is_thigh = segment == kRightUpperLeg || segment == kLeftUpperLeg;
   LoftRange range;
-  range.points = 16;
+  range.points = is_thigh ? 18 : 16;
   if (is_thigh) {
     range.from = 0.10;  // the rest of it is one long cap, within the pelvis while standing
     range.start_cap = 0.118;
     range.start_rings = 5;
     range.end_cap = 0.054;
     range.end_runs_on = true;
-    range.rings = 9;
+    range.rings = 7;
   } else {
     range.from = 1;
     range.to = 2;
@@ -363,16 +254,21 @@ void AddFoot(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
   const Side side = IsLeft(segment) ? kLeft : kRight;
   const Vector3d& heel = skeleton.heel_in_foot[side];
   const Vector3d& ball = EndOf(skeleton, segment);
+  // The instep follows the height of the ankle, which is measured; the ball is the toes'.
+  constexpr double kReferenceAnkle = 0.080;  // m
+  const double tall = std::clamp(-heel.z() / (kReferenceAnkle * GirthOf(skeleton)), 0.8, 1.5);
+  const Profile profile = FootProfile().Raised(
+      [tall](double at) { return 1 + (tall - 1) * std::clamp(2 * (1 - at), 0.0, 1.0); });
   AddLoft({Curve({heel, Vector3d(ball.x(), ball.y(), heel.z())}), Vector3d::UnitZ(),
            Outward(segment), GirthOf(skeleton)},
-          FootProfile(), {0.14, 1, 0.038, 0.020, 18, 8, 5, 3}, mesh);
+          profile, {0.14, 1, 0.038, 0.020, 18, 8, 5, 3}, mesh);
 }
 
 void AddToe(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
   const Vector3d& tip = EndOf(skeleton, segment);
   AddLoft({Curve({Vector3d(0, 0, tip.z()), tip}), Vector3d::UnitZ(), Outward(segment),
            GirthOf(skeleton)},
-          ToeProfile(), {0, 0.85, 0.020, 0.016, 18, 5}, mesh);
+          ToeProfile(), {0, 0.70, 0.020, 0.021, 18, 5}, mesh);
 }
 
 }  // namespace

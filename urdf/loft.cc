@@ -72,17 +72,17 @@ std::vector<Ring> RingsOf(const LoftRange& range, double start_radius, double en
   return rings;
 }
 
-// Normals of the vertices that have none yet, from the triangles from `first` on.
-void AddNormals(std::size_t first, TriangleMesh& mesh) {
-  const std::size_t first_vertex = mesh.normals.size();
-  mesh.normals.resize(mesh.vertices.size(), Eigen::Vector3f::Zero());
+// Of vertices from the triangles from `first` on: what lies beside them, weighted by area.
+std::vector<Eigen::Vector3f> MeanNormals(std::size_t first, const TriangleMesh& mesh) {
+  std::vector<Eigen::Vector3f> normals(mesh.vertices.size(), Eigen::Vector3f::Zero());
   for (std::size_t i = first; i < mesh.triangles.size(); ++i) {
     const auto& [a, b, c] = mesh.triangles[i];
     const Eigen::Vector3f area =
         (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
-    for (const std::uint32_t corner : {a, b, c}) mesh.normals[corner] += area;
+    for (const std::uint32_t corner : {a, b, c}) normals[corner] += area;
   }
-  for (std::size_t i = first_vertex; i < mesh.normals.size(); ++i) mesh.normals[i].normalize();
+  for (Eigen::Vector3f& normal : normals) normal.normalize();
+  return normals;
 }
 
 class Lofter {
@@ -106,16 +106,30 @@ class Lofter {
     }
     const Shape shape = profile_.At(at);
     const Eigen::Vector2d uv = ring.shrink * Outline(shape, angle);
-    return Center(at, shape) + axis_.scale * (uv.x() * axis_.u + uv.y() * axis_.v);
+    return Raised(Center(at, shape) + axis_.scale * (uv.x() * axis_.u + uv.y() * axis_.v), at);
+  }
+
+  // Across the smooth surface, not across the facets that stand for it: two segments that share a
+  // surface are shaded alike where they meet, whatever their triangles. Zero where it has no
+  // direction.
+  Vector3d Normal(const Ring& ring, double turn) const {
+    constexpr double kStep = 1e-4;  // rad, and of the line's parameter
+    const auto along = [&](double step) {
+      if (ring.into_cap == 0) return Point({ring.at + step}, turn);
+      const double angle = std::asin(ring.into_cap) + step;
+      return Point({ring.at, std::sin(angle), std::cos(angle)}, turn);
+    };
+    const Vector3d around = Point(ring, turn + kStep) - Point(ring, turn - kStep);
+    return around.cross(along(kStep) - along(-kStep)).normalized();
   }
 
   Vector3d StartPole() const {
     const double at = range_.from - range_.start_cap * InAt(range_.from);
-    return Center(at, profile_.At(at));
+    return Raised(Center(at, profile_.At(at)), at);
   }
   Vector3d EndPole() const {
     const double at = range_.to + range_.end_cap * InAt(range_.to);
-    return Center(at, profile_.At(at));
+    return Raised(Center(at, profile_.At(at)), at);
   }
 
   // Of the section `at`, in the line's parameter.
@@ -135,6 +149,10 @@ class Lofter {
     const double power = shape[c >= 0 ? Section::kPowerPlusU : Section::kPowerMinusU];
     return {Rounded(c, power) * shape[c >= 0 ? Section::kPlusU : Section::kMinusU],
             Rounded(s, power) * shape[s >= 0 ? Section::kPlusV : Section::kMinusV]};
+  }
+
+  Vector3d Raised(const Vector3d& point, double at) const {
+    return axis_.relief ? Vector3d(point + axis_.relief(point, at)) : point;
   }
 
   Vector3d Center(double at, const Shape& shape) const {
@@ -205,6 +223,17 @@ Profile Profile::Widened(const std::function<double(double at)>& factor) const {
   return widened;
 }
 
+Profile Profile::Raised(const std::function<double(double at)>& factor) const {
+  Profile raised = *this;
+  for (Section& section : raised.sections_) {
+    const double by = factor(section.at);
+    for (const int field : {Section::kPlusU, Section::kMinusU, Section::kCenterU}) {
+      section.shape[field] *= by;
+    }
+  }
+  return raised;
+}
+
 Curve::Curve(std::vector<Vector3d> points) : points_(std::move(points)) {}
 
 Vector3d Curve::TangentOf(std::size_t point) const {
@@ -272,12 +301,18 @@ void AddLoft(const LoftAxis& axis, const Profile& profile, const LoftRange& rang
     add(end_pole, last + i, last + next);
   }
 
-  AddNormals(first_triangle, mesh);
+  const std::vector<Eigen::Vector3f> mean = MeanNormals(first_triangle, mesh);
+  for (const Ring& ring : rings) {
+    for (std::uint32_t i = 0; i < points; ++i) {
+      const Vector3d normal = (is_left_handed ? -1 : 1) * lofter.Normal(ring, turn(i));
+      const Eigen::Vector3f& beside = mean[mesh.normals.size()];
+      mesh.normals.push_back(normal.isZero() ? beside : Eigen::Vector3f(normal.cast<float>()));
+    }
+  }
+  mesh.normals.push_back(mean[start_pole]);
+  mesh.normals.push_back(mean[end_pole]);
 }
 
-void ComputeNormals(TriangleMesh& mesh) {
-  mesh.normals.clear();
-  AddNormals(0, mesh);
-}
+void ComputeNormals(TriangleMesh& mesh) { mesh.normals = MeanNormals(0, mesh); }
 
 }  // namespace kinescope::urdf

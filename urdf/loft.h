@@ -31,6 +31,8 @@ class Profile {
   explicit Profile(std::vector<Section> sections) : sections_(std::move(sections)) {}
   /// The same, as much wider towards both +v and -v as `factor` says at each section.
   Profile Widened(const std::function<double(double at)>& factor) const;
+  /// The same, higher in u, its centres too.
+  Profile Raised(const std::function<double(double at)>& factor) const;
   /// Constant before the first and after the last.
   Eigen::Matrix<double, 8, 1> At(double at) const;
 
@@ -57,6 +59,9 @@ struct LoftAxis {
   Curve line;
   Eigen::Vector3d u, v;
   double scale = 1;
+  /// By how much a point of the surface, which belongs to the section `at`, is moved; none:
+  /// nothing. Smooth, and small against the section.
+  std::function<Eigen::Vector3d(const Eigen::Vector3d& point, double at)> relief = {};
 };
 
 struct LoftRange {
@@ -73,7 +78,8 @@ struct LoftRange {
   double crowd_u = 0;  // 0..1: more of the points are on the +u side
 };
 
-/// Adds one closed shell, facing outward, with normals.
+/// Adds one closed shell, facing outward. Normals are those of the smooth surface: two shells that
+/// share one are shaded alike where they meet.
 void AddLoft(const LoftAxis& axis, const Profile& profile, const LoftRange& range,
              TriangleMesh& mesh);
 

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <map>
 #include <random>
-#include <variant>
 
-#include "server/mvn/datagram.h"
-#include "server/mvn/open.h"
-#include "tests/shared_data.h"
+#include "tests/urdf/figure_bodies.h"
 #include "tests/urdf/mesh_checks.h"
 #include "urdf/figure.h"
 #include "urdf/joint_limits.h"
@@ -24,62 +21,8 @@ using testing::Contains;
 using testing::Corners;
 using testing::Winding;
 
-// A stature in centimetres, or a recording.
-struct Body {
-  const char* name;
-  const char* file = nullptr;
-  double height = 0;
-};
-
-struct FirstSkeleton final : SampleSink {
-  void OnCharacter(const Character& character) override {
-    if (!skeleton) skeleton = character.skeleton;
-  }
-  void OnSample(const BodySample&) override {}
-  void OnObjects(const ObjectsSample&) override {}
-  std::optional<Skeleton> skeleton;
-};
-
-Skeleton SkeletonIn(const std::string& path) {
-  if (path.substr(path.size() - 4) == ".bin") {  // scale data alone
-    const auto message = mvn::ParseDatagram(kinescope::testing::ReadFile(path));
-    const auto& scale = std::get<mvn::ScaleMessage>(message.value().body);
-    std::array<Vector3d, kSegmentCount> origins;
-    for (std::size_t i = 0; i < origins.size(); ++i)
-      origins[i] = scale.segments.at(i).origin_in_world;
-    return SkeletonFromTPose(origins, {});
-  }
-  const auto source = mvn::OpenMvnx(path);
-  FirstSkeleton sink;
-  while (!sink.skeleton) {
-    if (source->Poll(std::chrono::milliseconds(0), sink) == Source::State::kEnded) break;
-  }
-  return sink.skeleton.value();
-}
-
-class Figure : public ::testing::TestWithParam<Body> {
- protected:
-  void SetUp() override {
-    const Body& body = GetParam();
-    if (body.file == nullptr) {
-      skeleton_ = DefaultSkeleton(body.height);
-    } else {
-      KINESCOPE_NEEDS_SHARED_DATA(body.file);
-      skeleton_ = SkeletonIn(kinescope::testing::SharedData(body.file).string());
-    }
-    for (int i = 0; i < kSegmentCount; ++i) meshes_[At(i)] = SegmentMesh(skeleton_, i);
-  }
-
-  Skeleton skeleton_;
-  std::array<TriangleMesh, kSegmentCount> meshes_;
-};
-INSTANTIATE_TEST_SUITE_P(Bodies, Figure,
-                         ::testing::Values(Body{"Small", nullptr, 1.50},
-                                           Body{"Mean", nullptr, 1.75}, Body{"Tall", nullptr, 1.95},
-                                           Body{"Singer", "mvnx/test_mocap.mvnx"},
-                                           Body{"Meri", "mvnx/Meri-020.mvnx"},
-                                           Body{"Streamed", "udp/mxtp13.bin"}),
-                         [](const auto& body) { return std::string(body.param.name); });
+class Figure : public testing::BodyTest {};
+INSTANTIATE_TEST_SUITE_P(Bodies, Figure, testing::kBodies, testing::NameOfBody);
 
 std::string_view NameOf(int segment) { return kSegments[At(segment)].mvn_name; }
 
