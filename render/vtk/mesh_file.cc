@@ -170,6 +170,12 @@ std::optional<Eigen::Vector4f> ColorOf(const aiScene& scene, const aiMesh& mesh,
   if (mesh.mMaterialIndex >= scene.mNumMaterials) return std::nullopt;
   const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
   if (material.GetTextureCount(aiTextureType_DIFFUSE) > 0) return std::nullopt;
+  // assimp makes one up where the file has none.
+  aiString name;
+  if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS &&
+      std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME) {
+    return std::nullopt;
+  }
   aiColor4D color;
   if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) return std::nullopt;
   Eigen::Vector4f rgba(color.r, color.g, color.b, 1);
@@ -269,17 +275,20 @@ void TurnOutwards(Mesh& mesh) {
 
 }  // namespace
 
-Mesh ReadMeshFile(const fs::path& path) try {
-  return ReadMesh(ReadBytes(path), LowerExtension(path), path.parent_path());
+Mesh ReadMeshFile(const fs::path& path, ColladaUp up) try {
+  return ReadMesh(ReadBytes(path), LowerExtension(path), path.parent_path(), up);
 } catch (const std::exception& error) {
   throw Fault("mesh " + path.string() + ": " + error.what());
 }
 
-Mesh ReadMesh(const std::string& bytes, const std::string& extension, const fs::path& folder) {
+Mesh ReadMesh(const std::string& bytes, const std::string& extension, const fs::path& folder,
+              ColladaUp up) {
   CheckMeshBytes(bytes, extension);
   Assimp::Importer importer;
   importer.SetIOHandler(new OneFile(bytes, extension, folder));  // it deletes it
   importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothBelowDeg);
+  const bool ignores_up = up == ColladaUp::kIgnored;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, ignores_up);
   const aiScene* scene = importer.ReadFile(OneFile::kName + extension, 0);
   if (scene == nullptr || scene->mRootNode == nullptr) throw Fault(importer.GetErrorString());
   CheckScene(*scene);
@@ -290,9 +299,9 @@ Mesh ReadMesh(const std::string& bytes, const std::string& extension, const fs::
   scene = importer.ApplyPostProcessing(steps);
   if (scene == nullptr) throw Fault(importer.GetErrorString());
 
-  // assimp turns COLLADA's up axis to y, which is GLB's anyway.
+  // assimp turns COLLADA's up axis to y unless told not to, and y is GLB's anyway.
   Eigen::Affine3d world_from_root = Eigen::Affine3d::Identity();
-  if (extension == ".dae" || extension == ".glb") {
+  if (extension == ".glb" || (extension == ".dae" && !ignores_up)) {
     world_from_root.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   }
   Mesh mesh = Collector(*scene, extension).Collect(world_from_root);

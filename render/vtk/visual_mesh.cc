@@ -38,7 +38,7 @@ const VisualReader::File& VisualReader::Read(const std::string& uri) {
   } else {
     const auto& path = std::get<std::filesystem::path>(found);
     try {
-      file->mesh = ReadMeshFile(path);
+      file->mesh = ReadMeshFile(path, ColladaUp::kIgnored);
       file->is_closed = file->mesh.IsClosed();
     } catch (const std::exception& error) {
       file->fault = error.what();
@@ -86,7 +86,8 @@ void VisualReader::AddMesh(const urdf::Visual& visual, int part, VisualMesh& to)
   const Eigen::Vector4f plain(static_cast<float>(kBodyColor[0]), static_cast<float>(kBodyColor[1]),
                               static_cast<float>(kBodyColor[2]), 1);
   to.mesh.Paint(first, visual.rgba ? Eigen::Vector4f(visual.rgba->cast<float>()) : plain, part);
-  if (visual.rgba || file.mesh.colors.empty()) return;
+  // A mesh that was painted keeps its colours, as in RViz: the URDF's is for what has none.
+  if (file.mesh.colors.empty()) return;
   for (std::size_t i = 0; i < file.mesh.colors.size(); ++i) {
     if (file.mesh.colors[i].w() > 0) to.mesh.colors[first + i] = file.mesh.colors[i];
   }

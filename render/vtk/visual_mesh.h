@@ -33,7 +33,7 @@ class VisualReader {
   VisualReader(urdf::MeshSearch search, const ShapeDetail& detail)
       : search_(std::move(search)), detail_(detail) {}
 
-  /// What gives no colour, neither URDF nor file, gets kBodyColor.
+  /// Colours are those of the mesh file, where it has none the URDF's, else kBodyColor.
   void Add(const urdf::Visual& visual, int part, VisualMesh& to);
 
  private:

@@ -72,12 +72,29 @@ TEST(MeshFile, ColladasUnitAndUpAxisAreHonoured) {
   options.unit = "1";
   options.up = "Y_UP";  // y becomes z, z comes towards us
   ExpectBox(ReadMesh(BoxDae(options), ".dae", ""), {0, -3, 0}, {1, 0, 2});
+  options.up = "X_UP";
+  ExpectBox(ReadMesh(BoxDae(options), ".dae", ""), {-2, -3, 0}, {0, 0, 1});
+}
+
+TEST(MeshFile, ColladasUpAxisIsIgnoredOnDemandButNotItsUnitAndNodes) {
+  DaeOptions options;
+  options.unit = "0.01";
+  options.nodes =
+      "<node id='n'><translate>0 0 1</translate><rotate>0 0 1 90</rotate>"
+      "<instance_geometry url='#g'/></node>";
+  for (const char* up : {"X_UP", "Y_UP", "Z_UP"}) {
+    SCOPED_TRACE(up);
+    options.up = up;
+    ExpectBox(ReadMesh(BoxDae(options), ".dae", "", ColladaUp::kIgnored), {-0.02f, 0, 0.01f},
+              {0, 0.01f, 0.04f});
+  }
 }
 
 TEST(MeshFile, GlbHasYUp) { ExpectBox(ReadMesh(BoxGlb(), ".glb", ""), {0, -3, 0}, {1, 0, 2}); }
 
 TEST(MeshFile, ColoursComeFromTheFileWhereItHasAny) {
   EXPECT_TRUE(ReadMesh(BoxStl(), ".stl", "").colors.empty());
+  EXPECT_TRUE(ReadMesh(BoxObj(), ".obj", "").colors.empty());
   const Mesh dae = ReadMesh(BoxDae(), ".dae", "");
   ASSERT_EQ(dae.colors.size(), dae.positions.size());
   EXPECT_LT((dae.colors[0] - Eigen::Vector4f(0.8f, 0.1f, 0.2f, 1)).norm(), 1e-5);

@@ -180,17 +180,39 @@ TEST_F(RobotDrawing, AMissingOrRefusedMeshIsALabelledBoxAndNamed) {
   EXPECT_THAT(renderer_->problems(), ::testing::IsEmpty());
 }
 
-TEST_F(RobotDrawing, ColoursComeFromTheUrdfThenFromTheFile) {
+// As RViz does it.
+TEST_F(RobotDrawing, ColoursComeFromTheFileThenFromTheUrdf) {
   Write("box.dae", kinescope::testing::BoxDae());
-  const auto color = [&](const std::string& material) {
-    const RobotState robot = Visual(
-        "<origin xyz='-0.5 -1 0'/><geometry><mesh filename='box.dae'/></geometry>" + material);
+  Write("plain.obj", kinescope::testing::BoxObj());
+  const auto color = [&](const std::string& file, const std::string& material) {
+    const RobotState robot = Visual("<origin xyz='-0.5 -1 0'/><geometry><mesh filename='" + file +
+                                    "'/></geometry>" + material);
     return ColorAt(renderer_->Render(SceneOf({robot}), Front(), view_), Front(), {0.5, 0, 1});
   };
-  const auto from_file = color("");
-  EXPECT_GT(from_file[0], 2 * from_file[1]) << "red";
-  const auto from_urdf = color("<material name='m'><color rgba='0.1 0.9 0.1 1'/></material>");
+  const std::string green = "<material name='m'><color rgba='0.1 0.9 0.1 1'/></material>";
+  for (const std::string& material : {std::string(), green}) {
+    const auto from_file = color("box.dae", material);
+    EXPECT_GT(from_file[0], 2 * from_file[1]) << "red, whatever the URDF says: " << material;
+  }
+  const auto from_urdf = color("plain.obj", green);
   EXPECT_GT(from_urdf[1], 2 * from_urdf[0]) << "green";
+  const auto from_none = color("plain.obj", "");
+  EXPECT_NEAR(from_none[0], from_none[1], 12) << "grey";
+}
+
+TEST_F(RobotDrawing, AColladasUpAxisIsIgnoredAsInRViz) {
+  kinescope::testing::DaeOptions options;
+  Write("z.dae", kinescope::testing::BoxDae(options));
+  const SceneState as_written = SceneOf({MeshAt("0 0 0.5", "z.dae", "0.2 0.2 0.2")});
+  for (const char* up : {"Y_UP", "X_UP"}) {
+    options.up = up;
+    Write(std::string(up) + ".dae", kinescope::testing::BoxDae(options));
+    const SceneState told = SceneOf({MeshAt("0 0 0.5", std::string(up) + ".dae", "0.2 0.2 0.2")});
+    EXPECT_TRUE(Compare(renderer_->Render(as_written, Front(), view_),
+                        renderer_->Render(told, Front(), view_))
+                    .equal())
+        << up;
+  }
 }
 
 TEST_F(RobotDrawing, WhatIsTranslucentShowsWhatIsBehindIt) {
