@@ -179,6 +179,10 @@ std::optional<Eigen::Vector4f> ColorOf(const aiScene& scene, const aiMesh& mesh,
   aiColor4D color;
   if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) return std::nullopt;
   Eigen::Vector4f rgba(color.r, color.g, color.b, 1);
+  aiColor4D glow;
+  if (material.Get(AI_MATKEY_COLOR_EMISSIVE, glow) == aiReturn_SUCCESS) {
+    rgba.head<3>() += Eigen::Vector3f(glow.r, glow.g, glow.b);
+  }
   if (!rgba.allFinite()) return std::nullopt;
   rgba = rgba.cwiseMax(0.0f).cwiseMin(1.0f);
   if (is_linear) {

@@ -110,6 +110,17 @@ TEST(MeshFile, ColoursComeFromTheFileWhereItHasAny) {
   EXPECT_LT((obj.colors[0] - Eigen::Vector4f(0.25f, 0.5f, 0.75f, 1)).norm(), 1e-5);
 }
 
+// Some exporters write all of a colour as light that the surface gives off, and black as diffuse.
+TEST(MeshFile, WhatASurfaceGivesOffIsPartOfItsColour) {
+  std::string dae = BoxDae();
+  const std::string tag = "<lambert>";
+  dae.insert(dae.find(tag) + tag.size(), "<emission><color>0.1 0.5 0.9 1</color></emission>");
+  const Mesh mesh = ReadMesh(dae, ".dae", "");
+  ASSERT_EQ(mesh.colors.size(), mesh.positions.size());
+  EXPECT_LT((mesh.colors[0] - Eigen::Vector4f(0.9f, 0.6f, 1, 1)).norm(), 1e-5)
+      << mesh.colors[0].transpose();
+}
+
 TEST(MeshFile, ReadsNothingButTheFileAndColoursBesideIt) {
   const TempFolder folder;
   std::filesystem::create_directories(folder / "in");
