@@ -268,7 +268,7 @@ void AddToe(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
   const Vector3d& tip = EndOf(skeleton, segment);
   AddLoft({Curve({Vector3d(0, 0, tip.z()), tip}), Vector3d::UnitZ(), Outward(segment),
            GirthOf(skeleton)},
-          ToeProfile(), {0, 0.70, 0.020, 0.021, 18, 5}, mesh);
+          ToeProfile(), {0, 0.55, 0.020, 0.0315, 18, 5}, mesh);
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ const Profile& FootProfile() {
   };
   static const Profile kProfile({shoe(0.14, .084, .033, 0), shoe(0.30, .094, .035, 0),
                                  shoe(0.48, .080, .036, 0), shoe(0.72, .060, .042, .002),
-                                 shoe(1.00, .047, .046, .003)});
+                                 shoe(1.00, .047, .0465, .003), shoe(1.25, .043, .047, .004)});
   return kProfile;
 }
 
@@ -113,8 +113,8 @@ const Profile& ToeProfile() {
     const double center = 0.38 * height;
     return Widths(at, height - center, center, side, side).Center(center, -inward).Power(2.0, 3.5);
   };
-  static const Profile kProfile(
-      {shoe(0.0, .047, .046, .003), shoe(0.35, .042, .046, .004), shoe(0.70, .035, .041, .007)});
+  static const Profile kProfile({shoe(-0.40, .051, .045, .002), shoe(0.00, .047, .0465, .003),
+                                 shoe(0.55, .0385, .0445, .006), shoe(1.00, .029, .036, .009)});
   return kProfile;
 }
 

@@ -30,6 +30,13 @@ Primitive TrunkBox(const Vector3d& end, double depth, double width) {
   return {Kind::kBox, {depth, width, std::abs(end.z())}, 0.5 * end, Vector3d::Zero()};
 }
 
+// The same on a hinge across the joint, so that a spine that bends shows no gap. A little thinner
+// than the box, so that no two faces are one.
+std::vector<Primitive> Vertebra(const Vector3d& end, double depth, double width) {
+  const Vector3d side(0, 0.49 * width, 0);
+  return {TrunkBox(end, depth, width), Rod(-side, side, 0.49 * depth)};
+}
+
 // A limb with rounded ends, so that bent joints show no gap.
 std::vector<Primitive> Limb(const Vector3d& end, double radius) {
   return {Rod(Vector3d::Zero(), end, radius), Ball(Vector3d::Zero(), radius), Ball(end, radius)};
@@ -46,10 +53,10 @@ std::vector<Primitive> PrimitiveFigure(const Skeleton& skeleton, int segment) {
       box.size.z() += 0.03 * h;
       return {box};
     }
-    case kL5: return {TrunkBox(end, 0.105 * h, 0.175 * h)};
-    case kL3: return {TrunkBox(end, 0.105 * h, 0.165 * h)};
-    case kT12: return {TrunkBox(end, 0.115 * h, 0.170 * h)};
-    case kT8: return {TrunkBox(end, 0.120 * h, 0.185 * h)};
+    case kL5: return Vertebra(end, 0.105 * h, 0.175 * h);
+    case kL3: return Vertebra(end, 0.105 * h, 0.165 * h);
+    case kT12: return Vertebra(end, 0.115 * h, 0.170 * h);
+    case kT8: return Vertebra(end, 0.120 * h, 0.185 * h);
     case kNeck: return Limb(end, 0.032 * h);
     case kHead: {
       const double radius = 0.5 * std::abs(end.z());

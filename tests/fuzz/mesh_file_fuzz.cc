@@ -1,5 +1,5 @@
-// Any bytes as a mesh file of the kind that the first of them says: refused with a reason, or a
-// surface that can be drawn.
+// Any bytes as a mesh file of the kind, and turned the way, that the first of them says: refused
+// with a reason, or a surface that can be drawn.
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -16,7 +16,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   try {
-    const Mesh mesh = ReadMesh(bytes, kExtensions[data[0] % kExtensions.size()], "");
+    const bool ignores_up = data[0] / kExtensions.size() % 2 == 1;
+    const Mesh mesh = ReadMesh(bytes, kExtensions[data[0] % kExtensions.size()], "",
+                               ignores_up ? ColladaUp::kIgnored : ColladaUp::kAsTold);
     KINESCOPE_CHECK(!mesh.triangles.empty() && mesh.triangles.size() % 3 == 0);
     KINESCOPE_CHECK(mesh.triangles.size() <= 3 * kMostMeshTriangles);
     KINESCOPE_CHECK(mesh.normals.size() == mesh.positions.size());
