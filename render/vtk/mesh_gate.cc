@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render/vtk/mesh_file.h"
+#include "render/vtk/stl_gate.h"
 #include "urdf/xml_outline.h"
 
 namespace kinescope::render {
@@ -23,7 +24,7 @@ constexpr std::size_t kMostNodes = 20'000;        // of a scene, instances count
 constexpr int kMostDepth = 100;                   // of nodes and of JSON
 constexpr std::size_t kMostJsonBytes = 8u << 20;  // numbers are in the binary part
 
-std::uint32_t Word(const std::string& bytes, std::size_t at) {  // both formats: little-endian
+std::uint32_t Word(const std::string& bytes, std::size_t at) {  // little-endian
   std::uint32_t word = 0;
   for (std::size_t i = 4; i-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
   return word;
@@ -63,26 +64,6 @@ class NodeGraph {
 
   std::map<std::string, std::vector<std::string>> children_;
 };
-
-void CheckStl(const std::string& bytes) {
-  constexpr std::size_t kHeader = 84, kTriangle = 50;
-  const bool is_text = bytes.compare(0, 5, "solid") == 0;
-  if (bytes.size() < kHeader) {
-    if (is_text) return;
-    throw Fault("too short for an STL: " + std::to_string(bytes.size()) + " bytes");
-  }
-  const std::uint64_t triangles = Word(bytes, kHeader - 4);
-  const std::uint64_t expected = kHeader + kTriangle * triangles;
-  if (is_text && expected != bytes.size()) return;
-  if (expected > bytes.size()) {
-    throw Fault("it announces " + std::to_string(triangles) + " triangles (" +
-                std::to_string(expected) + " bytes), but has " + std::to_string(bytes.size()) +
-                " bytes");
-  }
-  if (triangles > kMostMeshTriangles) {
-    throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
-  }
-}
 
 const char* Find(const char* const* attributes, std::string_view name) {
   for (; *attributes != nullptr; attributes += 2) {

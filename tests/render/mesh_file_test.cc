@@ -143,6 +143,44 @@ TEST(MeshFile, MirroringNodesKeepsSurfacesOutside) {
   EXPECT_THROW(with("<scale>0 1 1</scale>"), std::runtime_error);
 }
 
+// assimp would leak what it had made so far.
+TEST(MeshFile, TextStlThatMakesNoTrianglesIsRefusedWithItsLine) {
+  const std::string facet =
+      "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex +1 0 0\n  vertex 0 1.5e0 0\n "
+      "endloop\nendfacet\n";
+  EXPECT_EQ(ReadMesh("solid facet\n" + facet + "endsolid vertex\n", ".stl", "").triangles.size(),
+            3u);
+  EXPECT_EQ(ReadMesh("solid\n" + facet + facet, ".stl", "").triangles.size(), 6u);
+  EXPECT_EQ(
+      ReadMesh("solid a\n" + facet + "endsolid a\nsolid b\n" + facet, ".stl", "").triangles.size(),
+      6u);
+  const auto without = [&](const std::string& what) {
+    std::string text = facet;
+    return text.replace(text.find(what), what.size(), "");
+  };
+  EXPECT_THAT(Fault("solid a\n", ".stl"), HasSubstr("line 2: a solid has no facets"));
+  EXPECT_THAT(Fault("solid a\nendsolid\n" + facet, ".stl"), HasSubstr("line 2"));
+  EXPECT_THAT(Fault("solid a\n" + without("vertex 0 0 0"), ".stl"),
+              HasSubstr("fewer than three vertices"));
+  EXPECT_THAT(Fault("solid a\n" + facet + "vertex 1 1 1\n", ".stl"),
+              HasSubstr("line 9: a facet has more than three vertices"));
+  EXPECT_THAT(Fault("solid a\n" + without("normal"), ".stl"), HasSubstr("line 2"));
+  EXPECT_THAT(Fault("solid a\n" + without("+1"), ".stl"), HasSubstr("a vertex does not have"));
+  EXPECT_THAT(Fault("solid a\n" + facet + std::string(90, '\0'), ".stl"), HasSubstr("zero bytes"));
+  for (const std::string word : {"nan", "1e999", "one", "0x1", "1,5", ""}) {
+    EXPECT_THAT(Fault("solid a\nfacet normal 0 0 " + word, ".stl"), HasSubstr("three numbers"));
+  }
+  // Wherever it stops, it is refused or whole.
+  const std::string whole = "solid a\n" + facet + "endsolid a\n";
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    try {
+      EXPECT_EQ(ReadMesh(whole.substr(0, size), ".stl", "").triangles.size(), 3u) << size;
+    } catch (const std::runtime_error& error) {
+      EXPECT_STRNE(error.what(), "");
+    }
+  }
+}
+
 TEST(MeshFile, CountsThatTheBytesCannotHoldAreToldWithNumbers) {
   EXPECT_THAT(Fault(BoxStl(4'000'000'000u), ".stl"), HasSubstr("4000000000 triangles"));
   EXPECT_THAT(Fault(BoxStl(13), ".stl"), HasSubstr("13 triangles (734 bytes), but has 684"));

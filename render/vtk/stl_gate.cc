@@ -1,0 +1,123 @@
+#include "render/vtk/stl_gate.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string_view>
+
+#include "render/vtk/mesh_file.h"
+
+namespace kinescope::render {
+namespace {
+
+using Fault = std::runtime_error;
+
+// assimp leaks what it has made so far of a text that it then refuses; so it only gets what it will
+// not refuse: solids of facets, each with a normal and three vertices.
+class TextStl {
+ public:
+  explicit TextStl(std::string_view text) : text_(text) {}
+
+  void Check() {
+    if (text_.find('\0') != text_.npos) throw Fault("it holds zero bytes, no text");
+    for (std::string_view word = Word(); !word.empty(); word = Word()) {
+      if (word == "solid") {
+        is_whole_ = false;
+        SkipLine();  // its name
+      } else if (word == "endsolid") {
+        EndSolid();
+        SkipLine();
+      } else if (word == "facet") {
+        Facet();
+      } else if (word == "vertex") {
+        if (++vertices_ > 3 * facets_) throw Wrong("a facet has more than three vertices");
+        Numbers("a vertex");
+      }
+    }
+    if (!is_whole_) EndSolid();  // its end may be missing
+  }
+
+ private:
+  static bool IsBlank(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f';
+  }
+
+  std::string_view Word() {
+    while (at_ < text_.size() && IsBlank(text_[at_])) ++at_;
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && !IsBlank(text_[at_])) ++at_;
+    return text_.substr(begin, at_ - begin);
+  }
+
+  void SkipLine() { at_ = std::min(text_.find_first_of("\r\n", at_), text_.size()); }
+
+  void Facet() {
+    if (vertices_ != 3 * facets_) throw Wrong("a facet has fewer than three vertices");
+    ++facets_;
+    if (facets_ > kMostMeshTriangles) {
+      throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
+    }
+    if (Word() != "normal") throw Wrong("a facet has no normal");
+    Numbers("a normal");
+  }
+
+  void EndSolid() {
+    if (vertices_ != 3 * facets_) throw Wrong("a facet has fewer than three vertices");
+    if (facets_ == 0) throw Wrong("a solid has no facets");
+    facets_ = vertices_ = 0;
+    is_whole_ = true;
+  }
+
+  void Numbers(const std::string& of) {
+    for (int i = 0; i < 3; ++i) {
+      std::string_view word = Word();
+      if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+      double value = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      const bool is_number = error == std::errc() && end == word.data() + word.size();
+      if (!is_number || !std::isfinite(value)) throw Wrong(of + " does not have three numbers");
+    }
+  }
+
+  Fault Wrong(const std::string& what) const {
+    const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<long>(at_), '\n');
+    return Fault("line " + std::to_string(line) + ": " + what);
+  }
+
+  const std::string_view text_;
+  std::size_t at_ = 0;
+  std::size_t facets_ = 0, vertices_ = 0;  // of this solid
+  bool is_whole_ = true;                   // the newest solid has ended
+};
+
+std::uint32_t Word(const std::string& bytes, std::size_t at) {  // little-endian
+  std::uint32_t word = 0;
+  for (std::size_t i = 4; i-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return word;
+}
+
+}  // namespace
+
+void CheckStl(const std::string& bytes) {
+  constexpr std::size_t kHeader = 84, kTriangle = 50;
+  const bool is_text = bytes.compare(0, 5, "solid") == 0;
+  if (bytes.size() < kHeader) {
+    if (is_text) return TextStl(bytes).Check();
+    throw Fault("too short for an STL: " + std::to_string(bytes.size()) + " bytes");
+  }
+  const std::uint64_t triangles = Word(bytes, kHeader - 4);
+  const std::uint64_t expected = kHeader + kTriangle * triangles;
+  if (is_text && expected != bytes.size()) return TextStl(bytes).Check();
+  if (expected > bytes.size()) {
+    throw Fault("it announces " + std::to_string(triangles) + " triangles (" +
+                std::to_string(expected) + " bytes), but has " + std::to_string(bytes.size()) +
+                " bytes");
+  }
+  if (triangles > kMostMeshTriangles) {
+    throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
+  }
+}
+
+}  // namespace kinescope::render
