@@ -22,21 +22,15 @@ class TextStl {
 
   void Check() {
     if (text_.find('\0') != text_.npos) throw Fault("it holds zero bytes, no text");
-    for (std::string_view word = Word(); !word.empty(); word = Word()) {
-      if (word == "solid") {
-        is_whole_ = false;
-        SkipLine();  // its name
-      } else if (word == "endsolid") {
-        EndSolid();
-        SkipLine();
-      } else if (word == "facet") {
-        Facet();
-      } else if (word == "vertex") {
-        if (++vertices_ > 3 * facets_) throw Wrong("a facet has more than three vertices");
-        Numbers("a vertex");
+    while (BeginSolid()) {
+      std::string_view word = Word();
+      // The end of the last solid may be missing.
+      for (; !word.empty() && !BeginsWith(word, "endsolid"); word = Word()) {
+        if (word == "facet") Facet();
+        if (word == "vertex") Vertex();
       }
+      EndSolid();
     }
-    if (!is_whole_) EndSolid();  // its end may be missing
   }
 
  private:
@@ -51,6 +45,24 @@ class TextStl {
     return text_.substr(begin, at_ - begin);
   }
 
+  // Empty when the line ends first.
+  std::string_view WordOfLine() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+    return at_ < text_.size() && IsBlank(text_[at_]) ? std::string_view() : Word();
+  }
+
+  static bool BeginsWith(std::string_view word, std::string_view with) {
+    return word.substr(0, with.size()) == with;
+  }
+
+  // What follows the last solid is not looked at.
+  bool BeginSolid() {
+    if (!BeginsWith(Word(), "solid")) return false;
+    SkipLine();  // its name
+    facets_ = vertices_ = 0;
+    return true;
+  }
+
   void SkipLine() { at_ = std::min(text_.find_first_of("\r\n", at_), text_.size()); }
 
   void Facet() {
@@ -59,20 +71,24 @@ class TextStl {
     if (facets_ > kMostMeshTriangles) {
       throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
     }
-    if (Word() != "normal") throw Wrong("a facet has no normal");
+    if (WordOfLine() != "normal") throw Wrong("a facet has no normal");
     Numbers("a normal");
+  }
+
+  void Vertex() {
+    if (++vertices_ > 3 * facets_) throw Wrong("a facet has more than three vertices");
+    Numbers("a vertex");
   }
 
   void EndSolid() {
     if (vertices_ != 3 * facets_) throw Wrong("a facet has fewer than three vertices");
     if (facets_ == 0) throw Wrong("a solid has no facets");
-    facets_ = vertices_ = 0;
-    is_whole_ = true;
+    SkipLine();
   }
 
   void Numbers(const std::string& of) {
     for (int i = 0; i < 3; ++i) {
-      std::string_view word = Word();
+      std::string_view word = WordOfLine();
       if (!word.empty() && word.front() == '+') word.remove_prefix(1);
       double value = 0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -89,7 +105,6 @@ class TextStl {
   const std::string_view text_;
   std::size_t at_ = 0;
   std::size_t facets_ = 0, vertices_ = 0;  // of this solid
-  bool is_whole_ = true;                   // the newest solid has ended
 };
 
 std::uint32_t Word(const std::string& bytes, std::size_t at) {  // little-endian

@@ -167,7 +167,7 @@ TEST(MeshFile, TextStlThatMakesNoTrianglesIsRefusedWithItsLine) {
   EXPECT_THAT(Fault("solid a\n" + without("normal"), ".stl"), HasSubstr("line 2"));
   EXPECT_THAT(Fault("solid a\n" + without("+1"), ".stl"), HasSubstr("a vertex does not have"));
   EXPECT_THAT(Fault("solid a\n" + facet + std::string(90, '\0'), ".stl"), HasSubstr("zero bytes"));
-  for (const std::string word : {"nan", "1e999", "one", "0x1", "1,5", ""}) {
+  for (const std::string word : {"nan", "1e999", "one", "0x1", "1,5", "", "\n0"}) {
     EXPECT_THAT(Fault("solid a\nfacet normal 0 0 " + word, ".stl"), HasSubstr("three numbers"));
   }
   // Wherever it stops, it is refused or whole.
