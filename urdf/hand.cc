@@ -1,7 +1,5 @@
 #include "urdf/hand.h"
 
-#include <cmath>
-
 namespace kinescope::urdf {
 namespace {
 
@@ -22,15 +20,9 @@ constexpr std::array<Ray, 5> kRays = {{
     {-0.03, 0.12, -0.06, 0.47, {0.23, 0.14}},
     {-0.07, 0.11, -0.14, 0.42, {0.18, 0.10}},
 }};
-constexpr double kTip = 0.75;          // length of a last phalanx, in those of the one before
-constexpr double kFingerWidth = 0.04;  // radius, in lengths of the hand
+constexpr double kTip = 0.75;  // length of a last phalanx, in those of the one before
 
 bool IsThumb(int finger) { return finger >= 1 && finger <= 3; }
-
-// Metacarpals begin a ray at 1 (thumb), 4, 8, 12 and 16.
-int PlaceInRay(int finger) { return finger <= 3 ? finger - 1 : finger % 4; }
-
-bool IsLast(int finger) { return finger != 0 && PlaceInRay(finger) == (IsThumb(finger) ? 2 : 3); }
 
 }  // namespace
 
@@ -41,6 +33,15 @@ const std::array<std::string_view, kFingersPerHand> kFingers = {
 
 const std::array<int, kFingersPerHand> kFingerParents = {-1, 0,  1, 2,  0,  4,  5, 6,  0,  8,
                                                          9,  10, 0, 12, 13, 14, 0, 16, 17, 18};
+
+// Metacarpals begin a ray at 1 (thumb), 4, 8, 12 and 16.
+int RayOf(int finger) { return finger / 4; }
+int PlaceInRay(int finger) { return IsThumb(finger) ? finger - 1 : finger % 4; }
+int MetacarpalOf(int ray) { return ray == 0 ? 1 : 4 * ray; }
+
+bool IsFingertip(int finger) {
+  return finger != 0 && PlaceInRay(finger) == (IsThumb(finger) ? 2 : 3);
+}
 
 HandSkeleton DefaultHand(Side, double length) {  // in the sagittal plane: both sides alike
   HandSkeleton hand;
@@ -73,7 +74,7 @@ HandSkeleton HandFromTPose(Side side, const std::array<Vector3d, kFingersPerHand
 
 Vector3d EndOf(const HandSkeleton& hand, int finger) {
   if (finger == 0) return hand.origin_in_parent[8];  // towards the middle finger
-  if (!IsLast(finger)) return hand.origin_in_parent[At(finger) + 1];
+  if (!IsFingertip(finger)) return hand.origin_in_parent[At(finger) + 1];
   return kTip * hand.origin_in_parent[At(finger)];
 }
 
@@ -82,30 +83,7 @@ FingerJoint KindOf(int finger) {
   const int place = PlaceInRay(finger);
   if (place == 0) return IsThumb(finger) ? FingerJoint::kThumbBase : FingerJoint::kPalm;
   if (place == 1) return FingerJoint::kKnuckle;
-  return IsLast(finger) ? FingerJoint::kEnd : FingerJoint::kMiddle;
-}
-
-std::vector<Primitive> FingerFigure(const HandSkeleton& hand, int finger) {
-  const double radius = kFingerWidth * hand.length;
-  const Vector3d end = EndOf(hand, finger);
-  const double bone = end.norm();
-  Primitive rod;
-  rod.kind = Primitive::Kind::kCylinder;
-  rod.size = {radius, bone, 0};
-  rod.center = 0.5 * end;
-  if (bone > 0) {  // turns z onto the bone: first about x, then about y
-    rod.rpy = {std::asin(-end.y() / bone), std::atan2(end.x(), end.z()), 0};
-  }
-  Primitive joint;
-  joint.kind = Primitive::Kind::kSphere;
-  joint.size = {radius, 0, 0};
-  std::vector<Primitive> parts = {joint};
-  if (bone > 0) parts.push_back(rod);
-  if (IsLast(finger)) {
-    joint.center = end;
-    parts.push_back(joint);
-  }
-  return parts;
+  return IsFingertip(finger) ? FingerJoint::kEnd : FingerJoint::kMiddle;
 }
 
 FingerPoses CompleteHand(const HandSkeleton& skeleton, const Pose& world_from_hand,

@@ -8,11 +8,9 @@
 #include <array>
 #include <bitset>
 #include <string_view>
-#include <vector>
 
 #include "urdf/joint_limits.h"
 #include "urdf/kinematics.h"
-#include "urdf/primitive_figure.h"
 #include "urdf/skeleton.h"
 
 namespace kinescope::urdf {
@@ -45,11 +43,17 @@ HandSkeleton HandFromTPose(Side side,
 /// Where the segment ends, in its own link frame. A fingertip is as far on as is usual.
 Eigen::Vector3d EndOf(const HandSkeleton& hand, int finger);
 
+/// Which ray of the hand a segment other than the carpus belongs to: 0 the thumb, 4 the little
+/// finger; and how many segments of the ray come before it: 0 the metacarpal. @pre finger > 0
+int RayOf(int finger);
+int PlaceInRay(int finger);
+/// The first segment of a ray; those that follow it come next in kFingers.
+int MetacarpalOf(int ray);
+/// Whether the segment is the last of its ray.
+bool IsFingertip(int finger);
+
 /// What the joint between `finger` and its parent is like.
 FingerJoint KindOf(int finger);
-
-/// Capsules of the segment, in its link frame.
-std::vector<Primitive> FingerFigure(const HandSkeleton& hand, int finger);
 
 using FingerPoses = std::array<Pose, kFingersPerHand>;              // link frames, world
 using FingerAngles = std::array<Eigen::Vector3d, kFingersPerHand>;  // (x, y, z) rad

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "urdf/hand_figure.h"
 #include "urdf/joint_limits.h"
 #include "urdf/primitive_figure.h"
 
@@ -45,19 +46,28 @@ std::string Shape(const Primitive& part) {
   return fmt::format("<sphere radius=\"{}\"/>", part.size.x());
 }
 
-// `material`: of the visuals; null: collision shapes alone.
-std::string Shapes(const std::vector<Primitive>& parts, const char* material) {
+std::string Shapes(const char* kind, const std::vector<Primitive>& parts,
+                   const std::string& material = "") {
   std::string text;
   for (const Primitive& part : parts) {
-    const std::string body = fmt::format("      {}\n      <geometry>{}</geometry>\n",
-                                         Origin(part.center, part.rpy), Shape(part));
-    if (material != nullptr) {
-      text += fmt::format("    <visual>\n{}      <material name=\"{}\"/>\n    </visual>\n", body,
-                          material);
-    }
-    text += "    <collision>\n" + body + "    </collision>\n";
+    text += fmt::format("    <{}>\n      {}\n      <geometry>{}</geometry>\n{}    </{}>\n", kind,
+                        Origin(part.center, part.rpy), Shape(part), material, kind);
   }
   return text;
+}
+
+std::string Material(const char* name) {
+  return fmt::format("      <material name=\"{}\"/>\n", name);
+}
+
+std::string Collisions(const std::vector<Primitive>& parts) { return Shapes("collision", parts); }
+
+// Null where the segment is no gloved hand.
+const HandSkeleton* GloveOn(const HumanModel& human, int segment) {
+  for (const Side side : {kRight, kLeft}) {
+    if (segment == HandSegmentOf(side) && human.gloves[side]) return &*human.gloves[side];
+  }
+  return nullptr;
 }
 
 // As URIs want it, which is safe in XML too: a folder's name is the user's.
@@ -73,14 +83,24 @@ std::string UriOf(const std::string& folder) {
   return uri;
 }
 
-std::string SegmentShapes(const HumanModel& human, int segment) {
-  const std::vector<Primitive> parts = PrimitiveFigure(human.skeleton, segment);
-  if (human.mesh_folder.empty()) return Shapes(parts, "body");
-  const std::string mesh = fmt::format(
+// `name`: the link's without its prefix, which is its mesh's too.
+std::string Visuals(const HumanModel& human, const std::string& name,
+                    const std::vector<Primitive>& parts, const char* material) {
+  if (human.mesh_folder.empty()) return Shapes("visual", parts, Material(material));
+  return fmt::format(
       "    <visual>\n      {}\n      <geometry><mesh filename=\"{}/{}.stl\"/></geometry>\n"
-      "      <material name=\"body\"/>\n    </visual>\n",
-      Origin(Vector3d::Zero()), UriOf(human.mesh_folder), kSegments[At(segment)].link_name);
-  return mesh + Shapes(parts, nullptr);
+      "{}    </visual>\n",
+      Origin(Vector3d::Zero()), UriOf(human.mesh_folder), name, Material(material));
+}
+
+// Of a gloved hand the segments are drawn; the hand's own link has its mass, and what surrounds it.
+std::string SegmentShapes(const HumanModel& human, int segment) {
+  if (const HandSkeleton* glove = GloveOn(human, segment)) {
+    return Collisions({PalmBoxInHand(*glove)});
+  }
+  const std::vector<Primitive> parts = PrimitiveFigure(human.skeleton, segment);
+  return Visuals(human, std::string(kSegments[At(segment)].link_name), parts, "body") +
+         Collisions(parts);
 }
 
 std::string LinkElement(const std::string& name, const std::string& content) {
@@ -137,14 +157,41 @@ std::string BodyJointName(const std::string& model_name, int joint) {
   return Cleaned(model_name) + "_" + std::string(kJoints[At(joint)].ros_name);
 }
 
-constexpr double kShareInside = 0.01;  // HumanModel::mass_inside_joints
+// HumanModel::mass_inside_joints: what a link gets of the segment that lacks it.
+constexpr double kShareInside = 0.01;         // of the joint's own segment
+constexpr double kShareOfFinger = 0.02;       // of its hand
+constexpr double kShareInsideFinger = 0.001;  // likewise
+constexpr double kShareOfProp = 0.01;         // of the pelvis
+constexpr double kShareInsideProp = 0.001;    // likewise
+
+double OwnShare(const HumanModel& human, int segment) {
+  if (!human.mass_inside_joints) return 1;
+  double share = 1;
+  if (segment != kPelvis) share -= 2 * kShareInside;
+  if (GloveOn(human, segment) != nullptr) {
+    share -= kFingersPerHand * (kShareOfFinger + 2 * kShareInsideFinger);
+  }
+  if (segment == kPelvis) {
+    share -= static_cast<double>(human.props.count()) * (kShareOfProp + 5 * kShareInsideProp);
+  }
+  return share;
+}
+
+// "" where such links weigh nothing. The tensor is the segment's own, which is larger than it need
+// be and so can only calm a simulator.
+std::string SmallInertial(const HumanModel& human, int segment, double share,
+                          const Vector3d& com = Vector3d::Zero()) {
+  if (!human.mass_inside_joints) return "";
+  SegmentInertia part = human.body[At(segment)];
+  part.com_in_link = com;
+  return Inertial(part, share);
+}
 
 std::string Body(const HumanModel& human) {
-  const double own_share = human.mass_inside_joints ? 1 - 2 * kShareInside : 1;
   std::string text;
   for (int segment = 0; segment < kSegmentCount; ++segment) {
     text += LinkElement(LinkName(human.model_name, segment),
-                        Inertial(human.body[At(segment)], segment == kPelvis ? 1 : own_share) +
+                        Inertial(human.body[At(segment)], OwnShare(human, segment)) +
                             SegmentShapes(human, segment));
   }
   for (int joint = 0; joint < kJointCount; ++joint) {
@@ -153,23 +200,30 @@ std::string Body(const HumanModel& human) {
         {BodyJointName(human.model_name, joint), LinkName(human.model_name, ParentOf(joint)),
          LinkName(human.model_name, child), human.skeleton.origin_in_parent[At(child)],
          [joint](int axis) { return LimitOf(joint, axis); },
-         human.mass_inside_joints ? Inertial(human.body[At(child)], kShareInside) : ""});
+         SmallInertial(human, child, kShareInside, human.body[At(child)].com_in_link)});
   }
   return text;
 }
 
 std::string Glove(const HumanModel& human, Side side) {
-  const HandSkeleton& hand = *human.gloves[side];
+  const HandSkeleton& glove = *human.gloves[side];
+  const int hand = HandSegmentOf(side);
   std::string text;
   for (int finger = 0; finger < kFingersPerHand; ++finger) {
     const std::string name = FingerLinkName(human.model_name, side, finger);
     const int parent = kFingerParents[At(finger)];
-    text += LinkElement(name, Shapes(FingerFigure(hand, finger), "glove"));
+    const std::vector<Primitive> parts = FingerFigure(glove, finger);
+    // The carpus: its hand's link collides in its place.
+    const std::string collisions = finger == 0 ? "" : Collisions(parts);
+    text += LinkElement(
+        name, SmallInertial(human, hand, kShareOfFinger, 0.5 * EndOf(glove, finger)) +
+                  Visuals(human, FingerFileName(side, finger), parts, "glove") + collisions);
     text += BallChain({name,
-                       parent < 0 ? LinkName(human.model_name, HandSegmentOf(side))
+                       parent < 0 ? LinkName(human.model_name, hand)
                                   : FingerLinkName(human.model_name, side, parent),
-                       name, hand.origin_in_parent[At(finger)],
-                       [&](int axis) { return LimitOf(KindOf(finger), side == kLeft, axis); }, ""});
+                       name, glove.origin_in_parent[At(finger)],
+                       [&](int axis) { return LimitOf(KindOf(finger), side == kLeft, axis); },
+                       SmallInertial(human, hand, kShareInsideFinger)});
   }
   return text;
 }
@@ -182,14 +236,18 @@ std::string Prop(const HumanModel& human, int prop) {
   Primitive mark;  // what it looks like is not streamed
   mark.size = Vector3d::Constant(0.06);
   const std::string name = PropLinkName(human.model_name, prop);
-  std::string text = LinkElement(name, Shapes({mark}, "prop"));
+  std::string text =
+      LinkElement(name, SmallInertial(human, kPelvis, kShareOfProp) +
+                            Shapes("visual", {mark}, Material("prop")) + Collisions({mark}));
   const auto joints = PropJointNames(human.model_name, prop);
   std::string parent = LinkName(human.model_name, kPelvis);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const bool slides = i < 3;
     const bool is_last = i + 1 == joints.size();
     const std::string child = is_last ? name : LinkInside(joints[i]);
-    if (!is_last) text += LinkElement(child, "");
+    if (!is_last) {
+      text += LinkElement(child, SmallInertial(human, kPelvis, kShareInsideProp));
+    }
     text += JointElement(joints[i], slides ? "prismatic" : "revolute", parent, child,
                          Vector3d::Zero(), slides ? static_cast<int>(i) : kChainOrder[i - 3],
                          slides ? anywhere : any_turn);
@@ -208,8 +266,8 @@ std::string JointName(const std::string& model_name, int joint, int axis) {
   return BodyJointName(model_name, joint) + "_" + kAxisName[At(axis)];
 }
 
-std::string FingerLinkName(const std::string& model_name, Side side, int finger) {
-  std::string name = Cleaned(model_name) + "_" + kSidePrefix[side];
+std::string FingerFileName(Side side, int finger) {
+  std::string name = kSidePrefix[side];
   const std::string_view words = kFingers[At(finger)];  // "SecondMP" -> "second_mp"
   for (std::size_t i = 0; i < words.size(); ++i) {
     const bool is_upper = words[i] >= 'A' && words[i] <= 'Z';
@@ -218,6 +276,10 @@ std::string FingerLinkName(const std::string& model_name, Side side, int finger)
     name += is_upper ? static_cast<char>(words[i] - 'A' + 'a') : words[i];
   }
   return name;
+}
+
+std::string FingerLinkName(const std::string& model_name, Side side, int finger) {
+  return Cleaned(model_name) + "_" + FingerFileName(side, finger);
 }
 
 std::string FingerJointName(const std::string& model_name, Side side, int finger, int axis) {

@@ -11,58 +11,22 @@
 namespace kinescope::app {
 namespace {
 
-// One ray of the hand: thumb to little finger, in lengths of the hand (wrist to tip of the middle
-// finger), of an average adult. Frame of a right hand in the T-pose, mirrored for the left one:
-// `forward` towards the thumb, `out` along the fingers.
-struct Ray {
-  double base_forward, base_out;        // where the metacarpal begins
-  double knuckle_forward, knuckle_out;  // where it ends
-  std::array<double, 3> phalanges;      // proximal, middle, distal; thumb: proximal, distal
-};
-constexpr std::array<Ray, 5> kRays = {{
-    {0.11, 0.08, 0.27, 0.28, {0.18, 0.14, 0.0}},  // thumb
-    {0.07, 0.12, 0.13, 0.49, {0.22, 0.13, 0.10}},
-    {0.02, 0.13, 0.03, 0.50, {0.25, 0.15, 0.10}},
-    {-0.03, 0.12, -0.06, 0.47, {0.23, 0.14, 0.10}},
-    {-0.07, 0.11, -0.14, 0.42, {0.18, 0.10, 0.09}},
-}};
-
 constexpr double kGraspPeriodSecs = 4;
 // How far each joint bends when the hand is closed, rad: knuckle, middle, end.
 constexpr std::array<double, 3> kClosed = {1.1, 1.4, 0.8};
 constexpr double kThumbClosed = 0.6;
 
-// Where a finger's segment begins, in the frame of its hand in the T-pose, and where it points.
-struct RestingSegment {
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitY();  // of the ray, unit
-  int bend = -1;                                         // index of kClosed; -1: a bone of the palm
-  bool is_thumb = false;
-};
-
-std::array<RestingSegment, kFingersPerHand> RestingHand(urdf::Side side, double length) {
-  const double out_sign = side == urdf::kRight ? -1 : 1;  // the right arm lies along -y
-  const auto point = [&](double forward, double out) -> Eigen::Vector3d {
-    return length * Eigen::Vector3d(forward, out_sign * out, 0);
-  };
-  std::array<RestingSegment, kFingersPerHand> segments;
-  segments[0] = {Eigen::Vector3d::Zero(), point(0, 1).normalized()};  // the carpus, at the wrist
-  std::size_t next = 1;
-  for (std::size_t i = 0; i < kRays.size(); ++i) {
-    const Ray& ray = kRays[i];
-    const bool is_thumb = i == 0;
-    const Eigen::Vector3d base = point(ray.base_forward, ray.base_out);
-    Eigen::Vector3d at = point(ray.knuckle_forward, ray.knuckle_out);
-    const Eigen::Vector3d direction = (at - base).normalized();
-    segments[next++] = {base, direction, -1, is_thumb};
-    const int phalanges = is_thumb ? 2 : 3;
-    for (int k = 0; k < phalanges; ++k) {
-      segments[next++] = {at, direction, k, is_thumb};
-      at += direction * ray.phalanges[static_cast<std::size_t>(k)] * length;
-    }
+// How far a finger's segment has turned against its parent when the hand is closed, rad; 0 for the
+// bones of the palm.
+double ClosedBy(int finger) {
+  switch (urdf::KindOf(finger)) {
+    case urdf::FingerJoint::kKnuckle:
+    case urdf::FingerJoint::kMiddle:
+    case urdf::FingerJoint::kEnd: break;
+    default: return 0;
   }
-  KINESCOPE_CHECK(next == segments.size());
-  return segments;
+  if (urdf::RayOf(finger) == 0) return kThumbClosed;
+  return kClosed[urdf::At(urdf::PlaceInRay(finger) - 1)];
 }
 
 double HandLength(const Character& character, urdf::Side side) {
@@ -70,37 +34,29 @@ double HandLength(const Character& character, urdf::Side side) {
   return (character.skeleton ? *character.skeleton : kDefault).finger_tip_in_hand[side].norm();
 }
 
-int HandOf(urdf::Side side) { return side == urdf::kRight ? urdf::kRightHand : urdf::kLeftHand; }
-
 // `seconds`: none for the open hand of the T-pose. Each finger bends a little later than the one
 // before.
 void AddHand(urdf::Side side, std::optional<double> seconds, const Character& character,
              BodySample& sample) {
-  const auto resting = RestingHand(side, HandLength(character, side));
-  const SegmentState& hand = sample.segments[urdf::At(HandOf(side))];
-  std::array<urdf::Pose, kFingersPerHand> in_hand;
-  int ray = -1;
-  for (std::size_t i = 0; i < resting.size(); ++i) {
-    const RestingSegment& segment = resting[i];
-    const int parent = kFingerParents[i];
-    if (parent <= 0) ++ray;  // a carpus or metacarpal: the next ray
-    urdf::Pose& pose = in_hand[i];
-    if (parent >= 0) {
-      const auto above = static_cast<std::size_t>(parent);
-      pose.orientation = in_hand[above].orientation;
-      pose.position =
-          in_hand[above].position + pose.orientation * (segment.origin - resting[above].origin);
-    }
-    if (segment.bend < 0 || !seconds) continue;
-    const double phase = 2 * M_PI * *seconds / kGraspPeriodSecs - 0.3 * ray;
+  const urdf::HandSkeleton resting = urdf::DefaultHand(side, HandLength(character, side));
+  const int segment = urdf::HandSegmentOf(side);
+  const Eigen::Quaterniond& segment_from_link = urdf::SegmentFromLink(segment);
+  const SegmentState& hand = sample.segments[urdf::At(segment)];
+  std::array<urdf::Pose, kFingersPerHand> in_hand;  // segment frames
+  for (int i = 0; i < kFingersPerHand; ++i) {
+    urdf::Pose& pose = in_hand[urdf::At(i)];
+    const int parent = kFingerParents[urdf::At(i)];
+    if (parent >= 0) pose = in_hand[urdf::At(parent)];
+    pose.position += pose.orientation * (segment_from_link * resting.origin_in_parent[urdf::At(i)]);
+    if (!seconds || ClosedBy(i) == 0) continue;
+    const double phase = 2 * M_PI * *seconds / kGraspPeriodSecs - 0.3 * urdf::RayOf(i);
     const double share = 0.5 - 0.5 * std::cos(phase);
-    const double angle =
-        share * (segment.is_thumb ? kThumbClosed : kClosed[static_cast<std::size_t>(segment.bend)]);
     // About the axis that brings the finger down, to the palm; the thumb across it.
     Eigen::Vector3d towards(0, 0, -1);
-    if (segment.is_thumb) towards += resting[0].direction;
-    const Eigen::Vector3d axis = segment.direction.cross(towards).normalized();
-    pose.orientation = pose.orientation * Eigen::AngleAxisd(angle, axis);
+    if (urdf::RayOf(i) == 0) towards += segment_from_link * Eigen::Vector3d(0, 0, -1);
+    const Eigen::Vector3d along = segment_from_link * urdf::EndOf(resting, i);
+    const Eigen::Vector3d axis = along.cross(towards).normalized();
+    pose.orientation = pose.orientation * Eigen::AngleAxisd(share * ClosedBy(i), axis);
   }
   for (std::size_t i = 0; i < in_hand.size(); ++i) {
     const auto index = static_cast<std::size_t>(FingerIndex(side, static_cast<int>(i)));

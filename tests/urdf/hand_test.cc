@@ -7,7 +7,6 @@
 namespace kinescope::urdf {
 namespace {
 
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 // Origins of an open hand in its hand's link frame.
@@ -120,18 +119,19 @@ TEST(Hand, CompletesWhatIsNotMeasuredAndMeasuresTheAnglesOfTheRest) {
   }
 }
 
-TEST(Hand, FiguresFillTheirBones) {
-  const HandSkeleton hand = DefaultHand(kLeft, 0.19);
-  for (int i = 0; i < kFingersPerHand; ++i) {
-    const auto parts = FingerFigure(hand, i);
-    ASSERT_GE(parts.size(), 2u) << kFingers[At(i)];
-    const Primitive& rod = parts[1];
-    EXPECT_NEAR(rod.size.y(), EndOf(hand, i).norm(), 1e-12);
-    const Quaterniond turn = Eigen::AngleAxisd(rod.rpy.z(), Vector3d::UnitZ()) *
-                             Eigen::AngleAxisd(rod.rpy.y(), Vector3d::UnitY()) *
-                             Eigen::AngleAxisd(rod.rpy.x(), Vector3d::UnitX());
-    EXPECT_LT((turn * Vector3d::UnitZ() - EndOf(hand, i).normalized()).norm(), 1e-9);
+TEST(Hand, CountsItsRaysAsTheyFollowEachOther) {
+  for (int ray = 0; ray < 5; ++ray) {
+    int finger = MetacarpalOf(ray);
+    EXPECT_EQ(kFingerParents[At(finger)], 0) << ray;
+    for (int place = 0; place < (ray == 0 ? 3 : 4); ++place, ++finger) {
+      EXPECT_EQ(RayOf(finger), ray) << finger;
+      EXPECT_EQ(PlaceInRay(finger), place) << finger;
+      EXPECT_EQ(IsFingertip(finger),
+                kFingers[At(finger)].substr(5) == "DP" || kFingers[At(finger)].substr(6) == "DP")
+          << kFingers[At(finger)];
+    }
   }
+  EXPECT_FALSE(IsFingertip(0));
 }
 
 }  // namespace
