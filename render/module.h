@@ -20,11 +20,12 @@ namespace kinescope::render {
 /// What must be equal on both sides. A changed struct changes a size here in nearly every case; the
 /// number is raised by hand when it does not.
 struct ModuleAbi {
-  std::size_t number = 2;
+  std::size_t number = 3;
   std::size_t scene_state = sizeof(SceneState);
   std::size_t person_state = sizeof(PersonState);
   std::size_t person_model = sizeof(PersonModel);
   std::size_t joint_load = sizeof(JointLoad);
+  std::size_t tracked_object = sizeof(TrackedObject);
   std::size_t robot_state = sizeof(RobotState);
   std::size_t robot_link = sizeof(urdf::Link);
   std::size_t robot_joint = sizeof(urdf::RobotJoint);

@@ -42,10 +42,18 @@ void LiftToFloor(SceneState& state, Camera& camera) {
   camera.target += lift;
   for (PersonState& person : state.people) {
     for (urdf::Pose& link : person.links) link.position += lift;
+    for (auto& glove : person.gloves) {
+      if (!glove) continue;
+      for (urdf::Pose& link : glove->links) link.position += lift;
+    }
+    for (auto& prop : person.props) {
+      if (prop) prop->pose.position += lift;
+    }
     for (JointLoad& load : person.loads) load.position += lift;
     if (person.com) *person.com += lift;
     if (person.cop) *person.cop += lift;
   }
+  for (TrackedObject& object : state.objects) object.pose.position += lift;
   for (RobotState& robot : state.robots) {
     for (Eigen::Isometry3d& link : robot.world_from_link) link.pretranslate(lift);
   }

@@ -23,6 +23,7 @@
 #include "render/vtk/floor_cache.h"
 #include "render/vtk/ground.h"
 #include "render/vtk/log_window.h"
+#include "render/vtk/object_actors.h"
 #include "render/vtk/osmesa_context.h"
 #include "render/vtk/person_actors.h"
 #include "render/vtk/robot_actors.h"
@@ -130,10 +131,12 @@ class OsmesaDrawing : public Drawing {
       each = is_here ? std::next(each) : people_.erase(each);
     }
     is_changed = UpdateRobots(state, labels) || is_changed;
-    if (is_changed) ListActors();
+    is_changed = objects_.Update(state.objects, state.liveness, labels) || is_changed;
     for (const PersonState& person : state.people) {
-      people_.at(person.character)->Update(person, state.liveness, camera, once_, labels);
+      PersonActors& actors = *people_.at(person.character);
+      is_changed = actors.Update(person, state.liveness, camera, once_, labels) || is_changed;
     }
+    if (is_changed) ListActors();
     ground_->SetFocus(camera.target);
   }
 
@@ -160,7 +163,10 @@ class OsmesaDrawing : public Drawing {
     const auto add = [&](vtkActor* actor) { people_layer_->AddActor(actor); };
     for (const auto& [id, person] : people_) add(person->shadow());
     for (const auto& robot : robots_) add(robot->shadow());
-    for (const auto& [id, person] : people_) add(person->body());
+    for (const auto& [id, person] : people_) {
+      for (vtkActor* body : person->bodies()) add(body);
+    }
+    for (vtkActor* object : objects_.actors()) add(object);
     for (const auto& robot : robots_) {
       for (vtkActor* body : robot->bodies()) add(body);
     }
@@ -255,6 +261,7 @@ class OsmesaDrawing : public Drawing {
   std::unique_ptr<Ground> ground_;
   std::unique_ptr<FloorCache> floor_cache_;
   std::map<int, std::unique_ptr<PersonActors>> people_;
+  ObjectActors objects_;
   std::vector<std::unique_ptr<RobotActors>> robots_;  // in the order of the state
   std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet
   std::vector<std::uint8_t> large_;

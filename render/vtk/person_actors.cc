@@ -55,7 +55,6 @@ Eigen::Affine3d At(double x, double y, double z, double scale_xy, double scale_z
 
 PersonActors::PersonActors()
     : shadow_(Pass::kBlended, PartActor::Light::kSoft, kShadowParts),
-      body_(Pass::kSolid, PartActor::Light::kLit, urdf::kSegmentCount),
       ghost_marks_(Pass::kGhost, PartActor::Light::kFlat, kMarkParts),
       marks_(Pass::kSolid, PartActor::Light::kFlat, kMarkParts),
       ghost_spheres_(Pass::kGhost, kGhostOpacity),
@@ -66,37 +65,15 @@ PersonActors::PersonActors()
   ghost_marks_.SetOpacity(static_cast<float>(kGhostOpacity));
 }
 
-void PersonActors::Update(const PersonState& person, Liveness liveness, const Camera& camera,
+bool PersonActors::Update(const PersonState& person, Liveness liveness, const Camera& camera,
                           OnceLog& log, std::vector<Label>& labels) {
-  UpdateBody(person, liveness, log, labels);
+  const bool is_stale = liveness == Liveness::kStale;
+  const bool is_changed = body_.Update(
+      person, is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()), log,
+      labels);
   UpdateShadow(person);
   UpdateMarks(person, camera);
-}
-
-void PersonActors::UpdateBody(const PersonState& person, Liveness liveness, OnceLog& log,
-                              std::vector<Label>& labels) {
-  if (model_ != person.model || revision_ != person.model->revision) {
-    VisualMesh figure = MakeFigureMesh(*person.model);
-    body_.SetMesh(figure.mesh);
-    body_.SetCulling(figure.is_closed);
-    placeholders_ = std::move(figure.placeholders);
-    problems_ = std::move(figure.problems);
-    for (const std::string& problem : problems_) log(problem);
-    model_ = person.model;
-    revision_ = person.model->revision;
-  }
-  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
-    const urdf::Pose& pose = person.links[static_cast<std::size_t>(segment)];
-    body_.Place(segment, Eigen::Translation3d(pose.position) * pose.orientation);
-  }
-  const bool is_stale = liveness == Liveness::kStale;
-  body_.SetOverride(is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()));
-  body_.Commit();
-  for (const VisualMesh::Placeholder& placeholder : placeholders_) {
-    const urdf::Pose& pose = person.links[static_cast<std::size_t>(placeholder.part)];
-    labels.push_back(
-        {pose.position + pose.orientation * placeholder.center_in_link, placeholder.label});
-  }
+  return is_changed;
 }
 
 // Not where a lamp would cast them, but what tells the eye where the person stands.

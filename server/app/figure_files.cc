@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "urdf/figure.h"
+#include "urdf/hand_figure.h"
 #include "urdf/segments.h"
 
 namespace kinescope::app {
@@ -34,15 +35,15 @@ std::uint64_t Hash(const std::string& bytes, std::uint64_t hash) {
   return hash;
 }
 
-void WriteAll(const fs::path& folder, const std::array<std::string, urdf::kSegmentCount>& meshes) {
+void WriteAll(const fs::path& folder, const std::vector<FigureFile>& meshes) {
   fs::create_directories(folder.parent_path());
   // Written aside and renamed: a reader, or a second process, sees all of it or nothing.
   const fs::path aside = folder.string() + fmt::format(".{}", getpid());
   fs::create_directory(aside);
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const fs::path path = aside / (std::string(urdf::kSegments[i].link_name) + ".stl");
+  for (const FigureFile& mesh : meshes) {
+    const fs::path path = aside / mesh.name;
     std::ofstream file(path, std::ios::binary);
-    file << meshes[i] << std::flush;
+    file << mesh.stl << std::flush;
     if (!file) throw std::runtime_error(path.string() + " cannot be written");
   }
   std::error_code already_there;
@@ -52,14 +53,28 @@ void WriteAll(const fs::path& folder, const std::array<std::string, urdf::kSegme
 
 }  // namespace
 
-std::string WriteFigureFiles(const urdf::Skeleton& skeleton, const FigureMeshes* own) {
-  std::array<std::string, urdf::kSegmentCount> meshes;
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
+std::vector<FigureFile> FigureFiles(const urdf::HumanModel& human, const FigureMeshes* own) {
+  std::vector<FigureFile> files;
   for (int i = 0; i < urdf::kSegmentCount; ++i) {
-    std::string& mesh = meshes[static_cast<std::size_t>(i)];
-    mesh = urdf::ToBinaryStl(FigureMeshOf(own, skeleton, i));
-    hash = Hash(mesh, hash);
+    const bool is_gloved = (i == urdf::kRightHand && human.gloves[urdf::kRight]) ||
+                           (i == urdf::kLeftHand && human.gloves[urdf::kLeft]);
+    if (is_gloved) continue;
+    files.push_back({std::string(urdf::kSegments[urdf::At(i)].link_name) + ".stl",
+                     urdf::ToBinaryStl(FigureMeshOf(own, human.skeleton, i))});
   }
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    for (int i = 0; human.gloves[side] && i < urdf::kFingersPerHand; ++i) {
+      files.push_back({urdf::FingerFileName(side, i) + ".stl",
+                       urdf::ToBinaryStl(urdf::FingerMesh(*human.gloves[side], i))});
+    }
+  }
+  return files;
+}
+
+std::string WriteFigureFiles(const urdf::HumanModel& human, const FigureMeshes* own) {
+  const std::vector<FigureFile> meshes = FigureFiles(human, own);
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const FigureFile& mesh : meshes) hash = Hash(mesh.name + mesh.stl, hash);
   try {
     const fs::path folder = CacheFolder() / fmt::format("figure-{:016x}", hash);
     if (!fs::exists(folder)) WriteAll(folder, meshes);

@@ -3,16 +3,26 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "server/app/figure_meshes.h"
-#include "urdf/skeleton.h"
+#include "urdf/human_urdf.h"
 
 namespace kinescope::app {
 
-/// Writes one binary STL per link into a folder of the user's cache ($XDG_CACHE_HOME/kinescope,
+struct FigureFile {
+  std::string name;  // "right_forearm.stl"
+  std::string stl;   // binary
+};
+
+/// All meshes that the URDF of `human` names: those of its segments, and of the fingers in place of
+/// a gloved hand. `own`: the user's meshes, where they take the place of ours; else null.
+std::vector<FigureFile> FigureFiles(const urdf::HumanModel& human, const FigureMeshes* own);
+
+/// Writes FigureFiles into a folder of the user's cache ($XDG_CACHE_HOME/kinescope,
 /// ~/.cache/kinescope, else the temporary folder) that is named after their content, once; returns
 /// that folder. "" when nothing can be written: the figure is then made of primitives. Says so once
-/// on the log. `own`: the user's meshes, where they take the place of ours; else null.
-std::string WriteFigureFiles(const urdf::Skeleton& skeleton, const FigureMeshes* own = nullptr);
+/// on the log.
+std::string WriteFigureFiles(const urdf::HumanModel& human, const FigureMeshes* own = nullptr);
 
 }  // namespace kinescope::app

@@ -4,17 +4,18 @@
 #include <filesystem>
 #include <string>
 
+#include "server/app/figure_files.h"
 #include "urdf/human_urdf.h"
 
 namespace kinescope::app {
 
-/// Writes `folder`/person.urdf and `folder`/meshes/<link>.stl; makes the folders. The meshes are
-/// those of human.mesh_folder, or the smooth figure where that is "". The URDF names them as
+/// Writes `folder`/person.urdf and `meshes` into `folder`/meshes; makes the folders. `meshes`:
+/// FigureFiles of `human`; none for a figure of primitives. The URDF names them as
 /// package://`package`/meshes/..., so that `folder` is, or goes into, the package of that name;
 /// where `package` is "", as file:// URIs of where they now are. Each file appears under its name
 /// only when it is whole, the URDF last. What is there is replaced.
 /// @throws UsageError naming the file and the reason, or a package name that ROS would not take.
-void ExportPerson(const urdf::HumanModel& human, const std::filesystem::path& folder,
-                  const std::string& package);
+void ExportPerson(urdf::HumanModel human, const std::vector<FigureFile>& meshes,
+                  const std::filesystem::path& folder, const std::string& package);
 
 }  // namespace kinescope::app

@@ -92,17 +92,12 @@ std::shared_ptr<const PersonModel> SceneBuilder::MakeModel(const Person& person)
   }
   model->human.body = urdf::MakeBodyParameters(options_.body, model->human.skeleton);
   model->human.body_rgb = BodyColor(person.character.color_rgb, person.index);
+  person.worn.AddTo(person.character, model->human);
   if (options_.smooth_figure) {
-    model->human.mesh_folder =
-        WriteFigureFiles(model->human.skeleton, options_.figure_meshes.get());
+    model->human.mesh_folder = WriteFigureFiles(model->human, options_.figure_meshes.get());
   }
-  // Pictures and page draw whole hands: fingers would be drawn into them.
   model->urdf_xml = urdf::WriteUrdf(model->human);
   model->robot = urdf::ParseUrdf(model->urdf_xml);
-  person.worn.AddTo(person.character, model->human);
-  const bool wears_something = model->human.gloves[urdf::kRight] ||
-                               model->human.gloves[urdf::kLeft] || model->human.props.any();
-  if (wears_something) model->urdf_xml = urdf::WriteUrdf(model->human);
   return model;
 }
 
@@ -226,7 +221,7 @@ void SceneBuilder::OnObjects(const ObjectsSample& sample) {
   for (std::size_t i = 0; i < sample.poses.size(); ++i) {
     if (!sample.present.test(i)) continue;
     const bool has_name = i < cluster.extra.size() && !cluster.extra[i].name.empty();
-    objects.push_back({sample.character,
+    objects.push_back({sample.character, static_cast<int>(i),
                        has_name ? cluster.extra[i].name : "object_" + std::to_string(i + 1),
                        sample.poses[i], sample.stamp_nanos});
   }

@@ -38,8 +38,8 @@ class SceneBuilder : public SampleSink {
   SceneBuilder(SceneOptions options, std::string source, double nominal_rate_hz, OnState on_state);
 
   void Start();
-  /// The URDF of the body that the first person has until the source tells its own.
-  std::string InitialUrdf() const { return MakeModel(Person())->urdf_xml; }
+  /// The body that the first person has until the source tells its own.
+  std::shared_ptr<const PersonModel> InitialModel() const { return MakeModel(Person()); }
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override;

@@ -139,7 +139,7 @@ void Serve(const ServeOptions& options, bool with_page) {
                        });
   if (ros_mode == ros_bridge::RosMode::kRequired ||
       (ros_mode == ros_bridge::RosMode::kAuto && ros_bridge::BuiltWithRos())) {
-    bridge_config.initial_urdf = builder.InitialUrdf();
+    bridge_config.initial_urdf = builder.InitialModel()->urdf_xml;
     ros = ros_bridge::MakeRosBridge(bridge_config, ros_mode);
   }
   builder.Start();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "server/app/commands.h"
+#include "server/app/figure_files.h"
 #include "server/app/option_list.h"
 #include "server/app/options.h"
 #include "server/app/person_export.h"
@@ -27,6 +28,7 @@ struct WriteOptions {
   std::string source;
   std::string out;
   std::string package;
+  bool gazebo = false;
   PersonOptions person;
 };
 
@@ -36,20 +38,16 @@ struct CheckOptions {
   std::vector<std::string> package_path;
 };
 
-urdf::HumanModel HumanOf(const WriteOptions& options) {
-  // A person without a source is the default body, of the height asked for.
-  const std::string source = options.source.empty() ? "demo:n_pose" : options.source;
-  SceneOptions scene = ToSceneOptions(options.person, SceneOptions().stale_secs);
+// Without a source, the default body.
+urdf::HumanModel HumanOf(const std::string& source, const SceneOptions& scene) {
+  if (source.empty()) {
+    const auto to_nobody = [](const std::shared_ptr<const SceneState>&) {};
+    return SceneBuilder(scene, "", 0, to_nobody).InitialModel()->human;
+  }
   SceneReader reader(source, scene);
   const auto state = reader.Next();
   if (!state) throw SourceError("source '" + source + "' has no frame");
-  urdf::HumanModel human = state->people.front().model->human;
-  if (options.source.empty()) {
-    human.skeleton = urdf::DefaultSkeleton(scene.height_m);
-    human.body = urdf::MakeBodyParameters(scene.body, human.skeleton);
-    human.mesh_folder.clear();
-  }
-  return human;
+  return state->people.front().model->human;
 }
 
 // A name that ends as a URDF does is a file, anything else a folder.
@@ -65,10 +63,14 @@ void Write(const WriteOptions& options) {
   if (is_folder && fs::is_regular_file(options.out)) {
     throw UsageError("--out=" + options.out + ": is a file; name a folder, or a file *.urdf");
   }
-  const urdf::HumanModel human = HumanOf(options);
+  const SceneOptions scene = ToSceneOptions(options.person, SceneOptions().stale_secs);
+  urdf::HumanModel human = HumanOf(options.source, scene);
+  human.mass_inside_joints = options.gazebo;
   if (is_folder) {
-    ExportPerson(human, options.out, options.package);
-    fmt::print("{}: person.urdf and its meshes\n", options.out);
+    std::vector<FigureFile> meshes;
+    if (scene.smooth_figure) meshes = FigureFiles(human, scene.figure_meshes.get());
+    ExportPerson(human, meshes, options.out, options.package);
+    fmt::print("{}: person.urdf{}\n", options.out, meshes.empty() ? "" : " and its meshes");
     return;
   }
   const std::string xml = urdf::WriteUrdf(human);
@@ -136,6 +138,9 @@ void AddUrdf(CommandLine line) {
       "FILE.urdf, or a folder for person.urdf and meshes/; default: standard output");
   command->add_option("--package", o->package,
                       "the folder is the ROS package of this name: meshes are package://NAME/...");
+  command->add_flag("--gazebo", o->gazebo,
+                    "let every link weigh something, at the cost of its segment: Gazebo leaves out "
+                    "links without mass, and with them what hangs on them");
   o->person.Visit(FlagAdder(*command));
   AddCheck(*command, line.exit_code);
   AddPicture(*command);

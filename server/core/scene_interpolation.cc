@@ -14,10 +14,29 @@ std::optional<Vector3d> Between(const std::optional<Vector3d>& a, const std::opt
   return Vector3d((1 - t) * *a + t * *b);
 }
 
+void Move(urdf::Pose& pose, const urdf::Pose& after, double t) {
+  pose.position = (1 - t) * pose.position + t * after.position;
+  pose.orientation = pose.orientation.slerp(t, after.orientation);  // along the shorter arc
+}
+
 void MoveTowards(PersonState& person, const PersonState& after, double t) {
   person.links = urdf::Interpolate(person.links, after.links, t);
   for (std::size_t i = 0; i < person.angles.size(); ++i) {
     person.angles[i] = (1 - t) * person.angles[i] + t * after.angles[i];
+  }
+  for (std::size_t side = 0; side < person.gloves.size(); ++side) {
+    if (!person.gloves[side] || !after.gloves[side]) continue;
+    GloveState& glove = *person.gloves[side];
+    for (std::size_t i = 0; i < glove.links.size(); ++i) {
+      Move(glove.links[i], after.gloves[side]->links[i], t);
+      glove.angles[i] = (1 - t) * glove.angles[i] + t * after.gloves[side]->angles[i];
+    }
+  }
+  for (std::size_t i = 0; i < person.props.size(); ++i) {
+    if (!person.props[i] || !after.props[i]) continue;
+    Move(person.props[i]->pose, after.props[i]->pose, t);
+    Vector3d& angles = person.props[i]->angles;
+    angles = (1 - t) * angles + t * after.props[i]->angles;
   }
   person.com = Between(person.com, after.com, t);
   person.cop = Between(person.cop, after.cop, t);
@@ -43,6 +62,13 @@ SceneState Interpolate(const SceneState& before, const SceneState& after,
         std::find_if(after.people.begin(), after.people.end(),
                      [&](const PersonState& p) { return p.character == person.character; });
     if (match != after.people.end()) MoveTowards(person, *match, t);
+  }
+  for (TrackedObject& object : scene.objects) {
+    const auto match =
+        std::find_if(after.objects.begin(), after.objects.end(), [&](const TrackedObject& o) {
+          return o.character == object.character && o.number == object.number;
+        });
+    if (match != after.objects.end()) Move(object.pose, match->pose, t);
   }
   return scene;
 }

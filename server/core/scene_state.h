@@ -44,7 +44,7 @@ struct PersonModel {
   urdf::HumanModel human;
   urdf::BodyDescription description;
   std::string urdf_xml;        // what robot_description holds
-  urdf::RobotModel robot;      // the same, read back; without gloves and props
+  urdf::RobotModel robot;      // the same, read back
   std::uint64_t revision = 0;  // grows with every change; sinks reload when it does
 };
 
@@ -80,6 +80,7 @@ struct PersonState {
 /// A thing that is tracked beside the people (mvn-protocol.md 4.2), in its own frame as streamed.
 struct TrackedObject {
   int character = 0;  // that it streams as
+  int number = 0;     // within that, from 0; with it the object's identity
   std::string name;   // from scale data, else "object_1"
   urdf::Pose pose;    // world_from_object
   std::int64_t stamp_nanos = 0;

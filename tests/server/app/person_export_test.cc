@@ -24,6 +24,8 @@ urdf::HumanModel Person() {
   return human;
 }
 
+std::vector<FigureFile> Meshes() { return FigureFiles(Person(), nullptr); }
+
 std::vector<std::string> MeshUris(const fs::path& urdf_file) {
   std::vector<std::string> uris;
   for (const urdf::Link& link : urdf::ParseUrdf(ReadFile(urdf_file)).links) {
@@ -35,7 +37,7 @@ std::vector<std::string> MeshUris(const fs::path& urdf_file) {
 TEST(PersonExport, WritesAUrdfWhoseMeshesAreThere) {
   const testing::TempFolder folder;
   const fs::path out = folder / "a person & co";
-  ExportPerson(Person(), out, "");
+  ExportPerson(Person(), Meshes(), out, "");
   const auto uris = MeshUris(out / "person.urdf");
   ASSERT_EQ(uris.size(), static_cast<std::size_t>(urdf::kSegmentCount));
   const std::string start = "file://" + fs::canonical(folder.path()).string();
@@ -50,42 +52,45 @@ TEST(PersonExport, WritesAUrdfWhoseMeshesAreThere) {
 
 TEST(PersonExport, NamesMeshesByPackageWhereOneIsGiven) {
   const testing::TempFolder folder;
-  ExportPerson(Person(), folder.path(), "anna_description");
+  ExportPerson(Person(), Meshes(), folder.path(), "anna_description");
   EXPECT_THAT(MeshUris(folder / "person.urdf"),
               ::testing::Contains("package://anna_description/meshes/pelvis.stl"));
   for (const char* bad : {"no such", "../up", "2go", "a/b", "\"/>"}) {
-    EXPECT_THROW(ExportPerson(Person(), folder.path(), bad), UsageError) << bad;
+    EXPECT_THROW(ExportPerson(Person(), Meshes(), folder.path(), bad), UsageError) << bad;
   }
 }
 
-TEST(PersonExport, TakesTheMeshesThatThePersonHasAndReplacesOldOnes) {
+TEST(PersonExport, ReplacesOldMeshes) {
   const testing::TempFolder folder;
-  fs::create_directories(folder / "own");
-  urdf::HumanModel human = Person();
-  human.mesh_folder = (folder / "own").string();
-  for (const urdf::SegmentInfo& segment : urdf::kSegments) {
-    std::ofstream(folder / "own" / (std::string(segment.link_name) + ".stl")) << segment.mvn_name;
-  }
-  ExportPerson(Person(), folder / "out", "");
-  ExportPerson(human, folder / "out", "");
-  EXPECT_EQ(ReadFile(folder / "out" / "meshes" / "right_toe.stl"), "RightToe");
+  ExportPerson(Person(), Meshes(), folder / "out", "");
+  std::vector<FigureFile> own = Meshes();
+  own.back().stl = "the left toe";
+  ExportPerson(Person(), own, folder / "out", "");
+  EXPECT_EQ(ReadFile(folder / "out" / "meshes" / "left_toe.stl"), "the left toe");
   EXPECT_EQ(MeshUris(folder / "out" / "person.urdf").size(), 23U);
+}
+
+TEST(PersonExport, OfPrimitivesHasNoMeshes) {
+  const testing::TempFolder folder;
+  urdf::HumanModel human = Person();
+  human.mesh_folder = "/of/the/cache";
+  ExportPerson(human, {}, folder / "out", "");
+  for (const std::string& uri : MeshUris(folder / "out" / "person.urdf")) EXPECT_EQ(uri, "");
+  EXPECT_FALSE(fs::exists(folder / "out" / "meshes"));
 }
 
 TEST(PersonExport, LeavesNothingHalfWrittenAndSaysWhy) {
   const testing::TempFolder folder;
   std::ofstream(folder / "file") << "in the way";
-  EXPECT_THROW(ExportPerson(Person(), folder / "file", ""), UsageError);
-  urdf::HumanModel human = Person();
-  human.mesh_folder = (folder / "gone").string();
+  EXPECT_THROW(ExportPerson(Person(), Meshes(), folder / "file", ""), UsageError);
+  fs::create_directories(folder / "out" / "meshes" / "pelvis.stl" / "in the way");
   try {
-    ExportPerson(human, folder / "out", "");
-    FAIL() << "meshes came from nowhere";
+    ExportPerson(Person(), Meshes(), folder / "out", "");
+    FAIL() << "a folder was replaced";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("pelvis.stl"));
   }
   EXPECT_FALSE(fs::exists(folder / "out" / "person.urdf"));
-  EXPECT_TRUE(fs::is_empty(folder / "out" / "meshes"));
 }
 
 }  // namespace

@@ -33,6 +33,33 @@ TEST(SceneInterpolation, MovesPosesAndHoldsDecisions) {
   EXPECT_EQ(person.loads.at(0).load_class, LoadClass::kLow);
 }
 
+TEST(SceneInterpolation, MovesGlovesPropsAndObjectsToo) {
+  using Eigen::Quaterniond;
+  const auto scene_at = [](std::int64_t stamp, double x, double angle, double sign) {
+    SceneState scene = SceneAt(stamp, x, LoadClass::kLow);
+    urdf::Pose pose;
+    pose.position.x() = x;
+    pose.orientation = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ());
+    pose.orientation.coeffs() *= sign;
+    scene.people[0].gloves[urdf::kLeft].emplace().links.fill(pose);
+    scene.people[0].props[2].emplace().pose = pose;
+    scene.objects = {{3, 0, "other", {}, stamp}, {3, 1, "tool", pose, stamp}};
+    return scene;
+  };
+  const SceneState a = scene_at(0, 0, 0.2, 1);
+  SceneState b = scene_at(10'000'000, 1, 0.6, -1);  // the other of a turn's two quaternions
+  b.objects.erase(b.objects.begin());
+  const SceneState between = Interpolate(a, b, 2'500'000);
+  const Quaterniond turn(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitZ()));
+  for (const urdf::Pose& pose : {between.people[0].gloves[urdf::kLeft]->links[7],
+                                 between.people[0].props[2]->pose, between.objects.at(1).pose}) {
+    EXPECT_DOUBLE_EQ(pose.position.x(), 0.25);
+    EXPECT_LT(pose.orientation.angularDistance(turn), 1e-9);
+  }
+  EXPECT_EQ(between.objects.at(0).pose.position.x(), 0) << "an object that leaves is held";
+  EXPECT_FALSE(between.people[0].gloves[urdf::kRight]);
+}
+
 TEST(SceneInterpolation, ReturnsTheNearerStateOutside) {
   const SceneState a = SceneAt(0, 0.0, LoadClass::kLow);
   const SceneState b = SceneAt(10, 1.0, LoadClass::kHigh);

@@ -1,0 +1,44 @@
+/// A person's body: the visuals of every link that can be seen, fingers and props among them, at
+/// its pose. A new pose changes matrices; a new model, the meshes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/module.h"
+#include "render/vtk/once_log.h"
+#include "render/vtk/part_actor.h"
+#include "render/vtk/visual_mesh.h"
+#include "server/core/scene_state.h"
+
+namespace kinescope::render {
+
+class FigureActor {
+ public:
+  /// Adds names of missing meshes to `labels`. `override_color`: see PartActor.
+  /// @return whether there are other actors than before.
+  bool Update(const PersonState& person, const Eigen::Vector4f& override_color, OnceLog& log,
+              std::vector<Label>& labels);
+
+  /// Meshes that are boxes instead.
+  const std::vector<std::string>& problems() const { return problems_; }
+  std::vector<vtkActor*> actors();
+
+ private:
+  // As many links as one draw call takes.
+  struct Group {
+    std::unique_ptr<PartActor> actor;
+    std::size_t first = 0, count = 0;  // of VisibleLinks
+    std::vector<VisualMesh::Placeholder> placeholders;
+  };
+  void Load(const PersonModel& model, OnceLog& log);
+
+  std::vector<Group> groups_;
+  std::shared_ptr<const PersonModel> model_;  // that is loaded; held, so that no other can come to
+                                              // lie at its address
+  std::uint64_t revision_ = 0;
+  std::vector<std::string> problems_;
+};
+
+}  // namespace kinescope::render
