@@ -2,6 +2,7 @@
 import { cameraLabel, hexColor, latency, rate, shortCameraLabel, timeCode } from './format.js';
 import { RecentValues } from './clock.js';
 import { Connection } from './connection.js';
+import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { lampOf } from './lamp.js';
 import { fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { PicturePanel } from './picture_panel.js';
@@ -11,6 +12,7 @@ import { decodeState } from './state_codec.js';
 const READINGS_MILLIS = 150;  // faster than that nobody reads
 const NOTICE_MILLIS = 6000;
 const MODEL_RETRY_MILLIS = 1000;
+const DIAGNOSTICS_MILLIS = 3000;
 const START_VIEW = 'three_quarter';
 
 const element = (/** @type {string} */ id) => /** @type {any} */ (document.getElementById(id));
@@ -20,7 +22,8 @@ let state = null;
 /** @type {ArrayBuffer|null} */
 let newest = null;  // not decoded yet: of several that come between two frames, only the last is
 let stateChangedAt = 0;  // browser clock, when the number grew last
-let details = { source: '', camera: '', has_pictures: true, people: /** @type {any[]} */ ([]) };
+let details = { source: '', camera: '', has_pictures: true, people: /** @type {any[]} */ ([]),
+  objects: /** @type {any[]} */ ([]) };
 /** @type {any} */
 let model = null;
 let modelAskedAt = -Infinity;
@@ -30,6 +33,7 @@ const latencies = new RecentValues();
 forgetTokenInAddress();
 const scene = makeScene();
 const showLoads = mountLoadList(element('loads'));
+const showProblems = mountDiagnostics(element('diagnostics'), element('problems'));
 fillLegend(element('legend'));
 const connection = new Connection({
   onState: (buffer) => { newest = buffer; },
@@ -37,6 +41,7 @@ const connection = new Connection({
   onDetails(told) {
     details = told;
     picture.setDetails(told);
+    scene?.setObjectNames(told.objects);
   },
   onError: say,
   onOpen() {
@@ -52,6 +57,8 @@ const picture = new PicturePanel({
 element('picture-on').checked = scene === null || matchMedia('(min-width: 900px)').matches;
 requestAnimationFrame(onFrame);
 setInterval(showReadings, READINGS_MILLIS);
+setInterval(loadDiagnostics, DIAGNOSTICS_MILLIS);
+loadDiagnostics();
 
 /** The cookie is set; the token need not stay in history and bookmarks. */
 function forgetTokenInAddress() {
@@ -142,6 +149,14 @@ async function loadModel(now) {
   } catch (error) {
     say(`The human’s model did not load: ${/** @type {Error} */ (error).message}`);
   }
+}
+
+/** Asked for seldom, and only while somebody looks. */
+async function loadDiagnostics() {
+  if (document.hidden) return;
+  const answer = await fetch('api/diagnostics').catch(() => null);  // the lamp tells of a server that is gone
+  if (!answer?.ok) return;
+  showProblems(problemLines(await answer.json(), scene?.failedMeshes ?? []));
 }
 
 /** The class colours come from the server, so that page, picture and RViz cannot differ.

@@ -51,3 +51,12 @@ export const shortCameraLabel = (name) => (name === 'three_quarter' ? '¾' : cam
  *  @param {number[]} rgb */
 export const hexColor = (rgb) =>
   `#${rgb.map((part) => Math.round(255 * part).toString(16).padStart(2, '0')).join('')}`;
+
+const LONGEST_LABEL = 24;  // characters; a stream may claim any name
+
+/** Cut to what fits over a thing in the view.
+ *  @param {string} name */
+export function labelText(name) {
+  const letters = [...name];
+  return letters.length > LONGEST_LABEL ? `${letters.slice(0, LONGEST_LABEL - 1).join('')}…` : name;
+}

@@ -15,7 +15,7 @@ const unitSphere = new THREE.SphereGeometry(1, 32, 20);
  *    rgba: number[]|null, mesh?: string}} Visual
  *  @typedef {{character: number, revision: number, links: {name: string, visuals: Visual[]}[]}} PersonModel
  *  @typedef {{classes: {name: string, color: number[]}[], cop: number[], com: number[],
- *    body: number[], stale_body: number[]}} Palette */
+ *    body: number[], stale_body: number[], object: number[], axes: number[][]}} Palette */
 
 /** @param {number[]} rgb  sRGB 0..1 */
 export const toColor = (rgb) => new THREE.Color().setRGB(rgb[0], rgb[1], rgb[2], THREE.SRGBColorSpace);

@@ -4,6 +4,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { aim, FALLBACK_VIEW, groundOf } from './cameras.js';
 import { Human, makeMarkMaterials } from './human.js';
+import { ObjectMarks } from './objects.js';
 
 const FOLLOW_SECONDS = 0.35;  // how quickly the view follows a person who walks
 const SLOW_FRAME_MILLIS = 45;
@@ -22,6 +23,8 @@ export class Scene {
   #sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 2);
   #people = /** @type {Map<number, Human>} */ (new Map());
   #marks = /** @type {ReturnType<typeof makeMarkMaterials>|null} */ (null);
+  #objects = /** @type {ObjectMarks|null} */ (null);
+  #objectNames = /** @type {import('./objects.js').ObjectName[]} */ ([]);
   #palette = /** @type {import('./human.js').Palette|null} */ (null);
   #ground = { middle: [0, 0, 0], radius: 0 };
   #followed = [0, 0, 0];
@@ -67,6 +70,11 @@ export class Scene {
   setModel(model) {
     this.#palette = model.palette;
     this.#marks ??= makeMarkMaterials(model.palette);
+    if (this.#objects === null) {
+      this.#objects = new ObjectMarks(model.palette);
+      this.#objects.setNames(this.#objectNames);
+      this.#scene.add(this.#objects.group);
+    }
     for (const person of model.people) {
       if (this.#people.get(person.character)?.revision === person.revision) continue;
       this.#people.get(person.character)?.dispose();
@@ -86,6 +94,14 @@ export class Scene {
     return [...this.#people.values()].flatMap((human) => human.failedMeshes);
   }
 
+  /** Of tracked objects.
+   *  @param {import('./objects.js').ObjectName[]} names */
+  setObjectNames(names) {
+    this.#objectNames = names;
+    this.#objects?.setNames(names);
+    this.#dirty = true;
+  }
+
   /** @param {import('./state_codec.js').State} state
    *  @param {boolean} isLive */
   update(state, isLive) {
@@ -94,6 +110,7 @@ export class Scene {
       human.group.visible = person !== undefined;
       if (person) human.update(person, isLive, state.floor);
     }
+    this.#objects?.update(state.objects, isLive);
     if (state.people.length > 0) {
       this.#ground = groundOf(state.people.map(({ links }) => links[0].position), state.floor);
     }

@@ -1,11 +1,12 @@
 // Reads the WebSocket's binary messages; docs/http.md has the layout, server/http/protocol.cc writes it.
 
 export const KIND = { state: 1, picture: 2 };
-export const VERSION = 1;
-const STATE_HEADER = 60;
+export const VERSION = 2;
+const STATE_HEADER = 64;
 const PERSON_HEADER = 40;
 const LINK = 28;
 const LOAD = 28;
+const OBJECT = 36;
 const PICTURE_HEADER = 24;
 
 const LIVENESS = ['no data', 'live', 'stale'];
@@ -17,9 +18,11 @@ const LOAD_CLASS = ['unknown', 'low', 'medium', 'high'];
  *    ratio: number, moment: number, capacity: number}} Load  ratio NaN where unknown; N m
  *  @typedef {{character: number, revision: number, com: number[]|null, cop: number[]|null,
  *    comIsOurs: boolean, massIsAssumed: boolean, links: Pose[], loads: Load[]}} Person
+ *  @typedef {Pose & {character: number, number: number}} TrackedObject
  *  @typedef {{liveness: 'no data'|'live'|'stale', counter: number, number: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
- *    rateHz: number, viewers: number, floor: number, people: Person[]}} State  arrivalMicros 0: not known
+ *    rateHz: number, viewers: number, floor: number, people: Person[],
+ *    objects: TrackedObject[]}} State  arrivalMicros 0: not known
  */
 
 /** Which kind a message is; throws where the server speaks another version of the protocol.
@@ -50,12 +53,21 @@ export function decodeState(buffer) {
     viewers: view.getUint32(52, true),
     floor: view.getFloat32(56, true),
     people: [],
+    objects: [],
   };
   let offset = STATE_HEADER;
   for (let count = view.getUint8(3); count > 0; --count) {
     const person = readPerson(view, offset);
     state.people.push(person);
     offset += PERSON_HEADER + LINK * person.links.length + LOAD * person.loads.length;
+  }
+  for (let count = view.getUint8(60); count > 0; --count, offset += OBJECT) {
+    need(view, offset, OBJECT);
+    state.objects.push({
+      character: view.getInt32(offset, true),
+      number: view.getUint8(offset + 4),
+      ...readPose(view, offset + 8),
+    });
   }
   if (offset !== view.byteLength) throw new Error('a message of the server has bytes too many');
   return state;
@@ -90,12 +102,16 @@ function readPerson(view, offset) {
     cop: flags & 2 ? floats(view, offset + 28, 3) : null,
     comIsOurs: (flags & 4) !== 0,
     massIsAssumed: (flags & 8) !== 0,
-    links: Array.from({ length: linkCount }, (_, i) => ({
-      position: floats(view, firstLink + LINK * i, 3),
-      quaternion: floats(view, firstLink + LINK * i + 12, 4),
-    })),
+    links: Array.from({ length: linkCount }, (_, i) => readPose(view, firstLink + LINK * i)),
     loads: Array.from({ length: loadCount }, (_, i) => readLoad(view, firstLoad + LOAD * i)),
   };
+}
+
+/** @param {DataView} view
+ *  @param {number} offset
+ *  @returns {Pose} */
+function readPose(view, offset) {
+  return { position: floats(view, offset, 3), quaternion: floats(view, offset + 12, 4) };
 }
 
 /** @param {DataView} view

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/core/palette.h"
+#include "server/core/person_links.h"
 #include "server/http/target.h"
 
 namespace kinescope::http {
@@ -93,15 +94,14 @@ json VisualToJson(const urdf::Visual& visual, const std::string& mesh_url) {
   return entry;
 }
 
-// One entry per segment, in order: the link that stands at that segment's streamed pose. Links that
-// only carry a joint axis have no visuals and are not told.
+// In the order of the streamed poses. Links that only carry a joint axis have no visuals and are
+// not told.
 json LinksToJson(const PersonState& person) {
   const PersonModel& model = *person.model;
   json links = json::array();
-  std::vector<std::string> names;
-  for (int i = 0; i < urdf::kSegmentCount; ++i) {
-    names.push_back(urdf::LinkName(model.human.model_name, i));
-    links.push_back({{"name", names.back()}, {"visuals", json::array()}});
+  const std::vector<std::string> names = VisibleLinks(model.human);
+  for (const std::string& name : names) {
+    links.push_back({{"name", name}, {"visuals", json::array()}});
   }
   const std::string mesh_folder =
       "/api/mesh/" + std::to_string(person.character) + "/" + std::to_string(model.revision) + "/";
@@ -139,6 +139,7 @@ std::string StateJson(const SceneState* state, std::int64_t now_nanos) {
   for (const TrackedObject& object : state->objects) {
     objects.push_back({{"name", object.name},
                        {"character", object.character},
+                       {"number", object.number},
                        {"position", ToJson(object.pose.position)},
                        {"quaternion", ToJson(object.pose.orientation)}});
   }
@@ -177,6 +178,8 @@ std::string ModelJson(const SceneState* state) {
                {"joints", std::move(joints)},
                {"palette",
                 {{"classes", ClassesToJson()},
+                 {"object", ToJson(kObjectColor)},
+                 {"axes", {ToJson(kAxisColors[0]), ToJson(kAxisColors[1]), ToJson(kAxisColors[2])}},
                  {"cop", ToJson(kCopColor)},
                  {"com", ToJson(kComColor)},
                  {"body", ToJson(kBodyColor)},
@@ -212,11 +215,18 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
                       {"mass_is_assumed", person.model->description.mass_is_assumed},
                       {"loads", std::move(loads)}});
   }
+  json objects = json::array();
+  for (std::size_t i = 0; state != nullptr && i < state->objects.size(); ++i) {
+    const TrackedObject& object = state->objects[i];
+    objects.push_back(
+        {{"character", object.character}, {"number", object.number}, {"name", object.name}});
+  }
   return Text({{"details",
                 {{"source", state != nullptr ? state->source : std::string()},
                  {"camera", live_camera},
                  {"has_pictures", has_pictures},
-                 {"people", std::move(people)}}}});
+                 {"people", std::move(people)},
+                 {"objects", std::move(objects)}}}});
 }
 
 std::optional<std::filesystem::path> FindMesh(const SceneState* state, int character,

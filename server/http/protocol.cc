@@ -7,6 +7,7 @@
 
 #include "server/core/check.h"
 #include "server/core/palette.h"
+#include "server/core/person_links.h"
 
 namespace kinescope::http {
 namespace {
@@ -66,27 +67,37 @@ void PutLoad(Writer& out, const JointLoad& load, double height) {
   out.PutFloat(load.capacity);
 }
 
+void PutPose(Writer& out, const urdf::Pose& pose) {
+  out.PutVector(pose.position);
+  for (const double part :
+       {pose.orientation.x(), pose.orientation.y(), pose.orientation.z(), pose.orientation.w()}) {
+    out.PutFloat(part);
+  }
+}
+
+void PutObject(Writer& out, const TrackedObject& object) {
+  out.Put(static_cast<std::uint32_t>(object.character));
+  out.Put(static_cast<std::uint8_t>(object.number));
+  for (int i = 0; i < 3; ++i) out.Put(std::uint8_t{0});
+  PutPose(out, object.pose);
+}
+
 void PutPerson(Writer& out, const PersonState& person) {
   KINESCOPE_CHECK(person.model != nullptr);
   const std::uint8_t loads = CountByte(person.loads.size());
+  const std::vector<urdf::Pose> links = VisibleLinkPoses(person);
   const unsigned flags = (person.com ? 1u : 0u) | (person.cop ? 2u : 0u) |
                          (person.com_is_ours ? 4u : 0u) |
                          (person.model->description.mass_is_assumed ? 8u : 0u);
   out.Put(static_cast<std::uint32_t>(person.character));
   out.Put(static_cast<std::uint8_t>(flags));
-  out.Put(static_cast<std::uint8_t>(person.links.size()));
+  out.Put(static_cast<std::uint8_t>(links.size()));
   out.Put(loads);
   out.Put(std::uint8_t{0});
   out.PutDouble(static_cast<double>(person.model->revision));
   out.PutVector(person.com.value_or(Eigen::Vector3d::Zero()));
   out.PutVector(person.cop.value_or(Eigen::Vector3d::Zero()));
-  for (const urdf::Pose& link : person.links) {
-    out.PutVector(link.position);
-    for (const double part :
-         {link.orientation.x(), link.orientation.y(), link.orientation.z(), link.orientation.w()}) {
-      out.PutFloat(part);
-    }
-  }
+  for (const urdf::Pose& link : links) PutPose(out, link);
   const double height = person.model->human.skeleton.height;
   for (std::size_t i = 0; i < loads; ++i) PutLoad(out, person.loads[i], height);
 }
@@ -101,6 +112,7 @@ Bytes ToBytes(const json& message) {
 
 Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) {
   const std::uint8_t people = CountByte(state.people.size());
+  const std::uint8_t objects = CountByte(state.objects.size());
   Writer out(kStateHeaderBytes + people * std::size_t{1200});
   out.Put(static_cast<std::uint8_t>(MessageKind::kState));
   out.Put(kProtocolVersion);
@@ -115,8 +127,11 @@ Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) 
   out.PutFloat(state.rate_hz);
   out.Put(static_cast<std::uint32_t>(viewers));
   out.PutFloat(state.floor_z);
+  out.Put(objects);
+  for (int i = 0; i < 3; ++i) out.Put(std::uint8_t{0});
   KINESCOPE_CHECK(out.size() == kStateHeaderBytes);
   for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i]);
+  for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);
   return out.Take();
 }
 

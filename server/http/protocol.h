@@ -21,15 +21,17 @@ using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to ever
 /// First byte of a binary message.
 enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2 };
 
-inline constexpr std::uint8_t kProtocolVersion = 1;
-inline constexpr std::size_t kStateHeaderBytes = 60;
+inline constexpr std::uint8_t kProtocolVersion = 2;
+inline constexpr std::size_t kStateHeaderBytes = 64;
 inline constexpr std::size_t kPersonHeaderBytes = 40;
 inline constexpr std::size_t kLinkBytes = 28;
 inline constexpr std::size_t kLoadBytes = 28;
+inline constexpr std::size_t kObjectBytes = 36;
 inline constexpr std::size_t kPictureHeaderBytes = 24;
 
 /// `now_nanos`: monotonic clock, so that the page can tell the age of what it shows. At most 255
-/// people, and 255 loads of each, are sent.
+/// people, 255 loads of each and 255 tracked objects are sent. Links are those of
+/// core/person_links.h.
 Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers);
 
 Bytes EncodePicture(const Picture& picture);

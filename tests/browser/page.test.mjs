@@ -251,6 +251,26 @@ test('a body of mesh files is drawn, and a file that is missing is named as miss
   await rm(folder, { recursive: true });
 });
 
+test('gloves, props and tracked objects are in the view, and what the server cannot show is named', async () => {
+  const diagnostics = { pictures: { problems: ['mesh package://arm/hand.stl: package <b>arm</b> is not found'] } };
+  const worn = await startFixture(['--worn', '--diagnostics', JSON.stringify(diagnostics)]);
+  const { page, problems, close } = await openPage(worn.url);
+  await lampIs(page, 'Live');
+  const isProp = (r, g, b) => r > 190 && g > 0.55 * r && g < 0.85 * r && b < 0.5 * r;
+  await seePixels(page, 'prop', isProp, 40);
+  const isGlove = (r, g, b) => b - r > 12 && g >= r && b > 100 && b < 215 && r < 190;
+  await seePixels(page, 'glove', isGlove, 150);
+  await page.locator('#diagnostics').waitFor({ state: 'visible', ...LONG });
+  assert.deepEqual(await page.$$eval('#problems li', (all) => all.map((line) => line.textContent)),
+    ['Shown as a box: mesh package://arm/hand.stl: package <b>arm</b> is not found']);
+  await saveScreenshot(page, 'worn_desktop');
+  worn.say('stale');
+  await lampIs(page, 'Stale');
+  assert.deepEqual(problems, []);
+  await close();
+  await worn.stop();
+});
+
 test('two persons are both drawn and listed by name', async () => {
   const { page, close } = await openLive();
   site.say('people 2');

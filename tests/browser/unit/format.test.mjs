@@ -19,4 +19,6 @@ table('percentages', [[format.percent(0.256), '26 %'], [format.percent(1.4), '14
 table('moments', [[format.moment(-12.34, 60.4), '12 of 60 N·m'], [format.moment(3.26, 8), '3.3 of 8 N·m'],
   [format.moment(3.26, 0), '3.3 N·m'], [format.moment(NaN, 60), '']]);
 table('colours', [[format.hexColor([1, 0.55, 0]), '#ff8c00'], [format.hexColor([0.1, 0.7, 0.25]), '#1ab340']]);
+table('labels', [[format.labelText('HTC Vive 1'), 'HTC Vive 1'], [format.labelText('x'.repeat(24)), 'x'.repeat(24)],
+  [format.labelText('😀'.repeat(25)), `${'😀'.repeat(23)}…`], [format.labelText(''), '']]);
 table('cameras', [[format.cameraLabel('three_quarter'), 'three quarter'], [format.shortCameraLabel('iso'), 'iso']]);

@@ -27,7 +27,7 @@ function assertClose(actual, expected, path = 'state') {
   }
 }
 
-test('a state of two persons comes out as the server meant it', () => {
+test('a state of two persons, one with gloves, and an object comes out as the server meant it', () => {
   assert.equal(messageKind(state), KIND.state);
   assertClose(decodeState(state), told.state);
 });
@@ -53,7 +53,7 @@ test('another version of the protocol asks for a reload', () => {
 
 test('classes of a newer server are unknown, not an error', () => {
   const other = new Uint8Array(state.slice(0));
-  const firstLoad = 60 + 40 + 28 * 23;
+  const firstLoad = 64 + 40 + 28 * 23;
   other[firstLoad + 1] = 200;
   assert.equal(decodeState(other.buffer).people[0].loads[0].loadClass, 'unknown');
 });

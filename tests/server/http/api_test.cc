@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "server/core/palette.h"
 #include "tests/server/http/test_scene.h"
+#include "tests/worn.h"
 
 namespace kinescope::http {
 namespace {
@@ -37,6 +39,41 @@ TEST(ModelJson, HasEverySegmentWithTheVisualsOfItsLink) {
   EXPECT_EQ(person["links"][urdf::kHead]["name"], "skeleton_head");
 }
 
+TEST(ModelJson, HasTheFingersOfAGlovedHandInsteadOfTheHand) {
+  SceneState state = Scene();
+  PersonState& person = state.people[0];
+  const auto model = kinescope::testing::WornModel(*person.model, "/tmp/some meshes");
+  kinescope::testing::Wear(person, 0.3, model);
+  const json links = json::parse(ModelJson(&state))["people"][0]["links"];
+  ASSERT_EQ(links.size(), 23u + 40 + 2);
+  EXPECT_TRUE(links[urdf::kRightHand]["visuals"].empty());
+  EXPECT_EQ(links[23]["name"], "skeleton_right_carpus");
+  EXPECT_EQ(links[64]["name"], "skeleton_prop3");
+  EXPECT_EQ(links[64]["visuals"][0]["kind"], "box");
+  // Each mesh under its own address, and behind that the file that the link is named after.
+  std::set<std::string> files;
+  for (const json& link : links) {
+    for (const json& visual : link["visuals"]) {
+      if (visual["kind"] != "mesh") continue;
+      const std::string url = visual["mesh"];
+      const auto n = std::stoul(url.substr(url.rfind('/') + 1));
+      const auto file = FindMesh(&state, 0, 7, n);
+      ASSERT_TRUE(file) << url;
+      EXPECT_EQ("skeleton_" + file->stem().string(), link["name"]);
+      files.insert(file->string());
+    }
+  }
+  EXPECT_EQ(files.size(), 23u - 2 + 40);
+}
+
+TEST(DetailsJson, NamesTheTrackedObjects) {
+  SceneState state = Scene();
+  state.objects = {{4, 2, "HTC Vive", {}, 5}, {4, 3, "\xFF", {}, 5}};
+  const json objects = json::parse(DetailsJson(&state, "front", true))["details"]["objects"];
+  ASSERT_EQ(objects.size(), 2u);
+  EXPECT_EQ(objects[0], (json{{"character", 4}, {"number", 2}, {"name", "HTC Vive"}}));
+}
+
 TEST(ModelJson, TellsAVisualAsTheUrdfHasIt) {
   const SceneState state = Scene();
   const urdf::RobotModel& robot = state.people[0].model->robot;
@@ -59,6 +96,8 @@ TEST(ModelJson, HasThePaletteOfEveryOtherSink) {
   EXPECT_EQ(palette["com"], json(kComColor));
   EXPECT_EQ(palette["body"], json(kBodyColor));
   EXPECT_EQ(palette["stale_body"], json(kStaleBodyColor));
+  EXPECT_EQ(palette["object"], json(kObjectColor));
+  EXPECT_EQ(palette["axes"], json(kAxisColors));
   ASSERT_EQ(palette["classes"].size(), 4u);
   for (int i = 0; i < 4; ++i) {
     const auto load_class = static_cast<LoadClass>(i);
@@ -121,7 +160,8 @@ TEST(FindMesh, GivesOnlyStlFilesThatTheModelNames) {
   const SceneState state = Scene("/tmp/some meshes");
   const auto first = FindMesh(&state, 0, 7, 0);
   ASSERT_TRUE(first);
-  EXPECT_EQ(*first, "/tmp/some meshes/pelvis.stl") << "a blank is %20 in the URI, and one again here";
+  EXPECT_EQ(*first, "/tmp/some meshes/pelvis.stl")
+      << "a blank is %20 in the URI, and one again here";
   EXPECT_TRUE(FindMesh(&state, 0, 7, 22));
   EXPECT_FALSE(FindMesh(&state, 0, 7, 23)) << "there are only 23";
   EXPECT_FALSE(FindMesh(&state, 1, 7, 0)) << "no such person";

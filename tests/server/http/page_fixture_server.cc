@@ -1,5 +1,6 @@
-// page_fixture_server [--token T] [--no-pictures] [--meshes FOLDER]: prints one line of JSON with
-// its "url", then obeys lines on its standard input until that ends:
+// page_fixture_server [--token T] [--no-pictures] [--meshes FOLDER] [--worn] [--diagnostics JSON]:
+// --worn: gloves and props on everybody, and a tracked object. Prints one line of JSON with its
+// "url", then obeys lines on its standard input until that ends:
 //   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
 //   people <n>              how many persons it shows
 // page_fixture_server describe: prints one state as the server encodes it (hex) beside what it
@@ -18,11 +19,13 @@
 #include "server/core/clocks.h"
 #include "server/core/install_paths.h"
 #include "server/core/palette.h"
+#include "server/core/person_links.h"
 #include "server/http/protocol.h"
 #include "server/http/server.h"
 #include "server/loads/load_classifier.h"
 #include "tests/server/http/plain_pictures.h"
 #include "tests/server/http/test_scene.h"
+#include "tests/worn.h"
 
 namespace kinescope::http::testing {
 namespace {
@@ -64,15 +67,18 @@ std::string Hex(const Bytes& bytes) {
 
 json Numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+json Numbers(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+
 json Describe() {
-  const SceneState state = MakeScene(41, 3.25, 5'000'000'000, MakePersonModel(7), 2);
+  SceneState state = MakeScene(41, 3.25, 5'000'000'000, MakePersonModel(7), 2);
+  kinescope::testing::Wear(state.people[1]);
+  state.objects = {{9, 22, "cart", {{1, -2, 0.5}, {0.5, -0.5, 0.5, 0.5}}, 5}};
   json people = json::array();
   for (const PersonState& person : state.people) {
     json links = json::array(), loads = json::array();
-    for (const urdf::Pose& link : person.links) {
-      const Eigen::Quaterniond& q = link.orientation;
+    for (const urdf::Pose& link : VisibleLinkPoses(person)) {
       links.push_back(
-          {{"position", Numbers(link.position)}, {"quaternion", {q.x(), q.y(), q.z(), q.w()}}});
+          {{"position", Numbers(link.position)}, {"quaternion", Numbers(link.orientation)}});
     }
     for (const JointLoad& load : person.loads) {
       const bool is_known = std::isfinite(load.ratio);
@@ -93,6 +99,13 @@ json Describe() {
                       {"links", links},
                       {"loads", loads}});
   }
+  json objects = json::array();
+  for (const TrackedObject& object : state.objects) {
+    objects.push_back({{"character", object.character},
+                       {"number", object.number},
+                       {"position", Numbers(object.pose.position)},
+                       {"quaternion", Numbers(object.pose.orientation)}});
+  }
   const loads::LoadClassifier::Settings settings;
   return {{"hex", Hex(EncodeState(state, 5'004'000'000, 3))},
           {"state",
@@ -106,7 +119,8 @@ json Describe() {
             {"rateHz", 60},
             {"viewers", 3},
             {"floor", state.floor_z},
-            {"people", people}}},
+            {"people", people},
+            {"objects", objects}}},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},
           {"thresholds", {{"medium", settings.up[0]}, {"high", settings.up[1]}}}};
 }
@@ -168,12 +182,24 @@ SceneState NextState(const Orders& orders, const SceneState& last,
   return next;
 }
 
-void Serve(const HttpConfig& config, const std::string& mesh_folder, PlainFeed* feed) {
+struct Options {
+  std::string mesh_folder;
+  std::string diagnostics = "{}";
+  bool worn = false;
+};
+
+void AddWorn(SceneState& state, const std::shared_ptr<const PersonModel>& model) {
+  for (PersonState& person : state.people) kinescope::testing::Wear(person, 0.3, model);
+  state.objects = {{9, 2, "HTC Vive", {{0.4, -0.6, 1.2}, {1, 0, 0, 0}}, state.stamp_nanos}};
+}
+
+void Serve(const HttpConfig& config, const Options& options, PlainFeed* feed) {
   Latest<SceneState> states;
   Latest<Picture> pictures;
-  HttpServer server(config, states, pictures, feed, [] { return std::string("{}"); });
+  HttpServer server(config, states, pictures, feed, [&] { return options.diagnostics; });
   std::cout << json{{"url", server.url()}}.dump() << std::endl;
-  const auto model = MakePersonModel(1, mesh_folder);
+  const auto model = MakePersonModel(1, options.mesh_folder);
+  const auto worn_model = kinescope::testing::WornModel(*model, options.mesh_folder);
   SceneState state;
   Orders orders;
   const auto began = Clock::now();
@@ -183,6 +209,7 @@ void Serve(const HttpConfig& config, const std::string& mesh_folder, PlainFeed* 
     orders.changed = false;
     const double seconds = std::chrono::duration<double>(due - began).count();
     state = NextState(orders, state, model, seconds);
+    if (options.worn && orders.mode == "live") AddWorn(state, worn_model);
     states.Publish(std::make_shared<const SceneState>(state));
     if (feed != nullptr && feed->viewers() > 0 && state.number % 4 == 0) {
       pictures.Publish(std::make_shared<const Picture>(
@@ -199,14 +226,19 @@ int Main(const std::vector<std::string>& arguments) {
   config.camera = "front";
   PlainFeed feed;
   PlainFeed* used_feed = &feed;
-  std::string mesh_folder;
+  Options options;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
     if (arguments[i] == "describe") return std::puts(Describe().dump().c_str()) < 0 ? 1 : 0;
     if (arguments[i] == "--no-pictures") used_feed = nullptr;
     if (arguments[i] == "--token" && i + 1 < arguments.size()) config.token = arguments[++i];
-    if (arguments[i] == "--meshes" && i + 1 < arguments.size()) mesh_folder = arguments[++i];
+    if (arguments[i] == "--meshes" && i + 1 < arguments.size())
+      options.mesh_folder = arguments[++i];
+    if (arguments[i] == "--worn") options.worn = true;
+    if (arguments[i] == "--diagnostics" && i + 1 < arguments.size()) {
+      options.diagnostics = arguments[++i];
+    }
   }
-  Serve(config, mesh_folder, used_feed);
+  Serve(config, options, used_feed);
   return 0;
 }
 

@@ -8,6 +8,7 @@
 
 #include "server/core/palette.h"
 #include "tests/server/http/test_scene.h"
+#include "tests/worn.h"
 
 namespace kinescope::http {
 namespace {
@@ -91,8 +92,48 @@ TEST(StateMessage, CarriesEveryFieldWhereTheManualSaysSo) {
   EXPECT_EQ(in.Get<float>(), 60);
   EXPECT_EQ(in.Get<std::uint32_t>(), 3);
   EXPECT_EQ(in.Get<float>(), -0.75);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(in.Get<std::uint8_t>(), 0) << "objects, padding";
   for (const PersonState& person : state.people) ExpectPerson(in, person);
   EXPECT_TRUE(in.AtEnd());
+}
+
+TEST(StateMessage, CarriesTheFingersAndPropsOfAPersonInTheOrderOfTheModel) {
+  SceneState state = Scene();
+  PersonState& person = state.people[0];
+  kinescope::testing::Wear(person);
+  const Bytes bytes = EncodeState(state, 0, 1);
+  EXPECT_EQ(bytes[kStateHeaderBytes + 5], 23 + 40 + 2);
+  const Bytes bare = EncodeState(Scene(), 0, 1);
+  EXPECT_EQ(bytes.size(), bare.size() + 42 * kLinkBytes);
+  const auto position_of = [&](std::size_t link) {
+    const std::size_t at = kStateHeaderBytes + kPersonHeaderBytes + link * kLinkBytes;
+    const Bytes rest(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.end());
+    return Reader(rest).GetVector();
+  };
+  EXPECT_LT((position_of(22) - person.links[22].position).norm(), 1e-6);
+  EXPECT_LT((position_of(23) - person.gloves[urdf::kRight]->links[0].position).norm(), 1e-6);
+  EXPECT_LT((position_of(62) - person.gloves[urdf::kLeft]->links[19].position).norm(), 1e-6);
+  EXPECT_LT((position_of(64) - person.props[2]->pose.position).norm(), 1e-6);
+}
+
+TEST(StateMessage, CarriesTrackedObjectsAfterThePeople) {
+  SceneState state = Scene();
+  const std::size_t people = EncodeState(state, 0, 1).size();
+  const urdf::Pose pose{{1, -2, 0.5}, Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5)};
+  state.objects = {{4, 0, "tool", pose, 5}, {-4, 22, "cart", pose, 5}};
+  const Bytes bytes = EncodeState(state, 0, 1);
+  EXPECT_EQ(bytes[60], 2);
+  ASSERT_EQ(bytes.size(), people + 2 * kObjectBytes);
+  const Bytes second(bytes.end() - static_cast<std::ptrdiff_t>(kObjectBytes), bytes.end());
+  Reader in(second);
+  EXPECT_EQ(in.Get<std::int32_t>(), -4);
+  EXPECT_EQ(in.Get<std::uint8_t>(), 22);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(in.Get<std::uint8_t>(), 0);
+  EXPECT_EQ(in.GetVector(), pose.position);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(in.Get<float>(), pose.orientation.coeffs()[i]);
+  state.objects.resize(300, state.objects.front());
+  EXPECT_EQ(EncodeState(state, 0, 1)[60], 255);
+  EXPECT_EQ(EncodeState(state, 0, 1).size(), people + 255 * kObjectBytes);
 }
 
 TEST(StateMessage, OfOnePersonStaysBelow1200Bytes) {
@@ -170,6 +211,10 @@ TEST(ProtocolManual, KnowsTheSizesAndTheVersion) {
   expect("person, " + std::to_string(kPersonHeaderBytes) + " bytes");
   expect("link, " + std::to_string(kLinkBytes) + " bytes");
   expect("load, " + std::to_string(kLoadBytes) + " bytes");
+  expect("object, " + std::to_string(kObjectBytes) + " bytes");
+  const std::size_t bytes = EncodeState(Scene(), 0, 1).size();
+  expect("15 loads takes " + std::to_string(bytes) + " bytes, with gloves " +
+         std::to_string(bytes + 2 * kFingersPerHand * kLinkBytes));
   expect("picture header, " + std::to_string(kPictureHeaderBytes) + " bytes");
 }
 

@@ -1,0 +1,30 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { problemLines } from '../../../web/diagnostics.js';
+
+test('nothing is said while nothing is wrong', () => {
+  assert.deepEqual(problemLines({}, []), []);
+  assert.deepEqual(problemLines({ pictures: null }, []), []);
+  assert.deepEqual(problemLines({ pictures: { problems: [], last_error: '' }, source: { rejected: {} } }, []), []);
+});
+
+test('what the server draws as a box is named with its reason, before what was refused', () => {
+  const told = {
+    pictures: { problems: ['mesh hand.stl: no such file'], last_error: 'out of memory' },
+    source: { rejected: { 'no MXTP id string': 2, 'cut short': 1 } },
+  };
+  assert.deepEqual(problemLines(told, ['/api/mesh/0/1/0']), [
+    'The server’s picture: out of memory',
+    'Shown as a box: mesh hand.stl: no such file',
+    'Not loaded by this page: /api/mesh/0/1/0',
+    '2 datagrams refused: no MXTP id string',
+    '1 datagram refused: cut short',
+  ]);
+});
+
+test('equal lines are said once, and of very many the first', () => {
+  const problems = Array.from({ length: 60 }, (_, i) => `mesh ${i % 40}`);
+  const lines = problemLines({ pictures: { problems } }, []);
+  assert.equal(lines.length, 12);
+  assert.match(lines[11], /^and 29 more/);
+});

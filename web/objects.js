@@ -1,0 +1,126 @@
+// Tracked objects: a small block with the axes of its frame and its name. What one looks like is not
+// streamed. World frame: z up, metres.
+import * as THREE from 'three';
+import { labelText } from './format.js';
+import { toColor } from './human.js';
+
+const BLOCK = 0.05;
+const AXIS_LENGTH = 0.15;
+const AXIS_RADIUS = 0.005;
+const LABEL_LIFT = 0.1;      // m above the object
+const LABEL_HEIGHT = 0.034;  // of the view's height, at any distance
+const LABEL_PIXELS = 44;     // of the font, which is drawn once
+
+/** @typedef {{character: number, number: number, name: string}} ObjectName */
+
+/** What tells one object from another.
+ *  @param {{character: number, number: number}} object */
+export const keyOf = ({ character, number }) => `${character}/${number}`;
+
+export class ObjectMarks {
+  group = new THREE.Group();
+  #marks = /** @type {Map<string, {group: THREE.Group, name: string, label: THREE.Sprite|null}>} */ (new Map());
+  #names = /** @type {Map<string, string>} */ (new Map());
+  #block = new THREE.BoxGeometry(BLOCK, BLOCK, BLOCK);
+  #rod = new THREE.CylinderGeometry(AXIS_RADIUS, AXIS_RADIUS, AXIS_LENGTH, 12).translate(0, AXIS_LENGTH / 2, 0);
+
+  /** @param {{object: number[], axes: number[][], stale_body: number[]}} palette */
+  constructor(palette) {
+    this.materials = [palette.object, ...palette.axes].map(toColor).map(
+      (color) => ({ color, material: new THREE.MeshStandardMaterial({ color, roughness: 0.7 }) }));
+    this.staleColor = toColor(palette.stale_body);
+  }
+
+  /** Names come apart from poses and later.
+   *  @param {ObjectName[]} names */
+  setNames(names) {
+    this.#names = new Map(names.map((object) => [keyOf(object), object.name]));
+    for (const [key, mark] of this.#marks) this.#relabel(key, mark);
+  }
+
+  /** @param {import('./state_codec.js').TrackedObject[]} objects
+   *  @param {boolean} isLive */
+  update(objects, isLive) {
+    for (const { color, material } of this.materials) material.color.copy(isLive ? color : this.staleColor);
+    const seen = new Set(objects.map(keyOf));
+    for (const [key, { group, label }] of this.#marks) {
+      if (seen.has(key)) continue;
+      group.removeFromParent();
+      dispose(label);
+      this.#marks.delete(key);
+    }
+    for (const object of objects) {
+      const { group, label } = this.#marks.get(keyOf(object)) ?? this.#add(keyOf(object));
+      group.position.fromArray(object.position);
+      group.children[0].quaternion.fromArray(object.quaternion);
+      label?.position.set(0, 0, LABEL_LIFT);
+    }
+  }
+
+  /** @param {string} key */
+  #add(key) {
+    const body = new THREE.Group();
+    const [block, ...axes] = this.materials;
+    body.add(new THREE.Mesh(this.#block, block.material));
+    const turns = [[0, 0, -Math.PI / 2], [0, 0, 0], [Math.PI / 2, 0, 0]];  // the rod lies along y
+    axes.forEach(({ material }, i) => {
+      const rod = new THREE.Mesh(this.#rod, material);
+      rod.rotation.set(turns[i][0], turns[i][1], turns[i][2]);
+      body.add(rod);
+    });
+    body.traverse((part) => { part.castShadow = true; });
+    const group = new THREE.Group();
+    group.add(body);
+    this.group.add(group);
+    const mark = { group, name: '', label: null };
+    this.#marks.set(key, mark);
+    this.#relabel(key, mark);
+    return mark;
+  }
+
+  /** @param {string} key
+   *  @param {{group: THREE.Group, name: string, label: THREE.Sprite|null}} mark */
+  #relabel(key, mark) {
+    const name = this.#names.get(key) ?? '';
+    if (name === mark.name) return;
+    dispose(mark.label);
+    mark.name = name;
+    mark.label = name ? makeLabel(labelText(name)) : null;
+    if (!mark.label) return;
+    mark.label.position.set(0, 0, LABEL_LIFT);
+    mark.group.add(mark.label);
+  }
+}
+
+/** @param {THREE.Sprite|null} label */
+function dispose(label) {
+  label?.removeFromParent();
+  label?.material.map?.dispose();
+  label?.material.dispose();
+}
+
+/** Text that keeps its size on the screen.
+ *  @param {string} text */
+function makeLabel(text) {
+  const canvas = document.createElement('canvas');
+  const font = `${LABEL_PIXELS}px sans-serif`;
+  const pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+  pen.font = font;
+  canvas.width = Math.ceil(pen.measureText(text).width) + LABEL_PIXELS;
+  canvas.height = Math.ceil(1.7 * LABEL_PIXELS);
+  pen.font = font;  // a resized canvas has forgotten it
+  pen.fillStyle = 'rgb(255 255 255 / .85)';
+  pen.beginPath();
+  pen.roundRect(0, 0, canvas.width, canvas.height, 0.4 * LABEL_PIXELS);
+  pen.fill();
+  pen.fillStyle = 'rgb(28 34 42)';
+  pen.textBaseline = 'middle';
+  pen.fillText(text, LABEL_PIXELS / 2, canvas.height / 2);
+  const map = new THREE.CanvasTexture(canvas);
+  map.colorSpace = THREE.SRGBColorSpace;
+  const label = new THREE.Sprite(new THREE.SpriteMaterial({ map, sizeAttenuation: false, depthTest: false }));
+  label.renderOrder = 20;
+  const height = LABEL_HEIGHT * 2 * Math.tan(Math.PI / 12);  // of a view of 30 deg
+  label.scale.set(height * canvas.width / canvas.height, height, 1);
+  return label;
+}
