@@ -43,13 +43,13 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
   }
   out["pictures"] = nullptr;
   if (pictures) {
-    out["pictures"] = {{"renderer", pictures->renderer},
-                       {"drawn", pictures->drawn},
-                       {"draw_millis", pictures->draw_millis},
-                       {"encode_millis", pictures->encode_millis},
-                       {"last_error", pictures->last_error}};
+    out["pictures"] = {
+        {"renderer", pictures->renderer},       {"drawn", pictures->drawn},
+        {"draw_millis", pictures->draw_millis}, {"encode_millis", pictures->encode_millis},
+        {"last_error", pictures->last_error},   {"problems", pictures->problems}};
   }
-  return out.dump();
+  // A file name need not be UTF-8.
+  return out.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 }  // namespace kinescope::app

@@ -124,6 +124,7 @@ void PictureLoop::DrawLive(render::Renderer& renderer, const SceneState& state,
   ++status_.drawn;
   status_.draw_millis = draw_millis;
   status_.encode_millis = MillisSince(encode_start);
+  status_.problems = renderer.problems();
   status_.last_error.clear();
 }
 
@@ -133,9 +134,13 @@ void PictureLoop::DrawSnapshot(render::Renderer& renderer, const SceneState& sta
     const render::View view{snapshot.width, snapshot.height, 2, "", true};
     const render::Image image =
         renderer.Render(state, render::NamedCamera(snapshot.camera, state), view);
-    snapshot.png.set_value(render::EncodePng(image));
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ++status_.drawn;
+    std::vector<std::uint8_t> png = render::EncodePng(image);
+    {  // before the picture goes out: whoever has it may ask what it lacks
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ++status_.drawn;
+      status_.problems = renderer.problems();
+    }
+    snapshot.png.set_value(std::move(png));
   } catch (...) {
     snapshot.png.set_exception(std::current_exception());
   }

@@ -33,6 +33,8 @@ struct PictureStatus {
   double draw_millis = 0;    // of the last one, drawn and read back
   double encode_millis = 0;  // of the last JPEG
   std::string last_error;    // "" when the last picture went well
+  /// What the newest picture shows as labelled boxes (render::Renderer::problems).
+  std::vector<std::string> problems;
 };
 
 class PictureLoop : public http::PictureFeed {
