@@ -88,6 +88,71 @@ TEST_F(UrdfCommand, ExportsAPackageThatItFindsItselfAgain) {
   EXPECT_THAT(nowhere.err, HasSubstr("--package=ines"));
 }
 
+std::vector<std::string> MeshUris(const std::string& urdf_file) {
+  std::vector<std::string> uris;
+  for (const urdf::Link& link : urdf::ParseUrdf(ReadFile(urdf_file)).links) {
+    for (const urdf::Visual& visual : link.visuals) {
+      if (!visual.geometry.mesh_uri.empty()) uris.push_back(visual.geometry.mesh_uri);
+    }
+  }
+  return uris;
+}
+
+TEST_F(UrdfCommand, DressesThePersonAsAskedWithAndWithoutASource) {
+  Write("own/Head.stl", testing::BoxStl());
+  for (const std::string source : {"", "demo:n_pose"}) {
+    const auto write = [&](const std::string& figure, const std::string& out) {
+      std::vector<std::string> arguments = {"--figure", figure,  "--mesh_units",
+                                            "m",        "--out", At(out)};
+      if (!source.empty()) arguments.push_back(source);
+      const ProgramResult result = Urdf(arguments);
+      EXPECT_EQ(result.exit_code, 0) << result.err;
+      return result.out;
+    };
+    EXPECT_THAT(write("primitive", "p"), Not(HasSubstr("meshes")));
+    EXPECT_TRUE(MeshUris(At("p/person.urdf")).empty()) << "source '" << source << "'";
+    EXPECT_FALSE(fs::exists(At("p/meshes")));
+    write("primitive", "p.urdf");
+    EXPECT_TRUE(MeshUris(At("p.urdf")).empty()) << "source '" << source << "'";
+
+    write("smooth", "s");
+    EXPECT_EQ(MeshUris(At("s/person.urdf")).size(), 23u);
+    write("mesh:" + At("own"), "m");
+    EXPECT_EQ(MeshUris(At("m/person.urdf")).size(), 23u);
+    EXPECT_NE(ReadFile(At("m/meshes/head.stl")), ReadFile(At("s/meshes/head.stl")));
+    EXPECT_EQ(ReadFile(At("m/meshes/l5.stl")), ReadFile(At("s/meshes/l5.stl")))
+        << "ours stands in where there is none";
+    write("mesh:" + At("own"), "m.urdf");
+    for (const std::string& uri : MeshUris(At("m.urdf"))) {
+      ASSERT_EQ(uri.rfind("file://", 0), 0u) << uri;
+      const std::string path = uri.substr(7);
+      if (fs::path(path).stem() != "head") continue;
+      EXPECT_EQ(ReadFile(path), ReadFile(At("m/meshes/head.stl")));
+    }
+    fs::remove_all(At("p"));
+  }
+}
+
+TEST_F(UrdfCommand, LetsEveryLinkWeighSomethingForGazebo) {
+  const auto links_of = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--mass", "70", "--figure", "primitive"});
+    const ProgramResult result = Urdf(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return urdf::ParseUrdf(result.out).links;
+  };
+  for (const bool for_gazebo : {false, true}) {
+    double mass = 0;
+    int weightless = 0;
+    const auto links = for_gazebo ? links_of({"--gazebo"}) : links_of({});
+    for (const urdf::Link& link : links) {
+      mass += link.mass;
+      weightless += link.mass > 0 ? 0 : 1;
+    }
+    EXPECT_NEAR(mass, 70, 1e-9);
+    EXPECT_EQ(weightless, for_gazebo ? 0 : 44);
+  }
+}
+
 TEST_F(UrdfCommand, CheckTellsFileLineElementAndWayOut) {
   const std::string file = Write("r.urdf", kArm);
   const ProgramResult missing = Urdf({"check", file});
