@@ -312,7 +312,7 @@ std::string WriteUrdf(const HumanModel& human) {
     text += "  <material name=\"glove\"><color rgba=\"0.55 0.60 0.68 1\"/></material>\n";
   }
   if (human.props.any()) {
-    text += "  <material name=\"prop\"><color rgba=\"0.90 0.65 0.25 1\"/></material>\n";
+    text += "  <material name=\"prop\"><color rgba=\"0.42 0.46 0.54 1\"/></material>\n";
   }
   text += Body(human);
   for (const Side side : {kLeft, kRight}) {

@@ -118,7 +118,7 @@ function makeLabel(text) {
   pen.fillText(text, LABEL_PIXELS / 2, canvas.height / 2);
   const map = new THREE.CanvasTexture(canvas);
   map.colorSpace = THREE.SRGBColorSpace;
-  const label = new THREE.Sprite(new THREE.SpriteMaterial({ map, sizeAttenuation: false, depthTest: false }));
+  const label = new THREE.Sprite(new THREE.SpriteMaterial({ map, sizeAttenuation: false, depthTest: false, fog: false }));
   label.renderOrder = 20;
   const height = LABEL_HEIGHT * 2 * Math.tan(Math.PI / 12);  // of a view of 30 deg
   label.scale.set(height * canvas.width / canvas.height, height, 1);

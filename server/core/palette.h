@@ -17,7 +17,7 @@ inline constexpr Rgb kCopColor = {0.10, 0.35, 0.95};
 inline constexpr Rgb kComColor = {0.55, 0.20, 0.75};
 inline constexpr Rgb kBodyColor = {0.78, 0.80, 0.84};
 inline constexpr Rgb kStaleBodyColor = {0.55, 0.55, 0.55};
-inline constexpr Rgb kObjectColor = {0.42, 0.46, 0.54};  // of a tracked object
+inline constexpr Rgb kObjectColor = {0.42, 0.46, 0.54};  // of a tracked object; props have it too
 /// Of the x, y and z axis of its frame, as RViz has them, and paler than any class.
 inline constexpr std::array<Rgb, 3> kAxisColors = {
     {{0.86, 0.42, 0.42}, {0.44, 0.72, 0.44}, {0.42, 0.50, 0.86}}};

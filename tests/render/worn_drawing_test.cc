@@ -132,7 +132,7 @@ TEST_F(WornDrawing, AStaleGloveAndPropAreGrey) {
   const Projected at = Project(state.people[0].props[2]->pose.position, Front(), kWidth, kHeight);
   const auto pixel = static_cast<std::size_t>(
       4 * (static_cast<int>(at.y_px) * kWidth + static_cast<int>(at.x_px)));
-  EXPECT_NEAR(stale.rgba[pixel], stale.rgba[pixel + 2], 12) << "a live prop is orange";
+  EXPECT_NEAR(stale.rgba[pixel], stale.rgba[pixel + 2], 12) << "a live prop is bluish";
 }
 
 TEST_F(WornDrawing, ATrackedObjectIsABlockWithItsName) {
@@ -154,7 +154,7 @@ TEST_F(WornDrawing, ATrackedObjectIsABlockWithItsName) {
 TEST_F(WornDrawing, ThereMayBeAnyNumberOfObjects) {
   SceneState state = Standing();
   for (int i = 0; i < 70; ++i) {
-    state.objects.push_back({4 + i / 23, i % 23, "", {{0, -1.4 + 0.04 * i, 0.3}, {1, 0, 0, 0}}, 5});
+    state.objects.push_back({4 + i / 23, i % 23, "", {{0, -1.0 + 0.03 * i, 0.3}, {1, 0, 0, 0}}, 5});
   }
   SceneState fewer = state;
   fewer.objects.pop_back();

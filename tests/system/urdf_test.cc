@@ -99,11 +99,11 @@ std::vector<std::string> MeshUris(const std::string& urdf_file) {
 }
 
 TEST_F(UrdfCommand, DressesThePersonAsAskedWithAndWithoutASource) {
-  Write("own/Head.stl", testing::BoxStl());
+  Write("own/Head.stl", testing::BoxStl());  // of metres; as centimetres it may be a head
   for (const std::string source : {"", "demo:n_pose"}) {
     const auto write = [&](const std::string& figure, const std::string& out) {
       std::vector<std::string> arguments = {"--figure", figure,  "--mesh_units",
-                                            "m",        "--out", At(out)};
+                                            "cm",       "--out", At(out)};
       if (!source.empty()) arguments.push_back(source);
       const ProgramResult result = Urdf(arguments);
       EXPECT_EQ(result.exit_code, 0) << result.err;
