@@ -195,7 +195,7 @@ TEST_F(GlovedTransforms, TreeHasTheParentsOfTheUrdf) {
 
 TEST_F(Transforms, TrackedObjectsAreFramesOfTheirOwn) {
   SceneState scene;
-  scene.objects.push_back({7, "HTC Vive 2", {{1, 2, 3}, Eigen::Quaterniond::Identity()}, 5});
+  scene.objects.push_back({7, 1, "HTC Vive 2", {{1, 2, 3}, Eigen::Quaterniond::Identity()}, 5});
   tf2_msgs::TFMessage message;
   AddObjects(scene, PersonNames("skeleton"), "lab", message);
   ASSERT_EQ(message.transforms.size(), 1U);
