@@ -231,11 +231,20 @@ function boxStl([x, y, z]) {
     .join('\n')}\nendloop\nendfacet`).join('\n')}\nendsolid box\n`;
 }
 
+/** Of the first person, once there is one. */
+async function linksOf(url) {
+  const until = Date.now() + LONG.timeout;
+  while (Date.now() < until) {
+    const { people } = await fetch(`${url}api/model`).then((answer) => answer.json());
+    if (people.length > 0) return people[0].links;
+  }
+  assert.fail('nobody came');
+}
+
 test('a body of mesh files is drawn, and a file that is missing is named as missing', async () => {
   const folder = await mkdtemp(join(tmpdir(), 'kinescope_meshes_'));
   const meshed = await startFixture(['--meshes', folder]);
-  const links = await fetch(`${meshed.url}api/model`).then((answer) => answer.json())
-    .then(({ people }) => people[0].links.map(({ name }) => name.replace('skeleton_', '')));
+  const links = (await linksOf(meshed.url)).map(({ name }) => name.replace('skeleton_', ''));
   const [missing, ...others] = links;
   await Promise.all(others.map((name) => writeFile(join(folder, `${name}.stl`), boxStl([0.15, 0.15, 0.15]))));
   const { page, problems, close } = await openPage(meshed.url);
@@ -273,11 +282,7 @@ test('gloves, props and tracked objects are in the view, and what the server can
   const folder = await mkdtemp(join(tmpdir(), 'kinescope_gloves_'));
   const diagnostics = { pictures: { problems: ['mesh package://arm/hand.stl: package <b>arm</b> is not found'] } };
   const worn = await startFixture(['--worn', '--meshes', folder, '--diagnostics', JSON.stringify(diagnostics)]);
-  let people = [];
-  while (people.length === 0) {
-    ({ people } = await fetch(`${worn.url}api/model`).then((answer) => answer.json()));
-  }
-  const meshed = people[0].links.filter(({ visuals }) => visuals.some(({ mesh }) => mesh))
+  const meshed = (await linksOf(worn.url)).filter(({ visuals }) => visuals.some(({ mesh }) => mesh))
     .map(({ name }) => name.replace('skeleton_', ''));
   assert.equal(meshed.length, 21 + 40, 'the fingers, and no hand beside them');
   await Promise.all(meshed.map((name) => writeFile(join(folder, `${name}.stl`), boxStl([0.03, 0.03, 0.03]))));

@@ -199,7 +199,8 @@ void Serve(const HttpConfig& config, const Options& options, PlainFeed* feed) {
   HttpServer server(config, states, pictures, feed, [&] { return options.diagnostics; });
   std::cout << json{{"url", server.url()}}.dump() << std::endl;
   const auto model = MakePersonModel(1, options.mesh_folder);
-  const auto worn_model = kinescope::testing::WornModel(*model, options.mesh_folder);
+  const auto worn_model =
+      options.worn ? kinescope::testing::WornModel(*model, options.mesh_folder) : nullptr;
   SceneState state;
   Orders orders;
   const auto began = Clock::now();
