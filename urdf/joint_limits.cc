@@ -16,23 +16,21 @@ using Axes = std::array<Axis, 3>;  // x, y, z
 // Right side, in the axes of its links: forward flexion of arm and hip and bending of the elbow are
 // negative about y.
 //
-// Ranges: normal active motion after the American Academy of Orthopaedic Surgeons (Joint Motion,
-// 1965), of the spine after White and Panjabi (Clinical Biomechanics of the Spine, 1990; MVN's four
-// lumbar and thoracic joints share it), some 10 degrees wider. Cardan angles about three axes are
-// not those of a goniometer: where a joint reaches the singularity (x = 90 degrees) the other two
-// may be anything, so the shoulder has the whole turn. So has the elbow: MVN can misjudge how far
-// the upper arm is turned about itself and then has the forearm bend sideways (x to -86 degrees, by
-// its own angles too, in a recording of a singer).
+// Ranges: normal active motion (joint_limits.h has the sources), some 10 degrees wider. Cardan
+// angles about three axes are not those of a goniometer: where a joint reaches the singularity
+// (x = 90 degrees) the other two may be anything, so the shoulder has the whole turn. So has the
+// elbow: MVN can misjudge how far the upper arm is turned about itself and then has the forearm
+// bend sideways (x to -86 degrees, by its own angles too, in a recording of a singer).
 //
 // Efforts: the strongest 5 % of men where known, else twice the male median (joint-loads.md 4.2).
 // An axis that no muscle turns is held by ligaments and has the strength of the strongest.
 //
-// Velocities: above the fastest seen in sport: throwing (upper arm inwards 7000 deg/s, elbow 2300
-// deg/s: Fleisig et al., J. Biomech. 32, 1999), kicking and sprinting (knee 1700 deg/s).
+// Velocities: above the fastest seen in sport: throwing (upper arm inwards 7700 deg/s, elbow 2300
+// deg/s), kicking and sprinting (knee 1700 deg/s).
 constexpr Axes kSpine = {{{-25, 25, 261, 10}, {-25, 45, 503, 10}, {-25, 25, 140, 15}}};
 constexpr Axes kNeckAxes = {{{-50, 50, 64, 15}, {-60, 60, 102, 15}, {-80, 80, 26, 20}}};
 constexpr Axes kClavicle = {{{-50, 30, 180, 10}, {-35, 35, 180, 10}, {-40, 40, 180, 10}}};
-constexpr Axes kShoulder = {{{-200, 200, 180, 40}, {-200, 200, 180, 40}, {-200, 200, 104, 130}}};
+constexpr Axes kShoulder = {{{-200, 200, 180, 40}, {-200, 200, 180, 40}, {-200, 200, 104, 140}}};
 constexpr Axes kElbow = {{{-120, 120, 111, 50}, {-200, 200, 111, 50}, {-200, 200, 111, 60}}};
 constexpr Axes kWrist = {{{-100, 100, 24, 60}, {-55, 55, 22, 60}, {-45, 45, 24, 60}}};
 constexpr Axes kHip = {{{-90, 60, 194, 20}, {-150, 50, 342, 20}, {-80, 80, 120, 25}}};
@@ -40,8 +38,8 @@ constexpr Axes kKnee = {{{-25, 25, 318, 35}, {-20, 170, 318, 35}, {-50, 50, 318,
 constexpr Axes kAnkle = {{{-50, 50, 60, 30}, {-50, 75, 237, 30}, {-50, 50, 60, 30}}};
 constexpr Axes kBallOfFoot = {{{-25, 25, 60, 30}, {-90, 55, 60, 30}, {-25, 25, 60, 30}}};
 
-// Fingers: ranges as above (knuckles 90, middle joints 100 to 110, ends 80 to 90 degrees; bent
-// about +x on the right). Efforts from the strongest grip, some 120 N at a finger's tip.
+// Fingers: ranges as above; bent about +x on the right. Efforts from the strongest grip, some 120 N
+// at a finger's tip.
 constexpr Axes kCarpusAxes = {{{-30, 30, 24, 60}, {-30, 30, 24, 60}, {-30, 30, 24, 60}}};
 constexpr Axes kPalmAxes = {{{-30, 45, 10, 60}, {-30, 30, 10, 60}, {-30, 30, 10, 60}}};
 constexpr Axes kThumbBaseAxes = {{{-80, 80, 10, 60}, {-80, 80, 10, 60}, {-80, 80, 10, 60}}};
