@@ -9,10 +9,13 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
 
 #include "server/app/scene_builder.h"
 #include "server/app/scene_reader.h"
 #include "server/app/stream_extras.h"
+#include "server/core/skeleton_watch.h"
 #include "server/http/api.h"
 #include "server/mvn/datagram.h"
 #include "server/ros/bridge.h"
@@ -153,6 +156,59 @@ TEST(Mechanism, IsWithinMillimetresOfEveryFrameOfABag) {
   if (!ros_bridge::BuiltWithRos()) GTEST_SKIP() << "bags need ROS";
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
   ReadAll(SharedData("ros1/2018-05-28-17-34-45.bag.xz"), kAll).Expect(AsAgreed);
+}
+
+// A sheet of MVN's Excel export: a row for each frame, whose number comes first.
+std::vector<std::vector<double>> ReadSheet(const std::string& file) {
+  std::ifstream sheet(SharedData(file));
+  std::vector<std::vector<double>> rows;
+  std::string line;
+  std::getline(sheet, line);  // names
+  while (std::getline(sheet, line)) {
+    std::vector<double>& row = rows.emplace_back();
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(std::stod(field));
+  }
+  return rows;
+}
+
+// It has no scale data: the lengths are those of its first frame, as for a person on TF.
+TEST(Mechanism, IsWithinMillimetresOfEveryFrameOfAnExportToExcel) {
+  KINESCOPE_NEEDS_SHARED_DATA("excel-export-P005/segment_position.csv");
+  KINESCOPE_NEEDS_SHARED_DATA("excel-export-P005/segment_orientation_quat.csv");
+  const auto positions = ReadSheet("excel-export-P005/segment_position.csv");
+  const auto turns = ReadSheet("excel-export-P005/segment_orientation_quat.csv");
+  ASSERT_EQ(positions.size(), 103U);
+  ASSERT_EQ(turns.size(), positions.size());
+  std::shared_ptr<const SceneState> state;
+  app::SceneOptions options;
+  options.smooth_figure = false;
+  app::SceneBuilder builder(options, "", 60, [&](const auto& newest) { state = newest; });
+  SkeletonWatch lengths;
+  Judge judge;
+  for (std::size_t frame = 0; frame < positions.size(); ++frame) {
+    const std::vector<double>& p = positions[frame];
+    const std::vector<double>& q = turns[frame];
+    ASSERT_EQ(p.size(), 1U + 3 * urdf::kSegmentCount);
+    ASSERT_EQ(q.size(), 1U + 4 * urdf::kSegmentCount);
+    BodySample sample;
+    sample.counter = static_cast<std::uint32_t>(frame);
+    sample.stamp_nanos = 1 + static_cast<std::int64_t>(frame) * 1'000'000'000 / 60;
+    for (std::size_t i = 0; i < urdf::kSegmentCount; ++i) {
+      sample.segments[i].position = {p[1 + 3 * i], p[2 + 3 * i], p[3 + 3 * i]};
+      sample.segments[i].orientation =
+          Eigen::Quaterniond(q[1 + 4 * i], q[2 + 4 * i], q[3 + 4 * i], q[4 + 4 * i]).normalized();
+    }
+    if (auto skeleton = lengths.Look(sample)) {
+      EXPECT_EQ(frame, 0U) << "the person is the same all the time";
+      Character character;
+      character.skeleton = std::move(skeleton);
+      builder.OnCharacter(character);
+    }
+    builder.OnSample(sample);
+    judge.Look(state->people.at(0));
+  }
+  judge.Expect(AsAgreed);
 }
 
 TEST(Mechanism, IsWithinMillimetresOfARecordedDatagramAndTheScaleDataBesideIt) {

@@ -269,8 +269,26 @@ TEST(HumanUrdf, LosesNothingOnTheWayThroughUrdfdomAndTheReader) {
 TEST(HumanUrdf, HangsAPropOnThePelvisBySixJointsThatEveryReaderTakes) {
   HumanModel human = Human();
   human.props = 0b0100;
-  const RobotModel robot = ParseUrdf(WriteUrdf(human));
+  Read read(human);
+  const RobotModel& robot = read.robot();
   EXPECT_TRUE(robot.notes.empty()) << robot.notes.front();
+  // Wherever it may be, along and about every axis of the pelvis; shown as a small orange box.
+  constexpr double kFar = 100, kTurn = 2 * M_PI;
+  std::string above = "skeleton_pelvis";
+  int step = 0;
+  for (const std::string& joint : PropJointNames("skeleton", 2)) {
+    const bool slides = step < 3;
+    const int axis = std::array<int, 6>{0, 1, 2, 1, 0, 2}[At(step++)];
+    above = read.Expect(
+        joint, slides ? RobotJoint::Type::kPrismatic : RobotJoint::Type::kRevolute, above,
+        Vector3d::Zero(), axis,
+        slides ? AxisLimit{-kFar, kFar, 1000, 100} : AxisLimit{-kTurn, kTurn, 100, 100});
+  }
+  const Link& prop = read.link("skeleton_prop3");
+  Primitive box;
+  box.size = Vector3d::Constant(0.06);
+  ExpectSameShapes({box}, prop, Eigen::Vector4d(0.90, 0.65, 0.25, 1));
+  EXPECT_FALSE(prop.inertial);
   std::string parent = "skeleton_pelvis";
   const auto names = PropJointNames("skeleton", 2);
   for (std::size_t i = 0; i < names.size(); ++i) {
