@@ -66,11 +66,7 @@ Announcer::~Announcer() {
   }
   changed_.notify_all();
   thread_.join();
-  if (!node_) return;
-  // roscpp takes leave of the master topic by topic, without a time limit: one whose machine has
-  // been switched off would hold up our exit for minutes. It then gets no address to call.
-  if (!MasterIsReachable()) const_cast<std::string&>(ros::master::getHost()).clear();
-  ros::shutdown();  // before the publishers go, each of which would take leave by itself
+  if (node_) LeaveRos();  // before the publishers go, each of which would take leave by itself
 }
 
 void Announcer::SetPerson(int character, std::shared_ptr<const PersonModel> model) {
@@ -139,20 +135,12 @@ void Announcer::Run() {
   } while (WaitForNext());
 }
 
-// "Does it know us" and not "is it another process": it also finds a master restarted under the
-// same process number, as in a container, and one that `rosnode cleanup` made forget us.
 bool Announcer::MasterKnowsUs(bool& answers) {
-  XmlRpcValue arguments;
-  arguments[0] = ros::this_node::getName();
-  MasterReply reply = master_.Call("lookupNode", arguments, kPatience);
-  answers = reply.code != MasterReply::Code::kNoAnswer;
-  if (!node_ || reply.code != MasterReply::Code::kGood) return false;
-  if (reply.value.getType() != XmlRpcValue::TypeString) return false;
-  if (static_cast<std::string>(reply.value) == ros::XMLRPCManager::instance()->getServerURI()) {
-    return true;
-  }
-  StopForGood("another node that took our name");
-  return false;
+  const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
+  const Standing standing = master_.AskStanding(our_uri, kPatience);
+  answers = standing != Standing::kNoAnswer;
+  if (standing == Standing::kNameTaken) StopForGood("another node that took our name");
+  return standing == Standing::kKnown;
 }
 
 void Announcer::Start() {

@@ -5,67 +5,26 @@
 #include <rosbag/view.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <map>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include "server/core/errors.h"
 #include "server/ros/bag_file.h"
-#include "server/ros/bag_frames.h"
-#include "server/ros/bag_person.h"
+#include "server/ros/raw_message.h"
+#include "server/ros/stamp.h"
+#include "server/ros/transform_people.h"
 
 namespace kinescope::ros_bridge {
 namespace {
 
 constexpr int kMessagesPerPoll = 256;
 constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read for frame names when opening
-// A transform without names: header (sequence, stamp, empty frame_id), empty child, 7 doubles.
-constexpr std::size_t kSmallestTransform = 4 + 8 + 4 + 4 + 7 * 8;
-constexpr std::size_t kLargestMessage = 16 << 20;  // 100,000 transforms
-constexpr double kFarthest = 1e6;                  // m; nobody stands there
-constexpr double kNormTolerance = 1e-3;
 
-constexpr char kNotFinite[] = "transform with a number that is not finite";
-constexpr char kFarAway[] = "transform with a position out of range";
-constexpr char kNotUnit[] = "transform with a quaternion that is not of unit length";
 constexpr char kUnreadable[] = "message on /tf that is cut short or lies about its length";
 constexpr char kOtherType[] = "message on /tf that is no TFMessage";
-constexpr char kNotWhole[] = "sample without all 23 segments";
-constexpr char kNoTree[] = "sample whose frames have no common parent";
-constexpr char kNobody[] = "message on /tf without a person's segment";
 
-std::int64_t Nanos(const ros::Time& time) {
-  return std::int64_t{time.sec} * 1'000'000'000 + std::int64_t{time.nsec};
-}
-
-bool IsTransforms(const std::string& topic) { return topic == "/tf" || topic == "tf"; }
-
-// tf2 has no slash before a frame's name, tf had one.
-std::string WithoutSlash(const std::string& frame) {
-  return frame.empty() || frame.front() != '/' ? frame : frame.substr(1);
-}
-
-// Nothing when it can be used, else the counter under which it goes.
-const char* DefectOf(const geometry_msgs::Transform& transform) {
-  const auto& t = transform.translation;
-  const auto& r = transform.rotation;
-  for (const double value : {t.x, t.y, t.z, r.x, r.y, r.z, r.w}) {
-    if (!std::isfinite(value)) return kNotFinite;
-  }
-  if (std::max({std::abs(t.x), std::abs(t.y), std::abs(t.z)}) > kFarthest) return kFarAway;
-  const double norm = Eigen::Quaterniond(r.w, r.x, r.y, r.z).norm();
-  return std::abs(norm - 1) > kNormTolerance ? kNotUnit : nullptr;
-}
-
-urdf::Pose ToPose(const geometry_msgs::Transform& transform) {
-  const auto& t = transform.translation;
-  const auto& r = transform.rotation;
-  return {{t.x, t.y, t.z}, Eigen::Quaterniond(r.w, r.x, r.y, r.z).normalized()};
-}
+bool IsStatic(const std::string& topic) { return topic == "/tf_static" || topic == "tf_static"; }
+bool IsMoving(const std::string& topic) { return topic == "/tf" || topic == "tf"; }
 
 struct Appearances {
   std::uint64_t count = 0;
@@ -96,10 +55,6 @@ class BagSource : public Source {
   State Read(SampleSink& sink);
   /// False: nothing of it can be used. Counts why.
   bool Decode(const rosbag::MessageInstance& instance);
-  void TakeMessage(std::int64_t record_nanos, SampleSink& sink);
-  void TakeTransform(const geometry_msgs::TransformStamped& transform, std::int64_t record_nanos);
-  BagPerson& PersonAt(int index);
-  void Give(int person, SampleSink& sink);
   void Reject(const char* reason) { ++counters_.rejected[reason]; }
 
   // What rosbag throws, as one line.
@@ -125,13 +80,11 @@ class BagSource : public Source {
   const std::string name_;
   BagFile file_;
   rosbag::Bag bag_;
-  std::unique_ptr<rosbag::View> view_;  // of /tf
+  std::unique_ptr<rosbag::View> view_;  // of /tf and /tf_static
   rosbag::View::iterator next_;
   std::vector<std::uint8_t> buffer_;
   tf2_msgs::TFMessage message_;
-  BagFrames frames_;
-  std::vector<BagPerson> people_;  // by index of frames_.people()
-  std::set<int> touched_;          // people of whom the present message had something
+  TransformPeople people_{0};
   bool has_ended_ = false;
   SourceCounters counters_;
   double rate_hz_ = 0;
@@ -145,8 +98,10 @@ void BagSource::Open() {
     topics.emplace(connection->topic, connection);
   }
   std::vector<std::string> used;
+  bool has_transforms = false;
   for (const auto& [topic, connection] : topics) {
-    if (IsTransforms(topic)) {
+    has_transforms = has_transforms || IsMoving(topic);
+    if (IsMoving(topic) || IsStatic(topic)) {
       used.push_back(topic);
       continue;
     }
@@ -154,7 +109,7 @@ void BagSource::Open() {
     counters_.ignored["topic " + topic + " (" + connection->datatype + ")"] = messages;
     counters_.datagrams += messages;
   }
-  if (used.empty()) {
+  if (!has_transforms) {
     throw SourceError("bag '" + name_ +
                       "': has no /tf, so no poses; record one with `rosbag record /tf`");
   }
@@ -169,27 +124,25 @@ void BagSource::ReadNames() {
   std::map<std::string, Appearances> appearances;
   std::int64_t end = 0;
   for (const rosbag::MessageInstance& instance : *view_) {
-    const std::int64_t now = Nanos(instance.getTime());
+    const std::int64_t now = ToNanos(instance.getTime());
     if (end == 0) end = now + kNamesNanos;
-    if (now > end && frames_.people().empty()) frames_.Find();
-    if (now > end && !frames_.people().empty()) break;
+    if (now > end && people_.people().empty()) people_.FindPeople();
+    if (now > end && !people_.people().empty()) break;
     if (!Decode(instance)) continue;
     for (const geometry_msgs::TransformStamped& transform : message_.transforms) {
-      const std::string frame = WithoutSlash(transform.child_frame_id);
-      frames_.Add(frame);
-      if (!frames_.IsCandidate(frame)) continue;
-      Appearances& of_frame = appearances[frame];
+      if (!people_.AddName(transform.child_frame_id)) continue;
+      Appearances& of_frame = appearances[WithoutSlash(transform.child_frame_id)];
       if (of_frame.count++ == 0) of_frame.first_nanos = now;
       of_frame.last_nanos = now;
     }
   }
-  frames_.Find();
-  if (frames_.people().empty()) {
+  people_.FindPeople();
+  if (people_.people().empty()) {
     throw SourceError("bag '" + name_ +
                       "': nobody on its /tf: expected 23 frames named after the segments, such as "
                       "skeleton_pelvis, skeleton_l5, ..., skeleton_left_toe");
   }
-  const Appearances& pelvis = appearances[frames_.people().front().frames[urdf::kPelvis]];
+  const Appearances& pelvis = appearances[people_.people().front().frames[urdf::kPelvis]];
   if (pelvis.count < 2 || pelvis.last_nanos <= pelvis.first_nanos) return;
   rate_hz_ = static_cast<double>(pelvis.count - 1) * 1e9 /
              static_cast<double>(pelvis.last_nanos - pelvis.first_nanos);
@@ -201,15 +154,19 @@ Source::State BagSource::Read(SampleSink& sink) {
     if (next_ == view_->end()) {
       if (has_ended_) return State::kEnded;
       has_ended_ = true;
-      for (const BagPerson& person : people_) {
-        if (person.End()) Reject(kNotWhole);
-      }
+      people_.End(counters_);
       return State::kEnded;
     }
     const rosbag::MessageInstance& instance = *next_;
     ++counters_.datagrams;
     counters_.bytes += instance.size();
-    if (Decode(instance)) TakeMessage(Nanos(instance.getTime()), sink);
+    if (Decode(instance)) {
+      if (IsStatic(instance.getTopic())) {
+        people_.TakeStatic(message_, counters_);
+      } else {
+        people_.Take(message_, {ToNanos(instance.getTime()), 0}, counters_, sink);
+      }
+    }
     ++next_;
   }
   return State::kMore;
@@ -221,86 +178,16 @@ bool BagSource::Decode(const rosbag::MessageInstance& instance) {
     Reject(kOtherType);
     return false;
   }
-  const std::size_t size = instance.size();
-  std::uint32_t count = 0;
-  if (size < sizeof(count) || size > kLargestMessage) {
+  if (instance.size() > kLargestMessage) {
     Reject(kUnreadable);
     return false;
   }
-  buffer_.resize(size);
-  ros::serialization::OStream to_buffer(buffer_.data(), static_cast<std::uint32_t>(size));
+  buffer_.resize(instance.size());
+  ros::serialization::OStream to_buffer(buffer_.data(), instance.size());
   instance.write(to_buffer);
-  // Before anything is allocated: the count is the recording's claim, the size is a fact.
-  std::memcpy(&count, buffer_.data(), sizeof(count));  // little-endian, as this machine is
-  if (count > (size - sizeof(count)) / kSmallestTransform) {
-    Reject(kUnreadable);
-    return false;
-  }
-  try {
-    ros::serialization::IStream in(buffer_.data(), static_cast<std::uint32_t>(size));
-    ros::serialization::deserialize(in, message_);
-  } catch (const ros::serialization::StreamOverrunException&) {
-    Reject(kUnreadable);
-    return false;
-  }
-  return true;
-}
-
-void BagSource::TakeMessage(std::int64_t record_nanos, SampleSink& sink) {
-  bool found_names = false;
-  for (const geometry_msgs::TransformStamped& transform : message_.transforms) {
-    if (frames_.Add(WithoutSlash(transform.child_frame_id))) found_names = true;
-  }
-  if (found_names) frames_.Find();
-  touched_.clear();
-  for (const geometry_msgs::TransformStamped& transform : message_.transforms) {
-    TakeTransform(transform, record_nanos);
-  }
-  if (touched_.empty()) ++counters_.ignored[kNobody];
-  for (const int person : touched_) Give(person, sink);
-}
-
-void BagSource::TakeTransform(const geometry_msgs::TransformStamped& transform,
-                              std::int64_t record_nanos) {
-  const BagFrames::Place place = frames_.PlaceOf(WithoutSlash(transform.child_frame_id));
-  if (place.person < 0) return;
-  touched_.insert(place.person);
-  if (const char* defect = DefectOf(transform.transform)) return Reject(defect);
-  FrameTransform known;
-  known.slot = place.slot;
-  known.parent = WithoutSlash(transform.header.frame_id);
-  const BagFrames::Place parent = frames_.PlaceOf(known.parent);
-  known.parent_slot = parent.person == place.person ? parent.slot : -1;
-  known.parent_from_child = ToPose(transform.transform);
-  known.header_nanos = Nanos(transform.header.stamp);
-  known.record_nanos = record_nanos;
-  if (PersonAt(place.person).Add(known)) Reject(kNotWhole);
-}
-
-BagPerson& BagSource::PersonAt(int index) {
-  while (people_.size() <= static_cast<std::size_t>(index)) {
-    people_.emplace_back(static_cast<int>(people_.size()));
-  }
-  return people_[static_cast<std::size_t>(index)];
-}
-
-void BagSource::Give(int index, SampleSink& sink) {
-  BagPerson& person = PersonAt(index);
-  switch (person.Finish()) {
-    case BagPerson::Result::kNothing: return;
-    case BagPerson::Result::kDuplicate: ++counters_.duplicates; return;
-    case BagPerson::Result::kNoTree: return Reject(kNoTree);
-    case BagPerson::Result::kSample: break;
-  }
-  if (person.sample().counter == 0) {
-    Character character;
-    character.id = index;
-    character.name = frames_.people()[static_cast<std::size_t>(index)].name;
-    character.skeleton = person.MeasureSkeleton();
-    sink.OnCharacter(character);
-  }
-  ++counters_.samples;
-  sink.OnSample(person.sample());
+  if (kinescope::ros_bridge::Decode(buffer_, message_)) return true;
+  Reject(kUnreadable);
+  return false;
 }
 
 }  // namespace

@@ -117,6 +117,14 @@ bool MasterIsReachable() {
   return MasterClient().Call("getPid", XmlRpcValue()).code == MasterReply::Code::kGood;
 }
 
+void LeaveRos() {
+  if (!ros::isStarted()) return;
+  // roscpp takes leave of the master topic by topic, without a time limit: one whose machine has
+  // been switched off would hold up our exit for minutes. It then gets no address to call.
+  if (!MasterIsReachable()) const_cast<std::string&>(ros::master::getHost()).clear();
+  ros::shutdown();
+}
+
 std::optional<std::string> PrivateParameter(const std::string& name) {
   KINESCOPE_CHECK(ros::isInitialized());
   const auto argument = PrivateArguments().find(name);

@@ -4,6 +4,8 @@
 #include <ros/this_node.h>
 #include <xmlrpcpp/XmlRpcClient.h>
 
+#include <utility>
+
 namespace kinescope::ros_bridge {
 namespace {
 
@@ -26,6 +28,19 @@ MasterReply Unwrap(XmlRpcValue& response) {
 
 MasterClient::MasterClient()
     : host_(ros::master::getHost()), port_(static_cast<int>(ros::master::getPort())) {}
+
+MasterClient::MasterClient(std::string host, int port) : host_(std::move(host)), port_(port) {}
+
+Standing MasterClient::AskStanding(const std::string& our_uri, std::chrono::milliseconds timeout) {
+  XmlRpcValue arguments;
+  arguments[0] = ros::this_node::getName();
+  MasterReply reply = Call("lookupNode", arguments, timeout);
+  if (reply.code == MasterReply::Code::kNoAnswer) return Standing::kNoAnswer;
+  const bool has_uri = !our_uri.empty() && reply.code == MasterReply::Code::kGood &&
+                       reply.value.getType() == XmlRpcValue::TypeString;
+  if (!has_uri) return Standing::kUnknown;
+  return static_cast<std::string>(reply.value) == our_uri ? Standing::kKnown : Standing::kNameTaken;
+}
 
 MasterReply MasterClient::Call(const char* method, const XmlRpcValue& arguments,
                                std::chrono::milliseconds timeout) {

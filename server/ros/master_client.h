@@ -1,5 +1,6 @@
-/// Questions to the ROS master that end in time. roscpp's own calls wait for ever when something
-/// takes the connection and never answers, so whatever we ask ourselves is asked here.
+/// Questions to the ROS master, and to nodes, that end in time. roscpp's own calls wait for ever
+/// when something takes the connection and never answers, so whatever we ask ourselves is asked
+/// here.
 #pragma once
 
 #include <xmlrpcpp/XmlRpcValue.h>
@@ -19,17 +20,32 @@ struct MasterReply {
   XmlRpc::XmlRpcValue value;  // what was asked for, when good
 };
 
+/// What a master thinks of us.
+enum class Standing {
+  kNoAnswer,
+  kUnknown,    // it has never heard of us, or has been restarted
+  kKnown,      // our name is ours
+  kNameTaken,  // another node has our name now
+};
+
 /// One thread uses one. Every call makes its own connection: one kept from before would belong to a
 /// master that has been restarted since.
 class MasterClient {
  public:
   /// @pre ros::init was called: it says where the master is and what we are called.
   MasterClient();
+  /// A node's own server, such as ours: it wraps its answers as the master does.
+  MasterClient(std::string host, int port);
 
   /// Calls `method` with our name and `arguments`, an array. Takes at most about `timeout`; a name
   /// server that does not answer can make it longer.
   MasterReply Call(const char* method, const XmlRpc::XmlRpcValue& arguments,
                    std::chrono::milliseconds timeout = std::chrono::seconds(1));
+
+  /// "Does it know us" and not "is it another process": that also finds a master restarted under
+  /// the same process number, as in a container, and one that `rosnode cleanup` made forget us.
+  /// `our_uri`: of our own server; "" before there is one.
+  Standing AskStanding(const std::string& our_uri, std::chrono::milliseconds timeout);
 
  private:
   std::string host_;

@@ -1,11 +1,12 @@
-// bridge.h and bag_source.h in a build without ROS: options and arguments work, publishing and
-// reading bags are refused with the reason.
+// bridge.h, bag_source.h and graph_source.h in a build without ROS: options and arguments work;
+// publishing, listening and reading bags are refused with the reason.
 #include <algorithm>
 #include <cstring>
 
 #include "server/core/errors.h"
 #include "server/ros/bag_source.h"
 #include "server/ros/bridge.h"
+#include "server/ros/graph_source.h"
 
 namespace kinescope::ros_bridge {
 
@@ -34,6 +35,14 @@ std::unique_ptr<Source> OpenBag(const std::string& path) {
   throw SourceError("bag '" + path +
                     "': this Kinescope was built without ROS and cannot read bags: install the ROS "
                     "packages in packages.txt and configure with -DKINESCOPE_WITH_ROS=ON");
+}
+
+bool IsGraphUrl(std::string_view url) { return url.substr(0, 4) == "ros:"; }
+
+std::unique_ptr<Source> OpenGraph(const std::string& url) {
+  throw SourceError("source '" + url +
+                    "': this Kinescope was built without ROS and cannot listen to it: install the "
+                    "ROS packages in packages.txt and configure with -DKINESCOPE_WITH_ROS=ON");
 }
 
 }  // namespace kinescope::ros_bridge

@@ -1,4 +1,4 @@
-/// The one time that all messages of a sample carry.
+/// The one time that all messages of a sample carry, there and back.
 #pragma once
 
 #include <ros/time.h>
@@ -21,6 +21,10 @@ inline ros::Time ToRosTime(std::int64_t stamp_nanos) {
   const std::int64_t nanos = std::clamp<std::int64_t>(stamp_nanos, 0, kLast);
   return {static_cast<std::uint32_t>(nanos / kNanosPerSecond),
           static_cast<std::uint32_t>(nanos % kNanosPerSecond)};
+}
+
+inline std::int64_t ToNanos(const ros::Time& time) {
+  return std::int64_t{time.sec} * 1'000'000'000 + std::int64_t{time.nsec};
 }
 
 inline ros::Time StampOf(const BodySample& sample) { return ToRosTime(sample.stamp_nanos); }

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "server/core/errors.h"
-#include "server/ros/bag_frames.h"
+#include "server/ros/people_frames.h"
 #include "server/ros/transforms.h"
 #include "tests/server/ros/test_person.h"
 #include "tests/shared_data.h"
@@ -24,7 +24,7 @@
 namespace kinescope::ros_bridge {
 
 // Bytes that claim to be a message of some type, true or not.
-struct RawMessage {
+struct AnyBytes {
   static inline std::string datatype;
   static inline std::string md5;
   std::vector<std::uint8_t> bytes;
@@ -34,32 +34,32 @@ struct RawMessage {
 
 namespace ros {
 namespace message_traits {
-using kinescope::ros_bridge::RawMessage;
+using kinescope::ros_bridge::AnyBytes;
 template <>
-struct MD5Sum<RawMessage> {
-  static const char* value() { return RawMessage::md5.c_str(); }
-  static const char* value(const RawMessage&) { return value(); }
+struct MD5Sum<AnyBytes> {
+  static const char* value() { return AnyBytes::md5.c_str(); }
+  static const char* value(const AnyBytes&) { return value(); }
 };
 template <>
-struct DataType<RawMessage> {
-  static const char* value() { return RawMessage::datatype.c_str(); }
-  static const char* value(const RawMessage&) { return value(); }
+struct DataType<AnyBytes> {
+  static const char* value() { return AnyBytes::datatype.c_str(); }
+  static const char* value(const AnyBytes&) { return value(); }
 };
 template <>
-struct Definition<RawMessage> {
+struct Definition<AnyBytes> {
   static const char* value() { return ""; }
-  static const char* value(const RawMessage&) { return value(); }
+  static const char* value(const AnyBytes&) { return value(); }
 };
 }  // namespace message_traits
 namespace serialization {
 template <>
-struct Serializer<kinescope::ros_bridge::RawMessage> {
+struct Serializer<kinescope::ros_bridge::AnyBytes> {
   template <class Stream>
-  static void write(Stream& stream, const kinescope::ros_bridge::RawMessage& message) {
+  static void write(Stream& stream, const kinescope::ros_bridge::AnyBytes& message) {
     std::copy(message.bytes.begin(), message.bytes.end(),
               stream.advance(static_cast<std::uint32_t>(message.bytes.size())));
   }
-  static std::uint32_t serializedLength(const kinescope::ros_bridge::RawMessage& message) {
+  static std::uint32_t serializedLength(const kinescope::ros_bridge::AnyBytes& message) {
     return static_cast<std::uint32_t>(message.bytes.size());
   }
 };
@@ -149,8 +149,8 @@ void ExpectPoses(const BodySample& sample, const PersonState& person, double tol
 class BagTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    RawMessage::datatype = "tf/tfMessage";
-    RawMessage::md5 = ros::message_traits::md5sum<tf2_msgs::TFMessage>();
+    AnyBytes::datatype = "tf/tfMessage";
+    AnyBytes::md5 = ros::message_traits::md5sum<tf2_msgs::TFMessage>();
   }
 
   std::string path() const { return folder_ / "recording.bag"; }
@@ -363,7 +363,7 @@ TEST_F(BagTest, ArmsInSegmentFramesAreToldByTheirGeometry) {
 TEST_F(BagTest, OldMessageTypeOfTheSameLayoutIsRead) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     const tf2_msgs::TFMessage message = TransformsOf(PersonAt(1));
-    RawMessage raw;
+    AnyBytes raw;
     raw.bytes.resize(ros::serialization::serializationLength(message));
     ros::serialization::OStream stream(raw.bytes.data(),
                                        static_cast<std::uint32_t>(raw.bytes.size()));
@@ -421,6 +421,29 @@ TEST_F(BagTest, SamplesThatLackASegmentAreSkippedAndCounted) {
   EXPECT_THAT(recorded.counters.rejected, ElementsAre(Pair("sample without all 23 segments", 2)));
 }
 
+TEST_F(BagTest, FramesOfTfStaticBelongToThePerson) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    tf2_msgs::TFMessage fixed;
+    for (int n = 0; n < 3; ++n) {
+      tf2_msgs::TFMessage moving;
+      for (const auto& transform : TransformsOf(PersonAt(0)).transforms) {
+        const bool is_toe = transform.child_frame_id == "skeleton_left_toe";
+        if (is_toe && n == 0) fixed.transforms.push_back(transform);
+        if (is_toe) continue;
+        moving.transforms.push_back(transform);
+        moving.transforms.back().header.stamp = TimeOf(kStart + n * kPeriod);
+      }
+      if (n == 0) out.write("/tf_static", TimeOf(kStart - kPeriod), fixed);
+      out.write("/tf", TimeOf(kStart + n * kPeriod), moving);
+    }
+  });
+  const Recorded recorded = ReadBag(bag);
+  ASSERT_EQ(recorded.samples.size(), 3U);
+  for (const BodySample& sample : recorded.samples) ExpectPoses(sample, PersonAt(0));
+  EXPECT_THAT(recorded.counters.rejected, IsEmpty());
+  EXPECT_THAT(recorded.counters.ignored, IsEmpty());
+}
+
 TEST_F(BagTest, SomebodyWhoComesLaterIsFound) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 30; ++n) {
@@ -448,7 +471,7 @@ TEST_F(BagTest, TransformsThatCannotBeUsedAreCountedByReason) {
       if (n == 4) message.transforms[3].header.frame_id = "somewhere_else";
       out.write("/tf", TimeOf(kStart + n * kPeriod), message);
     }
-    RawMessage liar;
+    AnyBytes liar;
     liar.bytes.assign(100, 0xFF);  // 4294967295 transforms
     out.write("/tf", TimeOf(kStart + 6 * kPeriod), liar);
     liar.bytes.assign(100, 0);
@@ -457,10 +480,9 @@ TEST_F(BagTest, TransformsThatCannotBeUsedAreCountedByReason) {
     out.write("/tf", TimeOf(kStart + 7 * kPeriod), liar);
     liar.bytes.assign(2, 0);
     out.write("/tf", TimeOf(kStart + 8 * kPeriod), liar);
-    RawMessage::datatype = "std_msgs/String";
-    RawMessage::md5 = ros::message_traits::md5sum<std_msgs::String>();
-    out.write("tf", TimeOf(kStart + 9 * kPeriod),
-              RawMessage{{0, 0, 0, 0}});  // a topic has one type
+    AnyBytes::datatype = "std_msgs/String";
+    AnyBytes::md5 = ros::message_traits::md5sum<std_msgs::String>();
+    out.write("tf", TimeOf(kStart + 9 * kPeriod), AnyBytes{{0, 0, 0, 0}});  // a topic has one type
   });
   const Recorded recorded = ReadBag(bag);
   EXPECT_EQ(recorded.samples.size(), 2U);
@@ -551,14 +573,14 @@ TEST_F(BagTest, NothingIsLeftInTheTemporaryFolder) {
   }
 }
 
-std::vector<std::string> NamesOf(const BagFrames& frames) {
+std::vector<std::string> NamesOf(const PeopleFrames& frames) {
   std::vector<std::string> names;
   for (const PersonFrames& person : frames.people()) names.push_back(person.name);
   return names;
 }
 
-TEST(BagFrames, PrefersTheLongestCommonEndingAndTheShortestName) {
-  BagFrames frames;
+TEST(PeopleFrames, PrefersTheLongestCommonEndingAndTheShortestName) {
+  PeopleFrames frames;
   for (const urdf::SegmentInfo& segment : urdf::kSegments) {
     frames.Add(std::string(segment.link_name) + "_of_suit");
     frames.Add("lab/" + std::string(segment.link_name));
@@ -574,8 +596,8 @@ TEST(BagFrames, PrefersTheLongestCommonEndingAndTheShortestName) {
   EXPECT_EQ(frames.PlaceOf("heading_of_suit").person, -1) << "a head is a word of its own";
 }
 
-TEST(BagFrames, TwentyTwoSegmentsAreNobody) {
-  BagFrames frames;
+TEST(PeopleFrames, TwentyTwoSegmentsAreNobody) {
+  PeopleFrames frames;
   for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
     frames.Add("a_" + std::string(urdf::kSegments[At(segment)].link_name));
   }
@@ -586,12 +608,12 @@ TEST(BagFrames, TwentyTwoSegmentsAreNobody) {
   EXPECT_THAT(NamesOf(frames), ElementsAre("a"));
 }
 
-TEST(BagFrames, WhateverTheNamesItKeepsABoundedNumber) {
-  BagFrames frames;
-  for (int i = 0; i < 3 * static_cast<int>(BagFrames::kMostNames); ++i) {
+TEST(PeopleFrames, WhateverTheNamesItKeepsABoundedNumber) {
+  PeopleFrames frames;
+  for (int i = 0; i < 3 * static_cast<int>(PeopleFrames::kMostNames); ++i) {
     frames.Add("p" + std::to_string(i) + "_pelvis");
   }
-  EXPECT_FALSE(frames.IsCandidate("p" + std::to_string(2 * BagFrames::kMostNames) + "_pelvis"));
+  EXPECT_FALSE(frames.IsCandidate("p" + std::to_string(2 * PeopleFrames::kMostNames) + "_pelvis"));
   EXPECT_FALSE(frames.Add(std::string(300, 'x') + "_pelvis"));
   frames.Find();
   EXPECT_THAT(frames.people(), IsEmpty());

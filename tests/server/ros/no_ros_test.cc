@@ -7,6 +7,7 @@
 #include "server/core/errors.h"
 #include "server/ros/bag_source.h"
 #include "server/ros/bridge.h"
+#include "server/ros/graph_source.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -47,6 +48,17 @@ TEST(WithoutRos, ABagIsRefusedByNameWithAWayOut) {
     FAIL() << "opened a bag without ROS";
   } catch (const SourceError& error) {
     EXPECT_THAT(error.what(), HasSubstr("bag 'take.bag'"));
+    EXPECT_THAT(error.what(), HasSubstr("-DKINESCOPE_WITH_ROS=ON"));
+  }
+}
+
+TEST(WithoutRos, ALiveGraphIsRefusedByNameWithAWayOut) {
+  EXPECT_TRUE(IsGraphUrl("ros:"));
+  try {
+    OpenGraph("ros:/tf");
+    FAIL() << "listened without ROS";
+  } catch (const SourceError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("source 'ros:/tf'"));
     EXPECT_THAT(error.what(), HasSubstr("-DKINESCOPE_WITH_ROS=ON"));
   }
 }

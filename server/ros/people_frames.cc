@@ -1,4 +1,4 @@
-#include "server/ros/bag_frames.h"
+#include "server/ros/people_frames.h"
 
 #include <algorithm>
 #include <string_view>
@@ -45,7 +45,7 @@ std::string Trimmed(std::string text) {
 
 }  // namespace
 
-bool BagFrames::Add(const std::string& frame) {
+bool PeopleFrames::Add(const std::string& frame) {
   if (frame.size() > kLongestName || names_.size() >= kMostNames) return false;
   bool is_candidate = false;
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
@@ -63,15 +63,15 @@ bool BagFrames::Add(const std::string& frame) {
   return is_candidate;
 }
 
-void BagFrames::Find() {
+void PeopleFrames::Find() {
   for (const std::string& prefix : prefixes_in_order_) {
     const std::vector<Candidate>& candidates = by_prefix_.at(prefix);
     if (candidates.size() >= urdf::kSegmentCount) FindWithPrefix(prefix, candidates);
   }
 }
 
-void BagFrames::FindWithPrefix(const std::string& prefix,
-                               const std::vector<Candidate>& candidates) {
+void PeopleFrames::FindWithPrefix(const std::string& prefix,
+                                  const std::vector<Candidate>& candidates) {
   std::set<std::string> endings;
   for (const Candidate& candidate : candidates) {
     if (candidate.segment != urdf::kPelvis || endings.size() >= kMostEndings) continue;
@@ -86,8 +86,8 @@ void BagFrames::FindWithPrefix(const std::string& prefix,
   }
 }
 
-bool BagFrames::TakePerson(const std::string& prefix, const std::string& ending,
-                           const std::vector<Candidate>& candidates) {
+bool PeopleFrames::TakePerson(const std::string& prefix, const std::string& ending,
+                              const std::vector<Candidate>& candidates) {
   std::array<const Candidate*, urdf::kSegmentCount> chosen{};
   for (const Candidate& candidate : candidates) {
     if (!EndsWith(candidate.suffix, ending) || places_.count(candidate.frame) > 0) continue;
@@ -116,7 +116,7 @@ bool BagFrames::TakePerson(const std::string& prefix, const std::string& ending,
   return true;
 }
 
-BagFrames::Place BagFrames::PlaceOf(const std::string& frame) const {
+PeopleFrames::Place PeopleFrames::PlaceOf(const std::string& frame) const {
   const auto found = places_.find(frame);
   return found == places_.end() ? Place{} : found->second;
 }

@@ -1,4 +1,4 @@
-#include "server/ros/bag_person.h"
+#include "server/ros/transform_person.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -15,11 +15,7 @@ constexpr std::int64_t kDayNanos = 86'400'000'000'000;
 constexpr std::int64_t kMilliNanos = 1'000'000;
 constexpr std::int64_t kLeastStepNanos = 1'000;  // between two samples
 
-// A person of whom a sample gives other lengths is not measured there.
-constexpr double kLongestBone = 1.0;  // m
-constexpr double kShortestHuman = 0.4;
-constexpr double kTallestHuman = 2.8;
-constexpr double kShortestArmBone = 0.05;
+constexpr double kShortestArmBone = 0.05;  // m
 
 // Where the next joint lies in the segment frame of these: along the arm, which is level in the
 // T-pose.
@@ -34,14 +30,14 @@ constexpr std::array<ArmBone, 4> kArmBones = {{{urdf::kRightUpperArm, -1},
 
 }  // namespace
 
-bool BagPerson::HasSegments() const {
+bool TransformPerson::HasSegments() const {
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
     if (present_.test(At(segment))) return true;
   }
   return false;
 }
 
-bool BagPerson::Add(const FrameTransform& transform) {
+bool TransformPerson::Add(const FrameTransform& transform) {
   const std::size_t slot = At(transform.slot);
   bool cut_short = false;
   if (transform.slot < urdf::kSegmentCount && present_.test(slot)) {
@@ -54,31 +50,43 @@ bool BagPerson::Add(const FrameTransform& transform) {
   return cut_short;
 }
 
-BagPerson::Result BagPerson::Finish() {
+void TransformPerson::AddStatic(const FrameTransform& transform) {
+  static_[At(transform.slot)] = transform;
+  is_static_.set(At(transform.slot));
+}
+
+const FrameTransform* TransformPerson::Find(int slot) const {
+  if (present_.test(At(slot))) return &pending_[At(slot)];
+  return is_static_.test(At(slot)) ? &static_[At(slot)] : nullptr;
+}
+
+TransformPerson::Result TransformPerson::Finish(std::int64_t arrival_nanos) {
+  if (!HasSegments()) return Result::kNothing;
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
-    if (!present_.test(At(segment))) return Result::kNothing;
+    if (Find(segment) == nullptr) return Result::kNothing;
   }
   Poses poses;
   const Result chained = Chain(poses);
   if (chained == Result::kNothing) return chained;  // a link between two segments is still to come
+  const std::int64_t header_nanos = StampInHeaders();
   present_.reset();
   if (chained == Result::kNoTree) return chained;
-  const FrameTransform& pelvis = pending_[urdf::kPelvis];
-  if (!SetStamp(pelvis.header_nanos, first_record_nanos_)) return Result::kDuplicate;
+  if (!SetStamp(header_nanos, first_record_nanos_)) return Result::kDuplicate;
   SetSegments(poses);
+  sample_.arrival_nanos = arrival_nanos;
   ++samples_;
   return Result::kSample;
 }
 
-BagPerson::Result BagPerson::Chain(Poses& poses) const {
+TransformPerson::Result TransformPerson::Chain(Poses& poses) const {
   const std::string* root = nullptr;
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
-    const FrameTransform* at = &pending_[At(segment)];
+    const FrameTransform* at = Find(segment);
     Pose pose = at->parent_from_child;
     for (int steps = 0; at->parent_slot >= 0; ++steps) {
       if (steps == kFrameSlots) return Result::kNoTree;  // a circle
-      if (!present_.test(At(at->parent_slot))) return Result::kNothing;
-      at = &pending_[At(at->parent_slot)];
+      at = Find(at->parent_slot);
+      if (at == nullptr) return Result::kNothing;
       const Pose& up = at->parent_from_child;
       pose = {up.position + up.orientation * pose.position, up.orientation * pose.orientation};
     }
@@ -89,10 +97,19 @@ BagPerson::Result BagPerson::Chain(Poses& poses) const {
   return Result::kSample;
 }
 
-bool BagPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_nanos) {
+// Of the pelvis, unless that is static.
+std::int64_t TransformPerson::StampInHeaders() const {
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    if (present_.test(At(segment))) return pending_[At(segment)].header_nanos;
+  }
+  return 0;
+}
+
+bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_nanos) {
   if (headers_are_right_ && samples_ > 0 && header_nanos == last_header_nanos_) return false;
   headers_are_right_ = headers_are_right_ && std::llabs(header_nanos - record_nanos) < kDayNanos &&
                        (samples_ == 0 || header_nanos > last_header_nanos_);
+  if (samples_ > 0 && header_nanos < last_header_nanos_) ++steps_back_;
   last_header_nanos_ = header_nanos;
   std::int64_t stamp = headers_are_right_ ? header_nanos : record_nanos;
   if (samples_ == 0) {
@@ -107,7 +124,7 @@ bool BagPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_nanos) {
   return true;
 }
 
-void BagPerson::SetSegments(const Poses& poses) {
+void TransformPerson::SetSegments(const Poses& poses) {
   if (!arms_are_turned_) FindArmFrames(poses);
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
     SegmentState& state = sample_.segments[At(segment)];
@@ -123,7 +140,7 @@ void BagPerson::SetSegments(const Poses& poses) {
   }
 }
 
-void BagPerson::FindArmFrames(const Poses& poses) {
+void TransformPerson::FindArmFrames(const Poses& poses) {
   double level = 0;    // as segment frames have it
   double hanging = 0;  // as link frames have it
   for (const ArmBone& bone : kArmBones) {
@@ -135,22 +152,6 @@ void BagPerson::FindArmFrames(const Poses& poses) {
     hanging -= direction.z();
   }
   arms_are_turned_ = hanging > level;
-}
-
-std::optional<urdf::Skeleton> BagPerson::MeasureSkeleton() const {
-  std::array<Vector3d, urdf::kSegmentCount> t_pose;
-  t_pose[urdf::kPelvis].setZero();
-  for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
-    const int parent = urdf::kSegments[At(segment)].parent;
-    const SegmentState& from = sample_.segments[At(parent)];
-    const Vector3d bone =
-        from.orientation.conjugate() * (sample_.segments[At(segment)].position - from.position);
-    if (bone.norm() > kLongestBone) return std::nullopt;
-    t_pose[At(segment)] = t_pose[At(parent)] + bone;
-  }
-  urdf::Skeleton skeleton = urdf::SkeletonFromTPose(t_pose, {});
-  if (skeleton.height < kShortestHuman || skeleton.height > kTallestHuman) return std::nullopt;
-  return skeleton;
 }
 
 }  // namespace kinescope::ros_bridge

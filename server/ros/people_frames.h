@@ -1,6 +1,6 @@
-/// Which TF frames of a recording are the segments of people, told by their names alone. Ours are
+/// Which TF frames are the segments of people, told by their names alone. Ours are
 /// `<model>_<link>`; others put more around the link's name ("l5_abdomen_down_xsens"), and a robot
-/// in the same recording may have a "left_hand" of its own. Pure; one thread.
+/// beside them may have a "left_hand" of its own. Pure; one thread.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct PersonFrames {
   std::array<std::string, kFrameSlots> frames;
 };
 
-class BagFrames {
+class PeopleFrames {
  public:
   static constexpr std::size_t kMostPeople = 16;
   static constexpr std::size_t kMostNames =

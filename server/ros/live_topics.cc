@@ -1,0 +1,166 @@
+#include "server/ros/live_topics.h"
+
+#include <ros/init.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <ros/this_node.h>
+#include <ros/xmlrpc_manager.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "server/ros/init.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+constexpr std::chrono::seconds kAskEvery{1};
+constexpr std::chrono::seconds kPatience{3};  // a busy machine's master may take a second to answer
+// Messages that wait for the reading thread before the oldest is dropped. /tf is shared: two
+// seconds of a person at 240 Hz, of whom every transform comes by itself.
+constexpr std::uint32_t kQueue = 2 * 240 * urdf::kSegmentCount;
+
+std::vector<std::string> Strings(XmlRpcValue& list) {
+  std::vector<std::string> strings;
+  if (list.getType() != XmlRpcValue::TypeArray) return strings;
+  for (int i = 0; i < list.size(); ++i) {
+    if (list[i].getType() == XmlRpcValue::TypeString) strings.push_back(list[i]);
+  }
+  return strings;
+}
+
+}  // namespace
+
+LiveTopics::LiveTopics(std::vector<std::string> topics, std::string description,
+                       OnMessage on_message)
+    : topics_(std::move(topics)),
+      description_(std::move(description)),
+      on_message_(std::move(on_message)) {
+  // roscpp would otherwise try for ever when the master goes while it registers something.
+  ros::master::setRetryTimeout(ros::WallDuration(1));
+  thread_ = std::thread([this] { Run(); });
+}
+
+LiveTopics::~LiveTopics() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+  if (node_) LeaveRos();  // before the subscribers go, each of which would take leave by itself
+}
+
+void LiveTopics::Take(std::chrono::milliseconds timeout) {
+  queue_.callAvailable(ros::WallDuration(std::chrono::duration<double>(timeout).count()));
+}
+
+LiveTopics::Status LiveTopics::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return status_;
+}
+
+void LiveTopics::Run() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!stopping_ && !status_.told_to_stop) {
+    lock.unlock();
+    Ask();
+    lock.lock();
+    changed_.wait_for(lock, kAskEvery, [&] { return stopping_; });
+  }
+}
+
+void LiveTopics::Ask() {
+  const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
+  const Standing standing = master_.AskStanding(our_uri, kPatience);
+  if ((node_ && !ros::ok()) || standing == Standing::kNameTaken) return StopForGood();
+  SetMasterAnswers(standing != Standing::kNoAnswer);
+  if (standing == Standing::kNoAnswer) return;
+  if (!node_) Start();
+  // Whoever is registered is registered once more, which does no harm. A master that has forgotten
+  // the subscription alone cannot be told from one that knows it.
+  for (const std::string& topic : topics_) Register(topic);
+  std::size_t publishers = 0;
+  for (const ros::Subscriber& subscriber : subscribers_)
+    publishers += subscriber.getNumPublishers();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_.publishers = publishers;
+}
+
+void LiveTopics::Start() {
+  node_ = std::make_unique<ros::NodeHandle>();
+  for (std::size_t i = 0; i < topics_.size(); ++i) {
+    ros::SubscribeOptions options;
+    options.initByFullCallbackType<const Event&>(
+        topics_[i], kQueue, [this, i](const Event& event) { on_message_(i, event); });
+    options.callback_queue = &queue_;
+    options.transport_hints = ros::TransportHints().tcpNoDelay();
+    subscribers_.push_back(node_->subscribe(options));
+  }
+}
+
+void LiveTopics::Register(const std::string& topic) {
+  XmlRpcValue arguments;
+  arguments[0] = topic;
+  arguments[1] = "*";
+  arguments[2] = ros::XMLRPCManager::instance()->getServerURI();
+  MasterReply reply = master_.Call("registerSubscriber", arguments, kPatience);
+  if (reply.code != MasterReply::Code::kGood) return;  // tried again in a second
+  MasterClient ourselves(ros::network::getHost(),
+                         static_cast<int>(ros::XMLRPCManager::instance()->getServerPort()));
+  std::vector<std::string> heard = ConnectedPublishers(topic, ourselves);
+  const std::size_t before = heard.size();
+  for (std::string& uri : Strings(reply.value)) {
+    if (std::find(heard.begin(), heard.end(), uri) == heard.end()) heard.push_back(std::move(uri));
+  }
+  if (heard.size() == before) return;
+  // As the master tells it when somebody new comes. Those that we hear stay in the list: a
+  // restarted master does not know publishers that were there before it, and they do not tell.
+  XmlRpcValue update;
+  update[0] = topic;
+  for (std::size_t i = 0; i < heard.size(); ++i) update[1][static_cast<int>(i)] = heard[i];
+  ourselves.Call("publisherUpdate", update, kPatience);
+}
+
+std::vector<std::string> LiveTopics::ConnectedPublishers(const std::string& topic,
+                                                         MasterClient& ourselves) {
+  std::vector<std::string> uris;
+  MasterReply reply = ourselves.Call("getBusInfo", XmlRpcValue(), kPatience);
+  if (reply.value.getType() != XmlRpcValue::TypeArray) return uris;
+  for (int i = 0; i < reply.value.size(); ++i) {
+    // [connection, who, "i" for what comes in, transport, topic, ...]
+    XmlRpcValue& connection = reply.value[i];
+    const bool is_ours = connection.getType() == XmlRpcValue::TypeArray && connection.size() >= 5 &&
+                         connection[1].getType() == XmlRpcValue::TypeString &&
+                         connection[2] == XmlRpcValue("i") && connection[4] == XmlRpcValue(topic);
+    if (is_ours) uris.push_back(connection[1]);
+  }
+  return uris;
+}
+
+void LiveTopics::SetMasterAnswers(bool answers) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (has_asked_ && answers == status_.master_answers) return;
+  const bool was_asked = std::exchange(has_asked_, true);
+  status_.master_answers = answers;
+  if (answers) {
+    spdlog::info("{}: listening, by the ROS master at {}", description_, ros::master::getURI());
+  } else if (was_asked) {
+    spdlog::warn("{}: the ROS master at {} does not answer; who is connected is still heard",
+                 description_, ros::master::getURI());
+  } else {
+    spdlog::info("{}: waiting for a ROS master at {}", description_, ros::master::getURI());
+  }
+}
+
+void LiveTopics::StopForGood() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status_.told_to_stop = true;
+  spdlog::warn("{}: listening was ended by rosnode kill, or by another node called {}",
+               description_, ros::this_node::getName());
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,96 @@
+#include "server/ros/raw_message.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "server/ros/link_states.h"
+#include "server/ros/names.h"
+#include "server/ros/transforms.h"
+#include "tests/server/ros/test_person.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+template <class Message>
+std::vector<std::uint8_t> BytesOf(const Message& message) {
+  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(out, message);
+  return bytes;
+}
+
+const PersonState& Somebody() {
+  static const PersonState person =
+      testing::MakePerson(testing::MakeModel(), testing::Posture(1), 5, 1'000'000'000);
+  return person;
+}
+
+std::vector<std::uint8_t> Transforms() {
+  tf2_msgs::TFMessage message;
+  FillTransforms(Somebody(), PersonNames("skeleton"), "world", TfShape::kTree, message);
+  return BytesOf(message);
+}
+
+std::vector<std::uint8_t> LinkStates() {
+  xsens_mvn_ros_msgs::LinkStateArray message;
+  FillLinkStates(Somebody(), "world", message);
+  return BytesOf(message);
+}
+
+template <class Message>
+void ExpectEveryTruncationRefused(const std::vector<std::uint8_t>& whole) {
+  Message message;
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    EXPECT_FALSE(
+        Decode({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}, message))
+        << size << " of " << whole.size() << " bytes";
+  }
+  ASSERT_TRUE(Decode(whole, message));
+  EXPECT_EQ(BytesOf(message), whole);
+}
+
+TEST(RawMessage, IsTransformsOrLinkStatesWithoutLossAndNothingWhenItIsCutShort) {
+  ExpectEveryTruncationRefused<tf2_msgs::TFMessage>(Transforms());
+  ExpectEveryTruncationRefused<xsens_mvn_ros_msgs::LinkStateArray>(LinkStates());
+}
+
+// Four thousand million elements would be reserved before the first of them is missed.
+TEST(RawMessage, ThatClaimsMoreElementsThanFitIsRefusedBeforeAnythingIsReserved) {
+  tf2_msgs::TFMessage transforms;
+  auto bytes = Transforms();
+  for (std::size_t i = 0; i < 4; ++i) bytes[i] = 0xFF;
+  EXPECT_FALSE(Decode(bytes, transforms));
+  EXPECT_EQ(transforms.transforms.capacity(), 0U);
+
+  xsens_mvn_ros_msgs::LinkStateArray states;
+  bytes = LinkStates();
+  const std::size_t count_at = 4 + 8 + 4 + std::string("world").size();
+  ASSERT_EQ(bytes[count_at], urdf::kSegmentCount);
+  bytes[count_at + 3] = 0x7F;
+  EXPECT_FALSE(Decode(bytes, states));
+  bytes = LinkStates();
+  bytes[15] = 0xFF;  // a frame_id longer than the message
+  EXPECT_FALSE(Decode(bytes, states));
+  EXPECT_EQ(states.states.capacity(), 0U);
+}
+
+TEST(RawMessage, WithRandomBytesInItIsReadOrRefused) {
+  std::mt19937 random(21);
+  tf2_msgs::TFMessage transforms;
+  xsens_mvn_ros_msgs::LinkStateArray states;
+  const auto damage = [&](std::vector<std::uint8_t> bytes) {
+    for (int i = 0; i < 8; ++i)
+      bytes[random() % bytes.size()] = static_cast<std::uint8_t>(random());
+    return bytes;
+  };
+  int refused = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    refused += !Decode(damage(Transforms()), transforms);
+    refused += !Decode(damage(LinkStates()), states);
+  }
+  EXPECT_GT(refused, 0);
+}
+
+}  // namespace
+}  // namespace kinescope::ros_bridge
