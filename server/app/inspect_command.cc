@@ -22,6 +22,7 @@
 #include "server/mvn/net/net_url.h"
 #include "server/mvn/open.h"
 #include "server/ros/bag_source.h"
+#include "server/ros/graph_source.h"
 
 namespace kinescope::app {
 namespace {
@@ -99,9 +100,17 @@ class SampleSteps : public SampleSink {
   double samples_ = 0;
 };
 
-// The built-in subject never ends: `seconds` of it will do. A file is read to its end.
+// The built-in subject never ends: `seconds` of it will do, as of a live source. A file is read to
+// its end.
 mvn::InspectionReport InspectSamples(Source& source, double seconds, bool has_end) {
   SampleSteps steps;
+  if (source.is_live()) {
+    spdlog::info("listening to {} for {:g} s; Ctrl-C ends it sooner", source.description(),
+                 seconds);
+    const std::int64_t end = MonotonicNanos() + static_cast<std::int64_t>(seconds * 1e9);
+    while (!StopRequested() && MonotonicNanos() < end) source.Poll(kPollTimeout, steps);
+    return steps.inspection().Report(source);
+  }
   const double most = seconds * source.nominal_rate_hz();
   while (!StopRequested() && (has_end || steps.samples() < most)) {
     if (source.Poll(kPollTimeout, steps) == Source::State::kEnded) break;
@@ -160,6 +169,9 @@ mvn::InspectionReport Inspect(const InspectOptions& options) {
   } else if (options.source.rfind("demo:", 0) == 0) {
     report = InspectSamples(*OpenSource(options.source), options.seconds, false);
     report.format = "built-in subject";
+  } else if (ros_bridge::IsGraphUrl(options.source)) {
+    report = InspectSamples(*ros_bridge::OpenGraph(options.source), options.seconds, false);
+    report.format = "ROS graph";
   } else {
     report = InspectFile(options);
   }

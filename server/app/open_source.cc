@@ -10,6 +10,7 @@
 #include "server/mvn/file/recording.h"
 #include "server/mvn/net/net_url.h"
 #include "server/ros/bag_source.h"
+#include "server/ros/graph_source.h"
 #include "server/subject/subject.h"
 
 namespace kinescope::app {
@@ -47,8 +48,11 @@ std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings&
   if (mvn::IsNetUrl(url)) {
     return mvn::OpenStream(mvn::OpenDatagrams(url), settings.stream);
   }
+  if (ros_bridge::IsGraphUrl(url)) return ros_bridge::OpenGraph(url);
   return OpenFile(url, settings);
 }
+
+bool IsLiveUrl(const std::string& url) { return mvn::IsNetUrl(url) || ros_bridge::IsGraphUrl(url); }
 
 std::unique_ptr<Source> OpenAtTrueRate(const std::string& url, bool loop,
                                        const SourceSettings& settings) {

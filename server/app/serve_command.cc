@@ -20,6 +20,7 @@
 #include "server/core/latest.h"
 #include "server/http/server.h"
 #include "server/ros/bridge.h"
+#include "server/ros/graph_source.h"
 
 namespace kinescope::app {
 namespace {
@@ -124,6 +125,14 @@ void Serve(const ServeOptions& options, bool with_page) {
   SourceSettings source_settings;
   source_settings.stream.stamps = ToStamps(options.stamps);
   const std::unique_ptr<Source> source = OpenAtTrueRate(url, options.loop, source_settings);
+  if (ros_bridge::IsGraphUrl(url) && bridge_config.tf != "off") {
+    // Whoever publishes these people has their frames on /tf already. A second publisher of a frame
+    // makes it shake for everybody, and we would hear ourselves.
+    bridge_config.tf = "off";
+    if (ros_mode != ros_bridge::RosMode::kOff) {
+      spdlog::info("frames of people who come from {} are not published again (--tf off)", url);
+    }
+  }
 
   Latest<SceneState> states;       // reading thread -> page
   Latest<http::Picture> pictures;  // drawing thread -> page

@@ -4,6 +4,7 @@
 
 #include "server/core/errors.h"
 #include "server/mvn/open.h"
+#include "server/ros/graph_source.h"
 
 namespace kinescope::app {
 
@@ -50,6 +51,12 @@ std::unique_ptr<Feed> OpenFeed(const FeedSettings& settings) {
       throw SourceError(
           "standard input: only captures and raw datagrams can be streamed from a pipe; save it as "
           "a file");
+    }
+    if (ros_bridge::IsGraphUrl(settings.source)) {
+      throw SourceError(
+          "source '" + settings.source +
+          "': a live ROS graph cannot be streamed as a suit; record it (rosbag record "
+          "/tf) and stream the bag");
     }
     return MakeSampleFeed(settings);
   }

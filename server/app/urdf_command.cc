@@ -1,21 +1,26 @@
 // `kinescope urdf`: the URDF of a person, and a look at anybody's.
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "server/app/commands.h"
 #include "server/app/figure_files.h"
+#include "server/app/open_source.h"
 #include "server/app/option_list.h"
 #include "server/app/options.h"
 #include "server/app/person_export.h"
 #include "server/app/pipeline_options.h"
 #include "server/app/robot_source.h"
 #include "server/app/scene_reader.h"
+#include "server/app/stop_signal.h"
 #include "server/app/urdf_picture.h"
 #include "server/app/urdf_report.h"
+#include "server/core/clocks.h"
 #include "urdf/mesh_uri.h"
 #include "urdf/urdf_check.h"
 
@@ -38,12 +43,52 @@ struct CheckOptions {
   std::vector<std::string> package_path;
 };
 
+// Remembers of whom a source has told the lengths.
+class DescribedPeople : public SampleSink {
+ public:
+  explicit DescribedPeople(SceneBuilder& to) : to_(to) {}
+  void OnCharacter(const Character& character) override {
+    if (character.skeleton) ids_.insert(character.id);
+    to_.OnCharacter(character);
+  }
+  void OnSample(const BodySample& sample) override { to_.OnSample(sample); }
+  void OnObjects(const ObjectsSample& sample) override { to_.OnObjects(sample); }
+  bool Has(int id) const { return ids_.count(id) > 0; }
+
+ private:
+  SceneBuilder& to_;
+  std::set<int> ids_;
+};
+
+// A suit tells lengths every few seconds; before, everybody would have those of the default body.
+urdf::HumanModel LiveHuman(const std::string& url, const SceneOptions& options) {
+  constexpr int kPatienceSecs = 10;
+  const auto source = OpenSource(url);
+  std::shared_ptr<const SceneState> state;
+  SceneBuilder builder(options, url, 0, [&](const auto& newest) { state = newest; });
+  builder.Start();
+  DescribedPeople described(builder);
+  spdlog::info("waiting up to {} s for a person from {}", kPatienceSecs, source->description());
+  const std::int64_t end = MonotonicNanos() + std::int64_t{kPatienceSecs} * 1'000'000'000;
+  while (!StopRequested() && MonotonicNanos() < end) {
+    source->Poll(std::chrono::milliseconds(50), described);
+    for (const PersonState& person : state->people) {
+      if (described.Has(person.character)) return person.model->human;
+    }
+  }
+  throw SourceError(
+      fmt::format("source '{}': no person with poses and segment lengths came within {} s (a suit "
+                  "has to send scale data; `kinescope inspect` says what comes)",
+                  url, kPatienceSecs));
+}
+
 // Without a source, the default body.
 urdf::HumanModel HumanOf(const std::string& source, const SceneOptions& scene) {
   if (source.empty()) {
     const auto to_nobody = [](const std::shared_ptr<const SceneState>&) {};
     return SceneBuilder(scene, "", 0, to_nobody).InitialModel()->human;
   }
+  if (IsLiveUrl(source)) return LiveHuman(source, scene);
   SceneReader reader(source, scene);
   const auto state = reader.Next();
   if (!state) throw SourceError("source '" + source + "' has no frame");

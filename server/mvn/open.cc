@@ -11,7 +11,7 @@ namespace kinescope::mvn {
 
 std::unique_ptr<DatagramSource> OpenDatagrams(const std::string& url) {
   if (IsNetUrl(url)) return url[0] == 'u' ? OpenUdpDatagrams(url) : OpenTcpDatagrams(url);
-  if (url.rfind("demo:", 0) == 0) return nullptr;
+  if (url.rfind("demo:", 0) == 0 || url.rfind("ros:", 0) == 0) return nullptr;
   InputFile file = OpenInputFile(url);
   const RecordingKind kind = KindOf(file.head());
   if (kind == RecordingKind::kMvnx || kind == RecordingKind::kRosBag) return nullptr;

@@ -16,7 +16,8 @@ struct StreamSettings {
   Stamps stamps = Stamps::kFitted;
 };
 
-/// The datagrams of `url`, or null where it is no stream of datagrams (an MVNX file, demo:lift).
+/// The datagrams of `url`, or null where it is no stream of datagrams (an MVNX file, demo:lift,
+/// ros:).
 /// A file is known by its first bytes, not by its name.
 /// @throws SourceError naming the URL, what is wrong and what would be right (port taken, file
 /// missing, not a capture).

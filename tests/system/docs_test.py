@@ -92,7 +92,7 @@ def try_kinescope(words, folder):
         words += ["--ros", "off", "--pictures", "off"] if command == "serve" else ["--ros", "off"]
         if command == "serve":
             words += ["--http_port", "0"]
-        if not any(w.startswith(("demo:", "udp:", "tcp:")) or w == "take.pcap" for w in words):
+        if not any(w.startswith(("demo:", "udp:", "tcp:", "ros:")) or w == "take.pcap" for w in words):
             words += ["--source", "udp://127.0.0.1:" + free_port(socket.SOCK_DGRAM)]
         return run_until(words, folder, "page at" if command == "serve" else "waiting for")
     if command == "stream":
@@ -121,6 +121,11 @@ def attempt(line, words, folder):
         return run(["env", "PATH=" + env_path, "bash", "-c", shell], folder)
     if name in ("curl", "websocat"):
         return "skip: the tests of the server make these requests"
+    if any(w.startswith("ros:") for w in words):
+        if not SETUP:
+            return "skip: built without ROS"
+        if words[1] != "serve":
+            return "skip: ros_source_test has a graph to listen to"
     if name == "kinescope" or name.endswith("/bin/kinescope"):
         return try_kinescope([RECORDING if w == "recording.mvnx" else w for w in words], folder)
     return "no test knows how to run this"

@@ -1,0 +1,318 @@
+// Kinescope beside a bridge that is there already: the source `ros:` against a real master and real
+// publishers, in processes of their own.
+#include <gmock/gmock.h>
+#include <ros/network.h>
+#include <sensor_msgs/JointState.h>
+#include <tf2_msgs/TFMessage.h>
+#include <xmlrpcpp/XmlRpcClient.h>
+#include <xsens_mvn_ros_msgs/LinkStateArray.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "server/ros/transforms.h"
+#include "tests/server/ros/test_person.h"
+#include "tests/system/ros_fixture.h"
+#include "tests/system/run_program.h"
+
+namespace kinescope {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using testing::Process;
+using testing::RunProgram;
+using xsens_mvn_ros_msgs::LinkStateArray;
+
+class RosSource : public testing::RosProgram {
+ protected:
+  // The rest of the next line that has `text` in it.
+  static std::string WaitForLine(Process& process, const std::string& text) {
+    std::string seen;
+    while (const auto line = process.ReadLine(kPatience)) {
+      seen += *line + "\n";
+      const std::size_t at = line->find(text);
+      if (at != std::string::npos) return line->substr(at + text.size());
+    }
+    ADD_FAILURE() << "no line with '" << text << "' in:\n" << seen;
+    return "";
+  }
+
+  // Link states of both nodes by stamp, until `samples` came from both; and who is on /tf.
+  void Compare(int samples) {
+    Hear<LinkStateArray>("/suit/link_states",
+                         [this](const auto& message) { theirs_[message.header.stamp] = message; });
+    Hear<LinkStateArray>("/view/link_states",
+                         [this](const auto& message) { ours_[message.header.stamp] = message; });
+    EXPECT_TRUE(Spin([&] { return CompareWhatCame() >= samples; }))
+        << compared_ << " of " << samples << " samples came both ways; " << theirs_.size()
+        << " of the suit's wait, and " << ours_.size() << " of ours";
+    fmt::print("{} samples; worst {:.1e} m, {:.1e} rad, {:.1e} m/s\n", compared_, worst_metres_,
+               worst_radians_, worst_velocity_);
+    EXPECT_LT(worst_metres_, 1e-6);
+    EXPECT_LT(worst_radians_, 1e-6);
+  }
+
+  double worst_velocity_ = 0;  // m/s, rad/s
+
+ private:
+  int CompareWhatCame() {
+    while (!ours_.empty()) {
+      const auto [stamp, ours] = *ours_.begin();
+      const auto theirs = theirs_.find(stamp);
+      // The very first of them may have been published before we heard that topic.
+      const bool is_passed = !theirs_.empty() && theirs_.begin()->first > stamp;
+      if (theirs == theirs_.end() && !is_passed) break;
+      if (theirs != theirs_.end()) CompareOne(ours, theirs->second);
+      theirs_.erase(theirs_.begin(), theirs_.upper_bound(stamp));
+      ours_.erase(ours_.begin());
+    }
+    return compared_;
+  }
+
+  void CompareOne(const LinkStateArray& ours, const LinkStateArray& theirs) {
+    ASSERT_EQ(ours.states.size(), theirs.states.size());
+    for (std::size_t i = 0; i < ours.states.size(); ++i) {
+      const auto& a = ours.states[i];
+      const auto& b = theirs.states[i];
+      ASSERT_EQ(a.header.frame_id, b.header.frame_id);
+      const auto& p = a.pose;
+      const auto& q = b.pose;
+      const Eigen::Vector3d moved(p.position.x - q.position.x, p.position.y - q.position.y,
+                                  p.position.z - q.position.z);
+      const Eigen::Quaterniond turned =
+          Eigen::Quaterniond(p.orientation.w, p.orientation.x, p.orientation.y, p.orientation.z)
+              .conjugate() *
+          Eigen::Quaterniond(q.orientation.w, q.orientation.x, q.orientation.y, q.orientation.z);
+      const auto& v = a.twist;
+      const auto& w = b.twist;
+      worst_metres_ = std::max(worst_metres_, moved.norm());
+      worst_radians_ = std::max(worst_radians_, 2 * turned.vec().norm());
+      worst_velocity_ =
+          std::max({worst_velocity_, std::abs(v.linear.x - w.linear.x),
+                    std::abs(v.linear.y - w.linear.y), std::abs(v.angular.z - w.angular.z)});
+    }
+    ++compared_;
+  }
+
+  std::map<ros::Time, LinkStateArray> ours_, theirs_;
+  int compared_ = 0;
+  double worst_metres_ = 0, worst_radians_ = 0;
+};
+
+TEST_F(RosSource, ShowsTheSamePosesAsTheBridgeWhoseFramesItHears) {
+  const auto suit = Start("bridge demo:lift --ros required --tf flat __name:=suit");
+  const auto view = Start("bridge ros: __name:=view");
+  Compare(100);
+}
+
+TEST_F(RosSource, ShowsTheSamePosesWhenTheFramesAreATreeAndPublishesNoFramesItself) {
+  const auto suit = Start("bridge demo:lift --ros required --tf tree __name:=suit");
+  const auto view = Start("bridge ros: --tf flat __name:=view");
+  WaitForLine(*view, "not published again");
+  std::set<std::string> publishers;
+  const boost::function<void(const ros::MessageEvent<const tf2_msgs::TFMessage>&)> note =
+      [&](const auto& event) { publishers.insert(event.getPublisherName()); };
+  subscribers_.push_back(node_->subscribe<tf2_msgs::TFMessage>("/tf", 0, note));
+  Compare(100);
+  EXPECT_THAT(publishers, ElementsAre("/suit"));
+}
+
+TEST_F(RosSource, TakesVelocitiesFromLinkStates) {
+  const auto suit = Start("bridge demo:lift --ros required --tf off __name:=suit");
+  const auto view = Start("bridge ros:/suit/link_states __name:=view");
+  Compare(100);
+  EXPECT_EQ(worst_velocity_, 0);
+}
+
+TEST_F(RosSource, MeasuresTheLengthsThatTheOthersUrdfHas) {
+  const auto suit = Start("bridge demo:lift --ros required __name:=suit");
+  const auto urdf_of = [](const std::string& source) {
+    return RunProgram({KINESCOPE_PROGRAM, "urdf", source, "--figure", "primitive", "__name:=asks"});
+  };
+  const auto live = urdf_of("ros:");
+  ASSERT_EQ(live.exit_code, 0) << live.err;
+  // The knee, as one of the joints whose place is a length alone.
+  const auto knee = [](const std::string& xml) {
+    const std::string tag = "<joint name=\"skeleton_left_knee_y\"";
+    const std::size_t joint = xml.find(tag);
+    const std::size_t at = xml.find("xyz=\"", joint);
+    double x = 0, y = 0, z = 0;
+    EXPECT_EQ(std::sscanf(xml.c_str() + at, "xyz=\"%lf %lf %lf", &x, &y, &z), 3);
+    return Eigen::Vector3d(x, y, z);
+  };
+  EXPECT_LT((knee(live.out) - knee(urdf_of("demo:lift").out)).norm(), 1e-6);
+}
+
+TEST_F(RosSource, IsInspectedLikeAnyOther) {
+  const auto suit = Start("bridge demo:walk --ros required __name:=suit");
+  const auto result = RunProgram(
+      {KINESCOPE_PROGRAM, "inspect", "ros:", "--seconds", "3", "--json", "__name:=asks"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto report = nlohmann::json::parse(result.out);
+  EXPECT_EQ(report.at("format"), "ROS graph");
+  EXPECT_EQ(report.at("live"), true);
+  EXPECT_EQ(report.at("characters").at(0).at("name"), "skeleton");
+  EXPECT_GT(report.at("characters").at(0).at("samples").at("count"), 30);
+}
+
+TEST_F(RosSource, WaitsForAMasterAndHearsTheNextPublisherAfterItsRestart) {
+  const std::string uri = std::getenv("ROS_MASTER_URI");
+  const std::string port = uri.substr(uri.rfind(':') + 1);
+  const auto start_master = [&] {
+    master_ = std::make_unique<Process>(
+        std::vector<std::string>{KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", port});
+  };
+  master_.reset();
+  const auto view = Start("bridge ros: __name:=view");
+  WaitForLine(*view, "waiting for a ROS master at " + uri);
+  start_master();
+  WaitForLine(*view, "listening, by the ROS master");
+  auto suit = Start("bridge demo:lift __name:=suit");
+  WaitForLine(*view, "live: 'skeleton' from ros:/tf");
+
+  master_.reset();
+  WaitForLine(*view, "ros:/tf: the ROS master at " + uri + " does not answer");
+  suit.reset();  // until here it was heard without a master
+  WaitForLine(*view, "stale:");
+  start_master();
+  WaitForLine(*view, "listening, by the ROS master");
+  suit = Start("bridge demo:lift __name:=suit");
+  WaitForLine(*view, "live: 'skeleton' from ros:/tf");
+}
+
+TEST_F(RosSource, ADeadMasterDoesNotSilenceWhoIsConnectedNorDoesANewOneThatDoesNotKnowThem) {
+  const std::string uri = std::getenv("ROS_MASTER_URI");
+  // A node as most are: it registers once, and a restarted master never hears of it.
+  const ros::Publisher publisher = node_->advertise<tf2_msgs::TFMessage>("/tf", 10);
+  const auto view = Start("serve ros: --http_port 0 --pictures off --ros off __name:=view");
+  const std::string page = WaitForLine(*view, "page at ");
+  const auto heard = [&] {
+    const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
+    return nlohmann::json::parse(text).at("source");
+  };
+  const auto keep_publishing_until = [&](const auto& condition) {
+    return Spin([&] {
+      publisher.publish(tf2_msgs::TFMessage());
+      return condition(heard());
+    });
+  };
+  ASSERT_TRUE(
+      keep_publishing_until([](const auto& source) { return source.value("datagrams", 0) > 0; }));
+  master_.reset();
+  ASSERT_TRUE(keep_publishing_until(
+      [](const auto& source) { return source.at("transport").at("ros_master_answers") == 0; }));
+  master_ = std::make_unique<Process>(std::vector<std::string>{
+      KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", uri.substr(uri.rfind(':') + 1)});
+  ASSERT_TRUE(keep_publishing_until(
+      [](const auto& source) { return source.at("transport").at("ros_master_answers") == 1; }));
+  const int before = heard().at("datagrams");
+  EXPECT_TRUE(keep_publishing_until(
+      [&](const auto& source) { return source.at("datagrams") > before + 5; }));
+  EXPECT_EQ(heard().at("transport").at("publishers"), 1);
+}
+
+TEST_F(RosSource, CountsWhatCannotBeUsedAndGoesOn) {
+  const ros::Publisher publisher = node_->advertise<tf2_msgs::TFMessage>("/people", 100);
+  const auto view = Start("serve ros:/people --http_port 0 --pictures off __name:=view");
+  const std::string page = WaitForLine(*view, "page at ");
+  const auto model = testing::MakeModel();
+  const std::int64_t begin = static_cast<std::int64_t>(ros::Time::now().toNSec());
+  std::uint32_t n = 0;
+  const auto publish = [&](const std::function<void(tf2_msgs::TFMessage&)>& damage) {
+    ++n;
+    tf2_msgs::TFMessage message;
+    const auto person = testing::MakePerson(model, testing::Posture(1e-3 * n), n,
+                                            begin + std::int64_t{n} * 1'000'000);
+    ros_bridge::FillTransforms(person, ros_bridge::PersonNames(model->human), "world",
+                               ros_bridge::TfShape::kFlat, message);
+    damage(message);
+    publisher.publish(message);
+  };
+  const auto source = [&] {
+    const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
+    return nlohmann::json::parse(text).at("source");
+  };
+  EXPECT_TRUE(Spin([&] {
+    publish([](auto&) {});
+    publish([](auto& message) {
+      message.transforms[3].transform.translation.y = std::numeric_limits<double>::quiet_NaN();
+    });
+    publish([](auto& message) { message.transforms[3].transform.rotation.w += 0.1; });
+    publish([](auto& message) { message.transforms.erase(message.transforms.begin() + 7); });
+    publish([](auto& message) { message.transforms[3].header.frame_id = "elsewhere"; });
+    publish([](auto& message) {
+      for (auto& transform : message.transforms) transform.header.stamp -= ros::Duration(1);
+    });
+    publish([](auto& message) { message.transforms.resize(0); });
+    const auto now = source();
+    const auto rejected = now.value("rejected", nlohmann::json::object());
+    return now.value("samples", 0) > 10 && now.value("restarts", 0) > 0 &&
+           rejected.contains("transform with a number that is not finite") &&
+           rejected.contains("transform with a quaternion that is not of unit length") &&
+           rejected.contains("sample without all 23 segments") &&
+           rejected.contains("sample whose frames have no common parent") &&
+           now.at("ignored").contains("message on /tf without a person's segment");
+  })) << source().dump(1);
+}
+
+TEST_F(RosSource, RefusesATopicOfAnotherTypeByName) {
+  const ros::Publisher publisher = node_->advertise<sensor_msgs::JointState>("/joints", 10);
+  const auto view = Start("serve ros:/joints --http_port 0 --pictures off __name:=view");
+  const std::string page = WaitForLine(*view, "page at ");
+  EXPECT_TRUE(Spin([&] {
+    publisher.publish(sensor_msgs::JointState());
+    const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
+    return text.find("message on /joints that is a sensor_msgs/JointState") != std::string::npos;
+  }));
+}
+
+TEST_F(RosSource, RefusesNamesThatCannotBeAndANameThatIsTaken) {
+  const auto refusal = [](const std::vector<std::string>& arguments) {
+    std::vector<std::string> command = {KINESCOPE_PROGRAM, "bridge"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    const auto result = RunProgram(command);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    return result.err;
+  };
+  EXPECT_THAT(refusal({"ros://host:11311"}), HasSubstr("expected ros: or ros:/topic"));
+  EXPECT_THAT(refusal({"ros:/kinescope/link_states"}), HasSubstr("__name:="));
+  const auto suit = Start("bridge demo:lift --ros required");
+  ASSERT_TRUE(Spin([] {
+    std::vector<std::string> nodes;
+    ros::master::getNodes(nodes);
+    return std::count(nodes.begin(), nodes.end(), "/kinescope") == 1;
+  }));
+  EXPECT_THAT(refusal({"ros:"}), HasSubstr("a running node is called /kinescope already"));
+}
+
+TEST_F(RosSource, EndsWhenItsNodeIsKilled) {
+  const auto view = Start("bridge ros: --ros off __name:=view");
+  const auto is_there = [] {
+    std::vector<std::string> nodes;
+    ros::master::getNodes(nodes);
+    return std::count(nodes.begin(), nodes.end(), "/view") == 1;
+  };
+  ASSERT_TRUE(Spin(is_there));
+  XmlRpc::XmlRpcValue arguments, reply, value;
+  arguments[0] = "/listening_test";
+  arguments[1] = "/view";
+  ASSERT_TRUE(ros::master::execute("lookupNode", arguments, reply, value, false));
+  std::string host;
+  std::uint32_t port = 0;
+  ASSERT_TRUE(ros::network::splitURI(value, host, port));
+  XmlRpc::XmlRpcClient theirs(host.c_str(), static_cast<int>(port), "/");
+  arguments[1] = "user request";
+  ASSERT_TRUE(theirs.execute("shutdown", arguments, reply));
+  WaitForLine(*view, "listening was ended by rosnode kill");
+  WaitForLine(*view, "stopping");
+}
+
+}  // namespace
+}  // namespace kinescope
