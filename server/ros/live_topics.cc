@@ -23,11 +23,11 @@ constexpr std::chrono::seconds kPatience{3};  // a busy machine's master may tak
 // seconds of a person at 240 Hz, of whom every transform comes by itself.
 constexpr std::uint32_t kQueue = 2 * 240 * urdf::kSegmentCount;
 
-std::vector<std::string> Strings(XmlRpcValue& list) {
-  std::vector<std::string> strings;
+std::set<std::string> Strings(XmlRpcValue& list) {
+  std::set<std::string> strings;
   if (list.getType() != XmlRpcValue::TypeArray) return strings;
   for (int i = 0; i < list.size(); ++i) {
-    if (list[i].getType() == XmlRpcValue::TypeString) strings.push_back(list[i]);
+    if (list[i].getType() == XmlRpcValue::TypeString) strings.insert(list[i]);
   }
   return strings;
 }
@@ -111,23 +111,45 @@ void LiveTopics::Register(const std::string& topic) {
   if (reply.code != MasterReply::Code::kGood) return;  // tried again in a second
   MasterClient ourselves(ros::network::getHost(),
                          static_cast<int>(ros::XMLRPCManager::instance()->getServerPort()));
-  std::vector<std::string> heard = ConnectedPublishers(topic, ourselves);
-  const std::size_t before = heard.size();
-  for (std::string& uri : Strings(reply.value)) {
-    if (std::find(heard.begin(), heard.end(), uri) == heard.end()) heard.push_back(std::move(uri));
-  }
-  if (heard.size() == before) return;
-  // As the master tells it when somebody new comes. Those that we hear stay in the list: a
-  // restarted master does not know publishers that were there before it, and they do not tell.
+  const std::set<std::string> heard = ConnectedPublishers(topic, ourselves);
+  std::set<std::string> wanted = Strings(reply.value);
+  wanted.merge(Orphans(topic, heard, wanted));
+  if (std::includes(heard.begin(), heard.end(), wanted.begin(), wanted.end())) return;
+  // As the master tells it when somebody new comes; whoever is not in the list is not heard any
+  // more.
+  wanted.insert(heard.begin(), heard.end());
   XmlRpcValue update;
   update[0] = topic;
-  for (std::size_t i = 0; i < heard.size(); ++i) update[1][static_cast<int>(i)] = heard[i];
+  int count = 0;
+  for (const std::string& uri : wanted) update[1][count++] = uri;
   ourselves.Call("publisherUpdate", update, kPatience);
 }
 
-std::vector<std::string> LiveTopics::ConnectedPublishers(const std::string& topic,
-                                                         MasterClient& ourselves) {
-  std::vector<std::string> uris;
+std::set<std::string> LiveTopics::Orphans(const std::string& topic,
+                                          const std::set<std::string>& heard,
+                                          const std::set<std::string>& known) {
+  constexpr int kMostTries = 5;  // a second each: then it is no longer there
+  std::map<std::string, int>& orphans = orphans_[topic];
+  for (const std::string& uri : heard) {
+    if (known.count(uri) == 0) orphans[uri] = 0;
+  }
+  std::set<std::string> uris;
+  for (auto orphan = orphans.begin(); orphan != orphans.end();) {
+    const std::string& uri = orphan->first;
+    const bool is_lost = heard.count(uri) == 0 && ++orphan->second > kMostTries;
+    if (is_lost || known.count(uri) > 0) {
+      orphan = orphans.erase(orphan);
+      continue;
+    }
+    uris.insert(uri);
+    ++orphan;
+  }
+  return uris;
+}
+
+std::set<std::string> LiveTopics::ConnectedPublishers(const std::string& topic,
+                                                      MasterClient& ourselves) {
+  std::set<std::string> uris;
   MasterReply reply = ourselves.Call("getBusInfo", XmlRpcValue(), kPatience);
   if (reply.value.getType() != XmlRpcValue::TypeArray) return uris;
   for (int i = 0; i < reply.value.size(); ++i) {
@@ -136,7 +158,7 @@ std::vector<std::string> LiveTopics::ConnectedPublishers(const std::string& topi
     const bool is_ours = connection.getType() == XmlRpcValue::TypeArray && connection.size() >= 5 &&
                          connection[1].getType() == XmlRpcValue::TypeString &&
                          connection[2] == XmlRpcValue("i") && connection[4] == XmlRpcValue(topic);
-    if (is_ours) uris.push_back(connection[1]);
+    if (is_ours) uris.insert(connection[1]);
   }
   return uris;
 }

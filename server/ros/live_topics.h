@@ -13,8 +13,10 @@
 #include <condition_variable>
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -54,7 +56,11 @@ class LiveTopics {
   void Start();
   /// Tells the master that we listen, and our own node who publishes what it does not hear yet.
   void Register(const std::string& topic);
-  std::vector<std::string> ConnectedPublishers(const std::string& topic, MasterClient& ourselves);
+  static std::set<std::string> ConnectedPublishers(const std::string& topic,
+                                                   MasterClient& ourselves);
+  /// Of these, whom the master does not know.
+  std::set<std::string> Orphans(const std::string& topic, const std::set<std::string>& heard,
+                                const std::set<std::string>& known);
   void SetMasterAnswers(bool answers);
   void StopForGood();
 
@@ -74,6 +80,9 @@ class LiveTopics {
   MasterClient master_;
   std::unique_ptr<ros::NodeHandle> node_;  // null before a master answered
   std::vector<ros::Subscriber> subscribers_;
+  /// By topic: publishers that we hear and this master does not know, because they were there
+  /// before it and do not tell it; and how often in a row they were then not heard.
+  std::map<std::string, std::map<std::string, int>> orphans_;
 
   std::thread thread_;  // last: it uses all of the above
 };

@@ -2,6 +2,8 @@
 // publishers, in processes of their own.
 #include <gmock/gmock.h>
 #include <ros/network.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 #include <xmlrpcpp/XmlRpcClient.h>
@@ -14,9 +16,15 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <thread>
+#include <vector>
 
+#include "server/ros/bag_file.h"
+#include "server/ros/bag_source.h"
+#include "server/ros/names.h"
 #include "server/ros/transforms.h"
 #include "tests/server/ros/test_person.h"
+#include "tests/shared_data.h"
 #include "tests/system/ros_fixture.h"
 #include "tests/system/run_program.h"
 
@@ -42,6 +50,12 @@ class RosSource : public testing::RosProgram {
     }
     ADD_FAILURE() << "no line with '" << text << "' in:\n" << seen;
     return "";
+  }
+
+  // What /api/diagnostics says about the source.
+  static nlohmann::json SourceAt(const std::string& page) {
+    const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
+    return nlohmann::json::parse(text).value("source", nlohmann::json::object());
   }
 
   // Link states of both nodes by stamp, until `samples` came from both; and who is on /tf.
@@ -124,11 +138,88 @@ TEST_F(RosSource, ShowsTheSamePosesWhenTheFramesAreATreeAndPublishesNoFramesItse
   EXPECT_THAT(publishers, ElementsAre("/suit"));
 }
 
+struct Recorded : SampleSink {
+  void OnCharacter(const Character&) override {}
+  void OnSample(const BodySample& sample) override { samples.push_back(sample); }
+  std::vector<BodySample> samples;
+};
+
+// A suit that somebody else's driver put on /tf, next to a robot with a head and hands of its own:
+// played as it was recorded, it gives the samples that reading the recording gives.
+TEST_F(RosSource, GivesTheSamplesOfARecordedGraphThatIsPlayedAgain) {
+  KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
+  const std::string path = testing::SharedData("ros1/2018-05-28-17-34-45.bag.xz");
+  Recorded read;
+  const auto offline = ros_bridge::OpenBag(path);
+  while (offline->Poll(std::chrono::milliseconds(0), read) == Source::State::kMore) {
+  }
+  ASSERT_EQ(read.samples.size(), 135U);
+  const ros::Publisher publisher = node_->advertise<tf2_msgs::TFMessage>("/tf", 5000);
+  const auto view = Start("bridge ros: __name:=view");
+  std::vector<LinkStateArray> live;
+  Hear<LinkStateArray>("/view/link_states", [&](const auto& message) { live.push_back(message); });
+  ASSERT_TRUE(Spin([&] {
+    return publisher.getNumSubscribers() > 0 && subscribers_.back().getNumPublishers() > 0;
+  }));
+
+  const ros_bridge::BagFile file(path);
+  const rosbag::Bag bag(file.path(), rosbag::bagmode::Read);
+  rosbag::View recording(bag, rosbag::TopicQuery("/tf"));
+  const auto start = Clock::now();
+  for (const rosbag::MessageInstance& message : recording) {
+    const double secs = (message.getTime() - recording.getBeginTime()).toSec();
+    const auto due =
+        start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(secs));
+    std::this_thread::sleep_until(due);  // the pace of the recording, not a wait for something
+    publisher.publish(message.instantiate<tf2_msgs::TFMessage>());
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0));
+  }
+  const auto same = [&](const LinkStateArray& array) -> const BodySample* {
+    const auto& p = array.states.at(12).pose.position;  // the pelvis
+    for (const BodySample& sample : read.samples) {
+      if (sample.segments[urdf::kPelvis].position == Eigen::Vector3d(p.x, p.y, p.z)) return &sample;
+    }
+    return nullptr;
+  };
+  EXPECT_TRUE(Spin([&] { return !live.empty() && same(live.back()) == &read.samples.back(); }))
+      << live.size() << " samples came";
+  EXPECT_GT(live.size(), 100U) << "all but those of the first third of a second";
+  for (const LinkStateArray& array : live) {
+    const BodySample* sample = same(array);
+    ASSERT_TRUE(sample != nullptr);
+    for (std::size_t i = 0; i < array.states.size(); ++i) {
+      const auto& p = array.states[i].pose.position;
+      const auto& q = array.states[i].pose.orientation;
+      const int segment = ros_bridge::SegmentsByName()[i];
+      const SegmentState& state = sample->segments[urdf::At(segment)];
+      EXPECT_EQ(state.position, Eigen::Vector3d(p.x, p.y, p.z)) << array.states[i].header.frame_id;
+      const Eigen::Quaterniond link = state.orientation * urdf::SegmentFromLink(segment);
+      EXPECT_LT((link.conjugate() * Eigen::Quaterniond(q.w, q.x, q.y, q.z)).vec().norm(), 1e-12);
+    }
+  }
+}
+
 TEST_F(RosSource, TakesVelocitiesFromLinkStates) {
   const auto suit = Start("bridge demo:lift --ros required --tf off __name:=suit");
   const auto view = Start("bridge ros:/suit/link_states __name:=view");
   Compare(100);
   EXPECT_EQ(worst_velocity_, 0);
+}
+
+TEST_F(RosSource, NeverTakesWhatItPublishedItself) {
+  const auto suit = Start(
+      "bridge demo:lift --ros required --tf off __name:=suit /suit/link_states:=/loop/link_states");
+  const auto view = Start(
+      "serve ros:/loop/link_states --http_port 0 --pictures off __name:=view "
+      "/view/link_states:=/loop/link_states");
+  const std::string page = WaitForLine(*view, "page at ");
+  EXPECT_TRUE(Spin([&] {
+    const auto source = SourceAt(page);
+    const auto ignored = source.value("ignored", nlohmann::json::object());
+    EXPECT_EQ(source.value("duplicates", 0), 0);
+    EXPECT_EQ(source.value("restarts", 0), 0);
+    return ignored.value("message that we published ourselves", 0) > 50;
+  }));
 }
 
 TEST_F(RosSource, MeasuresTheLengthsThatTheOthersUrdfHas) {
@@ -193,10 +284,7 @@ TEST_F(RosSource, ADeadMasterDoesNotSilenceWhoIsConnectedNorDoesANewOneThatDoesN
   const ros::Publisher publisher = node_->advertise<tf2_msgs::TFMessage>("/tf", 10);
   const auto view = Start("serve ros: --http_port 0 --pictures off --ros off __name:=view");
   const std::string page = WaitForLine(*view, "page at ");
-  const auto heard = [&] {
-    const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
-    return nlohmann::json::parse(text).at("source");
-  };
+  const auto heard = [&] { return SourceAt(page); };
   const auto keep_publishing_until = [&](const auto& condition) {
     return Spin([&] {
       publisher.publish(tf2_msgs::TFMessage());
@@ -216,6 +304,16 @@ TEST_F(RosSource, ADeadMasterDoesNotSilenceWhoIsConnectedNorDoesANewOneThatDoesN
   EXPECT_TRUE(keep_publishing_until(
       [&](const auto& source) { return source.at("datagrams") > before + 5; }));
   EXPECT_EQ(heard().at("transport").at("publishers"), 1);
+
+  // The new master's list has the one that comes now, and nobody else.
+  const auto suit = Start("bridge demo:lift --ros required __name:=suit");
+  ASSERT_TRUE(keep_publishing_until([](const auto& source) { return source.at("samples") > 10; }));
+  const char* ours = "message on /tf without a person's segment";
+  const int ours_before = heard().at("ignored").at(ours);
+  EXPECT_TRUE(keep_publishing_until([&](const auto& source) {
+    return source.at("ignored").at(ours) > ours_before + 20 &&
+           source.at("transport").at("publishers") == 2;
+  }));
 }
 
 TEST_F(RosSource, CountsWhatCannotBeUsedAndGoesOn) {
@@ -235,10 +333,6 @@ TEST_F(RosSource, CountsWhatCannotBeUsedAndGoesOn) {
     damage(message);
     publisher.publish(message);
   };
-  const auto source = [&] {
-    const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
-    return nlohmann::json::parse(text).at("source");
-  };
   EXPECT_TRUE(Spin([&] {
     publish([](auto&) {});
     publish([](auto& message) {
@@ -251,7 +345,7 @@ TEST_F(RosSource, CountsWhatCannotBeUsedAndGoesOn) {
       for (auto& transform : message.transforms) transform.header.stamp -= ros::Duration(1);
     });
     publish([](auto& message) { message.transforms.resize(0); });
-    const auto now = source();
+    const auto now = SourceAt(page);
     const auto rejected = now.value("rejected", nlohmann::json::object());
     return now.value("samples", 0) > 10 && now.value("restarts", 0) > 0 &&
            rejected.contains("transform with a number that is not finite") &&
@@ -259,7 +353,7 @@ TEST_F(RosSource, CountsWhatCannotBeUsedAndGoesOn) {
            rejected.contains("sample without all 23 segments") &&
            rejected.contains("sample whose frames have no common parent") &&
            now.at("ignored").contains("message on /tf without a person's segment");
-  })) << source().dump(1);
+  })) << SourceAt(page).dump(1);
 }
 
 TEST_F(RosSource, RefusesATopicOfAnotherTypeByName) {
@@ -268,8 +362,8 @@ TEST_F(RosSource, RefusesATopicOfAnotherTypeByName) {
   const std::string page = WaitForLine(*view, "page at ");
   EXPECT_TRUE(Spin([&] {
     publisher.publish(sensor_msgs::JointState());
-    const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
-    return text.find("message on /joints that is a sensor_msgs/JointState") != std::string::npos;
+    return SourceAt(page).dump().find("message on /joints that is a sensor_msgs/JointState") !=
+           std::string::npos;
   }));
 }
 
