@@ -21,6 +21,13 @@ void SetUpLog() {
   spdlog::set_default_logger(log);
 }
 
+// A node ends another one of its name. A look at a graph must not end the Kinescope that publishes
+// to it.
+std::string NodeName(int argc, char** argv) {
+  const std::string command = argc > 1 ? argv[1] : "";
+  return command == "inspect" || command == "urdf" ? "kinescope_" + command : "kinescope";
+}
+
 // CLI11 would only say that a subcommand is required.
 void RefuseUnknownCommand(const CLI::App& line, const std::string& word) {
   if (word.empty() || word[0] == '-') return;
@@ -40,7 +47,8 @@ int main(int argc, char** argv) {
   try {
     SetUpLog();
     app::CatchStopSignals();
-    ros_bridge::InitRos(argc, argv, "kinescope");  // takes `a:=b` and `__name:=` out of argv
+    // Takes `a:=b` and `__name:=` out of argv.
+    ros_bridge::InitRos(argc, argv, NodeName(argc, argv));
 
     CLI::App line(
         "Kinescope: watch a motion-captured human without a screen.\n"
