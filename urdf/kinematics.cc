@@ -16,6 +16,15 @@ double Unwind(double angle, double near) {
   return angle + 2 * M_PI * std::round((near - angle) / (2 * M_PI));
 }
 
+// The turn about z that is left of `r` after the turns about y and x. Reading z from `r` itself, as
+// y is, would give both an error of their own, which grows towards the lock; this way what y has
+// too much z has too little, and the rotation stays right to the last digits.
+double TurnLeftAboutZ(const Matrix3d& r, double y, double x) {
+  const Matrix3d rest =
+      (AngleAxisd(y, Vector3d::UnitY()) * AngleAxisd(x, Vector3d::UnitX())).toRotationMatrix();
+  return std::atan2(rest.col(1).dot(r.col(0)), rest.col(0).dot(r.col(0)));
+}
+
 double Distance(const Vector3d& a, const Vector3d& b) { return (a - b).squaredNorm(); }
 
 }  // namespace
@@ -36,15 +45,12 @@ Vector3d AnglesFromRotation(const Quaterniond& parent_from_child, const Vector3d
     const double x = r(1, 2) > 0 ? -M_PI_2 : M_PI_2;
     // y and z now turn about one axis: keep y, give the rest to z.
     const double y = near.y();
-    const Matrix3d rest = (AngleAxisd(y, Vector3d::UnitY()) * AngleAxisd(x, Vector3d::UnitX()))
-                              .toRotationMatrix()
-                              .transpose() *
-                          r;
-    return {Unwind(x, near.x()), y, Unwind(std::atan2(rest(1, 0), rest(0, 0)), near.z())};
+    return {Unwind(x, near.x()), y, Unwind(TurnLeftAboutZ(r, y, x), near.z())};
   }
   // atan2 and not asin: asin loses half of the digits near 90 degrees.
-  const Vector3d first(std::atan2(-r(1, 2), cos_x), std::atan2(r(0, 2), r(2, 2)),
-                       std::atan2(r(1, 0), r(1, 1)));
+  const double x = std::atan2(-r(1, 2), cos_x);
+  const double y = std::atan2(r(0, 2), r(2, 2));
+  const Vector3d first(x, y, TurnLeftAboutZ(r, y, x));
   const Vector3d second(M_PI - first.x(), first.y() + M_PI, first.z() + M_PI);
   const auto unwound = [&](const Vector3d& angles) {
     return Vector3d(Unwind(angles.x(), near.x()), Unwind(angles.y(), near.y()),
