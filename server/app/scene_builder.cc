@@ -41,7 +41,7 @@ double LowestSole(const LinkPoses& links, const urdf::Skeleton& skeleton) {
   return lowest;
 }
 
-JointLoad Unknown(int joint, const Vector3d& position, const std::string& reason) {
+JointLoad Unknown(int joint, const Vector3d& position, std::string_view reason) {
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   JointLoad load;
   load.joint = joint;

@@ -10,8 +10,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "server/core/body_forces.h"
 #include "server/core/body_sample.h"
 #include "urdf/human_urdf.h"
 #include "urdf/kinematics.h"
@@ -26,17 +28,20 @@ enum class LoadClass { kUnknown = 0, kLow = 1, kMedium = 2, kHigh = 3 };
 /// "unknown", "low", "medium", "high".
 const char* Name(LoadClass load_class);
 
-/// One load sphere. The joints that get one: kScoredJoints (server/loads).
+/// One load sphere. The joints that get one: kScoredJoints (server/loads). Texts live as long as
+/// the program.
 struct JointLoad {
   int joint = 0;                                       // urdf::Joint
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the joint centre, world, m
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();    // N m, parent on child, world axes
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();     // N, likewise
   double ratio = 0;                                    // of capacity; NaN where unknown
   double deciding_moment = 0;                          // N m, signed, of the channel that decides
   double capacity = 0;                                 // N m, of that channel
-  std::string channel;                                 // "flexion", "elevation", ...
+  std::string_view channel;                            // "flexion", "elevation", ...
   LoadClass load_class = LoadClass::kUnknown;
-  std::string reason;  // why unknown; "" otherwise
+  bool class_is_of_compression = false;  // L5/S1: its compression is worse than its moment
+  std::string_view reason;               // why unknown; "" otherwise
 };
 
 /// The person as a mechanism. Shared by all states until scale data change it.
@@ -75,6 +80,7 @@ struct PersonState {
   bool com_is_ours = false;
   std::optional<Eigen::Vector3d> cop;  // on the floor; absent when not computable
   std::vector<JointLoad> loads;        // in order of kScoredJoints
+  BodyForces forces;
 };
 
 /// A thing that is tracked beside the people (mvn-protocol.md 4.2), in its own frame as streamed.

@@ -60,7 +60,7 @@ JointLoad MakeLoad(std::size_t i, double seconds, const urdf::LinkPoses& links) 
   if (load.joint == urdf::jLeftAnkle) {
     load.ratio = std::numeric_limits<double>::quiet_NaN();
     load.capacity = 0;
-    load.channel.clear();
+    load.channel = {};
     load.reason = "left foot is not on the floor";
   }
   load.deciding_moment = -load.ratio * load.capacity;

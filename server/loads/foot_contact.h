@@ -1,0 +1,70 @@
+/// Which parts of the feet are on the floor, from how they move: hysteresis and ramps of
+/// joint-loads.md 2.5. A pure function of the samples in order. One thread; no allocation.
+///
+/// A foot has two ends that touch on their own: the heel, and the forefoot (ball and toe tip).
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "server/core/body_forces.h"
+#include "server/core/body_sample.h"
+#include "server/loads/ground.h"
+#include "urdf/kinematics.h"
+
+namespace kinescope::loads {
+
+class FootContacts {
+ public:
+  struct Settings {
+    double on_below = 0.05, off_above = 0.08;       // m above the floor
+    double on_slower = 0.30, off_faster = 0.50;     // m/s, of the point
+    int on_samples = 2;                             // in a row
+    double ramp_secs = 0.10;                        // of the contact weight, raised cosine
+    double heel_part = 0.30, forefoot_part = 0.40;  // of the foot's length, when alone
+    double half_width_of_stature = 0.0275;          // of the polygon
+  };
+
+  /// Speeds are the streamed ones where `sample` has them, else differences of positions. The first
+  /// sample, and one after a gap of more than 0.5 s or a step back in time, starts afresh: heights
+  /// and speeds alone decide at once, without ramp.
+  void Update(const BodySample& sample, const urdf::LinkPoses& links,
+              const urdf::Skeleton& skeleton, double floor_z, const Settings& settings);
+
+  bool touches(urdf::Side side) const { return ends_[side][kHeel].on || ends_[side][kForefoot].on; }
+  bool any() const { return touches(urdf::kRight) || touches(urdf::kLeft); }
+
+  /// For SplitGround, by urdf::Side: centre of what touches, and weight.
+  const std::array<FootOnGround, 2>& feet() const { return feet_; }
+
+  /// What one foot can push on; empty in the air.
+  const SupportPolygon& polygon(urdf::Side side) const { return polygons_[side]; }
+  /// Of both feet.
+  const SupportPolygon& support() const { return support_; }
+
+ private:
+  enum End { kHeel, kForefoot };
+  struct ContactEnd {
+    bool on = false;
+    int slow_samples = 0;
+    double ramp = 0;  // 0..1 of the way
+    double weight() const;
+  };
+  struct Points {
+    std::array<Eigen::Vector3d, 3> at;  // heel, ball, toe tip; world
+  };
+  void Judge(ContactEnd& end, double height, double speed, bool fresh, double step_secs,
+             const Settings& settings);
+  void Place(urdf::Side side, const Points& points, double stature, const Settings& settings);
+
+  std::array<std::array<ContactEnd, 2>, 2> ends_{};
+  std::array<Points, 2> last_points_{};
+  bool has_last_ = false;
+  std::int64_t last_nanos_ = 0;
+  std::array<FootOnGround, 2> feet_{};
+  std::array<SupportPolygon, 2> polygons_{};
+  SupportPolygon support_;
+};
+
+}  // namespace kinescope::loads

@@ -1,0 +1,84 @@
+/// What the hands hold, and what sensors say about them: from masses and measured forces to forces
+/// on the hands (joint-loads.md 2.7). A pure function of the samples in order. One thread; no
+/// allocation.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "server/core/body_forces.h"
+#include "server/loads/inverse_dynamics.h"
+#include "urdf/skeleton.h"
+
+namespace kinescope::loads {
+
+constexpr double kMostHeldKg = 100;  // more is a typing error
+
+/// What a person holds. Changes take 0.3 s to become whole, so that a grip is not a blow.
+struct HandLoad {
+  /// False: nobody said what is held. True with zeros: nothing is, for certain.
+  bool is_known = false;
+  std::array<double, 2> mass_kg = {0, 0};  // in one hand alone, by urdf::Side
+  double both_kg = 0;                      // held with both, shared by them
+  /// CoM of what that hand holds alone, in its link frame, m; absent: at the grip point.
+  std::array<std::optional<Eigen::Vector3d>, 2> com_in_hand;
+  /// Where the CoM of what both hold is, world, m; absent: midway, half the weight each.
+  std::optional<Eigen::Vector3d> both_com_in_world;
+};
+
+/// "" or what is wrong with `load`, naming the hand, the value and what is expected: a mass that is
+/// negative, not a number or above kMostHeldKg in sum; a CoM farther than 2 m from the hand.
+std::string FindDefect(const HandLoad& load);
+
+/// "right:5", "left:2.5", "both:10", "right:5@0,0,-0.2" (CoM in the hand's link frame, m), or
+/// several with semicolons; "none": nothing, for certain.
+/// @throws UsageError naming `text`, the part that is wrong and what is expected.
+HandLoad ParseHandLoad(const std::string& text);
+
+/// A measured force on a hand: of a robot, a handle. World axes, on the human.
+struct MeasuredHandForce {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   // N
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // N m, about `point`
+  std::optional<Eigen::Vector3d> point;              // world, m; absent: the grip point
+  std::int64_t stamp_nanos = 0;                      // of the same clock as the samples
+};
+
+/// Measurements count this long, seconds (joint-loads.md 5.7).
+constexpr double kFreshSecs = 0.5;
+bool IsFresh(std::int64_t measured_nanos, std::int64_t sample_nanos);
+
+/// Grip point in the hand's link frame: 0.42 of the hand's length from the wrist.
+Eigen::Vector3d GripPoint(const urdf::Skeleton& skeleton, urdf::Side side);
+
+class HandLoads {
+ public:
+  /// Takes a step of time to `stamp_nanos`: ramps move towards `load`. The first, one after more
+  /// than half a second or backwards: at once.
+  void Update(const HandLoad& load, std::int64_t stamp_nanos);
+
+  /// Adds the weight and inertia of what is held now, for hands that move so, and the measured
+  /// forces that are fresh, to `external`.
+  void Push(const urdf::LinkPoses& links, const BodyMotion& motion, const urdf::Skeleton& skeleton,
+            const std::array<std::optional<MeasuredHandForce>, 2>& measured,
+            std::int64_t stamp_nanos, ExternalForces& external,
+            std::array<HandForce, 2>& shown) const;
+
+ private:
+  /// A mass on its way: linear over the ramp.
+  struct Ramp {
+    double now = 0, from = 0, to = 0;
+    double secs = 0;  // since it began
+    void Restart(double value);
+    void Step(double target, double step_secs);
+  };
+  std::array<Ramp, 2> single_;
+  Ramp both_;
+  HandLoad load_;  // the newest; where a hand lets go, the CoM of before
+  bool has_last_ = false;
+  std::int64_t last_nanos_ = 0;
+};
+
+}  // namespace kinescope::loads
