@@ -1,175 +1,106 @@
 #include "urdf/body_parameters.h"
 
-#include <cmath>
-#include <sstream>
+#include <fmt/format.h>
+
 #include <stdexcept>
+
+#include "urdf/body_tables.h"
+#include "urdf/placed_mass.h"
 
 namespace kinescope::urdf {
 namespace {
 
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-enum class RadiiOf { kStature, kLength };
+constexpr double kLightest = 20, kHeaviest = 300;  // kg, of a person
+constexpr double kMostExtraKg = 100;
+constexpr double kFarthestExtra = 2;  // m
 
-struct Column {
-  double mass_percent;
-  double com_fraction;  // of the segment's length, from its origin
-  double kx, ky, kz;    // radii of gyration, as fractions
+struct TableName {
+  const char* name;
+  BodyTable table;
 };
+constexpr TableName kTables[] = {{"de_leva", BodyTable::kDeLeva},
+                                 {"winter", BodyTable::kWinter},
+                                 {"dumas", BodyTable::kDumas},
+                                 {"iit", BodyTable::kIit}};
 
-struct Row {
-  RadiiOf radii_of;
-  Column male, female;
-};
-
-// joint-loads.md 1.5. Rows by segment; right and left share one. The CoM fraction of the foot is
-// that of the whole foot, heel to toe tip.
-constexpr Row kPelvisRow = {
-    RadiiOf::kStature, {10.88, 0.40, .0507, .0453, .0491}, {9.40, 0.51, .0409, .0372, .0464}};
-constexpr Row kL5Row = {
-    RadiiOf::kStature, {6.96, 0.55, .0513, .0368, .0576}, {7.30, 0.48, .0412, .0328, .0480}};
-constexpr Row kL3Row = {
-    RadiiOf::kStature, {8.86, 0.52, .0507, .0355, .0579}, {7.99, 0.52, .0420, .0299, .0491}};
-constexpr Row kT12Row = {
-    RadiiOf::kStature, {6.99, 0.46, .0567, .0270, .0580}, {7.61, 0.46, .0436, .0259, .0480}};
-constexpr Row kT8Row = {
-    RadiiOf::kStature, {5.78, 0.43, .0600, .0311, .0581}, {6.41, 0.44, .0478, .0298, .0480}};
-constexpr Row kNeckRow = {
-    RadiiOf::kLength, {1.39, 0.50, .33, .33, .23}, {1.34, 0.50, .33, .33, .23}};
-constexpr Row kHeadRow = {
-    RadiiOf::kLength, {5.55, 0.45, .30, .32, .33}, {5.34, 0.45, .30, .32, .33}};
-constexpr Row kShoulderRow = {
-    RadiiOf::kLength, {1.995, 0.50, .30, .125, .30}, {1.93, 0.50, .30, .125, .30}};
-constexpr Row kUpperArmRow = {
-    RadiiOf::kLength, {2.71, 0.5772, .285, .269, .158}, {2.55, 0.5754, .278, .260, .148}};
-constexpr Row kForeArmRow = {
-    RadiiOf::kLength, {1.62, 0.4574, .265, .276, .121}, {1.38, 0.4559, .257, .261, .094}};
-constexpr Row kHandRow = {
-    RadiiOf::kLength, {0.61, 0.3624, .235, .288, .184}, {0.56, 0.3427, .208, .244, .154}};
-constexpr Row kUpperLegRow = {
-    RadiiOf::kLength, {14.16, 0.4095, .329, .329, .149}, {14.78, 0.3612, .369, .364, .162}};
-constexpr Row kLowerLegRow = {
-    RadiiOf::kLength, {4.33, 0.4395, .251, .246, .102}, {4.81, 0.4352, .267, .263, .092}};
-constexpr Row kFootRow = {
-    RadiiOf::kLength, {1.233, 0.4415, .124, .257, .245}, {1.161, 0.4014, .139, .299, .279}};
-constexpr Row kToeRow = {
-    RadiiOf::kLength, {0.137, 0.50, .40, .40, .40}, {0.129, 0.50, .40, .40, .40}};
-
-const Row& RowOf(int segment) {
-  switch (segment) {
-    case kPelvis: return kPelvisRow;
-    case kL5: return kL5Row;
-    case kL3: return kL3Row;
-    case kT12: return kT12Row;
-    case kT8: return kT8Row;
-    case kNeck: return kNeckRow;
-    case kHead: return kHeadRow;
-    case kRightShoulder:
-    case kLeftShoulder: return kShoulderRow;
-    case kRightUpperArm:
-    case kLeftUpperArm: return kUpperArmRow;
-    case kRightForeArm:
-    case kLeftForeArm: return kForeArmRow;
-    case kRightHand:
-    case kLeftHand: return kHandRow;
-    case kRightUpperLeg:
-    case kLeftUpperLeg: return kUpperLegRow;
-    case kRightLowerLeg:
-    case kLeftLowerLeg: return kLowerLegRow;
-    case kRightFoot:
-    case kLeftFoot: return kFootRow;
-    default: return kToeRow;
+BodyShares SharesOf(const BodyDescription& body, const Skeleton& skeleton) {
+  switch (body.table) {
+    case BodyTable::kWinter: return WinterShares(body.sex, skeleton);
+    case BodyTable::kDumas: return DumasShares(body.sex, skeleton);
+    case BodyTable::kIit: return IitShares(skeleton);
+    case BodyTable::kDeLeva: break;
   }
+  return DeLevaShares(body.sex, skeleton);
 }
 
-const Column& ColumnOf(int segment, Sex sex) {
-  const Row& row = RowOf(segment);
-  return sex == Sex::kMale ? row.male : row.female;
+// Of a point, about the origin.
+Matrix3d PointInertia(double mass, const Vector3d& at) {
+  return mass * (at.squaredNorm() * Matrix3d::Identity() - at * at.transpose());
 }
 
-struct FootGeometry {
-  double heel_x, ball_x, tip_x;  // from the ankle, foot frame
-  double ankle_height;
-  double toe_length;
-};
-
-FootGeometry FootOf(const Skeleton& skeleton, Side side) {
-  const int toe = side == kRight ? kRightToe : kLeftToe;
-  const double ball_x = skeleton.origin_in_parent[At(toe)].x();
-  const double toe_length = skeleton.toe_tip_in_toe[side].x();
-  return {skeleton.heel_in_foot[side].x(), ball_x, ball_x + toe_length,
-          -skeleton.heel_in_foot[side].z(), toe_length};
+void Add(const ExtraMass& extra, SegmentInertia& segment) {
+  const double mass = segment.mass + extra.mass_kg;
+  const Vector3d com =
+      (segment.mass * segment.com_in_link + extra.mass_kg * extra.position_in_link) / mass;
+  segment.inertia_about_com += PointInertia(segment.mass, segment.com_in_link - com) +
+                               PointInertia(extra.mass_kg, extra.position_in_link - com);
+  segment.mass = mass;
+  segment.com_in_link = com;
 }
 
-Side SideOfFoot(int segment) {
-  return segment == kRightFoot || segment == kRightToe ? kRight : kLeft;
-}
-
-// Axis along which the table measures a segment: +z trunk, +-y shoulder, -z limbs, +x toe.
-Vector3d ComInLink(int segment, const Column& column, const Skeleton& skeleton) {
-  const double f = column.com_fraction;
-  const double length = EndOf(skeleton, segment).norm();
-  switch (segment) {
-    case kPelvis:
-    case kL5:
-    case kL3:
-    case kT12:
-    case kT8:
-    case kNeck:
-    case kHead: return {0, 0, f * std::abs(EndOf(skeleton, segment).z())};
-    case kRightShoulder: return {0, -f * length, 0};
-    case kLeftShoulder: return {0, f * length, 0};
-    case kRightToe:
-    case kLeftToe: return {f * FootOf(skeleton, SideOfFoot(segment)).toe_length, 0, 0};
-    case kRightFoot:
-    case kLeftFoot: {
-      const FootGeometry foot = FootOf(skeleton, SideOfFoot(segment));
-      const double toe_com_x = foot.ball_x + 0.5 * foot.toe_length;
-      // The whole foot's CoM is known; a tenth of its mass is the toe segment.
-      const double whole_x = foot.heel_x + f * (foot.tip_x - foot.heel_x);
-      return {(whole_x - 0.1 * toe_com_x) / 0.9, 0, -0.5 * foot.ankle_height};
-    }
-    default: return {0, 0, -f * length};
+// By MVN or link name; -1: none.
+int SegmentNamed(const std::string& name) {
+  for (int i = 0; i < kSegmentCount; ++i) {
+    if (kSegments[At(i)].mvn_name == name || kSegments[At(i)].link_name == name) return i;
   }
-}
-
-double RadiiReference(int segment, const Skeleton& skeleton) {
-  if (RowOf(segment).radii_of == RadiiOf::kStature) return skeleton.height;
-  switch (segment) {
-    case kRightFoot:
-    case kLeftFoot: {
-      const FootGeometry foot = FootOf(skeleton, SideOfFoot(segment));
-      return foot.tip_x - foot.heel_x;
-    }
-    case kRightToe:
-    case kLeftToe: return FootOf(skeleton, SideOfFoot(segment)).toe_length;
-    case kHead:
-    case kNeck: return std::abs(EndOf(skeleton, segment).z());
-    default: return EndOf(skeleton, segment).norm();
-  }
+  return -1;
 }
 
 }  // namespace
 
-BodyParameters MakeBodyParameters(const BodyDescription& body, const Skeleton& skeleton) {
-  if (!(body.mass_kg >= 20 && body.mass_kg <= 300)) {
-    std::ostringstream message;
-    message << "body mass " << body.mass_kg << " kg: expected 20 to 300";
-    throw std::invalid_argument(message.str());
+std::string FindDefect(const BodyDescription& body) {
+  if (!(body.mass_kg >= kLightest && body.mass_kg <= kHeaviest)) {
+    return fmt::format("body mass {} kg: expected {} to {}", body.mass_kg, kLightest, kHeaviest);
   }
-  double percent_sum = 0;
-  for (int i = 0; i < kSegmentCount; ++i) percent_sum += ColumnOf(i, body.sex).mass_percent;
+  if (body.extra_masses.size() > kMostExtraMasses) {
+    return fmt::format("{} extra masses: at most {}", body.extra_masses.size(), kMostExtraMasses);
+  }
+  for (const ExtraMass& extra : body.extra_masses) {
+    if (extra.segment < 0 || extra.segment >= kSegmentCount) {
+      return fmt::format("extra mass on segment {}: expected 0 to {}", extra.segment,
+                         kSegmentCount - 1);
+    }
+    const std::string_view on = kSegments[At(extra.segment)].link_name;
+    if (!(extra.mass_kg > 0 && extra.mass_kg <= kMostExtraKg)) {
+      return fmt::format("extra mass {} kg on {}: expected above 0, at most {}", extra.mass_kg, on,
+                         kMostExtraKg);
+    }
+    if (!(extra.position_in_link.norm() <= kFarthestExtra)) {
+      const Vector3d& at = extra.position_in_link;
+      return fmt::format("extra mass on {} at ({}, {}, {}) m: expected within {} m of its origin", on,
+                         at.x(), at.y(), at.z(), kFarthestExtra);
+    }
+  }
+  return "";
+}
+
+BodyParameters MakeBodyParameters(const BodyDescription& body, const Skeleton& skeleton) {
+  if (const std::string defect = FindDefect(body); !defect.empty()) {
+    throw std::invalid_argument(defect);
+  }
+  const BodyShares shares = SharesOf(body, skeleton);
+  double sum = 0;
+  for (const SegmentShare& share : shares) sum += share.mass;
 
   BodyParameters parameters;
-  for (int i = 0; i < kSegmentCount; ++i) {
-    const Column& column = ColumnOf(i, body.sex);
-    SegmentInertia& segment = parameters[At(i)];
-    segment.mass = body.mass_kg * column.mass_percent / percent_sum;
-    segment.com_in_link = ComInLink(i, column, skeleton);
-    const double s = RadiiReference(i, skeleton);
-    segment.inertia_about_com =
-        segment.mass * Vector3d(column.kx * s, column.ky * s, column.kz * s).cwiseAbs2();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const double mass = body.mass_kg * shares[i].mass / sum;
+    parameters[i] = {mass, shares[i].com_in_link, mass * shares[i].inertia_by_mass};
   }
+  for (const ExtraMass& extra : body.extra_masses) Add(extra, parameters[At(extra.segment)]);
   return parameters;
 }
 
@@ -183,6 +114,42 @@ Sex ParseSex(const std::string& text) {
   if (text == "male") return Sex::kMale;
   if (text == "female") return Sex::kFemale;
   throw std::invalid_argument("sex '" + text + "': expected male or female");
+}
+
+BodyTable ParseBodyTable(const std::string& text) {
+  std::string known;
+  for (const TableName& entry : kTables) {
+    if (text == entry.name) return entry.table;
+    known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  throw std::invalid_argument("body table '" + text + "': expected one of " + known);
+}
+
+const char* Name(BodyTable table) {
+  for (const TableName& entry : kTables) {
+    if (table == entry.table) return entry.name;
+  }
+  return "";
+}
+
+ExtraMass ParseExtraMass(const std::string& text) try {
+  const PlacedMass placed = ParsePlacedMass(text);
+  ExtraMass extra;
+  extra.segment = SegmentNamed(placed.where);
+  if (extra.segment < 0) throw std::invalid_argument("no segment '" + placed.where + "'");
+  extra.mass_kg = placed.mass_kg;
+  extra.position_in_link = placed.position.value_or(Vector3d::Zero());
+  BodyDescription body;
+  body.extra_masses = {extra};
+  if (const std::string defect = FindDefect(body); !defect.empty()) {
+    throw std::invalid_argument(defect);
+  }
+  return extra;
+} catch (const std::invalid_argument& error) {
+  throw std::invalid_argument(
+      fmt::format("extra mass '{}': {}; expected SEGMENT:KG or SEGMENT:KG@X,Y,Z, such as "
+                  "head:1.5@0,0,0.12",
+                  text, error.what()));
 }
 
 }  // namespace kinescope::urdf

@@ -27,12 +27,13 @@ std::string Origin(const Vector3d& xyz, const Vector3d& rpy = Vector3d::Zero()) 
 }
 
 std::string Inertial(const SegmentInertia& segment, double share) {
-  const Vector3d i = share * segment.inertia_about_com;
+  const Eigen::Matrix3d i = share * segment.inertia_about_com;
   return fmt::format(
       "    <inertial>\n      {}\n      <mass value=\"{}\"/>\n"
-      "      <inertia ixx=\"{}\" ixy=\"0\" ixz=\"0\" iyy=\"{}\" iyz=\"0\" izz=\"{}\"/>\n"
+      "      <inertia ixx=\"{}\" ixy=\"{}\" ixz=\"{}\" iyy=\"{}\" iyz=\"{}\" izz=\"{}\"/>\n"
       "    </inertial>\n",
-      Origin(segment.com_in_link), share * segment.mass, i.x(), i.y(), i.z());
+      Origin(segment.com_in_link), share * segment.mass, i(0, 0), i(0, 1), i(0, 2), i(1, 1), i(1, 2),
+      i(2, 2));
 }
 
 std::string Shape(const Primitive& part) {

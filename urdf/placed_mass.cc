@@ -1,0 +1,46 @@
+#include "urdf/placed_mass.h"
+
+#include <cmath>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+namespace kinescope::urdf {
+namespace {
+
+double ReadNumber(const std::string& text) {
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  double value = 0;
+  char rest = 0;
+  if (!(in >> value) || in >> rest || !std::isfinite(value)) {
+    throw std::invalid_argument("'" + text + "' is not a number");
+  }
+  return value;
+}
+
+Eigen::Vector3d ReadPlace(const std::string& text) {
+  const std::size_t first = text.find(',');
+  const std::size_t second = first == std::string::npos ? first : text.find(',', first + 1);
+  if (second == std::string::npos) throw std::invalid_argument("'" + text + "' is not X,Y,Z");
+  return {ReadNumber(text.substr(0, first)), ReadNumber(text.substr(first + 1, second - first - 1)),
+          ReadNumber(text.substr(second + 1))};
+}
+
+}  // namespace
+
+PlacedMass ParsePlacedMass(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos || colon == 0) {
+    throw std::invalid_argument("'" + text + "' is not NAME:KG");
+  }
+  const std::size_t at = text.find('@', colon);
+  PlacedMass placed;
+  placed.where = text.substr(0, colon);
+  placed.mass_kg =
+      ReadNumber(text.substr(colon + 1, at == std::string::npos ? at : at - colon - 1));
+  if (at != std::string::npos) placed.position = ReadPlace(text.substr(at + 1));
+  return placed;
+}
+
+}  // namespace kinescope::urdf
