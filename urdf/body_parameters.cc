@@ -80,8 +80,8 @@ std::string FindDefect(const BodyDescription& body) {
     }
     if (!(extra.position_in_link.norm() <= kFarthestExtra)) {
       const Vector3d& at = extra.position_in_link;
-      return fmt::format("extra mass on {} at ({}, {}, {}) m: expected within {} m of its origin", on,
-                         at.x(), at.y(), at.z(), kFarthestExtra);
+      return fmt::format("extra mass on {} at ({}, {}, {}) m: expected within {} m of its origin",
+                         on, at.x(), at.y(), at.z(), kFarthestExtra);
     }
   }
   return "";

@@ -74,8 +74,8 @@ Vector3d FootComWithoutToes(const Vector3d& whole_com_in_foot, const Vector3d& t
          (1 - kToeShareOfFoot);
 }
 
-// Head and neck, and the parts of the trunk, have their CoM and radii from the default table (Winter
-// has none of the parts), and so have radii about the long axes.
+// Head and neck, and the parts of the trunk, have their CoM and radii from the default table
+// (Winter has none of the parts), and so have radii about the long axes.
 BodyShares WinterShares(Sex sex, const Skeleton& skeleton) {
   BodyShares shares = DeLevaShares(sex, skeleton);
   Share(0.081, kHeadAndNeck, shares);
@@ -127,26 +127,18 @@ BodyShares DumasShares(Sex sex, const Skeleton& skeleton) {
   struct Table {
     Row head, thorax, abdomen, pelvis, upper_arm, fore_arm, hand, thigh, shank, foot;
   };
-  static const Table kMale = {{6.7, {2.0, 53.6, 0.1}, {28, 21, 30}},
-                              {30.4, {0, -55.5, -0.4}, {42, 33, 36}},
-                              {2.9, {17.3, -36.1, -0.3}, {54, 66, 40}},
-                              {14.2, {2.8, -28.0, -0.6}, {101, 106, 95}},
-                              {2.4, {1.7, -45.2, -2.6}, {31, 14, 32}},
-                              {1.7, {1.0, -41.7, 1.4}, {28, 11, 27}},
-                              {0.6, {3.5, -35.7, 3.2}, {26, 16, 24}},
-                              {12.3, {-4.1, -42.9, 3.3}, {29, 15, 30}},
-                              {4.8, {-4.8, -41.0, 0.7}, {28, 10, 28}},
-                              {1.2, {38.2, -15.1, 2.6}, {17, 37, 36}}};
-  static const Table kFemale = {{6.7, {1.6, 57.5, 0.1}, {29, 23, 30}},
-                                {26.3, {2.1, -52.8, 0.1}, {39, 33, 35}},
-                                {4.1, {24.4, -41.5, 0.5}, {67, 77, 55}},
-                                {14.6, {-0.9, -23.2, 0.2}, {91, 100, 79}},
-                                {2.2, {-7.3, -45.4, -2.8}, {33, 17, 33}},
-                                {1.3, {2.1, -41.1, 1.9}, {26, 14, 25}},
-                                {0.5, {3.3, -32.7, 2.1}, {27, 18, 25}},
-                                {14.6, {-7.7, -37.7, 0.9}, {31, 19, 32}},
-                                {4.5, {-4.9, -40.4, 3.1}, {28, 10, 28}},
-                                {1.0, {27.0, -21.8, 3.9}, {17, 36, 35}}};
+  static const Table kMale = {
+      {6.7, {2.0, 53.6, 0.1}, {28, 21, 30}},    {30.4, {0, -55.5, -0.4}, {42, 33, 36}},
+      {2.9, {17.3, -36.1, -0.3}, {54, 66, 40}}, {14.2, {2.8, -28.0, -0.6}, {101, 106, 95}},
+      {2.4, {1.7, -45.2, -2.6}, {31, 14, 32}},  {1.7, {1.0, -41.7, 1.4}, {28, 11, 27}},
+      {0.6, {3.5, -35.7, 3.2}, {26, 16, 24}},   {12.3, {-4.1, -42.9, 3.3}, {29, 15, 30}},
+      {4.8, {-4.8, -41.0, 0.7}, {28, 10, 28}},  {1.2, {38.2, -15.1, 2.6}, {17, 37, 36}}};
+  static const Table kFemale = {
+      {6.7, {1.6, 57.5, 0.1}, {29, 23, 30}},    {26.3, {2.1, -52.8, 0.1}, {39, 33, 35}},
+      {4.1, {24.4, -41.5, 0.5}, {67, 77, 55}},  {14.6, {-0.9, -23.2, 0.2}, {91, 100, 79}},
+      {2.2, {-7.3, -45.4, -2.8}, {33, 17, 33}}, {1.3, {2.1, -41.1, 1.9}, {26, 14, 25}},
+      {0.5, {3.3, -32.7, 2.1}, {27, 18, 25}},   {14.6, {-7.7, -37.7, 0.9}, {31, 19, 32}},
+      {4.5, {-4.9, -40.4, 3.1}, {28, 10, 28}},  {1.0, {27.0, -21.8, 3.9}, {17, 36, 35}}};
   const Table& table = sex == Sex::kMale ? kMale : kFemale;
   const auto in_link = [](const Vector3d& isb) { return Vector3d(isb.x(), -isb.z(), isb.y()); };
   const auto percent = [&](const Row& row, double length) -> Vector3d {
@@ -168,8 +160,7 @@ BodyShares DumasShares(Sex sex, const Skeleton& skeleton) {
   MoveTogether(l1t12 + percent(table.abdomen, (l5s1 - l1t12).norm()), kAbdomen, skeleton, shares);
   shares[kPelvis].com_in_link = l5s1 + percent(table.pelvis, l5s1.norm());
   const Vector3d pelvis_radii = 0.01 * l5s1.norm() * table.pelvis.radii;
-  shares[kPelvis].inertia_by_mass =
-      Squares(pelvis_radii.x(), pelvis_radii.z(), pelvis_radii.y());
+  shares[kPelvis].inertia_by_mass = Squares(pelvis_radii.x(), pelvis_radii.z(), pelvis_radii.y());
 
   const std::pair<Limb, const Row*> limbs[] = {
       {kUpperArms, &table.upper_arm}, {kForeArms, &table.fore_arm}, {kHands, &table.hand},
@@ -179,8 +170,8 @@ BodyShares DumasShares(Sex sex, const Skeleton& skeleton) {
     for (const int i : {limb.right, limb.left}) {
       const double length = EndOf(skeleton, i).norm();
       // Palm forward (ISB x) is towards the body (y of the right hand) when the thumb is forward.
-      Vector3d com = palm_turns ? Vector3d(row->com.z(), row->com.x(), row->com.y())
-                                : in_link(row->com);
+      Vector3d com =
+          palm_turns ? Vector3d(row->com.z(), row->com.x(), row->com.y()) : in_link(row->com);
       const Vector3d k = palm_turns ? Vector3d(row->radii.z(), row->radii.x(), row->radii.y())
                                     : Vector3d(row->radii.x(), row->radii.z(), row->radii.y());
       if (i == limb.left) com.y() = -com.y();
@@ -202,12 +193,12 @@ BodyShares DumasShares(Sex sex, const Skeleton& skeleton) {
 // figure.
 BodyShares IitShares(const Skeleton& skeleton) {
   static constexpr double kMass[kSegmentCount] = {
-      0.080, 0.102, 0.102, 0.102,                  // pelvis, L5, L3, T12
-      0.040, 0.012, 0.036,                         // T8, neck, head
-      0.031, 0.030, 0.020, 0.006,                  // shoulder to hand, right
-      0.031, 0.030, 0.020, 0.006,                  // left
-      0.125, 0.0365, 0.0130, 0.0015,               // thigh to toe, right
-      0.125, 0.0365, 0.0130, 0.0015};              // left
+      0.080, 0.102,  0.102,  0.102,    // pelvis, L5, L3, T12
+      0.040, 0.012,  0.036,            // T8, neck, head
+      0.031, 0.030,  0.020,  0.006,    // shoulder to hand, right
+      0.031, 0.030,  0.020,  0.006,    // left
+      0.125, 0.0365, 0.0130, 0.0015,   // thigh to toe, right
+      0.125, 0.0365, 0.0130, 0.0015};  // left
   BodyShares shares;
   for (int i = 0; i < kSegmentCount; ++i) {
     const Primitive solid = PrimitiveFigure(skeleton, i).front();
@@ -225,8 +216,8 @@ BodyShares IitShares(const Skeleton& skeleton) {
       case Primitive::Kind::kCylinder: {
         const Vector3d axis = EndOf(skeleton, i).normalized();
         const double across = (3 * r * r + size.y() * size.y()) / 12;
-        share.inertia_by_mass = across * Matrix3d::Identity() +
-                                (r * r / 2 - across) * axis * axis.transpose();
+        share.inertia_by_mass =
+            across * Matrix3d::Identity() + (r * r / 2 - across) * axis * axis.transpose();
         break;
       }
       case Primitive::Kind::kSphere:

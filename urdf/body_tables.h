@@ -10,9 +10,9 @@
 namespace kinescope::urdf {
 
 struct SegmentShare {
-  double mass = 0;                                             // of the body's, any unit
-  Eigen::Vector3d com_in_link = Eigen::Vector3d::Zero();       // m
-  Eigen::Matrix3d inertia_by_mass = Eigen::Matrix3d::Zero();   // about the CoM, m^2, link axes
+  double mass = 0;                                            // of the body's, any unit
+  Eigen::Vector3d com_in_link = Eigen::Vector3d::Zero();      // m
+  Eigen::Matrix3d inertia_by_mass = Eigen::Matrix3d::Zero();  // about the CoM, m^2, link axes
 };
 using BodyShares = std::array<SegmentShare, kSegmentCount>;
 

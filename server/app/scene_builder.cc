@@ -7,6 +7,7 @@
 
 #include "server/app/body_color.h"
 #include "server/app/figure_files.h"
+#include "server/core/check.h"
 #include "urdf/robot_model.h"
 
 namespace kinescope::app {
@@ -46,13 +47,11 @@ JointLoad Unknown(int joint, const Vector3d& position, std::string_view reason) 
   JointLoad load;
   load.joint = joint;
   load.position = position;
-  load.moment = Vector3d::Constant(kNothing);
+  load.moment = load.force = Vector3d::Constant(kNothing);
   load.ratio = load.deciding_moment = load.capacity = kNothing;
   load.reason = reason;
   return load;
 }
-
-bool IsLegJoint(int joint) { return joint >= urdf::jRightHip; }
 
 }  // namespace
 
@@ -61,7 +60,19 @@ SceneBuilder::SceneBuilder(SceneOptions options, std::string source, double nomi
     : options_(std::move(options)),
       source_(std::move(source)),
       nominal_rate_hz_(nominal_rate_hz),
-      on_state_(std::move(on_state)) {}
+      on_state_(std::move(on_state)) {
+  SetLoads(options_.loads);
+}
+
+void SceneBuilder::SetLoads(const loads::LoadSettings& settings) {
+  KINESCOPE_CHECK(loads::FindDefect(settings).empty());
+  options_.loads = settings;
+  options_.loads.strength.sex = options_.body.sex;
+}
+
+void SceneBuilder::SetMeasurements(int character, const loads::Measurements& measured) {
+  measured_[character] = measured;
+}
 
 void SceneBuilder::Start() { Publish(Liveness::kNoData); }
 
@@ -166,32 +177,20 @@ PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) cons
     person.floor_z = person.has_legs ? 0.0 : lowest;
   }
 
-  const loads::StaticSolution solution =
-      loads::SolveStatics(state.links, skeleton, person.model->human.body, *person.floor_z);
+  const urdf::HumanModel& human = person.model->human;
+  const urdf::BodyDescription& body = person.model->description;
+  static const loads::Measurements kNothingMeasured;
+  const auto measured = measured_.find(sample.character);
+  const loads::LoadResult& result = person.loads.Update(
+      sample, state.links,
+      {human.skeleton, human.body, body.mass_is_assumed, !body.extra_masses.empty(),
+       person.has_legs, *person.floor_z},
+      options_.loads, measured == measured_.end() ? kNothingMeasured : measured->second);
   state.com_is_ours = !sample.com;
-  state.com = sample.com ? sample.com->position : solution.com;
-  if (person.has_legs) state.cop = solution.cop;
-
-  for (std::size_t i = 0; i < loads::kScoredJoints.size(); ++i) {
-    const int joint = loads::kScoredJoints[i];
-    const std::size_t child = At(urdf::ChildOf(joint));
-    JointLoad load = Unknown(joint, state.links[child].position, "");
-    if (IsLegJoint(joint) && !person.has_legs) {
-      load.reason = "legs are not measured in this recording";
-    } else if (IsLegJoint(joint) && !solution.cop) {
-      load.reason = "no foot is on the floor";
-    } else {
-      load.moment = solution.moment[child];
-      const loads::Score score =
-          loads::ScoreJoint(joint, load.moment, state.links, options_.body.sex);
-      load.ratio = score.ratio;
-      load.deciding_moment = score.moment;
-      load.capacity = score.capacity;
-      load.channel = score.channel;
-    }
-    load.load_class = person.classifiers[i].Update(load.ratio, sample.stamp_nanos);
-    state.loads.push_back(std::move(load));
-  }
+  state.com = sample.com ? sample.com->position : result.forces.com_of_model;
+  state.cop = result.cop;
+  state.loads.assign(result.loads.begin(), result.loads.end());
+  state.forces = result.forces;
   return state;
 }
 
@@ -263,9 +262,11 @@ void SceneBuilder::Publish(Liveness liveness) {
     if (current_.stamp_nanos - person.state->sample.stamp_nanos > kGoneAfterNanos) continue;
     scene->people.push_back(*person.state);
     if (liveness == Liveness::kLive) continue;
-    for (JointLoad& load : scene->people.back().loads) {  // old loads must not look valid
-      load = Unknown(load.joint, load.position, "the stream stopped");
+    constexpr std::string_view kStopped = "the stream stopped";  // old loads must not look valid
+    for (JointLoad& load : scene->people.back().loads) {
+      load = Unknown(load.joint, load.position, kStopped);
     }
+    MakeUnknown(kStopped, scene->people.back().forces);
   }
   for (const auto& [id, cluster] : objects_) {
     for (const TrackedObject& object : cluster) {

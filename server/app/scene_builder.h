@@ -14,8 +14,7 @@
 #include "server/app/worn_extras.h"
 #include "server/core/scene_state.h"
 #include "server/core/source.h"
-#include "server/loads/load_classifier.h"
-#include "server/loads/static_loads.h"
+#include "server/loads/load_estimator.h"
 
 namespace kinescope::app {
 
@@ -23,6 +22,7 @@ struct SceneOptions {
   std::string model_name =
       "skeleton";  // prefix of links and joints; a second person gets _1, _2 ...
   urdf::BodyDescription body;
+  loads::LoadSettings loads;  // whose sex is that of `body`
   double height_m = 1.75;     // of the default body, until the source tells its own
   double stale_secs = 0.5;    // this long without a sample is stale
   bool smooth_figure = true;  // mesh files; false: boxes, cylinders and spheres
@@ -44,6 +44,14 @@ class SceneBuilder : public SampleSink {
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override;
 
+  /// From the next sample on. @pre FindDefect(settings) is ""
+  void SetLoads(const loads::LoadSettings& settings);
+  const loads::LoadSettings& loads() const { return options_.loads; }
+
+  /// What sensors say about `character`, with stamps of the samples' clock; what is old is let go
+  /// by itself. Kept for a character who has not come yet.
+  void SetMeasurements(int character, const loads::Measurements& measured);
+
   /// Call at least every 0.1 s with the monotonic clock while a live source is read: this is what
   /// notices that nothing comes any more.
   void Tick(std::int64_t monotonic_nanos);
@@ -61,7 +69,7 @@ class SceneBuilder : public SampleSink {
     bool l5_is_checked = false;                    // against the first pose, see CheckL5
     std::optional<Eigen::Vector3d> l5_from_poses;  // in the pelvis' link frame
     WornExtras worn;
-    std::array<loads::LoadClassifier, loads::kScoredJoints.size()> classifiers;
+    loads::LoadEstimator loads;
     bool has_legs = true;              // false: recorded without leg sensors
     std::optional<double> floor_z;     // known since the first sample
     std::optional<PersonState> state;  // of the newest sample
@@ -79,6 +87,7 @@ class SceneBuilder : public SampleSink {
   double nominal_rate_hz_;
   OnState on_state_;
   std::map<int, Person> people_;                       // by character id; bounded by the source
+  std::map<int, loads::Measurements> measured_;        // likewise, by who measures
   std::map<int, Character> clusters_;                  // of tracked objects, likewise
   std::map<int, std::vector<TrackedObject>> objects_;  // of the newest sample of each cluster
   SceneState current_;                                 // without its people: Publish adds those

@@ -101,4 +101,8 @@ struct BodyForces {
   double residual_moment_share = 0;
 };
 
+/// Lets go of everything that was computed about forces, with the reason; bodies, hands and support
+/// stay.
+void MakeUnknown(std::string_view why, BodyForces& forces);
+
 }  // namespace kinescope

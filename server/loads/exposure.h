@@ -39,7 +39,12 @@ class Exposure {
   double secs() const;                               // counted so far
 
  private:
-  static constexpr std::size_t kBins = 401;  // the last: kExposureMost and more
+  static constexpr std::size_t kBins =
+      static_cast<std::size_t>(kExposureMost / kExposureBin) + 1;  // the last: that and more
+  struct Joint;
+  void Add(const JointLoad* loads, std::int64_t stamp_nanos);  // of all joints
+  static double PercentileOf(const Joint& joint, double share);
+
   struct Joint {
     std::array<std::int64_t, kBins> nanos{};  // of time, by ratio
     std::array<std::int64_t, 4> class_nanos{};

@@ -26,9 +26,9 @@ class FootContacts {
     double half_width_of_stature = 0.0275;          // of the polygon
   };
 
-  /// Speeds are the streamed ones where `sample` has them, else differences of positions. The first
-  /// sample, and one after a gap of more than 0.5 s or a step back in time, starts afresh: heights
-  /// and speeds alone decide at once, without ramp.
+  /// Speeds are differences of positions; of the first sample, those streamed. The first sample,
+  /// and one after a gap of more than 0.5 s or a step back in time, starts afresh: heights and
+  /// speeds alone decide at once, without ramp. The same stamp again changes nothing.
   void Update(const BodySample& sample, const urdf::LinkPoses& links,
               const urdf::Skeleton& skeleton, double floor_z, const Settings& settings);
 

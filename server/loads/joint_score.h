@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -58,13 +57,8 @@ LumbarLoad LumbarLoadOf(const Eigen::Vector3d& force, const Eigen::Vector3d& mom
                         const urdf::LinkPoses& links, double lever_arm_m = 0.06);
 
 /// On the scale of ratios: 0.30 at the action limit of 3400 N, 0.60 at the upper limit of 6400 N
-/// (NIOSH 1981), straight lines between and beyond.
+/// (NIOSH 1981), straight lines between and beyond. Shear has one limit, 1000 N at 0.30, and alone
+/// never goes beyond 0.60.
 double LumbarRatio(const LumbarLoad& load);
-
-/// A capacity of the table, for reports: N m, median unless said, for a positive and a negative
-/// moment; nullopt for a joint or channel that is not scored. Channels are those of Score, of the
-/// positive direction: "flexion", "bend right", "turn left", "abduction", ...
-std::optional<std::array<double, 2>> CapacityOf(int joint, std::string_view channel,
-                                                const Strength& strength);
 
 }  // namespace kinescope::loads

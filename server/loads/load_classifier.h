@@ -23,6 +23,9 @@ class LoadClassifier {
   LoadClassifier() = default;
   explicit LoadClassifier(const Settings& settings) : settings_(settings) {}
 
+  /// From the next update on; the class stays what it is until then.
+  void set_settings(const Settings& settings) { settings_ = settings; }
+
   /// `ratio` NaN: unknown, and the next valid one starts afresh, without hysteresis. So does a step
   /// of time backwards, or forward by more than 0.5 s.
   LoadClass Update(double ratio, std::int64_t stamp_nanos);

@@ -1,101 +1,81 @@
 /// Everything about forces that a scene state shows of one person, from samples. One per person; it
 /// holds what has a memory (filter, contacts, ramps, classes). A pure function of the samples in
-/// order: no clocks, so live view, clips and scrubbing agree. One thread; no allocation after
-/// construction.
+/// order: no clocks, so live view, clips and scrubbing agree. One thread; no allocation.
+///
+/// What cannot be known is unknown, with its reason, never a low load: numbers that are not finite,
+/// legs that were not recorded, flight, a floor that does not explain the posture (sitting,
+/// leaning), sensors that stopped.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
-#include <string>
 
 #include "server/core/body_forces.h"
 #include "server/core/scene_state.h"
 #include "server/loads/foot_contact.h"
-#include "server/loads/ground.h"
 #include "server/loads/hand_loads.h"
 #include "server/loads/inverse_dynamics.h"
 #include "server/loads/joint_score.h"
 #include "server/loads/load_classifier.h"
+#include "server/loads/load_settings.h"
 #include "server/loads/motion_filter.h"
+#include "server/loads/standing.h"
 
 namespace kinescope::loads {
-
-/// "total", "overload", "external", "norm". @throws UsageError naming the value.
-LoadMetric ParseLoadMetric(const std::string& text);
-
-struct LoadSettings {
-  LoadMetric metric = LoadMetric::kTotal;
-  Strength strength;
-  HandLoad hands;
-  MotionFilter::Settings motion;
-  FootContacts::Settings contact;
-  LoadClassifier::Settings classes;
-  double most_acceleration = 30;   // m/s^2, of a segment's CoM, joint-loads.md 2.3
-  bool clamp_cop = true;           // into the feet; off only for worked examples
-  bool compression_counts = true;  // L5/S1 shows the worse of moment and compression
-};
-
-/// "" or what is wrong, naming option, value and limits.
-std::string FindDefect(const LoadSettings& settings);
-
-/// A ground force by sensors, on the person. World frame.
-struct MeasuredGroundForce {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  // N
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // CoP, m
-  double free_moment = 0;                           // N m, about the vertical there
-  bool only_vertical = false;  // a plate of one axis: x and y are taken from the motion
-  std::int64_t stamp_nanos = 0;
-};
-
-/// One joint as another program has it (joint-loads.md 5.7). What is absent is NaN.
-struct ExternalJointLoad {
-  Eigen::Vector3d moment = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  double ratio = std::numeric_limits<double>::quiet_NaN();  // used as given, before the moment
-  LoadClass load_class = LoadClass::kUnknown;               // likewise, before the ratio
-  std::int64_t stamp_nanos = 0;                             // 0: never
-};
-
-/// What came from outside, by the clock of the samples. Counts for kFreshSecs.
-struct Measurements {
-  std::array<std::optional<MeasuredHandForce>, 2> hands;    // by urdf::Side
-  std::array<std::optional<MeasuredGroundForce>, 2> feet;   // likewise; both or none count
-  std::optional<MeasuredGroundForce> ground;                // in total
-  std::array<ExternalJointLoad, urdf::kJointCount> joints;  // by urdf::Joint
-};
 
 /// What is known about a person beside the sample. References: borrowed for the call.
 struct LoadSubject {
   const urdf::Skeleton& skeleton;
   const urdf::BodyParameters& body;
   bool mass_is_assumed = false;
-  bool has_legs = true;  // false: recorded without leg sensors
-  double floor_z = 0;    // world, m
+  bool wears_extra_masses = false;  // MVN does not know of them: its CoM is another body's
+  bool has_legs = true;             // false: recorded without leg sensors
+  double floor_z = 0;               // world, m
 };
 
 struct LoadResult {
   std::array<JointLoad, 15> loads;     // in order of kScoredJoints
-  std::optional<Eigen::Vector3d> cop;  // clamped to the support
+  std::optional<Eigen::Vector3d> cop;  // clamped into the support; absent where it is not known
   BodyForces forces;
 };
 
 class LoadEstimator {
  public:
   /// The next sample; `links` are its poses. The reference is good until the next call.
+  /// @pre FindDefect(settings) is ""
   const LoadResult& Update(const BodySample& sample, const urdf::LinkPoses& links,
                            const LoadSubject& subject, const LoadSettings& settings,
-                           const Measurements& measured);
+                           const Measurements& measured = {});
 
  private:
-  struct Solution;  // of one solve
-  Solution Solve() const;
+  /// Moments by joint: with the loads on the hands, and what those add.
+  struct Moments {
+    std::array<Eigen::Vector3d, urdf::kJointCount> total, added;
+  };
+
+  void ForgetEverything(const urdf::LinkPoses& links, std::string_view why, std::int64_t stamp);
+  void ShowBody(const BodySample& sample, const LoadSubject& subject, const BodyDemand& demand);
+  void ShowFloor(const Standing& standing, const LoadSubject& subject, std::int64_t stamp);
+  void ShowJoints(const Standing& standing, const urdf::LinkPoses& links);
+  std::string_view WhyUnknown(int joint) const;
+  void ShowLoads(const Moments& moments, const urdf::LinkPoses& links, const LoadSettings& settings,
+                 const Measurements& measured, std::int64_t stamp);
+  static void ShowExternal(const ExternalJointLoad& given, const urdf::LinkPoses& links,
+                           const LoadSettings& settings, std::int64_t stamp, JointLoad& load);
+  void Classify(const LoadSettings& settings, std::int64_t stamp);
+  bool SuspectContact(bool outside, std::int64_t stamp);
 
   MotionFilter motion_;
   FootContacts contacts_;
   HandLoads hands_;
   std::array<LoadClassifier, 15> classifiers_;
   LoadClassifier compression_;
+  std::optional<LoadMetric> last_metric_;
+  std::array<bool, 2> hand_is_lost_{};  // its sensor stopped
+  // Sitting or leaning: since when the CoP has been on the other side of the limit.
+  bool suspects_contact_ = false;
+  std::optional<std::int64_t> last_cop_nanos_, contrary_since_nanos_;
   LoadResult result_;
 };
 

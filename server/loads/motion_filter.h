@@ -2,11 +2,11 @@
 /// limits, or zero with the reason where they cannot be had. A pure function of the samples in
 /// order: no clocks. One thread; no allocation.
 ///
-/// Source: joint-loads.md 2.3. Accelerations and angular velocities go through one and the same
-/// filter, so that what belongs together stays together in time: a causal Butterworth low-pass of
-/// second order, in the trapezoidal state-variable form (V. Zavalishin, The Art of VA Filter
-/// Design, 2012, ch. 4), which takes any step of time and gives the derivative of what it filters
-/// as well.
+/// Source: joint-loads.md 2.3. Accelerations, angular ones and angular velocities go through one
+/// and the same filter, so that what belongs together stays together in time: a causal Butterworth
+/// low-pass of second order, in the trapezoidal state-variable form (V. Zavalishin, The Art of VA
+/// Filter Design, 2012, ch. 4), which takes any step of time and gives the derivative of what it
+/// filters as well.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,14 +19,19 @@
 
 namespace kinescope::loads {
 
+/// One step of time for any number of low-passes. `cutoff_hz` is lowered to 0.4 of the sample rate
+/// where it is higher. @pre step_secs > 0
+struct LowPassStep {
+  LowPassStep(double step_secs, double cutoff_hz);
+  double a1, a2, a3;    // of the implicit step
+  double rate_of_band;  // 1/s
+};
+
 /// Of a vector. Starts steady at its first value.
 class LowPass {
  public:
   void Restart(const Eigen::Vector3d& value);
-
-  /// The next value, `step_secs` > 0 after the one before. `cutoff_hz` is lowered to 0.4 of the
-  /// sample rate where it is higher.
-  void Update(const Eigen::Vector3d& value, double step_secs, double cutoff_hz);
+  void Update(const Eigen::Vector3d& value, const LowPassStep& step);
 
   const Eigen::Vector3d& value() const { return value_; }
   const Eigen::Vector3d& rate() const { return rate_; }  // d value / dt, per s
@@ -54,7 +59,9 @@ class MotionFilter {
 
   /// Reads stamp and derivatives of `sample`. Streamed accelerations are filtered. Where a sender
   /// leaves them at zero while velocities move, the filtered velocities are differentiated. A step
-  /// back in time or a long gap starts afresh; the same stamp again changes nothing.
+  /// back in time or a long gap starts afresh; the same stamp again changes nothing. A sample
+  /// without derivatives amid others that have them (a lost datagram) leaves the output as it was,
+  /// for as long as a gap may be.
   ///
   /// Static, with the reason: no derivatives; linear without angular or the reverse; numbers that
   /// are not finite; accelerations that cannot be: those which over the last second add up to
@@ -67,15 +74,18 @@ class MotionFilter {
     LowPass acceleration, angular_velocity, angular_acceleration;
     LowPass velocity;  // differentiated where no acceleration is streamed
   };
-  void Filter(const BodySample& sample, double step_secs, const Settings& settings);
-  void BecomeStatic(std::string_view why);
-  std::string_view Doubt(const BodySample& sample, double step_secs);
+  void Restart(const BodySample& sample);
+  void Filter(const BodySample& sample, const LowPassStep& step);
+  void Compare(const BodySample& sample, double step_secs);
+  std::string_view Doubt() const;
+  void Fill(const Settings& settings);
+  const Output& BecomeStatic(std::string_view why);
 
   std::array<Channels, urdf::kSegmentCount> channels_;
   bool has_last_ = false;
   bool linear_is_streamed_ = false, angular_is_streamed_ = false;  // an acceleration was not zero
   std::int64_t last_nanos_ = 0;
-  // What Doubt compares, leaky sums over about a second.
+  // What Doubt judges: sums that forget within about a second.
   std::array<Eigen::Quaterniond, urdf::kSegmentCount> last_orientation_;
   Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_excess_ = Eigen::Vector3d::Zero();  // m/s, mean of the segments

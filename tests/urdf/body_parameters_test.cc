@@ -86,8 +86,7 @@ TEST(BodyParameters, AreBodiesThatCanExist) {  // triangle inequality of every i
 TEST(BodyParameters, OfEveryTableAddUpToTheBodysMassAndMirror) {
   for (const BodyTable table : kEveryTable) {
     for (const Sex sex : {Sex::kMale, Sex::kFemale}) {
-      const BodyParameters body =
-          MakeBodyParameters(Described(table, sex), DefaultSkeleton());
+      const BodyParameters body = MakeBodyParameters(Described(table, sex), DefaultSkeleton());
       EXPECT_NEAR(TotalMass(body), 75, 1e-9) << Name(table);
       for (const int right : {kRightShoulder, kRightUpperArm, kRightForeArm, kRightHand,
                               kRightUpperLeg, kRightLowerLeg, kRightFoot, kRightToe}) {
@@ -138,10 +137,10 @@ TEST(BodyParameters, HaveTheCentresThatTheirTablesSay) {
       common(dumas, {kT12, kT8, kRightShoulder, kLeftShoulder}) - origin[kNeck];
   EXPECT_LT((thorax_com / thorax - Eigen::Vector3d(0, 0.004, -0.555)).norm(), 1e-9);
   const double abdomen = (origin[kT12] - origin[kL5]).norm();
-  EXPECT_LT(((common(dumas, {kL5, kL3}) - origin[kT12]) / abdomen -
-             Eigen::Vector3d(0.173, 0.003, -0.361))
-                .norm(),
-            1e-9);
+  EXPECT_LT(
+      ((common(dumas, {kL5, kL3}) - origin[kT12]) / abdomen - Eigen::Vector3d(0.173, 0.003, -0.361))
+          .norm(),
+      1e-9);
   // The right palm looks at the body: what ISB calls forward of the hand is our +y.
   EXPECT_LT((dumas[kRightHand].com_in_link / 0.190 - Eigen::Vector3d(0.032, 0.035, -0.357)).norm(),
             1e-9);
@@ -153,8 +152,8 @@ TEST(BodyParameters, HaveTheCentresThatTheirTablesSay) {
   const BodyParameters winter =
       MakeBodyParameters(Described(BodyTable::kWinter, Sex::kMale), skeleton);
   EXPECT_NEAR(winter[kRightUpperLeg].com_in_link.z(), -0.433 * 0.465, 1e-12);
-  EXPECT_NEAR(winter[kRightUpperLeg].inertia_about_com(0, 0),
-              7.5 * 0.323 * 0.323 * 0.465 * 0.465, 1e-9);
+  EXPECT_NEAR(winter[kRightUpperLeg].inertia_about_com(0, 0), 7.5 * 0.323 * 0.323 * 0.465 * 0.465,
+              1e-9);
 }
 
 TEST(BodyParameters, IncludeWhatIsWorn) {
@@ -202,8 +201,8 @@ TEST(ExtraMass, IsReadFromTextOrRefusedWithTheText) {
   EXPECT_EQ(helmet.position_in_link, Eigen::Vector3d(0.01, 0, 0.12));
   EXPECT_EQ(ParseExtraMass("right_forearm:0.3").segment, kRightForeArm);
   for (const char* text :
-       {"", "head", "head:", ":1", "hat:1", "head:1kg", "head:-1", "head:nan", "head:1@", "head:1@1,2",
-        "head:1@0,0,0,0", "head:1@0,0,x", "head:1@0,0,9", "head:500"}) {
+       {"", "head", "head:", ":1", "hat:1", "head:1kg", "head:-1", "head:nan", "head:1@",
+        "head:1@1,2", "head:1@0,0,0,0", "head:1@0,0,x", "head:1@0,0,9", "head:500"}) {
     try {
       ParseExtraMass(text);
       ADD_FAILURE() << "took '" << text << "'";

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "server/loads/load_classifier.h"
-#include "server/loads/static_loads.h"
+#include "server/loads/load_estimator.h"
 #include "tests/server/subject/subject_checks.h"
 #include "urdf/body_parameters.h"
 
@@ -77,20 +76,17 @@ TEST(Lift, ShowsEveryClassOfLoad) {
   const auto motion = MakeMotion("lift");
   const urdf::Skeleton& skeleton = *motion->character().skeleton;
   const auto body = urdf::MakeBodyParameters({}, skeleton);
-  std::array<loads::LoadClassifier, loads::kScoredJoints.size()> classifiers;
+  loads::LoadEstimator estimator;
   std::array<LoadClass, loads::kScoredJoints.size()> worst;
   std::array<LoadClass, loads::kScoredJoints.size()> upright;
   worst.fill(LoadClass::kUnknown);
   for (int frame = 0; frame < 60 * 16; ++frame) {  // two rounds at 60 Hz; the second is settled
-    const double t = frame / 60.0;
-    const BodySample sample = motion->At(t);
-    const urdf::LinkPoses links = LinksOf(sample);
-    const loads::StaticSolution statics = loads::SolveStatics(links, skeleton, body, 0);
-    for (std::size_t i = 0; i < classifiers.size(); ++i) {
-      const int joint = loads::kScoredJoints[i];
-      const loads::Score score = loads::ScoreJoint(
-          joint, statics.moment[Index(urdf::ChildOf(joint))], links, urdf::Sex::kMale);
-      const LoadClass now = classifiers[i].Update(score.ratio, sample.stamp_nanos);
+    const BodySample sample = motion->At(frame / 60.0);
+    const loads::LoadResult& result =
+        estimator.Update(sample, LinksOf(sample), {skeleton, body}, loads::LoadSettings());
+    for (std::size_t i = 0; i < worst.size(); ++i) {
+      const LoadClass now = result.loads[i].load_class;
+      ASSERT_NE(now, LoadClass::kUnknown) << result.loads[i].reason << " at " << frame / 60.0;
       worst[i] = std::max(worst[i], now);
       if (frame == 8 * 60 + 12) upright[i] = now;  // has stood for longer than any dwell
     }

@@ -1,0 +1,118 @@
+#include "server/loads/foot_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "server/loads/support_polygon.h"
+
+namespace kinescope::loads {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using urdf::At;
+using urdf::kLeft;
+using urdf::kRight;
+using urdf::Side;
+
+constexpr double kLongestGapSecs = 0.5;
+// A foot that has just come down carries something at once, if it is the only one.
+constexpr double kLeastWeight = 1e-3;
+
+int FootOf(Side side) { return side == kRight ? urdf::kRightFoot : urdf::kLeftFoot; }
+
+double SpeedOf(const SegmentState& segment, const Vector3d& point) {
+  return (segment.velocity + segment.angular_velocity.cross(point - segment.position)).norm();
+}
+
+}  // namespace
+
+double FootContacts::ContactEnd::weight() const { return 0.5 * (1 - std::cos(M_PI * ramp)); }
+
+void FootContacts::Judge(ContactEnd& end, double height, double speed, bool fresh, double step_secs,
+                         const Settings& settings) {
+  const bool comes_down = height < settings.on_below && speed < settings.on_slower;
+  if (fresh) {
+    end = {comes_down, 0, comes_down ? 1.0 : 0.0};
+    return;
+  }
+  end.slow_samples = comes_down ? end.slow_samples + 1 : 0;
+  if (end.on) {
+    end.on = height <= settings.off_above && speed <= settings.off_faster;
+  } else {
+    end.on = end.slow_samples >= settings.on_samples;
+  }
+  const double step = settings.ramp_secs > 0 ? step_secs / settings.ramp_secs : 1.0;
+  end.ramp = std::clamp(end.ramp + (end.on ? step : -step), 0.0, 1.0);
+}
+
+void FootContacts::Place(Side side, const Points& points, double stature,
+                         const Settings& settings) {
+  const Vector2d heel = points.at[0].head<2>();
+  const Vector2d ball = points.at[1].head<2>();
+  const Vector2d tip = points.at[2].head<2>();
+  const ContactEnd& heel_end = ends_[side][kHeel];
+  const ContactEnd& fore_end = ends_[side][kForefoot];
+
+  // Midpoint of what touches (joint-loads.md 2.5), gliding where an end has just come or gone.
+  const double of_heel = heel_end.weight(), of_fore = fore_end.weight();
+  const double flat = std::min(of_heel, of_fore), most = std::max(of_heel, of_fore);
+  FootOnGround& foot = feet_[side];
+  foot.center = 0.5 * (heel + tip);
+  if (most > 0) {
+    foot.center =
+        (flat * foot.center + (of_heel - flat) * heel + (of_fore - flat) * 0.5 * (ball + tip)) /
+        most;
+  }
+  foot.weight = touches(side) ? std::max(most, kLeastWeight) : most;
+
+  polygons_[side] = {};
+  if (!touches(side)) return;
+  const double from = heel_end.on ? 0 : 1 - settings.forefoot_part;
+  const double to = fore_end.on ? 1 : settings.heel_part;
+  const Vector2d along = tip - heel;
+  const double length = along.norm();
+  const Vector2d forward = length > 0 ? Vector2d(along / length) : Vector2d(1, 0);
+  const Vector2d aside =
+      settings.half_width_of_stature * stature * Vector2d(-forward.y(), forward.x());
+  polygons_[side] = ConvexHull({heel + from * along - aside, heel + to * along - aside,
+                                heel + to * along + aside, heel + from * along + aside},
+                               4);
+}
+
+void FootContacts::Update(const BodySample& sample, const urdf::LinkPoses& links,
+                          const urdf::Skeleton& skeleton, double floor_z,
+                          const Settings& settings) {
+  const double step_secs = static_cast<double>(sample.stamp_nanos - last_nanos_) * 1e-9;
+  if (has_last_ && step_secs == 0) return;
+  const bool fresh = !has_last_ || step_secs < 0 || step_secs > kLongestGapSecs;
+  const bool has_speeds = sample.has_linear && sample.has_angular;
+  for (const Side side : {kRight, kLeft}) {
+    const std::size_t foot = At(FootOf(side));
+    const std::size_t toe = foot + 1;
+    Points points;
+    points.at = {links[foot].position + links[foot].orientation * skeleton.heel_in_foot[side],
+                 links[toe].position,
+                 links[toe].position + links[toe].orientation * skeleton.toe_tip_in_toe[side]};
+    const auto speed = [&](std::size_t point, std::size_t segment) {
+      if (!fresh) return (points.at[point] - last_points_[side].at[point]).norm() / step_secs;
+      return has_speeds ? SpeedOf(sample.segments[segment], points.at[point]) : 0.0;
+    };
+    const auto height = [&](std::size_t point) { return points.at[point].z() - floor_z; };
+    const std::size_t lower = height(1) < height(2) ? 1 : 2;
+    Judge(ends_[side][kHeel], height(0), speed(0, foot), fresh, step_secs, settings);
+    Judge(ends_[side][kForefoot], height(lower), speed(lower, toe), fresh, step_secs, settings);
+    Place(side, points, skeleton.height, settings);
+    last_points_[side] = points;
+  }
+  std::array<Vector2d, kMostSupportPoints> corners;
+  std::size_t count = 0;
+  for (const SupportPolygon& polygon : polygons_) {
+    for (std::size_t i = 0; i < polygon.size; ++i) corners[count++] = polygon.corners[i];
+  }
+  support_ = ConvexHull(corners, count);
+  has_last_ = true;
+  last_nanos_ = sample.stamp_nanos;
+}
+
+}  // namespace kinescope::loads

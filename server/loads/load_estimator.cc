@@ -1,0 +1,364 @@
+#include "server/loads/load_estimator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "server/loads/support_polygon.h"
+
+namespace kinescope::loads {
+namespace {
+
+using Eigen::Vector3d;
+using namespace urdf;
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::string_view kNoLegs = "legs are not measured in this recording";
+constexpr std::string_view kLeans =
+    "sits, leans or holds on to something: the feet alone do not explain the posture";
+constexpr std::string_view kMisfit = "the measured ground force does not fit the motion";
+constexpr std::string_view kHandLost = "the measured force on the hand stopped";
+constexpr std::string_view kNoLoadKnown = "no load is known";
+constexpr std::string_view kPostureOnly = "no load is known: posture only";
+constexpr std::string_view kNeverExternal = "no load from outside for this joint";
+constexpr std::string_view kExternalStopped = "the load from outside stopped";
+constexpr std::string_view kNotFinite = "the pose has numbers that are not finite";
+
+bool IsLegJoint(int joint) { return joint >= jRightHip; }
+bool IsTrunkJoint(int joint) { return joint <= jT9T8; }
+bool IsArmJoint(int joint, Side side) {
+  return side == kRight ? joint >= jRightC7Shoulder && joint <= jRightWrist
+                        : joint >= jLeftC7Shoulder && joint <= jLeftWrist;
+}
+
+bool IsFinite(const LinkPoses& links) {
+  double sum = 0;  // not finite as soon as one of them is not
+  for (const Pose& link : links) sum += link.position.sum() + link.orientation.coeffs().sum();
+  return std::isfinite(sum);
+}
+
+Vector3d VelocityOf(const BodySample& sample, const BodyDemand& demand,
+                    const BodyParameters& body) {
+  Vector3d sum = Vector3d::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < demand.size(); ++i) {
+    const SegmentState& segment = sample.segments[i];
+    sum += body[i].mass *
+           (segment.velocity + segment.angular_velocity.cross(demand[i].com - segment.position));
+    mass += body[i].mass;
+  }
+  return sum / mass;
+}
+
+const MeasuredGroundForce* FreshOf(const std::optional<MeasuredGroundForce>& measured,
+                                   std::int64_t stamp) {
+  return measured && IsFresh(measured->stamp_nanos, stamp) ? &*measured : nullptr;
+}
+
+GroundSensors SensorsOf(const Measurements& measured, std::int64_t stamp) {
+  GroundSensors sensors;
+  sensors.total = FreshOf(measured.ground, stamp);
+  for (const Side side : {kRight, kLeft}) sensors.feet[side] = FreshOf(measured.feet[side], stamp);
+  return sensors;
+}
+
+// Whether a plate sees anything but its noise and the errors of the body model
+// (joint-loads.md 3.3).
+bool FeelsLoad(const Standing& measured, const Standing& bare) {
+  constexpr double kLeastForce = 5, kLeastDistance = 0.005;  // N, m
+  if (!measured.is_measured || !measured.cop || !bare.cop) return true;
+  return std::abs(measured.force.z() - bare.force.z()) >= kLeastForce ||
+         (measured.cop->point - bare.cop->point).norm() >= kLeastDistance;
+}
+
+// In the middle of a class, for a classifier that knows ratios only.
+double RatioIn(LoadClass load_class, const LoadClassifier::Settings& classes) {
+  switch (load_class) {
+    case LoadClass::kLow: return 0.5 * classes.down[0];
+    case LoadClass::kMedium: return 0.5 * (classes.up[0] + classes.down[1]);
+    case LoadClass::kHigh: return 2 * classes.up[1];
+    case LoadClass::kUnknown: break;
+  }
+  return kNothing;
+}
+
+void MakeUnknown(std::string_view why, JointLoad& load) {
+  load.ratio = load.deciding_moment = load.capacity = kNothing;
+  load.channel = {};
+  load.reason = why;
+}
+
+void Show(const Score& score, JointLoad& load) {
+  load.ratio = score.ratio;
+  load.deciding_moment = score.moment;
+  load.capacity = score.capacity;
+  load.channel = score.channel;
+}
+
+}  // namespace
+
+void LoadEstimator::ForgetEverything(const LinkPoses& links, std::string_view why,
+                                     std::int64_t stamp) {
+  result_.cop.reset();
+  kinescope::MakeUnknown(why, result_.forces);
+  result_.forces.com_of_model = Vector3d::Constant(kNothing);
+  for (std::size_t i = 0; i < result_.loads.size(); ++i) {
+    JointLoad& load = result_.loads[i];
+    load = JointLoad();
+    load.joint = kScoredJoints[i];
+    load.position = links[At(ChildOf(load.joint))].position;
+    load.moment = load.force = Vector3d::Constant(kNothing);
+    MakeUnknown(why, load);
+    load.load_class = classifiers_[i].Update(kNothing, stamp);
+  }
+  compression_.Update(kNothing, stamp);
+}
+
+void LoadEstimator::ShowBody(const BodySample& sample, const LoadSubject& subject,
+                             const BodyDemand& demand) {
+  BodyForces& forces = result_.forces;
+  forces.body_mass_kg = TotalMass(subject.body);
+  forces.body_mass_is_assumed = subject.mass_is_assumed;
+  forces.com_of_model = CenterOfMassOf(demand, subject.body);
+  if (sample.has_linear && sample.has_angular) {
+    const Vector3d velocity = VelocityOf(sample, demand, subject.body);
+    if (velocity.allFinite()) forces.com_velocity = velocity;
+  }
+  if (sample.com && sample.com->position.allFinite() && !subject.wears_extra_masses) {
+    constexpr double kMostDifference = 0.01;  // m, joint-loads.md 1.6
+    forces.com_difference = forces.com_of_model - sample.com->position;
+    forces.com_disagrees = forces.com_difference->norm() > kMostDifference;
+  }
+  forces.support = contacts_.support();
+  if (forces.com_velocity && forces.support.size > 2 && subject.has_legs) {
+    const Eigen::Vector2d xcom =
+        ExtrapolatedCenterOfMass(forces.com_of_model, *forces.com_velocity, subject.floor_z);
+    forces.extrapolated_com = Vector3d(xcom.x(), xcom.y(), subject.floor_z);
+    forces.margin_of_stability = DistanceInside(forces.support, xcom);
+  }
+  for (const Side side : {kRight, kLeft}) {
+    forces.feet[side].touches_floor = subject.has_legs && contacts_.touches(side);
+    forces.feet[side].contact_weight = subject.has_legs ? contacts_.feet()[side].weight : 0;
+  }
+}
+
+bool LoadEstimator::SuspectContact(bool outside, std::int64_t stamp) {
+  constexpr double kDwellSecs = 0.2, kLongestGapSecs = 0.5;
+  const auto secs_since = [&](const std::optional<std::int64_t>& since) {
+    return static_cast<double>(stamp - *since) * 1e-9;
+  };
+  const bool fresh = !last_cop_nanos_ || secs_since(last_cop_nanos_) < 0 ||
+                     secs_since(last_cop_nanos_) > kLongestGapSecs;
+  last_cop_nanos_ = stamp;
+  if (fresh) suspects_contact_ = outside;
+  if (outside == suspects_contact_) {
+    contrary_since_nanos_.reset();
+  } else if (!contrary_since_nanos_) {
+    contrary_since_nanos_ = stamp;
+  } else if (secs_since(contrary_since_nanos_) >= kDwellSecs) {
+    suspects_contact_ = outside;
+    contrary_since_nanos_.reset();
+  }
+  return suspects_contact_;
+}
+
+void LoadEstimator::ShowFloor(const Standing& standing, const LoadSubject& subject,
+                              std::int64_t stamp) {
+  BodyForces& forces = result_.forces;
+  forces.why_no_ground = subject.has_legs ? standing.why_not : kNoLegs;
+  forces.ground_is_measured = standing.is_measured;
+  forces.cop_inside = subject.has_legs ? standing.cop_inside : kNothing;
+  result_.cop.reset();
+  if (!forces.why_no_ground.empty()) {
+    last_cop_nanos_.reset();
+  } else if (standing.is_measured) {
+    constexpr double kMostForce = 0.10, kMostMoment = 0.05;  // joint-loads.md 2.2
+    const double weight = forces.body_mass_kg * kGravity;
+    const Wrench& residual = standing.joints[kPelvis];
+    forces.residual_force_share = residual.force.norm() / weight;
+    forces.residual_moment_share = residual.moment.norm() / (weight * subject.skeleton.height);
+    if (forces.residual_force_share > kMostForce || forces.residual_moment_share > kMostMoment) {
+      forces.why_no_ground = kMisfit;
+    }
+  } else {
+    constexpr double kMostOutside = 0.03;  // m, joint-loads.md 2.4
+    forces.external_contact_suspected = SuspectContact(standing.cop_inside < -kMostOutside, stamp);
+    if (forces.external_contact_suspected) forces.why_no_ground = kLeans;
+  }
+  if (subject.has_legs && standing.cop) {
+    result_.cop = Vector3d(standing.shown_cop.x(), standing.shown_cop.y(), subject.floor_z);
+  }
+  const bool known = forces.why_no_ground.empty();
+  if (known) {
+    forces.ground_force = standing.force;
+    forces.ground_free_moment = standing.cop->free_moment;
+  }
+  for (const Side side : {kRight, kLeft}) {
+    FootForce& foot = forces.feet[side];
+    const FootShare& share = standing.feet[side];
+    foot.force = known ? share.force : Vector3d::Constant(kNothing);
+    foot.cop = known ? Vector3d(share.point.x(), share.point.y(), subject.floor_z)
+                     : Vector3d::Constant(kNothing);
+    foot.free_moment = known ? share.free_moment : kNothing;
+  }
+}
+
+std::string_view LoadEstimator::WhyUnknown(int joint) const {
+  for (const Side side : {kRight, kLeft}) {
+    const bool carries_it = IsArmJoint(joint, side) || IsTrunkJoint(joint) || IsLegJoint(joint);
+    if (hand_is_lost_[side] && carries_it) return kHandLost;
+  }
+  return IsLegJoint(joint) ? result_.forces.why_no_ground : std::string_view();
+}
+
+void LoadEstimator::ShowJoints(const Standing& standing, const LinkPoses& links) {
+  BodyForces& forces = result_.forces;
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    JointForce& shown = forces.joints[At(joint)];
+    const Wrench& wrench = standing.joints[At(ChildOf(joint))];
+    shown = {wrench.force, wrench.moment, WhyUnknown(joint)};
+    if (!shown.why_unknown.empty()) {
+      shown.force = shown.moment = Vector3d::Constant(kNothing);
+    }
+  }
+  const JointForce& l5s1 = forces.joints[jL5S1];
+  if (l5s1.why_unknown.empty()) forces.lumbar = LumbarLoadOf(l5s1.force, l5s1.moment, links);
+}
+
+void LoadEstimator::ShowLoads(const Moments& moments, const LinkPoses& links,
+                              const LoadSettings& settings, const Measurements& measured,
+                              std::int64_t stamp) {
+  const BodyForces& forces = result_.forces;
+  const bool hands_are_known =
+      settings.hands.is_known || measured.hands[kRight] || measured.hands[kLeft];
+  for (std::size_t i = 0; i < result_.loads.size(); ++i) {
+    const int joint = kScoredJoints[i];
+    const JointForce& internal = forces.joints[At(joint)];
+    JointLoad& load = result_.loads[i];
+    load = JointLoad();
+    load.joint = joint;
+    load.position = links[At(ChildOf(joint))].position;
+    load.moment = internal.moment;
+    load.force = internal.force;
+    if (forces.metric == LoadMetric::kExternal) {
+      ShowExternal(measured.joints[At(joint)], links, settings, stamp, load);
+    } else if (!internal.why_unknown.empty()) {
+      MakeUnknown(internal.why_unknown, load);
+    } else if (forces.metric == LoadMetric::kNorm) {
+      Show(ScoreNorm(joint, moments.total[At(joint)], links, settings.strength), load);
+    } else if (forces.metric == LoadMetric::kTotal) {
+      Show(ScoreJoint(joint, moments.total[At(joint)], links, settings.strength), load);
+    } else if (!hands_are_known && !IsLegJoint(joint)) {  // a plate alone
+      MakeUnknown(kNoLoadKnown, load);
+    } else {
+      Show(ScoreJoint(joint, moments.added[At(joint)], links, settings.strength), load);
+    }
+  }
+}
+
+void LoadEstimator::ShowExternal(const ExternalJointLoad& given, const LinkPoses& links,
+                                 const LoadSettings& settings, std::int64_t stamp,
+                                 JointLoad& load) {
+  load.moment = given.moment;
+  load.force = Vector3d::Constant(kNothing);
+  const bool has_level = given.load_class != LoadClass::kUnknown;
+  const bool has_ratio = std::isfinite(given.ratio) && given.ratio >= 0;
+  const bool has_moment = given.moment.allFinite();
+  if (!IsFresh(given.stamp_nanos, stamp)) {
+    MakeUnknown(given.stamp_nanos == 0 ? kNeverExternal : kExternalStopped, load);
+    load.moment = Vector3d::Constant(kNothing);
+  } else if (has_level || has_ratio) {
+    load.ratio = has_ratio ? given.ratio : kNothing;
+    load.deciding_moment = load.capacity = kNothing;
+    load.load_class = given.load_class;  // Classify takes it from here
+    load.channel = "external";
+  } else if (has_moment) {
+    Show(ScoreJoint(load.joint, given.moment, links, settings.strength), load);
+  } else {
+    MakeUnknown(kNeverExternal, load);
+  }
+}
+
+void LoadEstimator::Classify(const LoadSettings& settings, std::int64_t stamp) {
+  const BodyForces& forces = result_.forces;
+  if (last_metric_ != forces.metric) {  // another scale: what was filtered means nothing
+    classifiers_.fill(LoadClassifier());
+    last_metric_ = forces.metric;
+  }
+  for (std::size_t i = 0; i < result_.loads.size(); ++i) {
+    JointLoad& load = result_.loads[i];
+    const double ratio = load.load_class == LoadClass::kUnknown
+                             ? load.ratio
+                             : RatioIn(load.load_class, settings.classes);
+    classifiers_[i].set_settings(settings.classes);
+    load.load_class = classifiers_[i].Update(ratio, stamp);
+  }
+  const bool counts = settings.compression_counts && forces.metric != LoadMetric::kExternal &&
+                      forces.metric != LoadMetric::kOverload;
+  compression_.set_settings(settings.classes);
+  const LoadClass of_compression =
+      compression_.Update(forces.lumbar ? LumbarRatio(*forces.lumbar) : kNothing, stamp);
+  JointLoad& lumbar = result_.loads[0];
+  if (counts && lumbar.load_class != LoadClass::kUnknown && of_compression > lumbar.load_class) {
+    lumbar.load_class = of_compression;
+    lumbar.class_is_of_compression = true;
+  }
+}
+
+const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPoses& links,
+                                        const LoadSubject& subject, const LoadSettings& settings,
+                                        const Measurements& measured) {
+  const std::int64_t stamp = sample.stamp_nanos;
+  BodyForces& forces = result_.forces;
+  forces = BodyForces();
+  forces.metric = settings.metric;
+  if (!IsFinite(links)) {
+    ForgetEverything(links, kNotFinite, stamp);
+    return result_;
+  }
+  const MotionFilter::Output& motion = motion_.Update(sample, settings.motion);
+  forces.is_dynamic = motion.is_dynamic;
+  forces.why_static = motion.why_static;
+  contacts_.Update(sample, links, subject.skeleton, subject.floor_z, settings.contact);
+  hands_.Update(settings.hands, stamp);
+  const BodyDemand demand =
+      DemandOf(links, motion.motion, subject.body, settings.most_acceleration);
+  ShowBody(sample, subject, demand);
+
+  ExternalForces hands;
+  hands_.Push(links, motion.motion, subject.skeleton, measured.hands, stamp, hands, forces.hands);
+  for (const Side side : {kRight, kLeft}) {
+    hand_is_lost_[side] =
+        measured.hands[side] && !IsFresh(measured.hands[side]->stamp_nanos, stamp);
+  }
+  const GroundSensors sensors = SensorsOf(measured, stamp);
+  const auto stand = [&](const ExternalForces& pushed, const GroundSensors& felt) {
+    return SolveStanding({links, demand, pushed, contacts_, subject.floor_z, forces.body_mass_kg,
+                          settings.clamp_cop},
+                         felt);
+  };
+  const Standing loaded = stand(hands, sensors);
+  ShowFloor(loaded, subject, stamp);
+  ShowJoints(loaded, links);
+
+  if (forces.metric == LoadMetric::kOverload && !settings.hands.is_known &&
+      !measured.hands[kRight] && !measured.hands[kLeft] && !loaded.is_measured) {
+    forces.metric = LoadMetric::kTotal;
+    forces.why_other_metric = kPostureOnly;
+  }
+  Moments moments;
+  const bool needs_bare = forces.metric == LoadMetric::kOverload;
+  const Standing bare = needs_bare ? stand(ExternalForces(), GroundSensors()) : Standing();
+  const bool feels = needs_bare && FeelsLoad(loaded, bare);
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    const Vector3d& with = loaded.joints[At(ChildOf(joint))].moment;
+    const Vector3d& without = bare.joints[At(ChildOf(joint))].moment;
+    moments.total[At(joint)] = with;
+    moments.added[At(joint)] =
+        IsLegJoint(joint) && !feels ? Vector3d(Vector3d::Zero()) : Vector3d(with - without);
+  }
+  ShowLoads(moments, links, settings, measured, stamp);
+  Classify(settings, stamp);
+  return result_;
+}
+
+}  // namespace kinescope::loads
