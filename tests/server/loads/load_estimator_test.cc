@@ -1,0 +1,413 @@
+#include "server/loads/load_estimator.h"
+
+#include <gmock/gmock.h>
+
+#include "server/core/errors.h"
+#include "server/subject/subject.h"
+#include "tests/server/loads/loads_testing.h"
+
+namespace kinescope::loads::testing {
+namespace {
+
+using ::testing::HasSubstr;
+constexpr std::int64_t kMillis = 1'000'000;
+
+LinkPoses LinksOf(const BodySample& sample) {
+  LinkPoses links;
+  for (int i = 0; i < kSegmentCount; ++i) {
+    const SegmentState& segment = sample.segments[urdf::At(i)];
+    links[urdf::At(i)] = {segment.position, segment.orientation * SegmentFromLink(i)};
+  }
+  return links;
+}
+
+// Both feet on the floor whatever they do.
+LoadSettings AlwaysStanding() {
+  LoadSettings settings = Unclamped();
+  settings.contact.on_below = settings.contact.off_above = 10;
+  settings.contact.on_slower = settings.contact.off_faster = 1e9;
+  return settings;
+}
+
+bool IsLeg(int joint) { return joint >= jRightHip; }
+
+// A gentle pose, so that most of the time the feet explain it.
+struct Moment {
+  LinkPoses links;
+  BodyMotion motion;
+};
+Moment RandomMoment(Random& random) {
+  Moment moment{random.Pose(0.15), {}};
+  for (SegmentMotion& segment : moment.motion) {
+    segment = {random.Vector(0.3), random.Vector(0.5), random.Vector(1)};
+  }
+  return moment;
+}
+
+TEST(LoadEstimator, DoesNotCareWhereThePersonStandsAndFaces) {
+  Random random(1);
+  int legs = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Moment here = RandomMoment(random);
+    Moment there = here;
+    const Quaterniond yaw(AngleAxisd(random.Number(M_PI), Vector3d::UnitZ()));
+    const Vector3d shift(random.Number(30), random.Number(30), 0);
+    for (std::size_t i = 0; i < here.links.size(); ++i) {
+      there.links[i] = {yaw * here.links[i].position + shift, yaw * here.links[i].orientation};
+      const SegmentMotion& m = here.motion[i];
+      there.motion[i] = {yaw * m.acceleration, yaw * m.angular_velocity,
+                         yaw * m.angular_acceleration};
+    }
+    LoadSettings settings = AlwaysStanding();
+    settings.hands = Held(5, 2);
+    const LoadResult a = Estimate(here.links, settings, &here.motion);
+    const LoadResult b = Estimate(there.links, settings, &there.motion);
+    ASSERT_EQ(a.forces.why_no_ground, b.forces.why_no_ground);
+    for (const int joint : kScoredJoints) {
+      if (!At(a, joint).why_unknown.empty()) continue;
+      EXPECT_LT((yaw * At(a, joint).moment - At(b, joint).moment).norm(), 1e-7);
+      EXPECT_LT((yaw * At(a, joint).force - At(b, joint).force).norm(), 1e-7);
+      EXPECT_NEAR(LoadOf(a, joint).ratio, LoadOf(b, joint).ratio, 1e-9);
+      legs += IsLeg(joint);
+    }
+  }
+  EXPECT_GT(legs, 300) << "hardly any pose stood";
+}
+
+TEST(LoadEstimator, GivesAMirroredPersonMirroredLoads) {
+  Random random(2);
+  int legs = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const Moment here = RandomMoment(random);
+    Moment there;
+    for (int i = 0; i < kSegmentCount; ++i) {
+      const std::size_t to = i == 0 ? 0 : urdf::At(Mirrored(i - 1) + 1);
+      const Pose& pose = here.links[urdf::At(i)];
+      const Quaterniond& q = pose.orientation;
+      there.links[to] = {{pose.position.x(), -pose.position.y(), pose.position.z()},
+                         Quaterniond(q.w(), -q.x(), q.y(), -q.z())};
+      const SegmentMotion& m = here.motion[urdf::At(i)];
+      const Vector3d polar(1, -1, 1), axial(-1, 1, -1);
+      there.motion[to] = {m.acceleration.cwiseProduct(polar),
+                          m.angular_velocity.cwiseProduct(axial),
+                          m.angular_acceleration.cwiseProduct(axial)};
+    }
+    LoadSettings settings = AlwaysStanding();
+    settings.hands = Held(5, 2);
+    const LoadResult a = Estimate(here.links, settings, &here.motion);
+    settings.hands = Held(2, 5);
+    const LoadResult b = Estimate(there.links, settings, &there.motion);
+    for (const int joint : kScoredJoints) {
+      if (!At(a, joint).why_unknown.empty()) continue;
+      const JointLoad &one = LoadOf(a, joint), &other = LoadOf(b, Mirrored(joint));
+      EXPECT_NEAR(one.ratio, other.ratio, 1e-8) << kJoints[urdf::At(joint)].label;
+      if (IsLeg(joint) || joint == Mirrored(joint)) continue;
+      EXPECT_EQ(one.channel, other.channel);
+    }
+    legs += a.forces.why_no_ground.empty();
+  }
+  EXPECT_GT(legs, 50);
+}
+
+TEST(LoadEstimator, OverloadOfArmsAndSpineDoesNotDependOnTheBodysMass) {
+  BodyDescription heavy;
+  heavy.mass_kg = 120;
+  const BodyParameters other = MakeBodyParameters(heavy, Person());
+  Random random(3);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Moment moment = RandomMoment(random);
+    LoadSettings settings = AlwaysStanding();
+    settings.metric = LoadMetric::kOverload;
+    settings.hands = Held(5);
+    LoadEstimator one, two;
+    const BodySample sample = SampleOf(moment.links, 1, &moment.motion);
+    const LoadResult a = one.Update(sample, moment.links, {Person(), Body()}, settings);
+    const LoadResult b = two.Update(sample, moment.links, {Person(), other}, settings);
+    for (const int joint : kScoredJoints) {
+      if (IsLeg(joint)) continue;
+      EXPECT_NEAR(LoadOf(a, joint).ratio, LoadOf(b, joint).ratio, 1e-9);
+    }
+  }
+}
+
+TEST(LoadEstimator, ShowsTotalsAndSaysSoWhereNoLoadIsKnown) {
+  LoadSettings settings = Unclamped();
+  settings.metric = LoadMetric::kOverload;
+  const LoadResult result = Estimate(ArmForward(), settings);
+  EXPECT_EQ(result.forces.metric, LoadMetric::kTotal);
+  EXPECT_EQ(result.forces.why_other_metric, "no load is known: posture only");
+  ExpectRatio(result, jRightShoulder, 0.234);
+}
+
+TEST(LoadEstimator, NormIsTheWholeMomentAgainstTheWeakerDirection) {
+  LoadSettings settings = Unclamped();
+  settings.metric = LoadMetric::kNorm;
+  settings.hands = Held(5);
+  const LoadResult result = Estimate(ArmForward(), settings);
+  EXPECT_NEAR(LoadOf(result, jL5S1).ratio, std::hypot(8.829, 42.070) / 143, 1e-4);
+}
+
+// "No data is not green": every way of not knowing, with its reason.
+void ExpectUnknown(const LoadResult& result, const char* reason, bool (*concerns)(int joint)) {
+  for (const int joint : kScoredJoints) {
+    const JointLoad& load = LoadOf(result, joint);
+    EXPECT_EQ(load.load_class == LoadClass::kUnknown, concerns(joint))
+        << kJoints[urdf::At(joint)].mvn_name << ": " << load.reason;
+    if (!concerns(joint)) continue;
+    EXPECT_THAT(std::string(load.reason), HasSubstr(reason));
+    EXPECT_TRUE(std::isnan(load.ratio));
+    EXPECT_TRUE(load.moment.array().isNaN().all());
+  }
+}
+
+bool Any(int) { return true; }
+
+TEST(LoadEstimator, DoesNotKnowTheLegsOfSomebodyInTheAir) {
+  LinkPoses links = Posed({});
+  for (Pose& link : links) link.position.z() += 0.2;
+  const LoadResult result = Estimate(links);
+  ExpectUnknown(result, "no foot is on the floor", IsLeg);
+  EXPECT_FALSE(result.cop);
+  EXPECT_TRUE(std::isnan(result.forces.feet[kRight].force.z()));
+  BodyMotion falling;
+  for (SegmentMotion& segment : falling) segment.acceleration = {0, 0, -9.5};
+  ExpectUnknown(Estimate(Posed({}), LoadSettings(), &falling), "in the air", IsLeg);
+}
+
+TEST(LoadEstimator, DoesNotKnowTheLegsOfSomebodyWhoSitsOrLeans) {
+  // On a chair: hips and knees bent by 90 degrees, the CoM half a metre behind the feet.
+  std::map<int, Quaterniond> seated = {{kRightUpperLeg, Ry(-90)}, {kLeftUpperLeg, Ry(-90)}};
+  const LoadResult sitting = Estimate(Posed(seated, {0, 0, 0.525}), LoadSettings());
+  EXPECT_LT(sitting.forces.cop_inside, -0.1);
+  EXPECT_TRUE(sitting.forces.external_contact_suspected);
+  ExpectUnknown(sitting, "sits, leans or holds on", IsLeg);
+  ASSERT_TRUE(sitting.cop) << "it is shown at the border";
+  EXPECT_GT(sitting.cop->x(), 0.4);
+}
+
+TEST(LoadEstimator, WaitsBeforeItCallsALurchLeaning) {
+  LoadEstimator estimator;
+  const LoadSubject subject{Person(), Body()};
+  std::int64_t now = 1;
+  const auto step = [&](double lurch, int millis) {
+    BodyMotion motion;
+    for (SegmentMotion& segment : motion) segment.acceleration = {lurch, 0, 0};
+    LoadSettings settings;
+    settings.motion.cutoff_hz = 1e6;  // lets everything through
+    const LinkPoses links = Posed({});
+    BodySample sample = SampleOf(links, now += millis * kMillis, &motion);
+    for (SegmentState& segment : sample.segments) segment.velocity = {0.001 * lurch, 0, 0};
+    return estimator.Update(sample, links, subject, settings).forces.external_contact_suspected;
+  };
+  for (int i = 0; i < 20; ++i) EXPECT_FALSE(step(0, 10));
+  for (int i = 0; i < 15; ++i) EXPECT_FALSE(step(4, 10)) << "0.15 s of it";
+  EXPECT_FALSE(step(0, 10));
+  for (int i = 0; i < 19; ++i) step(4, 10);
+  EXPECT_TRUE(step(4, 30)) << "0.2 s of it";
+}
+
+TEST(LoadEstimator, DoesNotKnowLegsThatWereNotRecorded) {
+  LoadEstimator estimator;
+  LoadSubject subject{Person(), Body()};
+  subject.has_legs = false;
+  const LinkPoses links = Posed({});
+  const LoadResult& result = estimator.Update(SampleOf(links), links, subject, LoadSettings());
+  ExpectUnknown(result, "legs are not measured", IsLeg);
+  EXPECT_FALSE(result.cop);
+  EXPECT_FALSE(result.forces.margin_of_stability);
+}
+
+TEST(LoadEstimator, DoesNotKnowAnythingOfAPoseThatIsNotFiniteAndRecovers) {
+  LoadEstimator estimator;
+  LinkPoses links = Posed({});
+  const LoadSubject subject{Person(), Body()};
+  estimator.Update(SampleOf(links, 1), links, subject, LoadSettings());
+  const LinkPoses good = links;
+  links[kLeftHand].position.y() = std::nan("");
+  ExpectUnknown(estimator.Update(SampleOf(links, 10 * kMillis), links, subject, LoadSettings()),
+                "not finite", Any);
+  const LoadResult& after =
+      estimator.Update(SampleOf(good, 20 * kMillis), good, subject, LoadSettings());
+  EXPECT_EQ(LoadOf(after, jRightKnee).load_class, LoadClass::kLow);
+}
+
+TEST(LoadEstimator, IsStaticWithItsReasonWhereAccelerationsAreMissing) {
+  const LoadResult result = Estimate(Posed({}));
+  EXPECT_FALSE(result.forces.is_dynamic);
+  EXPECT_EQ(result.forces.why_static, "only poses are sent");
+  EXPECT_FALSE(result.forces.margin_of_stability) << "nobody knows how fast the CoM is";
+}
+
+TEST(LoadEstimator, DoesNotKnowWhatAHandCarriesWhoseSensorStopped) {
+  Measurements measured;
+  measured.hands[kRight].emplace().force = {0, 0, -50};
+  measured.hands[kRight]->stamp_nanos = 1;
+  LoadEstimator estimator;
+  const LinkPoses links = ArmForward();
+  const LoadSubject subject{Person(), Body()};
+  const LoadResult& fresh =
+      estimator.Update(SampleOf(links, 1), links, subject, Unclamped(), measured);
+  EXPECT_NEAR(At(fresh, jRightWrist).moment.y(), -0.309 - 50 * 0.0798, 1e-3);
+  const auto concerns = [](int joint) {
+    return joint != jT1C7 && joint != jLeftShoulder && joint != jLeftElbow && joint != jLeftWrist;
+  };
+  ExpectUnknown(
+      estimator.Update(SampleOf(links, 600 * kMillis), links, subject, Unclamped(), measured),
+      "measured force on the hand stopped", concerns);
+}
+
+TEST(LoadEstimator, PutsMeasuredFootForcesUnderTheFeet) {
+  Measurements measured;
+  for (const Side side : {kRight, kLeft}) {
+    MeasuredGroundForce& foot = measured.feet[side].emplace();
+    foot.stamp_nanos = 1;
+    foot.force = {0, 0, side == kRight ? 500 : 235.75};
+    foot.point = {0.05, side == kRight ? -0.085 : 0.085, 0};
+  }
+  const LoadResult result = Estimate(Posed({}), LoadSettings(), nullptr, measured);
+  EXPECT_TRUE(result.forces.ground_is_measured);
+  EXPECT_EQ(result.forces.feet[kRight].force.z(), 500);
+  EXPECT_NEAR(At(result, jRightAnkle).moment.y(),
+              0.05 * 500 - kGravity * (0.92475 * 0.05944 + 0.10275 * 0.185), 1e-3);
+  EXPECT_NEAR(result.cop->y(), -0.085 * (500 - 235.75) / 735.75, 1e-9);
+  // A plate that says half of the weight: something else holds the person, or the mass is wrong.
+  measured.feet[kRight]->force.z() = 100;
+  ExpectUnknown(Estimate(Posed({}), LoadSettings(), nullptr, measured),
+                "measured ground force does not fit", IsLeg);
+  // An old measurement is none.
+  measured.feet[kRight]->stamp_nanos = -600 * kMillis;
+  EXPECT_FALSE(Estimate(Posed({}), LoadSettings(), nullptr, measured).forces.ground_is_measured);
+}
+
+TEST(LoadEstimator, OverloadFromAPlateAloneIsThatOfTheLegs) {
+  Measurements measured;
+  measured.ground.emplace().force = {0, 0, 735.75 + 50};
+  measured.ground->point = {0.03, 0, 0};
+  measured.ground->stamp_nanos = 1;
+  LoadSettings settings = Unclamped();
+  settings.metric = LoadMetric::kOverload;
+  LoadResult result = Estimate(Posed({}), settings, nullptr, measured);
+  const auto not_leg = [](int joint) { return !IsLeg(joint); };
+  for (const JointLoad& load : result.loads) {
+    EXPECT_EQ(load.load_class == LoadClass::kUnknown, not_leg(load.joint)) << load.joint;
+  }
+  const double added = 0.5 * ((735.75 + 50) * 0.03 - 735.75 * 0.00197);
+  ExpectRatio(result, jRightAnkle, added / 126);
+  measured.ground->force.z() = 735.75 + 4;  // noise
+  measured.ground->point.x() = 0.004;
+  result = Estimate(Posed({}), settings, nullptr, measured);
+  EXPECT_NEAR(LoadOf(result, jRightAnkle).ratio, 0, 1e-12);
+}
+
+TEST(LoadEstimator, ShowsExternalLoadsAsGivenWhileTheyAreFresh) {
+  Measurements measured;
+  ExternalJointLoad& knee = measured.joints[jRightKnee];
+  knee.ratio = 0.7;
+  knee.stamp_nanos = 1;
+  ExternalJointLoad& elbow = measured.joints[jLeftElbow];
+  elbow.load_class = LoadClass::kMedium;
+  elbow.stamp_nanos = 1;
+  ExternalJointLoad& hip = measured.joints[jRightHip];
+  hip.moment = {0, 19, 0};
+  hip.stamp_nanos = 1;
+  measured.joints[jLeftHip].ratio = -3;  // nonsense is nothing
+  measured.joints[jLeftHip].stamp_nanos = 1;
+  LoadSettings settings = Unclamped();
+  settings.metric = LoadMetric::kExternal;
+  LoadEstimator estimator;
+  const LinkPoses links = Posed({});
+  const LoadSubject subject{Person(), Body()};
+  const LoadResult& fresh =
+      estimator.Update(SampleOf(links, 1), links, subject, settings, measured);
+  EXPECT_EQ(LoadOf(fresh, jRightKnee).load_class, LoadClass::kHigh);
+  EXPECT_EQ(LoadOf(fresh, jRightKnee).ratio, 0.7);
+  EXPECT_EQ(LoadOf(fresh, jLeftElbow).load_class, LoadClass::kMedium);
+  EXPECT_TRUE(std::isnan(LoadOf(fresh, jLeftElbow).ratio));
+  ExpectRatio(fresh, jRightHip, 0.1);
+  EXPECT_EQ(LoadOf(fresh, jL5S1).load_class, LoadClass::kUnknown);
+  EXPECT_EQ(LoadOf(fresh, jL5S1).reason, "no load from outside for this joint");
+  EXPECT_EQ(LoadOf(fresh, jLeftHip).load_class, LoadClass::kUnknown);
+  const LoadResult& stale =
+      estimator.Update(SampleOf(links, 600 * kMillis), links, subject, settings, measured);
+  EXPECT_EQ(LoadOf(stale, jRightKnee).load_class, LoadClass::kUnknown);
+  EXPECT_EQ(LoadOf(stale, jRightKnee).reason, "the load from outside stopped");
+}
+
+TEST(LoadEstimator, ShowsTheWorseOfLumbarMomentAndCompression) {
+  // Fifty kilograms in each hand, hanging: no moment to speak of, but all of it on the spine.
+  LoadSettings settings = Unclamped();
+  settings.hands = Held(50, 50);
+  settings.classes.up = {0.05, 0.6};  // a low limit, to see which of the two passes it
+  settings.classes.down = {0.04, 0.55};
+  const LoadResult result = Estimate(Posed({}), settings);
+  EXPECT_LT(LoadOf(result, jL5S1).ratio, 0.05);
+  EXPECT_EQ(LoadOf(result, jL5S1).load_class, LoadClass::kMedium);
+  EXPECT_TRUE(LoadOf(result, jL5S1).class_is_of_compression);
+  settings.compression_counts = false;
+  EXPECT_EQ(LoadOf(Estimate(Posed({}), settings), jL5S1).load_class, LoadClass::kLow);
+}
+
+TEST(LoadEstimator, TellsWhenOurCentreOfMassIsNotThatOfMvn) {
+  const LinkPoses links = Posed({});
+  BodySample sample = SampleOf(links);
+  sample.com.emplace().position = Vector3d(0.002, 0, 1.0079 + 0.02);
+  LoadEstimator estimator;
+  const LoadResult& result = estimator.Update(sample, links, {Person(), Body()}, LoadSettings());
+  ASSERT_TRUE(result.forces.com_difference);
+  EXPECT_NEAR(result.forces.com_difference->z(), -0.02, 1e-4);
+  EXPECT_TRUE(result.forces.com_disagrees);
+  LoadSubject laden{Person(), Body()};
+  laden.wears_extra_masses = true;
+  EXPECT_FALSE(estimator.Update(sample, links, laden, LoadSettings()).forces.com_difference);
+}
+
+TEST(LoadEstimator, MeasuresTheMarginOfStabilityFromTheMovingCentreOfMass) {
+  const LinkPoses links = Posed({});
+  BodyMotion still;
+  BodySample sample = SampleOf(links, 1, &still);
+  for (SegmentState& segment : sample.segments) segment.velocity = {0.2, 0, 0};
+  LoadEstimator estimator;
+  const BodyForces& forces =
+      estimator.Update(sample, links, {Person(), Body()}, LoadSettings()).forces;
+  ASSERT_TRUE(forces.margin_of_stability);
+  const double xcom = 0.0020 + 0.2 * std::sqrt(1.0079 / kGravity);
+  EXPECT_NEAR(forces.extrapolated_com->x(), xcom, kPointTolerance);
+  EXPECT_NEAR(*forces.margin_of_stability, xcom + 0.045, 2e-4) << "to the heels";
+}
+
+TEST(LoadSettings, AreRefusedWithWhatIsWrong) {
+  EXPECT_EQ(FindDefect(LoadSettings()), "");
+  LoadSettings settings;
+  settings.hands = Held(500);
+  EXPECT_THAT(FindDefect(settings), HasSubstr("500 kg in the right hand"));
+  settings = {};
+  settings.strength.factor = 0;
+  EXPECT_THAT(FindDefect(settings), HasSubstr("strength factor 0"));
+  settings = {};
+  settings.motion.cutoff_hz = std::nan("");
+  EXPECT_THAT(FindDefect(settings), HasSubstr("nan: expected 3 to 10 Hz"));
+  settings = {};
+  settings.classes.up = {0.7, 0.6};
+  EXPECT_THAT(FindDefect(settings), HasSubstr("class limits"));
+  EXPECT_EQ(ParseLoadMetric("overload"), LoadMetric::kOverload);
+  EXPECT_THROW(ParseLoadMetric("Total"), UsageError);
+}
+
+// The same samples give the same loads, whoever else looked at them.
+TEST(LoadEstimator, IsAFunctionOfTheSamplesAlone) {
+  const auto motion = subject::MakeMotion("lift");
+  LoadEstimator one, two;
+  for (int i = 0; i < 240; ++i) {
+    const BodySample sample = motion->At(i / 60.0);
+    const LinkPoses links = LinksOf(sample);
+    const LoadResult a = one.Update(sample, links, {Person(), Body()}, LoadSettings());
+    const LoadResult& b = two.Update(sample, links, {Person(), Body()}, LoadSettings());
+    for (std::size_t j = 0; j < a.loads.size(); ++j) {
+      ASSERT_EQ(a.loads[j].ratio, b.loads[j].ratio);
+      ASSERT_EQ(a.loads[j].load_class, b.loads[j].load_class);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kinescope::loads::testing
