@@ -21,7 +21,7 @@ constexpr std::string_view kNoLoadKnown = "no load is known";
 constexpr std::string_view kPostureOnly = "no load is known: posture only";
 constexpr std::string_view kNeverExternal = "no load from outside for this joint";
 constexpr std::string_view kExternalStopped = "the load from outside stopped";
-constexpr std::string_view kNotFinite = "the pose has numbers that are not finite";
+constexpr std::string_view kNoPose = "the pose has numbers that are not finite or too large";
 
 bool IsLegJoint(int joint) { return joint >= jRightHip; }
 bool IsTrunkJoint(int joint) { return joint <= jT9T8; }
@@ -30,10 +30,13 @@ bool IsArmJoint(int joint, Side side) {
                         : joint >= jLeftC7Shoulder && joint <= jLeftWrist;
 }
 
-bool IsFinite(const LinkPoses& links) {
-  double sum = 0;  // not finite as soon as one of them is not
-  for (const Pose& link : links) sum += link.position.sum() + link.orientation.coeffs().sum();
-  return std::isfinite(sum);
+bool IsPose(const LinkPoses& links) {
+  constexpr double kMost = 1e9;  // far beyond any room, far below what squares cannot hold
+  double sum = 0;
+  for (const Pose& link : links) {
+    sum += link.position.cwiseAbs().sum() + link.orientation.coeffs().cwiseAbs().sum();
+  }
+  return sum < kMost;  // false, too, when one of them is NaN
 }
 
 Vector3d VelocityOf(const BodySample& sample, const BodyDemand& demand,
@@ -68,6 +71,27 @@ bool FeelsLoad(const Standing& measured, const Standing& bare) {
   if (!measured.is_measured || !measured.cop || !bare.cop) return true;
   return std::abs(measured.force.z() - bare.force.z()) >= kLeastForce ||
          (measured.cop->point - bare.cop->point).norm() >= kLeastDistance;
+}
+
+using JointMoments = std::array<Vector3d, kJointCount>;
+
+JointMoments MomentsOf(const Standing& loaded) {
+  JointMoments moments;
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    moments[At(joint)] = loaded.joints[At(ChildOf(joint))].moment;
+  }
+  return moments;
+}
+
+// What the loads on the hands, or a plate says, add to the `bare` body's (joint-loads.md 3.3).
+JointMoments AddedMoments(const Standing& loaded, const Standing& bare) {
+  JointMoments moments = MomentsOf(loaded);
+  const bool feels = FeelsLoad(loaded, bare);
+  for (int joint = 0; joint < kJointCount; ++joint) {
+    moments[At(joint)] -= bare.joints[At(ChildOf(joint))].moment;
+    if (IsLegJoint(joint) && !feels) moments[At(joint)].setZero();
+  }
+  return moments;
 }
 
 // In the middle of a class, for a classifier that knows ratios only.
@@ -224,9 +248,9 @@ void LoadEstimator::ShowJoints(const Standing& standing, const LinkPoses& links)
   if (l5s1.why_unknown.empty()) forces.lumbar = LumbarLoadOf(l5s1.force, l5s1.moment, links);
 }
 
-void LoadEstimator::ShowLoads(const Moments& moments, const LinkPoses& links,
-                              const LoadSettings& settings, const Measurements& measured,
-                              std::int64_t stamp) {
+void LoadEstimator::ShowLoads(const std::array<Vector3d, kJointCount>& rated,
+                              const LinkPoses& links, const LoadSettings& settings,
+                              const Measurements& measured, std::int64_t stamp) {
   const BodyForces& forces = result_.forces;
   const bool hands_are_known =
       settings.hands.is_known || measured.hands[kRight] || measured.hands[kLeft];
@@ -244,13 +268,11 @@ void LoadEstimator::ShowLoads(const Moments& moments, const LinkPoses& links,
     } else if (!internal.why_unknown.empty()) {
       MakeUnknown(internal.why_unknown, load);
     } else if (forces.metric == LoadMetric::kNorm) {
-      Show(ScoreNorm(joint, moments.total[At(joint)], links, settings.strength), load);
-    } else if (forces.metric == LoadMetric::kTotal) {
-      Show(ScoreJoint(joint, moments.total[At(joint)], links, settings.strength), load);
-    } else if (!hands_are_known && !IsLegJoint(joint)) {  // a plate alone
-      MakeUnknown(kNoLoadKnown, load);
+      Show(ScoreNorm(joint, rated[At(joint)], links, settings.strength), load);
+    } else if (forces.metric == LoadMetric::kOverload && !hands_are_known && !IsLegJoint(joint)) {
+      MakeUnknown(kNoLoadKnown, load);  // a plate alone
     } else {
-      Show(ScoreJoint(joint, moments.added[At(joint)], links, settings.strength), load);
+      Show(ScoreJoint(joint, rated[At(joint)], links, settings.strength), load);
     }
   }
 }
@@ -311,8 +333,8 @@ const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPose
   BodyForces& forces = result_.forces;
   forces = BodyForces();
   forces.metric = settings.metric;
-  if (!IsFinite(links)) {
-    ForgetEverything(links, kNotFinite, stamp);
+  if (!IsPose(links)) {
+    ForgetEverything(links, kNoPose, stamp);
     return result_;
   }
   const MotionFilter::Output& motion = motion_.Update(sample, settings.motion);
@@ -345,18 +367,10 @@ const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPose
     forces.metric = LoadMetric::kTotal;
     forces.why_other_metric = kPostureOnly;
   }
-  Moments moments;
-  const bool needs_bare = forces.metric == LoadMetric::kOverload;
-  const Standing bare = needs_bare ? stand(ExternalForces(), GroundSensors()) : Standing();
-  const bool feels = needs_bare && FeelsLoad(loaded, bare);
-  for (int joint = 0; joint < kJointCount; ++joint) {
-    const Vector3d& with = loaded.joints[At(ChildOf(joint))].moment;
-    const Vector3d& without = bare.joints[At(ChildOf(joint))].moment;
-    moments.total[At(joint)] = with;
-    moments.added[At(joint)] =
-        IsLegJoint(joint) && !feels ? Vector3d(Vector3d::Zero()) : Vector3d(with - without);
-  }
-  ShowLoads(moments, links, settings, measured, stamp);
+  const JointMoments rated = forces.metric == LoadMetric::kOverload
+                                 ? AddedMoments(loaded, stand(ExternalForces(), GroundSensors()))
+                                 : MomentsOf(loaded);
+  ShowLoads(rated, links, settings, measured, stamp);
   Classify(settings, stamp);
   return result_;
 }

@@ -49,17 +49,14 @@ class LoadEstimator {
                            const Measurements& measured = {});
 
  private:
-  /// Moments by joint: with the loads on the hands, and what those add.
-  struct Moments {
-    std::array<Eigen::Vector3d, urdf::kJointCount> total, added;
-  };
-
   void ForgetEverything(const urdf::LinkPoses& links, std::string_view why, std::int64_t stamp);
   void ShowBody(const BodySample& sample, const LoadSubject& subject, const BodyDemand& demand);
   void ShowFloor(const Standing& standing, const LoadSubject& subject, std::int64_t stamp);
   void ShowJoints(const Standing& standing, const urdf::LinkPoses& links);
   std::string_view WhyUnknown(int joint) const;
-  void ShowLoads(const Moments& moments, const urdf::LinkPoses& links, const LoadSettings& settings,
+  /// `rated`: the moment that counts, by joint.
+  void ShowLoads(const std::array<Eigen::Vector3d, urdf::kJointCount>& rated,
+                 const urdf::LinkPoses& links, const LoadSettings& settings,
                  const Measurements& measured, std::int64_t stamp);
   static void ShowExternal(const ExternalJointLoad& given, const urdf::LinkPoses& links,
                            const LoadSettings& settings, std::int64_t stamp, JointLoad& load);

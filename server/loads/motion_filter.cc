@@ -23,20 +23,22 @@ Mean MeanOf(const BodySample& sample) {
   return mean;
 }
 
-bool IsFinite(const BodySample& sample) {
-  double sum = 0;  // not finite as soon as one of them is not
+bool HasMotion(const BodySample& sample) {
+  constexpr double kMost = 1e9;  // larger ones would stay in a filter for ever
+  double sum = 0;
   for (const SegmentState& segment : sample.segments) {
-    sum += segment.velocity.sum() + segment.acceleration.sum() + segment.angular_velocity.sum() +
-           segment.angular_acceleration.sum();
+    sum += segment.velocity.cwiseAbs().sum() + segment.acceleration.cwiseAbs().sum() +
+           segment.angular_velocity.cwiseAbs().sum() +
+           segment.angular_acceleration.cwiseAbs().sum();
   }
-  return std::isfinite(sum);
+  return sum < kMost;  // false, too, when one of them is NaN
 }
 
 std::string_view WhatIsMissing(const BodySample& sample) {
   if (!sample.has_linear && !sample.has_angular) return "only poses are sent";
   if (!sample.has_linear) return "linear accelerations are not sent";
   if (!sample.has_angular) return "angular velocities are not sent";
-  if (!IsFinite(sample)) return "accelerations are not finite";
+  if (!HasMotion(sample)) return "accelerations are not finite or too large";
   return "";
 }
 

@@ -1,6 +1,8 @@
 // Walking on a circle about the world's origin, counter-clockwise. Feet roll over heel, ball and
 // toe tip: in stance the foot's place follows from whichever point is on the floor; in swing it
 // glides from the last footprint's motion into the next one's, and is lifted.
+#include <array>
+
 #include "server/subject/curve.h"
 #include "server/subject/motions.h"
 
@@ -21,6 +23,40 @@ constexpr double kToeOut = 6 * kDegree;
 constexpr double kToeOff = 0.62;      // phases of a stride, which begins at heel strike
 constexpr double kPassing = 0.222;    // when the pelvis is above the ankle
 constexpr double kSwingLift = 0.086;  // m
+// Into the turn, as a rider leans: tan = v^2 / (g r). The feet are that much farther out.
+constexpr double kTanOfBank = kSpeed * kSpeed / (9.81 * kRadius);
+constexpr double kPelvisHeight = 0.945;  // m, mean
+
+// How the pelvis runs ahead of the steady walk, and inwards of the path, in harmonics of a stride,
+// m. Fitted so that the walk is one that a body could do: the centre of pressure that the motion
+// requires runs along the standing foot, from 0.3 to 0.8 of its length, and changes over while
+// both are down. The test is in tests/server/loads/load_estimator_test.cc.
+struct Harmonic {
+  double cos, sin;
+};
+constexpr std::array<Harmonic, 7> kSurge = {{{0, 0},
+                                             {0.00686, -0.00072},
+                                             {-0.00409, 0.01960},
+                                             {0.00068, -0.00006},
+                                             {0.00108, 0.00067},
+                                             {-0.00007, 0.00002},
+                                             {0.00084, 0.00082}}};
+constexpr std::array<Harmonic, 7> kSway = {{{0.00110, 0},
+                                            {0.00298, -0.02720},
+                                            {0.00266, 0.00180},
+                                            {-0.00004, -0.00094},
+                                            {0.00001, -0.00034},
+                                            {0.00005, -0.00026},
+                                            {0.00014, -0.00003}}};
+
+Jet SumOf(const std::array<Harmonic, 7>& harmonics, const Jet& phase) {
+  Jet sum = 0.0;
+  for (std::size_t k = 0; k < harmonics.size(); ++k) {
+    const Jet angle = static_cast<double>(k) * phase;
+    sum += harmonics[k].cos * cos(angle) + harmonics[k].sin * sin(angle);
+  }
+  return sum;
+}
 
 struct FootPose {
   JetVector ankle;
@@ -94,21 +130,21 @@ void Walk::PlaceTrunk(const Jet& time, Posture& posture) const {
   const Jet phase = 2 * M_PI * StridesOf(urdf::kRight, time);
   const Jet heading = HeadingAt(time);
   // Lowest and fastest in double support, swaying over the standing leg, leaning into the turn.
-  const Jet surge = 0.007 / kRadius * sin(2.0 * phase);
-  const Jet sway = 0.012 - 0.014 * sin(phase - 0.3);
-  const Jet height = 0.955 - 0.018 * cos(2.0 * (phase - 0.05));
-  const Jet yaw = 5 * kDegree * cos(phase);    // the leg in front takes its hip along
-  const Jet roll = -3 * kDegree * sin(phase);  // the hip of the swinging leg drops
-  constexpr double kLean = -1 * kDegree;       // to the left, inwards
+  const Jet surge = 1.0 / kRadius * SumOf(kSurge, phase);
+  const Jet sway = SumOf(kSway, phase);
+  const Jet height = kPelvisHeight - 0.018 * cos(2.0 * (phase - 0.05));
+  const Jet yaw = 5 * kDegree * cos(phase);          // the leg in front takes its hip along
+  const Jet roll = -3 * kDegree * sin(phase);        // the hip of the swinging leg drops
+  const double lean = -0.7 * std::atan(kTanOfBank);  // to the left; the spine adds to it
   posture.PlacePelvis(OnCircle(heading + surge, sway, height),
-                      TurnZ(heading + yaw) * TurnX(kLean + roll) * TurnY(3 * kDegree));
+                      TurnZ(heading + yaw) * TurnX(lean + roll) * TurnY(4 * kDegree));
   // The spine undoes the pelvis' roll and more than undoes its yaw: shoulders turn against hips.
   constexpr std::array<int, 4> kSpine = {urdf::kL5, urdf::kL3, urdf::kT12, urdf::kT8};
   constexpr std::array<double, 4> kTurnShare = {0.10, 0.20, 0.30, 0.40};
   const Jet counter = -10 * kDegree * cos(phase - 0.15);
   const Jet nod = 1.5 * kDegree * cos(2.0 * phase);
   for (std::size_t i = 0; i < kSpine.size(); ++i) {
-    posture.Turn(kSpine[i], TurnZ(kTurnShare[i] * counter) * TurnX(0.5 * kLean - 0.30 * roll) *
+    posture.Turn(kSpine[i], TurnZ(kTurnShare[i] * counter) * TurnX(0.10 * lean - 0.30 * roll) *
                                 TurnY(0.25 * nod + 0.3 * kDegree));
   }
 }
@@ -140,7 +176,7 @@ Footprint Walk::FootprintOf(Side side, double stride) const {
   const double outwards = side == urdf::kRight ? -1 : 1;
   const double passing = kPassing + stride - (side == urdf::kRight ? 0.0 : 0.5);
   const double heading = HeadingAt(passing * kStrideSecs).value;
-  JetVector ankle = OnCircle(heading, outwards * kHalfTrack, 0.0);
+  JetVector ankle = OnCircle(heading, outwards * kHalfTrack - kPelvisHeight * kTanOfBank, 0.0);
   ankle.z() = -skeleton_.heel_in_foot[side].z();
   return {ankle, heading + outwards * kToeOut};
 }

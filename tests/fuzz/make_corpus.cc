@@ -1,8 +1,11 @@
 // Writes the saved corpus: `make_corpus tests/fuzz/corpus`. Everything in it is made by our own
 // encoder, from seeded values, so that it can be made again.
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -235,6 +238,28 @@ void WriteCaptures(const fs::path& folder) {
   Write(folder / "raw", small + "<sync/>" + pose);
 }
 
+// Texts of what is held and worn, and numbers for four samples.
+void WriteLoads(const fs::path& folder) {
+  Write(folder / "hand_load", "right:5;left:2.5@0,0.01,-0.2");
+  Write(folder / "extra_mass", "head:1.5@0,0,0.12");
+  Write(folder / "both", "both:10");
+  std::mt19937 random(22);
+  const auto numbers = [&](std::size_t count, const std::vector<double>& choices) {
+    std::string bytes;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double number = choices.empty() ? std::uniform_real_distribution<>(-1, 1)(random)
+                                            : choices[random() % choices.size()];
+      bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
+    }
+    return bytes;
+  };
+  const double infinite = std::numeric_limits<double>::infinity();
+  Write(folder / "moving", numbers(438, {}));
+  Write(folder / "huge", numbers(97, {1e300, -1e200, 1e8, 0}));
+  Write(folder / "not_finite", numbers(193, {0.1, 1, std::nan(""), infinite}));
+  Write(folder / "tiny", numbers(31, {1e-300, 0, 5e-324}));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -251,5 +276,6 @@ int main(int argc, char** argv) {
   WriteCaptures(folder / "pcap");
   RandomValues streams(21);
   WriteStreams(folder / "framing", streams);
+  WriteLoads(folder / "loads");
   return 0;
 }

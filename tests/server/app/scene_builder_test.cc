@@ -77,6 +77,10 @@ TEST(SceneBuilder, TurnsStaleWhenTheStreamStopsAndLiveWhenItReturns) {
     EXPECT_TRUE(std::isnan(load.ratio));
     EXPECT_EQ(load.reason, "the stream stopped");
   }
+  const BodyForces& forces = built.last().people.at(0).forces;
+  EXPECT_TRUE(std::isnan(forces.joints[urdf::jL5S1].moment.y()));
+  EXPECT_EQ(forces.why_no_ground, "the stream stopped");
+  EXPECT_FALSE(forces.lumbar);
   const std::size_t states = built.states.size();
   built.builder.Tick(sample.arrival_nanos + 900'000'000);
   EXPECT_EQ(built.states.size(), states) << "stale is said once";
@@ -139,6 +143,66 @@ TEST(SceneBuilder, DoesNotInventLegLoadsOfARecordingWithoutLegs) {
     EXPECT_EQ(load.load_class == LoadClass::kUnknown, is_leg);
     EXPECT_EQ(load.reason.empty(), !is_leg);
   }
+}
+
+double RatioOf(const SceneState& state, int joint) {
+  for (const JointLoad& load : state.people.at(0).loads) {
+    if (load.joint == joint) return load.ratio;
+  }
+  return std::nan("");
+}
+
+TEST(SceneBuilder, LoadsTheJointsWithWhatIsHeldAndWorn) {
+  SceneOptions options;
+  Built bare(options), held(options);
+  loads::LoadSettings settings;
+  settings.hands.is_known = true;
+  settings.hands.mass_kg = {10, 0};
+  held.builder.SetLoads(settings);
+  options.body.extra_masses = {{urdf::kT8, 20, {-0.2, 0, 0.1}}};
+  Built laden(options);
+  const BodySample sample = SampleOf("t_pose", 0);
+  for (Built* built : {&bare, &held, &laden}) built->builder.OnSample(sample);
+  EXPECT_GT(RatioOf(held.last(), urdf::jRightShoulder),
+            RatioOf(bare.last(), urdf::jRightShoulder) + 0.5);
+  EXPECT_EQ(RatioOf(held.last(), urdf::jLeftShoulder), RatioOf(bare.last(), urdf::jLeftShoulder));
+  EXPECT_GT(RatioOf(laden.last(), urdf::jL5S1), RatioOf(bare.last(), urdf::jL5S1) + 0.05);
+  EXPECT_NEAR(laden.last().people.at(0).forces.body_mass_kg, 95, 1e-9);
+  EXPECT_FALSE(laden.last().people.at(0).forces.com_difference) << "MVN knows of no backpack";
+  EXPECT_TRUE(bare.last().people.at(0).forces.body_mass_is_assumed);
+}
+
+TEST(SceneBuilder, JudgesAWomanByTheStrengthOfWomen) {
+  SceneOptions options;
+  options.body.sex = urdf::Sex::kFemale;
+  Built woman(options), man;
+  const BodySample sample = SampleOf("t_pose", 0);
+  woman.builder.OnSample(sample);
+  man.builder.OnSample(sample);
+  const auto capacity = [](const Built& built) {
+    return built.last().people.at(0).loads.at(3).capacity;  // shoulder
+  };
+  EXPECT_NEAR(capacity(woman), capacity(man) / 2, 1e-9);
+}
+
+TEST(SceneBuilder, TakesMeasuredForcesForWhomTheyAreMeantWhileTheyAreFresh) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  loads::Measurements measured;
+  measured.ground.emplace().force = {0, 0, 735.75};
+  measured.ground->point = {0.05, 0, 0};
+  measured.ground->stamp_nanos = sample.stamp_nanos;
+  built.builder.SetMeasurements(1, measured);
+  built.builder.OnSample(sample);
+  EXPECT_FALSE(built.last().people.at(0).forces.ground_is_measured) << "another person's plate";
+  built.builder.SetMeasurements(0, measured);
+  sample.stamp_nanos += 10'000'000;
+  built.builder.OnSample(sample);
+  EXPECT_TRUE(built.last().people.at(0).forces.ground_is_measured);
+  EXPECT_NEAR(built.last().people.at(0).cop->x(), 0.05, 1e-12);
+  sample.stamp_nanos += 600'000'000;
+  built.builder.OnSample(sample);
+  EXPECT_FALSE(built.last().people.at(0).forces.ground_is_measured);
 }
 
 TEST(SceneBuilder, MeasuresTheRateOfALiveStream) {

@@ -393,6 +393,28 @@ TEST(LoadSettings, AreRefusedWithWhatIsWrong) {
   EXPECT_THROW(ParseLoadMetric("Total"), UsageError);
 }
 
+// Flight, wrong floors and unbalanced motion would all show here; so would a filter that lags.
+TEST(LoadEstimator, KeepsTheCentreOfPressureOfTheBuiltInWalkUnderTheStandingFoot) {
+  const auto motion = subject::MakeMotion("walk");
+  for (const int rate : {60, 120, 240}) {
+    LoadEstimator estimator;
+    int single = 0;
+    for (int i = 0; i < 9 * rate; ++i) {  // more than a lap
+      const BodySample sample = motion->At(static_cast<double>(i) / rate);
+      const LoadResult& result =
+          estimator.Update(sample, LinksOf(sample), {Person(), Body()}, LoadSettings());
+      const BodyForces& forces = result.forces;
+      ASSERT_EQ(forces.why_no_ground, "") << "at " << i << " of " << rate << " Hz";
+      ASSERT_TRUE(forces.is_dynamic) << forces.why_static;
+      if (i < rate / 2) continue;  // the filter began at rest
+      if (forces.feet[kRight].touches_floor == forces.feet[kLeft].touches_floor) continue;
+      ++single;
+      ASSERT_GT(forces.cop_inside, 0.01) << "at " << i << " of " << rate << " Hz";
+    }
+    EXPECT_GT(single, 4 * rate) << "walks mostly on one foot";
+  }
+}
+
 // The same samples give the same loads, whoever else looked at them.
 TEST(LoadEstimator, IsAFunctionOfTheSamplesAlone) {
   const auto motion = subject::MakeMotion("lift");

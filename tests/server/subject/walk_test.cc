@@ -75,7 +75,8 @@ TEST(Walk, GoesRoundTheOriginAtItsSpeedAndComesBack) {
     const SegmentState pelvis = motion->At(t).segments[urdf::kPelvis];
     const double radius = pelvis.position.head<2>().norm();
     ASSERT_NEAR(radius, 1.5, 0.05) << "at " << t;
-    ASSERT_NEAR(pelvis.velocity.head<2>().norm(), 1.2, 0.25) << "at " << t;
+    // Slower over the standing leg, faster into the next step.
+    ASSERT_NEAR(pelvis.velocity.head<2>().norm(), 1.2, 0.30) << "at " << t;
     way += pelvis.velocity.head<2>().norm() * kFrameSecs;
   }
   EXPECT_NEAR(way / kLapSecs, 1.2, 0.03);
