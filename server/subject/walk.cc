@@ -29,25 +29,25 @@ constexpr double kPelvisHeight = 0.945;  // m, mean
 
 // How the pelvis runs ahead of the steady walk, and inwards of the path, in harmonics of a stride,
 // m. Fitted so that the walk is one that a body could do: the centre of pressure that the motion
-// requires runs along the standing foot, from 0.3 to 0.8 of its length, and changes over while
+// requires runs along the standing foot, from 0.4 to 0.8 of its length, and changes over while
 // both are down. The test is in tests/server/loads/load_estimator_test.cc.
 struct Harmonic {
   double cos, sin;
 };
 constexpr std::array<Harmonic, 7> kSurge = {{{0, 0},
-                                             {0.00686, -0.00072},
-                                             {-0.00409, 0.01960},
-                                             {0.00068, -0.00006},
-                                             {0.00108, 0.00067},
-                                             {-0.00007, 0.00002},
-                                             {0.00084, 0.00082}}};
-constexpr std::array<Harmonic, 7> kSway = {{{0.00110, 0},
-                                            {0.00298, -0.02720},
-                                            {0.00266, 0.00180},
-                                            {-0.00004, -0.00094},
-                                            {0.00001, -0.00034},
-                                            {0.00005, -0.00026},
-                                            {0.00014, -0.00003}}};
+                                             {0.00692, -0.00064},
+                                             {-0.00535, 0.02097},
+                                             {0.00072, -0.00003},
+                                             {0.00075, 0.00081},
+                                             {-0.00007, 0.00003},
+                                             {0.00076, 0.00088}}};
+constexpr std::array<Harmonic, 7> kSway = {{{0.00114, 0.00000},
+                                            {0.00308, -0.02755},
+                                            {0.00289, 0.00205},
+                                            {0.00004, -0.00098},
+                                            {0.00002, -0.00027},
+                                            {0.00008, -0.00029},
+                                            {0.00013, -0.00001}}};
 
 Jet SumOf(const std::array<Harmonic, 7>& harmonics, const Jet& phase) {
   Jet sum = 0.0;
