@@ -139,6 +139,31 @@ TEST(CaseKExport, OurCentreOfMassIsThatOfTheExportedRecording) {
   ExpectSameCom(samples, P005Skeleton(samples[0]), Sex::kMale);
 }
 
+// Somebody who stands: contacts, filter and floor have no reason to doubt it in any frame, and what
+// moves adds little to what stands (joint-loads.md 2.3).
+TEST(RealRecording, OfSomebodyStandingIsDynamicAndOnItsFeetThroughout) {
+  KINESCOPE_NEEDS_SHARED_DATA("excel-export-P005/segment_position.csv");
+  const std::vector<BodySample> samples = ReadP005();
+  const Skeleton skeleton = P005Skeleton(samples[0]);
+  const BodyParameters body = MakeBodyParameters({}, skeleton);
+  LoadEstimator dynamic, still;
+  LoadSettings still_settings;
+  still_settings.motion.dynamic = false;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const LinkPoses links = LinksOf(samples[i]);
+    const LoadResult moving = dynamic.Update(samples[i], links, {skeleton, body}, LoadSettings());
+    ASSERT_TRUE(moving.forces.is_dynamic) << "frame " << i << ": " << moving.forces.why_static;
+    ASSERT_EQ(moving.forces.why_no_ground, "") << "frame " << i;
+    EXPECT_GT(moving.forces.cop_inside, 0) << "frame " << i;
+    EXPECT_TRUE(moving.forces.feet[kRight].touches_floor &&
+                moving.forces.feet[kLeft].touches_floor);
+    const LoadResult& standing = still.Update(samples[i], links, {skeleton, body}, still_settings);
+    for (const int joint : kScoredJoints) {
+      EXPECT_LT((At(moving, joint).moment - At(standing, joint).moment).norm(), 5) << "frame " << i;
+    }
+  }
+}
+
 TEST(CaseL, EndToEndOnARealFrame) {
   KINESCOPE_NEEDS_SHARED_DATA("excel-export-P005/segment_position.csv");
   const BodySample sample = ReadP005().at(50);
