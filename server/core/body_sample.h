@@ -44,6 +44,11 @@ struct TrackerState {
   bool has_rates = false;  // false: a sender that leaves acceleration and angular velocity out
 };
 
+/// What the sender says of a foot: which end of it is on the floor.
+struct FootContactFlags {
+  bool heel = false, forefoot = false;
+};
+
 struct BodySample {
   int character = 0;                  // id within the source, from 0
   std::uint32_t counter = 0;          // sender's sample counter; counts captured frames
@@ -56,6 +61,8 @@ struct BodySample {
   std::optional<CenterOfMass> com;
   /// Joint angles as streamed (type 20, MVNX jointAngle), degrees, MVN's own (x, y, z) order.
   std::optional<std::array<Eigen::Vector3d, urdf::kJointCount>> streamed_angles_deg;
+  /// By urdf::Side (MVNX footContacts); absent where the sender does not say.
+  std::optional<std::array<FootContactFlags, 2>> foot_contacts;
   ExtraSegments extra;  // gloves and props, where streamed
   std::array<TrackerState, urdf::kSegmentCount> trackers{};
   std::bitset<urdf::kSegmentCount> has_tracker;

@@ -29,21 +29,21 @@ double SpeedOf(const SegmentState& segment, const Vector3d& point) {
 
 double FootContacts::ContactEnd::weight() const { return 0.5 * (1 - std::cos(M_PI * ramp)); }
 
+// The end is on the floor, or not; its weight follows in the time of the ramp.
+void FootContacts::Follow(ContactEnd& end, bool on, bool fresh, double step_secs,
+                          const Settings& settings) {
+  end.on = on;
+  const double step = fresh || settings.ramp_secs <= 0 ? 1.0 : step_secs / settings.ramp_secs;
+  end.ramp = std::clamp(end.ramp + (on ? step : -step), 0.0, 1.0);
+}
+
 void FootContacts::Judge(ContactEnd& end, double height, double speed, bool fresh, double step_secs,
                          const Settings& settings) {
   const bool comes_down = height < settings.on_below && speed < settings.on_slower;
-  if (fresh) {
-    end = {comes_down, 0, comes_down ? 1.0 : 0.0};
-    return;
-  }
-  end.slow_samples = comes_down ? end.slow_samples + 1 : 0;
-  if (end.on) {
-    end.on = height <= settings.off_above && speed <= settings.off_faster;
-  } else {
-    end.on = end.slow_samples >= settings.on_samples;
-  }
-  const double step = settings.ramp_secs > 0 ? step_secs / settings.ramp_secs : 1.0;
-  end.ramp = std::clamp(end.ramp + (end.on ? step : -step), 0.0, 1.0);
+  end.slow_samples = comes_down && !fresh ? end.slow_samples + 1 : 0;
+  const bool stays = height <= settings.off_above && speed <= settings.off_faster;
+  const bool on = fresh ? comes_down : end.on ? stays : end.slow_samples >= settings.on_samples;
+  Follow(end, on, fresh, step_secs, settings);
 }
 
 void FootContacts::Place(Side side, const Points& points, double stature,
@@ -100,8 +100,14 @@ void FootContacts::Update(const BodySample& sample, const urdf::LinkPoses& links
     };
     const auto height = [&](std::size_t point) { return points.at[point].z() - floor_z; };
     const std::size_t lower = height(1) < height(2) ? 1 : 2;
-    Judge(ends_[side][kHeel], height(0), speed(0, foot), fresh, step_secs, settings);
-    Judge(ends_[side][kForefoot], height(lower), speed(lower, toe), fresh, step_secs, settings);
+    if (sample.foot_contacts) {
+      const FootContactFlags& told = (*sample.foot_contacts)[side];
+      Follow(ends_[side][kHeel], told.heel, fresh, step_secs, settings);
+      Follow(ends_[side][kForefoot], told.forefoot, fresh, step_secs, settings);
+    } else {
+      Judge(ends_[side][kHeel], height(0), speed(0, foot), fresh, step_secs, settings);
+      Judge(ends_[side][kForefoot], height(lower), speed(lower, toe), fresh, step_secs, settings);
+    }
     Place(side, points, skeleton.height, settings);
     last_points_[side] = points;
   }

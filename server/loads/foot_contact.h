@@ -1,6 +1,8 @@
 /// Which parts of the feet are on the floor, from how they move: hysteresis and ramps of
 /// joint-loads.md 2.5. A pure function of the samples in order. One thread; no allocation.
 ///
+/// Where the sender tells contacts (BodySample::foot_contacts), those hold, with the same ramps.
+///
 /// A foot has two ends that touch on their own: the heel, and the forefoot (ball and toe tip).
 #pragma once
 
@@ -54,6 +56,8 @@ class FootContacts {
   struct Points {
     std::array<Eigen::Vector3d, 3> at;  // heel, ball, toe tip; world
   };
+  static void Follow(ContactEnd& end, bool on, bool fresh, double step_secs,
+                     const Settings& settings);
   void Judge(ContactEnd& end, double height, double speed, bool fresh, double step_secs,
              const Settings& settings);
   void Place(urdf::Side side, const Points& points, double stature, const Settings& settings);

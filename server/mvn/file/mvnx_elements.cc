@@ -26,13 +26,15 @@ constexpr Rule kRules[] = {
     {Element::kPoint, "pos_b", Element::kPointPosition},
     {Element::kSubject, "joints", Element::kJoints},
     {Element::kJoints, "joint", Element::kJoint},
+    {Element::kSubject, "footContactDefinition", Element::kContacts},
+    {Element::kContacts, "contactDefinition", Element::kContact},
     {Element::kSubject, "frames", Element::kFrames},
     {Element::kFrames, "frame", Element::kFrame},
 };
 
 constexpr const char* kListNames[kMvnxListCount] = {
     "orientation",         "position",   "velocity",     "acceleration", "angularVelocity",
-    "angularAcceleration", "jointAngle", "centerOfMass",
+    "angularAcceleration", "jointAngle", "centerOfMass", "footContacts",
 };
 
 }  // namespace

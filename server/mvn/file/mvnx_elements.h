@@ -23,6 +23,8 @@ enum class Element {
   kPointPosition,
   kJoints,
   kJoint,
+  kContacts,
+  kContact,
   kFrames,
   kFrame,
   kList,

@@ -19,6 +19,7 @@ constexpr std::size_t kDeepest = 32;
 constexpr std::size_t kMostSegments = 128;
 constexpr std::size_t kMostJoints = 256;
 constexpr std::size_t kMostPoints = 4096;
+constexpr std::size_t kMostContacts = 64;
 constexpr double kHighestRate = 10000;
 
 // The value of an attribute; nullptr where it is absent.
@@ -151,6 +152,7 @@ class MvnxReader::Parser {
       case Element::kSegment: return OnSegment(attributes);
       case Element::kPoint: point_label_ = FindText(attributes, "label"); return;
       case Element::kJoint: return OnJoint(attributes);
+      case Element::kContact: return OnContact(attributes);
       case Element::kFrames: return OnFrames();
       case Element::kFrame: return OnFrame(attributes);
       case Element::kList: list_ = list; return;
@@ -192,6 +194,11 @@ class MvnxReader::Parser {
   void OnJoint(const char** attributes) {
     if (header_.joints.size() >= kMostJoints) return Fail("too many joints");
     header_.joints.push_back(urdf::FindJoint(FindText(attributes, "label")));
+  }
+
+  void OnContact(const char** attributes) {
+    if (header_.foot_contacts.size() >= kMostContacts) return Fail("too many foot contacts");
+    header_.foot_contacts.push_back(FindText(attributes, "label"));
   }
 
   void OnFrames() {
@@ -256,6 +263,8 @@ class MvnxReader::Parser {
     std::vector<double>& numbers = frame_.lists[static_cast<std::size_t>(list_)];
     const std::string wrong = ParseNumbers(text_, numbers);
     if (!wrong.empty()) return Fail(std::string(Name(list_)) + ": " + wrong);
+    // A file that numbers them without saying which is which says nothing to us.
+    if (list_ == MvnxList::kFootContacts && header_.foot_contacts.empty()) return numbers.clear();
     const bool short_com = list_ == MvnxList::kCenterOfMass && numbers.size() == 3;
     const std::size_t expected = ExpectedSize(list_);
     if (numbers.size() == expected || short_com) return;
@@ -268,6 +277,7 @@ class MvnxReader::Parser {
       case MvnxList::kOrientation: return 4 * header_.segments.size();
       case MvnxList::kJointAngle: return 3 * header_.joints.size();
       case MvnxList::kCenterOfMass: return 9;  // or only its position, 3
+      case MvnxList::kFootContacts: return header_.foot_contacts.size();
       default: return 3 * header_.segments.size();
     }
   }

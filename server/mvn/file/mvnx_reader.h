@@ -23,6 +23,7 @@ struct MvnxHeader {
   std::vector<std::optional<urdf::Segment>> segments;  // in file order; none: a prop
   std::vector<std::optional<urdf::Joint>> joints;      // in file order
   urdf::Landmarks points;                              // of body segments, metres
+  std::vector<std::string> foot_contacts;              // "LeftFoot_Heel", ..., in file order
 };
 
 /// The lists of a frame that are read; the others are skipped.
@@ -35,8 +36,9 @@ enum class MvnxList {
   kAngularAcceleration,
   kJointAngle,
   kCenterOfMass,
+  kFootContacts,
 };
-inline constexpr std::size_t kMvnxListCount = 8;
+inline constexpr std::size_t kMvnxListCount = 9;
 
 struct MvnxFrame {
   std::string type;                   // "normal", "tpose", ...; "" where it says none

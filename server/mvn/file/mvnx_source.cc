@@ -2,6 +2,7 @@
 
 #include <bitset>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 #include "server/core/errors.h"
@@ -20,6 +21,10 @@ constexpr std::int64_t kLargestIndex = 0xFFFFFFFF;         // what a sample coun
 Eigen::Vector3d VectorAt(const std::vector<double>& numbers, std::size_t index) {
   return {numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2]};
 }
+
+// By urdf::Side, heel before forefoot.
+constexpr std::array<std::string_view, 4> kContactNames = {"RightFoot_Heel", "RightFoot_Toe",
+                                                           "LeftFoot_Heel", "LeftFoot_Toe"};
 
 bool IsMotion(const MvnxFrame& frame) { return frame.type.empty() || frame.type == "normal"; }
 
@@ -119,7 +124,23 @@ BodySample MvnxSource::ToSample() {
     }
   }
   FillAngles(sample);
+  FillContacts(sample);
   return sample;
+}
+
+void MvnxSource::FillContacts(BodySample& sample) const {
+  const std::vector<double>& flags = frame_[MvnxList::kFootContacts];
+  std::array<FootContactFlags, 2> feet;
+  std::bitset<4> found;
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    for (std::size_t known = 0; known < kContactNames.size(); ++known) {
+      if (reader_.header().foot_contacts[i] != kContactNames[known]) continue;
+      FootContactFlags& foot = feet[known / 2];
+      (known % 2 == 0 ? foot.heel : foot.forefoot) = flags[i] != 0;
+      found.set(known);
+    }
+  }
+  if (found.all()) sample.foot_contacts = feet;
 }
 
 void MvnxSource::FillAngles(BodySample& sample) const {

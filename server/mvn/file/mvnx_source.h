@@ -23,7 +23,8 @@ const Eigen::Quaterniond& SegmentFromIsb(int segment);
 ///   (index - first index) / rate, since `ms` itself is rounded. A file without `ms` begins 1 s
 ///   after the Unix epoch (stamp 0 would mean "no time" to ROS).
 /// - Neighbouring quaternions never change sign. Version 3 arms are converted to segment frames.
-/// - Joint angles (jointAngle, degrees), centre of mass and derivatives where the frame has them.
+/// - Joint angles (jointAngle, degrees), centre of mass, derivatives and foot contacts where the
+///   frame has them; contacts by the labels of footContactDefinition, whatever their order.
 class MvnxSource : public Source {
  public:
   /// Reads the header; `name` is for people. @throws SourceError.
@@ -42,6 +43,7 @@ class MvnxSource : public Source {
   BodySample ToSample();
   void FillSegments(BodySample& sample);
   void FillAngles(BodySample& sample) const;
+  void FillContacts(BodySample& sample) const;
   void FillTimes(BodySample& sample) const;
 
   std::string name_;

@@ -124,6 +124,27 @@ TEST(FootContacts, DoNotJumpWhenTheHeelLeavesTheFloor) {
   EXPECT_LT(most, 0.02) << "m within 10 ms";
 }
 
+TEST(FootContacts, AreThoseThatTheSenderTellsWithRampsThoughTheFeetSeemToSayElse) {
+  const LinkPoses links = Posed({});
+  FootContacts contacts;
+  BodySample sample = SampleOf(links);
+  const auto tell = [&](bool right, bool left, std::int64_t millis) {
+    sample.foot_contacts = {FootContactFlags{right, right}, FootContactFlags{left, left}};
+    sample.stamp_nanos += millis * kMillis;
+    contacts.Update(sample, links, Person(), 0, {});
+  };
+  tell(true, false, 0);
+  EXPECT_TRUE(contacts.touches(kRight));
+  EXPECT_FALSE(contacts.touches(kLeft)) << "it stands on the floor, but MVN knows better";
+  EXPECT_EQ(contacts.feet()[kLeft].weight, 0);
+  tell(true, true, 50);
+  EXPECT_TRUE(contacts.touches(kLeft));
+  EXPECT_NEAR(contacts.feet()[kLeft].weight, 0.5, 1e-9) << "half way up the ramp of 0.1 s";
+  tell(false, true, 50);
+  EXPECT_EQ(contacts.feet()[kLeft].weight, 1);
+  EXPECT_FALSE(contacts.touches(kRight));
+}
+
 TEST(FootContacts, AreNoneInTheAir) {
   LinkPoses links = Posed({});
   for (Pose& link : links) link.position.z() += 0.2;

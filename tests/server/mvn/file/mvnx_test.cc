@@ -181,6 +181,36 @@ TEST(Mvnx, SkipsAPropAmongTheSegments) {
   EXPECT_EQ(ReadAll(source).samples.size(), 1U);
 }
 
+// The contacts of the first frame of motion of a file that defines `labels` and tells `numbers`.
+std::optional<std::array<FootContactFlags, 2>> ContactsOf(const std::vector<std::string>& labels,
+                                                          const std::string& numbers) {
+  std::string definition = "</joints><footContactDefinition>";
+  for (const std::string& label : labels) {
+    definition += "<contactDefinition label=\"" + label + "\"/>";
+  }
+  const std::string frame = "type=\"normal\">";
+  std::string text = Replaced(SmallFile(), "</joints>", definition + "</footContactDefinition>");
+  text = Replaced(text, frame, frame + "<footContacts>" + numbers + "</footContacts>");
+  MvnxSource source = Open(text);
+  const RecordingSink sink = ReadAll(source);
+  EXPECT_FALSE(sink.samples.at(1).foot_contacts) << "that frame says nothing";
+  return sink.samples.at(0).foot_contacts;
+}
+
+TEST(Mvnx, TakesFootContactsByTheirLabelsWhateverTheirOrder) {
+  const std::vector<std::string> four = {"LeftFoot_Toe", "RightFoot_Heel", "LeftFoot_Heel",
+                                         "RightFoot_Toe"};
+  const auto feet = ContactsOf(four, "1 0 0 1");
+  ASSERT_TRUE(feet);
+  EXPECT_FALSE((*feet)[urdf::kRight].heel);
+  EXPECT_TRUE((*feet)[urdf::kRight].forefoot);
+  EXPECT_FALSE((*feet)[urdf::kLeft].heel);
+  EXPECT_TRUE((*feet)[urdf::kLeft].forefoot);
+  EXPECT_FALSE(ContactsOf({"LeftFoot_Heel"}, "1")) << "one end is not both feet";
+  EXPECT_FALSE(ContactsOf({}, "1 1 1 1")) << "nobody says which is which";
+  EXPECT_THROW(ContactsOf(four, "1 0 0"), SourceError);
+}
+
 TEST(Mvnx, SkipsFingersAndWhateverElseItDoesNotKnow) {
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
   const std::string plain = WriteMvnx(4, 60, skeleton, SwingingArms(skeleton, 3));
@@ -445,6 +475,12 @@ TEST_P(RealMvnx, HasItsRateAndClock) {
           0);
     }
   }
+}
+
+TEST(RealMvnxVersion4, TellsTheContactsOfBothFeet) {
+  KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
+  const auto source = OpenMvnx(SharedData("mvnx/test_mocap.mvnx"));
+  for (const BodySample& sample : ReadAll(*source).samples) ASSERT_TRUE(sample.foot_contacts);
 }
 
 TEST(RealMvnxVersion3, HasTwoCalibrationFramesAndEveryListButNoComDerivatives) {
