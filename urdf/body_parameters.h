@@ -37,6 +37,7 @@ struct BodyDescription {
   bool mass_is_assumed = true;  // nobody said it: say so wherever a load is shown
   BodyTable table = BodyTable::kDeLeva;
   std::vector<ExtraMass> extra_masses{};
+  bool sex_is_assumed = true;  // as for the mass
 };
 
 struct SegmentInertia {

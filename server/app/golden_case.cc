@@ -24,8 +24,9 @@ Liveness ToLiveness(const fs::path& path, const std::string& text) {
 }
 
 SceneState SceneOf(const GoldenCase& golden_case) {
-  SceneReader reader(golden_case.source,
-                     ToSceneOptions(golden_case.person, SceneOptions().stale_secs));
+  SceneReader reader(
+      golden_case.source,
+      ToSceneOptions(golden_case.person, SceneOptions().stale_secs, golden_case.loads));
   if (golden_case.show == Liveness::kNoData) return *reader.Empty();
   SceneTimeline timeline(reader);
   std::optional<SceneState> scene = timeline.At(golden_case.time_secs);
@@ -52,6 +53,7 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   read("supersample", golden_case.supersample);
   read("why", golden_case.why);
   golden_case.person.Visit(read);
+  golden_case.loads.Visit(read);
   values.RefuseUnknown(read.names());
   if (golden_case.source.empty()) throw UsageError(yaml.string() + ": source: is missing");
   if (golden_case.source.rfind("demo:", 0) != 0) {

@@ -32,6 +32,7 @@ struct GoldenCase {
   int supersample = 2;
   std::string why;
   PersonOptions person;
+  LoadOptions loads;
 };
 
 /// @throws UsageError naming file, line and key.

@@ -16,21 +16,32 @@
 
 namespace kinescope::app {
 
-/// `text` as a T. @throws UsageError naming option, value and what was expected.
+template <class T>
+struct OptionalOf : std::false_type {
+  using Value = T;
+};
+template <class T>
+struct OptionalOf<std::optional<T>> : std::true_type {
+  using Value = T;
+};
+
+/// `text` as a T, which may be optional. @throws UsageError naming option, value and what was
+/// expected.
 template <class T>
 T ParseOption(const std::string& name, const std::string& text) {
-  T value{};
+  typename OptionalOf<T>::Value value{};
+  using Value = decltype(value);
   const auto refuse = [&](const char* expected) {
     throw UsageError(name + "=" + text + ": expected " + expected);
   };
-  if constexpr (std::is_same_v<T, std::string>) {
+  if constexpr (std::is_same_v<Value, std::string>) {
     value = text;
-  } else if constexpr (std::is_same_v<T, bool>) {
+  } else if constexpr (std::is_same_v<Value, bool>) {
     if (text != "true" && text != "false" && text != "1" && text != "0") refuse("true or false");
     value = text == "true" || text == "1";
   } else {
     if (!CLI::detail::lexical_cast(text, value)) {
-      refuse(std::is_integral_v<T> ? "a whole number" : "a number");
+      refuse(std::is_integral_v<Value> ? "a whole number" : "a number");
     }
   }
   return value;
@@ -49,7 +60,8 @@ class FlagAdder {
       command_.add_flag("--" + name, value, help);
     } else {
       const std::string names = "--" + name + (name == positional_ ? "," + name : "");
-      command_.add_option(names, value, help)->capture_default_str();
+      CLI::Option* option = command_.add_option(names, value, help);
+      if constexpr (!OptionalOf<T>::value) option->capture_default_str();
     }
   }
 

@@ -2,18 +2,22 @@
 /// YAML key and --help all come from it (option_list.h).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "server/app/open_source.h"
+#include "server/loads/load_settings.h"
 
 namespace kinescope::app {
 
 /// Who is in the suit, and how they are shown.
 struct PersonOptions {
   std::string model_name = "skeleton";
-  std::string sex = "male";
-  double mass = 0;  // 0: not given
-  double height = 1.75;
+  // What nobody gave is assumed, and is said to be wherever it is shown.
+  std::optional<std::string> sex;
+  std::optional<double> mass, height;
+  std::string body_table = urdf::Name(urdf::BodyDescription().table);
+  std::string extra_mass;
   std::string figure = "smooth";
   std::string mesh_units = "m";
   std::string mesh_up = "z";
@@ -23,19 +27,57 @@ struct PersonOptions {
   template <class Option>
   void Visit(Option&& option) {
     option("model_name", model_name, "prefix of links, joints and TF frames");
-    option("sex", sex, "male or female: body table and strength");
-    option("mass", mass, "body mass, kg; 0: not known, 75 (male) or 62 (female) is assumed");
-    option("height", height, "stature, m, until the suit tells its own segment lengths");
-    option("figure", figure,
-           "smooth, primitive (boxes, cylinders, spheres) or mesh:FOLDER (your own STL, DAE, OBJ or "
-           "GLB files, named after segments, such as RightForeArm.stl)");
+    option("sex", sex, "male or female: body table and strength; not given: male is assumed");
+    option("mass", mass, "body mass, kg; not given: 75 (male) or 62 (female) is assumed");
+    option("height", height,
+           "stature, m, until the suit tells its own segment lengths; not given: 1.75 is assumed");
+    option("body_table", body_table,
+           "masses of segments by: de_leva, winter, dumas or iit (docs/loads.md)");
+    option("extra_mass", extra_mass,
+           "worn or carried: SEGMENT:KG or SEGMENT:KG@X,Y,Z (m, in the link's frame), several with "
+           "commas between, such as head:1.5,t8:8@-0.15,0,0.1");
+    option(
+        "figure", figure,
+        "smooth, primitive (boxes, cylinders, spheres) or mesh:FOLDER (your own STL, DAE, OBJ or "
+        "GLB files, named after segments, such as RightForeArm.stl)");
     option("mesh_units", mesh_units, "of mesh:FOLDER's STL and OBJ files: m, cm or mm");
     option("mesh_up", mesh_up, "likewise, the axis that points up: z or y");
     option("mesh_scale", mesh_scale,
            "fit (meshes stretched along their segments to the person's own lengths) or none");
-    option("mesh_frame", mesh_frame,
-           "how arm meshes lie: segment (along y, T-pose), link (along -z, N-pose) or auto (as they "
-           "are longer)");
+    option(
+        "mesh_frame", mesh_frame,
+        "how arm meshes lie: segment (along y, T-pose), link (along -z, N-pose) or auto (as they "
+        "are longer)");
+  }
+};
+
+/// What the loads in the joints are computed from, and what they are measured against.
+struct LoadOptions {
+  double capacity_factor = loads::Strength().factor;
+  std::string capacity_percentile = "50";
+  std::string load_metric = Name(loads::LoadSettings().metric);
+  std::string load_mode = "dynamic";
+  std::string hand;
+  double filter_hz = loads::MotionFilter::Settings().cutoff_hz;
+  std::string lumbar_compression = "on";
+
+  template <class Option>
+  void Visit(Option&& option) {
+    option("capacity_factor", capacity_factor,
+           "this person's strength over that of the population, 0.1 to 5");
+    option("capacity_percentile", capacity_percentile,
+           "strength of the population to measure against: 5, 50 or 95 percent are weaker");
+    option("load_metric", load_metric,
+           "total, overload (what the load in the hands adds), norm (|moment|, without directions) "
+           "or external (as another program computed it)");
+    option("load_mode", load_mode, "dynamic (accelerations take part) or static");
+    option("hand", hand,
+           "what the hands hold: right:KG, left:KG or both:KG, right:KG@X,Y,Z (m, in the hand's "
+           "link frame) for another place than the grip, several with commas between; none: "
+           "nothing, for certain; not given: not known");
+    option("filter_hz", filter_hz, "cut-off of the low-pass for accelerations, 3 to 10 Hz");
+    option("lumbar_compression", lumbar_compression,
+           "on or off: L5/S1 shows the worse of its moment and its compression");
   }
 };
 
@@ -46,6 +88,7 @@ struct ServeOptions {
   std::string stamps = "fitted";
   double stale_secs = 0.5;
   PersonOptions person;
+  LoadOptions loads;
   // ROS
   std::string ros = "auto";
   std::string reference_frame = "world";
@@ -85,6 +128,7 @@ struct ServeOptions {
            "velocities) or arrival");
     option("stale_secs", stale_secs, "so long without a sample is shown as stale");
     person.Visit(option);
+    loads.Visit(option);
     option("ros", ros, "auto (whenever a master is there), off, or required");
     option("reference_frame", reference_frame, "parent frame of every TF");
     option("tf", tf, "flat (as xsens_mvn_ros), tree or off");

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <stdexcept>
 #include <vector>
 
 #include "server/app/figure_meshes.h"
@@ -22,6 +25,31 @@ Value Choose(const char* name, const std::string& given, const Choices<Value>& c
     known += (known.empty() ? "" : ", ") + std::string(text);
   }
   throw UsageError(fmt::format("--{}={}: expected one of {}", name, given, known));
+}
+
+// "head:1.5,t8:8@-0.15,0,0.1": at semicolons, and at commas that no number follows.
+std::vector<std::string> Split(const std::string& text) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i <= text.size() && !text.empty(); ++i) {
+    const std::size_t next = std::min(text.find_first_not_of(' ', i + 1), text.size());
+    const bool ends =
+        i == text.size() || text[i] == ';' ||
+        (text[i] == ',' &&
+         (next == text.size() || std::isalpha(static_cast<unsigned char>(text[next])) != 0));
+    if (!ends) continue;
+    parts.push_back(text.substr(begin, i - begin));
+    begin = next;
+  }
+  return parts;
+}
+
+loads::HandLoad ToHandLoad(const std::string& text) try {
+  std::string list;
+  for (const std::string& part : Split(text)) list += (list.empty() ? "" : ";") + part;
+  return loads::ParseHandLoad(list);
+} catch (const UsageError& error) {
+  throw UsageError(fmt::format("--hand: {}", error.what()));
 }
 
 void SetFigure(const PersonOptions& person, SceneOptions& scene) {
@@ -48,26 +76,72 @@ void SetFigure(const PersonOptions& person, SceneOptions& scene) {
 
 }  // namespace
 
-SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs) {
+urdf::BodyDescription ToBody(const PersonOptions& person) {
+  urdf::BodyDescription body;
+  body.sex_is_assumed = !person.sex;
+  if (person.sex) {
+    body.sex = Choose<urdf::Sex>("sex", *person.sex,
+                                 {{"male", urdf::Sex::kMale}, {"female", urdf::Sex::kFemale}});
+  }
+  body.mass_is_assumed = !person.mass;
+  body.mass_kg = person.mass.value_or(body.sex == urdf::Sex::kMale ? 75 : 62);
+  if (!urdf::FindDefect(body).empty()) {
+    throw UsageError(fmt::format(
+        "--mass={}: expected 20 to 300 kg; leave it out if it is not known", body.mass_kg));
+  }
+  try {
+    body.table = urdf::ParseBodyTable(person.body_table);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--body_table: {}", error.what()));
+  }
+  try {
+    for (const std::string& text : Split(person.extra_mass)) {
+      body.extra_masses.push_back(urdf::ParseExtraMass(text));
+    }
+    if (auto defect = urdf::FindDefect(body); !defect.empty()) throw std::invalid_argument(defect);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(fmt::format("--extra_mass: {}", error.what()));
+  }
+  return body;
+}
+
+loads::LoadSettings ToLoadSettings(const LoadOptions& loads) {
+  using loads::Percentile;
+  loads::LoadSettings settings;
+  settings.strength.factor = loads.capacity_factor;
+  if (!loads::FindDefect(settings.strength).empty()) {
+    throw UsageError(fmt::format("--capacity_factor={}: expected 0.1 to 5", loads.capacity_factor));
+  }
+  settings.strength.percentile =
+      Choose<Percentile>("capacity_percentile", loads.capacity_percentile,
+                         {{"5", Percentile::k5}, {"50", Percentile::k50}, {"95", Percentile::k95}});
+  settings.metric = Choose<LoadMetric>("load_metric", loads.load_metric,
+                                       {{"total", LoadMetric::kTotal},
+                                        {"overload", LoadMetric::kOverload},
+                                        {"norm", LoadMetric::kNorm},
+                                        {"external", LoadMetric::kExternal}});
+  settings.motion.dynamic =
+      Choose<bool>("load_mode", loads.load_mode, {{"dynamic", true}, {"static", false}});
+  if (!loads.hand.empty()) settings.hands = ToHandLoad(loads.hand);
+  settings.motion.cutoff_hz = loads.filter_hz;
+  settings.compression_counts = ToSwitch("lumbar_compression", loads.lumbar_compression);
+  if (auto defect = loads::FindDefect(settings); !defect.empty()) {
+    throw UsageError(fmt::format("--filter_hz: {}", defect));
+  }
+  return settings;
+}
+
+SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs,
+                            const LoadOptions& loads) {
   SceneOptions scene;
   scene.model_name = person.model_name;
-  if (person.sex != "male" && person.sex != "female") {
-    throw UsageError(fmt::format("--sex={}: expected male or female", person.sex));
+  scene.body = ToBody(person);
+  scene.loads = ToLoadSettings(loads);
+  if (person.height && !(*person.height >= 0.5 && *person.height <= 2.5)) {
+    throw UsageError(fmt::format("--height={}: expected 0.5 to 2.5 m", *person.height));
   }
-  scene.body.sex = urdf::ParseSex(person.sex);
-  scene.body.mass_is_assumed = person.mass == 0;
-  if (scene.body.mass_is_assumed) {
-    scene.body.mass_kg = scene.body.sex == urdf::Sex::kMale ? 75 : 62;
-  } else {
-    if (!(person.mass >= 20 && person.mass <= 300)) {
-      throw UsageError(fmt::format("--mass={}: expected 20 to 300 kg", person.mass));
-    }
-    scene.body.mass_kg = person.mass;
-  }
-  if (!(person.height >= 0.5 && person.height <= 2.5)) {
-    throw UsageError(fmt::format("--height={}: expected 0.5 to 2.5 m", person.height));
-  }
-  scene.height_m = person.height;
+  scene.height_is_assumed = !person.height;
+  scene.height_m = person.height.value_or(scene.height_m);
   if (!(stale_secs >= 0.05 && stale_secs <= 60)) {
     throw UsageError(fmt::format("--stale_secs={}: expected 0.05 to 60 s", stale_secs));
   }

@@ -11,7 +11,10 @@
 namespace kinescope::app {
 
 // All: @throws UsageError naming option, value and what was expected.
-SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs);
+SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs,
+                            const LoadOptions& loads = {});
+urdf::BodyDescription ToBody(const PersonOptions& person);
+loads::LoadSettings ToLoadSettings(const LoadOptions& loads);
 ros_bridge::BridgeConfig ToBridgeConfig(const ServeOptions& options);
 ros_bridge::RosMode ToRosMode(const std::string& ros);
 mvn::Stamps ToStamps(const std::string& stamps);

@@ -38,6 +38,7 @@ struct RenderOptions {
   bool no_overlays = false;
   bool json = false;
   PersonOptions person;
+  LoadOptions loads;
 };
 
 // An endless source (the built-in subject) gives a clip of this length unless told otherwise.
@@ -145,7 +146,8 @@ void Render(const RenderOptions& options) {
   if (extension == ".mp4" && (options.frame || options.time)) {
     throw UsageError("--frame and --time choose one picture; give --out a name that ends in .png");
   }
-  SceneReader reader(options.source, ToSceneOptions(options.person, SceneOptions().stale_secs));
+  SceneReader reader(options.source,
+                     ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads));
   nlohmann::json result =
       extension == ".png" ? RenderPicture(options, reader) : RenderClip(options, reader);
   result["out"] = options.out;
@@ -178,6 +180,7 @@ void AddRender(CommandLine line) {
   command->add_flag("--no_overlays", o->no_overlays, "no legend, time code and title");
   command->add_flag("--json", o->json, "tell the result as JSON");
   o->person.Visit(FlagAdder(*command));
+  o->loads.Visit(FlagAdder(*command));
   command->callback([o] { Render(*o); });
 }
 

@@ -96,6 +96,7 @@ std::shared_ptr<const PersonModel> SceneBuilder::MakeModel(const Person& person)
                                   : options_.model_name + "_" + std::to_string(person.index);
   }
   model->description = options_.body;
+  model->lengths_are_measured = person.character.skeleton.has_value();
   model->human.skeleton =
       person.character.skeleton.value_or(urdf::DefaultSkeleton(options_.height_m));
   if (person.l5_from_poses) {

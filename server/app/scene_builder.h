@@ -22,10 +22,11 @@ struct SceneOptions {
   std::string model_name =
       "skeleton";  // prefix of links and joints; a second person gets _1, _2 ...
   urdf::BodyDescription body;
-  loads::LoadSettings loads;  // whose sex is that of `body`
-  double height_m = 1.75;     // of the default body, until the source tells its own
-  double stale_secs = 0.5;    // this long without a sample is stale
-  bool smooth_figure = true;  // mesh files; false: boxes, cylinders and spheres
+  loads::LoadSettings loads;      // whose sex is that of `body`
+  double height_m = 1.75;         // of the default body, until the source tells its own
+  bool height_is_assumed = true;  // nobody said it
+  double stale_secs = 0.5;        // this long without a sample is stale
+  bool smooth_figure = true;      // mesh files; false: boxes, cylinders and spheres
   std::shared_ptr<const FigureMeshes> figure_meshes;  // instead of ours; null: ours
 };
 

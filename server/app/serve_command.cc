@@ -117,7 +117,7 @@ PictureOptions ToPictureOptions(const ServeOptions& options) {
 
 void Serve(const ServeOptions& options, bool with_page) {
   const std::int64_t start_nanos = MonotonicNanos();
-  const SceneOptions scene_options = ToSceneOptions(options.person, options.stale_secs);
+  const SceneOptions scene_options = ToSceneOptions(options.person, options.stale_secs, options.loads);
   const ros_bridge::RosMode ros_mode = ToRosMode(options.ros);
   ros_bridge::BridgeConfig bridge_config = ToBridgeConfig(options);
   const std::string url =

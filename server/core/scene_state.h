@@ -48,9 +48,10 @@ struct JointLoad {
 struct PersonModel {
   urdf::HumanModel human;
   urdf::BodyDescription description;
-  std::string urdf_xml;        // what robot_description holds
-  urdf::RobotModel robot;      // the same, read back
-  std::uint64_t revision = 0;  // grows with every change; sinks reload when it does
+  bool lengths_are_measured = false;  // the source told them; else: a default body of some height
+  std::string urdf_xml;               // what robot_description holds
+  urdf::RobotModel robot;             // the same, read back
+  std::uint64_t revision = 0;         // grows with every change; sinks reload when it does
 };
 
 /// A gloved hand, complete: what the sample lacks is where it was last against the rest.
