@@ -1,6 +1,6 @@
-/// The two parts that are loaded only when they are needed, each with its dozens of libraries:
-/// drawing (VTK, Mesa, LLVM) and video (libav). Host and module exchange C++ values, so both must
-/// come from the same build; LoadModule refuses anything else.
+/// The parts that are loaded only when they are needed, each with its dozens of libraries: drawing
+/// (VTK, Mesa, LLVM), video (libav) and figures (Cairo). Host and module exchange C++ values, so
+/// both must come from the same build; LoadModule refuses anything else.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,7 @@
 
 #include "render/camera.h"
 #include "render/image.h"
+#include "render/plot.h"
 #include "render/renderer.h"
 #include "render/video.h"
 #include "server/core/scene_state.h"
@@ -31,6 +32,8 @@ struct ModuleAbi {
   std::size_t robot_joint = sizeof(urdf::RobotJoint);
   std::size_t camera = sizeof(Camera);
   std::size_t video_options = sizeof(VideoOptions);
+  std::size_t figure = sizeof(Figure);
+  std::size_t plot_panel = sizeof(PlotPanel);
 };
 
 /// Text at a place in the world, drawn by the overlay.
@@ -64,9 +67,16 @@ struct VideoModule {
                                        const VideoOptions& options);
 };
 
+struct PlotModule {
+  ModuleAbi abi;
+  std::string (*svg)(const Figure& figure);
+  Image (*image)(const Figure& figure, double px_per_pt);
+};
+
 /// What each module exports under the name below, as `extern "C"` functions without arguments.
 inline constexpr const char* kDrawingEntry = "KinescopeDrawingModule";  // -> const DrawingModule*
 inline constexpr const char* kVideoEntry = "KinescopeVideoModule";      // -> const VideoModule*
+inline constexpr const char* kPlotEntry = "KinescopePlotModule";        // -> const PlotModule*
 
 /// The result of `entry` in the module `file_name`, which stays loaded until the process ends.
 /// @throws RenderError naming the file, the reason and what would help.

@@ -22,6 +22,7 @@ FOREIGN = {  # whose headers: where they may be included
     r"(ros|rosbag|tf2_msgs|std_msgs|sensor_msgs|geometry_msgs|visualization_msgs|xmlrpcpp)/": ("server/ros",),
     r"boost/": ("server/http", "server/ros"),
     r"lib(av|sw)": ("render",),
+    r"cairo": ("render/plot",),
     r"pcap": ("server/mvn",),
     r"expat": ("server/mvn", "urdf"),
     r"archive": ("server/core",),

@@ -14,6 +14,7 @@ struct CommandLine {
 void AddServe(CommandLine line);    // source -> ROS, pictures, page
 void AddBridge(CommandLine line);   // source -> ROS only
 void AddRender(CommandLine line);   // source -> PNG or MP4
+void AddLoads(CommandLine line);    // source -> CSV, JSON, plots, report
 void AddGolden(CommandLine line);   // check | update golden images
 void AddStream(CommandLine line);   // source -> MVN network stream
 void AddRecord(CommandLine line);   // source -> capture file

@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
     app::AddServe(commands);
     app::AddBridge(commands);
     app::AddRender(commands);
+    app::AddLoads(commands);
     app::AddGolden(commands);
     app::AddStream(commands);
     app::AddRecord(commands);

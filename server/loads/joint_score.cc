@@ -265,7 +265,8 @@ LumbarLoad LumbarLoadOf(const Vector3d& force, const Vector3d& moment, const Lin
 }
 
 double LumbarRatio(const LumbarLoad& load) {
-  constexpr double kActionLimit = 3400, kUpperLimit = 6400, kShearLimit = 1000;  // N
+  constexpr auto kActionLimit = kCompressionLimits[0], kUpperLimit = kCompressionLimits[1];
+  constexpr double kShearLimit = 1000;  // N
   constexpr double kMedium = 0.30, kHigh = 0.60;
   const double of_compression = load.compression <= kActionLimit
                                     ? kMedium * std::max(load.compression, 0.0) / kActionLimit

@@ -56,6 +56,9 @@ Score ScoreNorm(int joint, const Eigen::Vector3d& moment, const urdf::LinkPoses&
 LumbarLoad LumbarLoadOf(const Eigen::Vector3d& force, const Eigen::Vector3d& moment,
                         const urdf::LinkPoses& links, double lever_arm_m = 0.06);
 
+/// N: the action limit and the upper limit (NIOSH 1981; joint-loads.md 4.4).
+constexpr std::array<double, 2> kCompressionLimits = {3400, 6400};
+
 /// On the scale of ratios: 0.30 at the action limit of 3400 N, 0.60 at the upper limit of 6400 N
 /// (NIOSH 1981), straight lines between and beyond. Shear has one limit, 1000 N at 0.30, and alone
 /// never goes beyond 0.60.

@@ -1,0 +1,24 @@
+#include "render/plot.h"
+
+#include "render/module.h"
+#include "server/core/check.h"
+
+namespace kinescope::render {
+namespace {
+
+const PlotModule& Module() {
+  static const auto* module =
+      static_cast<const PlotModule*>(LoadModule("libkinescope_plot.so", kPlotEntry));
+  return *module;
+}
+
+}  // namespace
+
+std::string ToSvg(const Figure& figure) { return Module().svg(figure); }
+
+Image ToImage(const Figure& figure, double px_per_pt) {
+  KINESCOPE_CHECK(px_per_pt >= 0.5 && px_per_pt <= 20);
+  return Module().image(figure, px_per_pt);
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,105 @@
+/// Figures for papers and reports: curves over an axis with bands, limits and gaps, as SVG and as a
+/// picture of the same description. Drawn by Cairo in a module that is loaded with the first
+/// figure. Lengths in points (1/72 inch), y downwards. Any thread, one at a time per figure.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/image.h"
+#include "server/core/palette.h"
+
+namespace kinescope::render {
+
+struct PlotCurve {
+  std::string name;  // in the legend; "" none
+  Rgb color = {0.1, 0.1, 0.1};
+  std::vector<double> dash;  // pt, on and off; empty: a whole line
+  double width = 1.1;        // pt
+  /// x ascending; y NaN: the line breaks. As many as there are: more than can be seen apart are
+  /// thinned out, peaks kept.
+  std::vector<std::pair<double, double>> points;
+};
+
+/// A stretch of y with a tint of its own.
+struct PlotBand {
+  double from = 0, to = 0;
+  Rgb color = {1, 1, 1};
+  std::string label;  // at its right; "" none
+};
+
+struct PlotLimit {
+  double y = 0;
+  std::string label;  // at its right end; "" none
+};
+
+/// A stretch of x of which nothing is known: hatched.
+struct PlotGap {
+  double from = 0, to = 0;
+};
+
+/// A stretch of x in the strip below the curves. The class shows in colour and in height.
+struct PlotStretch {
+  double from = 0, to = 0;
+  LoadClass load_class = LoadClass::kUnknown;
+};
+
+struct PlotMark {
+  double x = 0, y = 0;
+  std::string label;
+};
+
+/// One pair of axes with everything in it.
+struct PlotPanel {
+  double left = 0, top = 0, width = 0, height = 0;  // of the axes' box, within the figure
+  std::string title, x_label, y_label;
+  bool has_x_numbers = true, has_y_numbers = true;
+  double x_from = 0, x_to = 1, y_from = 0, y_to = 1;  // @pre from < to, finite
+  std::vector<PlotBand> bands;
+  std::vector<PlotGap> gaps;
+  std::vector<PlotLimit> limits;
+  std::vector<PlotCurve> curves;
+  std::vector<PlotStretch> strip;
+  std::vector<PlotMark> marks;
+  double font_size = 8;
+};
+
+struct PlotText {
+  double x = 0, y = 0;  // of its start on the baseline
+  std::string text;
+  double size = 8;
+  bool is_bold = false;
+  Rgb color = {0.13, 0.15, 0.19};
+};
+
+/// A sample of a colour or the hatching, for legends.
+struct PlotSwatch {
+  double x = 0, y = 0, width = 0, height = 0;
+  Rgb color;
+  bool is_hatched = false;
+};
+
+struct Figure {
+  double width = 480, height = 300;
+  std::vector<PlotPanel> panels;
+  std::vector<PlotSwatch> swatches;
+  std::vector<PlotText> texts;
+};
+
+// Both: @throws RenderError when the module or its font is missing.
+
+/// Text is set as outlines: looks the same everywhere, whatever fonts there are.
+std::string ToSvg(const Figure& figure);
+/// @pre 0.5 <= px_per_pt <= 20
+Image ToImage(const Figure& figure, double px_per_pt);
+
+/// Round numbers that cut [from, to] into at most `most` parts or few more. @pre from < to
+std::vector<double> NiceTicks(double from, double to, int most);
+
+/// `points` (x ascending), thinned to what `columns` pixels of [from, to] can show: first, lowest,
+/// highest and last of each. Breaks (NaN) stay.
+std::vector<std::pair<double, double>> Thinned(const std::vector<std::pair<double, double>>& points,
+                                               double from, double to, int columns);
+
+}  // namespace kinescope::render

@@ -1,0 +1,104 @@
+#include "render/plot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace kinescope::render {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(Plot, PutsTicksAtRoundNumbers) {
+  EXPECT_THAT(NiceTicks(0, 1, 5),
+              ElementsAre(0, 0.2, 0.4, ::testing::DoubleNear(0.6, 1e-12), 0.8, 1));
+  EXPECT_THAT(NiceTicks(-7, 12, 4), ElementsAre(-5, 0, 5, 10));
+  EXPECT_THAT(NiceTicks(0, 8, 8), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8));
+  for (double size = 1e-6; size < 1e9; size *= 3.7) {
+    const auto ticks = NiceTicks(0.3 * size, 1.3 * size, 6);
+    EXPECT_GE(ticks.size(), 2U) << size;
+    EXPECT_LE(ticks.size(), 8U) << size;
+  }
+}
+
+TEST(Plot, ThinsACurveWithoutLosingItsPeaksAndItsGaps) {
+  std::vector<std::pair<double, double>> points;
+  for (int i = 0; i < 100000; ++i) points.emplace_back(i, std::sin(0.01 * i));
+  points[31415].second = 7;
+  points[50000].second = std::numeric_limits<double>::quiet_NaN();
+  const auto thin = Thinned(points, 0, 100000, 300);
+  EXPECT_LE(thin.size(), 4 * 302U);
+  double highest = 0;
+  int breaks = 0;
+  for (std::size_t i = 0; i < thin.size(); ++i) {
+    if (std::isnan(thin[i].second)) ++breaks;
+    if (thin[i].second > highest) highest = thin[i].second;
+    if (i > 0) {
+      EXPECT_GE(thin[i].first, thin[i - 1].first);
+    }
+  }
+  EXPECT_EQ(highest, 7);
+  EXPECT_EQ(breaks, 1);
+}
+
+Figure OnePanel() {
+  Figure figure;
+  figure.width = 100;
+  figure.height = 80;
+  PlotPanel panel;
+  panel.left = 20;
+  panel.top = 10;
+  panel.width = 70;
+  panel.height = 40;
+  panel.bands = {{0, 0.5, {1, 0, 0}, ""}, {0.5, 1e9, {0, 0, 1}, ""}};
+  panel.strip = {{0, 0.5, LoadClass::kHigh}, {0.5, 1, LoadClass::kLow}};
+  figure.panels.push_back(panel);
+  return figure;
+}
+
+std::vector<int> PixelAt(const Image& image, double x_pt, double y_pt, double scale) {
+  const auto at =
+      4 * (static_cast<std::size_t>(y_pt * scale) * static_cast<std::size_t>(image.width) +
+           static_cast<std::size_t>(x_pt * scale));
+  return {image.rgba[at], image.rgba[at + 1], image.rgba[at + 2]};
+}
+
+TEST(Plot, DrawsBandsAndClassesWhereTheyBelong) {
+  const Image image = ToImage(OnePanel(), 4);
+  EXPECT_EQ(image.width, 400);
+  EXPECT_EQ(image.height, 320);
+  EXPECT_THAT(PixelAt(image, 50, 20, 4), ElementsAre(0, 0, 255));    // y 0.75
+  EXPECT_THAT(PixelAt(image, 50, 40, 4), ElementsAre(255, 0, 0));    // y 0.25
+  EXPECT_THAT(PixelAt(image, 2, 2, 4), ElementsAre(255, 255, 255));  // outside
+  // The strip: high fills it, low a third of it.
+  const Rgb high = ColorOf(LoadClass::kHigh), low = ColorOf(LoadClass::kLow);
+  const auto levels = [](const Rgb& color) {
+    std::vector<int> all;
+    for (const double channel : color) all.push_back(static_cast<int>(std::lround(255 * channel)));
+    return all;
+  };
+  const double top_of_strip = 10 + 40 + 3.5, foot_of_strip = 10 + 40 + 10;
+  EXPECT_EQ(PixelAt(image, 30, top_of_strip, 4), levels(high));
+  EXPECT_THAT(PixelAt(image, 80, top_of_strip, 4), ElementsAre(255, 255, 255));
+  EXPECT_EQ(PixelAt(image, 80, foot_of_strip, 4), levels(low));
+}
+
+TEST(Plot, IsTheSameEveryTimeInBothFormats) {
+  EXPECT_EQ(ToSvg(OnePanel()), ToSvg(OnePanel()));
+  EXPECT_EQ(ToImage(OnePanel(), 2).rgba, ToImage(OnePanel(), 2).rgba);
+}
+
+TEST(Plot, SetsNamesThatAreNoUtf8AndValuesThatAreFarAway) {
+  Figure figure = OnePanel();
+  figure.texts.push_back({5, 70, "\xFF\xC0 name", 8, false, {}});
+  PlotCurve curve;
+  curve.points = {{0, 0}, {0.5, 1e300}, {1, -1e300}};
+  figure.panels[0].curves.push_back(curve);
+  EXPECT_THAT(ToSvg(figure), HasSubstr("</svg>"));
+}
+
+}  // namespace
+}  // namespace kinescope::render

@@ -1,0 +1,330 @@
+// `kinescope loads` as a biomechanist uses it: recordings in, tables, figures and a report out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "render/png_file.h"
+#include "server/app/scene_reader.h"
+#include "server/loads/joint_score.h"
+#include "tests/process.h"
+#include "tests/shared_data.h"
+#include "tests/system/run_program.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::ProgramResult;
+using testing::ReadFile;
+using testing::RunProgram;
+using testing::SharedData;
+using testing::TempFolder;
+
+ProgramResult Loads(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), {KINESCOPE_PROGRAM, "loads"});
+  return RunProgram(arguments);
+}
+
+// A CSV without quotes in it, by column.
+struct Table {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> rows;
+
+  explicit Table(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line;
+    while (std::getline(lines, line)) {
+      std::vector<std::string> cells;
+      std::string cell;
+      bool is_quoted = false;
+      for (const char c : line) {
+        if (c == '"') {
+          is_quoted = !is_quoted;
+        } else if (c == ',' && !is_quoted) {
+          cells.push_back(std::exchange(cell, ""));
+        } else {
+          cell += c;
+        }
+      }
+      cells.push_back(cell);
+      if (names.empty()) {
+        names = cells;
+      } else {
+        EXPECT_EQ(cells.size(), names.size()) << line;
+        rows.push_back(cells);
+      }
+    }
+  }
+  const std::string& At(std::size_t row, const std::string& name) const {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i] == name) return rows.at(row).at(i);
+    }
+    ADD_FAILURE() << "no column " << name;
+    static const std::string kNone;
+    return kNone;
+  }
+  double Number(std::size_t row, const std::string& name) const {
+    const std::string& cell = At(row, name);
+    return cell.empty() ? std::nan("") : std::stod(cell);
+  }
+};
+
+void ExpectRefusal(const ProgramResult& result, const std::string& named) {
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_THAT(result.err, HasSubstr(named));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(result.out, "");
+}
+
+// What the library says of the same recording.
+std::vector<std::shared_ptr<const SceneState>> StatesOf(const std::string& source, double secs,
+                                                        const app::SceneOptions& options) {
+  app::SceneReader reader(source, options);
+  std::vector<std::shared_ptr<const SceneState>> states;
+  while (auto state = reader.Next()) {
+    const double at =
+        states.empty()
+            ? 0
+            : static_cast<double>(state->stamp_nanos - states.front()->stamp_nanos) * 1e-9;
+    if (at > secs + 1e-6) break;
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
+// The program prints seven digits.
+void ExpectSame(double printed, double value, const std::string& what) {
+  if (std::isnan(value)) {
+    EXPECT_TRUE(std::isnan(printed)) << what;
+  } else {
+    EXPECT_NEAR(printed, value, 1e-6 * std::max(1.0, std::abs(value))) << what;
+  }
+}
+
+TEST(LoadsCommand, WritesWhatTheLibraryComputesInEveryRow) {
+  const TempFolder folder;
+  const std::string csv = folder / "loads.csv";
+  const ProgramResult result =
+      Loads({"demo:lift", "--seconds", "1", "--mass", "80", "--hand", "right:5", "--csv", csv});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  app::SceneOptions options;
+  options.body.mass_kg = 80;
+  options.loads.hands = loads::ParseHandLoad("right:5");
+  const auto states = StatesOf("demo:lift", 1, options);
+  const Table table(ReadFile(csv));
+  ASSERT_EQ(table.rows.size(), states.size());
+  for (std::size_t row = 0; row < states.size(); ++row) {
+    const PersonState& person = states[row]->people.at(0);
+    for (const JointLoad& load : person.loads) {
+      const std::string name(urdf::kJoints[urdf::At(load.joint)].ros_name);
+      ExpectSame(table.Number(row, name + "_ratio"), load.ratio, name);
+      ExpectSame(table.Number(row, name + "_capacity_Nm"), load.capacity, name);
+      EXPECT_EQ(table.At(row, name + "_class"), Name(load.load_class));
+      EXPECT_EQ(table.At(row, name + "_channel"), load.channel);
+      const Eigen::Vector3d in_parent =
+          person.links[urdf::At(urdf::ParentOf(load.joint))].orientation.conjugate() * load.moment;
+      ExpectSame(table.Number(row, name + "_moment_x_Nm"), in_parent.x(), name);
+      ExpectSame(table.Number(row, name + "_moment_z_Nm"), in_parent.z(), name);
+    }
+    ExpectSame(table.Number(row, "com_z_m"), person.forces.com_of_model.z(), "com");
+    ExpectSame(table.Number(row, "cop_x_m"), person.cop->x(), "cop");
+    ExpectSame(table.Number(row, "ground_force_z_N"), person.forces.ground_force.z(), "ground");
+    ExpectSame(table.Number(row, "l5_s1_compression_N"), person.forces.lumbar->compression, "L5");
+    ExpectSame(table.Number(row, "right_hand_load_kg"), 5, "hand");
+  }
+  EXPECT_EQ(table.At(0, "utc"), "2020-01-01T00:00:00.000000Z");
+  EXPECT_NEAR(table.Number(states.size() - 1, "time_s"), 1, 1e-6);
+}
+
+TEST(LoadsCommand, WritesARowForEveryJointWhenAskedTo) {
+  const ProgramResult wide = Loads({"demo:lift", "--seconds", "0.1", "--csv", "-"});
+  const ProgramResult tall =
+      Loads({"demo:lift", "--seconds", "0.1", "--csv", "-", "--layout", "long"});
+  const Table wide_table(wide.out), tall_table(tall.out);
+  ASSERT_GT(wide_table.rows.size(), 10U);
+  ASSERT_EQ(tall_table.rows.size(), 15 * wide_table.rows.size());
+  for (std::size_t i = 0; i < tall_table.rows.size(); ++i) {
+    const std::string joint = tall_table.At(i, "joint");
+    EXPECT_EQ(tall_table.At(i, "ratio"), wide_table.At(i / 15, joint + "_ratio"));
+    EXPECT_EQ(tall_table.At(i, "time_s"), wide_table.At(i / 15, "time_s"));
+  }
+}
+
+TEST(LoadsCommand, TellsExposureAndWhatWasAssumedAsJson) {
+  const ProgramResult result =
+      Loads({"demo:lift", "--seconds", "2", "--sex", "female", "--json", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["options"]["sex"], "female");
+  EXPECT_EQ(json["options"]["mass"], nullptr);
+  EXPECT_EQ(json["samples"].size(), 241U);  // 120 Hz
+  EXPECT_EQ(json["samples"][0].size(), json["columns"].size());
+  const auto& person = json["people"].at(0);
+  EXPECT_EQ(person["mass_kg"], 62);
+  std::map<std::string, bool> assumed;
+  for (const auto& fact : person["facts"]) assumed[fact["name"]] = fact["is_assumed"];
+  EXPECT_TRUE(assumed.at("mass"));
+  EXPECT_TRUE(assumed.at("in the hands"));
+  EXPECT_FALSE(assumed.at("sex"));
+  ASSERT_EQ(person["exposure"].size(), 15U);
+  for (const auto& joint : person["exposure"]) {
+    double sum = 0;
+    for (const auto& [name, secs] : joint["seconds"].items()) sum += secs.get<double>();
+    EXPECT_NEAR(sum, 2, 1e-6) << joint["joint"];
+    EXPECT_LE(joint["p10"], joint["p90"]);
+    EXPECT_LE(joint["p90"].get<double>(), joint["peak_ratio"].get<double>() + 0.0026);
+  }
+}
+
+TEST(LoadsCommand, PrintsATableThatSaysWhatIsAssumed) {
+  const ProgramResult result = Loads({"demo:lift", "--seconds", "1"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("75 kg (assumed)"));
+  EXPECT_THAT(result.out, HasSubstr("Left ankle"));
+  const ProgramResult given = Loads({"demo:lift", "--seconds", "1", "--sex", "male", "--mass", "75",
+                                     "--hand", "none", "--height", "1.75"});
+  EXPECT_THAT(given.out, Not(HasSubstr("assumed")));
+}
+
+TEST(LoadsCommand, DrawsEveryJointAsPngAndSvg) {
+  const TempFolder folder;
+  const auto plots = folder / "plots";
+  ASSERT_EQ(Loads({"demo:lift", "--seconds", "0.5", "--plots", plots}).exit_code, 0);
+  int pictures = 0;
+  for (const int joint : loads::kScoredJoints) {
+    const std::string name(urdf::kJoints[urdf::At(joint)].ros_name);
+    const render::Image image = render::ReadPng(plots / (name + ".png"));
+    EXPECT_GT(image.width, 1000);
+    const std::string svg = ReadFile(plots / (name + ".svg"));
+    EXPECT_THAT(svg, HasSubstr("<svg"));
+    EXPECT_THAT(svg, HasSubstr("</svg>"));
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 15);
+}
+
+TEST(LoadsCommand, WritesAReportThatNeedsNothingElse) {
+  const TempFolder folder;
+  const std::string path = folder / "report.html";
+  const ProgramResult result = Loads({"demo:lift", "--report", path});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string html = ReadFile(path);
+  EXPECT_THAT(html, HasSubstr("Joint loads: demo:lift"));
+  EXPECT_THAT(html, HasSubstr("<dd>75 kg <span class=\"assumed\">assumed</span></dd>"));
+  EXPECT_THAT(html, Not(HasSubstr("<script")));
+  EXPECT_THAT(html, Not(HasSubstr("src=\"http")));
+  std::size_t pictures = 0;
+  for (std::size_t at = 0; (at = html.find("data:image/png;base64,", at)) != std::string::npos;
+       ++at) {
+    ++pictures;
+  }
+  EXPECT_EQ(pictures, 3U);
+}
+
+TEST(LoadsCommand, SaysWhyTheLegsOfAnUpperBodyTakeAreNotKnown) {
+  KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
+  const std::string take = SharedData("mvnx/test_mocap.mvnx");
+  const ProgramResult result = Loads({take, "--csv", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Table table(result.out);
+  ASSERT_EQ(table.rows.size(), 112U);
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    EXPECT_EQ(table.At(row, "right_knee_class"), "unknown");
+    EXPECT_EQ(table.At(row, "right_knee_ratio"), "");
+    EXPECT_THAT(table.At(row, "right_knee_reason"), HasSubstr("legs are not measured"));
+    EXPECT_FALSE(std::isnan(table.Number(row, "right_shoulder_ratio")));
+    EXPECT_LT(std::abs(table.Number(row, "com_minus_mvn_z_m")), 0.005);
+  }
+  EXPECT_THAT(Loads({take}).out, HasSubstr("legs are not measured in this recording"));
+}
+
+TEST(LoadsCommand, ReadsAFullBodyRecordingOfFourSamples) {
+  KINESCOPE_NEEDS_SHARED_DATA("mvnx/Meri-020.mvnx");
+  const TempFolder folder;
+  const std::string report = folder / "report.html";
+  const ProgramResult result =
+      Loads({SharedData("mvnx/Meri-020.mvnx"), "--json", "-", "--report", report});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["samples"].size(), 4U);
+  EXPECT_LT(json["people"][0]["com_minus_mvn_m"]["most"], 0.005);
+  EXPECT_THAT(ReadFile(report), HasSubstr("data:image/png"));
+}
+
+// A stream with nothing but poses has no accelerations: static, and it says so.
+TEST(LoadsCommand, IsStaticWithTheReasonWhereThereAreOnlyPoses) {
+  KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp02.bin");
+  const ProgramResult result = Loads({SharedData("udp/mxtp02.bin"), "--csv", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Table table(result.out);
+  ASSERT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(table.At(0, "is_dynamic"), "0");
+  EXPECT_NE(table.At(0, "static_reason"), "");
+  EXPECT_FALSE(std::isnan(table.Number(0, "right_shoulder_ratio")));
+}
+
+#ifdef KINESCOPE_WITH_ROS
+TEST(LoadsCommand, IsStaticForABagOfPoses) {
+  KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
+  const ProgramResult result = Loads({SharedData("ros1/2018-05-28-17-34-45.bag.xz"), "--csv", "-"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Table table(result.out);
+  ASSERT_GT(table.rows.size(), 100U);
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    EXPECT_EQ(table.At(row, "is_dynamic"), "0");
+    EXPECT_NE(table.At(row, "static_reason"), "");
+  }
+}
+#endif
+
+TEST(LoadsCommand, EndsWithOneWhereNothingIsKnown) {
+  const ProgramResult result =
+      Loads({"demo:lift", "--seconds", "0.2", "--load_metric", "external"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("no load from outside"));
+}
+
+TEST(LoadsCommand, RefusesWhatMakesNoSenseInOneLine) {
+  const auto refuses = [](const std::vector<std::string>& more, const std::string& named) {
+    std::vector<std::string> arguments = {"demo:lift"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    ExpectRefusal(Loads(arguments), named);
+  };
+  for (const char* mass : {"0", "-75", "nan", "1000"}) {
+    refuses({"--mass", mass}, std::string("--mass=") + (mass[0] == 'n' ? "nan" : mass));
+  }
+  refuses({"--sex", "unknown"}, "--sex=unknown");
+  refuses({"--hand", "right:500"}, "500");
+  refuses({"--body_table", "tailor"}, "tailor");
+  refuses({"--filter_hz", "100"}, "--filter_hz");
+  refuses({"--seconds", "0"}, "--seconds=0");
+  refuses({"--layout", "tall"}, "--layout=tall");
+  refuses({"--csv", "-", "--json", "-"}, "standard output");
+  refuses({"--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
+  refuses({"--report", "/nowhere/at/all.html"}, "/nowhere/at/all.html");
+  refuses({"--plots", "/proc/none"}, "/proc/none");
+  ExpectRefusal(Loads({"udp://127.0.0.1:0"}), "live stream");
+  ExpectRefusal(Loads({"/nowhere.mvnx"}), "/nowhere.mvnx");
+}
+
+TEST(LoadsCommand, LeavesNothingBehindWhenItIsStopped) {
+  const TempFolder folder;
+  testing::Process child({KINESCOPE_PROGRAM, "loads", "demo:walk", "--seconds", "100000", "--csv",
+                          folder / "loads.csv", "--json", "-"});
+  ASSERT_TRUE(child.ReadLine(std::chrono::seconds(60)));  // it has begun to write
+  child.Signal(SIGINT);
+  while (child.ReadLine(std::chrono::seconds(30))) {  // until it has ended
+  }
+  EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
+}
+
+}  // namespace
+}  // namespace kinescope
