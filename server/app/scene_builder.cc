@@ -74,6 +74,11 @@ void SceneBuilder::SetMeasurements(int character, const loads::Measurements& mea
   measured_[character] = measured;
 }
 
+void SceneBuilder::SetHandLoad(int character, const HandLoad& load) {
+  KINESCOPE_CHECK(loads::FindDefect(load).empty());
+  held_[character] = load;
+}
+
 void SceneBuilder::Start() { Publish(Liveness::kNoData); }
 
 SceneBuilder::Person& SceneBuilder::AddPerson(const Character& character) {
@@ -182,15 +187,23 @@ PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) cons
   const urdf::BodyDescription& body = person.model->description;
   static const loads::Measurements kNothingMeasured;
   const auto measured = measured_.find(sample.character);
+  loads::LoadSettings settings = options_.loads;
+  if (const auto held = held_.find(sample.character); held != held_.end()) {
+    settings.hands = held->second;
+  }
   const loads::LoadResult& result = person.loads.Update(
       sample, state.links,
       {human.skeleton, human.body, body.mass_is_assumed, !body.extra_masses.empty(),
        person.has_legs, *person.floor_z},
-      options_.loads, measured == measured_.end() ? kNothingMeasured : measured->second);
+      settings, measured == measured_.end() ? kNothingMeasured : measured->second);
   state.com_is_ours = !sample.com;
   state.com = sample.com ? sample.com->position : result.forces.com_of_model;
   state.cop = result.cop;
+  person.exposure.Add(result.loads, sample.stamp_nanos);
   state.loads.assign(result.loads.begin(), result.loads.end());
+  for (std::size_t i = 0; i < state.loads.size(); ++i) {
+    state.loads[i].class_secs = person.exposure.SecsOf(i);
+  }
   state.forces = result.forces;
   return state;
 }
@@ -265,7 +278,9 @@ void SceneBuilder::Publish(Liveness liveness) {
     if (liveness == Liveness::kLive) continue;
     constexpr std::string_view kStopped = "the stream stopped";  // old loads must not look valid
     for (JointLoad& load : scene->people.back().loads) {
+      const std::array<double, 4> class_secs = load.class_secs;
       load = Unknown(load.joint, load.position, kStopped);
+      load.class_secs = class_secs;
     }
     MakeUnknown(kStopped, scene->people.back().forces);
   }

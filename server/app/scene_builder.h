@@ -14,6 +14,7 @@
 #include "server/app/worn_extras.h"
 #include "server/core/scene_state.h"
 #include "server/core/source.h"
+#include "server/loads/exposure.h"
 #include "server/loads/load_estimator.h"
 
 namespace kinescope::app {
@@ -49,6 +50,10 @@ class SceneBuilder : public SampleSink {
   void SetLoads(const loads::LoadSettings& settings);
   const loads::LoadSettings& loads() const { return options_.loads; }
 
+  /// What `character` holds, instead of what the settings say; from the next sample on. Kept for a
+  /// character who has not come yet. @pre loads::FindDefect(load) is ""
+  void SetHandLoad(int character, const HandLoad& load);
+
   /// What sensors say about `character`, with stamps of the samples' clock; what is old is let go
   /// by itself. Kept for a character who has not come yet.
   void SetMeasurements(int character, const loads::Measurements& measured);
@@ -71,6 +76,7 @@ class SceneBuilder : public SampleSink {
     std::optional<Eigen::Vector3d> l5_from_poses;  // in the pelvis' link frame
     WornExtras worn;
     loads::LoadEstimator loads;
+    loads::Exposure exposure;
     bool has_legs = true;              // false: recorded without leg sensors
     std::optional<double> floor_z;     // known since the first sample
     std::optional<PersonState> state;  // of the newest sample
@@ -88,7 +94,8 @@ class SceneBuilder : public SampleSink {
   double nominal_rate_hz_;
   OnState on_state_;
   std::map<int, Person> people_;                       // by character id; bounded by the source
-  std::map<int, loads::Measurements> measured_;        // likewise, by who measures
+  std::map<int, loads::Measurements> measured_;        // likewise
+  std::map<int, HandLoad> held_;                       // likewise, by who was told to hold what
   std::map<int, Character> clusters_;                  // of tracked objects, likewise
   std::map<int, std::vector<TrackedObject>> objects_;  // of the newest sample of each cluster
   SceneState current_;                                 // without its people: Publish adds those

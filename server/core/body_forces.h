@@ -17,7 +17,7 @@ namespace kinescope {
 enum class LoadMetric {
   kTotal = 0,     // gravity, motion and load
   kOverload = 1,  // what the load in the hands adds, or the measured ground force says
-  kExternal = 2,  // as another program computed it
+  kExternal = 2,  // as another program computed it, and nothing else
   kNorm = 3,      // |moment| against the weaker direction
 };
 
@@ -56,8 +56,10 @@ struct LumbarLoad {
 /// In a hand now, ramps included.
 struct HandForce {
   double mass_kg = 0;                               // of what is held, this hand's share
+  double shared_kg = 0;                             // of that, its share of what both hold together
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  // N, on the hand
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  // where, world
+  Eigen::Vector3d grip = Eigen::Vector3d::Zero();   // inside the fist, world
   bool is_measured = false;                         // by a sensor, at least in part
 };
 

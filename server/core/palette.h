@@ -15,6 +15,7 @@ Rgb ColorOf(LoadClass load_class);
 
 inline constexpr Rgb kCopColor = {0.10, 0.35, 0.95};
 inline constexpr Rgb kComColor = {0.55, 0.20, 0.75};
+inline constexpr Rgb kSupportColor = {0.36, 0.49, 0.71};
 inline constexpr Rgb kBodyColor = {0.78, 0.80, 0.84};
 inline constexpr Rgb kStaleBodyColor = {0.55, 0.55, 0.55};
 inline constexpr Rgb kObjectColor = {0.42, 0.46, 0.54};  // of a tracked object; props have it too

@@ -19,7 +19,22 @@ void Move(urdf::Pose& pose, const urdf::Pose& after, double t) {
   pose.orientation = pose.orientation.slerp(t, after.orientation);  // along the shorter arc
 }
 
+// Along with the hands that hold it.
+void CarryHeld(const urdf::LinkPoses& before, PersonState& person) {
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const int hand = side == urdf::kRight ? urdf::kRightHand : urdf::kLeftHand;
+    const urdf::Pose& was = before[urdf::At(hand)];
+    const urdf::Pose& is = person.links[urdf::At(hand)];
+    HandForce& held = person.forces.hands[side];
+    for (Vector3d* point : {&held.point, &held.grip}) {
+      *point =
+          is.position + is.orientation * (was.orientation.conjugate() * (*point - was.position));
+    }
+  }
+}
+
 void MoveTowards(PersonState& person, const PersonState& after, double t) {
+  const urdf::LinkPoses before = person.links;
   person.links = urdf::Interpolate(person.links, after.links, t);
   for (std::size_t i = 0; i < person.angles.size(); ++i) {
     person.angles[i] = (1 - t) * person.angles[i] + t * after.angles[i];
@@ -38,6 +53,7 @@ void MoveTowards(PersonState& person, const PersonState& after, double t) {
     Vector3d& angles = person.props[i]->angles;
     angles = (1 - t) * angles + t * after.props[i]->angles;
   }
+  CarryHeld(before, person);
   person.com = Between(person.com, after.com, t);
   person.cop = Between(person.cop, after.cop, t);
   for (JointLoad& load : person.loads) {

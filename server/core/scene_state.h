@@ -41,6 +41,9 @@ struct JointLoad {
   std::string_view channel;                            // "flexion", "elevation", ...
   LoadClass load_class = LoadClass::kUnknown;
   bool class_is_of_compression = false;  // L5/S1: its compression is worse than its moment
+  bool is_external = false;              // moment, ratio or class come from another program
+  /// Time spent in each class so far, s, by LoadClass; the exposure of this run or clip.
+  std::array<double, 4> class_secs{};
   std::string_view reason;               // why unknown; "" otherwise
 };
 

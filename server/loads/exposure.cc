@@ -64,13 +64,20 @@ double Exposure::PercentileOf(const Joint& joint, double share) {
   return kExposureMost;
 }
 
+std::array<double, 4> Exposure::SecsOf(std::size_t scored_joint) const {
+  KINESCOPE_CHECK(scored_joint < joints_.size());
+  std::array<double, 4> secs;
+  for (std::size_t i = 0; i < secs.size(); ++i) {
+    secs[i] = Secs(joints_[scored_joint].class_nanos[i]);
+  }
+  return secs;
+}
+
 JointExposure Exposure::Of(std::size_t scored_joint) const {
   KINESCOPE_CHECK(scored_joint < joints_.size());
   const Joint& joint = joints_[scored_joint];
   JointExposure exposure;
-  for (std::size_t i = 0; i < exposure.secs.size(); ++i) {
-    exposure.secs[i] = Secs(joint.class_nanos[i]);
-  }
+  exposure.secs = SecsOf(scored_joint);
   exposure.p10 = PercentileOf(joint, 0.1);
   exposure.p50 = PercentileOf(joint, 0.5);
   exposure.p90 = PercentileOf(joint, 0.9);

@@ -156,7 +156,7 @@ void HandLoads::Push(const urdf::LinkPoses& links, const BodyMotion& motion,
     const int hand = HandOf(side);
     HandForce& all = shown[side];
     all = {};
-    all.point = grip[side];
+    all.point = all.grip = grip[side];
     const auto push = [&](const Vector3d& force, const Vector3d& point, const Vector3d& moment) {
       external.Push(links, hand, force, point, moment);
       if (all.force.isZero(0)) all.point = point;
@@ -173,6 +173,7 @@ void HandLoads::Push(const urdf::LinkPoses& links, const BodyMotion& motion,
     if (part > 0) {
       push(-part * (object_acceleration + up), grip[side], Vector3d::Zero());
       all.mass_kg += part;
+      all.shared_kg = part;
     }
     if (measured[side] && IsFresh(measured[side]->stamp_nanos, stamp_nanos)) {
       push(measured[side]->force, measured[side]->point.value_or(grip[side]),

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "server/core/body_forces.h"
+#include "server/core/force_inputs.h"
 #include "server/loads/inverse_dynamics.h"
 #include "urdf/skeleton.h"
 
@@ -17,17 +18,8 @@ namespace kinescope::loads {
 
 constexpr double kMostHeldKg = 100;  // more is a typing error
 
-/// What a person holds. Changes take 0.3 s to become whole, so that a grip is not a blow.
-struct HandLoad {
-  /// False: nobody said what is held. True with zeros: nothing is, for certain.
-  bool is_known = false;
-  std::array<double, 2> mass_kg = {0, 0};  // in one hand alone, by urdf::Side
-  double both_kg = 0;                      // held with both, shared by them
-  /// CoM of what that hand holds alone, in its link frame, m; absent: at the grip point.
-  std::array<std::optional<Eigen::Vector3d>, 2> com_in_hand;
-  /// Where the CoM of what both hold is, world, m; absent: midway, half the weight each.
-  std::optional<Eigen::Vector3d> both_com_in_world;
-};
+using kinescope::HandLoad;
+using kinescope::MeasuredHandForce;
 
 /// "" or what is wrong with `load`, naming the hand, the value and what is expected: a mass that is
 /// negative, not a number or above kMostHeldKg in sum; a CoM farther than 2 m from the hand.
@@ -37,14 +29,6 @@ std::string FindDefect(const HandLoad& load);
 /// several with semicolons; "none": nothing, for certain.
 /// @throws UsageError naming `text`, the part that is wrong and what is expected.
 HandLoad ParseHandLoad(const std::string& text);
-
-/// A measured force on a hand: of a robot, a handle. World axes, on the human.
-struct MeasuredHandForce {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   // N
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // N m, about `point`
-  std::optional<Eigen::Vector3d> point;              // world, m; absent: the grip point
-  std::int64_t stamp_nanos = 0;                      // of the same clock as the samples
-};
 
 /// Measurements count this long, seconds (joint-loads.md 5.7).
 constexpr double kFreshSecs = 0.5;

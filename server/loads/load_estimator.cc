@@ -263,8 +263,10 @@ void LoadEstimator::ShowLoads(const std::array<Vector3d, kJointCount>& rated,
     load.position = links[At(ChildOf(joint))].position;
     load.moment = internal.moment;
     load.force = internal.force;
-    if (forces.metric == LoadMetric::kExternal) {
-      ShowExternal(measured.joints[At(joint)], links, settings, stamp, load);
+    const ExternalJointLoad& given = measured.joints[At(joint)];
+    const bool is_given = given.stamp_nanos != 0 && IsFresh(given.stamp_nanos, stamp);
+    if (forces.metric == LoadMetric::kExternal || is_given) {
+      ShowExternal(given, links, settings, stamp, load);
     } else if (!internal.why_unknown.empty()) {
       MakeUnknown(internal.why_unknown, load);
     } else if (forces.metric == LoadMetric::kNorm) {
@@ -280,6 +282,7 @@ void LoadEstimator::ShowLoads(const std::array<Vector3d, kJointCount>& rated,
 void LoadEstimator::ShowExternal(const ExternalJointLoad& given, const LinkPoses& links,
                                  const LoadSettings& settings, std::int64_t stamp,
                                  JointLoad& load) {
+  load.is_external = true;
   load.moment = given.moment;
   load.force = Vector3d::Constant(kNothing);
   const bool has_level = given.load_class != LoadClass::kUnknown;
@@ -311,6 +314,8 @@ void LoadEstimator::Classify(const LoadSettings& settings, std::int64_t stamp) {
     const double ratio = load.load_class == LoadClass::kUnknown
                              ? load.ratio
                              : RatioIn(load.load_class, settings.classes);
+    if (load.is_external != was_external_[i]) classifiers_[i] = LoadClassifier();  // likewise
+    was_external_[i] = load.is_external;
     classifiers_[i].set_settings(settings.classes);
     load.load_class = classifiers_[i].Update(ratio, stamp);
   }
@@ -320,7 +325,7 @@ void LoadEstimator::Classify(const LoadSettings& settings, std::int64_t stamp) {
   const LoadClass of_compression =
       compression_.Update(forces.lumbar ? LumbarRatio(*forces.lumbar) : kNothing, stamp);
   JointLoad& lumbar = result_.loads[0];
-  if (counts && lumbar.load_class != LoadClass::kUnknown && of_compression > lumbar.load_class) {
+  if (counts && !lumbar.is_external && lumbar.load_class != LoadClass::kUnknown && of_compression > lumbar.load_class) {
     lumbar.load_class = of_compression;
     lumbar.class_is_of_compression = true;
   }

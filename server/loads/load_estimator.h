@@ -69,6 +69,7 @@ class LoadEstimator {
   std::array<LoadClassifier, 15> classifiers_;
   LoadClassifier compression_;
   std::optional<LoadMetric> last_metric_;
+  std::array<bool, 15> was_external_{};  // by scored joint
   std::array<bool, 2> hand_is_lost_{};  // its sensor stopped
   // Sitting or leaning: since when the CoP has been on the other side of the limit.
   bool suspects_contact_ = false;

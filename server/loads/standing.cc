@@ -25,10 +25,11 @@ bool FindTotal(const StandingInput& input, const MeasuredGroundForce* measured,
   const Wrench required = RequiredGroundWrench(input.links, input.demand, input.hands);
   if (measured != nullptr) {
     standing.is_measured = true;
-    standing.force = measured->force;
+    standing.force = measured->only_point ? required.force : measured->force;
     if (measured->only_vertical) standing.force.head<2>() = required.force.head<2>();
     standing.cop = {measured->point.head<2>(), measured->free_moment};
-    return true;
+    return !measured->only_point ||
+           FindCenterOfPressure(required, input.floor_z, input.mass_kg).has_value();
   }
   standing.force = required.force;
   standing.cop = FindCenterOfPressure(required, input.floor_z, input.mass_kg);

@@ -8,20 +8,14 @@
 #include <optional>
 #include <string_view>
 
+#include "server/core/force_inputs.h"
 #include "server/loads/foot_contact.h"
 #include "server/loads/ground.h"
 #include "server/loads/inverse_dynamics.h"
 
 namespace kinescope::loads {
 
-/// A ground force by sensors, on the person. World frame.
-struct MeasuredGroundForce {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  // N
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // CoP, m
-  double free_moment = 0;                           // N m, about the vertical there
-  bool only_vertical = false;  // a plate of one axis: x and y are taken from the motion
-  std::int64_t stamp_nanos = 0;
-};
+using kinescope::MeasuredGroundForce;
 
 /// What is fresh of what was measured; null: nothing is.
 struct GroundSensors {

@@ -51,8 +51,8 @@ XmlRpcValue Typed(const std::string& text) {
 
 }  // namespace
 
-Announcer::Announcer(std::string initial_urdf, bool with_tf)
-    : initial_urdf_(std::move(initial_urdf)), with_tf_(with_tf) {
+Announcer::Announcer(std::string initial_urdf, bool with_tf, InputWiring wiring)
+    : initial_urdf_(std::move(initial_urdf)), with_tf_(with_tf), wiring_(std::move(wiring)) {
   status_.master_uri = ros::master::getURI();
   // roscpp would otherwise try for ever when the master goes while it registers something.
   ros::master::setRetryTimeout(ros::WallDuration(1));
@@ -66,7 +66,11 @@ Announcer::~Announcer() {
   }
   changed_.notify_all();
   thread_.join();
-  if (node_) LeaveRos();  // before the publishers go, each of which would take leave by itself
+  if (!node_) return;
+  // Callbacks that have not been taken yet will not be: they hold boxes, and the queue goes next.
+  wiring_.queue->disable();
+  wiring_.queue->clear();
+  LeaveRos();  // before the publishers go, each of which would take leave by itself
 }
 
 void Announcer::SetPerson(int character, std::shared_ptr<const PersonModel> model) {
@@ -98,9 +102,30 @@ std::shared_ptr<const PersonTopics> Announcer::TopicsOf(int character) const {
   return slot == slots_.end() ? nullptr : slot->second.topics;
 }
 
+void Announcer::WantTransforms() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (wants_transforms_) return;
+    wants_transforms_ = true;
+    has_work_ = true;
+  }
+  changed_.notify_all();
+}
+
 BridgeStatus Announcer::status() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return status_;
+  BridgeStatus status = status_;
+  const auto add = [&](const std::string& prefix, const PersonTopics* topics) {
+    if (topics == nullptr) return;
+    for (auto& [topic, counters] : topics->inputs->counters()) {
+      status.inputs[prefix + topic] = counters;
+    }
+  };
+  add("", first_topics_.get());
+  for (const auto& [character, slot] : slots_) {
+    if (!slot.prefix.empty()) add(slot.prefix, slot.topics.get());
+  }
+  return status;
 }
 
 bool Announcer::WaitForNext() {
@@ -121,10 +146,13 @@ void Announcer::Run() {
       registered_.clear();
       described_.clear();
       has_arguments_ = false;
+      inputs_.clear();  // roscpp tells a master of a subscriber once
+      transforms_.clear();
     }
     if (!node_) Start();
     AdvertiseMissing();
     if (!RegisterAll()) continue;
+    Subscribe();
     if (!is_known && was_announced_) {
       spdlog::info("the ROS master was restarted: all topics are announced again");
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -183,8 +211,37 @@ std::shared_ptr<const PersonTopics> Announcer::Advertise(const std::string& pref
   topics->com_stamped = Topic<geometry_msgs::PointStamped>(prefix + "com_stamped");
   topics->cop = Topic<geometry_msgs::PointStamped>(prefix + "cop");
   topics->markers = Topic<visualization_msgs::MarkerArray>(prefix + "markers");
+  topics->joint_loads = Topic<kinescope_ros::JointLoadArray>(prefix + "joint_loads");
+  topics->inputs = boxes_[prefix] = wiring_.make_box();
   if (with_tf_) topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
   return topics;
+}
+
+void Announcer::Subscribe() {
+  for (const auto& [prefix, box] : boxes_) {
+    if (inputs_.count(prefix) == 0) {
+      inputs_[prefix] = SubscribeForces(*node_, prefix, *wiring_.queue, box);
+    }
+  }
+  bool wants_transforms = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    wants_transforms = wants_transforms_;
+  }
+  if (!wants_transforms || !transforms_.empty()) return;
+  transforms_ = {SubscribeTransforms("/tf", false), SubscribeTransforms("/tf_static", true)};
+}
+
+ros::Subscriber Announcer::SubscribeTransforms(const char* topic, bool is_static) {
+  using Event = ros::MessageEvent<const tf2_msgs::TFMessage>;
+  ros::SubscribeOptions options;
+  options.initByFullCallbackType<const Event&>(
+      topic, kQueue, [take = wiring_.on_transforms, is_static](const Event& event) {
+        if (event.getPublisherName() == ros::this_node::getName()) return;
+        take(*event.getConstMessage(), is_static);
+      });
+  options.callback_queue = wiring_.queue;
+  return node_->subscribe(options);
 }
 
 // roscpp registers a topic when it is advertised, and never again. So this is said to every master

@@ -5,6 +5,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <atomic>
+#include <cmath>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,8 @@
 #include "server/core/check.h"
 #include "server/core/errors.h"
 #include "server/ros/announcer.h"
+#include "server/ros/force_boxes.h"
+#include "server/ros/joint_loads.h"
 #include "server/ros/joint_states.h"
 #include "server/ros/link_states.h"
 #include "server/ros/markers.h"
@@ -38,6 +41,7 @@ struct Outlet {
   xsens_mvn_ros_msgs::LinkStateArray link_states;
   geometry_msgs::PointStamped com, cop;
   visualization_msgs::MarkerArray markers;
+  kinescope_ros::JointLoadArray joint_loads;
   tf2_msgs::TFMessage transforms;
 };
 
@@ -49,7 +53,14 @@ bool IsNew(const BodySample& sample, const Outlet& outlet) {
 class Bridge : public RosBridge {
  public:
   explicit Bridge(const BridgeConfig& config)
-      : config_(config), announcer_(config.initial_urdf, config.tf != "off") {}
+      : config_(config), announcer_(config.initial_urdf, config.tf != "off", MakeWiring()) {}
+
+  void TakeInputs(InputSink& sink) override {
+    queue_.callAvailable(ros::WallDuration(0));
+    for (auto& [character, outlet] : outlets_) {
+      if (outlet.topics) outlet.topics->inputs->Deliver(character, sink);
+    }
+  }
 
   void Publish(const SceneState& state) override {
     if (state.liveness == Liveness::kStale && !is_stale_) PublishStaleMarkers();
@@ -71,6 +82,20 @@ class Bridge : public RosBridge {
   }
 
  private:
+  InputWiring MakeWiring() {
+    InputWiring wiring;
+    wiring.queue = &queue_;
+    wiring.make_box = [this] {
+      return std::make_shared<ForceBox>(
+          ForceSettings{config_.reference_frame, config_.external_scale, config_.check_hand_load,
+                        transforms_, [this] { announcer_.WantTransforms(); }});
+    };
+    wiring.on_transforms = [this](const tf2_msgs::TFMessage& message, bool is_static) {
+      transforms_->Add(message, is_static);
+    };
+    return wiring;
+  }
+
   Outlet& OutletOf(const PersonState& person) {
     const auto found = outlets_.find(person.character);
     if (found != outlets_.end() && found->second.model == person.model) return found->second;
@@ -92,6 +117,7 @@ class Bridge : public RosBridge {
       ++missed_;
       return;
     }
+    outlet.topics->inputs->SetBody(person, state.floor_z);
     Send(state, person, *outlet.topics, outlet);
     ++published_;
   }
@@ -123,10 +149,14 @@ class Bridge : public RosBridge {
       FillPoint(person, frame, *person.cop, outlet.cop);
       topics.cop.publish(outlet.cop);
     }
+    if (topics.joint_loads.getNumSubscribers() > 0) {
+      FillJointLoads(person, frame, outlet.joint_loads);
+      topics.joint_loads.publish(outlet.joint_loads);
+    }
     // Filled without a subscriber too: they may have to turn grey when there is one.
     FillMarkers(person, outlet.names, frame,
                 config_.tf == "off" ? MarkerFrames::kReference : MarkerFrames::kLinks,
-                outlet.markers);
+                state.floor_z, outlet.markers);
     topics.markers.publish(outlet.markers);
   }
 
@@ -148,6 +178,8 @@ class Bridge : public RosBridge {
   }
 
   const BridgeConfig config_;
+  ros::CallbackQueue queue_;  // taken by the publishing thread
+  const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // that thread's
   Announcer announcer_;
   std::atomic<std::uint64_t> published_ = 0;
   std::atomic<std::uint64_t> missed_ = 0;
@@ -177,6 +209,12 @@ std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mod
     throw UsageError(
         fmt::format("--reference_frame={}: expected the name of a TF frame, without a leading /",
                     config.reference_frame));
+  }
+  if (!(std::abs(config.external_scale) >= 1e-6 && std::abs(config.external_scale) <= 1e6)) {
+    throw UsageError(
+        fmt::format("--external_scale={}: expected 1, -1 or another factor from 1e-6 to "
+                    "1e6",
+                    config.external_scale));
   }
   if (mode == RosMode::kOff) return nullptr;
   if (mode == RosMode::kRequired && !MasterIsReachable()) {

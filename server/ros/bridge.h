@@ -3,10 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "server/core/force_inputs.h"
 #include "server/core/scene_state.h"
 
 namespace kinescope::ros_bridge {
@@ -21,7 +24,26 @@ struct BridgeConfig {
   /// What robot_description holds until somebody is seen; "": not set until then. RViz looks for it
   /// once, when it starts, which with one launch file is before the first sample.
   std::string initial_urdf;
+
+  /// Multiplies the moments that another program publishes: -1 where it means what the child exerts
+  /// on the parent.
+  double external_scale = 1;
+  /// "" or what is wrong with a hand load that somebody wants to set. Null: all are taken.
+  std::function<std::string(const HandLoad&)> check_hand_load;
 };
+
+/// What came on one input topic.
+struct InputCounters {
+  std::uint64_t received = 0, used = 0;
+  std::map<std::string, std::uint64_t> refused;  // by kind: "not a number"
+  std::uint64_t unknown_joints = 0;              // named in messages, none of ours
+  std::uint64_t skewed = 0;    // stamps more than kMostSkewSecs off the newest sample's
+  double worst_skew_secs = 0;  // of those; positive: later than the sample
+  std::string last_problem;    // with its values; "" while there was none
+};
+/// More than that and clocks disagree, which is reported; what is off by more than half a second is
+/// never fresh.
+inline constexpr double kMostSkewSecs = 0.2;
 
 struct BridgeStatus {
   bool master_reachable = false;  // when last asked; asked once a second
@@ -32,6 +54,15 @@ struct BridgeStatus {
   /// `rosnode kill`, or another node took our name: nothing is published any more. A program that
   /// has nothing else to do should end.
   bool told_to_stop = false;
+  std::map<std::string, InputCounters> inputs;  // by topic, as "hand_wrench/right"
+};
+
+/// Takes what was told over ROS, on the thread that calls RosBridge::TakeInputs.
+class InputSink {
+ public:
+  virtual ~InputSink() = default;
+  virtual void OnHandLoad(int character, const HandLoad& load) = 0;
+  virtual void OnMeasurements(int character, const Measurements& measured) = 0;
 };
 
 /// Publishes each state once, from the thread that made it; never blocks on the master. Destroying
@@ -46,6 +77,10 @@ class RosBridge {
   /// published before (same counter and stamp) is not published again, and no motion comes from a
   /// state that is not live; when a stream stops, its markers turn grey once. One thread calls it.
   virtual void Publish(const SceneState& state) = 0;
+
+  /// Hands on what has come on the input topics and services since the last call; waits for
+  /// nothing. The same thread as Publish: before each sample, and now and then while none come.
+  virtual void TakeInputs(InputSink& sink) = 0;
   virtual BridgeStatus status() const = 0;  // any thread
 
  protected:

@@ -1,6 +1,5 @@
 #include "server/ros/joint_states.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,16 +33,17 @@ void FillVelocities(const PersonState& person, std::size_t joints, std::vector<d
 
 void FillEfforts(const PersonState& person, std::size_t joints, std::vector<double>& out) {
   out.clear();
-  for (const JointLoad& load : person.loads) {
-    if (load.load_class == LoadClass::kUnknown || !load.moment.allFinite()) continue;
+  std::size_t row = 0;
+  for (const int joint : JointsByName()) {
+    const std::size_t at = row++;
+    const JointForce& load = person.forces.joints[At(joint)];
+    if (!load.why_unknown.empty() || !load.moment.allFinite()) continue;
     if (out.empty()) out.assign(joints, kUnknown);
-    const auto& order = JointsByName();
-    const auto row = std::find(order.begin(), order.end(), load.joint) - order.begin();
-    const auto parent = At(urdf::ParentOf(load.joint));
-    const auto child = At(urdf::ChildOf(load.joint));
+    const auto parent = At(urdf::ParentOf(joint));
+    const auto child = At(urdf::ChildOf(joint));
     Put(AxisMoments(person.links[parent].orientation, person.links[child].orientation,
-                    person.angles[At(load.joint)].y(), load.moment),
-        static_cast<std::size_t>(row), out);
+                    person.angles[At(joint)].y(), load.moment),
+        at, out);
   }
 }
 

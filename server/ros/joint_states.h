@@ -13,8 +13,10 @@
 namespace kinescope::ros_bridge {
 
 /// Positions from the poses, rad (m where a prop slides). Velocities, rad/s, where angular rates
-/// were measured, else empty. Efforts, N m, are the load moment about the axis of each joint, NaN
-/// where it is not known; empty when none is. Fingers and props have neither: NaN.
+/// were measured, else empty. Efforts, N m, are the moment that our own inverse dynamics
+/// finds about the axis of each joint as the URDF chains them (the axis after the turns before it,
+/// so that effort times velocity is power), NaN where it is not known; empty when none is. Fingers
+/// and props have neither: NaN.
 /// @pre `names` are those of person.model->human
 void FillComputedJointStates(const PersonState& person, const PersonNames& names,
                              sensor_msgs::JointState& message);

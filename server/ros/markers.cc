@@ -1,5 +1,6 @@
 #include "server/ros/markers.h"
 
+#include "server/core/held_look.h"
 #include "server/core/palette.h"
 #include "server/ros/convert.h"
 #include "server/ros/stamp.h"
@@ -12,6 +13,9 @@ using visualization_msgs::Marker;
 constexpr char kLoads[] = "loads";
 constexpr char kCom[] = "com";
 constexpr char kCop[] = "cop";
+constexpr char kSupport[] = "support";
+constexpr char kForces[] = "foot_forces";
+constexpr char kHeld[] = "held";
 
 void SetColor(const Rgb& rgb, Marker& marker) {
   marker.color.r = static_cast<float>(rgb[0]);
@@ -51,17 +55,26 @@ class Writer {
     Set(marker.scale, size);
     SetColor(color, marker);
     marker.lifetime = ros::Duration(kMarkerLifetime);
+    marker.text.clear();
+    marker.points.clear();
     return marker;
   }
 
-  void AddToLink(int segment, const char* ns, int id, const Eigen::Vector3d& position,
-                 double radius, const Rgb& color) {
+  // Of points in the reference frame.
+  Marker& AddShape(const char* ns, int id, int type, const Eigen::Vector3d& size,
+                   const Rgb& color) {
+    return Add(ns, id, type, Eigen::Vector3d::Zero(), size, color);
+  }
+
+  Marker& AddToLink(int segment, const char* ns, int id, const Eigen::Vector3d& position,
+                    double radius, const Rgb& color) {
     Marker& marker = Add(ns, id, Marker::SPHERE, position, Cube(2 * radius), color);
-    if (frames_ == MarkerFrames::kReference) return;
+    if (frames_ == MarkerFrames::kReference) return marker;
     const urdf::Pose& link = person_.links[At(segment)];
     marker.header.frame_id = names_.links[At(segment)];
     marker.frame_locked = true;
     Set(marker.pose.position, link.orientation.conjugate() * (position - link.position));
+    return marker;
   }
 
   void Finish() { message_.markers.resize(next_); }
@@ -76,16 +89,58 @@ class Writer {
   std::size_t next_ = 0;
 };
 
+geometry_msgs::Point PointAt(const Eigen::Vector3d& position) {
+  geometry_msgs::Point point;
+  Set(point, position);
+  return point;
+}
+
+void AddSupport(const BodyForces& forces, double floor_z, Writer& out) {
+  if (forces.support.size < 2) return;
+  constexpr double kLineWidth = 0.006;
+  Marker& line = out.AddShape(kSupport, 0, Marker::LINE_STRIP, {kLineWidth, 0, 0}, kSupportColor);
+  for (std::size_t i = 0; i <= forces.support.size; ++i) {  // and back to the first
+    const Eigen::Vector2d& corner = forces.support.corners[i % forces.support.size];
+    line.points.push_back(PointAt({corner.x(), corner.y(), floor_z}));
+  }
+}
+
+void AddFootForces(const BodyForces& forces, Writer& out) {
+  constexpr double kLeastForce = 20;  // N; shorter arrows are dots
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const FootForce& foot = forces.feet[side];
+    if (!(foot.force.norm() > kLeastForce) || !foot.cop.allFinite()) continue;
+    Marker& arrow = out.AddShape(kForces, side, Marker::ARROW, {0.02, 0.04, 0}, kCopColor);
+    arrow.points = {PointAt(foot.cop), PointAt(foot.cop + kMetresPerNewton * foot.force)};
+  }
+}
+
+void AddHeld(const PersonState& person, Writer& out) {
+  const HeldSolids held = HeldBy(person);
+  for (std::size_t i = 0; i < held.count; ++i) {
+    const HeldSolid& solid = held.solids[i];
+    const bool is_box = solid.kind == HeldSolid::Kind::kBox;
+    const Eigen::Vector3d size =
+        is_box ? solid.size
+               : Eigen::Vector3d(2 * solid.size.x(), 2 * solid.size.y(), solid.size.z());
+    Marker& marker = out.Add(kHeld, static_cast<int>(i), is_box ? Marker::CUBE : Marker::CYLINDER,
+                             solid.pose.position, size, kHeldColor);
+    Set(marker.pose.orientation, solid.pose.orientation);
+  }
+}
+
 }  // namespace
 
 void FillMarkers(const PersonState& person, const PersonNames& names,
-                 const std::string& reference_frame, MarkerFrames frames,
+                 const std::string& reference_frame, MarkerFrames frames, double floor_z,
                  visualization_msgs::MarkerArray& message) {
   Writer out(message, person, names, reference_frame, frames);
   const double stature = person.model->human.skeleton.height;
   for (const JointLoad& load : person.loads) {
-    out.AddToLink(urdf::ChildOf(load.joint), kLoads, load.joint, load.position,
-                  SphereRadius(load.joint, load.load_class, stature), ColorOf(load.load_class));
+    Marker& sphere =
+        out.AddToLink(urdf::ChildOf(load.joint), kLoads, load.joint, load.position,
+                      SphereRadius(load.joint, load.load_class, stature), ColorOf(load.load_class));
+    sphere.text = load.reason;
   }
   if (person.com) {
     out.AddToLink(urdf::kPelvis, kCom, 0, *person.com, kComRadius, kComColor);
@@ -94,6 +149,9 @@ void FillMarkers(const PersonState& person, const PersonNames& names,
     out.Add(kCop, 0, Marker::CYLINDER, *person.cop, {2 * kCopRadius, 2 * kCopRadius, kCopThickness},
             kCopColor);
   }
+  AddSupport(person.forces, floor_z, out);
+  AddFootForces(person.forces, out);
+  AddHeld(person, out);
   out.Finish();
 }
 
@@ -103,7 +161,7 @@ void MakeStale(double stature, visualization_msgs::MarkerArray& message) {
     marker.lifetime = ros::Duration(0);  // stays
     if (marker.ns == kLoads) {
       Set(marker.scale, Cube(2 * SphereRadius(marker.id, LoadClass::kUnknown, stature)));
-    } else if (marker.ns == kCop) {
+    } else if (marker.ns == kCop || marker.ns == kForces) {
       marker.action = Marker::DELETE;
     }
   }

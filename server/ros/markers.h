@@ -28,14 +28,21 @@ enum class MarkerFrames {
   kLinks,
 };
 
-/// ns "loads": a sphere for each scored joint, id = urdf::Joint. ns "com": a sphere, id 0. ns
-/// "cop": a disc on the floor, id 0, always in the reference frame.
+/// An arrow of a metre is 1000 N.
+inline constexpr double kMetresPerNewton = 1e-3;
+
+/// ns "loads": a sphere for each scored joint, id = urdf::Joint, its text the reason where the load
+/// is not known. ns "com": a sphere, id 0. Always in the reference frame: ns "cop": a disc on the
+/// floor, id 0; "support": the border of what the feet can push on, id 0; "foot_forces": an arrow
+/// for each foot, id = urdf::Side; "held": what the hands hold, in a few solids. What is not there
+/// or not known has no marker.
 void FillMarkers(const PersonState& person, const PersonNames& names,
-                 const std::string& reference_frame, MarkerFrames frames,
+                 const std::string& reference_frame, MarkerFrames frames, double floor_z,
                  visualization_msgs::MarkerArray& message);
 
 /// Turns the markers last sent into those of a stream that stopped: grey, of the size of unknown
-/// loads, and there until something new comes. The centre of pressure goes: no force is known now.
+/// loads, and there until something new comes. The centre of pressure and arrows go: no force is
+/// known now.
 void MakeStale(double stature, visualization_msgs::MarkerArray& message);
 
 }  // namespace kinescope::ros_bridge

@@ -19,7 +19,7 @@ PersonState Person() {
 visualization_msgs::MarkerArray Of(const PersonState& person,
                                    MarkerFrames frames = MarkerFrames::kReference) {
   visualization_msgs::MarkerArray message;
-  FillMarkers(person, PersonNames("skeleton"), "world", frames, message);
+  FillMarkers(person, PersonNames("skeleton"), "world", frames, 0, message);
   return message;
 }
 
@@ -86,7 +86,7 @@ TEST(Markers, OfAnEarlierSampleAreNotCarriedOver) {
   auto message = Of(person);
   person.cop.reset();
   person.loads.pop_back();
-  FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference, message);
+  FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference, 0, message);
   ASSERT_EQ(message.markers.size(), person.loads.size() + 1);
   EXPECT_EQ(message.markers.back().ns, "com");
 }
@@ -102,7 +102,7 @@ TEST(Markers, OfAStreamThatStoppedAreGreySmallAndStay) {
     if (marker.ns != "loads") continue;
     EXPECT_EQ(marker.scale.y, 2 * SphereRadius(marker.id, LoadClass::kUnknown, 1.6));
   }
-  FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference,
+  FillMarkers(person, PersonNames("skeleton"), "world", MarkerFrames::kReference, 0,
               message);  // the stream came back
   ExpectColor(ColorOf(person.loads[0].load_class), message.markers[0]);
   EXPECT_EQ(message.markers.back().action, Marker::ADD);

@@ -1,0 +1,279 @@
+#include "server/ros/force_boxes.h"
+
+#include <ros/advertise_service_options.h>
+#include <ros/subscribe_options.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+#include <utility>
+
+namespace kinescope::ros_bridge {
+namespace {
+
+constexpr char kHandLoad[] = "hand_load";
+constexpr char kSetHandLoad[] = "set_hand_load";
+constexpr std::array<const char*, 2> kHandWrench = {"hand_wrench/right", "hand_wrench/left"};
+constexpr std::array<const char*, 2> kFootWrench = {"foot_wrench/right", "foot_wrench/left"};
+constexpr char kGroundWrench[] = "ground_wrench";
+constexpr char kGroundCop[] = "ground_cop";
+constexpr char kExternalLoads[] = "external_loads";
+constexpr char kExternalJointStates[] = "external_joint_states";
+
+// Of sensors that are faster than the suit only the newest counts.
+constexpr std::uint32_t kQueue = 32;
+
+double SecsBetween(std::int64_t later, std::int64_t earlier) {
+  return static_cast<double>(later - earlier) * 1e-9;
+}
+
+// Whether two measurements belong together.
+bool AreOfOneTime(std::int64_t a, std::int64_t b) {
+  return std::abs(SecsBetween(a, b)) <= kMostSkewSecs;
+}
+
+}  // namespace
+
+void ForceBox::SetBody(const PersonState& person, double floor_z) {
+  model_ = person.model->human.model_name;
+  body_ = BodyNow{person.links, person.model->human.skeleton, floor_z, person.sample.stamp_nanos};
+}
+
+void ForceBox::Deliver(int character, InputSink& sink) {
+  if (told_) {
+    sink.OnHandLoad(character, *told_);
+    told_.reset();
+  }
+  if (!has_news_) return;
+  has_news_ = false;
+  sink.OnMeasurements(character, measured_);
+}
+
+std::map<std::string, InputCounters> ForceBox::counters() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return counters_;
+}
+
+void ForceBox::Use(const char* topic) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++counters_[topic].received;
+  ++counters_[topic].used;
+}
+
+void ForceBox::Refuse(const char* topic, const Refusal& refusal) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  InputCounters& counters = counters_[topic];
+  ++counters.received;
+  ++counters.refused[refusal.kind];
+  counters.last_problem = refusal.text;
+}
+
+// A header without a time is as new as the sample; that one's stamp is what it is compared with.
+std::int64_t ForceBox::StampOf(const char* topic, const std_msgs::Header& header) {
+  if (header.stamp.isZero()) return body_->stamp_nanos;
+  const auto stamp = static_cast<std::int64_t>(header.stamp.toNSec());
+  const double skew = SecsBetween(stamp, body_->stamp_nanos);
+  if (std::abs(skew) <= kMostSkewSecs) return stamp;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  InputCounters& counters = counters_[topic];
+  ++counters.skewed;
+  if (std::abs(skew) > std::abs(counters.worst_skew_secs)) counters.worst_skew_secs = skew;
+  counters.last_problem =
+      fmt::format("stamp {:+.3f} s from the newest sample's: are the clocks set?", skew);
+  return stamp;
+}
+
+std::optional<FoundFrame> ForceBox::Place(const char* topic, const std_msgs::Header& header) {
+  if (!body_) {
+    Refuse(topic, {"nobody is here", "nobody has been seen whom it could be measured on"});
+    return std::nullopt;
+  }
+  const auto stamp = static_cast<std::int64_t>(header.stamp.toNSec());
+  auto frame =
+      FindFrame(header.frame_id, stamp, settings_.reference_frame, model_, *body_, *settings_.tf);
+  if (!frame) {
+    settings_.want_tf();
+    Refuse(topic, {"unknown frame",
+                   fmt::format("frame '{}': neither '{}' nor a link, and not in /tf",
+                               header.frame_id.substr(0, 64), settings_.reference_frame)});
+  }
+  return frame;
+}
+
+std::string ForceBox::TakeHandLoad(const char* topic, double right_kg, double left_kg,
+                                   double both_kg) {
+  HandLoad load;
+  load.is_known = true;
+  load.mass_kg = {right_kg, left_kg};
+  load.both_kg = both_kg;
+  const std::string wrong =
+      settings_.check_hand_load ? settings_.check_hand_load(load) : std::string();
+  if (!wrong.empty()) {
+    Refuse(topic, {"bad load", wrong});
+    return wrong;
+  }
+  Use(topic);
+  told_ = load;
+  // Sensors that have stopped no longer stand in the way of what is known now.
+  for (auto& hand : measured_.hands) {
+    if (hand && body_ && !AreOfOneTime(hand->stamp_nanos, body_->stamp_nanos)) {
+      hand.reset();
+      has_news_ = true;
+    }
+  }
+  return "";
+}
+
+void ForceBox::OnHandLoad(const kinescope_ros::HandLoad& message) {
+  TakeHandLoad(kHandLoad, message.right_kg, message.left_kg, message.both_kg);
+}
+
+bool ForceBox::OnSetHandLoad(kinescope_ros::SetHandLoad::Request& request,
+                             kinescope_ros::SetHandLoad::Response& response) {
+  response.message = TakeHandLoad(kSetHandLoad, request.right_kg, request.left_kg, request.both_kg);
+  response.success = response.message.empty();
+  return true;
+}
+
+void ForceBox::OnHandWrench(urdf::Side side, const geometry_msgs::WrenchStamped& message) {
+  const char* const topic = kHandWrench[side];
+  const auto frame = Place(topic, message.header);
+  if (!frame) return;
+  auto hand = ToHandForce(message, *frame, side, *body_);
+  if (!hand) return Refuse(topic, hand.error());
+  hand->stamp_nanos = StampOf(topic, message.header);
+  measured_.hands[side] = *hand;
+  has_news_ = true;
+  Use(topic);
+}
+
+void ForceBox::OnFootWrench(urdf::Side side, const geometry_msgs::WrenchStamped& message) {
+  const char* const topic = kFootWrench[side];
+  const auto frame = Place(topic, message.header);
+  if (!frame) return;
+  auto foot = ToGroundForce(message, *frame, *body_);
+  if (!foot) return Refuse(topic, foot.error());
+  foot->stamp_nanos = StampOf(topic, message.header);
+  measured_.feet[side] = *foot;
+  has_news_ = true;
+  Use(topic);
+}
+
+void ForceBox::OnGroundWrench(const geometry_msgs::WrenchStamped& message) {
+  const auto frame = Place(kGroundWrench, message.header);
+  if (!frame) return;
+  auto ground = ToGroundForce(message, *frame, *body_);
+  if (!ground) return Refuse(kGroundWrench, ground.error());
+  ground->stamp_nanos = StampOf(kGroundWrench, message.header);
+  ground_wrench_ = *ground;
+  CombineGround();
+  Use(kGroundWrench);
+}
+
+void ForceBox::OnGroundCop(const geometry_msgs::PointStamped& message) {
+  const auto frame = Place(kGroundCop, message.header);
+  if (!frame) return;
+  const auto cop = ToCop(message, *frame, *body_);
+  if (!cop) return Refuse(kGroundCop, cop.error());
+  ground_cop_ = *cop;
+  ground_cop_nanos_ = StampOf(kGroundCop, message.header);
+  CombineGround();
+  Use(kGroundCop);
+}
+
+// A measured CoP says better where a measured force acts than the moments beside it; alone it goes
+// with the force that the motion asks for.
+void ForceBox::CombineGround() {
+  has_news_ = true;
+  const bool has_cop = ground_cop_.has_value();
+  if (ground_wrench_ && (!has_cop || ground_wrench_->stamp_nanos >= ground_cop_nanos_ ||
+                         AreOfOneTime(ground_wrench_->stamp_nanos, ground_cop_nanos_))) {
+    measured_.ground = ground_wrench_;
+    const bool is_current = has_cop && AreOfOneTime(ground_wrench_->stamp_nanos, ground_cop_nanos_);
+    if (is_current) measured_.ground->point = *ground_cop_;
+    return;
+  }
+  MeasuredGroundForce ground;
+  ground.only_point = true;
+  ground.point = *ground_cop_;
+  ground.stamp_nanos = ground_cop_nanos_;
+  measured_.ground = ground;
+}
+
+void ForceBox::UseExternal(const char* topic, const Taken<ExternalLoads>& loads,
+                           std::int64_t stamp_nanos) {
+  if (!loads) return Refuse(topic, loads.error());
+  for (std::size_t joint = 0; joint < loads->joints.size(); ++joint) {
+    if (!loads->is_given[joint]) continue;
+    measured_.joints[joint] = loads->joints[joint];
+    measured_.joints[joint].stamp_nanos = stamp_nanos;
+  }
+  has_news_ = true;
+  Use(topic);
+  if (loads->unknown_joints == 0) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  counters_[topic].unknown_joints += static_cast<std::uint64_t>(loads->unknown_joints);
+}
+
+void ForceBox::OnExternalLoads(const kinescope_ros::JointLoadArray& message) {
+  const auto frame = Place(kExternalLoads, message.header);
+  if (!frame) return;
+  UseExternal(kExternalLoads, ToExternalLoads(message, *frame, settings_.external_scale),
+              StampOf(kExternalLoads, message.header));
+}
+
+void ForceBox::OnExternalJointStates(const sensor_msgs::JointState& message) {
+  if (!body_) {
+    return Refuse(kExternalJointStates,
+                  {"nobody is here", "nobody has been seen whose joints these could be"});
+  }
+  UseExternal(kExternalJointStates, ToExternalLoads(message, *body_, settings_.external_scale),
+              StampOf(kExternalJointStates, message.header));
+}
+
+ForceSubscriptions SubscribeForces(ros::NodeHandle& node, const std::string& prefix,
+                                   ros::CallbackQueue& queue,
+                                   const std::shared_ptr<ForceBox>& box) {
+  ForceSubscriptions all;
+  const auto hear = [&](const std::string& name, auto take, auto message) {
+    using Message = decltype(message);
+    auto options = ros::SubscribeOptions::create<Message>(
+        prefix + name, kQueue,
+        [box, take](const boost::shared_ptr<const Message>& heard) { take(*box, *heard); },
+        ros::VoidConstPtr(), &queue);
+    options.transport_hints = ros::TransportHints().tcpNoDelay();
+    all.subscribers.push_back(node.subscribe(options));
+  };
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    hear(
+        kHandWrench[side], [side](ForceBox& b, const auto& m) { b.OnHandWrench(side, m); },
+        geometry_msgs::WrenchStamped());
+    hear(
+        kFootWrench[side], [side](ForceBox& b, const auto& m) { b.OnFootWrench(side, m); },
+        geometry_msgs::WrenchStamped());
+  }
+  hear(
+      kGroundWrench, [](ForceBox& b, const auto& m) { b.OnGroundWrench(m); },
+      geometry_msgs::WrenchStamped());
+  hear(
+      kGroundCop, [](ForceBox& b, const auto& m) { b.OnGroundCop(m); },
+      geometry_msgs::PointStamped());
+  hear(
+      kExternalLoads, [](ForceBox& b, const auto& m) { b.OnExternalLoads(m); },
+      kinescope_ros::JointLoadArray());
+  hear(
+      kExternalJointStates, [](ForceBox& b, const auto& m) { b.OnExternalJointStates(m); },
+      sensor_msgs::JointState());
+  hear(
+      kHandLoad, [](ForceBox& b, const auto& m) { b.OnHandLoad(m); }, kinescope_ros::HandLoad());
+  using Service = kinescope_ros::SetHandLoad;
+  auto service = ros::AdvertiseServiceOptions::create<Service>(
+      prefix + kSetHandLoad,
+      [box](Service::Request& request, Service::Response& response) {
+        return box->OnSetHandLoad(request, response);
+      },
+      ros::VoidConstPtr(), &queue);
+  all.service = node.advertiseService(service);
+  return all;
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,97 @@
+/// One person's input topics: measured forces, loads computed elsewhere, what the hands hold
+/// (docs/ros.md). The announcer's thread subscribes; messages are taken by whoever calls the queue,
+/// the thread that reads samples, and wait in the box for the next sample.
+#pragma once
+
+#include <geometry_msgs/PointStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <kinescope/HandLoad.h>
+#include <kinescope/JointLoadArray.h>
+#include <kinescope/SetHandLoad.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <sensor_msgs/JointState.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/ros/bridge.h"
+#include "server/ros/force_frames.h"
+#include "server/ros/force_input.h"
+
+namespace kinescope::ros_bridge {
+
+/// What is the same for all people.
+struct ForceSettings {
+  std::string reference_frame;
+  double external_scale = 1;
+  std::function<std::string(const HandLoad&)> check_hand_load;  // null: all are taken
+  std::shared_ptr<const TfTree> tf;
+  std::function<void()> want_tf;  // a frame is neither ours nor in `tf`; waits for nothing
+};
+
+class ForceBox {
+ public:
+  explicit ForceBox(ForceSettings settings) : settings_(std::move(settings)) {}
+
+  // The thread that reads samples.
+
+  /// The newest sample of the person whose box this is.
+  void SetBody(const PersonState& person, double floor_z);
+  /// Hands on what is new.
+  void Deliver(int character, InputSink& sink);
+
+  void OnHandLoad(const kinescope_ros::HandLoad& message);
+  bool OnSetHandLoad(kinescope_ros::SetHandLoad::Request& request,
+                     kinescope_ros::SetHandLoad::Response& response);
+  void OnHandWrench(urdf::Side side, const geometry_msgs::WrenchStamped& message);
+  void OnFootWrench(urdf::Side side, const geometry_msgs::WrenchStamped& message);
+  void OnGroundWrench(const geometry_msgs::WrenchStamped& message);
+  void OnGroundCop(const geometry_msgs::PointStamped& message);
+  void OnExternalLoads(const kinescope_ros::JointLoadArray& message);
+  void OnExternalJointStates(const sensor_msgs::JointState& message);
+
+  /// By topic. Any thread.
+  std::map<std::string, InputCounters> counters() const;
+
+ private:
+  std::string TakeHandLoad(const char* topic, double right_kg, double left_kg, double both_kg);
+  std::optional<FoundFrame> Place(const char* topic, const std_msgs::Header& header);
+  std::int64_t StampOf(const char* topic, const std_msgs::Header& header);
+  void Refuse(const char* topic, const Refusal& refusal);
+  void Use(const char* topic);
+  void UseExternal(const char* topic, const Taken<ExternalLoads>& loads, std::int64_t stamp_nanos);
+  void CombineGround();
+
+  const ForceSettings settings_;
+
+  // The thread that reads samples.
+  std::optional<BodyNow> body_;
+  std::string model_;
+  Measurements measured_;
+  std::optional<MeasuredGroundForce> ground_wrench_;
+  std::optional<Eigen::Vector3d> ground_cop_;
+  std::int64_t ground_cop_nanos_ = 0;
+  bool has_news_ = false;
+  std::optional<HandLoad> told_;
+
+  mutable std::mutex mutex_;
+  std::map<std::string, InputCounters> counters_;  // guarded by mutex_
+};
+
+/// The connections that fill a box. They end with it; a master that forgot us needs new ones.
+struct ForceSubscriptions {
+  std::vector<ros::Subscriber> subscribers;
+  ros::ServiceServer service;
+};
+
+/// Below `prefix` ("" or "<model>/") of the private names of `node`. Asks the master: may wait.
+ForceSubscriptions SubscribeForces(ros::NodeHandle& node, const std::string& prefix,
+                                   ros::CallbackQueue& queue, const std::shared_ptr<ForceBox>& box);
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,84 @@
+#include "server/ros/force_frames.h"
+
+#include <tf2/exceptions.h>
+
+#include <cmath>
+
+#include "server/ros/stamp.h"
+#include "urdf/segments.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+bool IsGood(const geometry_msgs::TransformStamped& stamped) {
+  const auto& p = stamped.transform.translation;
+  const auto& q = stamped.transform.rotation;
+  const double norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+  constexpr double kMostOff = 0.01;
+  return !stamped.child_frame_id.empty() && !stamped.header.frame_id.empty() &&
+         stamped.child_frame_id != stamped.header.frame_id && std::isfinite(p.x) &&
+         std::isfinite(p.y) && std::isfinite(p.z) && std::abs(norm - 1) < kMostOff;
+}
+
+std::string_view WithoutModel(std::string_view frame, const std::string& model) {
+  const bool has_model = frame.size() > model.size() + 1 && frame[model.size()] == '_' &&
+                         frame.compare(0, model.size(), model) == 0;
+  return has_model ? frame.substr(model.size() + 1) : frame;
+}
+
+}  // namespace
+
+int TfTree::Add(const tf2_msgs::TFMessage& message, bool is_static) {
+  int refused = 0;
+  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    const bool good = IsGood(transform) && buffer_.setTransform(transform, "/tf", is_static);
+    refused += good ? 0 : 1;
+  }
+  return refused;
+}
+
+std::optional<urdf::Pose> TfTree::Find(const std::string& target, const std::string& frame,
+                                       std::int64_t stamp_nanos) const {
+  for (const ros::Time& time : {ToRosTime(stamp_nanos), ros::Time(0)}) {
+    if (!buffer_.canTransform(target, frame, time)) continue;
+    try {
+      const auto found = buffer_.lookupTransform(target, frame, time);
+      const auto& p = found.transform.translation;
+      const auto& q = found.transform.rotation;
+      return urdf::Pose{{p.x, p.y, p.z}, Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized()};
+    } catch (const tf2::TransformException&) {  // it said that it could
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<FoundFrame> FindFrame(const std::string& frame, std::int64_t stamp_nanos,
+                                    const std::string& reference_frame, const std::string& model,
+                                    const BodyNow& body, const TfTree& tf) {
+  const std::size_t start =
+      !frame.empty() && frame.front() == '/' ? 1 : 0;  // as old nodes write it
+  const std::string name = frame.substr(start);
+  if (name == reference_frame) return FoundFrame{{}, true};
+  const std::string_view link = WithoutModel(name, model);
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    const urdf::SegmentInfo& info = urdf::kSegments[At(segment)];
+    if (link == info.link_name || link == info.mvn_name) {
+      return FoundFrame{body.links[At(segment)], true};
+    }
+  }
+  if (name.empty()) return std::nullopt;
+  if (const auto pose = tf.Find(reference_frame, name, stamp_nanos)) {
+    return FoundFrame{*pose, false};
+  }
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {  // a handle strapped to a hand
+    const auto in_link = tf.Find(urdf::LinkName(model, segment), name, stamp_nanos);
+    if (!in_link) continue;
+    const urdf::Pose& link_pose = body.links[At(segment)];
+    return FoundFrame{{link_pose.position + link_pose.orientation * in_link->position,
+                       link_pose.orientation * in_link->orientation},
+                      false};
+  }
+  return std::nullopt;
+}
+
+}  // namespace kinescope::ros_bridge
