@@ -42,6 +42,19 @@ const PersonState* WithAssumedMass(const SceneState& state) {
   return nullptr;
 }
 
+// What the ratios are of, and from what: of the first person who has any.
+std::string MetricOf(const SceneState& state) {
+  for (const PersonState& person : state.people) {
+    if (person.loads.empty()) continue;
+    const BodyForces& forces = person.forces;
+    std::string text = Name(forces.metric);
+    if (forces.metric != LoadMetric::kExternal)
+      text += forces.is_dynamic ? ", dynamic" : ", static";
+    return text;
+  }
+  return "";
+}
+
 // Then there is no stream to tell of, and no load.
 bool HasOnlyRobots(const SceneState& state) {
   return state.people.empty() && !state.robots.empty();
@@ -139,10 +152,12 @@ void Overlay::PaintLegend(Page& page, const SceneState& state) {
   const int size = page.FontPx(kSmallSize);
   const double line = page.Px(21), pad = page.Px(12), column = page.Px(24);
   const PersonState* assumed = WithAssumedMass(state);
+  const std::string metric = MetricOf(state);
   const double width = 2 * pad + column +
                        std::max(f.regular.Width("centre of pressure", size),
                                 f.bold.Width("Joint load, % of capacity", size) - column);
-  const double height = 2 * pad + line * (assumed != nullptr ? 8.6 : 7.0) - page.Px(4);
+  const double notes = (metric.empty() ? 0.0 : 1.0) + (assumed != nullptr ? 1.0 : 0.0);
+  const double height = 2 * pad + line * (7.0 + notes + (notes > 0 ? 0.5 : 0.0)) - page.Px(4);
   const double left = page.Px(kMargin), top = page.height - page.Px(kMargin) - height;
   page.canvas.RoundedBox(left, top, width, height, page.Px(8), kPanel);
   double baseline = top + pad + 0.8 * size;
@@ -157,11 +172,17 @@ void Overlay::PaintLegend(Page& page, const SceneState& state) {
     page.canvas.Text(left + width - pad - f.regular.Width(row.range, size), baseline, row.range,
                      f.regular, size, kText);
   }
+  baseline += 0.5 * line;
+  const auto note = [&](const std::string& text) {
+    baseline += line;
+    page.canvas.Text(left + pad, baseline, text, f.regular, size, kFaintText);
+  };
+  if (!metric.empty()) note(metric);
   if (assumed == nullptr) return;
   char text[64];
   std::snprintf(text, sizeof text, "body mass assumed: %.0f kg",
                 assumed->model->description.mass_kg);
-  page.canvas.Text(left + pad, baseline + 1.5 * line, text, f.regular, size, kFaintText);
+  note(text);
 }
 
 void Overlay::PaintTimeCode(Page& page, const SceneState& state) {

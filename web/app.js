@@ -1,8 +1,10 @@
 // Wires the page: connection -> scene, readings, load list, picture.
-import { cameraLabel, hexColor, latency, rate, shortCameraLabel, timeCode } from './format.js';
+import { cameraLabel, centimetres, hexColor, kilonewtons, latency, rate, shortCameraLabel, timeCode }
+  from './format.js';
 import { RecentValues } from './clock.js';
 import { Connection } from './connection.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
+import { heldText, mountHandLoad } from './hand_load.js';
 import { lampOf } from './lamp.js';
 import { fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { PicturePanel } from './picture_panel.js';
@@ -53,6 +55,8 @@ const picture = new PicturePanel({
   image: element('picture-image'), note: element('picture-note'), on: element('picture-on'),
   camera: element('picture-camera'), save: element('save-picture'),
 }, (command) => connection.send(command), say);
+mountHandLoad({ form: element('hand-load'), hand: element('hand'), mass: element('hand-kg') },
+  () => details.people[0], say);
 // Pictures cost the server drawing and a phone its data: there they are asked for by hand.
 element('picture-on').checked = scene === null || matchMedia('(min-width: 900px)').matches;
 requestAnimationFrame(onFrame);
@@ -166,6 +170,7 @@ function applyPalette(palette) {
   for (const { name, color } of palette.classes) style.setProperty(`--class-${name}`, hexColor(color));
   style.setProperty('--com', hexColor(palette.com));
   style.setProperty('--cop', hexColor(palette.cop));
+  style.setProperty('--support', hexColor(palette.support));
 }
 
 async function loadCameras() {
@@ -238,12 +243,41 @@ function showPeople(isLive) {
   if (state === null || model === null) return;
   const rows = rowsOf(state, model.joints, details);
   showLoads(isLive ? rows : rows.map(asUnknown));
-  const assumed = details.people.find((person) => person.mass_is_assumed);
-  setText('loads-hint', assumed ? `a mass of ${assumed.mass_kg} kg is assumed` : 'share of the joint’s capacity');
-  element('loads-hint').classList.toggle('warn', assumed !== undefined);
   const person = state.people[0];
-  setText('com', person?.comIsOurs ? 'Centre of mass (body model)' : 'Centre of mass');
-  setText('cop', person && !person.cop ? 'Centre of pressure: unknown' : 'Centre of pressure');
+  const told = details.people.find(({ character }) => character === person?.character);
+  setText('loads-hint', person ? loadsHint(person, told) : '');
+  element('loads-hint').classList.toggle('warn', told?.mass_is_assumed === true || person?.comDisagrees === true);
+  setText('com', person ? comText(person) : 'Centre of mass');
+  setText('cop', person ? copText(person, told) : 'Centre of pressure');
+  setText('support', isLive && person && Number.isFinite(person.margin)
+    ? `Margin of stability ${centimetres(person.margin)}` : 'Support of the feet');
+  const compression = isLive && person ? person.compression : NaN;
+  element('compression-row').hidden = !Number.isFinite(compression);
+  setText('compression', Number.isFinite(compression) ? `L5/S1 compression ${kilonewtons(compression)}` : '');
+}
+
+/** What the numbers are, and what they stand on.
+ *  @param {import('./state_codec.js').Person} person
+ *  @param {any} told */
+function loadsHint(person, told) {
+  const motion = person.metric === 'external' ? '' : person.isDynamic ? ', dynamic' : ', static';
+  return [
+    `${person.metric}${motion}, % of capacity`,
+    told?.mass_is_assumed ? `mass assumed ${told.mass_kg} kg` : '',
+    heldText(told?.hand_load),
+    person.comDisagrees ? `centre of mass ${centimetres(person.comDifference)} from MVN’s` : '',
+    told?.why_other_metric ?? '',
+  ].filter(Boolean).join(' · ');
+}
+
+/** @param {import('./state_codec.js').Person} person */
+const comText = (person) => (person.comIsOurs ? 'Centre of mass (body model)' : 'Centre of mass');
+
+/** @param {import('./state_codec.js').Person} person
+ *  @param {any} told */
+function copText(person, told) {
+  if (person.cop) return person.groundIsMeasured ? 'Centre of pressure (measured)' : 'Centre of pressure';
+  return `Centre of pressure: ${told?.why_no_ground || 'unknown'}`;
 }
 
 /** What is not live has no load that could be trusted.

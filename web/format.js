@@ -29,6 +29,12 @@ export function age(seconds) {
 /** @param {number} ratio of capacity; NaN where unknown */
 export const percent = (ratio) => (Number.isFinite(ratio) ? `${Math.round(100 * ratio)} %` : '–');
 
+/** @param {number} metres */
+export const centimetres = (metres) => `${(100 * metres).toFixed(1)} cm`;
+
+/** @param {number} newtons */
+export const kilonewtons = (newtons) => `${(newtons / 1000).toFixed(2)} kN`;
+
 /** "12.3 of 60 N·m": how much, of how much.
  *  @param {number} moment  N m, signed
  *  @param {number} capacity  N m */

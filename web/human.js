@@ -9,12 +9,19 @@ const RIM = 1.14;            // radius of the dark rim of the class "high", of t
 const CREASE = 0.7;          // rad; a mesh is shaded smooth where its facets meet at less
 const MARK_LIFT = 0.004;     // m above the floor, so that disc and floor do not fight
 
+const SUPPORT_LIFT = 0.003;
+
 const unitSphere = new THREE.SphereGeometry(1, 32, 20);
+// Of what hands hold; stretched to their sizes.
+const unitBox = new THREE.BoxGeometry(1, 1, 1);
+const unitCylinder = new THREE.CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2);
+const SHARED = new Set([unitSphere, unitBox, unitCylinder]);
 
 /** @typedef {{kind: string, size: number[], position: number[], quaternion: number[],
  *    rgba: number[]|null, mesh?: string}} Visual
  *  @typedef {{character: number, revision: number, links: {name: string, visuals: Visual[]}[]}} PersonModel
  *  @typedef {{classes: {name: string, color: number[]}[], cop: number[], com: number[],
+ *    support: number[], held: number[],
  *    body: number[], stale_body: number[], object: number[], axes: number[][]}} Palette */
 
 /** @param {number[]} rgb  sRGB 0..1 */
@@ -51,6 +58,8 @@ export function makeMarkMaterials(palette) {
     com: makeShining(toColor(palette.com)),
     cop: new THREE.MeshBasicMaterial({ color: toColor(palette.cop) }),
     line: new THREE.LineBasicMaterial({ color: toColor(palette.com) }),
+    support: new THREE.LineBasicMaterial({ color: toColor(palette.support) }),
+    held: new THREE.MeshStandardMaterial({ color: toColor(palette.held), roughness: 0.6 }),
   };
 }
 
@@ -59,6 +68,7 @@ export class Human {
   /** @type {string[]} */ failedMeshes = [];
   #links = /** @type {THREE.Group[]} */ ([]);
   #materials = /** @type {Map<string, {material: THREE.MeshStandardMaterial, live: THREE.Color}>} */ (new Map());
+  #held = /** @type {THREE.Mesh[]} */ ([]);
   #spheres = /** @type {Map<number, {group: THREE.Group, rim: THREE.Mesh}>} */ (new Map());
 
   /** @param {PersonModel} model
@@ -82,7 +92,8 @@ export class Human {
       new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3(0, 0, -1)]), marks.line);
     this.comRing = new THREE.Mesh(new THREE.RingGeometry(0.035, 0.045, 40), marks.com.solid);
     this.cop = new THREE.Mesh(new THREE.CircleGeometry(0.04, 40), marks.cop);
-    this.group.add(this.com, this.comLine, this.comRing, this.cop);
+    this.support = new THREE.LineLoop(new THREE.BufferGeometry(), marks.support);
+    this.group.add(this.com, this.comLine, this.comRing, this.cop, this.support);
   }
 
   /** @param {import('./state_codec.js').Person} person
@@ -98,12 +109,14 @@ export class Human {
     });
     this.#updateSpheres(person, isLive);
     this.#updatePoints(person, isLive, floor);
+    this.#updateSupport(person, isLive, floor);
+    this.#updateHeld(person);
   }
 
   dispose() {
     this.group.removeFromParent();
     this.group.traverse((/** @type {any} */ part) => {
-      if (part.geometry && part.geometry !== unitSphere) part.geometry.dispose();
+      if (part.geometry && !SHARED.has(part.geometry)) part.geometry.dispose();
     });
     for (const { material } of this.#materials.values()) material.dispose();
   }
@@ -141,6 +154,37 @@ export class Human {
       this.comRing.position.set(com[0], com[1], floor + MARK_LIFT);
     }
     if (cop) this.cop.position.set(cop[0], cop[1], cop[2] + MARK_LIFT / 2);
+  }
+
+  /** What the feet can push on.
+   *  @param {import('./state_codec.js').Person} person
+   *  @param {boolean} isLive
+   *  @param {number} floor */
+  #updateSupport({ support }, isLive, floor) {
+    this.support.visible = isLive && support.length > 1;
+    if (!this.support.visible) return;
+    const points = support.map(([x, y]) => new THREE.Vector3(x, y, floor + SUPPORT_LIFT));
+    this.support.geometry.dispose();
+    this.support.geometry = new THREE.BufferGeometry().setFromPoints(points);
+  }
+
+  /** @param {import('./state_codec.js').Person} person */
+  #updateHeld({ held }) {
+    while (this.#held.length < held.length) {
+      const mesh = new THREE.Mesh(unitBox, this.marks.held);
+      mesh.castShadow = true;
+      this.#held.push(mesh);
+      this.group.add(mesh);
+    }
+    this.#held.forEach((mesh, i) => {
+      const solid = held[i];
+      mesh.visible = solid !== undefined;
+      if (!solid) return;
+      mesh.geometry = solid.kind === 'box' ? unitBox : unitCylinder;
+      mesh.position.fromArray(solid.position);
+      mesh.quaternion.fromArray(solid.quaternion);
+      mesh.scale.fromArray(solid.size);
+    });
   }
 
   /** @param {number} joint */

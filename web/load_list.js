@@ -1,9 +1,10 @@
 // The list of joint loads, worst first.
-import { moment, percent } from './format.js';
+import { age, moment, percent } from './format.js';
 
 /** @typedef {import('./state_codec.js').LoadClass} LoadClass
+ *  @typedef {Record<LoadClass, number>} Secs  time in each class so far, s
  *  @typedef {{key: string, label: string, loadClass: LoadClass, ratio: number, moment: number,
- *    capacity: number, channel: string, reason: string}} Row */
+ *    capacity: number, channel: string, reason: string, isExternal?: boolean, secs?: Secs}} Row */
 
 const RANK = { high: 0, medium: 1, low: 2, unknown: 3 };
 
@@ -41,14 +42,34 @@ export function byUrgency(rows, shownKeys = []) {
 export function explain(row) {
   if (row.loadClass === 'unknown' && row.reason) return row.reason;
   const amount = moment(row.moment, row.capacity);
-  return row.channel && amount ? `${amount}, ${row.channel}` : amount;
+  const channel = row.isExternal && row.channel !== 'external' ? `${row.channel}, external` : row.channel;
+  return channel && amount ? `${amount}, ${channel}` : amount || channel;
+}
+
+const CLASSES = /** @type {LoadClass[]} */ (['low', 'medium', 'high', 'unknown']);
+
+/** "low 40 s, medium 12 s, high 3 s since the start", without what did not happen; "" at first.
+ *  @param {Secs|undefined} secs */
+export function exposureText(secs) {
+  if (!secs) return '';
+  const parts = CLASSES.filter((name) => secs[name] >= 1).map((name) => `${name} ${age(secs[name])}`);
+  return parts.length > 0 ? `${parts.join(', ')} since the start` : '';
+}
+
+/** Widths of the exposure strip: shares of the time, which add up to 1; nothing yet: all 0.
+ *  @param {Secs|undefined} secs
+ *  @returns {number[]}  low, medium, high, unknown */
+export function exposureShares(secs) {
+  const all = secs ? CLASSES.reduce((sum, name) => sum + secs[name], 0) : 0;
+  return CLASSES.map((name) => (secs && all > 0 ? secs[name] / all : 0));
 }
 
 /** The rows of a state; persons are named when there are several.
  *  @param {import('./state_codec.js').State} state
  *  @param {{label: string}[]} joints
  *  @param {{people: {character: number, name: string,
- *    loads: {joint: number, channel: string, reason: string}[]}[]}} details
+ *    loads: {joint: number, channel: string, reason: string, is_external?: boolean,
+ *      secs_in_class?: Secs}[]}[]}} details
  *  @returns {Row[]} */
 export function rowsOf(state, joints, details) {
   const several = state.people.length > 1;
@@ -66,6 +87,8 @@ export function rowsOf(state, joints, details) {
         capacity: load.capacity,
         channel: words?.channel ?? '',
         reason: words?.reason ?? '',
+        isExternal: words?.is_external ?? false,
+        secs: words?.secs_in_class,
       };
     });
   });
@@ -101,7 +124,16 @@ function makeRow() {
   const fill = document.createElement('span');
   bar.append(fill);
   bar.ariaHidden = 'true';  // the ratio beside it says the same
-  element.append(label, note, word, ratio, bar);
+  const strip = document.createElement('span');
+  strip.className = 'exposure';
+  strip.ariaHidden = 'true';  // the row's title says the same
+  const parts = CLASSES.map((name) => {
+    const part = document.createElement('span');
+    part.dataset.class = name;
+    return part;
+  });
+  strip.append(...parts);
+  element.append(label, note, word, ratio, bar, strip);
   const setText = (/** @type {HTMLElement} */ part, /** @type {string} */ text) => {
     if (part.textContent !== text) part.textContent = text;
   };
@@ -116,6 +148,12 @@ function makeRow() {
       setText(note, explain(row));
       const share = Number.isFinite(row.ratio) ? Math.min(1, Math.max(0, row.ratio)) : 0;
       fill.style.transform = `scaleX(${share.toFixed(3)})`;
+      const title = [explain(row), exposureText(row.secs)].filter(Boolean).join('\n');
+      if (element.title !== title) element.title = title;
+      exposureShares(row.secs).forEach((part, i) => {
+        const grow = part.toFixed(3);
+        if (parts[i].style.flexGrow !== grow) parts[i].style.flexGrow = grow;
+      });
     },
   };
 }

@@ -3,21 +3,31 @@
 export const KIND = { state: 1, picture: 2 };
 export const VERSION = 2;
 const STATE_HEADER = 64;
-const PERSON_HEADER = 40;
+const PERSON_HEADER = 64;
 const LINK = 28;
 const LOAD = 28;
+const CORNER = 8;
+const SOLID = 44;
 const OBJECT = 36;
 const PICTURE_HEADER = 24;
 
 const LIVENESS = ['no data', 'live', 'stale'];
 const LOAD_CLASS = ['unknown', 'low', 'medium', 'high'];
+const METRIC = ['total', 'overload', 'external', 'norm'];
+const SOLID_KIND = ['box', 'cylinder'];
 
 /** @typedef {{position: number[], quaternion: number[]}} Pose  metres; [x, y, z, w]; world_from_link
  *  @typedef {'unknown'|'low'|'medium'|'high'} LoadClass
  *  @typedef {{joint: number, loadClass: LoadClass, radius: number, position: number[],
  *    ratio: number, moment: number, capacity: number}} Load  ratio NaN where unknown; N m
+ *  @typedef {{kind: 'box'|'cylinder', position: number[], quaternion: number[], size: number[]}} Solid
+ *    size: edges, or radius, radius, length along z
  *  @typedef {{character: number, revision: number, com: number[]|null, cop: number[]|null,
- *    comIsOurs: boolean, massIsAssumed: boolean, links: Pose[], loads: Load[]}} Person
+ *    comIsOurs: boolean, massIsAssumed: boolean, isDynamic: boolean, groundIsMeasured: boolean,
+ *    leans: boolean, comDisagrees: boolean, compression: number, margin: number,
+ *    comDifference: number, heldKg: number[], metric: 'total'|'overload'|'external'|'norm',
+ *    links: Pose[], loads: Load[], support: number[][], held: Solid[]}} Person
+ *    compression (N), margin and comDifference (m): NaN where not known; heldKg: right, left
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
  *  @typedef {{liveness: 'no data'|'live'|'stale', counter: number, number: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
@@ -59,7 +69,8 @@ export function decodeState(buffer) {
   for (let count = view.getUint8(3); count > 0; --count) {
     const person = readPerson(view, offset);
     state.people.push(person);
-    offset += PERSON_HEADER + LINK * person.links.length + LOAD * person.loads.length;
+    offset += PERSON_HEADER + LINK * person.links.length + LOAD * person.loads.length
+      + CORNER * person.support.length + SOLID * person.held.length;
   }
   for (let count = view.getUint8(60); count > 0; --count, offset += OBJECT) {
     need(view, offset, OBJECT);
@@ -92,9 +103,14 @@ function readPerson(view, offset) {
   const flags = view.getUint8(offset + 4);
   const linkCount = view.getUint8(offset + 5);
   const loadCount = view.getUint8(offset + 6);
-  need(view, offset, PERSON_HEADER + LINK * linkCount + LOAD * loadCount);
+  const solidCount = view.getUint8(offset + 7);
+  const cornerCount = view.getUint8(offset + 60);
+  need(view, offset, PERSON_HEADER + LINK * linkCount + LOAD * loadCount + CORNER * cornerCount
+    + SOLID * solidCount);
   const firstLink = offset + PERSON_HEADER;
   const firstLoad = firstLink + LINK * linkCount;
+  const firstCorner = firstLoad + LOAD * loadCount;
+  const firstSolid = firstCorner + CORNER * cornerCount;
   return {
     character: view.getInt32(offset, true),
     revision: view.getFloat64(offset + 8, true),
@@ -102,8 +118,31 @@ function readPerson(view, offset) {
     cop: flags & 2 ? floats(view, offset + 28, 3) : null,
     comIsOurs: (flags & 4) !== 0,
     massIsAssumed: (flags & 8) !== 0,
+    isDynamic: (flags & 16) !== 0,
+    groundIsMeasured: (flags & 32) !== 0,
+    leans: (flags & 64) !== 0,
+    comDisagrees: (flags & 128) !== 0,
+    compression: view.getFloat32(offset + 40, true),
+    margin: view.getFloat32(offset + 44, true),
+    comDifference: view.getFloat32(offset + 48, true),
+    heldKg: floats(view, offset + 52, 2),
+    metric: /** @type {any} */ (METRIC[view.getUint8(offset + 61)] ?? 'total'),
     links: Array.from({ length: linkCount }, (_, i) => readPose(view, firstLink + LINK * i)),
     loads: Array.from({ length: loadCount }, (_, i) => readLoad(view, firstLoad + LOAD * i)),
+    support: Array.from({ length: cornerCount }, (_, i) => floats(view, firstCorner + CORNER * i, 2)),
+    held: Array.from({ length: solidCount }, (_, i) => readSolid(view, firstSolid + SOLID * i)),
+  };
+}
+
+/** @param {DataView} view
+ *  @param {number} offset
+ *  @returns {Solid} */
+function readSolid(view, offset) {
+  return {
+    kind: /** @type {any} */ (SOLID_KIND[view.getUint32(offset, true)] ?? 'box'),
+    position: floats(view, offset + 4, 3),
+    quaternion: floats(view, offset + 16, 4),
+    size: floats(view, offset + 32, 3),
   };
 }
 

@@ -165,6 +165,7 @@ class OsmesaDrawing : public Drawing {
     for (const auto& robot : robots_) add(robot->shadow());
     for (const auto& [id, person] : people_) {
       for (vtkActor* body : person->bodies()) add(body);
+      add(person->held());
     }
     for (vtkActor* object : objects_.actors()) add(object);
     for (const auto& robot : robots_) {

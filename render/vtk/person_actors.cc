@@ -1,8 +1,11 @@
 #include "render/vtk/person_actors.h"
 
+#include <vtkActor.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "server/core/held_look.h"
 #include "server/core/palette.h"
 
 namespace kinescope::render {
@@ -12,7 +15,18 @@ constexpr double kGhostOpacity = 0.45;
 constexpr int kMarkCorners = 32;
 
 enum ShadowPart { kBodyShadow, kRightFootShadow, kLeftFootShadow, kShadowParts };
-enum MarkPart { kComRing, kComLine, kCopEdge, kCopDisc, kMarkParts };
+enum MarkPart {
+  kComRing,
+  kComLine,
+  kCopEdge,
+  kCopDisc,
+  kSupportEdge,  // the first of as many as a polygon may have
+  kMarkParts = kSupportEdge + static_cast<int>(kMostSupportPoints)
+};
+
+// Of what is held: cylinders, and one box behind them.
+constexpr int kHeldBox = static_cast<int>(kMostHeldSolids) - 1;
+constexpr int kHeldParts = kHeldBox + 1;
 
 Eigen::Vector4f Color(const Rgb& rgb, float alpha = 1) {
   return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]),
@@ -41,6 +55,22 @@ Mesh MarkMesh() {
   add(CylinderMesh(1, 1), kComColor, kComLine);
   add(DiscMesh(kMarkCorners), {1, 1, 1}, kCopEdge);
   add(DiscMesh(kMarkCorners), kCopColor, kCopDisc);
+  for (int edge = kSupportEdge; edge < kMarkParts; ++edge) {
+    add(BoxMesh({1, 1, 1}), kSupportColor, static_cast<MarkPart>(edge));
+  }
+  return all;
+}
+
+// Solids of size 1, stretched to theirs where they are placed.
+Mesh HeldMesh() {
+  Mesh all;
+  for (int part = 0; part < kHeldParts; ++part) {
+    const std::size_t first = all.positions.size();
+    const ShapeDetail detail{0.04, 32, 0};
+    all.Append(part == kHeldBox ? BoxMesh({1, 1, 1}, detail) : CylinderMesh(1, 1, detail),
+               Eigen::Affine3d::Identity());
+    all.Paint(first, Color(kHeldColor), part);
+  }
   return all;
 }
 
@@ -51,16 +81,29 @@ Eigen::Affine3d At(double x, double y, double z, double scale_xy, double scale_z
   return place;
 }
 
+// A line on the floor.
+Eigen::Affine3d Edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  constexpr double kWidth = 0.006, kHeight = 0.001, kAboveFloor = 0.004;
+  const Eigen::Vector2d middle = 0.5 * (from + to), along = to - from;
+  Eigen::Affine3d place = Eigen::Affine3d::Identity();
+  place.translate(Eigen::Vector3d(middle.x(), middle.y(), kAboveFloor));
+  place.rotate(Eigen::AngleAxisd(std::atan2(along.y(), along.x()), Eigen::Vector3d::UnitZ()));
+  place.scale(Eigen::Vector3d(along.norm() + kWidth, kWidth, kHeight));
+  return place;
+}
+
 }  // namespace
 
 PersonActors::PersonActors()
     : shadow_(Pass::kBlended, PartActor::Light::kSoft, kShadowParts),
+      held_(Pass::kSolid, PartActor::Light::kLit, kHeldParts),
       ghost_marks_(Pass::kGhost, PartActor::Light::kFlat, kMarkParts),
       marks_(Pass::kSolid, PartActor::Light::kFlat, kMarkParts),
       ghost_spheres_(Pass::kGhost, kGhostOpacity),
       spheres_(Pass::kSolid, 1) {
   shadow_.SetMesh(ShadowMesh());
   marks_.SetMesh(MarkMesh());
+  held_.SetMesh(HeldMesh());
   ghost_marks_.SetMesh(MarkMesh());
   ghost_marks_.SetOpacity(static_cast<float>(kGhostOpacity));
 }
@@ -73,6 +116,7 @@ bool PersonActors::Update(const PersonState& person, Liveness liveness, const Ca
       labels);
   UpdateShadow(person);
   UpdateMarks(person, camera);
+  UpdateHeld(person, liveness);
   return is_changed;
 }
 
@@ -130,11 +174,36 @@ void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera) 
       marks->Place(kCopEdge, At(person.cop->x(), person.cop->y(), 0.006, 0.046 * size));
       marks->Place(kCopDisc, At(person.cop->x(), person.cop->y(), 0.008, 0.038 * size));
     }
+    if (marks == &marks_) {  // the border does not shine through shoes
+      const SupportPolygon& support = person.forces.support;
+      for (std::size_t i = 0; i < support.size && support.size > 1; ++i) {
+        marks->Place(kSupportEdge + static_cast<int>(i),
+                     Edge(support.corners[i], support.corners[(i + 1) % support.size]));
+      }
+    }
     marks->Commit();
   }
   if (person.com) looks_.push_back({*person.com, 0.034 * size, kComColor, 0});
   spheres_.Show(looks_, camera);
   ghost_spheres_.Show(looks_, camera);
+}
+
+void PersonActors::UpdateHeld(const PersonState& person, Liveness liveness) {
+  const HeldSolids held = HeldBy(person);
+  held_.actor()->SetVisibility(held.count > 0);
+  if (held.count == 0) return;
+  for (int part = 0; part < kHeldParts; ++part) held_.Hide(part);
+  int cylinder = 0;
+  for (std::size_t i = 0; i < held.count; ++i) {
+    const HeldSolid& solid = held.solids[i];
+    const bool is_box = solid.kind == HeldSolid::Kind::kBox;
+    Eigen::Affine3d place(Eigen::Translation3d(solid.pose.position) * solid.pose.orientation);
+    place.scale(solid.size);
+    held_.Place(is_box ? kHeldBox : cylinder++, place);
+  }
+  held_.SetOverride(liveness == Liveness::kStale ? Color(kStaleBodyColor)
+                                                 : Eigen::Vector4f(Eigen::Vector4f::Zero()));
+  held_.Commit();
 }
 
 }  // namespace kinescope::render

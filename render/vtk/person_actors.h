@@ -29,13 +29,15 @@ class PersonActors {
   std::vector<vtkActor*> bodies() { return body_.actors(); }
   std::vector<vtkActor*> ghosts() { return {ghost_marks_.actor(), ghost_spheres_.actor()}; }
   std::vector<vtkActor*> marks() { return {marks_.actor(), spheres_.actor()}; }
+  vtkActor* held() { return held_.actor(); }
 
  private:
   void UpdateShadow(const PersonState& person);
   void UpdateMarks(const PersonState& person, const Camera& camera);
+  void UpdateHeld(const PersonState& person, Liveness liveness);
 
   FigureActor body_;
-  PartActor shadow_, ghost_marks_, marks_;
+  PartActor shadow_, held_, ghost_marks_, marks_;
   SphereActor ghost_spheres_, spheres_;
   std::vector<SphereLook> looks_;
 };

@@ -1,10 +1,64 @@
 #include "server/app/diagnostics.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 namespace kinescope::app {
 
+namespace {
+
 using nlohmann::json;
+
+json ToJson(const ros_bridge::InputCounters& counters) {
+  return {{"received", counters.received},
+          {"used", counters.used},
+          {"refused", counters.refused},
+          {"unknown_joints", counters.unknown_joints},
+          {"skewed", counters.skewed},
+          {"worst_skew_secs", counters.worst_skew_secs},
+          {"last_problem", counters.last_problem}};
+}
+
+// What is wrong with a person's loads, for whoever wonders about a colour; nothing where all is
+// well.
+json Doubts(const BodyForces& forces) {
+  json doubts = json::array();
+  const auto add = [&](std::string_view text) {
+    if (!text.empty()) doubts.push_back(text);
+  };
+  if (forces.body_mass_is_assumed) add("the body mass is assumed");
+  if (forces.com_disagrees) {
+    add(
+        fmt::format("our centre of mass is {:.0f} mm from MVN's: wrong frames, lengths or a wrong "
+                    "body",
+                    1000 * forces.com_difference->norm()));
+  }
+  add(forces.why_no_ground);
+  add(forces.why_static);
+  add(forces.why_other_metric);
+  return doubts;
+}
+
+json LoadsOf(const SceneState& state) {
+  json people = json::array();
+  for (const PersonState& person : state.people) {
+    const BodyForces& forces = person.forces;
+    people.push_back(
+        {{"character", person.character},
+         {"metric", Name(forces.metric)},
+         {"mode", forces.is_dynamic ? "dynamic" : "static"},
+         {"doubts", Doubts(forces)},
+         {"com_difference_mm",
+          forces.com_difference ? json(1000 * forces.com_difference->norm()) : json(nullptr)},
+         {"ground_is_measured", forces.ground_is_measured},
+         {"residual_force_share", forces.residual_force_share},
+         {"residual_moment_share", forces.residual_moment_share}});
+  }
+  return people;
+}
+
+}  // namespace
 
 std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
@@ -33,13 +87,15 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
     out["source"]["rejected"] = counters->rejected;
     out["source"]["transport"] = counters->transport;
   }
+  if (state) out["loads"] = LoadsOf(*state);
   out["ros"] = nullptr;
   if (ros) {
-    out["ros"] = {{"master_uri", ros->master_uri},
-                  {"master_reachable", ros->master_reachable},
-                  {"published", ros->published},
-                  {"missed", ros->missed},
-                  {"master_returns", ros->master_returns}};
+    out["ros"] = {
+        {"master_uri", ros->master_uri},         {"master_reachable", ros->master_reachable},
+        {"published", ros->published},           {"missed", ros->missed},
+        {"master_returns", ros->master_returns}, {"inputs", json::object()}};
+    for (const auto& [topic, counters] : ros->inputs)
+      out["ros"]["inputs"][topic] = ToJson(counters);
   }
   out["pictures"] = nullptr;
   if (pictures) {

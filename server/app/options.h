@@ -94,6 +94,7 @@ struct ServeOptions {
   std::string reference_frame = "world";
   std::string tf = "flat";
   std::string joint_states = "computed";
+  double external_scale = 1;
   // page and pictures
   std::string bind_ip = "127.0.0.1";
   int http_port = 8080;
@@ -133,6 +134,8 @@ struct ServeOptions {
     option("reference_frame", reference_frame, "parent frame of every TF");
     option("tf", tf, "flat (as xsens_mvn_ros), tree or off");
     option("joint_states", joint_states, "computed from the poses, or streamed (type 20)");
+    option("external_scale", external_scale,
+           "multiplies joint moments that come over ROS; -1 for a program that means the reaction");
   }
 };
 

@@ -158,7 +158,12 @@ ros_bridge::BridgeConfig ToBridgeConfig(const ServeOptions& options) {
     throw UsageError(
         fmt::format("--joint_states={}: expected computed or streamed", options.joint_states));
   }
-  return {options.reference_frame, options.tf, options.joint_states, ""};
+  ros_bridge::BridgeConfig config;
+  config.reference_frame = options.reference_frame;
+  config.tf = options.tf;
+  config.joint_states = options.joint_states;
+  config.external_scale = options.external_scale;
+  return config;
 }
 
 ros_bridge::RosMode ToRosMode(const std::string& ros) {

@@ -15,10 +15,12 @@
 #include "server/app/pipeline_options.h"
 #include "server/app/scene_builder.h"
 #include "server/app/stop_signal.h"
+#include "server/app/told_loads.h"
 #include "server/core/clocks.h"
 #include "server/core/install_paths.h"
 #include "server/core/latest.h"
 #include "server/http/server.h"
+#include "server/loads/hand_loads.h"
 #include "server/ros/bridge.h"
 #include "server/ros/graph_source.h"
 
@@ -120,6 +122,7 @@ void Serve(const ServeOptions& options, bool with_page) {
   const SceneOptions scene_options = ToSceneOptions(options.person, options.stale_secs, options.loads);
   const ros_bridge::RosMode ros_mode = ToRosMode(options.ros);
   ros_bridge::BridgeConfig bridge_config = ToBridgeConfig(options);
+  bridge_config.check_hand_load = [](const HandLoad& load) { return loads::FindDefect(load); };
   const std::string url =
       options.udp_port == 0 ? options.source : fmt::format("udp://:{}", options.udp_port);
   SourceSettings source_settings;
@@ -136,6 +139,7 @@ void Serve(const ServeOptions& options, bool with_page) {
 
   Latest<SceneState> states;       // reading thread -> page
   Latest<http::Picture> pictures;  // drawing thread -> page
+  ToldLoads told;                  // page -> reading thread
   std::unique_ptr<PictureLoop> drawing;
   std::unique_ptr<ros_bridge::RosBridge> ros;
   Announcer announcer;
@@ -167,7 +171,11 @@ void Serve(const ServeOptions& options, bool with_page) {
                    static_cast<double>(MonotonicNanos() - start_nanos) * 1e-9,
                    drawing->status().renderer);
     }
-    page.emplace(ToHttpConfig(options), states, pictures, drawing.get(), diagnostics);
+    http::HttpConfig config = ToHttpConfig(options);
+    config.set_hand_load = [&](int character, const HandLoad& load) {
+      return told.Tell(character, load);
+    };
+    page.emplace(config, states, pictures, drawing.get(), diagnostics);
     spdlog::info("page at {}", page->url());
   }
 
@@ -176,10 +184,12 @@ void Serve(const ServeOptions& options, bool with_page) {
     spdlog::info("listening at {}, receive buffer {:.1f} MB", source->description(),
                  static_cast<double>(buffer->second) * 1e-6);
   }
+  InputsFirst sink(builder, told, ros.get());
   UselessStreamWatch useless_stream;
   std::int64_t counters_due = 0;
   while (!StopRequested()) {
-    const Source::State more = source->Poll(kPollTimeout, builder);
+    const Source::State more = source->Poll(kPollTimeout, sink);
+    sink.TakeInputs();
     const std::int64_t now = MonotonicNanos();
     builder.Tick(now);
     if (now >= counters_due) {

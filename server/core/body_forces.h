@@ -63,6 +63,13 @@ struct HandForce {
   bool is_measured = false;                         // by a sensor, at least in part
 };
 
+/// What somebody said is held: where the ramps go to. kg.
+struct ToldLoad {
+  bool is_known = false;                   // false: nobody said anything
+  std::array<double, 2> alone_kg{{0, 0}};  // by urdf::Side
+  double both_kg = 0;
+};
+
 struct BodyForces {
   LoadMetric metric = LoadMetric::kTotal;  // that ratios were computed with
   /// Why it is not the one asked for ("no load is known: posture only"); "" when it is.
@@ -90,6 +97,7 @@ struct BodyForces {
   std::optional<double> margin_of_stability;        // m, positive: inside the support
 
   std::array<HandForce, 2> hands{};  // by urdf::Side
+  ToldLoad told;                     // what the hands hold, as somebody said
   std::optional<LumbarLoad> lumbar;
 
   Eigen::Vector3d com_of_model = Eigen::Vector3d::Zero();  // world

@@ -17,6 +17,8 @@ struct Request {
   std::string origin;
   std::string cookies;
   std::string if_none_match;
+  std::string content_type;
+  std::string body;
 };
 
 struct SnapshotRequest {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "server/core/held_look.h"
 #include "server/core/palette.h"
 #include "server/core/person_links.h"
 #include "server/http/target.h"
@@ -34,6 +35,17 @@ std::string_view JointLabel(int joint) {
   return urdf::kJoints[static_cast<std::size_t>(joint)].label;
 }
 
+json VectorOrNull(const Eigen::Vector3d& v) { return v.allFinite() ? ToJson(v) : json(nullptr); }
+
+// Time in each class, s, to `step`.
+json SecsToJson(const JointLoad& load, double step) {
+  json secs = json::object();
+  for (std::size_t i = 0; i < load.class_secs.size(); ++i) {
+    secs[Name(static_cast<LoadClass>(i))] = std::round(load.class_secs[i] / step) * step;
+  }
+  return secs;
+}
+
 json LoadToJson(const JointLoad& load) {
   return {{"joint", urdf::kJoints[static_cast<std::size_t>(load.joint)].ros_name},
           {"label", JointLabel(load.joint)},
@@ -42,7 +54,57 @@ json LoadToJson(const JointLoad& load) {
           {"moment_nm", NumberOrNull(load.deciding_moment)},
           {"capacity_nm", NumberOrNull(load.capacity)},
           {"channel", load.channel},
-          {"reason", load.reason}};
+          {"reason", load.reason},
+          {"is_external", load.is_external},
+          {"secs_in_class", SecsToJson(load, 0.001)}};
+}
+
+json ToldToJson(const ToldLoad& told) {
+  return {{"is_known", told.is_known},
+          {"right_kg", told.alone_kg[urdf::kRight]},
+          {"left_kg", told.alone_kg[urdf::kLeft]},
+          {"both_kg", told.both_kg}};
+}
+
+json ForcesToJson(const BodyForces& forces) {
+  json corners = json::array();
+  for (std::size_t i = 0; i < forces.support.size; ++i) {
+    corners.push_back({forces.support.corners[i].x(), forces.support.corners[i].y()});
+  }
+  json hands = json::object(), feet = json::object();
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const char* const name = side == urdf::kRight ? "right" : "left";
+    const HandForce& hand = forces.hands[side];
+    hands[name] = {{"held_kg", hand.mass_kg},
+                   {"force_n", VectorOrNull(hand.force)},
+                   {"is_measured", hand.is_measured}};
+    const FootForce& foot = forces.feet[side];
+    feet[name] = {{"touches_floor", foot.touches_floor},
+                  {"force_n", VectorOrNull(foot.force)},
+                  {"cop", VectorOrNull(foot.cop)}};
+  }
+  return {{"metric", Name(forces.metric)},
+          {"why_other_metric", forces.why_other_metric},
+          {"mode", forces.is_dynamic ? "dynamic" : "static"},
+          {"why_static", forces.why_static},
+          {"body_mass_kg", forces.body_mass_kg},
+          {"body_mass_is_assumed", forces.body_mass_is_assumed},
+          {"why_no_ground", forces.why_no_ground},
+          {"ground_is_measured", forces.ground_is_measured},
+          {"external_contact_suspected", forces.external_contact_suspected},
+          {"residual_force_share", forces.residual_force_share},
+          {"residual_moment_share", forces.residual_moment_share},
+          {"support", std::move(corners)},
+          {"margin_of_stability_m",
+           forces.margin_of_stability ? json(*forces.margin_of_stability) : json(nullptr)},
+          {"l5_s1_compression_n", forces.lumbar ? json(forces.lumbar->compression) : json(nullptr)},
+          {"l5_s1_shear_n", forces.lumbar ? json(forces.lumbar->shear) : json(nullptr)},
+          {"com_difference_m",
+           forces.com_difference ? json(forces.com_difference->norm()) : json(nullptr)},
+          {"com_disagrees", forces.com_disagrees},
+          {"hand_load", ToldToJson(forces.told)},
+          {"hands", std::move(hands)},
+          {"feet", std::move(feet)}};
 }
 
 // By joint; to a thousandth of a millimetre.
@@ -61,10 +123,15 @@ json DeviationToJson(const PersonState& person) {
 json PersonToJson(const PersonState& person) {
   json loads = json::array();
   for (const JointLoad& load : person.loads) loads.push_back(LoadToJson(load));
-  return {{"character", person.character},      {"name", person.name},
-          {"revision", person.model->revision}, {"com", OptionalPoint(person.com)},
-          {"com_is_ours", person.com_is_ours},  {"cop", OptionalPoint(person.cop)},
-          {"loads", std::move(loads)},          {"deviation_mm", DeviationToJson(person)}};
+  return {{"character", person.character},
+          {"name", person.name},
+          {"revision", person.model->revision},
+          {"com", OptionalPoint(person.com)},
+          {"com_is_ours", person.com_is_ours},
+          {"cop", OptionalPoint(person.cop)},
+          {"loads", std::move(loads)},
+          {"deviation_mm", DeviationToJson(person)},
+          {"forces", ForcesToJson(person.forces)}};
 }
 
 bool IsMesh(const urdf::Visual& visual) {
@@ -182,6 +249,8 @@ std::string ModelJson(const SceneState* state) {
                  {"axes", {ToJson(kAxisColors[0]), ToJson(kAxisColors[1]), ToJson(kAxisColors[2])}},
                  {"cop", ToJson(kCopColor)},
                  {"com", ToJson(kComColor)},
+                 {"support", ToJson(kSupportColor)},
+                 {"held", ToJson(kHeldColor)},
                  {"body", ToJson(kBodyColor)},
                  {"stale_body", ToJson(kStaleBodyColor)}}}});
 }
@@ -207,12 +276,21 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
     const PersonState& person = state->people[i];
     json loads = json::array();
     for (const JointLoad& load : person.loads) {
-      loads.push_back({{"joint", load.joint}, {"channel", load.channel}, {"reason", load.reason}});
+      loads.push_back({{"joint", load.joint},
+                       {"channel", load.channel},
+                       {"reason", load.reason},
+                       {"is_external", load.is_external},
+                       {"secs_in_class", SecsToJson(load, 1)}});
     }
     people.push_back({{"character", person.character},
                       {"name", person.name},
                       {"mass_kg", person.model->description.mass_kg},
                       {"mass_is_assumed", person.model->description.mass_is_assumed},
+                      {"metric", Name(person.forces.metric)},
+                      {"why_other_metric", person.forces.why_other_metric},
+                      {"why_static", person.forces.why_static},
+                      {"why_no_ground", person.forces.why_no_ground},
+                      {"hand_load", ToldToJson(person.forces.told)},
                       {"loads", std::move(loads)}});
   }
   json objects = json::array();

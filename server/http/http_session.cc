@@ -18,7 +18,7 @@ namespace beast = boost::beast;
 namespace bhttp = boost::beast::http;
 
 constexpr std::uint32_t kMaxHeaderBytes = 8192;
-constexpr std::uint64_t kMaxBodyBytes = 4096;  // no route takes one
+constexpr std::uint64_t kMaxBodyBytes = 4096;  // a hand load takes 100
 constexpr std::chrono::seconds kReadTimeout{20};
 constexpr std::chrono::seconds kWriteTimeout{60};
 
@@ -36,9 +36,10 @@ std::string Header(const bhttp::request<bhttp::string_body>& request, bhttp::fie
 }
 
 Request ToRequest(const bhttp::request<bhttp::string_body>& request) {
-  return {std::string(request.method_string()),  std::string(request.target()),
-          Header(request, bhttp::field::host),   Header(request, bhttp::field::origin),
-          Header(request, bhttp::field::cookie), Header(request, bhttp::field::if_none_match)};
+  return {std::string(request.method_string()),        std::string(request.target()),
+          Header(request, bhttp::field::host),         Header(request, bhttp::field::origin),
+          Header(request, bhttp::field::cookie),       Header(request, bhttp::field::if_none_match),
+          Header(request, bhttp::field::content_type), request.body()};
 }
 
 void AddHeaders(bhttp::fields& fields, const Answer& answer) {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "server/core/check.h"
+#include "server/core/held_look.h"
 #include "server/core/palette.h"
 #include "server/core/person_links.h"
 
@@ -69,10 +71,8 @@ void PutLoad(Writer& out, const JointLoad& load, double height) {
 
 void PutPose(Writer& out, const urdf::Pose& pose) {
   out.PutVector(pose.position);
-  for (const double part :
-       {pose.orientation.x(), pose.orientation.y(), pose.orientation.z(), pose.orientation.w()}) {
-    out.PutFloat(part);
-  }
+  const Eigen::Quaterniond& q = pose.orientation;
+  for (const double part : {q.x(), q.y(), q.z(), q.w()}) out.PutFloat(part);
 }
 
 void PutObject(Writer& out, const TrackedObject& object) {
@@ -84,22 +84,43 @@ void PutObject(Writer& out, const TrackedObject& object) {
 
 void PutPerson(Writer& out, const PersonState& person) {
   KINESCOPE_CHECK(person.model != nullptr);
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const BodyForces& forces = person.forces;
+  const HeldSolids held = HeldBy(person);
   const std::uint8_t loads = CountByte(person.loads.size());
   const std::vector<urdf::Pose> links = VisibleLinkPoses(person);
-  const unsigned flags = (person.com ? 1u : 0u) | (person.cop ? 2u : 0u) |
-                         (person.com_is_ours ? 4u : 0u) |
-                         (person.model->description.mass_is_assumed ? 8u : 0u);
+  const unsigned flags =
+      (person.com ? 1u : 0u) | (person.cop ? 2u : 0u) | (person.com_is_ours ? 4u : 0u) |
+      (person.model->description.mass_is_assumed ? 8u : 0u) | (forces.is_dynamic ? 16u : 0u) |
+      (forces.ground_is_measured ? 32u : 0u) | (forces.external_contact_suspected ? 64u : 0u) |
+      (forces.com_disagrees ? 128u : 0u);
   out.Put(static_cast<std::uint32_t>(person.character));
   out.Put(static_cast<std::uint8_t>(flags));
   out.Put(static_cast<std::uint8_t>(links.size()));
   out.Put(loads);
-  out.Put(std::uint8_t{0});
+  out.Put(CountByte(held.count));
   out.PutDouble(static_cast<double>(person.model->revision));
   out.PutVector(person.com.value_or(Eigen::Vector3d::Zero()));
   out.PutVector(person.cop.value_or(Eigen::Vector3d::Zero()));
+  out.PutFloat(forces.lumbar ? forces.lumbar->compression : kUnknown);
+  out.PutFloat(forces.margin_of_stability.value_or(kUnknown));
+  out.PutFloat(forces.com_difference ? forces.com_difference->norm() : kUnknown);
+  for (const HandForce& hand : forces.hands) out.PutFloat(hand.mass_kg);
+  out.Put(CountByte(forces.support.size));
+  out.Put(static_cast<std::uint8_t>(forces.metric));
+  out.Put(std::uint16_t{0});
   for (const urdf::Pose& link : links) PutPose(out, link);
   const double height = person.model->human.skeleton.height;
   for (std::size_t i = 0; i < loads; ++i) PutLoad(out, person.loads[i], height);
+  for (std::size_t i = 0; i < forces.support.size; ++i) {
+    out.PutFloat(forces.support.corners[i].x());
+    out.PutFloat(forces.support.corners[i].y());
+  }
+  for (std::size_t i = 0; i < held.count; ++i) {
+    out.Put(static_cast<std::uint32_t>(held.solids[i].kind));
+    PutPose(out, held.solids[i].pose);
+    out.PutVector(held.solids[i].size);
+  }
 }
 
 Bytes ToBytes(const json& message) {
@@ -113,7 +134,7 @@ Bytes ToBytes(const json& message) {
 Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) {
   const std::uint8_t people = CountByte(state.people.size());
   const std::uint8_t objects = CountByte(state.objects.size());
-  Writer out(kStateHeaderBytes + people * std::size_t{1200});
+  Writer out(kStateHeaderBytes + people * std::size_t{1400});
   out.Put(static_cast<std::uint8_t>(MessageKind::kState));
   out.Put(kProtocolVersion);
   out.Put(static_cast<std::uint8_t>(state.liveness));

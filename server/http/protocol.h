@@ -23,9 +23,11 @@ enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2 };
 
 inline constexpr std::uint8_t kProtocolVersion = 2;
 inline constexpr std::size_t kStateHeaderBytes = 64;
-inline constexpr std::size_t kPersonHeaderBytes = 40;
+inline constexpr std::size_t kPersonHeaderBytes = 64;
 inline constexpr std::size_t kLinkBytes = 28;
 inline constexpr std::size_t kLoadBytes = 28;
+inline constexpr std::size_t kCornerBytes = 8;
+inline constexpr std::size_t kSolidBytes = 44;
 inline constexpr std::size_t kObjectBytes = 36;
 inline constexpr std::size_t kPictureHeaderBytes = 24;
 

@@ -9,10 +9,12 @@
 #include "server/core/clocks.h"
 #include "server/http/access.h"
 #include "server/http/api.h"
+#include "server/http/hand_load_order.h"
 
 namespace kinescope::http {
 namespace {
 
+constexpr const char* kHandLoadPath = "/api/hand_load";
 constexpr int kMinPixels = 16;
 constexpr int kMaxPixels = 4096;
 constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
@@ -67,9 +69,12 @@ Answer Router::Route(const Request& request) const {
   if (!target) return Refuse(400, "bad address", target.error());
   bool set_cookie = false;
   if (auto refusal = RefuseStranger(request, *target, &set_cookie)) return *std::move(refusal);
-  if (request.method != "GET" && request.method != "HEAD") {
-    Answer answer = Refuse(405, "bad method", "only GET and HEAD are understood");
-    answer.headers.emplace_back("Allow", "GET, HEAD");
+  const bool may_post = target->path == kHandLoadPath;
+  if (request.method == "POST" && may_post) return SetHandLoad(request);
+  if (may_post || (request.method != "GET" && request.method != "HEAD")) {
+    const std::string allowed = may_post ? "POST" : "GET, HEAD";
+    Answer answer = Refuse(405, "bad method", "only " + allowed + " is understood here");
+    answer.headers.emplace_back("Allow", allowed);
     return answer;
   }
   Answer answer = RouteAdmitted(*target, request);
@@ -115,7 +120,44 @@ Answer Router::Api(const std::string& path) const {
     return JsonAnswer(CamerasJson(site_.cameras, site_.live_camera(), site_.has_pictures));
   }
   return Refuse(404, "unknown address",
-                "there are /api/state, /api/model, /api/cameras and /api/diagnostics");
+                "there are /api/state, /api/model, /api/cameras, /api/diagnostics and, for POST, "
+                "/api/hand_load");
+}
+
+// A foreign page can make a browser send anything that a form could have sent. JSON is not among
+// that: for it the browser asks first, and is told no.
+Answer Router::SetHandLoad(const Request& request) const {
+  if (!IsSameOrigin(request.origin, request.host)) {
+    return Refuse(403, "foreign origin", "only the page of this server may set loads");
+  }
+  const std::string type = request.content_type.substr(0, request.content_type.find(';'));
+  if (type != "application/json") {
+    return Refuse(415, "bad content type", "expected Content-Type: application/json");
+  }
+  if (!site_.set_hand_load) return Refuse(503, "no hand loads", "this server takes no loads");
+  const auto order = ParseHandLoadOrder(request.body);
+  if (!order) return Refuse(400, "bad hand load", order.error());
+  const std::shared_ptr<const SceneState> state = site_.states->Get();
+  static const std::vector<PersonState> kNobody;
+  const std::vector<PersonState>& people = state ? state->people : kNobody;
+  if (people.empty()) return Refuse(409, "nobody is here", "nobody is here who could hold it");
+  if (!order->person && people.size() > 1) {
+    return Refuse(400, "bad hand load", "several people are here: say \"person\"");
+  }
+  const int character = order->person.value_or(people.front().character);
+  const bool is_here = std::any_of(people.begin(), people.end(), [&](const PersonState& person) {
+    return person.character == character;
+  });
+  if (!is_here) {
+    return Refuse(404, "nobody is here", "there is no person " + std::to_string(character));
+  }
+  const std::string wrong = site_.set_hand_load(character, order->load);
+  if (!wrong.empty()) return Refuse(400, "bad hand load", wrong);
+  return JsonAnswer(nlohmann::json{{"person", character},
+                                   {"right_kg", order->load.mass_kg[urdf::kRight]},
+                                   {"left_kg", order->load.mass_kg[urdf::kLeft]},
+                                   {"both_kg", order->load.both_kg}}
+                        .dump());
 }
 
 Answer Router::Mesh(const std::string& path) const {

@@ -25,6 +25,7 @@ class Router {
     bool has_pictures = false;
     const StaticFiles* files = nullptr;
     const Latest<SceneState>* states = nullptr;
+    std::function<std::string(int character, const HandLoad&)> set_hand_load;  // may be null
     std::function<std::string()> diagnostics;  // complete, with the server's own part
     std::function<std::string()> live_camera;
     std::function<void(const std::string& reason)> count_refusal;
@@ -45,6 +46,7 @@ class Router {
   std::optional<Answer> RefuseStranger(const Request& request, const Target& target,
                                        bool* set_cookie) const;
   Answer Api(const std::string& path) const;
+  Answer SetHandLoad(const Request& request) const;
   Answer Mesh(const std::string& path) const;
   Answer Snapshot(const Target& target) const;
   Answer File(const std::string& path, const Request& request) const;

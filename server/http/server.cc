@@ -169,6 +169,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.has_pictures = feed_ != nullptr;
   site.files = &files_;
   site.states = &states_;
+  site.set_hand_load = config_.set_hand_load;
   site.diagnostics = [this] {
     return WithHttpCounters(program_diagnostics_ ? program_diagnostics_() : "{}", counters_,
                             hub_.client_counters());

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "server/core/force_inputs.h"
 #include "server/core/latest.h"
 #include "server/core/scene_state.h"
 
@@ -57,6 +58,9 @@ struct HttpConfig {
   std::filesystem::path web_root;   // folder of index.html
   std::vector<CameraView> cameras;  // in the order shown to people
   std::string camera;               // the live picture's at the start; one of `cameras`
+  /// What `character` holds from now on: "" or why that cannot be. Called on the server's thread,
+  /// must return at once. Null: nothing can be set here.
+  std::function<std::string(int character, const HandLoad& load)> set_hand_load;
 };
 
 /// Clients at once; the next one is told to come back later.

@@ -166,6 +166,44 @@ test('the named cameras turn the view, and a hand takes it over', async () => {
   await close();
 });
 
+test('a load is put into a hand, seen in it, and refused when nobody could hold it', async () => {
+  const { page, problems, close } = await openLive();
+  const hint = (part) => page.waitForFunction(
+    (wanted) => document.getElementById('loads-hint').textContent.includes(wanted), part, LONG);
+  await page.selectOption('#hand', 'right_kg');
+  await page.fill('#hand-kg', '12.5');
+  await page.click('#hand-load button');
+  await hint('holds 12.5 kg right');
+  // Dark iron in the picture: nothing else there is so dark.
+  const isIron = (r, g, b) => r < 75 && g < 82 && b < 95 && b > r;
+  await page.click('[data-camera="front"]');
+  await seePixels(page, 'iron', isIron, 150);
+  await page.selectOption('#hand', 'left_kg');
+  await page.fill('#hand-kg', '2');
+  await page.press('#hand-kg', 'Enter');
+  await hint('holds 12.5 kg right, 2 kg left');
+  await page.selectOption('#hand', 'right_kg');
+  await page.fill('#hand-kg', '60');
+  await page.click('#hand-load button');
+  await page.waitForFunction(() => document.getElementById('banner').textContent === 'load of more than 50 kg', null, LONG);
+  await page.fill('#hand-kg', '0');
+  await page.click('#hand-load button');
+  await page.waitForFunction(() => !document.getElementById('loads-hint').textContent.includes('right'), null, LONG);
+  assert.ok(problems.every((line) => /400|api\/hand_load/.test(line)), problems.join());
+  await close();
+});
+
+test('what the numbers stand on is said beside them', async () => {
+  const { page, close } = await openLive();
+  await page.waitForFunction(() => /^total, dynamic, % of capacity · mass assumed 75 kg/
+    .test(document.getElementById('loads-hint').textContent), null, LONG);
+  assert.equal(await text(page, '#support'), 'Margin of stability 8.3 cm');
+  assert.equal(await text(page, '#compression'), 'L5/S1 compression 2.15 kN');
+  const title = await page.locator('#loads li').last().getAttribute('title');
+  assert.match(title, /^left foot is not on the floor/);
+  await close();
+});
+
 test('the server’s picture is shown when wanted, and saved at full size', async () => {
   const { page, problems, close } = await openLive();
   const image = page.locator('#picture-image');

@@ -1,10 +1,12 @@
 // Any text as what a browser says over the WebSocket: it is understood or answered with an error,
 // and neither the camera nor the answers leave their bounds.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
 #include "server/core/check.h"
+#include "server/http/hand_load_order.h"
 #include "server/http/hub.h"
 
 namespace {
@@ -45,5 +47,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   hub.Join(client);
   hub.OnMessage(client, {reinterpret_cast<const char*>(data), size});
   hub.Leave(client);
+  // The same bytes as the body of POST /api/hand_load.
+  const auto order = http::ParseHandLoadOrder({reinterpret_cast<const char*>(data), size});
+  if (order) {
+    const HandLoad& load = order->load;
+    KINESCOPE_CHECK(std::isfinite(load.mass_kg[0] + load.mass_kg[1] + load.both_kg) ||
+                    load.mass_kg[0] > 1e300 || load.mass_kg[1] > 1e300 || load.both_kg > 1e300);
+    KINESCOPE_CHECK(order->person.value_or(0) >= 0);
+  } else {
+    KINESCOPE_CHECK(!order.error().empty());
+  }
   return 0;
 }

@@ -119,8 +119,8 @@ def attempt(line, words, folder):
         shell = f". {shlex.quote(SETUP)} && roslaunch --dump-params " + " ".join(words[1:])
         env_path = "/usr/bin:" + os.environ["PATH"]  # catkin asks python3 on PATH
         return run(["env", "PATH=" + env_path, "bash", "-c", shell], folder)
-    if name in ("curl", "websocat"):
-        return "skip: the tests of the server make these requests"
+    if name in ("curl", "websocat", "rosservice"):
+        return "skip: the tests of the server and of the node make these requests"
     if any(w.startswith("ros:") for w in words):
         if not SETUP:
             return "skip: built without ROS"

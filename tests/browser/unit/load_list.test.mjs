@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { byUrgency, explain, rowsOf } from '../../../web/load_list.js';
+import { byUrgency, explain, exposureShares, exposureText, rowsOf } from '../../../web/load_list.js';
 
 const row = (key, loadClass, ratio) =>
   ({ key, label: key, loadClass, ratio, moment: -12.34, capacity: 60, channel: 'flexion', reason: '' });
@@ -65,4 +65,17 @@ test('persons are named when there are several', () => {
   assert.deepEqual(rowsOf(one, joints, details).map(({ label, channel }) => [label, channel]), [['Neck', 'bend']]);
   assert.deepEqual(rowsOf(two, joints, details).map(({ label }) => label), ['P05: Neck', 'Person 4: Neck']);
   assert.equal(new Set(rowsOf(two, joints, details).map(({ key }) => key)).size, 2);
+});
+
+test('time in each class is told without classes that never were, and adds up', () => {
+  const secs = { low: 40, medium: 12.4, high: 0, unknown: 7.6 };
+  assert.equal(exposureText(secs), 'low 40 s, medium 12 s, unknown 7.6 s since the start');
+  assert.equal(exposureText(undefined), '');
+  assert.deepEqual(exposureShares({ low: 30, medium: 10, high: 0, unknown: 0 }), [0.75, 0.25, 0, 0]);
+  assert.deepEqual(exposureShares({ low: 0, medium: 0, high: 0, unknown: 0 }), [0, 0, 0, 0]);
+});
+
+test('a load of another program says so', () => {
+  assert.equal(explain({ ...row('a', 'low', 0.2), isExternal: true }), '12 of 60 N·m, flexion, external');
+  assert.equal(explain({ ...row('a', 'low', 0.2), isExternal: true, moment: NaN, channel: 'external' }), 'external');
 });

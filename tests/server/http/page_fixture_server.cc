@@ -17,6 +17,7 @@
 #include <string>
 
 #include "server/core/clocks.h"
+#include "server/core/held_look.h"
 #include "server/core/install_paths.h"
 #include "server/core/palette.h"
 #include "server/core/person_links.h"
@@ -90,12 +91,37 @@ json Describe() {
                        {"moment", is_known ? json(load.deciding_moment) : json(nullptr)},
                        {"capacity", load.capacity}});
     }
+    json support = json::array(), held = json::array();
+    for (std::size_t i = 0; i < person.forces.support.size; ++i) {
+      const Eigen::Vector2d& corner = person.forces.support.corners[i];
+      support.push_back({corner.x(), corner.y()});
+    }
+    const HeldSolids solids = HeldBy(person);
+    for (std::size_t i = 0; i < solids.count; ++i) {
+      const HeldSolid& solid = solids.solids[i];
+      const Eigen::Quaterniond& q = solid.pose.orientation;
+      held.push_back({{"kind", solid.kind == HeldSolid::Kind::kBox ? "box" : "cylinder"},
+                      {"position", Numbers(solid.pose.position)},
+                      {"quaternion", {q.x(), q.y(), q.z(), q.w()}},
+                      {"size", Numbers(solid.size)}});
+    }
     people.push_back({{"character", person.character},
                       {"revision", 7},
                       {"com", Numbers(*person.com)},
                       {"cop", Numbers(*person.cop)},
                       {"comIsOurs", false},
                       {"massIsAssumed", true},
+                      {"isDynamic", true},
+                      {"groundIsMeasured", false},
+                      {"leans", false},
+                      {"comDisagrees", false},
+                      {"compression", person.forces.lumbar->compression},
+                      {"margin", *person.forces.margin_of_stability},
+                      {"comDifference", nullptr},
+                      {"heldKg", {5, 0}},
+                      {"metric", "total"},
+                      {"support", support},
+                      {"held", held},
                       {"links", links},
                       {"loads", loads}});
   }
@@ -193,7 +219,29 @@ void AddWorn(SceneState& state, const std::shared_ptr<const PersonModel>& model)
   state.objects = {{9, 2, "HTC Vive", {{0.4, -0.6, 1.2}, {1, 0, 0, 0}}, state.stamp_nanos}};
 }
 
-void Serve(const HttpConfig& config, const Options& options, PlainFeed* feed) {
+// What the page said is held, on its way into the made-up person.
+struct Told {
+  std::mutex mutex;
+  HandLoad load;  // guarded by mutex
+};
+
+void Hold(const HandLoad& load, SceneState& state) {
+  for (PersonState& person : state.people) {
+    person.forces.told = {true, load.mass_kg, load.both_kg};
+    person.forces.hands[urdf::kRight].mass_kg = load.mass_kg[urdf::kRight];
+    person.forces.hands[urdf::kLeft] = person.forces.hands[urdf::kRight];
+    person.forces.hands[urdf::kLeft].mass_kg = 0;
+  }
+}
+
+void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
+  Told told;
+  config.set_hand_load = [&told](int, const HandLoad& load) {
+    const std::lock_guard<std::mutex> lock(told.mutex);
+    if (load.mass_kg[urdf::kRight] > 50) return std::string("load of more than 50 kg");
+    told.load = load;
+    return std::string();
+  };
   Latest<SceneState> states;
   Latest<Picture> pictures;
   HttpServer server(config, states, pictures, feed, [&] { return options.diagnostics; });
@@ -211,6 +259,10 @@ void Serve(const HttpConfig& config, const Options& options, PlainFeed* feed) {
     const double seconds = std::chrono::duration<double>(due - began).count();
     state = NextState(orders, state, model, seconds);
     if (options.worn && orders.mode == "live") AddWorn(state, worn_model);
+    {
+      const std::lock_guard<std::mutex> lock(told.mutex);
+      Hold(told.load, state);
+    }
     states.Publish(std::make_shared<const SceneState>(state));
     if (feed != nullptr && feed->viewers() > 0 && state.number % 4 == 0) {
       pictures.Publish(std::make_shared<const Picture>(

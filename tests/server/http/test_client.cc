@@ -42,17 +42,19 @@ tcp::endpoint Local(int port) {
 }  // namespace
 
 Response Fetch(int port, const std::string& target, const Headers& headers,
-               const std::string& method) {
+               const std::string& method, const std::string& body) {
   asio::io_context io;
   beast::tcp_stream stream(io);
   stream.connect(Local(port));
-  bhttp::request<bhttp::empty_body> request;
+  bhttp::request<bhttp::string_body> request;
   request.version(11);
   request.method_string(method);
   request.target(target);
   request.set(bhttp::field::host, "127.0.0.1:" + std::to_string(port));
   request.set(bhttp::field::connection, "close");
   for (const auto& [name, value] : headers) request.set(name, value);
+  request.body() = body;
+  if (!body.empty()) request.content_length(body.size());
   bhttp::write(stream, request);
   bhttp::response_parser<bhttp::string_body> parser;
   parser.body_limit(64u << 20);

@@ -23,7 +23,7 @@ struct Response {
 
 /// One request on a connection of its own. `target` is sent as it is.
 Response Fetch(int port, const std::string& target, const Headers& headers = {},
-               const std::string& method = "GET");
+               const std::string& method = "GET", const std::string& body = "");
 
 /// Sends `bytes`, then reads until the server closes the connection or `enough` bytes came.
 std::string Exchange(int port, const std::string& bytes, std::size_t enough = 12);

@@ -69,6 +69,29 @@ JointLoad MakeLoad(std::size_t i, double seconds, const urdf::LinkPoses& links) 
   return load;
 }
 
+// Five kilograms in the right hand, on both feet.
+void AddForces(PersonState& person) {
+  BodyForces& forces = person.forces;
+  forces.is_dynamic = true;
+  forces.body_mass_kg = 75;
+  forces.body_mass_is_assumed = true;
+  const Vector3d middle = *person.cop;
+  forces.support.size = 4;
+  forces.support.corners[0] = {middle.x() - 0.1, middle.y() - 0.15};
+  forces.support.corners[1] = {middle.x() + 0.2, middle.y() - 0.15};
+  forces.support.corners[2] = {middle.x() + 0.2, middle.y() + 0.15};
+  forces.support.corners[3] = {middle.x() - 0.1, middle.y() + 0.15};
+  forces.margin_of_stability = 0.083;
+  forces.lumbar = LumbarLoad{2150, 310};
+  forces.told.is_known = true;
+  forces.told.alone_kg[urdf::kRight] = 5;
+  const urdf::Pose& hand = person.links[urdf::kRightHand];
+  HandForce& held = forces.hands[urdf::kRight];
+  held.mass_kg = 5;
+  held.force = {0, 0, -49.05};
+  held.point = held.grip = hand.position + hand.orientation * Vector3d(0, 0, -0.08);
+}
+
 PersonState MakePerson(int character, double seconds,
                        const std::shared_ptr<const PersonModel>& model) {
   PersonState person;
@@ -87,6 +110,7 @@ PersonState MakePerson(int character, double seconds,
   for (std::size_t i = 0; i < kJoints.size(); ++i) {
     person.loads.push_back(MakeLoad(i, seconds, person.links));
   }
+  AddForces(person);
   return person;
 }
 

@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -74,7 +75,7 @@ struct TestServer {
   explicit TestServer(const std::string& token = "", bool with_feed = true,
                       const std::string& mesh_folder = "")
       : model(MakePersonModel(7, mesh_folder)),
-        server(MakeConfig(token), states, pictures, with_feed ? &feed : nullptr,
+        server(ConfigWithLoads(token), states, pictures, with_feed ? &feed : nullptr,
                [] { return std::string(R"({"source": {"datagrams": 5}})"); }) {}
 
   static HttpConfig MakeConfig(const std::string& token) {
@@ -85,6 +86,21 @@ struct TestServer {
     config.cameras = MakeCameras();
     config.camera = "front";
     return config;
+  }
+
+  HttpConfig ConfigWithLoads(const std::string& token) {
+    HttpConfig config = MakeConfig(token);
+    config.set_hand_load = [this](int character, const HandLoad& load) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (load.mass_kg[urdf::kRight] > 100) return std::string("nobody holds that");
+      told[character] = load;
+      return std::string();
+    };
+    return config;
+  }
+  std::map<int, HandLoad> Told() {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return told;
   }
 
   void PublishState(std::uint64_t number) {
@@ -102,6 +118,8 @@ struct TestServer {
   }
   nlohmann::json HttpCounters() const { return Get("/api/diagnostics").json()["http"]; }
 
+  std::mutex mutex;
+  std::map<int, HandLoad> told;  // guarded by mutex
   FakeFeed feed;
   Latest<SceneState> states;
   Latest<Picture> pictures;

@@ -106,15 +106,15 @@ TEST(JointStates, EffortIsTheLoadAboutEachAxisAndNotANumberWhereUnknown) {
   sensor_msgs::JointState message;
   FillComputedJointStates(person, PersonNames("skeleton"), message);
   ASSERT_EQ(message.effort.size(), 66U);
-  std::vector<bool> is_known(urdf::kJointCount);
-  for (const JointLoad& load : person.loads) {
-    if (load.load_class == LoadClass::kUnknown) continue;
-    is_known[At(load.joint)] = true;
+  for (int joint = 0; joint < urdf::kJointCount; ++joint) {
+    const JointForce& load = person.forces.joints[At(joint)];
+    const Vector3d effort = RowAt(message.effort, joint);
+    EXPECT_EQ(effort.hasNaN(), !load.why_unknown.empty()) << "joint " << joint;
+    if (!load.why_unknown.empty()) continue;
     // Virtual work: turning one axis by d moves the child by d about it, and the load does M.axis
     // d.
-    const Vector3d effort = RowAt(message.effort, load.joint);
-    const Quaterniond& parent = person.links[At(urdf::ParentOf(load.joint))].orientation;
-    const Vector3d& angles = person.angles[At(load.joint)];
+    const Quaterniond& parent = person.links[At(urdf::ParentOf(joint))].orientation;
+    const Vector3d& angles = person.angles[At(joint)];
     for (int axis = 0; axis < 3; ++axis) {
       const double d = 1e-6;
       const Vector3d nudged = angles + d * Vector3d::Unit(axis);
@@ -123,14 +123,29 @@ TEST(JointStates, EffortIsTheLoadAboutEachAxisAndNotANumberWhereUnknown) {
       EXPECT_NEAR(effort[axis], load.moment.dot(turn.axis() * turn.angle()) / d, 1e-4);
     }
   }
-  for (int joint = 0; joint < urdf::kJointCount; ++joint) {
-    EXPECT_EQ(!RowAt(message.effort, joint).hasNaN(), is_known[At(joint)]) << "joint " << joint;
+}
+
+TEST(JointStates, EffortsStayWhenTheWholeSceneIsTurnedAndMoved) {
+  const PersonState person = Person();
+  PersonState moved = person;
+  const Quaterniond turn(AngleAxisd(2.1, Vector3d(0.3, -0.5, 0.8).normalized()));
+  for (urdf::Pose& link : moved.links) {
+    link.position = turn * link.position + Vector3d(3, -2, 1);
+    link.orientation = turn * link.orientation;
+  }
+  for (JointForce& force : moved.forces.joints) force.moment = turn * force.moment;
+  sensor_msgs::JointState here, there;
+  FillComputedJointStates(person, PersonNames("skeleton"), here);
+  FillComputedJointStates(moved, PersonNames("skeleton"), there);
+  for (std::size_t i = 0; i < here.effort.size(); ++i) {
+    EXPECT_TRUE(std::isnan(here.effort[i]) ? std::isnan(there.effort[i])
+                                           : std::abs(here.effort[i] - there.effort[i]) < 1e-9);
   }
 }
 
 TEST(JointStates, HaveNoEffortsWhenNoLoadIsKnown) {
   PersonState person = Person();
-  for (JointLoad& load : person.loads) load.load_class = LoadClass::kUnknown;
+  MakeUnknown("flight", person.forces);
   sensor_msgs::JointState message;
   FillComputedJointStates(person, PersonNames("skeleton"), message);
   EXPECT_TRUE(message.effort.empty());

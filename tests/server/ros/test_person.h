@@ -67,6 +67,11 @@ inline PersonState MakePerson(std::shared_ptr<const PersonModel> model,
     load.load_class = static_cast<LoadClass>(joint % 4);
     person.loads.push_back(load);
   }
+  for (int joint = 0; joint < urdf::kJointCount; ++joint) {
+    JointForce& force = person.forces.joints[static_cast<std::size_t>(joint)];
+    force.moment = {1.0 + joint, -2.0, 0.5 * joint};
+    if (joint % 4 == 0) force.why_unknown = "in the air";
+  }
   return person;
 }
 

@@ -1,0 +1,53 @@
+/// Forces from outside on their way to the scene builder. Whoever is told what a hand holds (the
+/// page's thread, ROS) says it here, any thread; the thread that reads samples hands it on before
+/// the next sample, so that one thread alone touches the builder.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "server/app/scene_builder.h"
+#include "server/core/force_inputs.h"
+#include "server/core/source.h"
+#include "server/ros/bridge.h"
+
+namespace kinescope::app {
+
+class ToldLoads {
+ public:
+  /// "", or what is wrong with the load, which then changes nothing. Any thread.
+  std::string Tell(int character, const HandLoad& load);
+
+  /// All that was told since the last call, by character.
+  std::map<int, HandLoad> Take();
+
+ private:
+  std::mutex mutex_;
+  std::map<int, HandLoad> told_;  // guarded by mutex_; bounded: callers know who is there
+};
+
+/// Passes samples on to `builder`, each after everything that was told or measured before it. The
+/// reading thread's. `ros` may be null.
+class InputsFirst : public SampleSink, private ros_bridge::InputSink {
+ public:
+  InputsFirst(SceneBuilder& builder, ToldLoads& told, ros_bridge::RosBridge* ros)
+      : builder_(builder), told_(told), ros_(ros) {}
+
+  /// Also to be called while no samples come: services wait for their answer.
+  void TakeInputs();
+
+  void OnCharacter(const Character& character) override { builder_.OnCharacter(character); }
+  void OnSample(const BodySample& sample) override;
+  void OnObjects(const ObjectsSample& sample) override { builder_.OnObjects(sample); }
+
+ private:
+  void OnHandLoad(int character, const HandLoad& load) override;
+  void OnMeasurements(int character, const Measurements& measured) override;
+
+  SceneBuilder& builder_;
+  ToldLoads& told_;
+  ros_bridge::RosBridge* const ros_;
+};
+
+}  // namespace kinescope::app

@@ -1,0 +1,37 @@
+#include "server/http/hand_load_order.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+namespace kinescope::http {
+
+using nlohmann::json;
+
+tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view body) {
+  const std::string expected =
+      "expected a JSON object such as {\"right_kg\": 5, \"left_kg\": 0, \"both_kg\": 0}, and "
+      "\"person\": the character where there are several";
+  const json order = json::parse(body, nullptr, /*allow_exceptions=*/false);
+  if (!order.is_object() || order.empty()) return tl::unexpected(expected);
+  HandLoadOrder parsed;
+  parsed.load.is_known = true;
+  for (const auto& [key, value] : order.items()) {
+    double* const mass = key == "right_kg"  ? &parsed.load.mass_kg[urdf::kRight]
+                         : key == "left_kg" ? &parsed.load.mass_kg[urdf::kLeft]
+                         : key == "both_kg" ? &parsed.load.both_kg
+                                            : nullptr;
+    if (mass != nullptr && value.is_number() && std::isfinite(value.get<double>())) {
+      *mass = value.get<double>();
+    } else if (key == "person" && value.is_number_integer() && value.get<std::int64_t>() >= 0 &&
+               value.get<std::int64_t>() <= std::numeric_limits<std::int32_t>::max()) {
+      parsed.person = value.get<int>();
+    } else {
+      return tl::unexpected(expected);
+    }
+  }
+  return parsed;
+}
+
+}  // namespace kinescope::http

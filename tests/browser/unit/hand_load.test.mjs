@@ -1,0 +1,16 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { heldText, withHand } from '../../../web/hand_load.js';
+
+test('setting one hand leaves the other as it was', () => {
+  assert.deepEqual(withHand({ right_kg: 5, left_kg: 1, both_kg: 0 }, 'left_kg', 2.5),
+    { right_kg: 5, left_kg: 2.5, both_kg: 0 });
+  assert.deepEqual(withHand(undefined, 'both_kg', 10), { right_kg: 0, left_kg: 0, both_kg: 10 });
+});
+
+test('what is held is told in words, and empty hands not at all', () => {
+  assert.equal(heldText({ right_kg: 5, left_kg: 2.25, both_kg: 0 }), 'holds 5 kg right, 2.25 kg left');
+  assert.equal(heldText({ right_kg: 0, left_kg: 0, both_kg: 10 }), 'holds 10 kg in both hands');
+  assert.equal(heldText({ right_kg: 0, left_kg: 0, both_kg: 0 }), '');
+  assert.equal(heldText(undefined), '');
+});
