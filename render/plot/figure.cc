@@ -94,6 +94,11 @@ class PanelDrawing {
   }
 
   void Strip() {
+    constexpr double kWide = 200;  // pt; small panels have no room for it
+    if (!p_.strip.empty() && p_.width > kWide) {
+      pen_.Text(p_.left - kTick - 2, strip_top() + kStripHeight - 1.5, "class", p_.font_size, kInk,
+                Pen::Anchor::kRight);
+    }
     for (const PlotStretch& stretch : p_.strip) {
       const double from = X(stretch.from), width = std::max(0.3, X(stretch.to) - from);
       if (stretch.load_class == LoadClass::kUnknown) {

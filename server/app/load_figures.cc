@@ -118,6 +118,7 @@ void SetRange(PlotPanel& panel) {
     }
   }
   const double room = std::max(0.08 * (high - low), 0.5);
+  panel.has_y_numbers = high > low;  // there is something to read off
   panel.y_from = low < 0 ? low - room : 0;
   panel.y_to = high + room;
 }
@@ -246,7 +247,7 @@ Figure OverviewFigure(const LoadTrial& trial, const TrialContext& context) {
   constexpr std::array<std::size_t, 16> kOrder = {0, 1, 2, 15, 3,  4,  5,  6,
                                                   7, 8, 9, 10, 11, 12, 13, 14};
   constexpr double kMostShown = 2;
-  constexpr double kCellWidth = 131, kCellHeight = 58, kFont = 6.5;
+  constexpr double kCellWidth = 131, kCellHeight = 56, kFont = 6.5;
   double peak = 0;
   for (std::size_t i = 0; i < loads::kScoredJoints.size(); ++i) {
     const double of = trial.exposure().Of(i).peak_ratio;
@@ -254,7 +255,7 @@ Figure OverviewFigure(const LoadTrial& trial, const TrialContext& context) {
   }
   Figure figure;
   figure.width = 4 * kCellWidth + 3;
-  figure.height = 4 * kCellHeight + 26;
+  figure.height = 4 * kCellHeight + 21;
   for (std::size_t cell = 0; cell < kOrder.size(); ++cell) {
     const std::size_t joint = kOrder[cell];
     const bool is_compression = joint == loads::kScoredJoints.size();

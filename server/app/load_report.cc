@@ -35,7 +35,7 @@ std::string CssColor(LoadClass load_class) {
 // Sizes are those of the printed page; the screen shows the page.
 std::string Style() {
   return fmt::format(
-      R"(@page {{ size: A4; margin: 10mm 12mm; }}
+      R"(@page {{ size: A4; margin: 8mm 12mm; }}
 * {{ box-sizing: border-box; }}
 body {{ margin: 0; background: #e9ebee; color: #21262f; font: 7.2pt/1.3 "DejaVu Sans", Arial, sans-serif;
   -webkit-print-color-adjust: exact; print-color-adjust: exact; }}
@@ -120,23 +120,20 @@ render::Camera CloseUp(const SceneState& scene, const PersonState& person,
                        const render::View& view) {
   Eigen::AlignedBox3d box;
   for (const urdf::Pose& link : person.links) box.extend(link.position);
-  constexpr double kAround = 0.2;  // m, from the joints to the skin, head and fingers
-  box.extend(Eigen::Vector3d(box.max() + Eigen::Vector3d::Constant(kAround)));
-  box.extend(Eigen::Vector3d(box.min() - Eigen::Vector3d(kAround, kAround, 0.05)));
   render::Camera camera = render::NamedCamera("three_quarter", scene);
   camera.position += box.center() - camera.target;
   camera.target = box.center();
   const double widest = camera.vertical_fov_rad;
   const auto fits = [&] {
-    for (int corner = 0; corner < 8; ++corner) {
-      const render::Projected at =
-          render::Project(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)), camera,
-                          view.width, view.height);
-      if (at.x_px < 0 || at.y_px < 0 || at.x_px > view.width || at.y_px > view.height) return false;
-    }
-    return true;
+    constexpr double kAround = 0.22;  // m, from the joints to skin, top of the head, finger tips
+    return std::all_of(person.links.begin(), person.links.end(), [&](const urdf::Pose& link) {
+      const render::Projected at = render::Project(link.position, camera, view.width, view.height);
+      const double around = kAround * at.px_per_m;
+      return at.x_px >= around && at.x_px <= view.width - around && at.y_px >= around &&
+             at.y_px <= view.height - around;
+    });
   };
-  for (double share = 0.4; share < 1; share += 0.05) {
+  for (double share = 0.4; share < 1; share += 0.02) {
     camera.vertical_fov_rad = share * widest;
     if (fits()) break;
   }
@@ -144,7 +141,7 @@ render::Camera CloseUp(const SceneState& scene, const PersonState& person,
 }
 
 std::string MomentsHtml(const LoadTrial& trial, render::Renderer& renderer) {
-  const render::View view = {560, 440, 2, {}, false};
+  const render::View view = {560, 410, 2, {}, false};
   const std::vector<WorstMoment> worst = trial.Worst(kPictures);
   if (worst.empty()) return "<p>No load is known at any time, so there is none to show.</p>\n";
   std::string html = "<div class=\"moments\">\n";

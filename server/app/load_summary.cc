@@ -35,7 +35,7 @@ const char* Name(loads::Percentile percentile) {
 }
 
 std::string HandsText(const loads::HandLoad& hands) {
-  if (!hands.is_known) return "not given: none";
+  if (!hands.is_known) return "nothing";
   std::string text;
   const auto add = [&](const char* where, double mass) {
     if (mass > 0) text += fmt::format("{}{:g} kg {}", text.empty() ? "" : ", ", mass, where);
@@ -115,11 +115,13 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
 std::vector<std::string> NotesOf(const LoadTrial& trial, const TrialContext& context) {
   std::vector<std::string> notes;
   const double all = trial.secs();
+  std::string assumed;
   for (const Fact& fact : FactsOf(trial, context)) {
-    if (fact.is_assumed) {
-      notes.push_back(
-          fmt::format("Assumed, because nobody gave it: {} {}.", fact.label, fact.value));
-    }
+    if (!fact.is_assumed) continue;
+    assumed += fmt::format("{}{}: {}", assumed.empty() ? "" : "; ", fact.label, fact.value);
+  }
+  if (!assumed.empty()) {
+    notes.push_back(fmt::format("Assumed, because nobody gave it: {}.", assumed));
   }
   for (const auto& [why, secs] : trial.why_static()) {
     notes.push_back(fmt::format("Static (without accelerations) for {:.0f} % of the time: {}.",
