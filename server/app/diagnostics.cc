@@ -94,8 +94,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
         {"master_uri", ros->master_uri},         {"master_reachable", ros->master_reachable},
         {"published", ros->published},           {"missed", ros->missed},
         {"master_returns", ros->master_returns}, {"inputs", json::object()}};
-    for (const auto& [topic, counters] : ros->inputs)
-      out["ros"]["inputs"][topic] = ToJson(counters);
+    for (const auto& [topic, input] : ros->inputs) out["ros"]["inputs"][topic] = ToJson(input);
   }
   out["pictures"] = nullptr;
   if (pictures) {
