@@ -72,11 +72,25 @@ void SceneBuilder::SetLoads(const loads::LoadSettings& settings) {
 
 void SceneBuilder::SetMeasurements(int character, const loads::Measurements& measured) {
   measured_[character] = measured;
+  LetGoOfStoppedHands(character);
 }
 
 void SceneBuilder::SetHandLoad(int character, const HandLoad& load) {
   KINESCOPE_CHECK(loads::FindDefect(load).empty());
-  held_[character] = load;
+  held_[character] = {load, current_.stamp_nanos};
+  LetGoOfStoppedHands(character);
+}
+
+// A sensor that has stopped leaves a hand's load unknown until somebody says what it is.
+void SceneBuilder::LetGoOfStoppedHands(int character) {
+  const auto told = held_.find(character);
+  const auto measured = measured_.find(character);
+  if (told == held_.end() || measured == measured_.end()) return;
+  const std::int64_t told_nanos = told->second.told_nanos;
+  for (auto& hand : measured->second.hands) {
+    const bool came_before = hand && hand->stamp_nanos < told_nanos;
+    if (came_before && !loads::IsFresh(hand->stamp_nanos, told_nanos)) hand.reset();
+  }
 }
 
 void SceneBuilder::Start() { Publish(Liveness::kNoData); }
@@ -189,7 +203,7 @@ PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) cons
   const auto measured = measured_.find(sample.character);
   loads::LoadSettings settings = options_.loads;
   if (const auto held = held_.find(sample.character); held != held_.end()) {
-    settings.hands = held->second;
+    settings.hands = held->second.load;
   }
   const loads::LoadResult& result = person.loads.Update(
       sample, state.links,

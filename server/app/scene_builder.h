@@ -82,7 +82,13 @@ class SceneBuilder : public SampleSink {
     std::optional<PersonState> state;  // of the newest sample
   };
 
+  struct Held {
+    HandLoad load;
+    std::int64_t told_nanos = 0;  // stamp of the newest sample then
+  };
+
   Person& AddPerson(const Character& character);  // who is not there yet
+  void LetGoOfStoppedHands(int character);
   std::shared_ptr<const PersonModel> MakeModel(const Person& person) const;
   static bool CheckL5(const BodySample& sample, Person& person);
   PersonState StateOf(Person& person, const BodySample& sample) const;
@@ -95,7 +101,7 @@ class SceneBuilder : public SampleSink {
   OnState on_state_;
   std::map<int, Person> people_;                       // by character id; bounded by the source
   std::map<int, loads::Measurements> measured_;        // likewise
-  std::map<int, HandLoad> held_;                       // likewise, by who was told to hold what
+  std::map<int, Held> held_;                           // likewise, by who was told to hold what
   std::map<int, Character> clusters_;                  // of tracked objects, likewise
   std::map<int, std::vector<TrackedObject>> objects_;  // of the newest sample of each cluster
   SceneState current_;                                 // without its people: Publish adds those

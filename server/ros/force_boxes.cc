@@ -113,13 +113,6 @@ std::string ForceBox::TakeHandLoad(const char* topic, double right_kg, double le
   }
   Use(topic);
   told_ = load;
-  // Sensors that have stopped no longer stand in the way of what is known now.
-  for (auto& hand : measured_.hands) {
-    if (hand && body_ && !AreOfOneTime(hand->stamp_nanos, body_->stamp_nanos)) {
-      hand.reset();
-      has_news_ = true;
-    }
-  }
   return "";
 }
 

@@ -155,7 +155,7 @@ TEST_F(LoadsOverRos, LoadsOfAnotherProgramReplaceOursPerJointWhileTheyCome) {
     sensor_msgs::JointState message;
     message.header.stamp = loads_->header.stamp;
     message.name = {"jRightElbow_rotx", "jRightElbow_roty", "jRightElbow_rotz", "somebody_elses"};
-    message.effort = {0, -70, 0, 1};
+    message.effort = {0, 0, -70, 1};  // the arm lies along y there: it bends about z
     return message;
   };
   ASSERT_TRUE(Answer(other, say, [&] { return LoadOf("jRightElbow").level == JointLoad::HIGH; }));

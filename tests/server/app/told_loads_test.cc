@@ -120,6 +120,23 @@ TEST(Measurements, OfOtherProgramsReplaceOurLoadsWhileTheyAreFresh) {
   EXPECT_EQ(LoadOf(after, urdf::jRightElbow).load_class, LoadClass::kLow);
 }
 
+TEST(Measurements, OfAHandThatStopLeaveItUnknownUntilItsLoadIsTold) {
+  TellingBridge bridge;
+  Wired wired(&bridge);
+  wired.RunOneSecond();
+  MeasuredHandForce pull;
+  pull.force = {0, 0, -20};
+  pull.stamp_nanos = wired.last->stamp_nanos;
+  bridge.measured.emplace().hands[kRight] = pull;
+  const PersonState stopped = wired.RunOneSecond().people[0];
+  EXPECT_EQ(LoadOf(stopped, urdf::jRightElbow).load_class, LoadClass::kUnknown);
+  EXPECT_NE(LoadOf(stopped, urdf::jRightElbow).reason, "");
+  wired.told.Tell(0, InRightHand(0));
+  const PersonState told = wired.RunOneSecond().people[0];
+  EXPECT_EQ(LoadOf(told, urdf::jRightElbow).load_class, LoadClass::kLow)
+      << LoadOf(told, urdf::jRightElbow).reason;
+}
+
 TEST(Measurements, OfTheCopAloneMoveItAndKeepTheForceOfTheMotion) {
   TellingBridge bridge;
   Wired wired(&bridge);

@@ -150,12 +150,14 @@ TEST(ExternalEfforts, OfHumanGazebosNamesAreAboutItsAxes) {
         body.links[At(child)].orientation * urdf::SegmentFromLink(child).conjugate();
     const Eigen::Matrix3d turn =
         (world_from_parent.conjugate() * world_from_child).toRotationMatrix();
-    const Vector3d angles = turn.eulerAngles(0, 1, 2);
+    const Vector3d angles(std::atan2(-turn(1, 2), turn(2, 2)), std::asin(turn(0, 2)),
+                          std::atan2(-turn(0, 1), turn(0, 0)));
     const auto child_at = [&](const Vector3d& xyz) {
       return Quaterniond(world_from_parent * AngleAxisd(xyz.x(), Vector3d::UnitX()) *
                          AngleAxisd(xyz.y(), Vector3d::UnitY()) *
                          AngleAxisd(xyz.z(), Vector3d::UnitZ()));
     };
+    ASSERT_LT(child_at(angles).angularDistance(world_from_child), 1e-9);
     sensor_msgs::JointState message;
     for (int axis = 0; axis < 3; ++axis) {
       constexpr double kStep = 1e-6;

@@ -10,6 +10,7 @@ namespace kinescope::ros_bridge {
 namespace {
 
 using kinescope_ros::JointLoad;
+using urdf::At;
 
 TEST(JointLoads, CarryEveryScoredJointWithItsReasonOrItsNumbers) {
   PersonState person = testing::MakePerson(testing::MakeModel(), testing::Posture(1), 5, 7);
