@@ -216,7 +216,14 @@ void Pen::Unclip() { cairo_restore(parts_->context); }
 std::string Pen::TakeSvg() {
   parts_->Finish();
   cairo_surface_finish(parts_->surface);
-  return std::move(parts_->svg);
+  // Cairo numbers its surfaces through the process; the same figure is to be the same bytes.
+  std::string svg = std::move(parts_->svg);
+  const std::string counted = "<g id=\"surface";
+  if (const std::size_t at = svg.find(counted); at != std::string::npos) {
+    const std::size_t digits = at + counted.size();
+    svg.erase(digits, svg.find('"', digits) - digits);
+  }
+  return svg;
 }
 
 Image Pen::TakeImage() {

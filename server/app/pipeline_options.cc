@@ -49,7 +49,7 @@ loads::HandLoad ToHandLoad(const std::string& text) try {
   for (const std::string& part : Split(text)) list += (list.empty() ? "" : ";") + part;
   return loads::ParseHandLoad(list);
 } catch (const UsageError& error) {
-  throw UsageError(fmt::format("--hand: {}", error.what()));
+  throw UsageError(fmt::format("--hand={}: {}", text, error.what()));
 }
 
 void SetFigure(const PersonOptions& person, SceneOptions& scene) {
@@ -92,7 +92,7 @@ urdf::BodyDescription ToBody(const PersonOptions& person) {
   try {
     body.table = urdf::ParseBodyTable(person.body_table);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--body_table: {}", error.what()));
+    throw UsageError(fmt::format("--body_table={}: {}", person.body_table, error.what()));
   }
   try {
     for (const std::string& text : Split(person.extra_mass)) {
@@ -100,7 +100,7 @@ urdf::BodyDescription ToBody(const PersonOptions& person) {
     }
     if (auto defect = urdf::FindDefect(body); !defect.empty()) throw std::invalid_argument(defect);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--extra_mass: {}", error.what()));
+    throw UsageError(fmt::format("--extra_mass={}: {}", person.extra_mass, error.what()));
   }
   return body;
 }
@@ -126,7 +126,7 @@ loads::LoadSettings ToLoadSettings(const LoadOptions& loads) {
   settings.motion.cutoff_hz = loads.filter_hz;
   settings.compression_counts = ToSwitch("lumbar_compression", loads.lumbar_compression);
   if (auto defect = loads::FindDefect(settings); !defect.empty()) {
-    throw UsageError(fmt::format("--filter_hz: {}", defect));
+    throw UsageError(fmt::format("--filter_hz={}: {}", loads.filter_hz, defect));
   }
   return settings;
 }

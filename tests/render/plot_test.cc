@@ -9,12 +9,13 @@
 namespace kinescope::render {
 namespace {
 
+using ::testing::DoubleNear;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Pointwise;
 
 TEST(Plot, PutsTicksAtRoundNumbers) {
-  EXPECT_THAT(NiceTicks(0, 1, 5),
-              ElementsAre(0, 0.2, 0.4, ::testing::DoubleNear(0.6, 1e-12), 0.8, 1));
+  EXPECT_THAT(NiceTicks(0, 1, 5), ElementsAre(0, 0.2, 0.4, DoubleNear(0.6, 1e-12), 0.8, 1));
   EXPECT_THAT(NiceTicks(-7, 12, 4), ElementsAre(-5, 0, 5, 10));
   EXPECT_THAT(NiceTicks(0, 8, 8), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8));
   for (double size = 1e-6; size < 1e9; size *= 3.7) {
@@ -59,11 +60,11 @@ Figure OnePanel() {
   return figure;
 }
 
-std::vector<int> PixelAt(const Image& image, double x_pt, double y_pt, double scale) {
+std::vector<double> PixelAt(const Image& image, double x_pt, double y_pt, double scale) {
   const auto at =
       4 * (static_cast<std::size_t>(y_pt * scale) * static_cast<std::size_t>(image.width) +
            static_cast<std::size_t>(x_pt * scale));
-  return {image.rgba[at], image.rgba[at + 1], image.rgba[at + 2]};
+  return {1.0 * image.rgba[at], 1.0 * image.rgba[at + 1], 1.0 * image.rgba[at + 2]};
 }
 
 TEST(Plot, DrawsBandsAndClassesWhereTheyBelong) {
@@ -76,14 +77,14 @@ TEST(Plot, DrawsBandsAndClassesWhereTheyBelong) {
   // The strip: high fills it, low a third of it.
   const Rgb high = ColorOf(LoadClass::kHigh), low = ColorOf(LoadClass::kLow);
   const auto levels = [](const Rgb& color) {
-    std::vector<int> all;
-    for (const double channel : color) all.push_back(static_cast<int>(std::lround(255 * channel)));
+    std::vector<double> all;
+    for (const double channel : color) all.push_back(255 * channel);
     return all;
   };
   const double top_of_strip = 10 + 40 + 3.5, foot_of_strip = 10 + 40 + 10;
-  EXPECT_EQ(PixelAt(image, 30, top_of_strip, 4), levels(high));
+  EXPECT_THAT(PixelAt(image, 30, top_of_strip, 4), Pointwise(DoubleNear(1), levels(high)));
   EXPECT_THAT(PixelAt(image, 80, top_of_strip, 4), ElementsAre(255, 255, 255));
-  EXPECT_EQ(PixelAt(image, 80, foot_of_strip, 4), levels(low));
+  EXPECT_THAT(PixelAt(image, 80, foot_of_strip, 4), Pointwise(DoubleNear(1), levels(low)));
 }
 
 TEST(Plot, IsTheSameEveryTimeInBothFormats) {
