@@ -21,6 +21,14 @@ std::string TickText(double value, double step) {
   return fmt::format("{:.{}f}", rounded, decimals);
 }
 
+// With less than two there is no scale to read.
+std::vector<double> TicksOf(double from, double to, double length, double apart) {
+  int most = std::max(2, static_cast<int>(length / apart));
+  std::vector<double> ticks = NiceTicks(from, to, most);
+  while (ticks.size() < 2) ticks = NiceTicks(from, to, ++most);
+  return ticks;
+}
+
 class PanelDrawing {
  public:
   PanelDrawing(const PlotPanel& panel, Pen& pen) : p_(panel), pen_(pen) {
@@ -111,9 +119,7 @@ class PanelDrawing {
     }
   }
 
-  std::vector<double> YTicks() const {
-    return NiceTicks(p_.y_from, p_.y_to, std::max(2, static_cast<int>(p_.height / 16)));
-  }
+  std::vector<double> YTicks() const { return TicksOf(p_.y_from, p_.y_to, p_.height, 16); }
 
   void Axes() {
     const double size = p_.font_size;
@@ -128,8 +134,7 @@ class PanelDrawing {
       widest = std::max(widest, pen_.TextWidth(text, size));
       pen_.Text(p_.left - kTick - 2, Y(y) + 0.35 * size, text, size, kInk, Pen::Anchor::kRight);
     }
-    const std::vector<double> xs =
-        NiceTicks(p_.x_from, p_.x_to, std::max(2, static_cast<int>(p_.width / 45)));
+    const std::vector<double> xs = TicksOf(p_.x_from, p_.x_to, p_.width, 45);
     for (const double x : xs) {
       pen_.Line(X(x), axis_bottom(), X(x), axis_bottom() + kTick, kInk, 0.7);
       if (!p_.has_x_numbers || xs.size() < 2) continue;
