@@ -103,8 +103,9 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
        false});
   double static_secs = 0;
   for (const auto& [why, secs] : trial.why_static()) static_secs += secs;
-  const bool is_static = !settings.motion.dynamic || (trial.secs() == 0 && !forces.is_dynamic) ||
-                         (trial.secs() > 0 && static_secs >= trial.secs());
+  constexpr double kRounding = 1e-6;  // s, of sums
+  const bool is_static =
+      !settings.motion.dynamic || (!forces.is_dynamic && static_secs >= trial.secs() - kRounding);
   facts.push_back(
       {"accelerations",
        is_static ? "left out: static" : fmt::format("in, below {:g} Hz", settings.motion.cutoff_hz),

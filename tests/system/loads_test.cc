@@ -282,6 +282,8 @@ TEST(LoadsCommand, IsStaticForABagOfPoses) {
     EXPECT_EQ(table.At(row, "is_dynamic"), "0");
     EXPECT_NE(table.At(row, "static_reason"), "");
   }
+  EXPECT_THAT(Loads({SharedData("ros1/2018-05-28-17-34-45.bag.xz")}).out,
+              HasSubstr("left out: static"));
 }
 #endif
 
