@@ -137,7 +137,11 @@ class MvnxReader::Parser {
     if (path_.size() >= kDeepest) return Fail("elements are nested too deeply for MVNX");
     MvnxList list = MvnxList::kOrientation;
     const Element parent = path_.empty() ? Element::kDocument : path_.back();
-    const Element element = FindElement(parent, name, list);
+    Element element = FindElement(parent, name, list);
+    if (element == Element::kList && list == MvnxList::kFootContacts &&
+        header_.foot_contacts.empty()) {
+      element = Element::kOther;  // nobody says which is which
+    }
     path_.push_back(element);
     text_.clear();
     if (parent == Element::kDocument) {
@@ -263,8 +267,6 @@ class MvnxReader::Parser {
     std::vector<double>& numbers = frame_.lists[static_cast<std::size_t>(list_)];
     const std::string wrong = ParseNumbers(text_, numbers);
     if (!wrong.empty()) return Fail(std::string(Name(list_)) + ": " + wrong);
-    // A file that numbers them without saying which is which says nothing to us.
-    if (list_ == MvnxList::kFootContacts && header_.foot_contacts.empty()) return numbers.clear();
     const bool short_com = list_ == MvnxList::kCenterOfMass && numbers.size() == 3;
     const std::size_t expected = ExpectedSize(list_);
     if (numbers.size() == expected || short_com) return;
