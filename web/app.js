@@ -245,7 +245,9 @@ function showPeople(isLive) {
   showLoads(isLive ? rows : rows.map(asUnknown));
   const person = state.people[0];
   const told = details.people.find(({ character }) => character === person?.character);
-  setText('loads-hint', person ? loadsHint(person, told) : '');
+  const hint = person ? loadsHint(person, told) : '';
+  setText('loads-hint', hint);
+  element('loads-hint').title = hint;
   element('loads-hint').classList.toggle('warn', told?.mass_is_assumed === true || person?.comDisagrees === true);
   setText('com', person ? comText(person) : 'Centre of mass');
   setText('cop', person ? copText(person, told) : 'Centre of pressure');
@@ -262,7 +264,7 @@ function showPeople(isLive) {
 function loadsHint(person, told) {
   const motion = person.metric === 'external' ? '' : person.isDynamic ? ', dynamic' : ', static';
   return [
-    `${person.metric}${motion}, % of capacity`,
+    `${person.metric}${motion}`,
     told?.mass_is_assumed ? `mass assumed ${told.mass_kg} kg` : '',
     heldText(told?.hand_load),
     person.comDisagrees ? `centre of mass ${centimetres(person.comDifference)} from MVN’s` : '',

@@ -195,7 +195,7 @@ test('a load is put into a hand, seen in it, and refused when nobody could hold 
 
 test('what the numbers stand on is said beside them', async () => {
   const { page, close } = await openLive();
-  await page.waitForFunction(() => /^total, dynamic, % of capacity · mass assumed 75 kg/
+  await page.waitForFunction(() => /^total, dynamic · mass assumed 75 kg/
     .test(document.getElementById('loads-hint').textContent), null, LONG);
   assert.equal(await text(page, '#support'), 'Margin of stability 8.3 cm');
   assert.equal(await text(page, '#compression'), 'L5/S1 compression 2.15 kN');

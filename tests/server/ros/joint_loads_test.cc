@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "server/ros/names.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::ros_bridge {
