@@ -51,11 +51,12 @@ TEST_F(RosBridgeWithMaster, DescribesEveryPersonAndDescribesAnewWhoeverChanges) 
   }
   std::sort(names.begin(), names.end());
   EXPECT_THAT(
-      names, ElementsAre("/kinescope/anna/com", "/kinescope/anna/com_stamped",
-                         "/kinescope/anna/cop", "/kinescope/anna/joint_states",
-                         "/kinescope/anna/link_states", "/kinescope/anna/markers", "/kinescope/com",
-                         "/kinescope/com_stamped", "/kinescope/cop", "/kinescope/joint_states",
-                         "/kinescope/link_states", "/kinescope/markers"));
+      names,
+      ElementsAre("/kinescope/anna/com", "/kinescope/anna/com_stamped", "/kinescope/anna/cop",
+                  "/kinescope/anna/joint_loads", "/kinescope/anna/joint_states",
+                  "/kinescope/anna/link_states", "/kinescope/anna/markers", "/kinescope/com",
+                  "/kinescope/com_stamped", "/kinescope/cop", "/kinescope/joint_loads",
+                  "/kinescope/joint_states", "/kinescope/link_states", "/kinescope/markers"));
 }
 
 TEST_F(RosBridgeWithMaster, ReadsPrivateParametersOfAnyScalarTypeAndPrefersTheCommandLine) {
