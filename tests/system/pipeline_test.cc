@@ -247,6 +247,15 @@ TEST_F(Pipeline, ShowsTheHumanWhereTheStateSaysAndOnThePage) {
   EXPECT_EQ(page.exit_code, 0) << page.out << page.err;
 }
 
+TEST_F(Pipeline, TakesALoadFromThePageAndShowsTheShoulderThatCarriesIt) {
+  const auto suit = Start("stream demo:t_pose --to " + suit_address_);
+  WaitForLine(*server_, "live: ");
+  const auto page = RunProgram(
+      {KINESCOPE_NODE, "--test", KINESCOPE_SOURCE_DIR "/tests/browser/hand_load_page.mjs"},
+      {"KINESCOPE_PAGE=" + page_, "KINESCOPE_SCREENSHOTS=" KINESCOPE_SCREENSHOTS}, 110);
+  EXPECT_EQ(page.exit_code, 0) << page.out << page.err;
+}
+
 TEST_F(Pipeline, GoesOnWhenTheMasterDies) {
   const auto suit = Start("stream demo:walk --to " + suit_address_);
   WaitForLine(*server_, "live: ");
