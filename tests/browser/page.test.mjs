@@ -253,7 +253,9 @@ test('a token is asked for, and does not stay in the address', async () => {
   const { page, problems, close } = await openPage(guarded.url);
   await lampIs(page, 'Live');
   assert.equal(new URL(page.url()).search, '');
-  await page.waitForLoadState('networkidle');  // a request that the reload cuts short counts as failed
+  // A request that the reload cuts short counts as failed.
+  await page.waitForFunction(() => performance.getEntriesByType('resource')
+    .some(({ name, responseEnd }) => name.endsWith('/api/model') && responseEnd > 0), null, LONG);
   await page.reload();
   await lampIs(page, 'Live');
   assert.deepEqual(problems, []);
