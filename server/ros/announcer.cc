@@ -219,9 +219,9 @@ std::shared_ptr<const PersonTopics> Announcer::Advertise(const std::string& pref
 
 void Announcer::Subscribe() {
   for (const auto& [prefix, box] : boxes_) {
-    if (inputs_.count(prefix) == 0) {
-      inputs_[prefix] = SubscribeForces(*node_, prefix, *wiring_.queue, box);
-    }
+    if (inputs_.count(prefix) != 0) continue;
+    ForceSubscriptions all = SubscribeForces(*node_, prefix, *wiring_.queue, box);
+    if (all.AreComplete()) inputs_[prefix] = std::move(all);  // else the master has just gone
   }
   bool wants_transforms = false;
   {

@@ -223,6 +223,13 @@ void ForceBox::OnExternalJointStates(const sensor_msgs::JointState& message) {
               StampOf(kExternalJointStates, message.header));
 }
 
+bool ForceSubscriptions::AreComplete() const {
+  for (const ros::Subscriber& subscriber : subscribers) {
+    if (!subscriber) return false;
+  }
+  return static_cast<bool>(service);
+}
+
 ForceSubscriptions SubscribeForces(ros::NodeHandle& node, const std::string& prefix,
                                    ros::CallbackQueue& queue,
                                    const std::shared_ptr<ForceBox>& box) {

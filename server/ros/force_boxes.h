@@ -88,6 +88,7 @@ class ForceBox {
 struct ForceSubscriptions {
   std::vector<ros::Subscriber> subscribers;
   ros::ServiceServer service;
+  bool AreComplete() const;  // false: the master did not take one of them
 };
 
 /// Below `prefix` ("" or "<model>/") of the private names of `node`. Asks the master: may wait.
