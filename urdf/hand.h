@@ -24,8 +24,6 @@ extern const std::array<std::string_view, kFingersPerHand> kFingers;
 /// The parent of each of them as an index of kFingers; -1 for the carpus, whose parent is the hand.
 extern const std::array<int, kFingersPerHand> kFingerParents;
 
-constexpr int HandSegmentOf(Side side) { return side == kRight ? kRightHand : kLeftHand; }
-
 struct HandSkeleton {
   /// Origin of each segment in its parent's link frame; of the carpus in the hand's.
   std::array<Eigen::Vector3d, kFingersPerHand> origin_in_parent{};

@@ -85,13 +85,19 @@ LinkPoses ForwardKinematics(const Skeleton& skeleton, const Pose& pelvis,
   return links;
 }
 
-LinkPoses Interpolate(const LinkPoses& a, const LinkPoses& b, double t) {
+Pose Relative(const Pose& from, const Pose& to) {
+  const Quaterniond back = from.orientation.conjugate();
+  return {back * (to.position - from.position), back * to.orientation};
+}
+
+Pose Interpolate(const Pose& a, const Pose& b, double t) {
   t = std::clamp(t, 0.0, 1.0);
+  return {(1 - t) * a.position + t * b.position, a.orientation.slerp(t, b.orientation)};
+}
+
+LinkPoses Interpolate(const LinkPoses& a, const LinkPoses& b, double t) {
   LinkPoses between;
-  for (std::size_t i = 0; i < between.size(); ++i) {
-    between[i].position = (1 - t) * a[i].position + t * b[i].position;
-    between[i].orientation = a[i].orientation.slerp(t, b[i].orientation);
-  }
+  for (std::size_t i = 0; i < between.size(); ++i) between[i] = Interpolate(a[i], b[i], t);
   return between;
 }
 

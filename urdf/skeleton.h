@@ -14,6 +14,9 @@ namespace kinescope::urdf {
 
 enum Side : int { kRight = 0, kLeft = 1 };
 
+constexpr int HandSegmentOf(Side side) { return side == kRight ? kRightHand : kLeftHand; }
+constexpr int FootSegmentOf(Side side) { return side == kRight ? kRightFoot : kLeftFoot; }
+
 struct Skeleton {
   /// Origin of each segment in its parent's link frame; zero for the pelvis.
   std::array<Eigen::Vector3d, kSegmentCount> origin_in_parent{};

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/app/inspection_report.h"
+#include "server/core/clocks.h"
 
 namespace kinescope::app {
 namespace {
@@ -13,7 +14,6 @@ using mvn::CharacterKind;
 using mvn::CharacterReport;
 using mvn::InspectionReport;
 
-double Secs(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-9; }
 double Millis(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-6; }
 
 template <class T>

@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 
+#include "server/core/clocks.h"
 #include "server/loads/joint_score.h"
 
 namespace kinescope::app {
@@ -52,7 +53,7 @@ std::string IsoTime(std::int64_t stamp_nanos) {
 
 void VisitTime(const PersonState& person, std::int64_t begin_nanos, CellSink& cells) {
   const std::int64_t stamp = person.sample.stamp_nanos;
-  cells.Number("time_s", static_cast<double>(stamp - begin_nanos) * 1e-9);
+  cells.Number("time_s", Secs(stamp - begin_nanos));
   cells.Text("utc", IsoTime(stamp));
   cells.Whole("frame", person.sample.counter);
   cells.Whole("person", person.character);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "server/core/check.h"
+#include "server/core/clocks.h"
 #include "server/loads/joint_score.h"
 
 namespace kinescope::app {
@@ -13,8 +14,6 @@ namespace {
 
 constexpr double kLongestStepSecs = 0.5;  // as Exposure counts
 constexpr std::size_t kMostSlots = 128;   // of scenes kept, some 20 kB each
-
-double Secs(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-9; }
 
 void Count(std::string_view why, double secs, SecsByReason& reasons) {
   if (!why.empty()) reasons[why] += secs;

@@ -22,6 +22,7 @@
 #include "server/app/progress.h"
 #include "server/app/scene_reader.h"
 #include "server/app/stop_signal.h"
+#include "server/core/clocks.h"
 
 namespace kinescope::app {
 namespace {
@@ -94,7 +95,7 @@ class Recording {
     while (const auto scene = reader_.Next()) {
       if (StopRequested()) Interrupted();
       if (!begin_nanos_) begin_nanos_ = scene->stamp_nanos;
-      const double secs = static_cast<double>(scene->stamp_nanos - *begin_nanos_) * 1e-9;
+      const double secs = Secs(scene->stamp_nanos - *begin_nanos_);
       // A hair, so that rounded stamps do not decide; the last sample is the one at the end.
       if (length && secs > *length + 1e-6) break;
       for (const PersonState& person : scene->people) AddIfNew(scene, person);

@@ -22,15 +22,6 @@ constexpr double kNanosPerSec = 1e9;
 // A person who sent nothing for this long while others do has left.
 constexpr std::int64_t kGoneAfterNanos = 1'000'000'000;
 
-LinkPoses ToLinkPoses(const BodySample& sample) {
-  LinkPoses links;
-  for (int i = 0; i < urdf::kSegmentCount; ++i) {
-    const SegmentState& segment = sample.segments[At(i)];
-    links[At(i)] = {segment.position, segment.orientation * urdf::SegmentFromLink(i)};
-  }
-  return links;
-}
-
 double LowestSole(const LinkPoses& links, const urdf::Skeleton& skeleton) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
@@ -182,7 +173,7 @@ PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) cons
   state.name = person.character.name;
   state.model = person.model;
   state.sample = sample;
-  state.links = ToLinkPoses(sample);
+  state.links = LinkPosesOf(sample);
   state.angles = person.angles = urdf::AnglesFromPoses(state.links, person.angles);
   state.deviation = urdf::MeasureDeviation(skeleton, state.links, state.angles);
   person.worst_deviation.Raise(state.deviation);

@@ -119,7 +119,8 @@ PictureOptions ToPictureOptions(const ServeOptions& options) {
 
 void Serve(const ServeOptions& options, bool with_page) {
   const std::int64_t start_nanos = MonotonicNanos();
-  const SceneOptions scene_options = ToSceneOptions(options.person, options.stale_secs, options.loads);
+  const SceneOptions scene_options =
+      ToSceneOptions(options.person, options.stale_secs, options.loads);
   const ros_bridge::RosMode ros_mode = ToRosMode(options.ros);
   ros_bridge::BridgeConfig bridge_config = ToBridgeConfig(options);
   bridge_config.check_hand_load = [](const HandLoad& load) { return loads::FindDefect(load); };
@@ -168,8 +169,7 @@ void Serve(const ServeOptions& options, bool with_page) {
     if (ToSwitch("pictures", options.pictures)) {
       drawing = std::make_unique<PictureLoop>(ToPictureOptions(options), states.Get(), pictures);
       spdlog::info("first picture {:.2f} s after start, drawn by {}",
-                   static_cast<double>(MonotonicNanos() - start_nanos) * 1e-9,
-                   drawing->status().renderer);
+                   Secs(MonotonicNanos() - start_nanos), drawing->status().renderer);
     }
     http::HttpConfig config = ToHttpConfig(options);
     config.set_hand_load = [&](int character, const HandLoad& load) {

@@ -8,11 +8,6 @@ using Eigen::Vector3d;
 using urdf::At;
 using urdf::Pose;
 
-Pose Relative(const Pose& from, const Pose& to) {
-  const Quaterniond back = from.orientation.conjugate();
-  return {back * (to.position - from.position), back * to.orientation};
-}
-
 // nullopt unless scale data describe every segment of the hand, and bones that can be.
 std::optional<urdf::HandSkeleton> DescribedHand(const Character& character, urdf::Side side,
                                                 const Vector3d& carpus_in_hand, double length) {
@@ -38,9 +33,7 @@ bool WornExtras::Notice(const BodySample& sample) {
     const std::size_t carpus = At(FingerIndex(side, 0));
     if (carpus_in_hand_[side] || !sample.extra.present.test(carpus)) continue;
     // Scale data have the T-pose of the fingers, but a Character not their hand's place in it.
-    const int hand = urdf::HandSegmentOf(side);
-    const SegmentState& segment = sample.segments[At(hand)];
-    const Pose world_from_hand{segment.position, segment.orientation * urdf::SegmentFromLink(hand)};
+    const Pose world_from_hand = LinkPoseOf(sample, urdf::HandSegmentOf(side));
     constexpr double kReach = 0.1;  // m; farther off is no part of this hand
     const Vector3d offset = Relative(world_from_hand, sample.extra.poses[carpus]).position;
     carpus_in_hand_[side].emplace(Vector3d::Zero());

@@ -69,6 +69,10 @@ struct BodySample {
   std::optional<std::int32_t> utc_millis_of_day;  // type 25: time of day, UTC, without a date
 };
 
+/// The sample's poses, of *link* frames (urdf/segments.h).
+urdf::Pose LinkPoseOf(const BodySample& sample, int segment);
+urdf::LinkPoses LinkPosesOf(const BodySample& sample);
+
 /// One sample of a cluster of tracked objects, which streams as a character of its own.
 struct ObjectsSample {
   int character = 0;

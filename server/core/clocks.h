@@ -1,4 +1,4 @@
-/// The two clocks of the program, read in one place.
+/// The two clocks of the program, read in one place, and what their nanoseconds are in seconds.
 #pragma once
 
 #include <chrono>
@@ -17,5 +17,7 @@ inline std::int64_t WallNanos() {
              std::chrono::system_clock::now().time_since_epoch())
       .count();
 }
+
+constexpr double Secs(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-9; }
 
 }  // namespace kinescope

@@ -80,8 +80,7 @@ HeldSolids HeldBy(const PersonState& person) {
     shared_kg += hand.shared_kg;
     const double alone_kg = hand.mass_kg - hand.shared_kg;
     if (!(alone_kg > kLeastKg)) continue;
-    const urdf::Pose& link =
-        person.links[side == urdf::kRight ? urdf::kRightHand : urdf::kLeftHand];
+    const urdf::Pose& link = person.links[urdf::At(urdf::HandSegmentOf(side))];
     if ((hand.point - hand.grip).norm() < kInTheFist) {
       maker.AddDumbbell(hand.point, link.orientation, alone_kg);
     } else {

@@ -14,15 +14,10 @@ std::optional<Vector3d> Between(const std::optional<Vector3d>& a, const std::opt
   return Vector3d((1 - t) * *a + t * *b);
 }
 
-void Move(urdf::Pose& pose, const urdf::Pose& after, double t) {
-  pose.position = (1 - t) * pose.position + t * after.position;
-  pose.orientation = pose.orientation.slerp(t, after.orientation);  // along the shorter arc
-}
-
 // Along with the hands that hold it.
 void CarryHeld(const urdf::LinkPoses& before, PersonState& person) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-    const int hand = side == urdf::kRight ? urdf::kRightHand : urdf::kLeftHand;
+    const int hand = urdf::HandSegmentOf(side);
     const urdf::Pose& was = before[urdf::At(hand)];
     const urdf::Pose& is = person.links[urdf::At(hand)];
     HandForce& held = person.forces.hands[side];
@@ -43,13 +38,13 @@ void MoveTowards(PersonState& person, const PersonState& after, double t) {
     if (!person.gloves[side] || !after.gloves[side]) continue;
     GloveState& glove = *person.gloves[side];
     for (std::size_t i = 0; i < glove.links.size(); ++i) {
-      Move(glove.links[i], after.gloves[side]->links[i], t);
+      glove.links[i] = urdf::Interpolate(glove.links[i], after.gloves[side]->links[i], t);
       glove.angles[i] = (1 - t) * glove.angles[i] + t * after.gloves[side]->angles[i];
     }
   }
   for (std::size_t i = 0; i < person.props.size(); ++i) {
     if (!person.props[i] || !after.props[i]) continue;
-    Move(person.props[i]->pose, after.props[i]->pose, t);
+    person.props[i]->pose = urdf::Interpolate(person.props[i]->pose, after.props[i]->pose, t);
     Vector3d& angles = person.props[i]->angles;
     angles = (1 - t) * angles + t * after.props[i]->angles;
   }
@@ -84,7 +79,7 @@ SceneState Interpolate(const SceneState& before, const SceneState& after,
         std::find_if(after.objects.begin(), after.objects.end(), [&](const TrackedObject& o) {
           return o.character == object.character && o.number == object.number;
         });
-    if (match != after.objects.end()) Move(object.pose, match->pose, t);
+    if (match != after.objects.end()) object.pose = urdf::Interpolate(object.pose, match->pose, t);
   }
   return scene;
 }

@@ -5,14 +5,13 @@
 #include <limits>
 
 #include "server/core/check.h"
+#include "server/core/clocks.h"
 
 namespace kinescope::loads {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kLongestStepNanos = 500'000'000;
-
-double Secs(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-9; }
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/core/clocks.h"
 #include "server/loads/support_polygon.h"
 
 namespace kinescope::loads {
@@ -18,8 +19,6 @@ using urdf::Side;
 constexpr double kLongestGapSecs = 0.5;
 // A foot that has just come down carries something at once, if it is the only one.
 constexpr double kLeastWeight = 1e-3;
-
-int FootOf(Side side) { return side == kRight ? urdf::kRightFoot : urdf::kLeftFoot; }
 
 double SpeedOf(const SegmentState& segment, const Vector3d& point) {
   return (segment.velocity + segment.angular_velocity.cross(point - segment.position)).norm();
@@ -83,12 +82,12 @@ void FootContacts::Place(Side side, const Points& points, double stature,
 void FootContacts::Update(const BodySample& sample, const urdf::LinkPoses& links,
                           const urdf::Skeleton& skeleton, double floor_z,
                           const Settings& settings) {
-  const double step_secs = static_cast<double>(sample.stamp_nanos - last_nanos_) * 1e-9;
+  const double step_secs = Secs(sample.stamp_nanos - last_nanos_);
   if (has_last_ && step_secs == 0) return;
   const bool fresh = !has_last_ || step_secs < 0 || step_secs > kLongestGapSecs;
   const bool has_speeds = sample.has_linear && sample.has_angular;
   for (const Side side : {kRight, kLeft}) {
-    const std::size_t foot = At(FootOf(side));
+    const std::size_t foot = At(urdf::FootSegmentOf(side));
     const std::size_t toe = foot + 1;
     Points points;
     points.at = {links[foot].position + links[foot].orientation * skeleton.heel_in_foot[side],

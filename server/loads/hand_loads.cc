@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "urdf/placed_mass.h"
 
@@ -24,8 +25,6 @@ constexpr double kFarthest = 2;             // m, of a CoM from its hand
 constexpr double kGripOfHandLength = 0.42;  // joint-loads.md 2.7
 
 constexpr std::array<const char*, 2> kSideName = {"right", "left"};
-
-int HandOf(Side side) { return side == kRight ? urdf::kRightHand : urdf::kLeftHand; }
 
 bool IsMass(double mass_kg) { return mass_kg >= 0 && mass_kg <= kMostHeldKg; }
 
@@ -121,7 +120,7 @@ void HandLoads::Ramp::Step(double target, double step_secs) {
 }
 
 void HandLoads::Update(const HandLoad& load, std::int64_t stamp_nanos) {
-  const double step_secs = static_cast<double>(stamp_nanos - last_nanos_) * 1e-9;
+  const double step_secs = Secs(stamp_nanos - last_nanos_);
   const bool fresh = !has_last_ || step_secs < 0 || step_secs > kLongestGapSecs;
   for (const Side side : {kRight, kLeft}) {
     const double mass = load.mass_kg[side];
@@ -142,7 +141,7 @@ void HandLoads::Push(const urdf::LinkPoses& links, const BodyMotion& motion,
   const Vector3d up(0, 0, kGravity);
   std::array<Vector3d, 2> grip, grip_acceleration;
   for (const Side side : {kRight, kLeft}) {
-    const std::size_t hand = At(HandOf(side));
+    const std::size_t hand = At(urdf::HandSegmentOf(side));
     const Vector3d arm = links[hand].orientation * GripPoint(skeleton, side);
     grip[side] = links[hand].position + arm;
     grip_acceleration[side] = AccelerationAt(motion[hand], arm);
@@ -153,7 +152,7 @@ void HandLoads::Push(const urdf::LinkPoses& links, const BodyMotion& motion,
       right_share * grip_acceleration[kRight] + (1 - right_share) * grip_acceleration[kLeft];
 
   for (const Side side : {kRight, kLeft}) {
-    const int hand = HandOf(side);
+    const int hand = urdf::HandSegmentOf(side);
     HandForce& all = shown[side];
     all = {};
     all.point = all.grip = grip[side];

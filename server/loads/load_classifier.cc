@@ -3,15 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "server/core/clocks.h"
+
 namespace kinescope::loads {
 namespace {
 
 constexpr std::int64_t kNotThere = std::numeric_limits<std::int64_t>::min();
 constexpr double kLongestGapSecs = 0.5;
-
-double SecsBetween(std::int64_t from_nanos, std::int64_t to_nanos) {
-  return static_cast<double>(to_nanos - from_nanos) * 1e-9;
-}
 
 // Since when, without a break, the condition has held.
 void Track(bool holds, std::int64_t now, std::int64_t& since) {
@@ -34,7 +32,7 @@ void LoadClassifier::Restart(double ratio) {
 }
 
 LoadClass LoadClassifier::Update(double ratio, std::int64_t stamp_nanos) {
-  const double step = SecsBetween(last_nanos_, stamp_nanos);
+  const double step = Secs(stamp_nanos - last_nanos_);
   last_nanos_ = stamp_nanos;
   if (!std::isfinite(ratio)) return class_ = LoadClass::kUnknown;
   if (class_ == LoadClass::kUnknown || step < 0 || step > kLongestGapSecs) {
@@ -49,7 +47,7 @@ LoadClass LoadClassifier::Update(double ratio, std::int64_t stamp_nanos) {
     Track(filtered_ < settings_.down[i], stamp_nanos, below_since_[i]);
   }
   const auto lasted = [&](std::int64_t since, double dwell_secs) {
-    return since != kNotThere && SecsBetween(since, stamp_nanos) >= dwell_secs - 1e-9;
+    return since != kNotThere && Secs(stamp_nanos - since) >= dwell_secs - 1e-9;
   };
   // A jump over two levels passes through both in this one update.
   if (class_ == LoadClass::kLow && lasted(above_since_[0], settings_.dwell_up_secs)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/core/clocks.h"
 #include "server/loads/support_polygon.h"
 
 namespace kinescope::loads {
@@ -168,7 +169,7 @@ void LoadEstimator::ShowBody(const BodySample& sample, const LoadSubject& subjec
 bool LoadEstimator::SuspectContact(bool outside, std::int64_t stamp) {
   constexpr double kDwellSecs = 0.2, kLongestGapSecs = 0.5;
   const auto secs_since = [&](const std::optional<std::int64_t>& since) {
-    return static_cast<double>(stamp - *since) * 1e-9;
+    return Secs(stamp - *since);
   };
   const bool fresh = !last_cop_nanos_ || secs_since(last_cop_nanos_) < 0 ||
                      secs_since(last_cop_nanos_) > kLongestGapSecs;
@@ -325,7 +326,8 @@ void LoadEstimator::Classify(const LoadSettings& settings, std::int64_t stamp) {
   const LoadClass of_compression =
       compression_.Update(forces.lumbar ? LumbarRatio(*forces.lumbar) : kNothing, stamp);
   JointLoad& lumbar = result_.loads[0];
-  if (counts && !lumbar.is_external && lumbar.load_class != LoadClass::kUnknown && of_compression > lumbar.load_class) {
+  if (counts && !lumbar.is_external && lumbar.load_class != LoadClass::kUnknown &&
+      of_compression > lumbar.load_class) {
     lumbar.load_class = of_compression;
     lumbar.class_is_of_compression = true;
   }

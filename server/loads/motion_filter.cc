@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/core/clocks.h"
+
 namespace kinescope::loads {
 namespace {
 
@@ -153,7 +155,7 @@ const MotionFilter::Output& MotionFilter::BecomeStatic(std::string_view why) {
 
 const MotionFilter::Output& MotionFilter::Update(const BodySample& sample,
                                                  const Settings& settings) {
-  const double step_secs = static_cast<double>(sample.stamp_nanos - last_nanos_) * 1e-9;
+  const double step_secs = Secs(sample.stamp_nanos - last_nanos_);
   const bool continues = has_last_ && step_secs >= 0 && step_secs <= settings.longest_gap_secs;
   if (!settings.dynamic) {
     has_last_ = false;

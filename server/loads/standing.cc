@@ -13,8 +13,6 @@ using urdf::kLeft;
 using urdf::kRight;
 using urdf::Side;
 
-int FootOf(Side side) { return side == kRight ? urdf::kRightFoot : urdf::kLeftFoot; }
-
 bool HasWeight(const std::array<FootOnGround, 2>& feet) {
   return feet[kRight].weight + feet[kLeft].weight > 0;
 }
@@ -57,7 +55,7 @@ void UseFeet(const std::array<const MeasuredGroundForce*, 2>& feet, Standing& st
 void PushFeet(const StandingInput& input, const Standing& standing, ExternalForces& external) {
   for (const Side side : {kRight, kLeft}) {
     const FootShare& foot = standing.feet[side];
-    external.Push(input.links, FootOf(side), foot.force,
+    external.Push(input.links, urdf::FootSegmentOf(side), foot.force,
                   {foot.point.x(), foot.point.y(), input.floor_z}, {0, 0, foot.free_moment});
   }
 }

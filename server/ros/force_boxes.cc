@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "server/core/clocks.h"
+
 namespace kinescope::ros_bridge {
 namespace {
 
@@ -22,14 +24,8 @@ constexpr char kExternalJointStates[] = "external_joint_states";
 // Of sensors that are faster than the suit only the newest counts.
 constexpr std::uint32_t kQueue = 32;
 
-double SecsBetween(std::int64_t later, std::int64_t earlier) {
-  return static_cast<double>(later - earlier) * 1e-9;
-}
-
 // Whether two measurements belong together.
-bool AreOfOneTime(std::int64_t a, std::int64_t b) {
-  return std::abs(SecsBetween(a, b)) <= kMostSkewSecs;
-}
+bool AreOfOneTime(std::int64_t a, std::int64_t b) { return std::abs(Secs(a - b)) <= kMostSkewSecs; }
 
 }  // namespace
 
@@ -71,7 +67,7 @@ void ForceBox::Refuse(const char* topic, const Refusal& refusal) {
 std::int64_t ForceBox::StampOf(const char* topic, const std_msgs::Header& header) {
   if (header.stamp.isZero()) return body_->stamp_nanos;
   const auto stamp = static_cast<std::int64_t>(header.stamp.toNSec());
-  const double skew = SecsBetween(stamp, body_->stamp_nanos);
+  const double skew = Secs(stamp - body_->stamp_nanos);
   if (std::abs(skew) <= kMostSkewSecs) return stamp;
   const std::lock_guard<std::mutex> lock(mutex_);
   InputCounters& counters = counters_[topic];

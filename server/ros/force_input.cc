@@ -181,7 +181,7 @@ Taken<MeasuredHandForce> ToHandForce(const geometry_msgs::WrenchStamped& message
   hand.moment = wrench->moment;
   if (frame.is_own) return hand;
   hand.point = frame.pose.position;
-  const int segment = side == urdf::kRight ? urdf::kRightHand : urdf::kLeftHand;
+  const int segment = urdf::HandSegmentOf(side);
   const double away = (*hand.point - body.links[At(segment)].position).norm();
   if (!(away < kReach)) {
     return No("far away", fmt::format("its frame is {:.1f} m from the hand", away));

@@ -13,6 +13,7 @@
 #include "server/core/errors.h"
 #include "server/ros/link_states_person.h"
 #include "server/ros/live_topics.h"
+#include "server/ros/names.h"
 #include "server/ros/transform_people.h"
 
 namespace kinescope::ros_bridge {
@@ -22,10 +23,6 @@ constexpr std::string_view kScheme = "ros:";
 constexpr std::int64_t kSettleNanos = 250'000'000;
 constexpr char kUnreadable[] = "is cut short or lies about its length";
 constexpr std::size_t kLongestTypeName = 80;  // in a counter's name: a stranger chose it
-
-bool EndsWith(std::string_view text, std::string_view ending) {
-  return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
-}
 
 // "xsens" of "/xsens/link_states".
 std::string OwnerOf(const std::string& topic) {

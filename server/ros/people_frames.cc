@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "server/ros/names.h"
+
 namespace kinescope::ros_bridge {
 namespace {
 
@@ -21,10 +23,6 @@ bool IsWholeWord(std::string_view text, std::size_t at, std::size_t size) {
   const bool begins = at == 0 || !IsWordCharacter(text[at - 1]);
   const bool ends = at + size == text.size() || !IsWordCharacter(text[at + size]);
   return begins && ends;
-}
-
-bool EndsWith(std::string_view text, std::string_view ending) {
-  return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
 }
 
 // What a suffix can share with others: all of it, what follows each of its words, nothing.

@@ -11,11 +11,6 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using urdf::Pose;
 
-Pose Relative(const Pose& from, const Pose& to) {
-  const Quaterniond back = from.orientation.conjugate();
-  return {back * (to.position - from.position), back * to.orientation};
-}
-
 // Writes transforms one after another into a message that keeps its memory.
 class Writer {
  public:

@@ -24,12 +24,7 @@ const Recorded& Walk() {
     const auto motion = subject::MakeMotion("walk");
     for (int i = 0; i < 10 * kRateHz; ++i) {
       recorded.samples.push_back(motion->At(static_cast<double>(i) / kRateHz));
-      urdf::LinkPoses links;
-      for (int k = 0; k < urdf::kSegmentCount; ++k) {
-        const SegmentState& segment = recorded.samples.back().segments[urdf::At(k)];
-        links[urdf::At(k)] = {segment.position, segment.orientation * urdf::SegmentFromLink(k)};
-      }
-      recorded.links.push_back(links);
+      recorded.links.push_back(LinkPosesOf(recorded.samples.back()));
     }
     return recorded;
   }();

@@ -79,12 +79,7 @@ void EstimateFrom(const std::uint8_t* data, std::size_t size) {
   for (int i = 0; i < 4; ++i) {
     BodySample sample = SampleOf(numbers);
     sample.stamp_nanos = stamp += data[static_cast<std::size_t>(i) % size] * 1'000'000;
-    urdf::LinkPoses links;
-    for (int k = 0; k < urdf::kSegmentCount; ++k) {
-      const SegmentState& segment = sample.segments[urdf::At(k)];
-      links[urdf::At(k)] = {segment.position, segment.orientation * urdf::SegmentFromLink(k)};
-    }
-    CheckLoads(estimator.Update(sample, links, {skeleton, body}, settings));
+    CheckLoads(estimator.Update(sample, LinkPosesOf(sample), {skeleton, body}, settings));
   }
 }
 

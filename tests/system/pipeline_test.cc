@@ -24,37 +24,17 @@
 #include "server/app/scene_builder.h"
 #include "server/ros/bridge.h"
 #include "server/subject/subject.h"
-#include "tests/free_port.h"
 #include "tests/process.h"
+#include "tests/system/ros_fixture.h"
 #include "tests/system/run_program.h"
-#include "tests/temp_folder.h"
 
 namespace kinescope {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::FreePort;
 using testing::Process;
 using testing::RunProgram;
 using Clock = std::chrono::steady_clock;
-
-// A kinescope process whose log can be read line by line.
-std::unique_ptr<Process> Start(const std::string& arguments) {
-  return std::make_unique<Process>(std::vector<std::string>{
-      "/bin/bash", "-c", "exec '" KINESCOPE_PROGRAM "' " + arguments + " 2>&1"});
-}
-
-// The rest of the first line that contains `text`.
-std::string WaitForLine(Process& process, const std::string& text) {
-  std::string seen;
-  while (const auto line = process.ReadLine(30s)) {
-    seen += *line + "\n";
-    const std::size_t at = line->find(text);
-    if (at != std::string::npos) return line->substr(at + text.size());
-  }
-  ADD_FAILURE() << "no line with '" << text << "' in:\n" << seen;
-  return "";
-}
 
 // Counts what comes on each topic of the node, by stamp.
 class Listener {
@@ -122,36 +102,16 @@ class Listener {
   std::set<std::string> tf_children_;
 };
 
-class Pipeline : public ::testing::Test {
+class Pipeline : public testing::RosProgram {
  protected:
   void SetUp() override {
-    if (ros::isInitialized()) GTEST_SKIP() << "needs a process of its own: run it through ctest";
-    const int port = FreePort();
-    setenv("ROS_HOME", folder_.path().c_str(), 1);
-    setenv("ROS_LOG_DIR", folder_.path().c_str(), 1);
-    setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1);
-    setenv("ROS_MASTER_URI", fmt::format("http://127.0.0.1:{}", port).c_str(), 1);
-    setenv("ROS_IP", "127.0.0.1", 1);
-    unsetenv("ROS_HOSTNAME");
-    master_ = std::make_unique<Process>(std::vector<std::string>{
-        KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", std::to_string(port)});
-    std::string name = "pipeline_test";
-    char* arguments[] = {name.data(), nullptr};
-    int count = 1;
-    ros::init(count, arguments, "pipeline_test", ros::init_options::NoSigintHandler);
-    const auto deadline = Clock::now() + 30s;
-    while (!ros::master::check() && Clock::now() < deadline) {
-    }
-    ASSERT_TRUE(ros::master::check()) << "the master does not start";
-
+    RosProgram::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
     server_ = Start("serve --source udp://127.0.0.1:0 --http_port 0 --ros required");
-    suit_address_ = WaitForLine(*server_, "waiting for ");
-    suit_address_ = suit_address_.substr(0, suit_address_.find(": "));
+    suit_address_ = WaitForAddress(*server_);
     page_ = WaitForLine(*server_, "page at ");
   }
 
-  testing::TempFolder folder_;
-  std::unique_ptr<Process> master_;
   std::unique_ptr<Process> server_;
   std::string suit_address_;  // udp://127.0.0.1:PORT
   std::string page_;          // http://127.0.0.1:PORT/

@@ -53,19 +53,22 @@ class RosProgram : public ::testing::Test {
         "/bin/bash", "-c", "exec '" KINESCOPE_PROGRAM "' " + arguments + " 2>&1"});
   }
 
-  /// The address that a program waits at for a suit: udp://127.0.0.1:PORT.
-  static std::string WaitForAddress(Process& process) {
-    const std::string before = "waiting for ";
+  /// The rest of the first line that contains `text`.
+  static std::string WaitForLine(Process& process, const std::string& text) {
     std::string seen;
     while (const auto line = process.ReadLine(kPatience)) {
       seen += *line + "\n";
-      const std::size_t at = line->find(before);
-      if (at == std::string::npos) continue;
-      const std::string rest = line->substr(at + before.size());
-      return rest.substr(0, rest.find(": "));
+      const std::size_t at = line->find(text);
+      if (at != std::string::npos) return line->substr(at + text.size());
     }
-    ADD_FAILURE() << "no address in:\n" << seen;
+    ADD_FAILURE() << "no line with '" << text << "' in:\n" << seen;
     return "";
+  }
+
+  /// The address that a program waits at for a suit: udp://127.0.0.1:PORT.
+  static std::string WaitForAddress(Process& process) {
+    const std::string rest = WaitForLine(process, "waiting for ");
+    return rest.substr(0, rest.find(": "));
   }
 
   /// Takes what comes on subscribed topics until `condition` holds; false when it never does.

@@ -23,6 +23,7 @@
 #include "server/ros/bag_source.h"
 #include "server/ros/names.h"
 #include "server/ros/transforms.h"
+#include "tests/recording_sink.h"
 #include "tests/server/ros/test_person.h"
 #include "tests/shared_data.h"
 #include "tests/system/ros_fixture.h"
@@ -41,17 +42,6 @@ using xsens_mvn_ros_msgs::LinkStateArray;
 class RosSource : public testing::RosProgram {
  protected:
   // The rest of the next line that has `text` in it.
-  static std::string WaitForLine(Process& process, const std::string& text) {
-    std::string seen;
-    while (const auto line = process.ReadLine(kPatience)) {
-      seen += *line + "\n";
-      const std::size_t at = line->find(text);
-      if (at != std::string::npos) return line->substr(at + text.size());
-    }
-    ADD_FAILURE() << "no line with '" << text << "' in:\n" << seen;
-    return "";
-  }
-
   // What /api/diagnostics says about the source.
   static nlohmann::json SourceAt(const std::string& page) {
     const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
@@ -138,18 +128,12 @@ TEST_F(RosSource, ShowsTheSamePosesWhenTheFramesAreATreeAndPublishesNoFramesItse
   EXPECT_THAT(publishers, ElementsAre("/suit"));
 }
 
-struct Recorded : SampleSink {
-  void OnCharacter(const Character&) override {}
-  void OnSample(const BodySample& sample) override { samples.push_back(sample); }
-  std::vector<BodySample> samples;
-};
-
 // A suit that somebody else's driver put on /tf, next to a robot with a head and hands of its own:
 // played as it was recorded, it gives the samples that reading the recording gives.
 TEST_F(RosSource, GivesTheSamplesOfARecordedGraphThatIsPlayedAgain) {
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
   const std::string path = testing::SharedData("ros1/2018-05-28-17-34-45.bag.xz");
-  Recorded read;
+  kinescope::testing::RecordingSink read;
   const auto offline = ros_bridge::OpenBag(path);
   while (offline->Poll(std::chrono::milliseconds(0), read) == Source::State::kMore) {
   }

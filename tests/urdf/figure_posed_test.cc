@@ -36,12 +36,7 @@ class PosedFigure : public testing::BodyTest {
   // The posture of the built-in subject, taken by this body.
   LinkPoses Take(const std::string& posture, double seconds) const {
     const auto motion = subject::MakeMotion(posture, skeleton_.height);
-    const BodySample sample = motion->At(seconds);
-    LinkPoses poses;
-    for (int i = 0; i < kSegmentCount; ++i) {
-      const SegmentState& segment = sample.segments[At(i)];
-      poses[At(i)] = {segment.position, segment.orientation * SegmentFromLink(i)};
-    }
+    const LinkPoses poses = LinkPosesOf(motion->At(seconds));
     return ForwardKinematics(skeleton_, poses[kPelvis], AnglesFromPoses(poses, JointAngles{}));
   }
 

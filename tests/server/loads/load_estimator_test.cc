@@ -12,15 +12,6 @@ namespace {
 using ::testing::HasSubstr;
 constexpr std::int64_t kMillis = 1'000'000;
 
-LinkPoses LinksOf(const BodySample& sample) {
-  LinkPoses links;
-  for (int i = 0; i < kSegmentCount; ++i) {
-    const SegmentState& segment = sample.segments[urdf::At(i)];
-    links[urdf::At(i)] = {segment.position, segment.orientation * SegmentFromLink(i)};
-  }
-  return links;
-}
-
 // Both feet on the floor whatever they do.
 LoadSettings AlwaysStanding() {
   LoadSettings settings = Unclamped();
@@ -402,7 +393,7 @@ TEST(LoadEstimator, KeepsTheCentreOfPressureOfTheBuiltInWalkUnderTheStandingFoot
     for (int i = 0; i < 9 * rate; ++i) {  // more than a lap
       const BodySample sample = motion->At(static_cast<double>(i) / rate);
       const LoadResult& result =
-          estimator.Update(sample, LinksOf(sample), {Person(), Body()}, LoadSettings());
+          estimator.Update(sample, LinkPosesOf(sample), {Person(), Body()}, LoadSettings());
       const BodyForces& forces = result.forces;
       ASSERT_EQ(forces.why_no_ground, "") << "at " << i << " of " << rate << " Hz";
       ASSERT_TRUE(forces.is_dynamic) << forces.why_static;
@@ -421,7 +412,7 @@ TEST(LoadEstimator, IsAFunctionOfTheSamplesAlone) {
   LoadEstimator one, two;
   for (int i = 0; i < 240; ++i) {
     const BodySample sample = motion->At(i / 60.0);
-    const LinkPoses links = LinksOf(sample);
+    const LinkPoses links = LinkPosesOf(sample);
     const LoadResult a = one.Update(sample, links, {Person(), Body()}, LoadSettings());
     const LoadResult& b = two.Update(sample, links, {Person(), Body()}, LoadSettings());
     for (std::size_t j = 0; j < a.loads.size(); ++j) {

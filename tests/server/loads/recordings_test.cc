@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "server/mvn/open.h"
+#include "tests/recording_sink.h"
 #include "tests/server/loads/loads_testing.h"
 #include "tests/shared_data.h"
 
@@ -11,15 +12,6 @@ namespace kinescope::loads::testing {
 namespace {
 
 using kinescope::testing::SharedData;
-
-LinkPoses LinksOf(const BodySample& sample) {
-  LinkPoses links;
-  for (int i = 0; i < kSegmentCount; ++i) {
-    const SegmentState& segment = sample.segments[urdf::At(i)];
-    links[urdf::At(i)] = {segment.position, segment.orientation * SegmentFromLink(i)};
-  }
-  return links;
-}
 
 // One sheet of the exported recording of P005, without the frame numbers.
 std::vector<std::vector<double>> ReadSheet(const std::string& name) {
@@ -68,7 +60,7 @@ std::vector<BodySample> ReadP005() {
 
 // 6.12: offsets as measured in a frame; nobody measured the ends.
 Skeleton P005Skeleton(const BodySample& sample) {
-  const LinkPoses links = LinksOf(sample);
+  const LinkPoses links = LinkPosesOf(sample);
   Skeleton skeleton;
   for (int i = 1; i < kSegmentCount; ++i) {
     const Pose& parent = links[urdf::At(kSegments[urdf::At(i)].parent)];
@@ -85,13 +77,6 @@ Skeleton P005Skeleton(const BodySample& sample) {
   return skeleton;
 }
 
-struct CollectingSink : SampleSink {
-  Character character;
-  std::vector<BodySample> samples;
-  void OnCharacter(const Character& one) override { character = one; }
-  void OnSample(const BodySample& sample) override { samples.push_back(sample); }
-};
-
 // Every frame within 5 mm on each axis, all on average within 3 mm.
 void ExpectSameCom(const std::vector<BodySample>& samples, const Skeleton& skeleton, Sex sex) {
   BodyDescription description;
@@ -101,7 +86,7 @@ void ExpectSameCom(const std::vector<BodySample>& samples, const Skeleton& skele
   double sum = 0;
   for (const BodySample& sample : samples) {
     const LoadResult& result =
-        estimator.Update(sample, LinksOf(sample), {skeleton, body}, LoadSettings());
+        estimator.Update(sample, LinkPosesOf(sample), {skeleton, body}, LoadSettings());
     ASSERT_TRUE(result.forces.com_difference);
     EXPECT_LT(result.forces.com_difference->cwiseAbs().maxCoeff(), 0.005)
         << "frame " << sample.counter << ": " << result.forces.com_difference->transpose();
@@ -118,13 +103,13 @@ class CaseK : public ::testing::TestWithParam<const char*> {};
 TEST_P(CaseK, OurCentreOfMassIsThatOfMvn) {
   KINESCOPE_NEEDS_SHARED_DATA(GetParam());
   const auto source = mvn::OpenMvnx(SharedData(GetParam()).string());
-  CollectingSink sink;
+  kinescope::testing::RecordingSink sink;
   while (source->Poll(std::chrono::milliseconds(0), sink) == Source::State::kMore) {
   }
   ASSERT_FALSE(sink.samples.empty());
-  ASSERT_TRUE(sink.character.skeleton);
+  ASSERT_TRUE(sink.characters.back().skeleton);
   for (const Sex sex : {Sex::kMale, Sex::kFemale}) {
-    ExpectSameCom(sink.samples, *sink.character.skeleton, sex);
+    ExpectSameCom(sink.samples, *sink.characters.back().skeleton, sex);
   }
 }
 
@@ -150,7 +135,7 @@ TEST(RealRecording, OfSomebodyStandingIsDynamicAndOnItsFeetThroughout) {
   LoadSettings still_settings;
   still_settings.motion.dynamic = false;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const LinkPoses links = LinksOf(samples[i]);
+    const LinkPoses links = LinkPosesOf(samples[i]);
     const LoadResult moving = dynamic.Update(samples[i], links, {skeleton, body}, LoadSettings());
     ASSERT_TRUE(moving.forces.is_dynamic) << "frame " << i << ": " << moving.forces.why_static;
     ASSERT_EQ(moving.forces.why_no_ground, "") << "frame " << i;
@@ -175,7 +160,7 @@ TEST(CaseL, EndToEndOnARealFrame) {
     LoadSettings settings = Unclamped();
     settings.motion.dynamic = dynamic;
     LoadEstimator estimator;  // its filter begins at the frame's own values
-    return estimator.Update(sample, LinksOf(sample), {skeleton, body}, settings);
+    return estimator.Update(sample, LinkPosesOf(sample), {skeleton, body}, settings);
   };
   const LoadResult still = estimate(false), moving = estimate(true);
   struct Row {

@@ -2,26 +2,10 @@
 // allocation of the process.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "server/mvn/assembler.h"
 #include "server/mvn/encode.h"
+#include "tests/allocations.h"
 #include "tests/server/mvn/mvn_testing.h"
-
-namespace {
-
-std::size_t allocations = 0;
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace kinescope::mvn {
 namespace {
@@ -50,12 +34,12 @@ TEST(InputPath, AllocatesNothingPerDatagramOfASampleOrRubbish) {
   std::int64_t now = 1'000'000'000;
   std::size_t before = 0;
   for (std::size_t i = 0; i < sent.size(); ++i) {
-    if (i == 20) before = allocations;  // the stream itself is there
+    if (i == 20) before = kinescope::testing::Allocations();  // the stream itself is there
     for (const std::string& datagram : sent[i]) assembler.Add({}, datagram, {now, now}, sink);
     now += 4'000'000;
     assembler.Expire(now, sink);
   }
-  const std::size_t counted = allocations - before;
+  const std::size_t counted = kinescope::testing::Allocations() - before;
   EXPECT_EQ(counted, 0U);
   EXPECT_EQ(sink.samples, 200);
 }

@@ -11,18 +11,11 @@
 #include "server/core/source.h"
 #include "server/mvn/byte_order.h"
 #include "server/mvn/datagram.h"
+#include "tests/recording_sink.h"
 
 namespace kinescope::mvn::testing {
 
-struct RecordingSink : SampleSink {
-  std::vector<Character> characters;
-  std::vector<BodySample> samples;
-  std::vector<ObjectsSample> objects;
-
-  void OnCharacter(const Character& character) override { characters.push_back(character); }
-  void OnSample(const BodySample& sample) override { samples.push_back(sample); }
-  void OnObjects(const ObjectsSample& sample) override { objects.push_back(sample); }
-};
+using ::kinescope::testing::RecordingSink;
 
 /// Values that a float holds exactly (up to 4096), so that a round trip through the wire is exact.
 class RandomValues {

@@ -16,6 +16,7 @@
 #include "server/core/errors.h"
 #include "server/ros/people_frames.h"
 #include "server/ros/transforms.h"
+#include "tests/recording_sink.h"
 #include "tests/server/ros/test_person.h"
 #include "tests/shared_data.h"
 #include "tests/system/run_program.h"
@@ -85,14 +86,9 @@ constexpr std::int64_t kMilli = 1'000'000;
 constexpr std::int64_t kStart = 1'700'000'000'000 * kMilli;
 constexpr std::int64_t kPeriod = 10 * kMilli;
 
-struct Recorded : SampleSink {
-  std::vector<Character> characters;
-  std::vector<BodySample> samples;
+struct Recorded : kinescope::testing::RecordingSink {
   SourceCounters counters;
   double rate_hz = 0;
-
-  void OnCharacter(const Character& character) override { characters.push_back(character); }
-  void OnSample(const BodySample& sample) override { samples.push_back(sample); }
 };
 
 Recorded ReadBag(const std::string& path) {

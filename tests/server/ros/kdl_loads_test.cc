@@ -96,10 +96,10 @@ struct Ours {
 Ours Solve(const BodySample& sample, const urdf::Skeleton& skeleton,
            const urdf::BodyParameters& body) {
   Ours ours;
+  ours.links = LinkPosesOf(sample);
   BodyMotion motion;
   for (int i = 0; i < urdf::kSegmentCount; ++i) {
     const SegmentState& segment = sample.segments[At(i)];
-    ours.links[At(i)] = {segment.position, segment.orientation * urdf::SegmentFromLink(i)};
     motion[At(i)] = {segment.acceleration, segment.angular_velocity, segment.angular_acceleration};
   }
   HandLoad held;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/ros/link_states.h"
+#include "tests/recording_sink.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::ros_bridge {
@@ -23,11 +24,8 @@ using ::testing::UnorderedElementsAre;
 constexpr std::int64_t kStart = 1'700'000'000'000'000'000;
 constexpr std::int64_t kPeriod = 10'000'000;
 
-class LinkStatesPersonTest : public ::testing::Test, protected SampleSink {
+class LinkStatesPersonTest : public ::testing::Test {
  protected:
-  void OnCharacter(const Character& character) override { characters_.push_back(character); }
-  void OnSample(const BodySample& sample) override { samples_.push_back(sample); }
-
   static PersonState PersonAt(int n) {
     return MakePerson(MakeModel(), Posture(0.05 * n), static_cast<std::uint32_t>(n),
                       kStart + n * kPeriod);
@@ -38,21 +36,20 @@ class LinkStatesPersonTest : public ::testing::Test, protected SampleSink {
     return message;
   }
   void Take(int n, const xsens_mvn_ros_msgs::LinkStateArray& message) {
-    person_.Take(message, {kStart + n * kPeriod + 1'000'000, 1 + n}, counters_, *this);
+    person_.Take(message, {kStart + n * kPeriod + 1'000'000, 1 + n}, counters_, sink_);
   }
 
   LinkStatesPerson person_{"xsens"};
   SourceCounters counters_;
-  std::vector<Character> characters_;
-  std::vector<BodySample> samples_;
+  kinescope::testing::RecordingSink sink_;
 };
 
 TEST_F(LinkStatesPersonTest, GivesBackPosesVelocitiesAndAccelerationsAsWePublishThem) {
   for (int n = 0; n < 20; ++n) Take(n, MessageAt(n));
-  ASSERT_EQ(samples_.size(), 20U);
+  ASSERT_EQ(sink_.samples.size(), 20U);
   for (int n = 0; n < 20; ++n) {
     const BodySample sent = PersonAt(n).sample;
-    const BodySample& got = samples_[static_cast<std::size_t>(n)];
+    const BodySample& got = sink_.samples[static_cast<std::size_t>(n)];
     EXPECT_EQ(got.stamp_nanos, sent.stamp_nanos);
     EXPECT_EQ(got.arrival_nanos, 1 + n);
     EXPECT_EQ(got.counter, static_cast<std::uint32_t>(n));
@@ -66,9 +63,9 @@ TEST_F(LinkStatesPersonTest, GivesBackPosesVelocitiesAndAccelerationsAsWePublish
       EXPECT_EQ(got.segments[i].angular_acceleration, sent.segments[i].angular_acceleration);
     }
   }
-  ASSERT_EQ(characters_.size(), 1U);
-  EXPECT_EQ(characters_[0].name, "xsens");
-  EXPECT_TRUE(characters_[0].skeleton);
+  ASSERT_EQ(sink_.characters.size(), 1U);
+  EXPECT_EQ(sink_.characters[0].name, "xsens");
+  EXPECT_TRUE(sink_.characters[0].skeleton);
   EXPECT_THAT(counters_.rejected, IsEmpty());
 }
 
@@ -78,8 +75,8 @@ TEST_F(LinkStatesPersonTest, TakesTheStampsOfTheStatesWhereTheArrayHasNoneAndPas
   message.states.push_back(message.states.back());
   message.states.back().header.frame_id = "generic_link";
   Take(3, message);
-  ASSERT_EQ(samples_.size(), 1U);
-  EXPECT_EQ(samples_[0].stamp_nanos, kStart + 3 * kPeriod);
+  ASSERT_EQ(sink_.samples.size(), 1U);
+  EXPECT_EQ(sink_.samples[0].stamp_nanos, kStart + 3 * kPeriod);
 }
 
 TEST_F(LinkStatesPersonTest, TwistsThatAreZeroThroughoutWereNotMeasured) {
@@ -89,9 +86,9 @@ TEST_F(LinkStatesPersonTest, TwistsThatAreZeroThroughoutWereNotMeasured) {
     state.accel.angular = {};
   }
   Take(0, message);
-  ASSERT_EQ(samples_.size(), 1U);
-  EXPECT_TRUE(samples_[0].has_linear) << "there are accelerations";
-  EXPECT_FALSE(samples_[0].has_angular);
+  ASSERT_EQ(sink_.samples.size(), 1U);
+  EXPECT_TRUE(sink_.samples[0].has_linear) << "there are accelerations";
+  EXPECT_FALSE(sink_.samples[0].has_angular);
 }
 
 TEST_F(LinkStatesPersonTest, WhatCannotBeUsedIsCountedAndTheStreamGoesOn) {
@@ -112,7 +109,7 @@ TEST_F(LinkStatesPersonTest, WhatCannotBeUsedIsCountedAndTheStreamGoesOn) {
                            Pair("link state with a velocity or acceleration that is not finite", 1),
                            Pair("sample without all 23 segments", 2)));
   EXPECT_EQ(counters_.duplicates, 1U) << "the stamp of the first once more";
-  EXPECT_EQ(samples_.size(), 2U) << "0 and 7";
+  EXPECT_EQ(sink_.samples.size(), 2U) << "0 and 7";
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/ros/transforms.h"
+#include "tests/recording_sink.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::ros_bridge {
@@ -41,11 +42,8 @@ tf2_msgs::TFMessage FrameAtOrigin(const std::string& parent, const std::string& 
   return message;
 }
 
-class TransformPeopleTest : public ::testing::Test, protected SampleSink {
+class TransformPeopleTest : public ::testing::Test {
  protected:
-  void OnCharacter(const Character& character) override { characters_.push_back(character); }
-  void OnSample(const BodySample& sample) override { samples_.push_back(sample); }
-
   PersonState PersonAt(int n, double height_m = 1.75) const {
     return MakePerson(MakeModel("skeleton", height_m), Posture(0.002 * n),
                       static_cast<std::uint32_t>(n), kStart + n * kPeriod);
@@ -54,24 +52,23 @@ class TransformPeopleTest : public ::testing::Test, protected SampleSink {
   // The n-th message, 3 ms after its stamp.
   void Take(int n, const tf2_msgs::TFMessage& message) {
     const std::int64_t now = kStart + n * kPeriod + 3 * kMilli;
-    people_.Take(message, {now, 1 + n * kPeriod}, counters_, *this);
+    people_.Take(message, {now, 1 + n * kPeriod}, counters_, sink_);
   }
 
   // Somebody stands there already: the next samples come at once.
   void Settle() {
     int n = -30;
-    for (; samples_.empty() && n < 0; ++n) Take(n, TransformsOf(PersonAt(n)));
-    ASSERT_FALSE(samples_.empty());
-    EXPECT_EQ(samples_[0].stamp_nanos, kStart - 5 * kPeriod)
+    for (; sink_.samples.empty() && n < 0; ++n) Take(n, TransformsOf(PersonAt(n)));
+    ASSERT_FALSE(sink_.samples.empty());
+    EXPECT_EQ(sink_.samples[0].stamp_nanos, kStart - 5 * kPeriod)
         << "a quarter of a second after -300 ms";
-    samples_.clear();
+    sink_.samples.clear();
     counters_ = {};
   }
 
   TransformPeople people_{kSettle};
   SourceCounters counters_;
-  std::vector<Character> characters_;
-  std::vector<BodySample> samples_;
+  kinescope::testing::RecordingSink sink_;
 };
 
 TEST_F(TransformPeopleTest, GivesThePosesThatWerePublishedOnceTheNamesHaveSettled) {
@@ -79,8 +76,8 @@ TEST_F(TransformPeopleTest, GivesThePosesThatWerePublishedOnceTheNamesHaveSettle
   for (int n = 0; n < 20; ++n) {
     const PersonState person = PersonAt(n);
     Take(n, TransformsOf(person, n % 2 == 0 ? TfShape::kFlat : TfShape::kTree));
-    ASSERT_EQ(samples_.size(), static_cast<std::size_t>(n) + 1);
-    const BodySample& sample = samples_.back();
+    ASSERT_EQ(sink_.samples.size(), static_cast<std::size_t>(n) + 1);
+    const BodySample& sample = sink_.samples.back();
     EXPECT_EQ(sample.stamp_nanos, kStart + n * kPeriod);
     EXPECT_EQ(sample.arrival_nanos, 1 + n * kPeriod);
     for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
@@ -90,7 +87,7 @@ TEST_F(TransformPeopleTest, GivesThePosesThatWerePublishedOnceTheNamesHaveSettle
       EXPECT_LT(got.orientation.angularDistance(sent.orientation), 1e-7);
     }
   }
-  EXPECT_THAT(characters_, ::testing::SizeIs(1));
+  EXPECT_THAT(sink_.characters, ::testing::SizeIs(1));
   EXPECT_THAT(counters_.rejected, IsEmpty());
 }
 
@@ -109,7 +106,7 @@ TEST_F(TransformPeopleTest, DoesNotTakeARobotsHeadForOneThatIsStillToCome) {
   for (int n = 0; n < 10; ++n) Take(n, most);
   EXPECT_THAT(people_.people(), IsEmpty());
   Take(10, suit);
-  for (int n = 11; n < 60 && samples_.empty(); ++n) Take(n, suit);
+  for (int n = 11; n < 60 && sink_.samples.empty(); ++n) Take(n, suit);
   ASSERT_EQ(people_.people().size(), 1U);
   EXPECT_EQ(people_.people()[0].name, "xsens");
   EXPECT_EQ(people_.people()[0].frames[urdf::kHead], "head_xsens");
@@ -136,8 +133,8 @@ TEST_F(TransformPeopleTest, FramesOfTfStaticArePartOfEverySample) {
     }
     Take(n, moving);
   }
-  ASSERT_GT(samples_.size(), 30U);
-  const SegmentState& toe = samples_.back().segments[urdf::kLeftToe];
+  ASSERT_GT(sink_.samples.size(), 30U);
+  const SegmentState& toe = sink_.samples.back().segments[urdf::kLeftToe];
   EXPECT_LT((toe.position - person.sample.segments[urdf::kLeftToe].position).norm(), 1e-12);
   EXPECT_THAT(counters_.rejected, IsEmpty());
 }
@@ -164,22 +161,23 @@ TEST_F(TransformPeopleTest, WhatCannotBeUsedIsCountedAndTheStreamGoesOn) {
                            Pair("sample whose frames have no common parent", 1)));
   EXPECT_THAT(counters_.ignored, ElementsAre(Pair("message on /tf without a person's segment", 1)));
   EXPECT_EQ(counters_.restarts, 1U);
-  ASSERT_EQ(samples_.size(), 3U) << "0, 5 and 6";
-  EXPECT_EQ(samples_[1].stamp_nanos, kStart + 5 * kPeriod + 3 * kMilli) << "by arrival from now on";
-  EXPECT_GT(samples_[2].stamp_nanos, samples_[1].stamp_nanos);
+  ASSERT_EQ(sink_.samples.size(), 3U) << "0, 5 and 6";
+  EXPECT_EQ(sink_.samples[1].stamp_nanos, kStart + 5 * kPeriod + 3 * kMilli)
+      << "by arrival from now on";
+  EXPECT_GT(sink_.samples[2].stamp_nanos, sink_.samples[1].stamp_nanos);
 }
 
 TEST_F(TransformPeopleTest, AnotherPersonInTheSuitGetsALongerSkeletonAfterASecond) {
   Settle();
   for (int n = 0; n < 300; ++n) Take(n, TransformsOf(PersonAt(n, n < 100 ? 1.75 : 1.95)));
-  ASSERT_EQ(characters_.size(), 2U);
-  EXPECT_EQ(characters_[0].id, characters_[1].id);
-  ASSERT_TRUE(characters_[0].skeleton && characters_[1].skeleton);
+  ASSERT_EQ(sink_.characters.size(), 2U);
+  EXPECT_EQ(sink_.characters[0].id, sink_.characters[1].id);
+  ASSERT_TRUE(sink_.characters[0].skeleton && sink_.characters[1].skeleton);
   const auto shank = [](const Character& character) {
     return character.skeleton->origin_in_parent[urdf::kLeftFoot].norm();
   };
-  EXPECT_NEAR(shank(characters_[1]) / shank(characters_[0]), 1.95 / 1.75, 1e-6);
-  EXPECT_EQ(samples_.size(), 300U);
+  EXPECT_NEAR(shank(sink_.characters[1]) / shank(sink_.characters[0]), 1.95 / 1.75, 1e-6);
+  EXPECT_EQ(sink_.samples.size(), 300U);
 }
 
 }  // namespace

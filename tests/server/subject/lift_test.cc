@@ -38,7 +38,7 @@ TEST(Lift, KeepsBothFeetFlatAndFixedOnTheFloor) {
 TEST(Lift, TakesABoxFromTheFloorToTheChestAndBack) {
   const auto motion = MakeMotion("lift");
   const auto box = [&](double t) -> Vector3d {
-    const urdf::LinkPoses links = LinksOf(motion->At(t));
+    const urdf::LinkPoses links = LinkPosesOf(motion->At(t));
     return (GripOf(links, urdf::kRightHand) + GripOf(links, urdf::kLeftHand)) / 2;
   };
   EXPECT_NEAR(box(1.9).z(), 0.15, 1e-6);
@@ -52,7 +52,7 @@ TEST(Lift, TakesABoxFromTheFloorToTheChestAndBack) {
 TEST(Lift, HandsKeepTheirDistanceWhileTheyHoldTheBox) {
   const auto motion = MakeMotion("lift");
   for (double t = 1.8; t < 6.4; t += 1e-2) {
-    const urdf::LinkPoses links = LinksOf(motion->At(t));
+    const urdf::LinkPoses links = LinkPosesOf(motion->At(t));
     const double width = (GripOf(links, urdf::kRightHand) - GripOf(links, urdf::kLeftHand)).norm();
     ASSERT_NEAR(width, 0.32, 1e-9) << "at " << t;
   }
@@ -83,7 +83,7 @@ TEST(Lift, ShowsEveryClassOfLoad) {
   for (int frame = 0; frame < 60 * 16; ++frame) {  // two rounds at 60 Hz; the second is settled
     const BodySample sample = motion->At(frame / 60.0);
     const loads::LoadResult& result =
-        estimator.Update(sample, LinksOf(sample), {skeleton, body}, loads::LoadSettings());
+        estimator.Update(sample, LinkPosesOf(sample), {skeleton, body}, loads::LoadSettings());
     for (std::size_t i = 0; i < worst.size(); ++i) {
       const LoadClass now = result.loads[i].load_class;
       ASSERT_NE(now, LoadClass::kUnknown) << result.loads[i].reason << " at " << frame / 60.0;

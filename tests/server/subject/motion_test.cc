@@ -98,7 +98,7 @@ TEST_P(EveryMotion, JointsMeetExactly) {
     const urdf::Skeleton& skeleton = *motion->character().skeleton;
     EXPECT_EQ(skeleton, urdf::DefaultSkeleton(height));
     for (const double t : RandomTimes(100, 16)) {
-      const urdf::LinkPoses links = testing::LinksOf(motion->At(t));
+      const urdf::LinkPoses links = LinkPosesOf(motion->At(t));
       for (int i = 1; i < urdf::kSegmentCount; ++i) {
         const urdf::Pose& parent = links[Index(urdf::kSegments[Index(i)].parent)];
         const Vector3d joint =
@@ -159,7 +159,7 @@ TEST_P(EveryMotion, CarriesTheCentreOfMassOfItsOwnBody) {
       urdf::MakeBodyParameters({urdf::Sex::kMale, 75.0}, *motion->character().skeleton);
   for (const double t : RandomTimes(20, 8)) {
     const BodySample sample = motion->At(t);
-    const urdf::LinkPoses links = testing::LinksOf(sample);
+    const urdf::LinkPoses links = LinkPosesOf(sample);
     Vector3d com = Vector3d::Zero();
     for (std::size_t i = 0; i < links.size(); ++i) {
       com += body[i].mass / 75.0 * (links[i].position + links[i].orientation * body[i].com_in_link);
@@ -232,7 +232,7 @@ TEST(Motion, RefusesAnUnknownNameAndSaysWhichThereAre) {
 }
 
 TEST(Motion, NPoseHasIdentityLinksAndTPoseIdentitySegments) {
-  const urdf::LinkPoses links = testing::LinksOf(MakeMotion("n_pose")->At(1.5));
+  const urdf::LinkPoses links = LinkPosesOf(MakeMotion("n_pose")->At(1.5));
   for (const urdf::Pose& link : links) {
     EXPECT_LT(link.orientation.angularDistance(Quaterniond::Identity()), 1e-9);
   }

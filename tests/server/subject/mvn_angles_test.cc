@@ -33,7 +33,7 @@ TEST(MvnAngles, TheSeedsMappingTurnsThemBackIntoOurLinks) {
     const auto motion = MakeMotion(name);
     for (double t = 0.05; t < 8; t += 0.31) {
       const BodySample sample = motion->At(t);
-      const urdf::LinkPoses links = testing::LinksOf(sample);
+      const urdf::LinkPoses links = LinkPosesOf(sample);
       for (int joint = 0; joint < urdf::kJointCount; ++joint) {
         // The seed leaves wrists a quarter turn about the forearm away from its own frames.
         if (joint == urdf::jRightWrist || joint == urdf::jLeftWrist) continue;

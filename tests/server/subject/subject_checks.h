@@ -12,16 +12,6 @@ namespace kinescope::subject::testing {
 
 inline std::size_t Index(int i) { return static_cast<std::size_t>(i); }
 
-/// The link poses of a sample, as everything downstream derives them.
-inline urdf::LinkPoses LinksOf(const BodySample& sample) {
-  urdf::LinkPoses links;
-  for (int i = 0; i < urdf::kSegmentCount; ++i) {
-    const SegmentState& segment = sample.segments[Index(i)];
-    links[Index(i)] = {segment.position, segment.orientation * urdf::SegmentFromLink(i)};
-  }
-  return links;
-}
-
 /// The three points of a foot that can touch the floor, in the world.
 struct FootPoints {
   Eigen::Vector3d heel, ball, tip;
@@ -30,7 +20,7 @@ struct FootPoints {
 
 inline FootPoints FootOf(const BodySample& sample, const urdf::Skeleton& skeleton,
                          urdf::Side side) {
-  const urdf::LinkPoses links = LinksOf(sample);
+  const urdf::LinkPoses links = LinkPosesOf(sample);
   const std::size_t foot = side == urdf::kRight ? urdf::kRightFoot : urdf::kLeftFoot;
   const auto at = [&](std::size_t link, const Eigen::Vector3d& in_link) -> Eigen::Vector3d {
     return links[link].position + links[link].orientation * in_link;
