@@ -10,7 +10,6 @@ namespace {
 using Eigen::Vector3d;
 using testing::FootOf;
 using testing::Index;
-using testing::LinksOf;
 
 constexpr double kPeriodSecs = 8;
 
