@@ -9,6 +9,7 @@
 #include "server/app/option_list.h"
 #include "server/app/pipeline_options.h"
 #include "server/app/scene_reader.h"
+#include "server/app/shots.h"
 
 namespace kinescope::app {
 namespace {
@@ -41,17 +42,16 @@ SceneState SceneOf(const GoldenCase& golden_case) {
 
 GoldenCase LoadGoldenCase(const fs::path& yaml) {
   GoldenCase golden_case;
-  golden_case.name = yaml.stem();
+  golden_case.name = golden_case.view.title = yaml.stem();
+  golden_case.view.size = "640x360";
   std::string show = Name(Liveness::kLive);
   const YamlValues values(yaml.string());
   ValueSetter read(values);
   read("source", golden_case.source);
   read("time", golden_case.time_secs);
   read("show", show);
-  read("camera", golden_case.camera);
-  read("size", golden_case.size);
-  read("supersample", golden_case.supersample);
   read("why", golden_case.why);
+  golden_case.view.Visit(read);
   golden_case.person.Visit(read);
   golden_case.loads.Visit(read);
   values.RefuseUnknown(read.names());
@@ -79,13 +79,11 @@ std::vector<GoldenCase> LoadGoldenCases(const fs::path& folder) {
 }
 
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
-  const SceneState scene = SceneOf(golden_case);
-  const auto [width, height] = ToSize("size", golden_case.size);
-  const render::Camera camera = render::NamedCamera(golden_case.camera, scene);
+  const Shot shot = ShotPlanner(golden_case.view).Only(SceneOf(golden_case));
   GoldenDrawing drawing;
-  drawing.image = renderer.Render(scene, camera,
-                                  {width, height, golden_case.supersample, golden_case.name, true});
-  drawing.spheres = render::LocateSpheres(scene, camera, width, height);
+  drawing.image = renderer.Render(shot.state, shot.camera, shot.view);
+  drawing.spheres =
+      render::LocateSpheres(shot.state, shot.camera, shot.view.width, shot.view.height);
   return drawing;
 }
 

@@ -18,6 +18,7 @@
 #include "render/renderer.h"
 #include "render/spheres.h"
 #include "server/app/options.h"
+#include "server/app/view_options.h"
 #include "server/core/scene_state.h"
 
 namespace kinescope::app {
@@ -27,10 +28,8 @@ struct GoldenCase {
   std::string source;
   double time_secs = 0;
   Liveness show = Liveness::kLive;
-  std::string camera = "three_quarter";
-  std::string size = "640x360";
-  int supersample = 2;
   std::string why;
+  ViewOptions view;
   PersonOptions person;
   LoadOptions loads;
 };

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
-#include "render/camera.h"
 #include "render/png_file.h"
 #include "render/renderer.h"
 #include "render/video.h"
@@ -19,7 +19,9 @@
 #include "server/app/pipeline_options.h"
 #include "server/app/progress.h"
 #include "server/app/scene_reader.h"
+#include "server/app/shots.h"
 #include "server/app/stop_signal.h"
+#include "server/app/view_options.h"
 
 namespace kinescope::app {
 namespace {
@@ -30,13 +32,9 @@ struct RenderOptions {
   std::optional<long> frame;
   std::optional<double> time;
   std::optional<double> seconds;
-  std::string size = "1280x720";
-  std::string camera = "three_quarter";
   double fps = 30;
-  int supersample = 2;
-  std::string title;
-  bool no_overlays = false;
   bool json = false;
+  ViewOptions view;
   PersonOptions person;
   LoadOptions loads;
 };
@@ -44,19 +42,11 @@ struct RenderOptions {
 // An endless source (the built-in subject) gives a clip of this length unless told otherwise.
 constexpr double kDefaultClipSecs = 10;
 
-render::View ToView(const RenderOptions& options) {
-  const auto [width, height] = ToSize("size", options.size);
-  if (options.supersample != 1 && options.supersample != 2 && options.supersample != 4) {
-    throw UsageError(fmt::format("--supersample={}: expected 1, 2 or 4", options.supersample));
-  }
-  return {width, height, options.supersample, options.title, !options.no_overlays};
-}
-
 std::map<std::string, std::string> Provenance(const RenderOptions& options,
                                               const render::Renderer& renderer) {
   return {{"Software", "Kinescope " KINESCOPE_VERSION},
           {"Source", std::filesystem::path(options.source).filename().string()},
-          {"Camera", options.camera},
+          {"Camera", options.view.camera},
           {"Renderer", renderer.renderer_string()}};
 }
 
@@ -82,12 +72,11 @@ SceneState SceneOfPicture(const RenderOptions& options, SceneReader& reader) {
 }
 
 nlohmann::json RenderPicture(const RenderOptions& options, SceneReader& reader) {
-  const SceneState scene = SceneOfPicture(options, reader);
+  const Shot shot = ShotPlanner(options.view).Only(SceneOfPicture(options, reader));
   const auto renderer = render::MakeRenderer();
-  const render::Image image =
-      renderer->Render(scene, render::NamedCamera(options.camera, scene), ToView(options));
+  const render::Image image = renderer->Render(shot.state, shot.camera, shot.view);
   render::WritePng(options.out, image, Provenance(options, *renderer));
-  return {{"pictures", 1}, {"counter", scene.counter}};
+  return {{"pictures", 1}, {"counter", shot.state.counter}};
 }
 
 // How many pictures the clip will have, where that can be told; only for the progress line.
@@ -106,27 +95,27 @@ nlohmann::json RenderClip(const RenderOptions& options, SceneReader& reader) {
     throw UsageError(fmt::format("--seconds={}: expected more than 0", *length));
   }
 
-  const render::View view = ToView(options);
-  render::NamedCamera(options.camera, SceneState{});  // refuses an unknown name before any work
+  ShotPlanner planner(options.view);
   const auto renderer = render::MakeRenderer();
   render::VideoOptions video_options;
   video_options.frames_per_second = options.fps;
   video_options.metadata = Provenance(options, *renderer);
-  const auto video = render::MakeVideoWriter(options.out, view.width, view.height, video_options);
+  const auto video = render::MakeVideoWriter(options.out, planner.view().width,
+                                             planner.view().height, video_options);
 
   SceneTimeline timeline(reader);
-  render::SteadyCamera camera;
   render::Image image;
   Progress progress("pictures:", ExpectedPictures(options, length));
   int pictures = 0;
   for (;; ++pictures) {
     const double secs = pictures / options.fps;  // picture k shows t0 + k / fps, exactly
     if (length && secs >= *length - 1e-9) break;
-    const auto scene = timeline.At(secs);
+    auto scene = timeline.At(secs);
     if (!scene) break;
     if (StopRequested())
       throw std::runtime_error("interrupted; " + options.out + " was not written");
-    renderer->RenderInto(image, *scene, camera.Aim(options.camera, *scene), view);
+    const Shot shot = planner.Next(std::move(*scene));
+    renderer->RenderInto(image, shot.state, shot.camera, shot.view);
     video->Add(image);
     progress.Step();
   }
@@ -171,14 +160,8 @@ void AddRender(CommandLine line) {
   command->add_option("--time", o->time, "seconds after the first frame (picture)");
   command->add_option("--seconds", o->seconds, "length of the clip; default: all (demo: 10)");
   command->add_option("--fps", o->fps, "pictures a second of the clip")->capture_default_str();
-  command->add_option("--size", o->size, "WIDTHxHEIGHT, px")->capture_default_str();
-  command->add_option("--camera", o->camera, "front back left right top iso three_quarter")
-      ->capture_default_str();
-  command->add_option("--supersample", o->supersample, "1, 2 or 4: drawn larger, then averaged")
-      ->capture_default_str();
-  command->add_option("--title", o->title, "text in the upper left corner");
-  command->add_flag("--no_overlays", o->no_overlays, "no legend, time code and title");
   command->add_flag("--json", o->json, "tell the result as JSON");
+  o->view.Visit(FlagAdder(*command));
   o->person.Visit(FlagAdder(*command));
   o->loads.Visit(FlagAdder(*command));
   command->callback([o] { Render(*o); });

@@ -155,12 +155,7 @@ void AddPicture(CLI::App& urdf) {
   const auto o = std::make_shared<UrdfPictureOptions>();
   command->add_option("file", o->file, "a URDF")->required();
   command->add_option("--out", o->out, "file to write, .png")->required();
-  command->add_option("--camera", o->camera, "front back left right top iso three_quarter")
-      ->capture_default_str();
-  command->add_option("--size", o->size, "WIDTHxHEIGHT, px")->capture_default_str();
-  command->add_option("--supersample", o->supersample, "1, 2 or 4: drawn larger, then averaged")
-      ->capture_default_str();
-  command->add_option("--title", o->title, "text in the upper left corner");
+  o->view.Visit(FlagAdder(*command));
   command->add_option("--joint", o->joints, "NAME=RADIANS (or metres); may be given again")
       ->allow_extra_args(false);
   command->add_option("--package-path", o->package_path, kPackagePathHelp)->allow_extra_args(false);

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "render/camera.h"
 #include "render/png_file.h"
 #include "render/renderer.h"
 #include "server/app/option_list.h"
-#include "server/app/pipeline_options.h"
 #include "server/app/robot_source.h"
+#include "server/app/shots.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {
@@ -68,7 +69,7 @@ void DrawUrdf(const UrdfPictureOptions& options) {
   if (std::filesystem::path(options.out).extension() != ".png") {
     throw UsageError("--out=" + options.out + ": expected a name that ends in .png");
   }
-  const auto [width, height] = ToSize("size", options.size);
+  const ShotPlanner planner(options.view);
   SceneState scene;
   scene.liveness = Liveness::kLive;
   scene.source = options.file;
@@ -84,15 +85,14 @@ void DrawUrdf(const UrdfPictureOptions& options) {
     throw SourceError(options.file + ": has no <visual>, so there is nothing to draw");
   }
   StandOnFloor(robot);
-  const render::Camera camera = render::NamedCamera(options.camera, scene);
-  const render::Image image = renderer->Render(
-      scene, camera, {width, height, options.supersample, options.title, /*overlays=*/true});
+  const Shot shot = planner.Only(std::move(scene));
+  const render::Image image = renderer->Render(shot.state, shot.camera, shot.view);
   render::WritePng(options.out, image,
                    {{"Software", "Kinescope " KINESCOPE_VERSION},
                     {"Source", std::filesystem::path(options.file).filename().string()},
-                    {"Camera", options.camera},
+                    {"Camera", options.view.camera},
                     {"Renderer", renderer->renderer_string()}});
-  Tell(options, robot, camera, renderer->problems());
+  Tell(options, shot.state.robots.front(), shot.camera, renderer->problems());
 }
 
 }  // namespace kinescope::app

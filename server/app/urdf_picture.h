@@ -4,15 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "server/app/view_options.h"
+
 namespace kinescope::app {
 
 struct UrdfPictureOptions {
   std::string file;
   std::string out;
-  std::string camera = "three_quarter";
-  std::string size = "1280x720";
-  std::string title;
-  int supersample = 2;
+  ViewOptions view;
   bool json = false;
   std::vector<std::string> joints;        // NAME=RADIANS (or metres)
   std::vector<std::string> package_path;  // folders
