@@ -32,8 +32,8 @@ std::string Inertial(const SegmentInertia& segment, double share) {
       "    <inertial>\n      {}\n      <mass value=\"{}\"/>\n"
       "      <inertia ixx=\"{}\" ixy=\"{}\" ixz=\"{}\" iyy=\"{}\" iyz=\"{}\" izz=\"{}\"/>\n"
       "    </inertial>\n",
-      Origin(segment.com_in_link), share * segment.mass, i(0, 0), i(0, 1), i(0, 2), i(1, 1), i(1, 2),
-      i(2, 2));
+      Origin(segment.com_in_link), share * segment.mass, i(0, 0), i(0, 1), i(0, 2), i(1, 1),
+      i(1, 2), i(2, 2));
 }
 
 std::string Shape(const Primitive& part) {
@@ -84,23 +84,37 @@ std::string UriOf(const std::string& folder) {
   return uri;
 }
 
+std::string MeshVisual(const std::string& folder, const std::string& name, const char* material) {
+  return fmt::format(
+      "    <visual>\n      {}\n      <geometry><mesh filename=\"{}/{}.stl\"/></geometry>\n"
+      "{}    </visual>\n",
+      Origin(Vector3d::Zero()), UriOf(folder), name, Material(material));
+}
+
 // `name`: the link's without its prefix, which is its mesh's too.
 std::string Visuals(const HumanModel& human, const std::string& name,
                     const std::vector<Primitive>& parts, const char* material) {
   if (human.mesh_folder.empty()) return Shapes("visual", parts, Material(material));
-  return fmt::format(
-      "    <visual>\n      {}\n      <geometry><mesh filename=\"{}/{}.stl\"/></geometry>\n"
-      "{}    </visual>\n",
-      Origin(Vector3d::Zero()), UriOf(human.mesh_folder), name, Material(material));
+  return MeshVisual(human.mesh_folder, name, material);
+}
+
+// "" where `segment` is no hand that holds a tool.
+std::string ToolVisual(const HumanModel& human, int segment) {
+  for (const Side side : {kRight, kLeft}) {
+    if (segment != HandSegmentOf(side) || !human.tools.test(side)) continue;
+    return MeshVisual(human.tool_folder, ToolFileName(side), "tool");
+  }
+  return "";
 }
 
 // Of a gloved hand the segments are drawn; the hand's own link has its mass, and what surrounds it.
 std::string SegmentShapes(const HumanModel& human, int segment) {
+  const std::string tool = ToolVisual(human, segment);
   if (const HandSkeleton* glove = GloveOn(human, segment)) {
-    return Collisions({PalmBoxInHand(*glove)});
+    return tool + Collisions({PalmBoxInHand(*glove)});
   }
   const std::vector<Primitive> parts = PrimitiveFigure(human.skeleton, segment);
-  return Visuals(human, std::string(kSegments[At(segment)].link_name), parts, "body") +
+  return Visuals(human, std::string(kSegments[At(segment)].link_name), parts, "body") + tool +
          Collisions(parts);
 }
 
@@ -279,6 +293,8 @@ std::string FingerFileName(Side side, int finger) {
   return name;
 }
 
+std::string ToolFileName(Side side) { return std::string(kSidePrefix[side]) + "tool"; }
+
 std::string FingerLinkName(const std::string& model_name, Side side, int finger) {
   return Cleaned(model_name) + "_" + FingerFileName(side, finger);
 }
@@ -311,6 +327,9 @@ std::string WriteUrdf(const HumanModel& human) {
       human.body_rgb[1], human.body_rgb[2]);
   if (has_gloves) {
     text += "  <material name=\"glove\"><color rgba=\"0.55 0.60 0.68 1\"/></material>\n";
+  }
+  if (human.tools.any()) {
+    text += "  <material name=\"tool\"><color rgba=\"0.23 0.26 0.31 1\"/></material>\n";
   }
   if (human.props.any()) {
     text += "  <material name=\"prop\"><color rgba=\"0.42 0.46 0.54 1\"/></material>\n";

@@ -35,6 +35,8 @@ struct HumanModel {
   /// Absolute, or package://name/folder; holds <link>.stl of every link that is drawn, but for
   /// props (figure_files.h). "": primitives instead.
   std::string mesh_folder;
+  std::bitset<2> tools;     // by Side: that hand's link shows <ToolFileName>.stl as well,
+  std::string tool_folder;  // of this folder; otherwise as mesh_folder
   std::array<std::optional<HandSkeleton>, 2> gloves;  // by Side; where fingers are streamed
   std::bitset<kMostProps> props;                      // that are streamed
   /// Every link weighs something. Each of the two links inside a joint gets a hundredth of its
@@ -52,6 +54,9 @@ std::string JointName(const std::string& model_name, int joint, int axis);
 
 /// "left_second_mp": the name of its mesh file, without the ending.
 std::string FingerFileName(Side side, int finger);
+
+/// "right_tool", likewise. The mesh lies in the hand's link frame.
+std::string ToolFileName(Side side);
 
 /// "skeleton_left_second_mp"; its joints are `<that>_x`, `_y`, `_z`.
 std::string FingerLinkName(const std::string& model_name, Side side, int finger);

@@ -1,5 +1,6 @@
 #include "urdf/placed_mass.h"
 
+#include <algorithm>
 #include <cmath>
 #include <locale>
 #include <sstream>
@@ -20,14 +21,22 @@ double ReadNumber(const std::string& text) {
 }
 
 Eigen::Vector3d ReadPlace(const std::string& text) {
-  const std::size_t first = text.find(',');
-  const std::size_t second = first == std::string::npos ? first : text.find(',', first + 1);
-  if (second == std::string::npos) throw std::invalid_argument("'" + text + "' is not X,Y,Z");
-  return {ReadNumber(text.substr(0, first)), ReadNumber(text.substr(first + 1, second - first - 1)),
-          ReadNumber(text.substr(second + 1))};
+  const std::vector<double> numbers = ParseNumbers(text);
+  if (numbers.size() != 3) throw std::invalid_argument("'" + text + "' is not X,Y,Z");
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 }  // namespace
+
+std::vector<double> ParseNumbers(const std::string& text) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    numbers.push_back(ReadNumber(text.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return numbers;
+}
 
 PlacedMass ParsePlacedMass(const std::string& text) {
   const std::size_t colon = text.find(':');

@@ -71,17 +71,26 @@ std::vector<FigureFile> FigureFiles(const urdf::HumanModel& human, const FigureM
   return files;
 }
 
-std::string WriteFigureFiles(const urdf::HumanModel& human, const FigureMeshes* own) {
-  const std::vector<FigureFile> meshes = FigureFiles(human, own);
+std::vector<FigureFile> ToolFiles(const HandTools& tools, const urdf::Skeleton& skeleton) {
+  std::vector<FigureFile> files;
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    if (!tools[side]) continue;
+    files.push_back({urdf::ToolFileName(side) + ".stl",
+                     urdf::ToBinaryStl(ToHandFrame(*tools[side], skeleton, side))});
+  }
+  return files;
+}
+
+std::string WriteToCache(const std::vector<FigureFile>& files) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const FigureFile& mesh : meshes) hash = Hash(mesh.name + mesh.stl, hash);
+  for (const FigureFile& file : files) hash = Hash(file.name + file.stl, hash);
   try {
     const fs::path folder = CacheFolder() / fmt::format("figure-{:016x}", hash);
-    if (!fs::exists(folder)) WriteAll(folder, meshes);
+    if (!fs::exists(folder)) WriteAll(folder, files);
     return folder.string();
   } catch (const std::exception& error) {
     static bool has_warned = false;
-    if (!has_warned) spdlog::warn("the figure is drawn coarsely: {}", error.what());
+    if (!has_warned) spdlog::warn("the figure is drawn coarsely, without tools: {}", error.what());
     has_warned = true;
     return "";
   }

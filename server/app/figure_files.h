@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "server/app/figure_meshes.h"
+#include "server/app/hand_tools.h"
 #include "urdf/human_urdf.h"
 
 namespace kinescope::app {
@@ -19,10 +20,13 @@ struct FigureFile {
 /// a gloved hand. `own`: the user's meshes, where they take the place of ours; else null.
 std::vector<FigureFile> FigureFiles(const urdf::HumanModel& human, const FigureMeshes* own);
 
-/// Writes FigureFiles into a folder of the user's cache ($XDG_CACHE_HOME/kinescope,
-/// ~/.cache/kinescope, else the temporary folder) that is named after their content, once; returns
-/// that folder. "" when nothing can be written: the figure is then made of primitives. Says so once
-/// on the log.
-std::string WriteFigureFiles(const urdf::HumanModel& human, const FigureMeshes* own = nullptr);
+/// Those of what the hands hold: "right_tool.stl".
+std::vector<FigureFile> ToolFiles(const HandTools& tools, const urdf::Skeleton& skeleton);
+
+/// Writes `files` into a folder of the user's cache ($XDG_CACHE_HOME/kinescope, ~/.cache/kinescope,
+/// else the temporary folder) that is named after their content, once; returns that folder. ""
+/// when nothing can be written: the figure is then made of primitives, and tools are not seen. Says
+/// so once on the log.
+std::string WriteToCache(const std::vector<FigureFile>& files);
 
 }  // namespace kinescope::app

@@ -96,31 +96,6 @@ std::map<int, fs::path> FilesBySegment(const std::string& folder,
   return files;
 }
 
-urdf::TriangleMesh ReadOne(const fs::path& path, urdf::MeshConvention convention, int segment) {
-  const std::string extension = Lower(path.extension().string());
-  if (extension == ".dae" || extension == ".glb") {  // these say it, and were read accordingly
-    convention.metres_per_unit = 1;
-    convention.y_is_up = false;
-  }
-  urdf::TriangleMesh mesh;
-  try {
-    mesh = ReadMesh(path);
-  } catch (const std::exception& error) {
-    throw UsageError(fmt::format("--figure: {}", error.what()));
-  }
-  mesh = urdf::ToLinkFrame(std::move(mesh), convention, segment);
-  const double size = urdf::BoundsOf(mesh).diagonal().norm();
-  constexpr double kSmallest = 0.01;  // m
-  constexpr double kLargest = 2.5;
-  if (!(size >= kSmallest && size <= kLargest)) {
-    throw UsageError(
-        fmt::format("--figure: {} measures {:.3g} m from corner to corner, no part of a person "
-                    "({} to {} m); --mesh_units tells the unit of STL and OBJ files",
-                    path.string(), size, kSmallest, kLargest));
-  }
-  return mesh;
-}
-
 }  // namespace
 
 std::optional<urdf::Segment> SegmentOfFile(std::string_view stem) {
@@ -168,7 +143,7 @@ std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
     if (file == files.end()) {
       missing.emplace_back(urdf::kSegments[At(i)].mvn_name);
     } else {
-      figure->meshes[At(i)] = ReadOne(file->second, convention, i);
+      figure->meshes[At(i)] = ReadOwnMesh("--figure", file->second, convention, i);
     }
   }
   if (!missing.empty()) {
@@ -178,6 +153,32 @@ std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
     spdlog::info("named after no segment, not used: {}", Joined(not_taken));
   }
   return figure;
+}
+
+urdf::TriangleMesh ReadOwnMesh(const char* option, const fs::path& path,
+                               urdf::MeshConvention convention, int segment) {
+  const std::string extension = Lower(path.extension().string());
+  if (extension == ".dae" || extension == ".glb") {  // these say it, and were read accordingly
+    convention.metres_per_unit = 1;
+    convention.y_is_up = false;
+  }
+  urdf::TriangleMesh mesh;
+  try {
+    mesh = ReadMesh(path);
+  } catch (const std::exception& error) {
+    throw UsageError(fmt::format("{}: {}", option, error.what()));
+  }
+  mesh = urdf::ToLinkFrame(std::move(mesh), convention, segment);
+  const double size = urdf::BoundsOf(mesh).diagonal().norm();
+  constexpr double kSmallest = 0.01;  // m
+  constexpr double kLargest = 2.5;
+  if (!(size >= kSmallest && size <= kLargest)) {
+    throw UsageError(
+        fmt::format("{}: {} measures {:.3g} m from corner to corner, expected {} to {} m; "
+                    "--mesh_units tells the unit of STL and OBJ files",
+                    option, path.string(), size, kSmallest, kLargest));
+  }
+  return mesh;
 }
 
 urdf::TriangleMesh FigureMeshOf(const FigureMeshes* own, const urdf::Skeleton& skeleton,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,11 @@ std::optional<urdf::Segment> SegmentOfFile(std::string_view stem);
 /// a mesh that cannot be read or that is too small or too large to be part of a person.
 std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
                                                      const urdf::MeshConvention& convention);
+
+/// One such file in metres and in the link frame of `segment`.
+/// @throws UsageError naming `option` and the file, as ReadFigureMeshes.
+urdf::TriangleMesh ReadOwnMesh(const char* option, const std::filesystem::path& path,
+                               urdf::MeshConvention convention, int segment);
 
 /// The surface of `segment`: the user's where there is one, else ours.
 urdf::TriangleMesh FigureMeshOf(const FigureMeshes* own, const urdf::Skeleton& skeleton,

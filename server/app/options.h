@@ -19,6 +19,7 @@ struct PersonOptions {
   std::string body_table = urdf::Name(urdf::BodyDescription().table);
   std::string extra_mass;
   std::string figure = "smooth";
+  std::string tool;
   std::string mesh_units = "m";
   std::string mesh_up = "z";
   std::string mesh_scale = "fit";
@@ -40,7 +41,11 @@ struct PersonOptions {
         "figure", figure,
         "smooth, primitive (boxes, cylinders, spheres) or mesh:FOLDER (your own STL, DAE, OBJ or "
         "GLB files, named after segments, such as RightForeArm.stl)");
-    option("mesh_units", mesh_units, "of mesh:FOLDER's STL and OBJ files: m, cm or mm");
+    option("tool", tool,
+           "mesh of what is held: right:FILE or left:FILE (STL, DAE, OBJ or GLB), its origin at "
+           "the grip, or FILE@X,Y,Z or FILE@X,Y,Z,ROLL,PITCH,YAW (m and rad, in the hand's link "
+           "frame), with ; between two. What it weighs, and where, is told by hand");
+    option("mesh_units", mesh_units, "of your own STL and OBJ files: m, cm or mm");
     option("mesh_up", mesh_up, "likewise, the axis that points up: z or y");
     option("mesh_scale", mesh_scale,
            "fit (meshes stretched along their segments to the person's own lengths) or none");

@@ -19,23 +19,27 @@ void WriteWhole(const fs::path& path, const std::string& bytes) {
   file.Commit();
 }
 
-void Write(urdf::HumanModel& human, const std::vector<FigureFile>& files, const fs::path& folder,
+// @return how a URDF names where they are, "" for none.
+std::string WriteMeshes(const std::vector<FigureFile>& files, const fs::path& folder,
+                        const std::string& package) {
+  if (files.empty()) return "";
+  fs::create_directories(folder);
+  for (const FigureFile& file : files) WriteWhole(folder / file.name, file.stl);
+  return package.empty() ? fs::canonical(folder).string() : "package://" + package + "/meshes";
+}
+
+void Write(urdf::HumanModel& human, const PersonFiles& files, const fs::path& folder,
            const std::string& package) {
-  const fs::path meshes = folder / "meshes";
-  fs::create_directories(files.empty() ? folder : meshes);
-  for (const FigureFile& file : files) WriteWhole(meshes / file.name, file.stl);
-  human.mesh_folder.clear();
-  if (!files.empty()) {
-    human.mesh_folder =
-        package.empty() ? fs::canonical(meshes).string() : "package://" + package + "/meshes";
-  }
+  fs::create_directories(folder);
+  human.mesh_folder = WriteMeshes(files.figure, folder / "meshes", package);
+  human.tool_folder = WriteMeshes(files.tools, folder / "meshes", package);
   WriteWhole(folder / "person.urdf", urdf::WriteUrdf(human));
 }
 
 }  // namespace
 
-void ExportPerson(urdf::HumanModel human, const std::vector<FigureFile>& meshes,
-                  const fs::path& folder, const std::string& package) {
+void ExportPerson(urdf::HumanModel human, const PersonFiles& meshes, const fs::path& folder,
+                  const std::string& package) {
   static const std::regex kPackageName("[A-Za-z][A-Za-z0-9_-]*");
   if (!package.empty() && !std::regex_match(package, kPackageName)) {
     throw UsageError(fmt::format(

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "server/app/figure_meshes.h"
+#include "server/app/hand_tools.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {
@@ -72,6 +73,7 @@ void SetFigure(const PersonOptions& person, SceneOptions& scene) {
         fmt::format("--figure={}: expected smooth, primitive or mesh:FOLDER", person.figure));
   }
   scene.smooth_figure = person.figure != "primitive";
+  scene.tools = ReadHandTools(person.tool, convention);
 }
 
 }  // namespace

@@ -116,7 +116,14 @@ std::shared_ptr<const PersonModel> SceneBuilder::MakeModel(const Person& person)
   model->human.body_rgb = BodyColor(person.character.color_rgb, person.index);
   person.worn.AddTo(person.character, model->human);
   if (options_.smooth_figure) {
-    model->human.mesh_folder = WriteFigureFiles(model->human, options_.figure_meshes.get());
+    model->human.mesh_folder =
+        WriteToCache(FigureFiles(model->human, options_.figure_meshes.get()));
+  }
+  if (options_.tools) {
+    model->human.tool_folder = WriteToCache(ToolFiles(*options_.tools, model->human.skeleton));
+    for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+      model->human.tools.set(side, (*options_.tools)[side] && !model->human.tool_folder.empty());
+    }
   }
   model->urdf_xml = urdf::WriteUrdf(model->human);
   model->robot = urdf::ParseUrdf(model->urdf_xml);

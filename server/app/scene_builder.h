@@ -11,6 +11,7 @@
 #include <string>
 
 #include "server/app/figure_meshes.h"
+#include "server/app/hand_tools.h"
 #include "server/app/worn_extras.h"
 #include "server/core/scene_state.h"
 #include "server/core/source.h"
@@ -29,6 +30,7 @@ struct SceneOptions {
   double stale_secs = 0.5;        // this long without a sample is stale
   bool smooth_figure = true;      // mesh files; false: boxes, cylinders and spheres
   std::shared_ptr<const FigureMeshes> figure_meshes;  // instead of ours; null: ours
+  std::shared_ptr<const HandTools> tools;             // in everybody's hands; null: none
 };
 
 class SceneBuilder : public SampleSink {

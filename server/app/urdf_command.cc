@@ -112,10 +112,12 @@ void Write(const WriteOptions& options) {
   urdf::HumanModel human = HumanOf(options.source, scene);
   human.mass_inside_joints = options.gazebo;
   if (is_folder) {
-    std::vector<FigureFile> meshes;
-    if (scene.smooth_figure) meshes = FigureFiles(human, scene.figure_meshes.get());
-    ExportPerson(human, meshes, options.out, options.package);
-    fmt::print("{}: person.urdf{}\n", options.out, meshes.empty() ? "" : " and its meshes");
+    PersonFiles files;
+    if (scene.smooth_figure) files.figure = FigureFiles(human, scene.figure_meshes.get());
+    if (scene.tools) files.tools = ToolFiles(*scene.tools, human.skeleton);
+    ExportPerson(human, files, options.out, options.package);
+    const bool has_meshes = !files.figure.empty() || !files.tools.empty();
+    fmt::print("{}: person.urdf{}\n", options.out, has_meshes ? " and its meshes" : "");
     return;
   }
   const std::string xml = urdf::WriteUrdf(human);

@@ -79,7 +79,7 @@ HeldSolids HeldBy(const PersonState& person) {
     const HandForce& hand = person.forces.hands[side];
     shared_kg += hand.shared_kg;
     const double alone_kg = hand.mass_kg - hand.shared_kg;
-    if (!(alone_kg > kLeastKg)) continue;
+    if (!(alone_kg > kLeastKg) || person.model->human.tools.test(side)) continue;
     const urdf::Pose& link = person.links[urdf::At(urdf::HandSegmentOf(side))];
     if ((hand.point - hand.grip).norm() < kInTheFist) {
       maker.AddDumbbell(hand.point, link.orientation, alone_kg);

@@ -30,7 +30,8 @@ struct HeldSolids {
   std::size_t count = 0;
 };
 
-/// Of what `person` holds now; ramps included, so a load that is gripped grows.
+/// Of what `person` holds now; ramps included, so a load that is gripped grows. Nothing for a hand
+/// whose tool is seen as it is (urdf::HumanModel::tools).
 HeldSolids HeldBy(const PersonState& person);
 
 }  // namespace kinescope

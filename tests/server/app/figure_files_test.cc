@@ -27,11 +27,15 @@ urdf::HumanModel Person(double height) {
   return human;
 }
 
+std::vector<FigureFile> FilesOf(const urdf::HumanModel& human) {
+  return app::FigureFiles(human, nullptr);
+}
+
 TEST_F(FigureFiles, AreWrittenOnceForEachBody) {
-  const std::string small = WriteFigureFiles(Person(1.6));
-  const std::string tall = WriteFigureFiles(Person(1.9));
+  const std::string small = WriteToCache(FilesOf(Person(1.6)));
+  const std::string tall = WriteToCache(FilesOf(Person(1.9)));
   EXPECT_NE(small, tall);
-  EXPECT_EQ(WriteFigureFiles(Person(1.6)), small);
+  EXPECT_EQ(WriteToCache(FilesOf(Person(1.6))), small);
   for (const urdf::SegmentInfo& segment : urdf::kSegments) {
     EXPECT_GT(fs::file_size(fs::path(small) / (std::string(segment.link_name) + ".stl")), 1000u);
   }
@@ -40,7 +44,7 @@ TEST_F(FigureFiles, AreWrittenOnceForEachBody) {
 TEST_F(FigureFiles, AreThoseOfFingersInPlaceOfAGlovedHand) {
   urdf::HumanModel human = Person(1.75);
   human.gloves[urdf::kRight] = urdf::DefaultHand(urdf::kRight, 0.19);
-  const fs::path gloved = WriteFigureFiles(human);
+  const fs::path gloved = WriteToCache(FilesOf(human));
   EXPECT_FALSE(fs::exists(gloved / "right_hand.stl"));
   EXPECT_TRUE(fs::exists(gloved / "left_hand.stl"));
   for (int i = 0; i < urdf::kFingersPerHand; ++i) {
@@ -65,7 +69,7 @@ TEST_F(FigureFiles, FallBackToNoneWhereNothingCanBeWritten) {
   std::FILE* blocks_the_folder = std::fopen(file.c_str(), "w");
   ASSERT_NE(blocks_the_folder, nullptr);
   std::fclose(blocks_the_folder);
-  EXPECT_EQ(WriteFigureFiles(Person(1.75)), "");
+  EXPECT_EQ(WriteToCache(FilesOf(Person(1.75))), "");
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ urdf::HumanModel Person() {
   return human;
 }
 
-std::vector<FigureFile> Meshes() { return FigureFiles(Person(), nullptr); }
+PersonFiles Meshes() { return {FigureFiles(Person(), nullptr), {}}; }
 
 std::vector<std::string> MeshUris(const fs::path& urdf_file) {
   std::vector<std::string> uris;
@@ -63,8 +63,8 @@ TEST(PersonExport, NamesMeshesByPackageWhereOneIsGiven) {
 TEST(PersonExport, ReplacesOldMeshes) {
   const testing::TempFolder folder;
   ExportPerson(Person(), Meshes(), folder / "out", "");
-  std::vector<FigureFile> own = Meshes();
-  own.back().stl = "the left toe";
+  PersonFiles own = Meshes();
+  own.figure.back().stl = "the left toe";
   ExportPerson(Person(), own, folder / "out", "");
   EXPECT_EQ(ReadFile(folder / "out" / "meshes" / "left_toe.stl"), "the left toe");
   EXPECT_EQ(MeshUris(folder / "out" / "person.urdf").size(), 23U);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 namespace kinescope {
 namespace {
@@ -12,6 +13,7 @@ using Kind = HeldSolid::Kind;
 
 PersonState Person(double right_kg, double left_kg = 0, double both_kg = 0) {
   PersonState person;
+  person.model = std::make_shared<PersonModel>();
   person.links[urdf::kRightHand].position = {0.3, -0.25, 0.9};
   person.links[urdf::kLeftHand].position = {0.3, 0.25, 0.9};
   const std::array<double, 2> alone = {right_kg, left_kg};
