@@ -1,5 +1,7 @@
 #include "render/overlay.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -137,13 +139,15 @@ void Overlay::PaintLegend(Page& page, const SceneState& state) {
     double radius;  // px of 720
     bool has_rim;
     const char* name;
-    const char* range;
+    std::string range;
   };
+  const std::string medium = fmt::format("{:.3g} %", 100 * state.class_limits[0]);
+  const std::string high = fmt::format("{:.3g} %", 100 * state.class_limits[1]);
   const auto of = [](LoadClass load_class) { return Ink{ColorOf(load_class), 1}; };
   const std::array<Row, 6> rows = {{
-      {of(LoadClass::kLow), 6.0, false, "low", "≤ 30 %"},
-      {of(LoadClass::kMedium), 7.2, false, "medium", "≤ 60 %"},
-      {of(LoadClass::kHigh), 8.4, true, "high", "> 60 %"},
+      {of(LoadClass::kLow), 6.0, false, "low", "≤ " + medium},
+      {of(LoadClass::kMedium), 7.2, false, "medium", "≤ " + high},
+      {of(LoadClass::kHigh), 8.4, true, "high", "> " + high},
       {of(LoadClass::kUnknown), 4.8, false, "no data", "–"},
       {{kComColor, 1}, 5.0, false, "centre of mass", ""},
       {{kCopColor, 1}, 5.0, false, "centre of pressure", ""},

@@ -36,7 +36,6 @@ forgetTokenInAddress();
 const scene = makeScene();
 const showLoads = mountLoadList(element('loads'));
 const showProblems = mountDiagnostics(element('diagnostics'), element('problems'));
-fillLegend(element('legend'));
 const connection = new Connection({
   onState: (buffer) => { newest = buffer; },
   onPicture: (buffer) => picture.show(buffer),
@@ -148,6 +147,7 @@ async function loadModel(now) {
     if (!answer.ok) throw new Error((await answer.json()).error);
     model = await answer.json();
     applyPalette(model.palette);
+    fillLegend(element('legend'), model.class_limits);
     scene?.setModel(model);
     if (state) scene?.update(state, lampNow().level === 'live');
   } catch (error) {

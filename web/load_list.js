@@ -8,9 +8,6 @@ import { age, moment, percent } from './format.js';
 
 const RANK = { high: 0, medium: 1, low: 2, unknown: 3 };
 
-/** Where the classes begin, of capacity, while the load rises; the server decides, this is shown. */
-export const THRESHOLDS = { medium: 0.30, high: 0.60 };
-
 /** Rows that differ by less stay as they are, so that the list can be read while numbers tremble. */
 const CALM = 0.02;
 
@@ -158,15 +155,21 @@ function makeRow() {
   };
 }
 
-/** @param {HTMLElement} legend  a <ul> */
-export function fillLegend(legend) {
-  const words = [
+/** What the legend says of each class.
+ *  @param {[number, number]} limits  of capacity, as the server decides by while a load rises */
+export function legendWords(limits) {
+  return [
     ['low', 'low'],
-    ['medium', `medium > ${percent(THRESHOLDS.medium)}`],
-    ['high', `high > ${percent(THRESHOLDS.high)}`],
+    ['medium', `medium > ${percent(limits[0])}`],
+    ['high', `high > ${percent(limits[1])}`],
     ['unknown', 'unknown'],
   ];
-  legend.replaceChildren(...words.map(([loadClass, text]) => {
+}
+
+/** @param {HTMLElement} legend  a <ul>
+ *  @param {[number, number]} limits */
+export function fillLegend(legend, limits) {
+  legend.replaceChildren(...legendWords(limits).map(([loadClass, text]) => {
     const entry = document.createElement('li');
     entry.dataset.class = loadClass;
     entry.textContent = text;

@@ -62,6 +62,7 @@ struct LoadOptions {
   std::string capacity_percentile = "50";
   std::string load_metric = Name(loads::LoadSettings().metric);
   std::string load_mode = "dynamic";
+  std::string class_limits = "0.3,0.6";
   std::string hand;
   double filter_hz = loads::MotionFilter::Settings().cutoff_hz;
   std::string lumbar_compression = "on";
@@ -76,6 +77,9 @@ struct LoadOptions {
            "total, overload (what the load in the hands adds), norm (|moment|, without directions) "
            "or external (as another program computed it)");
     option("load_mode", load_mode, "dynamic (accelerations take part) or static");
+    option("class_limits", class_limits,
+           "of capacity: above the first a load is medium (orange), above the second high (red), "
+           "while it rises");
     option("hand", hand,
            "what the hands hold: right:KG, left:KG or both:KG, right:KG@X,Y,Z (m, in the hand's "
            "link frame) for another place than the grip, several with commas between; none: "

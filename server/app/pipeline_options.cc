@@ -11,6 +11,7 @@
 #include "server/app/figure_meshes.h"
 #include "server/app/hand_tools.h"
 #include "server/core/errors.h"
+#include "urdf/placed_mass.h"
 
 namespace kinescope::app {
 namespace {
@@ -51,6 +52,18 @@ loads::HandLoad ToHandLoad(const std::string& text) try {
   return loads::ParseHandLoad(list);
 } catch (const UsageError& error) {
   throw UsageError(fmt::format("--hand={}: {}", text, error.what()));
+}
+
+loads::LoadClassifier::Settings ToClasses(const std::string& text) try {
+  constexpr double kMost = 5;  // of capacity; more is no limit
+  const std::vector<double> up = urdf::ParseNumbers(text);
+  const bool is_good = up.size() == 2 && up[0] > 0 && up[0] < up[1] && up[1] <= kMost;
+  if (!is_good) throw std::invalid_argument("no two limits");
+  return loads::LoadClassifier::WithLimits({up[0], up[1]});
+} catch (const std::invalid_argument&) {
+  throw UsageError(fmt::format(
+      "--class_limits={}: expected two numbers, MEDIUM,HIGH, above 0 and rising, such as 0.3,0.6",
+      text));
 }
 
 void SetFigure(const PersonOptions& person, SceneOptions& scene) {
@@ -124,6 +137,7 @@ loads::LoadSettings ToLoadSettings(const LoadOptions& loads) {
                                         {"external", LoadMetric::kExternal}});
   settings.motion.dynamic =
       Choose<bool>("load_mode", loads.load_mode, {{"dynamic", true}, {"static", false}});
+  settings.classes = ToClasses(loads.class_limits);
   if (!loads.hand.empty()) settings.hands = ToHandLoad(loads.hand);
   settings.motion.cutoff_hz = loads.filter_hz;
   settings.compression_counts = ToSwitch("lumbar_compression", loads.lumbar_compression);

@@ -59,6 +59,7 @@ void SceneBuilder::SetLoads(const loads::LoadSettings& settings) {
   KINESCOPE_CHECK(loads::FindDefect(settings).empty());
   options_.loads = settings;
   options_.loads.strength.sex = options_.body.sex;
+  current_.class_limits = settings.classes.up;
 }
 
 void SceneBuilder::SetMeasurements(int character, const loads::Measurements& measured) {

@@ -44,7 +44,7 @@ struct JointLoad {
   bool is_external = false;              // moment, ratio or class come from another program
   /// Time spent in each class so far, s, by LoadClass; the exposure of this run or clip.
   std::array<double, 4> class_secs{};
-  std::string_view reason;               // why unknown; "" otherwise
+  std::string_view reason;  // why unknown; "" otherwise
 };
 
 /// The person as a mechanism. Shared by all states until scale data change it.
@@ -122,9 +122,11 @@ struct SceneState {
   std::uint64_t number = 0;      // of this state, +1 each; tells sinks apart what they have seen
   std::int64_t stamp_nanos = 0;  // of the newest sample, ROS time; 0 before the first
   std::uint32_t counter = 0;     // its sample counter
-  std::int64_t time_code_millis = 0;   // its time code
-  std::int64_t arrival_nanos = 0;      // monotonic; 0 for files
-  double rate_hz = 0;                  // of samples, measured over the last second (file: nominal)
+  std::int64_t time_code_millis = 0;  // its time code
+  std::int64_t arrival_nanos = 0;     // monotonic; 0 for files
+  double rate_hz = 0;                 // of samples, measured over the last second (file: nominal)
+  /// Of capacity: above the first a load is medium, above the second high, while it rises.
+  std::array<double, 2> class_limits{{0.30, 0.60}};
   double floor_z = 0;                  // height of the ground, world, m
   std::string source;                  // "udp://0.0.0.0:9763"
   std::vector<PersonState> people;     // one per character seen within the last second

@@ -243,6 +243,7 @@ std::string ModelJson(const SceneState* state) {
   }
   return Text({{"people", std::move(people)},
                {"joints", std::move(joints)},
+               {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
                {"palette",
                 {{"classes", ClassesToJson()},
                  {"object", ToJson(kObjectColor)},

@@ -1,5 +1,6 @@
 #include "server/loads/load_classifier.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,16 @@ void Track(bool holds, std::int64_t now, std::int64_t& since) {
 }
 
 }  // namespace
+
+LoadClassifier::Settings LoadClassifier::WithLimits(const std::array<double, 2>& up) {
+  constexpr double kGap = 0.05, kGapOfLimit = 1.0 / 6;
+  Settings settings;
+  settings.up = up;
+  for (std::size_t i = 0; i < up.size(); ++i) {
+    settings.down[i] = up[i] - std::min(kGap, kGapOfLimit * up[i]);
+  }
+  return settings;
+}
 
 void LoadClassifier::Restart(double ratio) {
   filtered_ = ratio;

@@ -20,6 +20,11 @@ class LoadClassifier {
     double dwell_up_secs = 0.2;
     double dwell_down_secs = 0.5;
   };
+
+  /// Settings that rise at `up` and fall a twentieth of capacity lower (a sixth of the limit, where
+  /// that is less), as the defaults do.
+  static Settings WithLimits(const std::array<double, 2>& up);
+
   LoadClassifier() = default;
   explicit LoadClassifier(const Settings& settings) : settings_(settings) {}
 

@@ -322,7 +322,11 @@ void LoadEstimator::Classify(const LoadSettings& settings, std::int64_t stamp) {
   }
   const bool counts = settings.compression_counts && forces.metric != LoadMetric::kExternal &&
                       forces.metric != LoadMetric::kOverload;
-  compression_.set_settings(settings.classes);
+  // Its limits are those of the disc, whatever the joints' are.
+  LoadClassifier::Settings of_the_disc = settings.classes;
+  of_the_disc.up = LoadClassifier::Settings().up;
+  of_the_disc.down = LoadClassifier::Settings().down;
+  compression_.set_settings(of_the_disc);
   const LoadClass of_compression =
       compression_.Update(forces.lumbar ? LumbarRatio(*forces.lumbar) : kNothing, stamp);
   JointLoad& lumbar = result_.loads[0];

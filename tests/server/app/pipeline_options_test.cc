@@ -94,6 +94,24 @@ TEST(PipelineOptions, ReadWhatLoadsAreComputedFrom) {
 }
 
 // Each refusal names the option, the value and what would be right.
+TEST(PipelineOptions, ReadClassLimitsWithRoomToFallBack) {
+  LoadOptions loads;
+  const auto defaults = ToLoadSettings(loads).classes;
+  EXPECT_EQ(defaults.up, loads::LoadClassifier::Settings().up);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_DOUBLE_EQ(defaults.down[i], loads::LoadClassifier::Settings().down[i]);
+  }
+  loads.class_limits = "0.06, 0.9";
+  const auto classes = ToLoadSettings(loads).classes;
+  EXPECT_DOUBLE_EQ(classes.down[0], 0.05);
+  EXPECT_DOUBLE_EQ(classes.down[1], 0.85);
+  for (const char* bad :
+       {"", "0.3", "0.6,0.3", "0,0.6", "0.3,nan", "0.3,60", "30 %,60 %", "1,2,3"}) {
+    loads.class_limits = bad;
+    EXPECT_THROW(ToLoadSettings(loads), UsageError) << bad;
+  }
+}
+
 TEST(PipelineOptions, RefuseLoadsThatMakeNoSense) {
   const auto expect = [](const std::string& error, const std::string& option,
                          const std::string& value) {

@@ -4,7 +4,7 @@
 //   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
 //   people <n>              how many persons it shows
 // page_fixture_server describe: prints one state as the server encodes it (hex) beside what it
-// means, and the thresholds of the load classes, for the page's unit tests.
+// means, and the limits of the load classes, for the page's unit tests.
 #include <poll.h>
 #include <unistd.h>
 
@@ -21,9 +21,9 @@
 #include "server/core/install_paths.h"
 #include "server/core/palette.h"
 #include "server/core/person_links.h"
+#include "server/http/api.h"
 #include "server/http/protocol.h"
 #include "server/http/server.h"
-#include "server/loads/load_classifier.h"
 #include "tests/server/http/plain_pictures.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/worn.h"
@@ -132,7 +132,6 @@ json Describe() {
                        {"position", Numbers(object.pose.position)},
                        {"quaternion", Numbers(object.pose.orientation)}});
   }
-  const loads::LoadClassifier::Settings settings;
   return {{"hex", Hex(EncodeState(state, 5'004'000'000, 3))},
           {"state",
            {{"liveness", "live"},
@@ -148,7 +147,7 @@ json Describe() {
             {"people", people},
             {"objects", objects}}},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},
-          {"thresholds", {{"medium", settings.up[0]}, {"high", settings.up[1]}}}};
+          {"class_limits", json::parse(ModelJson(&state))["class_limits"]}};
 }
 
 // What the tests ask for over standard input.
