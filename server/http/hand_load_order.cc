@@ -9,10 +9,22 @@ namespace kinescope::http {
 
 using nlohmann::json;
 
+namespace {
+
+bool IsNumber(const json& value) { return value.is_number() && std::isfinite(value.get<double>()); }
+
+bool IsPoint(const json& value) {
+  return value.is_array() && value.size() == 3 && IsNumber(value[0]) && IsNumber(value[1]) &&
+         IsNumber(value[2]);
+}
+
+}  // namespace
+
 tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view body) {
   const std::string expected =
       "expected a JSON object such as {\"right_kg\": 5, \"left_kg\": 0, \"both_kg\": 0}, and "
-      "\"person\": the character where there are several";
+      "\"person\": the character where there are several; \"right_com_m\", \"left_com_m\": "
+      "[x, y, z] of a load that is not at the grip";
   const json order = json::parse(body, nullptr, /*allow_exceptions=*/false);
   if (!order.is_object() || order.empty()) return tl::unexpected(expected);
   HandLoadOrder parsed;
@@ -22,8 +34,11 @@ tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view bod
                          : key == "left_kg" ? &parsed.load.mass_kg[urdf::kLeft]
                          : key == "both_kg" ? &parsed.load.both_kg
                                             : nullptr;
-    if (mass != nullptr && value.is_number() && std::isfinite(value.get<double>())) {
+    if (mass != nullptr && IsNumber(value)) {
       *mass = value.get<double>();
+    } else if ((key == "right_com_m" || key == "left_com_m") && IsPoint(value)) {
+      const urdf::Side side = key == "right_com_m" ? urdf::kRight : urdf::kLeft;
+      parsed.load.com_in_hand[side].emplace(value[0], value[1], value[2]);
     } else if (key == "person" && value.is_number_integer() && value.get<std::int64_t>() >= 0 &&
                value.get<std::int64_t>() <= std::numeric_limits<std::int32_t>::max()) {
       parsed.person = value.get<int>();

@@ -15,9 +15,10 @@ struct HandLoadOrder {
   HandLoad load;
 };
 
-/// One JSON object of "right_kg", "left_kg", "both_kg" (what is absent is 0) and "person". Numbers
-/// are not judged here, but that they are finite. The reason is one line for the client. Members
-/// that are not known are refused, so that a misspelt hand is not an empty one.
+/// One JSON object of "right_kg", "left_kg", "both_kg" (what is absent is 0), "right_com_m" and
+/// "left_com_m" (x, y, z; what is absent is at the grip) and "person". Numbers are not judged here,
+/// but that they are finite. The reason is one line for the client. Members that are not known are
+/// refused, so that a misspelt hand is not an empty one.
 tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view body);
 
 }  // namespace kinescope::http

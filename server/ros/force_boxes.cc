@@ -95,14 +95,22 @@ std::optional<FoundFrame> ForceBox::Place(const char* topic, const std_msgs::Hea
   return frame;
 }
 
-std::string ForceBox::TakeHandLoad(const char* topic, double right_kg, double left_kg,
-                                   double both_kg) {
+template <class Message>
+std::string ForceBox::TakeHandLoad(const char* topic, const Message& message) {
   HandLoad load;
   load.is_known = true;
-  load.mass_kg = {right_kg, left_kg};
-  load.both_kg = both_kg;
-  const std::string wrong =
-      settings_.check_hand_load ? settings_.check_hand_load(load) : std::string();
+  load.mass_kg = {message.right_kg, message.left_kg};
+  load.both_kg = message.both_kg;
+  std::string wrong;
+  for (const auto& [side, com] :
+       {std::pair(urdf::kRight, &message.right_com), std::pair(urdf::kLeft, &message.left_com)}) {
+    if (com->size() == 3) {
+      load.com_in_hand[side] = Eigen::Vector3d::Map(com->data());
+    } else if (!com->empty()) {
+      wrong = fmt::format("centre of mass of {} numbers: expected x, y, z, or none", com->size());
+    }
+  }
+  if (wrong.empty() && settings_.check_hand_load) wrong = settings_.check_hand_load(load);
   if (!wrong.empty()) {
     Refuse(topic, {"bad load", wrong});
     return wrong;
@@ -113,12 +121,12 @@ std::string ForceBox::TakeHandLoad(const char* topic, double right_kg, double le
 }
 
 void ForceBox::OnHandLoad(const kinescope_ros::HandLoad& message) {
-  TakeHandLoad(kHandLoad, message.right_kg, message.left_kg, message.both_kg);
+  TakeHandLoad(kHandLoad, message);
 }
 
 bool ForceBox::OnSetHandLoad(kinescope_ros::SetHandLoad::Request& request,
                              kinescope_ros::SetHandLoad::Response& response) {
-  response.message = TakeHandLoad(kSetHandLoad, request.right_kg, request.left_kg, request.both_kg);
+  response.message = TakeHandLoad(kSetHandLoad, request);
   response.success = response.message.empty();
   return true;
 }

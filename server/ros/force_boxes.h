@@ -60,7 +60,10 @@ class ForceBox {
   std::map<std::string, InputCounters> counters() const;
 
  private:
-  std::string TakeHandLoad(const char* topic, double right_kg, double left_kg, double both_kg);
+  // HandLoad, or SetHandLoad's request: the same members. @return what is wrong, "" where nothing
+  // is.
+  template <class Message>
+  std::string TakeHandLoad(const char* topic, const Message& message);
   std::optional<FoundFrame> Place(const char* topic, const std_msgs::Header& header);
   std::int64_t StampOf(const char* topic, const std_msgs::Header& header);
   void Refuse(const char* topic, const Refusal& refusal);

@@ -121,7 +121,7 @@ export async function openPage(url, options = {}) {
   page.on('request', (request) => {
     requests.push(request.url());
     const { protocol, host } = new URL(request.url());
-    if (protocol !== 'blob:' && host !== home) problems.push(`foreign request: ${request.url()}`);
+    if (protocol !== 'blob:' && protocol !== 'data:' && host !== home) problems.push(`foreign request: ${request.url()}`);
   });
   await options.beforeLoad?.(page);
   await page.goto(url, { waitUntil: 'load' });

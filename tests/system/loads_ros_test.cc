@@ -185,6 +185,14 @@ TEST_F(LoadsOverRos, WhatAHandHoldsIsToldByServiceAndByTopic) {
   ASSERT_TRUE(Spin([&] { return LoadOf("jRightShoulder").level == JointLoad::MEDIUM; }));
   EXPECT_EQ(loads_->held_mass[0], 2);
   EXPECT_EQ(LoadOf("jLeftShoulder").level, JointLoad::LOW);
+  // The same mass farther out is a larger moment.
+  const double at_the_grip = LoadOf("jRightShoulder").ratio;
+  order.request.right_com = {0, 0, -0.4};
+  ASSERT_TRUE(ros::service::call("/kinescope/set_hand_load", order));
+  ASSERT_TRUE(Spin([&] { return LoadOf("jRightShoulder").ratio > 1.2 * at_the_grip; }));
+  order.request.right_com = {0, 0};
+  ASSERT_TRUE(ros::service::call("/kinescope/set_hand_load", order));
+  EXPECT_FALSE(order.response.success);
   ASSERT_TRUE(Spin([&] { return held.count("held") == 1; }));
   EXPECT_EQ(held.count("support"), 1u);
   EXPECT_EQ(held.count("foot_forces"), 1u);

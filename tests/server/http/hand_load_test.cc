@@ -28,12 +28,21 @@ TEST(HandLoadOrder, IsOneObjectOfMasses) {
   EXPECT_EQ(ParseHandLoadOrder(R"({"person": 3, "both_kg": 2})")->person, 3);
 }
 
+TEST(HandLoadOrder, SaysWhereTheLoadIs) {
+  const auto order = ParseHandLoadOrder(R"({"right_kg": 2, "right_com_m": [0.1, 0, -0.25]})");
+  ASSERT_TRUE(order);
+  ASSERT_TRUE(order->load.com_in_hand[urdf::kRight]);
+  EXPECT_EQ(*order->load.com_in_hand[urdf::kRight], Eigen::Vector3d(0.1, 0, -0.25));
+  EXPECT_FALSE(order->load.com_in_hand[urdf::kLeft]);
+}
+
 TEST(HandLoadOrder, ThatIsOddIsRefused) {
   for (const std::string& body :
        {std::string(), std::string("{}"), std::string("5"), std::string("[5]"), std::string("{"),
         std::string(R"({"right_kg": "5"})"), std::string(R"({"right": 5})"),
         std::string(R"({"right_kg": null})"), std::string(R"({"right_kg": 1e999})"),
-        std::string(R"({"person": -1, "right_kg": 5})"),
+        std::string(R"({"right_com_m": [0, 0]})"), std::string(R"({"right_com_m": [0, 0, null]})"),
+        std::string(R"({"right_com_m": 0.2})"), std::string(R"({"person": -1, "right_kg": 5})"),
         std::string(R"({"person": 1.5, "right_kg": 5})"),
         std::string(R"({"person": 99999999999, "right_kg": 5})"), std::string(2000, '{')}) {
     const auto order = ParseHandLoadOrder(body);
