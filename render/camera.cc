@@ -52,24 +52,6 @@ const std::vector<std::pair<std::string, Direction>>& Directions() {
   return directions;
 }
 
-// The middle of the people on the floor, and how far the outermost stands from it.
-std::pair<Eigen::Vector3d, double> Ground(const SceneState& state) {
-  if (state.people.empty()) return {Eigen::Vector3d(0, 0, state.floor_z), 0};
-  const auto on_floor = [&](const PersonState& person) {
-    Eigen::Vector3d point = person.links[urdf::kPelvis].position;
-    point.z() = state.floor_z;
-    return point;
-  };
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  for (const PersonState& person : state.people) middle += on_floor(person);
-  middle /= static_cast<double>(state.people.size());
-  double radius = 0;
-  for (const PersonState& person : state.people) {
-    radius = std::max(radius, (on_floor(person) - middle).norm());
-  }
-  return {middle, radius};
-}
-
 }  // namespace
 
 const std::vector<std::string>& CameraNames() {
@@ -81,18 +63,32 @@ const std::vector<std::string>& CameraNames() {
   return names;
 }
 
-namespace {
+Whereabouts WhereaboutsOf(const SceneState& state) {
+  if (state.people.empty()) return {Eigen::Vector3d(0, 0, state.floor_z), 0};
+  const auto on_floor = [&](const PersonState& person) {
+    Eigen::Vector3d point = person.links[urdf::kPelvis].position;
+    point.z() = state.floor_z;
+    return point;
+  };
+  Whereabouts about;
+  for (const PersonState& person : state.people) about.middle += on_floor(person);
+  about.middle /= static_cast<double>(state.people.size());
+  for (const PersonState& person : state.people) {
+    about.radius = std::max(about.radius, (on_floor(person) - about.middle).norm());
+  }
+  return about;
+}
 
-Camera CameraAt(const std::string& name, const Eigen::Vector3d& ground, double radius) {
+Camera NamedCameraAt(const std::string& name, const Whereabouts& about) {
   for (const auto& [known, direction] : Directions()) {
     if (known != name) continue;
     Camera camera;
-    camera.target = ground + Eigen::Vector3d(0, 0, kTargetHeight);
+    camera.target = about.middle + Eigen::Vector3d(0, 0, kTargetHeight);
     camera.up = direction.up;
     // Pictures are wider than high, so a group may stand wider than a person is tall; its nearest
     // member comes closer than its middle.
-    const double half_extent = std::max(0.5 * kReach, (radius + 0.7) / kNarrowestAspect);
-    const double distance = half_extent / std::tan(0.5 * camera.vertical_fov_rad) + radius;
+    const double half_extent = std::max(0.5 * kReach, (about.radius + 0.7) / kNarrowestAspect);
+    const double distance = half_extent / std::tan(0.5 * camera.vertical_fov_rad) + about.radius;
     camera.position = camera.target + distance * direction.to_camera;
     camera.far_m = std::max(camera.far_m, 4 * distance);
     return camera;
@@ -102,11 +98,13 @@ Camera CameraAt(const std::string& name, const Eigen::Vector3d& ground, double r
   throw UsageError("camera '" + name + "' is not known; there are: " + known);
 }
 
+namespace {
+
 // Robots come in all sizes, so the view is as large as they are.
 Camera Around(const std::string& name, const Eigen::AlignedBox3d& box) {
   constexpr double kMargin = 1.15, kSmallest = 0.02;  // m
   const double radius = std::max(0.5 * box.diagonal().norm(), kSmallest);
-  Camera camera = CameraAt(name, Eigen::Vector3d::Zero(), 0);
+  Camera camera = NamedCameraAt(name, Whereabouts());
   const Eigen::Vector3d to_camera = (camera.position - camera.target).normalized();
   const double distance = kMargin * radius / std::sin(0.5 * camera.vertical_fov_rad);
   camera.target = box.center();
@@ -116,7 +114,7 @@ Camera Around(const std::string& name, const Eigen::AlignedBox3d& box) {
   return camera;
 }
 
-Eigen::AlignedBox3d BoxOf(const std::vector<RobotState>& robots) {
+Eigen::AlignedBox3d BoxOfRobots(const std::vector<RobotState>& robots) {
   Eigen::AlignedBox3d box;
   for (const RobotState& robot : robots) {
     box.extend(robot.bounds);
@@ -130,29 +128,24 @@ Eigen::AlignedBox3d BoxOf(const std::vector<RobotState>& robots) {
 
 Camera NamedCamera(const std::string& name, const SceneState& state) {
   if (state.people.empty()) {
-    const Eigen::AlignedBox3d box = BoxOf(state.robots);
+    const Eigen::AlignedBox3d box = BoxOfRobots(state.robots);
     if (!box.isEmpty()) return Around(name, box);
   }
-  const auto [ground, radius] = Ground(state);
-  return CameraAt(name, ground, radius);
+  return NamedCameraAt(name, WhereaboutsOf(state));
 }
 
-Camera SteadyCamera::Aim(const std::string& name, const SceneState& state) {
-  const auto [ground, radius] = Ground(state);
-  if (name != name_) {
-    const Camera camera = CameraAt(name, ground, radius);
-    name_ = state.people.empty() ? "" : name;
-    ground_ = ground;
-    radius_ = radius;
-    return camera;
-  }
-  if (!state.people.empty()) {
-    const Eigen::Vector3d away = ground - ground_;
+const Whereabouts& SteadyWhereabouts::Follow(const SceneState& state) {
+  const Whereabouts now = WhereaboutsOf(state);
+  if (!has_met_) {
+    has_met_ = !state.people.empty();
+    about_ = now;
+  } else if (!state.people.empty()) {
+    const Eigen::Vector3d away = now.middle - about_.middle;
     const double distance = away.norm();
-    if (distance > kLeash) ground_ += away * (1 - kLeash / distance);
-    radius_ = std::clamp(radius_, radius, radius + kSlack);
+    if (distance > kLeash) about_.middle += away * (1 - kLeash / distance);
+    about_.radius = std::clamp(about_.radius, now.radius, now.radius + kSlack);
   }
-  return CameraAt(name, ground_, radius_);
+  return about_;
 }
 
 glm::dmat4 ViewFromWorld(const Camera& camera) {
@@ -165,6 +158,10 @@ glm::dmat4 ViewFromWorld(const Camera& camera) {
 }
 
 glm::dmat4 ClipFromView(const Camera& camera, double aspect) {
+  if (camera.is_orthographic()) {
+    const double half = 0.5 * camera.ortho_height_m;
+    return glm::ortho(-half * aspect, half * aspect, -half, half, camera.near_m, camera.far_m);
+  }
   return glm::perspective(camera.vertical_fov_rad, aspect, camera.near_m, camera.far_m);
 }
 
@@ -193,7 +190,9 @@ Projected Project(const Eigen::Vector3d& point_in_world, const Camera& camera, i
   projected.x_px = (clip.x / clip.w + 1) / 2 * width_px;
   projected.y_px = (1 - clip.y / clip.w) / 2 * height_px;
   projected.px_per_m =
-      height_px / (2 * std::tan(0.5 * camera.vertical_fov_rad) * projected.depth_m);
+      height_px / (camera.is_orthographic()
+                       ? camera.ortho_height_m
+                       : 2 * std::tan(0.5 * camera.vertical_fov_rad) * projected.depth_m);
   return projected;
 }
 

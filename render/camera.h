@@ -18,6 +18,11 @@ struct Camera {
   double vertical_fov_rad = 0.52;  // 30 deg
   double near_m = 0.05;
   double far_m = 60;
+  /// Above 0 the picture is orthographic and this high, m, at any depth; the field of view then
+  /// counts for nothing.
+  double ortho_height_m = 0;
+
+  bool is_orthographic() const { return ortho_height_m > 0; }
 };
 
 /// "front", "back", "left", "right", "top", "iso", "three_quarter": the order shown to people.
@@ -30,26 +35,57 @@ const std::vector<std::string>& CameraNames();
 /// @throws UsageError naming the camera asked for and those that exist.
 Camera NamedCamera(const std::string& name, const SceneState& state);
 
-/// A named camera that does not sway with the person: it stands still while they stay near the
-/// middle of the picture, and is drawn along, without jumps, when they walk away. A floor that
-/// stands still is easier on the eye and far cheaper to draw and to encode. One sequence of states
-/// gives one sequence of cameras.
-class SteadyCamera {
+/// What named cameras are aimed at: the people's middle on the floor, and how far the outermost
+/// stands from it, m.
+struct Whereabouts {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  double radius = 0;
+};
+Whereabouts WhereaboutsOf(const SceneState& state);
+
+/// The named camera aimed at `about`, as if people stood there. @throws as NamedCamera.
+Camera NamedCameraAt(const std::string& name, const Whereabouts& about);
+
+/// Height of what `camera` shows at its target's depth, m.
+double ShownHeight(const Camera& camera);
+
+/// `camera` moved along its axis so that with another field of view, or with none, what lies at the
+/// target's depth keeps its size. @pre 0 < fov < pi
+Camera WithFov(const Camera& camera, double vertical_fov_rad);
+Camera Orthographic(const Camera& camera);
+
+/// `camera` moved back where a narrow picture (width / height = `aspect`) would cut off the arms of
+/// the person in its middle; web/cameras.js does the same.
+Camera ForAspect(const Camera& camera, double aspect);
+
+/// Turned about the vertical through its target, counter-clockwise seen from above.
+Camera Turned(const Camera& camera, double angle_rad);
+
+/// Around all that is drawn of people, objects and robots, world, m; empty where nobody is.
+Eigen::AlignedBox3d BoxOf(const SceneState& state);
+
+/// `camera` moved, without being turned, so that `box` just fits into its picture with a margin.
+/// @pre !box.isEmpty()
+Camera Framing(const Camera& camera, const Eigen::AlignedBox3d& box, double aspect);
+
+/// Whereabouts that do not sway with the people: they stand still while they stay near the middle
+/// of the picture, and are drawn along, without jumps, when they walk away. A floor that stands
+/// still is easier on the eye and far cheaper to draw and to encode. One sequence of states gives
+/// one sequence of whereabouts.
+class SteadyWhereabouts {
  public:
-  /// Call once per picture. Another name than before starts afresh; with nobody there, it waits.
-  /// @throws UsageError as NamedCamera.
-  Camera Aim(const std::string& name, const SceneState& state);
+  /// Call once per picture. The first people to come are met at once; with nobody there, it waits.
+  const Whereabouts& Follow(const SceneState& state);
 
  private:
-  std::string name_;                                  // "" before the first
-  Eigen::Vector3d ground_ = Eigen::Vector3d::Zero();  // what it is aimed at, on the floor
-  double radius_ = 0;                                 // of the group it has room for, m
+  bool has_met_ = false;
+  Whereabouts about_;  // radius: of the group it has room for
 };
 
 struct Projected {
   double x_px = 0;      // from the left edge
   double y_px = 0;      // from the top edge
-  double depth_m = 0;   // along the view axis; <= 0: behind the camera
+  double depth_m = 0;   // along the view axis; <= 0: behind the camera (perspective)
   double px_per_m = 0;  // size there of a metre that faces the camera
 };
 

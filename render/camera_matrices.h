@@ -4,6 +4,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "render/camera.h"
+#include "render/tile.h"
 
 namespace kinescope::render {
 
@@ -13,14 +14,6 @@ glm::dmat4 ViewFromWorld(const Camera& camera);
 
 /// clip_from_view of a whole picture of this aspect ratio (width / height).
 glm::dmat4 ClipFromView(const Camera& camera, double aspect);
-
-/// A part of a picture, px, from its top left corner.
-struct Tile {
-  int x = 0;
-  int y = 0;
-  int width = 0;
-  int height = 0;
-};
 
 /// Turns clip coordinates of a picture of width_px x height_px into those of one tile of it, so
 /// that pictures larger than a framebuffer can be drawn piece by piece.

@@ -25,9 +25,9 @@ struct Canvas::Paint {
 void Canvas::Blend(int x, int y, const Paint& paint, double coverage) {
   const int weight = static_cast<int>(paint.alpha * coverage + 0.5);
   if (weight == 0) return;
-  std::uint8_t* pixel =
-      &image_.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
-                        static_cast<std::size_t>(x))];
+  std::uint8_t* pixel = &image_.rgba[4 * (static_cast<std::size_t>(part_.y + y) *
+                                              static_cast<std::size_t>(image_.width) +
+                                          static_cast<std::size_t>(part_.x + x))];
   for (std::size_t channel = 0; channel < 3; ++channel) {
     pixel[channel] = static_cast<std::uint8_t>(
         (pixel[channel] * (256 - weight) + paint.levels[channel] * weight + 128) / 256);
@@ -39,9 +39,9 @@ void Canvas::Fill(double left, double top, double right, double bottom, const In
                   Coverage&& coverage) {
   const Paint paint(ink);
   const int first_x = std::max(0, static_cast<int>(std::floor(left - 1)));
-  const int last_x = std::min(image_.width - 1, static_cast<int>(std::ceil(right + 1)));
+  const int last_x = std::min(part_.width - 1, static_cast<int>(std::ceil(right + 1)));
   const int first_y = std::max(0, static_cast<int>(std::floor(top - 1)));
-  const int last_y = std::min(image_.height - 1, static_cast<int>(std::ceil(bottom + 1)));
+  const int last_y = std::min(part_.height - 1, static_cast<int>(std::ceil(bottom + 1)));
   for (int y = first_y; y <= last_y; ++y) {
     for (int x = first_x; x <= last_x; ++x) Blend(x, y, paint, coverage(x + 0.5, y + 0.5));
   }
@@ -75,6 +75,54 @@ void Canvas::Ring(double x, double y, double inner_radius, double outer_radius, 
        });
 }
 
+// By the nearest piece of the whole line, so that where pieces meet nothing is painted twice.
+void Canvas::Polyline(const std::vector<std::pair<double, double>>& points, double width,
+                      const Ink& ink) {
+  if (points.empty()) return;
+  double left = points[0].first, right = left, top = points[0].second, bottom = top;
+  for (const auto& [x, y] : points) {
+    left = std::min(left, x), right = std::max(right, x);
+    top = std::min(top, y), bottom = std::max(bottom, y);
+  }
+  const double reach = width / 2 + 1;
+  const int first_x = std::max(0, static_cast<int>(std::floor(left - reach)));
+  const int last_x = std::min(part_.width - 1, static_cast<int>(std::ceil(right + reach)));
+  const int first_y = std::max(0, static_cast<int>(std::floor(top - reach)));
+  const int last_y = std::min(part_.height - 1, static_cast<int>(std::ceil(bottom + reach)));
+  if (first_x > last_x || first_y > last_y) return;
+  const auto columns = static_cast<std::size_t>(last_x - first_x + 1);
+  std::vector<double> coverage(columns * static_cast<std::size_t>(last_y - first_y + 1), 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto [x0, y0] = points[i];
+    const auto [x1, y1] = points[std::min(i + 1, points.size() - 1)];
+    const double dx = x1 - x0, dy = y1 - y0, length2 = dx * dx + dy * dy;
+    const auto begin = [&](double at, int first) {
+      return std::max(first, static_cast<int>(std::floor(at - reach)));
+    };
+    const auto end = [&](double at, int last) {
+      return std::min(last, static_cast<int>(std::ceil(at + reach)));
+    };
+    for (int y = begin(std::min(y0, y1), first_y); y <= end(std::max(y0, y1), last_y); ++y) {
+      for (int x = begin(std::min(x0, x1), first_x); x <= end(std::max(x0, x1), last_x); ++x) {
+        const double px = x + 0.5 - x0, py = y + 0.5 - y0;
+        const double t = length2 > 0 ? std::clamp((px * dx + py * dy) / length2, 0.0, 1.0) : 0;
+        const double ox = px - t * dx, oy = py - t * dy;
+        double& mine = coverage[static_cast<std::size_t>(y - first_y) * columns +
+                                static_cast<std::size_t>(x - first_x)];
+        mine = std::max(mine, EdgeCoverage(width / 2 - std::sqrt(ox * ox + oy * oy)));
+      }
+    }
+  }
+  const Paint paint(ink);
+  for (int y = first_y; y <= last_y; ++y) {
+    for (int x = first_x; x <= last_x; ++x) {
+      Blend(x, y, paint,
+            coverage[static_cast<std::size_t>(y - first_y) * columns +
+                     static_cast<std::size_t>(x - first_x)]);
+    }
+  }
+}
+
 double Canvas::Text(double x, double y, std::string_view utf8, Font& font, int size_px,
                     const Ink& ink) {
   const Paint paint(ink);
@@ -83,8 +131,8 @@ double Canvas::Text(double x, double y, std::string_view utf8, Font& font, int s
     const Glyph& glyph = font.Get(code_point, size_px);
     const int left = static_cast<int>(std::lround(x)) + glyph.left;
     const int top = baseline - glyph.top;
-    for (int row = std::max(0, -top); row < std::min(glyph.height, image_.height - top); ++row) {
-      for (int column = std::max(0, -left); column < std::min(glyph.width, image_.width - left);
+    for (int row = std::max(0, -top); row < std::min(glyph.height, part_.height - top); ++row) {
+      for (int column = std::max(0, -left); column < std::min(glyph.width, part_.width - left);
            ++column) {
         const auto at = static_cast<std::size_t>(row * glyph.width + column);
         if (glyph.coverage[at] != 0)

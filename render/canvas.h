@@ -1,31 +1,29 @@
-/// Anti-aliased 2-D shapes and text on top of a finished picture. Units: px, y downwards, a pixel's
-/// centre at (x + 0.5, y + 0.5). Whatever lies outside the picture is cut off.
+/// Anti-aliased 2-D shapes and text on top of a finished picture.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "render/font.h"
 #include "render/image.h"
-#include "server/core/palette.h"
+#include "render/painter.h"
 
 namespace kinescope::render {
 
-struct Ink {
-  Rgb color = {0, 0, 0};  // sRGB, 0..1
-  double alpha = 1;
-};
-
-class Canvas {
+class Canvas : public Painter {
  public:
-  explicit Canvas(Image& image) : image_(image) {}
+  explicit Canvas(Image& image) : image_(image), part_{0, 0, image.width, image.height} {}
 
-  void RoundedBox(double x, double y, double width, double height, double radius, const Ink& ink);
-  void Disc(double x, double y, double radius, const Ink& ink);
-  void Ring(double x, double y, double inner_radius, double outer_radius, const Ink& ink);
-
-  /// One line, starting at `x` on the baseline `y`. Returns where the next character would start.
-  double Text(double x, double y, std::string_view utf8, Font& font, int size_px, const Ink& ink);
+  void Enter(const Tile& part) override { part_ = part; }
+  void RoundedBox(double x, double y, double width, double height, double radius,
+                  const Ink& ink) override;
+  void Disc(double x, double y, double radius, const Ink& ink) override;
+  void Ring(double x, double y, double inner_radius, double outer_radius, const Ink& ink) override;
+  void Polyline(const std::vector<std::pair<double, double>>& points, double width,
+                const Ink& ink) override;
+  double Text(double x, double y, std::string_view utf8, Font& font, int size_px,
+              const Ink& ink) override;
 
  private:
   /// Blends `ink` with weight `coverage(x, y)` in 0..1 over the pixels of the box.
@@ -36,6 +34,7 @@ class Canvas {
   void Blend(int x, int y, const Paint& paint, double coverage);
 
   Image& image_;
+  Tile part_;  // within the image
 };
 
 }  // namespace kinescope::render

@@ -32,8 +32,11 @@ class Font {
   /// Width of `utf8` set in one line, px.
   double Width(std::string_view utf8, int size_px);
 
+  const std::string& file_name() const { return file_name_; }
+
  private:
   struct Face;
+  std::string file_name_;
   std::unique_ptr<Face> face_;
   std::map<std::pair<int, char32_t>, Glyph> glyphs_;  // by size and code point
 };

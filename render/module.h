@@ -11,6 +11,7 @@
 
 #include "render/camera.h"
 #include "render/image.h"
+#include "render/painter.h"
 #include "render/plot.h"
 #include "render/renderer.h"
 #include "render/video.h"
@@ -21,7 +22,7 @@ namespace kinescope::render {
 /// What must be equal on both sides. A changed struct changes a size here in nearly every case; the
 /// number is raised by hand when it does not.
 struct ModuleAbi {
-  std::size_t number = 3;
+  std::size_t number = 4;
   std::size_t scene_state = sizeof(SceneState);
   std::size_t person_state = sizeof(PersonState);
   std::size_t person_model = sizeof(PersonModel);
@@ -67,10 +68,21 @@ struct VideoModule {
                                        const VideoOptions& options);
 };
 
+/// Paints into a file instead of pixels.
+class LayerPainter : public Painter {
+ public:
+  /// The file's bytes; once, at the end. @throws RenderError.
+  virtual std::string Finish() = 0;
+};
+
+/// @throws RenderError when the module or its font is missing.
+std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, LayerFormat format);
+
 struct PlotModule {
   ModuleAbi abi;
   std::string (*svg)(const Figure& figure);
   Image (*image)(const Figure& figure, double px_per_pt);
+  std::unique_ptr<LayerPainter> (*layer)(int width_px, int height_px, LayerFormat format);
 };
 
 /// What each module exports under the name below, as `extern "C"` functions without arguments.

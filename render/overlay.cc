@@ -8,33 +8,14 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "render/overlay_plot.h"
+#include "render/overlay_scale.h"
+#include "render/strip.h"
+
 namespace kinescope::render {
 namespace {
 
-constexpr Ink kText = {{0.13, 0.15, 0.19}, 1};
-constexpr Ink kFaintText = {{0.38, 0.41, 0.46}, 1};
-constexpr Ink kPanel = {{1, 1, 1}, 0.78};
-constexpr Ink kRim = {{0.15, 0.02, 0.02}, 1};
-
-// Of a picture 720 px high; everything scales with it.
-constexpr double kMargin = 20, kTitleSize = 22, kTextSize = 15, kSmallSize = 13;
-
-// `text`, or as much of it as fits with an ellipsis. Looks no further than the room goes: names
-// come from outside and may be of any length.
-std::string Shorten(const std::string& text, Font& font, int size_px, double width) {
-  const double room = width - font.Width("…", size_px);
-  double used = 0;
-  std::size_t fits = 0;  // bytes, together with an ellipsis
-  for (std::size_t at = 0; at < text.size();) {
-    std::size_t next = at + 1;
-    while (next < text.size() && (static_cast<unsigned char>(text[next]) & 0xC0) == 0x80) ++next;
-    used += font.Width(std::string_view(text).substr(at, next - at), size_px);
-    if (used > width) return fits > 0 ? text.substr(0, fits) + "…" : "";
-    if (used <= room) fits = next;
-    at = next;
-  }
-  return text;
-}
+constexpr double kTimeCodeLine = 22;  // of a picture 720 px high, from its baseline to the sample's
 
 // Any person of whom nobody said the mass: their loads are only as good as that assumption.
 const PersonState* WithAssumedMass(const SceneState& state) {
@@ -62,38 +43,97 @@ bool HasOnlyRobots(const SceneState& state) {
   return state.people.empty() && !state.robots.empty();
 }
 
+// The one line that a theme changes.
+const Inks& InksOf(const View&) { return kLightInks; }
+
 }  // namespace
 
-struct Overlay::Page {
-  Canvas canvas;
-  double width, height, scale;
-  bool is_small;  // room for a lamp without text, and banners
+std::string Shorten(const std::string& text, Font& font, int size_px, double width) {
+  const double room = width - font.Width("…", size_px);
+  double used = 0;
+  std::size_t fits = 0;  // bytes, together with an ellipsis
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t next = at + 1;
+    while (next < text.size() && (static_cast<unsigned char>(text[next]) & 0xC0) == 0x80) ++next;
+    used += font.Width(std::string_view(text).substr(at, next - at), size_px);
+    if (used > width) return fits > 0 ? text.substr(0, fits) + "…" : "";
+    if (used <= room) fits = next;
+    at = next;
+  }
+  return text;
+}
 
-  double Px(double at_720) const { return at_720 * scale; }
-  int FontPx(double at_720) const { return std::max(8, static_cast<int>(std::lround(Px(at_720)))); }
-};
-
-Overlay::Fonts& Overlay::fonts() {
-  if (!fonts_) fonts_ = std::make_unique<Fonts>();
+OverlayFonts& Overlay::fonts() {
+  if (!fonts_) fonts_ = std::make_unique<OverlayFonts>();
   return *fonts_;
 }
 
-void Overlay::Paint(Image& image, const SceneState& state, const Camera& camera, const View& view,
-                    const std::vector<Label>& labels) {
-  const double scale = std::max(0.5, std::min(image.height / 720.0, image.width / 1000.0));
-  Page page{Canvas(image), static_cast<double>(image.width), static_cast<double>(image.height),
-            scale, image.width < 300 || image.height < 160};
-  PaintNames(page, state, camera, labels);
-  if (HasOnlyRobots(state)) {
-    if (!page.is_small) PaintTitle(page, view.title);
-    return;
+void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
+                    const View& view) {
+  const double scale = std::max(0.5, std::min(view.height / 720.0, view.width / 1000.0));
+  const double strip = view.parts.strip ? StripLayoutOf(view.width, view.height).height() : 0;
+  Page page{painter,
+            InksOf(view),
+            fonts(),
+            static_cast<double>(view.width),
+            static_cast<double>(view.height),
+            scale,
+            view.height - strip,
+            view.width < 300 || view.height < 160};
+  const Page whole = page;
+  for (const DrawnView& each : drawn) {
+    painter.Enter(each.tile);
+    page.width = each.tile.width;
+    page.height = each.tile.height;
+    page.bottom = std::min(page.height, whole.bottom - each.tile.y);
+    const bool is_last = &each == &drawn.back();
+    PaintView(page, state, each, view, is_last && view.parts.time && !HasOnlyRobots(state));
   }
-  PaintLamp(page, state);
+  painter.Enter({0, 0, view.width, view.height});
+  page.width = whole.width;
+  page.height = whole.height;
+  page.bottom = whole.bottom;
+  PaintAround(page, state, view);
+  if (view.parts.strip && state.liveness != Liveness::kNoData) {
+    PaintStrip(painter, view.width, view.height, {state.counter, state.time_code_millis});
+  }
+}
+
+void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& drawn,
+                        const View& view, bool has_time_code) {
+  if (view.parts.names) PaintNames(page, state, drawn.camera, drawn.labels);
+  if (page.is_small) return;
+  const double margin = page.Px(kMargin);
+  if (view.parts.scale) {
+    const double time_code =
+        has_time_code ? page.Px(kTimeCodeLine) + 1.3 * page.FontPx(kTitleSize) : 0;
+    PaintScaleBar(page, drawn.camera, margin + time_code);
+  }
+  if (drawn.name.empty()) return;
+  const int size = page.FontPx(kSmallSize);
+  const double half = page.fonts.bold.Width(drawn.name, size) / 2;
+  const double baseline = page.bottom - 0.5 * margin;
+  page.canvas.RoundedBox(page.width / 2 - half - 0.6 * size, baseline - 1.15 * size,
+                         2 * half + 1.2 * size, 1.6 * size, 0.4 * size, page.inks.panel);
+  page.canvas.Text(page.width / 2 - half, baseline, drawn.name, page.fonts.bold, size,
+                   page.inks.text);
+}
+
+void Overlay::PaintAround(Page& page, const SceneState& state, const View& view) {
+  const OverlayParts& parts = view.parts;
+  if (parts.title && !page.is_small) PaintTitle(page, state, view);
+  if (HasOnlyRobots(state)) return;
+  if (parts.lamp) PaintLamp(page, state);
   if (!page.is_small) {
-    PaintTitle(page, view.title);
-    PaintLegend(page, state);
-    if (state.liveness != Liveness::kNoData) PaintTimeCode(page, state);
+    if (parts.legend) PaintLegend(page, state);
+    if (parts.time && state.liveness != Liveness::kNoData) PaintTimeCode(page, state);
+    if (parts.plot && view.history != nullptr) {
+      const double below = page.Px(kMargin) + page.Px(4 * kTitleSize);
+      PaintPlot(page, *view.history, view.plot_secs,
+                page.Px(kMargin) + 1.8 * page.FontPx(kTextSize), page.bottom - below);
+    }
   }
+  if (!parts.banner) return;
   if (state.liveness == Liveness::kStale) PaintStaleBanner(page, state);
   if (state.liveness == Liveness::kNoData) PaintNoData(page, state);
 }
@@ -111,7 +151,7 @@ void Overlay::PaintLamp(Page& page, const SceneState& state) {
     text = is_file ? "RECORDED" : "LIVE";
     if (state.rate_hz > 0) std::snprintf(rate, sizeof rate, "  %.1f Hz", state.rate_hz);
   }
-  Fonts& f = fonts();
+  OverlayFonts& f = page.fonts;
   const int size = page.FontPx(kTextSize);
   if (page.is_small) {
     page.canvas.Disc(page.width - size, size, 0.36 * size, {lamp, 1});
@@ -121,16 +161,18 @@ void Overlay::PaintLamp(Page& page, const SceneState& state) {
   const double left = page.width - page.Px(kMargin) - width;
   const double baseline = page.Px(kMargin) + size;
   page.canvas.Disc(left - 0.8 * size, baseline - 0.36 * size, 0.36 * size, {lamp, 1});
-  const double next = page.canvas.Text(left, baseline, text, f.bold, size, kText);
-  page.canvas.Text(next, baseline, rate, f.regular, size, kFaintText);
+  const double next = page.canvas.Text(left, baseline, text, f.bold, size, page.inks.text);
+  page.canvas.Text(next, baseline, rate, f.regular, size, page.inks.faint_text);
 }
 
-void Overlay::PaintTitle(Page& page, const std::string& title) {
-  if (title.empty()) return;
-  Fonts& f = fonts();
+void Overlay::PaintTitle(Page& page, const SceneState& state, const View& view) {
+  if (view.title.empty()) return;
   const int size = page.FontPx(kTitleSize);
-  const std::string line = Shorten(title, f.bold, size, 0.6 * page.width);
-  page.canvas.Text(page.Px(kMargin), page.Px(kMargin) + size, line, f.bold, size, kText);
+  const bool is_beside_lamp = view.parts.lamp && !HasOnlyRobots(state);
+  const double room = is_beside_lamp ? 0.6 * page.width : page.right() - page.Px(kMargin);
+  const std::string line = Shorten(view.title, page.fonts.bold, size, room);
+  page.canvas.Text(page.Px(kMargin), page.Px(kMargin) + size, line, page.fonts.bold, size,
+                   page.inks.text);
 }
 
 void Overlay::PaintLegend(Page& page, const SceneState& state) {
@@ -152,7 +194,7 @@ void Overlay::PaintLegend(Page& page, const SceneState& state) {
       {{kComColor, 1}, 5.0, false, "centre of mass", ""},
       {{kCopColor, 1}, 5.0, false, "centre of pressure", ""},
   }};
-  Fonts& f = fonts();
+  OverlayFonts& f = page.fonts;
   const int size = page.FontPx(kSmallSize);
   const double line = page.Px(21), pad = page.Px(12), column = page.Px(24);
   const PersonState* assumed = WithAssumedMass(state);
@@ -162,24 +204,24 @@ void Overlay::PaintLegend(Page& page, const SceneState& state) {
                                 f.bold.Width("Joint load, % of capacity", size) - column);
   const double notes = (metric.empty() ? 0.0 : 1.0) + (assumed != nullptr ? 1.0 : 0.0);
   const double height = 2 * pad + line * (7.0 + notes + (notes > 0 ? 0.5 : 0.0)) - page.Px(4);
-  const double left = page.Px(kMargin), top = page.height - page.Px(kMargin) - height;
-  page.canvas.RoundedBox(left, top, width, height, page.Px(8), kPanel);
+  const double left = page.Px(kMargin), top = page.bottom - page.Px(kMargin) - height;
+  page.canvas.RoundedBox(left, top, width, height, page.Px(8), page.inks.panel);
   double baseline = top + pad + 0.8 * size;
-  page.canvas.Text(left + pad, baseline, "Joint load, % of capacity", f.bold, size, kText);
+  page.canvas.Text(left + pad, baseline, "Joint load, % of capacity", f.bold, size, page.inks.text);
   for (const Row& row : rows) {
     baseline += line;
     const double x = left + pad + 0.36 * column, y = baseline - 0.36 * size;
     const double radius = page.Px(row.radius);
-    if (row.has_rim) page.canvas.Disc(x, y, radius, kRim);
+    if (row.has_rim) page.canvas.Disc(x, y, radius, page.inks.rim);
     page.canvas.Disc(x, y, row.has_rim ? 0.76 * radius : radius, row.ink);
-    page.canvas.Text(left + pad + column, baseline, row.name, f.regular, size, kText);
+    page.canvas.Text(left + pad + column, baseline, row.name, f.regular, size, page.inks.text);
     page.canvas.Text(left + width - pad - f.regular.Width(row.range, size), baseline, row.range,
-                     f.regular, size, kText);
+                     f.regular, size, page.inks.text);
   }
   baseline += 0.5 * line;
   const auto note = [&](const std::string& text) {
     baseline += line;
-    page.canvas.Text(left + pad, baseline, text, f.regular, size, kFaintText);
+    page.canvas.Text(left + pad, baseline, text, f.regular, size, page.inks.faint_text);
   };
   if (!metric.empty()) note(metric);
   if (assumed == nullptr) return;
@@ -190,31 +232,31 @@ void Overlay::PaintLegend(Page& page, const SceneState& state) {
 }
 
 void Overlay::PaintTimeCode(Page& page, const SceneState& state) {
-  Fonts& f = fonts();
+  OverlayFonts& f = page.fonts;
   const int size = page.FontPx(kTitleSize), small = page.FontPx(kSmallSize);
   const std::string time = TimeCode(state.time_code_millis);
   const std::string sample = "sample " + std::to_string(state.counter);
-  const double right = page.width - page.Px(kMargin), bottom = page.height - page.Px(kMargin);
+  const double right = page.width - page.Px(kMargin), bottom = page.bottom - page.Px(kMargin);
   const double left = right - f.regular.Width(time, size);
-  page.canvas.Text(left, bottom - page.Px(22), time, f.regular, size, kText);
+  page.canvas.Text(left, bottom - page.Px(kTimeCodeLine), time, f.regular, size, page.inks.text);
   page.canvas.Text(right - f.regular.Width(sample, small), bottom, sample, f.regular, small,
-                   kFaintText);
+                   page.inks.faint_text);
 }
 
 void Overlay::PaintStaleBanner(Page& page, const SceneState& state) {
-  Fonts& f = fonts();
+  OverlayFonts& f = page.fonts;
   const int size = page.FontPx(18);
   const std::string full = "STALE – last sample " + TimeCode(state.time_code_millis);
   const double room = page.width - 4 * size;
   const std::string text = f.bold.Width(full, size) <= room ? full : "STALE";
   const double width = f.bold.Width(text, size) + 2 * size;
   const double left = (page.width - width) / 2, top = page.Px(kMargin + 28);
-  page.canvas.RoundedBox(left, top, width, 2 * size, 0.5 * size, {{0.98, 0.80, 0.35}, 0.95});
-  page.canvas.Text(left + size, top + 1.36 * size, text, f.bold, size, kText);
+  page.canvas.RoundedBox(left, top, width, 2 * size, 0.5 * size, page.inks.banner);
+  page.canvas.Text(left + size, top + 1.36 * size, text, f.bold, size, page.inks.on_banner);
 }
 
 void Overlay::PaintNoData(Page& page, const SceneState& state) {
-  Fonts& f = fonts();
+  OverlayFonts& f = page.fonts;
   const int size = page.FontPx(44), small = page.FontPx(18);
   const std::string title = "NO DATA";
   const std::string source = state.source.empty() ? "a source" : state.source;
@@ -224,16 +266,16 @@ void Overlay::PaintNoData(Page& page, const SceneState& state) {
       std::max(f.bold.Width(title, size), f.regular.Width(detail, small)) + 2.4 * size;
   const double height = 2.1 * size + 1.4 * small;
   const double left = (page.width - width) / 2, top = (page.height - height) / 2;
-  page.canvas.RoundedBox(left, top, width, height, 0.3 * size, {{1, 1, 1}, 0.85});
+  page.canvas.RoundedBox(left, top, width, height, 0.3 * size, page.inks.notice);
   page.canvas.Text((page.width - f.bold.Width(title, size)) / 2, top + 1.4 * size, title, f.bold,
-                   size, kFaintText);
+                   size, page.inks.faint_text);
   page.canvas.Text((page.width - f.regular.Width(detail, small)) / 2,
-                   top + 1.55 * size + 1.3 * small, detail, f.regular, small, kFaintText);
+                   top + 1.55 * size + 1.3 * small, detail, f.regular, small, page.inks.faint_text);
 }
 
 void Overlay::PaintNames(Page& page, const SceneState& state, const Camera& camera,
                          const std::vector<Label>& labels) {
-  Fonts& f = fonts();
+  OverlayFonts& f = page.fonts;
   const int size = page.FontPx(kSmallSize);
   const auto paint = [&](const Eigen::Vector3d& position, const std::string& name) {
     const Projected at =
@@ -244,8 +286,9 @@ void Overlay::PaintNames(Page& page, const SceneState& state, const Camera& came
     // Far outside, coordinates outgrow what a pixel index can hold.
     if (!(std::abs(at.x_px) < 1e5 && std::abs(at.y_px) < 1e5)) return;
     page.canvas.RoundedBox(at.x_px - width / 2 - 0.6 * size, at.y_px - size, width + 1.2 * size,
-                           1.7 * size, 0.5 * size, kPanel);
-    page.canvas.Text(at.x_px - width / 2, at.y_px + 0.25 * size, text, f.regular, size, kText);
+                           1.7 * size, 0.5 * size, page.inks.panel);
+    page.canvas.Text(at.x_px - width / 2, at.y_px + 0.25 * size, text, f.regular, size,
+                     page.inks.text);
   };
   for (const Label& label : labels) paint(label.position, label.text);
   if (state.people.size() < 2) return;

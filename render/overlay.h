@@ -1,37 +1,43 @@
-/// What is written over the picture: title, lamp, legend, time code, banners, names. Sizes follow
-/// the picture's height, so that a clip of any size looks the same; text never gets unreadably
-/// small.
+/// What is written over the picture: title, lamp, legend, time code, banners, names, scale bar,
+/// plot and strip. Sizes follow the picture's height, so that a clip of any size looks the same;
+/// text never gets unreadably small.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "render/camera.h"
-#include "render/canvas.h"
-#include "render/font.h"
-#include "render/image.h"
 #include "render/module.h"
+#include "render/overlay_page.h"
+#include "render/painter.h"
 #include "render/renderer.h"
 #include "server/core/scene_state.h"
 
 namespace kinescope::render {
 
+/// One view of the scene within a picture, as it was drawn.
+struct DrawnView {
+  Tile tile;
+  Camera camera;
+  std::string name;           // "" where it is the only one
+  std::vector<Label> labels;  // painted where they lie in the world
+};
+
 class Overlay {
  public:
-  /// `labels` are drawn where they lie in the world. @throws RenderError when a font is missing.
-  void Paint(Image& image, const SceneState& state, const Camera& camera, const View& view,
-             const std::vector<Label>& labels);
+  /// Over a picture of the size of `view`. @throws RenderError when a font is missing.
+  void Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
+             const View& view);
 
  private:
-  struct Page;  // one picture being painted
-  struct Fonts {
-    Font regular{"DejaVuSans.ttf"};
-    Font bold{"DejaVuSans-Bold.ttf"};
-  };
-  Fonts& fonts();  // opened by the first picture that needs them
+  using Page = OverlayPage;
+  OverlayFonts& fonts();  // opened by the first picture that needs them
 
+  void PaintView(Page& page, const SceneState& state, const DrawnView& drawn, const View& view,
+                 bool has_time_code);
+  void PaintAround(Page& page, const SceneState& state, const View& view);
   void PaintLamp(Page& page, const SceneState& state);
-  void PaintTitle(Page& page, const std::string& title);
+  void PaintTitle(Page& page, const SceneState& state, const View& view);
   void PaintLegend(Page& page, const SceneState& state);
   void PaintTimeCode(Page& page, const SceneState& state);
   void PaintStaleBanner(Page& page, const SceneState& state);
@@ -39,7 +45,7 @@ class Overlay {
   void PaintNames(Page& page, const SceneState& state, const Camera& camera,
                   const std::vector<Label>& labels);
 
-  std::unique_ptr<Fonts> fonts_;
+  std::unique_ptr<OverlayFonts> fonts_;
 };
 
 /// "hh:mm:ss.mmm"; negative times start with "-".

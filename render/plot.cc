@@ -21,4 +21,8 @@ Image ToImage(const Figure& figure, double px_per_pt) {
   return Module().image(figure, px_per_pt);
 }
 
+std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, LayerFormat format) {
+  return Module().layer(width_px, height_px, format);
+}
+
 }  // namespace kinescope::render

@@ -2,11 +2,14 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
 
+#include "render/canvas.h"
 #include "render/module.h"
+#include "render/multi_view.h"
 #include "render/overlay.h"
 #include "server/core/check.h"
 #include "server/core/errors.h"
@@ -22,6 +25,12 @@ namespace {
 constexpr int kSmallestSide = 16;
 constexpr int kLargestSide = 8192;
 
+void SetSize(Image& image, int width, int height) {
+  image.width = width;
+  image.height = height;
+  image.rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+}
+
 void CheckView(const View& view) {
   const auto check_side = [](const char* name, int value) {
     if (value >= kSmallestSide && value <= kLargestSide) return;
@@ -35,30 +44,48 @@ void CheckView(const View& view) {
   }
 }
 
-// The scene and its camera raised so that the floor is at z = 0, where the drawing has it.
-void LiftToFloor(SceneState& state, Camera& camera) {
-  const Eigen::Vector3d lift(0, 0, -state.floor_z);
-  camera.position += lift;
-  camera.target += lift;
-  for (PersonState& person : state.people) {
-    for (urdf::Pose& link : person.links) link.position += lift;
-    for (auto& glove : person.gloves) {
-      if (!glove) continue;
-      for (urdf::Pose& link : glove->links) link.position += lift;
-    }
-    for (auto& prop : person.props) {
-      if (prop) prop->pose.position += lift;
-    }
-    for (JointLoad& load : person.loads) load.position += lift;
-    if (person.com) *person.com += lift;
-    if (person.cop) *person.cop += lift;
+// The scene and its cameras raised so that the floor is at z = 0, where the drawing has it.
+class Lifted {
+ public:
+  explicit Lifted(const SceneState& state) : state_(state), lift_(0, 0, -state.floor_z) {
+    if (state.floor_z == 0) return;
+    raised_ = state;
+    Raise(*raised_);
   }
-  for (TrackedObject& object : state.objects) object.pose.position += lift;
-  for (RobotState& robot : state.robots) {
-    for (Eigen::Isometry3d& link : robot.world_from_link) link.pretranslate(lift);
+
+  const SceneState& state() const { return raised_ ? *raised_ : state_; }
+  Camera Of(Camera camera) const {
+    camera.position += lift_;
+    camera.target += lift_;
+    return camera;
   }
-  state.floor_z = 0;
-}
+
+ private:
+  void Raise(SceneState& state) const {
+    for (PersonState& person : state.people) {
+      for (urdf::Pose& link : person.links) link.position += lift_;
+      for (auto& glove : person.gloves) {
+        if (!glove) continue;
+        for (urdf::Pose& link : glove->links) link.position += lift_;
+      }
+      for (auto& prop : person.props) {
+        if (prop) prop->pose.position += lift_;
+      }
+      for (JointLoad& load : person.loads) load.position += lift_;
+      if (person.com) *person.com += lift_;
+      if (person.cop) *person.cop += lift_;
+    }
+    for (TrackedObject& object : state.objects) object.pose.position += lift_;
+    for (RobotState& robot : state.robots) {
+      for (Eigen::Isometry3d& link : robot.world_from_link) link.pretranslate(lift_);
+    }
+    state.floor_z = 0;
+  }
+
+  const SceneState& state_;
+  const Eigen::Vector3d lift_;
+  std::optional<SceneState> raised_;
+};
 
 // Drawing by a module, overlays by us.
 class ModuleRenderer : public Renderer {
@@ -72,20 +99,53 @@ class ModuleRenderer : public Renderer {
  private:
   void DoRender(Image& image, const SceneState& state, const Camera& camera,
                 const View& view) override {
-    if (state.floor_z != 0) {
-      SceneState lifted = state;
-      Camera lifted_camera = camera;
-      LiftToFloor(lifted, lifted_camera);
-      return DoRender(image, lifted, lifted_camera, view);
+    const Lifted lifted(state);
+    drawn_ = ViewsOf(lifted, camera, view);
+    if (drawn_.size() == 1) {
+      DrawnView& only = drawn_.front();
+      drawing_->Draw(lifted.state(), only.camera, view.supersample, image, only.labels);
+    } else {
+      FillWith(image, kLightInks.separator.color);
+      for (DrawnView& each : drawn_) {
+        SetSize(part_, each.tile.width, each.tile.height);
+        drawing_->Draw(lifted.state(), each.camera, view.supersample, part_, each.labels);
+        CopyInto(image, part_, each.tile);
+      }
     }
-    labels_.clear();
-    drawing_->Draw(state, camera, view.supersample, image, labels_);
-    if (view.overlays) overlay_.Paint(image, state, camera, view, labels_);
+    if (!view.overlays) return;
+    Canvas canvas(image);
+    overlay_.Paint(canvas, lifted.state(), drawn_, view);
+  }
+
+  std::string DoOverlayLayer(const SceneState& state, const Camera& camera, const View& view,
+                             LayerFormat format) override {
+    const Lifted lifted(state);
+    std::vector<DrawnView> views = ViewsOf(lifted, camera, view);
+    KINESCOPE_CHECK(views.size() == drawn_.size());  // of the picture drawn last
+    for (std::size_t i = 0; i < views.size(); ++i) views[i].labels = drawn_[i].labels;
+    const auto painter = MakeLayerPainter(view.width, view.height, format);
+    overlay_.Paint(*painter, lifted.state(), views, view);
+    return painter->Finish();
+  }
+
+  static std::vector<DrawnView> ViewsOf(const Lifted& lifted, const Camera& camera,
+                                        const View& view) {
+    if (view.panes.empty()) {
+      return {{{0, 0, view.width, view.height}, lifted.Of(camera), "", {}}};
+    }
+    const auto tiles =
+        PaneTiles(view.width, view.height, static_cast<int>(view.panes.size()), view.pane_columns);
+    std::vector<DrawnView> views;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      views.push_back({tiles[i], lifted.Of(view.panes[i].camera), view.panes[i].name, {}});
+    }
+    return views;
   }
 
   std::unique_ptr<Drawing> drawing_;
   Overlay overlay_;
-  std::vector<Label> labels_;
+  std::vector<DrawnView> drawn_;  // of the newest picture
+  Image part_;                    // one of several views
 };
 
 void ToStderr(const std::string& line) { std::fprintf(stderr, "render: %s\n", line.c_str()); }
@@ -106,11 +166,15 @@ void Renderer::RenderInto(Image& image, const SceneState& state, const Camera& c
                           const View& view) {
   KINESCOPE_CHECK(std::this_thread::get_id() == owner_->thread);
   CheckView(view);
-  image.width = view.width;
-  image.height = view.height;
-  image.rgba.resize(4 * static_cast<std::size_t>(view.width) *
-                    static_cast<std::size_t>(view.height));
+  SetSize(image, view.width, view.height);
   DoRender(image, state, camera, view);
+}
+
+std::string Renderer::OverlayLayer(const SceneState& state, const Camera& camera, const View& view,
+                                   LayerFormat format) {
+  KINESCOPE_CHECK(std::this_thread::get_id() == owner_->thread);
+  CheckView(view);
+  return DoOverlayLayer(state, camera, view, format);
 }
 
 std::unique_ptr<Renderer> MakeRenderer(const std::string& backend, LogLine log) {

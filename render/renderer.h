@@ -10,6 +10,7 @@
 
 #include "render/camera.h"
 #include "render/image.h"
+#include "render/load_history.h"
 #include "server/core/scene_state.h"
 
 namespace kinescope::render {
@@ -20,13 +21,41 @@ class RenderError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What is written over a picture, one by one; View::overlays switches all of it.
+struct OverlayParts {
+  bool title = true;
+  bool lamp = true;    // live, recorded or stale, and the rate of samples
+  bool legend = true;  // with units
+  bool time = true;    // time code and sample number
+  bool names = true;   // of several people, frames, boxes that stand for meshes
+  bool banner = true;  // "STALE", "NO DATA"
+  bool scale = false;  // a bar that is true at the depth of the camera's target
+  bool strip = false;  // sample and time for machines (strip.h)
+  bool plot = false;   // View::history
+};
+
+/// One of several views in a picture.
+struct Pane {
+  std::string name;  // written into it; "" none
+  Camera camera;
+};
+
 struct View {
   int width = 1280;      // px, 16..8192
   int height = 720;      // px, 16..8192
   int supersample = 1;   // 1, 2 or 4: drawn so many times larger, then averaged
   std::string title;     // upper left; "" none
   bool overlays = true;  // legend, time code, banner
+  OverlayParts parts = {};
+  /// Several views in one picture, row by row, instead of the camera's (multi_view.h).
+  std::vector<Pane> panes = {};
+  int pane_columns = 1;
+  /// For the plot, with its cursor at plot_secs.
+  std::shared_ptr<const LoadHistory> history = nullptr;
+  double plot_secs = 0;
 };
+
+enum class LayerFormat { kSvg, kPdf };
 
 /// Takes one line without a line end: a mesh that is missing (once), a warning of the driver.
 using LogLine = std::function<void(const std::string&)>;
@@ -44,6 +73,12 @@ class Renderer {
 
   /// The same into `image`, whose memory is used again: what a stream of pictures should call.
   void RenderInto(Image& image, const SceneState& state, const Camera& camera, const View& view);
+
+  /// What is written over the picture that was drawn last, alone and as vectors, as large as the
+  /// picture (SVG: px; PDF: 96 px to the inch). Pass what that picture was drawn with; it is made
+  /// whether or not view.overlays had it painted. The same arguments give the same bytes.
+  std::string OverlayLayer(const SceneState& state, const Camera& camera, const View& view,
+                           LayerFormat format);
 
   /// The smallest upright box around all that is drawn of `robot`, world, m; empty when that is
   /// nothing. Reads its meshes, which the next picture of it then need not.
@@ -63,6 +98,8 @@ class Renderer {
   /// `image` has the size of `view` and every pixel is to be written.
   virtual void DoRender(Image& image, const SceneState& state, const Camera& camera,
                         const View& view) = 0;
+  virtual std::string DoOverlayLayer(const SceneState& state, const Camera& camera,
+                                     const View& view, LayerFormat format) = 0;
   struct Owner;  // the thread that made it
   std::unique_ptr<const Owner> owner_;
 };

@@ -1,12 +1,11 @@
 #include "render/plot/pen.h"
 
-#include <cairo/cairo-ft.h>
 #include <cairo/cairo-svg.h>
 #include <cairo/cairo.h>
 
 #include <cmath>
 
-#include "render/font.h"
+#include "render/plot/fonts.h"
 #include "render/renderer.h"
 #include "server/core/check.h"
 
@@ -19,56 +18,6 @@ cairo_status_t Append(void* to, const unsigned char* data, unsigned int size) {
   static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
   return CAIRO_STATUS_SUCCESS;
 }
-
-// Names come from outside; Cairo refuses what is no UTF-8.
-std::string Printable(const std::string& text) {
-  std::string utf8;
-  for (const char32_t c : DecodeUtf8(text)) {
-    const auto put = [&](char32_t bits) { utf8 += static_cast<char>(bits); };
-    if (c < 0x80) {
-      put(c);
-    } else if (c < 0x800) {
-      put(0xC0 | (c >> 6));
-      put(0x80 | (c & 0x3F));
-    } else if (c < 0x10000) {
-      put(0xE0 | (c >> 12));
-      put(0x80 | ((c >> 6) & 0x3F));
-      put(0x80 | (c & 0x3F));
-    } else {
-      put(0xF0 | (c >> 18));
-      put(0x80 | ((c >> 12) & 0x3F));
-      put(0x80 | ((c >> 6) & 0x3F));
-      put(0x80 | (c & 0x3F));
-    }
-  }
-  return utf8;
-}
-
-// Opened once and never closed: Cairo keeps scaled fonts, and with them the faces, for later.
-class Fonts {
- public:
-  static cairo_font_face_t* Get(bool is_bold) {
-    static const Fonts* const fonts = new Fonts();
-    return fonts->faces_[is_bold ? 1 : 0];
-  }
-
- private:
-  Fonts() {
-    if (FT_Init_FreeType(&library_) != 0) throw RenderError("FreeType does not start");
-    const char* const names[] = {"DejaVuSans.ttf", "DejaVuSans-Bold.ttf"};
-    for (int i = 0; i < 2; ++i) {
-      const std::string path = std::string(KINESCOPE_FONT_FOLDER) + "/" + names[i];
-      FT_Face file = nullptr;
-      if (FT_New_Face(library_, path.c_str(), 0, &file) != 0) {
-        throw RenderError("cannot open the font " + path + "; install Debian's fonts-dejavu-core");
-      }
-      faces_[i] = cairo_ft_font_face_create_for_ft_face(file, FT_LOAD_NO_HINTING);
-    }
-  }
-
-  FT_Library library_ = nullptr;
-  cairo_font_face_t* faces_[2] = {};
-};
 
 }  // namespace
 
@@ -180,7 +129,7 @@ void Pen::Hatch(double x, double y, double width, double height) {
 }
 
 void Pen::UseFont(double size, bool is_bold) {
-  cairo_set_font_face(parts_->context, Fonts::Get(is_bold));
+  cairo_set_font_face(parts_->context, FontFace(is_bold));
   cairo_set_font_size(parts_->context, size);
 }
 
@@ -216,14 +165,7 @@ void Pen::Unclip() { cairo_restore(parts_->context); }
 std::string Pen::TakeSvg() {
   parts_->Finish();
   cairo_surface_finish(parts_->surface);
-  // Cairo numbers its surfaces through the process; the same figure is to be the same bytes.
-  std::string svg = std::move(parts_->svg);
-  const std::string counted = "<g id=\"surface";
-  if (const std::size_t at = svg.find(counted); at != std::string::npos) {
-    const std::size_t digits = at + counted.size();
-    svg.erase(digits, svg.find('"', digits) - digits);
-  }
-  return svg;
+  return WithoutSurfaceNumber(std::move(parts_->svg));
 }
 
 Image Pen::TakeImage() {

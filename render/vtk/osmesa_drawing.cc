@@ -185,6 +185,7 @@ class OsmesaDrawing : public Drawing {
     camera_->SetPosition(camera.position.x(), camera.position.y(), camera.position.z());
     camera_->SetFocalPoint(camera.target.x(), camera.target.y(), camera.target.z());
     camera_->SetViewUp(view[0][1], view[1][1], view[2][1]);
+    camera_->SetParallelProjection(camera.is_orthographic() ? 1 : 0);  // shaders of VTK ask
   }
 
   void DrawTile(const Tile& tile, const Camera& camera, int supersample, Image& image) {

@@ -156,7 +156,12 @@ void SphereActor::Show(const std::vector<SphereLook>& spheres, const Camera& cam
   uniforms.SetUniform4fv("balls", kSphereCapacity, balls);
   uniforms.SetUniformi("ballCount", static_cast<int>(spheres.size()));
   uniforms.SetUniform4fv("looks", kSphereCapacity, looks);
-  const Eigen::Vector3f eye = camera.position.cast<float>();
+  // Without perspective all rays are parallel: nearly so from an eye far behind the camera, and near
+  // enough for a float.
+  constexpr double kFarEye = 1000;  // m
+  const Eigen::Vector3d back = (camera.position - camera.target).normalized();
+  const double behind = camera.is_orthographic() ? kFarEye : 0;
+  const Eigen::Vector3f eye = (camera.position + behind * back).cast<float>();
   uniforms.SetUniform3f("eye", eye.data());
   const glm::dmat4 view = ViewFromWorld(camera);
   const float up[] = {static_cast<float>(view[0][1]), static_cast<float>(view[1][1]),

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "server/app/camera_man.h"
 #include "server/app/open_source.h"
 #include "server/loads/load_settings.h"
 
@@ -110,6 +111,7 @@ struct ServeOptions {
   std::string token;
   std::string pictures = "on";
   std::string camera = "three_quarter";
+  CameraOptions camera_moves;
   std::string picture_size = "1280x720";
   double picture_rate_hz = 30;
 
@@ -121,8 +123,8 @@ struct ServeOptions {
     option("http_port", http_port, "TCP port of the page; 0 takes a free one and prints it");
     option("token", token, "what a browser must bring; needed for any address but this machine's");
     option("pictures", pictures, "on or off: the server's own pictures");
-    option("camera", camera,
-           "camera of the live picture: front back left right top iso three_quarter");
+    option("camera", camera, kCameraKinds);
+    camera_moves.Visit(option);
     option("picture_size", picture_size, "of the live picture, px");
     option("picture_rate_hz", picture_rate_hz, "most pictures a second, whatever comes in");
   }

@@ -32,7 +32,7 @@ bool IsCamera(const std::string& name) {
 PictureLoop::PictureLoop(const PictureOptions& options, std::shared_ptr<const SceneState> first,
                          Latest<http::Picture>& pictures)
     : options_(options), pictures_(pictures), state_(std::move(first)), camera_(options.camera) {
-  render::NamedCamera(camera_, *state_);  // throws for a name that does not exist
+  CameraMan(camera_, options_.moves);  // throws for what does not exist
   std::promise<void> started;
   std::future<void> has_started = started.get_future();
   thread_ = std::thread(&PictureLoop::Run, this, std::move(started));
@@ -111,7 +111,10 @@ void PictureLoop::DrawLive(render::Renderer& renderer, const SceneState& state,
                            const std::string& camera) {
   const auto start = Clock::now();
   const render::View view{options_.width, options_.height, 1, "", true};
-  renderer.RenderInto(live_image_, state, live_camera_.Aim(camera, state), view);
+  if (!live_camera_ || camera != live_camera_name_) live_camera_.emplace(camera, options_.moves);
+  live_camera_name_ = camera;
+  const double aspect = static_cast<double>(view.width) / view.height;
+  renderer.RenderInto(live_image_, state, live_camera_->Aim(state, aspect), view);
   const double draw_millis = MillisSince(start);
   const auto encode_start = Clock::now();
   auto picture = std::make_shared<http::Picture>();
@@ -132,8 +135,9 @@ void PictureLoop::DrawSnapshot(render::Renderer& renderer, const SceneState& sta
                                Snapshot& snapshot) {
   try {
     const render::View view{snapshot.width, snapshot.height, 2, "", true};
+    const double aspect = static_cast<double>(view.width) / view.height;
     const render::Image image =
-        renderer.Render(state, render::NamedCamera(snapshot.camera, state), view);
+        renderer.Render(state, CameraMan(snapshot.camera, {}).Only(state, 0, aspect), view);
     std::vector<std::uint8_t> png = render::EncodePng(image);
     {  // before the picture goes out: whoever has it may ask what it lacks
       const std::lock_guard<std::mutex> lock(mutex_);

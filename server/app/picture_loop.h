@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "render/renderer.h"
+#include "server/app/camera_man.h"
 #include "server/core/latest.h"
 #include "server/core/scene_state.h"
 #include "server/http/server.h"
@@ -22,6 +23,7 @@ namespace kinescope::app {
 
 struct PictureOptions {
   std::string camera = "three_quarter";
+  CameraOptions moves;  // of the live picture
   int width = 1280;
   int height = 720;
   double rate_hz = 30;
@@ -79,7 +81,8 @@ class PictureLoop : public http::PictureFeed {
   PictureStatus status_;
   // Of the drawing thread:
   render::Image live_image_;
-  render::SteadyCamera live_camera_;
+  std::string live_camera_name_;
+  std::optional<CameraMan> live_camera_;  // a new name is a cut
 
   std::thread thread_;
 };

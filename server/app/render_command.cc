@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "render/new_file.h"
 #include "render/png_file.h"
 #include "render/renderer.h"
 #include "render/video.h"
@@ -34,6 +35,7 @@ struct RenderOptions {
   std::optional<double> seconds;
   double fps = 30;
   bool json = false;
+  std::string overlay_layer;
   ViewOptions view;
   PersonOptions person;
   LoadOptions loads;
@@ -50,32 +52,71 @@ std::map<std::string, std::string> Provenance(const RenderOptions& options,
           {"Renderer", renderer.renderer_string()}};
 }
 
-SceneState SceneOfPicture(const RenderOptions& options, SceneReader& reader) {
+render::LayerFormat ToLayerFormat(const std::string& text) {
+  if (text != "svg" && text != "pdf") {
+    throw UsageError(fmt::format("--overlay_layer={}: expected svg or pdf", text));
+  }
+  return text == "svg" ? render::LayerFormat::kSvg : render::LayerFormat::kPdf;
+}
+
+SceneReader Open(const RenderOptions& options) {
+  return SceneReader(options.source,
+                     ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads));
+}
+
+// A source is read once more where pictures depend on scenes after them.
+void SurveyIfNeeded(const RenderOptions& options, ShotPlanner& planner,
+                    std::optional<double> length) {
+  if (!planner.needs_survey()) return;
+  if (!length && options.source.rfind("demo:", 0) == 0) length = kDefaultClipSecs;
+  SceneReader reader = Open(options);
+  SurveyClip(planner, reader, length);
+}
+
+// `secs`: since the first sample.
+SceneState SceneOfPicture(const RenderOptions& options, SceneReader& reader, double& secs) {
   if (options.time) {
+    secs = *options.time;
     SceneTimeline timeline(reader);
     if (auto scene = timeline.At(*options.time)) return *scene;
     throw UsageError(fmt::format("--time={}: {} ends before", *options.time, options.source));
   }
   const long wanted = options.frame.value_or(0);
   long frame = 0;
-  std::shared_ptr<const SceneState> state;
+  std::shared_ptr<const SceneState> state, first;
   while (frame <= wanted) {
     state = reader.Next();
     if (!state || StopRequested()) break;
+    if (!first) first = state;
     ++frame;
   }
   if (!state) {
     throw UsageError(
         fmt::format("--frame={}: {} has {} frames, the first is 0", wanted, options.source, frame));
   }
+  secs = 1e-9 * static_cast<double>(state->stamp_nanos - first->stamp_nanos);
   return *state;
 }
 
 nlohmann::json RenderPicture(const RenderOptions& options, SceneReader& reader) {
-  const Shot shot = ShotPlanner(options.view).Only(SceneOfPicture(options, reader));
+  ShotPlanner planner(options.view);
+  SurveyIfNeeded(options, planner, options.seconds);
+  double secs = 0;
+  SceneState scene = SceneOfPicture(options, reader, secs);
+  Shot shot = planner.Only(std::move(scene), secs);
+  const bool has_layer = !options.overlay_layer.empty();
+  if (has_layer) shot.view.overlays = false;
   const auto renderer = render::MakeRenderer();
   const render::Image image = renderer->Render(shot.state, shot.camera, shot.view);
   render::WritePng(options.out, image, Provenance(options, *renderer));
+  if (has_layer) {
+    const std::string layer = renderer->OverlayLayer(shot.state, shot.camera, shot.view,
+                                                     ToLayerFormat(options.overlay_layer));
+    render::NewFile file(
+        std::filesystem::path(options.out).replace_extension(options.overlay_layer));
+    file.Write(layer.data(), layer.size());
+    file.Commit();
+  }
   return {{"pictures", 1}, {"counter", shot.state.counter}};
 }
 
@@ -96,6 +137,7 @@ nlohmann::json RenderClip(const RenderOptions& options, SceneReader& reader) {
   }
 
   ShotPlanner planner(options.view);
+  SurveyIfNeeded(options, planner, length);
   const auto renderer = render::MakeRenderer();
   render::VideoOptions video_options;
   video_options.frames_per_second = options.fps;
@@ -135,8 +177,14 @@ void Render(const RenderOptions& options) {
   if (extension == ".mp4" && (options.frame || options.time)) {
     throw UsageError("--frame and --time choose one picture; give --out a name that ends in .png");
   }
-  SceneReader reader(options.source,
-                     ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads));
+  if (!options.overlay_layer.empty()) {
+    ToLayerFormat(options.overlay_layer);
+    if (extension != ".png") {
+      throw UsageError(
+          "--overlay_layer is beside one picture; give --out a name that ends in .png");
+    }
+  }
+  SceneReader reader = Open(options);
   nlohmann::json result =
       extension == ".png" ? RenderPicture(options, reader) : RenderClip(options, reader);
   result["out"] = options.out;
@@ -161,6 +209,8 @@ void AddRender(CommandLine line) {
   command->add_option("--seconds", o->seconds, "length of the clip; default: all (demo: 10)");
   command->add_option("--fps", o->fps, "pictures a second of the clip")->capture_default_str();
   command->add_flag("--json", o->json, "tell the result as JSON");
+  command->add_option("--overlay_layer", o->overlay_layer,
+                      "svg or pdf: what is written over the picture goes into a file beside it");
   o->view.Visit(FlagAdder(*command));
   o->person.Visit(FlagAdder(*command));
   o->loads.Visit(FlagAdder(*command));

@@ -108,6 +108,12 @@ http::HttpConfig ToHttpConfig(const ServeOptions& options) {
 PictureOptions ToPictureOptions(const ServeOptions& options) {
   PictureOptions pictures;
   pictures.camera = options.camera;
+  pictures.moves = options.camera_moves;
+  if (CameraMan(pictures.camera, pictures.moves).needs_survey()) {
+    throw UsageError(
+        "--orbit=turn and --fit=clip need a clip that ends; live there are degrees a "
+        "second, and --fit=now");
+  }
   std::tie(pictures.width, pictures.height) = ToSize("picture_size", options.picture_size);
   if (!(options.picture_rate_hz >= 0.1 && options.picture_rate_hz <= 240)) {
     throw UsageError(

@@ -1,22 +1,107 @@
 #include "server/app/shots.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "render/multi_view.h"
+#include "server/app/stop_signal.h"
+
 namespace kinescope::app {
+namespace {
+
+constexpr double kWindowSecs = 10;  // of a plot without a survey
+
+std::vector<CameraMan> CamerasOf(const ViewOptions& options, const ViewGrid& grid) {
+  if (grid.cameras.empty()) return {CameraMan(options.camera, options.moves)};
+  std::vector<CameraMan> cameras;
+  for (const std::string& camera : grid.cameras) cameras.emplace_back(camera, options.moves);
+  return cameras;
+}
+
+double SecsSince(std::optional<std::int64_t>& start_nanos, const SceneState& state) {
+  if (!start_nanos) start_nanos = state.stamp_nanos;
+  return 1e-9 * static_cast<double>(state.stamp_nanos - *start_nanos);
+}
+
+}  // namespace
 
 ShotPlanner::ShotPlanner(const ViewOptions& options)
-    : camera_name_(options.camera), view_(ToView(options)) {
-  render::NamedCamera(camera_name_, SceneState{});  // refuses an unknown name before any work
+    : view_(ToView(options)), loads_(ToPlotJoints(options.plot)) {
+  const ViewGrid grid = ToViewGrid(options.views);
+  cameras_ = CamerasOf(options, grid);
+  if (grid.cameras.empty()) {
+    aspects_ = {static_cast<double>(view_.width) / view_.height};
+    return;
+  }
+  view_.pane_columns = grid.columns;
+  for (const CameraMan& camera : cameras_) view_.panes.push_back({camera.name(), {}});
+  for (const render::Tile& tile : render::PaneTiles(
+           view_.width, view_.height, static_cast<int>(cameras_.size()), view_.pane_columns)) {
+    aspects_.push_back(static_cast<double>(tile.width) / tile.height);
+  }
+}
+
+bool ShotPlanner::needs_survey() const {
+  return !loads_.is_empty() || std::any_of(cameras_.begin(), cameras_.end(),
+                                           [](const CameraMan& c) { return c.needs_survey(); });
+}
+
+void ShotPlanner::Survey(const SceneState& state) {
+  for (CameraMan& camera : cameras_) camera.Survey(state);
+  if (!loads_.is_empty()) loads_.Add(state, SecsSince(survey_start_nanos_, state));
+}
+
+Shot ShotPlanner::With(SceneState state, std::vector<render::Camera> cameras, double secs) const {
+  Shot shot{std::move(state), cameras.front(), view_};
+  for (std::size_t i = 0; i < shot.view.panes.size(); ++i) {
+    shot.view.panes[i].camera = cameras[i];
+  }
+  shot.view.plot_secs = secs;
+  return shot;
 }
 
 Shot ShotPlanner::Next(SceneState state) {
-  const render::Camera camera = camera_.Aim(camera_name_, state);
-  return {std::move(state), camera, view_};
+  const double secs = SecsSince(start_nanos_, state);
+  std::vector<render::Camera> cameras;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    cameras.push_back(cameras_[i].Aim(state, aspects_[i]));
+  }
+  if (loads_.is_empty()) return With(std::move(state), std::move(cameras), secs);
+  std::shared_ptr<const render::LoadHistory> history;
+  if (survey_start_nanos_) {
+    if (whole_ == nullptr) whole_ = std::make_shared<const render::LoadHistory>(loads_.All());
+    history = whole_;
+  } else {
+    loads_.Add(state, secs);
+    history = std::make_shared<const render::LoadHistory>(loads_.Last(kWindowSecs));
+  }
+  Shot shot = With(std::move(state), std::move(cameras), secs);
+  shot.view.history = std::move(history);
+  return shot;
 }
 
-Shot ShotPlanner::Only(SceneState state) const {
-  const render::Camera camera = render::NamedCamera(camera_name_, state);
-  return {std::move(state), camera, view_};
+Shot ShotPlanner::Only(SceneState state, double secs) const {
+  std::vector<render::Camera> cameras;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    cameras.push_back(cameras_[i].Only(state, secs, aspects_[i]));
+  }
+  LoadWindow loads = loads_;
+  if (!survey_start_nanos_) loads.Add(state, secs);
+  Shot shot = With(std::move(state), std::move(cameras), secs);
+  if (!loads.is_empty()) {
+    shot.view.history = std::make_shared<const render::LoadHistory>(loads.All());
+  }
+  return shot;
+}
+
+void SurveyClip(ShotPlanner& planner, SceneReader& source, std::optional<double> seconds) {
+  std::optional<std::int64_t> start_nanos;
+  while (const auto state = source.Next()) {
+    if (StopRequested()) return;
+    const double secs = SecsSince(start_nanos, *state);
+    if (seconds && secs > *seconds) return;
+    planner.Survey(*state);
+  }
 }
 
 }  // namespace kinescope::app

@@ -1,16 +1,24 @@
-/// From scenes to pictures of a recording: what depends on the scenes before (a camera that
-/// follows) is decided here, one scene after the other, so that the pictures themselves can be
-/// drawn in any order and by any number of renderers.
+/// From scenes to pictures of a recording: what depends on other scenes (a camera that follows, a
+/// plot of loads) is decided here, one scene after the other, so that the pictures themselves can
+/// be drawn in any order and by any number of renderers.
 #pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
 
 #include "render/camera.h"
 #include "render/renderer.h"
+#include "server/app/camera_man.h"
+#include "server/app/load_window.h"
+#include "server/app/scene_reader.h"
 #include "server/app/view_options.h"
 #include "server/core/scene_state.h"
 
 namespace kinescope::app {
 
-/// All that one picture depends on.
+/// All that one picture depends on. Several views: the cameras are in view.panes, `camera` is the
+/// first of them.
 struct Shot {
   SceneState state;
   render::Camera camera;
@@ -22,18 +30,34 @@ class ShotPlanner {
   /// @throws UsageError for what `options` ask for that there is not.
   explicit ShotPlanner(const ViewOptions& options);
 
+  /// Whether the whole clip must be known before its first picture: one turn over it, a frame
+  /// around all of it, a plot of all of it. Without a survey they do with what there is: no turn,
+  /// no frame, a plot of the newest seconds.
+  bool needs_survey() const;
+  /// Every scene of the clip, in order, before the first shot.
+  void Survey(const SceneState& state);
+
   /// Of a clip: the scenes in order.
   Shot Next(SceneState state);
 
-  /// Of one scene alone.
-  Shot Only(SceneState state) const;
+  /// Of one scene alone, `secs` after the recording's start.
+  Shot Only(SceneState state, double secs = 0) const;
 
   const render::View& view() const { return view_; }
 
  private:
-  std::string camera_name_;
+  Shot With(SceneState state, std::vector<render::Camera> cameras, double secs) const;
+
   render::View view_;
-  render::SteadyCamera camera_;
+  std::vector<CameraMan> cameras_;  // one, or one for each view
+  std::vector<double> aspects_;     // of their pictures
+  LoadWindow loads_;                // of the survey, or else of the scenes so far
+  std::optional<std::int64_t> start_nanos_, survey_start_nanos_;
+  std::shared_ptr<const render::LoadHistory> whole_;  // of the survey, made with the first shot
 };
+
+/// Surveys what `source` has, up to `seconds` after its first scene. For planners that need it.
+/// @throws as SceneReader.
+void SurveyClip(ShotPlanner& planner, SceneReader& source, std::optional<double> seconds);
 
 }  // namespace kinescope::app

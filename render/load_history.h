@@ -1,0 +1,32 @@
+/// Loads over time, for the plot strip: what the scenes before and after a picture say.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "server/core/scene_state.h"
+
+namespace kinescope::render {
+
+/// Where the classes begin, of capacity; the legend's numbers (tests hold them to the
+/// classifier's).
+inline constexpr double kMediumFrom = 0.30, kHighFrom = 0.60;
+
+struct LoadPoint {
+  double secs = 0;
+  double ratio = 0;  // NaN where unknown: the line breaks
+  LoadClass load_class = LoadClass::kUnknown;
+};
+
+struct LoadCurve {
+  std::string name;               // "Right elbow"
+  std::vector<LoadPoint> points;  // times ascend
+};
+
+/// Immutable once a View holds it; shared by the pictures of a clip.
+struct LoadHistory {
+  double from_secs = 0, to_secs = 1;  // what is shown; @pre from < to
+  std::vector<LoadCurve> curves;      // from top to bottom
+};
+
+}  // namespace kinescope::render

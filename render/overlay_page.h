@@ -1,0 +1,78 @@
+/// What the painters of overlays share: one picture being painted, its inks and sizes. Internal to
+/// overlay*.cc.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "render/font.h"
+#include "render/painter.h"
+
+namespace kinescope::render {
+
+/// The one table of colours for what is written over a picture: one for each theme.
+struct Inks {
+  Ink text, faint_text;
+  Ink panel;          // behind text that lies over the scene
+  Ink rim;            // of the high class's sphere
+  Ink banner;         // "STALE"
+  Ink on_banner;      // its text
+  Ink notice;         // "NO DATA"
+  Ink line;           // scale bar, curve
+  Ink halo;           // around lines, so that they are seen on anything
+  Ink separator;      // between views
+  double band_alpha;  // of the classes behind curves
+};
+
+inline constexpr Inks kLightInks = {{{0.13, 0.15, 0.19}, 1},
+                                    {{0.38, 0.41, 0.46}, 1},
+                                    {{1, 1, 1}, 0.78},
+                                    {{0.15, 0.02, 0.02}, 1},
+                                    {{0.98, 0.80, 0.35}, 0.95},
+                                    {{0.13, 0.15, 0.19}, 1},
+                                    {{1, 1, 1}, 0.85},
+                                    {{0.13, 0.15, 0.19}, 1},
+                                    {{1, 1, 1}, 0.78},
+                                    {{0.72, 0.74, 0.77}, 1},
+                                    0.22};
+
+inline constexpr Inks kDarkInks = {{{0.93, 0.94, 0.96}, 1},
+                                   {{0.68, 0.71, 0.76}, 1},
+                                   {{0.09, 0.10, 0.12}, 0.78},
+                                   {{0.15, 0.02, 0.02}, 1},
+                                   {{0.98, 0.80, 0.35}, 0.95},
+                                   {{0.13, 0.15, 0.19}, 1},
+                                   {{0.09, 0.10, 0.12}, 0.85},
+                                   {{0.93, 0.94, 0.96}, 1},
+                                   {{0.09, 0.10, 0.12}, 0.78},
+                                   {{0.34, 0.36, 0.40}, 1},
+                                   0.30};
+
+// Of a picture 720 px high; everything scales with it.
+inline constexpr double kMargin = 20, kTitleSize = 22, kTextSize = 15, kSmallSize = 13;
+
+struct OverlayFonts {
+  Font regular{"DejaVuSans.ttf"};
+  Font bold{"DejaVuSans-Bold.ttf"};
+};
+
+/// Coordinates count from the corner of what is painted: a picture, or one view of several.
+struct OverlayPage {
+  Painter& canvas;
+  const Inks& inks;
+  OverlayFonts& fonts;
+  double width, height, scale;
+  double bottom;  // height, less the strip at the bottom
+  bool is_small;  // room for a lamp without text, and banners
+
+  double Px(double at_720) const { return at_720 * scale; }
+  int FontPx(double at_720) const { return std::max(8, static_cast<int>(std::lround(Px(at_720)))); }
+  double right() const { return width - Px(kMargin); }
+};
+
+/// `text`, or as much of it as fits with an ellipsis. Looks no further than the room goes: names
+/// come from outside and may be of any length.
+std::string Shorten(const std::string& text, Font& font, int size_px, double width);
+
+}  // namespace kinescope::render

@@ -1,0 +1,26 @@
+/// The scale bar: a round length, true at the depth of the camera's target (in an orthographic
+/// picture: anywhere).
+#pragma once
+
+#include <string>
+
+#include "render/camera.h"
+#include "render/overlay_page.h"
+
+namespace kinescope::render {
+
+struct ScaleBar {
+  double length_m = 0;
+  double length_px = 0;
+  std::string text;  // "50 cm"
+};
+
+/// The longest of 1, 2 or 5 times a power of ten that is no longer than `most_px`; of length 0
+/// where the target is behind the camera.
+ScaleBar ScaleBarOf(const Camera& camera, int width_px, int height_px, double most_px);
+
+/// With its right end at the page's right margin, its text ending `above_bottom` px over the
+/// bottom.
+void PaintScaleBar(OverlayPage& page, const Camera& camera, double above_bottom);
+
+}  // namespace kinescope::render

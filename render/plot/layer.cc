@@ -1,0 +1,144 @@
+#include "render/plot/layer.h"
+
+#include <cairo/cairo-pdf.h>
+#include <cairo/cairo-svg.h>
+#include <cairo/cairo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "render/plot/fonts.h"
+
+namespace kinescope::render::plot {
+namespace {
+
+constexpr double kPtPerPx = 72.0 / 96;  // as CSS has it, so that both formats are equally large
+
+cairo_status_t Append(void* to, const unsigned char* data, unsigned int size) {
+  static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+class CairoLayer : public LayerPainter {
+ public:
+  CairoLayer(int width_px, int height_px, LayerFormat format) : format_(format) {
+    if (format == LayerFormat::kSvg) {
+      surface_ = cairo_svg_surface_create_for_stream(&Append, &bytes_, width_px, height_px);
+      cairo_svg_surface_set_document_unit(surface_, CAIRO_SVG_UNIT_PX);
+    } else {
+      surface_ = cairo_pdf_surface_create_for_stream(&Append, &bytes_, kPtPerPx * width_px,
+                                                     kPtPerPx * height_px);
+      // Otherwise the time of day: the same picture is to be the same bytes.
+      cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_CREATE_DATE,
+                                     "1970-01-01T00:00:00Z");
+    }
+    context_ = cairo_create(surface_);
+    if (format == LayerFormat::kPdf) cairo_scale(context_, kPtPerPx, kPtPerPx);
+    cairo_font_options_t* options = cairo_font_options_create();
+    cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
+    cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
+    cairo_set_font_options(context_, options);
+    cairo_font_options_destroy(options);
+    cairo_set_line_join(context_, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_cap(context_, CAIRO_LINE_CAP_ROUND);
+    cairo_save(context_);
+  }
+  ~CairoLayer() override {
+    cairo_destroy(context_);
+    cairo_surface_destroy(surface_);
+  }
+  CairoLayer(const CairoLayer&) = delete;
+  CairoLayer& operator=(const CairoLayer&) = delete;
+
+  void Enter(const Tile& part) override {
+    cairo_restore(context_);
+    cairo_save(context_);
+    cairo_rectangle(context_, part.x, part.y, part.width, part.height);
+    cairo_clip(context_);
+    cairo_translate(context_, part.x, part.y);
+  }
+
+  void RoundedBox(double x, double y, double width, double height, double radius,
+                  const Ink& ink) override {
+    Use(ink);
+    if (radius > 0) {
+      cairo_new_sub_path(context_);
+      const double left = x + radius, right = x + width - radius;
+      const double top = y + radius, bottom = y + height - radius;
+      cairo_arc(context_, right, top, radius, -M_PI / 2, 0);
+      cairo_arc(context_, right, bottom, radius, 0, M_PI / 2);
+      cairo_arc(context_, left, bottom, radius, M_PI / 2, M_PI);
+      cairo_arc(context_, left, top, radius, M_PI, 1.5 * M_PI);
+      cairo_close_path(context_);
+    } else {
+      cairo_rectangle(context_, x, y, width, height);
+    }
+    cairo_fill(context_);
+  }
+
+  void Disc(double x, double y, double radius, const Ink& ink) override {
+    Use(ink);
+    cairo_arc(context_, x, y, radius, 0, 2 * M_PI);
+    cairo_fill(context_);
+  }
+
+  void Ring(double x, double y, double inner_radius, double outer_radius, const Ink& ink) override {
+    Use(ink);
+    cairo_set_line_width(context_, outer_radius - inner_radius);
+    cairo_arc(context_, x, y, (inner_radius + outer_radius) / 2, 0, 2 * M_PI);
+    cairo_stroke(context_);
+  }
+
+  void Polyline(const std::vector<std::pair<double, double>>& points, double width,
+                const Ink& ink) override {
+    if (points.empty()) return;
+    Use(ink);
+    cairo_set_line_width(context_, width);
+    cairo_move_to(context_, points[0].first, points[0].second);
+    for (const auto& [x, y] : points) cairo_line_to(context_, x, y);
+    cairo_stroke(context_);
+  }
+
+  // Advances are those of `font`, by which the page was laid out.
+  double Text(double x, double y, std::string_view utf8, Font& font, int size_px,
+              const Ink& ink) override {
+    Use(ink);
+    const bool is_bold = font.file_name().find("Bold") != std::string::npos;
+    cairo_set_font_face(context_, FontFace(is_bold));
+    cairo_set_font_size(context_, size_px);
+    cairo_move_to(context_, x, y);
+    cairo_show_text(context_, Printable(utf8).c_str());
+    return x + font.Width(utf8, size_px);
+  }
+
+  std::string Finish() override {
+    cairo_restore(context_);
+    cairo_surface_finish(surface_);
+    for (const cairo_status_t status : {cairo_status(context_), cairo_surface_status(surface_)}) {
+      if (status == CAIRO_STATUS_SUCCESS) continue;
+      throw RenderError(std::string("cannot draw the overlay: ") + cairo_status_to_string(status));
+    }
+    return format_ == LayerFormat::kSvg ? WithoutSurfaceNumber(std::move(bytes_))
+                                        : std::move(bytes_);
+  }
+
+ private:
+  void Use(const Ink& ink) {
+    cairo_set_source_rgba(context_, ink.color[0], ink.color[1], ink.color[2], ink.alpha);
+  }
+
+  const LayerFormat format_;
+  std::string bytes_;  // grow while the surface is finished
+  cairo_surface_t* surface_ = nullptr;
+  cairo_t* context_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<LayerPainter> MakeLayer(int width_px, int height_px, LayerFormat format) {
+  return std::make_unique<CairoLayer>(width_px, height_px, format);
+}
+
+}  // namespace kinescope::render::plot

@@ -1,0 +1,13 @@
+/// Overlays as vectors: SVG, or PDF with text that can be searched.
+#pragma once
+
+#include <memory>
+
+#include "render/module.h"
+
+namespace kinescope::render::plot {
+
+/// @pre 0 < width_px, height_px. @throws RenderError for a font that is missing.
+std::unique_ptr<LayerPainter> MakeLayer(int width_px, int height_px, LayerFormat format);
+
+}  // namespace kinescope::render::plot

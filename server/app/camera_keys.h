@@ -1,0 +1,32 @@
+/// A camera's keys as a YAML file says them (docs/pictures.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/camera_path.h"
+
+namespace kinescope::app {
+
+/// One key; its camera is known when the scene is.
+struct CameraKeySpec {
+  double secs = 0;
+  std::string name;  // a named camera; "": `place`
+  render::Camera place;
+  std::optional<double> fov_rad;
+  render::Ease ease = render::Ease::kSmooth;
+};
+
+/// Times ascend. @throws UsageError naming file, line, key and what was expected.
+std::vector<CameraKeySpec> ReadCameraKeys(const std::string& path);
+
+/// "X,Y,Z" in m. @throws UsageError beginning with `what`.
+Eigen::Vector3d ParsePoint(const std::string& what, const std::string& text);
+
+/// A camera at `position` that looks at `target`, z up. @throws UsageError where both are the same.
+render::Camera CameraFromTo(const std::string& what, const Eigen::Vector3d& position,
+                            const Eigen::Vector3d& target);
+
+}  // namespace kinescope::app
