@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "render/overlay_plot.h"
 #include "render/overlay_scale.h"
@@ -15,6 +16,7 @@
 namespace kinescope::render {
 namespace {
 
+constexpr double kWidestLegend = 0.3;  // of the picture: a person is in its middle
 constexpr double kTimeCodeLine = 22;  // of a picture 720 px high, from its baseline to the sample's
 
 // Any person of whom nobody said the mass: their loads are only as good as that assumption.
@@ -110,12 +112,15 @@ void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& dr
     PaintScaleBar(page, drawn.camera, margin + time_code);
   }
   if (drawn.name.empty()) return;
+  // In the upper middle, where nobody's feet are; in the top row below title and lamp.
   const int size = page.FontPx(kSmallSize);
-  const double half = page.fonts.bold.Width(drawn.name, size) / 2;
-  const double baseline = page.bottom - 0.5 * margin;
-  page.canvas.RoundedBox(page.width / 2 - half - 0.6 * size, baseline - 1.15 * size,
-                         2 * half + 1.2 * size, 1.6 * size, 0.4 * size, page.inks.panel);
-  page.canvas.Text(page.width / 2 - half, baseline, drawn.name, page.fonts.bold, size,
+  const bool is_below_title = drawn.tile.y == 0 && (view.parts.lamp || !view.title.empty());
+  const double top = is_below_title ? margin + 1.6 * page.FontPx(kTitleSize) : 0.5 * margin;
+  const std::string name = Shorten(drawn.name, page.fonts.bold, size, page.width - 2 * margin);
+  const double half = page.fonts.bold.Width(name, size) / 2;
+  page.canvas.RoundedBox(page.width / 2 - half - 0.6 * size, top, 2 * half + 1.2 * size, 1.6 * size,
+                         0.4 * size, page.inks.panel);
+  page.canvas.Text(page.width / 2 - half, top + 1.15 * size, name, page.fonts.bold, size,
                    page.inks.text);
 }
 
@@ -204,6 +209,7 @@ void Overlay::PaintLegend(Page& page, const SceneState& state) {
                                 f.bold.Width("Joint load, % of capacity", size) - column);
   const double notes = (metric.empty() ? 0.0 : 1.0) + (assumed != nullptr ? 1.0 : 0.0);
   const double height = 2 * pad + line * (7.0 + notes + (notes > 0 ? 0.5 : 0.0)) - page.Px(4);
+  if (width > kWidestLegend * page.width) return PaintShortLegend(page);
   const double left = page.Px(kMargin), top = page.bottom - page.Px(kMargin) - height;
   page.canvas.RoundedBox(left, top, width, height, page.Px(8), page.inks.panel);
   double baseline = top + pad + 0.8 * size;
@@ -229,6 +235,31 @@ void Overlay::PaintLegend(Page& page, const SceneState& state) {
   std::snprintf(text, sizeof text, "body mass assumed: %.0f kg",
                 assumed->model->description.mass_kg);
   note(text);
+}
+
+// For small pictures: the classes alone, in one line, so that the person is not covered.
+void Overlay::PaintShortLegend(Page& page) {
+  constexpr std::array<std::pair<LoadClass, const char*>, 3> kClasses = {
+      {{LoadClass::kLow, "≤ 30"}, {LoadClass::kMedium, "≤ 60"}, {LoadClass::kHigh, "> 60 %"}}};
+  const int size = page.FontPx(kSmallSize);
+  const double pad = 0.5 * size;
+  double width = pad;
+  for (const auto& [load_class, text] : kClasses) {
+    width += 1.2 * size + page.fonts.regular.Width(text, size) + pad;
+  }
+  double x = page.Px(kMargin);
+  const double top = page.bottom - page.Px(kMargin) - 1.8 * size;
+  page.canvas.RoundedBox(x, top, width, 1.8 * size, page.Px(8), page.inks.panel);
+  for (const auto& [load_class, text] : kClasses) {
+    const double y = top + 0.9 * size;
+    if (load_class == LoadClass::kHigh) {
+      page.canvas.Disc(x + pad + 0.45 * size, y, 0.55 * size, page.inks.rim);
+    }
+    page.canvas.Disc(x + pad + 0.45 * size, y, 0.4 * size, {ColorOf(load_class), 1});
+    page.canvas.Text(x + pad + 1.2 * size, top + 1.25 * size, text, page.fonts.regular, size,
+                     page.inks.text);
+    x += 1.2 * size + page.fonts.regular.Width(text, size) + pad;
+  }
 }
 
 void Overlay::PaintTimeCode(Page& page, const SceneState& state) {

@@ -39,6 +39,7 @@ class Overlay {
   void PaintLamp(Page& page, const SceneState& state);
   void PaintTitle(Page& page, const SceneState& state, const View& view);
   void PaintLegend(Page& page, const SceneState& state);
+  void PaintShortLegend(Page& page);
   void PaintTimeCode(Page& page, const SceneState& state);
   void PaintStaleBanner(Page& page, const SceneState& state);
   void PaintNoData(Page& page, const SceneState& state);

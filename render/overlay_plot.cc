@@ -85,7 +85,9 @@ std::string SecsText(double secs) {
   return text;
 }
 
-void PaintRow(OverlayPage& page, const Frame& frame, const LoadCurve& curve, double now_secs) {
+// has_scale: tells what the upper edge stands for.
+void PaintRow(OverlayPage& page, const Frame& frame, const LoadCurve& curve, double now_secs,
+              bool has_scale) {
   const int size = page.FontPx(kSmallSize);
   const LoadPoint* now = PointAt(curve, now_secs);
   char value[32] = "no data";
@@ -104,6 +106,13 @@ void PaintRow(OverlayPage& page, const Frame& frame, const LoadCurve& curve, dou
                    {ColorOf(load_class), 1});
 
   PaintBands(page, frame);
+  const int small = std::max(8, size - 2);
+  if (has_scale && frame.height >= 3 * small) {  // lower ones have no room for a text and a curve
+    char text[32];
+    std::snprintf(text, sizeof text, "%.0f %%", 100 * frame.top_ratio);
+    page.canvas.Text(frame.left + 0.3 * small, frame.top + small, text, page.fonts.regular, small,
+                     page.inks.faint_text);
+  }
   PaintCurve(page, frame, curve);
   const double x = std::clamp(frame.X(now_secs), frame.left, frame.left + frame.width);
   const double thin = std::max(1.0, page.Px(1));
@@ -145,7 +154,7 @@ void PaintPlot(OverlayPage& page, const LoadHistory& history, double now_secs, d
               TopRatio(history)};
   for (std::size_t i = 0; i < rows; ++i) {
     frame.top = std::round(top + pad + static_cast<double>(i) * row + head);
-    PaintRow(page, frame, history.curves[i], now_secs);
+    PaintRow(page, frame, history.curves[i], now_secs, i == 0);
   }
   const double baseline = frame.top + frame.height + 0.95 * size;
   const int small = std::max(8, size - 2);
@@ -154,10 +163,15 @@ void PaintPlot(OverlayPage& page, const LoadHistory& history, double now_secs, d
   const double to_left = frame.left + frame.width - page.fonts.regular.Width(to, small);
   page.canvas.Text(to_left, baseline, to, page.fonts.regular, small, page.inks.faint_text);
   if (hidden == 0) return;
-  const std::string more = "+ " + std::to_string(hidden) + " more";
-  const double more_width = page.fonts.regular.Width(more, small);
-  page.canvas.Text(frame.left + (frame.width - more_width) / 2, baseline, more, page.fonts.regular,
-                   small, page.inks.faint_text);
+  const double from_right = frame.left + page.fonts.regular.Width(from, small);
+  for (const std::string& more :
+       {"+ " + std::to_string(hidden) + " more", "+" + std::to_string(hidden)}) {
+    const double more_width = page.fonts.regular.Width(more, small);
+    const double more_left = (from_right + to_left - more_width) / 2;
+    if (more_left < from_right + 0.4 * small) continue;
+    page.canvas.Text(more_left, baseline, more, page.fonts.regular, small, page.inks.faint_text);
+    return;
+  }
 }
 
 }  // namespace kinescope::render

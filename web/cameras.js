@@ -7,6 +7,10 @@
 
 /** What a view must show across, in metres: arms stretched out to both sides. */
 const LEAST_WIDTH = 1.9;
+/** Room beside the outermost of several people, m, and the narrowest picture that they must fit into:
+ *  kNarrowestAspect in render/camera.cc. */
+const BESIDE = 0.7;
+const NARROWEST_ASPECT = 4 / 3;
 /** A view straight down is tilted by so much, because an orbit has no "up" at its very pole. */
 const POLE_TILT = 1e-3;
 
@@ -35,7 +39,8 @@ export function groundOf(pelvises, floor) {
 export function aim(view, ground, aspect) {
   const half = Math.tan(view.vertical_fov_rad / 2);
   let offset = subtract(view.position, view.target);
-  const distance = length(offset) + ground.radius / half;
+  const extent = Math.max(length(offset) * half, (ground.radius + BESIDE) / NARROWEST_ASPECT);
+  const distance = extent / half + ground.radius;
   const widened = Math.max(1, LEAST_WIDTH / (2 * distance * half * aspect));
   offset = scale(offset, (distance * widened) / length(offset));
   const isPole = Math.hypot(offset[0], offset[1]) < POLE_TILT * length(offset);

@@ -126,6 +126,7 @@ class CairoLayer : public LayerPainter {
 
  private:
   void Use(const Ink& ink) {
+    cairo_new_path(context_);  // text leaves a point behind, from which an arc would start
     cairo_set_source_rgba(context_, ink.color[0], ink.color[1], ink.color[2], ink.alpha);
   }
 

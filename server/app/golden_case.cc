@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "render/multi_view.h"
 #include "server/app/option_list.h"
 #include "server/app/pipeline_options.h"
 #include "server/app/scene_reader.h"
@@ -24,10 +25,16 @@ Liveness ToLiveness(const fs::path& path, const std::string& text) {
       fmt::format("{}: show: {}: expected live, stale or no data", path.string(), text));
 }
 
-SceneState SceneOf(const GoldenCase& golden_case) {
-  SceneReader reader(
+constexpr double kSurveySecs = 5;  // of a source that may have no end
+
+SceneReader Open(const GoldenCase& golden_case) {
+  return SceneReader(
       golden_case.source,
       ToSceneOptions(golden_case.person, SceneOptions().stale_secs, golden_case.loads));
+}
+
+SceneState SceneOf(const GoldenCase& golden_case) {
+  SceneReader reader = Open(golden_case);
   if (golden_case.show == Liveness::kNoData) return *reader.Empty();
   SceneTimeline timeline(reader);
   std::optional<SceneState> scene = timeline.At(golden_case.time_secs);
@@ -36,6 +43,33 @@ SceneState SceneOf(const GoldenCase& golden_case) {
                                  golden_case.source, golden_case.time_secs));
   }
   return golden_case.show == Liveness::kStale ? *reader.Stale() : *scene;
+}
+
+std::vector<render::SphereInPicture> SpheresOf(const Shot& shot) {
+  const render::View& view = shot.view;
+  if (view.panes.empty()) {
+    return render::LocateSpheres(shot.state, shot.camera, view.width, view.height);
+  }
+  std::vector<render::SphereInPicture> all;
+  const auto tiles = render::PaneTiles(view.width, view.height, static_cast<int>(view.panes.size()),
+                                       view.pane_columns);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const render::Tile& tile = tiles[i];
+    const render::Pane& pane = view.panes[i];
+    for (render::SphereInPicture& sphere :
+         render::LocateSpheres(shot.state, pane.camera, tile.width, tile.height)) {
+      const double r = sphere.radius_px;
+      if (sphere.x_px < r || sphere.x_px > tile.width - r || sphere.y_px < r ||
+          sphere.y_px > tile.height - r) {
+        continue;
+      }
+      sphere.joint = pane.name + "/" + sphere.joint;
+      sphere.x_px += tile.x;
+      sphere.y_px += tile.y;
+      all.push_back(std::move(sphere));
+    }
+  }
+  return all;
 }
 
 }  // namespace
@@ -79,11 +113,18 @@ std::vector<GoldenCase> LoadGoldenCases(const fs::path& folder) {
 }
 
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
-  const Shot shot = ShotPlanner(golden_case.view).Only(SceneOf(golden_case));
+  ShotPlanner planner(golden_case.view);
+  if (planner.needs_survey()) {
+    SceneReader reader = Open(golden_case);
+    SurveyClip(planner, reader, kSurveySecs);
+  }
+  const Shot shot = planner.Only(SceneOf(golden_case), golden_case.time_secs);
   GoldenDrawing drawing;
   drawing.image = renderer.Render(shot.state, shot.camera, shot.view);
-  drawing.spheres =
-      render::LocateSpheres(shot.state, shot.camera, shot.view.width, shot.view.height);
+  drawing.spheres = SpheresOf(shot);
+  if (shot.view.overlays && shot.view.parts.strip && golden_case.show != Liveness::kNoData) {
+    drawing.strip = {shot.state.counter, shot.state.time_code_millis};
+  }
   return drawing;
 }
 

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "render/image.h"
 #include "render/renderer.h"
 #include "render/spheres.h"
+#include "render/strip.h"
 #include "server/app/options.h"
 #include "server/app/view_options.h"
 #include "server/core/scene_state.h"
@@ -42,7 +44,9 @@ std::vector<GoldenCase> LoadGoldenCases(const std::filesystem::path& folder);
 
 struct GoldenDrawing {
   render::Image image;
+  /// Several views: "<view>/<joint>", those that lie wholly within their view.
   std::vector<render::SphereInPicture> spheres;
+  std::optional<render::StripCode> strip;  // what the picture's strip must say
 };
 
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer);

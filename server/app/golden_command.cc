@@ -69,6 +69,10 @@ std::vector<std::string> Check(const GoldenOptions& options, const GoldenCase& g
   for (std::string& mismatch : render::FindSphereMismatches(drawing.image, drawing.spheres)) {
     problems.push_back(std::move(mismatch));
   }
+  if (drawing.strip && !(render::ReadStrip(drawing.image) == drawing.strip)) {
+    problems.push_back(fmt::format("its strip does not say sample {}, {} ms",
+                                   drawing.strip->counter, drawing.strip->time_code_millis));
+  }
   const render::Comparison comparison = render::Compare(expected, drawing.image);
   if (!comparison.equal()) problems.push_back(render::Describe(comparison, drawing.image));
   if (!problems.empty()) {

@@ -14,7 +14,9 @@ constexpr double kWindowSecs = 10;  // of a plot without a survey
 std::vector<CameraMan> CamerasOf(const ViewOptions& options, const ViewGrid& grid) {
   if (grid.cameras.empty()) return {CameraMan(options.camera, options.moves)};
   std::vector<CameraMan> cameras;
-  for (const std::string& camera : grid.cameras) cameras.emplace_back(camera, options.moves);
+  for (const std::string& camera : grid.cameras) {
+    cameras.emplace_back(camera == "camera" ? options.camera : camera, options.moves);
+  }
   return cameras;
 }
 
@@ -34,7 +36,11 @@ ShotPlanner::ShotPlanner(const ViewOptions& options)
     return;
   }
   view_.pane_columns = grid.columns;
-  for (const CameraMan& camera : cameras_) view_.panes.push_back({camera.name(), {}});
+  for (const CameraMan& camera : cameras_) {
+    std::string name = camera.name();
+    std::replace(name.begin(), name.end(), '_', ' ');
+    view_.panes.push_back({name, {}});
+  }
   for (const render::Tile& tile : render::PaneTiles(
            view_.width, view_.height, static_cast<int>(cameras_.size()), view_.pane_columns)) {
     aspects_.push_back(static_cast<double>(tile.width) / tile.height);

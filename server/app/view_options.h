@@ -25,8 +25,8 @@ struct ViewOptions {
     option("size", size, "WIDTHxHEIGHT, px");
     option("camera", camera, kCameraKinds);
     option("views", views,
-           "several in one picture: cameras with commas between, rows with /, such as "
-           "front,right/top,iso; or 2x1, 3x1, 1x2, 2x2");
+           "several in one picture: named cameras with commas between, rows with /, such as "
+           "front,right/top,camera (what --camera says); or 2x1, 3x1, 1x2, 2x2");
     moves.Visit(option);
     option("supersample", supersample, "1, 2 or 4: drawn larger, then averaged");
     option("title", title, "text in the upper left corner");

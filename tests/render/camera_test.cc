@@ -7,6 +7,7 @@
 #include <glm/vec4.hpp>
 
 #include "render/camera_matrices.h"
+#include "render/camera_path.h"
 #include "server/core/errors.h"
 #include "tests/render/test_scene.h"
 
@@ -112,33 +113,107 @@ TEST(Camera, AGroupFitsIntoThePicture) {
   }
 }
 
-TEST(SteadyCamera, StandsStillUntilSomebodyWalksAway) {
-  SteadyCamera steady;
-  const auto at = [](double x) {
-    return testing::SceneWith(testing::Posture::kStanding, LoadClass::kLow, x, 0);
-  };
-  const Camera first = steady.Aim("front", at(0));
-  EXPECT_EQ(first.target, NamedCamera("front", at(0)).target);
-  EXPECT_EQ(steady.Aim("front", at(0.3)).position, first.position);
-  EXPECT_EQ(steady.Aim("front", at(-0.3)).position, first.position);
-  // Drawn along without a jump: as much further as they went.
-  const double near = steady.Aim("front", at(0.5)).target.x();
-  const double far = steady.Aim("front", at(0.51)).target.x();
-  EXPECT_GT(near, first.target.x());
-  EXPECT_NEAR(far - near, 0.01, 1e-12);
-  EXPECT_EQ(steady.Aim("front", at(0.4)).target.x(), far) << "turning back does not drag it back";
+SceneState StandingAt(double x, double y) {
+  return testing::SceneWith(testing::Posture::kStanding, LoadClass::kLow, x, y);
 }
 
-TEST(SteadyCamera, WaitsWhereItIsWhileNobodyIsThere) {
-  SteadyCamera steady;
-  const SceneState there = testing::SceneWith(testing::Posture::kStanding, LoadClass::kLow, 4, 2);
-  EXPECT_NEAR(steady.Aim("left", SceneState()).target.x(), 0, 1e-12);
-  const Camera first = steady.Aim("left", there);
-  EXPECT_EQ(first.target, NamedCamera("left", there).target) << "the first to come are met at once";
-  EXPECT_EQ(steady.Aim("left", SceneState()).target, first.target);
-  EXPECT_EQ(steady.Aim("top", there).position, NamedCamera("top", there).position)
-      << "a new name is a cut";
-  EXPECT_THROW(steady.Aim("nowhere", there), UsageError);
+TEST(SteadyWhereabouts, StandStillUntilSomebodyWalksAway) {
+  SteadyWhereabouts steady;
+  const auto x_at = [&](double x) { return steady.Follow(StandingAt(x, 0)).middle.x(); };
+  const double first = x_at(0);
+  EXPECT_EQ(first, WhereaboutsOf(StandingAt(0, 0)).middle.x());
+  EXPECT_EQ(x_at(0.3), first);
+  EXPECT_EQ(x_at(-0.3), first);
+  // Drawn along without a jump: as much further as they went.
+  const double near = x_at(0.5), far = x_at(0.51);
+  EXPECT_GT(near, first);
+  EXPECT_NEAR(far - near, 0.01, 1e-12);
+  EXPECT_EQ(x_at(0.4), far) << "turning back does not drag them back";
+}
+
+TEST(SteadyWhereabouts, WaitWhileNobodyIsThere) {
+  SteadyWhereabouts steady;
+  const SceneState there = StandingAt(4, 2);
+  EXPECT_NEAR(steady.Follow(SceneState()).middle.x(), 0, 1e-12);
+  EXPECT_EQ(steady.Follow(there).middle, WhereaboutsOf(there).middle) << "met at once";
+  EXPECT_EQ(steady.Follow(SceneState()).middle, WhereaboutsOf(there).middle);
+}
+
+TEST(Camera, WithoutPerspectiveAMetreIsAsLargeAtAnyDepth) {
+  const Camera perspective = NamedCamera("front", SceneState());
+  const Camera camera = Orthographic(perspective);
+  const double at_target = Project(camera.target, perspective, 640, 480).px_per_m;
+  for (const double x : {-3.0, 0.0, 2.0}) {
+    const Projected point = Project({x, 0, 1}, camera, 640, 480);
+    EXPECT_NEAR(point.px_per_m, at_target, 1e-9) << "as large as it was at the target";
+    EXPECT_NEAR(Project({x, 0.5, 1}, camera, 640, 480).x_px - point.x_px, 0.5 * at_target, 1e-9);
+  }
+}
+
+TEST(Camera, AnotherLensKeepsTheSizeAtTheTarget) {
+  const Camera camera = NamedCamera("iso", SceneState());
+  const Camera wide = WithFov(camera, 1.2);
+  EXPECT_NEAR(ShownHeight(wide), ShownHeight(camera), 1e-9);
+  EXPECT_LT((wide.position - wide.target).norm(), (camera.position - camera.target).norm());
+}
+
+TEST(Camera, ANarrowPictureStillShowsBothArms) {
+  const SceneState state = testing::SceneWith(testing::Posture::kStanding);
+  for (const bool is_flat : {false, true}) {
+    Camera camera = NamedCamera("front", state);
+    if (is_flat) camera = Orthographic(camera);
+    EXPECT_EQ(ForAspect(camera, 16.0 / 9).position, camera.position) << "wide enough";
+    const Vector3d hand = WhereaboutsOf(state).middle + Vector3d(0, 0.94, 1.06);
+    EXPECT_GT(Project(hand, camera, 270, 480).x_px, 270);
+    EXPECT_LT(Project(hand, ForAspect(camera, 270.0 / 480), 270, 480).x_px, 270);
+  }
+}
+
+TEST(Camera, FramingFillsThePictureAndCutsNothingOff) {
+  const Eigen::AlignedBox3d box(Vector3d(-1, 2, 0), Vector3d(0.5, 3, 1.8));
+  for (const std::string& name : CameraNames()) {
+    for (const bool is_flat : {false, true}) {
+      Camera camera = NamedCamera(name, SceneState());
+      if (is_flat) camera = Orthographic(camera);
+      const Camera framed = Framing(camera, box, 16.0 / 9);
+      double left = 640, right = 0, top = 360, bottom = 0;
+      for (int i = 0; i < 8; ++i) {
+        const Projected corner =
+            Project(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)), framed, 640, 360);
+        EXPECT_GT(corner.depth_m, 0);
+        left = std::min(left, corner.x_px), right = std::max(right, corner.x_px);
+        top = std::min(top, corner.y_px), bottom = std::max(bottom, corner.y_px);
+      }
+      EXPECT_TRUE(left > 0 && right < 640 && top > 0 && bottom < 360) << name;
+      EXPECT_TRUE(right - left > 0.85 * 640 || bottom - top > 0.85 * 360) << name;
+    }
+  }
+}
+
+TEST(CameraPath, GoesAroundThePersonWithALevelHorizonAndStandsStillAtBothEnds) {
+  const Camera front = NamedCamera("front", SceneState());
+  const std::vector<CameraKey> keys = {{1, front, Ease::kLinear},
+                                       {3, NamedCamera("right", SceneState()), Ease::kSmooth},
+                                       {5, NamedCamera("top", SceneState()), Ease::kHold},
+                                       {6, front, Ease::kSmooth}};
+  EXPECT_EQ(AlongPath(keys, 0).position, front.position);
+  EXPECT_EQ(AlongPath(keys, 9).position, front.position);
+  EXPECT_EQ(AlongPath(keys, 5.9).position, keys[2].camera.position) << "held";
+  const double distance = (front.position - front.target).norm();
+  Camera before = AlongPath(keys, 1);
+  for (double secs = 1; secs < 5; secs += 0.01) {
+    const Camera camera = AlongPath(keys, secs);
+    EXPECT_NEAR((camera.position - camera.target).norm(), distance, 1e-9);
+    EXPECT_LT((camera.position - before.position).norm(), 0.1) << "no jump at " << secs;
+    EXPECT_GT(camera.up.normalized().dot(before.up.normalized()), 0.99);
+    if (secs < 3) {
+      EXPECT_EQ(camera.up, Vector3d::UnitZ());
+    }
+    before = camera;
+  }
+  const Camera half = AlongPath(keys, 2);
+  EXPECT_NEAR(half.position.x() - half.target.x(), half.target.y() - half.position.y(), 1e-9)
+      << "half way between +x and -y";
 }
 
 TEST(Camera, LooksStraightDownWithoutLosingItsBearings) {

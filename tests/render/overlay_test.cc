@@ -6,6 +6,9 @@
 
 #include "render/canvas.h"
 #include "render/font.h"
+#include "render/multi_view.h"
+#include "render/overlay_scale.h"
+#include "server/core/errors.h"
 
 namespace kinescope::render {
 namespace {
@@ -63,6 +66,49 @@ TEST(Canvas, EdgesAreHalfCovered) {
   EXPECT_EQ(image.rgba[0], 0);
   EXPECT_NEAR(image.rgba[4], 128, 1);
   EXPECT_EQ(image.rgba[8], 255);
+}
+
+TEST(Canvas, ALineIsPaintedOnceWhereItsPiecesMeet) {
+  Image bent{20, 20, std::vector<std::uint8_t>(1600, 255)}, straight = bent;
+  Canvas(bent).Polyline({{3, 10.2}, {7, 10.2}, {11, 10.2}, {17, 10.2}}, 3, {{0, 0, 0}, 0.5});
+  Canvas(straight).Polyline({{3, 10.2}, {17, 10.2}}, 3, {{0, 0, 0}, 0.5});
+  EXPECT_EQ(bent.rgba, straight.rgba);
+  EXPECT_NEAR(bent.rgba[4 * (10 * 20 + 10)], 128, 1);
+}
+
+TEST(Canvas, APartIsNeverLeft) {
+  Image image{20, 20, std::vector<std::uint8_t>(1600, 255)};
+  Canvas canvas(image);
+  canvas.Enter({5, 6, 4, 3});
+  canvas.Disc(2, 1, 30, {{0, 0, 0}, 1});
+  canvas.Polyline({{-50, 1}, {50, 2}}, 9, {{0, 0, 0}, 1});
+  int painted = 0;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) painted += image.rgba[i] == 0;
+  EXPECT_EQ(painted, 4 * 3);
+}
+
+TEST(ScaleBar, IsARoundLengthThatIsTrueAtTheTarget) {
+  Camera camera;
+  camera.position = {7, 0, 1};
+  camera.target = {0, 0, 1};
+  for (const double height_m : {0.0, 0.05, 3.0, 70.0}) {  // 0: perspective
+    camera.ortho_height_m = height_m;
+    const ScaleBar bar = ScaleBarOf(camera, 1280, 720, 200);
+    const double left = Project({0, 0, 1}, camera, 1280, 720).x_px;
+    EXPECT_NEAR(Project({0, bar.length_m, 1}, camera, 1280, 720).x_px - left, bar.length_px, 1e-6);
+    EXPECT_TRUE(bar.length_px <= 200 && bar.length_px > 200 / 2.6) << bar.text;
+  }
+  EXPECT_EQ(ScaleBarOf(camera, 1280, 720, 200).text, "10 m");
+}
+
+TEST(MultiView, CutsThePictureWithoutRemainder) {
+  const auto tiles = PaneTiles(1001, 500, 5, 3);
+  ASSERT_EQ(tiles.size(), 5u);
+  EXPECT_EQ(tiles[2].x + tiles[2].width, 1001);
+  EXPECT_EQ(tiles[4].x + tiles[4].width, 1001) << "two views share the last row";
+  EXPECT_EQ(tiles[4].y + tiles[4].height, 500);
+  EXPECT_EQ(tiles[1].x - (tiles[0].x + tiles[0].width), 1) << "a line between";
+  EXPECT_THROW(PaneTiles(32, 500, 3, 3), UsageError);
 }
 
 }  // namespace

@@ -14,7 +14,11 @@ extern "C" {
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <random>
 
+#include "render/canvas.h"
+#include "render/resample.h"
+#include "render/strip.h"
 #include "server/core/errors.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
@@ -276,6 +280,38 @@ TEST(Video, SaysWhichPathItCannotWrite) {
     FAIL() << "writes into a folder that does not exist";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("/no/such/folder/clip.mp4"));
+  }
+}
+
+TEST(Video, AStripIsReadFromACompressedClip) {
+  const TempFolder folder;
+  const auto path = folder.path() / "strip.mp4";
+  VideoOptions options;
+  options.crf = 23;
+  constexpr int kFrames = 12;
+  // Noise above it takes the bits that the encoder would rather spend there.
+  std::mt19937 random(1);
+  const auto code = [](int k) { return StripCode{1000000007u * (k + 1u), 33 * k + 12'345}; };
+  for (const auto& [width, height] : {std::pair{320, 240}, {1280, 96}}) {
+    const auto writer = MakeVideoWriter(path, width, height, options);
+    for (int k = 0; k < kFrames; ++k) {
+      Image image = Frame(k, width, height);
+      for (std::uint8_t& level : image.rgba) level ^= random() & 0x3F;
+      Canvas canvas(image);
+      PaintStrip(canvas, width, height, code(k));
+      writer->Add(image);
+    }
+    writer->Finish();
+    const Clip clip = ReadClip(path);
+    ASSERT_EQ(clip.frames.size(), static_cast<std::size_t>(kFrames));
+    for (int k = 0; k < kFrames; ++k) {
+      const Image& frame = clip.frames[static_cast<std::size_t>(k)];
+      EXPECT_EQ(ReadStrip(frame), code(k)) << "frame " << k << ", " << width << " px wide";
+      Image half{width / 2, height / 2, {}};
+      half.rgba.resize(static_cast<std::size_t>(4 * half.width * half.height));
+      AverageInto(frame.rgba.data(), half.width, half.height, 2, half, 0, 0);
+      EXPECT_EQ(ReadStrip(half), code(k)) << "half of frame " << k << ", " << width << " px wide";
+    }
   }
 }
 

@@ -1,4 +1,5 @@
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { aim, groundOf } from '../../../web/cameras.js';
 
@@ -17,10 +18,17 @@ test('a named view is the server’s, moved to where the person stands', () => {
   assert.ok(Math.abs(moved.fovDegrees - 28.6479) < 1e-3);
 });
 
-test('several people are shown from further away, as in the server’s picture', () => {
-  const wide = aim(front, { middle: [0, 0, 0], radius: 1 }, 1.5);
-  const half = Math.tan(0.25);
-  assert.ok(Math.abs(distance(wide) - (distance(aim(front, here, 1.5)) + 1 / half)) < 1e-9);
+test('each name shows what the server’s picture of that name shows, of one person and of a group', () => {
+  // named_views_test.cc holds the same file against the server's own cameras.
+  const views = JSON.parse(readFileSync(new URL('named_views.json', import.meta.url), 'utf8'));
+  for (const view of views) {
+    const alone = views.find((v) => v.name === view.name && v.radius === 0 && v.aspect > 1);
+    const { position, target, fovDegrees } = aim(alone, { middle: [0, 0, 0], radius: view.radius }, view.aspect);
+    const lean = view.name === 'top' ? 0.02 : 1e-5;  // an orbit has no "up" at its pole
+    position.forEach((v, i) => assert.ok(Math.abs(v - view.position[i]) < lean, `${view.name}: ${position}`));
+    near(target, view.target);
+    assert.ok(Math.abs(fovDegrees - (view.vertical_fov_rad * 180) / Math.PI) < 1e-9);
+  }
 });
 
 test('a narrow screen still shows both arms', () => {
