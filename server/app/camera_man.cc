@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "server/app/option_list.h"
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {
@@ -15,7 +16,7 @@ namespace {
 constexpr double kMostOrbit = 3600;  // degrees a second; more shows no motion any more
 
 double SecsBetween(std::int64_t from_nanos, std::int64_t to_nanos) {
-  return 1e-9 * static_cast<double>(to_nanos - from_nanos);
+  return Secs(to_nanos - from_nanos);
 }
 
 bool IsKeyFile(const std::string& camera) {
@@ -100,6 +101,8 @@ render::Camera CameraMan::Placed(const SceneState& state, const render::Whereabo
     return render::AlongPath(keys, secs);
   }
   if (place_) return *place_;
+  // Only the direction counts then; wherever people are, it is the same to the last bit.
+  if (fit_ == Fit::kClip) return render::NamedCameraAt(camera_, {});
   // Robots have no ground: the view is as large as they are.
   const bool is_of_robots = state.people.empty() && !state.robots.empty();
   return is_of_robots ? render::NamedCamera(camera_, state)

@@ -36,11 +36,12 @@ render::LoadHistory LoadWindow::All() const {
 }
 
 render::LoadHistory LoadWindow::Last(double length_secs) {
+  constexpr double kRounding = 1e-6;  // s
   const double from = last_secs_ - length_secs;
   for (render::LoadCurve& curve : curves_) {
-    const auto first =
-        std::find_if(curve.points.begin(), curve.points.end(),
-                     [&](const render::LoadPoint& point) { return point.secs >= from; });
+    const auto first = std::find_if(
+        curve.points.begin(), curve.points.end(),
+        [&](const render::LoadPoint& point) { return point.secs >= from - kRounding; });
     curve.points.erase(curve.points.begin(), first);
   }
   return {std::max(from, 0.0), std::max(last_secs_, std::max(from, 0.0) + length_secs), curves_};

@@ -23,10 +23,10 @@ namespace kinescope::app {
 
 struct PictureOptions {
   std::string camera = "three_quarter";
-  CameraOptions moves;  // of the live picture
   int width = 1280;
   int height = 720;
   double rate_hz = 30;
+  CameraOptions moves = {};  // of the live picture
 };
 
 struct PictureStatus {

@@ -23,6 +23,7 @@
 #include "server/app/shots.h"
 #include "server/app/stop_signal.h"
 #include "server/app/view_options.h"
+#include "server/core/clocks.h"
 
 namespace kinescope::app {
 namespace {
@@ -94,7 +95,7 @@ SceneState SceneOfPicture(const RenderOptions& options, SceneReader& reader, dou
     throw UsageError(
         fmt::format("--frame={}: {} has {} frames, the first is 0", wanted, options.source, frame));
   }
-  secs = 1e-9 * static_cast<double>(state->stamp_nanos - first->stamp_nanos);
+  secs = Secs(state->stamp_nanos - first->stamp_nanos);
   return *state;
 }
 

@@ -5,6 +5,7 @@
 
 #include "render/multi_view.h"
 #include "server/app/stop_signal.h"
+#include "server/core/clocks.h"
 
 namespace kinescope::app {
 namespace {
@@ -22,7 +23,7 @@ std::vector<CameraMan> CamerasOf(const ViewOptions& options, const ViewGrid& gri
 
 double SecsSince(std::optional<std::int64_t>& start_nanos, const SceneState& state) {
   if (!start_nanos) start_nanos = state.stamp_nanos;
-  return 1e-9 * static_cast<double>(state.stamp_nanos - *start_nanos);
+  return Secs(state.stamp_nanos - *start_nanos);
 }
 
 }  // namespace

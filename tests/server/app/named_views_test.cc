@@ -17,7 +17,9 @@ using Eigen::Vector3d;
 
 const std::string kSource = KINESCOPE_SOURCE_DIR;
 
-Vector3d ToVector(const nlohmann::json& json) { return {json.at(0), json.at(1), json.at(2)}; }
+Vector3d ToVector(const nlohmann::json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
 
 TEST(NamedViews, AreThoseThatThePageIsTestedAgainst) {
   std::ifstream file(kSource + "/tests/browser/unit/named_views.json");
@@ -26,11 +28,12 @@ TEST(NamedViews, AreThoseThatThePageIsTestedAgainst) {
   for (const auto& view : nlohmann::json::parse(file)) {
     const std::string name = view.at("name");
     const render::Camera camera = render::ForAspect(
-        render::NamedCameraAt(name, {Vector3d::Zero(), view.at("radius")}), view.at("aspect"));
+        render::NamedCameraAt(name, {Vector3d::Zero(), view.at("radius").get<double>()}),
+        view.at("aspect").get<double>());
     EXPECT_NEAR((camera.position - ToVector(view.at("position"))).norm(), 0, 1e-5) << view;
     EXPECT_NEAR((camera.target - ToVector(view.at("target"))).norm(), 0, 1e-9) << view;
     EXPECT_NEAR((camera.up - ToVector(view.at("up"))).norm(), 0, 1e-9) << view;
-    EXPECT_NEAR(camera.vertical_fov_rad, view.at("vertical_fov_rad"), 1e-9) << view;
+    EXPECT_NEAR(camera.vertical_fov_rad, view.at("vertical_fov_rad").get<double>(), 1e-9) << view;
     ++views[name];
   }
   for (const std::string& name : render::CameraNames()) EXPECT_GT(views[name], 1) << name;
