@@ -64,8 +64,9 @@ struct DrawingModule {
 
 struct VideoModule {
   ModuleAbi abi;
-  std::unique_ptr<VideoWriter> (*make)(const std::filesystem::path& path, int width, int height,
-                                       const VideoOptions& options);
+  std::unique_ptr<VideoWriter> (*make)(const std::filesystem::path& path, ClipFormat format,
+                                       int width, int height, const VideoOptions& options);
+  std::unique_ptr<VideoReader> (*open)(const std::filesystem::path& path);
 };
 
 /// Paints into a file instead of pixels.

@@ -4,9 +4,11 @@
 
 #include <cerrno>
 #include <csetjmp>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 
 #include "render/new_file.h"
@@ -77,6 +79,14 @@ std::vector<png_text> TextChunks(const std::map<std::string, std::string>& text)
   return chunks;
 }
 
+// As RunEncoder.
+bool RunHeadReader(png_structp png, png_infop info, std::FILE* file) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_init_io(png, file);
+  png_read_info(png, info);
+  return true;
+}
+
 std::vector<std::uint8_t> ReadWhole(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
@@ -145,6 +155,30 @@ Image ReadPng(const std::filesystem::path& path) {
   if (png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr) == 0)
     fail(header.message);
   return image;
+}
+
+std::map<std::string, std::string> ReadPngText(const std::filesystem::path& path) {
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rbe"));
+  if (!file) throw std::runtime_error("cannot read " + path.string() + ": " + std::strerror(errno));
+  std::string message;
+  png_structp png =
+      png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, KeepMessage, IgnoreWarning);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  std::map<std::string, std::string> text;
+  const bool done = info != nullptr && RunHeadReader(png, info, file.get());
+  if (done) {
+    png_textp chunks = nullptr;
+    const int count = png_get_text(png, info, &chunks, nullptr);
+    for (int i = 0; i < count; ++i) text[chunks[i].key] = chunks[i].text;
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  if (!done) {
+    throw std::runtime_error(path.string() + " is no PNG that can be read: " + message);
+  }
+  return text;
 }
 
 }  // namespace kinescope::render

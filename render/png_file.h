@@ -22,6 +22,9 @@ std::vector<std::uint8_t> EncodePng(const Image& image,
 /// @throws std::runtime_error naming the path and what is wrong with it.
 Image ReadPng(const std::filesystem::path& path);
 
+/// The tEXt, zTXt and iTXt chunks that stand before the pixels. @throws likewise.
+std::map<std::string, std::string> ReadPngText(const std::filesystem::path& path);
+
 /// Baseline JPEG, 4:2:0. quality 1..100.
 std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality);
 

@@ -1,30 +1,67 @@
 #include "render/video.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "render/module.h"
 #include "server/core/errors.h"
 
 namespace kinescope::render {
+namespace {
+
+constexpr int kSmallestSide = 16;
+constexpr int kLargestSide = 8192;
+
+void CheckSize(ClipFormat format, int width, int height) {
+  // 4:2:0 stores colour for every second pixel of every second row.
+  const bool is_even = format == ClipFormat::kMp4 || format == ClipFormat::kWebm;
+  const auto fits = [&](int side) {
+    return side >= kSmallestSide && side <= kLargestSide && (!is_even || side % 2 == 0);
+  };
+  if (fits(width) && fits(height)) return;
+  throw UsageError("a clip's width and height are " + std::string(is_even ? "even and " : "") +
+                   "16 to 8192 px, not " + std::to_string(width) + " x " + std::to_string(height));
+}
+
+void CheckRate(ClipFormat format, FrameRate rate) {
+  const double most = format == ClipFormat::kGif ? 50 : 1000;
+  if (rate.numerator > 0 && rate.denominator > 0 && rate.hz() <= most) return;
+  throw UsageError("a clip has more than 0 and at most " + std::to_string(static_cast<int>(most)) +
+                   " pictures a second" + (format == ClipFormat::kGif ? " as a GIF" : "") +
+                   ", not " + std::to_string(rate.numerator) + "/" +
+                   std::to_string(rate.denominator));
+}
+
+void CheckQuality(ClipFormat format, const VideoOptions& options) {
+  const int most_crf = format == ClipFormat::kWebm ? 63 : 51;
+  if (options.crf && (*options.crf < 0 || *options.crf > most_crf)) {
+    throw UsageError("crf is 0 to " + std::to_string(most_crf) + ", not " +
+                     std::to_string(*options.crf));
+  }
+  if (options.quality < 0 || options.quality > 100) {
+    throw UsageError("quality is 0 to 100, not " + std::to_string(options.quality));
+  }
+}
+
+const VideoModule& Module() {
+  return *static_cast<const VideoModule*>(LoadModule("libkinescope_video.so", kVideoEntry));
+}
+
+}  // namespace
 
 std::unique_ptr<VideoWriter> MakeVideoWriter(const std::filesystem::path& path, int width,
                                              int height, const VideoOptions& options) {
-  // 4:2:0 stores colour for every second pixel of every second row.
-  if (width < 16 || height < 16 || width > 8192 || height > 8192 || width % 2 != 0 ||
-      height % 2 != 0) {
-    throw UsageError("a clip's width and height are even and 16 to 8192 px, not " +
-                     std::to_string(width) + " x " + std::to_string(height));
+  const auto format = ClipFormatOf(path);
+  if (!format) {
+    throw UsageError(path.string() + ": a clip's name ends in .mp4, .webm, .webp or .gif");
   }
-  if (!(options.frames_per_second > 0 && options.frames_per_second <= 1000)) {
-    throw UsageError("a clip has more than 0 and at most 1000 pictures a second, not " +
-                     std::to_string(options.frames_per_second));
-  }
-  if (options.crf < 0 || options.crf > 51) {
-    throw UsageError("crf is 0 to 51, not " + std::to_string(options.crf));
-  }
-  const auto* module =
-      static_cast<const VideoModule*>(LoadModule("libkinescope_video.so", kVideoEntry));
-  return module->make(path, width, height, options);
+  CheckSize(*format, width, height);
+  CheckRate(*format, options.rate);
+  CheckQuality(*format, options);
+  return Module().make(path, *format, width, height, options);
+}
+
+std::unique_ptr<VideoReader> OpenVideo(const std::filesystem::path& path) {
+  return Module().open(path);
 }
 
 }  // namespace kinescope::render

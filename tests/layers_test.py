@@ -26,6 +26,8 @@ FOREIGN = {  # whose headers: where they may be included
     r"pcap": ("server/mvn",),
     r"expat": ("server/mvn", "urdf"),
     r"archive": ("server/core",),
+    r"nettle/": ("server/core",),
+    r"webp/": ("render/av",),
     r"(urdf_parser|urdf_model)/": ("urdf",),
     r"assimp/": ("render/vtk",),
     r"GL/": ("render/vtk",),

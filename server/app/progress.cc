@@ -29,6 +29,10 @@ void Progress::Step() {
   Draw();
 }
 
+void Progress::Skip() {
+  if (total_ > done_) --total_;
+}
+
 void Progress::Draw() const {
   const double rate = done_ / secs();
   if (total_ > 0) {

@@ -16,13 +16,15 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void Step();
+  /// One less to do than was thought.
+  void Skip();
   double secs() const;
 
  private:
   void Draw() const;
 
   const std::string what_;
-  const int total_;
+  int total_;
   const bool is_terminal_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point drawn_{};

@@ -1,221 +1,136 @@
-// `kinescope render`: one picture, or a clip on a fixed time grid, of a recording or the subject.
+// `kinescope render`: pictures and clips of recordings and the built-in subject.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
-#include <cstdio>
-#include <filesystem>
+#include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
-#include <utility>
+#include <vector>
 
-#include "render/new_file.h"
-#include "render/png_file.h"
-#include "render/renderer.h"
-#include "render/video.h"
 #include "server/app/commands.h"
 #include "server/app/option_list.h"
-#include "server/app/options.h"
-#include "server/app/pipeline_options.h"
-#include "server/app/progress.h"
-#include "server/app/scene_reader.h"
-#include "server/app/shots.h"
-#include "server/app/stop_signal.h"
-#include "server/app/view_options.h"
-#include "server/core/clocks.h"
+#include "server/app/output_plan.h"
+#include "server/app/render_job.h"
+#include "server/app/render_options.h"
+#include "server/app/render_verify.h"
+#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {
 
-struct RenderOptions {
-  std::string source;
-  std::string out;
-  std::optional<long> frame;
-  std::optional<double> time;
-  std::optional<double> seconds;
-  double fps = 30;
-  bool json = false;
-  std::string overlay_layer;
-  ViewOptions view;
-  PersonOptions person;
-  LoadOptions loads;
-};
+constexpr int kMostJobs = 64;
 
-// An endless source (the built-in subject) gives a clip of this length unless told otherwise.
-constexpr double kDefaultClipSecs = 10;
-
-std::map<std::string, std::string> Provenance(const RenderOptions& options,
-                                              const render::Renderer& renderer) {
-  return {{"Software", "Kinescope " KINESCOPE_VERSION},
-          {"Source", std::filesystem::path(options.source).filename().string()},
-          {"Camera", options.view.camera},
-          {"Renderer", renderer.renderer_string()}};
-}
-
-render::LayerFormat ToLayerFormat(const std::string& text) {
-  if (text != "svg" && text != "pdf") {
-    throw UsageError(fmt::format("--overlay_layer={}: expected svg or pdf", text));
+void Tell(const OutputResult& result, bool as_json) {
+  const bool is_still = result.kind == OutputKind::kStill;
+  if (as_json) {
+    nlohmann::json line = {
+        {"out", result.out}, {"pictures", result.pictures}, {"drawn", result.drawn}};
+    if (is_still) {
+      line["counter"] = result.counter;
+    } else {
+      line["seconds"] = result.secs;
+      if (result.drawn > 0) {
+        line["pictures_per_second"] = static_cast<double>(result.drawn) / result.took_secs;
+      }
+    }
+    fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    return;
   }
-  return text == "svg" ? render::LayerFormat::kSvg : render::LayerFormat::kPdf;
-}
-
-SceneReader Open(const RenderOptions& options) {
-  return SceneReader(options.source,
-                     ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads));
-}
-
-// A source is read once more where pictures depend on scenes after them.
-void SurveyIfNeeded(const RenderOptions& options, ShotPlanner& planner,
-                    std::optional<double> length) {
-  if (!planner.needs_survey()) return;
-  if (!length && options.source.rfind("demo:", 0) == 0) length = kDefaultClipSecs;
-  SceneReader reader = Open(options);
-  SurveyClip(planner, reader, length);
-}
-
-// `secs`: since the first sample.
-SceneState SceneOfPicture(const RenderOptions& options, SceneReader& reader, double& secs) {
-  if (options.time) {
-    secs = *options.time;
-    SceneTimeline timeline(reader);
-    if (auto scene = timeline.At(*options.time)) return *scene;
-    throw UsageError(fmt::format("--time={}: {} ends before", *options.time, options.source));
+  if (result.drawn == 0) {
+    fmt::print("{}: is there already, of this source and these options (--force draws it again)\n",
+               result.out);
+    return;
   }
-  const long wanted = options.frame.value_or(0);
-  long frame = 0;
-  std::shared_ptr<const SceneState> state, first;
-  while (frame <= wanted) {
-    state = reader.Next();
-    if (!state || StopRequested()) break;
-    if (!first) first = state;
-    ++frame;
-  }
-  if (!state) {
-    throw UsageError(
-        fmt::format("--frame={}: {} has {} frames, the first is 0", wanted, options.source, frame));
-  }
-  secs = Secs(state->stamp_nanos - first->stamp_nanos);
-  return *state;
-}
-
-nlohmann::json RenderPicture(const RenderOptions& options, SceneReader& reader) {
-  ShotPlanner planner(options.view);
-  SurveyIfNeeded(options, planner, options.seconds);
-  double secs = 0;
-  SceneState scene = SceneOfPicture(options, reader, secs);
-  Shot shot = planner.Only(std::move(scene), secs);
-  const bool has_layer = !options.overlay_layer.empty();
-  if (has_layer) shot.view.overlays = false;
-  const auto renderer = render::MakeRenderer();
-  const render::Image image = renderer->Render(shot.state, shot.camera, shot.view);
-  render::WritePng(options.out, image, Provenance(options, *renderer));
-  if (has_layer) {
-    const std::string layer = renderer->OverlayLayer(shot.state, shot.camera, shot.view,
-                                                     ToLayerFormat(options.overlay_layer));
-    render::NewFile file(
-        std::filesystem::path(options.out).replace_extension(options.overlay_layer));
-    file.Write(layer.data(), layer.size());
-    file.Commit();
-  }
-  return {{"pictures", 1}, {"counter", shot.state.counter}};
-}
-
-// How many pictures the clip will have, where that can be told; only for the progress line.
-int ExpectedPictures(const RenderOptions& options, std::optional<double> length) {
-  return length ? static_cast<int>(*length * options.fps + 1e-9) + 1 : 0;
-}
-
-nlohmann::json RenderClip(const RenderOptions& options, SceneReader& reader) {
-  if (!(options.fps >= 1 && options.fps <= 240)) {
-    throw UsageError(fmt::format("--fps={}: expected 1 to 240", options.fps));
-  }
-  const bool is_endless = options.source.rfind("demo:", 0) == 0;
-  std::optional<double> length = options.seconds;
-  if (!length && is_endless) length = kDefaultClipSecs;
-  if (length && !(*length > 0)) {
-    throw UsageError(fmt::format("--seconds={}: expected more than 0", *length));
-  }
-
-  ShotPlanner planner(options.view);
-  SurveyIfNeeded(options, planner, length);
-  const auto renderer = render::MakeRenderer();
-  render::VideoOptions video_options;
-  video_options.frames_per_second = options.fps;
-  video_options.metadata = Provenance(options, *renderer);
-  const auto video = render::MakeVideoWriter(options.out, planner.view().width,
-                                             planner.view().height, video_options);
-
-  SceneTimeline timeline(reader);
-  render::Image image;
-  Progress progress("pictures:", ExpectedPictures(options, length));
-  int pictures = 0;
-  for (;; ++pictures) {
-    const double secs = pictures / options.fps;  // picture k shows t0 + k / fps, exactly
-    if (length && secs >= *length - 1e-9) break;
-    auto scene = timeline.At(secs);
-    if (!scene) break;
-    if (StopRequested())
-      throw std::runtime_error("interrupted; " + options.out + " was not written");
-    const Shot shot = planner.Next(std::move(*scene));
-    renderer->RenderInto(image, shot.state, shot.camera, shot.view);
-    video->Add(image);
-    progress.Step();
-  }
-  if (pictures == 0) throw UsageError(options.source + " has no frame to show");
-  video->Finish();
-  return {{"pictures", pictures},
-          {"seconds", pictures / options.fps},
-          {"pictures_per_second", pictures / progress.secs()}};
+  const long kept = result.pictures - result.drawn;
+  fmt::print("{}: {} picture{}{}\n", result.out, result.pictures, result.pictures == 1 ? "" : "s",
+             kept > 0 ? fmt::format(", {} of them there already", kept) : "");
 }
 
 void Render(const RenderOptions& options) {
-  const std::string extension = std::filesystem::path(options.out).extension();
-  if (extension != ".png" && extension != ".mp4") {
-    throw UsageError(
-        fmt::format("--out={}: expected a name that ends in .png or .mp4", options.out));
+  if (options.sources.empty()) throw UsageError("what to render is missing; give a source");
+  if (options.outs.empty()) throw UsageError("--out is missing; give the name of a file to write");
+  if (options.jobs < 0 || options.jobs > kMostJobs) {
+    throw UsageError(fmt::format("--jobs={}: expected 1 to {}, or 0 for as many as are fastest",
+                                 options.jobs, kMostJobs));
   }
-  if (extension == ".mp4" && (options.frame || options.time)) {
-    throw UsageError("--frame and --time choose one picture; give --out a name that ends in .png");
-  }
-  if (!options.overlay_layer.empty()) {
-    ToLayerFormat(options.overlay_layer);
-    if (extension != ".png") {
-      throw UsageError(
-          "--overlay_layer is beside one picture; give --out a name that ends in .png");
+  const std::vector<SourcePlan> plans = PlanOutputs(options);
+  const render::View view = ToView(options.view);
+  JobSettings settings;
+  settings.jobs = options.jobs > 0 ? options.jobs : DefaultJobs();
+  settings.force = options.force;
+  settings.sidecar = !options.no_sidecar;
+  const auto pool = MakeDrawPool(settings.jobs, view);
+  for (const SourcePlan& plan : plans) {
+    for (const OutputResult& result : RenderSource(options, plan, settings, *pool)) {
+      Tell(result, options.json);
     }
   }
-  SceneReader reader = Open(options);
-  nlohmann::json result =
-      extension == ".png" ? RenderPicture(options, reader) : RenderClip(options, reader);
-  result["out"] = options.out;
-  if (options.json) {
-    fmt::print("{}\n", result.dump());
-  } else {
-    fmt::print("{}: {} picture{}\n", options.out, result["pictures"].get<int>(),
-               result["pictures"] == 1 ? "" : "s");
+}
+
+struct CommandOptions {
+  RenderOptions render;
+  std::string verify;
+};
+
+int Run(const CommandOptions& options) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is then an error like a full disk
+  if (options.verify.empty()) {
+    Render(options.render);
+    return 0;
   }
+  return Verify(options.verify, options.render);
+}
+
+// The options that `add` adds to `command` go under a heading of their own in --help.
+template <class Add>
+void Group(CLI::App& command, const std::string& heading, Add&& add) {
+  CLI::Option_group* group = command.add_option_group(heading);
+  add(*group);
 }
 
 }  // namespace
 
 void AddRender(CommandLine line) {
-  CLI::App* command = line.app.add_subcommand("render", "A recording to a picture or a clip");
-  const auto o = std::make_shared<RenderOptions>();
-  command->add_option("source", o->source, kSourceKinds)->required();
-  command->add_option("--out", o->out, "file to write: .png (one picture) or .mp4 (H.264)")
-      ->required();
-  command->add_option("--frame", o->frame, "which frame of the motion, from 0 (picture)");
-  command->add_option("--time", o->time, "seconds after the first frame (picture)");
-  command->add_option("--seconds", o->seconds, "length of the clip; default: all (demo: 10)");
-  command->add_option("--fps", o->fps, "pictures a second of the clip")->capture_default_str();
-  command->add_flag("--json", o->json, "tell the result as JSON");
-  command->add_option("--overlay_layer", o->overlay_layer,
-                      "svg or pdf: what is written over the picture goes into a file beside it");
-  o->view.Visit(FlagAdder(*command));
-  o->person.Visit(FlagAdder(*command));
-  o->loads.Visit(FlagAdder(*command));
-  command->callback([o] { Render(*o); });
+  CLI::App* command = line.app.add_subcommand(
+      "render",
+      "Recordings to pictures and clips.\n"
+      "  kinescope render take.mvnx --time 2.5 --out figure.png\n"
+      "  kinescope render take.mvnx --out clip.mp4 --out clip.webm\n"
+      "  kinescope render *.mvnx --camera front,top --out '{source}-{camera}.mp4'\n"
+      "  kinescope render take.mvnx --start 2 --seconds 3 --out 'frames/%05d.png'\n"
+      "What is there already, of the same source and options, is not drawn again.");
+  const auto o = std::make_shared<CommandOptions>();
+  RenderOptions& render = o->render;
+  command->add_option("source", render.sources, kSourceKinds);
+  Group(*command, "What to write", [&](CLI::App& group) {
+    group
+        .add_option("--out", render.outs,
+                    "file to write, once or several times: .png (a picture; with %05d or ##### in "
+                    "its name, one for every moment), .mp4 (H.264), .webm (VP9), .webp, .gif. "
+                    "{source} and {camera} in it are replaced")
+        ->allow_extra_args(false);
+    group.add_flag("--force", render.force, "draw again what is there already");
+    group.add_flag("--no_sidecar", render.no_sidecar,
+                   "no FILE.json beside each output (what is in it is in the file, too)");
+    group.add_option("--jobs", render.jobs,
+                     "threads that draw; the pictures do not depend on it. 0: as many as are "
+                     "fastest here");
+    group.add_flag("--json", render.json, "tell the result as JSON, a line for each output");
+    group.add_option("--verify", o->verify,
+                     "draw FILE again as it says it was drawn, and compare: exit code 0 when it is "
+                     "the same, 1 when not. The source is where it was, or give it");
+  });
+  Group(*command, "Which moments", [&](CLI::App& group) {
+    render.moment.Visit(FlagAdder(group));
+    render.clip.Visit(FlagAdder(group));
+    render.pack.Visit(FlagAdder(group));
+  });
+  Group(*command, "How it looks (--camera takes several: front,top)",
+        [&](CLI::App& group) { render.view.Visit(FlagAdder(group)); });
+  Group(*command, "The person", [&](CLI::App& group) { render.person.Visit(FlagAdder(group)); });
+  Group(*command, "Joint loads", [&](CLI::App& group) { render.loads.Visit(FlagAdder(group)); });
+  int& exit_code = line.exit_code;
+  command->callback([o, &exit_code] { exit_code = Run(*o); });
 }
 
 }  // namespace kinescope::app

@@ -42,14 +42,21 @@ std::shared_ptr<const SceneState> SceneReader::Stale() {
 }
 
 SceneTimeline::SceneTimeline(SceneReader& reader)
-    : reader_(reader), before_(reader.Next()), after_(before_ ? reader.Next() : nullptr) {
+    : SceneTimeline([&reader] { return reader.Next(); }) {}
+
+SceneTimeline::SceneTimeline(ReadNext next)
+    : next_(std::move(next)), before_(next_()), after_(before_ ? next_() : nullptr) {
   if (before_) start_nanos_ = before_->stamp_nanos;
 }
 
 std::optional<SceneState> SceneTimeline::At(double secs) {
-  const std::int64_t stamp = start_nanos_ + std::llround(secs * 1e9);
+  return AtNanos(std::llround(secs * 1e9));
+}
+
+std::optional<SceneState> SceneTimeline::AtNanos(std::int64_t nanos) {
+  const std::int64_t stamp = start_nanos_ + nanos;
   while (after_ && after_->stamp_nanos < stamp) {
-    before_ = std::exchange(after_, reader_.Next());
+    before_ = std::exchange(after_, next_());
   }
   if (!before_) return std::nullopt;
   // The grid may miss the last sample by the rounding of its stamps, not by more.

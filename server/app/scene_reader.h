@@ -2,8 +2,11 @@
 /// for.
 #pragma once
 
+#include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "server/app/scene_builder.h"
@@ -37,13 +40,18 @@ class SceneReader {
 /// The scene at any time, for times that grow: states read as needed and interpolated between.
 class SceneTimeline {
  public:
+  using ReadNext = std::function<std::shared_ptr<const SceneState>()>;
+
   explicit SceneTimeline(SceneReader& reader);
+  /// `next` gives the states, one after the other; null at the end.
+  explicit SceneTimeline(ReadNext next);
 
   /// `secs` after the first sample; nullopt past the last one. @pre not before the last call's.
   std::optional<SceneState> At(double secs);
+  std::optional<SceneState> AtNanos(std::int64_t nanos);
 
  private:
-  SceneReader& reader_;
+  ReadNext next_;
   std::shared_ptr<const SceneState> before_, after_;
   std::int64_t start_nanos_ = 0;
 };

@@ -10,6 +10,7 @@ extern "C" {
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -119,9 +120,9 @@ Clip ReadClip(const std::filesystem::path& path) {
   return clip;
 }
 
-void WriteClip(const std::filesystem::path& path, int frames, double rate) {
+void WriteClip(const std::filesystem::path& path, int frames, FrameRate rate) {
   VideoOptions options;
-  options.frames_per_second = rate;
+  options.rate = rate;
   options.metadata = {{"title", "trial 3"}};
   const auto video = MakeVideoWriter(path, kWidth, kHeight, options);
   for (int k = 0; k < frames; ++k) video->Add(Frame(k));
@@ -130,7 +131,7 @@ void WriteClip(const std::filesystem::path& path, int frames, double rate) {
 
 TEST(Video, EveryPictureIsThereInOrderAndInColour) {
   const TempFolder folder;
-  WriteClip(folder / "clip.mp4", 45, 30);
+  WriteClip(folder / "clip.mp4", 45, {30, 1});
   const Clip clip = ReadClip(folder / "clip.mp4");
   EXPECT_EQ(clip.codec, "h264");
   EXPECT_EQ(clip.width, kWidth);
@@ -152,7 +153,7 @@ TEST(Video, EveryPictureIsThereInOrderAndInColour) {
 
 TEST(Video, IsTaggedSoThatPlayersShowTheColoursThatWereDrawn) {
   const TempFolder folder;
-  WriteClip(folder / "clip.mp4", 3, 25);
+  WriteClip(folder / "clip.mp4", 3, {25, 1});
   const Clip clip = ReadClip(folder / "clip.mp4");
   EXPECT_EQ(clip.pixel_format, AV_PIX_FMT_YUV420P);
   EXPECT_EQ(clip.color_space, AVCOL_SPC_BT709);
@@ -163,29 +164,131 @@ TEST(Video, IsTaggedSoThatPlayersShowTheColoursThatWereDrawn) {
 
 TEST(Video, KeepsTheRateExactly) {
   const TempFolder folder;
-  struct Case {
-    double rate;
-    AVRational exact;
-  };
-  for (const Case& each : {Case{60, {60, 1}},
-                           {29.97, {30000, 1001}},
-                           {59.94, {60000, 1001}},
-                           {23.976, {24000, 1001}},
-                           {12.5, {25, 2}},
-                           {240, {240, 1}},
-                           {1, {1, 1}}}) {
-    WriteClip(folder / "clip.mp4", 24, each.rate);
+  for (const FrameRate& rate :
+       {FrameRate{60, 1}, {30000, 1001}, {60000, 1001}, {24000, 1001}, {25, 2}, {240, 1}, {1, 1}}) {
+    const AVRational exact = {rate.numerator, rate.denominator};
+    WriteClip(folder / "clip.mp4", 24, rate);
     const Clip clip = ReadClip(folder / "clip.mp4");
-    EXPECT_EQ(av_cmp_q(clip.rate, each.exact), 0)
-        << each.rate << " became " << clip.rate.num << "/" << clip.rate.den;
-    EXPECT_NEAR(clip.duration_secs, 24 / av_q2d(each.exact), 2e-3);
+    EXPECT_EQ(av_cmp_q(clip.rate, exact), 0)
+        << rate.hz() << " became " << clip.rate.num << "/" << clip.rate.den;
+    EXPECT_NEAR(clip.duration_secs, 24 / av_q2d(exact), 2e-3);
     EXPECT_EQ(clip.frames.size(), 24u);
   }
 }
 
+// A disc that moves, on glass or on grey: what the new formats must keep.
+Image Disc(int k, bool is_glass) {
+  Image image{64, 48, {}};
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const int dx = x - 16 - 4 * k, dy = y - 24;
+      const bool is_disc = dx * dx + dy * dy < 100;
+      const auto ground = static_cast<std::uint8_t>(is_disc ? 255 : is_glass ? 0 : 255);
+      const std::array<std::uint8_t, 4> pixel =
+          is_disc ? std::array<std::uint8_t, 4>{220, 40, 40, 255}
+                  : std::array<std::uint8_t, 4>{90, 90, 90, ground};
+      image.rgba.insert(image.rgba.end(), pixel.begin(), pixel.end());
+    }
+  }
+  return image;
+}
+
+class VideoFormat : public ::testing::TestWithParam<const char*> {
+ protected:
+  std::filesystem::path Write(const char* name, bool is_glass, FrameRate rate = {25, 1}) {
+    const std::filesystem::path path = folder_ / (name + std::string(GetParam()));
+    VideoOptions options;
+    options.rate = rate;
+    options.metadata = {{"comment", kComment}};
+    const auto video = MakeVideoWriter(path, 64, 48, options);
+    for (int k = 0; k < kPictures; ++k) video->Add(Disc(k, is_glass));
+    video->Finish();
+    return path;
+  }
+
+  static constexpr int kPictures = 8;
+  // Longer than a block of a GIF's comment, with what XML would not like.
+  const std::string kComment = "{\"a\": \"<b> & c\", \"long\": \"" + std::string(600, 'x') + "\"}";
+  TempFolder folder_;
+};
+
+TEST_P(VideoFormat, ComesBackInOrderInTimeAndWithItsComment) {
+  const auto video = OpenVideo(Write("disc", false));
+  EXPECT_EQ(video->metadata()["comment"], kComment);
+  Image image;
+  for (int k = 0; k < kPictures; ++k) {
+    ASSERT_TRUE(video->Next(image)) << "picture " << k << " is missing";
+    EXPECT_NEAR(video->secs(), k / 25.0, 1e-6);
+    const std::uint8_t* middle = &image.rgba[4 * static_cast<std::size_t>(24 * 64 + 16 + 4 * k)];
+    EXPECT_NEAR(middle[0], 220, 12);
+    EXPECT_NEAR(middle[1], 40, 12);
+    EXPECT_EQ(middle[3], 255);
+    EXPECT_NEAR(image.rgba[0], 90, 6);
+    EXPECT_EQ(image.rgba[3], 255);
+  }
+  EXPECT_FALSE(video->Next(image));
+}
+
+TEST_P(VideoFormat, TheSamePicturesAreTheSameBytes) {
+  EXPECT_EQ(ReadFile(Write("a", false)), ReadFile(Write("b", false)));
+}
+
+TEST_P(VideoFormat, KeepsGlassOrSaysThatItCannot) {
+  if (std::string(GetParam()) == ".mp4") {
+    try {
+      Write("glass", true);
+      FAIL() << "H.264 took a transparent picture";
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr(".webm"));
+    }
+    EXPECT_THAT(folder_.Names(), ::testing::IsEmpty());
+    return;
+  }
+  const auto video = OpenVideo(Write("glass", true));
+  Image image;
+  for (int k = 0; k < kPictures; ++k) {
+    ASSERT_TRUE(video->Next(image));
+    EXPECT_GE(image.rgba[4 * static_cast<std::size_t>(24 * 64 + 16 + 4 * k) + 3], 250) << k;
+    EXPECT_LE(image.rgba[3], 5) << k;
+  }
+}
+
+TEST_P(VideoFormat, NothingIsLeftOfAClipThatWasNotFinished) {
+  {
+    const auto video = MakeVideoWriter(folder_ / ("a" + std::string(GetParam())), 64, 48, {});
+    video->Add(Disc(0, false));
+  }
+  EXPECT_THAT(folder_.Names(), ::testing::IsEmpty());
+}
+
+TEST_P(VideoFormat, ADamagedFileIsRefusedByName) {
+  const std::filesystem::path path = Write("whole", false);
+  const std::string bytes = ReadFile(path);
+  const std::filesystem::path cut = folder_ / ("cut" + std::string(GetParam()));
+  std::ofstream(cut, std::ios::binary) << bytes.substr(0, 40);
+  try {
+    Image image;
+    EXPECT_FALSE(OpenVideo(cut)->Next(image));
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("cut"));
+  }
+  EXPECT_THROW(OpenVideo(folder_ / "missing"), std::runtime_error);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, VideoFormat, ::testing::Values(".mp4", ".webm", ".webp", ".gif"),
+                         [](const auto& each) { return std::string(each.param).substr(1); });
+
+TEST(FrameRate, GivesTheNearestNanosecondOfEveryPicture) {
+  EXPECT_EQ((FrameRate{30, 1}.NanosOf(1)), 33'333'333);
+  EXPECT_EQ((FrameRate{30, 1}.NanosOf(1800)), 60'000'000'000);
+  EXPECT_EQ((FrameRate{30000, 1001}.NanosOf(30000)), 1'001'000'000'000);
+  // A day at the largest numbers that --fps takes: nothing overflows, nothing drifts.
+  EXPECT_EQ((FrameRate{1'000'000, 9000}.NanosOf(9'600'000)), 86'400'000'000'000);
+}
+
 TEST(Video, StartsPlayingBeforeItIsLoaded) {
   const TempFolder folder;
-  WriteClip(folder / "clip.mp4", 10, 30);
+  WriteClip(folder / "clip.mp4", 10, {30, 1});
   const std::string bytes = ReadFile(folder / "clip.mp4");
   ASSERT_NE(bytes.find("moov"), std::string::npos);
   EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
@@ -193,22 +296,22 @@ TEST(Video, StartsPlayingBeforeItIsLoaded) {
 
 TEST(Video, TheSamePicturesAreTheSameBytes) {
   const TempFolder folder;
-  WriteClip(folder / "a.mp4", 20, 30);
-  WriteClip(folder / "b.mp4", 20, 30);
+  WriteClip(folder / "a.mp4", 20, {30, 1});
+  WriteClip(folder / "b.mp4", 20, {30, 1});
   EXPECT_EQ(ReadFile(folder / "a.mp4"), ReadFile(folder / "b.mp4"));
 }
 
 TEST(Video, WorksInSilence) {
   const TempFolder folder;
   ::testing::internal::CaptureStderr();
-  WriteClip(folder / "clip.mp4", 5, 30);
+  WriteClip(folder / "clip.mp4", 5, {30, 1});
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(Video, FfprobeCountsTheSameFrames) {
   if (std::system("command -v ffprobe >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe here";
   const TempFolder folder;
-  WriteClip(folder / "clip.mp4", 31, 29.97);
+  WriteClip(folder / "clip.mp4", 31, {30000, 1001});
   const std::string command =
       "ffprobe -v error -count_frames -show_entries stream=nb_read_frames,r_frame_rate,color_space"
       " -of csv=p=0 " +
@@ -267,10 +370,16 @@ TEST(Video, RefusesWhatCannotBeEncoded) {
   EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 320, 181, {}), UsageError);
   EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 0, 0, {}), UsageError);
   VideoOptions options;
-  for (const double rate : {0.0, -30.0, 1e9, std::nan("")}) {
-    options.frames_per_second = rate;
-    EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 320, 180, options), UsageError) << rate;
+  for (const FrameRate rate : {FrameRate{0, 1}, {-30, 1}, {30, 0}, {2000, 1}}) {
+    options.rate = rate;
+    EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 320, 180, options), UsageError) << rate.hz();
   }
+  options.rate = {60, 1};
+  EXPECT_THROW(MakeVideoWriter(folder / "c.gif", 320, 180, options), UsageError);
+  EXPECT_THROW(MakeVideoWriter(folder / "c.avi", 320, 180, {}), UsageError);
+  options = {};
+  options.crf = 52;
+  EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 320, 180, options), UsageError);
   EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
 }
 

@@ -1,0 +1,222 @@
+#include "render/av/codec_writer.h"
+
+extern "C" {
+#include <libavutil/opt.h>
+}
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "render/av/libav.h"
+#include "render/new_file.h"
+
+namespace kinescope::render::av {
+namespace {
+
+// A fixed number, so that a clip does not depend on the machine: encoders decide a little
+// differently for every count of threads.
+constexpr int kEncoderThreads = 4;
+
+struct Setting {
+  const char* name;
+  const char* value;
+};
+
+// What tells one format from the other.
+struct Recipe {
+  const char* encoder;
+  const char* package;  // Debian's, that has the encoder
+  const char* container;
+  int default_crf;
+  bool keeps_alpha;
+  std::vector<Setting> encoder_settings;
+  std::vector<Setting> container_settings;
+};
+
+Recipe RecipeOf(ClipFormat format) {
+  if (format == ClipFormat::kMp4) {
+    return {"libx264",
+            "libavcodec59 with libx264-164",
+            "mp4",
+            18,
+            false,
+            {{"preset", "veryfast"}},
+            {{"movflags", "+faststart"}}};
+  }
+  // Tiles, not rows, are what its threads share: these give the same bytes whatever the load.
+  return {"libvpx-vp9",
+          "libavcodec59 with libvpx7",
+          "webm",
+          24,
+          true,
+          {{"deadline", "good"}, {"cpu-used", "4"}, {"row-mt", "0"}, {"tile-columns", "2"}},
+          {}};
+}
+
+bool IsOpaque(const Image& image) {
+  // Without a way out in the middle the compiler looks at many pixels at a time.
+  std::uint8_t all = 255;
+  for (std::size_t at = 3; at < image.rgba.size(); at += 4) all &= image.rgba[at];
+  return all == 255;
+}
+
+class CodecWriter : public VideoWriter {
+ public:
+  CodecWriter(const std::filesystem::path& path, ClipFormat format, int width, int height,
+              const VideoOptions& options)
+      : path_(path),
+        recipe_(RecipeOf(format)),
+        encoder_(FindEncoder(recipe_.encoder, recipe_.package, path)),
+        width_(width),
+        height_(height),
+        options_(options),
+        file_(path),
+        packet_(av_packet_alloc()) {
+    if (options.alpha) Open(*options.alpha);
+  }
+
+  void Add(const Image& image) override {
+    CheckSameSize(image, width_, height_, path_);
+    const bool is_opaque = IsOpaque(image);
+    if (!codec_) Open(!is_opaque);
+    if (!is_opaque && !has_alpha_) RefuseAlpha();
+    Check(av_frame_make_writable(frame_.get()), "allocate pictures of", path_);
+    const std::uint8_t* rows[] = {image.rgba.data()};
+    const int strides[] = {4 * image.width};
+    sws_scale(scaler_.get(), rows, strides, 0, image.height, frame_->data, frame_->linesize);
+    frame_->pts = next_++;
+    Encode(frame_.get());
+  }
+
+  void Finish() override {
+    if (next_ == 0)
+      throw std::runtime_error(path_.string() + ": a clip needs at least one picture");
+    Encode(nullptr);
+    Check(av_write_trailer(format_.get()), "finish", path_);
+    avio_flush(format_->pb);
+    Check(format_->pb->error, "write", path_);
+    Check(avio_closep(&format_->pb), "close", path_);
+    file_.Commit();
+  }
+
+ private:
+  [[noreturn]] void RefuseAlpha() const {
+    if (!recipe_.keeps_alpha) {
+      throw std::runtime_error(path_.string() +
+                               ": H.264 has no transparency; .webm, .webp and .gif have");
+    }
+    throw std::runtime_error(path_.string() +
+                             ": a picture is transparent, but the clip's first one was not");
+  }
+
+  void Open(bool has_alpha) {
+    if (has_alpha && !recipe_.keeps_alpha) RefuseAlpha();
+    has_alpha_ = has_alpha;
+    OpenEncoder();
+    OpenContainer();
+    OpenScaler();
+  }
+
+  void OpenEncoder() {
+    codec_.reset(avcodec_alloc_context3(&encoder_));
+    if (!codec_) Check(AVERROR(ENOMEM), "encode", path_);
+    const AVRational rate = {options_.rate.numerator, options_.rate.denominator};
+    codec_->width = width_;
+    codec_->height = height_;
+    codec_->pix_fmt = has_alpha_ ? AV_PIX_FMT_YUVA420P : AV_PIX_FMT_YUV420P;
+    codec_->framerate = rate;
+    codec_->time_base = av_inv_q(rate);
+    codec_->color_range = AVCOL_RANGE_MPEG;
+    codec_->color_primaries = AVCOL_PRI_BT709;
+    codec_->color_trc = AVCOL_TRC_BT709;
+    codec_->colorspace = AVCOL_SPC_BT709;
+    codec_->gop_size = std::max(1, static_cast<int>(std::lround(2 * options_.rate.hz())));
+    codec_->thread_count = kEncoderThreads;
+    codec_->bit_rate = 0;  // quality decides, not a rate
+    codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+    const auto set = [&](const char* name, const std::string& value) {
+      Check(av_opt_set(codec_->priv_data, name, value.c_str(), 0), "configure", path_);
+    };
+    for (const Setting& each : recipe_.encoder_settings) set(each.name, each.value);
+    set("crf", std::to_string(options_.crf.value_or(recipe_.default_crf)));
+    if (has_alpha_) set("auto-alt-ref", "0");  // libvpx has no alternate frames with alpha
+    Check(avcodec_open2(codec_.get(), &encoder_, nullptr), "encode", path_);
+  }
+
+  void OpenContainer() {
+    const std::string url = file_.open_path();
+    AVFormatContext* format = nullptr;
+    Check(avformat_alloc_output_context2(&format, nullptr, recipe_.container, url.c_str()), "write",
+          path_);
+    format_.reset(format);
+    format_->flags |= AVFMT_FLAG_BITEXACT;  // no version strings: the same clip is the same bytes
+    stream_ = avformat_new_stream(format_.get(), nullptr);
+    if (stream_ == nullptr) Check(AVERROR(ENOMEM), "write", path_);
+    Check(avcodec_parameters_from_context(stream_->codecpar, codec_.get()), "write", path_);
+    stream_->time_base = codec_->time_base;
+    stream_->avg_frame_rate = stream_->r_frame_rate = codec_->framerate;
+    for (const auto& [key, value] : options_.metadata) {
+      Check(av_dict_set(&format_->metadata, key.c_str(), value.c_str(), 0), "tag", path_);
+    }
+    Check(avio_open(&format_->pb, url.c_str(), AVIO_FLAG_WRITE), "write", path_);
+    AVDictionary* muxer = nullptr;
+    for (const Setting& each : recipe_.container_settings) {
+      av_dict_set(&muxer, each.name, each.value, 0);
+    }
+    const int result = avformat_write_header(format_.get(), &muxer);
+    av_dict_free(&muxer);
+    Check(result, "write", path_);
+  }
+
+  void OpenScaler() {
+    frame_ = MakeFrame(codec_->pix_fmt, width_, height_, path_);
+    scaler_.reset(sws_getContext(width_, height_, AV_PIX_FMT_RGBA, width_, height_, codec_->pix_fmt,
+                                 SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT, nullptr, nullptr,
+                                 nullptr));
+    if (!scaler_) Check(AVERROR(EINVAL), "convert the colours of", path_);
+    const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
+    sws_setColorspaceDetails(scaler_.get(), bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16);
+  }
+
+  void Encode(const AVFrame* frame) {
+    Check(avcodec_send_frame(codec_.get(), frame), "encode", path_);
+    while (true) {
+      const int result = avcodec_receive_packet(codec_.get(), packet_.get());
+      if (result == AVERROR(EAGAIN) || result == AVERROR_EOF) return;
+      Check(result, "encode", path_);
+      packet_->duration = 1;
+      av_packet_rescale_ts(packet_.get(), codec_->time_base, stream_->time_base);
+      packet_->stream_index = stream_->index;
+      Check(av_interleaved_write_frame(format_.get(), packet_.get()), "write", path_);
+      Check(format_->pb->error, "write", path_);  // a full disk is told here, hours before the end
+    }
+  }
+
+  const std::filesystem::path path_;
+  const Recipe recipe_;
+  const AVCodec& encoder_;
+  const int width_, height_;
+  const VideoOptions options_;
+  NewFile file_;
+  Packet packet_;
+  bool has_alpha_ = false;
+  // From the first picture on.
+  CodecContext codec_;
+  OutputFormat format_;
+  AVStream* stream_ = nullptr;  // belongs to format_
+  Frame frame_;
+  Scaler scaler_;
+  std::int64_t next_ = 0;  // index of the next picture
+};
+
+}  // namespace
+
+std::unique_ptr<VideoWriter> MakeCodecWriter(const std::filesystem::path& path, ClipFormat format,
+                                             int width, int height, const VideoOptions& options) {
+  return std::make_unique<CodecWriter>(path, format, width, height, options);
+}
+
+}  // namespace kinescope::render::av

@@ -1,0 +1,54 @@
+/// What our uses of libav share: owners of its structs, and its errors as exceptions.
+#pragma once
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavfilter/avfilter.h>
+#include <libavformat/avformat.h>
+#include <libswscale/swscale.h>
+}
+
+#include <filesystem>
+#include <memory>
+
+#include "render/image.h"
+
+namespace kinescope::render::av {
+
+template <class T, void (*kFree)(T**)>
+struct FreeByAddress {
+  void operator()(T* pointer) const { kFree(&pointer); }
+};
+using CodecContext =
+    std::unique_ptr<AVCodecContext, FreeByAddress<AVCodecContext, avcodec_free_context>>;
+using FilterGraph =
+    std::unique_ptr<AVFilterGraph, FreeByAddress<AVFilterGraph, avfilter_graph_free>>;
+using Frame = std::unique_ptr<AVFrame, FreeByAddress<AVFrame, av_frame_free>>;
+using InputFormat =
+    std::unique_ptr<AVFormatContext, FreeByAddress<AVFormatContext, avformat_close_input>>;
+using Packet = std::unique_ptr<AVPacket, FreeByAddress<AVPacket, av_packet_free>>;
+
+struct CloseOutput {
+  void operator()(AVFormatContext* format) const;
+};
+using OutputFormat = std::unique_ptr<AVFormatContext, CloseOutput>;
+
+struct FreeScaler {
+  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+};
+using Scaler = std::unique_ptr<SwsContext, FreeScaler>;
+
+/// Throws std::runtime_error "cannot `what` `path`: reason" for a `result` below 0.
+void Check(int result, const char* what, const std::filesystem::path& path);
+
+/// @throws std::runtime_error naming `path`, the encoder and Debian's package that has it.
+const AVCodec& FindEncoder(const char* name, const char* package,
+                           const std::filesystem::path& path);
+
+/// A picture of libav's with memory of its own.
+Frame MakeFrame(AVPixelFormat format, int width, int height, const std::filesystem::path& path);
+
+/// Refuses a picture that is not `width` x `height`. @throws std::runtime_error.
+void CheckSameSize(const Image& image, int width, int height, const std::filesystem::path& path);
+
+}  // namespace kinescope::render::av
