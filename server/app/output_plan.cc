@@ -131,9 +131,7 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
   for (const SourcePlan& plan : plans) {
     for (const Output& output : plan.outputs) {
       (output.kind == OutputKind::kStill ? has_still : has_clip) = true;
-      const auto format = render::ClipFormatOf(output.path);
-      has_crf =
-          has_crf || format == render::ClipFormat::kMp4 || format == render::ClipFormat::kWebm;
+      has_crf = has_crf || HasCrf(output.path);
     }
   }
   const MomentOptions& moment = options.moment;
@@ -163,6 +161,11 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
 }
 
 }  // namespace
+
+bool HasCrf(const std::string& path) {
+  const auto format = render::ClipFormatOf(path);
+  return format == render::ClipFormat::kMp4 || format == render::ClipFormat::kWebm;
+}
 
 std::string PathOfPicture(const std::string& pattern, long k) {
   const std::vector<NumberPlace> places = FindNumbers(pattern);

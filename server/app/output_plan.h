@@ -34,6 +34,9 @@ std::vector<SourcePlan> PlanOutputs(const RenderOptions& options);
 /// Of picture `k` of a sequence.
 std::string PathOfPicture(const std::string& pattern, long k);
 
+/// Whether a clip of that name is packed to a constant quality (--crf).
+bool HasCrf(const std::string& path);
+
 /// "front,top" -> front, top. Commas within parentheses, and those that are followed by a digit, a
 /// sign or a point, belong to the camera.
 std::vector<std::string> SplitCameras(const std::string& text);

@@ -29,10 +29,21 @@ json ProbeRenderer(const std::string& backend) {
   }
 }
 
-json ProbeH264() {
+struct Encoder {
+  const char* name;
+  const char* key;
+  const char* file;
+};
+constexpr Encoder kEncoders[] = {{"H.264", "h264", "kinescope-probe.mp4"},
+                                 {"VP9", "vp9", "kinescope-probe.webm"},
+                                 {"WebP", "webp", "kinescope-probe.webp"},
+                                 {"GIF", "gif", "kinescope-probe.gif"}};
+
+json ProbeEncoder(const Encoder& encoder) {
   try {  // never finished, so it leaves nothing behind
-    render::MakeVideoWriter(std::filesystem::temp_directory_path() / "kinescope-probe.mp4", 64, 64,
-                            {});
+    render::VideoOptions options;
+    options.alpha = false;  // known, so that the encoder is opened before the first picture
+    render::MakeVideoWriter(std::filesystem::temp_directory_path() / encoder.file, 64, 64, options);
     return {{"works", true}};
   } catch (const std::exception& error) {
     return {{"works", false}, {"reason", error.what()}};
@@ -43,7 +54,7 @@ int Probe(bool as_json) {
   json found;
   found["version"] = KINESCOPE_VERSION;
   found["backends"]["osmesa"] = ProbeRenderer("osmesa");
-  found["encoders"]["h264"] = ProbeH264();
+  for (const Encoder& each : kEncoders) found["encoders"][each.key] = ProbeEncoder(each);
   found["ros"] = {{"built", ros_bridge::BuiltWithRos()},
                   {"master_uri", ros_bridge::MasterUri()},
                   {"master_reachable", ros_bridge::MasterIsReachable()}};
@@ -60,8 +71,11 @@ int Probe(bool as_json) {
   } else {
     fmt::print("osmesa   {}\n", osmesa["reason"].get<std::string>());
   }
-  const json& h264 = found["encoders"]["h264"];
-  fmt::print("H.264    {}\n", h264["works"] ? "works" : h264["reason"].get<std::string>());
+  for (const Encoder& each : kEncoders) {
+    const json& encoder = found["encoders"][each.key];
+    fmt::print("{:<8} {}\n", each.name,
+               encoder["works"] ? "works" : encoder["reason"].get<std::string>());
+  }
   if (!found["ros"]["built"]) {
     fmt::print("ROS      not built in\n");
   } else {

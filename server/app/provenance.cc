@@ -150,12 +150,20 @@ Json Provenance::Of(const Output& output, std::optional<long> number) const {
   } else {
     copy.clip.Visit(ValueGetter(values));
   }
-  if (output.kind == OutputKind::kClip) copy.pack.Visit(ValueGetter(values));
+  if (HasCrf(output.path)) {
+    if (copy.pack.crf) values["crf"] = *copy.pack.crf;
+  } else if (output.kind == OutputKind::kClip) {
+    values["quality"] = copy.pack.quality;
+  }
   copy.view.Visit(ValueGetter(values));
   copy.person.Visit(ValueGetter(values));
   copy.loads.Visit(ValueGetter(values));
+  if (number) {
+    result["number"] = *number;
+    values.erase("seconds");  // a picture is the same in a longer sequence
+    values.erase("end");
+  }
   result["options"] = std::move(values);
-  if (number) result["number"] = *number;
   return result;
 }
 

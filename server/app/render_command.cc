@@ -84,8 +84,10 @@ int Run(const CommandOptions& options) {
 // The options that `add` adds to `command` go under a heading of their own in --help.
 template <class Add>
 void Group(CLI::App& command, const std::string& heading, Add&& add) {
-  CLI::Option_group* group = command.add_option_group(heading);
-  add(*group);
+  const std::size_t before = command.get_options().size();
+  add();
+  const std::vector<CLI::Option*> options = command.get_options();
+  for (std::size_t i = before; i < options.size(); ++i) options[i]->group(heading);
 }
 
 }  // namespace
@@ -102,33 +104,34 @@ void AddRender(CommandLine line) {
   const auto o = std::make_shared<CommandOptions>();
   RenderOptions& render = o->render;
   command->add_option("source", render.sources, kSourceKinds);
-  Group(*command, "What to write", [&](CLI::App& group) {
-    group
-        .add_option("--out", render.outs,
-                    "file to write, once or several times: .png (a picture; with %05d or ##### in "
-                    "its name, one for every moment), .mp4 (H.264), .webm (VP9), .webp, .gif. "
-                    "{source} and {camera} in it are replaced")
+  Group(*command, "What to write", [&] {
+    command
+        ->add_option("--out", render.outs,
+                     "file to write, once or several times: .png (a picture; with %05d or ##### in "
+                     "its name, one for every moment), .mp4 (H.264), .webm (VP9), .webp, .gif. "
+                     "{source} and {camera} in it are replaced")
         ->allow_extra_args(false);
-    group.add_flag("--force", render.force, "draw again what is there already");
-    group.add_flag("--no_sidecar", render.no_sidecar,
-                   "no FILE.json beside each output (what is in it is in the file, too)");
-    group.add_option("--jobs", render.jobs,
-                     "threads that draw; the pictures do not depend on it. 0: as many as are "
-                     "fastest here");
-    group.add_flag("--json", render.json, "tell the result as JSON, a line for each output");
-    group.add_option("--verify", o->verify,
-                     "draw FILE again as it says it was drawn, and compare: exit code 0 when it is "
-                     "the same, 1 when not. The source is where it was, or give it");
+    command->add_flag("--force", render.force, "draw again what is there already");
+    command->add_flag("--no_sidecar", render.no_sidecar,
+                      "no FILE.json beside each output (what is in it is in the file, too)");
+    command->add_option("--jobs", render.jobs,
+                        "threads that draw; the pictures do not depend on it. 0: as many as are "
+                        "fastest here");
+    command->add_flag("--json", render.json, "tell the result as JSON, a line for each output");
+    command->add_option(
+        "--verify", o->verify,
+        "draw FILE again as it says it was drawn, and compare: exit code 0 when it is "
+        "the same, 1 when not. The source is where it was, or give it");
   });
-  Group(*command, "Which moments", [&](CLI::App& group) {
-    render.moment.Visit(FlagAdder(group));
-    render.clip.Visit(FlagAdder(group));
-    render.pack.Visit(FlagAdder(group));
+  Group(*command, "Which moments", [&] {
+    render.moment.Visit(FlagAdder(*command));
+    render.clip.Visit(FlagAdder(*command));
+    render.pack.Visit(FlagAdder(*command));
   });
-  Group(*command, "How it looks (--camera takes several: front,top)",
-        [&](CLI::App& group) { render.view.Visit(FlagAdder(group)); });
-  Group(*command, "The person", [&](CLI::App& group) { render.person.Visit(FlagAdder(group)); });
-  Group(*command, "Joint loads", [&](CLI::App& group) { render.loads.Visit(FlagAdder(group)); });
+  Group(*command, "How it looks (several cameras: --camera front,top)",
+        [&] { render.view.Visit(FlagAdder(*command)); });
+  Group(*command, "The person", [&] { render.person.Visit(FlagAdder(*command)); });
+  Group(*command, "Joint loads", [&] { render.loads.Visit(FlagAdder(*command)); });
   int& exit_code = line.exit_code;
   command->callback([o, &exit_code] { exit_code = Run(*o); });
 }

@@ -76,7 +76,20 @@ class Job {
       view.camera = output.camera;
       planners_.emplace(output.camera, view);
     }
+    if (output.kind == OutputKind::kClip && !run.is_finished) {
+      // What cannot be written or encoded is said now, not after the first picture.
+      const render::View& view = planners_.at(output.camera).view();
+      render::MakeVideoWriter(output.path, view.width, view.height, PackingOf(output));
+    }
     running_.push_back(std::move(run));
+  }
+
+  render::VideoOptions PackingOf(const Output& output) const {
+    render::VideoOptions options;
+    options.rate = grid_.rate;
+    if (HasCrf(output.path)) options.crf = options_.pack.crf;
+    options.quality = options_.pack.quality;
+    return options;
   }
 
   // Whether an output that is no still (a still) is to be made.
@@ -120,11 +133,14 @@ class Job {
   void CheckStop() const {
     if (!StopRequested()) return;
     std::string left;
+    bool is_sequence = false;
     for (const Running& each : running_) {
       if (each.is_finished) continue;
       left += (left.empty() ? "" : ", ") + each.output.path;
+      is_sequence = is_sequence || each.output.kind == OutputKind::kSequence;
     }
-    throw std::runtime_error("interrupted; not finished: " + left);
+    throw std::runtime_error("interrupted; not finished: " + left +
+                             (is_sequence ? " (the same command goes on where it stopped)" : ""));
   }
 
   // The next sample; the one that a still by number shows is drawn as it passes.
@@ -205,6 +221,7 @@ class Job {
   }
 
   void DrawClips(long k, const SceneState& scene) {
+    CheckStop();
     for (auto& [camera, planner] : planners_) {
       std::vector<Running*> takers;
       bool is_seen = false;
@@ -247,14 +264,8 @@ class Job {
     if (run.output.kind != OutputKind::kClip) {
       return MakePngSink(run.output.path, is_numbered ? settings_.jobs : 1, text);
     }
-    render::VideoOptions options;
-    options.rate = grid_.rate;
-    if (render::ClipFormatOf(run.output.path) == render::ClipFormat::kMp4 ||
-        render::ClipFormatOf(run.output.path) == render::ClipFormat::kWebm) {
-      options.crf = options_.pack.crf;
-    }
-    options.quality = options_.pack.quality;
-    return MakeClipSink(run.output.path, planners_.at(run.output.camera).view(), options, text);
+    return MakeClipSink(run.output.path, planners_.at(run.output.camera).view(),
+                        PackingOf(run.output), text);
   }
 
   std::map<std::string, std::string> MetadataFor(const Output& output,

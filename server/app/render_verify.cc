@@ -159,6 +159,13 @@ void NoteDifferences(const Json& then, const Json& now, const std::string& file)
   }
 }
 
+// Picture `k` of a clip, which is long enough for that and no longer.
+void DrawOnly(long k, RenderOptions& options, JobSettings& settings) {
+  const std::int64_t nanos = ParseFrameRate(options.clip.fps).NanosOf(k);
+  options.clip.seconds = static_cast<double>(nanos + 1'000) * 1e-9;
+  settings.only_picture = k;
+}
+
 void Tell(const std::string& file, const Verdict& verdict, bool as_json) {
   std::string diff;
   if (!verdict.same && verdict.diff.width > 0) {
@@ -194,7 +201,7 @@ int Verify(const std::string& file, const RenderOptions& given) {
   const std::vector<SourcePlan> plans = PlanOutputs(options);
   JobSettings settings;
   settings.jobs = given.jobs > 0 ? given.jobs : DefaultJobs();
-  if (is_one) settings.only_picture = then.at("number").get<long>();
+  if (is_one) DrawOnly(then.at("number").get<long>(), options, settings);
   const auto pool = MakeDrawPool(settings.jobs, ToView(options.view));
   const auto results = RenderSource(options, plans.front(), settings, *pool);
   const Provenance now(options, options.sources.front(), pool->renderer_string());

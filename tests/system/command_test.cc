@@ -156,7 +156,7 @@ TEST(Command, SaysWhenItCannotDraw) {
 
 TEST(Command, RefusesOutputsThatCannotBe) {
   ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "/nowhere/a.png"}), "/nowhere/a.png");
-  ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "a.gif"}), "a.gif");
+  ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "a.avi"}), "a.avi");
   for (const char* size : {"0x0", "1000000x10", "wide"}) {
     ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "a.png", "--size", size}), size);
   }

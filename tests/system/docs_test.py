@@ -82,6 +82,10 @@ def try_kinescope(words, folder):
              for w in words]
     if "take.pcap" in words and command != "record":
         record_take(folder)
+    if "--verify" in words:
+        problem = run([PROGRAM, "render", "demo:lift", "--time", "2.5", "--out", words[words.index("--verify") + 1]], folder)
+        if problem:
+            return problem
     if "person.urdf" in words and "--height" not in words:
         problem = run([PROGRAM, "urdf", "--out", "person.urdf"], folder)
         if problem:

@@ -1,0 +1,339 @@
+// `kinescope render` as people use it: several files at once, again, interrupted, on a full disk,
+// and checked afterwards.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "render/compare.h"
+#include "render/png_file.h"
+#include "render/renderer.h"
+#include "render/video.h"
+#include "server/app/provenance.h"
+#include "server/app/render_options.h"
+#include "server/app/scene_reader.h"
+#include "server/app/shots.h"
+#include "tests/process.h"
+#include "tests/shared_data.h"
+#include "tests/system/run_program.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using testing::ProgramResult;
+using testing::ReadFile;
+using testing::RunProgram;
+using testing::TempFolder;
+using Json = nlohmann::json;
+
+class RenderCommand : public ::testing::Test {
+ protected:
+  // Small pictures of the walker, unless `arguments` say otherwise.
+  ProgramResult Render(std::vector<std::string> arguments, const std::string& source = "demo:walk",
+                       const std::vector<std::string>& before = {}) {
+    std::vector<std::string> command = before;
+    command.insert(command.end(), {KINESCOPE_PROGRAM, "render", source, "--supersample", "1"});
+    if (std::find(arguments.begin(), arguments.end(), "--size") == arguments.end()) {
+      command.insert(command.end(), {"--size", "160x96"});
+    }
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    return RunProgram(command);
+  }
+
+  ProgramResult Verify(const std::string& file) {
+    return RunProgram({KINESCOPE_PROGRAM, "render", "--json", "--verify", file});
+  }
+
+  std::string Path(const std::string& name) const { return folder_ / name; }
+
+  static std::vector<Json> Lines(const ProgramResult& result) {
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::vector<Json> lines;
+    std::istringstream in(result.out);
+    for (std::string line; std::getline(in, line);) lines.push_back(Json::parse(line));
+    return lines;
+  }
+
+  static std::vector<render::Image> Decode(const std::string& path) {
+    const auto video = render::OpenVideo(path);
+    std::vector<render::Image> pictures(1);
+    while (video->Next(pictures.back())) pictures.emplace_back();
+    pictures.pop_back();
+    return pictures;
+  }
+
+  TempFolder folder_;
+};
+
+TEST_F(RenderCommand, MakesEveryFormatAndCameraInOnePass) {
+  const auto lines =
+      Lines(Render({"--out", Path("{camera}.mp4"), "--out", Path("{camera}.webm"), "--out",
+                    Path("{source}-{camera}.png"), "--out", Path("{camera}-%02d.png"), "--camera",
+                    "front,top", "--start", "0.5", "--seconds", "0.1", "--time", "0.3", "--json"}));
+  EXPECT_EQ(lines.size(), 8u);
+  for (const Json& line : lines) {
+    const bool is_still = line.at("out").get<std::string>().find("demo_walk") != std::string::npos;
+    EXPECT_EQ(line.at("pictures"), is_still ? 1 : 3) << line;
+  }
+  EXPECT_THAT(
+      folder_.Names(),
+      ElementsAre("demo_walk-front.png", "demo_walk-front.png.json", "demo_walk-top.png",
+                  "demo_walk-top.png.json", "front-%02d.png.json", "front-00.png", "front-01.png",
+                  "front-02.png", "front.mp4", "front.mp4.json", "front.webm", "front.webm.json",
+                  "top-%02d.png.json", "top-00.png", "top-01.png", "top-02.png", "top.mp4",
+                  "top.mp4.json", "top.webm", "top.webm.json"));
+  EXPECT_FALSE(
+      render::Compare(render::ReadPng(Path("front-01.png")), render::ReadPng(Path("top-01.png")))
+          .equal());
+  EXPECT_EQ(Decode(Path("top.webm")).size(), 3u);
+}
+
+TEST_F(RenderCommand, AnyNumberOfJobsGivesTheSameBytes) {
+  for (const std::string jobs : {"1", "3"}) {
+    const auto lines =
+        Lines(Render({"--out", Path(jobs + ".mp4"), "--out", Path(jobs + ".webm"), "--out",
+                      Path(jobs + "-%02d.png"), "--seconds", "0.5", "--jobs", jobs, "--json"}));
+    EXPECT_EQ(lines.at(0).at("drawn"), 15);
+  }
+  for (const char* name : {".mp4", ".webm", "-00.png", "-07.png", "-14.png"}) {
+    EXPECT_EQ(ReadFile(Path(std::string("1") + name)), ReadFile(Path(std::string("3") + name)))
+        << name;
+  }
+}
+
+// What picture k of the decoded clip looks like is the scene at k / fps, and not the one before or
+// after it.
+TEST_F(RenderCommand, PictureKShowsTheTimeKOverTheRate) {
+  Lines(Render({"--out", Path("a.mp4"), "--fps", "29.97", "--seconds", "0.5", "--camera", "right",
+                "--no_overlays", "--size", "320x240", "--json"}));
+  const std::vector<render::Image> clip = Decode(Path("a.mp4"));
+  ASSERT_EQ(clip.size(), 15u);
+
+  app::SceneReader reader("demo:walk", {});
+  app::SceneTimeline timeline(reader);
+  app::ViewOptions view;
+  view.size = "320x240";
+  view.camera = "right";
+  view.supersample = 1;
+  view.no_overlays = true;
+  app::ShotPlanner planner(view);
+  const auto renderer = render::MakeRenderer();
+  std::vector<render::Image> expected;
+  std::int64_t first_nanos = 0;
+  for (std::int64_t k = 0; k < 15; ++k) {
+    const app::Shot shot = planner.Next(*timeline.AtNanos(k * 1001 * 1'000'000 / 30));
+    if (k == 0) first_nanos = shot.state.stamp_nanos;
+    EXPECT_NEAR(static_cast<double>(shot.state.stamp_nanos - first_nanos) * 1e-9,
+                static_cast<double>(k) * 1001 / 30000, 2e-9);
+    expected.push_back(renderer->Render(shot.state, shot.camera, shot.view));
+  }
+  const auto difference = [&](std::size_t shown, std::size_t drawn) {
+    return render::Compare(expected[drawn], clip[shown], 24).pixels;
+  };
+  for (std::size_t k = 1; k + 1 < clip.size(); ++k) {
+    EXPECT_LT(difference(k, k), difference(k, k - 1)) << "picture " << k << " comes too late";
+    EXPECT_LT(difference(k, k), difference(k, k + 1)) << "picture " << k << " comes too early";
+  }
+}
+
+TEST_F(RenderCommand, DoesNotDrawAgainWhatIsThere) {
+  const std::vector<std::string> command = {"--out",       Path("a.mp4"), "--out",
+                                            Path("a.png"), "--out",       Path("%d.png"),
+                                            "--seconds",   "0.1",         "--json"};
+  const auto drawn = [&](std::vector<std::string> more = {}) {
+    more.insert(more.end(), command.begin(), command.end());
+    std::vector<long> counts;
+    for (const Json& line : Lines(Render(more))) counts.push_back(line.at("drawn").get<long>());
+    return counts;
+  };
+  EXPECT_THAT(drawn(), ElementsAre(3, 1, 3));
+  EXPECT_THAT(drawn(), ElementsAre(0, 0, 0));
+  fs::remove(Path("1.png"));
+  std::ofstream(Path("a.mp4"), std::ios::app) << "damaged";
+  EXPECT_THAT(drawn(), ElementsAre(3, 0, 1));
+  EXPECT_THAT(drawn({"--title", "other"}), ElementsAre(3, 1, 3));
+  EXPECT_THAT(drawn({"--title", "other", "--force"}), ElementsAre(3, 1, 3));
+  // Other sources have other pictures, whatever their files are called.
+  EXPECT_EQ(Lines(Render({"--out", Path("a.png"), "--json"}, "demo:lift")).at(0).at("drawn"), 1);
+}
+
+TEST_F(RenderCommand, WithoutSidecarsItLooksIntoTheFiles) {
+  for (const long drawn : {3, 0}) {
+    const auto lines = Lines(Render({"--out", Path("a.webm"), "--out", Path("a.webp"), "--out",
+                                     Path("a.gif"), "--seconds", "0.1", "--no_sidecar", "--json"}));
+    for (const Json& line : lines) EXPECT_EQ(line.at("drawn"), drawn) << line;
+  }
+  EXPECT_THAT(folder_.Names(), ElementsAre("a.gif", "a.webm", "a.webp"));
+  EXPECT_EQ(Verify(Path("a.gif")).exit_code, 0);
+}
+
+TEST_F(RenderCommand, GoesOnWhereItWasInterrupted) {
+  const std::string pattern = Path("%04d.png");
+  {
+    testing::Process run({"/bin/bash", "-c",
+                          "\"$0\" \"$@\" 2>&1 & child=$!; trap 'kill -INT $child' TERM; "
+                          "wait $child; wait $child; echo code $?",
+                          KINESCOPE_PROGRAM, "render", "demo:walk", "--size", "160x96",
+                          "--supersample", "1", "--out", pattern, "--out", Path("a.mp4"),
+                          "--seconds", "1000"});
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!fs::exists(Path("0003.png")) && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::yield();
+    }
+    ASSERT_TRUE(fs::exists(Path("0003.png")));
+    run.Signal(SIGTERM);
+    std::string said;
+    while (const auto line = run.ReadLine(std::chrono::seconds(30))) said += *line + "\n";
+    EXPECT_THAT(said, HasSubstr("interrupted; not finished"));
+    EXPECT_THAT(said, HasSubstr("code 2"));
+  }
+  const std::vector<std::string> names = folder_.Names();
+  for (const std::string& name : names) {
+    EXPECT_EQ(name.size(), std::string("0003.png").size()) << name << " was left behind";
+    EXPECT_NO_THROW(render::ReadPng(Path(name)));
+  }
+  const std::size_t wanted = names.size() + 4;
+  const auto lines = Lines(Render({"--out", pattern, "--seconds",
+                                   fmt::format("{}", static_cast<double>(wanted) / 30), "--json"}));
+  EXPECT_EQ(lines.at(0).at("pictures"), wanted);
+  EXPECT_LT(lines.at(0).at("drawn"), wanted);
+  EXPECT_EQ(Verify(pattern).exit_code, 0);
+}
+
+TEST_F(RenderCommand, TellsInTheFileHowItWasDrawn) {
+  Lines(Render({"--out", Path("a.png"), "--out", Path("a.mp4"), "--seconds", "0.1", "--time", "1.5",
+                "--title", "trial <3>", "--hand", "both:5", "--json"}));
+  const auto still = app::ReadEmbedded(Path("a.png"));
+  ASSERT_TRUE(still);
+  EXPECT_EQ(still->at("source").at("name"), "demo:walk");
+  EXPECT_EQ(still->at("options").at("time"), 1.5);
+  EXPECT_EQ(still->at("options").at("hand"), "both:5");
+  EXPECT_FALSE(still->at("options").contains("fps"));
+  EXPECT_EQ(still->at("camera").at("position_m").size(), 3u);
+  EXPECT_THAT(still->at("renderer").get<std::string>(), HasSubstr("llvmpipe"));
+  EXPECT_EQ(still->at("loads").at("class_ratios_up").size(), 2u);
+  const auto clip = app::ReadEmbedded(Path("a.mp4"));
+  ASSERT_TRUE(clip);
+  EXPECT_EQ(clip->at("options").at("fps"), "30");
+  EXPECT_TRUE(app::DecideTheSame(*clip, *app::ReadSidecar(Path("a.mp4"))));
+}
+
+TEST_F(RenderCommand, VerifiesWhatItDrewAndSaysWhereAFileDiffers) {
+  Lines(Render({"--out", Path("a.png"), "--out", Path("a.mp4"), "--out", Path("%d.png"),
+                "--seconds", "0.1", "--json"}));
+  for (const char* name : {"a.png", "a.mp4", "%d.png", "2.png"}) {
+    const ProgramResult result = Verify(Path(name));
+    EXPECT_EQ(result.exit_code, 0) << name << ": " << result.out << result.err;
+  }
+  render::Image image = render::ReadPng(Path("a.png"));
+  image.rgba[4 * 1000] = static_cast<std::uint8_t>(image.rgba[4 * 1000] ^ 1);
+  render::WritePng(Path("a.png"), image, render::ReadPngText(Path("a.png")));
+  const ProgramResult result = Verify(Path("a.png"));
+  EXPECT_EQ(result.exit_code, 1) << "a pixel that is one level off was not seen";
+  EXPECT_THAT(Json::parse(result.out).at("how").get<std::string>(), HasSubstr("1 pixel"));
+  EXPECT_EQ(render::ReadPng(Path("a.png.diff.png")).width, image.width);
+
+  EXPECT_EQ(Verify(Path("missing.png")).exit_code, 2);
+  render::WritePng(Path("bare.png"), image);
+  const ProgramResult bare = Verify(Path("bare.png"));
+  EXPECT_EQ(bare.exit_code, 2);
+  EXPECT_THAT(bare.err, HasSubstr("says nothing of how it was drawn"));
+}
+
+TEST_F(RenderCommand, VerifiesOnlyAgainstTheSourceThatItWas) {
+  KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
+  const std::string source = Path("take.mvnx"), moved = Path("moved.mvnx");
+  fs::copy_file(testing::SharedData("mvnx/test_mocap.mvnx"), source);
+  Lines(Render({"--out", Path("a.png"), "--frame", "60", "--json"}, source));
+  EXPECT_EQ(Verify(Path("a.png")).exit_code, 0);
+  fs::rename(source, moved);
+  const ProgramResult gone = Verify(Path("a.png"));
+  EXPECT_EQ(gone.exit_code, 2);
+  EXPECT_THAT(gone.err, HasSubstr("take.mvnx"));
+  EXPECT_EQ(RunProgram({KINESCOPE_PROGRAM, "render", moved, "--verify", Path("a.png")}).exit_code,
+            0);
+  std::ofstream(moved, std::ios::app) << "\n";
+  const ProgramResult other =
+      RunProgram({KINESCOPE_PROGRAM, "render", moved, "--verify", Path("a.png")});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("SHA-256"));
+}
+
+TEST_F(RenderCommand, AFullDiskLeavesNothingBehind) {
+  for (const char* name : {"a.mp4", "a.webm", "a.webp", "a.gif", "a.png"}) {
+    const bool is_still = fs::path(name).extension() == ".png";
+    const ProgramResult result =
+        Render({"--out", Path(name), "--size", "640x480", is_still ? "--time" : "--seconds", "0.6"},
+               "demo:walk", {"/usr/bin/prlimit", "--fsize=8192"});
+    EXPECT_EQ(result.exit_code, 2) << name;
+    EXPECT_THAT(result.err, HasSubstr(name));
+    EXPECT_THAT(folder_.Names(), IsEmpty()) << name;
+  }
+}
+
+TEST_F(RenderCommand, RefusesWhatCannotBeBeforeAnythingIsRead) {
+  struct Case {
+    std::vector<std::string> arguments;
+    const char* named;
+  };
+  const std::string out = Path("a.mp4");
+  const std::vector<Case> cases = {{{"--out", out, "--size", "0x0"}, "--size=0x0"},
+                                   {{"--out", out, "--size", "1000000x1000000"}, "1000000"},
+                                   {{"--out", out, "--size", "161x97"}, "161 x 97"},
+                                   {{"--out", out, "--fps", "0"}, "--fps=0"},
+                                   {{"--out", out, "--fps", "nan"}, "--fps=nan"},
+                                   {{"--out", out, "--fps", "30/0"}, "--fps=30/0"},
+                                   {{"--out", out, "--seconds", "-1"}, "--seconds=-1"},
+                                   {{"--out", out, "--end", "1", "--start", "2"}, "--end=1"},
+                                   {{"--out", out, "--crf", "52"}, "52"},
+                                   {{"--out", out, "--time", "1"}, "--time"},
+                                   {{"--out", out, "--jobs", "-1"}, "--jobs=-1"},
+                                   {{"--out", out, "--camera", "sideways"}, "sideways"},
+                                   {{"--out", out, "--camera", "front,top"}, "{camera}"},
+                                   {{"--out", out, "--out", Path("./a.mp4")}, "two outputs"},
+                                   {{"--out", Path("a.gif"), "--fps", "60"}, "at most 50"},
+                                   {{"--out", Path("a.avi")}, "a.avi"},
+                                   {{"--out", Path("a%d-%d.png")}, "one place"},
+                                   {{"--out", Path("a%d.mp4")}, "only .png"},
+                                   {{"--out", Path("no/such/a.png")}, "no/such"},
+                                   {{"--out", folder_.path()}, "expected a name"},
+                                   {{"--out", "/proc/a.png"}, "/proc/a.png"},
+                                   {{"--out", Path("a.png"), "--start", "1"}, "--start"}};
+  for (const Case& each : cases) {
+    const ProgramResult result = Render(each.arguments);
+    EXPECT_EQ(result.exit_code, 2) << each.named << ": " << result.out;
+    EXPECT_THAT(result.err, HasSubstr(each.named));
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+  EXPECT_THAT(folder_.Names(), IsEmpty());
+}
+
+TEST_F(RenderCommand, FfprobeFindsWhatWasAskedFor) {
+  if (std::system("command -v ffprobe >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe here";
+  Lines(Render({"--out", Path("a.mp4"), "--out", Path("a.webm"), "--fps", "30000/1001", "--seconds",
+                "1", "--json"}));
+  for (const char* name : {"a.mp4", "a.webm"}) {
+    const ProgramResult probe = RunProgram(
+        {"/usr/bin/env", "ffprobe", "-v", "error", "-count_frames", "-show_entries",
+         "stream=width,height,pix_fmt,color_range,color_space,color_transfer,color_primaries,"
+         "r_frame_rate,avg_frame_rate,nb_read_frames",
+         "-of", "csv=p=0", Path(name)});
+    EXPECT_EQ(probe.out, "160,96,yuv420p,tv,bt709,bt709,bt709,30000/1001,30000/1001,30\n") << name;
+  }
+}
+
+}  // namespace
+}  // namespace kinescope
