@@ -119,8 +119,10 @@ void DrawPool::Work(std::promise<std::string>* started) {
 }
 
 int DefaultJobs() {
+  // llvmpipe fills pixels on threads of its own, but nothing of what comes before and after them;
+  // a second picture does, and from there on the encoders want their share.
   const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  return static_cast<int>(std::clamp(cores / 2, 1u, 8u));
+  return static_cast<int>(std::clamp(cores / 2, std::min(cores, 2u), 8u));
 }
 
 std::size_t MostPictures(int jobs, int width, int height) {

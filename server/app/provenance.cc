@@ -264,9 +264,10 @@ bool IsFinished(const Output& output, const Json& provenance, bool has_sidecar) 
     return embedded && DecideTheSame(*embedded, provenance);
   }
   const auto sidecar = ReadSidecar(output.path);
-  if (!sidecar || !DecideTheSame(*sidecar, provenance) || !sidecar->contains("file")) return false;
+  if (!sidecar || !DecideTheSame(*sidecar, provenance)) return false;
   try {
-    return DigestOf(output.path).sha256 == sidecar->at("file").value("sha256", "");
+    const Json file = sidecar->value("file", Json());
+    return file.is_object() && file.value("sha256", Json()) == DigestOf(output.path).sha256;
   } catch (const std::runtime_error&) {
     return false;  // the file is gone
   }

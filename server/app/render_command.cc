@@ -55,6 +55,7 @@ void Render(const RenderOptions& options) {
   }
   const std::vector<SourcePlan> plans = PlanOutputs(options);
   const render::View view = ToView(options.view);
+  ToTimeGrid(options.clip, false);  // refuses what makes no sense before a renderer is made
   JobSettings settings;
   settings.jobs = options.jobs > 0 ? options.jobs : DefaultJobs();
   settings.force = options.force;

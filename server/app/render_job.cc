@@ -69,7 +69,9 @@ class Job {
                       output.kind != OutputKind::kSequence &&
                       IsFinished(output, run.provenance, settings_.sidecar);
     if (run.is_finished && settings_.sidecar) {
-      run.result.pictures = ReadSidecar(output.path)->value("pictures", 0L);
+      const Json pictures =
+          ReadSidecar(output.path).value_or(Json::object()).value("pictures", Json());
+      if (pictures.is_number_integer()) run.result.pictures = pictures.get<long>();
     }
     if (planners_.count(output.camera) == 0) {
       ViewOptions view = options_.view;

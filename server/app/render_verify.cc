@@ -159,8 +159,18 @@ void NoteDifferences(const Json& then, const Json& now, const std::string& file)
   }
 }
 
+// Part of a file name, so nobody else's word is taken for it.
+std::string FormatOf(const Json& provenance) {
+  const std::string format = provenance.value("format", "");
+  if (format == "png" || render::ClipFormatOf("a." + format)) return format;
+  throw std::runtime_error("no format is called '" + format + "'");
+}
+
 // Picture `k` of a clip, which is long enough for that and no longer.
 void DrawOnly(long k, RenderOptions& options, JobSettings& settings) {
+  constexpr long kMostPictures = 100'000'000;  // a day at 1000 a second
+  if (k < 0 || k > kMostPictures)
+    throw std::runtime_error(fmt::format("no picture has number {}", k));
   const std::int64_t nanos = ParseFrameRate(options.clip.fps).NanosOf(k);
   options.clip.seconds = static_cast<double>(nanos + 1'000) * 1e-9;
   settings.only_picture = k;
@@ -186,16 +196,12 @@ void Tell(const std::string& file, const Verdict& verdict, bool as_json) {
   }
 }
 
-}  // namespace
-
-int Verify(const std::string& file, const RenderOptions& given) {
-  const Json then = FindProvenance(file);
+int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions& given) {
   const ScratchFolder scratch;
   // Of one picture of a sequence, only that is drawn; the camera has followed all those before.
   const bool is_numbered = then.value("kind", "") == "sequence";
   const bool is_one = is_numbered && then.contains("number");
-  const std::string again =
-      scratch / (is_numbered ? "%d.png" : "again." + then.value("format", ""));
+  const std::string again = scratch / (is_numbered ? "%d.png" : "again." + FormatOf(then));
   RenderOptions options = OptionsOf(then, again);
   options.sources = {FindSource(then, file, given)};
   const std::vector<SourcePlan> plans = PlanOutputs(options);
@@ -221,6 +227,18 @@ int Verify(const std::string& file, const RenderOptions& given) {
   }
   Tell(file, verdict, given.json);
   return verdict.same ? 0 : 1;
+}
+
+}  // namespace
+
+int Verify(const std::string& file, const RenderOptions& given) {
+  const Json then = FindProvenance(file);
+  try {
+    return VerifyAgainst(then, file, given);
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(
+        fmt::format("{}: what it says of how it was drawn is damaged: {}", file, error.what()));
+  }
 }
 
 }  // namespace kinescope::app

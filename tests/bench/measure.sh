@@ -19,8 +19,15 @@ rss_mb() { awk '/^VmRSS/ { printf "%.0f", $2 / 1024 }' "/proc/$1/status"; }
 echo "machine: $(nproc) cores, $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1), load $(cut -d' ' -f1 /proc/loadavg)"
 echo "start to first picture on disk (1280x720): $(seconds "$kinescope" render demo:n_pose --supersample 1 --out "$work/a.png") s," \
      "again $(seconds "$kinescope" render demo:n_pose --supersample 1 --out "$work/a.png") s"
-echo "60 s clip, 1280x720, 30/s, H.264: $(seconds "$kinescope" render demo:lift --seconds 60 --supersample 1 --out "$work/a.mp4") s;" \
-     "with 2x supersampling $(seconds "$kinescope" render demo:lift --seconds 60 --out "$work/b.mp4") s"
+show_clip() {  # WHAT [options]
+  local TIMEFORMAT='%R s, CPU %U + %S s'
+  echo "60 s clip, 30/s, $1: $({ time "$kinescope" render demo:lift --seconds 60 --force "${@:2}" >/dev/null 2>&1; } 2>&1)"
+}
+show_clip "H.264, 1280x720" --supersample 1 --out "$work/a.mp4"
+show_clip "H.264, 1280x720, 2x supersampled" --out "$work/a.mp4"
+show_clip "H.264, 1920x1080, 2x supersampled" --size 1920x1080 --out "$work/a.mp4"
+show_clip "VP9, 1280x720, 2x supersampled" --out "$work/a.webm"
+ffprobe -v error -count_frames -show_entries stream=nb_read_frames,r_frame_rate,duration,color_space,color_range -of csv=p=0 "$work/a.mp4"
 
 master_port=$(port_of) http_port=$(port_of) udp_port=$(port_of)
 export ROS_MASTER_URI=http://127.0.0.1:$master_port

@@ -72,5 +72,39 @@ TEST(PlanOutputs, SaysWhatTellsTwoOutputsApart) {
   EXPECT_EQ(message({"a.mvnx", "b.mvnx"}, "front,top", "{source}{camera}.mp4"), "took it");
 }
 
+TEST(PlanOutputs, RefusesWhatNothingWouldHeed) {
+  const testing::TempFolder folder;
+  const auto refuses = [&](const std::string& out, auto&& change) {
+    RenderOptions options;
+    options.sources = {"demo:lift"};
+    options.outs = {out[0] == '/' ? out : (folder / out).string()};
+    change(options);
+    try {
+      PlanOutputs(options);
+    } catch (const UsageError&) {
+      return true;
+    }
+    return false;
+  };
+  const auto as_is = [](RenderOptions&) {};
+  EXPECT_FALSE(refuses("a.png", as_is));
+  for (const char* out : {"a.avi", "a", "a%d-%d.png", "a%d.mp4", "no/such/a.png", "/proc/a", ""}) {
+    EXPECT_TRUE(refuses(out, as_is)) << out;
+  }
+  EXPECT_TRUE(refuses(folder.path(), as_is)) << "a folder";
+  const auto time = [](RenderOptions& o) { o.moment.time = 1; };
+  const auto both = [](RenderOptions& o) { o.moment.time = 1, o.moment.frame = 1; };
+  const auto start = [](RenderOptions& o) { o.clip.start = 1; };
+  const auto crf = [](RenderOptions& o) { o.pack.crf = 20; };
+  EXPECT_FALSE(refuses("a.png", time));
+  EXPECT_TRUE(refuses("a.png", both));
+  EXPECT_TRUE(refuses("a.png", start));
+  EXPECT_TRUE(refuses("a.mp4", time));
+  EXPECT_FALSE(refuses("a%d.png", start));
+  EXPECT_FALSE(refuses("a.webm", crf));
+  EXPECT_TRUE(refuses("a.gif", crf));
+  EXPECT_TRUE(refuses("a.mp4", [](RenderOptions& o) { o.outs.push_back(o.outs[0]); }));
+}
+
 }  // namespace
 }  // namespace kinescope::app

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "server/core/errors.h"
 
 namespace kinescope::app {
@@ -61,6 +63,11 @@ TEST(TimeGrid, EndsWhereItIsToldOrWithTheSource) {
   EXPECT_EQ(grid.NanosOf(30), 3'000'000'000);
   options.seconds = 1;
   EXPECT_THROW(ToTimeGrid(options, false), UsageError) << "two ends";
+  options.seconds.reset();
+  for (const double end : {2.0, 1.0, -1.0, 1e9, std::nan("")}) {
+    options.end = end;
+    EXPECT_THROW(ToTimeGrid(options, false), UsageError) << end;
+  }
 }
 
 }  // namespace
