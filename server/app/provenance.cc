@@ -175,7 +175,8 @@ Json Describe(const render::Camera& camera) {
 }
 
 RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
-  if (provenance.value("schema", 0) != kSchema || !provenance.contains("options")) {
+  if (provenance.value("schema", 0) != kSchema ||
+      !provenance.value("options", Json()).is_object()) {
     throw std::runtime_error(
         fmt::format("its provenance is of another program or of a newer Kinescope ({})",
                     provenance.value("kinescope", "unknown")));
