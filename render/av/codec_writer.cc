@@ -10,6 +10,7 @@ extern "C" {
 #include <string>
 #include <vector>
 
+#include "render/av/hidden_color.h"
 #include "render/av/libav.h"
 #include "render/new_file.h"
 
@@ -84,7 +85,11 @@ class CodecWriter : public VideoWriter {
     if (!codec_) Open(!is_opaque);
     if (!is_opaque && !has_alpha_) RefuseAlpha();
     Check(av_frame_make_writable(frame_.get()), "allocate pictures of", path_);
-    const std::uint8_t* rows[] = {image.rgba.data()};
+    if (has_alpha_) {
+      glass_ = image;
+      HideColors(glass_);
+    }
+    const std::uint8_t* rows[] = {has_alpha_ ? glass_.rgba.data() : image.rgba.data()};
     const int strides[] = {4 * image.width};
     sws_scale(scaler_.get(), rows, strides, 0, image.height, frame_->data, frame_->linesize);
     frame_->pts = next_++;
@@ -209,6 +214,7 @@ class CodecWriter : public VideoWriter {
   AVStream* stream_ = nullptr;  // belongs to format_
   Frame frame_;
   Scaler scaler_;
+  Image glass_;            // the picture in hand, with alpha
   std::int64_t next_ = 0;  // index of the next picture
 };
 

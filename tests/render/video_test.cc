@@ -253,6 +253,26 @@ TEST_P(VideoFormat, KeepsGlassOrSaysThatItCannot) {
   }
 }
 
+// Colour is stored for two by two pixels: without care those at the edge would take on the colour
+// that nobody sees beside them.
+TEST(Video, GlassDoesNotStainWhatStandsBeforeIt) {
+  const TempFolder folder;
+  const auto video = MakeVideoWriter(folder / "a.webm", 64, 48, {});
+  video->Add(Disc(3, true));
+  video->Finish();
+  Image decoded;
+  ASSERT_TRUE(OpenVideo(folder / "a.webm")->Next(decoded));
+  const Image drawn = Disc(3, true);
+  int most = 0;
+  for (std::size_t at = 0; at < drawn.rgba.size(); at += 4) {
+    if (drawn.rgba[at + 3] != 255) continue;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      most = std::max(most, std::abs(drawn.rgba[at + channel] - decoded.rgba[at + channel]));
+    }
+  }
+  EXPECT_LE(most, 12) << "levels";
+}
+
 TEST_P(VideoFormat, NothingIsLeftOfAClipThatWasNotFinished) {
   {
     const auto video = MakeVideoWriter(folder_ / ("a" + std::string(GetParam())), 64, 48, {});
