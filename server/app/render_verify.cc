@@ -119,6 +119,10 @@ std::string FindSource(const Json& provenance, const std::string& file,
   const Json& source = provenance.at("source");
   const std::string name = source.at("name");
   if (name.rfind("demo:", 0) == 0) return name;
+  if (!source.contains("sha256")) {
+    throw SourceError(fmt::format("{} was drawn from {}, which cannot be read again", file,
+                                  name == "-" ? "standard input" : name + ", no regular file"));
+  }
   const std::vector<std::string> places =
       given.sources.empty() ? std::vector<std::string>{provenance.value("path", name), name,
                                                        fs::path(file).parent_path() / name}
