@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "server/core/color_difference.h"
 #include "server/core/palette.h"
 
 namespace kinescope::app {
@@ -20,8 +21,5 @@ inline constexpr std::size_t kBodyColors = 7;
 
 /// Of a body's colour to green, orange and red, as ColorDifference. About 2 is seen side by side.
 inline constexpr double kLeastContrast = 20;
-
-/// CIEDE2000 (D65, kL = kC = kH = 1): how different two colours look.
-double ColorDifference(const Rgb& a, const Rgb& b);
 
 }  // namespace kinescope::app

@@ -31,12 +31,12 @@ double BaseRadius(int joint) {
 
 Rgb ColorOf(LoadClass load_class) {
   switch (load_class) {
-    case LoadClass::kLow: return {0.10, 0.70, 0.25};
-    case LoadClass::kMedium: return {1.00, 0.55, 0.00};
-    case LoadClass::kHigh: return {0.90, 0.10, 0.10};
+    case LoadClass::kLow: return {0.06, 0.60, 0.43};
+    case LoadClass::kMedium: return {1.00, 0.58, 0.00};
+    case LoadClass::kHigh: return {0.76, 0.08, 0.08};
     case LoadClass::kUnknown: break;
   }
-  return {0.60, 0.60, 0.60};
+  return {0.30, 0.33, 0.39};
 }
 
 double SphereRadius(int joint, LoadClass load_class, double height) {

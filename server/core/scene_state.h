@@ -15,6 +15,7 @@
 
 #include "server/core/body_forces.h"
 #include "server/core/body_sample.h"
+#include "server/core/scene_marker.h"
 #include "urdf/human_urdf.h"
 #include "urdf/kinematics.h"
 #include "urdf/mesh_uri.h"
@@ -132,6 +133,9 @@ struct SceneState {
   std::vector<PersonState> people;     // one per character seen within the last second
   std::vector<TrackedObject> objects;  // likewise
   std::vector<RobotState> robots;
+  /// What other programs want to be seen. Shared, so that one that stays costs nothing again: a
+  /// changed marker is a new one. Never null; one with a defect is named and not drawn.
+  std::vector<std::shared_ptr<const SceneMarker>> markers;
 };
 
 }  // namespace kinescope

@@ -106,10 +106,9 @@ void AddSupport(const BodyForces& forces, double floor_z, Writer& out) {
 }
 
 void AddFootForces(const BodyForces& forces, Writer& out) {
-  constexpr double kLeastForce = 20;  // N; shorter arrows are dots
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     const FootForce& foot = forces.feet[side];
-    if (!(foot.force.norm() > kLeastForce) || !foot.cop.allFinite()) continue;
+    if (!(foot.force.norm() > kLeastForceShown) || !foot.cop.allFinite()) continue;
     Marker& arrow = out.AddShape(kForces, side, Marker::ARROW, {0.02, 0.04, 0}, kCopColor);
     arrow.points = {PointAt(foot.cop), PointAt(foot.cop + kMetresPerNewton * foot.force)};
   }
