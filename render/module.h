@@ -14,6 +14,7 @@
 #include "render/painter.h"
 #include "render/plot.h"
 #include "render/renderer.h"
+#include "render/scene_look.h"
 #include "render/video.h"
 #include "server/core/scene_state.h"
 
@@ -31,7 +32,9 @@ struct ModuleAbi {
   std::size_t robot_state = sizeof(RobotState);
   std::size_t robot_link = sizeof(urdf::Link);
   std::size_t robot_joint = sizeof(urdf::RobotJoint);
+  std::size_t scene_marker = sizeof(SceneMarker);
   std::size_t camera = sizeof(Camera);
+  std::size_t scene_look = sizeof(SceneLook);
   std::size_t video_options = sizeof(VideoOptions);
   std::size_t figure = sizeof(Figure);
   std::size_t plot_panel = sizeof(PlotPanel);
@@ -39,8 +42,18 @@ struct ModuleAbi {
 
 /// Text at a place in the world, drawn by the overlay.
 struct Label {
+  enum class Kind {
+    kName,    // of a person or an object: on a panel, moved aside where others are
+    kFault,   // of what could not be drawn: likewise, whatever is hidden
+    kFloor,   // on the floor: faint, where it is
+    kMarker,  // of a marker: where it is
+  };
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world, m
   std::string text;
+  Kind kind = Kind::kName;
+  double height_m = 0;  // kMarker: of a capital there
+  Rgb color = {0, 0, 0};
+  double opacity = 1;
 };
 
 /// The 3-D picture, without overlays. Belongs to the thread that made it.
@@ -48,8 +61,8 @@ class Drawing {
  public:
   virtual ~Drawing() = default;
   /// Fills `image`, which has its size already, and `labels`. @throws RenderError.
-  virtual void Draw(const SceneState& state, const Camera& camera, int supersample, Image& image,
-                    std::vector<Label>& labels) = 0;
+  virtual void Draw(const SceneState& state, const Camera& camera, const SceneLook& look,
+                    int supersample, Image& image, std::vector<Label>& labels) = 0;
   /// What is drawn of `robot`, world; empty when that is nothing.
   virtual Eigen::AlignedBox3d Bounds(const RobotState& robot) = 0;
   /// Of the newest picture: what it shows as a labelled box instead, one line each.

@@ -45,9 +45,6 @@ bool HasOnlyRobots(const SceneState& state) {
   return state.people.empty() && !state.robots.empty();
 }
 
-// The one line that a theme changes.
-const Inks& InksOf(const View&) { return kLightInks; }
-
 }  // namespace
 
 std::string Shorten(const std::string& text, Font& font, int size_px, double width) {
@@ -103,7 +100,7 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
 
 void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& drawn,
                         const View& view, bool has_time_code) {
-  if (view.parts.names) PaintNames(page, state, drawn.camera, drawn.labels);
+  PaintNames(page, state, drawn.camera, view.parts.names, drawn.labels);
   if (page.is_small) return;
   const double margin = page.Px(kMargin);
   if (view.parts.scale) {
@@ -304,33 +301,88 @@ void Overlay::PaintNoData(Page& page, const SceneState& state) {
                    top + 1.55 * size + 1.3 * small, detail, f.regular, small, page.inks.faint_text);
 }
 
-void Overlay::PaintNames(Page& page, const SceneState& state, const Camera& camera,
+void Overlay::PaintNames(Page& page, const SceneState& state, const Camera& camera, bool has_names,
                          const std::vector<Label>& labels) {
+  const auto project = [&](const Eigen::Vector3d& position) {
+    return Project(position, camera, static_cast<int>(page.width), static_cast<int>(page.height));
+  };
   OverlayFonts& f = page.fonts;
   const int size = page.FontPx(kSmallSize);
-  const auto paint = [&](const Eigen::Vector3d& position, const std::string& name) {
-    const Projected at =
-        Project(position, camera, static_cast<int>(page.width), static_cast<int>(page.height));
+  struct Name {
+    std::string text;
+    bool is_faint;
+    double x, y;
+  };
+  std::vector<Name> names;
+  std::vector<LabelBox> boxes;
+  const auto add = [&](const Eigen::Vector3d& position, const std::string& name, bool is_faint) {
+    const Projected at = project(position);
     if (!(at.depth_m > 0) || name.empty()) return;
     const std::string text = Shorten(name, f.regular, size, page.Px(220));
-    const double width = f.regular.Width(text, size);
-    // Far outside, coordinates outgrow what a pixel index can hold.
-    if (!(std::abs(at.x_px) < 1e5 && std::abs(at.y_px) < 1e5)) return;
-    page.canvas.RoundedBox(at.x_px - width / 2 - 0.6 * size, at.y_px - size, width + 1.2 * size,
-                           1.7 * size, 0.5 * size, page.inks.panel);
-    page.canvas.Text(at.x_px - width / 2, at.y_px + 0.25 * size, text, f.regular, size,
-                     page.inks.text);
+    names.push_back({text, is_faint, at.x_px, at.y_px});
+    boxes.push_back({at.x_px, at.y_px - 0.15 * size, f.regular.Width(text, size) + 1.2 * size,
+                     1.7 * size, !is_faint});
   };
-  for (const Label& label : labels) paint(label.position, label.text);
-  if (state.people.size() < 2) return;
+  for (const Label& label : labels) {
+    const bool is_shown =
+        label.kind == Label::Kind::kFault || (label.kind == Label::Kind::kName && has_names);
+    if (is_shown) add(label.position, label.text, false);
+  }
   for (const PersonState& person : state.people) {
+    if (!has_names || state.people.size() < 2) break;
     const urdf::Pose& head = person.links[urdf::kHead];
     const Eigen::Vector3d top =
         head.position + head.orientation * person.model->human.skeleton.head_top_in_head;
     const std::string name =
         person.name.empty() ? "person " + std::to_string(person.character + 1) : person.name;
-    paint(top + Eigen::Vector3d(0, 0, 0.12), name);
+    add(top + Eigen::Vector3d(0, 0, 0.12), name, false);
   }
+  for (const Label& label : labels) {
+    if (label.kind == Label::Kind::kFloor) add(label.position, label.text, true);
+  }
+  const auto places = PlaceLabels(boxes, page.width, page.height);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!places[i]) continue;
+    const double left = places[i]->left, top = places[i]->top;
+    if (places[i]->is_moved) PaintLeader(page, names[i].x, names[i].y, boxes[i], *places[i]);
+    if (!names[i].is_faint) {
+      page.canvas.RoundedBox(left, top, boxes[i].width, boxes[i].height, 0.5 * size,
+                             page.inks.panel);
+    }
+    page.canvas.Text(left + 0.6 * size, top + 1.25 * size, names[i].text, f.regular, size,
+                     names[i].is_faint ? page.inks.faint_text : page.inks.text);
+  }
+  for (const Label& label : labels) {
+    if (label.kind != Label::Kind::kMarker) continue;
+    const Projected at = project(label.position);
+    PaintMarkerText(page, label, at);
+  }
+}
+
+// From what a label is about to its box.
+void Overlay::PaintLeader(Page& page, double x, double y, const LabelBox& box,
+                          const LabelPlace& place) {
+  const double end_x = std::clamp(x, place.left, place.left + box.width);
+  const double end_y = std::clamp(y, place.top, place.top + box.height);
+  const double width = std::max(1.2, page.Px(1.4));
+  page.canvas.Disc(x, y, 1.5 * width, page.inks.faint_text);
+  page.canvas.Polyline({{x, y}, {end_x, end_y}}, width, page.inks.faint_text);
+}
+
+// As high as it is in the world. In steps, so that a text that comes nearer does not fill the
+// font's memory with every size there is.
+void Overlay::PaintMarkerText(Page& page, const Label& label, const Projected& at) {
+  if (!(at.depth_m > 0) || !(std::abs(at.x_px) < 1e5 && std::abs(at.y_px) < 1e5)) return;
+  constexpr double kCapitalShare = 0.73;  // of a size, DejaVu Sans
+  constexpr double kSmallest = 5, kLargest = 96;
+  const double wanted = label.height_m * at.px_per_m / kCapitalShare;
+  if (!(wanted >= kSmallest)) return;
+  const double step = wanted < 24 ? 1 : 4;
+  const int size = static_cast<int>(step * std::round(std::min(wanted, kLargest) / step));
+  Font& font = page.fonts.regular;
+  const std::string text = Shorten(label.text, font, size, page.width);
+  page.canvas.Text(at.x_px - font.Width(text, size) / 2, at.y_px + 0.5 * kCapitalShare * size, text,
+                   font, size, {label.color, label.opacity});
 }
 
 std::string TimeCode(std::int64_t millis) {

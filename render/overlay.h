@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/camera.h"
+#include "render/label_layout.h"
 #include "render/module.h"
 #include "render/overlay_page.h"
 #include "render/painter.h"
@@ -43,8 +44,10 @@ class Overlay {
   void PaintTimeCode(Page& page, const SceneState& state);
   void PaintStaleBanner(Page& page, const SceneState& state);
   void PaintNoData(Page& page, const SceneState& state);
-  void PaintNames(Page& page, const SceneState& state, const Camera& camera,
+  void PaintNames(Page& page, const SceneState& state, const Camera& camera, bool has_names,
                   const std::vector<Label>& labels);
+  void PaintLeader(Page& page, double x, double y, const LabelBox& box, const LabelPlace& place);
+  void PaintMarkerText(Page& page, const Label& label, const Projected& at);
 
   std::unique_ptr<OverlayFonts> fonts_;
 };

@@ -8,6 +8,7 @@
 
 #include "render/font.h"
 #include "render/painter.h"
+#include "render/renderer.h"
 
 namespace kinescope::render {
 
@@ -48,6 +49,10 @@ inline constexpr Inks kDarkInks = {{{0.93, 0.94, 0.96}, 1},
                                    {{0.09, 0.10, 0.12}, 0.78},
                                    {{0.34, 0.36, 0.40}, 1},
                                    0.30};
+
+inline const Inks& InksOf(const View& view) {
+  return view.look.theme == Theme::kDark ? kDarkInks : kLightInks;
+}
 
 // Of a picture 720 px high; everything scales with it.
 inline constexpr double kMargin = 20, kTitleSize = 22, kTextSize = 15, kSmallSize = 13;

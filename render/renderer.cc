@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "render/canvas.h"
+#include "render/floor_lift.h"
+#include "render/matte.h"
 #include "render/module.h"
 #include "render/multi_view.h"
 #include "render/overlay.h"
@@ -44,47 +46,30 @@ void CheckView(const View& view) {
   }
 }
 
-// The scene and its cameras raised so that the floor is at z = 0, where the drawing has it.
+// The picture's arguments raised so that the floor is at z = 0, where the drawing has it.
 class Lifted {
  public:
-  explicit Lifted(const SceneState& state) : state_(state), lift_(0, 0, -state.floor_z) {
+  Lifted(const SceneState& state, const Camera& camera, const View& view)
+      : state_(state), camera_(camera), view_(view) {
     if (state.floor_z == 0) return;
-    raised_ = state;
-    Raise(*raised_);
+    raised_.emplace(Raised{state, camera, view});
+    LiftToFloor(raised_->state, raised_->camera, raised_->view);
   }
 
-  const SceneState& state() const { return raised_ ? *raised_ : state_; }
-  Camera Of(Camera camera) const {
-    camera.position += lift_;
-    camera.target += lift_;
-    return camera;
-  }
+  const SceneState& state() const { return raised_ ? raised_->state : state_; }
+  const Camera& camera() const { return raised_ ? raised_->camera : camera_; }
+  const View& view() const { return raised_ ? raised_->view : view_; }
 
  private:
-  void Raise(SceneState& state) const {
-    for (PersonState& person : state.people) {
-      for (urdf::Pose& link : person.links) link.position += lift_;
-      for (auto& glove : person.gloves) {
-        if (!glove) continue;
-        for (urdf::Pose& link : glove->links) link.position += lift_;
-      }
-      for (auto& prop : person.props) {
-        if (prop) prop->pose.position += lift_;
-      }
-      for (JointLoad& load : person.loads) load.position += lift_;
-      if (person.com) *person.com += lift_;
-      if (person.cop) *person.cop += lift_;
-    }
-    for (TrackedObject& object : state.objects) object.pose.position += lift_;
-    for (RobotState& robot : state.robots) {
-      for (Eigen::Isometry3d& link : robot.world_from_link) link.pretranslate(lift_);
-    }
-    state.floor_z = 0;
-  }
-
+  struct Raised {
+    SceneState state;
+    Camera camera;
+    View view;
+  };
   const SceneState& state_;
-  const Eigen::Vector3d lift_;
-  std::optional<SceneState> raised_;
+  const Camera& camera_;
+  const View& view_;
+  std::optional<Raised> raised_;
 };
 
 // Drawing by a module, overlays by us.
@@ -99,53 +84,73 @@ class ModuleRenderer : public Renderer {
  private:
   void DoRender(Image& image, const SceneState& state, const Camera& camera,
                 const View& view) override {
-    const Lifted lifted(state);
-    drawn_ = ViewsOf(lifted, camera, view);
+    const Lifted lifted(state, camera, view);
+    if (lifted.view().look.is_transparent) return RenderTransparent(image, lifted);
+    RenderOpaque(image, lifted.state(), lifted.camera(), lifted.view());
+  }
+
+  std::string DoOverlayLayer(const SceneState& state, const Camera& camera, const View& view,
+                             LayerFormat format) override {
+    const Lifted lifted(state, camera, view);
+    std::vector<DrawnView> views = ViewsOf(lifted.camera(), lifted.view());
+    KINESCOPE_CHECK(views.size() == drawn_.size());  // of the picture drawn last
+    for (std::size_t i = 0; i < views.size(); ++i) views[i].labels = drawn_[i].labels;
+    const auto painter = MakeLayerPainter(view.width, view.height, format);
+    overlay_.Paint(*painter, lifted.state(), views, lifted.view());
+    return painter->Finish();
+  }
+
+  static std::vector<DrawnView> ViewsOf(const Camera& camera, const View& view) {
+    if (view.panes.empty()) return {{{0, 0, view.width, view.height}, camera, "", {}}};
+    const auto tiles =
+        PaneTiles(view.width, view.height, static_cast<int>(view.panes.size()), view.pane_columns);
+    std::vector<DrawnView> views;
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+      views.push_back({tiles[i], view.panes[i].camera, view.panes[i].name, {}});
+    }
+    return views;
+  }
+
+  void RenderOpaque(Image& image, const SceneState& state, const Camera& camera, const View& view) {
+    std::optional<SceneState> shown;
+    if (HidesAnything(view.look)) shown = Without(state, view.look);
+    const SceneState& scene = shown ? *shown : state;
+    drawn_ = ViewsOf(camera, view);
     if (drawn_.size() == 1) {
       DrawnView& only = drawn_.front();
-      drawing_->Draw(lifted.state(), only.camera, view.supersample, image, only.labels);
+      drawing_->Draw(scene, only.camera, view.look, view.supersample, image, only.labels);
     } else {
-      FillWith(image, kLightInks.separator.color);
+      FillWith(image, InksOf(view).separator.color);
       for (DrawnView& each : drawn_) {
         SetSize(part_, each.tile.width, each.tile.height);
-        drawing_->Draw(lifted.state(), each.camera, view.supersample, part_, each.labels);
+        drawing_->Draw(scene, each.camera, view.look, view.supersample, part_, each.labels);
         CopyInto(image, part_, each.tile);
       }
     }
     if (!view.overlays) return;
     Canvas canvas(image);
-    overlay_.Paint(canvas, lifted.state(), drawn_, view);
+    overlay_.Paint(canvas, state, drawn_, view);
   }
 
-  std::string DoOverlayLayer(const SceneState& state, const Camera& camera, const View& view,
-                             LayerFormat format) override {
-    const Lifted lifted(state);
-    std::vector<DrawnView> views = ViewsOf(lifted, camera, view);
-    KINESCOPE_CHECK(views.size() == drawn_.size());  // of the picture drawn last
-    for (std::size_t i = 0; i < views.size(); ++i) views[i].labels = drawn_[i].labels;
-    const auto painter = MakeLayerPainter(view.width, view.height, format);
-    overlay_.Paint(*painter, lifted.state(), views, view);
-    return painter->Finish();
-  }
-
-  static std::vector<DrawnView> ViewsOf(const Lifted& lifted, const Camera& camera,
-                                        const View& view) {
-    if (view.panes.empty()) {
-      return {{{0, 0, view.width, view.height}, lifted.Of(camera), "", {}}};
-    }
-    const auto tiles =
-        PaneTiles(view.width, view.height, static_cast<int>(view.panes.size()), view.pane_columns);
-    std::vector<DrawnView> views;
-    for (std::size_t i = 0; i < tiles.size(); ++i) {
-      views.push_back({tiles[i], lifted.Of(view.panes[i].camera), view.panes[i].name, {}});
-    }
-    return views;
+  // Overlays and all, so that nothing that is drawn or written needs to know about alpha.
+  void RenderTransparent(Image& image, const Lifted& lifted) {
+    View opaque = lifted.view();
+    opaque.look.is_transparent = false;
+    opaque.look.background = Rgb{0, 0, 0};
+    over_black_.width = image.width;
+    over_black_.height = image.height;
+    over_black_.rgba.resize(image.rgba.size());
+    RenderOpaque(over_black_, lifted.state(), lifted.camera(), opaque);
+    opaque.look.background = Rgb{1, 1, 1};
+    RenderOpaque(image, lifted.state(), lifted.camera(), opaque);
+    MatteOut(image, over_black_);
   }
 
   std::unique_ptr<Drawing> drawing_;
   Overlay overlay_;
   std::vector<DrawnView> drawn_;  // of the newest picture
   Image part_;                    // one of several views
+  Image over_black_;
 };
 
 void ToStderr(const std::string& line) { std::fprintf(stderr, "render: %s\n", line.c_str()); }

@@ -11,6 +11,7 @@
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/load_history.h"
+#include "render/scene_look.h"
 #include "server/core/scene_state.h"
 
 namespace kinescope::render {
@@ -53,6 +54,7 @@ struct View {
   /// For the plot, with its cursor at plot_secs.
   std::shared_ptr<const LoadHistory> history = nullptr;
   double plot_secs = 0;
+  SceneLook look = {};  // theme, background, what is shown
 };
 
 enum class LayerFormat { kSvg, kPdf };

@@ -1,5 +1,7 @@
 #include "render/vtk/figure_actor.h"
 
+#include <vtkActor.h>
+
 #include <algorithm>
 
 #include "server/core/person_links.h"
@@ -31,8 +33,8 @@ void FigureActor::Load(const PersonModel& model, OnceLog& log) {
         reader.Add(visual, static_cast<int>(part), mesh);
       }
     }
-    group.actor = std::make_unique<PartActor>(Pass::kSolid, PartActor::Light::kLit,
-                                              static_cast<int>(group.count));
+    group.actor =
+        std::make_unique<PartActor>(pass_, PartActor::Light::kLit, static_cast<int>(group.count));
     group.actor->SetMesh(mesh.mesh);
     group.actor->SetCulling(mesh.is_closed);
     group.placeholders = std::move(mesh.placeholders);
@@ -58,14 +60,19 @@ bool FigureActor::Update(const PersonState& person, const Eigen::Vector4f& overr
                          Eigen::Translation3d(pose.position) * pose.orientation);
     }
     group.actor->SetOverride(override_color);
+    group.actor->SetOpacity(static_cast<float>(opacity_));
     group.actor->Commit();
     for (const VisualMesh::Placeholder& placeholder : group.placeholders) {
       const urdf::Pose& pose = poses[group.first + static_cast<std::size_t>(placeholder.part)];
-      labels.push_back(
-          {pose.position + pose.orientation * placeholder.center_in_link, placeholder.label});
+      labels.push_back({pose.position + pose.orientation * placeholder.center_in_link,
+                        placeholder.label, Label::Kind::kFault});
     }
   }
   return is_new;
+}
+
+void FigureActor::SetVisible(bool is_visible) {
+  for (Group& group : groups_) group.actor->actor()->SetVisibility(is_visible);
 }
 
 std::vector<vtkActor*> FigureActor::actors() {

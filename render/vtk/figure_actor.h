@@ -16,6 +16,8 @@ namespace kinescope::render {
 
 class FigureActor {
  public:
+  explicit FigureActor(Pass pass = Pass::kSolid) : pass_(pass) {}
+
   /// Adds names of missing meshes to `labels`. `override_color`: see PartActor.
   /// @return whether there are other actors than before.
   bool Update(const PersonState& person, const Eigen::Vector4f& override_color, OnceLog& log,
@@ -24,6 +26,9 @@ class FigureActor {
   /// Meshes that are boxes instead.
   const std::vector<std::string>& problems() const { return problems_; }
   std::vector<vtkActor*> actors();
+  void SetVisible(bool is_visible);
+  /// 0..1, in the next Update.
+  void SetOpacity(double opacity) { opacity_ = opacity; }
 
  private:
   // As many links as one draw call takes.
@@ -34,6 +39,8 @@ class FigureActor {
   };
   void Load(const PersonModel& model, OnceLog& log);
 
+  const Pass pass_;
+  double opacity_ = 1;
   std::vector<Group> groups_;
   std::shared_ptr<const PersonModel> model_;  // that is loaded; held, so that no other can come to
                                               // lie at its address

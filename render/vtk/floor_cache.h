@@ -16,7 +16,7 @@ namespace kinescope::render {
 class FloorCache {
  public:
   /// Everything that the floor's pixels depend on.
-  using Key = std::array<double, 27>;
+  using Key = std::array<double, 32>;
 
   /// `floor` is drawn first, `people` over it, in the same window. All are borrowed; GL objects are
   /// made and destroyed while the window's context is current.

@@ -19,13 +19,16 @@ ShaderText MakeText() {
 in vec2 floorVS;
 uniform vec3 focus;
 uniform vec3 background;
+uniform vec3 plain;
+uniform vec3 fineLine;
+uniform vec3 line;
 // `cell`: pixels from one line to the next, in both directions; `width`: half a line's, in cells.
 float Lines(vec2 at, vec2 cell, float width) {
   vec2 away = abs(fract(at - 0.5) - 0.5) * cell;
   vec2 drawn = max(width * cell, 1.0);
-  vec2 line = clamp(drawn - away + 0.5, 0.0, 1.0) * min(width * cell, 1.0);
-  line = mix(vec2(2.0 * width), line, clamp(0.4 * cell - 0.8, 0.0, 1.0));
-  return max(line.x, line.y);
+  vec2 lines = clamp(drawn - away + 0.5, 0.0, 1.0) * min(width * cell, 1.0);
+  lines = mix(vec2(2.0 * width), lines, clamp(0.4 * cell - 0.8, 0.0, 1.0));
+  return max(lines.x, lines.y);
 }
 )";
   text.fragment = R"(
@@ -35,8 +38,8 @@ float Lines(vec2 at, vec2 cell, float width) {
   fade *= fade;
   float quarter = Lines(floorVS * 4.0, perMetre * 0.25, 0.012);
   float whole = Lines(floorVS, perMetre, 0.006);
-  vec3 color = mix(vec3(0.915, 0.925, 0.940), vec3(0.78, 0.80, 0.83), 0.8 * quarter);
-  color = mix(color, vec3(0.62, 0.65, 0.70), whole);
+  vec3 color = mix(plain, fineLine, 0.8 * quarter);
+  color = mix(color, line, whole);
   gl_FragData[0] = vec4(mix(background, color, fade), 1.0);
 )";
   return text;
@@ -51,11 +54,21 @@ Ground::Ground() : shaded_(Pass::kBackdrop, MakeText()) {
   disc.Append(DiscMesh(24), grow);
   disc.Paint(0, Eigen::Vector4f::Ones(), 0);
   shaded_.SetMesh(disc);
-  const float background[] = {static_cast<float>(kBackground[0]),
-                              static_cast<float>(kBackground[1]),
-                              static_cast<float>(kBackground[2])};
-  shaded_.uniforms().SetUniform3f("background", background);
+  SetLook(SceneLook());
   SetFocus(Eigen::Vector3d::Zero());
+}
+
+void Ground::SetLook(const SceneLook& look) {
+  const auto set = [&](const char* name, const Rgb& color) {
+    const float value[] = {static_cast<float>(color[0]), static_cast<float>(color[1]),
+                           static_cast<float>(color[2])};
+    shaded_.uniforms().SetUniform3f(name, value);
+  };
+  const ThemeColors& colors = ColorsOf(look.theme);
+  set("background", BackgroundOf(look));
+  set("plain", colors.floor);
+  set("fineLine", colors.fine_line);
+  set("line", colors.line);
 }
 
 void Ground::SetFocus(const Eigen::Vector3d& focus) {

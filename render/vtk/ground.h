@@ -3,18 +3,17 @@
 
 #include <Eigen/Core>
 
+#include "render/scene_look.h"
 #include "render/vtk/shaded_actor.h"
-#include "server/core/palette.h"
 
 namespace kinescope::render {
-
-inline constexpr Rgb kBackground = {0.955, 0.962, 0.972};
 
 class Ground {
  public:
   Ground();
   /// Where the floor is clearest, world.
   void SetFocus(const Eigen::Vector3d& focus);
+  void SetLook(const SceneLook& look);
   vtkActor* actor() { return shaded_.actor(); }
 
  private:

@@ -12,6 +12,7 @@
 #include <vtkRendererCollection.h>
 
 #include <algorithm>
+#include <array>
 #include <glm/mat4x4.hpp>
 #include <map>
 #include <mutex>
@@ -21,12 +22,16 @@
 #include "render/camera_matrices.h"
 #include "render/resample.h"
 #include "render/vtk/floor_cache.h"
+#include "render/vtk/floor_scale.h"
+#include "render/vtk/ghost_actors.h"
 #include "render/vtk/ground.h"
 #include "render/vtk/log_window.h"
+#include "render/vtk/marker_actors.h"
 #include "render/vtk/object_actors.h"
 #include "render/vtk/osmesa_context.h"
 #include "render/vtk/person_actors.h"
 #include "render/vtk/robot_actors.h"
+#include "render/vtk/trail_actor.h"
 
 namespace kinescope::render {
 namespace {
@@ -59,11 +64,12 @@ class OsmesaDrawing : public Drawing {
       layer->GetCullers()->RemoveAllItems();  // all is in view; sorting would undo our order
       window_->AddRenderer(layer);
     }
-    floor_layer_->SetBackground(kBackground[0], kBackground[1], kBackground[2]);
     floor_layer_->SetBackgroundAlpha(1);
     people_layer_->SetLayer(1);
     window_->Render();  // of nothing: initialises GLEW, under the lock
     ground_ = std::make_unique<Ground>();
+    markers_ = std::make_unique<MarkerActors>();
+    trails_ = std::make_unique<TrailActor>();
     floor_layer_->AddActor(ground_->actor());
     floor_cache_ = std::make_unique<FloorCache>(window_, floor_layer_, people_layer_);
   }
@@ -84,7 +90,7 @@ class OsmesaDrawing : public Drawing {
     context_->MakeCurrent();
     if (spare_ == nullptr) spare_ = std::make_unique<RobotActors>();
     std::vector<Label> ignored;
-    spare_->Update(robot, once_, ignored);
+    spare_->Update(robot, SceneLook(), once_, ignored);
     return spare_->Measure(robot);
   }
 
@@ -95,14 +101,16 @@ class OsmesaDrawing : public Drawing {
     };
     for (const auto& [character, person] : people_) add(person->problems());
     for (const auto& robot : robots_) add(robot->problems());
+    add(markers_->problems());
     return all;
   }
 
-  void Draw(const SceneState& state, const Camera& camera, int supersample, Image& image,
-            std::vector<Label>& labels) override {
+  void Draw(const SceneState& state, const Camera& camera, const SceneLook& look, int supersample,
+            Image& image, std::vector<Label>& labels) override {
     const VtkLogScope scope(log_);
     context_->MakeCurrent();
-    UpdateActors(state, camera, labels);
+    UpdateLook(look, camera, labels);
+    UpdateActors(state, camera, look, labels);
     AimCamera(camera);
     const int step = kLargestTile / supersample;
     for (int y = 0; y < image.height; y += step) {
@@ -114,7 +122,20 @@ class OsmesaDrawing : public Drawing {
   }
 
  private:
-  void UpdateActors(const SceneState& state, const Camera& camera, std::vector<Label>& labels) {
+  void UpdateLook(const SceneLook& look, const Camera& camera, std::vector<Label>& labels) {
+    const Rgb& background = BackgroundOf(look);
+    floor_layer_->SetBackground(background[0], background[1], background[2]);
+    ground_->SetFocus(camera.target);
+    ground_->SetLook(look);
+    ground_->actor()->SetVisibility(look.floor);
+    floor_look_ = {background[0], background[1], background[2],
+                   static_cast<double>(look.theme == Theme::kDark),
+                   static_cast<double>(look.floor)};
+    if (look.Shows(ScenePart::kScale) && look.floor) AddFloorScale(camera, labels);
+  }
+
+  void UpdateActors(const SceneState& state, const Camera& camera, const SceneLook& look,
+                    std::vector<Label>& labels) {
     // By character: whoever stays keeps their mesh.
     bool is_changed = people_.size() != state.people.size();
     for (const PersonState& person : state.people) {
@@ -130,18 +151,21 @@ class OsmesaDrawing : public Drawing {
       is_changed = is_changed || !is_here;
       each = is_here ? std::next(each) : people_.erase(each);
     }
-    is_changed = UpdateRobots(state, labels) || is_changed;
+    is_changed = UpdateRobots(state, look, labels) || is_changed;
     is_changed = objects_.Update(state.objects, state.liveness, labels) || is_changed;
+    markers_->Update(state.markers, once_, labels);
+    trails_->Show(look.trails);
+    is_changed = ghosts_.Update(look.ghosts, once_, labels) || is_changed;
     for (const PersonState& person : state.people) {
       PersonActors& actors = *people_.at(person.character);
-      is_changed = actors.Update(person, state.liveness, camera, once_, labels) || is_changed;
+      is_changed = actors.Update(person, state.liveness, camera, look, once_, labels) || is_changed;
     }
-    if (is_changed) ListActors();
-    ground_->SetFocus(camera.target);
+    if (is_changed || !is_listed_) ListActors();
+    is_listed_ = true;
   }
 
   // @return whether there are other actors than before.
-  bool UpdateRobots(const SceneState& state, std::vector<Label>& labels) {
+  bool UpdateRobots(const SceneState& state, const SceneLook& look, std::vector<Label>& labels) {
     bool is_changed = robots_.size() != state.robots.size();
     if (robots_.size() > state.robots.size()) robots_.resize(state.robots.size());
     for (std::size_t i = 0; i < state.robots.size(); ++i) {
@@ -153,7 +177,7 @@ class OsmesaDrawing : public Drawing {
         is_changed = true;
       }
       if (robots_[i] == nullptr) robots_[i] = std::make_unique<RobotActors>();
-      is_changed = robots_[i]->Update(robot, once_, labels) || is_changed;
+      is_changed = robots_[i]->Update(robot, look, once_, labels) || is_changed;
     }
     return is_changed;
   }
@@ -171,12 +195,16 @@ class OsmesaDrawing : public Drawing {
     for (const auto& robot : robots_) {
       for (vtkActor* body : robot->bodies()) add(body);
     }
+    add(markers_->solid());
+    add(trails_->actor());
     for (const auto& [id, person] : people_) {
       for (vtkActor* ghost : person->ghosts()) add(ghost);
     }
     for (const auto& [id, person] : people_) {
       for (vtkActor* mark : person->marks()) add(mark);
     }
+    add(markers_->blended());
+    for (vtkActor* ghost : ghosts_.actors()) add(ghost);
   }
 
   void AimCamera(const Camera& camera) {
@@ -228,7 +256,8 @@ class OsmesaDrawing : public Drawing {
                            up.z(),
                            static_cast<double>(width),
                            static_cast<double>(height)};
-    std::copy(std::begin(rest), std::end(rest), key.begin() + 16);
+    const auto end = std::copy(std::begin(rest), std::end(rest), key.begin() + 16);
+    std::copy(floor_look_.begin(), floor_look_.end(), end);
     return key;
   }
 
@@ -264,6 +293,11 @@ class OsmesaDrawing : public Drawing {
   std::unique_ptr<FloorCache> floor_cache_;
   std::map<int, std::unique_ptr<PersonActors>> people_;
   ObjectActors objects_;
+  std::unique_ptr<MarkerActors> markers_;
+  std::unique_ptr<TrailActor> trails_;
+  GhostActors ghosts_;
+  std::array<double, 5> floor_look_{};  // what of it the floor's pixels depend on
+  bool is_listed_ = false;
   std::vector<std::unique_ptr<RobotActors>> robots_;  // in the order of the state
   std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet
   std::vector<std::uint8_t> large_;

@@ -16,7 +16,14 @@ vtkStandardNewMacro(PassActor)
   const vtkOpenGLState::ScopedglDepthFunc function(state);
   const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
   // Blending costs software GL a second memory access and arithmetic for every pixel.
-  const bool has_opacity = pass_ == Pass::kBlended || pass_ == Pass::kGhost;
+  const bool has_opacity = pass_ != Pass::kBackdrop && pass_ != Pass::kSolid;
+  if (pass_ == Pass::kVeil) {  // its nearest surface first, as depth alone
+    const vtkOpenGLState::ScopedglColorMask colors(state);
+    state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    state->vtkglDepthMask(GL_TRUE);
+    state->vtkglDepthFunc(GL_LEQUAL);
+    mapper->Render(renderer, this);
+  }
   state->SetEnumState(GL_BLEND, has_opacity);
   state->vtkglDepthMask(pass_ == Pass::kSolid ? GL_TRUE : GL_FALSE);
   state->vtkglDepthFunc(pass_ == Pass::kGhost ? GL_GREATER : GL_LEQUAL);

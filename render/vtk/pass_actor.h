@@ -12,6 +12,7 @@ enum class Pass {
   kSolid,     // hides and is hidden, as things are
   kBlended,   // is hidden, hides nothing: soft shadows
   kGhost,     // only where something solid is in front of it; hides nothing
+  kVeil,      // a body that one sees through, but only into its front; is drawn last
 };
 
 class PassActor : public vtkOpenGLActor {

@@ -109,19 +109,58 @@ PersonActors::PersonActors()
 }
 
 bool PersonActors::Update(const PersonState& person, Liveness liveness, const Camera& camera,
-                          OnceLog& log, std::vector<Label>& labels) {
+                          const SceneLook& look, OnceLog& log, std::vector<Label>& labels) {
   const bool is_stale = liveness == Liveness::kStale;
-  const bool is_changed = body_.Update(
+  bool is_changed = body_.Update(
       person, is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()), log,
       labels);
-  UpdateShadow(person);
+  body_.SetVisible(look.Shows(ScenePart::kBody));
+  is_changed = UpdateAxes(person, look) || is_changed;
+  UpdateShadow(person, look);
   UpdateMarks(person, camera);
+  forces_.Show(person, look.Shows(ScenePart::kScale) ? &labels : nullptr);
   UpdateHeld(person, liveness);
   return is_changed;
 }
 
+std::vector<vtkActor*> PersonActors::ghosts() {
+  std::vector<vtkActor*> actors = {ghost_marks_.actor(), forces_.ghost(), ghost_spheres_.actor()};
+  for (const auto* axes : {&frames_, &joint_axes_}) {
+    if (*axes == nullptr) continue;
+    for (vtkActor* actor : (*axes)->ghosts()) actors.push_back(actor);
+  }
+  return actors;
+}
+
+std::vector<vtkActor*> PersonActors::marks() {
+  std::vector<vtkActor*> actors = {marks_.actor(), forces_.solid(), spheres_.actor()};
+  for (const auto* axes : {&frames_, &joint_axes_}) {
+    if (*axes == nullptr) continue;
+    for (vtkActor* actor : (*axes)->solids()) actors.push_back(actor);
+  }
+  return actors;
+}
+
+// Made when they are asked for: most pictures have none. @return whether there are others now.
+bool PersonActors::UpdateAxes(const PersonState& person, const SceneLook& look) {
+  bool is_changed = false;
+  const auto update = [&](ScenePart part, AxesActor::Kind kind, std::unique_ptr<AxesActor>& axes) {
+    const bool is_shown = look.Shows(part);
+    is_changed = is_changed || is_shown != (axes != nullptr);
+    if (!is_shown) return axes.reset();
+    if (axes == nullptr) axes = std::make_unique<AxesActor>(kind);
+    axes->Show(person);
+  };
+  update(ScenePart::kFrames, AxesActor::Kind::kFrames, frames_);
+  update(ScenePart::kAxes, AxesActor::Kind::kJoints, joint_axes_);
+  return is_changed;
+}
+
 // Not where a lamp would cast them, but what tells the eye where the person stands.
-void PersonActors::UpdateShadow(const PersonState& person) {
+void PersonActors::UpdateShadow(const PersonState& person, const SceneLook& look) {
+  shadow_.actor()->SetVisibility(look.Shows(ScenePart::kShadows));
+  if (!look.Shows(ScenePart::kShadows)) return;
+  shadow_.SetOverride(Color(ColorsOf(look.theme).shadow));
   const urdf::Skeleton& skeleton = person.model->human.skeleton;
   const double size = skeleton.height / 1.75;
   const Eigen::Vector3d middle =
@@ -158,7 +197,7 @@ void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera) 
   for (const JointLoad& load : person.loads) {
     if (looks_.size() + 1 == kSphereCapacity) break;  // the last one is for the centre of mass
     const double rim = load.load_class == LoadClass::kHigh      ? 1.0
-                       : load.load_class == LoadClass::kUnknown ? 0.35
+                       : load.load_class == LoadClass::kUnknown ? -0.8
                                                                 : 0.0;
     looks_.push_back({load.position, SphereRadius(load.joint, load.load_class, height),
                       ColorOf(load.load_class), rim});

@@ -1,11 +1,15 @@
 /// Everything that is drawn of one person. A new pose changes matrices; a new model, the mesh.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "render/module.h"
+#include "render/scene_look.h"
+#include "render/vtk/axes_actor.h"
 #include "render/vtk/figure_actor.h"
+#include "render/vtk/force_arrows.h"
 #include "render/vtk/once_log.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/sphere_actor.h"
@@ -18,8 +22,8 @@ class PersonActors {
   PersonActors();
 
   /// Adds names of missing meshes to `labels`. @return whether there are other actors than before.
-  bool Update(const PersonState& person, Liveness liveness, const Camera& camera, OnceLog& log,
-              std::vector<Label>& labels);
+  bool Update(const PersonState& person, Liveness liveness, const Camera& camera,
+              const SceneLook& look, OnceLog& log, std::vector<Label>& labels);
 
   /// Meshes that are boxes instead.
   const std::vector<std::string>& problems() const { return body_.problems(); }
@@ -27,16 +31,19 @@ class PersonActors {
   // In the order of drawing; all people's shadows come before anybody's body, and so on.
   vtkActor* shadow() { return shadow_.actor(); }
   std::vector<vtkActor*> bodies() { return body_.actors(); }
-  std::vector<vtkActor*> ghosts() { return {ghost_marks_.actor(), ghost_spheres_.actor()}; }
-  std::vector<vtkActor*> marks() { return {marks_.actor(), spheres_.actor()}; }
+  std::vector<vtkActor*> ghosts();
+  std::vector<vtkActor*> marks();
   vtkActor* held() { return held_.actor(); }
 
  private:
-  void UpdateShadow(const PersonState& person);
+  void UpdateShadow(const PersonState& person, const SceneLook& look);
+  bool UpdateAxes(const PersonState& person, const SceneLook& look);
   void UpdateMarks(const PersonState& person, const Camera& camera);
   void UpdateHeld(const PersonState& person, Liveness liveness);
 
   FigureActor body_;
+  ForceArrows forces_;
+  std::unique_ptr<AxesActor> frames_, joint_axes_;  // null: not shown
   PartActor shadow_, held_, ghost_marks_, marks_;
   SphereActor ghost_spheres_, spheres_;
   std::vector<SphereLook> looks_;

@@ -1,5 +1,7 @@
 #include "render/vtk/robot_actors.h"
 
+#include <vtkActor.h>
+
 #include <algorithm>
 
 namespace kinescope::render {
@@ -88,7 +90,8 @@ void RobotActors::Load(const RobotState& robot, OnceLog& log) {
   meshes_ = robot.meshes;
 }
 
-bool RobotActors::Update(const RobotState& robot, OnceLog& log, std::vector<Label>& labels) {
+bool RobotActors::Update(const RobotState& robot, const SceneLook& look, OnceLog& log,
+                         std::vector<Label>& labels) {
   const bool is_new = !IsOf(robot);
   if (is_new) Load(robot, log);
   Eigen::AlignedBox3d around;
@@ -108,10 +111,14 @@ bool RobotActors::Update(const RobotState& robot, OnceLog& log, std::vector<Labe
     for (const VisualMesh::Placeholder& placeholder : group.placeholders) {
       const std::size_t link = group.links[static_cast<std::size_t>(placeholder.part)];
       if (link >= robot.world_from_link.size()) continue;
-      labels.push_back(
-          {robot.world_from_link[link] * placeholder.center_in_link, placeholder.label});
+      labels.push_back({robot.world_from_link[link] * placeholder.center_in_link, placeholder.label,
+                        Label::Kind::kFault});
     }
   }
+  const Rgb& shadow = ColorsOf(look.theme).shadow;
+  shadow_.SetOverride({static_cast<float>(shadow[0]), static_cast<float>(shadow[1]),
+                       static_cast<float>(shadow[2]), 1});
+  shadow_.actor()->SetVisibility(look.Shows(ScenePart::kShadows));
   UpdateShadow(around);
   return is_new;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/module.h"
+#include "render/scene_look.h"
 #include "render/vtk/once_log.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/visual_mesh.h"
@@ -18,7 +19,8 @@ class RobotActors {
   RobotActors();
 
   /// Adds names of missing meshes to `labels`. @return whether there are other actors than before.
-  bool Update(const RobotState& robot, OnceLog& log, std::vector<Label>& labels);
+  bool Update(const RobotState& robot, const SceneLook& look, OnceLog& log,
+              std::vector<Label>& labels);
 
   /// The smallest upright box around what Update has placed, world, m. Looks at every vertex.
   Eigen::AlignedBox3d Measure(const RobotState& robot) const;

@@ -104,8 +104,9 @@ uniform float sphereOpacity;
   float fromAxis2 = min(dot(domeVS.xy, domeVS.xy), 1.0);
   vec3 normal = vec3(domeVS.xy, sqrt(1.0 - fromAxis2));
   float fromAxis = sqrt(fromAxis2);
-  float onRim = look.a * clamp((fromAxis - 0.76) / fwidth(fromAxis) + 0.5, 0.0, 1.0);
-  vec3 color = mix(look.rgb, vec3(0.15, 0.02, 0.02), onRim);
+  float onRim = abs(look.a) * clamp((fromAxis - 0.76) / fwidth(fromAxis) + 0.5, 0.0, 1.0);
+  vec3 rim = look.a > 0.0 ? vec3(0.15, 0.02, 0.02) : vec3(1.0);
+  vec3 color = mix(look.rgb, rim, onRim);
   float shine = max(dot(normal, vec3(-0.284, 0.410, 0.867)), 0.0);
   shine *= shine; shine *= shine; shine *= shine; shine *= shine; shine *= shine;
   // Between pure hue and full light: a class must read the same on the dark side.

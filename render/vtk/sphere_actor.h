@@ -17,7 +17,7 @@ struct SphereLook {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // world, m
   double radius = 0;                                 // m; 0 hides it
   Rgb color = {0, 0, 0};
-  double rim = 0;  // darkness of the outer ring, 0..1
+  double rim = 0;  // weight of the outer ring: 0..1 dark, 0..-1 white
 };
 
 class SphereActor {

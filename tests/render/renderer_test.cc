@@ -124,7 +124,15 @@ TEST(Renderer, EveryThreadMayHaveItsOwn) {
 
 // Recordings without leg sensors have the pelvis near z = 0 and the floor below it.
 TEST(Renderer, ShowsTheSamePictureWhereverTheFloorIs) {
-  const SceneState here = MixedScene(Posture::kStanding);
+  SceneState here = MixedScene(Posture::kStanding);
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    PersonState& person = here.people.at(0);
+    HandForce& hand = person.forces.hands[side];
+    hand.mass_kg = 8;
+    hand.grip = hand.point = person.links[urdf::At(urdf::HandSegmentOf(side))].position;
+    person.forces.feet[side].force = {0, 0, 400};
+    person.forces.feet[side].cop = {0.1, side == urdf::kRight ? -0.1 : 0.1, 0};
+  }
   SceneState lower = here;
   lower.floor_z = -0.75;  // a power of two and a half: no rounding
   const Eigen::Vector3d down(0, 0, lower.floor_z);
@@ -133,6 +141,11 @@ TEST(Renderer, ShowsTheSamePictureWhereverTheFloorIs) {
   for (JointLoad& load : person.loads) load.position += down;
   *person.com += down;
   *person.cop += down;
+  for (HandForce& hand : person.forces.hands) {
+    hand.grip += down;
+    hand.point += down;
+  }
+  for (FootForce& foot : person.forces.feet) foot.cop += down;
   const auto renderer = MakeRenderer();
   View view;
   view.width = 320;

@@ -1,0 +1,79 @@
+#include "render/scene_look.h"
+
+#include <limits>
+
+namespace kinescope::render {
+
+const std::array<ScenePartInfo, 14> kSceneParts = {{
+    {ScenePart::kBody, "body", true, "the people themselves"},
+    {ScenePart::kLoads, "loads", true, "a sphere for each scored joint"},
+    {ScenePart::kCom, "com", true, "centre of mass and its projection on the floor"},
+    {ScenePart::kCop, "cop", true, "centre of pressure"},
+    {ScenePart::kSupport, "support", true, "border of what the feet can push on"},
+    {ScenePart::kForces, "forces", true, "force of the floor on each foot, 1 m for 1000 N"},
+    {ScenePart::kHeld, "held", true, "what the hands hold"},
+    {ScenePart::kShadows, "shadows", true, "soft shadows on the floor"},
+    {ScenePart::kObjects, "objects", true, "tracked objects"},
+    {ScenePart::kRobots, "robots", true, "robots beside the people"},
+    {ScenePart::kMarkers, "markers", true, "markers of other programs"},
+    {ScenePart::kFrames, "frames", false, "axes of each link: x red, y green, z blue"},
+    {ScenePart::kAxes, "axes", false, "the three axes that each joint turns about"},
+    {ScenePart::kScale, "scale", false, "metres on the floor's grid, newtons at the arrows"},
+}};
+
+ScenePartSet::ScenePartSet() {
+  for (const ScenePartInfo& info : kSceneParts) Set(info.part, info.by_default);
+}
+
+const ThemeColors& ColorsOf(Theme theme) {
+  static const ThemeColors light = {{0.955, 0.962, 0.972},
+                                    {0.915, 0.925, 0.940},
+                                    {0.78, 0.80, 0.83},
+                                    {0.62, 0.65, 0.70},
+                                    {0.20, 0.23, 0.30}};
+  static const ThemeColors dark = {{0.085, 0.098, 0.118},
+                                   {0.125, 0.140, 0.165},
+                                   {0.20, 0.225, 0.26},
+                                   {0.30, 0.335, 0.38},
+                                   {0, 0, 0}};
+  return theme == Theme::kDark ? dark : light;
+}
+
+namespace {
+
+constexpr std::array<ScenePart, 9> kPartsOfState = {
+    ScenePart::kLoads,   ScenePart::kCom,    ScenePart::kCop,
+    ScenePart::kSupport, ScenePart::kForces, ScenePart::kHeld,
+    ScenePart::kObjects, ScenePart::kRobots, ScenePart::kMarkers};
+
+}  // namespace
+
+bool HidesAnything(const SceneLook& look) {
+  for (const ScenePart part : kPartsOfState) {
+    if (!look.Shows(part)) return true;
+  }
+  return false;
+}
+
+SceneState Without(SceneState state, const SceneLook& look) {
+  for (PersonState& person : state.people) {
+    if (!look.Shows(ScenePart::kLoads)) person.loads.clear();
+    if (!look.Shows(ScenePart::kCom)) person.com.reset();
+    if (!look.Shows(ScenePart::kCop)) person.cop.reset();
+    if (!look.Shows(ScenePart::kSupport)) person.forces.support.size = 0;
+    if (!look.Shows(ScenePart::kForces)) {
+      for (FootForce& foot : person.forces.feet) {
+        foot.force.setConstant(std::numeric_limits<double>::quiet_NaN());
+      }
+    }
+    if (!look.Shows(ScenePart::kHeld)) {
+      for (HandForce& hand : person.forces.hands) hand.mass_kg = hand.shared_kg = 0;
+    }
+  }
+  if (!look.Shows(ScenePart::kObjects)) state.objects.clear();
+  if (!look.Shows(ScenePart::kRobots)) state.robots.clear();
+  if (!look.Shows(ScenePart::kMarkers)) state.markers.clear();
+  return state;
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,26 @@
+/// The floor's force on each foot as an arrow from its centre of pressure: 1 m for 1000 N
+/// (kMetresPerNewton). Where the force is not known there is none.
+#pragma once
+
+#include <vector>
+
+#include "render/module.h"
+#include "render/vtk/part_actor.h"
+#include "server/core/scene_state.h"
+
+namespace kinescope::render {
+
+class ForceArrows {
+ public:
+  ForceArrows();
+  /// With `labels`: adds each arrow's newtons to them.
+  void Show(const PersonState& person, std::vector<Label>* labels);
+
+  vtkActor* solid() { return solid_.actor(); }
+  vtkActor* ghost() { return ghost_.actor(); }  // where something is in front of it
+
+ private:
+  PartActor solid_, ghost_;
+};
+
+}  // namespace kinescope::render

@@ -1,0 +1,31 @@
+#include "render/vtk/ghost_actors.h"
+
+namespace kinescope::render {
+namespace {
+
+// Cool and dark enough to be seen before the floor, and no colour of a person or a class.
+const Eigen::Vector4f kTint = {0.35f, 0.45f, 0.62f, 0.75f};
+
+}  // namespace
+
+bool GhostActors::Update(const std::vector<Ghost>& ghosts, OnceLog& log,
+                         std::vector<Label>& labels) {
+  bool is_changed = figures_.size() != ghosts.size();
+  figures_.resize(ghosts.size());
+  for (std::size_t i = 0; i < ghosts.size(); ++i) {
+    if (figures_[i] == nullptr) figures_[i] = std::make_unique<FigureActor>(Pass::kVeil);
+    figures_[i]->SetOpacity(ghosts[i].opacity);
+    is_changed = figures_[i]->Update(ghosts[i].person, kTint, log, labels) || is_changed;
+  }
+  return is_changed;
+}
+
+std::vector<vtkActor*> GhostActors::actors() {
+  std::vector<vtkActor*> actors;
+  for (const auto& figure : figures_) {
+    for (vtkActor* actor : figure->actors()) actors.push_back(actor);
+  }
+  return actors;
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,23 @@
+/// Second bodies that the scene is seen through.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "render/module.h"
+#include "render/scene_look.h"
+#include "render/vtk/figure_actor.h"
+
+namespace kinescope::render {
+
+class GhostActors {
+ public:
+  /// Adds names of missing meshes to `labels`. @return whether there are other actors than before.
+  bool Update(const std::vector<Ghost>& ghosts, OnceLog& log, std::vector<Label>& labels);
+  std::vector<vtkActor*> actors();
+
+ private:
+  std::vector<std::unique_ptr<FigureActor>> figures_;
+};
+
+}  // namespace kinescope::render

@@ -1,0 +1,46 @@
+/// Markers of other programs, all of them in two draw calls: what is opaque, and what is not. They
+/// are put together again when one of them is another than in the picture before.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/module.h"
+#include "render/vtk/once_log.h"
+#include "render/vtk/part_actor.h"
+#include "render/vtk/visual_mesh.h"
+#include "server/core/scene_state.h"
+
+namespace kinescope::render {
+
+class MarkerActors {
+ public:
+  MarkerActors();
+
+  /// Adds texts, and names of missing meshes, to `labels`.
+  void Update(const std::vector<std::shared_ptr<const SceneMarker>>& markers, OnceLog& log,
+              std::vector<Label>& labels);
+
+  /// Markers that are not drawn, or whose mesh is a box: one line each, naming marker and reason.
+  const std::vector<std::string>& problems() const { return problems_; }
+  vtkActor* solid() { return solid_.actor(); }
+  vtkActor* blended() { return blended_.actor(); }
+
+ private:
+  void Build();
+  void AddMesh(const SceneMarker& marker, Mesh& to);
+  const VisualMesh& MeshOf(const std::string& uri);
+
+  PartActor solid_, blended_;
+  std::vector<std::shared_ptr<const SceneMarker>> markers_;  // that are built; held, so that no
+                                                             // other can come to lie at an address
+  std::vector<Label> labels_;
+  std::vector<std::string> problems_;
+  std::map<std::string, VisualMesh> meshes_;  // by URI
+  std::size_t triangles_ = 0;
+  bool is_closed_ = true;
+};
+
+}  // namespace kinescope::render

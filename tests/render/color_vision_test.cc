@@ -1,0 +1,82 @@
+// Whoever lacks one kind of cones must still tell the load classes apart.
+
+#include "tests/color_vision.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "render/renderer.h"
+#include "render/spheres.h"
+#include "tests/render/test_scene.h"
+
+namespace kinescope::render {
+namespace {
+
+using kinescope::testing::ColorVisions;
+using kinescope::testing::SeenBy;
+
+constexpr double kLeastDifference = 15;  // CIEDE2000
+
+constexpr LoadClass kClasses[] = {LoadClass::kUnknown, LoadClass::kLow, LoadClass::kMedium,
+                                  LoadClass::kHigh};
+
+void ExpectApart(const std::map<LoadClass, Rgb>& colors, const char* where) {
+  for (const auto& vision : ColorVisions()) {
+    for (const auto& [one, color] : colors) {
+      for (const auto& [other, other_color] : colors) {
+        if (other <= one) continue;
+        EXPECT_GE(ColorDifference(SeenBy(vision, color), SeenBy(vision, other_color)),
+                  kLeastDifference)
+            << where << ": " << Name(one) << " and " << Name(other) << " with " << vision.name;
+      }
+    }
+  }
+}
+
+// Mean of what the picture shows inside a sphere's rim.
+Rgb ShownIn(const Image& image, const SphereInPicture& sphere) {
+  Rgb sum = {0, 0, 0};
+  int count = 0;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (std::hypot(x + 0.5 - sphere.x_px, y + 0.5 - sphere.y_px) > 0.6 * sphere.radius_px)
+        continue;
+      const std::size_t at = 4 * static_cast<std::size_t>(y * image.width + x);
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += image.rgba[at + i] / 255.0;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 10);
+  for (double& channel : sum) channel /= std::max(count, 1);
+  return sum;
+}
+
+TEST(ColorVision, TellsTheClassesOfThePaletteApart) {
+  std::map<LoadClass, Rgb> colors;
+  for (const LoadClass load_class : kClasses) colors[load_class] = ColorOf(load_class);
+  ExpectApart(colors, "palette");
+}
+
+TEST(ColorVision, TellsTheClassesApartAsThePictureShadesThem) {
+  const auto renderer = MakeRenderer();
+  View view;
+  view.width = 480;
+  view.height = 360;
+  view.overlays = false;
+  for (const char* camera_name : {"front", "top", "left"}) {
+    std::map<LoadClass, Rgb> colors;
+    for (const LoadClass load_class : kClasses) {
+      SceneState state = testing::SceneWith(testing::Posture::kStanding, load_class);
+      state.people[0].loads = {testing::LoadOf(state, urdf::jLeftShoulder)};
+      const Camera camera = NamedCamera(camera_name, state);
+      const Image image = renderer->Render(state, camera, view);
+      colors[load_class] =
+          ShownIn(image, LocateSpheres(state, camera, view.width, view.height).at(0));
+    }
+    ExpectApart(colors, camera_name);
+  }
+}
+
+}  // namespace
+}  // namespace kinescope::render

@@ -1,0 +1,127 @@
+// Markers of other programs, tested by what the picture shows.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+
+#include "render/compare.h"
+#include "render/renderer.h"
+#include "tests/render/marker_samples.h"
+#include "tests/render/mesh_samples.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::render {
+namespace {
+
+constexpr int kWidth = 480, kHeight = 270;
+
+SceneState Empty() {
+  SceneState state;
+  state.liveness = Liveness::kLive;
+  return state;
+}
+
+SceneState With(std::vector<SceneMarker> markers) {
+  SceneState state = Empty();
+  for (SceneMarker& marker : markers) {
+    state.markers.push_back(std::make_shared<SceneMarker>(std::move(marker)));
+  }
+  return state;
+}
+
+Camera Ahead() {
+  Camera camera;
+  camera.position = {5, 0, 1.6};
+  camera.target = {0, 0, 0.8};
+  return camera;
+}
+
+class MarkerDrawing : public ::testing::Test {
+ protected:
+  MarkerDrawing() {
+    view_.width = kWidth;
+    view_.height = kHeight;
+    std::ofstream(folder_ / "box.stl", std::ios::binary) << kinescope::testing::BoxStl();
+  }
+  std::vector<SceneMarker> All() const {
+    return kinescope::testing::MarkersOfAllTypes("file://" + (folder_ / "box.stl").string());
+  }
+  SceneMarker Sample(MarkerType type) const { return All().at(static_cast<std::size_t>(type)); }
+  Image Draw(const SceneState& state) { return renderer_->Render(state, Ahead(), view_); }
+
+  const kinescope::testing::TempFolder folder_;
+  std::vector<std::string> log_;
+  const std::unique_ptr<Renderer> renderer_ =
+      MakeRenderer("osmesa", [this](const std::string& line) { log_.push_back(line); });
+  View view_;
+};
+
+TEST_F(MarkerDrawing, EveryTypeIsDrawnWhereItIs) {
+  const Image empty = Draw(Empty());
+  const std::vector<SceneMarker> all = All();
+  ASSERT_EQ(all.size(), 12u);
+  for (const SceneMarker& marker : all) {
+    const Image image = Draw(With({marker}));
+    const Comparison change = Compare(empty, image);
+    const Projected at = Project(marker.pose.position, Ahead(), kWidth, kHeight);
+    ASSERT_GT(change.pixels, 20) << Name(marker.type);
+    const double reach = 0.45 * at.px_per_m;
+    EXPECT_NEAR(0.5 * (change.left + change.right), at.x_px, reach) << Name(marker.type);
+    EXPECT_NEAR(0.5 * (change.top + change.bottom), at.y_px, reach) << Name(marker.type);
+  }
+  EXPECT_THAT(log_, ::testing::IsEmpty());
+  EXPECT_THAT(renderer_->problems(), ::testing::IsEmpty());
+}
+
+TEST_F(MarkerDrawing, WhatIsNotANumberIsNamedAndTheRestIsDrawn) {
+  SceneMarker good = Sample(MarkerType::kCube);
+  SceneMarker bad = good;
+  bad.ns = "walls";
+  bad.id = 7;
+  bad.pose.position.y() = std::numeric_limits<double>::quiet_NaN();
+  const Image expected = Draw(With({good}));
+  EXPECT_EQ(Draw(With({bad, good})).rgba, expected.rgba);
+  EXPECT_THAT(renderer_->problems(), ::testing::ElementsAre(::testing::HasSubstr("walls/7")));
+  EXPECT_THAT(log_,
+              ::testing::ElementsAre(::testing::HasSubstr("position is not a finite number")));
+}
+
+TEST_F(MarkerDrawing, MoreThanAPictureCanTakeIsRefusedByName) {
+  SceneMarker flood;
+  flood.ns = "flood";
+  flood.type = MarkerType::kSphereList;
+  flood.points.assign(kMostMarkerPoints, Eigen::Vector3d::Zero());
+  const Image empty = Draw(Empty());
+  EXPECT_EQ(Draw(With({flood})).rgba, empty.rgba);
+  EXPECT_THAT(renderer_->problems(),
+              ::testing::ElementsAre(::testing::HasSubstr("too many triangles")));
+  std::vector<SceneMarker> many(11'000);
+  for (SceneMarker& marker : many) marker.scale.setZero();
+  Draw(With(many));
+  EXPECT_THAT(renderer_->problems(), ::testing::SizeIs(21)) << "one fault, not thousands of lines";
+}
+
+TEST_F(MarkerDrawing, AMissingMeshIsABoxWithItsName) {
+  SceneMarker mesh = Sample(MarkerType::kMesh);
+  mesh.mesh_uri = "file:///nowhere/cup.stl";
+  const Image empty = Draw(Empty());
+  EXPECT_GT(Compare(empty, Draw(With({mesh}))).pixels, 100);
+  EXPECT_THAT(renderer_->problems(), ::testing::ElementsAre(::testing::HasSubstr("cup.stl")));
+}
+
+TEST_F(MarkerDrawing, OneThatShinesThroughMixesWithWhatIsBehind) {
+  SceneMarker cube = Sample(MarkerType::kCube);
+  cube.pose.position = {0, 0, 0.8};
+  const auto middle = [&](double opacity) {
+    cube.color.w() = opacity;
+    const Image image = Draw(With({cube}));
+    return static_cast<int>(image.rgba[4 * (kHeight / 2 * kWidth + kWidth / 2)]);
+  };
+  EXPECT_NEAR(middle(0.5), 0.5 * (middle(0) + middle(1)), 2);
+  EXPECT_GT(std::abs(middle(0) - middle(1)), 20);
+}
+
+}  // namespace
+}  // namespace kinescope::render
