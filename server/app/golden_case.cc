@@ -33,10 +33,11 @@ SceneReader Open(const GoldenCase& golden_case) {
       ToSceneOptions(golden_case.person, SceneOptions().stale_secs, golden_case.loads));
 }
 
-SceneState SceneOf(const GoldenCase& golden_case) {
+SceneState SceneOf(const GoldenCase& golden_case, ShotPlanner& planner) {
   SceneReader reader = Open(golden_case);
   if (golden_case.show == Liveness::kNoData) return *reader.Empty();
   SceneTimeline timeline(reader);
+  RememberBefore(golden_case.time_secs, timeline, planner);
   std::optional<SceneState> scene = timeline.At(golden_case.time_secs);
   if (!scene) {
     throw UsageError(fmt::format("golden case {}: {} ends before {} s", golden_case.name,
@@ -118,7 +119,7 @@ GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
     SceneReader reader = Open(golden_case);
     SurveyClip(planner, reader, kSurveySecs);
   }
-  const Shot shot = planner.Only(SceneOf(golden_case), golden_case.time_secs);
+  const Shot shot = planner.Only(SceneOf(golden_case, planner), golden_case.time_secs);
   GoldenDrawing drawing;
   drawing.image = renderer.Render(shot.state, shot.camera, shot.view);
   drawing.spheres = SpheresOf(shot);

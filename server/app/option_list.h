@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "server/core/errors.h"
 
@@ -25,26 +26,33 @@ struct OptionalOf<std::optional<T>> : std::true_type {
   using Value = T;
 };
 
-/// `text` as a T, which may be optional. @throws UsageError naming option, value and what was
-/// expected.
+/// `text` as a T, which may be optional or a list with ; between. @throws UsageError naming option,
+/// value and what was expected.
 template <class T>
 T ParseOption(const std::string& name, const std::string& text) {
-  typename OptionalOf<T>::Value value{};
-  using Value = decltype(value);
-  const auto refuse = [&](const char* expected) {
-    throw UsageError(name + "=" + text + ": expected " + expected);
-  };
-  if constexpr (std::is_same_v<Value, std::string>) {
-    value = text;
-  } else if constexpr (std::is_same_v<Value, bool>) {
-    if (text != "true" && text != "false" && text != "1" && text != "0") refuse("true or false");
-    value = text == "true" || text == "1";
+  if constexpr (std::is_same_v<T, std::vector<std::string>>) {  // several, with ; between
+    T list;
+    std::istringstream parts(text);
+    for (std::string part; std::getline(parts, part, ';');) list.push_back(part);
+    return list;
   } else {
-    if (!CLI::detail::lexical_cast(text, value)) {
-      refuse(std::is_integral_v<Value> ? "a whole number" : "a number");
+    typename OptionalOf<T>::Value value{};
+    using Value = decltype(value);
+    const auto refuse = [&](const char* expected) {
+      throw UsageError(name + "=" + text + ": expected " + expected);
+    };
+    if constexpr (std::is_same_v<Value, std::string>) {
+      value = text;
+    } else if constexpr (std::is_same_v<Value, bool>) {
+      if (text != "true" && text != "false" && text != "1" && text != "0") refuse("true or false");
+      value = text == "true" || text == "1";
+    } else {
+      if (!CLI::detail::lexical_cast(text, value)) {
+        refuse(std::is_integral_v<Value> ? "a whole number" : "a number");
+      }
     }
+    return value;
   }
-  return value;
 }
 
 /// One --flag for each option. Bools become --flag / --flag=false. The option called `positional`
@@ -61,7 +69,11 @@ class FlagAdder {
     } else {
       const std::string names = "--" + name + (name == positional_ ? "," + name : "");
       CLI::Option* option = command_.add_option(names, value, help);
-      if constexpr (!OptionalOf<T>::value) option->capture_default_str();
+      if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+        option->allow_extra_args(false);  // one each time it is said
+      } else if constexpr (!OptionalOf<T>::value) {
+        option->capture_default_str();
+      }
     }
   }
 

@@ -29,7 +29,7 @@ double SecsSince(std::optional<std::int64_t>& start_nanos, const SceneState& sta
 }  // namespace
 
 ShotPlanner::ShotPlanner(const ViewOptions& options)
-    : view_(ToView(options)), loads_(ToPlotJoints(options.plot)) {
+    : view_(ToView(options)), extras_(options), loads_(ToPlotJoints(options.plot)) {
   const ViewGrid grid = ToViewGrid(options.views);
   cameras_ = CamerasOf(options, grid);
   if (grid.cameras.empty()) {
@@ -58,8 +58,10 @@ void ShotPlanner::Survey(const SceneState& state) {
   if (!loads_.is_empty()) loads_.Add(state, SecsSince(survey_start_nanos_, state));
 }
 
-Shot ShotPlanner::With(SceneState state, std::vector<render::Camera> cameras, double secs) const {
+Shot ShotPlanner::With(SceneState state, std::vector<render::Camera> cameras, double secs,
+                       const SceneExtras& extras) const {
   Shot shot{std::move(state), cameras.front(), view_};
+  extras.AddTo(shot.state, shot.view.look);
   for (std::size_t i = 0; i < shot.view.panes.size(); ++i) {
     shot.view.panes[i].camera = cameras[i];
   }
@@ -69,11 +71,12 @@ Shot ShotPlanner::With(SceneState state, std::vector<render::Camera> cameras, do
 
 Shot ShotPlanner::Next(SceneState state) {
   const double secs = SecsSince(start_nanos_, state);
+  extras_.Remember(state);
   std::vector<render::Camera> cameras;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     cameras.push_back(cameras_[i].Aim(state, aspects_[i]));
   }
-  if (loads_.is_empty()) return With(std::move(state), std::move(cameras), secs);
+  if (loads_.is_empty()) return With(std::move(state), std::move(cameras), secs, extras_);
   std::shared_ptr<const render::LoadHistory> history;
   if (survey_start_nanos_) {
     if (whole_ == nullptr) whole_ = std::make_shared<const render::LoadHistory>(loads_.All());
@@ -82,7 +85,7 @@ Shot ShotPlanner::Next(SceneState state) {
     loads_.Add(state, secs);
     history = std::make_shared<const render::LoadHistory>(loads_.Last(kWindowSecs));
   }
-  Shot shot = With(std::move(state), std::move(cameras), secs);
+  Shot shot = With(std::move(state), std::move(cameras), secs, extras_);
   shot.view.history = std::move(history);
   return shot;
 }
@@ -94,7 +97,9 @@ Shot ShotPlanner::Only(SceneState state, double secs) const {
   }
   LoadWindow loads = loads_;
   if (!survey_start_nanos_) loads.Add(state, secs);
-  Shot shot = With(std::move(state), std::move(cameras), secs);
+  SceneExtras extras = extras_;
+  extras.Remember(state);
+  Shot shot = With(std::move(state), std::move(cameras), secs, extras);
   if (!loads.is_empty()) {
     shot.view.history = std::make_shared<const render::LoadHistory>(loads.All());
   }
@@ -108,6 +113,15 @@ void SurveyClip(ShotPlanner& planner, SceneReader& source, std::optional<double>
     const double secs = SecsSince(start_nanos, *state);
     if (seconds && secs > *seconds) return;
     planner.Survey(*state);
+  }
+}
+
+void RememberBefore(double secs, SceneTimeline& timeline, ShotPlanner& planner) {
+  constexpr int kPerSecond = 60;
+  const int steps = static_cast<int>(std::min(secs, planner.history_secs()) * kPerSecond);
+  for (int step = steps; step > 0; --step) {
+    const auto scene = timeline.At(secs - static_cast<double>(step) / kPerSecond);
+    if (scene) planner.Remember(*scene);
   }
 }
 

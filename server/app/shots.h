@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "server/app/camera_man.h"
 #include "server/app/load_window.h"
+#include "server/app/scene_extras.h"
 #include "server/app/scene_reader.h"
 #include "server/app/view_options.h"
 #include "server/core/scene_state.h"
@@ -40,18 +41,26 @@ class ShotPlanner {
   /// Of a clip: the scenes in order.
   Shot Next(SceneState state);
 
-  /// Of one scene alone, `secs` after the recording's start.
+  /// Of one scene alone, `secs` after the recording's start. Trails are those of the scenes that
+  /// were remembered before.
   Shot Only(SceneState state, double secs = 0) const;
+
+  /// A scene that comes before the first picture; in order. Of use where history_secs() > 0.
+  void Remember(const SceneState& state) { extras_.Remember(state); }
+  /// How much of what was before it a picture shows, s.
+  double history_secs() const { return extras_.history_secs(); }
 
   const render::View& view() const { return view_; }
 
  private:
-  Shot With(SceneState state, std::vector<render::Camera> cameras, double secs) const;
+  Shot With(SceneState state, std::vector<render::Camera> cameras, double secs,
+            const SceneExtras& extras) const;
 
   render::View view_;
   std::vector<CameraMan> cameras_;  // one, or one for each view
   std::vector<double> aspects_;     // of their pictures
-  LoadWindow loads_;                // of the survey, or else of the scenes so far
+  SceneExtras extras_;
+  LoadWindow loads_;  // of the survey, or else of the scenes so far
   std::optional<std::int64_t> start_nanos_, survey_start_nanos_;
   std::shared_ptr<const render::LoadHistory> whole_;  // of the survey, made with the first shot
 };
@@ -59,5 +68,8 @@ class ShotPlanner {
 /// Surveys what `source` has, up to `seconds` after its first scene. For planners that need it.
 /// @throws as SceneReader.
 void SurveyClip(ShotPlanner& planner, SceneReader& source, std::optional<double> seconds);
+
+/// Shows `planner` what a picture at `secs` needs of the time before. @pre as SceneTimeline::At
+void RememberBefore(double secs, SceneTimeline& timeline, ShotPlanner& planner);
 
 }  // namespace kinescope::app

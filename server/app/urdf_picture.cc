@@ -69,7 +69,7 @@ void DrawUrdf(const UrdfPictureOptions& options) {
   if (std::filesystem::path(options.out).extension() != ".png") {
     throw UsageError("--out=" + options.out + ": expected a name that ends in .png");
   }
-  const ShotPlanner planner(options.view);
+  ShotPlanner planner(options.view);
   SceneState scene;
   scene.liveness = Liveness::kLive;
   scene.source = options.file;

@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "server/app/look_options.h"
 #include "server/app/pipeline_options.h"
 #include "server/core/errors.h"
 #include "server/loads/joint_score.h"
@@ -135,6 +136,7 @@ render::View ToView(const ViewOptions& options) {
   view.title = options.title;
   view.overlays = !options.no_overlays;
   view.parts = ToOverlayParts(options.overlay);
+  view.look = ToLook(options);
   // Whoever names joints wants to see them.
   if (!options.plot.empty() && options.overlay.find("-plot") == std::string::npos) {
     view.parts.plot = true;

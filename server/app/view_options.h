@@ -9,6 +9,9 @@
 
 namespace kinescope::app {
 
+/// "frames,axes,scale": what is shown by default, or is not (look_options.cc).
+std::string PartNames(bool by_default);
+
 struct ViewOptions {
   std::string size = "1280x720";
   std::string camera = "three_quarter";
@@ -19,6 +22,15 @@ struct ViewOptions {
   std::string overlay;
   std::string plot;
   bool no_overlays = false;
+  std::string theme = "light";
+  std::string background = "theme";
+  std::string floor = "on";
+  std::string show, hide;
+  std::string trail;
+  double trail_secs = 2;
+  std::string ghost;
+  double ghost_opacity = 0.35;
+  std::vector<std::string> robot;
 
   template <class Option>
   void Visit(Option&& option) {
@@ -35,6 +47,19 @@ struct ViewOptions {
            "with + or -: besides, or without; not given: all but scale, strip and plot");
     option("plot", plot, "joints with commas between, such as right_elbow,l5_s1: loads over time");
     option("no_overlays", no_overlays, "no legend, time code and title");
+    option("theme", theme, "light or dark");
+    option("background", background,
+           "theme, white, black, #RRGGBB, or transparent (PNG with alpha, soft edges too)");
+    option("floor", floor, "on or off");
+    option("show", show, "beside what is shown: " + PartNames(false) + "; commas between");
+    option("hide", hide, "of what is shown: " + PartNames(true));
+    option("trail", trail, "where something has been: com or segments, such as com,right_hand");
+    option("trail_secs", trail_secs, "so much of the past, s");
+    option("ghost", ghost, "a second body to compare with: n_pose, t_pose or FILE@SECS");
+    option("ghost_opacity", ghost_opacity, "0 to 1");
+    option("robot", robot,
+           "FILE.urdf or FILE.urdf@X,Y,YAW (m and degrees): a robot beside the people, on the "
+           "floor; may be said several times");
   }
 };
 

@@ -1,0 +1,48 @@
+/// Where chosen points have been: collected scene by scene, in order, so that any renderer can draw
+/// any picture of a clip. One thread.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "render/scene_look.h"
+#include "server/core/scene_state.h"
+
+namespace kinescope::app {
+
+class Trails {
+ public:
+  static constexpr double kMostSecs = 60;
+
+  /// `names`: com and segments (RightHand or right_hand), commas between; "" none.
+  /// @throws UsageError naming the name that is none, or seconds out of (0, kMostSecs].
+  Trails(const std::string& names, double secs);
+
+  bool empty() const { return tracks_.empty(); }
+  double secs() const { return secs_; }
+
+  /// The next scene. One from before the last starts over.
+  void Remember(const SceneState& state);
+
+  /// As of the last scene, of every person who was in it.
+  std::vector<render::Trail> Make() const;
+
+ private:
+  struct Track {
+    int segment = -1;  // urdf::Segment; -1: the centre of mass
+    Rgb color;
+  };
+  struct Point {
+    std::int64_t stamp_nanos;
+    Eigen::Vector3d position;
+  };
+  std::vector<Track> tracks_;
+  double secs_;
+  std::int64_t newest_nanos_ = 0;
+  std::map<int, std::vector<std::deque<Point>>> past_;  // by character; by track, oldest first
+};
+
+}  // namespace kinescope::app
