@@ -3,19 +3,21 @@
 namespace kinescope::render {
 namespace {
 
-// Cool and dark enough to be seen before the floor, and no colour of a person or a class.
-const Eigen::Vector4f kTint = {0.35f, 0.45f, 0.62f, 0.75f};
+// Cool, apart from the floor, and no colour of a person or a class.
+const Eigen::Vector4f kTintOnLight = {0.35f, 0.45f, 0.62f, 0.75f};
+const Eigen::Vector4f kTintOnDark = {0.60f, 0.72f, 0.92f, 0.75f};
 
 }  // namespace
 
-bool GhostActors::Update(const std::vector<Ghost>& ghosts, OnceLog& log,
-                         std::vector<Label>& labels) {
+bool GhostActors::Update(const SceneLook& look, OnceLog& log, std::vector<Label>& labels) {
+  const std::vector<Ghost>& ghosts = look.ghosts;
+  const Eigen::Vector4f& tint = look.theme == Theme::kDark ? kTintOnDark : kTintOnLight;
   bool is_changed = figures_.size() != ghosts.size();
   figures_.resize(ghosts.size());
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
     if (figures_[i] == nullptr) figures_[i] = std::make_unique<FigureActor>(Pass::kVeil);
     figures_[i]->SetOpacity(ghosts[i].opacity);
-    is_changed = figures_[i]->Update(ghosts[i].person, kTint, log, labels) || is_changed;
+    is_changed = figures_[i]->Update(ghosts[i].person, tint, log, labels) || is_changed;
   }
   return is_changed;
 }

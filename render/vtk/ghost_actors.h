@@ -13,7 +13,7 @@ namespace kinescope::render {
 class GhostActors {
  public:
   /// Adds names of missing meshes to `labels`. @return whether there are other actors than before.
-  bool Update(const std::vector<Ghost>& ghosts, OnceLog& log, std::vector<Label>& labels);
+  bool Update(const SceneLook& look, OnceLog& log, std::vector<Label>& labels);
   std::vector<vtkActor*> actors();
 
  private:

@@ -155,7 +155,7 @@ class OsmesaDrawing : public Drawing {
     is_changed = objects_.Update(state.objects, state.liveness, labels) || is_changed;
     markers_->Update(state.markers, once_, labels);
     trails_->Show(look.trails);
-    is_changed = ghosts_.Update(look.ghosts, once_, labels) || is_changed;
+    is_changed = ghosts_.Update(look, once_, labels) || is_changed;
     for (const PersonState& person : state.people) {
       PersonActors& actors = *people_.at(person.character);
       is_changed = actors.Update(person, state.liveness, camera, look, once_, labels) || is_changed;

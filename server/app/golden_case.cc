@@ -22,7 +22,7 @@ Liveness ToLiveness(const fs::path& path, const std::string& text) {
     if (text == Name(liveness)) return liveness;
   }
   throw UsageError(
-      fmt::format("{}: show: {}: expected live, stale or no data", path.string(), text));
+      fmt::format("{}: state: {}: expected live, stale or no data", path.string(), text));
 }
 
 constexpr double kSurveySecs = 5;  // of a source that may have no end
@@ -48,8 +48,9 @@ SceneState SceneOf(const GoldenCase& golden_case, ShotPlanner& planner) {
 
 std::vector<render::SphereInPicture> SpheresOf(const Shot& shot) {
   const render::View& view = shot.view;
+  const SceneState shown = render::Without(shot.state, view.look);
   if (view.panes.empty()) {
-    return render::LocateSpheres(shot.state, shot.camera, view.width, view.height);
+    return render::LocateSpheres(shown, shot.camera, view.width, view.height);
   }
   std::vector<render::SphereInPicture> all;
   const auto tiles = render::PaneTiles(view.width, view.height, static_cast<int>(view.panes.size()),
@@ -58,7 +59,7 @@ std::vector<render::SphereInPicture> SpheresOf(const Shot& shot) {
     const render::Tile& tile = tiles[i];
     const render::Pane& pane = view.panes[i];
     for (render::SphereInPicture& sphere :
-         render::LocateSpheres(shot.state, pane.camera, tile.width, tile.height)) {
+         render::LocateSpheres(shown, pane.camera, tile.width, tile.height)) {
       const double r = sphere.radius_px;
       if (sphere.x_px < r || sphere.x_px > tile.width - r || sphere.y_px < r ||
           sphere.y_px > tile.height - r) {
@@ -84,7 +85,7 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   ValueSetter read(values);
   read("source", golden_case.source);
   read("time", golden_case.time_secs);
-  read("show", show);
+  read("state", show);
   read("why", golden_case.why);
   golden_case.view.Visit(read);
   golden_case.person.Visit(read);

@@ -2,7 +2,7 @@
 ///
 ///     source: demo:lift       # or a file, relative to the case
 ///     time: 2.5               # s after the first sample
-///     show: live              # live | stale | no data
+///     state: live             # live | stale | no data
 ///     camera: front
 ///     size: 640x360
 ///     supersample: 2
