@@ -1,13 +1,23 @@
 #include "render/vtk/ground.h"
 
+#include <vtkActor.h>
+
+#include <string>
+
 namespace kinescope::render {
 namespace {
+
+std::string Constant(const char* name, const Rgb& color) {
+  return std::string("const vec3 ") + name + " = vec3(" + std::to_string(color[0]) + ", " +
+         std::to_string(color[1]) + ", " + std::to_string(color[2]) + ");\n";
+}
 
 constexpr double kReach = 9;  // m; the floor has faded into the background there
 
 // Lines are computed per pixel and averaged over it, so they neither flicker nor break up far away.
-// It covers half the picture: every operation here counts.
-ShaderText MakeText() {
+// It covers half the picture: every operation here counts, so the theme's colours are constants (as
+// uniforms they cost a fifth of a picture whose camera moves).
+ShaderText MakeText(Theme theme) {
   ShaderText text;
   text.vertex_declarations = "out vec2 floorVS;\n";
   text.vertex = R"(
@@ -15,13 +25,13 @@ ShaderText MakeText() {
   gl_Position = MCDCMatrix * vec4(onFloor, 1.0);
   floorVS = onFloor.xy;
 )";
-  text.fragment_declarations = R"(
+  const ThemeColors& colors = ColorsOf(theme);
+  text.fragment_declarations = Constant("plain", colors.floor) +
+                               Constant("fineLine", colors.fine_line) +
+                               Constant("line", colors.line) + R"(
 in vec2 floorVS;
 uniform vec3 focus;
 uniform vec3 background;
-uniform vec3 plain;
-uniform vec3 fineLine;
-uniform vec3 line;
 // `cell`: pixels from one line to the next, in both directions; `width`: half a line's, in cells.
 float Lines(vec2 at, vec2 cell, float width) {
   vec2 away = abs(fract(at - 0.5) - 0.5) * cell;
@@ -47,35 +57,37 @@ float Lines(vec2 at, vec2 cell, float width) {
 
 }  // namespace
 
-Ground::Ground() : shaded_(Pass::kBackdrop, MakeText()) {
+Ground::Ground()
+    : light_(Pass::kBackdrop, MakeText(Theme::kLight)),
+      dark_(Pass::kBackdrop, MakeText(Theme::kDark)) {
   Mesh disc;
   Eigen::Affine3d grow = Eigen::Affine3d::Identity();
   grow.scale(Eigen::Vector3d(kReach, kReach, 1));
   disc.Append(DiscMesh(24), grow);
   disc.Paint(0, Eigen::Vector4f::Ones(), 0);
-  shaded_.SetMesh(disc);
+  light_.SetMesh(disc);
+  dark_.SetMesh(disc);
   SetLook(SceneLook());
   SetFocus(Eigen::Vector3d::Zero());
 }
 
 void Ground::SetLook(const SceneLook& look) {
-  const auto set = [&](const char* name, const Rgb& color) {
-    const float value[] = {static_cast<float>(color[0]), static_cast<float>(color[1]),
-                           static_cast<float>(color[2])};
-    shaded_.uniforms().SetUniform3f(name, value);
-  };
-  const ThemeColors& colors = ColorsOf(look.theme);
-  set("background", BackgroundOf(look));
-  set("plain", colors.floor);
-  set("fineLine", colors.fine_line);
-  set("line", colors.line);
+  const Rgb& background = BackgroundOf(look);
+  SetUniform("background", Eigen::Vector3d(background[0], background[1], background[2]));
+  light_.actor()->SetVisibility(look.floor && look.theme == Theme::kLight);
+  dark_.actor()->SetVisibility(look.floor && look.theme == Theme::kDark);
 }
 
 void Ground::SetFocus(const Eigen::Vector3d& focus) {
   // A disc with corners comes a little closer than its radius.
-  const float value[] = {static_cast<float>(focus.x()), static_cast<float>(focus.y()),
-                         static_cast<float>(1 / (0.98 * kReach))};
-  shaded_.uniforms().SetUniform3f("focus", value);
+  SetUniform("focus", {focus.x(), focus.y(), 1 / (0.98 * kReach)});
+}
+
+void Ground::SetUniform(const char* name, const Eigen::Vector3d& value) {
+  const Eigen::Vector3f as_float = value.cast<float>();
+  for (ShadedActor* floor : {&light_, &dark_}) {
+    floor->uniforms().SetUniform3f(name, as_float.data());
+  }
 }
 
 }  // namespace kinescope::render

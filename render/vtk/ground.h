@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "render/scene_look.h"
 #include "render/vtk/shaded_actor.h"
@@ -13,11 +14,14 @@ class Ground {
   Ground();
   /// Where the floor is clearest, world.
   void SetFocus(const Eigen::Vector3d& focus);
+  /// Shows the floor of its theme, or none.
   void SetLook(const SceneLook& look);
-  vtkActor* actor() { return shaded_.actor(); }
+  std::array<vtkActor*, 2> actors() { return {light_.actor(), dark_.actor()}; }
 
  private:
-  ShadedActor shaded_;
+  void SetUniform(const char* name, const Eigen::Vector3d& value);
+
+  ShadedActor light_, dark_;
 };
 
 }  // namespace kinescope::render

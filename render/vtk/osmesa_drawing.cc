@@ -70,7 +70,7 @@ class OsmesaDrawing : public Drawing {
     ground_ = std::make_unique<Ground>();
     markers_ = std::make_unique<MarkerActors>();
     trails_ = std::make_unique<TrailActor>();
-    floor_layer_->AddActor(ground_->actor());
+    for (vtkActor* floor : ground_->actors()) floor_layer_->AddActor(floor);
     floor_cache_ = std::make_unique<FloorCache>(window_, floor_layer_, people_layer_);
   }
 
@@ -127,7 +127,6 @@ class OsmesaDrawing : public Drawing {
     floor_layer_->SetBackground(background[0], background[1], background[2]);
     ground_->SetFocus(camera.target);
     ground_->SetLook(look);
-    ground_->actor()->SetVisibility(look.floor);
     floor_look_ = {background[0], background[1], background[2],
                    static_cast<double>(look.theme == Theme::kDark),
                    static_cast<double>(look.floor)};
