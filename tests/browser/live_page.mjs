@@ -13,7 +13,7 @@ test('a suit that streams is seen, with its rate', async () => {
   await page.waitForFunction(() => parseFloat(document.getElementById('rate').textContent) > 100, null, LONG);
   assert.match(await page.locator('#rate').textContent(), /^1[12]\d\.\d Hz$/);
   const isBody = (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) < 30 && g > 90 && g < 215;
-  const isGreen = (r, g, b) => g > 120 && r < 0.75 * g && b < 0.75 * g;
+  const isGreen = (r, g, b) => g > 90 && r < 0.6 * g && b < 0.85 * g;
   const until = Date.now() + LONG.timeout;
   let body = 0, green = 0, size = 1;
   while ((body < 0.01 * size || green < 100) && Date.now() < until) {
