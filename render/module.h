@@ -20,6 +20,12 @@
 
 namespace kinescope::render {
 
+/// What OpenGL says of itself.
+struct Driver {
+  std::string renderer;    // GL_RENDERER
+  std::string gl_version;  // GL_VERSION
+};
+
 /// What must be equal on both sides. A changed struct changes a size here in nearly every case; the
 /// number is raised by hand when it does not.
 struct ModuleAbi {
@@ -35,6 +41,7 @@ struct ModuleAbi {
   std::size_t scene_marker = sizeof(SceneMarker);
   std::size_t camera = sizeof(Camera);
   std::size_t scene_look = sizeof(SceneLook);
+  std::size_t driver = sizeof(Driver);
   std::size_t video_options = sizeof(VideoOptions);
   std::size_t figure = sizeof(Figure);
   std::size_t plot_panel = sizeof(PlotPanel);
@@ -67,12 +74,13 @@ class Drawing {
   virtual Eigen::AlignedBox3d Bounds(const RobotState& robot) = 0;
   /// Of the newest picture: what it shows as a labelled box instead, one line each.
   virtual std::vector<std::string> problems() const = 0;
-  virtual std::string renderer_string() const = 0;
+  virtual Driver driver() const = 0;
 };
 
 struct DrawingModule {
   ModuleAbi abi;
-  std::unique_ptr<Drawing> (*make)(const LogLine& log);
+  /// `backend`: one of those that the module has.
+  std::unique_ptr<Drawing> (*make)(const std::string& backend, const LogLine& log);
 };
 
 struct VideoModule {

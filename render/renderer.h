@@ -2,6 +2,7 @@
 /// when the first renderer is made, so a process that only bridges never loads VTK, Mesa or LLVM.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -62,6 +63,15 @@ enum class LayerFormat { kSvg, kPdf };
 /// Takes one line without a line end: a mesh that is missing (once), a warning of the driver.
 using LogLine = std::function<void(const std::string&)>;
 
+/// Which way to a GL context draws, and what was found there.
+struct RendererInfo {
+  std::string backend;     // as asked for: "osmesa", ...
+  std::string renderer;    // GL_RENDERER, such as "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string gl_version;  // GL_VERSION
+  bool is_software = false;
+  std::string note;  // RendererSettings::note
+};
+
 /// Create, use and destroy it on one thread: a GL context does not migrate.
 class Renderer {
  public:
@@ -86,12 +96,13 @@ class Renderer {
   /// nothing. Reads its meshes, which the next picture of it then need not.
   virtual Eigen::AlignedBox3d Bounds(const RobotState& robot) = 0;
 
-  /// What the newest picture shows as a labelled box, because its mesh is missing or was refused:
-  /// one line each, naming the file and the reason. The log gets each line once.
+  /// What the newest picture does not show as it is: a labelled box for a mesh that is missing or
+  /// was refused, nobody for a person whose pose is not finite. One line each, naming it and the
+  /// reason. The log gets each line once.
   virtual std::vector<std::string> problems() const = 0;
 
-  /// GL_RENDERER, such as "llvmpipe (LLVM 15.0.6, 256 bits)".
-  virtual std::string renderer_string() const = 0;
+  virtual RendererInfo info() const = 0;
+  std::string renderer_string() const { return info().renderer; }
 
  protected:
   Renderer();
@@ -106,11 +117,38 @@ class Renderer {
   std::unique_ptr<const Owner> owner_;
 };
 
-/// Back-ends: "osmesa" (software, the default). `log` is called on the calling thread only; without
-/// one, lines go to stderr.
+/// The back-ends that MakeRenderer knows: osmesa (software in memory), egl (Mesa's software through
+/// EGL, without a surface), egl_device (a GPU through EGL_EXT_platform_device).
+const std::vector<std::string>& BackendNames();
+
+/// Whether the libraries of `backend` are here. Loads them, so ask only for the one to be used
+/// then.
+bool HasBackend(const std::string& backend);
+
+struct RendererSettings {
+  std::string backend = "osmesa";
+  /// Called on the renderer's thread only; without one, lines go to stderr. Warnings of VTK, OpenGL
+  /// and EGL come here, one line each.
+  LogLine log;
+  /// For RendererInfo: why it is this back-end and no better one; "" when there is nothing to say.
+  std::string note;
+  /// How long the driver may take for a picture; 0: LimitOf() it.
+  std::chrono::milliseconds limit{0};
+  /// Called on another thread when it takes longer; a driver cannot be interrupted, so the call
+  /// that waits for it still does. Without one, the process ends with this line and exit code 2.
+  std::function<void(const std::string& line)> on_hang;
+};
+
+/// Thousands of times what a picture of this size takes on a slow core: longer is a driver that
+/// hangs.
+std::chrono::milliseconds LimitOf(const View& view);
+
 /// Sets GALLIUM_OVERRIDE_CPU_CAPS=sse4.1 in the environment unless it is set already: llvmpipe then
-/// rounds alike on every x86-64 machine. Make the first renderer before other threads use getenv().
+/// rounds alike on every x86-64 machine; and for "egl" LIBGL_ALWAYS_SOFTWARE=1. Make the first
+/// renderer before other threads use getenv(). A process has one kind of back-end: VTK's table of
+/// GL functions is the process'.
 /// @throws RenderError naming the back-end, why it did not start and what would help.
+std::unique_ptr<Renderer> MakeRenderer(RendererSettings settings);
 std::unique_ptr<Renderer> MakeRenderer(const std::string& backend = "osmesa", LogLine log = {});
 
 }  // namespace kinescope::render

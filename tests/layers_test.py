@@ -30,7 +30,7 @@ FOREIGN = {  # whose headers: where they may be included
     r"webp/": ("render/av",),
     r"(urdf_parser|urdf_model)/": ("urdf",),
     r"assimp/": ("render/vtk",),
-    r"GL/": ("render/vtk",),
+    r"(GL|EGL)/": ("render/vtk",),
 }
 
 

@@ -12,7 +12,7 @@ const MOST_LINES = 12;
 export function problemLines(told, failedMeshes) {
   const lines = [];
   if (told.pictures?.last_error) lines.push(`The server’s picture: ${told.pictures.last_error}`);
-  for (const problem of told.pictures?.problems ?? []) lines.push(`Shown as a box: ${problem}`);
+  for (const problem of told.pictures?.problems ?? []) lines.push(`Not in the picture as it is: ${problem}`);
   for (const mesh of failedMeshes) lines.push(`Not loaded by this page: ${mesh}`);
   for (const [reason, count] of Object.entries(told.source?.rejected ?? {})) {
     lines.push(`${count} ${count === 1 ? 'datagram' : 'datagrams'} refused: ${reason}`);

@@ -64,8 +64,6 @@ OsmesaContext::OsmesaContext() {
         "(Debian: libosmesa6). Is GALLIUM_DRIVER set to something else?");
   }
   MakeCurrent();
-  const auto* name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-  renderer_string_ = name != nullptr ? name : "unknown";
 }
 
 OsmesaContext::~OsmesaContext() {
@@ -80,6 +78,10 @@ void OsmesaContext::MakeCurrent() {
   if (OSMesaMakeCurrent(context, unused_pixels_.data(), GL_UNSIGNED_BYTE, 16, 16) == GL_FALSE) {
     throw RenderError("OSMesa cannot make its context current");
   }
+}
+
+std::unique_ptr<GlContext> MakeGlContext(const std::string& /*backend: there is one*/) {
+  return std::make_unique<OsmesaContext>();
 }
 
 }  // namespace kinescope::render

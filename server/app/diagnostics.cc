@@ -98,10 +98,17 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
   }
   out["pictures"] = nullptr;
   if (pictures) {
-    out["pictures"] = {
-        {"renderer", pictures->renderer},       {"drawn", pictures->drawn},
-        {"draw_millis", pictures->draw_millis}, {"encode_millis", pictures->encode_millis},
-        {"last_error", pictures->last_error},   {"problems", pictures->problems}};
+    out["pictures"] = {{"renderer", pictures->renderer.renderer},
+                       {"backend", pictures->renderer.backend},
+                       {"gl_version", pictures->renderer.gl_version},
+                       {"software", pictures->renderer.is_software},
+                       {"note", pictures->renderer.note},
+                       {"hangs", pictures->hangs},
+                       {"drawn", pictures->drawn},
+                       {"draw_millis", pictures->draw_millis},
+                       {"encode_millis", pictures->encode_millis},
+                       {"last_error", pictures->last_error},
+                       {"problems", pictures->problems}};
   }
   // A file name need not be UTF-8.
   return out.dump(-1, ' ', false, json::error_handler_t::replace);

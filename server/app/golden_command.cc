@@ -13,9 +13,11 @@
 #include "render/compare.h"
 #include "render/png_file.h"
 #include "render/renderer.h"
+#include "server/app/backend.h"
 #include "server/app/commands.h"
 #include "server/app/golden_case.h"
 #include "server/app/golden_objects.h"
+#include "server/app/option_list.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {
@@ -28,6 +30,7 @@ struct GoldenOptions {
   std::vector<std::string> only;
   std::string out = "out/golden";
   bool json = false;
+  BackendOptions backend;
 };
 
 std::vector<GoldenCase> CasesOf(const GoldenOptions& options) {
@@ -86,7 +89,7 @@ std::vector<std::string> Check(const GoldenOptions& options, const GoldenCase& g
 }
 
 int CheckAll(const GoldenOptions& options) {
-  const auto renderer = render::MakeRenderer();
+  const auto renderer = StartRenderer(options.backend);
   nlohmann::json report = nlohmann::json::array();
   int failed = 0;
   const std::vector<GoldenCase> cases = CasesOf(options);
@@ -112,7 +115,7 @@ int CheckAll(const GoldenOptions& options) {
 }
 
 void UpdateAll(const GoldenOptions& options) {
-  const auto renderer = render::MakeRenderer();
+  const auto renderer = StartRenderer(options.backend);
   for (const GoldenCase& golden_case : CasesOf(options)) {
     const GoldenDrawing drawing = Draw(golden_case, *renderer);
     const auto wrong = render::FindSphereMismatches(drawing.image, drawing.spheres);
@@ -140,6 +143,7 @@ void AddGolden(CommandLine line) {
     part->add_option("folder", o->folder, "holds <case>.yaml, .png and .objects.json")
         ->capture_default_str();
     part->add_option("case", o->only, "only these");
+    o->backend.Visit(FlagAdder(*part));
   };
   CLI::App* check =
       command->add_subcommand("check", "Draw every case and compare; exit code 1 if any differs");

@@ -230,9 +230,9 @@ std::string PersonHtml(const LoadTrial& trial, const TrialContext& context,
 }  // namespace
 
 void WriteReport(const std::map<int, LoadTrial>& trials, const TrialContext& context,
-                 const std::filesystem::path& path) {
+                 const BackendOptions& backend, const std::filesystem::path& path) {
   render::NewFile file(path);  // first: a folder that takes no file is known before the work
-  const auto renderer = render::MakeRenderer();
+  const auto renderer = StartRenderer(backend);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width\">\n"

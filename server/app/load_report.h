@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "server/app/backend.h"
 #include "server/app/load_summary.h"
 #include "server/app/load_trial.h"
 
@@ -14,6 +15,6 @@ namespace kinescope::app {
 /// assumed or could not be known. @pre trials keep their curves
 /// @throws std::runtime_error naming the path and the reason; RenderError.
 void WriteReport(const std::map<int, LoadTrial>& trials, const TrialContext& context,
-                 const std::filesystem::path& path);
+                 const BackendOptions& backend, const std::filesystem::path& path);
 
 }  // namespace kinescope::app

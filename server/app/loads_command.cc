@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "server/app/backend.h"
 #include "server/app/commands.h"
 #include "server/app/load_figures.h"
 #include "server/app/load_files.h"
@@ -34,6 +35,7 @@ struct LoadsOptions {
   std::optional<double> seconds;
   PersonOptions person;
   LoadOptions loads;
+  BackendOptions backend;
 
   bool wants_figures() const { return !plots.empty() || !report.empty(); }
 };
@@ -164,7 +166,9 @@ bool Loads(LoadsOptions& options) {
 
   const bool has_stdout = options.csv == "-" || options.json == "-";
   if (!options.plots.empty()) WritePlots(recording.trials(), context, options.plots);
-  if (!options.report.empty()) WriteReport(recording.trials(), context, options.report);
+  if (!options.report.empty()) {
+    WriteReport(recording.trials(), context, options.backend, options.report);
+  }
   recording.Finish(SummaryOf(recording, context));
   bool knows_anything = false;
   for (const auto& [character, trial] : recording.trials()) {
@@ -196,6 +200,7 @@ void AddLoads(CommandLine line) {
   command->add_option("--seconds", o->seconds, "no more than this; default: all (demo: 8)");
   o->person.Visit(FlagAdder(*command));
   o->loads.Visit(FlagAdder(*command));
+  o->backend.Visit(FlagAdder(*command));
   command->callback([o, line] { line.exit_code = Loads(*o) ? 0 : 1; });
 }
 

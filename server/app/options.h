@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "server/app/backend.h"
 #include "server/app/camera_man.h"
 #include "server/app/open_source.h"
 #include "server/loads/load_settings.h"
@@ -114,6 +115,7 @@ struct ServeOptions {
   CameraOptions camera_moves;
   std::string picture_size = "1280x720";
   double picture_rate_hz = 30;
+  BackendOptions backend;
 
   template <class Option>
   void Visit(Option&& option) {
@@ -127,6 +129,7 @@ struct ServeOptions {
     camera_moves.Visit(option);
     option("picture_size", picture_size, "of the live picture, px");
     option("picture_rate_hz", picture_rate_hz, "most pictures a second, whatever comes in");
+    backend.Visit(option);
   }
 
   /// Those that make sense without page and pictures.

@@ -8,6 +8,7 @@
 
 #include "render/camera.h"
 #include "render/png_file.h"
+#include "render/watchdog.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {
@@ -48,6 +49,7 @@ PictureLoop::~PictureLoop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stop_ = true;
+    if (status_.hangs) render::EndProcess("stopped although " + status_.last_error);
   }
   wake_.notify_all();
   thread_.join();
@@ -90,6 +92,7 @@ std::vector<std::uint8_t> PictureLoop::SnapshotPng(const std::string& camera, in
   std::future<std::vector<std::uint8_t>> png = snapshot->png.get_future();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    if (status_.hangs) throw std::runtime_error(status_.last_error);
     if (snapshots_.size() >= kMostSnapshots) {
       throw std::runtime_error("too many pictures are waiting to be drawn; try again");
     }
@@ -124,41 +127,83 @@ void PictureLoop::DrawLive(render::Renderer& renderer, const SceneState& state,
   pictures_.Publish(std::move(picture));
 
   const std::lock_guard<std::mutex> lock(mutex_);
-  ++status_.drawn;
+  OnDrawn(renderer);
   status_.draw_millis = draw_millis;
   status_.encode_millis = MillisSince(encode_start);
-  status_.problems = renderer.problems();
   status_.last_error.clear();
 }
 
-void PictureLoop::DrawSnapshot(render::Renderer& renderer, const SceneState& state,
-                               Snapshot& snapshot) {
+// Locked by the caller.
+void PictureLoop::OnDrawn(render::Renderer& renderer) {
+  ++status_.drawn;
+  status_.problems = renderer.problems();
+  if (!status_.hangs) return;
+  status_.hangs = false;
+  status_.last_error.clear();
+  spdlog::warn("picture: the driver has come back");
+}
+
+void PictureLoop::OnHang(const std::string& what) {
+  std::vector<std::unique_ptr<Snapshot>> unanswered;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    // Nobody is there yet, or any more, who could do without pictures.
+    if (stop_ || !has_started_) render::EndProcess(what);
+    spdlog::error("picture: {}", what);
+    status_.hangs = true;
+    status_.last_error = what;
+    if (in_hand_) unanswered.push_back(std::move(in_hand_));
+    for (auto& waiting : snapshots_) unanswered.push_back(std::move(waiting));
+    snapshots_.clear();
+  }
+  for (auto& snapshot : unanswered) {
+    snapshot->png.set_exception(std::make_exception_ptr(std::runtime_error(what)));
+  }
+}
+
+void PictureLoop::DrawSnapshot(render::Renderer& renderer, const SceneState& state) {
+  std::string camera;
+  render::View view;
+  const auto take = [&] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::move(in_hand_);
+  };
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    camera = in_hand_->camera;
+    view = {in_hand_->width, in_hand_->height, 2, "", true};
+  }
   try {
-    const render::View view{snapshot.width, snapshot.height, 2, "", true};
     const double aspect = static_cast<double>(view.width) / view.height;
     const render::Image image =
-        renderer.Render(state, CameraMan(snapshot.camera, {}).Only(state, 0, aspect), view);
+        renderer.Render(state, CameraMan(camera, {}).Only(state, 0, aspect), view);
     std::vector<std::uint8_t> png = render::EncodePng(image);
     {  // before the picture goes out: whoever has it may ask what it lacks
       const std::lock_guard<std::mutex> lock(mutex_);
-      ++status_.drawn;
-      status_.problems = renderer.problems();
+      OnDrawn(renderer);
     }
-    snapshot.png.set_value(std::move(png));
+    if (const auto snapshot = take()) snapshot->png.set_value(std::move(png));
   } catch (...) {
-    snapshot.png.set_exception(std::current_exception());
+    if (const auto snapshot = take()) snapshot->png.set_exception(std::current_exception());
   }
 }
 
 void PictureLoop::Run(std::promise<void> started) {
   std::unique_ptr<render::Renderer> renderer;
   try {
-    renderer = render::MakeRenderer();
+    const BackendChoice choice = ChooseBackend(options_.backend);
+    if (!choice.note.empty()) spdlog::warn("pictures: {}", choice.note);
+    renderer =
+        StartRenderer(options_.backend, choice, [this](const std::string& what) { OnHang(what); });
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      status_.renderer = renderer->renderer_string();
+      status_.renderer = renderer->info();
     }
     DrawLive(*renderer, *state_, camera_);  // so that the first viewer sees a picture at once
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      has_started_ = true;
+    }
     started.set_value();
   } catch (...) {
     started.set_exception(std::current_exception());
@@ -179,9 +224,8 @@ void PictureLoop::Run(std::promise<void> started) {
     if (stop_) break;
     const std::shared_ptr<const SceneState> state = state_;
     const std::string camera = camera_;
-    std::unique_ptr<Snapshot> snapshot;
     if (!snapshots_.empty()) {
-      snapshot = std::move(snapshots_.front());
+      in_hand_ = std::move(snapshots_.front());
       snapshots_.pop_front();
     } else if (!live_wanted()) {
       continue;
@@ -189,9 +233,10 @@ void PictureLoop::Run(std::promise<void> started) {
       live_is_due_ = false;
       next_live = std::max(next_live + period, Clock::now());
     }
+    const bool is_snapshot = in_hand_ != nullptr;
     lock.unlock();
-    if (snapshot) {
-      DrawSnapshot(*renderer, *state, *snapshot);
+    if (is_snapshot) {
+      DrawSnapshot(*renderer, *state);
       lock.lock();
       continue;
     }

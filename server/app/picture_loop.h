@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "render/renderer.h"
+#include "server/app/backend.h"
 #include "server/app/camera_man.h"
 #include "server/core/latest.h"
 #include "server/core/scene_state.h"
@@ -27,14 +28,16 @@ struct PictureOptions {
   int height = 720;
   double rate_hz = 30;
   CameraOptions moves = {};  // of the live picture
+  BackendOptions backend = {};
 };
 
 struct PictureStatus {
-  std::string renderer;      // GL_RENDERER
+  render::RendererInfo renderer;
   std::uint64_t drawn = 0;   // live pictures and snapshots
   double draw_millis = 0;    // of the last one, drawn and read back
   double encode_millis = 0;  // of the last JPEG
   std::string last_error;    // "" when the last picture went well
+  bool hangs = false;        // the driver has not come back; last_error says from what
   /// What the newest picture shows as labelled boxes (render::Renderer::problems).
   std::vector<std::string> problems;
 };
@@ -45,6 +48,7 @@ class PictureLoop : public http::PictureFeed {
   /// @throws render::RenderError when no renderer can be had, UsageError for bad options.
   PictureLoop(const PictureOptions& options, std::shared_ptr<const SceneState> first,
               Latest<http::Picture>& pictures);
+  /// Ends the process (exit code 2) when the driver hangs and so the thread cannot be joined.
   ~PictureLoop() override;
 
   void OnState(std::shared_ptr<const SceneState> state);  // any thread; never waits for drawing
@@ -64,7 +68,9 @@ class PictureLoop : public http::PictureFeed {
 
   void Run(std::promise<void> started);
   void DrawLive(render::Renderer& renderer, const SceneState& state, const std::string& camera);
-  void DrawSnapshot(render::Renderer& renderer, const SceneState& state, Snapshot& snapshot);
+  void DrawSnapshot(render::Renderer& renderer, const SceneState& state);
+  void OnHang(const std::string& what);  // on the renderer's watchdog
+  void OnDrawn(render::Renderer& renderer);
 
   const PictureOptions options_;
   Latest<http::Picture>& pictures_;
@@ -78,6 +84,8 @@ class PictureLoop : public http::PictureFeed {
   bool live_is_due_ = false;  // the newest state, camera or viewer has not been drawn
   bool stop_ = false;
   std::deque<std::unique_ptr<Snapshot>> snapshots_;
+  std::unique_ptr<Snapshot> in_hand_;  // being drawn; whoever takes it away answers
+  bool has_started_ = false;
   PictureStatus status_;
   // Of the drawing thread:
   render::Image live_image_;

@@ -4,30 +4,21 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "render/renderer.h"
 #include "render/video.h"
+#include "server/app/backend.h"
+#include "server/app/backend_probe.h"
 #include "server/app/commands.h"
+#include "server/core/errors.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::app {
 namespace {
 
 using nlohmann::json;
-
-json ProbeRenderer(const std::string& backend) {
-  const auto start = std::chrono::steady_clock::now();
-  try {
-    const auto renderer = render::MakeRenderer(backend);
-    renderer->Render(SceneState{}, render::NamedCamera("front", SceneState{}), render::View{});
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-    return {{"works", true},
-            {"renderer", renderer->renderer_string()},
-            {"first_picture_secs", took.count()}};
-  } catch (const render::RenderError& error) {
-    return {{"works", false}, {"reason", error.what()}};
-  }
-}
 
 struct Encoder {
   const char* name;
@@ -50,37 +41,73 @@ json ProbeEncoder(const Encoder& encoder) {
   }
 }
 
-int Probe(bool as_json) {
+// Whether there is a GPU, and whether one of our back-ends reaches it.
+json Hardware(const json& backends) {
+  const std::vector<std::string> gpus = FindGpus();
+  const json& device = backends["egl_device"];
+  std::string remark;
+  if (device["works"]) {
+    remark = "used by --backend egl_device or auto; the default, osmesa, draws in software";
+  } else if (!gpus.empty()) {
+    remark = "unused: " + device["reason"].get<std::string>();
+  }
+  return {{"devices", gpus}, {"usable", device["works"]}, {"remark", remark}};
+}
+
+void PrintText(const json& found) {
+  fmt::print("Kinescope {}\n", KINESCOPE_VERSION);
+  for (const std::string& name : render::BackendNames()) {
+    const json& backend = found["backends"][name];
+    if (!backend["works"]) {
+      fmt::print("{:<11}{}\n", name, backend["reason"].get<std::string>());
+      continue;
+    }
+    fmt::print("{:<11}works: {}, OpenGL {}, {:.0f} pictures/s, the first after {:.2f} s\n", name,
+               backend["renderer"].get<std::string>(), backend["gl_version"].get<std::string>(),
+               backend["pictures_per_second"].get<double>(),
+               backend["first_picture_secs"].get<double>());
+  }
+  const json& hardware = found["hardware"];
+  const auto devices = hardware["devices"].get<std::vector<std::string>>();
+  fmt::print("GPU        {}{}{}\n",
+             devices.empty() ? "none seen" : fmt::format("{}", fmt::join(devices, ", ")),
+             hardware["remark"] == "" ? "" : "; ", hardware["remark"].get<std::string>());
+  for (const Encoder& each : kEncoders) {
+    const json& encoder = found["encoders"][each.key];
+    fmt::print("{:<11}{}\n", each.name,
+               encoder["works"] ? "works" : encoder["reason"].get<std::string>());
+  }
+  const json& ros = found["ros"];
+  if (!ros["built"]) {
+    fmt::print("ROS        not built in\n");
+  } else {
+    fmt::print("ROS        {} {}\n", ros["master_uri"].get<std::string>(),
+               ros["master_reachable"] ? "answers" : "does not answer");
+  }
+}
+
+int Probe(bool as_json, double limit_secs) {
+  if (!(limit_secs > 0 && limit_secs <= 3600)) {
+    throw UsageError(fmt::format("--limit_secs={}: expected up to 3600", limit_secs));
+  }
+  const std::chrono::milliseconds limit(static_cast<long>(1000 * limit_secs));
   json found;
   found["version"] = KINESCOPE_VERSION;
-  found["backends"]["osmesa"] = ProbeRenderer("osmesa");
+  bool can_draw = false;
+  for (const std::string& name : render::BackendNames()) {  // in turn: they share the cores
+    const BackendReport report = ProbeBackend(Machine().program, name, limit);
+    can_draw = can_draw || report.works;
+    found["backends"][name] = ToJson(report);
+  }
+  found["hardware"] = Hardware(found["backends"]);
   for (const Encoder& each : kEncoders) found["encoders"][each.key] = ProbeEncoder(each);
   found["ros"] = {{"built", ros_bridge::BuiltWithRos()},
                   {"master_uri", ros_bridge::MasterUri()},
                   {"master_reachable", ros_bridge::MasterIsReachable()}};
-  const bool can_draw = found["backends"]["osmesa"]["works"];
   if (as_json) {
-    fmt::print("{}\n", found.dump(2));
-    return can_draw ? 0 : 1;
-  }
-  const json& osmesa = found["backends"]["osmesa"];
-  fmt::print("Kinescope {}\n", KINESCOPE_VERSION);
-  if (can_draw) {
-    fmt::print("osmesa   works: {}, first picture after {:.2f} s\n",
-               osmesa["renderer"].get<std::string>(), osmesa["first_picture_secs"].get<double>());
+    fmt::print("{}\n", found.dump(2, ' ', false, json::error_handler_t::replace));
   } else {
-    fmt::print("osmesa   {}\n", osmesa["reason"].get<std::string>());
-  }
-  for (const Encoder& each : kEncoders) {
-    const json& encoder = found["encoders"][each.key];
-    fmt::print("{:<8} {}\n", each.name,
-               encoder["works"] ? "works" : encoder["reason"].get<std::string>());
-  }
-  if (!found["ros"]["built"]) {
-    fmt::print("ROS      not built in\n");
-  } else {
-    fmt::print("ROS      {} {}\n", found["ros"]["master_uri"].get<std::string>(),
-               found["ros"]["master_reachable"] ? "answers" : "does not answer");
+    PrintText(found);
   }
   return can_draw ? 0 : 1;
 }
@@ -92,8 +119,25 @@ void AddProbe(CommandLine line) {
       line.app.add_subcommand("probe", "Which GL back-ends, encoders and ROS master are here");
   const auto as_json = std::make_shared<bool>(false);
   command->add_flag("--json", *as_json, "as JSON");
+  const auto draw_with = std::make_shared<std::string>();
+  const auto limit_secs =
+      std::make_shared<double>(std::chrono::duration<double>(kProbeLimit).count());
+  command
+      ->add_option("--limit_secs", *limit_secs,
+                   "so long may a back-end take for its start and some pictures")
+      ->capture_default_str();
+  // What ProbeBackend starts, for which there is a process of its own.
+  command->add_option("--draw_with", *draw_with)->group("");
   int& exit_code = line.exit_code;
-  command->callback([as_json, &exit_code] { exit_code = Probe(*as_json); });
+  command->callback([=, &exit_code] {
+    if (draw_with->empty()) {
+      exit_code = Probe(*as_json, *limit_secs);
+    } else {
+      fmt::print(
+          "{}\n",
+          ToJson(MeasureBackend(*draw_with)).dump(-1, ' ', false, json::error_handler_t::replace));
+    }
+  });
 }
 
 }  // namespace kinescope::app

@@ -120,6 +120,7 @@ PictureOptions ToPictureOptions(const ServeOptions& options) {
         fmt::format("--picture_rate_hz={}: expected 0.1 to 240", options.picture_rate_hz));
   }
   pictures.rate_hz = options.picture_rate_hz;
+  pictures.backend = options.backend;
   return pictures;
 }
 
@@ -175,7 +176,7 @@ void Serve(const ServeOptions& options, bool with_page) {
     if (ToSwitch("pictures", options.pictures)) {
       drawing = std::make_unique<PictureLoop>(ToPictureOptions(options), states.Get(), pictures);
       spdlog::info("first picture {:.2f} s after start, drawn by {}",
-                   Secs(MonotonicNanos() - start_nanos), drawing->status().renderer);
+                   Secs(MonotonicNanos() - start_nanos), drawing->status().renderer.renderer);
     }
     http::HttpConfig config = ToHttpConfig(options);
     config.set_hand_load = [&](int character, const HandLoad& load) {

@@ -158,6 +158,7 @@ void AddPicture(CLI::App& urdf) {
   command->add_option("file", o->file, "a URDF")->required();
   command->add_option("--out", o->out, "file to write, .png")->required();
   o->view.Visit(FlagAdder(*command));
+  o->backend.Visit(FlagAdder(*command));
   command->add_option("--joint", o->joints, "NAME=RADIANS (or metres); may be given again")
       ->allow_extra_args(false);
   command->add_option("--package-path", o->package_path, kPackagePathHelp)->allow_extra_args(false);

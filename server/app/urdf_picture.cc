@@ -78,8 +78,7 @@ void DrawUrdf(const UrdfPictureOptions& options) {
   RobotState& robot = scene.robots.front();
   for (const std::string& note : robot.model->notes) spdlog::warn("{}: {}", options.file, note);
 
-  const auto renderer =
-      render::MakeRenderer("osmesa", [](const std::string& line) { spdlog::warn("{}", line); });
+  const auto renderer = StartRenderer(options.backend);
   robot.bounds = renderer->Bounds(robot);
   if (robot.bounds.isEmpty()) {
     throw SourceError(options.file + ": has no <visual>, so there is nothing to draw");
@@ -87,11 +86,11 @@ void DrawUrdf(const UrdfPictureOptions& options) {
   StandOnFloor(robot);
   const Shot shot = planner.Only(std::move(scene));
   const render::Image image = renderer->Render(shot.state, shot.camera, shot.view);
-  render::WritePng(options.out, image,
-                   {{"Software", "Kinescope " KINESCOPE_VERSION},
-                    {"Source", std::filesystem::path(options.file).filename().string()},
-                    {"Camera", options.view.camera},
-                    {"Renderer", renderer->renderer_string()}});
+  std::map<std::string, std::string> facts = DrawnBy(*renderer);
+  facts["Software"] = "Kinescope " KINESCOPE_VERSION;
+  facts["Source"] = std::filesystem::path(options.file).filename().string();
+  facts["Camera"] = options.view.camera;
+  render::WritePng(options.out, image, facts);
   Tell(options, shot.state.robots.front(), shot.camera, renderer->problems());
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "server/app/backend.h"
 #include "server/app/view_options.h"
 
 namespace kinescope::app {
@@ -12,6 +13,7 @@ struct UrdfPictureOptions {
   std::string file;
   std::string out;
   ViewOptions view;
+  BackendOptions backend;
   bool json = false;
   std::vector<std::string> joints;        // NAME=RADIANS (or metres)
   std::vector<std::string> package_path;  // folders

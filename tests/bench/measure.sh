@@ -33,7 +33,7 @@ master_port=$(port_of) http_port=$(port_of) udp_port=$(port_of)
 export ROS_MASTER_URI=http://127.0.0.1:$master_port
 if command -v rosmaster >/dev/null && [ -x "$build/tests/bench/ros_latency" ]; then
   /usr/bin/python3 "$(command -v rosmaster)" --core -p "$master_port" >/dev/null 2>&1 & children+=($!)
-  until "$kinescope" probe --json | grep -q '"master_reachable": true'; do :; done
+  until (: >"/dev/tcp/127.0.0.1/$master_port") 2>/dev/null; do sleep 0.1; done
 fi
 "$kinescope" serve --source "udp://127.0.0.1:$udp_port" --http_port "$http_port" 2>"$work/server.log" & server=$!
 children+=("$server")

@@ -3,8 +3,11 @@
 // threads.
 
 #include <benchmark/benchmark.h>
+#include <dlfcn.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
 #include "render/png_file.h"
@@ -64,6 +67,80 @@ void Draw(benchmark::State& run, bool moves) {
 void DrawStandingCamera(benchmark::State& run) { Draw(run, false); }
 void DrawMovingCamera(benchmark::State& run) { Draw(run, true); }
 
+// The floor: what no drawing can be cheaper than, in the renderer's own context. A framebuffer is
+// cleared and read into memory, as a picture is that has been drawn, and nothing else.
+class BareGl {
+ public:
+  BareGl(unsigned width, unsigned height) : width_(width), height_(height) {
+    // Loaded by the renderer already, for itself alone.
+    void* library = ::dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_NOLOAD);
+    using Find = void* (*)(const char*);
+    const auto find = library != nullptr
+                          ? reinterpret_cast<Find>(::dlsym(library, "OSMesaGetProcAddress"))
+                          : nullptr;
+    if (find == nullptr) {
+      std::fprintf(stderr, "no OSMesa here\n");
+      std::abort();
+    }
+    clear_color_ = reinterpret_cast<ClearColor>(find("glClearColor"));
+    clear_ = reinterpret_cast<Clear>(find("glClear"));
+    read_ = reinterpret_cast<ReadPixels>(find("glReadPixels"));
+    const auto generate_textures = reinterpret_cast<Generate>(find("glGenTextures"));
+    const auto generate_framebuffers = reinterpret_cast<Generate>(find("glGenFramebuffers"));
+    unsigned texture = 0, framebuffer = 0;
+    generate_textures(1, &texture);
+    reinterpret_cast<Bind>(find("glBindTexture"))(kTexture2d, texture);
+    reinterpret_cast<TexImage>(find("glTexImage2D"))(kTexture2d, 0, kRgba8, static_cast<int>(width),
+                                                     static_cast<int>(height), 0, kRgba,
+                                                     kUnsignedByte, nullptr);
+    generate_framebuffers(1, &framebuffer);
+    reinterpret_cast<Bind>(find("glBindFramebuffer"))(kFramebuffer, framebuffer);
+    reinterpret_cast<Attach>(find("glFramebufferTexture2D"))(kFramebuffer, kColorAttachment,
+                                                             kTexture2d, texture, 0);
+  }
+
+  void ClearAndRead(float level, Image& image) {
+    clear_color_(level, level, level, 1);
+    clear_(kColorBuffer);
+    read_(0, 0, static_cast<int>(width_), static_cast<int>(height_), kRgba, kUnsignedByte,
+          image.rgba.data());
+  }
+
+ private:
+  // GL's headers are the drawing module's; these are OpenGL 3.2's numbers.
+  static constexpr unsigned kTexture2d = 0x0DE1, kRgba = 0x1908, kRgba8 = 0x8058;
+  static constexpr unsigned kUnsignedByte = 0x1401, kFramebuffer = 0x8D40;
+  static constexpr unsigned kColorAttachment = 0x8CE0, kColorBuffer = 0x4000;
+  using ClearColor = void (*)(float, float, float, float);
+  using Clear = void (*)(unsigned);
+  using ReadPixels = void (*)(int, int, int, int, unsigned, unsigned, void*);
+  using Generate = void (*)(int, unsigned*);
+  using Bind = void (*)(unsigned, unsigned);
+  using TexImage = void (*)(unsigned, int, int, int, int, int, unsigned, unsigned, const void*);
+  using Attach = void (*)(unsigned, unsigned, unsigned, unsigned, int);
+
+  unsigned width_, height_;
+  ClearColor clear_color_;
+  Clear clear_;
+  ReadPixels read_;
+};
+
+void ClearAndReadBack(benchmark::State& run) {
+  const auto renderer = MakeRenderer();
+  View view;
+  view.width = 1280 * static_cast<int>(run.range(0));
+  view.height = 720 * static_cast<int>(run.range(0));
+  Sway sway;
+  Image image = renderer->Render(sway.state(), NamedCamera("front", sway.state()), view);
+  BareGl gl(static_cast<unsigned>(view.width), static_cast<unsigned>(view.height));
+  int step = 0;
+  for (auto _ : run) {
+    gl.ClearAndRead(static_cast<float>(++step % 100) / 100, image);
+    benchmark::DoNotOptimize(image.rgba.data());
+  }
+  SetRate(run);
+}
+
 // From nothing to the first picture, in a process that has loaded the module already (see the test
 // programs for a cold start: it adds the loading of VTK, Mesa and LLVM).
 void FirstPicture(benchmark::State& run) {
@@ -119,6 +196,13 @@ BENCHMARK(DrawMovingCamera)
     ->ArgNames({"supersample", "overlays"})
     ->Args({1, 0})
     ->Args({2, 0})
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+BENCHMARK(ClearAndReadBack)
+    ->ArgName("supersample")
+    ->Arg(1)
+    ->Arg(2)
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();

@@ -335,7 +335,7 @@ test('gloves, props and tracked objects are in the view, and what the server can
     .filter(({ name }) => name.includes('/api/mesh/')).length === 61, null, LONG);
   await page.locator('#diagnostics').waitFor({ state: 'visible', ...LONG });
   assert.deepEqual(await page.$$eval('#problems li', (all) => all.map((line) => line.textContent)),
-    ['Shown as a box: mesh package://arm/hand.stl: package <b>arm</b> is not found']);
+    ['Not in the picture as it is: mesh package://arm/hand.stl: package <b>arm</b> is not found']);
   await saveScreenshot(page, 'worn_desktop');
   assert.deepEqual(problems, []);
   await close();

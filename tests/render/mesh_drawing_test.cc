@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -196,6 +197,17 @@ TEST_F(MeshDrawing, WhatIsNoMeshIsReportedAndDrawnAsABox) {
     EXPECT_GT(Drawn(HeadFromFile(uri)).pixels, 100) << uri;
     EXPECT_EQ(log_.size(), before + 1) << uri;
   }
+}
+
+TEST_F(MeshDrawing, AMeshOfTenMillionTrianglesIsABoxAndIsNamed) {
+  constexpr std::uint32_t kTriangles = 10'000'000;
+  std::string header(84, '\0');
+  std::memcpy(header.data() + 80, &kTriangles, sizeof kTriangles);
+  const std::filesystem::path many = Write("many.stl", header);
+  std::filesystem::resize_file(many, 84 + std::uintmax_t{50} * kTriangles);  // sparse
+  EXPECT_GT(Drawn(HeadFromFile(many.string())).pixels, 100);
+  ASSERT_EQ(log_.size(), 1u);
+  EXPECT_THAT(log_[0], ::testing::HasSubstr("many.stl"));
 }
 
 TEST_F(MeshDrawing, AFileTheSizeOfADiskIsNotRead) {

@@ -1,14 +1,19 @@
 #include "render/renderer.h"
 
+#include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <condition_variable>
 #include <cstdlib>
+#include <limits>
+#include <mutex>
 #include <thread>
 
 #include "render/compare.h"
 #include "render/spheres.h"
+#include "render/watchdog.h"
 #include "server/core/errors.h"
 #include "tests/render/test_scene.h"
 
@@ -105,21 +110,23 @@ TEST(Renderer, TheSameStateIsTheSameBytesWhateverWasDrawnBefore) {
   }
 }
 
-TEST(Renderer, EveryThreadMayHaveItsOwn) {
+TEST(Renderer, EightThreadsWithOneEachDrawTheSameBytes) {
   const SceneState state = MixedScene(Posture::kStanding);
   const Camera camera = NamedCamera("iso", state);
-  const Image expected = MakeRenderer()->Render(state, camera, SmallView(true));
-  std::array<Image, 2> pictures;
-  std::array<std::thread, 2> threads;
+  View view = SmallView(true);
+  view.width = 160;
+  view.height = 90;
+  const Image expected = MakeRenderer()->Render(state, camera, view);
+  std::array<Image, 8> pictures;
+  std::array<std::thread, 8> threads;
   for (std::size_t i = 0; i < threads.size(); ++i) {
     threads[i] = std::thread([&, i] {
       const auto renderer = MakeRenderer();
-      for (int k = 0; k < 5; ++k) pictures[i] = renderer->Render(state, camera, SmallView(true));
+      for (int k = 0; k < 5; ++k) pictures[i] = renderer->Render(state, camera, view);
     });
   }
   for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(pictures[0].rgba, expected.rgba);
-  EXPECT_EQ(pictures[1].rgba, expected.rgba);
+  for (const Image& picture : pictures) EXPECT_EQ(picture.rgba, expected.rgba);
 }
 
 // Recordings without leg sensors have the pelvis near z = 0 and the floor below it.
@@ -339,6 +346,89 @@ TEST(Renderer, RefusesSizesThatNobodyCanMean) {
   view.width = 333;
   view.height = 17;  // odd sizes are sizes
   EXPECT_EQ(renderer->Render(SceneState(), Camera(), view).rgba.size(), 4u * 333 * 17);
+}
+
+TEST(Renderer, WhatIsNotFiniteIsLeftOutAndNamed) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::string> log;
+  const auto renderer =
+      MakeRenderer("osmesa", [&](const std::string& line) { log.push_back(line); });
+  SceneState two = SceneWith(Posture::kStanding, LoadClass::kLow, 0, -0.8);
+  two.people.push_back(SceneWith(Posture::kArmsForward, LoadClass::kHigh, 0, 0.8).people[0]);
+  two.people[1].character = 1;
+  const Camera camera = NamedCamera("front", two);
+  SceneState one = two;
+  one.people.pop_back();
+  const Image expected = renderer->Render(one, camera, SmallView());
+  EXPECT_THAT(renderer->problems(), ::testing::IsEmpty());
+  two.people[1].links[urdf::kHead].orientation.x() = kNan;
+  EXPECT_EQ(renderer->Render(two, camera, SmallView()).rgba, expected.rgba);
+  EXPECT_THAT(renderer->problems(), ::testing::ElementsAre(::testing::HasSubstr("person 1")));
+  renderer->Render(two, camera, SmallView());
+  EXPECT_EQ(log, renderer->problems()) << "said once";
+  one.people[0].com->z() = kNan;
+  one.people[0].loads[3].position.x() = std::numeric_limits<double>::infinity();
+  renderer->Render(one, camera, SmallView(true));
+  EXPECT_THAT(renderer->problems(), ::testing::ElementsAre(::testing::HasSubstr("1 load sphere"),
+                                                           ::testing::HasSubstr("centre of mass")));
+  Camera nowhere = camera;
+  nowhere.target.y() = kNan;
+  EXPECT_THROW(renderer->Render(one, nowhere, SmallView()), RenderError);
+}
+
+TEST(Renderer, AProcessHasOneBackEnd) {
+  MakeRenderer();
+  try {
+    MakeRenderer("egl");
+    FAIL() << "two kinds of GL in one process";
+  } catch (const RenderError& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("osmesa"));
+  }
+}
+
+// What a driver says of itself through KHR_debug, here by its own means of saying anything.
+TEST(Renderer, WarningsOfOpenGlComeToTheLogOnceAndInOneLine) {
+  std::vector<std::string> log;
+  const auto renderer =
+      MakeRenderer("osmesa", [&](const std::string& line) { log.push_back(line); });
+  renderer->Render(SceneState(), Camera(), SmallView());
+  EXPECT_THAT(log, ::testing::IsEmpty());
+  void* osmesa = ::dlopen("libOSMesa.so.8", RTLD_LAZY | RTLD_NOLOAD);
+  ASSERT_NE(osmesa, nullptr);
+  using Find = void* (*)(const char*);
+  using Insert = void (*)(unsigned source, unsigned type, unsigned id, unsigned severity,
+                          int length, const char* message);
+  const auto insert = reinterpret_cast<Insert>(
+      reinterpret_cast<Find>(::dlsym(osmesa, "OSMesaGetProcAddress"))("glDebugMessageInsert"));
+  constexpr unsigned kByApplication = 0x824A, kError = 0x824C, kHigh = 0x9146, kNotice = 0x826B;
+  for (int i = 0; i < 2; ++i) insert(kByApplication, kError, 7, kHigh, -1, "out of\n  memory");
+  insert(kByApplication, kError, 8, kNotice, -1, "a shader was recompiled");
+  EXPECT_THAT(log, ::testing::ElementsAre("gl: error: out of memory"));
+}
+
+TEST(Watchdog, SpeaksOnceOfWorkThatTakesTooLongAndNotOfOther) {
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::vector<std::string> said;
+  Watchdog dog([&](const std::string& what) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    said.push_back(what);
+    changed.notify_one();
+  });
+  for (int i = 0; i < 1000; ++i) {
+    const Watchdog::Work work(dog, std::chrono::hours(1), [] { return "long limit"; });
+  }
+  {
+    const Watchdog::Work work(dog, std::chrono::milliseconds(5), [] { return "short limit"; });
+    std::unique_lock<std::mutex> lock(mutex);
+    ASSERT_TRUE(changed.wait_for(lock, std::chrono::seconds(20), [&] { return !said.empty(); }));
+  }
+  {  // the next one is watched as the first was
+    const Watchdog::Work work(dog, std::chrono::milliseconds(5), [] { return "again"; });
+    std::unique_lock<std::mutex> lock(mutex);
+    ASSERT_TRUE(changed.wait_for(lock, std::chrono::seconds(20), [&] { return said.size() == 2; }));
+  }
+  EXPECT_THAT(said, ::testing::ElementsAre("short limit", "again"));
 }
 
 TEST(Renderer, AnUnknownBackEndIsAnsweredWithTheKnownOnes) {

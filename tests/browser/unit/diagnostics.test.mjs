@@ -15,7 +15,7 @@ test('what the server draws as a box is named with its reason, before what was r
   };
   assert.deepEqual(problemLines(told, ['/api/mesh/0/1/0']), [
     'The server’s picture: out of memory',
-    'Shown as a box: mesh hand.stl: no such file',
+    'Not in the picture as it is: mesh hand.stl: no such file',
     'Not loaded by this page: /api/mesh/0/1/0',
     '2 datagrams refused: no MXTP id string',
     '1 datagram refused: cut short',

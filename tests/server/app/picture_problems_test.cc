@@ -41,7 +41,7 @@ class PictureProblems : public ::testing::Test {
  protected:
   PictureProblems()
       : first_(std::make_shared<const SceneState>(Scene())),
-        drawing_({"front", 64, 64, 30}, first_, pictures_),
+        drawing_({"front", 64, 64, 30, {}}, first_, pictures_),
         server_(Config(), states_, pictures_, &drawing_,
                 [this] { return DiagnosticsJson(first_, nullptr, {}, drawing_.status()); }) {}
 

@@ -1,4 +1,4 @@
-#include "render/vtk/osmesa_drawing.h"
+#include "render/vtk/gl_drawing.h"
 
 #include <GL/glew.h>
 #include <vtkCamera.h>
@@ -24,11 +24,11 @@
 #include "render/vtk/floor_cache.h"
 #include "render/vtk/floor_scale.h"
 #include "render/vtk/ghost_actors.h"
+#include "render/vtk/gl_context.h"
 #include "render/vtk/ground.h"
 #include "render/vtk/log_window.h"
 #include "render/vtk/marker_actors.h"
 #include "render/vtk/object_actors.h"
-#include "render/vtk/osmesa_context.h"
 #include "render/vtk/person_actors.h"
 #include "render/vtk/robot_actors.h"
 #include "render/vtk/trail_actor.h"
@@ -40,14 +40,23 @@ namespace {
 // and Mesa need for a picture, and keeps clear of the largest texture.
 constexpr int kLargestTile = 4096;
 
+constexpr int kBandBytes = 1 << 18;
+
 std::mutex creation;  // GLEW's table of functions and VTK's factories are the process'
 
-class OsmesaDrawing : public Drawing {
+void TurnUpsideDown(std::uint8_t* rgba, int width, int height) {
+  const std::size_t row = 4 * static_cast<std::size_t>(width);
+  std::uint8_t* top = rgba;
+  std::uint8_t* bottom = rgba + row * static_cast<std::size_t>(height - 1);
+  for (; top < bottom; top += row, bottom -= row) std::swap_ranges(top, top + row, bottom);
+}
+
+class GlDrawing : public Drawing {
  public:
-  explicit OsmesaDrawing(LogLine log) : log_(std::move(log)), once_(log_) {
+  GlDrawing(const std::string& backend, LogLine log) : log_(std::move(log)), once_(log_) {
     const VtkLogScope scope(log_);
     const std::lock_guard<std::mutex> lock(creation);
-    context_ = std::make_unique<OsmesaContext>();
+    context_ = MakeGlContext(backend);
     window_->SetMultiSamples(0);
     window_->SetOwnContext(0);
     window_->SetIsCurrent(true);
@@ -67,6 +76,8 @@ class OsmesaDrawing : public Drawing {
     floor_layer_->SetBackgroundAlpha(1);
     people_layer_->SetLayer(1);
     window_->Render();  // of nothing: initialises GLEW, under the lock
+    LogGlMessages(once_);
+    can_invert_ = GLEW_MESA_pack_invert != 0;
     ground_ = std::make_unique<Ground>();
     markers_ = std::make_unique<MarkerActors>();
     trails_ = std::make_unique<TrailActor>();
@@ -74,7 +85,7 @@ class OsmesaDrawing : public Drawing {
     floor_cache_ = std::make_unique<FloorCache>(window_, floor_layer_, people_layer_);
   }
 
-  ~OsmesaDrawing() override {
+  ~GlDrawing() override {
     const VtkLogScope scope(log_);
     context_->MakeCurrent();
     floor_cache_.reset();
@@ -83,7 +94,14 @@ class OsmesaDrawing : public Drawing {
     window_->Finalize();
   }
 
-  std::string renderer_string() const override { return context_->renderer_string(); }
+  Driver driver() const override {
+    context_->MakeCurrent();
+    const auto text = [](GLenum name) {
+      const auto* found = reinterpret_cast<const char*>(glGetString(name));
+      return std::string(found != nullptr ? found : "unknown");
+    };
+    return {text(GL_RENDERER), text(GL_VERSION)};
+  }
 
   Eigen::AlignedBox3d Bounds(const RobotState& robot) override {
     const VtkLogScope scope(log_);
@@ -231,12 +249,19 @@ class OsmesaDrawing : public Drawing {
     const bool is_whole =
         supersample == 1 && tile.width == image.width && tile.height == image.height;
     if (is_whole) {
-      ReadPixels(width, height, image.rgba.data());
+      ReadPixels(0, width, height, image.rgba.data());
       return;
     }
-    large_.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    ReadPixels(width, height, large_.data());
-    AverageInto(large_.data(), tile.width, tile.height, supersample, image, tile.x, tile.y);
+    // In bands that stay in the second-level cache until they are averaged, instead of 15 MB at
+    // once (tests/bench/README.md).
+    const int band = std::max(1, kBandBytes / (4 * width * supersample));  // rows of the picture
+    large_.resize(4 * static_cast<std::size_t>(width) *
+                  static_cast<std::size_t>(std::min(band, tile.height) * supersample));
+    for (int y = 0; y < tile.height; y += band) {
+      const int rows = std::min(band, tile.height - y);
+      ReadPixels(height - (y + rows) * supersample, width, rows * supersample, large_.data());
+      AverageInto(large_.data(), tile.width, rows, supersample, image, tile.x, tile.y + y);
+    }
   }
 
   FloorCache::Key FloorKey(const Camera& camera, int width, int height) const {
@@ -261,16 +286,17 @@ class OsmesaDrawing : public Drawing {
   }
 
   // Straight from VTK's framebuffer into the picture: its own way copies twice, and GL's rows start
-  // at the bottom, which Mesa turns round while it copies.
-  void ReadPixels(int width, int height, std::uint8_t* rgba) {
+  // at the bottom, which Mesa turns round while it copies; with other drivers we do.
+  // `bottom`: the first row, in GL's count.
+  void ReadPixels(int bottom, int width, int height, std::uint8_t* rgba) {
     vtkOpenGLState* gl = window_->GetState();
     gl->PushReadFramebufferBinding();
     window_->GetRenderFramebuffer()->Bind(GL_READ_FRAMEBUFFER);
     window_->GetRenderFramebuffer()->ActivateReadBuffer(0);
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glPixelStorei(GL_PACK_INVERT_MESA, 1);
-    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
-    glPixelStorei(GL_PACK_INVERT_MESA, 0);
+    if (can_invert_) glPixelStorei(GL_PACK_INVERT_MESA, 1);
+    glReadPixels(0, bottom, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    if (can_invert_) glPixelStorei(GL_PACK_INVERT_MESA, 0);
     gl->PopReadFramebufferBinding();
     const GLenum error = glGetError();
     if (error != GL_NO_ERROR) {
@@ -278,11 +304,12 @@ class OsmesaDrawing : public Drawing {
                         std::to_string(width) + " x " + std::to_string(height) +
                         " px; a smaller picture may work");
     }
+    if (!can_invert_) TurnUpsideDown(rgba, width, height);
   }
 
   LogLine log_;
   OnceLog once_;
-  std::unique_ptr<OsmesaContext> context_;  // outlives everything that follows
+  std::unique_ptr<GlContext> context_;  // outlives everything that follows
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkOpenGLRenderer> floor_layer_;   // drawn first, without depth
   vtkNew<vtkOpenGLRenderer> people_layer_;  // over it
@@ -300,12 +327,13 @@ class OsmesaDrawing : public Drawing {
   std::vector<std::unique_ptr<RobotActors>> robots_;  // in the order of the state
   std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet
   std::vector<std::uint8_t> large_;
+  bool can_invert_ = false;  // MESA_pack_invert
 };
 
 }  // namespace
 
-std::unique_ptr<Drawing> MakeOsmesaDrawing(const LogLine& log) {
-  return std::make_unique<OsmesaDrawing>(log);
+std::unique_ptr<Drawing> MakeGlDrawing(const std::string& backend, const LogLine& log) {
+  return std::make_unique<GlDrawing>(backend, log);
 }
 
 }  // namespace kinescope::render

@@ -1,0 +1,169 @@
+#include "render/module_renderer.h"
+
+#include <utility>
+
+#include "render/canvas.h"
+#include "render/finite.h"
+#include "render/floor_lift.h"
+#include "render/matte.h"
+#include "render/multi_view.h"
+#include "server/core/check.h"
+
+namespace kinescope::render {
+namespace {
+
+bool IsSoftware(const std::string& renderer) {
+  for (const char* name : {"llvmpipe", "softpipe", "swrast"}) {
+    if (renderer.find(name) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::string TookTooLong(const std::string& what, std::chrono::milliseconds limit) {
+  return what + " has taken more than " + std::to_string(limit.count()) +
+         " ms: the OpenGL driver hangs, and nothing can interrupt it. Another --backend may do, or "
+         "a larger --draw_limit_secs where the machine is only slow";
+}
+
+// The picture's arguments raised so that the floor is at z = 0, where the drawing has it.
+class Lifted {
+ public:
+  Lifted(const SceneState& state, const Camera& camera, const View& view)
+      : state_(state), camera_(camera), view_(view) {
+    if (state.floor_z == 0) return;
+    raised_.emplace(Raised{state, camera, view});
+    LiftToFloor(raised_->state, raised_->camera, raised_->view);
+  }
+
+  const SceneState& state() const { return raised_ ? raised_->state : state_; }
+  const Camera& camera() const { return raised_ ? raised_->camera : camera_; }
+  const View& view() const { return raised_ ? raised_->view : view_; }
+
+ private:
+  struct Raised {
+    SceneState state;
+    Camera camera;
+    View view;
+  };
+  const SceneState& state_;
+  const Camera& camera_;
+  const View& view_;
+  std::optional<Raised> raised_;
+};
+
+std::vector<DrawnView> ViewsOf(const Camera& camera, const View& view) {
+  if (view.panes.empty()) return {{{0, 0, view.width, view.height}, camera, "", {}}};
+  const auto tiles =
+      PaneTiles(view.width, view.height, static_cast<int>(view.panes.size()), view.pane_columns);
+  std::vector<DrawnView> views;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    views.push_back({tiles[i], view.panes[i].camera, view.panes[i].name, {}});
+  }
+  return views;
+}
+
+}  // namespace
+
+ModuleRenderer::ModuleRenderer(const DrawingModule& module, RendererSettings settings)
+    : settings_(std::move(settings)),
+      watchdog_(settings_.on_hang ? settings_.on_hang : Watchdog::OnHang(EndProcess)) {
+  const Watchdog::Work work(watchdog_, LimitOf(View()), [this] {
+    return TookTooLong("starting back-end " + settings_.backend, LimitOf(View()));
+  });
+  drawing_ = module.make(settings_.backend, settings_.log);
+}
+
+RendererInfo ModuleRenderer::info() const {
+  const Driver driver = drawing_->driver();
+  return {settings_.backend, driver.renderer, driver.gl_version, IsSoftware(driver.renderer),
+          settings_.note};
+}
+
+std::vector<std::string> ModuleRenderer::problems() const {
+  std::vector<std::string> all = skipped_;
+  for (std::string& problem : drawing_->problems()) all.push_back(std::move(problem));
+  return all;
+}
+
+std::chrono::milliseconds ModuleRenderer::LimitOfPicture(const View& view) const {
+  return settings_.limit.count() > 0 ? settings_.limit : LimitOf(view);
+}
+
+const SceneState& ModuleRenderer::Drawable(const SceneState& state,
+                                           std::optional<SceneState>& kept) {
+  skipped_.clear();
+  kept = WithoutNonFinite(state, skipped_);
+  for (const std::string& line : skipped_) {
+    if (said_.insert(line).second) settings_.log(line);
+  }
+  return kept ? *kept : state;
+}
+
+void ModuleRenderer::DoRender(Image& image, const SceneState& state, const Camera& camera,
+                              const View& view) {
+  std::optional<SceneState> kept;
+  const Lifted lifted(Drawable(state, kept), camera, view);
+  if (lifted.view().look.is_transparent) {
+    RenderTransparent(image, lifted.state(), lifted.camera(), lifted.view());
+  } else {
+    RenderOpaque(image, lifted.state(), lifted.camera(), lifted.view());
+  }
+}
+
+std::string ModuleRenderer::DoOverlayLayer(const SceneState& state, const Camera& camera,
+                                           const View& view, LayerFormat format) {
+  std::optional<SceneState> kept;
+  const Lifted lifted(Drawable(state, kept), camera, view);
+  std::vector<DrawnView> views = ViewsOf(lifted.camera(), lifted.view());
+  KINESCOPE_CHECK(views.size() == drawn_.size());  // of the picture drawn last
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].labels = drawn_[i].labels;
+  const auto painter = MakeLayerPainter(view.width, view.height, format);
+  overlay_.Paint(*painter, lifted.state(), views, lifted.view());
+  return painter->Finish();
+}
+
+void ModuleRenderer::DrawWatched(const SceneState& state, DrawnView& drawn, const View& view,
+                                 Image& image) {
+  const Watchdog::Work work(watchdog_, LimitOfPicture(view), [this, &view] {
+    return TookTooLong("a picture of " + std::to_string(view.width) + " x " +
+                           std::to_string(view.height) + " px by back-end " + settings_.backend,
+                       LimitOfPicture(view));
+  });
+  drawing_->Draw(state, drawn.camera, view.look, view.supersample, image, drawn.labels);
+}
+
+void ModuleRenderer::RenderOpaque(Image& image, const SceneState& state, const Camera& camera,
+                                  const View& view) {
+  std::optional<SceneState> shown;
+  if (HidesAnything(view.look)) shown = Without(state, view.look);
+  const SceneState& scene = shown ? *shown : state;
+  drawn_ = ViewsOf(camera, view);
+  if (drawn_.size() == 1) {
+    DrawWatched(scene, drawn_.front(), view, image);
+  } else {
+    FillWith(image, InksOf(view).separator.color);
+    for (DrawnView& each : drawn_) {
+      SetSize(part_, each.tile.width, each.tile.height);
+      DrawWatched(scene, each, view, part_);
+      CopyInto(image, part_, each.tile);
+    }
+  }
+  if (!view.overlays) return;
+  Canvas canvas(image);
+  overlay_.Paint(canvas, state, drawn_, view);
+}
+
+// Overlays and all, so that nothing that is drawn or written needs to know about alpha.
+void ModuleRenderer::RenderTransparent(Image& image, const SceneState& state, const Camera& camera,
+                                       const View& view) {
+  View opaque = view;
+  opaque.look.is_transparent = false;
+  opaque.look.background = Rgb{0, 0, 0};
+  SetSize(over_black_, image.width, image.height);
+  RenderOpaque(over_black_, state, camera, opaque);
+  opaque.look.background = Rgb{1, 1, 1};
+  RenderOpaque(image, state, camera, opaque);
+  MatteOut(image, over_black_);
+}
+
+}  // namespace kinescope::render

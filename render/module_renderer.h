@@ -1,0 +1,53 @@
+/// A Renderer over a module that draws: what is not finite left out, the floor brought to z = 0,
+/// transparency, several views, overlays, and the watchdog beside the driver.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "render/module.h"
+#include "render/overlay.h"
+#include "render/renderer.h"
+#include "render/watchdog.h"
+
+namespace kinescope::render {
+
+class ModuleRenderer : public Renderer {
+ public:
+  /// `settings` with a log. @throws RenderError.
+  ModuleRenderer(const DrawingModule& module, RendererSettings settings);
+
+  RendererInfo info() const override;
+  Eigen::AlignedBox3d Bounds(const RobotState& robot) override { return drawing_->Bounds(robot); }
+  std::vector<std::string> problems() const override;
+
+ private:
+  void DoRender(Image& image, const SceneState& state, const Camera& camera,
+                const View& view) override;
+  std::string DoOverlayLayer(const SceneState& state, const Camera& camera, const View& view,
+                             LayerFormat format) override;
+
+  void RenderOpaque(Image& image, const SceneState& state, const Camera& camera, const View& view);
+  void RenderTransparent(Image& image, const SceneState& state, const Camera& camera,
+                         const View& view);
+  void DrawWatched(const SceneState& state, DrawnView& drawn, const View& view, Image& image);
+  // `state`, or what of it can be drawn, in `kept`.
+  const SceneState& Drawable(const SceneState& state, std::optional<SceneState>& kept);
+  std::chrono::milliseconds LimitOfPicture(const View& view) const;
+
+  const RendererSettings settings_;
+  Watchdog watchdog_;
+  std::unique_ptr<Drawing> drawing_;
+  Overlay overlay_;
+  std::vector<DrawnView> drawn_;      // of the newest picture
+  std::vector<std::string> skipped_;  // likewise
+  std::set<std::string> said_;
+  Image part_;  // one of several views
+  Image over_black_;
+};
+
+}  // namespace kinescope::render

@@ -1,0 +1,14 @@
+/// The scene, drawn by VTK into memory on whatever kind of GL context the module has.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "render/module.h"
+
+namespace kinescope::render {
+
+/// @throws RenderError when there is no context of `backend`.
+std::unique_ptr<Drawing> MakeGlDrawing(const std::string& backend, const LogLine& log);
+
+}  // namespace kinescope::render

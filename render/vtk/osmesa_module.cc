@@ -1,8 +1,0 @@
-#include "render/module.h"
-#include "render/vtk/osmesa_drawing.h"
-
-extern "C" __attribute__((visibility("default"))) const void* KinescopeDrawingModule() {
-  static const kinescope::render::DrawingModule module = {{},
-                                                          &kinescope::render::MakeOsmesaDrawing};
-  return &module;
-}
