@@ -1,6 +1,7 @@
 /// A picture in memory: RGBA, 8 bits a channel, row-major, top row first, no padding.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,5 +12,12 @@ struct Image {
   int height = 0;                  // px
   std::vector<std::uint8_t> rgba;  // (height, width, 4)
 };
+
+/// What `image` holds then is for the caller to write; its memory is used again.
+inline void SetSize(Image& image, int width, int height) {
+  image.width = width;
+  image.height = height;
+  image.rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+}
 
 }  // namespace kinescope::render

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "render/canvas.h"
-#include "render/module.h"
 #include "render/module_renderer.h"
 #include "server/core/check.h"
 #include "server/core/errors.h"

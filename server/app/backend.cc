@@ -65,11 +65,12 @@ BackendChoice ChooseBackend(const BackendOptions& options, const Machine& machin
 
 std::unique_ptr<render::Renderer> StartRenderer(const BackendOptions& options,
                                                 const BackendChoice& choice,
-                                                std::function<void(const std::string&)> on_hang) {
+                                                std::function<void(const std::string&)> on_hang,
+                                                render::LogLine log) {
   render::RendererSettings settings;
   settings.backend = choice.name;
   settings.note = choice.note;
-  settings.log = [](const std::string& line) { spdlog::warn("{}", line); };
+  settings.log = log ? std::move(log) : [](const std::string& line) { spdlog::warn("{}", line); };
   settings.limit = LimitOf(options);
   settings.on_hang = std::move(on_hang);
   return render::MakeRenderer(std::move(settings));

@@ -49,7 +49,7 @@ BackendChoice ChooseBackend(const BackendOptions& options, const Machine& machin
 /// to it. @throws render::RenderError, UsageError.
 std::unique_ptr<render::Renderer> StartRenderer(
     const BackendOptions& options, const BackendChoice& choice,
-    std::function<void(const std::string&)> on_hang = {});
+    std::function<void(const std::string&)> on_hang = {}, render::LogLine log = {});
 
 /// Chosen and started; the note is said once on the log.
 std::unique_ptr<render::Renderer> StartRenderer(const BackendOptions& options);

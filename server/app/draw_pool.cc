@@ -21,8 +21,8 @@ class DrawPool::Shelf : public std::enable_shared_from_this<Shelf> {
   }
 
   /// One of those reserved.
-  std::shared_ptr<render::Image> Take() {
-    std::unique_ptr<render::Image> image = std::make_unique<render::Image>();
+  std::shared_ptr<DrawnPicture> Take() {
+    std::unique_ptr<DrawnPicture> image = std::make_unique<DrawnPicture>();
     {
       const std::lock_guard lock(mutex_);
       if (!used_.empty()) {
@@ -30,13 +30,13 @@ class DrawPool::Shelf : public std::enable_shared_from_this<Shelf> {
         used_.pop_back();
       }
     }
-    return {image.release(), [shelf = shared_from_this()](render::Image* back) {
-              shelf->Return(std::unique_ptr<render::Image>(back));
+    return {image.release(), [shelf = shared_from_this()](DrawnPicture* back) {
+              shelf->Return(std::unique_ptr<DrawnPicture>(back));
             }};
   }
 
  private:
-  void Return(std::unique_ptr<render::Image> image) {
+  void Return(std::unique_ptr<DrawnPicture> image) {
     {
       const std::lock_guard lock(mutex_);
       ++left_;
@@ -47,18 +47,18 @@ class DrawPool::Shelf : public std::enable_shared_from_this<Shelf> {
 
   std::mutex mutex_;
   std::condition_variable returned_;
-  std::size_t left_;                                  // guarded by mutex_
-  std::vector<std::unique_ptr<render::Image>> used_;  // likewise
+  std::size_t left_;                                 // guarded by mutex_
+  std::vector<std::unique_ptr<DrawnPicture>> used_;  // likewise
 };
 
 DrawPool::DrawPool(int jobs, std::size_t most_pictures, MakeRenderer make)
     : make_(std::move(make)), shelf_(std::make_shared<Shelf>(most_pictures)) {
   KINESCOPE_CHECK(jobs >= 1 && most_pictures >= static_cast<std::size_t>(jobs));
-  std::promise<std::string> promise;
-  std::future<std::string> started = promise.get_future();
+  std::promise<render::RendererInfo> promise;
+  std::future<render::RendererInfo> started = promise.get_future();
   threads_.emplace_back([this, promise = std::move(promise)]() mutable { Work(&promise); });
   try {
-    renderer_string_ = started.get();
+    info_ = started.get();
   } catch (...) {
     threads_.front().join();
     throw;
@@ -88,12 +88,12 @@ FuturePicture DrawPool::Draw(Shot shot) {
   return picture;
 }
 
-void DrawPool::Work(std::promise<std::string>* started) {
+void DrawPool::Work(std::promise<render::RendererInfo>* started) {
   std::unique_ptr<render::Renderer> renderer;
   if (started != nullptr) {
     try {
       renderer = make_();
-      started->set_value(renderer->renderer_string());
+      started->set_value(renderer->info());
     } catch (...) {
       started->set_exception(std::current_exception());
       return;
@@ -106,10 +106,14 @@ void DrawPool::Work(std::promise<std::string>* started) {
     Job job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();
-    std::shared_ptr<render::Image> image = shelf_->Take();
+    std::shared_ptr<DrawnPicture> image = shelf_->Take();
     try {
       if (renderer == nullptr) renderer = make_();
-      renderer->RenderInto(*image, job.shot.state, job.shot.camera, job.shot.view);
+      const Shot& shot = job.shot;
+      renderer->RenderInto(*image, shot.state, shot.camera, shot.view);
+      if (shot.layer) {
+        image->layer = renderer->OverlayLayer(shot.state, shot.camera, shot.view, *shot.layer);
+      }
       job.picture.set_value(std::move(image));
     } catch (...) {
       image.reset();

@@ -19,8 +19,12 @@
 
 namespace kinescope::app {
 
+struct DrawnPicture : render::Image {
+  std::string layer;  // what is written over it as a file, where Shot::layer asks for it
+};
+
 /// A picture whose memory goes back to the pool when nobody holds it any more.
-using PicturePtr = std::shared_ptr<const render::Image>;
+using PicturePtr = std::shared_ptr<const DrawnPicture>;
 using FuturePicture = std::shared_future<PicturePtr>;
 
 class DrawPool {
@@ -43,7 +47,7 @@ class DrawPool {
   FuturePicture Draw(Shot shot);
 
   /// Of the renderers, which are all alike.
-  const std::string& renderer_string() const { return renderer_string_; }
+  const render::RendererInfo& info() const { return info_; }
 
  private:
   class Shelf;
@@ -52,11 +56,11 @@ class DrawPool {
     std::promise<PicturePtr> picture;
   };
 
-  void Work(std::promise<std::string>* started);
+  void Work(std::promise<render::RendererInfo>* started);
 
   const MakeRenderer make_;
   const std::shared_ptr<Shelf> shelf_;  // shared with pictures that may outlive the pool
-  std::string renderer_string_;
+  render::RendererInfo info_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Job> jobs_;     // guarded by mutex_

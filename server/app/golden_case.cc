@@ -118,7 +118,7 @@ GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
   ShotPlanner planner(golden_case.view);
   if (planner.needs_survey()) {
     SceneReader reader = Open(golden_case);
-    SurveyClip(planner, reader, kSurveySecs);
+    SurveyClip({&planner}, reader, kSurveySecs);
   }
   const Shot shot = planner.Only(SceneOf(golden_case, planner), golden_case.time_secs);
   GoldenDrawing drawing;

@@ -138,6 +138,13 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
   if (moment.frame && moment.time) {
     throw UsageError("--frame and --time both choose the picture; give one of them");
   }
+  if (!moment.overlay_layer.empty()) {
+    ToLayerFormat(moment.overlay_layer);
+    if (!has_still) {
+      throw UsageError(
+          "--overlay_layer is beside one picture; give --out a name that ends in .png");
+    }
+  }
   if (!has_still && (moment.frame || moment.time)) {
     throw UsageError(
         "--frame and --time choose one picture; give --out a name that ends in .png (of a clip, "

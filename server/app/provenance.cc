@@ -32,6 +32,8 @@ class ValueGetter {
   void operator()(const std::string& name, const T& value, const std::string& = {}) {
     if constexpr (OptionalOf<T>::value) {
       if (value) values_[name] = *value;
+    } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+      values_[name] = fmt::format("{}", fmt::join(value, ";"));  // as ParseOption reads it
     } else {
       values_[name] = value;
     }
@@ -48,6 +50,9 @@ class FileFinder {
   template <class T>
   void operator()(const std::string& name, const T& value, const std::string& = {}) {
     if constexpr (std::is_same_v<T, std::string>) Look(name, value);
+    if constexpr (std::is_same_v<T, std::vector<std::string>>) {
+      for (const std::string& each : value) Look(name, each);
+    }
   }
 
   const Json& found() const { return found_; }
@@ -123,7 +128,7 @@ std::vector<double> ToList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z
 }  // namespace
 
 Provenance::Provenance(const RenderOptions& options, const std::string& source,
-                       const std::string& renderer_string)
+                       const render::RendererInfo& renderer)
     : options_(options) {
   FileFinder finder;
   RenderOptions copy = options;  // Visit() gives references that can be written
@@ -134,7 +139,10 @@ Provenance::Provenance(const RenderOptions& options, const std::string& source,
              {"schema", kSchema},
              {"source", DescribeSource(source, is_repeatable_)},
              {"inputs", finder.found()},
-             {"renderer", renderer_string},
+             {"renderer", renderer.renderer},
+             {"gl_version", renderer.gl_version},
+             {"backend", renderer.backend},
+             {"backend_note", renderer.note},
              {"loads", DescribeLoads(options.loads)}};
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/camera.h"
+#include "render/renderer.h"
 #include "server/app/output_plan.h"
 #include "server/app/render_options.h"
 
@@ -22,7 +23,7 @@ inline constexpr const char* kProvenanceKey = "Kinescope";
 class Provenance {
  public:
   Provenance(const RenderOptions& options, const std::string& source,
-             const std::string& renderer_string);
+             const render::RendererInfo& renderer);
 
   /// What decides the pixels of `output`. `number`: of one picture of a sequence.
   Json Of(const Output& output, std::optional<long> number = {}) const;

@@ -60,7 +60,7 @@ void Render(const RenderOptions& options) {
   settings.jobs = options.jobs > 0 ? options.jobs : DefaultJobs();
   settings.force = options.force;
   settings.sidecar = !options.no_sidecar;
-  const auto pool = MakeDrawPool(settings.jobs, view);
+  const auto pool = MakeDrawPool(settings.jobs, view, options.backend);
   for (const SourcePlan& plan : plans) {
     for (const OutputResult& result : RenderSource(options, plan, settings, *pool)) {
       Tell(result, options.json);
@@ -129,8 +129,10 @@ void AddRender(CommandLine line) {
     render.clip.Visit(FlagAdder(*command));
     render.pack.Visit(FlagAdder(*command));
   });
-  Group(*command, "How it looks (several cameras: --camera front,top)",
-        [&] { render.view.Visit(FlagAdder(*command)); });
+  Group(*command, "How it looks (several cameras: --camera front,top)", [&] {
+    render.view.Visit(FlagAdder(*command));
+    render.backend.Visit(FlagAdder(*command));
+  });
   Group(*command, "The person", [&] { render.person.Visit(FlagAdder(*command)); });
   Group(*command, "Joint loads", [&] { render.loads.Visit(FlagAdder(*command)); });
   int& exit_code = line.exit_code;

@@ -4,18 +4,23 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <set>
+#include <tuple>
 #include <utility>
 
+#include "render/new_file.h"
+#include "server/app/backend.h"
 #include "server/app/output_sink.h"
 #include "server/app/pipeline_options.h"
 #include "server/app/progress.h"
 #include "server/app/provenance.h"
 #include "server/app/scene_reader.h"
 #include "server/app/stop_signal.h"
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {
@@ -29,7 +34,21 @@ struct Running {
   std::unique_ptr<OutputSink> sink;  // from the first picture on
   Json first_camera;
   bool is_finished = false;  // was there already
+  FuturePicture layer;       // of a still whose overlays go into a file beside it
 };
+
+// Stills do not follow what clips do before them.
+struct PlannerKey {
+  std::string camera;
+  bool is_still = false;
+  bool operator<(const PlannerKey& other) const {
+    return std::tie(camera, is_still) < std::tie(other.camera, other.is_still);
+  }
+};
+
+SceneOptions SceneOptionsOf(const RenderOptions& options) {
+  return ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads);
+}
 
 bool IsEndless(const std::string& source) { return source.rfind("demo:", 0) == 0; }
 
@@ -41,11 +60,11 @@ class Job {
         plan_(plan),
         settings_(settings),
         pool_(pool),
-        reader_(plan.source,
-                ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads)),
+        reader_(plan.source, SceneOptionsOf(options)),
         grid_(ToTimeGrid(options.clip, IsEndless(plan.source))),
-        provenance_(options, plan.source, pool.renderer_string()) {
+        provenance_(options, plan.source, pool.info()) {
     for (const Output& output : plan.outputs) AddOutput(output);
+    if (HasWork(true) || HasWork(false)) Survey();
   }
 
   std::vector<OutputResult> Run() {
@@ -64,7 +83,7 @@ class Job {
 
  private:
   void AddOutput(const Output& output) {
-    Running run{output, provenance_.Of(output), {output.path, output.kind}, nullptr, {}, false};
+    Running run{output, provenance_.Of(output), {output.path, output.kind}, nullptr, {}, false, {}};
     run.is_finished = !settings_.force && provenance_.is_repeatable() &&
                       output.kind != OutputKind::kSequence &&
                       IsFinished(output, run.provenance, settings_.sidecar);
@@ -73,14 +92,15 @@ class Job {
           ReadSidecar(output.path).value_or(Json::object()).value("pictures", Json());
       if (pictures.is_number_integer()) run.result.pictures = pictures.get<long>();
     }
-    if (planners_.count(output.camera) == 0) {
+    const PlannerKey key{output.camera, output.kind == OutputKind::kStill};
+    if (planners_.count(key) == 0) {
       ViewOptions view = options_.view;
       view.camera = output.camera;
-      planners_.emplace(output.camera, view);
+      planners_.try_emplace(key, view, options_.backend);
     }
     if (output.kind == OutputKind::kClip && !run.is_finished) {
       // What cannot be written or encoded is said now, not after the first picture.
-      const render::View& view = planners_.at(output.camera).view();
+      const render::View& view = planners_.at(key).view();
       render::MakeVideoWriter(output.path, view.width, view.height, PackingOf(output));
     }
     running_.push_back(std::move(run));
@@ -91,7 +111,27 @@ class Job {
     options.rate = grid_.rate;
     if (HasCrf(output.path)) options.crf = options_.pack.crf;
     options.quality = options_.pack.quality;
+    options.alpha = options_.view.background == "transparent";
     return options;
+  }
+
+  // A source is read once more where pictures depend on scenes after them.
+  void Survey() {
+    std::vector<ShotPlanner*> planners;
+    for (auto& [key, planner] : planners_) {
+      if (planner.needs_survey()) planners.push_back(&planner);
+    }
+    if (planners.empty()) return;
+    if (!provenance_.is_repeatable()) {
+      throw UsageError(plan_.source +
+                       ": can be read only once, but --plot, --orbit turn and --fit clip need to "
+                       "know all of it first; store it in a file");
+    }
+    std::optional<double> end;
+    if (grid_.length_nanos) end = Secs(grid_.start_nanos + *grid_.length_nanos);
+    if (end && options_.moment.time) end = std::max(*end, *options_.moment.time);
+    SceneReader reader(plan_.source, SceneOptionsOf(options_));
+    SurveyClip(planners, reader, end);
   }
 
   // Whether an output that is no still (a still) is to be made.
@@ -151,6 +191,10 @@ class Job {
     auto state = reader_.Next();
     if (state == nullptr) return state;
     const long number = samples_++;
+    if (!start_nanos_) start_nanos_ = state->stamp_nanos;
+    for (auto& [key, planner] : planners_) {
+      if (key.is_still && !still_is_drawn_ && planner.history_secs() > 0) planner.Remember(*state);
+    }
     if (HasWork(true) && !options_.moment.time && number == options_.moment.frame.value_or(0)) {
       DrawStills(*state);
     }
@@ -212,10 +256,15 @@ class Job {
     for (Running& run : running_) {
       if (run.is_finished || run.output.kind != OutputKind::kStill) continue;
       const std::string& camera = run.output.camera;
-      Shot shot = planners_.at(camera).Only(scene);
+      Shot shot = planners_.at({camera, true}).Only(scene, Secs(scene.stamp_nanos - *start_nanos_));
+      if (!options_.moment.overlay_layer.empty()) {
+        shot.layer = ToLayerFormat(options_.moment.overlay_layer);
+        shot.view.overlays = false;
+      }
       const render::Camera pose = shot.camera;
       const auto [picture, is_new] = drawn.insert({camera, {}});
       if (is_new) picture->second = pool_.Draw(std::move(shot));
+      if (shot.layer) run.layer = picture->second;
       run.result.counter = scene.counter;
       Put(run, 0, picture->second, pose);
       progress_->Step();
@@ -224,7 +273,9 @@ class Job {
 
   void DrawClips(long k, const SceneState& scene) {
     CheckStop();
-    for (auto& [camera, planner] : planners_) {
+    for (auto& [key, planner] : planners_) {
+      if (key.is_still) continue;
+      const std::string& camera = key.camera;
       std::vector<Running*> takers;
       bool is_seen = false;
       for (Running& run : running_) {
@@ -266,7 +317,7 @@ class Job {
     if (run.output.kind != OutputKind::kClip) {
       return MakePngSink(run.output.path, is_numbered ? settings_.jobs : 1, text);
     }
-    return MakeClipSink(run.output.path, planners_.at(run.output.camera).view(),
+    return MakeClipSink(run.output.path, planners_.at({run.output.camera, false}).view(),
                         PackingOf(run.output), text);
   }
 
@@ -292,6 +343,7 @@ class Job {
     for (Running& run : running_) {
       if (run.is_finished) continue;
       if (run.sink != nullptr) run.sink->Finish();
+      if (run.layer.valid()) WriteLayer(run);
       const bool is_still = run.output.kind == OutputKind::kStill;
       run.result.pictures = is_still ? 1 : clip_pictures_;
       run.result.secs =
@@ -304,6 +356,14 @@ class Job {
     }
   }
 
+  void WriteLayer(const Running& run) const {
+    const std::string& layer = run.layer.get()->layer;
+    render::NewFile file(
+        std::filesystem::path(run.output.path).replace_extension(options_.moment.overlay_layer));
+    file.Write(layer.data(), layer.size());
+    file.Commit();
+  }
+
   const RenderOptions& options_;
   const SourcePlan& plan_;
   const JobSettings& settings_;
@@ -311,9 +371,10 @@ class Job {
   SceneReader reader_;
   const TimeGrid grid_;
   const Provenance provenance_;
-  std::map<std::string, ShotPlanner> planners_;  // by camera
-  std::unique_ptr<Progress> progress_;           // once there is something to do
-  long samples_ = 0;                             // read so far
+  std::map<PlannerKey, ShotPlanner> planners_;
+  std::optional<std::int64_t> start_nanos_;  // of the first sample
+  std::unique_ptr<Progress> progress_;       // once there is something to do
+  long samples_ = 0;                         // read so far
   bool still_is_drawn_ = false;
   long clip_pictures_ = 0;
   std::vector<Running> running_;  // last: their threads use what is above
@@ -338,10 +399,13 @@ std::vector<OutputResult> RenderSource(const RenderOptions& options, const Sourc
   return Job(options, plan, settings, pool).Run();
 }
 
-std::unique_ptr<DrawPool> MakeDrawPool(int jobs, const render::View& view) {
+std::unique_ptr<DrawPool> MakeDrawPool(int jobs, const render::View& view,
+                                       const BackendOptions& backend) {
+  const BackendChoice choice = ChooseBackend(backend);
+  if (!choice.note.empty()) spdlog::warn("pictures: {}", choice.note);
   return std::make_unique<DrawPool>(
       jobs, MostPictures(jobs, view.width, view.height),
-      [log = LogOnce()] { return render::MakeRenderer("osmesa", log); });
+      [backend, choice, log = LogOnce()] { return StartRenderer(backend, choice, {}, log); });
 }
 
 }  // namespace kinescope::app

@@ -36,7 +36,8 @@ struct JobSettings {
 std::vector<OutputResult> RenderSource(const RenderOptions& options, const SourcePlan& plan,
                                        const JobSettings& settings, DrawPool& pool);
 
-/// A pool for pictures of that size. `jobs` 0: as many as are fastest.
-std::unique_ptr<DrawPool> MakeDrawPool(int jobs, const render::View& view);
+/// A pool for pictures of that size. @throws RenderError, UsageError.
+std::unique_ptr<DrawPool> MakeDrawPool(int jobs, const render::View& view,
+                                       const BackendOptions& backend);
 
 }  // namespace kinescope::app

@@ -68,6 +68,12 @@ std::int64_t ToNanos(const char* name, double secs, bool may_be_zero) {
 
 }  // namespace
 
+render::LayerFormat ToLayerFormat(const std::string& text) {
+  if (text == "svg") return render::LayerFormat::kSvg;
+  if (text == "pdf") return render::LayerFormat::kPdf;
+  throw UsageError(fmt::format("--overlay_layer={}: expected svg or pdf", text));
+}
+
 render::FrameRate ParseFrameRate(const std::string& text) {
   auto fraction = ParseFraction(text);
   if (fraction && fraction->denominator > 0) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/video.h"
+#include "server/app/backend.h"
 #include "server/app/options.h"
 #include "server/app/view_options.h"
 
@@ -15,11 +16,14 @@ namespace kinescope::app {
 struct MomentOptions {
   std::optional<long> frame;
   std::optional<double> time;
+  std::string overlay_layer;
 
   template <class Option>
   void Visit(Option&& option) {
     option("frame", frame, "of one picture: which sample of the motion, from 0 (the default)");
     option("time", time, "of one picture: seconds after the first sample, between samples too");
+    option("overlay_layer", overlay_layer,
+           "of one picture: svg or pdf; what is written over it goes into a file beside it");
   }
 };
 
@@ -58,6 +62,7 @@ struct RenderOptions {
   ClipOptions clip;
   PackOptions pack;
   ViewOptions view;
+  BackendOptions backend;
   PersonOptions person;
   LoadOptions loads;
   int jobs = 0;  // 0: as many as are fastest here
@@ -65,6 +70,9 @@ struct RenderOptions {
   bool no_sidecar = false;
   bool json = false;
 };
+
+/// "svg", "pdf". @throws UsageError.
+render::LayerFormat ToLayerFormat(const std::string& text);
 
 /// "30", "12.5", "30000/1001"; 23.976, 29.97, 59.94 and the like mean their exact n * 1000 / 1001.
 /// @throws UsageError.

@@ -208,13 +208,14 @@ int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions
   const std::string again = scratch / (is_numbered ? "%d.png" : "again." + FormatOf(then));
   RenderOptions options = OptionsOf(then, again);
   options.sources = {FindSource(then, file, given)};
+  options.backend = given.backend;
   const std::vector<SourcePlan> plans = PlanOutputs(options);
   JobSettings settings;
   settings.jobs = given.jobs > 0 ? given.jobs : DefaultJobs();
   if (is_one) DrawOnly(then.at("number").get<long>(), options, settings);
-  const auto pool = MakeDrawPool(settings.jobs, ToView(options.view));
+  const auto pool = MakeDrawPool(settings.jobs, ToView(options.view), options.backend);
   const auto results = RenderSource(options, plans.front(), settings, *pool);
-  const Provenance now(options, options.sources.front(), pool->renderer_string());
+  const Provenance now(options, options.sources.front(), pool->info());
   NoteDifferences(then, now.Of(plans.front().outputs.front()), file);
 
   const bool is_clip = then.value("kind", "") == "clip";
@@ -222,7 +223,7 @@ int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions
   Verdict verdict;
   verdict.same_bytes = (is_clip || !is_numbered || is_one) && BytesOf(file) == BytesOf(drawn);
   if (!verdict.same_bytes) {
-    const bool same_renderer = then.value("renderer", "") == pool->renderer_string();
+    const bool same_renderer = then.value("renderer", "") == pool->info().renderer;
     const int tolerance = is_clip ? kClipTolerance : same_renderer ? 0 : render::kChannelTolerance;
     verdict = Compare(
         file, drawn, tolerance, is_clip ? kClipMostPixels : 0,

@@ -67,11 +67,11 @@ RobotState Stand(const RobotPlace& place, render::Renderer& renderer) {
   return robot;
 }
 
-std::vector<RobotState> ReadRobots(const std::vector<std::string>& texts) {
+std::vector<RobotState> ReadRobots(const std::vector<std::string>& texts,
+                                   const BackendOptions& backend) {
   std::vector<RobotState> robots;
   if (texts.empty()) return robots;
-  const auto renderer =
-      render::MakeRenderer("osmesa", [](const std::string& line) { spdlog::warn("{}", line); });
+  const auto renderer = StartRenderer(backend);
   for (std::size_t i = 0; i < texts.size(); ++i) {
     robots.push_back(Stand(ToPlace(texts[i], i), *renderer));
   }
@@ -80,10 +80,10 @@ std::vector<RobotState> ReadRobots(const std::vector<std::string>& texts) {
 
 }  // namespace
 
-SceneExtras::SceneExtras(const ViewOptions& options)
+SceneExtras::SceneExtras(const ViewOptions& options, const BackendOptions& backend)
     : trails_(options.trail, options.trail_secs),
       ghost_(options.ghost, options.ghost_opacity),
-      robots_(ReadRobots(options.robot)) {}
+      robots_(ReadRobots(options.robot, backend)) {}
 
 void SceneExtras::AddTo(SceneState& state, render::SceneLook& look) const {
   look.trails = trails_.Make();

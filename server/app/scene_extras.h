@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "render/scene_look.h"
+#include "server/app/backend.h"
 #include "server/app/ghost_pose.h"
 #include "server/app/trails.h"
 #include "server/app/view_options.h"
@@ -16,7 +17,7 @@ class SceneExtras {
  public:
   /// Reads robots and ghosts; measures the robots with a renderer of its own, where there are any.
   /// @throws UsageError, SourceError naming option or file and the reason.
-  explicit SceneExtras(const ViewOptions& options);
+  SceneExtras(const ViewOptions& options, const BackendOptions& backend);
 
   /// How much of what was before a picture's time it shows, s; 0 without trails.
   double history_secs() const { return trails_.empty() ? 0 : trails_.secs(); }

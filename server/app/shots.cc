@@ -28,8 +28,8 @@ double SecsSince(std::optional<std::int64_t>& start_nanos, const SceneState& sta
 
 }  // namespace
 
-ShotPlanner::ShotPlanner(const ViewOptions& options)
-    : view_(ToView(options)), extras_(options), loads_(ToPlotJoints(options.plot)) {
+ShotPlanner::ShotPlanner(const ViewOptions& options, const BackendOptions& backend)
+    : view_(ToView(options)), extras_(options, backend), loads_(ToPlotJoints(options.plot)) {
   const ViewGrid grid = ToViewGrid(options.views);
   cameras_ = CamerasOf(options, grid);
   if (grid.cameras.empty()) {
@@ -60,7 +60,7 @@ void ShotPlanner::Survey(const SceneState& state) {
 
 Shot ShotPlanner::With(SceneState state, std::vector<render::Camera> cameras, double secs,
                        const SceneExtras& extras) const {
-  Shot shot{std::move(state), cameras.front(), view_};
+  Shot shot{std::move(state), cameras.front(), view_, {}};
   extras.AddTo(shot.state, shot.view.look);
   for (std::size_t i = 0; i < shot.view.panes.size(); ++i) {
     shot.view.panes[i].camera = cameras[i];
@@ -106,13 +106,14 @@ Shot ShotPlanner::Only(SceneState state, double secs) const {
   return shot;
 }
 
-void SurveyClip(ShotPlanner& planner, SceneReader& source, std::optional<double> seconds) {
+void SurveyClip(const std::vector<ShotPlanner*>& planners, SceneReader& source,
+                std::optional<double> seconds) {
   std::optional<std::int64_t> start_nanos;
   while (const auto state = source.Next()) {
     if (StopRequested()) return;
     const double secs = SecsSince(start_nanos, *state);
     if (seconds && secs > *seconds) return;
-    planner.Survey(*state);
+    for (ShotPlanner* planner : planners) planner->Survey(*state);
   }
 }
 

@@ -24,12 +24,13 @@ struct Shot {
   SceneState state;
   render::Camera camera;
   render::View view;
+  std::optional<render::LayerFormat> layer;  // what is written over it, as vectors too
 };
 
 class ShotPlanner {
  public:
   /// @throws UsageError for what `options` ask for that there is not.
-  explicit ShotPlanner(const ViewOptions& options);
+  explicit ShotPlanner(const ViewOptions& options, const BackendOptions& backend = {});
 
   /// Whether the whole clip must be known before its first picture: one turn over it, a frame
   /// around all of it, a plot of all of it. Without a survey they do with what there is: no turn,
@@ -65,9 +66,11 @@ class ShotPlanner {
   std::shared_ptr<const render::LoadHistory> whole_;  // of the survey, made with the first shot
 };
 
-/// Surveys what `source` has, up to `seconds` after its first scene. For planners that need it.
+/// Surveys what `source` has for `planners`, up to `seconds` after its first scene. For planners
+/// that need it.
 /// @throws as SceneReader.
-void SurveyClip(ShotPlanner& planner, SceneReader& source, std::optional<double> seconds);
+void SurveyClip(const std::vector<ShotPlanner*>& planners, SceneReader& source,
+                std::optional<double> seconds);
 
 /// Shows `planner` what a picture at `secs` needs of the time before. @pre as SceneTimeline::At
 void RememberBefore(double secs, SceneTimeline& timeline, ShotPlanner& planner);

@@ -48,7 +48,6 @@ Trails::Trails(const std::string& names, double secs) : secs_(secs) {
 
 void Trails::Remember(const SceneState& state) {
   if (tracks_.empty() || state.liveness != Liveness::kLive) return;
-  if (state.stamp_nanos < newest_nanos_) past_.clear();
   newest_nanos_ = state.stamp_nanos;
   const auto oldest = newest_nanos_ - static_cast<std::int64_t>(std::llround(secs_ * 1e9));
   std::map<int, std::vector<std::deque<Point>>> kept;
@@ -66,7 +65,8 @@ void Trails::Remember(const SceneState& state) {
       }
       const Eigen::Vector3d& position =
           segment < 0 ? *person.com : person.links[urdf::At(segment)].position;
-      if (!points.empty() && points.back().stamp_nanos == newest_nanos_) points.pop_back();
+      // A scene between two that were remembered, or a recording that starts over.
+      while (!points.empty() && points.back().stamp_nanos >= newest_nanos_) points.pop_back();
       points.push_back({newest_nanos_, position});
     }
   }
