@@ -1,7 +1,7 @@
 /// Colours and sizes that carry meaning, the same in picture, RViz markers and page. sRGB, 0..1.
-/// Source of the classes' hues: joint-loads.md 4.3 (the published ErgoLean scheme). Their shades are
-/// chosen so that any two of the four stay apart (CIEDE2000 >= 15) for people without red, green or
-/// blue cones too: tests/render/color_vision_test.cc simulates them.
+/// Source of the classes' hues: joint-loads.md 4.3 (the published ErgoLean scheme). Their shades
+/// are chosen so that any two of the four stay apart (CIEDE2000 >= 15) for people without red,
+/// green or blue cones too: tests/render/color_vision_test.cc simulates them.
 #pragma once
 
 #include <array>

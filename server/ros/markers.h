@@ -31,8 +31,8 @@ enum class MarkerFrames {
 /// ns "loads": a sphere for each scored joint, id = urdf::Joint, its text the reason where the load
 /// is not known. ns "com": a sphere, id 0. Always in the reference frame: ns "cop": a disc on the
 /// floor, id 0; "support": the border of what the feet can push on, id 0; "foot_forces": an arrow
-/// for each foot (kMetresPerNewton), id = urdf::Side; "held": what the hands hold, in a few solids. What is not there
-/// or not known has no marker.
+/// for each foot (kMetresPerNewton), id = urdf::Side; "held": what the hands hold, in a few solids.
+/// What is not there or not known has no marker.
 void FillMarkers(const PersonState& person, const PersonNames& names,
                  const std::string& reference_frame, MarkerFrames frames, double floor_z,
                  visualization_msgs::MarkerArray& message);
