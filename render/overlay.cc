@@ -16,6 +16,7 @@
 namespace kinescope::render {
 namespace {
 
+constexpr double kArrowRow = 0;        // radius of a row that is marked by an arrow
 constexpr double kWidestLegend = 0.3;  // of the picture: a person is in its middle
 constexpr double kTimeCodeLine = 22;  // of a picture 720 px high, from its baseline to the sample's
 
@@ -127,7 +128,7 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const View& view)
   if (HasOnlyRobots(state)) return;
   if (parts.lamp) PaintLamp(page, state);
   if (!page.is_small) {
-    if (parts.legend) PaintLegend(page, state);
+    if (parts.legend) PaintLegend(page, state, view.look);
     if (parts.time && state.liveness != Liveness::kNoData) PaintTimeCode(page, state);
     if (parts.plot && view.history != nullptr) {
       const double below = page.Px(kMargin) + page.Px(4 * kTitleSize);
@@ -177,25 +178,39 @@ void Overlay::PaintTitle(Page& page, const SceneState& state, const View& view) 
                    page.inks.text);
 }
 
-void Overlay::PaintLegend(Page& page, const SceneState& state) {
-  struct Row {
-    Ink ink;
-    double radius;  // px of 720
-    bool has_rim;
-    const char* name;
-    std::string range;
+std::vector<Overlay::LegendRow> Overlay::LegendOf(const SceneState& state, const SceneLook& look) {
+  std::vector<LegendRow> rows;
+  const auto add = [&](ScenePart part, const Rgb& color, double radius, const char* name,
+                       const std::string& range, bool has_rim = false) {
+    if (look.Shows(part)) rows.push_back({{color, 1}, radius, has_rim, name, range});
   };
   const std::string medium = fmt::format("{:.3g} %", 100 * state.class_limits[0]);
   const std::string high = fmt::format("{:.3g} %", 100 * state.class_limits[1]);
-  const auto of = [](LoadClass load_class) { return Ink{ColorOf(load_class), 1}; };
-  const std::array<Row, 6> rows = {{
-      {of(LoadClass::kLow), 6.0, false, "low", "≤ " + medium},
-      {of(LoadClass::kMedium), 7.2, false, "medium", "≤ " + high},
-      {of(LoadClass::kHigh), 8.4, true, "high", "> " + high},
-      {of(LoadClass::kUnknown), 4.8, false, "no data", "–"},
-      {{kComColor, 1}, 5.0, false, "centre of mass", ""},
-      {{kCopColor, 1}, 5.0, false, "centre of pressure", ""},
-  }};
+  const auto add_class = [&](LoadClass load_class, double radius, const char* name,
+                             const std::string& range, bool has_rim = false) {
+    add(ScenePart::kLoads, ColorOf(load_class), radius, name, range, has_rim);
+  };
+  add_class(LoadClass::kLow, 6.0, "low", "≤ " + medium);
+  add_class(LoadClass::kMedium, 7.2, "medium", "≤ " + high);
+  add_class(LoadClass::kHigh, 8.4, "high", "> " + high, true);
+  add_class(LoadClass::kUnknown, 4.8, "no data", "–");
+  add(ScenePart::kCom, kComColor, 5.0, "centre of mass", "");
+  add(ScenePart::kCop, kCopColor, 5.0, "centre of pressure", "");
+  const bool has_force =
+      std::any_of(state.people.begin(), state.people.end(), [](const PersonState& person) {
+        return std::any_of(
+            person.forces.feet.begin(), person.forces.feet.end(),
+            [](const FootForce& foot) { return foot.touches_floor && foot.force.norm() > 0; });
+      });
+  if (has_force && look.Shows(ScenePart::kForces)) {
+    rows.push_back({{kCopColor, 1}, kArrowRow, false, "force on a foot", "1 m/kN"});
+  }
+  return rows;
+}
+
+void Overlay::PaintLegend(Page& page, const SceneState& state, const SceneLook& look) {
+  const std::vector<LegendRow> rows = LegendOf(state, look);
+  if (rows.empty()) return;
   OverlayFonts& f = page.fonts;
   const int size = page.FontPx(kSmallSize);
   const double line = page.Px(21), pad = page.Px(12), column = page.Px(24);
@@ -205,15 +220,24 @@ void Overlay::PaintLegend(Page& page, const SceneState& state) {
                        std::max(f.regular.Width("centre of pressure", size),
                                 f.bold.Width("Joint load, % of capacity", size) - column);
   const double notes = (metric.empty() ? 0.0 : 1.0) + (assumed != nullptr ? 1.0 : 0.0);
-  const double height = 2 * pad + line * (7.0 + notes + (notes > 0 ? 0.5 : 0.0)) - page.Px(4);
-  if (width > kWidestLegend * page.width) return PaintShortLegend(page);
+  const double height =
+      2 * pad + line * (1.0 + static_cast<double>(rows.size()) + notes + (notes > 0 ? 0.5 : 0.0)) -
+      page.Px(4);
+  if (width > kWidestLegend * page.width) return PaintShortLegend(page, state);
   const double left = page.Px(kMargin), top = page.bottom - page.Px(kMargin) - height;
   page.canvas.RoundedBox(left, top, width, height, page.Px(8), page.inks.panel);
   double baseline = top + pad + 0.8 * size;
   page.canvas.Text(left + pad, baseline, "Joint load, % of capacity", f.bold, size, page.inks.text);
-  for (const Row& row : rows) {
+  for (const LegendRow& row : rows) {
     baseline += line;
     const double x = left + pad + 0.36 * column, y = baseline - 0.36 * size;
+    if (row.radius == kArrowRow) {
+      const double half = page.Px(6);
+      page.canvas.Polyline({{x, y + half}, {x, y - half}}, page.Px(2), row.ink);
+      page.canvas.Polyline(
+          {{x - 0.6 * half, y - 0.3 * half}, {x, y - half}, {x + 0.6 * half, y - 0.3 * half}},
+          page.Px(2), row.ink);
+    }
     const double radius = page.Px(row.radius);
     if (row.has_rim) page.canvas.Disc(x, y, radius, page.inks.rim);
     page.canvas.Disc(x, y, row.has_rim ? 0.76 * radius : radius, row.ink);
@@ -235,19 +259,24 @@ void Overlay::PaintLegend(Page& page, const SceneState& state) {
 }
 
 // For small pictures: the classes alone, in one line, so that the person is not covered.
-void Overlay::PaintShortLegend(Page& page) {
-  constexpr std::array<std::pair<LoadClass, const char*>, 3> kClasses = {
-      {{LoadClass::kLow, "≤ 30"}, {LoadClass::kMedium, "≤ 60"}, {LoadClass::kHigh, "> 60 %"}}};
+void Overlay::PaintShortLegend(Page& page, const SceneState& state) {
+  const std::string medium = fmt::format("{:.3g}", 100 * state.class_limits[0]);
+  const std::string high = fmt::format("{:.3g}", 100 * state.class_limits[1]);
+  const std::array<std::pair<LoadClass, std::string>, 3> classes = {{
+      {LoadClass::kLow, "≤ " + medium},
+      {LoadClass::kMedium, "≤ " + high},
+      {LoadClass::kHigh, "> " + high + " %"},
+  }};
   const int size = page.FontPx(kSmallSize);
   const double pad = 0.5 * size;
   double width = pad;
-  for (const auto& [load_class, text] : kClasses) {
+  for (const auto& [load_class, text] : classes) {
     width += 1.2 * size + page.fonts.regular.Width(text, size) + pad;
   }
   double x = page.Px(kMargin);
   const double top = page.bottom - page.Px(kMargin) - 1.8 * size;
   page.canvas.RoundedBox(x, top, width, 1.8 * size, page.Px(8), page.inks.panel);
-  for (const auto& [load_class, text] : kClasses) {
+  for (const auto& [load_class, text] : classes) {
     const double y = top + 0.9 * size;
     if (load_class == LoadClass::kHigh) {
       page.canvas.Disc(x + pad + 0.45 * size, y, 0.55 * size, page.inks.rim);

@@ -39,8 +39,17 @@ class Overlay {
   void PaintAround(Page& page, const SceneState& state, const View& view);
   void PaintLamp(Page& page, const SceneState& state);
   void PaintTitle(Page& page, const SceneState& state, const View& view);
-  void PaintLegend(Page& page, const SceneState& state);
-  void PaintShortLegend(Page& page);
+  struct LegendRow {
+    Ink ink;
+    double radius;  // px of 720
+    bool has_rim;
+    const char* name;
+    std::string range;
+  };
+  /// Of what is shown and is there.
+  static std::vector<LegendRow> LegendOf(const SceneState& state, const SceneLook& look);
+  void PaintLegend(Page& page, const SceneState& state, const SceneLook& look);
+  void PaintShortLegend(Page& page, const SceneState& state);
   void PaintTimeCode(Page& page, const SceneState& state);
   void PaintStaleBanner(Page& page, const SceneState& state);
   void PaintNoData(Page& page, const SceneState& state);

@@ -25,8 +25,8 @@ passed, skipped, failed = 0, 0, 0
 def commands(document):
     """Lines of ```sh blocks (and of plain ``` blocks in CONTRIBUTING.md), without comments."""
     text = (TOP / document).read_text()
-    blocks = re.findall(r"^```(?:sh|bash)?\n(.*?)^```", text, re.M | re.S)
-    for block in blocks:
+    blocks = re.findall(r"^```(\w*)\n(.*?)^```", text, re.M | re.S)
+    for block in (block for language, block in blocks if language in ("", "sh", "bash")):
         for line in block.replace("\\\n", " ").splitlines():
             words = shlex.split(line, comments=True)
             if words:

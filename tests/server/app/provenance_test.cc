@@ -13,7 +13,8 @@ namespace kinescope::app {
 namespace {
 
 Json Sample(const RenderOptions& options, const std::string& source = "demo:lift") {
-  return Provenance(options, source, "a renderer").Of({"a.mp4", OutputKind::kClip, "top"});
+  const render::RendererInfo renderer{"osmesa", "a renderer", "4.5", true, ""};
+  return Provenance(options, source, renderer).Of({"a.mp4", OutputKind::kClip, "top"});
 }
 
 TEST(Provenance, GivesBackTheOptionsThatItWasMadeOf) {
