@@ -26,6 +26,38 @@ bool ListFits(const std::vector<std::uint8_t>& bytes, std::size_t at, std::size_
   return CountAt(bytes, at) <= (bytes.size() - at - sizeof(std::uint32_t)) / smallest;
 }
 
+// Goes over a message without keeping any of it; false once something does not fit.
+class Walker {
+ public:
+  explicit Walker(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
+
+  bool Skip(std::size_t size) {
+    if (size > bytes_.size() - at_) return false;
+    at_ += size;
+    return true;
+  }
+  bool Count(std::uint32_t& count) {
+    if (bytes_.size() - at_ < sizeof(count)) return false;
+    count = CountAt(bytes_, at_);
+    at_ += sizeof(count);
+    return true;
+  }
+  bool SkipList(std::size_t element) {  // a string is one of bytes
+    std::uint32_t count = 0;
+    return Count(count) && Skip(count * element);
+  }
+  bool SkipMarker() {
+    constexpr std::size_t kToPoints =  // number, type, action, pose, scale, color, lifetime, locked
+        3 * 4 + 7 * 8 + 3 * 8 + 4 * 4 + 8 + 1;
+    const bool has_head = Skip(4 + 8) && SkipList(1) && SkipList(1) && Skip(kToPoints);
+    return has_head && SkipList(3 * 8) && SkipList(4 * 4) && SkipList(1) && SkipList(1) && Skip(1);
+  }
+
+ private:
+  const std::vector<std::uint8_t>& bytes_;
+  std::size_t at_ = 0;
+};
+
 template <class Message>
 bool Deserialize(const std::vector<std::uint8_t>& bytes, Message& message) {
   try {
@@ -50,6 +82,22 @@ bool Decode(const std::vector<std::uint8_t>& bytes, xsens_mvn_ros_msgs::LinkStat
   const std::size_t name = CountAt(bytes, kHeader - sizeof(std::uint32_t));
   return name <= bytes.size() - kHeader && ListFits(bytes, kHeader + name, kSmallestLinkState) &&
          Deserialize(bytes, message);
+}
+
+bool Decode(const std::vector<std::uint8_t>& bytes, visualization_msgs::Marker& message) {
+  return bytes.size() <= kLargestMessage && Walker(bytes).SkipMarker() &&
+         Deserialize(bytes, message);
+}
+
+bool Decode(const std::vector<std::uint8_t>& bytes, visualization_msgs::MarkerArray& message) {
+  if (bytes.size() > kLargestMessage) return false;
+  Walker walker(bytes);
+  std::uint32_t count = 0;
+  if (!walker.Count(count)) return false;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!walker.SkipMarker()) return false;
+  }
+  return Deserialize(bytes, message);
 }
 
 const char* DefectOf(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw) {

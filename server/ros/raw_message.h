@@ -7,6 +7,7 @@
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 #include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
 #include <cstdint>
@@ -26,6 +27,9 @@ struct RawMessage {
 /// its memory from call to call.
 bool Decode(const std::vector<std::uint8_t>& bytes, tf2_msgs::TFMessage& message);
 bool Decode(const std::vector<std::uint8_t>& bytes, xsens_mvn_ros_msgs::LinkStateArray& message);
+
+bool Decode(const std::vector<std::uint8_t>& bytes, visualization_msgs::Marker& message);
+bool Decode(const std::vector<std::uint8_t>& bytes, visualization_msgs::MarkerArray& message);
 
 inline constexpr std::size_t kLargestMessage = 16 << 20;  // bytes: 100,000 transforms
 

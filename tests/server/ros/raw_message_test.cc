@@ -55,6 +55,40 @@ TEST(RawMessage, IsTransformsOrLinkStatesWithoutLossAndNothingWhenItIsCutShort) 
   ExpectEveryTruncationRefused<xsens_mvn_ros_msgs::LinkStateArray>(LinkStates());
 }
 
+visualization_msgs::MarkerArray Markers() {
+  visualization_msgs::MarkerArray array;
+  array.markers.resize(2);
+  for (visualization_msgs::Marker& marker : array.markers) {
+    marker.header.frame_id = "world";
+    marker.ns = "walls";
+    marker.points.resize(3);
+    marker.colors.resize(2);
+    marker.text = "here";
+    marker.mesh_resource = "package://walls/door.stl";
+  }
+  return array;
+}
+
+TEST(RawMessage, IsMarkersWithoutLossAndNothingWhenItIsCutShort) {
+  ExpectEveryTruncationRefused<visualization_msgs::MarkerArray>(BytesOf(Markers()));
+  ExpectEveryTruncationRefused<visualization_msgs::Marker>(BytesOf(Markers().markers[0]));
+}
+
+// Whatever is written over a message: its lists are counted before any of them is reserved, and so
+// it is refused or has no more in it than its bytes.
+TEST(RawMessage, OfMarkersThatIsDamagedAnywhereNeverHoldsMoreThanItsBytes) {
+  const std::vector<std::uint8_t> whole = BytesOf(Markers());
+  for (std::size_t at = 0; at + 4 <= whole.size(); ++at) {
+    for (const std::uint8_t value : {0x7f, 0xff}) {
+      std::vector<std::uint8_t> damaged = whole;
+      std::fill_n(damaged.begin() + static_cast<std::ptrdiff_t>(at), 4, value);
+      visualization_msgs::MarkerArray message;
+      if (!Decode(damaged, message)) continue;
+      EXPECT_LE(ros::serialization::serializationLength(message), damaged.size()) << at;
+    }
+  }
+}
+
 // Four thousand million elements would be reserved before the first of them is missed.
 TEST(RawMessage, ThatClaimsMoreElementsThanFitIsRefusedBeforeAnythingIsReserved) {
   tf2_msgs::TFMessage transforms;

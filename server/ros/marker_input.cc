@@ -1,0 +1,204 @@
+#include "server/ros/marker_input.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "server/ros/raw_message.h"
+#include "server/ros/stamp.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using visualization_msgs::Marker;
+
+bool HasPoints(MarkerType type) {
+  switch (type) {
+    case MarkerType::kArrow:
+    case MarkerType::kLineStrip:
+    case MarkerType::kLineList:
+    case MarkerType::kCubeList:
+    case MarkerType::kSphereList:
+    case MarkerType::kPoints:
+    case MarkerType::kTriangleList: return true;
+    default: return false;
+  }
+}
+
+template <class RosVector>
+Eigen::Vector3d From(const RosVector& v) {
+  return {v.x, v.y, v.z};
+}
+
+Eigen::Vector4d From(const std_msgs::ColorRGBA& c) { return {c.r, c.g, c.b, c.a}; }
+
+Eigen::Quaterniond From(const geometry_msgs::Quaternion& q) {
+  const Eigen::Quaterniond turn(q.w, q.x, q.y, q.z);
+  const double norm = turn.norm();
+  // A message in which nobody has set the turn is by far the commonest.
+  if (norm == 0) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(turn.coeffs() / norm);  // not finite stays so, and is found
+}
+
+tl::unexpected<Refusal> No(const char* kind, const Marker& message, const std::string& why) {
+  return tl::unexpected(Refusal{
+      kind,
+      fmt::format("marker {}/{}: {}", message.ns.substr(0, kLongestMarkerName), message.id, why)});
+}
+
+// Before anything of it is copied.
+std::optional<std::string> FindExcess(const Marker& message) {
+  if (message.points.size() > kMostMarkerPoints || message.colors.size() > kMostMarkerPoints) {
+    return fmt::format("{} points and {} colors: expected at most {}", message.points.size(),
+                       message.colors.size(), kMostMarkerPoints);
+  }
+  if (message.ns.size() > kLongestMarkerName ||
+      message.header.frame_id.size() > kLongestMarkerName) {
+    return fmt::format("a namespace or frame with a name longer than {} bytes", kLongestMarkerName);
+  }
+  constexpr std::size_t kLongestUri = 4096;
+  if (message.mesh_resource.size() > kLongestUri) {
+    return fmt::format("a mesh with a name of {} bytes", message.mesh_resource.size());
+  }
+  return std::nullopt;
+}
+
+bool AreEqual(const SceneMarker& a, const SceneMarker& b) {
+  return a.type == b.type && a.pose.position == b.pose.position &&
+         a.pose.orientation.coeffs() == b.pose.orientation.coeffs() && a.scale == b.scale &&
+         a.color == b.color && a.points == b.points && a.colors == b.colors && a.text == b.text &&
+         a.mesh_uri == b.mesh_uri && a.mesh_has_own_colors == b.mesh_has_own_colors;
+}
+
+}  // namespace
+
+Taken<SceneMarker> ToSceneMarker(const Marker& message) {
+  if (const auto excess = FindExcess(message)) return No("too large", message, *excess);
+  SceneMarker marker;
+  marker.ns = message.ns;
+  marker.id = message.id;
+  marker.type = static_cast<MarkerType>(message.type);
+  marker.pose = {From(message.pose.position), From(message.pose.orientation)};
+  marker.scale = From(message.scale);
+  marker.color = From(message.color);
+  if (HasPoints(marker.type)) {
+    for (const auto& point : message.points) marker.points.push_back(From(point));
+    if (marker.type != MarkerType::kArrow) {
+      for (const auto& color : message.colors) marker.colors.push_back(From(color));
+    }
+  }
+  if (marker.type == MarkerType::kText) marker.text = message.text;
+  if (marker.type == MarkerType::kMesh) {
+    marker.mesh_uri = message.mesh_resource;
+    marker.mesh_has_own_colors = message.mesh_use_embedded_materials != 0;
+  }
+  if (const auto defect = FindDefect(marker)) return No("cannot be drawn", message, *defect);
+  return marker;
+}
+
+std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& message,
+                                          std::int64_t monotonic_nanos) {
+  const auto erase = [&](auto from, auto to) {
+    for (auto entry = from; entry != to; ++entry) points_ -= entry->second.shape->points.size();
+    has_changed_ = has_changed_ || from != to;
+    return entries_.erase(from, to);
+  };
+  if (message.action == Marker::DELETEALL) {
+    const auto of_topic = [&](std::size_t number) {
+      return entries_.lower_bound(Key{number, "", std::numeric_limits<int>::min()});
+    };
+    erase(of_topic(topic), of_topic(topic + 1));
+    return std::nullopt;
+  }
+  const Key key{topic, message.ns, message.id};
+  const auto old = entries_.find(key);
+  if (message.action == Marker::DELETE) {
+    if (old != entries_.end()) erase(old, std::next(old));
+    return std::nullopt;
+  }
+  if (message.action != Marker::ADD) {
+    return No("unknown action", message,
+              fmt::format("action {}: expected 0 (add or modify), 2 (delete) or 3 (delete all)",
+                          message.action))
+        .value();
+  }
+  auto shape = ToSceneMarker(message);
+  if (!shape) return shape.error();
+  const std::size_t freed = old == entries_.end() ? 0 : old->second.shape->points.size();
+  if (old == entries_.end() && entries_.size() >= kMostMarkers) {
+    return No("too many", message, fmt::format("there are {} already", kMostMarkers)).value();
+  }
+  if (points_ - freed + shape->points.size() > kMostPointsOfAll) {
+    return No("too many", message,
+              fmt::format("all together would have more than {} points", kMostPointsOfAll))
+        .value();
+  }
+  points_ = points_ - freed + shape->points.size();
+  Entry& entry = entries_[key];
+  // Many send the same thing again and again; what is drawn of it need not be made again.
+  if (!entry.shape || !AreEqual(*entry.shape, *shape)) {
+    entry.shape = std::make_shared<const SceneMarker>(*std::move(shape));
+    has_changed_ = has_changed_ || entry.placed;
+    entry.placed = nullptr;
+  }
+  entry.frame = WithoutSlash(message.header.frame_id);
+  entry.stamp_nanos = ToNanos(message.header.stamp);
+  entry.is_locked = message.frame_locked != 0;
+  entry.is_new = true;
+  const std::int64_t lives = message.lifetime.toNSec();
+  entry.dies_nanos = lives > 0 ? monotonic_nanos + lives : 0;
+  return std::nullopt;
+}
+
+bool MarkerStore::Place(const Key& key, Entry& entry, const FindFrame& find_frame) {
+  if (!entry.is_new && !entry.is_locked) return false;
+  const auto frame = find_frame(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
+  if (!frame) {
+    if (!std::exchange(entry.is_lost, true)) {
+      lost_.push_back({std::get<0>(key), fmt::format("marker {}: frame '{}' is not known (yet)",
+                                                     IdentityOf(*entry.shape), entry.frame)});
+    }
+    return false;  // it stays where it was, or is not there yet
+  }
+  entry.is_lost = false;
+  entry.is_new = false;
+  const urdf::Pose& local = entry.shape->pose;
+  const urdf::Pose pose{frame->position + frame->orientation * local.position,
+                        (frame->orientation * local.orientation).normalized()};
+  if (entry.placed && entry.placed->pose.position == pose.position &&
+      entry.placed->pose.orientation.coeffs() == pose.orientation.coeffs()) {
+    return false;
+  }
+  SceneMarker placed = *entry.shape;
+  placed.pose = pose;
+  entry.placed = std::make_shared<const SceneMarker>(std::move(placed));
+  return true;
+}
+
+bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_frame) {
+  bool changed = std::exchange(has_changed_, false);
+  for (auto it = entries_.begin(); it != entries_.end();) {
+    Entry& entry = it->second;
+    if (entry.dies_nanos != 0 && monotonic_nanos >= entry.dies_nanos) {
+      points_ -= entry.shape->points.size();
+      changed = changed || entry.placed;
+      it = entries_.erase(it);
+      continue;
+    }
+    changed = Place(it->first, entry, find_frame) || changed;
+    ++it;
+  }
+  if (!changed) return false;
+  placed_.clear();
+  for (const auto& [key, entry] : entries_) {
+    if (entry.placed) placed_.push_back(entry.placed);
+  }
+  return true;
+}
+
+std::vector<MarkerStore::Lost> MarkerStore::TakeLost() { return std::exchange(lost_, {}); }
+
+}  // namespace kinescope::ros_bridge

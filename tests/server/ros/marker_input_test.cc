@@ -1,0 +1,214 @@
+#include "server/ros/marker_input.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using visualization_msgs::Marker;
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+Marker Cube(int id, double x = 0) {
+  Marker marker;
+  marker.header.frame_id = "cart";
+  marker.ns = "walls";
+  marker.id = id;
+  marker.type = Marker::CUBE;
+  marker.pose.position.x = x;
+  marker.scale.x = marker.scale.y = marker.scale.z = 0.1;
+  marker.color.a = 1;
+  return marker;
+}
+
+Marker Of(int type) {
+  Marker marker = Cube(type);
+  marker.type = type;
+  marker.points.resize(6);
+  for (std::size_t i = 0; i < marker.points.size(); ++i)
+    marker.points[i].x = static_cast<double>(i);
+  marker.colors.resize(6, marker.color);
+  if (type == Marker::ARROW) {
+    marker.points.resize(2);
+    marker.colors.clear();
+  }
+  marker.text = "here";
+  marker.mesh_resource = "package://walls/door.stl";
+  return marker;
+}
+
+// A graph with one frame, a cart at x metres; where it is not known, nothing is.
+struct Cart {
+  std::optional<double> x = 1;
+  mutable std::vector<std::int64_t> asked;
+  MarkerStore::FindFrame Find() const {
+    return [this](const std::string& frame, std::int64_t stamp) -> std::optional<urdf::Pose> {
+      asked.push_back(stamp);
+      if (frame != "cart" || !x) return std::nullopt;
+      return urdf::Pose{{*x, 0, 0}, Eigen::Quaterniond::Identity()};
+    };
+  }
+};
+
+double X(const MarkerStore& store, std::size_t index = 0) {
+  return store.markers().at(index)->pose.position.x();
+}
+
+TEST(MarkerInput, TakesEveryTypeAndOfEachWhatCountsForIt) {
+  for (int type = Marker::ARROW; type <= Marker::TRIANGLE_LIST; ++type) {
+    const auto marker = ToSceneMarker(Of(type));
+    ASSERT_TRUE(marker) << type << ": " << marker.error().text;
+    EXPECT_EQ(static_cast<int>(marker->type), type);
+    EXPECT_EQ(marker->text, type == Marker::TEXT_VIEW_FACING ? "here" : "");
+    EXPECT_EQ(marker->mesh_uri.empty(), type != Marker::MESH_RESOURCE);
+    const bool has_points = type == Marker::ARROW || type == Marker::TRIANGLE_LIST ||
+                            (type >= Marker::LINE_STRIP && type <= Marker::POINTS);
+    EXPECT_EQ(!marker->points.empty(), has_points) << type;
+  }
+}
+
+TEST(MarkerInput, ATurnThatNobodySetIsNone) {
+  const auto marker = ToSceneMarker(Cube(1));
+  ASSERT_TRUE(marker);
+  EXPECT_EQ(marker->pose.orientation.w(), 1);
+  Marker turned = Cube(1);
+  turned.pose.orientation.z = turned.pose.orientation.w = 3;
+  EXPECT_NEAR(ToSceneMarker(turned)->pose.orientation.z(), std::sqrt(0.5), 1e-12);
+}
+
+TEST(MarkerInput, WhatCannotBeDrawnIsRefusedByNameAndReason) {
+  MarkerStore store;
+  Marker bad = Cube(7);
+  bad.pose.position.y = std::nan("");
+  auto refusal = store.Apply(0, bad, 0);
+  ASSERT_TRUE(refusal);
+  EXPECT_NE(refusal->text.find("walls/7"), std::string::npos) << refusal->text;
+  bad = Of(Marker::LINE_LIST);
+  bad.points.pop_back();
+  EXPECT_TRUE(store.Apply(0, bad, 0));
+  bad = Of(Marker::POINTS);
+  bad.points.resize(kMostMarkerPoints + 1);
+  refusal = store.Apply(0, bad, 0);
+  ASSERT_TRUE(refusal);
+  EXPECT_STREQ(refusal->kind, "too large");
+  bad = Cube(1);
+  bad.type = 12;
+  EXPECT_TRUE(store.Apply(0, bad, 0));
+  bad = Cube(1);
+  bad.action = 9;
+  refusal = store.Apply(0, bad, 0);
+  ASSERT_TRUE(refusal);
+  EXPECT_STREQ(refusal->kind, "unknown action");
+  EXPECT_FALSE(store.Update(0, Cart().Find()));
+}
+
+TEST(MarkerStore, AddsChangesAndDeletesByTopicNamespaceAndNumber) {
+  MarkerStore store;
+  const Cart cart;
+  EXPECT_FALSE(store.Apply(0, Cube(1, 0.5), 0));
+  EXPECT_FALSE(store.Apply(1, Cube(1, 0.7), 0));
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  ASSERT_EQ(store.markers().size(), 2u);
+  EXPECT_DOUBLE_EQ(X(store), 1.5);
+  EXPECT_FALSE(store.Apply(0, Cube(1, 0.6), 0));
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  EXPECT_DOUBLE_EQ(X(store), 1.6);
+  Marker gone = Cube(1);
+  gone.action = Marker::DELETE;
+  EXPECT_FALSE(store.Apply(0, gone, 0));
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  ASSERT_EQ(store.markers().size(), 1u);
+  EXPECT_DOUBLE_EQ(X(store), 1.7) << "the other topic's stays";
+  EXPECT_FALSE(store.Apply(0, gone, 0)) << "who is not there is no fault";
+  EXPECT_FALSE(store.Apply(1, Cube(-5), 0));
+  gone.action = Marker::DELETEALL;
+  EXPECT_FALSE(store.Apply(1, gone, 0));
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  EXPECT_TRUE(store.markers().empty());
+}
+
+TEST(MarkerStore, WhatIsSentAgainUnchangedIsTheSameObject) {
+  MarkerStore store;
+  const Cart cart;
+  store.Apply(0, Cube(1), 0);
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  const auto first = store.markers().at(0);
+  store.Apply(0, Cube(1), 0);
+  EXPECT_FALSE(store.Update(0, cart.Find()));
+  EXPECT_EQ(store.markers().at(0), first);
+}
+
+TEST(MarkerStore, ThoseThatLiveATimeLeaveAfterItUnlessTheyComeAgain) {
+  MarkerStore store;
+  const Cart cart;
+  Marker brief = Cube(1);
+  brief.lifetime = ros::Duration(2);
+  store.Apply(0, brief, 0);
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  store.Apply(0, brief, kSecond);
+  EXPECT_FALSE(store.Update(2 * kSecond, cart.Find()));
+  EXPECT_EQ(store.markers().size(), 1u);
+  ASSERT_TRUE(store.Update(3 * kSecond, cart.Find()));
+  EXPECT_TRUE(store.markers().empty());
+}
+
+TEST(MarkerStore, LockedOnesGoWithTheirFrameAndOthersStay) {
+  MarkerStore store;
+  Cart cart;
+  Marker locked = Cube(1);
+  locked.frame_locked = 1;
+  locked.header.stamp = ros::Time(5);
+  Marker still = Cube(2);
+  still.header.stamp = ros::Time(5);
+  store.Apply(0, locked, 0);
+  store.Apply(0, still, 0);
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  EXPECT_EQ(cart.asked, (std::vector<std::int64_t>{0, 5 * kSecond}));
+  cart.x = 4;
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  EXPECT_DOUBLE_EQ(X(store, 0), 4);
+  EXPECT_DOUBLE_EQ(X(store, 1), 1);
+  EXPECT_FALSE(store.Update(0, cart.Find())) << "nothing has moved";
+}
+
+TEST(MarkerStore, AFrameThatIsNotKnownYetIsWaitedForAndNamedOnce) {
+  MarkerStore store;
+  Cart cart;
+  cart.x.reset();
+  store.Apply(3, Cube(1), 0);
+  EXPECT_FALSE(store.Update(0, cart.Find()));
+  EXPECT_FALSE(store.Update(0, cart.Find()));
+  const auto lost = store.TakeLost();
+  ASSERT_EQ(lost.size(), 1u);
+  EXPECT_EQ(lost[0].topic, 3u);
+  EXPECT_NE(lost[0].text.find("'cart'"), std::string::npos) << lost[0].text;
+  cart.x = 2;
+  ASSERT_TRUE(store.Update(0, cart.Find()));
+  EXPECT_DOUBLE_EQ(X(store), 2);
+  EXPECT_TRUE(store.TakeLost().empty());
+}
+
+TEST(MarkerStore, IsBoundedInMarkersAndInPoints) {
+  MarkerStore store;
+  for (int id = 0; id < static_cast<int>(kMostMarkers); ++id) {
+    ASSERT_FALSE(store.Apply(0, Cube(id), 0)) << id;
+  }
+  EXPECT_TRUE(store.Apply(0, Cube(-1), 0));
+  EXPECT_FALSE(store.Apply(0, Cube(5, 1), 0)) << "a change of one that is there";
+  Marker all = Cube(0);
+  all.action = Marker::DELETEALL;
+  store.Apply(0, all, 0);
+  Marker cloud = Of(Marker::POINTS);
+  cloud.colors.clear();
+  cloud.points.resize(kMostMarkerPoints);
+  const int most = static_cast<int>(kMostPointsOfAll / kMostMarkerPoints);
+  for (cloud.id = 0; cloud.id < most; ++cloud.id) ASSERT_FALSE(store.Apply(0, cloud, 0));
+  EXPECT_TRUE(store.Apply(0, cloud, 0));
+  cloud.id = 0;
+  EXPECT_FALSE(store.Apply(0, cloud, 0)) << "in place of its own points";
+}
+
+}  // namespace
+}  // namespace kinescope::ros_bridge
