@@ -19,7 +19,7 @@ ALLOWED = {  # folder: folders of ours that it may include
 }
 FOREIGN = {  # whose headers: where they may be included
     r"vtk": ("render/vtk",),
-    r"(ros|rosbag|kinescope|tf2|tf2_msgs|std_msgs|sensor_msgs|geometry_msgs|visualization_msgs|xmlrpcpp)/": ("server/ros",),
+    r"(ros|rosbag|kinescope|tf2|tf2_msgs|std_msgs|sensor_msgs|geometry_msgs|visualization_msgs|image_transport|xmlrpcpp)/": ("server/ros",),
     r"boost/": ("server/http", "server/ros"),
     r"lib(av|sw)": ("render",),
     r"cairo": ("render/plot",),

@@ -63,7 +63,8 @@ json LoadsOf(const SceneState& state) {
 std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
-                            const std::optional<PictureStatus>& pictures) {
+                            const std::optional<PictureStatus>& pictures,
+                            const std::optional<ViewStatus>& view) {
   json out;
   out["version"] = KINESCOPE_VERSION;
   if (state) {
@@ -109,6 +110,13 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                        {"encode_millis", pictures->encode_millis},
                        {"last_error", pictures->last_error},
                        {"problems", pictures->problems}};
+  }
+  out["view"] = nullptr;
+  if (view) {
+    out["view"] = {{"listeners", view->listeners},
+                   {"drawn", view->drawn},
+                   {"draw_millis", view->draw_millis},
+                   {"last_error", view->last_error}};
   }
   // A file name need not be UTF-8.
   return out.dump(-1, ' ', false, json::error_handler_t::replace);

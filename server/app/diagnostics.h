@@ -6,6 +6,7 @@
 #include <string>
 
 #include "server/app/picture_loop.h"
+#include "server/app/view_loop.h"
 #include "server/core/scene_state.h"
 #include "server/core/source.h"
 #include "server/ros/bridge.h"
@@ -16,6 +17,7 @@ namespace kinescope::app {
 std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
-                            const std::optional<PictureStatus>& pictures);
+                            const std::optional<PictureStatus>& pictures,
+                            const std::optional<ViewStatus>& view = {});
 
 }  // namespace kinescope::app

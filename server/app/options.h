@@ -116,6 +116,11 @@ struct ServeOptions {
   std::string picture_size = "1280x720";
   double picture_rate_hz = 30;
   BackendOptions backend;
+  std::string markers;
+  std::string view = "on";
+  std::string view_camera;
+  std::string view_size = "1280x720";
+  double view_rate_hz = 30;
 
   template <class Option>
   void Visit(Option&& option) {
@@ -130,6 +135,16 @@ struct ServeOptions {
     option("picture_size", picture_size, "of the live picture, px");
     option("picture_rate_hz", picture_rate_hz, "most pictures a second, whatever comes in");
     backend.Visit(option);
+    option("markers", markers,
+           "topics of other programs' markers that are to be seen, visualization_msgs/Marker or "
+           "MarkerArray: /walls,/plan");
+    option("view", view,
+           "on or off: ~view/image_raw, ~view/camera_info and the camera's frame over ROS, drawn "
+           "while somebody listens");
+    option("view_camera", view_camera,
+           "camera of that view, whatever the page shows; not given: as camera");
+    option("view_size", view_size, "of that view, px");
+    option("view_rate_hz", view_rate_hz, "most pictures of that view a second");
   }
 
   /// Those that make sense without page and pictures.

@@ -306,6 +306,11 @@ void SceneBuilder::Publish(Liveness liveness) {
   on_state_(scene);
 }
 
+void SceneBuilder::SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> markers) {
+  (void)markers;  // TEMPORARY
+  if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
+}
+
 void SceneBuilder::Tick(std::int64_t monotonic_nanos) {
   if (current_.liveness != Liveness::kLive || current_.arrival_nanos == 0) return;
   const double silent_secs =

@@ -9,10 +9,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "server/app/figure_meshes.h"
 #include "server/app/hand_tools.h"
 #include "server/app/worn_extras.h"
+#include "server/core/scene_marker.h"
 #include "server/core/scene_state.h"
 #include "server/core/source.h"
 #include "server/loads/exposure.h"
@@ -59,6 +61,9 @@ class SceneBuilder : public SampleSink {
   /// What sensors say about `character`, with stamps of the samples' clock; what is old is let go
   /// by itself. Kept for a character who has not come yet.
   void SetMeasurements(int character, const loads::Measurements& measured);
+
+  /// What other programs want to be seen, from the next sample on; at once while none come.
+  void SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> markers);
 
   /// Call at least every 0.1 s with the monotonic clock while a live source is read: this is what
   /// notices that nothing comes any more.

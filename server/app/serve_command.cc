@@ -16,6 +16,7 @@
 #include "server/app/scene_builder.h"
 #include "server/app/stop_signal.h"
 #include "server/app/told_loads.h"
+#include "server/app/view_loop.h"
 #include "server/core/clocks.h"
 #include "server/core/install_paths.h"
 #include "server/core/latest.h"
@@ -124,6 +125,25 @@ PictureOptions ToPictureOptions(const ServeOptions& options) {
   return pictures;
 }
 
+ViewSettings ToViewSettings(const ServeOptions& options) {
+  ViewSettings view;
+  view.camera = options.view_camera.empty() ? options.camera : options.view_camera;
+  std::tie(view.width, view.height) = ToSize("view_size", options.view_size);
+  if (!(options.view_rate_hz >= 0.1 && options.view_rate_hz <= 240)) {
+    throw UsageError(fmt::format("--view_rate_hz={}: expected 0.1 to 240", options.view_rate_hz));
+  }
+  view.rate_hz = options.view_rate_hz;
+  return view;
+}
+
+// Whoever turned pictures off wants nothing to be drawn; a view asked for beside that is not there.
+bool WantsView(const ServeOptions& options, bool with_page) {
+  if (!with_page || !ToSwitch("view", options.view)) return false;
+  if (ToSwitch("pictures", options.pictures)) return true;
+  spdlog::info("pictures are off, and so there is no ~view/image_raw");
+  return false;
+}
+
 void Serve(const ServeOptions& options, bool with_page) {
   const std::int64_t start_nanos = MonotonicNanos();
   const SceneOptions scene_options =
@@ -131,6 +151,8 @@ void Serve(const ServeOptions& options, bool with_page) {
   const ros_bridge::RosMode ros_mode = ToRosMode(options.ros);
   ros_bridge::BridgeConfig bridge_config = ToBridgeConfig(options);
   bridge_config.check_hand_load = [](const HandLoad& load) { return loads::FindDefect(load); };
+  if (with_page) bridge_config.markers = options.markers;
+  bridge_config.with_view = ros_mode != ros_bridge::RosMode::kOff && WantsView(options, with_page);
   const std::string url =
       options.udp_port == 0 ? options.source : fmt::format("udp://:{}", options.udp_port);
   SourceSettings source_settings;
@@ -150,12 +172,14 @@ void Serve(const ServeOptions& options, bool with_page) {
   ToldLoads told;                  // page -> reading thread
   std::unique_ptr<PictureLoop> drawing;
   std::unique_ptr<ros_bridge::RosBridge> ros;
+  std::unique_ptr<ViewLoop> view;
   Announcer announcer;
   SceneBuilder builder(scene_options, source->description(), source->nominal_rate_hz(),
                        [&](const std::shared_ptr<const SceneState>& state) {
                          if (ros) ros->Publish(*state);
                          states.Publish(state);
                          if (drawing) drawing->OnState(state);
+                         if (view) view->OnState(state);
                          announcer.OnState(*state);
                        });
   if (ros_mode == ros_bridge::RosMode::kRequired ||
@@ -170,13 +194,19 @@ void Serve(const ServeOptions& options, bool with_page) {
   const auto diagnostics = [&] {
     return DiagnosticsJson(states.Get(), counters.Get(),
                            ros ? std::optional(ros->status()) : std::nullopt,
-                           drawing ? std::optional(drawing->status()) : std::nullopt);
+                           drawing ? std::optional(drawing->status()) : std::nullopt,
+                           view ? std::optional(view->status()) : std::nullopt);
   };
   if (with_page) {
     if (ToSwitch("pictures", options.pictures)) {
       drawing = std::make_unique<PictureLoop>(ToPictureOptions(options), states.Get(), pictures);
       spdlog::info("first picture {:.2f} s after start, drawn by {}",
                    Secs(MonotonicNanos() - start_nanos), drawing->status().renderer.renderer);
+    }
+    if (ros && bridge_config.with_view) {
+      view = std::make_unique<ViewLoop>(
+          ToViewSettings(options), states.Get(),
+          [&](const ros_bridge::ViewPicture& picture) { ros->PublishView(picture); });
     }
     http::HttpConfig config = ToHttpConfig(options);
     config.set_hand_load = [&](int character, const HandLoad& load) {
@@ -191,7 +221,7 @@ void Serve(const ServeOptions& options, bool with_page) {
     spdlog::info("listening at {}, receive buffer {:.1f} MB", source->description(),
                  static_cast<double>(buffer->second) * 1e-6);
   }
-  InputsFirst sink(builder, told, ros.get());
+  InputsFirst sink(builder, told, ros.get(), view.get());
   UselessStreamWatch useless_stream;
   std::int64_t counters_due = 0;
   while (!StopRequested()) {

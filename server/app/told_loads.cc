@@ -37,4 +37,12 @@ void InputsFirst::OnMeasurements(int character, const Measurements& measured) {
   builder_.SetMeasurements(character, measured);
 }
 
+void InputsFirst::OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& markers) {
+  builder_.SetMarkers(markers);
+}
+
+void InputsFirst::OnViewListeners(int count) {
+  if (view_ != nullptr) view_->SetListeners(count);
+}
+
 }  // namespace kinescope::app

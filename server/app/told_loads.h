@@ -8,6 +8,7 @@
 #include <string>
 
 #include "server/app/scene_builder.h"
+#include "server/app/view_loop.h"
 #include "server/core/force_inputs.h"
 #include "server/core/source.h"
 #include "server/ros/bridge.h"
@@ -31,8 +32,10 @@ class ToldLoads {
 /// reading thread's. `ros` may be null.
 class InputsFirst : public SampleSink, private ros_bridge::InputSink {
  public:
-  InputsFirst(SceneBuilder& builder, ToldLoads& told, ros_bridge::RosBridge* ros)
-      : builder_(builder), told_(told), ros_(ros) {}
+  /// `view` may be null, and is told who listens to it.
+  InputsFirst(SceneBuilder& builder, ToldLoads& told, ros_bridge::RosBridge* ros,
+              ViewLoop* view = nullptr)
+      : builder_(builder), told_(told), ros_(ros), view_(view) {}
 
   /// Also to be called while no samples come: services wait for their answer.
   void TakeInputs();
@@ -44,10 +47,13 @@ class InputsFirst : public SampleSink, private ros_bridge::InputSink {
  private:
   void OnHandLoad(int character, const HandLoad& load) override;
   void OnMeasurements(int character, const Measurements& measured) override;
+  void OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& markers) override;
+  void OnViewListeners(int count) override;
 
   SceneBuilder& builder_;
   ToldLoads& told_;
   ros_bridge::RosBridge* const ros_;
+  ViewLoop* const view_;
 };
 
 }  // namespace kinescope::app

@@ -102,6 +102,11 @@ std::shared_ptr<const PersonTopics> Announcer::TopicsOf(int character) const {
   return slot == slots_.end() ? nullptr : slot->second.topics;
 }
 
+std::shared_ptr<ViewTopics> Announcer::View() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return view_;
+}
+
 void Announcer::WantTransforms() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -122,6 +127,7 @@ BridgeStatus Announcer::status() const {
     }
   };
   add("", first_topics_.get());
+  if (wiring_.markers) status.inputs.merge(wiring_.markers->counters());
   for (const auto& [character, slot] : slots_) {
     if (!slot.prefix.empty()) add(slot.prefix, slot.topics.get());
   }
@@ -148,6 +154,7 @@ void Announcer::Run() {
       has_arguments_ = false;
       inputs_.clear();  // roscpp tells a master of a subscriber once
       transforms_.clear();
+      markers_.clear();
     }
     if (!node_) Start();
     AdvertiseMissing();
@@ -174,7 +181,13 @@ bool Announcer::MasterKnowsUs(bool& answers) {
 void Announcer::Start() {
   node_ = std::make_unique<ros::NodeHandle>("~");
   auto topics = Advertise("");
+  std::shared_ptr<ViewTopics> view;
+  if (wiring_.make_view) {
+    view = wiring_.make_view(*node_);
+    topic_types_.merge(view->TypesByTopic());
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
+  view_ = std::move(view);
   first_topics_ = std::move(topics);
   for (auto& [character, slot] : slots_) {
     if (slot.prefix.empty()) slot.topics = first_topics_;
@@ -223,10 +236,13 @@ void Announcer::Subscribe() {
     ForceSubscriptions all = SubscribeForces(*node_, prefix, *wiring_.queue, box);
     if (all.AreComplete()) inputs_[prefix] = std::move(all);  // else the master has just gone
   }
-  bool wants_transforms = false;
+  if (wiring_.markers && markers_.empty()) {
+    markers_ = SubscribeMarkers(*node_, *wiring_.queue, wiring_.markers);
+  }
+  bool wants_transforms = wiring_.markers != nullptr;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    wants_transforms = wants_transforms_;
+    wants_transforms = wants_transforms || wants_transforms_;
   }
   if (!wants_transforms || !transforms_.empty()) return;
   transforms_ = {SubscribeTransforms("/tf", false), SubscribeTransforms("/tf_static", true)};

@@ -23,7 +23,9 @@
 #include "server/core/scene_state.h"
 #include "server/ros/bridge.h"
 #include "server/ros/force_boxes.h"
+#include "server/ros/marker_topics.h"
 #include "server/ros/master_client.h"
+#include "server/ros/view_topics.h"
 
 namespace kinescope::ros_bridge {
 
@@ -39,6 +41,8 @@ struct InputWiring {
   ros::CallbackQueue* queue = nullptr;  // outlives the announcer
   std::function<std::shared_ptr<ForceBox>()> make_box;
   std::function<void(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;  // of other nodes
+  std::shared_ptr<MarkerBox> markers;  // null: none are heard
+  std::function<std::shared_ptr<ViewTopics>(const ros::NodeHandle&)> make_view;  // null: no view
 };
 
 class Announcer {
@@ -57,6 +61,9 @@ class Announcer {
 
   /// Null until a master has answered. Waits for nothing; any thread.
   std::shared_ptr<const PersonTopics> TopicsOf(int character) const;
+
+  /// Null until a master has answered, and where there is none. Waits for nothing; any thread.
+  std::shared_ptr<ViewTopics> View() const;
 
   /// From now on /tf and /tf_static are heard too. Waits for nothing; any thread.
   void WantTransforms();
@@ -95,6 +102,7 @@ class Announcer {
   std::condition_variable changed_;
   std::map<int, Slot> slots_;                         // guarded by mutex_
   std::shared_ptr<const PersonTopics> first_topics_;  // guarded by mutex_; of whoever comes first
+  std::shared_ptr<ViewTopics> view_;                  // guarded by mutex_
   BridgeStatus status_;                               // guarded by mutex_
   bool has_work_ = false;                             // guarded by mutex_
   bool stopping_ = false;                             // guarded by mutex_
@@ -108,6 +116,7 @@ class Announcer {
   std::map<std::string, std::shared_ptr<ForceBox>> boxes_;  // by prefix; all that we take in
   std::map<std::string, ForceSubscriptions> inputs_;        // of these, what this master knows of
   std::vector<ros::Subscriber> transforms_;                 // likewise
+  std::vector<ros::Subscriber> markers_;                    // likewise
   std::map<std::string, std::uint64_t>
       described_;               // description parameters set, and their revision
   bool has_arguments_ = false;  // this master has our `_name:=value`

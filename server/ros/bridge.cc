@@ -11,15 +11,18 @@
 #include <utility>
 
 #include "server/core/check.h"
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/ros/announcer.h"
 #include "server/ros/force_boxes.h"
 #include "server/ros/joint_loads.h"
 #include "server/ros/joint_states.h"
 #include "server/ros/link_states.h"
+#include "server/ros/marker_topics.h"
 #include "server/ros/markers.h"
 #include "server/ros/names.h"
 #include "server/ros/transforms.h"
+#include "server/ros/view_topics.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -55,11 +58,17 @@ class Bridge : public RosBridge {
   explicit Bridge(const BridgeConfig& config)
       : config_(config), announcer_(config.initial_urdf, config.tf != "off", MakeWiring()) {}
 
+  void PublishView(const ViewPicture& picture) override {
+    if (const auto view = announcer_.View()) view->Publish(picture);
+  }
+
   void TakeInputs(InputSink& sink) override {
     queue_.callAvailable(ros::WallDuration(0));
+    if (view_listeners_) sink.OnViewListeners(*std::exchange(view_listeners_, std::nullopt));
     for (auto& [character, outlet] : outlets_) {
       if (outlet.topics) outlet.topics->inputs->Deliver(character, sink);
     }
+    if (markers_in_) markers_in_->Deliver(MonotonicNanos(), sink);
   }
 
   void Publish(const SceneState& state) override {
@@ -70,6 +79,7 @@ class Bridge : public RosBridge {
     for (const PersonState& person : state.people) {
       Outlet& outlet = OutletOf(person);
       outlet.seen_in_number = state.number;
+      if (markers_in_) markers_in_->SetPerson(person, state.floor_z);
       if (IsNew(person.sample, outlet)) PublishSample(state, person, outlet);
     }
   }
@@ -82,6 +92,12 @@ class Bridge : public RosBridge {
   }
 
  private:
+  std::shared_ptr<MarkerBox> MakeMarkerBox() const {
+    std::vector<std::string> topics = MarkerTopicNames(config_.markers);
+    if (topics.empty()) return nullptr;
+    return std::make_shared<MarkerBox>(std::move(topics), config_.reference_frame, transforms_);
+  }
+
   InputWiring MakeWiring() {
     InputWiring wiring;
     wiring.queue = &queue_;
@@ -92,6 +108,12 @@ class Bridge : public RosBridge {
     };
     wiring.on_transforms = [this](const tf2_msgs::TFMessage& message, bool is_static) {
       transforms_->Add(message, is_static);
+    };
+    wiring.markers = markers_in_;
+    if (!config_.with_view) return wiring;
+    wiring.make_view = [this](const ros::NodeHandle& node) {
+      return std::make_shared<ViewTopics>(node, queue_, config_.reference_frame,
+                                          [this](int count) { view_listeners_ = count; });
     };
     return wiring;
   }
@@ -178,8 +200,10 @@ class Bridge : public RosBridge {
   }
 
   const BridgeConfig config_;
-  ros::CallbackQueue queue_;  // taken by the publishing thread
+  ros::CallbackQueue queue_;           // taken by the publishing thread
+  std::optional<int> view_listeners_;  // likewise; news that the sink has not got
   const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // that thread's
+  const std::shared_ptr<MarkerBox> markers_in_ = MakeMarkerBox();          // null: none are heard
   Announcer announcer_;
   std::atomic<std::uint64_t> published_ = 0;
   std::atomic<std::uint64_t> missed_ = 0;

@@ -8,8 +8,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "server/core/force_inputs.h"
+#include "server/core/scene_marker.h"
 #include "server/core/scene_state.h"
 
 namespace kinescope::ros_bridge {
@@ -30,6 +32,17 @@ struct BridgeConfig {
   double external_scale = 1;
   /// "" or what is wrong with a hand load that somebody wants to set. Null: all are taken.
   std::function<std::string(const HandLoad&)> check_hand_load;
+  std::string markers;     // topics of other programs' markers, with commas between
+  bool with_view = false;  // `~view/image_raw` is there; who advertises it has to draw
+};
+
+/// A picture on its way to `~view/image_raw`, and the camera that took it.
+struct ViewPicture {
+  int width = 0, height = 0;              // px
+  const std::vector<std::uint8_t>& rgba;  // (height, width, 4), top row first; opaque
+  std::int64_t stamp_nanos = 0;           // of the sample it shows; 0 before the first
+  urdf::Pose world_from_optical;          // z forward, x to the right, y down (REP 103)
+  double focal_px = 0;  // of the pinhole in the picture's middle; 0: it is none of one pinhole
 };
 
 /// What came on one input topic.
@@ -63,6 +76,10 @@ class InputSink {
   virtual ~InputSink() = default;
   virtual void OnHandLoad(int character, const HandLoad& load) = 0;
   virtual void OnMeasurements(int character, const Measurements& measured) = 0;
+  /// All that other programs show now, placed; comes when it is another list than before.
+  virtual void OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& /*markers*/) {}
+  /// So many now want to see pictures of the view; each that comes wants one at once.
+  virtual void OnViewListeners(int /*count*/) {}
 };
 
 /// Publishes each state once, from the thread that made it; never blocks on the master. Destroying
@@ -82,6 +99,9 @@ class RosBridge {
   /// nothing. The same thread as Publish: before each sample, and now and then while none come.
   virtual void TakeInputs(InputSink& sink) = 0;
   virtual BridgeStatus status() const = 0;  // any thread
+
+  /// To whoever listens to the view. One thread, any; never blocks on the master.
+  virtual void PublishView(const ViewPicture& picture) = 0;
 
  protected:
   RosBridge() = default;

@@ -1,0 +1,113 @@
+#include "server/app/view_loop.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "render/camera.h"
+
+namespace kinescope::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+}  // namespace
+
+Pinhole PinholeOf(const render::Camera& camera, int height_px) {
+  const Eigen::Vector3d forward = (camera.target - camera.position).normalized();
+  const Eigen::Vector3d right = forward.cross(camera.up).normalized();
+  Eigen::Matrix3d axes;
+  axes << right, forward.cross(right), forward;
+  Pinhole pinhole;
+  pinhole.world_from_optical.position = camera.position;
+  pinhole.world_from_optical.orientation = Eigen::Quaterniond(axes).normalized();
+  pinhole.focal_px = 0.5 * height_px / std::tan(0.5 * camera.vertical_fov_rad);
+  return pinhole;
+}
+
+ViewLoop::ViewLoop(const ViewSettings& settings, std::shared_ptr<const SceneState> first, Send send)
+    : settings_(settings), send_(std::move(send)), state_(std::move(first)) {
+  render::NamedCamera(settings_.camera, *state_);  // throws for a name that does not exist
+  thread_ = std::thread(&ViewLoop::Run, this);
+}
+
+ViewLoop::~ViewLoop() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void ViewLoop::OnState(std::shared_ptr<const SceneState> state) {
+  bool wake = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state_ = std::move(state);
+    is_due_ = true;
+    wake = status_.listeners > 0;
+  }
+  if (wake) wake_.notify_one();
+}
+
+void ViewLoop::SetListeners(int count) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (count > status_.listeners) is_due_ = true;
+    status_.listeners = count;
+  }
+  wake_.notify_one();
+}
+
+ViewStatus ViewLoop::status() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return status_;
+}
+
+void ViewLoop::Draw(const SceneState& state) {
+  const auto start = Clock::now();
+  if (!renderer_) renderer_ = render::MakeRenderer();
+  const render::Camera camera = camera_.Aim(settings_.camera, state);
+  renderer_->RenderInto(image_, state, camera, {settings_.width, settings_.height, 1, "", true});
+  const Pinhole pinhole = PinholeOf(camera, settings_.height);
+  send_({image_.width, image_.height, image_.rgba, state.stamp_nanos, pinhole.world_from_optical,
+         pinhole.focal_px});
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++status_.drawn;
+  status_.draw_millis = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  status_.last_error.clear();
+}
+
+void ViewLoop::Run() {
+  const auto period = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(1.0 / settings_.rate_hz));
+  Clock::time_point next = Clock::now();
+  std::unique_lock<std::mutex> lock(mutex_);
+  const auto is_wanted = [&] { return status_.listeners > 0 && is_due_; };
+  while (true) {
+    wake_.wait(lock, [&] { return stop_ || is_wanted(); });
+    wake_.wait_until(lock, next, [&] { return stop_; });
+    if (stop_) break;
+    if (!is_wanted()) continue;
+    is_due_ = false;
+    next = std::max(next + period, Clock::now());
+    const std::shared_ptr<const SceneState> state = state_;
+    lock.unlock();
+    std::string error;
+    try {
+      Draw(*state);
+    } catch (const std::exception& failure) {
+      error = failure.what();
+    }
+    lock.lock();
+    if (error.empty() || status_.last_error == error) continue;
+    spdlog::error("view: {}", error);
+    status_.last_error = error;
+  }
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,145 @@
+#include "server/ros/marker_topics.h"
+
+#include <ros/names.h>
+#include <ros/subscribe_options.h>
+#include <spdlog/fmt/fmt.h>
+
+#include <sstream>
+#include <utility>
+
+#include "server/core/clocks.h"
+#include "server/core/errors.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+constexpr std::size_t kMostTopics = 16;
+// Each may be the only one of its marker, so none should be lost while a sample is worked on.
+constexpr std::uint32_t kQueue = 1000;
+constexpr std::size_t kLongestTypeName = 80;  // in a counter's name: a stranger chose it
+
+}  // namespace
+
+std::vector<std::string> MarkerTopicNames(const std::string& comma_separated) {
+  std::vector<std::string> topics;
+  std::istringstream in(comma_separated);
+  for (std::string name; std::getline(in, name, ',');) {
+    std::string why;
+    if (name.empty() || !ros::names::validate(name, why)) {
+      throw UsageError(fmt::format(
+          "--markers={}: '{}' is no name of a topic; expected such as /walls,/plan/markers",
+          comma_separated, name));
+    }
+    topics.push_back(ros::names::resolve(name));
+  }
+  if (topics.size() > kMostTopics) {
+    throw UsageError(
+        fmt::format("--markers: {} topics; expected at most {}", topics.size(), kMostTopics));
+  }
+  return topics;
+}
+
+MarkerBox::MarkerBox(std::vector<std::string> topics, std::string reference_frame,
+                     std::shared_ptr<const TfTree> tf)
+    : topics_(std::move(topics)), reference_frame_(std::move(reference_frame)), tf_(std::move(tf)) {
+  for (const std::string& topic : topics_) counters_[topic];  // shown although nothing came
+}
+
+void MarkerBox::OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos) {
+  const RawMessage& raw = *event.getConstMessage();
+  const ros::M_string& connection = event.getConnectionHeader();
+  const auto said = [&](const char* key) {
+    const auto found = connection.find(key);
+    return found == connection.end() ? std::string() : found->second;
+  };
+  const std::string sum = said("md5sum");
+  constexpr char kUnreadable[] = "is cut short or lies about its length";
+  if (sum == ros::message_traits::md5sum<visualization_msgs::Marker>()) {
+    if (!Decode(raw.bytes, marker_))
+      return Refuse(topic, {kUnreadable, "a message that " + std::string(kUnreadable)});
+    return Take(topic, marker_, monotonic_nanos);
+  }
+  if (sum == ros::message_traits::md5sum<visualization_msgs::MarkerArray>()) {
+    if (!Decode(raw.bytes, array_))
+      return Refuse(topic, {kUnreadable, "a message that " + std::string(kUnreadable)});
+    for (const auto& marker : array_.markers) Take(topic, marker, monotonic_nanos);
+    return;
+  }
+  Refuse(topic, {"another type",
+                 fmt::format("messages of {}: expected visualization_msgs/Marker or MarkerArray",
+                             said("type").substr(0, kLongestTypeName))});
+}
+
+void MarkerBox::Take(std::size_t topic, const visualization_msgs::Marker& message,
+                     std::int64_t monotonic_nanos) {
+  if (const auto refusal = store_.Apply(topic, message, monotonic_nanos)) {
+    return Refuse(topic, *refusal);
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  InputCounters& counters = counters_[topics_[topic]];
+  ++counters.received;
+  ++counters.used;
+}
+
+void MarkerBox::Refuse(std::size_t topic, const Refusal& refusal) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  InputCounters& counters = counters_[topics_[topic]];
+  ++counters.received;
+  ++counters.refused[refusal.kind];
+  counters.last_problem = refusal.text;
+}
+
+void MarkerBox::SetPerson(const PersonState& person, double floor_z) {
+  Body& body = bodies_[person.character];
+  body.model = person.model->human.model_name;
+  body.now = {person.links, person.model->human.skeleton, floor_z, person.sample.stamp_nanos};
+}
+
+std::optional<urdf::Pose> MarkerBox::Find(const std::string& frame,
+                                          std::int64_t stamp_nanos) const {
+  // A node that says nothing about frames means the one that everything is in.
+  if (frame.empty() || frame == reference_frame_) return urdf::Pose{};
+  for (const auto& [character, body] : bodies_) {
+    const auto found = FindFrame(frame, stamp_nanos, reference_frame_, body.model, body.now, *tf_);
+    if (found) return found->pose;
+  }
+  if (bodies_.empty()) return tf_->Find(reference_frame_, frame, stamp_nanos);
+  return std::nullopt;
+}
+
+void MarkerBox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
+  const bool changed =
+      store_.Update(monotonic_nanos, [this](const std::string& frame, std::int64_t stamp_nanos) {
+        return Find(frame, stamp_nanos);
+      });
+  if (changed) sink.OnMarkers(store_.markers());
+  for (const MarkerStore::Lost& lost : store_.TakeLost()) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    InputCounters& counters = counters_[topics_[lost.topic]];
+    ++counters.refused["unknown frame"];
+    counters.last_problem = lost.text;
+  }
+}
+
+std::map<std::string, InputCounters> MarkerBox::counters() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return counters_;
+}
+
+std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::CallbackQueue& queue,
+                                              const std::shared_ptr<MarkerBox>& box) {
+  std::vector<ros::Subscriber> all;
+  for (std::size_t topic = 0; topic < box->topics().size(); ++topic) {
+    ros::SubscribeOptions options;
+    options.initByFullCallbackType<const MarkerBox::Event&>(
+        box->topics()[topic], kQueue, [box, topic](const MarkerBox::Event& event) {
+          box->OnMessage(topic, event, MonotonicNanos());
+        });
+    options.callback_queue = &queue;
+    options.transport_hints = ros::TransportHints().tcpNoDelay();
+    all.push_back(node.subscribe(options));
+  }
+  return all;
+}
+
+}  // namespace kinescope::ros_bridge

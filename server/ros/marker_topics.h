@@ -1,0 +1,77 @@
+/// Topics of other programs' markers: heard, counted, and turned into what is in the scene.
+/// visualization_msgs/Marker and MarkerArray are told apart by what each connection says it sends.
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/message_event.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "server/core/scene_state.h"
+#include "server/ros/bridge.h"
+#include "server/ros/force_frames.h"
+#include "server/ros/marker_input.h"
+#include "server/ros/raw_message.h"
+
+namespace kinescope::ros_bridge {
+
+/// Full names of the topics in "/walls,plan": at most 16.
+/// @throws UsageError naming what is no name of a topic. @pre InitRos was called.
+std::vector<std::string> MarkerTopicNames(const std::string& comma_separated);
+
+class MarkerBox {
+ public:
+  MarkerBox(std::vector<std::string> topics, std::string reference_frame,
+            std::shared_ptr<const TfTree> tf);
+
+  const std::vector<std::string>& topics() const { return topics_; }
+
+  // The thread that reads samples.
+
+  using Event = ros::MessageEvent<const RawMessage>;
+  void OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos);
+  /// Links of people are frames of markers too.
+  void SetPerson(const PersonState& person, double floor_z);
+  /// Hands on the markers where they are others than before.
+  void Deliver(std::int64_t monotonic_nanos, InputSink& sink);
+
+  /// By topic. Any thread.
+  std::map<std::string, InputCounters> counters() const;
+
+ private:
+  struct Body {
+    std::string model;
+    BodyNow now;
+  };
+
+  void Take(std::size_t topic, const visualization_msgs::Marker& message,
+            std::int64_t monotonic_nanos);
+  void Refuse(std::size_t topic, const Refusal& refusal);
+  std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) const;
+
+  const std::vector<std::string> topics_;
+  const std::string reference_frame_;
+  const std::shared_ptr<const TfTree> tf_;
+
+  // The thread that reads samples.
+  MarkerStore store_;
+  std::map<int, Body> bodies_;             // by character
+  visualization_msgs::Marker marker_;      // keeps its memory
+  visualization_msgs::MarkerArray array_;  // likewise
+
+  mutable std::mutex mutex_;
+  std::map<std::string, InputCounters> counters_;  // guarded by mutex_
+};
+
+/// The connections that fill a box; a master that forgot us needs new ones. Asks the master: may
+/// wait.
+std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::CallbackQueue& queue,
+                                              const std::shared_ptr<MarkerBox>& box);
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,135 @@
+#include "server/ros/view_topics.h"
+
+#include <image_transport/image_transport.h>
+#include <ros/publication.h>
+#include <ros/this_node.h>
+#include <ros/topic_manager.h>
+#include <spdlog/spdlog.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <atomic>
+#include <optional>
+#include <utility>
+
+#include "server/ros/view_messages.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+constexpr char kImage[] = "view/image_raw";
+constexpr char kCameraInfo[] = "view/camera_info";
+// A subscriber that is slower than the pictures come gets the newest.
+constexpr std::uint32_t kQueue = 2;
+
+}  // namespace
+
+struct ViewTopics::Parts {
+  std::string reference_frame, optical_frame;
+  std::string base;  // resolved: "/kinescope/view/"
+  OnListeners on_listeners;
+
+  // Either, by whether image_transport is usable.
+  std::optional<image_transport::CameraPublisher> camera;
+  ros::Publisher plain_image, plain_info;
+  ros::Publisher tf;
+
+  std::atomic<bool> frame_is_due{true};  // somebody new cannot know it
+  // The drawing thread's.
+  boost::shared_ptr<sensor_msgs::Image> image;
+  boost::shared_ptr<sensor_msgs::CameraInfo> info;
+  tf2_msgs::TFMessage frame;
+
+  int CountListeners() const {
+    if (camera) return static_cast<int>(camera->getNumSubscribers());
+    return static_cast<int>(
+        std::max(plain_image.getNumSubscribers(), plain_info.getNumSubscribers()));
+  }
+  void OnConnection(bool is_new) {
+    if (is_new) frame_is_due = true;
+    on_listeners(CountListeners());
+  }
+
+  void AdvertiseCamera(const ros::NodeHandle& node);
+  void AdvertisePlain(ros::NodeHandle& node);
+};
+
+void ViewTopics::Parts::AdvertiseCamera(const ros::NodeHandle& node) {
+  image_transport::ImageTransport transport(node);
+  const image_transport::SubscriberStatusCallback image_come = [this](const auto&) {
+    OnConnection(true);
+  };
+  const image_transport::SubscriberStatusCallback image_go = [this](const auto&) {
+    OnConnection(false);
+  };
+  const ros::SubscriberStatusCallback info_come = [this](const auto&) { OnConnection(true); };
+  const ros::SubscriberStatusCallback info_go = [this](const auto&) { OnConnection(false); };
+  camera = transport.advertiseCamera(kImage, kQueue, image_come, image_go, info_come, info_go);
+}
+
+void ViewTopics::Parts::AdvertisePlain(ros::NodeHandle& node) {
+  const ros::SubscriberStatusCallback come = [this](const auto&) { OnConnection(true); };
+  const ros::SubscriberStatusCallback go = [this](const auto&) { OnConnection(false); };
+  plain_image = node.advertise<sensor_msgs::Image>(kImage, kQueue, come, go);
+  plain_info = node.advertise<sensor_msgs::CameraInfo>(kCameraInfo, kQueue, come, go);
+}
+
+ViewTopics::ViewTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue,
+                       std::string reference_frame, OnListeners on_listeners)
+    : parts_(std::make_unique<Parts>()) {
+  ros::NodeHandle own(node);
+  own.setCallbackQueue(&queue);
+  parts_->base = own.resolveName("view") + "/";
+  parts_->reference_frame = std::move(reference_frame);
+  parts_->optical_frame = OpticalFrame(own.resolveName("view"));
+  parts_->on_listeners = std::move(on_listeners);
+  parts_->tf = own.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
+  try {
+    parts_->AdvertiseCamera(own);
+  } catch (const std::exception& problem) {  // pluginlib's and image_transport's own
+    spdlog::warn("{}image_raw goes out uncompressed only: image_transport has no plugins ({})",
+                 parts_->base, problem.what());
+    parts_->camera.reset();
+    parts_->AdvertisePlain(own);
+  }
+}
+
+ViewTopics::~ViewTopics() = default;
+
+std::map<std::string, std::string> ViewTopics::TypesByTopic() const {
+  std::map<std::string, std::string> types;
+  ros::V_string topics;
+  ros::this_node::getAdvertisedTopics(topics);
+  for (const std::string& topic : topics) {
+    if (topic != "/tf" && topic.rfind(parts_->base, 0) != 0) continue;
+    const auto publication = ros::TopicManager::instance()->lookupPublication(topic);
+    if (publication) types[topic] = publication->getDataType();
+  }
+  return types;
+}
+
+void ViewTopics::Publish(const ViewPicture& picture) {
+  Parts& parts = *parts_;
+  // Frames of one time are known, and tf2 complains about hearing of them again.
+  const bool frame_is_due = parts.frame_is_due.exchange(false);
+  parts.frame.transforms.resize(1);
+  const ros::Time before = parts.frame.transforms[0].header.stamp;
+  FillCameraFrame(picture, parts.reference_frame, parts.optical_frame, parts.frame.transforms[0]);
+  if (frame_is_due || parts.frame.transforms[0].header.stamp != before) {
+    parts.tf.publish(parts.frame);
+  }
+  // A subscriber in this process may still hold the last one.
+  if (!parts.image || !parts.image.unique()) parts.image = boost::make_shared<sensor_msgs::Image>();
+  if (!parts.info || !parts.info.unique()) {
+    parts.info = boost::make_shared<sensor_msgs::CameraInfo>();
+  }
+  FillImage(picture, parts.optical_frame, *parts.image);
+  FillCameraInfo(picture, parts.optical_frame, *parts.info);
+  if (parts.camera) {
+    parts.camera->publish(parts.image, parts.info);
+  } else {
+    parts.plain_image.publish(parts.image);
+    parts.plain_info.publish(parts.info);
+  }
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,202 @@
+// What ROS sees of the person, with everything real: a master, `kinescope serve`, and this test as
+// the one who looks.
+#include <gtest/gtest.h>
+#include <image_transport/image_transport.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "render/renderer.h"
+#include "tests/server/http/test_client.h"
+#include "tests/system/ros_fixture.h"
+
+namespace kinescope {
+namespace {
+
+using http::testing::Fetch;
+
+constexpr int kWidth = 320, kHeight = 240;
+constexpr char kFrame[] = "kinescope_view_camera_optical";
+
+Eigen::Isometry3d ToEigen(const geometry_msgs::Transform& transform) {
+  const auto& p = transform.translation;
+  const auto& q = transform.rotation;
+  return Eigen::Translation3d(p.x, p.y, p.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z);
+}
+
+class ViewOverRos : public testing::RosProgram {
+ protected:
+  void StartServe(const std::string& options) {
+    program_ = Start("serve --ros required --http_port 0 --source demo:t_pose " + options);
+    const std::string url = WaitForLine(*program_, "page at ");
+    const std::size_t colon = url.rfind(':');
+    ASSERT_NE(colon, std::string::npos) << url;
+    port_ = std::stoi(url.substr(colon + 1));
+  }
+  nlohmann::json Diagnostics(const std::string& part) const {
+    return Fetch(port_, "/api/diagnostics").json().at(part);
+  }
+
+  // Frames by stamp, as they come.
+  void HearFrames() {
+    Hear<tf2_msgs::TFMessage>("/tf", [this](const tf2_msgs::TFMessage& message) {
+      for (const auto& transform : message.transforms) {
+        EXPECT_EQ(transform.header.frame_id, "world");
+        frames_[transform.header.stamp][transform.child_frame_id] = ToEigen(transform.transform);
+      }
+    });
+  }
+
+  // Asks about the publishers: what the master knows of a topic.
+  static bool IsAdvertised(const std::string& topic) {
+    ros::master::V_TopicInfo topics;
+    ros::master::getTopics(topics);
+    for (const auto& info : topics) {
+      if (info.name == topic) return true;
+    }
+    return false;
+  }
+
+  std::unique_ptr<testing::Process> program_;
+  int port_ = 0;
+  std::map<ros::Time, std::map<std::string, Eigen::Isometry3d>> frames_;
+};
+
+// The picture of an empty floor, by the camera that the messages describe.
+render::Image FloorAlone(const Eigen::Isometry3d& world_from_optical,
+                         const sensor_msgs::CameraInfo& info) {
+  render::Camera camera;
+  camera.position = world_from_optical.translation();
+  camera.target = camera.position + world_from_optical.linear().col(2);
+  camera.up = -world_from_optical.linear().col(1);
+  camera.vertical_fov_rad = 2 * std::atan(0.5 * info.height / info.K[4]);
+  SceneState nobody;
+  nobody.liveness = Liveness::kLive;
+  return render::MakeRenderer()->Render(nobody, camera, {kWidth, kHeight, 1, "", false});
+}
+
+TEST_F(ViewOverRos, ShowsEveryLinkWhereFramesAndCalibrationSayItIs) {
+  StartServe("--view_size 320x240 --view_rate_hz 10 --view_camera iso");
+  HearFrames();
+  EXPECT_EQ(Diagnostics("view").at("drawn"), 0) << "nobody listens";
+  sensor_msgs::Image image;
+  std::map<ros::Time, sensor_msgs::CameraInfo> infos;
+  Hear<sensor_msgs::CameraInfo>("/kinescope/view/camera_info",
+                                [&](const auto& m) { infos[m.header.stamp] = m; });
+  Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto& m) { image = m; });
+  const auto is_whole = [&] {
+    const ros::Time& stamp = image.header.stamp;
+    return !stamp.isZero() && infos.count(stamp) > 0 && frames_[stamp].count(kFrame) > 0 &&
+           frames_[stamp].count("skeleton_head") > 0;
+  };
+  ASSERT_TRUE(Spin(is_whole)) << "picture, camera_info and frames of one stamp";
+  const auto& frames = frames_.at(image.header.stamp);
+  const sensor_msgs::CameraInfo& info = infos.at(image.header.stamp);
+  EXPECT_EQ(image.header.frame_id, kFrame);
+  EXPECT_EQ(info.header.frame_id, kFrame);
+  ASSERT_EQ(image.width, static_cast<std::uint32_t>(kWidth));
+  ASSERT_EQ(image.height, static_cast<std::uint32_t>(kHeight));
+  EXPECT_EQ(info.width, image.width);
+  const Eigen::Isometry3d& world_from_optical = frames.at(kFrame);
+  const render::Image floor = FloorAlone(world_from_optical, info);
+  const auto shows_person = [&](const Eigen::Vector3d& world) {
+    const Eigen::Vector3d seen = world_from_optical.inverse() * world;
+    const long u = std::lround(info.P[0] * seen.x() / seen.z() + info.P[2]);
+    const long v = std::lround(info.P[5] * seen.y() / seen.z() + info.P[6]);
+    if (u < 0 || v < 0 || u >= kWidth || v >= kHeight) return false;
+    const auto pixel = static_cast<std::size_t>(v * kWidth + u);
+    int difference = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      difference += std::abs(image.data[3 * pixel + k] - floor.rgba[4 * pixel + k]);
+    }
+    return difference > 12;  // a lit foot is nearly as light as the floor
+  };
+  int links = 0;
+  for (const auto& [name, world_from_link] : frames) {
+    if (name.rfind("skeleton_", 0) != 0 || name.find("_link") != std::string::npos) continue;
+    ++links;
+    EXPECT_TRUE(shows_person(world_from_link.translation())) << name;
+  }
+  EXPECT_EQ(links, 23);
+  // Half a hand's breadth beside a wrist, above and below the arm that is held out.
+  for (const double up : {-0.12, 0.12}) {
+    const Eigen::Vector3d beside =
+        frames.at("skeleton_right_hand").translation() + Eigen::Vector3d(0, 0, up);
+    EXPECT_FALSE(shows_person(beside)) << up;
+  }
+}
+
+TEST_F(ViewOverRos, IsDrawnAtItsRateWhileSomebodyListensAndNotAfterwards) {
+  StartServe("--view_size 64x48 --view_rate_hz 5");
+  int images = 0;
+  std::optional<ros::Time> first, last;
+  Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto& message) {
+    if (!first) first = message.header.stamp;
+    last = message.header.stamp;
+    ++images;
+  });
+  ASSERT_TRUE(Spin([&] { return images >= 6; }));
+  EXPECT_GE((*last - *first).toSec(), 0.9) << "five steps of 0.2 s";
+  EXPECT_EQ(Diagnostics("view").at("listeners"), 1);
+  subscribers_.clear();
+  ASSERT_TRUE(Spin([&] { return Diagnostics("view").at("listeners") == 0; }));
+  const int drawn = Diagnostics("view").at("drawn");
+  const auto state = Fetch(port_, "/api/state").json();
+  // More samples have come, and no picture of them.
+  ASSERT_TRUE(Spin([&] {
+    return Fetch(port_, "/api/state").json().at("counter").get<int>() >
+           state.at("counter").get<int>() + 100;
+  }));
+  EXPECT_LE(Diagnostics("view").at("drawn").get<int>(), drawn + 1) << "one was in hand";
+}
+
+TEST_F(ViewOverRos, ComesThroughEveryTransportThatIsInstalled) {
+  StartServe("--view_size 64x48 --view_rate_hz 10");
+  image_transport::ImageTransport transport(*node_);
+  std::string installed;
+  for (const std::string& name : transport.getLoadableTransports()) installed += name + " ";
+  RecordProperty("transports", installed);
+  for (const std::string wanted : {"raw", "compressed"}) {
+    if (installed.find("/" + wanted + " ") == std::string::npos) continue;
+    sensor_msgs::ImageConstPtr image;
+    const auto subscriber = transport.subscribe(
+        "/kinescope/view/image_raw", 1,
+        [&](const sensor_msgs::ImageConstPtr& message) { image = message; }, ros::VoidPtr(),
+        image_transport::TransportHints(wanted));
+    EXPECT_TRUE(Spin([&] { return image && image->width == 64; })) << wanted;
+  }
+  EXPECT_NE(installed.find("/raw "), std::string::npos) << installed;
+}
+
+TEST_F(ViewOverRos, IsFoundAgainThroughAMasterThatWasRestarted) {
+  StartServe("--view_size 64x48 --view_rate_hz 10");
+  const std::string uri = ros::master::getURI();
+  const std::string port = uri.substr(uri.rfind(':') + 1);
+  master_.reset();
+  master_ = std::make_unique<testing::Process>(std::vector<std::string>{
+      KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", port.substr(0, port.find('/'))});
+  ASSERT_TRUE(Spin([] { return IsAdvertised("/kinescope/view/image_raw"); }));
+  bool has_image = false;
+  Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto&) { has_image = true; });
+  EXPECT_TRUE(Spin([&] { return has_image; }));
+}
+
+TEST_F(ViewOverRos, IsNotThereWithoutPicturesNorWhereItIsOff) {
+  StartServe("--pictures off");
+  ASSERT_TRUE(Spin([] { return IsAdvertised("/kinescope/joint_states"); }));
+  EXPECT_FALSE(IsAdvertised("/kinescope/view/image_raw"));
+  EXPECT_TRUE(Diagnostics("view").is_null());
+  program_.reset();
+  StartServe("--view off --pictures on");
+  ASSERT_TRUE(Spin([] { return IsAdvertised("/kinescope/joint_states"); }));
+  EXPECT_FALSE(IsAdvertised("/kinescope/view/image_raw"));
+}
+
+}  // namespace
+}  // namespace kinescope
