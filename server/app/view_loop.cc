@@ -108,6 +108,8 @@ void ViewLoop::Run() {
     spdlog::error("view: {}", error);
     status_.last_error = error;
   }
+  lock.unlock();
+  renderer_.reset();  // on the thread that made it
 }
 
 }  // namespace kinescope::app
