@@ -133,6 +133,7 @@ ViewSettings ToViewSettings(const ServeOptions& options) {
     throw UsageError(fmt::format("--view_rate_hz={}: expected 0.1 to 240", options.view_rate_hz));
   }
   view.rate_hz = options.view_rate_hz;
+  view.backend = options.backend;
   return view;
 }
 
@@ -204,8 +205,10 @@ void Serve(const ServeOptions& options, bool with_page) {
                    Secs(MonotonicNanos() - start_nanos), drawing->status().renderer.renderer);
     }
     if (ros && bridge_config.with_view) {
+      ViewSettings settings = ToViewSettings(options);
+      settings.backend.backend = drawing->status().renderer.backend;
       view = std::make_unique<ViewLoop>(
-          ToViewSettings(options), states.Get(),
+          settings, states.Get(),
           [&](const ros_bridge::ViewPicture& picture) { ros->PublishView(picture); });
     }
     http::HttpConfig config = ToHttpConfig(options);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "render/camera.h"
+#include "render/watchdog.h"
 
 namespace kinescope::app {
 namespace {
@@ -29,8 +30,10 @@ Pinhole PinholeOf(const render::Camera& camera, int height_px) {
 }
 
 ViewLoop::ViewLoop(const ViewSettings& settings, std::shared_ptr<const SceneState> first, Send send)
-    : settings_(settings), send_(std::move(send)), state_(std::move(first)) {
-  render::NamedCamera(settings_.camera, *state_);  // throws for a name that does not exist
+    : settings_(settings),
+      send_(std::move(send)),
+      state_(std::move(first)),
+      camera_(settings.camera, CameraOptions()) {
   thread_ = std::thread(&ViewLoop::Run, this);
 }
 
@@ -70,8 +73,12 @@ ViewStatus ViewLoop::status() const {
 
 void ViewLoop::Draw(const SceneState& state) {
   const auto start = Clock::now();
-  if (!renderer_) renderer_ = render::MakeRenderer();
-  const render::Camera camera = camera_.Aim(settings_.camera, state);
+  if (!renderer_) {
+    renderer_ = StartRenderer(settings_.backend, {settings_.backend.backend, ""},
+                              [this](const std::string& what) { OnHang(what); });
+  }
+  const double aspect = static_cast<double>(settings_.width) / settings_.height;
+  const render::Camera camera = camera_.Aim(state, aspect);
   renderer_->RenderInto(image_, state, camera, {settings_.width, settings_.height, 1, "", true});
   const Pinhole pinhole = PinholeOf(camera, settings_.height);
   send_({image_.width, image_.height, image_.rgba, state.stamp_nanos, pinhole.world_from_optical,
@@ -80,6 +87,14 @@ void ViewLoop::Draw(const SceneState& state) {
   ++status_.drawn;
   status_.draw_millis = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   status_.last_error.clear();
+}
+
+// On the watchdog's thread. Robots need what else the process does: it goes on without the view.
+void ViewLoop::OnHang(const std::string& what) {
+  spdlog::error("view: {}", what);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (stop_) render::EndProcess(what);
+  status_.last_error = what;
 }
 
 void ViewLoop::Run() {

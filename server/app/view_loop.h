@@ -13,6 +13,8 @@
 #include <thread>
 
 #include "render/renderer.h"
+#include "server/app/backend.h"
+#include "server/app/camera_man.h"
 #include "server/core/scene_state.h"
 #include "server/ros/bridge.h"
 
@@ -22,7 +24,8 @@ struct ViewSettings {
   std::string camera = "three_quarter";
   int width = 1280;
   int height = 720;
-  double rate_hz = 30;  // at most
+  double rate_hz = 30;          // at most
+  BackendOptions backend = {};  // that the process draws with; not "auto"
 };
 
 struct ViewStatus {
@@ -60,6 +63,7 @@ class ViewLoop {
  private:
   void Run();
   void Draw(const SceneState& state);
+  void OnHang(const std::string& what);
 
   const ViewSettings settings_;
   const Send send_;
@@ -73,7 +77,7 @@ class ViewLoop {
   ViewStatus status_;
   // Of the drawing thread:
   std::unique_ptr<render::Renderer> renderer_;  // null before the first listener
-  render::SteadyCamera camera_;
+  CameraMan camera_;
   render::Image image_;
 
   std::thread thread_;  // last: it uses all of the above
