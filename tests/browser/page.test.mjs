@@ -21,7 +21,7 @@ const lampIs = (page, word) =>
   page.waitForFunction((w) => document.getElementById('lamp-word').textContent === w, word, LONG);
 const text = (page, selector) => page.locator(selector).textContent();
 const isRed = (r, g, b) => r > 150 && g < 90 && b < 90;
-const isGreen = (r, g, b) => g > 90 && r < 0.6 * g && b < 0.85 * g;
+const isGreen = (r, g, b) => g > 90 && r < 0.75 * g && b < 0.93 * g;  // through the body, too
 const isOrange = (r, g, b) => r > 200 && g > 90 && g < 190 && b < 110;
 
 /** Waits until the view has settled on a picture that `test` accepts. */
