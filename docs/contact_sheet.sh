@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Draws docs/contact_sheet.jpg: every camera, theme, overlay and part of the scene in one picture.
+# docs/contact_sheet.sh [PROGRAM]   (needs imagemagick)
+set -euo pipefail
+cd "$(dirname "$0")/.."
+program=${1:-build/dev/bin/kinescope}
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+tiles=()
+
+# tile TITLE SOURCE OPTION...
+tile() {
+  local file=$folder/$(printf %02d ${#tiles[@]}).png title=$1
+  shift
+  "$program" render "$@" --title "$title" --size 640x360 --no_sidecar --out "$file" > /dev/null
+  tiles+=("$file")
+}
+at() { tile "$1" demo:lift --time "$2" --fit now "${@:3}"; }
+
+for camera in front back left right top iso three_quarter; do
+  at "camera $camera" 2.9 --camera $camera --hand both:8 --overlay=-legend,-time,-lamp
+done
+at "orthographic, with a scale" 2.9 --camera right --projection orthographic --overlay title,scale
+tile "room for arms overhead, where nothing is fitted" demo:lift --time 1.4 --overlay title
+tile "four views" demo:walk --time 3.3 --views 2x2 --overlay title,names
+at "dark" 2.9 --theme dark --hand both:8
+at "white, without floor" 2.9 --background white --floor off --hand both:8 --overlay title
+at "no load in the hands" 2.9
+at "18 kg in both hands" 2.9 --hand both:18
+at "6 kg in the right hand" 1.2 --hand right:6
+tile "trails and a ghost" demo:lift --time 2.4 --trail com,right_hand --ghost n_pose --overlay title
+at "frames of the links" 3.3 --camera front --show frames --hide loads,com,cop,support --overlay title
+at "axes of the joints" 3.3 --camera front --show axes --hide loads,com,cop,support --overlay title
+at "metres and newtons" 2.9 --show scale --overlay title,names
+at "loads over time" 2.9 --plot l5_s1,right_knee --hand both:8 --overlay=-legend
+at "sample and time for machines" 2.9 --overlay title,time,strip
+at "limits of one's own" 2.9 --class_limits 0.15,0.4
+cp golden_images/stale_front.png "$folder/stale.png"
+cp golden_images/no_data.png "$folder/no_data.png"
+tiles+=("$folder/stale.png" "$folder/no_data.png")
+
+montage "${tiles[@]}" -tile 4x -geometry 480x270+4+4 -background '#8a9099' -quality 88 docs/contact_sheet.jpg
