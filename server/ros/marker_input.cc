@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "server/ros/raw_message.h"
@@ -153,9 +154,33 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   return std::nullopt;
 }
 
-bool MarkerStore::Place(const Key& key, Entry& entry, const FindFrame& find_frame) {
-  if (!entry.is_new && !entry.is_locked) return false;
-  const auto frame = find_frame(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
+// Many markers share a frame and a stamp: each is looked up once. Whether a frame is known at all
+// does not depend on the stamp.
+class MarkerStore::FrameCache {
+ public:
+  explicit FrameCache(const FindFrame& find) : find_(find) {}
+
+  std::optional<urdf::Pose> Find(const std::string& frame, std::int64_t stamp_nanos) {
+    if (unknown_.count(frame) != 0) return std::nullopt;
+    const std::pair<std::string, std::int64_t> key(frame, stamp_nanos);
+    if (const auto known = known_.find(key); known != known_.end()) return known->second;
+    const auto found = find_(frame, stamp_nanos);
+    if (found) {
+      known_.emplace(key, *found);
+    } else {
+      unknown_.insert(frame);
+    }
+    return found;
+  }
+
+ private:
+  const FindFrame& find_;
+  std::map<std::pair<std::string, std::int64_t>, urdf::Pose> known_;
+  std::set<std::string> unknown_;
+};
+
+bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames) {
+  const auto frame = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
   if (!frame) {
     if (!std::exchange(entry.is_lost, true)) {
       lost_.push_back({std::get<0>(key), fmt::format("marker {}: frame '{}' is not known (yet)",
@@ -180,6 +205,15 @@ bool MarkerStore::Place(const Key& key, Entry& entry, const FindFrame& find_fram
 
 bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_frame) {
   bool changed = std::exchange(has_changed_, false);
+  // A marker that moves is a new one, points and all, at some 10 ns each.
+  constexpr std::int64_t kNanosPerPoint = 100;
+  constexpr std::int64_t kRetryNanos = 100'000'000;
+  const bool move = monotonic_nanos >= next_move_nanos_;
+  if (move)
+    next_move_nanos_ = monotonic_nanos + static_cast<std::int64_t>(points_) * kNanosPerPoint;
+  const bool retry = monotonic_nanos >= next_retry_nanos_;
+  if (retry) next_retry_nanos_ = monotonic_nanos + kRetryNanos;
+  FrameCache frames(find_frame);
   for (auto it = entries_.begin(); it != entries_.end();) {
     Entry& entry = it->second;
     if (entry.dies_nanos != 0 && monotonic_nanos >= entry.dies_nanos) {
@@ -188,7 +222,8 @@ bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_fra
       it = entries_.erase(it);
       continue;
     }
-    changed = Place(it->first, entry, find_frame) || changed;
+    const bool is_due = entry.is_lost ? retry : entry.is_new || (entry.is_locked && move);
+    if (is_due && Place(it->first, entry, frames)) changed = true;
     ++it;
   }
   if (!changed) return false;

@@ -41,7 +41,8 @@ class MarkerStore {
                                std::int64_t monotonic_nanos);
 
   /// Lets go of what has lived its time and places the rest: once, or where it is locked to its
-  /// frame, anew. True when `markers()` is another list than before.
+  /// frame, anew, though never so often that this takes a tenth of the time; a frame that is not
+  /// known is asked for ten times a second. True when `markers()` is another list than before.
   bool Update(std::int64_t monotonic_nanos, const FindFrame& find_frame);
 
   /// All that can be placed, in the order of topic, namespace and number.
@@ -68,11 +69,14 @@ class MarkerStore {
     std::int64_t dies_nanos = 0;  // monotonic; 0: never
   };
 
-  bool Place(const Key& key, Entry& entry, const FindFrame& find_frame);
+  class FrameCache;
+  bool Place(const Key& key, Entry& entry, FrameCache& frames);
 
   std::map<Key, Entry> entries_;
   std::size_t points_ = 0;  // of all entries
   bool has_changed_ = false;
+  std::int64_t next_move_nanos_ = 0;   // monotonic; of what is locked to its frame
+  std::int64_t next_retry_nanos_ = 0;  // likewise, of what has no place
   Markers placed_;
   std::vector<Lost> lost_;
 };

@@ -184,10 +184,43 @@ TEST(MarkerStore, AFrameThatIsNotKnownYetIsWaitedForAndNamedOnce) {
   ASSERT_EQ(lost.size(), 1u);
   EXPECT_EQ(lost[0].topic, 3u);
   EXPECT_NE(lost[0].text.find("'cart'"), std::string::npos) << lost[0].text;
+  EXPECT_EQ(cart.asked.size(), 1u) << "not at every sample";
   cart.x = 2;
-  ASSERT_TRUE(store.Update(0, cart.Find()));
+  ASSERT_TRUE(store.Update(kSecond, cart.Find()));
   EXPECT_DOUBLE_EQ(X(store), 2);
   EXPECT_TRUE(store.TakeLost().empty());
+}
+
+TEST(MarkerStore, FramesAreLookedUpOnceForAllMarkersInThem) {
+  MarkerStore store;
+  const Cart cart;
+  for (int id = 0; id < 100; ++id) {
+    Marker marker = Cube(id);
+    marker.frame_locked = 1;
+    store.Apply(0, marker, 0);
+    marker.header.frame_id = "nowhere";
+    marker.header.stamp = ros::Time(id);
+    marker.frame_locked = 0;
+    store.Apply(1, marker, 0);
+  }
+  store.Update(0, cart.Find());
+  EXPECT_EQ(cart.asked.size(), 2u);
+  EXPECT_EQ(store.markers().size(), 100u);
+}
+
+// A cloud that a stranger locks to a frame that moves must not cost the stream its time.
+TEST(MarkerStore, ManyLockedPointsMoveLessOften) {
+  MarkerStore store;
+  Cart cart;
+  Marker cloud = Of(Marker::POINTS);
+  cloud.colors.clear();
+  cloud.points.resize(kMostMarkerPoints);
+  cloud.frame_locked = 1;
+  store.Apply(0, cloud, 0);
+  EXPECT_TRUE(store.Update(0, cart.Find()));
+  cart.x = 2;
+  EXPECT_FALSE(store.Update(4'000'000, cart.Find())) << "the next sample at 240 Hz";
+  EXPECT_TRUE(store.Update(100'000'000, cart.Find()));
 }
 
 TEST(MarkerStore, IsBoundedInMarkersAndInPoints) {
