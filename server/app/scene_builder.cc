@@ -307,7 +307,7 @@ void SceneBuilder::Publish(Liveness liveness) {
 }
 
 void SceneBuilder::SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> markers) {
-  (void)markers;  // TEMPORARY
+  current_.markers = std::move(markers);
   if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
 }
 

@@ -14,7 +14,6 @@
 #include "server/app/figure_meshes.h"
 #include "server/app/hand_tools.h"
 #include "server/app/worn_extras.h"
-#include "server/core/scene_marker.h"
 #include "server/core/scene_state.h"
 #include "server/core/source.h"
 #include "server/loads/exposure.h"
