@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "server/loads/joint_score.h"
 #include "server/subject/subject.h"
@@ -96,11 +98,31 @@ class TellingBridge : public ros_bridge::RosBridge {
   void TakeInputs(ros_bridge::InputSink& sink) override {
     if (measured) sink.OnMeasurements(0, *measured);
     if (load) sink.OnHandLoad(0, *load);
+    if (markers) sink.OnMarkers(*std::exchange(markers, std::nullopt));
   }
   ros_bridge::BridgeStatus status() const override { return {}; }
   std::optional<Measurements> measured;
   std::optional<HandLoad> load;
+  std::optional<std::vector<std::shared_ptr<const SceneMarker>>> markers;
 };
+
+TEST(Markers, OfOtherProgramsStayInTheSceneAndAreSeenAtOnceWhileNobodyMoves) {
+  TellingBridge bridge;
+  Wired wired(&bridge);
+  wired.builder.Start();
+  const auto wall = std::make_shared<const SceneMarker>();
+  bridge.markers.emplace(1, wall);
+  wired.sink.TakeInputs();  // no sample has come
+  ASSERT_EQ(wired.last->markers.size(), 1u);
+  EXPECT_EQ(wired.last->markers[0], wall);
+  EXPECT_EQ(wired.last->liveness, Liveness::kNoData);
+  EXPECT_EQ(wired.RunOneSecond().markers.size(), 1u);
+  const std::uint64_t live = wired.last->number;
+  bridge.markers.emplace();
+  wired.sink.TakeInputs();
+  EXPECT_EQ(wired.last->number, live) << "the next sample brings it";
+  EXPECT_TRUE(wired.RunOneSecond().markers.empty());
+}
 
 TEST(Measurements, OfOtherProgramsReplaceOurLoadsWhileTheyAreFresh) {
   TellingBridge bridge;
