@@ -21,6 +21,19 @@ constexpr char kCameraInfo[] = "view/camera_info";
 // A subscriber that is slower than the pictures come gets the newest.
 constexpr std::uint32_t kQueue = 2;
 
+// Something to do on the thread that calls the queue.
+class Errand : public ros::CallbackInterface {
+ public:
+  explicit Errand(std::function<void()> run) : run_(std::move(run)) {}
+  CallResult call() override {
+    run_();
+    return Success;
+  }
+
+ private:
+  const std::function<void()> run_;
+};
+
 }  // namespace
 
 struct ViewTopics::Parts {
@@ -33,6 +46,9 @@ struct ViewTopics::Parts {
   ros::Publisher plain_image, plain_info;
   ros::Publisher tf;
 
+  // Whoever waited for the topics connects while they are still being advertised: what is here is
+  // then not to be looked at, and all are counted when it is.
+  std::atomic<bool> is_ready{false};
   std::atomic<bool> frame_is_due{true};  // somebody new cannot know it
   // The drawing thread's.
   boost::shared_ptr<sensor_msgs::Image> image;
@@ -46,6 +62,7 @@ struct ViewTopics::Parts {
   }
   void OnConnection(bool is_new) {
     if (is_new) frame_is_due = true;
+    if (!is_ready) return;
     on_listeners(CountListeners());
   }
 
@@ -91,6 +108,9 @@ ViewTopics::ViewTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue,
     parts_->camera.reset();
     parts_->AdvertisePlain(own);
   }
+  parts_->is_ready = true;
+  queue.addCallback(
+      boost::make_shared<Errand>([parts = parts_.get()] { parts->OnConnection(true); }));
 }
 
 ViewTopics::~ViewTopics() = default;
