@@ -153,7 +153,8 @@ void Serve(const ServeOptions& options, bool with_page) {
   ros_bridge::BridgeConfig bridge_config = ToBridgeConfig(options);
   bridge_config.check_hand_load = [](const HandLoad& load) { return loads::FindDefect(load); };
   if (with_page) bridge_config.markers = options.markers;
-  bridge_config.with_view = ros_mode != ros_bridge::RosMode::kOff && WantsView(options, with_page);
+  bridge_config.with_view = ros_mode != ros_bridge::RosMode::kOff && ros_bridge::BuiltWithRos() &&
+                            WantsView(options, with_page);
   const std::string url =
       options.udp_port == 0 ? options.source : fmt::format("udp://:{}", options.udp_port);
   SourceSettings source_settings;

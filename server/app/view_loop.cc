@@ -2,7 +2,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -109,7 +108,8 @@ void ViewLoop::Run() {
     if (stop_) break;
     if (!is_wanted()) continue;
     is_due_ = false;
-    next = std::max(next + period, Clock::now());
+    // At even steps while they are kept; after a pause not two at once.
+    next = next + period > Clock::now() ? next + period : Clock::now() + period;
     const std::shared_ptr<const SceneState> state = state_;
     lock.unlock();
     std::string error;

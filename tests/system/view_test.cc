@@ -143,7 +143,8 @@ TEST_F(ViewOverRos, IsDrawnAtItsRateWhileSomebodyListensAndNotAfterwards) {
   });
   StartServe("--view_size 64x48 --view_rate_hz 5");  // somebody waits for it already
   ASSERT_TRUE(Spin([&] { return images >= 6; }));
-  EXPECT_GE((*last - *first).toSec(), 0.9) << "five steps of 0.2 s";
+  // Five steps of 0.2 s, of which a busy machine may shorten the first; samples come at 120 Hz.
+  EXPECT_GE((*last - *first).toSec(), 0.7);
   EXPECT_EQ(Diagnostics("view").at("listeners"), 1);
   subscribers_.clear();
   ASSERT_TRUE(Spin([&] { return Diagnostics("view").at("listeners") == 0; }));
