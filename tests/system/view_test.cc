@@ -5,6 +5,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/Marker.h>
 
 #include <array>
 #include <cmath>
@@ -156,6 +157,38 @@ TEST_F(ViewOverRos, IsDrawnAtItsRateWhileSomebodyListensAndNotAfterwards) {
            state.at("counter").get<int>() + 100;
   }));
   EXPECT_LE(Diagnostics("view").at("drawn").get<int>(), drawn + 1) << "one was in hand";
+}
+
+// A wall that another program shows is in the picture, where it says it is and in its colour.
+TEST_F(ViewOverRos, HasMarkersOfOtherProgramsInIt) {
+  StartServe("--view_size 320x240 --view_rate_hz 10 --view_camera front --markers /walls");
+  HearFrames();
+  visualization_msgs::Marker wall;
+  wall.header.frame_id = "world";
+  wall.type = visualization_msgs::Marker::CUBE;
+  wall.pose.position.y = 0.9;
+  wall.pose.position.z = 0.4;
+  wall.scale.x = wall.scale.y = wall.scale.z = 0.3;
+  wall.color.r = wall.color.a = 1;
+  const ros::Publisher walls = node_->advertise<visualization_msgs::Marker>("/walls", 1, true);
+  walls.publish(wall);
+  sensor_msgs::Image image;
+  std::map<ros::Time, sensor_msgs::CameraInfo> infos;
+  Hear<sensor_msgs::CameraInfo>("/kinescope/view/camera_info",
+                                [&](const auto& m) { infos[m.header.stamp] = m; });
+  Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto& m) { image = m; });
+  const Eigen::Vector3d middle(0, wall.pose.position.y, wall.pose.position.z);
+  const auto is_red = [&] {
+    const ros::Time& stamp = image.header.stamp;
+    if (infos.count(stamp) == 0 || frames_[stamp].count(kFrame) == 0) return false;
+    const sensor_msgs::CameraInfo& info = infos.at(stamp);
+    const Eigen::Vector3d seen = frames_[stamp].at(kFrame).inverse() * middle;
+    const long u = std::lround(info.P[0] * seen.x() / seen.z() + info.P[2]);
+    const long v = std::lround(info.P[5] * seen.y() / seen.z() + info.P[6]);
+    const auto* pixel = &image.data.at(3 * static_cast<std::size_t>(v * kWidth + u));
+    return pixel[0] > 120 && pixel[1] < 60 && pixel[2] < 60;
+  };
+  EXPECT_TRUE(Spin(is_red)) << Diagnostics("ros");
 }
 
 TEST_F(ViewOverRos, ComesThroughEveryTransportThatIsInstalled) {
