@@ -16,7 +16,6 @@
 namespace kinescope::render {
 namespace {
 
-constexpr double kArrowRow = 0;        // radius of a row that is marked by an arrow
 constexpr double kWidestLegend = 0.3;  // of the picture: a person is in its middle
 constexpr double kTimeCodeLine = 22;  // of a picture 720 px high, from its baseline to the sample's
 
@@ -182,7 +181,7 @@ std::vector<Overlay::LegendRow> Overlay::LegendOf(const SceneState& state, const
   std::vector<LegendRow> rows;
   const auto add = [&](ScenePart part, const Rgb& color, double radius, const char* name,
                        const std::string& range, bool has_rim = false) {
-    if (look.Shows(part)) rows.push_back({{color, 1}, radius, has_rim, name, range});
+    if (look.Shows(part)) rows.push_back({{color, 1}, radius, has_rim, name, range, false});
   };
   const std::string medium = fmt::format("{:.3g} %", 100 * state.class_limits[0]);
   const std::string high = fmt::format("{:.3g} %", 100 * state.class_limits[1]);
@@ -203,7 +202,7 @@ std::vector<Overlay::LegendRow> Overlay::LegendOf(const SceneState& state, const
             [](const FootForce& foot) { return foot.touches_floor && foot.force.norm() > 0; });
       });
   if (has_force && look.Shows(ScenePart::kForces)) {
-    rows.push_back({{kCopColor, 1}, kArrowRow, false, "force on a foot", "1 m/kN"});
+    rows.push_back({{kCopColor, 1}, 0, false, "force on a foot", "1 m/kN", /*is_arrow=*/true});
   }
   return rows;
 }
@@ -231,7 +230,7 @@ void Overlay::PaintLegend(Page& page, const SceneState& state, const SceneLook& 
   for (const LegendRow& row : rows) {
     baseline += line;
     const double x = left + pad + 0.36 * column, y = baseline - 0.36 * size;
-    if (row.radius == kArrowRow) {
+    if (row.is_arrow) {
       const double half = page.Px(6);
       page.canvas.Polyline({{x, y + half}, {x, y - half}}, page.Px(2), row.ink);
       page.canvas.Polyline(

@@ -45,6 +45,7 @@ class Overlay {
     bool has_rim;
     const char* name;
     std::string range;
+    bool is_arrow;  // marked by one instead of a disc
   };
   /// Of what is shown and is there.
   static std::vector<LegendRow> LegendOf(const SceneState& state, const SceneLook& look);

@@ -62,7 +62,8 @@ class Job {
         pool_(pool),
         reader_(plan.source, SceneOptionsOf(options)),
         grid_(ToTimeGrid(options.clip, IsEndless(plan.source))),
-        provenance_(options, plan.source, pool.info()) {
+        provenance_(options, plan.source, pool.info()),
+        extras_(options.view, options.backend) {
     for (const Output& output : plan.outputs) AddOutput(output);
     if (HasWork(true) || HasWork(false)) Survey();
   }
@@ -96,7 +97,7 @@ class Job {
     if (planners_.count(key) == 0) {
       ViewOptions view = options_.view;
       view.camera = output.camera;
-      planners_.try_emplace(key, view, options_.backend);
+      planners_.try_emplace(key, view, extras_);
     }
     if (output.kind == OutputKind::kClip && !run.is_finished) {
       // What cannot be written or encoded is said now, not after the first picture.
@@ -371,6 +372,7 @@ class Job {
   SceneReader reader_;
   const TimeGrid grid_;
   const Provenance provenance_;
+  const SceneExtras extras_;  // of every planner
   std::map<PlannerKey, ShotPlanner> planners_;
   std::optional<std::int64_t> start_nanos_;  // of the first sample
   std::unique_ptr<Progress> progress_;       // once there is something to do

@@ -29,7 +29,10 @@ double SecsSince(std::optional<std::int64_t>& start_nanos, const SceneState& sta
 }  // namespace
 
 ShotPlanner::ShotPlanner(const ViewOptions& options, const BackendOptions& backend)
-    : view_(ToView(options)), extras_(options, backend), loads_(ToPlotJoints(options.plot)) {
+    : ShotPlanner(options, SceneExtras(options, backend)) {}
+
+ShotPlanner::ShotPlanner(const ViewOptions& options, SceneExtras extras)
+    : view_(ToView(options)), extras_(std::move(extras)), loads_(ToPlotJoints(options.plot)) {
   const ViewGrid grid = ToViewGrid(options.views);
   cameras_ = CamerasOf(options, grid);
   if (grid.cameras.empty()) {

@@ -31,6 +31,8 @@ class ShotPlanner {
  public:
   /// @throws UsageError for what `options` ask for that there is not.
   explicit ShotPlanner(const ViewOptions& options, const BackendOptions& backend = {});
+  /// With `extras` that several planners share: files are read and robots measured once.
+  ShotPlanner(const ViewOptions& options, SceneExtras extras);
 
   /// Whether the whole clip must be known before its first picture: one turn over it, a frame
   /// around all of it, a plot of all of it. Without a survey they do with what there is: no turn,
