@@ -37,7 +37,7 @@ struct Encoder {
 };
 
 // Nothing here has a destructor, so longjmp skips none.
-bool RunEncoder(Encoder& encoder, const Image& image, int quality) {
+bool RunJpegEncoder(Encoder& encoder, const Image& image, int quality) {
   jpeg_compress_struct& state = encoder.state;
   state.err = jpeg_std_error(&encoder.error.manager);
   state.err->error_exit = Escape;
@@ -68,7 +68,7 @@ std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality) {
   KINESCOPE_CHECK(image.rgba.size() == 4 * static_cast<std::size_t>(image.width) *
                                            static_cast<std::size_t>(image.height));
   Encoder encoder;
-  if (!RunEncoder(encoder, image, quality)) {
+  if (!RunJpegEncoder(encoder, image, quality)) {
     throw std::runtime_error(std::string("libjpeg cannot encode the picture: ") +
                              encoder.error.message);
   }

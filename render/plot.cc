@@ -6,7 +6,7 @@
 namespace kinescope::render {
 namespace {
 
-const PlotModule& Module() {
+const PlotModule& OpenPlotModule() {
   static const auto* module =
       static_cast<const PlotModule*>(LoadModule("libkinescope_plot.so", kPlotEntry));
   return *module;
@@ -14,15 +14,15 @@ const PlotModule& Module() {
 
 }  // namespace
 
-std::string ToSvg(const Figure& figure) { return Module().svg(figure); }
+std::string ToSvg(const Figure& figure) { return OpenPlotModule().svg(figure); }
 
 Image ToImage(const Figure& figure, double px_per_pt) {
   KINESCOPE_CHECK(px_per_pt >= 0.5 && px_per_pt <= 20);
-  return Module().image(figure, px_per_pt);
+  return OpenPlotModule().image(figure, px_per_pt);
 }
 
 std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, LayerFormat format) {
-  return Module().layer(width_px, height_px, format);
+  return OpenPlotModule().layer(width_px, height_px, format);
 }
 
 }  // namespace kinescope::render

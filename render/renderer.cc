@@ -21,14 +21,15 @@ struct Renderer::Owner {
 
 namespace {
 
-constexpr int kSmallestSide = 16;
-constexpr int kLargestSide = 8192;
+constexpr int kSmallestPicture = 16;
+constexpr int kLargestPicture = 8192;
 
 void CheckView(const View& view) {
   const auto check_side = [](const char* name, int value) {
-    if (value >= kSmallestSide && value <= kLargestSide) return;
-    throw UsageError(std::string("a picture's ") + name + " is " + std::to_string(kSmallestSide) +
-                     " to " + std::to_string(kLargestSide) + " px, not " + std::to_string(value));
+    if (value >= kSmallestPicture && value <= kLargestPicture) return;
+    throw UsageError(std::string("a picture's ") + name + " is " +
+                     std::to_string(kSmallestPicture) + " to " + std::to_string(kLargestPicture) +
+                     " px, not " + std::to_string(value));
   };
   check_side("width", view.width);
   check_side("height", view.height);

@@ -42,7 +42,7 @@ void CheckQuality(ClipFormat format, const VideoOptions& options) {
   }
 }
 
-const VideoModule& Module() {
+const VideoModule& OpenVideoModule() {
   return *static_cast<const VideoModule*>(LoadModule("libkinescope_video.so", kVideoEntry));
 }
 
@@ -57,11 +57,11 @@ std::unique_ptr<VideoWriter> MakeVideoWriter(const std::filesystem::path& path, 
   CheckSize(*format, width, height);
   CheckRate(*format, options.rate);
   CheckQuality(*format, options);
-  return Module().make(path, *format, width, height, options);
+  return OpenVideoModule().make(path, *format, width, height, options);
 }
 
 std::unique_ptr<VideoReader> OpenVideo(const std::filesystem::path& path) {
-  return Module().open(path);
+  return OpenVideoModule().open(path);
 }
 
 }  // namespace kinescope::render

@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-enum class RadiiOf { kStature, kLength };
+enum class RadiiShareOf { kStature, kLength };
 
 struct Column {
   double mass_percent;
@@ -17,42 +17,42 @@ struct Column {
 };
 
 struct Row {
-  RadiiOf radii_of;
+  RadiiShareOf radii_of;
   Column male, female;
 };
 
 // joint-loads.md 1.5. Rows by segment; right and left share one. The CoM fraction of the foot is
 // that of the whole foot, heel to toe tip.
 constexpr Row kPelvisRow = {
-    RadiiOf::kStature, {10.88, 0.40, .0507, .0453, .0491}, {9.40, 0.51, .0409, .0372, .0464}};
+    RadiiShareOf::kStature, {10.88, 0.40, .0507, .0453, .0491}, {9.40, 0.51, .0409, .0372, .0464}};
 constexpr Row kL5Row = {
-    RadiiOf::kStature, {6.96, 0.55, .0513, .0368, .0576}, {7.30, 0.48, .0412, .0328, .0480}};
+    RadiiShareOf::kStature, {6.96, 0.55, .0513, .0368, .0576}, {7.30, 0.48, .0412, .0328, .0480}};
 constexpr Row kL3Row = {
-    RadiiOf::kStature, {8.86, 0.52, .0507, .0355, .0579}, {7.99, 0.52, .0420, .0299, .0491}};
+    RadiiShareOf::kStature, {8.86, 0.52, .0507, .0355, .0579}, {7.99, 0.52, .0420, .0299, .0491}};
 constexpr Row kT12Row = {
-    RadiiOf::kStature, {6.99, 0.46, .0567, .0270, .0580}, {7.61, 0.46, .0436, .0259, .0480}};
+    RadiiShareOf::kStature, {6.99, 0.46, .0567, .0270, .0580}, {7.61, 0.46, .0436, .0259, .0480}};
 constexpr Row kT8Row = {
-    RadiiOf::kStature, {5.78, 0.43, .0600, .0311, .0581}, {6.41, 0.44, .0478, .0298, .0480}};
+    RadiiShareOf::kStature, {5.78, 0.43, .0600, .0311, .0581}, {6.41, 0.44, .0478, .0298, .0480}};
 constexpr Row kNeckRow = {
-    RadiiOf::kLength, {1.39, 0.50, .33, .33, .23}, {1.34, 0.50, .33, .33, .23}};
+    RadiiShareOf::kLength, {1.39, 0.50, .33, .33, .23}, {1.34, 0.50, .33, .33, .23}};
 constexpr Row kHeadRow = {
-    RadiiOf::kLength, {5.55, 0.45, .30, .32, .33}, {5.34, 0.45, .30, .32, .33}};
+    RadiiShareOf::kLength, {5.55, 0.45, .30, .32, .33}, {5.34, 0.45, .30, .32, .33}};
 constexpr Row kShoulderRow = {
-    RadiiOf::kLength, {1.995, 0.50, .30, .125, .30}, {1.93, 0.50, .30, .125, .30}};
+    RadiiShareOf::kLength, {1.995, 0.50, .30, .125, .30}, {1.93, 0.50, .30, .125, .30}};
 constexpr Row kUpperArmRow = {
-    RadiiOf::kLength, {2.71, 0.5772, .285, .269, .158}, {2.55, 0.5754, .278, .260, .148}};
+    RadiiShareOf::kLength, {2.71, 0.5772, .285, .269, .158}, {2.55, 0.5754, .278, .260, .148}};
 constexpr Row kForeArmRow = {
-    RadiiOf::kLength, {1.62, 0.4574, .265, .276, .121}, {1.38, 0.4559, .257, .261, .094}};
+    RadiiShareOf::kLength, {1.62, 0.4574, .265, .276, .121}, {1.38, 0.4559, .257, .261, .094}};
 constexpr Row kHandRow = {
-    RadiiOf::kLength, {0.61, 0.3624, .235, .288, .184}, {0.56, 0.3427, .208, .244, .154}};
+    RadiiShareOf::kLength, {0.61, 0.3624, .235, .288, .184}, {0.56, 0.3427, .208, .244, .154}};
 constexpr Row kUpperLegRow = {
-    RadiiOf::kLength, {14.16, 0.4095, .329, .329, .149}, {14.78, 0.3612, .369, .364, .162}};
+    RadiiShareOf::kLength, {14.16, 0.4095, .329, .329, .149}, {14.78, 0.3612, .369, .364, .162}};
 constexpr Row kLowerLegRow = {
-    RadiiOf::kLength, {4.33, 0.4395, .251, .246, .102}, {4.81, 0.4352, .267, .263, .092}};
+    RadiiShareOf::kLength, {4.33, 0.4395, .251, .246, .102}, {4.81, 0.4352, .267, .263, .092}};
 constexpr Row kFootRow = {
-    RadiiOf::kLength, {1.233, 0.4415, .124, .257, .245}, {1.161, 0.4014, .139, .299, .279}};
+    RadiiShareOf::kLength, {1.233, 0.4415, .124, .257, .245}, {1.161, 0.4014, .139, .299, .279}};
 constexpr Row kToeRow = {
-    RadiiOf::kLength, {0.137, 0.50, .40, .40, .40}, {0.129, 0.50, .40, .40, .40}};
+    RadiiShareOf::kLength, {0.137, 0.50, .40, .40, .40}, {0.129, 0.50, .40, .40, .40}};
 
 const Row& RowOf(int segment) {
   switch (segment) {
@@ -134,7 +134,7 @@ Vector3d ComInLink(int segment, const Column& column, const Skeleton& skeleton) 
 }
 
 double RadiiReference(int segment, const Skeleton& skeleton) {
-  if (RowOf(segment).radii_of == RadiiOf::kStature) return skeleton.height;
+  if (RowOf(segment).radii_of == RadiiShareOf::kStature) return skeleton.height;
   switch (segment) {
     case kRightFoot:
     case kLeftFoot: {

@@ -20,15 +20,15 @@ const Segments kThorax = {kT12, kT8, kRightShoulder, kLeftShoulder};
 const Segments kAbdomen = {kL5, kL3};
 const Segments kHeadAndNeck = {kNeck, kHead};
 
-struct Limb {
+struct BothSides {
   int right, left;
 };
-constexpr Limb kUpperArms = {kRightUpperArm, kLeftUpperArm};
-constexpr Limb kForeArms = {kRightForeArm, kLeftForeArm};
-constexpr Limb kHands = {kRightHand, kLeftHand};
-constexpr Limb kUpperLegs = {kRightUpperLeg, kLeftUpperLeg};
-constexpr Limb kLowerLegs = {kRightLowerLeg, kLeftLowerLeg};
-constexpr Limb kFeet = {kRightFoot, kLeftFoot};
+constexpr BothSides kUpperArms = {kRightUpperArm, kLeftUpperArm};
+constexpr BothSides kForeArms = {kRightForeArm, kLeftForeArm};
+constexpr BothSides kHands = {kRightHand, kLeftHand};
+constexpr BothSides kUpperLegs = {kRightUpperLeg, kLeftUpperLeg};
+constexpr BothSides kLowerLegs = {kRightLowerLeg, kLeftLowerLeg};
+constexpr BothSides kFeet = {kRightFoot, kLeftFoot};
 
 // Gives `segments` together `mass`, shared as the default table does.
 void Share(double mass, const Segments& segments, BodyShares& shares) {
@@ -87,7 +87,7 @@ BodyShares WinterShares(Sex sex, const Skeleton& skeleton) {
   // Wrist to knuckle III, of wrist to finger tip: de Leva's hands, 86.2 and 187.9 mm.
   constexpr double kKnuckle = 86.2 / 187.9;
   struct Row {
-    Limb limb;
+    BothSides limb;
     double mass, com, radius;
     double length = 1;  // of the table's segment, of ours
   };
@@ -162,7 +162,7 @@ BodyShares DumasShares(Sex sex, const Skeleton& skeleton) {
   const Vector3d pelvis_radii = 0.01 * l5s1.norm() * table.pelvis.radii;
   shares[kPelvis].inertia_by_mass = Squares(pelvis_radii.x(), pelvis_radii.z(), pelvis_radii.y());
 
-  const std::pair<Limb, const Row*> limbs[] = {
+  const std::pair<BothSides, const Row*> limbs[] = {
       {kUpperArms, &table.upper_arm}, {kForeArms, &table.fore_arm}, {kHands, &table.hand},
       {kUpperLegs, &table.thigh},     {kLowerLegs, &table.shank},   {kFeet, &table.foot}};
   for (const auto& [limb, row] : limbs) {

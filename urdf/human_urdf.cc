@@ -36,7 +36,7 @@ std::string Inertial(const SegmentInertia& segment, double share) {
       i(1, 2), i(2, 2));
 }
 
-std::string Shape(const Primitive& part) {
+std::string ShapeXml(const Primitive& part) {
   switch (part.kind) {
     case Primitive::Kind::kBox:
       return fmt::format("<box size=\"{} {} {}\"/>", part.size.x(), part.size.y(), part.size.z());
@@ -52,7 +52,7 @@ std::string Shapes(const char* kind, const std::vector<Primitive>& parts,
   std::string text;
   for (const Primitive& part : parts) {
     text += fmt::format("    <{}>\n      {}\n      <geometry>{}</geometry>\n{}    </{}>\n", kind,
-                        Origin(part.center, part.rpy), Shape(part), material, kind);
+                        Origin(part.center, part.rpy), ShapeXml(part), material, kind);
   }
   return text;
 }
@@ -135,14 +135,14 @@ std::string JointElement(const std::string& name, const char* type, const std::s
 }
 
 // The revolute joints `<name>_y`, `_x`, `_z` from one link to another and the two links between.
-struct Ball {
+struct JointBall {
   std::string name, parent, child;
   Vector3d offset;                          // of the child, in the parent
   std::function<AxisLimit(int)> limit;      // by axis
   std::string content_of_the_links_inside;  // "": they are empty
 };
 
-std::string BallChain(const Ball& ball) {
+std::string BallChain(const JointBall& ball) {
   std::string text;
   std::string parent = ball.parent;
   for (std::size_t i = 0; i < kChainOrder.size(); ++i) {

@@ -30,7 +30,8 @@ using Axes = std::array<Axis, 3>;  // x, y, z
 constexpr Axes kSpine = {{{-25, 25, 261, 10}, {-25, 45, 503, 10}, {-25, 25, 140, 15}}};
 constexpr Axes kNeckAxes = {{{-50, 50, 64, 15}, {-60, 60, 102, 15}, {-80, 80, 26, 20}}};
 constexpr Axes kClavicle = {{{-50, 30, 180, 10}, {-35, 35, 180, 10}, {-40, 40, 180, 10}}};
-constexpr Axes kShoulder = {{{-200, 200, 180, 40}, {-200, 200, 180, 40}, {-200, 200, 104, 140}}};
+constexpr Axes kShoulderRanges = {
+    {{-200, 200, 180, 40}, {-200, 200, 180, 40}, {-200, 200, 104, 140}}};
 constexpr Axes kElbow = {{{-120, 120, 111, 50}, {-200, 200, 111, 50}, {-200, 200, 111, 60}}};
 constexpr Axes kWrist = {{{-100, 100, 24, 60}, {-55, 55, 22, 60}, {-45, 45, 24, 60}}};
 constexpr Axes kHip = {{{-90, 60, 194, 20}, {-150, 50, 342, 20}, {-80, 80, 120, 25}}};
@@ -58,7 +59,7 @@ const Axes& AxesOf(int joint) {
     case jRightC7Shoulder:
     case jLeftC7Shoulder: return kClavicle;
     case jRightShoulder:
-    case jLeftShoulder: return kShoulder;
+    case jLeftShoulder: return kShoulderRanges;
     case jRightElbow:
     case jLeftElbow: return kElbow;
     case jRightWrist:

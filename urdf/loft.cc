@@ -8,7 +8,7 @@ namespace kinescope::urdf {
 namespace {
 
 using Eigen::Vector3d;
-using Shape = Eigen::Matrix<double, 8, 1>;
+using SectionShape = Eigen::Matrix<double, 8, 1>;
 
 // Where the outline runs on, the first ring of a cap lies this deep below the neighbour's surface:
 // enough for neither to shine through the other. Deeper, and a viewer who takes normals from the
@@ -104,7 +104,7 @@ class Lofter {
       }
       at += ring.into_cap * depth * InAt(ring.at);
     }
-    const Shape shape = profile_.At(at);
+    const SectionShape shape = profile_.At(at);
     const Eigen::Vector2d uv = ring.shrink * Outline(shape, angle);
     return Raised(Center(at, shape) + axis_.scale * (uv.x() * axis_.u + uv.y() * axis_.v), at);
   }
@@ -143,7 +143,7 @@ class Lofter {
   }
 
  private:
-  static Eigen::Vector2d Outline(const Shape& shape, double angle) {
+  static Eigen::Vector2d Outline(const SectionShape& shape, double angle) {
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     const double power = shape[c >= 0 ? Section::kPowerPlusU : Section::kPowerMinusU];
@@ -155,7 +155,7 @@ class Lofter {
     return axis_.relief ? Vector3d(point + axis_.relief(point, at)) : point;
   }
 
-  Vector3d Center(double at, const Shape& shape) const {
+  Vector3d Center(double at, const SectionShape& shape) const {
     return axis_.line.At(at) +
            axis_.scale * (shape[Section::kCenterU] * axis_.u + shape[Section::kCenterV] * axis_.v);
   }
@@ -201,8 +201,9 @@ Eigen::Matrix<double, 8, 1> Profile::At(double at) const {
   const Section& a = sections_[i];
   const Section& b = sections_[i + 1];
   const double width = b.at - a.at;
-  const auto slope = [&](std::size_t k) -> Shape {  // through both neighbours, level at the ends
-    if (k == 0 || k + 1 == sections_.size()) return Shape::Zero();
+  const auto slope =
+      [&](std::size_t k) -> SectionShape {  // through both neighbours, level at the ends
+    if (k == 0 || k + 1 == sections_.size()) return SectionShape::Zero();
     return (sections_[k + 1].shape - sections_[k - 1].shape) /
            (sections_[k + 1].at - sections_[k - 1].at);
   };

@@ -6,14 +6,14 @@ namespace kinescope::urdf {
 namespace {
 
 using Eigen::Vector3d;
-using Kind = Primitive::Kind;
+using PrimitiveKind = Primitive::Kind;
 
 // A cylinder from `from` to `to`.
 Primitive Rod(const Vector3d& from, const Vector3d& to, double radius) {
   const Vector3d axis = to - from;
   const Vector3d unit = axis.normalized();
   Primitive rod;
-  rod.kind = Kind::kCylinder;
+  rod.kind = PrimitiveKind::kCylinder;
   rod.size = {radius, axis.norm(), 0};
   rod.center = 0.5 * (from + to);
   // Turns z onto the axis: first about x, then about y (fixed axes, as URDF's rpy).
@@ -22,12 +22,12 @@ Primitive Rod(const Vector3d& from, const Vector3d& to, double radius) {
 }
 
 Primitive Ball(const Vector3d& center, double radius) {
-  return {Kind::kSphere, {radius, 0, 0}, center, Vector3d::Zero()};
+  return {PrimitiveKind::kSphere, {radius, 0, 0}, center, Vector3d::Zero()};
 }
 
 // A box around the line from the origin to `end`, which is mostly along z.
 Primitive TrunkBox(const Vector3d& end, double depth, double width) {
-  return {Kind::kBox, {depth, width, std::abs(end.z())}, 0.5 * end, Vector3d::Zero()};
+  return {PrimitiveKind::kBox, {depth, width, std::abs(end.z())}, 0.5 * end, Vector3d::Zero()};
 }
 
 // The same on a hinge across the joint, so that a spine that bends shows no gap. A little thinner
@@ -70,8 +70,10 @@ std::vector<Primitive> PrimitiveFigure(const Skeleton& skeleton, int segment) {
     case kLeftForeArm: return Limb(end, 0.022 * h);
     case kRightHand:
     case kLeftHand: {
-      Primitive palm = {
-          Kind::kBox, {0.045 * h, 0.017 * h, 0.9 * std::abs(end.z())}, 0.5 * end, Vector3d::Zero()};
+      Primitive palm = {PrimitiveKind::kBox,
+                        {0.045 * h, 0.017 * h, 0.9 * std::abs(end.z())},
+                        0.5 * end,
+                        Vector3d::Zero()};
       return {palm, Ball(Vector3d::Zero(), 0.019 * h)};
     }
     case kRightUpperLeg:
@@ -84,7 +86,7 @@ std::vector<Primitive> PrimitiveFigure(const Skeleton& skeleton, int segment) {
       const Vector3d heel = skeleton.heel_in_foot[side];
       const double bottom = heel.z();
       const double top = 0.4 * bottom;
-      return {{Kind::kBox,
+      return {{PrimitiveKind::kBox,
                {end.x() - heel.x(), 0.052 * h, top - bottom},
                {0.5 * (end.x() + heel.x()), 0, 0.5 * (top + bottom)},
                Vector3d::Zero()},
@@ -94,8 +96,10 @@ std::vector<Primitive> PrimitiveFigure(const Skeleton& skeleton, int segment) {
       const Side side = segment == kRightToe ? kRight : kLeft;
       const Vector3d tip = skeleton.toe_tip_in_toe[side];
       const double thickness = std::max(0.012 * h, 2 * std::abs(tip.z()));
-      return {
-          {Kind::kBox, {tip.x(), 0.052 * h, thickness}, {0.5 * tip.x(), 0, 0.0}, Vector3d::Zero()}};
+      return {{PrimitiveKind::kBox,
+               {tip.x(), 0.052 * h, thickness},
+               {0.5 * tip.x(), 0, 0.0},
+               Vector3d::Zero()}};
     }
   }
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPtPerPx = 72.0 / 96;  // as CSS has it, so that both formats are equally large
 
-cairo_status_t Append(void* to, const unsigned char* data, unsigned int size) {
+cairo_status_t AppendLayer(void* to, const unsigned char* data, unsigned int size) {
   static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
   return CAIRO_STATUS_SUCCESS;
 }
@@ -25,10 +25,10 @@ class CairoLayer : public LayerPainter {
  public:
   CairoLayer(int width_px, int height_px, LayerFormat format) : format_(format) {
     if (format == LayerFormat::kSvg) {
-      surface_ = cairo_svg_surface_create_for_stream(&Append, &bytes_, width_px, height_px);
+      surface_ = cairo_svg_surface_create_for_stream(&AppendLayer, &bytes_, width_px, height_px);
       cairo_svg_surface_set_document_unit(surface_, CAIRO_SVG_UNIT_PX);
     } else {
-      surface_ = cairo_pdf_surface_create_for_stream(&Append, &bytes_, kPtPerPx * width_px,
+      surface_ = cairo_pdf_surface_create_for_stream(&AppendLayer, &bytes_, kPtPerPx * width_px,
                                                      kPtPerPx * height_px);
       // Otherwise the time of day: the same picture is to be the same bytes.
       cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_CREATE_DATE,

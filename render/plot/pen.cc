@@ -14,7 +14,7 @@ namespace {
 
 constexpr Rgb kHatchGround = {0.925, 0.93, 0.94}, kHatchLine = {0.66, 0.68, 0.71};
 
-cairo_status_t Append(void* to, const unsigned char* data, unsigned int size) {
+cairo_status_t AppendSvg(void* to, const unsigned char* data, unsigned int size) {
   static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
   return CAIRO_STATUS_SUCCESS;
 }
@@ -58,7 +58,7 @@ std::unique_ptr<Pen> Pen::ForSvg(double width, double height) {
   auto parts = std::make_unique<Parts>();
   parts->width = width;
   parts->height = height;
-  parts->surface = cairo_svg_surface_create_for_stream(&Append, &parts->svg, width, height);
+  parts->surface = cairo_svg_surface_create_for_stream(&AppendSvg, &parts->svg, width, height);
   return std::unique_ptr<Pen>(new Pen(std::move(parts)));
 }
 

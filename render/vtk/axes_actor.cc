@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kFrameLength = 0.10, kFrameRadius = 0.0045;        // m, of a body 1.75 m tall
 constexpr double kHalfJointAxis = 0.085, kJointAxisRadius = 0.003;  // likewise
-constexpr float kGhostOpacity = 0.5f;
+constexpr float kGhostAxesOpacity = 0.5f;
 
 // One axis of each link along z, of length and radius 1.
 Mesh SticksMesh(const Rgb& rgb, bool is_two_sided) {
@@ -50,7 +50,7 @@ AxesActor::AxesActor(Kind kind) : kind_(kind) {
         std::make_unique<PartActor>(Pass::kGhost, PartActor::Light::kFlat, urdf::kSegmentCount);
     solid_[axis]->SetMesh(mesh);
     ghost_[axis]->SetMesh(mesh);
-    ghost_[axis]->SetOpacity(kGhostOpacity);
+    ghost_[axis]->SetOpacity(kGhostAxesOpacity);
   }
 }
 

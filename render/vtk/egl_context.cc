@@ -51,7 +51,7 @@ bool Has(const char* extensions, const std::string& wanted) {
 }
 
 template <class Function>
-Function Find(const char* name) {
+Function GlProcedure(const char* name) {
   return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
@@ -64,7 +64,7 @@ void EGLAPIENTRY OnMessage(EGLenum /*error*/, const char* command, EGLint /*type
 // Errors and warnings of EGL itself, which Mesa otherwise writes to stderr.
 void RouteMessages(const char* client_extensions) {
   if (!Has(client_extensions, "EGL_KHR_debug")) return;
-  const auto control = Find<PFNEGLDEBUGMESSAGECONTROLKHRPROC>("eglDebugMessageControlKHR");
+  const auto control = GlProcedure<PFNEGLDEBUGMESSAGECONTROLKHRPROC>("eglDebugMessageControlKHR");
   const EGLAttrib wanted[] = {EGL_DEBUG_MSG_WARN_KHR, EGL_TRUE, EGL_NONE};
   if (control != nullptr) control(&OnMessage, wanted);
 }
@@ -80,8 +80,8 @@ std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
         "EGL knows no devices here (EGL_EXT_platform_device is missing); install the GPU's driver "
         "with EGL, or use --backend osmesa");
   }
-  const auto query = Find<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-  const auto text_of = Find<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+  const auto query = GlProcedure<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+  const auto text_of = GlProcedure<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
   std::array<EGLDeviceEXT, 32> devices{};
   EGLint count = 0;
   if (query == nullptr || text_of == nullptr ||

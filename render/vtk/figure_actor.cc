@@ -7,21 +7,17 @@
 #include "server/core/person_links.h"
 
 namespace kinescope::render {
-namespace {
-
-constexpr std::size_t kPartsPerActor = 32;  // PartActor's limit
-
-}  // namespace
+namespace {}  // namespace
 
 void FigureActor::Load(const PersonModel& model, OnceLog& log) {
   groups_.clear();
   problems_.clear();
   VisualReader reader(urdf::MeshSearch(), ShapeDetail::Figure());
   const std::vector<std::string> names = VisibleLinks(model.human);
-  for (std::size_t first = 0; first < names.size(); first += kPartsPerActor) {
+  for (std::size_t first = 0; first < names.size(); first += PartActor::kMostParts) {
     Group group;
     group.first = first;
-    group.count = std::min(kPartsPerActor, names.size() - first);
+    group.count = std::min(PartActor::kMostParts, names.size() - first);
     VisualMesh mesh;
     for (std::size_t part = 0; part < group.count; ++part) {
       const auto& links = model.robot.links;

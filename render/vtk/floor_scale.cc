@@ -5,8 +5,8 @@
 namespace kinescope::render {
 namespace {
 
-constexpr int kReach = 3;     // m, to either side of what the camera looks at
-constexpr double kAside = 1;  // m, from there to the lines, so that nobody stands on them
+constexpr int kScaleReach = 3;  // m, to either side of what the camera looks at
+constexpr double kAside = 1;    // m, from there to the lines, so that nobody stands on them
 
 }  // namespace
 
@@ -23,7 +23,7 @@ void AddFloorScale(const Camera& camera, std::vector<Label>& labels) {
         std::string(1, axis) + " = " + std::to_string(std::lround(metres)) + " m";
     labels.push_back({{x, y, 0}, text, Label::Kind::kFloor});
   };
-  for (int step = -kReach; step <= kReach; ++step) {
+  for (int step = -kScaleReach; step <= kScaleReach; ++step) {
     const double x = std::round(middle.x()) + step, y = std::round(middle.y()) + step;
     add(x, line_y, 'x', x);
     if (y != line_y) add(line_x, y, 'y', y);  // where the lines meet, one is enough

@@ -12,7 +12,7 @@ namespace kinescope::render {
 namespace {
 
 constexpr double kShaft = 0.009, kHead = 0.024, kHeadLength = 0.06;  // m
-constexpr float kGhostOpacity = 0.45f;
+constexpr float kGhostForceOpacity = 0.45f;
 constexpr int kPartsOfArrow = 2;  // shaft, head
 constexpr int kParts = 2 * kPartsOfArrow;
 
@@ -37,7 +37,7 @@ ForceArrows::ForceArrows()
       ghost_(Pass::kGhost, PartActor::Light::kLit, kParts) {
   solid_.SetMesh(ArrowParts());
   ghost_.SetMesh(ArrowParts());
-  ghost_.SetOpacity(kGhostOpacity);
+  ghost_.SetOpacity(kGhostForceOpacity);
 }
 
 void ForceArrows::Show(const PersonState& person, std::vector<Label>* labels) {

@@ -12,12 +12,12 @@ std::string Constant(const char* name, const Rgb& color) {
          std::to_string(color[1]) + ", " + std::to_string(color[2]) + ");\n";
 }
 
-constexpr double kReach = 9;  // m; the floor has faded into the background there
+constexpr double kFloorReach = 9;  // m; the floor has faded into the background there
 
 // Lines are computed per pixel and averaged over it, so they neither flicker nor break up far away.
 // It covers half the picture: every operation here counts, so the theme's colours are constants (as
 // uniforms they cost a fifth of a picture whose camera moves).
-ShaderText MakeText(Theme theme) {
+ShaderText FloorText(Theme theme) {
   ShaderText text;
   text.vertex_declarations = "out vec2 floorVS;\n";
   text.vertex = R"(
@@ -58,11 +58,11 @@ float Lines(vec2 at, vec2 cell, float width) {
 }  // namespace
 
 Ground::Ground()
-    : light_(Pass::kBackdrop, MakeText(Theme::kLight)),
-      dark_(Pass::kBackdrop, MakeText(Theme::kDark)) {
+    : light_(Pass::kBackdrop, FloorText(Theme::kLight)),
+      dark_(Pass::kBackdrop, FloorText(Theme::kDark)) {
   Mesh disc;
   Eigen::Affine3d grow = Eigen::Affine3d::Identity();
-  grow.scale(Eigen::Vector3d(kReach, kReach, 1));
+  grow.scale(Eigen::Vector3d(kFloorReach, kFloorReach, 1));
   disc.Append(DiscMesh(24), grow);
   disc.Paint(0, Eigen::Vector4f::Ones(), 0);
   light_.SetMesh(disc);
@@ -80,7 +80,7 @@ void Ground::SetLook(const SceneLook& look) {
 
 void Ground::SetFocus(const Eigen::Vector3d& focus) {
   // A disc with corners comes a little closer than its radius.
-  SetUniform("focus", {focus.x(), focus.y(), 1 / (0.98 * kReach)});
+  SetUniform("focus", {focus.x(), focus.y(), 1 / (0.98 * kFloorReach)});
 }
 
 void Ground::SetUniform(const char* name, const Eigen::Vector3d& value) {

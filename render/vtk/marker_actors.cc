@@ -9,7 +9,7 @@
 namespace kinescope::render {
 namespace {
 
-constexpr std::size_t kMostTriangles = 2'000'000;  // of all markers together
+constexpr std::size_t kMostMarkerTriangles = 2'000'000;  // of all markers together
 constexpr std::size_t kMostMarkers = 10'000;
 constexpr std::size_t kMostMeshFiles = 64;  // kept
 constexpr std::size_t kMostProblems = 20;   // named; a flood of markers is one fault, not thousands
@@ -57,7 +57,7 @@ void MarkerActors::AddMesh(const SceneMarker& marker, Mesh& to) {
     labels_.push_back({marker.pose.position, mesh.placeholders.front().label, Label::Kind::kFault});
   }
   const std::size_t count = mesh.mesh.triangles.size() / 3;
-  if (triangles_ + count > kMostTriangles) {
+  if (triangles_ + count > kMostMarkerTriangles) {
     problems_.push_back("marker " + IdentityOf(marker) + ": all together have too many triangles");
     return;
   }
@@ -109,7 +109,7 @@ void MarkerActors::Build() {
       continue;
     }
     const std::size_t more = TriangleCount(*marker);
-    if (triangles_ + more > kMostTriangles) {
+    if (triangles_ + more > kMostMarkerTriangles) {
       refuse("all together have too many triangles");
       continue;
     }

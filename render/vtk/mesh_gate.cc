@@ -24,7 +24,7 @@ constexpr std::size_t kMostNodes = 20'000;        // of a scene, instances count
 constexpr int kMostDepth = 100;                   // of nodes and of JSON
 constexpr std::size_t kMostJsonBytes = 8u << 20;  // numbers are in the binary part
 
-std::uint32_t Word(const std::string& bytes, std::size_t at) {  // little-endian
+std::uint32_t GlbWord(const std::string& bytes, std::size_t at) {  // little-endian
   std::uint32_t word = 0;
   for (std::size_t i = 4; i-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
   return word;
@@ -65,7 +65,7 @@ class NodeGraph {
   std::map<std::string, std::vector<std::string>> children_;
 };
 
-const char* Find(const char* const* attributes, std::string_view name) {
+const char* FindAttribute(const char* const* attributes, std::string_view name) {
   for (; *attributes != nullptr; attributes += 2) {
     if (name == attributes[0]) return attributes[1];
   }
@@ -116,12 +116,12 @@ void CheckDae(const std::string& bytes) {
         std::string inner = outer;
         if (name == "node") {
           // assimp finds a node by its id, else by its name.
-          const char* id = Find(attributes, "id");
-          if (id == nullptr) id = Find(attributes, "name");
+          const char* id = FindAttribute(attributes, "id");
+          if (id == nullptr) id = FindAttribute(attributes, "name");
           inner = id != nullptr ? "#" + std::string(id) : std::to_string(++nameless);
           graph.Add(outer, inner);
         } else if (name == "instance_node") {
-          const char* url = Find(attributes, "url");
+          const char* url = FindAttribute(attributes, "url");
           if (url != nullptr) graph.Add(outer, url);
         }
         open.push_back(inner);
@@ -129,7 +129,7 @@ void CheckDae(const std::string& bytes) {
                                name == "Name_array" || name == "IDREF_array" ||
                                name == "triangles" || name == "polylist" || name == "polygons" ||
                                name == "lines" || name == "vertex_weights";
-        const char* count = has_count ? Find(attributes, "count") : nullptr;
+        const char* count = has_count ? FindAttribute(attributes, "count") : nullptr;
         if (count != nullptr) CheckCount(count, bytes.size(), where);
       });
   graph.Check();
@@ -262,17 +262,18 @@ void CheckGlb(const std::string& bytes) {
   if (bytes.size() < kHeader + kChunkHeader || bytes.compare(0, 4, "glTF") != 0) {
     throw Fault("no GLB: it does not begin with 'glTF'");
   }
-  if (Word(bytes, 4) != 2) throw Fault("GLB version " + std::to_string(Word(bytes, 4)) + ", not 2");
-  const std::uint64_t json_bytes = Word(bytes, kHeader);
-  if (Word(bytes, 8) > bytes.size() || Word(bytes, kHeader + 4) != kJson ||
+  if (GlbWord(bytes, 4) != 2)
+    throw Fault("GLB version " + std::to_string(GlbWord(bytes, 4)) + ", not 2");
+  const std::uint64_t json_bytes = GlbWord(bytes, kHeader);
+  if (GlbWord(bytes, 8) > bytes.size() || GlbWord(bytes, kHeader + 4) != kJson ||
       json_bytes > bytes.size() - kHeader - kChunkHeader) {
-    throw Fault("it announces " + std::to_string(Word(bytes, 8)) + " bytes and " +
+    throw Fault("it announces " + std::to_string(GlbWord(bytes, 8)) + " bytes and " +
                 std::to_string(json_bytes) + " of JSON, but has " + std::to_string(bytes.size()));
   }
   const std::size_t binary = kHeader + kChunkHeader + json_bytes;
   std::uint64_t binary_bytes = 0;
   if (bytes.size() - binary >= kChunkHeader) {
-    binary_bytes = Word(bytes, binary);
+    binary_bytes = GlbWord(bytes, binary);
     if (binary_bytes > bytes.size() - binary - kChunkHeader) {
       throw Fault("its binary part announces " + std::to_string(binary_bytes) +
                   " bytes, which are not there");

@@ -5,7 +5,7 @@
 namespace kinescope::render {
 namespace {
 
-ShaderText MakeText(PartActor::Light light) {
+ShaderText PartText(PartActor::Light light) {
   ShaderText text;
   text.vertex_declarations = "out vec4 tintVS;\nout float skyVS;\nout vec2 partVS;\n";
   text.vertex = R"(
@@ -36,9 +36,9 @@ ShaderText MakeText(PartActor::Light light) {
 }  // namespace
 
 PartActor::PartActor(Pass pass, Light light, int part_count)
-    : shaded_(pass, MakeText(light)),
+    : shaded_(pass, PartText(light)),
       world_from_part_(static_cast<std::size_t>(part_count), Eigen::Matrix4f::Zero()) {
-  KINESCOPE_CHECK(part_count >= 1 && part_count <= 32);
+  KINESCOPE_CHECK(part_count >= 1 && part_count <= static_cast<int>(kMostParts));
   Commit();  // the uniforms' declarations become part of the shader
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <vector>
 
 #include "render/vtk/shaded_actor.h"
@@ -16,7 +17,9 @@ class PartActor {
     kSoft,  // unlit, and fades out from the part's origin to radius 1 around its z axis
   };
 
-  /// @pre 1 <= part_count <= 32
+  static constexpr std::size_t kMostParts = 32;  // the length of the shader's array
+
+  /// @pre 1 <= part_count <= kMostParts
   PartActor(Pass pass, Light light, int part_count);
 
   void SetMesh(const Mesh& mesh) { shaded_.SetMesh(mesh); }

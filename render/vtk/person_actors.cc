@@ -11,7 +11,7 @@
 namespace kinescope::render {
 namespace {
 
-constexpr double kGhostOpacity = 0.45;
+constexpr double kGhostBodyOpacity = 0.45;
 constexpr int kMarkCorners = 32;
 
 enum ShadowPart { kBodyShadow, kRightFootShadow, kLeftFootShadow, kShadowParts };
@@ -33,7 +33,7 @@ Eigen::Vector4f Color(const Rgb& rgb, float alpha = 1) {
           alpha};
 }
 
-Mesh ShadowMesh() {
+Mesh PersonShadow() {
   Mesh all;
   constexpr float kDarkness[kShadowParts] = {0.20f, 0.38f, 0.38f};
   for (int part = 0; part < kShadowParts; ++part) {
@@ -99,13 +99,13 @@ PersonActors::PersonActors()
       held_(Pass::kSolid, PartActor::Light::kLit, kHeldParts),
       ghost_marks_(Pass::kGhost, PartActor::Light::kFlat, kMarkParts),
       marks_(Pass::kSolid, PartActor::Light::kFlat, kMarkParts),
-      ghost_spheres_(Pass::kGhost, kGhostOpacity),
+      ghost_spheres_(Pass::kGhost, kGhostBodyOpacity),
       spheres_(Pass::kSolid, 1) {
-  shadow_.SetMesh(ShadowMesh());
+  shadow_.SetMesh(PersonShadow());
   marks_.SetMesh(MarkMesh());
   held_.SetMesh(HeldMesh());
   ghost_marks_.SetMesh(MarkMesh());
-  ghost_marks_.SetOpacity(static_cast<float>(kGhostOpacity));
+  ghost_marks_.SetOpacity(static_cast<float>(kGhostBodyOpacity));
 }
 
 bool PersonActors::Update(const PersonState& person, Liveness liveness, const Camera& camera,

@@ -7,13 +7,12 @@
 namespace kinescope::render {
 namespace {
 
-constexpr std::size_t kPartsPerActor = 32;  // PartActor's limit
-constexpr double kHighestShadow = 0.5;      // m above the floor
+constexpr double kHighestShadow = 0.5;  // m above the floor
 
 bool IsTranslucent(const urdf::Visual& visual) { return visual.rgba && visual.rgba->w() < 1; }
 bool IsVisible(const urdf::Visual& visual) { return !visual.rgba || visual.rgba->w() > 0; }
 
-Mesh ShadowMesh() {
+Mesh RobotShadow() {
   Mesh mesh;
   mesh.Append(DiscMesh(24), Eigen::Affine3d::Identity());
   mesh.Paint(0, {0.20f, 0.23f, 0.30f, 0.30f}, 0);
@@ -27,7 +26,7 @@ bool CanBeDrawn(const Eigen::Isometry3d& pose) {
 }  // namespace
 
 RobotActors::RobotActors() : shadow_(Pass::kBlended, PartActor::Light::kSoft, 1) {
-  shadow_.SetMesh(ShadowMesh());
+  shadow_.SetMesh(RobotShadow());
 }
 
 std::vector<vtkActor*> RobotActors::bodies() {
@@ -69,7 +68,7 @@ void RobotActors::LoadGroups(const urdf::RobotModel& model, bool is_translucent,
       is_part = true;
       reader.Add(visual, static_cast<int>(links.size()) - 1, mesh);
     }
-    if (links.size() < kPartsPerActor) continue;
+    if (links.size() < PartActor::kMostParts) continue;
     AddGroup(std::move(mesh), std::move(links), is_translucent);
     mesh = VisualMesh();
     links.clear();

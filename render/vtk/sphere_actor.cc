@@ -64,7 +64,7 @@ Mesh AllDomes() {
   return all;
 }
 
-ShaderText MakeText(Pass pass) {
+ShaderText SphereText(Pass pass) {
   ShaderText text;
   text.vertex_declarations = R"(
 flat out int whichVS;
@@ -134,7 +134,7 @@ uniform float sphereOpacity;
 
 }  // namespace
 
-SphereActor::SphereActor(Pass pass, double opacity) : shaded_(pass, MakeText(pass)) {
+SphereActor::SphereActor(Pass pass, double opacity) : shaded_(pass, SphereText(pass)) {
   shaded_.SetMesh(AllDomes());
   shaded_.uniforms().SetUniformf("sphereOpacity", static_cast<float>(opacity));
   shaded_.uniforms().SetUniformf("towardsEye", kTowardsEye);
@@ -157,8 +157,8 @@ void SphereActor::Show(const std::vector<SphereLook>& spheres, const Camera& cam
   uniforms.SetUniform4fv("balls", kSphereCapacity, balls);
   uniforms.SetUniformi("ballCount", static_cast<int>(spheres.size()));
   uniforms.SetUniform4fv("looks", kSphereCapacity, looks);
-  // Without perspective all rays are parallel: nearly so from an eye far behind the camera, and near
-  // enough for a float.
+  // Without perspective all rays are parallel: nearly so from an eye far behind the camera, and
+  // near enough for a float.
   constexpr double kFarEye = 1000;  // m
   const Eigen::Vector3d back = (camera.position - camera.target).normalized();
   const double behind = camera.is_orthographic() ? kFarEye : 0;

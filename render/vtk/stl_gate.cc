@@ -107,7 +107,7 @@ class TextStl {
   std::size_t facets_ = 0, vertices_ = 0;  // of this solid
 };
 
-std::uint32_t Word(const std::string& bytes, std::size_t at) {  // little-endian
+std::uint32_t StlWord(const std::string& bytes, std::size_t at) {  // little-endian
   std::uint32_t word = 0;
   for (std::size_t i = 4; i-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
   return word;
@@ -122,7 +122,7 @@ void CheckStl(const std::string& bytes) {
     if (is_text) return TextStl(bytes).Check();
     throw Fault("too short for an STL: " + std::to_string(bytes.size()) + " bytes");
   }
-  const std::uint64_t triangles = Word(bytes, kHeader - 4);
+  const std::uint64_t triangles = StlWord(bytes, kHeader - 4);
   const std::uint64_t expected = kHeader + kTriangle * triangles;
   if (is_text && expected != bytes.size()) return TextStl(bytes).Check();
   if (expected > bytes.size()) {

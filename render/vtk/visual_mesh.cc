@@ -10,7 +10,7 @@ namespace kinescope::render {
 namespace {
 
 constexpr double kPlaceholderSide = 0.12;                            // m
-constexpr std::size_t kMostTriangles = 4'000'000;                    // of one robot
+constexpr std::size_t kMostVisualTriangles = 4'000'000;              // of one robot
 const Eigen::Vector4f kPlaceholderColor = {0.85f, 0.62f, 0.80f, 1};  // not one of the palette's
 
 std::string FileName(const std::string& uri) {
@@ -58,7 +58,7 @@ std::string VisualReader::FaultOf(const File& file, const urdf::Geometry& shape,
            "it reaches further than a robot can; is it in millimetres "
            "(scale=\"0.001 0.001 0.001\")?";
   }
-  if (triangles_ + file.mesh.triangles.size() / 3 > kMostTriangles) {
+  if (triangles_ + file.mesh.triangles.size() / 3 > kMostVisualTriangles) {
     return mesh + "all meshes together have too many triangles";
   }
   return "";

@@ -13,7 +13,7 @@ namespace kinescope::app {
 namespace {
 
 constexpr std::size_t kMostKeys = 1000;
-constexpr std::uintmax_t kMostBytes = 1 << 20;
+constexpr std::uintmax_t kMostKeyBytes = 1 << 20;
 constexpr double kFarthest = 1000;  // m; beyond, a depth buffer shows nothing
 
 // One file being read: says where something is wrong.
@@ -25,9 +25,9 @@ class KeyFile {
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(path_, error);
     if (error) throw UsageError(fmt::format("--camera={}: {}", path_, error.message()));
-    if (bytes > kMostBytes) {
+    if (bytes > kMostKeyBytes) {
       throw UsageError(
-          fmt::format("--camera={}: {} bytes, expected at most {}", path_, bytes, kMostBytes));
+          fmt::format("--camera={}: {} bytes, expected at most {}", path_, bytes, kMostKeyBytes));
     }
     try {
       return YAML::LoadFile(path_);

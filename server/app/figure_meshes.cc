@@ -56,7 +56,7 @@ std::vector<std::string> WordsOf(std::string_view text) {
   return words;
 }
 
-std::string Joined(const std::vector<std::string>& names) {
+std::string CommaJoined(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
@@ -147,10 +147,10 @@ std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
     }
   }
   if (!missing.empty()) {
-    spdlog::warn("no mesh in {} for {}: drawn as the smooth figure", folder, Joined(missing));
+    spdlog::warn("no mesh in {} for {}: drawn as the smooth figure", folder, CommaJoined(missing));
   }
   if (!not_taken.empty()) {
-    spdlog::info("named after no segment, not used: {}", Joined(not_taken));
+    spdlog::info("named after no segment, not used: {}", CommaJoined(not_taken));
   }
   return figure;
 }

@@ -15,7 +15,7 @@
 namespace kinescope::app {
 namespace {
 
-constexpr double kFarthest = 2;  // m, of its origin from the hand's, as of a load
+constexpr double kFarthestTool = 2;  // m, of its origin from the hand's, as of a load
 
 Eigen::Isometry3d ToPlace(const std::string& text) {
   const std::vector<double> n = urdf::ParseNumbers(text);
@@ -23,8 +23,8 @@ Eigen::Isometry3d ToPlace(const std::string& text) {
     throw std::invalid_argument(fmt::format("'@{}' has {} numbers", text, n.size()));
   }
   Eigen::Isometry3d place(Eigen::Translation3d(n[0], n[1], n[2]));
-  if (!(place.translation().norm() <= kFarthest)) {
-    throw std::invalid_argument(fmt::format("'@{}' is more than {} m away", text, kFarthest));
+  if (!(place.translation().norm() <= kFarthestTool)) {
+    throw std::invalid_argument(fmt::format("'@{}' is more than {} m away", text, kFarthestTool));
   }
   if (n.size() == 6) {
     place.rotate(Eigen::AngleAxisd(n[5], Eigen::Vector3d::UnitZ()) *
@@ -74,7 +74,7 @@ std::shared_ptr<const HandTools> ReadHandTools(const std::string& text,
   throw UsageError(fmt::format(
       "--tool={}: {}; expected right:FILE or left:FILE, @X,Y,Z or @X,Y,Z,ROLL,PITCH,YAW after it "
       "(m and rad, in the hand's link frame, within {} m), with ';' between two",
-      text, error.what(), kFarthest));
+      text, error.what(), kFarthestTool));
 }
 
 urdf::TriangleMesh ToHandFrame(const HandTool& tool, const urdf::Skeleton& skeleton,

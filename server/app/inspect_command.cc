@@ -34,7 +34,7 @@ struct InspectOptions {
 };
 
 // How long waiting may take: what decides how soon Ctrl-C is noticed.
-constexpr std::chrono::milliseconds kPollTimeout(20);
+constexpr std::chrono::milliseconds kInspectPollTimeout(20);
 constexpr std::int64_t kDrainNanos = 200'000'000;
 
 // Hands datagrams on and moves the progress of a file.
@@ -64,7 +64,7 @@ mvn::InspectionReport InspectDatagrams(mvn::DatagramSource& source, double secon
   }
   DatagramSteps steps(inspection, progress.get());
   while (!StopRequested() && (end == 0 || MonotonicNanos() < end)) {
-    const auto state = source.Poll(kPollTimeout, steps);
+    const auto state = source.Poll(kInspectPollTimeout, steps);
     if (state == mvn::DatagramSource::State::kEnded) break;
     if (source.is_live() && state == mvn::DatagramSource::State::kIdle) {
       inspection.Expire(MonotonicNanos());
@@ -108,12 +108,12 @@ mvn::InspectionReport InspectSamples(Source& source, double seconds, bool has_en
     spdlog::info("listening to {} for {:g} s; Ctrl-C ends it sooner", source.description(),
                  seconds);
     const std::int64_t end = MonotonicNanos() + static_cast<std::int64_t>(seconds * 1e9);
-    while (!StopRequested() && MonotonicNanos() < end) source.Poll(kPollTimeout, steps);
+    while (!StopRequested() && MonotonicNanos() < end) source.Poll(kInspectPollTimeout, steps);
     return steps.inspection().Report(source);
   }
   const double most = seconds * source.nominal_rate_hz();
   while (!StopRequested() && (has_end || steps.samples() < most)) {
-    if (source.Poll(kPollTimeout, steps) == Source::State::kEnded) break;
+    if (source.Poll(kInspectPollTimeout, steps) == Source::State::kEnded) break;
   }
   return steps.inspection().Report(source);
 }

@@ -9,14 +9,14 @@
 #include <string_view>
 #include <vector>
 
+#include "server/core/clocks.h"
+
 namespace kinescope::app {
 namespace {
 
 using mvn::CharacterKind;
 using mvn::CharacterReport;
 using mvn::InspectionReport;
-
-constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 
 // Names and reasons come from outside: nothing of them may steer a terminal.
 std::string Shown(std::string text) {
@@ -115,7 +115,7 @@ void Head(const InspectionReport& report, std::string& out) {
   Line(out, "transport", Joined(parts));
 }
 
-std::string KindName(CharacterKind kind) {
+std::string KindTitle(CharacterKind kind) {
   switch (kind) {
     case CharacterKind::kPerson: return "Person";
     case CharacterKind::kObjects: return "Objects";
@@ -202,7 +202,7 @@ void Types(const CharacterReport& character, std::string& out) {
 }
 
 void Person(const CharacterReport& character, const InspectionReport& report, std::string& out) {
-  out += fmt::format("\n{} {}", KindName(character.kind), character.id);
+  out += fmt::format("\n{} {}", KindTitle(character.kind), character.id);
   if (!character.name.empty()) out += fmt::format(" '{}'", Shown(character.name));
   if (!character.sender.empty()) out += " from " + character.sender;
   out += "\n";

@@ -11,6 +11,7 @@
 #include "server/app/load_rows.h"
 #include "server/app/stop_signal.h"
 #include "server/core/errors.h"
+#include "server/loads/gap.h"
 #include "server/loads/joint_score.h"
 
 namespace kinescope::app {
@@ -22,8 +23,7 @@ using render::PlotCurve;
 using render::PlotPanel;
 using Points = std::vector<std::pair<double, double>>;
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLongestStepSecs = 0.5;  // a longer one is a gap, as for Exposure
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 // Blue and vermilion of the palette by M. Okabe and K. Ito (2008), which all eyes tell apart, and a
 // grey; the dashes tell them apart in print.
@@ -49,8 +49,8 @@ Points CurveOf(const LoadTrial& trial, Value&& value) {
   for (const TrialSample& sample : trial.curves()) {
     const double secs = trial.SecsOf(sample.stamp_nanos);
     if (!points.empty() &&
-        (secs < points.back().first || secs - points.back().first > kLongestStepSecs)) {
-      points.emplace_back(points.back().first, kNothing);
+        (secs < points.back().first || secs - points.back().first > loads::kLongestGapSecs)) {
+      points.emplace_back(points.back().first, kNoValue);
     }
     if (points.empty() || secs >= points.back().first) points.emplace_back(secs, value(sample));
   }
@@ -72,7 +72,7 @@ std::vector<render::PlotStretch> StripOf(const LoadTrial& trial, std::size_t joi
     const double from = trial.SecsOf(samples[i].stamp_nanos);
     const double next = i + 1 < samples.size() ? trial.SecsOf(samples[i + 1].stamp_nanos) : from;
     if (next < from) continue;
-    const double to = std::min(next, from + kLongestStepSecs);
+    const double to = std::min(next, from + loads::kLongestGapSecs);
     add(from, to, samples[i].joints[joint].load_class);
     if (to < next) add(to, next, LoadClass::kUnknown);
   }
@@ -92,7 +92,7 @@ void SetRatio(const LoadTrial& trial, const TrialContext& context, std::size_t j
   curve.color = kInk;
   curve.points = CurveOf(trial, [joint](const TrialSample& sample) {
     const TrialSample::Joint& of = sample.joints[joint];
-    return of.load_class == LoadClass::kUnknown ? kNothing : static_cast<double>(of.ratio);
+    return of.load_class == LoadClass::kUnknown ? kNoValue : static_cast<double>(of.ratio);
   });
   panel.curves = {std::move(curve)};
   panel.strip = StripOf(trial, joint);

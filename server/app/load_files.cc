@@ -152,9 +152,9 @@ class JsonValues : public CellSink {
   std::string& line_;
 };
 
-class Json : public LoadFile {
+class JsonFile : public LoadFile {
  public:
-  explicit Json(const std::string& path) : out_(path) {}
+  explicit JsonFile(const std::string& path) : out_(path) {}
 
   void Add(const PersonState& person, std::int64_t begin_nanos) override {
     if (samples_++ == 0) {
@@ -195,6 +195,8 @@ std::unique_ptr<LoadFile> MakeCsv(const std::string& path, Layout layout) {
   return std::make_unique<Csv>(path, layout);
 }
 
-std::unique_ptr<LoadFile> MakeJson(const std::string& path) { return std::make_unique<Json>(path); }
+std::unique_ptr<LoadFile> MakeJson(const std::string& path) {
+  return std::make_unique<JsonFile>(path);
+}
 
 }  // namespace kinescope::app

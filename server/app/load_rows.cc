@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-const Vector3d kNowhere = Vector3d::Constant(kNothing);
+constexpr double kEmptyCell = std::numeric_limits<double>::quiet_NaN();
+const Vector3d kNowhere = Vector3d::Constant(kEmptyCell);
 
 void Vector(const std::string& name, const char* unit, const Vector3d& value, CellSink& cells) {
   cells.Number(name + "_x_" + unit, value.x());
@@ -75,10 +75,10 @@ void VisitBody(const PersonState& person, CellSink& cells) {
   cells.Text("ground_reason", forces.why_no_ground);
   VisitFoot(forces.feet[urdf::kRight], "right_foot", cells);
   VisitFoot(forces.feet[urdf::kLeft], "left_foot", cells);
-  cells.Number("margin_of_stability_m", forces.margin_of_stability.value_or(kNothing));
+  cells.Number("margin_of_stability_m", forces.margin_of_stability.value_or(kEmptyCell));
   cells.Number("right_hand_load_kg", forces.hands[urdf::kRight].mass_kg);
   cells.Number("left_hand_load_kg", forces.hands[urdf::kLeft].mass_kg);
-  const LumbarLoad lumbar = forces.lumbar.value_or(LumbarLoad{kNothing, kNothing});
+  const LumbarLoad lumbar = forces.lumbar.value_or(LumbarLoad{kEmptyCell, kEmptyCell});
   cells.Number("l5_s1_compression_N", lumbar.compression);
   cells.Number("l5_s1_shear_N", lumbar.shear);
 }

@@ -7,13 +7,13 @@
 
 #include "server/core/check.h"
 #include "server/core/clocks.h"
+#include "server/loads/gap.h"
 #include "server/loads/joint_score.h"
 
 namespace kinescope::app {
 namespace {
 
-constexpr double kLongestStepSecs = 0.5;  // as Exposure counts
-constexpr std::size_t kMostSlots = 128;   // of scenes kept, some 20 kB each
+constexpr std::size_t kMostSlots = 128;  // of scenes kept, some 20 kB each
 
 void Count(std::string_view why, double secs, SecsByReason& reasons) {
   if (!why.empty()) reasons[why] += secs;
@@ -36,7 +36,7 @@ void LoadTrial::Add(const std::shared_ptr<const SceneState>& scene, const Person
   const std::int64_t stamp = person.sample.stamp_nanos;
   if (newest_ != nullptr) {
     const double step = Secs(stamp - newest_->sample.stamp_nanos);
-    if (step > 0) CountTime(*newest_, std::min(step, kLongestStepSecs));
+    if (step > 0) CountTime(*newest_, std::min(step, loads::kLongestGapSecs));
   }
   exposure_.Add(person.loads, stamp);
   const BodyForces& forces = person.forces;

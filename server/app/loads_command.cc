@@ -44,9 +44,9 @@ struct LoadsOptions {
 constexpr double kDefaultSecs = 8;
 
 // Every option of a list, by name.
-class ToJson {
+class OptionJson {
  public:
-  explicit ToJson(nlohmann::json& out) : out_(out) {}
+  explicit OptionJson(nlohmann::json& out) : out_(out) {}
   template <class T>
   void operator()(const std::string& name, const T& value, const std::string&) {
     out_[name] = value;
@@ -67,8 +67,8 @@ TrialContext ContextOf(LoadsOptions& options) {
       is_demo ? options.source : std::filesystem::path(options.source).filename().string();
   context.scene = ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads);
   context.options = nlohmann::json::object();
-  options.person.Visit(ToJson(context.options));
-  options.loads.Visit(ToJson(context.options));
+  options.person.Visit(OptionJson(context.options));
+  options.loads.Visit(OptionJson(context.options));
   return context;
 }
 

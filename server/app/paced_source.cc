@@ -10,7 +10,6 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::int64_t kNanosPerMilli = 1'000'000;
 // People in one capture are out of order by what the network and joining delay one of them.
 constexpr std::int64_t kReadAheadNanos = 100 * kNanosPerMilli;
 constexpr std::size_t kMostQueued = 2048;  // some 20 MB

@@ -25,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kBytesPerMb = 1e6;
-constexpr double kNanosPerSecond = 1e9;
 constexpr std::int64_t kStatusEveryNanos = 250'000'000;
 
 struct RecordOptions {
@@ -57,7 +56,7 @@ class Meter : public mvn::DatagramSink, private SampleSink {
   std::size_t people() const { return people_.size(); }
   std::uint64_t counter_gaps() const { return assembler_.counters().counter_gaps; }
   double seconds() const {  // of the stream
-    return static_cast<double>(newest_nanos_ - first_nanos_) / kNanosPerSecond;
+    return Secs(newest_nanos_ - first_nanos_);
   }
 
  private:
@@ -98,7 +97,7 @@ class StatusLine {
   void Draw(std::int64_t now, const Meter& meter, const mvn::TransportCounters& transport,
             const mvn::PcapRecorder& recorder) {
     if (!is_terminal_ || now - drawn_nanos_ < kStatusEveryNanos) return;
-    const double secs = static_cast<double>(now - drawn_nanos_) / kNanosPerSecond;
+    const double secs = Secs(now - drawn_nanos_);
     const double datagrams = static_cast<double>(meter.datagrams() - datagrams_) / secs;
     const double samples = static_cast<double>(meter.samples() - samples_) / secs;
     drawn_nanos_ = now;
@@ -121,7 +120,7 @@ class StatusLine {
   std::uint64_t samples_ = 0;    // likewise
 };
 
-void CheckOptions(const RecordOptions& options) {
+void CheckRecordOptions(const RecordOptions& options) {
   if (!(options.seconds >= 0)) {
     throw UsageError(fmt::format("--seconds={}: expected 0 (no end) or more", options.seconds));
   }
@@ -149,7 +148,7 @@ void Summarise(const RecordOptions& options, const Meter& meter,
                file.datagrams, meter.seconds(), meter.samples(), meter.people(), files,
                static_cast<double>(file.bytes) / kBytesPerMb, LostText(transport, file));
   if (!options.json) return;
-  const nlohmann::ordered_json json = {
+  const nlohmann::ordered_json summary = {
       {"source", options.source},
       {"files", file.files},
       {"bytes", file.bytes},
@@ -164,11 +163,11 @@ void Summarise(const RecordOptions& options, const Meter& meter,
       {"incomplete_packets", transport.incomplete_packets},
       {"other_packets", transport.other_packets},
   };
-  fmt::print("{}\n", json.dump());
+  fmt::print("{}\n", summary.dump());
 }
 
 void Record(const RecordOptions& options) {
-  CheckOptions(options);
+  CheckRecordOptions(options);
   const auto source = mvn::OpenDatagrams(options.source);
   if (source == nullptr) {
     throw SourceError(options.source +
@@ -189,7 +188,7 @@ void Record(const RecordOptions& options) {
     const std::int64_t start = MonotonicNanos();
     const auto is_over = [&](std::int64_t now) {
       if (options.seconds <= 0) return false;
-      const double live = static_cast<double>(now - start) / kNanosPerSecond;
+      const double live = Secs(now - start);
       return (source->is_live() ? live : meter.seconds()) >= options.seconds;
     };
     while (!StopRequested()) {

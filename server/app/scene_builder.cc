@@ -8,6 +8,7 @@
 #include "server/app/body_color.h"
 #include "server/app/figure_files.h"
 #include "server/core/check.h"
+#include "server/core/clocks.h"
 #include "urdf/robot_model.h"
 
 namespace kinescope::app {
@@ -16,8 +17,6 @@ namespace {
 using Eigen::Vector3d;
 using urdf::At;
 using urdf::LinkPoses;
-
-constexpr double kNanosPerSec = 1e9;
 
 // A person who sent nothing for this long while others do has left.
 constexpr std::int64_t kGoneAfterNanos = 1'000'000'000;
@@ -261,7 +260,7 @@ void SceneBuilder::MeasureRate(const BodySample& sample) {
     return;
   }
   const std::int64_t now = is_file ? sample.stamp_nanos : sample.arrival_nanos;
-  const double secs = static_cast<double>(now - rate_window_start_) / kNanosPerSec;
+  const double secs = Secs(now - rate_window_start_);
   constexpr double kLongestWindow = 2;  // whom we counted has left
   if (rate_window_start_ == 0 || current_.liveness != Liveness::kLive || secs > kLongestWindow) {
     rate_window_start_ = now;
@@ -313,8 +312,7 @@ void SceneBuilder::SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> ma
 
 void SceneBuilder::Tick(std::int64_t monotonic_nanos) {
   if (current_.liveness != Liveness::kLive || current_.arrival_nanos == 0) return;
-  const double silent_secs =
-      static_cast<double>(monotonic_nanos - current_.arrival_nanos) / kNanosPerSec;
+  const double silent_secs = Secs(monotonic_nanos - current_.arrival_nanos);
   if (silent_secs >= options_.stale_secs) MarkStale();
 }
 

@@ -16,8 +16,8 @@
 namespace kinescope::app {
 namespace {
 
-constexpr double kApart = 1.2;      // m, between people and robots that nobody placed
-constexpr double kFarthest = 1000;  // m
+constexpr double kApart = 1.2;           // m, between people and robots that nobody placed
+constexpr double kFarthestRobot = 1000;  // m
 
 struct RobotPlace {
   std::string file;
@@ -37,8 +37,8 @@ RobotPlace ToPlace(const std::string& text, std::size_t index) {
   for (std::string number; std::getline(list, number, ','); ++count) {
     if (count == numbers.size()) break;
     numbers[count] = ParseOption<double>("--robot: a number of " + text, number);
-    if (!(std::abs(numbers[count]) <= kFarthest)) {
-      throw UsageError(fmt::format("--robot={}: expected numbers up to {}", text, kFarthest));
+    if (!(std::abs(numbers[count]) <= kFarthestRobot)) {
+      throw UsageError(fmt::format("--robot={}: expected numbers up to {}", text, kFarthestRobot));
     }
   }
   if (count < 2 || !list.eof()) {

@@ -10,8 +10,6 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::int64_t kNanosPerMilli = 1'000'000;
-
 // `of` things that are `first` to `last` apart: what the next one would be.
 std::uint32_t StepBehind(std::uint32_t first, std::uint32_t last, std::uint64_t of) {
   if (of < 2) return 1;

@@ -11,7 +11,6 @@
 namespace kinescope::app {
 namespace {
 
-constexpr double kNanosPerMilli = 1e6;
 // Meta and scale data go out again this often, so that a receiver may start at any time.
 constexpr std::int64_t kCharacterEveryNanos = 1'000'000'000;
 constexpr double kSideBySide = 1;               // m, from copy to copy, along y
@@ -100,7 +99,7 @@ class SampleFeed final : public Feed, private SampleSink {
     last_played_ = std::max(last_played_, round_offset_ + sample.stamp_nanos - first_stamp_);
     Track& track = tracks_[sample.character];
     const std::int64_t played_millis =
-        std::llround(static_cast<double>(last_played_) / kNanosPerMilli);
+        std::llround(static_cast<double>(last_played_) / static_cast<double>(kNanosPerMilli));
     if (track.samples++ == 0) {
       if (is_repeated_) track.counter_offset = track.newest_counter + 1 - sample.counter;
       if (!is_repeated_) track.time_code_base = sample.time_code_millis - played_millis;

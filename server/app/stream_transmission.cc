@@ -13,7 +13,6 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::int64_t kNanosPerSec = 1'000'000'000;
 // A signal that comes between looking and sleeping is seen this much later.
 constexpr std::int64_t kLongestSleep = 50'000'000;
 
@@ -42,8 +41,8 @@ bool Transmission::SleepUntil(std::int64_t nanos) const {
     if (now >= nanos) return true;
     const std::int64_t wake = start_nanos_ + std::min(nanos, now + kLongestSleep);
     timespec deadline{};
-    deadline.tv_sec = wake / kNanosPerSec;
-    deadline.tv_nsec = wake % kNanosPerSec;
+    deadline.tv_sec = wake / kNanosPerSecond;
+    deadline.tv_nsec = wake % kNanosPerSecond;
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr);
   }
   return false;

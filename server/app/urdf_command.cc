@@ -37,7 +37,7 @@ struct WriteOptions {
   PersonOptions person;
 };
 
-struct CheckOptions {
+struct UrdfCheckOptions {
   std::string file;
   bool json = false;
   std::vector<std::string> package_path;
@@ -130,7 +130,7 @@ void Write(const WriteOptions& options) {
   if (!file) throw UsageError("--out=" + options.out + ": cannot be written");
 }
 
-bool Check(const CheckOptions& options) {
+bool Check(const UrdfCheckOptions& options) {
   const urdf::UrdfReport report = urdf::CheckUrdf(
       ReadUrdfFile(options.file), urdf::MakeMeshSearch(options.file, options.package_path));
   fmt::print("{}", options.json ? UrdfReportJson(options.file, report)
@@ -144,7 +144,7 @@ constexpr char kPackagePathHelp[] =
 void AddCheck(CLI::App& urdf, int& exit_code) {
   CLI::App* command =
       urdf.add_subcommand("check", "What is in a URDF, and what is wrong with it, with lines");
-  const auto o = std::make_shared<CheckOptions>();
+  const auto o = std::make_shared<UrdfCheckOptions>();
   command->add_option("file", o->file, "a URDF")->required();
   command->add_flag("--json", o->json, "one JSON object with every problem");
   command->add_option("--package-path", o->package_path, kPackagePathHelp)->allow_extra_args(false);

@@ -35,7 +35,7 @@ urdf::JointPositions ToPositions(const std::vector<std::string>& joints) {
   return positions;
 }
 
-std::vector<double> ToList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+std::vector<double> XyzList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 void Tell(const UrdfPictureOptions& options, const RobotState& robot, const render::Camera& camera,
           const std::vector<std::string>& problems) {
@@ -50,12 +50,12 @@ void Tell(const UrdfPictureOptions& options, const RobotState& robot, const rend
       {"out", options.out},
       {"robot", robot.name},
       {"links", robot.model->links.size()},
-      {"root_position", ToList(robot.world_from_link.front().translation())},
-      {"bounds", {ToList(robot.bounds.min()), ToList(robot.bounds.max())}},
+      {"root_position", XyzList(robot.world_from_link.front().translation())},
+      {"bounds", {XyzList(robot.bounds.min()), XyzList(robot.bounds.max())}},
       {"camera",
-       {{"position", ToList(camera.position)},
-        {"target", ToList(camera.target)},
-        {"up", ToList(camera.up)},
+       {{"position", XyzList(camera.position)},
+        {"target", XyzList(camera.target)},
+        {"up", XyzList(camera.up)},
         {"vertical_fov_rad", camera.vertical_fov_rad}}},
       {"problems", problems},
   };

@@ -18,7 +18,7 @@ std::string Counted(std::size_t count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-std::string Verdict(const UrdfReport& report) {
+std::string VerdictText(const UrdfReport& report) {
   const auto count = [&](UrdfProblem::Kind kind) {
     return static_cast<std::size_t>(std::count_if(report.problems.begin(), report.problems.end(),
                                                   [&](const auto& p) { return p.kind == kind; }));
@@ -60,7 +60,7 @@ std::string UrdfReportText(const std::string& file, const UrdfReport& report) {
       text += fmt::format("  … and {} more like this (--json lists them)\n", all - kMostAlike);
     }
   }
-  return text + fmt::format("{}: {}\n", file, Verdict(report));
+  return text + fmt::format("{}: {}\n", file, VerdictText(report));
 }
 
 std::string UrdfReportJson(const std::string& file, const UrdfReport& report) {

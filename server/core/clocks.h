@@ -18,6 +18,9 @@ inline std::int64_t WallNanos() {
       .count();
 }
 
+inline constexpr std::int64_t kNanosPerMilli = 1'000'000;
+inline constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
+
 constexpr double Secs(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-9; }
 
 }  // namespace kinescope

@@ -7,7 +7,7 @@ namespace {
 
 using nlohmann::json;
 
-json ToJson(const ClientCounters& client) {
+json CounterJson(const ClientCounters& client) {
   return {{"id", client.id},
           {"pictures", client.pictures},
           {"states_sent", client.states_sent},
@@ -23,8 +23,8 @@ std::string WithHttpCounters(const std::string& diagnostics, const Counters& cou
   json document = json::parse(diagnostics, nullptr, /*allow_exceptions=*/false);
   if (!document.is_object()) document = {{"error", "the program's own diagnostics are not JSON"}};
   json connected = json::array();
-  for (const ClientCounters& client : clients) connected.push_back(ToJson(client));
-  json closed = ToJson(counters.closed);
+  for (const ClientCounters& client : clients) connected.push_back(CounterJson(client));
+  json closed = CounterJson(counters.closed);
   closed.erase("id");
   closed.erase("pictures");
   document["http"] = {{"requests", counters.requests},

@@ -6,12 +6,13 @@
 
 #include "server/core/check.h"
 #include "server/core/clocks.h"
+#include "server/loads/gap.h"
 
 namespace kinescope::loads {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t kLongestStepNanos = 500'000'000;
+constexpr double kNoRatio = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t kLongestStepNanos = static_cast<std::int64_t>(kLongestGapSecs * 1e9);
 
 }  // namespace
 
@@ -29,7 +30,7 @@ void Exposure::Add(const JointLoad* loads, std::int64_t stamp_nanos) {
       joint.nanos[static_cast<std::size_t>(bin)] += nanos;
     }
     joint.last_class = load.load_class;
-    joint.last_ratio = load.load_class == LoadClass::kUnknown ? kNothing : load.ratio;
+    joint.last_ratio = load.load_class == LoadClass::kUnknown ? kNoRatio : load.ratio;
     if (std::isfinite(joint.last_ratio) && (!joint.has_peak || load.ratio > joint.peak.ratio)) {
       joint.peak = load;
       joint.peak_stamp_nanos = stamp_nanos;
@@ -52,7 +53,7 @@ void Exposure::Add(const std::vector<JointLoad>& loads, std::int64_t stamp_nanos
 double Exposure::PercentileOf(const Joint& joint, double share) {
   std::int64_t all = 0;
   for (const std::int64_t nanos : joint.nanos) all += nanos;
-  if (all == 0) return kNothing;
+  if (all == 0) return kNoRatio;
   std::int64_t below = 0;
   for (std::size_t bin = 0; bin < kBins; ++bin) {
     below += joint.nanos[bin];
@@ -80,7 +81,7 @@ JointExposure Exposure::Of(std::size_t scored_joint) const {
   exposure.p10 = PercentileOf(joint, 0.1);
   exposure.p50 = PercentileOf(joint, 0.5);
   exposure.p90 = PercentileOf(joint, 0.9);
-  exposure.peak_ratio = joint.has_peak ? joint.peak.ratio : kNothing;
+  exposure.peak_ratio = joint.has_peak ? joint.peak.ratio : kNoRatio;
   exposure.peak_moment = joint.peak.deciding_moment;
   exposure.peak_capacity = joint.peak.capacity;
   exposure.peak_channel = joint.peak.channel;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "server/core/clocks.h"
+#include "server/loads/gap.h"
 #include "server/loads/support_polygon.h"
 
 namespace kinescope::loads {
@@ -16,7 +17,6 @@ using urdf::kLeft;
 using urdf::kRight;
 using urdf::Side;
 
-constexpr double kLongestGapSecs = 0.5;
 // A foot that has just come down carries something at once, if it is the only one.
 constexpr double kLeastWeight = 1e-3;
 

@@ -8,6 +8,7 @@
 
 #include "server/core/clocks.h"
 #include "server/core/errors.h"
+#include "server/loads/gap.h"
 #include "urdf/placed_mass.h"
 
 namespace kinescope::loads {
@@ -20,7 +21,6 @@ using urdf::kRight;
 using urdf::Side;
 
 constexpr double kRampSecs = 0.3;
-constexpr double kLongestGapSecs = 0.5;
 constexpr double kFarthest = 2;             // m, of a CoM from its hand
 constexpr double kGripOfHandLength = 0.42;  // joint-loads.md 2.7
 

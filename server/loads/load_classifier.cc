@@ -5,12 +5,12 @@
 #include <limits>
 
 #include "server/core/clocks.h"
+#include "server/loads/gap.h"
 
 namespace kinescope::loads {
 namespace {
 
 constexpr std::int64_t kNotThere = std::numeric_limits<std::int64_t>::min();
-constexpr double kLongestGapSecs = 0.5;
 
 // Since when, without a break, the condition has held.
 void Track(bool holds, std::int64_t now, std::int64_t& since) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "server/core/clocks.h"
+#include "server/loads/gap.h"
 #include "server/loads/support_polygon.h"
 
 namespace kinescope::loads {
@@ -167,7 +168,7 @@ void LoadEstimator::ShowBody(const BodySample& sample, const LoadSubject& subjec
 }
 
 bool LoadEstimator::SuspectContact(bool outside, std::int64_t stamp) {
-  constexpr double kDwellSecs = 0.2, kLongestGapSecs = 0.5;
+  constexpr double kDwellSecs = 0.2;
   const auto secs_since = [&](const std::optional<std::int64_t>& since) {
     return Secs(stamp - *since);
   };

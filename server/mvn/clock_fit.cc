@@ -6,7 +6,7 @@
 namespace kinescope::mvn {
 namespace {
 
-constexpr double kNanosPerMilli = 1e6;
+constexpr double kMilliNanos = 1e6;
 constexpr std::int64_t kBucketNanos = 2'000'000'000;
 constexpr double kPauseNanos = 0.5e9;
 constexpr double kTimeCodeJumpNanos = 20e6;
@@ -30,23 +30,23 @@ void ClockFit::Restart() {
 void ClockFit::StartAt(std::uint32_t counter, std::uint32_t time_code_millis) {
   Restart();
   clock_ = SenderClock{counter, time_code_millis, counter, time_code_millis,
-                       time_code_millis * kNanosPerMilli};
+                       time_code_millis * kMilliNanos};
 }
 
 void ClockFit::Advance(std::uint32_t counter, std::uint32_t time_code_millis) {
   const std::uint32_t frames = counter - clock_->counter;
   const std::uint32_t frames_in_all = counter - clock_->first_counter;
-  const double rounded = time_code_millis * kNanosPerMilli;
+  const double rounded = time_code_millis * kMilliNanos;
   double smooth = rounded;
   if (frames_in_all >= kFramesForPeriod) {
-    const double period = (rounded - clock_->first_millis * kNanosPerMilli) / frames_in_all;
+    const double period = (rounded - clock_->first_millis * kMilliNanos) / frames_in_all;
     const double predicted = clock_->smooth_nanos + frames * period;
     if (std::abs(predicted - rounded) > kTimeCodeJumpNanos) {
       return StartAt(counter, time_code_millis);
     }
     // Rounding is less than a millisecond; beyond that it is the period that is not known well yet.
-    smooth = std::clamp(predicted + kGain * (rounded - predicted), rounded - kNanosPerMilli,
-                        rounded + kNanosPerMilli);
+    smooth = std::clamp(predicted + kGain * (rounded - predicted), rounded - kMilliNanos,
+                        rounded + kMilliNanos);
   }
   if (time_code_millis < clock_->millis) return StartAt(counter, time_code_millis);
   clock_->counter = counter;

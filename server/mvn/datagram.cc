@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/mvn/datagram_extent.h"
 #include "server/mvn/item_reader.h"
 
 namespace kinescope::mvn {
 namespace {
 
-constexpr std::size_t kIdStringBytes = 6;
 
 // What came instead of "MXTP": MVN's own sync texts, another program's text, or anything.
 Reason ReasonForForeign(std::string_view datagram) {

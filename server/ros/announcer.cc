@@ -25,10 +25,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-constexpr std::chrono::seconds kAskEvery{1};
-constexpr std::chrono::seconds kPatience{3};  // a busy machine's master may take a second to answer
 // Messages that wait for one slow subscriber before the oldest is dropped: two seconds at 240 Hz.
-constexpr std::uint32_t kQueue = 480;
+constexpr std::uint32_t kSampleQueue = 480;
 constexpr char kDescription[] = "robot_description";
 
 // A parameter of a launch file has a type and an argument has not: what reads as a number becomes
@@ -136,7 +134,7 @@ BridgeStatus Announcer::status() const {
 
 bool Announcer::WaitForNext() {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait_for(lock, kAskEvery, [&] { return stopping_ || has_work_; });
+  changed_.wait_for(lock, kAskMasterEvery, [&] { return stopping_ || has_work_; });
   has_work_ = false;
   return !stopping_ && !status_.told_to_stop;
 }
@@ -172,7 +170,7 @@ void Announcer::Run() {
 
 bool Announcer::MasterKnowsUs(bool& answers) {
   const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
-  const Standing standing = master_.AskStanding(our_uri, kPatience);
+  const Standing standing = master_.AskStanding(our_uri, kMasterPatience);
   answers = standing != Standing::kNoAnswer;
   if (standing == Standing::kNameTaken) StopForGood("another node that took our name");
   return standing == Standing::kKnown;
@@ -211,7 +209,7 @@ void Announcer::AdvertiseMissing() {
 
 template <class Message>
 ros::Publisher Announcer::Topic(const std::string& name) {
-  ros::Publisher publisher = node_->advertise<Message>(name, kQueue);
+  ros::Publisher publisher = node_->advertise<Message>(name, kSampleQueue);
   topic_types_[publisher.getTopic()] = ros::message_traits::DataType<Message>::value();
   return publisher;
 }
@@ -252,7 +250,7 @@ ros::Subscriber Announcer::SubscribeTransforms(const char* topic, bool is_static
   using Event = ros::MessageEvent<const tf2_msgs::TFMessage>;
   ros::SubscribeOptions options;
   options.initByFullCallbackType<const Event&>(
-      topic, kQueue, [take = wiring_.on_transforms, is_static](const Event& event) {
+      topic, kSampleQueue, [take = wiring_.on_transforms, is_static](const Event& event) {
         if (event.getPublisherName() == ros::this_node::getName()) return;
         take(*event.getConstMessage(), is_static);
       });
@@ -271,7 +269,8 @@ bool Announcer::RegisterAll() {
     arguments[0] = topic;
     arguments[1] = type;
     arguments[2] = our_uri;
-    if (master_.Call("registerPublisher", arguments, kPatience).code != MasterReply::Code::kGood)
+    if (master_.Call("registerPublisher", arguments, kMasterPatience).code !=
+        MasterReply::Code::kGood)
       return false;
     registered_.insert(topic);
   }
@@ -282,7 +281,7 @@ bool Announcer::SetParameter(const std::string& name, const XmlRpcValue& value) 
   XmlRpcValue arguments;
   arguments[0] = ros::names::resolve(name);
   arguments[1] = value;
-  return master_.Call("setParam", arguments, kPatience).code == MasterReply::Code::kGood;
+  return master_.Call("setParam", arguments, kMasterPatience).code == MasterReply::Code::kGood;
 }
 
 // Gives up at the first that the master does not take; what is missing is tried again at the next

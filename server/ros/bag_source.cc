@@ -20,7 +20,8 @@ namespace {
 constexpr int kMessagesPerPoll = 256;
 constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read for frame names when opening
 
-constexpr char kUnreadable[] = "message on /tf that is cut short or lies about its length";
+constexpr char kUnreadableTransforms[] =
+    "message on /tf that is cut short or lies about its length";
 constexpr char kOtherType[] = "message on /tf that is no TFMessage";
 
 bool IsStatic(const std::string& topic) { return topic == "/tf_static" || topic == "tf_static"; }
@@ -179,14 +180,14 @@ bool BagSource::Decode(const rosbag::MessageInstance& instance) {
     return false;
   }
   if (instance.size() > kLargestMessage) {
-    Reject(kUnreadable);
+    Reject(kUnreadableTransforms);
     return false;
   }
   buffer_.resize(instance.size());
   ros::serialization::OStream to_buffer(buffer_.data(), instance.size());
   instance.write(to_buffer);
   if (kinescope::ros_bridge::Decode(buffer_, message_)) return true;
-  Reject(kUnreadable);
+  Reject(kUnreadableTransforms);
   return false;
 }
 

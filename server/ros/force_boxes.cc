@@ -22,7 +22,7 @@ constexpr char kExternalLoads[] = "external_loads";
 constexpr char kExternalJointStates[] = "external_joint_states";
 
 // Of sensors that are faster than the suit only the newest counts.
-constexpr std::uint32_t kQueue = 32;
+constexpr std::uint32_t kForceQueue = 32;
 
 // Whether two measurements belong together.
 bool AreOfOneTime(std::int64_t a, std::int64_t b) { return std::abs(Secs(a - b)) <= kMostSkewSecs; }
@@ -241,7 +241,7 @@ ForceSubscriptions SubscribeForces(ros::NodeHandle& node, const std::string& pre
   const auto hear = [&](const std::string& name, auto take, auto message) {
     using Message = decltype(message);
     auto options = ros::SubscribeOptions::create<Message>(
-        prefix + name, kQueue,
+        prefix + name, kForceQueue,
         [box, take](const boost::shared_ptr<const Message>& heard) { take(*box, *heard); },
         ros::VoidConstPtr(), &queue);
     options.transport_hints = ros::TransportHints().tcpNoDelay();

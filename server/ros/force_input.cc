@@ -19,12 +19,12 @@ constexpr double kReach = 2;               // m
 constexpr double kLeastGroundForce = 20;   // N; below, a plate's CoP is noise
 constexpr std::size_t kMostJoints = 1000;  // of a message; a person has 66
 
-tl::unexpected<Refusal> No(const char* kind, std::string text) {
+tl::unexpected<Refusal> NoForce(const char* kind, std::string text) {
   return tl::unexpected(Refusal{kind, std::move(text)});
 }
 
 template <class RosVector>
-Vector3d From(const RosVector& v) {
+Vector3d FromForce(const RosVector& v) {
   return {v.x, v.y, v.z};
 }
 
@@ -33,14 +33,14 @@ struct WorldWrench {
 };
 
 Taken<WorldWrench> ToWorld(const geometry_msgs::WrenchStamped& message, const FoundFrame& frame) {
-  const Vector3d force = From(message.wrench.force), moment = From(message.wrench.torque);
+  const Vector3d force = FromForce(message.wrench.force), moment = FromForce(message.wrench.torque);
   if (!force.allFinite() || !moment.allFinite()) {
-    return No("not a number", "a force or moment is not a number");
+    return NoForce("not a number", "a force or moment is not a number");
   }
   if (force.norm() > kMostForce || moment.norm() > kMostMoment) {
-    return No("too large",
-              fmt::format("{:.3g} N, {:.3g} N m: expected at most {:.0f} N; in newtons?",
-                          force.norm(), moment.norm(), kMostForce));
+    return NoForce("too large",
+                   fmt::format("{:.3g} N, {:.3g} N m: expected at most {:.0f} N; in newtons?",
+                               force.norm(), moment.norm(), kMostForce));
   }
   return WorldWrench{frame.pose.orientation * force, frame.pose.orientation * moment};
 }
@@ -70,8 +70,8 @@ Taken<Matrix3d> AxesOf(int joint, bool is_rot, const BodyNow& body) {
   axes.row(2) = world_from_child * Vector3d::UnitZ();
   constexpr double kLocked = 0.05;  // three axes nearly in a plane: no moment can be told from them
   if (std::abs(axes.determinant()) < kLocked) {
-    return No("axes fall together", fmt::format("{}: its three axes lie in a plane now",
-                                                urdf::kJoints[At(joint)].mvn_name));
+    return NoForce("axes fall together", fmt::format("{}: its three axes lie in a plane now",
+                                                     urdf::kJoints[At(joint)].mvn_name));
   }
   return axes;
 }
@@ -116,8 +116,8 @@ Taken<ExternalLoads> FromRatios(const sensor_msgs::JointState& message) {
     if (named.joint < 0) {
       ++loads.unknown_joints;
     } else if (named.axis >= 0) {
-      return No("no effort",
-                "'" + message.name[i] + "': neither efforts nor ratios of whole joints");
+      return NoForce("no effort",
+                     "'" + message.name[i] + "': neither efforts nor ratios of whole joints");
     } else if (const double ratio = message.position[i]; ratio >= 0) {
       loads.joints[At(named.joint)].ratio = ratio;
       loads.is_given[At(named.joint)] = true;
@@ -137,10 +137,10 @@ Taken<MeasuredGroundForce> ToGroundForce(const geometry_msgs::WrenchStamped& mes
   MeasuredGroundForce ground;
   ground.only_vertical = message.wrench.force.x == 0 && message.wrench.force.y == 0;
   if (force.z() < -kLeastGroundForce) {
-    return No("pushes down",
-              fmt::format("{:.0f} N downwards: expected the force of the floor on the "
-                          "person, upwards",
-                          -force.z()));
+    return NoForce("pushes down",
+                   fmt::format("{:.0f} N downwards: expected the force of the floor on the "
+                               "person, upwards",
+                               -force.z()));
   }
   if (force.z() < kLeastGroundForce) {
     ground.point = {origin.x(), origin.y(), body.floor_z};
@@ -154,19 +154,21 @@ Taken<MeasuredGroundForce> ToGroundForce(const geometry_msgs::WrenchStamped& mes
   ground.free_moment = wrench->moment.z() - (arm.x() * force.y() - arm.y() * force.x());
   const double away = HorizontalDistance(ground.point, body.links[urdf::kPelvis].position);
   if (!(away < kReach)) {
-    return No("far away", fmt::format("its centre of pressure is {:.1f} m from the pelvis", away));
+    return NoForce("far away",
+                   fmt::format("its centre of pressure is {:.1f} m from the pelvis", away));
   }
   return ground;
 }
 
 Taken<Vector3d> ToCop(const geometry_msgs::PointStamped& message, const FoundFrame& frame,
                       const BodyNow& body) {
-  Vector3d point = frame.pose.position + frame.pose.orientation * From(message.point);
-  if (!point.allFinite()) return No("not a number", "a coordinate is not a number");
+  Vector3d point = frame.pose.position + frame.pose.orientation * FromForce(message.point);
+  if (!point.allFinite()) return NoForce("not a number", "a coordinate is not a number");
   point.z() = body.floor_z;
   const double away = HorizontalDistance(point, body.links[urdf::kPelvis].position);
   if (!(away < kReach)) {
-    return No("far away", fmt::format("the centre of pressure is {:.1f} m from the pelvis", away));
+    return NoForce("far away",
+                   fmt::format("the centre of pressure is {:.1f} m from the pelvis", away));
   }
   return point;
 }
@@ -184,7 +186,7 @@ Taken<MeasuredHandForce> ToHandForce(const geometry_msgs::WrenchStamped& message
   const int segment = urdf::HandSegmentOf(side);
   const double away = (*hand.point - body.links[At(segment)].position).norm();
   if (!(away < kReach)) {
-    return No("far away", fmt::format("its frame is {:.1f} m from the hand", away));
+    return NoForce("far away", fmt::format("its frame is {:.1f} m from the hand", away));
   }
   return hand;
 }
@@ -192,7 +194,7 @@ Taken<MeasuredHandForce> ToHandForce(const geometry_msgs::WrenchStamped& message
 Taken<ExternalLoads> ToExternalLoads(const kinescope_ros::JointLoadArray& message,
                                      const FoundFrame& frame, double scale) {
   if (message.loads.size() > kMostJoints) {
-    return No("too many joints", fmt::format("{} joints", message.loads.size()));
+    return NoForce("too many joints", fmt::format("{} joints", message.loads.size()));
   }
   ExternalLoads loads;
   for (const kinescope_ros::JointLoad& given : message.loads) {
@@ -216,16 +218,16 @@ Taken<ExternalLoads> ToExternalLoads(const kinescope_ros::JointLoadArray& messag
 Taken<ExternalLoads> ToExternalLoads(const sensor_msgs::JointState& message, const BodyNow& body,
                                      double scale) {
   const std::size_t count = message.name.size();
-  if (count > kMostJoints) return No("too many joints", fmt::format("{} joints", count));
+  if (count > kMostJoints) return NoForce("too many joints", fmt::format("{} joints", count));
   for (const auto* values : {&message.position, &message.velocity, &message.effort}) {
     if (!values->empty() && values->size() != count) {
-      return No("unequal lengths",
-                fmt::format("{} names and {} values: expected as many", count, values->size()));
+      return NoForce("unequal lengths", fmt::format("{} names and {} values: expected as many",
+                                                    count, values->size()));
     }
   }
   if (!message.effort.empty()) return FromEfforts(message, body, scale);
   if (!message.position.empty()) return FromRatios(message);
-  return No("no effort", "neither efforts nor ratios");
+  return NoForce("no effort", "neither efforts nor ratios");
 }
 
 }  // namespace kinescope::ros_bridge

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view kScheme = "ros:";
 constexpr std::int64_t kSettleNanos = 250'000'000;
-constexpr char kUnreadable[] = "is cut short or lies about its length";
+constexpr char kUnreadableMessage[] = "is cut short or lies about its length";
 constexpr std::size_t kLongestTypeName = 80;  // in a counter's name: a stranger chose it
 
 // "xsens" of "/xsens/link_states".
@@ -117,12 +117,12 @@ class GraphSource : public Source {
     const auto md5 = connection.find("md5sum");
     const std::string sum = md5 == connection.end() ? "" : md5->second;
     if (sum == ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
-      if (!Decode(raw.bytes, transforms_)) return Reject(index, kUnreadable);
+      if (!Decode(raw.bytes, transforms_)) return Reject(index, kUnreadableMessage);
       if (index > 0) return people_.TakeStatic(transforms_, counters_);
       return people_.Take(transforms_, Now(), counters_, *sink_);
     }
     if (sum == ros::message_traits::md5sum<xsens_mvn_ros_msgs::LinkStateArray>()) {
-      if (!Decode(raw.bytes, link_state_array_)) return Reject(index, kUnreadable);
+      if (!Decode(raw.bytes, link_state_array_)) return Reject(index, kUnreadableMessage);
       return link_states_.Take(link_state_array_, Now(), counters_, *sink_);
     }
     const auto type = connection.find("type");

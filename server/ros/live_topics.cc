@@ -17,11 +17,9 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-constexpr std::chrono::seconds kAskEvery{1};
-constexpr std::chrono::seconds kPatience{3};  // a busy machine's master may take a second to answer
 // Messages that wait for the reading thread before the oldest is dropped. /tf is shared: two
 // seconds of a person at 240 Hz, of whom every transform comes by itself.
-constexpr std::uint32_t kQueue = 2 * 240 * urdf::kSegmentCount;
+constexpr std::uint32_t kSegmentQueue = 2 * 240 * urdf::kSegmentCount;
 
 std::set<std::string> Strings(XmlRpcValue& list) {
   std::set<std::string> strings;
@@ -69,13 +67,13 @@ void LiveTopics::Run() {
     lock.unlock();
     Ask();
     lock.lock();
-    changed_.wait_for(lock, kAskEvery, [&] { return stopping_; });
+    changed_.wait_for(lock, kAskMasterEvery, [&] { return stopping_; });
   }
 }
 
 void LiveTopics::Ask() {
   const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
-  const Standing standing = master_.AskStanding(our_uri, kPatience);
+  const Standing standing = master_.AskStanding(our_uri, kMasterPatience);
   if ((node_ && !ros::ok()) || standing == Standing::kNameTaken) return StopForGood();
   SetMasterAnswers(standing != Standing::kNoAnswer);
   if (standing == Standing::kNoAnswer) return;
@@ -95,7 +93,7 @@ void LiveTopics::Start() {
   for (std::size_t i = 0; i < topics_.size(); ++i) {
     ros::SubscribeOptions options;
     options.initByFullCallbackType<const Event&>(
-        topics_[i], kQueue, [this, i](const Event& event) { on_message_(i, event); });
+        topics_[i], kSegmentQueue, [this, i](const Event& event) { on_message_(i, event); });
     options.callback_queue = &queue_;
     options.transport_hints = ros::TransportHints().tcpNoDelay();
     subscribers_.push_back(node_->subscribe(options));
@@ -107,7 +105,7 @@ void LiveTopics::Register(const std::string& topic) {
   arguments[0] = topic;
   arguments[1] = "*";
   arguments[2] = ros::XMLRPCManager::instance()->getServerURI();
-  MasterReply reply = master_.Call("registerSubscriber", arguments, kPatience);
+  MasterReply reply = master_.Call("registerSubscriber", arguments, kMasterPatience);
   if (reply.code != MasterReply::Code::kGood) return;  // tried again in a second
   MasterClient ourselves(ros::network::getHost(),
                          static_cast<int>(ros::XMLRPCManager::instance()->getServerPort()));
@@ -122,7 +120,7 @@ void LiveTopics::Register(const std::string& topic) {
   update[0] = topic;
   int count = 0;
   for (const std::string& uri : wanted) update[1][count++] = uri;
-  ourselves.Call("publisherUpdate", update, kPatience);
+  ourselves.Call("publisherUpdate", update, kMasterPatience);
 }
 
 std::set<std::string> LiveTopics::Orphans(const std::string& topic,
@@ -150,7 +148,7 @@ std::set<std::string> LiveTopics::Orphans(const std::string& topic,
 std::set<std::string> LiveTopics::ConnectedPublishers(const std::string& topic,
                                                       MasterClient& ourselves) {
   std::set<std::string> uris;
-  MasterReply reply = ourselves.Call("getBusInfo", XmlRpcValue(), kPatience);
+  MasterReply reply = ourselves.Call("getBusInfo", XmlRpcValue(), kMasterPatience);
   if (reply.value.getType() != XmlRpcValue::TypeArray) return uris;
   for (int i = 0; i < reply.value.size(); ++i) {
     // [connection, who, "i" for what comes in, transport, topic, ...]

@@ -30,13 +30,13 @@ bool HasPoints(MarkerType type) {
 }
 
 template <class RosVector>
-Eigen::Vector3d From(const RosVector& v) {
+Eigen::Vector3d FromMarker(const RosVector& v) {
   return {v.x, v.y, v.z};
 }
 
-Eigen::Vector4d From(const std_msgs::ColorRGBA& c) { return {c.r, c.g, c.b, c.a}; }
+Eigen::Vector4d FromMarker(const std_msgs::ColorRGBA& c) { return {c.r, c.g, c.b, c.a}; }
 
-Eigen::Quaterniond From(const geometry_msgs::Quaternion& q) {
+Eigen::Quaterniond FromMarker(const geometry_msgs::Quaternion& q) {
   const Eigen::Quaterniond turn(q.w, q.x, q.y, q.z);
   const double norm = turn.norm();
   // A message in which nobody has set the turn is by far the commonest.
@@ -44,7 +44,7 @@ Eigen::Quaterniond From(const geometry_msgs::Quaternion& q) {
   return Eigen::Quaterniond(turn.coeffs() / norm);  // not finite stays so, and is found
 }
 
-tl::unexpected<Refusal> No(const char* kind, const Marker& message, const std::string& why) {
+tl::unexpected<Refusal> NoMarker(const char* kind, const Marker& message, const std::string& why) {
   return tl::unexpected(Refusal{
       kind,
       fmt::format("marker {}/{}: {}", message.ns.substr(0, kLongestMarkerName), message.id, why)});
@@ -77,18 +77,18 @@ bool AreEqual(const SceneMarker& a, const SceneMarker& b) {
 }  // namespace
 
 Taken<SceneMarker> ToSceneMarker(const Marker& message) {
-  if (const auto excess = FindExcess(message)) return No("too large", message, *excess);
+  if (const auto excess = FindExcess(message)) return NoMarker("too large", message, *excess);
   SceneMarker marker;
   marker.ns = message.ns;
   marker.id = message.id;
   marker.type = static_cast<MarkerType>(message.type);
-  marker.pose = {From(message.pose.position), From(message.pose.orientation)};
-  marker.scale = From(message.scale);
-  marker.color = From(message.color);
+  marker.pose = {FromMarker(message.pose.position), FromMarker(message.pose.orientation)};
+  marker.scale = FromMarker(message.scale);
+  marker.color = FromMarker(message.color);
   if (HasPoints(marker.type)) {
-    for (const auto& point : message.points) marker.points.push_back(From(point));
+    for (const auto& point : message.points) marker.points.push_back(FromMarker(point));
     if (marker.type != MarkerType::kArrow) {
-      for (const auto& color : message.colors) marker.colors.push_back(From(color));
+      for (const auto& color : message.colors) marker.colors.push_back(FromMarker(color));
     }
   }
   if (marker.type == MarkerType::kText) marker.text = message.text;
@@ -96,7 +96,7 @@ Taken<SceneMarker> ToSceneMarker(const Marker& message) {
     marker.mesh_uri = message.mesh_resource;
     marker.mesh_has_own_colors = message.mesh_use_embedded_materials != 0;
   }
-  if (const auto defect = FindDefect(marker)) return No("cannot be drawn", message, *defect);
+  if (const auto defect = FindDefect(marker)) return NoMarker("cannot be drawn", message, *defect);
   return marker;
 }
 
@@ -121,20 +121,21 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
     return std::nullopt;
   }
   if (message.action != Marker::ADD) {
-    return No("unknown action", message,
-              fmt::format("action {}: expected 0 (add or modify), 2 (delete) or 3 (delete all)",
-                          message.action))
+    return NoMarker(
+               "unknown action", message,
+               fmt::format("action {}: expected 0 (add or modify), 2 (delete) or 3 (delete all)",
+                           message.action))
         .value();
   }
   auto shape = ToSceneMarker(message);
   if (!shape) return shape.error();
   const std::size_t freed = old == entries_.end() ? 0 : old->second.shape->points.size();
   if (old == entries_.end() && entries_.size() >= kMostMarkers) {
-    return No("too many", message, fmt::format("there are {} already", kMostMarkers)).value();
+    return NoMarker("too many", message, fmt::format("there are {} already", kMostMarkers)).value();
   }
   if (points_ - freed + shape->points.size() > kMostPointsOfAll) {
-    return No("too many", message,
-              fmt::format("all together would have more than {} points", kMostPointsOfAll))
+    return NoMarker("too many", message,
+                    fmt::format("all together would have more than {} points", kMostPointsOfAll))
         .value();
   }
   points_ = points_ - freed + shape->points.size();

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kMostTopics = 16;
 // Each may be the only one of its marker, so none should be lost while a sample is worked on.
-constexpr std::uint32_t kQueue = 1000;
-constexpr std::size_t kLongestTypeName = 80;  // in a counter's name: a stranger chose it
+constexpr std::uint32_t kMarkerQueue = 1000;
+constexpr std::size_t kLongestMarkerType = 80;  // in a counter's name: a stranger chose it
 
 }  // namespace
 
@@ -67,7 +67,7 @@ void MarkerBox::OnMessage(std::size_t topic, const Event& event, std::int64_t mo
   }
   Refuse(topic, {"another type",
                  fmt::format("messages of {}: expected visualization_msgs/Marker or MarkerArray",
-                             said("type").substr(0, kLongestTypeName))});
+                             said("type").substr(0, kLongestMarkerType))});
 }
 
 void MarkerBox::Take(std::size_t topic, const visualization_msgs::Marker& message,
@@ -132,7 +132,7 @@ std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::Callba
   for (std::size_t topic = 0; topic < box->topics().size(); ++topic) {
     ros::SubscribeOptions options;
     options.initByFullCallbackType<const MarkerBox::Event&>(
-        box->topics()[topic], kQueue, [box, topic](const MarkerBox::Event& event) {
+        box->topics()[topic], kMarkerQueue, [box, topic](const MarkerBox::Event& event) {
           box->OnMessage(topic, event, MonotonicNanos());
         });
     options.callback_queue = &queue;

@@ -27,10 +27,10 @@ void SetColor(const Rgb& rgb, Marker& marker) {
 Eigen::Vector3d Cube(double size) { return Eigen::Vector3d::Constant(size); }
 
 // Writes markers one after another into a message that keeps its memory.
-class Writer {
+class MarkerWriter {
  public:
-  Writer(visualization_msgs::MarkerArray& message, const PersonState& person,
-         const PersonNames& names, const std::string& reference_frame, MarkerFrames frames)
+  MarkerWriter(visualization_msgs::MarkerArray& message, const PersonState& person,
+               const PersonNames& names, const std::string& reference_frame, MarkerFrames frames)
       : message_(message),
         person_(person),
         names_(names),
@@ -95,7 +95,7 @@ geometry_msgs::Point PointAt(const Eigen::Vector3d& position) {
   return point;
 }
 
-void AddSupport(const BodyForces& forces, double floor_z, Writer& out) {
+void AddSupport(const BodyForces& forces, double floor_z, MarkerWriter& out) {
   if (forces.support.size < 2) return;
   constexpr double kLineWidth = 0.006;
   Marker& line = out.AddShape(kSupport, 0, Marker::LINE_STRIP, {kLineWidth, 0, 0}, kSupportColor);
@@ -105,7 +105,7 @@ void AddSupport(const BodyForces& forces, double floor_z, Writer& out) {
   }
 }
 
-void AddFootForces(const BodyForces& forces, Writer& out) {
+void AddFootForces(const BodyForces& forces, MarkerWriter& out) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     const FootForce& foot = forces.feet[side];
     if (!(foot.force.norm() > kLeastForceShown) || !foot.cop.allFinite()) continue;
@@ -114,7 +114,7 @@ void AddFootForces(const BodyForces& forces, Writer& out) {
   }
 }
 
-void AddHeld(const PersonState& person, Writer& out) {
+void AddHeld(const PersonState& person, MarkerWriter& out) {
   const HeldSolids held = HeldBy(person);
   for (std::size_t i = 0; i < held.count; ++i) {
     const HeldSolid& solid = held.solids[i];
@@ -133,7 +133,7 @@ void AddHeld(const PersonState& person, Writer& out) {
 void FillMarkers(const PersonState& person, const PersonNames& names,
                  const std::string& reference_frame, MarkerFrames frames, double floor_z,
                  visualization_msgs::MarkerArray& message) {
-  Writer out(message, person, names, reference_frame, frames);
+  MarkerWriter out(message, person, names, reference_frame, frames);
   const double stature = person.model->human.skeleton.height;
   for (const JointLoad& load : person.loads) {
     Marker& sphere =

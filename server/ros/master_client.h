@@ -10,6 +10,10 @@
 
 namespace kinescope::ros_bridge {
 
+inline constexpr std::chrono::seconds kAskMasterEvery{1};  // whether it still knows us
+inline constexpr std::chrono::seconds kMasterPatience{
+    3};  // a busy machine's master may take a second to answer
+
 struct MasterReply {
   enum class Code {
     kNoAnswer,  // nothing listens there, or it did not answer in time

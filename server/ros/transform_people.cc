@@ -6,7 +6,7 @@
 namespace kinescope::ros_bridge {
 namespace {
 
-constexpr char kNotWhole[] = "sample without all 23 segments";
+constexpr char kIncompleteTransforms[] = "sample without all 23 segments";
 constexpr char kNoTree[] = "sample whose frames have no common parent";
 constexpr char kNaming[] = "message on /tf while the names of its frames come in";
 constexpr char kNobody[] = "message on /tf without a person's segment";
@@ -51,7 +51,7 @@ void TransformPeople::Take(const tf2_msgs::TFMessage& message, const Arrival& ar
     if (!known) continue;
     known->record_nanos = arrival.stamp_nanos;
     if (people_[static_cast<std::size_t>(index)].transforms.Add(*known)) {
-      ++counters.rejected[kNotWhole];
+      ++counters.rejected[kIncompleteTransforms];
     }
   }
   if (touched_.empty()) ++counters.ignored[new_name_at_ ? kNaming : kNobody];
@@ -83,7 +83,7 @@ void TransformPeople::AddStatic(const geometry_msgs::TransformStamped& transform
 
 void TransformPeople::End(SourceCounters& counters) {
   for (const Person& person : people_) {
-    if (person.transforms.End()) ++counters.rejected[kNotWhole];
+    if (person.transforms.End()) ++counters.rejected[kIncompleteTransforms];
   }
 }
 

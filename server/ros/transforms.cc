@@ -12,9 +12,10 @@ using Eigen::Vector3d;
 using urdf::Pose;
 
 // Writes transforms one after another into a message that keeps its memory.
-class Writer {
+class TransformWriter {
  public:
-  Writer(tf2_msgs::TFMessage& message, const std::string& reference_frame, const ros::Time& stamp)
+  TransformWriter(tf2_msgs::TFMessage& message, const std::string& reference_frame,
+                  const ros::Time& stamp)
       : message_(message), reference_frame_(reference_frame), stamp_(stamp) {}
 
   void Add(const std::string& parent, const std::string& child, const Pose& parent_from_child) {
@@ -47,7 +48,7 @@ std::array<Pose, 2> Between(const PersonState& person, int joint) {
   return {Pose{origin, after_y}, Pose{origin, after_y * AngleAxisd(angles.x(), Vector3d::UnitX())}};
 }
 
-void WriteFlat(const PersonState& person, const PersonNames& names, Writer& out) {
+void WriteFlat(const PersonState& person, const PersonNames& names, TransformWriter& out) {
   for (const int segment : SegmentsByName()) {
     out.AddToReference(names.links[At(segment)], person.links[At(segment)]);
   }
@@ -59,7 +60,7 @@ void WriteFlat(const PersonState& person, const PersonNames& names, Writer& out)
   }
 }
 
-void WriteTree(const PersonState& person, const PersonNames& names, Writer& out) {
+void WriteTree(const PersonState& person, const PersonNames& names, TransformWriter& out) {
   for (const int segment : SegmentsByName()) {
     const Pose& link = person.links[At(segment)];
     if (segment == urdf::kPelvis) {
@@ -85,7 +86,7 @@ struct Frame {
   const Pose& pose;
 };
 
-void Put(TfShape shape, const Frame& parent, const Frame& child, Writer& out) {
+void Put(TfShape shape, const Frame& parent, const Frame& child, TransformWriter& out) {
   if (shape == TfShape::kFlat) {
     out.AddToReference(child.name, child.pose);
   } else {
@@ -94,7 +95,7 @@ void Put(TfShape shape, const Frame& parent, const Frame& child, Writer& out) {
 }
 
 void WriteGlove(const PersonState& person, const PersonNames& names, urdf::Side side, TfShape shape,
-                Writer& out) {
+                TransformWriter& out) {
   const GloveState& glove = *person.gloves[side];
   const std::size_t hand = At(urdf::HandSegmentOf(side));
   for (int finger = 0; finger < kFingersPerHand; ++finger) {
@@ -119,7 +120,7 @@ void WriteGlove(const PersonState& person, const PersonNames& names, urdf::Side 
 }
 
 void WriteProp(const PersonState& person, const PersonNames& names, int prop, TfShape shape,
-               Writer& out) {
+               TransformWriter& out) {
   const std::size_t index = At(PropIndex(prop));
   const PropState& state = *person.props[At(prop)];
   const Pose& pelvis = person.links[urdf::kPelvis];
@@ -153,7 +154,8 @@ std::size_t CountExtra(const PersonState& person) {
   return count;
 }
 
-void WriteExtra(const PersonState& person, const PersonNames& names, TfShape shape, Writer& out) {
+void WriteExtra(const PersonState& person, const PersonNames& names, TfShape shape,
+                TransformWriter& out) {
   for (const urdf::Side side : {urdf::kLeft, urdf::kRight}) {
     if (person.gloves[side]) WriteGlove(person, names, side, shape, out);
   }
@@ -181,7 +183,7 @@ void FillTransforms(const PersonState& person, const PersonNames& names,
                     const std::string& reference_frame, TfShape shape,
                     tf2_msgs::TFMessage& message) {
   message.transforms.resize(urdf::kSegmentCount + 2 * urdf::kJointCount + CountExtra(person));
-  Writer out(message, reference_frame, StampOf(person.sample));
+  TransformWriter out(message, reference_frame, StampOf(person.sample));
   if (shape == TfShape::kFlat) {
     WriteFlat(person, names, out);
   } else {

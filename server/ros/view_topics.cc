@@ -19,7 +19,7 @@ namespace {
 constexpr char kImage[] = "view/image_raw";
 constexpr char kCameraInfo[] = "view/camera_info";
 // A subscriber that is slower than the pictures come gets the newest.
-constexpr std::uint32_t kQueue = 2;
+constexpr std::uint32_t kViewQueue = 2;
 
 // Something to do on the thread that calls the queue.
 class Errand : public ros::CallbackInterface {
@@ -80,14 +80,14 @@ void ViewTopics::Parts::AdvertiseCamera(const ros::NodeHandle& node) {
   };
   const ros::SubscriberStatusCallback info_come = [this](const auto&) { OnConnection(true); };
   const ros::SubscriberStatusCallback info_go = [this](const auto&) { OnConnection(false); };
-  camera = transport.advertiseCamera(kImage, kQueue, image_come, image_go, info_come, info_go);
+  camera = transport.advertiseCamera(kImage, kViewQueue, image_come, image_go, info_come, info_go);
 }
 
 void ViewTopics::Parts::AdvertisePlain(ros::NodeHandle& node) {
   const ros::SubscriberStatusCallback come = [this](const auto&) { OnConnection(true); };
   const ros::SubscriberStatusCallback go = [this](const auto&) { OnConnection(false); };
-  plain_image = node.advertise<sensor_msgs::Image>(kImage, kQueue, come, go);
-  plain_info = node.advertise<sensor_msgs::CameraInfo>(kCameraInfo, kQueue, come, go);
+  plain_image = node.advertise<sensor_msgs::Image>(kImage, kViewQueue, come, go);
+  plain_info = node.advertise<sensor_msgs::CameraInfo>(kCameraInfo, kViewQueue, come, go);
 }
 
 ViewTopics::ViewTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue,
@@ -99,7 +99,7 @@ ViewTopics::ViewTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue,
   parts_->reference_frame = std::move(reference_frame);
   parts_->optical_frame = OpticalFrame(own.resolveName("view"));
   parts_->on_listeners = std::move(on_listeners);
-  parts_->tf = own.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
+  parts_->tf = own.advertise<tf2_msgs::TFMessage>("/tf", kViewQueue);
   try {
     parts_->AdvertiseCamera(own);
   } catch (const std::exception& problem) {  // pluginlib's and image_transport's own

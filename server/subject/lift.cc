@@ -11,16 +11,15 @@ using Eigen::Vector3d;
 using urdf::Side;
 
 constexpr double kPeriodSecs = 8;
-constexpr double kDegree = M_PI / 180;
 
 constexpr double kGripHalfWidth = 0.16;
 constexpr double kGripBelowWrist = 0.080;
 constexpr double kToeIn = 12 * kDegree;  // of the hands round the box
 
-struct Stance {
+struct LiftStance {
   double x, y, toe_out;
 };
-constexpr std::array<Stance, 2> kStance = {
+constexpr std::array<LiftStance, 2> kStance = {
     {{-0.03, -0.120, -25 * kDegree}, {0.03, 0.120, 22 * kDegree}}};
 
 Curve Schedule(std::vector<Curve::Key> keys) { return {kPeriodSecs, std::move(keys)}; }
@@ -114,7 +113,7 @@ void Lift::PlaceTrunk(const Jet& time, Posture& posture) const {
 }
 
 void Lift::PlaceLeg(Side side, Posture& posture) const {
-  const Stance& stance = kStance[side];
+  const LiftStance& stance = kStance[side];
   const int foot = side == urdf::kRight ? urdf::kRightFoot : urdf::kLeftFoot;
   const JetVector ankle =
       Constant({scale_ * stance.x, scale_ * stance.y, -skeleton_.heel_in_foot[side].z()});

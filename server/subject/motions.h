@@ -3,12 +3,15 @@
 /// fast.
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "server/subject/posture.h"
 #include "urdf/skeleton.h"
 
 namespace kinescope::subject {
+
+inline constexpr double kDegree = M_PI / 180;
 
 /// Poses one skeleton over time. Borrows the skeleton; any thread, no state.
 class Choreography {
@@ -29,8 +32,8 @@ enum class Arms { kHanging, kSideways };
 std::unique_ptr<Choreography> MakeStand(const urdf::Skeleton& skeleton, Arms arms);
 
 enum class Held { kSquat, kOverhead, kSit };
-/// Deep in the knees with arms forward; upright with arms raised; as on a chair, which is not there:
-/// the feet carry everything.
+/// Deep in the knees with arms forward; upright with arms raised; as on a chair, which is not
+/// there: the feet carry everything.
 std::unique_ptr<Choreography> MakeHold(const urdf::Skeleton& skeleton, Held posture);
 
 }  // namespace kinescope::subject

@@ -7,8 +7,6 @@ namespace {
 using Eigen::Vector3d;
 using urdf::Side;
 
-constexpr double kDegree = M_PI / 180;
-
 // Metres of a person of 1.75 m, degrees.
 struct Stance {
   Vector3d pelvis;

@@ -3,7 +3,7 @@
 namespace kinescope::subject {
 namespace {
 
-JetQuaternion Constant(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+JetQuaternion ConstantTurn(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 class Stand final : public Choreography {
  public:
@@ -17,7 +17,7 @@ class Stand final : public Choreography {
                         JetQuaternion::Identity());
     for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
       // A segment frame is identity in the T-pose, a link frame in the N-pose.
-      posture.Orient(segment, arms_ == Arms::kSideways ? Constant(urdf::SegmentFromLink(segment))
+      posture.Orient(segment, arms_ == Arms::kSideways ? ConstantTurn(urdf::SegmentFromLink(segment))
                                                        : JetQuaternion::Identity());
     }
     return posture;

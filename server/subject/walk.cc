@@ -12,7 +12,6 @@ namespace {
 using Eigen::Vector3d;
 using urdf::Side;
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kRadius = 1.5;    // m, of the path of the pelvis
 constexpr double kSpeed = 1.2;     // m/s along it
 constexpr int kStridesPerLap = 7;  // whole, so that every lap treads in the same footprints

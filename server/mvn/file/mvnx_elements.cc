@@ -6,7 +6,7 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr std::string_view kWhiteSpace = " \t\r\n";
-constexpr double kLargestNumber = 1e6;  // as in the stream: beyond anything a human does
+constexpr double kLargestMvnxNumber = 1e6;  // as in the stream: beyond anything a human does
 
 struct Rule {
   Element parent;
@@ -73,7 +73,7 @@ std::string ParseNumbers(std::string_view text, std::vector<double>& numbers) {
              "' is not a number";
     }
     if (!std::isfinite(number)) return "a number is NaN or infinite";
-    if (std::abs(number) > kLargestNumber) {
+    if (std::abs(number) > kLargestMvnxNumber) {
       return std::to_string(number) + " is beyond anything a human does";
     }
     numbers.push_back(number);

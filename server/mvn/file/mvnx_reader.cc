@@ -12,11 +12,11 @@
 namespace kinescope::mvn {
 namespace {
 
-constexpr int kChunkBytes = 64 * 1024;
+constexpr int kMvnxChunkBytes = 64 * 1024;
 constexpr std::size_t kLongestText = 1 << 18;  // a list of a body with two gloves has 8 kB
 constexpr std::int64_t kLongestTag = 1 << 20;  // expat holds a tag in memory until it is whole
 constexpr std::size_t kDeepest = 32;
-constexpr std::size_t kMostSegments = 128;
+constexpr std::size_t kMostMvnxSegments = 128;
 constexpr std::size_t kMostJoints = 256;
 constexpr std::size_t kMostPoints = 4096;
 constexpr std::size_t kMostContacts = 64;
@@ -76,7 +76,7 @@ class MvnxReader::Parser {
       suspended_ = status == XML_STATUS_SUSPENDED;
       if (status == XML_STATUS_ERROR) Throw();
       if (status == XML_STATUS_OK && at_end_) finished_ = true;
-      if (bytes_read_ - XML_GetCurrentByteIndex(expat_.get()) > kLongestTag + kChunkBytes) {
+      if (bytes_read_ - XML_GetCurrentByteIndex(expat_.get()) > kLongestTag + kMvnxChunkBytes) {
         Refuse("a tag is longer than a megabyte");
       }
     }
@@ -95,15 +95,15 @@ class MvnxReader::Parser {
 
  private:
   XML_Status Feed() {
-    void* const buffer = XML_GetBuffer(expat_.get(), kChunkBytes);
+    void* const buffer = XML_GetBuffer(expat_.get(), kMvnxChunkBytes);
     if (buffer == nullptr) Refuse("not enough memory to read on");
-    const std::size_t size = std::fread(buffer, 1, kChunkBytes, file_.get());
+    const std::size_t size = std::fread(buffer, 1, kMvnxChunkBytes, file_.get());
     if (std::ferror(file_.get()) != 0) {
       Refuse("the file breaks off here, after " + std::to_string(frames_) +
              " frames: " + file_.failure() + "; copy or export it again");
     }
     bytes_read_ += static_cast<std::int64_t>(size);
-    at_end_ = size < static_cast<std::size_t>(kChunkBytes);
+    at_end_ = size < static_cast<std::size_t>(kMvnxChunkBytes);
     return XML_ParseBuffer(expat_.get(), static_cast<int>(size), at_end_ ? 1 : 0);
   }
 
@@ -191,7 +191,7 @@ class MvnxReader::Parser {
   }
 
   void OnSegment(const char** attributes) {
-    if (header_.segments.size() >= kMostSegments) return Fail("too many segments");
+    if (header_.segments.size() >= kMostMvnxSegments) return Fail("too many segments");
     header_.segments.push_back(urdf::FindSegment(FindText(attributes, "label")));
   }
 

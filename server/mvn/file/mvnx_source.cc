@@ -5,15 +5,14 @@
 #include <string_view>
 #include <utility>
 
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/mvn/open.h"
 
 namespace kinescope::mvn {
 namespace {
 
-constexpr double kNormTolerance = 1e-3;
-constexpr std::int64_t kNanosPerMilli = 1'000'000;
-constexpr double kNanosPerSecond = 1e9;
+constexpr double kMvnxNormTolerance = 1e-3;
 constexpr std::int64_t kFirstMillisWithoutClock = 1000;
 constexpr std::int64_t kLatestMillis = 4'102'444'800'000;  // the year 2100
 constexpr std::int64_t kLargestIndex = 0xFFFFFFFF;         // what a sample counter can hold
@@ -183,7 +182,7 @@ void MvnxSource::FillSegments(BodySample& sample) {
     const auto segment = static_cast<std::size_t>(*header.segments[i]);
     const double* const q = &orientation[4 * i];
     Eigen::Quaterniond turned(q[0], q[1], q[2], q[3]);
-    if (std::abs(turned.norm() - 1.0) > kNormTolerance) {
+    if (std::abs(turned.norm() - 1.0) > kMvnxNormTolerance) {
       reader_.Refuse("orientation of " + std::string(urdf::kSegments[segment].mvn_name) +
                      " is not a unit quaternion");
     }

@@ -6,13 +6,13 @@
 #include <array>
 #include <utility>
 
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/mvn/net/net_url.h"
 
 namespace kinescope::mvn {
 namespace {
 
-constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 constexpr std::int64_t kLatestSecond = 0xFFFFFFFF;  // what the classic format can hold: 2106
 
 constexpr const char* kWayOut = "; record or copy it again (`capinfos FILE` says more)";

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "server/core/check.h"
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/mvn/file/packet.h"
 
@@ -21,8 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kFlushBytes = 64 * 1024;
-constexpr int kLongestPacket = 1 << 18;  // libpcap's own limit
-constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
+constexpr int kLongestPacket = 1 << 18;                              // libpcap's own limit
 constexpr std::int64_t kLatestNanos = 0xFFFFFFFF * kNanosPerSecond;  // what the format can hold
 
 std::string Number(std::uint64_t count, const char* noun) {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/mvn/datagram.h"
 
@@ -11,7 +12,6 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr std::size_t kChunkBytes = 64 * 1024;
-constexpr std::int64_t kNanosPerMilli = 1'000'000;
 
 std::optional<std::uint32_t> TimeCodeOf(std::string_view datagram) {
   const auto header = ParseHeader(datagram);

@@ -33,13 +33,13 @@ constexpr Magic kRelatives[] = {
 constexpr const char* kRecordings =
     "MVNX, a capture (pcap, pcapng), MVN datagrams one after the other (.bin) or a ROS bag";
 
-bool StartsWith(std::string_view text, std::string_view start) {
+bool BeginsWith(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
 }
 
 bool IsXml(std::string_view head) {
   for (const auto mark : {"\xef\xbb\xbf"sv, "\xff\xfe"sv, "\xfe\xff"sv}) {
-    if (StartsWith(head, mark)) return true;
+    if (BeginsWith(head, mark)) return true;
   }
   const std::size_t first = head.find_first_not_of(" \t\r\n");
   return first != std::string_view::npos && head[first] == '<';
@@ -53,9 +53,9 @@ bool HasDatagram(std::string_view head) { return FindIdString(head, 0) != head.n
 RecordingKind KindOf(std::string_view head) {
   if (head.empty()) return RecordingKind::kEmpty;
   for (const std::string_view magic : kCaptures) {
-    if (StartsWith(head, magic)) return RecordingKind::kPcap;
+    if (BeginsWith(head, magic)) return RecordingKind::kPcap;
   }
-  if (StartsWith(head, "#ROSBAG")) return RecordingKind::kRosBag;
+  if (BeginsWith(head, "#ROSBAG")) return RecordingKind::kRosBag;
   // Before XML: sync text in XML may be the first that a stream sends.
   if (HasDatagram(head)) return RecordingKind::kDatagrams;
   if (IsXml(head)) return RecordingKind::kMvnx;
@@ -67,7 +67,7 @@ std::string DescribeUnfit(const std::string& path, std::string_view head,
   const std::string name = NameOfInput(path);
   if (head.empty()) return name + ": the file is empty";
   for (const Magic& magic : kRelatives) {
-    if (StartsWith(head, magic.bytes)) return name + ": is " + magic.name;
+    if (BeginsWith(head, magic.bytes)) return name + ": is " + magic.name;
   }
   return name + ": its first bytes are those of no recording; expected " + wanted;
 }

@@ -9,7 +9,7 @@ namespace {
 constexpr std::int32_t kFarthestAhead = 10'000;  // while the time code cannot tell: 40 s at 240 Hz
 constexpr std::int32_t kNextMillis = 2'000;      // from the first to the second frame of a new run
 constexpr double kMostIrregular = 0.02;          // steps shorter than usual, of all
-constexpr int kPatience = 256;                   // datagrams that a doubt may wait for the next
+constexpr int kFramePatience = 256;              // datagrams that a doubt may wait for the next
 
 }  // namespace
 
@@ -17,7 +17,7 @@ void FrameTrack::Add(int type, std::uint32_t counter, std::uint32_t time_code_mi
                      const Arrival& arrival) {
   if (!BelongsHere(counter, time_code_millis)) {
     if (!ConfirmsRestart(type, counter, time_code_millis, arrival)) return;
-  } else if (doubt_ && ++doubt_->others_since > kPatience) {
+  } else if (doubt_ && ++doubt_->others_since > kFramePatience) {
     doubt_.reset();
   }
   Take(type, counter, time_code_millis, arrival);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLargestPort = 65535;
 
-[[noreturn]] void Refuse(std::string_view url, const std::string& why) {
+[[noreturn]] void RefuseUrl(std::string_view url, const std::string& why) {
   throw SourceError(std::string(url) + ": " + why);
 }
 
@@ -26,12 +26,12 @@ std::uint16_t ParsePort(std::string_view url, std::string_view text) {
   const char* const end = text.data() + text.size();
   const auto parsed = std::from_chars(text.data(), end, port);
   if (text.empty() || parsed.ec == std::errc::invalid_argument || parsed.ptr != end) {
-    Refuse(url, "'" + std::string(text) + "' is no port; expected a whole number, such as 9763");
+    RefuseUrl(url, "'" + std::string(text) + "' is no port; expected a whole number, such as 9763");
   }
   if (parsed.ec != std::errc() || port < 0 || port > kLargestPort) {
-    Refuse(url, "port " + std::string(text) +
-                    " is out of range; ports are 1 to 65535 (MVN sends to 9763), "
-                    "and 0 takes a free one");
+    RefuseUrl(url, "port " + std::string(text) +
+                       " is out of range; ports are 1 to 65535 (MVN sends to 9763), "
+                       "and 0 takes a free one");
   }
   return static_cast<std::uint16_t>(port);
 }
@@ -51,25 +51,25 @@ void ParseHostAndPort(std::string_view url, std::string_view rest, NetUrl& parse
   if (!rest.empty() && rest.front() == '[') {
     const std::size_t bracket = rest.find(']');
     if (bracket == std::string_view::npos) {
-      Refuse(url, "the bracket is not closed; expected " + scheme + "://[::1]:9763");
+      RefuseUrl(url, "the bracket is not closed; expected " + scheme + "://[::1]:9763");
     }
     parsed.host = rest.substr(1, bracket - 1);
     rest.remove_prefix(bracket + 1);
     if (!rest.empty() && rest.front() != ':') {
-      Refuse(url,
-             "'" + std::string(rest) + "' after the bracket; expected " + scheme + "://[::1]:9763");
+      RefuseUrl(url, "'" + std::string(rest) + "' after the bracket; expected " + scheme +
+                         "://[::1]:9763");
     }
   } else {
     const std::size_t colon = rest.find(':');
     parsed.host = rest.substr(0, colon);
     rest.remove_prefix(parsed.host.size());
     if (rest.find(':', 1) != std::string_view::npos) {
-      Refuse(url, "an IPv6 address needs brackets: " + scheme + "://[::1]:9763");
+      RefuseUrl(url, "an IPv6 address needs brackets: " + scheme + "://[::1]:9763");
     }
   }
   if (parsed.host.find_first_of("/ \t\r\n?#@") != std::string::npos) {
-    Refuse(url, "'" + parsed.host + "' is no host; expected " + scheme + "://host:port, such as " +
-                    scheme + "://:9763");
+    RefuseUrl(url, "'" + parsed.host + "' is no host; expected " + scheme +
+                       "://host:port, such as " + scheme + "://:9763");
   }
   if (!rest.empty()) parsed.port = ParsePort(url, rest.substr(1));
 }
@@ -81,14 +81,15 @@ NetUrl::Mode ParseMode(std::string_view url, std::string_view query, const NetUr
     return listens ? Mode::kListen : Mode::kConnect;
   }
   if (query != "?listen" && query != "?connect") {
-    Refuse(url, "'" + std::string(query) + "' is not known; expected ?listen, ?connect or nothing");
+    RefuseUrl(url,
+              "'" + std::string(query) + "' is not known; expected ?listen, ?connect or nothing");
   }
   if (parsed.protocol == Protocol::kUdp) {
-    Refuse(url, "UDP has no connections; leave out '" + std::string(query) + "', or use tcp://");
+    RefuseUrl(url, "UDP has no connections; leave out '" + std::string(query) + "', or use tcp://");
   }
   if (query == "?listen") return Mode::kListen;
   if (IsAnyAddress(parsed.host)) {
-    Refuse(url, "no host to connect to; expected one, such as tcp://192.168.1.20:9763");
+    RefuseUrl(url, "no host to connect to; expected one, such as tcp://192.168.1.20:9763");
   }
   return Mode::kConnect;
 }
@@ -103,9 +104,9 @@ NetUrl ParseNetUrl(std::string_view url) {
   constexpr std::size_t kPrefixBytes = 6;  // "udp://"
   const std::string_view prefix = url.substr(0, kPrefixBytes);
   if (prefix != "udp://" && prefix != "tcp://") {
-    Refuse(url,
-           "no network address; expected udp://host:port or tcp://host:port, such as "
-           "udp://:9763");
+    RefuseUrl(url,
+              "no network address; expected udp://host:port or tcp://host:port, such as "
+              "udp://:9763");
   }
   NetUrl parsed;
   parsed.protocol = prefix == "udp://" ? Protocol::kUdp : Protocol::kTcp;

@@ -9,10 +9,11 @@
 #include <cstring>
 #include <utility>
 
+#include "server/core/clocks.h"
+
 namespace kinescope::mvn {
 namespace {
 
-constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 constexpr std::int64_t kBetweenAttempts = kNanosPerSecond;
 // A host that is switched off does not answer at all; the kernel would try for two minutes.
 constexpr std::int64_t kLongestAttempt = 5 * kNanosPerSecond;

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <utility>
 
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/mvn/stream_framer.h"
 
@@ -15,7 +16,6 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr std::size_t kReadBytes = 65536;
-constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 
 // Errors of accept() that say nothing about the next connection.
 bool IsPassing(int error) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/mvn/datagram_extent.h"
 #include "server/mvn/net/socket.h"
@@ -22,7 +23,6 @@ constexpr std::size_t kMostReceivers = 16;
 // A second of one person with all messages. More would only make what arrives older.
 constexpr std::size_t kQueueBytes = 1 << 20;
 constexpr int kSendBufferBytes = 256 << 10;
-constexpr std::int64_t kNanosPerMilli = 1'000'000;
 // How long the first connection may take, and the last bytes.
 constexpr std::int64_t kPatience = 1000 * kNanosPerMilli;
 

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/core/clocks.h"
 #include "server/core/errors.h"
 #include "server/mvn/datagram.h"
 
@@ -23,7 +24,6 @@ namespace {
 constexpr int kReceiveBufferBytes = 8 << 20;
 constexpr unsigned kBatchSize = 32;
 constexpr int kBatchesPerPoll = 16;  // then the caller gets its turn, however fast input comes
-constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 
 // What the kernel says beside a datagram, by its level and type.
 template <class Value>
