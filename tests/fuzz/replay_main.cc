@@ -1,26 +1,41 @@
-// Runs a fuzz entry over every file of the folders given, where no fuzzing engine is linked in.
+// Runs one fuzz entry over every file of a folder, where no fuzzing engine is linked in: fuzz_replay ENTRY FOLDER
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <string>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+// tests/fuzz/CMakeLists.txt renames LLVMFuzzerTestOneInput of each source.
+using Entry = int(const std::uint8_t* data, std::size_t size);
+extern "C" Entry Fuzz_assembler, Fuzz_datagram, Fuzz_framing, Fuzz_http_target, Fuzz_loads, Fuzz_mesh_file, Fuzz_mvnx,
+    Fuzz_page_message, Fuzz_pcap, Fuzz_scale, Fuzz_urdf;
 
 int main(int argc, char** argv) {
+  const std::map<std::string, Entry*> entries = {
+      {"assembler", &Fuzz_assembler}, {"datagram", &Fuzz_datagram},
+      {"framing", &Fuzz_framing},     {"http_target", &Fuzz_http_target},
+      {"loads", &Fuzz_loads},         {"mesh_file", &Fuzz_mesh_file},
+      {"mvnx", &Fuzz_mvnx},           {"page_message", &Fuzz_page_message},
+      {"pcap", &Fuzz_pcap},           {"scale", &Fuzz_scale},
+      {"urdf", &Fuzz_urdf},
+  };
+  const auto entry = argc == 3 ? entries.find(argv[1]) : entries.end();
+  if (entry == entries.end()) {
+    std::fprintf(stderr, "usage: fuzz_replay ENTRY FOLDER\n");
+    return 2;
+  }
   int files = 0;
-  for (int i = 1; i < argc; ++i) {
-    for (const auto& entry : std::filesystem::directory_iterator(argv[i])) {
-      std::ifstream in(entry.path(), std::ios::binary);
-      const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-      // Named first: when an entry aborts, the last line says which file did it.
-      std::printf("%s\n", entry.path().c_str());
-      std::fflush(stdout);
-      LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-      ++files;
-    }
+  for (const auto& file : std::filesystem::directory_iterator(argv[2])) {
+    std::ifstream in(file.path(), std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+    // Named first: when an entry aborts, the last line tells which file did it.
+    std::printf("%s\n", file.path().c_str());
+    std::fflush(stdout);
+    entry->second(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
+    ++files;
   }
   std::printf("%d files replayed\n", files);
   return files > 0 ? 0 : 1;  // an empty corpus would test nothing

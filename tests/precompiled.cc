@@ -1,0 +1,2 @@
+// Nothing: a program from which the tests have their precompiled header.
+int main() {}
