@@ -1,14 +1,17 @@
 // Wires the page: connection -> scene, readings, load list, picture.
-import { cameraLabel, centimetres, hexColor, kilonewtons, latency, rate, shortCameraLabel, timeCode }
-  from './format.js';
 import { RecentValues } from './clock.js';
 import { Connection } from './connection.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
-import { heldText, mountHandLoad } from './hand_load.js';
+import { findElements } from './elements.js';
+import { cameraLabel, hexColor, latency, rate, shortCameraLabel, timeCode } from './format.js';
+import { mountHandLoad } from './hand_load.js';
 import { lampOf } from './lamp.js';
-import { fillLegend, mountLoadList, rowsOf } from './load_list.js';
+import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
+import { readCameras, readDiagnostics, readModel } from './messages.js';
 import { PicturePanel } from './picture_panel.js';
+import { readingsOf } from './readings.js';
 import { Scene } from './scene.js';
+import { ask, messageOf } from './server_api.js';
 import { decodeState } from './state_codec.js';
 
 const READINGS_MILLIS = 150;  // faster than that nobody reads
@@ -17,16 +20,16 @@ const MODEL_RETRY_MILLIS = 1000;
 const DIAGNOSTICS_MILLIS = 3000;
 const START_VIEW = 'three_quarter';
 
-const element = (/** @type {string} */ id) => /** @type {any} */ (document.getElementById(id));
+const elements = findElements(document);
 
 /** @type {import('./state_codec.js').State|null} */
 let state = null;
 /** @type {ArrayBuffer|null} */
 let newest = null;  // not decoded yet: of several that come between two frames, only the last is
 let stateChangedAt = 0;  // browser clock, when the number grew last
-let details = { source: '', camera: '', has_pictures: true, people: /** @type {any[]} */ ([]),
-  objects: /** @type {any[]} */ ([]) };
-/** @type {any} */
+/** @type {import('./messages.js').Details} */
+let details = { source: '', camera: '', has_pictures: true, people: [], objects: [] };
+/** @type {import('./messages.js').Model|null} */
 let model = null;
 let modelAskedAt = -Infinity;
 let notice = { text: '', until: 0 };
@@ -34,30 +37,30 @@ const latencies = new RecentValues();
 
 forgetTokenInAddress();
 const scene = makeScene();
-const showLoads = mountLoadList(element('loads'));
-const showProblems = mountDiagnostics(element('diagnostics'), element('problems'));
+const showLoads = mountLoadList(elements.loads);
+const showProblems = mountDiagnostics(elements.diagnostics, elements.problems);
 const connection = new Connection({
   onState: (buffer) => { newest = buffer; },
   onPicture: (buffer) => picture.show(buffer),
-  onDetails(told) {
-    details = told;
-    picture.setDetails(told);
-    scene?.setObjectNames(told.objects);
+  onDetails(newDetails) {
+    details = newDetails;
+    picture.setDetails(details);
+    scene?.setObjectNames(details.objects);
   },
-  onError: say,
+  onError: showNotice,
   onOpen() {
     picture.ask();
     loadCameras();
   },
 });
 const picture = new PicturePanel({
-  image: element('picture-image'), note: element('picture-note'), on: element('picture-on'),
-  camera: element('picture-camera'), save: element('save-picture'),
-}, (command) => connection.send(command), say);
-mountHandLoad({ form: element('hand-load'), hand: element('hand'), mass: element('hand-kg') },
-  () => details.people[0], say);
+  image: elements['picture-image'], note: elements['picture-note'], on: elements['picture-on'],
+  camera: elements['picture-camera'], save: elements['save-picture'],
+}, (command) => connection.send(command), showNotice);
+mountHandLoad({ form: elements['hand-load'], hand: elements.hand, mass: elements['hand-kg'] },
+  () => details.people[0], showNotice);
 // Pictures cost the server drawing and a phone its data: there they are asked for by hand.
-element('picture-on').checked = scene === null || matchMedia('(min-width: 900px)').matches;
+elements['picture-on'].checked = scene === null || matchMedia('(min-width: 900px)').matches;
 requestAnimationFrame(onFrame);
 setInterval(showReadings, READINGS_MILLIS);
 setInterval(loadDiagnostics, DIAGNOSTICS_MILLIS);
@@ -73,18 +76,18 @@ function forgetTokenInAddress() {
 
 function makeScene() {
   try {
-    return new Scene(element('view'), { onOrbit: () => markView('') });
+    return new Scene(elements.view, { onOrbit: () => markView('') });
   } catch {
     const note = document.createElement('p');
     note.className = 'no-webgl';
     note.textContent = 'This browser offers no WebGL. The server’s own picture shows the human instead.';
-    element('view').append(note);
+    elements.view.append(note);
     return null;
   }
 }
 
 /** @param {string} text */
-function say(text) {
+function showNotice(text) {
   notice = { text, until: performance.now() + NOTICE_MILLIS };
 }
 
@@ -109,7 +112,7 @@ function takeNewest(now) {
   try {
     state = decodeState(buffer);
   } catch (error) {
-    say(/** @type {Error} */ (error).message);
+    showNotice(messageOf(error));
     return false;
   }
   if (state.number !== before) stateChangedAt = now;
@@ -121,6 +124,7 @@ function takeNewest(now) {
 function lampNow() {
   const now = performance.now();
   const serverNow = connection.clock.at(now);
+  /** @type {number|null} */
   let ageMillis = null;
   if (state && state.arrivalMicros > 0 && serverNow !== null) {
     ageMillis = serverNow - state.arrivalMicros / 1000;
@@ -143,28 +147,28 @@ async function loadModel(now) {
   if (now - modelAskedAt < MODEL_RETRY_MILLIS) return;
   modelAskedAt = now;
   try {
-    const answer = await fetch('api/model');
-    if (!answer.ok) throw new Error((await answer.json()).error);
-    model = await answer.json();
+    const newModel = await ask('api/model', readModel);
+    if (newModel === null) return;
+    model = newModel;
     applyPalette(model.palette);
-    fillLegend(element('legend'), model.class_limits);
+    fillLegend(elements.legend, model.class_limits);
     scene?.setModel(model);
     if (state) scene?.update(state, lampNow().level === 'live');
   } catch (error) {
-    say(`The human’s model did not load: ${/** @type {Error} */ (error).message}`);
+    showNotice(`The human’s model did not load: ${messageOf(error)}`);
   }
 }
 
-/** Asked for seldom, and only while somebody looks. */
+/** Asked for seldom, and only while the page is visible. */
 async function loadDiagnostics() {
   if (document.hidden) return;
   const answer = await fetch('api/diagnostics').catch(() => null);  // the lamp tells of a server that is gone
   if (!answer?.ok) return;
-  showProblems(problemLines(await answer.json(), scene?.failedMeshes ?? []));
+  showProblems(problemLines(readDiagnostics(await answer.json(), 'api/diagnostics'), scene?.failedMeshes ?? []));
 }
 
 /** The class colours come from the server, so that page, picture and RViz cannot differ.
- *  @param {import('./human.js').Palette} palette */
+ *  @param {import('./messages.js').Palette} palette */
 function applyPalette(palette) {
   const style = document.documentElement.style;
   for (const { name, color } of palette.classes) style.setProperty(`--class-${name}`, hexColor(color));
@@ -176,12 +180,12 @@ function applyPalette(palette) {
 async function loadCameras() {
   const answer = await fetch('api/cameras').catch(() => null);
   if (!answer?.ok) return;
-  const { cameras, live } = await answer.json();
+  const { cameras, live } = readCameras(await answer.json(), 'api/cameras');
   picture.setCameras(cameras);
-  element('picture-camera').value = live;
-  if (element('cameras').childElementCount > 0) return;  // a reconnection keeps the viewer's camera
-  element('cameras').replaceChildren(...cameras.map(cameraButton));
-  const start = cameras.find((/** @type {any} */ { name }) => name === START_VIEW) ?? cameras[0];
+  elements['picture-camera'].value = live;
+  if (elements.cameras.childElementCount > 0) return;  // a reconnection keeps the viewer's camera
+  elements.cameras.replaceChildren(...cameras.map(cameraButton));
+  const start = cameras.find(({ name }) => name === START_VIEW) ?? cameras[0];
   if (start) chooseView(start);
 }
 
@@ -206,8 +210,8 @@ function chooseView(view) {
 
 /** @param {string} name  "" when the user turned the view by hand */
 function markView(name) {
-  for (const button of element('cameras').children) {
-    button.ariaPressed = String(button.dataset.camera === name);
+  for (const button of elements.cameras.children) {
+    button.ariaPressed = String(button.getAttribute('data-camera') === name);
   }
 }
 
@@ -216,16 +220,16 @@ function showReadings() {
   if (document.hidden) takeNewest(now);  // no frames there, but the title still tells how it stands
   const lamp = lampNow();
   const isLive = lamp.level === 'live';
-  if (element('lamp').dataset.level !== lamp.level && state) scene?.update(state, isLive);
-  element('lamp').dataset.level = lamp.level;
+  if (elements.lamp.dataset.level !== lamp.level && state) scene?.update(state, isLive);
+  elements.lamp.dataset.level = lamp.level;
   setText('lamp-word', lamp.word);
   document.title = `${lamp.word} · Kinescope`;
   const meshes = scene?.failedMeshes.length ?? 0;
   const banner = (now < notice.until && notice.text) || lamp.banner
     || (meshes > 0 ? `${meshes} of the human’s meshes could not be loaded` : '');
   setText('banner', banner);
-  element('banner').hidden = banner === '';
-  element('banner').dataset.level = lamp.level;
+  elements.banner.hidden = banner === '';
+  elements.banner.dataset.level = lamp.level;
   if (!isLive) latencies.clear();
   const summary = latencies.summary(now);
   setText('rate', isLive && state ? rate(state.rateHz) : '–');
@@ -244,53 +248,20 @@ function showPeople(isLive) {
   const rows = rowsOf(state, model.joints, details);
   showLoads(isLive ? rows : rows.map(asUnknown));
   const person = state.people[0];
-  const told = details.people.find(({ character }) => character === person?.character);
-  const hint = person ? loadsHint(person, told) : '';
-  setText('loads-hint', hint);
-  element('loads-hint').title = hint;
-  element('loads-hint').classList.toggle('warn', told?.mass_is_assumed === true || person?.comDisagrees === true);
-  setText('com', person ? comText(person) : 'Centre of mass');
-  setText('cop', person ? copText(person, told) : 'Centre of pressure');
-  setText('support', isLive && person && Number.isFinite(person.margin)
-    ? `Margin of stability ${centimetres(person.margin)}` : 'Support of the feet');
-  const compression = isLive && person ? person.compression : NaN;
-  element('compression-row').hidden = !Number.isFinite(compression);
-  setText('compression', Number.isFinite(compression) ? `L5/S1 compression ${kilonewtons(compression)}` : '');
+  const readings = readingsOf(person, details.people.find(({ character }) => character === person?.character), isLive);
+  setText('loads-hint', readings.hint);
+  elements['loads-hint'].title = readings.hint;
+  elements['loads-hint'].classList.toggle('warn', readings.isDoubtful);
+  setText('com', readings.com);
+  setText('cop', readings.cop);
+  setText('support', readings.support);
+  setText('compression', readings.compression);
+  elements['compression-row'].hidden = readings.compression === '';
 }
 
-/** What the numbers are, and what they stand on.
- *  @param {import('./state_codec.js').Person} person
- *  @param {any} told */
-function loadsHint(person, told) {
-  const motion = person.metric === 'external' ? '' : person.isDynamic ? ', dynamic' : ', static';
-  return [
-    `${person.metric}${motion}`,
-    told?.mass_is_assumed ? `mass assumed ${told.mass_kg} kg` : '',
-    heldText(told?.hand_load),
-    person.comDisagrees ? `centre of mass ${centimetres(person.comDifference)} from MVN’s` : '',
-    told?.why_other_metric ?? '',
-  ].filter(Boolean).join(' · ');
-}
-
-/** @param {import('./state_codec.js').Person} person */
-const comText = (person) => (person.comIsOurs ? 'Centre of mass (body model)' : 'Centre of mass');
-
-/** @param {import('./state_codec.js').Person} person
- *  @param {any} told */
-function copText(person, told) {
-  if (person.cop) return person.groundIsMeasured ? 'Centre of pressure (measured)' : 'Centre of pressure';
-  return `Centre of pressure: ${told?.why_no_ground || 'unknown'}`;
-}
-
-/** What is not live has no load that could be trusted.
- *  @param {import('./load_list.js').Row} row
- *  @returns {import('./load_list.js').Row} */
-const asUnknown = (row) =>
-  ({ ...row, loadClass: 'unknown', ratio: NaN, moment: NaN, reason: row.reason || 'no live data' });
-
-/** @param {string} id
+/** @param {keyof import('./elements.js').Elements} id
  *  @param {string} text */
 function setText(id, text) {
-  const part = element(id);
+  const part = elements[id];
   if (part.textContent !== text) part.textContent = text;
 }

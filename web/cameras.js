@@ -1,8 +1,7 @@
 // Named views: the numbers are the server's (/api/cameras), so a name shows the same in page, picture
 // and video. World frame: z up, metres. Pure functions.
 
-/** @typedef {{name: string, position: number[], target: number[], up: number[],
- *    vertical_fov_rad: number}} CameraView  of a person at the origin
+/** @typedef {import('./messages.js').CameraView} CameraView
  *  @typedef {{position: number[], target: number[], fovDegrees: number}} Aim */
 
 /** What a view must show across, in metres: arms stretched out to both sides. */

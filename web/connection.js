@@ -1,7 +1,9 @@
 // The page's only connection: one WebSocket for state, pictures and commands, which comes back by
 // itself.
-import { KIND, messageKind } from './state_codec.js';
 import { ServerClock } from './clock.js';
+import { readTextMessage } from './messages.js';
+import { messageOf, ownRefusalOf } from './server_api.js';
+import { KIND, messageKind } from './state_codec.js';
 
 const FIRST_RETRY_MILLIS = 400;
 const LAST_RETRY_MILLIS = 4000;
@@ -11,7 +13,7 @@ const FIRST_PING_MILLIS = 150;
 const STATES_PER_REPORT = 4;  // the server sends up to 12 ahead of what it knows to be seen
 
 /** @typedef {{onState: (buffer: ArrayBuffer) => void, onPicture: (buffer: ArrayBuffer) => void,
- *    onDetails: (details: any) => void, onError: (reason: string) => void,
+ *    onDetails: (details: import('./messages.js').Details) => void, onError: (reason: string) => void,
  *    onOpen: () => void}} Handlers */
 
 export class Connection {
@@ -94,14 +96,14 @@ export class Connection {
     this.#pingTimer = setTimeout(() => this.#ping(), pause);
   }
 
-  /** @param {ArrayBuffer|string} data */
+  /** @param {unknown} data */
   #onMessage(data) {
     this.lastMessageAt = performance.now();
     try {
-      if (typeof data === 'string') return this.#onText(JSON.parse(data));
-      this.#onBinary(data);
+      if (typeof data === 'string') return this.#onText(readTextMessage(data));
+      if (data instanceof ArrayBuffer) this.#onBinary(data);
     } catch (error) {
-      this.handlers.onError(/** @type {Error} */ (error).message);
+      this.handlers.onError(messageOf(error));
     }
   }
 
@@ -121,13 +123,14 @@ export class Connection {
     }
   }
 
-  /** @param {any} message */
+  /** @param {import('./messages.js').TextMessage|null} message */
   #onText(message) {
+    if (message === null) return;
     if ('pong' in message) {
       this.clock.addPing(message.pong, this.lastMessageAt, message.server_micros / 1000);
     } else if ('details' in message) {
       this.handlers.onDetails(message.details);
-    } else if ('error' in message) {
+    } else {
       this.handlers.onError(message.error);
     }
   }
@@ -137,7 +140,7 @@ export class Connection {
 async function askWhyRefused() {
   try {
     const answer = await fetch('api/cameras');
-    return answer.ok ? '' : String((await answer.json()).error ?? '');
+    return answer.ok ? '' : await ownRefusalOf(answer) ?? '';
   } catch {
     return '';  // nobody there
   }

@@ -2,19 +2,17 @@
 
 const MOST_LINES = 12;
 
-/** @typedef {{pictures?: {problems?: string[], last_error?: string}|null,
- *    source?: {rejected?: Record<string, number>}}} Diagnostics  of /api/diagnostics */
-
 /** One line each, the most urgent first; equal ones once.
- *  @param {Diagnostics} told
+ *  @param {import('./messages.js').Diagnostics} diagnostics
  *  @param {string[]} failedMeshes  that this page could not load
  *  @returns {string[]} */
-export function problemLines(told, failedMeshes) {
+export function problemLines(diagnostics, failedMeshes) {
+  const { pictures, source } = diagnostics;
   const lines = [];
-  if (told.pictures?.last_error) lines.push(`The server’s picture: ${told.pictures.last_error}`);
-  for (const problem of told.pictures?.problems ?? []) lines.push(`Not in the picture as it is: ${problem}`);
+  if (pictures?.last_error) lines.push(`The server’s picture: ${pictures.last_error}`);
+  for (const problem of pictures?.problems ?? []) lines.push(`Not in the picture as it is: ${problem}`);
   for (const mesh of failedMeshes) lines.push(`Not loaded by this page: ${mesh}`);
-  for (const [reason, count] of Object.entries(told.source?.rejected ?? {})) {
+  for (const [reason, count] of Object.entries(source?.rejected ?? {})) {
     lines.push(`${count} ${count === 1 ? 'datagram' : 'datagrams'} refused: ${reason}`);
   }
   const all = [...new Set(lines)];

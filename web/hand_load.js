@@ -1,6 +1,7 @@
 // The small form that says what a person holds: a hand, a mass.
+import { refusalOf } from './server_api.js';
 
-/** @typedef {{right_kg: number, left_kg: number, both_kg: number}} HandLoad
+/** @typedef {import('./messages.js').HandLoad} HandLoad
  *  @typedef {{form: HTMLFormElement, hand: HTMLSelectElement, mass: HTMLInputElement}} Parts */
 
 /** What is held once `kilograms` are in `hand` ("right_kg", "left_kg", "both_kg"): the rest stays.
@@ -41,7 +42,7 @@ export function mountHandLoad({ form, hand, mass }, person, say) {
         method: 'POST', headers: { 'Content-Type': 'application/json' },
         body: JSON.stringify({ person: who.character, ...load }),
       });
-      if (!answer.ok) say((await answer.json()).error);
+      if (!answer.ok) say(await refusalOf(answer));
     } catch {
       say('The server does not answer');
     }

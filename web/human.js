@@ -15,14 +15,11 @@ const unitSphere = new THREE.SphereGeometry(1, 32, 20);
 // Of what hands hold; stretched to their sizes.
 const unitBox = new THREE.BoxGeometry(1, 1, 1);
 const unitCylinder = new THREE.CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2);
+/** @type {Set<THREE.BufferGeometry>} */
 const SHARED = new Set([unitSphere, unitBox, unitCylinder]);
 
-/** @typedef {{kind: string, size: number[], position: number[], quaternion: number[],
- *    rgba: number[]|null, mesh?: string}} Visual
- *  @typedef {{character: number, revision: number, links: {name: string, visuals: Visual[]}[]}} PersonModel
- *  @typedef {{classes: {name: string, color: number[]}[], cop: number[], com: number[],
- *    support: number[], held: number[],
- *    body: number[], stale_body: number[], object: number[], axes: number[][]}} Palette */
+/** @typedef {import('./messages.js').Visual} Visual
+ *  @typedef {import('./messages.js').Palette} Palette */
 
 /** @param {number[]} rgb  sRGB 0..1 */
 export const toColor = (rgb) => new THREE.Color().setRGB(rgb[0], rgb[1], rgb[2], THREE.SRGBColorSpace);
@@ -63,6 +60,10 @@ export function makeMarkMaterials(palette) {
   };
 }
 
+/** @param {THREE.Object3D} part
+ *  @returns {part is THREE.Mesh|THREE.Line} */
+const hasGeometry = (part) => part instanceof THREE.Mesh || part instanceof THREE.Line;
+
 export class Human {
   group = new THREE.Group();
   /** @type {string[]} */ failedMeshes = [];
@@ -71,7 +72,7 @@ export class Human {
   #held = /** @type {THREE.Mesh[]} */ ([]);
   #spheres = /** @type {Map<number, {group: THREE.Group, rim: THREE.Mesh}>} */ (new Map());
 
-  /** @param {PersonModel} model
+  /** @param {import('./messages.js').PersonModel} model
    *  @param {Palette} palette
    *  @param {ReturnType<typeof makeMarkMaterials>} marks
    *  @param {() => void} onChange  called when a mesh arrived later */
@@ -115,8 +116,8 @@ export class Human {
 
   dispose() {
     this.group.removeFromParent();
-    this.group.traverse((/** @type {any} */ part) => {
-      if (part.geometry && !SHARED.has(part.geometry)) part.geometry.dispose();
+    this.group.traverse((part) => {
+      if (hasGeometry(part) && !SHARED.has(part.geometry)) part.geometry.dispose();
     });
     for (const { material } of this.#materials.values()) material.dispose();
   }

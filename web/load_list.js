@@ -1,8 +1,9 @@
 // The list of joint loads, worst first.
 import { age, moment, percent } from './format.js';
+import { LOAD_CLASSES } from './messages.js';
 
-/** @typedef {import('./state_codec.js').LoadClass} LoadClass
- *  @typedef {Record<LoadClass, number>} Secs  time in each class so far, s
+/** @typedef {import('./messages.js').LoadClass} LoadClass
+ *  @typedef {import('./messages.js').Secs} Secs
  *  @typedef {{key: string, label: string, loadClass: LoadClass, ratio: number, moment: number,
  *    capacity: number, channel: string, reason: string, isExternal?: boolean, secs?: Secs}} Row */
 
@@ -43,13 +44,11 @@ export function explain(row) {
   return channel && amount ? `${amount}, ${channel}` : amount || channel;
 }
 
-const CLASSES = /** @type {LoadClass[]} */ (['low', 'medium', 'high', 'unknown']);
-
 /** "low 40 s, medium 12 s, high 3 s since the start", without what did not happen; "" at first.
  *  @param {Secs|undefined} secs */
 export function exposureText(secs) {
   if (!secs) return '';
-  const parts = CLASSES.filter((name) => secs[name] >= 1).map((name) => `${name} ${age(secs[name])}`);
+  const parts = LOAD_CLASSES.filter((name) => secs[name] >= 1).map((name) => `${name} ${age(secs[name])}`);
   return parts.length > 0 ? `${parts.join(', ')} since the start` : '';
 }
 
@@ -57,24 +56,22 @@ export function exposureText(secs) {
  *  @param {Secs|undefined} secs
  *  @returns {number[]}  low, medium, high, unknown */
 export function exposureShares(secs) {
-  const all = secs ? CLASSES.reduce((sum, name) => sum + secs[name], 0) : 0;
-  return CLASSES.map((name) => (secs && all > 0 ? secs[name] / all : 0));
+  const all = secs ? LOAD_CLASSES.reduce((sum, name) => sum + secs[name], 0) : 0;
+  return LOAD_CLASSES.map((name) => (secs && all > 0 ? secs[name] / all : 0));
 }
 
 /** The rows of a state; persons are named when there are several.
  *  @param {import('./state_codec.js').State} state
  *  @param {{label: string}[]} joints
- *  @param {{people: {character: number, name: string,
- *    loads: {joint: number, channel: string, reason: string, is_external?: boolean,
- *      secs_in_class?: Secs}[]}[]}} details
+ *  @param {{people: import('./messages.js').PersonDetails[]}} details
  *  @returns {Row[]} */
 export function rowsOf(state, joints, details) {
   const several = state.people.length > 1;
   return state.people.flatMap((person) => {
-    const told = details.people.find(({ character }) => character === person.character);
-    const who = several ? `${told?.name || `Person ${person.character + 1}`}: ` : '';
+    const its = details.people.find(({ character }) => character === person.character);
+    const who = several ? `${its?.name || `Person ${person.character + 1}`}: ` : '';
     return person.loads.map((load) => {
-      const words = told?.loads.find(({ joint }) => joint === load.joint);
+      const words = its?.loads.find(({ joint }) => joint === load.joint);
       return {
         key: `${person.character}/${load.joint}`,
         label: `${who}${joints[load.joint]?.label ?? `joint ${load.joint}`}`,
@@ -90,6 +87,12 @@ export function rowsOf(state, joints, details) {
     });
   });
 }
+
+/** The row of something that is not live, whose load could not be trusted.
+ *  @param {Row} row
+ *  @returns {Row} */
+export const asUnknown = (row) =>
+  ({ ...row, loadClass: 'unknown', ratio: NaN, moment: NaN, reason: row.reason || 'no live data' });
 
 /** @param {HTMLElement} list  an <ol>
  *  @returns {(rows: Row[]) => void} shows these rows */
@@ -107,7 +110,7 @@ export function mountLoadList(list) {
     if (keys.join() === order.join()) return;
     for (const key of shown.keys()) if (!keys.includes(key)) shown.delete(key);
     order = keys;
-    list.replaceChildren(...keys.map((key) => /** @type {any} */ (shown.get(key)).element));
+    list.replaceChildren(...keys.flatMap((key) => shown.get(key)?.element ?? []));
   };
 }
 
@@ -124,7 +127,7 @@ function makeRow() {
   const strip = document.createElement('span');
   strip.className = 'exposure';
   strip.ariaHidden = 'true';  // the row's title says the same
-  const parts = CLASSES.map((name) => {
+  const parts = LOAD_CLASSES.map((name) => {
     const part = document.createElement('span');
     part.dataset.class = name;
     return part;
@@ -156,7 +159,7 @@ function makeRow() {
 }
 
 /** What the legend says of each class.
- *  @param {[number, number]} limits  of capacity, as the server decides by while a load rises */
+ *  @param {number[]} limits  two, of capacity, as the server decides by while a load rises */
 export function legendWords(limits) {
   return [
     ['low', 'low'],
@@ -167,7 +170,7 @@ export function legendWords(limits) {
 }
 
 /** @param {HTMLElement} legend  a <ul>
- *  @param {[number, number]} limits */
+ *  @param {number[]} limits */
 export function fillLegend(legend, limits) {
   legend.replaceChildren(...legendWords(limits).map(([loadClass, text]) => {
     const entry = document.createElement('li');

@@ -11,8 +11,6 @@ const LABEL_LIFT = 0.1;      // m above the object
 const LABEL_HEIGHT = 0.034;  // of the view's height, at any distance
 const LABEL_PIXELS = 44;     // of the font, which is drawn once
 
-/** @typedef {{character: number, number: number, name: string}} ObjectName */
-
 /** What tells one object from another.
  *  @param {{character: number, number: number}} object */
 export const keyOf = ({ character, number }) => `${character}/${number}`;
@@ -24,7 +22,7 @@ export class ObjectMarks {
   #block = new THREE.BoxGeometry(BLOCK, BLOCK, BLOCK);
   #rod = new THREE.CylinderGeometry(AXIS_RADIUS, AXIS_RADIUS, AXIS_LENGTH, 12).translate(0, AXIS_LENGTH / 2, 0);
 
-  /** @param {{object: number[], axes: number[][], stale_body: number[]}} palette */
+  /** @param {Pick<import('./messages.js').Palette, 'object'|'axes'|'stale_body'>} palette */
   constructor(palette) {
     this.materials = [palette.object, ...palette.axes].map(toColor).map(
       (color) => ({ color, material: new THREE.MeshStandardMaterial({ color, roughness: 0.7 }) }));
@@ -32,7 +30,7 @@ export class ObjectMarks {
   }
 
   /** Names come apart from poses and later.
-   *  @param {ObjectName[]} names */
+   *  @param {import('./messages.js').ObjectName[]} names */
   setNames(names) {
     this.#names = new Map(names.map((object) => [keyOf(object), object.name]));
     for (const [key, mark] of this.#marks) this.#relabel(key, mark);

@@ -1,5 +1,6 @@
 // The server's own picture beside the page's: what PNG, video and CI show.
 import { shortCameraLabel } from './format.js';
+import { messageOf, refusalOf } from './server_api.js';
 import { decodePicture } from './state_codec.js';
 
 const SAVED_SIZE = { width: 1920, height: 1080 };
@@ -11,7 +12,7 @@ export class PicturePanel {
   hasPictures = true;
   #url = '';
   #isLoading = false;
-  /** @type {ArrayBuffer|null} */ #next = null;
+  /** @type {Uint8Array<ArrayBuffer>|null} */ #next = null;  // JPEG
 
   /** @param {Parts} parts
    *  @param {(command: object) => void} send
@@ -21,7 +22,8 @@ export class PicturePanel {
     this.send = send;
     parts.on.addEventListener('change', () => this.ask());
     parts.camera.addEventListener('change', () => send({ camera: parts.camera.value }));
-    parts.save.addEventListener('click', () => this.#save().catch((error) => report(error.message)));
+    parts.save.addEventListener('click', () => this.#save()
+      .catch((/** @type {unknown} */ error) => report(messageOf(error))));
     parts.image.addEventListener('load', () => this.#onShown());
     parts.image.addEventListener('error', () => this.#onShown());
   }
@@ -57,15 +59,18 @@ export class PicturePanel {
   /** The newest wins: what comes while one is being decoded waits, alone.
    *  @param {ArrayBuffer} buffer */
   show(buffer) {
-    if (!this.parts.on.checked) return;
+    if (this.parts.on.checked) this.#showJpeg(decodePicture(buffer).jpeg);
+  }
+
+  /** @param {Uint8Array<ArrayBuffer>} jpeg */
+  #showJpeg(jpeg) {
     if (this.#isLoading) {
-      this.#next = buffer;
+      this.#next = jpeg;
       return;
     }
-    const { jpeg } = decodePicture(buffer);
     this.#isLoading = true;
     URL.revokeObjectURL(this.#url);
-    this.#url = URL.createObjectURL(new Blob([/** @type {any} */ (jpeg)], { type: 'image/jpeg' }));
+    this.#url = URL.createObjectURL(new Blob([jpeg], { type: 'image/jpeg' }));
     this.parts.image.src = this.#url;
   }
 
@@ -75,7 +80,7 @@ export class PicturePanel {
     this.#explain();
     const next = this.#next;
     this.#next = null;
-    if (next) this.show(next);
+    if (next && this.parts.on.checked) this.#showJpeg(next);
   }
 
   #explain() {
@@ -94,7 +99,7 @@ export class PicturePanel {
         camera: camera.value, width: String(SAVED_SIZE.width), height: String(SAVED_SIZE.height),
       });
       const answer = await fetch(`snapshot.png?${query}`);
-      if (!answer.ok) throw new Error(`No picture: ${(await answer.json()).error}`);
+      if (!answer.ok) throw new Error(`No picture: ${await refusalOf(answer)}`);
       const link = document.createElement('a');
       link.href = URL.createObjectURL(await answer.blob());
       link.download = `kinescope_${camera.value}_${new Date().toISOString().replace(/[:.]/g, '-')}.png`;

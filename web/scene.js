@@ -3,8 +3,9 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { aim, FALLBACK_VIEW, groundOf } from './cameras.js';
-import { Human, makeMarkMaterials } from './human.js';
+import { makeMarkMaterials } from './human.js';
 import { ObjectMarks } from './objects.js';
+import { People } from './people.js';
 
 const FOLLOW_SECONDS = 0.35;  // how quickly the view follows a person who walks
 const SLOW_FRAME_MILLIS = 45;
@@ -21,11 +22,12 @@ export class Scene {
   #floor = new THREE.Group();  // goes along with the people, in whole metres, so it has no end
   #sun = new THREE.DirectionalLight(0xffffff, 2.3);
   #sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 2);
-  #people = /** @type {Map<number, Human>} */ (new Map());
+  #shade = new THREE.Mesh(new THREE.PlaneGeometry(5, 5), new THREE.ShadowMaterial());
+  #grid = new THREE.LineSegments(gridGeometry(12, 0.5), new THREE.LineBasicMaterial());
+  #people = new People(() => { this.#dirty = true; });
   #marks = /** @type {ReturnType<typeof makeMarkMaterials>|null} */ (null);
   #objects = /** @type {ObjectMarks|null} */ (null);
-  #objectNames = /** @type {import('./objects.js').ObjectName[]} */ ([]);
-  #palette = /** @type {import('./human.js').Palette|null} */ (null);
+  #objectNames = /** @type {import('./messages.js').ObjectName[]} */ ([]);
   #ground = { middle: [0, 0, 0], radius: 0 };
   #followed = [0, 0, 0];
   #view = FALLBACK_VIEW;
@@ -58,44 +60,37 @@ export class Scene {
       this.#viewIsNamed = false;
       events.onOrbit();
     });
-    this.#furnish();
+    this.#buildStage();
     new ResizeObserver(() => this.#resize()).observe(host);
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.#paint());
-    this.#paint();
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.#applyTheme());
+    this.#applyTheme();
     this.#resize();
   }
 
   /** The persons' bodies; called again whenever a revision changes.
-   *  @param {{people: import('./human.js').PersonModel[], palette: import('./human.js').Palette}} model */
+   *  @param {import('./messages.js').Model} model */
   setModel(model) {
-    this.#palette = model.palette;
     this.#marks ??= makeMarkMaterials(model.palette);
     if (this.#objects === null) {
       this.#objects = new ObjectMarks(model.palette);
       this.#objects.setNames(this.#objectNames);
       this.#scene.add(this.#objects.group);
     }
-    for (const person of model.people) {
-      if (this.#people.get(person.character)?.revision === person.revision) continue;
-      this.#people.get(person.character)?.dispose();
-      const human = new Human(person, model.palette, this.#marks, () => { this.#dirty = true; });
-      this.#people.set(person.character, human);
-      this.#scene.add(human.group);
-    }
+    this.#people.setModels(model.people, model.palette, this.#marks);
     this.#dirty = true;
   }
 
   /** @param {import('./state_codec.js').Person} person */
   hasModelOf(person) {
-    return this.#people.get(person.character)?.revision === person.revision;
+    return this.#people.has(person.character, person.revision);
   }
 
   get failedMeshes() {
-    return [...this.#people.values()].flatMap((human) => human.failedMeshes);
+    return this.#people.failedMeshes;
   }
 
   /** Of tracked objects.
-   *  @param {import('./objects.js').ObjectName[]} names */
+   *  @param {import('./messages.js').ObjectName[]} names */
   setObjectNames(names) {
     this.#objectNames = names;
     this.#objects?.setNames(names);
@@ -105,11 +100,7 @@ export class Scene {
   /** @param {import('./state_codec.js').State} state
    *  @param {boolean} isLive */
   update(state, isLive) {
-    for (const [character, human] of this.#people) {
-      const person = state.people.find((each) => each.character === character);
-      human.group.visible = person !== undefined;
-      if (person) human.update(person, isLive, state.floor);
-    }
+    this.#people.update(state, isLive);
     this.#objects?.update(state.objects, isLive);
     if (state.people.length > 0) {
       this.#ground = groundOf(state.people.map(({ links }) => links[0].position), state.floor);
@@ -135,7 +126,7 @@ export class Scene {
     this.#lastFrameAt = now;
     if (!this.#dirty) return false;
     this.#dirty = false;
-    this.#judge(elapsed);
+    this.#adaptQuality(elapsed);
     this.renderer.render(this.#scene, this.#camera);
     return true;
   }
@@ -173,7 +164,7 @@ export class Scene {
     this.#sun.target.updateMatrixWorld();
   }
 
-  #furnish() {
+  #buildStage() {
     const shadow = this.#sun.shadow;
     this.#sun.castShadow = true;
     shadow.mapSize.set(1024, 1024);
@@ -182,23 +173,21 @@ export class Scene {
     shadow.normalBias = 0.02;
     const fill = new THREE.DirectionalLight(0xdfe8ff, 0.55);
     fill.position.set(-3, 3, 2);
-    this.#scene.add(this.#sky, this.#sun, this.#sun.target, fill, this.#floor);
-    this.shade = new THREE.Mesh(new THREE.PlaneGeometry(5, 5), new THREE.ShadowMaterial());
-    this.shade.receiveShadow = true;
-    this.shade.material.depthWrite = false;  // it lies on the grid and must not hide it
-    this.grid = new THREE.LineSegments(gridGeometry(12, 0.5), new THREE.LineBasicMaterial());
-    this.grid.position.z = -0.002;
-    this.#floor.add(this.shade, this.grid);
+    this.#scene.add(this.#sky, this.#sun, this.#sun.target, fill, this.#floor, this.#people.group);
+    this.#shade.receiveShadow = true;
+    this.#shade.material.depthWrite = false;  // it lies on the grid and must not hide it
+    this.#grid.position.z = -0.002;
+    this.#floor.add(this.#shade, this.#grid);
     this.#placeFloor();
   }
 
-  #paint() {
+  #applyTheme() {
     const look = matchMedia('(prefers-color-scheme: dark)').matches ? LOOK.dark : LOOK.light;
     this.#scene.background = new THREE.Color(look.background);
     this.#scene.fog = new THREE.Fog(look.background, 7, 15);
     this.#sky.intensity = look.sky;
-    this.shade.material.opacity = look.shadow;
-    this.grid.material.color.set(look.line);
+    this.#shade.material.opacity = look.shadow;
+    this.#grid.material.color.set(look.line);
     this.#dirty = true;
   }
 
@@ -214,7 +203,7 @@ export class Scene {
 
   /** A machine without a graphics chip draws a plainer picture at a useful rate.
    *  @param {number} elapsed  since the last frame, ms */
-  #judge(elapsed) {
+  #adaptQuality(elapsed) {
     if (elapsed > 500) return;  // it was idle or hidden, not slow
     this.#frameMillis.push(elapsed);
     if (this.#frameMillis.length < FRAMES_JUDGED) return;
@@ -225,7 +214,7 @@ export class Scene {
     if (this.#quality === 1) this.renderer.setPixelRatio(1);
     if (this.#quality === 2) {
       this.#sun.castShadow = false;
-      this.shade.visible = false;
+      this.#shade.visible = false;
     }
     if (this.#quality === 3) this.renderer.setPixelRatio(0.7);
     this.#resize();

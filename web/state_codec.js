@@ -11,25 +11,26 @@ const SOLID = 44;
 const OBJECT = 36;
 const PICTURE_HEADER = 24;
 
-const LIVENESS = ['no data', 'live', 'stale'];
-const LOAD_CLASS = ['unknown', 'low', 'medium', 'high'];
-const METRIC = ['total', 'overload', 'external', 'norm'];
-const SOLID_KIND = ['box', 'cylinder'];
+// Words by their number in a message.
+const LIVENESS = /** @type {const} */ (['no data', 'live', 'stale']);
+const LOAD_CLASS = /** @type {const} */ (['unknown', 'low', 'medium', 'high']);
+const METRIC = /** @type {const} */ (['total', 'overload', 'external', 'norm']);
+const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
 
 /** @typedef {{position: number[], quaternion: number[]}} Pose  metres; [x, y, z, w]; world_from_link
- *  @typedef {'unknown'|'low'|'medium'|'high'} LoadClass
+ *  @typedef {import('./messages.js').LoadClass} LoadClass
  *  @typedef {{joint: number, loadClass: LoadClass, radius: number, position: number[],
  *    ratio: number, moment: number, capacity: number}} Load  ratio NaN where unknown; N m
- *  @typedef {{kind: 'box'|'cylinder', position: number[], quaternion: number[], size: number[]}} Solid
+ *  @typedef {{kind: (typeof SOLID_KIND)[number], position: number[], quaternion: number[], size: number[]}} Solid
  *    size: edges, or radius, radius, length along z
  *  @typedef {{character: number, revision: number, com: number[]|null, cop: number[]|null,
  *    comIsOurs: boolean, massIsAssumed: boolean, isDynamic: boolean, groundIsMeasured: boolean,
  *    leans: boolean, comDisagrees: boolean, compression: number, margin: number,
- *    comDifference: number, heldKg: number[], metric: 'total'|'overload'|'external'|'norm',
+ *    comDifference: number, heldKg: number[], metric: (typeof METRIC)[number],
  *    links: Pose[], loads: Load[], support: number[][], held: Solid[]}} Person
  *    compression (N), margin and comDifference (m): NaN where not known; heldKg: right, left
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
- *  @typedef {{liveness: 'no data'|'live'|'stale', counter: number, number: number,
+ *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, number: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
  *    rateHz: number, viewers: number, floor: number, people: Person[],
  *    objects: TrackedObject[]}} State  arrivalMicros 0: not known
@@ -51,6 +52,7 @@ export function messageKind(buffer) {
 export function decodeState(buffer) {
   const view = new DataView(buffer);
   need(view, 0, STATE_HEADER);
+  /** @type {State} */
   const state = {
     liveness: LIVENESS[view.getUint8(2)] ?? 'no data',
     counter: view.getUint32(4, true),
@@ -85,7 +87,7 @@ export function decodeState(buffer) {
 }
 
 /** @param {ArrayBuffer} buffer
- *  @returns {{stateNumber: number, arrivalMicros: number, jpeg: Uint8Array}} */
+ *  @returns {{stateNumber: number, arrivalMicros: number, jpeg: Uint8Array<ArrayBuffer>}} */
 export function decodePicture(buffer) {
   const view = new DataView(buffer);
   need(view, 0, PICTURE_HEADER);
@@ -97,7 +99,8 @@ export function decodePicture(buffer) {
 }
 
 /** @param {DataView} view
- *  @param {number} offset */
+ *  @param {number} offset
+ *  @returns {Person} */
 function readPerson(view, offset) {
   need(view, offset, PERSON_HEADER);
   const flags = view.getUint8(offset + 4);
@@ -105,6 +108,7 @@ function readPerson(view, offset) {
   const loadCount = view.getUint8(offset + 6);
   const solidCount = view.getUint8(offset + 7);
   const cornerCount = view.getUint8(offset + 60);
+  if (linkCount === 0) throw new Error('the server sent a person without links: reload the page');
   need(view, offset, PERSON_HEADER + LINK * linkCount + LOAD * loadCount + CORNER * cornerCount
     + SOLID * solidCount);
   const firstLink = offset + PERSON_HEADER;
@@ -126,7 +130,7 @@ function readPerson(view, offset) {
     margin: view.getFloat32(offset + 44, true),
     comDifference: view.getFloat32(offset + 48, true),
     heldKg: floats(view, offset + 52, 2),
-    metric: /** @type {any} */ (METRIC[view.getUint8(offset + 61)] ?? 'total'),
+    metric: METRIC[view.getUint8(offset + 61)] ?? 'total',
     links: Array.from({ length: linkCount }, (_, i) => readPose(view, firstLink + LINK * i)),
     loads: Array.from({ length: loadCount }, (_, i) => readLoad(view, firstLoad + LOAD * i)),
     support: Array.from({ length: cornerCount }, (_, i) => floats(view, firstCorner + CORNER * i, 2)),
@@ -139,7 +143,7 @@ function readPerson(view, offset) {
  *  @returns {Solid} */
 function readSolid(view, offset) {
   return {
-    kind: /** @type {any} */ (SOLID_KIND[view.getUint32(offset, true)] ?? 'box'),
+    kind: SOLID_KIND[view.getUint32(offset, true)] ?? 'box',
     position: floats(view, offset + 4, 3),
     quaternion: floats(view, offset + 16, 4),
     size: floats(view, offset + 32, 3),
@@ -159,7 +163,7 @@ function readPose(view, offset) {
 function readLoad(view, offset) {
   return {
     joint: view.getUint8(offset),
-    loadClass: /** @type {LoadClass} */ (LOAD_CLASS[view.getUint8(offset + 1)] ?? 'unknown'),
+    loadClass: LOAD_CLASS[view.getUint8(offset + 1)] ?? 'unknown',
     radius: view.getUint16(offset + 2, true) / 1000,
     position: floats(view, offset + 4, 3),
     ratio: view.getFloat32(offset + 16, true),

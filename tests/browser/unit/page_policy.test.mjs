@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { createHash } from 'node:crypto';
 import { readdirSync, readFileSync } from 'node:fs';
 import test from 'node:test';
+import { ELEMENTS } from '../../../web/elements.js';
 
 const root = new URL('../../../', import.meta.url);
 const read = (name) => readFileSync(new URL(name, root), 'utf8');
@@ -47,11 +48,11 @@ test('no text from outside can become markup', () => {
   }
 });
 
-test('every element that the page’s code asks for is there', () => {
-  const ids = new Set([...html.matchAll(/ id="([^"]+)"/g)].map(([, id]) => id));
-  const code = read('web/app.js') + read('web/boot.js');
-  for (const [, id] of code.matchAll(/(?:element|setText|getElementById)\('([^']+)'/g)) {
-    assert.ok(ids.has(id), `index.html has no #${id}`);
+test('every element that the page’s code asks for is there, with the tag that it counts on', () => {
+  const tags = new Map([...html.matchAll(/<(\w+)[^>]*? id="([^"]+)"/g)].map(([, tag, id]) => [id, tag]));
+  for (const [id, tag] of Object.entries(ELEMENTS)) assert.equal(tags.get(id), tag, `#${id} of index.html`);
+  for (const [, id] of read('web/boot.js').matchAll(/getElementById\('([^']+)'/g)) {
+    assert.ok(tags.has(id), `index.html has no #${id}`);
   }
 });
 

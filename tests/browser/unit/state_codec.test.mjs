@@ -44,6 +44,16 @@ test('bytes too many are refused', () => {
   assert.throws(() => decodeState(longer.buffer), /too many/);
 });
 
+test('a person without links is refused: the view would not know where to look', () => {
+  const other = new Uint8Array(128);
+  other.set(new Uint8Array(state.slice(0, 128)));
+  other[3] = 1;       // people
+  other[60] = 0;      // objects
+  other.set([0, 0, 0], 64 + 5);  // links, loads, solids
+  other[64 + 60] = 0;            // corners
+  assert.throws(() => decodeState(other.buffer), /without links/);
+});
+
 test('another version of the protocol asks for a reload', () => {
   const other = new Uint8Array(state.slice(0));
   other[1] = 9;

@@ -1,0 +1,96 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { readCameras, readDiagnostics, readModel, readTextMessage } from '../../../web/messages.js';
+
+const rgb = [0.1, 0.2, 0.3];
+const person = {
+  character: 0, name: 'Anna', mass_kg: 75, mass_is_assumed: true, why_other_metric: '', why_no_ground: '',
+  hand_load: { right_kg: 5, left_kg: 0, both_kg: 0 },
+  loads: [{ joint: 3, channel: 'flexion', reason: '', is_external: false,
+    secs_in_class: { low: 1, medium: 2, high: 0, unknown: 0 } }],
+};
+const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, people: [person],
+  objects: [{ character: 9, number: 2, name: 'cart' }] };
+const palette = {
+  classes: ['unknown', 'low', 'medium', 'high'].map((name) => ({ name, color: rgb })),
+  cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, object: rgb, axes: [rgb, rgb, rgb],
+};
+const visual = { kind: 'mesh', size: [1, 1, 1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null,
+  mesh: '/api/mesh/0/1/0' };
+const model = { people: [{ character: 0, revision: 1, links: [{ visuals: [visual] }] }],
+  joints: [{ label: 'L5/S1' }], class_limits: [0.3, 0.6], palette };
+
+/** A copy of `value` whose member at `path` ("people.0.name") is `other`. */
+function changed(value, path, other) {
+  const copy = JSON.parse(JSON.stringify(value));
+  const keys = path.split('.');
+  const last = keys.pop();
+  keys.reduce((part, key) => part[key], copy)[last] = other;
+  return copy;
+}
+
+/** The path of every member within `value`. */
+const pathsOf = (value, path = '') => (typeof value === 'object' && value !== null
+  ? Object.entries(value).flatMap(([key, part]) => {
+    const at = path === '' ? key : `${path}.${key}`;
+    return [at, ...pathsOf(part, at)];
+  }) : []);
+
+test('messages of the server come through as they are', () => {
+  assert.deepEqual(readTextMessage(JSON.stringify({ details })), { details });
+  assert.deepEqual(readTextMessage('{"pong": 12.5, "server_micros": 5000}'), { pong: 12.5, server_micros: 5000 });
+  assert.deepEqual(readTextMessage('{"error": "no camera \'x\'"}'), { error: 'no camera \'x\'' });
+  assert.deepEqual(readModel(model, 'api/model'), model);
+});
+
+test('what a newer server says more is left out, and a message of another kind is no error', () => {
+  assert.deepEqual(readTextMessage(JSON.stringify({ details: { ...details, weather: 'fair' } })), { details });
+  assert.equal(readTextMessage('{"greeting": "hello"}'), null);
+});
+
+test('a wrong member anywhere in the details or the model is refused by its path', () => {
+  for (const [whole, read] of [[{ details }, (value) => readTextMessage(JSON.stringify(value))],
+    [model, (value) => readModel(value, 'api/model')]]) {
+    const paths = pathsOf(whole);
+    assert.ok(paths.length > 25, `${paths.length} members`);
+    for (const path of paths) {
+      const named = path.replace(/\.(\d+)/g, '[$1]');
+      assert.throws(() => read(changed(whole, path, { odd: 1 })), ({ message }) =>
+        message.startsWith('the server sent ') && message.includes(named), path);
+    }
+  }
+});
+
+test('the refusal says what came, where, and what was expected', () => {
+  const message = JSON.stringify({ details: changed(details, 'people.0.name', 5) });
+  assert.throws(() => readTextMessage(message),
+    /^Error: the server sent 5 as details\.people\[0\]\.name; expected a text: reload the page$/);
+  assert.throws(() => readTextMessage('{"details": {}}'), /sent nothing as details\.source; expected a text/);
+  assert.throws(() => readTextMessage('[1]'), /sent \[1\] as a message; expected an object/);
+  assert.throws(() => readTextMessage('{"pong": 1}'), /sent nothing as a message\.server_micros; expected a number/);
+  assert.throws(() => readModel(changed(model, 'class_limits', [0.3]), 'api/model'),
+    /sent \[0\.3\] as api\/model\.class_limits; expected a list of 2/);
+  assert.throws(() => readModel(changed(model, 'palette.classes.2.name', 'mild'), 'api/model'),
+    /sent "mild" as .*classes\[2\]\.name; expected low, medium, high, unknown/);
+});
+
+test('a model without a colour for every class is refused, because spheres need them all', () => {
+  const three = { ...model, palette: { ...palette, classes: palette.classes.slice(1) } };
+  assert.throws(() => readModel(three, 'api/model'), /palette\.classes; expected a colour of the class unknown/);
+});
+
+test('cameras come as numbers', () => {
+  const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
+  assert.deepEqual(readCameras({ cameras: [front], live: 'front', has_pictures: true }, 'api/cameras'),
+    { cameras: [front], live: 'front' });
+  assert.throws(() => readCameras({ cameras: [{ ...front, up: [0, 1] }], live: 'front' }, 'api/cameras'),
+    /\[0,1\] as api\/cameras\.cameras\[0\]\.up; expected a list of 3/);
+});
+
+test('diagnostics of whatever part is not running are absent', () => {
+  assert.deepEqual(readDiagnostics({}, ''), { pictures: undefined, source: undefined });
+  assert.equal(readDiagnostics({ pictures: null }, '').pictures, null);
+  assert.deepEqual(readDiagnostics({ source: { rejected: { 'cut short': 2 } } }, '').source, { rejected: { 'cut short': 2 } });
+  assert.throws(() => readDiagnostics({ source: { rejected: { 'cut short': 'often' } } }, 'api/diagnostics'),
+    /"often" as api\/diagnostics\.source\.rejected\["cut short"\]; expected a number/);
+});

@@ -1,0 +1,41 @@
+import assert from 'node:assert/strict';
+import { afterEach, test } from 'node:test';
+import { object, string } from '../../../web/messages.js';
+import { ask, messageOf, ownRefusalOf, refusalOf } from '../../../web/server_api.js';
+
+const realFetch = globalThis.fetch;
+afterEach(() => { globalThis.fetch = realFetch; });
+const answerWith = (body, init) => { globalThis.fetch = async () => new Response(body, init); };
+const readName = object({ name: string });
+const html = { headers: { 'Content-Type': 'text/html' } };
+
+test('an answer is read with its shape', async () => {
+  answerWith('{"name": "front"}');
+  assert.deepEqual(await ask('api/camera', readName), { name: 'front' });
+  answerWith('{"name": 5}');
+  await assert.rejects(ask('api/camera', readName), /sent 5 as api\/camera\.name; expected a text/);
+});
+
+test('where no server answers there is nothing to say: the lamp tells', async () => {
+  globalThis.fetch = async () => { throw new TypeError('Failed to fetch'); };
+  assert.equal(await ask('api/camera', readName), null);
+});
+
+test('a refusal is told in the server’s words', async () => {
+  answerWith('{"error": "no camera \'x\'"}', { status: 404 });
+  await assert.rejects(ask('api/camera', readName), /^Error: no camera 'x'$/);
+});
+
+test('a proxy that answers with a page of its own is named as such', async () => {
+  answerWith('<html>', html);
+  await assert.rejects(ask('api/camera', readName), /api\/camera is answered with text\/html, expected JSON/);
+  answerWith('<html>', { ...html, status: 502 });
+  await assert.rejects(ask('api/camera', readName), /^Error: HTTP status 502$/);
+  assert.equal(await refusalOf(new Response('<html>', { status: 502 })), 'HTTP status 502');
+  assert.equal(await ownRefusalOf(new Response('<html>', { status: 502 })), null, 'it is not our server that refuses');
+});
+
+test('whatever is thrown has a message', () => {
+  assert.equal(messageOf(new Error('why')), 'why');
+  assert.equal(messageOf('why'), 'why');
+});

@@ -1,0 +1,29 @@
+// The elements of index.html that the page's code fills: one list, checked once at the start.
+
+/** id -> tag */
+export const ELEMENTS = /** @type {const} */ ({
+  'lamp': 'div', 'lamp-word': 'span', 'banner': 'p',
+  'rate': 'dd', 'latency': 'span', 'latency-p95': 'small', 'sample': 'dd', 'time-code': 'dd',
+  'source': 'span', 'viewers': 'span',
+  'view': 'div', 'cameras': 'div',
+  'com': 'dd', 'cop': 'dd', 'support': 'dd', 'compression-row': 'div', 'compression': 'dd',
+  'picture-image': 'img', 'picture-note': 'p', 'picture-on': 'input', 'picture-camera': 'select',
+  'save-picture': 'button',
+  'hand-load': 'form', 'hand': 'select', 'hand-kg': 'input',
+  'loads': 'ol', 'legend': 'ul', 'loads-hint': 'p',
+  'diagnostics': 'section', 'problems': 'ul',
+});
+
+/** @typedef {{[Id in keyof typeof ELEMENTS]: HTMLElementTagNameMap[(typeof ELEMENTS)[Id]]}} Elements */
+
+/** @param {Pick<Document, 'getElementById'>} page
+ *  @returns {Elements}
+ *  @throws {Error} naming what the page lacks */
+export function findElements(page) {
+  const found = Object.entries(ELEMENTS).map(
+    ([id, tag]) => /** @type {const} */ ([id, tag, page.getElementById(id)]));
+  const missing = found.filter(([, tag, element]) => element?.localName !== tag)
+    .map(([id, tag]) => `<${tag} id="${id}">`);
+  if (missing.length > 0) throw new Error(`index.html has no ${missing.join(', ')}; reload the page`);
+  return /** @type {Elements} */ (Object.fromEntries(found.map(([id, , element]) => [id, element])));
+}

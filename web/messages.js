@@ -1,0 +1,167 @@
+// Reads the server's JSON: answers of /api and text messages of the WebSocket (docs/http.md). What a reader
+// returns has the type that its shape gives, because it has been checked: there is one list for both. Members
+// that the page does not use are dropped, so a newer server may send more. Pure functions.
+
+/** @template T
+ *  @typedef {(value: unknown, path: string) => T} Reader  throws where `value`, found at `path`, has another shape */
+
+const LONGEST_QUOTE = 60;  // characters of a wrong value
+
+/** @param {unknown} value
+ *  @param {string} path
+ *  @param {string} expected
+ *  @returns {never} */
+function refuse(value, path, expected) {
+  const quote = value === undefined ? 'nothing' : JSON.stringify(value).slice(0, LONGEST_QUOTE);
+  throw new Error(`the server sent ${quote} as ${path}; expected ${expected}: reload the page`);
+}
+
+/** @type {Reader<string>} */
+export const string = (value, path) => (typeof value === 'string' ? value : refuse(value, path, 'a text'));
+
+/** @type {Reader<number>} */
+export const number = (value, path) => (typeof value === 'number' ? value : refuse(value, path, 'a number'));
+
+/** @type {Reader<boolean>} */
+export const boolean = (value, path) =>
+  (typeof value === 'boolean' ? value : refuse(value, path, 'true or false'));
+
+/** @template {string} Word
+ *  @param {readonly Word[]} words
+ *  @returns {Reader<Word>} */
+export const oneOf = (words) => (value, path) =>
+  words.find((word) => word === value) ?? refuse(value, path, words.join(', '));
+
+/** @template T
+ *  @param {Reader<T>} entry
+ *  @param {number} [count]  any number of them unless told
+ *  @returns {Reader<T[]>} */
+export const listOf = (entry, count) => (value, path) => {
+  if (!Array.isArray(value)) return refuse(value, path, 'a list');
+  if (count !== undefined && value.length !== count) return refuse(value, path, `a list of ${count}`);
+  return value.map((/** @type {unknown} */ each, i) => entry(each, `${path}[${i}]`));
+};
+
+/** @param {number} count */
+const numbers = (count) => listOf(number, count);
+
+/** @template T
+ *  @param {Reader<T>} reader
+ *  @returns {Reader<T|null>} */
+export const orNull = (reader) => (value, path) => (value === null ? null : reader(value, path));
+
+/** @template T
+ *  @param {Reader<T>} reader
+ *  @returns {Reader<T|undefined>} */
+export const optional = (reader) => (value, path) => (value === undefined ? undefined : reader(value, path));
+
+/** @param {unknown} value
+ *  @param {string} path
+ *  @returns {Record<string, unknown>} */
+const members = (value, path) =>
+  (typeof value === 'object' && value !== null && !Array.isArray(value)
+    ? Object.fromEntries(Object.entries(value)) : refuse(value, path, 'an object'));
+
+/** An object with any keys.
+ *  @template T
+ *  @param {Reader<T>} entry
+ *  @returns {Reader<Record<string, T>>} */
+export const recordOf = (entry) => (value, path) => Object.fromEntries(
+  Object.entries(members(value, path)).map(([key, each]) => [key, entry(each, `${path}["${key}"]`)]));
+
+/** @template {Record<string, Reader<unknown>>} Shape
+ *  @typedef {{[Key in keyof Shape]: ReturnType<Shape[Key]>}} Shaped */
+
+/** @template {Record<string, Reader<unknown>>} Shape
+ *  @param {Shape} shape
+ *  @returns {Reader<Shaped<Shape>>} */
+export const object = (shape) => (value, path) => {
+  const given = members(value, path);
+  const read = Object.entries(shape).map(([key, reader]) => [key, reader(given[key], `${path}.${key}`)]);
+  return /** @type {Shaped<Shape>} */ (Object.fromEntries(read));
+};
+
+/** From the mildest: the order of legends and strips. */
+export const LOAD_CLASSES = /** @type {const} */ (['low', 'medium', 'high', 'unknown']);
+/** @typedef {(typeof LOAD_CLASSES)[number]} LoadClass */
+
+const rgb = numbers(3);
+
+// What the page knows of people and objects beside numbers that change with each sample.
+const readSecs = object({ low: number, medium: number, high: number, unknown: number });
+const readHandLoad = object({ right_kg: number, left_kg: number, both_kg: number });
+const readPersonDetails = object({
+  character: number, name: string, mass_kg: number, mass_is_assumed: boolean, why_other_metric: string,
+  why_no_ground: string, hand_load: readHandLoad,
+  loads: listOf(object({
+    joint: number, channel: string, reason: string, is_external: boolean, secs_in_class: readSecs,
+  })),
+});
+const readObjectName = object({ character: number, number, name: string });
+const readDetails = object({
+  source: string, camera: string, has_pictures: boolean, people: listOf(readPersonDetails),
+  objects: listOf(readObjectName),
+});
+/** @typedef {ReturnType<typeof readSecs>} Secs  time in each class so far, s
+ *  @typedef {ReturnType<typeof readHandLoad>} HandLoad
+ *  @typedef {ReturnType<typeof readPersonDetails>} PersonDetails
+ *  @typedef {ReturnType<typeof readObjectName>} ObjectName
+ *  @typedef {ReturnType<typeof readDetails>} Details */
+
+const readPong = object({ pong: number, server_micros: number });
+
+/** @typedef {{pong: number, server_micros: number}|{details: Details}|{error: string}} TextMessage */
+
+/** @param {string} text  a text message of the WebSocket
+ *  @returns {TextMessage|null}  null: of a kind that this page does not know */
+export function readTextMessage(text) {
+  const message = members(JSON.parse(text), 'a message');
+  if ('pong' in message) return readPong(message, 'a message');
+  if ('details' in message) return { details: readDetails(message.details, 'details') };
+  if ('error' in message) return { error: string(message.error, 'error') };
+  return null;
+}
+
+// /api/model
+const readVisual = object({
+  kind: oneOf(['box', 'cylinder', 'sphere', 'mesh']), size: numbers(3), position: numbers(3),
+  quaternion: numbers(4), rgba: orNull(numbers(4)), mesh: optional(string),
+});
+const readPersonModel = object({
+  character: number, revision: number, links: listOf(object({ visuals: listOf(readVisual) })),
+});
+const readClassColors = listOf(object({ name: oneOf(LOAD_CLASSES), color: rgb }));
+const readPalette = object({
+  /** @type {Reader<ReturnType<typeof readClassColors>>} */
+  classes: (value, path) => {
+    const colors = readClassColors(value, path);
+    const missing = LOAD_CLASSES.find((wanted) => !colors.some(({ name }) => name === wanted));
+    return missing ? refuse(value, path, `a colour of the class ${missing}`) : colors;
+  },
+  cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, object: rgb, axes: listOf(rgb, 3),
+});
+export const readModel = object({
+  people: listOf(readPersonModel), joints: listOf(object({ label: string })), class_limits: numbers(2),
+  palette: readPalette,
+});
+/** @typedef {ReturnType<typeof readVisual>} Visual
+ *  @typedef {ReturnType<typeof readPersonModel>} PersonModel
+ *  @typedef {ReturnType<typeof readPalette>} Palette  sRGB 0..1
+ *  @typedef {ReturnType<typeof readModel>} Model */
+
+// /api/cameras
+const readCameraView = object({
+  name: string, position: numbers(3), target: numbers(3), up: numbers(3), vertical_fov_rad: number,
+});
+export const readCameras = object({ cameras: listOf(readCameraView), live: string });
+/** @typedef {ReturnType<typeof readCameraView>} CameraView  of a person at the origin */
+
+/** /api/diagnostics: whatever part of the server is not running is absent or null. */
+export const readDiagnostics = object({
+  pictures: optional(orNull(object({ problems: optional(listOf(string)), last_error: optional(string) }))),
+  source: optional(object({ rejected: optional(recordOf(number)) })),
+});
+/** @typedef {ReturnType<typeof readDiagnostics>} Diagnostics */
+
+/** What any refused request is answered with. */
+export const readRefusal = object({ error: string });

@@ -1,0 +1,50 @@
+// The people in the view: bodies are made from the model and moved by every state. World frame: z up, metres.
+import * as THREE from 'three';
+import { Human } from './human.js';
+
+export class People {
+  group = new THREE.Group();
+  #people = /** @type {Map<number, Human>} */ (new Map());
+
+  /** @param {() => void} onChange  called when a mesh arrived later */
+  constructor(onChange) {
+    this.onChange = onChange;
+  }
+
+  /** @param {import('./messages.js').PersonModel[]} models  whose revision is shown already stay as they are
+   *  @param {import('./messages.js').Palette} palette
+   *  @param {ReturnType<typeof import('./human.js').makeMarkMaterials>} marks */
+  setModels(models, palette, marks) {
+    for (const model of models) {
+      if (this.has(model.character, model.revision)) continue;
+      this.#people.get(model.character)?.dispose();
+      const human = new Human(model, palette, marks, this.onChange);
+      this.#people.set(model.character, human);
+      this.group.add(human.group);
+    }
+  }
+
+  /** @param {number} character
+   *  @param {number} revision  of the model */
+  has(character, revision) {
+    return this.#people.get(character)?.revision === revision;
+  }
+
+  get size() {
+    return this.#people.size;
+  }
+
+  get failedMeshes() {
+    return [...this.#people.values()].flatMap((human) => human.failedMeshes);
+  }
+
+  /** @param {import('./state_codec.js').State} state
+   *  @param {boolean} isLive */
+  update(state, isLive) {
+    for (const [character, human] of this.#people) {
+      const person = state.people.find((each) => each.character === character);
+      human.group.visible = person !== undefined;
+      if (person) human.update(person, isLive, state.floor);
+    }
+  }
+}

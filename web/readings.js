@@ -1,0 +1,53 @@
+// What is said beside the view about one person. Pure functions.
+import { centimetres, kilonewtons } from './format.js';
+import { heldText } from './hand_load.js';
+
+/** @typedef {import('./state_codec.js').Person} Person
+ *  @typedef {import('./messages.js').PersonDetails} PersonDetails
+ *  @typedef {{hint: string, isDoubtful: boolean, com: string, cop: string, support: string,
+ *    compression: string}} Readings  isDoubtful: the hint deserves a second look; compression "": not known */
+
+/** @param {Person|undefined} person  of the newest state
+ *  @param {PersonDetails|undefined} details  of the same character; they come apart from the state and later
+ *  @param {boolean} isLive
+ *  @returns {Readings} */
+export function readingsOf(person, details, isLive) {
+  if (!person) {
+    return { hint: '', isDoubtful: false, com: 'Centre of mass', cop: 'Centre of pressure',
+      support: 'Support of the feet', compression: '' };
+  }
+  return {
+    hint: loadsHint(person, details),
+    isDoubtful: details?.mass_is_assumed === true || person.comDisagrees,
+    com: comText(person),
+    cop: copText(person, details),
+    support: isLive && Number.isFinite(person.margin)
+      ? `Margin of stability ${centimetres(person.margin)}` : 'Support of the feet',
+    compression: isLive && Number.isFinite(person.compression)
+      ? `L5/S1 compression ${kilonewtons(person.compression)}` : '',
+  };
+}
+
+/** What the loads are, and what they stand on.
+ *  @param {Person} person
+ *  @param {PersonDetails|undefined} details */
+export function loadsHint(person, details) {
+  const motion = person.metric === 'external' ? '' : person.isDynamic ? ', dynamic' : ', static';
+  return [
+    `${person.metric}${motion}`,
+    details?.mass_is_assumed ? `mass assumed ${details.mass_kg} kg` : '',
+    heldText(details?.hand_load),
+    person.comDisagrees ? `centre of mass ${centimetres(person.comDifference)} from MVN’s` : '',
+    details?.why_other_metric ?? '',
+  ].filter(Boolean).join(' · ');
+}
+
+/** @param {Person} person */
+export const comText = (person) => (person.comIsOurs ? 'Centre of mass (body model)' : 'Centre of mass');
+
+/** @param {Person} person
+ *  @param {PersonDetails|undefined} details */
+export function copText(person, details) {
+  if (person.cop) return person.groundIsMeasured ? 'Centre of pressure (measured)' : 'Centre of pressure';
+  return `Centre of pressure: ${details?.why_no_ground || 'unknown'}`;
+}
