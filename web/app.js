@@ -162,9 +162,12 @@ async function loadModel(now) {
 /** Asked for seldom, and only while the page is visible. */
 async function loadDiagnostics() {
   if (document.hidden) return;
-  const answer = await fetch('api/diagnostics').catch(() => null);  // the lamp tells of a server that is gone
-  if (!answer?.ok) return;
-  showProblems(problemLines(readDiagnostics(await answer.json(), 'api/diagnostics'), scene?.failedMeshes ?? []));
+  try {
+    const diagnostics = await ask('api/diagnostics', readDiagnostics);
+    if (diagnostics) showProblems(problemLines(diagnostics, scene?.failedMeshes ?? []));
+  } catch (error) {
+    showProblems([`The diagnostics did not load: ${messageOf(error)}`]);
+  }
 }
 
 /** The class colours come from the server, so that page, picture and RViz cannot differ.
@@ -178,9 +181,16 @@ function applyPalette(palette) {
 }
 
 async function loadCameras() {
-  const answer = await fetch('api/cameras').catch(() => null);
-  if (!answer?.ok) return;
-  const { cameras, live } = readCameras(await answer.json(), 'api/cameras');
+  try {
+    const answer = await ask('api/cameras', readCameras);
+    if (answer) showCameras(answer);
+  } catch (error) {
+    showNotice(`The cameras did not load: ${messageOf(error)}`);
+  }
+}
+
+/** @param {ReturnType<typeof readCameras>} answer */
+function showCameras({ cameras, live }) {
   picture.setCameras(cameras);
   elements['picture-camera'].value = live;
   if (elements.cameras.childElementCount > 0) return;  // a reconnection keeps the viewer's camera

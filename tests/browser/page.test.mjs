@@ -245,6 +245,21 @@ test('without WebGL the server’s picture stands in', async () => {
   await close();
 });
 
+test('a proxy that answers with a page of its own is named, and the rest of the page works', async () => {
+  const { page, problems, close } = await openLive({
+    beforeLoad: async (fresh) => {
+      for (const route of ['diagnostics', 'cameras']) {
+        await fresh.route(`**/api/${route}`, (request) => request.fulfill({ contentType: 'text/html', body: '<h1>Hi</h1>' }));
+      }
+    },
+  });
+  await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
+  await page.waitForFunction(() => /cameras.*text\/html/.test(document.getElementById('banner').textContent), null, LONG);
+  await page.waitForFunction(() => /diagnostics.*text\/html/.test(document.getElementById('problems').textContent), null, LONG);
+  assert.deepEqual(problems, []);
+  await close();
+});
+
 test('a token is asked for, and does not stay in the address', async () => {
   const guarded = await startFixture(['--token', 's3cret']);
   const denied = await openPage(guarded.url.replace(/\?.*/, ''));
