@@ -17,16 +17,27 @@ export const keyOf = ({ character, number }) => `${character}/${number}`;
 
 export class ObjectMarks {
   group = new THREE.Group();
+  #fovDegrees;
   #marks = /** @type {Map<string, {group: THREE.Group, name: string, label: THREE.Sprite|null}>} */ (new Map());
   #names = /** @type {Map<string, string>} */ (new Map());
   #block = new THREE.BoxGeometry(BLOCK, BLOCK, BLOCK);
   #rod = new THREE.CylinderGeometry(AXIS_RADIUS, AXIS_RADIUS, AXIS_LENGTH, 12).translate(0, AXIS_LENGTH / 2, 0);
 
-  /** @param {Pick<import('./messages.js').Palette, 'object'|'axes'|'stale_body'>} palette */
-  constructor(palette) {
+  /** @param {Pick<import('./messages.js').Palette, 'object'|'axes'|'stale_body'>} palette
+   *  @param {number} fovDegrees  from top to bottom of the view */
+  constructor(palette, fovDegrees) {
+    this.#fovDegrees = fovDegrees;
     this.materials = [palette.object, ...palette.axes].map(toColor).map(
       (color) => ({ color, material: new THREE.MeshStandardMaterial({ color, roughness: 0.7 }) }));
     this.staleColor = toColor(palette.stale_body);
+  }
+
+  /** Labels keep their size on the screen.
+   *  @param {number} degrees  from top to bottom of the view */
+  setFieldOfView(degrees) {
+    if (degrees === this.#fovDegrees) return;
+    this.#fovDegrees = degrees;
+    for (const { label } of this.#marks.values()) if (label) this.#fit(label);
   }
 
   /** Names come apart from poses and later.
@@ -86,7 +97,15 @@ export class ObjectMarks {
     mark.label = name ? makeLabel(labelText(name)) : null;
     if (!mark.label) return;
     mark.label.position.set(0, 0, LABEL_LIFT);
+    this.#fit(mark.label);
     mark.group.add(mark.label);
+  }
+
+  /** @param {THREE.Sprite} label */
+  #fit(label) {
+    const viewHeight = 2 * Math.tan((this.#fovDegrees * Math.PI) / 360);  // at 1 m, where such a sprite is measured
+    const height = LABEL_HEIGHT * viewHeight;
+    label.scale.multiplyScalar(height / label.scale.y);
   }
 }
 
@@ -118,7 +137,6 @@ function makeLabel(text) {
   map.colorSpace = THREE.SRGBColorSpace;
   const label = new THREE.Sprite(new THREE.SpriteMaterial({ map, sizeAttenuation: false, depthTest: false, fog: false }));
   label.renderOrder = 20;
-  const height = LABEL_HEIGHT * 2 * Math.tan(Math.PI / 12);  // of a view of 30 deg
-  label.scale.set(height * canvas.width / canvas.height, height, 1);
+  label.scale.set(canvas.width / canvas.height, 1, 1);
   return label;
 }

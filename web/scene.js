@@ -72,7 +72,7 @@ export class Scene {
   setModel(model) {
     this.#marks ??= makeMarkMaterials(model.palette);
     if (this.#objects === null) {
-      this.#objects = new ObjectMarks(model.palette);
+      this.#objects = new ObjectMarks(model.palette, this.#camera.fov);
       this.#objects.setNames(this.#objectNames);
       this.#scene.add(this.#objects.group);
     }
@@ -135,6 +135,7 @@ export class Scene {
     const ground = { middle: this.#followed, radius: this.#ground.radius };
     const { position, target, fovDegrees } = aim(this.#view, ground, this.#camera.aspect);
     this.#camera.fov = fovDegrees;
+    this.#objects?.setFieldOfView(fovDegrees);
     this.#camera.updateProjectionMatrix();
     this.#camera.position.fromArray(position);
     this.controls.target.fromArray(target);
