@@ -1,0 +1,55 @@
+// The connection with a WebSocket that the test holds both ends of.
+import assert from 'node:assert/strict';
+import { afterEach, beforeEach, test } from 'node:test';
+import { Connection } from '../../../web/connection.js';
+
+class FakeSocket {
+  static OPEN = 1;
+  static newest = null;
+  readyState = FakeSocket.OPEN;
+  sent = [];
+  constructor() { FakeSocket.newest = this; }
+  send(text) { this.sent.push(JSON.parse(text)); }
+  close() { this.onclose(); }
+  receive(data) { this.onmessage({ data }); }
+}
+
+const real = { WebSocket: globalThis.WebSocket, location: globalThis.location };
+beforeEach(() => { Object.assign(globalThis, { WebSocket: FakeSocket, location: { href: 'http://localhost:8080/' } }); });
+afterEach(() => { Object.assign(globalThis, real); });
+
+/** An open connection; `seen` lists what its handlers were told. */
+function open() {
+  const seen = [];
+  const tell = (name) => (value) => seen.push([name, value]);
+  const connection = new Connection({ onState: tell('state'), onPicture: tell('picture'), onDetails: tell('details'),
+    onError: tell('error'), onOpen: () => {} });
+  FakeSocket.newest.onopen();
+  return { connection, seen, socket: FakeSocket.newest };
+}
+
+test('a message that is not what it should be is reported, and the next one is taken', (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });  // its pings
+  const { seen, socket, connection } = open();
+  const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, people: [], objects: [] };
+  socket.receive(JSON.stringify({ details: { ...details, people: 'many' } }));
+  socket.receive('<html>');
+  socket.receive('null');
+  socket.receive(new Uint8Array([1, 99]).buffer);
+  socket.receive(JSON.stringify({ details }));
+  assert.deepEqual(seen.map(([name]) => name), ['error', 'error', 'error', 'error', 'details']);
+  assert.match(seen[0][1], /sent "many" as details\.people; expected a list: reload the page/);
+  assert.match(seen[2][1], /sent null as a message; expected an object/);
+  assert.match(seen[3][1], /version 99/);
+  assert.deepEqual(seen[4][1], details);
+  connection.close();
+});
+
+test('a pong sets the clock', (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const { socket, connection } = open();
+  const { ping } = socket.sent.find((message) => 'ping' in message);
+  socket.receive(JSON.stringify({ pong: ping, server_micros: 1000 * (ping + 5000) }));
+  assert.ok(Math.abs(connection.clock.offset - 5000) < 1000, `${connection.clock.offset} ms`);
+  connection.close();
+});
