@@ -270,8 +270,9 @@ void SceneBuilder::MeasureRate(const BodySample& sample) {
   }
   if (sample.character != rate_character_) return;
   ++rate_window_samples_;
-  // A first figure soon, then one a second.
-  if (secs >= 1.0 || (current_.rate_hz == 0 && secs >= 0.2)) {
+  // Not sooner, not even the first time: samples that waited in the socket while the program
+  // started come at once, and would be a quarter of a short window.
+  if (secs >= 1.0) {
     current_.rate_hz = rate_window_samples_ / secs;
     rate_window_start_ = now;
     rate_window_samples_ = 0;

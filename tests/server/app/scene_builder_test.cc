@@ -216,6 +216,29 @@ TEST(SceneBuilder, MeasuresTheRateOfALiveStream) {
   EXPECT_NEAR(built.last().rate_hz, 100, 1);
 }
 
+TEST(SceneBuilder, HasNoRateBeforeASecondOfSamplesHasCome) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  // As at the start of a program: what waited in the socket comes at once, then 100 per second.
+  for (int i = 0; i < 10; ++i) {
+    sample.arrival_nanos += 100'000;
+    sample.stamp_nanos += 10'000'000;
+    built.builder.OnSample(sample);
+  }
+  for (int i = 0; i < 98; ++i) {
+    sample.arrival_nanos += 10'000'000;
+    sample.stamp_nanos += 10'000'000;
+    built.builder.OnSample(sample);
+    ASSERT_EQ(built.last().rate_hz, 0) << "after " << i + 1 << " samples";
+  }
+  for (int i = 0; i < 300; ++i) {
+    sample.arrival_nanos += 10'000'000;
+    sample.stamp_nanos += 10'000'000;
+    built.builder.OnSample(sample);
+  }
+  EXPECT_NEAR(built.last().rate_hz, 100, 1);
+}
+
 TEST(SceneBuilder, TheRateOfManyPeopleIsThatOfOne) {
   Built built;
   BodySample sample = SampleOf("n_pose", 0);
