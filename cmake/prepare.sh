@@ -32,7 +32,8 @@ install_packages() {
   say "installing ${#missing[@]} Debian packages"
   "${root[@]}" apt-get update -q >/dev/null || die "apt-get update failed; is there a network?"
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends \
-    "${missing[@]}" >/dev/null || die "apt-get could not install: ${missing[*]}"
+    "${missing[@]}" >/dev/null ||
+    die "apt-get could not install: ${missing[*]}; if it was interrupted before, run 'dpkg --configure -a' as root"
 }
 
 # install_npm FOLDER: what its lock file says, again only when the lock file has changed.
@@ -44,11 +45,34 @@ install_npm() {
   cp "$1/package-lock.json" "$stamp"
 }
 
-# build PRESET [TARGET...]
+# take_the_lock: two of us in one folder would build over each other.
+take_the_lock() {
+  mkdir -p build 2>/dev/null || die "cannot write to $PWD: make it writable, or clone into a folder that is"
+  exec {lock}> build/.lock
+  flock -n "$lock" || die "another ./check or ./demo is building here: wait for it, or stop it"
+}
+
+# enough_room MIB: a build that runs out of it leaves files cut short.
+enough_room() {
+  local free
+  free=$(df -Pm build | awk 'NR == 2 { print $4 }')
+  [ "$free" -ge "$1" ] || die "only $free MiB free for $PWD/build, $1 are needed: make room, or clone elsewhere"
+}
+
+# build PRESET [TARGET...]: configures anew when the presets have changed or the last time did not come to an end.
 build() {
-  local preset=$1
+  local preset=$1 folder=build/$1
   shift
-  [ -f "build/$preset/build.ninja" ] || { say "configuring build/$preset"; cmake --preset "$preset" >/dev/null || exit 2; }
+  [ -f "$folder/.built" ] || enough_room "$(case $preset in asan) echo 2500 ;; *) echo 1000 ;; esac)"
+  if ! cmp -s CMakePresets.json "$folder/.presets"; then
+    say "configuring $folder"
+    cmake --fresh --preset "$preset" >"$folder.log" 2>&1 || { cat "$folder.log" >&2; die "configuring failed, see above"; }
+    cp CMakePresets.json "$folder/.presets"
+  fi
   say "building $preset"
-  cmake --build "build/$preset" ${1:+--target "$@"} || die "the build failed"
+  if ! cmake --build "$folder" ${1:+--target "$@"}; then
+    enough_room 50
+    die "the build failed, see above"
+  fi
+  touch "$folder/.built"
 }
