@@ -1,5 +1,6 @@
 #include "server/app/scene_reader.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "server/core/errors.h"
@@ -7,6 +8,9 @@
 
 namespace kinescope::app {
 namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 TEST(SceneTimeline, IsAFixedGridWhateverTheSourcesRate) {
   SceneReader reader("demo:walk", {});
@@ -32,15 +36,29 @@ TEST(SceneReader, RefusesALiveStream) {
   EXPECT_THROW(SceneReader("udp://127.0.0.1:0", {}), UsageError);
 }
 
-TEST(SceneReader, SaysWhatASourceMayBe) {
-  for (const char* bad : {"", "nonsense", "demo:fly", "/nowhere.mvnx", "tcp:/x"}) {
-    try {
-      SceneReader reader(bad, {});
-      FAIL() << "opened '" << bad << "'";
-    } catch (const SourceError& error) {
-      EXPECT_NE(std::string(error.what()).size(), 0u);
+std::string SceneReaderError(const std::string& url) {
+  try {
+    SceneReader reader(url, {});
+  } catch (const SourceError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SceneReader, NamesTheBadSourceAndEveryKindThatThereIs) {
+  for (const char* bad : {"", "nonsense", "/nowhere.mvnx", "upd://:9763"}) {
+    const std::string error = SceneReaderError(bad);
+    EXPECT_THAT(error, HasSubstr("'" + std::string(bad) + "'"));
+    for (const char* kind : {"udp://", "tcp://", "MVNX", "pcap", ".bin", "ROS bag",
+                             "ros:", "demo:lift", "demo:walk"}) {
+      EXPECT_THAT(error, HasSubstr(kind)) << "for '" << bad << "'";
     }
   }
+}
+
+TEST(SceneReader, NamesWhatIsWrongWithASourceOfAKnownKind) {
+  EXPECT_THAT(SceneReaderError("demo:fly"), AllOf(HasSubstr("fly"), HasSubstr("lift")));
+  EXPECT_THAT(SceneReaderError("tcp:/x"), AllOf(HasSubstr("tcp:/x"), HasSubstr("tcp://")));
 }
 
 }  // namespace

@@ -148,21 +148,46 @@ TEST_P(PackedInput, SaysWhyItBreaksOff) {
   }
 }
 
-TEST_P(PackedInput, SurvivesAnyDamage) {
+// libarchive looks at no check sum of gzip and writes none for zstd: of these a damaged byte may
+// come through as it is, and the end may come early.
+bool HasCheckSum(const Packing& packing) {
+  return packing.name != std::string("gzip") && packing.name != std::string("zstd");
+}
+
+TEST_P(PackedInput, DamageIsAnErrorOrHarmsNothing) {
   TempFolder folder;
-  const std::string packed = Packed(Content(), GetParam().add_filter);
+  const std::string content = Content().substr(0, 80'000);
+  const std::string packed = Packed(content, GetParam().add_filter);
   RandomValues random(32);
-  for (int i = 0; i < 50; ++i) {
+  int failed = 0, harmed = 0;
+  for (int i = 0; i < 20; ++i) {
+    constexpr int kDamagedBytes = 5;
     std::string damaged = packed;
-    for (int k = 0; k < 5; ++k) {
+    for (int k = 0; k < kDamagedBytes; ++k) {
       damaged[static_cast<std::size_t>(random.Integer(0, 2000))] =
           static_cast<char>(random.Integer(0, 255));
     }
-    ErrorOf([&] {
+    std::string read;
+    const std::string error = ErrorOf([&] {
       InputFile file = OpenInputFile(Write(folder / "take", damaged));
-      ReadAll(file);
+      read = ReadAll(file);
+      EXPECT_EQ(std::ferror(file.get()) != 0, !file.failure().empty());
+      if (!file.failure().empty()) throw SourceError(file.failure());
     });
+    if (!error.empty()) {
+      ++failed;
+    } else if (read != content &&
+               read != damaged) {  // the latter: it does not look packed any more
+      ++harmed;
+      ASSERT_LE(read.size(), content.size());
+      int different = 0;
+      for (std::size_t at = 0; at < read.size(); ++at) different += read[at] != content[at];
+      EXPECT_LE(different, kDamagedBytes);
+    }
   }
+  if (!HasCheckSum(GetParam())) return;
+  EXPECT_GT(failed, 0);
+  EXPECT_EQ(harmed, 0) << "taken for whole";
 }
 
 TEST(InputFile, ABombCostsNoMemory) {
