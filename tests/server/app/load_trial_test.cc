@@ -6,35 +6,15 @@
 
 #include "server/app/load_rows.h"
 #include "server/app/load_summary.h"
-#include "server/loads/joint_score.h"
+#include "tests/server/app/trial_scenes.h"
 
 namespace kinescope::app {
 namespace {
 
+using testing::AddTo;
+using testing::SceneWithRatio;
+
 constexpr std::int64_t kMillis = 1'000'000;
-
-// One person, all of whose ratios are `ratio`; NaN: unknown because of `why`.
-std::shared_ptr<const SceneState> SceneAt(double secs, double ratio, std::string_view why = "") {
-  auto scene = std::make_shared<SceneState>();
-  scene->stamp_nanos = std::llround(secs * 1e9);
-  PersonState person;
-  person.model = std::make_shared<PersonModel>();
-  person.sample.stamp_nanos = scene->stamp_nanos;
-  for (const int joint : loads::kScoredJoints) {
-    JointLoad load;
-    load.joint = joint;
-    load.ratio = ratio;
-    load.load_class = std::isnan(ratio) ? LoadClass::kUnknown : LoadClass::kLow;
-    load.reason = why;
-    person.loads.push_back(load);
-  }
-  scene->people.push_back(person);
-  return scene;
-}
-
-void Add(const std::shared_ptr<const SceneState>& scene, LoadTrial& trial) {
-  trial.Add(scene, scene->people[0]);
-}
 
 TEST(LoadTrial, FindsTheWorstMomentsApartInTime) {
   LoadTrial trial(false, 0);
@@ -43,7 +23,7 @@ TEST(LoadTrial, FindsTheWorstMomentsApartInTime) {
     const double ratio = 0.1 + 0.5 * std::exp(-10 * std::pow(secs - 2, 2)) +
                          0.7 * std::exp(-10 * std::pow(secs - 5, 2)) +
                          0.3 * std::exp(-10 * std::pow(secs - 8, 2));
-    Add(SceneAt(secs, ratio), trial);
+    AddTo(trial, SceneWithRatio(secs, ratio));
   }
   const std::vector<WorstMoment> worst = trial.Worst(3);
   ASSERT_EQ(worst.size(), 3U);
@@ -60,7 +40,7 @@ TEST(LoadTrial, FindsTheWorstMomentsApartInTime) {
 TEST(LoadTrial, KeepsThePeakOfALongTrial) {
   LoadTrial trial(false, 0);
   for (int i = 0; i < 36000; ++i) {
-    Add(SceneAt(0.1 * i, i == 20000 ? 0.9 : 0.1 + 1e-6 * i), trial);
+    AddTo(trial, SceneWithRatio(0.1 * i, i == 20000 ? 0.9 : 0.1 + 1e-6 * i));
   }
   const std::vector<WorstMoment> worst = trial.Worst(3);
   ASSERT_EQ(worst.size(), 3U);
@@ -69,7 +49,7 @@ TEST(LoadTrial, KeepsThePeakOfALongTrial) {
 
 TEST(LoadTrial, ShowsNoMomentOfLoadsThatAreNotKnown) {
   LoadTrial trial(false, 0);
-  for (int i = 0; i <= 100; ++i) Add(SceneAt(0.01 * i, std::nan(""), "in the air"), trial);
+  for (int i = 0; i <= 100; ++i) AddTo(trial, SceneWithRatio(0.01 * i, std::nan(""), "in the air"));
   EXPECT_TRUE(trial.Worst(3).empty());
   EXPECT_FALSE(trial.knows_anything());
   ASSERT_EQ(trial.why_unknown(0).size(), 1U);
@@ -84,8 +64,8 @@ TEST(LoadTrial, ShowsNoMomentOfLoadsThatAreNotKnown) {
 TEST(LoadTrial, KeepsCurvesOnlyWhereFiguresAreWanted) {
   LoadTrial without(false, 0), with(true, 0);
   for (int i = 0; i < 10; ++i) {
-    Add(SceneAt(0.01 * i, 0.2), without);
-    Add(SceneAt(0.01 * i, 0.2), with);
+    AddTo(without, SceneWithRatio(0.01 * i, 0.2));
+    AddTo(with, SceneWithRatio(0.01 * i, 0.2));
   }
   EXPECT_TRUE(without.curves().empty());
   ASSERT_EQ(with.curves().size(), 10U);
