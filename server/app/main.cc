@@ -2,8 +2,12 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <stdexcept>
 #include <string>
 
 #include "server/app/commands.h"
@@ -28,6 +32,12 @@ std::string NodeName(int argc, char** argv) {
   return command == "inspect" || command == "urdf" ? "kinescope_" + command : "kinescope";
 }
 
+// What is still in a buffer has to arrive as well; the end of a process would not tell.
+void FlushStdout() {
+  if (std::fflush(stdout) == 0) return;
+  throw std::runtime_error(std::string("cannot write to standard output: ") + std::strerror(errno));
+}
+
 // CLI11 would only say that a subcommand is required.
 void RefuseUnknownCommand(const CLI::App& line, const std::string& word) {
   if (word.empty() || word[0] == '-') return;
@@ -47,6 +57,7 @@ int main(int argc, char** argv) {
   try {
     SetUpLog();
     app::CatchStopSignals();
+    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is then an error like a full disk
     // Takes `a:=b` and `__name:=` out of argv.
     ros_bridge::InitRos(argc, argv, NodeName(argc, argv));
 
@@ -74,6 +85,7 @@ int main(int argc, char** argv) {
     RefuseUnknownCommand(line, argc > 1 ? argv[1] : "");
     try {
       line.parse(argc, argv);
+      FlushStdout();
     } catch (const CLI::ParseError& error) {
       return line.exit(error) == 0 ? 0 : 2;
     }

@@ -173,8 +173,7 @@ void Record(const RecordOptions& options) {
     throw SourceError(options.source +
                       ": has samples, not datagrams; send it (kinescope stream) and record that");
   }
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size, and a pipe that nobody reads any more:
-  std::signal(SIGPIPE, SIG_IGN);  // errors of writing, told as such
+  std::signal(SIGPIPE, SIG_IGN);  // a pipe that is not read any more is an error of writing
   mvn::PcapWriterSettings settings;
   settings.path = options.out;
   settings.rotate_bytes = static_cast<std::uint64_t>(options.rotate_mb * kBytesPerMb);

@@ -1,7 +1,6 @@
 // `kinescope render`: pictures and clips of recordings and the built-in subject.
 #include <fmt/format.h>
 
-#include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -74,7 +73,6 @@ struct CommandOptions {
 };
 
 int Run(const CommandOptions& options) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is then an error like a full disk
   if (options.verify.empty()) {
     Render(options.render);
     return 0;

@@ -22,6 +22,7 @@
 #include "tests/process.h"
 #include "tests/render/test_scene.h"
 #include "tests/server/http/test_client.h"
+#include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 
@@ -32,17 +33,13 @@ namespace fs = std::filesystem;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::Kinescope;
 using testing::ProgramResult;
+using testing::RestOfLine;
 using testing::RunProgram;
 using testing::TempFolder;
 
 constexpr std::chrono::seconds kPatience(30);
-
-ProgramResult Kinescope(std::vector<std::string> arguments,
-                        const std::vector<std::string>& environment = {}) {
-  arguments.insert(arguments.begin(), KINESCOPE_PROGRAM);
-  return RunProgram(arguments, environment);
-}
 
 ProgramResult Picture(const fs::path& out, const std::string& backend,
                       const std::vector<std::string>& environment = {}) {
@@ -196,16 +193,6 @@ TEST_F(Backend, ADriverThatHangsEndsACommandAndLeavesNoFile) {
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   }
   EXPECT_THAT(folder_.Names(), IsEmpty());
-}
-
-// Reads on to the line that has `text`; what follows it there.
-std::string RestOfLine(testing::Process& process, const std::string& text) {
-  while (const auto line = process.ReadLine(kPatience)) {
-    const std::size_t at = line->find(text);
-    if (at != std::string::npos) return line->substr(at + text.size());
-  }
-  ADD_FAILURE() << "it never said '" << text << "'";
-  return "";
 }
 
 TEST_F(Backend, AServerWhoseDriverHangsSaysSoAndGoesOnWhenItComesBack) {

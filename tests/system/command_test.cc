@@ -8,13 +8,21 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 
 #include "render/compare.h"
 #include "render/png_file.h"
+#include "server/app/options.h"
+#include "server/app/render_options.h"
+#include "server/app/view_options.h"
 #include "tests/process.h"
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 
@@ -22,35 +30,14 @@ namespace kinescope {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ExpectRefusal;
 using ::testing::HasSubstr;
+using testing::Kinescope;
 using testing::ProgramResult;
+using testing::RestOfLine;
 using testing::RunProgram;
 using testing::SharedData;
 using testing::TempFolder;
-
-ProgramResult Kinescope(std::vector<std::string> arguments,
-                        const std::vector<std::string>& environment = {}) {
-  arguments.insert(arguments.begin(), KINESCOPE_PROGRAM);
-  return RunProgram(arguments, environment);
-}
-
-// One line that names what is wrong, exit code 2, nothing on standard output.
-void ExpectRefusal(const ProgramResult& result, const std::string& named) {
-  EXPECT_EQ(result.exit_code, 2) << result.err;
-  EXPECT_THAT(result.err, HasSubstr(named));
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  EXPECT_EQ(result.out, "");
-}
-
-// What follows `text` in the first line of `process` that has it.
-std::string RestOfLine(testing::Process& process, const std::string& text) {
-  while (const auto line = process.ReadLine(std::chrono::seconds(30))) {
-    const std::size_t at = line->find(text);
-    if (at != std::string::npos) return line->substr(at + text.size());
-  }
-  ADD_FAILURE() << "it never said '" << text << "'";
-  return "";
-}
 
 // A port that is taken, by us.
 class TakenPort {
@@ -163,11 +150,109 @@ TEST(Command, RefusesOutputsThatCannotBe) {
   ExpectRefusal(Kinescope({"golden", "check", "/nowhere"}), "/nowhere");
 }
 
-TEST(Command, HelpsEveryCommand) {
-  for (const char* command : {"serve", "bridge", "render", "golden", "stream", "urdf", "probe"}) {
-    const ProgramResult result = Kinescope({command, "--help"});
+// The names below "Subcommands:" in what --help says.
+std::set<std::string> SubcommandsIn(const std::string& help) {
+  std::set<std::string> names;
+  const std::size_t at = help.find("Subcommands:\n");
+  if (at == std::string::npos) return names;
+  std::istringstream lines(help.substr(at));
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    if (line.size() > 2 && line[0] == ' ' && line[2] != ' ') {
+      names.insert(line.substr(2, line.find(' ', 2) - 2));
+    }
+  }
+  return names;
+}
+
+// The names of the options that a list visits.
+class OptionNames {
+ public:
+  template <class T>
+  void operator()(const std::string& name, const T&, const std::string&) {
+    names.push_back(name);
+  }
+  std::vector<std::string> names;
+};
+
+template <class... Lists>
+std::vector<std::string> OptionNamesOf(Lists... lists) {
+  OptionNames collect;
+  (lists.Visit(collect), ...);
+  return collect.names;
+}
+
+// Is "--name" there, and not only the beginning of a longer one?
+bool HasOption(const std::string& help, const std::string& name) {
+  const std::string flag = "--" + name;
+  for (std::size_t at = help.find(flag); at != std::string::npos; at = help.find(flag, at + 1)) {
+    const char next = (help + ' ')[at + flag.size()];
+    if (next != '_' && next != '-' && std::isalnum(static_cast<unsigned char>(next)) == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+TEST(Command, HelpsEveryCommandWithEveryOption) {
+  const app::PersonOptions person;
+  const app::LoadOptions loads;
+  const app::BackendOptions backend;
+  const app::ViewOptions view;
+  OptionNames bridge;
+  app::ServeOptions().VisitBridge(bridge);
+  std::vector<std::string> render = OptionNamesOf(app::MomentOptions(), app::ClipOptions(),
+                                                  app::PackOptions(), view, backend, person, loads);
+  for (const char* more : {"out", "jobs", "force", "no_sidecar", "verify", "json"})
+    render.emplace_back(more);
+  std::vector<std::string> loads_command = OptionNamesOf(person, loads, backend);
+  for (const char* more : {"csv", "json", "layout", "plots", "report", "seconds"}) {
+    loads_command.emplace_back(more);
+  }
+  const std::map<std::string, std::vector<std::string>> expected = {
+      {"serve", OptionNamesOf(app::ServeOptions())},
+      {"bridge", bridge.names},
+      {"render", render},
+      {"loads", loads_command},
+      {"golden", {}},
+      {"golden check", OptionNamesOf(backend)},
+      {"golden update", OptionNamesOf(backend)},
+      {"stream",
+       {"to", "characters", "types", "rate_hz", "stream_hz", "speed", "loop", "seconds", "gloves",
+        "props", "fault", "seed", "json"}},
+      {"record", {"out", "rotate_mb", "seconds", "force", "json"}},
+      {"inspect", {"seconds", "json"}},
+      {"urdf", OptionNamesOf(person)},
+      {"urdf check", {"json", "package-path"}},
+      {"urdf picture", OptionNamesOf(view, backend)},
+      {"probe", {"json", "limit_secs"}}};
+
+  std::set<std::string> met;
+  std::vector<std::string> open = {""};  // commands whose help has not been read
+  while (!open.empty()) {
+    const std::string command = open.back();
+    open.pop_back();
+    std::vector<std::string> arguments;
+    std::istringstream words(command);
+    for (std::string word; words >> word;) arguments.push_back(word);
+    arguments.emplace_back("--help");
+    const ProgramResult result = Kinescope(arguments);
     EXPECT_EQ(result.exit_code, 0) << command;
-    EXPECT_GT(result.out.size(), 100u) << command;
+    EXPECT_EQ(result.err, "") << command;
+    for (const std::string& part : SubcommandsIn(result.out)) {
+      open.push_back(command.empty() ? part : command + " " + part);
+    }
+    if (command.empty()) continue;
+    met.insert(command);
+    const auto options = expected.find(command);
+    ASSERT_NE(options, expected.end()) << "'" << command << "' is not in the list of this test";
+    for (const std::string& name : options->second) {
+      EXPECT_TRUE(HasOption(result.out, name)) << command << " --help lacks --" << name;
+    }
+  }
+  for (const auto& [command, options] : expected) {
+    EXPECT_EQ(met.count(command), 1u) << "--help does not list '" << command << "'";
   }
 }
 

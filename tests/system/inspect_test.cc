@@ -16,7 +16,7 @@
 #include "tests/process.h"
 #include "tests/server/mvn/mvn_testing.h"
 #include "tests/shared_data.h"
-#include "tests/system/run_program.h"
+#include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope {
@@ -32,7 +32,6 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using testing::Process;
 using testing::ProgramResult;
-using testing::RunProgram;
 using testing::SharedData;
 using testing::TempFolder;
 using Json = nlohmann::json;
@@ -40,9 +39,8 @@ using Json = nlohmann::json;
 constexpr std::size_t kFrames = 30;  // with all their types they fit into a small socket buffer
 
 ProgramResult Inspect(std::vector<std::string> arguments) {
-  std::vector<std::string> command = {KINESCOPE_PROGRAM, "inspect"};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  return RunProgram(command);
+  arguments.insert(arguments.begin(), "inspect");
+  return testing::Kinescope(arguments);
 }
 
 Json Parsed(const std::string& text) {

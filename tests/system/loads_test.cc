@@ -7,97 +7,32 @@
 #include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "render/png_file.h"
-#include "server/app/scene_reader.h"
 #include "server/loads/joint_score.h"
+#include "tests/csv_table.h"
 #include "tests/process.h"
+#include "tests/server/app/trial_scenes.h"
 #include "tests/shared_data.h"
-#include "tests/system/run_program.h"
+#include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope {
 namespace {
 
+using testing::CsvTable;
+using testing::ExpectRefusal;
 using ::testing::HasSubstr;
+using testing::Kinescope;
 using ::testing::Not;
 using testing::ProgramResult;
 using testing::ReadFile;
-using testing::RunProgram;
 using testing::SharedData;
 using testing::TempFolder;
 
 ProgramResult Loads(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {KINESCOPE_PROGRAM, "loads"});
-  return RunProgram(arguments);
-}
-
-// A CSV without quotes in it, by column.
-struct Table {
-  std::vector<std::string> names;
-  std::vector<std::vector<std::string>> rows;
-
-  explicit Table(const std::string& text) {
-    std::istringstream lines(text);
-    std::string line;
-    while (std::getline(lines, line)) {
-      std::vector<std::string> cells;
-      std::string cell;
-      bool is_quoted = false;
-      for (const char c : line) {
-        if (c == '"') {
-          is_quoted = !is_quoted;
-        } else if (c == ',' && !is_quoted) {
-          cells.push_back(std::exchange(cell, ""));
-        } else {
-          cell += c;
-        }
-      }
-      cells.push_back(cell);
-      if (names.empty()) {
-        names = cells;
-      } else {
-        EXPECT_EQ(cells.size(), names.size()) << line;
-        rows.push_back(cells);
-      }
-    }
-  }
-  const std::string& At(std::size_t row, const std::string& name) const {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (names[i] == name) return rows.at(row).at(i);
-    }
-    ADD_FAILURE() << "no column " << name;
-    static const std::string kNone;
-    return kNone;
-  }
-  double Number(std::size_t row, const std::string& name) const {
-    const std::string& cell = At(row, name);
-    return cell.empty() ? std::nan("") : std::stod(cell);
-  }
-};
-
-void ExpectRefusal(const ProgramResult& result, const std::string& named) {
-  EXPECT_EQ(result.exit_code, 2) << result.err;
-  EXPECT_THAT(result.err, HasSubstr(named));
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  EXPECT_EQ(result.out, "");
-}
-
-// What the library says of the same recording.
-std::vector<std::shared_ptr<const SceneState>> StatesOf(const std::string& source, double secs,
-                                                        const app::SceneOptions& options) {
-  app::SceneReader reader(source, options);
-  std::vector<std::shared_ptr<const SceneState>> states;
-  while (auto state = reader.Next()) {
-    const double at =
-        states.empty()
-            ? 0
-            : static_cast<double>(state->stamp_nanos - states.front()->stamp_nanos) * 1e-9;
-    if (at > secs + 1e-6) break;
-    states.push_back(std::move(state));
-  }
-  return states;
+  arguments.insert(arguments.begin(), "loads");
+  return Kinescope(arguments);
 }
 
 // The program prints seven digits.
@@ -118,8 +53,9 @@ TEST(LoadsCommand, WritesWhatTheLibraryComputesInEveryRow) {
   app::SceneOptions options;
   options.body.mass_kg = 80;
   options.loads.hands = loads::ParseHandLoad("right:5");
-  const auto states = StatesOf("demo:lift", 1, options);
-  const Table table(ReadFile(csv));
+  // What the library says of the same recording.
+  const testing::Scenes states = testing::ReadScenes("demo:lift", 1, options);
+  const CsvTable table(ReadFile(csv));
   ASSERT_EQ(table.rows.size(), states.size());
   for (std::size_t row = 0; row < states.size(); ++row) {
     const PersonState& person = states[row]->people.at(0);
@@ -148,7 +84,7 @@ TEST(LoadsCommand, WritesARowForEveryJointWhenAskedTo) {
   const ProgramResult wide = Loads({"demo:lift", "--seconds", "0.1", "--csv", "-"});
   const ProgramResult tall =
       Loads({"demo:lift", "--seconds", "0.1", "--csv", "-", "--layout", "long"});
-  const Table wide_table(wide.out), tall_table(tall.out);
+  const CsvTable wide_table(wide.out), tall_table(tall.out);
   ASSERT_GT(wide_table.rows.size(), 10U);
   ASSERT_EQ(tall_table.rows.size(), 15 * wide_table.rows.size());
   for (std::size_t i = 0; i < tall_table.rows.size(); ++i) {
@@ -234,7 +170,7 @@ TEST(LoadsCommand, SaysWhyTheLegsOfAnUpperBodyTakeAreNotKnown) {
   const std::string take = SharedData("mvnx/test_mocap.mvnx");
   const ProgramResult result = Loads({take, "--csv", "-"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const Table table(result.out);
+  const CsvTable table(result.out);
   ASSERT_EQ(table.rows.size(), 112U);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     EXPECT_EQ(table.At(row, "right_knee_class"), "unknown");
@@ -264,7 +200,7 @@ TEST(LoadsCommand, IsStaticWithTheReasonWhereThereAreOnlyPoses) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp02.bin");
   const ProgramResult result = Loads({SharedData("udp/mxtp02.bin"), "--csv", "-"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const Table table(result.out);
+  const CsvTable table(result.out);
   ASSERT_EQ(table.rows.size(), 1U);
   EXPECT_EQ(table.At(0, "is_dynamic"), "0");
   EXPECT_NE(table.At(0, "static_reason"), "");
@@ -276,7 +212,7 @@ TEST(LoadsCommand, IsStaticForABagOfPoses) {
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
   const ProgramResult result = Loads({SharedData("ros1/2018-05-28-17-34-45.bag.xz"), "--csv", "-"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  const Table table(result.out);
+  const CsvTable table(result.out);
   ASSERT_GT(table.rows.size(), 100U);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     EXPECT_EQ(table.At(row, "is_dynamic"), "0");
@@ -315,6 +251,27 @@ TEST(LoadsCommand, RefusesWhatMakesNoSenseInOneLine) {
   refuses({"--plots", "/proc/none"}, "/proc/none");
   ExpectRefusal(Loads({"udp://127.0.0.1:0"}), "live stream");
   ExpectRefusal(Loads({"/nowhere.mvnx"}), "/nowhere.mvnx");
+}
+
+TEST(LoadsCommand, NamesTheFileThatTheDiskHasNoRoomForAndLeavesNothing) {
+  const TempFolder folder;
+  const std::string csv = folder / "loads.csv";
+  // A limit in units of 512 bytes: less than the header.
+  const ProgramResult result =
+      testing::RunProgram({"/bin/sh", "-c", "ulimit -f 1; exec \"$@\"", "sh", KINESCOPE_PROGRAM,
+                           "loads", "demo:lift", "--seconds", "0.1", "--csv", csv});
+  ExpectRefusal(result, csv);
+  EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
+}
+
+TEST(LoadsCommand, SaysSoWhenStandardOutputTakesNoMore) {
+  for (const char* output : {"", "--csv -", "--json -"}) {
+    const ProgramResult result = testing::RunProgram(
+        {"/bin/sh", "-c",
+         std::string("exec \"$0\" loads demo:lift --seconds 0.1 ") + output + " > /dev/full",
+         KINESCOPE_PROGRAM});
+    ExpectRefusal(result, "standard output");
+  }
 }
 
 TEST(LoadsCommand, LeavesNothingBehindWhenItIsStopped) {

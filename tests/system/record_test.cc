@@ -19,6 +19,7 @@
 #include "server/subject/subject.h"
 #include "tests/process.h"
 #include "tests/server/mvn/file/datagram_sink.h"
+#include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 
@@ -60,8 +61,8 @@ KeepingSink ReadBack(const fs::path& path) { return ReadToEnd(*mvn::OpenDatagram
 std::string Quoted(const std::string& text) { return "'" + text + "'"; }
 
 ProgramResult Record(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), {KINESCOPE_PROGRAM, "record"});
-  return RunProgram(arguments);
+  arguments.insert(arguments.begin(), "record");
+  return testing::Kinescope(arguments);
 }
 
 ProgramResult Shell(const std::string& script) { return RunProgram({"/bin/sh", "-c", script}); }

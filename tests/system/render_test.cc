@@ -24,6 +24,7 @@
 #include "server/app/shots.h"
 #include "tests/process.h"
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 
@@ -34,6 +35,7 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using testing::Kinescope;
 using testing::ProgramResult;
 using testing::ReadFile;
 using testing::RunProgram;
@@ -55,7 +57,7 @@ class RenderCommand : public ::testing::Test {
   }
 
   ProgramResult Verify(const std::string& file) {
-    return RunProgram({KINESCOPE_PROGRAM, "render", "--json", "--verify", file});
+    return Kinescope({"render", "--json", "--verify", file});
   }
 
   std::string Path(const std::string& name) const { return folder_ / name; }
@@ -280,11 +282,9 @@ TEST_F(RenderCommand, VerifiesOnlyAgainstTheSourceThatItWas) {
   const ProgramResult gone = Verify(Path("a.png"));
   EXPECT_EQ(gone.exit_code, 2);
   EXPECT_THAT(gone.err, HasSubstr("take.mvnx"));
-  EXPECT_EQ(RunProgram({KINESCOPE_PROGRAM, "render", moved, "--verify", Path("a.png")}).exit_code,
-            0);
+  EXPECT_EQ(Kinescope({"render", moved, "--verify", Path("a.png")}).exit_code, 0);
   std::ofstream(moved, std::ios::app) << "\n";
-  const ProgramResult other =
-      RunProgram({KINESCOPE_PROGRAM, "render", moved, "--verify", Path("a.png")});
+  const ProgramResult other = Kinescope({"render", moved, "--verify", Path("a.png")});
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, HasSubstr("SHA-256"));
 }

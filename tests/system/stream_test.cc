@@ -17,7 +17,7 @@
 #include "server/subject/subject.h"
 #include "tests/process.h"
 #include "tests/shared_data.h"
-#include "tests/system/run_program.h"
+#include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope {
@@ -30,7 +30,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::Process;
 using testing::ProgramResult;
-using testing::RunProgram;
 using testing::SharedData;
 using testing::TempFolder;
 
@@ -39,8 +38,8 @@ using Arguments = std::vector<std::string>;
 constexpr std::chrono::seconds kPatience(60);  // only a failure takes so long
 
 ProgramResult Stream(Arguments arguments) {
-  arguments.insert(arguments.begin(), {KINESCOPE_PROGRAM, "stream"});
-  return RunProgram(arguments);
+  arguments.insert(arguments.begin(), "stream");
+  return testing::Kinescope(arguments);
 }
 
 // What the program sent, and what it says of it.

@@ -11,7 +11,7 @@
 #include "render/png_file.h"
 #include "tests/render/mesh_samples.h"
 #include "tests/shared_data.h"
-#include "tests/system/run_program.h"
+#include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
 #include "urdf/robot_model.h"
 
@@ -31,10 +31,10 @@ class UrdfCommand : public ::testing::Test {
  protected:
   ProgramResult Urdf(std::vector<std::string> arguments,
                      const std::vector<std::string>& environment = {}) const {
-    arguments.insert(arguments.begin(), {KINESCOPE_PROGRAM, "urdf"});
+    arguments.insert(arguments.begin(), "urdf");
     std::vector<std::string> all = {"XDG_CACHE_HOME=" + (folder_ / "cache").string()};
     all.insert(all.end(), environment.begin(), environment.end());
-    return testing::RunProgram(arguments, all);
+    return testing::Kinescope(arguments, all);
   }
 
   std::string Write(const std::string& name, const std::string& text) const {

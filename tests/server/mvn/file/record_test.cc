@@ -2,12 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <poll.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -18,6 +16,7 @@
 #include "server/mvn/file/pcap_recorder.h"
 #include "server/mvn/file/pcap_writer.h"
 #include "server/mvn/open.h"
+#include "tests/full_disk.h"
 #include "tests/server/mvn/file/capture_builder.h"
 #include "tests/server/mvn/file/datagram_sink.h"
 #include "tests/server/mvn/mvn_testing.h"
@@ -27,6 +26,7 @@ namespace kinescope::mvn {
 namespace {
 
 using namespace testing;
+using kinescope::testing::SmallFilesOnly;
 using kinescope::testing::TempFolder;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -197,25 +197,6 @@ TEST(PcapWriter, ADeviceThatIsFullIsAnError) {
       AllOf(HasSubstr("/dev/full"), HasSubstr("No space left"), HasSubstr("nothing was recorded")));
 }
 
-// A file may grow to `bytes` and no further, as on a disk that is full.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(std::uint64_t bytes) : old_action_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &old_);
-    rlimit limit = old_;
-    limit.rlim_cur = bytes;
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_action_);
-  }
-
- private:
-  rlimit old_{};
-  void (*old_action_)(int);
-};
-
 TEST(PcapWriter, KeepsWholePacketsWhenTheDiskIsFull) {
   // Wherever in a packet the disk ends.
   for (std::uint64_t limit = 90'000; limit < 90'800; limit += 97) {
@@ -225,7 +206,7 @@ TEST(PcapWriter, KeepsWholePacketsWhenTheDiskIsFull) {
     std::uint32_t added = 0;
     std::string error;
     {
-      const FileSizeLimit full(limit);
+      const SmallFilesOnly full(limit);
       error = ErrorOf([&] {
         for (; added < 1000; ++added) Write(writer, Datagram(added));
       });
@@ -258,7 +239,7 @@ TEST(PcapWriter, LeavesNoEmptyFileWhenTheDiskIsFullAtARotation) {
   }
   std::string error;
   {
-    const FileSizeLimit full(0);  // not even the header of the next one
+    const SmallFilesOnly full(0);  // not even the header of the next one
     error = ErrorOf([&] {
       for (int i = 0; i < 10; ++i) Write(writer, Datagram(added++));
     });
@@ -369,7 +350,7 @@ TEST(PcapRecorder, AFileAsSourceWaitsInstead) {
 
 TEST(PcapRecorder, TellsItsOwnerThatTheDiskIsFull) {
   TempFolder folder;
-  const FileSizeLimit full(100'000);
+  const SmallFilesOnly full(100'000);
   const std::string path = folder / "take.pcap";
   for (const auto when_full : {PcapRecorder::WhenFull::kDrop, PcapRecorder::WhenFull::kWait}) {
     PcapRecorder recorder({path, 0, true}, when_full, 50'000);
