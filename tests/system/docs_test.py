@@ -3,8 +3,10 @@
 
 PROGRAM: the built kinescope. SETUP: setup.sh of the devel space, "" without ROS. RECORDING: stands for
 recording.mvnx; commands that need it are skipped, visibly, where it is absent.
-A command that this file does not know how to run fails the test: a document may not say what nobody tried.
+A command that this file does not know how to run fails the test: a document may not say what nobody tried. So does a
+document that is missing or has lost its commands, and a command that is never run without being in NEVER_RUN.
 """
+import collections
 import os
 import pathlib
 import re
@@ -19,6 +21,15 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM, SETUP, RECORDING = sys.argv[1:4]
 DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/loads.md", "docs/pictures.md", "docs/urdf.md",
              "tests/bench/README.md"]
+# By document, the first words of its commands that no run of this test tries.
+NEVER_RUN = {
+    "README.md": ["./demo", "./check"],
+    "CONTRIBUTING.md": ["./check", "./check", "cmake", "cmake", "build/fuzz/tests/fuzz/datagram_fuzz"],
+    "docs/ros.md": ["kinescope inspect ros:", "kinescope urdf ros:", "rosservice"],
+    "docs/http.md": ["curl", "curl", "curl"],
+    "tests/bench/README.md": ["tests/bench/measure.sh", "build/dev/tests/bench/mvn_bench", "build/dev/tests/bench/loads_bench",
+                              "build/dev/tests/bench/render_bench", "tests/bench/rviz_peer.sh", "build/dev/tests/bench/memory_flat"],
+}
 passed, skipped, failed = 0, 0, 0
 
 
@@ -105,12 +116,12 @@ def try_kinescope(words, folder):
 
 
 def attempt(line, words, folder):
-    """None: worked. "skip: ...": cannot be tried here. Anything else: the failure."""
+    """None: worked. "never: ...": this test does not try it. "skip: ...": it cannot here. Anything else: the failure."""
     name = words[0]
     if name in ("./check", "cmake", "ctest") or "tests/" in name or name.startswith("KINESCOPE_"):
-        return "skip: this is the check itself"
+        return "never: this is the check itself"
     if name == "./demo":
-        return "skip: has a test of its own"
+        return "never: has a test of its own"
     if "recording.mvnx" in words and not os.path.exists(RECORDING):
         return "skip: no recording here"
     if name == "source":
@@ -124,21 +135,39 @@ def attempt(line, words, folder):
         env_path = "/usr/bin:" + os.environ["PATH"]  # catkin asks python3 on PATH
         return run(["env", "PATH=" + env_path, "bash", "-c", shell], folder)
     if name in ("curl", "websocat", "rosservice"):
-        return "skip: the tests of the server and of the node make these requests"
+        return "never: the tests of the server and of the node make these requests"
     if any(w.startswith("ros:") for w in words):
+        if words[1] != "serve":
+            return "never: ros_source_test has a graph to listen to"
         if not SETUP:
             return "skip: built without ROS"
-        if words[1] != "serve":
-            return "skip: ros_source_test has a graph to listen to"
     if name == "kinescope" or name.endswith("/bin/kinescope"):
         return try_kinescope([RECORDING if w == "recording.mvnx" else w for w in words], folder)
     return "no test knows how to run this"
 
 
+def is_word_of(line, word):
+    return line == word or line.startswith(word + " ")
+
+
+def fail(document, problem):
+    global failed
+    failed += 1
+    print(f"FAILED  {document}: {problem}")
+
+
+for path in [*TOP.glob("*.md"), *TOP.glob("docs/*.md"), *TOP.glob("tests/*/*.md")]:
+    name = str(path.relative_to(TOP))
+    if name not in DOCUMENTS and re.search(r"^```(sh|bash)$", path.read_text(), re.M):
+        fail(name, "has commands, but is not among the documents of this test")
+
 for document in DOCUMENTS:
     if not (TOP / document).exists():
+        fail(document, "is missing; did it get another name?")
         continue
+    tried, expected = 0, collections.Counter(NEVER_RUN.get(document, []))
     for line, words in commands(document):
+        tried += 1
         with tempfile.TemporaryDirectory() as folder:
             shutil.copytree(TOP / "golden_images", pathlib.Path(folder) / "golden_images")
             try:
@@ -148,11 +177,21 @@ for document in DOCUMENTS:
         if problem is None:
             passed += 1
             print(f"ok      {document}: {line}")
-        elif problem.startswith("skip"):
+        elif problem.startswith(("skip:", "never:")):
             skipped += 1
-            print(f"{problem[:7]:7} {document}: {line}   ({problem[6:]})")
+            kind, reason = problem.split(": ", 1)
+            print(f"{kind:7} {document}: {line}   ({reason})")
+            if kind == "never":
+                known = next((word for word, left in expected.items() if left > 0 and is_word_of(line, word)), None)
+                expected[known] -= 1
+                if known is None:
+                    fail(document, f"{line}\n        is never run, and NEVER_RUN does not say so")
         else:
-            failed += 1
-            print(f"FAILED  {document}: {line}\n        {problem}")
+            fail(document, f"{line}\n        {problem}")
+    if tried == 0:
+        fail(document, "has no commands; is the language of its blocks still sh?")
+    for word, left in expected.items():
+        if word is not None and left > 0:
+            fail(document, f"has no '{word}' any more, or it is run now; take it out of NEVER_RUN")
 print(f"{passed} passed, {failed} failed, {skipped} skipped")
-sys.exit(1 if failed or passed < 10 else 0)
+sys.exit(1 if failed else 0)
