@@ -1,5 +1,6 @@
 // When the server draws, what, and for whom: small pictures of a real renderer. Nothing here waits
-// for a clock: rates are such that the next picture is due at once or not in this test's time.
+// for a clock, but 20 ms for a picture that must not come: rates are such that the next one is due
+// at once or not in this test's time.
 #include "server/app/picture_loop.h"
 
 #include <gmock/gmock.h>
@@ -45,9 +46,11 @@ class PictureLoopTest : public ::testing::Test {
     EXPECT_TRUE(picture) << "no picture came";
     return picture ? picture : std::make_shared<const http::Picture>();
   }
-  bool HasNext() { return pictures_.WaitNewer(seen_, std::chrono::milliseconds(0)) != nullptr; }
+  // Does one come, although it should not? Snapshots go before live pictures, so that these would
+  // only be drawn when no snapshot is asked for any more.
+  bool HasNext() { return pictures_.WaitNewer(seen_, std::chrono::milliseconds(20)) != nullptr; }
 
-  // When these have been answered, the drawing thread has looked that often for something to do.
+  // When these have been answered, the drawing thread has taken notice of all that came before.
   void AskForSnapshots(int count) {
     for (int i = 0; i < count; ++i) loop_->SnapshotPng("front", 16, 16);
   }

@@ -92,7 +92,7 @@ TEST(Provenance, WhateverAFileSaysIsTakenOrRefusedButNeverHarms) {
       ++refused;
     }
   }
-  EXPECT_GT(taken, 0);
+  EXPECT_GT(taken, refused) << "most of what still is JSON says nothing that cannot be";
   EXPECT_GT(refused, 0);
 }
 
