@@ -17,8 +17,7 @@ struct Font::Face {
   }
 };
 
-Font::Font(const std::string& file_name)
-    : file_name_(file_name), face_(std::make_unique<Face>()) {
+Font::Font(const std::string& file_name) : file_name_(file_name), face_(std::make_unique<Face>()) {
   const std::string path = std::string(KINESCOPE_FONT_FOLDER) + "/" + file_name;
   if (FT_Init_FreeType(&face_->library) != 0 ||
       FT_New_Face(face_->library, path.c_str(), 0, &face_->face) != 0) {

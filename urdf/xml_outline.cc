@@ -19,9 +19,7 @@ struct Scan {
   std::exception_ptr fault;  // ours or the caller's; exceptions do not fly through expat
 
   int line() const { return static_cast<int>(XML_GetCurrentLineNumber(parser)); }
-  void Stop(const std::string& why) {
-    Stop(std::make_exception_ptr(UrdfError(why, line())));
-  }
+  void Stop(const std::string& why) { Stop(std::make_exception_ptr(UrdfError(why, line()))); }
   void Stop(std::exception_ptr why) {
     if (!fault) fault = std::move(why);
     XML_StopParser(parser, XML_FALSE);

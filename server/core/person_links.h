@@ -1,7 +1,7 @@
 /// The links of a person that can be seen, in one order for all sinks: the 23 segments by
 /// urdf::Segment, the twenty of the right hand and of the left where they are gloved, then the
-/// props that are there. A gloved hand's own link is among them and shows nothing but a tool. Pure functions,
-/// any thread.
+/// props that are there. A gloved hand's own link is among them and shows nothing but a tool. Pure
+/// functions, any thread.
 #pragma once
 
 #include <string>

@@ -38,7 +38,7 @@ class Exposure {
   JointExposure Of(std::size_t scored_joint) const;  // index into kScoredJoints
   /// Only JointExposure::secs, which costs next to nothing.
   std::array<double, 4> SecsOf(std::size_t scored_joint) const;
-  double secs() const;                               // counted so far
+  double secs() const;  // counted so far
 
  private:
   static constexpr std::size_t kBins =

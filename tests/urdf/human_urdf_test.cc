@@ -271,7 +271,8 @@ TEST(HumanUrdf, HangsAPropOnThePelvisBySixJointsThatEveryReaderTakes) {
   Read read(human);
   const RobotModel& robot = read.robot();
   EXPECT_TRUE(robot.notes.empty()) << robot.notes.front();
-  // Wherever it may be, along and about every axis of the pelvis; shown as a small slate box, which is no load class.
+  // Wherever it may be, along and about every axis of the pelvis; shown as a small slate box, which
+  // is no load class.
   constexpr double kFar = 100, kTurn = 2 * M_PI;
   std::string above = "skeleton_pelvis";
   int step = 0;
