@@ -238,22 +238,24 @@ void HttpServer::Impl::Accept() {
       [this](error_code error, tcp::socket socket) { OnAccepted(error, std::move(socket)); });
 }
 
+// What comes next is armed first: whatever fails after that (no memory, say) costs one connection.
 void HttpServer::Impl::OnAccepted(error_code error, tcp::socket socket) {
   if (error) {
     // Out of file descriptors, most likely: trying again at once would spin.
-    ++counters_.refused["accept failed"];
     accept_pause_.expires_after(std::chrono::milliseconds(100));
-    return accept_pause_.async_wait([this](error_code cancelled) {
+    accept_pause_.async_wait([this](error_code cancelled) {
       if (!cancelled) Accept();
     });
+    ++counters_.refused["accept failed"];
+    return;
   }
+  Accept();
   if (shared_.connections >= kMaxConnections) {
     ++counters_.refused["too many connections"];  // closed by its destructor
   } else {
     KeepKernelQueueShort(socket);
     std::make_shared<HttpSession>(std::move(socket), shared_)->Read();
   }
-  Accept();
 }
 
 HttpServer::HttpServer(const HttpConfig& config, Latest<SceneState>& states,

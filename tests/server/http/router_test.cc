@@ -1,0 +1,400 @@
+// What each address answers, without a socket: requests in, answers out.
+#include "server/http/router.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/server/http/test_scene.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::http::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Pair;
+using ::testing::UnorderedElementsAre;
+
+constexpr std::uintmax_t kLargestMesh = 64u << 20;  // bytes
+constexpr char kCookie[] = "kinescope_8080";
+constexpr char kFiveInTheRightHand[] = R"({"right_kg": 5})";
+
+void WriteText(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+// As a browser on this machine sends it.
+Request RequestOf(const std::string& method, const std::string& target) {
+  Request request;
+  request.method = method;
+  request.target = target;
+  request.host = "localhost:8080";
+  return request;
+}
+
+Request PostOf(const std::string& body) {
+  Request request = RequestOf("POST", "/api/hand_load");
+  request.content_type = "application/json";
+  request.body = body;
+  return request;
+}
+
+std::string HeaderOf(const Answer& answer, const std::string& name) {
+  for (const auto& [key, value] : answer.headers) {
+    if (key == name) return value;
+  }
+  return "";
+}
+
+std::string ErrorIn(const Answer& answer) {
+  return nlohmann::json::parse(answer.body).at("error").get<std::string>();
+}
+
+class RouterTest : public ::testing::Test {
+ protected:
+  RouterTest() {
+    WriteText(web_ / "index.html", "<title>page</title>");
+    WriteText(web_ / "app.js", "start();");
+    WriteText(meshes_ / "pelvis.stl", "solid pelvis");
+    files_ = std::make_unique<StaticFiles>(web_.path());
+  }
+
+  Router::Site SiteOf() {
+    Router::Site site;
+    site.cookie_name = kCookie;
+    site.cameras = MakeCameras();
+    site.has_pictures = true;
+    site.files = files_.get();
+    site.states = &states_;
+    site.set_hand_load = [this](int character, const HandLoad& load) {
+      if (load.mass_kg[urdf::kRight] > 100) return std::string("nobody holds that");
+      held_[character] = load;
+      return std::string();
+    };
+    site.diagnostics = [] { return std::string(R"({"source": {}})"); };
+    site.live_camera = [] { return std::string("iso"); };
+    site.count_refusal = [this](const std::string& reason) { ++refusals_[reason]; };
+    return site;
+  }
+
+  Answer Get(const std::string& target) { return Router(SiteOf()).Route(RequestOf("GET", target)); }
+  Answer Send(const Request& request) { return Router(SiteOf()).Route(request); }
+
+  void PublishPeople(int people) {
+    states_.Publish(std::make_shared<const SceneState>(
+        MakeScene(12, 0.2, 1, MakePersonModel(7, meshes_.path().string()), people)));
+  }
+
+  kinescope::testing::TempFolder web_, meshes_;
+  std::unique_ptr<StaticFiles> files_;
+  Latest<SceneState> states_;
+  std::map<int, HandLoad> held_;
+  std::map<std::string, int> refusals_;
+};
+
+TEST_F(RouterTest, AnswersEveryRouteInItsOwnFormat) {
+  PublishPeople(1);
+  struct Route {
+    const char* target;
+    const char* content_type;
+    const char* cache_control;
+  };
+  for (const Route& route : {Route{"/", "text/html; charset=utf-8", "no-cache"},
+                             Route{"/app.js", "text/javascript; charset=utf-8", "no-cache"},
+                             Route{"/api/state", "application/json", "no-store"},
+                             Route{"/api/model", "application/json", "no-store"},
+                             Route{"/api/cameras", "application/json", "no-store"},
+                             Route{"/api/diagnostics", "application/json", "no-store"},
+                             Route{"/api/mesh/0/7/0", "model/stl", "private, max-age=3600"},
+                             Route{"/snapshot.png", "image/png", "no-store"}}) {
+    const Answer answer = Get(route.target);
+    EXPECT_EQ(answer.status, 200) << route.target << ": " << answer.body;
+    EXPECT_EQ(answer.content_type, route.content_type) << route.target;
+    EXPECT_EQ(HeaderOf(answer, "Cache-Control"), route.cache_control) << route.target;
+  }
+  EXPECT_THAT(refusals_, IsEmpty());
+}
+
+TEST_F(RouterTest, AnswersWithTheNewestStateAndWithoutOne) {
+  EXPECT_EQ(nlohmann::json::parse(Get("/api/state").body).at("liveness"), "no data");
+  EXPECT_TRUE(nlohmann::json::parse(Get("/api/model").body).at("people").empty());
+  PublishPeople(2);
+  EXPECT_EQ(nlohmann::json::parse(Get("/api/state").body).at("number"), 12);
+  EXPECT_EQ(nlohmann::json::parse(Get("/api/model").body).at("people").size(), 2u);
+  const auto cameras = nlohmann::json::parse(Get("/api/cameras").body);
+  EXPECT_EQ(cameras.at("cameras").size(), MakeCameras().size());
+  EXPECT_THAT(cameras.dump(), HasSubstr("iso"));
+  EXPECT_EQ(Get("/api/diagnostics").body, R"({"source": {}})");
+}
+
+TEST_F(RouterTest, SaysWhatThereIsWhereAnAddressIsUnknown) {
+  const auto expect_unknown = [&](const std::string& target, const std::string& what) {
+    const Answer answer = Get(target);
+    EXPECT_EQ(answer.status, 404) << target;
+    EXPECT_EQ(answer.content_type, "application/json") << target;
+    EXPECT_THAT(ErrorIn(answer), HasSubstr(what)) << target;
+    EXPECT_FALSE(answer.file) << target;
+  };
+  expect_unknown("/nothing", "no such page");
+  expect_unknown("/app.js/", "no such page");
+  expect_unknown("/API/state", "no such page");
+  expect_unknown("/api", "no such page");
+  expect_unknown("/lib/three/three.module.js", "npm ci --prefix web");
+  expect_unknown("/api/mesh/0", "/api/mesh/<person>/<revision>/<n>");
+  EXPECT_EQ(refusals_["unknown address"], 6);
+  for (const char* target : {"/api/", "/api/nothing", "/api/state/", "/api/hand_loads"}) {
+    for (const char* route :
+         {"/api/state", "/api/model", "/api/cameras", "/api/diagnostics", "/api/hand_load"}) {
+      expect_unknown(target, route);
+    }
+  }
+}
+
+TEST_F(RouterTest, TakesGetAndHeadAlikeAndNothingElse) {
+  for (const char* target : {"/", "/api/state", "/api/mesh/0/7/0", "/snapshot.png", "/nothing"}) {
+    EXPECT_EQ(Send(RequestOf("HEAD", target)).status, Get(target).status) << target;
+    for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "TRACE", "get", ""}) {
+      const Answer answer = Send(RequestOf(method, target));
+      EXPECT_EQ(answer.status, 405) << method << " " << target;
+      EXPECT_EQ(HeaderOf(answer, "Allow"), "GET, HEAD");
+      EXPECT_THAT(ErrorIn(answer), HasSubstr("GET, HEAD"));
+    }
+  }
+  for (const char* method : {"GET", "HEAD", "PUT", "DELETE"}) {
+    const Answer answer = Send(RequestOf(method, "/api/hand_load"));
+    EXPECT_EQ(answer.status, 405) << method;
+    EXPECT_EQ(HeaderOf(answer, "Allow"), "POST") << method;
+  }
+  EXPECT_EQ(refusals_["bad method"], 5 * 7 + 4);
+}
+
+TEST_F(RouterTest, RefusesAddressesThatAreOddBeforeAnyRoute) {
+  for (const std::string& target :
+       {std::string(), std::string("app.js"), std::string("http://localhost/"),
+        std::string("/../index.html"), std::string("/%2e%2e/index.html"), std::string("/%"),
+        std::string("/a%00"), "/" + std::string(kMaxTargetBytes, 'a')}) {
+    const Answer answer = Get(target);
+    EXPECT_EQ(answer.status, 400) << target;
+    EXPECT_FALSE(ErrorIn(answer).empty()) << target;
+    EXPECT_EQ(Router(SiteOf()).RefuseWebSocket(RequestOf("GET", target)).value_or(Answer()).status,
+              400)
+        << target;
+  }
+  EXPECT_EQ(Get("/" + std::string(kMaxTargetBytes - 1, 'a')).status, 404) << "just short enough";
+  EXPECT_EQ(refusals_["bad address"], 2 * 8);
+}
+
+TEST_F(RouterTest, SendsAFileUnlessItIsKnownAlready) {
+  const Answer first = Get("/app.js?v=2");
+  EXPECT_EQ(first.file.value_or(""), web_ / "app.js");
+  const std::string tag = HeaderOf(first, "ETag");
+  EXPECT_FALSE(tag.empty());
+  Request again = RequestOf("GET", "/app.js");
+  again.if_none_match = tag;
+  EXPECT_EQ(Send(again).status, 304);
+  EXPECT_FALSE(Send(again).file);
+  EXPECT_EQ(HeaderOf(Send(again), "ETag"), tag);
+  WriteText(web_ / "app.js", "start(2);  // longer");
+  EXPECT_EQ(Send(again).status, 200);
+  fs::remove(web_ / "app.js");
+  EXPECT_EQ(Send(again).status, 404) << "it was there at the start";
+}
+
+TEST_F(RouterTest, ServesMeshesOfTheNewestModelUpToALimit) {
+  EXPECT_EQ(Get("/api/mesh/0/7/0").status, 404) << "no state yet";
+  PublishPeople(2);
+  EXPECT_EQ(Get("/api/mesh/0/7/0").file.value_or(""), meshes_ / "pelvis.stl");
+  EXPECT_EQ(Get("/api/mesh/1/7/0").file.value_or(""), meshes_ / "pelvis.stl");
+  for (const char* target :
+       {"/api/mesh/2/7/0", "/api/mesh/0/6/0", "/api/mesh/0/8/0", "/api/mesh/0/7/1",
+        "/api/mesh/0/7/9999", "/api/mesh/18446744073709551615/7/0", "/api/mesh/4294967296/7/0"}) {
+    const Answer answer = Get(target);
+    EXPECT_EQ(answer.status, 404) << target;
+    EXPECT_THAT(ErrorIn(answer), HasSubstr("no such STL file")) << target;
+  }
+  for (const char* target :
+       {"/api/mesh/0/7", "/api/mesh/0/7/0/0", "/api/mesh/0/7/", "/api/mesh/a/7/0",
+        "/api/mesh/-0/7/0", "/api/mesh/+0/7/0", "/api/mesh/0x0/7/0", "/api/mesh/0/7/0.0",
+        "/api/mesh/18446744073709551616/7/0"}) {
+    EXPECT_THAT(ErrorIn(Get(target)), HasSubstr("/api/mesh/<person>/<revision>/<n>")) << target;
+  }
+  fs::resize_file(meshes_ / "pelvis.stl", kLargestMesh);
+  EXPECT_EQ(Get("/api/mesh/0/7/0").status, 200);
+  fs::resize_file(meshes_ / "pelvis.stl", kLargestMesh + 1);
+  EXPECT_EQ(Get("/api/mesh/0/7/0").status, 404);
+  fs::remove(meshes_ / "pelvis.stl");
+  fs::create_directory(meshes_ / "pelvis.stl");
+  EXPECT_EQ(Get("/api/mesh/0/7/0").status, 404) << "a folder";
+}
+
+TEST_F(RouterTest, DrawsSnapshotsOfSizesFrom16To4096) {
+  const Answer plain = Get("/snapshot.png");
+  ASSERT_TRUE(plain.snapshot);
+  EXPECT_EQ(plain.snapshot->camera, "");
+  EXPECT_EQ(plain.snapshot->width, 1280);
+  EXPECT_EQ(plain.snapshot->height, 720);
+  const Answer asked = Get("/snapshot.png?camera=top&width=16&height=4096&t=99");
+  ASSERT_TRUE(asked.snapshot);
+  EXPECT_EQ(asked.snapshot->camera, "top");
+  EXPECT_EQ(asked.snapshot->width, 16);
+  EXPECT_EQ(asked.snapshot->height, 4096);
+  for (const char* query : {"width=15", "width=4097", "height=15", "height=4097", "width=-64",
+                            "width=64.0", "width=", "width", "height=99999999999", "size=64x64"}) {
+    const Answer answer = Get(std::string("/snapshot.png?") + query);
+    EXPECT_EQ(answer.status, 400) << query;
+    EXPECT_FALSE(answer.snapshot) << query;
+    EXPECT_THAT(ErrorIn(answer), HasSubstr("from 16 to 4096")) << query;
+  }
+  EXPECT_THAT(ErrorIn(Get("/snapshot.png?camera=fron")),
+              AllOf(HasSubstr("camera=fron"), HasSubstr("/api/cameras")));
+  EXPECT_EQ(refusals_["bad snapshot"], 11);
+}
+
+TEST_F(RouterTest, HasNoSnapshotWithoutARenderer) {
+  Router::Site site = SiteOf();
+  site.has_pictures = false;
+  const Answer answer = Router(site).Route(RequestOf("GET", "/snapshot.png"));
+  EXPECT_EQ(answer.status, 503);
+  EXPECT_FALSE(answer.snapshot);
+  EXPECT_THAT(refusals_, UnorderedElementsAre(Pair("no renderer", 1)));
+}
+
+TEST_F(RouterTest, SpeaksOnlyWebSocketAtItsAddress) {
+  const Answer answer = Get("/ws");
+  EXPECT_EQ(answer.status, 426);
+  EXPECT_EQ(HeaderOf(answer, "Upgrade"), "websocket");
+  const Router router(SiteOf());
+  EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/ws")));
+  EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/ws?t=1")));
+  const auto elsewhere = router.RefuseWebSocket(RequestOf("GET", "/"));
+  ASSERT_TRUE(elsewhere);
+  EXPECT_EQ(elsewhere->status, 404);
+  EXPECT_THAT(ErrorIn(*elsewhere), HasSubstr("/ws"));
+}
+
+TEST_F(RouterTest, OpensTheWebSocketForItsOwnPageOnly) {
+  const Router router(SiteOf());
+  Request request = RequestOf("GET", "/ws");
+  request.origin = "http://localhost:8080";
+  EXPECT_FALSE(router.RefuseWebSocket(request));
+  for (const char* origin : {"http://localhost:8081", "http://evil.example", "null"}) {
+    request.origin = origin;
+    const auto refusal = router.RefuseWebSocket(request);
+    ASSERT_TRUE(refusal) << origin;
+    EXPECT_EQ(refusal->status, 403) << origin;
+  }
+  request.origin = "http://evil.example";
+  request.host = "evil.example";
+  EXPECT_EQ(router.RefuseWebSocket(request).value_or(Answer()).status, 403) << "a name for us";
+  EXPECT_EQ(refusals_["foreign origin"], 3);
+  EXPECT_EQ(refusals_["unknown host"], 1);
+}
+
+TEST_F(RouterTest, WithATokenAsksForItEverywhere) {
+  PublishPeople(1);
+  Router::Site site = SiteOf();
+  site.token = "s3cret";
+  const Router router(site);
+  for (const char* target : {"/", "/api/state", "/api/mesh/0/7/0", "/snapshot.png", "/ws", "/no"}) {
+    for (const char* query : {"", "?token=", "?token=s3cre", "?token=s3cretx", "?Token=s3cret"}) {
+      const Answer answer = router.Route(RequestOf("GET", std::string(target) + query));
+      EXPECT_EQ(answer.status, 401) << target << query;
+      EXPECT_EQ(HeaderOf(answer, "Set-Cookie"), "") << target << query;
+    }
+    const Answer by_query = router.Route(RequestOf("GET", std::string(target) + "?token=s3cret"));
+    EXPECT_NE(by_query.status, 401) << target;
+    EXPECT_EQ(HeaderOf(by_query, "Set-Cookie"),
+              std::string(kCookie) + "=s3cret; Path=/; HttpOnly; SameSite=Strict");
+    Request by_cookie = RequestOf("GET", target);
+    by_cookie.cookies = std::string("other=1; ") + kCookie + "=s3cret";
+    EXPECT_NE(router.Route(by_cookie).status, 401) << target;
+    EXPECT_EQ(HeaderOf(router.Route(by_cookie), "Set-Cookie"), "") << "it is there already";
+  }
+  Request post = PostOf(kFiveInTheRightHand);
+  EXPECT_EQ(router.Route(post).status, 401);
+  EXPECT_THAT(held_, IsEmpty());
+  post.target += "?token=s3cret";
+  EXPECT_EQ(router.Route(post).status, 200);
+  EXPECT_EQ(router.RefuseWebSocket(RequestOf("GET", "/ws")).value_or(Answer()).status, 401);
+  EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/ws?token=s3cret")));
+}
+
+TEST_F(RouterTest, WithoutATokenServesThisMachineOnly) {
+  Request request = RequestOf("GET", "/api/state");
+  for (const char* host : {"", "example.org", "192.168.1.2:8080", "localhost.example.org"}) {
+    request.host = host;
+    EXPECT_EQ(Send(request).status, 403) << host;
+  }
+  for (const char* host : {"localhost", "127.0.0.1:8080", "127.1.2.3", "[::1]:8080"}) {
+    request.host = host;
+    EXPECT_EQ(Send(request).status, 200) << host;
+  }
+  EXPECT_EQ(refusals_["unknown host"], 4);
+}
+
+TEST_F(RouterTest, HandsAHandLoadToThePersonItIsFor) {
+  PublishPeople(1);
+  const Answer alone = Send(PostOf(kFiveInTheRightHand));
+  EXPECT_EQ(alone.status, 200) << alone.body;
+  EXPECT_EQ(nlohmann::json::parse(alone.body),
+            (nlohmann::json{{"person", 0}, {"right_kg", 5}, {"left_kg", 0}, {"both_kg", 0}}));
+  EXPECT_EQ(held_.at(0).mass_kg[urdf::kRight], 5);
+  PublishPeople(2);
+  EXPECT_EQ(Send(PostOf(kFiveInTheRightHand)).status, 400);
+  const Answer second = Send(PostOf(R"({"person": 1, "both_kg": 3})"));
+  EXPECT_EQ(second.status, 200) << second.body;
+  EXPECT_EQ(held_.at(1).both_kg, 3);
+  Request with_charset = PostOf(R"({"person": 1, "left_kg": 2})");
+  with_charset.content_type = "application/json; charset=utf-8";
+  with_charset.origin = "http://localhost:8080";
+  EXPECT_EQ(Send(with_charset).status, 200);
+}
+
+TEST_F(RouterTest, SaysWhyAHandLoadIsRefusedAndHandsNothingOn) {
+  EXPECT_EQ(Send(PostOf(kFiveInTheRightHand)).status, 409) << "nobody is here yet";
+  PublishPeople(1);
+  const auto expect_refusal = [&](const Request& request, int status, const std::string& what) {
+    const Answer answer = Send(request);
+    EXPECT_EQ(answer.status, status) << answer.body;
+    EXPECT_THAT(ErrorIn(answer), HasSubstr(what));
+  };
+  Request foreign = PostOf(kFiveInTheRightHand);
+  foreign.origin = "http://evil.example";
+  expect_refusal(foreign, 403, "page of this server");
+  for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded", "application/jso",
+                           "application/jsonx"}) {
+    Request form = PostOf(kFiveInTheRightHand);
+    form.content_type = type;
+    expect_refusal(form, 415, "application/json");
+  }
+  expect_refusal(PostOf("{"), 400, "right_kg");
+  expect_refusal(PostOf(R"({"right": 5})"), 400, "right_kg");
+  expect_refusal(PostOf(R"({"right_kg": 101})"), 400, "nobody holds that");
+  expect_refusal(PostOf(R"({"person": 3, "right_kg": 5})"), 404, "3");
+  Router::Site site = SiteOf();
+  site.set_hand_load = nullptr;
+  EXPECT_EQ(Router(site).Route(PostOf(kFiveInTheRightHand)).status, 503);
+  EXPECT_THAT(held_, IsEmpty());
+  EXPECT_EQ(refusals_["bad hand load"], 3);
+  EXPECT_EQ(refusals_["bad content type"], 5);
+  EXPECT_EQ(refusals_["nobody is here"], 2);
+}
+
+TEST(ErrorAnswer, IsOneJsonObjectWhateverTheReasonHolds) {
+  const Answer answer = ErrorAnswer(418, "\"quotes\"\nand \xff bytes");
+  EXPECT_EQ(answer.status, 418);
+  EXPECT_EQ(answer.content_type, "application/json");
+  EXPECT_THAT(ErrorIn(answer), HasSubstr("\"quotes\"\nand "));
+}
+
+}  // namespace
+}  // namespace kinescope::http::testing
