@@ -116,7 +116,8 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
     out["view"] = {{"listeners", view->listeners},
                    {"drawn", view->drawn},
                    {"draw_millis", view->draw_millis},
-                   {"last_error", view->last_error}};
+                   {"last_error", view->last_error},
+                   {"hangs", view->hangs}};
   }
   // A file name need not be UTF-8.
   return out.dump(-1, ' ', false, json::error_handler_t::replace);

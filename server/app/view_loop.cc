@@ -40,6 +40,7 @@ ViewLoop::~ViewLoop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stop_ = true;
+    if (status_.hangs) render::EndProcess("stopped although " + status_.last_error);
   }
   wake_.notify_all();
   thread_.join();
@@ -93,6 +94,7 @@ void ViewLoop::OnHang(const std::string& what) {
   spdlog::error("view: {}", what);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stop_) render::EndProcess(what);
+  status_.hangs = true;
   status_.last_error = what;
 }
 
@@ -119,6 +121,7 @@ void ViewLoop::Run() {
       error = failure.what();
     }
     lock.lock();
+    if (std::exchange(status_.hangs, false)) spdlog::warn("view: the driver has come back");
     if (error.empty() || status_.last_error == error) continue;
     spdlog::error("view: {}", error);
     status_.last_error = error;

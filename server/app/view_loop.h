@@ -33,6 +33,7 @@ struct ViewStatus {
   std::uint64_t drawn = 0;
   double draw_millis = 0;  // of the last one, drawn, read back and sent
   std::string last_error;  // "" when the last picture went well
+  bool hangs = false;      // the driver has not come back; last_error says from what
 };
 
 /// The pinhole camera that `camera` is, for a picture of `height_px`; how it lies in the world is
@@ -50,6 +51,7 @@ class ViewLoop {
   /// `send` gets every picture, on the drawing thread.
   /// @throws UsageError for a camera that does not exist.
   ViewLoop(const ViewSettings& settings, std::shared_ptr<const SceneState> first, Send send);
+  /// Ends the process (exit code 2) when the driver hangs and so the thread cannot be joined.
   ~ViewLoop();
   ViewLoop(const ViewLoop&) = delete;
   ViewLoop& operator=(const ViewLoop&) = delete;

@@ -4,11 +4,15 @@
 #include <image_transport/image_transport.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <signal.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/Marker.h>
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <string>
@@ -232,6 +236,29 @@ TEST_F(ViewOverRos, IsNotThereWithoutPicturesNorWhereItIsOff) {
   ASSERT_TRUE(Spin([] { return IsAdvertised("/kinescope/joint_states"); }));
   EXPECT_FALSE(IsAdvertised("/kinescope/view/image_raw"));
 }
+
+#ifdef KINESCOPE_HANGING_DRIVER
+TEST_F(ViewOverRos, WhoseDriverHangsDoesNotKeepTheProgramFromStopping) {
+  const std::filesystem::path hang = folder_ / "hang";
+  bool has_image = false;
+  Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto&) { has_image = true; });
+  // The limit is what the first picture may take on a busy machine; the test waits for it once.
+  setenv("HANGING_DRIVER_FILE", hang.c_str(), 1);
+  setenv("LD_PRELOAD", KINESCOPE_HANGING_DRIVER, 1);
+  StartServe("--view_size 64x48 --picture_size 64x48 --draw_limit_secs 3");
+  unsetenv("LD_PRELOAD");
+  const auto hangs = [&] { return Diagnostics("view").at("hangs").get<bool>(); };
+  ASSERT_TRUE(Spin([&] { return has_image && !hangs(); }));
+  std::ofstream(hang).flush();
+  ASSERT_TRUE(Spin(hangs));
+  EXPECT_NE(Diagnostics("view").at("last_error").get<std::string>().find("hangs"),
+            std::string::npos);
+  EXPECT_FALSE(Diagnostics("pictures").at("hangs").get<bool>()) << "nobody looks at the page";
+  program_->Signal(SIGTERM);
+  EXPECT_NE(WaitForLine(*program_, "kinescope: stopped although ").find("hangs"),
+            std::string::npos);
+}
+#endif
 
 }  // namespace
 }  // namespace kinescope
