@@ -51,22 +51,22 @@ double ShownHeight(const Camera& camera);
 
 /// `camera` moved along its axis so that with another field of view, or with none, what lies at the
 /// target's depth keeps its size. @pre 0 < fov < pi
-Camera WithFov(const Camera& camera, double vertical_fov_rad);
-Camera Orthographic(const Camera& camera);
+[[nodiscard]] Camera WithFov(const Camera& camera, double vertical_fov_rad);
+[[nodiscard]] Camera Orthographic(const Camera& camera);
 
 /// `camera` moved back where a narrow picture (width / height = `aspect`) would cut off the arms of
 /// the person in its middle; web/cameras.js does the same.
-Camera ForAspect(const Camera& camera, double aspect);
+[[nodiscard]] Camera ForAspect(const Camera& camera, double aspect);
 
 /// Turned about the vertical through its target, counter-clockwise seen from above.
-Camera Turned(const Camera& camera, double angle_rad);
+[[nodiscard]] Camera Turned(const Camera& camera, double angle_rad);
 
 /// Around all that is drawn of people, objects and robots, world, m; empty where nobody is.
 Eigen::AlignedBox3d BoxOf(const SceneState& state);
 
 /// `camera` moved, without being turned, so that `box` just fits into its picture with a margin.
 /// @pre !box.isEmpty()
-Camera Framing(const Camera& camera, const Eigen::AlignedBox3d& box, double aspect);
+[[nodiscard]] Camera Framing(const Camera& camera, const Eigen::AlignedBox3d& box, double aspect);
 
 /// Whereabouts that do not sway with the people: they stand still while they stay near the middle
 /// of the picture, and are drawn along, without jumps, when they walk away. A floor that stands

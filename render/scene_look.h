@@ -96,6 +96,6 @@ inline const Rgb& BackgroundOf(const SceneLook& look) {
 /// Whether `look` hides anything that `Without` would take away.
 bool HidesAnything(const SceneLook& look);
 /// `state` without what `look` hides, as far as that is data of the state.
-SceneState Without(SceneState state, const SceneLook& look);
+[[nodiscard]] SceneState Without(SceneState state, const SceneLook& look);
 
 }  // namespace kinescope::render

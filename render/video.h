@@ -74,7 +74,7 @@ class VideoReader {
   VideoReader& operator=(const VideoReader&) = delete;
 
   /// The next picture; false at the end. @throws std::runtime_error for a damaged file.
-  virtual bool Next(Image& image) = 0;
+  [[nodiscard]] virtual bool Next(Image& image) = 0;
   /// When the picture that came last is shown, s after the first.
   virtual double secs() const = 0;
   /// Keys in lower case: "comment", "title".

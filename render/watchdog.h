@@ -23,7 +23,7 @@ class Watchdog {
   Watchdog& operator=(const Watchdog&) = delete;
 
   /// While it lives, work goes on; `what` is for OnHang. One at a time, of one thread.
-  class Work {
+  class [[nodiscard]] Work {
    public:
     Work(Watchdog& watchdog, std::chrono::milliseconds limit, std::function<std::string()> what);
     ~Work();

@@ -51,7 +51,7 @@ using BodyParameters = std::array<SegmentInertia, kSegmentCount>;
 /// "" or what is wrong with `body`, naming the value and what is expected: a body mass outside 20
 /// to 300 kg; an extra mass that is not above 0 and at most 100 kg, that is farther than 2 m from
 /// its segment's origin, on a segment that does not exist, or one of more than kMostExtraMasses.
-std::string FindDefect(const BodyDescription& body);
+[[nodiscard]] std::string FindDefect(const BodyDescription& body);
 
 /// Masses add up to `body.mass_kg` (every table is divided by its own sum) and the extra masses,
 /// which are part of their segments.

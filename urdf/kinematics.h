@@ -22,7 +22,7 @@ using LinkPoses = std::array<Pose, kSegmentCount>;             // link frames
 using JointAngles = std::array<Eigen::Vector3d, kJointCount>;  // (x, y, z) rad
 
 /// from_from_to: where `to` stands as `from` sees it. Both in one frame.
-Pose Relative(const Pose& from, const Pose& to);
+[[nodiscard]] Pose Relative(const Pose& from, const Pose& to);
 
 /// Ry(y) * Rx(x) * Rz(z).
 Eigen::Quaterniond RotationFromAngles(const Eigen::Vector3d& xyz);
@@ -49,7 +49,7 @@ LinkPoses ForwardKinematics(const Skeleton& skeleton, const Pose& pelvis,
                             const JointAngles& angles);
 
 /// Between `a` and `b`: positions linear, orientations slerp along the shorter arc. t in [0, 1].
-Pose Interpolate(const Pose& a, const Pose& b, double t);
-LinkPoses Interpolate(const LinkPoses& a, const LinkPoses& b, double t);
+[[nodiscard]] Pose Interpolate(const Pose& a, const Pose& b, double t);
+[[nodiscard]] LinkPoses Interpolate(const LinkPoses& a, const LinkPoses& b, double t);
 
 }  // namespace kinescope::urdf

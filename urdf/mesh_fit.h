@@ -25,7 +25,8 @@ struct MeshConvention {
 };
 
 /// `mesh` in metres and in the link frame, in its own size. Its normals are made anew.
-TriangleMesh ToLinkFrame(TriangleMesh mesh, const MeshConvention& convention, int segment);
+[[nodiscard]] TriangleMesh ToLinkFrame(TriangleMesh mesh, const MeshConvention& convention,
+                                       int segment);
 
 /// What ToLinkFrame gave, stretched along `segment` to the length that `skeleton` has there.
 TriangleMesh FitToPerson(TriangleMesh mesh, const Skeleton& skeleton, int segment);

@@ -17,6 +17,7 @@ struct ChildResult {
 
 /// `command[0]` is a path; the child has our environment and no standard input, and is killed after
 /// `limit`. @throws std::runtime_error when it cannot be started.
-ChildResult RunChild(const std::vector<std::string>& command, std::chrono::milliseconds limit);
+[[nodiscard]] ChildResult RunChild(const std::vector<std::string>& command,
+                                   std::chrono::milliseconds limit);
 
 }  // namespace kinescope::app

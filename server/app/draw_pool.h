@@ -44,7 +44,7 @@ class DrawPool {
 
   /// Waits until there is room for one more picture, which is then drawn. The future has the
   /// picture or what went wrong; it is ready when the pool is destroyed, too. Any one thread.
-  FuturePicture Draw(Shot shot);
+  [[nodiscard]] FuturePicture Draw(Shot shot);
 
   /// Of the renderers, which are all alike.
   const render::RendererInfo& info() const { return info_; }

@@ -31,7 +31,7 @@ std::shared_ptr<const HandTools> ReadHandTools(const std::string& text,
                                                const urdf::MeshConvention& convention);
 
 /// Its surface in the link frame of the hand of `side`.
-urdf::TriangleMesh ToHandFrame(const HandTool& tool, const urdf::Skeleton& skeleton,
-                               urdf::Side side);
+[[nodiscard]] urdf::TriangleMesh ToHandFrame(const HandTool& tool, const urdf::Skeleton& skeleton,
+                                             urdf::Side side);
 
 }  // namespace kinescope::app

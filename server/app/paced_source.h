@@ -24,7 +24,7 @@ class PacedSource : public Source, private SampleSink {
 
   /// Hands on what is due. Returns when something came or `timeout` is over. What the source throws
   /// comes after the samples before it.
-  State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
+  [[nodiscard]] State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
 
   /// Of all rounds; `samples` are those handed on.
   SourceCounters counters() const override;

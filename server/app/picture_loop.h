@@ -54,7 +54,7 @@ class PictureLoop : public http::PictureFeed {
   void OnState(std::shared_ptr<const SceneState> state);  // any thread; never waits for drawing
 
   void SetViewers(int count) override;
-  bool SetCamera(const std::string& camera) override;
+  [[nodiscard]] bool SetCamera(const std::string& camera) override;
   std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width, int height) override;
 
   PictureStatus status() const;

@@ -51,7 +51,7 @@ std::optional<Json> FromText(const std::string& text);
 
 /// Whether two tell of the same pixels: without what follows from the rest (camera, size of the
 /// file, ...).
-bool DecideTheSame(const Json& a, const Json& b);
+[[nodiscard]] bool DecideTheSame(const Json& a, const Json& b);
 
 /// What the file `path` says of itself: nullopt where it says nothing, is missing or no picture.
 std::optional<Json> ReadEmbedded(const std::string& path);
@@ -63,6 +63,6 @@ std::optional<Json> ReadSidecar(const std::string& path);
 void WriteSidecar(const Output& output, Json provenance, const std::string& source, long pictures);
 
 /// Whether `output` lies there finished, whole and drawn from `provenance`.
-bool IsFinished(const Output& output, const Json& provenance, bool has_sidecar);
+[[nodiscard]] bool IsFinished(const Output& output, const Json& provenance, bool has_sidecar);
 
 }  // namespace kinescope::app

@@ -5,6 +5,6 @@ namespace kinescope::app {
 
 /// Call once, before threads are started.
 void CatchStopSignals();
-bool StopRequested();
+[[nodiscard]] bool StopRequested();
 
 }  // namespace kinescope::app

@@ -88,8 +88,8 @@ class Thinner {
   /// Whether to keep the sample `counter`, taken at `time_nanos` of the sender's clock; the same
   /// answer for every datagram of it, also when they come out of order. `clock_step_nanos`: the
   /// clock's resolution. `stream_hz` 0: all.
-  bool Keeps(double stream_hz, std::uint32_t counter, std::int64_t time_nanos,
-             std::int64_t clock_step_nanos);
+  [[nodiscard]] bool Keeps(double stream_hz, std::uint32_t counter, std::int64_t time_nanos,
+                           std::int64_t clock_step_nanos);
 
  private:
   struct Decision {

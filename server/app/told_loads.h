@@ -18,10 +18,10 @@ namespace kinescope::app {
 class ToldLoads {
  public:
   /// "", or what is wrong with the load, which then changes nothing. Any thread.
-  std::string Tell(int character, const HandLoad& load);
+  [[nodiscard]] std::string Tell(int character, const HandLoad& load);
 
   /// All that was told since the last call, by character.
-  std::map<int, HandLoad> Take();
+  [[nodiscard]] std::map<int, HandLoad> Take();
 
  private:
   std::mutex mutex_;

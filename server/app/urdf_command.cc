@@ -70,8 +70,9 @@ urdf::HumanModel LiveHuman(const std::string& url, const SceneOptions& options) 
   DescribedPeople described(builder);
   spdlog::info("waiting up to {} s for a person from {}", kPatienceSecs, source->description());
   const std::int64_t end = MonotonicNanos() + std::int64_t{kPatienceSecs} * 1'000'000'000;
-  while (!StopRequested() && MonotonicNanos() < end) {
-    source->Poll(std::chrono::milliseconds(50), described);
+  bool has_ended = false;
+  while (!has_ended && !StopRequested() && MonotonicNanos() < end) {
+    has_ended = source->Poll(std::chrono::milliseconds(50), described) == Source::State::kEnded;
     for (const PersonState& person : state->people) {
       if (described.Has(person.character)) return person.model->human;
     }

@@ -13,7 +13,7 @@ namespace kinescope::app {
 class WornExtras {
  public:
   /// True when `sample` has gloves or props that were not seen before: the model must be made anew.
-  bool Notice(const BodySample& sample);
+  [[nodiscard]] bool Notice(const BodySample& sample);
 
   /// Adds what was seen. Hands have the lengths of the scale data in `character`, where those have
   /// all of it, else an average hand's. @pre `human` has its skeleton

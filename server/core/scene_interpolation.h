@@ -10,6 +10,7 @@ namespace kinescope {
 /// `before`. People are matched by character, objects by their number within it; who is in `before`
 /// only is held too. Outside the two stamps the nearer one is
 /// returned.
-SceneState Interpolate(const SceneState& before, const SceneState& after, std::int64_t stamp_nanos);
+[[nodiscard]] SceneState Interpolate(const SceneState& before, const SceneState& after,
+                                     std::int64_t stamp_nanos);
 
 }  // namespace kinescope

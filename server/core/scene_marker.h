@@ -55,7 +55,7 @@ constexpr double kFarthestMarker = 1e5;             // m, from the origin, and o
 
 /// Why `marker` must not be drawn, such as "its scale is not a finite number"; nullopt when nothing
 /// is wrong with it.
-std::optional<std::string> FindDefect(const SceneMarker& marker);
+[[nodiscard]] std::optional<std::string> FindDefect(const SceneMarker& marker);
 
 /// "walls/3", as messages name it.
 std::string IdentityOf(const SceneMarker& marker);

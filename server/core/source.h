@@ -49,7 +49,7 @@ class Source {
   /// Waits at most `timeout` for input and hands on what came. A live source never ends; a file
   /// gives a few samples a call, as fast as it is asked, with stamps from its own clock.
   /// @throws SourceError when it cannot go on (a file that breaks off, a socket that fails).
-  virtual State Poll(std::chrono::milliseconds timeout, SampleSink& sink) = 0;
+  [[nodiscard]] virtual State Poll(std::chrono::milliseconds timeout, SampleSink& sink) = 0;
 
   virtual SourceCounters counters() const = 0;
   virtual std::string description() const = 0;  // "udp://0.0.0.0:9763", for people

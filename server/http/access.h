@@ -17,19 +17,19 @@ enum class Access {
 };
 
 /// `cookies`: the Cookie header. The comparison takes as long for a near miss as for a wild guess.
-Access CheckToken(const std::string& token, const std::string& cookie_name, const Target& target,
-                  std::string_view cookies);
+[[nodiscard]] Access CheckToken(const std::string& token, const std::string& cookie_name,
+                                const Target& target, std::string_view cookies);
 
 /// Whether `token` can be a cookie's value as it is: letters, digits and -._~ only.
-bool FitsIntoCookie(std::string_view token);
+[[nodiscard]] bool FitsIntoCookie(std::string_view token);
 
 /// Whether a page of `origin` (Origin header) was served by `host` (Host header). True without an
 /// origin: then it is no web page that asks.
-bool IsSameOrigin(std::string_view origin, std::string_view host);
+[[nodiscard]] bool IsSameOrigin(std::string_view origin, std::string_view host);
 
 /// Whether the Host header names this machine: "localhost", 127.x.x.x or [::1], with or without a
 /// port. Without a token this is what keeps a foreign site out that resolves its own name to
 /// 127.0.0.1 (DNS rebinding).
-bool NamesThisMachine(std::string_view host);
+[[nodiscard]] bool NamesThisMachine(std::string_view host);
 
 }  // namespace kinescope::http

@@ -37,6 +37,6 @@ struct Answer {
 };
 
 /// {"error": reason}, the shape of everything that goes wrong under /api and /snapshot.png.
-Answer ErrorAnswer(int status, const std::string& reason);
+[[nodiscard]] Answer ErrorAnswer(int status, const std::string& reason);
 
 }  // namespace kinescope::http

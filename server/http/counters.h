@@ -30,7 +30,7 @@ struct Counters {
 
 /// `diagnostics` (a JSON object) with the member "http" added. A text that is no JSON object comes
 /// back under "error", never as an exception.
-std::string WithHttpCounters(const std::string& diagnostics, const Counters& counters,
-                             const std::vector<ClientCounters>& clients);
+[[nodiscard]] std::string WithHttpCounters(const std::string& diagnostics, const Counters& counters,
+                                           const std::vector<ClientCounters>& clients);
 
 }  // namespace kinescope::http

@@ -19,6 +19,6 @@ struct HandLoadOrder {
 /// "left_com_m" (x, y, z; what is absent is at the grip) and "person". Numbers are not judged here,
 /// but that they are finite. The reason is one line for the client. Members that are not known are
 /// refused, so that a misspelt hand is not an empty one.
-tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view body);
+[[nodiscard]] tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view body);
 
 }  // namespace kinescope::http

@@ -31,7 +31,7 @@ class HubClient {
   virtual void SetWantsPictures(bool wanted) = 0;
   virtual bool wants_pictures() const = 0;
   /// It has taken so many of those that were sent in `slot`; false when there were not so many.
-  virtual bool OnSeen(Slot slot, std::uint64_t count) = 0;
+  [[nodiscard]] virtual bool OnSeen(Slot slot, std::uint64_t count) = 0;
   virtual ClientCounters counters() const = 0;
 };
 
@@ -44,7 +44,7 @@ class Hub {
       std::string camera, Counters& counters);
 
   /// False: kMaxClients are there already.
-  bool Join(HubClient& client);
+  [[nodiscard]] bool Join(HubClient& client);
   void Leave(HubClient& client);  // does nothing for one that is not there
 
   /// Sends the newest state to all, unless one went out less than kMinStateInterval ago: then the

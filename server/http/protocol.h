@@ -51,7 +51,7 @@ struct ClientCommand {
 
 /// The reason is one line for the client. Members that are not known are refused, so that a
 /// misspelt one does not go unnoticed.
-tl::expected<ClientCommand, std::string> ParseCommand(std::string_view text);
+[[nodiscard]] tl::expected<ClientCommand, std::string> ParseCommand(std::string_view text);
 
 Bytes EncodePong(double ping, std::int64_t now_nanos);
 Bytes EncodeError(const std::string& reason);

@@ -33,18 +33,18 @@ class Router {
   explicit Router(Site site) : site_(std::move(site)) {}
 
   /// An answer for every request; what the router refuses it counts.
-  Answer Route(const Request& request) const;
+  [[nodiscard]] Answer Route(const Request& request) const;
 
   /// Whether the request may open a WebSocket; nullopt, or why not.
-  std::optional<Answer> RefuseWebSocket(const Request& request) const;
+  [[nodiscard]] std::optional<Answer> RefuseWebSocket(const Request& request) const;
 
   static constexpr const char* kWebSocketPath = "/ws";
 
  private:
   Answer RouteAdmitted(const Target& target, const Request& request) const;
-  Answer Refuse(int status, const char* kind, const std::string& reason) const;
-  std::optional<Answer> RefuseStranger(const Request& request, const Target& target,
-                                       bool* set_cookie) const;
+  [[nodiscard]] Answer Refuse(int status, const char* kind, const std::string& reason) const;
+  [[nodiscard]] std::optional<Answer> RefuseStranger(const Request& request, const Target& target,
+                                                     bool* set_cookie) const;
   Answer Api(const std::string& path) const;
   Answer SetHandLoad(const Request& request) const;
   Answer Mesh(const std::string& path) const;

@@ -44,7 +44,7 @@ class PictureFeed {
   /// How many clients look at the live picture now; nothing is drawn while it is 0.
   virtual void SetViewers(int count) = 0;
   /// Which named camera the live picture uses. False for a name that does not exist.
-  virtual bool SetCamera(const std::string& camera) = 0;
+  [[nodiscard]] virtual bool SetCamera(const std::string& camera) = 0;
   /// One picture of the newest state as PNG; blocks until drawn. Empty camera: the live one's.
   /// @throws std::exception with one line for the client.
   virtual std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width,

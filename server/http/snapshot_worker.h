@@ -33,7 +33,7 @@ class SnapshotWorker {
   SnapshotWorker& operator=(const SnapshotWorker&) = delete;
 
   /// `done` is called on the worker's thread. False, and `done` is not called, when too many wait.
-  bool Submit(SnapshotRequest request, std::function<void(SnapshotResult)> done);
+  [[nodiscard]] bool Submit(SnapshotRequest request, std::function<void(SnapshotResult)> done);
 
  private:
   struct Job {

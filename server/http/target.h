@@ -19,9 +19,9 @@ inline constexpr std::size_t kMaxTargetBytes = 2048;
 /// "/a%20b?x=1" -> {"/a b", {x: 1}}. Refused, with one line for the client: more than
 /// kMaxTargetBytes, no "/" in front, a broken %-escape, a control character (NUL), a backslash, an
 /// empty, "." or ".." segment, escaped or not.
-tl::expected<Target, std::string> ParseTarget(std::string_view text);
+[[nodiscard]] tl::expected<Target, std::string> ParseTarget(std::string_view text);
 
 /// Replaces every %XX; an error where one is broken.
-tl::expected<std::string, std::string> PercentDecode(std::string_view text);
+[[nodiscard]] tl::expected<std::string, std::string> PercentDecode(std::string_view text);
 
 }  // namespace kinescope::http

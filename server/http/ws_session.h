@@ -30,7 +30,7 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
   void Offer(Slot slot, SharedBytes message) override;
   void SetWantsPictures(bool wanted) override;
   bool wants_pictures() const override { return counters_.pictures; }
-  bool OnSeen(Slot slot, std::uint64_t count) override;
+  [[nodiscard]] bool OnSeen(Slot slot, std::uint64_t count) override;
   ClientCounters counters() const override { return counters_; }
 
  private:

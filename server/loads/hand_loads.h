@@ -23,7 +23,7 @@ using kinescope::MeasuredHandForce;
 
 /// "" or what is wrong with `load`, naming the hand, the value and what is expected: a mass that is
 /// negative, not a number or above kMostHeldKg in sum; a CoM farther than 2 m from the hand.
-std::string FindDefect(const HandLoad& load);
+[[nodiscard]] std::string FindDefect(const HandLoad& load);
 
 /// "right:5", "left:2.5", "both:10", "right:5@0,0,-0.2" (CoM in the hand's link frame, m), or
 /// several with semicolons; "none": nothing, for certain.

@@ -34,7 +34,7 @@ struct Strength {
 };
 
 /// "" or what is wrong, naming value and limits.
-std::string FindDefect(const Strength& strength);
+[[nodiscard]] std::string FindDefect(const Strength& strength);
 
 struct Score {
   double ratio = 0;     // max over the joint's channels

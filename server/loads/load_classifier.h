@@ -23,7 +23,7 @@ class LoadClassifier {
 
   /// Settings that rise at `up` and fall a twentieth of capacity lower (a sixth of the limit, where
   /// that is less), as the defaults do.
-  static Settings WithLimits(const std::array<double, 2>& up);
+  [[nodiscard]] static Settings WithLimits(const std::array<double, 2>& up);
 
   LoadClassifier() = default;
   explicit LoadClassifier(const Settings& settings) : settings_(settings) {}

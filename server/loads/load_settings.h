@@ -34,6 +34,6 @@ struct LoadSettings {
 };
 
 /// "" or what is wrong, naming option, value and limits.
-std::string FindDefect(const LoadSettings& settings);
+[[nodiscard]] std::string FindDefect(const LoadSettings& settings);
 
 }  // namespace kinescope::loads

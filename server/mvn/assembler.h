@@ -87,7 +87,7 @@ class Assembler {
   bool IsOnTrial(const Endpoint& sender, int character, std::int64_t now);
   Stream* AddStream(const Endpoint& sender, int character, std::int64_t now, SampleSink& sink);
   int FreeId(int wanted) const;
-  bool MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink);
+  [[nodiscard]] bool MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink);
   void DiscardUnconfirmed(std::int64_t now);
 
   Stamps stamps_;

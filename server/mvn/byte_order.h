@@ -19,7 +19,7 @@ class ByteReader {
   std::size_t offset() const { return offset_; }
   std::size_t remaining() const { return bytes_.size() - offset_; }
 
-  bool Seek(std::size_t offset) {
+  [[nodiscard]] bool Seek(std::size_t offset) {
     if (offset > bytes_.size()) return false;
     offset_ = offset;
     return true;
@@ -29,7 +29,7 @@ class ByteReader {
   void CutAt(std::size_t end) { bytes_ = bytes_.substr(0, end); }
 
   template <class Unsigned>
-  bool Read(Unsigned& value) {
+  [[nodiscard]] bool Read(Unsigned& value) {
     if (remaining() < sizeof(Unsigned)) return false;
     std::uint32_t bits = 0;
     for (std::size_t i = 0; i < sizeof(Unsigned); ++i) {
@@ -40,7 +40,7 @@ class ByteReader {
     return true;
   }
 
-  bool ReadFloat(double& value) {
+  [[nodiscard]] bool ReadFloat(double& value) {
     std::uint32_t bits = 0;
     if (!Read(bits)) return false;
     float number = 0;
@@ -50,11 +50,18 @@ class ByteReader {
   }
 
   /// The next `size` bytes, not copied.
-  bool ReadBytes(std::size_t size, std::string_view& value) {
+  [[nodiscard]] bool ReadBytes(std::size_t size, std::string_view& value) {
     if (remaining() < size) return false;
     value = bytes_.substr(offset_, size);
     offset_ += size;
     return true;
+  }
+
+  /// All that is left, not copied.
+  [[nodiscard]] std::string_view ReadRest() {
+    const std::string_view rest = bytes_.substr(offset_);
+    offset_ = bytes_.size();
+    return rest;
   }
 
  private:

@@ -47,11 +47,13 @@ tl::expected<Type, Reason> FindType(std::string_view digits) {
   }
 }
 
+// One number into a field that is wider, so that arithmetic with it is signed.
 template <class Unsigned>
-int ReadInt(ByteReader& in) {
-  Unsigned value = 0;
-  in.Read(value);  // the caller has checked that the whole header is there
-  return value;
+[[nodiscard]] bool ReadInt(ByteReader& in, int& value) {
+  Unsigned number = 0;
+  if (!in.Read(number)) return false;
+  value = number;
+  return true;
 }
 
 bool ReadHeader(ItemReader& in, std::string_view datagram, Header& header) {
@@ -59,26 +61,28 @@ bool ReadHeader(ItemReader& in, std::string_view datagram, Header& header) {
   constexpr std::string_view kMagic = "MXTP";
   const std::string_view start = datagram.substr(0, kMagic.size());
   if (start != kMagic.substr(0, start.size())) return in.Fail(ReasonForForeign(datagram), 0);
-  if (datagram.size() < kHeaderBytes) {
+  const auto cut_short = [&] {
     return in.Fail(Reason::kShortHeader, static_cast<std::int64_t>(datagram.size()));
-  }
+  };
+  if (datagram.size() < kHeaderBytes) return cut_short();
   std::string_view id_string;
-  in.bytes.ReadBytes(kIdStringBytes, id_string);
+  if (!in.bytes.ReadBytes(kIdStringBytes, id_string)) return cut_short();
   const auto type = FindType(id_string.substr(kMagic.size()));
   if (!type) return in.Fail(type.error(), 0);
   header.type = *type;
-  in.bytes.Read(header.sample_counter);
-  const int datagram_counter = ReadInt<std::uint8_t>(in.bytes);
+  int datagram_counter = 0;
+  std::uint16_t reserved = 0;  // not checked, so that it may get a meaning
+  const bool is_whole =
+      in.bytes.Read(header.sample_counter) && ReadInt<std::uint8_t>(in.bytes, datagram_counter) &&
+      ReadInt<std::uint8_t>(in.bytes, header.item_count) &&
+      in.bytes.Read(header.time_code_millis) && ReadInt<std::uint8_t>(in.bytes, header.character) &&
+      ReadInt<std::uint8_t>(in.bytes, header.body_segments) &&
+      ReadInt<std::uint8_t>(in.bytes, header.props) &&
+      ReadInt<std::uint8_t>(in.bytes, header.finger_segments) && in.bytes.Read(reserved) &&
+      ReadInt<std::uint16_t>(in.bytes, header.payload_bytes);
+  if (!is_whole) return cut_short();
   header.part = datagram_counter & 0x7F;
   header.is_last_part = (datagram_counter & 0x80) != 0;
-  header.item_count = ReadInt<std::uint8_t>(in.bytes);
-  in.bytes.Read(header.time_code_millis);
-  header.character = ReadInt<std::uint8_t>(in.bytes);
-  header.body_segments = ReadInt<std::uint8_t>(in.bytes);
-  header.props = ReadInt<std::uint8_t>(in.bytes);
-  header.finger_segments = ReadInt<std::uint8_t>(in.bytes);
-  ReadInt<std::uint16_t>(in.bytes);  // reserved: not checked, so that it may get a meaning
-  header.payload_bytes = ReadInt<std::uint16_t>(in.bytes);
   return true;
 }
 

@@ -235,9 +235,9 @@ struct ParseError {
 std::string Describe(const ParseError& error);
 
 /// The header alone, without a look at the body: what can be told of a datagram whatever is in it.
-tl::expected<Header, ParseError> ParseHeader(std::string_view datagram);
+[[nodiscard]] tl::expected<Header, ParseError> ParseHeader(std::string_view datagram);
 
-tl::expected<Message, ParseError> ParseDatagram(std::string_view datagram);
+[[nodiscard]] tl::expected<Message, ParseError> ParseDatagram(std::string_view datagram);
 
 /// Parent and child point of a joint, as type 20 names them: 256 * segment id + point.
 struct PointPair {

@@ -162,13 +162,12 @@ bool ParseTrackers(ItemReader& in, const Header& header, TrackersMessage& out) {
 bool ParseTimeCode(ItemReader& in, TimeCodeMessage& out) {
   constexpr std::size_t kShortest = 8;  // "HH:MM:SS"
   constexpr std::size_t kLengthBytes = 4;
-  std::string_view text;
-  in.bytes.ReadBytes(in.bytes.remaining(), text);
+  std::string_view text = in.bytes.ReadRest();
   // The specification has no length before the text; what is sent has one. Some sender counts it
   // wrong, so the length only limits.
-  if (!text.empty() && (text[0] < '0' || text[0] > '9') && text.size() > kLengthBytes) {
-    std::uint32_t length = 0;
-    ByteReader(text).Read(length);
+  std::uint32_t length = 0;
+  if (text.size() > kLengthBytes && (text[0] < '0' || text[0] > '9') &&
+      ByteReader(text).Read(length)) {
     text = text.substr(kLengthBytes, length);
   }
   if (text.size() < kShortest) {

@@ -23,8 +23,7 @@ bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 template <class Unsigned>
 Unsigned ReadAt(std::string_view bytes, std::size_t offset) {
   Unsigned value = 0;
-  ByteReader(bytes.substr(offset)).Read(value);
-  return value;
+  return ByteReader(bytes.substr(offset)).Read(value) ? value : Unsigned{0};
 }
 
 // Goes through the body of a 12 or 13, which may not reach beyond `limit`, from text to text.

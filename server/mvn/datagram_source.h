@@ -71,7 +71,7 @@ class DatagramSource {
   /// Waits at most `timeout` for input and hands on what came, a bounded number of datagrams. A
   /// file never waits and hands on one packet's worth a call.
   /// @throws SourceError when it cannot go on (a file that is broken, a socket that fails).
-  virtual State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) = 0;
+  [[nodiscard]] virtual State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) = 0;
 
   virtual TransportCounters counters() const = 0;
   virtual std::string description() const = 0;  // "udp://0.0.0.0:9763", with the real port

@@ -29,21 +29,21 @@ class ItemReader {
   }
 
   /// The layout of items that are at least `known_bytes` long.
-  bool FindLayout(const Header& header, std::size_t known_bytes, ItemLayout& layout);
+  [[nodiscard]] bool FindLayout(const Header& header, std::size_t known_bytes, ItemLayout& layout);
   /// To the start of item `index` of a payload that begins right after the header.
-  bool GoTo(const ItemLayout& layout, int index) {
+  [[nodiscard]] bool GoTo(const ItemLayout& layout, int index) {
     return bytes.Seek(kHeaderBytes + layout.stride * static_cast<std::size_t>(index));
   }
 
-  bool ReadId(std::uint32_t& id);
-  bool ReadVector(Eigen::Vector3d& value);
-  bool ReadUnitQuaternion(Eigen::Quaterniond& value);  // in the stream: w x y z
-  bool ReadText(std::string_view& text);
+  [[nodiscard]] bool ReadId(std::uint32_t& id);
+  [[nodiscard]] bool ReadVector(Eigen::Vector3d& value);
+  [[nodiscard]] bool ReadUnitQuaternion(Eigen::Quaterniond& value);  // in the stream: w x y z
+  [[nodiscard]] bool ReadText(std::string_view& text);
   /// A count of things that take at least `bytes_each`.
-  bool ReadCount(std::size_t bytes_each, std::uint32_t& count);
+  [[nodiscard]] bool ReadCount(std::size_t bytes_each, std::uint32_t& count);
 
  private:
-  bool ReadNumber(double& value);
+  [[nodiscard]] bool ReadNumber(double& value);
 };
 
 inline constexpr std::size_t kLongestName = 128;  // of a character, segment or point, in bytes
@@ -57,15 +57,15 @@ inline constexpr double kMetresPerCentimetre = 0.01;
 std::string CleanText(std::string_view text, std::size_t longest);
 
 /// Bodies of single types; false with `in.error` set.
-bool ParseSegments(ItemReader& in, const Header& header, PoseMessage& out);
-bool ParseSegments(ItemReader& in, const Header& header, EulerPoseMessage& out);
-bool ParseSegments(ItemReader& in, const Header& header, LinearMessage& out);
-bool ParseSegments(ItemReader& in, const Header& header, AngularMessage& out);
-bool ParseMarkers(ItemReader& in, const Header& header, MarkersMessage& out);
-bool ParseTrackers(ItemReader& in, const Header& header, TrackersMessage& out);
-bool ParseTimeCode(ItemReader& in, TimeCodeMessage& out);
-bool ParseJointAngles(ItemReader& in, const Header& header, JointAnglesMessage& out);
-bool ParseMetaData(ItemReader& in, MetaDataMessage& out);
-bool ParseScale(ItemReader& in, ScaleMessage& out);
+[[nodiscard]] bool ParseSegments(ItemReader& in, const Header& header, PoseMessage& out);
+[[nodiscard]] bool ParseSegments(ItemReader& in, const Header& header, EulerPoseMessage& out);
+[[nodiscard]] bool ParseSegments(ItemReader& in, const Header& header, LinearMessage& out);
+[[nodiscard]] bool ParseSegments(ItemReader& in, const Header& header, AngularMessage& out);
+[[nodiscard]] bool ParseMarkers(ItemReader& in, const Header& header, MarkersMessage& out);
+[[nodiscard]] bool ParseTrackers(ItemReader& in, const Header& header, TrackersMessage& out);
+[[nodiscard]] bool ParseTimeCode(ItemReader& in, TimeCodeMessage& out);
+[[nodiscard]] bool ParseJointAngles(ItemReader& in, const Header& header, JointAnglesMessage& out);
+[[nodiscard]] bool ParseMetaData(ItemReader& in, MetaDataMessage& out);
+[[nodiscard]] bool ParseScale(ItemReader& in, ScaleMessage& out);
 
 }  // namespace kinescope::mvn

@@ -17,7 +17,7 @@ class StreamSource : public Source, private DatagramSink, private SampleSink {
  public:
   StreamSource(std::unique_ptr<DatagramSource> datagrams, Stamps stamps);
 
-  State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
+  [[nodiscard]] State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
   SourceCounters counters() const override;
   std::string description() const override { return datagrams_->description(); }
   bool is_live() const override { return datagrams_->is_live(); }

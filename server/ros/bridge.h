@@ -126,6 +126,6 @@ std::optional<std::string> PrivateParameter(const std::string& name);
 
 /// Null for kOff.
 /// @throws UsageError for a bad config, for kRequired without a master, or when built without ROS.
-std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mode);
+[[nodiscard]] std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mode);
 
 }  // namespace kinescope::ros_bridge

@@ -24,8 +24,8 @@ void FillComputedJointStates(const PersonState& person, const PersonNames& names
 /// Positions alone, from the streamed angles, as the seed bridge maps them; MVN sends none of
 /// fingers and props, whose positions are computed. False, and `message` as it was, when the sample
 /// carries none.
-bool FillStreamedJointStates(const PersonState& person, const PersonNames& names,
-                             sensor_msgs::JointState& message);
+[[nodiscard]] bool FillStreamedJointStates(const PersonState& person, const PersonNames& names,
+                                           sensor_msgs::JointState& message);
 
 /// MVN's (x, y, z), degrees -> the seed's (x, y, z), rad.
 Eigen::Vector3d SeedAngles(int joint, const Eigen::Vector3d& streamed_deg);

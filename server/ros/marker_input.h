@@ -37,13 +37,14 @@ class MarkerStore {
 
   /// `topic` tells apart who sends: names and numbers of markers are a topic's own.
   /// @return why the message changes nothing; nullopt when it did what it asked for.
-  std::optional<Refusal> Apply(std::size_t topic, const visualization_msgs::Marker& message,
-                               std::int64_t monotonic_nanos);
+  [[nodiscard]] std::optional<Refusal> Apply(std::size_t topic,
+                                             const visualization_msgs::Marker& message,
+                                             std::int64_t monotonic_nanos);
 
   /// Lets go of what has lived its time and places the rest: once, or where it is locked to its
   /// frame, anew, though never so often that this takes a tenth of the time; a frame that is not
   /// known is asked for ten times a second. True when `markers()` is another list than before.
-  bool Update(std::int64_t monotonic_nanos, const FindFrame& find_frame);
+  [[nodiscard]] bool Update(std::int64_t monotonic_nanos, const FindFrame& find_frame);
 
   /// All that can be placed, in the order of topic, namespace and number.
   const Markers& markers() const { return placed_; }
@@ -54,7 +55,7 @@ class MarkerStore {
     std::string text;
   };
   /// What has lost, or never had, a place since the last call.
-  std::vector<Lost> TakeLost();
+  [[nodiscard]] std::vector<Lost> TakeLost();
 
  private:
   using Key = std::tuple<std::size_t, std::string, int>;  // topic, namespace, number

@@ -25,21 +25,24 @@ struct RawMessage {
 
 /// What `bytes` hold; false when the message is cut short or lies about its length. `message` keeps
 /// its memory from call to call.
-bool Decode(const std::vector<std::uint8_t>& bytes, tf2_msgs::TFMessage& message);
-bool Decode(const std::vector<std::uint8_t>& bytes, xsens_mvn_ros_msgs::LinkStateArray& message);
+[[nodiscard]] bool Decode(const std::vector<std::uint8_t>& bytes, tf2_msgs::TFMessage& message);
+[[nodiscard]] bool Decode(const std::vector<std::uint8_t>& bytes,
+                          xsens_mvn_ros_msgs::LinkStateArray& message);
 
-bool Decode(const std::vector<std::uint8_t>& bytes, visualization_msgs::Marker& message);
-bool Decode(const std::vector<std::uint8_t>& bytes, visualization_msgs::MarkerArray& message);
+[[nodiscard]] bool Decode(const std::vector<std::uint8_t>& bytes,
+                          visualization_msgs::Marker& message);
+[[nodiscard]] bool Decode(const std::vector<std::uint8_t>& bytes,
+                          visualization_msgs::MarkerArray& message);
 
 inline constexpr std::size_t kLargestMessage = 16 << 20;  // bytes: 100,000 transforms
 
 /// Why a pose cannot be used, as the counter under which it goes: a number that is not finite, a
 /// position more than 1000 km away, a quaternion whose norm is off by more than 1e-3. Null when it
 /// can.
-const char* DefectOf(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw);
+[[nodiscard]] const char* DefectOf(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw);
 
 /// tf2 has no slash before a frame's name, tf had one.
-std::string WithoutSlash(const std::string& frame);
+[[nodiscard]] std::string WithoutSlash(const std::string& frame);
 
 }  // namespace kinescope::ros_bridge
 

@@ -39,9 +39,9 @@ class TransformPerson {
   /// From /tf_static: part of every set to come that does not bring the frame itself.
   void AddStatic(const FrameTransform& transform);
   /// Call when all transforms of a message were added. `arrival_nanos`: as in BodySample.
-  Result Finish(std::int64_t arrival_nanos = 0);
+  [[nodiscard]] Result Finish(std::int64_t arrival_nanos = 0);
   /// Nothing more will come: true when a set was left that lacks segments.
-  bool End() const { return HasSegments(); }
+  [[nodiscard]] bool End() const { return HasSegments(); }
 
   const BodySample& sample() const { return sample_; }
   /// Times that the stamp in the headers was earlier than that of the sample before.
@@ -57,7 +57,7 @@ class TransformPerson {
   void FindArmFrames(const Poses& poses);
   std::int64_t StampInHeaders() const;
   /// False when the set is the sample before once more.
-  bool SetStamp(std::int64_t header_nanos, std::int64_t record_nanos);
+  [[nodiscard]] bool SetStamp(std::int64_t header_nanos, std::int64_t record_nanos);
   void SetSegments(const Poses& poses);
 
   // The set that is being collected.

@@ -44,7 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   http::Counters counters;
   http::Hub hub(states, pictures, &feed, "iso", counters);
   Client client;
-  hub.Join(client);
+  KINESCOPE_CHECK(hub.Join(client));
   hub.OnMessage(client, {reinterpret_cast<const char*>(data), size});
   hub.Leave(client);
   // The same bytes as the body of POST /api/hand_load.

@@ -67,7 +67,7 @@ Sent StreamTo(const std::string& kind, Arguments arguments) {
   const auto give_up = std::chrono::steady_clock::now() + kPatience;
   constexpr std::chrono::milliseconds kPoll(20);
   while (running.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
-    receiver->Poll(kPoll, sink);
+    EXPECT_NE(receiver->Poll(kPoll, sink), mvn::DatagramSource::State::kEnded);
     if (std::chrono::steady_clock::now() > give_up) break;
   }
   Sent sent;
@@ -83,7 +83,7 @@ Sent StreamTo(const std::string& kind, Arguments arguments) {
                                sent.summary.at("unsent").get<std::size_t>();
   while (sink.datagrams.size() < expected && std::chrono::steady_clock::now() < give_up) {
     const std::size_t before = sink.datagrams.size();
-    receiver->Poll(kPoll, sink);
+    EXPECT_NE(receiver->Poll(kPoll, sink), mvn::DatagramSource::State::kEnded);
     if (!is_tcp && sink.datagrams.size() == before) break;
   }
   sent.datagrams = std::move(sink.datagrams);
@@ -367,7 +367,8 @@ TEST(StreamCommand, RelaysALiveStreamUntilItIsStopped) {
   BytesSink sink;
   const auto give_up = std::chrono::steady_clock::now() + kPatience;
   while (sink.datagrams.size() < kSent && std::chrono::steady_clock::now() < give_up) {
-    receiver->Poll(std::chrono::milliseconds(100), sink);
+    EXPECT_NE(receiver->Poll(std::chrono::milliseconds(100), sink),
+              mvn::DatagramSource::State::kEnded);
   }
   EXPECT_EQ(sink.datagrams.size(), kSent);
   relay.Signal(SIGINT);

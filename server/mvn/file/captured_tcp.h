@@ -18,7 +18,7 @@ class CapturedTcp {
  public:
   /// Takes a segment captured at `arrival` and hands on the datagrams that it completes.
   /// @return false for data of a connection that is (not yet) known to be MVN's.
-  bool Add(const TcpSegment& segment, const Arrival& arrival, DatagramSink& sink);
+  [[nodiscard]] bool Add(const TcpSegment& segment, const Arrival& arrival, DatagramSink& sink);
 
   /// Nothing more will come: hands on what still waits for missing segments.
   void End(const Arrival& arrival, DatagramSink& sink);

@@ -64,7 +64,7 @@ class MvnxReader {
   /// The next frame; every list that is there has the length that the header asks for, and finite
   /// numbers. False after the last.
   /// @throws SourceError as above, also when the file breaks off.
-  bool Next(MvnxFrame& frame);
+  [[nodiscard]] bool Next(MvnxFrame& frame);
 
   /// Throws the SourceError for `reason`, with file and current line.
   [[noreturn]] void Refuse(const std::string& reason) const;

@@ -30,7 +30,7 @@ class MvnxSource : public Source {
   /// Reads the header; `name` is for people. @throws SourceError.
   MvnxSource(InputFile file, std::string name);
 
-  State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
+  [[nodiscard]] State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
   SourceCounters counters() const override;
   std::string description() const override { return name_; }
   bool is_live() const override { return false; }

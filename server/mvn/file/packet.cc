@@ -44,8 +44,7 @@ Parsed<std::string_view> AfterHeader(std::string_view captured, std::size_t size
   if (captured.size() < size) return CutShort();
   ByteReader in(captured);
   std::uint16_t type = 0;
-  in.Seek(type_at);
-  in.Read(type);
+  if (!in.Seek(type_at) || !in.Read(type)) return CutShort();
   return AfterEtherType(type, captured.substr(size));
 }
 

@@ -41,17 +41,18 @@ bool KnowsLinkType(int link_type);
 
 /// The IP packet in a captured one; VLAN tags are passed over.
 /// @pre KnowsLinkType(link_type)
-tl::expected<std::string_view, PacketFault> FindIp(int link_type, std::string_view captured);
+[[nodiscard]] tl::expected<std::string_view, PacketFault> FindIp(int link_type,
+                                                                 std::string_view captured);
 
 /// IPv4 or IPv6, whatever options and extension headers it has.
-tl::expected<IpPacket, PacketFault> ParseIp(std::string_view bytes);
+[[nodiscard]] tl::expected<IpPacket, PacketFault> ParseIp(std::string_view bytes);
 
 struct UdpPacket {
   Endpoint from, to;
   std::string_view payload;
 };
 /// @pre packet.protocol == kProtocolUdp and the packet is no mere fragment.
-tl::expected<UdpPacket, PacketFault> ParseUdp(const IpPacket& packet);
+[[nodiscard]] tl::expected<UdpPacket, PacketFault> ParseUdp(const IpPacket& packet);
 
 struct TcpSegment {
   Endpoint from, to;
@@ -62,7 +63,7 @@ struct TcpSegment {
   std::string_view payload;
 };
 /// @pre packet.protocol == kProtocolTcp and the packet is no mere fragment.
-tl::expected<TcpSegment, PacketFault> ParseTcp(const IpPacket& packet);
+[[nodiscard]] tl::expected<TcpSegment, PacketFault> ParseTcp(const IpPacket& packet);
 
 /// The most that one UDP packet carries over IPv4 or IPv6.
 inline constexpr std::size_t kMostUdpPayload = 65507;

@@ -31,7 +31,7 @@ class PcapDatagrams : public DatagramSource {
   PcapDatagrams(InputFile file, std::string name);
 
   /// Hands on what one packet completes. @throws SourceError where the file is damaged.
-  State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
+  [[nodiscard]] State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
 
   TransportCounters counters() const override;
   std::string description() const override { return name_; }

@@ -44,7 +44,7 @@ class RawFileDatagrams : public DatagramSource {
   RawFileDatagrams(InputFile file, std::string name);
 
   /// Hands on one datagram. Neither end of it is known. @throws SourceError as the file does.
-  State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
+  [[nodiscard]] State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
 
   TransportCounters counters() const override;
   std::string description() const override { return name_; }

@@ -20,7 +20,7 @@ class TcpConnector {
   /// Goes on with connecting: attempts begin a second apart, each at the next of the host's
   /// addresses. A connection that was made is returned once, ready for use; the connector is then
   /// idle until Restart().
-  Socket Advance(std::int64_t now_monotonic_nanos);
+  [[nodiscard]] Socket Advance(std::int64_t now_monotonic_nanos);
 
   /// The connection that Advance() gave is gone.
   void Restart(std::int64_t now_monotonic_nanos);
@@ -33,7 +33,7 @@ class TcpConnector {
 
  private:
   void Begin(std::int64_t now);
-  bool Finish();
+  [[nodiscard]] bool Finish();
   void Fail(int error);
   void TellTrouble(const std::string& what);
 

@@ -32,7 +32,7 @@ class TcpDatagrams : public DatagramSource {
 
   /// Reads once from each connection that has something; kMore when one may have more. Returns
   /// early when a connection comes or goes.
-  State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
+  [[nodiscard]] State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
   TransportCounters counters() const override;
   std::string description() const override { return description_; }
   bool is_live() const override { return true; }
@@ -42,12 +42,12 @@ class TcpDatagrams : public DatagramSource {
  private:
   struct Connection;
 
-  bool WaitForInput(std::chrono::nanoseconds timeout);
+  [[nodiscard]] bool WaitForInput(std::chrono::nanoseconds timeout);
   void CollectDescriptors(std::int64_t now);
   std::int64_t Deadline(std::int64_t now, std::chrono::nanoseconds timeout) const;
   void AcceptAll(std::int64_t now);
   void Add(Socket socket);
-  bool Read(Connection& connection, DatagramSink& sink);
+  [[nodiscard]] bool Read(Connection& connection, DatagramSink& sink);
   void RemoveEnded(std::int64_t now);
 
   std::string description_;

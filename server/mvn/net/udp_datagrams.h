@@ -19,7 +19,7 @@ class UdpDatagrams : public DatagramSource {
   ~UdpDatagrams() override;
 
   /// kMore after as many datagrams as a call hands on, when there may be more.
-  State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
+  [[nodiscard]] State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
   TransportCounters counters() const override { return counters_; }
   std::string description() const override { return description_; }
   bool is_live() const override { return true; }
@@ -30,7 +30,7 @@ class UdpDatagrams : public DatagramSource {
   struct Batch;
 
   void Configure();
-  bool WaitForInput(std::chrono::nanoseconds timeout);
+  [[nodiscard]] bool WaitForInput(std::chrono::nanoseconds timeout);
   int ReadBatch(DatagramSink& sink);
   void ReadAncillary(const void* message_header, const Arrival& now);
 

@@ -70,7 +70,7 @@ TEST(PacedSource, GivesEverySampleOnceNotBeforeItIsDue) {
 TEST(PacedSource, ReturnsWithoutASampleWhenTheTimeoutIsShorter) {
   PacedSource source(std::make_unique<ShortFile>());
   Collector collector;
-  source.Poll(milliseconds(1000), collector);
+  EXPECT_EQ(source.Poll(milliseconds(1000), collector), Source::State::kMore);
   ASSERT_EQ(collector.samples.size(), 1u);
   EXPECT_EQ(source.Poll(milliseconds(0), collector), Source::State::kMore);
 }

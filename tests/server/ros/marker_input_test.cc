@@ -132,10 +132,10 @@ TEST(MarkerStore, AddsChangesAndDeletesByTopicNamespaceAndNumber) {
 TEST(MarkerStore, WhatIsSentAgainUnchangedIsTheSameObject) {
   MarkerStore store;
   const Cart cart;
-  store.Apply(0, Cube(1), 0);
+  EXPECT_FALSE(store.Apply(0, Cube(1), 0));
   ASSERT_TRUE(store.Update(0, cart.Find()));
   const auto first = store.markers().at(0);
-  store.Apply(0, Cube(1), 0);
+  EXPECT_FALSE(store.Apply(0, Cube(1), 0));
   EXPECT_FALSE(store.Update(0, cart.Find()));
   EXPECT_EQ(store.markers().at(0), first);
 }
@@ -145,9 +145,9 @@ TEST(MarkerStore, ThoseThatLiveATimeLeaveAfterItUnlessTheyComeAgain) {
   const Cart cart;
   Marker brief = Cube(1);
   brief.lifetime = ros::Duration(2);
-  store.Apply(0, brief, 0);
+  EXPECT_FALSE(store.Apply(0, brief, 0));
   ASSERT_TRUE(store.Update(0, cart.Find()));
-  store.Apply(0, brief, kSecond);
+  EXPECT_FALSE(store.Apply(0, brief, kSecond));
   EXPECT_FALSE(store.Update(2 * kSecond, cart.Find()));
   EXPECT_EQ(store.markers().size(), 1u);
   ASSERT_TRUE(store.Update(3 * kSecond, cart.Find()));
@@ -162,8 +162,8 @@ TEST(MarkerStore, LockedOnesGoWithTheirFrameAndOthersStay) {
   locked.header.stamp = ros::Time(5);
   Marker still = Cube(2);
   still.header.stamp = ros::Time(5);
-  store.Apply(0, locked, 0);
-  store.Apply(0, still, 0);
+  EXPECT_FALSE(store.Apply(0, locked, 0));
+  EXPECT_FALSE(store.Apply(0, still, 0));
   ASSERT_TRUE(store.Update(0, cart.Find()));
   EXPECT_EQ(cart.asked, (std::vector<std::int64_t>{0, 5 * kSecond}));
   cart.x = 4;
@@ -177,7 +177,7 @@ TEST(MarkerStore, AFrameThatIsNotKnownYetIsWaitedForAndNamedOnce) {
   MarkerStore store;
   Cart cart;
   cart.x.reset();
-  store.Apply(3, Cube(1), 0);
+  EXPECT_FALSE(store.Apply(3, Cube(1), 0));
   EXPECT_FALSE(store.Update(0, cart.Find()));
   EXPECT_FALSE(store.Update(0, cart.Find()));
   const auto lost = store.TakeLost();
@@ -197,13 +197,13 @@ TEST(MarkerStore, FramesAreLookedUpOnceForAllMarkersInThem) {
   for (int id = 0; id < 100; ++id) {
     Marker marker = Cube(id);
     marker.frame_locked = 1;
-    store.Apply(0, marker, 0);
+    EXPECT_FALSE(store.Apply(0, marker, 0));
     marker.header.frame_id = "nowhere";
     marker.header.stamp = ros::Time(id);
     marker.frame_locked = 0;
-    store.Apply(1, marker, 0);
+    EXPECT_FALSE(store.Apply(1, marker, 0));
   }
-  store.Update(0, cart.Find());
+  EXPECT_TRUE(store.Update(0, cart.Find()));
   EXPECT_EQ(cart.asked.size(), 2u);
   EXPECT_EQ(store.markers().size(), 100u);
 }
@@ -216,7 +216,7 @@ TEST(MarkerStore, ManyLockedPointsMoveLessOften) {
   cloud.colors.clear();
   cloud.points.resize(kMostMarkerPoints);
   cloud.frame_locked = 1;
-  store.Apply(0, cloud, 0);
+  EXPECT_FALSE(store.Apply(0, cloud, 0));
   EXPECT_TRUE(store.Update(0, cart.Find()));
   cart.x = 2;
   EXPECT_FALSE(store.Update(4'000'000, cart.Find())) << "the next sample at 240 Hz";
@@ -232,7 +232,7 @@ TEST(MarkerStore, IsBoundedInMarkersAndInPoints) {
   EXPECT_FALSE(store.Apply(0, Cube(5, 1), 0)) << "a change of one that is there";
   Marker all = Cube(0);
   all.action = Marker::DELETEALL;
-  store.Apply(0, all, 0);
+  EXPECT_FALSE(store.Apply(0, all, 0));
   Marker cloud = Of(Marker::POINTS);
   cloud.colors.clear();
   cloud.points.resize(kMostMarkerPoints);

@@ -39,13 +39,14 @@ inline std::chrono::steady_clock::time_point TestDeadline() {
   return std::chrono::steady_clock::now() + std::chrono::seconds(20);
 }
 
-/// Polls until `is_done`; false after 20 s, which only a failure can take.
+/// Polls until `is_done`; false when the source ends before, or after 20 s, which only a failure
+/// can take.
 template <class Source, class Sink, class Condition>
 bool PollUntil(Source& source, Sink& sink, const Condition& is_done) {
   const auto deadline = TestDeadline();
   while (!is_done()) {
     if (std::chrono::steady_clock::now() > deadline) return false;
-    source.Poll(std::chrono::milliseconds(20), sink);
+    if (source.Poll(std::chrono::milliseconds(20), sink) == Source::State::kEnded) return is_done();
   }
   return true;
 }

@@ -168,7 +168,7 @@ TEST(TcpStream, GivesEverySampleOfASenderOnce) {
   for (std::uint32_t counter = 1; counter <= kSamples; ++counter) {
     sent.push_back(RandomSample(random, counter));
     for (const std::string& datagram : EncodeSample(sent.back())) sender->Send(datagram);
-    source->Poll(milliseconds(0), sink);
+    ASSERT_EQ(source->Poll(milliseconds(0), sink), Source::State::kMore);
   }
   ASSERT_TRUE(PollUntil(*source, sink, [&] { return sink.samples.size() >= kSamples; }));
   ASSERT_EQ(sink.samples.size(), kSamples);

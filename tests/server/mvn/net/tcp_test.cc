@@ -213,9 +213,10 @@ TEST(TcpDatagrams, DoNotSpinWhereThereAreNoMoreDescriptors) {
   ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
   const rlimit none_left{3, before.rlim_max};  // what is open stays open
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none_left), 0);
-  source.Poll(std::chrono::seconds(20), sink);  // wakes for the newcomer, who cannot be let in
+  // Wakes for the newcomer, who cannot be let in.
+  EXPECT_EQ(source.Poll(std::chrono::seconds(20), sink), State::kIdle);
   const auto start = std::chrono::steady_clock::now();
-  source.Poll(milliseconds(100), sink);
+  EXPECT_EQ(source.Poll(milliseconds(100), sink), State::kIdle);
   const auto waited = std::chrono::steady_clock::now() - start;
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
   EXPECT_GE(waited, milliseconds(100)) << "the newcomer wakes us again and again";

@@ -135,10 +135,10 @@ TEST(UdpDatagrams, AreCountedWhereTheKernelDroppedThem) {
   const auto seen = [&] { return sink.all.size() + source.counters().kernel_drops; };
   // The kernel tells its count with the next datagram that it keeps.
   for (int i = 0; i < 100 && seen() != sent; ++i) {
-    source.Poll(milliseconds(50), sink);
+    ASSERT_NE(source.Poll(milliseconds(50), sink), State::kEnded);
     client.Send("x");
     ++sent;
-    source.Poll(milliseconds(50), sink);
+    ASSERT_NE(source.Poll(milliseconds(50), sink), State::kEnded);
   }
   EXPECT_GT(source.counters().kernel_drops, 0U);
   EXPECT_EQ(seen(), sent) << "each datagram was read or counted as dropped";
@@ -185,7 +185,7 @@ void SendAndReceiveEverySampleOnce(const std::string& listen_url) {
   for (std::uint32_t counter = 1; counter <= kSamples; ++counter) {
     sent.push_back(RandomSample(random, counter));
     for (const std::string& datagram : EncodeSample(sent.back())) sender->Send(datagram);
-    source->Poll(milliseconds(0), sink);
+    ASSERT_EQ(source->Poll(milliseconds(0), sink), Source::State::kMore);
   }
   EXPECT_EQ(sender->datagrams_unsent(), 0U);
   ASSERT_TRUE(PollUntil(*source, sink, [&] { return sink.samples.size() >= kSamples; }));
