@@ -2,14 +2,15 @@
 
 #include <dlfcn.h>
 
-#include <cstring>
+#include <algorithm>
 
 #include "render/renderer.h"
 #include "server/core/install_paths.h"
 
 namespace kinescope::render {
 
-const void* LoadModule(const std::string& file_name, const char* entry) {
+const void* LoadModule(const std::string& file_name, const char* entry, const std::size_t* abi,
+                       std::size_t abi_words) {
   const std::filesystem::path path = FindModule(file_name);
   if (path.empty()) {
     throw RenderError(file_name +
@@ -29,9 +30,9 @@ const void* LoadModule(const std::string& file_name, const char* entry) {
   const void* table = nullptr;
   using Entry = const void* (*)();
   table = reinterpret_cast<Entry>(symbol)();
-  // The ABI is the first member of every table, and never moves.
-  const ModuleAbi ours;
-  if (std::memcmp(table, &ours, sizeof ours) != 0) {
+  // Every table begins with these words. The second is how many follow, so that a table of another
+  // build is not read beyond them.
+  if (!std::equal(abi, abi + abi_words, static_cast<const std::size_t*>(table))) {
     throw RenderError(path.string() +
                       " is of another build of kinescope than this program; build or "
                       "install both again");

@@ -3,8 +3,9 @@
 /// both must come from the same build; LoadModule refuses anything else.
 #pragma once
 
+#include <array>
 #include <cstddef>
-#include <functional>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,25 +27,17 @@ struct Driver {
   std::string gl_version;  // GL_VERSION
 };
 
-/// What must be equal on both sides. A changed struct changes a size here in nearly every case; the
-/// number is raised by hand when it does not.
+/// Raised by hand when host and module of different builds would not understand each other and no
+/// size tells: virtual functions, an order of members, a meaning.
+inline constexpr std::size_t kModuleAbi = 5;
+
+/// What must be equal on both sides; a changed struct changes a size here in nearly every case.
+/// `Types`: all that the functions of a table take and give, and what is behind pointers and in
+/// containers there. tests/module_abi_test.py finds one that is missing.
+template <class... Types>
 struct ModuleAbi {
-  std::size_t number = 4;
-  std::size_t scene_state = sizeof(SceneState);
-  std::size_t person_state = sizeof(PersonState);
-  std::size_t person_model = sizeof(PersonModel);
-  std::size_t joint_load = sizeof(JointLoad);
-  std::size_t tracked_object = sizeof(TrackedObject);
-  std::size_t robot_state = sizeof(RobotState);
-  std::size_t robot_link = sizeof(urdf::Link);
-  std::size_t robot_joint = sizeof(urdf::RobotJoint);
-  std::size_t scene_marker = sizeof(SceneMarker);
-  std::size_t camera = sizeof(Camera);
-  std::size_t scene_look = sizeof(SceneLook);
-  std::size_t driver = sizeof(Driver);
-  std::size_t video_options = sizeof(VideoOptions);
-  std::size_t figure = sizeof(Figure);
-  std::size_t plot_panel = sizeof(PlotPanel);
+  std::array<std::size_t, 2 + sizeof...(Types)> words = {kModuleAbi, sizeof...(Types),
+                                                         sizeof(Types)...};
 };
 
 /// Text at a place in the world, drawn by the overlay.
@@ -78,13 +71,17 @@ class Drawing {
 };
 
 struct DrawingModule {
-  ModuleAbi abi;
+  ModuleAbi<SceneState, PersonState, PersonModel, urdf::ExtraMass, JointLoad, TrackedObject,
+            RobotState, urdf::RobotModel, urdf::Link, urdf::Visual, urdf::Collision,
+            urdf::RobotJoint, urdf::MeshSearch, SceneMarker, Camera, SceneLook, Trail, Ghost, Image,
+            Label, Driver>
+      abi;
   /// `backend`: one of those that the module has.
   std::unique_ptr<Drawing> (*make)(const std::string& backend, const LogLine& log);
 };
 
 struct VideoModule {
-  ModuleAbi abi;
+  ModuleAbi<Image, VideoOptions> abi;
   std::unique_ptr<VideoWriter> (*make)(const std::filesystem::path& path, ClipFormat format,
                                        int width, int height, const VideoOptions& options);
   std::unique_ptr<VideoReader> (*open)(const std::filesystem::path& path);
@@ -101,7 +98,9 @@ class LayerPainter : public Painter {
 std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, LayerFormat format);
 
 struct PlotModule {
-  ModuleAbi abi;
+  ModuleAbi<Figure, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotStretch, PlotMark,
+            PlotSwatch, PlotText, Image, Ink, Tile, Font, Glyph>
+      abi;
   std::string (*svg)(const Figure& figure);
   Image (*image)(const Figure& figure, double px_per_pt);
   std::unique_ptr<LayerPainter> (*layer)(int width_px, int height_px, LayerFormat format);
@@ -112,8 +111,17 @@ inline constexpr const char* kDrawingEntry = "KinescopeDrawingModule";  // -> co
 inline constexpr const char* kVideoEntry = "KinescopeVideoModule";      // -> const VideoModule*
 inline constexpr const char* kPlotEntry = "KinescopePlotModule";        // -> const PlotModule*
 
-/// The result of `entry` in the module `file_name`, which stays loaded until the process ends.
+/// The table that `entry` of a module returns; the module stays loaded until the process ends.
+/// `abi`: the words that the table has to begin with.
 /// @throws RenderError naming the file, the reason and what would help.
-const void* LoadModule(const std::string& file_name, const char* entry);
+const void* LoadModule(const std::string& file_name, const char* entry, const std::size_t* abi,
+                       std::size_t abi_words);
+
+template <class Module>
+const Module& LoadModule(const std::string& file_name, const char* entry) {
+  const decltype(Module::abi) ours{};
+  return *static_cast<const Module*>(
+      LoadModule(file_name, entry, ours.words.data(), ours.words.size()));
+}
 
 }  // namespace kinescope::render

@@ -7,9 +7,8 @@ namespace kinescope::render {
 namespace {
 
 const PlotModule& OpenPlotModule() {
-  static const auto* module =
-      static_cast<const PlotModule*>(LoadModule("libkinescope_plot.so", kPlotEntry));
-  return *module;
+  static const PlotModule& module = LoadModule<PlotModule>("libkinescope_plot.so", kPlotEntry);
+  return module;
 }
 
 }  // namespace

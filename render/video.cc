@@ -43,7 +43,7 @@ void CheckQuality(ClipFormat format, const VideoOptions& options) {
 }
 
 const VideoModule& OpenVideoModule() {
-  return *static_cast<const VideoModule*>(LoadModule("libkinescope_video.so", kVideoEntry));
+  return LoadModule<VideoModule>("libkinescope_video.so", kVideoEntry);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 namespace kinescope::app {
 
 urdf::TriangleMesh ReadMesh(const std::filesystem::path& path) {
-  static const auto* const module = static_cast<const MeshModule*>(
-      render::LoadModule("libkinescope_meshes.so", "KinescopeMeshModule"));
-  const render::Mesh from = module->read(std::filesystem::absolute(path).string());
+  static const MeshModule& module =
+      render::LoadModule<MeshModule>("libkinescope_meshes.so", "KinescopeMeshModule");
+  const render::Mesh from = module.read(std::filesystem::absolute(path).string());
   urdf::TriangleMesh mesh;
   mesh.vertices = from.positions;
   mesh.triangles.reserve(from.triangles.size() / 3);

@@ -18,7 +18,7 @@ urdf::TriangleMesh ReadMesh(const std::filesystem::path& path);
 
 /// What the module exports as `KinescopeMeshModule`; see render/module.h.
 struct MeshModule {
-  render::ModuleAbi abi;  // first
+  render::ModuleAbi<render::Mesh> abi;
   render::Mesh (*read)(const std::string& absolute_path);
 };
 

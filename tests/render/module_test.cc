@@ -1,0 +1,52 @@
+// What of another build is not loaded: tables that begin with other sizes.
+#include "render/module.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace kinescope::render {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr char kPlotFile[] = "libkinescope_plot.so";
+
+struct TableOfOneType {
+  ModuleAbi<Figure> abi;
+};
+struct TableWithAnotherImage {
+  struct LargerImage : Image {
+    int depth = 0;
+  };
+  ModuleAbi<Figure, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotStretch, PlotMark,
+            PlotSwatch, PlotText, LargerImage, Ink, Tile, Font, Glyph>
+      abi;
+};
+
+template <class Table>
+std::string ErrorOfLoading(const char* entry = kPlotEntry) {
+  try {
+    LoadModule<Table>(kPlotFile, entry);
+  } catch (const RenderError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Module, OfThisBuildIsLoaded) {
+  EXPECT_EQ(ErrorOfLoading<PlotModule>(), "");
+  EXPECT_NE(LoadModule<PlotModule>(kPlotFile, kPlotEntry).svg, nullptr);
+}
+
+TEST(Module, OfAnotherBuildIsRefusedWithTheWayOut) {
+  EXPECT_THAT(ErrorOfLoading<TableWithAnotherImage>(),
+              AllOf(HasSubstr(kPlotFile), HasSubstr("another build"), HasSubstr("again")));
+  EXPECT_THAT(ErrorOfLoading<TableOfOneType>(), HasSubstr("another build"));
+  EXPECT_THAT(ErrorOfLoading<PlotModule>("NoSuchEntry"), HasSubstr("NoSuchEntry"));
+}
+
+}  // namespace
+}  // namespace kinescope::render
