@@ -38,8 +38,8 @@ Camera NamedCamera(const std::string& name, const SceneState& state);
 /// What named cameras are aimed at: the people's middle on the floor, and how far the outermost
 /// stands from it, m.
 struct Whereabouts {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  double radius = 0;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // world, m
+  double radius = 0;                                 // m
 };
 Whereabouts WhereaboutsOf(const SceneState& state);
 
@@ -71,7 +71,7 @@ Eigen::AlignedBox3d BoxOf(const SceneState& state);
 /// Whereabouts that do not sway with the people: they stand still while they stay near the middle
 /// of the picture, and are drawn along, without jumps, when they walk away. A floor that stands
 /// still is easier on the eye and far cheaper to draw and to encode. One sequence of states gives
-/// one sequence of whereabouts.
+/// one sequence of whereabouts. One thread.
 class SteadyWhereabouts {
  public:
   /// Call once per picture. The first people to come are met at once; with nobody there, it waits.

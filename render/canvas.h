@@ -1,4 +1,5 @@
-/// Anti-aliased 2-D shapes and text on top of a finished picture.
+/// Anti-aliased 2-D shapes and text on top of a finished picture. One thread, which nobody else's
+/// use of the picture may overlap.
 #pragma once
 
 #include <cstdint>

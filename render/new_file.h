@@ -1,6 +1,7 @@
 /// A file that appears under its name only when it is whole, and leaves nothing behind otherwise.
 /// Where the file system can (O_TMPFILE) it has no name until then, so even SIGKILL leaves nothing;
-/// elsewhere it is a hidden file beside the target, removed by the destructor.
+/// elsewhere it is a hidden file beside the target, removed by the destructor. One thread at a
+/// time.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,10 @@
 /// What is written over the picture: title, lamp, legend, time code, banners, names, scale bar,
 /// plot and strip. Sizes follow the picture's height, so that a clip of any size looks the same;
-/// text never gets unreadably small.
+/// text never gets unreadably small. An Overlay belongs to one thread.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 

@@ -2,6 +2,7 @@
 /// its pose. A new pose changes matrices; a new model, the meshes.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>

@@ -1,4 +1,5 @@
-/// The scene, drawn by VTK into memory on whatever kind of GL context the module has.
+/// The scene, drawn by VTK into memory on whatever kind of GL context the module has. The drawing,
+/// and with it every actor, cache and context of this folder, belongs to the thread that made it.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
 /// Mesh files that a URDF names: STL, DAE, OBJ, GLB, read by assimp.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 

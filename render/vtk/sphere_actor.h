@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 #include "render/camera.h"
 #include "render/vtk/shaded_actor.h"

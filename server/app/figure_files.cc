@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <stdexcept>
 
 #include "urdf/figure.h"
@@ -89,9 +90,10 @@ std::string WriteToCache(const std::vector<FigureFile>& files) {
     if (!fs::exists(folder)) WriteAll(folder, files);
     return folder.string();
   } catch (const std::exception& error) {
-    static bool has_warned = false;
-    if (!has_warned) spdlog::warn("the figure is drawn coarsely, without tools: {}", error.what());
-    has_warned = true;
+    static std::once_flag warned;  // builders on several threads may come here
+    std::call_once(warned, [&] {
+      spdlog::warn("the figure is drawn coarsely, without tools: {}", error.what());
+    });
     return "";
   }
 }

@@ -1,5 +1,5 @@
 /// The pose that a picture shows as a ghost, to compare with: of the anatomical positions, or a
-/// moment of a recording.
+/// moment of a recording. Read once, by the constructor; then any thread may ask.
 #pragma once
 
 #include <string>

@@ -3,6 +3,7 @@
 /// functions but for WritePlots; any thread.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 

@@ -6,6 +6,7 @@
 /// parent exerts on the child, at the joint's centre.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 

@@ -17,7 +17,7 @@ enum class OutputKind {
 struct Output {
   std::string path;  // of a sequence: with the place of the number in it
   OutputKind kind = OutputKind::kStill;
-  std::string camera;
+  std::string camera;  // one of those that --camera names
 };
 
 struct SourcePlan {
@@ -31,7 +31,7 @@ struct SourcePlan {
 /// @throws UsageError naming option, value and what was expected.
 std::vector<SourcePlan> PlanOutputs(const RenderOptions& options);
 
-/// Of picture `k` of a sequence.
+/// The path of picture `k`, counted from 0, of a sequence.
 std::string PathOfPicture(const std::string& pattern, long k);
 
 /// Whether a clip of that name is packed to a constant quality (--crf).

@@ -3,6 +3,8 @@
 /// time, whatever order they have in the file. One thread.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <map>

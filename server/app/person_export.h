@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "server/app/figure_files.h"
 #include "urdf/human_urdf.h"

@@ -1,5 +1,5 @@
 /// A line on the terminal that tells how far long work is, how fast and how long still. Nothing
-/// where stderr is no terminal.
+/// where stderr is no terminal. One thread.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,6 @@
 /// Where a picture came from: everything that decides its pixels, as JSON, in the file and beside
-/// it. Two files whose provenance is equal show the same.
+/// it. Two files whose provenance is equal show the same. One thread at a time per object; the
+/// functions have no state.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -59,7 +60,8 @@ std::optional<Json> ReadEmbedded(const std::string& path);
 /// FILE.json, beside every output.
 std::string SidecarOf(const std::string& path);
 std::optional<Json> ReadSidecar(const std::string& path);
-/// `file_there`: the output is one file, whose hash goes in. @throws std::runtime_error.
+/// Writes FILE.json: `provenance`, the path of the source, the number of pictures and, unless the
+/// output is a sequence, the finished file's size and SHA-256. @throws std::runtime_error.
 void WriteSidecar(const Output& output, Json provenance, const std::string& source, long pictures);
 
 /// Whether `output` lies there finished, whole and drawn from `provenance`.

@@ -1,6 +1,7 @@
 /// What `kinescope render` is asked for.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

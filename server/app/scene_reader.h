@@ -1,5 +1,5 @@
 /// A file or the built-in subject as scene states, one after the other, as fast as they are asked
-/// for.
+/// for. One thread at a time.
 #pragma once
 
 #include <cstdint>

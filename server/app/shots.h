@@ -1,8 +1,10 @@
 /// From scenes to pictures of a recording: what depends on other scenes (a camera that follows, a
 /// plot of loads) is decided here, one scene after the other, so that the pictures themselves can
-/// be drawn in any order and by any number of renderers.
+/// be drawn in any order and by any number of renderers. A planner belongs to one thread; a Shot is
+/// a value that goes to any.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>

@@ -13,24 +13,24 @@ namespace kinescope::app {
 std::string PartNames(bool by_default);
 
 struct ViewOptions {
-  std::string size = "1280x720";
+  std::string size = "1280x720";  // px
   std::string camera = "three_quarter";
   std::string views;
   CameraOptions moves;
-  int supersample = 2;
+  int supersample = 2;  // 1, 2 or 4 times as many pixels each way
   std::string title;
   std::string overlay;
   std::string plot;
   bool no_overlays = false;
   std::string theme = "light";
-  std::string background = "theme";
+  std::string background = "theme";  // or sRGB, #RRGGBB
   std::string floor = "on";
   std::string show, hide;
   std::string trail;
-  double trail_secs = 2;
-  std::string ghost;
-  double ghost_opacity = 0.35;
-  std::vector<std::string> robot;
+  double trail_secs = 2;           // s
+  std::string ghost;               // FILE@SECS: s after the recording's start
+  double ghost_opacity = 0.35;     // 0..1
+  std::vector<std::string> robot;  // FILE@X,Y,YAW: world, m and degrees
 
   template <class Option>
   void Visit(Option&& option) {

@@ -1,6 +1,8 @@
 /// A scene between two samples, for clips on a fixed time grid.
 #pragma once
 
+#include <cstdint>
+
 #include "server/core/scene_state.h"
 
 namespace kinescope {

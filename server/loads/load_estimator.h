@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "server/core/body_forces.h"
 #include "server/core/scene_state.h"
@@ -70,7 +71,7 @@ class LoadEstimator {
   LoadClassifier compression_;
   std::optional<LoadMetric> last_metric_;
   std::array<bool, 15> was_external_{};  // by scored joint
-  std::array<bool, 2> hand_is_lost_{};  // its sensor stopped
+  std::array<bool, 2> hand_is_lost_{};   // its sensor stopped
   // Sitting or leaning: since when the CoP has been on the other side of the limit.
   bool suspects_contact_ = false;
   std::optional<std::int64_t> last_cop_nanos_, contrary_since_nanos_;

@@ -2,6 +2,7 @@
 /// first thing that is wrong. Not for use outside the parser.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 

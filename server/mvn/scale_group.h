@@ -3,6 +3,7 @@
 /// kept is bounded. One thread.
 #pragma once
 
+#include <array>
 #include <bitset>
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,9 @@
+/// The choice of clock for the stamps of samples that come over the network (--stamps).
 #pragma once
 
 namespace kinescope::mvn {
 
-/// Where a sample's time comes from.
+/// Which clock gives BodySample::stamp_nanos.
 enum class Stamps {
   kFitted,   // arrival smoothed onto the sender's clock (clock_fit.h)
   kArrival,  // as it came

@@ -1,6 +1,7 @@
 /// A stream of datagrams as a source of samples. One thread.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 

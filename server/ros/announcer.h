@@ -19,6 +19,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "server/core/scene_state.h"
 #include "server/ros/bridge.h"

@@ -12,6 +12,7 @@
 #include <ros/node_handle.h>
 #include <sensor_msgs/JointState.h>
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>

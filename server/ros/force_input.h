@@ -8,6 +8,7 @@
 #include <kinescope/JointLoadArray.h>
 #include <sensor_msgs/JointState.h>
 
+#include <array>
 #include <string>
 #include <tl/expected.hpp>
 

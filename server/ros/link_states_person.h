@@ -5,6 +5,7 @@
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
 #include <string>
+#include <utility>
 
 #include "server/core/skeleton_watch.h"
 #include "server/core/source.h"

@@ -1,7 +1,7 @@
 /// Markers of other programs: messages (visualization_msgs/Marker) -> SceneMarkers, what they ask
 /// for with those before (add, change, delete), how long they live and where their frames are.
-/// Pure: no node, and time is an argument. What an action means, and what of a message counts for
-/// which type, is as RViz has it (wiki.ros.org/rviz/DisplayTypes/Marker).
+/// No node, time is an argument, and a store belongs to one thread. What an action means, and what
+/// of a message counts for which type, is as RViz has it (wiki.ros.org/rviz/DisplayTypes/Marker).
 #pragma once
 
 #include <visualization_msgs/Marker.h>

@@ -7,9 +7,11 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 

@@ -7,6 +7,7 @@
 #include <list>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/file/packet.h"

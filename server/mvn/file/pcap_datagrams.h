@@ -10,9 +10,11 @@
 #pragma once
 
 #include <bitset>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "server/core/input_file.h"
 #include "server/mvn/datagram_source.h"

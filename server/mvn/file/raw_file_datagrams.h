@@ -2,6 +2,7 @@
 /// stream carried, or what somebody's receiver appended to a `.bin`. One thread.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "server/core/source.h"
 #include "server/mvn/inspect/inspection.h"

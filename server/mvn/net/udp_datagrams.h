@@ -1,6 +1,7 @@
 /// The MVN stream from a UDP socket. One thread.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>

@@ -1,12 +1,16 @@
 /// A server on a free port, with a feed that a test can hold up and look into.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/core/clocks.h"

@@ -1,6 +1,8 @@
 /// Keeps datagrams, for tests of what hands them on.
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <ostream>

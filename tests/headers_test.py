@@ -1,0 +1,290 @@
+#!/usr/bin/python3
+"""Every header brings what it uses: it compiles alone, and includes the standard header of each
+std:: name that it uses itself, instead of by luck through another header.
+
+tests/headers_test.py BUILD_FOLDER [--jobs N] [--tests] [--only PART_OF_A_PATH]
+  BUILD_FOLDER: any build with a compile_commands.json (unity builds too), which gives include paths and
+  definitions folder by folder; generated headers (messages of ROS) have to be there. --tests: compiles
+  the headers of tests/ as well, which is slow because of GoogleTest. Exit code 1 when something is
+  missing; one line each: header, line, what.
+"""
+import argparse
+import collections
+import concurrent.futures
+import json
+import pathlib
+import re
+import resource
+import shlex
+import subprocess
+import sys
+import tempfile
+
+TOP = pathlib.Path(__file__).resolve().parent.parent
+FOLDERS = ("urdf", "server", "render")
+
+# What a name of std:: needs. Of headers with the same meaning the first is named in a finding.
+STANDARD = {
+    "algorithm": "all_of any_of none_of clamp copy fill find find_if max max_element min min_element "
+                 "minmax_element nth_element remove_if reverse sort stable_sort transform unique "
+                 "upper_bound lower_bound",
+    "array": "array",
+    "atomic": "atomic",
+    "bitset": "bitset",
+    "charconv": "from_chars to_chars",
+    "chrono": "chrono",
+    "cmath": "abs acos asin atan atan2 ceil cos exp floor fmod hypot isfinite isinf isnan llround log "
+             "lround pow round sin sqrt tan",
+    "condition_variable": "condition_variable",
+    "cstddef": "byte nullptr_t ptrdiff_t size_t",
+    "cstdint": "int8_t int16_t int32_t int64_t uint8_t uint16_t uint32_t uint64_t uintmax_t "
+               "uintptr_t intptr_t",
+    "cstdio": "FILE fopen fprintf snprintf",
+    "cstring": "memcmp memcpy memset strlen",
+    "deque": "deque",
+    "exception": "exception exception_ptr current_exception rethrow_exception terminate",
+    "filesystem": "filesystem",
+    "functional": "function greater hash less reference_wrapper ref cref",
+    "future": "future promise shared_future async packaged_task",
+    "initializer_list": "initializer_list",
+    "iosfwd ostream istream iostream sstream fstream": "ostream istream",
+    "limits": "numeric_limits",
+    "list": "list",
+    "map": "map multimap",
+    "memory": "enable_shared_from_this make_shared make_unique shared_ptr unique_ptr weak_ptr",
+    "mutex": "lock_guard mutex recursive_mutex once_flag scoped_lock unique_lock call_once",
+    "numeric": "accumulate iota",
+    "optional": "make_optional nullopt optional",
+    "queue": "priority_queue queue",
+    "random": "mt19937 mt19937_64 random_device",
+    "set": "multiset set",
+    "shared_mutex": "shared_lock shared_mutex",
+    "sstream": "istringstream ostringstream stringstream",
+    "fstream": "ifstream ofstream fstream",
+    "stdexcept": "invalid_argument logic_error out_of_range runtime_error",
+    "string": "getline stod stoi string to_string",
+    "string_view": "string_view",
+    "system_error": "error_code errc system_error",
+    "thread": "thread this_thread",
+    "tuple": "forward_as_tuple make_tuple tie tuple",
+    "type_traits": "conditional_t decay_t enable_if_t false_type integral_constant is_base_of_v "
+                   "is_convertible_v is_same_v is_trivially_copyable_v remove_cv_t true_type "
+                   "underlying_type_t void_t",
+    "unordered_map": "unordered_map",
+    "unordered_set": "unordered_set",
+    "utility": "declval exchange forward move pair swap make_pair",
+    "variant": "get_if holds_alternative monostate variant visit",
+    "vector": "vector",
+}
+HEADERS_OF = {name: headers.split() for headers, names in STANDARD.items() for name in names.split()}
+# These have no header of their own in mind: whoever has the class in it has the function too.
+ALSO_IN = {
+    "size_t": ["cstdint", "cstring", "array", "string", "string_view", "vector"],
+    "move": ["memory", "algorithm"], "forward": ["memory"], "swap": ["memory", "algorithm"],
+    "exchange": [], "pair": ["map"],
+    "string": ["sstream"], "getline": ["istream", "sstream"],
+    "initializer_list": ["vector", "string", "map", "set"],
+}
+
+INCLUDE = re.compile(r'[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]')
+NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'', re.DOTALL)
+
+
+def blank(match):
+    """As many lines as before, without the text."""
+    return " " + "\n" * match.group().count("\n")
+
+
+def missing_by_text(name, text):
+    """Names of std:: without their header: one line for each header that is missing."""
+    included = {m.group(2) for m in map(INCLUDE.match, text.splitlines()) if m}
+    code = NO_CODE.sub(blank, re.sub(r"(?<=\d)'(?=\d)", "", text))
+    findings = {}
+    for number, line in enumerate(code.splitlines(), 1):
+        for used in re.findall(r"(?<![\w:])(?:::)?std::(\w+)", line):
+            headers = HEADERS_OF.get(used, [])
+            if headers and not included.intersection(headers + ALSO_IN.get(used, [])):
+                findings.setdefault(headers[0],
+                                    f"{name}:{number}: std::{used} without #include <{headers[0]}>")
+    return list(findings.values())
+
+
+class Closures:
+    """What a header includes, itself and through headers of ours."""
+
+    def __init__(self):
+        self._includes = {}
+        self._closures = {}
+
+    def _of(self, name):
+        if name not in self._includes:
+            lines = (TOP / name).read_text().splitlines() if (TOP / name).is_file() else []
+            self._includes[name] = {m.group(2) for m in map(INCLUDE.match, lines) if m}
+        return self._includes[name]
+
+    def __getitem__(self, name):
+        if name not in self._closures:
+            found, open_ends = set(), [name]
+            while open_ends:
+                for include in self._of(open_ends.pop()) - found:
+                    found.add(include)
+                    open_ends.append(include)
+            self._closures[name] = found
+        return self._closures[name]
+
+
+def sources_of(entry):
+    """The sources that an entry of the database compiles: several for a batch of a unity build."""
+    source = pathlib.Path(entry["directory"], entry["file"])
+    if not re.search(r"unity_\d+_cxx", source.name):
+        return [source]
+    if not source.is_file():
+        return []
+    return [pathlib.Path(m.group(2)) for m in map(INCLUDE.match, source.read_text().splitlines())
+            if m and pathlib.Path(m.group(2)).is_absolute()]
+
+
+def read_flags(build):
+    """Folder of sources -> include paths and definitions of the targets that have sources there."""
+    flags = collections.defaultdict(dict)  # an ordered set
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        words = entry.get("arguments") or shlex.split(entry["command"])
+        taken = []
+        for word, following in zip(words, words[1:] + [""]):
+            if word in ("-I", "-isystem", "-D"):
+                taken.append((word, following))
+            elif word[:2] in ("-I", "-D"):
+                taken.append((word,))
+        for source in sources_of(entry):
+            if TOP in source.parents:
+                flags[source.parent.relative_to(TOP).as_posix()].update(dict.fromkeys(taken))
+    return {folder: [word for words in taken for word in words] for folder, taken in flags.items()}
+
+
+def flags_for(flags, name):
+    """Those of the header's folder, or of the nearest one above that has sources."""
+    for folder in pathlib.PurePosixPath(name).parents:
+        if folder.as_posix() in flags:
+            return flags[folder.as_posix()]
+    return None
+
+
+CLANG = ["clang++", "-std=c++17", "-w", "-fsyntax-only"]
+
+# How long an include takes to compile, in standard headers; of libraries that are not named, as one.
+PRICES = {"Eigen/": 40, "nlohmann/json.hpp": 30, "boost/": 60, "CLI/": 60, "yaml-cpp/": 30, "ros/": 20,
+          "image_transport/": 40, "tf2": 20, "vtk": 5, "gtest/": 40, "gmock/": 40, "fmt/": 15}
+
+
+def price(includes):
+    return sum(next((p for start, p in PRICES.items() if include.startswith(start)), 1)
+               for include in includes)
+
+
+def choose_hubs(names, closures):
+    """Headers of ours and of Eigen that are worth being compiled once for all that include them anyway,
+    perhaps through others: for these it changes nothing but the time, as each header is also compiled
+    by itself. Cheapest first."""
+    prices = {name: price(closures[name]) for name in names}
+    prices.update({"Eigen/Core": 30, "Eigen/Geometry": 40})
+    users = {hub: [name for name in names if hub in closures[name] and name not in closures[hub]]
+             for hub in prices}
+    best = dict.fromkeys(names, 0)
+    hubs = []
+    while True:
+        gains = {hub: sum(max(0, prices[hub] - best[name]) for name in users[hub]) - prices[hub] - 40
+                 for hub in prices if hub not in hubs}
+        hub = max(gains, key=gains.get, default=None)
+        if hub is None or gains[hub] <= 0:
+            return sorted(hubs, key=prices.get)
+        hubs.append(hub)
+        for name in users[hub]:
+            best[name] = max(best[name], prices[hub])
+
+
+class Precompiled:
+    """Hubs, each compiled by itself into `folder`: clang 14 crashes on some that stand on others."""
+
+    def __init__(self, names, closures, flags, folder):
+        self._closures = closures
+        self._files = {}
+        for hub in choose_hubs(names, closures):
+            own = flags_for(flags, hub) if hub in names else self._eigen_flags(flags)
+            paths = [word for i, word in enumerate(own or []) if word.startswith("-I") or
+                     word == "-isystem" or own[i - 1] == "-isystem"]
+            out = folder / (re.sub(r"\W", "_", hub) + ".pch")
+            text = f'#include "{hub}"\n' if hub in names else f"#include <{hub}>\n"
+            result = subprocess.run(
+                [*CLANG[:-1], *paths, f"-I{TOP}", "-x", "c++-header", "-", "-o",
+                 str(out)], input=text, capture_output=True, text=True, cwd=TOP)
+            if result.returncode == 0:  # else it is found when it is compiled alone
+                self._files[hub] = out
+
+    @staticmethod
+    def _eigen_flags(flags):
+        return next((f for f in flags.values() if any("eigen" in word for word in f)), None)
+
+    def words_for(self, name):
+        """What makes clang begin with the largest hub that `name` includes."""
+        for hub in reversed(self._files):
+            if hub in self._closures[name] and name not in self._closures[hub]:
+                return ["-include-pch", str(self._files[hub])]
+        return []
+
+    def __len__(self):
+        return len(self._files)
+
+
+def compile_alone(name, flags, begin):
+    """[what is wrong with the header by itself]; [] when nothing is."""
+    if flags is None:
+        return [f"{name}:1: no source in its folder nor above it is in the build"]
+    for words in (begin, []) if begin else ([],):  # a second look, without anything before it
+        result = subprocess.run(
+            [*CLANG, *flags, *words, "-ferror-limit=1", "-fno-caret-diagnostics", "-x", "c++",
+             str(TOP / name)], capture_output=True, text=True, cwd=TOP)
+        if result.returncode == 0:
+            return []
+    errors = [line for line in result.stderr.splitlines() if "error:" in line]
+    first = (errors or [f"{TOP / name}:1: error: does not compile"])[0]
+    where, what = re.split(r": (?:fatal )?error: ", first, maxsplit=1)
+    where = where.replace(f"{TOP}/", "")
+    return [f"{where}: alone: {what}" + ("" if where.startswith(name) else f" (in {name})")]
+
+
+def compile_all(names, flags, jobs):
+    closures = Closures()
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        hubs = Precompiled(names, closures, flags, pathlib.Path(folder))
+        results = pool.map(
+            lambda name: compile_alone(name, flags_for(flags, name), hubs.words_for(name)), names)
+        return [finding for findings in results for finding in findings]
+
+
+def cpu_seconds():
+    return sum(resource.getrusage(who).ru_utime + resource.getrusage(who).ru_stime
+               for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--tests", action="store_true")
+    parser.add_argument("--only", default="")
+    options = parser.parse_args()
+    folders = FOLDERS + ("tests",)
+    headers = sorted(path.relative_to(TOP).as_posix() for folder in folders
+                     for path in (TOP / folder).rglob("*.h") if "node_modules" not in path.parts)
+    headers = [name for name in headers if options.only in name]
+    findings = [finding for name in headers
+                for finding in missing_by_text(name, (TOP / name).read_text())]
+    alone = [name for name in headers if options.tests or not name.startswith("tests/")]
+    findings += compile_all(alone, read_flags(options.build.resolve()), options.jobs)
+    print(f"{len(headers)} headers, {len(alone)} of them compiled alone, {len(findings)} findings, "
+          f"{cpu_seconds():.0f} s CPU", *sorted(findings), sep="\n")
+    return 1 if findings or not headers else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
