@@ -81,4 +81,10 @@ void NewFile::Commit() {
   ::close(std::exchange(descriptor_, -1));
 }
 
+void WriteNewFile(const std::filesystem::path& path, std::string_view content) {
+  NewFile file(path);
+  file.Write(content.data(), content.size());
+  file.Commit();
+}
+
 }  // namespace kinescope::render

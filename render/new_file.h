@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace kinescope::render {
 
@@ -34,5 +35,8 @@ class NewFile {
   std::filesystem::path hidden_;  // "" while the file has no name
   int descriptor_ = -1;
 };
+
+/// All of a file at once. @throws std::runtime_error naming `path` and the reason.
+void WriteNewFile(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace kinescope::render

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "render/new_file.h"
 #include "render/png_file.h"
 #include "server/app/writer_threads.h"
 
@@ -16,8 +17,9 @@ struct Item {
 
 class PngSink : public OutputSink {
  public:
-  PngSink(std::string path, int threads, MetadataOf metadata)
+  PngSink(std::string path, int threads, MetadataOf metadata, std::string layer_path)
       : path_(std::move(path)),
+        layer_path_(std::move(layer_path)),
         metadata_(std::move(metadata)),
         threads_(threads, [this](Item& item) { Write(item); }) {}
 
@@ -27,12 +29,14 @@ class PngSink : public OutputSink {
   void Finish() override { threads_.Finish(); }
 
  private:
+  // The picture last: where it is there, the layer is, too.
   void Write(const Item& item) const {
-    render::WritePng(PathOfPicture(path_, item.k), *item.picture.get(),
-                     metadata_(item.camera, item.k));
+    const DrawnPicture& picture = *item.picture.get();
+    if (!layer_path_.empty()) render::WriteNewFile(layer_path_, picture.layer);
+    render::WritePng(PathOfPicture(path_, item.k), picture, metadata_(item.camera, item.k));
   }
 
-  const std::string path_;
+  const std::string path_, layer_path_;
   const MetadataOf metadata_;
   WriterThreads<Item> threads_;  // last: it uses the others
 };
@@ -71,8 +75,9 @@ class ClipSink : public OutputSink {
 
 }  // namespace
 
-std::unique_ptr<OutputSink> MakePngSink(const std::string& path, int threads, MetadataOf metadata) {
-  return std::make_unique<PngSink>(path, threads, std::move(metadata));
+std::unique_ptr<OutputSink> MakePngSink(const std::string& path, int threads, MetadataOf metadata,
+                                        const std::string& layer_path) {
+  return std::make_unique<PngSink>(path, threads, std::move(metadata), layer_path);
 }
 
 std::unique_ptr<OutputSink> MakeClipSink(const std::string& path, const render::View& view,

@@ -34,8 +34,10 @@ class OutputSink {
   OutputSink() = default;
 };
 
-/// One PNG, or a sequence of them on `threads` threads.
-std::unique_ptr<OutputSink> MakePngSink(const std::string& path, int threads, MetadataOf metadata);
+/// One PNG, or a sequence of them on `threads` threads. `layer_path`: the file for the layer of one
+/// picture (DrawnPicture::layer); "" none.
+std::unique_ptr<OutputSink> MakePngSink(const std::string& path, int threads, MetadataOf metadata,
+                                        const std::string& layer_path = {});
 
 /// A clip on a thread of its own. `options`: without metadata.
 /// @throws what MakeVideoWriter throws, here and from Put.

@@ -12,7 +12,6 @@
 #include <tuple>
 #include <utility>
 
-#include "render/new_file.h"
 #include "server/app/backend.h"
 #include "server/app/output_sink.h"
 #include "server/app/pipeline_options.h"
@@ -34,7 +33,6 @@ struct Running {
   std::unique_ptr<OutputSink> sink;  // from the first picture on
   Json first_camera;
   bool is_finished = false;  // was there already
-  FuturePicture layer;       // of a still whose overlays go into a file beside it
 };
 
 // Stills do not follow what clips do before them.
@@ -84,7 +82,7 @@ class Job {
 
  private:
   void AddOutput(const Output& output) {
-    Running run{output, provenance_.Of(output), {output.path, output.kind}, nullptr, {}, false, {}};
+    Running run{output, provenance_.Of(output), {output.path, output.kind}, nullptr, {}, false};
     run.is_finished = !settings_.force && provenance_.is_repeatable() &&
                       output.kind != OutputKind::kSequence &&
                       IsFinished(output, run.provenance, settings_.sidecar);
@@ -248,27 +246,33 @@ class Job {
       throw UsageError(
           fmt::format("--start={}: {} ends before", options_.clip.start, plan_.source));
     }
+  // A picture is let go of before the next one is drawn: the pool may have room for one alone.
     throw UsageError(plan_.source + " has no frame to show");
   }
 
   void DrawStills(const SceneState& scene) {
     still_is_drawn_ = true;
-    std::map<std::string, FuturePicture> drawn;  // by camera
-    for (Running& run : running_) {
-      if (run.is_finished || run.output.kind != OutputKind::kStill) continue;
-      const std::string& camera = run.output.camera;
-      Shot shot = planners_.at({camera, true}).Only(scene, Secs(scene.stamp_nanos - *start_nanos_));
+    const double secs = Secs(scene.stamp_nanos - *start_nanos_);
+    for (const auto& [key, planner] : planners_) {
+      if (!key.is_still) continue;
+      std::vector<Running*> takers;
+      for (Running& run : running_) {
+        const bool is_still = run.output.kind == OutputKind::kStill;
+        if (is_still && !run.is_finished && run.output.camera == key.camera) takers.push_back(&run);
+      }
+      if (takers.empty()) continue;
+      Shot shot = planner.Only(scene, secs);
       if (!options_.moment.overlay_layer.empty()) {
         shot.layer = ToLayerFormat(options_.moment.overlay_layer);
         shot.view.overlays = false;
       }
       const render::Camera pose = shot.camera;
-      const auto [picture, is_new] = drawn.insert({camera, {}});
-      if (is_new) picture->second = pool_.Draw(std::move(shot));
-      if (shot.layer) run.layer = picture->second;
-      run.result.counter = scene.counter;
-      Put(run, 0, picture->second, pose);
-      progress_->Step();
+      const FuturePicture picture = pool_.Draw(std::move(shot));
+      for (Running* run : takers) {
+        run->result.counter = scene.counter;
+        Put(*run, 0, picture, pose);
+        progress_->Step();
+      }
     }
   }
 
@@ -315,8 +319,9 @@ class Job {
       provenance["camera"] = Describe(camera);
       return MetadataFor(output, provenance);
     };
-    if (run.output.kind != OutputKind::kClip) {
-      return MakePngSink(run.output.path, is_numbered ? settings_.jobs : 1, text);
+    if (is_numbered) return MakePngSink(run.output.path, settings_.jobs, text);
+    if (run.output.kind == OutputKind::kStill) {
+      return MakePngSink(run.output.path, 1, text, LayerPathOf(run.output));
     }
     return MakeClipSink(run.output.path, planners_.at({run.output.camera, false}).view(),
                         PackingOf(run.output), text);
@@ -344,7 +349,6 @@ class Job {
     for (Running& run : running_) {
       if (run.is_finished) continue;
       if (run.sink != nullptr) run.sink->Finish();
-      if (run.layer.valid()) WriteLayer(run);
       const bool is_still = run.output.kind == OutputKind::kStill;
       run.result.pictures = is_still ? 1 : clip_pictures_;
       run.result.secs =
@@ -357,12 +361,11 @@ class Job {
     }
   }
 
-  void WriteLayer(const Running& run) const {
-    const std::string& layer = run.layer.get()->layer;
-    render::NewFile file(
-        std::filesystem::path(run.output.path).replace_extension(options_.moment.overlay_layer));
-    file.Write(layer.data(), layer.size());
-    file.Commit();
+  // "" where what is written over the picture stays in it.
+  std::string LayerPathOf(const Output& output) const {
+    const std::string& format = options_.moment.overlay_layer;
+    if (format.empty()) return "";
+    return std::filesystem::path(output.path).replace_extension(format);
   }
 
   const RenderOptions& options_;
