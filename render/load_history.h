@@ -8,10 +8,6 @@
 
 namespace kinescope::render {
 
-/// Where the classes begin, of capacity; the legend's numbers (tests hold them to the
-/// classifier's).
-inline constexpr double kMediumFrom = 0.30, kHighFrom = 0.60;
-
 struct LoadPoint {
   double secs = 0;
   double ratio = 0;  // NaN where unknown: the line breaks

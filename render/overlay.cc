@@ -131,7 +131,7 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const View& view)
     if (parts.time && state.liveness != Liveness::kNoData) PaintTimeCode(page, state);
     if (parts.plot && view.history != nullptr) {
       const double below = page.Px(kMargin) + page.Px(4 * kTitleSize);
-      PaintPlot(page, *view.history, view.plot_secs,
+      PaintPlot(page, *view.history, state.class_limits, view.plot_secs,
                 page.Px(kMargin) + 1.8 * page.FontPx(kTextSize), page.bottom - below);
     }
   }

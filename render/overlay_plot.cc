@@ -19,21 +19,25 @@ constexpr double kHead = 17, kAxes = 46, kGap = 9, kPad = 10, kFoot = 16;
 struct Frame {
   double left, top, width, height;
   double from_secs, to_secs, top_ratio;
+  std::array<double, 2> class_limits;
   double X(double secs) const { return left + width * (secs - from_secs) / (to_secs - from_secs); }
   double Y(double ratio) const {
     return top + height * (1 - std::clamp(ratio / top_ratio, 0.0, 1.0));
   }
 };
 
-// The same for all rows, so that they compare: all of capacity, or more where more was needed.
-double TopRatio(const LoadHistory& history) {
-  double top = 1;
+// The same for all rows, so that they compare: all of capacity and some of the high class, or more
+// where more was needed.
+double TopRatio(const LoadHistory& history, const std::array<double, 2>& class_limits) {
+  const auto round_up = [](double ratio) { return std::ceil(2 * ratio - 1e-9) / 2; };
+  const double least = round_up(std::max(1.0, 1.1 * class_limits[1]));
+  double top = least;
   for (const LoadCurve& curve : history.curves) {
     for (const LoadPoint& point : curve.points) {
       if (std::isfinite(point.ratio)) top = std::max(top, point.ratio);
     }
   }
-  return std::min(std::ceil(2 * top - 1e-9) / 2, 3.0);
+  return std::min(round_up(top), std::max(least, 3.0));
 }
 
 const LoadPoint* PointAt(const LoadCurve& curve, double secs) {
@@ -49,9 +53,10 @@ void PaintBands(OverlayPage& page, const Frame& frame) {
     page.canvas.RoundedBox(frame.left, top, frame.width, bottom - top, 0,
                            {ColorOf(load_class), page.inks.band_alpha});
   };
-  band(LoadClass::kLow, 0, kMediumFrom);
-  band(LoadClass::kMedium, kMediumFrom, kHighFrom);
-  band(LoadClass::kHigh, kHighFrom, frame.top_ratio);
+  const auto [medium_from, high_from] = frame.class_limits;
+  band(LoadClass::kLow, 0, medium_from);
+  band(LoadClass::kMedium, medium_from, high_from);
+  band(LoadClass::kHigh, high_from, frame.top_ratio);
 }
 
 void PaintCurve(OverlayPage& page, const Frame& frame, const LoadCurve& curve) {
@@ -127,7 +132,8 @@ void PaintRow(OverlayPage& page, const Frame& frame, const LoadCurve& curve, dou
 
 }  // namespace
 
-void PaintPlot(OverlayPage& page, const LoadHistory& history, double now_secs, double top,
+void PaintPlot(OverlayPage& page, const LoadHistory& history,
+               const std::array<double, 2>& class_limits, double now_secs, double top,
                double bottom) {
   if (history.curves.empty()) return;
   const int size = page.FontPx(kSmallSize);
@@ -151,7 +157,8 @@ void PaintPlot(OverlayPage& page, const LoadHistory& history, double now_secs, d
               std::round(page.Px(kAxes)),
               history.from_secs,
               history.to_secs,
-              TopRatio(history)};
+              TopRatio(history, class_limits),
+              class_limits};
   for (std::size_t i = 0; i < rows; ++i) {
     frame.top = std::round(top + pad + static_cast<double>(i) * row + head);
     PaintRow(page, frame, history.curves[i], now_secs, i == 0);

@@ -7,7 +7,6 @@
 
 #include "server/app/shots.h"
 #include "server/core/errors.h"
-#include "server/loads/load_classifier.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::app {
@@ -57,12 +56,6 @@ TEST(ViewOptions, ViewsAreRowsOfCameras) {
 TEST(ViewOptions, APlotIsOfJointsThatHaveALoad) {
   EXPECT_THAT(ToPlotJoints("l5_s1,right_elbow"), ElementsAre(urdf::jL5S1, urdf::jRightElbow));
   EXPECT_THAT(Complaint([] { ToPlotJoints("right_toe"); }), HasSubstr("right_knee"));
-}
-
-TEST(ViewOptions, ThePlotsBandsAreTheClassesOwn) {
-  const loads::LoadClassifier::Settings settings;
-  EXPECT_EQ(settings.up[0], render::kMediumFrom);
-  EXPECT_EQ(settings.up[1], render::kHighFrom);
 }
 
 SceneState SceneAt(double secs, double ratio) {
