@@ -15,14 +15,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::vector<PersonState> ReadMoment(const std::string& text) {
+std::vector<PersonState> ReadMoment(const std::string& text, const SceneOptions& options) {
   const std::size_t at = text.rfind('@');
   if (at == std::string::npos || at == 0) {
     throw UsageError("--ghost=" + text + ": expected n_pose, t_pose or FILE@SECS");
   }
   const auto secs = ParseOption<double>("--ghost: the seconds of " + text, text.substr(at + 1));
-  if (!(secs >= 0)) throw UsageError("--ghost=" + text + ": expected seconds from 0");
-  SceneReader reader(text.substr(0, at), SceneOptions());
+  if (!(secs >= 0 && secs <= kLatestSecs)) {
+    throw UsageError(
+        fmt::format("--ghost={}: expected 0 to {:.0f} s after the @", text, kLatestSecs));
+  }
+  SceneReader reader(text.substr(0, at), options);
   SceneTimeline timeline(reader);
   const auto scene = timeline.At(secs);
   if (!scene || scene->people.empty()) {
@@ -85,7 +88,8 @@ PersonState Standing(PersonState person, bool is_t_pose, double floor_z) {
 
 }  // namespace
 
-GhostPose::GhostPose(const std::string& text, double opacity) : opacity_(opacity) {
+GhostPose::GhostPose(const std::string& text, double opacity, const SceneOptions& options)
+    : opacity_(opacity) {
   if (!(opacity >= 0 && opacity <= 1)) {
     throw UsageError(fmt::format("--ghost_opacity={}: expected 0 to 1", opacity));
   }
@@ -96,7 +100,7 @@ GhostPose::GhostPose(const std::string& text, double opacity) : opacity_(opacity
     kind_ = Kind::kTPose;
   } else {
     kind_ = Kind::kMoment;
-    recorded_ = ReadMoment(text);
+    recorded_ = ReadMoment(text, options);
   }
 }
 

@@ -6,15 +6,18 @@
 #include <vector>
 
 #include "render/scene_look.h"
+#include "server/app/scene_builder.h"
 #include "server/core/scene_state.h"
 
 namespace kinescope::app {
 
 class GhostPose {
  public:
-  /// `text`: "" (none), "n_pose", "t_pose" or FILE@SECS. `opacity` 0..1.
-  /// @throws UsageError; SourceError for a recording that cannot be read.
-  GhostPose(const std::string& text, double opacity);
+  /// `text`: "" (none), "n_pose", "t_pose" or FILE@SECS. `opacity` 0..1. `options`: how the people
+  /// of a recording look, as those of the picture do. Ctrl-C ends the reading of one.
+  /// @throws UsageError; SourceError for a recording that cannot be read; std::runtime_error when
+  /// interrupted.
+  GhostPose(const std::string& text, double opacity, const SceneOptions& options);
 
   /// n_pose and t_pose: of every person in `state`, with their own lengths, where their pelvis is,
   /// facing as it does, soles on the floor. FILE@SECS: whoever is there then, where they were.

@@ -27,14 +27,9 @@ Liveness ToLiveness(const fs::path& path, const std::string& text) {
 
 constexpr double kSurveySecs = 5;  // of a source that may have no end
 
-SceneReader Open(const GoldenCase& golden_case) {
-  return SceneReader(
-      golden_case.source,
-      ToSceneOptions(golden_case.person, SceneOptions().stale_secs, golden_case.loads));
-}
-
-SceneState SceneOf(const GoldenCase& golden_case, ShotPlanner& planner) {
-  SceneReader reader = Open(golden_case);
+SceneState SceneOf(const GoldenCase& golden_case, const SceneOptions& options,
+                   ShotPlanner& planner) {
+  SceneReader reader(golden_case.source, options);
   if (golden_case.show == Liveness::kNoData) return *reader.Empty();
   SceneTimeline timeline(reader);
   RememberBefore(golden_case.time_secs, timeline, planner);
@@ -96,6 +91,10 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
     golden_case.source = (yaml.parent_path() / golden_case.source).string();
   }
   golden_case.show = ToLiveness(yaml, show);
+  if (!(golden_case.time_secs >= 0 && golden_case.time_secs <= kLatestSecs)) {
+    throw UsageError(fmt::format("{}: time: {}: expected 0 to {:.0f} s", yaml.string(),
+                                 golden_case.time_secs, kLatestSecs));
+  }
   return golden_case;
 }
 
@@ -115,12 +114,14 @@ std::vector<GoldenCase> LoadGoldenCases(const fs::path& folder) {
 }
 
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
-  ShotPlanner planner(golden_case.view);
+  const SceneOptions options =
+      ToSceneOptions(golden_case.person, SceneOptions().stale_secs, golden_case.loads);
+  ShotPlanner planner(golden_case.view, {}, options);
   if (planner.needs_survey()) {
-    SceneReader reader = Open(golden_case);
+    SceneReader reader(golden_case.source, options);
     SurveyClip({&planner}, reader, kSurveySecs);
   }
-  const Shot shot = planner.Only(SceneOf(golden_case, planner), golden_case.time_secs);
+  const Shot shot = planner.Only(SceneOf(golden_case, options, planner), golden_case.time_secs);
   GoldenDrawing drawing;
   drawing.image = renderer.Render(shot.state, shot.camera, shot.view);
   drawing.spheres = SpheresOf(shot);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "server/app/scene_reader.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {
@@ -153,8 +154,8 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
   if (moment.frame && *moment.frame < 0) {
     throw UsageError(fmt::format("--frame={}: the first one is 0", *moment.frame));
   }
-  if (moment.time && !(*moment.time >= 0 && *moment.time <= 864'000)) {
-    throw UsageError(fmt::format("--time={}: expected 0 s or more", *moment.time));
+  if (moment.time && !(*moment.time >= 0 && *moment.time <= kLatestSecs)) {
+    throw UsageError(fmt::format("--time={}: expected 0 to {:.0f} s", *moment.time, kLatestSecs));
   }
   const ClipOptions& clip = options.clip;
   if (!has_clip && (clip.seconds || clip.end || clip.start != 0)) {

@@ -44,10 +44,6 @@ struct PlannerKey {
   }
 };
 
-SceneOptions SceneOptionsOf(const RenderOptions& options) {
-  return ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads);
-}
-
 bool IsEndless(const std::string& source) { return source.rfind("demo:", 0) == 0; }
 
 class Job {
@@ -58,10 +54,11 @@ class Job {
         plan_(plan),
         settings_(settings),
         pool_(pool),
-        reader_(plan.source, SceneOptionsOf(options)),
+        people_(ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads)),
+        reader_(plan.source, people_),
         grid_(ToTimeGrid(options.clip, IsEndless(plan.source))),
         provenance_(options, plan.source, pool.info()),
-        extras_(options.view, options.backend) {
+        extras_(options.view, options.backend, people_) {
     for (const Output& output : plan.outputs) AddOutput(output);
     if (HasWork(true) || HasWork(false)) Survey();
   }
@@ -129,7 +126,7 @@ class Job {
     std::optional<double> end;
     if (grid_.length_nanos) end = Secs(grid_.start_nanos + *grid_.length_nanos);
     if (end && options_.moment.time) end = std::max(*end, *options_.moment.time);
-    SceneReader reader(plan_.source, SceneOptionsOf(options_));
+    SceneReader reader(plan_.source, people_);
     SurveyClip(planners, reader, end);
   }
 
@@ -246,10 +243,10 @@ class Job {
       throw UsageError(
           fmt::format("--start={}: {} ends before", options_.clip.start, plan_.source));
     }
-  // A picture is let go of before the next one is drawn: the pool may have room for one alone.
     throw UsageError(plan_.source + " has no frame to show");
   }
 
+  // A picture is let go of before the next one is drawn: the pool may have room for one alone.
   void DrawStills(const SceneState& scene) {
     still_is_drawn_ = true;
     const double secs = Secs(scene.stamp_nanos - *start_nanos_);
@@ -372,6 +369,7 @@ class Job {
   const SourcePlan& plan_;
   const JobSettings& settings_;
   DrawPool& pool_;
+  const SceneOptions people_;
   SceneReader reader_;
   const TimeGrid grid_;
   const Provenance provenance_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "server/app/scene_reader.h"
 #include "server/core/errors.h"
 
 namespace kinescope::app {
@@ -13,8 +14,6 @@ namespace {
 
 // An endless source (the built-in subject) gives a clip of this length unless told otherwise.
 constexpr double kDefaultClipSecs = 10;
-// Ten days: longer than any recording, and far from what nanoseconds in 64 bits can hold.
-constexpr double kLongestSecs = 864'000;
 
 std::optional<long> ParseWhole(const std::string& text) {
   long value = 0;
@@ -59,9 +58,9 @@ Fraction AsBroadcast(Fraction given) {
 }
 
 std::int64_t ToNanos(const char* name, double secs, bool may_be_zero) {
-  if (!(secs <= kLongestSecs && (secs > 0 || (may_be_zero && secs == 0)))) {
-    throw UsageError(fmt::format("--{}={}: expected {} s", name, secs,
-                                 may_be_zero ? "0 or more" : "more than 0"));
+  if (!(secs <= kLatestSecs && (secs > 0 || (may_be_zero && secs == 0)))) {
+    throw UsageError(fmt::format("--{}={}: expected {} to {:.0f} s", name, secs,
+                                 may_be_zero ? "0" : "more than 0", kLatestSecs));
   }
   return std::llround(secs * 1e9);
 }

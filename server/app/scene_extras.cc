@@ -80,9 +80,10 @@ std::vector<RobotState> ReadRobots(const std::vector<std::string>& texts,
 
 }  // namespace
 
-SceneExtras::SceneExtras(const ViewOptions& options, const BackendOptions& backend)
+SceneExtras::SceneExtras(const ViewOptions& options, const BackendOptions& backend,
+                         const SceneOptions& people)
     : trails_(options.trail, options.trail_secs),
-      ghost_(options.ghost, options.ghost_opacity),
+      ghost_(options.ghost, options.ghost_opacity, people),
       robots_(ReadRobots(options.robot, backend)) {}
 
 void SceneExtras::AddTo(SceneState& state, render::SceneLook& look) const {

@@ -16,8 +16,10 @@ namespace kinescope::app {
 class SceneExtras {
  public:
   /// Reads robots and ghosts; measures the robots with a renderer of its own, where there are any.
+  /// `people`: those of the pictures, which a ghost of a recording follows.
   /// @throws UsageError, SourceError naming option or file and the reason.
-  SceneExtras(const ViewOptions& options, const BackendOptions& backend);
+  SceneExtras(const ViewOptions& options, const BackendOptions& backend,
+              const SceneOptions& people);
 
   /// How much of what was before a picture's time it shows, s; 0 without trails.
   double history_secs() const { return trails_.empty() ? 0 : trails_.secs(); }

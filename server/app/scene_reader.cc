@@ -1,16 +1,19 @@
 #include "server/app/scene_reader.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "server/app/open_source.h"
+#include "server/app/stop_signal.h"
 #include "server/core/errors.h"
 #include "server/core/scene_interpolation.h"
 
 namespace kinescope::app {
 
 SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
-    : source_(OpenSource(url)),
+    : url_(url),
+      source_(OpenSource(url)),
       builder_(
           options, url, source_->nominal_rate_hz(),
           [this](const std::shared_ptr<const SceneState>& state) { ready_.push_back(state); }) {
@@ -42,7 +45,10 @@ std::shared_ptr<const SceneState> SceneReader::Stale() {
 }
 
 SceneTimeline::SceneTimeline(SceneReader& reader)
-    : SceneTimeline([&reader] { return reader.Next(); }) {}
+    : SceneTimeline([&reader] {
+        if (StopRequested()) throw std::runtime_error("interrupted while reading " + reader.url());
+        return reader.Next();
+      }) {}
 
 SceneTimeline::SceneTimeline(ReadNext next)
     : next_(std::move(next)), before_(next_()), after_(before_ ? next_() : nullptr) {

@@ -14,6 +14,10 @@
 
 namespace kinescope::app {
 
+/// The latest time of a recording that an option may name, s after its first sample: ten days,
+/// longer than any recording and far from what nanoseconds in 64 bits can hold.
+inline constexpr double kLatestSecs = 864'000;
+
 class SceneReader {
  public:
   /// @throws SourceError; UsageError for a live source, which has no end and no "frame 60".
@@ -28,8 +32,10 @@ class SceneReader {
   std::shared_ptr<const SceneState> Stale();
 
   double rate_hz() const { return source_->nominal_rate_hz(); }
+  const std::string& url() const { return url_; }
 
  private:
+  const std::string url_;
   std::unique_ptr<Source> source_;
   std::deque<std::shared_ptr<const SceneState>> ready_;
   std::shared_ptr<const SceneState> empty_;
@@ -42,11 +48,13 @@ class SceneTimeline {
  public:
   using ReadNext = std::function<std::shared_ptr<const SceneState>()>;
 
+  /// Ctrl-C ends its reading. @throws std::runtime_error then, naming the source.
   explicit SceneTimeline(SceneReader& reader);
   /// `next` gives the states, one after the other; null at the end.
   explicit SceneTimeline(ReadNext next);
 
-  /// `secs` after the first sample; nullopt past the last one. @pre not before the last call's.
+  /// `secs` after the first sample; nullopt past the last one.
+  /// @pre 0 <= secs <= kLatestSecs, not before the last call's.
   std::optional<SceneState> At(double secs);
   std::optional<SceneState> AtNanos(std::int64_t nanos);
 

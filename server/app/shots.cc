@@ -28,8 +28,9 @@ double SecsSince(std::optional<std::int64_t>& start_nanos, const SceneState& sta
 
 }  // namespace
 
-ShotPlanner::ShotPlanner(const ViewOptions& options, const BackendOptions& backend)
-    : ShotPlanner(options, SceneExtras(options, backend)) {}
+ShotPlanner::ShotPlanner(const ViewOptions& options, const BackendOptions& backend,
+                         const SceneOptions& people)
+    : ShotPlanner(options, SceneExtras(options, backend, people)) {}
 
 ShotPlanner::ShotPlanner(const ViewOptions& options, SceneExtras extras)
     : view_(ToView(options)), extras_(std::move(extras)), loads_(ToPlotJoints(options.plot)) {

@@ -31,8 +31,10 @@ struct Shot {
 
 class ShotPlanner {
  public:
-  /// @throws UsageError for what `options` ask for that there is not.
-  explicit ShotPlanner(const ViewOptions& options, const BackendOptions& backend = {});
+  /// `people`: those of the scenes to come. @throws UsageError for what `options` ask for that
+  /// there is not.
+  explicit ShotPlanner(const ViewOptions& options, const BackendOptions& backend = {},
+                       const SceneOptions& people = {});
   /// With `extras` that several planners share: files are read and robots measured once.
   ShotPlanner(const ViewOptions& options, SceneExtras extras);
 

@@ -103,6 +103,9 @@ TEST(PlanOutputs, RefusesWhatNothingWouldHeed) {
   EXPECT_FALSE(refuses("a%d.png", start));
   EXPECT_FALSE(refuses("a.webm", crf));
   EXPECT_TRUE(refuses("a.gif", crf));
+  for (const double never : {-1.0, 864'001.0, 1e300, std::nan("")}) {
+    EXPECT_TRUE(refuses("a.png", [&](RenderOptions& o) { o.moment.time = never; })) << never;
+  }
   EXPECT_TRUE(refuses("a.mp4", [](RenderOptions& o) { o.outs.push_back(o.outs[0]); }));
 }
 

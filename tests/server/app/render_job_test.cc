@@ -88,5 +88,23 @@ TEST(RenderJob, ALayerThatCannotBeWrittenLeavesNoPictureWithoutIt) {
   EXPECT_THAT(folder.Names(), ::testing::ElementsAre("a.svg"));
 }
 
+TEST(RenderJob, AGhostOfARecordingLooksAsThePersonDoes) {
+  const TempFolder folder;
+  RenderOptions options = SmallPictures("demo:lift", {folder / "a.png"});
+  options.view.ghost = "demo:walk@0.5";
+  options.person.model_name = "anna";
+  options.person.height = 1.6;
+  int drawn = 0;
+  Render(options, 2, [&](const auto&, const SceneState& state, const auto&, const auto& view) {
+    ++drawn;
+    ASSERT_EQ(view.look.ghosts.size(), 1u);
+    const urdf::HumanModel& ghost = view.look.ghosts[0].person.model->human;
+    const urdf::HumanModel& person = state.people.at(0).model->human;
+    EXPECT_EQ(ghost.mesh_folder, "") << "primitives have no meshes";
+    EXPECT_EQ(ghost.model_name, person.model_name);
+  });
+  EXPECT_EQ(drawn, 1);
+}
+
 }  // namespace
 }  // namespace kinescope::app

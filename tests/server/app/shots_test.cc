@@ -4,10 +4,16 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <fstream>
 
+#include "server/app/stop_signal.h"
 #include "server/core/errors.h"
+#include "tests/deadline.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::app {
@@ -101,6 +107,36 @@ TEST(Shots, AGhostOfARecordingIsWhereItWas) {
   const Shot shot = planner.Only(scenes[0]);
   EXPECT_EQ(shot.view.look.ghosts.at(0).person.links[urdf::kHead].position,
             scenes[15].people[0].links[urdf::kHead].position);
+}
+
+TEST(Shots, AGhostsTimeIsOneThatARecordingCanHave) {
+  for (const std::string secs : {"-1", "864001", "1e9", "1e300", "inf", "nan"}) {
+    ViewOptions options;
+    options.ghost = "demo:lift@" + secs;
+    testing::WithDeadline([&] {
+      EXPECT_EQ(Complaint(options),
+                "--ghost=demo:lift@" + secs + ": expected 0 to 864000 s after the @");
+    });
+  }
+}
+
+// In a process of its own, whose flag stays set and which ends if it reads on.
+TEST(ShotsDeathTest, CtrlCEndsTheReadingForAGhost) {
+  ViewOptions options;
+  options.ghost = "demo:lift@864000";
+  const auto read = [&] {
+    alarm(20);
+    CatchStopSignals();
+    std::raise(SIGINT);
+    try {
+      const ShotPlanner planner(options);
+    } catch (const std::runtime_error& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      std::_Exit(2);
+    }
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(read(), ::testing::ExitedWithCode(2), "interrupted while reading demo:lift");
 }
 
 TEST(Shots, RobotsStandOnTheFloorWhereTheyWerePut) {
