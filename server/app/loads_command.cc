@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/app/backend.h"
@@ -133,6 +134,32 @@ class Recording {
   std::map<int, LoadTrial> trials_;  // by character
 };
 
+// The same for the same file, however it is spelt.
+std::filesystem::path PlaceOfOutput(const std::string& path) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(path);
+  auto place = std::filesystem::weakly_canonical(absolute, error);
+  if (error) place = absolute.lexically_normal();
+  return place.has_filename() ? place : place.parent_path();
+}
+
+void CheckOutputsDiffer(const LoadsOptions& options) {
+  const auto unless_stdout = [](const std::string& path) { return path == "-" ? "" : path; };
+  const std::pair<const char*, std::string> outputs[] = {{"csv", unless_stdout(options.csv)},
+                                                         {"json", unless_stdout(options.json)},
+                                                         {"report", options.report},
+                                                         {"plots", options.plots}};
+  std::map<std::filesystem::path, std::string> taken;  // place: option as it was given
+  for (const auto& [name, path] : outputs) {
+    if (path.empty()) continue;
+    const std::string given = fmt::format("--{}={}", name, path);
+    const auto [other, is_new] = taken.insert({PlaceOfOutput(path), given});
+    if (is_new) continue;
+    throw UsageError(fmt::format("{} and {}: one file for two outputs; give each a name of its own",
+                                 other->second, given));
+  }
+}
+
 void CheckArguments(const LoadsOptions& options) {
   if (options.seconds && !(*options.seconds > 0 && *options.seconds <= 1e6)) {
     throw UsageError(fmt::format("--seconds={}: expected more than 0", *options.seconds));
@@ -141,6 +168,7 @@ void CheckArguments(const LoadsOptions& options) {
   if (options.csv == "-" && options.json == "-") {
     throw UsageError("--csv=- and --json=-: only one of them fits on standard output");
   }
+  CheckOutputsDiffer(options);
 }
 
 nlohmann::json SummaryOf(const Recording& recording, const TrialContext& context) {

@@ -274,6 +274,27 @@ TEST(LoadsCommand, SaysSoWhenStandardOutputTakesNoMore) {
   }
 }
 
+TEST(LoadsCommand, RefusesOneFileForTwoOutputs) {
+  const TempFolder folder;
+  const std::string file = folder / "loads", same = folder / "." / "none" / ".." / "loads";
+  std::filesystem::create_directory(folder / "none");
+  std::filesystem::create_directory_symlink(folder.path(), folder / "here");
+  const std::string linked = folder / "here" / "loads";
+  struct Pair {
+    const char *one, *other;
+    std::string spelling;
+  };
+  for (const Pair& pair : {Pair{"--csv", "--json", file}, Pair{"--csv", "--json", same},
+                           Pair{"--csv", "--report", linked}, Pair{"--json", "--report", file},
+                           Pair{"--json", "--plots", file + "/"}}) {
+    const ProgramResult result =
+        Loads({"demo:lift", "--seconds", "0.1", pair.one, file, pair.other, pair.spelling});
+    ExpectRefusal(result, std::string(pair.one) + "=" + file + " and " + pair.other + "=" +
+                              pair.spelling + ": one file for two outputs");
+  }
+  EXPECT_THAT(folder.Names(), ::testing::ElementsAre("here", "none"));
+}
+
 TEST(LoadsCommand, LeavesNothingBehindWhenItIsStopped) {
   const TempFolder folder;
   testing::Process child({KINESCOPE_PROGRAM, "loads", "demo:walk", "--seconds", "100000", "--csv",
