@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "render/compare.h"
+#include "render/new_file.h"
 #include "render/png_file.h"
 #include "render/renderer.h"
 #include "server/app/backend.h"
@@ -83,7 +83,7 @@ std::vector<std::string> Check(const GoldenOptions& options, const GoldenCase& g
     const fs::path base = fs::path(options.out) / golden_case.name;
     render::WritePng(base.string() + ".actual.png", drawing.image);
     render::WritePng(base.string() + ".diff.png", render::DiffImage(expected, drawing.image));
-    std::ofstream(base.string() + ".objects.json") << ToJson(drawing.spheres);
+    render::WriteNewFile(base.string() + ".objects.json", ToJson(drawing.spheres));
   }
   return problems;
 }
@@ -124,11 +124,7 @@ void UpdateAll(const GoldenOptions& options) {
                                golden_case.name + ": " + wrong.front());
     }
     render::WritePng(ImagePath(options.folder, golden_case), drawing.image);
-    std::ofstream objects(ObjectsPath(options.folder, golden_case));
-    objects << ToJson(drawing.spheres) << std::flush;
-    if (!objects)
-      throw std::runtime_error(ObjectsPath(options.folder, golden_case).string() +
-                               ": cannot be written");
+    render::WriteNewFile(ObjectsPath(options.folder, golden_case), ToJson(drawing.spheres));
     fmt::print("{:<24} written; look at it\n", golden_case.name);
   }
 }

@@ -298,10 +298,7 @@ void WritePlots(const std::map<int, LoadTrial>& trials, const TrialContext& cont
       if (StopRequested()) throw std::runtime_error("interrupted; not all plots were written");
       const Figure figure = JointFigure(trial, context, joint);
       const auto stem = folder / (person + std::string(ScoredName(joint)));
-      const std::string svg = render::ToSvg(figure);
-      render::NewFile file(stem.string() + ".svg");
-      file.Write(svg.data(), svg.size());
-      file.Commit();
+      render::WriteNewFile(stem.string() + ".svg", render::ToSvg(figure));
       render::WritePng(stem.string() + ".png",
                        render::ToImage(figure, kDotsPerInch / kPointsPerInch),
                        {{"Software", "Kinescope " KINESCOPE_VERSION}, {"Source", context.source}});

@@ -13,18 +13,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void WriteWhole(const fs::path& path, const std::string& bytes) {
-  render::NewFile file(path);
-  file.Write(bytes.data(), bytes.size());
-  file.Commit();
-}
-
 // @return how a URDF names where they are, "" for none.
 std::string WriteMeshes(const std::vector<FigureFile>& files, const fs::path& folder,
                         const std::string& package) {
   if (files.empty()) return "";
   fs::create_directories(folder);
-  for (const FigureFile& file : files) WriteWhole(folder / file.name, file.stl);
+  for (const FigureFile& file : files) render::WriteNewFile(folder / file.name, file.stl);
   return package.empty() ? fs::canonical(folder).string() : "package://" + package + "/meshes";
 }
 
@@ -33,7 +27,7 @@ void Write(urdf::HumanModel& human, const PersonFiles& files, const fs::path& fo
   fs::create_directories(folder);
   human.mesh_folder = WriteMeshes(files.figure, folder / "meshes", package);
   human.tool_folder = WriteMeshes(files.tools, folder / "meshes", package);
-  WriteWhole(folder / "person.urdf", urdf::WriteUrdf(human));
+  render::WriteNewFile(folder / "person.urdf", urdf::WriteUrdf(human));
 }
 
 }  // namespace

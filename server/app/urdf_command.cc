@@ -3,11 +3,12 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <set>
+#include <stdexcept>
 #include <string>
 
+#include "render/new_file.h"
 #include "server/app/commands.h"
 #include "server/app/figure_files.h"
 #include "server/app/open_source.h"
@@ -126,9 +127,11 @@ void Write(const WriteOptions& options) {
     fmt::print("{}", xml);
     return;
   }
-  std::ofstream file(options.out, std::ios::binary);
-  file << xml << std::flush;
-  if (!file) throw UsageError("--out=" + options.out + ": cannot be written");
+  try {
+    render::WriteNewFile(options.out, xml);
+  } catch (const std::runtime_error& error) {
+    throw UsageError(fmt::format("--out={}: {}", options.out, error.what()));
+  }
 }
 
 bool Check(const UrdfCheckOptions& options) {

@@ -352,6 +352,15 @@ TEST_F(GoldenCheck, SaysHowToMakeAMissingPicture) {
   EXPECT_THAT(result.out, HasSubstr("golden update"));
 }
 
+TEST_F(GoldenCheck, SaysWhyItCannotWrite) {
+  fs::create_directories(case_ / "out/bend.objects.json");
+  fs::remove(case_ / "bend.png");
+  ExpectRefusal(Check(), "out/bend.objects.json: Is a directory");
+  fs::remove(case_ / "bend.objects.json");
+  fs::create_directory(case_ / "bend.objects.json");
+  ExpectRefusal(Kinescope({"golden", "update", case_}), "bend.objects.json: Is a directory");
+}
+
 TEST_F(GoldenCheck, RefusesAKeyThatNoCaseHas) {
   std::ofstream(case_ / "bend.yaml", std::ios::app) << "colour: red\n";
   ExpectRefusal(Check(), "colour");

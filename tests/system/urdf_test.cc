@@ -68,6 +68,21 @@ TEST_F(UrdfCommand, WritesAPersonToTheScreenOrAFileAsSourceOrAsHeight) {
   EXPECT_EQ(Urdf({"--source", "demo:lift", "--figure", "primitive"}).out, positional.out);
 }
 
+TEST_F(UrdfCommand, AFullDiskIsTheReasonAndLeavesTheFileAsItWas) {
+  const std::string file = Write("a.urdf", "<robot name='before'/>");
+  const ProgramResult result =
+      testing::RunProgram({"/usr/bin/prlimit", "--fsize=8192", KINESCOPE_PROGRAM, "urdf",
+                           "--figure", "primitive", "--out", file});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("--out=" + file), HasSubstr("File too large")));
+  EXPECT_EQ(ReadFile(file), "<robot name='before'/>");
+  EXPECT_THAT(folder_.Names(), ::testing::ElementsAre("a.urdf"));
+
+  const ProgramResult nowhere = Urdf({"--out", At("nowhere/a.urdf")});
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_THAT(nowhere.err, HasSubstr("No such file or directory"));
+}
+
 TEST_F(UrdfCommand, ExportsAPackageThatItFindsItselfAgain) {
   const ProgramResult result = Urdf({"--height", "1.9", "--out", At("ines"), "--package", "ines"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
