@@ -128,11 +128,12 @@ void CheckNames(const std::vector<SourcePlan>& plans) {
 
 // Options that nothing to be made would heed are mistakes.
 void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans) {
-  bool has_still = false, has_clip = false, has_crf = false;
+  bool has_still = false, has_clip = false, has_crf = false, has_quality = false;
   for (const SourcePlan& plan : plans) {
     for (const Output& output : plan.outputs) {
       (output.kind == OutputKind::kStill ? has_still : has_clip) = true;
       has_crf = has_crf || HasCrf(output.path);
+      has_quality = has_quality || HasQuality(output.path);
     }
   }
   const MomentOptions& moment = options.moment;
@@ -166,6 +167,9 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
   if (!has_crf && options.pack.crf) {
     throw UsageError(fmt::format("--crf={}: only .mp4 and .webm have it", *options.pack.crf));
   }
+  if (!has_quality && options.pack.quality != PackOptions().quality) {
+    throw UsageError(fmt::format("--quality={}: only .webp has it", options.pack.quality));
+  }
 }
 
 }  // namespace
@@ -173,6 +177,10 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
 bool HasCrf(const std::string& path) {
   const auto format = render::ClipFormatOf(path);
   return format == render::ClipFormat::kMp4 || format == render::ClipFormat::kWebm;
+}
+
+bool HasQuality(const std::string& path) {
+  return render::ClipFormatOf(path) == render::ClipFormat::kWebp;
 }
 
 std::string PathOfPicture(const std::string& pattern, long k) {

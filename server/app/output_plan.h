@@ -34,8 +34,9 @@ std::vector<SourcePlan> PlanOutputs(const RenderOptions& options);
 /// The path of picture `k`, counted from 0, of a sequence.
 std::string PathOfPicture(const std::string& pattern, long k);
 
-/// Whether a clip of that name is packed to a constant quality (--crf).
+/// Whether a clip of that name is packed to a constant quality (--crf), or to --quality.
 bool HasCrf(const std::string& path);
+bool HasQuality(const std::string& path);
 
 /// "front,top" -> front, top. Commas within parentheses, and those that are followed by a digit, a
 /// sign or a point, belong to the camera.

@@ -66,6 +66,17 @@ loads::LoadClassifier::Settings ToClasses(const std::string& text) try {
       text));
 }
 
+// Links, joints and TF frames have it in their names.
+std::string ToModelName(const std::string& text) {
+  const bool is_good = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  if (!is_good) {
+    throw UsageError(fmt::format("--model_name={}: expected letters, digits and _", text));
+  }
+  return text;
+}
+
 void SetFigure(const PersonOptions& person, SceneOptions& scene) {
   using Frame = urdf::MeshConvention::Frame;
   urdf::MeshConvention convention;
@@ -150,7 +161,7 @@ loads::LoadSettings ToLoadSettings(const LoadOptions& loads) {
 SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs,
                             const LoadOptions& loads) {
   SceneOptions scene;
-  scene.model_name = person.model_name;
+  scene.model_name = ToModelName(person.model_name);
   scene.body = ToBody(person);
   scene.loads = ToLoadSettings(loads);
   if (person.height && !(*person.height >= 0.5 && *person.height <= 2.5)) {

@@ -203,6 +203,8 @@ RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
   options.person.Visit(setter);
   options.loads.Visit(setter);
   options.outs = {path};
+  // A .gif names a quality, too, which it does not have.
+  if (!HasQuality(path)) options.pack.quality = PackOptions().quality;
   return options;
 }
 

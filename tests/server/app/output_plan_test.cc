@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "server/core/errors.h"
 #include "tests/temp_folder.h"
 
@@ -103,6 +105,10 @@ TEST(PlanOutputs, RefusesWhatNothingWouldHeed) {
   EXPECT_FALSE(refuses("a%d.png", start));
   EXPECT_FALSE(refuses("a.webm", crf));
   EXPECT_TRUE(refuses("a.gif", crf));
+  const auto quality = [](RenderOptions& o) { o.pack.quality = 50; };
+  EXPECT_FALSE(refuses("a.webp", quality));
+  EXPECT_TRUE(refuses("a.png", quality));
+  EXPECT_TRUE(refuses("a.gif", quality));
   for (const double never : {-1.0, 864'001.0, 1e300, std::nan("")}) {
     EXPECT_TRUE(refuses("a.png", [&](RenderOptions& o) { o.moment.time = never; })) << never;
   }

@@ -93,6 +93,25 @@ TEST(PipelineOptions, ReadWhatLoadsAreComputedFrom) {
   EXPECT_TRUE(ToLoadSettings(options).hands.is_known);
 }
 
+TEST(PipelineOptions, AModelNameIsOneThatFitsIntoNamesOfLinks) {
+  PersonOptions person;
+  person.figure = "primitive";
+  for (const char* good : {"skeleton", "anna_2", "Person1", "_"}) {
+    person.model_name = good;
+    EXPECT_EQ(ToSceneOptions(person, 0.5).model_name, good);
+  }
+  for (const char* bad : {"", "a b/", "/anna", "anna-2", "J\xC3\xBCrgen", "a.b"}) {
+    person.model_name = bad;
+    try {
+      ToSceneOptions(person, 0.5);
+      ADD_FAILURE() << "accepted '" << bad << "'";
+    } catch (const UsageError& error) {
+      EXPECT_EQ(error.what(),
+                std::string("--model_name=") + bad + ": expected letters, digits and _");
+    }
+  }
+}
+
 // Each refusal names the option, the value and what would be right.
 TEST(PipelineOptions, ReadClassLimitsWithRoomToFallBack) {
   LoadOptions loads;

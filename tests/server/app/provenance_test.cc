@@ -40,6 +40,18 @@ TEST(Provenance, GivesBackTheOptionsThatItWasMadeOf) {
   for (const char c : ToText(first)) EXPECT_GE(c, ' ');
 }
 
+// A .gif says the quality that was asked for, too; drawn again, nobody asks for it.
+TEST(Provenance, GivesBackAQualityToWhatHasOne) {
+  RenderOptions options;
+  options.pack.quality = 50;
+  const render::RendererInfo renderer{"osmesa", "a renderer", "4.5", true, ""};
+  for (const std::string out : {"a.webp", "a.gif"}) {
+    const Json json =
+        Provenance(options, "demo:lift", renderer).Of({out, OutputKind::kClip, "top"});
+    EXPECT_EQ(OptionsOf(json, out).pack.quality, out == "a.webp" ? 50 : PackOptions().quality);
+  }
+}
+
 TEST(Provenance, DiffersWithEverythingThatDecidesAPixelAndWithNothingElse) {
   const RenderOptions plain;
   const auto differs = [&](auto&& change) {
