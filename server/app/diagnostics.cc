@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/core/json_text.h"
+
 namespace kinescope::app {
 
 namespace {
@@ -120,7 +122,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                    {"hangs", view->hangs}};
   }
   // A file name need not be UTF-8.
-  return out.dump(-1, ' ', false, json::error_handler_t::replace);
+  return JsonText(out);
 }
 
 }  // namespace kinescope::app

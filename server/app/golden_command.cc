@@ -19,6 +19,7 @@
 #include "server/app/golden_objects.h"
 #include "server/app/option_list.h"
 #include "server/core/errors.h"
+#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {
@@ -104,7 +105,7 @@ int CheckAll(const GoldenOptions& options) {
     for (const std::string& problem : problems) fmt::print("  {}\n", problem);
   }
   if (options.json) {
-    fmt::print("{}\n", report.dump(2));
+    fmt::print("{}\n", JsonText(report, 2));
   } else if (failed > 0) {
     fmt::print(
         "{} of {} differ; see {}/<case>.actual.png and .diff.png\n"

@@ -5,6 +5,7 @@
 
 #include "server/app/inspection_report.h"
 #include "server/core/clocks.h"
+#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {
@@ -145,8 +146,7 @@ std::string ReportJson(const InspectionReport& report) {
   }
   json["ignored"] = Json(report.ignored);
   json["advice"] = report.advice;
-  // A path need not be UTF-8, JSON must be.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return JsonText(json, 2) + "\n";
 }
 
 }  // namespace kinescope::app

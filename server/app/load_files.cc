@@ -9,6 +9,7 @@
 
 #include "render/new_file.h"
 #include "server/app/load_rows.h"
+#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {
@@ -141,7 +142,7 @@ class JsonValues : public CellSink {
   }
   void Whole(const std::string&, long long value) override { Push(std::to_string(value)); }
   void Text(const std::string&, std::string_view value) override {
-    Push(value.empty() ? "null" : nlohmann::json(value).dump());
+    Push(value.empty() ? "null" : JsonText(nlohmann::json(value)));
   }
 
  private:
@@ -160,7 +161,7 @@ class JsonFile : public LoadFile {
     if (samples_++ == 0) {
       JsonNames header;
       VisitWide(person, begin_nanos, header);
-      out_.buffer() += "{\"columns\": " + header.names.dump() + ",\n\"samples\": [\n";
+      out_.buffer() += "{\"columns\": " + JsonText(header.names) + ",\n\"samples\": [\n";
     } else {
       out_.buffer() += ",\n";
     }
@@ -175,10 +176,7 @@ class JsonFile : public LoadFile {
     if (samples_ == 0) out_.buffer() += "{\"columns\": [], \"samples\": [";
     out_.buffer() += "\n]";
     for (const auto& [key, value] : summary.items()) {
-      out_.buffer() +=
-          fmt::format(",\n\"{}\": {}", key,
-                      // Names of people come from outside.
-                      value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+      out_.buffer() += fmt::format(",\n\"{}\": {}", key, JsonText(value));
     }
     out_.buffer() += "}\n";
     out_.Finish();

@@ -13,6 +13,7 @@
 #include "server/app/backend_probe.h"
 #include "server/app/commands.h"
 #include "server/core/errors.h"
+#include "server/core/json_text.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::app {
@@ -105,7 +106,7 @@ int Probe(bool as_json, double limit_secs) {
                   {"master_uri", ros_bridge::MasterUri()},
                   {"master_reachable", ros_bridge::MasterIsReachable()}};
   if (as_json) {
-    fmt::print("{}\n", found.dump(2, ' ', false, json::error_handler_t::replace));
+    fmt::print("{}\n", JsonText(found, 2));
   } else {
     PrintText(found);
   }
@@ -133,9 +134,7 @@ void AddProbe(CommandLine line) {
     if (draw_with->empty()) {
       exit_code = Probe(*as_json, *limit_secs);
     } else {
-      fmt::print(
-          "{}\n",
-          ToJson(MeasureBackend(*draw_with)).dump(-1, ' ', false, json::error_handler_t::replace));
+      fmt::print("{}\n", JsonText(ToJson(MeasureBackend(*draw_with))));
     }
   });
 }

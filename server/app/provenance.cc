@@ -13,6 +13,7 @@
 #include "render/png_file.h"
 #include "server/app/option_list.h"
 #include "server/app/pipeline_options.h"
+#include "server/core/json_text.h"
 #include "server/core/sha256.h"
 
 namespace kinescope::app {
@@ -193,7 +194,7 @@ RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
   ValueSetter setter([&values](const std::string& name) -> std::optional<std::string> {
     const auto found = values.find(name);
     if (found == values.end()) return std::nullopt;
-    return found->is_string() ? found->get<std::string>() : found->dump();
+    return found->is_string() ? found->get<std::string>() : JsonText(*found);
   });
   RenderOptions options;
   options.moment.Visit(setter);
@@ -202,15 +203,13 @@ RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
   options.view.Visit(setter);
   options.person.Visit(setter);
   options.loads.Visit(setter);
-  options.outs = {path};
   // A .gif names a quality, too, which it does not have.
   if (!HasQuality(path)) options.pack.quality = PackOptions().quality;
+  options.outs = {path};
   return options;
 }
 
-std::string ToText(const Json& provenance) {
-  return provenance.dump(-1, ' ', true, Json::error_handler_t::replace);
-}
+std::string ToText(const Json& provenance) { return JsonText(provenance, -1, JsonBytes::kAscii); }
 
 std::optional<Json> FromText(const std::string& text) {
   Json json = Json::parse(text, nullptr, false);
@@ -263,10 +262,8 @@ void WriteSidecar(const Output& output, Json provenance, const std::string& sour
     const FileDigest digest = DigestOf(output.path);
     provenance["file"] = {{"sha256", digest.sha256}, {"bytes", digest.bytes}};
   }
-  const std::string text = provenance.dump(2, ' ', true, Json::error_handler_t::replace) + "\n";
-  render::NewFile file(SidecarOf(output.path));
-  file.Write(text.data(), text.size());
-  file.Commit();
+  const std::string text = JsonText(provenance, 2, JsonBytes::kAscii) + "\n";
+  render::WriteNewFile(SidecarOf(output.path), text);
 }
 
 bool IsFinished(const Output& output, const Json& provenance, bool has_sidecar) {

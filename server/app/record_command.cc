@@ -15,6 +15,7 @@
 #include "server/app/stop_signal.h"
 #include "server/core/clocks.h"
 #include "server/core/errors.h"
+#include "server/core/json_text.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/file/pcap_recorder.h"
 #include "server/mvn/open.h"
@@ -163,7 +164,7 @@ void Summarise(const RecordOptions& options, const Meter& meter,
       {"incomplete_packets", transport.incomplete_packets},
       {"other_packets", transport.other_packets},
   };
-  fmt::print("{}\n", summary.dump());
+  fmt::print("{}\n", JsonText(summary));
 }
 
 void Record(const RecordOptions& options) {

@@ -13,6 +13,7 @@
 #include "server/app/render_options.h"
 #include "server/app/render_verify.h"
 #include "server/core/errors.h"
+#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {
@@ -32,7 +33,7 @@ void Tell(const OutputResult& result, bool as_json) {
         line["pictures_per_second"] = static_cast<double>(result.drawn) / result.took_secs;
       }
     }
-    fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", JsonText(line));
     return;
   }
   if (result.drawn == 0) {

@@ -17,6 +17,7 @@
 #include "server/app/provenance.h"
 #include "server/app/render_job.h"
 #include "server/core/errors.h"
+#include "server/core/json_text.h"
 #include "server/core/sha256.h"
 
 namespace kinescope::app {
@@ -154,7 +155,7 @@ void NoteDifferences(const Json& then, const Json& now, const std::string& file)
   if (then.value("inputs", Json()) != now.value("inputs", Json())) {
     throw SourceError(fmt::format(
         "{}: a file that its options name is another one now, or not here: then {}, now {}", file,
-        then.value("inputs", Json()).dump(), now.value("inputs", Json()).dump()));
+        JsonText(then.value("inputs", Json())), JsonText(now.value("inputs", Json()))));
   }
   for (const char* name : {"kinescope", "renderer"}) {
     if (then.value(name, "") == now.value(name, "")) continue;
@@ -191,7 +192,7 @@ void Tell(const std::string& file, const Verdict& verdict, bool as_json) {
     if (!verdict.same) {
       line.update({{"picture", verdict.picture}, {"how", verdict.how}, {"diff", diff}});
     }
-    fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    fmt::print("{}\n", JsonText(line));
   } else if (verdict.same) {
     fmt::print("{}: same{}\n", file, verdict.same_bytes ? ", byte for byte" : " pictures");
   } else {

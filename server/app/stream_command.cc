@@ -13,6 +13,7 @@
 #include "server/app/stream_transmission.h"
 #include "server/core/errors.h"
 #include "server/core/extra_segments.h"
+#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {
@@ -171,7 +172,7 @@ void Stream(StreamOptions& o) {
   transmission.Run(o.seconds);
   const nlohmann::json summary = Summary(o, *feed, transmission, *sender, settings, faults);
   LogSummary(summary);
-  if (o.as_json) fmt::print("{}\n", summary.dump(2));
+  if (o.as_json) fmt::print("{}\n", JsonText(summary, 2));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "server/app/robot_source.h"
 #include "server/app/shots.h"
 #include "server/core/errors.h"
+#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {
@@ -59,8 +60,7 @@ void Tell(const UrdfPictureOptions& options, const RobotState& robot, const rend
         {"vertical_fov_rad", camera.vertical_fov_rad}}},
       {"problems", problems},
   };
-  using Handler = nlohmann::ordered_json::error_handler_t;
-  fmt::print("{}\n", json.dump(-1, ' ', false, Handler::replace));
+  fmt::print("{}\n", JsonText(json));
 }
 
 }  // namespace

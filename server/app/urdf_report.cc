@@ -6,6 +6,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "server/core/json_text.h"
+
 namespace kinescope::app {
 namespace {
 
@@ -85,8 +87,7 @@ std::string UrdfReportJson(const std::string& file, const UrdfReport& report) {
       {"problems", problems},
   };
   // Names come from outside and are cut at any byte.
-  using Handler = nlohmann::ordered_json::error_handler_t;
-  return json.dump(2, ' ', false, Handler::replace) + "\n";
+  return JsonText(json, 2) + "\n";
 }
 
 }  // namespace kinescope::app

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/core/held_look.h"
+#include "server/core/json_text.h"
 #include "server/core/palette.h"
 #include "server/core/person_links.h"
 #include "server/http/target.h"
@@ -14,9 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-std::string Text(const json& document) {
-  return document.dump(-1, ' ', false, json::error_handler_t::replace);
-}
+std::string Text(const json& document) { return JsonText(document); }
 
 json ToJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/core/json_text.h"
+
 namespace kinescope::http {
 namespace {
 
@@ -36,7 +38,7 @@ std::string WithHttpCounters(const std::string& diagnostics, const Counters& cou
                       {"pictures_encoded", counters.pictures_encoded},
                       {"clients", std::move(connected)},
                       {"closed_clients", std::move(closed)}};
-  return document.dump(2, ' ', false, json::error_handler_t::replace);
+  return JsonText(document, 2);
 }
 
 }  // namespace kinescope::http

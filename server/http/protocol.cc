@@ -8,6 +8,7 @@
 
 #include "server/core/check.h"
 #include "server/core/held_look.h"
+#include "server/core/json_text.h"
 #include "server/core/palette.h"
 #include "server/core/person_links.h"
 
@@ -124,8 +125,7 @@ void PutPerson(Writer& out, const PersonState& person) {
 }
 
 Bytes ToBytes(const json& message) {
-  // replace: a name from the stream that is no UTF-8 must not cost us the message.
-  const std::string text = message.dump(-1, ' ', false, json::error_handler_t::replace);
+  const std::string text = JsonText(message);
   return Bytes(text.begin(), text.end());
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/core/clocks.h"
+#include "server/core/json_text.h"
 #include "server/http/access.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"
@@ -41,8 +42,7 @@ Answer JsonAnswer(std::string body) {
 }  // namespace
 
 Answer ErrorAnswer(int status, const std::string& reason) {
-  Answer answer = JsonAnswer(nlohmann::json{{"error", reason}}.dump(
-      -1, ' ', false, nlohmann::json::error_handler_t::replace));
+  Answer answer = JsonAnswer(JsonText(nlohmann::json{{"error", reason}}));
   answer.status = status;
   return answer;
 }
@@ -153,11 +153,10 @@ Answer Router::SetHandLoad(const Request& request) const {
   }
   const std::string wrong = site_.set_hand_load(character, order->load);
   if (!wrong.empty()) return Refuse(400, "bad hand load", wrong);
-  return JsonAnswer(nlohmann::json{{"person", character},
-                                   {"right_kg", order->load.mass_kg[urdf::kRight]},
-                                   {"left_kg", order->load.mass_kg[urdf::kLeft]},
-                                   {"both_kg", order->load.both_kg}}
-                        .dump());
+  return JsonAnswer(JsonText(nlohmann::json{{"person", character},
+                                            {"right_kg", order->load.mass_kg[urdf::kRight]},
+                                            {"left_kg", order->load.mass_kg[urdf::kLeft]},
+                                            {"both_kg", order->load.both_kg}}));
 }
 
 Answer Router::Mesh(const std::string& path) const {

@@ -352,6 +352,15 @@ TEST_F(GoldenCheck, SaysHowToMakeAMissingPicture) {
   EXPECT_THAT(result.out, HasSubstr("golden update"));
 }
 
+TEST_F(GoldenCheck, NamesACaseInJsonWhateverItsBytesAre) {
+  fs::remove(case_ / "bend.yaml");
+  std::ofstream(case_ / "n\xFF.yaml") << "source: demo:lift\nsize: 32x32\n";
+  const ProgramResult result =
+      Kinescope({"golden", "check", case_, "--json", "--out", case_ / "out"});
+  EXPECT_EQ(result.exit_code, 1) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out).at(0).at("case"), "n\uFFFD");
+}
+
 TEST_F(GoldenCheck, SaysWhyItCannotWrite) {
   fs::create_directories(case_ / "out/bend.objects.json");
   fs::remove(case_ / "bend.png");

@@ -246,6 +246,18 @@ TEST(Record, MakesACaptureOfAFileOrAPipe) {
   EXPECT_EQ(ReadBack(folder / "again.pcap").datagrams, ReadBack(folder / "take.pcap").datagrams);
 }
 
+TEST(Record, NamesAFileInJsonWhateverItsBytesAre) {
+  TempFolder folder;
+  std::vector<std::string> datagrams;
+  const std::string raw = folder / "n\xFF.bin";
+  fs::rename(WriteRawFile(folder, datagrams), raw);
+  const ProgramResult result = Record({raw, "--json", "--out", folder / "n\xFF.pcap"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto summary = nlohmann::json::parse(result.out);
+  EXPECT_EQ(summary["source"], (folder / "n\uFFFD.bin").string());
+  EXPECT_EQ(summary["files"][0], (folder / "n\uFFFD.pcap").string());
+}
+
 TEST(Record, RotatesBySizeAndNamesItsFiles) {
   TempFolder folder;
   std::vector<std::string> datagrams;

@@ -23,6 +23,7 @@
 #include "server/app/scene_reader.h"
 #include "server/app/shots.h"
 #include "tests/process.h"
+#include "tests/render/mesh_samples.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
@@ -32,6 +33,7 @@ namespace kinescope {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -270,6 +272,18 @@ TEST_F(RenderCommand, VerifiesWhatItDrewAndSaysWhereAFileDiffers) {
   const ProgramResult bare = Verify(Path("bare.png"));
   EXPECT_EQ(bare.exit_code, 2);
   EXPECT_THAT(bare.err, HasSubstr("says nothing of how it was drawn"));
+}
+
+TEST_F(RenderCommand, NamesAFileThatHasChangedWhateverItsBytesAre) {
+  fs::create_directory(Path("own"));
+  std::ofstream(Path("own/Head.stl")) << testing::BoxStl();
+  Lines(Render(
+      {"--out", Path("a.png"), "--figure", "mesh:" + Path("own"), "--mesh_units", "cm", "--json"}));
+  std::ofstream(Path("own/n\xFF.txt")) << "a note";
+  const ProgramResult result = Verify(Path("a.png"));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("a.png: a file that its options name is another one"),
+                                HasSubstr("n\uFFFD.txt")));
 }
 
 TEST_F(RenderCommand, VerifiesOnlyAgainstTheSourceThatItWas) {

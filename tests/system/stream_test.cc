@@ -254,6 +254,13 @@ TEST(StreamCommand, PassesDatagramsOnByteForByte) {
   EXPECT_LT(fast.summary.at("seconds").get<double>(), 0.29);
 }
 
+TEST(StreamCommand, NamesAFileInJsonWhateverItsBytesAre) {
+  const TempFolder folder;
+  WriteRecording(folder / "n\xFF.bin", 3);
+  EXPECT_THAT(StreamToUdp({folder / "n\xFF.bin"}).summary.at("source").get<std::string>(),
+              HasSubstr("n\uFFFD.bin"));
+}
+
 TEST(StreamCommand, ChangesNothingInCopiesOfDatagramsButTheCharacter) {
   const TempFolder folder;
   const auto written = WriteRecording(folder / "walk.bin", 10);
