@@ -3,7 +3,8 @@
 
 namespace kinescope::loads {
 
-/// Seconds between two samples. After a longer gap speeds, contacts and classes start anew, and no time is counted.
+/// Seconds between two samples. After a longer gap speeds, contacts and classes start anew, and no
+/// time is counted.
 inline constexpr double kLongestGapSecs = 0.5;
 
 }  // namespace kinescope::loads

@@ -9,7 +9,6 @@
 namespace kinescope::mvn {
 namespace {
 
-
 // What came instead of "MXTP": MVN's own sync texts, another program's text, or anything.
 Reason ReasonForForeign(std::string_view datagram) {
   const std::size_t first = datagram.find_first_not_of(" \t\r\n");

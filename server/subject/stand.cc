@@ -17,8 +17,9 @@ class Stand final : public Choreography {
                         JetQuaternion::Identity());
     for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
       // A segment frame is identity in the T-pose, a link frame in the N-pose.
-      posture.Orient(segment, arms_ == Arms::kSideways ? ConstantTurn(urdf::SegmentFromLink(segment))
-                                                       : JetQuaternion::Identity());
+      posture.Orient(segment, arms_ == Arms::kSideways
+                                  ? ConstantTurn(urdf::SegmentFromLink(segment))
+                                  : JetQuaternion::Identity());
     }
     return posture;
   }

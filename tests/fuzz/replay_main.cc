@@ -1,4 +1,5 @@
-// Runs one fuzz entry over every file of a folder, where no fuzzing engine is linked in: fuzz_replay ENTRY FOLDER
+// Runs one fuzz entry over every file of a folder, where no fuzzing engine is linked in:
+// fuzz_replay ENTRY FOLDER
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -10,8 +11,8 @@
 
 // tests/fuzz/CMakeLists.txt renames LLVMFuzzerTestOneInput of each source.
 using Entry = int(const std::uint8_t* data, std::size_t size);
-extern "C" Entry Fuzz_assembler, Fuzz_datagram, Fuzz_framing, Fuzz_http_target, Fuzz_loads, Fuzz_mesh_file, Fuzz_mvnx,
-    Fuzz_page_message, Fuzz_pcap, Fuzz_scale, Fuzz_urdf;
+extern "C" Entry Fuzz_assembler, Fuzz_datagram, Fuzz_framing, Fuzz_http_target, Fuzz_loads,
+    Fuzz_mesh_file, Fuzz_mvnx, Fuzz_page_message, Fuzz_pcap, Fuzz_scale, Fuzz_urdf;
 
 int main(int argc, char** argv) {
   const std::map<std::string, Entry*> entries = {

@@ -70,8 +70,9 @@ TEST_F(CameraKeys, HaveEveryFieldThatTheFileHas) {
 
 TEST_F(CameraKeys, AreRefusedWithFileAndLineOutsideTheLimits) {
   for (const char* time : {"-1", "1e7", ".inf", "soon", "[1]"}) {
-    EXPECT_THAT(ErrorOf("- {time: 0, camera: top}\n- {time: " + std::string(time) + "}\n"),
-                AllOf(HasSubstr(path_ + ": line 3: time: "), HasSubstr("a number from 0 to 1000000")))
+    EXPECT_THAT(
+        ErrorOf("- {time: 0, camera: top}\n- {time: " + std::string(time) + "}\n"),
+        AllOf(HasSubstr(path_ + ": line 3: time: "), HasSubstr("a number from 0 to 1000000")))
         << time;
   }
   for (const char* fov : {"0", "151", ".nan", "wide"}) {
