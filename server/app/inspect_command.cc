@@ -108,7 +108,9 @@ mvn::InspectionReport InspectSamples(Source& source, double seconds, bool has_en
     spdlog::info("listening to {} for {:g} s; Ctrl-C ends it sooner", source.description(),
                  seconds);
     const std::int64_t end = MonotonicNanos() + static_cast<std::int64_t>(seconds * 1e9);
-    while (!StopRequested() && MonotonicNanos() < end) source.Poll(kInspectPollTimeout, steps);
+    while (!StopRequested() && MonotonicNanos() < end) {
+      if (source.Poll(kInspectPollTimeout, steps) == Source::State::kEnded) break;
+    }
     return steps.inspection().Report(source);
   }
   const double most = seconds * source.nominal_rate_hz();

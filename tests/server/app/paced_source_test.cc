@@ -78,7 +78,9 @@ TEST(PacedSource, ReturnsWithoutASampleWhenTheTimeoutIsShorter) {
 TEST(PacedSource, LoopsWithCounterAndTimeGoingOn) {
   PacedSource source(std::make_unique<ShortFile>(), [] { return std::make_unique<ShortFile>(); });
   Collector collector;
-  while (collector.samples.size() < 7) source.Poll(milliseconds(1000), collector);
+  while (collector.samples.size() < 7) {
+    ASSERT_NE(source.Poll(milliseconds(1000), collector), Source::State::kEnded);
+  }
   EXPECT_EQ(collector.characters, 3);
   for (std::size_t i = 0; i < 7; ++i) {
     EXPECT_EQ(collector.samples[i].counter, i);
@@ -192,7 +194,9 @@ TEST(PacedSource, EveryPersonsCounterGoesOnInTheNextRound) {
   };
   PacedSource source(open(), open);
   Log log;
-  while (log.words.size() < 12) source.Poll(milliseconds(1000), log);
+  while (log.words.size() < 12) {
+    ASSERT_NE(source.Poll(milliseconds(1000), log), Source::State::kEnded);
+  }
   log.words.resize(12);
   EXPECT_THAT(log.words, ElementsAre("0:6681", "1:5", "0:6682", "1:6", "0:6684", "o:90",  //
                                      "0:6685", "1:7", "0:6686", "1:8", "0:6688", "o:91"));
@@ -214,7 +218,9 @@ TEST(PacedSource, CountsWhatItsSourceCountedInAllRounds) {
   };
   PacedSource source(open(), open);
   Log log;
-  while (log.words.size() < 7) source.Poll(milliseconds(1000), log);
+  while (log.words.size() < 7) {
+    ASSERT_NE(source.Poll(milliseconds(1000), log), Source::State::kEnded);
+  }
   const SourceCounters counters = source.counters();
   EXPECT_EQ(counters.samples, log.words.size()) << "those handed on, not those read ahead";
   EXPECT_GE(counters.datagrams, 7U);

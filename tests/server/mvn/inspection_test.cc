@@ -560,7 +560,9 @@ TEST(Inspection, RecordedTrackersAloneCannotBeShown) {
 TEST(SampleInspection, TellsWhatASourceWithoutDatagramsHas) {
   const auto subject = subject::OpenSubject("lift", 120, 0);
   SampleInspection inspection;
-  for (int i = 0; i < 240; ++i) subject->Poll(std::chrono::milliseconds(0), inspection);
+  for (int i = 0; i < 240; ++i) {
+    ASSERT_NE(subject->Poll(std::chrono::milliseconds(0), inspection), Source::State::kEnded);
+  }
   const InspectionReport report = inspection.Report(*subject);
   EXPECT_TRUE(report.CanBeShown());
   EXPECT_FALSE(report.has_datagrams);

@@ -35,7 +35,7 @@ TEST(WithoutRos, PublishingIsRefusedWithAWayOut) {
   EXPECT_EQ(PrivateParameter("tf"), std::nullopt);
   EXPECT_EQ(MakeRosBridge({}, RosMode::kOff), nullptr);
   try {
-    MakeRosBridge({}, RosMode::kAuto);
+    static_cast<void>(MakeRosBridge({}, RosMode::kAuto));
     FAIL() << "made a bridge without ROS";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("-DKINESCOPE_WITH_ROS=ON"));

@@ -42,7 +42,9 @@ TEST(SubjectSource, GivesOneSampleACallAndEndsAfterItsSeconds) {
 TEST(SubjectSource, CountsSamplesAndStampsThemFromItsEpoch) {
   const auto source = OpenSubject("walk", 60, 0);
   Collected sink;
-  for (int i = 0; i < 600; ++i) source->Poll(std::chrono::milliseconds(0), sink);
+  for (int i = 0; i < 600; ++i) {
+    ASSERT_NE(source->Poll(std::chrono::milliseconds(0), sink), Source::State::kEnded);
+  }
   const std::int64_t epoch = sink.samples[0].stamp_nanos;
   EXPECT_EQ(epoch, 1'577'836'800'000'000'000);
   for (std::size_t i = 0; i < sink.samples.size(); ++i) {

@@ -20,7 +20,7 @@ namespace kinescope::mvn::testing {
 inline std::string Brief(const std::string& datagram) {
   std::uint32_t counter = 0;
   ByteReader in(datagram);
-  in.Seek(6) && in.Read(counter);
+  if (!in.Seek(6) || !in.Read(counter)) counter = 0;
   std::ostringstream out;
   out << datagram.substr(0, 6) << " #" << counter << ", " << datagram.size() << " bytes, "
       << std::hex << std::hash<std::string>()(datagram);

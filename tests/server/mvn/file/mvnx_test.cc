@@ -300,7 +300,7 @@ TEST(Mvnx, ItsMemoryDoesNotGrowWithTheFile) {
     int samples = 0;
     std::size_t most = 0;
   } sink;
-  while (sink.samples < 100) source.Poll({}, sink);
+  while (sink.samples < 100) ASSERT_NE(source.Poll({}, sink), Source::State::kEnded);
   const std::size_t at_the_beginning = sink.most;
   while (source.Poll({}, sink) == Source::State::kMore) {
   }

@@ -335,7 +335,9 @@ TEST(PcapTcp, WaitsForAMissingSegmentWithBoundedMemoryAndTime) {
   segments.erase(segments.begin() + kMissing);
   PcapDatagrams source(FileOf(CaptureOf(segments)), "test.pcap");
   KeepingSink sink;
-  for (std::size_t i = 0; i < kMissing; ++i) source.Poll({}, sink);
+  for (std::size_t i = 0; i < kMissing; ++i) {
+    ASSERT_NE(source.Poll({}, sink), DatagramSource::State::kEnded);
+  }
   const std::size_t before = sink.datagrams.size();
   ASSERT_GT(before, 0U);
   std::size_t waited_packets = 0;
