@@ -26,7 +26,7 @@ SceneState BentScene() {
 
 std::vector<render::Ghost> GhostsOf(const std::string& text, double opacity,
                                     const SceneState& scene) {
-  return GhostPose(text, opacity).Make(scene);
+  return GhostPose(text, opacity, {}).Make(scene);
 }
 
 double LowestOfFeet(const PersonState& person) {

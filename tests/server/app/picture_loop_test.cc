@@ -112,7 +112,7 @@ TEST_F(PictureLoopTest, DrawsNoMorePicturesThanTheRateAllows) {
     loop_->OnState(NumberedScene(number));
     AskForSnapshots(1);
   }
-  loop_->SetCamera("top");
+  EXPECT_TRUE(loop_->SetCamera("top"));
   loop_->SetViewers(2);
   AskForSnapshots(3);
   EXPECT_FALSE(HasNext());
@@ -161,7 +161,7 @@ TEST_F(PictureLoopTest, ASnapshotHasItsOwnSizeAndCameraAndLeavesTheLivePictureAl
 TEST_F(PictureLoopTest, ASnapshotWithoutACameraIsByTheLivePictures) {
   Start(kAtOnce, "front");
   EXPECT_EQ(loop_->SnapshotPng("", 64, 48), loop_->SnapshotPng("front", 64, 48));
-  loop_->SetCamera("top");
+  EXPECT_TRUE(loop_->SetCamera("top"));
   EXPECT_EQ(loop_->SnapshotPng("", 64, 48), loop_->SnapshotPng("top", 64, 48));
 }
 

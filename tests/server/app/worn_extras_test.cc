@@ -62,7 +62,7 @@ TEST(WornExtras, AreThoseOfTheModelThatWereSeen) {
   ShowExtra(sample, PropIndex(0), TurnedPoseAt({1, 0, 1}));
   ShowExtra(sample, PropIndex(3), TurnedPoseAt({1, 0, 1}));
   ShowExtra(sample, FingerIndex(urdf::kRight, 0), TurnedPoseAt({0, -0.3, 0.8}));
-  extras.Notice(sample);
+  EXPECT_TRUE(extras.Notice(sample));
   urdf::HumanModel human;
   human.skeleton = urdf::DefaultSkeleton();
   extras.AddTo({}, human);
@@ -77,7 +77,7 @@ TEST(WornExtras, TheCarpusIsWhereItWasFirstSeenOnTheHand) {
     WornExtras extras;
     BodySample sample = BareSample();
     ShowExtra(sample, FingerIndex(urdf::kRight, 0), TurnedPoseAt(Vector3d(away, -0.3, 0.8)));
-    extras.Notice(sample);
+    EXPECT_TRUE(extras.Notice(sample));
     urdf::HumanModel human;
     human.skeleton = urdf::DefaultSkeleton();
     extras.AddTo({}, human);
@@ -90,7 +90,7 @@ TEST(WornExtras, APropThatIsNotMeasuredGoesAlongWithThePelvis) {
   WornExtras extras;
   BodySample seen = BareSample(TurnedPoseAt({0, 0, 1}));
   ShowExtra(seen, PropIndex(1), TurnedPoseAt({0.5, 0, 1.2}));
-  extras.Notice(seen);
+  EXPECT_TRUE(extras.Notice(seen));
   PersonState person = PersonWith(extras, seen);
   extras.Follow(seen, person);
   ASSERT_TRUE(person.props[1]);
@@ -109,7 +109,7 @@ TEST(WornExtras, AMeasuredFingerIsWhereItIsAndTheOthersGoAlong) {
   WornExtras extras;
   BodySample sample = BareSample();
   ShowExtra(sample, FingerIndex(urdf::kRight, 0), TurnedPoseAt({0, -0.3, 0.8}));
-  extras.Notice(sample);
+  EXPECT_TRUE(extras.Notice(sample));
   PersonState person = PersonWith(extras, sample);
   extras.Follow(sample, person);
   ASSERT_TRUE(person.gloves[urdf::kRight]);
@@ -142,7 +142,7 @@ TEST(WornExtras, LengthsAreThoseOfScaleDataOnlyWhereTheyDescribeAHand) {
   WornExtras extras;
   BodySample sample = BareSample();
   ShowExtra(sample, FingerIndex(urdf::kRight, 0), TurnedPoseAt({0, -0.3, 0.8}));
-  extras.Notice(sample);
+  EXPECT_TRUE(extras.Notice(sample));
   const auto glove_of = [&](const Character& character) {
     urdf::HumanModel human;
     human.skeleton = urdf::DefaultSkeleton();
