@@ -16,10 +16,10 @@
 namespace kinescope::render {
 namespace {
 
-constexpr int kPictureWidth = 2560, kPictureHeight = 1440;
-constexpr int kColumn = 2276;  // within the plot, right of the cursor and of the curve
+constexpr int kPlotPictureWidth = 2560, kPlotPictureHeight = 1440;
+constexpr int kPlotColumn = 2276;  // within the plot, right of the cursor and of the curve
 
-struct Band {
+struct PlotBand {
   LoadClass load_class;
   int height_px;
 };
@@ -35,11 +35,11 @@ std::array<int, 3> BandColor(LoadClass load_class) {
 }
 
 // From top to bottom.
-std::vector<Band> BandsIn(const Image& image) {
-  std::vector<Band> bands;
+std::vector<PlotBand> BandsIn(const Image& image) {
+  std::vector<PlotBand> bands;
   for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* pixel =
-        &image.rgba[4 * static_cast<std::size_t>(y * image.width + kColumn)];
+        &image.rgba[4 * static_cast<std::size_t>(y * image.width + kPlotColumn)];
     for (const LoadClass load_class : {LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh}) {
       const std::array<int, 3> color = BandColor(load_class);
       if (!std::equal(color.begin(), color.end(), pixel,
@@ -58,8 +58,8 @@ Image PlotWith(const std::array<double, 2>& class_limits, double ratio) {
   LoadHistory history;
   history.curves = {{"Right elbow", {{0, ratio, LoadClass::kLow}, {0.1, ratio, LoadClass::kLow}}}};
   View view;
-  view.width = kPictureWidth;
-  view.height = kPictureHeight;
+  view.width = kPlotPictureWidth;
+  view.height = kPlotPictureHeight;
   view.parts = {false, false, false, false, false, false, false, false, true};
   view.history = std::make_shared<const LoadHistory>(history);
   SceneState state;
@@ -86,7 +86,7 @@ TEST(OverlayPlot, ItsBandsAreThoseOfTheScenesClassLimits) {
                            Case{{2, 4}, 0.2, 4.5}, Case{{2, 4}, 9, 4.5}}) {
     SCOPED_TRACE(::testing::Message()
                  << each.limits[0] << ", " << each.limits[1] << ", ratio " << each.ratio);
-    const std::vector<Band> bands = BandsIn(PlotWith(each.limits, each.ratio));
+    const std::vector<PlotBand> bands = BandsIn(PlotWith(each.limits, each.ratio));
     ASSERT_EQ(bands.size(), 3u);
     EXPECT_EQ(bands[0].load_class, LoadClass::kHigh);
     EXPECT_EQ(bands[1].load_class, LoadClass::kMedium);

@@ -24,63 +24,64 @@ using kinescope::testing::FakeRenderer;
 using kinescope::testing::WithDeadline;
 using render::RenderError;
 
-DrawPool::MakeRenderer Fake(FakeRenderer::OnDraw on_draw = nullptr) {
+DrawPool::MakeRenderer FakeRenderers(FakeRenderer::OnDraw on_draw = nullptr) {
   return [on_draw = std::move(on_draw)] { return std::make_unique<FakeRenderer>(on_draw); };
 }
 
-Shot ShotOf(std::uint32_t counter) {
+Shot CountedShot(std::uint32_t counter) {
   Shot shot;
   shot.state.counter = counter;
   shot.view.width = shot.view.height = 16;
   return shot;
 }
 
-int LevelOf(const FuturePicture& picture) { return picture.get()->rgba.front(); }
+int FirstLevel(const FuturePicture& picture) { return picture.get()->rgba.front(); }
 
 TEST(DrawPool, OneThreadDrawsInTheOrderOfTheShots) {
-  DrawPool pool(1, 5, Fake());
+  DrawPool pool(1, 5, FakeRenderers());
   EXPECT_EQ(pool.info().renderer, "a fake");
   std::vector<FuturePicture> pictures;
-  for (std::uint32_t i = 0; i < 5; ++i) pictures.push_back(pool.Draw(ShotOf(i)));
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(LevelOf(pictures[static_cast<std::size_t>(i)]), i + 1);
+  for (std::uint32_t i = 0; i < 5; ++i) pictures.push_back(pool.Draw(CountedShot(i)));
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(FirstLevel(pictures[static_cast<std::size_t>(i)]), i + 1);
 }
 
 TEST(DrawPool, EachFutureHasThePictureOfItsShotWhicheverThreadDrewIt) {
-  DrawPool pool(3, 4, Fake([](render::Image& image, const SceneState& state, const auto&...) {
+  DrawPool pool(3, 4,
+                FakeRenderers([](render::Image& image, const SceneState& state, const auto&...) {
                   image.rgba.front() = static_cast<std::uint8_t>(state.counter);
                 }));
   std::deque<std::pair<int, FuturePicture>> held;
   for (int i = 0; i < 200; ++i) {
     if (held.size() == 4) held.pop_front();
-    held.emplace_back(i, pool.Draw(ShotOf(static_cast<std::uint32_t>(i))));
-    EXPECT_EQ(LevelOf(held.front().second), held.front().first);
+    held.emplace_back(i, pool.Draw(CountedShot(static_cast<std::uint32_t>(i))));
+    EXPECT_EQ(FirstLevel(held.front().second), held.front().first);
   }
 }
 
 TEST(DrawPool, WaitsForRoomAndUsesTheMemoryOfPicturesAgain) {
   WithDeadline([] {
-    DrawPool pool(1, 2, Fake());
-    FuturePicture first = pool.Draw(ShotOf(1));
-    const FuturePicture second = pool.Draw(ShotOf(2));
+    DrawPool pool(1, 2, FakeRenderers());
+    FuturePicture first = pool.Draw(CountedShot(1));
+    const FuturePicture second = pool.Draw(CountedShot(2));
     second.wait();
     const std::uint8_t* const memory = first.get()->rgba.data();
-    auto third = std::async(std::launch::async, [&] { return pool.Draw(ShotOf(3)); });
+    auto third = std::async(std::launch::async, [&] { return pool.Draw(CountedShot(3)); });
     // Not a wait for something to come: it must not.
     EXPECT_EQ(third.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout)
         << "two pictures are held, and there is room for two";
     first = {};
     EXPECT_EQ(third.get().get()->rgba.data(), memory);
-    EXPECT_EQ(LevelOf(second), 2) << "it is still held";
+    EXPECT_EQ(FirstLevel(second), 2) << "it is still held";
   });
 }
 
 TEST(DrawPool, AnErrorIsThatOfItsPictureAndTakesNoRoom) {
   WithDeadline([] {
-    DrawPool pool(1, 2, Fake([](const auto&, const SceneState& state, const auto&...) {
+    DrawPool pool(1, 2, FakeRenderers([](const auto&, const SceneState& state, const auto&...) {
                     if (state.counter == 0) throw RenderError("the driver fails");
                   }));
     for (int i = 0; i < 5; ++i) {
-      const FuturePicture bad = pool.Draw(ShotOf(0)), good = pool.Draw(ShotOf(1));
+      const FuturePicture bad = pool.Draw(CountedShot(0)), good = pool.Draw(CountedShot(1));
       EXPECT_THROW(bad.get(), RenderError);
       EXPECT_NO_THROW(good.get());
     }
@@ -103,7 +104,7 @@ TEST(DrawPool, ALaterRendererThatDoesNotStartIsTheErrorOfThePicture) {
       if (before > 0) throw RenderError("no second context");
       return std::make_unique<FakeRenderer>([&](const auto&...) { has_failed.wait(); });
     });
-    const FuturePicture pictures[] = {pool.Draw(ShotOf(1)), pool.Draw(ShotOf(2))};
+    const FuturePicture pictures[] = {pool.Draw(CountedShot(1)), pool.Draw(CountedShot(2))};
     int errors = 0;
     for (const FuturePicture& picture : pictures) {
       try {
@@ -122,12 +123,12 @@ TEST(DrawPool, ItsEndWaitsForThePictureBeingDrawnAndForNoOther) {
     std::promise<void> started, go_on;
     std::shared_future<void> may_go_on = go_on.get_future().share();
     std::optional<DrawPool> pool;
-    pool.emplace(1, 3, Fake([&](const auto&...) {
+    pool.emplace(1, 3, FakeRenderers([&](const auto&...) {
                    started.set_value();
                    may_go_on.wait();
                  }));
-    const FuturePicture drawn = pool->Draw(ShotOf(1)), left = pool->Draw(ShotOf(2)),
-                        last = pool->Draw(ShotOf(3));
+    const FuturePicture drawn = pool->Draw(CountedShot(1)), left = pool->Draw(CountedShot(2)),
+                        last = pool->Draw(CountedShot(3));
     started.get_future().wait();
     auto end = std::async(std::launch::async, [&] { pool.reset(); });
     EXPECT_THROW(left.get(), std::future_error);
@@ -135,7 +136,7 @@ TEST(DrawPool, ItsEndWaitsForThePictureBeingDrawnAndForNoOther) {
     EXPECT_EQ(drawn.wait_for(std::chrono::seconds(0)), std::future_status::timeout);
     go_on.set_value();
     end.get();
-    EXPECT_EQ(LevelOf(drawn), 1) << "a picture outlives its pool";
+    EXPECT_EQ(FirstLevel(drawn), 1) << "a picture outlives its pool";
   });
 }
 

@@ -4,9 +4,14 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <future>
+#include <map>
+#include <memory>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -26,20 +31,20 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr int kWidth = 64, kHeight = 48;
-constexpr std::array<const char*, 4> kClips = {"a.mp4", "a.webm", "a.webp", "a.gif"};
+constexpr int kSinkWidth = 64, kSinkHeight = 48;
+constexpr std::array<const char*, 4> kClipNames = {"a.mp4", "a.webm", "a.webp", "a.gif"};
 
-render::View SmallView() {
+render::View SinkView() {
   render::View view;
-  view.width = kWidth;
-  view.height = kHeight;
+  view.width = kSinkWidth;
+  view.height = kSinkHeight;
   return view;
 }
 
 // Grey of one level.
-PicturePtr Grey(std::uint8_t level) {
+PicturePtr GreyPicture(std::uint8_t level) {
   auto picture = std::make_shared<DrawnPicture>();
-  render::SetSize(*picture, kWidth, kHeight);
+  render::SetSize(*picture, kSinkWidth, kSinkHeight);
   std::fill(picture->rgba.begin(), picture->rgba.end(), level);
   for (std::size_t i = 3; i < picture->rgba.size(); i += 4) picture->rgba[i] = 255;
   picture->layer = "over it";
@@ -47,40 +52,40 @@ PicturePtr Grey(std::uint8_t level) {
 }
 
 // What no encoder makes small.
-PicturePtr Noise() {
-  auto picture = std::make_shared<DrawnPicture>(*Grey(0));
+PicturePtr NoisePicture() {
+  auto picture = std::make_shared<DrawnPicture>(*GreyPicture(0));
   std::mt19937 random(7);
   for (std::uint8_t& value : picture->rgba) value = static_cast<std::uint8_t>(random());
   for (std::size_t i = 3; i < picture->rgba.size(); i += 4) picture->rgba[i] = 255;
   return picture;
 }
 
-FuturePicture Ready(PicturePtr picture) {
+FuturePicture ReadyPicture(PicturePtr picture) {
   std::promise<PicturePtr> promise;
   promise.set_value(std::move(picture));
   return promise.get_future().share();
 }
 
-FuturePicture Failed(const std::string& why) {
+FuturePicture FailedPicture(const std::string& why) {
   std::promise<PicturePtr> promise;
   promise.set_exception(std::make_exception_ptr(std::runtime_error(why)));
   return promise.get_future().share();
 }
 
 // Names the number and where the camera is.
-std::map<std::string, std::string> Facts(const render::Camera& camera, long k) {
+std::map<std::string, std::string> FactsOfPicture(const render::Camera& camera, long k) {
   return {{"comment", "number " + std::to_string(k) + " from " +
                           std::to_string(std::lround(camera.position.x()))}};
 }
 
-render::Camera From(double x) {
+render::Camera CameraAt(double x) {
   render::Camera camera;
   camera.position.x() = x;
   return camera;
 }
 
 template <class Action>
-std::string Complaint(Action&& action) {
+std::string SinkError(Action&& action) {
   try {
     action();
   } catch (const std::runtime_error& error) {
@@ -108,14 +113,14 @@ class ShortDisk {
 
 TEST(OutputSink, APictureIsThereWhenItIsWhole) {
   const TempFolder folder;
-  const auto sink = MakePngSink(folder / "a.png", 1, Facts, folder / "a.svg");
+  const auto sink = MakePngSink(folder / "a.png", 1, FactsOfPicture, folder / "a.svg");
   std::promise<PicturePtr> picture;
-  sink->Put(0, picture.get_future().share(), From(3));
+  sink->Put(0, picture.get_future().share(), CameraAt(3));
   EXPECT_THAT(folder.Names(), IsEmpty()) << "it is not even drawn";
-  picture.set_value(Grey(120));
+  picture.set_value(GreyPicture(120));
   sink->Finish();
   EXPECT_THAT(folder.Names(), ElementsAre("a.png", "a.svg"));
-  EXPECT_EQ(render::ReadPng(folder / "a.png").rgba, Grey(120)->rgba);
+  EXPECT_EQ(render::ReadPng(folder / "a.png").rgba, GreyPicture(120)->rgba);
   EXPECT_EQ(render::ReadPngText(folder / "a.png").at("comment"), "number 0 from 3");
   EXPECT_EQ(ReadFile(folder / "a.svg"), "over it");
 }
@@ -123,12 +128,12 @@ TEST(OutputSink, APictureIsThereWhenItIsWhole) {
 TEST(OutputSink, ASequenceIsNumberedInWhateverOrderItIsDrawn) {
   const TempFolder folder;
   std::vector<std::promise<PicturePtr>> pictures(7);
-  const auto sink = MakePngSink(folder / "%03d.png", 3, Facts);
+  const auto sink = MakePngSink(folder / "%03d.png", 3, FactsOfPicture);
   for (std::size_t k = 0; k < pictures.size(); ++k) {
-    sink->Put(static_cast<long>(k), pictures[k].get_future().share(), From(1));
+    sink->Put(static_cast<long>(k), pictures[k].get_future().share(), CameraAt(1));
   }
   for (std::size_t k = pictures.size(); k-- > 0;) {
-    pictures[k].set_value(Grey(static_cast<std::uint8_t>(30 * k)));
+    pictures[k].set_value(GreyPicture(static_cast<std::uint8_t>(30 * k)));
   }
   sink->Finish();
   EXPECT_EQ(folder.Names().size(), pictures.size());
@@ -140,11 +145,12 @@ TEST(OutputSink, ASequenceIsNumberedInWhateverOrderItIsDrawn) {
 }
 
 TEST(OutputSink, AClipOfAnyFormatIsThereWithAllPicturesOnceItIsFinished) {
-  for (const char* name : kClips) {
+  for (const char* name : kClipNames) {
     const TempFolder folder;
-    const auto sink = MakeClipSink(folder / name, SmallView(), {}, Facts);
+    const auto sink = MakeClipSink(folder / name, SinkView(), {}, FactsOfPicture);
     for (int k = 0; k < 3; ++k) {
-      sink->Put(k, Ready(Grey(static_cast<std::uint8_t>(60 * (k + 1)))), From(k + 4));
+      sink->Put(k, ReadyPicture(GreyPicture(static_cast<std::uint8_t>(60 * (k + 1)))),
+                CameraAt(k + 4));
     }
     EXPECT_THAT(folder.Names(), IsEmpty()) << name;
     sink->Finish();
@@ -161,20 +167,21 @@ TEST(OutputSink, AClipOfAnyFormatIsThereWithAllPicturesOnceItIsFinished) {
 }
 
 TEST(OutputSink, WhatIsNotFinishedLeavesNothing) {
-  for (const char* name : kClips) {
+  for (const char* name : kClipNames) {
     const TempFolder folder;
-    MakeClipSink(folder / name, SmallView(), {}, Facts)->Put(0, Ready(Grey(9)), From(1));
+    MakeClipSink(folder / name, SinkView(), {}, FactsOfPicture)
+        ->Put(0, ReadyPicture(GreyPicture(9)), CameraAt(1));
     EXPECT_THAT(folder.Names(), IsEmpty()) << name;
   }
 }
 
 TEST(OutputSink, APictureThatFailsIsTheErrorAndLeavesNoHalfFile) {
-  for (const char* name : kClips) {
+  for (const char* name : kClipNames) {
     const TempFolder folder;
-    const auto sink = MakeClipSink(folder / name, SmallView(), {}, Facts);
-    EXPECT_EQ(Complaint([&] {
-                sink->Put(0, Ready(Grey(9)), From(1));
-                sink->Put(1, Failed("the driver fails"), From(1));
+    const auto sink = MakeClipSink(folder / name, SinkView(), {}, FactsOfPicture);
+    EXPECT_EQ(SinkError([&] {
+                sink->Put(0, ReadyPicture(GreyPicture(9)), CameraAt(1));
+                sink->Put(1, FailedPicture("the driver fails"), CameraAt(1));
                 sink->Finish();
               }),
               "the driver fails")
@@ -182,10 +189,10 @@ TEST(OutputSink, APictureThatFailsIsTheErrorAndLeavesNoHalfFile) {
     EXPECT_THAT(folder.Names(), IsEmpty()) << name;
   }
   const TempFolder folder;
-  const auto sink = MakePngSink(folder / "%d.png", 1, Facts);
-  EXPECT_EQ(Complaint([&] {
-              sink->Put(0, Ready(Grey(9)), From(1));
-              sink->Put(1, Failed("the driver fails"), From(1));
+  const auto sink = MakePngSink(folder / "%d.png", 1, FactsOfPicture);
+  EXPECT_EQ(SinkError([&] {
+              sink->Put(0, ReadyPicture(GreyPicture(9)), CameraAt(1));
+              sink->Put(1, FailedPicture("the driver fails"), CameraAt(1));
               sink->Finish();
             }),
             "the driver fails");
@@ -199,10 +206,10 @@ TEST(OutputSink, AFullDiskIsAnErrorWithTheNameAndLeavesNoHalfFile) {
     {
       const ShortDisk disk(512);
       const bool is_clip = render::ClipFormatOf(name).has_value();
-      const auto sink = is_clip ? MakeClipSink(folder / name, SmallView(), {}, Facts)
-                                : MakePngSink(folder / name, 1, Facts);
-      complaint = Complaint([&] {
-        sink->Put(0, Ready(Noise()), From(1));
+      const auto sink = is_clip ? MakeClipSink(folder / name, SinkView(), {}, FactsOfPicture)
+                                : MakePngSink(folder / name, 1, FactsOfPicture);
+      complaint = SinkError([&] {
+        sink->Put(0, ReadyPicture(NoisePicture()), CameraAt(1));
         sink->Finish();
       });
     }
@@ -214,14 +221,14 @@ TEST(OutputSink, AFullDiskIsAnErrorWithTheNameAndLeavesNoHalfFile) {
 TEST(OutputSink, SaysWhereItCannotWrite) {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "a.png");
-  const auto sink = MakePngSink(folder / "a.png", 1, Facts);
-  sink->Put(0, Ready(Grey(9)), From(1));
-  EXPECT_THAT(Complaint([&] { sink->Finish(); }), HasSubstr("a.png: Is a directory"));
+  const auto sink = MakePngSink(folder / "a.png", 1, FactsOfPicture);
+  sink->Put(0, ReadyPicture(GreyPicture(9)), CameraAt(1));
+  EXPECT_THAT(SinkError([&] { sink->Finish(); }), HasSubstr("a.png: Is a directory"));
 
   render::VideoOptions too_fast;
   too_fast.rate = {60, 1};
-  const auto clip = MakeClipSink(folder / "a.gif", SmallView(), too_fast, Facts);
-  EXPECT_THROW(clip->Put(0, Ready(Grey(9)), From(1)), UsageError);
+  const auto clip = MakeClipSink(folder / "a.gif", SinkView(), too_fast, FactsOfPicture);
+  EXPECT_THROW(clip->Put(0, ReadyPicture(GreyPicture(9)), CameraAt(1)), UsageError);
 }
 
 }  // namespace

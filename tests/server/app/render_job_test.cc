@@ -26,7 +26,7 @@ using kinescope::testing::ReadFile;
 using kinescope::testing::TempFolder;
 using kinescope::testing::WithDeadline;
 
-RenderOptions SmallPictures(const std::string& source, const std::vector<std::string>& outs) {
+RenderOptions SmallJob(const std::string& source, const std::vector<std::string>& outs) {
   RenderOptions options;
   options.sources = {source};
   options.outs = outs;
@@ -35,8 +35,8 @@ RenderOptions SmallPictures(const std::string& source, const std::vector<std::st
   return options;
 }
 
-std::vector<OutputResult> Render(const RenderOptions& options, std::size_t most_pictures,
-                                 FakeRenderer::OnDraw on_draw = nullptr) {
+std::vector<OutputResult> RenderFaked(const RenderOptions& options, std::size_t most_pictures,
+                                      FakeRenderer::OnDraw on_draw = nullptr) {
   DrawPool pool(1, most_pictures, [&] { return std::make_unique<FakeRenderer>(on_draw); });
   JobSettings settings;
   settings.sidecar = false;
@@ -47,11 +47,11 @@ TEST(RenderJob, AnyNumberOfStillsNeedsRoomForOnePictureAlone) {
   for (const char* layer : {"", "svg"}) {
     const TempFolder folder;
     RenderOptions options =
-        SmallPictures("demo:lift", {folder / "{camera}.png", folder / "{camera}_again.png"});
+        SmallJob("demo:lift", {folder / "{camera}.png", folder / "{camera}_again.png"});
     options.view.camera = "front,back,left,right,top,iso,three_quarter";
     options.moment.overlay_layer = layer;
     std::vector<OutputResult> results;
-    WithDeadline([&] { results = Render(options, 1); });
+    WithDeadline([&] { results = RenderFaked(options, 1); });
     ASSERT_EQ(results.size(), 14u);
     std::map<int, int> files_of;  // by number of the picture
     for (const OutputResult& result : results) {
@@ -71,31 +71,31 @@ TEST(RenderJob, AnyNumberOfStillsNeedsRoomForOnePictureAlone) {
 TEST(RenderJob, StillsBesideAClipNeedNoMoreRoom) {
   const TempFolder folder;
   RenderOptions options =
-      SmallPictures("demo:lift", {folder / "{camera}.png", folder / "{camera}_%02d.png"});
+      SmallJob("demo:lift", {folder / "{camera}.png", folder / "{camera}_%02d.png"});
   options.view.camera = "front,left,top";
   options.moment.time = 0.05;
   options.clip.seconds = 0.1;
-  WithDeadline([&] { Render(options, 1); });
+  WithDeadline([&] { RenderFaked(options, 1); });
   EXPECT_EQ(folder.Names().size(), 3u * (1 + 3));
 }
 
 TEST(RenderJob, ALayerThatCannotBeWrittenLeavesNoPictureWithoutIt) {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "a.svg");
-  RenderOptions options = SmallPictures("demo:lift", {folder / "a.png"});
+  RenderOptions options = SmallJob("demo:lift", {folder / "a.png"});
   options.moment.overlay_layer = "svg";
-  EXPECT_THROW(Render(options, 2), std::runtime_error);
+  EXPECT_THROW(RenderFaked(options, 2), std::runtime_error);
   EXPECT_THAT(folder.Names(), ::testing::ElementsAre("a.svg"));
 }
 
 TEST(RenderJob, AGhostOfARecordingLooksAsThePersonDoes) {
   const TempFolder folder;
-  RenderOptions options = SmallPictures("demo:lift", {folder / "a.png"});
+  RenderOptions options = SmallJob("demo:lift", {folder / "a.png"});
   options.view.ghost = "demo:walk@0.5";
   options.person.model_name = "anna";
   options.person.height = 1.6;
   int drawn = 0;
-  Render(options, 2, [&](const auto&, const SceneState& state, const auto&, const auto& view) {
+  RenderFaked(options, 2, [&](const auto&, const SceneState& state, const auto&, const auto& view) {
     ++drawn;
     ASSERT_EQ(view.look.ghosts.size(), 1u);
     const urdf::HumanModel& ghost = view.look.ghosts[0].person.model->human;
