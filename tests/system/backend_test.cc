@@ -39,7 +39,7 @@ using testing::RestOfLine;
 using testing::RunProgram;
 using testing::TempFolder;
 
-constexpr std::chrono::seconds kPatience(30);
+constexpr std::chrono::seconds kPatience(60);  // only a failure takes so long
 
 ProgramResult Picture(const fs::path& out, const std::string& backend,
                       const std::vector<std::string>& environment = {}) {

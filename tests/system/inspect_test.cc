@@ -171,7 +171,7 @@ class Listening {
   explicit Listening(const std::string& url)
       : process_({"/bin/sh", "-c", "exec \"$0\" inspect \"$1\" --seconds 60 --json 2>&1",
                   KINESCOPE_PROGRAM, url}) {
-    const std::string line = process_.ReadLine(std::chrono::seconds(30)).value_or("");
+    const std::string line = process_.ReadLine(std::chrono::seconds(60)).value_or("");
     std::smatch found;
     if (std::regex_search(line, found, std::regex("://[^ ]*:([0-9]+)"))) {
       port_ = std::stoi(found[1].str());
@@ -185,7 +185,7 @@ class Listening {
   Json Stop() {
     process_.Signal(SIGINT);
     std::string text;
-    while (const auto line = process_.ReadLine(std::chrono::seconds(30))) {
+    while (const auto line = process_.ReadLine(std::chrono::seconds(60))) {
       // Before it comes what the program said of connections.
       if (!text.empty() || line->substr(0, 1) == "{") text += *line + "\n";
     }

@@ -30,6 +30,8 @@ using kinescope_ros::JointLoadArray;
 
 class LoadsOverRos : public testing::RosProgram {
  protected:
+  static constexpr std::int32_t kPatienceMillis = std::chrono::milliseconds(kPatience).count();
+
   void StartBridge(const std::string& source) {
     program_ = Start("bridge --ros required --mass 70 --source " + source);
     Hear<JointLoadArray>("/kinescope/joint_loads", [this](const auto& m) { loads_ = m; });
@@ -175,7 +177,7 @@ TEST_F(LoadsOverRos, WhatAHandHoldsIsToldByServiceAndByTopic) {
   EXPECT_EQ(held.count("held"), 0u);
   kinescope_ros::SetHandLoad order;
   order.request.right_kg = 500;
-  ASSERT_TRUE(ros::service::waitForService("/kinescope/set_hand_load", 10'000));
+  ASSERT_TRUE(ros::service::waitForService("/kinescope/set_hand_load", kPatienceMillis));
   ASSERT_TRUE(ros::service::call("/kinescope/set_hand_load", order));
   EXPECT_FALSE(order.response.success);
   EXPECT_NE(order.response.message.find("500"), std::string::npos) << order.response.message;
@@ -203,12 +205,9 @@ TEST_F(LoadsOverRos, WhatAHandHoldsIsToldByServiceAndByTopic) {
 
 TEST_F(LoadsOverRos, InputsAreHeardAgainByAMasterThatWasRestarted) {
   StartBridge("demo:t_pose");
-  const std::string uri = ros::master::getURI();
-  const std::string port = uri.substr(uri.rfind(':') + 1);
   master_.reset();
-  master_ = std::make_unique<testing::Process>(std::vector<std::string>{
-      KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", port.substr(0, port.find('/'))});
-  ASSERT_TRUE(ros::service::waitForService("/kinescope/set_hand_load", 30'000));
+  StartMaster();
+  ASSERT_TRUE(ros::service::waitForService("/kinescope/set_hand_load", kPatienceMillis));
   kinescope_ros::SetHandLoad order;
   order.request.left_kg = 3;
   ASSERT_TRUE(ros::service::call("/kinescope/set_hand_load", order));

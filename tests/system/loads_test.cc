@@ -301,7 +301,7 @@ TEST(LoadsCommand, LeavesNothingBehindWhenItIsStopped) {
                           folder / "loads.csv", "--json", "-"});
   ASSERT_TRUE(child.ReadLine(std::chrono::seconds(60)));  // it has begun to write
   child.Signal(SIGINT);
-  while (child.ReadLine(std::chrono::seconds(30))) {  // until it has ended
+  while (child.ReadLine(std::chrono::seconds(60))) {  // until it has ended
   }
   EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
 }

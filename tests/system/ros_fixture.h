@@ -23,19 +23,17 @@ namespace kinescope::testing {
 class RosProgram : public ::testing::Test {
  protected:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::seconds kPatience{30};  // only a failure takes so long
+  static constexpr std::chrono::seconds kPatience{60};  // only a failure takes so long
 
   void SetUp() override {
     if (ros::isInitialized()) GTEST_SKIP() << "needs a process of its own: run it through ctest";
-    const int port = FreePort();
     setenv("ROS_HOME", folder_.path().c_str(), 1);
     setenv("ROS_LOG_DIR", folder_.path().c_str(), 1);
     setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1);
-    setenv("ROS_MASTER_URI", fmt::format("http://127.0.0.1:{}", port).c_str(), 1);
+    setenv("ROS_MASTER_URI", fmt::format("http://127.0.0.1:{}", port_.number()).c_str(), 1);
     setenv("ROS_IP", "127.0.0.1", 1);
     unsetenv("ROS_HOSTNAME");
-    master_ = std::make_unique<Process>(std::vector<std::string>{
-        KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", std::to_string(port)});
+    StartMaster();
     std::string name = "listening_test";
     char* arguments[] = {name.data(), nullptr};
     int count = 1;
@@ -45,6 +43,12 @@ class RosProgram : public ::testing::Test {
     }
     ASSERT_TRUE(ros::master::check()) << "the master does not start";
     node_ = std::make_unique<ros::NodeHandle>();
+  }
+
+  /// At the same place whenever it is started.
+  void StartMaster() {
+    master_ = std::make_unique<Process>(std::vector<std::string>{
+        KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", std::to_string(port_.number())});
   }
 
   /// A kinescope process whose log can be read line by line.
@@ -90,6 +94,7 @@ class RosProgram : public ::testing::Test {
                                                      ros::TransportHints().tcpNoDelay()));
   }
 
+  const FreePort port_;  // the master's
   TempFolder folder_;
   std::unique_ptr<Process> master_;
   std::unique_ptr<ros::NodeHandle> node_;

@@ -15,7 +15,7 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::chrono::seconds kPatience{30};  // only a failure takes so long
+constexpr std::chrono::seconds kPatience{60};  // only a failure takes so long
 
 std::shared_ptr<const SceneState> SceneAt(std::int64_t stamp_nanos) {
   auto scene = std::make_shared<SceneState>();

@@ -25,7 +25,7 @@ namespace websocket = boost::beast::websocket;
 using asio::ip::tcp;
 using Error = boost::system::error_code;
 
-constexpr std::chrono::seconds kPatience{10};
+constexpr std::chrono::seconds kPatience{60};  // only a failure takes so long
 
 // Runs what was started on `io`, and nothing else, to its end.
 void Finish(asio::io_context& io, const bool& done, const char* what) {

@@ -1,5 +1,5 @@
 /// HTTP and WebSocket as a test's client speaks them: real sockets on 127.0.0.1, and every wait
-/// ends after 10 s with an exception that says what was waited for.
+/// ends after 60 s with an exception that says what was waited for.
 #pragma once
 
 #include <cstdint>
@@ -49,8 +49,8 @@ class WsClient {
   Message ReceivePicture();
   /// The next text message that has `key`.
   nlohmann::json ReceiveText(const std::string& key);
-  /// True once the server has closed the connection; what comes before is dropped. False after 10
-  /// s.
+  /// True once the server has closed the connection; what comes before is dropped. False after
+  /// 60 s.
   bool WaitForClose();
 
   void Send(const std::string& text);

@@ -30,6 +30,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 inline constexpr std::int64_t kEpochNanos = 1'700'000'000'000'000'000;
+inline constexpr std::chrono::seconds kMasterPatience{60};  // only a failure takes so long
 inline constexpr auto kPeriod = std::chrono::nanoseconds(1s) / 240;
 
 class RosBridgeWithMaster : public ::testing::Test {
@@ -41,7 +42,7 @@ class RosBridgeWithMaster : public ::testing::Test {
     folder_ = folder;
     setenv("ROS_HOME", folder.c_str(), 1);
     setenv("ROS_LOG_DIR", folder.c_str(), 1);
-    setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + std::to_string(port_)).c_str(), 1);
+    setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + std::to_string(port_.number())).c_str(), 1);
     setenv("ROS_IP", "127.0.0.1", 1);
     unsetenv("ROS_HOSTNAME");
     std::vector<std::string> words = {"test", "left", "_udp_port:=8001", "_tf:=tree", "right"};
@@ -61,15 +62,17 @@ class RosBridgeWithMaster : public ::testing::Test {
 
   void StartMaster() {
     master_ = std::make_unique<testing::Process>(std::vector<std::string>{
-        KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", std::to_string(port_)});
-    ASSERT_TRUE(Within(20s, [] { return MasterIsReachable(); })) << "rosmaster does not come up";
+        KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", std::to_string(port_.number())});
+    ASSERT_TRUE(Within(kMasterPatience, [] { return MasterIsReachable(); }))
+        << "rosmaster does not come up";
   }
   void KillMaster() { master_.reset(); }
 
   void MakeBridge(BridgeConfig config = {}) { bridge_ = MakeRosBridge(config, RosMode::kAuto); }
 
   // Publishes a new sample every 1/240 s until `done` or the deadline.
-  bool PublishUntil(const std::function<bool()>& done, std::chrono::seconds limit = 20s) {
+  bool PublishUntil(const std::function<bool()>& done,
+                    std::chrono::seconds limit = kMasterPatience) {
     const auto deadline = Clock::now() + limit;
     for (auto next = Clock::now(); Clock::now() < deadline; next += kPeriod) {
       if (done()) return true;
@@ -123,9 +126,9 @@ class RosBridgeWithMaster : public ::testing::Test {
     for (const char* topic :
          {"/kinescope/com", "/kinescope/com_stamped", "/kinescope/cop", "/kinescope/joint_states",
           "/kinescope/link_states", "/kinescope/markers", "/tf"}) {
-      EXPECT_EQ(listener.ReadLine(20s).value_or("nothing"), topic + all + all + " 0");
+      EXPECT_EQ(listener.ReadLine(kMasterPatience).value_or("nothing"), topic + all + all + " 0");
     }
-    EXPECT_EQ(listener.ReadLine(20s).value_or("nothing"),
+    EXPECT_EQ(listener.ReadLine(kMasterPatience).value_or("nothing"),
               description == Description::kThere ? "urdf 67 66" : "urdf 0 0");
   }
 
@@ -139,7 +142,7 @@ class RosBridgeWithMaster : public ::testing::Test {
     return true;
   }
 
-  const int port_ = testing::FreePort();
+  const testing::FreePort port_;  // the master's
   std::filesystem::path folder_;
   std::vector<std::string> remaining_;  // of argv, after InitRos
   std::shared_ptr<const PersonModel> model_ = testing::MakeModel();

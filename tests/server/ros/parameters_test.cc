@@ -28,15 +28,16 @@ TEST_F(RosBridgeWithMaster, DescribesEveryPersonAndDescribesAnewWhoeverChanges) 
     return reply.code == MasterReply::Code::kGood ? static_cast<std::string>(reply.value)
                                                   : std::string();
   };
-  EXPECT_TRUE(Within(20s, [&] { return parameter("/robot_description") == model_->urdf_xml; }))
-      << "nobody is there yet: the initial one";
+  EXPECT_TRUE(Within(kMasterPatience, [&] {
+    return parameter("/robot_description") == model_->urdf_xml;
+  })) << "nobody is there yet: the initial one";
 
   const auto anna = MakeModel("anna", 1.6, 7);
   SceneState state = SceneWith(MakePerson(MakeModel("skeleton", 1.9, 2), Posture(0), 1, 1));
   state.people.push_back(MakePerson(anna, Posture(1), 1, 1));
   state.people[1].character = 3;
   Publish(state);
-  EXPECT_TRUE(Within(20s, [&] {
+  EXPECT_TRUE(Within(kMasterPatience, [&] {
     return parameter("/robot_description") == state.people[0].model->urdf_xml &&
            parameter("/anna/robot_description") == anna->urdf_xml;
   }));
@@ -85,7 +86,7 @@ TEST_F(RosBridgeWithMaster, ReadsPrivateParametersOfAnyScalarTypeAndPrefersTheCo
   MakeBridge();  // shows the arguments to `rosparam get`
   XmlRpc::XmlRpcValue arguments;
   arguments[0] = "/kinescope/udp_port";
-  EXPECT_TRUE(Within(20s, [&] {
+  EXPECT_TRUE(Within(kMasterPatience, [&] {
     MasterReply reply = MasterClient().Call("getParam", arguments);
     return reply.code == MasterReply::Code::kGood && static_cast<int>(reply.value) == 8001;
   }));

@@ -68,7 +68,7 @@ class Listener {
 
   void Report(std::int64_t first, std::int64_t last) {
     std::unique_lock<std::mutex> lock(mutex_);
-    came_.wait_for(lock, std::chrono::seconds(10), [&] {
+    came_.wait_for(lock, std::chrono::seconds(30), [&] {
       for (const auto& [topic, heard] : heard_) {
         if (heard.stamps.back() <= last) return false;
       }
