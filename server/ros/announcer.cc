@@ -168,12 +168,17 @@ void Announcer::Run() {
   } while (WaitForNext());
 }
 
+// A master that was restarted while we registered knows us by what came last, and nothing of what
+// came before: roscpp waits for a master and goes on with the next. So it must be the same process,
+// too.
 bool Announcer::MasterKnowsUs(bool& answers) {
   const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
   const Standing standing = master_.AskStanding(our_uri, kMasterPatience);
-  answers = standing != Standing::kNoAnswer;
   if (standing == Standing::kNameTaken) StopForGood("another node that took our name");
-  return standing == Standing::kKnown;
+  const std::optional<int> pid =
+      standing == Standing::kNoAnswer ? std::nullopt : master_.AskPid(kMasterPatience);
+  answers = pid.has_value();
+  return answers && std::exchange(master_pid_, pid) == pid && standing == Standing::kKnown;
 }
 
 void Announcer::Start() {

@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <thread>
@@ -111,7 +112,8 @@ class Announcer {
 
   // The thread's own.
   MasterClient master_;
-  std::unique_ptr<ros::NodeHandle> node_;           // private names; null before a master answered
+  std::optional<int> master_pid_;          // of the master that all that follows was said to
+  std::unique_ptr<ros::NodeHandle> node_;  // private names; null before a master answered
   std::map<std::string, std::string> topic_types_;  // all that we advertised, by name
   std::set<std::string> registered_;                // of these, what this master has accepted
   std::map<std::string, std::shared_ptr<ForceBox>> boxes_;  // by prefix; all that we take in

@@ -42,6 +42,12 @@ Standing MasterClient::AskStanding(const std::string& our_uri, std::chrono::mill
   return static_cast<std::string>(reply.value) == our_uri ? Standing::kKnown : Standing::kNameTaken;
 }
 
+std::optional<int> MasterClient::AskPid(std::chrono::milliseconds timeout) {
+  MasterReply reply = Call("getPid", XmlRpcValue(), timeout);
+  if (reply.code == MasterReply::Code::kNoAnswer) return std::nullopt;
+  return reply.value.getType() == XmlRpcValue::TypeInt ? static_cast<int>(reply.value) : 0;
+}
+
 MasterReply MasterClient::Call(const char* method, const XmlRpcValue& arguments,
                                std::chrono::milliseconds timeout) {
   XmlRpcValue all;

@@ -6,6 +6,7 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace kinescope::ros_bridge {
@@ -46,10 +47,13 @@ class MasterClient {
   MasterReply Call(const char* method, const XmlRpc::XmlRpcValue& arguments,
                    std::chrono::milliseconds timeout = std::chrono::seconds(1));
 
-  /// "Does it know us" and not "is it another process": that also finds a master restarted under
-  /// the same process number, as in a container, and one that `rosnode cleanup` made forget us.
+  /// Whether it knows us: that finds a master restarted under the same process number, as in a
+  /// container, and one that `rosnode cleanup` made forget us.
   /// `our_uri`: of our own server; "" before there is one.
   Standing AskStanding(const std::string& our_uri, std::chrono::milliseconds timeout);
+
+  /// Its process number; 0 from one that does not tell, nullopt without an answer.
+  std::optional<int> AskPid(std::chrono::milliseconds timeout);
 
  private:
   std::string host_;

@@ -154,7 +154,7 @@ TEST(Measurements, OfAHandThatStopLeaveItUnknownUntilItsLoadIsTold) {
   const PersonState stopped = wired.RunOneSecond().people[0];
   EXPECT_EQ(LoadOf(stopped, urdf::jRightElbow).load_class, LoadClass::kUnknown);
   EXPECT_NE(LoadOf(stopped, urdf::jRightElbow).reason, "");
-  EXPECT_TRUE(wired.told.Tell(0, InRightHand(0)));
+  EXPECT_EQ(wired.told.Tell(0, InRightHand(0)), "");
   const PersonState told = wired.RunOneSecond().people[0];
   EXPECT_EQ(LoadOf(told, urdf::jRightElbow).load_class, LoadClass::kLow)
       << LoadOf(told, urdf::jRightElbow).reason;
@@ -178,7 +178,7 @@ TEST(Measurements, OfTheCopAloneMoveItAndKeepTheForceOfTheMotion) {
 
 TEST(Exposure, OfARunIsInItsStates) {
   Wired wired;
-  EXPECT_TRUE(wired.told.Tell(0, InRightHand(2)));
+  EXPECT_EQ(wired.told.Tell(0, InRightHand(2)), "");
   wired.RunOneSecond();
   const PersonState& person = wired.RunOneSecond().people[0];
   double sum = 0;
