@@ -4,6 +4,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkOutputWindow.h>
 #include <vtkSmartPointer.h>
+#include <vtkTimerLog.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -79,6 +80,8 @@ void LogGlMessages(OnceLog& log) {
 VtkLogScope::VtkLogScope(const LogLine& log) : outer_(current_log) {
   static const bool installed = [] {
     vtkOutputWindow::SetInstance(vtkSmartPointer<LineWindow>::New());
+    // A list of the process, written into at every picture by whoever draws, without a lock.
+    vtkTimerLog::LoggingOff();
     return true;
   }();
   static_cast<void>(installed);

@@ -3,10 +3,12 @@
 #include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <link.h>
 
 #include <cmath>
 #include <condition_variable>
 #include <cstdlib>
+#include <cstring>
 #include <limits>
 #include <mutex>
 #include <thread>
@@ -404,6 +406,26 @@ TEST(Renderer, WarningsOfOpenGlComeToTheLogOnceAndInOneLine) {
   for (int i = 0; i < 2; ++i) insert(kByApplication, kError, 7, kHigh, -1, "out of\n  memory");
   insert(kByApplication, kError, 8, kNotice, -1, "a shader was recompiled");
   EXPECT_THAT(log, ::testing::ElementsAre("gl: error: out of memory"));
+}
+
+// VTK notes every step of drawing in one list of the process, without a lock: two threads that draw
+// lose its strings or write into freed ones.
+TEST(Renderer, LeavesTheListThatVtksRenderersShareEmpty) {
+  const auto renderer = MakeRenderer();
+  renderer->Render(EmptyScene(), Camera(), SmallView());
+  std::string path;  // of the library, which the module alone is linked with
+  const auto find = [](dl_phdr_info* library, std::size_t /*size*/, void* found) {
+    if (std::strstr(library->dlpi_name, "libvtkCommonSystem") == nullptr) return 0;
+    *static_cast<std::string*>(found) = library->dlpi_name;
+    return 1;
+  };
+  ASSERT_EQ(::dl_iterate_phdr(find, &path), 1);
+  void* vtk = ::dlopen(path.c_str(), RTLD_LAZY | RTLD_NOLOAD);
+  ASSERT_NE(vtk, nullptr);
+  const auto count =
+      reinterpret_cast<int (*)()>(::dlsym(vtk, "_ZN11vtkTimerLog17GetNumberOfEventsEv"));
+  ASSERT_NE(count, nullptr);
+  EXPECT_EQ(count(), 0);
 }
 
 TEST(Watchdog, SpeaksOnceOfWorkThatTakesTooLongAndNotOfOther) {
