@@ -20,7 +20,7 @@ const FLAGS = [
   '--enable-unsafe-swiftshader', '--disable-background-networking', '--disable-component-update',
   '--disable-sync', '--no-first-run', '--mute-audio',
 ];
-const START_MILLIS = 20000;
+const PATIENCE_MILLIS = 60000;  // only a failure takes so long
 
 let browser = null;
 
@@ -31,7 +31,7 @@ async function launch() {
   const { chromium } = await import('playwright-core').catch(() => {
     throw new Error('playwright-core is missing: npm ci --prefix tests/browser');
   });
-  return chromium.launch({ executablePath: CHROMIUM, args: FLAGS, timeout: 2 * START_MILLIS });
+  return chromium.launch({ executablePath: CHROMIUM, args: FLAGS, timeout: PATIENCE_MILLIS });
 }
 
 /** `work`, or an error that names `what` when it takes longer than `millis`. */
@@ -49,7 +49,7 @@ async function within(millis, what, work) {
 
 /** Call once when all tests are through. */
 export async function closeBrowser() {
-  if (browser) await within(START_MILLIS, 'closing Chromium', browser.close());
+  if (browser) await within(PATIENCE_MILLIS, 'closing Chromium', browser.close());
   browser = null;
 }
 
@@ -59,7 +59,7 @@ export async function closeBrowser() {
 export async function startServer(program, args = []) {
   const child = spawn(program, args, { stdio: ['pipe', 'pipe', 'inherit'] });
   const lines = createInterface({ input: child.stdout });
-  const timer = setTimeout(() => child.kill('SIGKILL'), START_MILLIS);
+  const timer = setTimeout(() => child.kill('SIGKILL'), PATIENCE_MILLIS);
   const [line] = await Promise.race([
     once(lines, 'line'),
     once(child, 'exit').then(() => { throw new Error(`${program} ended before it served`); }),
@@ -80,7 +80,7 @@ export async function startServer(program, args = []) {
       child.stdin.end();
       if (child.exitCode !== null || child.signalCode !== null) return;
       try {
-        await within(START_MILLIS, `the end of ${program}`, once(child, 'exit'));
+        await within(PATIENCE_MILLIS, `the end of ${program}`, once(child, 'exit'));
       } finally {
         child.kill('SIGKILL');
       }
@@ -103,9 +103,10 @@ export function startFixture(args = []) {
  *  @returns `problems`: console errors, exceptions, failed and foreign requests, as lines */
 export async function openPage(url, options = {}) {
   browser ??= await launch();
-  const context = await within(START_MILLIS, 'a new page', browser.newContext({
+  const context = await within(PATIENCE_MILLIS, 'a new page', browser.newContext({
     viewport: options.viewport ?? DESKTOP, colorScheme: options.colorScheme ?? 'light', ...options.context,
   }));
+  context.setDefaultTimeout(PATIENCE_MILLIS);
   const page = await context.newPage();
   const problems = [];
   const requests = [];

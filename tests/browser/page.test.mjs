@@ -7,9 +7,9 @@ import { after, before, test as nodeTest } from 'node:test';
 import { closeBrowser, countPixels, DESKTOP, openPage, PHONE, pixelsOf, saveScreenshot, startFixture }
   from './open_page.mjs';
 
-const LONG = { timeout: 30000 };  // a busy machine without a graphics chip
+const LONG = { timeout: 60000 };  // only a failure takes so long
 // A test that hangs ends by name instead of taking all the others with it.
-const test = (name, body) => nodeTest(name, { timeout: 90000 }, body);
+const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
 let site;
 before(async () => { site = await startFixture(); });
 after(async () => {

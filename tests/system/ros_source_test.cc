@@ -11,10 +11,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <csignal>
 #include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <thread>
 #include <vector>
@@ -41,7 +43,37 @@ using xsens_mvn_ros_msgs::LinkStateArray;
 
 class RosSource : public testing::RosProgram {
  protected:
-  // The rest of the next line that has `text` in it.
+  // What a node answers itself.
+  static XmlRpc::XmlRpcValue Ask(const std::string& node, const char* method,
+                                 const XmlRpc::XmlRpcValue* argument = nullptr) {
+    XmlRpc::XmlRpcValue arguments, reply, uri;
+    arguments[0] = ros::this_node::getName();
+    arguments[1] = node;
+    EXPECT_TRUE(ros::master::execute("lookupNode", arguments, reply, uri, false)) << node;
+    std::string host;
+    std::uint32_t port = 0;
+    EXPECT_TRUE(ros::network::splitURI(uri, host, port));
+    XmlRpc::XmlRpcValue question;
+    question[0] = ros::this_node::getName();
+    if (argument != nullptr) question[1] = *argument;
+    XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+    EXPECT_TRUE(client.execute(method, question, reply)) << method;
+    return reply;
+  }
+
+  // How many connections `node` sends `topic` over.
+  static int ReceiversOf(const std::string& node, const std::string& topic) {
+    XmlRpc::XmlRpcValue reply = Ask(node, "getBusInfo");
+    XmlRpc::XmlRpcValue& connections =
+        reply[2];  // each [id, who, "o" or "i", transport, topic, ...]
+    int count = 0;
+    for (int i = 0; i < connections.size(); ++i) {
+      const bool is_out = connections[i][2] == XmlRpc::XmlRpcValue("o");
+      count += is_out && connections[i][4] == XmlRpc::XmlRpcValue(topic) ? 1 : 0;
+    }
+    return count;
+  }
+
   // What /api/diagnostics says about the source.
   static nlohmann::json SourceAt(const std::string& page) {
     const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
@@ -228,10 +260,21 @@ TEST_F(RosSource, MeasuresTheLengthsThatTheOthersUrdfHas) {
 // Without a name of its own: it must not end the node that it looks at.
 TEST_F(RosSource, IsInspectedLikeAnyOther) {
   const auto suit = Start("bridge demo:walk --ros required");
-  const auto result =
-      RunProgram({KINESCOPE_PROGRAM, "inspect", "ros:", "--seconds", "3", "--json"});
-  ASSERT_EQ(result.exit_code, 0) << result.err;
-  const auto report = nlohmann::json::parse(result.out);
+  int heard = 0;
+  Hear<tf2_msgs::TFMessage>("/tf", [&](const auto&) { ++heard; });
+  ASSERT_TRUE(Spin([&] { return heard > 0; }));
+  Process program({"/bin/bash", "-c",
+                   "'" KINESCOPE_PROGRAM "' inspect ros: --seconds 600 --json & child=$!; trap "
+                   "'kill -INT $child' TERM; wait $child; wait $child; echo exit $?"});
+  ASSERT_TRUE(Spin([&] { return ReceiversOf("/kinescope", "/tf") == 2; })) << "we and the program";
+  const int before = heard;
+  ASSERT_TRUE(Spin([&] { return heard > before + 120; }));
+  program.Signal(SIGTERM);
+  std::string out;
+  std::optional<std::string> line = program.ReadLine(kPatience);
+  for (; line && line->rfind("exit ", 0) != 0; line = program.ReadLine(kPatience)) out += *line;
+  ASSERT_EQ(line, "exit 0");
+  const auto report = nlohmann::json::parse(out);
   EXPECT_EQ(report.at("format"), "ROS graph");
   EXPECT_EQ(report.at("live"), true);
   EXPECT_EQ(report.at("characters").at(0).at("name"), "skeleton");
@@ -240,15 +283,10 @@ TEST_F(RosSource, IsInspectedLikeAnyOther) {
 
 TEST_F(RosSource, WaitsForAMasterAndHearsTheNextPublisherAfterItsRestart) {
   const std::string uri = std::getenv("ROS_MASTER_URI");
-  const std::string port = uri.substr(uri.rfind(':') + 1);
-  const auto start_master = [&] {
-    master_ = std::make_unique<Process>(
-        std::vector<std::string>{KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", port});
-  };
   master_.reset();
   const auto view = Start("bridge ros: __name:=view");
   WaitForLine(*view, "waiting for a ROS master at " + uri);
-  start_master();
+  StartMaster();
   WaitForLine(*view, "listening, by the ROS master");
   auto suit = Start("bridge demo:lift __name:=suit");
   WaitForLine(*view, "live: 'skeleton' from ros:/tf");
@@ -257,14 +295,13 @@ TEST_F(RosSource, WaitsForAMasterAndHearsTheNextPublisherAfterItsRestart) {
   WaitForLine(*view, "ros:/tf: the ROS master at " + uri + " does not answer");
   suit.reset();  // until here it was heard without a master
   WaitForLine(*view, "stale:");
-  start_master();
+  StartMaster();
   WaitForLine(*view, "listening, by the ROS master");
   suit = Start("bridge demo:lift __name:=suit");
   WaitForLine(*view, "live: 'skeleton' from ros:/tf");
 }
 
 TEST_F(RosSource, ADeadMasterDoesNotSilenceWhoIsConnectedNorDoesANewOneThatDoesNotKnowThem) {
-  const std::string uri = std::getenv("ROS_MASTER_URI");
   // A node as most are: it registers once, and a restarted master never hears of it.
   const ros::Publisher publisher = node_->advertise<tf2_msgs::TFMessage>("/tf", 10);
   const auto view = Start("serve ros: --http_port 0 --pictures off --ros off __name:=view");
@@ -281,8 +318,7 @@ TEST_F(RosSource, ADeadMasterDoesNotSilenceWhoIsConnectedNorDoesANewOneThatDoesN
   master_.reset();
   ASSERT_TRUE(keep_publishing_until(
       [](const auto& source) { return source.at("transport").at("ros_master_answers") == 0; }));
-  master_ = std::make_unique<Process>(std::vector<std::string>{
-      KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", uri.substr(uri.rfind(':') + 1)});
+  StartMaster();
   ASSERT_TRUE(keep_publishing_until(
       [](const auto& source) { return source.at("transport").at("ros_master_answers") == 1; }));
   const int before = heard().at("datagrams");
@@ -379,16 +415,8 @@ TEST_F(RosSource, EndsWhenItsNodeIsKilled) {
     return std::count(nodes.begin(), nodes.end(), "/view") == 1;
   };
   ASSERT_TRUE(Spin(is_there));
-  XmlRpc::XmlRpcValue arguments, reply, value;
-  arguments[0] = "/listening_test";
-  arguments[1] = "/view";
-  ASSERT_TRUE(ros::master::execute("lookupNode", arguments, reply, value, false));
-  std::string host;
-  std::uint32_t port = 0;
-  ASSERT_TRUE(ros::network::splitURI(value, host, port));
-  XmlRpc::XmlRpcClient theirs(host.c_str(), static_cast<int>(port), "/");
-  arguments[1] = "user request";
-  ASSERT_TRUE(theirs.execute("shutdown", arguments, reply));
+  XmlRpc::XmlRpcValue reason("user request");
+  Ask("/view", "shutdown", &reason);
   WaitForLine(*view, "listening was ended by rosnode kill");
   WaitForLine(*view, "stopping");
 }

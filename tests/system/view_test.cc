@@ -14,7 +14,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <string>
 
 #include "render/renderer.h"
@@ -140,27 +139,27 @@ TEST_F(ViewOverRos, ShowsEveryLinkWhereFramesAndCalibrationSayItIs) {
 
 TEST_F(ViewOverRos, IsDrawnAtItsRateWhileSomebodyListensAndNotAfterwards) {
   int images = 0;
-  std::optional<ros::Time> first, last;
-  Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto& message) {
-    if (!first) first = message.header.stamp;
-    last = message.header.stamp;
-    ++images;
-  });
+  Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto&) { ++images; });
   StartServe("--view_size 64x48 --view_rate_hz 5");  // somebody waits for it already
-  ASSERT_TRUE(Spin([&] { return images >= 6; }));
-  // Five steps of 0.2 s, of which a busy machine may shorten the first; samples come at 120 Hz.
-  EXPECT_GE((*last - *first).toSec(), 0.7);
+  ASSERT_TRUE(Spin([&] { return images > 0; }));
+  const auto drawn_now = [&] { return Diagnostics("view").at("drawn").get<int>(); };
+  const auto before = Clock::now();
+  const int first = drawn_now();
+  ASSERT_TRUE(Spin([&] { return drawn_now() >= first + 6; }));
+  // Samples come at 120 Hz, pictures each 0.2 s: a busy machine may begin one late and be in time
+  // for the next, so that some of the first steps are shorter, but never that all are.
+  EXPECT_GE(Clock::now() - before, std::chrono::milliseconds(600));
   EXPECT_EQ(Diagnostics("view").at("listeners"), 1);
   subscribers_.clear();
   ASSERT_TRUE(Spin([&] { return Diagnostics("view").at("listeners") == 0; }));
-  const int drawn = Diagnostics("view").at("drawn");
+  const int drawn = drawn_now();
   const auto state = Fetch(port_, "/api/state").json();
   // More samples have come, and no picture of them.
   ASSERT_TRUE(Spin([&] {
     return Fetch(port_, "/api/state").json().at("counter").get<int>() >
            state.at("counter").get<int>() + 100;
   }));
-  EXPECT_LE(Diagnostics("view").at("drawn").get<int>(), drawn + 1) << "one was in hand";
+  EXPECT_LE(drawn_now(), drawn + 1) << "one was in hand";
 }
 
 // A wall that another program shows is in the picture, where it says it is and in its colour.
@@ -215,11 +214,8 @@ TEST_F(ViewOverRos, ComesThroughEveryTransportThatIsInstalled) {
 
 TEST_F(ViewOverRos, IsFoundAgainThroughAMasterThatWasRestarted) {
   StartServe("--view_size 64x48 --view_rate_hz 10");
-  const std::string uri = ros::master::getURI();
-  const std::string port = uri.substr(uri.rfind(':') + 1);
   master_.reset();
-  master_ = std::make_unique<testing::Process>(std::vector<std::string>{
-      KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", port.substr(0, port.find('/'))});
+  StartMaster();
   ASSERT_TRUE(Spin([] { return IsAdvertised("/kinescope/view/image_raw"); }));
   bool has_image = false;
   Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto&) { has_image = true; });
