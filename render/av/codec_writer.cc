@@ -8,6 +8,7 @@ extern "C" {
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/av/hidden_color.h"
@@ -20,6 +21,11 @@ namespace {
 // A fixed number, so that a clip does not depend on the machine: encoders decide a little
 // differently for every count of threads.
 constexpr int kEncoderThreads = 4;
+
+// x264 (build 164) works through a row of its macroblock tree in steps of eight macroblocks. In a
+// row of another length it reads on behind the end, and two clips of the same pictures differ. Such
+// clips are made without the tree.
+constexpr int kTreeStepPx = 8 * 16;
 
 struct Setting {
   const char* name;
@@ -146,6 +152,8 @@ class CodecWriter : public VideoWriter {
       Check(av_opt_set(codec_->priv_data, name, value.c_str(), 0), "configure", path_);
     };
     for (const Setting& each : recipe_.encoder_settings) set(each.name, each.value);
+    const bool is_x264 = std::string_view(recipe_.encoder) == "libx264";
+    if (is_x264 && width_ % kTreeStepPx != 0) set("x264-params", "mbtree=0");
     set("crf", std::to_string(options_.crf.value_or(recipe_.default_crf)));
     if (has_alpha_) set("auto-alt-ref", "0");  // libvpx has no alternate frames with alpha
     Check(avcodec_open2(codec_.get(), &encoder_, nullptr), "encode", path_);

@@ -230,7 +230,10 @@ TEST_P(VideoFormat, ComesBackInOrderInTimeAndWithItsComment) {
 }
 
 TEST_P(VideoFormat, TheSamePicturesAreTheSameBytes) {
-  EXPECT_EQ(ReadFile(Write("a", false)), ReadFile(Write("b", false)));
+  const std::string first = ReadFile(Write("first", false));
+  for (int again = 0; again < 8; ++again) {  // of memory that others have used
+    EXPECT_TRUE(ReadFile(Write("again", false)) == first) << "clip " << again << " differs";
+  }
 }
 
 TEST_P(VideoFormat, KeepsGlassOrSaysThatItCannot) {
