@@ -30,7 +30,7 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 inline constexpr std::int64_t kEpochNanos = 1'700'000'000'000'000'000;
-inline constexpr std::chrono::seconds kMasterPatience{60};  // only a failure takes so long
+inline constexpr std::chrono::seconds kTestPatience{60};  // only a failure takes so long
 inline constexpr auto kPeriod = std::chrono::nanoseconds(1s) / 240;
 
 class RosBridgeWithMaster : public ::testing::Test {
@@ -63,7 +63,7 @@ class RosBridgeWithMaster : public ::testing::Test {
   void StartMaster() {
     master_ = std::make_unique<testing::Process>(std::vector<std::string>{
         KINESCOPE_PYTHON, KINESCOPE_ROSMASTER, "--core", "-p", std::to_string(port_.number())});
-    ASSERT_TRUE(Within(kMasterPatience, [] { return MasterIsReachable(); }))
+    ASSERT_TRUE(Within(kTestPatience, [] { return MasterIsReachable(); }))
         << "rosmaster does not come up";
   }
   void KillMaster() { master_.reset(); }
@@ -72,7 +72,7 @@ class RosBridgeWithMaster : public ::testing::Test {
 
   // Publishes a new sample every 1/240 s until `done` or the deadline.
   bool PublishUntil(const std::function<bool()>& done,
-                    std::chrono::seconds limit = kMasterPatience) {
+                    std::chrono::seconds limit = kTestPatience) {
     const auto deadline = Clock::now() + limit;
     for (auto next = Clock::now(); Clock::now() < deadline; next += kPeriod) {
       if (done()) return true;
@@ -126,9 +126,9 @@ class RosBridgeWithMaster : public ::testing::Test {
     for (const char* topic :
          {"/kinescope/com", "/kinescope/com_stamped", "/kinescope/cop", "/kinescope/joint_states",
           "/kinescope/link_states", "/kinescope/markers", "/tf"}) {
-      EXPECT_EQ(listener.ReadLine(kMasterPatience).value_or("nothing"), topic + all + all + " 0");
+      EXPECT_EQ(listener.ReadLine(kTestPatience).value_or("nothing"), topic + all + all + " 0");
     }
-    EXPECT_EQ(listener.ReadLine(kMasterPatience).value_or("nothing"),
+    EXPECT_EQ(listener.ReadLine(kTestPatience).value_or("nothing"),
               description == Description::kThere ? "urdf 67 66" : "urdf 0 0");
   }
 

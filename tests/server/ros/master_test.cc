@@ -42,7 +42,7 @@ class MarkerLog {
   // The first `count`, or however many came in time.
   std::vector<visualization_msgs::MarkerArray> WaitFor(std::size_t count) {
     std::unique_lock<std::mutex> lock(mutex_);
-    came_.wait_for(lock, kMasterPatience, [&] { return arrays_.size() >= count; });
+    came_.wait_for(lock, kTestPatience, [&] { return arrays_.size() >= count; });
     return arrays_;
   }
 

@@ -28,7 +28,7 @@ TEST_F(RosBridgeWithMaster, DescribesEveryPersonAndDescribesAnewWhoeverChanges) 
     return reply.code == MasterReply::Code::kGood ? static_cast<std::string>(reply.value)
                                                   : std::string();
   };
-  EXPECT_TRUE(Within(kMasterPatience, [&] {
+  EXPECT_TRUE(Within(kTestPatience, [&] {
     return parameter("/robot_description") == model_->urdf_xml;
   })) << "nobody is there yet: the initial one";
 
@@ -37,7 +37,7 @@ TEST_F(RosBridgeWithMaster, DescribesEveryPersonAndDescribesAnewWhoeverChanges) 
   state.people.push_back(MakePerson(anna, Posture(1), 1, 1));
   state.people[1].character = 3;
   Publish(state);
-  EXPECT_TRUE(Within(kMasterPatience, [&] {
+  EXPECT_TRUE(Within(kTestPatience, [&] {
     return parameter("/robot_description") == state.people[0].model->urdf_xml &&
            parameter("/anna/robot_description") == anna->urdf_xml;
   }));
@@ -86,7 +86,7 @@ TEST_F(RosBridgeWithMaster, ReadsPrivateParametersOfAnyScalarTypeAndPrefersTheCo
   MakeBridge();  // shows the arguments to `rosparam get`
   XmlRpc::XmlRpcValue arguments;
   arguments[0] = "/kinescope/udp_port";
-  EXPECT_TRUE(Within(kMasterPatience, [&] {
+  EXPECT_TRUE(Within(kTestPatience, [&] {
     MasterReply reply = MasterClient().Call("getParam", arguments);
     return reply.code == MasterReply::Code::kGood && static_cast<int>(reply.value) == 8001;
   }));
