@@ -20,6 +20,10 @@ const void* LoadModule(const std::string& file_name, const char* entry, const st
   // Local: a module's own GL must not become everybody's. Never closed: Mesa and LLVM leave threads
   // and exit handlers behind that must find their code.
   void* handle = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle == nullptr && !std::filesystem::exists(path)) {
+    throw RenderError("cannot load " + path.string() +
+                      ": it has not been built; build all of kinescope (cmake --build FOLDER)");
+  }
   if (handle == nullptr) {
     throw RenderError("cannot load " + path.string() + ": " + ::dlerror() +
                       "; are the packages of packages.txt installed?");

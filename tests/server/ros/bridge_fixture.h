@@ -71,8 +71,7 @@ class RosBridgeWithMaster : public ::testing::Test {
   void MakeBridge(BridgeConfig config = {}) { bridge_ = MakeRosBridge(config, RosMode::kAuto); }
 
   // Publishes a new sample every 1/240 s until `done` or the deadline.
-  bool PublishUntil(const std::function<bool()>& done,
-                    std::chrono::seconds limit = kTestPatience) {
+  bool PublishUntil(const std::function<bool()>& done, std::chrono::seconds limit = kTestPatience) {
     const auto deadline = Clock::now() + limit;
     for (auto next = Clock::now(); Clock::now() < deadline; next += kPeriod) {
       if (done()) return true;
