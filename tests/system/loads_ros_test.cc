@@ -78,10 +78,8 @@ TEST_F(LoadsOverRos, EffortsAreThoseOfKdlsNewtonEulerOnThePublishedUrdf) {
   StartBridge("demo:t_pose");
   ASSERT_TRUE(Spin(
       [&] { return frames && frames->transforms.at(0).header.stamp == joints_->header.stamp; }));
-  std::string description;
-  ASSERT_TRUE(ros::param::get("/robot_description", description));
   KDL::Tree tree;
-  ASSERT_TRUE(kdl_parser::treeFromString(description, tree));
+  ASSERT_TRUE(kdl_parser::treeFromString(WaitForParameter("/robot_description"), tree));
   KDL::Vector down(0, 0, -9.81);
   for (const auto& frame : frames->transforms) {
     if (frame.child_frame_id != "skeleton_pelvis") continue;

@@ -150,10 +150,8 @@ TEST_F(Pipeline, PublishesEverySampleOnceAtTheStreamsRate) {
         << urdf::LinkName("skeleton", i);
   }
 
-  std::string description;
-  ASSERT_TRUE(ros::param::get("/robot_description", description));
   ::urdf::Model model;
-  ASSERT_TRUE(model.initString(description));
+  ASSERT_TRUE(model.initString(WaitForParameter("/robot_description")));
   EXPECT_EQ(model.joints_.size(), 66u);
 }
 

@@ -86,6 +86,13 @@ class RosProgram : public ::testing::Test {
     return true;
   }
 
+  /// A parameter of text, once somebody has set it; topics may be there before it.
+  static std::string WaitForParameter(const std::string& name) {
+    std::string text;
+    EXPECT_TRUE(Spin([&] { return ros::param::get(name, text); })) << name;
+    return text;
+  }
+
   template <class Message, class Callback>
   void Hear(const std::string& topic, Callback on_message) {
     const boost::function<void(const boost::shared_ptr<const Message>&)> callback =

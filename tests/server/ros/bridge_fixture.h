@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "server/ros/bridge.h"
+#include "server/ros/master_client.h"
 #include "tests/free_port.h"
 #include "tests/process.h"
 #include "tests/server/ros/test_person.h"
@@ -119,6 +120,9 @@ class RosBridgeWithMaster : public ::testing::Test {
     while (pace == Pace::kBurst && counter_ < end) PublishNext();
     ASSERT_TRUE(PublishUntil([&] { return counter_ == end; }));
     const std::int64_t last = StampNow();
+    if (description == Description::kThere) {
+      EXPECT_TRUE(PublishUntil([] { return IsSet("/robot_description"); })) << "never described";
+    }
     PublishNext();  // tells the listener that nothing of the range is still under way
     listener.WriteLine("report " + std::to_string(first) + " " + std::to_string(last));
     const std::string all = " " + std::to_string(samples);
@@ -129,6 +133,13 @@ class RosBridgeWithMaster : public ::testing::Test {
     }
     EXPECT_EQ(listener.ReadLine(kTestPatience).value_or("nothing"),
               description == Description::kThere ? "urdf 67 66" : "urdf 0 0");
+  }
+
+  static bool IsSet(const std::string& parameter) {
+    XmlRpc::XmlRpcValue arguments;
+    arguments[0] = parameter;
+    const MasterReply reply = MasterClient().Call("hasParam", arguments);
+    return reply.value == XmlRpc::XmlRpcValue(true);
   }
 
   template <class Condition>

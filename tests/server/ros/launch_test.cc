@@ -20,7 +20,7 @@ std::string g_node;  // set once by main
 // The next message, or null with a failed expectation.
 template <class Message>
 boost::shared_ptr<const Message> Next(const std::string& topic) {
-  auto message = ros::topic::waitForMessage<Message>(topic, ros::Duration(30));
+  auto message = ros::topic::waitForMessage<Message>(topic, ros::Duration(60));
   EXPECT_NE(message, nullptr) << "nothing comes on " << topic;
   return message;
 }
@@ -72,8 +72,13 @@ TEST(LaunchFile, PublishesAFrameForEveryLinkOfTheDescription) {
     EXPECT_EQ(one.header.frame_id, "world");
     frames.insert(one.child_frame_id);
   }
+  std::string description;
+  const auto deadline = ros::WallTime::now() + ros::WallDuration(60);
+  while (!ros::param::get("robot_description", description)) {  // may come after the topics
+    ASSERT_LT(ros::WallTime::now(), deadline) << "no robot_description";
+  }
   urdf::Model model;
-  ASSERT_TRUE(model.initParam("robot_description"));
+  ASSERT_TRUE(model.initString(description));
   EXPECT_EQ(model.getRoot()->name, "skeleton_pelvis");
   EXPECT_EQ(frames.size(), model.links_.size());
   for (const auto& [name, link] : model.links_) EXPECT_EQ(frames.count(name), 1U) << name;
