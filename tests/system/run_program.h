@@ -15,6 +15,6 @@ struct ProgramResult {
 /// `command[0]` is a path. `environment`: "NAME=value" to add. Killed after `timeout_secs`.
 /// @throws std::runtime_error when it cannot be started.
 ProgramResult RunProgram(const std::vector<std::string>& command,
-                         const std::vector<std::string>& environment = {}, int timeout_secs = 60);
+                         const std::vector<std::string>& environment = {}, int timeout_secs = 240);
 
 }  // namespace kinescope::testing
