@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 import { Human } from './human.js';
 
-/** Whoever is away for no longer comes back without the model being loaded again: a gap in the stream, or a
+/** A person who is away for no longer comes back without the model being loaded again: a gap in the stream, or a
  *  model that is a little newer than the state shown. Server's clock. */
 const AWAY_MICROS = 10e6;
 

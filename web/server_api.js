@@ -30,7 +30,7 @@ async function jsonOf(answer, route) {
 }
 
 /** @param {Response} answer  that is not ok
- *  @returns {Promise<string>}  the server's words, or the status where they are somebody else's */
+ *  @returns {Promise<string>}  the server's message, or the status if the answer is not the server's */
 export const refusalOf = async (answer) => await ownRefusalOf(answer) ?? `HTTP status ${answer.status}`;
 
 /** @param {Response} answer  that is not ok

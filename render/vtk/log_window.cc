@@ -80,7 +80,7 @@ void LogGlMessages(OnceLog& log) {
 VtkLogScope::VtkLogScope(const LogLine& log) : outer_(current_log) {
   static const bool installed = [] {
     vtkOutputWindow::SetInstance(vtkSmartPointer<LineWindow>::New());
-    // A list of the process, written into at every picture by whoever draws, without a lock.
+    // One list per process: every drawing thread writes into it at every picture, without a lock.
     vtkTimerLog::LoggingOff();
     return true;
   }();
