@@ -32,6 +32,10 @@ NewFile::NewFile(std::filesystem::path target) : target_(std::move(target)) {
     errno = EISDIR;
     Fail("cannot write");
   }
+  if (std::filesystem::exists(target_, ignored) &&
+      !std::filesystem::is_regular_file(target_, ignored)) {
+    throw std::runtime_error("cannot write " + target_.string() + ": it is no regular file");
+  }
   constexpr mode_t kMode = 0666;  // less the umask, as any new file
   descriptor_ = ::open(FolderOf(target_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kMode);
   if (descriptor_ >= 0) return;

@@ -13,7 +13,8 @@ namespace kinescope::render {
 
 class NewFile {
  public:
-  /// @throws std::runtime_error naming `target` and why its folder takes no file.
+  /// @throws std::runtime_error naming `target` and why its folder takes no file, or that what has
+  /// this name now is a folder, a device or a pipe.
   explicit NewFile(std::filesystem::path target);
   ~NewFile();
   NewFile(const NewFile&) = delete;

@@ -73,6 +73,17 @@ TEST(NewFile, KeepsWhatIsThereUntilItIsReplacedWhole) {
   EXPECT_THAT(folder.Names(), ElementsAre("a.txt"));
 }
 
+// Root could put a file in the place of /dev/null, and everything on the machine would miss it.
+TEST(NewFile, DoesNotTakeThePlaceOfADeviceOrAPipe) {
+  const TempFolder folder;
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(NewFileError([&] { NewFile file(pipe); }),
+              AllOf(HasSubstr("cannot write " + pipe), HasSubstr("no regular file")));
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_THAT(NewFileError([] { NewFile file("/dev/null"); }), HasSubstr("no regular file"));
+}
+
 // Whoever has the old file open goes on reading the old file.
 TEST(NewFile, ReplacesTheNameAndNotTheContent) {
   const TempFolder folder;
