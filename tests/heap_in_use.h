@@ -1,16 +1,25 @@
-/// Bytes that the program has allocated and not freed, for tests of "constant memory". 0 under the
-/// sanitizers, whose heap is another.
+/// Bytes that the program has allocated and not freed, for tests of "constant memory".
 #pragma once
 
 #include <malloc.h>
 
 #include <cstddef>
 
+#include "tests/sanitized.h"
+
+#ifdef KINESCOPE_SANITIZED
+#include <sanitizer/allocator_interface.h>
+#endif
+
 namespace kinescope::testing {
 
 inline std::size_t HeapInUse() {
+#ifdef KINESCOPE_SANITIZED
+  return __sanitizer_get_current_allocated_bytes();
+#else
   const auto info = mallinfo2();
   return info.uordblks + info.hblkhd;
+#endif
 }
 
 }  // namespace kinescope::testing

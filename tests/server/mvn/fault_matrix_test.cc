@@ -13,6 +13,7 @@
 #include "server/mvn/assembler.h"
 #include "server/mvn/encode.h"
 #include "server/mvn/faults.h"
+#include "tests/sanitized.h"
 #include "tests/server/mvn/assembler_fixture.h"
 
 namespace kinescope::mvn {
@@ -388,11 +389,8 @@ class FaultMatrix : public ::testing::TestWithParam<std::tuple<Case, std::uint64
 
 // Sanitized code is many times slower, and what it looks for shows with any seed.
 std::vector<std::uint64_t> Seeds() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return {1};
-#else
+  if (kinescope::testing::kIsSanitized) return {1};
   return {1, 3, 10, 37};
-#endif
 }
 
 INSTANTIATE_TEST_SUITE_P(

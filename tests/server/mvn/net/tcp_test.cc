@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "server/mvn/net/tcp_datagrams.h"
+#include "tests/sanitized.h"
 #include "tests/server/mvn/net/net_testing.h"
 
 namespace kinescope::mvn {
@@ -203,9 +204,9 @@ TEST(TcpDatagrams, OfAFastSenderLeaveTheCallerItsTurn) {
 }
 
 TEST(TcpDatagrams, DoNotSpinWhereThereAreNoMoreDescriptors) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the sanitizer needs descriptors of its own to look at memory";
-#endif
+  if (kinescope::testing::kIsSanitized) {
+    GTEST_SKIP() << "the sanitizer needs descriptors of its own to look at memory";
+  }
   TcpDatagrams source(kListenOnLoopback);
   Client client(source.description());
   RecordingDatagrams sink;
