@@ -21,9 +21,9 @@ using testing::MakePerson;
 using testing::Posture;
 using testing::SceneWith;
 
-// Far above what publishing takes (some 0.3 ms), even on a machine that is busy with other things;
-// far below any wait for a master.
-constexpr double kLongestPublishMillis = 500;
+// Publishing waits for the lock of a connection at most; a wait for a master has no end, or one of
+// seconds.
+constexpr double kLongestWaitMillis = 500;
 
 // What comes on one topic of markers, in this process.
 class MarkerLog {
@@ -60,8 +60,8 @@ TEST_F(RosBridgeWithMaster, DeliversEverySampleAt240HzExactlyOnceOnEveryTopic) {
   MakeBridge();
   const auto listener = Listen();
   ExpectEveryOneOnce(*listener, 500);
-  EXPECT_LT(longest_publish_millis_, kLongestPublishMillis);
-  RecordProperty("longest_publish_ms", std::to_string(longest_publish_millis_));
+  EXPECT_LT(longest_wait_millis_, kLongestWaitMillis);
+  RecordProperty("longest_wait_ms", std::to_string(longest_wait_millis_));
 }
 
 TEST_F(RosBridgeWithMaster, DeliversABurstAsCompletelyAsAnEvenStream) {
@@ -98,8 +98,8 @@ TEST_F(RosBridgeWithMaster, SurvivesAMasterThatIsKilledAndRestarted) {
   EXPECT_TRUE(bridge_->status().master_reachable);
   const auto late = Listen();  // only the new master can have told it where we are
   ExpectEveryOneOnce(*late, 50);
-  EXPECT_LT(longest_publish_millis_, kLongestPublishMillis);
-  RecordProperty("longest_publish_ms", std::to_string(longest_publish_millis_));
+  EXPECT_LT(longest_wait_millis_, kLongestWaitMillis);
+  RecordProperty("longest_wait_ms", std::to_string(longest_wait_millis_));
 }
 
 TEST_F(RosBridgeWithMaster, IsNotHeldUpByAMasterThatTakesConnectionsAndNeverAnswers) {
@@ -113,7 +113,7 @@ TEST_F(RosBridgeWithMaster, IsNotHeldUpByAMasterThatTakesConnectionsAndNeverAnsw
   ASSERT_TRUE(PublishUntil([&] { return bridge_->status().master_reachable; }));
   ExpectEveryOneOnce(*listener, 50);
   EXPECT_EQ(bridge_->status().master_returns, 0U) << "it was never away";
-  EXPECT_LT(longest_publish_millis_, kLongestPublishMillis);
+  EXPECT_LT(longest_wait_millis_, kLongestWaitMillis);
 }
 
 TEST_F(RosBridgeWithMaster, EndsSoonThoughTheMasterNoLongerAnswers) {
