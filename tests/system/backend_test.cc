@@ -22,6 +22,7 @@
 #include "tests/process.h"
 #include "tests/render/test_scene.h"
 #include "tests/server/http/test_client.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
@@ -96,7 +97,7 @@ TEST_F(Backend, EglDrawsOnSeveralThreadsAtOnce) {
 // As a service or a container has it: no DISPLAY, HOME, PATH or XDG folder.
 TEST_F(Backend, EglDrawsInABareEnvironment) {
   const ProgramResult result =
-      RunProgram({"/usr/bin/env", "-i", KINESCOPE_PROGRAM, "render", "demo:n_pose", "--size",
+      RunProgram({"/usr/bin/env", "-i", testing::KinescopePath(), "render", "demo:n_pose", "--size",
                   "64x64", "--backend", "egl", "--out", folder_ / "a.png"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
@@ -106,7 +107,7 @@ TEST_F(Backend, EightProcessesAtOnceDrawTheSameBytes) {
   const std::string command = fmt::format(
       "for i in 1 2 3 4 5 6 7 8; do '{}' render demo:lift --time 3 --size 160x90 --out "
       "'{}'/$i.png >/dev/null & done; wait",
-      KINESCOPE_PROGRAM, folder_.path().string());
+      testing::KinescopePath(), folder_.path().string());
   ASSERT_EQ(RunProgram({"/bin/bash", "-c", command}).exit_code, 0);
   const render::Image alone = render::ReadPng(folder_ / "alone.png");
   for (int i = 1; i <= 8; ++i) {
@@ -142,10 +143,10 @@ TEST_F(Backend, AMachineWithAGpuThatDoesNotWorkFallsBackAndSaysWhy) {
   EXPECT_THAT(app::FindGpus(folder_.path()),
               ::testing::ElementsAre(HasSubstr("dri/renderD128"), HasSubstr("nvidia0")));
   app::BackendOptions options;
-  const app::Machine machine{folder_.path(), KINESCOPE_PROGRAM};
+  const app::Machine machine{folder_.path(), testing::KinescopePath()};
   EXPECT_THAT(app::ChooseBackend(options, machine).note,
               AllOf(HasSubstr("beside a GPU"), HasSubstr("renderD128"), HasSubstr("egl_device")));
-  const app::Machine without_gpu{switches_.path(), KINESCOPE_PROGRAM};
+  const app::Machine without_gpu{switches_.path(), testing::KinescopePath()};
   EXPECT_EQ(app::ChooseBackend(options, without_gpu).note, "");
   options.backend = "auto";
   EXPECT_EQ(app::ChooseBackend(options, without_gpu).name, "osmesa");
@@ -199,7 +200,7 @@ TEST_F(Backend, AServerWhoseDriverHangsSaysSoAndGoesOnWhenItComesBack) {
   const std::string command = fmt::format(
       "{}; exec '{}' serve --source demo:n_pose --http_port 0 --ros off --picture_size 64x64 "
       "--draw_limit_secs 5 2>&1; ",  // the first picture compiles shaders, on a busy machine too
-      fmt::format("export {}", fmt::join(HangingDriver(), " ")), KINESCOPE_PROGRAM);
+      fmt::format("export {}", fmt::join(HangingDriver(), " ")), testing::KinescopePath());
   testing::Process server({"/bin/bash", "-c", command});
   const std::string page = RestOfLine(server, "page at ");
   const int port = std::stoi(page.substr(page.rfind(':') + 1));

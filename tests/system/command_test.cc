@@ -22,6 +22,7 @@
 #include "server/app/view_options.h"
 #include "tests/process.h"
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
@@ -98,9 +99,9 @@ TEST(Command, RefusesPortsThatAreTaken) {
 // What is no datagram of a suit is counted by reason, and the suit's stream goes on.
 TEST(Command, CountsRubbishByReasonAndGoesOn) {
   testing::Process server({"/bin/bash", "-c",
-                           "exec '" KINESCOPE_PROGRAM
-                           "' serve --source udp://127.0.0.1:0 --http_port 0 "
-                           "--ros off --pictures off 2>&1"});
+                           "exec '" + testing::KinescopePath() +
+                               "' serve --source udp://127.0.0.1:0 --http_port 0 "
+                               "--ros off --pictures off 2>&1"});
   const std::string address = RestOfLine(server, "waiting for ");
   const std::string page = RestOfLine(server, "page at ");
   const std::string port =
@@ -130,7 +131,7 @@ TEST(Command, CountsRubbishByReasonAndGoesOn) {
 TEST(Command, SaysWhenItCannotDraw) {
   // A program without its module, as after half an installation.
   const TempFolder folder;
-  fs::copy(KINESCOPE_PROGRAM, folder.path() / "kinescope");
+  fs::copy(testing::KinescopePath(), folder.path() / "kinescope");
   std::ofstream(folder.path() / "libkinescope_render_osmesa.so") << "not a library";
   const ProgramResult result = RunProgram(
       {folder.path() / "kinescope", "render", "demo:n_pose", "--out", folder.path() / "a.png"});

@@ -8,6 +8,7 @@
 #include <sdf/ParserConfig.hh>
 #include <sdf/Root.hh>
 
+#include "tests/system/kinescope_path.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 #include "urdf/human_urdf.h"
@@ -57,8 +58,9 @@ urdf::HumanModel Gloved() {
 TEST(Gazebo, KeepsEveryLinkAndTheMassOfAPersonThatIsWrittenForIt) {
   const testing::TempFolder folder;
   const std::string file = folder / "person.urdf";
-  const auto written = testing::RunProgram({KINESCOPE_PROGRAM, "urdf", "--gazebo", "--figure",
-                                            "primitive", "--mass", "81", "--out", file});
+  const auto written =
+      testing::RunProgram({testing::KinescopePath(), "urdf", "--gazebo", "--figure", "primitive",
+                           "--mass", "81", "--out", file});
   ASSERT_EQ(written.exit_code, 0) << written.err;
   const Simulated person = InGazebo(file);
   EXPECT_EQ(person.links, 67u);

@@ -16,6 +16,7 @@
 #include "tests/process.h"
 #include "tests/server/mvn/mvn_testing.h"
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
 
@@ -170,7 +171,7 @@ class Listening {
  public:
   explicit Listening(const std::string& url)
       : process_({"/bin/sh", "-c", "exec \"$0\" inspect \"$1\" --seconds 60 --json 2>&1",
-                  KINESCOPE_PROGRAM, url}) {
+                  testing::KinescopePath(), url}) {
     const std::string line = process_.ReadLine(std::chrono::seconds(60)).value_or("");
     std::smatch found;
     if (std::regex_search(line, found, std::regex("://[^ ]*:([0-9]+)"))) {

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <chrono>
 
+#include "tests/system/kinescope_path.h"
+
 namespace kinescope::testing {
 
 ProgramResult Kinescope(std::vector<std::string> arguments,
                         const std::vector<std::string>& environment) {
-  arguments.insert(arguments.begin(), KINESCOPE_PROGRAM);
+  arguments.insert(arguments.begin(), KinescopePath());
   return RunProgram(arguments, environment);
 }
 

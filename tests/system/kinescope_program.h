@@ -1,5 +1,4 @@
 /// The program that was built, run as its users run it, and what a refusal has to look like.
-/// For targets with the definition KINESCOPE_PROGRAM, the program's path.
 #pragma once
 
 #include <string>

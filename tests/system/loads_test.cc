@@ -14,6 +14,7 @@
 #include "tests/process.h"
 #include "tests/server/app/trial_scenes.h"
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
 
@@ -257,9 +258,9 @@ TEST(LoadsCommand, NamesTheFileThatTheDiskHasNoRoomForAndLeavesNothing) {
   const TempFolder folder;
   const std::string csv = folder / "loads.csv";
   // A limit in units of 512 bytes: less than the header.
-  const ProgramResult result =
-      testing::RunProgram({"/bin/sh", "-c", "ulimit -f 1; exec \"$@\"", "sh", KINESCOPE_PROGRAM,
-                           "loads", "demo:lift", "--seconds", "0.1", "--csv", csv});
+  const ProgramResult result = testing::RunProgram({"/bin/sh", "-c", "ulimit -f 1; exec \"$@\"",
+                                                    "sh", testing::KinescopePath(), "loads",
+                                                    "demo:lift", "--seconds", "0.1", "--csv", csv});
   ExpectRefusal(result, csv);
   EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
 }
@@ -269,7 +270,7 @@ TEST(LoadsCommand, SaysSoWhenStandardOutputTakesNoMore) {
     const ProgramResult result = testing::RunProgram(
         {"/bin/sh", "-c",
          std::string("exec \"$0\" loads demo:lift --seconds 0.1 ") + output + " > /dev/full",
-         KINESCOPE_PROGRAM});
+         testing::KinescopePath()});
     ExpectRefusal(result, "standard output");
   }
 }
@@ -297,8 +298,8 @@ TEST(LoadsCommand, RefusesOneFileForTwoOutputs) {
 
 TEST(LoadsCommand, LeavesNothingBehindWhenItIsStopped) {
   const TempFolder folder;
-  testing::Process child({KINESCOPE_PROGRAM, "loads", "demo:walk", "--seconds", "100000", "--csv",
-                          folder / "loads.csv", "--json", "-"});
+  testing::Process child({testing::KinescopePath(), "loads", "demo:walk", "--seconds", "100000",
+                          "--csv", folder / "loads.csv", "--json", "-"});
   ASSERT_TRUE(child.ReadLine(std::chrono::seconds(60)));  // it has begun to write
   child.Signal(SIGINT);
   while (child.ReadLine(std::chrono::seconds(60))) {  // until it has ended

@@ -19,6 +19,7 @@
 #include "server/subject/subject.h"
 #include "tests/process.h"
 #include "tests/server/mvn/file/datagram_sink.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
@@ -73,7 +74,7 @@ class Recording {
   Recording(const std::string& source, const std::string& arguments)
       : shell_({"/bin/sh", "-c",
                 fmt::format("{} record {} {} 2>&1 & echo pid $!; wait $!; echo exit $?",
-                            Quoted(KINESCOPE_PROGRAM), Quoted(source), arguments)}) {
+                            Quoted(testing::KinescopePath()), Quoted(source), arguments)}) {
     pid_ = static_cast<pid_t>(std::stol(RestOfLine("pid ")));
     const std::string line = RestOfLine("recording ");
     url_ = line.substr(0, line.find(' '));
@@ -241,7 +242,7 @@ TEST(Record, MakesACaptureOfAFileOrAPipe) {
 
   const ProgramResult piped =
       Shell(fmt::format("gzip < {} | {} record - --out {}", Quoted(folder / "take.pcap"),
-                        Quoted(KINESCOPE_PROGRAM), Quoted(folder / "again.pcap")));
+                        Quoted(testing::KinescopePath()), Quoted(folder / "again.pcap")));
   ASSERT_EQ(piped.exit_code, 0) << piped.err;
   EXPECT_EQ(ReadBack(folder / "again.pcap").datagrams, ReadBack(folder / "take.pcap").datagrams);
 }
@@ -318,9 +319,9 @@ TEST(Record, AFileThatMayNotGrowKeepsWholePackets) {
   std::vector<std::string> datagrams;
   const std::string raw = WriteRawFile(folder, datagrams);
   const fs::path out = folder / "take.pcap";
-  const ProgramResult result =
-      Shell(fmt::format("ulimit -f 400; exec {} record {} --out {}", Quoted(KINESCOPE_PROGRAM),
-                        Quoted(raw), Quoted(out)));  // in units of 512 bytes
+  const ProgramResult result = Shell(fmt::format("ulimit -f 400; exec {} record {} --out {}",
+                                                 Quoted(testing::KinescopePath()), Quoted(raw),
+                                                 Quoted(out)));  // in units of 512 bytes
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, AllOf(HasSubstr(out.string() + ": recording stopped"),
                                 HasSubstr("File too large"), HasSubstr("kept and readable")));
@@ -341,7 +342,7 @@ TEST(Record, AFullDiskKeepsWholePackets) {
   }
   const ProgramResult result = Shell(fmt::format(
       "{}\"{}{{ {} record {} --out {}/take.pcap; code=\\$?; cp {}/take.pcap {}; exit \\$code; }}\"",
-      unshare, own_disk, Quoted(KINESCOPE_PROGRAM), Quoted(raw), Quoted(disk), Quoted(disk),
+      unshare, own_disk, Quoted(testing::KinescopePath()), Quoted(raw), Quoted(disk), Quoted(disk),
       Quoted(folder.path())));
   EXPECT_EQ(result.exit_code, 2) << result.err;
   EXPECT_THAT(result.err, AllOf(HasSubstr("take.pcap: recording stopped"),

@@ -25,6 +25,7 @@
 #include "tests/process.h"
 #include "tests/render/mesh_samples.h"
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
@@ -50,7 +51,8 @@ class RenderCommand : public ::testing::Test {
   ProgramResult Render(std::vector<std::string> arguments, const std::string& source = "demo:walk",
                        const std::vector<std::string>& before = {}) {
     std::vector<std::string> command = before;
-    command.insert(command.end(), {KINESCOPE_PROGRAM, "render", source, "--supersample", "1"});
+    command.insert(command.end(),
+                   {testing::KinescopePath(), "render", source, "--supersample", "1"});
     if (std::find(arguments.begin(), arguments.end(), "--size") == arguments.end()) {
       command.insert(command.end(), {"--size", "160x96"});
     }
@@ -191,7 +193,7 @@ TEST_F(RenderCommand, GoesOnWhereItWasInterrupted) {
     testing::Process run({"/bin/bash", "-c",
                           "\"$0\" \"$@\" 2>&1 & child=$!; trap 'kill -INT $child' TERM; "
                           "wait $child; wait $child; echo code $?",
-                          KINESCOPE_PROGRAM, "render", "demo:walk", "--size", "160x96",
+                          testing::KinescopePath(), "render", "demo:walk", "--size", "160x96",
                           "--supersample", "1", "--out", pattern, "--out", Path("a.mp4"),
                           "--seconds", "1000"});
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);

@@ -16,6 +16,7 @@
 
 #include "tests/free_port.h"
 #include "tests/process.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::testing {
@@ -54,7 +55,7 @@ class RosProgram : public ::testing::Test {
   /// A kinescope process whose log can be read line by line.
   static std::unique_ptr<Process> Start(const std::string& arguments) {
     return std::make_unique<Process>(std::vector<std::string>{
-        "/bin/bash", "-c", "exec '" KINESCOPE_PROGRAM "' " + arguments + " 2>&1"});
+        "/bin/bash", "-c", "exec '" + testing::KinescopePath() + "' " + arguments + " 2>&1"});
   }
 
   /// The rest of the first line that contains `text`.

@@ -28,6 +28,7 @@
 #include "tests/recording_sink.h"
 #include "tests/server/ros/test_person.h"
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/ros_fixture.h"
 #include "tests/system/run_program.h"
 
@@ -241,7 +242,8 @@ TEST_F(RosSource, NeverTakesWhatItPublishedItself) {
 TEST_F(RosSource, MeasuresTheLengthsThatTheOthersUrdfHas) {
   const auto suit = Start("bridge demo:lift --ros required __name:=suit");
   const auto urdf_of = [](const std::string& source) {
-    return RunProgram({KINESCOPE_PROGRAM, "urdf", source, "--figure", "primitive", "__name:=asks"});
+    return RunProgram(
+        {testing::KinescopePath(), "urdf", source, "--figure", "primitive", "__name:=asks"});
   };
   const auto live = urdf_of("ros:");
   ASSERT_EQ(live.exit_code, 0) << live.err;
@@ -264,8 +266,9 @@ TEST_F(RosSource, IsInspectedLikeAnyOther) {
   Hear<tf2_msgs::TFMessage>("/tf", [&](const auto&) { ++heard; });
   ASSERT_TRUE(Spin([&] { return heard > 0; }));
   Process program({"/bin/bash", "-c",
-                   "'" KINESCOPE_PROGRAM "' inspect ros: --seconds 600 --json & child=$!; trap "
-                   "'kill -INT $child' TERM; wait $child; wait $child; echo exit $?"});
+                   "'" + testing::KinescopePath() +
+                       "' inspect ros: --seconds 600 --json & child=$!; trap "
+                       "'kill -INT $child' TERM; wait $child; wait $child; echo exit $?"});
   ASSERT_TRUE(Spin([&] { return ReceiversOf("/kinescope", "/tf") == 2; })) << "we and the program";
   const int before = heard;
   ASSERT_TRUE(Spin([&] { return heard > before + 120; }));
@@ -390,7 +393,7 @@ TEST_F(RosSource, RefusesATopicOfAnotherTypeByName) {
 
 TEST_F(RosSource, RefusesNamesThatCannotBeAndANameThatIsTaken) {
   const auto refusal = [](const std::vector<std::string>& arguments) {
-    std::vector<std::string> command = {KINESCOPE_PROGRAM, "bridge"};
+    std::vector<std::string> command = {testing::KinescopePath(), "bridge"};
     command.insert(command.end(), arguments.begin(), arguments.end());
     const auto result = RunProgram(command);
     EXPECT_EQ(result.exit_code, 2) << result.err;

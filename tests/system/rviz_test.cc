@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "tests/render/mesh_samples.h"
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/ros_fixture.h"
 #include "tests/system/run_program.h"
 #include "urdf/robot_kinematics.h"
@@ -305,8 +306,8 @@ TEST_F(RViz, ShowsTheSameMeshesOfEveryKind) {
 TEST_F(RViz, ShowsTheSamePersonAsExported) {
   WritePackage("person");
   const auto result =
-      testing::RunProgram({KINESCOPE_PROGRAM, "urdf", "--height", "1.75", "--package", "person",
-                           "--out", (folder_ / "person").string()});
+      testing::RunProgram({testing::KinescopePath(), "urdf", "--height", "1.75", "--package",
+                           "person", "--out", (folder_ / "person").string()});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string xml = testing::ReadFile(folder_ / "person/person.urdf");
   std::mt19937 random(3);

@@ -17,6 +17,7 @@
 #include "server/subject/subject.h"
 #include "tests/process.h"
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
 
@@ -364,7 +365,7 @@ TEST(StreamCommand, RelaysALiveStreamUntilItIsStopped) {
   const auto receiver = mvn::OpenDatagrams("udp://127.0.0.1:0");
   Process relay({"/bin/sh", "-c",
                  fmt::format("exec '{}' stream udp://127.0.0.1:0 --to {} --json 2>&1",
-                             KINESCOPE_PROGRAM, receiver->description())});
+                             testing::KinescopePath(), receiver->description())});
   std::string from;
   while (from.empty()) {
     const auto line = relay.ReadLine(kPatience);

@@ -11,6 +11,7 @@
 #include "render/png_file.h"
 #include "tests/render/mesh_samples.h"
 #include "tests/shared_data.h"
+#include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
 #include "urdf/robot_model.h"
@@ -71,7 +72,7 @@ TEST_F(UrdfCommand, WritesAPersonToTheScreenOrAFileAsSourceOrAsHeight) {
 TEST_F(UrdfCommand, AFullDiskIsTheReasonAndLeavesTheFileAsItWas) {
   const std::string file = Write("a.urdf", "<robot name='before'/>");
   const ProgramResult result =
-      testing::RunProgram({"/usr/bin/prlimit", "--fsize=8192", KINESCOPE_PROGRAM, "urdf",
+      testing::RunProgram({"/usr/bin/prlimit", "--fsize=8192", testing::KinescopePath(), "urdf",
                            "--figure", "primitive", "--out", file});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, AllOf(HasSubstr("--out=" + file), HasSubstr("File too large")));
