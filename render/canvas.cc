@@ -23,7 +23,7 @@ struct Canvas::Paint {
 };
 
 void Canvas::Blend(int x, int y, const Paint& paint, double coverage) {
-  const int weight = static_cast<int>(paint.alpha * coverage + 0.5);
+  const auto weight = static_cast<int>(std::lround(paint.alpha * coverage));
   if (weight == 0) return;
   std::uint8_t* pixel = &image_.rgba[4 * (static_cast<std::size_t>(part_.y + y) *
                                               static_cast<std::size_t>(image_.width) +
@@ -90,8 +90,9 @@ void Canvas::Polyline(const std::vector<std::pair<double, double>>& points, doub
   const int first_y = std::max(0, static_cast<int>(std::floor(top - reach)));
   const int last_y = std::min(part_.height - 1, static_cast<int>(std::ceil(bottom + reach)));
   if (first_x > last_x || first_y > last_y) return;
-  const auto columns = static_cast<std::size_t>(last_x - first_x + 1);
-  std::vector<double> coverage(columns * static_cast<std::size_t>(last_y - first_y + 1), 0.0);
+  const auto columns = static_cast<std::size_t>(last_x) - static_cast<std::size_t>(first_x) + 1;
+  const auto rows = static_cast<std::size_t>(last_y) - static_cast<std::size_t>(first_y) + 1;
+  std::vector<double> coverage(columns * rows, 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto [x0, y0] = points[i];
     const auto [x1, y1] = points[std::min(i + 1, points.size() - 1)];
@@ -134,7 +135,8 @@ double Canvas::Text(double x, double y, std::string_view utf8, Font& font, int s
     for (int row = std::max(0, -top); row < std::min(glyph.height, part_.height - top); ++row) {
       for (int column = std::max(0, -left); column < std::min(glyph.width, part_.width - left);
            ++column) {
-        const auto at = static_cast<std::size_t>(row * glyph.width + column);
+        const auto at = static_cast<std::size_t>(row) * static_cast<std::size_t>(glyph.width) +
+                        static_cast<std::size_t>(column);
         if (glyph.coverage[at] != 0)
           Blend(left + column, top + row, paint, glyph.coverage[at] / 255.0);
       }

@@ -107,6 +107,7 @@ std::vector<std::uint8_t> EncodePng(const Image& image,
   out.reserve(image.rgba.size() / 8);
   std::vector<png_text> texts = TextChunks(text);
   std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(image.height));
   for (int y = 0; y < image.height; ++y) {
     rows.push_back(const_cast<png_bytep>(image.rgba.data()) +
                    4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width));

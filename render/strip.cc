@@ -84,8 +84,9 @@ std::optional<StripCode> ReadAt(const Image& image, int shrunk) {
   const double top = image.height - layout.rows * row_height;
   std::array<double, kStripBits> levels{};
   for (int bit = 0; bit < kStripBits; ++bit) {
+    const int row = bit / cells;
     levels[static_cast<std::size_t>(bit)] =
-        BrightnessOf(image, bit % cells * cell, top + bit / cells * row_height, cell, row_height);
+        BrightnessOf(image, bit % cells * cell, top + row * row_height, cell, row_height);
   }
   // The mark has both colours; an encoder may have moved either.
   const auto [darkest, lightest] = std::minmax_element(levels.begin(), levels.begin() + 8);
@@ -120,9 +121,9 @@ void PaintStrip(Painter& painter, int width_px, int height_px, const StripCode& 
   painter.RoundedBox(0, top, width_px, layout.height(), 0, {{0, 0, 0}, 1});
   for (int bit = 0; bit < kStripBits; ++bit) {
     if (!BitOf(bytes, bit)) continue;
-    const int cell = bit % cells;
-    painter.RoundedBox(edge(cell), top + bit / cells * layout.row_height,
-                       edge(cell + 1) - edge(cell), layout.row_height, 0, {{1, 1, 1}, 1});
+    const int cell = bit % cells, row = bit / cells;
+    painter.RoundedBox(edge(cell), top + row * layout.row_height, edge(cell + 1) - edge(cell),
+                       layout.row_height, 0, {{1, 1, 1}, 1});
   }
 }
 

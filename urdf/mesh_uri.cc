@@ -94,7 +94,7 @@ std::optional<fs::path> FindPackage(const std::string& name, const MeshSearch& s
     if (fs::is_directory(entry / name, ignored)) return entry / name;
   }
   for (const fs::path& entry : search.package_path) {
-    if (const auto found = SearchBelow(entry, name)) return found;
+    if (auto found = SearchBelow(entry, name)) return found;
   }
   if (search.urdf_folder.empty()) return std::nullopt;
   for (fs::path folder = fs::absolute(search.urdf_folder, ignored);;

@@ -4,7 +4,8 @@
 #include <string>
 #include <string_view>
 
-typedef struct _cairo_font_face cairo_font_face_t;
+using cairo_font_face_t =
+    struct _cairo_font_face;  // NOLINT(bugprone-reserved-identifier): Cairo's own
 
 namespace kinescope::render::plot {
 

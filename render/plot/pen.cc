@@ -121,8 +121,9 @@ void Pen::Hatch(double x, double y, double width, double height) {
   Clip(x, y, width, height);
   constexpr double kApart = 4;
   // On one grid for the whole figure, so that neighbours join.
-  for (double c = std::floor((x - height) / kApart) * kApart; c < x + width + height; c += kApart) {
-    const double at = c - std::fmod(y, kApart);
+  const int first = static_cast<int>(std::floor((x - height) / kApart));
+  for (int i = first; i * kApart < x + width + height; ++i) {
+    const double at = i * kApart - std::fmod(y, kApart);
     Line(at, y + height, at + height, y, kHatchLine, 0.6);
   }
   Unclip();
@@ -181,7 +182,8 @@ Image Pen::TakeImage() {
   image.rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   std::size_t to = 0;
   for (int row = 0; row < height; ++row) {
-    const auto* from = reinterpret_cast<const std::uint32_t*>(data + row * stride);
+    const auto* from =
+        reinterpret_cast<const std::uint32_t*>(data + static_cast<std::ptrdiff_t>(row) * stride);
     for (int column = 0; column < width; ++column, to += 4) {  // 0x00RRGGBB, native order
       image.rgba[to] = static_cast<std::uint8_t>(from[column] >> 16);
       image.rgba[to + 1] = static_cast<std::uint8_t>(from[column] >> 8);

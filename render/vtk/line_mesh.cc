@@ -14,6 +14,7 @@ void AppendCap(const Vector3d& center, const Vector3d& outward, std::uint32_t ri
   const Vector3f normal = outward.cast<float>();
   const std::uint32_t middle = mesh.AddVertex(center.cast<float>(), normal);
   std::vector<std::uint32_t> rim;
+  rim.reserve(static_cast<std::size_t>(sides));
   for (int i = 0; i < sides; ++i) {
     rim.push_back(mesh.AddVertex(mesh.positions[ring + static_cast<std::uint32_t>(i)], normal));
   }

@@ -126,8 +126,9 @@ std::size_t TriangleCount(const SceneMarker& marker) {
     case MarkerType::kCube: return PlainCube().triangles.size() / 3;
     case MarkerType::kSphere: return UnitSphere(kRoundSides).triangles.size() / 3;
     case MarkerType::kCylinder: return UnitCylinder().triangles.size() / 3;
-    case MarkerType::kLineStrip: return 2 * kLineSides * count;
-    case MarkerType::kLineList: return 2 * kLineSides * count;  // two caps for each pair
+    case MarkerType::kLineStrip:
+    case MarkerType::kLineList:  // two caps for each pair
+      return count * 2 * kLineSides;
     case MarkerType::kCubeList:
     case MarkerType::kPoints: return count * (PlainCube().triangles.size() / 3);
     case MarkerType::kSphereList:

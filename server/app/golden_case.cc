@@ -109,6 +109,7 @@ std::vector<GoldenCase> LoadGoldenCases(const fs::path& folder) {
     throw UsageError(fmt::format("folder '{}' holds no case (*.yaml)", folder.string()));
   std::sort(files.begin(), files.end());
   std::vector<GoldenCase> cases;
+  cases.reserve(files.size());
   for (const fs::path& file : files) cases.push_back(LoadGoldenCase(file));
   return cases;
 }

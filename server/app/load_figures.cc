@@ -270,9 +270,9 @@ Figure OverviewFigure(const LoadTrial& trial, const TrialContext& context) {
       panel.y_to = std::min(RatioTop(peak, context), kMostShown);
     }
     for (PlotBand& band : panel.bands) band.label.clear();
-    const auto column = static_cast<double>(cell % 4), row = static_cast<double>(cell / 4);
-    panel.left = column * kCellWidth + 24;
-    panel.top = row * kCellHeight + 12;
+    const std::size_t column = cell % 4, row = cell / 4;
+    panel.left = static_cast<double>(column) * kCellWidth + 24;
+    panel.top = static_cast<double>(row) * kCellHeight + 12;
     panel.width = kCellWidth - 32;
     panel.height = 31.5;
     panel.font_size = kFont;

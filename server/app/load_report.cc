@@ -133,8 +133,8 @@ render::Camera CloseUp(const SceneState& scene, const PersonState& person,
              at.y_px <= view.height - around;
     });
   };
-  for (double share = 0.4; share < 1; share += 0.02) {
-    camera.vertical_fov_rad = share * widest;
+  for (int percent = 40; percent < 100; percent += 2) {
+    camera.vertical_fov_rad = 0.01 * percent * widest;
     if (fits()) break;
   }
   return camera;

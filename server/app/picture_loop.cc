@@ -33,7 +33,7 @@ bool IsCamera(const std::string& name) {
 PictureLoop::PictureLoop(const PictureOptions& options, std::shared_ptr<const SceneState> first,
                          Latest<http::Picture>& pictures)
     : options_(options), pictures_(pictures), state_(std::move(first)), camera_(options.camera) {
-  CameraMan(camera_, options_.moves);  // throws for what does not exist
+  const CameraMan probe(camera_, options_.moves);  // throws for what does not exist
   std::promise<void> started;
   std::future<void> has_started = started.get_future();
   thread_ = std::thread(&PictureLoop::Run, this, std::move(started));

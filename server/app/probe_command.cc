@@ -70,9 +70,10 @@ void PrintText(const json& found) {
   }
   const json& hardware = found["hardware"];
   const auto devices = hardware["devices"].get<std::vector<std::string>>();
+  const auto remark = hardware["remark"].get<std::string>();
   fmt::print("GPU        {}{}{}\n",
              devices.empty() ? "none seen" : fmt::format("{}", fmt::join(devices, ", ")),
-             hardware["remark"] == "" ? "" : "; ", hardware["remark"].get<std::string>());
+             remark.empty() ? "" : "; ", remark);
   for (const Encoder& each : kEncoders) {
     const json& encoder = found["encoders"][each.key];
     fmt::print("{:<11}{}\n", each.name,

@@ -118,7 +118,7 @@ Verdict Compare(const std::string& then, const std::string& now, int tolerance, 
 std::string FindSource(const Json& provenance, const std::string& file,
                        const RenderOptions& given) {
   const Json& source = provenance.at("source");
-  const std::string name = source.at("name");
+  std::string name = source.at("name");
   if (name.rfind("demo:", 0) == 0) return name;
   if (!source.contains("sha256")) {
     throw SourceError(fmt::format("{} was drawn from {}, which cannot be read again", file,
@@ -166,7 +166,7 @@ void NoteDifferences(const Json& then, const Json& now, const std::string& file)
 
 // Part of a file name, so nobody else's word is taken for it.
 std::string FormatOf(const Json& provenance) {
-  const std::string format = provenance.value("format", "");
+  std::string format = provenance.value("format", "");
   if (format == "png" || render::ClipFormatOf("a." + format)) return format;
   throw std::runtime_error("no format is called '" + format + "'");
 }

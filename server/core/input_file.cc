@@ -249,7 +249,7 @@ InputFile OpenInputFile(const std::string& path) {
   if (input.file_ == nullptr) {
     throw SourceError(NameOfInput(path) + ": cannot open the file: " + std::strerror(errno));
   }
-  content.release();  // the FILE owns it now
+  static_cast<void>(content.release());  // the FILE owns it now
   std::setvbuf(input.file_.get(), nullptr, _IOFBF, kChunkBytes);
   return input;
 }

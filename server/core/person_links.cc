@@ -6,6 +6,7 @@ namespace kinescope {
 
 std::vector<std::string> VisibleLinks(const urdf::HumanModel& human) {
   std::vector<std::string> names;
+  names.reserve(urdf::kSegmentCount);
   for (int i = 0; i < urdf::kSegmentCount; ++i)
     names.push_back(urdf::LinkName(human.model_name, i));
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {

@@ -39,7 +39,7 @@ bool IsHiddenOrForeign(const fs::path& name) {
 // Canonical path when it is a plain file below `root`, empty otherwise.
 fs::path Admit(const fs::path& path, const fs::path& root) {
   std::error_code error;
-  const fs::path canonical = fs::canonical(path, error);
+  fs::path canonical = fs::canonical(path, error);
   if (error || !IsBelow(canonical, root) || !fs::is_regular_file(canonical, error)) return {};
   return canonical;
 }

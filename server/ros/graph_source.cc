@@ -39,7 +39,7 @@ std::string ToTopic(const std::string& url) {
     throw SourceError("source '" + url + "': " + why +
                       "; expected ros: or ros:/topic, such as ros:/xsens/link_states");
   }
-  const std::string topic = ros::names::resolve(name.empty() ? "/tf" : name);
+  std::string topic = ros::names::resolve(name.empty() ? "/tf" : name);
   if (topic.rfind(ros::this_node::getName() + "/", 0) == 0) {
     throw SourceError("source '" + url + "': " + ros::this_node::getName() +
                       " is this node's own name; give it another one: __name:=kinescope_view");

@@ -165,7 +165,7 @@ class MarkerStore::FrameCache {
     if (unknown_.count(frame) != 0) return std::nullopt;
     const std::pair<std::string, std::int64_t> key(frame, stamp_nanos);
     if (const auto known = known_.find(key); known != known_.end()) return known->second;
-    const auto found = find_(frame, stamp_nanos);
+    auto found = find_(frame, stamp_nanos);
     if (found) {
       known_.emplace(key, *found);
     } else {

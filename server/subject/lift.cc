@@ -142,7 +142,7 @@ void Lift::PlaceArm(Side side, const Jet& time, Posture& posture) const {
   const JetVector grip = BoxAt(time) + bearing * Constant({0, scale_ * left * kGripHalfWidth, 0});
   const JetVector at_box = grip + world_from_hand * Constant({0, 0, scale_ * kGripBelowWrist});
   const JetVector shoulder =
-      posture.PointOn(girdle, skeleton_.origin_in_parent[static_cast<std::size_t>(girdle + 1)]);
+      posture.PointOn(girdle, skeleton_.origin_in_parent[static_cast<std::size_t>(girdle) + 1]);
   const JetVector hanging = shoulder + Constant(scale_ * Vector3d(0.05, left * 0.05, -0.533));
   posture.ReachWithArm(side, hanging + on_box * JetVector(at_box - hanging), world_from_hand,
                        kDegree * elbow_swivel_.At(time));

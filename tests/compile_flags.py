@@ -1,0 +1,51 @@
+"""How a build compiles each folder, for the checks that compile files by themselves."""
+import collections
+import json
+import pathlib
+import re
+import resource
+import shlex
+
+TOP = pathlib.Path(__file__).resolve().parent.parent
+INCLUDE = re.compile(r'[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]')
+
+
+def sources_of(entry):
+    """The sources that an entry of the database compiles: several for a batch of a unity build."""
+    source = pathlib.Path(entry["directory"], entry["file"])
+    if not re.search(r"unity_\d+_cxx", source.name):
+        return [source]
+    if not source.is_file():
+        return []
+    return [pathlib.Path(m.group(2)) for m in map(INCLUDE.match, source.read_text().splitlines())
+            if m and pathlib.Path(m.group(2)).is_absolute()]
+
+
+def read_flags(build):
+    """Folder of sources -> include paths and definitions of the targets that have sources there."""
+    flags = collections.defaultdict(dict)  # an ordered set
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        words = entry.get("arguments") or shlex.split(entry["command"])
+        taken = []
+        for word, following in zip(words, words[1:] + [""]):
+            if word in ("-I", "-isystem", "-D"):
+                taken.append((word, following))
+            elif word[:2] in ("-I", "-D"):
+                taken.append((word,))
+        for source in sources_of(entry):
+            if TOP in source.parents:
+                flags[source.parent.relative_to(TOP).as_posix()].update(dict.fromkeys(taken))
+    return {folder: [word for words in taken for word in words] for folder, taken in flags.items()}
+
+
+def flags_for(flags, name):
+    """Those of the header's folder, or of the nearest one above that has sources."""
+    for folder in pathlib.PurePosixPath(name).parents:
+        if folder.as_posix() in flags:
+            return flags[folder.as_posix()]
+    return None
+
+
+def cpu_seconds():
+    return sum(resource.getrusage(who).ru_utime + resource.getrusage(who).ru_stime
+               for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))

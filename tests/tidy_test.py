@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+"""clang-tidy has nothing to say about what has changed.
+
+tests/tidy_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N]
+  BUILD_FOLDER: any build with a compile_commands.json (unity builds too); generated headers (messages of
+  ROS) have to be there. Looked at are the sources and headers of urdf, server and render that differ from
+  COMMIT, new ones too: by default from where this branch left origin/main, or from the last commit but one
+  when it has not left it. --all: every source, in the batches of the build, some ten CPU minutes.
+  What is asked for stands in .clang-tidy. Exit code 1 with one line for each finding: file, line, what.
+"""
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+from compile_flags import TOP, cpu_seconds, flags_for, read_flags, sources_of
+
+FOLDERS = ("urdf", "server", "render")
+
+
+def git(*words):
+    result = subprocess.run(["git", *words], capture_output=True, text=True, cwd=TOP)
+    return result.stdout.split("\0" if "-z" in words else None) if result.returncode == 0 else None
+
+
+def base_commit():
+    """None where there is no history to compare with."""
+    head = git("rev-parse", "HEAD")
+    left = git("merge-base", "HEAD", "origin/main")
+    return (left if left and left != head else git("rev-parse", "HEAD~1") or [None])[0]
+
+
+def changed_since(commit):
+    """Sources and headers; a header whose source has changed too is looked at there."""
+    names = {name for words in (("diff", "--name-only", "--diff-filter=d", "-z", commit),
+                                ("ls-files", "--others", "--exclude-standard", "-z"))
+             for name in git(*words) or []}
+    files = [pathlib.PurePosixPath(name) for name in sorted(names) if name.startswith(
+        tuple(f"{folder}/" for folder in FOLDERS))]
+    sources = [file for file in files if file.suffix == ".cc"]
+    return sources + [file for file in files
+                      if file.suffix == ".h" and file.with_suffix(".cc") not in sources]
+
+
+def tidy(words):
+    """{finding} of one run; its last lines where it could not run."""
+    result = subprocess.run(["clang-tidy", "--quiet", *words], capture_output=True, text=True, cwd=TOP)
+    found = re.findall(r"^(.+?:\d+):\d+: (?:warning|error): (.+)$", result.stdout, re.MULTILINE)
+    lines = {f"{where.replace(f'{TOP}/', '')}: {what.replace(',-warnings-as-errors', '')}"
+             for where, what in found}
+    if result.returncode != 0 and not lines:
+        lines = {f"clang-tidy {' '.join(words[:2])}: {result.stderr.strip()[-300:]}"}
+    return lines
+
+
+def commands_for_changed(build, commit):
+    flags = read_flags(build)
+    return [[str(file), "--", "-std=c++17", "-Wno-pragma-once-outside-header",
+             *(flags_for(flags, file.as_posix()) or []), f"-I{TOP}", "-x", "c++"]
+            for file in changed_since(commit)]
+
+
+def commands_for_all(build):
+    database = json.loads((build / "compile_commands.json").read_text())
+    ours = {entry["file"] for entry in database for source in sources_of(entry)
+            if any(TOP / folder in source.parents for folder in FOLDERS)}
+    return [["-p", str(build), file] for file in sorted(ours)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--since", metavar="COMMIT", default=base_commit())
+    parser.add_argument("--all", action="store_true")
+    parser.add_argument("--jobs", type=int, default=2)
+    options = parser.parse_args()
+    build = options.build.resolve()
+    if not options.all and options.since is None:
+        print("no history to compare with: nothing looked at; tests/tidy_test.py --all looks at all")
+        return 0
+    if not options.all and git("rev-parse", "--verify", f"{options.since}^{{commit}}") is None:
+        parser.error(f"--since={options.since}: no such commit here")
+    commands = commands_for_all(build) if options.all else commands_for_changed(build, options.since)
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        findings = set().union(*pool.map(tidy, commands))
+    what = "batches, all there are" if options.all else f"files changed since {options.since[:10]}"
+    print(f"{len(commands)} {what}: {len(findings)} findings, {cpu_seconds():.0f} s CPU",
+          *sorted(findings), sep="\n")
+    return 1 if findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
