@@ -45,11 +45,15 @@ install_npm() {
   cp "$1/package-lock.json" "$stamp"
 }
 
-# take_the_lock: two of us in one folder would build over each other.
-take_the_lock() {
-  mkdir -p build 2>/dev/null || die "cannot write to $PWD: make it writable, or clone into a folder that is"
-  exec {lock}> build/.lock
-  flock -n "$lock" || die "another ./check or ./demo is building here: wait for it, or stop it"
+# holding_the_lock COMMAND...: two of us in one folder would build over each other. The command does not inherit the lock, so
+# that nothing it leaves behind keeps it when this script is killed.
+holding_the_lock() {
+  { mkdir -p build && : >> build/.lock; } 2>/dev/null ||
+    die "cannot write to $PWD/build: make it writable, or clone into a folder that is"
+  exec 9> build/.lock
+  flock -n 9 || die "another ./check or ./demo is building here: wait for it, or stop it"
+  "$@" 9>&-
+  exec 9>&-
 }
 
 # enough_room MIB: a build that runs out of it leaves files cut short.
