@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every tracked .h and .cc is as clang-format 14 and .clang-format have it. tests/format_test.sh [--fix]
+# Every .h and .cc is as clang-format 14 and .clang-format have it. tests/format_test.sh [--fix]
 # Exit code 1 where one is not, with the command that mends it; 77 (skipped) with another version,
 # whose idea of some lines differs. --fix: mends them.
 set -euo pipefail
@@ -10,11 +10,11 @@ if [ "$version" != 'version 14' ]; then
   echo "skipped: needs clang-format 14 (Debian 12's package clang-format); found: ${version:-none}"
   exit 77
 fi
-format() { git ls-files -z -- '*.h' '*.cc' | xargs -0 -n 100 -P 2 clang-format "$@"; }
+format() { git ls-files -z --cached --others --exclude-standard -- '*.h' '*.cc' | xargs -0 -n 100 -P 2 clang-format "$@"; }
 
 [ "${1:-}" = --fix ] && { format -i; exit; }
 if report=$(format --dry-run -Werror -fno-color-diagnostics 2>&1); then
-  echo "$(git ls-files -- '*.h' '*.cc' | wc -l) files, all formatted"
+  echo "$(git ls-files --cached --others --exclude-standard -- '*.h' '*.cc' | wc -l) files, all formatted"
   exit 0
 fi
 grep -E ' error: ' <<<"$report" | cut -d: -f1-2 | uniq || echo "$report"

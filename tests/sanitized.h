@@ -1,5 +1,5 @@
-/// Whether these tests are compiled with the sanitizer of addresses or of threads: code is then many times slower and has a
-/// heap of its own.
+/// Whether these tests are compiled with the sanitizer of addresses or of threads: code is then
+/// many times slower and has a heap of its own.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
