@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { afterEach, beforeEach, test } from 'node:test';
 import { Connection } from '../../../web/connection.js';
+import { holdTimers } from './held_timers.mjs';
 
 class FakeSocket {
   static OPEN = 1;
@@ -29,7 +30,7 @@ function open() {
 }
 
 test('a message that is not what it should be is reported, and the next one is taken', (t) => {
-  t.mock.timers.enable({ apis: ['setTimeout'] });  // its pings
+  holdTimers(t, ['setTimeout']);  // its pings
   const { seen, socket, connection } = open();
   const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, people: [], objects: [] };
   socket.receive(JSON.stringify({ details: { ...details, people: 'many' } }));
@@ -46,7 +47,7 @@ test('a message that is not what it should be is reported, and the next one is t
 });
 
 test('a pong sets the clock', (t) => {
-  t.mock.timers.enable({ apis: ['setTimeout'] });
+  holdTimers(t, ['setTimeout']);
   const { socket, connection } = open();
   const { ping } = socket.sent.find((message) => 'ping' in message);
   socket.receive(JSON.stringify({ pong: ping, server_micros: 1000 * (ping + 5000) }));
