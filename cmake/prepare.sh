@@ -45,16 +45,18 @@ install_npm() {
   cp "$1/package-lock.json" "$stamp"
 }
 
-# holding_the_lock COMMAND...: two of us in one folder would build over each other. The command does not inherit the lock, so
-# that nothing it leaves behind keeps it when this script is killed.
-holding_the_lock() {
+# take_the_lock: two of us in one folder would build over each other. Descriptor 9 is the lock, and a compiler that goes on after
+# this script was killed still holds it.
+take_the_lock() {
   { mkdir -p build && : >> build/.lock; } 2>/dev/null ||
     die "cannot write to $PWD/build: make it writable, or clone into a folder that is"
   exec 9> build/.lock
   flock -n 9 || die "another ./check or ./demo is building here: wait for it, or stop it"
-  "$@" 9>&-
-  exec 9>&-
 }
+release_the_lock() { exec 9>&-; }
+
+# run_tests COMMAND...: does not pass the lock on, since a program that outlives its test would keep it.
+run_tests() { "$@" 9>&-; }
 
 # enough_room MIB: a build that runs out of it leaves files cut short.
 enough_room() {

@@ -62,22 +62,35 @@ else
 fi
 rm -rf "$tree/build"
 
-# One at a time in a folder; and killed while something that it has started goes on: the next run may build.
+# One at a time in a folder. Killed while a compiler that it has started goes on, the next run waits for that; what a test has
+# left behind holds up nobody.
 cat > "$room/holder.sh" <<'S'
 cd "$1"
 . cmake/prepare.sh
-work() { sleep 600 & echo "$!"; exec >&-; wait; }
-holding_the_lock work
+take_the_lock
+$2 bash -c 'sleep 600 >&- & echo "$!"'
+exec sleep 600 >&-
 S
-exec {started}< <(exec bash "$room/holder.sh" "$tree")
-holder=$!
-read -r -u "$started" child
+hold() {
+  exec {started}< <(exec bash "$room/holder.sh" "$tree" "$1")
+  holder=$!
+  read -r -u "$started" child
+}
+end() {
+  kill -KILL "$1"
+  while kill -0 "$1" 2>/dev/null; do :; done
+}
+hold ''
 expect "another ./check or ./demo is building here: wait for it, or stop it" ./check
-kill -KILL "$holder"
-while kill -0 "$holder" 2>/dev/null; do :; done
-(cd "$tree" && . cmake/prepare.sh && holding_the_lock true) || fail "what a killed script left behind keeps the lock"
-kill "$child"
-echo 'ok: nothing that a killed ./check leaves behind keeps the lock'
+end "$holder"
+expect "another ./check or ./demo is building here: wait for it, or stop it" ./demo
+end "$child"
+hold run_tests
+expect "another ./check or ./demo is building here: wait for it, or stop it" ./check
+end "$holder"
+(cd "$tree" && . cmake/prepare.sh && take_the_lock) || fail "what a test has left behind keeps the lock"
+end "$child"
+echo 'ok: nothing that a test leaves behind keeps the lock'
 
 if ! unshare --user --map-root-user --mount --net true 2>/dev/null; then
   echo 'skipped: no network, full disk (the kernel gives no name spaces here)'
@@ -88,4 +101,4 @@ expect "is there a network?" alone env DPKG_ADMINDIR="$room/dpkg" ./check
 expect "is there a network?" alone bash -c '. cmake/prepare.sh; export npm_config_fetch_retries=0 npm_config_cache='"$room"'/npm; install_npm web'
 expect "are needed: make room, or clone elsewhere" alone bash -c '
   mkdir -p build && mount -t tmpfs -o size=60m tmpfs build || exit 9
-  . cmake/prepare.sh; holding_the_lock build asan'
+  . cmake/prepare.sh; take_the_lock; build asan'
