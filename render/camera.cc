@@ -7,8 +7,8 @@
 #include <glm/vec4.hpp>
 #include <map>
 
+#include "core/errors.h"
 #include "render/camera_matrices.h"
-#include "server/core/errors.h"
 
 namespace kinescope::render {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 
 namespace kinescope::render {
 

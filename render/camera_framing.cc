@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.h"
 #include "render/camera.h"
 #include "render/camera_matrices.h"
-#include "server/core/check.h"
 
 namespace kinescope::render {
 namespace {

@@ -1,9 +1,9 @@
 /// The drawing has the floor at z = 0; recordings do not.
 #pragma once
 
+#include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/renderer.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "core/check.h"
 #include "render/png_file.h"
-#include "server/core/check.h"
 
 namespace kinescope::render {
 namespace {

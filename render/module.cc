@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "core/install_paths.h"
 #include "render/renderer.h"
-#include "server/core/install_paths.h"
 
 namespace kinescope::render {
 

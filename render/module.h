@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/painter.h"
@@ -17,7 +18,6 @@
 #include "render/renderer.h"
 #include "render/scene_look.h"
 #include "render/video.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

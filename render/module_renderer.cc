@@ -2,12 +2,12 @@
 
 #include <utility>
 
+#include "core/check.h"
 #include "render/canvas.h"
 #include "render/finite.h"
 #include "render/floor_lift.h"
 #include "render/matte.h"
 #include "render/multi_view.h"
-#include "server/core/check.h"
 
 namespace kinescope::render {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "server/core/check.h"
-#include "server/core/errors.h"
+#include "core/check.h"
+#include "core/errors.h"
 
 namespace kinescope::render {
 namespace {

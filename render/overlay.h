@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/label_layout.h"
 #include "render/module.h"
 #include "render/overlay_page.h"
 #include "render/painter.h"
 #include "render/renderer.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

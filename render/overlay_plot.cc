@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/palette.h"
 #include "render/plot.h"
-#include "server/core/palette.h"
 
 namespace kinescope::render {
 namespace {

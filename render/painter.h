@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/palette.h"
 #include "render/font.h"
 #include "render/tile.h"
-#include "server/core/palette.h"
 
 namespace kinescope::render {
 

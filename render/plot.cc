@@ -1,7 +1,7 @@
 #include "render/plot.h"
 
+#include "core/check.h"
 #include "render/module.h"
-#include "server/core/check.h"
 
 namespace kinescope::render {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/palette.h"
 #include "render/image.h"
-#include "server/core/palette.h"
 
 namespace kinescope::render {
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.h"
 #include "render/plot.h"
-#include "server/core/check.h"
 
 namespace kinescope::render {
 namespace {

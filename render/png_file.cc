@@ -11,8 +11,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "core/check.h"
 #include "render/new_file.h"
-#include "server/core/check.h"
 
 namespace kinescope::render {
 namespace {

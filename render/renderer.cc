@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/check.h"
+#include "core/errors.h"
 #include "render/module_renderer.h"
-#include "server/core/check.h"
-#include "server/core/errors.h"
 
 namespace kinescope::render {
 

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/load_history.h"
 #include "render/scene_look.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

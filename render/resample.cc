@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "server/core/check.h"
+#include "core/check.h"
 
 namespace kinescope::render {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "server/core/palette.h"
-#include "server/core/scene_state.h"
+#include "core/palette.h"
+#include "core/scene_state.h"
 
 namespace kinescope::render {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "server/core/palette.h"
+#include "core/palette.h"
 
 namespace kinescope::render {
 namespace {

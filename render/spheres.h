@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/image.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "core/errors.h"
 #include "render/module.h"
-#include "server/core/errors.h"
 
 namespace kinescope::render {
 namespace {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "server/core/color_difference.h"
+#include "core/color_difference.h"
 
 namespace kinescope::testing {
 

@@ -18,7 +18,7 @@ import tempfile
 
 from compile_flags import INCLUDE, TOP, cpu_seconds, flags_for, read_flags
 
-FOLDERS = ("urdf", "server", "render")
+FOLDERS = ("urdf", "core", "server", "render")
 
 # What a name of std:: needs. Of headers with the same meaning the first is named in a finding.
 STANDARD = {

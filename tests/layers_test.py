@@ -24,7 +24,7 @@ EXCEPTIONS = {
 
 # Headers of others, by the name's beginning: the library and the folders that may include them.
 LIBRARIES = {
-    r"Eigen/": ("Eigen", {"urdf", "server/core", "server/mvn", "server/subject", "server/loads",
+    r"Eigen/": ("Eigen", {"urdf", "core", "server/mvn", "server/subject", "server/loads",
                           "server/ros", "server/http", "render", "render/vtk", "server/app"}),
     r"fmt/": ("fmt", {"urdf", "server/loads", "render", "render/plot", "server/app"}),
     r"spdlog/": ("spdlog", {"server/mvn/net", "server/mvn/file", "server/ros", "server/app"}),
@@ -34,8 +34,8 @@ LIBRARIES = {
     r"yaml-cpp/": ("yaml-cpp", {"server/app"}),
     r"(urdf_parser|urdf_model|console_bridge)/": ("urdfdom", {"urdf"}),
     r"expat\.h": ("expat", {"urdf", "server/mvn/file"}),
-    r"archive(_entry)?\.h": ("libarchive", {"server/core"}),
-    r"nettle/": ("nettle", {"server/core"}),
+    r"archive(_entry)?\.h": ("libarchive", {"core"}),
+    r"nettle/": ("nettle", {"core"}),
     r"pcap/|pcap\.h": ("libpcap", {"server/mvn/file"}),
     r"boost/": ("Boost.Beast", {"server/http"}),
     r"rosbag/": ("rosbag_storage", {"server/ros"}),
@@ -163,8 +163,8 @@ def faults_not_found(tree):
         number = len(text.splitlines()) + 1
         expected.update(problem.format(f"{name}:{number}") for problem in problems)
 
-    include("server/core/clocks.h", '#include "server/app/options.h"',
-            "{}: server/core may not include server/app/options.h")
+    include("core/clocks.h", '#include "server/app/options.h"',
+            "{}: core may not include server/app/options.h")
     include("render/image.h", '#  include "render/vtk/mesh.h"  // indented',
             "{}: render may not include render/vtk/mesh.h")
     include("server/mvn/assembler.h", '#include "server/mvn/net/socket.h"',
@@ -190,9 +190,9 @@ def faults_not_found(tree):
     for name in [n for n in faulty if folder_of(n) == "server/subject"]:
         faulty[name] = re.sub(r'#include "urdf/.*', "", faulty[name])
     expected.add("ARCHITECTURE.md: nothing in server/subject includes urdf")
-    for name in [n for n in faulty if folder_of(n) == "server/core"]:
+    for name in [n for n in faulty if folder_of(n) == "core"]:
         faulty[name] = re.sub(r"#include <nettle/.*", "", faulty[name])
-    expected.add("tests/layers_test.py: nothing in server/core includes nettle/")
+    expected.add("tests/layers_test.py: nothing in core includes nettle/")
     faulty["ARCHITECTURE.md"] = faulty["ARCHITECTURE.md"].replace("| libpcap |", "| capture library |")
     expected.add("ARCHITECTURE.md: libpcap is not among the dependencies")
     found = set(check(faulty)[1])

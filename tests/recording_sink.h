@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "server/core/source.h"
+#include "core/source.h"
 
 namespace kinescope::testing {
 

@@ -3,7 +3,7 @@
 
 tests/tidy_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N]
   BUILD_FOLDER: any build with a compile_commands.json (unity builds too); generated headers (messages of
-  ROS) have to be there. Looked at are the sources and headers of urdf, server and render that differ from
+  ROS) have to be there. Looked at are the sources and headers of urdf, core, server and render that differ from
   COMMIT, new ones too: by default from where this branch left origin/main, or from the last commit but one
   when it has not left it. --all: every source, in the batches of the build, some ten CPU minutes.
   What is asked for stands in .clang-tidy. Exit code 1 with one line for each finding: file, line, what.
@@ -18,7 +18,7 @@ import sys
 
 from compile_flags import TOP, cpu_seconds, flags_for, read_flags, sources_of
 
-FOLDERS = ("urdf", "server", "render")
+FOLDERS = ("urdf", "core", "server", "render")
 
 
 def git(*words):

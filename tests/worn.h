@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 
 namespace kinescope::testing {
 

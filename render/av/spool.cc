@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "server/core/check.h"
+#include "core/check.h"
 
 namespace kinescope::render::av {
 

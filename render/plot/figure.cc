@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.h"
 #include "render/plot/pen.h"
-#include "server/core/check.h"
 
 namespace kinescope::render::plot {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "core/check.h"
 #include "render/plot/fonts.h"
 #include "render/renderer.h"
-#include "server/core/check.h"
 
 namespace kinescope::render::plot {
 namespace {

@@ -1,7 +1,7 @@
 #include "render/vtk/axes_actor.h"
 
+#include "core/palette.h"
 #include "render/vtk/line_mesh.h"
-#include "server/core/palette.h"
 
 namespace kinescope::render {
 namespace {

@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/vtk/part_actor.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

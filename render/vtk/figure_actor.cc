@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "server/core/person_links.h"
+#include "core/person_links.h"
 
 namespace kinescope::render {
 namespace {}  // namespace

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/palette.h"
 #include "render/vtk/line_mesh.h"
-#include "server/core/palette.h"
 
 namespace kinescope::render {
 namespace {

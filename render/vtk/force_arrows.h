@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/module.h"
 #include "render/vtk/part_actor.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/module.h"
 #include "render/vtk/once_log.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/visual_mesh.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
+#include "core/scene_marker.h"
 #include "render/vtk/mesh.h"
-#include "server/core/scene_marker.h"
 
 namespace kinescope::render {
 

@@ -1,6 +1,6 @@
 #include "render/vtk/object_actors.h"
 
-#include "server/core/palette.h"
+#include "core/palette.h"
 
 namespace kinescope::render {
 namespace {

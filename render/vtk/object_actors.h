@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/module.h"
 #include "render/vtk/part_actor.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

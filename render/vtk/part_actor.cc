@@ -1,6 +1,6 @@
 #include "render/vtk/part_actor.h"
 
-#include "server/core/check.h"
+#include "core/check.h"
 
 namespace kinescope::render {
 namespace {

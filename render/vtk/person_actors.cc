@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "server/core/held_look.h"
-#include "server/core/palette.h"
+#include "core/held_look.h"
+#include "core/palette.h"
 
 namespace kinescope::render {
 namespace {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/module.h"
 #include "render/scene_look.h"
 #include "render/vtk/axes_actor.h"
@@ -13,7 +14,6 @@
 #include "render/vtk/once_log.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/sphere_actor.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

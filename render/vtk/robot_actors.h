@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/module.h"
 #include "render/scene_look.h"
 #include "render/vtk/once_log.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/visual_mesh.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::render {
 

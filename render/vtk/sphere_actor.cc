@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/check.h"
 #include "render/camera_matrices.h"
-#include "server/core/check.h"
 
 namespace kinescope::render {
 namespace {

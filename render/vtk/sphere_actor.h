@@ -6,9 +6,9 @@
 #include <array>
 #include <vector>
 
+#include "core/palette.h"
 #include "render/camera.h"
 #include "render/vtk/shaded_actor.h"
-#include "server/core/palette.h"
 
 namespace kinescope::render {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "core/palette.h"
 #include "render/vtk/mesh_file.h"
-#include "server/core/palette.h"
 
 namespace kinescope::render {
 namespace {

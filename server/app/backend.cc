@@ -7,8 +7,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/errors.h"
 #include "server/app/backend_probe.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

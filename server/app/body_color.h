@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "server/core/color_difference.h"
-#include "server/core/palette.h"
+#include "core/color_difference.h"
+#include "core/palette.h"
 
 namespace kinescope::app {
 

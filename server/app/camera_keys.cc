@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/errors.h"
 #include "server/app/option_list.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/app/option_list.h"
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/camera.h"
 #include "server/app/camera_keys.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::app {
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/core/json_text.h"
+#include "core/json_text.h"
 
 namespace kinescope::app {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "core/scene_state.h"
+#include "core/source.h"
 #include "server/app/picture_loop.h"
 #include "server/app/view_loop.h"
-#include "server/core/scene_state.h"
-#include "server/core/source.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::app {

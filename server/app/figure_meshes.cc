@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/errors.h"
 #include "server/app/mesh_module.h"
-#include "server/core/errors.h"
 #include "urdf/figure.h"
 
 namespace kinescope::app {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/errors.h"
 #include "server/app/option_list.h"
 #include "server/app/scene_reader.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/scene_look.h"
 #include "server/app/scene_builder.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::app {
 

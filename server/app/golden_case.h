@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/renderer.h"
@@ -21,7 +22,6 @@
 #include "render/strip.h"
 #include "server/app/options.h"
 #include "server/app/view_options.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::app {
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
+#include "core/json_text.h"
 #include "render/compare.h"
 #include "render/new_file.h"
 #include "render/png_file.h"
@@ -18,8 +20,6 @@
 #include "server/app/golden_case.h"
 #include "server/app/golden_objects.h"
 #include "server/app/option_list.h"
-#include "server/core/errors.h"
-#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/errors.h"
 #include "server/app/figure_meshes.h"
-#include "server/core/errors.h"
 #include "server/loads/hand_loads.h"
 #include "urdf/placed_mass.h"
 

@@ -8,14 +8,14 @@
 #include <string_view>
 #include <utility>
 
+#include "core/clocks.h"
+#include "core/errors.h"
+#include "core/input_file.h"
 #include "server/app/commands.h"
 #include "server/app/inspection_report.h"
 #include "server/app/open_source.h"
 #include "server/app/progress.h"
 #include "server/app/stop_signal.h"
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
-#include "server/core/input_file.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/recording.h"
 #include "server/mvn/inspect/inspection.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/clocks.h"
+#include "core/json_text.h"
 #include "server/app/inspection_report.h"
-#include "server/core/clocks.h"
-#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/core/clocks.h"
+#include "core/clocks.h"
 
 namespace kinescope::app {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/errors.h"
 #include "render/new_file.h"
 #include "render/png_file.h"
 #include "server/app/load_rows.h"
 #include "server/app/stop_signal.h"
-#include "server/core/errors.h"
 #include "server/loads/gap.h"
 #include "server/loads/joint_score.h"
 

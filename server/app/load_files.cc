@@ -7,9 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include "core/json_text.h"
 #include "render/new_file.h"
 #include "server/app/load_rows.h"
-#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {

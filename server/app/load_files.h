@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 
 namespace kinescope::app {
 

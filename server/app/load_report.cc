@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "core/check.h"
+#include "core/palette.h"
 #include "render/camera.h"
 #include "render/new_file.h"
 #include "render/plot.h"
@@ -16,8 +18,6 @@
 #include "server/app/load_figures.h"
 #include "server/app/load_rows.h"
 #include "server/app/stop_signal.h"
-#include "server/core/check.h"
-#include "server/core/palette.h"
 #include "server/loads/joint_score.h"
 
 namespace kinescope::app {

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 
 namespace kinescope::app {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <tuple>
 
-#include "server/core/check.h"
-#include "server/core/clocks.h"
+#include "core/check.h"
+#include "core/clocks.h"
 #include "server/loads/gap.h"
 #include "server/loads/joint_score.h"
 

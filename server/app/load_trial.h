@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 #include "server/loads/exposure.h"
 
 namespace kinescope::app {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/load_history.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::app {
 

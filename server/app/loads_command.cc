@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/clocks.h"
 #include "server/app/backend.h"
 #include "server/app/commands.h"
 #include "server/app/load_figures.h"
@@ -24,7 +25,6 @@
 #include "server/app/progress.h"
 #include "server/app/scene_reader.h"
 #include "server/app/stop_signal.h"
-#include "server/core/clocks.h"
 
 namespace kinescope::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <string>
 
+#include "core/errors.h"
 #include "server/app/pipeline_options.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/errors.h"
 #include "server/app/commands.h"
 #include "server/app/open_source.h"
 #include "server/app/stop_signal.h"
-#include "server/core/errors.h"
 #include "server/ros/bridge.h"
 
 namespace {

@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <utility>
 
+#include "core/errors.h"
+#include "core/input_file.h"
 #include "server/app/paced_source.h"
-#include "server/core/errors.h"
-#include "server/core/input_file.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/recording.h"
 #include "server/mvn/net/net_url.h"

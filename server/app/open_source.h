@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "server/core/source.h"
+#include "core/source.h"
 #include "server/mvn/open.h"
 
 namespace kinescope::app {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 
 namespace kinescope::app {
 

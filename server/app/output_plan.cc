@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "core/errors.h"
 #include "server/app/scene_reader.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

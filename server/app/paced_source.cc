@@ -4,8 +4,8 @@
 #include <thread>
 #include <utility>
 
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 
 namespace kinescope::app {
 namespace {

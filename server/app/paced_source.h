@@ -12,7 +12,7 @@
 #include <string>
 #include <variant>
 
-#include "server/core/source.h"
+#include "core/source.h"
 
 namespace kinescope::app {
 

@@ -5,8 +5,8 @@
 #include <regex>
 #include <stdexcept>
 
+#include "core/errors.h"
 #include "render/new_file.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

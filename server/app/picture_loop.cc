@@ -6,10 +6,10 @@
 #include <chrono>
 #include <utility>
 
+#include "core/errors.h"
 #include "render/camera.h"
 #include "render/png_file.h"
 #include "render/watchdog.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

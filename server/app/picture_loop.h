@@ -14,11 +14,11 @@
 #include <thread>
 #include <vector>
 
+#include "core/latest.h"
+#include "core/scene_state.h"
 #include "render/renderer.h"
 #include "server/app/backend.h"
 #include "server/app/camera_man.h"
-#include "server/core/latest.h"
-#include "server/core/scene_state.h"
 #include "server/http/server.h"
 
 namespace kinescope::app {

@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "core/errors.h"
 #include "server/app/figure_meshes.h"
 #include "server/app/hand_tools.h"
-#include "server/core/errors.h"
 #include "urdf/placed_mass.h"
 
 namespace kinescope::app {

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
+#include "core/json_text.h"
 #include "render/renderer.h"
 #include "render/video.h"
 #include "server/app/backend.h"
 #include "server/app/backend_probe.h"
 #include "server/app/commands.h"
-#include "server/core/errors.h"
-#include "server/core/json_text.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::app {

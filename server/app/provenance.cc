@@ -9,12 +9,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/json_text.h"
+#include "core/sha256.h"
 #include "render/new_file.h"
 #include "render/png_file.h"
 #include "server/app/option_list.h"
 #include "server/app/pipeline_options.h"
-#include "server/core/json_text.h"
-#include "server/core/sha256.h"
 
 namespace kinescope::app {
 namespace {

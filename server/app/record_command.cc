@@ -11,11 +11,11 @@
 #include <set>
 #include <string>
 
+#include "core/clocks.h"
+#include "core/errors.h"
+#include "core/json_text.h"
 #include "server/app/commands.h"
 #include "server/app/stop_signal.h"
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
-#include "server/core/json_text.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/file/pcap_recorder.h"
 #include "server/mvn/open.h"

@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
+#include "core/json_text.h"
 #include "server/app/commands.h"
 #include "server/app/option_list.h"
 #include "server/app/output_plan.h"
 #include "server/app/render_job.h"
 #include "server/app/render_options.h"
 #include "server/app/render_verify.h"
-#include "server/core/errors.h"
-#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {

@@ -12,6 +12,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/app/backend.h"
 #include "server/app/output_sink.h"
 #include "server/app/pipeline_options.h"
@@ -19,8 +21,6 @@
 #include "server/app/provenance.h"
 #include "server/app/scene_reader.h"
 #include "server/app/stop_signal.h"
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/errors.h"
 #include "server/app/scene_reader.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

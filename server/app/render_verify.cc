@@ -12,13 +12,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/errors.h"
+#include "core/json_text.h"
+#include "core/sha256.h"
 #include "render/compare.h"
 #include "render/png_file.h"
 #include "server/app/provenance.h"
 #include "server/app/render_job.h"
-#include "server/core/errors.h"
-#include "server/core/json_text.h"
-#include "server/core/sha256.h"
 
 namespace kinescope::app {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "server/core/check.h"
-#include "server/core/errors.h"
+#include "core/check.h"
+#include "core/errors.h"
 #include "urdf/xml_outline.h"
 
 namespace kinescope::app {

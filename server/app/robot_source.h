@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 #include "urdf/robot_kinematics.h"
 
 namespace kinescope::app {

@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "core/check.h"
+#include "core/clocks.h"
 #include "server/app/body_color.h"
 #include "server/app/figure_files.h"
-#include "server/core/check.h"
-#include "server/core/clocks.h"
 #include "urdf/robot_model.h"
 
 namespace kinescope::app {

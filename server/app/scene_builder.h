@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
+#include "core/source.h"
 #include "server/app/figure_meshes.h"
 #include "server/app/hand_tools.h"
 #include "server/app/worn_extras.h"
-#include "server/core/scene_state.h"
-#include "server/core/source.h"
 #include "server/loads/exposure.h"
 #include "server/loads/load_estimator.h"
 

@@ -8,10 +8,10 @@
 #include <sstream>
 #include <utility>
 
+#include "core/errors.h"
 #include "render/renderer.h"
 #include "server/app/option_list.h"
 #include "server/app/robot_source.h"
-#include "server/core/errors.h"
 
 namespace kinescope::app {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/scene_look.h"
 #include "server/app/backend.h"
 #include "server/app/ghost_pose.h"
 #include "server/app/trails.h"
 #include "server/app/view_options.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::app {
 

@@ -4,10 +4,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/errors.h"
+#include "core/scene_interpolation.h"
 #include "server/app/open_source.h"
 #include "server/app/stop_signal.h"
-#include "server/core/errors.h"
-#include "server/core/scene_interpolation.h"
 
 namespace kinescope::app {
 

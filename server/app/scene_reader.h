@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "core/source.h"
 #include "server/app/scene_builder.h"
-#include "server/core/source.h"
 
 namespace kinescope::app {
 

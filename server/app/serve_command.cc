@@ -12,6 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/clocks.h"
+#include "core/install_paths.h"
+#include "core/latest.h"
 #include "server/app/commands.h"
 #include "server/app/diagnostics.h"
 #include "server/app/open_source.h"
@@ -23,9 +26,6 @@
 #include "server/app/stop_signal.h"
 #include "server/app/told_loads.h"
 #include "server/app/view_loop.h"
-#include "server/core/clocks.h"
-#include "server/core/install_paths.h"
-#include "server/core/latest.h"
 #include "server/http/server.h"
 #include "server/loads/hand_loads.h"
 #include "server/ros/bridge.h"

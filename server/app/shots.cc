@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/clocks.h"
 #include "render/multi_view.h"
 #include "server/app/stop_signal.h"
-#include "server/core/clocks.h"
 
 namespace kinescope::app {
 namespace {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/renderer.h"
 #include "server/app/camera_man.h"
@@ -16,7 +17,6 @@
 #include "server/app/scene_extras.h"
 #include "server/app/scene_reader.h"
 #include "server/app/view_options.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::app {
 

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
+#include "core/extra_segments.h"
+#include "core/json_text.h"
 #include "server/app/commands.h"
 #include "server/app/open_source.h"
 #include "server/app/stream_feed.h"
 #include "server/app/stream_transmission.h"
-#include "server/core/errors.h"
-#include "server/core/extra_segments.h"
-#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {

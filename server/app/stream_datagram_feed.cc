@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/clocks.h"
 #include "server/app/stream_feed.h"
-#include "server/core/clocks.h"
 #include "server/mvn/open.h"
 
 namespace kinescope::app {

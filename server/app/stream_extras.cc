@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "server/mvn/encode.h"
 
 namespace kinescope::app {

@@ -2,7 +2,7 @@
 /// the sample's hands, props on the body. Pure functions, any thread.
 #pragma once
 
-#include "server/core/body_sample.h"
+#include "core/body_sample.h"
 
 namespace kinescope::app {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "server/mvn/open.h"
 #include "server/ros/graph_source.h"
 

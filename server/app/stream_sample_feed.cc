@@ -3,10 +3,10 @@
 #include <cmath>
 #include <utility>
 
+#include "core/clocks.h"
 #include "server/app/open_source.h"
 #include "server/app/stream_extras.h"
 #include "server/app/stream_feed.h"
-#include "server/core/clocks.h"
 
 namespace kinescope::app {
 namespace {

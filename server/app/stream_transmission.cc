@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/clocks.h"
 #include "server/app/stop_signal.h"
-#include "server/core/clocks.h"
 
 namespace kinescope::app {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "core/force_inputs.h"
+#include "core/source.h"
 #include "server/app/scene_builder.h"
 #include "server/app/view_loop.h"
-#include "server/core/force_inputs.h"
-#include "server/core/source.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::app {

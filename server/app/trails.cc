@@ -6,7 +6,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 
 namespace kinescope::app {
 namespace {

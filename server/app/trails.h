@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scene_state.h"
 #include "render/scene_look.h"
-#include "server/core/scene_state.h"
 
 namespace kinescope::app {
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/clocks.h"
 #include "render/new_file.h"
 #include "server/app/commands.h"
 #include "server/app/figure_files.h"
@@ -21,7 +22,6 @@
 #include "server/app/stop_signal.h"
 #include "server/app/urdf_picture.h"
 #include "server/app/urdf_report.h"
-#include "server/core/clocks.h"
 #include "urdf/mesh_uri.h"
 #include "urdf/urdf_check.h"
 

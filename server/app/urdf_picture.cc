@@ -8,14 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/errors.h"
+#include "core/json_text.h"
 #include "render/camera.h"
 #include "render/png_file.h"
 #include "render/renderer.h"
 #include "server/app/option_list.h"
 #include "server/app/robot_source.h"
 #include "server/app/shots.h"
-#include "server/core/errors.h"
-#include "server/core/json_text.h"
 
 namespace kinescope::app {
 namespace {

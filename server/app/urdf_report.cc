@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "server/core/json_text.h"
+#include "core/json_text.h"
 
 namespace kinescope::app {
 namespace {

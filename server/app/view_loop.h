@@ -12,10 +12,10 @@
 #include <string>
 #include <thread>
 
+#include "core/scene_state.h"
 #include "render/renderer.h"
 #include "server/app/backend.h"
 #include "server/app/camera_man.h"
-#include "server/core/scene_state.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::app {

@@ -6,9 +6,9 @@
 #include <array>
 #include <utility>
 
+#include "core/errors.h"
 #include "server/app/look_options.h"
 #include "server/app/pipeline_options.h"
-#include "server/core/errors.h"
 #include "server/loads/joint_score.h"
 
 namespace kinescope::app {

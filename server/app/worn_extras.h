@@ -6,7 +6,7 @@
 #include <bitset>
 #include <optional>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 
 namespace kinescope::app {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "server/core/held_look.h"
-#include "server/core/json_text.h"
-#include "server/core/palette.h"
-#include "server/core/person_links.h"
+#include "core/held_look.h"
+#include "core/json_text.h"
+#include "core/palette.h"
+#include "core/person_links.h"
 #include "server/http/target.h"
 
 namespace kinescope::http {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 #include "server/http/server.h"
 
 namespace kinescope::http {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-#include "server/core/force_inputs.h"
+#include "core/force_inputs.h"
 
 namespace kinescope::http {
 

@@ -6,11 +6,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "server/core/check.h"
-#include "server/core/held_look.h"
-#include "server/core/json_text.h"
-#include "server/core/palette.h"
-#include "server/core/person_links.h"
+#include "core/check.h"
+#include "core/held_look.h"
+#include "core/json_text.h"
+#include "core/palette.h"
+#include "core/person_links.h"
 
 namespace kinescope::http {
 namespace {

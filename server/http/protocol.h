@@ -10,7 +10,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 #include "server/http/server.h"
 
 namespace kinescope::http {

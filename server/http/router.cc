@@ -6,8 +6,8 @@
 #include <system_error>
 #include <utility>
 
-#include "server/core/clocks.h"
-#include "server/core/json_text.h"
+#include "core/clocks.h"
+#include "core/json_text.h"
 #include "server/http/access.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "server/core/latest.h"
-#include "server/core/scene_state.h"
+#include "core/latest.h"
+#include "core/scene_state.h"
 #include "server/http/answer.h"
 #include "server/http/server.h"
 #include "server/http/static_files.h"

@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "server/http/access.h"
 #include "server/http/http_session.h"
 

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "server/core/force_inputs.h"
-#include "server/core/latest.h"
-#include "server/core/scene_state.h"
+#include "core/force_inputs.h"
+#include "core/latest.h"
+#include "core/scene_state.h"
 
 namespace kinescope::http {
 

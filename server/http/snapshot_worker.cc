@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 
 namespace kinescope::http {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "server/core/check.h"
-#include "server/core/clocks.h"
+#include "core/check.h"
+#include "core/clocks.h"
 #include "server/loads/gap.h"
 
 namespace kinescope::loads {

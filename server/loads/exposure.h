@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 
 namespace kinescope::loads {
 

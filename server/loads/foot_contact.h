@@ -10,8 +10,8 @@
 #include <array>
 #include <cstdint>
 
-#include "server/core/body_forces.h"
-#include "server/core/body_sample.h"
+#include "core/body_forces.h"
+#include "core/body_sample.h"
 #include "server/loads/ground.h"
 #include "urdf/kinematics.h"
 

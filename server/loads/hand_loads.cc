@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/loads/gap.h"
 #include "urdf/placed_mass.h"
 

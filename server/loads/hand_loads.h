@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
-#include "server/core/body_forces.h"
-#include "server/core/force_inputs.h"
+#include "core/body_forces.h"
+#include "core/force_inputs.h"
 #include "server/loads/inverse_dynamics.h"
 #include "urdf/skeleton.h"
 

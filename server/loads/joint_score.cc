@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 
 namespace kinescope::loads {
 namespace {

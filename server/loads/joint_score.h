@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/core/body_forces.h"
+#include "core/body_forces.h"
 #include "urdf/body_parameters.h"
 #include "urdf/kinematics.h"
 

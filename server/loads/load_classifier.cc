@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "server/core/clocks.h"
+#include "core/clocks.h"
 #include "server/loads/gap.h"
 
 namespace kinescope::loads {

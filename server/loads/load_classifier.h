@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 
 namespace kinescope::loads {
 

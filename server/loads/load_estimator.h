@@ -12,8 +12,8 @@
 #include <optional>
 #include <string_view>
 
-#include "server/core/body_forces.h"
-#include "server/core/scene_state.h"
+#include "core/body_forces.h"
+#include "core/scene_state.h"
 #include "server/loads/foot_contact.h"
 #include "server/loads/hand_loads.h"
 #include "server/loads/inverse_dynamics.h"

@@ -4,8 +4,8 @@
 #include <array>
 #include <string>
 
-#include "server/core/body_forces.h"
-#include "server/core/force_inputs.h"
+#include "core/body_forces.h"
+#include "core/force_inputs.h"
 #include "server/loads/foot_contact.h"
 #include "server/loads/hand_loads.h"
 #include "server/loads/joint_score.h"

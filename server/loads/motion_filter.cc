@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "server/core/clocks.h"
+#include "core/clocks.h"
 
 namespace kinescope::loads {
 namespace {

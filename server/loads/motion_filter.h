@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "server/core/body_sample.h"
+#include "core/body_sample.h"
 #include "server/loads/inverse_dynamics.h"
 
 namespace kinescope::loads {

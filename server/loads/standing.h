@@ -8,7 +8,7 @@
 #include <optional>
 #include <string_view>
 
-#include "server/core/force_inputs.h"
+#include "core/force_inputs.h"
 #include "server/loads/foot_contact.h"
 #include "server/loads/ground.h"
 #include "server/loads/inverse_dynamics.h"

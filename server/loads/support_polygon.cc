@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "server/loads/inverse_dynamics.h"
 
 namespace kinescope::loads {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstddef>
 
-#include "server/core/body_forces.h"
+#include "core/body_forces.h"
 
 namespace kinescope::loads {
 

@@ -34,7 +34,7 @@
 #include <tl/expected.hpp>
 #include <vector>
 
-#include "server/core/source.h"
+#include "core/source.h"
 #include "server/mvn/arrival.h"
 #include "server/mvn/character_stream.h"
 #include "server/mvn/datagram.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "server/core/source.h"
+#include "core/source.h"
 #include "server/mvn/arrival.h"
 #include "server/mvn/clock_fit.h"
 #include "server/mvn/closed_samples.h"

@@ -18,7 +18,7 @@
 #include <variant>
 #include <vector>
 
-#include "server/core/body_sample.h"
+#include "core/body_sample.h"
 #include "urdf/segments.h"
 
 namespace kinescope::mvn {

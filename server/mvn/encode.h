@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/body_sample.h"
+#include "core/body_sample.h"
 #include "server/mvn/datagram.h"
 
 namespace kinescope::mvn {

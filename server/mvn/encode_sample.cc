@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "server/mvn/encode.h"
 #include "server/mvn/item_reader.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "server/core/check.h"
-#include "server/core/errors.h"
+#include "core/check.h"
+#include "core/errors.h"
 #include "server/mvn/encode.h"
 
 namespace kinescope::mvn {

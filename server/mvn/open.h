@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "server/core/source.h"
+#include "core/source.h"
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/stamps.h"
 

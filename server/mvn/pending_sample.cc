@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/core/check.h"
+#include "core/check.h"
 
 namespace kinescope::mvn {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "server/core/body_sample.h"
+#include "core/body_sample.h"
 #include "server/mvn/arrival.h"
 #include "server/mvn/datagram.h"
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "server/core/body_sample.h"
+#include "core/body_sample.h"
 #include "server/mvn/datagram.h"
 #include "urdf/skeleton.h"
 

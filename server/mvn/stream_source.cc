@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/core/clocks.h"
+#include "core/clocks.h"
 #include "server/mvn/open.h"
 
 namespace kinescope::mvn {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "server/core/source.h"
+#include "core/source.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/datagram_source.h"
 

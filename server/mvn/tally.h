@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "server/core/source.h"
+#include "core/source.h"
 #include "server/mvn/datagram.h"
 
 namespace kinescope::mvn {

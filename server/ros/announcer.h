@@ -22,7 +22,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 #include "server/ros/bridge.h"
 #include "server/ros/force_boxes.h"
 #include "server/ros/marker_topics.h"

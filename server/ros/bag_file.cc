@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 
 namespace kinescope::ros_bridge {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "server/core/input_file.h"
+#include "core/input_file.h"
 
 namespace kinescope::ros_bridge {
 

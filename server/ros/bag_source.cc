@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "server/ros/bag_file.h"
 #include "server/ros/raw_message.h"
 #include "server/ros/stamp.h"

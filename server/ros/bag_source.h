@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "server/core/source.h"
+#include "core/source.h"
 
 namespace kinescope::ros_bridge {
 

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "server/core/check.h"
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/check.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/ros/announcer.h"
 #include "server/ros/force_boxes.h"
 #include "server/ros/joint_loads.h"

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "server/core/force_inputs.h"
-#include "server/core/scene_marker.h"
-#include "server/core/scene_state.h"
+#include "core/force_inputs.h"
+#include "core/scene_marker.h"
+#include "core/scene_state.h"
 
 namespace kinescope::ros_bridge {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "server/core/clocks.h"
+#include "core/clocks.h"
 
 namespace kinescope::ros_bridge {
 namespace {

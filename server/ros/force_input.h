@@ -12,7 +12,7 @@
 #include <string>
 #include <tl/expected.hpp>
 
-#include "server/core/force_inputs.h"
+#include "core/force_inputs.h"
 #include "server/ros/force_frames.h"
 
 namespace kinescope::ros_bridge {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "server/core/check.h"
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/check.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/ros/link_states_person.h"
 #include "server/ros/live_topics.h"
 #include "server/ros/names.h"

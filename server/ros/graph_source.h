@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/core/source.h"
+#include "core/source.h"
 
 namespace kinescope::ros_bridge {
 

@@ -12,8 +12,8 @@
 #include <mutex>
 #include <optional>
 
-#include "server/core/check.h"
-#include "server/core/errors.h"
+#include "core/check.h"
+#include "core/errors.h"
 #include "server/ros/bridge.h"
 #include "server/ros/master_client.h"
 

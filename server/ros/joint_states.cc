@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 #include "server/ros/names.h"
 
 namespace kinescope::ros_bridge {

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 
 namespace kinescope::ros_bridge {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "server/core/skeleton_watch.h"
-#include "server/core/source.h"
+#include "core/skeleton_watch.h"
+#include "core/source.h"
 #include "server/ros/transform_people.h"
 #include "server/ros/transform_person.h"
 

@@ -15,7 +15,7 @@
 #include <tuple>
 #include <vector>
 
-#include "server/core/scene_marker.h"
+#include "core/scene_marker.h"
 #include "server/ros/force_input.h"
 
 namespace kinescope::ros_bridge {

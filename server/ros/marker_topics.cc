@@ -7,8 +7,8 @@
 #include <sstream>
 #include <utility>
 
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 
 namespace kinescope::ros_bridge {
 namespace {

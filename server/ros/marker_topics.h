@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 #include "server/ros/bridge.h"
 #include "server/ros/force_frames.h"
 #include "server/ros/marker_input.h"

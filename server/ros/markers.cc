@@ -1,7 +1,7 @@
 #include "server/ros/markers.h"
 
-#include "server/core/held_look.h"
-#include "server/core/palette.h"
+#include "core/held_look.h"
+#include "core/palette.h"
 #include "server/ros/convert.h"
 #include "server/ros/stamp.h"
 

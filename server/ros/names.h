@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/core/extra_segments.h"
+#include "core/extra_segments.h"
 #include "urdf/human_urdf.h"
 #include "urdf/segments.h"
 

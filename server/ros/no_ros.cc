@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "server/ros/bag_source.h"
 #include "server/ros/bridge.h"
 #include "server/ros/graph_source.h"

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "server/core/body_sample.h"
+#include "core/body_sample.h"
 
 namespace kinescope::ros_bridge {
 

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "server/core/skeleton_watch.h"
-#include "server/core/source.h"
+#include "core/skeleton_watch.h"
+#include "core/source.h"
 #include "server/ros/people_frames.h"
 #include "server/ros/transform_person.h"
 

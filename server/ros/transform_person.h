@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "server/core/body_sample.h"
+#include "core/body_sample.h"
 #include "server/ros/people_frames.h"
 #include "urdf/kinematics.h"
 

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "server/core/scene_state.h"
+#include "core/scene_state.h"
 #include "server/ros/names.h"
 
 namespace kinescope::ros_bridge {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "server/ros/convert.h"
 #include "server/ros/stamp.h"
 

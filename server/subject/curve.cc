@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/core/check.h"
+#include "core/check.h"
 
 namespace kinescope::subject {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "server/core/body_sample.h"
+#include "core/body_sample.h"
 #include "server/subject/jet.h"
 #include "urdf/body_parameters.h"
 

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <utility>
 
-#include "server/core/check.h"
-#include "server/core/errors.h"
+#include "core/check.h"
+#include "core/errors.h"
 #include "server/subject/motions.h"
 
 namespace kinescope::subject {

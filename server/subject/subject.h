@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/source.h"
+#include "core/source.h"
 
 namespace kinescope::subject {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <variant>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "server/mvn/encode.h"
 
 namespace {

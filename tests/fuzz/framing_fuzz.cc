@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "server/mvn/stream_framer.h"
 
 namespace {

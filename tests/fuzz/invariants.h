@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "server/core/body_sample.h"
-#include "server/core/check.h"
+#include "core/body_sample.h"
+#include "core/check.h"
 
 namespace kinescope::fuzz {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "server/loads/load_estimator.h"
 
 namespace {

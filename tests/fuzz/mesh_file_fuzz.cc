@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/check.h"
 #include "render/vtk/mesh_file.h"
-#include "server/core/check.h"
 
 // assimp leaks what it has made so far of many a file that it refuses; that is bounded by the file,
 // which is read once.

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "server/mvn/byte_order.h"
 #include "server/mvn/scale_group.h"
 

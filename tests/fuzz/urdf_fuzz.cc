@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "urdf/robot_kinematics.h"
 #include "urdf/robot_model.h"
 #include "urdf/urdf_check.h"

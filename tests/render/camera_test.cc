@@ -6,9 +6,9 @@
 #include <cmath>
 #include <glm/vec4.hpp>
 
+#include "core/errors.h"
 #include "render/camera_matrices.h"
 #include "render/camera_path.h"
-#include "server/core/errors.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::render {

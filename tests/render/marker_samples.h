@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/scene_marker.h"
+#include "core/scene_marker.h"
 
 namespace kinescope::testing {
 

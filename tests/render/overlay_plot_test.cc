@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "core/palette.h"
 #include "render/canvas.h"
 #include "render/overlay.h"
-#include "server/core/palette.h"
 
 namespace kinescope::render {
 namespace {

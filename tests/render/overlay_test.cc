@@ -4,11 +4,11 @@
 
 #include <limits>
 
+#include "core/errors.h"
 #include "render/canvas.h"
 #include "render/font.h"
 #include "render/multi_view.h"
 #include "render/overlay_scale.h"
-#include "server/core/errors.h"
 
 namespace kinescope::render {
 namespace {

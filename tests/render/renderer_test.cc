@@ -13,10 +13,10 @@
 #include <mutex>
 #include <thread>
 
+#include "core/errors.h"
 #include "render/compare.h"
 #include "render/spheres.h"
 #include "render/watchdog.h"
-#include "server/core/errors.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::render {

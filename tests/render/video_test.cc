@@ -17,10 +17,10 @@ extern "C" {
 #include <memory>
 #include <random>
 
+#include "core/errors.h"
 #include "render/canvas.h"
 #include "render/resample.h"
 #include "render/strip.h"
-#include "server/core/errors.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 

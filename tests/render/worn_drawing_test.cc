@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/palette.h"
 #include "render/compare.h"
 #include "render/renderer.h"
-#include "server/core/palette.h"
 #include "tests/render/test_scene.h"
 #include "tests/worn.h"
 

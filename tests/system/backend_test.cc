@@ -14,11 +14,11 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/errors.h"
 #include "render/compare.h"
 #include "render/png_file.h"
 #include "server/app/backend_probe.h"
 #include "server/app/child_process.h"
-#include "server/core/errors.h"
 #include "tests/process.h"
 #include "tests/render/test_scene.h"
 #include "tests/server/http/test_client.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "server/core/scene_marker.h"
+#include "core/scene_marker.h"
 #include "tests/system/ros_fixture.h"
 
 namespace kinescope {

@@ -12,10 +12,10 @@
 #include <sstream>
 #include <vector>
 
+#include "core/skeleton_watch.h"
 #include "server/app/scene_builder.h"
 #include "server/app/scene_reader.h"
 #include "server/app/stream_extras.h"
-#include "server/core/skeleton_watch.h"
 #include "server/http/api.h"
 #include "server/mvn/datagram.h"
 #include "server/ros/bridge.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "server/core/check.h"
+#include "core/check.h"
 
 namespace kinescope::mvn {
 

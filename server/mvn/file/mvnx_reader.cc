@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "server/mvn/file/mvnx_elements.h"
 #include "server/mvn/item_reader.h"
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/mvn/open.h"
 
 namespace kinescope::mvn {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "server/core/source.h"
+#include "core/source.h"
 #include "server/mvn/file/mvnx_reader.h"
 
 namespace kinescope::mvn {

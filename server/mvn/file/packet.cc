@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "server/core/check.h"
+#include "core/check.h"
 #include "server/mvn/byte_order.h"
 
 namespace kinescope::mvn {

@@ -6,8 +6,8 @@
 #include <array>
 #include <utility>
 
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/mvn/net/net_url.h"
 
 namespace kinescope::mvn {

@@ -16,7 +16,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/core/input_file.h"
+#include "core/input_file.h"
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/file/captured_tcp.h"
 #include "server/mvn/file/ip_fragments.h"

@@ -11,9 +11,9 @@
 #include <system_error>
 #include <utility>
 
-#include "server/core/check.h"
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/check.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/mvn/file/packet.h"
 
 namespace kinescope::mvn {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/mvn/datagram.h"
 
 namespace kinescope::mvn {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/input_file.h"
+#include "core/input_file.h"
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/stream_framer.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/source.h"
+#include "core/source.h"
 #include "server/mvn/inspect/inspection.h"
 
 namespace kinescope::mvn {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/source.h"
+#include "core/source.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/inspect/frames.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 
 namespace kinescope::mvn {
 namespace {

@@ -12,8 +12,8 @@
 #include <system_error>
 #include <utility>
 
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 
 namespace kinescope::mvn {
 namespace {

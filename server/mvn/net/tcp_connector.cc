@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-#include "server/core/clocks.h"
+#include "core/clocks.h"
 
 namespace kinescope::mvn {
 namespace {

@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <utility>
 
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/mvn/stream_framer.h"
 
 namespace kinescope::mvn {

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 #include "server/mvn/datagram.h"
 
 namespace kinescope::mvn {

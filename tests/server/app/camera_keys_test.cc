@@ -8,7 +8,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::app {

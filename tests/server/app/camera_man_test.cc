@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "tests/render/test_scene.h"
 #include "tests/temp_folder.h"
 

@@ -5,8 +5,8 @@
 
 #include <fstream>
 
+#include "core/errors.h"
 #include "server/app/pipeline_options.h"
-#include "server/core/errors.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 #include "urdf/figure.h"

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "tests/server/app/fake_renderer.h"
 #include "tests/temp_folder.h"
 

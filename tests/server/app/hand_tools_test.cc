@@ -5,11 +5,11 @@
 
 #include <fstream>
 
+#include "core/errors.h"
+#include "core/held_look.h"
 #include "server/app/pipeline_options.h"
 #include "server/app/scene_builder.h"
 #include "server/app/scene_reader.h"
-#include "server/core/errors.h"
-#include "server/core/held_look.h"
 #include "server/loads/hand_loads.h"
 #include "tests/temp_folder.h"
 #include "urdf/robot_model.h"

@@ -11,8 +11,8 @@
 #include <fstream>
 #include <limits>
 
+#include "core/errors.h"
 #include "server/app/load_rows.h"
-#include "server/core/errors.h"
 #include "tests/full_disk.h"
 #include "tests/server/app/trial_scenes.h"
 #include "tests/shared_data.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::app {

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
 #include "render/png_file.h"
-#include "server/core/errors.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 

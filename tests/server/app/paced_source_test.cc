@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "server/core/clocks.h"
-#include "server/core/errors.h"
+#include "core/clocks.h"
+#include "core/errors.h"
 
 namespace kinescope::app {
 namespace {

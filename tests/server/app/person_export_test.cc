@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 #include "urdf/figure.h"

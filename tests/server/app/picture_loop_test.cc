@@ -10,7 +10,7 @@
 #include <chrono>
 #include <string>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::app {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 
 namespace kinescope::app {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "tests/temp_folder.h"
 #include "urdf/xml_outline.h"
 

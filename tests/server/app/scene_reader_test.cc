@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "tests/shared_data.h"
 
 namespace kinescope::app {

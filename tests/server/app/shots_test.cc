@@ -11,8 +11,8 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "core/errors.h"
 #include "server/app/stop_signal.h"
-#include "server/core/errors.h"
 #include "tests/deadline.h"
 #include "tests/temp_folder.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::app {

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
+#include "core/clocks.h"
 #include "server/app/load_trial.h"
 #include "server/app/scene_reader.h"
-#include "server/core/clocks.h"
 #include "server/loads/joint_score.h"
 
 namespace kinescope::testing {

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <vector>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::app {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "core/errors.h"
 #include "server/app/shots.h"
-#include "server/core/errors.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::app {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "server/core/palette.h"
+#include "core/palette.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/worn.h"
 

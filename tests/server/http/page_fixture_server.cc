@@ -16,11 +16,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "server/core/clocks.h"
-#include "server/core/held_look.h"
-#include "server/core/install_paths.h"
-#include "server/core/palette.h"
-#include "server/core/person_links.h"
+#include "core/clocks.h"
+#include "core/held_look.h"
+#include "core/install_paths.h"
+#include "core/palette.h"
+#include "core/person_links.h"
 #include "server/http/api.h"
 #include "server/http/protocol.h"
 #include "server/http/server.h"

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "server/core/held_look.h"
-#include "server/core/palette.h"
+#include "core/held_look.h"
+#include "core/palette.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/worn.h"
 

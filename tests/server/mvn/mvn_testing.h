@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/source.h"
+#include "core/source.h"
 #include "server/mvn/byte_order.h"
 #include "server/mvn/datagram.h"
 #include "tests/recording_sink.h"

@@ -13,7 +13,7 @@
 #include <sstream>
 #include <vector>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "server/ros/people_frames.h"
 #include "server/ros/transforms.h"
 #include "tests/recording_sink.h"

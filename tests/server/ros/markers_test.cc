@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "server/core/palette.h"
+#include "core/palette.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::ros_bridge {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "server/ros/bag_source.h"
 #include "server/ros/bridge.h"
 #include "server/ros/graph_source.h"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "server/ros/master_client.h"
 #include "tests/server/ros/bridge_fixture.h"
 

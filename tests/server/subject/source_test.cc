@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "server/core/errors.h"
+#include "core/errors.h"
 #include "server/subject/subject.h"
 
 namespace kinescope::subject {

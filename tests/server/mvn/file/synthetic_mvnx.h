@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "server/core/body_sample.h"
+#include "core/body_sample.h"
 
 namespace kinescope::mvn::testing {
 

@@ -1,0 +1,109 @@
+/// One sample of a captured body: the value that every source produces.
+/// World frame: right-handed, z up, metres; x forward and y left at calibration. Orientations are
+/// of *segment* frames (identity in the T-pose), as MVN streams them; see urdf/segments.h. Plain
+/// data, copy it anywhere.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/extra_segments.h"
+#include "urdf/segments.h"
+#include "urdf/skeleton.h"
+
+namespace kinescope {
+
+struct SegmentState {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the segment's origin, world, m
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // world_from_segment, unit
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();               // of the origin, world, m/s
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();           // without gravity, world, m/s^2
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();       // world axes, rad/s
+  Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();   // world axes, rad/s^2
+};
+
+struct CenterOfMass {  // as the sender computed it (type 24, MVNX centerOfMass); world
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();      // m
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      // m/s, zero where not sent
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // m/s^2, zero where not sent
+  bool has_derivatives = false;
+};
+
+/// One inertial sensor of the suit (type 23), by the segment that carries it.
+struct TrackerState {
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // world_from_sensor, unit
+  Eigen::Vector3d free_acceleration = Eigen::Vector3d::Zero();      // world, no gravity, m/s^2
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();      // sensor axes, with gravity, m/s^2
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // sensor axes, rad/s
+  Eigen::Vector3d magnetic_field = Eigen::Vector3d::Zero();    // sensor axes, about 1
+  bool has_rates = false;  // false: a sender that leaves acceleration and angular velocity out
+};
+
+/// What the sender says of a foot: which end of it is on the floor.
+struct FootContactFlags {
+  bool heel = false, forefoot = false;
+};
+
+struct BodySample {
+  int character = 0;                  // id within the source, from 0
+  std::uint32_t counter = 0;          // sender's sample counter; counts captured frames
+  std::int64_t time_code_millis = 0;  // sender's clock: since its recording began
+  std::int64_t stamp_nanos = 0;       // ROS time (Unix epoch) of this sample
+  std::int64_t arrival_nanos = 0;     // monotonic clock, when its last datagram was read; 0: a file
+  std::array<SegmentState, urdf::kSegmentCount> segments{};
+  bool has_linear = false;   // velocity and acceleration are measured, not zeros
+  bool has_angular = false;  // angular velocity and acceleration likewise
+  std::optional<CenterOfMass> com;
+  /// Joint angles as streamed (type 20, MVNX jointAngle), degrees, MVN's own (x, y, z) order.
+  std::optional<std::array<Eigen::Vector3d, urdf::kJointCount>> streamed_angles_deg;
+  /// By urdf::Side (MVNX footContacts); absent where the sender does not say.
+  std::optional<std::array<FootContactFlags, 2>> foot_contacts;
+  ExtraSegments extra;  // gloves and props, where streamed
+  std::array<TrackerState, urdf::kSegmentCount> trackers{};
+  std::bitset<urdf::kSegmentCount> has_tracker;
+  std::optional<std::int32_t> utc_millis_of_day;  // type 25: time of day, UTC, without a date
+};
+
+/// The sample's poses, of *link* frames (urdf/segments.h).
+urdf::Pose LinkPoseOf(const BodySample& sample, int segment);
+urdf::LinkPoses LinkPosesOf(const BodySample& sample);
+
+/// One sample of a cluster of tracked objects, which streams as a character of its own.
+struct ObjectsSample {
+  int character = 0;
+  std::uint32_t counter = 0;
+  std::int64_t time_code_millis = 0;
+  std::int64_t stamp_nanos = 0;                         // as in BodySample
+  std::int64_t arrival_nanos = 0;                       // as in BodySample
+  std::array<urdf::Pose, urdf::kSegmentCount> poses{};  // by object number, world_from_object
+  std::bitset<urdf::kSegmentCount> present;
+};
+
+/// A segment that is not one of the body's 23, as scale data describe it.
+struct ScaledSegment {
+  std::string name;
+  Eigen::Vector3d origin_in_world = Eigen::Vector3d::Zero();  // in the T-pose, m
+
+  bool operator==(const ScaledSegment& other) const {
+    return name == other.name && origin_in_world == other.origin_in_world;
+  }
+};
+
+/// What a source knows about one person or cluster of objects, apart from samples; sent again
+/// whenever it changes.
+struct Character {
+  int id = 0;
+  std::string name;                        // "" where unknown
+  std::optional<std::uint32_t> color_rgb;  // 0xRRGGBB
+  std::optional<urdf::Skeleton> skeleton;  // from type 13 or MVNX points; of a person
+  /// Of a person: props and fingers, by ExtraSegments' index; "" where there is none. Of objects:
+  /// all of them, in order.
+  std::vector<ScaledSegment> extra;
+};
+
+}  // namespace kinescope

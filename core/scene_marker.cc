@@ -1,0 +1,125 @@
+#include "core/scene_marker.h"
+
+#include <array>
+#include <cmath>
+
+namespace kinescope {
+namespace {
+
+constexpr std::array<const char*, 12> kNames = {
+    "arrow",     "cube",        "sphere", "cylinder", "line strip", "line list",
+    "cube list", "sphere list", "points", "text",     "mesh",       "triangle list"};
+
+bool IsNear(const Eigen::Vector3d& point) {
+  return point.allFinite() && point.cwiseAbs().maxCoeff() <= kFarthestMarker;
+}
+
+std::optional<std::string> FindPointDefect(const SceneMarker& marker) {
+  const std::size_t count = marker.points.size();
+  const auto have = [&](const char* need) {
+    return std::string(Name(marker.type)) + " has " + std::to_string(count) + " points, " + need;
+  };
+  if (count > kMostMarkerPoints) {
+    return have("more than ") + std::to_string(kMostMarkerPoints);
+  }
+  switch (marker.type) {
+    case MarkerType::kArrow:
+      if (count != 0 && count != 2) return have("not none or 2");
+      break;
+    case MarkerType::kLineStrip:
+      if (count < 2) return have("not 2 or more");
+      break;
+    case MarkerType::kLineList:
+      if (count == 0 || count % 2 != 0) return have("not pairs");
+      break;
+    case MarkerType::kTriangleList:
+      if (count == 0 || count % 3 != 0) return have("not triples");
+      break;
+    case MarkerType::kCubeList:
+    case MarkerType::kSphereList:
+    case MarkerType::kPoints:
+      if (count == 0) return have("not one");
+      break;
+    default: break;
+  }
+  for (const Eigen::Vector3d& point : marker.points) {
+    if (!IsNear(point)) return "a point is not a finite number, or beyond 100 km";
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> FindColorDefect(const SceneMarker& marker) {
+  const auto is_color = [](const Eigen::Vector4d& color) {
+    return color.allFinite() && color.minCoeff() >= 0 && color.maxCoeff() <= 1;
+  };
+  if (!is_color(marker.color)) return "its color is not within 0 to 1";
+  if (!marker.colors.empty() && marker.colors.size() != marker.points.size()) {
+    return std::to_string(marker.colors.size()) + " colors for " +
+           std::to_string(marker.points.size()) + " points";
+  }
+  for (const Eigen::Vector4d& color : marker.colors) {
+    if (!is_color(color)) return "one of its colors is not within 0 to 1";
+  }
+  return std::nullopt;
+}
+
+// How many of the scale's numbers must be above 0.
+int NeededSizes(const SceneMarker& marker) {
+  switch (marker.type) {
+    case MarkerType::kLineStrip:
+    case MarkerType::kLineList: return 1;
+    case MarkerType::kPoints: return 2;
+    case MarkerType::kArrow: return marker.points.empty() ? 3 : 2;
+    case MarkerType::kText: return 0;
+    default: return 3;
+  }
+}
+
+std::optional<std::string> FindSizeDefect(const SceneMarker& marker) {
+  if (!IsNear(marker.scale)) return "its scale is not a finite number, or beyond 100 km";
+  // A mesh may be mirrored.
+  const bool may_mirror =
+      marker.type == MarkerType::kMesh || marker.type == MarkerType::kTriangleList;
+  const Eigen::Vector3d scale =
+      may_mirror ? Eigen::Vector3d(marker.scale.cwiseAbs()) : marker.scale;
+  if (scale.minCoeff() < 0) return "its scale is negative";
+  const int needed = NeededSizes(marker);
+  for (int axis = 0; axis < needed; ++axis) {
+    if (!(scale[axis] > 0)) return std::string("its scale.") + "xyz"[axis] + " is 0";
+  }
+  if (marker.type == MarkerType::kText && !(scale.z() > 0)) return "its scale.z is 0";
+  return std::nullopt;
+}
+
+}  // namespace
+
+const char* Name(MarkerType type) {
+  const auto index = static_cast<std::size_t>(type);
+  return index < kNames.size() ? kNames[index] : "unknown";
+}
+
+std::optional<std::string> FindDefect(const SceneMarker& marker) {
+  if (static_cast<std::size_t>(marker.type) >= kNames.size()) {
+    return "its type is " + std::to_string(static_cast<int>(marker.type)) + ", not 0 to 11";
+  }
+  const Eigen::Quaterniond& turn = marker.pose.orientation;
+  if (!IsNear(marker.pose.position)) return "its position is not a finite number, or beyond 100 km";
+  if (!turn.coeffs().allFinite() || std::abs(turn.norm() - 1) > 1e-3) {
+    return "its orientation is not of length 1";
+  }
+  if (auto defect = FindSizeDefect(marker)) return defect;
+  if (auto defect = FindPointDefect(marker)) return defect;
+  if (auto defect = FindColorDefect(marker)) return defect;
+  if (marker.type == MarkerType::kText) {
+    if (marker.text.empty()) return "its text is empty";
+    if (marker.text.size() > kMostMarkerText) return "its text is longer than 200 bytes";
+  }
+  if (marker.type == MarkerType::kMesh && marker.mesh_uri.empty()) return "it names no mesh";
+  return std::nullopt;
+}
+
+std::string IdentityOf(const SceneMarker& marker) {
+  return marker.ns + "/" + std::to_string(marker.id);
+}
+
+}  // namespace kinescope
