@@ -1,7 +1,7 @@
 /// What every sink shows: RViz, picture, clip, page and golden check all draw from this value and
-/// compute nothing of their own about the human. Made once per sample (server/app/scene_builder.h),
-/// never changed afterwards, shared as `std::shared_ptr<const SceneState>`.
-/// World frame: z up, metres. Poses are of *link* frames (urdf/segments.h).
+/// compute nothing of their own about the human. Made once per sample
+/// (server/scene/scene_builder.h), never changed afterwards, shared as `std::shared_ptr<const
+/// SceneState>`. World frame: z up, metres. Poses are of *link* frames (urdf/segments.h).
 #pragma once
 
 #include <Eigen/Geometry>

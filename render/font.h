@@ -41,7 +41,4 @@ class Font {
   std::map<std::pair<int, char32_t>, Glyph> glyphs_;  // by size and code point
 };
 
-/// Code points of `utf8`; what is no UTF-8 or no printable character becomes U+FFFD.
-std::u32string DecodeUtf8(std::string_view utf8);
-
 }  // namespace kinescope::render

@@ -1,15 +1,13 @@
 /// The parts that are loaded only when they are needed, each with its dozens of libraries: drawing
-/// (VTK, Mesa, LLVM), video (libav) and figures (Cairo). Host and module exchange C++ values, so
-/// both must come from the same build; LoadModule refuses anything else.
+/// (VTK, Mesa, LLVM), video (libav) and figures (Cairo).
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "core/module_loader.h"
 #include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/image.h"
@@ -25,19 +23,6 @@ namespace kinescope::render {
 struct Driver {
   std::string renderer;    // GL_RENDERER
   std::string gl_version;  // GL_VERSION
-};
-
-/// Raised by hand when host and module of different builds would not understand each other and no
-/// size tells: virtual functions, an order of members, a meaning.
-inline constexpr std::size_t kModuleAbi = 5;
-
-/// What must be equal on both sides; a changed struct changes a size here in nearly every case.
-/// `Types`: all that the functions of a table take and give, and what is behind pointers and in
-/// containers there. tests/module_abi_test.py finds one that is missing.
-template <class... Types>
-struct ModuleAbi {
-  std::array<std::size_t, 2 + sizeof...(Types)> words = {kModuleAbi, sizeof...(Types),
-                                                         sizeof(Types)...};
 };
 
 /// Text at a place in the world, drawn by the overlay.
@@ -111,17 +96,12 @@ inline constexpr const char* kDrawingEntry = "KinescopeDrawingModule";  // -> co
 inline constexpr const char* kVideoEntry = "KinescopeVideoModule";      // -> const VideoModule*
 inline constexpr const char* kPlotEntry = "KinescopePlotModule";        // -> const PlotModule*
 
-/// The table that `entry` of a module returns; the module stays loaded until the process ends.
-/// `abi`: the words that the table has to begin with.
-/// @throws RenderError naming the file, the reason and what would help.
-const void* LoadModule(const std::string& file_name, const char* entry, const std::size_t* abi,
-                       std::size_t abi_words);
-
+/// As kinescope::LoadModule. @throws RenderError.
 template <class Module>
-const Module& LoadModule(const std::string& file_name, const char* entry) {
-  const decltype(Module::abi) ours{};
-  return *static_cast<const Module*>(
-      LoadModule(file_name, entry, ours.words.data(), ours.words.size()));
+const Module& LoadModule(const std::string& file_name, const char* entry) try {
+  return kinescope::LoadModule<Module>(file_name, entry);
+} catch (const ModuleError& error) {
+  throw RenderError(error.what());
 }
 
 }  // namespace kinescope::render

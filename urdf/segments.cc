@@ -55,6 +55,11 @@ const std::array<JointInfo, kJointCount> kJoints = {{
     {"jLeftBallFoot", "left_ballfoot", "Left ball of foot"},
 }};
 
+const std::array<int, kScoredJointCount> kScoredJoints = {
+    jL5S1,       jT9T8,      jT1C7,       jRightShoulder, jLeftShoulder,
+    jRightElbow, jLeftElbow, jRightWrist, jLeftWrist,     jRightHip,
+    jLeftHip,    jRightKnee, jLeftKnee,   jRightAnkle,    jLeftAnkle};
+
 std::optional<Segment> FindSegment(std::string_view mvn_name) {
   for (int i = 0; i < kSegmentCount; ++i) {
     if (kSegments[static_cast<std::size_t>(i)].mvn_name == mvn_name) return static_cast<Segment>(i);

@@ -88,6 +88,11 @@ struct JointInfo {
 extern const std::array<SegmentInfo, kSegmentCount> kSegments;
 extern const std::array<JointInfo, kJointCount> kJoints;
 
+/// The joints whose load is computed and shown: L5/S1, T9/T8, neck (T1/C7), then shoulder, elbow,
+/// wrist, hip, knee, ankle, right before left.
+inline constexpr std::size_t kScoredJointCount = 15;
+extern const std::array<int, kScoredJointCount> kScoredJoints;
+
 /// A segment or a joint as an index of the arrays that they count through.
 constexpr std::size_t At(int index) { return static_cast<std::size_t>(index); }
 

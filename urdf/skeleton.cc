@@ -206,4 +206,9 @@ Vector3d EndOf(const Skeleton& skeleton, int segment) {
   }
 }
 
+Eigen::Vector3d GripPoint(const Skeleton& skeleton, Side side) {
+  constexpr double kGripOfHandLength = 0.42;
+  return kGripOfHandLength * skeleton.finger_tip_in_hand[side];
+}
+
 }  // namespace kinescope::urdf

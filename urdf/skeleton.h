@@ -61,4 +61,8 @@ std::array<Eigen::Vector3d, kSegmentCount> NPoseOrigins(const Skeleton& skeleton
 /// pelvis: jL5S1, foot: ball), or the end point of head, hand and toe.
 Eigen::Vector3d EndOf(const Skeleton& skeleton, int segment);
 
+/// Where a hand holds things, in its link frame: 0.42 of the hand's length from the wrist
+/// (joint-loads.md 2.7).
+Eigen::Vector3d GripPoint(const Skeleton& skeleton, Side side);
+
 }  // namespace kinescope::urdf

@@ -1,7 +1,7 @@
 #include "render/vtk/axes_actor.h"
 
 #include "core/palette.h"
-#include "render/vtk/line_mesh.h"
+#include "render/shape/line_mesh.h"
 
 namespace kinescope::render {
 namespace {
@@ -11,13 +11,13 @@ constexpr double kHalfJointAxis = 0.085, kJointAxisRadius = 0.003;  // likewise
 constexpr float kGhostAxesOpacity = 0.5f;
 
 // One axis of each link along z, of length and radius 1.
-Mesh SticksMesh(const Rgb& rgb, bool is_two_sided) {
-  Mesh mesh;
+urdf::Mesh SticksMesh(const Rgb& rgb, bool is_two_sided) {
+  urdf::Mesh mesh;
   const Eigen::Vector4f color(static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
                               static_cast<float>(rgb[2]), 1);
   for (int part = 0; part < urdf::kSegmentCount; ++part) {
     const std::size_t first = mesh.positions.size();
-    mesh.Append(CylinderMesh(1, is_two_sided ? 2 : 1, {0, 10, 0}),
+    mesh.Append(urdf::CylinderMesh(1, is_two_sided ? 2 : 1, {0, 10, 0}),
                 Eigen::Affine3d(Eigen::Translation3d(0, 0, is_two_sided ? 0 : 0.5)));
     mesh.Paint(first, color, part);
   }
@@ -43,7 +43,7 @@ Eigen::Matrix3d DirectionsOf(const PersonState& person, int segment, bool is_joi
 
 AxesActor::AxesActor(Kind kind) : kind_(kind) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const Mesh mesh = SticksMesh(kAxisColors[axis], kind == Kind::kJoints);
+    const urdf::Mesh mesh = SticksMesh(kAxisColors[axis], kind == Kind::kJoints);
     solid_[axis] =
         std::make_unique<PartActor>(Pass::kSolid, PartActor::Light::kFlat, urdf::kSegmentCount);
     ghost_[axis] =

@@ -12,7 +12,7 @@ namespace {}  // namespace
 void FigureActor::Load(const PersonModel& model, OnceLog& log) {
   groups_.clear();
   problems_.clear();
-  VisualReader reader(urdf::MeshSearch(), ShapeDetail::Figure());
+  VisualReader reader(urdf::MeshSearch(), urdf::ShapeDetail::Figure());
   const std::vector<std::string> names = VisibleLinks(model.human);
   for (std::size_t first = 0; first < names.size(); first += PartActor::kMostParts) {
     Group group;

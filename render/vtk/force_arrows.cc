@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/palette.h"
-#include "render/vtk/line_mesh.h"
+#include "render/shape/line_mesh.h"
 
 namespace kinescope::render {
 namespace {
@@ -16,14 +16,14 @@ constexpr float kGhostForceOpacity = 0.45f;
 constexpr int kPartsOfArrow = 2;  // shaft, head
 constexpr int kParts = 2 * kPartsOfArrow;
 
-Mesh ArrowParts() {
-  Mesh mesh;
+urdf::Mesh ArrowParts() {
+  urdf::Mesh mesh;
   const Eigen::Vector4f color(static_cast<float>(kCopColor[0]), static_cast<float>(kCopColor[1]),
                               static_cast<float>(kCopColor[2]), 1);
   for (int part = 0; part < kParts; ++part) {
     const std::size_t first = mesh.positions.size();
     const bool is_shaft = part % kPartsOfArrow == 0;
-    mesh.Append(is_shaft ? CylinderMesh(1, 1, {0, 16, 0}) : ConeMesh(20),
+    mesh.Append(is_shaft ? urdf::CylinderMesh(1, 1, {0, 16, 0}) : ConeMesh(20),
                 Eigen::Affine3d(Eigen::Translation3d(0, 0, is_shaft ? 0.5 : 0)));
     mesh.Paint(first, color, part);
   }

@@ -21,8 +21,8 @@
 
 #include "render/camera_matrices.h"
 #include "render/resample.h"
+#include "render/shape/floor_scale.h"
 #include "render/vtk/floor_cache.h"
-#include "render/vtk/floor_scale.h"
 #include "render/vtk/ghost_actors.h"
 #include "render/vtk/gl_context.h"
 #include "render/vtk/ground.h"

@@ -60,10 +60,10 @@ float Lines(vec2 at, vec2 cell, float width) {
 Ground::Ground()
     : light_(Pass::kBackdrop, FloorText(Theme::kLight)),
       dark_(Pass::kBackdrop, FloorText(Theme::kDark)) {
-  Mesh disc;
+  urdf::Mesh disc;
   Eigen::Affine3d grow = Eigen::Affine3d::Identity();
   grow.scale(Eigen::Vector3d(kFloorReach, kFloorReach, 1));
-  disc.Append(DiscMesh(24), grow);
+  disc.Append(urdf::DiscMesh(24), grow);
   disc.Paint(0, Eigen::Vector4f::Ones(), 0);
   light_.SetMesh(disc);
   dark_.SetMesh(disc);

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "render/renderer.h"
-#include "render/vtk/once_log.h"
+#include "render/shape/once_log.h"
 
 namespace kinescope::render {
 

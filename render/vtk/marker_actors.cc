@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "render/vtk/marker_mesh.h"
+#include "render/shape/marker_mesh.h"
 
 namespace kinescope::render {
 namespace {
@@ -39,13 +39,13 @@ const VisualMesh& MarkerActors::MeshOf(const std::string& uri) {
   urdf::Visual visual;
   visual.geometry = {urdf::Geometry::Kind::kMesh, Eigen::Vector3d::Ones(), uri};
   visual.rgba = Eigen::Vector4d::Zero();  // stays where the file has no colour
-  VisualReader reader(urdf::MakeMeshSearch({}, {}), ShapeDetail::Robot());
+  VisualReader reader(urdf::MakeMeshSearch({}, {}), urdf::ShapeDetail::Robot());
   VisualMesh& mesh = meshes_[uri];
   reader.Add(visual, 0, mesh);
   return mesh;
 }
 
-void MarkerActors::AddMesh(const SceneMarker& marker, Mesh& to) {
+void MarkerActors::AddMesh(const SceneMarker& marker, urdf::Mesh& to) {
   const VisualMesh& mesh = MeshOf(marker.mesh_uri);
   for (const std::string& problem : mesh.problems) {
     problems_.push_back("marker " + IdentityOf(marker) + ": " + problem);
@@ -78,7 +78,7 @@ void MarkerActors::Build() {
   labels_.clear();
   triangles_ = 0;
   is_closed_ = true;
-  Mesh solid, blended;
+  urdf::Mesh solid, blended;
   std::size_t count = 0;
   for (const auto& marker : markers_) {
     const auto refuse = [&](const std::string& why) {
@@ -103,7 +103,7 @@ void MarkerActors::Build() {
                          c.w()});
       continue;
     }
-    Mesh& to = IsTranslucent(*marker) ? blended : solid;
+    urdf::Mesh& to = IsTranslucent(*marker) ? blended : solid;
     if (marker->type == MarkerType::kMesh) {
       AddMesh(*marker, to);
       continue;

@@ -9,9 +9,9 @@
 
 #include "core/scene_state.h"
 #include "render/module.h"
-#include "render/vtk/once_log.h"
+#include "render/shape/once_log.h"
+#include "render/shape/visual_mesh.h"
 #include "render/vtk/part_actor.h"
-#include "render/vtk/visual_mesh.h"
 
 namespace kinescope::render {
 
@@ -30,7 +30,7 @@ class MarkerActors {
 
  private:
   void Build();
-  void AddMesh(const SceneMarker& marker, Mesh& to);
+  void AddMesh(const SceneMarker& marker, urdf::Mesh& to);
   const VisualMesh& MeshOf(const std::string& uri);
 
   PartActor solid_, blended_;

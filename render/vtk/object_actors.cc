@@ -9,8 +9,8 @@ constexpr std::size_t kObjectsPerActor = 32;                              // Par
 constexpr double kAxisLength = 0.15, kAxisRadius = 0.005, kBlock = 0.05;  // m
 constexpr double kLabelHeight = 0.10;                                     // m above the object
 
-void AddObject(int part, Mesh& all) {
-  const auto add = [&](const Mesh& mesh, const Eigen::Affine3d& place, const Rgb& rgb) {
+void AddObject(int part, urdf::Mesh& all) {
+  const auto add = [&](const urdf::Mesh& mesh, const Eigen::Affine3d& place, const Rgb& rgb) {
     const std::size_t first = all.positions.size();
     all.Append(mesh, place);
     all.Paint(
@@ -18,17 +18,18 @@ void AddObject(int part, Mesh& all) {
         {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2]), 1},
         part);
   };
-  add(BoxMesh(Eigen::Vector3d::Constant(kBlock)), Eigen::Affine3d::Identity(), kObjectColor);
+  add(urdf::BoxMesh(Eigen::Vector3d::Constant(kBlock)), Eigen::Affine3d::Identity(), kObjectColor);
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
     Eigen::Affine3d place(Eigen::Translation3d(0.5 * kAxisLength * along));
     place.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), along));
-    add(CylinderMesh(kAxisRadius, kAxisLength), place, kAxisColors[static_cast<std::size_t>(axis)]);
+    add(urdf::CylinderMesh(kAxisRadius, kAxisLength), place,
+        kAxisColors[static_cast<std::size_t>(axis)]);
   }
 }
 
 std::unique_ptr<PartActor> MakeGroup() {
-  Mesh mesh;
+  urdf::Mesh mesh;
   for (int part = 0; part < static_cast<int>(kObjectsPerActor); ++part) AddObject(part, mesh);
   auto actor = std::make_unique<PartActor>(Pass::kSolid, PartActor::Light::kLit,
                                            static_cast<int>(kObjectsPerActor));

@@ -22,7 +22,7 @@ class PartActor {
   /// @pre 1 <= part_count <= kMostParts
   PartActor(Pass pass, Light light, int part_count);
 
-  void SetMesh(const Mesh& mesh) { shaded_.SetMesh(mesh); }
+  void SetMesh(const urdf::Mesh& mesh) { shaded_.SetMesh(mesh); }
   void SetCulling(bool is_on) { shaded_.SetCulling(is_on); }
 
   /// world_from_part. Hidden parts have a zero matrix. Takes effect with Commit.

@@ -33,42 +33,43 @@ Eigen::Vector4f Color(const Rgb& rgb, float alpha = 1) {
           alpha};
 }
 
-Mesh PersonShadow() {
-  Mesh all;
+urdf::Mesh PersonShadow() {
+  urdf::Mesh all;
   constexpr float kDarkness[kShadowParts] = {0.20f, 0.38f, 0.38f};
   for (int part = 0; part < kShadowParts; ++part) {
     const std::size_t first = all.positions.size();
-    all.Append(DiscMesh(12), Eigen::Affine3d::Identity());
+    all.Append(urdf::DiscMesh(12), Eigen::Affine3d::Identity());
     all.Paint(first, {0.20f, 0.23f, 0.30f, kDarkness[part]}, part);
   }
   return all;
 }
 
-Mesh MarkMesh() {
-  Mesh all;
-  const auto add = [&](const Mesh& mesh, const Rgb& rgb, MarkPart part) {
+urdf::Mesh MarkMesh() {
+  urdf::Mesh all;
+  const auto add = [&](const urdf::Mesh& mesh, const Rgb& rgb, MarkPart part) {
     const std::size_t first = all.positions.size();
     all.Append(mesh, Eigen::Affine3d::Identity());
     all.Paint(first, Color(rgb), part);
   };
-  add(RingMesh(0.78, kMarkCorners), kComColor, kComRing);
-  add(CylinderMesh(1, 1), kComColor, kComLine);
-  add(DiscMesh(kMarkCorners), {1, 1, 1}, kCopEdge);
-  add(DiscMesh(kMarkCorners), kCopColor, kCopDisc);
+  add(urdf::RingMesh(0.78, kMarkCorners), kComColor, kComRing);
+  add(urdf::CylinderMesh(1, 1), kComColor, kComLine);
+  add(urdf::DiscMesh(kMarkCorners), {1, 1, 1}, kCopEdge);
+  add(urdf::DiscMesh(kMarkCorners), kCopColor, kCopDisc);
   for (int edge = kSupportEdge; edge < kMarkParts; ++edge) {
-    add(BoxMesh({1, 1, 1}), kSupportColor, static_cast<MarkPart>(edge));
+    add(urdf::BoxMesh({1, 1, 1}), kSupportColor, static_cast<MarkPart>(edge));
   }
   return all;
 }
 
 // Solids of size 1, stretched to theirs where they are placed.
-Mesh HeldMesh() {
-  Mesh all;
+urdf::Mesh HeldMesh() {
+  urdf::Mesh all;
   for (int part = 0; part < kHeldParts; ++part) {
     const std::size_t first = all.positions.size();
-    const ShapeDetail detail{0.04, 32, 0};
-    all.Append(part == kHeldBox ? BoxMesh({1, 1, 1}, detail) : CylinderMesh(1, 1, detail),
-               Eigen::Affine3d::Identity());
+    const urdf::ShapeDetail detail{0.04, 32, 0};
+    all.Append(
+        part == kHeldBox ? urdf::BoxMesh({1, 1, 1}, detail) : urdf::CylinderMesh(1, 1, detail),
+        Eigen::Affine3d::Identity());
     all.Paint(first, Color(kHeldColor), part);
   }
   return all;

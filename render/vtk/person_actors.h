@@ -8,10 +8,10 @@
 #include "core/scene_state.h"
 #include "render/module.h"
 #include "render/scene_look.h"
+#include "render/shape/once_log.h"
 #include "render/vtk/axes_actor.h"
 #include "render/vtk/figure_actor.h"
 #include "render/vtk/force_arrows.h"
-#include "render/vtk/once_log.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/sphere_actor.h"
 

@@ -12,9 +12,9 @@ constexpr double kHighestShadow = 0.5;  // m above the floor
 bool IsTranslucent(const urdf::Visual& visual) { return visual.rgba && visual.rgba->w() < 1; }
 bool IsVisible(const urdf::Visual& visual) { return !visual.rgba || visual.rgba->w() > 0; }
 
-Mesh RobotShadow() {
-  Mesh mesh;
-  mesh.Append(DiscMesh(24), Eigen::Affine3d::Identity());
+urdf::Mesh RobotShadow() {
+  urdf::Mesh mesh;
+  mesh.Append(urdf::DiscMesh(24), Eigen::Affine3d::Identity());
   mesh.Paint(0, {0.20f, 0.23f, 0.30f, 0.30f}, 0);
   return mesh;
 }
@@ -79,7 +79,8 @@ void RobotActors::LoadGroups(const urdf::RobotModel& model, bool is_translucent,
 void RobotActors::Load(const RobotState& robot, OnceLog& log) {
   groups_.clear();
   problems_.clear();
-  VisualReader reader(robot.meshes ? *robot.meshes : urdf::MeshSearch(), ShapeDetail::Robot());
+  VisualReader reader(robot.meshes ? *robot.meshes : urdf::MeshSearch(),
+                      urdf::ShapeDetail::Robot());
   // What shines through must be drawn over what does not.
   for (const bool is_translucent : {false, true}) LoadGroups(*robot.model, is_translucent, reader);
   std::sort(problems_.begin(), problems_.end());

@@ -8,9 +8,9 @@
 #include "core/scene_state.h"
 #include "render/module.h"
 #include "render/scene_look.h"
-#include "render/vtk/once_log.h"
+#include "render/shape/once_log.h"
+#include "render/shape/visual_mesh.h"
 #include "render/vtk/part_actor.h"
-#include "render/vtk/visual_mesh.h"
 
 namespace kinescope::render {
 

@@ -77,7 +77,7 @@ vtkUniforms& ShadedActor::uniforms() {
   return *actor_->GetShaderProperty()->GetVertexCustomUniforms();
 }
 
-void ShadedActor::SetMesh(const Mesh& mesh) {
+void ShadedActor::SetMesh(const urdf::Mesh& mesh) {
   vtkNew<vtkPolyData> data;
   vtkNew<vtkPoints> points;
   points->SetData(ToArray("position", 3, mesh.positions));

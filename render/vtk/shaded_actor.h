@@ -9,8 +9,8 @@
 
 #include <string>
 
-#include "render/vtk/mesh.h"
 #include "render/vtk/pass_actor.h"
+#include "urdf/mesh/mesh.h"
 
 namespace kinescope::render {
 
@@ -31,7 +31,7 @@ class ShadedActor {
   ShadedActor& operator=(const ShadedActor&) = delete;
 
   /// Uploads `mesh`; rarely.
-  void SetMesh(const Mesh& mesh);
+  void SetMesh(const urdf::Mesh& mesh);
   /// Leaves out triangles that face away: right for closed surfaces, and on at first.
   void SetCulling(bool is_on);
   /// Declared in the vertex shader by VTK; what the fragment shader uses it declares itself.

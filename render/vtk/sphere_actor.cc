@@ -15,13 +15,13 @@ namespace {
 constexpr float kTowardsEye = 2.0f;
 
 // Unit dome around +z. Its corners only give outline and depth: normals are computed per pixel.
-Mesh DomeMesh() {
+urdf::Mesh DomeMesh() {
   struct Ring {
     double radius;
     int corners;
   };
   constexpr Ring kRings[] = {{0.72, 10}, {1.0, 40}};
-  Mesh mesh;
+  urdf::Mesh mesh;
   std::uint32_t inner = mesh.AddVertex({0, 0, 1}, Eigen::Vector3f::UnitZ());
   int inner_corners = 1;
   for (const Ring& ring : kRings) {
@@ -53,9 +53,9 @@ Mesh DomeMesh() {
   return mesh;
 }
 
-Mesh AllDomes() {
-  Mesh all;
-  const Mesh dome = DomeMesh();
+urdf::Mesh AllDomes() {
+  urdf::Mesh all;
+  const urdf::Mesh dome = DomeMesh();
   for (int i = 0; i < kSphereCapacity; ++i) {
     const std::size_t first = all.positions.size();
     all.Append(dome, Eigen::Affine3d::Identity());

@@ -2,7 +2,7 @@
 
 #include <vtkActor.h>
 
-#include "render/vtk/line_mesh.h"
+#include "render/shape/line_mesh.h"
 
 namespace kinescope::render {
 namespace {
@@ -13,7 +13,7 @@ constexpr int kSides = 8;
 }  // namespace
 
 void TrailActor::Show(const std::vector<Trail>& trails) {
-  Mesh mesh;
+  urdf::Mesh mesh;
   for (const Trail& trail : trails) {
     const Eigen::Vector4f color(static_cast<float>(trail.color[0]),
                                 static_cast<float>(trail.color[1]),

@@ -11,10 +11,10 @@
 #include <string>
 
 #include "core/errors.h"
+#include "core/stop_signal.h"
 #include "server/app/commands.h"
-#include "server/app/open_source.h"
-#include "server/app/stop_signal.h"
 #include "server/ros/bridge.h"
+#include "server/source/open_source.h"
 
 namespace {
 

@@ -41,7 +41,8 @@ void Exposure::Add(const JointLoad* loads, std::int64_t stamp_nanos) {
   last_nanos_ = stamp_nanos;
 }
 
-void Exposure::Add(const std::array<JointLoad, 15>& loads, std::int64_t stamp_nanos) {
+void Exposure::Add(const std::array<JointLoad, urdf::kScoredJointCount>& loads,
+                   std::int64_t stamp_nanos) {
   Add(loads.data(), stamp_nanos);
 }
 

@@ -32,7 +32,7 @@ class Exposure {
  public:
   /// The next state of a person's loads, in order of kScoredJoints. Each counts for the time up to
   /// the next, half a second at most; one that steps back in time counts for nothing.
-  void Add(const std::array<JointLoad, 15>& loads, std::int64_t stamp_nanos);
+  void Add(const std::array<JointLoad, urdf::kScoredJointCount>& loads, std::int64_t stamp_nanos);
   void Add(const std::vector<JointLoad>& loads, std::int64_t stamp_nanos);
 
   JointExposure Of(std::size_t scored_joint) const;  // index into kScoredJoints
@@ -56,7 +56,7 @@ class Exposure {
     std::int64_t peak_stamp_nanos = 0;
     bool has_peak = false;
   };
-  std::array<Joint, 15> joints_{};
+  std::array<Joint, urdf::kScoredJointCount> joints_{};
   bool has_last_ = false;
   std::int64_t last_nanos_ = 0;
   std::int64_t counted_nanos_ = 0;

@@ -21,8 +21,7 @@ using urdf::kRight;
 using urdf::Side;
 
 constexpr double kRampSecs = 0.3;
-constexpr double kFarthest = 2;             // m, of a CoM from its hand
-constexpr double kGripOfHandLength = 0.42;  // joint-loads.md 2.7
+constexpr double kFarthest = 2;  // m, of a CoM from its hand
 
 constexpr std::array<const char*, 2> kSideName = {"right", "left"};
 
@@ -100,10 +99,6 @@ bool IsFresh(std::int64_t measured_nanos, std::int64_t sample_nanos) {
   return std::abs(static_cast<double>(sample_nanos - measured_nanos)) * 1e-9 <= kFreshSecs;
 }
 
-Vector3d GripPoint(const urdf::Skeleton& skeleton, Side side) {
-  return kGripOfHandLength * skeleton.finger_tip_in_hand[side];
-}
-
 void HandLoads::Ramp::Restart(double value) {
   now = from = to = value;
   secs = 0;
@@ -142,7 +137,7 @@ void HandLoads::Push(const urdf::LinkPoses& links, const BodyMotion& motion,
   std::array<Vector3d, 2> grip, grip_acceleration;
   for (const Side side : {kRight, kLeft}) {
     const std::size_t hand = At(urdf::HandSegmentOf(side));
-    const Vector3d arm = links[hand].orientation * GripPoint(skeleton, side);
+    const Vector3d arm = links[hand].orientation * urdf::GripPoint(skeleton, side);
     grip[side] = links[hand].position + arm;
     grip_acceleration[side] = AccelerationAt(motion[hand], arm);
   }
@@ -162,8 +157,8 @@ void HandLoads::Push(const urdf::LinkPoses& links, const BodyMotion& motion,
       all.force += force;
     };
     if (const double mass = single_[side].now; mass > 0) {
-      const Vector3d arm =
-          links[At(hand)].orientation * load_.com_in_hand[side].value_or(GripPoint(skeleton, side));
+      const Vector3d arm = links[At(hand)].orientation *
+                           load_.com_in_hand[side].value_or(urdf::GripPoint(skeleton, side));
       push(-mass * (AccelerationAt(motion[At(hand)], arm) + up), links[At(hand)].position + arm,
            Vector3d::Zero());
       all.mass_kg += mass;

@@ -34,9 +34,6 @@ HandLoad ParseHandLoad(const std::string& text);
 constexpr double kFreshSecs = 0.5;
 bool IsFresh(std::int64_t measured_nanos, std::int64_t sample_nanos);
 
-/// Grip point in the hand's link frame: 0.42 of the hand's length from the wrist.
-Eigen::Vector3d GripPoint(const urdf::Skeleton& skeleton, urdf::Side side);
-
 class HandLoads {
  public:
   /// Takes a step of time to `stamp_nanos`: ramps move towards `load`. The first, one after more

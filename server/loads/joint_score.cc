@@ -203,11 +203,6 @@ class Best {
 
 }  // namespace
 
-const std::array<int, 15> kScoredJoints = {jL5S1,         jT9T8,       jT1C7,      jRightShoulder,
-                                           jLeftShoulder, jRightElbow, jLeftElbow, jRightWrist,
-                                           jLeftWrist,    jRightHip,   jLeftHip,   jRightKnee,
-                                           jLeftKnee,     jRightAnkle, jLeftAnkle};
-
 Percentile ParsePercentile(const std::string& text) {
   if (text == "5") return Percentile::k5;
   if (text == "50") return Percentile::k50;

@@ -14,10 +14,6 @@
 
 namespace kinescope::loads {
 
-/// The joints that get a sphere, in the order of PersonState::loads: L5/S1, T9/T8, neck (T1/C7),
-/// then shoulder, elbow, wrist, hip, knee, ankle, right before left.
-extern const std::array<int, 15> kScoredJoints;
-
 enum class Percentile { k5, k50, k95 };
 
 /// "5", "50" or "95". @throws UsageError naming the value.

@@ -130,7 +130,7 @@ void LoadEstimator::ForgetEverything(const LinkPoses& links, std::string_view wh
   for (std::size_t i = 0; i < result_.loads.size(); ++i) {
     JointLoad& load = result_.loads[i];
     load = JointLoad();
-    load.joint = kScoredJoints[i];
+    load.joint = urdf::kScoredJoints[i];
     load.position = links[At(ChildOf(load.joint))].position;
     load.moment = load.force = Vector3d::Constant(kNothing);
     MakeUnknown(why, load);
@@ -257,7 +257,7 @@ void LoadEstimator::ShowLoads(const std::array<Vector3d, kJointCount>& rated,
   const bool hands_are_known =
       settings.hands.is_known || measured.hands[kRight] || measured.hands[kLeft];
   for (std::size_t i = 0; i < result_.loads.size(); ++i) {
-    const int joint = kScoredJoints[i];
+    const int joint = urdf::kScoredJoints[i];
     const JointForce& internal = forces.joints[At(joint)];
     JointLoad& load = result_.loads[i];
     load = JointLoad();

@@ -36,7 +36,7 @@ struct LoadSubject {
 };
 
 struct LoadResult {
-  std::array<JointLoad, 15> loads;     // in order of kScoredJoints
+  std::array<JointLoad, urdf::kScoredJointCount> loads;  // in order of kScoredJoints
   std::optional<Eigen::Vector3d> cop;  // clamped into the support; absent where it is not known
   BodyForces forces;
 };
@@ -67,11 +67,11 @@ class LoadEstimator {
   MotionFilter motion_;
   FootContacts contacts_;
   HandLoads hands_;
-  std::array<LoadClassifier, 15> classifiers_;
+  std::array<LoadClassifier, urdf::kScoredJointCount> classifiers_;
   LoadClassifier compression_;
   std::optional<LoadMetric> last_metric_;
-  std::array<bool, 15> was_external_{};  // by scored joint
-  std::array<bool, 2> hand_is_lost_{};   // its sensor stopped
+  std::array<bool, urdf::kScoredJointCount> was_external_{};  // by scored joint
+  std::array<bool, 2> hand_is_lost_{};                        // its sensor stopped
   // Sitting or leaning: since when the CoP has been on the other side of the limit.
   bool suspects_contact_ = false;
   std::optional<std::int64_t> last_cop_nanos_, contrary_since_nanos_;

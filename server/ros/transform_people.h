@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "core/skeleton_watch.h"
 #include "core/source.h"
 #include "server/ros/people_frames.h"
+#include "server/ros/skeleton_watch.h"
 #include "server/ros/transform_person.h"
 
 namespace kinescope::ros_bridge {

@@ -7,7 +7,7 @@
 
 #include "render/camera.h"
 #include "render/renderer.h"
-#include "server/app/scene_reader.h"
+#include "server/scene/scene_reader.h"
 
 namespace {
 

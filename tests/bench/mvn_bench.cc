@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "server/app/scene_builder.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/encode.h"
 #include "server/mvn/file/mvnx_source.h"
+#include "server/scene/scene_builder.h"
 #include "server/subject/subject.h"
 #include "tests/server/mvn/file/synthetic_mvnx.h"
 #include "tests/server/mvn/mvn_testing.h"

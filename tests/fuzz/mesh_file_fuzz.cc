@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/check.h"
-#include "render/vtk/mesh_file.h"
+#include "urdf/mesh/mesh_file.h"
 
 // assimp leaks what it has made so far of many a file that it refuses; that is bounded by the file,
 // which is read once.
@@ -17,7 +17,7 @@ extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reser
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace kinescope::render;
+  using namespace kinescope::urdf;
   static constexpr std::array kExtensions = {".stl", ".dae", ".obj", ".glb"};
   if (size == 0) return 0;
   const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);

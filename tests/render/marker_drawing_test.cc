@@ -9,8 +9,8 @@
 #include "render/compare.h"
 #include "render/renderer.h"
 #include "tests/render/marker_samples.h"
-#include "tests/render/mesh_samples.h"
 #include "tests/temp_folder.h"
+#include "tests/urdf/mesh_samples.h"
 
 namespace kinescope::render {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/errors.h"
+#include "core/utf8.h"
 #include "render/canvas.h"
 #include "render/font.h"
 #include "render/multi_view.h"

@@ -10,10 +10,10 @@
 
 #include "render/compare.h"
 #include "render/renderer.h"
-#include "tests/render/mesh_samples.h"
 #include "tests/render/test_scene.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
+#include "tests/urdf/mesh_samples.h"
 #include "urdf/robot_kinematics.h"
 
 namespace kinescope::render {

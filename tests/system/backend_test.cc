@@ -1,5 +1,5 @@
 // What draws: the ways to a GL context side by side, and drivers that hang or crash.
-#include "server/app/backend.h"
+#include "server/picture/backend.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -17,8 +17,8 @@
 #include "core/errors.h"
 #include "render/compare.h"
 #include "render/png_file.h"
-#include "server/app/backend_probe.h"
-#include "server/app/child_process.h"
+#include "server/picture/backend_probe.h"
+#include "server/picture/child_process.h"
 #include "tests/process.h"
 #include "tests/render/test_scene.h"
 #include "tests/server/http/test_client.h"

@@ -18,9 +18,9 @@
 
 #include "render/compare.h"
 #include "render/png_file.h"
-#include "server/app/options.h"
-#include "server/app/render_options.h"
-#include "server/app/view_options.h"
+#include "server/app/render/render_options.h"
+#include "server/app/serve/serve_options.h"
+#include "server/picture/view_options.h"
 #include "tests/process.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"

@@ -12,7 +12,7 @@
 #include "server/loads/joint_score.h"
 #include "tests/csv_table.h"
 #include "tests/process.h"
-#include "tests/server/app/trial_scenes.h"
+#include "tests/server/app/loads/trial_scenes.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
@@ -136,7 +136,7 @@ TEST(LoadsCommand, DrawsEveryJointAsPngAndSvg) {
   const auto plots = folder / "plots";
   ASSERT_EQ(Loads({"demo:lift", "--seconds", "0.5", "--plots", plots}).exit_code, 0);
   int pictures = 0;
-  for (const int joint : loads::kScoredJoints) {
+  for (const int joint : urdf::kScoredJoints) {
     const std::string name(urdf::kJoints[urdf::At(joint)].ros_name);
     const render::Image image = render::ReadPng(plots / (name + ".png"));
     EXPECT_GT(image.width, 1000);

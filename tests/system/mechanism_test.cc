@@ -12,13 +12,13 @@
 #include <sstream>
 #include <vector>
 
-#include "core/skeleton_watch.h"
-#include "server/app/scene_builder.h"
-#include "server/app/scene_reader.h"
-#include "server/app/stream_extras.h"
+#include "server/app/stream/stream_extras.h"
 #include "server/http/api.h"
 #include "server/mvn/datagram.h"
 #include "server/ros/bridge.h"
+#include "server/ros/skeleton_watch.h"
+#include "server/scene/scene_builder.h"
+#include "server/scene/scene_reader.h"
 #include "server/subject/subject.h"
 #include "tests/shared_data.h"
 #include "tests/system/run_program.h"

@@ -22,8 +22,8 @@
 
 #include "render/camera.h"
 #include "render/png_file.h"
-#include "server/app/scene_builder.h"
 #include "server/ros/bridge.h"
+#include "server/scene/scene_builder.h"
 #include "server/subject/subject.h"
 #include "tests/process.h"
 #include "tests/system/ros_fixture.h"

@@ -18,17 +18,17 @@
 #include "render/png_file.h"
 #include "render/renderer.h"
 #include "render/video.h"
-#include "server/app/provenance.h"
-#include "server/app/render_options.h"
-#include "server/app/scene_reader.h"
-#include "server/app/shots.h"
+#include "server/app/render/provenance.h"
+#include "server/app/render/render_options.h"
+#include "server/picture/shots.h"
+#include "server/scene/scene_reader.h"
 #include "tests/process.h"
-#include "tests/render/mesh_samples.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
+#include "tests/urdf/mesh_samples.h"
 
 namespace kinescope {
 namespace {

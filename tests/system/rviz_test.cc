@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "render/renderer.h"
-#include "tests/render/mesh_samples.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
 #include "tests/system/ros_fixture.h"
 #include "tests/system/run_program.h"
+#include "tests/urdf/mesh_samples.h"
 #include "urdf/robot_kinematics.h"
 
 namespace kinescope {

@@ -9,11 +9,11 @@
 
 #include "render/compare.h"
 #include "render/png_file.h"
-#include "tests/render/mesh_samples.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
+#include "tests/urdf/mesh_samples.h"
 #include "urdf/robot_model.h"
 
 namespace kinescope {

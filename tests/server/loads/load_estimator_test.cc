@@ -54,7 +54,7 @@ TEST(LoadEstimator, DoesNotCareWhereThePersonStandsAndFaces) {
     const LoadResult a = Estimate(here.links, settings, &here.motion);
     const LoadResult b = Estimate(there.links, settings, &there.motion);
     ASSERT_EQ(a.forces.why_no_ground, b.forces.why_no_ground);
-    for (const int joint : kScoredJoints) {
+    for (const int joint : urdf::kScoredJoints) {
       if (!At(a, joint).why_unknown.empty()) continue;
       EXPECT_LT((yaw * At(a, joint).moment - At(b, joint).moment).norm(), 1e-7);
       EXPECT_LT((yaw * At(a, joint).force - At(b, joint).force).norm(), 1e-7);
@@ -88,7 +88,7 @@ TEST(LoadEstimator, GivesAMirroredPersonMirroredLoads) {
     const LoadResult a = Estimate(here.links, settings, &here.motion);
     settings.hands = Held(2, 5);
     const LoadResult b = Estimate(there.links, settings, &there.motion);
-    for (const int joint : kScoredJoints) {
+    for (const int joint : urdf::kScoredJoints) {
       if (!At(a, joint).why_unknown.empty()) continue;
       const JointLoad &one = LoadOf(a, joint), &other = LoadOf(b, Mirrored(joint));
       EXPECT_NEAR(one.ratio, other.ratio, 1e-8) << kJoints[urdf::At(joint)].label;
@@ -114,7 +114,7 @@ TEST(LoadEstimator, OverloadOfArmsAndSpineDoesNotDependOnTheBodysMass) {
     const BodySample sample = SampleOf(moment.links, 1, &moment.motion);
     const LoadResult a = one.Update(sample, moment.links, {Person(), Body()}, settings);
     const LoadResult b = two.Update(sample, moment.links, {Person(), other}, settings);
-    for (const int joint : kScoredJoints) {
+    for (const int joint : urdf::kScoredJoints) {
       if (IsLeg(joint)) continue;
       EXPECT_NEAR(LoadOf(a, joint).ratio, LoadOf(b, joint).ratio, 1e-9);
     }
@@ -140,7 +140,7 @@ TEST(LoadEstimator, NormIsTheWholeMomentAgainstTheWeakerDirection) {
 
 // "No data is not green": every way of not knowing, with its reason.
 void ExpectUnknown(const LoadResult& result, const char* reason, bool (*concerns)(int joint)) {
-  for (const int joint : kScoredJoints) {
+  for (const int joint : urdf::kScoredJoints) {
     const JointLoad& load = LoadOf(result, joint);
     EXPECT_EQ(load.load_class == LoadClass::kUnknown, concerns(joint))
         << kJoints[urdf::At(joint)].mvn_name << ": " << load.reason;

@@ -143,7 +143,7 @@ TEST(RealRecording, OfSomebodyStandingIsDynamicAndOnItsFeetThroughout) {
     EXPECT_TRUE(moving.forces.feet[kRight].touches_floor &&
                 moving.forces.feet[kLeft].touches_floor);
     const LoadResult& standing = still.Update(samples[i], links, {skeleton, body}, still_settings);
-    for (const int joint : kScoredJoints) {
+    for (const int joint : urdf::kScoredJoints) {
       EXPECT_LT((At(moving, joint).moment - At(standing, joint).moment).norm(), 5) << "frame " << i;
     }
   }

@@ -32,7 +32,7 @@ TEST(WorkedExample, ANPoseNeedsNoMomentAnywhere) {
   ExpectGround(result, {0, 0, 735.750}, {0.0020, 0});
   ExpectFoot(result.forces.feet[kRight], {0, 0, 367.875}, {0.0020, -0.085});
   ExpectFoot(result.forces.feet[kLeft], {0, 0, 367.875}, {0.0020, 0.085});
-  for (const int joint : kScoredJoints) ExpectMoment(result, joint, Vector3d::Zero(), 1e-9);
+  for (const int joint : urdf::kScoredJoints) ExpectMoment(result, joint, Vector3d::Zero(), 1e-9);
   const std::map<int, double> force_z = {
       {jL5S1, 363.46},      {jT9T8, 195.64},      {jT1C7, 51.06},        {jRightShoulder, 36.35},
       {jRightElbow, 16.41}, {jRightHip, -221.76}, {jRightKnee, -325.94}, {jRightAnkle, -357.80}};

@@ -76,8 +76,8 @@ TEST(Lift, ShowsEveryClassOfLoad) {
   const urdf::Skeleton& skeleton = *motion->character().skeleton;
   const auto body = urdf::MakeBodyParameters({}, skeleton);
   loads::LoadEstimator estimator;
-  std::array<LoadClass, loads::kScoredJoints.size()> worst;
-  std::array<LoadClass, loads::kScoredJoints.size()> upright;
+  std::array<LoadClass, urdf::kScoredJoints.size()> worst;
+  std::array<LoadClass, urdf::kScoredJoints.size()> upright;
   worst.fill(LoadClass::kUnknown);
   for (int frame = 0; frame < 60 * 16; ++frame) {  // two rounds at 60 Hz; the second is settled
     const BodySample sample = motion->At(frame / 60.0);
@@ -91,8 +91,8 @@ TEST(Lift, ShowsEveryClassOfLoad) {
     }
   }
   const auto of = [](const auto& classes, int joint) {
-    const auto found = std::find(loads::kScoredJoints.begin(), loads::kScoredJoints.end(), joint);
-    return classes[static_cast<std::size_t>(found - loads::kScoredJoints.begin())];
+    const auto found = std::find(urdf::kScoredJoints.begin(), urdf::kScoredJoints.end(), joint);
+    return classes[static_cast<std::size_t>(found - urdf::kScoredJoints.begin())];
   };
   EXPECT_EQ(of(worst, urdf::jRightKnee), LoadClass::kHigh);
   EXPECT_EQ(of(worst, urdf::jL5S1), LoadClass::kMedium);

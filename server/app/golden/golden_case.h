@@ -1,0 +1,54 @@
+/// One golden case: what to draw, as `golden_images/<name>.yaml` says it, and the drawing of it.
+///
+///     source: demo:lift       # or a file, relative to the case
+///     time: 2.5               # s after the first sample
+///     state: live             # live | stale | no data
+///     camera: front
+///     size: 640x360
+///     supersample: 2
+///     why: one line for whoever sees it fail
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene_state.h"
+#include "render/camera.h"
+#include "render/image.h"
+#include "render/renderer.h"
+#include "render/spheres.h"
+#include "render/strip.h"
+#include "server/picture/view_options.h"
+#include "server/scene/scene_options.h"
+
+namespace kinescope::app {
+
+struct GoldenCase {
+  std::string name;  // of the file, without .yaml
+  std::string source;
+  double time_secs = 0;
+  Liveness show = Liveness::kLive;
+  std::string why;
+  ViewOptions view;
+  PersonOptions person;
+  LoadOptions loads;
+};
+
+/// @throws UsageError naming file, line and key.
+GoldenCase LoadGoldenCase(const std::filesystem::path& yaml);
+
+/// Every case of a folder, by name. @throws UsageError where there is none.
+std::vector<GoldenCase> LoadGoldenCases(const std::filesystem::path& folder);
+
+struct GoldenDrawing {
+  render::Image image;
+  /// Several views: "<view>/<joint>", those that lie wholly within their view.
+  std::vector<render::SphereInPicture> spheres;
+  std::optional<render::StripCode> strip;  // what the picture's strip must say
+};
+
+GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer);
+
+}  // namespace kinescope::app

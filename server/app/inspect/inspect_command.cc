@@ -1,0 +1,209 @@
+// `kinescope inspect`: what is in a stream or a file.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "core/clocks.h"
+#include "core/errors.h"
+#include "core/input_file.h"
+#include "core/stop_signal.h"
+#include "server/app/commands.h"
+#include "server/app/inspect/inspection_report.h"
+#include "server/app/progress.h"
+#include "server/mvn/file/mvnx_source.h"
+#include "server/mvn/file/recording.h"
+#include "server/mvn/inspect/inspection.h"
+#include "server/mvn/net/net_url.h"
+#include "server/mvn/open.h"
+#include "server/ros/bag_source.h"
+#include "server/ros/graph_source.h"
+#include "server/source/open_source.h"
+
+namespace kinescope::app {
+namespace {
+
+struct InspectOptions {
+  std::string source;
+  double seconds = 5;
+  bool json = false;
+};
+
+// How long waiting may take: what decides how soon Ctrl-C is noticed.
+constexpr std::chrono::milliseconds kInspectPollTimeout(20);
+constexpr std::int64_t kDrainNanos = 200'000'000;
+
+// Hands datagrams on and moves the progress of a file.
+class DatagramSteps : public mvn::DatagramSink {
+ public:
+  DatagramSteps(mvn::Inspection& to, Progress* progress) : to_(to), progress_(progress) {}
+  void OnDatagram(const mvn::ReceivedDatagram& datagram) override {
+    to_.OnDatagram(datagram);
+    if (progress_ != nullptr) progress_->Step();
+  }
+
+ private:
+  mvn::Inspection& to_;
+  Progress* progress_;
+};
+
+mvn::InspectionReport InspectDatagrams(mvn::DatagramSource& source, double seconds) {
+  mvn::Inspection inspection(source.is_live());
+  std::unique_ptr<Progress> progress;
+  std::int64_t end = 0;
+  if (source.is_live()) {
+    spdlog::info("listening at {} for {:g} s; Ctrl-C ends it sooner", source.description(),
+                 seconds);
+    end = MonotonicNanos() + static_cast<std::int64_t>(seconds * 1e9);
+  } else {
+    progress = std::make_unique<Progress>("datagrams", 0);
+  }
+  DatagramSteps steps(inspection, progress.get());
+  while (!StopRequested() && (end == 0 || MonotonicNanos() < end)) {
+    const auto state = source.Poll(kInspectPollTimeout, steps);
+    if (state == mvn::DatagramSource::State::kEnded) break;
+    if (source.is_live() && state == mvn::DatagramSource::State::kIdle) {
+      inspection.Expire(MonotonicNanos());
+    }
+  }
+  // What came in time but was not read yet still counts; a stream that never pauses does not hold
+  // us up.
+  const std::int64_t patience = MonotonicNanos() + kDrainNanos;
+  for (int idle = 0; source.is_live() && idle < 2 && MonotonicNanos() < patience;) {
+    const auto state = source.Poll(std::chrono::milliseconds(0), steps);
+    if (state != mvn::DatagramSource::State::kMore) ++idle;  // the first may be a new connection
+  }
+  return inspection.Report(source);
+}
+
+// Likewise for samples.
+class SampleSteps : public SampleSink {
+ public:
+  void OnCharacter(const Character& character) override { inspection_.OnCharacter(character); }
+  void OnSample(const BodySample& sample) override {
+    inspection_.OnSample(sample);
+    progress_.Step();
+    ++samples_;
+  }
+  void OnObjects(const ObjectsSample& sample) override { inspection_.OnObjects(sample); }
+
+  double samples() const { return samples_; }
+  const mvn::SampleInspection& inspection() const { return inspection_; }
+
+ private:
+  mvn::SampleInspection inspection_;
+  Progress progress_{"samples", 0};
+  double samples_ = 0;
+};
+
+// The built-in subject never ends: `seconds` of it will do, as of a live source. A file is read to
+// its end.
+mvn::InspectionReport InspectSamples(Source& source, double seconds, bool has_end) {
+  SampleSteps steps;
+  if (source.is_live()) {
+    spdlog::info("listening to {} for {:g} s; Ctrl-C ends it sooner", source.description(),
+                 seconds);
+    const std::int64_t end = MonotonicNanos() + static_cast<std::int64_t>(seconds * 1e9);
+    while (!StopRequested() && MonotonicNanos() < end) {
+      if (source.Poll(kInspectPollTimeout, steps) == Source::State::kEnded) break;
+    }
+    return steps.inspection().Report(source);
+  }
+  const double most = seconds * source.nominal_rate_hz();
+  while (!StopRequested() && (has_end || steps.samples() < most)) {
+    if (source.Poll(kInspectPollTimeout, steps) == Source::State::kEnded) break;
+  }
+  return steps.inspection().Report(source);
+}
+
+// "MVNX version 4": the version as the first tag says it.
+std::string MvnxFormat(std::string_view head) {
+  const std::size_t tag = head.find("<mvnx");
+  const std::string_view in_tag =
+      tag == head.npos ? "" : head.substr(tag, head.find('>', tag) - tag);
+  const std::size_t at = in_tag.find(" version=");
+  const std::size_t digit = at + std::string_view(" version='").size();
+  if (at == in_tag.npos || digit >= in_tag.size()) return "MVNX";
+  return std::string("MVNX version ") + in_tag[digit];
+}
+
+// A file is opened once only: it may be a pipe.
+mvn::InspectionReport InspectFile(const InspectOptions& options) {
+  InputFile file = OpenInputFile(options.source);
+  const std::string name = NameOfInput(options.source);
+  const mvn::RecordingKind kind = mvn::KindOf(file.head());
+  mvn::InspectionReport report;
+  switch (kind) {
+    case mvn::RecordingKind::kPcap:
+    case mvn::RecordingKind::kDatagrams:
+      report = InspectDatagrams(*mvn::OpenRecording(std::move(file), name), options.seconds);
+      report.format = kind == mvn::RecordingKind::kPcap ? "capture" : "MVN datagrams";
+      return report;
+    case mvn::RecordingKind::kMvnx: {
+      const std::string format = MvnxFormat(file.head());
+      mvn::MvnxSource source(std::move(file), name);
+      report = InspectSamples(source, options.seconds, true);
+      report.format = format;
+      return report;
+    }
+    case mvn::RecordingKind::kRosBag:
+      if (options.source != "-") {
+        report = InspectSamples(*ros_bridge::OpenBag(options.source), options.seconds, true);
+        report.format = "ROS 1 bag";
+        return report;
+      }
+      throw SourceError("a ROS bag cannot be read from a pipe; save it first");
+    case mvn::RecordingKind::kEmpty:
+    case mvn::RecordingKind::kUnknown: break;
+  }
+  throw SourceError(mvn::DescribeUnfit(options.source, file.head(), kSourceKinds));
+}
+
+mvn::InspectionReport Inspect(const InspectOptions& options) {
+  mvn::InspectionReport report;
+  if (mvn::IsNetUrl(options.source)) {
+    report = InspectDatagrams(*mvn::OpenDatagrams(options.source), options.seconds);
+    report.format = options.source[0] == 'u' ? "UDP" : "TCP";
+  } else if (options.source.rfind("demo:", 0) == 0) {
+    report = InspectSamples(*OpenSource(options.source), options.seconds, false);
+    report.format = "built-in subject";
+  } else if (ros_bridge::IsGraphUrl(options.source)) {
+    report = InspectSamples(*ros_bridge::OpenGraph(options.source), options.seconds, false);
+    report.format = "ROS graph";
+  } else {
+    report = InspectFile(options);
+  }
+  return report;
+}
+
+bool Run(const InspectOptions& options) {
+  if (!(options.seconds > 0 && options.seconds <= 86'400)) {
+    throw UsageError(
+        fmt::format("--seconds={:g}: expected more than 0, at most 86400", options.seconds));
+  }
+  const mvn::InspectionReport report = Inspect(options);
+  fmt::print("{}", options.json ? ReportJson(report) : ReportText(report));
+  return report.CanBeShown();
+}
+
+}  // namespace
+
+void AddInspect(CommandLine line) {
+  CLI::App* command = line.app.add_subcommand(
+      "inspect", "What is in a stream or a file: people, messages, rates, losses, errors");
+  const auto o = std::make_shared<InspectOptions>();
+  command->add_option("source", o->source, kSourceKinds)->required();
+  command->add_option("--seconds", o->seconds, "how long to listen to a live stream")
+      ->capture_default_str();
+  command->add_flag("--json", o->json, "one JSON object (docs/inspect.md)");
+  command->footer(
+      "Exit code: 0 there is somebody to show, 1 there is not, 2 it could not be read.");
+  int& exit_code = line.exit_code;
+  command->callback([o, &exit_code] { exit_code = Run(*o) ? 0 : 1; });
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,309 @@
+#include "server/app/loads/load_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/errors.h"
+#include "core/stop_signal.h"
+#include "render/new_file.h"
+#include "render/png_file.h"
+#include "server/app/loads/load_rows.h"
+#include "server/loads/gap.h"
+#include "server/loads/joint_score.h"
+
+namespace kinescope::app {
+namespace {
+
+using render::Figure;
+using render::PlotBand;
+using render::PlotCurve;
+using render::PlotPanel;
+using Points = std::vector<std::pair<double, double>>;
+
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+// Blue and vermilion of the palette by M. Okabe and K. Ito (2008), which all eyes tell apart, and a
+// grey; the dashes tell them apart in print.
+constexpr Rgb kBlue = {0.00, 0.45, 0.70}, kVermilion = {0.84, 0.37, 0.00},
+              kGrey = {0.35, 0.35, 0.35}, kInk = {0.13, 0.15, 0.19}, kFaint = {0.38, 0.41, 0.46};
+
+Rgb Tint(LoadClass load_class) {
+  Rgb color = ColorOf(load_class);
+  for (double& channel : color) channel = 1 - 0.22 * (1 - channel);
+  return color;
+}
+
+void SetTime(const LoadTrial& trial, PlotPanel& panel) {
+  constexpr double kShortest = 1e-3;  // s, of a recording of one sample
+  panel.x_from = trial.SecsOf(trial.curves().front().stamp_nanos);
+  panel.x_to = std::max(trial.SecsOf(trial.curves().back().stamp_nanos), panel.x_from + kShortest);
+}
+
+// value(sample) over time; broken where it is not known and where samples are missing.
+template <class Value>
+Points CurveOf(const LoadTrial& trial, Value&& value) {
+  Points points;
+  for (const TrialSample& sample : trial.curves()) {
+    const double secs = trial.SecsOf(sample.stamp_nanos);
+    if (!points.empty() &&
+        (secs < points.back().first || secs - points.back().first > loads::kLongestGapSecs)) {
+      points.emplace_back(points.back().first, kNoValue);
+    }
+    if (points.empty() || secs >= points.back().first) points.emplace_back(secs, value(sample));
+  }
+  return points;
+}
+
+// Stretches of one class; what lies between samples far apart is unknown.
+std::vector<render::PlotStretch> StripOf(const LoadTrial& trial, std::size_t joint) {
+  std::vector<render::PlotStretch> strip;
+  const auto add = [&](double from, double to, LoadClass load_class) {
+    if (!strip.empty() && strip.back().load_class == load_class) {
+      strip.back().to = to;
+    } else {
+      strip.push_back({from, to, load_class});
+    }
+  };
+  const std::vector<TrialSample>& samples = trial.curves();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double from = trial.SecsOf(samples[i].stamp_nanos);
+    const double next = i + 1 < samples.size() ? trial.SecsOf(samples[i + 1].stamp_nanos) : from;
+    if (next < from) continue;
+    const double to = std::min(next, from + loads::kLongestGapSecs);
+    add(from, to, samples[i].joints[joint].load_class);
+    if (to < next) add(to, next, LoadClass::kUnknown);
+  }
+  return strip;
+}
+
+void SetRatio(const LoadTrial& trial, const TrialContext& context, std::size_t joint,
+              PlotPanel& panel) {
+  SetTime(trial, panel);
+  const auto& up = context.scene.loads.classes.up;
+  constexpr double kEnd = 1e9;
+  panel.bands = {{0, up[0], Tint(LoadClass::kLow), fmt::format("low ≤ {:.2f}", up[0])},
+                 {up[0], up[1], Tint(LoadClass::kMedium), "medium"},
+                 {up[1], kEnd, Tint(LoadClass::kHigh), fmt::format("high > {:.2f}", up[1])}};
+  panel.limits = {{up[0], ""}, {up[1], ""}};
+  PlotCurve curve;
+  curve.color = kInk;
+  curve.points = CurveOf(trial, [joint](const TrialSample& sample) {
+    const TrialSample::Joint& of = sample.joints[joint];
+    return of.load_class == LoadClass::kUnknown ? kNoValue : static_cast<double>(of.ratio);
+  });
+  panel.curves = {std::move(curve)};
+  panel.strip = StripOf(trial, joint);
+  for (const render::PlotStretch& stretch : panel.strip) {
+    if (stretch.load_class != LoadClass::kUnknown) continue;
+    panel.gaps.push_back({stretch.from, stretch.to});
+  }
+}
+
+// The limits, and room above the highest of the curves.
+double RatioTop(double peak, const TrialContext& context) {
+  const double least = 1.25 * context.scene.loads.classes.up[1];
+  return std::isfinite(peak) ? std::max(least, 1.1 * peak) : least;
+}
+
+void SetRange(PlotPanel& panel) {
+  double low = 0, high = 0;
+  for (const PlotCurve& curve : panel.curves) {
+    for (const auto& [x, y] : curve.points) {
+      if (std::isnan(y)) continue;
+      low = std::min(low, y);
+      high = std::max(high, y);
+    }
+  }
+  const double room = std::max(0.08 * (high - low), 0.5);
+  panel.has_y_numbers = high > low;  // there is something to read off
+  panel.y_from = low < 0 ? low - room : 0;
+  panel.y_to = high + room;
+}
+
+PlotPanel MomentPanel(const LoadTrial& trial, std::size_t joint) {
+  PlotPanel panel;
+  SetTime(trial, panel);
+  panel.y_label = "moment (N m)";
+  const char* const names[] = {"x, forward", "y, left", "z, up"};
+  const Rgb colors[] = {kBlue, kVermilion, kGrey};
+  const std::vector<double> dashes[] = {{}, {5, 2}, {1.2, 1.5}};
+  for (int axis = 0; axis < 3; ++axis) {
+    PlotCurve curve;
+    curve.name = names[axis];
+    curve.color = colors[axis];
+    curve.dash = dashes[axis];
+    curve.points = CurveOf(trial, [joint, axis](const TrialSample& sample) {
+      return static_cast<double>(sample.joints[joint].moment[axis]);
+    });
+    panel.curves.push_back(std::move(curve));
+  }
+  SetRange(panel);
+  return panel;
+}
+
+PlotPanel CompressionPanel(const LoadTrial& trial) {
+  constexpr double kNewtonsPerKilo = 1000;
+  PlotPanel panel;
+  SetTime(trial, panel);
+  const double action = loads::kCompressionLimits[0] / kNewtonsPerKilo;
+  const double upper = loads::kCompressionLimits[1] / kNewtonsPerKilo;
+  constexpr double kEnd = 1e9;
+  panel.bands = {{-kEnd, action, Tint(LoadClass::kLow), "low"},
+                 {action, upper, Tint(LoadClass::kMedium), fmt::format("> {:g} kN", action)},
+                 {upper, kEnd, Tint(LoadClass::kHigh), fmt::format("> {:g} kN", upper)}};
+  panel.limits = {{action, ""}, {upper, ""}};
+  PlotCurve curve;
+  curve.color = kInk;
+  curve.points = CurveOf(trial, [](const TrialSample& sample) {
+    return static_cast<double>(sample.compression) / kNewtonsPerKilo;
+  });
+  panel.curves = {std::move(curve)};
+  SetRange(panel);
+  panel.y_to = std::max(panel.y_to, 1.15 * action);
+  return panel;
+}
+
+std::string Described(const LoadTrial& trial, const TrialContext& context) {
+  std::string text = context.source;
+  if (!trial.newest().name.empty()) text += ", " + trial.newest().name;
+  for (const Fact& fact : FactsOf(trial, context)) {
+    if (fact.label == "in the hands" && fact.is_assumed) continue;
+    if (fact.label == "body table" || fact.label == "accelerations" || fact.label == "ratio of") {
+      continue;
+    }
+    const bool needs_label = fact.label == "in the hands" || fact.label == "worn";
+    text += fmt::format(", {}{}{}", needs_label ? fact.label + " " : "", fact.value,
+                        fact.is_assumed ? " (assumed)" : "");
+  }
+  return text;
+}
+
+void AddReasons(const LoadTrial& trial, std::size_t joint, double x, double y, Figure& figure) {
+  std::string text;
+  for (const auto& [why, secs] : trial.why_unknown(joint)) {
+    text += fmt::format("{}{} ({:.2f} s)", text.empty() ? "" : "; ", why, secs);
+  }
+  if (text.empty() && figure.panels[0].gaps.empty()) return;
+  figure.swatches.push_back({x, y - 7, 14, 8, {}, true});
+  figure.texts.push_back({x + 19, y,
+                          "not known: " + (text.empty() ? std::string("no samples") : text), 7.5,
+                          false, kFaint});
+}
+
+}  // namespace
+
+Figure JointFigure(const LoadTrial& trial, const TrialContext& context, std::size_t joint) {
+  constexpr double kLeft = 50, kWidth = 352;
+  Figure figure;
+  figure.width = 480;
+  figure.texts = {{kLeft, 20, std::string(ScoredLabel(joint)), 12, true, kInk},
+                  {kLeft, 33, Described(trial, context), 7.5, false, kFaint}};
+
+  PlotPanel ratio;
+  ratio.left = kLeft;
+  ratio.width = kWidth;
+  ratio.top = 44;
+  ratio.height = 130;
+  ratio.y_label = "load ratio";
+  ratio.has_x_numbers = false;
+  SetRatio(trial, context, joint, ratio);
+  const loads::JointExposure exposure = trial.exposure().Of(joint);
+  ratio.y_to = RatioTop(exposure.peak_ratio, context);
+  if (std::isfinite(exposure.peak_ratio)) {
+    ratio.marks.push_back({trial.SecsOf(exposure.peak_stamp_nanos), exposure.peak_ratio,
+                           fmt::format("{:.2f} {}", exposure.peak_ratio, exposure.peak_channel)});
+  }
+  figure.panels.push_back(std::move(ratio));
+
+  double bottom = 44 + 130 + 12;
+  const auto add = [&](PlotPanel panel) {
+    panel.left = kLeft;
+    panel.width = kWidth;
+    panel.top = bottom + 22;
+    panel.height = 76;
+    panel.has_x_numbers = false;
+    panel.gaps = figure.panels[0].gaps;
+    bottom = panel.top + panel.height;
+    figure.panels.push_back(std::move(panel));
+  };
+  add(MomentPanel(trial, joint));
+  if (joint == 0) {
+    PlotPanel compression = CompressionPanel(trial);
+    compression.y_label = "compression (kN)";
+    add(std::move(compression));
+  }
+  figure.panels.back().has_x_numbers = true;
+  figure.panels.back().x_label = "time (s)";
+  AddReasons(trial, joint, kLeft, bottom + 38, figure);
+  figure.height = bottom + 46;
+  return figure;
+}
+
+Figure OverviewFigure(const LoadTrial& trial, const TrialContext& context) {
+  // By rows; 15: the compression.
+  constexpr std::array<std::size_t, 16> kOrder = {0, 1, 2, 15, 3,  4,  5,  6,
+                                                  7, 8, 9, 10, 11, 12, 13, 14};
+  constexpr double kMostShown = 2;
+  constexpr double kCellWidth = 131, kCellHeight = 56, kFont = 6.5;
+  double peak = 0;
+  for (std::size_t i = 0; i < urdf::kScoredJoints.size(); ++i) {
+    const double of = trial.exposure().Of(i).peak_ratio;
+    if (std::isfinite(of)) peak = std::max(peak, of);
+  }
+  Figure figure;
+  figure.width = 4 * kCellWidth + 3;
+  figure.height = 4 * kCellHeight + 21;
+  for (std::size_t cell = 0; cell < kOrder.size(); ++cell) {
+    const std::size_t joint = kOrder[cell];
+    const bool is_compression = joint == urdf::kScoredJoints.size();
+    PlotPanel panel;
+    if (is_compression) {
+      panel = CompressionPanel(trial);
+      panel.title = "L5/S1 compression (kN)";
+      panel.gaps = figure.panels[0].gaps;
+    } else {
+      SetRatio(trial, context, joint, panel);
+      panel.title = ScoredLabel(joint);
+      panel.y_to = std::min(RatioTop(peak, context), kMostShown);
+    }
+    for (PlotBand& band : panel.bands) band.label.clear();
+    const std::size_t column = cell % 4, row = cell / 4;
+    panel.left = static_cast<double>(column) * kCellWidth + 24;
+    panel.top = static_cast<double>(row) * kCellHeight + 12;
+    panel.width = kCellWidth - 32;
+    panel.height = 31.5;
+    panel.font_size = kFont;
+    panel.has_x_numbers = row == 3;
+    panel.has_y_numbers = column == 0 || is_compression;
+    if (row == 3) panel.x_label = "time (s)";
+    figure.panels.push_back(std::move(panel));
+  }
+  return figure;
+}
+
+void WritePlots(const std::map<int, LoadTrial>& trials, const TrialContext& context,
+                const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw UsageError(fmt::format("--plots={}: {}", folder.string(), error.message()));
+  }
+  constexpr double kDotsPerInch = 200, kPointsPerInch = 72;
+  for (const auto& [character, trial] : trials) {
+    const std::string person = trials.size() > 1 ? fmt::format("person_{}_", character) : "";
+    for (std::size_t joint = 0; joint < urdf::kScoredJoints.size(); ++joint) {
+      if (StopRequested()) throw std::runtime_error("interrupted; not all plots were written");
+      const Figure figure = JointFigure(trial, context, joint);
+      const auto stem = folder / (person + std::string(ScoredName(joint)));
+      render::WriteNewFile(stem.string() + ".svg", render::ToSvg(figure));
+      render::WritePng(stem.string() + ".png",
+                       render::ToImage(figure, kDotsPerInch / kPointsPerInch),
+                       {{"Software", "Kinescope " KINESCOPE_VERSION}, {"Source", context.source}});
+    }
+  }
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,230 @@
+// `kinescope record`: the raw stream into a capture file, to be played, inspected or sent later.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+
+#include "core/clocks.h"
+#include "core/errors.h"
+#include "core/json_text.h"
+#include "core/stop_signal.h"
+#include "server/app/commands.h"
+#include "server/mvn/assembler.h"
+#include "server/mvn/file/pcap_recorder.h"
+#include "server/mvn/open.h"
+
+namespace kinescope::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kBytesPerMb = 1e6;
+constexpr std::int64_t kStatusEveryNanos = 250'000'000;
+
+struct RecordOptions {
+  std::string source;
+  std::string out;
+  double rotate_mb = 0;
+  double seconds = 0;
+  bool force = false;
+  bool json = false;
+};
+
+// Passes datagrams on to the recorder and looks into them on the way, for the people who watch.
+class Meter : public mvn::DatagramSink, private SampleSink {
+ public:
+  explicit Meter(mvn::DatagramSink& next) : next_(next) {}
+
+  void OnDatagram(const mvn::ReceivedDatagram& datagram) override {
+    next_.OnDatagram(datagram);
+    if (datagrams_++ == 0) first_nanos_ = datagram.arrival.monotonic_nanos;
+    newest_nanos_ = datagram.arrival.monotonic_nanos;
+    assembler_.Add(datagram.from, datagram.bytes, datagram.arrival, *this);
+  }
+
+  void Expire(std::int64_t now_nanos) { assembler_.Expire(now_nanos, *this); }
+  void Flush() { assembler_.Flush(*this); }
+
+  std::uint64_t datagrams() const { return datagrams_; }
+  std::uint64_t samples() const { return samples_; }
+  std::size_t people() const { return people_.size(); }
+  std::uint64_t counter_gaps() const { return assembler_.counters().counter_gaps; }
+  double seconds() const {  // of the stream
+    return Secs(newest_nanos_ - first_nanos_);
+  }
+
+ private:
+  void OnCharacter(const Character&) override {}
+  void OnSample(const BodySample& sample) override {
+    ++samples_;
+    people_.insert(sample.character);
+  }
+
+  mvn::DatagramSink& next_;
+  mvn::Assembler assembler_;
+  std::uint64_t datagrams_ = 0;
+  std::uint64_t samples_ = 0;
+  std::set<int> people_;  // the assembler keeps at most 16 apart
+  std::int64_t first_nanos_ = 0;
+  std::int64_t newest_nanos_ = 0;
+};
+
+std::string LostText(const mvn::TransportCounters& transport,
+                     const mvn::PcapRecorder::Counters& file) {
+  std::string text;
+  const auto add = [&text](std::uint64_t count, const char* where) {
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, where);
+  };
+  add(transport.kernel_drops, "by the kernel (receive buffer full)");
+  add(file.dropped, "because the disk was too slow");
+  add(file.too_long, "too long for a UDP packet");
+  return text.empty() ? "nothing lost" : "lost: " + text;
+}
+
+// One line that is drawn again and again; only on a terminal.
+class StatusLine {
+ public:
+  ~StatusLine() {
+    if (drawn_) std::fputc('\n', stderr);
+  }
+
+  void Draw(std::int64_t now, const Meter& meter, const mvn::TransportCounters& transport,
+            const mvn::PcapRecorder& recorder) {
+    if (!is_terminal_ || now - drawn_nanos_ < kStatusEveryNanos) return;
+    const double secs = Secs(now - drawn_nanos_);
+    const double datagrams = static_cast<double>(meter.datagrams() - datagrams_) / secs;
+    const double samples = static_cast<double>(meter.samples() - samples_) / secs;
+    drawn_nanos_ = now;
+    datagrams_ = meter.datagrams();
+    samples_ = meter.samples();
+    const auto file = recorder.counters();
+    const std::string line = fmt::format(
+        "{:.0f} datagrams/s, {} people, {:.0f} samples/s, {}, {:.1f} MB", datagrams, meter.people(),
+        samples, LostText(transport, file), static_cast<double>(file.bytes) / kBytesPerMb);
+    fmt::print(stderr, "\r{:<100}", line);
+    std::fflush(stderr);
+    drawn_ = true;
+  }
+
+ private:
+  const bool is_terminal_ = isatty(STDERR_FILENO) == 1;
+  bool drawn_ = false;
+  std::int64_t drawn_nanos_ = MonotonicNanos();
+  std::uint64_t datagrams_ = 0;  // when it was drawn last
+  std::uint64_t samples_ = 0;    // likewise
+};
+
+void CheckRecordOptions(const RecordOptions& options) {
+  if (!(options.seconds >= 0)) {
+    throw UsageError(fmt::format("--seconds={}: expected 0 (no end) or more", options.seconds));
+  }
+  constexpr double kLeastMb = 0.1;
+  if (options.rotate_mb != 0 && !(options.rotate_mb >= kLeastMb && options.rotate_mb <= 1e9)) {
+    throw UsageError(fmt::format("--rotate_mb={}: expected 0 (one file) or at least {}",
+                                 options.rotate_mb, kLeastMb));
+  }
+  std::error_code ignored;  // equivalent() minds files that are not there
+  if (fs::path(options.out).extension() != ".pcap") {
+    throw UsageError("--out=" + options.out + ": expected a name that ends in .pcap");
+  }
+  if (fs::equivalent(options.source, options.out, ignored)) {
+    throw UsageError("--out " + options.out + ": is the file that would be read");
+  }
+}
+
+void Summarise(const RecordOptions& options, const Meter& meter,
+               const mvn::TransportCounters& transport, const mvn::PcapRecorder& recorder) {
+  const auto file = recorder.counters();
+  const std::string files = file.files.size() == 1
+                                ? file.files.front()
+                                : fmt::format("{} to {}", file.files.front(), file.files.back());
+  spdlog::info("recorded {} datagrams in {:.1f} s ({} samples, {} people) to {}, {:.1f} MB; {}",
+               file.datagrams, meter.seconds(), meter.samples(), meter.people(), files,
+               static_cast<double>(file.bytes) / kBytesPerMb, LostText(transport, file));
+  if (!options.json) return;
+  const nlohmann::ordered_json summary = {
+      {"source", options.source},
+      {"files", file.files},
+      {"bytes", file.bytes},
+      {"datagrams", file.datagrams},
+      {"samples", meter.samples()},
+      {"people", meter.people()},
+      {"stream_secs", meter.seconds()},
+      {"counter_gaps", meter.counter_gaps()},
+      {"lost",
+       {{"kernel", transport.kernel_drops}, {"disk", file.dropped}, {"too_long", file.too_long}}},
+      {"receive_buffer_bytes", transport.receive_buffer_bytes},
+      {"incomplete_packets", transport.incomplete_packets},
+      {"other_packets", transport.other_packets},
+  };
+  fmt::print("{}\n", JsonText(summary));
+}
+
+void Record(const RecordOptions& options) {
+  CheckRecordOptions(options);
+  const auto source = mvn::OpenDatagrams(options.source);
+  if (source == nullptr) {
+    throw SourceError(options.source +
+                      ": has samples, not datagrams; send it (kinescope stream) and record that");
+  }
+  std::signal(SIGPIPE, SIG_IGN);  // a pipe that is not read any more is an error of writing
+  mvn::PcapWriterSettings settings;
+  settings.path = options.out;
+  settings.rotate_bytes = static_cast<std::uint64_t>(options.rotate_mb * kBytesPerMb);
+  settings.force = options.force;
+  using WhenFull = mvn::PcapRecorder::WhenFull;
+  mvn::PcapRecorder recorder(settings, source->is_live() ? WhenFull::kDrop : WhenFull::kWait);
+  Meter meter(recorder);
+  spdlog::info("recording {} to {}", source->description(), options.out);
+  {
+    StatusLine status;
+    const std::int64_t start = MonotonicNanos();
+    const auto is_over = [&](std::int64_t now) {
+      if (options.seconds <= 0) return false;
+      const double live = Secs(now - start);
+      return (source->is_live() ? live : meter.seconds()) >= options.seconds;
+    };
+    while (!StopRequested()) {
+      const auto state = source->Poll(std::chrono::milliseconds(20), meter);
+      if (state == mvn::DatagramSource::State::kEnded) break;
+      const std::int64_t now = MonotonicNanos();
+      if (source->is_live() && state == mvn::DatagramSource::State::kIdle) meter.Expire(now);
+      recorder.Check();
+      if (is_over(now)) break;
+      status.Draw(now, meter, source->counters(), recorder);
+    }
+  }
+  meter.Flush();
+  recorder.Finish();
+  Summarise(options, meter, source->counters(), recorder);
+}
+
+}  // namespace
+
+void AddRecord(CommandLine line) {
+  CLI::App* command = line.app.add_subcommand(
+      "record",
+      "Record the stream as a capture (pcap) that Kinescope plays and Wireshark opens.\n"
+      "Every datagram becomes one UDP packet with the real addresses and times, also what came "
+      "over TCP or from a file of raw datagrams.");
+  const auto o = std::make_shared<RecordOptions>();
+  command->add_option("source", o->source, "udp://[address]:port, tcp://..., a capture, a .bin")
+      ->required();
+  command->add_option("--out", o->out, "the file, .pcap; never replaced without --force")
+      ->required();
+  command->add_option("--rotate_mb", o->rotate_mb,
+                      "begin the next file (take-0002.pcap) before one gets larger; 0: one file");
+  command->add_option("--seconds", o->seconds, "stop after so long; 0: at Ctrl-C or a file's end");
+  command->add_flag("--force", o->force, "replace the file, and the numbered ones with rotate_mb");
+  command->add_flag("--json", o->json, "print the summary as JSON");
+  command->callback([o] { Record(*o); });
+}
+
+}  // namespace kinescope::app

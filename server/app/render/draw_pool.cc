@@ -1,0 +1,139 @@
+#include "server/app/render/draw_pool.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/check.h"
+
+namespace kinescope::app {
+
+// The memory of pictures, used over and over: a large block fresh from the system costs as much as
+// drawing on it.
+class DrawPool::Shelf : public std::enable_shared_from_this<Shelf> {
+ public:
+  explicit Shelf(std::size_t most) : left_(most) {}
+
+  /// Waits until fewer than the most are out.
+  void Reserve() {
+    std::unique_lock lock(mutex_);
+    returned_.wait(lock, [&] { return left_ > 0; });
+    --left_;
+  }
+
+  /// One of those reserved.
+  std::shared_ptr<DrawnPicture> Take() {
+    std::unique_ptr<DrawnPicture> image = std::make_unique<DrawnPicture>();
+    {
+      const std::lock_guard lock(mutex_);
+      if (!used_.empty()) {
+        image = std::move(used_.back());
+        used_.pop_back();
+      }
+    }
+    return {image.release(), [shelf = shared_from_this()](DrawnPicture* back) {
+              shelf->Return(std::unique_ptr<DrawnPicture>(back));
+            }};
+  }
+
+ private:
+  void Return(std::unique_ptr<DrawnPicture> image) {
+    {
+      const std::lock_guard lock(mutex_);
+      ++left_;
+      used_.push_back(std::move(image));
+    }
+    returned_.notify_one();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable returned_;
+  std::size_t left_;                                 // guarded by mutex_
+  std::vector<std::unique_ptr<DrawnPicture>> used_;  // likewise
+};
+
+DrawPool::DrawPool(int jobs, std::size_t most_pictures, MakeRenderer make)
+    : make_(std::move(make)), shelf_(std::make_shared<Shelf>(most_pictures)) {
+  KINESCOPE_CHECK(jobs >= 1 && most_pictures >= static_cast<std::size_t>(jobs));
+  std::promise<render::RendererInfo> promise;
+  std::future<render::RendererInfo> started = promise.get_future();
+  threads_.emplace_back([this, promise = std::move(promise)]() mutable { Work(&promise); });
+  try {
+    info_ = started.get();
+  } catch (...) {
+    threads_.front().join();
+    throw;
+  }
+  for (int i = 1; i < jobs; ++i) threads_.emplace_back([this] { Work(nullptr); });
+}
+
+DrawPool::~DrawPool() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_closing_ = true;
+    jobs_.clear();  // breaks their promises, so nobody waits for them
+  }
+  changed_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+FuturePicture DrawPool::Draw(Shot shot) {
+  shelf_->Reserve();
+  Job job{std::move(shot), {}};
+  FuturePicture picture = job.picture.get_future().share();
+  {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back(std::move(job));
+  }
+  changed_.notify_one();
+  return picture;
+}
+
+void DrawPool::Work(std::promise<render::RendererInfo>* started) {
+  std::unique_ptr<render::Renderer> renderer;
+  if (started != nullptr) {
+    try {
+      renderer = make_();
+      started->set_value(renderer->info());
+    } catch (...) {
+      started->set_exception(std::current_exception());
+      return;
+    }
+  }
+  while (true) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return is_closing_ || !jobs_.empty(); });
+    if (is_closing_) return;
+    Job job = std::move(jobs_.front());
+    jobs_.pop_front();
+    lock.unlock();
+    std::shared_ptr<DrawnPicture> image = shelf_->Take();
+    try {
+      if (renderer == nullptr) renderer = make_();
+      const Shot& shot = job.shot;
+      renderer->RenderInto(*image, shot.state, shot.camera, shot.view);
+      if (shot.layer) {
+        image->layer = renderer->OverlayLayer(shot.state, shot.camera, shot.view, *shot.layer);
+      }
+      job.picture.set_value(std::move(image));
+    } catch (...) {
+      image.reset();
+      job.picture.set_exception(std::current_exception());
+    }
+  }
+}
+
+int DefaultJobs() {
+  // llvmpipe fills pixels on threads of its own, but nothing of what comes before and after them;
+  // a second picture does, and from there on the encoders want their share.
+  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
+  return static_cast<int>(std::clamp(cores / 2, std::min(cores, 2u), 8u));
+}
+
+std::size_t MostPictures(int jobs, int width, int height) {
+  constexpr std::size_t kMostBytes = 512u << 20;
+  const std::size_t bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  const auto threads = static_cast<std::size_t>(jobs);
+  return std::clamp(kMostBytes / bytes, threads + 1, 3 * threads + 4);
+}
+
+}  // namespace kinescope::app

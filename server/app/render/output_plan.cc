@@ -1,0 +1,233 @@
+#include "server/app/render/output_plan.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/errors.h"
+#include "server/scene/scene_reader.h"
+
+namespace kinescope::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where in a name the number of the picture goes.
+struct NumberPlace {
+  std::size_t begin = 0, size = 0;
+  std::size_t digits = 1;  // at least so many
+};
+
+bool IsDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+std::vector<NumberPlace> FindNumbers(const std::string& path) {
+  std::vector<NumberPlace> places;
+  for (std::size_t i = path.rfind('/') + 1; i < path.size(); ++i) {  // npos + 1 is 0
+    if (path[i] == '#') {
+      std::size_t end = i;
+      while (end < path.size() && path[end] == '#') ++end;
+      places.push_back({i, end - i, end - i});
+      i = end - 1;
+    } else if (path[i] == '%') {
+      std::size_t end = i + 1;
+      while (end < path.size() && end - i <= 2 && IsDigit(path[end])) ++end;
+      if (end >= path.size() || path[end] != 'd') continue;  // "100%.png" is only a name
+      const std::string digits = path.substr(i + 1, end - i - 1);
+      places.push_back({i, end + 1 - i, digits.empty() ? 1 : std::stoul(digits)});
+      i = end;
+    }
+  }
+  return places;
+}
+
+OutputKind KindOf(const std::string& path) {
+  const bool is_png = fs::path(path).extension() == ".png";
+  const std::size_t numbers = FindNumbers(path).size();
+  if (!is_png && !render::ClipFormatOf(path)) {
+    throw UsageError(fmt::format(
+        "--out={}: expected a name that ends in .png (one picture; with %05d in it, a sequence), "
+        ".mp4, .webm, .webp or .gif (a clip)",
+        path));
+  }
+  if (numbers > 1) {
+    throw UsageError(
+        fmt::format("--out={}: expected one place for the number of the picture", path));
+  }
+  if (numbers == 1 && !is_png) {
+    throw UsageError(fmt::format("--out={}: only .png files are numbered", path));
+  }
+  if (!is_png) return OutputKind::kClip;
+  return numbers == 1 ? OutputKind::kSequence : OutputKind::kStill;
+}
+
+void Replace(std::string& text, const std::string& name, const std::string& value) {
+  for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; at += value.size()) {
+    text.replace(at, name.size(), value);
+  }
+}
+
+// "demo:lift" and camera names as parts of file names.
+std::string AsName(const std::string& text) {
+  std::string name;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_fine = std::isalnum(byte) != 0 || c == '-' || c == '_' || c == '.' || byte >= 128;
+    name += is_fine ? c : '_';
+  }
+  return name;
+}
+
+std::string NameOfSource(const std::string& source) {
+  if (source == "-") return "stdin";
+  if (source.rfind("demo:", 0) == 0) return AsName(source);
+  fs::path stem = fs::path(source).filename();
+  for (const char* packed : {".gz", ".xz", ".zst", ".bz2", ".lz4"}) {
+    if (stem.extension() == packed) stem = stem.stem();
+  }
+  return AsName(stem.stem().string());
+}
+
+void CheckPlace(const std::string& path) {
+  std::error_code ignored;
+  const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
+  if (!fs::is_directory(folder, ignored)) {
+    throw UsageError(
+        fmt::format("--out={}: there is no folder {}; make it first", path, folder.string()));
+  }
+  if (::access(folder.c_str(), W_OK) != 0) {
+    throw UsageError(fmt::format("--out={}: folder {} may not be written", path, folder.string()));
+  }
+  if (fs::is_directory(path, ignored)) {
+    throw UsageError(
+        fmt::format("--out={}: is a folder; give a name in it, such as {}/%05d.png", path, path));
+  }
+}
+
+// Every name must be needed by only one output; where it is not, what would tell them apart?
+void CheckNames(const std::vector<SourcePlan>& plans) {
+  std::map<std::string, std::pair<std::string, std::string>> seen;  // path: source, camera
+  for (const SourcePlan& plan : plans) {
+    for (const Output& output : plan.outputs) {
+      const std::string path = fs::path(output.path).lexically_normal();
+      const auto [found, is_new] = seen.insert({path, {plan.source, output.camera}});
+      if (is_new) continue;
+      const auto& [source, camera] = found->second;
+      const char* way_out = source != plan.source     ? "put {source} into the name"
+                            : camera != output.camera ? "put {camera} into the name"
+                                                      : "give it once";
+      throw UsageError(
+          fmt::format("--out={}: two outputs would have this name; {}", output.path, way_out));
+    }
+  }
+}
+
+// Options that nothing to be made would heed are mistakes.
+void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans) {
+  bool has_still = false, has_clip = false, has_crf = false, has_quality = false;
+  for (const SourcePlan& plan : plans) {
+    for (const Output& output : plan.outputs) {
+      (output.kind == OutputKind::kStill ? has_still : has_clip) = true;
+      has_crf = has_crf || HasCrf(output.path);
+      has_quality = has_quality || HasQuality(output.path);
+    }
+  }
+  const MomentOptions& moment = options.moment;
+  if (moment.frame && moment.time) {
+    throw UsageError("--frame and --time both choose the picture; give one of them");
+  }
+  if (!moment.overlay_layer.empty()) {
+    ToLayerFormat(moment.overlay_layer);
+    if (!has_still) {
+      throw UsageError(
+          "--overlay_layer is beside one picture; give --out a name that ends in .png");
+    }
+  }
+  if (!has_still && (moment.frame || moment.time)) {
+    throw UsageError(
+        "--frame and --time choose one picture; give --out a name that ends in .png (of a clip, "
+        "--start and --seconds choose the part)");
+  }
+  if (moment.frame && *moment.frame < 0) {
+    throw UsageError(fmt::format("--frame={}: the first one is 0", *moment.frame));
+  }
+  if (moment.time && !(*moment.time >= 0 && *moment.time <= kLatestSecs)) {
+    throw UsageError(fmt::format("--time={}: expected 0 to {:.0f} s", *moment.time, kLatestSecs));
+  }
+  const ClipOptions& clip = options.clip;
+  if (!has_clip && (clip.seconds || clip.end || clip.start != 0)) {
+    throw UsageError(
+        "--start, --seconds and --end choose a part of the motion; give --out the name of a clip "
+        "(.mp4, .webm, .webp, .gif) or of a sequence (%05d.png), or choose a picture with --time");
+  }
+  if (!has_crf && options.pack.crf) {
+    throw UsageError(fmt::format("--crf={}: only .mp4 and .webm have it", *options.pack.crf));
+  }
+  if (!has_quality && options.pack.quality != PackOptions().quality) {
+    throw UsageError(fmt::format("--quality={}: only .webp has it", options.pack.quality));
+  }
+}
+
+}  // namespace
+
+bool HasCrf(const std::string& path) {
+  const auto format = render::ClipFormatOf(path);
+  return format == render::ClipFormat::kMp4 || format == render::ClipFormat::kWebm;
+}
+
+bool HasQuality(const std::string& path) {
+  return render::ClipFormatOf(path) == render::ClipFormat::kWebp;
+}
+
+std::string PathOfPicture(const std::string& pattern, long k) {
+  const std::vector<NumberPlace> places = FindNumbers(pattern);
+  if (places.empty()) return pattern;
+  const NumberPlace& place = places.front();
+  return pattern.substr(0, place.begin) + fmt::format("{:0{}}", k, place.digits) +
+         pattern.substr(place.begin + place.size);
+}
+
+std::vector<std::string> SplitCameras(const std::string& text) {
+  std::vector<std::string> cameras(1);
+  int depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char next = i + 1 < text.size() ? text[i + 1] : 'x';
+    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+    const bool ends =
+        text[i] == ',' && depth == 0 && !IsDigit(next) && next != '-' && next != '+' && next != '.';
+    if (ends) {
+      cameras.emplace_back();
+    } else {
+      cameras.back() += text[i];
+    }
+  }
+  return cameras;
+}
+
+std::vector<SourcePlan> PlanOutputs(const RenderOptions& options) {
+  const std::vector<std::string> cameras = SplitCameras(options.view.camera);
+  std::vector<SourcePlan> plans;
+  for (const std::string& source : options.sources) {
+    SourcePlan plan{source, {}};
+    for (const std::string& out : options.outs) {
+      for (const std::string& camera : cameras) {
+        Output output{out, OutputKind::kStill, camera};
+        Replace(output.path, "{camera}", AsName(camera));
+        Replace(output.path, "{source}", NameOfSource(source));
+        output.kind = KindOf(output.path);
+        CheckPlace(output.path);
+        plan.outputs.push_back(std::move(output));
+      }
+    }
+    plans.push_back(std::move(plan));
+  }
+  CheckNames(plans);
+  CheckUse(options, plans);
+  return plans;
+}
+
+}  // namespace kinescope::app

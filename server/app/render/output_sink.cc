@@ -1,0 +1,88 @@
+#include "server/app/render/output_sink.h"
+
+#include <utility>
+
+#include "render/new_file.h"
+#include "render/png_file.h"
+#include "server/app/render/writer_threads.h"
+
+namespace kinescope::app {
+namespace {
+
+struct Item {
+  long k;
+  FuturePicture picture;
+  render::Camera camera;
+};
+
+class PngSink : public OutputSink {
+ public:
+  PngSink(std::string path, int threads, MetadataOf metadata, std::string layer_path)
+      : path_(std::move(path)),
+        layer_path_(std::move(layer_path)),
+        metadata_(std::move(metadata)),
+        threads_(threads, [this](Item& item) { Write(item); }) {}
+
+  void Put(long k, FuturePicture picture, const render::Camera& camera) override {
+    threads_.Put({k, std::move(picture), camera});
+  }
+  void Finish() override { threads_.Finish(); }
+
+ private:
+  // The picture last: where it is there, the layer is, too.
+  void Write(const Item& item) const {
+    const DrawnPicture& picture = *item.picture.get();
+    if (!layer_path_.empty()) render::WriteNewFile(layer_path_, picture.layer);
+    render::WritePng(PathOfPicture(path_, item.k), picture, metadata_(item.camera, item.k));
+  }
+
+  const std::string path_, layer_path_;
+  const MetadataOf metadata_;
+  WriterThreads<Item> threads_;  // last: it uses the others
+};
+
+class ClipSink : public OutputSink {
+ public:
+  ClipSink(const std::string& path, const render::View& view, render::VideoOptions options,
+           MetadataOf metadata)
+      : path_(path),
+        view_(view),
+        options_(std::move(options)),
+        metadata_(std::move(metadata)),
+        thread_(1, [this](Item& item) { video_->Add(*item.picture.get()); }) {}
+
+  void Put(long k, FuturePicture picture, const render::Camera& camera) override {
+    if (video_ == nullptr) {  // what is written into it names the first picture's camera
+      options_.metadata = metadata_(camera, k);
+      video_ = render::MakeVideoWriter(path_, view_.width, view_.height, options_);
+    }
+    thread_.Put({k, std::move(picture), camera});
+  }
+
+  void Finish() override {
+    thread_.Finish();
+    if (video_ != nullptr) video_->Finish();
+  }
+
+ private:
+  const std::string path_;
+  const render::View view_;
+  render::VideoOptions options_;
+  const MetadataOf metadata_;
+  std::unique_ptr<render::VideoWriter> video_;  // made before the first item, then the thread's
+  WriterThreads<Item> thread_;                  // last: it uses the others
+};
+
+}  // namespace
+
+std::unique_ptr<OutputSink> MakePngSink(const std::string& path, int threads, MetadataOf metadata,
+                                        const std::string& layer_path) {
+  return std::make_unique<PngSink>(path, threads, std::move(metadata), layer_path);
+}
+
+std::unique_ptr<OutputSink> MakeClipSink(const std::string& path, const render::View& view,
+                                         render::VideoOptions options, MetadataOf metadata) {
+  return std::make_unique<ClipSink>(path, view, std::move(options), std::move(metadata));
+}
+
+}  // namespace kinescope::app

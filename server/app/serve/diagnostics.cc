@@ -1,0 +1,128 @@
+#include "server/app/serve/diagnostics.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "core/json_text.h"
+
+namespace kinescope::app {
+
+namespace {
+
+using nlohmann::json;
+
+json ToJson(const ros_bridge::InputCounters& counters) {
+  return {{"received", counters.received},
+          {"used", counters.used},
+          {"refused", counters.refused},
+          {"unknown_joints", counters.unknown_joints},
+          {"skewed", counters.skewed},
+          {"worst_skew_secs", counters.worst_skew_secs},
+          {"last_problem", counters.last_problem}};
+}
+
+// What is wrong with a person's loads, for whoever wonders about a colour; nothing where all is
+// well.
+json Doubts(const BodyForces& forces) {
+  json doubts = json::array();
+  const auto add = [&](std::string_view text) {
+    if (!text.empty()) doubts.push_back(text);
+  };
+  if (forces.body_mass_is_assumed) add("the body mass is assumed");
+  if (forces.com_disagrees) {
+    add(
+        fmt::format("our centre of mass is {:.0f} mm from MVN's: wrong frames, lengths or a wrong "
+                    "body",
+                    1000 * forces.com_difference->norm()));
+  }
+  add(forces.why_no_ground);
+  add(forces.why_static);
+  add(forces.why_other_metric);
+  return doubts;
+}
+
+json LoadsOf(const SceneState& state) {
+  json people = json::array();
+  for (const PersonState& person : state.people) {
+    const BodyForces& forces = person.forces;
+    people.push_back(
+        {{"character", person.character},
+         {"metric", Name(forces.metric)},
+         {"mode", forces.is_dynamic ? "dynamic" : "static"},
+         {"doubts", Doubts(forces)},
+         {"com_difference_mm",
+          forces.com_difference ? json(1000 * forces.com_difference->norm()) : json(nullptr)},
+         {"ground_is_measured", forces.ground_is_measured},
+         {"residual_force_share", forces.residual_force_share},
+         {"residual_moment_share", forces.residual_moment_share}});
+  }
+  return people;
+}
+
+}  // namespace
+
+std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
+                            const std::shared_ptr<const SourceCounters>& counters,
+                            const std::optional<ros_bridge::BridgeStatus>& ros,
+                            const std::optional<PictureStatus>& pictures,
+                            const std::optional<ViewStatus>& view) {
+  json out;
+  out["version"] = KINESCOPE_VERSION;
+  if (state) {
+    out["source"] = {{"url", state->source},
+                     {"liveness", Name(state->liveness)},
+                     {"rate_hz", state->rate_hz},
+                     {"counter", state->counter}};
+  }
+  if (counters) {
+    out["source"]["datagrams"] = counters->datagrams;
+    out["source"]["bytes"] = counters->bytes;
+    out["source"]["samples"] = counters->samples;
+    out["source"]["incomplete"] = counters->incomplete;
+    out["source"]["duplicates"] = counters->duplicates;
+    out["source"]["late"] = counters->late;
+    out["source"]["counter_gaps"] = counters->counter_gaps;
+    out["source"]["restarts"] = counters->restarts;
+    out["source"]["outliers"] = counters->outliers;
+    out["source"]["types"] = counters->types;
+    out["source"]["ignored"] = counters->ignored;
+    out["source"]["rejected"] = counters->rejected;
+    out["source"]["transport"] = counters->transport;
+  }
+  if (state) out["loads"] = LoadsOf(*state);
+  out["ros"] = nullptr;
+  if (ros) {
+    out["ros"] = {
+        {"master_uri", ros->master_uri},         {"master_reachable", ros->master_reachable},
+        {"published", ros->published},           {"missed", ros->missed},
+        {"master_returns", ros->master_returns}, {"inputs", json::object()}};
+    for (const auto& [topic, input] : ros->inputs) out["ros"]["inputs"][topic] = ToJson(input);
+  }
+  out["pictures"] = nullptr;
+  if (pictures) {
+    out["pictures"] = {{"renderer", pictures->renderer.renderer},
+                       {"backend", pictures->renderer.backend},
+                       {"gl_version", pictures->renderer.gl_version},
+                       {"software", pictures->renderer.is_software},
+                       {"note", pictures->renderer.note},
+                       {"hangs", pictures->hangs},
+                       {"drawn", pictures->drawn},
+                       {"draw_millis", pictures->draw_millis},
+                       {"encode_millis", pictures->encode_millis},
+                       {"last_error", pictures->last_error},
+                       {"problems", pictures->problems}};
+  }
+  out["view"] = nullptr;
+  if (view) {
+    out["view"] = {{"listeners", view->listeners},
+                   {"drawn", view->drawn},
+                   {"draw_millis", view->draw_millis},
+                   {"last_error", view->last_error},
+                   {"hangs", view->hangs}};
+  }
+  // A file name need not be UTF-8.
+  return JsonText(out);
+}
+
+}  // namespace kinescope::app

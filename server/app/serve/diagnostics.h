@@ -1,0 +1,23 @@
+/// How the program is doing, as the JSON of /api/diagnostics (docs/http.md).
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/scene_state.h"
+#include "core/source.h"
+#include "server/app/serve/picture_loop.h"
+#include "server/app/serve/view_loop.h"
+#include "server/ros/bridge.h"
+
+namespace kinescope::app {
+
+/// Null or nullopt: that part is not there.
+std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
+                            const std::shared_ptr<const SourceCounters>& counters,
+                            const std::optional<ros_bridge::BridgeStatus>& ros,
+                            const std::optional<PictureStatus>& pictures,
+                            const std::optional<ViewStatus>& view = {});
+
+}  // namespace kinescope::app

@@ -1,0 +1,99 @@
+/// Draws the server's own pictures on a thread of its own: the live one for the page, while
+/// somebody looks, and snapshots on request. States come in at any rate; at most `rate_hz` pictures
+/// go out.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/latest.h"
+#include "core/scene_state.h"
+#include "render/renderer.h"
+#include "server/http/server.h"
+#include "server/picture/backend.h"
+#include "server/picture/camera_man.h"
+
+namespace kinescope::app {
+
+struct PictureOptions {
+  std::string camera = "three_quarter";
+  int width = 1280;
+  int height = 720;
+  double rate_hz = 30;
+  CameraOptions moves = {};  // of the live picture
+  BackendOptions backend = {};
+};
+
+struct PictureStatus {
+  render::RendererInfo renderer;
+  std::uint64_t drawn = 0;   // live pictures and snapshots
+  double draw_millis = 0;    // of the last one, drawn and read back
+  double encode_millis = 0;  // of the last JPEG
+  std::string last_error;    // "" when the last picture went well
+  bool hangs = false;        // the driver has not come back; last_error says from what
+  /// What the newest picture shows as labelled boxes (render::Renderer::problems).
+  std::vector<std::string> problems;
+};
+
+class PictureLoop : public http::PictureFeed {
+ public:
+  /// Returns when the first picture (of `first`) has been drawn.
+  /// @throws render::RenderError when no renderer can be had, UsageError for bad options.
+  PictureLoop(const PictureOptions& options, std::shared_ptr<const SceneState> first,
+              Latest<http::Picture>& pictures);
+  /// Ends the process (exit code 2) when the driver hangs and so the thread cannot be joined.
+  ~PictureLoop() override;
+
+  void OnState(std::shared_ptr<const SceneState> state);  // any thread; never waits for drawing
+
+  void SetViewers(int count) override;
+  [[nodiscard]] bool SetCamera(const std::string& camera) override;
+  std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width, int height) override;
+
+  PictureStatus status() const;
+
+ private:
+  struct Snapshot {
+    std::string camera;
+    int width, height;
+    std::promise<std::vector<std::uint8_t>> png;
+  };
+
+  void Run(std::promise<void> started);
+  void DrawLive(render::Renderer& renderer, const SceneState& state, const std::string& camera);
+  void DrawSnapshot(render::Renderer& renderer, const SceneState& state);
+  void OnHang(const std::string& what);  // on the renderer's watchdog
+  void OnDrawn(render::Renderer& renderer);
+
+  const PictureOptions options_;
+  Latest<http::Picture>& pictures_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  // Guarded by mutex_:
+  std::shared_ptr<const SceneState> state_;
+  std::string camera_;
+  int viewers_ = 0;
+  bool live_is_due_ = false;  // the newest state, camera or viewer has not been drawn
+  bool stop_ = false;
+  std::deque<std::unique_ptr<Snapshot>> snapshots_;
+  std::unique_ptr<Snapshot> in_hand_;  // being drawn; whoever takes it away answers
+  bool has_started_ = false;
+  PictureStatus status_;
+  // Of the drawing thread:
+  render::Image live_image_;
+  std::string live_camera_name_;
+  std::optional<CameraMan> live_camera_;  // a new name is a cut
+
+  std::thread thread_;
+};
+
+}  // namespace kinescope::app

@@ -1,0 +1,50 @@
+#include "server/app/urdf/person_export.h"
+
+#include <fmt/format.h>
+
+#include <regex>
+#include <stdexcept>
+
+#include "core/errors.h"
+#include "render/new_file.h"
+
+namespace kinescope::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// @return how a URDF names where they are, "" for none.
+std::string WriteMeshes(const std::vector<FigureFile>& files, const fs::path& folder,
+                        const std::string& package) {
+  if (files.empty()) return "";
+  fs::create_directories(folder);
+  for (const FigureFile& file : files) render::WriteNewFile(folder / file.name, file.stl);
+  return package.empty() ? fs::canonical(folder).string() : "package://" + package + "/meshes";
+}
+
+void Write(urdf::HumanModel& human, const PersonFiles& files, const fs::path& folder,
+           const std::string& package) {
+  fs::create_directories(folder);
+  human.mesh_folder = WriteMeshes(files.figure, folder / "meshes", package);
+  human.tool_folder = WriteMeshes(files.tools, folder / "meshes", package);
+  render::WriteNewFile(folder / "person.urdf", urdf::WriteUrdf(human));
+}
+
+}  // namespace
+
+void ExportPerson(urdf::HumanModel human, const PersonFiles& meshes, const fs::path& folder,
+                  const std::string& package) {
+  static const std::regex kPackageName("[A-Za-z][A-Za-z0-9_-]*");
+  if (!package.empty() && !std::regex_match(package, kPackageName)) {
+    throw UsageError(fmt::format(
+        "--package={}: expected the name of a ROS package: a letter, then letters, digits, _ and -",
+        package));
+  }
+  try {
+    Write(human, meshes, folder, package);
+  } catch (const std::runtime_error& error) {  // std::filesystem's errors too
+    throw UsageError(fmt::format("--out={}: {}", folder.string(), error.what()));
+  }
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,97 @@
+#include "server/app/urdf/urdf_picture.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/json_text.h"
+#include "render/camera.h"
+#include "render/png_file.h"
+#include "render/renderer.h"
+#include "server/options/option_list.h"
+#include "server/picture/shots.h"
+#include "server/scene/robot_source.h"
+
+namespace kinescope::app {
+namespace {
+
+urdf::JointPositions ToPositions(const std::vector<std::string>& joints) {
+  urdf::JointPositions positions;
+  for (const std::string& text : joints) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw UsageError("--joint " + text + ": expected NAME=RADIANS");
+    }
+    const double position =
+        ParseOption<double>("--joint " + text.substr(0, equals), text.substr(equals + 1));
+    if (!std::isfinite(position))
+      throw UsageError("--joint " + text + ": expected a finite number");
+    positions[text.substr(0, equals)] = position;
+  }
+  return positions;
+}
+
+std::vector<double> XyzList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+void Tell(const UrdfPictureOptions& options, const RobotState& robot, const render::Camera& camera,
+          const std::vector<std::string>& problems) {
+  if (!options.json) {
+    const std::string boxes =
+        problems.empty() ? "" : fmt::format(", {} mesh files missing or refused", problems.size());
+    fmt::print("{}: robot '{}', {} links{}\n", options.out, robot.name, robot.model->links.size(),
+               boxes);
+    return;
+  }
+  const nlohmann::ordered_json json = {
+      {"out", options.out},
+      {"robot", robot.name},
+      {"links", robot.model->links.size()},
+      {"root_position", XyzList(robot.world_from_link.front().translation())},
+      {"bounds", {XyzList(robot.bounds.min()), XyzList(robot.bounds.max())}},
+      {"camera",
+       {{"position", XyzList(camera.position)},
+        {"target", XyzList(camera.target)},
+        {"up", XyzList(camera.up)},
+        {"vertical_fov_rad", camera.vertical_fov_rad}}},
+      {"problems", problems},
+  };
+  fmt::print("{}\n", JsonText(json));
+}
+
+}  // namespace
+
+void DrawUrdf(const UrdfPictureOptions& options) {
+  if (std::filesystem::path(options.out).extension() != ".png") {
+    throw UsageError("--out=" + options.out + ": expected a name that ends in .png");
+  }
+  ShotPlanner planner(options.view);
+  SceneState scene;
+  scene.liveness = Liveness::kLive;
+  scene.source = options.file;
+  scene.robots.push_back(
+      LoadRobot(options.file, options.package_path, ToPositions(options.joints)));
+  RobotState& robot = scene.robots.front();
+  for (const std::string& note : robot.model->notes) spdlog::warn("{}: {}", options.file, note);
+
+  const auto renderer = StartRenderer(options.backend);
+  robot.bounds = renderer->Bounds(robot);
+  if (robot.bounds.isEmpty()) {
+    throw SourceError(options.file + ": has no <visual>, so there is nothing to draw");
+  }
+  StandOnFloor(robot);
+  const Shot shot = planner.Only(std::move(scene));
+  const render::Image image = renderer->Render(shot.state, shot.camera, shot.view);
+  std::map<std::string, std::string> facts = DrawnBy(*renderer);
+  facts["Software"] = "Kinescope " KINESCOPE_VERSION;
+  facts["Source"] = std::filesystem::path(options.file).filename().string();
+  facts["Camera"] = options.view.camera;
+  render::WritePng(options.out, image, facts);
+  Tell(options, shot.state.robots.front(), shot.camera, renderer->problems());
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,93 @@
+#include "server/picture/backend.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/errors.h"
+#include "server/picture/backend_probe.h"
+
+namespace kinescope::app {
+namespace {
+
+std::chrono::milliseconds LimitOf(const BackendOptions& options) {
+  if (!(options.draw_limit_secs >= 0 && options.draw_limit_secs <= 1e6)) {
+    throw UsageError(
+        fmt::format("--draw_limit_secs={}: expected 0 to 1000000", options.draw_limit_secs));
+  }
+  return std::chrono::milliseconds(
+      static_cast<std::chrono::milliseconds::rep>(std::ceil(1000 * options.draw_limit_secs)));
+}
+
+// The first that works, best first.
+BackendChoice ChooseByTrying(const std::vector<std::string>& gpus,
+                             const std::filesystem::path& program) {
+  std::string note;
+  std::vector<std::string> candidates = {"osmesa", "egl"};
+  // Nothing to try out where nothing is plugged in; most machines are such.
+  if (!gpus.empty()) candidates.insert(candidates.begin(), "egl_device");
+  for (const std::string& name : candidates) {
+    // Without a GPU, what is fallen back to has nothing before it that could have failed.
+    if (gpus.empty() && name == "osmesa" && render::HasBackend(name)) return {name, note};
+    const BackendReport report = ProbeBackend(program, name, kProbeLimit);
+    if (report.works) return {name, note};
+    note += fmt::format("{}{} does not work: {}", note.empty() ? "" : "; ", name, report.reason);
+  }
+  throw render::RenderError("--backend=auto: " + note);
+}
+
+}  // namespace
+
+BackendChoice ChooseBackend(const BackendOptions& options, const Machine& machine) {
+  LimitOf(options);
+  const std::vector<std::string> gpus = FindGpus(machine.dev);
+  if (options.backend == "auto") {
+    BackendChoice choice = ChooseByTrying(gpus, machine.program);
+    if (!choice.note.empty()) choice.note = "drawn by " + choice.name + ", because " + choice.note;
+    return choice;
+  }
+  const auto& names = render::BackendNames();
+  if (std::find(names.begin(), names.end(), options.backend) == names.end()) {
+    throw UsageError(
+        fmt::format("--backend={}: expected {} or auto", options.backend, fmt::join(names, ", ")));
+  }
+  std::string note;
+  if (options.backend != "egl_device" && !gpus.empty()) {
+    note = fmt::format(
+        "drawn in software beside a GPU ({}): --backend auto or egl_device would use it",
+        fmt::join(gpus, ", "));
+  }
+  return {options.backend, note};
+}
+
+std::unique_ptr<render::Renderer> StartRenderer(const BackendOptions& options,
+                                                const BackendChoice& choice,
+                                                std::function<void(const std::string&)> on_hang,
+                                                render::LogLine log) {
+  render::RendererSettings settings;
+  settings.backend = choice.name;
+  settings.note = choice.note;
+  settings.log = log ? std::move(log) : [](const std::string& line) { spdlog::warn("{}", line); };
+  settings.limit = LimitOf(options);
+  settings.on_hang = std::move(on_hang);
+  return render::MakeRenderer(std::move(settings));
+}
+
+std::unique_ptr<render::Renderer> StartRenderer(const BackendOptions& options) {
+  const BackendChoice choice = ChooseBackend(options);
+  if (!choice.note.empty()) spdlog::warn("pictures: {}", choice.note);
+  return StartRenderer(options, choice);
+}
+
+std::map<std::string, std::string> DrawnBy(const render::Renderer& renderer) {
+  const render::RendererInfo info = renderer.info();
+  std::map<std::string, std::string> said = {{"Renderer", info.renderer},
+                                             {"Backend", info.backend}};
+  if (!info.note.empty()) said["Backend note"] = info.note;
+  return said;
+}
+
+}  // namespace kinescope::app

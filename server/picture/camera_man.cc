@@ -1,0 +1,167 @@
+#include "server/picture/camera_man.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/clocks.h"
+#include "core/errors.h"
+#include "server/options/option_list.h"
+
+namespace kinescope::app {
+namespace {
+
+constexpr double kMostOrbit = 3600;  // degrees a second; more shows no motion any more
+
+double SecsBetween(std::int64_t from_nanos, std::int64_t to_nanos) {
+  return Secs(to_nanos - from_nanos);
+}
+
+bool IsKeyFile(const std::string& camera) {
+  const std::string extension = std::filesystem::path(camera).extension();
+  return extension == ".yaml" || extension == ".yml";
+}
+
+}  // namespace
+
+CameraMan::CameraMan(std::string camera, const CameraOptions& options)
+    : camera_(std::move(camera)) {
+  if (IsKeyFile(camera_)) {
+    keys_ = ReadCameraKeys(camera_);
+  } else if (const std::size_t colon = camera_.find(':'); colon != std::string::npos) {
+    const std::string what = "--camera=" + camera_;
+    place_ = CameraFromTo(what, ParsePoint(what, camera_.substr(0, colon)),
+                          ParsePoint(what, camera_.substr(colon + 1)));
+  } else {
+    render::NamedCameraAt(camera_, {});  // refuses an unknown name before any work
+  }
+
+  is_orthographic_ = options.projection == "orthographic";
+  if (!is_orthographic_ && options.projection != "perspective") {
+    throw UsageError(
+        fmt::format("--projection={}: expected perspective or orthographic", options.projection));
+  }
+  if (options.fov) {
+    if (!(*options.fov >= 1 && *options.fov <= 150)) {
+      throw UsageError(fmt::format("--fov={}: expected 1 to 150 degrees", *options.fov));
+    }
+    fov_rad_ = *options.fov * M_PI / 180;
+    if (place_) place_->vertical_fov_rad = *fov_rad_;
+  }
+  is_one_turn_ = options.orbit == "turn";
+  if (!is_one_turn_) {
+    const auto degrees = ParseOption<double>("--orbit", options.orbit);
+    if (!(std::abs(degrees) <= kMostOrbit)) {
+      throw UsageError(fmt::format("--orbit={}: expected degrees a second within +-{}, or turn",
+                                   options.orbit, kMostOrbit));
+    }
+    orbit_rad_per_sec_ = degrees * M_PI / 180;
+  }
+  follow_secs_ = options.follow;
+  if (follow_secs_ && !(*follow_secs_ >= 0 && *follow_secs_ <= 60)) {
+    throw UsageError(fmt::format("--follow={}: expected a lag of 0 to 60 s", *follow_secs_));
+  }
+  if (options.fit == "now") {
+    fit_ = Fit::kNow;
+  } else if (options.fit == "clip") {
+    fit_ = Fit::kClip;
+  } else if (options.fit != "off") {
+    throw UsageError(fmt::format("--fit={}: expected off, now or clip", options.fit));
+  }
+  if (fit_ != Fit::kOff && !keys_.empty()) {
+    throw UsageError("--fit=" + options.fit + ": a file of keys says where the camera stands");
+  }
+}
+
+std::string CameraMan::name() const {
+  if (place_) return "";
+  return keys_.empty() ? camera_ : std::filesystem::path(camera_).filename().string();
+}
+
+void CameraMan::Survey(const SceneState& state) {
+  if (!survey_start_nanos_) survey_start_nanos_ = state.stamp_nanos;
+  clip_secs_ = std::max(clip_secs_, SecsBetween(*survey_start_nanos_, state.stamp_nanos));
+  const Eigen::AlignedBox3d box = render::BoxOf(state);
+  if (!box.isEmpty()) clip_box_.extend(box);
+}
+
+// Where it stands but for orbit and frame.
+render::Camera CameraMan::Placed(const SceneState& state, const render::Whereabouts& ground,
+                                 double secs) const {
+  if (!keys_.empty()) {
+    std::vector<render::CameraKey> keys;
+    for (const CameraKeySpec& spec : keys_) {
+      render::Camera camera =
+          spec.name.empty() ? spec.place : render::NamedCameraAt(spec.name, ground);
+      if (!spec.name.empty() && spec.fov_rad) camera = render::WithFov(camera, *spec.fov_rad);
+      keys.push_back({spec.secs, camera, spec.ease});
+    }
+    return render::AlongPath(keys, secs);
+  }
+  if (place_) return *place_;
+  // Only the direction counts then; wherever people are, it is the same to the last bit.
+  if (fit_ == Fit::kClip) return render::NamedCameraAt(camera_, {});
+  // Robots have no ground: the view is as large as they are.
+  const bool is_of_robots = state.people.empty() && !state.robots.empty();
+  return is_of_robots ? render::NamedCamera(camera_, state)
+                      : render::NamedCameraAt(camera_, ground);
+}
+
+// With lens, turn and frame, which are the same for all.
+render::Camera CameraMan::Finished(render::Camera camera, const SceneState& state, double secs,
+                                   double aspect) const {
+  if (fov_rad_ && IsNamed()) camera = render::WithFov(camera, *fov_rad_);
+  if (is_orthographic_) camera = render::Orthographic(camera);
+  const double turn_rate =
+      is_one_turn_ && clip_secs_ > 0 ? 2 * M_PI / clip_secs_ : orbit_rad_per_sec_;
+  if (turn_rate != 0) camera = render::Turned(camera, turn_rate * secs);
+  const Eigen::AlignedBox3d box = fit_ == Fit::kNow    ? render::BoxOf(state)
+                                  : fit_ == Fit::kClip ? clip_box_
+                                                       : Eigen::AlignedBox3d();
+  if (!box.isEmpty()) return render::Framing(camera, box, aspect);
+  // Whoever says the place or the lens means it; a name means that the person is seen.
+  return IsNamed() ? render::ForAspect(camera, aspect) : camera;
+}
+
+double CameraMan::SecsOf(const SceneState& state) {
+  if (!start_nanos_ && state.stamp_nanos != 0) start_nanos_ = state.stamp_nanos;
+  return start_nanos_ ? std::max(0.0, SecsBetween(*start_nanos_, state.stamp_nanos)) : 0;
+}
+
+// A first-order lag: of the way to go, the share 1 - exp(-dt / lag) is gone in dt, however often
+// it is asked.
+const render::Whereabouts& CameraMan::Follow(const SceneState& state, double secs) {
+  const render::Whereabouts now = render::WhereaboutsOf(state);
+  if (!has_met_) {
+    has_met_ = !state.people.empty();
+    followed_ = now;
+    first_middle_ = now.middle;
+  } else if (!state.people.empty()) {
+    const double dt = std::max(0.0, secs - followed_at_secs_);
+    const double share = *follow_secs_ > 0 ? 1 - std::exp(-dt / *follow_secs_) : 1;
+    followed_.middle += share * (now.middle - followed_.middle);
+    followed_.radius += share * (now.radius - followed_.radius);
+  }
+  followed_at_secs_ = secs;
+  return followed_;
+}
+
+render::Camera CameraMan::Aim(const SceneState& state, double aspect) {
+  const double secs = SecsOf(state);
+  const render::Whereabouts& ground = follow_secs_ ? Follow(state, secs) : steady_.Follow(state);
+  render::Camera camera = Placed(state, ground, secs);
+  if (place_ && follow_secs_) {
+    const Eigen::Vector3d shift = ground.middle - first_middle_;
+    camera.position += shift;
+    camera.target += shift;
+  }
+  return Finished(camera, state, secs, aspect);
+}
+
+render::Camera CameraMan::Only(const SceneState& state, double secs, double aspect) const {
+  return Finished(Placed(state, render::WhereaboutsOf(state), secs), state, secs, aspect);
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,92 @@
+/// Where the camera stands, scene after scene: a name, a fixed place or a path, and what moves it
+/// besides (turning, following, framing). One thread.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene_state.h"
+#include "render/camera.h"
+#include "server/picture/camera_keys.h"
+
+namespace kinescope::app {
+
+/// As options say it; each names its default. Texts are explained in docs/pictures.md.
+struct CameraOptions {
+  std::string projection = "perspective";
+  std::optional<double> fov;     // degrees, vertical
+  std::string orbit = "0";       // degrees a second, or "turn"
+  std::optional<double> follow;  // s of lag
+  std::string fit = "off";
+
+  template <class Option>
+  void Visit(Option&& option) {
+    option("projection", projection, "perspective or orthographic");
+    option("fov", fov, "vertical field of view, degrees; named cameras keep what they show");
+    option("orbit", orbit,
+           "degrees a second that the camera turns round its target, or turn (once)");
+    option("follow", follow, "follow the people with a lag of so many seconds; not given: at ease");
+    option("fit", fit,
+           "off, now or clip: all that is there fills each picture, or those of the clip");
+  }
+};
+
+/// What a camera option may be: a name, X,Y,Z:X,Y,Z (from: to, m) or a file of keys.
+inline constexpr const char* kCameraKinds =
+    "front back left right top iso three_quarter, X,Y,Z:X,Y,Z (from: to, m) or FILE.yaml of keys";
+
+class CameraMan {
+ public:
+  /// @param camera as kCameraKinds. @throws UsageError naming option, value and what was expected.
+  CameraMan(std::string camera, const CameraOptions& options);
+
+  /// Whether Aim needs to know the whole clip before its first picture.
+  bool needs_survey() const { return fit_ == Fit::kClip || is_one_turn_; }
+  /// Once for every scene of the clip, in order, before the first Aim.
+  void Survey(const SceneState& state);
+
+  /// Once per picture, in order. Time is that of the states' stamps, from the first one on.
+  /// @param aspect width / height of the picture
+  render::Camera Aim(const SceneState& state, double aspect);
+
+  /// For one picture alone, `secs` after the clip's start: nothing lags.
+  render::Camera Only(const SceneState& state, double secs, double aspect) const;
+
+  /// "front"; of fixed places and paths: "" and the file's name.
+  std::string name() const;
+
+ private:
+  enum class Fit { kOff, kNow, kClip };
+
+  bool IsNamed() const { return !place_ && keys_.empty(); }
+  render::Camera Placed(const SceneState& state, const render::Whereabouts& ground,
+                        double secs) const;
+  render::Camera Finished(render::Camera camera, const SceneState& state, double secs,
+                          double aspect) const;
+  double SecsOf(const SceneState& state);
+  const render::Whereabouts& Follow(const SceneState& state, double secs);
+
+  std::string camera_;
+  std::optional<render::Camera> place_;
+  std::vector<CameraKeySpec> keys_;
+  bool is_orthographic_ = false, is_one_turn_ = false;
+  std::optional<double> fov_rad_, follow_secs_;
+  double orbit_rad_per_sec_ = 0;
+  Fit fit_ = Fit::kOff;
+  // Of the survey:
+  Eigen::AlignedBox3d clip_box_;
+  std::optional<std::int64_t> survey_start_nanos_;
+  double clip_secs_ = 0;
+  // Of the pictures so far:
+  std::optional<std::int64_t> start_nanos_;
+  render::SteadyWhereabouts steady_;
+  render::Whereabouts followed_;  // where the lagging camera is
+  bool has_met_ = false;          // anybody to follow
+  Eigen::Vector3d first_middle_ = Eigen::Vector3d::Zero();
+  double followed_at_secs_ = 0;
+};
+
+}  // namespace kinescope::app

@@ -1,0 +1,120 @@
+#include "server/picture/ghost_pose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/errors.h"
+#include "server/options/option_list.h"
+#include "server/scene/scene_reader.h"
+
+namespace kinescope::app {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<PersonState> ReadMoment(const std::string& text, const SceneOptions& options) {
+  const std::size_t at = text.rfind('@');
+  if (at == std::string::npos || at == 0) {
+    throw UsageError("--ghost=" + text + ": expected n_pose, t_pose or FILE@SECS");
+  }
+  const auto secs = ParseOption<double>("--ghost: the seconds of " + text, text.substr(at + 1));
+  if (!(secs >= 0 && secs <= kLatestSecs)) {
+    throw UsageError(
+        fmt::format("--ghost={}: expected 0 to {:.0f} s after the @", text, kLatestSecs));
+  }
+  SceneReader reader(text.substr(0, at), options);
+  SceneTimeline timeline(reader);
+  const auto scene = timeline.At(secs);
+  if (!scene || scene->people.empty()) {
+    throw UsageError("--ghost=" + text + ": nobody is there at that time");
+  }
+  return scene->people;
+}
+
+double LowestPoint(const urdf::Skeleton& skeleton, const urdf::LinkPoses& links) {
+  double lowest = std::numeric_limits<double>::max();
+  const auto take = [&](int segment, const Vector3d& in_link) {
+    const urdf::Pose& pose = links[urdf::At(segment)];
+    lowest = std::min(lowest, (pose.position + pose.orientation * in_link).z());
+  };
+  take(urdf::kRightFoot, skeleton.heel_in_foot[urdf::kRight]);
+  take(urdf::kLeftFoot, skeleton.heel_in_foot[urdf::kLeft]);
+  take(urdf::kRightToe, skeleton.toe_tip_in_toe[urdf::kRight]);
+  take(urdf::kLeftToe, skeleton.toe_tip_in_toe[urdf::kLeft]);
+  return lowest;
+}
+
+// Fingers and props go along with the hand, and with the pelvis.
+void Carry(const urdf::LinkPoses& before, PersonState& person) {
+  const auto carry = [&](int segment, urdf::Pose& pose) {
+    const urdf::Pose in_link = urdf::Relative(before[urdf::At(segment)], pose);
+    const urdf::Pose& now = person.links[urdf::At(segment)];
+    pose.position = now.position + now.orientation * in_link.position;
+    pose.orientation = now.orientation * in_link.orientation;
+  };
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    auto& glove = person.gloves[side];
+    if (!glove) continue;
+    for (urdf::Pose& link : glove->links) carry(urdf::HandSegmentOf(side), link);
+  }
+  for (auto& prop : person.props) {
+    if (prop) carry(urdf::kPelvis, prop->pose);
+  }
+}
+
+PersonState Standing(PersonState person, bool is_t_pose, double floor_z) {
+  urdf::JointAngles angles;
+  angles.fill(Vector3d::Zero());
+  if (is_t_pose) {  // link frames are those of the N-pose
+    angles[urdf::jRightShoulder].x() = -M_PI_2;
+    angles[urdf::jLeftShoulder].x() = M_PI_2;
+  }
+  const urdf::Pose& now = person.links[urdf::kPelvis];
+  const Vector3d ahead = now.orientation * Vector3d::UnitX();
+  urdf::Pose pelvis;
+  pelvis.position = now.position;
+  pelvis.orientation = Eigen::AngleAxisd(std::atan2(ahead.y(), ahead.x()), Vector3d::UnitZ());
+  const urdf::Skeleton& skeleton = person.model->human.skeleton;
+  const urdf::LinkPoses before = person.links;
+  person.links = urdf::ForwardKinematics(skeleton, pelvis, angles);
+  const double lift = floor_z - LowestPoint(skeleton, person.links);
+  for (urdf::Pose& link : person.links) link.position.z() += lift;
+  Carry(before, person);
+  return person;
+}
+
+}  // namespace
+
+GhostPose::GhostPose(const std::string& text, double opacity, const SceneOptions& options)
+    : opacity_(opacity) {
+  if (!(opacity >= 0 && opacity <= 1)) {
+    throw UsageError(fmt::format("--ghost_opacity={}: expected 0 to 1", opacity));
+  }
+  if (text.empty()) return;
+  if (text == "n_pose") {
+    kind_ = Kind::kNPose;
+  } else if (text == "t_pose") {
+    kind_ = Kind::kTPose;
+  } else {
+    kind_ = Kind::kMoment;
+    recorded_ = ReadMoment(text, options);
+  }
+}
+
+std::vector<render::Ghost> GhostPose::Make(const SceneState& state) const {
+  std::vector<render::Ghost> ghosts;
+  if (kind_ == Kind::kNone) return ghosts;
+  if (kind_ == Kind::kMoment) {
+    for (const PersonState& person : recorded_) ghosts.push_back({person, opacity_});
+    return ghosts;
+  }
+  for (const PersonState& person : state.people) {
+    ghosts.push_back({Standing(person, kind_ == Kind::kTPose, state.floor_z), opacity_});
+  }
+  return ghosts;
+}
+
+}  // namespace kinescope::app

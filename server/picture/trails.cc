@@ -1,0 +1,89 @@
+#include "server/picture/trails.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "core/errors.h"
+
+namespace kinescope::app {
+namespace {
+
+// No load class, not the centre of mass, and seen on light and dark floors.
+constexpr std::array<Rgb, 4> kColors = {
+    {{0.20, 0.45, 0.80}, {0.62, 0.44, 0.22}, {0.50, 0.53, 0.58}, {0.45, 0.72, 0.92}}};
+
+int SegmentOf(const std::string& name) {
+  for (std::size_t i = 0; i < urdf::kSegments.size(); ++i) {
+    if (name == urdf::kSegments[i].mvn_name || name == urdf::kSegments[i].link_name) {
+      return static_cast<int>(i);
+    }
+  }
+  std::string known = "com";
+  for (const urdf::SegmentInfo& segment : urdf::kSegments) {
+    known += ", ";
+    known += segment.link_name;
+  }
+  throw UsageError(fmt::format("--trail={}: expected some of {}", name, known));
+}
+
+}  // namespace
+
+Trails::Trails(const std::string& names, double secs) : secs_(secs) {
+  if (!(secs > 0 && secs <= kMostSecs)) {
+    throw UsageError(
+        fmt::format("--trail_secs={}: expected more than 0, up to {}", secs, kMostSecs));
+  }
+  std::istringstream list(names);
+  for (std::string name; std::getline(list, name, ',');) {
+    if (name == "com") {
+      tracks_.push_back({-1, kComColor});
+    } else {
+      tracks_.push_back({SegmentOf(name), kColors[tracks_.size() % kColors.size()]});
+    }
+  }
+}
+
+void Trails::Remember(const SceneState& state) {
+  if (tracks_.empty() || state.liveness != Liveness::kLive) return;
+  newest_nanos_ = state.stamp_nanos;
+  const auto oldest = newest_nanos_ - static_cast<std::int64_t>(std::llround(secs_ * 1e9));
+  std::map<int, std::vector<std::deque<Point>>> kept;
+  for (const PersonState& person : state.people) {
+    auto& tracks = kept[person.character];
+    tracks = std::move(past_[person.character]);
+    tracks.resize(tracks_.size());
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      std::deque<Point>& points = tracks[i];
+      while (!points.empty() && points.front().stamp_nanos < oldest) points.pop_front();
+      const int segment = tracks_[i].segment;
+      if (segment < 0 && !person.com) {
+        points.clear();  // a gap is no straight line
+        continue;
+      }
+      const Eigen::Vector3d& position =
+          segment < 0 ? *person.com : person.links[urdf::At(segment)].position;
+      // A scene between two that were remembered, or a recording that starts over.
+      while (!points.empty() && points.back().stamp_nanos >= newest_nanos_) points.pop_back();
+      points.push_back({newest_nanos_, position});
+    }
+  }
+  past_ = std::move(kept);  // who has gone has no trail
+}
+
+std::vector<render::Trail> Trails::Make() const {
+  std::vector<render::Trail> trails;
+  for (const auto& [character, tracks] : past_) {
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      render::Trail trail;
+      trail.color = tracks_[i].color;
+      for (const Point& point : tracks[i]) trail.points.push_back(point.position);
+      if (trail.points.size() > 1) trails.push_back(std::move(trail));
+    }
+  }
+  return trails;
+}
+
+}  // namespace kinescope::app

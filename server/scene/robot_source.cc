@@ -1,0 +1,58 @@
+#include "server/scene/robot_source.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "core/check.h"
+#include "core/errors.h"
+#include "urdf/xml_outline.h"
+
+namespace kinescope::app {
+
+namespace fs = std::filesystem;
+
+std::string ReadUrdfFile(const fs::path& path) {
+  const auto fail = [&](const std::string& why) {
+    return SourceError("file '" + path.string() + "': " + why);
+  };
+  std::error_code error;
+  if (fs::is_directory(path, error)) throw fail("is a folder; name the .urdf in it");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw fail(std::strerror(errno));
+  const std::size_t most = urdf::XmlLimits().bytes + 1;  // what is too long is said so later
+  std::string bytes;
+  std::string part(1u << 16, '\0');
+  while (bytes.size() < most && file) {
+    file.read(part.data(),
+              static_cast<std::streamsize>(std::min(part.size(), most - bytes.size())));
+    bytes.append(part, 0, static_cast<std::size_t>(file.gcount()));
+  }
+  if (file.bad()) throw fail("reading it failed");
+  return bytes;
+}
+
+RobotState LoadRobot(const fs::path& path, const std::vector<std::string>& package_path,
+                     const urdf::JointPositions& joints) {
+  RobotState robot;
+  try {
+    robot.model = std::make_shared<urdf::RobotModel>(urdf::ParseUrdf(ReadUrdfFile(path)));
+    robot.world_from_link = urdf::PlaceLinks(*robot.model, joints);
+  } catch (const urdf::UrdfError& error) {
+    throw SourceError(path.string() + ": " + error.what());
+  }
+  robot.name = robot.model->name;
+  robot.meshes = std::make_shared<urdf::MeshSearch>(urdf::MakeMeshSearch(path, package_path));
+  return robot;
+}
+
+void StandOnFloor(RobotState& robot, double x, double y) {
+  KINESCOPE_CHECK(!robot.bounds.isEmpty());
+  const Eigen::Vector3d middle = robot.bounds.center();
+  const Eigen::Vector3d shift(x - middle.x(), y - middle.y(), -robot.bounds.min().z());
+  for (Eigen::Isometry3d& link : robot.world_from_link) link.pretranslate(shift);
+  robot.bounds.translate(shift);
+}
+
+}  // namespace kinescope::app

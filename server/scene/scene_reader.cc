@@ -1,0 +1,77 @@
+#include "server/scene/scene_reader.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "core/errors.h"
+#include "core/scene_interpolation.h"
+#include "core/stop_signal.h"
+#include "server/source/open_source.h"
+
+namespace kinescope::app {
+
+SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
+    : url_(url),
+      source_(OpenSource(url)),
+      builder_(
+          options, url, source_->nominal_rate_hz(),
+          [this](const std::shared_ptr<const SceneState>& state) { ready_.push_back(state); }) {
+  if (source_->is_live()) {
+    throw UsageError("source '" + url +
+                     "': a live stream has no frames to choose from; give a recording or demo:lift "
+                     "(to watch a stream: kinescope serve)");
+  }
+  builder_.Start();
+  empty_ = std::move(ready_.front());
+  ready_.pop_front();
+}
+
+std::shared_ptr<const SceneState> SceneReader::Next() {
+  while (ready_.empty() && !ended_) {
+    ended_ = source_->Poll(std::chrono::milliseconds(0), builder_) == Source::State::kEnded;
+  }
+  if (ready_.empty()) return nullptr;
+  auto state = std::move(ready_.front());
+  ready_.pop_front();
+  return state;
+}
+
+std::shared_ptr<const SceneState> SceneReader::Stale() {
+  builder_.MarkStale();
+  auto state = std::move(ready_.back());
+  ready_.pop_back();
+  return state;
+}
+
+SceneTimeline::SceneTimeline(SceneReader& reader)
+    : SceneTimeline([&reader] {
+        if (StopRequested()) throw std::runtime_error("interrupted while reading " + reader.url());
+        return reader.Next();
+      }) {}
+
+SceneTimeline::SceneTimeline(ReadNext next)
+    : next_(std::move(next)), before_(next_()), after_(before_ ? next_() : nullptr) {
+  if (before_) start_nanos_ = before_->stamp_nanos;
+}
+
+std::optional<SceneState> SceneTimeline::At(double secs) {
+  return AtNanos(std::llround(secs * 1e9));
+}
+
+std::optional<SceneState> SceneTimeline::AtNanos(std::int64_t nanos) {
+  const std::int64_t stamp = start_nanos_ + nanos;
+  while (after_ && after_->stamp_nanos < stamp) {
+    before_ = std::exchange(after_, next_());
+  }
+  if (!before_) return std::nullopt;
+  // The grid may miss the last sample by the rounding of its stamps, not by more.
+  constexpr std::int64_t kRoundingNanos = 1000;
+  if (!after_) {
+    if (stamp > before_->stamp_nanos + kRoundingNanos) return std::nullopt;
+    return *before_;
+  }
+  return Interpolate(*before_, *after_, stamp);
+}
+
+}  // namespace kinescope::app

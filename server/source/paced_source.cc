@@ -1,0 +1,160 @@
+#include "server/source/paced_source.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "core/clocks.h"
+#include "core/errors.h"
+
+namespace kinescope::app {
+namespace {
+
+// People in one capture are out of order by what the network and joining delay one of them.
+constexpr std::int64_t kReadAheadNanos = 100 * kNanosPerMilli;
+constexpr std::size_t kMostQueued = 2048;  // some 20 MB
+
+void AddUp(SourceCounters& sum, const SourceCounters& more) {
+  sum.datagrams += more.datagrams;
+  sum.bytes += more.bytes;
+  sum.samples += more.samples;
+  sum.incomplete += more.incomplete;
+  sum.duplicates += more.duplicates;
+  sum.late += more.late;
+  sum.counter_gaps += more.counter_gaps;
+  sum.restarts += more.restarts;
+  sum.outliers += more.outliers;
+  for (const auto& [type, count] : more.types) sum.types[type] += count;
+  for (const auto& [reason, count] : more.ignored) sum.ignored[reason] += count;
+  for (const auto& [reason, count] : more.rejected) sum.rejected[reason] += count;
+  for (const auto& [name, count] : more.transport) sum.transport[name] += count;
+}
+
+}  // namespace
+
+PacedSource::PacedSource(std::unique_ptr<Source> source, Open reopen)
+    : source_(std::move(source)), reopen_(std::move(reopen)) {}
+
+void PacedSource::OnCharacter(const Character& character) {
+  characters_.insert_or_assign(character.id, character);
+}
+
+void PacedSource::OnSample(const BodySample& sample) { Enqueue(sample); }
+
+void PacedSource::OnObjects(const ObjectsSample& sample) { Enqueue(sample); }
+
+void PacedSource::EnqueueCharacter(int id, std::int64_t played) {
+  const auto found = characters_.find(id);
+  if (found == characters_.end()) return;
+  queue_.emplace(played, std::move(found->second));
+  characters_.erase(found);
+}
+
+template <class Sample>
+void PacedSource::Enqueue(Sample sample) {
+  if (std::exchange(is_round_empty_, false)) first_stamp_ = sample.stamp_nanos;
+  const auto [at, is_new] = tracks_.try_emplace(sample.character);
+  Track& track = at->second;
+  if (track.samples++ == 0) {
+    track.counter_offset = is_new ? 0 : track.last_counter + 1 - sample.counter;
+  }
+  std::int64_t played = round_offset_ + sample.stamp_nanos - first_stamp_;
+  // A file may say anything, but a person's samples stay in their order.
+  if (!is_new) played = std::max(played, track.last_played);
+  track.last_played = played;
+  track.last_counter = sample.counter + track.counter_offset;
+  last_played_ = std::max(last_played_, played);
+
+  sample.stamp_nanos = played;
+  sample.counter = track.last_counter;
+  sample.time_code_millis += round_offset_ / kNanosPerMilli;
+  EnqueueCharacter(sample.character, played);
+  queue_.emplace(played, std::move(sample));
+}
+
+bool PacedSource::HasEnough() const {
+  return read_all_ || queue_.size() >= kMostQueued ||
+         (!queue_.empty() && last_played_ - queue_.begin()->first >= kReadAheadNanos);
+}
+
+void PacedSource::ReadAhead(std::int64_t deadline) {
+  try {
+    while (!HasEnough()) {
+      if (source_->Poll(std::chrono::milliseconds(0), *this) == State::kEnded) EndRound();
+      if (MonotonicNanos() > deadline) return;  // a capture of much else
+    }
+  } catch (const SourceError&) {
+    failure_ = std::current_exception();
+    read_all_ = true;
+  }
+}
+
+void PacedSource::EndRound() {
+  while (!characters_.empty()) EnqueueCharacter(characters_.begin()->first, last_played_);
+  if (reopen_ == nullptr || is_round_empty_) {  // an empty round would be followed by another
+    read_all_ = true;
+    return;
+  }
+  const auto busiest = std::max_element(
+      tracks_.begin(), tracks_.end(),
+      [](const auto& a, const auto& b) { return a.second.samples < b.second.samples; });
+  const auto steps = static_cast<std::int64_t>(busiest->second.samples) - 1;
+  std::int64_t period = steps > 0 ? (last_played_ - round_offset_) / steps : 0;
+  const double rate = source_->nominal_rate_hz();
+  if (rate > 0) period = static_cast<std::int64_t>(1e9 / rate);
+  round_offset_ = last_played_ + period;
+  is_round_empty_ = true;
+  for (auto& [id, track] : tracks_) track.samples = 0;
+  AddUp(earlier_, source_->counters());
+  source_ = reopen_();
+}
+
+void PacedSource::HandOn(Event& event, std::int64_t played, SampleSink& sink) {
+  if (const auto* character = std::get_if<Character>(&event)) return sink.OnCharacter(*character);
+  const auto as_if_now = [&](auto& sample) {
+    sample.stamp_nanos = start_wall_ + played;
+    sample.arrival_nanos = MonotonicNanos();
+  };
+  if (auto* sample = std::get_if<BodySample>(&event)) {
+    as_if_now(*sample);
+    ++samples_;
+    return sink.OnSample(*sample);
+  }
+  auto& objects = std::get<ObjectsSample>(event);
+  as_if_now(objects);
+  sink.OnObjects(objects);
+}
+
+Source::State PacedSource::Poll(std::chrono::milliseconds timeout, SampleSink& sink) {
+  const std::int64_t deadline = MonotonicNanos() + timeout.count() * kNanosPerMilli;
+  ReadAhead(deadline);
+  if (queue_.empty()) {
+    if (failure_ != nullptr) std::rethrow_exception(failure_);
+    return read_all_ ? State::kEnded : State::kMore;
+  }
+  if (!std::exchange(has_started_, true)) {
+    start_monotonic_ = MonotonicNanos() - queue_.begin()->first;
+    start_wall_ = WallNanos() - queue_.begin()->first;
+  }
+  const std::int64_t due = start_monotonic_ + queue_.begin()->first;
+  // A file's samples are due at known times; there is no event to wait for but the clock.
+  const std::int64_t wait = std::min(due, deadline) - MonotonicNanos();
+  if (wait > 0) std::this_thread::sleep_for(std::chrono::nanoseconds(wait));
+  if (due > deadline) return State::kMore;
+  // All of this moment: several people, or a character and its sample.
+  const std::int64_t moment = queue_.begin()->first;
+  while (!queue_.empty() && queue_.begin()->first == moment) {
+    auto next = queue_.extract(queue_.begin());
+    HandOn(next.mapped(), moment, sink);
+  }
+  return State::kMore;
+}
+
+SourceCounters PacedSource::counters() const {
+  SourceCounters sum = earlier_;
+  AddUp(sum, source_->counters());
+  sum.samples = samples_;
+  return sum;
+}
+
+}  // namespace kinescope::app

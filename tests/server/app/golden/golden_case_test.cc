@@ -1,0 +1,62 @@
+#include "server/app/golden/golden_case.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/errors.h"
+#include "tests/server/picture/fake_renderer.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::app {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class GoldenCaseFile : public ::testing::Test {
+ protected:
+  GoldenCase Load(const std::string& yaml) const {
+    std::ofstream(folder_ / "case.yaml") << yaml;
+    return LoadGoldenCase(folder_ / "case.yaml");
+  }
+  std::string Complaint(const std::string& yaml) const {
+    try {
+      Load(yaml);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+ private:
+  kinescope::testing::TempFolder folder_;
+};
+
+TEST_F(GoldenCaseFile, RefusesATimeThatNoRecordingHas) {
+  for (const std::string time : {"-3", "-0.001", "864001", "1e300", "nan", "inf"}) {
+    EXPECT_THAT(Complaint("source: demo:lift\ntime: " + time + "\n"),
+                AllOf(HasSubstr("case.yaml: time: " + time.substr(0, 2)),
+                      HasSubstr("expected 0 to 864000 s")));
+  }
+  EXPECT_EQ(Complaint("source: demo:lift\ntime: 0\n"), "");
+  EXPECT_EQ(Complaint("source: demo:lift\ntime: 864000\n"), "");
+}
+
+TEST_F(GoldenCaseFile, ItsGhostLooksAsItsPersonDoes) {
+  const GoldenCase golden_case =
+      Load("source: demo:lift\nghost: demo:lift@1\nfigure: primitive\nsize: 16x16\n");
+  int drawn = 0;
+  kinescope::testing::FakeRenderer renderer(
+      [&](const auto&, const auto&, const auto&, const auto& view) {
+        ++drawn;
+        ASSERT_EQ(view.look.ghosts.size(), 1u);
+        EXPECT_EQ(view.look.ghosts[0].person.model->human.mesh_folder, "");
+      });
+  Draw(golden_case, renderer);
+  EXPECT_EQ(drawn, 1);
+}
+
+}  // namespace
+}  // namespace kinescope::app

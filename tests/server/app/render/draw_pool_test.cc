@@ -1,0 +1,152 @@
+#include "server/app/render/draw_pool.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <deque>
+#include <future>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/deadline.h"
+#include "tests/server/picture/fake_renderer.h"
+
+namespace kinescope::app {
+namespace {
+
+using kinescope::testing::FakeRenderer;
+using kinescope::testing::WithDeadline;
+using render::RenderError;
+
+DrawPool::MakeRenderer FakeRenderers(FakeRenderer::OnDraw on_draw = nullptr) {
+  return [on_draw = std::move(on_draw)] { return std::make_unique<FakeRenderer>(on_draw); };
+}
+
+Shot CountedShot(std::uint32_t counter) {
+  Shot shot;
+  shot.state.counter = counter;
+  shot.view.width = shot.view.height = 16;
+  return shot;
+}
+
+int FirstLevel(const FuturePicture& picture) { return picture.get()->rgba.front(); }
+
+TEST(DrawPool, OneThreadDrawsInTheOrderOfTheShots) {
+  DrawPool pool(1, 5, FakeRenderers());
+  EXPECT_EQ(pool.info().renderer, "a fake");
+  std::vector<FuturePicture> pictures;
+  for (std::uint32_t i = 0; i < 5; ++i) pictures.push_back(pool.Draw(CountedShot(i)));
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(FirstLevel(pictures[static_cast<std::size_t>(i)]), i + 1);
+}
+
+TEST(DrawPool, EachFutureHasThePictureOfItsShotWhicheverThreadDrewIt) {
+  DrawPool pool(3, 4,
+                FakeRenderers([](render::Image& image, const SceneState& state, const auto&...) {
+                  image.rgba.front() = static_cast<std::uint8_t>(state.counter);
+                }));
+  std::deque<std::pair<int, FuturePicture>> held;
+  for (int i = 0; i < 200; ++i) {
+    if (held.size() == 4) held.pop_front();
+    held.emplace_back(i, pool.Draw(CountedShot(static_cast<std::uint32_t>(i))));
+    EXPECT_EQ(FirstLevel(held.front().second), held.front().first);
+  }
+}
+
+TEST(DrawPool, WaitsForRoomAndUsesTheMemoryOfPicturesAgain) {
+  WithDeadline([] {
+    DrawPool pool(1, 2, FakeRenderers());
+    FuturePicture first = pool.Draw(CountedShot(1));
+    const FuturePicture second = pool.Draw(CountedShot(2));
+    second.wait();
+    const std::uint8_t* const memory = first.get()->rgba.data();
+    auto third = std::async(std::launch::async, [&] { return pool.Draw(CountedShot(3)); });
+    // Not a wait for something to come: it must not.
+    EXPECT_EQ(third.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout)
+        << "two pictures are held, and there is room for two";
+    first = {};
+    EXPECT_EQ(third.get().get()->rgba.data(), memory);
+    EXPECT_EQ(FirstLevel(second), 2) << "it is still held";
+  });
+}
+
+TEST(DrawPool, AnErrorIsThatOfItsPictureAndTakesNoRoom) {
+  WithDeadline([] {
+    DrawPool pool(1, 2, FakeRenderers([](const auto&, const SceneState& state, const auto&...) {
+                    if (state.counter == 0) throw RenderError("the driver fails");
+                  }));
+    for (int i = 0; i < 5; ++i) {
+      const FuturePicture bad = pool.Draw(CountedShot(0)), good = pool.Draw(CountedShot(1));
+      EXPECT_THROW(bad.get(), RenderError);
+      EXPECT_NO_THROW(good.get());
+    }
+  });
+}
+
+TEST(DrawPool, ThrowsWhatTheFirstRendererThrows) {
+  const auto make = []() -> std::unique_ptr<render::Renderer> { throw RenderError("no context"); };
+  EXPECT_THROW(DrawPool(3, 4, make), RenderError);
+}
+
+TEST(DrawPool, ALaterRendererThatDoesNotStartIsTheErrorOfThePicture) {
+  WithDeadline([] {
+    std::promise<void> failed;
+    std::shared_future<void> has_failed = failed.get_future().share();
+    std::atomic<int> made{0};
+    DrawPool pool(2, 2, [&]() -> std::unique_ptr<render::Renderer> {
+      const int before = made++;
+      if (before == 1) failed.set_value();
+      if (before > 0) throw RenderError("no second context");
+      return std::make_unique<FakeRenderer>([&](const auto&...) { has_failed.wait(); });
+    });
+    const FuturePicture pictures[] = {pool.Draw(CountedShot(1)), pool.Draw(CountedShot(2))};
+    int errors = 0;
+    for (const FuturePicture& picture : pictures) {
+      try {
+        picture.get();
+      } catch (const RenderError& error) {
+        EXPECT_STREQ(error.what(), "no second context");
+        ++errors;
+      }
+    }
+    EXPECT_GE(errors, 1) << "the first renderer waits until the second has failed";
+  });
+}
+
+TEST(DrawPool, ItsEndWaitsForThePictureBeingDrawnAndForNoOther) {
+  WithDeadline([] {
+    std::promise<void> started, go_on;
+    std::shared_future<void> may_go_on = go_on.get_future().share();
+    std::optional<DrawPool> pool;
+    pool.emplace(1, 3, FakeRenderers([&](const auto&...) {
+                   started.set_value();
+                   may_go_on.wait();
+                 }));
+    const FuturePicture drawn = pool->Draw(CountedShot(1)), left = pool->Draw(CountedShot(2)),
+                        last = pool->Draw(CountedShot(3));
+    started.get_future().wait();
+    auto end = std::async(std::launch::async, [&] { pool.reset(); });
+    EXPECT_THROW(left.get(), std::future_error);
+    EXPECT_THROW(last.get(), std::future_error);
+    EXPECT_EQ(drawn.wait_for(std::chrono::seconds(0)), std::future_status::timeout);
+    go_on.set_value();
+    end.get();
+    EXPECT_EQ(FirstLevel(drawn), 1) << "a picture outlives its pool";
+  });
+}
+
+TEST(DrawPool, HasRoomForEveryThreadAndOneMoreAndForHalfAGigabyteAtMost) {
+  EXPECT_EQ(MostPictures(2, 160, 90), 10u);
+  EXPECT_EQ(MostPictures(2, 3840, 2160), 10u);
+  EXPECT_EQ(MostPictures(1, 8192, 4096), 4u) << "128 MiB each";
+  EXPECT_EQ(MostPictures(8, 8192, 8192), 9u);
+  EXPECT_GE(DefaultJobs(), 1);
+}
+
+}  // namespace
+}  // namespace kinescope::app

@@ -1,0 +1,110 @@
+// What `kinescope render` hands to the pool that draws and to its files; the drawing itself is
+// faked.
+#include "server/app/render/render_job.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/png_file.h"
+#include "tests/deadline.h"
+#include "tests/server/picture/fake_renderer.h"
+#include "tests/shared_data.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::app {
+namespace {
+
+using kinescope::testing::FakeRenderer;
+using kinescope::testing::ReadFile;
+using kinescope::testing::TempFolder;
+using kinescope::testing::WithDeadline;
+
+RenderOptions SmallJob(const std::string& source, const std::vector<std::string>& outs) {
+  RenderOptions options;
+  options.sources = {source};
+  options.outs = outs;
+  options.view.size = "16x16";
+  options.person.figure = "primitive";
+  return options;
+}
+
+std::vector<OutputResult> RenderFaked(const RenderOptions& options, std::size_t most_pictures,
+                                      FakeRenderer::OnDraw on_draw = nullptr) {
+  DrawPool pool(1, most_pictures, [&] { return std::make_unique<FakeRenderer>(on_draw); });
+  JobSettings settings;
+  settings.sidecar = false;
+  return RenderSource(options, PlanOutputs(options).at(0), settings, pool);
+}
+
+TEST(RenderJob, AnyNumberOfStillsNeedsRoomForOnePictureAlone) {
+  for (const char* layer : {"", "svg"}) {
+    const TempFolder folder;
+    RenderOptions options =
+        SmallJob("demo:lift", {folder / "{camera}.png", folder / "{camera}_again.png"});
+    options.view.camera = "front,back,left,right,top,iso,three_quarter";
+    options.moment.overlay_layer = layer;
+    std::vector<OutputResult> results;
+    WithDeadline([&] { results = RenderFaked(options, 1); });
+    ASSERT_EQ(results.size(), 14u);
+    std::map<int, int> files_of;  // by number of the picture
+    for (const OutputResult& result : results) {
+      EXPECT_EQ(result.drawn, 1) << result.out;
+      const int number = render::ReadPng(result.out).rgba.at(0);
+      ++files_of[number];
+      if (*layer == '\0') continue;
+      EXPECT_EQ(ReadFile(std::filesystem::path(result.out).replace_extension(".svg")),
+                fmt::format("over picture {}", number));
+    }
+    EXPECT_EQ(files_of.size(), 7u) << "one picture for each camera";
+    for (const auto& [number, files] : files_of) EXPECT_EQ(files, 2) << number;
+    EXPECT_EQ(folder.Names().size(), *layer == '\0' ? 14u : 28u);
+  }
+}
+
+TEST(RenderJob, StillsBesideAClipNeedNoMoreRoom) {
+  const TempFolder folder;
+  RenderOptions options =
+      SmallJob("demo:lift", {folder / "{camera}.png", folder / "{camera}_%02d.png"});
+  options.view.camera = "front,left,top";
+  options.moment.time = 0.05;
+  options.clip.seconds = 0.1;
+  WithDeadline([&] { RenderFaked(options, 1); });
+  EXPECT_EQ(folder.Names().size(), 3u * (1 + 3));
+}
+
+TEST(RenderJob, ALayerThatCannotBeWrittenLeavesNoPictureWithoutIt) {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "a.svg");
+  RenderOptions options = SmallJob("demo:lift", {folder / "a.png"});
+  options.moment.overlay_layer = "svg";
+  EXPECT_THROW(RenderFaked(options, 2), std::runtime_error);
+  EXPECT_THAT(folder.Names(), ::testing::ElementsAre("a.svg"));
+}
+
+TEST(RenderJob, AGhostOfARecordingLooksAsThePersonDoes) {
+  const TempFolder folder;
+  RenderOptions options = SmallJob("demo:lift", {folder / "a.png"});
+  options.view.ghost = "demo:walk@0.5";
+  options.person.model_name = "anna";
+  options.person.height = 1.6;
+  int drawn = 0;
+  RenderFaked(options, 2, [&](const auto&, const SceneState& state, const auto&, const auto& view) {
+    ++drawn;
+    ASSERT_EQ(view.look.ghosts.size(), 1u);
+    const urdf::HumanModel& ghost = view.look.ghosts[0].person.model->human;
+    const urdf::HumanModel& person = state.people.at(0).model->human;
+    EXPECT_EQ(ghost.mesh_folder, "") << "primitives have no meshes";
+    EXPECT_EQ(ghost.model_name, person.model_name);
+  });
+  EXPECT_EQ(drawn, 1);
+}
+
+}  // namespace
+}  // namespace kinescope::app

@@ -1,0 +1,192 @@
+#include "server/app/serve/told_loads.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "server/loads/joint_score.h"
+#include "server/subject/subject.h"
+
+namespace kinescope::app {
+namespace {
+
+using urdf::kLeft;
+using urdf::kRight;
+
+HandLoad InRightHand(double mass_kg) {
+  HandLoad load;
+  load.is_known = true;
+  load.mass_kg[kRight] = mass_kg;
+  return load;
+}
+
+BodySample TPose(double secs, int character = 0) {
+  BodySample sample = subject::MakeMotion("t_pose")->At(secs);
+  sample.character = character;
+  sample.stamp_nanos = std::llround(secs * 1e9) + 1;
+  sample.arrival_nanos = sample.stamp_nanos;
+  return sample;
+}
+
+const JointLoad& LoadOf(const PersonState& person, int joint) {
+  for (const JointLoad& load : person.loads) {
+    if (load.joint == joint) return load;
+  }
+  throw std::out_of_range("no such joint");
+}
+
+class Wired {
+ public:
+  explicit Wired(ros_bridge::RosBridge* ros = nullptr)
+      : builder({}, "test", 0,
+                [this](std::shared_ptr<const SceneState> state) { last = std::move(state); }),
+        sink(builder, told, ros) {}
+
+  // A second of samples: longer than ramps and dwell times.
+  const SceneState& RunOneSecond(const std::vector<int>& characters = {0}) {
+    for (int i = 0; i < 60; ++i) {
+      now += 1.0 / 60;
+      for (const int character : characters) sink.OnSample(TPose(now, character));
+    }
+    return *last;
+  }
+
+  std::shared_ptr<const SceneState> last;
+  ToldLoads told;
+  SceneBuilder builder;
+  InputsFirst sink;
+  double now = 0;
+};
+
+TEST(ToldLoads, ReachTheShoulderWithTheNextSamples) {
+  Wired wired;
+  wired.RunOneSecond();
+  EXPECT_EQ(LoadOf(wired.last->people[0], urdf::jRightShoulder).load_class, LoadClass::kLow);
+  EXPECT_EQ(wired.told.Tell(0, InRightHand(2)), "");
+  const PersonState& person = wired.RunOneSecond().people[0];
+  EXPECT_EQ(LoadOf(person, urdf::jRightShoulder).load_class, LoadClass::kMedium);
+  EXPECT_EQ(LoadOf(person, urdf::jLeftShoulder).load_class, LoadClass::kLow);
+  EXPECT_EQ(person.forces.hands[kRight].mass_kg, 2);
+  EXPECT_EQ(person.forces.told.alone_kg[kRight], 2);
+}
+
+TEST(ToldLoads, AreThoseOfOnePerson) {
+  Wired wired;
+  EXPECT_EQ(wired.told.Tell(1, InRightHand(3)), "");
+  const SceneState& scene = wired.RunOneSecond({0, 1});
+  ASSERT_EQ(scene.people.size(), 2u);
+  EXPECT_EQ(scene.people[0].forces.hands[kRight].mass_kg, 0);
+  EXPECT_EQ(scene.people[1].forces.hands[kRight].mass_kg, 3);
+}
+
+TEST(ToldLoads, ThatNobodyCouldHoldChangeNothing) {
+  Wired wired;
+  EXPECT_EQ(wired.told.Tell(0, InRightHand(4)), "");
+  for (const double wrong : {500.0, -1.0, std::nan("")}) {
+    EXPECT_NE(wired.told.Tell(0, InRightHand(wrong)), "") << wrong;
+  }
+  EXPECT_EQ(wired.RunOneSecond().people[0].forces.hands[kRight].mass_kg, 4);
+}
+
+// A bridge that has something to say at every question.
+class TellingBridge : public ros_bridge::RosBridge {
+ public:
+  void Publish(const SceneState&) override {}
+  void PublishView(const ros_bridge::ViewPicture&) override {}
+  void TakeInputs(ros_bridge::InputSink& sink) override {
+    if (measured) sink.OnMeasurements(0, *measured);
+    if (load) sink.OnHandLoad(0, *load);
+    if (markers) sink.OnMarkers(*std::exchange(markers, std::nullopt));
+  }
+  ros_bridge::BridgeStatus status() const override { return {}; }
+  std::optional<Measurements> measured;
+  std::optional<HandLoad> load;
+  std::optional<std::vector<std::shared_ptr<const SceneMarker>>> markers;
+};
+
+TEST(Markers, OfOtherProgramsStayInTheSceneAndAreSeenAtOnceWhileNobodyMoves) {
+  TellingBridge bridge;
+  Wired wired(&bridge);
+  wired.builder.Start();
+  const auto wall = std::make_shared<const SceneMarker>();
+  bridge.markers.emplace(1, wall);
+  wired.sink.TakeInputs();  // no sample has come
+  ASSERT_EQ(wired.last->markers.size(), 1u);
+  EXPECT_EQ(wired.last->markers[0], wall);
+  EXPECT_EQ(wired.last->liveness, Liveness::kNoData);
+  EXPECT_EQ(wired.RunOneSecond().markers.size(), 1u);
+  const std::uint64_t live = wired.last->number;
+  bridge.markers.emplace();
+  wired.sink.TakeInputs();
+  EXPECT_EQ(wired.last->number, live) << "the next sample brings it";
+  EXPECT_TRUE(wired.RunOneSecond().markers.empty());
+}
+
+TEST(Measurements, OfOtherProgramsReplaceOurLoadsWhileTheyAreFresh) {
+  TellingBridge bridge;
+  Wired wired(&bridge);
+  wired.RunOneSecond();
+  bridge.measured.emplace();
+  ExternalJointLoad& elbow = bridge.measured->joints[urdf::jRightElbow];
+  elbow.ratio = 0.9;
+  elbow.stamp_nanos = wired.last->stamp_nanos + 900'000'000;
+  const PersonState during = wired.RunOneSecond().people[0];
+  EXPECT_TRUE(LoadOf(during, urdf::jRightElbow).is_external);
+  EXPECT_EQ(LoadOf(during, urdf::jRightElbow).load_class, LoadClass::kHigh);
+  EXPECT_EQ(LoadOf(during, urdf::jRightElbow).ratio, 0.9);
+  EXPECT_FALSE(LoadOf(during, urdf::jLeftElbow).is_external) << "per joint";
+  EXPECT_TRUE(std::isfinite(LoadOf(during, urdf::jLeftElbow).ratio));
+  const PersonState after = wired.RunOneSecond().people[0];
+  EXPECT_FALSE(LoadOf(after, urdf::jRightElbow).is_external) << "it stopped";
+  EXPECT_EQ(LoadOf(after, urdf::jRightElbow).load_class, LoadClass::kLow);
+}
+
+TEST(Measurements, OfAHandThatStopLeaveItUnknownUntilItsLoadIsTold) {
+  TellingBridge bridge;
+  Wired wired(&bridge);
+  wired.RunOneSecond();
+  MeasuredHandForce pull;
+  pull.force = {0, 0, -20};
+  pull.stamp_nanos = wired.last->stamp_nanos;
+  bridge.measured.emplace().hands[kRight] = pull;
+  const PersonState stopped = wired.RunOneSecond().people[0];
+  EXPECT_EQ(LoadOf(stopped, urdf::jRightElbow).load_class, LoadClass::kUnknown);
+  EXPECT_NE(LoadOf(stopped, urdf::jRightElbow).reason, "");
+  EXPECT_EQ(wired.told.Tell(0, InRightHand(0)), "");
+  const PersonState told = wired.RunOneSecond().people[0];
+  EXPECT_EQ(LoadOf(told, urdf::jRightElbow).load_class, LoadClass::kLow)
+      << LoadOf(told, urdf::jRightElbow).reason;
+}
+
+TEST(Measurements, OfTheCopAloneMoveItAndKeepTheForceOfTheMotion) {
+  TellingBridge bridge;
+  Wired wired(&bridge);
+  const PersonState before = wired.RunOneSecond().people[0];
+  ASSERT_TRUE(before.cop);
+  MeasuredGroundForce cop;
+  cop.only_point = true;
+  cop.point = *before.cop + Eigen::Vector3d(0.03, 0, 0);
+  cop.stamp_nanos = wired.last->stamp_nanos + 1'000'000'000;
+  bridge.measured.emplace().ground = cop;
+  const PersonState during = wired.RunOneSecond().people[0];
+  EXPECT_TRUE(during.forces.ground_is_measured);
+  EXPECT_NEAR(during.cop->x() - before.cop->x(), 0.03, 1e-6);
+  EXPECT_NEAR(during.forces.ground_force.z(), before.forces.ground_force.z(), 1);
+}
+
+TEST(Exposure, OfARunIsInItsStates) {
+  Wired wired;
+  EXPECT_EQ(wired.told.Tell(0, InRightHand(2)), "");
+  wired.RunOneSecond();
+  const PersonState& person = wired.RunOneSecond().people[0];
+  double sum = 0;
+  const JointLoad& shoulder = LoadOf(person, urdf::jRightShoulder);
+  for (const double secs : shoulder.class_secs) sum += secs;
+  EXPECT_NEAR(sum, 2 - 1.0 / 60, 0.01);
+  EXPECT_GT(shoulder.class_secs[static_cast<std::size_t>(LoadClass::kMedium)], 1);
+}
+
+}  // namespace
+}  // namespace kinescope::app

@@ -1,0 +1,103 @@
+// Ids of copies, and which samples a slower stream keeps.
+#include "server/app/stream/stream_feed.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+namespace kinescope::app {
+namespace {
+
+constexpr std::int64_t kFeedMilli = 1'000'000;
+
+TEST(CopyIds, EverybodyKeepsTheirOwnWithoutCopies) {
+  CopyIds ids(1);
+  for (const int character : {0, 7, 255, 3}) EXPECT_EQ(ids.Find(character, 0), character);
+}
+
+TEST(CopyIds, FollowTheOrderInWhichPeopleAreMetAndNoTwoAreEqual) {
+  CopyIds ids(3);
+  EXPECT_EQ(ids.Find(7, 0), 0);
+  EXPECT_EQ(ids.Find(7, 2), 2);
+  EXPECT_EQ(ids.Find(2, 0), 3);
+  EXPECT_EQ(ids.Find(7, 1), 1) << "met before, so the same ids as then";
+  EXPECT_EQ(ids.Find(2, 2), 5);
+}
+
+TEST(CopyIds, EndWhereAHeaderCannotTellMoreApart) {
+  CopyIds ids(100);
+  std::set<int> found;
+  for (int character = 0; character < 4; ++character) {
+    for (int copy = 0; copy < 100; ++copy) {
+      if (const auto id = ids.Find(character, copy)) found.insert(*id);
+    }
+  }
+  EXPECT_EQ(found.size(), 256U);
+  EXPECT_EQ(*found.begin(), 0);
+  EXPECT_EQ(*found.rbegin(), 255);
+  EXPECT_FALSE(ids.Find(3, 0));
+}
+
+// Counters of the samples that are kept of `count` at `rate_hz`, as a clock of `step_nanos` tells.
+std::vector<std::uint32_t> KeptOf(Thinner& thinner, double stream_hz, double rate_hz,
+                                  std::uint32_t count, std::int64_t step_nanos) {
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const auto exact = static_cast<std::int64_t>(i * 1e9 / rate_hz);
+    if (thinner.Keeps(stream_hz, i, exact / step_nanos * step_nanos, step_nanos)) kept.push_back(i);
+  }
+  return kept;
+}
+
+TEST(Thinner, KeepsAllUnlessASlowerStreamIsAskedFor) {
+  Thinner thinner;
+  EXPECT_EQ(KeptOf(thinner, 0, 240, 100, kFeedMilli).size(), 100U);
+  EXPECT_EQ(KeptOf(thinner, 0, 240, 100, kFeedMilli).size(), 100U) << "even the same ones";
+}
+
+TEST(Thinner, KeepsOneInEachPeriodAsEvenlyAsFramesAllow) {
+  for (const auto& [stream_hz, rate_hz] :
+       {std::pair(60.0, 240.0), std::pair(30.0, 60.0), std::pair(25.0, 240.0),
+        std::pair(100.0, 240.0), std::pair(59.0, 60.0)}) {
+    Thinner thinner;
+    const std::uint32_t count = static_cast<std::uint32_t>(10 * rate_hz);
+    const auto kept = KeptOf(thinner, stream_hz, rate_hz, count, kFeedMilli);
+    EXPECT_NEAR(static_cast<double>(kept.size()), 10 * stream_hz, 1) << stream_hz;
+    EXPECT_EQ(kept.front(), 0U);
+    const double apart = rate_hz / stream_hz;
+    for (std::size_t i = 1; i < kept.size(); ++i) {
+      EXPECT_LT(kept[i] - kept[i - 1], 2 * apart + 1) << stream_hz << " of " << rate_hz;
+      EXPECT_LE(apart - 1.5, kept[i] - kept[i - 1]) << stream_hz << " of " << rate_hz;
+    }
+  }
+}
+
+TEST(Thinner, AStreamFasterThanTheSourceIsTheSource) {
+  Thinner thinner;
+  EXPECT_EQ(KeptOf(thinner, 480, 60, 100, kFeedMilli).size(), 100U);
+}
+
+TEST(Thinner, EveryDatagramOfASampleGetsTheSameAnswerAlsoOutOfOrder) {
+  Thinner thinner;
+  std::vector<bool> first;
+  for (std::uint32_t i = 0; i < 8; ++i)
+    first.push_back(thinner.Keeps(60, i, i * 4 * kFeedMilli, kFeedMilli));
+  EXPECT_TRUE(std::find(first.begin(), first.end(), false) != first.end());
+  EXPECT_TRUE(std::find(first.begin(), first.end(), true) != first.end());
+  for (const std::uint32_t i : {7U, 2U, 5U, 0U, 1U, 6U, 3U, 4U}) {
+    EXPECT_EQ(thinner.Keeps(60, i, i * 4 * kFeedMilli, kFeedMilli), first[i]) << i;
+  }
+}
+
+// Frames at 240 Hz whose time code is in whole 10 ms: several have the same time.
+TEST(Thinner, WhereTheClockStandsStillWhatWasDecidedHolds) {
+  Thinner thinner;
+  EXPECT_TRUE(thinner.Keeps(60, 0, 0, kFeedMilli));
+  for (std::uint32_t i = 1; i < 20; ++i) EXPECT_TRUE(thinner.Keeps(60, i, 0, kFeedMilli));
+  EXPECT_FALSE(thinner.Keeps(60, 20, 4 * kFeedMilli, kFeedMilli));
+  EXPECT_FALSE(thinner.Keeps(60, 21, 4 * kFeedMilli, kFeedMilli));
+}
+
+}  // namespace
+}  // namespace kinescope::app

@@ -1,0 +1,94 @@
+#include "server/body/body_color.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "server/scene/scene_builder.h"
+#include "server/subject/subject.h"
+#include "urdf/robot_model.h"
+
+namespace kinescope::app {
+namespace {
+
+double NearestClass(const Rgb& body) {
+  double nearest = 1e9;
+  for (const LoadClass load_class : {LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh}) {
+    nearest = std::min(nearest, ColorDifference(body, ColorOf(load_class)));
+  }
+  return nearest;
+}
+
+TEST(BodyColor, OfTheFirstPersonIsWhatItAlwaysWas) {
+  EXPECT_EQ(BodyColor(std::nullopt, 0), kBodyColor);
+}
+
+TEST(BodyColor, TellsPeopleApartAndLeavesTheClassesReadable) {
+  for (std::size_t i = 0; i < kBodyColors; ++i) {
+    EXPECT_GE(NearestClass(BodyColor(std::nullopt, i)), kLeastContrast) << i;
+    // A joint whose load is unknown, and a body that went stale, are grey: nearer, but not the
+    // same.
+    EXPECT_GE(ColorDifference(BodyColor({}, i), ColorOf(LoadClass::kUnknown)), 12) << i;
+    EXPECT_GE(ColorDifference(BodyColor({}, i), kStaleBodyColor), 15) << i;
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_GE(ColorDifference(BodyColor({}, i), BodyColor({}, k)), 9) << i << " and " << k;
+    }
+  }
+  EXPECT_EQ(BodyColor({}, kBodyColors), BodyColor({}, 0));
+}
+
+TEST(BodyColor, OfAPersonsOwnIsMutedUntilTheClassesStandOut) {
+  for (std::uint32_t r = 0; r <= 0xFF; r += 0x11) {
+    for (std::uint32_t g = 0; g <= 0xFF; g += 0x11) {
+      for (std::uint32_t b = 0; b <= 0xFF; b += 0x11) {
+        const Rgb body = BodyColor(r << 16 | g << 8 | b, 0);
+        ASSERT_GE(NearestClass(body), kLeastContrast) << r << ' ' << g << ' ' << b;
+        for (const double channel : body) {
+          ASSERT_GE(channel, 0);
+          ASSERT_LE(channel, 1);
+        }
+      }
+    }
+  }
+  const Rgb orange = BodyColor(0xE96417, 0);
+  EXPECT_GT(orange[0], orange[1]);
+  EXPECT_GT(orange[1], orange[2]) << "still of its hue";
+}
+
+Rgb ColorIn(const PersonState& person) {
+  const Eigen::Vector4d rgba = *person.model->robot.links.front().visuals.front().rgba;
+  return {rgba[0], rgba[1], rgba[2]};
+}
+
+void ExpectColor(const PersonState& person, const Rgb& expected) {
+  const Rgb actual = ColorIn(person);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-5) << i;
+}
+
+TEST(BodyColor, IsInEachPersonsUrdfAndFollowsWhatIsSent) {
+  SceneOptions options;
+  options.smooth_figure = false;
+  std::shared_ptr<const SceneState> last;
+  SceneBuilder builder(options, "test", 0, [&](auto state) { last = state; });
+  BodySample sample = subject::MakeMotion("n_pose")->At(0);
+  builder.OnSample(sample);
+  sample.character = 1;
+  builder.OnSample(sample);
+  ASSERT_EQ(last->people.size(), 2U);
+  ExpectColor(last->people[0], kBodyColor);
+  ExpectColor(last->people[1], BodyColor({}, 1));
+  const std::uint64_t revision = last->people[1].model->revision;
+
+  Character painted;
+  painted.id = 1;
+  painted.color_rgb = 0x3C78A0;
+  builder.OnCharacter(painted);
+  builder.OnCharacter(painted);
+  builder.OnSample(sample);
+  ExpectColor(last->people[1], BodyColor(0x3C78A0, 1));
+  EXPECT_EQ(last->people[1].model->revision, revision + 1) << "the same colour again is no news";
+  ExpectColor(last->people[0], kBodyColor);
+}
+
+}  // namespace
+}  // namespace kinescope::app

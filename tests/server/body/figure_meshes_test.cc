@@ -1,0 +1,138 @@
+#include "server/body/figure_meshes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "core/errors.h"
+#include "server/scene/scene_options.h"
+#include "tests/shared_data.h"
+#include "tests/temp_folder.h"
+#include "urdf/figure.h"
+
+namespace kinescope::app {
+namespace {
+
+using ::testing::HasSubstr;
+using urdf::At;
+
+TEST(FigureMeshes, FilesAreKnownByTheNamesThatPeopleGiveThem) {
+  const auto expect = [](std::initializer_list<const char*> stems, urdf::Segment segment) {
+    for (const char* stem : stems) EXPECT_EQ(SegmentOfFile(stem), segment) << stem;
+  };
+  expect({"RightForeArm", "xsens_RightForeArm", "right_forearm", "rightforearm", "forearm_r",
+          "R_ForeArm", "ForeArm.R", "Forearm-Right", "RIGHT_FOREARM", "xsens_right_fore_arm"},
+         urdf::kRightForeArm);
+  expect({"LeftUpperLeg", "left_upper_leg", "upperleg_l", "L-UpperLeg"}, urdf::kLeftUpperLeg);
+  expect({"T8", "t8", "xsens_T8"}, urdf::kT8);
+  expect({"L5", "l5"}, urdf::kL5);
+  expect({"Head", "head"}, urdf::kHead);
+  for (const char* stem :
+       {"", "xsens", "ForeArm", "RightHeel", "right_left_hand", "Sofa", "T9", "left_left_toe"}) {
+    EXPECT_FALSE(SegmentOfFile(stem)) << stem;
+  }
+}
+
+class MeshFolder : public ::testing::Test {
+ protected:
+  // A square rod along -z, as an OBJ in units of `unit` metres.
+  void WriteRod(const std::string& name, double length, double unit = 1) {
+    std::ofstream file(folder_ / name);
+    for (int i = 0; i < 8; ++i) {
+      file << "v " << ((i & 1) != 0 ? 0.03 : -0.03) / unit << ' '
+           << ((i & 2) != 0 ? 0.03 : -0.03) / unit << ' ' << ((i & 4) != 0 ? 0 : -length / unit)
+           << '\n';
+    }
+    file << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  }
+  std::string Path() const { return folder_.path().string(); }
+  std::string ErrorOf(const urdf::MeshConvention& convention = {}) const {
+    try {
+      ReadFigureMeshes(Path(), convention);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  testing::TempFolder folder_;
+};
+
+TEST_F(MeshFolder, GivesTheUsersMeshesFittedAndOursForTheRest) {
+  WriteRod("left_lower_leg.obj", 0.400, 0.001);
+  urdf::MeshConvention convention;
+  convention.metres_per_unit = 0.001;
+  const auto figure = ReadFigureMeshes(Path(), convention);
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton(1.9);
+  const auto shank = FigureMeshOf(figure.get(), skeleton, urdf::kLeftLowerLeg);
+  EXPECT_EQ(shank.triangles.size(), 12U);
+  const Eigen::AlignedBox3d box = urdf::BoundsOf(shank);
+  EXPECT_NEAR(box.min().z(), urdf::EndOf(skeleton, urdf::kLeftLowerLeg).z(), 1e-6);
+  EXPECT_NEAR(box.max().z(), 0, 1e-6);
+  EXPECT_NEAR(box.sizes().x(), 0.06, 1e-6);
+  EXPECT_EQ(FigureMeshOf(figure.get(), skeleton, urdf::kHead).triangles.size(),
+            urdf::SegmentMesh(skeleton, urdf::kHead).triangles.size());
+
+  convention.fits_person = false;
+  const auto as_it_is = ReadFigureMeshes(Path(), convention);
+  EXPECT_NEAR(urdf::BoundsOf(FigureMeshOf(as_it_is.get(), skeleton, urdf::kLeftLowerLeg)).min().z(),
+              -0.4, 1e-6);
+}
+
+TEST_F(MeshFolder, IsRefusedWithTheReasonWhereItCannotBeAFigure) {
+  EXPECT_THAT(ErrorOf(), HasSubstr("no file there is named after a segment"));
+  WriteRod("Sofa.obj", 0.4);
+  EXPECT_THAT(ErrorOf(), HasSubstr("no file there is named after a segment"));
+  WriteRod("Head.obj", 400);
+  EXPECT_THAT(ErrorOf(), ::testing::AllOf(HasSubstr("Head.obj"), HasSubstr("mesh_units")));
+  std::ofstream(folder_ / "Head.obj") << "v 0 0 0\n";
+  EXPECT_THAT(ErrorOf(), HasSubstr("Head.obj"));
+  WriteRod("Head.obj", 0.2);
+  EXPECT_EQ(ErrorOf(), "");
+  WriteRod("xsens_Head.obj", 0.2);
+  EXPECT_THAT(ErrorOf(), ::testing::AllOf(HasSubstr("Head.obj and xsens_Head.obj"),
+                                          HasSubstr("both for Head")));
+  EXPECT_THROW(ReadFigureMeshes(Path() + "/nowhere", {}), UsageError);
+}
+
+TEST_F(MeshFolder, IsChosenByOptions) {
+  WriteRod("Head.obj", 0.2);
+  PersonOptions person;
+  person.figure = "mesh:" + Path();
+  EXPECT_NE(ToSceneOptions(person, 0.5).figure_meshes, nullptr);
+  const auto refuses = [&](std::string PersonOptions::*option, const char* value) {
+    PersonOptions bad = person;
+    bad.*option = value;
+    EXPECT_THROW(ToSceneOptions(bad, 0.5), UsageError) << value;
+  };
+  refuses(&PersonOptions::mesh_units, "inch");
+  refuses(&PersonOptions::mesh_up, "x");
+  refuses(&PersonOptions::mesh_scale, "2");
+  refuses(&PersonOptions::mesh_frame, "world");
+  refuses(&PersonOptions::figure, "mesh:");
+  refuses(&PersonOptions::figure, "mesh:/nowhere/at/all");
+  refuses(&PersonOptions::figure, "pretty");
+}
+
+// The surface of a person of the set, in link frames at the N-pose: about as large as a person.
+TEST(FigureMeshes, RealSetsOfOthersFitThePerson) {
+  KINESCOPE_NEEDS_SHARED_DATA("models/human-model-generator/meshes");
+  const auto figure =
+      ReadFigureMeshes(testing::SharedData("models/human-model-generator/meshes").string(), {});
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton(1.82);
+  const auto origins = urdf::NPoseOrigins(skeleton);
+  Eigen::AlignedBox3d person;
+  for (int i = 0; i < urdf::kSegmentCount; ++i) {
+    ASSERT_TRUE(figure->meshes[At(i)]) << urdf::kSegments[At(i)].mvn_name;
+    const auto mesh = FigureMeshOf(figure.get(), skeleton, i);
+    Eigen::AlignedBox3d box = urdf::BoundsOf(mesh);
+    person.extend(box.translate(origins[At(i)]));
+  }
+  EXPECT_NEAR(person.min().z(), 0, 1e-3);
+  EXPECT_NEAR(person.max().z(), 1.82, 0.02);
+  EXPECT_NEAR(person.sizes().y(), 0.50, 0.12) << "arms hang at the sides";
+}
+
+}  // namespace
+}  // namespace kinescope::app

@@ -1,0 +1,168 @@
+#include "server/picture/camera_man.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "core/errors.h"
+#include "tests/render/test_scene.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::app {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr double kAspect = 16.0 / 9;
+
+SceneState SceneAt(double secs, double x) {
+  SceneState state =
+      kinescope::testing::SceneWith(kinescope::testing::Posture::kStanding, LoadClass::kLow, x, 0);
+  state.stamp_nanos = 5'000'000'000 + std::llround(1e9 * secs);
+  return state;
+}
+
+// The error of making one; "" where there is none.
+std::string Complaint(const std::string& camera, const CameraOptions& options = {}) {
+  try {
+    CameraMan man(camera, options);
+    return "";
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+}
+
+TEST(CameraMan, FollowsWithTheSameLagAtAnyRate) {
+  CameraOptions options;
+  options.follow = 0.5;
+  const auto x_after_a_second = [&](int pictures) {
+    CameraMan man("front", options);
+    double x = man.Aim(SceneAt(0, 0), kAspect).target.x();
+    for (int k = 1; k <= pictures; ++k) {
+      x = man.Aim(SceneAt(static_cast<double>(k) / pictures, 2), kAspect).target.x();
+    }
+    return x;
+  };
+  const double start = CameraMan("front", options).Only(SceneAt(0, 0), 0, kAspect).target.x();
+  EXPECT_NEAR(x_after_a_second(10) - start, 2 * (1 - std::exp(-1 / 0.5)), 1e-6);
+  EXPECT_NEAR(x_after_a_second(120), x_after_a_second(10), 1e-6);
+  options.follow = 0;
+  EXPECT_NEAR(x_after_a_second(1) - start, 2, 1e-9) << "no lag at all";
+}
+
+TEST(CameraMan, AFreeCameraStandsStillOrGoesAlong) {
+  CameraOptions options;
+  options.fov = 40;
+  CameraMan still("3,-2,1.5:0,0,1", options);
+  still.Aim(SceneAt(0, 0), kAspect);
+  const render::Camera camera = still.Aim(SceneAt(1, 2), kAspect);
+  EXPECT_EQ(camera.position, Vector3d(3, -2, 1.5));
+  EXPECT_EQ(camera.target, Vector3d(0, 0, 1));
+  EXPECT_NEAR(camera.vertical_fov_rad, 40 * M_PI / 180, 1e-12);
+  options.follow = 0;
+  CameraMan along("3,-2,1.5:0,0,1", options);
+  along.Aim(SceneAt(0, 0), kAspect);
+  EXPECT_NEAR((along.Aim(SceneAt(1, 2), kAspect).position - Vector3d(5, -2, 1.5)).norm(), 0, 1e-9);
+}
+
+TEST(CameraMan, TurnsOnceOverAClip) {
+  CameraOptions options;
+  options.orbit = "turn";
+  CameraMan man("front", options);
+  ASSERT_TRUE(man.needs_survey());
+  for (const double secs : {0.0, 2.0, 4.0}) man.Survey(SceneAt(secs, 0));
+  const render::Camera first = man.Aim(SceneAt(0, 0), kAspect);
+  const render::Camera quarter = man.Aim(SceneAt(1, 0), kAspect);
+  const render::Camera last = man.Aim(SceneAt(4, 0), kAspect);
+  const Vector3d from = first.position - first.target;
+  const Vector3d turned(-from.y(), from.x(), from.z());
+  EXPECT_NEAR((quarter.position - quarter.target - turned).norm(), 0, 1e-9);
+  EXPECT_NEAR((last.position - first.position).norm(), 0, 1e-9);
+}
+
+TEST(CameraMan, FramesAllThatIsThereOverTheClipAndStandsStill) {
+  CameraOptions options;
+  options.fit = "clip";
+  CameraMan man("left", options);
+  for (const double x : {-2.0, 0.0, 3.0}) man.Survey(SceneAt(x + 2, x));
+  const render::Camera camera = man.Aim(SceneAt(0, -2), kAspect);
+  EXPECT_EQ(man.Aim(SceneAt(5, 3), kAspect).position, camera.position);
+  for (const double x : {-2.0, 3.0}) {
+    const SceneState state = SceneAt(0, x);
+    for (const urdf::Pose& link : state.people[0].links) {
+      const render::Projected at = render::Project(link.position, camera, 1600, 900);
+      EXPECT_TRUE(at.x_px > 0 && at.x_px < 1600 && at.y_px > 0 && at.y_px < 900);
+    }
+  }
+}
+
+TEST(CameraMan, KeysMayNameCamerasThatFindThePerson) {
+  const kinescope::testing::TempFolder folder;
+  const std::string path = folder.path() / "keys.yaml";
+  std::ofstream(path) << "keys:\n"
+                         "  - {time: 0, camera: front, ease: linear}\n"
+                         "  - time: 2\n"
+                         "    position: [1, -4, 2]\n"
+                         "    target: [1, 0, 1]\n"
+                         "    fov: 50\n";
+  const CameraMan man(path, {});
+  const SceneState scene = SceneAt(0, 1);
+  EXPECT_EQ(man.Only(scene, 0, kAspect).position, render::NamedCamera("front", scene).position);
+  const render::Camera last = man.Only(scene, 7, kAspect);
+  EXPECT_EQ(last.position, Vector3d(1, -4, 2));
+  EXPECT_NEAR(last.vertical_fov_rad, 50 * M_PI / 180, 1e-12);
+  EXPECT_EQ(man.name(), "keys.yaml");
+}
+
+TEST(CameraMan, AWrongKeyIsNamedWithFileAndLine) {
+  const kinescope::testing::TempFolder folder;
+  const std::string path = folder.path() / "keys.yaml";
+  const auto complaint = [&](const std::string& keys) {
+    std::ofstream(path) << "keys:\n" << keys;
+    return Complaint(path);
+  };
+  EXPECT_EQ(complaint("  - {time: 0, camera: top}\n"), "");
+  EXPECT_THAT(complaint("  - {time: 0, camera: top}\n  - {time: 0, camera: top}\n"),
+              AllOf(HasSubstr("keys.yaml: line 3"), HasSubstr("more than 0")));
+  EXPECT_THAT(complaint("  - {time: 0, camera: botom}\n"),
+              AllOf(HasSubstr("line 2"), HasSubstr("botom"), HasSubstr("three_quarter")));
+  EXPECT_THAT(complaint("  - {time: .nan, camera: top}\n"), HasSubstr("time: .nan"));
+  EXPECT_THAT(complaint("  - {time: 1, position: [0, 0, 1]}\n"), HasSubstr("target"));
+  EXPECT_THAT(complaint("  - {time: 1, position: [0, 1], target: [0, 0, 0]}\n"),
+              HasSubstr("position: expected [x, y, z]"));
+  EXPECT_THAT(complaint("  - {time: 1, position: [0, 0, 1], target: [0, 0, 1]}\n"),
+              HasSubstr("stands on"));
+  EXPECT_THAT(complaint("  - {time: 1, camera: top, speed: 3}\n"), HasSubstr("'speed'"));
+  EXPECT_THAT(complaint("  - [1, 2\n"), HasSubstr("line"));
+  EXPECT_THAT(complaint(""), HasSubstr("'keys:'"));
+  EXPECT_THAT(Complaint(folder.path() / "none.yaml"), HasSubstr("none.yaml"));
+}
+
+TEST(CameraMan, RefusesWhatMakesNoSense) {
+  EXPECT_THAT(Complaint("1,2,3:1,2"), HasSubstr("X,Y,Z"));
+  EXPECT_THAT(Complaint("1,2,3:1,2,nan"), HasSubstr("X,Y,Z"));
+  EXPECT_THAT(Complaint("1,2,3:1,2,3"), HasSubstr("stands on"));
+  EXPECT_THAT(Complaint("1,2,3:"), HasSubstr("X,Y,Z"));
+  CameraOptions options;
+  options.orbit = "fast";
+  EXPECT_THAT(Complaint("front", options), HasSubstr("--orbit=fast"));
+  options = {};
+  options.fov = 200;
+  EXPECT_THAT(Complaint("front", options), HasSubstr("--fov=200"));
+  options = {};
+  options.follow = -1;
+  EXPECT_THAT(Complaint("front", options), HasSubstr("--follow=-1"));
+  options = {};
+  options.projection = "fisheye";
+  EXPECT_THAT(Complaint("front", options), HasSubstr("--projection=fisheye"));
+  options = {};
+  options.fit = "tight";
+  EXPECT_THAT(Complaint("front", options), HasSubstr("--fit=tight"));
+}
+
+}  // namespace
+}  // namespace kinescope::app

@@ -1,0 +1,183 @@
+// What pictures show of the time before, and beside the recording.
+
+#include "server/picture/shots.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "core/errors.h"
+#include "core/stop_signal.h"
+#include "tests/deadline.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string Complaint(const ViewOptions& options) {
+  try {
+    ShotPlanner planner(options);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::vector<SceneState> Scenes(const char* url, int count) {
+  SceneReader reader(url, SceneOptions());
+  SceneTimeline timeline(reader);
+  std::vector<SceneState> scenes;
+  for (int i = 0; i < count; ++i) scenes.push_back(timeline.At(0.1 * i).value());
+  return scenes;
+}
+
+TEST(Shots, ATrailIsTheLastSecondsOfWhatWasAskedFor) {
+  ViewOptions options;
+  options.trail = "com,RightHand";
+  options.trail_secs = 0.5;
+  ShotPlanner planner(options);
+  const std::vector<SceneState> scenes = Scenes("demo:lift", 12);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Shot shot = planner.Next(scenes[i]);
+    const auto& trails = shot.view.look.trails;
+    if (i == 0) {
+      EXPECT_TRUE(trails.empty()) << "a point is no trail";
+      continue;
+    }
+    ASSERT_EQ(trails.size(), 2u);
+    EXPECT_EQ(trails[0].points.size(), std::min<std::size_t>(i + 1, 6)) << "five steps of 0.1 s";
+    EXPECT_EQ(trails[0].points.back(), *scenes[i].people[0].com);
+    EXPECT_EQ(trails[1].points.back(), scenes[i].people[0].links[urdf::kRightHand].position);
+  }
+  // A recording that starts over drags no line through the room.
+  EXPECT_TRUE(planner.Next(scenes[0]).view.look.trails.empty());
+}
+
+TEST(Shots, APictureAloneHasTheTrailOfAClip) {
+  ViewOptions options;
+  options.trail = "left_hand";
+  options.trail_secs = 1;
+  SceneReader reader("demo:walk", SceneOptions());
+  SceneTimeline timeline(reader);
+  ShotPlanner planner(options);
+  RememberBefore(2, timeline, planner);
+  const Shot shot = planner.Only(timeline.At(2).value());
+  ASSERT_EQ(shot.view.look.trails.size(), 1u);
+  EXPECT_EQ(shot.view.look.trails[0].points.size(), 61u) << "60 a second and now";
+}
+
+TEST(Shots, AGhostStandsOnTheFloorWhereThePersonIs) {
+  for (const char* pose : {"n_pose", "t_pose"}) {
+    ViewOptions options;
+    options.ghost = pose;
+    options.ghost_opacity = 0.2;
+    ShotPlanner planner(options);
+    const SceneState scene = Scenes("demo:lift", 25).back();
+    const Shot shot = planner.Only(scene);
+    ASSERT_EQ(shot.view.look.ghosts.size(), 1u);
+    const render::Ghost& ghost = shot.view.look.ghosts[0];
+    EXPECT_EQ(ghost.opacity, 0.2);
+    const urdf::LinkPoses& links = ghost.person.links;
+    const auto& pelvis = scene.people[0].links[urdf::kPelvis].position;
+    EXPECT_NEAR((links[urdf::kPelvis].position - pelvis).head<2>().norm(), 0, 1e-9);
+    EXPECT_GT(links[urdf::kPelvis].position.z(), pelvis.z() + 0.05) << "upright, not bent";
+    EXPECT_NEAR(links[urdf::kRightToe].position.z(), links[urdf::kLeftToe].position.z(), 1e-6);
+    EXPECT_LT(links[urdf::kRightToe].position.z(), 0.1);
+    const double reach = links[urdf::kLeftHand].position.y() - links[urdf::kRightHand].position.y();
+    if (std::string(pose) == "t_pose") {
+      EXPECT_GT(reach, 1.2);
+    } else {
+      EXPECT_LT(reach, 0.7);
+    }
+  }
+}
+
+TEST(Shots, AGhostOfARecordingIsWhereItWas) {
+  ViewOptions options;
+  options.ghost = "demo:lift@1.5";
+  ShotPlanner planner(options);
+  const std::vector<SceneState> scenes = Scenes("demo:lift", 16);
+  const Shot shot = planner.Only(scenes[0]);
+  EXPECT_EQ(shot.view.look.ghosts.at(0).person.links[urdf::kHead].position,
+            scenes[15].people[0].links[urdf::kHead].position);
+}
+
+TEST(Shots, AGhostsTimeIsOneThatARecordingCanHave) {
+  for (const std::string secs : {"-1", "864001", "1e9", "1e300", "inf", "nan"}) {
+    ViewOptions options;
+    options.ghost = "demo:lift@" + secs;
+    testing::WithDeadline([&] {
+      EXPECT_EQ(Complaint(options),
+                "--ghost=demo:lift@" + secs + ": expected 0 to 864000 s after the @");
+    });
+  }
+}
+
+// In a process of its own, whose flag stays set and which ends if it reads on.
+TEST(ShotsDeathTest, CtrlCEndsTheReadingForAGhost) {
+  ViewOptions options;
+  options.ghost = "demo:lift@864000";
+  const auto read = [&] {
+    alarm(20);
+    CatchStopSignals();
+    std::raise(SIGINT);
+    try {
+      const ShotPlanner planner(options);
+    } catch (const std::runtime_error& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      std::_Exit(2);
+    }
+    std::_Exit(0);
+  };
+  EXPECT_EXIT(read(), ::testing::ExitedWithCode(2), "interrupted while reading demo:lift");
+}
+
+TEST(Shots, RobotsStandOnTheFloorWhereTheyWerePut) {
+  const testing::TempFolder folder;
+  const std::string file = (folder / "arm@home.urdf").string();
+  std::ofstream(file)
+      << "<robot name='arm'><link name='base'><visual><geometry><box size='1 .2 .4'/>"
+         "</geometry></visual></link></robot>";
+  ViewOptions options;
+  options.robot = {file + "@2,-1,90", file};
+  ShotPlanner planner(options);
+  SceneState scene;
+  scene.floor_z = 0.5;
+  const SceneState shown = planner.Only(scene).state;
+  ASSERT_EQ(shown.robots.size(), 2u);
+  const RobotState& placed = shown.robots[0];
+  EXPECT_TRUE(placed.world_from_link[0].translation().isApprox(Eigen::Vector3d(2, -1, 0.7), 1e-6));
+  EXPECT_NEAR(placed.bounds.min().z(), 0.5, 1e-6);
+  EXPECT_NEAR(placed.bounds.sizes().y(), 1, 1e-6) << "turned by 90 degrees";
+  EXPECT_GT(shown.robots[1].bounds.min().y(), 1) << "beside whoever is in the middle";
+}
+
+TEST(Shots, RefuseWhatMakesNoSense) {
+  const auto with = [](auto member, auto value) {
+    ViewOptions options;
+    options.*member = value;
+    return Complaint(options);
+  };
+  EXPECT_THAT(with(&ViewOptions::theme, "blue"), HasSubstr("--theme=blue"));
+  EXPECT_THAT(with(&ViewOptions::background, "#12345"), HasSubstr("--background=#12345"));
+  EXPECT_THAT(with(&ViewOptions::floor, "maybe"), HasSubstr("floor=maybe"));
+  EXPECT_THAT(with(&ViewOptions::show, "frames,wings"), HasSubstr("--show=wings"));
+  EXPECT_THAT(with(&ViewOptions::hide, "wings"), HasSubstr("--hide=wings"));
+  EXPECT_THAT(with(&ViewOptions::trail, "tail"), HasSubstr("right_hand"));
+  EXPECT_THAT(with(&ViewOptions::trail_secs, 0.0), HasSubstr("--trail_secs=0"));
+  EXPECT_THAT(with(&ViewOptions::ghost, "demo:lift"), HasSubstr("FILE@SECS"));
+  EXPECT_THAT(with(&ViewOptions::ghost, "demo:lift@soon"), HasSubstr("soon"));
+  EXPECT_THAT(with(&ViewOptions::ghost_opacity, 2.0), HasSubstr("--ghost_opacity=2"));
+  EXPECT_THAT(with(&ViewOptions::robot, std::vector<std::string>{"a.urdf@1"}), HasSubstr("X,Y"));
+  EXPECT_EQ(Complaint(ViewOptions()), "");
+}
+
+}  // namespace
+}  // namespace kinescope::app

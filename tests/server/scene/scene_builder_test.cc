@@ -1,0 +1,298 @@
+#include "server/scene/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "server/subject/subject.h"
+
+namespace kinescope::app {
+namespace {
+
+using Eigen::Vector3d;
+
+class Built {
+ public:
+  explicit Built(SceneOptions options = {})
+      : builder(options, "test", 0, [this](std::shared_ptr<const SceneState> state) {
+          states.push_back(std::move(state));
+        }) {}
+  const SceneState& last() const { return *states.back(); }
+
+  std::vector<std::shared_ptr<const SceneState>> states;
+  SceneBuilder builder;
+};
+
+BodySample SampleOf(const char* motion, double secs) {
+  BodySample sample = subject::MakeMotion(motion)->At(secs);
+  sample.stamp_nanos = std::llround(secs * 1e9) + 1;
+  sample.arrival_nanos = sample.stamp_nanos;
+  return sample;
+}
+
+TEST(SceneBuilder, SaysThatNothingHasComeYet) {
+  Built built;
+  built.builder.Start();
+  EXPECT_EQ(built.last().liveness, Liveness::kNoData);
+  EXPECT_TRUE(built.last().people.empty());
+  EXPECT_EQ(built.last().source, "test");
+}
+
+TEST(SceneBuilder, TurnsTheArmsOfTheStreamIntoLinkFrames) {
+  Built built;
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  const PersonState& person = built.last().people.at(0);
+  for (int i = 0; i < urdf::kSegmentCount; ++i) {
+    const Vector3d up = person.links[static_cast<std::size_t>(i)].orientation * Vector3d::UnitZ();
+    EXPECT_GT(up.z(), 0.95) << urdf::kSegments[static_cast<std::size_t>(i)].link_name
+                            << " is not upright in the N-pose";
+  }
+}
+
+TEST(SceneBuilder, PublishesAnglesThatRebuildThePose) {
+  Built built;
+  for (const double secs : {0.0, 1.0, 2.0, 3.0}) {
+    built.builder.OnSample(SampleOf("lift", secs));
+    const PersonState& person = built.last().people.at(0);
+    const urdf::LinkPoses rebuilt =
+        urdf::ForwardKinematics(urdf::DefaultSkeleton(), person.links[0], person.angles);
+    for (std::size_t i = 0; i < rebuilt.size(); ++i) {
+      EXPECT_LT(rebuilt[i].orientation.angularDistance(person.links[i].orientation), 1e-6);
+      EXPECT_LT((rebuilt[i].position - person.links[i].position).norm(), 1e-6);
+    }
+  }
+}
+
+TEST(SceneBuilder, TurnsStaleWhenTheStreamStopsAndLiveWhenItReturns) {
+  Built built;
+  BodySample sample = SampleOf("lift", 2);
+  built.builder.OnSample(sample);
+  built.builder.Tick(sample.arrival_nanos + 400'000'000);
+  EXPECT_EQ(built.last().liveness, Liveness::kLive);
+  built.builder.Tick(sample.arrival_nanos + 500'000'000);
+  EXPECT_EQ(built.last().liveness, Liveness::kStale);
+  for (const JointLoad& load : built.last().people.at(0).loads) {
+    EXPECT_EQ(load.load_class, LoadClass::kUnknown);
+    EXPECT_TRUE(std::isnan(load.ratio));
+    EXPECT_EQ(load.reason, "the stream stopped");
+  }
+  const BodyForces& forces = built.last().people.at(0).forces;
+  EXPECT_TRUE(std::isnan(forces.joints[urdf::jL5S1].moment.y()));
+  EXPECT_EQ(forces.why_no_ground, "the stream stopped");
+  EXPECT_FALSE(forces.lumbar);
+  const std::size_t states = built.states.size();
+  built.builder.Tick(sample.arrival_nanos + 900'000'000);
+  EXPECT_EQ(built.states.size(), states) << "stale is said once";
+  sample.stamp_nanos += 2'000'000'000;
+  sample.arrival_nanos += 2'000'000'000;
+  built.builder.OnSample(sample);
+  EXPECT_EQ(built.last().liveness, Liveness::kLive);
+}
+
+TEST(SceneBuilder, TakesTheNewBodyWhenScaleDataArrive) {
+  Built built;
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  const auto before = built.last().people.at(0).model;
+  Character tall;
+  tall.name = "Anna";
+  tall.skeleton = urdf::DefaultSkeleton(1.95);
+  built.builder.OnCharacter(tall);
+  built.builder.OnSample(SampleOf("n_pose", 0.1));
+  const PersonState& person = built.last().people.at(0);
+  EXPECT_EQ(person.name, "Anna");
+  EXPECT_GT(person.model->revision, before->revision);
+  EXPECT_DOUBLE_EQ(person.model->human.skeleton.height, 1.95);
+  built.builder.OnCharacter(tall);
+  built.builder.OnSample(SampleOf("n_pose", 0.2));
+  EXPECT_EQ(built.last().people.at(0).model, person.model) << "the same body again is no news";
+}
+
+TEST(SceneBuilder, KeepsTwoPeopleApart) {
+  Built built;
+  BodySample second = SampleOf("walk", 0);
+  second.character = 3;
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  built.builder.OnSample(second);
+  ASSERT_EQ(built.last().people.size(), 2u);
+  EXPECT_EQ(built.last().people[0].model->human.model_name, "skeleton");
+  EXPECT_EQ(built.last().people[1].model->human.model_name, "skeleton_1");
+}
+
+TEST(SceneBuilder, ForgetsAPersonWhoLeft) {
+  Built built;
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  BodySample second = SampleOf("walk", 2);
+  second.character = 3;
+  built.builder.OnSample(second);
+  ASSERT_EQ(built.last().people.size(), 1u);
+  EXPECT_EQ(built.last().people[0].character, 3);
+}
+
+TEST(SceneBuilder, DoesNotInventLegLoadsOfARecordingWithoutLegs) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  const double pelvis = sample.segments[0].position.z();
+  for (SegmentState& segment : sample.segments) segment.position.z() -= pelvis;
+  built.builder.OnSample(sample);
+  EXPECT_LT(built.last().floor_z, -0.7);
+  const PersonState& person = built.last().people.at(0);
+  EXPECT_FALSE(person.cop);
+  for (const JointLoad& load : person.loads) {
+    const bool is_leg = load.joint >= urdf::jRightHip;
+    EXPECT_EQ(load.load_class == LoadClass::kUnknown, is_leg);
+    EXPECT_EQ(load.reason.empty(), !is_leg);
+  }
+}
+
+double RatioOf(const SceneState& state, int joint) {
+  for (const JointLoad& load : state.people.at(0).loads) {
+    if (load.joint == joint) return load.ratio;
+  }
+  return std::nan("");
+}
+
+TEST(SceneBuilder, LoadsTheJointsWithWhatIsHeldAndWorn) {
+  SceneOptions options;
+  Built bare(options), held(options);
+  loads::LoadSettings settings;
+  settings.hands.is_known = true;
+  settings.hands.mass_kg = {10, 0};
+  held.builder.SetLoads(settings);
+  options.body.extra_masses = {{urdf::kT8, 20, {-0.2, 0, 0.1}}};
+  Built laden(options);
+  const BodySample sample = SampleOf("t_pose", 0);
+  for (Built* built : {&bare, &held, &laden}) built->builder.OnSample(sample);
+  EXPECT_GT(RatioOf(held.last(), urdf::jRightShoulder),
+            RatioOf(bare.last(), urdf::jRightShoulder) + 0.5);
+  EXPECT_EQ(RatioOf(held.last(), urdf::jLeftShoulder), RatioOf(bare.last(), urdf::jLeftShoulder));
+  EXPECT_GT(RatioOf(laden.last(), urdf::jL5S1), RatioOf(bare.last(), urdf::jL5S1) + 0.05);
+  EXPECT_NEAR(laden.last().people.at(0).forces.body_mass_kg, 95, 1e-9);
+  EXPECT_FALSE(laden.last().people.at(0).forces.com_difference) << "MVN knows of no backpack";
+  EXPECT_TRUE(bare.last().people.at(0).forces.body_mass_is_assumed);
+}
+
+TEST(SceneBuilder, JudgesAWomanByTheStrengthOfWomen) {
+  SceneOptions options;
+  options.body.sex = urdf::Sex::kFemale;
+  Built woman(options), man;
+  const BodySample sample = SampleOf("t_pose", 0);
+  woman.builder.OnSample(sample);
+  man.builder.OnSample(sample);
+  const auto capacity = [](const Built& built) {
+    return built.last().people.at(0).loads.at(3).capacity;  // shoulder
+  };
+  EXPECT_NEAR(capacity(woman), capacity(man) / 2, 1e-9);
+}
+
+TEST(SceneBuilder, TakesMeasuredForcesForWhomTheyAreMeantWhileTheyAreFresh) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  loads::Measurements measured;
+  measured.ground.emplace().force = {0, 0, 735.75};
+  measured.ground->point = {0.05, 0, 0};
+  measured.ground->stamp_nanos = sample.stamp_nanos;
+  built.builder.SetMeasurements(1, measured);
+  built.builder.OnSample(sample);
+  EXPECT_FALSE(built.last().people.at(0).forces.ground_is_measured) << "another person's plate";
+  built.builder.SetMeasurements(0, measured);
+  sample.stamp_nanos += 10'000'000;
+  built.builder.OnSample(sample);
+  EXPECT_TRUE(built.last().people.at(0).forces.ground_is_measured);
+  EXPECT_NEAR(built.last().people.at(0).cop->x(), 0.05, 1e-12);
+  sample.stamp_nanos += 600'000'000;
+  built.builder.OnSample(sample);
+  EXPECT_FALSE(built.last().people.at(0).forces.ground_is_measured);
+}
+
+TEST(SceneBuilder, MeasuresTheRateOfALiveStream) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  for (int i = 0; i < 300; ++i) {
+    sample.arrival_nanos += 10'000'000;
+    sample.stamp_nanos += 10'000'000;
+    built.builder.OnSample(sample);
+  }
+  EXPECT_NEAR(built.last().rate_hz, 100, 1);
+}
+
+TEST(SceneBuilder, HasNoRateBeforeASecondOfSamplesHasCome) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  // As at the start of a program: what waited in the socket comes at once, then 100 per second.
+  for (int i = 0; i < 10; ++i) {
+    sample.arrival_nanos += 100'000;
+    sample.stamp_nanos += 10'000'000;
+    built.builder.OnSample(sample);
+  }
+  for (int i = 0; i < 98; ++i) {
+    sample.arrival_nanos += 10'000'000;
+    sample.stamp_nanos += 10'000'000;
+    built.builder.OnSample(sample);
+    ASSERT_EQ(built.last().rate_hz, 0) << "after " << i + 1 << " samples";
+  }
+  for (int i = 0; i < 300; ++i) {
+    sample.arrival_nanos += 10'000'000;
+    sample.stamp_nanos += 10'000'000;
+    built.builder.OnSample(sample);
+  }
+  EXPECT_NEAR(built.last().rate_hz, 100, 1);
+}
+
+TEST(SceneBuilder, TheRateOfManyPeopleIsThatOfOne) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  for (int i = 0; i < 300; ++i) {
+    sample.arrival_nanos += 10'000'000;
+    sample.stamp_nanos += 10'000'000;
+    for (sample.character = 0; sample.character < 3; ++sample.character) {
+      built.builder.OnSample(sample);
+    }
+  }
+  EXPECT_NEAR(built.last().rate_hz, 100, 1);
+}
+
+TEST(SceneBuilder, TheRateOfACaptureIsThatOfItsStamps) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  sample.arrival_nanos = 0;
+  for (int i = 0; i < 300; ++i) {
+    sample.stamp_nanos += 10'000'000;
+    built.builder.OnSample(sample);
+  }
+  EXPECT_NEAR(built.last().rate_hz, 100, 1);
+}
+
+TEST(SceneBuilder, SomebodyWhoIsOnlyAnnouncedIsNoReasonToFail) {
+  Built built;
+  built.builder.OnCharacter({0, "Anna", {}, {}, {}});
+  BodySample sample = SampleOf("n_pose", 0);
+  sample.character = 1;
+  built.builder.OnSample(sample);
+  ASSERT_EQ(built.last().people.size(), 1U);
+  EXPECT_EQ(built.last().floor_z, 0);
+}
+
+TEST(SceneBuilder, ShowsTrackedObjectsByTheirNamesUntilTheyLeave) {
+  Built built;
+  built.builder.OnCharacter({7, "Things", {}, {}, {{"HTC Vive Tracker", {0, 0, 1}}}});
+  ObjectsSample objects;
+  objects.character = 7;
+  objects.present.set(0).set(1);
+  objects.poses[1].position = {1, 2, 3};
+  BodySample sample = SampleOf("n_pose", 0);
+  objects.stamp_nanos = sample.stamp_nanos;
+  built.builder.OnObjects(objects);
+  built.builder.OnSample(sample);
+  ASSERT_EQ(built.last().people.size(), 1U);
+  ASSERT_EQ(built.last().objects.size(), 2U);
+  EXPECT_EQ(built.last().objects[0].name, "HTC Vive Tracker");
+  EXPECT_EQ(built.last().objects[1].name, "object_2");
+  EXPECT_EQ(built.last().objects[1].pose.position, Vector3d(1, 2, 3));
+  sample.stamp_nanos += 1'100'000'000;
+  built.builder.OnSample(sample);
+  EXPECT_TRUE(built.last().objects.empty());
+}
+
+}  // namespace
+}  // namespace kinescope::app

@@ -1,0 +1,321 @@
+#include "urdf/mesh/mesh_file.h"
+
+#include <assimp/MemoryIOWrapper.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <unordered_map>
+
+#include "urdf/mesh/mesh_gate.h"
+
+namespace kinescope::urdf {
+namespace {
+
+namespace fs = std::filesystem;
+using Fault = std::runtime_error;
+
+constexpr std::size_t kMostVertices = 3 * kMostMeshTriangles;
+constexpr unsigned kMostCorners = 1000;          // of a polygon: it takes their square to cut it up
+constexpr std::size_t kMostAtOnePoint = 20'000;  // vertices, likewise for smooth normals
+
+constexpr float kSmoothBelowDeg = 66;  // sharper creases stay creases
+
+std::string LowerExtension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+std::string ReadBytes(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) {
+    throw Fault(error ? error.message() : std::string("is no regular file"));
+  }
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error) throw Fault(error.message());
+  if (size > kMostMeshBytes) {
+    throw Fault("larger than " + std::to_string(kMostMeshBytes >> 20) + " MiB");
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) throw Fault("cannot be read");
+  return bytes;
+}
+
+// All that assimp gets to see: the file, and beside it the colours of an OBJ.
+class OneFile : public Assimp::IOSystem {
+ public:
+  static constexpr const char* kName = "mesh";
+
+  OneFile(const std::string& bytes, std::string extension, fs::path folder)
+      : bytes_(bytes), name_(kName + std::move(extension)), folder_(std::move(folder)) {}
+
+  bool Exists(const char* name) const override { return name == name_ || IsColors(name); }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* name, const char*) override {
+    if (name == name_) return Stream(bytes_);
+    if (!IsColors(name)) return nullptr;
+    try {
+      colors_ = ReadBytes(folder_ / fs::path(name).filename());
+    } catch (const Fault&) {
+      return nullptr;  // it is drawn without
+    }
+    return Stream(colors_);
+  }
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  static Assimp::IOStream* Stream(const std::string& bytes) {
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()),
+                                      bytes.size(), false);
+  }
+  bool IsColors(const fs::path& name) const {
+    std::error_code ignored;
+    return !folder_.empty() && LowerExtension(name) == ".mtl" &&
+           fs::is_regular_file(folder_ / name.filename(), ignored);
+  }
+
+  const std::string& bytes_;
+  const std::string name_;
+  const fs::path folder_;
+  std::string colors_;  // of the newest stream
+};
+
+struct HashPoint {
+  std::size_t operator()(const aiVector3D& p) const {
+    std::size_t hash = 0;
+    for (const float each : {p.x, p.y, p.z}) {
+      hash = hash * 1'000'003 + std::hash<float>()(each);
+    }
+    return hash;
+  }
+};
+
+// Before anything is done with what was read.
+void CheckMesh(const aiMesh& mesh) {
+  if (mesh.mNumVertices > 0 && mesh.mVertices == nullptr) throw Fault("it has no vertices");
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    const aiFace& face = mesh.mFaces[i];
+    if (face.mNumIndices > kMostCorners) {
+      throw Fault("a polygon has " + std::to_string(face.mNumIndices) + " corners; at most " +
+                  std::to_string(kMostCorners));
+    }
+    for (unsigned k = 0; k < face.mNumIndices; ++k) {
+      if (face.mIndices[k] < mesh.mNumVertices) continue;
+      throw Fault("a polygon has a corner " + std::to_string(face.mIndices[k]) + " of " +
+                  std::to_string(mesh.mNumVertices) + " vertices");
+    }
+  }
+  std::unordered_map<aiVector3D, std::size_t, HashPoint> at_point;
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    const aiVector3D& p = mesh.mVertices[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      throw Fault("vertex " + std::to_string(i) + " is not finite");
+    }
+    if (mesh.mNumVertices > kMostAtOnePoint && ++at_point[p] > kMostAtOnePoint) {
+      throw Fault("more than " + std::to_string(kMostAtOnePoint) + " corners at one point");
+    }
+  }
+}
+
+void CheckScene(const aiScene& scene) {
+  std::size_t vertices = 0, faces = 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    vertices += scene.mMeshes[i]->mNumVertices;
+    faces += scene.mMeshes[i]->mNumFaces;
+  }
+  if (faces > kMostMeshTriangles) {
+    throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
+  }
+  if (vertices > kMostVertices) {
+    throw Fault("more than " + std::to_string(kMostVertices) + " vertices");
+  }
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) CheckMesh(*scene.mMeshes[i]);
+}
+
+Eigen::Vector3f ToEigen(const aiVector3D& v) { return {v.x, v.y, v.z}; }
+
+Mesh ToMesh(const aiMesh& from) {
+  Mesh mesh;
+  for (unsigned i = 0; i < from.mNumVertices; ++i) {
+    mesh.AddVertex(ToEigen(from.mVertices[i]),
+                   from.mNormals != nullptr ? ToEigen(from.mNormals[i]) : Eigen::Vector3f::UnitZ());
+  }
+  for (unsigned i = 0; i < from.mNumFaces; ++i) {
+    const aiFace& face = from.mFaces[i];
+    if (face.mNumIndices != 3) continue;  // points and lines have no surface
+    mesh.AddTriangle(face.mIndices[0], face.mIndices[1], face.mIndices[2]);
+  }
+  return mesh;
+}
+
+float FromLinear(float value) {
+  return value <= 0.0031308f ? 12.92f * value : 1.055f * std::pow(value, 1 / 2.4f) - 0.055f;
+}
+
+// Opacity is not read: exporters of COLLADA disagree on which end is opaque.
+std::optional<Eigen::Vector4f> ColorOf(const aiScene& scene, const aiMesh& mesh, bool is_linear) {
+  if (mesh.mMaterialIndex >= scene.mNumMaterials) return std::nullopt;
+  const aiMaterial& material = *scene.mMaterials[mesh.mMaterialIndex];
+  if (material.GetTextureCount(aiTextureType_DIFFUSE) > 0) return std::nullopt;
+  // assimp makes one up where the file has none.
+  aiString name;
+  if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS &&
+      std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME) {
+    return std::nullopt;
+  }
+  aiColor4D color;
+  if (material.Get(AI_MATKEY_COLOR_DIFFUSE, color) != aiReturn_SUCCESS) return std::nullopt;
+  Eigen::Vector4f rgba(color.r, color.g, color.b, 1);
+  aiColor4D glow;
+  if (material.Get(AI_MATKEY_COLOR_EMISSIVE, glow) == aiReturn_SUCCESS) {
+    rgba.head<3>() += Eigen::Vector3f(glow.r, glow.g, glow.b);
+  }
+  if (!rgba.allFinite()) return std::nullopt;
+  rgba = rgba.cwiseMax(0.0f).cwiseMin(1.0f);
+  if (is_linear) {
+    for (int i = 0; i < 3; ++i) rgba[i] = FromLinear(rgba[i]);
+  }
+  return rgba;
+}
+
+Eigen::Affine3d ToEigen(const aiMatrix4x4& m) {
+  Eigen::Affine3d to = Eigen::Affine3d::Identity();
+  to.matrix().topRows<3>() << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3,
+      m.c4;
+  return to;
+}
+
+// Every node's meshes where the node is.
+class Collector {
+ public:
+  Collector(const aiScene& scene, const std::string& extension)
+      : scene_(scene), is_linear_(extension == ".glb"), has_colors_(extension != ".stl") {
+    for (unsigned i = 0; i < scene.mNumMeshes; ++i) meshes_.push_back(ToMesh(*scene.mMeshes[i]));
+  }
+
+  Mesh Collect(const Eigen::Affine3d& world_from_root) {
+    struct Open {
+      const aiNode* node;
+      Eigen::Affine3d world_from_parent;
+    };
+    std::vector<Open> open = {{scene_.mRootNode, world_from_root}};
+    while (!open.empty()) {
+      const Open at = open.back();
+      open.pop_back();
+      const Eigen::Affine3d world_from_node =
+          at.world_from_parent * ToEigen(at.node->mTransformation);
+      for (unsigned i = 0; i < at.node->mNumMeshes; ++i) {
+        Add(at.node->mMeshes[i], world_from_node);
+      }
+      for (unsigned i = at.node->mNumChildren; i-- > 0;) {
+        open.push_back({at.node->mChildren[i], world_from_node});
+      }
+    }
+    if (!any_color_) mesh_.colors.clear();
+    return std::move(mesh_);
+  }
+
+ private:
+  void Add(unsigned index, const Eigen::Affine3d& place) {
+    const Mesh& mesh = meshes_.at(index);
+    if (!(std::abs(place.linear().determinant()) > 1e-18) || !place.matrix().allFinite()) {
+      throw Fault("a node is scaled to nothing");
+    }
+    if (mesh_.triangles.size() + mesh.triangles.size() > 3 * kMostMeshTriangles) {
+      throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
+    }
+    const auto color =
+        has_colors_ ? ColorOf(scene_, *scene_.mMeshes[index], is_linear_) : std::nullopt;
+    any_color_ = any_color_ || color;
+    mesh_.Append(mesh, place);
+    // Zero opacity: none of its own.
+    mesh_.colors.resize(mesh_.positions.size(), color.value_or(Eigen::Vector4f::Zero()));
+  }
+
+  const aiScene& scene_;
+  const bool is_linear_, has_colors_;
+  bool any_color_ = false;
+  std::vector<Mesh> meshes_;
+  Mesh mesh_;
+};
+
+// Six times the volume that the surface encloses; negative where triangles face inwards.
+double SignedVolume(const Mesh& mesh) {
+  // About their middle, which matters where the surface does not close.
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3f& position : mesh.positions) middle += position.cast<double>();
+  middle /= static_cast<double>(mesh.positions.size());
+  double volume = 0;
+  for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    const auto corner = [&](std::size_t k) -> Eigen::Vector3d {
+      return mesh.positions[mesh.triangles[i + k]].cast<double>() - middle;
+    };
+    volume += corner(0).dot(corner(1).cross(corner(2)));
+  }
+  return volume;
+}
+
+// Faces that look away may be left out, and some exporters wind all triangles the wrong way round.
+void TurnOutwards(Mesh& mesh) {
+  if (SignedVolume(mesh) >= 0) return;
+  for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
+  }
+  for (Eigen::Vector3f& normal : mesh.normals) normal = -normal;
+}
+
+}  // namespace
+
+Mesh ReadMeshFile(const fs::path& path, ColladaUp up) try {
+  return ReadMesh(ReadBytes(path), LowerExtension(path), path.parent_path(), up);
+} catch (const std::exception& error) {
+  throw Fault("mesh " + path.string() + ": " + error.what());
+}
+
+Mesh ReadMesh(const std::string& bytes, const std::string& extension, const fs::path& folder,
+              ColladaUp up) {
+  CheckMeshBytes(bytes, extension);
+  Assimp::Importer importer;
+  importer.SetIOHandler(new OneFile(bytes, extension, folder));  // it deletes it
+  importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothBelowDeg);
+  const bool ignores_up = up == ColladaUp::kIgnored;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, ignores_up);
+  const aiScene* scene = importer.ReadFile(OneFile::kName + extension, 0);
+  if (scene == nullptr || scene->mRootNode == nullptr) throw Fault(importer.GetErrorString());
+  CheckScene(*scene);
+  unsigned steps =
+      aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_GenSmoothNormals;
+  // STL has one normal a facet, which would keep equal corners apart and every edge visible.
+  if (extension == ".stl") steps |= aiProcess_DropNormals;
+  scene = importer.ApplyPostProcessing(steps);
+  if (scene == nullptr) throw Fault(importer.GetErrorString());
+
+  // assimp turns COLLADA's up axis to y unless told not to, and y is GLB's anyway.
+  Eigen::Affine3d world_from_root = Eigen::Affine3d::Identity();
+  if (extension == ".glb" || (extension == ".dae" && !ignores_up)) {
+    world_from_root.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  }
+  Mesh mesh = Collector(*scene, extension).Collect(world_from_root);
+  if (mesh.triangles.empty()) throw Fault("holds no triangles");
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (!mesh.positions[i].allFinite()) throw Fault("a vertex is not finite");
+    if (!mesh.normals[i].allFinite()) mesh.normals[i] = Eigen::Vector3f::UnitZ();
+  }
+  TurnOutwards(mesh);
+  return mesh;
+}
+
+}  // namespace kinescope::urdf

@@ -1,0 +1,311 @@
+#include "urdf/mesh/mesh_gate.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "urdf/mesh/mesh_file.h"
+#include "urdf/mesh/stl_gate.h"
+#include "urdf/xml_outline.h"
+
+namespace kinescope::urdf {
+namespace {
+
+using nlohmann::json;
+using Fault = std::runtime_error;
+
+constexpr std::size_t kMostNodes = 20'000;        // of a scene, instances counted
+constexpr int kMostDepth = 100;                   // of nodes and of JSON
+constexpr std::size_t kMostJsonBytes = 8u << 20;  // numbers are in the binary part
+
+std::uint32_t GlbWord(const std::string& bytes, std::size_t at) {  // little-endian
+  std::uint32_t word = 0;
+  for (std::size_t i = 4; i-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return word;
+}
+
+// Nodes that hold nodes: how many there are once every reference is followed.
+class NodeGraph {
+ public:
+  void Add(const std::string& from, const std::string& to) { children_[from].push_back(to); }
+
+  void Check() {
+    std::map<std::string, Size> sizes;
+    for (const auto& [node, children] : children_) SizeOf(node, 0, sizes);
+  }
+
+ private:
+  struct Size {
+    bool is_open = true;  // being counted: to meet it again is a circle
+    std::size_t nodes = 1;
+  };
+
+  std::size_t SizeOf(const std::string& node, int depth, std::map<std::string, Size>& sizes) {
+    if (depth > kMostDepth) throw Fault("its nodes are nested too deep");
+    const auto [known, is_new] = sizes.emplace(node, Size{});
+    if (!is_new && known->second.is_open) throw Fault("node '" + node + "' contains itself");
+    if (!is_new) return known->second.nodes;
+    const auto children = children_.find(node);
+    if (children != children_.end()) {
+      for (const std::string& child : children->second) {
+        known->second.nodes += SizeOf(child, depth + 1, sizes);
+        if (known->second.nodes > kMostNodes) throw Fault("it unfolds to too many nodes");
+      }
+    }
+    known->second.is_open = false;
+    return known->second.nodes;
+  }
+
+  std::map<std::string, std::vector<std::string>> children_;
+};
+
+const char* FindAttribute(const char* const* attributes, std::string_view name) {
+  for (; *attributes != nullptr; attributes += 2) {
+    if (name == attributes[0]) return attributes[1];
+  }
+  return nullptr;
+}
+
+// A number of things of which each takes a byte of the file at least.
+void CheckCount(std::string_view text, std::size_t bytes, const std::string& where) {
+  std::uint64_t count = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  if (is_number && count <= bytes) return;
+  throw Fault(where + " announces a count of " + std::string(text.substr(0, 30)) +
+              ", but the file has " + std::to_string(bytes) + " bytes");
+}
+
+// assimp waits for ever at the first character of an index that is no digit.
+void CheckIndices(const std::string& bytes) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t at = bytes.find('<'); at != bytes.npos; at = bytes.find('<', at + 1)) {
+    const std::size_t end = bytes.find_first_of(" \t\r\n/>", at + 1);
+    const std::size_t close = bytes.find('>', at);
+    if (end == bytes.npos || close == bytes.npos) return;
+    const std::string_view tag = std::string_view(bytes).substr(at + 1, end - at - 1);
+    const bool has_indices = tag == "p" || tag == "v" || tag == "vcount" || tag == "h";
+    if (!has_indices || bytes[close - 1] == '/') continue;
+    for (std::size_t i = close + 1; i + 1 < bytes.size(); ++i) {
+      const char c = bytes[i], next = bytes[i + 1];
+      if (c == '<' && next == '/') break;
+      const bool is_blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
+      if (is_digit(c) || is_blank || (c == '-' && is_digit(next))) continue;
+      throw Fault("<" + std::string(tag) + "> holds what is no index");
+    }
+  }
+}
+
+void CheckDae(const std::string& bytes) {
+  NodeGraph graph;
+  std::vector<std::string> open;  // by depth: the node that we are in
+  const urdf::XmlLimits limits{kMostMeshBytes, 500'000, kMostDepth};
+  int nameless = 0;
+  urdf::ScanXml(
+      bytes, limits, [&](const char* tag, const char* const* attributes, int line, int depth) {
+        const std::string_view name = tag;
+        const std::string where = "line " + std::to_string(line) + ": <" + tag + ">";
+        open.resize(static_cast<std::size_t>(depth));
+        const std::string outer = open.empty() ? "" : open.back();
+        std::string inner = outer;
+        if (name == "node") {
+          // assimp finds a node by its id, else by its name.
+          const char* id = FindAttribute(attributes, "id");
+          if (id == nullptr) id = FindAttribute(attributes, "name");
+          inner = id != nullptr ? "#" + std::string(id) : std::to_string(++nameless);
+          graph.Add(outer, inner);
+        } else if (name == "instance_node") {
+          const char* url = FindAttribute(attributes, "url");
+          if (url != nullptr) graph.Add(outer, url);
+        }
+        open.push_back(inner);
+        const bool has_count = name == "float_array" || name == "int_array" || name == "accessor" ||
+                               name == "Name_array" || name == "IDREF_array" ||
+                               name == "triangles" || name == "polylist" || name == "polygons" ||
+                               name == "lines" || name == "vertex_weights";
+        const char* count = has_count ? FindAttribute(attributes, "count") : nullptr;
+        if (count != nullptr) CheckCount(count, bytes.size(), where);
+      });
+  graph.Check();
+  CheckIndices(bytes);
+}
+
+// The depth alone: brackets within strings do not count.
+void CheckJsonDepth(std::string_view text) {
+  int depth = 0;
+  bool is_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') is_string = !is_string;
+    if (is_string && c == '\\') ++i;
+    if (is_string) continue;
+    if ((c == '[' || c == '{') && ++depth > kMostDepth) throw Fault("its JSON is nested too deep");
+    if (c == ']' || c == '}') --depth;
+  }
+}
+
+std::uint64_t Unsigned(const json& object, const char* name, std::uint64_t otherwise) {
+  const auto member = object.find(name);
+  if (member == object.end()) return otherwise;
+  if (!member->is_number_unsigned()) throw Fault(std::string(name) + " is no whole number");
+  return member->get<std::uint64_t>();
+}
+
+const json& Array(const json& document, const char* name) {
+  static const json kNone = json::array();
+  const auto member = document.find(name);
+  if (member == document.end()) return kNone;
+  if (!member->is_array()) throw Fault(std::string(name) + " is no list");
+  for (const json& each : *member) {
+    if (!each.is_object()) throw Fault(std::string(name) + " holds what is no object");
+  }
+  return *member;
+}
+
+// Sizes of components and of elements, as glTF names them.
+std::uint64_t ElementBytes(const json& accessor) {
+  static const std::map<std::uint64_t, std::uint64_t> kComponent = {
+      {5120, 1}, {5121, 1}, {5122, 2}, {5123, 2}, {5125, 4}, {5126, 4}};
+  static const std::map<std::string, std::uint64_t> kElement = {
+      {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+  const auto component = kComponent.find(Unsigned(accessor, "componentType", 0));
+  const auto type = accessor.find("type");
+  if (component == kComponent.end() || type == accessor.end() || !type->is_string()) {
+    throw Fault("an accessor has no known type");
+  }
+  const auto element = kElement.find(type->get<std::string>());
+  if (element == kElement.end()) throw Fault("an accessor has no known type");
+  return component->second * element->second;
+}
+
+void CheckBuffers(const json& document, std::uint64_t binary_bytes) {
+  const json& buffers = Array(document, "buffers");
+  if (buffers.size() > 1) throw Fault("it has more than one buffer; a GLB holds one");
+  for (const json& buffer : buffers) {
+    if (buffer.contains("uri")) throw Fault("it refers to other files; pack them into the GLB");
+    if (Unsigned(buffer, "byteLength", 0) > binary_bytes) {
+      throw Fault("its buffer announces " + std::to_string(Unsigned(buffer, "byteLength", 0)) +
+                  " bytes, but " + std::to_string(binary_bytes) + " are there");
+    }
+  }
+  const json& views = Array(document, "bufferViews");
+  for (const json& view : views) {
+    const std::uint64_t offset = Unsigned(view, "byteOffset", 0);
+    const std::uint64_t length = Unsigned(view, "byteLength", 0);
+    if (Unsigned(view, "buffer", 0) >= buffers.size() || offset > binary_bytes ||
+        length > binary_bytes - offset || Unsigned(view, "byteStride", 0) > 252) {
+      throw Fault("a bufferView lies outside the buffer");
+    }
+  }
+  for (const json& accessor : Array(document, "accessors")) {
+    if (accessor.contains("sparse")) throw Fault("sparse accessors are not read");
+    const std::uint64_t element = ElementBytes(accessor);
+    const std::uint64_t count = Unsigned(accessor, "count", 0);
+    const std::uint64_t offset = Unsigned(accessor, "byteOffset", 0);
+    const std::uint64_t index = Unsigned(accessor, "bufferView", views.size());
+    if (index >= views.size()) throw Fault("an accessor has no bufferView");
+    const std::uint64_t length = Unsigned(views[index], "byteLength", 0);
+    const std::uint64_t stride = std::max(Unsigned(views[index], "byteStride", element), element);
+    // The last element needs no room for the rest of its stride.
+    if (count == 0 || offset > length || element > length - offset ||
+        count - 1 > (length - offset - element) / stride) {
+      throw Fault("an accessor announces a count of " + std::to_string(count) +
+                  ", but its bufferView has " + std::to_string(length) + " bytes");
+    }
+  }
+}
+
+void CheckReferences(const json& document) {
+  const auto count_of = [&](const char* list) { return Array(document, list).size(); };
+  const auto check = [&](const json& index, const char* list) {
+    if (index.is_number_unsigned() && index.get<std::uint64_t>() < count_of(list)) return;
+    throw Fault(std::string("it refers to an entry of ") + list + " that is not there");
+  };
+  NodeGraph graph;
+  const json& nodes = Array(document, "nodes");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].contains("mesh")) check(nodes[i]["mesh"], "meshes");
+    if (!nodes[i].contains("children")) continue;
+    if (!nodes[i]["children"].is_array()) throw Fault("children is no list");
+    for (const json& child : nodes[i]["children"]) {
+      check(child, "nodes");
+      graph.Add(std::to_string(i), std::to_string(child.get<std::uint64_t>()));
+    }
+  }
+  graph.Check();
+  for (const json& scene : Array(document, "scenes")) {
+    if (!scene.contains("nodes")) continue;
+    if (!scene["nodes"].is_array()) throw Fault("nodes of a scene are no list");
+    for (const json& node : scene["nodes"]) check(node, "nodes");
+  }
+  for (const json& mesh : Array(document, "meshes")) {
+    for (const json& primitive : Array(mesh, "primitives")) {
+      if (primitive.contains("indices")) check(primitive["indices"], "accessors");
+      if (primitive.contains("material")) check(primitive["material"], "materials");
+      if (!primitive.contains("attributes") || !primitive["attributes"].is_object()) {
+        throw Fault("a primitive has no attributes");
+      }
+      for (const json& attribute : primitive["attributes"]) check(attribute, "accessors");
+    }
+  }
+}
+
+void CheckGlb(const std::string& bytes) {
+  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+  constexpr std::uint32_t kJson = 0x4E4F534A;
+  if (bytes.size() < kHeader + kChunkHeader || bytes.compare(0, 4, "glTF") != 0) {
+    throw Fault("no GLB: it does not begin with 'glTF'");
+  }
+  if (GlbWord(bytes, 4) != 2)
+    throw Fault("GLB version " + std::to_string(GlbWord(bytes, 4)) + ", not 2");
+  const std::uint64_t json_bytes = GlbWord(bytes, kHeader);
+  if (GlbWord(bytes, 8) > bytes.size() || GlbWord(bytes, kHeader + 4) != kJson ||
+      json_bytes > bytes.size() - kHeader - kChunkHeader) {
+    throw Fault("it announces " + std::to_string(GlbWord(bytes, 8)) + " bytes and " +
+                std::to_string(json_bytes) + " of JSON, but has " + std::to_string(bytes.size()));
+  }
+  const std::size_t binary = kHeader + kChunkHeader + json_bytes;
+  std::uint64_t binary_bytes = 0;
+  if (bytes.size() - binary >= kChunkHeader) {
+    binary_bytes = GlbWord(bytes, binary);
+    if (binary_bytes > bytes.size() - binary - kChunkHeader) {
+      throw Fault("its binary part announces " + std::to_string(binary_bytes) +
+                  " bytes, which are not there");
+    }
+  }
+  if (json_bytes > kMostJsonBytes) throw Fault("its JSON part is larger than a scene needs");
+  const auto text = std::string_view(bytes).substr(kHeader + kChunkHeader, json_bytes);
+  CheckJsonDepth(text);
+  const json document = json::parse(text, nullptr, /*allow_exceptions=*/false);
+  if (!document.is_object()) throw Fault("its JSON part is none");
+  const json extensions = document.value("extensionsRequired", json::array());
+  if (!extensions.empty()) throw Fault("it needs an extension: " + extensions.dump().substr(0, 80));
+  CheckBuffers(document, binary_bytes);
+  CheckReferences(document);
+}
+
+}  // namespace
+
+void CheckMeshBytes(const std::string& bytes, const std::string& extension) {
+  if (bytes.empty()) throw Fault("it is empty");
+  if (extension == ".stl") return CheckStl(bytes);
+  if (extension == ".dae") return CheckDae(bytes);
+  if (extension == ".glb") {
+    try {
+      return CheckGlb(bytes);
+    } catch (const json::exception& error) {
+      throw Fault(std::string("its JSON part makes no sense: ") + error.what());
+    }
+  }
+  if (extension == ".obj") return;  // announces nothing
+  throw Fault("'" + extension +
+              "' is no kind of mesh that is read; there are .stl, .dae, .obj, .glb");
+}
+
+}  // namespace kinescope::urdf
