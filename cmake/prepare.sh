@@ -1,11 +1,11 @@
-# What ./demo and ./check share: install what is missing, build. To be sourced from the top folder.
+# Shared by ./demo and ./check: install missing packages, build. Source it from the top folder.
 # shellcheck shell=bash
 
 say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }
 die() { printf '%s: %s\n' "${0##*/}" "$*" >&2; exit 2; }
 
-# A package is there when dpkg says so, or when the program that it is for is on PATH anyway
-# (Node.js often comes from elsewhere, and its packages then conflict with Debian's).
+# A package is installed if dpkg lists it, or if the program that it provides is on PATH
+# (Node.js is often installed from another source, whose packages conflict with Debian's).
 is_installed() {
   case $1 in
     npm) command -v npm >/dev/null && return 0 ;;
@@ -27,45 +27,45 @@ install_packages() {
   local root=()
   if [ "$(id -u)" -ne 0 ]; then
     command -v sudo >/dev/null && sudo -n true 2>/dev/null && root=(sudo) ||
-      die "may not install packages here; run this once as root: apt-get install --no-install-recommends ${missing[*]}"
+      die "no permission to install packages; run this once as root: apt-get install --no-install-recommends ${missing[*]}"
   fi
   say "installing ${#missing[@]} Debian packages"
-  "${root[@]}" apt-get update -q >/dev/null || die "apt-get update failed; is there a network?"
+  "${root[@]}" apt-get update -q >/dev/null || die "apt-get update failed; check the network connection"
   "${root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends \
     "${missing[@]}" >/dev/null ||
-    die "apt-get could not install: ${missing[*]}; if it was interrupted before, run 'dpkg --configure -a' as root"
+    die "apt-get cannot install: ${missing[*]}; if an installation was interrupted, run 'dpkg --configure -a' as root"
 }
 
-# install_npm FOLDER: what its lock file says, again only when the lock file has changed.
+# install_npm FOLDER: installs the packages of its lock file; repeated only if the lock file has changed.
 install_npm() {
   local stamp=$1/node_modules/.kinescope-lock
   cmp -s "$1/package-lock.json" "$stamp" && return 0
   say "installing npm packages of $1"
-  npm ci --prefix "$1" --no-audit --no-fund --loglevel=error >/dev/null || die "npm ci failed in $1; is there a network?"
+  npm ci --prefix "$1" --no-audit --no-fund --loglevel=error >/dev/null || die "npm ci failed in $1; check the network connection"
   cp "$1/package-lock.json" "$stamp"
 }
 
-# take_the_lock: two of us in one folder would build over each other. Descriptor 9 is the lock, and a compiler that goes on after
+# take_the_lock: one ./check or ./demo at a time builds in this folder. Descriptor 9 is the lock; a compiler that keeps running after
 # this script was killed still holds it.
 take_the_lock() {
   { mkdir -p build && : >> build/.lock; } 2>/dev/null ||
-    die "cannot write to $PWD/build: make it writable, or clone into a folder that is"
+    die "cannot write to $PWD/build: make it writable, or clone into a writable folder"
   exec 9> build/.lock
-  flock -n 9 || die "another ./check or ./demo is building here: wait for it, or stop it"
+  flock -n 9 || die "another ./check or ./demo is building in this folder: wait until it ends, or stop it"
 }
 release_the_lock() { exec 9>&-; }
 
 # run_tests COMMAND...: does not pass the lock on, since a program that outlives its test would keep it.
 run_tests() { "$@" 9>&-; }
 
-# enough_room MIB: a build that runs out of it leaves files cut short.
+# enough_room MIB: checks the free disk space, because a build on a full disk leaves truncated files.
 enough_room() {
   local free
   free=$(df -Pm build | awk 'NR == 2 { print $4 }')
-  [ "$free" -ge "$1" ] || die "only $free MiB free for $PWD/build, $1 are needed: make room, or clone elsewhere"
+  [ "$free" -ge "$1" ] || die "only $free MiB free in $PWD/build, $1 MiB needed: free disk space, or clone to another disk"
 }
 
-# build PRESET [TARGET...]: configures anew when the presets have changed or the last time did not come to an end.
+# build PRESET [TARGET...]: configures again if the presets have changed or the last configuration did not finish.
 build() {
   local preset=$1 folder=build/$1
   shift

@@ -1,7 +1,7 @@
-/// One sample of a captured body: the value that every source produces.
+/// Holds one sample of a captured body: the value that every source produces.
 /// World frame: right-handed, z up, metres; x forward and y left at calibration. Orientations are
-/// of *segment* frames (identity in the T-pose), as MVN streams them; see urdf/segments.h. Plain
-/// data, copy it anywhere.
+/// those of *segment* frames (identity in the T-pose), as MVN streams them; see urdf/segments.h.
+/// Plain data that may be copied to any thread.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ struct SegmentState {
   Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();   // world axes, rad/s^2
 };
 
-struct CenterOfMass {  // as the sender computed it (type 24, MVNX centerOfMass); world
+struct CenterOfMass {  // computed by the sender (type 24, MVNX centerOfMass); world
   Eigen::Vector3d position = Eigen::Vector3d::Zero();      // m
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();      // m/s, zero where not sent
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();  // m/s^2, zero where not sent
@@ -41,10 +41,10 @@ struct TrackerState {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();      // sensor axes, with gravity, m/s^2
   Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  // sensor axes, rad/s
   Eigen::Vector3d magnetic_field = Eigen::Vector3d::Zero();    // sensor axes, about 1
-  bool has_rates = false;  // false: a sender that leaves acceleration and angular velocity out
+  bool has_rates = false;  // false: the sender omits acceleration and angular velocity
 };
 
-/// What the sender says of a foot: which end of it is on the floor.
+/// Foot contact as the sender reports it: which end of the foot is on the floor.
 struct FootContactFlags {
   bool heel = false, forefoot = false;
 };
@@ -53,15 +53,17 @@ struct BodySample {
   int character = 0;                  // id within the source, from 0
   std::uint32_t counter = 0;          // sender's sample counter; counts captured frames
   std::int64_t time_code_millis = 0;  // sender's clock: since its recording began
-  std::int64_t stamp_nanos = 0;       // ROS time (Unix epoch) of this sample
-  std::int64_t arrival_nanos = 0;     // monotonic clock, when its last datagram was read; 0: a file
+  std::int64_t stamp_nanos = 0;       // ROS time (Unix epoch) of this sample, ns
+  std::int64_t arrival_nanos = 0;  // receive time of its last datagram, monotonic clock; 0: from a
+                                   // file
   std::array<SegmentState, urdf::kSegmentCount> segments{};
-  bool has_linear = false;   // velocity and acceleration are measured, not zeros
-  bool has_angular = false;  // angular velocity and acceleration likewise
+  bool has_linear = false;   // velocity and acceleration are measured; false: they are zeros
+  bool has_angular = false;  // angular velocity and acceleration are measured; false: they are
+                             // zeros
   std::optional<CenterOfMass> com;
   /// Joint angles as streamed (type 20, MVNX jointAngle), degrees, MVN's own (x, y, z) order.
   std::optional<std::array<Eigen::Vector3d, urdf::kJointCount>> streamed_angles_deg;
-  /// By urdf::Side (MVNX footContacts); absent where the sender does not say.
+  /// By urdf::Side (MVNX footContacts); absent if the sender does not report contacts.
   std::optional<std::array<FootContactFlags, 2>> foot_contacts;
   ExtraSegments extra;  // gloves and props, where streamed
   std::array<TrackerState, urdf::kSegmentCount> trackers{};
@@ -69,11 +71,11 @@ struct BodySample {
   std::optional<std::int32_t> utc_millis_of_day;  // type 25: time of day, UTC, without a date
 };
 
-/// The sample's poses, of *link* frames (urdf/segments.h).
+/// The poses of the sample, of *link* frames (urdf/segments.h), world.
 urdf::Pose LinkPoseOf(const BodySample& sample, int segment);
 urdf::LinkPoses LinkPosesOf(const BodySample& sample);
 
-/// One sample of a cluster of tracked objects, which streams as a character of its own.
+/// One sample of a group of tracked objects, which MVN streams as a separate character.
 struct ObjectsSample {
   int character = 0;
   std::uint32_t counter = 0;
@@ -84,7 +86,7 @@ struct ObjectsSample {
   std::bitset<urdf::kSegmentCount> present;
 };
 
-/// A segment that is not one of the body's 23, as scale data describe it.
+/// A segment beyond the body's 23, as the scale data describe it.
 struct ScaledSegment {
   std::string name;
   Eigen::Vector3d origin_in_world = Eigen::Vector3d::Zero();  // in the T-pose, m
@@ -94,15 +96,15 @@ struct ScaledSegment {
   }
 };
 
-/// What a source knows about one person or cluster of objects, apart from samples; sent again
-/// whenever it changes.
+/// The properties of one person or group of objects that do not change with every sample. A source
+/// delivers them again after each change.
 struct Character {
   int id = 0;
   std::string name;                        // "" where unknown
   std::optional<std::uint32_t> color_rgb;  // 0xRRGGBB
-  std::optional<urdf::Skeleton> skeleton;  // from type 13 or MVNX points; of a person
-  /// Of a person: props and fingers, by ExtraSegments' index; "" where there is none. Of objects:
-  /// all of them, in order.
+  std::optional<urdf::Skeleton> skeleton;  // of a person; from type 13 or MVNX points
+  /// Of a person: props and fingers, indexed as ExtraSegments; name "" where there is none. Of a
+  /// group of objects: all of them, in order.
   std::vector<ScaledSegment> extra;
 };
 

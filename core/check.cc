@@ -6,8 +6,7 @@
 namespace kinescope {
 
 void CheckFailed(const char* file, int line, const char* condition) {
-  std::fprintf(stderr, "%s:%d: a promise of Kinescope itself is broken: %s\n", file, line,
-               condition);
+  std::fprintf(stderr, "%s:%d: internal error, condition failed: %s\n", file, line, condition);
   std::abort();
 }
 

@@ -1,10 +1,10 @@
-/// KINESCOPE_CHECK: stops the process when we broke a promise of our own. On in every build. Never
-/// for anything that input, a user or the machine can cause.
+/// KINESCOPE_CHECK stops the process on an internal error. It is active in every build. Never use
+/// it for conditions that input, a user or the machine can cause.
 #pragma once
 
 namespace kinescope {
 
-/// Prints the place and the condition to stderr and aborts.
+/// Prints file, line and condition to stderr and aborts.
 [[noreturn]] void CheckFailed(const char* file, int line, const char* condition);
 
 }  // namespace kinescope

@@ -1,4 +1,4 @@
-/// The two clocks of the program, read in one place, and nanoseconds in seconds. Any thread.
+/// Reads the two clocks of the program and converts nanoseconds to seconds. Any thread.
 #pragma once
 
 #include <chrono>
@@ -6,14 +6,15 @@
 
 namespace kinescope {
 
-/// Since some moment in the past, usually the start of the machine; never steps back.
+/// Monotonic clock, ns since an unspecified time, usually the start of the machine; never steps
+/// back.
 inline std::int64_t MonotonicNanos() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
-/// Since 1970-01-01 UTC; steps when the clock of the machine is set.
+/// Wall clock, ns since 1970-01-01 UTC; steps when the clock of the machine is set.
 inline std::int64_t WallNanos() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
              std::chrono::system_clock::now().time_since_epoch())
@@ -23,8 +24,8 @@ inline std::int64_t WallNanos() {
 inline constexpr std::int64_t kNanosPerMilli = 1'000'000;
 inline constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
 
-/// `nanos` in s. Meant for the time between two readings of one clock: of a time since 1970 only
-/// 0.2 us are left.
+/// `nanos` in s. Meant for the difference between two readings of the same clock: a time since 1970
+/// keeps a resolution of only 0.2 us.
 constexpr double Secs(std::int64_t nanos) { return static_cast<double>(nanos) * 1e-9; }
 
 }  // namespace kinescope

@@ -1,17 +1,18 @@
-/// Failures that end a command (style: "cannot start or go on"). what() is one line that names the
-/// value, the place and the way out; main() prints it and exits with code 2.
+/// Exceptions that end a command (style: "cannot start or go on"). what() is one line with the
+/// value, its place and the remedy; main() prints it and exits with code 2.
 #pragma once
 
 #include <stdexcept>
 
 namespace kinescope {
 
-class UsageError : public std::runtime_error {  // an option or an argument is wrong
+class UsageError : public std::runtime_error {  // invalid option or argument
  public:
   using std::runtime_error::runtime_error;
 };
 
-class SourceError : public std::runtime_error {  // a source cannot be opened or is not what it says
+class SourceError : public std::runtime_error {  // a source that cannot be opened or has the wrong
+                                                 // format
  public:
   using std::runtime_error::runtime_error;
 };

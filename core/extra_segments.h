@@ -1,4 +1,4 @@
-/// What moves with a body beyond its 23 segments: gloves and props. Poses of segment frames, as in
+/// Poses of the segments beyond the body's 23: gloves and props. Segment frames, as in
 /// body_sample.h. Plain data.
 #pragma once
 
@@ -23,7 +23,7 @@ using urdf::kMostProps;
 
 inline constexpr int kExtraCount = kMostProps + 2 * kFingersPerHand;
 
-/// Where a prop (0 to 3) or a finger's segment lies in ExtraSegments.
+/// Index of a prop (0 to 3) or of a finger segment in ExtraSegments.
 constexpr int PropIndex(int prop) { return prop; }
 constexpr int FingerIndex(urdf::Side side, int finger) {
   return kMostProps + (side == urdf::kLeft ? 0 : kFingersPerHand) + finger;
@@ -34,7 +34,7 @@ struct ExtraSegments {
   std::bitset<kExtraCount> present;
 };
 
-/// "Left" + kFingers for a finger, "Prop1" for a prop without a name of its own.
+/// "Left" or "Right" + kFingers for a finger, "Prop1" for a prop without a name.
 std::string ExtraName(int index);
 
 }  // namespace kinescope

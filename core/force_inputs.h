@@ -1,8 +1,8 @@
-/// What is known about forces from outside beside the samples: what the hands hold, what sensors
-/// measured, loads that another program computed. Plain data between those who are told
-/// (server/ros, server/http, options) and those who compute (server/loads). World frame, metres,
-/// newtons, N m. Stamps are of the clock of the samples; what is older than kFreshSecs
-/// (server/loads) does not count.
+/// External force data that accompany the samples: hand loads, sensor measurements, external joint
+/// loads. Plain data, passed from the receivers (server/ros, server/http, options) to the load
+/// computation (server/loads). World frame, metres, newtons, N·m. Stamps are on the clock of the
+/// samples; measurements more than kFreshSecs (server/loads/hand_loads.h) away from a sample do not
+/// count.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,48 +16,52 @@
 
 namespace kinescope {
 
-/// What a person holds. Changes take 0.3 s to become whole, so that a grip is not a blow.
+/// Load in the hands of one person. A change is ramped over 0.3 s, so that a grip does not act like
+/// an impact.
 struct HandLoad {
-  /// False: nobody said what is held. True with zeros: nothing is, for certain.
+  /// False: no hand load was set. True with zeros: the hands are known to be empty.
   bool is_known = false;
   std::array<double, 2> mass_kg = {0, 0};  // in one hand alone, by urdf::Side
-  double both_kg = 0;                      // held with both, shared by them
-  /// CoM of what that hand holds alone, in its link frame, m; absent: at the grip point.
+  double both_kg = 0;                      // held with both hands, which share it
+  /// CoM of the load that this hand alone holds, in its link frame, m; absent: at the grip point.
   std::array<std::optional<Eigen::Vector3d>, 2> com_in_hand;
-  /// Where the CoM of what both hold is, world, m; absent: midway, half the weight each.
+  /// CoM of the load in both hands, world, m; absent: midway between them, half the weight each.
   std::optional<Eigen::Vector3d> both_com_in_world;
 };
 
-/// A measured force on a hand: of a robot, a handle. World axes, on the human.
+/// A measured force on a hand, for example by a robot or a handle. World axes, acting on the human.
 struct MeasuredHandForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   // N
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // N m, about `point`
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  // N·m, about `point`
   std::optional<Eigen::Vector3d> point;              // world, m; absent: the grip point
   std::int64_t stamp_nanos = 0;
 };
 
-/// A ground force by sensors, on the person.
+/// A ground reaction force measured by sensors, acting on the person. World frame.
 struct MeasuredGroundForce {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  // N
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // CoP, m
-  double free_moment = 0;                           // N m, about the vertical there
-  bool only_vertical = false;  // a plate of one axis: x and y are taken from the motion
-  bool only_point = false;     // the CoP alone is measured: the force is taken from the motion
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  // CoP, world, m
+  double free_moment = 0;                           // N·m, about the vertical through `point`
+  bool only_vertical = false;  // plate with one axis: x and y are computed from the motion
+  bool only_point = false;     // only the CoP is measured: the force is computed from the motion
   std::int64_t stamp_nanos = 0;
 };
 
-/// One joint as another program has it (joint-loads.md 5.7). What is absent is NaN.
+/// Load of one joint as another program computed it (joint-loads.md 5.7); moment in N·m. Absent
+/// values are NaN.
 struct ExternalJointLoad {
   Eigen::Vector3d moment = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  double ratio = std::numeric_limits<double>::quiet_NaN();  // used as given, before the moment
-  LoadClass load_class = LoadClass::kUnknown;               // likewise, before the ratio
-  std::int64_t stamp_nanos = 0;                             // 0: never
+  double ratio = std::numeric_limits<double>::quiet_NaN();  // used as given; takes precedence over
+                                                            // the moment
+  LoadClass load_class = LoadClass::kUnknown;  // used as given; takes precedence over the ratio
+  std::int64_t stamp_nanos = 0;                // 0: never
 };
 
 struct Measurements {
   std::array<std::optional<MeasuredHandForce>, 2> hands;    // by urdf::Side
-  std::array<std::optional<MeasuredGroundForce>, 2> feet;   // likewise; both or none count
-  std::optional<MeasuredGroundForce> ground;                // in total
+  std::array<std::optional<MeasuredGroundForce>, 2> feet;   // by urdf::Side; used only if both are
+                                                            // present
+  std::optional<MeasuredGroundForce> ground;                // total of both feet
   std::array<ExternalJointLoad, urdf::kJointCount> joints;  // by urdf::Joint
 };
 

@@ -1,6 +1,7 @@
-/// What a held load looks like, the same in picture, RViz and page: a dumb-bell in the fist, an
-/// iron at the end of a rod where the load's centre lies elsewhere, a box between two hands. Grows
-/// with the mass, so that 2 kg and 20 kg are told apart. Pure functions; any thread; no allocation.
+/// Shape of a hand load, identical in pictures, RViz and the page: a dumb-bell in the fist, an iron
+/// at the end of a rod if the load's CoM lies elsewhere, a box between two hands. The size grows
+/// with the mass, so that 2 kg and 20 kg can be distinguished. Pure functions; any thread; no
+/// allocation.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@ namespace kinescope {
 
 inline constexpr Rgb kHeldColor = {0.23, 0.26, 0.31};
 
-/// As a URDF's: a cylinder's axis is z.
+/// A solid as in a URDF: the axis of a cylinder is z.
 struct HeldSolid {
   enum class Kind { kBox = 0, kCylinder = 1 };
   Kind kind = Kind::kBox;
@@ -30,8 +31,8 @@ struct HeldSolids {
   std::size_t count = 0;
 };
 
-/// Of what `person` holds now; ramps included, so a load that is gripped grows. Nothing for a hand
-/// whose tool is seen as it is (urdf::HumanModel::tools).
+/// The solids of the current hand load of `person`, ramps included: a load that is being gripped
+/// grows. A hand with a visible tool (urdf::HumanModel::tools) gets none.
 HeldSolids HeldBy(const PersonState& person);
 
 }  // namespace kinescope

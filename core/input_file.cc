@@ -73,7 +73,7 @@ Descriptor Open(const std::string& path) {
     const int error = errno;
     const char* way_out = "";
     if (error == ENOENT) way_out = "; check the path";
-    if (error == EACCES) way_out = "; chmod +r it, or run as its owner";
+    if (error == EACCES) way_out = "; add read permission (chmod +r), or run as its owner";
     throw SourceError(NameOfInput(path) + ": cannot open the file: " + std::strerror(error) +
                       way_out);
   }
@@ -111,7 +111,7 @@ class InputFile::Content {
       notes_->head = std::move(raw_head);
     }
     if (!notes_->failure.empty() && notes_->head.empty()) {
-      throw SourceError(name_ + ": cannot be read: " + notes_->failure + WayOut());
+      throw SourceError(name_ + ": cannot read the file: " + notes_->failure + WayOut());
     }
   }
 
@@ -139,7 +139,7 @@ class InputFile::Content {
   };
 
   std::string WayOut() const {
-    return packing_.empty() ? "" : "; the " + packing_ + " file is damaged, copy it again";
+    return packing_.empty() ? "" : "; the " + packing_ + " file is damaged; copy it again";
   }
 
   // Enough to tell what it is, and no more than comes by itself: a pipe may be slow.
@@ -158,7 +158,7 @@ class InputFile::Content {
 
   void Unpack() {
     archive_.reset(archive_read_new());
-    if (archive_ == nullptr) throw SourceError(name_ + ": not enough memory to unpack it");
+    if (archive_ == nullptr) throw SourceError(name_ + ": not enough memory to decompress it");
     // Not "all": some filters start other programs.
     archive_read_support_filter_gzip(archive_.get());
     archive_read_support_filter_bzip2(archive_.get());

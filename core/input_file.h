@@ -1,7 +1,7 @@
-/// A file to read, whatever it is packed in: its content of a file, decompressed on the way
-/// where its first bytes are those of gzip, xz, zstd, bzip2 or lz4; its name does not matter. Read
-/// from front to back only, so a pipe or standard input will do, and in constant memory however
-/// much a file unpacks to. One thread.
+/// Opens an input file and decompresses it while it is read. gzip, xz, zstd, bzip2 and lz4 are
+/// detected by the first bytes; the file name does not matter. Reads from front to back only, so
+/// pipes and standard input work too. Memory use is constant, however large the decompressed
+/// content is. One thread.
 #pragma once
 
 #include <cstdio>
@@ -11,28 +11,30 @@
 
 namespace kinescope {
 
-/// An open file and, if reading it fails, why. Movable; closes the file at the end.
+/// An open file; knows why reading failed. Movable; the destructor closes the file.
 class InputFile {
  public:
-  /// Takes over `file`, which has no head().
+  /// Takes ownership of `file`, which has no head().
   InputFile(std::FILE* file);  // not explicit: any FILE is an input
 
   std::FILE* get() const { return file_.get(); }
 
-  /// Hands the file over to a library that closes it; failure() still works while it is open.
+  /// Transfers the file to a library that closes it; failure() keeps working while it is open.
   std::FILE* release() { return file_.release(); }
 
-  /// The first bytes of the content, at most kHeadBytes; reading begins with them all the same.
+  /// The first bytes of the content, at most kHeadBytes. Reading still starts with them.
   std::string_view head() const;
 
-  /// Whether the content is unpacked on the way, or cannot be sought in for another reason: a pipe.
+  /// True if the content is decompressed while it is read, or if seeking is impossible for another
+  /// reason (a pipe).
   bool is_packed() const;
 
-  /// Why the last read failed, such as "truncated gzip input"; "" where nothing failed. Ask when
-  /// std::ferror() is set: to the reader of the file a broken archive is a read error.
+  /// Why the last read failed, such as "truncated gzip input"; "" without a failure. Call it when
+  /// std::ferror() is set: the reader of the file sees a damaged archive as a read error.
   std::string failure() const;
 
-  static constexpr std::size_t kHeadBytes = 8192;  // holds the next MXTP, wherever a stream is cut
+  static constexpr std::size_t kHeadBytes = 8192;  // contains the next MXTP wherever a stream was
+                                                   // cut
 
  private:
   friend InputFile OpenInputFile(const std::string& path);
@@ -51,11 +53,11 @@ class InputFile {
 };
 
 /// Opens `path`; "-" is standard input.
-/// @throws SourceError naming the file, what is wrong (missing, a folder, not to be read, a broken
-/// archive) and the way out.
+/// @throws SourceError with the file, the reason (missing, a folder, not readable, a damaged
+/// archive) and the remedy.
 InputFile OpenInputFile(const std::string& path);
 
-/// `path` as people should read it: "standard input" for "-".
+/// `path` as shown in messages: "standard input" for "-".
 std::string NameOfInput(const std::string& path);
 
 }  // namespace kinescope

@@ -1,4 +1,4 @@
-/// Where the files that belong to the program lie: beside the executable in an install tree, in the
+/// Finds the files that belong to the program: next to the executable in an install tree, in the
 /// source tree when run from a build folder.
 #pragma once
 
@@ -7,10 +7,10 @@
 
 namespace kinescope {
 
-/// The render module, such as "libkinescope_render_osmesa.so"; empty when it was not built.
+/// Path of a render module, such as "libkinescope_render_osmesa.so"; empty if it was not built.
 std::filesystem::path FindModule(const std::string& file_name);
 
-/// A file or folder of ours, such as "web"; empty when it is nowhere.
+/// Path of a file or folder of Kinescope, such as "web"; empty if not found.
 std::filesystem::path FindResource(const std::string& name);
 
 }  // namespace kinescope

@@ -1,5 +1,5 @@
-/// Gives the newest value to other threads; older ones are dropped, never queued. Any thread may
-/// call anything. A published value never changes, so readers share it instead of copying.
+/// Passes the latest value to other threads; older values are dropped, never queued. Any thread may
+/// call any function. A published value never changes, so readers share it instead of copying.
 #pragma once
 
 #include <chrono>
@@ -29,8 +29,8 @@ class Latest {
     return value_;
   }
 
-  /// Waits up to `timeout` for a version after `seen` and updates `seen`; null if none came.
-  /// Start with `seen` = 0.
+  /// Waits up to `timeout` for a version newer than `seen` and updates `seen`; null if there was
+  /// none. Start with `seen` = 0.
   std::shared_ptr<const T> WaitNewer(std::uint64_t& seen, std::chrono::milliseconds timeout) {
     std::unique_lock<std::mutex> lock(mutex_);
     if (!changed_.wait_for(lock, timeout, [&] { return version_ != seen || interrupted_; }) ||
@@ -41,7 +41,7 @@ class Latest {
     return value_;
   }
 
-  /// From now on WaitNewer returns at once: for shutting down.
+  /// Makes WaitNewer return at once from now on: for shutting down.
   void Interrupt() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);

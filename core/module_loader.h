@@ -1,5 +1,5 @@
-/// Shared libraries that are loaded when they are first needed. Host and module exchange C++
-/// values, so both must come from the same build; LoadModule refuses anything else.
+/// Loads shared libraries when they are first needed. Host and module exchange C++ values, so both
+/// must come from the same build; LoadModule rejects other modules. Any thread.
 #pragma once
 
 #include <array>
@@ -9,27 +9,27 @@
 
 namespace kinescope {
 
-/// The message names the file, the reason and what would help.
+/// The message contains the file, the reason and the remedy.
 class ModuleError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Raised by hand when host and module of different builds would not understand each other and no
-/// size tells: virtual functions, an order of members, a meaning.
+/// Increase it by hand when host and module of different builds are incompatible although no size
+/// changed: virtual functions, order of members, meaning of a value.
 inline constexpr std::size_t kModuleAbi = 5;
 
-/// What must be equal on both sides; a changed struct changes a size here in nearly every case.
-/// `Types`: all that the functions of a table take and give, and what is behind pointers and in
-/// containers there. tests/module_abi_test.py finds one that is missing.
+/// Values that must be equal on both sides; a changed struct changes a size here in nearly every
+/// case. `Types`: all types that the functions of a table take and return, and the types behind
+/// their pointers and in their containers. tests/module_abi_test.py finds a missing one.
 template <class... Types>
 struct ModuleAbi {
   std::array<std::size_t, 2 + sizeof...(Types)> words = {kModuleAbi, sizeof...(Types),
                                                          sizeof(Types)...};
 };
 
-/// The table that `entry` of a module returns; the module stays loaded until the process ends.
-/// `abi`: the words that the table has to begin with. @throws ModuleError.
+/// Returns the table that `entry` of a module returns. The module stays loaded until the process
+/// ends. `abi`: the words that the table must begin with. @throws ModuleError.
 const void* LoadModule(const std::string& file_name, const char* entry, const std::size_t* abi,
                        std::size_t abi_words);
 

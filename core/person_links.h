@@ -1,7 +1,6 @@
-/// The links of a person that can be seen, in one order for all sinks: the 23 segments by
-/// urdf::Segment, the twenty of the right hand and of the left where they are gloved, then the
-/// props that are there. A gloved hand's own link is among them and shows nothing but a tool. Pure
-/// functions, any thread.
+/// Lists the visible links of a person in one order for all sinks: the 23 segments by
+/// urdf::Segment, the twenty links of each gloved hand (right, then left), then the props. The link
+/// of a gloved hand itself is in the list, too, but shows only a tool. Pure functions, any thread.
 #pragma once
 
 #include <string>
@@ -11,7 +10,7 @@
 
 namespace kinescope {
 
-/// As in the URDF.
+/// Link names, as in the URDF.
 std::vector<std::string> VisibleLinks(const urdf::HumanModel& human);
 
 /// world_from_link of each of VisibleLinks(person.model->human).

@@ -1,4 +1,4 @@
-/// A scene between two samples, for clips on a fixed time grid.
+/// Interpolates between two scenes, for clips with a fixed frame rate. Pure function, any thread.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,10 @@
 
 namespace kinescope {
 
-/// The scene `stamp_nanos` between `before` and `after`: poses (of gloves, props and objects too),
-/// CoM and CoP interpolated, everything that is a decision (load classes, liveness) held from
-/// `before`. People are matched by character, objects by their number within it; who is in `before`
-/// only is held too. Outside the two stamps the nearer one is
-/// returned.
+/// The scene at `stamp_nanos`, between `before` and `after`. Poses (also of gloves, props and
+/// objects), CoM and CoP are interpolated. Discrete values (load classes, liveness) are those of
+/// `before`. People are matched by character, objects by character and number; those that are only
+/// in `before` do not move. Outside the two stamps the nearer scene is returned.
 [[nodiscard]] SceneState Interpolate(const SceneState& before, const SceneState& after,
                                      std::int64_t stamp_nanos);
 

@@ -17,33 +17,34 @@ bool IsNear(const Eigen::Vector3d& point) {
 std::optional<std::string> FindPointDefect(const SceneMarker& marker) {
   const std::size_t count = marker.points.size();
   const auto have = [&](const char* need) {
-    return std::string(Name(marker.type)) + " has " + std::to_string(count) + " points, " + need;
+    return std::string(Name(marker.type)) + " has " + std::to_string(count) + " points; expected " +
+           need;
   };
   if (count > kMostMarkerPoints) {
-    return have("more than ") + std::to_string(kMostMarkerPoints);
+    return have("at most ") + std::to_string(kMostMarkerPoints);
   }
   switch (marker.type) {
     case MarkerType::kArrow:
-      if (count != 0 && count != 2) return have("not none or 2");
+      if (count != 0 && count != 2) return have("0 or 2");
       break;
     case MarkerType::kLineStrip:
-      if (count < 2) return have("not 2 or more");
+      if (count < 2) return have("2 or more");
       break;
     case MarkerType::kLineList:
-      if (count == 0 || count % 2 != 0) return have("not pairs");
+      if (count == 0 || count % 2 != 0) return have("pairs of points");
       break;
     case MarkerType::kTriangleList:
-      if (count == 0 || count % 3 != 0) return have("not triples");
+      if (count == 0 || count % 3 != 0) return have("triples of points");
       break;
     case MarkerType::kCubeList:
     case MarkerType::kSphereList:
     case MarkerType::kPoints:
-      if (count == 0) return have("not one");
+      if (count == 0) return have("1 or more");
       break;
     default: break;
   }
   for (const Eigen::Vector3d& point : marker.points) {
-    if (!IsNear(point)) return "a point is not a finite number, or beyond 100 km";
+    if (!IsNear(point)) return "a point is not finite, or is beyond 100 km";
   }
   return std::nullopt;
 }
@@ -76,7 +77,7 @@ int NeededSizes(const SceneMarker& marker) {
 }
 
 std::optional<std::string> FindSizeDefect(const SceneMarker& marker) {
-  if (!IsNear(marker.scale)) return "its scale is not a finite number, or beyond 100 km";
+  if (!IsNear(marker.scale)) return "its scale is not finite, or is beyond 100 km";
   // A mesh may be mirrored.
   const bool may_mirror =
       marker.type == MarkerType::kMesh || marker.type == MarkerType::kTriangleList;
@@ -100,12 +101,12 @@ const char* Name(MarkerType type) {
 
 std::optional<std::string> FindDefect(const SceneMarker& marker) {
   if (static_cast<std::size_t>(marker.type) >= kNames.size()) {
-    return "its type is " + std::to_string(static_cast<int>(marker.type)) + ", not 0 to 11";
+    return "its type is " + std::to_string(static_cast<int>(marker.type)) + "; expected 0 to 11";
   }
   const Eigen::Quaterniond& turn = marker.pose.orientation;
-  if (!IsNear(marker.pose.position)) return "its position is not a finite number, or beyond 100 km";
+  if (!IsNear(marker.pose.position)) return "its position is not finite, or is beyond 100 km";
   if (!turn.coeffs().allFinite() || std::abs(turn.norm() - 1) > 1e-3) {
-    return "its orientation is not of length 1";
+    return "its orientation is not a unit quaternion";
   }
   if (auto defect = FindSizeDefect(marker)) return defect;
   if (auto defect = FindPointDefect(marker)) return defect;
@@ -114,7 +115,7 @@ std::optional<std::string> FindDefect(const SceneMarker& marker) {
     if (marker.text.empty()) return "its text is empty";
     if (marker.text.size() > kMostMarkerText) return "its text is longer than 200 bytes";
   }
-  if (marker.type == MarkerType::kMesh && marker.mesh_uri.empty()) return "it names no mesh";
+  if (marker.type == MarkerType::kMesh && marker.mesh_uri.empty()) return "its mesh name is empty";
   return std::nullopt;
 }
 

@@ -1,7 +1,7 @@
-/// What every sink shows: RViz, picture, clip, page and golden check all draw from this value and
-/// compute nothing of their own about the human. Made once per sample
-/// (server/scene/scene_builder.h), never changed afterwards, shared as `std::shared_ptr<const
-/// SceneState>`. World frame: z up, metres. Poses are of *link* frames (urdf/segments.h).
+/// The value that all sinks show. RViz, pictures, clips, page and golden check read it and compute
+/// nothing about the human themselves. Made once per sample (server/scene/scene_builder.h), never
+/// changed afterwards, shared between threads as `std::shared_ptr<const SceneState>`. World frame:
+/// z up, metres. Poses are of *link* frames (urdf/segments.h).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -29,90 +29,91 @@ enum class LoadClass { kUnknown = 0, kLow = 1, kMedium = 2, kHigh = 3 };
 /// "unknown", "low", "medium", "high".
 const char* Name(LoadClass load_class);
 
-/// One load sphere. The joints that get one: kScoredJoints (server/loads). Texts live as long as
-/// the program.
+/// One load sphere. The joints with a load are urdf::kScoredJoints. Texts live as long as the
+/// program.
 struct JointLoad {
   int joint = 0;                                       // urdf::Joint
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the joint centre, world, m
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();    // N m, parent on child, world axes
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();     // N, likewise
-  double ratio = 0;                                    // of capacity; NaN where unknown
-  double deciding_moment = 0;                          // N m, signed, of the channel that decides
-  double capacity = 0;                                 // N m, of that channel
-  std::string_view channel;                            // "flexion", "elevation", ...
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();    // N·m, parent on child, world axes
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();     // N, parent on child, world axes
+  double ratio = 0;                                    // of the capacity; NaN where unknown
+  double deciding_moment = 0;                          // N·m, signed, in the governing direction
+  double capacity = 0;                                 // N·m, in the governing direction
+  std::string_view channel;  // the governing direction: "flexion", "elevation", ...
   LoadClass load_class = LoadClass::kUnknown;
-  bool class_is_of_compression = false;  // L5/S1: its compression is worse than its moment
-  bool is_external = false;              // moment, ratio or class come from another program
-  /// Time spent in each class so far, s, by LoadClass; the exposure of this run or clip.
+  bool class_is_of_compression = false;  // L5/S1: the compression force decides, not the moment
+  bool is_external = false;              // moment, ratio or class are of another program
+  /// Time in each class up to this sample, s, by LoadClass: the exposure of this run or clip.
   std::array<double, 4> class_secs{};
   std::string_view reason;  // why unknown; "" otherwise
 };
 
-/// The person as a mechanism. Shared by all states until scale data change it.
+/// The person as a mechanism. Shared by all states until the scale data change.
 struct PersonModel {
   urdf::HumanModel human;
   urdf::BodyDescription description;
-  bool lengths_are_measured = false;  // the source told them; else: a default body of some height
-  std::string urdf_xml;               // what robot_description holds
-  urdf::RobotModel robot;             // the same, read back
-  std::uint64_t revision = 0;         // grows with every change; sinks reload when it does
+  bool lengths_are_measured = false;  // from the source; else: the default body of a given height
+  std::string urdf_xml;               // content of robot_description
+  urdf::RobotModel robot;             // urdf_xml, parsed
+  std::uint64_t revision = 0;         // increases with every change; sinks then reload
 };
 
-/// A gloved hand, complete: what the sample lacks is where it was last against the rest.
+/// All segments of a gloved hand. A segment that the sample lacks keeps its last joint angles.
 struct GloveState {
   urdf::FingerPoses links{};    // world_from_link
-  urdf::FingerAngles angles{};  // rad, from the poses
+  urdf::FingerAngles angles{};  // rad, computed from the poses
 };
 
 struct PropState {
   urdf::Pose pose;                                   // world_from_prop
-  Eigen::Vector3d angles = Eigen::Vector3d::Zero();  // against the pelvis, as kinematics.h, rad
+  Eigen::Vector3d angles = Eigen::Vector3d::Zero();  // rad, relative to the pelvis; chain as in
+                                                     // kinematics.h
 };
 
 struct PersonState {
   int character = 0;
   std::string name;
   std::shared_ptr<const PersonModel> model;  // never null
-  BodySample sample;                         // as it came
+  BodySample sample;                         // as received
   urdf::LinkPoses links{};                   // world_from_link
-  urdf::JointAngles angles{};                // rad, from the poses
-  /// Of what model->human has: by urdf::Side, and by number.
+  urdf::JointAngles angles{};                // rad, computed from the poses
+  /// Exactly those of model->human: by urdf::Side, and by number of the prop.
   std::array<std::optional<GloveState>, 2> gloves;
   std::array<std::optional<PropState>, kMostProps> props;
-  urdf::RigidDeviation deviation;        // of the URDF's rigid body from `links`
-  urdf::RigidDeviation worst_deviation;  // so far, of this skeleton
-  std::optional<Eigen::Vector3d> com;    // MVN's where streamed, else the body model's
+  urdf::RigidDeviation deviation;        // of the rigid body of the URDF from `links`
+  urdf::RigidDeviation worst_deviation;  // largest so far with this skeleton
+  std::optional<Eigen::Vector3d> com;    // world, m; MVN's where streamed, else the body model's
   bool com_is_ours = false;
-  std::optional<Eigen::Vector3d> cop;  // on the floor; absent when not computable
-  std::vector<JointLoad> loads;        // in order of kScoredJoints
+  std::optional<Eigen::Vector3d> cop;  // on the floor, world, m; absent where unknown
+  std::vector<JointLoad> loads;        // in the order of kScoredJoints
   BodyForces forces;
 };
 
-/// A thing that is tracked beside the people (mvn-protocol.md 4.2), in its own frame as streamed.
+/// A tracked object beside the people (mvn-protocol.md 4.2), in its own frame as streamed.
 struct TrackedObject {
-  int character = 0;  // that it streams as
-  int number = 0;     // within that, from 0; with it the object's identity
-  std::string name;   // from scale data, else "object_1"
+  int character = 0;  // id of the character that carries it
+  int number = 0;     // within the character, from 0; both identify the object
+  std::string name;   // from the scale data, else "object_1"
   urdf::Pose pose;    // world_from_object
   std::int64_t stamp_nanos = 0;
 };
 
-/// Any robot from a URDF, beside the people.
+/// Any robot with a URDF, shown beside the people.
 struct RobotState {
   std::string name;
   std::shared_ptr<const urdf::RobotModel> model;  // never null
   std::shared_ptr<const urdf::MeshSearch>
-      meshes;  // where its meshes are; null: absolute names only
-  std::vector<Eigen::Isometry3d> world_from_link;  // in the order of model->links
+      meshes;  // where its meshes are; null: absolute paths only
+  std::vector<Eigen::Isometry3d> world_from_link;  // world, m; in the order of model->links
                                                    // (urdf::PlaceLinks)
-  Eigen::AlignedBox3d bounds;  // of what is drawn of it (render::Renderer::Bounds), world; empty:
-                               // not known
+  Eigen::AlignedBox3d bounds;  // of its rendered shapes (render::Renderer::Bounds), world, m;
+                               // empty: unknown
 };
 
 enum class Liveness {
-  kNoData,  // nothing came yet
+  kNoData,  // no sample received yet
   kLive,
-  kStale,  // the stream stopped: poses are old, loads are unknown
+  kStale,  // no new samples: poses are old, loads are unknown
 };
 
 /// "no data", "live", "stale".
@@ -120,21 +121,23 @@ const char* Name(Liveness liveness);
 
 struct SceneState {
   Liveness liveness = Liveness::kNoData;
-  std::uint64_t number = 0;      // of this state, +1 each; tells sinks apart what they have seen
-  std::int64_t stamp_nanos = 0;  // of the newest sample, ROS time; 0 before the first
-  std::uint32_t counter = 0;     // its sample counter
-  std::int64_t time_code_millis = 0;  // its time code
-  std::int64_t arrival_nanos = 0;     // monotonic; 0 for files
-  double rate_hz = 0;                 // of samples, measured over the last second (file: nominal)
-  /// Of capacity: above the first a load is medium, above the second high, while it rises.
+  std::uint64_t number = 0;  // of this state, from one state to the next +1; sinks use it to detect
+                             // new states
+  std::int64_t stamp_nanos = 0;       // of the newest sample, ROS time; 0 before the first
+  std::uint32_t counter = 0;          // of the newest sample
+  std::int64_t time_code_millis = 0;  // of the newest sample, ms
+  std::int64_t arrival_nanos = 0;     // receive time, monotonic clock; 0 for files
+  double rate_hz = 0;                 // samples per second over the last second (file: nominal)
+  /// Ratios of capacity. While the ratio rises, a load above the first is medium, above the second
+  /// high.
   std::array<double, 2> class_limits{{0.30, 0.60}};
   double floor_z = 0;                  // height of the ground, world, m
   std::string source;                  // "udp://0.0.0.0:9763"
-  std::vector<PersonState> people;     // one per character seen within the last second
-  std::vector<TrackedObject> objects;  // likewise
+  std::vector<PersonState> people;     // one per character with a sample in the last second
+  std::vector<TrackedObject> objects;  // those with a sample in the last second
   std::vector<RobotState> robots;
-  /// What other programs want to be seen. Shared, so that one that stays costs nothing again: a
-  /// changed marker is a new one. Never null; one with a defect is named and not drawn.
+  /// External markers. Shared, so that unchanged markers cost nothing; a changed marker is a new
+  /// object. Never null. A marker with a defect is reported and not rendered.
   std::vector<std::shared_ptr<const SceneMarker>> markers;
 };
 

@@ -1,4 +1,4 @@
-/// SHA-256 of files (nettle): tells whether two files have the same content.
+/// Computes the SHA-256 of files (nettle), to compare their content. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct FileDigest {
   std::uint64_t bytes = 0;
 };
 
-/// Of the file as it lies there, packed or not. @throws SourceError naming it and the reason.
+/// Of the bytes in the file, compressed or not. @throws SourceError with the file and the reason.
 FileDigest DigestOf(const std::filesystem::path& path);
 
 }  // namespace kinescope

@@ -1,4 +1,5 @@
-/// Where samples come from: a socket, a file, the built-in subject. One thread uses a source.
+/// Interface of all sources of samples: sockets, files, the ROS graph, the built-in subject. A
+/// source is used by one thread.
 #pragma once
 
 #include <chrono>
@@ -10,23 +11,25 @@
 
 namespace kinescope {
 
-/// What a source saw so far. Every datagram ends in exactly one place: a sample, a character, one
-/// of the `rejected` reasons, `ignored`, `duplicates`, `late` or `outliers`.
+/// Statistics of a source. Every datagram is counted in exactly one place: as part of a sample or
+/// character, under a reason in `rejected`, in `ignored`, `duplicates`, `late` or `outliers`.
 struct SourceCounters {
   std::uint64_t datagrams = 0;  // all that were read
   std::uint64_t bytes = 0;
-  std::uint64_t samples = 0;     // given on
-  std::uint64_t incomplete = 0;  // of these, given on without a type that the stream normally has
+  std::uint64_t samples = 0;     // delivered
+  std::uint64_t incomplete = 0;  // of these, delivered without a type that the stream normally
+                                 // contains
   std::uint64_t duplicates = 0;
-  std::uint64_t late = 0;          // for a sample already given on
-  std::uint64_t counter_gaps = 0;  // steps of the sample counter above the usual one
+  std::uint64_t late = 0;          // datagrams of a sample that was already delivered
+  std::uint64_t counter_gaps = 0;  // steps of the sample counter above the usual step
   std::uint64_t restarts = 0;      // the counter started over
-  std::uint64_t outliers = 0;      // a counter or a character that nothing else confirmed
-  std::map<std::string, std::uint64_t> types;     // datagrams that were read, by type: "02"
-  std::map<std::string, std::uint64_t> ignored;   // good, not needed: "frame of type tpose"
-  std::map<std::string, std::uint64_t> rejected;  // bad, by reason: "no MXTP id string"
-  /// What the transport saw, such as "receive_buffer_bytes" or "connections_open"; empty where
-  /// there is none.
+  std::uint64_t outliers = 0;      // inconsistent counter or character, not confirmed by another
+                                   // datagram
+  std::map<std::string, std::uint64_t> types;     // datagrams read, by type: "02"
+  std::map<std::string, std::uint64_t> ignored;   // valid but not needed: "frame of type tpose"
+  std::map<std::string, std::uint64_t> rejected;  // invalid, by reason: "no MXTP id string"
+  /// Counters of the transport, such as "receive_buffer_bytes" or "connections_open"; empty without
+  /// a transport.
   std::map<std::string, std::uint64_t> transport;
 };
 
@@ -46,16 +49,18 @@ class Source {
 
   enum class State { kMore, kEnded };
 
-  /// Waits at most `timeout` for input and hands on what came. A live source never ends; a file
-  /// gives a few samples a call, as fast as it is asked, with stamps from its own clock.
-  /// @throws SourceError when it cannot go on (a file that breaks off, a socket that fails).
+  /// Waits at most `timeout` for input and delivers the samples to `sink` on the calling thread. A
+  /// live source never ends. A file delivers a few samples per call without pacing, with stamps
+  /// from the file's clock.
+  /// @throws SourceError if it cannot continue (a truncated file, a socket that fails).
   [[nodiscard]] virtual State Poll(std::chrono::milliseconds timeout, SampleSink& sink) = 0;
 
   virtual SourceCounters counters() const = 0;
-  virtual std::string description() const = 0;  // "udp://0.0.0.0:9763", for people
-  virtual bool is_live() const = 0;             // samples come when they come; else: as asked for
+  virtual std::string description() const = 0;  // "udp://0.0.0.0:9763", for messages
+  virtual bool is_live() const = 0;  // true: samples arrive in real time; false: as fast as polled
 
-  /// Samples a second where the source says it (a file, the subject); 0 where only arrival tells.
+  /// Samples per second as the source states it (a file, the subject); 0 if only the receive times
+  /// show it.
   virtual double nominal_rate_hz() const { return 0; }
 
  protected:

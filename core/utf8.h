@@ -1,4 +1,4 @@
-/// UTF-8 that comes from elsewhere.
+/// Decodes untrusted UTF-8. Pure function, any thread.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace kinescope {
 
-/// Code points of `utf8`; what is no UTF-8 or no printable character becomes U+FFFD.
+/// The code points of `utf8`; invalid bytes and characters that cannot be printed become U+FFFD.
 std::u32string DecodeUtf8(std::string_view utf8);
 
 }  // namespace kinescope

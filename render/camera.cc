@@ -95,7 +95,7 @@ Camera NamedCameraAt(const std::string& name, const Whereabouts& about) {
   }
   std::string known;
   for (const std::string& each : CameraNames()) known += (known.empty() ? "" : ", ") + each;
-  throw UsageError("camera '" + name + "' is not known; there are: " + known);
+  throw UsageError("unknown camera '" + name + "'; expected one of " + known);
 }
 
 namespace {

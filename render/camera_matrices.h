@@ -1,4 +1,5 @@
-/// A Camera as OpenGL matrices (GLM), for those that draw or project. Not for other folders.
+/// Converts a Camera to OpenGL matrices (GLM), for rendering and projection within render/. Pure
+/// functions, any thread.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -8,15 +9,15 @@
 
 namespace kinescope::render {
 
-/// view_from_world: right-handed, the camera looks along its -z. Where `up` is along the view axis
-/// any sideways direction is taken, always the same one.
+/// view_from_world: right-handed, the camera looks along its -z. If `up` is parallel to the view
+/// axis, a fixed sideways direction is used.
 glm::dmat4 ViewFromWorld(const Camera& camera);
 
-/// clip_from_view of a whole picture of this aspect ratio (width / height).
+/// clip_from_view of a complete picture with this aspect ratio (width / height).
 glm::dmat4 ClipFromView(const Camera& camera, double aspect);
 
-/// Turns clip coordinates of a picture of width_px x height_px into those of one tile of it, so
-/// that pictures larger than a framebuffer can be drawn piece by piece.
+/// Converts clip coordinates of a picture of width_px x height_px to those of one of its tiles, so
+/// that a picture larger than a framebuffer can be rendered in parts.
 glm::dmat4 TileFromClip(const Tile& tile, int width_px, int height_px);
 
 }  // namespace kinescope::render

@@ -1,4 +1,5 @@
-/// A camera that moves from key to key. Times in seconds of the clip. Pure functions; any thread.
+/// Moves a camera from keyframe to keyframe. Times in seconds of the clip. World, metres. Pure
+/// functions; any thread.
 #pragma once
 
 #include <vector>
@@ -7,22 +8,22 @@
 
 namespace kinescope::render {
 
-/// How the way from one key to the next is gone: from rest to rest, evenly, or not at all until the
-/// next one's time (a cut).
+/// Motion from one keyframe to the next: from rest to rest, at constant speed, or none until the
+/// time of the next one (a cut).
 enum class Ease { kSmooth, kLinear, kHold };
 
 struct CameraKey {
   double secs = 0;
   Camera camera;
-  Ease ease = Ease::kSmooth;  // of the way to the next key
+  Ease ease = Ease::kSmooth;  // of the motion to the next keyframe
 };
 
-/// Between two cameras, `t` in [0, 1]: the target goes straight, the camera around it at a distance
-/// that grows evenly, so that nobody in the middle is walked through. From perspective to
-/// orthographic it cuts at the end.
+/// The camera between two others, `t` in [0, 1]. The target moves on a straight line, and the
+/// distance of the camera to it changes evenly, so that the camera does not pass through a person
+/// in the middle. Between perspective and orthographic it changes at the end.
 Camera Between(const Camera& from, const Camera& to, double t);
 
-/// Before the first key and after the last one it stands still.
+/// Constant before the first and after the last keyframe.
 /// @pre !keys.empty(), times ascend
 Camera AlongPath(const std::vector<CameraKey>& keys, double secs);
 

@@ -1,5 +1,5 @@
-/// Anti-aliased 2-D shapes and text on top of a finished picture. One thread, which nobody else's
-/// use of the picture may overlap.
+/// Paints anti-aliased 2-D shapes and text on a finished picture. Units of Painter, px. One thread;
+/// the picture must not be used elsewhere at the same time.
 #pragma once
 
 #include <cstdint>

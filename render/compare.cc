@@ -52,10 +52,10 @@ Comparison Compare(const Image& expected, const Image& actual, int tolerance) {
 std::string Describe(const Comparison& comparison, const Image& actual) {
   char text[160];
   if (!comparison.same_size) {
-    std::snprintf(text, sizeof text, "the picture has another size: now %d x %d", actual.width,
+    std::snprintf(text, sizeof text, "picture size differs: now %d x %d", actual.width,
                   actual.height);
   } else if (comparison.pixels == 0) {
-    std::snprintf(text, sizeof text, "same picture (largest difference %d levels)",
+    std::snprintf(text, sizeof text, "pictures are the same (largest difference %d levels)",
                   comparison.largest_difference);
   } else {
     const double percent = 100.0 * static_cast<double>(comparison.pixels) /

@@ -49,12 +49,13 @@ void DropMarks(PersonState& person, std::vector<std::string>& problems) {
                      person.loads.end());
   if (person.loads.size() < before) {
     problems.push_back(NameOf(person) + ": " + std::to_string(before - person.loads.size()) +
-                       " load spheres are not drawn: their place is not finite");
+                       " load spheres are not drawn: their position is not finite");
   }
   const auto drop = [&](auto& mark, const char* name) {
     if (!mark || IsFinite(*mark)) return;
     mark.reset();
-    problems.push_back(NameOf(person) + ": the " + name + " is not drawn: its place is not finite");
+    problems.push_back(NameOf(person) + ": the " + name +
+                       " is not drawn: its position is not finite");
   };
   drop(person.com, "centre of mass");
   drop(person.cop, "centre of pressure");

@@ -1,5 +1,6 @@
-/// What of a scene can be drawn at all. A sample with a number that is not finite is refused where
-/// it is read (server/mvn, server/ros); this is for whoever makes scenes otherwise.
+/// Removes everything with a non-finite or absurdly distant position from a scene before rendering.
+/// Such samples are rejected where they are read (server/mvn, server/ros); this is for scenes from
+/// other code. Pure function, any thread.
 #pragma once
 
 #include <optional>
@@ -10,9 +11,9 @@
 
 namespace kinescope::render {
 
-/// `state` without people, load spheres, marks and objects whose place is not finite, or further
-/// away than anything can be; nullopt when all of it can be drawn. Adds a line to `problems` for
-/// each, naming it. (Links of robots are left out one by one where they are drawn.)
+/// `state` without people, load spheres, marks and objects whose position is not finite or too far
+/// away; nullopt if everything can be rendered. Adds one line per removed element to `problems`.
+/// (Links of robots are checked one by one when they are rendered.)
 std::optional<SceneState> WithoutNonFinite(const SceneState& state,
                                            std::vector<std::string>& problems);
 

@@ -1,4 +1,4 @@
-/// The drawing has the floor at z = 0; recordings do not.
+/// Shifts a scene to the floor height that the rendering uses: z = 0.
 #pragma once
 
 #include "core/scene_state.h"
@@ -7,7 +7,7 @@
 
 namespace kinescope::render {
 
-/// Raises everything so that the floor is at z = 0. Pure, any thread.
+/// Moves everything vertically so that the floor is at z = 0. Pure function, any thread.
 void LiftToFloor(SceneState& state, Camera& camera, View& view);
 
 }  // namespace kinescope::render

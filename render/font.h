@@ -1,4 +1,4 @@
-/// Text as coverage: glyphs of one typeface, rasterised once by FreeType and kept. One thread.
+/// Rasterises text as coverage: glyphs of one typeface, made once by FreeType and kept. One thread.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 namespace kinescope::render {
 
 struct Glyph {
-  int left = 0, top = 0;  // px, of the bitmap's corner from pen and baseline, top upwards
+  int left = 0, top = 0;  // px, of the bitmap's corner from pen position and baseline; top is
+                          // positive upwards
   int width = 0, height = 0;
   double advance = 0;                  // px
   std::vector<std::uint8_t> coverage;  // (height, width)
@@ -20,7 +21,8 @@ struct Glyph {
 
 class Font {
  public:
-  /// `file_name` such as "DejaVuSans.ttf". @throws RenderError naming the Debian package it is in.
+  /// `file_name` such as "DejaVuSans.ttf". @throws RenderError with the Debian package that
+  /// contains it.
   explicit Font(const std::string& file_name);
   ~Font();
   Font(const Font&) = delete;
@@ -29,7 +31,7 @@ class Font {
   /// @pre size_px >= 1
   const Glyph& Get(char32_t code_point, int size_px);
 
-  /// Width of `utf8` set in one line, px.
+  /// Width of `utf8` on one line, px.
   double Width(std::string_view utf8, int size_px);
 
   const std::string& file_name() const { return file_name_; }

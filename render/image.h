@@ -1,4 +1,4 @@
-/// A picture in memory: RGBA, 8 bits a channel, row-major, top row first, no padding.
+/// A picture in memory: RGBA, 8 bits per channel, row-major, top row first, no padding. Plain data.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ struct Image {
   std::vector<std::uint8_t> rgba;  // (height, width, 4)
 };
 
-/// What `image` holds then is for the caller to write; its memory is used again.
+/// Sets the size and reuses the memory. The caller must write all pixels afterwards.
 inline void SetSize(Image& image, int width, int height) {
   image.width = width;
   image.height = height;

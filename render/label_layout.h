@@ -1,5 +1,5 @@
-/// Where labels go in a picture so that none covers another. The same labels give the same places;
-/// earlier ones come first. Pure functions, any thread. px, y downwards.
+/// Places labels in a picture so that none covers another. The result depends only on the labels;
+/// earlier ones have priority. Pure functions, any thread. px, y downwards.
 #pragma once
 
 #include <optional>
@@ -8,18 +8,18 @@
 namespace kinescope::render {
 
 struct LabelBox {
-  double x = 0, y = 0;           // what it is about; the box's middle as long as there is room
-  double width = 0, height = 0;  // with its margin
-  bool may_move = true;          // else: there or nowhere
+  double x = 0, y = 0;           // the labelled point; centre of the box while there is room
+  double width = 0, height = 0;  // of the box, margin included
+  bool may_move = true;          // false: at its point or not at all
 };
 
 struct LabelPlace {
   double left = 0, top = 0;
-  bool is_moved = false;  // far enough for a line to what it is about
+  bool is_moved = false;  // so far away that a line to the point is needed
 };
 
-/// One for each of `boxes`; nullopt where what it is about lies outside the picture, or where there
-/// is no room anywhere near. Looks at the first kMostLabels, the rest gets nullopt.
+/// One place for each of `boxes`; nullopt if its point is outside the picture, or if there is no
+/// room near it. Only the first kMostLabels are placed, the others get nullopt.
 std::vector<std::optional<LabelPlace>> PlaceLabels(const std::vector<LabelBox>& boxes,
                                                    double picture_width, double picture_height);
 

@@ -1,4 +1,4 @@
-/// Loads over time, for the plot strip: what the scenes before and after a picture say.
+/// Loads over time for the plot strip, from the scenes before and after a picture. Plain data.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace kinescope::render {
 
 struct LoadPoint {
   double secs = 0;
-  double ratio = 0;  // NaN where unknown: the line breaks
+  double ratio = 0;  // NaN where unknown: the line is interrupted
   LoadClass load_class = LoadClass::kUnknown;
 };
 
@@ -19,9 +19,9 @@ struct LoadCurve {
   std::vector<LoadPoint> points;  // times ascend
 };
 
-/// Immutable once a View holds it; shared by the pictures of a clip.
+/// Immutable once a View holds it; the pictures of a clip share it, on any thread.
 struct LoadHistory {
-  double from_secs = 0, to_secs = 1;  // what is shown; @pre from < to
+  double from_secs = 0, to_secs = 1;  // visible range; @pre from < to
   std::vector<LoadCurve> curves;      // from top to bottom
 };
 

@@ -1,13 +1,14 @@
-/// A picture with alpha from two opaque ones: what shows through is what the background changes.
-/// Exact for anything that is blended over a background, however it was drawn.
+/// Computes a picture with alpha from two opaque ones, rendered over white and over black. Exact
+/// for everything that is blended over a background, however it was rendered. Pure function, any
+/// thread.
 #pragma once
 
 #include "render/image.h"
 
 namespace kinescope::render {
 
-/// `picture` was drawn over white and `over_black` is the same over black; turns `picture` into
-/// straight colours with alpha. Laid over white, it is what it was to half a level.
+/// `picture` was rendered over white, `over_black` over black; converts `picture` to straight
+/// colours with alpha. Over white it looks as before, up to half a level.
 /// @pre equal sizes
 void MatteOut(Image& picture, const Image& over_black);
 

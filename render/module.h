@@ -1,4 +1,4 @@
-/// The parts that are loaded only when they are needed, each with its dozens of libraries: drawing
+/// Interfaces of the modules that are loaded on demand, each with dozens of libraries: rendering
 /// (VTK, Mesa, LLVM), video (libav) and figures (Cairo).
 #pragma once
 
@@ -19,38 +19,38 @@
 
 namespace kinescope::render {
 
-/// What OpenGL says of itself.
+/// Description that OpenGL gives of itself.
 struct Driver {
   std::string renderer;    // GL_RENDERER
   std::string gl_version;  // GL_VERSION
 };
 
-/// Text at a place in the world, drawn by the overlay.
+/// Text at a position in the world, painted by the overlay.
 struct Label {
   enum class Kind {
-    kName,    // of a person or an object: on a panel, moved aside where others are
-    kFault,   // of what could not be drawn: likewise, whatever is hidden
-    kFloor,   // on the floor: faint, where it is
-    kMarker,  // of a marker: where it is
+    kName,    // of a person or an object: on a panel, moved aside from other labels
+    kFault,   // of an element that could not be rendered: like kName, but never hidden
+    kFloor,   // on the floor: faint, at its position
+    kMarker,  // of a marker: at its position
   };
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world, m
   std::string text;
   Kind kind = Kind::kName;
-  double height_m = 0;  // kMarker: of a capital there
+  double height_m = 0;  // kMarker: height of a capital there, m
   Rgb color = {0, 0, 0};
   double opacity = 1;
 };
 
-/// The 3-D picture, without overlays. Belongs to the thread that made it.
+/// The 3-D picture without overlays. Belongs to the thread that made it.
 class Drawing {
  public:
   virtual ~Drawing() = default;
   /// Fills `image`, which has its size already, and `labels`. @throws RenderError.
   virtual void Draw(const SceneState& state, const Camera& camera, const SceneLook& look,
                     int supersample, Image& image, std::vector<Label>& labels) = 0;
-  /// What is drawn of `robot`, world; empty when that is nothing.
+  /// Box around the rendered shapes of `robot`, world, m; empty if there are none.
   virtual Eigen::AlignedBox3d Bounds(const RobotState& robot) = 0;
-  /// Of the newest picture: what it shows as a labelled box instead, one line each.
+  /// The elements that the newest picture replaces by labelled boxes, one line each.
   virtual std::vector<std::string> problems() const = 0;
   virtual Driver driver() const = 0;
 };
@@ -61,7 +61,7 @@ struct DrawingModule {
             urdf::RobotJoint, urdf::MeshSearch, SceneMarker, Camera, SceneLook, Trail, Ghost, Image,
             Label, Driver>
       abi;
-  /// `backend`: one of those that the module has.
+  /// `backend`: one of those in the module.
   std::unique_ptr<Drawing> (*make)(const std::string& backend, const LogLine& log);
 };
 
@@ -72,14 +72,14 @@ struct VideoModule {
   std::unique_ptr<VideoReader> (*open)(const std::filesystem::path& path);
 };
 
-/// Paints into a file instead of pixels.
+/// Paints into a file in place of pixels. One thread.
 class LayerPainter : public Painter {
  public:
-  /// The file's bytes; once, at the end. @throws RenderError.
+  /// The bytes of the file; call it once, at the end. @throws RenderError.
   virtual std::string Finish() = 0;
 };
 
-/// @throws RenderError when the module or its font is missing.
+/// @throws RenderError if the module or its font is missing.
 std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, LayerFormat format);
 
 struct PlotModule {
@@ -91,7 +91,7 @@ struct PlotModule {
   std::unique_ptr<LayerPainter> (*layer)(int width_px, int height_px, LayerFormat format);
 };
 
-/// What each module exports under the name below, as `extern "C"` functions without arguments.
+/// Names of the entries of the modules: `extern "C"` functions without arguments.
 inline constexpr const char* kDrawingEntry = "KinescopeDrawingModule";  // -> const DrawingModule*
 inline constexpr const char* kVideoEntry = "KinescopeVideoModule";      // -> const VideoModule*
 inline constexpr const char* kPlotEntry = "KinescopePlotModule";        // -> const PlotModule*

@@ -21,8 +21,8 @@ bool IsSoftware(const std::string& renderer) {
 
 std::string TookTooLong(const std::string& what, std::chrono::milliseconds limit) {
   return what + " has taken more than " + std::to_string(limit.count()) +
-         " ms: the OpenGL driver hangs, and nothing can interrupt it. Another --backend may do, or "
-         "a larger --draw_limit_secs where the machine is only slow";
+         " ms: the OpenGL driver does not respond; try another --backend, or raise "
+         "--draw_limit_secs if the machine is slow";
 }
 
 // The picture's arguments raised so that the floor is at z = 0, where the drawing has it.

@@ -1,5 +1,6 @@
-/// A Renderer over a module that draws: what is not finite left out, the floor brought to z = 0,
-/// transparency, several views, overlays, and the watchdog beside the driver.
+/// Implements Renderer with a module: removes values that are not finite, shifts the floor to z =
+/// 0, adds transparency, several views and overlays, and watches the driver. Belongs to the thread
+/// that made it.
 #pragma once
 
 #include <chrono>
@@ -35,7 +36,7 @@ class ModuleRenderer : public Renderer {
   void RenderTransparent(Image& image, const SceneState& state, const Camera& camera,
                          const View& view);
   void DrawWatched(const SceneState& state, DrawnView& drawn, const View& view, Image& image);
-  // `state`, or what of it can be drawn, in `kept`.
+  // `state`, or the part of it that can be rendered, in `kept`.
   const SceneState& Drawable(const SceneState& state, std::optional<SceneState>& kept);
   std::chrono::milliseconds LimitOfPicture(const View& view) const;
 
@@ -44,7 +45,7 @@ class ModuleRenderer : public Renderer {
   std::unique_ptr<Drawing> drawing_;
   Overlay overlay_;
   std::vector<DrawnView> drawn_;      // of the newest picture
-  std::vector<std::string> skipped_;  // likewise
+  std::vector<std::string> skipped_;  // of the newest picture
   std::set<std::string> said_;
   Image part_;  // one of several views
   Image over_black_;

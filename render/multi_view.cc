@@ -32,8 +32,8 @@ std::vector<Tile> PaneTiles(int width_px, int height_px, int count, int columns)
     const Tile down = PieceOf(height_px, rows, gap, i / columns);
     if (across.width < kSmallestPane || down.width < kSmallestPane) {
       throw UsageError(std::to_string(count) + " views in " + std::to_string(width_px) + "x" +
-                       std::to_string(height_px) + " px would be under " +
-                       std::to_string(kSmallestPane) + " px each; ask for a larger picture");
+                       std::to_string(height_px) + " px would be smaller than " +
+                       std::to_string(kSmallestPane) + " px each; use a larger picture");
     }
     tiles.push_back({across.x, down.x, across.width, down.width});
   }

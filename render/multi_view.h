@@ -1,4 +1,5 @@
-/// Several views of one scene in one picture, row by row, with thin lines between.
+/// Arranges several views of one scene in one picture, row by row, separated by thin lines. Pure
+/// functions, any thread.
 #pragma once
 
 #include <array>
@@ -9,14 +10,15 @@
 
 namespace kinescope::render {
 
-/// Where `count` views lie in a picture; those of a last, shorter row share its width.
-/// @pre count >= 1, 1 <= columns <= count; @throws UsageError where a view would be under 16 px.
+/// The places of `count` views in a picture; those of a shorter last row share its width.
+/// @pre count >= 1, 1 <= columns <= count; @throws UsageError if a view would be smaller than 16
+/// px.
 std::vector<Tile> PaneTiles(int width_px, int height_px, int count, int columns);
 
-/// @pre `part` is as large as `tile`, which lies within `whole`.
+/// @pre `part` is as large as `tile`, which is within `whole`.
 void CopyInto(Image& whole, const Image& part, const Tile& tile);
 
-/// All pixels in one opaque colour.
+/// Sets all pixels to one opaque colour.
 void FillWith(Image& image, const std::array<double, 3>& color);
 
 }  // namespace kinescope::render

@@ -1,7 +1,7 @@
-/// A file that appears under its name only when it is whole, and leaves nothing behind otherwise.
-/// Where the file system can (O_TMPFILE) it has no name until then, so even SIGKILL leaves nothing;
-/// elsewhere it is a hidden file beside the target, removed by the destructor. One thread at a
-/// time.
+/// Writes a file atomically: it gets its name only when complete; otherwise nothing remains. If the
+/// file system supports it (O_TMPFILE), the file has no name until then, so even SIGKILL leaves
+/// nothing. Otherwise it is a hidden file in the same folder, which the destructor removes. One
+/// thread at a time.
 #pragma once
 
 #include <cstddef>
@@ -13,20 +13,20 @@ namespace kinescope::render {
 
 class NewFile {
  public:
-  /// @throws std::runtime_error naming `target` and why its folder takes no file, or that what has
-  /// this name now is a folder, a device or a pipe.
+  /// @throws std::runtime_error with `target` and why its folder accepts no file, or that `target`
+  /// is a folder, a device or a pipe.
   explicit NewFile(std::filesystem::path target);
   ~NewFile();
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
 
-  /// @throws std::runtime_error naming the target and the reason (disk full, ...).
+  /// @throws std::runtime_error with the target and the reason (disk full, ...).
   void Write(const void* data, std::size_t size);
 
-  /// A path that libraries can open for writing and reading while the file is not yet finished.
+  /// A path that libraries can open for writing and reading while the file is not finished.
   std::string open_path() const;
 
-  /// Puts the file in place; replaces what is there. @throws std::runtime_error as above.
+  /// Gives the file its name; replaces an existing file. @throws std::runtime_error as above.
   void Commit();
 
  private:
@@ -37,7 +37,7 @@ class NewFile {
   int descriptor_ = -1;
 };
 
-/// All of a file at once. @throws std::runtime_error naming `path` and the reason.
+/// Writes a complete file atomically. @throws std::runtime_error with `path` and the reason.
 void WriteNewFile(const std::filesystem::path& path, std::string_view content);
 
 }  // namespace kinescope::render

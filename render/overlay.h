@@ -1,6 +1,7 @@
-/// What is written over the picture: title, lamp, legend, time code, banners, names, scale bar,
-/// plot and strip. Sizes follow the picture's height, so that a clip of any size looks the same;
-/// text never gets unreadably small. An Overlay belongs to one thread.
+/// Paints the overlays of a picture: title, status indicator, legend, time code, banners, names,
+/// scale bar, plot and frame code. Sizes are in proportion to the picture's height, so that a clip
+/// looks the same at any size; text is never smaller than readable. An Overlay belongs to one
+/// thread.
 #pragma once
 
 #include <cstdint>
@@ -18,23 +19,23 @@
 
 namespace kinescope::render {
 
-/// One view of the scene within a picture, as it was drawn.
+/// One rendered view of the scene within a picture.
 struct DrawnView {
   Tile tile;
   Camera camera;
-  std::string name;           // "" where it is the only one
-  std::vector<Label> labels;  // painted where they lie in the world
+  std::string name;           // "" if it is the only view
+  std::vector<Label> labels;  // painted at their positions in the world
 };
 
 class Overlay {
  public:
-  /// Over a picture of the size of `view`. @throws RenderError when a font is missing.
+  /// Paints on a picture with the size of `view`. @throws RenderError if a font is missing.
   void Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
              const View& view);
 
  private:
   using Page = OverlayPage;
-  OverlayFonts& fonts();  // opened by the first picture that needs them
+  OverlayFonts& fonts();  // opened when first needed
 
   void PaintView(Page& page, const SceneState& state, const DrawnView& drawn, const View& view,
                  bool has_time_code);
@@ -43,13 +44,13 @@ class Overlay {
   void PaintTitle(Page& page, const SceneState& state, const View& view);
   struct LegendRow {
     Ink ink;
-    double radius;  // px of 720
+    double radius;  // px in a picture 720 px high
     bool has_rim;
     const char* name;
     std::string range;
-    bool is_arrow;  // marked by one instead of a disc
+    bool is_arrow;  // the symbol is an arrow, not a disc
   };
-  /// Of what is shown and is there.
+  /// Rows for the elements that are shown and exist.
   static std::vector<LegendRow> LegendOf(const SceneState& state, const SceneLook& look);
   void PaintLegend(Page& page, const SceneState& state, const SceneLook& look);
   void PaintShortLegend(Page& page, const SceneState& state);

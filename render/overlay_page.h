@@ -1,5 +1,5 @@
-/// What the painters of overlays share: one picture being painted, its inks and sizes. Internal to
-/// overlay*.cc.
+/// Common parts of the overlay painters: the picture being painted, its colours and sizes. Internal
+/// to overlay*.cc.
 #pragma once
 
 #include <algorithm>
@@ -12,18 +12,18 @@
 
 namespace kinescope::render {
 
-/// The one table of colours for what is written over a picture: one for each theme.
+/// The colours of overlays, one set per theme.
 struct Inks {
   Ink text, faint_text;
-  Ink panel;          // behind text that lies over the scene
+  Ink panel;          // behind text over the scene
   Ink rim;            // of the high class's sphere
   Ink banner;         // "STALE"
   Ink on_banner;      // its text
   Ink notice;         // "NO DATA"
   Ink line;           // scale bar, curve
-  Ink halo;           // around lines, so that they are seen on anything
+  Ink halo;           // around lines, so that they are visible on any background
   Ink separator;      // between views
-  double band_alpha;  // of the classes behind curves
+  double band_alpha;  // of the class bands behind curves
 };
 
 inline constexpr Inks kLightInks = {{{0.13, 0.15, 0.19}, 1},
@@ -54,7 +54,7 @@ inline const Inks& InksOf(const View& view) {
   return view.look.theme == Theme::kDark ? kDarkInks : kLightInks;
 }
 
-// Of a picture 720 px high; everything scales with it.
+// Sizes in px for a picture 720 px high; all scale with the height.
 inline constexpr double kMargin = 20, kTitleSize = 22, kTextSize = 15, kSmallSize = 13;
 
 struct OverlayFonts {
@@ -62,22 +62,22 @@ struct OverlayFonts {
   Font bold{"DejaVuSans-Bold.ttf"};
 };
 
-/// Coordinates count from the corner of what is painted: a picture, or one view of several.
+/// Coordinates are relative to the corner of the painted area: a picture, or one view of several.
 struct OverlayPage {
   Painter& canvas;
   const Inks& inks;
   OverlayFonts& fonts;
   double width, height, scale;
-  double bottom;  // height, less the strip at the bottom
-  bool is_small;  // room for a lamp without text, and banners
+  double bottom;  // height minus the frame code at the bottom
+  bool is_small;  // room only for a status indicator without text, and banners
 
   double Px(double at_720) const { return at_720 * scale; }
   int FontPx(double at_720) const { return std::max(8, static_cast<int>(std::lround(Px(at_720)))); }
   double right() const { return width - Px(kMargin); }
 };
 
-/// `text`, or as much of it as fits with an ellipsis. Looks no further than the room goes: names
-/// come from outside and may be of any length.
+/// `text`, shortened with an ellipsis if necessary. Reads only as much as fits: names are untrusted
+/// and may have any length.
 std::string Shorten(const std::string& text, Font& font, int size_px, double width);
 
 }  // namespace kinescope::render

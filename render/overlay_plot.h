@@ -1,5 +1,5 @@
-/// The plot strip: chosen loads over time, one row each, with the classes behind and a cursor at
-/// the picture's time.
+/// Paints the plot strip: chosen loads over time, one row each, with the class bands behind and a
+/// cursor at the time of the picture.
 #pragma once
 
 #include <array>
@@ -9,9 +9,8 @@
 
 namespace kinescope::render {
 
-/// In the upper right, below `top`, down to `bottom` at most: rows for which there is no room are
-/// left out, and the last row says how many. `class_limits`: those of the scene
-/// (SceneState::class_limits).
+/// At the upper right, between `top` and `bottom`, px. Rows without room are omitted, and the last
+/// row shows their number. `class_limits`: SceneState::class_limits.
 void PaintPlot(OverlayPage& page, const LoadHistory& history,
                const std::array<double, 2>& class_limits, double now_secs, double top,
                double bottom);

@@ -1,5 +1,5 @@
-/// The scale bar: a round length, true at the depth of the camera's target (in an orthographic
-/// picture: anywhere).
+/// Computes and paints the scale bar: a round length, true at the depth of the camera's target (in
+/// an orthographic picture: at any depth).
 #pragma once
 
 #include <string>
@@ -15,11 +15,11 @@ struct ScaleBar {
   std::string text;  // "50 cm"
 };
 
-/// The longest of 1, 2 or 5 times a power of ten that is no longer than `most_px`; of length 0
-/// where the target is behind the camera.
+/// The longest of 1, 2 or 5 times a power of ten that is not longer than `most_px`; length 0 if the
+/// target is behind the camera.
 ScaleBar ScaleBarOf(const Camera& camera, int width_px, int height_px, double most_px);
 
-/// With its right end at the page's right margin, its text ending `above_bottom` px over the
+/// Its right end is at the right margin of the page, its text ends `above_bottom` px above the
 /// bottom.
 void PaintScaleBar(OverlayPage& page, const Camera& camera, double above_bottom);
 

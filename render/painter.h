@@ -1,6 +1,6 @@
-/// What overlays are painted with: pixels (canvas.h) or vectors (plot/layer.h), so that each is
-/// written once. Units: px of the picture, y downwards, a pixel's centre at (x + 0.5, y + 0.5).
-/// Whatever lies outside the part being painted is cut off.
+/// Interface for painting overlays as pixels (canvas.h) or as vectors (plot/layer.h), so that each
+/// overlay is written once. Units: px of the picture, y downwards, a pixel's centre at (x + 0.5, y
+/// + 0.5). Parts outside the current area are clipped. One thread.
 #pragma once
 
 #include <string_view>
@@ -22,8 +22,8 @@ class Painter {
  public:
   virtual ~Painter() = default;
 
-  /// From now on coordinates count from the corner of `part`, and nothing is painted outside it.
-  /// Begins with the whole picture.
+  /// Selects the area to paint: coordinates are then relative to the corner of `part`, and nothing
+  /// is painted outside it. Initially the whole picture.
   virtual void Enter(const Tile& part) = 0;
 
   virtual void RoundedBox(double x, double y, double width, double height, double radius,
@@ -34,7 +34,8 @@ class Painter {
   /// Joined by straight lines with round corners and ends.
   virtual void Polyline(const std::vector<std::pair<double, double>>& points, double width,
                         const Ink& ink) = 0;
-  /// One line, starting at `x` on the baseline `y`. Returns where the next character would start.
+  /// One line of text, starting at `x` on the baseline `y`. Returns the x where the next character
+  /// would start.
   virtual double Text(double x, double y, std::string_view utf8, Font& font, int size_px,
                       const Ink& ink) = 0;
 };

@@ -1,6 +1,7 @@
-/// Figures for papers and reports: curves over an axis with bands, limits and gaps, as SVG and as a
-/// picture of the same description. Drawn by Cairo in a module that is loaded with the first
-/// figure. Lengths in points (1/72 inch), y downwards. Any thread, one at a time per figure.
+/// Draws figures for papers and reports: curves over an axis with bands, limits and gaps, as SVG
+/// and as a picture of the same description. Cairo draws them in a module that is loaded with the
+/// first figure. Lengths in points (1/72 inch), y downwards. Any thread; a figure is used by one at
+/// a time.
 #pragma once
 
 #include <string>
@@ -13,33 +14,33 @@
 namespace kinescope::render {
 
 struct PlotCurve {
-  std::string name;  // in the legend; "" none
+  std::string name;  // in the legend; "": none
   Rgb color = {0.1, 0.1, 0.1};
-  std::vector<double> dash;  // pt, on and off; empty: a whole line
+  std::vector<double> dash;  // pt, on and off; empty: solid
   double width = 1.1;        // pt
-  /// x ascending; y NaN: the line breaks. As many as there are: more than can be seen apart are
-  /// thinned out, peaks kept.
+  /// x ascending; y NaN: the line is interrupted. There is no limit: points that cannot be
+  /// distinguished are thinned out, peaks are kept.
   std::vector<std::pair<double, double>> points;
 };
 
-/// A stretch of y with a tint of its own.
+/// A range of y with a background colour.
 struct PlotBand {
   double from = 0, to = 0;
   Rgb color = {1, 1, 1};
-  std::string label;  // at its right; "" none
+  std::string label;  // at its right; "": none
 };
 
 struct PlotLimit {
   double y = 0;
-  std::string label;  // at its right end; "" none
+  std::string label;  // at its right end; "": none
 };
 
-/// A stretch of x of which nothing is known: hatched.
+/// A range of x without known values: hatched.
 struct PlotGap {
   double from = 0, to = 0;
 };
 
-/// A stretch of x in the strip below the curves. The class shows in colour and in height.
+/// A range of x in the strip below the curves. Colour and height show the class.
 struct PlotStretch {
   double from = 0, to = 0;
   LoadClass load_class = LoadClass::kUnknown;
@@ -50,7 +51,7 @@ struct PlotMark {
   std::string label;
 };
 
-/// One pair of axes with everything in it.
+/// One pair of axes with its content.
 struct PlotPanel {
   double left = 0, top = 0, width = 0, height = 0;  // of the axes' box, within the figure
   std::string title, x_label, y_label;
@@ -66,14 +67,14 @@ struct PlotPanel {
 };
 
 struct PlotText {
-  double x = 0, y = 0;  // of its start on the baseline
+  double x = 0, y = 0;  // start of the text on the baseline
   std::string text;
   double size = 8;
   bool is_bold = false;
   Rgb color = {0.13, 0.15, 0.19};
 };
 
-/// A sample of a colour or the hatching, for legends.
+/// A sample of a colour or of the hatching, for legends.
 struct PlotSwatch {
   double x = 0, y = 0, width = 0, height = 0;
   Rgb color;
@@ -87,18 +88,18 @@ struct Figure {
   std::vector<PlotText> texts;
 };
 
-// Both: @throws RenderError when the module or its font is missing.
+// The following two functions @throw RenderError if the module or its font is missing.
 
-/// Text is set as outlines: looks the same everywhere, whatever fonts there are.
+/// Text is converted to outlines, so it looks the same whatever fonts are installed.
 std::string ToSvg(const Figure& figure);
 /// @pre 0.5 <= px_per_pt <= 20
 Image ToImage(const Figure& figure, double px_per_pt);
 
-/// Round numbers that cut [from, to] into at most `most` parts or few more. @pre from < to
+/// Round numbers that divide [from, to] into about `most` parts. @pre from < to
 std::vector<double> NiceTicks(double from, double to, int most);
 
-/// `points` (x ascending), thinned to what `columns` pixels of [from, to] can show: first, lowest,
-/// highest and last of each. Breaks (NaN) stay.
+/// `points` (x ascending) reduced to the number that `columns` pixels of [from, to] can show:
+/// first, lowest, highest and last of each column. Interruptions (NaN) stay.
 std::vector<std::pair<double, double>> Thinned(const std::vector<std::pair<double, double>>& points,
                                                double from, double to, int columns);
 

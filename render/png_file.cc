@@ -140,13 +140,13 @@ Image ReadPng(const std::filesystem::path& path) {
   header.version = PNG_IMAGE_VERSION;
   const auto fail = [&](const std::string& why) {
     png_image_free(&header);
-    throw std::runtime_error(path.string() + " is no PNG that can be read: " + why);
+    throw std::runtime_error(path.string() + " is not a readable PNG: " + why);
   };
   if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0)
     fail(header.message);
   if (header.width > kMaxSide || header.height > kMaxSide) {
     fail(std::to_string(header.width) + " x " + std::to_string(header.height) +
-         " px is larger than " + std::to_string(kMaxSide) + " a side");
+         " px is larger than the limit of " + std::to_string(kMaxSide) + " px per side");
   }
   header.format = PNG_FORMAT_RGBA;
   Image image;
@@ -177,7 +177,7 @@ std::map<std::string, std::string> ReadPngText(const std::filesystem::path& path
   }
   png_destroy_read_struct(&png, &info, nullptr);
   if (!done) {
-    throw std::runtime_error(path.string() + " is no PNG that can be read: " + message);
+    throw std::runtime_error(path.string() + " is not a readable PNG: " + message);
   }
   return text;
 }

@@ -1,4 +1,5 @@
-/// PNG and JPEG out of an Image (libpng, libjpeg-turbo), PNG back in.
+/// Writes PNG and JPEG from an Image (libpng, libjpeg-turbo), and reads PNG. Pure functions apart
+/// from files, any thread.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +12,19 @@
 
 namespace kinescope::render {
 
-/// RGB (alpha dropped when every pixel is opaque); `text` becomes tEXt chunks. The file appears
-/// under its name only when it is whole.
-/// @throws std::runtime_error naming the path and the reason.
+/// RGB (without alpha if every pixel is opaque); `text` becomes tEXt chunks. The file gets its name
+/// only when complete.
+/// @throws std::runtime_error with the path and the reason.
 void WritePng(const std::filesystem::path& path, const Image& image,
               const std::map<std::string, std::string>& text = {});
 std::vector<std::uint8_t> EncodePng(const Image& image,
                                     const std::map<std::string, std::string>& text = {});
 
-/// @throws std::runtime_error naming the path and what is wrong with it.
+/// @throws std::runtime_error with the path and the reason.
 Image ReadPng(const std::filesystem::path& path);
 
-/// The tEXt, zTXt and iTXt chunks that stand before the pixels. @throws likewise.
+/// The tEXt, zTXt and iTXt chunks before the pixels. @throws std::runtime_error with the path and
+/// the reason.
 std::map<std::string, std::string> ReadPngText(const std::filesystem::path& path);
 
 /// Baseline JPEG, 4:2:0. quality 1..100.

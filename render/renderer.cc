@@ -27,21 +27,21 @@ constexpr int kLargestPicture = 8192;
 void CheckView(const View& view) {
   const auto check_side = [](const char* name, int value) {
     if (value >= kSmallestPicture && value <= kLargestPicture) return;
-    throw UsageError(std::string("a picture's ") + name + " is " +
+    throw UsageError(std::string("picture ") + name + " " + std::to_string(value) + ": expected " +
                      std::to_string(kSmallestPicture) + " to " + std::to_string(kLargestPicture) +
-                     " px, not " + std::to_string(value));
+                     " px");
   };
   check_side("width", view.width);
   check_side("height", view.height);
   if (view.supersample != 1 && view.supersample != 2 && view.supersample != 4) {
-    throw UsageError("supersample is 1, 2 or 4, not " + std::to_string(view.supersample));
+    throw UsageError("--supersample=" + std::to_string(view.supersample) + ": expected 1, 2 or 4");
   }
 }
 
 void CheckCamera(const Camera& camera) {
   const bool is_finite = camera.position.allFinite() && camera.target.allFinite() &&
                          camera.up.allFinite() && std::isfinite(camera.vertical_fov_rad);
-  if (!is_finite) throw RenderError("the camera's place or direction is not finite");
+  if (!is_finite) throw RenderError("the position or direction of the camera is not finite");
 }
 
 void ToStderr(const std::string& line) { std::fprintf(stderr, "render: %s\n", line.c_str()); }
@@ -58,8 +58,8 @@ const DrawingModule& OnlyModule(const std::string& backend) {
   static std::string first;
   const std::lock_guard<std::mutex> lock(mutex);
   if (!first.empty() && first != backend) {
-    throw RenderError("back-end '" + backend + "' cannot start: this process draws with '" + first +
-                      "' already, and one process has one; start another");
+    throw RenderError("back-end '" + backend + "' cannot be used: this process already uses '" +
+                      first + "', and only one is possible per process; start another process");
   }
   const DrawingModule& module = ModuleOf(backend);
   first = backend;
@@ -122,7 +122,7 @@ std::unique_ptr<Renderer> MakeRenderer(RendererSettings settings) {
   if (std::find(names.begin(), names.end(), settings.backend) == names.end()) {
     std::string known;
     for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
-    throw RenderError("back-end '" + settings.backend + "' is not known; there are: " + known);
+    throw RenderError("unknown back-end '" + settings.backend + "'; expected one of " + known);
   }
   ::setenv("GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1", 0);
   if (settings.backend == "egl") ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);

@@ -1,5 +1,6 @@
-/// SceneState + camera -> pixels, without a display. The drawing itself is a module that is loaded
-/// when the first renderer is made, so a process that only bridges never loads VTK, Mesa or LLVM.
+/// Renders a SceneState as seen by a camera to pixels, without a display. The rendering code is a
+/// module that is loaded with the first renderer, so a process that only bridges never loads VTK,
+/// Mesa or LLVM.
 #pragma once
 
 #include <chrono>
@@ -17,88 +18,89 @@
 
 namespace kinescope::render {
 
-/// No GL, no module, a driver that fails. what() is one line: what was tried and the way out.
+/// OpenGL or the module is not available, or the driver fails. what() is one line: what was tried
+/// and the remedy.
 class RenderError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// What is written over a picture, one by one; View::overlays switches all of it.
+/// The overlays, one by one; View::overlays switches all of them.
 struct OverlayParts {
   bool title = true;
-  bool lamp = true;    // live, recorded or stale, and the rate of samples
+  bool lamp = true;    // status indicator: live, recorded or stale, and the sample rate
   bool legend = true;  // with units
   bool time = true;    // time code and sample number
-  bool names = true;   // of several people, frames, boxes that stand for meshes
+  bool names = true;   // of several people, frames, placeholder boxes
   bool banner = true;  // "STALE", "NO DATA"
-  bool scale = false;  // a bar that is true at the depth of the camera's target
-  bool strip = false;  // sample and time for machines (strip.h)
+  bool scale = false;  // scale bar, true at the depth of the camera's target
+  bool strip = false;  // machine-readable frame code: sample and time (strip.h)
   bool plot = false;   // View::history
 };
 
 /// One of several views in a picture.
 struct Pane {
-  std::string name;  // written into it; "" none
+  std::string name;  // shown in the view; "": none
   Camera camera;
 };
 
 struct View {
   int width = 1280;      // px, 16..8192
   int height = 720;      // px, 16..8192
-  int supersample = 1;   // 1, 2 or 4: drawn so many times larger, then averaged
-  std::string title;     // upper left; "" none
+  int supersample = 1;   // 1, 2 or 4: supersampling factor in each direction
+  std::string title;     // upper left; "": none
   bool overlays = true;  // legend, time code, banner
   OverlayParts parts = {};
-  /// Several views in one picture, row by row, instead of the camera's (multi_view.h).
+  /// Several views in one picture, row by row (multi_view.h); they replace the camera argument.
   std::vector<Pane> panes = {};
   int pane_columns = 1;
-  /// For the plot, with its cursor at plot_secs.
+  /// For the plot; its cursor is at plot_secs.
   std::shared_ptr<const LoadHistory> history = nullptr;
   double plot_secs = 0;
-  SceneLook look = {};  // theme, background, what is shown
+  SceneLook look = {};  // theme, background, visible elements
 };
 
 enum class LayerFormat { kSvg, kPdf };
 
-/// Takes one line without a line end: a mesh that is missing (once), a warning of the driver.
+/// Receives one line without a line end: a missing mesh (once), a warning of the driver.
 using LogLine = std::function<void(const std::string&)>;
 
-/// Which way to a GL context draws, and what was found there.
+/// The rendering back-end, and its description of itself.
 struct RendererInfo {
-  std::string backend;     // as asked for: "osmesa", ...
+  std::string backend;     // as requested: "osmesa", ...
   std::string renderer;    // GL_RENDERER, such as "llvmpipe (LLVM 15.0.6, 256 bits)"
   std::string gl_version;  // GL_VERSION
   bool is_software = false;
   std::string note;  // RendererSettings::note
 };
 
-/// Create, use and destroy it on one thread: a GL context does not migrate.
+/// Create, use and destroy it on one thread: a GL context belongs to one thread.
 class Renderer {
  public:
   virtual ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// `state` as `camera` sees it. The same arguments give the same bytes.
+  /// `state` as `camera` sees it. Equal arguments give equal bytes.
   /// @throws RenderError if the driver fails; UsageError for a size out of range.
   Image Render(const SceneState& state, const Camera& camera, const View& view);
 
-  /// The same into `image`, whose memory is used again: what a stream of pictures should call.
+  /// As Render, into `image`, whose memory is reused: for streams of pictures.
   void RenderInto(Image& image, const SceneState& state, const Camera& camera, const View& view);
 
-  /// What is written over the picture that was drawn last, alone and as vectors, as large as the
-  /// picture (SVG: px; PDF: 96 px to the inch). Pass what that picture was drawn with; it is made
-  /// whether or not view.overlays had it painted. The same arguments give the same bytes.
+  /// The overlays of the picture rendered last, alone and as vectors, in its size (SVG: px; PDF: 96
+  /// px per inch). Pass the arguments of that picture; the layer is made whether or not
+  /// view.overlays is set. Equal arguments give equal bytes.
   std::string OverlayLayer(const SceneState& state, const Camera& camera, const View& view,
                            LayerFormat format);
 
-  /// The smallest upright box around all that is drawn of `robot`, world, m; empty when that is
-  /// nothing. Reads its meshes, which the next picture of it then need not.
+  /// The smallest axis-aligned box around the rendered shapes of `robot`, world, m; empty if there
+  /// are none. Reads its meshes, so that the next picture need not.
   virtual Eigen::AlignedBox3d Bounds(const RobotState& robot) = 0;
 
-  /// What the newest picture does not show as it is: a labelled box for a mesh that is missing or
-  /// was refused, nobody for a person whose pose is not finite. One line each, naming it and the
-  /// reason. The log gets each line once.
+  /// Elements that the newest picture does not show properly: meshes that are missing or rejected
+  /// (shown as labelled boxes), people with a pose that is not finite (not shown). One line each,
+  /// with the reason. Each line is logged once.
   virtual std::vector<std::string> problems() const = 0;
 
   virtual RendererInfo info() const = 0;
@@ -108,7 +110,7 @@ class Renderer {
   Renderer();
 
  private:
-  /// `image` has the size of `view` and every pixel is to be written.
+  /// `image` has the size of `view`; every pixel must be written.
   virtual void DoRender(Image& image, const SceneState& state, const Camera& camera,
                         const View& view) = 0;
   virtual std::string DoOverlayLayer(const SceneState& state, const Camera& camera,
@@ -117,37 +119,37 @@ class Renderer {
   std::unique_ptr<const Owner> owner_;
 };
 
-/// The back-ends that MakeRenderer knows: osmesa (software in memory), egl (Mesa's software through
-/// EGL, without a surface), egl_device (a GPU through EGL_EXT_platform_device).
+/// The back-ends of MakeRenderer: osmesa (software in memory), egl (Mesa's software through EGL,
+/// without a surface), egl_device (a GPU through EGL_EXT_platform_device).
 const std::vector<std::string>& BackendNames();
 
-/// Whether the libraries of `backend` are here. Loads them, so ask only for the one to be used
-/// then.
+/// Whether the libraries of `backend` are installed. It loads them, so call it only for the
+/// back-end that will be used.
 bool HasBackend(const std::string& backend);
 
 struct RendererSettings {
   std::string backend = "osmesa";
-  /// Called on the renderer's thread only; without one, lines go to stderr. Warnings of VTK, OpenGL
-  /// and EGL come here, one line each.
+  /// Called on the renderer's thread only; by default lines go to stderr. Receives the warnings of
+  /// VTK, OpenGL and EGL, one line each.
   LogLine log;
-  /// For RendererInfo: why it is this back-end and no better one; "" when there is nothing to say.
+  /// For RendererInfo: why a better back-end was not used; "": nothing to report.
   std::string note;
-  /// How long the driver may take for a picture; 0: LimitOf() it.
+  /// Time limit of the driver per picture; 0: LimitOf() it.
   std::chrono::milliseconds limit{0};
-  /// Called on another thread when it takes longer; a driver cannot be interrupted, so the call
-  /// that waits for it still does. Without one, the process ends with this line and exit code 2.
+  /// Called on another thread when the limit is exceeded. A driver cannot be interrupted, so the
+  /// rendering call still waits for it. By default the process ends with this line and exit code 2.
   std::function<void(const std::string& line)> on_hang;
 };
 
-/// Thousands of times what a picture of this size takes on a slow core: longer is a driver that
-/// hangs.
+/// Thousands of times the rendering time of a picture of this size on a slow core; beyond it the
+/// driver counts as hanging.
 std::chrono::milliseconds LimitOf(const View& view);
 
-/// Sets GALLIUM_OVERRIDE_CPU_CAPS=sse4.1 in the environment unless it is set already: llvmpipe then
-/// rounds alike on every x86-64 machine; and for "egl" LIBGL_ALWAYS_SOFTWARE=1. Make the first
-/// renderer before other threads use getenv(). A process has one kind of back-end: VTK's table of
-/// GL functions is the process'.
-/// @throws RenderError naming the back-end, why it did not start and what would help.
+/// Sets GALLIUM_OVERRIDE_CPU_CAPS=sse4.1 in the environment unless it is set, so that llvmpipe
+/// rounds alike on every x86-64 machine; for "egl" also LIBGL_ALWAYS_SOFTWARE=1. Make the first
+/// renderer before other threads call getenv(). A process can use only one kind of back-end,
+/// because VTK has one table of GL functions per process.
+/// @throws RenderError with the back-end, why it did not start and the remedy.
 std::unique_ptr<Renderer> MakeRenderer(RendererSettings settings);
 std::unique_ptr<Renderer> MakeRenderer(const std::string& backend = "osmesa", LogLine log = {});
 

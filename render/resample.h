@@ -1,4 +1,4 @@
-/// Anti-aliasing: pictures are drawn larger and averaged down.
+/// Averages supersampled pictures (anti-aliasing). Pure function, any thread.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +7,9 @@
 
 namespace kinescope::render {
 
-/// Averages `factor` x `factor` boxes of `large`, which has `width * factor` columns and
-/// `height * factor` rows of RGBA, and writes them to `target` at column x, row y. Rounds to
-/// nearest.
-/// @pre factor is 1, 2 or 4 and the box lies inside `target`
+/// Averages `factor` x `factor` boxes of `large`, which has `width * factor` columns and `height *
+/// factor` rows of RGBA, and writes them to `target` at column x, row y. Rounds to nearest.
+/// @pre factor is 1, 2 or 4 and the box is inside `target`
 void AverageInto(const std::uint8_t* large, int width, int height, int factor, Image& target, int x,
                  int y);
 

@@ -5,20 +5,21 @@
 namespace kinescope::render {
 
 const std::array<ScenePartInfo, 14> kSceneParts = {{
-    {ScenePart::kBody, "body", true, "the people themselves"},
-    {ScenePart::kLoads, "loads", true, "a sphere for each scored joint"},
+    {ScenePart::kBody, "body", true, "bodies of the people"},
+    {ScenePart::kLoads, "loads", true, "one load sphere per scored joint"},
     {ScenePart::kCom, "com", true, "centre of mass and its projection on the floor"},
     {ScenePart::kCop, "cop", true, "centre of pressure"},
-    {ScenePart::kSupport, "support", true, "border of what the feet can push on"},
-    {ScenePart::kForces, "forces", true, "force of the floor on each foot, 1 m for 1000 N"},
-    {ScenePart::kHeld, "held", true, "what the hands hold"},
+    {ScenePart::kSupport, "support", true, "support polygon"},
+    {ScenePart::kForces, "forces", true, "ground reaction force on each foot, 1 m per 1000 N"},
+    {ScenePart::kHeld, "hand_loads", true, "loads in the hands"},
     {ScenePart::kShadows, "shadows", true, "soft shadows on the floor"},
     {ScenePart::kObjects, "objects", true, "tracked objects"},
     {ScenePart::kRobots, "robots", true, "robots beside the people"},
-    {ScenePart::kMarkers, "markers", true, "markers of other programs"},
-    {ScenePart::kFrames, "frames", false, "axes of each link: x red, y green, z blue"},
-    {ScenePart::kAxes, "axes", false, "the three axes that each joint turns about"},
-    {ScenePart::kScale, "scale", false, "metres on the floor's grid, newtons at the arrows"},
+    {ScenePart::kMarkers, "markers", true, "external markers"},
+    {ScenePart::kFrames, "link_frames", false, "axes of each link: x red, y green, z blue"},
+    {ScenePart::kAxes, "joint_axes", false, "the three rotation axes of each joint"},
+    {ScenePart::kScale, "scale", false,
+     "length labels on the floor grid in metres, force labels on the arrows in newtons"},
 }};
 
 ScenePartSet::ScenePartSet() {

@@ -1,5 +1,5 @@
-/// How the scene of a picture is to look: theme, background, what of it is shown, and what is drawn
-/// beside the scene itself (trails, ghosts). Plain data, part of View.
+/// Appearance of a scene: theme, background, visible elements, and elements beside the scene itself
+/// (trails, reference poses). Plain data, part of View. World, metres.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace kinescope::render {
 
 enum class Theme { kLight, kDark };
 
-/// What can be switched on and off by name.
+/// The scene elements that can be shown and hidden by name.
 enum class ScenePart : std::uint32_t {
   kBody,
   kLoads,
@@ -35,14 +35,14 @@ enum class ScenePart : std::uint32_t {
 
 struct ScenePartInfo {
   ScenePart part;
-  const char* name;  // as in --show and --hide
+  const char* name;  // as in the options --show and --hide
   bool by_default;
-  const char* what;  // for people
+  const char* what;  // description for help texts
 };
 
 extern const std::array<ScenePartInfo, 14> kSceneParts;
 
-/// Those that are shown; at first the default ones.
+/// The set of visible elements; initially the default ones.
 class ScenePartSet {
  public:
   ScenePartSet();
@@ -55,13 +55,14 @@ class ScenePartSet {
   std::uint32_t bits_ = 0;
 };
 
-/// Where a point has been, oldest first; world, m. Drawn as a line that grows towards its end.
+/// Past positions of a point, oldest first; world, m. Rendered as a line that becomes thicker
+/// towards its end.
 struct Trail {
   std::vector<Eigen::Vector3d> points;
   Rgb color = {0, 0, 0};
 };
 
-/// A second body, through which the scene is seen.
+/// A reference pose: a second, translucent body.
 struct Ghost {
   PersonState person;
   double opacity = 0.35;  // 0..1
@@ -69,10 +70,10 @@ struct Ghost {
 
 struct SceneLook {
   Theme theme = Theme::kLight;
-  std::optional<Rgb> background;  // instead of the theme's
-  /// The picture's alpha says how much of each pixel the scene covers, soft edges and shadows too;
-  /// colours are straight (not multiplied by alpha), as PNG wants them. Over white it is the
-  /// picture with a white background, to a level per channel.
+  std::optional<Rgb> background;  // replaces that of the theme
+  /// The alpha of the picture is the share of each pixel that the scene covers, soft edges and
+  /// shadows included; alpha is straight (colours are not multiplied by alpha), as in PNG. Over
+  /// white, the picture equals the one with a white background, up to one level per channel.
   bool is_transparent = false;
   bool floor = true;
   ScenePartSet shown;
@@ -93,9 +94,9 @@ inline const Rgb& BackgroundOf(const SceneLook& look) {
   return look.background ? *look.background : ColorsOf(look.theme).background;
 }
 
-/// Whether `look` hides anything that `Without` would take away.
+/// Whether `look` hides anything that `Without` would remove.
 bool HidesAnything(const SceneLook& look);
-/// `state` without what `look` hides, as far as that is data of the state.
+/// `state` without the elements that `look` hides, as far as they are data of the state.
 [[nodiscard]] SceneState Without(SceneState state, const SceneLook& look);
 
 }  // namespace kinescope::render

@@ -1,6 +1,6 @@
-/// The machine-readable strip: sample counter and time code as black and white cells along the
-/// bottom edge, which survive a video encoder and a picture half as large. docs/pictures.md has the
-/// format. Pure functions; any thread.
+/// Paints and reads the machine-readable frame code: sample counter and time code as black and
+/// white cells along the bottom edge. It survives a video encoder and scaling to half the size.
+/// docs/pictures.md describes the format. Pure functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace kinescope::render {
 
 struct StripCode {
   std::uint32_t counter = 0;
-  std::int64_t time_code_millis = 0;  // its lower 48 bits, signed, are kept
+  std::int64_t time_code_millis = 0;  // only the lower 48 bits, signed, are stored
   bool operator==(const StripCode& o) const {
     return counter == o.counter && time_code_millis == o.time_code_millis;
   }
@@ -24,20 +24,20 @@ struct StripCode {
 /// ones of the CRC-32 (IEEE 802.3) of the ten bytes before. Most significant first.
 inline constexpr int kStripBits = 112;
 
-/// How the strip of a picture of this size lies: `rows` of as many cells each, over its whole
-/// width.
+/// Layout of the frame code in a picture of this size: `rows` with equal numbers of cells over the
+/// whole width.
 struct StripLayout {
-  int rows = 1;        // 1, 2, 4 or 8: so many that a cell is wide enough to be read
+  int rows = 1;        // 1, 2, 4 or 8: as many as needed for readable cells
   int row_height = 8;  // px
   int height() const { return rows * row_height; }
 };
 StripLayout StripLayoutOf(int width_px, int height_px);
 
-/// Paints over the bottom of a picture of this size.
+/// Paints it over the bottom of a picture of this size.
 void PaintStrip(Painter& painter, int width_px, int height_px, const StripCode& code);
 
-/// What the strip of `image` says; nullopt when there is none, or it is damaged. Reads pictures of
-/// the size that they were drawn with, and half as large.
+/// Reads the frame code of `image`; nullopt if there is none, or if it is damaged. Reads pictures
+/// at their original size and at half of it.
 std::optional<StripCode> ReadStrip(const Image& image);
 
 }  // namespace kinescope::render

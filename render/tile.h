@@ -1,4 +1,4 @@
-/// A part of a picture, px, from its top left corner.
+/// A rectangle of a picture, px, from its top left corner.
 #pragma once
 
 namespace kinescope::render {

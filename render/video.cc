@@ -18,27 +18,28 @@ void CheckSize(ClipFormat format, int width, int height) {
     return side >= kSmallestSide && side <= kLargestSide && (!is_even || side % 2 == 0);
   };
   if (fits(width) && fits(height)) return;
-  throw UsageError("a clip's width and height are " + std::string(is_even ? "even and " : "") +
-                   "16 to 8192 px, not " + std::to_string(width) + " x " + std::to_string(height));
+  throw UsageError("clip size " + std::to_string(width) + " x " + std::to_string(height) +
+                   ": expected " + std::string(is_even ? "even sides of " : "sides of ") +
+                   "16 to 8192 px");
 }
 
 void CheckRate(ClipFormat format, FrameRate rate) {
   const double most = format == ClipFormat::kGif ? 50 : 1000;
   if (rate.numerator > 0 && rate.denominator > 0 && rate.hz() <= most) return;
-  throw UsageError("a clip has more than 0 and at most " + std::to_string(static_cast<int>(most)) +
-                   " pictures a second" + (format == ClipFormat::kGif ? " as a GIF" : "") +
-                   ", not " + std::to_string(rate.numerator) + "/" +
-                   std::to_string(rate.denominator));
+  throw UsageError("--fps=" + std::to_string(rate.numerator) + "/" +
+                   std::to_string(rate.denominator) + ": expected more than 0, at most " +
+                   std::to_string(static_cast<int>(most)) + " frames per second" +
+                   (format == ClipFormat::kGif ? " in a GIF" : ""));
 }
 
 void CheckQuality(ClipFormat format, const VideoOptions& options) {
   const int most_crf = format == ClipFormat::kWebm ? 63 : 51;
   if (options.crf && (*options.crf < 0 || *options.crf > most_crf)) {
-    throw UsageError("crf is 0 to " + std::to_string(most_crf) + ", not " +
-                     std::to_string(*options.crf));
+    throw UsageError("--crf=" + std::to_string(*options.crf) + ": expected 0 to " +
+                     std::to_string(most_crf));
   }
   if (options.quality < 0 || options.quality > 100) {
-    throw UsageError("quality is 0 to 100, not " + std::to_string(options.quality));
+    throw UsageError("--quality=" + std::to_string(options.quality) + ": expected 0 to 100");
   }
 }
 
@@ -52,7 +53,7 @@ std::unique_ptr<VideoWriter> MakeVideoWriter(const std::filesystem::path& path, 
                                              int height, const VideoOptions& options) {
   const auto format = ClipFormatOf(path);
   if (!format) {
-    throw UsageError(path.string() + ": a clip's name ends in .mp4, .webm, .webp or .gif");
+    throw UsageError(path.string() + ": expected a name that ends in .mp4, .webm, .webp or .gif");
   }
   CheckSize(*format, width, height);
   CheckRate(*format, options.rate);

@@ -1,6 +1,6 @@
-/// Clips: pictures of one size, one after the other, into a file and out of it again. H.264 in MP4,
-/// VP9 in WebM, animated WebP and GIF, chosen by the file's name. The encoders are a module that is
-/// loaded when the first clip is made or read.
+/// Writes and reads clips: frames of one size, one after the other. H.264 in MP4, VP9 in WebM,
+/// animated WebP and GIF, selected by the file name. The encoders are a module that is loaded when
+/// the first clip is written or read.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace kinescope::render {
 
-/// Pictures a second, as a fraction, because 29.97 is none that a file can hold: 30000/1001 is.
+/// Frames per second as a fraction, because files cannot store 29.97 but 30000/1001.
 struct FrameRate {
   int numerator = 30;
   int denominator = 1;
   double hz() const { return static_cast<double>(numerator) / denominator; }
-  /// Of picture `k` after picture 0, rounded to the nearest.
+  /// Time of frame `k` after frame 0, ns, rounded to nearest.
   std::int64_t NanosOf(std::int64_t k) const;
 };
 
@@ -29,31 +29,31 @@ enum class ClipFormat { kMp4, kWebm, kWebp, kGif };
 std::optional<ClipFormat> ClipFormatOf(const std::filesystem::path& path);
 
 struct VideoOptions {
-  FrameRate rate;  // .gif: at most 50 a second, which is what browsers show
-  /// Constant quality of .mp4 (0, lossless, .. 51; default 18) and .webm (0 .. 63; default 24).
+  FrameRate rate;  // .gif: at most 50 per second, the limit of browsers
+  /// Constant quality of .mp4 (0, lossless, to 51; default 18) and .webm (0 to 63; default 24).
   std::optional<int> crf;
-  /// Of .webp: 0 .. 99; 100 is lossless.
+  /// Of .webp: 0 to 99; 100 is lossless.
   int quality = 90;
-  /// Whether the file keeps transparency, which .webm and .webp do, and .gif with edges that are
-  /// there or not. Not given: as the first picture has any.
+  /// Whether the file keeps transparency. .webm and .webp support it; .gif only fully transparent
+  /// or opaque pixels. Absent: if the first frame has any.
   std::optional<bool> alpha;
-  /// "title", "comment"; every format keeps these, .gif only the comment.
+  /// "title", "comment"; every format stores both, .gif only the comment.
   std::map<std::string, std::string> metadata;
 };
 
-/// Frame k is shown at time k / rate (.webm and .webp round to the millisecond, .gif to 10 ms).
-/// Colour of .mp4 and .webm is tagged bt709, limited range. Alpha is straight, not premultiplied,
-/// in what comes in and in every file. The same pictures give the same bytes with the same
-/// libraries, whatever the machine. The file appears under its name only after Finish; without it
-/// (an exception, Ctrl-C) nothing is left. One thread at a time.
+/// Frame k is shown at time k / rate (.webm and .webp round to the millisecond, .gif to 10 ms). The
+/// colours of .mp4 and .webm are tagged bt709, limited range. Alpha is straight, not premultiplied,
+/// in the input and in every file. Equal frames give equal bytes with the same libraries on every
+/// machine. The file gets its name only in Finish; without it (an exception, Ctrl-C) nothing
+/// remains. One thread at a time.
 class VideoWriter {
  public:
   virtual ~VideoWriter() = default;
   VideoWriter(const VideoWriter&) = delete;
   VideoWriter& operator=(const VideoWriter&) = delete;
 
-  /// @throws std::runtime_error: another size than the first, disk full, transparency that the
-  /// format has not, ...
+  /// @throws std::runtime_error: another size than the first frame, disk full, transparency in a
+  /// format without it, ...
   virtual void Add(const Image& image) = 0;
   virtual void Finish() = 0;
 
@@ -61,21 +61,22 @@ class VideoWriter {
   VideoWriter() = default;
 };
 
-/// @throws std::runtime_error naming the path or the missing encoder and its package; UsageError
-/// for a name, size or option that the format has not.
+/// @throws std::runtime_error with the path, or the missing encoder and its package; UsageError for
+/// a name, size or option that the format does not support.
 std::unique_ptr<VideoWriter> MakeVideoWriter(const std::filesystem::path& path, int width,
                                              int height, const VideoOptions& options);
 
-/// Reads clips as players do: what MakeVideoWriter made, and anything libav can.
+/// Reads clips as players do: those of MakeVideoWriter, and all that libav supports. One thread at
+/// a time.
 class VideoReader {
  public:
   virtual ~VideoReader() = default;
   VideoReader(const VideoReader&) = delete;
   VideoReader& operator=(const VideoReader&) = delete;
 
-  /// The next picture; false at the end. @throws std::runtime_error for a damaged file.
+  /// The next frame; false at the end. @throws std::runtime_error for a damaged file.
   [[nodiscard]] virtual bool Next(Image& image) = 0;
-  /// When the picture that came last is shown, s after the first.
+  /// Display time of the newest frame, s after the first.
   virtual double secs() const = 0;
   /// Keys in lower case: "comment", "title".
   virtual std::map<std::string, std::string> metadata() const = 0;
@@ -84,7 +85,7 @@ class VideoReader {
   VideoReader() = default;
 };
 
-/// @throws std::runtime_error naming the path and the reason.
+/// @throws std::runtime_error with the path and the reason.
 std::unique_ptr<VideoReader> OpenVideo(const std::filesystem::path& path);
 
 }  // namespace kinescope::render

@@ -1,5 +1,5 @@
-/// A driver that hangs cannot be interrupted, but it can be said. The watchdog is a thread that is
-/// told when work in the driver begins and ends, and speaks up when it has not ended in time.
+/// Detects a driver that hangs (it cannot be interrupted). A watchdog thread is notified when
+/// driver work starts and ends, and calls OnHang if the limit is exceeded.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@ namespace kinescope::render {
 class Watchdog {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Called on the watchdog's own thread, once for each piece of work that takes too long.
+  /// Called on the watchdog's thread, once per piece of work that exceeds its limit.
   using OnHang = std::function<void(const std::string& what)>;
 
   explicit Watchdog(OnHang on_hang);
@@ -22,7 +22,8 @@ class Watchdog {
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;
 
-  /// While it lives, work goes on; `what` is for OnHang. One at a time, of one thread.
+  /// Driver work goes on while this object exists; `what` is for OnHang. One at a time, from one
+  /// thread.
   class [[nodiscard]] Work {
    public:
     Work(Watchdog& watchdog, std::chrono::milliseconds limit, std::function<std::string()> what);
@@ -50,9 +51,8 @@ class Watchdog {
   std::thread thread_;
 };
 
-/// What is to be done when nobody else can do anything: says `what` as main() would and ends the
-/// process at once with exit code 2. Destructors do not run, so files that are not finished must
-/// have no name yet (new_file.h).
+/// Last resort: prints `what` like main() and ends the process immediately with exit code 2.
+/// Destructors do not run, so incomplete files must not have a name yet (new_file.h).
 [[noreturn]] void EndProcess(const std::string& what);
 
 }  // namespace kinescope::render

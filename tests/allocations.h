@@ -1,6 +1,6 @@
-/// How often the process has called operator new, and memory that runs out when a test wants it to.
-/// For a program of its own that is not sanitized: linking allocations.cc replaces the operators of
-/// the whole process. Any thread.
+/// Counts calls of operator new in the process, and lets memory run out on request. Only for a
+/// separate test program without sanitizers: linking allocations.cc replaces the operators of the
+/// whole process. Any thread.
 #pragma once
 
 #include <cstddef>

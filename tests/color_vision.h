@@ -1,4 +1,4 @@
-/// Colours as people see them who lack one kind of cones.
+/// Simulates colours as seen by people without red, green or blue cones.
 /// Source: Machado, Oliveira, Fernandes (2009), A physiologically-based model for simulation of
 /// color vision deficiency, IEEE Trans. Vis. Comput. Graph. 15(6), 1291-1298; severity 1, on linear
 /// RGB.

@@ -1,4 +1,4 @@
-"""How a build compiles each folder, for the checks that compile files by themselves."""
+"""Compiler options of each folder in a build, for the checks that compile single files."""
 import collections
 import json
 import pathlib
@@ -11,7 +11,7 @@ INCLUDE = re.compile(r'[ \t]*#[ \t]*include[ \t]*([<"])([^>"\n]+)[>"]')
 
 
 def sources_of(entry):
-    """The sources that an entry of the database compiles: several for a batch of a unity build."""
+    """The sources that an entry of the database compiles; a batch of a unity build has several."""
     source = pathlib.Path(entry["directory"], entry["file"])
     if not re.search(r"unity_\d+_cxx", source.name):
         return [source]
@@ -22,7 +22,7 @@ def sources_of(entry):
 
 
 def read_flags(build):
-    """Folder of sources -> include paths and definitions of the targets that have sources there."""
+    """Folder of sources -> include paths and definitions of the targets with sources in it."""
     flags = collections.defaultdict(dict)  # an ordered set
     for entry in json.loads((build / "compile_commands.json").read_text()):
         words = entry.get("arguments") or shlex.split(entry["command"])
@@ -39,7 +39,7 @@ def read_flags(build):
 
 
 def flags_for(flags, name):
-    """Those of the header's folder, or of the nearest one above that has sources."""
+    """Options for the folder of the header, or for the nearest folder above it that has sources."""
     for folder in pathlib.PurePosixPath(name).parents:
         if folder.as_posix() in flags:
             return flags[folder.as_posix()]

@@ -1,4 +1,4 @@
-/// A CSV file as RFC 4180 has it, by column.
+/// Reads a CSV file (RFC 4180) by column.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ struct CsvTable {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> rows;
 
-  /// Fails the test where a row has another number of cells than the header.
+  /// Fails the test if a row has another number of cells than the header.
   explicit CsvTable(const std::string& text) {
     std::vector<std::string> cells(1);
     bool is_quoted = false;
@@ -47,7 +47,7 @@ struct CsvTable {
     return kNone;
   }
 
-  /// NaN where the cell is empty.
+  /// NaN if the cell is empty.
   double Number(std::size_t row, const std::string& name) const {
     const std::string& cell = At(row, name);
     return cell.empty() ? std::nan("") : std::stod(cell);

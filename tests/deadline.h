@@ -1,4 +1,4 @@
-/// For what may hang: a test of it must end all the same.
+/// Runs code that may hang, so that its test ends all the same.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 
 namespace kinescope::testing {
 
-/// Runs `work` on another thread and waits for it; what it throws is thrown here. A thread that
-/// hangs cannot be ended alone, so when it takes longer than `limit` the program ends as failed.
+/// Runs `work` on another thread and waits for it; its exceptions are thrown here. A thread that
+/// hangs cannot be ended alone, so the program ends as failed when `limit` is exceeded.
 inline void WithDeadline(std::function<void()> work,
                          std::chrono::seconds limit = std::chrono::seconds(30)) {
   std::packaged_task<void()> task(std::move(work));

@@ -1,4 +1,5 @@
-/// A TCP port of the loopback for programs that cannot take "any" and tell, such as rosmaster.
+/// Reserves a TCP port of the loopback interface for programs that cannot choose a free one
+/// themselves, such as rosmaster.
 #pragma once
 
 #include <netinet/in.h>
@@ -9,10 +10,10 @@
 
 namespace kinescope::testing {
 
-/// Keeps the port for whoever names it, while it lives: bound and never listened on, with
-/// SO_REUSEADDR. A program that sets the same option and asks for this very port gets it, also
-/// again after its end; nobody who takes any free port does, nor does a connection that goes out.
-/// So a master can be killed and restarted without anybody coming in between.
+/// Reserves the port while this object exists: bound with SO_REUSEADDR and never listened on. A
+/// program that sets the same option and requests this port gets it, also again after it has ended.
+/// A program that requests any free port does not get it, nor does an outgoing connection. So no
+/// other program can take the port while a master is killed and restarted.
 class FreePort {
  public:
   FreePort() : fd_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {

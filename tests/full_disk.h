@@ -1,4 +1,4 @@
-/// Files and standard output that take no more.
+/// Simulates a full disk for files and for standard output.
 #pragma once
 
 #include <fcntl.h>
@@ -13,7 +13,7 @@
 
 namespace kinescope::testing {
 
-/// While it lives, no file of this process can grow beyond `bytes`: as on a full disk, a write
+/// While it exists, no file of this process can grow beyond `bytes`: as on a full disk, a write
 /// fails with a reason ("File too large").
 class SmallFilesOnly {
  public:
@@ -34,7 +34,7 @@ class SmallFilesOnly {
   rlimit before_{};
 };
 
-/// While it lives, standard output is /dev/full. What could not be written is thrown away.
+/// While it exists, standard output is /dev/full. Output that could not be written is discarded.
 class FullStdout {
  public:
   FullStdout() {

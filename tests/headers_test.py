@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Every header brings what it uses: it compiles alone, and includes the standard header of each
-std:: name that it uses itself, instead of by luck through another header.
+"""Checks that every header includes what it needs: it compiles on its own, and it includes the standard header
+of each std:: name in it, instead of relying on another header.
 
 tests/headers_test.py BUILD_FOLDER [--jobs N] [--tests] [--only PART_OF_A_PATH]
-  BUILD_FOLDER: any build with a compile_commands.json (unity builds too), which gives include paths and
-  definitions folder by folder; generated headers (messages of ROS) have to be there. --tests: compiles
-  the headers of tests/ as well, which is slow because of GoogleTest. Exit code 1 when something is
-  missing; one line each: header, line, what.
+  BUILD_FOLDER: any build with a compile_commands.json (unity builds too), for the include paths and
+  definitions of each folder; generated headers (ROS messages) must exist. --tests: also compiles the
+  headers of tests/, which is slow because of GoogleTest. Exit code 1 if an include is missing; one line per
+  finding: header, line, problem.
 """
 import argparse
 import concurrent.futures
@@ -20,7 +20,7 @@ from compile_flags import INCLUDE, TOP, cpu_seconds, flags_for, read_flags
 
 FOLDERS = ("urdf", "core", "server", "render")
 
-# What a name of std:: needs. Of headers with the same meaning the first is named in a finding.
+# Header -> std:: names that need it. If several headers are listed, a finding names the first.
 STANDARD = {
     "algorithm": "all_of any_of none_of clamp copy fill find find_if max max_element min min_element "
                  "minmax_element nth_element remove_if reverse sort stable_sort transform unique "
@@ -74,7 +74,7 @@ STANDARD = {
     "vector": "vector",
 }
 HEADERS_OF = {name: headers.split() for headers, names in STANDARD.items() for name in names.split()}
-# These have no header of their own in mind: whoever has the class in it has the function too.
+# Names that other headers provide too.
 ALSO_IN = {
     "size_t": ["cstdint", "cstring", "array", "string", "string_view", "vector"],
     "move": ["memory", "algorithm"], "forward": ["memory"], "swap": ["memory", "algorithm"],
@@ -87,12 +87,12 @@ NO_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n]
 
 
 def blank(match):
-    """As many lines as before, without the text."""
+    """The same number of lines, without the text."""
     return " " + "\n" * match.group().count("\n")
 
 
 def missing_by_text(name, text):
-    """Names of std:: without their header: one line for each header that is missing."""
+    """std:: names whose header is not included: one line per missing header."""
     included = {m.group(2) for m in map(INCLUDE.match, text.splitlines()) if m}
     code = NO_CODE.sub(blank, re.sub(r"(?<=\d)'(?=\d)", "", text))
     findings = {}
@@ -106,7 +106,7 @@ def missing_by_text(name, text):
 
 
 class Closures:
-    """What a header includes, itself and through headers of ours."""
+    """All includes of a header, directly and through headers of the project."""
 
     def __init__(self):
         self._includes = {}
@@ -131,7 +131,7 @@ class Closures:
 
 CLANG = ["clang++", "-std=c++17", "-w", "-fsyntax-only"]
 
-# How long an include takes to compile, in standard headers; of libraries that are not named, as one.
+# Compile time of an include, in units of one standard header; libraries that are not listed count as one.
 PRICES = {"Eigen/": 40, "nlohmann/json.hpp": 30, "boost/": 60, "CLI/": 60, "yaml-cpp/": 30, "ros/": 20,
           "image_transport/": 40, "tf2": 20, "vtk": 5, "gtest/": 40, "gmock/": 40, "fmt/": 15}
 
@@ -142,9 +142,9 @@ def price(includes):
 
 
 def choose_hubs(names, closures):
-    """Headers of ours and of Eigen that are worth being compiled once for all that include them anyway,
-    perhaps through others: for these it changes nothing but the time, as each header is also compiled
-    by itself. Cheapest first."""
+    """Headers of the project and of Eigen that are worth precompiling, because many headers include them,
+    directly or not. Precompiling changes only the time, because each header is also compiled on its own.
+    Cheapest first."""
     prices = {name: price(closures[name]) for name in names}
     prices.update({"Eigen/Core": 30, "Eigen/Geometry": 40})
     users = {hub: [name for name in names if hub in closures[name] and name not in closures[hub]]
@@ -163,7 +163,7 @@ def choose_hubs(names, closures):
 
 
 class Precompiled:
-    """Hubs, each compiled by itself into `folder`: clang 14 crashes on some that stand on others."""
+    """Hubs, each precompiled separately into `folder`: clang 14 crashes on some that build on others."""
 
     def __init__(self, names, closures, flags, folder):
         self._closures = closures
@@ -177,7 +177,7 @@ class Precompiled:
             result = subprocess.run(
                 [*CLANG[:-1], *paths, f"-I{TOP}", "-x", "c++-header", "-", "-o",
                  str(out)], input=text, capture_output=True, text=True, cwd=TOP)
-            if result.returncode == 0:  # else it is found when it is compiled alone
+            if result.returncode == 0:  # else the error is reported when the header is compiled on its own
                 self._files[hub] = out
 
     @staticmethod
@@ -185,7 +185,7 @@ class Precompiled:
         return next((f for f in flags.values() if any("eigen" in word for word in f)), None)
 
     def words_for(self, name):
-        """What makes clang begin with the largest hub that `name` includes."""
+        """Options with which clang loads the largest hub that `name` includes."""
         for hub in reversed(self._files):
             if hub in self._closures[name] and name not in self._closures[hub]:
                 return ["-include-pch", str(self._files[hub])]
@@ -196,10 +196,10 @@ class Precompiled:
 
 
 def compile_alone(name, flags, begin):
-    """[what is wrong with the header by itself]; [] when nothing is."""
+    """List of problems of the header on its own; [] if it compiles."""
     if flags is None:
-        return [f"{name}:1: no source in its folder nor above it is in the build"]
-    for words in (begin, []) if begin else ([],):  # a second look, without anything before it
+        return [f"{name}:1: no source of its folder, or of a folder above it, is in the build"]
+    for words in (begin, []) if begin else ([],):  # second try without a precompiled hub
         result = subprocess.run(
             [*CLANG, *flags, *words, "-ferror-limit=1", "-fno-caret-diagnostics", "-x", "c++",
              str(TOP / name)], capture_output=True, text=True, cwd=TOP)
@@ -209,7 +209,7 @@ def compile_alone(name, flags, begin):
     first = (errors or [f"{TOP / name}:1: error: does not compile"])[0]
     where, what = re.split(r": (?:fatal )?error: ", first, maxsplit=1)
     where = where.replace(f"{TOP}/", "")
-    return [f"{where}: alone: {what}" + ("" if where.startswith(name) else f" (in {name})")]
+    return [f"{where}: on its own: {what}" + ("" if where.startswith(name) else f" (in {name})")]
 
 
 def compile_all(names, flags, jobs):
@@ -236,7 +236,7 @@ def main():
                 for finding in missing_by_text(name, (TOP / name).read_text())]
     alone = [name for name in headers if options.tests or not name.startswith("tests/")]
     findings += compile_all(alone, read_flags(options.build.resolve()), options.jobs)
-    print(f"{len(headers)} headers, {len(alone)} of them compiled alone, {len(findings)} findings, "
+    print(f"{len(headers)} headers, {len(alone)} of them compiled on their own, {len(findings)} findings, "
           f"{cpu_seconds():.0f} s CPU", *sorted(findings), sep="\n")
     return 1 if findings or not headers else 0
 

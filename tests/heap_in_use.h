@@ -1,4 +1,4 @@
-/// Bytes that the program has allocated and not freed, for tests of "constant memory".
+/// Number of bytes that the program has allocated and not freed, for tests of constant memory use.
 #pragma once
 
 #include <malloc.h>

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""The arrows between folders, checked. ARCHITECTURE.md's table "Folders" is the rule: which folder may
-include which. LIBRARIES below is the rule for headers of others: which folders may include them, so that
-no library's types leave their folder. Both are exact: an arrow or a home that no include needs is an
-error as well, so neither list can become older than the code.
+"""Checks the includes between folders. The table "Folders" in ARCHITECTURE.md lists the folders that each
+folder may include. LIBRARIES below lists the folders that may include the headers of a third-party library, so
+that its types stay there. Both lists are exact: an entry that no include needs is an error too, so the lists
+cannot become outdated.
 
-Run without arguments; exit code 1 when something is in the wrong place. The first thing checked is the
-check itself: faults put into a copy of the tree in memory must be found.
+Run without arguments; exit code 1 if an include is not allowed or an entry is not needed. The script also tests
+itself: it inserts faults into a copy of the sources in memory and must report them.
 """
 import pathlib
 import re
@@ -13,25 +13,26 @@ import sys
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
 SOURCES = (".h", ".hh", ".hpp", ".c", ".cc", ".cpp", ".cxx")
-NOT_OURS = {"build", "node_modules"}  # beside hidden folders
+NOT_OURS = {"build", "node_modules"}  # and hidden folders
 
-# Single files that see more than their folder, and why. Exact as well.
+# Single files that may include more than their folder, and the reason. Also exact.
 EXCEPTIONS = {
-    "server/mvn/open.cc": {"server/mvn/net", "server/mvn/file"},  # opens whatever a URL names
+    "server/mvn/open.cc": {"server/mvn/net", "server/mvn/file"},  # opens every kind of URL
 }
 
-# Headers of others, by the name's beginning: the library and the folders that may include them ("/*": all in one).
+# Third-party headers, by the beginning of their name: the library and the folders that may include them ("/*": all subfolders).
 LIBRARIES = {
     r"Eigen/": ("Eigen", {"urdf", "urdf/mesh", "core", "server/mvn", "server/subject", "server/loads",
                           "server/ros", "server/http", "server/body", "server/picture", "render",
                           "render/shape", "render/vtk"}),
     r"fmt/": ("fmt", {"urdf", "server/loads", "server/options", "server/body", "server/scene",
-                      "server/picture", "server/app/*", "render", "render/plot"}),
+                      "server/picture", "server/app", "server/app/*", "render",
+                      "render/plot"}),
     r"spdlog/": ("spdlog", {"server/mvn/net", "server/mvn/file", "server/ros", "server/body",
                             "server/picture", "server/app", "server/app/*"}),
     r"tl/expected": ("libexpected", {"server/mvn", "server/mvn/file", "server/http", "server/ros"}),
     r"nlohmann/": ("nlohmann-json", {"server/http", "urdf/mesh", "server/picture", "server/app/*"}),
-    r"CLI/": ("CLI11", {"server/options", "server/app"}),
+    r"CLI/": ("CLI11", {"server/app"}),
     r"yaml-cpp/": ("yaml-cpp", {"server/options", "server/picture"}),
     r"(urdf_parser|urdf_model|console_bridge)/": ("urdfdom", {"urdf"}),
     r"expat\.h": ("expat", {"urdf", "server/mvn/file"}),
@@ -52,7 +53,7 @@ LIBRARIES = {
     r"webp/": ("libwebp", {"render/av"}),
     r"cairo/|cairo[\w-]*\.h": ("Cairo", {"render/plot"}),
     r"vtk\w+\.h": ("VTK", {"render/vtk"}),
-    r"(GL|EGL)/": ("VTK", {"render/vtk"}),  # OpenGL as VTK uses it; EGL
+    r"(GL|EGL)/": ("VTK", {"render/vtk"}),  # OpenGL, as used by VTK, and EGL
     r"assimp/": ("assimp", {"urdf/mesh"}),
 }
 STANDARD = re.compile(r"[a-z_]+$|(stdlib|stdio|string|math|errno|time|signal|limits)\.h$")
@@ -62,7 +63,7 @@ INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
 def read_tree():
-    """Every source of ours and ARCHITECTURE.md: path from the top -> text."""
+    """Every source of the project and ARCHITECTURE.md: path from the top folder -> text."""
     tree = {"ARCHITECTURE.md": (TOP / "ARCHITECTURE.md").read_text()}
     folders = [TOP]
     while folders:
@@ -80,7 +81,7 @@ def folder_of(name):
 
 
 def read_arrows(architecture):
-    """The table: folder -> folders that it may include; None where it may include all."""
+    """The table: folder -> folders that it may include; None: all folders."""
     arrows = {}
     table = re.search(r"\| folder \| holds \| may include \|\n.*\n((?:\|.*\n)+)", architecture)
     for row in table.group(1).splitlines() if table else ():
@@ -91,7 +92,7 @@ def read_arrows(architecture):
 
 
 def check(tree):
-    """(number of includes looked at, what is wrong, one line each)"""
+    """(number of checked includes, list of problems, one line each)"""
     problems = []
     arrows = read_arrows(tree["ARCHITECTURE.md"])
     if not arrows:
@@ -107,7 +108,7 @@ def check(tree):
             continue
         folder = folder_of(name)
         if folder == "tests" or folder.startswith("tests/"):
-            continue  # may include all, and mirror the tree
+            continue  # may include all folders, and mirrors them
         if folder not in arrows:
             problems.append(f"{name}: the folder '{folder}' is not in ARCHITECTURE.md's table")
             continue
@@ -120,7 +121,7 @@ def check(tree):
             if include.group(1) == '"':
                 other = folder_of(target)
                 if target not in tree:
-                    problems.append(f"{where}: there is no {target}; expected a path from the top")
+                    problems.append(f"{where}: {target} not found; expected a path from the top folder")
                 elif other == folder or arrows[folder] is None:
                     pass
                 elif other in arrows[folder]:
@@ -132,14 +133,14 @@ def check(tree):
             elif not (STANDARD.match(target) or SYSTEM.match(target)):
                 found = next((p for p in LIBRARIES if re.match(p, target)), None)
                 if found is None:
-                    problems.append(f"{where}: no library of tests/layers_test.py has {target}")
+                    problems.append(f"{where}: {target} belongs to no library in tests/layers_test.py")
                 elif folder in LIBRARIES[found][1]:
                     used_homes.add((found, folder))
                 elif folder_of(folder) + "/*" in LIBRARIES[found][1]:
                     used_homes.add((found, folder_of(folder) + "/*"))
                 else:
                     homes = " or ".join(sorted(LIBRARIES[found][1]))
-                    problems.append(f"{where}: {target} belongs into {homes}")
+                    problems.append(f"{where}: {target} may only be included in {homes}")
     for folder, others in arrows.items():
         for other in sorted(others or ()):
             if (folder, other) not in used_arrows:
@@ -156,7 +157,7 @@ def check(tree):
 
 
 def faults_not_found(tree):
-    """Faults of every kind, put into a copy: the lines that check() should add and does not."""
+    """Inserts faults of every kind into a copy; returns the lines that check() should report and does not, and those it should not."""
     faulty = dict(tree)
     expected = set(check(tree)[1])
 
@@ -171,7 +172,7 @@ def faults_not_found(tree):
     include("server/app/loads/html.h", '#include "server/app/render/provenance.h"',
             "{}: server/app/loads may not include server/app/render/provenance.h")
     include("server/app/loads/html.h", "#include <CLI/CLI.hpp>",
-            "{}: CLI/CLI.hpp belongs into server/app or server/options")
+            "{}: CLI/CLI.hpp may only be included in server/app")
     include("render/image.h", '#  include "render/vtk/ground.h"  // indented',
             "{}: render may not include render/vtk/ground.h")
     include("server/mvn/assembler.h", '#include "server/mvn/net/socket.h"',
@@ -179,16 +180,16 @@ def faults_not_found(tree):
     include("server/mvn/net/socket.h", '#include "server/mvn/file/packet.h"',
             "{}: server/mvn/net may not include server/mvn/file/packet.h")
     include("render/png_file.cc", "#include <libavutil/error.h>",
-            "{}: libavutil/error.h belongs into render/av")
+            "{}: libavutil/error.h may only be included in render/av")
     include("server/mvn/tally.h", "#include <pcap/pcap.h>",
-            "{}: pcap/pcap.h belongs into server/mvn/file")
-    include("server/http/hub.h", "#include <ros/ros.h>", "{}: ros/ros.h belongs into server/ros")
+            "{}: pcap/pcap.h may only be included in server/mvn/file")
+    include("server/http/hub.h", "#include <ros/ros.h>", "{}: ros/ros.h may only be included in server/ros")
     include("urdf/figure.h", "#include <range/v3/all.hpp>",
-            "{}: no library of tests/layers_test.py has range/v3/all.hpp")
+            "{}: range/v3/all.hpp belongs to no library in tests/layers_test.py")
     include("render/vtk/ground.h", '#include "tests/temp_folder.h"',
             "{}: render/vtk may not include tests/temp_folder.h")
     include("server/loads/ground.h", '#include "ground.h"',
-            "{}: there is no ground.h; expected a path from the top")
+            "{}: ground.h not found; expected a path from the top folder")
     faulty["server/news/feed.cc"] = "#include <vector>\n"
     expected.add("server/news/feed.cc: the folder 'server/news' is not in ARCHITECTURE.md's table")
     faulty["server/mvn/open.cc"] = ""
@@ -203,15 +204,15 @@ def faults_not_found(tree):
     faulty["ARCHITECTURE.md"] = faulty["ARCHITECTURE.md"].replace("| libpcap |", "| capture library |")
     expected.add("ARCHITECTURE.md: libpcap is not among the dependencies")
     found = set(check(faulty)[1])
-    return ([f"the check does not find: {line}" for line in sorted(expected - found)] +
-            [f"the check finds what is right: {line}" for line in sorted(found - expected)])
+    return ([f"self-test: not reported: {line}" for line in sorted(expected - found)] +
+            [f"self-test: reported wrongly: {line}" for line in sorted(found - expected)])
 
 
 def main():
     tree = read_tree()
     seen, problems = check(tree)
     problems += faults_not_found(tree)
-    print(f"{seen} includes looked at, {len(problems)} problems", *problems, sep="\n")
+    print(f"{seen} includes checked, {len(problems)} problems", *problems, sep="\n")
     return 1 if problems or seen == 0 else 0
 
 

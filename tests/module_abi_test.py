@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Host and modules exchange C++ values (render/module.h), so a table of functions that a module exports
-begins with the sizes of the types that cross: `ModuleAbi<...> abi`. A type that is missing there could
-change on one side unnoticed. This finds it, by text: from the functions of each table it follows every
-member of every type. What a type holds by value changes its own size; what is behind a container, a
-pointer or a reference does not, and so has to be in the list. Exit code 1 when a type is missing or is
-listed and does not cross.
+"""Checks the list of types that the program and its modules exchange. They exchange C++ values
+(core/module_loader.h), so the table of functions that a module exports begins with the sizes of these types:
+`ModuleAbi<...> abi`. A type that is missing in this list could change on one side without an error. This script
+finds such types from the text of the sources: it starts at the functions of each table and follows every member
+of every type. A member held by value changes the size of its owner. A type behind a container, a pointer or a
+reference does not, so the list must contain it. Exit code 1 if a type is missing, or is listed but not exchanged.
 """
 import pathlib
 import re
@@ -32,7 +32,7 @@ def end_of_braces(text, begin):
 
 
 def read_types(texts):
-    """(name of a struct or class -> its bases and body, alias -> what it stands for)"""
+    """(name of a struct or class -> its bases and body, alias -> aliased type)"""
     bodies, aliases = {}, {}
     for text in texts:
         for m in re.finditer(r"(?<!enum )\b(?:struct|class)\s+(?:\[\[\w+\]\]\s*)?(\w+)(?:\s+final)?\s*(:[^{;()]*)?{", text):
@@ -44,7 +44,7 @@ def read_types(texts):
 
 
 def statements(body):
-    """Declarations of a body, without what is in their braces."""
+    """Declarations of a body, without the content of their braces."""
     depth, start = 0, 0
     flat = []
     for i, c in enumerate(body):
@@ -74,7 +74,7 @@ def is_member(statement):
 
 
 def crossing(table, bodies, aliases):
-    """The types that need a size when the functions of `table` are called."""
+    """The types whose size must be in the list of `table`, because its functions exchange them."""
     needed, seen, open_ends = set(), set(), []
 
     def names_in(text):
@@ -126,16 +126,16 @@ def problems_in(header, texts):
     for table, listed in TABLE.findall(texts[header]):
         have = set(re.findall(r"(\w+)\s*(?:,|$)", listed.strip()))
         need = crossing(table, bodies, aliases)
-        problems += [f"{header}: {table}::abi lacks {name}" for name in sorted(need - have)]
-        problems += [f"{header}: {table}::abi has {name}, which does not cross" for name in sorted(have - need)]
+        problems += [f"{header}: {table}::abi: {name} is missing" for name in sorted(need - have)]
+        problems += [f"{header}: {table}::abi: {name} is listed but not exchanged" for name in sorted(have - need)]
     return problems
 
 
 def faults_not_found(header, texts):
-    """The check itself: a new type in a vector, behind a pointer of a member's member, and as an
-    argument must be found; one that is held by value need not be in the list."""
+    """Self-test: a new type in a vector, behind a pointer of a nested member, and as an argument must be
+    reported; a type held by value must not."""
     table = TABLE.search(texts[header]).group(1)
-    expected = [f"{header}: {table}::abi lacks {name}" for name in ("ByPointer", "InArgument", "InVector")]
+    expected = [f"{header}: {table}::abi: {name} is missing" for name in ("ByPointer", "InArgument", "InVector")]
     faulty = dict(texts)
     faulty["new.h"] = """
         struct InVector { double a = 0; };
@@ -145,7 +145,7 @@ def faults_not_found(header, texts):
         struct InArgument { std::optional<ByValue> value; };"""
     faulty[header] = re.sub(r"(>\s+abi;)", r"\1 void (*added)(const InArgument& argument);", texts[header], count=1)
     found = [problem for problem in problems_in(header, faulty) if problem not in problems_in(header, texts)]
-    return [] if found == expected else [f"the check finds {found} instead of {expected}"]
+    return [] if found == expected else [f"self-test: reported {found}, expected {expected}"]
 
 
 def main():
@@ -156,7 +156,7 @@ def main():
         texts = {}
         closure(header, texts)
         problems += problems_in(header, texts) + faults_not_found(header, texts)
-    print(f"{len(headers)} headers with tables of modules, {len(problems)} problems", *problems, sep="\n")
+    print(f"{len(headers)} headers with module tables, {len(problems)} problems", *problems, sep="\n")
     return 1 if problems or not headers else 0
 
 

@@ -1,4 +1,5 @@
-/// A child process to talk to by lines. Dies with the test, however that ends.
+/// Runs a child process and exchanges lines with it. It is killed with the test, however the test
+/// ends.
 #pragma once
 
 #include <sys/types.h>
@@ -12,7 +13,8 @@ namespace kinescope::testing {
 
 class Process {
  public:
-  /// `command[0]` is the path of a program. The environment is ours. @throws std::runtime_error.
+  /// `command[0]` is the path of a program. It has this process' environment. @throws
+  /// std::runtime_error.
   explicit Process(const std::vector<std::string>& command);
   ~Process();  // kills it
   Process(const Process&) = delete;
@@ -20,7 +22,7 @@ class Process {
 
   void Signal(int number) const;
   void WriteLine(const std::string& line) const;
-  /// Its next line, waiting up to `timeout`; nullopt when none came or it has ended.
+  /// Its next line, waiting up to `timeout`; nullopt without one, or if the process has ended.
   std::optional<std::string> ReadLine(std::chrono::milliseconds timeout);
 
  private:

@@ -1,4 +1,4 @@
-/// A sink that remembers all that a source gives.
+/// A sink that keeps everything that a source delivers.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-/// Whether these tests are compiled with the sanitizer of addresses or of threads: code is then
-/// many times slower and has a heap of its own.
+/// Whether the tests are compiled with the address or thread sanitizer: code is then many times
+/// slower and has another heap.
 #pragma once
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

@@ -1,5 +1,5 @@
-/// Where the real recordings are, for tests that use them. They are not part of this repository;
-/// set KINESCOPE_SHARED_DATA in the environment, or keep them in ../shared/data.
+/// Finds the real recordings for tests that use them. They are not part of this repository; set
+/// KINESCOPE_SHARED_DATA in the environment, or keep them in ../shared/data.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ inline std::string ReadFile(const std::filesystem::path& path) {
 
 }  // namespace kinescope::testing
 
-/// Skips the test, visibly, where the recording is absent. Not a failure: the licences of the
-/// recordings do not let us ship them.
+/// Skips the test, visibly, if the recording is missing. This is not a failure: the licences of the
+/// recordings do not allow their distribution.
 #define KINESCOPE_NEEDS_SHARED_DATA(file)                               \
   if (!std::filesystem::exists(::kinescope::testing::SharedData(file))) \
   GTEST_SKIP() << "real recording " << ::kinescope::testing::SharedData(file) << " is absent"

@@ -1,4 +1,4 @@
-/// A folder of its own for a test, gone afterwards.
+/// A temporary folder for one test, deleted afterwards.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class TempFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
-  /// Of everything in it, hidden files included, sorted.
+  /// The names of everything in it, hidden files included, sorted.
   std::vector<std::string> Names() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path_)) {

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""clang-tidy has nothing to say about what has changed.
+"""Runs clang-tidy on changed files.
 
 tests/tidy_test.py BUILD_FOLDER [--since COMMIT | --all] [--jobs N]
-  BUILD_FOLDER: any build with a compile_commands.json (unity builds too); generated headers (messages of
-  ROS) have to be there. Looked at are the sources and headers of urdf, core, server and render that differ from
-  COMMIT, new ones too: by default from where this branch left origin/main, or from the last commit but one
-  when it has not left it. --all: every source, in the batches of the build, some ten CPU minutes.
-  What is asked for stands in .clang-tidy. Exit code 1 with one line for each finding: file, line, what.
+  BUILD_FOLDER: any build with a compile_commands.json (unity builds too); generated headers (ROS messages)
+  must exist. Checks the sources and headers of urdf, core, server and render that differ from COMMIT, and new
+  ones. Default of COMMIT: the commit where this branch left origin/main, or the last commit but one if it
+  has not left origin/main. --all: checks every source, in the batches of the build; takes about ten CPU minutes.
+  .clang-tidy lists the checks. Exit code 1 if there are findings; one line each: file, line, problem.
 """
 import argparse
 import concurrent.futures
@@ -27,14 +27,14 @@ def git(*words):
 
 
 def base_commit():
-    """None where there is no history to compare with."""
+    """None if there is no history."""
     head = git("rev-parse", "HEAD")
     left = git("merge-base", "HEAD", "origin/main")
     return (left if left and left != head else git("rev-parse", "HEAD~1") or [None])[0]
 
 
 def changed_since(commit):
-    """Sources and headers; a header whose source has changed too is looked at there."""
+    """Sources and headers; a header whose source has changed too is checked through that source."""
     names = {name for words in (("diff", "--name-only", "--diff-filter=d", "-z", commit),
                                 ("ls-files", "--others", "--exclude-standard", "-z"))
              for name in git(*words) or []}
@@ -46,7 +46,7 @@ def changed_since(commit):
 
 
 def tidy(words):
-    """{finding} of one run; its last lines where it could not run."""
+    """Set of findings of one run; the end of its error output if clang-tidy failed."""
     result = subprocess.run(["clang-tidy", "--quiet", *words], capture_output=True, text=True, cwd=TOP)
     found = re.findall(r"^(.+?:\d+):\d+: (?:warning|error): (.+)$", result.stdout, re.MULTILINE)
     lines = {f"{where.replace(f'{TOP}/', '')}: {what.replace(',-warnings-as-errors', '')}"
@@ -79,14 +79,14 @@ def main():
     options = parser.parse_args()
     build = options.build.resolve()
     if not options.all and options.since is None:
-        print("no history to compare with: nothing looked at; tests/tidy_test.py --all looks at all")
+        print("no history: no file checked; check all files with tests/tidy_test.py --all")
         return 0
     if not options.all and git("rev-parse", "--verify", f"{options.since}^{{commit}}") is None:
-        parser.error(f"--since={options.since}: no such commit here")
+        parser.error(f"--since={options.since}: unknown commit")
     commands = commands_for_all(build) if options.all else commands_for_changed(build, options.since)
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         findings = set().union(*pool.map(tidy, commands))
-    what = "batches, all there are" if options.all else f"files changed since {options.since[:10]}"
+    what = "batches (all sources)" if options.all else f"files changed since {options.since[:10]}"
     print(f"{len(commands)} {what}: {len(findings)} findings, {cpu_seconds():.0f} s CPU",
           *sorted(findings), sep="\n")
     return 1 if findings else 0

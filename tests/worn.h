@@ -1,4 +1,4 @@
-/// Gloves and props for a made-up person.
+/// Gloves and props for a generated person.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace kinescope::testing {
 
-/// `bare` with both hands gloved and props 1 and 3. `mesh_folder`: as HumanModel's.
+/// `bare` with two gloved hands and props 1 and 3. `mesh_folder`: as in HumanModel.
 inline std::shared_ptr<const PersonModel> WornModel(const PersonModel& bare,
                                                     const std::string& mesh_folder = "") {
   auto model = std::make_shared<PersonModel>(bare);
@@ -24,8 +24,8 @@ inline std::shared_ptr<const PersonModel> WornModel(const PersonModel& bare,
   return model;
 }
 
-/// Gives the person `model`, or a WornModel of their own: fingers bent at every joint by `bend`
-/// rad, the props beside the head.
+/// Gives the person `model`, or their own WornModel: fingers bent at every joint by `bend` rad, the
+/// props beside the head.
 inline void Wear(PersonState& person, double bend = 0.3,
                  std::shared_ptr<const PersonModel> model = nullptr) {
   person.model = model ? std::move(model) : WornModel(*person.model);

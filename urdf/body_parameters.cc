@@ -63,10 +63,11 @@ int SegmentNamed(const std::string& name) {
 
 std::string FindDefect(const BodyDescription& body) {
   if (!(body.mass_kg >= kLightest && body.mass_kg <= kHeaviest)) {
-    return fmt::format("body mass {} kg: expected {} to {}", body.mass_kg, kLightest, kHeaviest);
+    return fmt::format("body mass {} kg: expected {} to {} kg", body.mass_kg, kLightest, kHeaviest);
   }
   if (body.extra_masses.size() > kMostExtraMasses) {
-    return fmt::format("{} extra masses: at most {}", body.extra_masses.size(), kMostExtraMasses);
+    return fmt::format("{} extra masses: expected at most {}", body.extra_masses.size(),
+                       kMostExtraMasses);
   }
   for (const ExtraMass& extra : body.extra_masses) {
     if (extra.segment < 0 || extra.segment >= kSegmentCount) {
@@ -75,8 +76,8 @@ std::string FindDefect(const BodyDescription& body) {
     }
     const std::string_view on = kSegments[At(extra.segment)].link_name;
     if (!(extra.mass_kg > 0 && extra.mass_kg <= kMostExtraKg)) {
-      return fmt::format("extra mass {} kg on {}: expected above 0, at most {}", extra.mass_kg, on,
-                         kMostExtraKg);
+      return fmt::format("extra mass {} kg on {}: expected more than 0, at most {} kg",
+                         extra.mass_kg, on, kMostExtraKg);
     }
     if (!(extra.position_in_link.norm() <= kFarthestExtra)) {
       const Vector3d& at = extra.position_in_link;
@@ -110,21 +111,6 @@ double TotalMass(const BodyParameters& parameters) {
   return sum;
 }
 
-Sex ParseSex(const std::string& text) {
-  if (text == "male") return Sex::kMale;
-  if (text == "female") return Sex::kFemale;
-  throw std::invalid_argument("sex '" + text + "': expected male or female");
-}
-
-BodyTable ParseBodyTable(const std::string& text) {
-  std::string known;
-  for (const TableName& entry : kTables) {
-    if (text == entry.name) return entry.table;
-    known += (known.empty() ? "" : ", ") + std::string(entry.name);
-  }
-  throw std::invalid_argument("body table '" + text + "': expected one of " + known);
-}
-
 const char* Name(BodyTable table) {
   for (const TableName& entry : kTables) {
     if (table == entry.table) return entry.name;
@@ -136,7 +122,7 @@ ExtraMass ParseExtraMass(const std::string& text) try {
   const PlacedMass placed = ParsePlacedMass(text);
   ExtraMass extra;
   extra.segment = SegmentNamed(placed.where);
-  if (extra.segment < 0) throw std::invalid_argument("no segment '" + placed.where + "'");
+  if (extra.segment < 0) throw std::invalid_argument("unknown segment '" + placed.where + "'");
   extra.mass_kg = placed.mass_kg;
   extra.position_in_link = placed.position.value_or(Vector3d::Zero());
   BodyDescription body;

@@ -1,5 +1,5 @@
-/// Mass, centre of mass and inertia of each segment, from the person's sex, mass and skeleton, by
-/// one of four published tables, plus what the person wears.
+/// Computes mass, centre of mass and inertia of each segment from sex, body mass and skeleton of a
+/// person, by one of four published tables, plus added masses. Pure functions, any thread.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,31 +13,32 @@ namespace kinescope::urdf {
 
 enum class Sex { kMale, kFemale };
 
-/// Where the shares of mass come from. All are joint-loads.md 1; what a table lacks is taken from
-/// the default one, as body_tables.cc says row by row.
+/// Source of the mass shares, with sections of joint-loads.md 1. Values that a table lacks are
+/// taken from the default table, as body_tables.cc states row by row.
 enum class BodyTable {
   kDeLeva,  // 1.5: de Leva 1996, split onto the MVN joints; agrees with MVN's own CoM within 2 mm
   kWinter,  // 1.3: Winter (Dempster), the same for both sexes
-  kDumas,   // 1.2: Dumas et al. 2007 and 2015, CoMs off the bones' axes
-  kIit,     // 1.4: that of URDF generators for MVN subjects; trunk too heavy, head too light
+  kDumas,   // 1.2: Dumas et al. 2007 and 2015, CoMs off the bone axes
+  kIit,     // 1.4: as in URDF generators for MVN subjects; trunk too heavy, head too light
 };
 
-/// Worn or carried, rigidly on one segment: helmet, belt, backpack, tool.
+/// A point mass that is fixed to one segment: helmet, belt, backpack, tool.
 struct ExtraMass {
   int segment = kPelvis;
   double mass_kg = 0;
-  Eigen::Vector3d position_in_link = Eigen::Vector3d::Zero();  // of its CoM, m; it is a point
+  Eigen::Vector3d position_in_link = Eigen::Vector3d::Zero();  // in the link frame of the segment,
+                                                               // m
 };
 
 constexpr std::size_t kMostExtraMasses = 16;
 
 struct BodyDescription {
   Sex sex = Sex::kMale;
-  double mass_kg = 75.0;        // without extra masses
-  bool mass_is_assumed = true;  // nobody said it: say so wherever a load is shown
+  double mass_kg = 75.0;        // without added masses
+  bool mass_is_assumed = true;  // the default value: every display of a load must say so
   BodyTable table = BodyTable::kDeLeva;
   std::vector<ExtraMass> extra_masses{};
-  bool sex_is_assumed = true;  // as for the mass
+  bool sex_is_assumed = true;  // the default value
 };
 
 struct SegmentInertia {
@@ -48,28 +49,24 @@ struct SegmentInertia {
 
 using BodyParameters = std::array<SegmentInertia, kSegmentCount>;
 
-/// "" or what is wrong with `body`, naming the value and what is expected: a body mass outside 20
-/// to 300 kg; an extra mass that is not above 0 and at most 100 kg, that is farther than 2 m from
-/// its segment's origin, on a segment that does not exist, or one of more than kMostExtraMasses.
+/// Why `body` is invalid, with the value and the expected range; "" if it is valid. Limits: a body
+/// mass of 20 to 300 kg; at most kMostExtraMasses added masses, each above 0 and at most 100 kg, on
+/// an existing segment, at most 2 m from its origin.
 [[nodiscard]] std::string FindDefect(const BodyDescription& body);
 
-/// Masses add up to `body.mass_kg` (every table is divided by its own sum) and the extra masses,
-/// which are part of their segments.
-/// @throws std::invalid_argument with FindDefect's text.
+/// The masses add up to `body.mass_kg` (every table is divided by its own sum) plus the added
+/// masses, which become part of their segments.
+/// @throws std::invalid_argument with the text of FindDefect.
 BodyParameters MakeBodyParameters(const BodyDescription& body, const Skeleton& skeleton);
 
 /// kg.
 double TotalMass(const BodyParameters& parameters);
 
-/// "male" or "female". @throws std::invalid_argument naming the value.
-Sex ParseSex(const std::string& text);
-
-/// "de_leva", "winter", "dumas" or "iit". @throws std::invalid_argument naming the value.
-BodyTable ParseBodyTable(const std::string& text);
 const char* Name(BodyTable table);
 
-/// "head:1.5@0,0,0.12": segment (MVN or link name), kg, and where, in its link frame, m; without @:
-/// at the segment's origin. @throws std::invalid_argument naming the text and what is expected.
+/// "head:1.5@0,0,0.12": segment (MVN or link name), mass in kg, position in its link frame in m;
+/// without @: at the origin of the segment. @throws std::invalid_argument with the text and the
+/// expected form.
 ExtraMass ParseExtraMass(const std::string& text);
 
 }  // namespace kinescope::urdf

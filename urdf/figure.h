@@ -1,7 +1,7 @@
-/// The human as a smooth mannequin: one closed triangle surface per segment, in its link frame,
-/// metres. Lengths follow the skeleton, girths the stature. Neighbouring segments overlap in
-/// rounded ends about their common joint, so that no gap opens when it bends. Pure functions, any
-/// thread.
+/// Builds the smooth body model: one closed triangle surface per segment, in its link frame,
+/// metres. Lengths follow the skeleton, circumferences the stature. Neighbouring segments overlap
+/// in rounded ends about their common joint, so that no gap opens when it bends. Pure functions,
+/// any thread.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,8 +20,7 @@ struct TriangleMesh {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
 };
 
-/// The surface of `segment` (urdf::Segment). Made of one closed shell, a hand of six (palm and
-/// fingers).
+/// The surface of `segment` (urdf::Segment): one closed shell; six for a hand (palm and fingers).
 TriangleMesh SegmentMesh(const Skeleton& skeleton, int segment);
 
 /// The mesh as a binary STL file: little-endian, one normal per triangle.

@@ -1,5 +1,6 @@
-/// The measures of the smooth figure: cross-sections of a person of kReferenceHeight, metres, by
-/// eye from anatomical drawings. Girths of others are in proportion. Pure functions, any thread.
+/// Dimensions of the smooth body model: cross-sections of a person of kReferenceHeight, metres,
+/// estimated from anatomical drawings. Other persons' circumferences are scaled in proportion. Pure
+/// functions, any thread.
 #pragma once
 
 #include <array>
@@ -10,8 +11,8 @@ namespace kinescope::urdf {
 
 constexpr double kReferenceHeight = 1.75;
 
-/// Trunk and neck are one profile, so that the outline runs on across their joints: 0 is at the
-/// hips, then a whole number for each joint upwards; 6 is C1. u is forward, v to the left.
+/// Trunk and neck are one profile, so that the outline is continuous across their joints. 0 is at
+/// the hips, each joint upwards is the next whole number; 6 is C1. u is forward, v to the left.
 const Profile& TrunkProfile();
 
 /// Thigh (0 to 1) and shank (1 to 2). u is forward, v outward.
@@ -20,10 +21,10 @@ const Profile& LegProfile();
 /// Upper arm (0 to 1) and forearm (1 to 2). u is forward, v outward.
 const Profile& ArmProfile();
 
-/// From the middle (0) to the shoulder joint (1). u is up, v forward.
+/// From the body's midline (0) to the shoulder joint (1). u is up, v forward.
 const Profile& GirdleProfile();
 
-/// From the wrist (0) over the knuckles to where the fingers part; 1 is the tip of the middle
+/// From the wrist (0) over the knuckles to the base of the fingers; 1 is the tip of the middle
 /// finger. u is towards the thumb, v the back of the hand.
 const Profile& PalmProfile();
 
@@ -47,15 +48,15 @@ const Profile& EarProfile();
 /// is flat.
 const Profile& FootProfile();
 
-/// From the ball (0) to the tip (1), likewise.
+/// From the ball (0) to the tip (1). u is up, v outward; the underside is flat.
 const Profile& ToeProfile();
 
-/// How far forward the face is at (y, z), in lengths of the head from C1 to the crown: nose, brow,
+/// Forward offset of the face at (y, z), in lengths of the head from C1 to the crown: nose, brow,
 /// eyes, lips and chin.
 double FaceRelief(double y, double z);
 
-/// How far the trunk stands out beyond its profile, m forward and backward, at y (m to the left)
-/// and `at` (as in TrunkProfile): chest, groove of the spine, shoulder blades, buttocks.
+/// Offset of the trunk surface from its profile, m forward and backward, at y (m to the left) and
+/// `at` (as in TrunkProfile): chest, groove of the spine, shoulder blades, buttocks.
 struct TrunkRelief {
   double front = 0, back = 0;
 };

@@ -1,8 +1,8 @@
-/// What a gloved hand looks like, segment by segment, in their link frames: smooth closed surfaces,
-/// and boxes and capsules for those who want no meshes. The palm is one surface, which the carpus
-/// carries; the metacarpals of the fingers lie in it. Ends that meet are balls of one radius about
-/// the joint, so that no gap opens however it bends. Girths are by eye, for a hand of the figure's
-/// proportions (figure.cc). Metres. Pure functions, any thread.
+/// Builds the shape of a gloved hand, segment by segment, in their link frames, metres: smooth
+/// closed surfaces, or boxes and capsules where no meshes are wanted. The palm is one surface of
+/// the carpus and contains the metacarpals of the fingers. Adjacent ends are spheres of equal
+/// radius about the joint, so that no gap opens at any angle. Circumferences are estimates for a
+/// hand with the proportions of figure.cc. Pure functions, any thread.
 #pragma once
 
 #include <vector>
@@ -13,13 +13,13 @@
 
 namespace kinescope::urdf {
 
-/// The closed surface of the segment; of the carpus, the palm.
+/// The closed surface of the segment; for the carpus, the palm.
 TriangleMesh FingerMesh(const HandSkeleton& hand, int finger);
 
-/// The same as a capsule; of the carpus, a box. Also the collision shapes.
+/// The segment as a capsule; the carpus as a box. Also used as collision shapes.
 std::vector<Primitive> FingerFigure(const HandSkeleton& hand, int finger);
 
-/// The palm's box in the link frame of the hand itself, whose mass it surrounds.
+/// The box of the palm in the link frame of the hand, whose mass it contains.
 Primitive PalmBoxInHand(const HandSkeleton& hand);
 
 }  // namespace kinescope::urdf

@@ -1,9 +1,9 @@
-/// What a person's joints can do: range, strength and speed, for the <limit> elements of the URDF.
-/// Wide on purpose: a limit here must never refuse what a living person does. They hold every frame
-/// of every recording that we have (tests/system/mechanism_test.cc). Pure functions.
+/// Limits of a person's joints for the <limit> elements of the URDF: range, effort and speed. They
+/// are wide on purpose: no motion of a living person may exceed them. Every sample of all test
+/// recordings is within them (tests/system/mechanism_test.cc). Pure functions, any thread.
 ///
-/// Where the numbers come from, and how sure that is. Grade A: read in the source; B: read in a
-/// source that quotes it; C: from memory, not found again. Degrees; limits are these and a margin.
+/// Sources and their grades. A: read in the source itself; B: read in a source that quotes it; C:
+/// from memory, not confirmed. Values in degrees; the limits are these values plus a margin.
 ///
 ///   neck    flexion 64, extension 63, side 49 (in vivo, mean to 2 SD: anatomystandard.com)       A
 ///           each of MVN's two joints may take all of it
@@ -34,17 +34,17 @@ namespace kinescope::urdf {
 
 struct AxisLimit {
   double lower = 0, upper = 0;  // rad
-  double effort = 0;            // N m
+  double effort = 0;            // N·m
   double velocity = 0;          // rad/s
 };
 
-/// Of the turn about one axis of a joint of the body; axis 0 1 2 = x y z of its links, as chained
-/// by kinematics.h.
+/// Limits of the rotation about one axis of a body joint; axis 0 1 2 = x y z of its links, chained
+/// as in kinematics.h.
 AxisLimit LimitOf(int joint, int axis);
 
 enum class FingerJoint { kCarpus, kPalm, kThumbBase, kKnuckle, kMiddle, kEnd };
 
-/// Likewise of a joint inside the hand, on one side. Fingers bend about x.
+/// Limits of the rotation about one axis of a joint inside the hand. Fingers bend about x.
 AxisLimit LimitOf(FingerJoint joint, bool is_left, int axis);
 
 }  // namespace kinescope::urdf

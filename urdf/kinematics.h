@@ -1,9 +1,10 @@
-/// Poses, joint angles and forward kinematics of the human as our URDF chains it.
+/// Computes poses, joint angles and forward kinematics of the human, with the joint chain of the
+/// URDF. Pure functions, any thread.
 ///
-/// The URDF turns about y, then x, then z at every joint:
+/// Every joint of the URDF rotates about y, then x, then z:
 ///     R_parent_child = Ry(y) * Rx(x) * Rz(z)          (link frames)
-/// This is the only order under which the angles that the seed bridge publishes are right
-/// (mvn-protocol.md 6.1). Angles are radians, stored as (x, y, z).
+/// Only with this order are the angles that xsens_mvn_ros publishes right (mvn-protocol.md 6.1).
+/// Angles are in radians, stored as (x, y, z). Positions are in metres.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,37 +15,39 @@
 namespace kinescope::urdf {
 
 struct Pose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               // in the world, m
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               // world, m
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  // world_from_(link or segment)
 };
 
 using LinkPoses = std::array<Pose, kSegmentCount>;             // link frames
 using JointAngles = std::array<Eigen::Vector3d, kJointCount>;  // (x, y, z) rad
 
-/// from_from_to: where `to` stands as `from` sees it. Both in one frame.
+/// from_from_to: the pose of `to` relative to `from`. Both are given in one frame.
 [[nodiscard]] Pose Relative(const Pose& from, const Pose& to);
 
 /// Ry(y) * Rx(x) * Rz(z).
 Eigen::Quaterniond RotationFromAngles(const Eigen::Vector3d& xyz);
 
-/// This near to |x| = 90 deg, rad, y and z turn about one axis. How the turn is shared between them
-/// would be read from the last bits of the orientations: MVN streams them with 24 bits, which
-/// leaves up to 3e-7 rad in the turn between two segments.
+/// Within this distance of |x| = 90 deg, rad, y and z rotate about the same axis. The last bits of
+/// the orientations would then decide how the rotation is divided between them: MVN streams 24
+/// bits, which leaves up to 3e-7 rad in the rotation between two segments.
 constexpr double kGimbalLock = 4e-7;
 
-/// Inverse of RotationFromAngles. Of all triples that mean the same rotation, the one nearest to
-/// `near` is taken, so angles neither jump by 2 pi nor onto the other solution (180 deg - x,
-/// y + 180 deg, z + 180 deg) when x passes 90 deg. Within kGimbalLock of it x becomes 90 deg, y
-/// stays what it was and z takes the rest: that turns the result by kGimbalLock at most. A motion
-/// that passes close by without touching it truly turns y and z by half a turn; no choice of
+/// Inverse of RotationFromAngles. Of all triples for the same rotation, returns the one nearest to
+/// `near`. So angles neither jump by 2 pi nor to the other solution (180 deg - x, y + 180 deg, z +
+/// 180 deg) when x passes 90 deg. Within kGimbalLock of 90 deg, x becomes 90 deg, y is that of
+/// `near` and z takes the rest; this rotates the result by at most kGimbalLock. A motion that
+/// passes close to 90 deg without reaching it really rotates y and z by half a turn; no choice of
 /// solution can avoid that.
 Eigen::Vector3d AnglesFromRotation(const Eigen::Quaterniond& parent_from_child,
                                    const Eigen::Vector3d& near = Eigen::Vector3d::Zero());
 
-/// Angles of all joints of a posed human; `near` as above, normally the previous sample's angles.
+/// Angles of all joints of a posed human. `near` as above, normally the angles of the previous
+/// sample.
 JointAngles AnglesFromPoses(const LinkPoses& poses, const JointAngles& near);
 
-/// Every link of the rigid URDF human: the skeleton, hung at `pelvis`, bent by `angles`.
+/// World poses of all links of the rigid URDF human: the skeleton with its pelvis at `pelvis`, bent
+/// by `angles`.
 LinkPoses ForwardKinematics(const Skeleton& skeleton, const Pose& pelvis,
                             const JointAngles& angles);
 

@@ -1,5 +1,5 @@
-/// Somebody else's mesh as the surface of a segment: brought into metres, into the link's frame and
-/// onto the person. Pure functions, any thread.
+/// Fits a custom mesh to a segment: converts it to metres and to the link frame, and scales it to
+/// the person. Pure functions, any thread.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,26 +9,26 @@
 
 namespace kinescope::urdf {
 
-/// How a set of meshes is to be understood.
+/// Units and axes of a set of meshes.
 struct MeshConvention {
   enum class Frame {
     kSegment,  // MVN's: arms along y, as in the T-pose
     kLink,     // TF's: arms along -z, as in the N-pose
-    kLonger,   // of these the one along which an arm's mesh is longer; for sets that mix them
+    kLonger,  // kSegment or kLink, along whichever the arm's mesh is longer; for sets that mix both
   };
   double metres_per_unit = 1;
-  bool y_is_up = false;  // turned about x, so that y becomes z; z is up otherwise
+  bool y_is_up = false;  // rotates about x, so that y becomes z; otherwise z is up
   Frame frame = Frame::kLonger;
-  /// Stretched along its segment to the person's own length. A mesh whose origin is near its middle
-  /// is moved onto its segment as well; otherwise its origin is taken for the joint.
+  /// Stretch the mesh along its segment to the person's own segment length. A mesh with its origin
+  /// near its middle is also moved onto its segment; otherwise its origin is taken as the joint.
   bool fits_person = true;
 };
 
-/// `mesh` in metres and in the link frame, in its own size. Its normals are made anew.
+/// `mesh` in metres and in the link frame, in its original size. The normals are recomputed.
 [[nodiscard]] TriangleMesh ToLinkFrame(TriangleMesh mesh, const MeshConvention& convention,
                                        int segment);
 
-/// What ToLinkFrame gave, stretched along `segment` to the length that `skeleton` has there.
+/// Stretches a mesh from ToLinkFrame along `segment` to the segment length of `skeleton`.
 TriangleMesh FitToPerson(TriangleMesh mesh, const Skeleton& skeleton, int segment);
 
 Eigen::AlignedBox3d BoundsOf(const TriangleMesh& mesh);

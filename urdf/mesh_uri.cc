@@ -119,7 +119,7 @@ std::variant<fs::path, MeshNotFound> Existing(const fs::path& path) {
     return MeshNotFound{path.string() + ": " +
                         (error ? error.message() : std::string("No such file or directory"))};
   }
-  return MeshNotFound{path.string() + ": is no regular file"};
+  return MeshNotFound{path.string() + ": not a regular file"};
 }
 
 }  // namespace
@@ -141,10 +141,10 @@ MeshSearch MakeMeshSearch(const fs::path& urdf_file, const std::vector<std::stri
 
 std::variant<fs::path, MeshNotFound> FindMesh(const std::string& uri, const MeshSearch& search) {
   std::string_view rest = uri;
-  if (uri.find('\0') != uri.npos) return MeshNotFound{"its name holds a zero byte"};
+  if (uri.find('\0') != uri.npos) return MeshNotFound{"its name contains a zero byte"};
   if (TakePrefix(rest, "file://")) {
     if (rest.empty() || rest[0] != '/') {
-      return MeshNotFound{uri + ": file:// wants an absolute path, file:///folder/name"};
+      return MeshNotFound{uri + ": file:// needs an absolute path, such as file:///folder/name"};
     }
     return Existing(PercentDecoded(rest));
   }
@@ -156,19 +156,19 @@ std::variant<fs::path, MeshNotFound> FindMesh(const std::string& uri, const Mesh
     }
     const auto folder = FindPackage(name, search);
     if (folder) return Existing(*folder / PercentDecoded(rest.substr(slash + 1)));
-    return MeshNotFound{"package '" + name + "' is not found in " + List(search.package_path) +
-                        " nor around the URDF; name its folder with --package-path"};
+    return MeshNotFound{"package '" + name + "' was not found in " + List(search.package_path) +
+                        " or around the URDF; add its folder with --package_path"};
   }
   if (uri.find("://") != uri.npos) {
-    return MeshNotFound{uri + ": only package://, file:// and paths are read"};
+    return MeshNotFound{uri + ": unsupported; expected package://, file:// or a path"};
   }
   const fs::path path = uri;
   if (path.is_absolute()) return Existing(path);
   if (path.empty()) return MeshNotFound{"it has no file name"};
   if (search.urdf_folder.empty()) {
     return MeshNotFound{uri +
-                        ": relative, and the URDF comes from no file; only package://, "
-                        "file:// and absolute paths are read"};
+                        ": a relative path, but the URDF was not read from a file; use package://, "
+                        "file:// or an absolute path"};
   }
   return Existing(search.urdf_folder / path);
 }

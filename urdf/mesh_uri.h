@@ -1,4 +1,4 @@
-/// From the name of a mesh in a URDF to a file. Looks at the file system; any thread.
+/// Finds the file of a mesh that a URDF names. Reads the file system; any thread.
 #pragma once
 
 #include <filesystem>
@@ -8,25 +8,26 @@
 
 namespace kinescope::urdf {
 
-/// Where package:// and relative names start. Empty: only absolute ones are found.
+/// Where package:// and relative names are searched. Empty: only absolute paths are found.
 struct MeshSearch {
   std::filesystem::path urdf_folder;
-  /// Searched in order. Each holds packages, at any depth that a workspace has, or is one.
+  /// Searched in order. Each folder is a package, or contains packages at any depth that a
+  /// workspace has.
   std::vector<std::filesystem::path> package_path;
 };
 
-/// For the URDF in `urdf_file`: the entries of --package-path, then those of $ROS_PACKAGE_PATH.
-/// Packages around the URDF itself are found last, by walking up from it.
+/// For the URDF in `urdf_file`: first the entries of `package_path`, then those of
+/// $ROS_PACKAGE_PATH. Packages around the URDF itself are searched last, upwards from its folder.
 MeshSearch MakeMeshSearch(const std::filesystem::path& urdf_file,
                           const std::vector<std::string>& package_path);
 
 struct MeshNotFound {
-  std::string reason;  // names what was looked for and where, and what would help
+  std::string reason;  // with the name, the places that were searched and the remedy
 };
 
-/// The file that `uri` means: package://name/path, file:///path, an absolute path, a path relative
-/// to the URDF. Percent-encoding is undone in URIs. The file was there as a regular file a moment
-/// ago.
+/// The file of `uri`: package://name/path, file:///path, an absolute path, or a path relative to
+/// the URDF. Percent-encoding in URIs is decoded. The file existed as a regular file at the time of
+/// the call.
 std::variant<std::filesystem::path, MeshNotFound> FindMesh(const std::string& uri,
                                                            const MeshSearch& search);
 

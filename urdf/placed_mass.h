@@ -1,4 +1,5 @@
-/// Numbers and masses at places, as people type them: "head:1.5@0,0,0.12". Any thread.
+/// Parses masses with positions and lists of numbers as users type them: "head:1.5@0,0,0.12". Pure
+/// functions, any thread.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,16 +10,16 @@
 namespace kinescope::urdf {
 
 struct PlacedMass {
-  std::string where;  // before the colon; never empty
+  std::string where;  // text before the colon; never empty
   double mass_kg = 0;
-  std::optional<Eigen::Vector3d> position;  // m
+  std::optional<Eigen::Vector3d> position;  // m; absent without @
 };
 
-/// Reads WHERE:KG or WHERE:KG@X,Y,Z. Numbers are finite; whether they make sense is the caller's.
-/// @throws std::invalid_argument naming the part of `text` that is wrong.
+/// Reads WHERE:KG or WHERE:KG@X,Y,Z. Numbers are finite; the caller checks their range. @throws
+/// std::invalid_argument with the invalid part of `text`.
 PlacedMass ParsePlacedMass(const std::string& text);
 
-/// Numbers with commas between, each finite. @throws std::invalid_argument naming what is none.
+/// Reads comma-separated finite numbers. @throws std::invalid_argument with the invalid part.
 std::vector<double> ParseNumbers(const std::string& text);
 
 }  // namespace kinescope::urdf

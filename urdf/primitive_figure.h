@@ -1,5 +1,6 @@
-/// The human in boxes, cylinders and spheres: collision shapes of the URDF, and its visuals where a
-/// mesh is not wanted (RViz on a slow machine). Link frames, metres.
+/// Builds the human from boxes, cylinders and spheres: collision shapes of the URDF, and its
+/// visuals where no meshes are wanted (RViz on a slow machine). Link frames, metres. Pure
+/// functions, any thread.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +14,12 @@ struct Primitive {
   enum class Kind { kBox, kCylinder, kSphere };
   Kind kind = Kind::kBox;
   Eigen::Vector3d size =
-      Eigen::Vector3d::Ones();  // box: x y z; cylinder: radius, length; sphere: radius
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // in the link
-  Eigen::Vector3d rpy = Eigen::Vector3d::Zero();     // URDF's fixed-axis roll, pitch, yaw
+      Eigen::Vector3d::Ones();  // m; box: x y z; cylinder: radius, length; sphere: radius
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // in the link frame, m
+  Eigen::Vector3d rpy = Eigen::Vector3d::Zero();     // fixed-axis roll, pitch, yaw as in URDF, rad
 };
 
-/// The parts of one segment; at least one.
+/// The primitives of one segment; at least one.
 std::vector<Primitive> PrimitiveFigure(const Skeleton& skeleton, int segment);
 
 }  // namespace kinescope::urdf

@@ -63,7 +63,7 @@ std::vector<Isometry3d> PlaceLinks(const RobotModel& robot, const JointPositions
   for (const RobotJoint& joint : robot.joints) joints[joint.name] = &joint;
   for (const auto& [name, position] : positions) {
     const auto joint = joints.find(name);
-    if (joint == joints.end()) throw UrdfError("there is no joint '" + name + "'");
+    if (joint == joints.end()) throw UrdfError("unknown joint '" + name + "'");
     if (!joint->second->HasPosition()) {
       throw UrdfError("joint '" + name + "' has no position: it is fixed, floating or planar");
     }

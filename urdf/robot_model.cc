@@ -31,7 +31,7 @@ class Collector : public console_bridge::OutputHandler {
   }
 
   bool is_empty() const { return errors_.empty(); }
-  std::string reason() const { return is_empty() ? "urdfdom gives no reason" : errors_; }
+  std::string reason() const { return is_empty() ? "urdfdom reports no reason" : errors_; }
 
  private:
   static std::mutex& GlobalMutex() {  // the handler is global to the process
@@ -72,10 +72,10 @@ Isometry3d ToEigen(const ::urdf::Pose& pose, const std::string& where) {
   const Vector3d position = ToEigen(pose.position);
   if (!position.allFinite() || !rotation.coeffs().allFinite() ||
       std::abs(rotation.norm() - 1) > 1e-3) {
-    throw UrdfError(where + ": <origin> holds a number that is not finite");
+    throw UrdfError(where + ": <origin> contains a number that is not finite");
   }
   if (position.cwiseAbs().maxCoeff() > kMostMeters) {
-    throw UrdfError(where + ": <origin> is further away than a robot can be");
+    throw UrdfError(where + ": <origin> is too far away");
   }
   Isometry3d transform = Isometry3d::Identity();
   transform.linear() = rotation.normalized().toRotationMatrix();
@@ -93,7 +93,7 @@ void CheckSize(const Geometry& geometry, const std::string& where) {
     throw UrdfError(where + ": <geometry> has a negative size");
   }
   if (geometry.size.cwiseAbs().maxCoeff() > most) {
-    throw UrdfError(where + ": <geometry> is larger than a robot can be");
+    throw UrdfError(where + ": <geometry> is too large");
   }
 }
 
@@ -152,7 +152,7 @@ Inertial ToInertial(const ::urdf::Inertial& from, const std::string& where) {
       from.ixy, from.iyy, from.iyz,            //
       from.ixz, from.iyz, from.izz;
   if (!std::isfinite(to.mass) || !to.inertia.allFinite()) {
-    throw UrdfError(where + ": <inertial> holds a number that is not finite");
+    throw UrdfError(where + ": <inertial> contains a number that is not finite");
   }
   return to;
 }
@@ -192,7 +192,7 @@ RobotJoint::Type ToType(const ::urdf::Joint& from, const std::string& where,
       return Type::kPlanar;
     default: break;
   }
-  throw UrdfError(where + ": has no type that is known");
+  throw UrdfError(where + ": has an unknown type");
 }
 
 RobotJoint ToJoint(const ::urdf::Joint& from, std::vector<std::string>& notes) {
@@ -205,7 +205,7 @@ RobotJoint ToJoint(const ::urdf::Joint& from, std::vector<std::string>& notes) {
   joint.axis = ToEigen(from.axis);
   joint.type = ToType(from, where, notes);
   if (joint.HasPosition() && !(joint.axis.allFinite() && joint.axis.norm() > 1e-6)) {
-    throw UrdfError(where + ": <axis> is not a direction");
+    throw UrdfError(where + ": <axis> gives no direction");
   }
   if (from.limits) {
     joint.limits = {from.limits->lower, from.limits->upper, from.limits->effort,

@@ -1,12 +1,13 @@
-/// The 23 segments and 22 joints of an MVN body: order, names, parents. One table for the whole
-/// program; every per-segment array is indexed by `Segment`, every per-joint array by `Joint`.
+/// The 23 segments and 22 joints of an MVN body: order, names, parents. This is the only table of
+/// them in the program; every per-segment array is indexed by `Segment`, every per-joint array by
+/// `Joint`.
 ///
-/// Frames. A *segment* frame is what MVN streams: identity in the T-pose, x forward, y left, z up,
-/// so the right arm lies along -y. A *link* frame is what we publish (TF, URDF, as the seed bridge
-/// does): the same, but upper arms, forearms and hands are turned so that identity is the N-pose
-/// and every limb hangs along -z. Origins are equal: the proximal joint centre (pelvis: midpoint of
-/// the hips). Source of order, names and turns: MV0305P and xsens_mvn_ros
-/// (mvn-protocol.md 4.1, 4.3, 6.1).
+/// Frames. A *segment* frame is the one that MVN streams: identity in the T-pose, x forward, y
+/// left, z up, so the right arm lies along -y. A *link* frame is the one that Kinescope publishes
+/// (TF, URDF, as xsens_mvn_ros does). It is the segment frame, except that upper arms, forearms and
+/// hands are rotated so that identity is the N-pose and every limb points along -z. The origins are
+/// equal: the proximal joint centre (pelvis: midpoint of the hips). Source of order, names and
+/// rotations: MV0305P and xsens_mvn_ros (mvn-protocol.md 4.1, 4.3, 6.1).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -75,14 +76,14 @@ enum Joint : int {
 
 struct SegmentInfo {
   std::string_view mvn_name;   // "RightForeArm", as in type 13 and MVNX
-  std::string_view link_name;  // "right_forearm", as the seed publishes
+  std::string_view link_name;  // "right_forearm", as xsens_mvn_ros publishes it
   int parent;                  // -1 for the pelvis
 };
 
 struct JointInfo {
-  std::string_view mvn_name;  // "jRightC7Shoulder" (jRightT4Shoulder in newer files is the same)
+  std::string_view mvn_name;  // "jRightC7Shoulder" (jRightT4Shoulder in newer files)
   std::string_view ros_name;  // "right_c7_shoulder"
-  std::string_view label;     // "Right C7 shoulder", for people
+  std::string_view label;     // "Right C7 shoulder", for display
 };
 
 extern const std::array<SegmentInfo, kSegmentCount> kSegments;
@@ -93,20 +94,20 @@ extern const std::array<JointInfo, kJointCount> kJoints;
 inline constexpr std::size_t kScoredJointCount = 15;
 extern const std::array<int, kScoredJointCount> kScoredJoints;
 
-/// A segment or a joint as an index of the arrays that they count through.
+/// A segment or joint as an array index.
 constexpr std::size_t At(int index) { return static_cast<std::size_t>(index); }
 
 constexpr int ChildOf(int joint) { return joint + 1; }
 inline int ParentOf(int joint) {
-  return kSegments[At(joint) + 1].parent;  // of the child
+  return kSegments[At(joint) + 1].parent;  // of the child segment
 }
 
-/// Segment whose MVN name is `mvn_name`; nullopt for a prop, a finger or anything unknown.
+/// The segment with the MVN name `mvn_name`; nullopt for a prop, a finger or an unknown name.
 std::optional<Segment> FindSegment(std::string_view mvn_name);
-/// Joint by MVN name; `j·T4Shoulder` (files since MVN 2018) counts as `j·C7Shoulder`.
+/// The joint with the MVN name `mvn_name`; `j·T4Shoulder` (files since MVN 2018) is `j·C7Shoulder`.
 std::optional<Joint> FindJoint(std::string_view mvn_name);
 
-/// The constant turn between the two frames of a segment:
+/// The constant rotation between the two frames of a segment:
 /// world_from_link = world_from_segment * SegmentFromLink(segment). Rx(-90 deg) for the right upper
 /// arm, forearm and hand, Rx(+90 deg) for the left ones, identity elsewhere.
 const Eigen::Quaterniond& SegmentFromLink(int segment);

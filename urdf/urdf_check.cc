@@ -19,13 +19,13 @@ std::optional<UrdfProblem> FindOtherFormat(const XmlOutline& xml) {
   for (const XmlElement& element : xml.elements) {
     if (element.tag.compare(0, 6, "xacro:") != 0) continue;
     return UrdfProblem{Kind::kUnreadable, element.line, "<" + element.tag + ">",
-                       "this is a xacro file, from which a URDF is made",
-                       "run: xacro FILE.xacro > FILE.urdf"};
+                       "this is a xacro file, not a URDF", "run: xacro FILE.xacro > FILE.urdf"};
   }
   if (root.tag == "robot") return std::nullopt;
-  return UrdfProblem{Kind::kUnreadable, root.line, "<" + root.tag.substr(0, 40) + ">",
-                     root.tag == "sdf" ? "this is an SDF, no URDF" : "a URDF begins with <robot>",
-                     root.tag == "sdf" ? "export it as URDF" : "is this the right file?"};
+  return UrdfProblem{
+      Kind::kUnreadable, root.line, "<" + root.tag.substr(0, 40) + ">",
+      root.tag == "sdf" ? "this is an SDF, not a URDF" : "a URDF begins with <robot>",
+      root.tag == "sdf" ? "export it as URDF" : "choose a URDF file"};
 }
 
 // A material may be defined at the top or in any visual, and then be used by name.
@@ -46,8 +46,8 @@ void FindUndefinedMaterials(const XmlOutline& xml, UrdfReport& report) {
     const std::string* owner = xml[link].Attribute("name");
     report.problems.push_back({Kind::kWarning, element.line,
                                Called(xml[link].tag, owner != nullptr ? *owner : ""),
-                               Called("material", *name) + " is defined nowhere",
-                               "give it a <color>; it is drawn in grey"});
+                               Called("material", *name) + " is not defined",
+                               "give it a <color>; until then it is drawn in grey"});
   }
 }
 
@@ -88,7 +88,7 @@ void FindMeshes(const std::vector<NamedMesh>& meshes, const MeshSearch& search,
     if (known->second.empty()) continue;
     report.problems.push_back({Kind::kWrong, mesh.line, mesh.element,
                                "mesh " + mesh.uri + " is missing: " + known->second,
-                               "it is drawn as a labelled box until it is there"});
+                               "add the file; until then it is drawn as a labelled box"});
   }
   report.meshes = reason_of.size();
 }
@@ -131,7 +131,7 @@ UrdfReport CheckUrdf(const std::string& xml, const MeshSearch& meshes) {
     std::string what = error.what();
     if (error.line() > 0) what.erase(0, place.size());
     report.problems.push_back({Kind::kUnreadable, error.line(), "document", what,
-                               "correct it; urdfdom and with it ROS cannot read it either"});
+                               "correct it; urdfdom and ROS cannot read it either"});
   }
   std::stable_sort(report.problems.begin(), report.problems.end(),
                    [](const UrdfProblem& a, const UrdfProblem& b) { return a.line < b.line; });

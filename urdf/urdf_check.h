@@ -1,6 +1,6 @@
-/// What is wrong with a URDF, all of it and with lines. urdfdom stops at the first fault, has no
-/// lines and does not mind much of what follows; so the elements are looked at a second time.
-/// Pure functions, but for meshes, which are looked for; any thread.
+/// Finds all problems of a URDF, with line numbers. urdfdom stops at the first error, gives no
+/// lines and accepts many of the problems that follow, so the elements are checked separately. Pure
+/// functions, except that mesh files are looked up; any thread.
 #pragma once
 
 #include <string>
@@ -13,14 +13,14 @@ namespace kinescope::urdf {
 
 struct UrdfProblem {
   enum class Kind {
-    kUnreadable,  // no reader takes it; ParseUrdf refuses it too
-    kWrong,       // it can be drawn, but says what cannot be
-    kWarning,     // right, but not everybody can use it
+    kUnreadable,  // invalid: rejected by every URDF parser, including ParseUrdf
+    kWrong,       // can be rendered, but contains invalid values or references
+    kWarning,     // valid, but not supported by all programs
   };
   Kind kind = Kind::kWrong;
-  int line = 0;         // from 1; 0 where it is not known
+  int line = 0;         // from 1; 0 if unknown
   std::string element;  // "link 'arm'"
-  std::string what;     // with the value
+  std::string what;     // what is wrong, with the value
   std::string way_out;
 };
 
@@ -32,18 +32,18 @@ struct UrdfReport {
   std::vector<std::string> roots;
   std::size_t links = 0;
   std::size_t joints = 0;
-  std::size_t moving_joints = 0;      // neither fixed
-  std::size_t meshes = 0;             // different names
+  std::size_t moving_joints = 0;      // not fixed
+  std::size_t meshes = 0;             // different names of mesh files
   double mass = 0;                    // kg, of all links
-  std::vector<UrdfProblem> problems;  // by line
+  std::vector<UrdfProblem> problems;  // ordered by line
 
-  bool is_usable() const;  // nothing but warnings
+  bool is_usable() const;  // no problems except warnings
 };
 
-/// Never throws for anything that `xml` holds.
+/// Never throws because of the content of `xml`.
 UrdfReport CheckUrdf(const std::string& xml, const MeshSearch& meshes);
 
-/// @throws UrdfError with the line of the first thing that no reader takes.
+/// @throws UrdfError with the line of the first problem that makes `xml` unreadable.
 void RefuseUnreadable(const XmlOutline& xml);
 
 }  // namespace kinescope::urdf

@@ -1,4 +1,5 @@
-/// The two halves of urdf_check.h: what stands in one element, and how they hang together.
+/// The two parts of urdf_check.h: checks within one element, and checks of the links between
+/// elements. Pure functions, any thread.
 #pragma once
 
 #include <string>
@@ -9,27 +10,27 @@
 
 namespace kinescope::urdf {
 
-/// A mesh that is named, and where.
+/// A mesh reference and where it occurs.
 struct NamedMesh {
   std::string uri;
   std::string element;
   int line = 0;
 };
 
-/// One <link>, by its index. `moves`: it hangs on a joint that is not fixed.
-/// @return its mass, 0 where it has none that counts.
+/// Checks one <link>, given by its index. `moves`: its joint is not fixed.
+/// @return its mass, kg; 0 if it has no valid mass.
 double CheckLink(const XmlOutline& xml, int link, bool moves, std::vector<NamedMesh>& meshes,
                  std::vector<UrdfProblem>& problems);
 
-/// One <joint>: its numbers, not what it connects.
+/// Checks one <joint>: its numbers, not the links that it connects.
 void CheckJoint(const XmlOutline& xml, int joint, std::vector<UrdfProblem>& problems);
 
-/// <material> of a link or of the robot.
+/// Checks the <material> of a link or of the robot.
 void CheckMaterial(const XmlOutline& xml, int material, const std::string& owner,
                    std::vector<UrdfProblem>& problems);
 
-/// All but the numbers within: names, what hangs on what, roots. Fills `report`, but for its
-/// problems, which go to `problems`; @return for each element whether it is a <link> that moves.
+/// Checks names, parents, children and roots. Fills `report` except for its problems, which are
+/// added to `problems`; @return for each element whether it is a <link> that moves.
 std::vector<bool> CheckTree(const XmlOutline& xml, UrdfReport& report,
                             std::vector<UrdfProblem>& problems);
 

@@ -28,7 +28,7 @@ class Tree {
     }
     CheckMimics();
     if (report_.links == 0) {
-      Say(Kind::kUnreadable, 0, "robot", "it has no <link>", "a robot has at least one");
+      Say(Kind::kUnreadable, 0, "robot", "it has no <link>", "add at least one <link>");
     } else if (report_.links > kMostLinks) {
       Say(Kind::kUnreadable, 0, "robot", fmt::format("it has {} links", report_.links),
           fmt::format("at most {} are drawn", kMostLinks));
@@ -71,7 +71,7 @@ class Tree {
       return;
     }
     Say(Kind::kUnreadable, at, Called("link", *name),
-        fmt::format("there is one of this name in line {} already",
+        fmt::format("the name is already used in line {}",
                     xml_[links_[static_cast<std::size_t>(known->second)].at].line),
         "give it another name");
   }
@@ -104,7 +104,7 @@ class Tree {
       const auto [known, is_new] = joint_of_.emplace(*name, at);
       if (!is_new) {
         Say(Kind::kUnreadable, at, element,
-            fmt::format("there is one of this name in line {} already", xml_[known->second].line),
+            fmt::format("the name is already used in line {}", xml_[known->second].line),
             "give it another name");
       }
     }
@@ -116,7 +116,7 @@ class Tree {
       Say(Kind::kUnreadable, at, Called("link", link.name),
           fmt::format("it is the child of two joints; the other is in line {}",
                       xml_[link.joint].line),
-          "a URDF is a tree: let it hang on one of them");
+          "a URDF is a tree: keep only one of these joints");
       return;
     }
     link.parent = parent;
@@ -152,7 +152,7 @@ class Tree {
         "robot",
         fmt::format("it has {} roots: {}{}", report_.roots.size(), names,
                     report_.roots.size() > kMostNamed ? ", …" : ""),
-        "connect all but one by a joint (fixed will do)");
+        "connect all but one with a joint, such as a fixed one");
   }
 
   // Up from every link; a way that comes back to itself is a loop, and each is told once.
@@ -178,9 +178,9 @@ class Tree {
     } while (at != start);
     const Link& link = links_[static_cast<std::size_t>(start)];
     Say(Kind::kUnreadable, link.joint, Called("link", link.name),
-        fmt::format("it hangs on itself, a loop of {} links: {}{}", length,
+        fmt::format("it is its own ancestor in a loop of {} links: {}{}", length,
                     length > kMostNamed ? "… " : "", path),
-        "a URDF is a tree: take one of these joints out");
+        "a URDF is a tree: remove one of these joints");
   }
 
   const XmlOutline& xml_;

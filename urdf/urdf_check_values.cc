@@ -92,8 +92,9 @@ void CheckOrigin(Values& values, int owner) {
   if (const auto xyz = values.Numbers(origin, "xyz", 3)) {
     for (const double each : *xyz) {
       if (std::abs(each) <= kMostMeters) continue;
-      values.Say(Kind::kUnreadable, origin, fmt::format("<origin> is {:g} m away", each),
-                 fmt::format("at most {:g} m; are these millimetres?", kMostMeters));
+      values.Say(
+          Kind::kUnreadable, origin, fmt::format("<origin> is {:g} m away", each),
+          fmt::format("expected at most {:g} m; convert millimetres to metres", kMostMeters));
       break;
     }
   }
@@ -107,13 +108,14 @@ void CheckLength(Values& values, int shape, const char* name, std::size_t count)
   for (const double each : *lengths) {
     if (each < 0) {
       values.Say(Kind::kUnreadable, shape, fmt::format("{} is negative: {:g} m", what, each),
-                 "a length is 0 or more");
+                 "expected 0 m or more");
     } else if (each > kMostMeters) {
-      values.Say(Kind::kUnreadable, shape, fmt::format("{} is {:g} m", what, each),
-                 fmt::format("at most {:g} m; are these millimetres?", kMostMeters));
+      values.Say(
+          Kind::kUnreadable, shape, fmt::format("{} is {:g} m", what, each),
+          fmt::format("expected at most {:g} m; convert millimetres to metres", kMostMeters));
     } else if (each == 0) {
-      values.Say(Kind::kWarning, shape, what + " is 0: there is nothing to see",
-                 "give it a size, or leave the shape out");
+      values.Say(Kind::kWarning, shape, what + " is 0, so nothing is visible",
+                 "give it a size, or remove the shape");
     } else {
       continue;
     }
@@ -135,7 +137,7 @@ void CheckMesh(Values& values, int mesh, std::vector<NamedMesh>& meshes) {
     if (each != 0 && std::abs(each) <= kMostScale) continue;
     values.Say(each == 0 ? Kind::kWarning : Kind::kUnreadable, mesh,
                fmt::format("<mesh> scale is {:g}", each),
-               fmt::format("anything but 0, up to {:g}", kMostScale));
+               fmt::format("expected a number other than 0, up to {:g}", kMostScale));
     return;
   }
 }
@@ -161,8 +163,8 @@ void CheckShape(Values& values, int owner, std::vector<NamedMesh>& meshes) {
   } else if (tag == "mesh") {
     CheckMesh(values, shape, meshes);
   } else {
-    values.Say(Kind::kUnreadable, shape, "<" + tag + "> is no shape of a URDF",
-               "there are <box>, <cylinder>, <sphere> and <mesh>");
+    values.Say(Kind::kUnreadable, shape, "<" + tag + "> is not a shape of a URDF",
+               "expected <box>, <cylinder>, <sphere> or <mesh>");
   }
 }
 
@@ -170,7 +172,7 @@ void CheckTensor(Values& values, int element, const Eigen::Matrix3d& tensor, dou
   if (tensor.isZero(0)) {
     if (mass > 0) {
       values.Say(Kind::kWarning, element, fmt::format("no inertia for {:g} kg", mass),
-                 "simulators want one: write that of the shape, or leave <inertial> out");
+                 "simulators need one: give the inertia of the shape, or remove <inertial>");
     }
     return;
   }
@@ -180,26 +182,26 @@ void CheckTensor(Values& values, int element, const Eigen::Matrix3d& tensor, dou
       fmt::format("principal moments {:g} {:g} {:g} kg m²", moments[0], moments[1], moments[2]);
   if (!(moments[0] > 0)) {
     values.Say(Kind::kWrong, element, "<inertia> is not positive definite: " + text,
-               "no body has this; are signs or off-diagonal values wrong?");
+               "impossible for a real body; check signs and off-diagonal values");
   } else if (moments[0] + moments[1] < moments[2] * (1 - kTriangleSlack)) {
     values.Say(Kind::kWrong, element,
                "<inertia> breaks the triangle inequality (two moments are together at least the "
                "third): " +
                    text,
-               "no body has this; was it taken about another point, or in another order?");
+               "impossible for a real body; check the reference point and the order of the values");
   }
 }
 
 void CheckMass(Values& values, int at, double mass, bool moves) {
   if (mass < 0) {
     values.Say(Kind::kWrong, at, fmt::format("its mass is negative: {:g} kg", mass),
-               "a mass is more than 0");
+               "expected more than 0 kg");
   } else if (mass > kMostMass) {
     values.Say(Kind::kWrong, at, fmt::format("its mass is {:g} kg", mass),
-               fmt::format("at most {:g} kg; are these grams?", kMostMass));
+               fmt::format("expected at most {:g} kg; convert grams to kilograms", kMostMass));
   } else if (mass == 0 && moves) {
     values.Say(Kind::kWarning, at, "it moves and has no mass",
-               "fine for RViz and TF; Gazebo leaves it out, with all that hangs on it");
+               "fine for RViz and TF; Gazebo leaves it out, with all its child links");
   }
 }
 
@@ -217,7 +219,7 @@ double CheckInertial(Values& values, int link, bool moves) {
   for (const auto& [at, tag] : {std::pair(mass_at, "mass"), std::pair(tensor_at, "inertia")}) {
     if (at >= 0) continue;
     values.Say(Kind::kUnreadable, inertial, fmt::format("<inertial> has no <{}>", tag),
-               "add it, or leave <inertial> out");
+               "add it, or remove <inertial>");
   }
   const auto mass = mass_at < 0 ? std::nullopt : values.Number(mass_at, "value", true);
   if (mass) CheckMass(values, mass_at, *mass, moves);
@@ -259,7 +261,7 @@ void CheckLimits(Values& values, int joint, const std::string& type) {
     const auto value = values.Number(limit, name, true);
     if (!value || *value >= 0) continue;
     values.Say(Kind::kWrong, limit, fmt::format("{} is negative: {:g}", name, *value),
-               "a limit is 0 or more");
+               "expected 0 or more");
   }
 }
 
@@ -269,11 +271,11 @@ void CheckAxis(Values& values, int joint) {
   if (!axis) return;
   const double length = Eigen::Vector3d((*axis)[0], (*axis)[1], (*axis)[2]).norm();
   if (!(length > 1e-6)) {
-    values.Say(Kind::kUnreadable, at, "<axis> has no length, so it is no direction",
-               "write xyz=\"1 0 0\" or the like");
+    values.Say(Kind::kUnreadable, at, "<axis> has length 0, so it gives no direction",
+               "write a direction, such as xyz=\"1 0 0\"");
   } else if (std::abs(length - 1) > 1e-3) {
     values.Say(Kind::kWarning, at, fmt::format("<axis> has the length {:g}", length),
-               "only its direction counts; write a length of 1");
+               "only its direction is used; give it length 1");
   }
 }
 
@@ -304,19 +306,20 @@ void CheckJoint(const XmlOutline& xml, int joint, std::vector<UrdfProblem>& prob
   Values values(xml, Called("joint", name != nullptr ? *name : ""), problems);
   CheckOrigin(values, joint);
   if (type == nullptr) {
-    values.Say(Kind::kUnreadable, joint, "it has no type", "write type=\"revolute\" or the like");
+    values.Say(Kind::kUnreadable, joint, "it has no type",
+               "write a type, such as type=\"revolute\"");
     return;
   }
   static constexpr std::array<std::string_view, 6> kTypes = {"fixed",     "revolute", "continuous",
                                                              "prismatic", "floating", "planar"};
   if (std::find(kTypes.begin(), kTypes.end(), *type) == kTypes.end()) {
-    values.Say(Kind::kUnreadable, joint, "type " + Quoted(*type) + " is not known",
-               "there are fixed, revolute, continuous, prismatic, floating and planar");
+    values.Say(Kind::kUnreadable, joint, "unknown type " + Quoted(*type),
+               "expected fixed, revolute, continuous, prismatic, floating or planar");
     return;
   }
   if (*type == "floating" || *type == "planar") {
-    values.Say(Kind::kWarning, joint, "it is " + *type + ": it is drawn at its origin",
-               "a joint state has no place for it; TF has");
+    values.Say(Kind::kWarning, joint, "it is " + *type + ": drawn at its origin",
+               "joint states cannot describe this joint type; use TF");
   } else if (*type != "fixed") {
     CheckAxis(values, joint);
     CheckLimits(values, joint, *type);

@@ -1,4 +1,4 @@
-/// What readers of URDFs throw.
+/// The exception that all URDF readers throw.
 #pragma once
 
 #include <stdexcept>
@@ -6,14 +6,13 @@
 
 namespace kinescope::urdf {
 
-/// The text is no usable URDF; what() says which element is wrong and why, after its line where
-/// that is known.
+/// Invalid URDF. what() contains the line, if known, the element and the reason.
 class UrdfError : public std::runtime_error {
  public:
   explicit UrdfError(const std::string& what, int line = 0)
       : std::runtime_error(line > 0 ? "line " + std::to_string(line) + ": " + what : what),
         line_(line) {}
-  /// From 1; 0 where it is not known.
+  /// From 1; 0 if unknown.
   int line() const { return line_; }
 
  private:

@@ -47,7 +47,7 @@ void OnEnd(void* user, const char*) { --static_cast<Scan*>(user)->depth; }
 
 void OnDoctype(void* user, const char*, const char*, const char*, int) {
   static_cast<Scan*>(user)->Stop(
-      "a DOCTYPE is refused, since its entities can grow without bound; remove it");
+      "DOCTYPE is not supported, because its entities can grow without bound; remove it");
 }
 
 }  // namespace
@@ -66,8 +66,8 @@ int XmlOutline::Child(int parent, std::string_view tag) const {
 
 void ScanXml(std::string_view xml, const XmlLimits& limits, const OnXmlElement& on_element) {
   if (xml.size() > limits.bytes) {
-    throw UrdfError("the document has " + std::to_string(xml.size()) +
-                    " bytes; the most that is read is " + std::to_string(limits.bytes));
+    throw UrdfError("the document has " + std::to_string(xml.size()) + " bytes; the limit is " +
+                    std::to_string(limits.bytes));
   }
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
       XML_ParserCreate(nullptr), XML_ParserFree);

@@ -1,7 +1,6 @@
-/// The elements of an XML document with their lines, which urdfdom does not keep; and the gate in
-/// front of every XML library of ours. Nothing that expands, nests without end or has no end gets
-/// past it: DOCTYPEs (and with them entities) are refused, depth and number of elements are
-/// bounded. Pure functions, any thread.
+/// Reads the elements of an XML document with their lines, which urdfdom does not keep. It is also
+/// the input check before any XML library: DOCTYPEs (and with them entity expansion) are rejected;
+/// size, depth and the number of elements are limited. Pure functions, any thread.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +28,7 @@ struct XmlElement {
   int next_sibling = -1;
   std::vector<std::pair<std::string, std::string>> attributes;
 
-  /// Null when it is not there.
+  /// Null if there is none.
   const std::string* Attribute(std::string_view name) const;
 };
 
@@ -39,15 +38,15 @@ struct XmlOutline {
   const XmlElement& operator[](int index) const {
     return elements[static_cast<std::size_t>(index)];
   }
-  /// The first child called `tag`; -1 when there is none.
+  /// The first child named `tag`; -1 if there is none.
   int Child(int parent, std::string_view tag) const;
 };
 
-/// Told of each element in order; `attributes` are name, value, ..., null.
+/// Called for each element in document order; `attributes` are name, value, ..., null.
 using OnXmlElement =
     std::function<void(const char* tag, const char* const* attributes, int line, int depth)>;
 
-/// @throws UrdfError with the line: not well-formed, a DOCTYPE, beyond a limit.
+/// @throws UrdfError with the line: not well-formed, a DOCTYPE, or a limit exceeded.
 void ScanXml(std::string_view xml, const XmlLimits& limits, const OnXmlElement& on_element);
 
 /// @throws UrdfError as ScanXml.

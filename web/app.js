@@ -1,4 +1,4 @@
-// Wires the page: connection -> scene, readings, load list, picture.
+// Connects the parts of the page: connection -> scene, readings, load list, picture.
 import { RecentValues } from './clock.js';
 import { Connection } from './connection.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
@@ -14,7 +14,7 @@ import { Scene } from './scene.js';
 import { ask, messageOf } from './server_api.js';
 import { decodeState } from './state_codec.js';
 
-const READINGS_MILLIS = 150;  // faster than that nobody reads
+const READINGS_MILLIS = 150;  // faster changes cannot be read
 const NOTICE_MILLIS = 6000;
 const MODEL_RETRY_MILLIS = 1000;
 const DIAGNOSTICS_MILLIS = 3000;
@@ -25,8 +25,8 @@ const elements = findElements(document);
 /** @type {import('./state_codec.js').State|null} */
 let state = null;
 /** @type {ArrayBuffer|null} */
-let newest = null;  // not decoded yet: of several that come between two frames, only the last is
-let stateChangedAt = 0;  // browser clock, when the number grew last
+let newest = null;  // not decoded yet: of the states received between two frames, only the last one is decoded
+let stateChangedAt = 0;  // browser clock, last time the number grew
 /** @type {import('./messages.js').Details} */
 let details = { source: '', camera: '', has_pictures: true, people: [], objects: [] };
 /** @type {import('./messages.js').Model|null} */
@@ -59,14 +59,14 @@ const picture = new PicturePanel({
 }, (command) => connection.send(command), showNotice);
 mountHandLoad({ form: elements['hand-load'], hand: elements.hand, mass: elements['hand-kg'] },
   () => details.people[0], showNotice);
-// Pictures cost the server drawing and a phone its data: there they are asked for by hand.
+// Pictures cost the server rendering time and a phone its data volume. On a small screen the user switches them on.
 elements['picture-on'].checked = scene === null || matchMedia('(min-width: 900px)').matches;
 requestAnimationFrame(onFrame);
 setInterval(showReadings, READINGS_MILLIS);
 setInterval(loadDiagnostics, DIAGNOSTICS_MILLIS);
 loadDiagnostics();
 
-/** The cookie is set; the token need not stay in history and bookmarks. */
+/** The cookie has been set, so the token is not needed in history and bookmarks. */
 function forgetTokenInAddress() {
   const url = new URL(location.href);
   if (!url.searchParams.has('token')) return;
@@ -80,7 +80,7 @@ function makeScene() {
   } catch {
     const note = document.createElement('p');
     note.className = 'no-webgl';
-    note.textContent = 'This browser offers no WebGL. The server’s own picture shows the human instead.';
+    note.textContent = 'WebGL is not available. Showing the picture rendered by the server.';
     elements.view.append(note);
     return null;
   }
@@ -103,7 +103,7 @@ function onFrame(now) {
 }
 
 /** @param {number} now
- *  @returns {boolean} whether it shows another sample than before */
+ *  @returns {boolean} whether the state has another sample than before */
 function takeNewest(now) {
   if (newest === null) return false;
   const buffer = newest;
@@ -155,22 +155,22 @@ async function loadModel(now) {
     scene?.setModel(model);
     if (state) scene?.update(state, lampNow().level === 'live');
   } catch (error) {
-    showNotice(`The human’s model did not load: ${messageOf(error)}`);
+    showNotice(`Could not load the body model: ${messageOf(error)}`);
   }
 }
 
-/** Asked for seldom, and only while the page is visible. */
+/** Requested at long intervals, and only while the page is visible. */
 async function loadDiagnostics() {
   if (document.hidden) return;
   try {
     const diagnostics = await ask('api/diagnostics', readDiagnostics);
     if (diagnostics) showProblems(problemLines(diagnostics, scene?.failedMeshes ?? []));
   } catch (error) {
-    showProblems([`The diagnostics did not load: ${messageOf(error)}`]);
+    showProblems([`Could not load the diagnostics: ${messageOf(error)}`]);
   }
 }
 
-/** The class colours come from the server, so that page, picture and RViz cannot differ.
+/** The class colours come from the server, so that they are the same in page, picture and RViz.
  *  @param {import('./messages.js').Palette} palette */
 function applyPalette(palette) {
   const style = document.documentElement.style;
@@ -185,7 +185,7 @@ async function loadCameras() {
     const answer = await ask('api/cameras', readCameras);
     if (answer) showCameras(answer);
   } catch (error) {
-    showNotice(`The cameras did not load: ${messageOf(error)}`);
+    showNotice(`Could not load the cameras: ${messageOf(error)}`);
   }
 }
 
@@ -193,7 +193,7 @@ async function loadCameras() {
 function showCameras({ cameras, live }) {
   picture.setCameras(cameras);
   elements['picture-camera'].value = live;
-  if (elements.cameras.childElementCount > 0) return;  // a reconnection keeps the viewer's camera
+  if (elements.cameras.childElementCount > 0) return;  // a reconnection keeps the camera that the viewer selected
   elements.cameras.replaceChildren(...cameras.map(cameraButton));
   const start = cameras.find(({ name }) => name === START_VIEW) ?? cameras[0];
   if (start) chooseView(start);
@@ -218,7 +218,7 @@ function chooseView(view) {
   markView(view.name);
 }
 
-/** @param {string} name  "" when the user turned the view by hand */
+/** @param {string} name  "" after the user rotated the view by hand */
 function markView(name) {
   for (const button of elements.cameras.children) {
     button.ariaPressed = String(button.getAttribute('data-camera') === name);
@@ -227,7 +227,7 @@ function markView(name) {
 
 function showReadings() {
   const now = performance.now();
-  if (document.hidden) takeNewest(now);  // no frames there, but the title still tells how it stands
+  if (document.hidden) takeNewest(now);  // a hidden page has no animation frames, but its title still shows the status
   const lamp = lampNow();
   const isLive = lamp.level === 'live';
   if (elements.lamp.dataset.level !== lamp.level && state) scene?.update(state, isLive);
@@ -236,7 +236,7 @@ function showReadings() {
   document.title = `${lamp.word} · Kinescope`;
   const meshes = scene?.failedMeshes.length ?? 0;
   const banner = (now < notice.until && notice.text) || lamp.banner
-    || (meshes > 0 ? `${meshes} of the human’s meshes could not be loaded` : '');
+    || (meshes > 0 ? `${meshes} ${meshes === 1 ? 'mesh' : 'meshes'} of the body model could not be loaded` : '');
   setText('banner', banner);
   elements.banner.hidden = banner === '';
   elements.banner.dataset.level = lamp.level;

@@ -1,5 +1,5 @@
-// Starts the page; says what is wrong when its modules cannot be loaded, which the browser itself
-// tells only in its console.
+// Starts the page. Shows an error if its modules cannot be loaded, because the browser reports that only in its
+// console.
 import('./app.js').catch((/** @type {unknown} */ error) => {
   const banner = document.getElementById('banner');
   const lamp = document.getElementById('lamp');

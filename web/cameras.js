@@ -1,16 +1,16 @@
-// Named views: the numbers are the server's (/api/cameras), so a name shows the same in page, picture
+// Named views: the numbers come from the server (/api/cameras), so that a name shows the same view in page, picture
 // and video. World frame: z up, metres. Pure functions.
 
 /** @typedef {import('./messages.js').CameraView} CameraView
  *  @typedef {{position: number[], target: number[], fovDegrees: number}} Aim */
 
-/** What a view must show across, in metres: arms stretched out to both sides. */
+/** Least width that a view must show, m: arms stretched out to both sides. */
 const LEAST_WIDTH = 1.9;
-/** Room beside the outermost of several people, m, and the narrowest picture that they must fit into:
+/** Room beside the outermost of several people, m, and the narrowest picture that they must fit into; the latter is
  *  kNarrowestAspect in render/camera.cc. */
 const BESIDE = 0.7;
 const NARROWEST_ASPECT = 4 / 3;
-/** A view straight down is tilted by so much, because an orbit has no "up" at its very pole. */
+/** Tilt of a view straight down, as a share of its distance: an orbit has no "up" exactly at its pole. */
 const POLE_TILT = 1e-3;
 
 const add = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.map((v, i) => v + b[i]);
@@ -18,9 +18,9 @@ const subtract = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.map
 const scale = (/** @type {number[]} */ a, /** @type {number} */ k) => a.map((v) => v * k);
 const length = (/** @type {number[]} */ a) => Math.hypot(...a);
 
-/** Middle of the people on the floor, and how far the outermost stands from it.
+/** Middle of the people on the floor, and the distance of the outermost person from it.
  *  @param {number[][]} pelvises
- *  @param {number} floor  its height, m
+ *  @param {number} floor  height of the floor, m
  *  @returns {{middle: number[], radius: number}} */
 export function groundOf(pelvises, floor) {
   if (pelvises.length === 0) return { middle: [0, 0, floor], radius: 0 };
@@ -30,10 +30,10 @@ export function groundOf(pelvises, floor) {
   return { middle, radius };
 }
 
-/** Where a camera stands that shows `view` of the people on `ground`.
+/** Position and target of the camera that shows `view` of the people on `ground`.
  *  @param {CameraView} view
  *  @param {{middle: number[], radius: number}} ground
- *  @param {number} aspect  width / height of what is drawn on
+ *  @param {number} aspect  width / height of the canvas
  *  @returns {Aim} */
 export function aim(view, ground, aspect) {
   const half = Math.tan(view.vertical_fov_rad / 2);
@@ -52,7 +52,7 @@ export function aim(view, ground, aspect) {
   };
 }
 
-/** For a server that names no cameras. */
+/** Used if the server sends no cameras. */
 export const FALLBACK_VIEW = {
   name: 'three_quarter', position: [3.5, -2.7, 2.1], target: [0, 0, 1.02], up: [0, 0, 1],
   vertical_fov_rad: 0.52,

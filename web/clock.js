@@ -1,17 +1,17 @@
-// The server's clock as seen from here, and latencies measured with it. Milliseconds; every time is
-// an argument.
+// Estimate of the server's clock, and latencies measured with it. All times are in milliseconds and are passed as
+// arguments.
 
 const KEPT_PINGS = 16;
 
-/** Estimates server time - browser time from pings: the quickest of the last ones is the most
- *  exact, because half of its way there and back is all that it can be wrong by. */
+/** Estimates server time - browser time from pings. The recent ping with the shortest round trip is the most exact:
+ *  its error is at most half the round trip. */
 export class ServerClock {
   /** @type {{roundTrip: number, offset: number}[]} */
   #pings = [];
 
   /** @param {number} sentAt  browser clock
    *  @param {number} receivedAt  browser clock
-   *  @param {number} serverAt  server's clock while it answered */
+   *  @param {number} serverAt  server's clock when it answered */
   addPing(sentAt, receivedAt, serverAt) {
     const roundTrip = receivedAt - sentAt;
     if (!(roundTrip >= 0)) return;
@@ -19,7 +19,7 @@ export class ServerClock {
     if (this.#pings.length > KEPT_PINGS) this.#pings.shift();
   }
 
-  /** A server that came back has another clock. */
+  /** Call after a reconnection: a restarted server has another clock. */
   reset() {
     this.#pings = [];
   }
@@ -30,14 +30,14 @@ export class ServerClock {
     return this.#pings.reduce((best, ping) => (ping.roundTrip < best.roundTrip ? ping : best)).offset;
   }
 
-  /** Server's time at `now` of the browser; null when not known yet.
+  /** Server time at browser time `now`; null before the first ping.
    *  @param {number} now */
   at(now) {
     return this.offset === null ? null : now + this.offset;
   }
 }
 
-/** Median and 95th percentile over the last `keptMillis`. */
+/** Median and 95th percentile of the values of the last `keptMillis`. */
 export class RecentValues {
   /** @type {{at: number, value: number}[]} */
   #values = [];

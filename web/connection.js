@@ -1,5 +1,4 @@
-// The page's only connection: one WebSocket for state, pictures and commands, which comes back by
-// itself.
+// The page's only connection: one WebSocket for state, pictures and commands. It reconnects automatically.
 import { ServerClock } from './clock.js';
 import { readTextMessage } from './messages.js';
 import { messageOf, ownRefusalOf } from './server_api.js';
@@ -8,9 +7,9 @@ import { KIND, messageKind } from './state_codec.js';
 const FIRST_RETRY_MILLIS = 400;
 const LAST_RETRY_MILLIS = 4000;
 const PING_MILLIS = 2000;
-const FIRST_PINGS = 5;  // quickly one after the other, so that the first latency shown is right
+const FIRST_PINGS = 5;  // in quick succession, so that the first latency shown is correct
 const FIRST_PING_MILLIS = 150;
-const STATES_PER_REPORT = 4;  // the server sends up to 12 ahead of what it knows to be seen
+const STATES_PER_REPORT = 4;  // the server sends up to 12 states beyond the last one reported as received
 
 /** @typedef {{onState: (buffer: ArrayBuffer) => void, onPicture: (buffer: ArrayBuffer) => void,
  *    onDetails: (details: import('./messages.js').Details) => void, onError: (reason: string) => void,
@@ -21,12 +20,12 @@ export class Connection {
   connected = false;
   everConnected = false;
   lastMessageAt = 0;  // performance.now()
-  refusal = '';       // why the server did not let us in; "" when it did, or when it is not there
+  refusal = '';       // why the server rejected the connection; "" if it accepted it or is not reachable
   #retryMillis = FIRST_RETRY_MILLIS;
   /** @type {WebSocket|null} */ #socket = null;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #pingTimer;
   #pings = 0;
-  #states = 0;    // seen since the connection was opened
+  #states = 0;    // received since the connection was opened
   #pictures = 0;
   #closed = false;
 
@@ -36,7 +35,7 @@ export class Connection {
     this.#open();
   }
 
-  /** Dropped while there is no connection; whoever needs it again says so in onOpen.
+  /** Sends a command. Without a connection it is dropped; the caller repeats it in onOpen if necessary.
    *  @param {object} command */
   send(command) {
     if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(command));
@@ -47,7 +46,7 @@ export class Connection {
     this.#socket?.close();
   }
 
-  /** Milliseconds since the server said anything.
+  /** Milliseconds since the last message of the server.
    *  @param {number} now */
   silentMillis(now) {
     return now - this.lastMessageAt;
@@ -107,7 +106,7 @@ export class Connection {
     }
   }
 
-  /** Says what it has seen: on a busy machine messages would otherwise pile up in the browser, where
+  /** Reports the number of received messages. On a busy machine messages would otherwise queue in the browser, where
    *  the server cannot replace them by newer ones.
    *  @param {ArrayBuffer} data */
   #onBinary(data) {
@@ -136,12 +135,12 @@ export class Connection {
   }
 }
 
-// A WebSocket that is turned away does not say why; a plain request does.
+// A rejected WebSocket has no reason; the answer to a plain request has one.
 async function askWhyRefused() {
   try {
     const answer = await fetch('api/cameras');
     return answer.ok ? '' : await ownRefusalOf(answer) ?? '';
   } catch {
-    return '';  // nobody there
+    return '';  // no server reachable
   }
 }

@@ -1,28 +1,28 @@
-// What the server and this page could not do, for the panel that is there only when there is something.
+// Problems of the server and of this page. The panel is visible only if there are any.
 
 const MOST_LINES = 12;
 
-/** One line each, the most urgent first; equal ones once.
+/** One line per problem, the most urgent first, without duplicates.
  *  @param {import('./messages.js').Diagnostics} diagnostics
  *  @param {string[]} failedMeshes  that this page could not load
  *  @returns {string[]} */
 export function problemLines(diagnostics, failedMeshes) {
   const { pictures, source } = diagnostics;
   const lines = [];
-  if (pictures?.last_error) lines.push(`The server’s picture: ${pictures.last_error}`);
-  for (const problem of pictures?.problems ?? []) lines.push(`Not in the picture as it is: ${problem}`);
-  for (const mesh of failedMeshes) lines.push(`Not loaded by this page: ${mesh}`);
+  if (pictures?.last_error) lines.push(`Server rendering: ${pictures.last_error}`);
+  for (const problem of pictures?.problems ?? []) lines.push(`Missing or replaced in the server picture: ${problem}`);
+  for (const mesh of failedMeshes) lines.push(`This page could not load: ${mesh}`);
   for (const [reason, count] of Object.entries(source?.rejected ?? {})) {
-    lines.push(`${count} ${count === 1 ? 'datagram' : 'datagrams'} refused: ${reason}`);
+    lines.push(`${count} ${count === 1 ? 'datagram' : 'datagrams'} rejected: ${reason}`);
   }
   const all = [...new Set(lines)];
   if (all.length <= MOST_LINES) return all;
-  return [...all.slice(0, MOST_LINES - 1), `and ${all.length - MOST_LINES + 1} more: /api/diagnostics has all`];
+  return [...all.slice(0, MOST_LINES - 1), `and ${all.length - MOST_LINES + 1} more, see /api/diagnostics`];
 }
 
-/** @param {HTMLElement} panel  hidden while there is nothing to say
- *  @param {HTMLElement} list  within it
- *  @returns {(lines: string[]) => void} shows these lines */
+/** @param {HTMLElement} panel  hidden while there are no problems
+ *  @param {HTMLElement} list  inside the panel
+ *  @returns {(lines: string[]) => void} function that shows these lines */
 export function mountDiagnostics(panel, list) {
   let shown = '';
   return (lines) => {
@@ -32,7 +32,7 @@ export function mountDiagnostics(panel, list) {
     panel.hidden = lines.length === 0;
     list.replaceChildren(...lines.map((line) => {
       const entry = document.createElement('li');
-      entry.textContent = line;  // not markup: names come from outside
+      entry.textContent = line;  // text and not markup: names come from outside
       return entry;
     }));
   };

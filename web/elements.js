@@ -1,4 +1,4 @@
-// The elements of index.html that the page's code fills: one list, checked once at the start.
+// List of the elements of index.html that the code fills. It is checked once at the start.
 
 /** id -> tag */
 export const ELEMENTS = /** @type {const} */ ({
@@ -18,7 +18,7 @@ export const ELEMENTS = /** @type {const} */ ({
 
 /** @param {Pick<Document, 'getElementById'>} page
  *  @returns {Elements}
- *  @throws {Error} naming what the page lacks */
+ *  @throws {Error} naming the missing elements */
 export function findElements(page) {
   const found = Object.entries(ELEMENTS).map(
     ([id, tag]) => /** @type {const} */ ([id, tag, page.getElementById(id)]));

@@ -1,4 +1,4 @@
-// Numbers as people read them. Pure functions.
+// Numbers and names as text for the page. Pure functions.
 
 /** @param {number} hz */
 export const rate = (hz) => (hz > 0 ? `${hz.toFixed(1)} Hz` : '–');
@@ -35,7 +35,7 @@ export const centimetres = (metres) => `${(100 * metres).toFixed(1)} cm`;
 /** @param {number} newtons */
 export const kilonewtons = (newtons) => `${(newtons / 1000).toFixed(2)} kN`;
 
-/** "12.3 of 60 N·m": how much, of how much.
+/** "12.3 of 60 N·m": moment and capacity.
  *  @param {number} moment  N m, signed
  *  @param {number} capacity  N m */
 export function moment(moment, capacity) {
@@ -49,7 +49,7 @@ export function moment(moment, capacity) {
  *  @param {string} name */
 export const cameraLabel = (name) => name.replaceAll('_', ' ');
 
-/** The same where there is little room.
+/** Camera label for places with little room.
  *  @param {string} name */
 export const shortCameraLabel = (name) => (name === 'three_quarter' ? '¾' : cameraLabel(name));
 
@@ -58,9 +58,9 @@ export const shortCameraLabel = (name) => (name === 'three_quarter' ? '¾' : cam
 export const hexColor = (rgb) =>
   `#${rgb.map((part) => Math.round(255 * part).toString(16).padStart(2, '0')).join('')}`;
 
-const LONGEST_LABEL = 24;  // characters; a stream may claim any name
+const LONGEST_LABEL = 24;  // characters; names in a stream may have any length
 
-/** Cut to what fits over a thing in the view.
+/** Shortens a name so that it fits over an object in the view.
  *  @param {string} name */
 export function labelText(name) {
   const letters = [...name];

@@ -1,10 +1,10 @@
-// The small form that says what a person holds: a hand, a mass.
+// The form that sets the hand load of a person: hand and mass.
 import { refusalOf } from './server_api.js';
 
 /** @typedef {import('./messages.js').HandLoad} HandLoad
  *  @typedef {{form: HTMLFormElement, hand: HTMLSelectElement, mass: HTMLInputElement}} Parts */
 
-/** What is held once `kilograms` are in `hand` ("right_kg", "left_kg", "both_kg"): the rest stays.
+/** The hand load with `kilograms` in `hand` ("right_kg", "left_kg", "both_kg"); the other masses are kept.
  *  @param {HandLoad|undefined} told
  *  @param {string} hand
  *  @param {number} kilograms
@@ -14,7 +14,7 @@ export const withHand = (told, hand, kilograms) => ({
   [hand]: kilograms,
 });
 
-/** "holds 5 kg right, 2 kg left", or "" for empty hands.
+/** "hand load 5 kg right, 2 kg left", or "" for empty hands.
  *  @param {HandLoad|undefined} told */
 export function heldText(told) {
   if (!told) return '';
@@ -24,18 +24,18 @@ export function heldText(told) {
     told.left_kg > 0 ? `${kilograms(told.left_kg)} left` : '',
     told.both_kg > 0 ? `${kilograms(told.both_kg)} in both hands` : '',
   ].filter(Boolean);
-  return parts.length > 0 ? `holds ${parts.join(', ')}` : '';
+  return parts.length > 0 ? `hand load ${parts.join(', ')}` : '';
 }
 
-/** Tells the server; what comes back is shown by the next details.
+/** Sends the hand load to the server. The page shows the new hand load with the next details.
  *  @param {Parts} parts
- *  @param {() => {character: number, hand_load?: HandLoad}|undefined} person  whose hands, if anybody's
+ *  @param {() => {character: number, hand_load?: HandLoad}|undefined} person  whose hand load is set, if any
  *  @param {(text: string) => void} say */
 export function mountHandLoad({ form, hand, mass }, person, say) {
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
     const who = person();
-    if (!who) return say('Nobody is here who could hold it');
+    if (!who) return say('No person in the stream');
     const load = withHand(who.hand_load, hand.value, mass.valueAsNumber);
     try {
       const answer = await fetch('api/hand_load', {
@@ -44,7 +44,7 @@ export function mountHandLoad({ form, hand, mass }, person, say) {
       });
       if (!answer.ok) say(await refusalOf(answer));
     } catch {
-      say('The server does not answer');
+      say('No connection to the server');
     }
   });
 }

@@ -1,18 +1,18 @@
-// The human in the browser: the links of /api/model at the streamed poses, load spheres, CoM and CoP.
-// World frame: z up, metres.
+// The person in the view: the links of /api/model at the streamed poses, load spheres, CoM, CoP, support polygon and
+// hand loads. World frame: z up, metres.
 import * as THREE from 'three';
 import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
 
-const GHOST_OPACITY = 0.45;  // of what shines through the body
-const RIM = 1.14;            // radius of the dark rim of the class "high", of the sphere's
-const CREASE = 0.7;          // rad; a mesh is shaded smooth where its facets meet at less
-const MARK_LIFT = 0.004;     // m above the floor, so that disc and floor do not fight
+const GHOST_OPACITY = 0.45;  // of symbols that are visible through the body
+const RIM = 1.14;            // radius of the dark rim of the class "high", as a multiple of the sphere's radius
+const CREASE = 0.7;          // rad; edges with a smaller angle are shaded smooth
+const MARK_LIFT = 0.004;     // m above the floor, so that disc and floor do not flicker
 
 const SUPPORT_LIFT = 0.003;
 
 const unitSphere = new THREE.SphereGeometry(1, 32, 20);
-// Of what hands hold; stretched to their sizes.
+// Shapes of hand loads, scaled to their sizes.
 const unitBox = new THREE.BoxGeometry(1, 1, 1);
 const unitCylinder = new THREE.CylinderGeometry(1, 1, 1, 32).rotateX(Math.PI / 2);
 /** @type {Set<THREE.BufferGeometry>} */
@@ -24,7 +24,8 @@ const SHARED = new Set([unitSphere, unitBox, unitCylinder]);
 /** @param {number[]} rgb  sRGB 0..1 */
 export const toColor = (rgb) => new THREE.Color().setRGB(rgb[0], rgb[1], rgb[2], THREE.SRGBColorSpace);
 
-/** Solid where it is seen, and again without depth test so that it shines through the body.
+/** Two materials: opaque where the symbol is unobstructed, and translucent without depth test, so that it is visible
+ *  through the body.
  *  @param {THREE.Color} color */
 function makeShining(color) {
   const solid = new THREE.MeshStandardMaterial({ color, roughness: 0.55 });
@@ -45,7 +46,7 @@ function shiningMesh(geometry, materials) {
   return group;
 }
 
-/** Colours of the marks, shared by all people.
+/** Materials of the symbols, shared by all people.
  *  @param {Palette} palette */
 export function makeMarkMaterials(palette) {
   return {
@@ -75,7 +76,7 @@ export class Human {
   /** @param {import('./messages.js').PersonModel} model
    *  @param {Palette} palette
    *  @param {ReturnType<typeof makeMarkMaterials>} marks
-   *  @param {() => void} onChange  called when a mesh arrived later */
+   *  @param {() => void} onChange  called whenever a mesh has been loaded */
   constructor(model, palette, marks, onChange) {
     this.palette = palette;
     this.marks = marks;
@@ -99,7 +100,7 @@ export class Human {
 
   /** @param {import('./state_codec.js').Person} person
    *  @param {boolean} isLive
-   *  @param {number} floor  its height, m */
+   *  @param {number} floor  height of the floor, m */
   update(person, isLive, floor) {
     for (const { material, live } of this.#materials.values()) {
       material.color.copy(isLive ? live : this.staleColor);
@@ -157,7 +158,7 @@ export class Human {
     if (cop) this.cop.position.set(cop[0], cop[1], cop[2] + MARK_LIFT / 2);
   }
 
-  /** What the feet can push on.
+  /** The support polygon.
    *  @param {import('./state_codec.js').Person} person
    *  @param {boolean} isLive
    *  @param {number} floor */
@@ -211,17 +212,17 @@ export class Human {
     const material = this.#materialOf(visual);
     const put = (/** @type {THREE.BufferGeometry} */ geometry) => {
       const mesh = new THREE.Mesh(geometry, material);
-      mesh.castShadow = true;  // onto the floor; on itself it would only disturb the shading
+      mesh.castShadow = true;  // only onto the floor: on the body itself shadows would disturb the shading
       part.add(mesh);
     };
     if (visual.kind !== 'mesh' || !visual.mesh) return put(primitive(visual));
     part.scale.fromArray(visual.size);
-    // The server gives an absolute path; the page may be served below another one.
+    // The server sends an absolute path; the page may be served below another path.
     new STLLoader().load(visual.mesh.slice(1), (geometry) => {
       put(toCreasedNormals(geometry, CREASE));
       onChange();
     }, undefined, () => {
-      // A missing mesh is shown as a small sphere at its link, not as nothing, and named.
+      // A missing mesh is replaced by a small sphere at its link and reported by name.
       part.scale.setScalar(1);
       put(new THREE.SphereGeometry(0.04, 16, 12));
       this.failedMeshes.push(/** @type {string} */ (visual.mesh));
@@ -247,6 +248,6 @@ export class Human {
 function primitive({ kind, size }) {
   if (kind === 'box') return new THREE.BoxGeometry(size[0], size[1], size[2]);
   if (kind === 'sphere') return new THREE.SphereGeometry(size[0], 32, 20);
-  // URDF's cylinder lies along z, three's along y.
+  // A URDF cylinder lies along z, one of three.js along y.
   return new THREE.CylinderGeometry(size[0], size[0], size[1], 32).rotateX(Math.PI / 2);
 }

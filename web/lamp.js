@@ -1,17 +1,17 @@
-// What the lamp says. One pure function decides, from the newest state and from the connection
-// itself: a page that has lost its server must not go on showing "live".
+// The status indicator. One pure function decides, from the newest state and from the connection: a page without a
+// connection must not show "live" any longer.
 import { age } from './format.js';
 
-/** Without any message for so long the server is taken for gone; it repeats itself every 0.35 s. */
+/** Time without a message after which the server counts as disconnected. It sends a message at least every 0.35 s. */
 export const SILENCE_MILLIS = 1500;
-/** A sample that the server still calls live, but so old, is stale: the server hangs. */
+/** Age from which a sample counts as stale, even if the server reports it as live: the server does not respond. */
 export const OLD_MILLIS = 2000;
 
 /** @typedef {'live'|'stale'|'no-data'|'disconnected'|'wait'} Level
  *  @typedef {{level: Level, word: string, banner: string}} Lamp  banner "": none
  *  @typedef {{connected: boolean, everConnected: boolean, silentMillis: number,
  *    liveness: 'no data'|'live'|'stale'|null, ageMillis: number|null, source: string,
- *    reason: string}} Situation  reason: why the server refused; "" otherwise
+ *    reason: string}} Situation  reason: why the server rejected the connection; "" otherwise
  */
 
 /** @param {Situation} now
@@ -25,7 +25,7 @@ export function lampOf(now) {
   }
   const isOld = now.ageMillis !== null && now.ageMillis > OLD_MILLIS;
   if (now.liveness === 'stale' || isOld) {
-    const since = now.ageMillis === null ? '' : `: the last sample came ${age(now.ageMillis / 1000)} ago`;
+    const since = now.ageMillis === null ? '' : `: last sample received ${age(now.ageMillis / 1000)} ago`;
     return { level: 'stale', word: 'Stale', banner: `The stream has stopped${since}` };
   }
   return { level: 'live', word: 'Live', banner: '' };
@@ -34,11 +34,11 @@ export function lampOf(now) {
 /** @param {Situation} now
  *  @returns {Lamp} */
 function disconnected(now) {
-  if (now.reason) return { level: 'disconnected', word: 'Refused', banner: now.reason };
+  if (now.reason) return { level: 'disconnected', word: 'Rejected', banner: now.reason };
   if (!now.everConnected) return { level: 'wait', word: 'Connecting', banner: 'Connecting to the server' };
   return {
     level: 'disconnected',
     word: 'Disconnected',
-    banner: 'The server does not answer; the page tries again by itself',
+    banner: 'No connection to the server; reconnecting',
   };
 }

@@ -1,4 +1,4 @@
-// The list of joint loads, worst first.
+// The list of joint loads, in order of severity.
 import { age, moment, percent } from './format.js';
 import { LOAD_CLASSES } from './messages.js';
 
@@ -9,7 +9,7 @@ import { LOAD_CLASSES } from './messages.js';
 
 const RANK = { high: 0, medium: 1, low: 2, unknown: 3 };
 
-/** Rows that differ by less stay as they are, so that the list can be read while numbers tremble. */
+/** Rows whose ratios differ by less keep their order, so that the list can be read while the numbers fluctuate. */
 const CALM = 0.02;
 
 /** @param {Row} a
@@ -19,9 +19,9 @@ function isMoreUrgent(a, b) {
   return Number.isFinite(a.ratio) && !(b.ratio >= a.ratio - CALM);
 }
 
-/** Worst class first, within a class the largest ratio. Starts from the order shown before.
+/** Highest class first, within a class the largest ratio. Starts from the order shown before.
  *  @param {Row[]} rows
- *  @param {string[]} shownKeys  in the order shown now
+ *  @param {string[]} shownKeys  in the order shown before
  *  @returns {Row[]} */
 export function byUrgency(rows, shownKeys = []) {
   const place = new Map(shownKeys.map((key, i) => [key, i]));
@@ -35,7 +35,7 @@ export function byUrgency(rows, shownKeys = []) {
   return sorted;
 }
 
-/** The row's second line: how much of what, or why it is not known.
+/** The second line of a row: moment, capacity and direction, or why the load is unknown.
  *  @param {Row} row */
 export function explain(row) {
   if (row.loadClass === 'unknown' && row.reason) return row.reason;
@@ -44,7 +44,7 @@ export function explain(row) {
   return channel && amount ? `${amount}, ${channel}` : amount || channel;
 }
 
-/** "low 40 s, medium 12 s, high 3 s since the start", without what did not happen; "" at first.
+/** "low 40 s, medium 12 s, high 3 s since the start", without classes below 1 s; "" if there are no others.
  *  @param {Secs|undefined} secs */
 export function exposureText(secs) {
   if (!secs) return '';
@@ -52,7 +52,7 @@ export function exposureText(secs) {
   return parts.length > 0 ? `${parts.join(', ')} since the start` : '';
 }
 
-/** Widths of the exposure strip: shares of the time, which add up to 1; nothing yet: all 0.
+/** Widths of the exposure strip: shares of the time, which add up to 1; all 0 at the start.
  *  @param {Secs|undefined} secs
  *  @returns {number[]}  low, medium, high, unknown */
 export function exposureShares(secs) {
@@ -60,7 +60,7 @@ export function exposureShares(secs) {
   return LOAD_CLASSES.map((name) => (secs && all > 0 ? secs[name] / all : 0));
 }
 
-/** The rows of a state; persons are named when there are several.
+/** The rows of a state. With several people, each row has the name of the person.
  *  @param {import('./state_codec.js').State} state
  *  @param {{label: string}[]} joints
  *  @param {{people: import('./messages.js').PersonDetails[]}} details
@@ -88,14 +88,14 @@ export function rowsOf(state, joints, details) {
   });
 }
 
-/** The row of something that is not live, whose load could not be trusted.
+/** The row of a person without live data: the load is unknown.
  *  @param {Row} row
  *  @returns {Row} */
 export const asUnknown = (row) =>
   ({ ...row, loadClass: 'unknown', ratio: NaN, moment: NaN, reason: row.reason || 'no live data' });
 
 /** @param {HTMLElement} list  an <ol>
- *  @returns {(rows: Row[]) => void} shows these rows */
+ *  @returns {(rows: Row[]) => void} function that shows these rows */
 export function mountLoadList(list) {
   /** @type {Map<string, ReturnType<typeof makeRow>>} */
   const shown = new Map();
@@ -123,10 +123,10 @@ function makeRow() {
   });
   const fill = document.createElement('span');
   bar.append(fill);
-  bar.ariaHidden = 'true';  // the ratio beside it says the same
+  bar.ariaHidden = 'true';  // the ratio beside it has the same content
   const strip = document.createElement('span');
   strip.className = 'exposure';
-  strip.ariaHidden = 'true';  // the row's title says the same
+  strip.ariaHidden = 'true';  // the title of the row has the same content
   const parts = LOAD_CLASSES.map((name) => {
     const part = document.createElement('span');
     part.dataset.class = name;
@@ -158,8 +158,8 @@ function makeRow() {
   };
 }
 
-/** What the legend says of each class.
- *  @param {number[]} limits  two, of capacity, as the server decides by while a load rises */
+/** Class and text of each entry of the legend.
+ *  @param {number[]} limits  the two load ratios at which a rising load becomes medium and high */
 export function legendWords(limits) {
   return [
     ['low', 'low'],

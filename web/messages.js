@@ -1,11 +1,11 @@
-// Reads the server's JSON: answers of /api and text messages of the WebSocket (docs/http.md). What a reader
-// returns has the type that its shape gives, because it has been checked: there is one list for both. Members
-// that the page does not use are dropped, so a newer server may send more. Pure functions.
+// Reads JSON from the server: answers of /api and text messages of the WebSocket (docs/http.md). A reader checks a
+// value against its shape and returns it with the type of that shape, so that check and type have one definition.
+// Members that the page does not use are dropped, so that a newer server may send more. Pure functions.
 
 /** @template T
- *  @typedef {(value: unknown, path: string) => T} Reader  throws where `value`, found at `path`, has another shape */
+ *  @typedef {(value: unknown, path: string) => T} Reader  throws if `value`, found at `path`, has another shape */
 
-const LONGEST_QUOTE = 60;  // characters of a wrong value
+const LONGEST_QUOTE = 60;  // characters of an invalid value
 
 /** @param {unknown} value
  *  @param {string} path
@@ -13,7 +13,7 @@ const LONGEST_QUOTE = 60;  // characters of a wrong value
  *  @returns {never} */
 function refuse(value, path, expected) {
   const quote = value === undefined ? 'nothing' : JSON.stringify(value).slice(0, LONGEST_QUOTE);
-  throw new Error(`the server sent ${quote} as ${path}; expected ${expected}: reload the page`);
+  throw new Error(`the server sent ${quote} as ${path}; expected ${expected}; reload the page`);
 }
 
 /** @type {Reader<string>} */
@@ -34,7 +34,7 @@ export const oneOf = (words) => (value, path) =>
 
 /** @template T
  *  @param {Reader<T>} entry
- *  @param {number} [count]  any number of them unless told
+ *  @param {number} [count]  length of the list; default: any
  *  @returns {Reader<T[]>} */
 export const listOf = (entry, count) => (value, path) => {
   if (!Array.isArray(value)) return refuse(value, path, 'a list');
@@ -81,13 +81,13 @@ export const object = (shape) => (value, path) => {
   return /** @type {Shaped<Shape>} */ (Object.fromEntries(read));
 };
 
-/** From the mildest: the order of legends and strips. */
+/** In the order of legends and exposure strips. */
 export const LOAD_CLASSES = /** @type {const} */ (['low', 'medium', 'high', 'unknown']);
 /** @typedef {(typeof LOAD_CLASSES)[number]} LoadClass */
 
 const rgb = numbers(3);
 
-// What the page knows of people and objects beside numbers that change with each sample.
+// Data of people and objects that do not change with every sample.
 const readSecs = object({ low: number, medium: number, high: number, unknown: number });
 const readHandLoad = object({ right_kg: number, left_kg: number, both_kg: number });
 const readPersonDetails = object({
@@ -113,7 +113,7 @@ const readPong = object({ pong: number, server_micros: number });
 /** @typedef {{pong: number, server_micros: number}|{details: Details}|{error: string}} TextMessage */
 
 /** @param {string} text  a text message of the WebSocket
- *  @returns {TextMessage|null}  null: of a kind that this page does not know */
+ *  @returns {TextMessage|null}  null: a kind of message that this page does not support */
 export function readTextMessage(text) {
   const message = members(JSON.parse(text), 'a message');
   if ('pong' in message) return readPong(message, 'a message');
@@ -156,12 +156,12 @@ const readCameraView = object({
 export const readCameras = object({ cameras: listOf(readCameraView), live: string });
 /** @typedef {ReturnType<typeof readCameraView>} CameraView  of a person at the origin */
 
-/** /api/diagnostics: whatever part of the server is not running is absent or null. */
+/** /api/diagnostics: parts of the server that are not running are absent or null. */
 export const readDiagnostics = object({
   pictures: optional(orNull(object({ problems: optional(listOf(string)), last_error: optional(string) }))),
   source: optional(object({ rejected: optional(recordOf(number)) })),
 });
 /** @typedef {ReturnType<typeof readDiagnostics>} Diagnostics */
 
-/** What any refused request is answered with. */
+/** The answer to any rejected request. */
 export const readRefusal = object({ error: string });

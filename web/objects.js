@@ -1,4 +1,4 @@
-// Tracked objects: a small block with the axes of its frame and its name. What one looks like is not
+// Tracked objects: each is a small block with the axes of its frame and its name, because its appearance is not
 // streamed. World frame: z up, metres.
 import * as THREE from 'three';
 import { labelText } from './format.js';
@@ -8,10 +8,10 @@ const BLOCK = 0.05;
 const AXIS_LENGTH = 0.15;
 const AXIS_RADIUS = 0.005;
 const LABEL_LIFT = 0.1;      // m above the object
-const LABEL_HEIGHT = 0.034;  // of the view's height, at any distance
-const LABEL_PIXELS = 44;     // of the font, which is drawn once
+const LABEL_HEIGHT = 0.034;  // as a share of the view's height, at any distance
+const LABEL_PIXELS = 44;     // font size of the label's texture
 
-/** What tells one object from another.
+/** Unique key of an object.
  *  @param {{character: number, number: number}} object */
 export const keyOf = ({ character, number }) => `${character}/${number}`;
 
@@ -24,7 +24,7 @@ export class ObjectMarks {
   #rod = new THREE.CylinderGeometry(AXIS_RADIUS, AXIS_RADIUS, AXIS_LENGTH, 12).translate(0, AXIS_LENGTH / 2, 0);
 
   /** @param {Pick<import('./messages.js').Palette, 'object'|'axes'|'stale_body'>} palette
-   *  @param {number} fovDegrees  from top to bottom of the view */
+   *  @param {number} fovDegrees  vertical field of view */
   constructor(palette, fovDegrees) {
     this.#fovDegrees = fovDegrees;
     this.materials = [palette.object, ...palette.axes].map(toColor).map(
@@ -33,14 +33,14 @@ export class ObjectMarks {
   }
 
   /** Labels keep their size on the screen.
-   *  @param {number} degrees  from top to bottom of the view */
+   *  @param {number} degrees  vertical field of view */
   setFieldOfView(degrees) {
     if (degrees === this.#fovDegrees) return;
     this.#fovDegrees = degrees;
     for (const { label } of this.#marks.values()) if (label) this.#fit(label);
   }
 
-  /** Names come apart from poses and later.
+  /** Names arrive separately from poses, and later.
    *  @param {import('./messages.js').ObjectName[]} names */
   setNames(names) {
     this.#names = new Map(names.map((object) => [keyOf(object), object.name]));
@@ -103,7 +103,7 @@ export class ObjectMarks {
 
   /** @param {THREE.Sprite} label */
   #fit(label) {
-    const viewHeight = 2 * Math.tan((this.#fovDegrees * Math.PI) / 360);  // at 1 m, where such a sprite is measured
+    const viewHeight = 2 * Math.tan((this.#fovDegrees * Math.PI) / 360);  // at 1 m: the reference distance of such a sprite
     const height = LABEL_HEIGHT * viewHeight;
     label.scale.multiplyScalar(height / label.scale.y);
   }
@@ -125,7 +125,7 @@ function makeLabel(text) {
   pen.font = font;
   canvas.width = Math.ceil(pen.measureText(text).width) + LABEL_PIXELS;
   canvas.height = Math.ceil(1.7 * LABEL_PIXELS);
-  pen.font = font;  // a resized canvas has forgotten it
+  pen.font = font;  // resizing a canvas resets its font
   pen.fillStyle = 'rgb(255 255 255 / .85)';
   pen.beginPath();
   pen.roundRect(0, 0, canvas.width, canvas.height, 0.4 * LABEL_PIXELS);

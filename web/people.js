@@ -1,22 +1,22 @@
-// The people in the view: bodies are made from the model, moved by every state, and given back some time after
-// their person has left. World frame: z up, metres.
+// The people in the view: bodies are created from the model, moved by every state, and freed some time after their
+// person has left. World frame: z up, metres.
 import * as THREE from 'three';
 import { Human } from './human.js';
 
-/** A person who is away for no longer comes back without the model being loaded again: a gap in the stream, or a
- *  model that is a little newer than the state shown. Server's clock. */
+/** Time after which the body of a missing person is freed, by the server's clock. After shorter gaps in the stream, or
+ *  if the model is slightly newer than the state shown, the model need not be loaded again. */
 const AWAY_MICROS = 10e6;
 
 export class People {
   group = new THREE.Group();
   #people = /** @type {Map<number, {human: Human, seenMicros: number|null}>} */ (new Map());
 
-  /** @param {() => void} onChange  called when a mesh arrived later */
+  /** @param {() => void} onChange  called whenever a mesh has been loaded */
   constructor(onChange) {
     this.onChange = onChange;
   }
 
-  /** @param {import('./messages.js').PersonModel[]} models  whose revision is shown already stay as they are
+  /** @param {import('./messages.js').PersonModel[]} models  those with a revision already shown are skipped
    *  @param {import('./messages.js').Palette} palette
    *  @param {ReturnType<typeof import('./human.js').makeMarkMaterials>} marks */
   setModels(models, palette, marks) {

@@ -1,4 +1,4 @@
-// The server's own picture beside the page's: what PNG, video and CI show.
+// The picture rendered by the server, next to the view of the page. It equals the pictures in PNG, video and CI.
 import { shortCameraLabel } from './format.js';
 import { messageOf, refusalOf } from './server_api.js';
 import { decodePicture } from './state_codec.js';
@@ -28,7 +28,7 @@ export class PicturePanel {
     parts.image.addEventListener('error', () => this.#onShown());
   }
 
-  /** Tells the server whether pictures are wanted; also after a new connection. */
+  /** Requests pictures from the server, or stops them; call it also after a new connection. */
   ask() {
     const isOn = this.parts.on.checked && this.hasPictures;
     this.send({ pictures: isOn });
@@ -51,12 +51,12 @@ export class PicturePanel {
     }
     this.parts.on.disabled = !this.hasPictures;
     this.parts.save.disabled = !this.hasPictures;
-    // Everybody shares the live picture: another viewer may have chosen its camera.
+    // All viewers share the live picture: another viewer may have selected its camera.
     if (document.activeElement !== this.parts.camera) this.parts.camera.value = details.camera;
     this.#explain();
   }
 
-  /** The newest wins: what comes while one is being decoded waits, alone.
+  /** Shows a picture. While one is being decoded, only the latest of the following pictures is kept.
    *  @param {ArrayBuffer} buffer */
   show(buffer) {
     if (this.parts.on.checked) this.#showJpeg(decodePicture(buffer).jpeg);
@@ -85,8 +85,8 @@ export class PicturePanel {
 
   #explain() {
     const { on, image, note } = this.parts;
-    if (!this.hasPictures) note.textContent = 'This server draws no pictures.';
-    else if (!on.checked) note.textContent = 'Off: nothing is drawn or sent for this page.';
+    if (!this.hasPictures) note.textContent = 'This server does not render pictures.';
+    else if (!on.checked) note.textContent = 'Live picture is off.';
     else note.textContent = 'Waiting for a picture';
     note.hidden = !image.hidden;
   }
@@ -99,7 +99,7 @@ export class PicturePanel {
         camera: camera.value, width: String(SAVED_SIZE.width), height: String(SAVED_SIZE.height),
       });
       const answer = await fetch(`snapshot.png?${query}`);
-      if (!answer.ok) throw new Error(`No picture: ${await refusalOf(answer)}`);
+      if (!answer.ok) throw new Error(`Could not save the picture: ${await refusalOf(answer)}`);
       const link = document.createElement('a');
       link.href = URL.createObjectURL(await answer.blob());
       link.download = `kinescope_${camera.value}_${new Date().toISOString().replace(/[:.]/g, '-')}.png`;

@@ -1,20 +1,20 @@
-// What is said beside the view about one person. Pure functions.
+// Texts next to the view about one person. Pure functions.
 import { centimetres, kilonewtons } from './format.js';
 import { heldText } from './hand_load.js';
 
 /** @typedef {import('./state_codec.js').Person} Person
  *  @typedef {import('./messages.js').PersonDetails} PersonDetails
  *  @typedef {{hint: string, isDoubtful: boolean, com: string, cop: string, support: string,
- *    compression: string}} Readings  isDoubtful: the hint deserves a second look; compression "": not known */
+ *    compression: string}} Readings  isDoubtful: the hint is highlighted as a warning; compression "": unknown */
 
 /** @param {Person|undefined} person  of the newest state
- *  @param {PersonDetails|undefined} details  of the same character; they come apart from the state and later
+ *  @param {PersonDetails|undefined} details  of the same character; they arrive separately from the state, and later
  *  @param {boolean} isLive
  *  @returns {Readings} */
 export function readingsOf(person, details, isLive) {
   if (!person) {
     return { hint: '', isDoubtful: false, com: 'Centre of mass', cop: 'Centre of pressure',
-      support: 'Support of the feet', compression: '' };
+      support: 'Support polygon', compression: '' };
   }
   return {
     hint: loadsHint(person, details),
@@ -22,22 +22,22 @@ export function readingsOf(person, details, isLive) {
     com: comText(person),
     cop: copText(person, details),
     support: isLive && Number.isFinite(person.margin)
-      ? `Margin of stability ${centimetres(person.margin)}` : 'Support of the feet',
+      ? `Margin of stability ${centimetres(person.margin)}` : 'Support polygon',
     compression: isLive && Number.isFinite(person.compression)
       ? `L5/S1 compression ${kilonewtons(person.compression)}` : '',
   };
 }
 
-/** What the loads are, and what they stand on.
+/** Load metric, and the assumptions behind the loads.
  *  @param {Person} person
  *  @param {PersonDetails|undefined} details */
 export function loadsHint(person, details) {
   const motion = person.metric === 'external' ? '' : person.isDynamic ? ', dynamic' : ', static';
   return [
     `${person.metric}${motion}`,
-    details?.mass_is_assumed ? `mass assumed ${details.mass_kg} kg` : '',
+    details?.mass_is_assumed ? `body mass assumed: ${details.mass_kg} kg` : '',
     heldText(details?.hand_load),
-    person.comDisagrees ? `centre of mass ${centimetres(person.comDifference)} from MVN’s` : '',
+    person.comDisagrees ? `centre of mass differs from MVN by ${centimetres(person.comDifference)}` : '',
     details?.why_other_metric ?? '',
   ].filter(Boolean).join(' · ');
 }

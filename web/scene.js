@@ -1,4 +1,4 @@
-// The 3-D view: camera, lights, floor, and the people in it. Draws only when something changed.
+// The 3-D view: camera, lights, floor and people. It is drawn only after a change.
 // World frame: z up, metres.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -7,7 +7,7 @@ import { makeMarkMaterials } from './human.js';
 import { ObjectMarks } from './objects.js';
 import { People } from './people.js';
 
-const FOLLOW_SECONDS = 0.35;  // how quickly the view follows a person who walks
+const FOLLOW_SECONDS = 0.35;  // time constant with which the view follows a walking person
 const SLOW_FRAME_MILLIS = 45;
 const FRAMES_JUDGED = 24;
 
@@ -19,7 +19,7 @@ const LOOK = {
 export class Scene {
   #scene = new THREE.Scene();
   #camera = new THREE.PerspectiveCamera(30, 1, 0.05, 80);
-  #floor = new THREE.Group();  // goes along with the people, in whole metres, so it has no end
+  #floor = new THREE.Group();  // follows the people in whole metres, so that it appears endless
   #sun = new THREE.DirectionalLight(0xffffff, 2.3);
   #sky = new THREE.HemisphereLight(0xffffff, 0x8a8f98, 2);
   #shade = new THREE.Mesh(new THREE.PlaneGeometry(5, 5), new THREE.ShadowMaterial());
@@ -35,11 +35,11 @@ export class Scene {
   #dirty = true;
   #lastFrameAt = 0;
   #frameMillis = /** @type {number[]} */ ([]);
-  #quality = 0;  // steps down that a slow machine made us take
+  #quality = 0;  // number of reductions of quality on a slow machine
 
   /** @param {HTMLElement} host  filled with a canvas
-   *  @param {{onOrbit: () => void}} events  the user moved the camera by hand
-   *  @throws where the browser has no WebGL */
+   *  @param {{onOrbit: () => void}} events  onOrbit: called when the user moves the camera by hand
+   *  @throws if WebGL is not available */
   constructor(host, events) {
     this.host = host;
     const software = drawsInSoftware();
@@ -48,9 +48,9 @@ export class Scene {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     const canvas = this.renderer.domElement;
     canvas.setAttribute('role', 'img');
-    canvas.setAttribute('aria-label', 'The human, drawn from the stream');
+    canvas.setAttribute('aria-label', 'The people in the stream');
     host.append(canvas);
-    this.#camera.up.set(0, 0, 1);  // before the controls: they take their axis from it
+    this.#camera.up.set(0, 0, 1);  // before the controls are created: they take their axis from it
     this.controls = new OrbitControls(this.#camera, canvas);
     this.controls.enableDamping = true;
     this.controls.minDistance = 0.6;
@@ -67,7 +67,7 @@ export class Scene {
     this.#resize();
   }
 
-  /** The persons' bodies; called again whenever a revision changes.
+  /** Sets the bodies of the people; called again whenever a revision changes.
    *  @param {import('./messages.js').Model} model */
   setModel(model) {
     this.#marks ??= makeMarkMaterials(model.palette);
@@ -89,7 +89,7 @@ export class Scene {
     return this.#people.failedMeshes;
   }
 
-  /** Of tracked objects.
+  /** Sets the names of tracked objects.
    *  @param {import('./messages.js').ObjectName[]} names */
   setObjectNames(names) {
     this.#objectNames = names;
@@ -116,8 +116,8 @@ export class Scene {
     this.#aim();
   }
 
-  /** Draws if anything changed since the last time.
-   *  @param {number} now  of requestAnimationFrame, ms
+  /** Draws the view if anything has changed since the last call.
+   *  @param {number} now  time of requestAnimationFrame, ms
    *  @returns {boolean} whether it drew */
   draw(now) {
     const elapsed = now - this.#lastFrameAt;
@@ -176,7 +176,7 @@ export class Scene {
     fill.position.set(-3, 3, 2);
     this.#scene.add(this.#sky, this.#sun, this.#sun.target, fill, this.#floor, this.#people.group);
     this.#shade.receiveShadow = true;
-    this.#shade.material.depthWrite = false;  // it lies on the grid and must not hide it
+    this.#shade.material.depthWrite = false;  // the shadow lies on the grid and must not hide it
     this.#grid.position.z = -0.002;
     this.#floor.add(this.#shade, this.#grid);
     this.#placeFloor();
@@ -202,10 +202,10 @@ export class Scene {
     this.#dirty = true;
   }
 
-  /** A machine without a graphics chip draws a plainer picture at a useful rate.
+  /** Reduces the quality in steps on a slow machine, to keep a useful frame rate.
    *  @param {number} elapsed  since the last frame, ms */
   #adaptQuality(elapsed) {
-    if (elapsed > 500) return;  // it was idle or hidden, not slow
+    if (elapsed > 500) return;  // the view was idle or hidden, not slow
     this.#frameMillis.push(elapsed);
     if (this.#frameMillis.length < FRAMES_JUDGED) return;
     const median = this.#frameMillis.sort((a, b) => a - b)[FRAMES_JUDGED / 2];
@@ -222,8 +222,8 @@ export class Scene {
   }
 }
 
-/** Lines every `step` from -half to half, in pieces of that length: some drivers drop a line that
- *  reaches behind the camera.
+/** Grid lines every `step` from -half to half, in pieces of that length: some drivers drop a line that extends behind
+ *  the camera.
  *  @param {number} half
  *  @param {number} step */
 function gridGeometry(half, step) {
@@ -236,8 +236,8 @@ function gridGeometry(half, step) {
   return new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
 }
 
-/** Whether this browser has WebGL, but no graphics chip behind it (a virtual machine, a remote
- *  desktop): then smooth edges and shadows would cost most of the frames. */
+/** Whether WebGL is rendered in software (in a virtual machine, on a remote desktop). Antialiasing and shadows would
+ *  then cost most of the frame rate. */
 function drawsInSoftware() {
   if (new URLSearchParams(location.search).get('quality') === 'fine') return false;  // for screenshots
   const gl = document.createElement('canvas').getContext('webgl2');

@@ -1,15 +1,15 @@
-// Asks the server's routes, and says in one line what went wrong: the server may be gone, refuse, or be hidden
-// behind a proxy that answers with a page of its own.
+// Requests to the routes of the server, with errors of one line: the server may be unreachable, reject the request, or
+// be behind a proxy that answers with a page of its own.
 import { readRefusal } from './messages.js';
 
-/** @param {unknown} error  whatever was thrown */
+/** @param {unknown} error  any thrown value */
 export const messageOf = (error) => (error instanceof Error ? error.message : String(error));
 
 /** @template T
  *  @param {string} route
  *  @param {import('./messages.js').Reader<T>} read
- *  @returns {Promise<T|null>}  null where no server answers, which the lamp tells
- *  @throws {Error} where the answer is a refusal, or not what it should be */
+ *  @returns {Promise<T|null>}  null if the server is unreachable, which the status indicator shows
+ *  @throws {Error} if the request is rejected or the answer has another shape */
 export async function ask(route, read) {
   const answer = await fetch(route).catch(() => null);
   if (answer === null) return null;
@@ -25,16 +25,16 @@ async function jsonOf(answer, route) {
     return await answer.json();
   } catch {
     const type = answer.headers.get('Content-Type') ?? 'no content type';
-    throw new Error(`${route} is answered with ${type}, expected JSON: is a proxy in between?`);
+    throw new Error(`${route} returned ${type}, expected JSON; check for a proxy in front of the server`);
   }
 }
 
-/** @param {Response} answer  that is not ok
- *  @returns {Promise<string>}  the server's message, or the status if the answer is not the server's */
+/** @param {Response} answer  with an error status
+ *  @returns {Promise<string>}  the server's message, or the status if the answer is not from the server */
 export const refusalOf = async (answer) => await ownRefusalOf(answer) ?? `HTTP status ${answer.status}`;
 
-/** @param {Response} answer  that is not ok
- *  @returns {Promise<string|null>}  null where it is not our server that refuses */
+/** @param {Response} answer  with an error status
+ *  @returns {Promise<string|null>}  the server's message; null if the answer is not from a Kinescope server */
 export async function ownRefusalOf(answer) {
   try {
     return readRefusal(await answer.json(), '').error;

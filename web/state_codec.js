@@ -1,4 +1,4 @@
-// Reads the WebSocket's binary messages; docs/http.md has the layout, server/http/protocol.cc writes it.
+// Reads the binary messages of the WebSocket. docs/http.md has the layout; server/http/protocol.cc writes them.
 
 export const KIND = { state: 1, picture: 2 };
 export const VERSION = 2;
@@ -11,7 +11,7 @@ const SOLID = 44;
 const OBJECT = 36;
 const PICTURE_HEADER = 24;
 
-// Words by their number in a message.
+// Names by their number in a message.
 const LIVENESS = /** @type {const} */ (['no data', 'live', 'stale']);
 const LOAD_CLASS = /** @type {const} */ (['unknown', 'low', 'medium', 'high']);
 const METRIC = /** @type {const} */ (['total', 'overload', 'external', 'norm']);
@@ -20,7 +20,7 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
 /** @typedef {{position: number[], quaternion: number[]}} Pose  metres; [x, y, z, w]; world_from_link
  *  @typedef {import('./messages.js').LoadClass} LoadClass
  *  @typedef {{joint: number, loadClass: LoadClass, radius: number, position: number[],
- *    ratio: number, moment: number, capacity: number}} Load  ratio NaN where unknown; N m
+ *    ratio: number, moment: number, capacity: number}} Load  ratio: NaN if unknown; moment, capacity: N·m
  *  @typedef {{kind: (typeof SOLID_KIND)[number], position: number[], quaternion: number[], size: number[]}} Solid
  *    size: edges, or radius, radius, length along z
  *  @typedef {{character: number, revision: number, com: number[]|null, cop: number[]|null,
@@ -28,21 +28,21 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *    leans: boolean, comDisagrees: boolean, compression: number, margin: number,
  *    comDifference: number, heldKg: number[], metric: (typeof METRIC)[number],
  *    links: Pose[], loads: Load[], support: number[][], held: Solid[]}} Person
- *    compression (N), margin and comDifference (m): NaN where not known; heldKg: right, left
+ *    compression (N), margin and comDifference (m): NaN if unknown; heldKg: right, left
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
  *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, number: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
  *    rateHz: number, viewers: number, floor: number, people: Person[],
- *    objects: TrackedObject[]}} State  arrivalMicros 0: not known
+ *    objects: TrackedObject[]}} State  arrivalMicros 0: unknown
  */
 
-/** Which kind a message is; throws where the server speaks another version of the protocol.
+/** The kind of a message; throws if the server uses another version of the protocol.
  *  @param {ArrayBuffer} buffer */
 export function messageKind(buffer) {
   const bytes = new Uint8Array(buffer);
-  if (bytes.length < 2) throw new Error('a message of the server is cut short');
+  if (bytes.length < 2) throw new Error('message from the server is truncated');
   if (bytes[1] !== VERSION) {
-    throw new Error(`the server speaks version ${bytes[1]} and this page version ${VERSION}: reload it`);
+    throw new Error(`the server uses protocol version ${bytes[1]} and this page version ${VERSION}; reload the page`);
   }
   return bytes[0];
 }
@@ -82,7 +82,7 @@ export function decodeState(buffer) {
       ...readPose(view, offset + 8),
     });
   }
-  if (offset !== view.byteLength) throw new Error('a message of the server has bytes too many');
+  if (offset !== view.byteLength) throw new Error('message from the server is too long');
   return state;
 }
 
@@ -108,7 +108,7 @@ function readPerson(view, offset) {
   const loadCount = view.getUint8(offset + 6);
   const solidCount = view.getUint8(offset + 7);
   const cornerCount = view.getUint8(offset + 60);
-  if (linkCount === 0) throw new Error('the server sent a person without links: reload the page');
+  if (linkCount === 0) throw new Error('the server sent a person without links; reload the page');
   need(view, offset, PERSON_HEADER + LINK * linkCount + LOAD * loadCount + CORNER * cornerCount
     + SOLID * solidCount);
   const firstLink = offset + PERSON_HEADER;
@@ -183,5 +183,5 @@ function floats(view, offset, count) {
  *  @param {number} offset
  *  @param {number} size */
 function need(view, offset, size) {
-  if (offset + size > view.byteLength) throw new Error('a message of the server is cut short');
+  if (offset + size > view.byteLength) throw new Error('message from the server is truncated');
 }

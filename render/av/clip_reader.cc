@@ -62,7 +62,8 @@ class ClipReader : public VideoReader {
     if (codec.width > kLargestSide || codec.height > kLargestSide) {
       throw std::runtime_error("cannot read " + path_.string() + ": " +
                                std::to_string(codec.width) + " x " + std::to_string(codec.height) +
-                               " px is larger than " + std::to_string(kLargestSide) + " a side");
+                               " px is larger than the limit of " + std::to_string(kLargestSide) +
+                               " px per side");
     }
     // libav's own VP9 decoder does not see the alpha channel.
     const bool has_alpha = av_dict_get(stream_->metadata, "alpha_mode", nullptr, 0) != nullptr;

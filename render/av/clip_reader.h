@@ -1,4 +1,4 @@
-/// Clips read with libav.
+/// Reads clips with libav. One thread per reader.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace kinescope::render::av {
 
-/// As OpenVideo, of what is no animated WebP.
+/// As OpenVideo, for all formats except animated WebP.
 std::unique_ptr<VideoReader> OpenClip(const std::filesystem::path& path);
 
 }  // namespace kinescope::render::av

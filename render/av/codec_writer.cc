@@ -103,8 +103,7 @@ class CodecWriter : public VideoWriter {
   }
 
   void Finish() override {
-    if (next_ == 0)
-      throw std::runtime_error(path_.string() + ": a clip needs at least one picture");
+    if (next_ == 0) throw std::runtime_error(path_.string() + ": a clip needs at least one frame");
     Encode(nullptr);
     Check(av_write_trailer(format_.get()), "finish", path_);
     avio_flush(format_->pb);
@@ -117,10 +116,10 @@ class CodecWriter : public VideoWriter {
   [[noreturn]] void RefuseAlpha() const {
     if (!recipe_.keeps_alpha) {
       throw std::runtime_error(path_.string() +
-                               ": H.264 has no transparency; .webm, .webp and .gif have");
+                               ": H.264 does not support transparency; use .webm, .webp or .gif");
     }
-    throw std::runtime_error(path_.string() +
-                             ": a picture is transparent, but the clip's first one was not");
+    throw std::runtime_error(
+        path_.string() + ": a frame is transparent, but the first frame of the clip was opaque");
   }
 
   void Open(bool has_alpha) {

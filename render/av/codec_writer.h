@@ -1,4 +1,4 @@
-/// H.264 in MP4 and VP9 in WebM with libav.
+/// Writes H.264 in MP4 and VP9 in WebM with libav. One thread per writer.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,7 @@
 
 namespace kinescope::render::av {
 
-/// As MakeVideoWriter, of kMp4 and kWebm; the arguments have been checked.
+/// As MakeVideoWriter, for kMp4 and kWebm; the arguments are already checked.
 std::unique_ptr<VideoWriter> MakeCodecWriter(const std::filesystem::path& path, ClipFormat format,
                                              int width, int height, const VideoOptions& options);
 

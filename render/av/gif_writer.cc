@@ -117,8 +117,7 @@ class GifWriter : public VideoWriter {
   }
 
   void Finish() override {
-    if (next_ == 0)
-      throw std::runtime_error(path_.string() + ": a clip needs at least one picture");
+    if (next_ == 0) throw std::runtime_error(path_.string() + ": a clip needs at least one frame");
     palette_maker_->Put(0, nullptr);
     Frame palette(av_frame_alloc());
     if (!palette_maker_->Take(palette.get())) Check(AVERROR_BUG, "choose the colours of", path_);
@@ -228,7 +227,9 @@ class GifWriter : public VideoWriter {
     if (file.get() != kTrailer) Check(AVERROR_BUG, "finish", path_);
     file.seekp(-1, std::ios::end);
     file << extension << std::flush;
-    if (!file) throw std::runtime_error("cannot write " + path_.string() + ": disk full?");
+    if (!file)
+      throw std::runtime_error("cannot write " + path_.string() +
+                               ": write error; check the free disk space");
   }
 
   const std::filesystem::path path_;

@@ -1,5 +1,6 @@
-/// Animated GIF with libav: one palette of 256 colours for the whole clip, chosen from all of its
-/// pictures. These wait, packed without loss, in a file without a name beside the clip.
+/// Writes animated GIF with libav: one palette of 256 colours for the whole clip, computed from all
+/// of its frames. Until then the frames are stored without loss in an unnamed file in the folder of
+/// the clip. One thread per writer.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,7 @@
 
 namespace kinescope::render::av {
 
-/// As MakeVideoWriter, of kGif; the arguments have been checked.
+/// As MakeVideoWriter, for kGif; the arguments are already checked.
 std::unique_ptr<VideoWriter> MakeGifWriter(const std::filesystem::path& path, int width, int height,
                                            const VideoOptions& options);
 

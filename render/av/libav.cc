@@ -26,8 +26,9 @@ void Check(int result, const char* what, const std::filesystem::path& path) {
 const AVCodec& FindEncoder(const char* name, const char* package,
                            const std::filesystem::path& path) {
   if (const AVCodec* encoder = avcodec_find_encoder_by_name(name)) return *encoder;
-  throw std::runtime_error("cannot encode " + path.string() + ": this libavcodec has no " + name +
-                           "; install Debian's " + package);
+  throw std::runtime_error("cannot encode " + path.string() +
+                           ": this libavcodec does not contain " + name + "; install Debian's " +
+                           package);
 }
 
 Frame MakeFrame(AVPixelFormat format, int width, int height, const std::filesystem::path& path) {
@@ -43,7 +44,8 @@ Frame MakeFrame(AVPixelFormat format, int width, int height, const std::filesyst
 void CheckSameSize(const Image& image, int width, int height, const std::filesystem::path& path) {
   if (image.width == width && image.height == height) return;
   const auto size = [](int w, int h) { return std::to_string(w) + " x " + std::to_string(h); };
-  throw std::runtime_error(path.string() + ": every picture of a clip has its first one's size, " +
+  throw std::runtime_error(path.string() +
+                           ": all frames of a clip need the size of the first one, " +
                            size(width, height) + ", not " + size(image.width, image.height));
 }
 

@@ -1,4 +1,4 @@
-/// What our uses of libav share: owners of its structs, and its errors as exceptions.
+/// Common parts of all uses of libav: owners of its structs, and its errors as exceptions.
 #pragma once
 
 extern "C" {
@@ -41,14 +41,14 @@ using Scaler = std::unique_ptr<SwsContext, FreeScaler>;
 /// Throws std::runtime_error "cannot `what` `path`: reason" for a `result` below 0.
 void Check(int result, const char* what, const std::filesystem::path& path);
 
-/// @throws std::runtime_error naming `path`, the encoder and Debian's package that has it.
+/// @throws std::runtime_error with `path`, the encoder and the Debian package that contains it.
 const AVCodec& FindEncoder(const char* name, const char* package,
                            const std::filesystem::path& path);
 
-/// A picture of libav's with memory of its own.
+/// A libav frame with its own memory.
 Frame MakeFrame(AVPixelFormat format, int width, int height, const std::filesystem::path& path);
 
-/// Refuses a picture that is not `width` x `height`. @throws std::runtime_error.
+/// @throws std::runtime_error if `image` is not `width` x `height`.
 void CheckSameSize(const Image& image, int width, int height, const std::filesystem::path& path);
 
 }  // namespace kinescope::render::av

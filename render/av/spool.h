@@ -1,6 +1,6 @@
-/// Pictures kept on disk without loss, to be read once more: QuickTime Animation, which packs what
-/// is flat or does not change, at a cost far below that of drawing it. The file has no name and is
-/// gone with the object.
+/// Stores pictures on disk without loss, to read them once more. The format is QuickTime Animation,
+/// which compresses flat and unchanged areas, much faster than rendering them again. The file has
+/// no name and is deleted with the object. One thread.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,24 @@ namespace kinescope::render::av {
 
 class Spool {
  public:
-  /// In the folder of `beside`. All pictures are `width` x `height` and of `format`, which is
-  /// AV_PIX_FMT_ARGB. @throws std::runtime_error naming `beside`, here and from every call.
+  /// Creates the file in the folder of `beside`. All pictures are `width` x `height` in `format`,
+  /// which is AV_PIX_FMT_ARGB. The constructor and all calls @throw std::runtime_error with
+  /// `beside`.
   Spool(const std::filesystem::path& beside, AVPixelFormat format, int width, int height);
 
   void Add(const AVFrame& frame);
 
-  /// From here on they are read, the first one first.
+  /// Ends the writing; Next() returns the first picture again.
   void Rewind();
 
-  /// @pre Rewind was called, and there is one left
+  /// @pre Rewind was called, and a picture is left
   AVFrame& Next();
 
  private:
   void Keep();
 
   std::filesystem::path path_;
-  NewFile file_;  // never given its name
+  NewFile file_;  // never named
   CodecContext encoder_, decoder_;
   Packet packet_;
   Frame frame_;

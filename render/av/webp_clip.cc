@@ -106,7 +106,7 @@ class WebpWriter : public VideoWriter {
     WebPAnimEncoderOptions settings;
     if (WebPAnimEncoderOptionsInit(&settings) == 0 || WebPConfigInit(&config_) == 0) {
       throw std::runtime_error("cannot encode " + path.string() +
-                               ": libwebp is of another version than Debian's libwebp7");
+                               ": libwebp has an incompatible version; install Debian's libwebp7");
     }
     config_.quality = static_cast<float>(options.quality);
     config_.lossless = options.quality == 100;
@@ -129,8 +129,7 @@ class WebpWriter : public VideoWriter {
   }
 
   void Finish() override {
-    if (next_ == 0)
-      throw std::runtime_error(path_.string() + ": a clip needs at least one picture");
+    if (next_ == 0) throw std::runtime_error(path_.string() + ": a clip needs at least one frame");
     Check(WebPAnimEncoderAdd(encoder_.get(), nullptr, MillisOf(next_), nullptr) != 0);
     OwnedData clip;
     Check(WebPAnimEncoderAssemble(encoder_.get(), &clip) != 0);
@@ -181,7 +180,8 @@ class WebpReader : public VideoReader {
       decoder_.reset(WebPAnimDecoderNew(&data, &settings));
     }
     if (!decoder_ || WebPAnimDecoderGetInfo(decoder_.get(), &info_) == 0) {
-      throw std::runtime_error("cannot read " + path.string() + ": no WebP that libwebp can read");
+      throw std::runtime_error("cannot read " + path.string() +
+                               ": not a WebP file that libwebp can read");
     }
     path_ = path;
   }
@@ -191,7 +191,7 @@ class WebpReader : public VideoReader {
     std::uint8_t* rgba = nullptr;
     int ends_millis = 0;
     if (WebPAnimDecoderGetNext(decoder_.get(), &rgba, &ends_millis) == 0) {
-      throw std::runtime_error("cannot decode " + path_.string() + ": it is damaged");
+      throw std::runtime_error("cannot decode " + path_.string() + ": the file is damaged");
     }
     secs_ = next_millis_ / 1000.0;
     next_millis_ = ends_millis;

@@ -1,4 +1,5 @@
-/// Animated WebP with libwebp: what libav has of it knows neither metadata nor how to read it.
+/// Writes and reads animated WebP with libwebp, because libav can neither read it nor write its
+/// metadata. One thread per writer or reader.
 #pragma once
 
 #include <filesystem>
@@ -8,9 +9,9 @@
 
 namespace kinescope::render::av {
 
-/// As MakeVideoWriter, of kWebp; the arguments have been checked. Packed pictures stay in memory
-/// until Finish. Metadata are an XMP packet, whose dc:title and dc:description are "title" and
-/// "comment".
+/// As MakeVideoWriter, for kWebp; the arguments are already checked. Encoded frames stay in memory
+/// until Finish. Metadata are written as an XMP packet; its dc:title and dc:description are "title"
+/// and "comment".
 std::unique_ptr<VideoWriter> MakeWebpWriter(const std::filesystem::path& path, int width,
                                             int height, const VideoOptions& options);
 

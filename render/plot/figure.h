@@ -1,4 +1,4 @@
-/// A figure's description to strokes of a pen.
+/// Draws a figure from its description with a Pen. One thread per figure.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-/// What figures and layers of overlays share of Cairo: the fonts, and text that it takes.
+/// Common Cairo parts of figures and overlay layers: the fonts, and text that Cairo accepts.
 #pragma once
 
 #include <string>
@@ -9,13 +9,14 @@ using cairo_font_face_t =
 
 namespace kinescope::render::plot {
 
-/// DejaVu Sans, opened once for the process. @throws RenderError where it is missing.
+/// DejaVu Sans, opened once per process. @throws RenderError if it is missing.
 cairo_font_face_t* FontFace(bool is_bold);
 
-/// `text` as UTF-8 that Cairo does not refuse.
+/// `text` as UTF-8 that Cairo accepts.
 std::string Printable(std::string_view text);
 
-/// Cairo numbers its surfaces through the process; the same drawing is to be the same bytes.
+/// Removes the numbers that Cairo gives to surfaces in a process, so that equal drawings give equal
+/// bytes.
 std::string WithoutSurfaceNumber(std::string svg);
 
 }  // namespace kinescope::render::plot

@@ -1,5 +1,5 @@
-/// Cairo, as much of it as figures need: owns surface, context and fonts. The only place that knows
-/// Cairo. Points, y downwards.
+/// Wraps the parts of Cairo that figures need: owns surface, context and fonts. No other file uses
+/// Cairo for figures. Points (1/72 inch), y downwards. One thread.
 #pragma once
 
 #include <memory>
@@ -14,7 +14,7 @@ namespace kinescope::render::plot {
 
 class Pen {
  public:
-  /// For an SVG, and for a picture. @throws RenderError for a font that is missing.
+  /// For an SVG or for a picture. @throws RenderError if a font is missing.
   static std::unique_ptr<Pen> ForSvg(double width, double height);
   static std::unique_ptr<Pen> ForImage(double width, double height, double px_per_pt);
   ~Pen();
@@ -25,7 +25,7 @@ class Pen {
   void Disc(double x, double y, double radius, const Rgb& color);
   void Line(double x1, double y1, double x2, double y2, const Rgb& color, double width,
             const std::vector<double>& dash = {});
-  /// Points with NaN break it.
+  /// Points with NaN interrupt it.
   void Polyline(const std::vector<std::pair<double, double>>& points, const Rgb& color,
                 double width, const std::vector<double>& dash);
   /// Slanted lines across a box.
@@ -36,11 +36,11 @@ class Pen {
             Anchor anchor = Anchor::kLeft, bool is_bold = false, bool is_upright = false);
   double TextWidth(const std::string& text, double size, bool is_bold = false);
 
-  /// What is drawn until Unclip stays inside.
+  /// Clips all drawing to the box until Unclip.
   void Clip(double x, double y, double width, double height);
   void Unclip();
 
-  // Once, at the end. @throws RenderError.
+  // Call one of them once, at the end. @throws RenderError.
   std::string TakeSvg();
   Image TakeImage();
 

@@ -1,5 +1,5 @@
-/// Metres on the floor's grid, as labels along two of its lines in front of what the camera looks
-/// at.
+/// Adds labels in metres along two lines of the floor's grid, in front of the camera's target. Pure
+/// function, any thread.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
-/// Lines and arrows as triangles: tubes along points, cones. No VTK here.
+/// Builds lines and arrows as triangles: tubes along points, cones. Metres; no VTK types. Pure
+/// functions, any thread.
 #pragma once
 
 #include <vector>
@@ -16,15 +17,15 @@ struct TubePoint {
   Eigen::Vector4f color;  // sRGB and opacity
 };
 
-/// Round and closed, `sides` around. Points that fall together with the one before are left out;
-/// fewer than two that are left give nothing.
+/// A round, closed tube with `sides` sides. Points equal to the one before are skipped; with fewer
+/// than two remaining points nothing is added.
 void AppendTube(const std::vector<TubePoint>& points, int sides, int part, urdf::Mesh& to);
 
-/// An arrow along +z from the origin: shaft of radius `shaft`, head of radius `head` that takes the
-/// last `head_length` of `length`.
+/// An arrow along +z from the origin, m: shaft of radius `shaft`, head of radius `head` on the last
+/// `head_length` of `length`.
 urdf::Mesh ArrowMesh(double length, double shaft, double head, double head_length, int sides);
 
-/// Shortest turn of +z to `direction`, which need not be of length 1.
+/// Shortest rotation from +z to `direction`, which need not be normalised.
 Eigen::Quaterniond AlongZ(const Eigen::Vector3d& direction);
 
 }  // namespace kinescope::render

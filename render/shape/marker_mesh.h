@@ -1,4 +1,5 @@
-/// A SceneMarker as triangles in the world. No VTK here.
+/// Converts a SceneMarker to triangles in the world frame, metres. No VTK types. Pure functions,
+/// any thread.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,7 @@ namespace kinescope::render {
 /// How many triangles AppendMarker would add; 0 for text and meshes.
 std::size_t TriangleCount(const SceneMarker& marker);
 
-/// Text and meshes add nothing. @pre !FindDefect(marker)
+/// Adds nothing for text and meshes. @pre !FindDefect(marker)
 void AppendMarker(const SceneMarker& marker, urdf::Mesh& to);
 
 }  // namespace kinescope::render

@@ -1,4 +1,4 @@
-/// A log that does not repeat itself with every picture.
+/// A log that does not repeat a line with every picture. One thread.
 #pragma once
 
 #include <set>
@@ -8,12 +8,12 @@
 
 namespace kinescope::render {
 
-/// Says each thing once, however often it comes up.
+/// Logs each line once, however often it is reported.
 class OnceLog {
  public:
   explicit OnceLog(const LogLine& log) : log_(log) {}
   void operator()(const std::string& line) {
-    if (said_.size() >= kMostLines) said_.clear();  // names come from outside, without end
+    if (said_.size() >= kMostLines) said_.clear();  // limits memory: names are untrusted
     if (said_.insert(line).second) log_(line);
   }
 

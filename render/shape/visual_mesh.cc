@@ -55,8 +55,7 @@ std::string VisualReader::FaultOf(const File& file, const urdf::Geometry& shape,
   if (shape.size.cwiseAbs().minCoeff() < 1e-12) return mesh + "its scale is 0";
   if (Reach(file.mesh, place) > urdf::kMostMeters) {
     return mesh +
-           "it reaches further than a robot can; is it in millimetres "
-           "(scale=\"0.001 0.001 0.001\")?";
+           "it is too large for a robot; if it is in millimetres, set scale=\"0.001 0.001 0.001\"";
   }
   if (triangles_ + file.mesh.triangles.size() / 3 > kMostVisualTriangles) {
     return mesh + "all meshes together have too many triangles";

@@ -1,5 +1,5 @@
-/// Visuals of a URDF as triangles: shapes, mesh files, and boxes with a label in place of meshes
-/// that cannot be shown. What people and robots have in common.
+/// Converts visuals of a URDF to triangles: shapes, mesh files, and placeholder boxes with a label
+/// for meshes that cannot be shown. Used for people and robots. Link frames, metres. One thread.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,36 +14,36 @@
 
 namespace kinescope::render {
 
-/// Several visuals as one mesh with a part for each link.
+/// Several visuals as one mesh with one part per link.
 struct VisualMesh {
   struct Placeholder {
     int part = 0;
     Eigen::Vector3d center_in_link = Eigen::Vector3d::Zero();
-    std::string label;  // the file that is missing
+    std::string label;  // name of the missing file
   };
   urdf::Mesh mesh;                        // positions in link frames
-  bool is_closed = true;                  // no surface that could be seen from within
-  std::vector<Placeholder> placeholders;  // drawn as boxes
-  std::vector<std::string> problems;      // one line for each mesh that could not be shown
+  bool is_closed = true;                  // no surface is visible from its back
+  std::vector<Placeholder> placeholders;  // rendered as boxes
+  std::vector<std::string> problems;      // one line per mesh that cannot be shown
 };
 
-/// Adds visuals, reading each mesh file once. For one robot, or one person.
+/// Adds visuals; reads each mesh file once. Use one reader per robot or person.
 class VisualReader {
  public:
   VisualReader(urdf::MeshSearch search, const urdf::ShapeDetail& detail)
       : search_(std::move(search)), detail_(detail) {}
 
-  /// Colours are those of the mesh file, where it has none the URDF's, else kBodyColor.
+  /// Colours are those of the mesh file, else those of the URDF, else kBodyColor.
   void Add(const urdf::Visual& visual, int part, VisualMesh& to);
 
  private:
   struct File {
     urdf::Mesh mesh;
     bool is_closed = false;
-    std::string fault;  // "": none
+    std::string fault;  // "": no error
   };
   const File& Read(const std::string& uri);
-  /// "": it can be shown.
+  /// Why the mesh cannot be shown; "" if it can.
   std::string FaultOf(const File& file, const urdf::Geometry& shape,
                       const Eigen::Affine3d& place) const;
   void AddMesh(const urdf::Visual& visual, int part, VisualMesh& to);
@@ -51,7 +51,7 @@ class VisualReader {
   const urdf::MeshSearch search_;
   const urdf::ShapeDetail detail_;
   std::map<std::string, std::unique_ptr<const File>> files_;  // by URI
-  std::size_t triangles_ = 0;                                 // of all that was added
+  std::size_t triangles_ = 0;                                 // of all added visuals
 };
 
 }  // namespace kinescope::render

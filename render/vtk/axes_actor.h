@@ -1,5 +1,5 @@
-/// Axes at every link of a person: the links' frames, or what the joints turn about. x red, y
-/// green, z blue, seen through the body.
+/// Renders axes at every link of a person: the link frames, or the joint axes. x red, y green, z
+/// blue, visible through the body.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace kinescope::render {
 class AxesActor {
  public:
   enum class Kind {
-    kFrames,  // of links, as TF has them: from the origin along each positive axis
+    kFrames,  // frames of the links, as in TF: from the origin along each positive axis
     kJoints,  // y fixed in the parent, x between, z fixed in the child (urdf/kinematics.h)
   };
   explicit AxesActor(Kind kind);

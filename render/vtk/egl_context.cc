@@ -77,8 +77,8 @@ EGLDisplay SurfacelessDisplay() {
 std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
   if (!Has(client_extensions, "EGL_EXT_platform_device")) {
     throw RenderError(
-        "EGL knows no devices here (EGL_EXT_platform_device is missing); install the GPU's driver "
-        "with EGL, or use --backend osmesa");
+        "--backend=egl_device: EGL lists no devices (EGL_EXT_platform_device is missing); install "
+        "the driver of the GPU with EGL, or use --backend=osmesa");
   }
   const auto query = GlProcedure<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
   const auto text_of = GlProcedure<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
@@ -95,9 +95,9 @@ std::vector<EGLDisplay> DeviceDisplays(const char* client_extensions) {
     displays.push_back(eglGetPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
   }
   if (displays.empty()) {
-    throw RenderError("EGL lists no GPU (devices: " + std::to_string(count) +
-                      ", all software); is its driver installed, and may this user open "
-                      "/dev/dri/renderD*? --backend osmesa needs none");
+    throw RenderError("--backend=egl_device: EGL found no GPU (devices: " + std::to_string(count) +
+                      ", all software); install the driver, check the permissions of "
+                      "/dev/dri/renderD*, or use --backend=osmesa");
   }
   return displays;
 }
@@ -149,12 +149,14 @@ EglContext::EglContext(const std::string& backend) {
     tried += (tried.empty() ? "" : "; ") + why;
   }
   if (context_ == nullptr) {
-    throw RenderError(is_device ? "no GPU gives an OpenGL context through EGL (" + tried +
-                                      "); may this user open /dev/dri/renderD*, and does its "
-                                      "driver have OpenGL 3.2? --backend osmesa needs no GPU"
-                                : "EGL gives no surfaceless OpenGL context (" + tried +
-                                      "); Mesa's EGL with llvmpipe does (Debian: libegl-mesa0, "
-                                      "libgl1-mesa-dri), or use --backend osmesa");
+    throw RenderError(
+        is_device
+            ? "--backend=egl_device: no GPU provides an OpenGL context through EGL (" + tried +
+                  "); check the permissions of /dev/dri/renderD*, install a driver with OpenGL "
+                  "3.2, or use --backend=osmesa"
+            : "--backend=egl: EGL provides no surfaceless OpenGL context (" + tried +
+                  "); install Mesa's EGL with llvmpipe (Debian: libegl-mesa0, libgl1-mesa-dri), or "
+                  "use --backend=osmesa");
   }
   MakeCurrent();
 }

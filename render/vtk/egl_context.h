@@ -1,6 +1,6 @@
-/// A GL context through EGL, without surface, window system or display: "egl" is Mesa's software
-/// (EGL_PLATFORM_SURFACELESS_MESA), "egl_device" the first GPU of EGL_EXT_device_enumeration that
-/// gives one.
+/// Makes a GL context through EGL, without surface, window system or display: "egl" is Mesa's
+/// software renderer (EGL_PLATFORM_SURFACELESS_MESA), "egl_device" the first GPU of
+/// EGL_EXT_device_enumeration that works.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace kinescope::render {
 
 class EglContext : public GlContext {
  public:
-  /// @throws RenderError saying what was tried and what would help.
+  /// @throws RenderError with the attempts and the remedy.
   explicit EglContext(const std::string& backend);
   ~EglContext() override;
   EglContext(const EglContext&) = delete;
@@ -20,7 +20,8 @@ class EglContext : public GlContext {
   void MakeCurrent() override;
 
  private:
-  // EGLDisplay and EGLContext. A display is the process' and stays: two contexts may share it.
+  // EGLDisplay and EGLContext. The display belongs to the process and is kept: two contexts may
+  // share it.
   void* display_ = nullptr;
   void* context_ = nullptr;
 };

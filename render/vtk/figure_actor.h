@@ -1,5 +1,5 @@
-/// A person's body: the visuals of every link that can be seen, fingers and props among them, at
-/// its pose. A new pose changes matrices; a new model, the meshes.
+/// Renders a person's body: the visuals of every visible link, fingers and props included. A new
+/// pose changes matrices; a new model changes the meshes.
 #pragma once
 
 #include <cstdint>
@@ -19,20 +19,20 @@ class FigureActor {
  public:
   explicit FigureActor(Pass pass = Pass::kSolid) : pass_(pass) {}
 
-  /// Adds names of missing meshes to `labels`. `override_color`: see PartActor.
-  /// @return whether there are other actors than before.
+  /// Adds the names of missing meshes to `labels`. `override_color`: see PartActor.
+  /// @return whether the list of actors has changed.
   bool Update(const PersonState& person, const Eigen::Vector4f& override_color, OnceLog& log,
               std::vector<Label>& labels);
 
-  /// Meshes that are boxes instead.
+  /// Meshes that are replaced by boxes.
   const std::vector<std::string>& problems() const { return problems_; }
   std::vector<vtkActor*> actors();
   void SetVisible(bool is_visible);
-  /// 0..1, in the next Update.
+  /// 0..1; takes effect with the next Update.
   void SetOpacity(double opacity) { opacity_ = opacity; }
 
  private:
-  // As many links as one draw call takes.
+  // The links of one draw call.
   struct Group {
     std::unique_ptr<PartActor> actor;
     std::size_t first = 0, count = 0;  // of VisibleLinks
@@ -43,8 +43,8 @@ class FigureActor {
   const Pass pass_;
   double opacity_ = 1;
   std::vector<Group> groups_;
-  std::shared_ptr<const PersonModel> model_;  // that is loaded; held, so that no other can come to
-                                              // lie at its address
+  std::shared_ptr<const PersonModel> model_;  // the loaded model; held, so that its address is not
+                                              // reused
   std::uint64_t revision_ = 0;
   std::vector<std::string> problems_;
 };

@@ -1,5 +1,5 @@
-/// Keeps the drawn floor while the camera stands still, as it does in most streams: it covers half
-/// of every picture and costs as much as all the rest. The picture is the same, byte for byte.
+/// Caches the rendered floor while the camera stands still, as in most streams: the floor covers
+/// half of every picture and costs as much as the rest. The picture is the same, byte for byte.
 #pragma once
 
 #include <vtkNew.h>
@@ -15,17 +15,17 @@ namespace kinescope::render {
 
 class FloorCache {
  public:
-  /// Everything that the floor's pixels depend on.
+  /// All values that the floor's pixels depend on.
   using Key = std::array<double, 32>;
 
-  /// `floor` is drawn first, `people` over it, in the same window. All are borrowed; GL objects are
-  /// made and destroyed while the window's context is current.
+  /// `floor` is rendered first, `people` over it, in the same window. All are borrowed. GL objects
+  /// are created and deleted while the context of the window is current.
   FloorCache(vtkOpenGLRenderWindow* window, vtkRenderer* floor, vtkRenderer* people);
   ~FloorCache();
   FloorCache(const FloorCache&) = delete;
   FloorCache& operator=(const FloorCache&) = delete;
 
-  /// Before each Render of the window, whose size is set already.
+  /// Call it before each Render of the window, after its size is set.
   void Prepare(const Key& key);
 
  private:
@@ -42,7 +42,7 @@ class FloorCache {
   unsigned long observer_ = 0;
   Step step_ = Step::kDraw;
   Key key_{};
-  bool is_kept_ = false;                    // the texture shows the floor of key_
+  bool is_kept_ = false;                    // the texture contains the floor of key_
   unsigned framebuffer_ = 0, texture_ = 0;  // GL names, 0: none
   int width_ = 0, height_ = 0;              // px, of the texture
 };

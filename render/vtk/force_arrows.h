@@ -1,5 +1,5 @@
-/// The floor's force on each foot as an arrow from its centre of pressure: 1 m for 1000 N
-/// (kMetresPerNewton). Where the force is not known there is none.
+/// Renders the ground reaction force on each foot as an arrow from its centre of pressure: 1 m for
+/// 1000 N (kMetresPerNewton). An unknown force has no arrow.
 #pragma once
 
 #include <vector>
@@ -13,11 +13,11 @@ namespace kinescope::render {
 class ForceArrows {
  public:
   ForceArrows();
-  /// With `labels`: adds each arrow's newtons to them.
+  /// With `labels`: adds the force of each arrow in N.
   void Show(const PersonState& person, std::vector<Label>* labels);
 
   vtkActor* solid() { return solid_.actor(); }
-  vtkActor* ghost() { return ghost_.actor(); }  // where something is in front of it
+  vtkActor* ghost() { return ghost_.actor(); }  // where another element is in front of it
 
  private:
   PartActor solid_, ghost_;

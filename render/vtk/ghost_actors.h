@@ -1,4 +1,4 @@
-/// Second bodies that the scene is seen through.
+/// Renders reference poses: translucent second bodies.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace kinescope::render {
 
 class GhostActors {
  public:
-  /// Adds names of missing meshes to `labels`. @return whether there are other actors than before.
+  /// Adds the names of missing meshes to `labels`. @return whether the list of actors has changed.
   bool Update(const SceneLook& look, OnceLog& log, std::vector<Label>& labels);
   std::vector<vtkActor*> actors();
 

@@ -1,5 +1,5 @@
 /// A GL 3.2 core context without display or window. Each module has one file that makes its kind:
-/// osmesa_context.cc or egl_context.cc; the drawing is the same.
+/// osmesa_context.cc or egl_context.cc; the rendering code is the same.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,13 @@ class GlContext {
  public:
   virtual ~GlContext() = default;
 
-  /// To be called before any GL command: another renderer on this thread may have been drawing.
-  /// @throws RenderError.
+  /// Call it before any GL command: another renderer on this thread may have been active. @throws
+  /// RenderError.
   virtual void MakeCurrent() = 0;
 };
 
-/// One of `backend`, current on this thread. Defined by the module's own kind of GL.
-/// @throws RenderError naming why there is none and what would help.
+/// A context of `backend`, current on this thread. Defined in the module's own file.
+/// @throws RenderError with the reason and the remedy.
 std::unique_ptr<GlContext> MakeGlContext(const std::string& backend);
 
 }  // namespace kinescope::render

@@ -302,7 +302,7 @@ class GlDrawing : public Drawing {
     if (error != GL_NO_ERROR) {
       throw RenderError("OpenGL error " + std::to_string(error) + " while drawing " +
                         std::to_string(width) + " x " + std::to_string(height) +
-                        " px; a smaller picture may work");
+                        " px; try a smaller picture");
     }
     if (!can_invert_) TurnUpsideDown(rgba, width, height);
   }

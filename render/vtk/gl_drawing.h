@@ -1,5 +1,5 @@
-/// The scene, drawn by VTK into memory on whatever kind of GL context the module has. The drawing,
-/// and with it every actor, cache and context of this folder, belongs to the thread that made it.
+/// Renders the scene with VTK into memory, on the GL context of the module. The drawing, and with
+/// it every actor, cache and context of this folder, belongs to the thread that made it.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace kinescope::render {
 
-/// @throws RenderError when there is no context of `backend`.
+/// @throws RenderError if there is no context of `backend`.
 std::unique_ptr<Drawing> MakeGlDrawing(const std::string& backend, const LogLine& log);
 
 }  // namespace kinescope::render

@@ -1,4 +1,4 @@
-/// The floor at z = 0: a grid of 1 m and 0.25 m that fades into the background.
+/// Renders the floor at z = 0: a grid of 1 m and 0.25 m that fades into the background.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,9 +12,9 @@ namespace kinescope::render {
 class Ground {
  public:
   Ground();
-  /// Where the floor is clearest, world.
+  /// Point where the floor is most visible, world, m.
   void SetFocus(const Eigen::Vector3d& focus);
-  /// Shows the floor of its theme, or none.
+  /// Shows the floor of the theme, or none.
   void SetLook(const SceneLook& look);
   std::array<vtkActor*, 2> actors() { return {light_.actor(), dark_.actor()}; }
 

@@ -1,5 +1,4 @@
-/// Where the warnings of VTK, OpenGL and EGL go: one line each to the log of the renderer that is
-/// drawing.
+/// Sends the warnings of VTK, OpenGL and EGL to the log of the active renderer, one line each.
 #pragma once
 
 #include <string>
@@ -9,15 +8,15 @@
 
 namespace kinescope::render {
 
-/// To the log of the renderer that is drawing on this thread; to stderr when none is. `text` may
-/// have several lines.
+/// Logs to the renderer that is active on this thread; to stderr without one. `text` may have
+/// several lines.
 void LogHere(const std::string& text);
 
-/// Warnings and errors of the GL context that is current go to `log` from now on, where the context
-/// can tell (KHR_debug). `log` outlives the context.
+/// Sends warnings and errors of the current GL context to `log` from now on, if the context
+/// supports it (KHR_debug). `log` must outlive the context.
 void LogGlMessages(OnceLog& log);
 
-/// While it lives, VTK's messages of this thread go to `log`; otherwise to stderr. Borrowed.
+/// While it exists, VTK's messages on this thread go to `log`; otherwise to stderr. Borrowed.
 class VtkLogScope {
  public:
   explicit VtkLogScope(const LogLine& log);

@@ -58,7 +58,8 @@ void MarkerActors::AddMesh(const SceneMarker& marker, urdf::Mesh& to) {
   }
   const std::size_t count = mesh.mesh.triangles.size() / 3;
   if (triangles_ + count > kMostMarkerTriangles) {
-    problems_.push_back("marker " + IdentityOf(marker) + ": all together have too many triangles");
+    problems_.push_back("marker " + IdentityOf(marker) +
+                        ": all markers together have too many triangles");
     return;
   }
   triangles_ += count;
@@ -85,7 +86,7 @@ void MarkerActors::Build() {
       problems_.push_back("marker " + IdentityOf(*marker) + " is not drawn: " + why);
     };
     if (++count > kMostMarkers) {
-      refuse("it is one of " + std::to_string(markers_.size()) + ", more than " +
+      refuse("there are " + std::to_string(markers_.size()) + " markers, more than " +
              std::to_string(kMostMarkers));
       break;
     }
@@ -110,7 +111,7 @@ void MarkerActors::Build() {
     }
     const std::size_t more = TriangleCount(*marker);
     if (triangles_ + more > kMostMarkerTriangles) {
-      refuse("all together have too many triangles");
+      refuse("all markers together have too many triangles");
       continue;
     }
     triangles_ += more;

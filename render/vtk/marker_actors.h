@@ -1,5 +1,5 @@
-/// Markers of other programs, all of them in two draw calls: what is opaque, and what is not. They
-/// are put together again when one of them is another than in the picture before.
+/// Renders the external markers in two draw calls: the opaque ones, and the others. They are
+/// rebuilt when one of them has changed since the picture before.
 #pragma once
 
 #include <map>
@@ -19,11 +19,12 @@ class MarkerActors {
  public:
   MarkerActors();
 
-  /// Adds texts, and names of missing meshes, to `labels`.
+  /// Adds texts and the names of missing meshes to `labels`.
   void Update(const std::vector<std::shared_ptr<const SceneMarker>>& markers, OnceLog& log,
               std::vector<Label>& labels);
 
-  /// Markers that are not drawn, or whose mesh is a box: one line each, naming marker and reason.
+  /// Markers that are not rendered, or whose mesh is replaced by a box: one line each, with the
+  /// marker and the reason.
   const std::vector<std::string>& problems() const { return problems_; }
   vtkActor* solid() { return solid_.actor(); }
   vtkActor* blended() { return blended_.actor(); }
@@ -34,8 +35,8 @@ class MarkerActors {
   const VisualMesh& MeshOf(const std::string& uri);
 
   PartActor solid_, blended_;
-  std::vector<std::shared_ptr<const SceneMarker>> markers_;  // that are built; held, so that no
-                                                             // other can come to lie at an address
+  std::vector<std::shared_ptr<const SceneMarker>> markers_;  // those that are built; held, so that
+                                                             // their addresses are not reused
   std::vector<Label> labels_;
   std::vector<std::string> problems_;
   std::map<std::string, VisualMesh> meshes_;  // by URI

@@ -1,5 +1,5 @@
-/// Tracked objects: a small block with the axes of its frame, x red, y green, z blue, and its name.
-/// What an object looks like is not streamed.
+/// Renders tracked objects: a small block with the axes of its frame, x red, y green, z blue, and
+/// its name. The shape of an object is not streamed.
 #pragma once
 
 #include <memory>
@@ -13,13 +13,13 @@ namespace kinescope::render {
 
 class ObjectActors {
  public:
-  /// Adds the objects' names to `labels`. @return whether there are other actors than before.
+  /// Adds the objects' names to `labels`. @return whether the list of actors has changed.
   bool Update(const std::vector<TrackedObject>& objects, Liveness liveness,
               std::vector<Label>& labels);
   std::vector<vtkActor*> actors();
 
  private:
-  std::vector<std::unique_ptr<PartActor>> groups_;  // each of as many objects as it can take
+  std::vector<std::unique_ptr<PartActor>> groups_;  // each with the objects of one draw call
 };
 
 }  // namespace kinescope::render

@@ -36,8 +36,9 @@ void CheckDriverChoice() {
   if (driver == nullptr || *driver == '\0') return;
   const std::string name = driver;
   if (name == "llvmpipe" || name == "softpipe") return;
-  throw RenderError("GALLIUM_DRIVER=" + name +
-                    ": OSMesa has llvmpipe and softpipe; unset it or choose one of them");
+  throw RenderError(
+      "GALLIUM_DRIVER=" + name +
+      ": expected llvmpipe or softpipe, the drivers of OSMesa; unset it or choose one of them");
 }
 
 }  // namespace
@@ -60,8 +61,8 @@ OsmesaContext::OsmesaContext() {
   context_ = OSMesaCreateContextAttribs(wanted, nullptr);
   if (context_ == nullptr) {
     throw RenderError(
-        "OSMesa gives no OpenGL 3.2 core context; Mesa 12 to 25.0 with llvmpipe does "
-        "(Debian: libosmesa6). Is GALLIUM_DRIVER set to something else?");
+        "--backend=osmesa: OSMesa provides no OpenGL 3.2 core context; install Mesa 12 to 25.0 "
+        "with llvmpipe (Debian: libosmesa6), and unset GALLIUM_DRIVER");
   }
   MakeCurrent();
 }

@@ -1,4 +1,5 @@
-/// A GL context in memory, drawn by Mesa's llvmpipe, without display, window system or GPU.
+/// Makes a GL context in memory, rendered by Mesa's llvmpipe, without display, window system or
+/// GPU.
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@ namespace kinescope::render {
 
 class OsmesaContext : public GlContext {
  public:
-  /// @throws RenderError saying which Mesa would do.
+  /// @throws RenderError with the Mesa that is required.
   OsmesaContext();
   ~OsmesaContext() override;
   OsmesaContext(const OsmesaContext&) = delete;
@@ -20,7 +21,7 @@ class OsmesaContext : public GlContext {
 
  private:
   void* context_ = nullptr;
-  // The context's own framebuffer. Nothing is drawn there: VTK draws into framebuffer objects.
+  // The context's own framebuffer. It stays unused: VTK renders into framebuffer objects.
   std::array<std::uint8_t, 4 * 16 * 16> unused_pixels_{};
 };
 

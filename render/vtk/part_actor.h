@@ -1,4 +1,5 @@
-/// A mesh whose parts move on their own: a figure of 23 segments, marks on the floor, shadows.
+/// Renders a mesh whose parts move independently: a body of 23 segments, marks on the floor,
+/// shadows.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,10 +15,10 @@ class PartActor {
   enum class Light {
     kLit,
     kFlat,
-    kSoft,  // unlit, and fades out from the part's origin to radius 1 around its z axis
+    kSoft,  // unlit, fades out from the part's origin to radius 1 around its z axis
   };
 
-  static constexpr std::size_t kMostParts = 32;  // the length of the shader's array
+  static constexpr std::size_t kMostParts = 32;  // length of the array in the shader
 
   /// @pre 1 <= part_count <= kMostParts
   PartActor(Pass pass, Light light, int part_count);
@@ -29,9 +30,9 @@ class PartActor {
   void Place(int part, const Eigen::Affine3d& world_from_part);
   void Hide(int part);
 
-  /// One colour instead of the vertices'; alpha is its weight. Takes effect with Commit.
+  /// One colour that replaces those of the vertices; alpha is its weight. Takes effect with Commit.
   void SetOverride(const Eigen::Vector4f& color) { override_ = color; }
-  /// Multiplies every vertex' opacity. Takes effect with Commit.
+  /// Factor for the opacity of every vertex. Takes effect with Commit.
   void SetOpacity(float opacity) { opacity_ = opacity; }
   void Commit();
 

@@ -1,6 +1,6 @@
-/// A VTK actor that says how it meets what is in the picture already. All actors are drawn as
-/// opaque, in the order in which they were added: VTK's own way of drawing translucent things would
-/// cost two more full-screen buffers.
+/// A VTK actor with a rule for hiding and being hidden. All actors are rendered as opaque, in the
+/// order in which they were added, because VTK's own translucent rendering would need two more
+/// full-screen buffers.
 #pragma once
 
 #include <vtkOpenGLActor.h>
@@ -8,11 +8,11 @@
 namespace kinescope::render {
 
 enum class Pass {
-  kBackdrop,  // fills what it covers, whatever is drawn later lies in front of it
-  kSolid,     // hides and is hidden, as things are
+  kBackdrop,  // covers what is behind it, and is covered by all later actors
+  kSolid,     // hides and is hidden by depth
   kBlended,   // is hidden, hides nothing: soft shadows
-  kGhost,     // only where something solid is in front of it; hides nothing
-  kVeil,      // a body that one sees through, but only into its front; is drawn last
+  kGhost,     // visible only where something solid is in front of it; hides nothing
+  kVeil,      // a translucent body of which only the front is visible; rendered last
 };
 
 class PassActor : public vtkOpenGLActor {

@@ -1,4 +1,4 @@
-/// Everything that is drawn of one person. A new pose changes matrices; a new model, the mesh.
+/// Renders all elements of one person. A new pose changes matrices; a new model changes the meshes.
 #pragma once
 
 #include <memory>
@@ -21,14 +21,14 @@ class PersonActors {
  public:
   PersonActors();
 
-  /// Adds names of missing meshes to `labels`. @return whether there are other actors than before.
+  /// Adds the names of missing meshes to `labels`. @return whether the list of actors has changed.
   bool Update(const PersonState& person, Liveness liveness, const Camera& camera,
               const SceneLook& look, OnceLog& log, std::vector<Label>& labels);
 
-  /// Meshes that are boxes instead.
+  /// Meshes that are replaced by boxes.
   const std::vector<std::string>& problems() const { return body_.problems(); }
 
-  // In the order of drawing; all people's shadows come before anybody's body, and so on.
+  // In rendering order; the shadows of all people come before the bodies of all people, and so on.
   vtkActor* shadow() { return shadow_.actor(); }
   std::vector<vtkActor*> bodies() { return body_.actors(); }
   std::vector<vtkActor*> ghosts();
@@ -43,7 +43,7 @@ class PersonActors {
 
   FigureActor body_;
   ForceArrows forces_;
-  std::unique_ptr<AxesActor> frames_, joint_axes_;  // null: not shown
+  std::unique_ptr<AxesActor> frames_, joint_axes_;  // null: hidden
   PartActor shadow_, held_, ghost_marks_, marks_;
   SphereActor ghost_spheres_, spheres_;
   std::vector<SphereLook> looks_;

@@ -1,4 +1,5 @@
-/// Everything that is drawn of one robot. New link poses change matrices; a new model, the mesh.
+/// Renders all elements of one robot. New link poses change matrices; a new model changes the
+/// meshes.
 #pragma once
 
 #include <memory>
@@ -18,29 +19,30 @@ class RobotActors {
  public:
   RobotActors();
 
-  /// Adds names of missing meshes to `labels`. @return whether there are other actors than before.
+  /// Adds the names of missing meshes to `labels`. @return whether the list of actors has changed.
   bool Update(const RobotState& robot, const SceneLook& look, OnceLog& log,
               std::vector<Label>& labels);
 
-  /// The smallest upright box around what Update has placed, world, m. Looks at every vertex.
+  /// The smallest axis-aligned box around the shapes that Update has placed, world, m. Reads every
+  /// vertex.
   Eigen::AlignedBox3d Measure(const RobotState& robot) const;
   bool IsOf(const RobotState& robot) const {
     return model_ == robot.model && meshes_ == robot.meshes;
   }
-  /// Meshes that are boxes instead.
+  /// Meshes that are replaced by boxes.
   const std::vector<std::string>& problems() const { return problems_; }
 
   vtkActor* shadow() { return shadow_.actor(); }
   std::vector<vtkActor*> bodies();
 
  private:
-  // As many links as one draw call takes.
+  // The links of one draw call.
   struct Group {
     std::unique_ptr<PartActor> actor;
     std::vector<std::size_t> links;               // by part
     std::vector<Eigen::AlignedBox3d> link_boxes;  // by part, in the link's frame
-    std::vector<Eigen::Vector3f> positions;       // of the mesh, and
-    std::vector<float> parts;                     // the part of each
+    std::vector<Eigen::Vector3f> positions;       // vertices of the mesh
+    std::vector<float> parts;                     // the part of each vertex
     std::vector<VisualMesh::Placeholder> placeholders;
   };
   void Load(const RobotState& robot, OnceLog& log);
@@ -50,8 +52,8 @@ class RobotActors {
 
   PartActor shadow_;
   std::vector<Group> groups_;
-  std::shared_ptr<const urdf::RobotModel> model_;  // that is loaded; held, so that no other can
-                                                   // come to lie at its address
+  std::shared_ptr<const urdf::RobotModel> model_;  // the loaded model; held, so that its address is
+                                                   // not reused
   std::shared_ptr<const urdf::MeshSearch> meshes_;
   std::vector<std::string> problems_;
 };

@@ -1,6 +1,6 @@
-/// One mesh, one draw call, our own light: what figure, spheres, marks and floor have in common.
-/// The vertex shader places vertices itself (parts by matrices, spheres by centre and radius), so a
-/// new pose changes a few uniforms and no buffer.
+/// Renders one mesh in one draw call with Kinescope's own lighting: the base of body, spheres,
+/// marks and floor. The vertex shader places the vertices itself (parts by matrices, spheres by
+/// centre and radius), so a new pose changes a few uniforms and no buffer.
 #pragma once
 
 #include <vtkNew.h>
@@ -14,9 +14,9 @@
 
 namespace kinescope::render {
 
-/// GLSL that is put into VTK's shaders. In `vertex`: sets gl_Position and normalVCVSOutput from
-/// vertexMC, normalMC, part, tint and uniforms; in `fragment`: sets gl_FragData[0] from
-/// normalVCVSOutput (unit, towards the camera) and what `vertex` hands over.
+/// GLSL that is inserted into VTK's shaders. `vertex` sets gl_Position and normalVCVSOutput from
+/// vertexMC, normalMC, part, tint and uniforms. `fragment` sets gl_FragData[0] from
+/// normalVCVSOutput (unit, towards the camera) and the outputs of `vertex`.
 struct ShaderText {
   std::string vertex_declarations;
   std::string vertex;
@@ -30,11 +30,12 @@ class ShadedActor {
   ShadedActor(const ShadedActor&) = delete;
   ShadedActor& operator=(const ShadedActor&) = delete;
 
-  /// Uploads `mesh`; rarely.
+  /// Uploads `mesh`; expensive, so call it rarely.
   void SetMesh(const urdf::Mesh& mesh);
-  /// Leaves out triangles that face away: right for closed surfaces, and on at first.
+  /// Skips triangles that face away: correct for closed surfaces. Initially on.
   void SetCulling(bool is_on);
-  /// Declared in the vertex shader by VTK; what the fragment shader uses it declares itself.
+  /// VTK declares them in the vertex shader; the fragment shader declares those that it uses
+  /// itself.
   vtkUniforms& uniforms();
   vtkActor* actor() { return actor_; }
 
@@ -43,10 +44,9 @@ class ShadedActor {
   vtkNew<PassActor> actor_;
 };
 
-/// GLSL function `vec3 Lit(vec3 color, vec3 normal, float sky)`: a key light above the left
-/// shoulder of who looks, a weak fill from the right, the sky, and edges that darken so that a pale
-/// figure stands out from a pale background. Multiplies all channels alike: hues carry meaning
-/// here.
+/// GLSL function `vec3 Lit(vec3 color, vec3 normal, float sky)`: a key light above the viewer's
+/// left shoulder, a weak fill light from the right, the sky, and darker edges that separate a pale
+/// body from a pale background. It scales all channels equally, because hues carry meaning.
 extern const char* const kLitFunction;
 
 }  // namespace kinescope::render

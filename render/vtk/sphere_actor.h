@@ -1,5 +1,5 @@
-/// Up to 16 spheres in one draw call. Each is a dome that faces the camera: round at any size for a
-/// few triangles, and its rim is a ring in the picture from every side.
+/// Renders up to 16 spheres in one draw call. Each is a dome that faces the camera: round at any
+/// size with few triangles, and its rim is a ring in the picture from every side.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ class SphereActor {
  public:
   SphereActor(Pass pass, double opacity);
 
-  /// Spheres that are not given are hidden.
+  /// Shows these spheres and hides the others.
   void Show(const std::vector<SphereLook>& spheres, const Camera& camera);
 
   vtkActor* actor() { return shaded_.actor(); }

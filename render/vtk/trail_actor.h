@@ -1,5 +1,5 @@
-/// Trails: lines that grow towards where the point is now. Built anew for every picture: the past
-/// that they show is part of it.
+/// Renders trails: lines that become thicker towards the current position of the point. Rebuilt for
+/// every picture, because the history is different in each.
 #pragma once
 
 #include <vector>

@@ -1,25 +1,24 @@
-/// The subcommands. Each adds itself to the command line and, when chosen, runs and sets the exit
-/// code: 0 good, 1 the answer is no, 2 could not (by throwing; main prints the one line).
+/// The subcommands.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <vector>
+
+#include "server/app/command.h"
 
 namespace kinescope::app {
 
-struct CommandLine {
-  CLI::App& app;
-  int& exit_code;
-};
+Command ServeCommand();    // source -> ROS, pictures, page
+Command BridgeCommand();   // source -> ROS only
+Command RenderCommand();   // source -> PNG or clips
+Command LoadsCommand();    // source -> CSV, JSON, plots, report
+Command GoldenCommand();   // check | update golden images
+Command StreamCommand();   // source -> MVN network stream
+Command RecordCommand();   // source -> capture file
+Command InspectCommand();  // contents of a source
+Command UrdfCommand();     // the person's URDF; check or draw any
+Command ProbeCommand();    // capabilities of this machine
 
-void AddServe(CommandLine line);    // source -> ROS, pictures, page
-void AddBridge(CommandLine line);   // source -> ROS only
-void AddRender(CommandLine line);   // source -> PNG or MP4
-void AddLoads(CommandLine line);    // source -> CSV, JSON, plots, report
-void AddGolden(CommandLine line);   // check | update golden images
-void AddStream(CommandLine line);   // source -> MVN network stream
-void AddRecord(CommandLine line);   // source -> capture file
-void AddInspect(CommandLine line);  // what is in a source
-void AddUrdf(CommandLine line);     // the person's URDF; check one
-void AddProbe(CommandLine line);    // what this machine has
+/// In the order of --help.
+std::vector<Command> AllCommands();
 
 }  // namespace kinescope::app

@@ -36,10 +36,10 @@ void Progress::Skip() {
 void Progress::Draw() const {
   const double rate = done_ / secs();
   if (total_ > 0) {
-    std::fprintf(stderr, "\r%s %d of %d, %.0f a second, %.0f s left   ", what_.c_str(), done_,
+    std::fprintf(stderr, "\r%s %d of %d, %.0f per second, %.0f s left   ", what_.c_str(), done_,
                  total_, rate, (total_ - done_) / rate);
   } else {
-    std::fprintf(stderr, "\r%s %d, %.0f a second   ", what_.c_str(), done_, rate);
+    std::fprintf(stderr, "\r%s %d, %.0f per second   ", what_.c_str(), done_, rate);
   }
 }
 

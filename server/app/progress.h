@@ -1,5 +1,5 @@
-/// A line on the terminal that tells how far long work is, how fast and how long still. Nothing
-/// where stderr is no terminal. One thread.
+/// Progress line on stderr: done, rate, time left. Prints nothing if stderr is not a terminal. One
+/// thread.
 #pragma once
 
 #include <chrono>
@@ -9,14 +9,14 @@ namespace kinescope::app {
 
 class Progress {
  public:
-  /// `total` 0: not known.
+  /// `total` 0: unknown.
   Progress(std::string what, int total);
-  ~Progress();  // leaves the line
+  ~Progress();  // ends the line
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   void Step();
-  /// One less to do than was thought.
+  /// One step less than expected.
   void Skip();
   double secs() const;
 

@@ -1,4 +1,5 @@
-/// The colour of a person's body: who is who, while the spheres on it keep their meaning. sRGB.
+/// Chooses the colour of a person's body, so that people can be distinguished and the colours of
+/// the load classes keep their meaning. sRGB. Pure function, any thread.
 #pragma once
 
 #include <cstddef>
@@ -10,16 +11,17 @@
 
 namespace kinescope::app {
 
-/// Of the `index`-th person that appeared, from 0. A colour of their own (type 12, MVNX;
-/// 0xRRGGBB) keeps its hue, but is muted and lightened, so that the load classes stand out against
-/// it at least by kLeastContrast. Without one: the first person's is kBodyColor, then comes a small
-/// palette, over again when it is used up.
+/// Colour of the `index`-th person that appeared, from 0. A person's own colour (type 12, MVNX;
+/// 0xRRGGBB) keeps its hue, but is muted and lightened, so that its contrast to the load classes is
+/// at least kLeastContrast. Without one, the first person has kBodyColor and the next ones the
+/// colours of a small palette, which repeats.
 Rgb BodyColor(std::optional<std::uint32_t> own_rgb, std::size_t index);
 
-/// How many people have a colour of their own before the palette repeats.
+/// Number of people with different colours before the palette repeats.
 inline constexpr std::size_t kBodyColors = 7;
 
-/// Of a body's colour to green, orange and red, as ColorDifference. About 2 is seen side by side.
+/// Of the body's colour to green, orange and red, as ColorDifference. About 2 is visible when
+/// adjacent.
 inline constexpr double kLeastContrast = 20;
 
 }  // namespace kinescope::app

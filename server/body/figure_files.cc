@@ -92,7 +92,9 @@ std::string WriteToCache(const std::vector<FigureFile>& files) {
   } catch (const std::exception& error) {
     static std::once_flag warned;  // builders on several threads may come here
     std::call_once(warned, [&] {
-      spdlog::warn("the figure is drawn coarsely, without tools: {}", error.what());
+      spdlog::warn(
+          "cannot write mesh files, so the body is drawn with primitives and without tools: {}",
+          error.what());
     });
     return "";
   }

@@ -1,5 +1,5 @@
-/// The person's surface as mesh files, so that URDF readers (RViz, our own renderer, the
-/// page) all show the same body.
+/// Writes the person's surface as mesh files, so that all URDF readers (RViz, Kinescope's renderer,
+/// the page) show the same body. Any thread.
 #pragma once
 
 #include <string>
@@ -13,20 +13,20 @@ namespace kinescope::app {
 
 struct FigureFile {
   std::string name;  // "right_forearm.stl"
-  std::string stl;   // binary
+  std::string stl;   // content, binary STL
 };
 
 /// All meshes that the URDF of `human` names: those of its segments, and of the fingers in place of
-/// a gloved hand. `own`: the user's meshes, where they take the place of ours; else null.
+/// a gloved hand. `own`: the user's custom meshes, which replace the built-in ones; or null.
 std::vector<FigureFile> FigureFiles(const urdf::HumanModel& human, const FigureMeshes* own);
 
-/// Those of what the hands hold: "right_tool.stl".
+/// The meshes of the hand tools: "right_tool.stl".
 std::vector<FigureFile> ToolFiles(const HandTools& tools, const urdf::Skeleton& skeleton);
 
-/// Writes `files` into a folder of the user's cache ($XDG_CACHE_HOME/kinescope, ~/.cache/kinescope,
-/// else the temporary folder) that is named after their content, once; returns that folder. ""
-/// when nothing can be written: the figure is then made of primitives, and tools are not seen. Says
-/// so once on the log.
+/// Writes `files` once into a folder of the user's cache ($XDG_CACHE_HOME/kinescope,
+/// ~/.cache/kinescope, else the temporary folder) that is named after their content; returns that
+/// folder. Returns "" if it cannot be written, and logs this once: the body then consists of
+/// primitives, and tools are not shown.
 std::string WriteToCache(const std::vector<FigureFile>& files);
 
 }  // namespace kinescope::app

@@ -13,6 +13,7 @@
 #include "core/errors.h"
 #include "server/body/mesh_module.h"
 #include "urdf/figure.h"
+#include "urdf/mesh_inputs.h"
 
 namespace kinescope::app {
 namespace {
@@ -73,12 +74,12 @@ std::map<int, fs::path> FilesBySegment(const std::string& folder,
     if (IsMeshFile(entry->path())) paths.push_back(entry->path());
     if (paths.size() > kMostFiles) {
       throw UsageError(
-          fmt::format("--figure=mesh:{}: more than {} meshes; give the folder of one "
-                      "body",
+          fmt::format("--body_model=mesh:{}: more than {} mesh files; expected a folder with the "
+                      "meshes of one body",
                       folder, kMostFiles));
     }
   }
-  if (error) throw UsageError(fmt::format("--figure=mesh:{}: {}", folder, error.message()));
+  if (error) throw UsageError(fmt::format("--body_model=mesh:{}: {}", folder, error.message()));
   std::sort(paths.begin(), paths.end());
   for (const fs::path& path : paths) {
     const auto segment = SegmentOfFile(path.stem().string());
@@ -88,9 +89,10 @@ std::map<int, fs::path> FilesBySegment(const std::string& folder,
     }
     const auto [known, is_new] = files.emplace(*segment, path);
     if (!is_new) {
-      throw UsageError(fmt::format("--figure=mesh:{}: {} and {} are both for {}; keep one", folder,
-                                   known->second.filename().string(), path.filename().string(),
-                                   urdf::kSegments[At(*segment)].mvn_name));
+      throw UsageError(
+          fmt::format("--body_model=mesh:{}: {} and {} are both meshes of {}; keep one", folder,
+                      known->second.filename().string(), path.filename().string(),
+                      urdf::kSegments[At(*segment)].mvn_name));
     }
   }
   return files;
@@ -131,8 +133,8 @@ std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
   const std::map<int, fs::path> files = FilesBySegment(folder, not_taken);
   if (files.empty()) {
     throw UsageError(fmt::format(
-        "--figure=mesh:{}: no file there is named after a segment, such as RightForeArm.stl, "
-        "xsens_RightForeArm.dae or right_forearm.obj",
+        "--body_model=mesh:{}: no mesh file with a segment name found; expected names such "
+        "as RightForeArm.stl, xsens_RightForeArm.dae or right_forearm.obj",
         folder));
   }
   auto figure = std::make_shared<FigureMeshes>();
@@ -143,16 +145,27 @@ std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
     if (file == files.end()) {
       missing.emplace_back(urdf::kSegments[At(i)].mvn_name);
     } else {
-      figure->meshes[At(i)] = ReadOwnMesh("--figure", file->second, convention, i);
+      figure->meshes[At(i)] = ReadOwnMesh("--body_model", file->second, convention, i);
     }
   }
   if (!missing.empty()) {
-    spdlog::warn("no mesh in {} for {}: drawn as the smooth figure", folder, CommaJoined(missing));
+    spdlog::warn("{}: no mesh for {}; using the built-in body model", folder, CommaJoined(missing));
   }
   if (!not_taken.empty()) {
-    spdlog::info("named after no segment, not used: {}", CommaJoined(not_taken));
+    spdlog::info("files ignored (no segment name): {}", CommaJoined(not_taken));
   }
   return figure;
+}
+
+std::vector<fs::path> FilesOfFigure(const std::string& folder) try {
+  std::vector<std::string> not_taken;
+  std::vector<fs::path> all;
+  for (const auto& [segment, path] : FilesBySegment(folder, not_taken)) {
+    for (fs::path& file : urdf::FilesOfMesh(path)) all.push_back(std::move(file));
+  }
+  return all;
+} catch (const UsageError&) {
+  return {};
 }
 
 urdf::TriangleMesh ReadOwnMesh(const char* option, const fs::path& path,
@@ -174,8 +187,8 @@ urdf::TriangleMesh ReadOwnMesh(const char* option, const fs::path& path,
   constexpr double kLargest = 2.5;
   if (!(size >= kSmallest && size <= kLargest)) {
     throw UsageError(
-        fmt::format("{}: {} measures {:.3g} m from corner to corner, expected {} to {} m; "
-                    "--mesh_units tells the unit of STL and OBJ files",
+        fmt::format("{}: {} measures {:.3g} m from corner to corner; expected {} to {} m; set the "
+                    "unit of STL and OBJ files with --mesh_units",
                     option, path.string(), size, kSmallest, kLargest));
   }
   return mesh;

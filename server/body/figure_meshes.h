@@ -1,4 +1,5 @@
-/// A folder of the user's own meshes, one per segment, instead of our figure.
+/// Reads a folder of the user's custom meshes, one per segment, which replace the built-in body
+/// model. Any thread.
 #pragma once
 
 #include <array>
@@ -7,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "urdf/mesh_fit.h"
 #include "urdf/segments.h"
@@ -15,27 +17,30 @@ namespace kinescope::app {
 
 struct FigureMeshes {
   std::array<std::optional<urdf::TriangleMesh>, urdf::kSegmentCount> meshes;  // link frames, m
-  bool fit_person = true;  // stretched to each person's own lengths
+  bool fit_person = true;  // stretched to each person's segment lengths
 };
 
-/// The segment that a file of this name (without its ending) is for: `RightForeArm`,
-/// `xsens_RightForeArm`, `right_forearm`, `forearm_r`, `L_ForeArm`; nullopt for any other name.
+/// The segment of a file with this name (without extension): `RightForeArm`, `xsens_RightForeArm`,
+/// `right_forearm`, `forearm_r`, `L_ForeArm`; nullopt for any other name.
 std::optional<urdf::Segment> SegmentOfFile(std::string_view stem);
 
-/// Reads the STL, DAE, OBJ and GLB files of `folder` that are named after segments; units and up
-/// axis of `convention` are those of STL and OBJ, the others tell their own. Says once on the log
-/// for which segments there is none (our figure's stands in), and which files were not taken.
-/// @throws UsageError naming folder or file: not there, no file for any segment, two for one,
-/// a mesh that cannot be read or that is too small or too large to be part of a person.
+/// Reads the STL, DAE, OBJ and GLB files of `folder` that are named after segments. Units and up
+/// axis of `convention` apply to STL and OBJ; the other formats contain them. Logs once which
+/// segments have no file (the built-in mesh is used) and which files were skipped. @throws
+/// UsageError with the folder or file: missing folder, no file for any segment, two files for one
+/// segment, a mesh that cannot be read or whose size cannot be that of a body part.
 std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
                                                      const urdf::MeshConvention& convention);
 
-/// One such file in metres and in the link frame of `segment`.
-/// @throws UsageError naming `option` and the file, as ReadFigureMeshes.
+/// The files that ReadFigureMeshes() would read, and those behind them. Empty where it would throw.
+std::vector<std::filesystem::path> FilesOfFigure(const std::string& folder);
+
+/// One such file, in metres and in the link frame of `segment`.
+/// @throws UsageError with `option` and the file, as ReadFigureMeshes.
 urdf::TriangleMesh ReadOwnMesh(const char* option, const std::filesystem::path& path,
                                urdf::MeshConvention convention, int segment);
 
-/// The surface of `segment`: the user's where there is one, else ours.
+/// The surface of `segment`: the user's mesh if there is one, else the built-in one.
 urdf::TriangleMesh FigureMeshOf(const FigureMeshes* own, const urdf::Skeleton& skeleton,
                                 int segment);
 

@@ -3,29 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <stdexcept>
+#include <cstddef>
 #include <utility>
-#include <vector>
 
-#include "core/errors.h"
 #include "server/body/figure_meshes.h"
-#include "urdf/placed_mass.h"
-#include "urdf/skeleton.h"
+#include "server/options/text.h"
+#include "urdf/mesh_inputs.h"
 
 namespace kinescope::app {
 namespace {
 
+using options::BadValue;
+
 constexpr double kFarthestTool = 2;  // m, of its origin from the hand's, as of a load
 
-Eigen::Isometry3d ToPlace(const std::string& text) {
-  const std::vector<double> n = urdf::ParseNumbers(text);
-  if (n.size() != 3 && n.size() != 6) {
-    throw std::invalid_argument(fmt::format("'@{}' has {} numbers", text, n.size()));
-  }
+std::optional<Eigen::Isometry3d> PlaceInHand(const std::string& text) {
+  const auto numbers = options::ParseNumbers(text);
+  if (!numbers || (numbers->size() != 3 && numbers->size() != 6)) return std::nullopt;
+  const std::vector<double>& n = *numbers;
   Eigen::Isometry3d place(Eigen::Translation3d(n[0], n[1], n[2]));
-  if (!(place.translation().norm() <= kFarthestTool)) {
-    throw std::invalid_argument(fmt::format("'@{}' is more than {} m away", text, kFarthestTool));
-  }
+  if (!(place.translation().norm() <= kFarthestTool)) return std::nullopt;
   if (n.size() == 6) {
     place.rotate(Eigen::AngleAxisd(n[5], Eigen::Vector3d::UnitZ()) *
                  Eigen::AngleAxisd(n[4], Eigen::Vector3d::UnitY()) *
@@ -34,47 +31,63 @@ Eigen::Isometry3d ToPlace(const std::string& text) {
   return place;
 }
 
-// One of the list. The last '@' counts: a file's name may have others.
-std::pair<urdf::Side, HandTool> ToTool(const std::string& text,
-                                       const urdf::MeshConvention& convention) {
-  const std::size_t colon = text.find(':');
-  const std::string where = text.substr(0, colon);
-  if (colon == std::string::npos || (where != "right" && where != "left")) {
-    throw std::invalid_argument(fmt::format("'{}' names no hand", text));
-  }
-  const urdf::Side side = where == "right" ? urdf::kRight : urdf::kLeft;
-  HandTool tool;
-  std::string file = text.substr(colon + 1);
-  if (const std::size_t at = file.rfind('@'); at != std::string::npos) {
-    tool.hand_from_tool = ToPlace(file.substr(at + 1));
-    file.resize(at);
-  }
-  if (file.empty()) throw std::invalid_argument(fmt::format("'{}' names no file", text));
-  tool.mesh = ReadOwnMesh("--tool", file, convention, urdf::HandSegmentOf(side));
-  return {side, std::move(tool)};
-}
-
 }  // namespace
 
-std::shared_ptr<const HandTools> ReadHandTools(const std::string& text,
-                                               const urdf::MeshConvention& convention) try {
-  if (text.empty()) return nullptr;
+void ToolsValue::Parse(const std::string& text) {
+  std::array<std::optional<ToolFile>, 2> files;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    const std::string item = text.substr(begin, end - begin);
+    begin = end + 1;
+    const std::size_t colon = item.find(':');
+    const std::string where = item.substr(0, colon);
+    if (colon == std::string::npos || (where != "right" && where != "left")) RefuseText();
+    ToolFile file{item.substr(colon + 1), std::nullopt};
+    if (const auto parts = options::SplitAtLast(file.path, '@')) {
+      file.hand_from_tool = PlaceInHand(parts->second);
+      if (!file.hand_from_tool) RefuseText();
+      file.path = parts->first;
+    }
+    auto& place = files[where == "right" ? urdf::kRight : urdf::kLeft];
+    if (place) throw BadValue("two tools for the " + where + " hand; give one");
+    if (file.path.empty()) RefuseText();
+    place = std::move(file);
+  }
+  value_ = std::move(files);
+  text_ = text;
+}
+
+std::string ToolsValue::Expected() const {
+  return fmt::format(
+      "right:FILE or left:FILE, then @X,Y,Z or @X,Y,Z,ROLL,PITCH,YAW (m and rad, in the hand's "
+      "link "
+      "frame, within {} m), with ; between two",
+      kFarthestTool);
+}
+
+std::vector<std::filesystem::path> ToolsValue::Files() const {
+  std::vector<std::filesystem::path> files;
+  for (const auto& file : value_) {
+    if (!file) continue;
+    for (auto& path : urdf::FilesOfMesh(file->path)) files.push_back(std::move(path));
+  }
+  return files;
+}
+
+std::shared_ptr<const HandTools> ReadHandTools(const ToolsValue& files,
+                                               const urdf::MeshConvention& convention) {
+  if (files.is_empty()) return nullptr;
   urdf::MeshConvention as_placed = convention;
   as_placed.frame = urdf::MeshConvention::Frame::kLink;
   auto tools = std::make_shared<HandTools>();
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(';', begin), text.size());
-    auto [side, tool] = ToTool(text.substr(begin, end - begin), as_placed);
-    if ((*tools)[side]) throw std::invalid_argument("two tools for one hand");
-    (*tools)[side] = std::move(tool);
-    begin = end + 1;
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const auto& file = (*files)[side];
+    if (!file) continue;
+    (*tools)[side] =
+        HandTool{ReadOwnMesh("--tool", file->path, as_placed, urdf::HandSegmentOf(side)),
+                 file->hand_from_tool};
   }
   return tools;
-} catch (const std::invalid_argument& error) {
-  throw UsageError(fmt::format(
-      "--tool={}: {}; expected right:FILE or left:FILE, @X,Y,Z or @X,Y,Z,ROLL,PITCH,YAW after it "
-      "(m and rad, in the hand's link frame, within {} m), with ';' between two",
-      text, error.what(), kFarthestTool));
 }
 
 urdf::TriangleMesh ToHandFrame(const HandTool& tool, const urdf::Skeleton& skeleton,

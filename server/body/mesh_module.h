@@ -1,5 +1,5 @@
-/// Mesh files, read by assimp: a module that is loaded when the first one is wanted, so that a
-/// process whose figure is ours does not load it.
+/// Reads mesh files through assimp, in a module that is loaded with the first file: a process with
+/// the built-in body model does not load it. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,13 @@
 
 namespace kinescope::app {
 
-/// All triangles of an STL, DAE, OBJ or GLB file, without normals: urdf/mesh/mesh_file.h says in
-/// which units and axes.
-/// @throws std::runtime_error naming the file and what is wrong with it (or with the module).
+/// All triangles of an STL, DAE, OBJ or GLB file, without normals; units and axes as in
+/// urdf/mesh/mesh_file.h.
+/// @throws std::runtime_error with the file and the reason (or the reason why the module cannot be
+/// loaded).
 urdf::TriangleMesh ReadMesh(const std::filesystem::path& path);
 
-/// What the module exports as `KinescopeMeshModule`; see core/module_loader.h.
+/// The table that the module exports as `KinescopeMeshModule`; see core/module_loader.h.
 struct MeshModule {
   ModuleAbi<urdf::Mesh> abi;
   urdf::Mesh (*read)(const std::string& absolute_path);

@@ -6,42 +6,120 @@
 #include <stdexcept>
 
 #include "core/errors.h"
-#include "server/options/choose.h"
-#include "urdf/placed_mass.h"
 
 namespace kinescope::app {
+namespace {
 
-std::string ToModelName(const std::string& text) {
-  const bool is_good = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+using options::BadValue;
+using options::Choice;
+using options::Number;
+using Frame = urdf::MeshConvention::Frame;
+
+constexpr char kOwnMeshes[] = "mesh:";
+constexpr double kAssumedMaleKg = 75, kAssumedFemaleKg = 62, kAssumedHeight = 1.75;
+
+// Links, joints and TF frames have it in their names.
+bool IsModelName(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
   });
-  if (!is_good) {
-    throw UsageError(fmt::format("--model_name={}: expected letters, digits and _", text));
+}
+
+urdf::ExtraMass ToExtraMass(const std::string& item) try {
+  return urdf::ParseExtraMass(item);
+} catch (const std::invalid_argument& error) {
+  throw BadValue(error.what());
+}
+
+std::vector<std::string> SegmentNames() {
+  std::vector<std::string> names;
+  for (const urdf::SegmentInfo& segment : urdf::kSegments) names.emplace_back(segment.link_name);
+  return names;
+}
+
+}  // namespace
+
+void FigureValue::Parse(const std::string& text) {
+  const std::string own = kOwnMeshes;
+  if (text == "smooth" || text == "primitive") {
+    value_ = {text == "smooth", ""};
+  } else if (text.rfind(own, 0) == 0 && text.size() > own.size()) {
+    value_ = {true, text.substr(own.size())};
+  } else {
+    RefuseText();
   }
-  return text;
+}
+
+std::string FigureValue::ToText() const {
+  if (!value_.folder.empty()) return kOwnMeshes + value_.folder;
+  return value_.is_smooth ? "smooth" : "primitive";
+}
+
+std::vector<std::filesystem::path> FigureValue::Files() const {
+  return value_.folder.empty() ? std::vector<std::filesystem::path>()
+                               : FilesOfFigure(value_.folder);
+}
+
+PersonOptions::PersonOptions()
+    : model_name("skeleton", "letters, digits and _", IsModelName),
+      sex(Choice<urdf::Sex>({{"male", urdf::Sex::kMale}, {"female", urdf::Sex::kFemale}},
+                            urdf::Sex::kMale)),
+      mass(Number(kAssumedMaleKg, {20, 300, "kg"})),
+      height(Number(kAssumedHeight, {0.5, 2.5, "m"})),
+      body_table({{"de_leva", urdf::BodyTable::kDeLeva},
+                  {"winter", urdf::BodyTable::kWinter},
+                  {"dumas", urdf::BodyTable::kDumas},
+                  {"iit", urdf::BodyTable::kIit}},
+                 urdf::BodyDescription().table),
+      extra_mass(fmt::format(
+                     "SEGMENT:KG or SEGMENT:KG@X,Y,Z (m, in the frame of the segment's link), with "
+                     "commas between several, such as head:1.5,t8:8@-0.15,0,0.1; segments: {}",
+                     fmt::join(SegmentNames(), ", ")),
+                 urdf::kMostExtraMasses, ToExtraMass, {}, SegmentNames()),
+      mesh_units({{"m", 1}, {"cm", 0.01}, {"mm", 0.001}}, 1),
+      mesh_up({{"z", false}, {"y", true}}, false),
+      mesh_scale({{"fit", true}, {"none", false}}, true),
+      mesh_frame({{"auto", Frame::kLonger}, {"segment", Frame::kSegment}, {"link", Frame::kLink}},
+                 Frame::kLonger) {}
+
+void PersonOptions::List(options::OptionList& option) {
+  option.Group("The person");
+  option("model_name", model_name, "prefix of links, joints and TF frames");
+  option("sex", sex, "selects body table and strength; not given: male is assumed");
+  option("mass", mass, "body mass; not given: 75 kg (male) or 62 kg (female) is assumed");
+  option("height", height,
+         "stature until the stream contains segment lengths; not given: 1.75 m is assumed");
+  option("body_table", body_table, "source of the segment masses (docs/loads.md)");
+  option("extra_mass", extra_mass, "equipment that is worn or carried");
+  option(
+      "body_model", figure,
+      "surface of the body; a FOLDER has STL, DAE, OBJ or GLB files named after segments, such as "
+      "RightForeArm.stl");
+  option.Formerly("figure");
+  option("tool", tool,
+         "mesh (STL, DAE, OBJ or GLB) of a held tool, its origin at the grip unless placed; "
+         "--hand_load sets its mass");
+  option("mesh_units", mesh_units, "unit of custom STL and OBJ meshes");
+  option("mesh_up", mesh_up, "up axis of custom STL and OBJ meshes");
+  option("mesh_scale", mesh_scale,
+         "whether custom meshes are stretched along their segments to the person's lengths");
+  option(
+      "mesh_frame", mesh_frame,
+      "orientation of arm meshes: segment (along y, T-pose), link (along -z, N-pose), auto (along "
+      "the longer side)");
 }
 
 FigureChoice ToFigure(const PersonOptions& person) {
-  FigureChoice figure;
-  using Frame = urdf::MeshConvention::Frame;
   urdf::MeshConvention convention;
-  convention.metres_per_unit =
-      Choose<double>("mesh_units", person.mesh_units, {{"m", 1}, {"cm", 0.01}, {"mm", 0.001}});
-  convention.y_is_up = Choose<bool>("mesh_up", person.mesh_up, {{"z", false}, {"y", true}});
-  convention.fits_person =
-      Choose<bool>("mesh_scale", person.mesh_scale, {{"fit", true}, {"none", false}});
-  convention.frame = Choose<Frame>(
-      "mesh_frame", person.mesh_frame,
-      {{"auto", Frame::kLonger}, {"segment", Frame::kSegment}, {"link", Frame::kLink}});
-
-  const std::string meshes = "mesh:";
-  if (person.figure.rfind(meshes, 0) == 0 && person.figure.size() > meshes.size()) {
-    figure.meshes = ReadFigureMeshes(person.figure.substr(meshes.size()), convention);
-  } else if (person.figure != "smooth" && person.figure != "primitive") {
-    throw UsageError(
-        fmt::format("--figure={}: expected smooth, primitive or mesh:FOLDER", person.figure));
+  convention.metres_per_unit = *person.mesh_units;
+  convention.y_is_up = *person.mesh_up;
+  convention.fits_person = *person.mesh_scale;
+  convention.frame = *person.mesh_frame;
+  FigureChoice figure;
+  figure.is_smooth = person.figure->is_smooth;
+  if (!person.figure->folder.empty()) {
+    figure.meshes = ReadFigureMeshes(person.figure->folder, convention);
   }
-  figure.is_smooth = person.figure != "primitive";
   figure.tools = ReadHandTools(person.tool, convention);
   return figure;
 }
@@ -49,28 +127,14 @@ FigureChoice ToFigure(const PersonOptions& person) {
 urdf::BodyDescription ToBody(const PersonOptions& person) {
   urdf::BodyDescription body;
   body.sex_is_assumed = !person.sex;
-  if (person.sex) {
-    body.sex = Choose<urdf::Sex>("sex", *person.sex,
-                                 {{"male", urdf::Sex::kMale}, {"female", urdf::Sex::kFemale}});
-  }
+  body.sex = person.sex.value_or(urdf::Sex::kMale);
   body.mass_is_assumed = !person.mass;
-  body.mass_kg = person.mass.value_or(body.sex == urdf::Sex::kMale ? 75 : 62);
-  if (!urdf::FindDefect(body).empty()) {
-    throw UsageError(fmt::format(
-        "--mass={}: expected 20 to 300 kg; leave it out if it is not known", body.mass_kg));
-  }
-  try {
-    body.table = urdf::ParseBodyTable(person.body_table);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--body_table={}: {}", person.body_table, error.what()));
-  }
-  try {
-    for (const std::string& text : SplitList(person.extra_mass)) {
-      body.extra_masses.push_back(urdf::ParseExtraMass(text));
-    }
-    if (auto defect = urdf::FindDefect(body); !defect.empty()) throw std::invalid_argument(defect);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--extra_mass={}: {}", person.extra_mass, error.what()));
+  body.mass_kg =
+      person.mass.value_or(body.sex == urdf::Sex::kMale ? kAssumedMaleKg : kAssumedFemaleKg);
+  body.table = *person.body_table;
+  body.extra_masses = *person.extra_mass;
+  if (const auto defect = urdf::FindDefect(body); !defect.empty()) {
+    throw UsageError(fmt::format("--extra_mass={}: {}", person.extra_mass.ToText(), defect));
   }
   return body;
 }

@@ -1,5 +1,5 @@
-/// What a person wears and holds, gloves and props, from sample to sample: once seen they belong to
-/// the person's model and stay. Plain value; one thread.
+/// Tracks a person's gloves and props from sample to sample: once seen, they are part of the
+/// person's model and stay. Plain value; one thread.
 #pragma once
 
 #include <array>
@@ -12,23 +12,25 @@ namespace kinescope::app {
 
 class WornExtras {
  public:
-  /// True when `sample` has gloves or props that were not seen before: the model must be made anew.
+  /// True if `sample` has gloves or props that were not seen before: the model must then be
+  /// rebuilt.
   [[nodiscard]] bool Notice(const BodySample& sample);
 
-  /// Adds what was seen. Hands have the lengths of the scale data in `character`, where those have
-  /// all of it, else an average hand's. @pre `human` has its skeleton
+  /// Adds the gloves and props that were seen. Hands have the lengths of the scale data in
+  /// `character` if these are complete, else those of an average hand. @pre `human` has its
+  /// skeleton
   void AddTo(const Character& character, urdf::HumanModel& human) const;
 
-  /// Where they are in `sample`, into `state`; what the sample lacks stays as it was against hand
-  /// and pelvis. @pre `state` has its model, from AddTo, and its links
+  /// Writes their poses in `sample` to `state`; parts that the sample lacks keep their pose
+  /// relative to hand or pelvis. @pre `state` has its model, from AddTo, and its links
   void Follow(const BodySample& sample, PersonState& state);
 
  private:
   GloveState FollowGlove(urdf::Side side, const BodySample& sample, const PersonState& state);
   PropState FollowProp(std::size_t prop, const BodySample& sample, const urdf::Pose& pelvis);
 
-  std::array<std::optional<Eigen::Vector3d>, 2> carpus_in_hand_;  // link frames, by urdf::Side
-  std::array<urdf::FingerAngles, 2> finger_angles_{};             // likewise
+  std::array<std::optional<Eigen::Vector3d>, 2> carpus_in_hand_;  // m, link frames, by urdf::Side
+  std::array<urdf::FingerAngles, 2> finger_angles_{};             // rad, by urdf::Side
   std::bitset<kMostProps> props_;
   std::array<urdf::Pose, kMostProps> pelvis_from_prop_{};
   std::array<Eigen::Vector3d, kMostProps> prop_angles_{};

@@ -59,7 +59,7 @@ bool FitsIntoCookie(std::string_view token) {
 bool IsSameOrigin(std::string_view origin, std::string_view host) {
   if (origin.empty()) return true;
   const std::size_t scheme_end = origin.find("://");
-  // "null" (a sandboxed page, a file) has no scheme and is nobody we serve.
+  // "null" (a sandboxed page, a file) has no scheme and is never served here.
   if (scheme_end == std::string_view::npos || host.empty()) return false;
   return origin.substr(scheme_end + 3) == host;
 }

@@ -1,5 +1,4 @@
-/// What the router decides and a connection sends. Plain values without any type of the HTTP
-/// library.
+/// Requests and answers as the router uses them. Plain values without types of the HTTP library.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +11,7 @@ namespace kinescope::http {
 
 struct Request {
   std::string method;  // "GET"
-  std::string target;  // as it came
+  std::string target;  // not decoded
   std::string host;
   std::string origin;
   std::string cookies;
@@ -22,7 +21,7 @@ struct Request {
 };
 
 struct SnapshotRequest {
-  std::string camera;  // "": the live picture's
+  std::string camera;  // "": that of the live picture
   int width = 1280;    // px
   int height = 720;    // px
 };
@@ -31,12 +30,12 @@ struct Answer {
   int status = 200;
   std::string content_type = "application/json";
   std::string body;
-  std::optional<std::filesystem::path> file;  // sent instead of `body`
-  std::optional<SnapshotRequest> snapshot;    // drawn first, then sent instead of `body`
+  std::optional<std::filesystem::path> file;  // sent in place of `body`
+  std::optional<SnapshotRequest> snapshot;    // rendered first, then sent in place of `body`
   std::vector<std::pair<std::string, std::string>> headers;
 };
 
-/// {"error": reason}, the shape of everything that goes wrong under /api and /snapshot.png.
+/// {"error": reason}: the form of every error under /api and /snapshot.png.
 [[nodiscard]] Answer ErrorAnswer(int status, const std::string& reason);
 
 }  // namespace kinescope::http

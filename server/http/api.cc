@@ -23,7 +23,7 @@ json ToJson(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; 
 
 json ToJson(const Rgb& color) { return json(color); }
 
-// JSON has no NaN; null is "unknown" to whoever reads it.
+// JSON has no NaN; null means unknown.
 json NumberOrNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
 json OptionalPoint(const std::optional<Eigen::Vector3d>& point) {
@@ -36,7 +36,7 @@ std::string_view JointLabel(int joint) {
 
 json VectorOrNull(const Eigen::Vector3d& v) { return v.allFinite() ? ToJson(v) : json(nullptr); }
 
-// Time in each class, s, to `step`.
+// Time in each class, s, rounded to `step`.
 json SecsToJson(const JointLoad& load, double step) {
   json secs = json::object();
   for (std::size_t i = 0; i < load.class_secs.size(); ++i) {
@@ -106,7 +106,7 @@ json ForcesToJson(const BodyForces& forces) {
           {"feet", std::move(feet)}};
 }
 
-// By joint; to a thousandth of a millimetre.
+// By joint; rounded to a thousandth of a millimetre.
 json DeviationToJson(const PersonState& person) {
   const auto millimetres = [](double metres) { return std::round(metres * 1e6) / 1e3; };
   json joints = json::object();
@@ -161,7 +161,7 @@ json VisualToJson(const urdf::Visual& visual, const std::string& mesh_url) {
 }
 
 // In the order of the streamed poses. Links that only carry a joint axis have no visuals and are
-// not told.
+// omitted.
 json LinksToJson(const PersonState& person) {
   const PersonModel& model = *person.model;
   json links = json::array();

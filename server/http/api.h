@@ -1,6 +1,6 @@
-/// The JSON that the server speaks (docs/http.md), made from SceneState. Pure functions, any
-/// thread. Metres, kilograms, N m, world frame z up; quaternions are [x, y, z, w]. Text that is no
-/// UTF-8 is repaired, never refused. `state` may be null: nothing was published yet.
+/// Writes the JSON of the server (docs/http.md) from SceneState. Pure functions, any thread.
+/// Metres, kilograms, N·m, world frame with z up; quaternions are [x, y, z, w]. Invalid UTF-8 is
+/// replaced, never rejected. `state` may be null: nothing was published yet.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,25 @@
 
 namespace kinescope::http {
 
-/// /api/state: the newest state without poses. `now_nanos`: monotonic clock, for the age.
+/// /api/state: the newest state without poses. `now_nanos`: current time of the monotonic clock,
+/// for the age.
 std::string StateJson(const SceneState* state, std::int64_t now_nanos);
 
-/// /api/model: what it takes to draw each person at the streamed link poses, and the names and
-/// colours that the page shows. Meshes are given by their URL here.
+/// /api/model: the data needed to render each person at the streamed link poses, and the names and
+/// colours that the page shows. Meshes are given by their URL on this server.
 std::string ModelJson(const SceneState* state);
 
 /// /api/cameras.
 std::string CamerasJson(const std::vector<CameraView>& cameras, const std::string& live_camera,
                         bool has_pictures);
 
-/// The WebSocket's "details": what is text or changes seldom. Equal inputs give equal text.
+/// The WebSocket message "details": texts and values that change seldom. Equal inputs give equal
+/// text.
 std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures);
 
-/// The file behind /api/mesh/<person>/<revision>/<n>: the n-th mesh visual of that person's model.
-/// nullopt unless the model names it as file:// URI of an STL file and the revision is the current.
+/// The file for /api/mesh/<person>/<revision>/<n>: the n-th mesh visual of that person's model.
+/// nullopt unless the model names it by a file:// URI of an STL file and the revision is the
+/// current one.
 std::optional<std::filesystem::path> FindMesh(const SceneState* state, int character,
                                               std::uint64_t revision, std::size_t n);
 

@@ -23,7 +23,7 @@ json CounterJson(const ClientCounters& client) {
 std::string WithHttpCounters(const std::string& diagnostics, const Counters& counters,
                              const std::vector<ClientCounters>& clients) {
   json document = json::parse(diagnostics, nullptr, /*allow_exceptions=*/false);
-  if (!document.is_object()) document = {{"error", "the program's own diagnostics are not JSON"}};
+  if (!document.is_object()) document = {{"error", "internal error: the diagnostics are not JSON"}};
   json connected = json::array();
   for (const ClientCounters& client : clients) connected.push_back(CounterJson(client));
   json closed = CounterJson(counters.closed);

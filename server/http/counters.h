@@ -1,4 +1,4 @@
-/// What the server did and refused; shown under "http" in /api/diagnostics. Server's thread only.
+/// Counters of the server; shown under "http" in /api/diagnostics. Server's thread only.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ struct ClientCounters {
   std::uint64_t id = 0;  // +1 per WebSocket opened
   bool pictures = false;
   std::uint64_t states_sent = 0;
-  std::uint64_t states_dropped = 0;  // replaced by a newer one before the client took it
+  std::uint64_t states_dropped = 0;  // replaced by a newer one before they were sent
   std::uint64_t pictures_sent = 0;
   std::uint64_t pictures_dropped = 0;
 };
@@ -20,16 +20,17 @@ struct ClientCounters {
 struct Counters {
   std::uint64_t requests = 0;
   std::uint64_t snapshots = 0;
-  std::map<std::string, std::uint64_t> refused;  // by reason, one of a fixed set
+  std::map<std::string, std::uint64_t> refused;  // rejected requests by reason, a fixed set of
+                                                 // reasons
   std::uint64_t opened = 0;                      // WebSockets
   std::uint64_t states_encoded = 0;
   std::uint64_t pictures_encoded = 0;
-  ClientCounters closed;       // sums over clients that are gone
+  ClientCounters closed;       // sums over closed connections
   std::uint64_t failures = 0;  // exceptions that ended a request
 };
 
-/// `diagnostics` (a JSON object) with the member "http" added. A text that is no JSON object comes
-/// back under "error", never as an exception.
+/// `diagnostics` (a JSON object) with the member "http" added. A text that is not a JSON object is
+/// returned under "error", never thrown.
 [[nodiscard]] std::string WithHttpCounters(const std::string& diagnostics, const Counters& counters,
                                            const std::vector<ClientCounters>& clients);
 

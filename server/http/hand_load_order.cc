@@ -22,9 +22,9 @@ bool IsPoint(const json& value) {
 
 tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view body) {
   const std::string expected =
-      "expected a JSON object such as {\"right_kg\": 5, \"left_kg\": 0, \"both_kg\": 0}, and "
-      "\"person\": the character where there are several; \"right_com_m\", \"left_com_m\": "
-      "[x, y, z] of a load that is not at the grip";
+      "expected a JSON object such as {\"right_kg\": 5, \"left_kg\": 0, \"both_kg\": 0}; add "
+      "\"person\": NUMBER if the stream has several persons, and \"right_com_m\" or "
+      "\"left_com_m\": [x, y, z] if the load is not at the grip";
   const json order = json::parse(body, nullptr, /*allow_exceptions=*/false);
   if (!order.is_object() || order.empty()) return tl::unexpected(expected);
   HandLoadOrder parsed;

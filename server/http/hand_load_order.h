@@ -1,4 +1,4 @@
-/// The body of POST /api/hand_load (docs/http.md). Pure function, any thread.
+/// Parses the body of POST /api/hand_load (docs/http.md). Pure function, any thread.
 #pragma once
 
 #include <optional>
@@ -11,14 +11,14 @@
 namespace kinescope::http {
 
 struct HandLoadOrder {
-  std::optional<int> person;  // whose hands, by character; absent: the only one's
+  std::optional<int> person;  // character whose hands are meant; absent: the only person
   HandLoad load;
 };
 
-/// One JSON object of "right_kg", "left_kg", "both_kg" (what is absent is 0), "right_com_m" and
-/// "left_com_m" (x, y, z; what is absent is at the grip) and "person". Numbers are not judged here,
-/// but that they are finite. The reason is one line for the client. Members that are not known are
-/// refused, so that a misspelt hand is not an empty one.
+/// One JSON object with "right_kg", "left_kg", "both_kg" (absent: 0), "right_com_m" and
+/// "left_com_m" (x, y, z; absent: at the grip point) and "person". Numbers must be finite; their
+/// range is not checked here. The reason of an error is one line for the client. Unknown members
+/// are rejected, so that a misspelt hand does not count as an empty one.
 [[nodiscard]] tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view body);
 
 }  // namespace kinescope::http

@@ -18,12 +18,12 @@ namespace beast = boost::beast;
 namespace bhttp = boost::beast::http;
 
 constexpr std::uint32_t kMaxHeaderBytes = 8192;
-constexpr std::uint64_t kMaxBodyBytes = 4096;  // a hand load takes 100
+constexpr std::uint64_t kMaxBodyBytes = 4096;  // a hand load has 100
 constexpr std::chrono::seconds kReadTimeout{20};
 constexpr std::chrono::seconds kWriteTimeout{60};
 
 // The hash is that of the import map in web/index.html, the page's only inline script;
-// tests/browser/unit/page_policy.test.mjs keeps the two together.
+// tests/browser/unit/page_policy.test.mjs checks that they match.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self' 'sha256-uknlmCvJjd+nbrhlRIsCSC5zFnRlkEkfP97X3yNRuBk='; "
     "style-src 'self'; "
@@ -47,12 +47,12 @@ void AddHeaders(bhttp::fields& fields, const Answer& answer) {
   if (answer.status != 304) fields.set(bhttp::field::content_type, answer.content_type);
   fields.set("Content-Security-Policy", kContentSecurityPolicy);
   fields.set("X-Content-Type-Options", "nosniff");
-  fields.set("Referrer-Policy", "no-referrer");  // the address may hold the token
+  fields.set("Referrer-Policy", "no-referrer");  // the URL may contain the token
   fields.set("Cross-Origin-Resource-Policy", "same-origin");
   for (const auto& [name, value] : answer.headers) fields.set(name, value);
 }
 
-// 0: no answer, the connection is just over.
+// 0: no answer, the connection is closed.
 int StatusOf(beast::error_code error) {
   if (error == bhttp::error::header_limit) return 431;
   if (error == bhttp::error::body_limit) return 413;
@@ -87,7 +87,7 @@ void HttpSession::OnRead(beast::error_code error) {
     const int status = StatusOf(error);
     if (status == 0) return;
     ++shared_.counters->refused["bad request"];
-    return Send(ErrorAnswer(status, "this is no HTTP request that can be served"));
+    return Send(ErrorAnswer(status, "invalid or unsupported HTTP request"));
   }
   ++shared_.counters->requests;
   try {
@@ -111,7 +111,8 @@ void HttpSession::BecomeWebSocket() {
   }
   if (shared_.hub->client_count() >= kMaxClients) {
     ++shared_.counters->refused["too many clients"];
-    return Send(ErrorAnswer(503, "as many viewers as this server takes are connected already"));
+    return Send(ErrorAnswer(
+        503, "too many clients (limit " + std::to_string(kMaxClients) + "); try again later"));
   }
   std::make_shared<WsSession>(std::move(stream_), *shared_.hub, shared_.next_client_id++)
       ->Accept(parser_->get());
@@ -119,7 +120,7 @@ void HttpSession::BecomeWebSocket() {
 
 void HttpSession::Draw(Answer answer) {
   ++shared_.counters->snapshots;
-  stream_.expires_never();  // the picture takes the time it takes
+  stream_.expires_never();  // no time limit while a picture is rendered
   const SnapshotRequest request = *answer.snapshot;
   auto done = [self = shared_from_this(), answer](SnapshotResult result) mutable {
     boost::asio::post(self->stream_.get_executor(), [self, answer = std::move(answer),
@@ -131,7 +132,7 @@ void HttpSession::Draw(Answer answer) {
   };
   if (shared_.snapshots != nullptr && shared_.snapshots->Submit(request, std::move(done))) return;
   ++shared_.counters->refused["too many snapshots"];
-  Answer busy = ErrorAnswer(503, "too many pictures are being drawn; try again");
+  Answer busy = ErrorAnswer(503, "too many snapshots are being rendered; try again later");
   busy.headers.emplace_back("Retry-After", "1");
   Send(std::move(busy));
 }
@@ -142,7 +143,7 @@ void HttpSession::Send(Answer answer) {
     beast::error_code error;
     bhttp::file_body::value_type file;
     file.open(answer.file->c_str(), beast::file_mode::scan, error);
-    if (error) return Send(ErrorAnswer(404, "the file is gone"));
+    if (error) return Send(ErrorAnswer(404, "the file no longer exists"));
     const std::uint64_t size = file.size();
     if (!is_head_) {
       auto response = std::make_shared<bhttp::response<bhttp::file_body>>(status, version_);

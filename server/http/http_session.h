@@ -1,5 +1,5 @@
-/// One HTTP connection: reads requests, sends the router's answers, becomes a WebSocket when asked.
-/// Server's thread only.
+/// Serves one HTTP connection: reads requests, sends the answers of the router, and becomes a
+/// WebSocket on request. Server's thread only.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -19,7 +19,7 @@
 
 namespace kinescope::http {
 
-/// What all connections share; outlives them.
+/// Objects shared by all connections; they outlive the connections.
 struct Shared {
   const Router* router = nullptr;
   Hub* hub = nullptr;
@@ -52,7 +52,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   boost::beast::tcp_stream stream_;
   Shared& shared_;
   boost::beast::flat_buffer incoming_;
-  std::optional<Parser> parser_;  // a new one for each request
+  std::optional<Parser> parser_;  // a new one per request
   bool is_head_ = false;
   bool keep_alive_ = false;
   unsigned version_ = 11;

@@ -85,7 +85,9 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
   if ((command->seen_states && !client.OnSeen(Slot::kState, *command->seen_states)) ||
       (command->seen_pictures && !client.OnSeen(Slot::kPicture, *command->seen_pictures))) {
     ++counters_.refused["bad message"];
-    return client.Offer(Slot::kError, Share(EncodeError("more is said to be seen than was sent")));
+    return client.Offer(
+        Slot::kError,
+        Share(EncodeError("seen_states or seen_pictures is larger than the number sent")));
   }
   if (command->pictures) SetPictures(client, *command->pictures);
   if (command->camera) {
@@ -93,14 +95,14 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
       camera_ = *command->camera;
     } else {
       ++counters_.refused["unknown camera"];
-      client.Offer(Slot::kError, Share(EncodeError("there is no camera " + *command->camera)));
+      client.Offer(Slot::kError, Share(EncodeError("unknown camera " + *command->camera)));
     }
   }
   if (command->ping) client.Offer(Slot::kPong, Share(EncodePong(*command->ping, NowNanos())));
 }
 
 void Hub::SetPictures(HubClient& client, bool wanted) {
-  // While others look on, the newest picture is a current one; otherwise it may be an hour old.
+  // With other viewers the newest picture is current; otherwise it may be an hour old.
   const std::shared_ptr<const Picture> picture = viewers_ > 0 ? pictures_.Get() : nullptr;
   client.SetWantsPictures(wanted);
   CountViewers();

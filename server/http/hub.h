@@ -1,5 +1,5 @@
-/// All WebSocket clients: encodes each state and each picture once and offers it to those who want
-/// it. Server's thread only.
+/// Serves all WebSocket clients: encodes each state and each picture once and offers it to the
+/// clients that want it. Server's thread only, except where stated.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,8 @@
 
 namespace kinescope::http {
 
-/// What a client keeps for sending: one place each, so that the newest replaces the older.
+/// Messages that wait for sending: one place per slot, so that a newer message replaces the older
+/// one.
 enum class Slot { kError, kPong, kDetails, kState, kPicture };
 inline constexpr int kSlotCount = 5;
 constexpr bool IsBinary(Slot slot) { return slot == Slot::kState || slot == Slot::kPicture; }
@@ -30,7 +31,7 @@ class HubClient {
   virtual void Offer(Slot slot, SharedBytes message) = 0;
   virtual void SetWantsPictures(bool wanted) = 0;
   virtual bool wants_pictures() const = 0;
-  /// It has taken so many of those that were sent in `slot`; false when there were not so many.
+  /// Acknowledges `count` messages in `slot`; false if fewer were sent.
   [[nodiscard]] virtual bool OnSeen(Slot slot, std::uint64_t count) = 0;
   virtual ClientCounters counters() const = 0;
 };
@@ -39,37 +40,37 @@ class Hub {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `feed` may be null. Everything is borrowed.
+  /// `feed` may be null. All references are borrowed.
   Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, PictureFeed* feed,
       std::string camera, Counters& counters);
 
-  /// False: kMaxClients are there already.
+  /// False if kMaxClients are connected already.
   [[nodiscard]] bool Join(HubClient& client);
-  void Leave(HubClient& client);  // does nothing for one that is not there
+  void Leave(HubClient& client);  // does nothing for a client that has not joined
 
-  /// Sends the newest state to all, unless one went out less than kMinStateInterval ago: then the
-  /// caller comes back after the time returned. Zero: sent.
+  /// Sends the newest state to all clients. If the last one was sent less than kMinStateInterval
+  /// ago, it returns the time after which to call again; zero: sent.
   Clock::duration SendState(Clock::time_point now);
   void SendPicture();
 
-  /// To be called every kTickInterval: repeats a state that is kHeartbeat old, so that clients see
-  /// that the server lives and how old the state is; sends details that changed.
+  /// Call it every kTickInterval. It repeats a state that is kHeartbeat old, so that clients see
+  /// that the server runs and how old the state is, and sends changed details.
   void Tick(Clock::time_point now);
 
-  /// What `client` said. Answers go to it, a change of camera to everybody.
+  /// Processes a message of `client`. Answers are sent to this client, a change of camera to all.
   void OnMessage(HubClient& client, std::string_view text);
 
   int client_count() const { return client_count_; }  // any thread
   const std::string& camera() const { return camera_; }
   std::vector<ClientCounters> client_counters() const;
 
-  static constexpr std::chrono::milliseconds kMinStateInterval{8};  // no screen shows more
+  static constexpr std::chrono::milliseconds kMinStateInterval{8};  // faster than any screen
   static constexpr std::chrono::milliseconds kTickInterval{125};
   static constexpr std::chrono::milliseconds kHeartbeat{350};
 
  private:
   void SetPictures(HubClient& client, bool wanted);
-  void CountViewers();  // after a client began or stopped to want pictures
+  void CountViewers();  // call after a client has changed whether it wants pictures
   SharedBytes EncodeNewestState() const;
   SharedBytes EncodeDetails() const;
 
@@ -79,9 +80,9 @@ class Hub {
   std::string camera_;  // of the live picture
   Counters& counters_;
   std::set<HubClient*> clients_;
-  std::atomic<int> client_count_{0};  // clients_.size(), for other threads
-  int viewers_ = 0;                   // clients that want pictures, as told to feed_
-  SharedBytes details_;               // as sent to all last
+  std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
+  int viewers_ = 0;                   // clients that want pictures, as reported to feed_
+  SharedBytes details_;               // as last sent to all clients
   Clock::time_point state_sent_at_{};
 };
 

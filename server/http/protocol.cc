@@ -36,7 +36,7 @@ class Writer {
     std::memcpy(&bits, &narrow, sizeof bits);
     Put(bits);
   }
-  // Whole numbers travel as float64 too: exact up to 2^53, and what JavaScript counts with.
+  // Integers are sent as float64, too: exact up to 2^53, as in JavaScript.
   void PutDouble(double value) {
     std::uint64_t bits = 0;
     std::memcpy(&bits, &value, sizeof bits);

@@ -1,5 +1,5 @@
-/// The WebSocket's messages, byte by byte; docs/http.md is their manual and web/state_codec.js
-/// their reader. Everything is little-endian. Pure functions, any thread.
+/// Encodes and parses the WebSocket messages; docs/http.md describes them and web/state_codec.js
+/// reads them. Everything is little-endian. Pure functions, any thread.
 #pragma once
 
 #include <cstdint>
@@ -31,26 +31,27 @@ inline constexpr std::size_t kSolidBytes = 44;
 inline constexpr std::size_t kObjectBytes = 36;
 inline constexpr std::size_t kPictureHeaderBytes = 24;
 
-/// `now_nanos`: monotonic clock, so that the page can tell the age of what it shows. At most 255
-/// people, 255 loads of each and 255 tracked objects are sent. Links are those of
-/// core/person_links.h.
+/// `now_nanos`: current time of the monotonic clock, so that the page can show the age of the
+/// state. At most 255 people, 255 loads per person and 255 tracked objects are sent. Links are
+/// those of core/person_links.h.
 Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers);
 
 Bytes EncodePicture(const Picture& picture);
 
-/// What a client asks for: one JSON object, any of these members.
+/// A command of a client: one JSON object with any of these members.
 struct ClientCommand {
-  std::optional<bool> pictures;       // whether it wants the live picture
+  std::optional<bool> pictures;       // whether the client wants the live picture
   std::optional<std::string> camera;  // of the live picture
-  std::optional<double> ping;         // the client's clock; comes back as it was
-  // How many states and pictures it has taken since it connected. Whoever says so is not sent more
-  // than a few ahead of that: what waits inside a browser cannot be replaced by something newer.
+  std::optional<double> ping;         // the client's clock; returned unchanged
+  // Number of states and pictures that the client has processed since it connected. A client that
+  // reports these is sent only a few messages ahead, because messages that wait in a browser cannot
+  // be replaced by newer ones.
   std::optional<std::uint64_t> seen_states;
   std::optional<std::uint64_t> seen_pictures;
 };
 
-/// The reason is one line for the client. Members that are not known are refused, so that a
-/// misspelt one does not go unnoticed.
+/// The reason of an error is one line for the client. Unknown members are rejected, so that
+/// misspelt ones are noticed.
 [[nodiscard]] tl::expected<ClientCommand, std::string> ParseCommand(std::string_view text);
 
 Bytes EncodePong(double ping, std::int64_t now_nanos);

@@ -56,12 +56,12 @@ std::optional<Answer> Router::RefuseStranger(const Request& request, const Targe
                                              bool* set_cookie) const {
   if (site_.token.empty() && !NamesThisMachine(request.host)) {
     return Refuse(403, "unknown host",
-                  "without a token only this machine is served, as localhost or 127.0.0.1");
+                  "no token is set, so only requests to localhost or 127.0.0.1 are accepted");
   }
   const Access access = CheckToken(site_.token, site_.cookie_name, target, request.cookies);
   *set_cookie = access == Access::kByQuery;
   if (access != Access::kDenied) return std::nullopt;
-  return Refuse(401, "no token", "open the address with the token that the server printed");
+  return Refuse(401, "no token", "token missing or wrong; open the URL that the server printed");
 }
 
 Answer Router::Route(const Request& request) const {
@@ -73,7 +73,7 @@ Answer Router::Route(const Request& request) const {
   if (request.method == "POST" && may_post) return SetHandLoad(request);
   if (may_post || (request.method != "GET" && request.method != "HEAD")) {
     const std::string allowed = may_post ? "POST" : "GET, HEAD";
-    Answer answer = Refuse(405, "bad method", "only " + allowed + " is understood here");
+    Answer answer = Refuse(405, "bad method", "this address accepts only " + allowed);
     answer.headers.emplace_back("Allow", allowed);
     return answer;
   }
@@ -101,7 +101,7 @@ std::optional<Answer> Router::RefuseWebSocket(const Request& request) const {
 
 Answer Router::RouteAdmitted(const Target& target, const Request& request) const {
   if (target.path == kWebSocketPath) {
-    Answer answer = Refuse(426, "no upgrade", "this address speaks WebSocket");
+    Answer answer = Refuse(426, "no upgrade", "this route accepts WebSocket connections only");
     answer.headers.emplace_back("Upgrade", "websocket");
     return answer;
   }
@@ -120,36 +120,37 @@ Answer Router::Api(const std::string& path) const {
     return JsonAnswer(CamerasJson(site_.cameras, site_.live_camera(), site_.has_pictures));
   }
   return Refuse(404, "unknown address",
-                "there are /api/state, /api/model, /api/cameras, /api/diagnostics and, for POST, "
-                "/api/hand_load");
+                "unknown route; expected /api/state, /api/model, /api/cameras, /api/diagnostics "
+                "or, with POST, /api/hand_load");
 }
 
-// A foreign page can make a browser send anything that a form could have sent. JSON is not among
-// that: for it the browser asks first, and is told no.
+// A foreign page can make a browser send anything that a form could send. JSON is not possible: for
+// it the browser asks first, and is rejected.
 Answer Router::SetHandLoad(const Request& request) const {
   if (!IsSameOrigin(request.origin, request.host)) {
-    return Refuse(403, "foreign origin", "only the page of this server may set loads");
+    return Refuse(403, "foreign origin", "only the page of this server may set hand loads");
   }
   const std::string type = request.content_type.substr(0, request.content_type.find(';'));
   if (type != "application/json") {
     return Refuse(415, "bad content type", "expected Content-Type: application/json");
   }
-  if (!site_.set_hand_load) return Refuse(503, "no hand loads", "this server takes no loads");
+  if (!site_.set_hand_load)
+    return Refuse(503, "no hand loads", "this server does not accept hand loads");
   const auto order = ParseHandLoadOrder(request.body);
   if (!order) return Refuse(400, "bad hand load", order.error());
   const std::shared_ptr<const SceneState> state = site_.states->Get();
   static const std::vector<PersonState> kNobody;
   const std::vector<PersonState>& people = state ? state->people : kNobody;
-  if (people.empty()) return Refuse(409, "nobody is here", "nobody is here who could hold it");
+  if (people.empty()) return Refuse(409, "nobody is here", "no person in the stream yet");
   if (!order->person && people.size() > 1) {
-    return Refuse(400, "bad hand load", "several people are here: say \"person\"");
+    return Refuse(400, "bad hand load", "several persons in the stream; set \"person\"");
   }
   const int character = order->person.value_or(people.front().character);
   const bool is_here = std::any_of(people.begin(), people.end(), [&](const PersonState& person) {
     return person.character == character;
   });
   if (!is_here) {
-    return Refuse(404, "nobody is here", "there is no person " + std::to_string(character));
+    return Refuse(404, "nobody is here", "unknown person " + std::to_string(character));
   }
   const std::string wrong = site_.set_hand_load(character, order->load);
   if (!wrong.empty()) return Refuse(400, "bad hand load", wrong);
@@ -177,21 +178,22 @@ Answer Router::Mesh(const std::string& path) const {
   std::error_code error;
   if (!file || !std::filesystem::is_regular_file(*file, error) ||
       std::filesystem::file_size(*file, error) > kMaxMeshBytes || error) {
-    return Refuse(404, "no such mesh", "the newest model has no such STL file");
+    return Refuse(404, "no such mesh", "the newest model does not contain this STL file");
   }
   Answer answer;
   answer.content_type = "model/stl";
   answer.file = *file;
-  // A revision's meshes never change: that is what a revision is.
+  // The meshes of a revision never change.
   answer.headers.emplace_back("Cache-Control", "private, max-age=3600");
   return answer;
 }
 
 Answer Router::Snapshot(const Target& target) const {
-  if (!site_.has_pictures) return Refuse(503, "no renderer", "this server draws no pictures");
+  if (!site_.has_pictures)
+    return Refuse(503, "no renderer", "this server renders no pictures (--pictures=off)");
   SnapshotRequest snapshot;
   for (const auto& [name, value] : target.query) {
-    if (name == "token" || name == "t") continue;  // t: makes an address new for a cache
+    if (name == "token" || name == "t") continue;  // t: makes a URL unique for a cache
     if (name == "camera") {
       snapshot.camera = value;
       continue;
@@ -211,7 +213,7 @@ Answer Router::Snapshot(const Target& target) const {
   if (!snapshot.camera.empty() &&
       std::none_of(site_.cameras.begin(), site_.cameras.end(), is_asked)) {
     return Refuse(400, "bad snapshot",
-                  "camera=" + snapshot.camera + ": there is no such camera; see /api/cameras");
+                  "camera=" + snapshot.camera + ": unknown camera; see /api/cameras");
   }
   Answer answer;
   answer.content_type = "image/png";
@@ -226,12 +228,12 @@ Answer Router::File(const std::string& path, const Request& request) const {
   if (file == nullptr || tag.empty()) {
     const bool is_library = StartsWith(path, "/lib/");
     return Refuse(404, "unknown address",
-                  is_library ? "the page's libraries are not installed: npm ci --prefix web"
-                             : "there is no such page");
+                  is_library ? "three.js is not installed; run npm ci --prefix web"
+                             : "no page at this address");
   }
   Answer answer;
   answer.content_type = file->content_type;
-  // no-cache: keep it, but ask each time whether it changed; an upgrade shows at once.
+  // no-cache: store it, but check for changes each time, so that an upgrade is visible at once.
   answer.headers.emplace_back("Cache-Control", "no-cache");
   answer.headers.emplace_back("ETag", tag);
   if (request.if_none_match == tag) {

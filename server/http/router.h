@@ -1,5 +1,5 @@
-/// What each address answers, without any socket: a request in, an answer out. docs/http.md lists
-/// the routes. Called on the server's thread.
+/// Answers the requests of each route, without sockets. docs/http.md lists the routes. Called on
+/// the server's thread.
 #pragma once
 
 #include <cstdint>
@@ -28,16 +28,16 @@ class Router {
     const StaticFiles* files = nullptr;
     const Latest<SceneState>* states = nullptr;
     std::function<std::string(int character, const HandLoad&)> set_hand_load;  // may be null
-    std::function<std::string()> diagnostics;  // complete, with the server's own part
+    std::function<std::string()> diagnostics;  // the complete JSON, with the part of the server
     std::function<std::string()> live_camera;
     std::function<void(const std::string& reason)> count_refusal;
   };
   explicit Router(Site site) : site_(std::move(site)) {}
 
-  /// An answer for every request; what the router refuses it counts.
+  /// Returns an answer for every request and counts the rejected ones.
   [[nodiscard]] Answer Route(const Request& request) const;
 
-  /// Whether the request may open a WebSocket; nullopt, or why not.
+  /// Whether the request may open a WebSocket: nullopt, or the answer that rejects it.
   [[nodiscard]] std::optional<Answer> RefuseWebSocket(const Request& request) const;
 
   static constexpr const char* kWebSocketPath = "/ws";

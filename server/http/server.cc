@@ -33,8 +33,8 @@ std::string Authority(const std::string& ip, int port) {
   return (is_v6 ? "[" + ip + "]" : ip) + ":" + std::to_string(port);
 }
 
-// What the kernel has not sent yet cannot be replaced by something newer, so it may keep little: a
-// slow viewer then sees a recent picture instead of one that waited in a buffer.
+// Data that wait in the kernel cannot be replaced by newer data, so the buffer is small: a slow
+// viewer then sees a recent picture and not one from the buffer.
 void KeepKernelQueueShort(tcp::socket& socket) {
   constexpr int kUnsentBytes = 16 << 10;
   ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsentBytes,
@@ -45,21 +45,24 @@ void KeepKernelQueueShort(tcp::socket& socket) {
 
 void CheckConfig(const HttpConfig& config, const asio::ip::address& address) {
   if (!address.is_loopback() && config.token.empty()) {
-    throw UsageError("the page is asked to listen on " + config.bind_ip +
-                     ", which lets others in, without a token; give a token, or listen on "
-                     "127.0.0.1");
+    throw UsageError(
+        "--bind_ip=" + config.bind_ip +
+        ": an address that other machines can reach needs --token; set a token, or use 127.0.0.1");
   }
   if (!FitsIntoCookie(config.token)) {
-    throw UsageError("the token has characters other than letters, digits and -._~");
+    throw UsageError("--token: expected only letters, digits and -._~");
   }
 }
 
 tcp::acceptor Listen(asio::io_context& io, const HttpConfig& config) {
   error_code error;
   const auto address = asio::ip::make_address(config.bind_ip, error);
-  if (error) throw UsageError(config.bind_ip + " is no IP address; 127.0.0.1 is this machine");
+  if (error)
+    throw UsageError(
+        "--bind_ip=" + config.bind_ip +
+        ": not an IP address; use 127.0.0.1 for this machine or 0.0.0.0 for the network");
   if (config.port < 0 || config.port > 65535) {
-    throw UsageError("port " + std::to_string(config.port) + ": expected 0 to 65535");
+    throw UsageError("--http_port=" + std::to_string(config.port) + ": expected 0 to 65535");
   }
   CheckConfig(config, address);
   tcp::acceptor acceptor(io);
@@ -70,7 +73,7 @@ tcp::acceptor Listen(asio::io_context& io, const HttpConfig& config) {
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
   if (error) {
     throw UsageError("cannot serve the page at " + Authority(config.bind_ip, config.port) + ": " +
-                     error.message() + "; choose another port, or 0 for a free one");
+                     error.message() + "; choose another port with --http_port (0: a free one)");
   }
   return acceptor;
 }
@@ -98,8 +101,8 @@ struct HttpServer::Impl {
   const std::function<std::string()> program_diagnostics_;
   std::atomic<bool> stopping_{false};
 
-  // The server's thread only, once it runs. What connections borrow comes before io_, so that it
-  // outlives the handlers that io_ still holds when it goes.
+  // Server's thread only, once it runs. The members that connections borrow are before io_, so that
+  // they outlive the handlers that io_ still holds when it is destroyed.
   Counters counters_;
   StaticFiles files_;
   Hub hub_;
@@ -111,11 +114,11 @@ struct HttpServer::Impl {
   asio::steady_timer tick_{io_};
   asio::steady_timer state_pause_{io_};
   asio::steady_timer accept_pause_{io_};
-  bool state_is_due_ = false;  // state_pause_ runs
+  bool state_is_due_ = false;  // state_pause_ is running
 
   // Any thread.
   int port_ = 0;
-  std::atomic<bool> state_announced_{false};  // a wake-up is on its way to io_
+  std::atomic<bool> state_announced_{false};  // a wake-up is queued in io_
   std::atomic<bool> picture_announced_{false};
 
   std::thread io_thread_;
@@ -163,7 +166,7 @@ HttpServer::Impl::~Impl() {
 Router::Site HttpServer::Impl::MakeSite() {
   Router::Site site;
   site.token = config_.token;
-  // Cookies do not know ports: without the number two servers on one machine would share one.
+  // Cookies ignore ports: without the number, two servers on one machine would share a cookie.
   site.cookie_name = "kinescope_" + std::to_string(port_);
   site.cameras = config_.cameras;
   site.has_pictures = feed_ != nullptr;
@@ -185,7 +188,8 @@ void HttpServer::Impl::RunIo() {
       io_.run();
       return;
     } catch (const std::exception&) {
-      // One handler failed (no memory, say) and took its connection with it; the others go on.
+      // One handler failed (out of memory, for example) and its connection ended; the others
+      // continue.
       ++counters_.failures;
     }
   }
@@ -198,11 +202,11 @@ std::thread HttpServer::Impl::Watch(Latest<T>& values, std::atomic<bool>& announ
     while (!stopping_) {
       const auto asked_at = std::chrono::steady_clock::now();
       if (values.WaitNewer(seen, kWatch) == nullptr) {
-        // Null before the time is over: somebody interrupted; asking again would spin.
+        // Null before the timeout: interrupted; calling again would loop without a pause.
         if (std::chrono::steady_clock::now() - asked_at < kWatch) return;
         continue;
       }
-      // At most one wake-up is under way: a busy server takes the newest value when it gets there.
+      // At most one wake-up is queued: a busy server takes the newest value when it runs it.
       if (announced.exchange(true)) continue;
       asio::post(io_, [&announced, then] {
         announced = false;
@@ -238,10 +242,11 @@ void HttpServer::Impl::Accept() {
       [this](error_code error, tcp::socket socket) { OnAccepted(error, std::move(socket)); });
 }
 
-// What comes next is armed first: whatever fails after that (no memory, say) costs one connection.
+// Accepts the next connection first: a failure after that (out of memory, for example) costs one
+// connection.
 void HttpServer::Impl::OnAccepted(error_code error, tcp::socket socket) {
   if (error) {
-    // Out of file descriptors, most likely: trying again at once would spin.
+    // Probably out of file descriptors: trying again at once would loop without a pause.
     accept_pause_.expires_after(std::chrono::milliseconds(100));
     accept_pause_.async_wait([this](error_code cancelled) {
       if (!cancelled) Accept();
@@ -269,7 +274,7 @@ int HttpServer::port() const { return impl_->port_; }
 
 std::string HttpServer::url() const {
   const std::string& ip = impl_->config_.bind_ip;
-  // Nobody can open 0.0.0.0; on the machine itself localhost is what it means.
+  // 0.0.0.0 cannot be opened; on this machine it means localhost.
   const bool is_any = ip == "0.0.0.0" || ip == "::";
   const std::string url = "http://" + Authority(is_any ? "localhost" : ip, impl_->port_) + "/";
   return impl_->config_.token.empty() ? url : url + "?token=" + impl_->config_.token;

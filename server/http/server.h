@@ -1,6 +1,6 @@
-/// The web page and its live data: HTTP and WebSocket on one port (docs/http.md). One thread of its
-/// own; every public function may be called from any thread. Per client only the newest state and
-/// picture are kept, so a slow viewer costs nobody else anything. Nothing that a client sends can
+/// Serves the web page and its live data: HTTP and WebSocket on one port (docs/http.md). It has its
+/// own thread; every public function may be called from any thread. Per client only the newest
+/// state and picture are kept, so a slow viewer does not affect others. No input from a client can
 /// stop the server: it is answered, counted under "http" in /api/diagnostics, or both.
 #pragma once
 
@@ -18,15 +18,15 @@
 
 namespace kinescope::http {
 
-/// The server's own picture, encoded once for all viewers.
+/// The live picture, encoded once for all viewers.
 struct Picture {
   std::vector<std::uint8_t> jpeg;
-  std::uint64_t state_number = 0;  // SceneState::number it shows
-  std::int64_t arrival_nanos = 0;  // of that state's sample, monotonic clock
+  std::uint64_t state_number = 0;  // SceneState::number of the state that it shows
+  std::int64_t arrival_nanos = 0;  // receive time of that state's sample, monotonic clock
 };
 
-/// A view by name, of a person who stands at the world's origin. World frame, metres. The page aims
-/// its own 3-D view with these numbers, so that a name means one view everywhere.
+/// A named camera for a person who stands at the world's origin. World frame, metres. The page uses
+/// these numbers for its 3-D view, so that a name means the same view everywhere.
 struct CameraView {
   std::string name;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
@@ -35,56 +35,56 @@ struct CameraView {
   double vertical_fov_rad = 0.52;
 };
 
-/// Draws for the server. Implemented in server/app; any thread may call it. SetViewers and
-/// SetCamera are called on the server's own thread (SetViewers(0) once more by the destructor) and
-/// must return at once; SnapshotPng on a thread of its own.
+/// Renders for the server. Implemented in server/app; any thread may call it. SetViewers and
+/// SetCamera are called on the server's thread (SetViewers(0) also by the destructor) and must
+/// return at once; SnapshotPng is called on a separate thread.
 class PictureFeed {
  public:
   virtual ~PictureFeed() = default;
-  /// How many clients look at the live picture now; nothing is drawn while it is 0.
+  /// Number of clients that watch the live picture; it is not rendered while this is 0.
   virtual void SetViewers(int count) = 0;
-  /// Which named camera the live picture uses. False for a name that does not exist.
+  /// Selects the named camera of the live picture. False for an unknown name.
   [[nodiscard]] virtual bool SetCamera(const std::string& camera) = 0;
-  /// One picture of the newest state as PNG; blocks until drawn. Empty camera: the live one's.
-  /// @throws std::exception with one line for the client.
+  /// Renders one picture of the newest state as PNG; blocks until it is done. Empty camera: that of
+  /// the live picture. @throws std::exception with one line for the client.
   virtual std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width,
                                                 int height) = 0;
 };
 
 struct HttpConfig {
   std::string bind_ip = "127.0.0.1";
-  int port = 8080;                  // 0 takes a free one
-  std::string token;                // required as ?token= or cookie when not empty
-  std::filesystem::path web_root;   // folder of index.html
-  std::vector<CameraView> cameras;  // in the order shown to people
-  std::string camera;               // the live picture's at the start; one of `cameras`
-  /// What `character` holds from now on: "" or why that cannot be. Called on the server's thread,
-  /// must return at once. Null: nothing can be set here.
+  int port = 8080;                  // 0: any free port
+  std::string token;                // required as ?token= or cookie unless empty
+  std::filesystem::path web_root;   // folder with index.html
+  std::vector<CameraView> cameras;  // in display order
+  std::string camera;               // of the live picture at the start; one of `cameras`
+  /// Sets the hand load of `character`: returns "" or why it is rejected. Called on the server's
+  /// thread, must return at once. Null: hand loads cannot be set over HTTP.
   std::function<std::string(int character, const HandLoad& load)> set_hand_load;
 };
 
-/// Clients at once; the next one is told to come back later.
+/// Maximum number of clients; further ones are asked to try again later.
 inline constexpr int kMaxClients = 64;
 
 class HttpServer {
  public:
-  /// Listens when it returns. `states` and `pictures` are watched for new values; `diagnostics`
-  /// gives the JSON object of /api/diagnostics, to which the server adds its own "http"; it is
-  /// called on the server's thread. All are borrowed and must outlive the server. `feed` may be
-  /// null (no renderer): the page then says so.
-  /// @throws UsageError naming address and port that could not be bound, and what to do; also for
-  /// an address beyond this machine without a token, and for a token that does not fit into a
-  /// cookie.
+  /// Listens when the constructor returns. It publishes new values of `states` and `pictures`.
+  /// `diagnostics` returns the JSON object of /api/diagnostics, to which the server adds the member
+  /// "http"; it is called on the server's thread. All references are borrowed and must outlive the
+  /// server. `feed` may be null (no renderer): the page then reports this.
+  /// @throws UsageError with the address and port that could not be bound and the remedy; also for
+  /// an address reachable from other machines without a token, and for a token that cannot be used
+  /// in a cookie.
   HttpServer(const HttpConfig& config, Latest<SceneState>& states, Latest<Picture>& pictures,
              PictureFeed* feed, std::function<std::string()> diagnostics);
-  /// Interrupts `states` and `pictures`, which ends every other wait on them too.
+  /// Interrupts `states` and `pictures`, which also ends all other waits on them.
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  int port() const;         // the one really bound
+  int port() const;         // the actual port
   std::string url() const;  // with the token, ready to open
-  int clients() const;      // WebSockets connected now
+  int clients() const;      // open WebSockets
 
  private:
   struct Impl;

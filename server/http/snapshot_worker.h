@@ -1,5 +1,6 @@
-/// Draws snapshots one after the other on a thread of its own, because PictureFeed blocks until
-/// drawn and the server's thread must not. Few may wait: who comes later is told to try again.
+/// Renders snapshots one after the other on its own thread, because PictureFeed blocks while it
+/// renders and the server's thread must not. The queue is short: further requests are asked to try
+/// again. Submit may be called on any thread.
 #pragma once
 
 #include <condition_variable>
@@ -28,11 +29,12 @@ class SnapshotWorker {
   static constexpr std::size_t kMaxWaiting = 8;
 
   explicit SnapshotWorker(PictureFeed& feed);
-  ~SnapshotWorker();  // waits for the picture being drawn; those that wait are dropped
+  ~SnapshotWorker();  // waits for the current picture; queued ones are dropped
   SnapshotWorker(const SnapshotWorker&) = delete;
   SnapshotWorker& operator=(const SnapshotWorker&) = delete;
 
-  /// `done` is called on the worker's thread. False, and `done` is not called, when too many wait.
+  /// `done` is called on the worker's thread. If the queue is full, Submit returns false and does
+  /// not call `done`.
   [[nodiscard]] bool Submit(SnapshotRequest request, std::function<void(SnapshotResult)> done);
 
  private:
@@ -47,7 +49,7 @@ class SnapshotWorker {
   std::condition_variable changed_;
   std::deque<Job> jobs_;   // guarded by mutex_
   bool stopping_ = false;  // guarded by mutex_
-  std::thread thread_;     // last: starts when all the others are there
+  std::thread thread_;     // last: starts when all other members exist
 };
 
 }  // namespace kinescope::http

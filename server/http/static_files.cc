@@ -36,7 +36,7 @@ bool IsHiddenOrForeign(const fs::path& name) {
   return name.native().front() == '.' || name == "node_modules";
 }
 
-// Canonical path when it is a plain file below `root`, empty otherwise.
+// Canonical path if it is a regular file below `root`, empty otherwise.
 fs::path Admit(const fs::path& path, const fs::path& root) {
   std::error_code error;
   fs::path canonical = fs::canonical(path, error);

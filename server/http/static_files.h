@@ -1,6 +1,6 @@
-/// The files that the page consists of. The list is made once, at the start, from what lies in the
-/// folder; a path that is not in it does not exist, so no path from outside ever reaches the file
-/// system. Contents are read when asked for.
+/// Finds the files of the web page. The list is made once at the start from the content of the
+/// folder; a path that is not listed does not exist, so no path from a request reaches the file
+/// system. File contents are read on request. Constant after construction, any thread.
 #pragma once
 
 #include <filesystem>
@@ -17,13 +17,13 @@ struct StaticFile {
 
 class StaticFiles {
  public:
-  /// Lists `web_root`: html, css, js, svg, png, ico and the libraries that the page imports (of
-  /// node_modules nothing else). Hidden files and links that lead out of the folder are left out. A
-  /// folder that is not there gives an empty list.
+  /// Lists `web_root`: html, css, js, svg, png, ico and the libraries that the page imports
+  /// (nothing else of node_modules). Hidden files and links that leave the folder are omitted. A
+  /// missing folder gives an empty list.
   explicit StaticFiles(const std::filesystem::path& web_root);
 
-  /// The file of a decoded URL path such as "/app.js", "/" or "/lib/three/three.module.js"; null
-  /// when there is none.
+  /// The file of a decoded URL path such as "/app.js", "/" or "/lib/three/three.module.js"; null if
+  /// there is none.
   const StaticFile* Find(const std::string& url_path) const;
 
   const std::map<std::string, StaticFile>& all() const { return files_; }
@@ -32,14 +32,14 @@ class StaticFiles {
   std::map<std::string, StaticFile> files_;
 };
 
-/// The npm files that the page needs: URL below /lib/ and path below node_modules/.
+/// The npm files of the page: URL below /lib/ and path below node_modules/.
 struct Library {
   const char* url;
   const char* path;
 };
 const std::vector<Library>& Libraries();
 
-/// Changes whenever the file does (time and size), quoted as HTTP wants it; "" when it is gone.
+/// HTTP entity tag in quotes that changes with the file (time and size); "" if the file is missing.
 std::string EntityTag(const std::filesystem::path& path);
 
 }  // namespace kinescope::http

@@ -23,7 +23,7 @@ bool HasControlCharacter(std::string_view text) {
   });
 }
 
-// Every segment but the last must have a name; "/" alone is the root.
+// Every segment except the last must have a name; "/" alone is the root.
 bool HasOddSegment(std::string_view path) {
   path.remove_prefix(1);
   while (true) {
@@ -62,9 +62,9 @@ tl::expected<Target, std::string> ParseTarget(std::string_view text) {
   auto path = PercentDecode(text.substr(0, question));
   if (!path) return tl::unexpected(path.error());
   if (HasControlCharacter(*path) || path->find('\\') != std::string::npos) {
-    return Refuse("the path has a character that no file of ours has");
+    return Refuse("the path contains an invalid character");
   }
-  if (HasOddSegment(*path)) return Refuse("the path has an empty, . or .. segment");
+  if (HasOddSegment(*path)) return Refuse("the path contains an empty, . or .. segment");
   Target target;
   target.path = *std::move(path);
   std::string_view rest = question == std::string_view::npos ? "" : text.substr(question + 1);
@@ -78,7 +78,7 @@ tl::expected<Target, std::string> ParseTarget(std::string_view text) {
     if (!name) return tl::unexpected(name.error());
     if (!value) return tl::unexpected(value.error());
     if (HasControlCharacter(*name) || HasControlCharacter(*value)) {
-      return Refuse("the query has a control character");
+      return Refuse("the query contains a control character");
     }
     target.query.emplace(*std::move(name), *std::move(value));
   }

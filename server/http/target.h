@@ -1,5 +1,5 @@
-/// The target of a request line, taken apart and decoded. It comes from anybody: what is not
-/// clearly harmless is refused here, before any route looks at it. Pure functions, any thread.
+/// Parses and decodes the target of a request line. The input is untrusted: a target that is not
+/// clearly harmless is rejected here, before any route sees it. Pure functions, any thread.
 #pragma once
 
 #include <map>
@@ -10,18 +10,18 @@
 namespace kinescope::http {
 
 struct Target {
-  std::string path;                          // decoded; "/" first, no "." or ".." in it
-  std::map<std::string, std::string> query;  // decoded; of a name given twice, the first
+  std::string path;  // decoded; starts with "/", contains no "." or ".." segment
+  std::map<std::string, std::string> query;  // decoded; for a repeated name, the first value
 };
 
 inline constexpr std::size_t kMaxTargetBytes = 2048;
 
-/// "/a%20b?x=1" -> {"/a b", {x: 1}}. Refused, with one line for the client: more than
-/// kMaxTargetBytes, no "/" in front, a broken %-escape, a control character (NUL), a backslash, an
-/// empty, "." or ".." segment, escaped or not.
+/// "/a%20b?x=1" -> {"/a b", {x: 1}}. Rejected, with one line for the client: more than
+/// kMaxTargetBytes, no "/" at the start, an invalid %-escape, a control character (NUL), a
+/// backslash, an empty, "." or ".." segment, escaped or not.
 [[nodiscard]] tl::expected<Target, std::string> ParseTarget(std::string_view text);
 
-/// Replaces every %XX; an error where one is broken.
+/// Decodes every %XX; an error if one is invalid.
 [[nodiscard]] tl::expected<std::string, std::string> PercentDecode(std::string_view text);
 
 }  // namespace kinescope::http

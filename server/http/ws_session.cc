@@ -12,16 +12,16 @@ namespace websocket = boost::beast::websocket;
 
 constexpr std::size_t kMaxMessageBytes = 4096;
 constexpr int kMaxMessagesPerSecond = 200;
-// Sent, but not yet seen: a tenth of a second at 125 states/s, and one picture under way while one
-// is being shown.
+// Sent, but not yet acknowledged: a tenth of a second at 125 states/s, and one picture under way
+// while one is displayed.
 constexpr std::uint64_t kStatesAhead = 12;
 constexpr std::uint64_t kPicturesAhead = 2;
 
 websocket::stream_base::timeout Timeouts() {
   websocket::stream_base::timeout timeouts{};
   timeouts.handshake_timeout = std::chrono::seconds(10);
-  // A client that neither reads nor answers a ping for so long is gone; a page comes back by
-  // itself.
+  // A client that neither reads nor answers a ping for this time is disconnected; a page reconnects
+  // by itself.
   timeouts.idle_timeout = std::chrono::seconds(30);
   timeouts.keep_alive_pings = true;
   return timeouts;
@@ -32,7 +32,7 @@ websocket::stream_base::timeout Timeouts() {
 WsSession::WsSession(beast::tcp_stream stream, Hub& hub, std::uint64_t id)
     : socket_(std::move(stream)), hub_(hub) {
   counters_.id = id;
-  // The stream's own timer would end the connection; from here the WebSocket's timeouts count.
+  // The timer of the TCP stream would end the connection; from here the WebSocket's timeouts apply.
   socket_.next_layer().expires_never();
   socket_.set_option(Timeouts());
   socket_.set_option(websocket::stream_base::decorator(
@@ -47,7 +47,7 @@ void WsSession::Accept(const Upgrade& request) {
   socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) return;
     self->open_ = true;
-    if (!self->hub_.Join(*self)) return self->Close();  // others came while this one shook hands
+    if (!self->hub_.Join(*self)) return self->Close();  // other clients joined during the handshake
     self->Read();
   });
 }
@@ -68,7 +68,7 @@ void WsSession::SetWantsPictures(bool wanted) {
 
 bool WsSession::OnSeen(Slot slot, std::uint64_t count) {
   const bool is_state = slot == Slot::kState;
-  // One more may be there already than is known here: the one whose write is just ending.
+  // The client may have received one more than is counted here: the one whose write is ending.
   const std::uint64_t sent = (is_state ? counters_.states_sent : counters_.pictures_sent) + 1;
   if (count > sent) return false;
   (is_state ? seen_states_ : seen_pictures_) = count;
@@ -110,7 +110,7 @@ bool WsSession::IsFlooding() {
 }
 
 void WsSession::WriteNext() {
-  // Round robin: at 240 states a second a picture still gets its turn, and the other way round.
+  // Round robin: at 240 states per second pictures are still sent, and vice versa.
   for (std::size_t step = 1; step <= kSlotCount; ++step) {
     const std::size_t index = (last_slot_ + step) % kSlotCount;
     if (!MayWrite(index)) continue;

@@ -1,5 +1,6 @@
-/// One WebSocket client: reads its commands, sends what the hub offers, one message at a time. What
-/// it has not taken when something newer comes is dropped and counted. Server's thread only.
+/// Serves one WebSocket client: reads its commands and sends the messages of the hub one at a time.
+/// A message that is replaced by a newer one before it is sent is dropped and counted. Server's
+/// thread only.
 #pragma once
 
 #include <array>
@@ -21,11 +22,11 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
  public:
   using Upgrade = boost::beast::http::request<boost::beast::http::string_body>;
 
-  /// `hub` is borrowed and outlives the session.
+  /// `hub` is borrowed and must outlive the session.
   WsSession(boost::beast::tcp_stream stream, Hub& hub, std::uint64_t id);
   ~WsSession() override;
 
-  /// Takes up the connection; it lives on by itself from here.
+  /// Accepts the connection; from here on the session keeps itself alive.
   void Accept(const Upgrade& request);
 
   void Offer(Slot slot, SharedBytes message) override;
@@ -47,10 +48,10 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
   Hub& hub_;
   ClientCounters counters_;
   boost::beast::flat_buffer incoming_;
-  std::array<SharedBytes, kSlotCount> waiting_;  // per Slot
-  SharedBytes sending_;                          // null: nothing under way
+  std::array<SharedBytes, kSlotCount> waiting_;  // by Slot
+  SharedBytes sending_;                          // null: no message is being sent
   std::size_t last_slot_ = 0;
-  std::optional<std::uint64_t> seen_states_;  // as the client told; none: it never does
+  std::optional<std::uint64_t> seen_states_;  // as the client reported; absent: it never does
   std::optional<std::uint64_t> seen_pictures_;
   std::chrono::steady_clock::time_point second_began_{};
   int messages_this_second_ = 0;

@@ -17,7 +17,7 @@ using urdf::kLeft;
 using urdf::kRight;
 using urdf::Side;
 
-// A foot that has just come down carries something at once, if it is the only one.
+// A foot that has just touched the floor carries load at once if it is the only one.
 constexpr double kLeastWeight = 1e-3;
 
 double SpeedOf(const SegmentState& segment, const Vector3d& point) {
@@ -28,7 +28,7 @@ double SpeedOf(const SegmentState& segment, const Vector3d& point) {
 
 double FootContacts::ContactEnd::weight() const { return 0.5 * (1 - std::cos(M_PI * ramp)); }
 
-// The end is on the floor, or not; its weight follows in the time of the ramp.
+// Applies the contact of an end; its weight follows during the ramp.
 void FootContacts::Follow(ContactEnd& end, bool on, bool fresh, double step_secs,
                           const Settings& settings) {
   end.on = on;
@@ -53,7 +53,7 @@ void FootContacts::Place(Side side, const Points& points, double stature,
   const ContactEnd& heel_end = ends_[side][kHeel];
   const ContactEnd& fore_end = ends_[side][kForefoot];
 
-  // Midpoint of what touches (joint-loads.md 2.5), gliding where an end has just come or gone.
+  // Midpoint of the ends in contact (joint-loads.md 2.5), moving smoothly after an end has changed.
   const double of_heel = heel_end.weight(), of_fore = fore_end.weight();
   const double flat = std::min(of_heel, of_fore), most = std::max(of_heel, of_fore);
   FootOnGround& foot = feet_[side];

@@ -1,9 +1,10 @@
-/// Which parts of the feet are on the floor, from how they move: hysteresis and ramps of
-/// joint-loads.md 2.5. A pure function of the samples in order. One thread; no allocation.
+/// Detects which parts of the feet are on the floor from their height and speed, with the
+/// hysteresis and ramps of joint-loads.md 2.5. The result depends only on the samples in order. One
+/// thread; no allocation.
 ///
-/// Where the sender tells contacts (BodySample::foot_contacts), those hold, with the same ramps.
+/// If the sender reports contacts (BodySample::foot_contacts), they are used, with the same ramps.
 ///
-/// A foot has two ends that touch on their own: the heel, and the forefoot (ball and toe tip).
+/// Each foot has two ends with separate contacts: the heel, and the forefoot (ball and toe tip).
 #pragma once
 
 #include <Eigen/Core>
@@ -21,28 +22,31 @@ class FootContacts {
  public:
   struct Settings {
     double on_below = 0.05, off_above = 0.08;       // m above the floor
-    double on_slower = 0.30, off_faster = 0.50;     // m/s, of the point
-    int on_samples = 2;                             // in a row
-    double ramp_secs = 0.10;                        // of the contact weight, raised cosine
-    double heel_part = 0.30, forefoot_part = 0.40;  // of the foot's length, when alone
-    double half_width_of_stature = 0.0275;          // of the polygon
+    double on_slower = 0.30, off_faster = 0.50;     // m/s, speed of the point
+    int on_samples = 2;                             // consecutive samples
+    double ramp_secs = 0.10;                        // of the contact weight, raised cosine, s
+    double heel_part = 0.30, forefoot_part = 0.40;  // share of the foot's length that supports when
+                                                    // alone
+    double half_width_of_stature = 0.0275;  // of the support polygon of a foot, as a share of the
+                                            // stature
   };
 
-  /// Speeds are differences of positions; of the first sample, those streamed. The first sample,
-  /// and one after a gap of more than 0.5 s or a step back in time, starts afresh: heights and
-  /// speeds alone decide at once, without ramp. The same stamp again changes nothing.
+  /// Adds a sample. Speeds are differences of positions; for the first sample, the streamed ones.
+  /// The first sample, and one after a gap of more than 0.5 s or a step back in time, starts over:
+  /// height and speed decide at once, without a ramp. A repeated stamp changes nothing. `floor_z`:
+  /// world, m.
   void Update(const BodySample& sample, const urdf::LinkPoses& links,
               const urdf::Skeleton& skeleton, double floor_z, const Settings& settings);
 
   bool touches(urdf::Side side) const { return ends_[side][kHeel].on || ends_[side][kForefoot].on; }
   bool any() const { return touches(urdf::kRight) || touches(urdf::kLeft); }
 
-  /// For SplitGround, by urdf::Side: centre of what touches, and weight.
+  /// For SplitGround, by urdf::Side: centre of the parts in contact, and contact weight.
   const std::array<FootOnGround, 2>& feet() const { return feet_; }
 
-  /// What one foot can push on; empty in the air.
+  /// Support polygon of one foot; empty without contact.
   const SupportPolygon& polygon(urdf::Side side) const { return polygons_[side]; }
-  /// Of both feet.
+  /// Support polygon of both feet.
   const SupportPolygon& support() const { return support_; }
 
  private:
@@ -50,11 +54,11 @@ class FootContacts {
   struct ContactEnd {
     bool on = false;
     int slow_samples = 0;
-    double ramp = 0;  // 0..1 of the way
+    double ramp = 0;  // progress, 0..1
     double weight() const;
   };
   struct Points {
-    std::array<Eigen::Vector3d, 3> at;  // heel, ball, toe tip; world
+    std::array<Eigen::Vector3d, 3> at;  // heel, ball, toe tip; world, m
   };
   static void Follow(ContactEnd& end, bool on, bool fresh, double step_secs,
                      const Settings& settings);

@@ -1,10 +1,10 @@
-/// How long a stretch of samples may be interrupted before it ends.
+/// Defines the longest gap between samples that does not end a continuous motion.
 #pragma once
 
 namespace kinescope::loads {
 
-/// Seconds between two samples. After a longer gap speeds, contacts and classes start anew, and no
-/// time is counted.
+/// Seconds between two samples. After a longer gap, speeds, contacts and classes start over, and
+/// the time is not counted.
 inline constexpr double kLongestGapSecs = 0.5;
 
 }  // namespace kinescope::loads

@@ -28,7 +28,7 @@ GroundSplit SplitGround(const Vector3d& force, const CenterOfPressure& cop,
   const FootOnGround& right = feet[kRight];
   const FootOnGround& left = feet[kLeft];
   KINESCOPE_CHECK(right.weight + left.weight > 0);
-  constexpr double kClosest = 0.05;  // m; nearer feet cannot be told apart
+  constexpr double kClosest = 0.05;  // m; nearer feet share equally
   const Vector2d apart = right.center - left.center;
   double share = 0.5;
   if (apart.norm() >= kClosest) {
@@ -38,7 +38,7 @@ GroundSplit SplitGround(const Vector3d& force, const CenterOfPressure& cop,
   const double left_part = (1 - share) * left.weight;
   if (right_part + left_part > 0) {
     share = right_part / (right_part + left_part);
-  } else {  // the CoP is at a foot that is in the air
+  } else {  // the CoP is at a foot without contact
     share = right.weight > left.weight ? 1.0 : 0.0;
   }
   const Vector2d offset = cop.point - ((1 - share) * left.center + share * right.center);

@@ -31,7 +31,7 @@ std::string MassDefect(const char* where, double mass_kg) {
   return fmt::format("load of {} kg in {}: expected 0 to {} kg", mass_kg, where, kMostHeldKg);
 }
 
-// Share of the right hand in what both hold (joint-loads.md 2.7).
+// Share of the right hand in a load that both hands hold (joint-loads.md 2.7).
 double RightShare(const Vector3d& object, const Vector3d& right, const Vector3d& left) {
   constexpr double kClosest = 0.05;  // m; hands that touch share equally
   const Vector3d apart = right - left;
@@ -58,7 +58,7 @@ std::string FindDefect(const HandLoad& load) {
     return MassDefect("all hands together", sum);
   }
   if (load.both_com_in_world && !load.both_com_in_world->allFinite()) {
-    return "place of what both hands hold: expected three numbers";
+    return "position of the load in both hands: expected three finite numbers";
   }
   return "";
 }
@@ -72,14 +72,14 @@ HandLoad ParseHandLoad(const std::string& text) try {
     const std::size_t end = std::min(text.find(';', begin), text.size());
     const urdf::PlacedMass placed = urdf::ParsePlacedMass(text.substr(begin, end - begin));
     if (placed.where == "both") {
-      if (placed.position) throw std::invalid_argument("what both hands hold has no place in one");
+      if (placed.position) throw std::invalid_argument("both:KG takes no position");
       load.both_kg = placed.mass_kg;
     } else if (placed.where == kSideName[kRight] || placed.where == kSideName[kLeft]) {
       const Side side = placed.where == kSideName[kRight] ? kRight : kLeft;
       load.mass_kg[side] = placed.mass_kg;
       load.com_in_hand[side] = placed.position;
     } else {
-      throw std::invalid_argument("no hand '" + placed.where + "'");
+      throw std::invalid_argument("unknown hand '" + placed.where + "'");
     }
     begin = end + 1;
   }
@@ -89,13 +89,13 @@ HandLoad ParseHandLoad(const std::string& text) try {
   return load;
 } catch (const std::invalid_argument& error) {
   throw UsageError(fmt::format(
-      "hand load '{}': {}; expected right:KG, left:KG or both:KG, with ';' between several, "
-      "right:KG@X,Y,Z for another place than the grip (m, in the hand), or none",
+      "hand load '{}': {}; expected right:KG, left:KG or both:KG, comma-separated; right:KG@X,Y,Z "
+      "if the centre of mass is not at the grip (m, in the hand's link frame); or none",
       text, error.what()));
 }
 
 bool IsFresh(std::int64_t measured_nanos, std::int64_t sample_nanos) {
-  // As far in the future as in the past: clocks of two computers.
+  // The same limit for future and past stamps, because the clocks are those of two computers.
   return std::abs(static_cast<double>(sample_nanos - measured_nanos)) * 1e-9 <= kFreshSecs;
 }
 

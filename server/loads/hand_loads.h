@@ -1,5 +1,5 @@
-/// What the hands hold, and what sensors say about them: from masses and measured forces to forces
-/// on the hands (joint-loads.md 2.7). A pure function of the samples in order. One thread; no
+/// Computes the forces on the hands from the masses that they hold and from measured forces
+/// (joint-loads.md 2.7). The result depends only on the samples in order. One thread; no
 /// allocation.
 #pragma once
 
@@ -16,48 +16,49 @@
 
 namespace kinescope::loads {
 
-constexpr double kMostHeldKg = 100;  // more is a typing error
+constexpr double kMostHeldKg = 100;  // a larger value is a typing error
 
 using kinescope::HandLoad;
 using kinescope::MeasuredHandForce;
 
-/// "" or what is wrong with `load`, naming the hand, the value and what is expected: a mass that is
-/// negative, not a number or above kMostHeldKg in sum; a CoM farther than 2 m from the hand.
+/// Why `load` is invalid, with the hand, the value and the expected range; "" if it is valid.
+/// Invalid: a mass that is negative, not a number or in sum above kMostHeldKg; a CoM more than 2 m
+/// from the hand.
 [[nodiscard]] std::string FindDefect(const HandLoad& load);
 
 /// "right:5", "left:2.5", "both:10", "right:5@0,0,-0.2" (CoM in the hand's link frame, m), or
-/// several with semicolons; "none": nothing, for certain.
-/// @throws UsageError naming `text`, the part that is wrong and what is expected.
+/// several separated by semicolons; "none": empty hands.
+/// @throws UsageError with `text`, the invalid part and the expected form.
 HandLoad ParseHandLoad(const std::string& text);
 
-/// Measurements count this long, seconds (joint-loads.md 5.7).
+/// Time for which a measurement is valid, s (joint-loads.md 5.7).
 constexpr double kFreshSecs = 0.5;
 bool IsFresh(std::int64_t measured_nanos, std::int64_t sample_nanos);
 
 class HandLoads {
  public:
-  /// Takes a step of time to `stamp_nanos`: ramps move towards `load`. The first, one after more
-  /// than half a second or backwards: at once.
+  /// Advances to `stamp_nanos`: the ramps move towards `load`. The first call, and one after more
+  /// than half a second or a step back, sets `load` at once.
   void Update(const HandLoad& load, std::int64_t stamp_nanos);
 
-  /// Adds the weight and inertia of what is held now, for hands that move so, and the measured
-  /// forces that are fresh, to `external`.
+  /// Adds to `external` the weight and inertia of the current hand loads, for the given motion of
+  /// the hands, and the measured forces that have not expired.
   void Push(const urdf::LinkPoses& links, const BodyMotion& motion, const urdf::Skeleton& skeleton,
             const std::array<std::optional<MeasuredHandForce>, 2>& measured,
             std::int64_t stamp_nanos, ExternalForces& external,
             std::array<HandForce, 2>& shown) const;
 
  private:
-  /// A mass on its way: linear over the ramp.
+  /// A mass that changes linearly over the ramp, kg.
   struct Ramp {
     double now = 0, from = 0, to = 0;
-    double secs = 0;  // since it began
+    double secs = 0;  // time since its start
     void Restart(double value);
     void Step(double target, double step_secs);
   };
   std::array<Ramp, 2> single_;
   Ramp both_;
-  HandLoad load_;  // the newest; where a hand lets go, the CoM of before
+  HandLoad load_;  // the newest; for an emptied hand, the CoM before
   bool has_last_ = false;
   std::int64_t last_nanos_ = 0;
 };

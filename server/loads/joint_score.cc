@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector3d;
 using namespace urdf;
 
-// Static strength of one joint, one side, one direction, N m: joint-loads.md 4.2. The outer
-// percentiles are 0 where they are not published.
+// Static strength of one joint, side and direction, N·m: joint-loads.md 4.2. The outer percentiles
+// are 0 if not published.
 struct Range {
   double p50, p5 = 0, p95 = 0;
 };
@@ -31,7 +31,7 @@ constexpr BySex kTrunkAxial = {{{70}, {70}}, {{45}, {45}}};
 constexpr BySex kNeckFlexion = {{{30}, {51}}, {{15}, {21}}};
 constexpr BySex kNeckLateral = {{{32}, {32}}, {{16}, {16}}};
 constexpr BySex kNeckAxial = {{{13}, {13}}, {{6}, {6}}};
-// The single values for the abducted arm: of them only the percentiles' proportions are used.
+// The single values for the abducted arm: only the ratios of their percentiles are used.
 constexpr BySex kShoulderAbduction = {{{71, 43, 101}, {71, 43, 101}}, {{37, 15, 57}, {37, 15, 57}}};
 constexpr BySex kShoulderAxial = {{{52}, {33}}, {{21}, {19}}};
 constexpr BySex kElbowFlexion = {{{77, 42, 111}, {46, 31, 67}}, {{41, 16, 55}, {27, 9, 39}}};
@@ -57,7 +57,7 @@ double Outer(const Range& range, Percentile percentile) {
   return percentile == Percentile::k5 ? range.p5 : range.p95;
 }
 
-// Of an outer percentile to the median, over all directions that have both.
+// Ratio of an outer percentile to the median, averaged over all directions that have both.
 double MeanProportion(Sex sex, Percentile percentile) {
   double sum = 0;
   int count = 0;
@@ -87,7 +87,7 @@ double CapacityFor(double moment, const BySex& by_sex, const Strength& strength)
   return strength.factor * range.p50 * Proportion(range, strength);
 }
 
-// One direction of a joint and its opposite: which component of the moment, and with which sign.
+// One anatomical direction of a joint and its opposite: the component of the moment, and its sign.
 struct Channel {
   enum Axis { kParentX, kParentY, kFloating, kChildZ } axis;
   double right_sign, left_sign;
@@ -157,7 +157,7 @@ bool IsLeft(int joint) {
   return (joint >= jLeftC7Shoulder && joint <= jLeftWrist) || joint >= jLeftHip;
 }
 
-// The axes of the joint coordinates that belong to MVN's ZXY angles.
+// The joint coordinate axes of MVN's ZXY angles.
 struct Axes {
   std::array<Vector3d, 4> unit;  // by Channel::Axis
 };
@@ -178,7 +178,7 @@ Axes AxesOf(int joint, const LinkPoses& links) {
   return axes;
 }
 
-// Less the higher the upper arm is raised against the trunk; half of it for women.
+// Decreases as the upper arm is raised relative to the trunk; half of it for women.
 double ElevationCapacity(int joint, const LinkPoses& links, const Strength& strength) {
   const Vector3d trunk_up = links[kT8].orientation * Vector3d::UnitZ();
   const Vector3d arm_up = links[At(ChildOf(joint))].orientation * Vector3d::UnitZ();
@@ -203,17 +203,10 @@ class Best {
 
 }  // namespace
 
-Percentile ParsePercentile(const std::string& text) {
-  if (text == "5") return Percentile::k5;
-  if (text == "50") return Percentile::k50;
-  if (text == "95") return Percentile::k95;
-  throw UsageError("percentile '" + text + "': expected 5, 50 or 95");
-}
-
 std::string FindDefect(const Strength& strength) {
   constexpr double kLeast = 0.1, kMost = 5;
   if (strength.factor >= kLeast && strength.factor <= kMost) return "";
-  return fmt::format("strength factor {}: expected {} to {}", strength.factor, kLeast, kMost);
+  return fmt::format("capacity factor {}: expected {} to {}", strength.factor, kLeast, kMost);
 }
 
 Score ScoreJoint(int joint, const Vector3d& moment, const LinkPoses& links,
@@ -221,7 +214,7 @@ Score ScoreJoint(int joint, const Vector3d& moment, const LinkPoses& links,
   const Channels& channels = ChannelsOf(joint);
   const Axes axes = AxesOf(joint, links);
   Best best;
-  if (IsShoulder(joint)) {  // elevation and turn: three angles are singular with the arm sideways
+  if (IsShoulder(joint)) {  // elevation and rotation: no singularity with the arm sideways
     const Vector3d& along = axes.unit[Channel::kChildZ];
     best.Try((moment - moment.dot(along) * along).norm(), ElevationCapacity(joint, links, strength),
              "elevation");

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kNotThere = std::numeric_limits<std::int64_t>::min();
 
-// Since when, without a break, the condition has held.
+// Sets `since` to the time since which the condition has held without interruption.
 void Track(bool holds, std::int64_t now, std::int64_t& since) {
   if (!holds) {
     since = kNotThere;
@@ -60,7 +60,7 @@ LoadClass LoadClassifier::Update(double ratio, std::int64_t stamp_nanos) {
   const auto lasted = [&](std::int64_t since, double dwell_secs) {
     return since != kNotThere && Secs(stamp_nanos - since) >= dwell_secs - 1e-9;
   };
-  // A jump over two levels passes through both in this one update.
+  // A jump over two classes passes through both in one update.
   if (class_ == LoadClass::kLow && lasted(above_since_[0], settings_.dwell_up_secs)) {
     class_ = LoadClass::kMedium;
   }

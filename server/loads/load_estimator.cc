@@ -14,16 +14,17 @@ using Eigen::Vector3d;
 using namespace urdf;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr std::string_view kNoLegs = "legs are not measured in this recording";
+constexpr std::string_view kNoLegs = "the source does not measure the legs";
 constexpr std::string_view kLeans =
-    "sits, leans or holds on to something: the feet alone do not explain the posture";
-constexpr std::string_view kMisfit = "the measured ground force does not fit the motion";
-constexpr std::string_view kHandLost = "the measured force on the hand stopped";
-constexpr std::string_view kNoLoadKnown = "no load is known";
-constexpr std::string_view kPostureOnly = "no load is known: posture only";
-constexpr std::string_view kNeverExternal = "no load from outside for this joint";
-constexpr std::string_view kExternalStopped = "the load from outside stopped";
-constexpr std::string_view kNoPose = "the pose has numbers that are not finite or too large";
+    "the person sits, leans or holds on to something; the feet alone do not explain the posture";
+constexpr std::string_view kMisfit = "the measured ground force is inconsistent with the motion";
+constexpr std::string_view kHandLost = "no more data from the hand force sensor";
+constexpr std::string_view kNoLoadKnown = "hand load unknown";
+constexpr std::string_view kPostureOnly =
+    "hand load unknown, so only the total moment can be rated";
+constexpr std::string_view kNeverExternal = "no external load received for this joint";
+constexpr std::string_view kExternalStopped = "no more external loads received for this joint";
+constexpr std::string_view kNoPose = "the pose contains numbers that are not finite or too large";
 
 bool IsLegJoint(int joint) { return joint >= jRightHip; }
 bool IsTrunkJoint(int joint) { return joint <= jT9T8; }
@@ -33,12 +34,12 @@ bool IsArmJoint(int joint, Side side) {
 }
 
 bool IsPose(const LinkPoses& links) {
-  constexpr double kMost = 1e9;  // far beyond any room, far below what squares cannot hold
+  constexpr double kMost = 1e9;  // far beyond any room; its square does not overflow
   double sum = 0;
   for (const Pose& link : links) {
     sum += link.position.cwiseAbs().sum() + link.orientation.coeffs().cwiseAbs().sum();
   }
-  return sum < kMost;  // false, too, when one of them is NaN
+  return sum < kMost;  // also false if one of them is NaN
 }
 
 Vector3d VelocityOf(const BodySample& sample, const BodyDemand& demand,
@@ -66,8 +67,8 @@ GroundSensors SensorsOf(const Measurements& measured, std::int64_t stamp) {
   return sensors;
 }
 
-// Whether a plate sees anything but its noise and the errors of the body model
-// (joint-loads.md 3.3).
+// Whether the values of a plate exceed its noise and the errors of the body model (joint-loads.md
+// 3.3).
 bool FeelsLoad(const Standing& measured, const Standing& bare) {
   constexpr double kLeastForce = 5, kLeastDistance = 0.005;  // N, m
   if (!measured.is_measured || !measured.cop || !bare.cop) return true;
@@ -85,7 +86,7 @@ JointMoments MomentsOf(const Standing& loaded) {
   return moments;
 }
 
-// What the loads on the hands, or a plate says, add to the `bare` body's (joint-loads.md 3.3).
+// Moments that hand loads or a measured ground force add to the `bare` body's (joint-loads.md 3.3).
 JointMoments AddedMoments(const Standing& loaded, const Standing& bare) {
   JointMoments moments = MomentsOf(loaded);
   const bool feels = FeelsLoad(loaded, bare);
@@ -96,7 +97,7 @@ JointMoments AddedMoments(const Standing& loaded, const Standing& bare) {
   return moments;
 }
 
-// In the middle of a class, for a classifier that knows ratios only.
+// A ratio in the middle of a class, for a classifier that uses ratios only.
 double RatioIn(LoadClass load_class, const LoadClassifier::Settings& classes) {
   switch (load_class) {
     case LoadClass::kLow: return 0.5 * classes.down[0];
@@ -274,7 +275,7 @@ void LoadEstimator::ShowLoads(const std::array<Vector3d, kJointCount>& rated,
     } else if (forces.metric == LoadMetric::kNorm) {
       Show(ScoreNorm(joint, rated[At(joint)], links, settings.strength), load);
     } else if (forces.metric == LoadMetric::kOverload && !hands_are_known && !IsLegJoint(joint)) {
-      MakeUnknown(kNoLoadKnown, load);  // a plate alone
+      MakeUnknown(kNoLoadKnown, load);  // only a ground measurement
     } else {
       Show(ScoreJoint(joint, rated[At(joint)], links, settings.strength), load);
     }
@@ -296,7 +297,7 @@ void LoadEstimator::ShowExternal(const ExternalJointLoad& given, const LinkPoses
   } else if (has_level || has_ratio) {
     load.ratio = has_ratio ? given.ratio : kNothing;
     load.deciding_moment = load.capacity = kNothing;
-    load.load_class = given.load_class;  // Classify takes it from here
+    load.load_class = given.load_class;  // input of Classify
     load.channel = "external";
   } else if (has_moment) {
     Show(ScoreJoint(load.joint, given.moment, links, settings.strength), load);
@@ -307,7 +308,7 @@ void LoadEstimator::ShowExternal(const ExternalJointLoad& given, const LinkPoses
 
 void LoadEstimator::Classify(const LoadSettings& settings, std::int64_t stamp) {
   const BodyForces& forces = result_.forces;
-  if (last_metric_ != forces.metric) {  // another scale: what was filtered means nothing
+  if (last_metric_ != forces.metric) {  // another scale: filtered values are meaningless
     classifiers_.fill(LoadClassifier());
     last_metric_ = forces.metric;
   }
@@ -316,14 +317,14 @@ void LoadEstimator::Classify(const LoadSettings& settings, std::int64_t stamp) {
     const double ratio = load.load_class == LoadClass::kUnknown
                              ? load.ratio
                              : RatioIn(load.load_class, settings.classes);
-    if (load.is_external != was_external_[i]) classifiers_[i] = LoadClassifier();  // likewise
+    if (load.is_external != was_external_[i]) classifiers_[i] = LoadClassifier();  // as above
     was_external_[i] = load.is_external;
     classifiers_[i].set_settings(settings.classes);
     load.load_class = classifiers_[i].Update(ratio, stamp);
   }
   const bool counts = settings.compression_counts && forces.metric != LoadMetric::kExternal &&
                       forces.metric != LoadMetric::kOverload;
-  // Its limits are those of the disc, whatever the joints' are.
+  // Its limits are those of the disc, independent of the joints' limits.
   LoadClassifier::Settings of_the_disc = settings.classes;
   of_the_disc.up = LoadClassifier::Settings().up;
   of_the_disc.down = LoadClassifier::Settings().down;

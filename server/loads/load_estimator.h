@@ -1,10 +1,11 @@
-/// Everything about forces that a scene state shows of one person, from samples. One per person; it
-/// holds what has a memory (filter, contacts, ramps, classes). A pure function of the samples in
-/// order: no clocks, so live view, clips and scrubbing agree. One thread; no allocation.
+/// Computes all forces of one person in a scene state from the samples. One object per person; it
+/// keeps the parts with memory (filter, contacts, ramps, classes). The result depends only on the
+/// samples in order and not on clocks, so live view, clips and scrubbing agree. One thread; no
+/// allocation.
 ///
-/// What cannot be known is unknown, with its reason, never a low load: numbers that are not finite,
-/// legs that were not recorded, flight, a floor that does not explain the posture (sitting,
-/// leaning), sensors that stopped.
+/// A load that cannot be computed is unknown, with the reason, and never low. Reasons: numbers that
+/// are not finite, legs that were not recorded, no foot contact, feet that do not explain the
+/// posture (sitting, leaning), sensors that stopped.
 #pragma once
 
 #include <array>
@@ -25,25 +26,27 @@
 
 namespace kinescope::loads {
 
-/// What is known about a person beside the sample. References: borrowed for the call.
+/// Properties of a person beside the sample. References are borrowed for the call.
 struct LoadSubject {
   const urdf::Skeleton& skeleton;
   const urdf::BodyParameters& body;
   bool mass_is_assumed = false;
-  bool wears_extra_masses = false;  // MVN does not know of them: its CoM is another body's
+  bool wears_extra_masses = false;  // MVN does not know the added masses: its CoM is that of
+                                    // another body
   bool has_legs = true;             // false: recorded without leg sensors
   double floor_z = 0;               // world, m
 };
 
 struct LoadResult {
-  std::array<JointLoad, urdf::kScoredJointCount> loads;  // in order of kScoredJoints
-  std::optional<Eigen::Vector3d> cop;  // clamped into the support; absent where it is not known
+  std::array<JointLoad, urdf::kScoredJointCount> loads;  // in the order of kScoredJoints
+  std::optional<Eigen::Vector3d> cop;  // world, m; clamped to the support polygon; absent if
+                                       // unknown
   BodyForces forces;
 };
 
 class LoadEstimator {
  public:
-  /// The next sample; `links` are its poses. The reference is good until the next call.
+  /// Processes the next sample; `links` are its poses. The reference is valid until the next call.
   /// @pre FindDefect(settings) is ""
   const LoadResult& Update(const BodySample& sample, const urdf::LinkPoses& links,
                            const LoadSubject& subject, const LoadSettings& settings,
@@ -55,7 +58,7 @@ class LoadEstimator {
   void ShowFloor(const Standing& standing, const LoadSubject& subject, std::int64_t stamp);
   void ShowJoints(const Standing& standing, const urdf::LinkPoses& links);
   std::string_view WhyUnknown(int joint) const;
-  /// `rated`: the moment that counts, by joint.
+  /// `rated`: the moments to compare with the capacities, by joint, N·m.
   void ShowLoads(const std::array<Eigen::Vector3d, urdf::kJointCount>& rated,
                  const urdf::LinkPoses& links, const LoadSettings& settings,
                  const Measurements& measured, std::int64_t stamp);
@@ -71,8 +74,8 @@ class LoadEstimator {
   LoadClassifier compression_;
   std::optional<LoadMetric> last_metric_;
   std::array<bool, urdf::kScoredJointCount> was_external_{};  // by scored joint
-  std::array<bool, 2> hand_is_lost_{};                        // its sensor stopped
-  // Sitting or leaning: since when the CoP has been on the other side of the limit.
+  std::array<bool, 2> hand_is_lost_{};                        // its sensor stopped sending
+  // Sitting or leaning, and since when the CoP has been on the other side of the limit.
   bool suspects_contact_ = false;
   std::optional<std::int64_t> last_cop_nanos_, contrary_since_nanos_;
   LoadResult result_;

@@ -9,9 +9,6 @@
 namespace kinescope::loads {
 namespace {
 
-constexpr LoadMetric kMetrics[] = {LoadMetric::kTotal, LoadMetric::kOverload, LoadMetric::kExternal,
-                                   LoadMetric::kNorm};
-
 std::string OutOf(const char* what, double value, double least, double most, const char* unit) {
   if (value >= least && value <= most) return "";
   return fmt::format("{} {}: expected {} to {}{}", what, value, least, most, unit);
@@ -31,21 +28,12 @@ std::string FindDefect(const LoadClassifier::Settings& classes) {
 
 }  // namespace
 
-LoadMetric ParseLoadMetric(const std::string& text) {
-  std::string known;
-  for (const LoadMetric metric : kMetrics) {
-    if (text == Name(metric)) return metric;
-    known += (known.empty() ? "" : ", ") + std::string(Name(metric));
-  }
-  throw UsageError(fmt::format("load metric '{}': expected one of {}", text, known));
-}
-
 std::string FindDefect(const LoadSettings& settings) {
   for (std::string defect :
        {FindDefect(settings.strength), FindDefect(settings.hands), FindDefect(settings.classes),
-        OutOf("cut-off of accelerations", settings.motion.cutoff_hz, 3, 10, " Hz"),
-        OutOf("most acceleration", settings.most_acceleration, 1, 1000, " m/s^2"),
-        OutOf("ramp of contacts", settings.contact.ramp_secs, 0, 1, " s")}) {
+        OutOf("cut-off frequency of accelerations", settings.motion.cutoff_hz, 3, 10, " Hz"),
+        OutOf("acceleration limit", settings.most_acceleration, 1, 1000, " m/s^2"),
+        OutOf("ramp of foot contacts", settings.contact.ramp_secs, 0, 1, " s")}) {
     if (!defect.empty()) return defect;
   }
   return "";

@@ -1,4 +1,4 @@
-/// What a user can choose about loads: plain data.
+/// User settings of the load computation: plain data, any thread.
 #pragma once
 
 #include <array>
@@ -18,9 +18,6 @@ namespace kinescope::loads {
 using kinescope::ExternalJointLoad;
 using kinescope::Measurements;
 
-/// "total", "overload", "external", "norm". @throws UsageError naming the value.
-LoadMetric ParseLoadMetric(const std::string& text);
-
 struct LoadSettings {
   LoadMetric metric = LoadMetric::kTotal;
   Strength strength;
@@ -29,11 +26,11 @@ struct LoadSettings {
   FootContacts::Settings contact;
   LoadClassifier::Settings classes;
   double most_acceleration = 30;   // m/s^2, of a segment's CoM, joint-loads.md 2.3
-  bool clamp_cop = true;           // into the feet; off only for worked examples
-  bool compression_counts = true;  // L5/S1 shows the worse of moment and compression
+  bool clamp_cop = true;           // to the feet; off only for worked examples
+  bool compression_counts = true;  // L5/S1 shows the higher of moment and compression
 };
 
-/// "" or what is wrong, naming option, value and limits.
+/// Why `settings` is invalid, with option, value and limits; "" if they are valid.
 [[nodiscard]] std::string FindDefect(const LoadSettings& settings);
 
 }  // namespace kinescope::loads

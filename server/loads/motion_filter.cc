@@ -26,20 +26,20 @@ Mean MeanOf(const BodySample& sample) {
 }
 
 bool HasMotion(const BodySample& sample) {
-  constexpr double kMost = 1e9;  // larger ones would stay in a filter for ever
+  constexpr double kMost = 1e9;  // larger values would stay in a filter too long
   double sum = 0;
   for (const SegmentState& segment : sample.segments) {
     sum += segment.velocity.cwiseAbs().sum() + segment.acceleration.cwiseAbs().sum() +
            segment.angular_velocity.cwiseAbs().sum() +
            segment.angular_acceleration.cwiseAbs().sum();
   }
-  return sum < kMost;  // false, too, when one of them is NaN
+  return sum < kMost;  // also false if one of them is NaN
 }
 
 std::string_view WhatIsMissing(const BodySample& sample) {
-  if (!sample.has_linear && !sample.has_angular) return "only poses are sent";
-  if (!sample.has_linear) return "linear accelerations are not sent";
-  if (!sample.has_angular) return "angular velocities are not sent";
+  if (!sample.has_linear && !sample.has_angular) return "the source sends only poses";
+  if (!sample.has_linear) return "the source sends no linear accelerations";
+  if (!sample.has_angular) return "the source sends no angular velocities";
   if (!HasMotion(sample)) return "accelerations are not finite or too large";
   return "";
 }
@@ -111,7 +111,7 @@ void MotionFilter::Compare(const BodySample& sample, double step_secs) {
   claimed_turn_ *= kept;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const SegmentState& segment = sample.segments[i];
-    // Twice the sine of half the angle: near enough for what is compared by factors.
+    // Twice the sine of half the angle: accurate enough for a comparison by factors.
     turned_ += 2 * (last_orientation_[i].conjugate() * segment.orientation).vec().norm();
     claimed_turn_ += segment.angular_velocity.norm() * step_secs;
     last_orientation_[i] = segment.orientation;
@@ -119,14 +119,14 @@ void MotionFilter::Compare(const BodySample& sample, double step_secs) {
 }
 
 std::string_view MotionFilter::Doubt() const {
-  constexpr double kMostExcess = 3;  // m/s within a second; gravity left in makes 9.8
-  constexpr double kMostFactor = 5;  // degrees make 57
+  constexpr double kMostExcess = 3;  // m/s within a second; gravity included would make 9.8
+  constexpr double kMostFactor = 5;  // degrees would make 57
   constexpr double kMostTurnOfNoise = 0.2 * kSegments;  // rad within a second
   if (linear_is_streamed_ && velocity_excess_.norm() > kMostExcess) {
-    return "accelerations do not fit the velocities";
+    return "accelerations are inconsistent with the velocities";
   }
   if (claimed_turn_ > kMostFactor * turned_ + kMostTurnOfNoise) {
-    return "angular velocities do not fit the poses";
+    return "angular velocities are inconsistent with the poses";
   }
   return "";
 }
@@ -159,7 +159,7 @@ const MotionFilter::Output& MotionFilter::Update(const BodySample& sample,
   const bool continues = has_last_ && step_secs >= 0 && step_secs <= settings.longest_gap_secs;
   if (!settings.dynamic) {
     has_last_ = false;
-    return BecomeStatic("static loads were asked for");
+    return BecomeStatic("static loads were requested");
   }
   if (const std::string_view missing = WhatIsMissing(sample); !missing.empty()) {
     if (continues) return output_;

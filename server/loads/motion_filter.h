@@ -1,12 +1,11 @@
-/// From the derivatives that a suit sends to those that loads are computed with: low-passed, in
-/// limits, or zero with the reason where they cannot be had. A pure function of the samples in
-/// order: no clocks. One thread; no allocation.
+/// Prepares the streamed derivatives for the load computation: low-pass filtered and limited, or
+/// zero with the reason if they are not available. The result depends only on the samples in order
+/// and not on clocks. One thread; no allocation.
 ///
-/// Source: joint-loads.md 2.3. Accelerations, angular ones and angular velocities go through one
-/// and the same filter, so that what belongs together stays together in time: a causal Butterworth
-/// low-pass of second order, in the trapezoidal state-variable form (V. Zavalishin, The Art of VA
-/// Filter Design, 2012, ch. 4), which takes any step of time and gives the derivative of what it
-/// filters as well.
+/// Source: joint-loads.md 2.3. Linear and angular accelerations and angular velocities pass through
+/// the same filter, so that they stay aligned in time: a causal Butterworth low-pass of second
+/// order, in the trapezoidal state-variable form (V. Zavalishin, The Art of VA Filter Design, 2012,
+/// ch. 4), which accepts any time step and also gives the derivative of the filtered signal.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,15 +18,15 @@
 
 namespace kinescope::loads {
 
-/// One step of time for any number of low-passes. `cutoff_hz` is lowered to 0.4 of the sample rate
-/// where it is higher. @pre step_secs > 0
+/// Coefficients of one time step for any number of low-passes. `cutoff_hz` is limited to 0.4 of the
+/// sample rate. @pre step_secs > 0
 struct LowPassStep {
   LowPassStep(double step_secs, double cutoff_hz);
   double a1, a2, a3;    // of the implicit step
   double rate_of_band;  // 1/s
 };
 
-/// Of a vector. Starts steady at its first value.
+/// Low-pass of a vector. Starts in the steady state of its first value.
 class LowPass {
  public:
   void Restart(const Eigen::Vector3d& value);
@@ -44,29 +43,29 @@ class LowPass {
 class MotionFilter {
  public:
   struct Settings {
-    bool dynamic = true;     // false: static by wish
-    double cutoff_hz = 5.0;  // 3 to 10 makes sense
+    bool dynamic = true;     // false: static by option
+    double cutoff_hz = 5.0;  // useful values: 3 to 10
     double most_angular_acceleration =
-        150;                         // rad/s^2, joint-loads.md 2.3; longer ones are cut to it
-    double longest_gap_secs = 0.25;  // a longer one starts the filter afresh
+        150;                         // rad/s^2, joint-loads.md 2.3; longer vectors are shortened
+    double longest_gap_secs = 0.25;  // the filter starts over after a longer gap
   };
 
   struct Output {
     bool is_dynamic = false;
-    std::string_view why_static;  // "" while dynamic; static lifetime
+    std::string_view why_static;  // "" while dynamic; lives as long as the program
     BodyMotion motion{};          // zeros while static
   };
 
-  /// Reads stamp and derivatives of `sample`. Streamed accelerations are filtered. Where a sender
-  /// leaves them at zero while velocities move, the filtered velocities are differentiated. A step
-  /// back in time or a long gap starts afresh; the same stamp again changes nothing. A sample
-  /// without derivatives amid others that have them (a lost datagram) leaves the output as it was,
-  /// for as long as a gap may be.
+  /// Adds a sample: its stamp and derivatives. Streamed accelerations are filtered. If a sender
+  /// leaves them at zero while velocities change, the filtered velocities are differentiated. A
+  /// step back in time or a long gap starts over; a repeated stamp changes nothing. A sample
+  /// without derivatives among others that have them (a lost datagram) keeps the output, at most
+  /// for the longest gap.
   ///
-  /// Static, with the reason: no derivatives; linear without angular or the reverse; numbers that
-  /// are not finite; accelerations that cannot be: those which over the last second add up to
-  /// another change of velocity than the one streamed (gravity left in), or angular velocities that
-  /// turn the body much farther than it turned (degrees).
+  /// Static, with the reason: no derivatives; linear without angular ones or the reverse; numbers
+  /// that are not finite; implausible accelerations: their sum over the last second differs from
+  /// the change of the streamed velocity (gravity included), or the angular velocities rotate the
+  /// body much farther than it rotated (degrees).
   const Output& Update(const BodySample& sample, const Settings& settings);
 
  private:
@@ -83,9 +82,10 @@ class MotionFilter {
 
   std::array<Channels, urdf::kSegmentCount> channels_;
   bool has_last_ = false;
-  bool linear_is_streamed_ = false, angular_is_streamed_ = false;  // an acceleration was not zero
+  bool linear_is_streamed_ = false, angular_is_streamed_ = false;  // an acceleration other than
+                                                                   // zero was received
   std::int64_t last_nanos_ = 0;
-  // What Doubt judges: sums that forget within about a second.
+  // Input of Doubt: sums with a memory of about a second.
   std::array<Eigen::Quaterniond, urdf::kSegmentCount> last_orientation_;
   Eigen::Vector3d last_velocity_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_excess_ = Eigen::Vector3d::Zero();  // m/s, mean of the segments

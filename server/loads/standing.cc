@@ -17,7 +17,7 @@ bool HasWeight(const std::array<FootOnGround, 2>& feet) {
   return feet[kRight].weight + feet[kLeft].weight > 0;
 }
 
-// Total force and CoP, measured or required. False: in flight.
+// Total force and CoP, measured or required. False without foot contact.
 bool FindTotal(const StandingInput& input, const MeasuredGroundForce* measured,
                Standing& standing) {
   const Wrench required = RequiredGroundWrench(input.links, input.demand, input.hands);
@@ -43,9 +43,9 @@ void UseFeet(const std::array<const MeasuredGroundForce*, 2>& feet, Standing& st
     cop.point += feet[side]->force.z() * feet[side]->point.head<2>();
     cop.free_moment += feet[side]->free_moment;
   }
-  if (standing.force.z() <= 0) return;  // both in the air
+  if (standing.force.z() <= 0) return;  // no contact of either foot
   cop.point /= standing.force.z();
-  for (const Side side : {kRight, kLeft}) {  // what the two forces turn about the common point
+  for (const Side side : {kRight, kLeft}) {  // moment of the two forces about the common point
     const Vector2d arm = feet[side]->point.head<2>() - cop.point;
     cop.free_moment += arm.x() * feet[side]->force.y() - arm.y() * feet[side]->force.x();
   }
@@ -72,16 +72,16 @@ void ShareTotal(const StandingInput& input, Standing& standing) {
   }
 }
 
-// Fills all but the joints.
+// Fills everything except the joints.
 void FindFloor(const StandingInput& input, const GroundSensors& sensors, Standing& standing) {
   const bool feet_are_measured = sensors.feet[kRight] != nullptr && sensors.feet[kLeft] != nullptr;
   if (feet_are_measured) {
     UseFeet(sensors.feet, standing);
-    if (!standing.cop) standing.why_not = "in the air";
+    if (!standing.cop) standing.why_not = "no ground reaction force (flight phase)";
   } else if (!FindTotal(input, sensors.total, standing)) {
-    standing.why_not = "in the air";
+    standing.why_not = "no ground reaction force (flight phase)";
   } else if (!HasWeight(input.contacts.feet())) {
-    standing.why_not = "no foot is on the floor";
+    standing.why_not = "no foot contact";
   }
   if (!standing.why_not.empty()) {
     standing.force = Vector3d::Zero();

@@ -1,5 +1,5 @@
-/// What the floor does to the feet, and what the joints carry then: one solve for one set of forces
-/// on the hands. Pure function; any thread; no allocation.
+/// Computes the ground reaction forces and the joint loads for one set of hand forces. Pure
+/// function; any thread; no allocation. World frame, metres, newtons, N·m.
 /// Source: joint-loads.md 2.4 to 2.6.
 #pragma once
 
@@ -17,35 +17,36 @@ namespace kinescope::loads {
 
 using kinescope::MeasuredGroundForce;
 
-/// What is fresh of what was measured; null: nothing is.
+/// The valid (not expired) ground measurements; null: none.
 struct GroundSensors {
-  std::array<const MeasuredGroundForce*, 2> feet{};  // by urdf::Side; both or none count
+  std::array<const MeasuredGroundForce*, 2> feet{};  // by urdf::Side; used only if both are present
   const MeasuredGroundForce* total = nullptr;
 };
 
 struct StandingInput {
   const urdf::LinkPoses& links;
   const BodyDemand& demand;
-  const ExternalForces& hands;  // and whatever else pushes, but not the floor
+  const ExternalForces& hands;  // all external forces except those of the floor
   const FootContacts& contacts;
   double floor_z = 0;  // world, m
-  double mass_kg = 0;  // of the body
+  double mass_kg = 0;  // body mass
   bool clamp_cop = true;
 };
 
 struct Standing {
   JointWrenches joints;
-  std::string_view why_not;  // nothing can be said about the floor; "" otherwise
+  std::string_view why_not;  // why the ground reaction force is unknown; "" otherwise
   bool is_measured = false;
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();  // N, of the floor; zero when nothing is known
-  std::optional<CenterOfPressure> cop;              // before it is clamped
-  Eigen::Vector2d shown_cop = Eigen::Vector2d::Zero();  // after
-  double cop_inside = 0;  // m, of the unclamped one, positive inside the support; NaN: unknown
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();      // ground reaction force, N; zero if unknown
+  std::optional<CenterOfPressure> cop;                  // before clamping
+  Eigen::Vector2d shown_cop = Eigen::Vector2d::Zero();  // after clamping, world, m
+  double cop_inside = 0;  // m, of the CoP before clamping, positive inside the support polygon;
+                          // NaN: unknown
   std::array<FootShare, 2> feet;
 };
 
-/// Measured forces take precedence: those of both feet, else the total one, else what the motion
-/// requires. A foot's CoP is clamped into the foot last, which leaves a small residual.
+/// Measured forces take precedence: those of both feet, else the total, else the force that the
+/// motion requires. The CoP of a foot is clamped into the foot last, which leaves a small residual.
 Standing SolveStanding(const StandingInput& input, const GroundSensors& sensors);
 
 }  // namespace kinescope::loads

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// Of the segment from `a` to `b`.
+// Nearest point on the segment from `a` to `b`.
 Vector2d NearestOn(const Vector2d& a, const Vector2d& b, const Vector2d& point) {
   const Vector2d along = b - a;
   const double square = along.squaredNorm();
@@ -41,7 +41,7 @@ Border Locate(const SupportPolygon& polygon, const Vector2d& point) {
       least = distance;
       border.nearest = nearest;
     }
-    if (Cross(b - a, point - a) < 0) border.is_inside = false;  // corners go round to the left
+    if (Cross(b - a, point - a) < 0) border.is_inside = false;  // corners are counter-clockwise
   }
   return border;
 }
@@ -60,8 +60,8 @@ SupportPolygon ConvexHull(std::array<Vector2d, kMostSupportPoints> points, std::
     hull.size = count;
     return hull;
   }
-  // The lower chain from left to right, then the upper one back. The stack may hold every point and
-  // the first one again.
+  // The lower chain from left to right, then the upper one back. The stack may contain every point,
+  // and the first one twice.
   std::array<Vector2d, kMostSupportPoints + 1> chain;
   std::size_t size = 0;
   const auto add = [&](const Vector2d& point, std::size_t bottom) {

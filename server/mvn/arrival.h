@@ -1,4 +1,4 @@
-/// When a datagram came, on both clocks: the same instant.
+/// Receive time of a datagram: the same instant on both clocks.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 namespace kinescope::mvn {
 
 struct Arrival {
-  std::int64_t monotonic_nanos = 0;  // for intervals: never steps
-  std::int64_t wall_nanos = 0;       // Unix epoch, for stamps: may step
+  std::int64_t monotonic_nanos = 0;  // monotonic clock, for intervals: never steps
+  std::int64_t wall_nanos = 0;       // wall clock, Unix epoch, for stamps: may step
 };
 
 }  // namespace kinescope::mvn

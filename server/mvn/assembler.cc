@@ -6,7 +6,7 @@
 namespace kinescope::mvn {
 namespace {
 
-// A sender that is restarted takes longer than this; a live one is never silent for so long unless
+// The restart of a sender takes longer than this. A running sender is silent for this long only if
 // the network is.
 constexpr std::int64_t kTakeOverNanos = 100'000'000;
 constexpr std::int64_t kForgetNanos = 3'000'000'000;
@@ -32,7 +32,7 @@ tl::expected<Assembler::Stream*, Reason> Assembler::FindStream(const Endpoint& s
   for (const auto& stream : streams_) {
     if (stream->sender == sender && stream->sent_character == character) return stream.get();
   }
-  bool has_rival = false;  // alive, and perhaps this very sender before it was restarted
+  bool has_rival = false;  // still sending, and perhaps the same sender before its restart
   for (const auto& stream : streams_) {
     const bool same_machine = stream->sender.address == sender.address;
     if (!same_machine || stream->sent_character != character) continue;
@@ -73,7 +73,7 @@ Assembler::Stream* Assembler::AddStream(const Endpoint& sender, int character, s
   return streams_.back().get();
 }
 
-// Ends a stream that has fallen silent when the newcomer needs its id or its place.
+// Removes a stream that has become silent if the new one needs its id or its place.
 bool Assembler::MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink) {
   const bool full = streams_.size() >= kMostStreams;
   auto victim = streams_.end();
@@ -84,7 +84,7 @@ bool Assembler::MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink) {
   }
   if (victim == streams_.end()) return !full;
   if ((*victim)->state.is_confirmed()) {
-    (*victim)->state.SenderRestarted(sink);  // gives on what is still open
+    (*victim)->state.SenderRestarted(sink);  // delivers its open samples
   } else {
     (*victim)->state.Discard();
   }

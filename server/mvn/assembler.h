@@ -1,30 +1,33 @@
-/// Joins the datagrams of a stream to samples: parts of a message, messages of a sample, several
-/// characters and senders side by side. Feed it whatever comes; it never throws and never stops.
+/// Assembles the datagrams of a stream to samples: parts of a message, messages of a sample,
+/// several characters and senders side by side. It accepts any datagrams; it never throws and never
+/// stops.
 ///
-/// - A sample is all messages but 12 and 13 of equal (sender, character, sample counter). It is a
-///   person's when it has the poses of all 23 segments: 02, or 21 and 22, or 01. A whole 02 of a
-///   few things that are no body is a sample of tracked objects. Anything else is rejected.
-/// - It is given on as soon as every type that this stream normally sends has come; else when the
-///   next counter has overtaken it (has every type that it has); else 1.5 of the stream's own
-///   periods after its first datagram. "Normally" is learnt, and follows when a type is switched on
-///   or off. So a datagram may come a few places too late, also among those of the next sample.
-/// - Samples of one character leave in the order of their counter. What comes for a sample already
-///   given on is `late`, the same bytes once more are a `duplicate`.
-/// - A header that contradicts the stream (its counter and time code do not go together, or its
-///   place is taken) is believed when the next such one goes on from it: the sender has started
-///   over, a `restart`. Else it is an `outlier`: damage on the way. Likewise nobody appears from a
-///   single datagram of an unknown character.
-/// - Types 12 and 13 make the Character; it is announced before its first sample and when it
-///   changes.
+/// - A sample consists of all messages except 12 and 13 with equal (sender, character, sample
+///   counter). It is the sample of a person if it has the poses of all 23 segments: 02, or 21 and
+///   22, or 01. A complete 02 of a few segments that are not a body is a sample of tracked objects.
+///   Anything else is rejected.
+/// - It is delivered as soon as it has every type that this stream normally sends. Otherwise it is
+///   delivered when the next counter has every type that it has, or 1.5 periods of the stream after
+///   its first datagram. The normal types are learnt, and follow when a type is switched on or off.
+///   So a datagram may arrive a few places late, also among those of the next sample.
+/// - Samples of one character are delivered in the order of their counter. A datagram for a
+///   delivered sample is `late`, repeated bytes are a `duplicate`.
+/// - A header may contradict the stream: its counter and time code do not match, or its place is
+///   taken. It is accepted if the next such header continues it: the sender has started over, a
+///   `restart`. Otherwise it is an `outlier`: corruption. For the same reason a single datagram of
+///   an unknown character does not make a new character.
+/// - Types 12 and 13 make the Character. It is delivered before its first sample and after each
+///   change.
 /// - Stamps: see clock_fit.h.
 ///
-/// A character's id in samples is the sender's own where it is free, else the next free one (two
-/// senders that both send character 0). Who sends a character from another port of the same machine
-/// is that sender, restarted, when the old port is silent, and somebody else when it is not; until
-/// 0.1 s have told, the newcomer's datagrams are rejected. At most 16 (sender, character) pairs are
-/// kept; beyond that one that has been silent for 3 s makes room, else the newcomer is rejected.
+/// The character's id in samples is the sender's own where it is free, else the next free one (two
+/// senders may both send character 0). Datagrams of the same character from another port of the
+/// same machine count as the restarted sender if the old port is silent, otherwise as a new sender.
+/// Until 0.1 s have decided which, they are rejected. At most 16 (sender, character) pairs are
+/// kept. Beyond that a pair that has been silent for 3 s is replaced; without one, the new pair is
+/// rejected.
 ///
-/// Time is an argument; one thread. Pose data allocate nothing.
+/// Time is an argument, so that tests need no clock. One thread. Pose data cause no allocation.
 #pragma once
 
 #include <cstdint>
@@ -52,17 +55,17 @@ class Assembler {
 
   static constexpr std::size_t kMostStreams = 16;
 
-  /// Takes one datagram that came from `sender` at `arrival`, not before the one before.
+  /// Adds one datagram that `sender` sent and that arrived at `arrival`. Arrivals never go back.
   void Add(const Endpoint& sender, std::string_view datagram, const Arrival& arrival,
            SampleSink& sink);
 
-  /// Gives on what has waited long enough.
+  /// Delivers the samples whose waiting time is over.
   void Expire(std::int64_t now_monotonic_nanos, SampleSink& sink);
 
-  /// Nothing more will come: gives on whatever waits.
+  /// End of the stream: delivers all samples that wait.
   void Flush(SampleSink& sink);
 
-  /// When Expire() has something to do (monotonic); nullopt: nothing waits.
+  /// When Expire() must be called next (monotonic clock, ns); nullopt: no sample waits.
   std::optional<std::int64_t> deadline_nanos() const;
 
   SourceCounters counters() const { return tally_.ToCounters(); }
@@ -75,7 +78,7 @@ class Assembler {
     CharacterStream state;
   };
 
-  // A newcomer of whom it is not yet known whether it replaces another.
+  // A new sender while it is undecided whether it replaces another.
   struct Trial {
     Endpoint sender;
     int sent_character = 0;
@@ -93,7 +96,7 @@ class Assembler {
   Stamps stamps_;
   Tally tally_;
   std::vector<std::unique_ptr<Stream>> streams_;  // at most kMostStreams
-  std::vector<Trial> trials_;                     // likewise
+  std::vector<Trial> trials_;                     // at most kMostStreams
 };
 
 }  // namespace kinescope::mvn

@@ -1,5 +1,5 @@
-/// Big-endian numbers in untrusted bytes: the wire format of the MVN stream. Reading never passes
-/// the end; a read that would returns false and leaves the position alone.
+/// Reads and writes the big-endian numbers of the MVN stream. The input is untrusted: a read past
+/// the end returns false and leaves the position unchanged. One thread per object.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +25,7 @@ class ByteReader {
     return true;
   }
 
-  /// Nothing after `end` will be read. @pre offset() <= end <= what there is
+  /// Excludes everything from `end` on. @pre offset() <= end <= number of bytes
   void CutAt(std::size_t end) { bytes_ = bytes_.substr(0, end); }
 
   template <class Unsigned>
@@ -57,7 +57,7 @@ class ByteReader {
     return true;
   }
 
-  /// All that is left, not copied.
+  /// All remaining bytes, not copied.
   [[nodiscard]] std::string_view ReadRest() {
     const std::string_view rest = bytes_.substr(offset_);
     offset_ = bytes_.size();
@@ -69,7 +69,7 @@ class ByteReader {
   std::size_t offset_ = 0;
 };
 
-/// Appends to a string that the caller may reuse.
+/// Appends numbers to a string that the caller may reuse.
 class ByteWriter {
  public:
   explicit ByteWriter(std::string& out) : out_(out) {}
@@ -88,7 +88,7 @@ class ByteWriter {
     Write(bits);
   }
 
-  /// A text as the stream has it: signed length, then the bytes.
+  /// A text as in the stream: signed length, then the bytes.
   void WriteText(std::string_view text) {
     Write(static_cast<std::uint32_t>(text.size()));
     out_.append(text);

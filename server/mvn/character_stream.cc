@@ -8,15 +8,15 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr double kPeriodGain = 1.0 / 16;
-constexpr double kLongestInterval = 0.5e9;  // a pause is no period
+constexpr double kLongestInterval = 0.5e9;  // a pause is not a period
 constexpr double kPatienceInPeriods = 1.5;
 constexpr double kLeastPatience = 5e6;
 constexpr double kMostPatience = 100e6;
-constexpr double kFirstPatience = 50e6;  // before the period is known
+constexpr double kFirstPatience = 50e6;  // until the period is known
 
 constexpr std::int32_t kMostFramesReordered = 120;  // half a second at 240 Hz
 constexpr int kPlacesReordered = 3;
-constexpr std::int64_t kSilenceNanos = 250'000'000;  // after it a lower counter is a restart
+constexpr std::int64_t kSilenceNanos = 250'000'000;  // afterwards a lower counter is a restart
 constexpr std::int64_t kDoubtNanos = 250'000'000;
 constexpr std::uint32_t kStepsToBelieve = 8;
 constexpr std::int32_t kMillisToBelieve = 1000;
@@ -28,8 +28,8 @@ void CharacterStream::Add(const Message& message, std::uint32_t digest, const Ar
                           SampleSink& sink) {
   last_heard_nanos_ = arrival.monotonic_nanos;
   if (std::exchange(is_heard_, true)) is_confirmed_ = true;
-  // Types 12 and 13 carry counter and time code 0 in the middle of a stream: they never touch the
-  // sample's logic.
+  // Types 12 and 13 have counter and time code 0 in the middle of a stream, so they never affect
+  // the samples.
   if (const auto* meta = std::get_if<MetaDataMessage>(&message.body)) {
     AddMetaData(*meta, sink);
   } else if (std::holds_alternative<ScaleMessage>(message.body)) {
@@ -66,7 +66,7 @@ void CharacterStream::TakeScale(std::int64_t now_nanos, SampleSink& sink) {
   Announce(sink);
 }
 
-// What is known is told with the first datagram that nobody can doubt any more.
+// Delivers the known properties with the first datagram that is certainly not corrupt.
 void CharacterStream::Announce(SampleSink& sink) {
   wants_announcement_ = true;
   if (is_confirmed_) AnnounceOnce(sink);
@@ -74,7 +74,7 @@ void CharacterStream::Announce(SampleSink& sink) {
 
 void CharacterStream::AnnounceOnce(SampleSink& sink) {
   if (!wants_announcement_) return;
-  // A sample alone announces nobody: it may be of a message that has no pose.
+  // A sample alone does not make a character: its message may contain no pose.
   if (character_.name.empty() && !character_.color_rgb && !character_.skeleton &&
       character_.extra.empty() && !has_given_) {
     return;
@@ -94,7 +94,8 @@ void CharacterStream::AddToSample(const Message& message, std::uint32_t digest,
     case Place::kFits:
       repeated_length_ = 0;
       newest_heard_nanos_ = now;
-      // A sender that has started over does not go on as before, but for what was under way.
+      // A sender that has started over does not continue the old run, except with datagrams already
+      // under way.
       if (doubtful_ && ++doubtful_->fitted_since > kPlacesReordered) DropDoubtful();
       return Accept(message, digest, arrival, sink);
     case Place::kDuplicate:
@@ -103,7 +104,7 @@ void CharacterStream::AddToSample(const Message& message, std::uint32_t digest,
       const bool is_late = place == Place::kLate;
       ++(is_late ? tally_->late : tally_->duplicates);
       if (is_late && header.sample_counter == closed_) {
-        // A type that has just been switched on comes after a sample that did not wait for it.
+        // A type that was just switched on arrives after a sample that did not wait for it.
         types_.Expect(type);
       }
       return;
@@ -135,7 +136,7 @@ CharacterStream::Place CharacterStream::PlaceOf(const Header& header, SampleType
                                                                 : Place::kDoubtful;
 }
 
-// Of a counter up to which everything is closed.
+// For a counter that is not later than the last delivered one.
 CharacterStream::Place CharacterStream::PlaceBehind(const Header& header, SampleType type,
                                                     std::uint32_t digest, std::int64_t now) const {
   switch (history_.Find(header, type, digest)) {
@@ -145,7 +146,7 @@ CharacterStream::Place CharacterStream::PlaceBehind(const Header& header, Sample
     case ClosedSamples::Known::kNo: {
       const auto fit = line_.Fits(header.sample_counter, header.time_code_millis);
       const bool near = Ahead(*newest_, header.sample_counter) <= kMostFramesReordered;
-      // Once the run is on its way, what would lie before its first sample is no late one.
+      // Once the run has begun, a datagram before its first sample is not a late one.
       const bool before_the_run = Ahead(header.sample_counter, run_start_) < 0 &&
                                   Ahead(*newest_, run_start_) >= PlausibleStep();
       if (near && !before_the_run && fit != TimeCodeLine::Fit::kNo) return Place::kLate;
@@ -155,8 +156,8 @@ CharacterStream::Place CharacterStream::PlaceBehind(const Header& header, Sample
   return now - newest_heard_nanos_ > kSilenceNanos ? Place::kRestart : Place::kDoubtful;
 }
 
-// Whether so many late or repeated samples came in a row, each after the one before and nothing
-// new between them, that they are a sender which plays the same again.
+// Whether there were enough late or repeated samples in a row, each after the one before and no new
+// ones between them, to conclude that the sender plays the same again.
 bool CharacterStream::IsRestartByRun(std::uint32_t counter) {
   if (repeated_length_ > 0 && counter == repeated_counter_) return false;  // same sample, next type
   const bool in_order = repeated_length_ > 0 && Ahead(counter, repeated_counter_) > 0;
@@ -179,7 +180,7 @@ void CharacterStream::Accept(const Message& message, std::uint32_t digest, const
   if (types_.AreAllIn(open->sample.whole())) FinishUpTo(open->sample.counter(), sink);
 }
 
-// By how much a counter may grow at once where nothing else vouches for it.
+// The largest step of the counter that is accepted without other evidence.
 std::int32_t CharacterStream::PlausibleStep() const {
   return static_cast<std::int32_t>(kStepsToBelieve * steps_.usual());
 }
@@ -192,7 +193,7 @@ bool CharacterStream::GoesOnFrom(const Header& first, const Header& next) const 
   return steps > 0 && steps <= PlausibleStep() && millis >= 0 && millis <= kMillisToBelieve;
 }
 
-// A datagram that contradicts the stream is believed when the next doubtful one goes on from it.
+// A datagram that contradicts the stream is accepted if the next doubtful one continues it.
 void CharacterStream::Doubt(const Message& message, std::uint32_t digest, const Arrival& arrival,
                             SampleSink& sink) {
   if (doubtful_) {
@@ -284,7 +285,8 @@ CharacterStream::OpenSample& CharacterStream::Open(const Message& message, const
   return open;
 }
 
-// By the sender's clock, which no burst compresses; by arrival where that clock stands still.
+// Uses the sender's clock, which bursts do not compress; the receive time if that clock stands
+// still.
 void CharacterStream::MeasurePeriod(std::uint32_t time_code_millis, std::int64_t now) {
   if (last_begin_) {
     const std::int32_t millis = Ahead(time_code_millis, last_begin_->time_code_millis);
@@ -305,8 +307,8 @@ void CharacterStream::FinishUpTo(std::uint32_t counter, SampleSink& sink) {
   }
 }
 
-// A sample of which nothing more is to be expected: a newer one has every type that it has, and so
-// many that nothing is under way any more.
+// Finishes a sample that will not become more complete: a newer one has every type that it has, and
+// enough datagrams have followed.
 void CharacterStream::FinishOvertakenBy(const PendingSample& newer, SampleSink& sink) {
   if (types_.are_known() && newer.datagrams() <= kPlacesReordered) return;
   for (OpenSample& open : open_) {

@@ -1,5 +1,5 @@
-/// The messages of one character from one sender, joined to samples. See assembler.h for the rules.
-/// One thread.
+/// Assembles the messages of one character from one sender to samples. See assembler.h for the
+/// rules. One thread. Times are on the monotonic clock, ns.
 #pragma once
 
 #include <array>
@@ -21,31 +21,33 @@ namespace kinescope::mvn {
 
 class CharacterStream {
  public:
-  /// `id` is what samples and the character carry; `tally` outlives this.
+  /// `id`: for samples and character; `tally` must outlive this object.
   CharacterStream(int id, Stamps stamps, Tally& tally) : tally_(&tally), stamps_(stamps) {
     character_.id = id;
   }
 
   int id() const { return character_.id; }
   std::int64_t last_heard_nanos() const { return last_heard_nanos_; }
-  /// A second datagram came: this is no damaged header. Nothing is given on before.
+  /// A second datagram has confirmed that the first was not a corrupt header. Nothing is delivered
+  /// before.
   bool is_confirmed() const { return is_confirmed_; }
 
-  /// `digest` stands for the datagram's bytes. Ends in a sample, a character or the tally.
+  /// `digest` identifies the datagram's bytes. The datagram ends in a sample, a character or the
+  /// tally.
   void Add(const Message& message, std::uint32_t digest, const Arrival& arrival, SampleSink& sink);
 
-  /// Gives on what has waited long enough at `now_nanos`.
+  /// Delivers the samples whose waiting time is over at `now_nanos`.
   void Expire(std::int64_t now_nanos, SampleSink& sink);
-  /// When Expire() has something to do; nullopt: nothing waits.
+  /// When Expire() must be called next; nullopt: no sample waits.
   std::optional<std::int64_t> deadline_nanos() const;
 
-  /// The sender itself was started anew: counters and clock begin again, the person stays.
+  /// The sender was restarted: counters and clock start over, the person stays.
   void SenderRestarted(SampleSink& sink);
 
-  /// Nothing more will come: gives on what is there.
+  /// End of the stream: delivers all samples that wait.
   void Flush(SampleSink& sink);
 
-  /// Never confirmed: what came is an outlier.
+  /// Counts the datagrams of a character that was never confirmed as outliers.
   void Discard();
 
  private:
@@ -56,13 +58,13 @@ class CharacterStream {
     PendingSample sample;
   };
 
-  // A datagram that does not fit the stream so far: damage, or the first after a restart. Kept
-  // until the next one tells.
+  // A datagram that does not fit the stream: corrupt, or the first after a restart. Kept until the
+  // next one decides.
   struct Doubtful {
     Message message;
     std::uint32_t digest = 0;
     Arrival arrival;
-    int fitted_since = 0;  // datagrams after it that went on as before
+    int fitted_since = 0;  // later datagrams that continued the stream
   };
 
   enum class Place { kFits, kDuplicate, kLate, kDoubtful, kRestart };
@@ -107,24 +109,24 @@ class CharacterStream {
   bool wants_announcement_ = true;
   ScaleGroup scale_;
   std::int64_t last_heard_nanos_ = 0;
-  bool is_heard_ = false;  // a first datagram came
+  bool is_heard_ = false;  // a first datagram was received
   bool is_confirmed_ = false;
 
   std::array<OpenSample, kMostOpen> open_;
   std::uint32_t run_start_ = 0;          // counter of the first sample since the last restart
-  std::optional<std::uint32_t> newest_;  // counter of the newest sample that was begun
-  std::optional<std::uint32_t> closed_;  // up to this counter nothing more is given on
-  std::int64_t newest_heard_nanos_ = 0;  // when something of an open sample last came
+  std::optional<std::uint32_t> newest_;  // largest counter of a sample so far
+  std::optional<std::uint32_t> closed_;  // samples up to this counter are not delivered any more
+  std::int64_t newest_heard_nanos_ = 0;  // receive time of the newest datagram of an open sample
   ClosedSamples history_;
   TimeCodeLine line_;
   StepMeter steps_;
   std::optional<Doubtful> doubtful_;
-  std::uint32_t repeated_counter_ = 0;  // highest of a run of late and repeated ones
+  std::uint32_t repeated_counter_ = 0;  // largest counter in a series of late and repeated ones
   int repeated_length_ = 0;
   ClockFit clock_;
 
   LearntTypes types_;
-  bool has_given_ = false;              // a sample
+  bool has_given_ = false;              // a sample was delivered
   std::optional<double> period_nanos_;  // running mean
   struct Begun {
     std::uint32_t time_code_millis = 0;

@@ -13,10 +13,11 @@ constexpr double kTimeCodeJumpNanos = 20e6;
 constexpr std::int64_t kLeastStepNanos = 100'000;
 constexpr std::int64_t kWallSetBackNanos = 1'000'000'000;
 
-// Below this the rounding of the time code spoils the period taken from it.
+// With fewer samples, the rounding of the time code makes the period too inaccurate.
 constexpr std::uint32_t kFramesForPeriod = 8;
 
-// How fast the smoothed clock follows the rounded one: an error of 1 ms shakes stamps by 1/32 ms.
+// Gain with which the smoothed clock follows the rounded one: an error of 1 ms moves stamps by 1/32
+// ms.
 constexpr double kGain = 1.0 / 32;
 
 }  // namespace
@@ -44,7 +45,7 @@ void ClockFit::Advance(std::uint32_t counter, std::uint32_t time_code_millis) {
     if (std::abs(predicted - rounded) > kTimeCodeJumpNanos) {
       return StartAt(counter, time_code_millis);
     }
-    // Rounding is less than a millisecond; beyond that it is the period that is not known well yet.
+    // Rounding is less than a millisecond; a larger difference is due to an inaccurate period.
     smooth = std::clamp(predicted + kGain * (rounded - predicted), rounded - kMilliNanos,
                         rounded + kMilliNanos);
   }

@@ -1,6 +1,5 @@
-/// What came for the latest samples that were already given on, so that what comes after can be
-/// told apart: the same datagram once more, a late one, or a sender that counts from the start
-/// again. One thread, allocates nothing.
+/// Remembers the datagrams of recently delivered samples, to distinguish a repeated datagram, a
+/// late one, and a sender that starts over. One thread, no allocation.
 #pragma once
 
 #include <array>
@@ -18,10 +17,10 @@ class ClosedSamples {
   }
 
   enum class Known {
-    kNo,        // no sample of this counter and time code
-    kSame,      // this very datagram
-    kMissing,   // the sample is known, and this message was missing in it
-    kDifferent  // the sample is known with another message in this one's place
+    kNo,        // no sample with this counter and time code
+    kSame,      // the same datagram
+    kMissing,   // the sample is known and lacked this message
+    kDifferent  // the sample is known with another message of this type
   };
 
   Known Find(const Header& header, SampleType type, std::uint32_t digest) const {
@@ -30,7 +29,7 @@ class ClosedSamples {
     if (entry.time_code_millis != header.time_code_millis) return Known::kDifferent;
     const auto index = static_cast<std::size_t>(type);
     if (!entry.types.test(index)) return Known::kMissing;
-    // Of a message in parts only the first is remembered.
+    // Of a message in parts only the first part is remembered.
     return header.part > 0 || entry.digests[index] == digest ? Known::kSame : Known::kDifferent;
   }
 

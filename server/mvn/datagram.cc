@@ -9,7 +9,8 @@
 namespace kinescope::mvn {
 namespace {
 
-// What came instead of "MXTP": MVN's own sync texts, another program's text, or anything.
+// Classifies bytes that do not begin with "MXTP": MVN's own sync texts, text of another program, or
+// other bytes.
 Reason ReasonForForeign(std::string_view datagram) {
   const std::size_t first = datagram.find_first_not_of(" \t\r\n");
   if (first != std::string_view::npos) {
@@ -22,7 +23,7 @@ Reason ReasonForForeign(std::string_view datagram) {
   return is_text ? Reason::kForeignText : Reason::kForeign;
 }
 
-// The type of `digits`, or why it is not read.
+// The type of `digits`, or why it is not supported.
 tl::expected<Type, Reason> FindType(std::string_view digits) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   if (!is_digit(digits[0]) || !is_digit(digits[1])) return tl::unexpected(Reason::kUnknownType);
@@ -46,7 +47,7 @@ tl::expected<Type, Reason> FindType(std::string_view digits) {
   }
 }
 
-// One number into a field that is wider, so that arithmetic with it is signed.
+// Reads a number into a wider field, so that arithmetic with it is signed.
 template <class Unsigned>
 [[nodiscard]] bool ReadInt(ByteReader& in, int& value) {
   Unsigned number = 0;
@@ -70,7 +71,7 @@ bool ReadHeader(ItemReader& in, std::string_view datagram, Header& header) {
   if (!type) return in.Fail(type.error(), 0);
   header.type = *type;
   int datagram_counter = 0;
-  std::uint16_t reserved = 0;  // not checked, so that it may get a meaning
+  std::uint16_t reserved = 0;  // not checked, because a later version may use it
   const bool is_whole =
       in.bytes.Read(header.sample_counter) && ReadInt<std::uint8_t>(in.bytes, datagram_counter) &&
       ReadInt<std::uint8_t>(in.bytes, header.item_count) &&
@@ -85,7 +86,8 @@ bool ReadHeader(ItemReader& in, std::string_view datagram, Header& header) {
   return true;
 }
 
-// Where the payload ends: the header's word where there is one, else the datagram's end.
+// Limits reading to the payload: the size in the header if there is one, else the end of the
+// datagram.
 bool LimitToPayload(ItemReader& in, const Header& header) {
   const auto announced = static_cast<std::size_t>(header.payload_bytes);
   if (announced > in.bytes.remaining()) return in.Fail(Reason::kShortPayload, header.payload_bytes);

@@ -1,4 +1,4 @@
-// The bodies that are more than rows of numbers per segment.
+// Parses the bodies that are not just rows of numbers per segment.
 #include <algorithm>
 #include <charconv>
 
@@ -13,8 +13,8 @@ std::uint32_t PointId(int segment, std::uint32_t point) {
   return (static_cast<std::uint32_t>(segment) + 1U) * 256U + point;
 }
 
-// Which of the joints an item is about. Pelvis_T8 and Vertical_T8 have the same pair of ids: the
-// second one met is Vertical_T8.
+// Finds the joint of an item. Pelvis_T8 and Vertical_T8 have the same pair of ids: the second one
+// is Vertical_T8.
 class JointFinder {
  public:
   explicit JointFinder(JointAnglesMessage& out) : out_(out) {}
@@ -91,14 +91,14 @@ bool ReadScalePoint(ItemReader& in, ScalePoint& point) {
   return true;
 }
 
-// "59" of "23:59:01.250", two digits at `at`; -1 where there are none.
+// "59" of "23:59:01.250", two digits at `at`; -1 if there are none.
 int TwoDigits(std::string_view text, std::size_t at) {
   const auto digit = [&](std::size_t i) { return text[i] >= '0' && text[i] <= '9'; };
   if (!digit(at) || !digit(at + 1)) return -1;
   return (text[at] - '0') * 10 + (text[at + 1] - '0');
 }
 
-// Up to three digits after the point; none, or no point: 0; something else: -1.
+// Up to three digits after the point; 0 without digits or without a point; -1 for anything else.
 int Millis(std::string_view fraction) {
   if (fraction.empty()) return 0;
   if (fraction[0] != '.' || fraction.size() > 4) return -1;
@@ -131,7 +131,7 @@ bool ParseMarkers(ItemReader& in, const Header& header, MarkersMessage& out) {
 
 bool ParseTrackers(ItemReader& in, const Header& header, TrackersMessage& out) {
   constexpr std::size_t kWhole = 68;
-  constexpr std::size_t kWithoutRates = 44;  // the specification's other section
+  constexpr std::size_t kWithoutRates = 44;  // according to the specification's other section
   ItemLayout layout;
   if (!in.FindLayout(header, kWhole, layout) && !in.FindLayout(header, kWithoutRates, layout)) {
     return false;
@@ -163,8 +163,8 @@ bool ParseTimeCode(ItemReader& in, TimeCodeMessage& out) {
   constexpr std::size_t kShortest = 8;  // "HH:MM:SS"
   constexpr std::size_t kLengthBytes = 4;
   std::string_view text = in.bytes.ReadRest();
-  // The specification has no length before the text; what is sent has one. Some sender counts it
-  // wrong, so the length only limits.
+  // The specification has no length before the text, but senders send one. One sender counts it
+  // wrong, so the length is only an upper limit.
   std::uint32_t length = 0;
   if (text.size() > kLengthBytes && (text[0] < '0' || text[0] > '9') &&
       ByteReader(text).Read(length)) {
@@ -232,7 +232,7 @@ bool ParseMetaData(ItemReader& in, MetaDataMessage& out) {
     const std::size_t line_end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, line_end);
     text.remove_prefix(std::min(line_end + 1, text.size()));
-    // At the first colon: a name may hold more of them.
+    // The first colon separates; a name may contain further ones.
     const std::size_t colon = line.find(':');
     if (colon != std::string_view::npos)
       ReadTag(line.substr(0, colon), line.substr(colon + 1), out);
@@ -241,7 +241,7 @@ bool ParseMetaData(ItemReader& in, MetaDataMessage& out) {
 }
 
 bool ParseScale(ItemReader& in, ScaleMessage& out) {
-  // The least that one of them takes: an empty name.
+  // The shortest possible one: with an empty name.
   constexpr std::size_t kSegmentBytes = 4 + 12;
   constexpr std::size_t kPointBytes = 2 + 2 + 4 + 4 + 12;
   std::uint32_t count = 0;

@@ -26,8 +26,8 @@ Unsigned ReadAt(std::string_view bytes, std::size_t offset) {
   return ByteReader(bytes.substr(offset)).Read(value) ? value : Unsigned{0};
 }
 
-// Goes through the body of a 12 or 13, which may not reach beyond `limit`, from text to text.
-// Everything else in it is numbers.
+// Walks through the body of a 12 or 13, at most up to `limit`, from text to text. Everything else
+// in it is numbers.
 class TextWalk {
  public:
   TextWalk(std::string_view bytes, int type, std::size_t limit)
@@ -35,7 +35,7 @@ class TextWalk {
 
   enum class Step { kText, kAtEnd, kNeedMore, kBroken };
 
-  /// To the next text. Anything but kText is final.
+  /// Moves to the next text. Any result but kText is final.
   Step Next() {
     if (!PassNumbers(numbers_after_text_)) return Step::kBroken;
     numbers_after_text_ = 0;
@@ -56,7 +56,7 @@ class TextWalk {
     return Step::kText;
   }
 
-  /// To the end of the body.
+  /// Moves to the end of the body.
   Step GoToEnd() {
     Step step = Step::kText;
     while (step == Step::kText) step = Next();
@@ -64,7 +64,7 @@ class TextWalk {
   }
 
   std::size_t text_begin() const { return text_begin_; }
-  std::size_t text_end() const { return offset_; }  // at kAtEnd: where the body ends
+  std::size_t text_end() const { return offset_; }  // at kAtEnd: end of the body
 
  private:
   enum Section { kMetaData, kSegments, kPoints, kEnd };
@@ -73,7 +73,7 @@ class TextWalk {
     std::size_t after = 0;
   };
 
-  // The next section; one without rows leads to the one after it.
+  // Begins the next section; skips sections without rows.
   Step Begin() {
     if (section_ == kMetaData) {
       rows_ = 1;
@@ -103,7 +103,7 @@ class TextWalk {
 
   std::string_view bytes_;
   std::size_t limit_;  // at least kHeaderBytes
-  Section section_;    // that begins next
+  Section section_;    // the next section
   Row row_;
   std::uint32_t rows_ = 0;  // left in this section
   std::size_t numbers_after_text_ = 0;
@@ -117,10 +117,10 @@ bool IsControl(char c) {
 
 enum class Inner { kDatagram, kText, kNeedMore };
 
-// What id strings within a datagram are, asked from the first to the last.
+// Decides what the id strings within a datagram are; call it from the first to the last.
 class InnerIdStrings {
  public:
-  /// Of the datagram at the start of `bytes`, which would reach to `end`.
+  /// For the datagram at the start of `bytes`, which would end at `end`.
   InnerIdStrings(std::string_view bytes, std::size_t end)
       : bytes_(bytes),
         type_(TypeNumber(bytes)),
@@ -128,33 +128,34 @@ class InnerIdStrings {
         walk_(bytes, type_, end_) {}
 
   Inner Judge(std::size_t position) {
-    // Numbers in the range of a human's never spell an id string; only names can.
+    // Numbers in the range of human motion never spell an id string; only names can.
     if (type_ != kTypeMetaData && type_ != kTypeScale) return Inner::kDatagram;
-    // Where more is needed to find the next text, the id string is within the numbers before it.
+    // If more bytes are needed to find the next text, the id string is within the numbers before
+    // it.
     while (walk_.text_end() <= position) {
       if (walk_.Next() != TextWalk::Step::kText) return Inner::kDatagram;
     }
     if (position < walk_.text_begin() || walk_.text_end() < position + kIdStringBytes) {
       return Inner::kDatagram;
     }
-    // A header has zeros in it, a name has not.
+    // A header contains zeros, a name does not.
     const std::string_view text = bytes_.substr(0, walk_.text_end()).substr(position);
     if (std::any_of(text.begin(), text.end(), IsControl)) return Inner::kDatagram;
-    // And behind a name there are the rest of a row and more rows.
+    // And a name is followed by the rest of its row and more rows.
     if (!rest_) rest_ = TextWalk(walk_).GoToEnd();
     if (*rest_ == TextWalk::Step::kBroken) return Inner::kDatagram;
     const bool is_whole = *rest_ == TextWalk::Step::kAtEnd && walk_.text_end() <= bytes_.size();
     return is_whole ? Inner::kText : Inner::kNeedMore;
   }
 
-  std::size_t text_end() const { return walk_.text_end(); }  // of the text last judged
+  std::size_t text_end() const { return walk_.text_end(); }  // of the text checked last
 
  private:
   std::string_view bytes_;
   int type_;
   std::size_t end_;
   TextWalk walk_;
-  std::optional<TextWalk::Step> rest_;  // how the walk will end
+  std::optional<TextWalk::Step> rest_;  // how the walk ends
 };
 
 Extent Sized(std::size_t payload, std::size_t short_payload = 0) {
@@ -171,7 +172,7 @@ Extent ExtentByWalk(std::string_view bytes, int type) {
   }
 }
 
-// "HH:MM:SS" or "HH:MM:SS.mmm", with a length before it or without.
+// "HH:MM:SS" or "HH:MM:SS.mmm", with or without a length before it.
 Extent ExtentOfTimeCode(std::string_view payload) {
   constexpr std::size_t kSeconds = 8;
   constexpr std::size_t kMillis = 12;
@@ -204,7 +205,7 @@ Extent ExtentByType(std::string_view bytes, int type) {
   }
 }
 
-// The same as FindIdString() for types that MVN has, or had: much rarer by chance.
+// Like FindIdString(), for types that MVN has or had: these occur by chance much less often.
 std::size_t FindKnownIdString(std::string_view bytes, std::size_t from) {
   std::size_t position = FindIdString(bytes, from);
   while (position != std::string_view::npos &&

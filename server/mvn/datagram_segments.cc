@@ -1,4 +1,4 @@
-// The messages that are rows of numbers per segment: 01, 02, 21, 22.
+// Parses the messages that are rows of numbers per segment: 01, 02, 21, 22.
 #include <algorithm>
 
 #include "server/mvn/item_reader.h"
@@ -14,7 +14,7 @@ bool ReadItem(ItemReader& in, PoseItem& item) {
   return in.ReadVector(item.position) && in.ReadUnitQuaternion(item.orientation);
 }
 
-// The stream turns about its fixed x, then y, then z; its axes (x, y, z) are (y, z, x) of the Z-up
+// The stream rotates about fixed x, then y, then z; its axes (x, y, z) are (y, z, x) of the Z-up
 // world (mvn-protocol.md 2, type 01).
 bool ReadItem(ItemReader& in, EulerItem& item) {
   Eigen::Vector3d centimetres;
@@ -40,20 +40,20 @@ bool ReadItem(ItemReader& in, AngularItem& item) {
          in.ReadVector(item.acceleration);
 }
 
-// The slot of each item. Ids of fingers follow those of the props that are there (mvn-protocol.md
-// 4.2). The vendor's own plugin does not look at them but goes by order, so order wins where the
-// datagram holds everything that its header announces.
+// Finds the slot of each item. Ids of fingers follow those of the props (mvn-protocol.md 4.2). The
+// vendor's own plugin ignores them and uses the order, so the order takes precedence if the
+// datagram contains everything that its header announces.
 class SlotFinder {
  public:
   SlotFinder(const Header& header, int item_count)
-      : props_(header.body_segments == 0 ? kMostProps : header.props),  // an old header tells none
+      : props_(header.body_segments == 0 ? kMostProps : header.props),  // absent in old headers
         fingers_(header.finger_segments),
         goes_by_order_(header.body_segments == urdf::kSegmentCount && header.part == 0 &&
                        header.is_last_part &&
                        item_count == urdf::kSegmentCount + header.props + header.finger_segments) {}
 
   struct Slot {
-    int index = -1;  // -1: nothing we know
+    int index = -1;  // -1: unknown
     bool is_odd = false;
   };
 
@@ -66,7 +66,7 @@ class SlotFinder {
   }
 
  private:
-  // Of a number that counts body, props and fingers through.
+  // For a number that counts body, props and fingers consecutively.
   int SlotOf(int number) const {
     if (number < urdf::kSegmentCount) return number;
     const int prop = number - urdf::kSegmentCount;
@@ -91,7 +91,7 @@ bool Parse(ItemReader& in, const Header& header, std::size_t wire_bytes, PerSegm
   for (int i = 0; i < layout.count; ++i) {
     std::uint32_t id = 0;
     WireItem item;
-    // What is nothing we know is read all the same, so that its numbers are checked too.
+    // Unknown items are read as well, so that their numbers are checked.
     if (!in.GoTo(layout, i) || !in.ReadId(id) || !ReadItem(in, item)) return false;
     const auto [index, is_odd] = finder.Find(id, i);
     if (index < 0) {

@@ -1,6 +1,6 @@
-/// Where MVN datagrams come from, before anybody looks into them: a socket, a capture file. What
-/// every transport has in common, so that joining (assembler.h), recording and inspecting need not
-/// know which one it is. One thread uses a source.
+/// Source of raw MVN datagrams: a socket or a capture file. A common interface of all transports,
+/// so that assembling (assembler.h), recording and inspecting do not depend on the transport. A
+/// source is used by one thread.
 #pragma once
 
 #include <chrono>
@@ -16,9 +16,9 @@ namespace kinescope::mvn {
 
 struct ReceivedDatagram {
   Endpoint from;
-  Endpoint to;             // address zero where the transport does not tell
+  Endpoint to;             // all zero if the transport does not provide it
   std::string_view bytes;  // valid during the call only
-  Arrival arrival;         // a file: both clocks are the time at which it was captured
+  Arrival arrival;         // a file: both clocks are the time of capture
 };
 
 class DatagramSink {
@@ -27,20 +27,21 @@ class DatagramSink {
   virtual void OnDatagram(const ReceivedDatagram& datagram) = 0;
 };
 
-/// What the transport itself saw; what the datagrams say is counted by the assembler.
+/// Counters of the transport itself; the assembler counts the content of the datagrams.
 struct TransportCounters {
-  int receive_buffer_bytes = 0;           // what the kernel really gave; 0: no socket
-  std::uint64_t kernel_drops = 0;         // datagrams lost because nobody read them in time
-  std::uint64_t connections = 0;          // TCP: accepted or made, in all
+  int receive_buffer_bytes = 0;           // size that the kernel granted; 0: no socket
+  std::uint64_t kernel_drops = 0;         // datagrams lost because they were not read in time
+  std::uint64_t connections = 0;          // TCP: accepted or made, in total
   int connections_open = 0;               // TCP: now
-  std::uint64_t connections_refused = 0;  // TCP: one too many
+  std::uint64_t connections_refused = 0;  // TCP: beyond the limit of connections
   std::uint64_t connections_lost = 0;     // TCP: ended by the other side or by an error
-  std::uint64_t resyncs = 0;              // byte streams: times that the next MXTP was searched for
-  std::uint64_t skipped_bytes = 0;        // byte streams: passed over by these searches
-  std::uint64_t other_packets = 0;        // capture files: packets that are no UDP or TCP payload
-  std::uint64_t incomplete_packets = 0;   // capture files: cut short by the capture, lost fragments
+  std::uint64_t resyncs = 0;              // byte streams: searches for the next MXTP
+  std::uint64_t skipped_bytes = 0;        // byte streams: bytes skipped by these searches
+  std::uint64_t other_packets = 0;        // capture files: packets without UDP or TCP payload
+  std::uint64_t incomplete_packets = 0;   // capture files: truncated by the capture, or with lost
+                                          // fragments
 
-  /// Each with the name that people read it by.
+  /// Calls `counter` with the public name and value of each.
   template <class Counter>
   void Visit(const Counter& counter) const {
     counter("receive_buffer_bytes", static_cast<std::uint64_t>(receive_buffer_bytes));
@@ -63,18 +64,18 @@ class DatagramSource {
   DatagramSource& operator=(const DatagramSource&) = delete;
 
   enum class State {
-    kMore,   // there is more to read at once
-    kIdle,   // all that has come was handed on (live sources)
-    kEnded,  // a file's end; stays so
+    kMore,   // call again, more may be available at once
+    kIdle,   // everything received was delivered (live sources)
+    kEnded,  // end of a file; final
   };
 
-  /// Waits at most `timeout` for input and hands on what came, a bounded number of datagrams. A
-  /// file never waits and hands on one packet's worth a call.
-  /// @throws SourceError when it cannot go on (a file that is broken, a socket that fails).
+  /// Waits at most `timeout` for input and delivers it to `sink`, a limited number of datagrams per
+  /// call. A file never waits and delivers the datagrams of one packet per call.
+  /// @throws SourceError if it cannot continue (a damaged file, a socket that fails).
   [[nodiscard]] virtual State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) = 0;
 
   virtual TransportCounters counters() const = 0;
-  virtual std::string description() const = 0;  // "udp://0.0.0.0:9763", with the real port
+  virtual std::string description() const = 0;  // "udp://0.0.0.0:9763", with the actual port
   virtual bool is_live() const = 0;
 
  protected:

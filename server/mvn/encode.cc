@@ -27,14 +27,14 @@ void WriteCentimetresYUp(ByteWriter& out, const Eigen::Vector3d& metres_zup) {
   WriteVector(out, ToYUp(metres_zup) / kMetresPerCentimetre);
 }
 
-// Angles about fixed x, then y, then z, of the rotation about the Y-up axes.
+// Angles about fixed x, then y, then z, of a rotation about the Y-up axes.
 Eigen::Vector3d YUpAngles(const Eigen::Quaterniond& zup) {
   const Eigen::Vector3d axis = ToYUp(zup.vec());
   const Eigen::Matrix3d r =
       Eigen::Quaterniond(zup.w(), axis.x(), axis.y(), axis.z()).toRotationMatrix();
   const double cos_y = std::hypot(r(0, 0), r(1, 0));
   const double y = std::atan2(-r(2, 0), cos_y);
-  constexpr double kLocked = 1e-9;  // x and z turn about the same axis: x takes it all
+  constexpr double kLocked = 1e-9;  // x and z rotate about the same axis: all of it is in x
   if (cos_y < kLocked) return {std::atan2(-r(1, 2), r(1, 1)), y, 0};
   return {std::atan2(r(2, 1), r(2, 2)), y, std::atan2(r(1, 0), r(0, 0))};
 }
@@ -61,7 +61,7 @@ void WriteEulerItem(ByteWriter& out, const PoseItem& item) {
   WriteVector(out, YUpAngles(item.orientation) * kDegrees);
 }
 
-// The id of a slot, which depends on how many props there are: fingers count on behind them.
+// The id of a slot, which depends on the number of props: the ids of fingers follow theirs.
 std::uint32_t IdOf(std::size_t slot, const Header& header) {
   constexpr std::size_t kFirstFinger = urdf::kSegmentCount + kMostProps;
   const auto props = static_cast<std::size_t>(header.props);
@@ -72,7 +72,7 @@ std::uint32_t IdOf(std::size_t slot, const Header& header) {
   return static_cast<std::uint32_t>(urdf::kSegmentCount + props + (slot - kFirstFinger) + 1);
 }
 
-// Writes one body; says its type and its number of items.
+// Writes one body; returns its type and its number of items.
 struct BodyWriter {
   using TypeAndCount = std::pair<Type, std::size_t>;
   ByteWriter& out;
@@ -186,7 +186,7 @@ struct BodyWriter {
       out.Write(point.flags);
       WriteVector(out, point.offset);
     }
-    return {Type::kScale, 0};  // MVN leaves the item count of type 13 at zero
+    return {Type::kScale, 0};  // MVN sends an item count of 0 in type 13
   }
 
  private:
@@ -201,7 +201,7 @@ struct BodyWriter {
   }
 };
 
-// What follows the id string.
+// The header after the id string.
 void WriteHeader(ByteWriter& out, const Header& header) {
   out.Write(header.sample_counter);
   out.Write(static_cast<std::uint8_t>(header.part | (header.is_last_part ? 0x80 : 0)));

@@ -1,4 +1,4 @@
-// Samples and characters as the messages that a current MVN sends for them.
+// Encodes samples and characters as the messages that a current MVN sends.
 #include <algorithm>
 #include <utility>
 
@@ -9,10 +9,10 @@
 namespace kinescope::mvn {
 namespace {
 
-constexpr double kGravity = 9.81;  // m/s^2, as MVN takes it
+constexpr double kGravity = 9.81;  // m/s^2, as in MVN
 constexpr std::int64_t kMillisPerDay = 86'400'000;
 
-// Where a full suit has its sensors (mvn-protocol.md, type 23).
+// The segments with sensors in a full suit (mvn-protocol.md, type 23).
 constexpr std::array<urdf::Segment, 17> kTrackedSegments = {
     urdf::kPelvis,        urdf::kT8,           urdf::kHead,         urdf::kRightShoulder,
     urdf::kRightUpperArm, urdf::kRightForeArm, urdf::kRightHand,    urdf::kLeftShoulder,
@@ -20,8 +20,8 @@ constexpr std::array<urdf::Segment, 17> kTrackedSegments = {
     urdf::kRightLowerLeg, urdf::kRightFoot,    urdf::kLeftUpperLeg, urdf::kLeftLowerLeg,
     urdf::kLeftFoot};
 
-// The earth's field for trackers that are made up: of unit length, northwards along x and down at
-// the dip of central Europe.
+// The earth's magnetic field for generated trackers: unit length, north along x, inclined as in
+// central Europe.
 const Eigen::Vector3d& MagneticFieldInWorld() {
   constexpr double kDipRadians = 65 * M_PI / 180;
   static const Eigen::Vector3d kField(std::cos(kDipRadians), 0, -std::sin(kDipRadians));
@@ -33,7 +33,7 @@ struct ExtraCounts {
   int finger_segments = 0;
 };
 
-// As the header tells them. `is_present` is asked for every index of ExtraSegments.
+// Counts for the header. `is_present` is called for every index of ExtraSegments.
 template <class IsPresent>
 ExtraCounts CountExtra(const IsPresent& is_present) {
   ExtraCounts counts;
@@ -46,7 +46,7 @@ ExtraCounts CountExtra(const IsPresent& is_present) {
   return counts;
 }
 
-// Datagrams of one sample, or of one character, with the same header.
+// Writes the datagrams of one sample, or of one character, with a common header.
 class Writer {
  public:
   Writer(int character, int body_segments, const ExtraCounts& extra) {
@@ -135,13 +135,13 @@ AngularMessage Angular(const BodySample& sample) {
   });
 }
 
-// What a sensor at the origin of `segment`, turned as it, would measure.
+// The measurements of a sensor at the origin of `segment` with its orientation.
 TrackerState TrackerOn(const SegmentState& segment) {
   const Eigen::Quaterniond sensor_from_world = segment.orientation.conjugate();
   TrackerState tracker;
   tracker.orientation = segment.orientation;
   tracker.free_acceleration = segment.acceleration;
-  // An accelerometer feels the floor that holds it up: + g at rest.
+  // An accelerometer measures the supporting force: + g at rest.
   tracker.acceleration =
       sensor_from_world * (segment.acceleration + kGravity * Eigen::Vector3d::UnitZ());
   tracker.angular_velocity = sensor_from_world * segment.angular_velocity;
@@ -186,7 +186,7 @@ ScaleMessage ScaleSegments(const Character& character) {
     }
   }
   for (const ScaledSegment& extra : character.extra) {
-    if (character.skeleton && extra.name.empty()) continue;  // a place that nothing fills
+    if (character.skeleton && extra.name.empty()) continue;  // a place without a segment
     body.segments.push_back({Cleaned(extra.name), extra.origin_in_world});
   }
   return body;
@@ -298,7 +298,7 @@ std::vector<ScalePoint> ScalePointsOf(const urdf::Skeleton& skeleton) {
 std::array<Eigen::Vector3d, urdf::kSegmentCount> TPoseOrigins(const urdf::Skeleton& skeleton) {
   std::array<Eigen::Vector3d, urdf::kSegmentCount> origins;
   origins[urdf::kPelvis] =
-      urdf::NPoseOrigins(skeleton)[urdf::kPelvis];  // legs are as in the N-pose
+      urdf::NPoseOrigins(skeleton)[urdf::kPelvis];  // the legs are as in the N-pose
   for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
     const int parent = urdf::kSegments[urdf::At(segment)].parent;
     origins[urdf::At(segment)] =

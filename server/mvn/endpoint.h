@@ -1,4 +1,5 @@
-/// One end of a connection: who sent a datagram, or who got it.
+/// Address and port of the sender or receiver of a datagram. Plain data and pure functions, any
+/// thread.
 #pragma once
 
 #include <array>

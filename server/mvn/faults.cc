@@ -17,11 +17,11 @@ constexpr std::array<const char*, kFaultCount> kNames = {
     "truncate", "corrupt",   "foreign", "silence", "reset"};
 
 constexpr double kNanos = 1e9;
-constexpr int kMostPlaces = 3;  // that a datagram is put back
+constexpr int kMostPlaces = 3;  // limit of places that a datagram is moved back
 constexpr int kMostCorruptBytes = 4;
 constexpr std::int64_t kLongestAside = 50'000'000;  // a network does not keep a packet for longer
 constexpr double kLeastBetweenResets = 1.0;         // s: a recording is not shorter
-constexpr std::int32_t kSourceRestart = 1000;  // a counter this far back was not merely overtaken
+constexpr std::int32_t kSourceRestart = 1000;       // a counter this far back is a restart
 constexpr double kLongestSecs = 60;
 
 std::string AllNames() {
@@ -56,7 +56,7 @@ std::int64_t ToNanos(double secs) { return std::llround(secs * kNanos); }
 const char* Name(Fault fault) { return kNames[static_cast<std::size_t>(fault)]; }
 
 void SetFault(std::string_view text, FaultSettings& settings) {
-  const std::string flag = "--fault " + std::string(text) + ": ";
+  const std::string flag = "'" + std::string(text) + "': ";
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) {
     throw UsageError(flag + "expected FAULT=SHARE, such as loss=0.05");
@@ -69,7 +69,7 @@ void SetFault(std::string_view text, FaultSettings& settings) {
   const auto found = std::find(kNames.begin(), kNames.end(), name);
   if (found == kNames.end()) {
     throw UsageError(flag + (name == "all" ? "only jitter, burst and silence take seconds"
-                                           : "no such fault; there are " + AllNames()));
+                                           : "unknown fault; expected one of " + AllNames()));
   }
   const auto fault = static_cast<Fault>(found - kNames.begin());
   settings[fault] = share;
@@ -94,7 +94,7 @@ FaultInjector::FaultInjector(const FaultSettings& settings, std::uint64_t seed)
 }
 
 double FaultInjector::Random(Fault fault) {
-  // Not a standard distribution: their results differ from library to library.
+  // Not a standard distribution, because their results differ between libraries.
   return static_cast<double>(engines_[Index(fault)]() >> 11U) * 0x1p-53;
 }
 
@@ -107,7 +107,7 @@ void FaultInjector::Report(Fault fault, const std::optional<Header>& header) {
   if (listener_) listener_({fault, header, std::nullopt, Reason::kEmpty});
 }
 
-// Whether `nanos`, never before the one asked for last, lies in a window of `fault`.
+// Whether `nanos` is in a window of `fault`. @pre `nanos` never goes back
 bool FaultInjector::IsInWindow(Fault fault, double secs, Windows& windows, std::int64_t nanos) {
   if (settings_[fault] == 0) return false;
   const std::int64_t length = ToNanos(secs);
@@ -138,7 +138,8 @@ void FaultInjector::ScheduleReset(Count& count) {
   count.cycle_start += ToNanos(cycle);
 }
 
-// Counts from the character's last reset, and resets it with the first datagram of a sample.
+// Makes the counter relative to the character's last reset, and resets it with the first datagram
+// of a sample.
 void FaultInjector::Restart(std::string& datagram, Header& header, std::int64_t due_nanos) {
   if (settings_[Fault::kReset] == 0 || !BelongsToSample(header.type)) return;
   const std::uint32_t counter = header.sample_counter;
@@ -182,7 +183,7 @@ void FaultInjector::Damage(Fault fault, Waiting& waiting) {
     const std::string whole = bytes;
     for (int left = RandomInt(fault, 1, kMostCorruptBytes); left > 0; --left) {
       const auto at = static_cast<std::size_t>(RandomInt(fault, 0, size - 1));
-      if (bytes[at] != whole[at]) continue;  // this one is changed already
+      if (bytes[at] != whole[at]) continue;  // this byte is already changed
       bytes[at] = static_cast<char>(static_cast<std::uint8_t>(bytes[at]) ^
                                     static_cast<std::uint8_t>(RandomInt(fault, 1, 255)));
     }
@@ -201,7 +202,7 @@ void FaultInjector::Damage(Fault fault, Waiting& waiting) {
   if (listener_) listener_(injection);
 }
 
-// Later by jitter and bursts.
+// The send time after jitter and bursts.
 std::int64_t FaultInjector::SendTime(const std::optional<Header>& header, std::int64_t due_nanos) {
   std::int64_t delay = 0;
   if (Happens(Fault::kJitter)) {
@@ -210,7 +211,7 @@ std::int64_t FaultInjector::SendTime(const std::optional<Header>& header, std::i
     Report(Fault::kJitter, header);
   }
   last_jittered_ = std::max(due_nanos + delay, last_jittered_);
-  // By the time at which it was due, so that a burst does not tear apart what belongs together.
+  // Uses the due time, so that a burst does not separate datagrams that belong together.
   if (!IsInWindow(Fault::kBurst, settings_.burst_secs, bursts_, due_nanos)) return last_jittered_;
   StopWaiting(due_nanos);
   Report(Fault::kBurst, header);
@@ -250,7 +251,8 @@ void FaultInjector::Add(std::string_view datagram, std::int64_t due_nanos) {
   if (const auto header = ParseHeader(datagram)) waiting.header = *header;
   if (waiting.header) Restart(waiting.datagram.bytes, *waiting.header, due_nanos);
   if (IsSwallowed(waiting.header, due_nanos)) return;
-  // Drawn for every datagram, so that the fate of one does not shift those of the others.
+  // Random numbers are drawn for every datagram, so that the faults of one do not affect the
+  // others.
   const bool is_lost = Happens(Fault::kLoss);
   const bool is_cut = Happens(Fault::kTruncate);
   const bool is_corrupt = Happens(Fault::kCorrupt);
@@ -279,7 +281,7 @@ void FaultInjector::Enqueue(Waiting waiting) {
   SetAside();
 }
 
-// Takes what is to be passed by others out of their way.
+// Sets aside the datagrams that others should overtake.
 void FaultInjector::SetAside() {
   while (!queue_.empty() && queue_.front().put_back_by > 0) {
     Waiting waiting = std::move(queue_.front());
@@ -291,7 +293,7 @@ void FaultInjector::SetAside() {
   }
 }
 
-// Nothing will pass what is aside, for now.
+// No datagram will overtake those that are aside, for now.
 void FaultInjector::StopWaiting(std::int64_t now_nanos) {
   for (Waiting& waiting : aside_) {
     waiting.until = std::min(waiting.until, std::max(now_nanos, waiting.datagram.send_nanos));
@@ -315,10 +317,10 @@ std::optional<std::int64_t> FaultInjector::next_send_nanos() const {
   return next;
 }
 
-// One more has had its place; `is_sent`: and did not step aside.
+// One more datagram has passed; `is_sent`: it was not set aside.
 void FaultInjector::LetPass(std::int64_t send_nanos, bool is_sent) {
   for (std::size_t i = 0; i < aside_.size();) {
-    const bool is_gone_before = aside_[i].until < send_nanos;  // its time is up
+    const bool is_gone_before = aside_[i].until < send_nanos;  // its time limit is over
     aside_[i].passed_by += is_sent ? 1 : 0;
     if (is_gone_before || --aside_[i].put_back_by > 0) {
       ++i;

@@ -1,24 +1,25 @@
-/// Damages a stream of datagrams as networks and senders do, on purpose, repeatably: the same seed
-/// and the same input give the same output. Knows no clock: datagrams come with the time at which
-/// they are due and leave with the time at which to send them, so that the same code runs in tests
-/// in virtual time and in `kinescope stream` in real time. Times are nanoseconds since anything.
+/// Injects network and sender faults into a stream of datagrams, reproducibly: the same seed and
+/// the same input give the same output. It reads no clock: datagrams are added with the time at
+/// which they are due and returned with the time at which to send them. So the same code runs in
+/// tests in virtual time and in `kinescope stream` in real time. Times are ns since any fixed
+/// instant.
 ///
-/// Faults, and what their share is a share of:
-///   loss       of datagrams: gone
+/// Faults, and the base of each share:
+///   loss       of datagrams: dropped
 ///   duplicate  of datagrams: the same bytes again, up to 3 places later
-///   reorder    of datagrams: put back by 1 to 3 places
-///   jitter     of datagrams: delayed by up to 5 ms; those after it wait, order is kept
-///   burst      of time: what is due in such a tenth of a second is sent at once at its end
-///   truncate   of datagrams: cut short anywhere, also to nothing
+///   reorder    of datagrams: moved back by 1 to 3 places
+///   jitter     of datagrams: delayed by up to 5 ms; later ones wait, the order is kept
+///   burst      of time: everything due in such a tenth of a second is sent at once at its end
+///   truncate   of datagrams: cut short anywhere, also to 0 bytes
 ///   corrupt    of datagrams: 1 to 4 random bytes changed
 ///   foreign    of datagrams: JSON, XML, other text or random bytes inserted before it
 ///   silence    of time: nothing is sent for a second
-///   reset      of seconds: the character's sample counter and time code start over at 0
-/// Shares of time are kept exactly: a share of 0.05 is one burst in every 2 s, one silence in every
-/// 20 s, one reset in every 20 s, at a random place therein.
+///   reset      of seconds: sample counter and time code of the character start over at 0
+/// Shares of time are exact: a share of 0.05 is one burst in every 2 s, one silence in every 20 s,
+/// one reset in every 20 s, each at a random place in its interval.
 ///
 /// Loss, truncation, corruption and duplication exclude each other, in this order, so that each
-/// datagram has one fate; times, order and resets go on top. One thread.
+/// datagram has at most one of them; times, order and resets are applied in addition. One thread.
 #pragma once
 
 #include <array>
@@ -64,24 +65,27 @@ struct FaultSettings {
   double& operator[](Fault fault) { return share[static_cast<std::size_t>(fault)]; }
 };
 
-/// Sets what `text` says: "loss=0.05"; "jitter=0.05:0.02" with the seconds of a jitter, burst or
+/// Applies one setting: "loss=0.05"; "jitter=0.05:0.02" with the seconds of a jitter, burst or
 /// silence; "all=0.01" for every fault.
-/// @throws UsageError naming the fault, the value and what would be right.
+/// @throws UsageError with the fault, the value and the expected form.
 void SetFault(std::string_view text, FaultSettings& settings);
 
 struct FaultCount {
   std::uint64_t injected = 0;   // datagrams, bursts, silences, resets
-  std::uint64_t datagrams = 0;  // that it was done to: held back by a burst, swallowed by a silence
-  std::uint64_t refused = 0;    // truncate, corrupt: ParseDatagram() refuses what is left
-  std::uint64_t silent = 0;     // likewise, it does not: nobody can tell
+  std::uint64_t datagrams = 0;  // affected datagrams: delayed by a burst, discarded by a silence
+  std::uint64_t refused = 0;    // truncate, corrupt: of these, ParseDatagram() rejects the result
+  std::uint64_t silent = 0;     // truncate, corrupt: of these, the result is valid, so the damage
+                                // cannot be detected
 };
 
-/// One fault done to one datagram, told as it happens.
+/// One fault applied to one datagram.
 struct Injection {
   Fault fault = Fault::kLoss;
-  std::optional<Header> header;   // as it would have been sent; none: it had no readable one
-  std::optional<Header> claimed;  // truncate, corrupt: what a reader takes it for, if it is taken
-  Reason refused_for = Reason::kEmpty;  // truncate, corrupt, foreign: why, where it is refused
+  std::optional<Header> header;   // header before the fault; none: not readable
+  std::optional<Header> claimed;  // truncate, corrupt: header after the fault, if the datagram is
+                                  // still accepted
+  Reason refused_for = Reason::kEmpty;  // truncate, corrupt, foreign: why ParseDatagram() rejects
+                                        // it, if it does
 };
 
 struct TimedDatagram {
@@ -91,22 +95,22 @@ struct TimedDatagram {
 
 class FaultInjector {
  public:
-  /// @pre shares and seconds are in the ranges that SetFault() takes
+  /// @pre shares and seconds are in the ranges that SetFault() accepts
   FaultInjector(const FaultSettings& settings, std::uint64_t seed);
 
-  /// Called for every fault of one datagram, from Add() or Take().
+  /// Called from Add() or Take() for every fault of one datagram.
   void set_listener(std::function<void(const Injection&)> listener) {
     listener_ = std::move(listener);
   }
 
-  /// Takes the next datagram. @pre `due_nanos` is not before that of the one before
+  /// Adds the next datagram. @pre `due_nanos` never goes back
   void Add(std::string_view datagram, std::int64_t due_nanos);
 
-  /// Nothing more comes: what waits for others to pass it need not wait any longer.
+  /// End of the input: datagrams that wait to be overtaken do not wait any longer.
   void End();
 
-  /// When the next datagram is to be sent; nullopt: there is none. A datagram that is added later
-  /// may have to go before it, so send nothing that is due later than what is still to be added.
+  /// When to send the next datagram; nullopt: there is none. A datagram that is added later may
+  /// have to be sent first, so do not send beyond the due time of the next Add().
   std::optional<std::int64_t> next_send_nanos() const;
 
   /// The next datagram. Times never go back. @pre next_send_nanos() has a value
@@ -115,31 +119,31 @@ class FaultInjector {
   const FaultCount& count(Fault fault) const { return counts_[Index(fault)]; }
 
  private:
-  // Windows of time, one somewhere in each of equally long cycles.
+  // Time windows: one at a random place in each of equally long cycles.
   struct Windows {
     std::int64_t cycle_start = 0;
     std::int64_t start = 0;   // of the window of this cycle
-    bool is_counted = false;  // something fell into it
-    bool is_begun = false;    // there is a cycle at all
+    bool is_counted = false;  // a datagram was in it
+    bool is_begun = false;    // the first cycle has begun
   };
 
-  // A datagram on its way, and what will happen to it when its turn comes.
+  // A queued datagram and the faults that will be applied to it.
   struct Waiting {
     TimedDatagram datagram;
     std::optional<Header> header;
-    int put_back_by = 0;     // places still to go; 0: it stays in order
-    int again_after = -1;    // -1: it is sent once
-    bool is_copy = false;    // the second time
-    std::int64_t until = 0;  // aside: no longer than this
-    int passed_by = 0;       // aside: so many were sent first
+    int put_back_by = 0;     // places still to move back; 0: stays in order
+    int again_after = -1;    // datagrams until it is sent again; -1: it is sent once
+    bool is_copy = false;    // the repetition
+    std::int64_t until = 0;  // aside: send it at this time at the latest
+    int passed_by = 0;       // aside: number of datagrams sent before it
   };
 
   // Sample counters of one character, for resets.
   struct Count {
-    std::uint32_t newest = 0;  // as it came
-    std::uint32_t base = 0;    // what is sent as 0
+    std::uint32_t newest = 0;  // as added
+    std::uint32_t base = 0;    // the counter that is sent as 0
     std::uint32_t time_base = 0;
-    std::uint32_t base_before = 0;  // for the sample before the reset, where it comes later
+    std::uint32_t base_before = 0;  // for late datagrams of the sample before the reset
     std::uint32_t time_base_before = 0;
     std::int64_t cycle_start = 0;
     std::int64_t next_reset = 0;
@@ -166,22 +170,23 @@ class FaultInjector {
   void RepeatIfDue(const Waiting& sent);
 
   const FaultSettings settings_;
-  std::array<std::mt19937_64, kFaultCount> engines_;  // one each: no fault shifts another
+  std::array<std::mt19937_64, kFaultCount> engines_;  // one per fault, so that faults do not affect
+                                                      // each other
   std::function<void(const Injection&)> listener_;
   std::array<FaultCount, kFaultCount> counts_{};
 
   std::optional<std::int64_t> first_due_;
-  std::int64_t last_jittered_ = 0;  // the times of what was enqueued last and
+  std::int64_t last_jittered_ = 0;  // of the datagram enqueued last
   std::int64_t last_send_ = 0;
-  std::int64_t last_taken_ = 0;   // of what was taken last
-  bool nothing_follows_ = false;  // for now: nothing may wait to be passed
+  std::int64_t last_taken_ = 0;   // of the datagram taken last
+  bool nothing_follows_ = false;  // currently no datagram may wait to be overtaken
   Windows bursts_;
   Windows silences_;
   std::map<int, Count> characters_;
 
   std::deque<Waiting> queue_;   // in order of sending
-  std::vector<Waiting> aside_;  // taken out of order, to be passed by others
-  std::deque<Waiting> ready_;   // passed by enough of them
+  std::vector<Waiting> aside_;  // taken out of order, to be overtaken
+  std::deque<Waiting> ready_;   // overtaken by enough datagrams
 };
 
 }  // namespace kinescope::mvn

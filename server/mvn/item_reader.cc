@@ -6,13 +6,13 @@
 namespace kinescope::mvn {
 namespace {
 
-// Finite is not enough: 1e38 m would still ruin a picture. No position, rate or angle of a human in
-// m, s, rad or degrees comes near this.
+// Finite is not enough: 1e38 m would still spoil a picture. No position, rate or angle of a human
+// in m, s, rad or degrees is near this limit.
 constexpr double kLargestNumber = 1e6;
 
 constexpr double kNormTolerance = 1e-3;
 
-// Bytes of the UTF-8 sequence at the start of `text`; 0 where it is none or a control character.
+// Length of the UTF-8 sequence at the start of `text`; 0 if it is invalid or a control character.
 std::size_t ValidSequence(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -42,7 +42,7 @@ bool ItemReader::FindLayout(const Header& header, std::size_t known_bytes, ItemL
   }
   const auto count = static_cast<std::size_t>(header.item_count);
   const std::size_t stride = payload / count;
-  // A later MVN may append fields to an item; room for a whole second item is a count that lies.
+  // A later MVN may append fields to an item; but room for a whole second item means a wrong count.
   if (payload % count != 0 || stride < known_bytes || stride >= 2 * known_bytes) {
     return Fail(Reason::kItemCount, header.item_count);
   }
@@ -84,7 +84,7 @@ bool ItemReader::ReadUnitQuaternion(Eigen::Quaterniond& value) {
 bool ItemReader::ReadText(std::string_view& text) {
   std::uint32_t length = 0;
   if (!bytes.Read(length)) return Fail(Reason::kPayloadSize, 0);
-  // Negative lengths (the field is signed) are huge here, so one comparison refuses both.
+  // Negative lengths (the field is signed) are huge here, so one comparison rejects both.
   if (!bytes.ReadBytes(length, text)) return Fail(Reason::kLyingLength, length);
   return true;
 }

@@ -1,5 +1,5 @@
-/// Steps shared by the bodies of all message types: reads numbers and texts, and remembers the
-/// first thing that is wrong. Not for use outside the parser.
+/// Common steps of parsing all message types: reads numbers and texts, and remembers the first
+/// error. Only for the parser. One thread.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace kinescope::mvn {
 
-/// How the items of a message lie in its payload.
+/// Layout of the items in the payload of a message.
 struct ItemLayout {
   int count = 0;
   std::size_t stride = 0;
@@ -29,9 +29,9 @@ class ItemReader {
     return false;
   }
 
-  /// The layout of items that are at least `known_bytes` long.
+  /// Computes the layout of items that are at least `known_bytes` long.
   [[nodiscard]] bool FindLayout(const Header& header, std::size_t known_bytes, ItemLayout& layout);
-  /// To the start of item `index` of a payload that begins right after the header.
+  /// Moves to the start of item `index` in a payload that begins directly after the header.
   [[nodiscard]] bool GoTo(const ItemLayout& layout, int index) {
     return bytes.Seek(kHeaderBytes + layout.stride * static_cast<std::size_t>(index));
   }
@@ -40,7 +40,7 @@ class ItemReader {
   [[nodiscard]] bool ReadVector(Eigen::Vector3d& value);
   [[nodiscard]] bool ReadUnitQuaternion(Eigen::Quaterniond& value);  // in the stream: w x y z
   [[nodiscard]] bool ReadText(std::string_view& text);
-  /// A count of things that take at least `bytes_each`.
+  /// Reads a count of elements that have at least `bytes_each` bytes.
   [[nodiscard]] bool ReadCount(std::size_t bytes_each, std::uint32_t& count);
 
  private:
@@ -49,15 +49,15 @@ class ItemReader {
 
 inline constexpr std::size_t kLongestName = 128;  // of a character, segment or point, in bytes
 
-/// The vector that the Y-up axes of types 01 and 03 call `yup`, in the Z-up world.
+/// Converts a vector from the Y-up axes of types 01 and 03 to the Z-up world frame, and back.
 inline Eigen::Vector3d FromYUp(const Eigen::Vector3d& yup) { return {yup.z(), yup.x(), yup.y()}; }
 inline Eigen::Vector3d ToYUp(const Eigen::Vector3d& zup) { return {zup.y(), zup.z(), zup.x()}; }
 inline constexpr double kMetresPerCentimetre = 0.01;
 
-/// `text` as valid UTF-8: what is not, and control characters, become '?'. At most `longest` bytes.
+/// `text` as valid UTF-8: invalid bytes and control characters become '?'. At most `longest` bytes.
 std::string CleanText(std::string_view text, std::size_t longest);
 
-/// Bodies of single types; false with `in.error` set.
+/// Parse the bodies of single types; false after setting `in.error`.
 [[nodiscard]] bool ParseSegments(ItemReader& in, const Header& header, PoseMessage& out);
 [[nodiscard]] bool ParseSegments(ItemReader& in, const Header& header, EulerPoseMessage& out);
 [[nodiscard]] bool ParseSegments(ItemReader& in, const Header& header, LinearMessage& out);

@@ -1,5 +1,5 @@
-/// Which message types a stream sends with every sample: learnt, and relearnt when a type is
-/// switched on or off. One thread.
+/// Learns which message types a stream sends with every sample, and follows when a type is switched
+/// on or off. One thread.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace kinescope::mvn {
 
 class LearntTypes {
  public:
-  /// Takes the types of one sample more.
+  /// Adds the types of one more sample.
   void Learn(SampleTypes came) {
     samples_ = std::min(samples_ + 1, kSamplesToLearn);
     for (std::size_t type = 0; type < kSampleTypeCount; ++type) {
@@ -23,7 +23,7 @@ class LearntTypes {
     }
   }
 
-  /// `type` belongs to every sample from now on.
+  /// Marks `type` as part of every sample from now on.
   void Expect(SampleType type) {
     usual_.set(static_cast<std::size_t>(type));
     missed_[static_cast<std::size_t>(type)] = 0;
@@ -31,7 +31,7 @@ class LearntTypes {
 
   bool are_known() const { return samples_ >= kSamplesToLearn; }
 
-  /// Whether all that can be expected is among `types`; false as long as that is not known.
+  /// Whether `types` contains all expected types; false until these are known.
   bool AreAllIn(SampleTypes types) const { return are_known() && (usual_ & ~types).none(); }
 
   bool IsAnyMissingIn(SampleTypes types) const { return (usual_ & ~types).any(); }
@@ -41,7 +41,7 @@ class LearntTypes {
   static constexpr int kMissesToForget = 5;
 
   SampleTypes usual_;
-  std::array<int, kSampleTypeCount> missed_{};  // samples in a row without it
+  std::array<int, kSampleTypeCount> missed_{};  // consecutive samples without it
   int samples_ = 0;
 };
 

@@ -1,5 +1,6 @@
-/// Sources by URL, the same everywhere: `udp://:9763`, `tcp://:9763`, `tcp://host:9763`,
-/// `motion.mvnx`, `take.pcap`, `take.bin`; files also with `.gz` or `.xz`.
+/// Opens streams and recordings by URL, in the same way for all commands: `udp://:9763`,
+/// `tcp://:9763`, `tcp://host:9763`, `motion.mvnx`, `take.pcap`, `take.bin`; files may be
+/// compressed (core/input_file.h). Any thread.
 #pragma once
 
 #include <memory>
@@ -16,18 +17,18 @@ struct StreamSettings {
   Stamps stamps = Stamps::kFitted;
 };
 
-/// The datagrams of `url`, or null where it is no stream of datagrams (an MVNX file, demo:lift,
+/// The datagrams of `url`, or null if it is not a stream of datagrams (an MVNX file, demo:lift,
 /// ros:).
-/// A file is known by its first bytes, not by its name.
-/// @throws SourceError naming the URL, what is wrong and what would be right (port taken, file
-/// missing, not a capture).
+/// The format of a file is detected by its first bytes, not by its name.
+/// @throws SourceError with the URL, the error and the remedy (port in use, missing file, not a
+/// capture).
 std::unique_ptr<DatagramSource> OpenDatagrams(const std::string& url);
 
-/// `datagrams` joined to samples.
+/// The samples that are assembled from `datagrams`.
 std::unique_ptr<Source> OpenStream(std::unique_ptr<DatagramSource> datagrams,
                                    const StreamSettings& settings = {});
 
-/// An MVNX file. @throws SourceError as above.
+/// Opens an MVNX file. @throws SourceError with the file, the error and the remedy.
 std::unique_ptr<Source> OpenMvnx(const std::string& path);
 
 }  // namespace kinescope::mvn

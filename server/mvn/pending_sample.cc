@@ -7,8 +7,8 @@
 namespace kinescope::mvn {
 namespace {
 
-// More things than a cluster of tracked objects was seen to have; a body in this many segments is
-// one of which parts are lost.
+// More objects than any observed group of tracked objects; a body with more segments than this has
+// lost parts.
 constexpr int kMostUnannouncedObjects = 8;
 
 template <std::size_t kBits, class Visit>
@@ -72,7 +72,7 @@ PendingSample::Added PendingSample::Add(const Message& message, std::uint32_t di
   if (part == 0) digests_[index] = digest;
   if (*type == kPoseType) body_segments_ = header.body_segments;
   ++datagrams_;
-  // Datagrams are stamped by the kernel, yet may be handed over in another order.
+  // The kernel stamps datagrams, but may deliver them in another order.
   sample_.arrival_nanos = std::max(sample_.arrival_nanos, now_nanos);
   std::visit([this](const auto& body) { Store(body); }, message.body);
   return Added::kYes;
@@ -168,7 +168,8 @@ BodySample PendingSample::TakeBody() const {
   BodySample sample = sample_;
   sample.has_linear = IsBody(linear_);
   sample.has_angular = IsBody(angular_);
-  // The quaternions of 02 are exact; 21 and 22 repeat them, and 01 has been through angles.
+  // The quaternions of 02 are exact; 21 and 22 repeat them, and those of 01 were converted from
+  // angles.
   const Slots derived = linear_ & angular_;
   const Slots& slots = IsBody(posed_) ? posed_ : IsBody(derived) ? derived : euler_posed_;
   const auto& poses = IsBody(posed_) ? poses_ : IsBody(derived) ? derived_poses_ : euler_poses_;

@@ -1,5 +1,5 @@
-/// One sample while its datagrams come in: which types and parts are there, and what they said.
-/// One thread, allocates nothing.
+/// Collects one sample while its datagrams arrive: types and parts received so far, and their
+/// values. One thread, no allocation.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace kinescope::mvn {
 
-/// The message types that make up a sample, as small numbers.
+/// The message types of a sample as consecutive numbers.
 enum SampleType : int {
   kPoseType,
   kEulerType,
@@ -34,17 +34,17 @@ std::optional<SampleType> SampleTypeOf(Type type);
 
 class PendingSample {
  public:
-  /// A new sample, of the counter and time code in `header`; everything before is forgotten.
+  /// Starts a new sample with the counter and time code of `header`; discards everything before.
   void Begin(const Header& header, const Arrival& arrival);
 
   enum class Added {
     kYes,
     kDuplicate,      // the same bytes again
-    kOther,          // another message in the place of one that is there
-    kContradiction,  // part numbers that cannot be
+    kOther,          // another message with the same place
+    kContradiction,  // impossible part numbers
   };
 
-  /// Takes over what `message` says; `digest` stands for its bytes. @pre it is of a SampleType.
+  /// Adds the values of `message`; `digest` identifies its bytes. @pre its type has a SampleType.
   Added Add(const Message& message, std::uint32_t digest, std::int64_t now_nanos);
 
   std::uint32_t counter() const { return sample_.counter; }
@@ -53,23 +53,23 @@ class PendingSample {
   }
   const Arrival& first_arrival() const { return first_arrival_; }
   std::uint64_t datagrams() const { return datagrams_; }
-  SampleTypes begun() const;                                 // at least one part is there
-  SampleTypes whole() const;                                 // all parts are there
-  const SampleDigests& digests() const { return digests_; }  // of first parts
+  SampleTypes begun() const;                                 // at least one part received
+  SampleTypes whole() const;                                 // all parts received
+  const SampleDigests& digests() const { return digests_; }  // of the first part of each type
   int odd_ids() const { return odd_ids_; }
 
   bool HasPose() const;     // all 23 segments: 02, or 21 and 22, or 01
-  bool HasObjects() const;  // a whole 02 of a few things that are no body
+  bool HasObjects() const;  // a complete 02 of a few segments that are not a body
 
-  /// The sample as far as it is known, without stamp and character. @pre HasPose()
+  /// The sample with the values so far, without stamp and character. @pre HasPose()
   BodySample TakeBody() const;
-  /// Likewise. @pre HasObjects()
+  /// The sample with the values so far, without stamp and character. @pre HasObjects()
   ObjectsSample TakeObjects() const;
 
  private:
   struct Parts {
     std::bitset<128> came;
-    int last = -1;  // number of the last part; -1: not known yet
+    int last = -1;  // number of the last part; -1: unknown
     bool whole() const;
   };
 
@@ -82,7 +82,8 @@ class PendingSample {
   void Store(const CenterOfMassMessage& body);
   void Store(const TimeCodeMessage& body);
   template <class Other>
-  void Store(const Other&) {}  // markers: checked, and nothing that a pose does not say better
+  void Store(const Other&) {}  // markers: checked only, since the poses contain the same
+                               // information
 
   using Slots = std::bitset<kSlotCount>;
   static bool IsBody(const Slots& slots);
@@ -91,10 +92,10 @@ class PendingSample {
   std::array<Parts, kSampleTypeCount> parts_;
   SampleDigests digests_{};
   std::uint64_t datagrams_ = 0;
-  int body_segments_ = 0;  // as the header of 02 says
+  int body_segments_ = 0;  // according to the header of 02
   int odd_ids_ = 0;
   Arrival first_arrival_;
-  BodySample sample_;  // all but its poses
+  BodySample sample_;  // everything except the poses
   Slots posed_, euler_posed_, linear_, angular_;
   std::array<urdf::Pose, kSlotCount> poses_{};          // of 02
   std::array<urdf::Pose, kSlotCount> euler_poses_{};    // of 01

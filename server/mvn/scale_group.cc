@@ -13,7 +13,7 @@ constexpr double kLongestBone = 1.0;
 
 using Origins = std::array<Eigen::Vector3d, urdf::kSegmentCount>;
 
-// The index in ExtraSegments of a finger's segment; nullopt for anything else.
+// The index of a finger segment in ExtraSegments; nullopt for other names.
 std::optional<std::size_t> FindFinger(const std::string& name) {
   for (int index = kMostProps; index < kExtraCount; ++index) {
     if (ExtraName(index) == name) return static_cast<std::size_t>(index);
@@ -32,7 +32,7 @@ bool IsHuman(const Origins& origins) {
 
 }  // namespace
 
-// By name and not by number: props, fingers and tracked objects stand in the same list.
+// By name and not by number: props, fingers and tracked objects are in the same list.
 std::optional<Reason> ScaleGroup::Read(const ScaleMessage& part, Segments& segments) {
   Origins origins;
   std::bitset<urdf::kSegmentCount> found;
@@ -71,8 +71,8 @@ std::optional<Reason> ScaleGroup::Add(const Header& header, const ScaleMessage& 
     segments.emplace();
     if (const auto refused = Read(part, *segments)) return refused;
   }
-  // Groups repeat with the same numbers, so segments after segments begin the next one. Points
-  // that overtook their segments stay.
+  // Groups repeat with the same numbers, so segments after segments begin the next one. Points that
+  // arrived before their segments stay.
   if (taken_ || (segments && segments_)) *this = ScaleGroup();
   parts_.set(static_cast<std::size_t>(header.part));
   if (header.is_last_part) last_part_ = header.part;

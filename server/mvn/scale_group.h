@@ -1,6 +1,6 @@
-/// Joins the datagrams of type 13 (first the segments, then points in several parts) to what they
-/// describe: a body with its gloves and props, or a cluster of tracked objects. Untrusted: what is
-/// kept is bounded. One thread.
+/// Assembles the datagrams of type 13 (first the segments, then points in several parts) to a
+/// description of a body with its gloves and props, or of a group of tracked objects. The input is
+/// untrusted: memory is limited. One thread.
 #pragma once
 
 #include <array>
@@ -17,19 +17,19 @@ namespace kinescope::mvn {
 
 class ScaleGroup {
  public:
-  /// Takes one part. Nothing, or why it is not used. Afterwards ask Take().
+  /// Adds one part. Returns nullopt, or why it was rejected. Call Take() afterwards.
   std::optional<Reason> Add(const Header& header, const ScaleMessage& part, std::int64_t now_nanos);
 
   struct Scale {
-    std::optional<urdf::Skeleton> skeleton;  // none: objects
+    std::optional<urdf::Skeleton> skeleton;  // absent: objects
     std::vector<ScaledSegment> extra;        // as in Character
   };
 
-  /// What was described, once per group: when all its parts came, or when no further part came for
-  /// half a second (a part was lost; landmarks that are missing are estimated).
+  /// Returns the description once per group: when all parts are received, or when no part was
+  /// received for half a second (a part was lost; missing landmarks are then estimated).
   std::optional<Scale> Take(std::int64_t now_nanos);
 
-  /// When Take() may have something without a further part; nullopt: nothing is waiting.
+  /// When Take() may succeed without a further part (monotonic clock, ns); nullopt: nothing waits.
   std::optional<std::int64_t> deadline_nanos() const;
 
  private:

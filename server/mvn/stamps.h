@@ -1,12 +1,12 @@
-/// The choice of clock for the stamps of samples that come over the network (--stamps).
+/// Defines which clock stamps the samples received over the network (option --stamps).
 #pragma once
 
 namespace kinescope::mvn {
 
 /// Which clock gives BodySample::stamp_nanos.
 enum class Stamps {
-  kFitted,   // arrival smoothed onto the sender's clock (clock_fit.h)
-  kArrival,  // as it came
+  kFitted,   // receive time, smoothed along the sender's clock (clock_fit.h)
+  kArrival,  // receive time, unchanged
 };
 
 }  // namespace kinescope::mvn

@@ -8,11 +8,11 @@
 namespace kinescope::mvn {
 namespace {
 
-// Foreign bytes are dealt with in pieces of at most this size.
+// Foreign bytes are returned in pieces of at most this size.
 constexpr std::size_t kLargestForeign = 65536;
 
-// Text of another program, as opposed to the rest of a damaged datagram. What begins like JSON or
-// XML may hold any letters.
+// Whether it is text of another program, and not the rest of a corrupt datagram. A text that begins
+// like JSON or XML may contain any letters.
 bool LooksLikeText(std::string_view bytes) {
   const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size() - 1);
   const bool has_markup = std::string_view("{[<").find(bytes[first]) != std::string_view::npos;
@@ -28,7 +28,7 @@ bool LooksLikeText(std::string_view bytes) {
 StreamFramer::StreamFramer() { buffer_.reserve(2 * kLargestExtent); }
 
 void StreamFramer::Append(std::string_view bytes) {
-  // StepBack() may want the last bytes of what was handed out.
+  // StepBack() may need the last bytes that were returned.
   const std::size_t used = start_ - std::min(start_, kIdStringBytes);
   if (start_ == buffer_.size() || buffer_.size() + bytes.size() > buffer_.capacity()) {
     buffer_.erase(0, used);
@@ -56,7 +56,7 @@ std::optional<std::string_view> StreamFramer::Next() {
     const std::string_view foreign = Take(*size, false);
     if (LooksLikeText(foreign)) return foreign;
     skipped_bytes_ += foreign.size();
-    has_short_items_.reset();  // perhaps this is what put us out of step
+    has_short_items_.reset();  // this may be why the position was wrong
   }
   return std::nullopt;
 }
@@ -69,7 +69,7 @@ std::string_view StreamFramer::Take(std::size_t size, bool is_datagram) {
   return taken;
 }
 
-// How many of the bytes that are left are the datagram with which they begin.
+// The length of the datagram at the beginning of the remaining bytes.
 std::optional<std::size_t> StreamFramer::DatagramSize() {
   const std::string_view bytes = left();
   const auto type = static_cast<std::size_t>(TypeNumber(bytes));
@@ -87,7 +87,7 @@ std::optional<std::size_t> StreamFramer::DatagramSize() {
     }
     return cut;
   }
-  // Without a size, what follows the header is left to be searched as foreign.
+  // Without a size, the bytes after the header are searched as foreign.
   if (bytes.size() >= end) return has_size ? end : kHeaderBytes;
   if (!has_ended_) return std::nullopt;
   const bool is_short = extent.short_size > 0 && bytes.size() >= extent.short_size &&
@@ -95,8 +95,7 @@ std::optional<std::size_t> StreamFramer::DatagramSize() {
   return is_short ? extent.short_size : bytes.size();
 }
 
-// How many of the bytes that are left come before the next datagram, none of which they are part
-// of.
+// The number of remaining bytes before the next datagram that belong to none.
 std::optional<std::size_t> StreamFramer::SizeOfForeign() {
   const std::string_view bytes = left().substr(0, kLargestForeign + kIdStringBytes);
   const std::size_t from = std::max<std::size_t>(searched_, 1);
@@ -112,8 +111,8 @@ std::optional<std::size_t> StreamFramer::SizeOfForeign() {
   return size;
 }
 
-// When something foreign follows a datagram, that may have held the first bytes of the next one:
-// goes back to them and says by how many bytes; nullopt: more bytes are needed to tell.
+// If foreign bytes follow a datagram, it may have contained the first bytes of the next one: goes
+// back to them and returns by how many bytes; nullopt: more bytes are needed.
 std::optional<std::size_t> StreamFramer::StepBack() {
   const std::size_t most =
       std::min(kIdStringBytes, last_size_ - std::min(last_size_, kIdStringBytes));

@@ -19,7 +19,7 @@ TimeCodeLine::Fit TimeCodeLine::Fits(std::uint32_t counter, std::uint32_t time_c
   const double millis = Ahead(newest_.millis, anchor_->millis);
   if (counts <= 0 || millis <= 0) return Fit::kUnknown;
   const double expected = Ahead(counter, newest_.counter) * millis / counts;
-  // From a short line the slope is only known to a rounding of its length.
+  // For a short line, the accuracy of the slope is its rounding divided by its length.
   const double tolerance = kRoundingMillis + std::abs(expected) * (kSlopeTolerance + 2 / millis);
   const double error = Ahead(time_code_millis, newest_.millis) - expected;
   return std::abs(error) <= tolerance ? Fit::kYes : Fit::kNo;
@@ -44,7 +44,7 @@ bool StepMeter::IsGap(std::uint32_t step) const {
 }
 
 // The largest step that makes up a quarter of the latest ones: 240 Hz sent at 100 Hz steps by 2 and
-// 3 in turn, and neither is a loss.
+// 3 alternately, and neither is a loss.
 std::uint32_t StepMeter::usual() const {
   const std::size_t known = std::min(count_, steps_.size());
   if (known == 0) return 1;
@@ -54,7 +54,7 @@ std::uint32_t StepMeter::usual() const {
     const auto times = static_cast<std::size_t>(std::count(steps_.begin(), end, *step));
     if (times * 4 >= known) usual = std::max(usual, *step);
   }
-  // All different: nothing is usual, and nothing can be called a gap.
+  // All different: there is no usual step, so no step is a gap.
   return usual == 0 ? *std::max_element(steps_.begin(), end) : usual;
 }
 

@@ -17,7 +17,8 @@ StreamSource::StreamSource(std::unique_ptr<DatagramSource> datagrams, Stamps sta
     : datagrams_(std::move(datagrams)), assembler_(stamps) {}
 
 void StreamSource::OnDatagram(const ReceivedDatagram& datagram) {
-  // In a capture time is what its packets say, so what falls due between two of them is due now.
+  // In a capture the packets define the time, so samples that fall due between two packets are
+  // delivered now.
   if (!is_live()) assembler_.Expire(datagram.arrival.monotonic_nanos, *this);
   assembler_.Add(datagram.from, datagram.bytes, datagram.arrival, is_live() ? *sink_ : *this);
 }
@@ -46,7 +47,7 @@ Source::State StreamSource::Poll(std::chrono::milliseconds timeout, SampleSink& 
   }
   switch (datagrams_->Poll(wait, *this)) {
     case DatagramSource::State::kMore: break;
-    // Only now: the rest of an overdue sample may have lain in the socket.
+    // Only here: the rest of an overdue sample may have waited in the socket.
     case DatagramSource::State::kIdle:
       if (is_live()) assembler_.Expire(MonotonicNanos(), sink);
       break;

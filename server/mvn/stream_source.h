@@ -1,4 +1,4 @@
-/// A stream of datagrams as a source of samples. One thread.
+/// Delivers the samples of a stream of datagrams. One thread.
 #pragma once
 
 #include <chrono>
@@ -11,9 +11,9 @@
 
 namespace kinescope::mvn {
 
-/// - A live stream: stamps on this machine's clock.
-/// - A capture: its time is the capture's, so the same file always gives the same samples, whatever
-///   the machine does; arrival_nanos is 0, as with any file.
+/// - A live stream: stamps are on the wall clock of this machine.
+/// - A capture: times are those of the capture, so the same file always gives the same samples,
+///   independent of the machine. arrival_nanos is 0, as for every file.
 class StreamSource : public Source, private DatagramSink, private SampleSink {
  public:
   StreamSource(std::unique_ptr<DatagramSource> datagrams, Stamps stamps);
@@ -27,7 +27,7 @@ class StreamSource : public Source, private DatagramSink, private SampleSink {
 
  private:
   void OnDatagram(const ReceivedDatagram& datagram) override;
-  // Of a capture, on the way to the caller's sink.
+  // Receives the samples of a capture, on the way to the caller's sink.
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override;

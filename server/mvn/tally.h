@@ -1,5 +1,5 @@
-/// Counts what became of every datagram. Arrays while running, so that counting allocates nothing;
-/// turned into SourceCounters when somebody asks.
+/// Counts the result of every datagram. Arrays are used while running, so that counting allocates
+/// nothing; ToCounters() converts them. One thread.
 #pragma once
 
 #include <array>
@@ -20,10 +20,10 @@ struct Tally {
   std::uint64_t counter_gaps = 0;
   std::uint64_t restarts = 0;
   std::uint64_t outliers = 0;
-  std::uint64_t odd_ids = 0;  // items told by their place against their id; no datagrams
-  std::array<std::uint64_t, 100> types{};  // datagrams that were read, by message type
+  std::uint64_t odd_ids = 0;               // items whose place contradicts their id; not datagrams
+  std::array<std::uint64_t, 100> types{};  // datagrams read, by message type
   std::array<std::uint64_t, kReasonCount> rejected{};
-  std::uint64_t in_samples = 0;     // datagrams of samples given on
+  std::uint64_t in_samples = 0;     // datagrams of delivered samples
   std::uint64_t in_characters = 0;  // types 12 and 13 that were used
 
   void Reject(Reason reason, std::uint64_t count = 1) {
@@ -31,7 +31,7 @@ struct Tally {
   }
   void CountType(Type type) { ++types[static_cast<std::size_t>(type)]; }
 
-  /// Datagrams that have ended somewhere; the rest of `datagrams` waits for the rest of its sample.
+  /// Datagrams with a final result; the other `datagrams` belong to samples that still wait.
   std::uint64_t settled() const {
     std::uint64_t sum = in_samples + in_characters + duplicates + late + outliers;
     for (const std::uint64_t count : rejected) sum += count;

@@ -1,33 +1,108 @@
 #include "server/options/option_list.h"
 
-namespace kinescope::app {
+#include <fmt/format.h>
 
-YamlValues::YamlValues(const std::string& path) : path_(path) {
+#include <algorithm>
+#include <utility>
+
+#include "core/errors.h"
+
+namespace kinescope::options {
+namespace {
+
+// The known word that the text, or the first word of one of its items, probably means.
+std::string NearestWord(const std::string& text, const std::vector<std::string>& names) {
+  std::string nearest = Nearest(text, names);
+  for (const std::string& item : SplitItems(text)) {
+    if (!nearest.empty()) break;
+    const std::string word = item.substr(0, item.find_first_of(":=@"));
+    if (std::count(names.begin(), names.end(), word) == 0) nearest = Nearest(word, names);
+  }
+  return nearest;
+}
+
+[[noreturn]] void Refuse(const std::string& name, const Value& value, const std::string& text,
+                         const std::string& reason) {
+  const bool names_it = reason.find("; nearest: ") != std::string::npos;
+  const std::string nearest = names_it ? "" : NearestWord(text, value.Names());
+  throw UsageError(fmt::format("{}={}: {}{}{}", name, text, reason,
+                               nearest.empty() ? "" : "; nearest: ", nearest));
+}
+
+}  // namespace
+
+void OptionList::operator()(std::string name, Value& value, std::string help) {
+  options_.push_back({std::move(name), &value, std::move(help), group_, Channel::kDefault, {}});
+}
+
+void OptionList::Formerly(std::string name) { options_.back().former_name = std::move(name); }
+
+Option* OptionList::Find(const std::string& name) {
+  const auto found = std::find_if(options_.begin(), options_.end(), [&](const Option& option) {
+    return option.name == name || option.former_name == name;
+  });
+  return found == options_.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> OptionList::Names() const {
+  std::vector<std::string> names;
+  names.reserve(options_.size());
+  for (const Option& option : options_) names.push_back(option.name);
+  return names;
+}
+
+void OptionList::Set(Option& option, const std::string& given_name, const std::string& text,
+                     Channel channel, const std::string& origin) {
   try {
-    root_ = YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw UsageError("--config=" + path + ": no such file, or it may not be read");
-  } catch (const YAML::Exception& error) {
-    throw UsageError("--config=" + path + ": line " + std::to_string(error.mark.line + 1) + ": " +
-                     error.msg);
+    option.value->Parse(text);
+  } catch (const BadValue& error) {
+    Refuse(origin + given_name, *option.value, text, error.what());
   }
-  if (!root_.IsMap()) throw UsageError("--config=" + path + ": expected lines of 'name: value'");
+  OnSet(option, given_name, channel, origin);
 }
 
-std::optional<std::string> YamlValues::operator()(const std::string& name) const {
-  const YAML::Node value = root_[name];
-  if (!value) return std::nullopt;
-  if (!value.IsScalar()) throw UsageError(path_ + ": " + name + ": expected one value");
-  return value.Scalar();
+void OptionList::SetAll(Option& option, const std::string& given_name,
+                        const std::vector<std::string>& texts) {
+  try {
+    option.value->ParseAll(texts);
+  } catch (const BadValue& error) {
+    Refuse("--" + given_name, *option.value, fmt::format("{}", fmt::join(texts, ";")),
+           error.what());
+  }
+  OnSet(option, given_name, Channel::kCommandLine, "--");
 }
 
-void YamlValues::RefuseUnknown(const std::set<std::string>& known) const {
-  for (const auto& entry : root_) {
-    const std::string key = entry.first.Scalar();
-    if (known.count(key) > 0) continue;
-    throw UsageError(path_ + ": line " + std::to_string(entry.first.Mark().line + 1) +
-                     ": no option is called '" + key + "' (see --help)");
+void OptionList::OnSet(Option& option, const std::string& given_name, Channel channel,
+                       const std::string& origin) {
+  option.channel = channel;
+  if (given_name != option.name) {
+    Warn(fmt::format("{}{}: this option is now called {}; the next version rejects the former name",
+                     origin, given_name, option.name));
+  }
+  for (const FormerWord& word : option.value->former_words()) {
+    Warn(fmt::format(
+        "{}{}={}: this value is now called {}; the next version rejects the former name", origin,
+        given_name, word.former, word.current));
   }
 }
 
-}  // namespace kinescope::app
+void OptionList::Warn(std::string warning) {
+  if (std::count(warnings_.begin(), warnings_.end(), warning) == 0) {
+    warnings_.push_back(std::move(warning));
+  }
+}
+
+void SetFrom(const Lookup& lookup, Channel channel, OptionList& options) {
+  for (Option& option : options) {
+    if (option.channel > channel) continue;
+    for (const std::string& name : {option.name, option.former_name}) {
+      if (name.empty()) continue;
+      if (const auto found = lookup(name)) {
+        options.Set(option, name, found->text, channel, found->origin);
+        break;
+      }
+    }
+  }
+}
+
+}  // namespace kinescope::options

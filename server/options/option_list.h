@@ -1,125 +1,77 @@
-/// Fills an options struct (options.h) from its three channels: a YAML file, ROS private
-/// parameters, the command line. The later wins. Names are the same everywhere.
+/// The options of a command, one list for the command line, YAML files, ROS parameters, --help and
+/// provenance. A list refers to the values, which stay where they are. One thread.
 #pragma once
 
-#include <yaml-cpp/yaml.h>
-
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
-#include <set>
-#include <sstream>
 #include <string>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
-#include "core/errors.h"
+#include "server/options/value.h"
 
-namespace kinescope::app {
+namespace kinescope::options {
 
-template <class T>
-struct OptionalOf : std::false_type {
-  using Value = T;
+/// The group of options that --help does not show.
+inline constexpr char kHidden[] = "hidden";
+
+/// Where a value came from; the later wins.
+enum class Channel { kDefault, kFile, kParameter, kCommandLine };
+
+struct Option {
+  std::string name;
+  Value* value;
+  std::string help;
+  std::string group;  // its heading in --help
+  Channel channel = Channel::kDefault;
+  std::string former_name;  // accepted with a warning, for one version; "": none
 };
-template <class T>
-struct OptionalOf<std::optional<T>> : std::true_type {
-  using Value = T;
-};
 
-/// `text` as a T, which may be optional or a list with ; between. @throws UsageError naming option,
-/// value and what was expected.
-template <class T>
-T ParseOption(const std::string& name, const std::string& text) {
-  if constexpr (std::is_same_v<T, std::vector<std::string>>) {  // several, with ; between
-    T list;
-    std::istringstream parts(text);
-    for (std::string part; std::getline(parts, part, ';');) list.push_back(part);
-    return list;
-  } else {
-    typename OptionalOf<T>::Value value{};
-    using Value = decltype(value);
-    const auto refuse = [&](const char* expected) {
-      throw UsageError(name + "=" + text + ": expected " + expected);
-    };
-    if constexpr (std::is_same_v<Value, std::string>) {
-      value = text;
-    } else if constexpr (std::is_same_v<Value, bool>) {
-      if (text != "true" && text != "false" && text != "1" && text != "0") refuse("true or false");
-      value = text == "true" || text == "1";
-    } else {
-      if (!CLI::detail::lexical_cast(text, value)) {
-        refuse(std::is_integral_v<Value> ? "a whole number" : "a number");
-      }
-    }
-    return value;
-  }
-}
-
-/// One --flag for each option. Bools become --flag / --flag=false. The option called `positional`
-/// may also be given without its flag.
-class FlagAdder {
+class OptionList {
  public:
-  explicit FlagAdder(CLI::App& command, std::string positional = {})
-      : command_(command), positional_(std::move(positional)) {}
+  /// The heading of the options that follow.
+  void Group(std::string heading) { group_ = std::move(heading); }
+  void operator()(std::string name, Value& value, std::string help);
+  /// Accepts `name`, too, for the option added last. @pre there is one
+  void Formerly(std::string name);
 
-  template <class T>
-  void operator()(const std::string& name, T& value, const std::string& help) {
-    if constexpr (std::is_same_v<T, bool>) {
-      command_.add_flag("--" + name, value, help);
-    } else {
-      const std::string names = "--" + name + (name == positional_ ? "," + name : "");
-      CLI::Option* option = command_.add_option(names, value, help);
-      if constexpr (std::is_same_v<T, std::vector<std::string>>) {
-        option->allow_extra_args(false);  // one each time it is said
-      } else if constexpr (!OptionalOf<T>::value) {
-        option->capture_default_str();
-      }
-    }
-  }
+  std::vector<Option>::iterator begin() { return options_.begin(); }
+  std::vector<Option>::iterator end() { return options_.end(); }
+  std::vector<Option>::const_iterator begin() const { return options_.begin(); }
+  std::vector<Option>::const_iterator end() const { return options_.end(); }
+  /// The option with this name or former name; null if there is none.
+  Option* Find(const std::string& name);
+  std::vector<std::string> Names() const;
+
+  /// Sets an option, under the name that was given: its own or its former one.
+  /// `origin` stands before the name in an error: "--", or "file.yaml:3: ".
+  /// @throws UsageError: "--sex=mael: expected male or female; nearest: male".
+  void Set(Option& option, const std::string& given_name, const std::string& text, Channel channel,
+           const std::string& origin = "--");
+  /// Sets an option that was given several times on the command line. @throws UsageError.
+  void SetAll(Option& option, const std::string& given_name, const std::vector<std::string>& texts);
+
+  /// One sentence for each former name of an option or a word that was given.
+  const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
-  CLI::App& command_;
-  std::string positional_;
+  void OnSet(Option& option, const std::string& given_name, Channel channel,
+             const std::string& origin);
+  void Warn(std::string warning);
+
+  std::vector<Option> options_;
+  std::string group_;
+  std::vector<std::string> warnings_;
 };
 
-/// Values from elsewhere, for options that the command line did not set. Without a `command`: for
-/// all.
-class ValueSetter {
- public:
-  using Lookup = std::function<std::optional<std::string>(const std::string& name)>;
-
-  ValueSetter(const CLI::App& command, Lookup lookup)
-      : command_(&command), lookup_(std::move(lookup)) {}
-  explicit ValueSetter(Lookup lookup) : lookup_(std::move(lookup)) {}
-
-  template <class T>
-  void operator()(const std::string& name, T& value, const std::string& = {}) {
-    names_.insert(name);
-    if (command_ != nullptr && command_->count("--" + name) > 0) return;
-    if (const auto text = lookup_(name)) value = ParseOption<T>(name, *text);
-  }
-
-  /// The options that exist, once visited.
-  const std::set<std::string>& names() const { return names_; }
-
- private:
-  const CLI::App* command_ = nullptr;
-  Lookup lookup_;
-  std::set<std::string> names_;
+/// Where values of options may come from: name -> text and what to call the place in an error.
+struct Found {
+  std::string text;
+  std::string origin;
 };
+using Lookup = std::function<std::optional<Found>(const std::string& name)>;
 
-/// A YAML map `name: value` as a lookup. @throws UsageError naming file, line and reason.
-class YamlValues {
- public:
-  explicit YamlValues(const std::string& path);
-  std::optional<std::string> operator()(const std::string& name) const;
-  /// @throws UsageError naming the first key that is not among `known`.
-  void RefuseUnknown(const std::set<std::string>& known) const;
+/// Sets the options that no later channel has set, by their names or former names.
+/// @throws UsageError.
+void SetFrom(const Lookup& lookup, Channel channel, OptionList& options);
 
- private:
-  std::string path_;
-  YAML::Node root_;
-};
-
-}  // namespace kinescope::app
+}  // namespace kinescope::options

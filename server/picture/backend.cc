@@ -14,12 +14,8 @@ namespace kinescope::app {
 namespace {
 
 std::chrono::milliseconds LimitOf(const BackendOptions& options) {
-  if (!(options.draw_limit_secs >= 0 && options.draw_limit_secs <= 1e6)) {
-    throw UsageError(
-        fmt::format("--draw_limit_secs={}: expected 0 to 1000000", options.draw_limit_secs));
-  }
   return std::chrono::milliseconds(
-      static_cast<std::chrono::milliseconds::rep>(std::ceil(1000 * options.draw_limit_secs)));
+      static_cast<std::chrono::milliseconds::rep>(std::ceil(1000 * *options.draw_limit_secs)));
 }
 
 // The first that works, best first.
@@ -39,28 +35,42 @@ BackendChoice ChooseByTrying(const std::vector<std::string>& gpus,
   throw render::RenderError("--backend=auto: " + note);
 }
 
+options::Choice<std::string>::Words BackendWords() {
+  options::Choice<std::string>::Words words;
+  for (const std::string& name : render::BackendNames()) words.emplace_back(name, name);
+  words.emplace_back("auto", "auto");
+  return words;
+}
+
 }  // namespace
 
+BackendOptions::BackendOptions()
+    : backend(BackendWords(), "osmesa"), draw_limit_secs(0, {0, 1e6, "s"}) {}
+
+void BackendOptions::List(options::OptionList& option) {
+  option(
+      "backend", backend,
+      "OpenGL implementation: osmesa and egl (software), egl_device (a GPU), auto (a GPU where one "
+      "works, else software)");
+  option("draw_limit_secs", draw_limit_secs,
+         "time after which the driver counts as hung; 0: 30 s and 1 s per million pixels");
+}
+
 BackendChoice ChooseBackend(const BackendOptions& options, const Machine& machine) {
-  LimitOf(options);
   const std::vector<std::string> gpus = FindGpus(machine.dev);
-  if (options.backend == "auto") {
+  if (*options.backend == "auto") {
     BackendChoice choice = ChooseByTrying(gpus, machine.program);
-    if (!choice.note.empty()) choice.note = "drawn by " + choice.name + ", because " + choice.note;
+    if (!choice.note.empty())
+      choice.note = "rendered by " + choice.name + ", because " + choice.note;
     return choice;
   }
-  const auto& names = render::BackendNames();
-  if (std::find(names.begin(), names.end(), options.backend) == names.end()) {
-    throw UsageError(
-        fmt::format("--backend={}: expected {} or auto", options.backend, fmt::join(names, ", ")));
-  }
   std::string note;
-  if (options.backend != "egl_device" && !gpus.empty()) {
+  if (*options.backend != "egl_device" && !gpus.empty()) {
     note = fmt::format(
-        "drawn in software beside a GPU ({}): --backend auto or egl_device would use it",
+        "software rendering, although a GPU is present ({}); use --backend auto or egl_device",
         fmt::join(gpus, ", "));
   }
-  return {options.backend, note};
+  return {*options.backend, note};
 }
 
 std::unique_ptr<render::Renderer> StartRenderer(const BackendOptions& options,

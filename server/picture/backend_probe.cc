@@ -110,16 +110,16 @@ BackendReport ProbeBackend(const std::filesystem::path& program, const std::stri
     return Failed(error.what());
   }
   if (child.was_too_slow) {
-    return Failed(fmt::format("no picture within {} s: its driver hangs",
+    return Failed(fmt::format("no picture within {} s; the driver hangs",
                               std::chrono::duration<double>(limit).count()));
   }
   if (child.signal != 0) {
-    return Failed(fmt::format("its driver crashes ({}){}", ::strsignal(child.signal),
+    return Failed(fmt::format("the driver crashed ({}){}", ::strsignal(child.signal),
                               child.err.empty() ? "" : ": " + LastLine(child.err)));
   }
   const json told = json::parse(child.out, nullptr, false);
   if (child.exit_code != 0 || !told.is_object() || !told.contains("works")) {
-    return Failed(child.err.empty() ? "it ended without a word" : LastLine(child.err));
+    return Failed(child.err.empty() ? "it exited without an error message" : LastLine(child.err));
   }
   BackendReport report = FromJson(told);
   // What drivers write to stderr themselves.

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "core/errors.h"
-#include "server/options/option_list.h"
+#include "server/options/text.h"
 
 namespace kinescope::app {
 namespace {
@@ -26,13 +26,14 @@ class KeyFile {
     const std::uintmax_t bytes = std::filesystem::file_size(path_, error);
     if (error) throw UsageError(fmt::format("--camera={}: {}", path_, error.message()));
     if (bytes > kMostKeyBytes) {
-      throw UsageError(
-          fmt::format("--camera={}: {} bytes, expected at most {}", path_, bytes, kMostKeyBytes));
+      throw UsageError(fmt::format("--camera={}: {} bytes; expected at most {} bytes", path_, bytes,
+                                   kMostKeyBytes));
     }
     try {
       return YAML::LoadFile(path_);
     } catch (const YAML::BadFile&) {
-      throw UsageError(fmt::format("--camera={}: it may not be read", path_));
+      throw UsageError(
+          fmt::format("--camera={}: cannot open the file (no read permission)", path_));
     } catch (const YAML::Exception& problem) {
       throw UsageError(
           fmt::format("--camera={}: line {}: {}", path_, problem.mark.line + 1, problem.msg));
@@ -73,14 +74,12 @@ class KeyFile {
     Refuse(node, fmt::format("ease: {}: expected smooth, linear or hold", text));
   }
 
-  const std::string& path() const { return path_; }
-
  private:
   std::string path_;
 };
 
 CameraKeySpec ReadKey(const KeyFile& file, const YAML::Node& node) {
-  if (!node.IsMap()) file.Refuse(node, "expected a key, such as {time: 0, camera: front}");
+  if (!node.IsMap()) file.Refuse(node, "expected a keyframe, such as {time: 0, camera: front}");
   CameraKeySpec key;
   std::optional<Eigen::Vector3d> position, target;
   bool has_time = false;
@@ -106,18 +105,20 @@ CameraKeySpec ReadKey(const KeyFile& file, const YAML::Node& node) {
     } else if (name == "ease") {
       key.ease = file.EaseOf(value);
     } else {
-      file.Refuse(entry.first, fmt::format("'{}' is not known; there are time, camera, position, "
-                                           "target, fov and ease",
-                                           name));
+      file.Refuse(
+          entry.first,
+          fmt::format("unknown key '{}'; expected time, camera, position, target, fov or ease",
+                      name));
     }
   }
-  if (!has_time) file.Refuse(node, "time: is missing");
+  if (!has_time) file.Refuse(node, "time is missing");
   if (key.name.empty() != (position && target) || position.has_value() != target.has_value()) {
     file.Refuse(node, "expected either camera, or position and target");
   }
   if (position) {
-    key.place = CameraFromTo(fmt::format("--camera={}: line {}", file.path(), node.Mark().line + 1),
-                             *position, *target);
+    const auto place = CameraFromTo(*position, *target);
+    if (!place) file.Refuse(node, "expected a position that differs from the target");
+    key.place = *place;
     if (key.fov_rad) key.place.vertical_fov_rad = *key.fov_rad;
   }
   return key;
@@ -130,49 +131,38 @@ std::vector<CameraKeySpec> ReadCameraKeys(const std::string& path) {
   const YAML::Node root = file.Load();
   if (!root.IsMap() || root.size() != 1 || !root["keys"] || !root["keys"].IsSequence() ||
       root["keys"].size() == 0) {
-    file.Refuse(root, "expected 'keys:' and a list of them");
+    file.Refuse(root, "expected 'keys:' and a list of keyframes");
   }
   const YAML::Node list = root["keys"];
   if (list.size() > kMostKeys) {
-    file.Refuse(list, fmt::format("keys: {} of them, expected at most {}", list.size(), kMostKeys));
+    file.Refuse(list,
+                fmt::format("keys: {} keyframes; expected at most {}", list.size(), kMostKeys));
   }
   std::vector<CameraKeySpec> keys;
   for (const YAML::Node& node : list) {
     CameraKeySpec key = ReadKey(file, node);
     if (!keys.empty() && key.secs <= keys.back().secs) {
-      file.Refuse(node, fmt::format("time: {}: expected more than {}, the time of the key before",
-                                    key.secs, keys.back().secs));
+      file.Refuse(node,
+                  fmt::format("time: {}: expected more than {}, the time of the previous keyframe",
+                              key.secs, keys.back().secs));
     }
     keys.push_back(std::move(key));
   }
   return keys;
 }
 
-Eigen::Vector3d ParsePoint(const std::string& what, const std::string& text) {
-  const auto refuse = [&] {
-    throw UsageError(
-        fmt::format("{}: '{}': expected X,Y,Z in m, each within +-{}", what, text, kFarthest));
-  };
-  Eigen::Vector3d point;
-  std::size_t begin = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::size_t end = axis < 2 ? text.find(',', begin) : text.size();
-    if (end == std::string::npos) refuse();
-    double value = 0;
-    if (!CLI::detail::lexical_cast(text.substr(begin, end - begin), value) ||
-        !(std::abs(value) <= kFarthest)) {
-      refuse();
-    }
-    point[axis] = value;
-    begin = end + 1;
-  }
+std::optional<Eigen::Vector3d> ParsePoint(const std::string& text) {
+  const auto numbers = options::ParseNumbers(text);
+  if (!numbers || numbers->size() != 3) return std::nullopt;
+  const Eigen::Vector3d point((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+  if (point.cwiseAbs().maxCoeff() > kFarthest) return std::nullopt;
   return point;
 }
 
-render::Camera CameraFromTo(const std::string& what, const Eigen::Vector3d& position,
-                            const Eigen::Vector3d& target) {
+std::optional<render::Camera> CameraFromTo(const Eigen::Vector3d& position,
+                                           const Eigen::Vector3d& target) {
   const double distance = (position - target).norm();
-  if (!(distance > 1e-3)) throw UsageError(what + ": the camera stands on what it looks at");
+  if (!(distance > 1e-3)) return std::nullopt;
   render::Camera camera;
   camera.position = position;
   camera.target = target;

@@ -22,11 +22,11 @@ struct CameraKeySpec {
 /// Times ascend. @throws UsageError naming file, line, key and what was expected.
 std::vector<CameraKeySpec> ReadCameraKeys(const std::string& path);
 
-/// "X,Y,Z" in m. @throws UsageError beginning with `what`.
-Eigen::Vector3d ParsePoint(const std::string& what, const std::string& text);
+/// "X,Y,Z" in m, each within 1000. nullopt for anything else.
+std::optional<Eigen::Vector3d> ParsePoint(const std::string& text);
 
-/// A camera at `position` that looks at `target`, z up. @throws UsageError where both are the same.
-render::Camera CameraFromTo(const std::string& what, const Eigen::Vector3d& position,
-                            const Eigen::Vector3d& target);
+/// A camera at `position` that looks at `target`, z up. nullopt where both are the same.
+std::optional<render::Camera> CameraFromTo(const Eigen::Vector3d& position,
+                                           const Eigen::Vector3d& target);
 
 }  // namespace kinescope::app

@@ -8,70 +8,32 @@
 
 #include "core/clocks.h"
 #include "core/errors.h"
-#include "server/options/option_list.h"
 
 namespace kinescope::app {
 namespace {
-
-constexpr double kMostOrbit = 3600;  // degrees a second; more shows no motion any more
 
 double SecsBetween(std::int64_t from_nanos, std::int64_t to_nanos) {
   return Secs(to_nanos - from_nanos);
 }
 
-bool IsKeyFile(const std::string& camera) {
-  const std::string extension = std::filesystem::path(camera).extension();
-  return extension == ".yaml" || extension == ".yml";
-}
-
 }  // namespace
 
-CameraMan::CameraMan(std::string camera, const CameraOptions& options)
-    : camera_(std::move(camera)) {
-  if (IsKeyFile(camera_)) {
-    keys_ = ReadCameraKeys(camera_);
-  } else if (const std::size_t colon = camera_.find(':'); colon != std::string::npos) {
-    const std::string what = "--camera=" + camera_;
-    place_ = CameraFromTo(what, ParsePoint(what, camera_.substr(0, colon)),
-                          ParsePoint(what, camera_.substr(colon + 1)));
-  } else {
-    render::NamedCameraAt(camera_, {});  // refuses an unknown name before any work
-  }
-
-  is_orthographic_ = options.projection == "orthographic";
-  if (!is_orthographic_ && options.projection != "perspective") {
-    throw UsageError(
-        fmt::format("--projection={}: expected perspective or orthographic", options.projection));
-  }
+CameraMan::CameraMan(const CameraChoice& camera, const CameraOptions& options)
+    : camera_(camera.text),
+      place_(camera.place),
+      is_orthographic_(*options.projection),
+      is_one_turn_(options.orbit->is_one_turn),
+      orbit_rad_per_sec_(options.orbit->degrees_per_sec * M_PI / 180),
+      fit_(*options.fit) {
+  if (camera.is_key_file) keys_ = ReadCameraKeys(camera_);
   if (options.fov) {
-    if (!(*options.fov >= 1 && *options.fov <= 150)) {
-      throw UsageError(fmt::format("--fov={}: expected 1 to 150 degrees", *options.fov));
-    }
     fov_rad_ = *options.fov * M_PI / 180;
     if (place_) place_->vertical_fov_rad = *fov_rad_;
   }
-  is_one_turn_ = options.orbit == "turn";
-  if (!is_one_turn_) {
-    const auto degrees = ParseOption<double>("--orbit", options.orbit);
-    if (!(std::abs(degrees) <= kMostOrbit)) {
-      throw UsageError(fmt::format("--orbit={}: expected degrees a second within +-{}, or turn",
-                                   options.orbit, kMostOrbit));
-    }
-    orbit_rad_per_sec_ = degrees * M_PI / 180;
-  }
-  follow_secs_ = options.follow;
-  if (follow_secs_ && !(*follow_secs_ >= 0 && *follow_secs_ <= 60)) {
-    throw UsageError(fmt::format("--follow={}: expected a lag of 0 to 60 s", *follow_secs_));
-  }
-  if (options.fit == "now") {
-    fit_ = Fit::kNow;
-  } else if (options.fit == "clip") {
-    fit_ = Fit::kClip;
-  } else if (options.fit != "off") {
-    throw UsageError(fmt::format("--fit={}: expected off, now or clip", options.fit));
-  }
+  if (options.follow) follow_secs_ = *options.follow;
   if (fit_ != Fit::kOff && !keys_.empty()) {
-    throw UsageError("--fit=" + options.fit + ": a file of keys says where the camera stands");
+    throw UsageError("--fit=" + options.fit.ToText() +
+                     ": the file of keys sets the camera's position; leave one of them out");
   }
 }
 

@@ -11,37 +11,15 @@
 #include "core/scene_state.h"
 #include "render/camera.h"
 #include "server/picture/camera_keys.h"
+#include "server/picture/camera_options.h"
 
 namespace kinescope::app {
 
-/// As options say it; each names its default. Texts are explained in docs/pictures.md.
-struct CameraOptions {
-  std::string projection = "perspective";
-  std::optional<double> fov;     // degrees, vertical
-  std::string orbit = "0";       // degrees a second, or "turn"
-  std::optional<double> follow;  // s of lag
-  std::string fit = "off";
-
-  template <class Option>
-  void Visit(Option&& option) {
-    option("projection", projection, "perspective or orthographic");
-    option("fov", fov, "vertical field of view, degrees; named cameras keep what they show");
-    option("orbit", orbit,
-           "degrees a second that the camera turns round its target, or turn (once)");
-    option("follow", follow, "follow the people with a lag of so many seconds; not given: at ease");
-    option("fit", fit,
-           "off, now or clip: all that is there fills each picture, or those of the clip");
-  }
-};
-
-/// What a camera option may be: a name, X,Y,Z:X,Y,Z (from: to, m) or a file of keys.
-inline constexpr const char* kCameraKinds =
-    "front back left right top iso three_quarter, X,Y,Z:X,Y,Z (from: to, m) or FILE.yaml of keys";
-
 class CameraMan {
  public:
-  /// @param camera as kCameraKinds. @throws UsageError naming option, value and what was expected.
-  CameraMan(std::string camera, const CameraOptions& options);
+  /// @throws UsageError naming the file of keys and what is wrong in it, or options that do not fit
+  /// together.
+  CameraMan(const CameraChoice& camera, const CameraOptions& options);
 
   /// Whether Aim needs to know the whole clip before its first picture.
   bool needs_survey() const { return fit_ == Fit::kClip || is_one_turn_; }
@@ -59,8 +37,6 @@ class CameraMan {
   std::string name() const;
 
  private:
-  enum class Fit { kOff, kNow, kClip };
-
   bool IsNamed() const { return !place_ && keys_.empty(); }
   render::Camera Placed(const SceneState& state, const render::Whereabouts& ground,
                         double secs) const;

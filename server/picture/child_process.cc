@@ -23,7 +23,8 @@ class Pipe {
  public:
   Pipe() {
     if (::pipe2(ends_.data(), O_CLOEXEC) != 0) {
-      throw std::runtime_error(std::string("no pipe to a child: ") + std::strerror(errno));
+      throw std::runtime_error(std::string("cannot create a pipe to a child process: ") +
+                               std::strerror(errno));
     }
   }
   ~Pipe() {

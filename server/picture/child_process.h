@@ -1,5 +1,5 @@
-/// A program run as a child with a time limit: for what may hang or crash and must not take us
-/// along.
+/// Runs a program as a child process with a time limit, to isolate code that may hang or crash. Any
+/// thread.
 #pragma once
 
 #include <chrono>
@@ -9,14 +9,14 @@
 namespace kinescope::app {
 
 struct ChildResult {
-  int exit_code = 0;  // when it ended by itself
-  int signal = 0;     // that ended it, ours excepted; 0: none
+  int exit_code = 0;  // if it ended by itself
+  int signal = 0;     // signal that ended it, except the kill after `limit`; 0: none
   bool was_too_slow = false;
-  std::string out, err;  // at most 1 MiB of each is kept
+  std::string out, err;  // at most the first 1 MiB of each
 };
 
-/// `command[0]` is a path; the child has our environment and no standard input, and is killed after
-/// `limit`. @throws std::runtime_error when it cannot be started.
+/// `command[0]` is a path. The child has this process' environment and no standard input, and is
+/// killed after `limit`. @throws std::runtime_error if it cannot be started.
 [[nodiscard]] ChildResult RunChild(const std::vector<std::string>& command,
                                    std::chrono::milliseconds limit);
 

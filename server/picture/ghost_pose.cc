@@ -1,13 +1,10 @@
 #include "server/picture/ghost_pose.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/errors.h"
-#include "server/options/option_list.h"
 #include "server/scene/scene_reader.h"
 
 namespace kinescope::app {
@@ -15,21 +12,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::vector<PersonState> ReadMoment(const std::string& text, const SceneOptions& options) {
-  const std::size_t at = text.rfind('@');
-  if (at == std::string::npos || at == 0) {
-    throw UsageError("--ghost=" + text + ": expected n_pose, t_pose or FILE@SECS");
-  }
-  const auto secs = ParseOption<double>("--ghost: the seconds of " + text, text.substr(at + 1));
-  if (!(secs >= 0 && secs <= kLatestSecs)) {
-    throw UsageError(
-        fmt::format("--ghost={}: expected 0 to {:.0f} s after the @", text, kLatestSecs));
-  }
-  SceneReader reader(text.substr(0, at), options);
+std::vector<PersonState> ReadMoment(const GhostValue& ghost, const SceneOptions& options) {
+  SceneReader reader(ghost->source, options);
   SceneTimeline timeline(reader);
-  const auto scene = timeline.At(secs);
+  const auto scene = timeline.At(ghost->secs);
   if (!scene || scene->people.empty()) {
-    throw UsageError("--ghost=" + text + ": nobody is there at that time");
+    throw UsageError("--ghost=" + ghost.ToText() + ": no person at that time");
   }
   return scene->people;
 }
@@ -88,31 +76,21 @@ PersonState Standing(PersonState person, bool is_t_pose, double floor_z) {
 
 }  // namespace
 
-GhostPose::GhostPose(const std::string& text, double opacity, const SceneOptions& options)
-    : opacity_(opacity) {
-  if (!(opacity >= 0 && opacity <= 1)) {
-    throw UsageError(fmt::format("--ghost_opacity={}: expected 0 to 1", opacity));
-  }
-  if (text.empty()) return;
-  if (text == "n_pose") {
-    kind_ = Kind::kNPose;
-  } else if (text == "t_pose") {
-    kind_ = Kind::kTPose;
-  } else {
-    kind_ = Kind::kMoment;
-    recorded_ = ReadMoment(text, options);
-  }
+GhostPose::GhostPose(const GhostValue& ghost, double opacity, const SceneOptions& options)
+    : kind_(ghost->kind), opacity_(opacity) {
+  if (kind_ == GhostSource::Kind::kMoment) recorded_ = ReadMoment(ghost, options);
 }
 
 std::vector<render::Ghost> GhostPose::Make(const SceneState& state) const {
   std::vector<render::Ghost> ghosts;
-  if (kind_ == Kind::kNone) return ghosts;
-  if (kind_ == Kind::kMoment) {
+  if (kind_ == GhostSource::Kind::kNone) return ghosts;
+  if (kind_ == GhostSource::Kind::kMoment) {
     for (const PersonState& person : recorded_) ghosts.push_back({person, opacity_});
     return ghosts;
   }
   for (const PersonState& person : state.people) {
-    ghosts.push_back({Standing(person, kind_ == Kind::kTPose, state.floor_z), opacity_});
+    ghosts.push_back(
+        {Standing(person, kind_ == GhostSource::Kind::kTPose, state.floor_z), opacity_});
   }
   return ghosts;
 }

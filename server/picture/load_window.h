@@ -1,4 +1,4 @@
-/// The loads of chosen joints over time, gathered scene by scene for the plot strip.
+/// Collects the loads of chosen joints over time, scene by scene, for the plot strip.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 namespace kinescope::app {
 
-/// Of the first person who has loads. One thread.
+/// Loads of the first person who has any. One thread.
 class LoadWindow {
  public:
-  /// @param joints urdf::Joint, in the order shown
+  /// @param joints urdf::Joint, in display order
   explicit LoadWindow(std::vector<int> joints);
 
   bool is_empty() const { return joints_.empty(); }
 
-  /// In order of time.
+  /// Call it in order of time. `secs`: time of the state in the clip.
   void Add(const SceneState& state, double secs);
 
   /// All from 0 to the last one added.
   render::LoadHistory All() const;
 
-  /// The `length_secs` that end at the last one added; what is older is forgotten.
+  /// The `length_secs` up to the last one added; older values are discarded.
   render::LoadHistory Last(double length_secs);
 
  private:

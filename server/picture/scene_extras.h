@@ -1,5 +1,6 @@
-/// What a picture shows beside the scene of its recording, as the options say: robots, ghosts,
-/// trails. What depends on the scenes before is collected here, in order. One thread.
+/// Adds elements beside the recorded scene to a picture, according to the options: robots,
+/// reference poses, trails. It collects the history that trails need, scene by scene, in order. One
+/// thread.
 #pragma once
 
 #include <vector>
@@ -15,19 +16,20 @@ namespace kinescope::app {
 
 class SceneExtras {
  public:
-  /// Reads robots and ghosts; measures the robots with a renderer of its own, where there are any.
-  /// `people`: those of the pictures, which a ghost of a recording follows.
-  /// @throws UsageError, SourceError naming option or file and the reason.
+  /// Reads robots and reference poses; measures the robots, if any, with a renderer of its own.
+  /// `people`: options of the people in the pictures, also used for a reference pose from a
+  /// recording.
+  /// @throws UsageError, SourceError with option or file and the reason.
   SceneExtras(const ViewOptions& options, const BackendOptions& backend,
               const SceneOptions& people);
 
-  /// How much of what was before a picture's time it shows, s; 0 without trails.
+  /// Length of the history that a picture shows, s; 0 without trails.
   double history_secs() const { return trails_.empty() ? 0 : trails_.secs(); }
 
-  /// The next scene, whether it becomes a picture or not.
+  /// Adds the next scene, whether or not it becomes a picture.
   void Remember(const SceneState& state) { trails_.Remember(state); }
 
-  /// Robots to `state`, the rest to `look`; `state` is the one that was remembered last.
+  /// Adds robots to `state` and the rest to `look`; `state` is the last one passed to Remember.
   void AddTo(SceneState& state, render::SceneLook& look) const;
 
  private:

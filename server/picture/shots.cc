@@ -13,10 +13,11 @@ namespace {
 constexpr double kWindowSecs = 10;  // of a plot without a survey
 
 std::vector<CameraMan> CamerasOf(const ViewOptions& options, const ViewGrid& grid) {
-  if (grid.cameras.empty()) return {CameraMan(options.camera, options.moves)};
+  const CameraChoice& given = options.camera->front();
+  if (grid.cameras.empty()) return {CameraMan(given, options.moves)};
   std::vector<CameraMan> cameras;
   for (const std::string& camera : grid.cameras) {
-    cameras.emplace_back(camera == "camera" ? options.camera : camera, options.moves);
+    cameras.emplace_back(camera == "camera" ? given : ParseCamera(camera), options.moves);
   }
   return cameras;
 }
@@ -33,8 +34,8 @@ ShotPlanner::ShotPlanner(const ViewOptions& options, const BackendOptions& backe
     : ShotPlanner(options, SceneExtras(options, backend, people)) {}
 
 ShotPlanner::ShotPlanner(const ViewOptions& options, SceneExtras extras)
-    : view_(ToView(options)), extras_(std::move(extras)), loads_(ToPlotJoints(options.plot)) {
-  const ViewGrid grid = ToViewGrid(options.views);
+    : view_(ToView(options)), extras_(std::move(extras)), loads_(*options.plot) {
+  const ViewGrid& grid = *options.views;
   cameras_ = CamerasOf(options, grid);
   if (grid.cameras.empty()) {
     aspects_ = {static_cast<double>(view_.width) / view_.height};

@@ -1,7 +1,7 @@
-/// From scenes to pictures of a recording: what depends on other scenes (a camera that follows, a
-/// plot of loads) is decided here, one scene after the other, so that the pictures themselves can
-/// be drawn in any order and by any number of renderers. A planner belongs to one thread; a Shot is
-/// a value that goes to any.
+/// Plans the pictures of a recording. Everything that depends on other scenes (a camera that
+/// follows, a plot of loads) is computed here, one scene after the other, so that any number of
+/// renderers can render the pictures in any order. A planner belongs to one thread; a Shot is a
+/// value for any thread.
 #pragma once
 
 #include <cstdint>
@@ -20,41 +20,42 @@
 
 namespace kinescope::app {
 
-/// All that one picture depends on. Several views: the cameras are in view.panes, `camera` is the
-/// first of them.
+/// Everything that one picture depends on. With several views, the cameras are in view.panes, and
+/// `camera` is the first of them.
 struct Shot {
   SceneState state;
   render::Camera camera;
   render::View view;
-  std::optional<render::LayerFormat> layer;  // what is written over it, as vectors too
+  std::optional<render::LayerFormat> layer;  // format for its overlays as a vector file, if
+                                             // requested
 };
 
 class ShotPlanner {
  public:
-  /// `people`: those of the scenes to come. @throws UsageError for what `options` ask for that
-  /// there is not.
+  /// `people`: options of the people in the scenes. @throws UsageError for invalid or impossible
+  /// options.
   explicit ShotPlanner(const ViewOptions& options, const BackendOptions& backend = {},
                        const SceneOptions& people = {});
-  /// With `extras` that several planners share: files are read and robots measured once.
+  /// With `extras` shared by several planners, so that files are read and robots measured once.
   ShotPlanner(const ViewOptions& options, SceneExtras extras);
 
-  /// Whether the whole clip must be known before its first picture: one turn over it, a frame
-  /// around all of it, a plot of all of it. Without a survey they do with what there is: no turn,
-  /// no frame, a plot of the newest seconds.
+  /// Whether the first picture requires the whole clip: one revolution over the clip, a frame
+  /// around all of it, a plot of all of it. Without a first pass they use the available data: no
+  /// revolution, no frame, a plot of the newest seconds.
   bool needs_survey() const;
-  /// Every scene of the clip, in order, before the first shot.
+  /// First pass: call it for every scene of the clip, in order, before the first shot.
   void Survey(const SceneState& state);
 
-  /// Of a clip: the scenes in order.
+  /// The next picture of a clip; call it with the scenes in order.
   Shot Next(SceneState state);
 
-  /// Of one scene alone, `secs` after the recording's start. Trails are those of the scenes that
-  /// were remembered before.
+  /// A single picture, `secs` after the start of the recording. Trails are those of the scenes
+  /// passed to Remember before.
   Shot Only(SceneState state, double secs = 0) const;
 
-  /// A scene that comes before the first picture; in order. Of use where history_secs() > 0.
+  /// Adds a scene before the first picture; in order. Needed if history_secs() > 0.
   void Remember(const SceneState& state) { extras_.Remember(state); }
-  /// How much of what was before it a picture shows, s.
+  /// Length of the history that a picture shows, s.
   double history_secs() const { return extras_.history_secs(); }
 
   const render::View& view() const { return view_; }
@@ -64,21 +65,21 @@ class ShotPlanner {
             const SceneExtras& extras) const;
 
   render::View view_;
-  std::vector<CameraMan> cameras_;  // one, or one for each view
-  std::vector<double> aspects_;     // of their pictures
+  std::vector<CameraMan> cameras_;  // one, or one per view
+  std::vector<double> aspects_;     // of the views, width / height
   SceneExtras extras_;
-  LoadWindow loads_;  // of the survey, or else of the scenes so far
+  LoadWindow loads_;  // of the first pass, or else of the scenes so far
   std::optional<std::int64_t> start_nanos_, survey_start_nanos_;
-  std::shared_ptr<const render::LoadHistory> whole_;  // of the survey, made with the first shot
+  std::shared_ptr<const render::LoadHistory> whole_;  // of the first pass, made with the first shot
 };
 
-/// Surveys what `source` has for `planners`, up to `seconds` after its first scene. For planners
-/// that need it.
+/// Performs the first pass for `planners` that need it: reads `source` up to `seconds` after its
+/// first scene.
 /// @throws as SceneReader.
 void SurveyClip(const std::vector<ShotPlanner*>& planners, SceneReader& source,
                 std::optional<double> seconds);
 
-/// Shows `planner` what a picture at `secs` needs of the time before. @pre as SceneTimeline::At
+/// Passes to `planner` the history that a picture at `secs` needs. @pre as SceneTimeline::At
 void RememberBefore(double secs, SceneTimeline& timeline, ShotPlanner& planner);
 
 }  // namespace kinescope::app

@@ -1,12 +1,9 @@
 #include "server/picture/trails.h"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <cmath>
-#include <sstream>
 
-#include "core/errors.h"
+#include "core/check.h"
 
 namespace kinescope::app {
 namespace {
@@ -15,34 +12,13 @@ namespace {
 constexpr std::array<Rgb, 4> kColors = {
     {{0.20, 0.45, 0.80}, {0.62, 0.44, 0.22}, {0.50, 0.53, 0.58}, {0.45, 0.72, 0.92}}};
 
-int SegmentOf(const std::string& name) {
-  for (std::size_t i = 0; i < urdf::kSegments.size(); ++i) {
-    if (name == urdf::kSegments[i].mvn_name || name == urdf::kSegments[i].link_name) {
-      return static_cast<int>(i);
-    }
-  }
-  std::string known = "com";
-  for (const urdf::SegmentInfo& segment : urdf::kSegments) {
-    known += ", ";
-    known += segment.link_name;
-  }
-  throw UsageError(fmt::format("--trail={}: expected some of {}", name, known));
-}
-
 }  // namespace
 
-Trails::Trails(const std::string& names, double secs) : secs_(secs) {
-  if (!(secs > 0 && secs <= kMostSecs)) {
-    throw UsageError(
-        fmt::format("--trail_secs={}: expected more than 0, up to {}", secs, kMostSecs));
-  }
-  std::istringstream list(names);
-  for (std::string name; std::getline(list, name, ',');) {
-    if (name == "com") {
-      tracks_.push_back({-1, kComColor});
-    } else {
-      tracks_.push_back({SegmentOf(name), kColors[tracks_.size() % kColors.size()]});
-    }
+Trails::Trails(const std::vector<int>& tracks, double secs) : secs_(secs) {
+  KINESCOPE_CHECK(secs > 0 && secs <= kMostSecs);
+  for (const int segment : tracks) {
+    tracks_.push_back(
+        {segment, segment < 0 ? kComColor : kColors[tracks_.size() % kColors.size()]});
   }
 }
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <string>
 #include <vector>
 
 #include "core/scene_state.h"
@@ -17,9 +16,8 @@ class Trails {
  public:
   static constexpr double kMostSecs = 60;
 
-  /// `names`: com and segments (RightHand or right_hand), commas between; "" none.
-  /// @throws UsageError naming the name that is none, or seconds out of (0, kMostSecs].
-  Trails(const std::string& names, double secs);
+  /// `tracks`: urdf::Segment, or -1 for the centre of mass. @pre 0 < secs <= kMostSecs
+  Trails(const std::vector<int>& tracks, double secs);
 
   bool empty() const { return tracks_.empty(); }
   double secs() const { return secs_; }

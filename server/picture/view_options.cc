@@ -4,143 +4,344 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
-#include "core/errors.h"
-#include "server/options/choose.h"
-#include "server/picture/look_options.h"
+#include "server/options/text.h"
+#include "server/picture/trails.h"
+#include "server/scene/robot_source.h"
+#include "server/scene/scene_reader.h"
 #include "urdf/segments.h"
 
 namespace kinescope::app {
 namespace {
 
-constexpr std::size_t kMostViews = 16, kMostPlots = 8;
+using options::BadValue;
 
-constexpr std::array<std::pair<const char*, bool render::OverlayParts::*>, 9> kParts = {{
+constexpr std::size_t kMostViews = 16, kMostPlots = 8, kMostTrails = 24, kMostRobots = 64;
+constexpr double kFarthestRobot = 1000;  // m
+
+constexpr std::array<std::pair<const char*, bool render::OverlayParts::*>, 9> kOverlayParts = {{
     {"title", &render::OverlayParts::title},
-    {"lamp", &render::OverlayParts::lamp},
+    {"status", &render::OverlayParts::lamp},
     {"legend", &render::OverlayParts::legend},
     {"time", &render::OverlayParts::time},
     {"names", &render::OverlayParts::names},
     {"banner", &render::OverlayParts::banner},
     {"scale", &render::OverlayParts::scale},
-    {"strip", &render::OverlayParts::strip},
+    {"frame_code", &render::OverlayParts::strip},
     {"plot", &render::OverlayParts::plot},
 }};
 
-// "a,b,,c": {"a", "b", "", "c"}; "": nothing.
-std::vector<std::string> Split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0; begin < text.size() || (begin == text.size() && begin > 0);) {
-    const std::size_t end = std::min(text.find(separator, begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return parts;
+const std::vector<options::FormerWord> kFormerOverlays = {{"lamp", "status"},
+                                                          {"strip", "frame_code"}};
+const std::vector<options::FormerWord> kFormerParts = {
+    {"held", "hand_loads"}, {"frames", "link_frames"}, {"axes", "joint_axes"}};
+
+bool IsChange(const std::string& name) {
+  return !name.empty() && (name[0] == '+' || name[0] == '-');
 }
 
-bool render::OverlayParts::*PartOf(const std::string& text, const std::string& name) {
-  std::string known;
-  for (const auto& [each, part] : kParts) {
-    if (name == each) return part;
-    known += std::string(known.empty() ? "" : " ") + each;
+[[noreturn]] void RefuseWord(const std::string& word, const std::vector<std::string>& known) {
+  const std::string nearest = options::Nearest(word, known);
+  throw BadValue(fmt::format("unknown '{}'; expected {}{}{}", word, options::Alternatives(known),
+                             nearest.empty() ? "" : "; nearest: ", nearest));
+}
+
+std::vector<std::string> ScoredJointNames() {
+  std::vector<std::string> names;
+  for (const int joint : urdf::kScoredJoints) {
+    names.emplace_back(urdf::kJoints[urdf::At(joint)].ros_name);
   }
-  throw UsageError(fmt::format("--overlay={}: '{}' is not known; there are {}", text, name, known));
+  return names;
+}
+
+int ScoredJointNamed(const std::string& name) {
+  for (const int joint : urdf::kScoredJoints) {
+    if (name == urdf::kJoints[urdf::At(joint)].ros_name) return joint;
+  }
+  RefuseWord(name, ScoredJointNames());
+}
+
+std::vector<std::string> PartNames(bool by_default) {
+  std::vector<std::string> names;
+  for (const render::ScenePartInfo& info : render::kSceneParts) {
+    if (info.by_default == by_default) names.emplace_back(info.name);
+  }
+  return names;
+}
+
+render::ScenePart PartNamed(const std::string& name) {
+  std::vector<std::string> known;
+  for (const render::ScenePartInfo& info : render::kSceneParts) {
+    if (name == info.name) return info.part;
+    known.emplace_back(info.name);
+  }
+  RefuseWord(name, known);
+}
+
+std::vector<std::string> TrackNames() {
+  std::vector<std::string> names = {"com"};
+  for (const urdf::SegmentInfo& segment : urdf::kSegments) names.emplace_back(segment.link_name);
+  return names;
+}
+
+int TrackNamed(const std::string& name) {
+  if (name == "com") return -1;
+  for (std::size_t i = 0; i < urdf::kSegments.size(); ++i) {
+    const urdf::SegmentInfo& segment = urdf::kSegments[i];
+    if (name == segment.mvn_name || name == segment.link_name) return static_cast<int>(i);
+  }
+  RefuseWord(name, TrackNames());
+}
+
+std::string Joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ","));
 }
 
 }  // namespace
 
-render::OverlayParts ToOverlayParts(const std::string& text) {
+void OverlayValue::Parse(const std::string& text) {
+  const std::vector<std::string> names = options::SplitItems(text);
   render::OverlayParts parts;
-  const std::vector<std::string> names = Split(text, ',');
-  const auto is_change = [](const std::string& name) {
-    return !name.empty() && (name[0] == '+' || name[0] == '-');
-  };
-  if (!names.empty() && std::none_of(names.begin(), names.end(), is_change)) {
-    for (const auto& [name, part] : kParts) parts.*part = false;
+  std::vector<options::FormerWord> former_words;
+  std::string text_now;
+  const bool are_changes = !names.empty() && IsChange(names.front());
+  if (!names.empty() && !are_changes) {
+    for (const auto& [name, part] : kOverlayParts) parts.*part = false;
   }
-  const bool are_changes = !names.empty() && is_change(names.front());
   for (const std::string& name : names) {
-    if (is_change(name) != are_changes) {
-      throw UsageError(fmt::format(
-          "--overlay={}: expected either names alone, or each with + or - before it", text));
+    if (IsChange(name) != are_changes) {
+      throw BadValue("expected either names alone, or each name with + or - before it");
     }
-    parts.*PartOf(text, are_changes ? name.substr(1) : name) = !are_changes || name[0] == '+';
+    std::string word = are_changes ? name.substr(1) : name;
+    const std::string sign = are_changes ? name.substr(0, 1) : "";
+    if (const options::FormerWord* const former = options::FindFormer(kFormerOverlays, word)) {
+      former_words.push_back(*former);
+      word = former->current;
+    }
+    text_now += (text_now.empty() ? "" : ",") + sign + word;
+    const auto found = std::find_if(kOverlayParts.begin(), kOverlayParts.end(),
+                                    [&](const auto& part) { return part.first == word; });
+    if (found == kOverlayParts.end()) RefuseWord(word, Names());
+    parts.*found->second = !are_changes || name[0] == '+';
   }
-  return parts;
+  value_ = parts;
+  text_ = former_words.empty() ? text : text_now;
+  former_words_ = std::move(former_words);
 }
 
-std::vector<int> ToPlotJoints(const std::string& text) {
-  std::vector<int> joints;
-  for (const std::string& name : Split(text, ',')) {
-    std::string known;
-    const auto found =
-        std::find_if(urdf::kScoredJoints.begin(), urdf::kScoredJoints.end(), [&](int joint) {
-          const std::string_view ros_name = urdf::kJoints[urdf::At(joint)].ros_name;
-          known += (known.empty() ? "" : " ") + std::string(ros_name);
-          return ros_name == name;
-        });
-    if (found == urdf::kScoredJoints.end()) {
-      throw UsageError(fmt::format("--plot={}: '{}' has no load; there are {}", text, name, known));
-    }
-    joints.push_back(*found);
-  }
-  if (joints.size() > kMostPlots) {
-    throw UsageError(
-        fmt::format("--plot={}: {} joints, expected at most {}", text, joints.size(), kMostPlots));
-  }
-  return joints;
+std::string OverlayValue::Expected() const {
+  return Joined(Names()) + " (these), or each with + or - (added to the default, or removed)";
 }
 
-ViewGrid ToViewGrid(const std::string& views) {
+std::vector<std::string> OverlayValue::Names() const {
+  std::vector<std::string> names;
+  for (const auto& [name, part] : kOverlayParts) names.emplace_back(name);
+  return names;
+}
+
+bool OverlayValue::names_plot() const { return text_.find("plot") != std::string::npos; }
+
+void ViewsValue::Parse(const std::string& text) {
   static const std::array<std::pair<const char*, const char*>, 4> shorthands = {{
       {"2x1", "front,right"},
       {"1x2", "front/right"},
       {"3x1", "front,right,top"},
       {"2x2", "front,right/top,three_quarter"},
   }};
+  std::string rest = text;
   for (const auto& [name, cameras] : shorthands) {
-    if (views == name) return ToViewGrid(cameras);
+    if (text == name) rest = cameras;
   }
   ViewGrid grid;
-  const std::vector<std::string> rows = Split(views, '/');
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    const std::vector<std::string> cameras = Split(rows[row], ',');
+  for (int row = 1; !rest.empty(); ++row) {
+    const std::size_t slash = std::min(rest.find('/'), rest.size());
+    const std::vector<std::string> cameras = options::SplitItems(rest.substr(0, slash));
+    const bool is_last = slash == rest.size();
+    rest.erase(0, slash + 1);
     const int count = static_cast<int>(cameras.size());
-    const bool is_last = row + 1 == rows.size();
-    if (row == 0) grid.columns = std::max(count, 1);
+    if (row == 1) grid.columns = std::max(count, 1);
     if (count == 0 || count > grid.columns || (count < grid.columns && !is_last)) {
-      throw UsageError(
-          fmt::format("--views={}: row {} has {} cameras, expected {}; only the last row may have "
-                      "fewer",
-                      views, row + 1, count, grid.columns));
+      throw BadValue(
+          fmt::format("row {} has {} cameras; expected {}, only the last row may have fewer", row,
+                      count, grid.columns));
     }
-    grid.cameras.insert(grid.cameras.end(), cameras.begin(), cameras.end());
+    for (const std::string& camera : cameras) {
+      if (camera != "camera") ParseCamera(camera);
+      grid.cameras.push_back(camera);
+    }
   }
   if (grid.cameras.size() > kMostViews) {
-    throw UsageError(fmt::format("--views={}: {} views, expected at most {}", views,
-                                 grid.cameras.size(), kMostViews));
+    throw BadValue(
+        fmt::format("has {} views; expected at most {}", grid.cameras.size(), kMostViews));
   }
-  return grid;
+  value_ = std::move(grid);
+  text_ = text;
+}
+
+std::string ViewsValue::Expected() const {
+  return "2x1, 3x1, 1x2, 2x2, or cameras with , between and / between rows, such as "
+         "front,right/top,camera (camera: the one of --camera)";
+}
+
+void BackgroundValue::Parse(const std::string& text) {
+  Background background;
+  background.is_transparent = text == "transparent";
+  if (text != "theme" && text != "transparent") {
+    const std::string hex = text == "white" ? "#ffffff" : text == "black" ? "#000000" : text;
+    const bool is_hex = hex.size() == 7 && hex[0] == '#' &&
+                        hex.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+    if (!is_hex) RefuseText();
+    const auto channel = [&](std::size_t at) {
+      return std::stoi(hex.substr(at, 2), nullptr, 16) / 255.0;
+    };
+    background.color = Rgb{channel(1), channel(3), channel(5)};
+  }
+  value_ = background;
+  text_ = text;
+}
+
+std::string BackgroundValue::Expected() const {
+  return "theme, transparent (PNG with alpha, soft edges too), white, black or #RRGGBB";
+}
+
+std::vector<std::string> BackgroundValue::Names() const {
+  return {"theme", "transparent", "white", "black"};
+}
+
+void GhostValue::Parse(const std::string& text) {
+  GhostSource ghost;
+  if (text == "n_pose" || text == "t_pose") {
+    ghost.kind = text == "n_pose" ? GhostSource::Kind::kNPose : GhostSource::Kind::kTPose;
+  } else if (!text.empty()) {
+    const auto parts = options::SplitAtLast(text, '@');
+    const auto secs = parts ? options::ParseNumber(parts->second) : std::nullopt;
+    if (!secs || parts->first.empty() || *secs < 0 || *secs > kLatestSecs) RefuseText();
+    ghost = {GhostSource::Kind::kMoment, parts->first, *secs};
+  }
+  value_ = std::move(ghost);
+  text_ = text;
+}
+
+std::string GhostValue::Expected() const {
+  return fmt::format("n_pose, t_pose or SOURCE@SECS (0 to {:.0f} s after its start)", kLatestSecs);
+}
+
+std::vector<std::filesystem::path> GhostValue::Files() const {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(value_.source, ignored)) return {};
+  return {value_.source};
+}
+
+// A name may hold an @ of its own: what follows the last one is a place when it looks like one.
+void RobotsValue::Parse(const std::string& text) {
+  std::vector<std::string> texts;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find(';', begin), text.size());
+    texts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  ParseAll(texts);
+}
+
+void RobotsValue::ParseAll(const std::vector<std::string>& texts) {
+  if (texts.size() > kMostRobots) {
+    throw BadValue(fmt::format("expected at most {} robots", kMostRobots));
+  }
+  std::vector<RobotPlace> robots;
+  for (const std::string& text : texts) {
+    RobotPlace robot{text, std::nullopt};
+    const auto parts = options::SplitAtLast(text, '@');
+    const bool has_place = parts && parts->second.find_first_of("0123456789+-.") == 0;
+    if (has_place) {
+      const auto numbers = options::ParseNumbers(parts->second);
+      const bool is_good = numbers && (numbers->size() == 2 || numbers->size() == 3) &&
+                           !parts->first.empty() &&
+                           std::all_of(numbers->begin(), numbers->end(),
+                                       [](double n) { return std::abs(n) <= kFarthestRobot; });
+      if (!is_good) RefuseText();
+      robot.file = parts->first;
+      const double yaw = numbers->size() == 3 ? (*numbers)[2] : 0;
+      robot.place = {(*numbers)[0], (*numbers)[1], yaw * M_PI / 180};
+    }
+    if (robot.file.empty()) RefuseText();
+    robots.push_back(std::move(robot));
+  }
+  value_ = std::move(robots);
+  texts_ = texts;
+}
+
+std::string RobotsValue::ToText() const { return fmt::format("{}", fmt::join(texts_, ";")); }
+
+std::string RobotsValue::Expected() const {
+  return fmt::format("FILE.urdf, FILE.urdf@X,Y or FILE.urdf@X,Y,YAW (m and degrees, within {})",
+                     kFarthestRobot);
+}
+
+std::vector<std::filesystem::path> RobotsValue::Files() const {
+  std::vector<std::filesystem::path> files;
+  for (const RobotPlace& robot : value_) {
+    for (auto& file : FilesOfRobot(robot.file)) files.push_back(std::move(file));
+  }
+  return files;
+}
+
+ViewOptions::ViewOptions(std::size_t most_cameras)
+    : size({1280, 720}),
+      camera(most_cameras),
+      supersample({{"1", 1}, {"2", 2}, {"4", 4}}, 2),
+      plot(Joined(ScoredJointNames()), kMostPlots, ScoredJointNamed),
+      theme({{"light", render::Theme::kLight}, {"dark", render::Theme::kDark}},
+            render::Theme::kLight),
+      floor(true),
+      show(Joined(PartNames(false)), render::kSceneParts.size(), PartNamed, kFormerParts),
+      hide(Joined(PartNames(true)), render::kSceneParts.size(), PartNamed, kFormerParts),
+      trail(Joined(TrackNames()), kMostTrails, TrackNamed),
+      trail_secs(2, {0, Trails::kMostSecs, "s", true}),
+      ghost_opacity(0.35, {0, 1}) {}
+
+void ViewOptions::List(options::OptionList& option) {
+  option.Group("The picture");
+  option("size", size, "size of the picture");
+  option("camera", camera, "where the camera stands");
+  option("views", views, "several views in one picture");
+  moves.List(option);
+  option("supersample", supersample, "pixels drawn per pixel of the picture, each way");
+  option("title", title, "text in the upper left corner");
+  option("overlay", overlay,
+         "texts and plots over the picture; default: all but scale, frame_code and plot");
+  option("plot", plot, "joints whose loads are plotted over time");
+  option("no_overlays", no_overlays, "no text or plot over the picture");
+  option("theme", theme, "colours of floor and background");
+  option("background", background, "colour of the background");
+  option("floor", floor, "whether the floor is drawn");
+  option("show", show, "parts to show beside the default ones");
+  option("hide", hide, "parts to hide");
+  option("trail", trail, "points whose recent path is drawn");
+  option("trail_secs", trail_secs, "length of the trails");
+  option("ghost", ghost, "a translucent second body to compare with");
+  option("ghost_opacity", ghost_opacity, "opacity of the ghost");
+  option("robot", robot, "robot that stands on the floor beside the people; may be repeated");
 }
 
 render::View ToView(const ViewOptions& options) {
-  const auto [width, height] = ToSize("size", options.size);
-  if (options.supersample != 1 && options.supersample != 2 && options.supersample != 4) {
-    throw UsageError(fmt::format("--supersample={}: expected 1, 2 or 4", options.supersample));
-  }
   render::View view;
-  view.width = width;
-  view.height = height;
-  view.supersample = options.supersample;
-  view.title = options.title;
-  view.overlays = !options.no_overlays;
-  view.parts = ToOverlayParts(options.overlay);
-  view.look = ToLook(options);
-  // Whoever names joints wants to see them.
-  if (!options.plot.empty() && options.overlay.find("-plot") == std::string::npos) {
-    view.parts.plot = true;
-  }
+  view.width = options.size->width;
+  view.height = options.size->height;
+  view.supersample = *options.supersample;
+  view.title = *options.title;
+  view.overlays = !*options.no_overlays;
+  view.parts = *options.overlay;
+  // Naming joints shows the plot, unless --overlay decides.
+  if (!options.plot->empty() && !options.overlay.names_plot()) view.parts.plot = true;
+  render::SceneLook& look = view.look;
+  look.theme = *options.theme;
+  look.is_transparent = options.background->is_transparent;
+  look.background = options.background->color;
+  look.floor = *options.floor;
+  for (const render::ScenePart part : *options.show) look.shown.Set(part, true);
+  for (const render::ScenePart part : *options.hide) look.shown.Set(part, false);
   return view;
 }
 

@@ -1,84 +1,149 @@
-/// How a picture is to look, as every command that draws asks for it.
+/// The look of a picture, as every command that draws asks for it.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/renderer.h"
-#include "server/picture/camera_man.h"
+#include "server/options/option_list.h"
+#include "server/picture/camera_options.h"
 
 namespace kinescope::app {
 
-/// "frames,axes,scale": what is shown by default, or is not (look_options.cc).
-std::string PartNames(bool by_default);
+/// Which texts and plots are painted over a picture: names ("title,time": these) or changes of the
+/// default ("+scale,-legend").
+class OverlayValue : public options::ValueOf<render::OverlayParts> {
+ public:
+  OverlayValue() : ValueOf({}) {}
+
+  void Parse(const std::string& text) override;
+  std::string ToText() const override { return text_; }
+  std::string Expected() const override;
+  std::vector<std::string> Names() const override;
+  /// Whether the plot was named, with or without a sign.
+  bool names_plot() const;
+  std::vector<options::FormerWord> former_words() const override { return former_words_; }
+
+ private:
+  std::string text_;
+  std::vector<options::FormerWord> former_words_;
+};
+
+/// Several views in one picture, row by row; none: one view.
+struct ViewGrid {
+  std::vector<std::string> cameras;  // names; "camera": the one of --camera
+  int columns = 1;                   // of all rows but a shorter last one
+};
+
+class ViewsValue : public options::ValueOf<ViewGrid> {
+ public:
+  ViewsValue() : ValueOf({}) {}
+
+  void Parse(const std::string& text) override;
+  std::string ToText() const override { return text_; }
+  std::string Expected() const override;
+  std::vector<std::string> Names() const override { return render::CameraNames(); }
+
+ private:
+  std::string text_;
+};
+
+struct Background {
+  bool is_transparent = false;
+  std::optional<Rgb> color;  // none: the theme's
+};
+
+/// theme, transparent, white, black or #RRGGBB.
+class BackgroundValue : public options::ValueOf<Background> {
+ public:
+  BackgroundValue() : ValueOf({}) {}
+
+  void Parse(const std::string& text) override;
+  std::string ToText() const override { return text_; }
+  std::string Expected() const override;
+  std::vector<std::string> Names() const override;
+
+ private:
+  std::string text_ = "theme";
+};
+
+/// A body to compare with: an anatomical position, or a moment of a recording.
+struct GhostSource {
+  enum class Kind { kNone, kNPose, kTPose, kMoment };
+  Kind kind = Kind::kNone;
+  std::string source;  // kMoment
+  double secs = 0;     // after the start of the source
+};
+
+/// n_pose, t_pose or SOURCE@SECS; "": none.
+class GhostValue : public options::ValueOf<GhostSource> {
+ public:
+  GhostValue() : ValueOf({}) {}
+
+  void Parse(const std::string& text) override;
+  std::string ToText() const override { return text_; }
+  std::string Expected() const override;
+  std::vector<std::string> Names() const override { return {"n_pose", "t_pose"}; }
+  std::vector<std::filesystem::path> Files() const override;
+
+ private:
+  std::string text_;
+};
+
+/// A robot's URDF and where its root stands on the floor.
+struct RobotPlace {
+  std::string file;
+  struct Place {
+    double x = 0, y = 0, yaw = 0;  // m, m, rad; world
+  };
+  std::optional<Place> place;  // none: beside the people
+};
+
+/// FILE.urdf or FILE.urdf@X,Y or FILE.urdf@X,Y,YAW (m, degrees), once per robot.
+class RobotsValue : public options::ValueOf<std::vector<RobotPlace>> {
+ public:
+  RobotsValue() : ValueOf({}) {}
+
+  void Parse(const std::string& text) override;
+  void ParseAll(const std::vector<std::string>& texts) override;
+  bool is_repeatable() const override { return true; }
+  std::string ToText() const override;
+  std::string Expected() const override;
+  std::vector<std::filesystem::path> Files() const override;
+
+ private:
+  std::vector<std::string> texts_;
+};
 
 struct ViewOptions {
-  std::string size = "1280x720";  // px
-  std::string camera = "three_quarter";
-  std::string views;
+  /// `most_cameras`: of the commands that draw one picture, 1.
+  explicit ViewOptions(std::size_t most_cameras = 1);
+
+  options::Size size;
+  CamerasValue camera;
+  ViewsValue views;
   CameraOptions moves;
-  int supersample = 2;  // 1, 2 or 4 times as many pixels each way
-  std::string title;
-  std::string overlay;
-  std::string plot;
-  bool no_overlays = false;
-  std::string theme = "light";
-  std::string background = "theme";  // or sRGB, #RRGGBB
-  std::string floor = "on";
-  std::string show, hide;
-  std::string trail;
-  double trail_secs = 2;           // s
-  std::string ghost;               // FILE@SECS: s after the recording's start
-  double ghost_opacity = 0.35;     // 0..1
-  std::vector<std::string> robot;  // FILE@X,Y,YAW: world, m and degrees
+  options::Choice<int> supersample;  // times as many pixels each way
+  options::Text title;
+  OverlayValue overlay;
+  options::List<int> plot;  // urdf::Joint
+  options::Flag no_overlays;
+  options::Choice<render::Theme> theme;
+  BackgroundValue background;
+  options::Switch floor;
+  options::List<render::ScenePart> show, hide;
+  options::List<int> trail;  // urdf::Segment; -1: the centre of mass
+  options::Number trail_secs;
+  GhostValue ghost;
+  options::Number ghost_opacity;
+  RobotsValue robot;
 
-  template <class Option>
-  void Visit(Option&& option) {
-    option("size", size, "WIDTHxHEIGHT, px");
-    option("camera", camera, kCameraKinds);
-    option("views", views,
-           "several in one picture: named cameras with commas between, rows with /, such as "
-           "front,right/top,camera (what --camera says); or 2x1, 3x1, 1x2, 2x2");
-    moves.Visit(option);
-    option("supersample", supersample, "1, 2 or 4: drawn larger, then averaged");
-    option("title", title, "text in the upper left corner");
-    option("overlay", overlay,
-           "title lamp legend time names banner scale strip plot, with commas between: these; each "
-           "with + or -: besides, or without; not given: all but scale, strip and plot");
-    option("plot", plot, "joints with commas between, such as right_elbow,l5_s1: loads over time");
-    option("no_overlays", no_overlays, "no legend, time code and title");
-    option("theme", theme, "light or dark");
-    option("background", background,
-           "theme, white, black, #RRGGBB, or transparent (PNG with alpha, soft edges too)");
-    option("floor", floor, "on or off");
-    option("show", show, "beside what is shown: " + PartNames(false) + "; commas between");
-    option("hide", hide, "of what is shown: " + PartNames(true));
-    option("trail", trail, "where something has been: com or segments, such as com,right_hand");
-    option("trail_secs", trail_secs, "so much of the past, s");
-    option("ghost", ghost, "a second body to compare with: n_pose, t_pose or FILE@SECS");
-    option("ghost_opacity", ghost_opacity, "0 to 1");
-    option("robot", robot,
-           "FILE.urdf or FILE.urdf@X,Y,YAW (m and degrees): a robot beside the people, on the "
-           "floor; may be said several times");
-  }
+  void List(options::OptionList& option);
 };
 
-/// Without cameras. @throws UsageError naming option, value and what was expected.
+/// Without cameras.
 render::View ToView(const ViewOptions& options);
-
-// Both: @throws UsageError as ToView.
-
-/// "title,time", "+scale,-legend"; "" the usual ones.
-render::OverlayParts ToOverlayParts(const std::string& text);
-
-/// urdf::Joint of those that have a load. @pre text names none, one or several
-std::vector<int> ToPlotJoints(const std::string& text);
-
-/// The cameras of `views`, row by row; `columns` of all rows but a shorter last one.
-struct ViewGrid {
-  std::vector<std::string> cameras;
-  int columns = 1;
-};
-ViewGrid ToViewGrid(const std::string& views);
 
 }  // namespace kinescope::app

@@ -25,12 +25,12 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-// Messages that wait for one slow subscriber before the oldest is dropped: two seconds at 240 Hz.
+// Length of the queue of a slow subscriber before the oldest message is dropped: two seconds at 240
+// Hz.
 constexpr std::uint32_t kSampleQueue = 480;
 constexpr char kDescription[] = "robot_description";
 
-// A parameter of a launch file has a type and an argument has not: what reads as a number becomes
-// one.
+// A parameter of a launch file has a type, an argument does not: text that is a number becomes one.
 XmlRpcValue Typed(const std::string& text) {
   const char* const end = text.data() + text.size();
   int whole = 0;
@@ -52,7 +52,7 @@ XmlRpcValue Typed(const std::string& text) {
 Announcer::Announcer(std::string initial_urdf, bool with_tf, InputWiring wiring)
     : initial_urdf_(std::move(initial_urdf)), with_tf_(with_tf), wiring_(std::move(wiring)) {
   status_.master_uri = ros::master::getURI();
-  // roscpp would otherwise try for ever when the master goes while it registers something.
+  // Otherwise roscpp would retry without limit if the master stops while a topic is registered.
   ros::master::setRetryTimeout(ros::WallDuration(1));
   thread_ = std::thread([this] { Run(); });
 }
@@ -65,10 +65,11 @@ Announcer::~Announcer() {
   changed_.notify_all();
   thread_.join();
   if (!node_) return;
-  // Callbacks that have not been taken yet will not be: they hold boxes, and the queue goes next.
+  // Callbacks that are still queued will not be called: they hold boxes, and the queue is destroyed
+  // next.
   wiring_.queue->disable();
   wiring_.queue->clear();
-  LeaveRos();  // before the publishers go, each of which would take leave by itself
+  LeaveRos();  // before the publishers, each of which would unregister itself
 }
 
 void Announcer::SetPerson(int character, std::shared_ptr<const PersonModel> model) {
@@ -144,13 +145,13 @@ void Announcer::Run() {
     bool answers = false;
     const bool is_known = MasterKnowsUs(answers);
     SetReachable(answers);
-    if (node_ && !ros::ok()) StopForGood("the master, as rosnode kill does, or by ROS itself");
+    if (node_ && !ros::ok()) StopForGood("a ROS shutdown request (rosnode kill)");
     if (!answers || status().told_to_stop) continue;
     if (!is_known) {
       registered_.clear();
       described_.clear();
       has_arguments_ = false;
-      inputs_.clear();  // roscpp tells a master of a subscriber once
+      inputs_.clear();  // roscpp tells a subscriber to a master only once
       transforms_.clear();
       markers_.clear();
     }
@@ -159,7 +160,7 @@ void Announcer::Run() {
     if (!RegisterAll()) continue;
     Subscribe();
     if (!is_known && was_announced_) {
-      spdlog::info("the ROS master was restarted: all topics are announced again");
+      spdlog::info("the ROS master was restarted: all topics are advertised again");
       const std::lock_guard<std::mutex> lock(mutex_);
       ++status_.master_returns;
     }
@@ -168,13 +169,13 @@ void Announcer::Run() {
   } while (WaitForNext());
 }
 
-// A master that was restarted while we registered knows us by what came last, and nothing of what
-// came before: roscpp waits for a master and goes on with the next. So it must be the same process,
-// too.
+// A master that was restarted during the registration knows this node by its last topics, but not
+// the earlier ones: roscpp waits for a master and continues with the next topic. So the process id
+// must be the same, too.
 bool Announcer::MasterKnowsUs(bool& answers) {
   const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
   const Standing standing = master_.AskStanding(our_uri, kMasterPatience);
-  if (standing == Standing::kNameTaken) StopForGood("another node that took our name");
+  if (standing == Standing::kNameTaken) StopForGood("another node with the same name");
   const std::optional<int> pid =
       standing == Standing::kNoAnswer ? std::nullopt : master_.AskPid(kMasterPatience);
   answers = pid.has_value();
@@ -237,7 +238,7 @@ void Announcer::Subscribe() {
   for (const auto& [prefix, box] : boxes_) {
     if (inputs_.count(prefix) != 0) continue;
     ForceSubscriptions all = SubscribeForces(*node_, prefix, *wiring_.queue, box);
-    if (all.AreComplete()) inputs_[prefix] = std::move(all);  // else the master has just gone
+    if (all.AreComplete()) inputs_[prefix] = std::move(all);  // else the master has just stopped
   }
   if (wiring_.markers && markers_.empty()) {
     markers_ = SubscribeMarkers(*node_, *wiring_.queue, wiring_.markers);
@@ -263,9 +264,9 @@ ros::Subscriber Announcer::SubscribeTransforms(const char* topic, bool is_static
   return node_->subscribe(options);
 }
 
-// roscpp registers a topic when it is advertised, and never again. So this is said to every master
-// that does not know us, and to the first one twice, which does no harm: only our own question
-// tells whether it arrived.
+// roscpp registers a topic when it is advertised, and never again. So topics are registered at
+// every master that does not know this node; at the first one twice, which has no effect. Only the
+// registration check shows whether it arrived.
 bool Announcer::RegisterAll() {
   const std::string our_uri = ros::XMLRPCManager::instance()->getServerURI();
   for (const auto& [topic, type] : topic_types_) {
@@ -289,8 +290,7 @@ bool Announcer::SetParameter(const std::string& name, const XmlRpcValue& value) 
   return master_.Call("setParam", arguments, kMasterPatience).code == MasterReply::Code::kGood;
 }
 
-// Gives up at the first that the master does not take; what is missing is tried again at the next
-// turn.
+// Stops at the first parameter that the master does not accept; the rest is tried again next time.
 void Announcer::SetParameters() {
   if (!has_arguments_) {
     for (const auto& [name, value] : PrivateArguments()) {
@@ -322,7 +322,7 @@ void Announcer::SetReachable(bool reachable) {
   if (reachable) {
     spdlog::info("ROS master at {} answers", status_.master_uri);
   } else {
-    spdlog::warn("ROS master at {} does not answer; publishing to whoever is connected goes on",
+    spdlog::warn("ROS master at {} does not answer; still publishing to connected subscribers",
                  status_.master_uri);
   }
 }
@@ -331,7 +331,7 @@ void Announcer::StopForGood(const char* reason) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (status_.told_to_stop) return;
   status_.told_to_stop = true;
-  spdlog::warn("publishing to ROS was ended by {}", reason);
+  spdlog::warn("publishing to ROS was stopped by {}", reason);
 }
 
 }  // namespace kinescope::ros_bridge

@@ -1,7 +1,7 @@
-/// Keeps our topics and parameters known to a master that comes, goes and restarts. One thread of
-/// its own does all the talking to the master, so that nobody else ever waits for it: roscpp is
-/// started when a master first answers, and once a second the master is asked whether it still
-/// knows us.
+/// Registers topics and parameters with the ROS master, and again after the master restarts. A
+/// separate thread makes all calls to the master, so that no other thread blocks on it. It starts
+/// roscpp when a master first answers, and asks the master once a second whether this node is still
+/// registered.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -31,46 +31,46 @@
 
 namespace kinescope::ros_bridge {
 
-/// Where one person's messages go. Publishing on them is safe from any thread.
+/// The publishers of one person. Any thread may publish.
 struct PersonTopics {
   ros::Publisher joint_states, link_states, com, com_stamped, cop, markers, joint_loads;
-  ros::Publisher tf;  // the same for all people; not valid when TF is off
+  ros::Publisher tf;  // the same for all people; invalid if TF is off
   std::shared_ptr<ForceBox> inputs;
 };
 
-/// Where what comes in goes. Its callbacks run on the thread that calls `queue`.
+/// Destinations of the input topics. The callbacks run on the thread that calls `queue`.
 struct InputWiring {
-  ros::CallbackQueue* queue = nullptr;  // outlives the announcer
+  ros::CallbackQueue* queue = nullptr;  // must outlive the announcer
   std::function<std::shared_ptr<ForceBox>()> make_box;
   std::function<void(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;  // of other nodes
-  std::shared_ptr<MarkerBox> markers;  // null: none are heard
+  std::shared_ptr<MarkerBox> markers;  // null: no marker topics
   std::function<std::shared_ptr<ViewTopics>(const ros::NodeHandle&)> make_view;  // null: no view
 };
 
 class Announcer {
  public:
-  /// `initial_urdf`: robot_description until the first person; "" for none.
+  /// `initial_urdf`: robot_description until the first person; "": none.
   /// @pre ros::init was called.
   Announcer(std::string initial_urdf, bool with_tf, InputWiring wiring);
-  ~Announcer();  // takes the topics back
+  ~Announcer();  // unregisters the topics
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;
 
-  /// Somebody is here, or has changed. The first person's topics are `~joint_states` and so on,
-  /// those of others `~<model>/joint_states`; likewise `robot_description`. Waits for nothing; any
-  /// thread.
+  /// Adds a person, or updates its model. The topics of the first person are `~joint_states` and so
+  /// on, those of others `~<model>/joint_states`; `robot_description` follows the same rule. Never
+  /// blocks; any thread.
   void SetPerson(int character, std::shared_ptr<const PersonModel> model);
 
-  /// Null until a master has answered. Waits for nothing; any thread.
+  /// Null until a master has answered. Never blocks; any thread.
   std::shared_ptr<const PersonTopics> TopicsOf(int character) const;
 
-  /// Null until a master has answered, and where there is none. Waits for nothing; any thread.
+  /// Null until a master has answered, and if there is no view. Never blocks; any thread.
   std::shared_ptr<ViewTopics> View() const;
 
-  /// From now on /tf and /tf_static are heard too. Waits for nothing; any thread.
+  /// Subscribes to /tf and /tf_static from now on. Never blocks; any thread.
   void WantTransforms();
 
-  /// `published` and `missed` are not its business. Any thread.
+  /// Without `published` and `missed`, which the bridge counts. Any thread.
   BridgeStatus status() const;
 
  private:
@@ -100,32 +100,32 @@ class Announcer {
   const bool with_tf_;
   const InputWiring wiring_;
 
-  mutable std::mutex mutex_;  // never held while the master is asked
+  mutable std::mutex mutex_;  // never held during a call to the master
   std::condition_variable changed_;
   std::map<int, Slot> slots_;                         // guarded by mutex_
-  std::shared_ptr<const PersonTopics> first_topics_;  // guarded by mutex_; of whoever comes first
+  std::shared_ptr<const PersonTopics> first_topics_;  // guarded by mutex_; of the first person
   std::shared_ptr<ViewTopics> view_;                  // guarded by mutex_
   BridgeStatus status_;                               // guarded by mutex_
   bool has_work_ = false;                             // guarded by mutex_
   bool stopping_ = false;                             // guarded by mutex_
   bool wants_transforms_ = false;                     // guarded by mutex_
 
-  // The thread's own.
+  // Used by the announcer's thread only.
   MasterClient master_;
-  std::optional<int> master_pid_;          // of the master that all that follows was said to
-  std::unique_ptr<ros::NodeHandle> node_;  // private names; null before a master answered
-  std::map<std::string, std::string> topic_types_;  // all that we advertised, by name
-  std::set<std::string> registered_;                // of these, what this master has accepted
-  std::map<std::string, std::shared_ptr<ForceBox>> boxes_;  // by prefix; all that we take in
-  std::map<std::string, ForceSubscriptions> inputs_;        // of these, what this master knows of
-  std::vector<ros::Subscriber> transforms_;                 // likewise
-  std::vector<ros::Subscriber> markers_;                    // likewise
+  std::optional<int> master_pid_;  // process id of the master that the following members refer to
+  std::unique_ptr<ros::NodeHandle> node_;  // private names; null until a master has answered
+  std::map<std::string, std::string> topic_types_;  // all advertised topics, by name
+  std::set<std::string> registered_;                // of these, those that this master has accepted
+  std::map<std::string, std::shared_ptr<ForceBox>> boxes_;  // by prefix; all input topics
+  std::map<std::string, ForceSubscriptions> inputs_;  // of these, those registered at this master
+  std::vector<ros::Subscriber> transforms_;           // registered at this master
+  std::vector<ros::Subscriber> markers_;              // registered at this master
   std::map<std::string, std::uint64_t>
-      described_;               // description parameters set, and their revision
-  bool has_arguments_ = false;  // this master has our `_name:=value`
-  bool was_announced_ = false;  // once, to any master
+      described_;               // description parameters that were set, with their revision
+  bool has_arguments_ = false;  // the `_name:=value` parameters were set at this master
+  bool was_announced_ = false;  // registered at least once, at any master
 
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last: it uses all other members
 };
 
 }  // namespace kinescope::ros_bridge

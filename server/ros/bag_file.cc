@@ -30,8 +30,9 @@ int OpenTemporary(const std::string& for_path) {
   const int file = failed ? -1 : mkostemp(name.data(), O_CLOEXEC);
   if (file < 0) {
     const std::string why = failed ? failed.message() : std::strerror(errno);
-    throw Error(for_path, "is compressed, and no temporary file can be made (" + why +
-                              "): unpack it yourself, or set TMPDIR to a folder to write in");
+    throw Error(for_path,
+                "is compressed, and no temporary file can be created (" + why +
+                    "); decompress it first, or set TMPDIR to a folder with write permission");
   }
   unlink(name.c_str());
   return file;
@@ -52,9 +53,7 @@ bool WriteAll(int file, std::string_view bytes) {
 BagFile::BagFile(const std::string& path) : path_(path) {
   InputFile file = OpenInputFile(path);
   if (file.head().substr(0, kBagBegins.size()) != kBagBegins) {
-    throw Error(path,
-                "its content begins like no ROS 1 bag (a ROS 2 bag: convert it with "
-                "rosbags-convert)");
+    throw Error(path, "not a ROS 1 bag; convert a ROS 2 bag with rosbags-convert");
   }
   if (file.is_packed()) Unpack(std::move(file));
 }
@@ -68,14 +67,14 @@ void BagFile::Unpack(InputFile packed) {
   std::vector<char> block(kBlockBytes);
   while (const std::size_t size = std::fread(block.data(), 1, block.size(), packed.get())) {
     if (!WriteAll(unpacked_.number, {block.data(), size})) {
-      throw Error(path_, std::string("cannot be unpacked to a temporary file (") +
+      throw Error(path_, std::string("cannot be decompressed to a temporary file (") +
                              std::strerror(errno) +
-                             "): unpack it yourself, or set TMPDIR to a larger disk");
+                             "); decompress it first, or set TMPDIR to a larger disk");
     }
   }
   if (std::ferror(packed.get()) != 0) {
     throw Error(path_,
-                "cannot be unpacked: " + packed.failure() + "; copy it again from where it came");
+                "cannot be decompressed: " + packed.failure() + "; copy it again from its origin");
   }
   path_ = "/proc/self/fd/" + std::to_string(unpacked_.number);
 }

@@ -1,5 +1,6 @@
-/// A bag as rosbag wants it: a file to seek in. What is compressed as a whole is unpacked to a
-/// temporary file without a name, which is gone when nobody has it open any more.
+/// Provides a bag as a file that rosbag can seek in. A bag that is compressed as a whole is
+/// decompressed to a temporary file without a name, which the system deletes when it is closed. One
+/// thread.
 #pragma once
 
 #include <string>
@@ -10,10 +11,10 @@ namespace kinescope::ros_bridge {
 
 class BagFile {
  public:
-  /// @throws SourceError naming `path` and what would help.
+  /// @throws SourceError with `path` and the remedy.
   explicit BagFile(const std::string& path);
 
-  /// What to open; valid while this lives.
+  /// Path to open; valid while this object exists.
   const std::string& path() const { return path_; }
 
  private:
@@ -28,7 +29,7 @@ class BagFile {
   void Unpack(InputFile packed);
 
   std::string path_;
-  Descriptor unpacked_;  // the temporary file, where one is needed
+  Descriptor unpacked_;  // the temporary file, if needed
 };
 
 }  // namespace kinescope::ros_bridge

@@ -18,11 +18,11 @@ namespace kinescope::ros_bridge {
 namespace {
 
 constexpr int kMessagesPerPoll = 256;
-constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read for frame names when opening
+constexpr std::int64_t kNamesNanos = 10'000'000'000;  // read on opening for frame names
 
 constexpr char kUnreadableTransforms[] =
-    "message on /tf that is cut short or lies about its length";
-constexpr char kOtherType[] = "message on /tf that is no TFMessage";
+    "message on /tf that is truncated or has a wrong length field";
+constexpr char kOtherType[] = "message on /tf that is not a TFMessage";
 
 bool IsStatic(const std::string& topic) { return topic == "/tf_static" || topic == "tf_static"; }
 bool IsMoving(const std::string& topic) { return topic == "/tf" || topic == "tf"; }
@@ -54,11 +54,11 @@ class BagSource : public Source {
   void Open();
   void ReadNames();
   State Read(SampleSink& sink);
-  /// False: nothing of it can be used. Counts why.
+  /// False if nothing of it can be used; counts the reason.
   bool Decode(const rosbag::MessageInstance& instance);
   void Reject(const char* reason) { ++counters_.rejected[reason]; }
 
-  // What rosbag throws, as one line.
+  // Converts exceptions of rosbag to one line.
   template <class Function>
   void Guard(Function function) {
     const auto fail = [&](const std::string& what) {
@@ -71,9 +71,9 @@ class BagSource : public Source {
     } catch (const rosbag::BagUnindexedException&) {
       throw fail("was not closed when it was recorded; `rosbag reindex` repairs it");
     } catch (const rosbag::BagFormatException& error) {
-      throw fail(std::string("is broken (") + error.what() + "); `rosbag fix` may repair it");
+      throw fail(std::string("is damaged (") + error.what() + "); `rosbag fix` may repair it");
     } catch (const std::exception& error) {
-      throw fail(std::string("breaks off or is broken (") + error.what() +
+      throw fail(std::string("is truncated or damaged (") + error.what() +
                  "); `rosbag reindex` may repair it");
     }
   }
@@ -112,12 +112,12 @@ void BagSource::Open() {
   }
   if (!has_transforms) {
     throw SourceError("bag '" + name_ +
-                      "': has no /tf, so no poses; record one with `rosbag record /tf`");
+                      "': contains no /tf topic, so no poses; record it with `rosbag record /tf`");
   }
   view_ = std::make_unique<rosbag::View>(bag_, rosbag::TopicQuery(used));
   const SourceCounters before = counters_;
   ReadNames();
-  counters_ = before;  // the same messages are about to be read as samples
+  counters_ = before;  // the same messages will be read again as samples
   next_ = view_->begin();
 }
 
@@ -140,7 +140,7 @@ void BagSource::ReadNames() {
   people_.FindPeople();
   if (people_.people().empty()) {
     throw SourceError("bag '" + name_ +
-                      "': nobody on its /tf: expected 23 frames named after the segments, such as "
+                      "': no person found on /tf; expected 23 frames with segment names, such as "
                       "skeleton_pelvis, skeleton_l5, ..., skeleton_left_toe");
   }
   const Appearances& pelvis = appearances[people_.people().front().frames[urdf::kPelvis]];
@@ -174,7 +174,7 @@ Source::State BagSource::Read(SampleSink& sink) {
 }
 
 bool BagSource::Decode(const rosbag::MessageInstance& instance) {
-  // tf/tfMessage of old recordings is the same message under another name.
+  // tf/tfMessage in old recordings is the same message with another name.
   if (instance.getMD5Sum() != ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
     Reject(kOtherType);
     return false;

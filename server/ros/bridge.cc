@@ -27,13 +27,13 @@
 namespace kinescope::ros_bridge {
 namespace {
 
-// One person's way out. Messages are kept from sample to sample, with their memory and their names.
+// Outputs of one person. Messages are reused from sample to sample, with their memory and names.
 struct Outlet {
   explicit Outlet(const PersonState& person) : model(person.model), names(person.model->human) {}
 
   std::shared_ptr<const PersonModel> model;
   PersonNames names;
-  std::shared_ptr<const PersonTopics> topics;  // null until announced
+  std::shared_ptr<const PersonTopics> topics;  // null until registered
 
   bool has_last = false;
   std::uint32_t last_counter = 0;
@@ -144,7 +144,7 @@ class Bridge : public RosBridge {
     ++published_;
   }
 
-  // TF goes first: whoever gets one of the others can look the frames up.
+  // TF is published first, so that a receiver of the other topics can look the frames up.
   void Send(const SceneState& state, const PersonState& person, const PersonTopics& topics,
             Outlet& outlet) const {
     const std::string& frame = config_.reference_frame;
@@ -175,7 +175,7 @@ class Bridge : public RosBridge {
       FillJointLoads(person, frame, outlet.joint_loads);
       topics.joint_loads.publish(outlet.joint_loads);
     }
-    // Filled without a subscriber too: they may have to turn grey when there is one.
+    // Filled without a subscriber, too: they may have to turn grey when there is one.
     FillMarkers(person, outlet.names, frame,
                 config_.tf == "off" ? MarkerFrames::kReference : MarkerFrames::kLinks,
                 state.floor_z, outlet.markers);
@@ -200,15 +200,15 @@ class Bridge : public RosBridge {
   }
 
   const BridgeConfig config_;
-  ros::CallbackQueue queue_;           // taken by the publishing thread
-  std::optional<int> view_listeners_;  // likewise; news that the sink has not got
-  const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // that thread's
-  const std::shared_ptr<MarkerBox> markers_in_ = MakeMarkerBox();          // null: none are heard
+  ros::CallbackQueue queue_;           // called by the publishing thread
+  std::optional<int> view_listeners_;  // publishing thread only; until passed on
+  const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // publishing thread only
+  const std::shared_ptr<MarkerBox> markers_in_ = MakeMarkerBox();          // null: no marker topics
   Announcer announcer_;
   std::atomic<std::uint64_t> published_ = 0;
   std::atomic<std::uint64_t> missed_ = 0;
 
-  // The publishing thread's own.
+  // Used by the publishing thread only.
   std::map<int, Outlet> outlets_;  // by character
   bool is_stale_ = false;
   std::uint64_t last_live_number_ = 0;
@@ -236,14 +236,14 @@ std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mod
   }
   if (!(std::abs(config.external_scale) >= 1e-6 && std::abs(config.external_scale) <= 1e6)) {
     throw UsageError(
-        fmt::format("--external_scale={}: expected 1, -1 or another factor from 1e-6 to "
-                    "1e6",
+        fmt::format("--external_scale={}: expected a factor from 1e-6 to 1e6, or from -1e6 to "
+                    "-1e-6, such as 1 or -1",
                     config.external_scale));
   }
   if (mode == RosMode::kOff) return nullptr;
   if (mode == RosMode::kRequired && !MasterIsReachable()) {
     throw UsageError(fmt::format(
-        "no ROS master answers at {}: start roscore, set ROS_MASTER_URI, or run with --ros auto",
+        "--ros=required: no ROS master at {}; start roscore, set ROS_MASTER_URI, or use --ros=auto",
         MasterUri()));
   }
   return std::make_unique<Bridge>(config);

@@ -1,5 +1,6 @@
-/// SceneState -> ROS 1 topics, TF, robot_description (docs/ros.md). No ROS type shows here, so a
-/// build without ROS has the same header and a MakeRosBridge that says what is missing.
+/// Publishes SceneState as ROS 1 topics, TF and robot_description (docs/ros.md). No ROS type
+/// appears here, so a build without ROS has the same header and a MakeRosBridge that reports what
+/// is missing.
 #pragma once
 
 #include <cstdint>
@@ -16,116 +17,121 @@
 
 namespace kinescope::ros_bridge {
 
-enum class RosMode { kOff, kAuto, kRequired };  // auto: publish whenever a master is there
+enum class RosMode { kOff, kAuto, kRequired };  // auto: publish while a master is reachable
 
 struct BridgeConfig {
   std::string reference_frame = "world";  // parent of every TF, header.frame_id of poses
-  std::string tf = "flat";                // "flat" as the seed, "tree" or "off"
-  std::string joint_states = "computed";  // or "streamed": type 20 with the seed's mapping
+  std::string tf = "flat";                // "flat" as xsens_mvn_ros, "tree" or "off"
+  std::string joint_states = "computed";  // or "streamed": type 20 with the mapping of
+                                          // xsens_mvn_ros
 
-  /// What robot_description holds until somebody is seen; "": not set until then. RViz looks for it
-  /// once, when it starts, which with one launch file is before the first sample.
+  /// Content of robot_description until the first person appears; "": not set until then. RViz
+  /// reads it once when it starts, which with one launch file is before the first sample.
   std::string initial_urdf;
 
-  /// Multiplies the moments that another program publishes: -1 where it means what the child exerts
-  /// on the parent.
+  /// Factor for moments of external joint loads: -1 if the other program means the moment that the
+  /// child exerts on the parent.
   double external_scale = 1;
-  /// "" or what is wrong with a hand load that somebody wants to set. Null: all are taken.
+  /// Why a hand load is rejected, "" if it is accepted. Null: all are accepted.
   std::function<std::string(const HandLoad&)> check_hand_load;
-  std::string markers;     // topics of other programs' markers, with commas between
-  bool with_view = false;  // `~view/image_raw` is there; who advertises it has to draw
+  std::string markers;     // topics of external markers, comma-separated
+  bool with_view = false;  // advertises `~view/image_raw`; its owner must render it
 };
 
-/// A picture on its way to `~view/image_raw`, and the camera that took it.
+/// A picture for `~view/image_raw` and its camera.
 struct ViewPicture {
   int width = 0, height = 0;              // px
   const std::vector<std::uint8_t>& rgba;  // (height, width, 4), top row first; opaque
-  std::int64_t stamp_nanos = 0;           // of the sample it shows; 0 before the first
-  urdf::Pose world_from_optical;          // z forward, x to the right, y down (REP 103)
-  double focal_px = 0;  // of the pinhole in the picture's middle; 0: it is none of one pinhole
+  std::int64_t stamp_nanos = 0;           // ns, of the sample that it shows; 0 before the first
+  urdf::Pose world_from_optical;  // camera frame: z forward, x to the right, y down (REP 103)
+  double focal_px = 0;  // focal length of a pinhole camera, px, its axis in the middle of the
+                        // picture; 0: not a pinhole camera
 };
 
-/// What came on one input topic.
+/// Counters of one input topic.
 struct InputCounters {
   std::uint64_t received = 0, used = 0;
-  std::map<std::string, std::uint64_t> refused;  // by kind: "not a number"
-  std::uint64_t unknown_joints = 0;              // named in messages, none of ours
-  std::uint64_t skewed = 0;    // stamps more than kMostSkewSecs off the newest sample's
-  double worst_skew_secs = 0;  // of those; positive: later than the sample
-  std::string last_problem;    // with its values; "" while there was none
+  std::map<std::string, std::uint64_t> refused;  // rejected, by kind: "not a number"
+  std::uint64_t unknown_joints = 0;              // joints in messages that are unknown
+  std::uint64_t skewed = 0;    // stamps more than kMostSkewSecs off the newest sample's stamp
+  double worst_skew_secs = 0;  // the worst of those, s; positive: later than the sample
+  std::string last_problem;    // with its values; "" without a problem
 };
-/// More than that and clocks disagree, which is reported; what is off by more than half a second is
-/// never fresh.
+/// Beyond this the clocks disagree, which is reported; a measurement more than half a second off is
+/// never used.
 inline constexpr double kMostSkewSecs = 0.2;
 
 struct BridgeStatus {
-  bool master_reachable = false;  // when last asked; asked once a second
+  bool master_reachable = false;  // at the last check; checked once a second
   std::string master_uri;
-  std::uint64_t published = 0;       // samples handed to ROS
-  std::uint64_t missed = 0;          // samples that came before their topics could be announced
-  std::uint64_t master_returns = 0;  // times the topics were announced anew to a restarted master
-  /// `rosnode kill`, or another node took our name: nothing is published any more. A program that
-  /// has nothing else to do should end.
+  std::uint64_t published = 0;       // samples passed to ROS
+  std::uint64_t missed = 0;          // samples that arrived before their topics were registered
+  std::uint64_t master_returns = 0;  // times the topics were registered again at a restarted master
+  /// `rosnode kill`, or another node took this node's name: nothing is published any more. A
+  /// program without another task should end.
   bool told_to_stop = false;
   std::map<std::string, InputCounters> inputs;  // by topic, as "hand_wrench/right"
 };
 
-/// Takes what was told over ROS, on the thread that calls RosBridge::TakeInputs.
+/// Receives the inputs from ROS, on the thread that calls RosBridge::TakeInputs.
 class InputSink {
  public:
   virtual ~InputSink() = default;
   virtual void OnHandLoad(int character, const HandLoad& load) = 0;
   virtual void OnMeasurements(int character, const Measurements& measured) = 0;
-  /// All that other programs show now, placed; comes when it is another list than before.
+  /// All current external markers, in the world frame; called when the list has changed.
   virtual void OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& /*markers*/) {}
-  /// So many now want to see pictures of the view; each that comes wants one at once.
+  /// The number of subscribers of the view; each new one needs a picture at once.
   virtual void OnViewListeners(int /*count*/) {}
 };
 
-/// Publishes each state once, from the thread that made it; never blocks on the master. Destroying
-/// it takes the topics back. roscpp has one node per process: make one bridge, once.
+/// Publishes each state once, on the thread that made it; never blocks on the master. The
+/// destructor unregisters the topics. roscpp allows one node per process: make one bridge, once.
 class RosBridge {
  public:
   virtual ~RosBridge() = default;
   RosBridge(const RosBridge&) = delete;
   RosBridge& operator=(const RosBridge&) = delete;
 
-  /// One message per topic and person, all with the stamp of the person's sample. A sample that was
-  /// published before (same counter and stamp) is not published again, and no motion comes from a
-  /// state that is not live; when a stream stops, its markers turn grey once. One thread calls it.
+  /// One message per topic and person, all with the stamp of the person's sample. A sample with the
+  /// counter and stamp of an earlier one is not published again, and no motion is published from a
+  /// state that is not live. When a stream stops, its markers turn grey once. Call it on one
+  /// thread.
   virtual void Publish(const SceneState& state) = 0;
 
-  /// Hands on what has come on the input topics and services since the last call; waits for
-  /// nothing. The same thread as Publish: before each sample, and now and then while none come.
+  /// Passes on the inputs received on topics and services since the last call; never waits. Call it
+  /// on the thread of Publish: before each sample, and regularly while none arrive.
   virtual void TakeInputs(InputSink& sink) = 0;
   virtual BridgeStatus status() const = 0;  // any thread
 
-  /// To whoever listens to the view. One thread, any; never blocks on the master.
+  /// Publishes a picture to the subscribers of the view. Call it on one thread, which may be any;
+  /// never blocks on the master.
   virtual void PublishView(const ViewPicture& picture) = 0;
 
  protected:
   RosBridge() = default;
 };
 
-/// Takes the ROS remappings (`a:=b`) out of argv. Call first in main. Does not talk to a master.
-/// `default_name`: node name unless __name:= says otherwise.
-/// @throws UsageError when ROS_MASTER_URI or a name cannot be used.
+/// Removes the ROS remappings (`a:=b`) from argv. Call it first in main. Does not contact a master.
+/// `default_name`: node name unless __name:= sets another.
+/// @throws UsageError if ROS_MASTER_URI or a name is invalid.
 void InitRos(int& argc, char** argv, const std::string& default_name);
 
 bool BuiltWithRos();
 
-// The following need InitRos first, where built with ROS.
+// In a build with ROS, the following functions require InitRos.
 
-std::string MasterUri();   // "" when built without ROS
-bool MasterIsReachable();  // asks it, waits at most a second
+std::string MasterUri();   // "" in a build without ROS
+bool MasterIsReachable();  // contacts it, waits at most a second
 
-/// The private parameter `~name` as text: what `_name:=value` said on the command line, else what
-/// the master holds. nullopt when neither has it, when it is a list or a map, or when no master is
-/// there. The master is asked once, at the first call. Any thread.
+/// The private parameter `~name` as text: from `_name:=value` on the command line, else from the
+/// master. nullopt if neither has it, if it is a list or a map, or if no master is reachable. The
+/// master is asked once, at the first call. Any thread.
 std::optional<std::string> PrivateParameter(const std::string& name);
 
 /// Null for kOff.
-/// @throws UsageError for a bad config, for kRequired without a master, or when built without ROS.
+/// @throws UsageError for an invalid config, for kRequired without a master, or in a build without
+/// ROS.
 [[nodiscard]] std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mode);
 
 }  // namespace kinescope::ros_bridge

@@ -1,4 +1,4 @@
-/// Eigen -> ROS, element by element.
+/// Converts Eigen types to ROS types, element by element. Pure functions, any thread.
 #pragma once
 
 #include <geometry_msgs/Point.h>

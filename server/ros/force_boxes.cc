@@ -21,10 +21,10 @@ constexpr char kGroundCop[] = "ground_cop";
 constexpr char kExternalLoads[] = "external_loads";
 constexpr char kExternalJointStates[] = "external_joint_states";
 
-// Of sensors that are faster than the suit only the newest counts.
+// Only the newest message counts of a sensor that is faster than the suit.
 constexpr std::uint32_t kForceQueue = 32;
 
-// Whether two measurements belong together.
+// Whether two measurements have about the same time.
 bool AreOfOneTime(std::int64_t a, std::int64_t b) { return std::abs(Secs(a - b)) <= kMostSkewSecs; }
 
 }  // namespace
@@ -63,7 +63,8 @@ void ForceBox::Refuse(const char* topic, const Refusal& refusal) {
   counters.last_problem = refusal.text;
 }
 
-// A header without a time is as new as the sample; that one's stamp is what it is compared with.
+// A header without a time counts as new as the sample; the result is compared with the sample's
+// stamp.
 std::int64_t ForceBox::StampOf(const char* topic, const std_msgs::Header& header) {
   if (header.stamp.isZero()) return body_->stamp_nanos;
   const auto stamp = static_cast<std::int64_t>(header.stamp.toNSec());
@@ -73,14 +74,14 @@ std::int64_t ForceBox::StampOf(const char* topic, const std_msgs::Header& header
   InputCounters& counters = counters_[topic];
   ++counters.skewed;
   if (std::abs(skew) > std::abs(counters.worst_skew_secs)) counters.worst_skew_secs = skew;
-  counters.last_problem =
-      fmt::format("stamp {:+.3f} s from the newest sample's: are the clocks set?", skew);
+  counters.last_problem = fmt::format(
+      "time stamp differs by {:+.3f} s from the newest sample; synchronise the clocks", skew);
   return stamp;
 }
 
 std::optional<FoundFrame> ForceBox::Place(const char* topic, const std_msgs::Header& header) {
   if (!body_) {
-    Refuse(topic, {"nobody is here", "nobody has been seen whom it could be measured on"});
+    Refuse(topic, {"nobody is here", "no person has been received yet"});
     return std::nullopt;
   }
   const auto stamp = static_cast<std::int64_t>(header.stamp.toNSec());
@@ -88,9 +89,11 @@ std::optional<FoundFrame> ForceBox::Place(const char* topic, const std_msgs::Hea
       FindFrame(header.frame_id, stamp, settings_.reference_frame, model_, *body_, *settings_.tf);
   if (!frame) {
     settings_.want_tf();
-    Refuse(topic, {"unknown frame",
-                   fmt::format("frame '{}': neither '{}' nor a link, and not in /tf",
-                               header.frame_id.substr(0, 64), settings_.reference_frame)});
+    Refuse(topic,
+           {"unknown frame",
+            fmt::format(
+                "unknown frame '{}': it is neither '{}' nor a link, and /tf does not contain it",
+                header.frame_id.substr(0, 64), settings_.reference_frame)});
   }
   return frame;
 }
@@ -107,7 +110,8 @@ std::string ForceBox::TakeHandLoad(const char* topic, const Message& message) {
     if (com->size() == 3) {
       load.com_in_hand[side] = Eigen::Vector3d::Map(com->data());
     } else if (!com->empty()) {
-      wrong = fmt::format("centre of mass of {} numbers: expected x, y, z, or none", com->size());
+      wrong =
+          fmt::format("centre of mass with {} numbers: expected x, y and z, or none", com->size());
     }
   }
   if (wrong.empty() && settings_.check_hand_load) wrong = settings_.check_hand_load(load);
@@ -177,8 +181,8 @@ void ForceBox::OnGroundCop(const geometry_msgs::PointStamped& message) {
   Use(kGroundCop);
 }
 
-// A measured CoP says better where a measured force acts than the moments beside it; alone it goes
-// with the force that the motion asks for.
+// A measured CoP is a more accurate point of action than the moments of a measured force. A CoP
+// alone is used with the force that the motion requires.
 void ForceBox::CombineGround() {
   has_news_ = true;
   const bool has_cop = ground_cop_.has_value();
@@ -220,8 +224,7 @@ void ForceBox::OnExternalLoads(const kinescope_ros::JointLoadArray& message) {
 
 void ForceBox::OnExternalJointStates(const sensor_msgs::JointState& message) {
   if (!body_) {
-    return Refuse(kExternalJointStates,
-                  {"nobody is here", "nobody has been seen whose joints these could be"});
+    return Refuse(kExternalJointStates, {"nobody is here", "no person has been received yet"});
   }
   UseExternal(kExternalJointStates, ToExternalLoads(message, *body_, settings_.external_scale),
               StampOf(kExternalJointStates, message.header));

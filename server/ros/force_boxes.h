@@ -1,6 +1,6 @@
-/// One person's input topics: measured forces, loads computed elsewhere, what the hands hold
-/// (docs/ros.md). The announcer's thread subscribes; messages are taken by whoever calls the queue,
-/// the thread that reads samples, and wait in the box for the next sample.
+/// Receives one person's input topics: measured forces, external joint loads, hand loads
+/// (docs/ros.md). The announcer's thread subscribes. The thread that reads samples calls the queue
+/// and so receives the messages, which wait in the box for the next sample.
 #pragma once
 
 #include <geometry_msgs/PointStamped.h>
@@ -27,24 +27,25 @@
 
 namespace kinescope::ros_bridge {
 
-/// What is the same for all people.
+/// Settings that are the same for all people.
 struct ForceSettings {
   std::string reference_frame;
   double external_scale = 1;
-  std::function<std::string(const HandLoad&)> check_hand_load;  // null: all are taken
+  std::function<std::string(const HandLoad&)> check_hand_load;  // null: all are accepted
   std::shared_ptr<const TfTree> tf;
-  std::function<void()> want_tf;  // a frame is neither ours nor in `tf`; waits for nothing
+  std::function<void()> want_tf;  // called for a frame that is unknown and not in `tf`; must not
+                                  // block
 };
 
 class ForceBox {
  public:
   explicit ForceBox(ForceSettings settings) : settings_(std::move(settings)) {}
 
-  // The thread that reads samples.
+  // The following functions are for the thread that reads samples.
 
-  /// The newest sample of the person whose box this is.
+  /// Sets the newest sample of this box's person.
   void SetBody(const PersonState& person, double floor_z);
-  /// Hands on what is new.
+  /// Passes on new inputs.
   void Deliver(int character, InputSink& sink);
 
   void OnHandLoad(const kinescope_ros::HandLoad& message);
@@ -61,8 +62,8 @@ class ForceBox {
   std::map<std::string, InputCounters> counters() const;
 
  private:
-  // HandLoad, or SetHandLoad's request: the same members. @return what is wrong, "" where nothing
-  // is.
+  // HandLoad, or the request of SetHandLoad, which has the same members. @return the error, ""
+  // without one.
   template <class Message>
   std::string TakeHandLoad(const char* topic, const Message& message);
   std::optional<FoundFrame> Place(const char* topic, const std_msgs::Header& header);
@@ -74,7 +75,7 @@ class ForceBox {
 
   const ForceSettings settings_;
 
-  // The thread that reads samples.
+  // Used by the thread that reads samples only.
   std::optional<BodyNow> body_;
   std::string model_;
   Measurements measured_;
@@ -88,14 +89,16 @@ class ForceBox {
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
 };
 
-/// The connections that fill a box. They end with it; a master that forgot us needs new ones.
+/// The connections that fill a box; their destructors close them. A master that was restarted needs
+/// new ones.
 struct ForceSubscriptions {
   std::vector<ros::Subscriber> subscribers;
   ros::ServiceServer service;
-  bool AreComplete() const;  // false: the master did not take one of them
+  bool AreComplete() const;  // false: the master did not accept one of them
 };
 
-/// Below `prefix` ("" or "<model>/") of the private names of `node`. Asks the master: may wait.
+/// Subscribes below `prefix` ("" or "<model>/") of the private names of `node`. Calls the master,
+/// so it may block.
 ForceSubscriptions SubscribeForces(ros::NodeHandle& node, const std::string& prefix,
                                    ros::CallbackQueue& queue, const std::shared_ptr<ForceBox>& box);
 

@@ -46,7 +46,7 @@ std::optional<urdf::Pose> TfTree::Find(const std::string& target, const std::str
       const auto& p = found.transform.translation;
       const auto& q = found.transform.rotation;
       return urdf::Pose{{p.x, p.y, p.z}, Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized()};
-    } catch (const tf2::TransformException&) {  // it said that it could
+    } catch (const tf2::TransformException&) {  // although it reported the transform as available
     }
   }
   return std::nullopt;
@@ -70,7 +70,7 @@ std::optional<FoundFrame> FindFrame(const std::string& frame, std::int64_t stamp
   if (const auto pose = tf.Find(reference_frame, name, stamp_nanos)) {
     return FoundFrame{*pose, false};
   }
-  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {  // a handle strapped to a hand
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {  // a handle fixed to a hand
     const auto in_link = tf.Find(urdf::LinkName(model, segment), name, stamp_nanos);
     if (!in_link) continue;
     const urdf::Pose& link_pose = body.links[At(segment)];

@@ -1,5 +1,5 @@
-/// Where the frames are that forces are measured in: the reference frame, a link of the person, or
-/// anything in /tf. One thread.
+/// Finds the frames in which forces are measured: the reference frame, a link of the person, or any
+/// frame in /tf. One thread.
 #pragma once
 
 #include <tf2/buffer_core.h>
@@ -14,15 +14,15 @@
 
 namespace kinescope::ros_bridge {
 
-/// What other nodes say about frames, for ten seconds. Not our own: those are known from the newest
-/// sample, and a recording that starts over would be old news to it.
+/// Frames published by other nodes, kept for ten seconds. Kinescope's own frames are not included:
+/// they are known from the newest sample, and tf2 would ignore them after a recording starts over.
 class TfTree {
  public:
-  /// What is no pose (a number that is not finite, a quaternion that is none) is left out; the
-  /// number of those.
+  /// Adds the transforms of a message. Skips those that are invalid (a number that is not finite,
+  /// an invalid quaternion) and returns their number.
   int Add(const tf2_msgs::TFMessage& message, bool is_static);
 
-  /// target_from_frame at `stamp_nanos`, or as it was seen last when that time is not known.
+  /// target_from_frame at `stamp_nanos`, or the newest if that time is unknown.
   std::optional<urdf::Pose> Find(const std::string& target, const std::string& frame,
                                  std::int64_t stamp_nanos) const;
 
@@ -30,7 +30,7 @@ class TfTree {
   tf2::BufferCore buffer_;
 };
 
-/// The person whom sensors touch, as in the newest sample.
+/// The person at the sensors, as in the newest sample. World frame, metres.
 struct BodyNow {
   urdf::LinkPoses links{};  // world_from_link
   urdf::Skeleton skeleton;
@@ -40,12 +40,12 @@ struct BodyNow {
 
 struct FoundFrame {
   urdf::Pose pose;  // world_from_frame
-  /// Of the reference frame or a link of the person: its origin is where no sensor sits.
+  /// The reference frame or a link of the person: its origin is not the position of a sensor.
   bool is_own = false;
 };
 
-/// `frame` as a link of `model` ("skeleton_right_hand", "right_hand", "RightHand"), the reference
-/// frame, or in `tf` below either; nullopt when it is none of these.
+/// `frame` as a link of `model` ("skeleton_right_hand", "right_hand", "RightHand"), as the
+/// reference frame, or as a frame in `tf` that is connected to one of them; nullopt otherwise.
 std::optional<FoundFrame> FindFrame(const std::string& frame, std::int64_t stamp_nanos,
                                     const std::string& reference_frame, const std::string& model,
                                     const BodyNow& body, const TfTree& tf);

@@ -14,10 +14,10 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 constexpr double kMostForce = 20'000;      // N, ten times what landing from a jump takes
-constexpr double kMostMoment = 20'000;     // N m
+constexpr double kMostMoment = 20'000;     // N·m
 constexpr double kReach = 2;               // m
-constexpr double kLeastGroundForce = 20;   // N; below, a plate's CoP is noise
-constexpr std::size_t kMostJoints = 1000;  // of a message; a person has 66
+constexpr double kLeastGroundForce = 20;   // N; below it, a plate's CoP is noise
+constexpr std::size_t kMostJoints = 1000;  // per message; a person has 66
 
 tl::unexpected<Refusal> NoForce(const char* kind, std::string text) {
   return tl::unexpected(Refusal{kind, std::move(text)});
@@ -38,16 +38,18 @@ Taken<WorldWrench> ToWorld(const geometry_msgs::WrenchStamped& message, const Fo
     return NoForce("not a number", "a force or moment is not a number");
   }
   if (force.norm() > kMostForce || moment.norm() > kMostMoment) {
-    return NoForce("too large",
-                   fmt::format("{:.3g} N, {:.3g} N m: expected at most {:.0f} N; in newtons?",
-                               force.norm(), moment.norm(), kMostForce));
+    return NoForce(
+        "too large",
+        fmt::format(
+            "{:.3g} N, {:.3g} N·m: expected at most {:.0f} N and {:.0f} N·m; check the unit",
+            force.norm(), moment.norm(), kMostForce, kMostMoment));
   }
   return WorldWrench{frame.pose.orientation * force, frame.pose.orientation * moment};
 }
 
 double HorizontalDistance(const Vector3d& a, const Vector3d& b) { return (a - b).head<2>().norm(); }
 
-// Axes of a joint's three turns, as rows: x, y, z.
+// Axes of a joint's three rotations, as rows: x, y, z.
 Taken<Matrix3d> AxesOf(int joint, bool is_rot, const BodyNow& body) {
   const int parent = urdf::ParentOf(joint), child = urdf::ChildOf(joint);
   Quaterniond world_from_parent = body.links[At(parent)].orientation;
@@ -68,15 +70,16 @@ Taken<Matrix3d> AxesOf(int joint, bool is_rot, const BodyNow& body) {
     axes.row(1) = world_from_parent * Vector3d::UnitY();
   }
   axes.row(2) = world_from_child * Vector3d::UnitZ();
-  constexpr double kLocked = 0.05;  // three axes nearly in a plane: no moment can be told from them
+  constexpr double kLocked = 0.05;  // three axes nearly in a plane do not determine a moment
   if (std::abs(axes.determinant()) < kLocked) {
-    return NoForce("axes fall together", fmt::format("{}: its three axes lie in a plane now",
-                                                     urdf::kJoints[At(joint)].mvn_name));
+    return NoForce("axes fall together",
+                   fmt::format("{}: its three axes lie in one plane in this pose",
+                               urdf::kJoints[At(joint)].mvn_name));
   }
   return axes;
 }
 
-// What a message of joints says, by joint.
+// The values of a message of joints, by joint.
 struct Efforts {
   std::array<Vector3d, urdf::kJointCount> about_axes;
   std::array<bool, urdf::kJointCount> is_given{}, is_rot{};
@@ -102,7 +105,7 @@ Taken<ExternalLoads> FromEfforts(const sensor_msgs::JointState& message, const B
     const Vector3d& about_axes = efforts.about_axes[At(joint)];
     if (!efforts.is_given[At(joint)] || !about_axes.allFinite()) continue;
     const auto axes = AxesOf(joint, efforts.is_rot[At(joint)], body);
-    if (!axes) continue;  // this joint alone; it becomes stale
+    if (!axes) continue;  // only this joint; it expires
     loads.joints[At(joint)].moment = axes->inverse() * about_axes;
     loads.is_given[At(joint)] = true;
   }
@@ -117,7 +120,7 @@ Taken<ExternalLoads> FromRatios(const sensor_msgs::JointState& message) {
       ++loads.unknown_joints;
     } else if (named.axis >= 0) {
       return NoForce("no effort",
-                     "'" + message.name[i] + "': neither efforts nor ratios of whole joints");
+                     "'" + message.name[i] + "': expected efforts, or ratios of whole joints");
     } else if (const double ratio = message.position[i]; ratio >= 0) {
       loads.joints[At(named.joint)].ratio = ratio;
       loads.is_given[At(named.joint)] = true;
@@ -138,8 +141,8 @@ Taken<MeasuredGroundForce> ToGroundForce(const geometry_msgs::WrenchStamped& mes
   ground.only_vertical = message.wrench.force.x == 0 && message.wrench.force.y == 0;
   if (force.z() < -kLeastGroundForce) {
     return NoForce("pushes down",
-                   fmt::format("{:.0f} N downwards: expected the force of the floor on the "
-                               "person, upwards",
+                   fmt::format("the force points down ({:.0f} N); expected the ground reaction "
+                               "force on the person, which points up; invert the sign",
                                -force.z()));
   }
   if (force.z() < kLeastGroundForce) {
@@ -154,8 +157,10 @@ Taken<MeasuredGroundForce> ToGroundForce(const geometry_msgs::WrenchStamped& mes
   ground.free_moment = wrench->moment.z() - (arm.x() * force.y() - arm.y() * force.x());
   const double away = HorizontalDistance(ground.point, body.links[urdf::kPelvis].position);
   if (!(away < kReach)) {
-    return NoForce("far away",
-                   fmt::format("its centre of pressure is {:.1f} m from the pelvis", away));
+    return NoForce(
+        "far away",
+        fmt::format("its centre of pressure is {:.1f} m from the pelvis; expected less than {} m",
+                    away, kReach));
   }
   return ground;
 }
@@ -167,8 +172,10 @@ Taken<Vector3d> ToCop(const geometry_msgs::PointStamped& message, const FoundFra
   point.z() = body.floor_z;
   const double away = HorizontalDistance(point, body.links[urdf::kPelvis].position);
   if (!(away < kReach)) {
-    return NoForce("far away",
-                   fmt::format("the centre of pressure is {:.1f} m from the pelvis", away));
+    return NoForce(
+        "far away",
+        fmt::format("the centre of pressure is {:.1f} m from the pelvis; expected less than {} m",
+                    away, kReach));
   }
   return point;
 }
@@ -186,7 +193,9 @@ Taken<MeasuredHandForce> ToHandForce(const geometry_msgs::WrenchStamped& message
   const int segment = urdf::HandSegmentOf(side);
   const double away = (*hand.point - body.links[At(segment)].position).norm();
   if (!(away < kReach)) {
-    return NoForce("far away", fmt::format("its frame is {:.1f} m from the hand", away));
+    return NoForce(
+        "far away",
+        fmt::format("its frame is {:.1f} m from the hand; expected less than {} m", away, kReach));
   }
   return hand;
 }
@@ -194,7 +203,8 @@ Taken<MeasuredHandForce> ToHandForce(const geometry_msgs::WrenchStamped& message
 Taken<ExternalLoads> ToExternalLoads(const kinescope_ros::JointLoadArray& message,
                                      const FoundFrame& frame, double scale) {
   if (message.loads.size() > kMostJoints) {
-    return NoForce("too many joints", fmt::format("{} joints", message.loads.size()));
+    return NoForce("too many joints", fmt::format("{} joints: expected at most {}",
+                                                  message.loads.size(), kMostJoints));
   }
   ExternalLoads loads;
   for (const kinescope_ros::JointLoad& given : message.loads) {
@@ -218,16 +228,20 @@ Taken<ExternalLoads> ToExternalLoads(const kinescope_ros::JointLoadArray& messag
 Taken<ExternalLoads> ToExternalLoads(const sensor_msgs::JointState& message, const BodyNow& body,
                                      double scale) {
   const std::size_t count = message.name.size();
-  if (count > kMostJoints) return NoForce("too many joints", fmt::format("{} joints", count));
+  if (count > kMostJoints) {
+    return NoForce("too many joints",
+                   fmt::format("{} joints: expected at most {}", count, kMostJoints));
+  }
   for (const auto* values : {&message.position, &message.velocity, &message.effort}) {
     if (!values->empty() && values->size() != count) {
-      return NoForce("unequal lengths", fmt::format("{} names and {} values: expected as many",
-                                                    count, values->size()));
+      return NoForce("unequal lengths",
+                     fmt::format("{} names and {} values: expected the same number of each", count,
+                                 values->size()));
     }
   }
   if (!message.effort.empty()) return FromEfforts(message, body, scale);
   if (!message.position.empty()) return FromRatios(message);
-  return NoForce("no effort", "neither efforts nor ratios");
+  return NoForce("no effort", "expected efforts or ratios");
 }
 
 }  // namespace kinescope::ros_bridge

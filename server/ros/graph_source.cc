@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::string_view kScheme = "ros:";
 constexpr std::int64_t kSettleNanos = 250'000'000;
-constexpr char kUnreadableMessage[] = "is cut short or lies about its length";
-constexpr std::size_t kLongestTypeName = 80;  // in a counter's name: a stranger chose it
+constexpr char kUnreadableMessage[] = "is truncated or has a wrong length field";
+constexpr std::size_t kLongestTypeName = 80;  // bytes, in the name of a counter: it is untrusted
 
 // "xsens" of "/xsens/link_states".
 std::string OwnerOf(const std::string& topic) {
@@ -41,14 +41,15 @@ std::string ToTopic(const std::string& url) {
   }
   std::string topic = ros::names::resolve(name.empty() ? "/tf" : name);
   if (topic.rfind(ros::this_node::getName() + "/", 0) == 0) {
-    throw SourceError("source '" + url + "': " + ros::this_node::getName() +
-                      " is this node's own name; give it another one: __name:=kinescope_view");
+    throw SourceError(
+        "source '" + url + "': " + ros::this_node::getName() +
+        " is this node's own name; start it with another one, such as __name:=kinescope_view");
   }
   return topic;
 }
 
-// A node that has our name is shut down by the master as soon as we are there: likely the very one
-// that we are to listen to.
+// The master shuts down a node with this node's name as soon as this node registers: probably the
+// one to subscribe to.
 void RefuseNameOfAnother(const std::string& url) {
   XmlRpc::XmlRpcValue name;
   name[0] = ros::this_node::getName();
@@ -61,8 +62,8 @@ void RefuseNameOfAnother(const std::string& url) {
   if (!has_address) return;
   MasterClient node(host, static_cast<int>(port));
   if (node.Call("getPid", XmlRpc::XmlRpcValue()).code != MasterReply::Code::kGood) return;
-  throw SourceError("source '" + url + "': a running node is called " + ros::this_node::getName() +
-                    " already; give this one another name: __name:=kinescope_view");
+  throw SourceError("source '" + url + "': another running node is already named " +
+                    ros::this_node::getName() + "; start this one with __name:=kinescope_view");
 }
 
 std::vector<std::string> TopicsBeside(const std::string& topic) {
@@ -110,7 +111,7 @@ class GraphSource : public Source {
     ++counters_.datagrams;
     counters_.bytes += raw.bytes.size();
     if (event.getPublisherName() == ros::this_node::getName()) {
-      ++counters_.ignored["message that we published ourselves"];
+      ++counters_.ignored["message published by this node"];
       return;
     }
     const ros::M_string& connection = event.getConnectionHeader();
@@ -126,7 +127,7 @@ class GraphSource : public Source {
       return link_states_.Take(link_state_array_, Now(), counters_, *sink_);
     }
     const auto type = connection.find("type");
-    Reject(index, "is a " + (type == connection.end() ? std::string("message of no type")
+    Reject(index, "is a " + (type == connection.end() ? std::string("message without a type")
                                                       : type->second.substr(0, kLongestTypeName)));
   }
 
@@ -139,12 +140,12 @@ class GraphSource : public Source {
   const std::int64_t start_monotonic_ = MonotonicNanos();
   TransformPeople people_;
   LinkStatesPerson link_states_;
-  tf2_msgs::TFMessage transforms_;                       // keeps its memory
-  xsens_mvn_ros_msgs::LinkStateArray link_state_array_;  // likewise
+  tf2_msgs::TFMessage transforms_;                       // reused, keeps its memory
+  xsens_mvn_ros_msgs::LinkStateArray link_state_array_;  // reused, keeps its memory
   SourceCounters counters_;
-  SampleSink* sink_ = nullptr;  // while Poll runs
+  SampleSink* sink_ = nullptr;  // during Poll
   const std::vector<std::string> names_;
-  LiveTopics topics_;  // last: it calls us
+  LiveTopics topics_;  // last: it calls this object
 };
 
 }  // namespace

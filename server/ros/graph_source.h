@@ -1,6 +1,6 @@
-/// People out of a running ROS graph: the transforms on its /tf, joined to samples, so that
-/// Kinescope can be put beside a bridge that is there already (docs/ros.md). In a build without ROS
-/// the functions exist and say so.
+/// Reads people from a running ROS graph: assembles the transforms on its /tf to samples, so that
+/// Kinescope can be used with an existing bridge (docs/ros.md). In a build without ROS OpenGraph
+/// throws a SourceError.
 #pragma once
 
 #include <memory>
@@ -15,22 +15,22 @@ namespace kinescope::ros_bridge {
 bool IsGraphUrl(std::string_view url);
 
 /// A live source. `url`: `ros:` for /tf, or `ros:` and a topic of tf2_msgs/TFMessage or
-/// xsens_mvn_ros_msgs/LinkStateArray; which of them it is, its publisher says. Beside a topic whose
-/// name ends in "tf" its `..._static` is heard, too.
+/// xsens_mvn_ros_msgs/LinkStateArray; the type is taken from the publisher. With a topic whose name
+/// ends in "tf", its `..._static` is subscribed, too.
 ///
-/// - Frames, samples, arms, skeletons and counters are as in bag_source.h, times of arrival instead
-///   of the bag's; people are looked for once no new frame came for a quarter of a second.
-/// - A link state topic is one person's; its samples have velocities and accelerations, where they
-///   are published.
-/// - What our own node publishes is `ignored`.
+/// - Frames, samples, arms, skeletons and counters are as in bag_source.h, with receive times in
+///   place of the bag's times; people are searched when no new frame has appeared for 0.25 s.
+/// - A link state topic belongs to one person; its samples have velocities and accelerations if
+///   these are published.
+/// - Messages of Kinescope's own node are counted in `ignored`.
 /// - transport: `ros_master_answers` (0 or 1), `publishers` (connected now).
-/// - A master that is not there, dies or is restarted is waited for; Poll never is held up by it.
-///   After `rosnode kill` the source has ended.
+/// - The source waits for a master that is not reachable or restarts; Poll never blocks on it.
+///   `rosnode kill` ends the source.
 ///
-/// One thread uses the source. Make one per process, destroy it after a RosBridge.
+/// A source is used by one thread. Make one per process, destroy it after a RosBridge.
 /// @pre InitRos was called.
-/// @throws SourceError when the topic's name cannot be one, is one of our own, or when another node
-/// has our name: starting would end that one.
+/// @throws SourceError if the topic name is invalid or one of Kinescope's own, or if another node
+/// has this node's name: starting would shut it down.
 std::unique_ptr<Source> OpenGraph(const std::string& url);
 
 }  // namespace kinescope::ros_bridge

@@ -22,13 +22,14 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-// roscpp keeps one node per process, so what the command line said about it is the process's too.
+// roscpp has one node per process, so its command line arguments belong to the process, too.
 std::map<std::string, std::string>& MutablePrivateArguments() {
   static std::map<std::string, std::string> arguments;
   return arguments;
 }
 
-// XmlRpc++ prints a line for each connection refused; a master that is not there is no news here.
+// XmlRpc++ prints a line for each refused connection; an unreachable master is not worth a line
+// here.
 class SilentErrors : public XmlRpc::XmlRpcErrorHandler {
  public:
   void error(const char*) override {}
@@ -39,7 +40,8 @@ void SilenceXmlRpc() {
   XmlRpc::XmlRpcErrorHandler::setErrorHandler(&silent);
 }
 
-// roscpp would hand `_name:=value` to the master while it starts, and wait for one for ever.
+// Otherwise roscpp would send `_name:=value` to the master on starting, and wait for one without
+// limit.
 void TakePrivateArguments(int& argc, char** argv) {
   int kept = 0;
   for (int i = 0; i < argc; ++i) {
@@ -56,7 +58,7 @@ void TakePrivateArguments(int& argc, char** argv) {
   argc = kept;
 }
 
-// roscpp aborts the process over an address that it cannot split.
+// roscpp aborts the process if it cannot parse an address.
 void CheckMasterUri(int argc, char** argv) {
   std::string uri = ros::getROSArg(argc, argv, "__master");
   const char* from_environment = std::getenv("ROS_MASTER_URI");
@@ -79,8 +81,8 @@ std::optional<std::string> AsText(XmlRpcValue& value) {
   }
 }
 
-// All of them are fetched at the first question: a master that does not answer then costs one wait
-// and not one for each option.
+// Fetches all parameters at the first call: a master that does not answer then costs one timeout
+// and not one per option.
 XmlRpcValue FetchPrivateParameters() {
   XmlRpcValue arguments;
   arguments[0] = ros::this_node::getName();
@@ -99,11 +101,11 @@ void InitRos(int& argc, char** argv, const std::string& default_name) {
   CheckMasterUri(argc, argv);
   SilenceXmlRpc();
   try {
-    // Ctrl-C is the program's own; what we log goes to the terminal and not to /rosout.
+    // Kinescope handles Ctrl-C itself, and logs to the terminal and not to /rosout.
     ros::init(argc, argv, default_name,
               ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
   } catch (const ros::Exception& error) {
-    throw UsageError(fmt::format("ROS does not take these names: {}", error.what()));
+    throw UsageError(fmt::format("ROS does not accept these names: {}", error.what()));
   }
 }
 
@@ -119,8 +121,8 @@ bool MasterIsReachable() {
 
 void LeaveRos() {
   if (!ros::isStarted()) return;
-  // roscpp takes leave of the master topic by topic, without a time limit: one whose machine has
-  // been switched off would hold up our exit for minutes. It then gets no address to call.
+  // roscpp unregisters topic by topic without a time limit: a master on a machine that was switched
+  // off would delay the exit for minutes. So its address is removed first.
   if (!MasterIsReachable()) const_cast<std::string&>(ros::master::getHost()).clear();
   ros::shutdown();
 }

@@ -1,4 +1,4 @@
-/// What the command line said about ROS; the functions themselves are in bridge.h.
+/// The ROS arguments of the command line; the functions for other folders are in bridge.h.
 #pragma once
 
 #include <map>
@@ -9,7 +9,8 @@ namespace kinescope::ros_bridge {
 /// The private parameters given as `_name:=value`.
 const std::map<std::string, std::string>& PrivateArguments();
 
-/// Ends our node, in a bounded time. Whoever started roscpp calls it; the second call does nothing.
+/// Shuts this node down in a limited time. Called by the object that started roscpp; a second call
+/// does nothing.
 void LeaveRos();
 
 }  // namespace kinescope::ros_bridge

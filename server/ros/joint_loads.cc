@@ -33,7 +33,8 @@ void Fill(const JointLoad& load, kinescope_ros::JointLoad& out) {
       load.is_external ? kinescope_ros::JointLoad::EXTERNAL : kinescope_ros::JointLoad::COMPUTED;
 }
 
-// Letters and digits in lower case: "right_ball_foot", "RightBallFoot" and "rightballfoot" are one.
+// Letters and digits in lower case, so that "right_ball_foot", "RightBallFoot" and "rightballfoot"
+// are equal.
 std::string Plain(std::string_view text) {
   std::string plain;
   for (const char c : text) {
@@ -90,7 +91,7 @@ void FillJointLoads(const PersonState& person, const std::string& reference_fram
 }
 
 NamedJoint FindNamedJoint(std::string_view name) {
-  constexpr std::size_t kLongest = 128;  // names come from outside
+  constexpr std::size_t kLongest = 128;  // names are untrusted
   NamedJoint found;
   if (const std::size_t slash = name.rfind('/'); slash != std::string_view::npos) {
     name.remove_prefix(slash + 1);
@@ -108,7 +109,7 @@ NamedJoint FindNamedJoint(std::string_view name) {
     found.is_rot = false;
   }
   static const PlainNames names;
-  while (true) {  // a model's name may stand before it, with underscores of its own
+  while (true) {  // the name of a model may precede it, with further underscores
     found.joint = names.Find(Plain(rest));
     const std::size_t next = rest.find('_');
     if (found.joint >= 0 || next == std::string_view::npos) return found;

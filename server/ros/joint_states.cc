@@ -52,7 +52,7 @@ void SetNames(const PersonNames& names, sensor_msgs::JointState& message) {
   message.position.resize(names.joints.size());
 }
 
-// Positions of gloves and props, behind those of the body: in the order of PersonNames::joints.
+// Positions of gloves and props, after those of the body: in the order of PersonNames::joints.
 void PutExtra(const PersonState& person, std::vector<double>& out) {
   std::size_t row = urdf::kJointCount;
   for (const urdf::Side side : {urdf::kLeft, urdf::kRight}) {
@@ -71,11 +71,11 @@ void PutExtra(const PersonState& person, std::vector<double>& out) {
 }  // namespace
 
 Vector3d AngleRates(const Vector3d& angles, const Vector3d& rate) {
-  // Seen after the turn about y, the rate is (x', y' - z' sin x, z' cos x).
+  // After the rotation about y, the rate is (x', y' - z' sin x, z' cos x).
   const Vector3d turned = Eigen::AngleAxisd(-angles.y(), Vector3d::UnitY()) * rate;
   const double sine = std::sin(angles.x());
   const double cosine = std::cos(angles.x());
-  constexpr double kLocked = 1e-3;  // rates would exceed the measured one a thousandfold
+  constexpr double kLocked = 1e-3;  // rates would be a thousand times the measured one
   if (std::abs(cosine) < kLocked) {
     return {turned.x(), turned.y() / 2, -sine * turned.y() / 2};
   }
@@ -88,13 +88,13 @@ Vector3d AxisMoments(const Quaterniond& world_from_parent, const Quaterniond& wo
   const Vector3d x_axis =
       world_from_parent * (Eigen::AngleAxisd(y, Vector3d::UnitY()) * Vector3d::UnitX());
   return {moment.dot(x_axis), moment.dot(world_from_parent * Vector3d::UnitY()),
-          moment.dot(world_from_child * Vector3d::UnitZ())};  // the last turn leaves its own axis
+          moment.dot(world_from_child * Vector3d::UnitZ())};  // the last one keeps its own axis
 }
 
 Vector3d SeedAngles(int joint, const Vector3d& streamed_deg) {
   using namespace urdf;
-  // MVN counts positive by meaning (away from the body, inwards, flexion); here signs are by axis.
-  Vector3d sign(1, 1, 1);  // of MVN's x, y, z: spine, neck and head
+  // MVN's signs follow anatomy (away from the body, inwards, flexion); here signs follow the axes.
+  Vector3d sign(1, 1, 1);  // signs of MVN's x, y, z: spine, neck and head
   const bool is_left = joint == jLeftC7Shoulder || joint == jLeftShoulder || joint == jLeftElbow ||
                        joint == jLeftWrist || joint >= jLeftHip;
   const bool is_knee = joint == jRightKnee || joint == jLeftKnee;
@@ -103,7 +103,7 @@ Vector3d SeedAngles(int joint, const Vector3d& streamed_deg) {
   }
   const Vector3d streamed = streamed_deg * (M_PI / 180);
   Vector3d angles(sign.x() * streamed.x(), sign.z() * streamed.z(), sign.y() * streamed.y());
-  // MVN's forearm angle is 0 with the palm forward, the link frame's with the arm as in the N-pose.
+  // MVN's forearm angle is 0 with the palm forward, that of the link frame in the N-pose.
   if (joint == jRightElbow) angles.z() -= M_PI_2;
   if (joint == jLeftElbow) angles.z() += M_PI_2;
   return angles;

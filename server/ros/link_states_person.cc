@@ -27,10 +27,10 @@ int SegmentOf(const std::string& link) {
   return -1;
 }
 
-// By segment; null where the message has none.
+// By segment; null if the message has none.
 using States = std::array<const LinkState*, urdf::kSegmentCount>;
 
-// Nothing when all can be used, else the counter under which the message goes.
+// Null if all can be used, else the key of the counter for the message.
 const char* Sort(const xsens_mvn_ros_msgs::LinkStateArray& message, States& states) {
   for (const LinkState& state : message.states) {
     const int segment = SegmentOf(WithoutSlash(state.header.frame_id));
@@ -50,7 +50,7 @@ const char* Sort(const xsens_mvn_ros_msgs::LinkStateArray& message, States& stat
   return nullptr;
 }
 
-// Adds what TF does not have.
+// Adds the values that TF does not contain.
 void AddMotion(const States& states, BodySample& sample) {
   for (std::size_t i = 0; i < states.size(); ++i) {
     SegmentState& segment = sample.segments[i];

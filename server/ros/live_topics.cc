@@ -17,8 +17,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-// Messages that wait for the reading thread before the oldest is dropped. /tf is shared: two
-// seconds of a person at 240 Hz, of whom every transform comes by itself.
+// Length of the queue before the oldest message is dropped. /tf is shared: two seconds of a person
+// at 240 Hz with one message per transform.
 constexpr std::uint32_t kSegmentQueue = 2 * 240 * urdf::kSegmentCount;
 
 std::set<std::string> Strings(XmlRpcValue& list) {
@@ -37,7 +37,7 @@ LiveTopics::LiveTopics(std::vector<std::string> topics, std::string description,
     : topics_(std::move(topics)),
       description_(std::move(description)),
       on_message_(std::move(on_message)) {
-  // roscpp would otherwise try for ever when the master goes while it registers something.
+  // Otherwise roscpp would retry without limit if the master stops while a topic is registered.
   ros::master::setRetryTimeout(ros::WallDuration(1));
   thread_ = std::thread([this] { Run(); });
 }
@@ -49,7 +49,7 @@ LiveTopics::~LiveTopics() {
   }
   changed_.notify_all();
   thread_.join();
-  if (node_) LeaveRos();  // before the subscribers go, each of which would take leave by itself
+  if (node_) LeaveRos();  // before the subscribers, each of which would unregister itself
 }
 
 void LiveTopics::Take(std::chrono::milliseconds timeout) {
@@ -78,8 +78,8 @@ void LiveTopics::Ask() {
   SetMasterAnswers(standing != Standing::kNoAnswer);
   if (standing == Standing::kNoAnswer) return;
   if (!node_) Start();
-  // Whoever is registered is registered once more, which does no harm. A master that has forgotten
-  // the subscription alone cannot be told from one that knows it.
+  // Registering again has no effect on a registered node. A master that has forgotten only the
+  // subscription cannot be distinguished from one that knows it.
   for (const std::string& topic : topics_) Register(topic);
   std::size_t publishers = 0;
   for (const ros::Subscriber& subscriber : subscribers_)
@@ -113,8 +113,7 @@ void LiveTopics::Register(const std::string& topic) {
   std::set<std::string> wanted = Strings(reply.value);
   wanted.merge(Orphans(topic, heard, wanted));
   if (std::includes(heard.begin(), heard.end(), wanted.begin(), wanted.end())) return;
-  // As the master tells it when somebody new comes; whoever is not in the list is not heard any
-  // more.
+  // As the master reports new publishers; those that are missing in the list are disconnected.
   wanted.insert(heard.begin(), heard.end());
   XmlRpcValue update;
   update[0] = topic;
@@ -126,7 +125,7 @@ void LiveTopics::Register(const std::string& topic) {
 std::set<std::string> LiveTopics::Orphans(const std::string& topic,
                                           const std::set<std::string>& heard,
                                           const std::set<std::string>& known) {
-  constexpr int kMostTries = 5;  // a second each: then it is no longer there
+  constexpr int kMostTries = 5;  // one second each: then it no longer exists
   std::map<std::string, int>& orphans = orphans_[topic];
   for (const std::string& uri : heard) {
     if (known.count(uri) == 0) orphans[uri] = 0;
@@ -151,7 +150,7 @@ std::set<std::string> LiveTopics::ConnectedPublishers(const std::string& topic,
   MasterReply reply = ourselves.Call("getBusInfo", XmlRpcValue(), kMasterPatience);
   if (reply.value.getType() != XmlRpcValue::TypeArray) return uris;
   for (int i = 0; i < reply.value.size(); ++i) {
-    // [connection, who, "i" for what comes in, transport, topic, ...]
+    // [connection, publisher, "i" for incoming, transport, topic, ...]
     XmlRpcValue& connection = reply.value[i];
     const bool is_ours = connection.getType() == XmlRpcValue::TypeArray && connection.size() >= 5 &&
                          connection[1].getType() == XmlRpcValue::TypeString &&
@@ -167,9 +166,10 @@ void LiveTopics::SetMasterAnswers(bool answers) {
   const bool was_asked = std::exchange(has_asked_, true);
   status_.master_answers = answers;
   if (answers) {
-    spdlog::info("{}: listening, by the ROS master at {}", description_, ros::master::getURI());
+    spdlog::info("{}: subscribed through the ROS master at {}", description_,
+                 ros::master::getURI());
   } else if (was_asked) {
-    spdlog::warn("{}: the ROS master at {} does not answer; who is connected is still heard",
+    spdlog::warn("{}: the ROS master at {} does not answer; existing connections stay open",
                  description_, ros::master::getURI());
   } else {
     spdlog::info("{}: waiting for a ROS master at {}", description_, ros::master::getURI());
@@ -179,8 +179,8 @@ void LiveTopics::SetMasterAnswers(bool answers) {
 void LiveTopics::StopForGood() {
   const std::lock_guard<std::mutex> lock(mutex_);
   status_.told_to_stop = true;
-  spdlog::warn("{}: listening was ended by rosnode kill, or by another node called {}",
-               description_, ros::this_node::getName());
+  spdlog::warn("{}: stopped by rosnode kill, or by another node named {}", description_,
+               ros::this_node::getName());
 }
 
 }  // namespace kinescope::ros_bridge

@@ -1,7 +1,7 @@
-/// Hears topics of a running ROS graph, through masters that are not there yet, die or are
-/// restarted. roscpp registers a subscription once, waits for a master while it does, and never
-/// asks again; so one thread of its own starts roscpp when a master first answers, and tells the
-/// master once a second that we listen. The reading thread only takes what has come.
+/// Subscribes to topics of a running ROS graph, and again after the master starts or restarts.
+/// roscpp registers a subscription once, blocks while no master is reachable, and never registers
+/// again. So a separate thread starts roscpp when a master first answers, and checks the
+/// registration at the master once a second. The reading thread only takes received messages.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -32,21 +32,22 @@ class LiveTopics {
   using OnMessage = std::function<void(std::size_t topic, const Event& event)>;
 
   struct Status {
-    bool master_answers = false;  // when last asked; asked once a second
-    std::size_t publishers = 0;   // connected, of all topics
-    bool told_to_stop = false;    // `rosnode kill`, or another node took our name: nothing comes
+    bool master_answers = false;  // at the last check; checked once a second
+    std::size_t publishers = 0;   // connected, over all topics
+    bool told_to_stop = false;    // `rosnode kill`, or another node took this node's name: no more
+                                  // messages
   };
 
-  /// Begins to listen to `topics`, which are resolved names; `on_message` gets their index.
-  /// `description`: whose log lines these are.
+  /// Subscribes to `topics`, which are resolved names; `on_message` gets the index of the topic.
+  /// `description`: name of the source in log lines.
   /// @pre ros::init was called.
   LiveTopics(std::vector<std::string> topics, std::string description, OnMessage on_message);
-  /// Ends our node, where no bridge has done so before.
+  /// Shuts this node down, unless a bridge has done so before.
   ~LiveTopics();
   LiveTopics(const LiveTopics&) = delete;
   LiveTopics& operator=(const LiveTopics&) = delete;
 
-  /// Waits at most `timeout` for messages and hands on what came. One thread calls it.
+  /// Waits at most `timeout` for messages and passes on those received. Called by one thread.
   void Take(std::chrono::milliseconds timeout);
   Status status() const;  // any thread
 
@@ -54,11 +55,12 @@ class LiveTopics {
   void Run();
   void Ask();
   void Start();
-  /// Tells the master that we listen, and our own node who publishes what it does not hear yet.
+  /// Registers the subscription at the master, and tells this node the publishers that it is not
+  /// yet connected to.
   void Register(const std::string& topic);
   static std::set<std::string> ConnectedPublishers(const std::string& topic,
                                                    MasterClient& ourselves);
-  /// Of these, whom the master does not know.
+  /// Of these, the publishers that the master does not know.
   std::set<std::string> Orphans(const std::string& topic, const std::set<std::string>& heard,
                                 const std::set<std::string>& known);
   void SetMasterAnswers(bool answers);
@@ -70,21 +72,21 @@ class LiveTopics {
 
   ros::CallbackQueue queue_;  // roscpp's threads -> the reading thread
 
-  mutable std::mutex mutex_;  // never held while the master is asked
+  mutable std::mutex mutex_;  // never held during a call to the master
   std::condition_variable changed_;
   Status status_;           // guarded by mutex_
   bool has_asked_ = false;  // guarded by mutex_
   bool stopping_ = false;   // guarded by mutex_
 
-  // The thread's own.
+  // Used by the separate thread only.
   MasterClient master_;
-  std::unique_ptr<ros::NodeHandle> node_;  // null before a master answered
+  std::unique_ptr<ros::NodeHandle> node_;  // null until a master has answered
   std::vector<ros::Subscriber> subscribers_;
-  /// By topic: publishers that we hear and this master does not know, because they were there
-  /// before it and do not tell it; and how often in a row they were then not heard.
+  /// By topic: connected publishers that this master does not know, because they started before it
+  /// and do not register again; and how often in a row they were not connected.
   std::map<std::string, std::map<std::string, int>> orphans_;
 
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last: it uses all other members
 };
 
 }  // namespace kinescope::ros_bridge

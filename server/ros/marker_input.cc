@@ -39,9 +39,9 @@ Eigen::Vector4d FromMarker(const std_msgs::ColorRGBA& c) { return {c.r, c.g, c.b
 Eigen::Quaterniond FromMarker(const geometry_msgs::Quaternion& q) {
   const Eigen::Quaterniond turn(q.w, q.x, q.y, q.z);
   const double norm = turn.norm();
-  // A message in which nobody has set the turn is by far the commonest.
+  // A message without an orientation is the most frequent one.
   if (norm == 0) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(turn.coeffs() / norm);  // not finite stays so, and is found
+  return Eigen::Quaterniond(turn.coeffs() / norm);  // non-finite values are detected later
 }
 
 tl::unexpected<Refusal> NoMarker(const char* kind, const Marker& message, const std::string& why) {
@@ -50,7 +50,7 @@ tl::unexpected<Refusal> NoMarker(const char* kind, const Marker& message, const 
       fmt::format("marker {}/{}: {}", message.ns.substr(0, kLongestMarkerName), message.id, why)});
 }
 
-// Before anything of it is copied.
+// Checked before anything is copied.
 std::optional<std::string> FindExcess(const Marker& message) {
   if (message.points.size() > kMostMarkerPoints || message.colors.size() > kMostMarkerPoints) {
     return fmt::format("{} points and {} colors: expected at most {}", message.points.size(),
@@ -58,11 +58,12 @@ std::optional<std::string> FindExcess(const Marker& message) {
   }
   if (message.ns.size() > kLongestMarkerName ||
       message.header.frame_id.size() > kLongestMarkerName) {
-    return fmt::format("a namespace or frame with a name longer than {} bytes", kLongestMarkerName);
+    return fmt::format("name of the namespace or frame longer than {} bytes", kLongestMarkerName);
   }
   constexpr std::size_t kLongestUri = 4096;
   if (message.mesh_resource.size() > kLongestUri) {
-    return fmt::format("a mesh with a name of {} bytes", message.mesh_resource.size());
+    return fmt::format("mesh name of {} bytes: expected at most {}", message.mesh_resource.size(),
+                       kLongestUri);
   }
   return std::nullopt;
 }
@@ -131,16 +132,19 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   if (!shape) return shape.error();
   const std::size_t freed = old == entries_.end() ? 0 : old->second.shape->points.size();
   if (old == entries_.end() && entries_.size() >= kMostMarkers) {
-    return NoMarker("too many", message, fmt::format("there are {} already", kMostMarkers)).value();
+    return NoMarker("too many", message,
+                    fmt::format("the limit of {} markers is reached", kMostMarkers))
+        .value();
   }
   if (points_ - freed + shape->points.size() > kMostPointsOfAll) {
-    return NoMarker("too many", message,
-                    fmt::format("all together would have more than {} points", kMostPointsOfAll))
+    return NoMarker(
+               "too many", message,
+               fmt::format("all markers together would have more than {} points", kMostPointsOfAll))
         .value();
   }
   points_ = points_ - freed + shape->points.size();
   Entry& entry = entries_[key];
-  // Many send the same thing again and again; what is drawn of it need not be made again.
+  // Many nodes publish the same marker again and again; its rendered form can be reused.
   if (!entry.shape || !AreEqual(*entry.shape, *shape)) {
     entry.shape = std::make_shared<const SceneMarker>(*std::move(shape));
     has_changed_ = has_changed_ || entry.placed;
@@ -155,8 +159,8 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   return std::nullopt;
 }
 
-// Many markers share a frame and a stamp: each is looked up once. Whether a frame is known at all
-// does not depend on the stamp.
+// Many markers share a frame and a stamp, so each is looked up once. Whether a frame exists does
+// not depend on the stamp.
 class MarkerStore::FrameCache {
  public:
   explicit FrameCache(const FindFrame& find) : find_(find) {}
@@ -184,10 +188,10 @@ bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames) {
   const auto frame = frames.Find(entry.frame, entry.is_locked ? 0 : entry.stamp_nanos);
   if (!frame) {
     if (!std::exchange(entry.is_lost, true)) {
-      lost_.push_back({std::get<0>(key), fmt::format("marker {}: frame '{}' is not known (yet)",
+      lost_.push_back({std::get<0>(key), fmt::format("marker {}: frame '{}' is not known yet",
                                                      IdentityOf(*entry.shape), entry.frame)});
     }
-    return false;  // it stays where it was, or is not there yet
+    return false;  // it stays where it was, or has no place yet
   }
   entry.is_lost = false;
   entry.is_new = false;
@@ -206,7 +210,7 @@ bool MarkerStore::Place(const Key& key, Entry& entry, FrameCache& frames) {
 
 bool MarkerStore::Update(std::int64_t monotonic_nanos, const FindFrame& find_frame) {
   bool changed = std::exchange(has_changed_, false);
-  // A marker that moves is a new one, points and all, at some 10 ns each.
+  // A marker that moves is copied with its points, at about 10 ns each.
   constexpr std::int64_t kNanosPerPoint = 100;
   constexpr std::int64_t kRetryNanos = 100'000'000;
   const bool move = monotonic_nanos >= next_move_nanos_;

@@ -1,7 +1,7 @@
-/// Markers of other programs: messages (visualization_msgs/Marker) -> SceneMarkers, what they ask
-/// for with those before (add, change, delete), how long they live and where their frames are.
-/// No node, time is an argument, and a store belongs to one thread. What an action means, and what
-/// of a message counts for which type, is as RViz has it (wiki.ros.org/rviz/DisplayTypes/Marker).
+/// Converts external markers (visualization_msgs/Marker) to SceneMarkers: applies their actions
+/// (add, change, delete), lifetimes and frames. No node, time is an argument, and a store belongs
+/// to one thread. Actions, and the members that count for each type, are as in RViz
+/// (wiki.ros.org/rviz/DisplayTypes/Marker).
 #pragma once
 
 #include <visualization_msgs/Marker.h>
@@ -24,8 +24,8 @@ inline constexpr std::size_t kMostMarkers = 4096;           // of all topics
 inline constexpr std::size_t kMostPointsOfAll = 1'000'000;  // of all markers
 inline constexpr std::size_t kLongestMarkerName = 256;      // bytes, of a frame or a namespace
 
-/// The shape alone, in the frame that the message names. A quaternion of zeros is no turn; any
-/// other is brought to unit length. Points, colours, texts of types that have none are left out.
+/// The shape only, in the frame of the message. A quaternion of zeros is no rotation; any other is
+/// normalised. Points, colours and texts are dropped for types that do not use them.
 Taken<SceneMarker> ToSceneMarker(const visualization_msgs::Marker& message);
 
 class MarkerStore {
@@ -35,49 +35,49 @@ class MarkerStore {
       std::function<std::optional<urdf::Pose>(const std::string& frame, std::int64_t stamp_nanos)>;
   using Markers = std::vector<std::shared_ptr<const SceneMarker>>;
 
-  /// `topic` tells apart who sends: names and numbers of markers are a topic's own.
-  /// @return why the message changes nothing; nullopt when it did what it asked for.
+  /// `topic` identifies the sender: namespaces and ids of markers are separate per topic.
+  /// @return why the message was rejected; nullopt if it was applied.
   [[nodiscard]] std::optional<Refusal> Apply(std::size_t topic,
                                              const visualization_msgs::Marker& message,
                                              std::int64_t monotonic_nanos);
 
-  /// Lets go of what has lived its time and places the rest: once, or where it is locked to its
-  /// frame, anew, though never so often that this takes a tenth of the time; a frame that is not
-  /// known is asked for ten times a second. True when `markers()` is another list than before.
+  /// Removes expired markers and transforms the others: once, or repeatedly if locked to their
+  /// frame, but in at most a tenth of the time. Unknown frames are looked up ten times per second.
+  /// True if the list of `markers()` has changed.
   [[nodiscard]] bool Update(std::int64_t monotonic_nanos, const FindFrame& find_frame);
 
-  /// All that can be placed, in the order of topic, namespace and number.
+  /// All markers with a known frame, in the order of topic, namespace and id.
   const Markers& markers() const { return placed_; }
 
-  /// Those whose frame is not known: "walls/3 in frame 'map'", by topic, newest news only.
+  /// Markers with an unknown frame: "walls/3 in frame 'map'", by topic; the newest message only.
   struct Lost {
     std::size_t topic;
     std::string text;
   };
-  /// What has lost, or never had, a place since the last call.
+  /// Markers that lost their place, or were added without one, since the last call.
   [[nodiscard]] std::vector<Lost> TakeLost();
 
  private:
-  using Key = std::tuple<std::size_t, std::string, int>;  // topic, namespace, number
+  using Key = std::tuple<std::size_t, std::string, int>;  // topic, namespace, id
   struct Entry {
     std::shared_ptr<const SceneMarker> shape;   // its pose in `frame`
-    std::shared_ptr<const SceneMarker> placed;  // in the world; null: not yet
+    std::shared_ptr<const SceneMarker> placed;  // in the world frame; null: not yet
     std::string frame;
     std::int64_t stamp_nanos = 0;
     bool is_locked = false;
-    bool is_new = true;  // its newest message has not found its place
+    bool is_new = true;  // the newest message was not placed yet
     bool is_lost = false;
-    std::int64_t dies_nanos = 0;  // monotonic; 0: never
+    std::int64_t dies_nanos = 0;  // monotonic clock; 0: never
   };
 
   class FrameCache;
   bool Place(const Key& key, Entry& entry, FrameCache& frames);
 
   std::map<Key, Entry> entries_;
-  std::size_t points_ = 0;  // of all entries
+  std::size_t points_ = 0;  // in all entries
   bool has_changed_ = false;
-  std::int64_t next_move_nanos_ = 0;   // monotonic; of what is locked to its frame
-  std::int64_t next_retry_nanos_ = 0;  // likewise, of what has no place
+  std::int64_t next_move_nanos_ = 0;   // monotonic clock; of markers locked to their frame
+  std::int64_t next_retry_nanos_ = 0;  // monotonic clock; of markers without a place
   Markers placed_;
   std::vector<Lost> lost_;
 };

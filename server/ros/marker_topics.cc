@@ -14,9 +14,10 @@ namespace kinescope::ros_bridge {
 namespace {
 
 constexpr std::size_t kMostTopics = 16;
-// Each may be the only one of its marker, so none should be lost while a sample is worked on.
+// Each message may be the only one of its marker, so none should be lost while a sample is
+// processed.
 constexpr std::uint32_t kMarkerQueue = 1000;
-constexpr std::size_t kLongestMarkerType = 80;  // in a counter's name: a stranger chose it
+constexpr std::size_t kLongestMarkerType = 80;  // bytes, in the name of a counter: it is untrusted
 
 }  // namespace
 
@@ -26,15 +27,16 @@ std::vector<std::string> MarkerTopicNames(const std::string& comma_separated) {
   for (std::string name; std::getline(in, name, ',');) {
     std::string why;
     if (name.empty() || !ros::names::validate(name, why)) {
-      throw UsageError(fmt::format(
-          "--markers={}: '{}' is no name of a topic; expected such as /walls,/plan/markers",
-          comma_separated, name));
+      throw UsageError(
+          fmt::format("--marker_topics={}: invalid topic name '{}'; expected names such as "
+                      "/walls,/plan/markers",
+                      comma_separated, name));
     }
     topics.push_back(ros::names::resolve(name));
   }
   if (topics.size() > kMostTopics) {
     throw UsageError(
-        fmt::format("--markers: {} topics; expected at most {}", topics.size(), kMostTopics));
+        fmt::format("--marker_topics: {} topics; expected at most {}", topics.size(), kMostTopics));
   }
   return topics;
 }
@@ -42,7 +44,7 @@ std::vector<std::string> MarkerTopicNames(const std::string& comma_separated) {
 MarkerBox::MarkerBox(std::vector<std::string> topics, std::string reference_frame,
                      std::shared_ptr<const TfTree> tf)
     : topics_(std::move(topics)), reference_frame_(std::move(reference_frame)), tf_(std::move(tf)) {
-  for (const std::string& topic : topics_) counters_[topic];  // shown although nothing came
+  for (const std::string& topic : topics_) counters_[topic];  // shown even without messages
 }
 
 void MarkerBox::OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos) {
@@ -53,7 +55,7 @@ void MarkerBox::OnMessage(std::size_t topic, const Event& event, std::int64_t mo
     return found == connection.end() ? std::string() : found->second;
   };
   const std::string sum = said("md5sum");
-  constexpr char kUnreadable[] = "is cut short or lies about its length";
+  constexpr char kUnreadable[] = "is truncated or has a wrong length field";
   if (sum == ros::message_traits::md5sum<visualization_msgs::Marker>()) {
     if (!Decode(raw.bytes, marker_))
       return Refuse(topic, {kUnreadable, "a message that " + std::string(kUnreadable)});
@@ -66,7 +68,7 @@ void MarkerBox::OnMessage(std::size_t topic, const Event& event, std::int64_t mo
     return;
   }
   Refuse(topic, {"another type",
-                 fmt::format("messages of {}: expected visualization_msgs/Marker or MarkerArray",
+                 fmt::format("message type {}: expected visualization_msgs/Marker or MarkerArray",
                              said("type").substr(0, kLongestMarkerType))});
 }
 
@@ -97,7 +99,7 @@ void MarkerBox::SetPerson(const PersonState& person, double floor_z) {
 
 std::optional<urdf::Pose> MarkerBox::Find(const std::string& frame,
                                           std::int64_t stamp_nanos) const {
-  // A node that says nothing about frames means the one that everything is in.
+  // An empty frame means the reference frame.
   if (frame.empty() || frame == reference_frame_) return urdf::Pose{};
   for (const auto& [character, body] : bodies_) {
     const auto found = FindFrame(frame, stamp_nanos, reference_frame_, body.model, body.now, *tf_);

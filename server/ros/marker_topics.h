@@ -1,5 +1,6 @@
-/// Topics of other programs' markers: heard, counted, and turned into what is in the scene.
-/// visualization_msgs/Marker and MarkerArray are told apart by what each connection says it sends.
+/// Subscribes to the topics of external markers, counts their messages and passes the resulting
+/// markers on. visualization_msgs/Marker and MarkerArray are distinguished by the type that each
+/// connection states.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -24,7 +25,7 @@
 namespace kinescope::ros_bridge {
 
 /// Full names of the topics in "/walls,plan": at most 16.
-/// @throws UsageError naming what is no name of a topic. @pre InitRos was called.
+/// @throws UsageError with the invalid topic name. @pre InitRos was called.
 std::vector<std::string> MarkerTopicNames(const std::string& comma_separated);
 
 class MarkerBox {
@@ -34,13 +35,13 @@ class MarkerBox {
 
   const std::vector<std::string>& topics() const { return topics_; }
 
-  // The thread that reads samples.
+  // The following functions are for the thread that reads samples.
 
   using Event = ros::MessageEvent<const RawMessage>;
   void OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos);
-  /// Links of people are frames of markers too.
+  /// Sets a person whose links may be frames of markers.
   void SetPerson(const PersonState& person, double floor_z);
-  /// Hands on the markers where they are others than before.
+  /// Passes on the markers if they have changed.
   void Deliver(std::int64_t monotonic_nanos, InputSink& sink);
 
   /// By topic. Any thread.
@@ -61,18 +62,18 @@ class MarkerBox {
   const std::string reference_frame_;
   const std::shared_ptr<const TfTree> tf_;
 
-  // The thread that reads samples.
+  // Used by the thread that reads samples only.
   MarkerStore store_;
   std::map<int, Body> bodies_;             // by character
-  visualization_msgs::Marker marker_;      // keeps its memory
-  visualization_msgs::MarkerArray array_;  // likewise
+  visualization_msgs::Marker marker_;      // reused, keeps its memory
+  visualization_msgs::MarkerArray array_;  // reused, keeps its memory
 
   mutable std::mutex mutex_;
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
 };
 
-/// The connections that fill a box; a master that forgot us needs new ones. Asks the master: may
-/// wait.
+/// The connections that fill a box; a master that was restarted needs new ones. Calls the master,
+/// so it may block.
 std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::CallbackQueue& queue,
                                               const std::shared_ptr<MarkerBox>& box);
 

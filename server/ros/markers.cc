@@ -15,7 +15,7 @@ constexpr char kCom[] = "com";
 constexpr char kCop[] = "cop";
 constexpr char kSupport[] = "support";
 constexpr char kForces[] = "foot_forces";
-constexpr char kHeld[] = "held";
+constexpr char kHandLoads[] = "hand_loads";
 
 void SetColor(const Rgb& rgb, Marker& marker) {
   marker.color.r = static_cast<float>(rgb[0]);
@@ -26,7 +26,7 @@ void SetColor(const Rgb& rgb, Marker& marker) {
 
 Eigen::Vector3d Cube(double size) { return Eigen::Vector3d::Constant(size); }
 
-// Writes markers one after another into a message that keeps its memory.
+// Writes markers one after another into a message whose memory is reused.
 class MarkerWriter {
  public:
   MarkerWriter(visualization_msgs::MarkerArray& message, const PersonState& person,
@@ -60,7 +60,7 @@ class MarkerWriter {
     return marker;
   }
 
-  // Of points in the reference frame.
+  // From points in the reference frame.
   Marker& AddShape(const char* ns, int id, int type, const Eigen::Vector3d& size,
                    const Rgb& color) {
     return Add(ns, id, type, Eigen::Vector3d::Zero(), size, color);
@@ -99,7 +99,7 @@ void AddSupport(const BodyForces& forces, double floor_z, MarkerWriter& out) {
   if (forces.support.size < 2) return;
   constexpr double kLineWidth = 0.006;
   Marker& line = out.AddShape(kSupport, 0, Marker::LINE_STRIP, {kLineWidth, 0, 0}, kSupportColor);
-  for (std::size_t i = 0; i <= forces.support.size; ++i) {  // and back to the first
+  for (std::size_t i = 0; i <= forces.support.size; ++i) {  // closed: ends at the first corner
     const Eigen::Vector2d& corner = forces.support.corners[i % forces.support.size];
     line.points.push_back(PointAt({corner.x(), corner.y(), floor_z}));
   }
@@ -122,8 +122,9 @@ void AddHeld(const PersonState& person, MarkerWriter& out) {
     const Eigen::Vector3d size =
         is_box ? solid.size
                : Eigen::Vector3d(2 * solid.size.x(), 2 * solid.size.y(), solid.size.z());
-    Marker& marker = out.Add(kHeld, static_cast<int>(i), is_box ? Marker::CUBE : Marker::CYLINDER,
-                             solid.pose.position, size, kHeldColor);
+    Marker& marker =
+        out.Add(kHandLoads, static_cast<int>(i), is_box ? Marker::CUBE : Marker::CYLINDER,
+                solid.pose.position, size, kHeldColor);
     Set(marker.pose.orientation, solid.pose.orientation);
   }
 }
@@ -157,7 +158,7 @@ void FillMarkers(const PersonState& person, const PersonNames& names,
 void MakeStale(double stature, visualization_msgs::MarkerArray& message) {
   for (Marker& marker : message.markers) {
     SetColor(ColorOf(LoadClass::kUnknown), marker);
-    marker.lifetime = ros::Duration(0);  // stays
+    marker.lifetime = ros::Duration(0);  // no lifetime
     if (marker.ns == kLoads) {
       Set(marker.scale, Cube(2 * SphereRadius(marker.id, LoadClass::kUnknown, stature)));
     } else if (marker.ns == kCop || marker.ns == kForces) {

@@ -1,6 +1,6 @@
-/// PersonState -> visualization_msgs/MarkerArray: what RViz shows beside the robot. Pure: no node,
-/// no clock. Colours and sizes are palette.h's, so that a sphere that is red in the picture is red
-/// here.
+/// Converts PersonState to visualization_msgs/MarkerArray: the elements that RViz shows beside the
+/// robot. Pure: no node, no clock; any thread. Colours and sizes are those of palette.h, so that a
+/// load has the same colour in pictures and in RViz. Reference frame, metres.
 #pragma once
 
 #include <visualization_msgs/MarkerArray.h>
@@ -12,7 +12,7 @@
 
 namespace kinescope::ros_bridge {
 
-/// A marker that is not renewed goes away after this, s: a second of one person's silence while
+/// Lifetime of a marker that is not renewed, s: covers a second without samples of one person while
 /// others still move.
 inline constexpr double kMarkerLifetime = 1.0;
 
@@ -24,22 +24,23 @@ inline constexpr double kCopThickness = 0.01;
 enum class MarkerFrames {
   kReference,  // all in the reference frame
   /// Loads and centre of mass in the frame of their link, and locked to it: RViz then moves them
-  /// with the robot, which it draws from newer transforms than the markers it has. Needs our TF.
+  /// with the robot, which it renders from newer transforms than the markers. Requires Kinescope's
+  /// TF.
   kLinks,
 };
 
-/// ns "loads": a sphere for each scored joint, id = urdf::Joint, its text the reason where the load
-/// is not known. ns "com": a sphere, id 0. Always in the reference frame: ns "cop": a disc on the
-/// floor, id 0; "support": the border of what the feet can push on, id 0; "foot_forces": an arrow
-/// for each foot (kMetresPerNewton), id = urdf::Side; "held": what the hands hold, in a few solids.
-/// What is not there or not known has no marker.
+/// ns "loads": one sphere per scored joint, id = urdf::Joint; the text is the reason if the load is
+/// unknown. ns "com": a sphere, id 0. Always in the reference frame: ns "cop": a disc on the floor,
+/// id 0; "support": the border of the support polygon, id 0; "foot_forces": one arrow per foot
+/// (kMetresPerNewton), id = urdf::Side; "hand_loads": the hand loads as solids. Absent and unknown
+/// values have no marker.
 void FillMarkers(const PersonState& person, const PersonNames& names,
                  const std::string& reference_frame, MarkerFrames frames, double floor_z,
                  visualization_msgs::MarkerArray& message);
 
-/// Turns the markers last sent into those of a stream that stopped: grey, of the size of unknown
-/// loads, and there until something new comes. The centre of pressure and arrows go: no force is
-/// known now.
+/// Turns the markers last sent into those of a stream that stopped: grey, with the size of unknown
+/// loads, and without lifetime. The centre of pressure and the arrows are removed, because forces
+/// are unknown now.
 void MakeStale(double stature, visualization_msgs::MarkerArray& message);
 
 }  // namespace kinescope::ros_bridge

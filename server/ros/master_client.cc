@@ -11,12 +11,12 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-// The master's API wraps everything as [status, words for people, value]; 1 is success.
+// The master's API returns everything as [status, message, value]; 1 is success.
 MasterReply Unwrap(XmlRpcValue& response) {
   MasterReply reply;
   if (response.getType() != XmlRpcValue::TypeArray || response.size() != 3 ||
       response[0].getType() != XmlRpcValue::TypeInt) {
-    return reply;  // whoever answered is no master
+    return reply;  // the answer is not from a master
   }
   reply.code =
       static_cast<int>(response[0]) == 1 ? MasterReply::Code::kGood : MasterReply::Code::kRefused;

@@ -1,6 +1,5 @@
-/// Questions to the ROS master, and to nodes, that end in time. roscpp's own calls wait for ever
-/// when something takes the connection and never answers, so whatever we ask ourselves is asked
-/// here.
+/// Calls the ROS master and nodes with a time limit. roscpp's own calls wait without limit if a
+/// connection is accepted and never answered, so Kinescope makes its own calls here.
 #pragma once
 
 #include <xmlrpcpp/XmlRpcValue.h>
@@ -11,48 +10,48 @@
 
 namespace kinescope::ros_bridge {
 
-inline constexpr std::chrono::seconds kAskMasterEvery{1};  // whether it still knows us
+inline constexpr std::chrono::seconds kAskMasterEvery{1};  // interval of the registration check
 inline constexpr std::chrono::seconds kMasterPatience{
-    3};  // a busy machine's master may take a second to answer
+    3};  // the master of a busy machine may take a second to answer
 
 struct MasterReply {
   enum class Code {
-    kNoAnswer,  // nothing listens there, or it did not answer in time
-    kRefused,   // the master says no: an unknown node, a parameter that is not set
+    kNoAnswer,  // not reachable, or no answer in time
+    kRefused,   // the master reports an error: an unknown node, a parameter that is not set
     kGood,
   };
   Code code = Code::kNoAnswer;
-  XmlRpc::XmlRpcValue value;  // what was asked for, when good
+  XmlRpc::XmlRpcValue value;  // the result, for kGood
 };
 
-/// What a master thinks of us.
+/// Registration state of this node at the master.
 enum class Standing {
   kNoAnswer,
-  kUnknown,    // it has never heard of us, or has been restarted
-  kKnown,      // our name is ours
-  kNameTaken,  // another node has our name now
+  kUnknown,    // never registered there, or the master was restarted
+  kKnown,      // registered under this name
+  kNameTaken,  // another node has this node's name
 };
 
-/// One thread uses one. Every call makes its own connection: one kept from before would belong to a
-/// master that has been restarted since.
+/// Used by one thread. Every call makes a new connection: a kept one could belong to a master that
+/// has been restarted since.
 class MasterClient {
  public:
-  /// @pre ros::init was called: it says where the master is and what we are called.
+  /// @pre ros::init was called: it defines the master's address and this node's name.
   MasterClient();
-  /// A node's own server, such as ours: it wraps its answers as the master does.
+  /// For the server of a node, such as this one: its answers have the form of the master's.
   MasterClient(std::string host, int port);
 
-  /// Calls `method` with our name and `arguments`, an array. Takes at most about `timeout`; a name
-  /// server that does not answer can make it longer.
+  /// Calls `method` with this node's name and `arguments`, an array. Takes at most about `timeout`;
+  /// a name server that does not answer can make it longer.
   MasterReply Call(const char* method, const XmlRpc::XmlRpcValue& arguments,
                    std::chrono::milliseconds timeout = std::chrono::seconds(1));
 
-  /// Whether it knows us: that finds a master restarted under the same process number, as in a
-  /// container, and one that `rosnode cleanup` made forget us.
-  /// `our_uri`: of our own server; "" before there is one.
+  /// Whether the master knows this node. It detects a master restarted under the same process id,
+  /// as in a container, and one that `rosnode cleanup` made forget this node.
+  /// `our_uri`: of this node's own server; "" before it exists.
   Standing AskStanding(const std::string& our_uri, std::chrono::milliseconds timeout);
 
-  /// Its process number; 0 from one that does not tell, nullopt without an answer.
+  /// The process id of the master; 0 if it does not report one, nullopt without an answer.
   std::optional<int> AskPid(std::chrono::milliseconds timeout);
 
  private:

@@ -1,5 +1,5 @@
-/// Names and order of what one person's messages carry, as the seed bridge has them. Made once per
-/// model, so that publishing a sample makes no string.
+/// Names and order of one person's messages, as in xsens_mvn_ros. Made once per model, so that
+/// publishing a sample creates no strings. Pure functions and constant values, any thread.
 #pragma once
 
 #include <array>
@@ -24,24 +24,24 @@ struct PersonNames {
   explicit PersonNames(const std::string& model_name);  // without gloves and props
   explicit PersonNames(const urdf::HumanModel& human);
 
-  /// `<model>_<joint>_{x,y,z}`, three for each of JointsByName(); then, where the model has them,
-  /// three for each finger's segment of the left and of the right hand, and the six of each prop in
-  /// the order of their chain.
+  /// `<model>_<joint>_{x,y,z}`, three for each of JointsByName(). Then, if the model has them:
+  /// three for each finger segment of the left and of the right hand, and six for each prop in the
+  /// order of their chain.
   std::vector<std::string> joints;
   /// `<model>_<link>`, by urdf::Segment.
   std::array<std::string, urdf::kSegmentCount> links;
-  /// The two links without mass that the URDF has inside joint j: after its turn about y, and after
-  /// its turn about x. By urdf::Joint.
+  /// The two massless links that the URDF has inside joint j: after its rotation about y, and after
+  /// that about x. By urdf::Joint.
   std::array<std::array<std::string, 2>, urdf::kJointCount> between;
-  /// `<model>_left_second_mp`, `<model>_prop1`, by ExtraSegments' index.
+  /// `<model>_left_second_mp`, `<model>_prop1`, indexed as ExtraSegments.
   std::array<std::string, kExtraCount> extra;
-  /// Likewise, the links without mass before it, in the order of the chain: two of a finger, five
-  /// of a prop. Empty where the model has none.
+  /// The massless links before each of these, in the order of the chain: two for a finger, five for
+  /// a prop. Empty if the model has none. Indexed as ExtraSegments.
   std::array<std::vector<std::string>, kExtraCount> before_extra;
   std::string model;
 };
 
-/// "LeftSecondMP" as the seed would write it: "left_second_mp".
+/// "LeftSecondMP" in the spelling of xsens_mvn_ros: "left_second_mp".
 std::string AsSnakeCase(const std::string& text);
 
 /// `text` as one element of a ROS name: letters, digits and _, beginning with a letter.

@@ -1,5 +1,5 @@
-// bridge.h, bag_source.h and graph_source.h in a build without ROS: options and arguments work;
-// publishing, listening and reading bags are refused with the reason.
+// Implements bridge.h, bag_source.h and graph_source.h for a build without ROS: options and
+// arguments work; publishing, subscribing and reading bags are rejected with the reason.
 #include <algorithm>
 #include <cstring>
 
@@ -10,7 +10,7 @@
 
 namespace kinescope::ros_bridge {
 
-// A launch file or a habit may still pass remappings; they mean nothing here.
+// A launch file may still pass remappings; they have no effect here.
 void InitRos(int& argc, char** argv, const std::string& /*default_name*/) {
   char** const end = std::stable_partition(argv, argv + argc, [](const char* argument) {
     return std::strstr(argument, ":=") == nullptr;
@@ -27,8 +27,7 @@ std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& /*config*/, RosMode
   if (mode == RosMode::kOff) return nullptr;
   throw UsageError(
       "this Kinescope was built without ROS: install the ROS packages in packages.txt and "
-      "configure "
-      "with -DKINESCOPE_WITH_ROS=ON, or run with --ros off");
+      "configure with -DKINESCOPE_WITH_ROS=ON, or use --ros=off");
 }
 
 std::unique_ptr<Source> OpenBag(const std::string& path) {
@@ -41,8 +40,8 @@ bool IsGraphUrl(std::string_view url) { return url.substr(0, 4) == "ros:"; }
 
 std::unique_ptr<Source> OpenGraph(const std::string& url) {
   throw SourceError("source '" + url +
-                    "': this Kinescope was built without ROS and cannot listen to it: install the "
-                    "ROS packages in packages.txt and configure with -DKINESCOPE_WITH_ROS=ON");
+                    "': this Kinescope was built without ROS and cannot subscribe to it: install "
+                    "the ROS packages in packages.txt and configure with -DKINESCOPE_WITH_ROS=ON");
 }
 
 }  // namespace kinescope::ros_bridge

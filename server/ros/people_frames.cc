@@ -10,22 +10,21 @@ namespace {
 
 using urdf::At;
 
-constexpr std::size_t kMostEndings =
-    64;  // tried for one prefix; one name has as many as it has words
+constexpr std::size_t kMostEndings = 64;  // tried per prefix; a name has as many as it has words
 
 bool IsWordCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
 }
 
-// Whether text[at, at + size) is not a part of a longer word: "head" in "my_head", not in
-// "heading".
+// Whether text[at, at + size) is a whole word: "head" in "my_head", not in "heading".
 bool IsWholeWord(std::string_view text, std::size_t at, std::size_t size) {
   const bool begins = at == 0 || !IsWordCharacter(text[at - 1]);
   const bool ends = at + size == text.size() || !IsWordCharacter(text[at + size]);
   return begins && ends;
 }
 
-// What a suffix can share with others: all of it, what follows each of its words, nothing.
+// The endings of a suffix that others may share: all of it, the part after each of its words,
+// nothing.
 std::vector<std::string> EndingsOf(const std::string& suffix) {
   std::vector<std::string> endings = {""};
   for (std::size_t i = 0; i < suffix.size(); ++i) {

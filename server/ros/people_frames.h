@@ -1,6 +1,6 @@
-/// Which TF frames are the segments of people, told by their names alone. Ours are
-/// `<model>_<link>`; others put more around the link's name ("l5_abdomen_down_xsens"), and a robot
-/// beside them may have a "left_hand" of its own. Pure; one thread.
+/// Finds the TF frames of body segments by their names. Kinescope's are `<model>_<link>`; others
+/// add more to the link name ("l5_abdomen_down_xsens"), and a robot in the same graph may have a
+/// "left_hand", too. Pure; one thread.
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@
 
 namespace kinescope::ros_bridge {
 
-/// Frames of one person by slot: the 23 segments, then the links inside joints that our tree has
-/// (transforms.h): three for each joint, by axis.
+/// Frames of one person by slot: the 23 segments, then the links inside joints that Kinescope's
+/// tree has (transforms.h): three per joint, by axis.
 inline constexpr int kFrameSlots = urdf::kSegmentCount + 3 * urdf::kJointCount;
 
 struct PersonFrames {
-  std::string name;  // for people: "skeleton"; of "head_xsens", "neck_xsens" ...: "xsens"
+  std::string name;  // for display: "skeleton"; for "head_xsens", "neck_xsens" ...: "xsens"
   std::array<std::string, kFrameSlots> frames;
 };
 
@@ -27,23 +27,23 @@ class PeopleFrames {
  public:
   static constexpr std::size_t kMostPeople = 16;
   static constexpr std::size_t kMostNames =
-      4096;  // with a segment's name in them; more are not looked at
-  static constexpr std::size_t kLongestName = 255;  // likewise
+      4096;  // frame names that contain a segment's name; further ones are ignored
+  static constexpr std::size_t kLongestName = 255;  // bytes; longer names are ignored
 
-  /// A frame's name without a leading '/'. True when it is new and might be a segment.
+  /// Adds a frame name without a leading '/'. True if it is new and may be a segment.
   bool Add(const std::string& frame);
 
   bool IsCandidate(const std::string& frame) const { return names_.count(frame) > 0; }
 
-  /// Looks for people among what was added: sets of 23 frames, one for each segment, that begin
-  /// alike and end alike. Of several such endings the longest counts, of several frames for a
-  /// segment the shortest. People once found stay as they are, with their place.
+  /// Searches the added names for people: sets of 23 frames, one per segment, with the same prefix
+  /// and the same suffix. Of several such suffixes the longest is used, of several frames for a
+  /// segment the shortest. People found before stay unchanged, with their index.
   void Find();
 
   const std::vector<PersonFrames>& people() const { return people_; }
 
   struct Place {
-    int person = -1;  // index of people(); -1: nobody's
+    int person = -1;  // index of people(); -1: of no person
     int slot = -1;
   };
   Place PlaceOf(const std::string& frame) const;
@@ -59,9 +59,10 @@ class PeopleFrames {
   bool TakePerson(const std::string& prefix, const std::string& ending,
                   const std::vector<Candidate>& candidates);
 
-  std::set<std::string> names_;  // candidates, so that each is looked at once
+  std::set<std::string> names_;  // candidates, so that each name is checked once
   std::unordered_map<std::string, std::vector<Candidate>> by_prefix_;
-  std::set<std::string> prefixes_in_order_;  // so that people are numbered alike in every run
+  std::set<std::string> prefixes_in_order_;  // sorted, so that people have the same numbers in
+                                             // every run
   std::vector<PersonFrames> people_;
   std::unordered_map<std::string, Place> places_;
 };

@@ -6,27 +6,27 @@
 namespace kinescope::ros_bridge {
 namespace {
 
-constexpr double kFarthest = 1e6;  // m; nobody stands there
+constexpr double kFarthest = 1e6;  // m; beyond any plausible position
 constexpr double kNormTolerance = 1e-3;
 
-// What an element of a list takes at least: every string in it empty.
+// The smallest size of a list element: with empty strings.
 constexpr std::size_t kHeader = 4 + 8 + 4;  // sequence, stamp, frame_id
 constexpr std::size_t kSmallestTransform = kHeader + 4 + 7 * 8;
 constexpr std::size_t kSmallestLinkState = kHeader + (7 + 6 + 6) * 8;
 
 std::uint32_t CountAt(const std::vector<std::uint8_t>& bytes, std::size_t at) {
   std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + at, sizeof(count));  // little-endian, as this machine is
+  std::memcpy(&count, bytes.data() + at, sizeof(count));  // little-endian, as this machine
   return count;
 }
 
-// Whether the list whose count is at `at` fits into what follows it.
+// Whether the list whose count is at `at` fits into the bytes after it.
 bool ListFits(const std::vector<std::uint8_t>& bytes, std::size_t at, std::size_t smallest) {
   if (bytes.size() > kLargestMessage || bytes.size() < at + sizeof(std::uint32_t)) return false;
   return CountAt(bytes, at) <= (bytes.size() - at - sizeof(std::uint32_t)) / smallest;
 }
 
-// Goes over a message without keeping any of it; false once something does not fit.
+// Walks through a message without storing it; false once an element does not fit.
 class Walker {
  public:
   explicit Walker(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
@@ -42,7 +42,7 @@ class Walker {
     at_ += sizeof(count);
     return true;
   }
-  bool SkipList(std::size_t element) {  // a string is one of bytes
+  bool SkipList(std::size_t element) {  // a string is a list of bytes
     std::uint32_t count = 0;
     return Count(count) && Skip(count * element);
   }
@@ -61,7 +61,7 @@ class Walker {
 template <class Message>
 bool Deserialize(const std::vector<std::uint8_t>& bytes, Message& message) {
   try {
-    // Only reads, but asks for bytes that it could write to.
+    // Only reads, but requires writable bytes.
     ros::serialization::IStream in(const_cast<std::uint8_t*>(bytes.data()),
                                    static_cast<std::uint32_t>(bytes.size()));
     ros::serialization::deserialize(in, message);

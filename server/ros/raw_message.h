@@ -1,6 +1,5 @@
-/// A message of a ROS topic as its bytes. Whoever sends it chose the counts in it: roscpp would
-/// reserve memory for what they claim before it looks whether they can be true. Here they are
-/// looked at first. One thread.
+/// Holds a message of a ROS topic as bytes. Array sizes in the message are untrusted, and roscpp
+/// allocates memory before it checks them. The functions here check them first. One thread.
 #pragma once
 
 #include <geometry_msgs/Transform.h>
@@ -18,12 +17,12 @@
 
 namespace kinescope::ros_bridge {
 
-/// Subscribes to a topic of any type; which one it is, the connection says.
+/// Subscribes to a topic of any type; the connection states the actual type.
 struct RawMessage {
   std::vector<std::uint8_t> bytes;
 };
 
-/// What `bytes` hold; false when the message is cut short or lies about its length. `message` keeps
+/// Decodes `bytes`; false if the message is truncated or an array size is wrong. `message` keeps
 /// its memory from call to call.
 [[nodiscard]] bool Decode(const std::vector<std::uint8_t>& bytes, tf2_msgs::TFMessage& message);
 [[nodiscard]] bool Decode(const std::vector<std::uint8_t>& bytes,
@@ -36,12 +35,11 @@ struct RawMessage {
 
 inline constexpr std::size_t kLargestMessage = 16 << 20;  // bytes: 100,000 transforms
 
-/// Why a pose cannot be used, as the counter under which it goes: a number that is not finite, a
-/// position more than 1000 km away, a quaternion whose norm is off by more than 1e-3. Null when it
-/// can.
+/// Why a pose is rejected, as the key of its counter: a number that is not finite, a position more
+/// than 1000 km away, a quaternion whose norm is off by more than 1e-3. Null if it is valid.
 [[nodiscard]] const char* DefectOf(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw);
 
-/// tf2 has no slash before a frame's name, tf had one.
+/// The name as in tf2, without the leading slash of tf.
 [[nodiscard]] std::string WithoutSlash(const std::string& frame);
 
 }  // namespace kinescope::ros_bridge

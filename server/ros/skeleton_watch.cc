@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector3d;
 using urdf::At;
 
-// Outside of these it is no person, and is not measured.
+// Beyond these limits it is not a person, and is not measured.
 constexpr double kLongestBone = 1.0;  // m
 constexpr double kShortestHuman = 0.4;
 constexpr double kTallestHuman = 2.8;

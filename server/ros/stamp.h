@@ -1,4 +1,4 @@
-/// The one time that all messages of a sample carry, there and back.
+/// Converts between the stamp of a sample and ROS time. Pure functions, any thread.
 #pragma once
 
 #include <ros/time.h>
@@ -11,8 +11,8 @@
 
 namespace kinescope::ros_bridge {
 
-/// `nanos` since the Unix epoch as ROS has it. What a ROS time cannot hold (before 1970, after
-/// 2106) becomes its nearest value: a stamp out of a file is a stranger's.
+/// `nanos` since the Unix epoch as ROS time. Values that ROS time cannot represent (before 1970,
+/// after 2106) become the nearest one: a stamp in a file is untrusted.
 inline ros::Time ToRosTime(std::int64_t stamp_nanos) {
   constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
   constexpr std::int64_t kLast =

@@ -8,7 +8,7 @@ namespace {
 
 constexpr char kIncompleteTransforms[] = "sample without all 23 segments";
 constexpr char kNoTree[] = "sample whose frames have no common parent";
-constexpr char kNaming[] = "message on /tf while the names of its frames come in";
+constexpr char kNaming[] = "message on /tf while frame names are still being collected";
 constexpr char kNobody[] = "message on /tf without a person's segment";
 
 urdf::Pose ToPose(const geometry_msgs::Transform& transform) {
@@ -39,7 +39,7 @@ void TransformPeople::Take(const tf2_msgs::TFMessage& message, const Arrival& ar
   NoticeNames(message, arrival.stamp_nanos);
   for (std::size_t i = people_.size(); i < frames_.people().size(); ++i) {
     people_.emplace_back(static_cast<int>(i));
-    // Static frames are told once, often before anybody is there.
+    // Static frames are published once, often before the first person appears.
     for (const auto& [name, transform] : static_) AddStatic(transform, counters);
   }
   touched_.clear();
@@ -64,7 +64,7 @@ void TransformPeople::TakeStatic(const tf2_msgs::TFMessage& message, SourceCount
     const bool is_kept = name.size() <= PeopleFrames::kLongestName &&
                          (static_.size() < kMostStatic || static_.count(name) > 0);
     if (!is_kept) {
-      ++counters.ignored["static frame beyond those that are kept"];
+      ++counters.ignored["static frame beyond the limit"];
       continue;
     }
     static_[name] = transform;

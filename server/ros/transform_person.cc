@@ -17,8 +17,8 @@ constexpr std::int64_t kLeastStepNanos = 1'000;  // between two samples
 
 constexpr double kShortestArmBone = 0.05;  // m
 
-// Where the next joint lies in the segment frame of these: along the arm, which is level in the
-// T-pose.
+// Direction of the next joint in the segment frames of the arms: along the arm, which is horizontal
+// in the T-pose.
 struct ArmBone {
   int segment;
   double along_y;
@@ -67,7 +67,7 @@ TransformPerson::Result TransformPerson::Finish(std::int64_t arrival_nanos) {
   }
   Poses poses;
   const Result chained = Chain(poses);
-  if (chained == Result::kNothing) return chained;  // a link between two segments is still to come
+  if (chained == Result::kNothing) return chained;  // a link between two segments is still missing
   const std::int64_t header_nanos = StampInHeaders();
   present_.reset();
   if (chained == Result::kNoTree) return chained;
@@ -84,7 +84,7 @@ TransformPerson::Result TransformPerson::Chain(Poses& poses) const {
     const FrameTransform* at = Find(segment);
     Pose pose = at->parent_from_child;
     for (int steps = 0; at->parent_slot >= 0; ++steps) {
-      if (steps == kFrameSlots) return Result::kNoTree;  // a circle
+      if (steps == kFrameSlots) return Result::kNoTree;  // a cycle
       at = Find(at->parent_slot);
       if (at == nullptr) return Result::kNothing;
       const Pose& up = at->parent_from_child;
@@ -97,7 +97,7 @@ TransformPerson::Result TransformPerson::Chain(Poses& poses) const {
   return Result::kSample;
 }
 
-// Of the pelvis, unless that is static.
+// That of the pelvis, unless it is static.
 std::int64_t TransformPerson::StampInHeaders() const {
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
     if (present_.test(At(segment))) return pending_[At(segment)].header_nanos;
@@ -115,7 +115,7 @@ bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_na
   if (samples_ == 0) {
     first_stamp_ = stamp;
   } else {
-    // Records of one instant, and the change from headers to records, must not turn time round.
+    // Equal record times, and the change from header to record times, must not turn time back.
     stamp = std::max(stamp, sample_.stamp_nanos + kLeastStepNanos);
   }
   sample_.counter = samples_;
@@ -133,7 +133,7 @@ void TransformPerson::SetSegments(const Poses& poses) {
       orientation = orientation * urdf::SegmentFromLink(segment).conjugate();
     }
     orientation.normalize();
-    // Both signs mean the same turn; the one nearer to the sample before makes no jump.
+    // Both signs mean the same rotation; the one nearer to the sample before avoids a jump.
     if (samples_ > 0 && orientation.dot(state.orientation) < 0) orientation.coeffs() *= -1;
     state.orientation = orientation;
     state.position = poses[At(segment)].position;
@@ -141,12 +141,12 @@ void TransformPerson::SetSegments(const Poses& poses) {
 }
 
 void TransformPerson::FindArmFrames(const Poses& poses) {
-  double level = 0;    // as segment frames have it
-  double hanging = 0;  // as link frames have it
+  double level = 0;    // as in segment frames
+  double hanging = 0;  // as in link frames
   for (const ArmBone& bone : kArmBones) {
     const Pose& from = poses[At(bone.segment)];
     const Vector3d next = poses[At(bone.segment + 1)].position - from.position;
-    if (next.norm() < kShortestArmBone) return;  // not a body yet; another sample will tell
+    if (next.norm() < kShortestArmBone) return;  // not a body yet; a later sample decides
     const Vector3d direction = from.orientation.conjugate() * next.normalized();
     level += bone.along_y * direction.y();
     hanging -= direction.z();

@@ -11,7 +11,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using urdf::Pose;
 
-// Writes transforms one after another into a message that keeps its memory.
+// Writes transforms one after another into a message whose memory is reused.
 class TransformWriter {
  public:
   TransformWriter(tf2_msgs::TFMessage& message, const std::string& reference_frame,
@@ -38,8 +38,8 @@ class TransformWriter {
   std::size_t next_ = 0;
 };
 
-// Poses after a joint's turn about y, and after its turn about x. Both sit where the child really
-// is: measured segments are not rigid, and the URDF puts the joint at the child's origin.
+// Poses after a joint's rotation about y, and after that about x. Both are at the measured origin
+// of the child: measured segments are not rigid, and the URDF puts the joint at the child's origin.
 std::array<Pose, 2> Between(const PersonState& person, int joint) {
   const Pose& parent = person.links[At(urdf::ParentOf(joint))];
   const Vector3d& origin = person.links[At(urdf::ChildOf(joint))].position;
@@ -80,7 +80,7 @@ void WriteTree(const PersonState& person, const PersonNames& names, TransformWri
   }
 }
 
-// A frame that is being hung below another, for chains that may be seen either way.
+// A frame to be added below another, for chains that may have either form.
 struct Frame {
   const std::string& name;
   const Pose& pose;
@@ -106,7 +106,7 @@ void WriteGlove(const PersonState& person, const PersonNames& names, urdf::Side 
     const std::size_t index = At(FingerIndex(side, finger));
     const Pose& link = glove.links[At(finger)];
     const Vector3d& angles = glove.angles[At(finger)];
-    // As Between.
+    // As in Between.
     const Pose after_y{link.position,
                        parent.pose.orientation * AngleAxisd(angles.y(), Vector3d::UnitY())};
     const Pose after_x{link.position,
@@ -125,7 +125,7 @@ void WriteProp(const PersonState& person, const PersonNames& names, int prop, Tf
   const PropState& state = *person.props[At(prop)];
   const Pose& pelvis = person.links[urdf::kPelvis];
   const Vector3d offset = Relative(pelvis, state.pose).position;
-  std::array<Pose, 6> chain;  // behind each joint: x, y, z; turns about y, x, z
+  std::array<Pose, 6> chain;  // after each joint: x, y, z; rotations about y, x, z
   for (std::size_t i = 0; i < 3; ++i) {
     Vector3d slid = Vector3d::Zero();
     for (std::size_t axis = 0; axis <= i; ++axis) {
@@ -146,7 +146,7 @@ void WriteProp(const PersonState& person, const PersonNames& names, int prop, Tf
   }
 }
 
-// How many frames gloves and props have.
+// Number of frames of gloves and props.
 std::size_t CountExtra(const PersonState& person) {
   std::size_t count = 0;
   for (const auto& glove : person.gloves) count += glove ? 3 * kFingersPerHand : 0;

@@ -1,4 +1,4 @@
-/// PersonState -> TF. Pure: no node, no clock.
+/// Converts PersonState to TF. Pure: no node, no clock; any thread.
 #pragma once
 
 #include <tf2_msgs/TFMessage.h>
@@ -11,20 +11,21 @@
 namespace kinescope::ros_bridge {
 
 enum class TfShape {
-  kFlat,  // reference frame -> every link, as the seed bridge has it
-  kTree,  // reference frame -> pelvis, every other link below its parent in the URDF
+  kFlat,  // reference frame -> every link, as in xsens_mvn_ros
+  kTree,  // reference frame -> pelvis; every other link is a child of its parent in the URDF
 };
 
-/// One transform for each link of the URDF: first the 23 segments in alphabetical order, then the
-/// 44 links without mass inside the joints. Those carry nothing to see, but RViz calls a robot
-/// faulty for which it has no transform of every link. Both shapes give every link the same pose.
-/// Then gloves and props with the links inside their joints, where the person's model has them: in
-/// a tree below their parents in the URDF.
+/// One transform per link of the URDF: first the 23 segments in alphabetical order, then the 44
+/// massless links inside the joints. These have no shape, but RViz reports an error for a robot
+/// without a transform of every link. Both forms give every link the same pose. Then gloves and
+/// props with the links inside their joints, if the person's model has them; in a tree as children
+/// of their parents in the URDF.
 void FillTransforms(const PersonState& person, const PersonNames& names,
                     const std::string& reference_frame, TfShape shape,
                     tf2_msgs::TFMessage& message);
 
-/// Adds the tracked objects of a scene, each `<model>_<its name>` below the reference frame.
+/// Adds the tracked objects of a scene, each as `<model>_<its name>`, a child of the reference
+/// frame.
 void AddObjects(const SceneState& scene, const PersonNames& names,
                 const std::string& reference_frame, tf2_msgs::TFMessage& message);
 

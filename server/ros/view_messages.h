@@ -1,5 +1,5 @@
-/// The server's own view as messages: picture, camera and the camera's frame. Pure: no node, no
-/// clock. All three of one picture carry one stamp.
+/// Converts the rendered view to messages: picture, camera and frame of the camera. Pure: no node,
+/// no clock; any thread. All three of one picture have the same stamp.
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>
@@ -12,19 +12,18 @@
 
 namespace kinescope::ros_bridge {
 
-/// The frame that pictures of the topic namespace `view` ("/kinescope/view") are taken in: a name
-/// that no other node of the graph has, "kinescope_view_camera_optical" (REP 103: z forward, x to
-/// the right, y down).
+/// The camera frame of the pictures of the topic namespace `view` ("/kinescope/view"):
+/// "kinescope_view_camera_optical", unique in the graph (REP 103: z forward, x to the right, y
+/// down).
 std::string OpticalFrame(const std::string& view);
 
-/// rgb8; what is below an opaque picture is nothing, so alpha says nothing. `message` keeps its
-/// memory from picture to picture.
+/// rgb8; alpha is dropped, because the picture is opaque. `message` keeps its memory from picture
+/// to picture.
 void FillImage(const ViewPicture& picture, const std::string& frame, sensor_msgs::Image& message);
 
-/// K and P of a pinhole without distortion (plumb_bob, five zeros), for pixels whose centres are at
-/// whole numbers, as sensor_msgs/CameraInfo and OpenCV have them: the axis of a picture w wide
-/// meets it at (w - 1) / 2. K is zero, which is to say "not calibrated", where the picture is none
-/// of a pinhole camera.
+/// K and P of a pinhole camera without distortion (plumb_bob, five zeros), with pixel centres at
+/// whole numbers, as in sensor_msgs/CameraInfo and OpenCV: in a picture of width w the axis is at
+/// (w - 1) / 2. K is zero ("not calibrated") if the picture is not of a pinhole camera.
 void FillCameraInfo(const ViewPicture& picture, const std::string& frame,
                     sensor_msgs::CameraInfo& message);
 

@@ -18,10 +18,10 @@ namespace {
 
 constexpr char kImage[] = "view/image_raw";
 constexpr char kCameraInfo[] = "view/camera_info";
-// A subscriber that is slower than the pictures come gets the newest.
+// A subscriber slower than the frame rate gets the newest pictures.
 constexpr std::uint32_t kViewQueue = 2;
 
-// Something to do on the thread that calls the queue.
+// A task for the thread that calls the queue.
 class Errand : public ros::CallbackInterface {
  public:
   explicit Errand(std::function<void()> run) : run_(std::move(run)) {}
@@ -41,16 +41,16 @@ struct ViewTopics::Parts {
   std::string base;  // resolved: "/kinescope/view/"
   OnListeners on_listeners;
 
-  // Either, by whether image_transport is usable.
+  // One of them, depending on whether image_transport works.
   std::optional<image_transport::CameraPublisher> camera;
   ros::Publisher plain_image, plain_info;
   ros::Publisher tf;
 
-  // Whoever waited for the topics connects while they are still being advertised: what is here is
-  // then not to be looked at, and all are counted when it is.
+  // Subscribers that waited for the topics connect while these are still being advertised: they
+  // must not be counted yet, and all are counted when this is set.
   std::atomic<bool> is_ready{false};
-  std::atomic<bool> frame_is_due{true};  // somebody new cannot know it
-  // The drawing thread's.
+  std::atomic<bool> frame_is_due{true};  // a new subscriber does not have it
+  // Used by the rendering thread only.
   boost::shared_ptr<sensor_msgs::Image> image;
   boost::shared_ptr<sensor_msgs::CameraInfo> info;
   tf2_msgs::TFMessage frame;
@@ -102,9 +102,10 @@ ViewTopics::ViewTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue,
   parts_->tf = own.advertise<tf2_msgs::TFMessage>("/tf", kViewQueue);
   try {
     parts_->AdvertiseCamera(own);
-  } catch (const std::exception& problem) {  // pluginlib's and image_transport's own
-    spdlog::warn("{}image_raw goes out uncompressed only: image_transport has no plugins ({})",
-                 parts_->base, problem.what());
+  } catch (const std::exception& problem) {  // of pluginlib and image_transport
+    spdlog::warn(
+        "{}image_raw is published uncompressed only, because image_transport found no plugins ({})",
+        parts_->base, problem.what());
     parts_->camera.reset();
     parts_->AdvertisePlain(own);
   }
@@ -129,7 +130,7 @@ std::map<std::string, std::string> ViewTopics::TypesByTopic() const {
 
 void ViewTopics::Publish(const ViewPicture& picture) {
   Parts& parts = *parts_;
-  // Frames of one time are known, and tf2 complains about hearing of them again.
+  // Frames with an equal time are known, and tf2 warns when it receives them again.
   const bool frame_is_due = parts.frame_is_due.exchange(false);
   parts.frame.transforms.resize(1);
   const ros::Time before = parts.frame.transforms[0].header.stamp;
@@ -137,7 +138,7 @@ void ViewTopics::Publish(const ViewPicture& picture) {
   if (frame_is_due || parts.frame.transforms[0].header.stamp != before) {
     parts.tf.publish(parts.frame);
   }
-  // A subscriber in this process may still hold the last one.
+  // A subscriber in this process may still hold the last message.
   if (!parts.image || !parts.image.unique()) parts.image = boost::make_shared<sensor_msgs::Image>();
   if (!parts.info || !parts.info.unique()) {
     parts.info = boost::make_shared<sensor_msgs::CameraInfo>();

@@ -1,6 +1,6 @@
-/// `~view/image_raw` through image_transport (compressed, theora ... where their plugins are
-/// installed), `~view/camera_info` and the frame of the camera on /tf. Who listens is told by the
-/// connections themselves.
+/// Publishes `~view/image_raw` through image_transport (compressed, theora ... if their plugins are
+/// installed), `~view/camera_info` and the frame of the camera on /tf. The subscribers are counted
+/// from their connections.
 #pragma once
 
 #include <ros/callback_queue.h>
@@ -17,26 +17,28 @@ namespace kinescope::ros_bridge {
 
 class ViewTopics {
  public:
-  /// How many connections there are now, of image, transports of it and camera_info together. On
-  /// the thread that calls the queue.
+  /// Number of connections, of image, its transports and camera_info together. Called on the thread
+  /// that calls the queue.
   using OnListeners = std::function<void(int count)>;
 
-  /// Advertises below the private names of `node`. Asks the master: may wait. Where image_transport
-  /// finds none of its own plugins the plain topics are there all the same, and that is logged.
+  /// Advertises below the private names of `node`. Calls the master, so it may block. If
+  /// image_transport finds no plugins, the plain topics are advertised all the same, which is
+  /// logged.
   ViewTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue, std::string reference_frame,
              OnListeners on_listeners);
   ~ViewTopics();
   ViewTopics(const ViewTopics&) = delete;
   ViewTopics& operator=(const ViewTopics&) = delete;
 
-  /// All that was advertised, with types: for a master that has forgotten it.
+  /// All advertised topics with their types, to register them again at a restarted master.
   std::map<std::string, std::string> TypesByTopic() const;
 
-  /// The frame first: whoever gets the picture can look it up. One thread.
+  /// Publishes the frame first, so that a receiver of the picture can look it up. Call it on one
+  /// thread.
   void Publish(const ViewPicture& picture);
 
  private:
-  struct Parts;  // image_transport's types
+  struct Parts;  // types of image_transport
   const std::unique_ptr<Parts> parts_;
 };
 

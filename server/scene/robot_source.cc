@@ -4,9 +4,15 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <set>
+#include <stdexcept>
+#include <variant>
 
 #include "core/check.h"
 #include "core/errors.h"
+#include "urdf/mesh_inputs.h"
+#include "urdf/mesh_uri.h"
+#include "urdf/robot_model.h"
 #include "urdf/xml_outline.h"
 
 namespace kinescope::app {
@@ -29,7 +35,7 @@ std::string ReadUrdfFile(const fs::path& path) {
               static_cast<std::streamsize>(std::min(part.size(), most - bytes.size())));
     bytes.append(part, 0, static_cast<std::size_t>(file.gcount()));
   }
-  if (file.bad()) throw fail("reading it failed");
+  if (file.bad()) throw fail("cannot read the file");
   return bytes;
 }
 
@@ -45,6 +51,25 @@ RobotState LoadRobot(const fs::path& path, const std::vector<std::string>& packa
   robot.name = robot.model->name;
   robot.meshes = std::make_shared<urdf::MeshSearch>(urdf::MakeMeshSearch(path, package_path));
   return robot;
+}
+
+std::vector<fs::path> FilesOfRobot(const fs::path& urdf) {
+  std::set<fs::path> files = {urdf};
+  try {
+    const urdf::RobotModel model = urdf::ParseUrdf(ReadUrdfFile(urdf));
+    const urdf::MeshSearch search = urdf::MakeMeshSearch(urdf, {});
+    for (const urdf::Link& link : model.links) {
+      for (const urdf::Visual& visual : link.visuals) {
+        if (visual.geometry.kind != urdf::Geometry::Kind::kMesh) continue;
+        const auto found = urdf::FindMesh(visual.geometry.mesh_uri, search);
+        if (const auto* mesh = std::get_if<fs::path>(&found)) {
+          for (fs::path& file : urdf::FilesOfMesh(*mesh)) files.insert(std::move(file));
+        }
+      }
+    }
+  } catch (const std::runtime_error&) {  // drawing it will say why
+  }
+  return {files.begin(), files.end()};
 }
 
 void StandOnFloor(RobotState& robot, double x, double y) {

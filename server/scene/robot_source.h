@@ -1,4 +1,4 @@
-/// A URDF file as a robot that can be placed and drawn.
+/// Loads a URDF file as a robot that can be placed and rendered. World frame, metres. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -10,18 +10,23 @@
 
 namespace kinescope::app {
 
-/// The bytes of a URDF; of as much of it as any reader takes, and one more.
-/// @throws SourceError naming the file and why it cannot be read.
+/// The bytes of a URDF file, limited to one byte more than any URDF reader accepts.
+/// @throws SourceError with the file and the reason.
 std::string ReadUrdfFile(const std::filesystem::path& path);
 
-/// The robot in `path`, its root in the origin, its joints where `joints` says.
-/// @throws SourceError naming the file, with the line and reason.
+/// The robot in `path`, its root at the origin, its joints at `joints` (others as in
+/// urdf::PlaceLinks).
+/// @throws SourceError with the file, line and reason.
 RobotState LoadRobot(const std::filesystem::path& path,
                      const std::vector<std::string>& package_path,
                      const urdf::JointPositions& joints = {});
 
-/// Moves a robot as a whole: the middle of its bounds over `x`, `y`, the lowest point on z = 0.
-/// @pre its bounds are known
+/// The URDF and the meshes that it draws, with the files behind them; what cannot be found is left
+/// out. Never throws.
+std::vector<std::filesystem::path> FilesOfRobot(const std::filesystem::path& urdf);
+
+/// Moves the robot so that the middle of its bounds is above `x`, `y` (world, m) and its lowest
+/// point is on z = 0. @pre its bounds are known
 void StandOnFloor(RobotState& robot, double x = 0, double y = 0);
 
 }  // namespace kinescope::app

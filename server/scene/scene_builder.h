@@ -1,5 +1,5 @@
-/// Samples -> scene states: poses in link frames, joint angles, CoM, CoP, loads and their classes.
-/// The one place where these are computed; every sink shows what comes out of here. One thread.
+/// Builds scene states from samples: link poses, joint angles, CoM, CoP, loads and their classes.
+/// All of them are computed only here; every sink shows the result. One thread.
 #pragma once
 
 #include <array>
@@ -22,53 +22,52 @@
 namespace kinescope::app {
 
 struct SceneOptions {
-  std::string model_name =
-      "skeleton";  // prefix of links and joints; a second person gets _1, _2 ...
+  std::string model_name = "skeleton";  // prefix of links and joints; further people get _1, _2 ...
   urdf::BodyDescription body;
-  loads::LoadSettings loads;      // whose sex is that of `body`
-  double height_m = 1.75;         // of the default body, until the source tells its own
-  bool height_is_assumed = true;  // nobody said it
-  double stale_secs = 0.5;        // this long without a sample is stale
-  bool smooth_figure = true;      // mesh files; false: boxes, cylinders and spheres
-  std::shared_ptr<const FigureMeshes> figure_meshes;  // instead of ours; null: ours
-  std::shared_ptr<const HandTools> tools;             // in everybody's hands; null: none
+  loads::LoadSettings loads;      // with the same sex as `body`
+  double height_m = 1.75;         // of the default body, until the source sends segment lengths, m
+  bool height_is_assumed = true;  // the default value
+  double stale_secs = 0.5;        // time without samples after which the stream is stale, s
+  bool smooth_figure = true;      // meshes; false: boxes, cylinders and spheres
+  std::shared_ptr<const FigureMeshes> figure_meshes;  // custom meshes; null: the built-in ones
+  std::shared_ptr<const HandTools> tools;             // in the hands of all people; null: none
 };
 
 class SceneBuilder : public SampleSink {
  public:
   using OnState = std::function<void(std::shared_ptr<const SceneState>)>;
 
-  /// `on_state` gets every new state, on the caller's thread. The first one, "no data", comes from
-  /// Start.
+  /// `on_state` receives every new state, on the caller's thread. Start delivers the first one, "no
+  /// data".
   SceneBuilder(SceneOptions options, std::string source, double nominal_rate_hz, OnState on_state);
 
   void Start();
-  /// The body that the first person has until the source tells its own.
+  /// The body of the first person until the source sends its own segment lengths.
   std::shared_ptr<const PersonModel> InitialModel() const { return MakeModel(Person()); }
   void OnCharacter(const Character& character) override;
   void OnSample(const BodySample& sample) override;
   void OnObjects(const ObjectsSample& sample) override;
 
-  /// From the next sample on. @pre FindDefect(settings) is ""
+  /// Valid from the next sample on. @pre FindDefect(settings) is ""
   void SetLoads(const loads::LoadSettings& settings);
   const loads::LoadSettings& loads() const { return options_.loads; }
 
-  /// What `character` holds, instead of what the settings say; from the next sample on. Kept for a
-  /// character who has not come yet. @pre loads::FindDefect(load) is ""
+  /// Sets the hand load of `character` from the next sample on; overrides the settings. May be
+  /// called before the character appears. @pre loads::FindDefect(load) is ""
   void SetHandLoad(int character, const HandLoad& load);
 
-  /// What sensors say about `character`, with stamps of the samples' clock; what is old is let go
-  /// by itself. Kept for a character who has not come yet.
+  /// Sets the measured forces of `character`. Stamps are on the clock of the samples; expired
+  /// measurements are ignored. May be called before the character appears.
   void SetMeasurements(int character, const loads::Measurements& measured);
 
-  /// What other programs want to be seen, from the next sample on; at once while none come.
+  /// Sets the external markers from the next sample on; at once while no samples arrive.
   void SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> markers);
 
-  /// Call at least every 0.1 s with the monotonic clock while a live source is read: this is what
-  /// notices that nothing comes any more.
+  /// Call it at least every 0.1 s with the monotonic clock while a live source is read: it detects
+  /// that no samples arrive.
   void Tick(std::int64_t monotonic_nanos);
 
-  /// As Tick does when the stream has stopped.
+  /// Publishes the newest state as stale, as Tick does when the stream has stopped.
   void MarkStale();
 
  private:
@@ -78,22 +77,22 @@ class SceneBuilder : public SampleSink {
     std::shared_ptr<const PersonModel> model;
     urdf::JointAngles angles{};
     urdf::RigidDeviation worst_deviation;
-    bool l5_is_checked = false;                    // against the first pose, see CheckL5
-    std::optional<Eigen::Vector3d> l5_from_poses;  // in the pelvis' link frame
+    bool l5_is_checked = false;                    // against the first pose; see CheckL5
+    std::optional<Eigen::Vector3d> l5_from_poses;  // m, in the pelvis' link frame
     WornExtras worn;
     loads::LoadEstimator loads;
     loads::Exposure exposure;
     bool has_legs = true;              // false: recorded without leg sensors
-    std::optional<double> floor_z;     // known since the first sample
+    std::optional<double> floor_z;     // m; set with the first sample
     std::optional<PersonState> state;  // of the newest sample
   };
 
   struct Held {
     HandLoad load;
-    std::int64_t told_nanos = 0;  // stamp of the newest sample then
+    std::int64_t told_nanos = 0;  // stamp of the newest sample when it was set
   };
 
-  Person& AddPerson(const Character& character);  // who is not there yet
+  Person& AddPerson(const Character& character);  // a character without samples before
   void LetGoOfStoppedHands(int character);
   std::shared_ptr<const PersonModel> MakeModel(const Person& person) const;
   static bool CheckL5(const BodySample& sample, Person& person);
@@ -105,15 +104,16 @@ class SceneBuilder : public SampleSink {
   std::string source_;
   double nominal_rate_hz_;
   OnState on_state_;
-  std::map<int, Person> people_;                       // by character id; bounded by the source
-  std::map<int, loads::Measurements> measured_;        // likewise
-  std::map<int, Held> held_;                           // likewise, by who was told to hold what
-  std::map<int, Character> clusters_;                  // of tracked objects, likewise
-  std::map<int, std::vector<TrackedObject>> objects_;  // of the newest sample of each cluster
-  SceneState current_;                                 // without its people: Publish adds those
-  std::int64_t rate_window_start_ = 0;                 // monotonic
+  std::map<int, Person> people_;                 // by character id; bounded by the source
+  std::map<int, loads::Measurements> measured_;  // by character id; bounded by the source
+  std::map<int, Held> held_;  // hand loads that were set, by character id; bounded by the source
+  std::map<int, Character> clusters_;  // groups of tracked objects, by character id; bounded by the
+                                       // source
+  std::map<int, std::vector<TrackedObject>> objects_;  // of the newest sample of each group
+  SceneState current_;                                 // without its people, which Publish adds
+  std::int64_t rate_window_start_ = 0;                 // monotonic clock
   int rate_window_samples_ = 0;
-  int rate_character_ = 0;  // whose samples are counted
+  int rate_character_ = 0;  // the character whose samples are counted
 };
 
 }  // namespace kinescope::app

@@ -2,80 +2,112 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
 #include <utility>
-#include <vector>
 
+#include "core/check.h"
 #include "core/errors.h"
-#include "server/options/choose.h"
-#include "urdf/placed_mass.h"
 
 namespace kinescope::app {
 namespace {
 
-loads::HandLoad ToHandLoad(const std::string& text) try {
-  std::string list;
-  for (const std::string& part : SplitList(text)) list += (list.empty() ? "" : ";") + part;
-  return loads::ParseHandLoad(list);
-} catch (const UsageError& error) {
-  throw UsageError(fmt::format("--hand={}: {}", text, error.what()));
-}
+using loads::Percentile;
+using options::BadValue;
 
-loads::LoadClassifier::Settings ToClasses(const std::string& text) try {
-  constexpr double kMost = 5;  // of capacity; more is no limit
-  const std::vector<double> up = urdf::ParseNumbers(text);
-  const bool is_good = up.size() == 2 && up[0] > 0 && up[0] < up[1] && up[1] <= kMost;
-  if (!is_good) throw std::invalid_argument("no two limits");
-  return loads::LoadClassifier::WithLimits({up[0], up[1]});
-} catch (const std::invalid_argument&) {
-  throw UsageError(fmt::format(
-      "--class_limits={}: expected two numbers, MEDIUM,HIGH, above 0 and rising, such as 0.3,0.6",
-      text));
-}
+constexpr double kMostClassLimit = 5;  // of capacity; more is no limit
 
 }  // namespace
 
+ClassLimitsValue::ClassLimitsValue() : ValueOf(loads::LoadClassifier::Settings().up) {}
+
+void ClassLimitsValue::Parse(const std::string& text) {
+  const auto up = options::ParseNumbers(text);
+  const bool is_good =
+      up && up->size() == 2 && (*up)[0] > 0 && (*up)[0] < (*up)[1] && (*up)[1] <= kMostClassLimit;
+  if (!is_good) RefuseText();
+  value_ = {(*up)[0], (*up)[1]};
+}
+
+std::string ClassLimitsValue::ToText() const {
+  return options::NumberText(value_[0]) + "," + options::NumberText(value_[1]);
+}
+
+std::string ClassLimitsValue::Expected() const {
+  return fmt::format("MEDIUM,HIGH: two rising numbers above 0, at most {}, such as 0.3,0.6",
+                     kMostClassLimit);
+}
+
+void HandLoadValue::Parse(const std::string& text) try {
+  std::string items;
+  for (const std::string& item : options::SplitItems(text)) {
+    items += (items.empty() ? "" : ";") + item;
+  }
+  value_ = items.empty() ? HandLoad() : loads::ParseHandLoad(items);
+  text_ = text;
+} catch (const UsageError& error) {
+  throw BadValue(error.what());
+}
+
+std::string HandLoadValue::Expected() const {
+  return "right:KG, left:KG or both:KG, right:KG@X,Y,Z for another place than the grip (m, in the "
+         "hand's link frame), with commas between several; or none";
+}
+
+LoadOptions::LoadOptions()
+    : capacity_factor(loads::Strength().factor, {0.1, 5}),
+      capacity_percentile({{"5", Percentile::k5}, {"50", Percentile::k50}, {"95", Percentile::k95}},
+                          Percentile::k50),
+      load_metric({{"total", LoadMetric::kTotal},
+                   {"overload", LoadMetric::kOverload},
+                   {"norm", LoadMetric::kNorm},
+                   {"external", LoadMetric::kExternal}},
+                  loads::LoadSettings().metric),
+      load_mode({{"dynamic", true}, {"static", false}}, true),
+      filter_hz(loads::MotionFilter::Settings().cutoff_hz, {3, 10, "Hz"}),
+      lumbar_compression(true) {}
+
+void LoadOptions::List(options::OptionList& option) {
+  option.Group("Joint loads");
+  option("capacity_factor", capacity_factor, "this person's strength divided by the population's");
+  option("capacity_percentile", capacity_percentile,
+         "percentage of the population that is weaker than the reference strength");
+  option("load_metric", load_metric,
+         "load that is compared with the strength: total, overload (caused by the loads in the "
+         "hands), "
+         "norm (|moment|, without directions), external (received from another program)");
+  option("load_mode", load_mode, "dynamic: with inertial forces; static: without");
+  option("class_limits", class_limits,
+         "shares of the capacity above which a rising load is medium (orange) and high (red)");
+  option("hand_load", hand, "loads in the hands; none: known to be empty; not given: unknown");
+  option.Formerly("hand");
+  option("filter_hz", filter_hz, "cut-off frequency of the low-pass filter of accelerations");
+  option("lumbar_compression", lumbar_compression,
+         "on: L5/S1 shows the larger of moment and compression; off: the moment");
+}
+
+options::Number StaleSecs() { return {SceneOptions().stale_secs, {0.05, 60, "s"}}; }
+
 loads::LoadSettings ToLoadSettings(const LoadOptions& loads) {
-  using loads::Percentile;
   loads::LoadSettings settings;
-  settings.strength.factor = loads.capacity_factor;
-  if (!loads::FindDefect(settings.strength).empty()) {
-    throw UsageError(fmt::format("--capacity_factor={}: expected 0.1 to 5", loads.capacity_factor));
-  }
-  settings.strength.percentile =
-      Choose<Percentile>("capacity_percentile", loads.capacity_percentile,
-                         {{"5", Percentile::k5}, {"50", Percentile::k50}, {"95", Percentile::k95}});
-  settings.metric = Choose<LoadMetric>("load_metric", loads.load_metric,
-                                       {{"total", LoadMetric::kTotal},
-                                        {"overload", LoadMetric::kOverload},
-                                        {"norm", LoadMetric::kNorm},
-                                        {"external", LoadMetric::kExternal}});
-  settings.motion.dynamic =
-      Choose<bool>("load_mode", loads.load_mode, {{"dynamic", true}, {"static", false}});
-  settings.classes = ToClasses(loads.class_limits);
-  if (!loads.hand.empty()) settings.hands = ToHandLoad(loads.hand);
-  settings.motion.cutoff_hz = loads.filter_hz;
-  settings.compression_counts = ToSwitch("lumbar_compression", loads.lumbar_compression);
-  if (auto defect = loads::FindDefect(settings); !defect.empty()) {
-    throw UsageError(fmt::format("--filter_hz={}: {}", loads.filter_hz, defect));
-  }
+  settings.strength.factor = *loads.capacity_factor;
+  settings.strength.percentile = *loads.capacity_percentile;
+  settings.metric = *loads.load_metric;
+  settings.motion.dynamic = *loads.load_mode;
+  settings.classes = loads::LoadClassifier::WithLimits(*loads.class_limits);
+  settings.hands = *loads.hand;
+  settings.motion.cutoff_hz = *loads.filter_hz;
+  settings.compression_counts = *loads.lumbar_compression;
+  KINESCOPE_CHECK(loads::FindDefect(settings).empty());
   return settings;
 }
 
-SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs,
-                            const LoadOptions& loads) {
+SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& loads,
+                            double stale_secs) {
   SceneOptions scene;
-  scene.model_name = ToModelName(person.model_name);
+  scene.model_name = *person.model_name;
   scene.body = ToBody(person);
   scene.loads = ToLoadSettings(loads);
-  if (person.height && !(*person.height >= 0.5 && *person.height <= 2.5)) {
-    throw UsageError(fmt::format("--height={}: expected 0.5 to 2.5 m", *person.height));
-  }
   scene.height_is_assumed = !person.height;
   scene.height_m = person.height.value_or(scene.height_m);
-  if (!(stale_secs >= 0.05 && stale_secs <= 60)) {
-    throw UsageError(fmt::format("--stale_secs={}: expected 0.05 to 60 s", stale_secs));
-  }
   scene.stale_secs = stale_secs;
   FigureChoice figure = ToFigure(person);
   scene.smooth_figure = figure.is_smooth;

@@ -1,51 +1,63 @@
-/// People and the loads in their joints, from options to what the scene builder takes.
+/// People and the loads in their joints, from options to the settings of the scene builder.
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
 
 #include "server/body/person_options.h"
 #include "server/loads/load_settings.h"
+#include "server/options/option_list.h"
 #include "server/scene/scene_builder.h"
 
 namespace kinescope::app {
 
-/// What the loads in the joints are computed from, and what they are measured against.
-struct LoadOptions {
-  double capacity_factor = loads::Strength().factor;
-  std::string capacity_percentile = "50";
-  std::string load_metric = Name(loads::LoadSettings().metric);
-  std::string load_mode = "dynamic";
-  std::string class_limits = "0.3,0.6";
-  std::string hand;
-  double filter_hz = loads::MotionFilter::Settings().cutoff_hz;
-  std::string lumbar_compression = "on";
+/// MEDIUM,HIGH: ratios above which a rising load is medium, and high.
+class ClassLimitsValue : public options::ValueOf<std::array<double, 2>> {
+ public:
+  ClassLimitsValue();
 
-  template <class Option>
-  void Visit(Option&& option) {
-    option("capacity_factor", capacity_factor,
-           "this person's strength over that of the population, 0.1 to 5");
-    option("capacity_percentile", capacity_percentile,
-           "strength of the population to measure against: 5, 50 or 95 percent are weaker");
-    option("load_metric", load_metric,
-           "total, overload (what the load in the hands adds), norm (|moment|, without directions) "
-           "or external (as another program computed it)");
-    option("load_mode", load_mode, "dynamic (accelerations take part) or static");
-    option("class_limits", class_limits,
-           "of capacity: above the first a load is medium (orange), above the second high (red), "
-           "while it rises");
-    option("hand", hand,
-           "what the hands hold: right:KG, left:KG or both:KG, right:KG@X,Y,Z (m, in the hand's "
-           "link frame) for another place than the grip, several with commas between; none: "
-           "nothing, for certain; not given: not known");
-    option("filter_hz", filter_hz, "cut-off of the low-pass for accelerations, 3 to 10 Hz");
-    option("lumbar_compression", lumbar_compression,
-           "on or off: L5/S1 shows the worse of its moment and its compression");
-  }
+  void Parse(const std::string& text) override;
+  std::string ToText() const override;
+  std::string Expected() const override;
 };
 
-// Both: @throws UsageError naming option, value and what was expected.
-SceneOptions ToSceneOptions(const PersonOptions& person, double stale_secs,
-                            const LoadOptions& loads = {});
+/// Loads in the hands; "" : unknown.
+class HandLoadValue : public options::ValueOf<HandLoad> {
+ public:
+  HandLoadValue() : ValueOf({}) {}
+
+  void Parse(const std::string& text) override;
+  std::string ToText() const override { return text_; }
+  std::string Expected() const override;
+  std::vector<std::string> Names() const override { return {"none", "right", "left", "both"}; }
+
+ private:
+  std::string text_;
+};
+
+/// What joint loads are computed from, and compared with.
+struct LoadOptions {
+  LoadOptions();
+
+  options::Number capacity_factor;
+  options::Choice<loads::Percentile> capacity_percentile;
+  options::Choice<LoadMetric> load_metric;
+  options::Choice<bool> load_mode;  // true: dynamic
+  ClassLimitsValue class_limits;
+  HandLoadValue hand;
+  options::Number filter_hz;
+  options::Switch lumbar_compression;
+
+  void List(options::OptionList& option);
+};
+
+/// Time without samples after which a stream is stale, s.
+options::Number StaleSecs();
+
+/// Reads the meshes of the person. @throws UsageError naming option, value and what was expected.
+SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& loads = {},
+                            double stale_secs = SceneOptions().stale_secs);
 loads::LoadSettings ToLoadSettings(const LoadOptions& loads);
 
 }  // namespace kinescope::app

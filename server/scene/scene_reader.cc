@@ -19,8 +19,8 @@ SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
           [this](const std::shared_ptr<const SceneState>& state) { ready_.push_back(state); }) {
   if (source_->is_live()) {
     throw UsageError("source '" + url +
-                     "': a live stream has no frames to choose from; give a recording or demo:lift "
-                     "(to watch a stream: kinescope serve)");
+                     "': this command cannot read a live stream; record the stream first "
+                     "(kinescope record, or rosbag record /tf), or use demo:lift");
   }
   builder_.Start();
   empty_ = std::move(ready_.front());

@@ -1,5 +1,5 @@
-/// A file or the built-in subject as scene states, one after the other, as fast as they are asked
-/// for. One thread at a time.
+/// Reads a file or the built-in subject as scene states, one after the other, without pacing. Each
+/// object is used by one thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -14,21 +14,22 @@
 
 namespace kinescope::app {
 
-/// The latest time of a recording that an option may name, s after its first sample: ten days,
-/// longer than any recording and far from what nanoseconds in 64 bits can hold.
+/// The latest time of a recording that an option may set, s after its first sample: ten days,
+/// longer than any recording and far below the range of nanoseconds in 64 bits.
 inline constexpr double kLatestSecs = 864'000;
 
 class SceneReader {
  public:
-  /// @throws SourceError; UsageError for a live source, which has no end and no "frame 60".
+  /// @throws SourceError; UsageError for a live source, which has neither an end nor sample numbers
+  /// from its beginning.
   SceneReader(const std::string& url, const SceneOptions& options);
 
-  /// The next sample's state; null at the end.
+  /// The state of the next sample; null at the end.
   std::shared_ptr<const SceneState> Next();
 
   /// The state before the first sample: "no data".
   std::shared_ptr<const SceneState> Empty() const { return empty_; }
-  /// The newest state, as it looks when nothing more comes.
+  /// The newest state, as it looks after the stream has stopped.
   std::shared_ptr<const SceneState> Stale();
 
   double rate_hz() const { return source_->nominal_rate_hz(); }
@@ -43,18 +44,19 @@ class SceneReader {
   bool ended_ = false;
 };
 
-/// The scene at any time, for times that grow: states read as needed and interpolated between.
+/// Computes the scene at ascending times: reads states as needed and interpolates between them. One
+/// thread.
 class SceneTimeline {
  public:
   using ReadNext = std::function<std::shared_ptr<const SceneState>()>;
 
-  /// Ctrl-C ends its reading. @throws std::runtime_error then, naming the source.
+  /// Ctrl-C interrupts the reading. @throws std::runtime_error then, with the source.
   explicit SceneTimeline(SceneReader& reader);
-  /// `next` gives the states, one after the other; null at the end.
+  /// `next` returns the states, one after the other; null at the end.
   explicit SceneTimeline(ReadNext next);
 
-  /// `secs` after the first sample; nullopt past the last one.
-  /// @pre 0 <= secs <= kLatestSecs, not before the last call's.
+  /// The scene `secs` after the first sample; nullopt after the last one.
+  /// @pre 0 <= secs <= kLatestSecs, not before the time of the last call.
   std::optional<SceneState> At(double secs);
   std::optional<SceneState> AtNanos(std::int64_t nanos);
 

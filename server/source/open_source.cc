@@ -1,13 +1,15 @@
 #include "server/source/open_source.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "core/errors.h"
 #include "core/input_file.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/recording.h"
-#include "server/mvn/net/net_url.h"
+#include "server/options/text.h"
 #include "server/ros/bag_source.h"
 #include "server/ros/graph_source.h"
 #include "server/source/paced_source.h"
@@ -20,7 +22,7 @@ namespace {
 std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& settings) {
   std::error_code ignored;
   if (path != "-" && !std::filesystem::exists(path, ignored)) {
-    throw SourceError("source '" + path + "': no such file; expected " + kSourceKinds);
+    throw SourceError("source '" + path + "': file not found; expected " + SourceKinds());
   }
   InputFile file = OpenInputFile(path);
   const std::string name = NameOfInput(path);
@@ -30,36 +32,45 @@ std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& 
       return mvn::OpenStream(mvn::OpenRecording(std::move(file), name), settings.stream);
     case mvn::RecordingKind::kMvnx: return std::make_unique<mvn::MvnxSource>(std::move(file), name);
     case mvn::RecordingKind::kRosBag:
-      if (path == "-") throw SourceError("a ROS bag cannot be read from a pipe; save it first");
+      if (path == "-")
+        throw SourceError("a ROS bag cannot be read from a pipe; save it to a file first");
       return ros_bridge::OpenBag(path);
     case mvn::RecordingKind::kEmpty:
     case mvn::RecordingKind::kUnknown: break;
   }
-  throw SourceError(mvn::DescribeUnfit(path, file.head(), kSourceKinds));
+  throw SourceError(mvn::DescribeUnfit(path, file.head(), SourceKinds()));
+}
+
+void CheckMotion(const std::string& motion) {
+  const std::vector<std::string> known = subject::MotionNames();
+  if (std::count(known.begin(), known.end(), motion) > 0) return;
+  const std::string nearest = options::Nearest(motion, known);
+  throw SourceError("demo:" + motion + ": unknown motion; expected " +
+                    options::Alternatives(known) +
+                    (nearest.empty() ? "" : "; nearest: " + nearest));
 }
 
 }  // namespace
 
 std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings) {
-  if (url.rfind("demo:", 0) == 0) {
-    return subject::OpenSubject(url.substr(std::string("demo:").size()), settings.subject_rate_hz,
-                                0);
+  switch (KindOfSource(url)) {
+    case SourceKind::kUdp:
+    case SourceKind::kTcp: return mvn::OpenStream(mvn::OpenDatagrams(url), settings.stream);
+    case SourceKind::kGraph: return ros_bridge::OpenGraph(url);
+    case SourceKind::kSubject:
+      CheckMotion(WithoutScheme(url));
+      return subject::OpenSubject(WithoutScheme(url), settings.subject_rate_hz, 0);
+    case SourceKind::kFile: break;
   }
-  if (mvn::IsNetUrl(url)) {
-    return mvn::OpenStream(mvn::OpenDatagrams(url), settings.stream);
-  }
-  if (ros_bridge::IsGraphUrl(url)) return ros_bridge::OpenGraph(url);
   return OpenFile(url, settings);
 }
-
-bool IsLiveUrl(const std::string& url) { return mvn::IsNetUrl(url) || ros_bridge::IsGraphUrl(url); }
 
 std::unique_ptr<Source> OpenAtTrueRate(const std::string& url, bool loop,
                                        const SourceSettings& settings) {
   auto source = OpenSource(url, settings);
   if (source->is_live()) return source;
   if (loop && url == "-") {
-    throw UsageError("--loop: standard input cannot be read twice; save it as a file");
+    throw UsageError("--loop: standard input cannot be read twice; save it to a file first");
   }
   PacedSource::Open reopen;
   if (loop) reopen = [url, settings] { return OpenSource(url, settings); };

@@ -1,4 +1,4 @@
-/// Sources by URL, the same in every command.
+/// Opens sources by URL, in the same way for all commands. Any thread.
 #pragma once
 
 #include <memory>
@@ -6,35 +6,27 @@
 
 #include "core/source.h"
 #include "server/mvn/open.h"
+#include "server/source/scheme.h"
 
 namespace kinescope::app {
 
-/// As an MVN Link streams; what the built-in subject gives unless told otherwise.
+/// Default rate of the built-in subject: that of an MVN Link stream.
 inline constexpr double kSubjectRateHz = 120;
 
-/// What a source may be, for --help and errors.
-inline constexpr const char* kSourceKinds =
-    "udp://[address]:port, tcp://[address]:port, a recording (MVNX, pcap, pcapng, .bin or ROS bag, "
-    "also packed with gzip or xz; - for standard input), ros: or ros:/topic, demo:lift or "
-    "demo:walk";
-
 struct SourceSettings {
-  double subject_rate_hz = kSubjectRateHz;  // samples a second of `demo:`
-  mvn::StreamSettings stream;               // of sources that are datagrams
+  double subject_rate_hz = kSubjectRateHz;  // samples per second of `demo:`
+  mvn::StreamSettings stream;               // for sources of datagrams
 };
 
 /// `demo:lift`, `udp://:9763`, `tcp://:9763`, `file.mvnx`, `take.pcap`, `take.bin.xz`, `walk.bag`,
 /// `ros:`.
-/// A file is known by its content.
-/// @throws SourceError naming the URL and what would be right.
+/// The format of a file is detected by its content.
+/// @throws SourceError with the URL and the expected form or the remedy.
 std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings = {});
 
-/// Whether a source of that URL is live: samples come when they come, and it has no end.
-bool IsLiveUrl(const std::string& url);
-
-/// A file or the built-in subject at its true rate: samples come when they are due, stamped with
-/// the time of day. `loop` starts over at the end, with counters and time going on.
-/// A live source is returned as it is.
+/// Opens a file or the built-in subject at its true rate: samples are delivered when they are due,
+/// stamped with the current time. `loop` starts over at the end; counters and time continue.
+/// A live source is returned unchanged.
 std::unique_ptr<Source> OpenAtTrueRate(const std::string& url, bool loop,
                                        const SourceSettings& settings = {});
 

@@ -1,6 +1,6 @@
-/// Plays a source that gives samples as fast as it is asked (a file, the built-in subject) at its
-/// true rate, as if it came from suits now. Several people may be in it: theirs come in order of
-/// time, whatever order they have in the file. One thread.
+/// Plays a source without pacing (a file, the built-in subject) at its true rate, as if suits sent
+/// it now. Samples of several people are delivered in order of time, whatever their order in the
+/// file. One thread.
 #pragma once
 
 #include <chrono>
@@ -20,28 +20,28 @@ class PacedSource : public Source, private SampleSink {
  public:
   using Open = std::function<std::unique_ptr<Source>()>;
 
-  /// Plays `source`. At its end `reopen`, where there is one, gives the source of the next round:
-  /// counters, time codes and stamps go on from where they were.
+  /// Plays `source`. At its end, `reopen` (if not null) returns the source of the next round:
+  /// counters, time codes and stamps continue.
   explicit PacedSource(std::unique_ptr<Source> source, Open reopen = nullptr);
 
-  /// Hands on what is due. Returns when something came or `timeout` is over. What the source throws
-  /// comes after the samples before it.
+  /// Delivers the samples that are due. Returns after a delivery or after `timeout`. Exceptions of
+  /// the source are thrown after the samples before them.
   [[nodiscard]] State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
 
-  /// Of all rounds; `samples` are those handed on.
+  /// Over all rounds; `samples` are those delivered.
   SourceCounters counters() const override;
   std::string description() const override { return source_->description(); }
   bool is_live() const override { return true; }
   double nominal_rate_hz() const override { return source_->nominal_rate_hz(); }
 
  private:
-  // What was read and is not yet due. Samples hold played times where their stamps go.
+  // Read but not due yet. In queued samples the stamp is the played time.
   using Event = std::variant<Character, BodySample, ObjectsSample>;
 
-  // One person, or cluster of objects, by id.
+  // One person, or group of objects, by id.
   struct Track {
-    std::uint32_t counter_offset = 0;  // from the file's counters to ours
-    std::uint32_t last_counter = 0;    // ours
+    std::uint32_t counter_offset = 0;  // sent counter minus counter in the file
+    std::uint32_t last_counter = 0;    // as sent
     std::int64_t last_played = 0;
     std::uint64_t samples = 0;  // of this round
   };
@@ -60,20 +60,21 @@ class PacedSource : public Source, private SampleSink {
 
   std::unique_ptr<Source> source_;
   Open reopen_;
-  SourceCounters earlier_;  // of the rounds before this one
+  SourceCounters earlier_;  // of earlier rounds
   std::uint64_t samples_ = 0;
 
-  // "Played" time is nanoseconds since the first sample of the first round.
-  std::multimap<std::int64_t, Event> queue_;  // by played time; equal ones as they were read
-  std::map<int, Character> characters_;       // by id, until their next sample tells when
+  // "Played" time is ns since the first sample of the first round.
+  std::multimap<std::int64_t, Event> queue_;  // by played time; entries with equal times in the
+                                              // order of reading
+  std::map<int, Character> characters_;       // by id, until their next sample gives the time
   std::map<int, Track> tracks_;
   bool read_all_ = false;
   std::exception_ptr failure_;  // why reading ended early
 
   bool is_round_empty_ = true;
   std::int64_t first_stamp_ = 0;   // of this round
-  std::int64_t round_offset_ = 0;  // played before this round
-  std::int64_t last_played_ = 0;   // of what was read
+  std::int64_t round_offset_ = 0;  // played time before this round
+  std::int64_t last_played_ = 0;   // of the newest sample read
   bool has_started_ = false;
   std::int64_t start_monotonic_ = 0;
   std::int64_t start_wall_ = 0;

@@ -1,4 +1,5 @@
-/// Schedules: smooth curves through a few chosen values, evaluated with their derivatives.
+/// Smooth curves through a few chosen values, evaluated with their derivatives. Any thread;
+/// constant after construction.
 #pragma once
 
 #include <vector>
@@ -7,9 +8,9 @@
 
 namespace kinescope::subject {
 
-/// A periodic curve through keys, twice continuously differentiable. Between two keys it is a
-/// quintic that has no acceleration at either end; slopes at keys are chosen (Fritsch-Carlson) so
-/// that it never overshoots: equal neighbours make it exactly constant between them.
+/// A periodic curve through keyframes, twice continuously differentiable. Between two keyframes it
+/// is a quintic without acceleration at either end. The slopes at keyframes (Fritsch-Carlson)
+/// exclude overshoot: between equal neighbours the curve is exactly constant.
 class Curve {
  public:
   struct Key {
@@ -28,8 +29,8 @@ class Curve {
   std::vector<double> slopes_;
 };
 
-/// 0 up to x = 0, 1 from x = 1 on, with continuous second derivative; steady in the middle,
-/// starting and ending over `ramp` (0..0.5) of the way: its steepest slope is 1 / (1 - ramp).
+/// 0 up to x = 0, 1 from x = 1 on, with a continuous second derivative. It is linear in the middle
+/// and starts and ends over `ramp` (0..0.5) of the way; its steepest slope is 1 / (1 - ramp).
 Jet GlideStep(const Jet& x, double ramp);
 
 }  // namespace kinescope::subject

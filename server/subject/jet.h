@@ -1,7 +1,7 @@
-/// A number together with its first two derivatives with respect to time (forward-mode automatic
-/// differentiation of second order), and its vectors and quaternions. A pose that is computed in
-/// jets brings its true velocities and accelerations with it: there is nothing to differentiate,
-/// and nothing that could disagree.
+/// A number with its first two derivatives with respect to time (forward-mode automatic
+/// differentiation of second order), and vectors and quaternions of such numbers. A pose computed
+/// in jets includes its exact velocities and accelerations, so nothing is differentiated
+/// numerically. Pure functions, any thread.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -58,7 +58,7 @@ inline Jet operator-(Jet a, const Jet& b) { return a -= b; }
 inline Jet operator*(Jet a, const Jet& b) { return a *= b; }
 inline Jet operator/(Jet a, const Jet& b) { return a /= b; }
 
-// Order is that of the values: enough to choose a branch.
+// Compares the values only, which is enough to choose a branch.
 inline bool operator<(const Jet& a, const Jet& b) { return a.value < b.value; }
 inline bool operator>(const Jet& a, const Jet& b) { return b < a; }
 inline bool operator<=(const Jet& a, const Jet& b) { return !(b < a); }
@@ -97,8 +97,8 @@ inline Jet acos(const Jet& x) { return atan2(sqrt(1.0 - x * x), x); }
 using JetVector = Eigen::Matrix<Jet, 3, 1>;
 using JetQuaternion = Eigen::Quaternion<Jet>;
 
-/// Right-hand turns about one axis. Written in half angles, so the quaternion stays continuous
-/// through any number of turns.
+/// Right-hand rotations about one axis, rad. Computed from half angles, so the quaternion is
+/// continuous over any number of revolutions.
 inline JetQuaternion TurnX(const Jet& angle) {
   const Jet half = 0.5 * angle;
   return {cos(half), sin(half), 0.0, 0.0};

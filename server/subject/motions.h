@@ -1,6 +1,5 @@
-/// The motions that the subject can do: how each poses the body at a time. Lengths in them are
-/// those of a person of 1.75 m; others get the same motion in proportion to their stature, equally
-/// fast.
+/// The motions of the built-in subject: each defines the pose of the body over time. Their lengths
+/// are those of a person of 1.75 m; for others they are scaled to the stature, at the same pace.
 #pragma once
 
 #include <cmath>
@@ -18,7 +17,7 @@ class Choreography {
  public:
   virtual ~Choreography() = default;
   virtual Posture PoseAt(const Jet& time) const = 0;
-  virtual double period_secs() const = 0;  // when it is back where it began
+  virtual double period_secs() const = 0;  // time after which the motion repeats
 
  protected:
   Choreography() = default;
@@ -32,8 +31,8 @@ enum class Arms { kHanging, kSideways };
 std::unique_ptr<Choreography> MakeStand(const urdf::Skeleton& skeleton, Arms arms);
 
 enum class Held { kSquat, kOverhead, kSit };
-/// Deep in the knees with arms forward; upright with arms raised; as on a chair, which is not
-/// there: the feet carry everything.
+/// Deep squat with arms forward; upright with arms raised; seated posture without a chair: the feet
+/// carry everything.
 std::unique_ptr<Choreography> MakeHold(const urdf::Skeleton& skeleton, Held posture);
 
 }  // namespace kinescope::subject

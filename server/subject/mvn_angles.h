@@ -1,4 +1,5 @@
-/// Joint angles as MVN streams them (type 20): mvn-protocol.md 4.5.
+/// Computes joint angles as MVN streams them (type 20): mvn-protocol.md 4.5. Pure function, any
+/// thread.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
-/// One instant of the built-in subject under construction: link poses with their derivatives, built
-/// outwards from the pelvis along the chain of a skeleton, so that joints always meet. Limbs reach
-/// their ends by inverse kinematics. World frame, link frames, metres, radians.
+/// Builds one pose of the built-in subject with its derivatives, from the pelvis outwards along the
+/// chain of a skeleton, so that segments always meet at their joints. Limbs reach their end points
+/// by inverse kinematics. World frame, link frames, metres, radians. One thread.
 #pragma once
 
 #include <array>
@@ -18,30 +18,33 @@ class Posture {
 
   void PlacePelvis(const JetVector& position, const JetQuaternion& world_from_pelvis);
 
-  /// Places `segment` at its joint on its parent, which must have been placed before.
+  /// Places `segment` at its joint on its parent. @pre the parent is placed
   void Orient(int segment, const JetQuaternion& world_from_link);
   void Turn(int segment, const JetQuaternion& parent_from_link);
 
-  /// Thigh and shank so that the ankle comes to `ankle`; the knee bends in the vertical plane of
-  /// `heading` (about z). @pre the leg reaches it without being stretched out
+  /// Places thigh and shank so that the ankle is at `ankle`; the knee bends in the vertical plane
+  /// of `heading` (about z). @pre the leg reaches it without being fully extended
   void ReachWithLeg(urdf::Side side, const JetVector& ankle, const Jet& heading);
 
-  /// Upper arm and forearm so that the wrist comes to `wrist`, and the hand as given. The elbow
-  /// points back and down, turned outwards by `swivel`; the forearm takes over all of the hand's
-  /// turn about its long axis, as radius and ulna do. @pre as above; arm not stretched sideways
+  /// Places upper arm and forearm so that the wrist is at `wrist`, and the hand with the given
+  /// orientation. The elbow points back and down, rotated outwards by `swivel`; the forearm takes
+  /// all of the hand's rotation about its long axis, as radius and ulna do. @pre the arm reaches it
+  /// without being fully extended; arm not stretched sideways
   void ReachWithArm(urdf::Side side, const JetVector& wrist, const JetQuaternion& world_from_hand,
                     const Jet& swivel);
 
-  /// Neck and head so that the face turns `share` of the way to `target`; eyes do the rest.
+  /// Rotates neck and head so that the face turns `share` of the way to `target`; the eyes do the
+  /// rest.
   void LookAt(const JetVector& target, double share);
 
   const JetVector& position(int segment) const { return links_[Index(segment)].position; }
   const JetQuaternion& orientation(int segment) const { return links_[Index(segment)].orientation; }
 
-  /// Where a point of a link's frame is in the world.
+  /// World position of a point given in a link frame.
   JetVector PointOn(int segment, const Eigen::Vector3d& in_link) const;
 
-  /// As a sample, with all derivatives, CoM (of `body`) and streamed joint angles. Segment frames.
+  /// The pose as a sample in segment frames, with all derivatives, the CoM (of `body`) and streamed
+  /// joint angles.
   BodySample ToSample(const urdf::BodyParameters& body) const;
 
  private:

@@ -28,7 +28,7 @@ std::unique_ptr<Choreography> MakeChoreography(const std::string& name,
   if (name == "sit") return MakeHold(skeleton, Held::kSit);
   std::string known;
   for (const std::string& motion : MotionNames()) known += (known.empty() ? "" : ", ") + motion;
-  throw SourceError("demo:" + name + ": no such motion; there are " + known);
+  throw SourceError("demo:" + name + ": unknown motion; expected one of " + known);
 }
 
 class BuiltInMotion final : public Motion {
@@ -117,7 +117,7 @@ std::unique_ptr<Source> OpenSubject(const std::string& motion, double rate_hz, d
     throw SourceError(message.str());
   };
   if (!(rate_hz > 0 && rate_hz <= kHighestRateHz))
-    refuse("rate", rate_hz, "above 0, at most 10000 Hz");
+    refuse("rate", rate_hz, "more than 0, at most 10000 Hz");
   if (!(seconds >= 0 && seconds <= 1e9)) refuse("duration", seconds, "0 (endless) to 1e9 s");
   return std::make_unique<SubjectSource>(motion, rate_hz, seconds);
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Whole-program figures for README.md beside this file. Usage: tests/bench/measure.sh [BUILD]
-# BUILD: a build folder with the bench programs, default build/dev. Takes about two minutes.
+# Measures whole programs, for README.md in this folder. Usage: tests/bench/measure.sh [BUILD]
+# BUILD: a build folder with the benchmark programs, default build/dev. Takes about two minutes.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=$PWD/${1:-build/dev}
@@ -18,10 +18,10 @@ rss_mb() { awk '/^VmRSS/ { printf "%.0f", $2 / 1024 }' "/proc/$1/status"; }
 
 echo "machine: $(nproc) cores, $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1), load $(cut -d' ' -f1 /proc/loadavg)"
 echo "start to first picture on disk (1280x720): $(seconds "$kinescope" render demo:n_pose --supersample 1 --out "$work/a.png") s," \
-     "again $(seconds "$kinescope" render demo:n_pose --supersample 1 --out "$work/a.png") s"
+     "second run $(seconds "$kinescope" render demo:n_pose --supersample 1 --out "$work/a.png") s"
 show_clip() {  # WHAT [options]
   local TIMEFORMAT='%R s, CPU %U + %S s'
-  echo "60 s clip, 30/s, $1: $({ time "$kinescope" render demo:lift --seconds 60 --force "${@:2}" >/dev/null 2>&1; } 2>&1)"
+  echo "60 s clip, 30 frames per second, $1: $({ time "$kinescope" render demo:lift --seconds 60 --force "${@:2}" >/dev/null 2>&1; } 2>&1)"
 }
 show_clip "H.264, 1280x720" --supersample 1 --out "$work/a.mp4"
 show_clip "H.264, 1280x720, 2x supersampled" --out "$work/a.mp4"
@@ -50,12 +50,12 @@ measure_viewers 1
 measure_viewers 20
 measure_viewers 1 pictures
 kill "$suit"; wait "$suit" 2>/dev/null || true
-# Only then is the next sender taken for the same suit and not for a second person.
+# While the stream is live, the next sender would count as a second person instead of the same suit.
 until curl -sf "http://127.0.0.1:$http_port/api/state" | grep -q '"liveness":"stale"'; do :; done
 "$kinescope" stream demo:lift --rate_hz 240 --to "udp://127.0.0.1:$udp_port" 2>/dev/null & children+=($!)
 if [ -x "$build/tests/bench/ros_latency" ]; then
   before=$(cpu_ticks "$server")
-  echo "at 240 Hz, sample in to ROS subscriber: $("$build/tests/bench/ros_latency" /kinescope/joint_states 2400)"
+  echo "at 240 Hz, sample received to ROS subscriber: $("$build/tests/bench/ros_latency" /kinescope/joint_states 2400)"
   echo "  server CPU $(( $(cpu_ticks "$server") - before ))/1000 of a core, $(rss_mb "$server") MB"
 fi
 kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true
@@ -65,7 +65,7 @@ until grep -q recording "$work/record.log"; do kill -0 "$recorder"; done
 "$kinescope" stream demo:walk --characters 4 --rate_hz 240 --gloves --props 2 --types $types --to "udp://127.0.0.1:$udp_port" 2>/dev/null & children=($!)
 before=$(cpu_ticks "$recorder")
 while kill -0 "$recorder" 2>/dev/null; do ticks=$(cpu_ticks "$recorder" 2>/dev/null || echo "${ticks:-$before}"); sleep 0.2; done
-echo "four people at 240 Hz with every message, gloves and props, recorded for 8 s: $(/usr/bin/python3 -c '
+echo "recording four people at 240 Hz with every message, gloves and props for 8 s: $(/usr/bin/python3 -c '
 import json, sys
 take = json.load(open(sys.argv[1]))
 print(take["datagrams"], "datagrams,", take["samples"], "samples, lost", take["lost"])' "$work/take.json")," \

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# RViz beside us in one run: the same person, moved by the same motion over TF, in a window of
-# 1280 x 720 under Xvfb, drawn by the same Mesa. Usage: tests/bench/rviz_peer.sh [BUILD [SECONDS]]
-# RViz is told 1000 pictures a second, so that it draws as fast as it can. Its pictures stay in the
-# window: nothing reads them back, and ours are drawn *and* read back. One after the other, so that each
-# has the machine to itself.
+# Compares RViz and Kinescope in one run: the same person with the same motion (for RViz over TF), at
+# 1280 x 720 (for RViz a window under Xvfb), rendered by the same Mesa.
+# Usage: tests/bench/rviz_peer.sh [BUILD [SECONDS]]
+# RViz is set to 1000 frames per second, so it renders as fast as it can. Its pictures stay in the window;
+# Kinescope's pictures are also read back. The programs run one after the other, so each has all cores.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=$PWD/${1:-build/dev}
@@ -53,13 +53,13 @@ DISPLAY=:$display SWAP_COUNTER=$work/swaps LD_PRELOAD=$build/tests/bench/swap_co
   "$rviz" -d "$work/peer.rviz" --fullscreen --splash-screen '' >"$work/rviz.log" 2>&1 & peer=$!
 children+=("$peer")
 until [ "$(swaps)" -gt 50 ]; do kill -0 "$peer" || { tail -5 "$work/rviz.log"; exit 1; }; sleep 0.1; done
-sleep 5  # its model is loaded and its shaders are made in the first pictures
+sleep 5  # the first pictures include loading the model and compiling shaders
 if command -v import >/dev/null; then DISPLAY=:$display import -window root "${RVIZ_PICTURE:-$work/rviz.png}"; fi
 count=$(swaps) ticks=$(cpu_ticks "$peer") x_ticks=$(cpu_ticks "$xvfb") start=$EPOCHREALTIME
 sleep "$secs"
 count=$(( $(swaps) - count )) ticks=$(( $(cpu_ticks "$peer") - ticks )) x_ticks=$(( $(cpu_ticks "$xvfb") - x_ticks ))
 awk -v n="$count" -v t="$ticks" -v x="$x_ticks" -v s="$EPOCHREALTIME" -v b="$start" -v hz="$(getconf CLK_TCK)" 'BEGIN {
-  printf "rviz 1280x720: %.1f pictures/s, CPU %.2f ms a picture (and %.2f ms of the X server)\n",
+  printf "rviz 1280x720: %.1f pictures/s, CPU %.2f ms per picture (plus %.2f ms of the X server)\n",
          n / (s - b), 1000 * t / hz / n, 1000 * x / hz / n }'
 kill "$peer" "$bridge" "$xvfb"; wait "$peer" "$bridge" "$xvfb" 2>/dev/null || true
 "$build/tests/bench/picture_rate" "$secs"

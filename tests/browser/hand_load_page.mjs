@@ -24,7 +24,7 @@ test('two kilograms in a stretched-out hand turn that shoulder orange', async ()
   let orange = 0;
   while (orange < 60 && Date.now() < until) orange = countPixels(await pixelsOf(page, '#view'), isOrange);
   assert.ok(orange >= 60, `${orange} pixels are orange`);
-  assert.match(await page.locator('#loads-hint').textContent(), /holds 2 kg right/);
+  assert.match(await page.locator('#loads-hint').textContent(), /hand load 2 kg right/);
   await saveScreenshot(page, 'hand_load');
   await page.fill('#hand-kg', '0');
   await page.click('#hand-load button');

@@ -109,7 +109,7 @@ test('a stream that stops is stale, then no data, then live again, by itself', a
   await seePixels(page, 'red', isRed, 300);
   site.say('stale');
   await lampIs(page, 'Stale');
-  await page.waitForFunction(() => /last sample came \d/.test(document.getElementById('banner').textContent), null, LONG);
+  await page.waitForFunction(() => /last sample received \d/.test(document.getElementById('banner').textContent), null, LONG);
   const words = await page.$$eval('#loads .word', (parts) => [...new Set(parts.map((part) => part.textContent))]);
   assert.deepEqual(words, ['unknown'], 'an old load is no load');
   const until = Date.now() + LONG.timeout;
@@ -142,7 +142,7 @@ test('a server that dies is noticed, one that hangs too', async () => {
   await lampIs(page, 'Live');
   await mortal.kill();
   await lampIs(page, 'Disconnected');
-  assert.match(await text(page, '#banner'), /does not answer/);
+  assert.match(await text(page, '#banner'), /No connection/);
   await close();
 });
 
@@ -173,7 +173,7 @@ test('a load is put into a hand, seen in it, and refused when nobody could hold 
   await page.selectOption('#hand', 'right_kg');
   await page.fill('#hand-kg', '12.5');
   await page.click('#hand-load button');
-  await hint('holds 12.5 kg right');
+  await hint('hand load 12.5 kg right');
   // Dark iron in the picture: nothing else there is so dark.
   const isIron = (r, g, b) => r < 75 && g < 82 && b < 95 && b > r;
   await page.click('[data-camera="front"]');
@@ -181,7 +181,7 @@ test('a load is put into a hand, seen in it, and refused when nobody could hold 
   await page.selectOption('#hand', 'left_kg');
   await page.fill('#hand-kg', '2');
   await page.press('#hand-kg', 'Enter');
-  await hint('holds 12.5 kg right, 2 kg left');
+  await hint('hand load 12.5 kg right, 2 kg left');
   await page.selectOption('#hand', 'right_kg');
   await page.fill('#hand-kg', '60');
   await page.click('#hand-load button');
@@ -195,7 +195,7 @@ test('a load is put into a hand, seen in it, and refused when nobody could hold 
 
 test('what the numbers stand on is said beside them', async () => {
   const { page, close } = await openLive();
-  await page.waitForFunction(() => /^total, dynamic · mass assumed 75 kg/
+  await page.waitForFunction(() => /^total, dynamic · body mass assumed: 75 kg/
     .test(document.getElementById('loads-hint').textContent), null, LONG);
   assert.equal(await text(page, '#support'), 'Margin of stability 8.3 cm');
   assert.equal(await text(page, '#compression'), 'L5/S1 compression 2.15 kN');
@@ -227,7 +227,7 @@ test('without a renderer the page says so and works', async () => {
   const blind = await startFixture(['--no-pictures']);
   const { page, close } = await openPage(blind.url);
   await lampIs(page, 'Live');
-  await page.waitForFunction(() => document.getElementById('picture-note').textContent === 'This server draws no pictures.', null, LONG);
+  await page.waitForFunction(() => document.getElementById('picture-note').textContent === 'This server does not render pictures.', null, LONG);
   assert.equal(await page.locator('#save-picture').isDisabled(), true);
   await close();
   await blind.stop();
@@ -239,7 +239,7 @@ test('without WebGL the server’s picture stands in', async () => {
       HTMLCanvasElement.prototype.getContext = () => null;
     }),
   });
-  assert.match(await text(page, '#view'), /no WebGL/);
+  assert.match(await text(page, '#view'), /WebGL is not available/);
   await page.locator('#picture-image').waitFor({ state: 'visible', ...LONG });
   await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
   await close();
@@ -306,7 +306,7 @@ test('a body of mesh files is drawn, and a file that is missing is named as miss
   const { page, problems, close } = await openPage(meshed.url);
   await lampIs(page, 'Live');
   await page.waitForFunction(
-    () => document.getElementById('banner').textContent === '1 of the human’s meshes could not be loaded', null, LONG);
+    () => document.getElementById('banner').textContent === '1 mesh of the body model could not be loaded', null, LONG);
   const isBody = (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) < 30 && g > 90 && g < 215;
   await seePixels(page, 'body', isBody, 2000);
   assert.equal(missing, 'pelvis');
@@ -350,7 +350,7 @@ test('gloves, props and tracked objects are in the view, and what the server can
     .filter(({ name }) => name.includes('/api/mesh/')).length === 61, null, LONG);
   await page.locator('#diagnostics').waitFor({ state: 'visible', ...LONG });
   assert.deepEqual(await page.$$eval('#problems li', (all) => all.map((line) => line.textContent)),
-    ['Not in the picture as it is: mesh package://arm/hand.stl: package <b>arm</b> is not found']);
+    ['Missing or replaced in the server picture: mesh package://arm/hand.stl: package <b>arm</b> is not found']);
   await saveScreenshot(page, 'worn_desktop');
   assert.deepEqual(problems, []);
   await close();

@@ -17,7 +17,7 @@ after(async () => {
 
 test('the report of a person is one page of A4 that needs nothing else', async () => {
   const file = join(folder, 'report.html');
-  await promisify(execFile)(process.env.KINESCOPE, ['loads', 'demo:lift', '--seconds', '8', '--hand', 'both:12',
+  await promisify(execFile)(process.env.KINESCOPE, ['loads', 'demo:lift', '--seconds', '8', '--hand_load', 'both:12',
     '--extra_mass', 'head:1.5,t8:8', '--mass', '82', '--sex', 'female', '--report', file]);
   const { page, problems, requests, close } = await openPage(`file://${file}`);
   await saveScreenshot(page, 'report');

@@ -56,15 +56,15 @@ TEST(SceneMarker, SaysWhatIsWrong) {
   marker.type = MarkerType::kText;
   EXPECT_EQ(DefectOf(marker), "its text is empty");
   marker.type = MarkerType::kMesh;
-  EXPECT_EQ(DefectOf(marker), "it names no mesh");
+  EXPECT_EQ(DefectOf(marker), "its mesh name is empty");
 }
 
 TEST(SceneMarker, CountsPointsAndColours) {
   EXPECT_THAT(DefectOf(Strip(1)), HasSubstr("has 1 points"));
-  EXPECT_THAT(DefectOf(Strip(kMostMarkerPoints + 1)), HasSubstr("more than 100000"));
+  EXPECT_THAT(DefectOf(Strip(kMostMarkerPoints + 1)), HasSubstr("at most 100000"));
   SceneMarker pairs = Strip(3);
   pairs.type = MarkerType::kLineList;
-  EXPECT_THAT(DefectOf(pairs), HasSubstr("not pairs"));
+  EXPECT_THAT(DefectOf(pairs), HasSubstr("expected pairs"));
   pairs.type = MarkerType::kTriangleList;
   EXPECT_EQ(DefectOf(pairs), "");
   pairs.colors.resize(2, Eigen::Vector4d::Ones());

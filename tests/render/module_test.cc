@@ -43,8 +43,8 @@ TEST(Module, OfThisBuildIsLoaded) {
 
 TEST(Module, OfAnotherBuildIsRefusedWithTheWayOut) {
   EXPECT_THAT(ErrorOfLoading<TableWithAnotherImage>(),
-              AllOf(HasSubstr(kPlotFile), HasSubstr("another build"), HasSubstr("again")));
-  EXPECT_THAT(ErrorOfLoading<TableOfOneType>(), HasSubstr("another build"));
+              AllOf(HasSubstr(kPlotFile), HasSubstr("different builds"), HasSubstr("again")));
+  EXPECT_THAT(ErrorOfLoading<TableOfOneType>(), HasSubstr("different builds"));
   EXPECT_THAT(ErrorOfLoading<PlotModule>("NoSuchEntry"), HasSubstr("NoSuchEntry"));
 }
 

@@ -157,7 +157,7 @@ TEST_F(RobotDrawing, AMissingOrRefusedMeshIsALabelledBoxAndNamed) {
   Write("lies.stl", BoxStl(4'000'000'000u));
   Write("giant.stl", BoxStl());
   for (const auto& [file, scale, reason] :
-       {std::tuple("package://arm/hand.stl", "1 1 1", "package 'arm' is not found"),
+       {std::tuple("package://arm/hand.stl", "1 1 1", "package 'arm' was not found"),
         std::tuple("gone.stl", "1 1 1", "No such file"),
         std::tuple("lies.stl", "1 1 1", "4000000000 triangles"),
         std::tuple("giant.stl", "1000 1000 1000", "millimetres"),

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Runs the commands that the documents tell people to type. Usage: docs_test.py PROGRAM SETUP RECORDING
+"""Runs the commands in the documents. Usage: docs_test.py PROGRAM SETUP RECORDING
 
-PROGRAM: the built kinescope. SETUP: setup.sh of the devel space, "" without ROS. RECORDING: stands for
-recording.mvnx; commands that need it are skipped, visibly, where it is absent.
-A command that this file does not know how to run fails the test: a document may not say what nobody tried. So does a
-document that is missing or has lost its commands, and a command that is never run without being in NEVER_RUN.
+PROGRAM: the built kinescope. SETUP: setup.sh of the devel space; "" without ROS. RECORDING: the file that replaces
+recording.mvnx; commands that need it are reported as skipped if it does not exist.
+The test fails on a command that it cannot run, because documents may contain only tested commands. It also fails on a
+document that is missing or has no commands, and on a command that is never run but not listed in NEVER_RUN.
 """
 import collections
 import os
@@ -21,7 +21,7 @@ TOP = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM, SETUP, RECORDING = sys.argv[1:4]
 DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/loads.md", "docs/pictures.md", "docs/urdf.md",
              "tests/bench/README.md"]
-# By document, the first words of its commands that no run of this test tries.
+# Document -> first words of its commands that this test never runs.
 NEVER_RUN = {
     "README.md": ["./demo", "./check"],
     "CONTRIBUTING.md": ["./check", "./check", "cmake", "cmake", "build/fuzz/tests/fuzz/datagram_fuzz"],
@@ -63,7 +63,7 @@ def run(words, folder, timeout=120):
 
 
 def run_until(words, folder, line):
-    """Starts it, waits for `line` in what it says, and stops it as Ctrl-C would."""
+    """Starts the command, waits for `line` in its output, and stops it with SIGTERM."""
     with subprocess.Popen(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as child:
         said = ""
         for text in child.stdout:
@@ -72,11 +72,11 @@ def run_until(words, folder, line):
                 child.terminate()
                 rest = child.communicate(timeout=20)
                 return None if child.returncode == 0 else f"ended with {child.returncode}: {rest[0]}"
-        return f"never said '{line}': {said}"
+        return f"never printed '{line}': {said}"
 
 
 def with_suit(words, folder, port):
-    """Runs it for a second while a suit sends to `port`."""
+    """Runs the command for one second while a simulated suit sends to `port`."""
     suit = subprocess.Popen([PROGRAM, "stream", "demo:lift", "--to", "udp://127.0.0.1:" + port],
                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
@@ -123,14 +123,14 @@ def try_kinescope(words, folder):
 
 
 def attempt(line, words, folder):
-    """None: worked. "never: ...": this test does not try it. "skip: ...": it cannot here. Anything else: the failure."""
+    """None: success. "never: ...": this test never runs it. "skip: ...": not possible on this machine. Any other text: the failure."""
     name = words[0]
     if name in ("./check", "cmake", "ctest") or "tests/" in name or name.startswith("KINESCOPE_"):
-        return "never: this is the check itself"
+        return "never: part of the checks"
     if name == "./demo":
-        return "never: has a test of its own"
+        return "never: has its own test"
     if "recording.mvnx" in words and not os.path.exists(RECORDING):
-        return "skip: no recording here"
+        return "skip: the recording does not exist"
     if name == "source":
         return None if not SETUP or os.path.exists(SETUP) else f"{SETUP} is missing"
     if name in ("roslaunch", "rviz", "rosrun"):
@@ -139,18 +139,18 @@ def attempt(line, words, folder):
         if name == "rviz":
             return "skip: needs a display"
         shell = f". {shlex.quote(SETUP)} && roslaunch --dump-params " + " ".join(words[1:])
-        env_path = "/usr/bin:" + os.environ["PATH"]  # catkin asks python3 on PATH
+        env_path = "/usr/bin:" + os.environ["PATH"]  # catkin runs python3 from PATH
         return run(["env", "PATH=" + env_path, "bash", "-c", shell], folder)
     if name in ("curl", "websocat", "rosservice"):
         return "never: the tests of the server and of the node make these requests"
     if any(w.startswith("ros:") for w in words):
         if words[1] != "serve":
-            return "never: ros_source_test has a graph to listen to"
+            return "never: ros_source_test runs it with a ROS graph"
         if not SETUP:
             return "skip: built without ROS"
     if name == "kinescope" or name.endswith("/bin/kinescope"):
         return try_kinescope([RECORDING if w == "recording.mvnx" else w for w in words], folder)
-    return "no test knows how to run this"
+    return "docs_test.py cannot run this command"
 
 
 def is_word_of(line, word):
@@ -166,11 +166,11 @@ def fail(document, problem):
 for path in [*TOP.glob("*.md"), *TOP.glob("docs/*.md"), *TOP.glob("tests/*/*.md")]:
     name = str(path.relative_to(TOP))
     if name not in DOCUMENTS and re.search(r"^```(sh|bash)$", path.read_text(), re.M):
-        fail(name, "has commands, but is not among the documents of this test")
+        fail(name, "contains commands, but is not in DOCUMENTS")
 
 for document in DOCUMENTS:
     if not (TOP / document).exists():
-        fail(document, "is missing; did it get another name?")
+        fail(document, "file not found; update DOCUMENTS")
         continue
     tried, expected = 0, collections.Counter(NEVER_RUN.get(document, []))
     for line, words in commands(document):
@@ -180,7 +180,7 @@ for document in DOCUMENTS:
             try:
                 problem = attempt(line, words, folder)
             except subprocess.TimeoutExpired:
-                problem = "did not end"
+                problem = "timeout"
         if problem is None:
             passed += 1
             print(f"ok      {document}: {line}")
@@ -192,13 +192,13 @@ for document in DOCUMENTS:
                 known = next((word for word, left in expected.items() if left > 0 and is_word_of(line, word)), None)
                 expected[known] -= 1
                 if known is None:
-                    fail(document, f"{line}\n        is never run, and NEVER_RUN does not say so")
+                    fail(document, f"{line}\n        is never run, but not listed in NEVER_RUN")
         else:
             fail(document, f"{line}\n        {problem}")
     if tried == 0:
-        fail(document, "has no commands; is the language of its blocks still sh?")
+        fail(document, "contains no commands; expected code blocks in language sh")
     for word, left in expected.items():
         if word is not None and left > 0:
-            fail(document, f"has no '{word}' any more, or it is run now; take it out of NEVER_RUN")
+            fail(document, f"'{word}' is missing or is run now; remove it from NEVER_RUN")
 print(f"{passed} passed, {failed} failed, {skipped} skipped")
 sys.exit(1 if failed else 0)

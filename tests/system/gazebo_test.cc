@@ -59,8 +59,8 @@ TEST(Gazebo, KeepsEveryLinkAndTheMassOfAPersonThatIsWrittenForIt) {
   const testing::TempFolder folder;
   const std::string file = folder / "person.urdf";
   const auto written =
-      testing::RunProgram({testing::KinescopePath(), "urdf", "--gazebo", "--figure", "primitive",
-                           "--mass", "81", "--out", file});
+      testing::RunProgram({testing::KinescopePath(), "urdf", "--gazebo", "--body_model",
+                           "primitive", "--mass", "81", "--out", file});
   ASSERT_EQ(written.exit_code, 0) << written.err;
   const Simulated person = InGazebo(file);
   EXPECT_EQ(person.links, 67u);

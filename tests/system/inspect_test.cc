@@ -143,7 +143,7 @@ TEST(Inspect, TrackersAloneAreNobodyAndTheSwitchIsNamed) {
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.out,
               AllOf(HasSubstr("> no pose: switch on Position + Orientation (Quaternion)"),
-                    HasSubstr("Nobody to show.")));
+                    HasSubstr("No person or object to show.")));
   EXPECT_EQ(Parsed(Inspect({file, "--json"}).out)["can_be_shown"], false);
 }
 
@@ -253,7 +253,7 @@ TEST(Inspect, ALiveStreamWithoutAnybodySaysWhatToDoInMvn) {
   const ProgramResult result = Inspect({"udp://127.0.0.1:0", "--seconds", "0.1"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("for 0.1 s"));
-  EXPECT_THAT(result.out, AllOf(HasSubstr("> nothing came"), HasSubstr("Network Streamer"),
+  EXPECT_THAT(result.out, AllOf(HasSubstr("> no datagrams received"), HasSubstr("Network Streamer"),
                                 HasSubstr("receive buffer")));
 }
 

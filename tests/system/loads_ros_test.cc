@@ -172,7 +172,7 @@ TEST_F(LoadsOverRos, WhatAHandHoldsIsToldByServiceAndByTopic) {
   });
   StartBridge("demo:t_pose");
   ASSERT_TRUE(Spin([&] { return LoadOf("jRightShoulder").level == JointLoad::LOW; }));
-  EXPECT_EQ(held.count("held"), 0u);
+  EXPECT_EQ(held.count("hand_loads"), 0u);
   kinescope_ros::SetHandLoad order;
   order.request.right_kg = 500;
   ASSERT_TRUE(ros::service::waitForService("/kinescope/set_hand_load", kPatienceMillis));
@@ -193,7 +193,7 @@ TEST_F(LoadsOverRos, WhatAHandHoldsIsToldByServiceAndByTopic) {
   order.request.right_com = {0, 0};
   ASSERT_TRUE(ros::service::call("/kinescope/set_hand_load", order));
   EXPECT_FALSE(order.response.success);
-  ASSERT_TRUE(Spin([&] { return held.count("held") == 1; }));
+  ASSERT_TRUE(Spin([&] { return held.count("hand_loads") == 1; }));
   EXPECT_EQ(held.count("support"), 1u);
   EXPECT_EQ(held.count("foot_forces"), 1u);
   ros::Publisher hands = Advertise<kinescope_ros::HandLoad>("/kinescope/hand_load");

@@ -48,8 +48,8 @@ void ExpectSame(double printed, double value, const std::string& what) {
 TEST(LoadsCommand, WritesWhatTheLibraryComputesInEveryRow) {
   const TempFolder folder;
   const std::string csv = folder / "loads.csv";
-  const ProgramResult result =
-      Loads({"demo:lift", "--seconds", "1", "--mass", "80", "--hand", "right:5", "--csv", csv});
+  const ProgramResult result = Loads(
+      {"demo:lift", "--seconds", "1", "--mass", "80", "--hand_load", "right:5", "--csv", csv});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   app::SceneOptions options;
   options.body.mass_kg = 80;
@@ -109,7 +109,7 @@ TEST(LoadsCommand, TellsExposureAndWhatWasAssumedAsJson) {
   std::map<std::string, bool> assumed;
   for (const auto& fact : person["facts"]) assumed[fact["name"]] = fact["is_assumed"];
   EXPECT_TRUE(assumed.at("mass"));
-  EXPECT_TRUE(assumed.at("in the hands"));
+  EXPECT_TRUE(assumed.at("hand load"));
   EXPECT_FALSE(assumed.at("sex"));
   ASSERT_EQ(person["exposure"].size(), 15U);
   for (const auto& joint : person["exposure"]) {
@@ -127,7 +127,7 @@ TEST(LoadsCommand, PrintsATableThatSaysWhatIsAssumed) {
   EXPECT_THAT(result.out, HasSubstr("75 kg (assumed)"));
   EXPECT_THAT(result.out, HasSubstr("Left ankle"));
   const ProgramResult given = Loads({"demo:lift", "--seconds", "1", "--sex", "male", "--mass", "75",
-                                     "--hand", "none", "--height", "1.75"});
+                                     "--hand_load", "none", "--height", "1.75"});
   EXPECT_THAT(given.out, Not(HasSubstr("assumed")));
 }
 
@@ -176,11 +176,11 @@ TEST(LoadsCommand, SaysWhyTheLegsOfAnUpperBodyTakeAreNotKnown) {
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     EXPECT_EQ(table.At(row, "right_knee_class"), "unknown");
     EXPECT_EQ(table.At(row, "right_knee_ratio"), "");
-    EXPECT_THAT(table.At(row, "right_knee_reason"), HasSubstr("legs are not measured"));
+    EXPECT_THAT(table.At(row, "right_knee_reason"), HasSubstr("does not measure the legs"));
     EXPECT_FALSE(std::isnan(table.Number(row, "right_shoulder_ratio")));
     EXPECT_LT(std::abs(table.Number(row, "com_minus_mvn_z_m")), 0.005);
   }
-  EXPECT_THAT(Loads({take}).out, HasSubstr("legs are not measured in this recording"));
+  EXPECT_THAT(Loads({take}).out, HasSubstr("the source does not measure the legs"));
 }
 
 TEST(LoadsCommand, ReadsAFullBodyRecordingOfFourSamples) {
@@ -220,7 +220,7 @@ TEST(LoadsCommand, IsStaticForABagOfPoses) {
     EXPECT_NE(table.At(row, "static_reason"), "");
   }
   EXPECT_THAT(Loads({SharedData("ros1/2018-05-28-17-34-45.bag.xz")}).out,
-              HasSubstr("left out: static"));
+              HasSubstr("load mode      static"));
 }
 #endif
 
@@ -228,7 +228,7 @@ TEST(LoadsCommand, EndsWithOneWhereNothingIsKnown) {
   const ProgramResult result =
       Loads({"demo:lift", "--seconds", "0.2", "--load_metric", "external"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.out, HasSubstr("no load from outside"));
+  EXPECT_THAT(result.out, HasSubstr("no external load received"));
 }
 
 TEST(LoadsCommand, RefusesWhatMakesNoSenseInOneLine) {
@@ -241,7 +241,7 @@ TEST(LoadsCommand, RefusesWhatMakesNoSenseInOneLine) {
     refuses({"--mass", mass}, std::string("--mass=") + (mass[0] == 'n' ? "nan" : mass));
   }
   refuses({"--sex", "unknown"}, "--sex=unknown");
-  refuses({"--hand", "right:500"}, "500");
+  refuses({"--hand_load", "right:500"}, "500");
   refuses({"--body_table", "tailor"}, "tailor");
   refuses({"--filter_hz", "100"}, "--filter_hz");
   refuses({"--seconds", "0"}, "--seconds=0");
@@ -291,7 +291,7 @@ TEST(LoadsCommand, RefusesOneFileForTwoOutputs) {
     const ProgramResult result =
         Loads({"demo:lift", "--seconds", "0.1", pair.one, file, pair.other, pair.spelling});
     ExpectRefusal(result, std::string(pair.one) + "=" + file + " and " + pair.other + "=" +
-                              pair.spelling + ": one file for two outputs");
+                              pair.spelling + " write to the same file");
   }
   EXPECT_THAT(folder.Names(), ::testing::ElementsAre("here", "none"));
 }

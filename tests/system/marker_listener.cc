@@ -1,6 +1,6 @@
-// The bridge as `kinescope serve --markers` has it, which says on its standard output what is in
-// the scene: a line `<n> markers` and one for each, whenever that changes. A person stands there,
-// whose pelvis is told by lines on the standard input: `x y z`.
+// The bridge as `kinescope serve --marker_topics` has it, which says on its standard output what is
+// in the scene: a line `<n> markers` and one for each, whenever that changes. A person stands
+// there, whose pelvis is told by lines on the standard input: `x y z`.
 //   marker_listener /topic[,/topic]
 #include <fmt/format.h>
 #include <poll.h>

@@ -142,8 +142,8 @@ TEST_F(MarkersOverRos, ThatCannotBeShownAreCountedByTopicWithTheReason) {
   Await("2 markers");
   bridge_->WriteLine("end");
   Await("/many: 2 received, 2 used, 'marker walls/3: frame 'nowhere'");
-  Await("/other: 1 received, 0 used, 'messages of geometry_msgs/Point");
-  Await("/single: 2 received, 1 used, 'marker walls/7: its position is not a finite number");
+  Await("/other: 1 received, 0 used, 'message type geometry_msgs/Point");
+  Await("/single: 2 received, 1 used, 'marker walls/7: its position is not finite");
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ class People : public RosProgram {
   void SetUp() override {
     RosProgram::SetUp();
     if (IsSkipped() || HasFatalFailure()) return;
-    bridge_ = Start("bridge udp://127.0.0.1:0 --ros required --figure primitive");
+    bridge_ = Start("bridge udp://127.0.0.1:0 --ros required --body_model primitive");
     suits_ = std::make_unique<Suits>(WaitForAddress(*bridge_));
     Hear<sensor_msgs::JointState>("/kinescope/joint_states",
                                   [this](const auto& m) { CountJoints(m, 0); });

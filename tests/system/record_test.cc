@@ -290,7 +290,8 @@ TEST(Record, RefusesWhatItCannotOrMustNotDo) {
   expect_refusal(Record({raw, "--out", out}), AllOf(HasSubstr(out), HasSubstr("--force")));
   EXPECT_EQ(ReadBack(out).datagrams.size(), datagrams.size());
   EXPECT_EQ(Record({raw, "--out", out, "--force"}).exit_code, 0);
-  expect_refusal(Record({out, "--out", out, "--force"}), HasSubstr("is the file that would be"));
+  expect_refusal(Record({out, "--out", out, "--force"}),
+                 HasSubstr("output and source are the same file"));
   expect_refusal(Record({"demo:lift", "--out", folder / "demo.pcap"}),
                  HasSubstr("kinescope stream"));
   expect_refusal(Record({raw, "--out", folder / "x.pcap", "--seconds", "-1"}),

@@ -132,8 +132,8 @@ TEST_F(RenderCommand, PictureKShowsTheTimeKOverTheRate) {
   app::SceneReader reader("demo:walk", {});
   app::SceneTimeline timeline(reader);
   app::ViewOptions view;
-  view.size = "320x240";
-  view.camera = "right";
+  view.size = {320, 240};
+  view.camera.Parse("right");
   view.supersample = 1;
   view.no_overlays = true;
   app::ShotPlanner planner(view);
@@ -222,12 +222,12 @@ TEST_F(RenderCommand, GoesOnWhereItWasInterrupted) {
 
 TEST_F(RenderCommand, TellsInTheFileHowItWasDrawn) {
   Lines(Render({"--out", Path("a.png"), "--out", Path("a.mp4"), "--seconds", "0.1", "--time", "1.5",
-                "--title", "trial <3>", "--hand", "both:5", "--json"}));
+                "--title", "trial <3>", "--hand_load", "both:5", "--json"}));
   const auto still = app::ReadEmbedded(Path("a.png"));
   ASSERT_TRUE(still);
   EXPECT_EQ(still->at("source").at("name"), "demo:walk");
   EXPECT_EQ(still->at("options").at("time"), 1.5);
-  EXPECT_EQ(still->at("options").at("hand"), "both:5");
+  EXPECT_EQ(still->at("options").at("hand_load"), "both:5");
   EXPECT_FALSE(still->at("options").contains("fps"));
   EXPECT_EQ(still->at("camera").at("position_m").size(), 3u);
   EXPECT_THAT(still->at("renderer").get<std::string>(), HasSubstr("llvmpipe"));
@@ -267,32 +267,34 @@ TEST_F(RenderCommand, VerifiesWhatItDrewAndSaysWhereAFileDiffers) {
   render::WritePng(Path("lie.png"), image, {{app::kProvenanceKey, app::ToText(lies)}});
   const ProgramResult stolen = Verify(Path("lie.png"));
   EXPECT_EQ(stolen.exit_code, 2);
-  EXPECT_THAT(stolen.err, HasSubstr("no format"));
+  EXPECT_THAT(stolen.err, HasSubstr("unknown format"));
 
   EXPECT_EQ(Verify(Path("missing.png")).exit_code, 2);
   render::WritePng(Path("bare.png"), image);
   const ProgramResult bare = Verify(Path("bare.png"));
   EXPECT_EQ(bare.exit_code, 2);
-  EXPECT_THAT(bare.err, HasSubstr("says nothing of how it was drawn"));
+  EXPECT_THAT(bare.err, HasSubstr("contains no provenance"));
 }
 
 TEST_F(RenderCommand, NamesAFileThatHasChangedWhateverItsBytesAre) {
-  fs::create_directory(Path("own"));
-  std::ofstream(Path("own/Head.stl")) << testing::BoxStl();
-  Lines(Render(
-      {"--out", Path("a.png"), "--figure", "mesh:" + Path("own"), "--mesh_units", "cm", "--json"}));
-  std::ofstream(Path("own/n\xFF.txt")) << "a note";
+  std::ofstream(Path("tool.obj")) << "mtllib n\xFF.mtl\nv 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\n"
+                                     "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  std::ofstream(Path("n\xFF.mtl")) << "newmtl red\nKd 1 0 0\n";
+  Lines(Render({"--out", Path("a.png"), "--tool", "right:" + Path("tool.obj"), "--json"}));
+  std::ofstream(Path("n\xFF.mtl")) << "newmtl green\nKd 0 1 0\n";
   const ProgramResult result = Verify(Path("a.png"));
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, AllOf(HasSubstr("a.png: a file that its options name is another one"),
-                                HasSubstr("n\uFFFD.txt")));
+  EXPECT_THAT(
+      result.err,
+      AllOf(HasSubstr("a.png: an input file named in its options is missing or has changed"),
+            HasSubstr("n\uFFFD.mtl")));
 }
 
 TEST_F(RenderCommand, VerifiesOnlyAgainstTheSourceThatItWas) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   const std::string source = Path("take.mvnx"), moved = Path("moved.mvnx");
   fs::copy_file(testing::SharedData("mvnx/test_mocap.mvnx"), source);
-  Lines(Render({"--out", Path("a.png"), "--frame", "60", "--json"}, source));
+  Lines(Render({"--out", Path("a.png"), "--sample", "60", "--json"}, source));
   EXPECT_EQ(Verify(Path("a.png")).exit_code, 0);
   fs::rename(source, moved);
   const ProgramResult gone = Verify(Path("a.png"));

@@ -72,7 +72,7 @@ class RosProgram : public ::testing::Test {
 
   /// The address that a program waits at for a suit: udp://127.0.0.1:PORT.
   static std::string WaitForAddress(Process& process) {
-    const std::string rest = WaitForLine(process, "waiting for ");
+    const std::string rest = WaitForLine(process, "waiting for data from ");
     return rest.substr(0, rest.find(": "));
   }
 

@@ -152,7 +152,7 @@ TEST_F(RosSource, ShowsTheSamePosesAsTheBridgeWhoseFramesItHears) {
 TEST_F(RosSource, ShowsTheSamePosesWhenTheFramesAreATreeAndPublishesNoFramesItself) {
   const auto suit = Start("bridge demo:lift --ros required --tf tree __name:=suit");
   const auto view = Start("bridge ros: --tf flat __name:=view");
-  WaitForLine(*view, "not published again");
+  WaitForLine(*view, "not republished");
   std::set<std::string> publishers;
   const boost::function<void(const ros::MessageEvent<const tf2_msgs::TFMessage>&)> note =
       [&](const auto& event) { publishers.insert(event.getPublisherName()); };
@@ -235,7 +235,7 @@ TEST_F(RosSource, NeverTakesWhatItPublishedItself) {
     const auto ignored = source.value("ignored", nlohmann::json::object());
     EXPECT_EQ(source.value("duplicates", 0), 0);
     EXPECT_EQ(source.value("restarts", 0), 0);
-    return ignored.value("message that we published ourselves", 0) > 50;
+    return ignored.value("message published by this node", 0) > 50;
   }));
 }
 
@@ -243,7 +243,7 @@ TEST_F(RosSource, MeasuresTheLengthsThatTheOthersUrdfHas) {
   const auto suit = Start("bridge demo:lift --ros required __name:=suit");
   const auto urdf_of = [](const std::string& source) {
     return RunProgram(
-        {testing::KinescopePath(), "urdf", source, "--figure", "primitive", "__name:=asks"});
+        {testing::KinescopePath(), "urdf", source, "--body_model", "primitive", "__name:=asks"});
   };
   const auto live = urdf_of("ros:");
   ASSERT_EQ(live.exit_code, 0) << live.err;
@@ -290,7 +290,7 @@ TEST_F(RosSource, WaitsForAMasterAndHearsTheNextPublisherAfterItsRestart) {
   const auto view = Start("bridge ros: __name:=view");
   WaitForLine(*view, "waiting for a ROS master at " + uri);
   StartMaster();
-  WaitForLine(*view, "listening, by the ROS master");
+  WaitForLine(*view, "subscribed through the ROS master");
   auto suit = Start("bridge demo:lift __name:=suit");
   WaitForLine(*view, "live: 'skeleton' from ros:/tf");
 
@@ -299,7 +299,7 @@ TEST_F(RosSource, WaitsForAMasterAndHearsTheNextPublisherAfterItsRestart) {
   suit.reset();  // until here it was heard without a master
   WaitForLine(*view, "stale:");
   StartMaster();
-  WaitForLine(*view, "listening, by the ROS master");
+  WaitForLine(*view, "subscribed through the ROS master");
   suit = Start("bridge demo:lift __name:=suit");
   WaitForLine(*view, "live: 'skeleton' from ros:/tf");
 }
@@ -407,7 +407,7 @@ TEST_F(RosSource, RefusesNamesThatCannotBeAndANameThatIsTaken) {
     ros::master::getNodes(nodes);
     return std::count(nodes.begin(), nodes.end(), "/kinescope") == 1;
   }));
-  EXPECT_THAT(refusal({"ros:"}), HasSubstr("a running node is called /kinescope already"));
+  EXPECT_THAT(refusal({"ros:"}), HasSubstr("another running node is already named /kinescope"));
 }
 
 TEST_F(RosSource, EndsWhenItsNodeIsKilled) {
@@ -420,7 +420,7 @@ TEST_F(RosSource, EndsWhenItsNodeIsKilled) {
   ASSERT_TRUE(Spin(is_there));
   XmlRpc::XmlRpcValue reason("user request");
   Ask("/view", "shutdown", &reason);
-  WaitForLine(*view, "listening was ended by rosnode kill");
+  WaitForLine(*view, "stopped by rosnode kill");
   WaitForLine(*view, "stopping");
 }
 

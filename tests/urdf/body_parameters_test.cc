@@ -212,19 +212,12 @@ TEST(ExtraMass, IsReadFromTextOrRefusedWithTheText) {
   }
 }
 
-TEST(BodyTable, IsReadByItsName) {
-  for (const BodyTable table : kEveryTable) EXPECT_EQ(ParseBodyTable(Name(table)), table);
-  EXPECT_THROW(ParseBodyTable("zatsiorsky"), std::invalid_argument);
-}
-
 TEST(BodyParameters, RefuseAMassThatNobodyHas) {
   for (const double mass : {0.0, -70.0, 19.9, 301.0, std::nan("")}) {
     EXPECT_THROW(MakeBodyParameters({Sex::kMale, mass, false}, DefaultSkeleton()),
                  std::invalid_argument)
         << mass;
   }
-  EXPECT_THROW(ParseSex("Male"), std::invalid_argument);
-  EXPECT_EQ(ParseSex("female"), Sex::kFemale);
 }
 
 }  // namespace

@@ -189,7 +189,7 @@ TEST(MeshFile, CountsThatTheBytesCannotHoldAreToldWithNumbers) {
   DaeOptions dae;
   for (const char* count : {"4000000000", "99999999999999999999", "-5", "24x"}) {
     dae.count = count;
-    EXPECT_THAT(Fault(BoxDae(dae), ".dae"), HasSubstr("<float_array> announces a count of"));
+    EXPECT_THAT(Fault(BoxDae(dae), ".dae"), HasSubstr("<float_array> declares a count of"));
   }
   GlbOptions glb;
   glb.position_count = "4000000000";
@@ -197,7 +197,7 @@ TEST(MeshFile, CountsThatTheBytesCannotHoldAreToldWithNumbers) {
   glb.position_count = "9";
   EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("count of 9"));
   glb.position_count = "-1";
-  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("no whole number"));
+  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("not a whole number"));
   glb = GlbOptions();
   glb.buffer_bytes = "1000000000";
   EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("1000000000 bytes"));
@@ -226,7 +226,7 @@ TEST(MeshFile, CirclesAndUnfoldingNodesAreRefused) {
     dae.nodes += "<node id='n" + std::to_string(i) + "'>" + next + next + "</node>";
   }
   dae.nodes += "<node id='n40'><instance_geometry url='#g'/></node>";
-  EXPECT_THAT(Fault(BoxDae(dae), ".dae"), HasSubstr("unfolds"));
+  EXPECT_THAT(Fault(BoxDae(dae), ".dae"), HasSubstr("expands"));
   dae.nodes.clear();
   for (int i = 0; i < 100'000; ++i) dae.nodes += "<node>";
   EXPECT_THAT(Fault(BoxDae(dae), ".dae"), HasSubstr("deep"));
@@ -234,16 +234,16 @@ TEST(MeshFile, CirclesAndUnfoldingNodesAreRefused) {
   glb.nodes = R"([{"mesh":0,"children":[1]},{"children":[0]}])";
   EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("contains itself"));
   glb.nodes = R"([{"mesh":7}])";
-  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("meshes that is not there"));
+  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("meshes that does not exist"));
   glb = GlbOptions();
   glb.more = ",\"extras\":" + std::string(200'000, '[');
-  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("nested too deep"));
+  EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("nested too deeply"));
 }
 
 TEST(MeshFile, AnIndexThatIsNoneIsRefused) {  // assimp would look at it for ever
   std::string dae = BoxDae();
   dae.insert(dae.find("<p>") + 10, "~");
-  EXPECT_THAT(Fault(dae, ".dae"), HasSubstr("<p> holds what is no index"));
+  EXPECT_THAT(Fault(dae, ".dae"), HasSubstr("<p> contains a value that is not an index"));
 }
 
 TEST(MeshFile, EntitiesAndForeignFilesAreRefused) {
@@ -255,7 +255,7 @@ TEST(MeshFile, EntitiesAndForeignFilesAreRefused) {
                         "1234"),
                     ".glb"),
               HasSubstr("other files"));
-  EXPECT_THAT(Fault("x", ".blend"), HasSubstr("'.blend' is no kind of mesh"));
+  EXPECT_THAT(Fault("x", ".blend"), HasSubstr("unsupported mesh format '.blend'"));
 }
 
 TEST(MeshFile, WhatCannotBeDrawnIsRefused) {
@@ -291,8 +291,8 @@ TEST(MeshFile, FilesThatAreNoneAreNamed) {
   const TempFolder folder;
   std::filesystem::create_directories(folder / "folder.stl");
   EXPECT_THAT(fault("/no/such/a.stl"), HasSubstr("/no/such/a.stl: No such file"));
-  EXPECT_THAT(fault((folder / "folder.stl").string()), HasSubstr("no regular file"));
-  EXPECT_THAT(fault("/dev/zero"), HasSubstr("no regular file"));
+  EXPECT_THAT(fault((folder / "folder.stl").string()), HasSubstr("not a regular file"));
+  EXPECT_THAT(fault("/dev/zero"), HasSubstr("not a regular file"));
 }
 
 TEST(MeshFile, ReadsTheMeshesOfOthers) {

@@ -158,7 +158,7 @@ TEST(RobotModel, RefusesHostileDocumentsAtOnce) {
     laughs += "<!ENTITY l" + std::to_string(i) + " '" + one + one + one + one + one + "'>";
   }
   const std::string bomb = ReasonFor(laughs + "]><robot name='&l29;'><link name='a'/></robot>");
-  EXPECT_NE(bomb.find("line 2: a DOCTYPE"), std::string::npos) << bomb;
+  EXPECT_NE(bomb.find("line 2: DOCTYPE"), std::string::npos) << bomb;
   const std::string file =
       ReasonFor("<!DOCTYPE r SYSTEM 'file:///etc/passwd'><robot name='r'><link name='a'/></robot>");
   EXPECT_NE(file.find("DOCTYPE"), std::string::npos) << file;

@@ -91,9 +91,9 @@ TEST(UrdfCheck, TellsWhatIsMissingOrThereTwice) {
   const UrdfReport report =
       Check(Robot({Body("a"), Body("a"), Joint("j", "a", "ghost"), Joint("j", "a", ""), "<link/>\n",
                    "<joint type='fixed'/>\n"}));
-  EXPECT_TRUE(Says(report, Kind::kUnreadable, 3, "link 'a'", "in line 2 already"));
+  EXPECT_TRUE(Says(report, Kind::kUnreadable, 3, "link 'a'", "already used in line 2"));
   EXPECT_TRUE(Says(report, Kind::kUnreadable, 4, "joint 'j'", "child link 'ghost' does not exist"));
-  EXPECT_TRUE(Says(report, Kind::kUnreadable, 5, "joint 'j'", "in line 4 already"));
+  EXPECT_TRUE(Says(report, Kind::kUnreadable, 5, "joint 'j'", "already used in line 4"));
   EXPECT_TRUE(Says(report, Kind::kUnreadable, 6, "link", "no name"));
   EXPECT_TRUE(Says(report, Kind::kUnreadable, 7, "joint ''", "names no parent link"));
   EXPECT_TRUE(Says(Check("<robot name='r'/>"), Kind::kUnreadable, 1, "robot", "no <link>"));
@@ -139,7 +139,7 @@ TEST(UrdfCheck, LooksAtEveryShape) {
   EXPECT_TRUE(says("<geometry><box size='1 1 1 1'/></geometry>", Kind::kUnreadable, "size="));
   EXPECT_TRUE(says("<geometry><box/></geometry>", Kind::kUnreadable, "size is missing"));
   EXPECT_TRUE(says("<geometry><sphere radius='0'/></geometry>", Kind::kWarning, "is 0"));
-  EXPECT_TRUE(says("<geometry><cone/></geometry>", Kind::kUnreadable, "<cone> is no shape"));
+  EXPECT_TRUE(says("<geometry><cone/></geometry>", Kind::kUnreadable, "<cone> is not a shape"));
   EXPECT_TRUE(says("<geometry><mesh/></geometry>", Kind::kUnreadable, "no filename"));
   EXPECT_TRUE(says("<geometry><mesh filename='/no/such.stl'/></geometry>", Kind::kWrong,
                    "/no/such.stl is missing"));
@@ -196,7 +196,7 @@ TEST(UrdfCheck, AMaterialIsDefinedSomewhere) {
         "</geometry><material name='paint'>" + inner + "</material></visual></link></robot>");
   };
   EXPECT_TRUE(
-      Says(check("", ""), Kind::kWarning, 2, "link 'a'", "material 'paint' is defined nowhere"));
+      Says(check("", ""), Kind::kWarning, 2, "link 'a'", "material 'paint' is not defined"));
   const std::string color = "<color rgba='1 0 0 1'/>";
   EXPECT_TRUE(check("", color).problems.empty());
   EXPECT_TRUE(check("<material name='paint'>" + color + "</material>", "").problems.empty());

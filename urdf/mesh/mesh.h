@@ -1,4 +1,5 @@
-/// Triangles ready to draw, and the shapes that URDF knows. Metres; no VTK here.
+/// Triangle meshes ready for rendering, and meshes of the URDF shapes. Metres; no VTK types. Plain
+/// data and pure functions, any thread.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,8 +10,8 @@
 
 namespace kinescope::urdf {
 
-/// Vertices are shared between triangles; each belongs to one part (figure: a segment), which is
-/// moved as a whole when it is drawn.
+/// Triangles share vertices. Each vertex belongs to one part (body model: one segment), which moves
+/// as a whole when it is rendered.
 struct Mesh {
   std::vector<Eigen::Vector3f> positions;  // in the part's frame
   std::vector<Eigen::Vector3f> normals;    // unit, outwards
@@ -20,33 +21,33 @@ struct Mesh {
 
   std::uint32_t AddVertex(const Eigen::Vector3f& position, const Eigen::Vector3f& normal);
   void AddTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
-  /// Appends `other`, moved by `transform` (may scale, may mirror).
+  /// Appends `other` after applying `transform` (may scale, may mirror).
   void Append(const Mesh& other, const Eigen::Affine3d& transform);
-  /// Whether every edge between two points is run through as often one way as the other.
+  /// Whether the triangles use every edge equally often in both directions.
   bool IsClosed() const;
-  /// Gives every vertex from `first` on this colour and part.
+  /// Sets colour and part of all vertices from index `first` on.
   void Paint(std::size_t first, const Eigen::Vector4f& color, int part);
 };
 
-/// How closely the shapes of a URDF are followed.
+/// How accurately the shapes of a URDF are approximated.
 struct ShapeDetail {
-  double box_rounding =
-      0;  // radius of its edges, of its shortest side; light shows the shape by it
+  double box_rounding = 0;  // radius of the edges as a share of the shortest side; its highlight
+                            // makes the shape visible
   int cylinder_sides = 0;
-  int sphere_sides = 0;  // around its middle, even; 0: by its size
+  int sphere_sides = 0;  // around the equator, even; 0: by its size
 
-  /// As coarse and as soft as a figure of some 700 px height allows.
+  /// As coarse and rounded as a body model of about 700 px height allows.
   static constexpr ShapeDetail Figure() { return {0.22, 16, 0}; }
-  /// As the URDF says, but for a thin bright edge.
+  /// As in the URDF, with a thin bright edge.
   static constexpr ShapeDetail Robot() { return {0.02, 48, 40}; }
 };
 
-/// Sizes as in urdf::Geometry. Colours and parts are left for Paint.
+/// Sizes as in urdf::Geometry. Call Paint for colours and parts.
 Mesh BoxMesh(const Eigen::Vector3d& size, const ShapeDetail& detail = ShapeDetail::Figure());
 Mesh CylinderMesh(double radius, double length, const ShapeDetail& detail = ShapeDetail::Figure());
 Mesh SphereMesh(double radius, const ShapeDetail& detail = ShapeDetail::Figure());
 
-/// Flat, in the plane z = 0, facing up, radius 1.
+/// Flat, in the plane z = 0, facing up, outer radius 1 m.
 Mesh DiscMesh(int corners);
 Mesh RingMesh(double inner_radius, int corners);
 

@@ -41,7 +41,7 @@ std::string LowerExtension(const fs::path& path) {
 std::string ReadBytes(const fs::path& path) {
   std::error_code error;
   if (!fs::is_regular_file(path, error)) {
-    throw Fault(error ? error.message() : std::string("is no regular file"));
+    throw Fault(error ? error.message() : std::string("not a regular file"));
   }
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw Fault(error.message());
@@ -232,7 +232,7 @@ class Collector {
   void Add(unsigned index, const Eigen::Affine3d& place) {
     const Mesh& mesh = meshes_.at(index);
     if (!(std::abs(place.linear().determinant()) > 1e-18) || !place.matrix().allFinite()) {
-      throw Fault("a node is scaled to nothing");
+      throw Fault("a node has a scale of 0");
     }
     if (mesh_.triangles.size() + mesh.triangles.size() > 3 * kMostMeshTriangles) {
       throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
@@ -309,7 +309,7 @@ Mesh ReadMesh(const std::string& bytes, const std::string& extension, const fs::
     world_from_root.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   }
   Mesh mesh = Collector(*scene, extension).Collect(world_from_root);
-  if (mesh.triangles.empty()) throw Fault("holds no triangles");
+  if (mesh.triangles.empty()) throw Fault("it contains no triangles");
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
     if (!mesh.positions[i].allFinite()) throw Fault("a vertex is not finite");
     if (!mesh.normals[i].allFinite()) mesh.normals[i] = Eigen::Vector3f::UnitZ();

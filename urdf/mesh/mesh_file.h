@@ -1,4 +1,4 @@
-/// Mesh files that a URDF names: STL, DAE, OBJ, GLB, read by assimp.
+/// Reads the mesh files of URDFs: STL, DAE, OBJ, GLB, through assimp. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,28 +9,28 @@
 
 namespace kinescope::urdf {
 
-/// What one file may hold; beyond is a mistake, or meant to stall every picture.
+/// Limits per file; a larger file is a mistake or an attack that would block rendering.
 constexpr std::uintmax_t kMostMeshBytes = 64u << 20;
 constexpr std::size_t kMostMeshTriangles = 500'000;
 
-/// Which way a COLLADA file is turned.
+/// How the up axis of a COLLADA file is handled.
 enum class ColladaUp {
   kAsTold,   // its <up_axis> becomes z
-  kIgnored,  // as RViz and Gazebo show it: robots are modelled for these, whatever the tag says
+  kIgnored,  // ignored as in RViz and Gazebo, for which robots are modelled
 };
 
-/// An absolute path as a surface, in metres, z up. COLLADA's unit is honoured, its up axis as asked
-/// for, and that GLB has y up; STL and OBJ say neither and are taken as they are. `colors` is as
-/// long as `positions` where the file gives colours, else empty; textures are not read. `parts` is
-/// empty.
-/// The file is looked over before assimp is given it: its kind goes by its extension, and a count
-/// in it that its bytes cannot hold, nesting without end or a DOCTYPE refuses it.
-/// @throws std::runtime_error naming the file and what is wrong with it.
+/// Reads the file at an absolute path as a surface, in metres, z up. For COLLADA, the unit is
+/// applied and the up axis handled as `up` states; GLB has y up; STL and OBJ define neither and are
+/// not changed. `colors` is as long as `positions` if the file has colours, else empty; textures
+/// are not read. `parts` is empty.
+/// The extension determines the format. The file is checked before assimp reads it; counts that
+/// exceed its bytes, unlimited nesting and a DOCTYPE are rejected.
+/// @throws std::runtime_error with the file and the reason.
 Mesh ReadMeshFile(const std::filesystem::path& path, ColladaUp up = ColladaUp::kAsTold);
 
-/// The same for bytes; `extension` such as ".stl", in lower case. Other files that it names (the
-/// colours of an OBJ) are looked for in `folder`; in none when that is empty. @throws likewise,
-/// without a file's name.
+/// Reads a mesh from memory; `extension` such as ".stl", in lower case. Files that it refers to
+/// (the colours of an OBJ) are read from `folder`, and not at all if that is empty. @throws
+/// std::runtime_error with the reason, without a file name.
 Mesh ReadMesh(const std::string& bytes, const std::string& extension,
               const std::filesystem::path& folder, ColladaUp up = ColladaUp::kAsTold);
 

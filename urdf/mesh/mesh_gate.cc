@@ -47,7 +47,7 @@ class NodeGraph {
   };
 
   std::size_t SizeOf(const std::string& node, int depth, std::map<std::string, Size>& sizes) {
-    if (depth > kMostDepth) throw Fault("its nodes are nested too deep");
+    if (depth > kMostDepth) throw Fault("its nodes are nested too deeply");
     const auto [known, is_new] = sizes.emplace(node, Size{});
     if (!is_new && known->second.is_open) throw Fault("node '" + node + "' contains itself");
     if (!is_new) return known->second.nodes;
@@ -55,7 +55,7 @@ class NodeGraph {
     if (children != children_.end()) {
       for (const std::string& child : children->second) {
         known->second.nodes += SizeOf(child, depth + 1, sizes);
-        if (known->second.nodes > kMostNodes) throw Fault("it unfolds to too many nodes");
+        if (known->second.nodes > kMostNodes) throw Fault("it expands to too many nodes");
       }
     }
     known->second.is_open = false;
@@ -78,7 +78,7 @@ void CheckCount(std::string_view text, std::size_t bytes, const std::string& whe
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   const bool is_number = error == std::errc() && end == text.data() + text.size();
   if (is_number && count <= bytes) return;
-  throw Fault(where + " announces a count of " + std::string(text.substr(0, 30)) +
+  throw Fault(where + " declares a count of " + std::string(text.substr(0, 30)) +
               ", but the file has " + std::to_string(bytes) + " bytes");
 }
 
@@ -97,7 +97,7 @@ void CheckIndices(const std::string& bytes) {
       if (c == '<' && next == '/') break;
       const bool is_blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
       if (is_digit(c) || is_blank || (c == '-' && is_digit(next))) continue;
-      throw Fault("<" + std::string(tag) + "> holds what is no index");
+      throw Fault("<" + std::string(tag) + "> contains a value that is not an index");
     }
   }
 }
@@ -145,7 +145,8 @@ void CheckJsonDepth(std::string_view text) {
     if (c == '"') is_string = !is_string;
     if (is_string && c == '\\') ++i;
     if (is_string) continue;
-    if ((c == '[' || c == '{') && ++depth > kMostDepth) throw Fault("its JSON is nested too deep");
+    if ((c == '[' || c == '{') && ++depth > kMostDepth)
+      throw Fault("its JSON is nested too deeply");
     if (c == ']' || c == '}') --depth;
   }
 }
@@ -153,7 +154,7 @@ void CheckJsonDepth(std::string_view text) {
 std::uint64_t Unsigned(const json& object, const char* name, std::uint64_t otherwise) {
   const auto member = object.find(name);
   if (member == object.end()) return otherwise;
-  if (!member->is_number_unsigned()) throw Fault(std::string(name) + " is no whole number");
+  if (!member->is_number_unsigned()) throw Fault(std::string(name) + " is not a whole number");
   return member->get<std::uint64_t>();
 }
 
@@ -161,9 +162,10 @@ const json& Array(const json& document, const char* name) {
   static const json kNone = json::array();
   const auto member = document.find(name);
   if (member == document.end()) return kNone;
-  if (!member->is_array()) throw Fault(std::string(name) + " is no list");
+  if (!member->is_array()) throw Fault(std::string(name) + " is not a list");
   for (const json& each : *member) {
-    if (!each.is_object()) throw Fault(std::string(name) + " holds what is no object");
+    if (!each.is_object())
+      throw Fault(std::string(name) + " contains a value that is not an object");
   }
   return *member;
 }
@@ -177,21 +179,21 @@ std::uint64_t ElementBytes(const json& accessor) {
   const auto component = kComponent.find(Unsigned(accessor, "componentType", 0));
   const auto type = accessor.find("type");
   if (component == kComponent.end() || type == accessor.end() || !type->is_string()) {
-    throw Fault("an accessor has no known type");
+    throw Fault("an accessor has an unknown type");
   }
   const auto element = kElement.find(type->get<std::string>());
-  if (element == kElement.end()) throw Fault("an accessor has no known type");
+  if (element == kElement.end()) throw Fault("an accessor has an unknown type");
   return component->second * element->second;
 }
 
 void CheckBuffers(const json& document, std::uint64_t binary_bytes) {
   const json& buffers = Array(document, "buffers");
-  if (buffers.size() > 1) throw Fault("it has more than one buffer; a GLB holds one");
+  if (buffers.size() > 1) throw Fault("it has more than one buffer; a GLB has only one");
   for (const json& buffer : buffers) {
     if (buffer.contains("uri")) throw Fault("it refers to other files; pack them into the GLB");
     if (Unsigned(buffer, "byteLength", 0) > binary_bytes) {
-      throw Fault("its buffer announces " + std::to_string(Unsigned(buffer, "byteLength", 0)) +
-                  " bytes, but " + std::to_string(binary_bytes) + " are there");
+      throw Fault("its buffer declares " + std::to_string(Unsigned(buffer, "byteLength", 0)) +
+                  " bytes, but the file has " + std::to_string(binary_bytes));
     }
   }
   const json& views = Array(document, "bufferViews");
@@ -204,7 +206,7 @@ void CheckBuffers(const json& document, std::uint64_t binary_bytes) {
     }
   }
   for (const json& accessor : Array(document, "accessors")) {
-    if (accessor.contains("sparse")) throw Fault("sparse accessors are not read");
+    if (accessor.contains("sparse")) throw Fault("sparse accessors are not supported");
     const std::uint64_t element = ElementBytes(accessor);
     const std::uint64_t count = Unsigned(accessor, "count", 0);
     const std::uint64_t offset = Unsigned(accessor, "byteOffset", 0);
@@ -215,7 +217,7 @@ void CheckBuffers(const json& document, std::uint64_t binary_bytes) {
     // The last element needs no room for the rest of its stride.
     if (count == 0 || offset > length || element > length - offset ||
         count - 1 > (length - offset - element) / stride) {
-      throw Fault("an accessor announces a count of " + std::to_string(count) +
+      throw Fault("an accessor declares a count of " + std::to_string(count) +
                   ", but its bufferView has " + std::to_string(length) + " bytes");
     }
   }
@@ -225,14 +227,14 @@ void CheckReferences(const json& document) {
   const auto count_of = [&](const char* list) { return Array(document, list).size(); };
   const auto check = [&](const json& index, const char* list) {
     if (index.is_number_unsigned() && index.get<std::uint64_t>() < count_of(list)) return;
-    throw Fault(std::string("it refers to an entry of ") + list + " that is not there");
+    throw Fault(std::string("it refers to an entry of ") + list + " that does not exist");
   };
   NodeGraph graph;
   const json& nodes = Array(document, "nodes");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].contains("mesh")) check(nodes[i]["mesh"], "meshes");
     if (!nodes[i].contains("children")) continue;
-    if (!nodes[i]["children"].is_array()) throw Fault("children is no list");
+    if (!nodes[i]["children"].is_array()) throw Fault("children is not a list");
     for (const json& child : nodes[i]["children"]) {
       check(child, "nodes");
       graph.Add(std::to_string(i), std::to_string(child.get<std::uint64_t>()));
@@ -241,7 +243,7 @@ void CheckReferences(const json& document) {
   graph.Check();
   for (const json& scene : Array(document, "scenes")) {
     if (!scene.contains("nodes")) continue;
-    if (!scene["nodes"].is_array()) throw Fault("nodes of a scene are no list");
+    if (!scene["nodes"].is_array()) throw Fault("nodes of a scene is not a list");
     for (const json& node : scene["nodes"]) check(node, "nodes");
   }
   for (const json& mesh : Array(document, "meshes")) {
@@ -260,14 +262,14 @@ void CheckGlb(const std::string& bytes) {
   constexpr std::size_t kHeader = 12, kChunkHeader = 8;
   constexpr std::uint32_t kJson = 0x4E4F534A;
   if (bytes.size() < kHeader + kChunkHeader || bytes.compare(0, 4, "glTF") != 0) {
-    throw Fault("no GLB: it does not begin with 'glTF'");
+    throw Fault("not a GLB: it does not begin with 'glTF'");
   }
   if (GlbWord(bytes, 4) != 2)
-    throw Fault("GLB version " + std::to_string(GlbWord(bytes, 4)) + ", not 2");
+    throw Fault("GLB version " + std::to_string(GlbWord(bytes, 4)) + "; expected 2");
   const std::uint64_t json_bytes = GlbWord(bytes, kHeader);
   if (GlbWord(bytes, 8) > bytes.size() || GlbWord(bytes, kHeader + 4) != kJson ||
       json_bytes > bytes.size() - kHeader - kChunkHeader) {
-    throw Fault("it announces " + std::to_string(GlbWord(bytes, 8)) + " bytes and " +
+    throw Fault("it declares " + std::to_string(GlbWord(bytes, 8)) + " bytes and " +
                 std::to_string(json_bytes) + " of JSON, but has " + std::to_string(bytes.size()));
   }
   const std::size_t binary = kHeader + kChunkHeader + json_bytes;
@@ -275,17 +277,17 @@ void CheckGlb(const std::string& bytes) {
   if (bytes.size() - binary >= kChunkHeader) {
     binary_bytes = GlbWord(bytes, binary);
     if (binary_bytes > bytes.size() - binary - kChunkHeader) {
-      throw Fault("its binary part announces " + std::to_string(binary_bytes) +
-                  " bytes, which are not there");
+      throw Fault("its binary part declares " + std::to_string(binary_bytes) +
+                  " bytes, but the file ends before");
     }
   }
-  if (json_bytes > kMostJsonBytes) throw Fault("its JSON part is larger than a scene needs");
+  if (json_bytes > kMostJsonBytes) throw Fault("its JSON part is too large");
   const auto text = std::string_view(bytes).substr(kHeader + kChunkHeader, json_bytes);
   CheckJsonDepth(text);
   const json document = json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (!document.is_object()) throw Fault("its JSON part is none");
+  if (!document.is_object()) throw Fault("its JSON part is not an object");
   const json extensions = document.value("extensionsRequired", json::array());
-  if (!extensions.empty()) throw Fault("it needs an extension: " + extensions.dump().substr(0, 80));
+  if (!extensions.empty()) throw Fault("unsupported extension: " + extensions.dump().substr(0, 80));
   CheckBuffers(document, binary_bytes);
   CheckReferences(document);
 }
@@ -293,19 +295,18 @@ void CheckGlb(const std::string& bytes) {
 }  // namespace
 
 void CheckMeshBytes(const std::string& bytes, const std::string& extension) {
-  if (bytes.empty()) throw Fault("it is empty");
+  if (bytes.empty()) throw Fault("the file is empty");
   if (extension == ".stl") return CheckStl(bytes);
   if (extension == ".dae") return CheckDae(bytes);
   if (extension == ".glb") {
     try {
       return CheckGlb(bytes);
     } catch (const json::exception& error) {
-      throw Fault(std::string("its JSON part makes no sense: ") + error.what());
+      throw Fault(std::string("its JSON part is invalid: ") + error.what());
     }
   }
   if (extension == ".obj") return;  // announces nothing
-  throw Fault("'" + extension +
-              "' is no kind of mesh that is read; there are .stl, .dae, .obj, .glb");
+  throw Fault("unsupported mesh format '" + extension + "'; expected .stl, .dae, .obj or .glb");
 }
 
 }  // namespace kinescope::urdf

@@ -21,7 +21,7 @@ class TextStl {
   explicit TextStl(std::string_view text) : text_(text) {}
 
   void Check() {
-    if (text_.find('\0') != text_.npos) throw Fault("it holds zero bytes, no text");
+    if (text_.find('\0') != text_.npos) throw Fault("it contains zero bytes, so it is not text");
     while (BeginSolid()) {
       std::string_view word = Word();
       // The end of the last solid may be missing.
@@ -126,7 +126,7 @@ void CheckStl(const std::string& bytes) {
   const std::uint64_t expected = kHeader + kTriangle * triangles;
   if (is_text && expected != bytes.size()) return TextStl(bytes).Check();
   if (expected > bytes.size()) {
-    throw Fault("it announces " + std::to_string(triangles) + " triangles (" +
+    throw Fault("it declares " + std::to_string(triangles) + " triangles (" +
                 std::to_string(expected) + " bytes), but has " + std::to_string(bytes.size()) +
                 " bytes");
   }

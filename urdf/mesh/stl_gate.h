@@ -1,12 +1,12 @@
-/// STL files looked over before assimp is given them; see mesh_gate.h.
+/// Checks STL files before assimp reads them; see mesh_gate.h. Pure function, any thread.
 #pragma once
 
 #include <string>
 
 namespace kinescope::urdf {
 
-/// Binary or text. @throws std::runtime_error: a count that the bytes cannot hold; in text, what
-/// makes no triangle, with its line.
+/// Binary or text. @throws std::runtime_error: a count that exceeds the bytes; in text, an invalid
+/// triangle, with its line.
 void CheckStl(const std::string& bytes);
 
 }  // namespace kinescope::urdf

@@ -1,43 +1,40 @@
 #include "server/app/golden/golden_case.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <memory>
 #include <optional>
 
 #include "render/multi_view.h"
-#include "server/options/option_list.h"
+#include "server/options/yaml_options.h"
 #include "server/picture/shots.h"
 #include "server/scene/scene_reader.h"
+#include "server/source/scheme.h"
 
 namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-Liveness ToLiveness(const fs::path& path, const std::string& text) {
-  for (const Liveness liveness : {Liveness::kLive, Liveness::kStale, Liveness::kNoData}) {
-    if (text == Name(liveness)) return liveness;
-  }
-  throw UsageError(
-      fmt::format("{}: state: {}: expected live, stale or no data", path.string(), text));
-}
+options::PixelSize PixelSizeOfCases() { return {640, 360}; }
 
 constexpr double kSurveySecs = 5;  // of a source that may have no end
 
 SceneState SceneOf(const GoldenCase& golden_case, const SceneOptions& options,
                    ShotPlanner& planner) {
-  SceneReader reader(golden_case.source, options);
-  if (golden_case.show == Liveness::kNoData) return *reader.Empty();
+  SceneReader reader(*golden_case.source, options);
+  if (*golden_case.state == Liveness::kNoData) return *reader.Empty();
   SceneTimeline timeline(reader);
-  RememberBefore(golden_case.time_secs, timeline, planner);
-  std::optional<SceneState> scene = timeline.At(golden_case.time_secs);
+  RememberBefore(*golden_case.time, timeline, planner);
+  std::optional<SceneState> scene = timeline.At(*golden_case.time);
   if (!scene) {
-    throw UsageError(fmt::format("golden case {}: {} ends before {} s", golden_case.name,
-                                 golden_case.source, golden_case.time_secs));
+    throw UsageError(
+        fmt::format("golden case {}: source {} ends before {} s; choose an earlier time",
+                    golden_case.name, *golden_case.source, *golden_case.time));
   }
-  return golden_case.show == Liveness::kStale ? *reader.Stale() : *scene;
+  return *golden_case.state == Liveness::kStale ? *reader.Stale() : *scene;
 }
 
 std::vector<render::SphereInPicture> SpheresOf(const Shot& shot) {
@@ -70,29 +67,35 @@ std::vector<render::SphereInPicture> SpheresOf(const Shot& shot) {
 
 }  // namespace
 
+GoldenCase::GoldenCase()
+    : time(0, {0, kLatestSecs, "s"}),
+      state(
+          {{"live", Liveness::kLive}, {"stale", Liveness::kStale}, {"no data", Liveness::kNoData}},
+          Liveness::kLive) {
+  view.size = PixelSizeOfCases();
+}
+
+void GoldenCase::List(options::OptionList& option) {
+  option("source", source, "recording, relative to the case, or demo:MOTION");
+  option("time", time, "time after the first sample");
+  option("state", state, "state of the stream that is shown");
+  option("why", why, "purpose of the case, shown when it fails");
+  view.List(option);
+  person.List(option);
+  loads.List(option);
+}
+
 GoldenCase LoadGoldenCase(const fs::path& yaml) {
   GoldenCase golden_case;
-  golden_case.name = golden_case.view.title = yaml.stem();
-  golden_case.view.size = "640x360";
-  std::string show = Name(Liveness::kLive);
-  const YamlValues values(yaml.string());
-  ValueSetter read(values);
-  read("source", golden_case.source);
-  read("time", golden_case.time_secs);
-  read("state", show);
-  read("why", golden_case.why);
-  golden_case.view.Visit(read);
-  golden_case.person.Visit(read);
-  golden_case.loads.Visit(read);
-  values.RefuseUnknown(read.names());
-  if (golden_case.source.empty()) throw UsageError(yaml.string() + ": source: is missing");
-  if (golden_case.source.rfind("demo:", 0) != 0) {
-    golden_case.source = (yaml.parent_path() / golden_case.source).string();
-  }
-  golden_case.show = ToLiveness(yaml, show);
-  if (!(golden_case.time_secs >= 0 && golden_case.time_secs <= kLatestSecs)) {
-    throw UsageError(fmt::format("{}: time: {}: expected 0 to {:.0f} s", yaml.string(),
-                                 golden_case.time_secs, kLatestSecs));
+  golden_case.name = yaml.stem();
+  golden_case.view.title = golden_case.name;
+  options::OptionList list;
+  golden_case.List(list);
+  options::YamlOptions(yaml.string()).SetAll(list);
+  for (const std::string& warning : list.warnings()) spdlog::warn(warning);
+  if (golden_case.source->empty()) throw UsageError(yaml.string() + ": source is missing");
+  if (!IsSubjectUrl(*golden_case.source)) {
+    golden_case.source = (yaml.parent_path() / *golden_case.source).string();
   }
   return golden_case;
 }
@@ -105,7 +108,7 @@ std::vector<GoldenCase> LoadGoldenCases(const fs::path& folder) {
   }
   if (error) throw UsageError(fmt::format("folder '{}': {}", folder.string(), error.message()));
   if (files.empty())
-    throw UsageError(fmt::format("folder '{}' holds no case (*.yaml)", folder.string()));
+    throw UsageError(fmt::format("folder '{}' contains no golden case (*.yaml)", folder.string()));
   std::sort(files.begin(), files.end());
   std::vector<GoldenCase> cases;
   cases.reserve(files.size());
@@ -114,18 +117,17 @@ std::vector<GoldenCase> LoadGoldenCases(const fs::path& folder) {
 }
 
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
-  const SceneOptions options =
-      ToSceneOptions(golden_case.person, SceneOptions().stale_secs, golden_case.loads);
+  const SceneOptions options = ToSceneOptions(golden_case.person, golden_case.loads);
   ShotPlanner planner(golden_case.view, {}, options);
   if (planner.needs_survey()) {
-    SceneReader reader(golden_case.source, options);
+    SceneReader reader(*golden_case.source, options);
     SurveyClip({&planner}, reader, kSurveySecs);
   }
-  const Shot shot = planner.Only(SceneOf(golden_case, options, planner), golden_case.time_secs);
+  const Shot shot = planner.Only(SceneOf(golden_case, options, planner), *golden_case.time);
   GoldenDrawing drawing;
   drawing.image = renderer.Render(shot.state, shot.camera, shot.view);
   drawing.spheres = SpheresOf(shot);
-  if (shot.view.overlays && shot.view.parts.strip && golden_case.show != Liveness::kNoData) {
+  if (shot.view.overlays && shot.view.parts.strip && *golden_case.state != Liveness::kNoData) {
     drawing.strip = {shot.state.counter, shot.state.time_code_millis};
   }
   return drawing;

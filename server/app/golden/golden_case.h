@@ -26,14 +26,18 @@
 namespace kinescope::app {
 
 struct GoldenCase {
+  GoldenCase();
+
   std::string name;  // of the file, without .yaml
-  std::string source;
-  double time_secs = 0;
-  Liveness show = Liveness::kLive;
-  std::string why;
+  options::Text source;
+  options::Number time;  // s
+  options::Choice<Liveness> state;
+  options::Text why;
   ViewOptions view;
   PersonOptions person;
   LoadOptions loads;
+
+  void List(options::OptionList& option);
 };
 
 /// @throws UsageError naming file, line and key.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/errors.h"
@@ -27,22 +28,29 @@ namespace {
 namespace fs = std::filesystem;
 
 struct GoldenOptions {
-  std::string folder = "golden_images";
-  std::vector<std::string> only;
-  std::string out = "out/golden";
-  bool json = false;
+  options::Text folder{"golden_images"};
+  options::Texts only;
+  options::Text out{"out/golden"};
+  options::Flag json;
   BackendOptions backend;
+
+  void List(options::OptionList& option) {
+    option("folder", folder, "folder with <case>.yaml, .png and .objects.json");
+    option("case", only, "cases to use; default: all");
+    backend.List(option);
+  }
 };
 
 std::vector<GoldenCase> CasesOf(const GoldenOptions& options) {
-  std::vector<GoldenCase> cases = LoadGoldenCases(options.folder);
-  if (options.only.empty()) return cases;
+  std::vector<GoldenCase> cases = LoadGoldenCases(*options.folder);
+  if (options.only->empty()) return cases;
   std::vector<GoldenCase> chosen;
-  for (const std::string& name : options.only) {
+  for (const std::string& name : *options.only) {
     const auto found = std::find_if(cases.begin(), cases.end(),
                                     [&](const GoldenCase& c) { return c.name == name; });
     if (found == cases.end()) {
-      throw UsageError(fmt::format("folder '{}' holds no case '{}'", options.folder, name));
+      throw UsageError(
+          fmt::format("folder '{}' contains no golden case '{}'", *options.folder, name));
     }
     chosen.push_back(*found);
   }
@@ -64,24 +72,24 @@ std::vector<std::string> Check(const GoldenOptions& options, const GoldenCase& g
   render::Image expected;
   try {
     problems =
-        FindObjectChanges(ReadObjects(ObjectsPath(options.folder, golden_case)), drawing.spheres);
-    expected = render::ReadPng(ImagePath(options.folder, golden_case));
+        FindObjectChanges(ReadObjects(ObjectsPath(*options.folder, golden_case)), drawing.spheres);
+    expected = render::ReadPng(ImagePath(*options.folder, golden_case));
   } catch (const std::exception& error) {
-    problems.push_back(fmt::format("{} (`kinescope golden update {} {}` makes it)", error.what(),
-                                   options.folder, golden_case.name));
+    problems.push_back(fmt::format("{}; create it with `kinescope golden update {} {}`",
+                                   error.what(), *options.folder, golden_case.name));
   }
   for (std::string& mismatch : render::FindSphereMismatches(drawing.image, drawing.spheres)) {
     problems.push_back(std::move(mismatch));
   }
   if (drawing.strip && !(render::ReadStrip(drawing.image) == drawing.strip)) {
-    problems.push_back(fmt::format("its strip does not say sample {}, {} ms",
-                                   drawing.strip->counter, drawing.strip->time_code_millis));
+    problems.push_back(fmt::format("frame code: expected sample {}, {} ms", drawing.strip->counter,
+                                   drawing.strip->time_code_millis));
   }
   const render::Comparison comparison = render::Compare(expected, drawing.image);
   if (!comparison.equal()) problems.push_back(render::Describe(comparison, drawing.image));
   if (!problems.empty()) {
-    fs::create_directories(options.out);
-    const fs::path base = fs::path(options.out) / golden_case.name;
+    fs::create_directories(*options.out);
+    const fs::path base = fs::path(*options.out) / golden_case.name;
     render::WritePng(base.string() + ".actual.png", drawing.image);
     render::WritePng(base.string() + ".diff.png", render::DiffImage(expected, drawing.image));
     render::WriteNewFile(base.string() + ".objects.json", ToJson(drawing.spheres));
@@ -91,26 +99,27 @@ std::vector<std::string> Check(const GoldenOptions& options, const GoldenCase& g
 
 int CheckAll(const GoldenOptions& options) {
   const auto renderer = StartRenderer(options.backend);
-  nlohmann::json report = nlohmann::json::array();
   int failed = 0;
   const std::vector<GoldenCase> cases = CasesOf(options);
   for (const GoldenCase& golden_case : cases) {
     const std::vector<std::string> problems = Check(options, golden_case, *renderer);
     failed += !problems.empty();
-    report.push_back({{"case", golden_case.name}, {"problems", problems}});
-    if (options.json) continue;
+    if (*options.json) {
+      const nlohmann::json line = {
+          {"case", golden_case.name}, {"same", problems.empty()}, {"problems", problems}};
+      fmt::print("{}\n", JsonText(line));
+      continue;
+    }
     fmt::print("{:<24} {}\n", golden_case.name, problems.empty() ? "same" : "DIFFERS");
-    if (!problems.empty() && !golden_case.why.empty())
-      fmt::print("  it is there because {}\n", golden_case.why);
+    if (!problems.empty() && !golden_case.why->empty())
+      fmt::print("  purpose: {}\n", *golden_case.why);
     for (const std::string& problem : problems) fmt::print("  {}\n", problem);
   }
-  if (options.json) {
-    fmt::print("{}\n", JsonText(report, 2));
-  } else if (failed > 0) {
+  if (!*options.json && failed > 0) {
     fmt::print(
         "{} of {} differ; see {}/<case>.actual.png and .diff.png\n"
-        "To accept: look at them, then `kinescope golden update {} <case>`\n",
-        failed, cases.size(), options.out, options.folder);
+        "To accept: check the pictures, then run `kinescope golden update {} <case>`\n",
+        failed, cases.size(), *options.out, *options.folder);
   }
   return failed == 0 ? 0 : 1;
 }
@@ -121,39 +130,46 @@ void UpdateAll(const GoldenOptions& options) {
     const GoldenDrawing drawing = Draw(golden_case, *renderer);
     const auto wrong = render::FindSphereMismatches(drawing.image, drawing.spheres);
     if (!wrong.empty()) {
-      throw std::runtime_error("not accepted, the picture contradicts the state: " +
-                               golden_case.name + ": " + wrong.front());
+      throw std::runtime_error(
+          "not updated: sphere colours in the picture do not match the load classes: " +
+          golden_case.name + ": " + wrong.front());
     }
-    render::WritePng(ImagePath(options.folder, golden_case), drawing.image);
-    render::WriteNewFile(ObjectsPath(options.folder, golden_case), ToJson(drawing.spheres));
-    fmt::print("{:<24} written; look at it\n", golden_case.name);
+    render::WritePng(ImagePath(*options.folder, golden_case), drawing.image);
+    render::WriteNewFile(ObjectsPath(*options.folder, golden_case), ToJson(drawing.spheres));
+    fmt::print("{:<24} written; check the picture\n", golden_case.name);
   }
 }
 
 }  // namespace
 
-void AddGolden(CommandLine line) {
-  CLI::App* command = line.app.add_subcommand("golden", "Compare pictures with the accepted ones");
-  command->require_subcommand(1);
-  const auto o = std::make_shared<GoldenOptions>();
-  const auto add_places = [&](CLI::App* part) {
-    part->add_option("folder", o->folder, "holds <case>.yaml, .png and .objects.json")
-        ->capture_default_str();
-    part->add_option("case", o->only, "only these");
-    o->backend.Visit(FlagAdder(*part));
-  };
-  CLI::App* check =
-      command->add_subcommand("check", "Draw every case and compare; exit code 1 if any differs");
-  add_places(check);
-  check->add_option("--out", o->out, "where the pictures of differing cases go")
-      ->capture_default_str();
-  check->add_flag("--json", o->json, "tell the result as JSON");
-  int& exit_code = line.exit_code;
-  check->callback([o, &exit_code] { exit_code = CheckAll(*o); });
+Command GoldenCommand() {
+  const auto values = std::make_shared<GoldenOptions>();
+  Command check;
+  check.name = "check";
+  check.about = "Draws every case and compares it with the accepted picture";
+  values->List(check.options);
+  check.options("out", values->out, "folder for the pictures of differing cases");
+  check.options("json", values->json, "print the result as JSON");
+  check.positionals = {"folder", "case"};
+  check.footer = "Exit code: 0 all are the same, 1 a case differs, 2 error.";
+  check.run = [values](options::OptionList&) { return CheckAll(*values); };
 
-  CLI::App* update = command->add_subcommand("update", "Draw every case and accept it as it is");
-  add_places(update);
-  update->callback([o] { UpdateAll(*o); });
+  Command update;
+  update.name = "update";
+  update.about = "Draws every case and accepts it as it is";
+  values->List(update.options);
+  update.positionals = {"folder", "case"};
+  update.run = [values](options::OptionList&) {
+    UpdateAll(*values);
+    return 0;
+  };
+
+  Command command;
+  command.name = "golden";
+  command.about = "Compares pictures with the accepted ones";
+  command.parts.push_back(std::move(check));
+  command.parts.push_back(std::move(update));
+  return command;
 }
 
 }  // namespace kinescope::app

@@ -43,20 +43,20 @@ void Compare(const Key& key, const SphereInPicture& expected, const SphereInPict
              std::vector<std::string>& changes) {
   if (expected.load_class != actual.load_class) {
     changes.push_back(
-        fmt::format("{}: expected {}, is {}", Who(key), ClassText(expected), ClassText(actual)));
+        fmt::format("{}: expected {}, found {}", Who(key), ClassText(expected), ClassText(actual)));
   }
   const bool both_known = std::isfinite(expected.ratio) && std::isfinite(actual.ratio);
   if (both_known && std::abs(expected.ratio - actual.ratio) > 0.005) {
-    changes.push_back(fmt::format("{}: expected a load of {:.3f}, is {:.3f}", Who(key),
+    changes.push_back(fmt::format("{}: expected a load ratio of {:.3f}, found {:.3f}", Who(key),
                                   expected.ratio, actual.ratio));
   } else if (!both_known && std::isfinite(expected.ratio) != std::isfinite(actual.ratio)) {
-    changes.push_back(fmt::format("{}: its load is {} now", Who(key),
-                                  std::isfinite(actual.ratio) ? "known" : "not known"));
+    changes.push_back(fmt::format("{}: its load is now {}", Who(key),
+                                  std::isfinite(actual.ratio) ? "known" : "unknown"));
   }
   const double moved = std::hypot(expected.x_px - actual.x_px, expected.y_px - actual.y_px);
   if (moved > 1) changes.push_back(fmt::format("{}: moved by {:.1f} px", Who(key), moved));
   if (std::abs(expected.radius_px - actual.radius_px) > 1) {
-    changes.push_back(fmt::format("{}: expected a radius of {:.1f} px, is {:.1f} px", Who(key),
+    changes.push_back(fmt::format("{}: expected a radius of {:.1f} px, found {:.1f} px", Who(key),
                                   expected.radius_px, actual.radius_px));
   }
 }
@@ -83,7 +83,9 @@ std::string ToJson(const std::vector<SphereInPicture>& spheres) {
 
 std::vector<SphereInPicture> ReadObjects(const std::filesystem::path& path) {
   std::ifstream file(path);
-  if (!file) throw std::runtime_error(path.string() + ": not there, or it may not be read");
+  if (!file)
+    throw std::runtime_error(path.string() +
+                             ": cannot open the file (missing, or no read permission)");
   std::vector<SphereInPicture> spheres;
   try {
     const json document = json::parse(file);
@@ -114,14 +116,14 @@ std::vector<std::string> FindObjectChanges(const std::vector<SphereInPicture>& e
   for (const auto& [key, sphere] : before) {
     const auto match = now.find(key);
     if (match == now.end()) {
-      changes.push_back(Who(key) + ": its sphere is gone");
+      changes.push_back(Who(key) + ": load sphere is missing");
     } else {
       Compare(key, *sphere, *match->second, changes);
     }
   }
   for (const auto& [key, sphere] : now) {
     if (before.count(key) == 0) {
-      changes.push_back(fmt::format("{}: a new sphere, {}", Who(key), ClassText(*sphere)));
+      changes.push_back(fmt::format("{}: new load sphere, {}", Who(key), ClassText(*sphere)));
     }
   }
   return changes;

@@ -1,5 +1,6 @@
-/// What a golden picture shows, in words: `<case>.objects.json`. Compared before any pixel, so that
-/// a changed load fails by the joint's name and not as "412 pixels differ".
+/// Text description of the load spheres in a golden picture (`<case>.objects.json`). It is compared
+/// before any pixel, so that a changed load is reported with its joint and not as "412 pixels
+/// differ". Pure functions except for reading the file.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +11,14 @@
 
 namespace kinescope::app {
 
-/// One object a line: joint, class, ratio (three digits), centre and radius in px (one digit).
+/// One object per line: joint, class, ratio (three digits), centre and radius in px (one digit).
 std::string ToJson(const std::vector<render::SphereInPicture>& spheres);
 
-/// @throws std::runtime_error naming file and reason.
+/// @throws std::runtime_error with file and reason.
 std::vector<render::SphereInPicture> ReadObjects(const std::filesystem::path& path);
 
-/// One line for each object that is missing, new, of another class, of a ratio that differs by more
-/// than 0.005, or more than 1 px elsewhere. Empty: the same objects.
+/// One line per object that is missing, new, of another class, with a ratio that differs by more
+/// than 0.005, or moved by more than 1 px. Empty: the same objects.
 std::vector<std::string> FindObjectChanges(const std::vector<render::SphereInPicture>& expected,
                                            const std::vector<render::SphereInPicture>& actual);
 

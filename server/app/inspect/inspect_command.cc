@@ -18,19 +18,23 @@
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/recording.h"
 #include "server/mvn/inspect/inspection.h"
-#include "server/mvn/net/net_url.h"
 #include "server/mvn/open.h"
 #include "server/ros/bag_source.h"
-#include "server/ros/graph_source.h"
 #include "server/source/open_source.h"
 
 namespace kinescope::app {
 namespace {
 
 struct InspectOptions {
-  std::string source;
-  double seconds = 5;
-  bool json = false;
+  options::Text source;
+  options::Number seconds{5, {0, 86'400, "s", true}};
+  options::Flag json;
+
+  void List(options::OptionList& option) {
+    option("source", source, "stream or recording to examine: " + SourceKinds());
+    option("seconds", seconds, "time to listen to a live stream");
+    option("json", json, "print the result as JSON (docs/inspect.md)");
+  }
 };
 
 // How long waiting may take: what decides how soon Ctrl-C is noticed.
@@ -56,7 +60,7 @@ mvn::InspectionReport InspectDatagrams(mvn::DatagramSource& source, double secon
   std::unique_ptr<Progress> progress;
   std::int64_t end = 0;
   if (source.is_live()) {
-    spdlog::info("listening at {} for {:g} s; Ctrl-C ends it sooner", source.description(),
+    spdlog::info("listening at {} for {:g} s; press Ctrl-C to stop earlier", source.description(),
                  seconds);
     end = MonotonicNanos() + static_cast<std::int64_t>(seconds * 1e9);
   } else {
@@ -105,7 +109,7 @@ class SampleSteps : public SampleSink {
 mvn::InspectionReport InspectSamples(Source& source, double seconds, bool has_end) {
   SampleSteps steps;
   if (source.is_live()) {
-    spdlog::info("listening to {} for {:g} s; Ctrl-C ends it sooner", source.description(),
+    spdlog::info("receiving from {} for {:g} s; press Ctrl-C to stop earlier", source.description(),
                  seconds);
     const std::int64_t end = MonotonicNanos() + static_cast<std::int64_t>(seconds * 1e9);
     while (!StopRequested() && MonotonicNanos() < end) {
@@ -133,77 +137,77 @@ std::string MvnxFormat(std::string_view head) {
 
 // A file is opened once only: it may be a pipe.
 mvn::InspectionReport InspectFile(const InspectOptions& options) {
-  InputFile file = OpenInputFile(options.source);
-  const std::string name = NameOfInput(options.source);
+  InputFile file = OpenInputFile(*options.source);
+  const std::string name = NameOfInput(*options.source);
   const mvn::RecordingKind kind = mvn::KindOf(file.head());
   mvn::InspectionReport report;
   switch (kind) {
     case mvn::RecordingKind::kPcap:
     case mvn::RecordingKind::kDatagrams:
-      report = InspectDatagrams(*mvn::OpenRecording(std::move(file), name), options.seconds);
+      report = InspectDatagrams(*mvn::OpenRecording(std::move(file), name), *options.seconds);
       report.format = kind == mvn::RecordingKind::kPcap ? "capture" : "MVN datagrams";
       return report;
     case mvn::RecordingKind::kMvnx: {
       const std::string format = MvnxFormat(file.head());
       mvn::MvnxSource source(std::move(file), name);
-      report = InspectSamples(source, options.seconds, true);
+      report = InspectSamples(source, *options.seconds, true);
       report.format = format;
       return report;
     }
     case mvn::RecordingKind::kRosBag:
-      if (options.source != "-") {
-        report = InspectSamples(*ros_bridge::OpenBag(options.source), options.seconds, true);
+      if (*options.source != "-") {
+        report = InspectSamples(*ros_bridge::OpenBag(*options.source), *options.seconds, true);
         report.format = "ROS 1 bag";
         return report;
       }
-      throw SourceError("a ROS bag cannot be read from a pipe; save it first");
+      throw SourceError("a ROS bag cannot be read from a pipe; save it to a file first");
     case mvn::RecordingKind::kEmpty:
     case mvn::RecordingKind::kUnknown: break;
   }
-  throw SourceError(mvn::DescribeUnfit(options.source, file.head(), kSourceKinds));
+  throw SourceError(mvn::DescribeUnfit(*options.source, file.head(), SourceKinds()));
 }
 
 mvn::InspectionReport Inspect(const InspectOptions& options) {
   mvn::InspectionReport report;
-  if (mvn::IsNetUrl(options.source)) {
-    report = InspectDatagrams(*mvn::OpenDatagrams(options.source), options.seconds);
-    report.format = options.source[0] == 'u' ? "UDP" : "TCP";
-  } else if (options.source.rfind("demo:", 0) == 0) {
-    report = InspectSamples(*OpenSource(options.source), options.seconds, false);
-    report.format = "built-in subject";
-  } else if (ros_bridge::IsGraphUrl(options.source)) {
-    report = InspectSamples(*ros_bridge::OpenGraph(options.source), options.seconds, false);
-    report.format = "ROS graph";
-  } else {
-    report = InspectFile(options);
+  switch (KindOfSource(*options.source)) {
+    case SourceKind::kUdp:
+    case SourceKind::kTcp:
+      report = InspectDatagrams(*mvn::OpenDatagrams(*options.source), *options.seconds);
+      report.format = KindOfSource(*options.source) == SourceKind::kUdp ? "UDP" : "TCP";
+      break;
+    case SourceKind::kSubject:
+      report = InspectSamples(*OpenSource(*options.source), *options.seconds, false);
+      report.format = "built-in subject";
+      break;
+    case SourceKind::kGraph:
+      report = InspectSamples(*OpenSource(*options.source), *options.seconds, false);
+      report.format = "ROS graph";
+      break;
+    case SourceKind::kFile: report = InspectFile(options); break;
   }
   return report;
 }
 
 bool Run(const InspectOptions& options) {
-  if (!(options.seconds > 0 && options.seconds <= 86'400)) {
-    throw UsageError(
-        fmt::format("--seconds={:g}: expected more than 0, at most 86400", options.seconds));
-  }
   const mvn::InspectionReport report = Inspect(options);
-  fmt::print("{}", options.json ? ReportJson(report) : ReportText(report));
+  fmt::print("{}", *options.json ? ReportJson(report) : ReportText(report));
   return report.CanBeShown();
 }
 
 }  // namespace
 
-void AddInspect(CommandLine line) {
-  CLI::App* command = line.app.add_subcommand(
-      "inspect", "What is in a stream or a file: people, messages, rates, losses, errors");
-  const auto o = std::make_shared<InspectOptions>();
-  command->add_option("source", o->source, kSourceKinds)->required();
-  command->add_option("--seconds", o->seconds, "how long to listen to a live stream")
-      ->capture_default_str();
-  command->add_flag("--json", o->json, "one JSON object (docs/inspect.md)");
-  command->footer(
-      "Exit code: 0 there is somebody to show, 1 there is not, 2 it could not be read.");
-  int& exit_code = line.exit_code;
-  command->callback([o, &exit_code] { exit_code = Run(*o) ? 0 : 1; });
+Command InspectCommand() {
+  const auto values = std::make_shared<InspectOptions>();
+  Command command;
+  command.name = "inspect";
+  command.about =
+      "Lists the contents of a stream or a file: people, messages, rates, losses, errors";
+  values->List(command.options);
+  command.positionals = {"source"};
+  command.required = {"source"};
+  command.footer = "Exit code: 0 a person can be shown, 1 no person can be shown, 2 error.";
+  command.run = [values](options::OptionList&) { return Run(*values) ? 0 : 1; };
+  return command;
 }
 
 }  // namespace kinescope::app

@@ -34,9 +34,9 @@ const char* KindName(CharacterKind kind) {
 }
 
 Json TransportOf(const mvn::TransportCounters& transport) {
-  Json json;
-  transport.Visit([&json](const char* name, std::uint64_t value) { json[name] = value; });
-  return json;
+  Json out;
+  transport.Visit([&out](const char* name, std::uint64_t value) { out[name] = value; });
+  return out;
 }
 
 Json TypeOf(const mvn::TypeReport& type) {
@@ -74,79 +74,79 @@ Json FramesOf(const CharacterReport& character) {
 }
 
 Json CharacterOf(const CharacterReport& character) {
-  Json json = {{"sender", character.sender},
-               {"id", character.id},
-               {"name", character.name},
-               {"kind", KindName(character.kind)},
-               {"color", nullptr},
-               {"height_m", OrNull(character.height_m)},
-               {"segments",
-                {{"body", character.body_segments},
-                 {"left_glove", character.left_fingers},
-                 {"right_glove", character.right_fingers},
-                 {"props", character.props},
-                 {"objects", character.objects},
-                 {"names", character.names}}},
-               {"datagrams", character.datagrams},
-               {"bytes", character.bytes},
-               {"old_header", character.has_old_header}};
-  if (character.color_rgb) json["color"] = fmt::format("#{:06x}", *character.color_rgb);
-  json["types"] = Json::array();
-  for (const mvn::TypeReport& type : character.types) json["types"].push_back(TypeOf(type));
-  json["frames"] = FramesOf(character);
-  json["samples"] = {{"count", character.samples},
-                     {"incomplete", character.incomplete},
-                     {"quantities", Json(character.quantities)}};
-  json["duplicates"] = character.duplicates;
-  json["late"] = character.late;
-  json["outliers"] = character.outliers;
-  json["odd_ids"] = character.odd_ids;
-  json["advice"] = character.advice;
-  return json;
+  Json out = {{"sender", character.sender},
+              {"id", character.id},
+              {"name", character.name},
+              {"kind", KindName(character.kind)},
+              {"color", nullptr},
+              {"height_m", OrNull(character.height_m)},
+              {"segments",
+               {{"body", character.body_segments},
+                {"left_glove", character.left_fingers},
+                {"right_glove", character.right_fingers},
+                {"props", character.props},
+                {"objects", character.objects},
+                {"names", character.names}}},
+              {"datagrams", character.datagrams},
+              {"bytes", character.bytes},
+              {"old_header", character.has_old_header}};
+  if (character.color_rgb) out["color"] = fmt::format("#{:06x}", *character.color_rgb);
+  out["types"] = Json::array();
+  for (const mvn::TypeReport& type : character.types) out["types"].push_back(TypeOf(type));
+  out["frames"] = FramesOf(character);
+  out["samples"] = {{"count", character.samples},
+                    {"incomplete", character.incomplete},
+                    {"quantities", Json(character.quantities)}};
+  out["duplicates"] = character.duplicates;
+  out["late"] = character.late;
+  out["outliers"] = character.outliers;
+  out["odd_ids"] = character.odd_ids;
+  out["advice"] = character.advice;
+  return out;
 }
 
 Json ErrorOf(const mvn::ErrorReport& error, bool has_datagrams) {
-  Json json = {{"reason", error.reason}, {"count", error.count}, {"first", nullptr}};
-  if (!has_datagrams) return json;
-  json["first"] = {{"at_secs", Secs(error.at_nanos)},
-                   {"sender", error.sender},
-                   {"offset", nullptr},
-                   {"value", nullptr}};
+  Json out = {{"reason", error.reason}, {"count", error.count}, {"first", nullptr}};
+  if (!has_datagrams) return out;
+  out["first"] = {{"at_secs", Secs(error.at_nanos)},
+                  {"sender", error.sender},
+                  {"offset", nullptr},
+                  {"value", nullptr}};
   if (error.where) {
-    json["first"]["offset"] = error.where->offset;
-    json["first"]["value"] = error.where->value;
+    out["first"]["offset"] = error.where->offset;
+    out["first"]["value"] = error.where->value;
   }
-  return json;
+  return out;
 }
 
 }  // namespace
 
 std::string ReportJson(const InspectionReport& report) {
-  Json json = {{"source", report.source},
-               {"format", report.format},
-               {"live", report.is_live},
-               {"can_be_shown", report.CanBeShown()},
-               {"has_datagrams", report.has_datagrams},
-               {"has_arrival_times", report.has_arrival_times},
-               {"begin_unix_secs", Secs(report.begin_wall_nanos)},
-               {"end_unix_secs", Secs(report.end_wall_nanos)},
-               {"secs", report.secs},
-               {"datagrams", report.datagrams},
-               {"bytes", report.bytes},
-               {"transport", nullptr}};
-  if (report.transport) json["transport"] = TransportOf(*report.transport);
-  json["characters"] = Json::array();
+  Json out = {{"source", report.source},
+              {"format", report.format},
+              {"live", report.is_live},
+              {"can_be_shown", report.CanBeShown()},
+              {"has_datagrams", report.has_datagrams},
+              {"has_arrival_times", report.has_arrival_times},
+              {"begin_unix_secs", Secs(report.begin_wall_nanos)},
+              {"end_unix_secs", Secs(report.end_wall_nanos)},
+              {"secs", report.secs},
+              {"datagrams", report.datagrams},
+              {"bytes", report.bytes},
+              {"transport", nullptr}};
+  if (report.transport) out["transport"] = TransportOf(*report.transport);
+  out["characters"] = Json::array();
   for (const auto& character : report.characters) {
-    json["characters"].push_back(CharacterOf(character));
+    out["characters"].push_back(CharacterOf(character));
   }
-  json["datagrams_not_kept"] = report.datagrams_not_kept;
-  json["errors"] = Json::array();
+  out["datagrams_not_kept"] = report.datagrams_not_kept;
+  out["errors"] = Json::array();
   for (const auto& error : report.errors) {
-    json["errors"].push_back(ErrorOf(error, report.has_datagrams));
+    out["errors"].push_back(ErrorOf(error, report.has_datagrams));
   }
-  json["ignored"] = Json(report.ignored);
-  json["advice"] = report.advice;
-  return JsonText(json, 2) + "\n";
+  out["ignored"] = Json(report.ignored);
+  out["advice"] = report.advice;
+  return JsonText(out) + "\n";
 }
 
 }  // namespace kinescope::app

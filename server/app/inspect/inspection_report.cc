@@ -80,7 +80,7 @@ void Head(const InspectionReport& report, std::string& out) {
     Line(out, "time",
          report.has_arrival_times
              ? fmt::format("{:.2f} s from {}", report.secs, TimeOfDay(report.begin_wall_nanos))
-             : fmt::format("{:.2f} s by the sender's clock; the file has no times of arrival",
+             : fmt::format("{:.2f} s by the sender's clock; the file contains no receive times",
                            report.secs));
   }
   if (report.has_datagrams) {
@@ -102,7 +102,7 @@ void Head(const InspectionReport& report, std::string& out) {
                                 transport.connections_open, transport.connections_lost));
   }
   if (transport.resyncs > 0) {
-    parts.push_back(fmt::format("searched {} for the next datagram, passing over {}",
+    parts.push_back(fmt::format("resynchronised {}, {} skipped",
                                 Count(transport.resyncs, "time", "times"),
                                 Bytes(transport.skipped_bytes)));
   }
@@ -110,7 +110,7 @@ void Head(const InspectionReport& report, std::string& out) {
     parts.push_back(Count(transport.other_packets, "other packet", "other packets"));
   }
   if (transport.incomplete_packets > 0) {
-    parts.push_back(Count(transport.incomplete_packets, "packet", "packets") + " cut short");
+    parts.push_back(Count(transport.incomplete_packets, "packet", "packets") + " truncated");
   }
   Line(out, "transport", Joined(parts));
 }
@@ -148,7 +148,7 @@ std::string Frames(const CharacterReport& character) {
   std::string text = fmt::format("{}, counter {} to {}", character.frames, *character.first_counter,
                                  *character.last_counter);
   if (!character.lost) {
-    return text + fmt::format(" by {} to {}: too irregular to tell what is lost",
+    return text + fmt::format(" by {} to {}: too irregular to count lost frames",
                               character.smallest_step, character.largest_step);
   }
   if (character.usual_step != 1) text += fmt::format(" by {:.3g}", character.usual_step);
@@ -159,7 +159,7 @@ std::string Rates(const CharacterReport& character) {
   std::vector<std::string> parts;
   if (character.rate_hz > 0) parts.push_back(fmt::format("{:.2f} Hz", character.rate_hz));
   if (character.capture_rate_hz > 0) {
-    parts.push_back(fmt::format("captured at {:.2f} Hz", character.capture_rate_hz));
+    parts.push_back(fmt::format("acquisition rate {:.2f} Hz", character.capture_rate_hz));
   }
   return Joined(parts);
 }
@@ -174,8 +174,8 @@ std::string Samples(const CharacterReport& character, bool has_datagrams) {
   if (has_datagrams) {
     add(character.duplicates, "duplicate datagrams");
     add(character.late, "late datagrams");
-    add(character.outliers, "datagrams that fit nothing");
-    add(character.odd_ids, "items told by place against their id");
+    add(character.outliers, "outliers");
+    add(character.odd_ids, "items with mismatched id (identified by position)");
   }
   return Joined(parts);
 }
@@ -250,8 +250,9 @@ void Errors(const InspectionReport& report, std::string& out) {
     out += fmt::format("  {:>8}  {}\n", "", first);
   }
   if (report.datagrams_not_kept > 0) {
-    out += fmt::format("  {:>8}  of characters beyond the {} that are told apart, or named once\n",
-                       report.datagrams_not_kept, mvn::Inspection::kMostCharacters);
+    out += fmt::format(
+        "  {:>8}  datagrams of further characters (limit {}) or of characters seen only once\n",
+        report.datagrams_not_kept, mvn::Inspection::kMostCharacters);
   }
   if (!report.ignored.empty()) out += "\nNot needed\n";
   for (const auto& [what, count] : report.ignored) {
@@ -278,7 +279,7 @@ std::string ReportText(const InspectionReport& report) {
   Errors(report, out);
   if (!report.advice.empty()) out += "\n";
   for (const std::string& advice : report.advice) out += "> " + advice + "\n";
-  if (!report.CanBeShown()) out += "\nNobody to show.\n";
+  if (!report.CanBeShown()) out += "\nNo person or object to show.\n";
   return WithoutTrailingBlanks(out);
 }
 

@@ -1,4 +1,4 @@
-/// What `kinescope inspect` found, for people and for programs.
+/// Writes the report of `kinescope inspect` as text and as JSON. Pure functions, any thread.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace kinescope::app {
 
-/// Several lines, aligned; ends with a line break.
+/// Several aligned lines; ends with a line break.
 std::string ReportText(const mvn::InspectionReport& report);
 
-/// One object (docs/inspect.md).
+/// One JSON object (docs/inspect.md).
 std::string ReportJson(const mvn::InspectionReport& report);
 
 }  // namespace kinescope::app

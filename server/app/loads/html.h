@@ -1,4 +1,4 @@
-/// Text and pictures into HTML. Pure functions; any thread.
+/// Encodes texts and pictures for HTML. Pure functions; any thread.
 #pragma once
 
 #include <string>
@@ -6,10 +6,10 @@
 
 namespace kinescope::app {
 
-/// For element content and quoted attributes; what is no UTF-8 becomes U+FFFD.
+/// For element content and quoted attributes; invalid UTF-8 becomes U+FFFD.
 std::string EscapeHtml(std::string_view text);
 
-/// "data:image/png;base64,...": a picture inside the page.
+/// "data:image/png;base64,...": an embedded picture.
 std::string DataUrl(std::string_view media_type, std::string_view bytes);
 
 }  // namespace kinescope::app

@@ -126,7 +126,7 @@ void SetRange(PlotPanel& panel) {
 PlotPanel MomentPanel(const LoadTrial& trial, std::size_t joint) {
   PlotPanel panel;
   SetTime(trial, panel);
-  panel.y_label = "moment (N m)";
+  panel.y_label = "moment (N·m)";
   const char* const names[] = {"x, forward", "y, left", "z, up"};
   const Rgb colors[] = {kBlue, kVermilion, kGrey};
   const std::vector<double> dashes[] = {{}, {5, 2}, {1.2, 1.5}};
@@ -170,11 +170,11 @@ std::string Described(const LoadTrial& trial, const TrialContext& context) {
   std::string text = context.source;
   if (!trial.newest().name.empty()) text += ", " + trial.newest().name;
   for (const Fact& fact : FactsOf(trial, context)) {
-    if (fact.label == "in the hands" && fact.is_assumed) continue;
-    if (fact.label == "body table" || fact.label == "accelerations" || fact.label == "ratio of") {
+    if (fact.label == "hand load" && fact.is_assumed) continue;
+    if (fact.label == "body table" || fact.label == "load mode" || fact.label == "load metric") {
       continue;
     }
-    const bool needs_label = fact.label == "in the hands" || fact.label == "worn";
+    const bool needs_label = fact.label == "hand load" || fact.label == "added mass";
     text += fmt::format(", {}{}{}", needs_label ? fact.label + " " : "", fact.value,
                         fact.is_assumed ? " (assumed)" : "");
   }
@@ -189,7 +189,7 @@ void AddReasons(const LoadTrial& trial, std::size_t joint, double x, double y, F
   if (text.empty() && figure.panels[0].gaps.empty()) return;
   figure.swatches.push_back({x, y - 7, 14, 8, {}, true});
   figure.texts.push_back({x + 19, y,
-                          "not known: " + (text.empty() ? std::string("no samples") : text), 7.5,
+                          "unknown: " + (text.empty() ? std::string("no samples") : text), 7.5,
                           false, kFaint});
 }
 

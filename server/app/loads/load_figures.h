@@ -1,6 +1,6 @@
-/// Loads over time as figures for papers: one for each joint, and all of them on one. The classes'
-/// colours and limits are those of everywhere else; times nothing is known of are hatched. Pure
-/// functions but for WritePlots; any thread.
+/// Draws loads over time as figures for papers: one per joint, and one with all joints. Colours and
+/// limits of the load classes are those of all other outputs; times with unknown loads are hatched.
+/// Pure functions except WritePlots; any thread.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +15,17 @@ namespace kinescope::app {
 
 // @pre trials keep their curves
 
-/// Ratio with its classes, and the moment; of L5/S1 its compression as well.
+/// The ratio with its classes, and the moment; for L5/S1 also the compression force.
 render::Figure JointFigure(const LoadTrial& trial, const TrialContext& context,
                            std::size_t scored_joint);
 
-/// The ratios of all joints and the compression of L5/S1, small, on one scale; as wide as the text
-/// of an A4 page.
+/// The ratios of all joints and the L5/S1 compression force, small, on one time scale; as wide as
+/// the text of an A4 page.
 render::Figure OverviewFigure(const LoadTrial& trial, const TrialContext& context);
 
-/// `folder`/right_knee.png, .svg and so on, `folder`/person_1_right_knee.png where there are
-/// several people. The folder is made where it is not there.
-/// @throws std::runtime_error naming the path and the reason.
+/// `folder`/right_knee.png, .svg and so on; `folder`/person_1_right_knee.png if there are several
+/// people. The folder is created if necessary.
+/// @throws std::runtime_error with the path and the reason.
 void WritePlots(const std::map<int, LoadTrial>& trials, const TrialContext& context,
                 const std::filesystem::path& folder);
 

@@ -1,5 +1,5 @@
-/// Loads of a recording as CSV and JSON, written sample by sample: memory does not grow with the
-/// recording, and a file has its name only when it is whole. One thread.
+/// Writes the loads of a recording as CSV and JSON, sample by sample: memory does not grow with the
+/// recording. A file gets its name only when it is complete. One thread.
 #pragma once
 
 #include <cstdint>
@@ -11,23 +11,24 @@
 
 namespace kinescope::app {
 
-/// One row a sample with all joints side by side, or one row a sample and joint.
+/// kWide: one row per sample with all joints side by side. kLong: one row per sample and joint.
 enum class Layout { kWide, kLong };
 
 class LoadFile {
  public:
   virtual ~LoadFile() = default;
   virtual void Add(const PersonState& person, std::int64_t begin_nanos) = 0;
-  /// Puts the file in place. `summary`: what goes beside the samples, where the format can.
+  /// Completes the file. `summary`: data beside the samples, for formats that support it.
   virtual void Finish(const nlohmann::json& summary) = 0;
 };
 
-// `path` "-": standard output. Both: @throws std::runtime_error naming the path and the reason,
-// here and from every call.
+// `path` "-": standard output. Both functions and all calls of the result @throw std::runtime_error
+// with the path and the reason.
 
-/// RFC 4180 (but with plain line feeds), with a header line; what is not known is empty.
+/// RFC 4180 (with plain line feeds), with a header line; unknown values are empty.
 std::unique_ptr<LoadFile> MakeCsv(const std::string& path, Layout layout);
-/// {"columns": [...], "samples": [[...], ...], and what `summary` has}; what is not known is null.
+/// {"columns": [...], "samples": [[...], ...], and the members of `summary`}; unknown values are
+/// null.
 std::unique_ptr<LoadFile> MakeJson(const std::string& path);
 
 }  // namespace kinescope::app

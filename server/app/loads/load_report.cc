@@ -78,7 +78,8 @@ std::string Number(double value, int decimals) {
 
 std::string HeadHtml(const LoadTrial& trial, const TrialContext& context) {
   std::string html = fmt::format(
-      "<h1>Joint loads: {}</h1>\n<p class=\"sub\">{}, {} samples, {:.2f} s{}, from {} on</p>\n<dl>",
+      "<h1>Joint loads: {}</h1>\n<p class=\"sub\">{}, {} samples, {:.2f} s{}, starting at "
+      "{}</p>\n<dl>",
       EscapeHtml(context.source), EscapeHtml(TitleOf(trial)), trial.samples(), trial.secs(),
       context.rate_hz > 0 ? fmt::format(" at {:g} Hz", context.rate_hz) : "",
       IsoTime(trial.curves().front().stamp_nanos));
@@ -109,7 +110,7 @@ std::string CaptionHtml(const LoadTrial& trial, const WorstMoment& moment,
   }
   const std::string of =
       std::isfinite(load.capacity)
-          ? fmt::format(", {:.0f} of {:.0f} N m", std::abs(load.deciding_moment), load.capacity)
+          ? fmt::format(", {:.0f} of {:.0f} N·m", std::abs(load.deciding_moment), load.capacity)
           : "";
   return head + fmt::format("{:.2f} ({}), {}{}", load.ratio, Name(load.load_class),
                             EscapeHtml(load.channel), of);
@@ -143,7 +144,7 @@ render::Camera CloseUp(const SceneState& scene, const PersonState& person,
 std::string MomentsHtml(const LoadTrial& trial, render::Renderer& renderer) {
   const render::View view = {560, 410, 2, {}, false};
   const std::vector<WorstMoment> worst = trial.Worst(kPictures);
-  if (worst.empty()) return "<p>No load is known at any time, so there is none to show.</p>\n";
+  if (worst.empty()) return "<p>No load could be computed at any time.</p>\n";
   std::string html = "<div class=\"moments\">\n";
   for (const WorstMoment& moment : worst) {
     if (StopRequested()) throw std::runtime_error("interrupted; the report was not written");
@@ -177,7 +178,7 @@ std::string ExposureHtml(const LoadTrial& trial) {
   }
   html +=
       "<th>P10</th><th>P50</th><th>P90</th><th>peak</th><th>at (s)</th>"
-      "<th class=\"text\">by (N m)</th></tr>\n";
+      "<th class=\"text\">direction (N·m)</th></tr>\n";
   const double all = trial.secs();
   for (std::size_t i = 0; i < urdf::kScoredJoints.size(); ++i) {
     const loads::JointExposure of = trial.exposure().Of(i);
@@ -206,19 +207,20 @@ std::string LegendHtml(const TrialContext& context) {
   return fmt::format(
       "<p class=\"sub\"><i class=\"key low\"></i>low, ratio up to {:.2f}"
       "<i class=\"key medium\"></i>medium<i class=\"key high\"></i>high, above {:.2f}"
-      "<i class=\"key unknown\"></i>not known. Classes follow the ratio with hysteresis and dwell; "
-      "at L5/S1 the worse of moment and compression counts{}.</p>\n",
-      up[0], up[1], context.scene.loads.compression_counts ? "" : " (switched off here)");
+      "<i class=\"key unknown\"></i>unknown. Classes follow the ratio with hysteresis and dwell "
+      "time; L5/S1 shows the higher class of moment and compression{}.</p>\n",
+      up[0], up[1],
+      context.scene.loads.compression_counts ? "" : " (compression is switched off here)");
 }
 
 std::string PersonHtml(const LoadTrial& trial, const TrialContext& context,
                        render::Renderer& renderer) {
   std::string html = "<main>\n" + HeadHtml(trial, context);
-  html += "<h2>Worst moments</h2>\n" + MomentsHtml(trial, renderer);
+  html += "<h2>Highest loads</h2>\n" + MomentsHtml(trial, renderer);
   html += "<h2>Exposure</h2>\n" + ExposureHtml(trial) + LegendHtml(context);
   html += fmt::format("<h2>Load ratio over time</h2>\n<img class=\"plot\" alt=\"\" src=\"{}\">\n",
                       DataUrl("image/svg+xml", render::ToSvg(OverviewFigure(trial, context))));
-  html += "<h2>Assumptions, checks, and what is not known</h2>\n<ul>\n";
+  html += "<h2>Assumptions, checks and unknown loads</h2>\n<ul>\n";
   for (const std::string& note : NotesOf(trial, context)) {
     html += "<li>" + EscapeHtml(note) + "</li>\n";
   }

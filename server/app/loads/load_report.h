@@ -1,5 +1,5 @@
-/// The report of a trial: one page of A4 for each person, self-contained HTML (pictures inside, no
-/// script, nothing from elsewhere).
+/// Writes the report of a trial: one A4 page per person, self-contained HTML (embedded pictures, no
+/// scripts, no external files). One thread.
 #pragma once
 
 #include <filesystem>
@@ -11,9 +11,9 @@
 
 namespace kinescope::app {
 
-/// Who, exposure of every joint, the worst moments as pictures, all ratios over time, what was
-/// assumed or could not be known. @pre trials keep their curves
-/// @throws std::runtime_error naming the path and the reason; RenderError.
+/// Contains person, exposure of every joint, pictures of the times with the highest loads, all
+/// ratios over time, assumptions and unknown loads. @pre trials keep their curves
+/// @throws std::runtime_error with the path and the reason; RenderError.
 void WriteReport(const std::map<int, LoadTrial>& trials, const TrialContext& context,
                  const BackendOptions& backend, const std::filesystem::path& path);
 

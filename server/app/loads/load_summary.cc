@@ -42,7 +42,7 @@ std::string HandsText(const loads::HandLoad& hands) {
   };
   add("right", hands.mass_kg[urdf::kRight]);
   add("left", hands.mass_kg[urdf::kLeft]);
-  add("with both", hands.both_kg);
+  add("both hands", hands.both_kg);
   return text.empty() ? "nothing" : text;
 }
 
@@ -65,7 +65,7 @@ void NoteUnknown(const LoadTrial& trial, std::vector<std::string>& notes) {
     }
   }
   for (const auto& [key, list] : joints) {
-    notes.push_back(fmt::format("Not known for {:.0f} % of the time ({:.2f} s): {}. Why: {}.",
+    notes.push_back(fmt::format("Load unknown for {:.0f} % of the time ({:.2f} s): {} ({}).",
                                 100 * Share(key.second, trial.secs()), key.second, list,
                                 key.first));
   }
@@ -89,15 +89,15 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
   facts.push_back({"mass", fmt::format("{:g} kg", body.mass_kg), body.mass_is_assumed});
   facts.push_back({"stature",
                    fmt::format("{:.2f} m{}", model.human.skeleton.height,
-                               model.lengths_are_measured ? " (from the recording)" : ""),
+                               model.lengths_are_measured ? " (from the source)" : ""),
                    !model.lengths_are_measured && context.scene.height_is_assumed});
-  if (!body.extra_masses.empty()) facts.push_back({"worn", WornText(body), false});
+  if (!body.extra_masses.empty()) facts.push_back({"added mass", WornText(body), false});
   facts.push_back({"body table", urdf::Name(body.table), false});
-  facts.push_back({"in the hands", HandsText(settings.hands), !settings.hands.is_known});
+  facts.push_back({"hand load", HandsText(settings.hands), !settings.hands.is_known});
   facts.push_back(
-      {"ratio of",
+      {"load metric",
        fmt::format(
-           "{} moment to the {} percentile of strength{}", Name(forces.metric),
+           "{} moment relative to the {} percentile of capacity{}", Name(forces.metric),
            Name(settings.strength.percentile),
            settings.strength.factor == 1 ? "" : fmt::format(" x {:g}", settings.strength.factor)),
        false});
@@ -107,8 +107,9 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
   const bool is_static =
       !settings.motion.dynamic || (!forces.is_dynamic && static_secs >= trial.secs() - kRounding);
   facts.push_back(
-      {"accelerations",
-       is_static ? "left out: static" : fmt::format("in, below {:g} Hz", settings.motion.cutoff_hz),
+      {"load mode",
+       is_static ? "static"
+                 : fmt::format("dynamic, accelerations below {:g} Hz", settings.motion.cutoff_hz),
        false});
   return facts;
 }
@@ -122,30 +123,31 @@ std::vector<std::string> NotesOf(const LoadTrial& trial, const TrialContext& con
     assumed += fmt::format("{}{}: {}", assumed.empty() ? "" : "; ", fact.label, fact.value);
   }
   if (!assumed.empty()) {
-    notes.push_back(fmt::format("Assumed, because nobody gave it: {}.", assumed));
+    notes.push_back(fmt::format("Assumed (not specified): {}.", assumed));
   }
   for (const auto& [why, secs] : trial.why_static()) {
     notes.push_back(fmt::format("Static (without accelerations) for {:.0f} % of the time: {}.",
                                 100 * Share(secs, all), why));
   }
   for (const auto& [why, secs] : trial.why_other_metric()) {
-    notes.push_back(fmt::format("Another ratio than asked for, for {:.0f} % of the time: {}.",
-                                100 * Share(secs, all), why));
+    notes.push_back(
+        fmt::format("Load metric differs from the requested one for {:.0f} % of the time: {}.",
+                    100 * Share(secs, all), why));
   }
   NoteUnknown(trial, notes);
   if (const Peak& off = trial.com_difference(); off.count > 0) {
     notes.push_back(fmt::format(
-        "Centre of mass against MVN's own: {:.1f} mm apart on average, {:.1f} mm at most{}.",
-        1e3 * off.mean(), 1e3 * off.most,
+        "Centre of mass: {:.1f} mm from MVN's on average, {:.1f} mm at most{}.", 1e3 * off.mean(),
+        1e3 * off.most,
         trial.com_disagrees_secs() > 0
-            ? fmt::format("; more than 1 cm for {:.2f} s: check sex, lengths and frames",
+            ? fmt::format("; more than 1 cm for {:.2f} s: check sex, segment lengths and frames",
                           trial.com_disagrees_secs())
             : ""));
   }
   if (const Peak& spine = trial.compression(); spine.count > 0) {
     notes.push_back(fmt::format(
         "L5/S1 compression: {:.0f} N on average, {:.0f} N at most (at {:.2f} s); above {:g} N for "
-        "{:.2f} s, above {:g} N for {:.2f} s. One equivalent muscle: good to 25 %.",
+        "{:.2f} s, above {:g} N for {:.2f} s. Single-equivalent-muscle model, accuracy about 25 %.",
         spine.mean(), spine.most, trial.SecsOf(spine.at_nanos), loads::kCompressionLimits[0],
         trial.compression_secs()[0], loads::kCompressionLimits[1], trial.compression_secs()[1]));
   }
@@ -160,7 +162,7 @@ std::string SummaryText(const LoadTrial& trial, const TrialContext& context) {
         fmt::format("  {:<14} {}{}\n", fact.label, fact.value, fact.is_assumed ? " (assumed)" : "");
   }
   text += fmt::format("\n{:<15}{:>7}{:>8}{:>7}{:>9}{:>8}{:>6}{:>6}{:>7}{:>9}  {}\n", "joint", "low",
-                      "medium", "high", "unknown", "p10", "p50", "p90", "peak", "at", "by");
+                      "medium", "high", "unknown", "p10", "p50", "p90", "peak", "at", "direction");
   for (std::size_t i = 0; i < urdf::kScoredJoints.size(); ++i) {
     const loads::JointExposure exposure = trial.exposure().Of(i);
     const auto percent = [&](LoadClass load_class) {
@@ -179,7 +181,7 @@ std::string SummaryText(const LoadTrial& trial, const TrialContext& context) {
         has_peak
             ? fmt::format("{}{}", exposure.peak_channel,
                           std::isfinite(exposure.peak_moment)
-                              ? fmt::format(" {:.1f} of {:.1f} N m", std::abs(exposure.peak_moment),
+                              ? fmt::format(" {:.1f} of {:.1f} N·m", std::abs(exposure.peak_moment),
                                             exposure.peak_capacity)
                               : "")
             : "");

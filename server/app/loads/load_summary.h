@@ -1,5 +1,5 @@
-/// What a trial amounts to, in words and as JSON: who, with which assumptions, exposure of each
-/// joint, what could not be said and why. Pure functions; any thread.
+/// Summarises a trial as text and as JSON: person, assumptions, exposure of each joint, unknown
+/// loads and the reasons. Pure functions; any thread.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -12,34 +12,34 @@
 
 namespace kinescope::app {
 
-/// What is the same for all people of a recording.
+/// Data that are the same for all people of a recording.
 struct TrialContext {
   std::string source;  // its file name, or "demo:lift"
-  double rate_hz = 0;  // 0: not known
+  double rate_hz = 0;  // 0: unknown
   SceneOptions scene;
-  nlohmann::json options;  // by name, as the run took them
+  nlohmann::json options;  // option values of this run, by name
 };
 
-/// A pair of label and value for people; `is_assumed`: nobody said it.
+/// A label and its value for display; `is_assumed`: a default value.
 struct Fact {
   std::string label, value;
   bool is_assumed = false;
 };
 
-/// Sex, mass, height, body table, extra masses, hands, metric, strength, accelerations.
+/// Sex, mass, height, body table, added masses, hand loads, metric, capacity, inertial forces.
 std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context);
 
-/// Sentences about what was assumed, could not be known or is not as asked for, with its share of
-/// the time; empty when there is nothing to say.
+/// Sentences about assumptions, unknown loads and deviations from the options, each with its share
+/// of the time; empty if there are none.
 std::vector<std::string> NotesOf(const LoadTrial& trial, const TrialContext& context);
 
-/// "Person 0", with the name where there is one.
+/// "Person 0", with the name if there is one.
 std::string TitleOf(const LoadTrial& trial);
 
 /// Several lines: title, facts, exposure, notes.
 std::string SummaryText(const LoadTrial& trial, const TrialContext& context);
 
-/// Of one person, as docs/loads.md describes it.
+/// For one person, as described in docs/loads.md.
 nlohmann::json SummaryJson(const LoadTrial& trial, const TrialContext& context);
 
 }  // namespace kinescope::app

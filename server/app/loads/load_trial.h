@@ -1,5 +1,5 @@
-/// One person's loads over a whole recording: what tables, plots and the report of `kinescope
-/// loads` say. States come in one by one; of each only what a plot needs is kept. One thread.
+/// Collects one person's loads over a whole recording, for tables, plots and the report of
+/// `kinescope loads`. States are added one by one; only the data for plots are kept. One thread.
 #pragma once
 
 #include <array>
@@ -16,32 +16,33 @@
 
 namespace kinescope::app {
 
-/// One sample, small: about 300 bytes, so an hour at 60 Hz is 65 MB.
+/// One sample in compact form: about 300 bytes, so an hour at 60 Hz takes 65 MB.
 struct TrialSample {
   struct Joint {
     float ratio = 0;                                   // NaN: unknown
-    Eigen::Vector3f moment = Eigen::Vector3f::Zero();  // N m, in the parent's link axes; or NaN
+    Eigen::Vector3f moment = Eigen::Vector3f::Zero();  // N·m, in the parent's link axes; NaN:
+                                                       // unknown
     LoadClass load_class = LoadClass::kUnknown;
   };
   std::int64_t stamp_nanos = 0;
-  std::array<Joint, urdf::kScoredJointCount> joints;  // in order of kScoredJoints
+  std::array<Joint, urdf::kScoredJointCount> joints;  // in the order of kScoredJoints
   float compression = 0;                              // N, at L5/S1; NaN: unknown
 };
 
-/// A moment that was hard on a joint, whole, to be drawn.
+/// A point in time with a high joint load, with its full scene state for rendering.
 struct WorstMoment {
   LoadClass load_class = LoadClass::kUnknown;
-  double badness = 0;     // ratio, or what L5/S1's compression is on the same scale
+  double badness = 0;     // the ratio, or the L5/S1 compression force on the same scale
   std::size_t joint = 0;  // index into kScoredJoints
   bool by_compression = false;
   std::shared_ptr<const SceneState> scene;
 };
 
-/// By class, then by ratio: a class comes a little later than its ratio, and pictures show the
+/// Ordered by class, then by ratio: a class follows its ratio with a delay, and pictures show the
 /// class.
 bool IsWorse(const WorstMoment& a, const WorstMoment& b);
 
-/// A value's mean and largest over the samples that have it, and when it was largest.
+/// Mean and maximum of a value over the samples that have it, and the time of the maximum.
 struct Peak {
   double sum = 0, most = 0;
   std::int64_t at_nanos = 0;
@@ -50,42 +51,42 @@ struct Peak {
   double mean() const { return sum / static_cast<double>(count); }
 };
 
-/// Time, in seconds, by the reason that was given for it.
+/// Time in seconds, by the reason given for it.
 using SecsByReason = std::map<std::string_view, double>;
 
 class LoadTrial {
  public:
-  /// `keeps_curves`: for plots. `begin_nanos`: time 0 of the recording.
+  /// `keeps_curves`: required for plots. `begin_nanos`: time 0 of the recording, ns.
   LoadTrial(bool keeps_curves, std::int64_t begin_nanos)
       : keeps_curves_(keeps_curves), begin_nanos_(begin_nanos) {}
 
-  /// The next state that has a new sample of this person.
+  /// Adds the next state with a new sample of this person.
   void Add(const std::shared_ptr<const SceneState>& scene, const PersonState& person);
 
-  double SecsOf(std::int64_t stamp_nanos) const;  // since begin_nanos
+  double SecsOf(std::int64_t stamp_nanos) const;  // s since begin_nanos
 
   const PersonState& newest() const;  // @pre Add was called
   std::uint64_t samples() const { return samples_; }
   double secs() const { return exposure_.secs(); }
-  bool knows_anything() const;  // of any joint, at any time
+  bool knows_anything() const;  // true if any joint load is known at any time
   const loads::Exposure& exposure() const { return exposure_; }
   const std::vector<TrialSample>& curves() const { return curves_; }
 
-  /// At most `count`, the worst first, each half a second or more from the others and at least a
-  /// twelfth of the trial; none of unknown loads.
+  /// At most `count`, the highest load first, at least half a second and a twelfth of the trial
+  /// apart; none with unknown loads.
   std::vector<WorstMoment> Worst(std::size_t count) const;
 
-  // Why what was not known, and what was not as asked for.
+  // Time by reason, for unknown loads and for deviations from the options.
   const SecsByReason& why_unknown(std::size_t joint) const { return why_unknown_[joint]; }
   const SecsByReason& why_static() const { return why_static_; }
   const SecsByReason& why_other_metric() const { return why_other_metric_; }
   const SecsByReason& why_no_ground() const { return why_no_ground_; }
 
-  const Peak& com_difference() const { return com_difference_; }  // |ours - MVN's|, m
+  const Peak& com_difference() const { return com_difference_; }  // |com_of_model - MVN's CoM|, m
   double com_disagrees_secs() const { return com_disagrees_secs_; }
   const Peak& compression() const { return compression_; }  // N, L5/S1
-  const Peak& shear() const { return shear_; }              // N, likewise, its size
-  /// Above 3400 N and above 6400 N, s (joint-loads.md 4.4).
+  const Peak& shear() const { return shear_; }              // N, L5/S1, absolute value
+  /// Time above 3400 N and above 6400 N, s (joint-loads.md 4.4).
   const std::array<double, 2>& compression_secs() const { return compression_secs_; }
 
  private:
@@ -97,11 +98,11 @@ class LoadTrial {
   bool keeps_curves_;
   std::int64_t begin_nanos_;
   std::uint64_t samples_ = 0;
-  std::shared_ptr<const SceneState> scene_;  // of the newest
+  std::shared_ptr<const SceneState> scene_;  // the newest
   const PersonState* newest_ = nullptr;      // in scene_
   loads::Exposure exposure_;
   std::vector<TrialSample> curves_;
-  // The worst of each stretch of time; stretches double when there are too many.
+  // The highest load of each time slot; slots double in length when there are too many.
   std::map<std::int64_t, WorstMoment> slots_;
   std::int64_t slot_nanos_ = 250'000'000;
   std::array<SecsByReason, urdf::kScoredJointCount> why_unknown_;

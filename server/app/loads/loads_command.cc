@@ -24,58 +24,61 @@
 #include "server/picture/backend.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
+#include "server/source/scheme.h"
 
 namespace kinescope::app {
 namespace {
 
 struct LoadsOptions {
-  std::string source;
-  std::string csv, json, plots, report;
-  std::string layout = "wide";
-  std::optional<double> seconds;
+  options::Text source, csv, json, plots, report;
+  options::Choice<Layout> layout{{{"wide", Layout::kWide}, {"long", Layout::kLong}}, Layout::kWide};
+  options::Optional<options::Number> seconds{options::Number(0, {0, 1e6, "s", true})};
   PersonOptions person;
   LoadOptions loads;
   BackendOptions backend;
 
-  bool wants_figures() const { return !plots.empty() || !report.empty(); }
+  bool wants_figures() const { return !plots->empty() || !report->empty(); }
+
+  void List(options::OptionList& option) {
+    option("source", source, "source of the people: " + SourceKinds());
+    option.Group("Files");
+    option("csv", csv, "CSV file to write; -: standard output");
+    option("json", json, "JSON file to write, with exposure and provenance; -: standard output");
+    option("layout", layout, "rows of the CSV: one per sample, or one per sample and joint");
+    option("plots", plots, "folder to write, with a PNG and an SVG per joint");
+    option("report", report, "one-page report to write, .html");
+    option("seconds", seconds, "length of the motion to read; default: all (demo: 8 s)");
+    person.List(option);
+    loads.List(option);
+    option.Group("Drawing");
+    backend.List(option);
+  }
 };
 
-// An endless source (the built-in subject) is read this long unless told otherwise: one lift.
-constexpr double kDefaultSecs = 8;
-
-// Every option of a list, by name.
-class OptionJson {
- public:
-  explicit OptionJson(nlohmann::json& out) : out_(out) {}
-  template <class T>
-  void operator()(const std::string& name, const T& value, const std::string&) {
-    out_[name] = value;
+// Of the person and the loads, by name; those that were not given are null.
+nlohmann::json OptionsAsJson(LoadsOptions& values) {
+  options::OptionList list;
+  values.person.List(list);
+  values.loads.List(list);
+  nlohmann::json out = nlohmann::json::object();
+  for (const options::Option& option : list) {
+    const std::string text = option.value->ToText();
+    out[option.name] = !option.value->IsGiven() ? nlohmann::json(nullptr)
+                       : option.value->json_kind() == options::JsonKind::kText
+                           ? nlohmann::json(text)
+                           : nlohmann::json::parse(text);
   }
-  template <class T>
-  void operator()(const std::string& name, const std::optional<T>& value, const std::string&) {
-    out_[name] = value ? nlohmann::json(*value) : nlohmann::json(nullptr);
-  }
-
- private:
-  nlohmann::json& out_;
-};
+  return out;
+}
 
 TrialContext ContextOf(LoadsOptions& options) {
   TrialContext context;
-  const bool is_demo = options.source.rfind("demo:", 0) == 0;
-  context.source =
-      is_demo ? options.source : std::filesystem::path(options.source).filename().string();
-  context.scene = ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads);
-  context.options = nlohmann::json::object();
-  options.person.Visit(OptionJson(context.options));
-  options.loads.Visit(OptionJson(context.options));
+  const std::string& source = *options.source;
+  const bool is_demo = IsSubjectUrl(source);
+  context.source = is_demo ? source : std::filesystem::path(source).filename().string();
+  context.scene = ToSceneOptions(options.person, options.loads);
+  context.options = OptionsAsJson(options);
   return context;
-}
-
-Layout ToLayout(const std::string& text) {
-  if (text == "wide") return Layout::kWide;
-  if (text == "long") return Layout::kLong;
-  throw UsageError(fmt::format("--layout={}: expected wide or long", text));
 }
 
 [[noreturn]] void Interrupted() { throw std::runtime_error("interrupted; nothing was written"); }
@@ -84,14 +87,15 @@ Layout ToLayout(const std::string& text) {
 class Recording {
  public:
   Recording(const LoadsOptions& options, const TrialContext& context)
-      : options_(options), reader_(options.source, context.scene) {
-    if (!options.csv.empty()) files_.push_back(MakeCsv(options.csv, ToLayout(options.layout)));
-    if (!options.json.empty()) files_.push_back(MakeJson(options.json));
+      : options_(options), reader_(*options.source, context.scene) {
+    if (!options.csv->empty()) files_.push_back(MakeCsv(*options.csv, *options.layout));
+    if (!options.json->empty()) files_.push_back(MakeJson(*options.json));
   }
 
   void Read() {
-    std::optional<double> length = options_.seconds;
-    if (!length && options_.source.rfind("demo:", 0) == 0) length = kDefaultSecs;
+    std::optional<double> length;
+    if (options_.seconds) length = *options_.seconds;
+    if (!length && IsSubjectUrl(*options_.source)) length = kSubjectLoadsSecs;
     Progress progress("samples:",
                       length ? static_cast<int>(std::ceil(*length * reader_.rate_hz())) : 0);
     while (const auto scene = reader_.Next()) {
@@ -144,28 +148,26 @@ std::filesystem::path PlaceOfOutput(const std::string& path) {
 
 void CheckOutputsDiffer(const LoadsOptions& options) {
   const auto unless_stdout = [](const std::string& path) { return path == "-" ? "" : path; };
-  const std::pair<const char*, std::string> outputs[] = {{"csv", unless_stdout(options.csv)},
-                                                         {"json", unless_stdout(options.json)},
-                                                         {"report", options.report},
-                                                         {"plots", options.plots}};
+  const std::pair<const char*, std::string> outputs[] = {{"csv", unless_stdout(*options.csv)},
+                                                         {"json", unless_stdout(*options.json)},
+                                                         {"report", *options.report},
+                                                         {"plots", *options.plots}};
   std::map<std::filesystem::path, std::string> taken;  // place: option as it was given
   for (const auto& [name, path] : outputs) {
     if (path.empty()) continue;
     const std::string given = fmt::format("--{}={}", name, path);
     const auto [other, is_new] = taken.insert({PlaceOfOutput(path), given});
     if (is_new) continue;
-    throw UsageError(fmt::format("{} and {}: one file for two outputs; give each a name of its own",
+    throw UsageError(fmt::format("{} and {} write to the same file; give each output its own name",
                                  other->second, given));
   }
 }
 
 void CheckArguments(const LoadsOptions& options) {
-  if (options.seconds && !(*options.seconds > 0 && *options.seconds <= 1e6)) {
-    throw UsageError(fmt::format("--seconds={}: expected more than 0", *options.seconds));
-  }
-  ToLayout(options.layout);
-  if (options.csv == "-" && options.json == "-") {
-    throw UsageError("--csv=- and --json=-: only one of them fits on standard output");
+  if (*options.csv == "-" && *options.json == "-") {
+    throw UsageError(
+        "--csv=- and --json=-: only one output can go to standard output; give the other one a "
+        "file name");
   }
   CheckOutputsDiffer(options);
 }
@@ -189,12 +191,14 @@ bool Loads(LoadsOptions& options) {
   Recording recording(options, context);
   context.rate_hz = recording.rate_hz();
   recording.Read();
-  if (recording.trials().empty()) throw SourceError(options.source + " has no sample of a person");
+  if (recording.trials().empty()) {
+    throw SourceError(*options.source + ": contains no sample of a person");
+  }
 
-  const bool has_stdout = options.csv == "-" || options.json == "-";
-  if (!options.plots.empty()) WritePlots(recording.trials(), context, options.plots);
-  if (!options.report.empty()) {
-    WriteReport(recording.trials(), context, options.backend, options.report);
+  const bool has_stdout = *options.csv == "-" || *options.json == "-";
+  if (!options.plots->empty()) WritePlots(recording.trials(), context, *options.plots);
+  if (!options.report->empty()) {
+    WriteReport(recording.trials(), context, options.backend, *options.report);
   }
   recording.Finish(SummaryOf(recording, context));
   bool knows_anything = false;
@@ -203,32 +207,29 @@ bool Loads(LoadsOptions& options) {
     if (!has_stdout) fmt::print("{}\n", SummaryText(trial, context));
   }
   if (has_stdout && !knows_anything) {
-    fmt::print(stderr, "kinescope: no load in {} is known; why is in the columns called reason\n",
-               options.source);
+    fmt::print(
+        stderr,
+        "kinescope: no load could be computed from {}; for the causes see the reason columns\n",
+        *options.source);
   }
   return knows_anything;
 }
 
 }  // namespace
 
-void AddLoads(CommandLine line) {
-  CLI::App* command =
-      line.app.add_subcommand("loads", "Joint loads of a recording: table, CSV, plots, report");
-  const auto o = std::make_shared<LoadsOptions>();
-  command->add_option("source", o->source, kSourceKinds)->required();
-  command->add_option("--csv", o->csv, "file to write; -: standard output");
-  command->add_option("--json", o->json, "likewise, with exposure and provenance");
-  command
-      ->add_option("--layout", o->layout,
-                   "of the CSV: wide (a row a sample) or long (a row a sample and joint)")
-      ->capture_default_str();
-  command->add_option("--plots", o->plots, "folder for PNG and SVG of every joint");
-  command->add_option("--report", o->report, "one-page report to write, .html");
-  command->add_option("--seconds", o->seconds, "no more than this; default: all (demo: 8)");
-  o->person.Visit(FlagAdder(*command));
-  o->loads.Visit(FlagAdder(*command));
-  o->backend.Visit(FlagAdder(*command));
-  command->callback([o, line] { line.exit_code = Loads(*o) ? 0 : 1; });
+Command LoadsCommand() {
+  const auto values = std::make_shared<LoadsOptions>();
+  Command command;
+  command.name = "loads";
+  command.about =
+      "Computes the joint loads of a recording: table, CSV, JSON, plots, report.\n"
+      "  kinescope loads take.mvnx --hand_load both:10 --csv loads.csv --report report.html";
+  values->List(command.options);
+  command.positionals = {"source"};
+  command.required = {"source"};
+  command.footer = "Exit code: 0 some loads are known, 1 none is, 2 error.";
+  command.run = [values](options::OptionList&) { return Loads(*values) ? 0 : 1; };
+  return command;
 }
 
 }  // namespace kinescope::app

@@ -19,7 +19,7 @@
 namespace kinescope::app {
 namespace {
 
-using nlohmann::json;
+using Report = nlohmann::json;
 
 struct Encoder {
   const char* name;
@@ -31,7 +31,7 @@ constexpr Encoder kEncoders[] = {{"H.264", "h264", "kinescope-probe.mp4"},
                                  {"WebP", "webp", "kinescope-probe.webp"},
                                  {"GIF", "gif", "kinescope-probe.gif"}};
 
-json ProbeEncoder(const Encoder& encoder) {
+Report ProbeEncoder(const Encoder& encoder) {
   try {  // never finished, so it leaves nothing behind
     render::VideoOptions options;
     options.alpha = false;  // known, so that the encoder is opened before the first picture
@@ -43,57 +43,54 @@ json ProbeEncoder(const Encoder& encoder) {
 }
 
 // Whether there is a GPU, and whether one of our back-ends reaches it.
-json Hardware(const json& backends) {
+Report Hardware(const Report& backends) {
   const std::vector<std::string> gpus = FindGpus();
-  const json& device = backends["egl_device"];
+  const Report& device = backends["egl_device"];
   std::string remark;
   if (device["works"]) {
-    remark = "used by --backend egl_device or auto; the default, osmesa, draws in software";
+    remark = "used by --backend egl_device or auto; the default, osmesa, renders in software";
   } else if (!gpus.empty()) {
     remark = "unused: " + device["reason"].get<std::string>();
   }
   return {{"devices", gpus}, {"usable", device["works"]}, {"remark", remark}};
 }
 
-void PrintText(const json& found) {
+void PrintText(const Report& found) {
   fmt::print("Kinescope {}\n", KINESCOPE_VERSION);
   for (const std::string& name : render::BackendNames()) {
-    const json& backend = found["backends"][name];
+    const Report& backend = found["backends"][name];
     if (!backend["works"]) {
       fmt::print("{:<11}{}\n", name, backend["reason"].get<std::string>());
       continue;
     }
-    fmt::print("{:<11}works: {}, OpenGL {}, {:.0f} pictures/s, the first after {:.2f} s\n", name,
+    fmt::print("{:<11}works: {}, OpenGL {}, {:.0f} frames/s, first frame after {:.2f} s\n", name,
                backend["renderer"].get<std::string>(), backend["gl_version"].get<std::string>(),
                backend["pictures_per_second"].get<double>(),
                backend["first_picture_secs"].get<double>());
   }
-  const json& hardware = found["hardware"];
+  const Report& hardware = found["hardware"];
   const auto devices = hardware["devices"].get<std::vector<std::string>>();
   const auto remark = hardware["remark"].get<std::string>();
   fmt::print("GPU        {}{}{}\n",
-             devices.empty() ? "none seen" : fmt::format("{}", fmt::join(devices, ", ")),
+             devices.empty() ? "none found" : fmt::format("{}", fmt::join(devices, ", ")),
              remark.empty() ? "" : "; ", remark);
   for (const Encoder& each : kEncoders) {
-    const json& encoder = found["encoders"][each.key];
+    const Report& encoder = found["encoders"][each.key];
     fmt::print("{:<11}{}\n", each.name,
                encoder["works"] ? "works" : encoder["reason"].get<std::string>());
   }
-  const json& ros = found["ros"];
+  const Report& ros = found["ros"];
   if (!ros["built"]) {
     fmt::print("ROS        not built in\n");
   } else {
     fmt::print("ROS        {} {}\n", ros["master_uri"].get<std::string>(),
-               ros["master_reachable"] ? "answers" : "does not answer");
+               ros["master_reachable"] ? "is reachable" : "is not reachable");
   }
 }
 
 int Probe(bool as_json, double limit_secs) {
-  if (!(limit_secs > 0 && limit_secs <= 3600)) {
-    throw UsageError(fmt::format("--limit_secs={}: expected up to 3600", limit_secs));
-  }
   const std::chrono::milliseconds limit(static_cast<long>(1000 * limit_secs));
-  json found;
+  Report found;
   found["version"] = KINESCOPE_VERSION;
   bool can_draw = false;
   for (const std::string& name : render::BackendNames()) {  // in turn: they share the cores
@@ -107,37 +104,42 @@ int Probe(bool as_json, double limit_secs) {
                   {"master_uri", ros_bridge::MasterUri()},
                   {"master_reachable", ros_bridge::MasterIsReachable()}};
   if (as_json) {
-    fmt::print("{}\n", JsonText(found, 2));
+    fmt::print("{}\n", JsonText(found));
   } else {
     PrintText(found);
   }
   return can_draw ? 0 : 1;
 }
 
+struct ProbeOptions {
+  options::Flag json;
+  options::Number limit_secs{std::chrono::duration<double>(kProbeLimit).count(),
+                             {0, 3600, "s", true}};
+  options::Text draw_with;  // started by ProbeBackend, in a process of its own
+
+  void List(options::OptionList& option) {
+    option("json", json, "print the result as JSON");
+    option("limit_secs", limit_secs, "longest time that a back-end may take to start and draw");
+    option.Group(options::kHidden);
+    option("draw_with", draw_with, "used by probe itself");
+  }
+};
+
 }  // namespace
 
-void AddProbe(CommandLine line) {
-  CLI::App* command =
-      line.app.add_subcommand("probe", "Which GL back-ends, encoders and ROS master are here");
-  const auto as_json = std::make_shared<bool>(false);
-  command->add_flag("--json", *as_json, "as JSON");
-  const auto draw_with = std::make_shared<std::string>();
-  const auto limit_secs =
-      std::make_shared<double>(std::chrono::duration<double>(kProbeLimit).count());
-  command
-      ->add_option("--limit_secs", *limit_secs,
-                   "so long may a back-end take for its start and some pictures")
-      ->capture_default_str();
-  // What ProbeBackend starts, for which there is a process of its own.
-  command->add_option("--draw_with", *draw_with)->group("");
-  int& exit_code = line.exit_code;
-  command->callback([=, &exit_code] {
-    if (draw_with->empty()) {
-      exit_code = Probe(*as_json, *limit_secs);
-    } else {
-      fmt::print("{}\n", JsonText(ToJson(MeasureBackend(*draw_with))));
-    }
-  });
+Command ProbeCommand() {
+  const auto values = std::make_shared<ProbeOptions>();
+  Command command;
+  command.name = "probe";
+  command.about = "Reports the rendering back-ends, encoders and ROS master of this machine";
+  values->List(command.options);
+  command.footer = "Exit code: 0 a back-end works, 1 none works, 2 error.";
+  command.run = [values](options::OptionList&) {
+    if (values->draw_with->empty()) return Probe(*values->json, *values->limit_secs);
+    fmt::print("{}\n", JsonText(ToJson(MeasureBackend(*values->draw_with))));
+    return 0;
+  };
+  return command;
 }
 
 }  // namespace kinescope::app

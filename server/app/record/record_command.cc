@@ -29,12 +29,19 @@ constexpr double kBytesPerMb = 1e6;
 constexpr std::int64_t kStatusEveryNanos = 250'000'000;
 
 struct RecordOptions {
-  std::string source;
-  std::string out;
-  double rotate_mb = 0;
-  double seconds = 0;
-  bool force = false;
-  bool json = false;
+  options::Text source, out;
+  options::Number rotate_mb{0, {0, 1e9, "MB", false, "0: one file"}};
+  options::Number seconds{0, {0, 1e9, "s", false, "0: until Ctrl-C or the end of the file"}};
+  options::Flag force, json;
+
+  void List(options::OptionList& option) {
+    option("source", source, "udp://[address]:port, tcp://[address]:port, a capture or a .bin");
+    option("out", out, "file to write, .pcap; an existing one is replaced only with --force");
+    option("rotate_mb", rotate_mb, "size at which the next file (take-0002.pcap) begins");
+    option("seconds", seconds, "length of the recording");
+    option("force", force, "replace the file, and the numbered ones of --rotate_mb");
+    option("json", json, "print the summary as JSON");
+  }
 };
 
 // Passes datagrams on to the recorder and looks into them on the way, for the people who watch.
@@ -122,20 +129,18 @@ class StatusLine {
 };
 
 void CheckRecordOptions(const RecordOptions& options) {
-  if (!(options.seconds >= 0)) {
-    throw UsageError(fmt::format("--seconds={}: expected 0 (no end) or more", options.seconds));
-  }
   constexpr double kLeastMb = 0.1;
-  if (options.rotate_mb != 0 && !(options.rotate_mb >= kLeastMb && options.rotate_mb <= 1e9)) {
-    throw UsageError(fmt::format("--rotate_mb={}: expected 0 (one file) or at least {}",
-                                 options.rotate_mb, kLeastMb));
+  if (*options.rotate_mb != 0 && *options.rotate_mb < kLeastMb) {
+    throw UsageError(fmt::format("--rotate_mb={}: expected 0 (one file) or {} to 1e9 MB",
+                                 *options.rotate_mb, kLeastMb));
   }
   std::error_code ignored;  // equivalent() minds files that are not there
-  if (fs::path(options.out).extension() != ".pcap") {
-    throw UsageError("--out=" + options.out + ": expected a name that ends in .pcap");
+  if (fs::path(*options.out).extension() != ".pcap") {
+    throw UsageError("--out=" + *options.out + ": expected a name that ends in .pcap");
   }
-  if (fs::equivalent(options.source, options.out, ignored)) {
-    throw UsageError("--out " + options.out + ": is the file that would be read");
+  if (fs::equivalent(*options.source, *options.out, ignored)) {
+    throw UsageError("--out=" + *options.out +
+                     ": output and source are the same file; choose another name");
   }
 }
 
@@ -148,9 +153,9 @@ void Summarise(const RecordOptions& options, const Meter& meter,
   spdlog::info("recorded {} datagrams in {:.1f} s ({} samples, {} people) to {}, {:.1f} MB; {}",
                file.datagrams, meter.seconds(), meter.samples(), meter.people(), files,
                static_cast<double>(file.bytes) / kBytesPerMb, LostText(transport, file));
-  if (!options.json) return;
+  if (!*options.json) return;
   const nlohmann::ordered_json summary = {
-      {"source", options.source},
+      {"source", *options.source},
       {"files", file.files},
       {"bytes", file.bytes},
       {"datagrams", file.datagrams},
@@ -169,27 +174,28 @@ void Summarise(const RecordOptions& options, const Meter& meter,
 
 void Record(const RecordOptions& options) {
   CheckRecordOptions(options);
-  const auto source = mvn::OpenDatagrams(options.source);
+  const auto source = mvn::OpenDatagrams(*options.source);
   if (source == nullptr) {
-    throw SourceError(options.source +
-                      ": has samples, not datagrams; send it (kinescope stream) and record that");
+    throw SourceError(*options.source +
+                      ": only MVN datagrams can be recorded; send this source with kinescope "
+                      "stream and record the stream");
   }
   std::signal(SIGPIPE, SIG_IGN);  // a pipe that is not read any more is an error of writing
   mvn::PcapWriterSettings settings;
-  settings.path = options.out;
-  settings.rotate_bytes = static_cast<std::uint64_t>(options.rotate_mb * kBytesPerMb);
-  settings.force = options.force;
+  settings.path = *options.out;
+  settings.rotate_bytes = static_cast<std::uint64_t>(*options.rotate_mb * kBytesPerMb);
+  settings.force = *options.force;
   using WhenFull = mvn::PcapRecorder::WhenFull;
   mvn::PcapRecorder recorder(settings, source->is_live() ? WhenFull::kDrop : WhenFull::kWait);
   Meter meter(recorder);
-  spdlog::info("recording {} to {}", source->description(), options.out);
+  spdlog::info("recording {} to {}", source->description(), *options.out);
   {
     StatusLine status;
     const std::int64_t start = MonotonicNanos();
     const auto is_over = [&](std::int64_t now) {
-      if (options.seconds <= 0) return false;
+      if (*options.seconds <= 0) return false;
       const double live = Secs(now - start);
-      return (source->is_live() ? live : meter.seconds()) >= options.seconds;
+      return (source->is_live() ? live : meter.seconds()) >= *options.seconds;
     };
     while (!StopRequested()) {
       const auto state = source->Poll(std::chrono::milliseconds(20), meter);
@@ -208,23 +214,23 @@ void Record(const RecordOptions& options) {
 
 }  // namespace
 
-void AddRecord(CommandLine line) {
-  CLI::App* command = line.app.add_subcommand(
-      "record",
-      "Record the stream as a capture (pcap) that Kinescope plays and Wireshark opens.\n"
-      "Every datagram becomes one UDP packet with the real addresses and times, also what came "
-      "over TCP or from a file of raw datagrams.");
-  const auto o = std::make_shared<RecordOptions>();
-  command->add_option("source", o->source, "udp://[address]:port, tcp://..., a capture, a .bin")
-      ->required();
-  command->add_option("--out", o->out, "the file, .pcap; never replaced without --force")
-      ->required();
-  command->add_option("--rotate_mb", o->rotate_mb,
-                      "begin the next file (take-0002.pcap) before one gets larger; 0: one file");
-  command->add_option("--seconds", o->seconds, "stop after so long; 0: at Ctrl-C or a file's end");
-  command->add_flag("--force", o->force, "replace the file, and the numbered ones with rotate_mb");
-  command->add_flag("--json", o->json, "print the summary as JSON");
-  command->callback([o] { Record(*o); });
+Command RecordCommand() {
+  const auto values = std::make_shared<RecordOptions>();
+  Command command;
+  command.name = "record";
+  command.about =
+      "Records the stream as a capture (pcap) that Kinescope plays and Wireshark opens.\n"
+      "Each datagram becomes one UDP packet with its addresses and times, also when it came over "
+      "TCP "
+      "or from a file of raw datagrams.";
+  values->List(command.options);
+  command.positionals = {"source"};
+  command.required = {"source", "out"};
+  command.run = [values](options::OptionList&) {
+    Record(*values);
+    return 0;
+  };
+  return command;
 }
 
 }  // namespace kinescope::app

@@ -1,5 +1,5 @@
-/// Threads that draw. Each has a renderer of its own, made and used there; a picture depends on its
-/// Shot alone, so it does not matter which of them draws it, or when.
+/// Renders pictures on several threads. Each thread makes and uses its own renderer; a picture
+/// depends only on its Shot, so any of them may render it at any time.
 #pragma once
 
 #include <condition_variable>
@@ -20,10 +20,10 @@
 namespace kinescope::app {
 
 struct DrawnPicture : render::Image {
-  std::string layer;  // what is written over it as a file, where Shot::layer asks for it
+  std::string layer;  // its overlays as a vector file, if Shot::layer requests it
 };
 
-/// A picture whose memory goes back to the pool when nobody holds it any more.
+/// A picture whose memory returns to the pool when the last owner releases it.
 using PicturePtr = std::shared_ptr<const DrawnPicture>;
 using FuturePicture = std::shared_future<PicturePtr>;
 
@@ -31,22 +31,23 @@ class DrawPool {
  public:
   using MakeRenderer = std::function<std::unique_ptr<render::Renderer>()>;
 
-  /// Starts the first thread and waits for its renderer; the other `jobs` - 1 make theirs when
-  /// there is work for them. At most `most_pictures` are drawn or held at a time, which bounds
-  /// memory.
-  /// @throws what `make` throws. @pre jobs >= 1, most_pictures >= jobs
+  /// Starts the first thread and waits for its renderer; the other `jobs` - 1 threads start when
+  /// there is work for them. At most `most_pictures` are being rendered or held at a time, which
+  /// limits memory.
+  /// @throws the exceptions of `make`. @pre jobs >= 1, most_pictures >= jobs
   DrawPool(int jobs, std::size_t most_pictures, MakeRenderer make);
 
-  /// Waits for pictures that are being drawn, and for nothing else.
+  /// Waits for the pictures that are being rendered; the other ones are dropped.
   ~DrawPool();
   DrawPool(const DrawPool&) = delete;
   DrawPool& operator=(const DrawPool&) = delete;
 
-  /// Waits until there is room for one more picture, which is then drawn. The future has the
-  /// picture or what went wrong; it is ready when the pool is destroyed, too. Any one thread.
+  /// Waits until there is room for one more picture, then queues it. The future contains the
+  /// picture or the error; the pool's destructor also makes it ready. Call it on one thread, which
+  /// may be any.
   [[nodiscard]] FuturePicture Draw(Shot shot);
 
-  /// Of the renderers, which are all alike.
+  /// Of the renderers, which are all the same.
   const render::RendererInfo& info() const { return info_; }
 
  private:
@@ -68,8 +69,9 @@ class DrawPool {
   std::vector<std::thread> threads_;
 };
 
-/// How many threads draw fastest here, and how many pictures of that size may be held by `jobs`
-/// threads and the encoders behind them: some in hand for each, up to half a gigabyte.
+/// The number of threads that renders fastest on this machine, and the number of pictures of a size
+/// that `jobs` threads and the encoders behind them may hold: several per thread, up to half a
+/// gigabyte.
 int DefaultJobs();
 std::size_t MostPictures(int jobs, int width, int height);
 

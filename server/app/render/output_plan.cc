@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "server/scene/scene_reader.h"
+#include "server/source/scheme.h"
 
 namespace kinescope::app {
 namespace {
@@ -49,17 +49,20 @@ OutputKind KindOf(const std::string& path) {
   const bool is_png = fs::path(path).extension() == ".png";
   const std::size_t numbers = FindNumbers(path).size();
   if (!is_png && !render::ClipFormatOf(path)) {
-    throw UsageError(fmt::format(
-        "--out={}: expected a name that ends in .png (one picture; with %05d in it, a sequence), "
-        ".mp4, .webm, .webp or .gif (a clip)",
-        path));
+    throw UsageError(
+        fmt::format("--out={}: expected a name that ends in .png (a picture, or a sequence if the "
+                    "name contains %05d), .mp4, .webm, .webp or .gif (a clip)",
+                    path));
   }
   if (numbers > 1) {
-    throw UsageError(
-        fmt::format("--out={}: expected one place for the number of the picture", path));
+    throw UsageError(fmt::format(
+        "--out={}: more than one number pattern in the name; expected one, such as %05d", path));
   }
   if (numbers == 1 && !is_png) {
-    throw UsageError(fmt::format("--out={}: only .png files are numbered", path));
+    throw UsageError(
+        fmt::format("--out={}: numbered names are supported only for .png; remove the number "
+                    "pattern, or write a PNG sequence",
+                    path));
   }
   if (!is_png) return OutputKind::kClip;
   return numbers == 1 ? OutputKind::kSequence : OutputKind::kStill;
@@ -84,7 +87,7 @@ std::string AsName(const std::string& text) {
 
 std::string NameOfSource(const std::string& source) {
   if (source == "-") return "stdin";
-  if (source.rfind("demo:", 0) == 0) return AsName(source);
+  if (IsSubjectUrl(source)) return AsName(source);
   fs::path stem = fs::path(source).filename();
   for (const char* packed : {".gz", ".xz", ".zst", ".bz2", ".lz4"}) {
     if (stem.extension() == packed) stem = stem.stem();
@@ -97,14 +100,15 @@ void CheckPlace(const std::string& path) {
   const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
   if (!fs::is_directory(folder, ignored)) {
     throw UsageError(
-        fmt::format("--out={}: there is no folder {}; make it first", path, folder.string()));
+        fmt::format("--out={}: folder {} does not exist; create it first", path, folder.string()));
   }
   if (::access(folder.c_str(), W_OK) != 0) {
-    throw UsageError(fmt::format("--out={}: folder {} may not be written", path, folder.string()));
+    throw UsageError(
+        fmt::format("--out={}: no write permission for folder {}", path, folder.string()));
   }
   if (fs::is_directory(path, ignored)) {
     throw UsageError(
-        fmt::format("--out={}: is a folder; give a name in it, such as {}/%05d.png", path, path));
+        fmt::format("--out={}: is a folder; name a file in it, such as {}/%05d.png", path, path));
   }
 }
 
@@ -117,11 +121,11 @@ void CheckNames(const std::vector<SourcePlan>& plans) {
       const auto [found, is_new] = seen.insert({path, {plan.source, output.camera}});
       if (is_new) continue;
       const auto& [source, camera] = found->second;
-      const char* way_out = source != plan.source     ? "put {source} into the name"
-                            : camera != output.camera ? "put {camera} into the name"
-                                                      : "give it once";
+      const char* way_out = source != plan.source     ? "add {source} to the name"
+                            : camera != output.camera ? "add {camera} to the name"
+                                                      : "give each output only once";
       throw UsageError(
-          fmt::format("--out={}: two outputs would have this name; {}", output.path, way_out));
+          fmt::format("--out={}: two outputs have this name; {}", output.path, way_out));
     }
   }
 }
@@ -138,37 +142,32 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
   }
   const MomentOptions& moment = options.moment;
   if (moment.frame && moment.time) {
-    throw UsageError("--frame and --time both choose the picture; give one of them");
+    throw UsageError("--sample and --time both select the picture; give only one of them");
   }
-  if (!moment.overlay_layer.empty()) {
-    ToLayerFormat(moment.overlay_layer);
-    if (!has_still) {
-      throw UsageError(
-          "--overlay_layer is beside one picture; give --out a name that ends in .png");
-    }
+  if (moment.overlay_layer && !has_still) {
+    throw UsageError(
+        "--overlay_layer is written beside one picture; give --out a name that ends in .png");
   }
   if (!has_still && (moment.frame || moment.time)) {
     throw UsageError(
-        "--frame and --time choose one picture; give --out a name that ends in .png (of a clip, "
-        "--start and --seconds choose the part)");
-  }
-  if (moment.frame && *moment.frame < 0) {
-    throw UsageError(fmt::format("--frame={}: the first one is 0", *moment.frame));
-  }
-  if (moment.time && !(*moment.time >= 0 && *moment.time <= kLatestSecs)) {
-    throw UsageError(fmt::format("--time={}: expected 0 to {:.0f} s", *moment.time, kLatestSecs));
+        "--sample and --time apply to still pictures only; use --out NAME.png, or select a part of "
+        "the clip with --start and --seconds");
   }
   const ClipOptions& clip = options.clip;
-  if (!has_clip && (clip.seconds || clip.end || clip.start != 0)) {
+  if (!has_clip && (clip.seconds || clip.end || *clip.start != 0)) {
     throw UsageError(
-        "--start, --seconds and --end choose a part of the motion; give --out the name of a clip "
-        "(.mp4, .webm, .webp, .gif) or of a sequence (%05d.png), or choose a picture with --time");
+        "--start, --seconds and --end apply to clips and sequences only; use --out with a clip "
+        "name (.mp4, .webm, .webp, .gif) or a sequence name (%05d.png), or select a picture with "
+        "--time");
   }
   if (!has_crf && options.pack.crf) {
-    throw UsageError(fmt::format("--crf={}: only .mp4 and .webm have it", *options.pack.crf));
+    throw UsageError(fmt::format(
+        "--crf={}: applies to .mp4 and .webm only; for .webp use --quality", *options.pack.crf));
   }
-  if (!has_quality && options.pack.quality != PackOptions().quality) {
-    throw UsageError(fmt::format("--quality={}: only .webp has it", options.pack.quality));
+  if (!has_quality && *options.pack.quality != *PackOptions().quality) {
+    throw UsageError(
+        fmt::format("--quality={}: applies to .webp only; for .mp4 and .webm use --crf",
+                    *options.pack.quality));
   }
 }
 
@@ -191,32 +190,14 @@ std::string PathOfPicture(const std::string& pattern, long k) {
          pattern.substr(place.begin + place.size);
 }
 
-std::vector<std::string> SplitCameras(const std::string& text) {
-  std::vector<std::string> cameras(1);
-  int depth = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char next = i + 1 < text.size() ? text[i + 1] : 'x';
-    depth += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
-    const bool ends =
-        text[i] == ',' && depth == 0 && !IsDigit(next) && next != '-' && next != '+' && next != '.';
-    if (ends) {
-      cameras.emplace_back();
-    } else {
-      cameras.back() += text[i];
-    }
-  }
-  return cameras;
-}
-
 std::vector<SourcePlan> PlanOutputs(const RenderOptions& options) {
-  const std::vector<std::string> cameras = SplitCameras(options.view.camera);
   std::vector<SourcePlan> plans;
-  for (const std::string& source : options.sources) {
+  for (const std::string& source : *options.sources) {
     SourcePlan plan{source, {}};
-    for (const std::string& out : options.outs) {
-      for (const std::string& camera : cameras) {
-        Output output{out, OutputKind::kStill, camera};
-        Replace(output.path, "{camera}", AsName(camera));
+    for (const std::string& out : *options.outs) {
+      for (const CameraChoice& camera : *options.view.camera) {
+        Output output{out, OutputKind::kStill, camera.text};
+        Replace(output.path, "{camera}", AsName(camera.text));
         Replace(output.path, "{source}", NameOfSource(source));
         output.kind = KindOf(output.path);
         CheckPlace(output.path);

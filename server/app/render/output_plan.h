@@ -1,4 +1,5 @@
-/// Which files `kinescope render` is to make of which source, told before anything is read.
+/// Plans which files `kinescope render` makes from which source, before anything is read. Reads the
+/// file system. Any thread.
 #pragma once
 
 #include <string>
@@ -10,14 +11,14 @@ namespace kinescope::app {
 
 enum class OutputKind {
   kStill,     // one PNG
-  kSequence,  // a PNG for every picture, numbered from 0
+  kSequence,  // one PNG per picture, numbered from 0
   kClip,      // .mp4, .webm, .webp, .gif
 };
 
 struct Output {
-  std::string path;  // of a sequence: with the place of the number in it
+  std::string path;  // of a sequence: with a placeholder for the number
   OutputKind kind = OutputKind::kStill;
-  std::string camera;  // one of those that --camera names
+  std::string camera;  // one of those in --camera
 };
 
 struct SourcePlan {
@@ -25,21 +26,17 @@ struct SourcePlan {
   std::vector<Output> outputs;  // at least one
 };
 
-/// `{source}` and `{camera}` in --out are replaced; a `%05d` (as in ffmpeg) or `#####` (as in
-/// Blender) before .png makes a sequence. Folders are there and can be written, no name comes up
-/// twice, options fit what is made.
-/// @throws UsageError naming option, value and what was expected.
+/// Replaces `{source}` and `{camera}` in --out; a `%05d` (as in ffmpeg) or `#####` (as in Blender)
+/// before .png makes a sequence. Checks that the folders exist and are writable, that no name
+/// occurs twice, and that the options fit the outputs.
+/// @throws UsageError with option, value and expected form.
 std::vector<SourcePlan> PlanOutputs(const RenderOptions& options);
 
-/// The path of picture `k`, counted from 0, of a sequence.
+/// The path of picture `k`, from 0, of a sequence.
 std::string PathOfPicture(const std::string& pattern, long k);
 
-/// Whether a clip of that name is packed to a constant quality (--crf), or to --quality.
+/// Whether a clip with that name is encoded to a constant quality (--crf), or to --quality.
 bool HasCrf(const std::string& path);
 bool HasQuality(const std::string& path);
-
-/// "front,top" -> front, top. Commas within parentheses, and those that are followed by a digit, a
-/// sign or a point, belong to the camera.
-std::vector<std::string> SplitCameras(const std::string& text);
 
 }  // namespace kinescope::app

@@ -1,5 +1,5 @@
-/// One output of `kinescope render` while it is made: pictures go in as promises and are written by
-/// threads of its own.
+/// Writes one output of `kinescope render`: pictures are added as futures and written on separate
+/// threads. One thread calls it.
 #pragma once
 
 #include <functional>
@@ -14,33 +14,33 @@
 
 namespace kinescope::app {
 
-/// What is written into a file about the picture in it; of a sequence, about its number `k`.
+/// Metadata to write into a file about its picture; `k`: number in a sequence.
 using MetadataOf =
     std::function<std::map<std::string, std::string>(const render::Camera& camera, long k)>;
 
 class OutputSink {
  public:
-  virtual ~OutputSink() = default;  // leaves no half file
+  virtual ~OutputSink() = default;  // leaves no partial file
   OutputSink(const OutputSink&) = delete;
   OutputSink& operator=(const OutputSink&) = delete;
 
-  /// Pictures of a clip come in order. @throws what went wrong with an earlier one.
+  /// Pictures of a clip must be added in order. @throws the error of an earlier picture.
   virtual void Put(long k, FuturePicture picture, const render::Camera& camera) = 0;
 
-  /// Waits until the file is there. @throws std::runtime_error naming it and the reason.
+  /// Waits until the file is complete. @throws std::runtime_error with the file and the reason.
   virtual void Finish() = 0;
 
  protected:
   OutputSink() = default;
 };
 
-/// One PNG, or a sequence of them on `threads` threads. `layer_path`: the file for the layer of one
-/// picture (DrawnPicture::layer); "" none.
+/// One PNG, or a sequence of them on `threads` threads. `layer_path`: the vector file of the
+/// overlays of one picture (DrawnPicture::layer); "": none.
 std::unique_ptr<OutputSink> MakePngSink(const std::string& path, int threads, MetadataOf metadata,
                                         const std::string& layer_path = {});
 
-/// A clip on a thread of its own. `options`: without metadata.
-/// @throws what MakeVideoWriter throws, here and from Put.
+/// A clip on its own thread. `options`: without metadata.
+/// @throws the exceptions of MakeVideoWriter, here and from Put.
 std::unique_ptr<OutputSink> MakeClipSink(const std::string& path, const render::View& view,
                                          render::VideoOptions options, MetadataOf metadata);
 

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "core/json_text.h"
 #include "core/sha256.h"
@@ -15,88 +15,49 @@
 #include "render/png_file.h"
 #include "server/options/option_list.h"
 #include "server/scene/scene_options.h"
+#include "server/source/scheme.h"
 
 namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSchema = 1;
 constexpr const char* kCapacityTable = "Stobbe 1982, Delp 1996, Vasavada 2001 (docs/loads.md)";
 
-// Option names and values; those that nobody gave and that have no default are left out.
-class ValueGetter {
- public:
-  explicit ValueGetter(Json& values) : values_(values) {}
-
-  template <class T>
-  void operator()(const std::string& name, const T& value, const std::string& = {}) {
-    if constexpr (OptionalOf<T>::value) {
-      if (value) values_[name] = *value;
-    } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {
-      values_[name] = fmt::format("{}", fmt::join(value, ";"));  // as ParseOption reads it
-    } else {
-      values_[name] = value;
-    }
+// Options that were given or have a default, by name.
+Json ValuesOf(const options::OptionList& list) {
+  Json values = Json::object();
+  for (const options::Option& option : list) {
+    if (!option.value->IsGiven()) continue;
+    const std::string text = option.value->ToText();
+    values[option.name] =
+        option.value->json_kind() == options::JsonKind::kText ? Json(text) : Json::parse(text);
   }
+  return values;
+}
 
- private:
-  Json& values_;
-};
-
-// Files that the value of an option names: the whole of it, what follows a colon ("mesh:FOLDER"),
-// and parts of a list.
-class FileFinder {
- public:
-  template <class T>
-  void operator()(const std::string& name, const T& value, const std::string& = {}) {
-    if constexpr (std::is_same_v<T, std::string>) Look(name, value);
-    if constexpr (std::is_same_v<T, std::vector<std::string>>) {
-      for (const std::string& each : value) Look(name, each);
-    }
-  }
-
-  const Json& found() const { return found_; }
-
- private:
-  void Look(const std::string& name, const std::string& value) {
-    if (name == "title") return;
-    std::vector<std::string> candidates = {value};
-    for (std::size_t at = value.find_first_of(":,"); at != std::string::npos;
-         at = value.find_first_of(":,", at + 1)) {
-      const std::size_t end = value.find(',', at + 1);
-      candidates.push_back(value.substr(at + 1, end - at - 1));
-    }
-    candidates.push_back(value.substr(0, value.find(',')));
-    std::sort(candidates.begin(), candidates.end());
-    candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-    for (const std::string& path : candidates) Add(name, path);
-  }
-
-  void Add(const std::string& name, const fs::path& path) {
-    std::error_code ignored;
-    if (fs::is_regular_file(path, ignored)) {
+// The files that the options read, with their SHA-256.
+Json InputsOf(const options::OptionList& list) {
+  Json inputs = Json::array();
+  for (const options::Option& option : list) {
+    std::vector<fs::path> files = option.value->Files();
+    std::sort(files.begin(), files.end());
+    for (const fs::path& path : files) {
+      std::error_code ignored;
+      if (!fs::is_regular_file(path, ignored)) continue;  // drawing will say so
       const FileDigest digest = DigestOf(path);
-      found_.push_back({{"option", name},
+      inputs.push_back({{"option", option.name},
                         {"name", path.filename().string()},
                         {"sha256", digest.sha256},
                         {"bytes", digest.bytes}});
-    } else if (path != "." && path != "/" && fs::is_directory(path, ignored)) {
-      std::vector<fs::path> files;
-      for (const auto& entry : fs::directory_iterator(path, ignored)) {
-        if (entry.is_regular_file(ignored)) files.push_back(entry.path());
-      }
-      std::sort(files.begin(), files.end());
-      for (const fs::path& file : files) Add(name, file);
     }
   }
-
-  Json found_ = Json::array();
-};
+  return inputs;
+}
 
 Json DescribeSource(const std::string& source, bool& is_repeatable) {
   std::error_code ignored;
-  if (source.rfind("demo:", 0) == 0) return {{"name", source}};
+  if (IsSubjectUrl(source)) return {{"name", source}};
   is_repeatable = fs::is_regular_file(source, ignored);
   if (!is_repeatable) return {{"name", fs::path(source).filename().string()}};
   const FileDigest digest = DigestOf(source);
@@ -131,15 +92,15 @@ std::vector<double> ToList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z
 Provenance::Provenance(const RenderOptions& options, const std::string& source,
                        const render::RendererInfo& renderer)
     : options_(options) {
-  FileFinder finder;
-  RenderOptions copy = options;  // Visit() gives references that can be written
-  copy.view.Visit(finder);
-  copy.person.Visit(finder);
-  copy.loads.Visit(finder);
+  RenderOptions copy = options;  // a list refers to values that can be set
+  options::OptionList list;
+  copy.view.List(list);
+  copy.person.List(list);
+  copy.loads.List(list);
   shared_ = {{"kinescope", KINESCOPE_VERSION},
-             {"schema", kSchema},
+             {"schema", kProvenanceSchema},
              {"source", DescribeSource(source, is_repeatable_)},
-             {"inputs", finder.found()},
+             {"inputs", InputsOf(list)},
              {"renderer", renderer.renderer},
              {"gl_version", renderer.gl_version},
              {"backend", renderer.backend},
@@ -151,22 +112,23 @@ Json Provenance::Of(const Output& output, std::optional<long> number) const {
   Json result = shared_;
   result["kind"] = NameOf(output.kind);
   result["format"] = fs::path(output.path).extension().string().substr(1);
-  Json values;
   RenderOptions copy = options_;
-  copy.view.camera = output.camera;
+  copy.view.camera.Parse(output.camera);
+  options::OptionList list;
   if (output.kind == OutputKind::kStill) {
-    copy.moment.Visit(ValueGetter(values));
+    copy.moment.List(list);
   } else {
-    copy.clip.Visit(ValueGetter(values));
+    copy.clip.List(list);
   }
+  copy.view.List(list);
+  copy.person.List(list);
+  copy.loads.List(list);
+  Json values = ValuesOf(list);
   if (HasCrf(output.path)) {
     if (copy.pack.crf) values["crf"] = *copy.pack.crf;
   } else if (output.kind == OutputKind::kClip) {
-    values["quality"] = copy.pack.quality;
+    values["quality"] = *copy.pack.quality;
   }
-  copy.view.Visit(ValueGetter(values));
-  copy.person.Visit(ValueGetter(values));
-  copy.loads.Visit(ValueGetter(values));
   if (number) {
     result["number"] = *number;
     values.erase("seconds");  // a picture is the same in a longer sequence
@@ -184,28 +146,33 @@ Json Describe(const render::Camera& camera) {
 }
 
 RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
-  if (provenance.value("schema", 0) != kSchema ||
+  const int schema = provenance.value("schema", 0);
+  if (schema < 1 || schema > kProvenanceSchema ||
       !provenance.value("options", Json()).is_object()) {
     throw std::runtime_error(
-        fmt::format("its provenance is of another program or of a newer Kinescope ({})",
+        fmt::format("provenance from an unknown program or a newer Kinescope ({})",
                     provenance.value("kinescope", "unknown")));
   }
   const Json& values = provenance.at("options");
-  ValueSetter setter([&values](const std::string& name) -> std::optional<std::string> {
+  const auto lookup = [&values](const std::string& name) -> std::optional<options::Found> {
     const auto found = values.find(name);
     if (found == values.end()) return std::nullopt;
-    return found->is_string() ? found->get<std::string>() : JsonText(*found);
-  });
+    const std::string text = found->is_string() ? found->get<std::string>() : JsonText(*found);
+    if (text.empty()) return std::nullopt;  // schema 1 has "" where nothing was given
+    return options::Found{text, "provenance: "};
+  };
   RenderOptions options;
-  options.moment.Visit(setter);
-  options.clip.Visit(setter);
-  options.pack.Visit(setter);
-  options.view.Visit(setter);
-  options.person.Visit(setter);
-  options.loads.Visit(setter);
+  options::OptionList list;
+  options.moment.List(list);
+  options.clip.List(list);
+  options.pack.List(list);
+  options.view.List(list);
+  options.person.List(list);
+  options.loads.List(list);
+  options::SetFrom(lookup, options::Channel::kFile, list);
   // A .gif names a quality, too, which it does not have.
-  if (!HasQuality(path)) options.pack.quality = PackOptions().quality;
-  options.outs = {path};
+  if (!HasQuality(path)) options.pack.quality = *PackOptions().quality;
+  options.outs = std::vector<std::string>{path};
   return options;
 }
 

@@ -1,6 +1,6 @@
-/// Where a picture came from: everything that decides its pixels, as JSON, in the file and beside
-/// it. Two files whose provenance is equal show the same. One thread at a time per object; the
-/// functions have no state.
+/// Describes where a picture came from: everything that determines its pixels, as JSON, in the file
+/// and beside it. Two files with equal provenance show the same. An object belongs to one thread at
+/// a time; the functions have no state.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -16,21 +16,24 @@ namespace kinescope::app {
 
 using Json = nlohmann::ordered_json;
 
+/// 2: inputs are those that the options read. 1: they were guessed from texts of options.
+inline constexpr int kProvenanceSchema = 2;
+
 /// The keyword of a PNG's text chunk. Clips have it as their comment.
 inline constexpr const char* kProvenanceKey = "Kinescope";
 
-/// What all outputs of one source share: reads the source and every file that an option names, for
-/// their SHA-256. @throws SourceError.
+/// The part that all outputs of one source share. Computes the SHA-256 of the source and of every
+/// file in the options. @throws SourceError.
 class Provenance {
  public:
   Provenance(const RenderOptions& options, const std::string& source,
              const render::RendererInfo& renderer);
 
-  /// What decides the pixels of `output`. `number`: of one picture of a sequence.
+  /// Everything that determines the pixels of `output`. `number`: one picture of a sequence.
   Json Of(const Output& output, std::optional<long> number = {}) const;
 
-  /// Whether the source can be read again and is known by its content: neither a pipe nor
-  /// standard input.
+  /// Whether the source can be read again and is identified by its content: false for a pipe and
+  /// for standard input.
   bool is_repeatable() const { return is_repeatable_; }
 
  private:
@@ -41,30 +44,30 @@ class Provenance {
 
 Json Describe(const render::Camera& camera);
 
-/// Options back from what Of() gave, and one output that is called `path`.
-/// @throws std::runtime_error for a provenance of another program or a newer one.
+/// The options that gave `provenance`, with one output named `path`.
+/// @throws std::runtime_error for a provenance of another program or of a newer version.
 RenderOptions OptionsOf(const Json& provenance, const std::string& path);
 
 /// As text for a file: ASCII, one line.
 std::string ToText(const Json& provenance);
-/// The other way; nullopt for what is none.
+/// Parses such a text; nullopt if it is not a provenance.
 std::optional<Json> FromText(const std::string& text);
 
-/// Whether two tell of the same pixels: without what follows from the rest (camera, size of the
-/// file, ...).
+/// Whether two provenances describe the same pixels; ignores values that follow from others
+/// (camera, size of the file, ...).
 [[nodiscard]] bool DecideTheSame(const Json& a, const Json& b);
 
-/// What the file `path` says of itself: nullopt where it says nothing, is missing or no picture.
+/// The provenance in the file `path`; nullopt if it has none, is missing or is not a picture.
 std::optional<Json> ReadEmbedded(const std::string& path);
 
-/// FILE.json, beside every output.
+/// The path of the sidecar file of an output: FILE.json.
 std::string SidecarOf(const std::string& path);
 std::optional<Json> ReadSidecar(const std::string& path);
-/// Writes FILE.json: `provenance`, the path of the source, the number of pictures and, unless the
-/// output is a sequence, the finished file's size and SHA-256. @throws std::runtime_error.
+/// Writes FILE.json: `provenance`, the path of the source, the number of pictures and, except for a
+/// sequence, size and SHA-256 of the finished file. @throws std::runtime_error.
 void WriteSidecar(const Output& output, Json provenance, const std::string& source, long pictures);
 
-/// Whether `output` lies there finished, whole and drawn from `provenance`.
+/// Whether the file of `output` exists, is complete and was rendered with `provenance`.
 [[nodiscard]] bool IsFinished(const Output& output, const Json& provenance, bool has_sidecar);
 
 }  // namespace kinescope::app

@@ -43,8 +43,6 @@ struct PlannerKey {
   }
 };
 
-bool IsEndless(const std::string& source) { return source.rfind("demo:", 0) == 0; }
-
 class Job {
  public:
   Job(const RenderOptions& options, const SourcePlan& plan, const JobSettings& settings,
@@ -53,9 +51,9 @@ class Job {
         plan_(plan),
         settings_(settings),
         pool_(pool),
-        people_(ToSceneOptions(options.person, SceneOptions().stale_secs, options.loads)),
+        people_(ToSceneOptions(options.person, options.loads)),
         reader_(plan.source, people_),
-        grid_(ToTimeGrid(options.clip, IsEndless(plan.source))),
+        grid_(ToTimeGrid(options.clip, IsSubjectUrl(plan.source))),
         provenance_(options, plan.source, pool.info()),
         extras_(options.view, options.backend, people_) {
     for (const Output& output : plan.outputs) AddOutput(output);
@@ -90,7 +88,7 @@ class Job {
     const PlannerKey key{output.camera, output.kind == OutputKind::kStill};
     if (planners_.count(key) == 0) {
       ViewOptions view = options_.view;
-      view.camera = output.camera;
+      view.camera.Parse(output.camera);
       planners_.try_emplace(key, view, extras_);
     }
     if (output.kind == OutputKind::kClip && !run.is_finished) {
@@ -104,9 +102,11 @@ class Job {
   render::VideoOptions PackingOf(const Output& output) const {
     render::VideoOptions options;
     options.rate = grid_.rate;
-    if (HasCrf(output.path)) options.crf = options_.pack.crf;
-    options.quality = options_.pack.quality;
-    options.alpha = options_.view.background == "transparent";
+    if (HasCrf(output.path) && options_.pack.crf) {
+      options.crf = static_cast<int>(*options_.pack.crf);
+    }
+    options.quality = static_cast<int>(*options_.pack.quality);
+    options.alpha = options_.view.background->is_transparent;
     return options;
   }
 
@@ -119,8 +119,8 @@ class Job {
     if (planners.empty()) return;
     if (!provenance_.is_repeatable()) {
       throw UsageError(plan_.source +
-                       ": can be read only once, but --plot, --orbit turn and --fit clip need to "
-                       "know all of it first; store it in a file");
+                       ": can be read only once, but --plot, --orbit=turn and --fit=clip need two "
+                       "passes; save it to a file first");
     }
     std::optional<double> end;
     if (grid_.length_nanos) end = Secs(grid_.start_nanos + *grid_.length_nanos);
@@ -177,7 +177,7 @@ class Job {
       is_sequence = is_sequence || each.output.kind == OutputKind::kSequence;
     }
     throw std::runtime_error("interrupted; not finished: " + left +
-                             (is_sequence ? " (the same command goes on where it stopped)" : ""));
+                             (is_sequence ? " (run the same command again to resume)" : ""));
   }
 
   // The next sample; the one that a still by number shows is drawn as it passes.
@@ -190,7 +190,7 @@ class Job {
     for (auto& [key, planner] : planners_) {
       if (key.is_still && !still_is_drawn_ && planner.history_secs() > 0) planner.Remember(*state);
     }
-    if (HasWork(true) && !options_.moment.time && number == options_.moment.frame.value_or(0)) {
+    if (HasWork(true) && !options_.moment.time && number == options_.moment.frame.value_or(0L)) {
       DrawStills(*state);
     }
     return state;
@@ -202,8 +202,8 @@ class Job {
     const bool has_number = HasWork(true) && !options_.moment.time;
     while (has_number && !still_is_drawn_) {
       if (Next() == nullptr) {
-        throw UsageError(fmt::format("--frame={}: {} has {} frames, the first is 0",
-                                     options_.moment.frame.value_or(0), plan_.source, samples_));
+        throw UsageError(fmt::format("--sample={}: {} has only {} samples, counted from 0",
+                                     options_.moment.frame.value_or(0L), plan_.source, samples_));
       }
     }
   }
@@ -219,7 +219,9 @@ class Job {
         auto scene = timeline.AtNanos(moment);
         if (!scene) {
           throw UsageError(
-              fmt::format("--time={}: {} ends before", *options_.moment.time, plan_.source));
+              fmt::format("--time={}: {} ends before this time; choose an earlier one this time; "
+                          "choose an earlier one",
+                          *options_.moment.time, plan_.source));
         }
         DrawStills(*scene);
         has_moment = false;
@@ -239,10 +241,10 @@ class Job {
   void CheckNotEmpty(long pictures) const {
     if (pictures > 0) return;
     if (samples_ > 0 && grid_.start_nanos > 0) {
-      throw UsageError(
-          fmt::format("--start={}: {} ends before", options_.clip.start, plan_.source));
+      throw UsageError(fmt::format("--start={}: {} ends before this time; choose an earlier one",
+                                   *options_.clip.start, plan_.source));
     }
-    throw UsageError(plan_.source + " has no frame to show");
+    throw UsageError(plan_.source + ": contains no sample to render");
   }
 
   // A picture is let go of before the next one is drawn: the pool may have room for one alone.
@@ -258,8 +260,8 @@ class Job {
       }
       if (takers.empty()) continue;
       Shot shot = planner.Only(scene, secs);
-      if (!options_.moment.overlay_layer.empty()) {
-        shot.layer = ToLayerFormat(options_.moment.overlay_layer);
+      if (options_.moment.overlay_layer) {
+        shot.layer = *options_.moment.overlay_layer;
         shot.view.overlays = false;
       }
       const render::Camera pose = shot.camera;
@@ -326,8 +328,8 @@ class Job {
   std::map<std::string, std::string> MetadataFor(const Output& output,
                                                  const Json& provenance) const {
     std::map<std::string, std::string> text;
-    if (!options_.view.title.empty()) {
-      text[output.kind == OutputKind::kClip ? "title" : "Title"] = options_.view.title;
+    if (!options_.view.title->empty()) {
+      text[output.kind == OutputKind::kClip ? "title" : "Title"] = *options_.view.title;
     }
     if (output.kind == OutputKind::kClip) {
       text["comment"] = ToText(provenance);
@@ -359,9 +361,9 @@ class Job {
 
   // "" where what is written over the picture stays in it.
   std::string LayerPathOf(const Output& output) const {
-    const std::string& format = options_.moment.overlay_layer;
-    if (format.empty()) return "";
-    return std::filesystem::path(output.path).replace_extension(format);
+    if (!options_.moment.overlay_layer) return "";
+    return std::filesystem::path(output.path)
+        .replace_extension(options_.moment.overlay_layer.ToText());
   }
 
   const RenderOptions& options_;

@@ -1,5 +1,6 @@
-/// One source to all of its outputs, in one pass: scenes are read and shots planned here, in order;
-/// they are drawn by a DrawPool and written by each output's own threads, while this one goes on.
+/// Renders one source to all of its outputs in one pass. The calling thread reads scenes and plans
+/// shots, in order; a DrawPool renders them, and the threads of each output write them at the same
+/// time.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +19,22 @@ struct OutputResult {
   std::string out;
   OutputKind kind = OutputKind::kStill;
   long pictures = 0;          // of the output
-  long drawn = 0;             // of these, now; the others were there already
-  double secs = 0;            // how long it shows them; of a clip or sequence
-  double took_secs = 0;       // to draw and write them
-  std::uint32_t counter = 0;  // of the sample that a still shows
+  long drawn = 0;             // of these, rendered in this run; the others were up to date
+  double secs = 0;            // duration of the clip or sequence, s
+  double took_secs = 0;       // time to render and write them, s
+  std::uint32_t counter = 0;  // sample counter of a still
 };
 
-/// How a job is run: nothing of it changes a pixel.
+/// How a job is run; nothing here changes a pixel.
 struct JobSettings {
   int jobs = 1;
-  bool force = false;                // also what is there already
-  bool sidecar = true;               // writes FILE.json
-  std::optional<long> only_picture;  // of clips and sequences: no other
+  bool force = false;                // also renders outputs that are up to date
+  bool sidecar = true;               // write FILE.json
+  std::optional<long> only_picture;  // of clips and sequences: only this picture
 };
 
-/// @throws UsageError, SourceError, RenderError, std::runtime_error; then no output that is not
-/// whole is under its name. Of a sequence, the pictures that are finished stay.
+/// @throws UsageError, SourceError, RenderError, std::runtime_error; then no incomplete file has
+/// the name of an output. Finished pictures of a sequence stay.
 std::vector<OutputResult> RenderSource(const RenderOptions& options, const SourcePlan& plan,
                                        const JobSettings& settings, DrawPool& pool);
 

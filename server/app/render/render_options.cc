@@ -8,12 +8,15 @@
 
 #include "core/errors.h"
 #include "server/scene/scene_reader.h"
+#include "server/source/scheme.h"
 
 namespace kinescope::app {
 namespace {
 
-// An endless source (the built-in subject) gives a clip of this length unless told otherwise.
-constexpr double kDefaultClipSecs = 10;
+using options::Number;
+using options::Whole;
+
+constexpr std::size_t kMostCameras = 64;
 
 std::optional<long> ParseWhole(const std::string& text) {
   long value = 0;
@@ -57,23 +60,26 @@ Fraction AsBroadcast(Fraction given) {
   return is_ntsc ? Fraction{static_cast<long>(rounded) * 1000, 1001} : given;
 }
 
-std::int64_t ToNanos(const char* name, double secs, bool may_be_zero) {
-  if (!(secs <= kLatestSecs && (secs > 0 || (may_be_zero && secs == 0)))) {
-    throw UsageError(fmt::format("--{}={}: expected {} to {:.0f} s", name, secs,
-                                 may_be_zero ? "0" : "more than 0", kLatestSecs));
-  }
-  return std::llround(secs * 1e9);
-}
+std::int64_t ToNanos(double secs) { return std::llround(secs * 1e9); }
 
 }  // namespace
 
-render::LayerFormat ToLayerFormat(const std::string& text) {
-  if (text == "svg") return render::LayerFormat::kSvg;
-  if (text == "pdf") return render::LayerFormat::kPdf;
-  throw UsageError(fmt::format("--overlay_layer={}: expected svg or pdf", text));
+MomentOptions::MomentOptions()
+    : frame(Whole(0, {0, 1e15})),
+      time(Number(0, {0, kLatestSecs, "s"})),
+      overlay_layer(options::Choice<render::LayerFormat>(
+          {{"svg", render::LayerFormat::kSvg}, {"pdf", render::LayerFormat::kPdf}},
+          render::LayerFormat::kSvg)) {}
+
+void MomentOptions::List(options::OptionList& option) {
+  option("sample", frame, "index of the sample that one picture shows, from 0 (the default)");
+  option.Formerly("frame");
+  option("time", time, "time that one picture shows, after the first sample; between samples too");
+  option("overlay_layer", overlay_layer,
+         "format of a second file beside one picture, with the texts and plots over it as vectors");
 }
 
-render::FrameRate ParseFrameRate(const std::string& text) {
+void FrameRateValue::Parse(const std::string& text) {
   auto fraction = ParseFraction(text);
   if (fraction && fraction->denominator > 0) {
     if (text.find('/') == std::string::npos) fraction = AsBroadcast(*fraction);
@@ -82,13 +88,68 @@ render::FrameRate ParseFrameRate(const std::string& text) {
                            fraction->denominator / std::max(1L, divisor)};
     const bool fits = rate.numerator <= 1'000'000 && rate.denominator <= 9'000;
     if (fits && rate.numerator > 0 && rate.numerator <= 1000 * rate.denominator) {
-      return {static_cast<int>(rate.numerator), static_cast<int>(rate.denominator)};
+      value_ = {static_cast<int>(rate.numerator), static_cast<int>(rate.denominator)};
+      text_ = text;
+      return;
     }
   }
-  throw UsageError(fmt::format(
-      "--fps={}: expected pictures a second, more than 0 and at most 1000, such as 30, 12.5, 29.97 "
-      "or 30000/1001",
-      text));
+  RefuseText();
+}
+
+std::string FrameRateValue::Expected() const {
+  return "a number above 0, at most 1000, such as 30, 12.5, 29.97 or 30000/1001";
+}
+
+ClipOptions::ClipOptions()
+    : start(0, {0, kLatestSecs, "s"}),
+      seconds(Number(0, {0, kLatestSecs, "s", true})),
+      end(Number(0, {0, kLatestSecs, "s", true})) {}
+
+void ClipOptions::List(options::OptionList& option) {
+  option("fps", fps, "frame rate, pictures per second");
+  option("start", start, "time after the first sample at which the clip begins");
+  option("seconds", seconds, "length of the clip; default: to the end (demo: 10 s)");
+  option("end", end, "time after the first sample at which the clip ends, in place of --seconds");
+}
+
+PackOptions::PackOptions()
+    : crf(Whole(18, {0, 63})), quality(render::VideoOptions().quality, {0, 100}) {}
+
+void PackOptions::List(options::OptionList& option) {
+  option(
+      "crf", crf,
+      "constant rate factor, less is better: .mp4 0 (lossless) to 51, default 18; .webm 0 to 63, "
+      "default 24");
+  option("quality", quality, "quality of .webp, more is better; 100: lossless");
+}
+
+RenderOptions::RenderOptions()
+    : outs("FILE.png, .mp4, .webm, .webp or .gif"),
+      view(kMostCameras),
+      jobs(0, {0, 64, "", false, "0: as many as are fastest here"}) {}
+
+void RenderOptions::List(options::OptionList& option) {
+  option.Group("Files");
+  option("source", sources, "source of the people, once or several times: " + SourceKinds());
+  option("out", outs,
+         "file to write, once or several times; its ending selects the format. A .png with %05d or "
+         "##### in its name is a numbered sequence. {source} and {camera} are replaced");
+  option("force", force, "draw again although the output is up to date");
+  option("no_sidecar", no_sidecar, "write no FILE.json beside each output");
+  option("jobs", jobs, "threads that draw; the files do not depend on it");
+  option("json", json, "print the result as JSON, one line per output");
+  option(
+      "verify", verify,
+      "draw FILE again from its provenance and compare. Exit code 0: equal, 1: different. Give the "
+      "source if it has moved");
+  option.Group("Moments");
+  moment.List(option);
+  clip.List(option);
+  pack.List(option);
+  view.List(option);
+  backend.List(option);
+  person.List(option);
+  loads.List(option);
 }
 
 std::optional<long> TimeGrid::count() const {
@@ -101,21 +162,21 @@ std::optional<long> TimeGrid::count() const {
 
 TimeGrid ToTimeGrid(const ClipOptions& options, bool is_endless) {
   TimeGrid grid;
-  grid.rate = ParseFrameRate(options.fps);
-  grid.start_nanos = ToNanos("start", options.start, true);
+  grid.rate = *options.fps;
+  grid.start_nanos = ToNanos(*options.start);
   if (options.seconds && options.end) {
-    throw UsageError("--seconds and --end both say where the clip ends; give one of them");
+    throw UsageError("--seconds and --end both set the end of the clip; give only one of them");
   }
-  if (options.seconds) grid.length_nanos = ToNanos("seconds", *options.seconds, false);
+  if (options.seconds) grid.length_nanos = ToNanos(*options.seconds);
   if (options.end) {
-    const std::int64_t end = ToNanos("end", *options.end, false);
+    const std::int64_t end = ToNanos(*options.end);
     if (end <= grid.start_nanos) {
-      throw UsageError(
-          fmt::format("--end={}: expected more than --start, {}", *options.end, options.start));
+      throw UsageError(fmt::format("--end={}: expected a time after --start, {} s", *options.end,
+                                   *options.start));
     }
     grid.length_nanos = end - grid.start_nanos;
   }
-  if (!grid.length_nanos && is_endless) grid.length_nanos = std::llround(kDefaultClipSecs * 1e9);
+  if (!grid.length_nanos && is_endless) grid.length_nanos = ToNanos(kSubjectClipSecs);
   return grid;
 }
 

@@ -1,4 +1,4 @@
-/// What `kinescope render` is asked for.
+/// The options of `kinescope render`.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/video.h"
+#include "server/options/option_list.h"
 #include "server/picture/backend.h"
 #include "server/picture/view_options.h"
 #include "server/scene/scene_options.h"
@@ -15,50 +16,53 @@ namespace kinescope::app {
 
 /// Which moment a picture shows.
 struct MomentOptions {
-  std::optional<long> frame;
-  std::optional<double> time;
-  std::string overlay_layer;
+  MomentOptions();
 
-  template <class Option>
-  void Visit(Option&& option) {
-    option("frame", frame, "of one picture: which sample of the motion, from 0 (the default)");
-    option("time", time, "of one picture: seconds after the first sample, between samples too");
-    option("overlay_layer", overlay_layer,
-           "of one picture: svg or pdf; what is written over it goes into a file beside it");
-  }
+  options::Optional<options::Whole> frame;
+  options::Optional<options::Number> time;  // s
+  options::Optional<options::Choice<render::LayerFormat>> overlay_layer;
+
+  void List(options::OptionList& option);
+};
+
+/// "30", "12.5", "30000/1001"; 23.976, 29.97, 59.94 and the like mean their exact n * 1000 / 1001.
+class FrameRateValue : public options::ValueOf<render::FrameRate> {
+ public:
+  FrameRateValue() : ValueOf({30, 1}) {}
+
+  void Parse(const std::string& text) override;
+  std::string ToText() const override { return text_; }
+  std::string Expected() const override;
+
+ private:
+  std::string text_ = "30";
 };
 
 /// Which part of the motion a clip or a sequence shows, and how often.
 struct ClipOptions {
-  std::string fps = "30";
-  double start = 0;
-  std::optional<double> seconds, end;
+  ClipOptions();
 
-  template <class Option>
-  void Visit(Option&& option) {
-    option("fps", fps, "pictures a second: 30, 12.5, 29.97 or 30000/1001");
-    option("start", start, "where the clip begins, s after the first sample");
-    option("seconds", seconds, "how long it is; default: to the end (demo: 10)");
-    option("end", end, "where it ends, s after the first sample, in place of --seconds");
-  }
+  FrameRateValue fps;
+  options::Number start;  // s
+  options::Optional<options::Number> seconds, end;
+
+  void List(options::OptionList& option);
 };
 
 /// How a clip is packed.
 struct PackOptions {
-  std::optional<int> crf;
-  int quality = render::VideoOptions().quality;
+  PackOptions();
 
-  template <class Option>
-  void Visit(Option&& option) {
-    option("crf", crf,
-           "constant quality, less is better: .mp4 0 (lossless) to 51, default 18; .webm 0 to 63, "
-           "default 24");
-    option("quality", quality, "of .webp, 0 to 100, more is better; 100 is lossless");
-  }
+  options::Optional<options::Whole> crf;
+  options::Whole quality;
+
+  void List(options::OptionList& option);
 };
 
 struct RenderOptions {
-  std::vector<std::string> sources, outs;
+  RenderOptions();
+
+  options::Texts sources, outs;
   MomentOptions moment;
   ClipOptions clip;
   PackOptions pack;
@@ -66,18 +70,12 @@ struct RenderOptions {
   BackendOptions backend;
   PersonOptions person;
   LoadOptions loads;
-  int jobs = 0;  // 0: as many as are fastest here
-  bool force = false;
-  bool no_sidecar = false;
-  bool json = false;
+  options::Whole jobs;  // 0: as many as are fastest here
+  options::Flag force, no_sidecar, json;
+  options::Text verify;  // a file; "": draws
+
+  void List(options::OptionList& option);
 };
-
-/// "svg", "pdf". @throws UsageError.
-render::LayerFormat ToLayerFormat(const std::string& text);
-
-/// "30", "12.5", "30000/1001"; 23.976, 29.97, 59.94 and the like mean their exact n * 1000 / 1001.
-/// @throws UsageError.
-render::FrameRate ParseFrameRate(const std::string& text);
 
 /// The pictures of a clip: number k shows the moment `start_nanos` + NanosOf(k) after the first
 /// sample, and there are those before `length_nanos`, or all that the source has.
@@ -93,7 +91,7 @@ struct TimeGrid {
 };
 
 /// `is_endless`: of a source that never ends a clip has 10 s unless told otherwise.
-/// @throws UsageError naming option, value and what was expected.
+/// @throws UsageError where options do not fit together.
 TimeGrid ToTimeGrid(const ClipOptions& options, bool is_endless);
 
 }  // namespace kinescope::app

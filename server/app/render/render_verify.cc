@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -19,6 +20,7 @@
 #include "render/png_file.h"
 #include "server/app/render/provenance.h"
 #include "server/app/render/render_job.h"
+#include "server/source/scheme.h"
 
 namespace kinescope::app {
 namespace {
@@ -33,8 +35,8 @@ class ScratchFolder {
   ScratchFolder() {
     std::string name = fs::temp_directory_path() / "kinescope-verify-XXXXXX";
     if (::mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error("cannot make a folder in " + fs::temp_directory_path().string() +
-                               "; set TMPDIR");
+      throw std::runtime_error("cannot create a folder in " + fs::temp_directory_path().string() +
+                               "; set TMPDIR to a folder with write permission");
     }
     path_ = name;
   }
@@ -100,7 +102,7 @@ Verdict Compare(const std::string& then, const std::string& now, int tolerance, 
     if (has_a != has_b) {
       verdict.same = false;
       verdict.how = has_a ? fmt::format("it has more than {} pictures", k)
-                          : fmt::format("it has {} pictures only", k);
+                          : fmt::format("it has only {} pictures", k);
       return verdict;
     }
     const render::Comparison comparison = render::Compare(a, b, tolerance);
@@ -119,25 +121,27 @@ std::string FindSource(const Json& provenance, const std::string& file,
                        const RenderOptions& given) {
   const Json& source = provenance.at("source");
   std::string name = source.at("name");
-  if (name.rfind("demo:", 0) == 0) return name;
+  if (IsSubjectUrl(name)) return name;
   if (!source.contains("sha256")) {
-    throw SourceError(fmt::format("{} was drawn from {}, which cannot be read again", file,
-                                  name == "-" ? "standard input" : name + ", no regular file"));
+    throw SourceError(
+        fmt::format("{}: cannot be verified, because it was rendered from {}", file,
+                    name == "-" ? "standard input" : name + ", which is not a regular file"));
   }
   const std::vector<std::string> places =
-      given.sources.empty() ? std::vector<std::string>{provenance.value("path", name), name,
-                                                       fs::path(file).parent_path() / name}
-                            : given.sources;
+      given.sources->empty() ? std::vector<std::string>{provenance.value("path", name), name,
+                                                        fs::path(file).parent_path() / name}
+                             : *given.sources;
   std::error_code ignored;
   for (const std::string& path : places) {
     if (!fs::is_regular_file(path, ignored)) continue;
     if (DigestOf(path).sha256 == source.value("sha256", "")) return path;
     throw SourceError(
-        fmt::format("{} was drawn from another {} than {}: its SHA-256 is {}; give the right one",
-                    file, name, path, source.value("sha256", "not known")));
+        fmt::format("{}: source {} does not match; {} differs from the original (SHA-256 {}); give "
+                    "the original file",
+                    file, name, path, source.value("sha256", "unknown")));
   }
   throw SourceError(
-      fmt::format("{} was drawn from {}, which is not here; give its path as source", file, name));
+      fmt::format("{}: its source {} was not found; give the path of the source", file, name));
 }
 
 Json FindProvenance(const std::string& file) {
@@ -145,21 +149,43 @@ Json FindProvenance(const std::string& file) {
   if (auto embedded = ReadEmbedded(file)) return *std::move(embedded);
   std::error_code ignored;
   if (!fs::exists(file, ignored) && PathOfPicture(file, 0) == file) {
-    throw UsageError(fmt::format("--verify={}: no such file", file));
+    throw UsageError(fmt::format("--verify={}: file not found", file));
   }
-  throw UsageError(fmt::format("--verify={}: says nothing of how it was drawn, and there is no {}",
-                               file, SidecarOf(file)));
+  throw UsageError(fmt::format("--verify={}: contains no provenance, and {} does not exist", file,
+                               SidecarOf(file)));
+}
+
+// By option and name. In schema 1 inputs were guessed from the texts of options, so that some were
+// missed and some were listed that decide nothing: only those that both list are compared.
+void CheckInputs(const Json& then, const Json& now, const std::string& file) {
+  const auto inputs = [](const Json& provenance) {
+    std::map<std::pair<std::string, std::string>, std::string> hashes;
+    for (const Json& input : provenance.value("inputs", Json::array())) {
+      hashes[{input.value("option", ""), input.value("name", "")}] = input.value("sha256", "");
+    }
+    return hashes;
+  };
+  const auto before = inputs(then), after = inputs(now);
+  const bool is_guessed = then.value("schema", 0) < kProvenanceSchema;
+  for (const auto& [key, hash] : before) {
+    const auto found = after.find(key);
+    if (found == after.end() ? is_guessed : found->second == hash) continue;
+    throw SourceError(fmt::format(
+        "{}: --{} read another {} when it was drawn: SHA-256 {}; {}", file, key.first, key.second,
+        hash, found == after.end() ? "the file is missing now" : "now it is " + found->second));
+  }
+  for (const auto& [key, hash] : after) {
+    if (is_guessed || before.count(key) > 0) continue;
+    throw SourceError(fmt::format("{}: --{} reads {} now, which it did not when it was drawn", file,
+                                  key.first, key.second));
+  }
 }
 
 void NoteDifferences(const Json& then, const Json& now, const std::string& file) {
-  if (then.value("inputs", Json()) != now.value("inputs", Json())) {
-    throw SourceError(fmt::format(
-        "{}: a file that its options name is another one now, or not here: then {}, now {}", file,
-        JsonText(then.value("inputs", Json())), JsonText(now.value("inputs", Json()))));
-  }
+  CheckInputs(then, now, file);
   for (const char* name : {"kinescope", "renderer"}) {
     if (then.value(name, "") == now.value(name, "")) continue;
-    spdlog::warn("{}: drawn by {} {}, compared with {}", file, name, then.value(name, ""),
+    spdlog::warn("{}: rendered with {} {}, compared with {}", file, name, then.value(name, ""),
                  now.value(name, ""));
   }
 }
@@ -168,15 +194,15 @@ void NoteDifferences(const Json& then, const Json& now, const std::string& file)
 std::string FormatOf(const Json& provenance) {
   std::string format = provenance.value("format", "");
   if (format == "png" || render::ClipFormatOf("a." + format)) return format;
-  throw std::runtime_error("no format is called '" + format + "'");
+  throw std::runtime_error("unknown format '" + format + "'");
 }
 
 // Picture `k` of a clip, which is long enough for that and no longer.
 void DrawOnly(long k, RenderOptions& options, JobSettings& settings) {
   constexpr long kMostPictures = 100'000'000;  // a day at 1000 a second
   if (k < 0 || k > kMostPictures)
-    throw std::runtime_error(fmt::format("no picture has number {}", k));
-  const std::int64_t nanos = ParseFrameRate(options.clip.fps).NanosOf(k);
+    throw std::runtime_error(fmt::format("invalid picture number {}", k));
+  const std::int64_t nanos = options.clip.fps->NanosOf(k);
   options.clip.seconds = static_cast<double>(nanos + 1'000) * 1e-9;
   settings.only_picture = k;
 }
@@ -208,15 +234,15 @@ int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions
   const bool is_one = is_numbered && then.contains("number");
   const std::string again = scratch / (is_numbered ? "%d.png" : "again." + FormatOf(then));
   RenderOptions options = OptionsOf(then, again);
-  options.sources = {FindSource(then, file, given)};
+  options.sources = std::vector<std::string>{FindSource(then, file, given)};
   options.backend = given.backend;
   const std::vector<SourcePlan> plans = PlanOutputs(options);
   JobSettings settings;
-  settings.jobs = given.jobs > 0 ? given.jobs : DefaultJobs();
+  settings.jobs = *given.jobs > 0 ? static_cast<int>(*given.jobs) : DefaultJobs();
   if (is_one) DrawOnly(then.at("number").get<long>(), options, settings);
   const auto pool = MakeDrawPool(settings.jobs, ToView(options.view), options.backend);
   const auto results = RenderSource(options, plans.front(), settings, *pool);
-  const Provenance now(options, options.sources.front(), pool->info());
+  const Provenance now(options, options.sources->front(), pool->info());
   NoteDifferences(then, now.Of(plans.front().outputs.front()), file);
 
   const bool is_clip = then.value("kind", "") == "clip";
@@ -231,7 +257,7 @@ int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions
         is_numbered && !is_one ? std::optional<long>(results.front().pictures) : std::nullopt);
     if (is_one) verdict.picture = *settings.only_picture;
   }
-  Tell(file, verdict, given.json);
+  Tell(file, verdict, *given.json);
   return verdict.same ? 0 : 1;
 }
 
@@ -243,7 +269,7 @@ int Verify(const std::string& file, const RenderOptions& given) {
     return VerifyAgainst(then, file, given);
   } catch (const Json::exception& error) {
     throw std::runtime_error(
-        fmt::format("{}: what it says of how it was drawn is damaged: {}", file, error.what()));
+        fmt::format("{}: its provenance cannot be read: {}", file, error.what()));
   }
 }
 

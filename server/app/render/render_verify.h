@@ -1,4 +1,4 @@
-/// `kinescope render --verify`: is a file what its provenance says?
+/// Implements `kinescope render --verify`: checks a file against its provenance. One thread.
 #pragma once
 
 #include <string>
@@ -7,15 +7,16 @@
 
 namespace kinescope::app {
 
-/// Draws `file` (a picture, a clip, a sequence by its pattern, or one picture of it) again from its
-/// provenance and compares. Of `given` only the source (in place of where it was), jobs and json
-/// count. 0: the same; 1: not, and a picture of the differences lies beside the file.
+/// Renders `file` (a picture, a clip, a sequence given by its pattern, or one picture of it) again
+/// from its provenance and compares. Of `given`, only the source (which replaces the original
+/// path), jobs and json are used. Returns 0 if the pictures are the same; else 1, and writes a
+/// picture of the differences beside the file.
 ///
-/// The same is: no pixel differs, where the renderer is the one that drew the file; by no more than
-/// rounding (render::kChannelTolerance) where it is another. A clip is the same when its bytes are;
-/// else its pictures are decoded, and fewer than 1 in 1000 pixels of any may differ by more than 24
-/// levels, since another version of an encoder packs differently.
-/// @throws UsageError, SourceError, std::runtime_error: could not.
+/// Pictures are the same if no pixel differs; with another renderer than that of the file, up to
+/// rounding (render::kChannelTolerance). Clips are the same if their bytes are; otherwise they are
+/// decoded, and in every picture fewer than 1 in 1000 pixels may differ by more than 24 levels,
+/// because another version of an encoder encodes differently.
+/// @throws UsageError, SourceError, std::runtime_error if the check is not possible.
 int Verify(const std::string& file, const RenderOptions& given);
 
 }  // namespace kinescope::app

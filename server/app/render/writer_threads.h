@@ -1,5 +1,5 @@
-/// Threads that write what another one hands them, in that order, while it goes on. What fails
-/// there is thrown here.
+/// Writes items on separate threads, in the order in which they are added. Errors in these threads
+/// are thrown on the calling thread. One thread calls it.
 #pragma once
 
 #include <condition_variable>
@@ -18,13 +18,13 @@ class WriterThreads {
  public:
   using Write = std::function<void(Item&)>;
 
-  /// Each item is given to `write` once, on one of `count` threads; with one thread, in order.
-  /// Nothing here bounds the queue: items are promises, and who makes them waits (DrawPool).
+  /// Each item is passed to `write` once, on one of `count` threads; with one thread, in order. The
+  /// queue has no limit: items are futures, and DrawPool limits their number.
   WriterThreads(int count, Write write) : write_(std::move(write)) {
     for (int i = 0; i < count; ++i) threads_.emplace_back([this] { Work(); });
   }
 
-  /// Throws away what is not yet written.
+  /// Discards the items that are not written yet.
   ~WriterThreads() {
     {
       const std::lock_guard lock(mutex_);
@@ -36,7 +36,7 @@ class WriterThreads {
   WriterThreads(const WriterThreads&) = delete;
   WriterThreads& operator=(const WriterThreads&) = delete;
 
-  /// @throws what writing an earlier item threw.
+  /// @throws the exception from writing an earlier item.
   void Put(Item item) {
     {
       const std::lock_guard lock(mutex_);
@@ -46,7 +46,7 @@ class WriterThreads {
     changed_.notify_one();
   }
 
-  /// Waits until everything is written. @throws what writing threw.
+  /// Waits until everything is written. @throws the exception from writing.
   void Finish() {
     {
       const std::lock_guard lock(mutex_);
@@ -79,9 +79,9 @@ class WriterThreads {
         } catch (...) {
           const std::lock_guard again(mutex_);
           if (!failure_) failure_ = std::current_exception();
-          discards_ = true;  // and what comes after it frees its memory
+          discards_ = true;  // later items are only released
         }
-      }  // lets go of the item before it waits for the next
+      }  // releases the item before waiting for the next one
       lock.lock();
     }
   }
@@ -89,7 +89,7 @@ class WriterThreads {
   const Write write_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Item> items_;  // guarded by mutex_, as all that follows
+  std::deque<Item> items_;  // guarded by mutex_, like all following members
   std::exception_ptr failure_;
   bool is_closed_ = false;
   bool discards_ = false;

@@ -32,8 +32,8 @@ json Doubts(const BodyForces& forces) {
   if (forces.body_mass_is_assumed) add("the body mass is assumed");
   if (forces.com_disagrees) {
     add(
-        fmt::format("our centre of mass is {:.0f} mm from MVN's: wrong frames, lengths or a wrong "
-                    "body",
+        fmt::format("centre of mass differs from MVN's by {:.0f} mm; check frames, segment lengths "
+                    "and body data",
                     1000 * forces.com_difference->norm()));
   }
   add(forces.why_no_ground);

@@ -1,4 +1,5 @@
-/// How the program is doing, as the JSON of /api/diagnostics (docs/http.md).
+/// Writes the program status as the JSON of /api/diagnostics (docs/http.md). Pure function, any
+/// thread.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,7 @@
 
 namespace kinescope::app {
 
-/// Null or nullopt: that part is not there.
+/// Null or nullopt: that part does not exist.
 std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
                             const std::optional<ros_bridge::BridgeStatus>& ros,

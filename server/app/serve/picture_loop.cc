@@ -32,8 +32,11 @@ bool IsCamera(const std::string& name) {
 
 PictureLoop::PictureLoop(const PictureOptions& options, std::shared_ptr<const SceneState> first,
                          Latest<http::Picture>& pictures)
-    : options_(options), pictures_(pictures), state_(std::move(first)), camera_(options.camera) {
-  const CameraMan probe(camera_, options_.moves);  // throws for what does not exist
+    : options_(options),
+      pictures_(pictures),
+      state_(std::move(first)),
+      camera_(options.camera.text) {
+  const CameraMan probe(options_.camera, options_.moves);  // throws for what does not exist
   std::promise<void> started;
   std::future<void> has_started = started.get_future();
   thread_ = std::thread(&PictureLoop::Run, this, std::move(started));
@@ -49,7 +52,8 @@ PictureLoop::~PictureLoop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stop_ = true;
-    if (status_.hangs) render::EndProcess("stopped although " + status_.last_error);
+    if (status_.hangs)
+      render::EndProcess("stopped without a clean shutdown: " + status_.last_error);
   }
   wake_.notify_all();
   thread_.join();
@@ -94,7 +98,7 @@ std::vector<std::uint8_t> PictureLoop::SnapshotPng(const std::string& camera, in
     const std::lock_guard<std::mutex> lock(mutex_);
     if (status_.hangs) throw std::runtime_error(status_.last_error);
     if (snapshots_.size() >= kMostSnapshots) {
-      throw std::runtime_error("too many pictures are waiting to be drawn; try again");
+      throw std::runtime_error("too many requests are waiting for a picture; try again later");
     }
     snapshot->camera = camera.empty() ? camera_ : camera;
     snapshot->width = width;
@@ -114,7 +118,8 @@ void PictureLoop::DrawLive(render::Renderer& renderer, const SceneState& state,
                            const std::string& camera) {
   const auto start = Clock::now();
   const render::View view{options_.width, options_.height, 1, "", true};
-  if (!live_camera_ || camera != live_camera_name_) live_camera_.emplace(camera, options_.moves);
+  if (!live_camera_ || camera != live_camera_name_)
+    live_camera_.emplace(ParseCamera(camera), options_.moves);
   live_camera_name_ = camera;
   const double aspect = static_cast<double>(view.width) / view.height;
   renderer.RenderInto(live_image_, state, live_camera_->Aim(state, aspect), view);
@@ -140,7 +145,7 @@ void PictureLoop::OnDrawn(render::Renderer& renderer) {
   if (!status_.hangs) return;
   status_.hangs = false;
   status_.last_error.clear();
-  spdlog::warn("picture: the driver has come back");
+  spdlog::warn("picture: the graphics driver responds again");
 }
 
 void PictureLoop::OnHang(const std::string& what) {
@@ -176,7 +181,7 @@ void PictureLoop::DrawSnapshot(render::Renderer& renderer, const SceneState& sta
   try {
     const double aspect = static_cast<double>(view.width) / view.height;
     const render::Image image =
-        renderer.Render(state, CameraMan(camera, {}).Only(state, 0, aspect), view);
+        renderer.Render(state, CameraMan(ParseCamera(camera), {}).Only(state, 0, aspect), view);
     std::vector<std::uint8_t> png = render::EncodePng(image);
     {  // before the picture goes out: whoever has it may ask what it lacks
       const std::lock_guard<std::mutex> lock(mutex_);

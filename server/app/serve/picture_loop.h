@@ -1,6 +1,6 @@
-/// Draws the server's own pictures on a thread of its own: the live one for the page, while
-/// somebody looks, and snapshots on request. States come in at any rate; at most `rate_hz` pictures
-/// go out.
+/// Renders the server's pictures on its own thread: the live picture for the page, while it has
+/// viewers, and snapshots on request. States may arrive at any rate; the frame rate is at most
+/// `rate_hz`.
 #pragma once
 
 #include <condition_variable>
@@ -24,7 +24,7 @@
 namespace kinescope::app {
 
 struct PictureOptions {
-  std::string camera = "three_quarter";
+  CameraChoice camera = {"three_quarter", std::nullopt, false};
   int width = 1280;
   int height = 720;
   double rate_hz = 30;
@@ -34,25 +34,26 @@ struct PictureOptions {
 
 struct PictureStatus {
   render::RendererInfo renderer;
-  std::uint64_t drawn = 0;   // live pictures and snapshots
-  double draw_millis = 0;    // of the last one, drawn and read back
+  std::uint64_t drawn = 0;   // live pictures and snapshots rendered
+  double draw_millis = 0;    // of the last one, rendered and read back
   double encode_millis = 0;  // of the last JPEG
-  std::string last_error;    // "" when the last picture went well
-  bool hangs = false;        // the driver has not come back; last_error says from what
-  /// What the newest picture shows as labelled boxes (render::Renderer::problems).
+  std::string last_error;    // "" if the last picture succeeded
+  bool hangs = false;        // the driver does not respond; last_error contains the operation
+  /// The elements that the newest picture replaces by labelled boxes (render::Renderer::problems).
   std::vector<std::string> problems;
 };
 
 class PictureLoop : public http::PictureFeed {
  public:
-  /// Returns when the first picture (of `first`) has been drawn.
-  /// @throws render::RenderError when no renderer can be had, UsageError for bad options.
+  /// Returns after the first picture (of `first`) was rendered.
+  /// @throws render::RenderError if there is no renderer, UsageError for invalid options.
   PictureLoop(const PictureOptions& options, std::shared_ptr<const SceneState> first,
               Latest<http::Picture>& pictures);
-  /// Ends the process (exit code 2) when the driver hangs and so the thread cannot be joined.
+  /// Ends the process (exit code 2) if the driver does not respond, because the thread cannot be
+  /// joined then.
   ~PictureLoop() override;
 
-  void OnState(std::shared_ptr<const SceneState> state);  // any thread; never waits for drawing
+  void OnState(std::shared_ptr<const SceneState> state);  // any thread; never waits for rendering
 
   void SetViewers(int count) override;
   [[nodiscard]] bool SetCamera(const std::string& camera) override;
@@ -70,7 +71,7 @@ class PictureLoop : public http::PictureFeed {
   void Run(std::promise<void> started);
   void DrawLive(render::Renderer& renderer, const SceneState& state, const std::string& camera);
   void DrawSnapshot(render::Renderer& renderer, const SceneState& state);
-  void OnHang(const std::string& what);  // on the renderer's watchdog
+  void OnHang(const std::string& what);  // on the thread of the renderer's watchdog
   void OnDrawn(render::Renderer& renderer);
 
   const PictureOptions options_;
@@ -82,13 +83,13 @@ class PictureLoop : public http::PictureFeed {
   std::shared_ptr<const SceneState> state_;
   std::string camera_;
   int viewers_ = 0;
-  bool live_is_due_ = false;  // the newest state, camera or viewer has not been drawn
+  bool live_is_due_ = false;  // the newest state, camera or viewer count was not rendered yet
   bool stop_ = false;
   std::deque<std::unique_ptr<Snapshot>> snapshots_;
-  std::unique_ptr<Snapshot> in_hand_;  // being drawn; whoever takes it away answers
+  std::unique_ptr<Snapshot> in_hand_;  // being rendered; the thread that takes it away answers it
   bool has_started_ = false;
   PictureStatus status_;
-  // Of the drawing thread:
+  // Used by the rendering thread only:
   render::Image live_image_;
   std::string live_camera_name_;
   std::optional<CameraMan> live_camera_;  // a new name is a cut

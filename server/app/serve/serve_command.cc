@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,7 +23,6 @@
 #include "server/app/serve/view_loop.h"
 #include "server/http/server.h"
 #include "server/loads/hand_loads.h"
-#include "server/options/choose.h"
 #include "server/options/option_list.h"
 #include "server/ros/bridge.h"
 #include "server/ros/graph_source.h"
@@ -45,12 +43,10 @@ class Announcer {
     has_spoken_ = true;
     liveness_ = state.liveness;
     switch (state.liveness) {
-      case Liveness::kNoData:
-        spdlog::info("waiting for {}: nothing has come yet", state.source);
-        break;
+      case Liveness::kNoData: spdlog::info("waiting for data from {}", state.source); break;
       case Liveness::kLive: spdlog::info("live: {} from {}", PersonIn(state), state.source); break;
       case Liveness::kStale:
-        spdlog::warn("stale: nothing more from {} since sample {}", state.source, state.counter);
+        spdlog::warn("stale: no data from {} since sample {}", state.source, state.counter);
         break;
     }
   }
@@ -74,15 +70,16 @@ class UselessStreamWatch {
     if (since_nanos_ == 0) since_nanos_ = now;
     if (now - since_nanos_ < kPatienceNanos) return;
     has_spoken_ = true;
-    std::string reason = "no message of a pose is among them";
+    std::string reason = "pose messages are missing";
     std::uint64_t most = 0;
     for (const auto& [text, count] : counters.rejected) {
       if (count <= most) continue;
       most = count;
       reason = text;
     }
-    spdlog::warn("{} datagrams from {} and nobody to show: {}. `kinescope inspect {}` says more",
-                 counters.datagrams, source, reason, source);
+    spdlog::warn(
+        "{} datagrams from {}, but no complete pose: {}. For details run `kinescope inspect {}`",
+        counters.datagrams, source, reason, source);
   }
 
  private:
@@ -103,75 +100,79 @@ std::vector<http::CameraView> CameraViews() {
 
 http::HttpConfig ToHttpConfig(const ServeOptions& options) {
   http::HttpConfig config;
-  config.bind_ip = options.bind_ip;
-  config.port = options.http_port;
-  config.token = options.token;
+  config.bind_ip = *options.bind_ip;
+  config.port = static_cast<int>(*options.http_port);
+  config.token = *options.token;
   config.web_root = FindResource("web");
   config.cameras = CameraViews();
-  config.camera = options.camera;
+  config.camera = options.camera->front().text;
   return config;
 }
 
 PictureOptions ToPictureOptions(const ServeOptions& options) {
   PictureOptions pictures;
-  pictures.camera = options.camera;
+  pictures.camera = options.camera->front();
   pictures.moves = options.camera_moves;
   if (CameraMan(pictures.camera, pictures.moves).needs_survey()) {
     throw UsageError(
-        "--orbit=turn and --fit=clip need a clip that ends; live there are degrees a "
-        "second, and --fit=now");
+        "--orbit=turn and --fit=clip need a clip that ends; a live picture takes degrees per "
+        "second, "
+        "and --fit=now");
   }
-  std::tie(pictures.width, pictures.height) = ToSize("picture_size", options.picture_size);
-  if (!(options.picture_rate_hz >= 0.1 && options.picture_rate_hz <= 240)) {
-    throw UsageError(
-        fmt::format("--picture_rate_hz={}: expected 0.1 to 240", options.picture_rate_hz));
-  }
-  pictures.rate_hz = options.picture_rate_hz;
+  pictures.width = options.picture_size->width;
+  pictures.height = options.picture_size->height;
+  pictures.rate_hz = *options.picture_rate_hz;
   pictures.backend = options.backend;
   return pictures;
 }
 
 ViewSettings ToViewSettings(const ServeOptions& options) {
   ViewSettings view;
-  view.camera = options.view_camera.empty() ? options.camera : options.view_camera;
-  std::tie(view.width, view.height) = ToSize("view_size", options.view_size);
-  if (!(options.view_rate_hz >= 0.1 && options.view_rate_hz <= 240)) {
-    throw UsageError(fmt::format("--view_rate_hz={}: expected 0.1 to 240", options.view_rate_hz));
-  }
-  view.rate_hz = options.view_rate_hz;
+  view.camera = options.view_camera ? (*options.view_camera).front() : options.camera->front();
+  view.width = options.view_size->width;
+  view.height = options.view_size->height;
+  view.rate_hz = *options.view_rate_hz;
   view.backend = options.backend;
   return view;
 }
 
-// Whoever turned pictures off wants nothing to be drawn; a view asked for beside that is not there.
+// A view needs the server's pictures.
 bool WantsView(const ServeOptions& options, bool with_page) {
-  if (!with_page || !ToSwitch("view", options.view)) return false;
-  if (ToSwitch("pictures", options.pictures)) return true;
-  spdlog::info("pictures are off, and so there is no ~view/image_raw");
+  if (!with_page || !*options.view) return false;
+  if (*options.pictures) return true;
+  spdlog::info("~view/image_raw is off because --pictures is off");
   return false;
+}
+
+// Everything that can be wrong with the options is found before anything starts, also in parts that
+// are off.
+void CheckServeOptions(const ServeOptions& options) {
+  ToPictureOptions(options);
+  CameraMan(ToViewSettings(options).camera, {});
 }
 
 void Serve(const ServeOptions& options, bool with_page) {
   const std::int64_t start_nanos = MonotonicNanos();
+  CheckServeOptions(options);
   const SceneOptions scene_options =
-      ToSceneOptions(options.person, options.stale_secs, options.loads);
-  const ros_bridge::RosMode ros_mode = ToRosMode(options.ros);
+      ToSceneOptions(options.person, options.loads, *options.stale_secs);
+  const ros_bridge::RosMode ros_mode = *options.ros;
   ros_bridge::BridgeConfig bridge_config = ToBridgeConfig(options);
   bridge_config.check_hand_load = [](const HandLoad& load) { return loads::FindDefect(load); };
-  if (with_page) bridge_config.markers = options.markers;
+  if (with_page) bridge_config.markers = *options.markers;
   bridge_config.with_view = ros_mode != ros_bridge::RosMode::kOff && ros_bridge::BuiltWithRos() &&
                             WantsView(options, with_page);
   const std::string url =
-      options.udp_port == 0 ? options.source : fmt::format("udp://:{}", options.udp_port);
+      *options.udp_port == 0 ? *options.source : fmt::format("udp://:{}", *options.udp_port);
   SourceSettings source_settings;
-  source_settings.stream.stamps = ToStamps(options.stamps);
-  const std::unique_ptr<Source> source = OpenAtTrueRate(url, options.loop, source_settings);
+  source_settings.stream.stamps = *options.stamps;
+  const std::unique_ptr<Source> source = OpenAtTrueRate(url, *options.loop, source_settings);
   if (ros_bridge::IsGraphUrl(url) && bridge_config.tf != "off") {
     // Whoever publishes these people has their frames on /tf already. A second publisher of a frame
     // makes it shake for everybody, and we would hear ourselves.
     bridge_config.tf = "off";
     if (ros_mode != ros_bridge::RosMode::kOff) {
-      spdlog::info("frames of people who come from {} are not published again (--tf off)", url);
+      spdlog::info("TF frames of people from {} are not republished (as with --tf=off)", url);
     }
   }
 
@@ -206,9 +207,9 @@ void Serve(const ServeOptions& options, bool with_page) {
                            view ? std::optional(view->status()) : std::nullopt);
   };
   if (with_page) {
-    if (ToSwitch("pictures", options.pictures)) {
+    if (*options.pictures) {
       drawing = std::make_unique<PictureLoop>(ToPictureOptions(options), states.Get(), pictures);
-      spdlog::info("first picture {:.2f} s after start, drawn by {}",
+      spdlog::info("first picture {:.2f} s after start, rendered by {}",
                    Secs(MonotonicNanos() - start_nanos), drawing->status().renderer.renderer);
     }
     if (ros && bridge_config.with_view) {
@@ -246,7 +247,7 @@ void Serve(const ServeOptions& options, bool with_page) {
       counters_due = now + 500'000'000;
     }
     if (ros && ros->status().told_to_stop) {
-      spdlog::info("told to stop over ROS");
+      spdlog::info("shut down through ROS");
       break;
     }
     if (more == Source::State::kEnded) {
@@ -257,53 +258,50 @@ void Serve(const ServeOptions& options, bool with_page) {
   spdlog::info("stopping");
 }
 
-// Fills in what the command line left open: the YAML file, then ROS parameters.
-void ReadOtherChannels(const CLI::App& command, const std::string& config, bool with_page,
-                       ServeOptions& options) {
-  const auto visit = [&](auto&& setter) {
-    if (with_page) {
-      options.Visit(setter);
-    } else {
-      options.VisitBridge(setter);
-    }
-  };
-  if (!config.empty()) {
-    const YamlValues yaml(config);
-    ValueSetter setter(command, yaml);
-    visit(setter);
-    yaml.RefuseUnknown(setter.names());
-  }
-  // Parameters of a name like ~bind_ip can only be there when a master is.
-  if (options.ros != "off" && ros_bridge::BuiltWithRos() && ros_bridge::MasterIsReachable()) {
-    visit(ValueSetter(command, ros_bridge::PrivateParameter));
-  }
+// Private parameters of this node: ~name.
+void ReadParameters(const ServeOptions& options, options::OptionList& list) {
+  const bool can_be_there = *options.ros != ros_bridge::RosMode::kOff &&
+                            ros_bridge::BuiltWithRos() && ros_bridge::MasterIsReachable();
+  if (!can_be_there) return;
+  options::SetFrom(
+      [](const std::string& name) -> std::optional<options::Found> {
+        const auto text = ros_bridge::PrivateParameter(name);
+        if (!text) return std::nullopt;
+        return options::Found{*text, "~"};
+      },
+      options::Channel::kParameter, list);
 }
 
-void Add(CommandLine line, const char* name, const char* description, bool with_page) {
-  CLI::App* command = line.app.add_subcommand(name, description);
-  const auto options = std::make_shared<ServeOptions>();
-  const auto config = std::make_shared<std::string>();
+Command Make(const char* name, const char* about, bool with_page) {
+  const auto values = std::make_shared<ServeOptions>();
+  Command command;
+  command.name = name;
+  command.about = about;
   if (with_page) {
-    options->Visit(FlagAdder(*command, "source"));
+    values->List(command.options);
   } else {
-    options->VisitBridge(FlagAdder(*command, "source"));
+    values->ListBridge(command.options);
   }
-  command->add_option("--config", *config, "YAML file of `name: value` for any option above");
-  command->footer("Each option is also the ROS parameter ~name.");
-  command->callback([=] {
-    ReadOtherChannels(*command, *config, with_page, *options);
-    Serve(*options, with_page);
-  });
+  command.positionals = {"source"};
+  command.footer =
+      "Every option is also a private ROS parameter: ~name. Order of precedence: command "
+      "line, ROS parameter, --config file.";
+  command.run = [values, with_page](options::OptionList& list) {
+    ReadParameters(*values, list);
+    Serve(*values, with_page);
+    return 0;
+  };
+  return command;
 }
 
 }  // namespace
 
-void AddServe(CommandLine line) {
-  Add(line, "serve", "The main job: a source to ROS topics, pictures and a web page", true);
+Command ServeCommand() {
+  return Make("serve", "Shows a source live: ROS topics, pictures and a web page", true);
 }
 
-void AddBridge(CommandLine line) {
-  Add(line, "bridge", "A source to ROS topics only; nothing is drawn", false);
+Command BridgeCommand() {
+  return Make("bridge", "Publishes a source to ROS; draws nothing", false);
 }
 
 }  // namespace kinescope::app

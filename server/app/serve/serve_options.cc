@@ -2,37 +2,147 @@
 
 #include <fmt/format.h>
 
-#include "core/errors.h"
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "server/options/text.h"
 
 namespace kinescope::app {
+namespace {
+
+constexpr double kMostRateHz = 240;
+constexpr std::size_t kMostMarkerTopics = 16;
+constexpr double kLeastFactor = 1e-6, kMostFactor = 1e6;
+
+options::Choice<std::string>::Words Words(const std::vector<std::string>& names) {
+  options::Choice<std::string>::Words words;
+  for (const std::string& name : names) words.emplace_back(name, name);
+  return words;
+}
+
+// As roscpp has them: letters, digits, _ and /; a topic may also begin with / or ~.
+bool IsName(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '/';
+  });
+}
+
+bool IsFrameName(const std::string& text) { return IsName(text) && text.front() != '/'; }
+
+bool IsTopicName(const std::string& text) {
+  const bool is_private = !text.empty() && text.front() == '~';
+  const std::string name = is_private ? text.substr(1) : text;
+  return IsName(name) &&
+         (name.front() == '/' || std::isalpha(static_cast<unsigned char>(name.front())) != 0);
+}
+
+bool AreTopicNames(const std::string& text) {
+  const std::vector<std::string> names = options::SplitItems(text);
+  return names.size() <= kMostMarkerTopics && std::all_of(names.begin(), names.end(), IsTopicName);
+}
+
+}  // namespace
+
+void FactorValue::Parse(const std::string& text) {
+  const auto number = options::ParseNumber(text);
+  if (!number || std::abs(*number) < kLeastFactor || std::abs(*number) > kMostFactor) RefuseText();
+  value_ = *number;
+}
+
+std::string FactorValue::ToText() const { return options::NumberText(value_); }
+
+std::string FactorValue::Expected() const {
+  return fmt::format("1, -1 or another factor whose size is from {} to {}", kLeastFactor,
+                     kMostFactor);
+}
+
+ServeOptions::ServeOptions()
+    : source("udp://:9763"),
+      udp_port(0, {0, 65535, "", false, "0: the port of --source"}),
+      stamps({{"fitted", mvn::Stamps::kFitted}, {"arrival", mvn::Stamps::kArrival}},
+             mvn::Stamps::kFitted),
+      stale_secs(StaleSecs()),
+      ros({{"auto", ros_bridge::RosMode::kAuto},
+           {"off", ros_bridge::RosMode::kOff},
+           {"required", ros_bridge::RosMode::kRequired}},
+          ros_bridge::RosMode::kAuto),
+      reference_frame("world", "a TF frame name: letters, digits, _ and /, not beginning with /",
+                      IsFrameName),
+      tf(Words({"flat", "tree", "off"}), "flat"),
+      joint_states(Words({"computed", "streamed"}), "computed"),
+      bind_ip("127.0.0.1"),
+      http_port(8080, {0, 65535, "", false, "0: a free one, which is printed"}),
+      pictures(true),
+      camera(1),
+      picture_size({1280, 720}),
+      picture_rate_hz(30, {0.1, kMostRateHz, "Hz"}),
+      markers("", "up to 16 topics with commas between, such as /walls,/plan", AreTopicNames),
+      view(true),
+      view_camera(CamerasValue(1)),
+      view_size({1280, 720}),
+      view_rate_hz(30, {0.1, kMostRateHz, "Hz"}) {}
+
+void ServeOptions::ListBridge(options::OptionList& option) {
+  option.Group("The source");
+  option("source", source, "source of the people: " + SourceKinds());
+  option("udp_port", udp_port, "short for --source udp://:PORT");
+  option("loop", loop, "start a file again at its end");
+  option(
+      "stamps", stamps,
+      "time stamps of samples: fitted (arrival times smoothed by the sender's clock, which removes "
+      "the jitter of the network) or arrival");
+  option("stale_secs", stale_secs, "time without samples after which the stream is stale");
+  person.List(option);
+  loads.List(option);
+  option.Group("ROS");
+  option("ros", ros, "auto: publish when a master is reachable");
+  option("reference_frame", reference_frame, "parent frame of all TF frames");
+  option("tf", tf, "TF frames: flat (as xsens_mvn_ros), as a tree, or none");
+  option("joint_angle_source", joint_states,
+         "joint angles in ~joint_states: computed from the poses, or streamed by MVN");
+  option.Formerly("joint_states");
+  option(
+      "external_scale", external_scale,
+      "factor of joint moments that are received over ROS; -1 for a program that sends reactions");
+}
+
+void ServeOptions::List(options::OptionList& option) {
+  ListBridge(option);
+  option.Group("The page");
+  option("bind_ip", bind_ip, "address of the page; 0.0.0.0 opens it to the network (set --token)");
+  option("http_port", http_port, "TCP port of the page");
+  option("token", token, "password of the page; required unless it is served to this machine only");
+  option.Group("Pictures");
+  option("pictures", pictures, "whether the server draws pictures");
+  option("camera", camera, "where the camera stands");
+  camera_moves.List(option);
+  option("picture_size", picture_size, "size of the live picture");
+  option("picture_rate_hz", picture_rate_hz, "highest frame rate of the live picture");
+  backend.List(option);
+  option("marker_topics", markers, "topics of visualization_msgs/Marker or MarkerArray to show");
+  option.Formerly("markers");
+  option("ros_view", view,
+         "whether the ROS camera ~view is published (image_raw, camera_info and its frame); "
+         "rendered while it has subscribers");
+  option.Formerly("view");
+  option("ros_view_camera", view_camera, "camera of ~view; not given: that of --camera");
+  option.Formerly("view_camera");
+  option("ros_view_size", view_size, "size of ~view");
+  option.Formerly("view_size");
+  option("ros_view_rate_hz", view_rate_hz, "highest frame rate of ~view");
+  option.Formerly("view_rate_hz");
+}
 
 ros_bridge::BridgeConfig ToBridgeConfig(const ServeOptions& options) {
-  if (options.tf != "flat" && options.tf != "tree" && options.tf != "off") {
-    throw UsageError(fmt::format("--tf={}: expected flat, tree or off", options.tf));
-  }
-  if (options.joint_states != "computed" && options.joint_states != "streamed") {
-    throw UsageError(
-        fmt::format("--joint_states={}: expected computed or streamed", options.joint_states));
-  }
   ros_bridge::BridgeConfig config;
-  config.reference_frame = options.reference_frame;
-  config.tf = options.tf;
-  config.joint_states = options.joint_states;
-  config.external_scale = options.external_scale;
+  config.reference_frame = *options.reference_frame;
+  config.tf = *options.tf;
+  config.joint_states = *options.joint_states;
+  config.external_scale = *options.external_scale;
   return config;
-}
-
-ros_bridge::RosMode ToRosMode(const std::string& ros) {
-  if (ros == "off") return ros_bridge::RosMode::kOff;
-  if (ros == "auto") return ros_bridge::RosMode::kAuto;
-  if (ros == "required") return ros_bridge::RosMode::kRequired;
-  throw UsageError(fmt::format("--ros={}: expected auto, off or required", ros));
-}
-
-mvn::Stamps ToStamps(const std::string& stamps) {
-  if (stamps == "fitted") return mvn::Stamps::kFitted;
-  if (stamps == "arrival") return mvn::Stamps::kArrival;
-  throw UsageError(fmt::format("--stamps={}: expected fitted or arrival", stamps));
 }
 
 }  // namespace kinescope::app

@@ -1,6 +1,5 @@
-/// Forces from outside on their way to the scene builder. Whoever is told what a hand holds (the
-/// page's thread, ROS) says it here, any thread; the thread that reads samples hands it on before
-/// the next sample, so that one thread alone touches the builder.
+/// Queues hand loads for the scene builder. Any thread may add them (HTTP, ROS). The reading thread
+/// applies them before the next sample, so only that thread uses the builder.
 #pragma once
 
 #include <map>
@@ -19,27 +18,28 @@ namespace kinescope::app {
 
 class ToldLoads {
  public:
-  /// "", or what is wrong with the load, which then changes nothing. Any thread.
+  /// Adds a hand load. Returns "", or why it was rejected. Any thread.
   [[nodiscard]] std::string Tell(int character, const HandLoad& load);
 
-  /// All that was told since the last call, by character.
+  /// All hand loads since the last call, by character. Any thread.
   [[nodiscard]] std::map<int, HandLoad> Take();
 
  private:
   std::mutex mutex_;
-  std::map<int, HandLoad> told_;  // guarded by mutex_; bounded: callers know who is there
+  std::map<int, HandLoad> told_;  // guarded by mutex_; bounded: callers pass existing characters
+                                  // only
 };
 
-/// Passes samples on to `builder`, each after everything that was told or measured before it. The
-/// reading thread's. `ros` may be null.
+/// Passes samples on to `builder`, after applying all earlier hand loads and measurements. Reading
+/// thread only. `ros` may be null.
 class InputsFirst : public SampleSink, private ros_bridge::InputSink {
  public:
-  /// `view` may be null, and is told who listens to it.
+  /// `view` may be null; it receives the number of its subscribers.
   InputsFirst(SceneBuilder& builder, ToldLoads& told, ros_bridge::RosBridge* ros,
               ViewLoop* view = nullptr)
       : builder_(builder), told_(told), ros_(ros), view_(view) {}
 
-  /// Also to be called while no samples come: services wait for their answer.
+  /// Call it also while no samples arrive, because ROS services wait for their answer.
   void TakeInputs();
 
   void OnCharacter(const Character& character) override { builder_.OnCharacter(character); }

@@ -40,7 +40,8 @@ ViewLoop::~ViewLoop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stop_ = true;
-    if (status_.hangs) render::EndProcess("stopped although " + status_.last_error);
+    if (status_.hangs)
+      render::EndProcess("stopped without a clean shutdown: " + status_.last_error);
   }
   wake_.notify_all();
   thread_.join();
@@ -74,7 +75,7 @@ ViewStatus ViewLoop::status() const {
 void ViewLoop::Draw(const SceneState& state) {
   const auto start = Clock::now();
   if (!renderer_) {
-    renderer_ = StartRenderer(settings_.backend, {settings_.backend.backend, ""},
+    renderer_ = StartRenderer(settings_.backend, {*settings_.backend.backend, ""},
                               [this](const std::string& what) { OnHang(what); });
   }
   const double aspect = static_cast<double>(settings_.width) / settings_.height;
@@ -121,7 +122,8 @@ void ViewLoop::Run() {
       error = failure.what();
     }
     lock.lock();
-    if (std::exchange(status_.hangs, false)) spdlog::warn("view: the driver has come back");
+    if (std::exchange(status_.hangs, false))
+      spdlog::warn("view: the graphics driver responds again");
     if (error.empty() || status_.last_error == error) continue;
     spdlog::error("view: {}", error);
     status_.last_error = error;

@@ -1,7 +1,7 @@
-/// Draws what ROS sees (`~view/image_raw`) on a thread of its own, with a camera, a size and a
-/// renderer of its own: a recording or RViz's overlay must not jump when somebody on the page picks
-/// another camera, and neither stream of pictures waits for the other. Nothing is drawn, and no
-/// renderer made, before somebody listens.
+/// Renders the ROS view (`~view/image_raw`) on its own thread, with its own camera, size and
+/// renderer. So a recording or an RViz overlay does not jump when a viewer of the page selects
+/// another camera, and neither picture stream waits for the other. It renders only while it has
+/// subscribers, and makes no renderer before the first one.
 #pragma once
 
 #include <condition_variable>
@@ -21,23 +21,23 @@
 namespace kinescope::app {
 
 struct ViewSettings {
-  std::string camera = "three_quarter";
+  CameraChoice camera = {"three_quarter", std::nullopt, false};
   int width = 1280;
   int height = 720;
-  double rate_hz = 30;          // at most
-  BackendOptions backend = {};  // that the process draws with; not "auto"
+  double rate_hz = 30;          // maximum frame rate
+  BackendOptions backend = {};  // the back-end of this process; not "auto"
 };
 
 struct ViewStatus {
   int listeners = 0;
   std::uint64_t drawn = 0;
-  double draw_millis = 0;  // of the last one, drawn, read back and sent
-  std::string last_error;  // "" when the last picture went well
-  bool hangs = false;      // the driver has not come back; last_error says from what
+  double draw_millis = 0;  // of the last one, rendered, read back and sent
+  std::string last_error;  // "" if the last picture succeeded
+  bool hangs = false;      // the driver does not respond; last_error contains the operation
 };
 
-/// The pinhole camera that `camera` is, for a picture of `height_px`; how it lies in the world is
-/// REP 103's: z forward, x to the right, y down.
+/// `camera` as a pinhole camera for a picture of `height_px`; its axes follow REP 103: z forward, x
+/// to the right, y down.
 struct Pinhole {
   urdf::Pose world_from_optical;
   double focal_px = 0;
@@ -48,17 +48,19 @@ class ViewLoop {
  public:
   using Send = std::function<void(const ros_bridge::ViewPicture&)>;
 
-  /// `send` gets every picture, on the drawing thread.
-  /// @throws UsageError for a camera that does not exist.
+  /// `send` receives every picture, on the rendering thread.
+  /// @throws UsageError for an unknown camera.
   ViewLoop(const ViewSettings& settings, std::shared_ptr<const SceneState> first, Send send);
-  /// Ends the process (exit code 2) when the driver hangs and so the thread cannot be joined.
+  /// Ends the process (exit code 2) if the driver does not respond, because the thread cannot be
+  /// joined then.
   ~ViewLoop();
   ViewLoop(const ViewLoop&) = delete;
   ViewLoop& operator=(const ViewLoop&) = delete;
 
-  // Any thread; they never wait for drawing.
+  // Any thread; these functions never wait for rendering.
   void OnState(std::shared_ptr<const SceneState> state);
-  /// Whoever comes gets a picture at once, also of a scene in which nothing moves.
+  /// Sets the number of subscribers. A new subscriber receives a picture at once, even if the scene
+  /// does not change.
   void SetListeners(int count);
   ViewStatus status() const;
 
@@ -74,15 +76,15 @@ class ViewLoop {
   std::condition_variable wake_;
   // Guarded by mutex_:
   std::shared_ptr<const SceneState> state_;
-  bool is_due_ = false;  // the newest state, or a listener, has not been served
+  bool is_due_ = false;  // the newest state, or a new subscriber, has no picture yet
   bool stop_ = false;
   ViewStatus status_;
-  // Of the drawing thread:
-  std::unique_ptr<render::Renderer> renderer_;  // null before the first listener
+  // Used by the rendering thread only:
+  std::unique_ptr<render::Renderer> renderer_;  // null before the first subscriber
   CameraMan camera_;
   render::Image image_;
 
-  std::thread thread_;  // last: it uses all of the above
+  std::thread thread_;  // last: it uses all other members
 };
 
 }  // namespace kinescope::app

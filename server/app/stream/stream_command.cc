@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,16 +23,75 @@ namespace {
 
 constexpr int kMostCopies = 16;
 
+// The numbers of message types, as MVN writes them: "02,20".
+class TypesValue : public options::ValueOf<std::optional<mvn::TypeSet>> {
+ public:
+  TypesValue() : ValueOf({}) {}
+
+  void Parse(const std::string& text) override;
+  std::string ToText() const override { return text_; }
+  bool IsGiven() const override { return value_.has_value(); }
+  std::string Expected() const override {
+    return "some of 01,02,03,12,13,20,21,22,23,24,25 (see below)";
+  }
+
+ private:
+  std::string text_;
+};
+
+// NAME=SHARE[:SECONDS], once or several times.
+class FaultsValue : public options::ValueOf<mvn::FaultSettings> {
+ public:
+  FaultsValue() : ValueOf({}) {}
+
+  void Parse(const std::string& text) override { ParseAll(options::SplitItems(text)); }
+  void ParseAll(const std::vector<std::string>& texts) override;
+  bool is_repeatable() const override { return true; }
+  std::string ToText() const override { return text_; }
+  std::string Expected() const override {
+    return "NAME=SHARE or NAME=SHARE:SECONDS, such as loss=0.05 (see below)";
+  }
+
+ private:
+  std::string text_;
+};
+
 struct StreamOptions {
-  FeedSettings feed;
-  std::string to = "udp://127.0.0.1:9763";
-  std::string types;
-  double rate_hz = kSubjectRateHz;
-  bool rate_is_given = false;
-  double seconds = 0;
-  std::vector<std::string> faults;
-  std::uint64_t seed = 1;
-  bool as_json = false;
+  options::Text source;
+  options::Text to{"udp://127.0.0.1:9763"};
+  options::Whole characters{1, {1, kMostCopies}};
+  TypesValue types;
+  options::Optional<options::Number> rate_hz{options::Number(kSubjectRateHz, {1, 1000, "Hz"})};
+  options::Number stream_hz{0, {0, 1000, "Hz", false, "0: every sample"}};
+  options::Number speed{1, {0.01, 100}};
+  options::Flag loop;
+  options::Number seconds{0, {0, 1e9, "s", false, "0: to the end, or without end"}};
+  options::Flag gloves;
+  options::Whole props{0, {0, kMostProps}};
+  FaultsValue fault;
+  options::Whole seed{1, {0, 4294967295.0}};
+  options::Flag json;
+
+  void List(options::OptionList& option) {
+    option("source", source, "source of the samples to send: " + SourceKinds());
+    option("to", to,
+           "receiver: udp://host:port; tcp://host:port connects; tcp://:port?listen waits for "
+           "receivers");
+    option("characters", characters,
+           "number of copies of each person, 1 m apart along y, ids from 0");
+    option("types", types, "message types to send");
+    option("rate_hz", rate_hz, "sample rate of the built-in subject; default: 120 Hz");
+    option("stream_hz", stream_hz,
+           "highest rate at which samples are sent; sample counters still count all samples");
+    option("speed", speed, "speed of playing, relative to the recording");
+    option("loop", loop, "start a file again at its end; counters and time codes continue");
+    option("seconds", seconds, "length of the stream");
+    option("gloves", gloves, "add moving fingers, 40 segments; only for sources of samples");
+    option("props", props, "number of props to add; only for sources of samples");
+    option("fault", fault, "fault to inject, with its share; may be repeated");
+    option("seed", seed, "random seed of the faults");
+    option("json", json, "print a summary of what was sent, as JSON");
+  }
 };
 
 constexpr const char* kMore = R"(
@@ -58,8 +120,7 @@ Examples:
   kinescope stream take.pcap --loop --fault loss=0.05 --fault silence=0.1:3 --seed 7
   kinescope stream udp://:9763 --to udp://10.0.0.5:9763)";
 
-// "02,20": the numbers of types.
-mvn::TypeSet ParseTypes(const std::string& text) {
+void TypesValue::Parse(const std::string& text) {
   mvn::TypeSet types;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(',', at), text.size());
@@ -67,57 +128,55 @@ mvn::TypeSet ParseTypes(const std::string& text) {
     // A header of that type tells whether there is one.
     const std::string datagram = "MXTP" + digits + std::string(mvn::kHeaderBytes - 6, '\0');
     const auto header = mvn::ParseHeader(datagram);
-    if (digits.size() != 2 || !header) {
-      throw UsageError(fmt::format(
-          "--types={}: '{}' is no type; expected some of 01,02,03,12,13,20,21,22,23,24,25", text,
-          digits));
-    }
+    if (digits.size() != 2 || !header) RefuseText();
     types.set(static_cast<std::size_t>(header->type));
     at = end + 1;
   }
-  return types;
+  value_ = types;
+  text_ = text;
 }
 
-template <class Number>
-void RequireRange(const char* flag, Number value, Number low, Number high,
-                  const char* also = nullptr) {
-  if (value >= low && value <= high) return;
-  throw UsageError(fmt::format("{}={}: expected {} to {}{}", flag, value, low, high,
-                               also == nullptr ? "" : also));
+void FaultsValue::ParseAll(const std::vector<std::string>& texts) try {
+  mvn::FaultSettings settings;
+  for (const std::string& text : texts) mvn::SetFault(text, settings);
+  value_ = settings;
+  text_ = fmt::format("{}", fmt::join(texts, ";"));
+} catch (const UsageError& error) {
+  throw options::BadValue(error.what());
 }
 
-// Options as settings. Nothing is opened before all of them are known to be right.
-mvn::FaultSettings Check(StreamOptions& o) {
-  RequireRange("--characters", o.feed.characters, 1, kMostCopies);
-  RequireRange("--props", o.feed.props, 0, kMostProps);
-  RequireRange("--rate_hz", o.rate_hz, 1.0, 1000.0);
-  RequireRange("--speed", o.feed.speed, 0.01, 100.0);
-  if (o.feed.stream_hz != 0) {
-    RequireRange("--stream_hz", o.feed.stream_hz, 0.1, 1000.0, ", or 0 for every sample");
+// Nothing is opened before all options are known to fit together.
+FeedSettings ToFeed(const StreamOptions& o) {
+  if (*o.stream_hz != 0 && *o.stream_hz < 0.1) {
+    throw UsageError(fmt::format("--stream_hz={}: expected 0.1 to 1000 Hz, or 0 for every sample",
+                                 *o.stream_hz));
   }
-  if (!(o.seconds >= 0 && o.seconds <= 1e9)) {
-    throw UsageError(fmt::format("--seconds={}: expected 0 (no end) or more", o.seconds));
+  if (o.rate_hz && !IsSubjectUrl(*o.source)) {
+    throw UsageError(fmt::format(
+        "--rate_hz={}: only the built-in subject (demo:) has a free rate, not '{}'; use "
+        "--stream_hz to send fewer samples",
+        *o.rate_hz, *o.source));
   }
-  if (o.rate_is_given && o.feed.source.rfind("demo:", 0) != 0) {
-    throw UsageError(
-        fmt::format("--rate_hz={}: '{}' has its own rate; only demo: is made at any (to send fewer "
-                    "samples: --stream_hz)",
-                    o.rate_hz, o.feed.source));
-  }
-  o.feed.rate_hz = o.rate_hz;
-  if (!o.types.empty()) o.feed.types = ParseTypes(o.types);
-  mvn::FaultSettings faults;
-  for (const std::string& text : o.faults) mvn::SetFault(text, faults);
-  return faults;
+  FeedSettings feed;
+  feed.source = *o.source;
+  feed.rate_hz = o.rate_hz.value_or(kSubjectRateHz);
+  feed.characters = static_cast<int>(*o.characters);
+  feed.types = *o.types;
+  feed.stream_hz = *o.stream_hz;
+  feed.speed = *o.speed;
+  feed.loop = *o.loop;
+  feed.gloves = *o.gloves;
+  feed.props = static_cast<int>(*o.props);
+  return feed;
 }
 
 nlohmann::json ToJson(const mvn::FaultCount& count, mvn::Fault fault) {
-  nlohmann::json json = {{"injected", count.injected}, {"datagrams", count.datagrams}};
+  nlohmann::json out = {{"injected", count.injected}, {"datagrams", count.datagrams}};
   if (fault == mvn::Fault::kTruncate || fault == mvn::Fault::kCorrupt) {
-    json["refused"] = count.refused;
-    json["silent"] = count.silent;
+    out["refused"] = count.refused;
+    out["silent"] = count.silent;
   }
-  return json;
+  return out;
 }
 
 nlohmann::json Summary(const StreamOptions& o, const Feed& feed, const Transmission& sent,
@@ -131,7 +190,7 @@ nlohmann::json Summary(const StreamOptions& o, const Feed& feed, const Transmiss
                             {"bytes", sent.bytes()},
                             {"unsent", sender.datagrams_unsent()},
                             {"types", sent.types()},
-                            {"seed", o.seed},
+                            {"seed", *o.seed},
                             {"faults", nlohmann::json::object()}};
   for (int i = 0; i < mvn::kFaultCount; ++i) {
     const auto fault = static_cast<mvn::Fault>(i);
@@ -150,71 +209,46 @@ void LogSummary(const nlohmann::json& summary) {
                                    fault["datagrams"].get<std::uint64_t>());
     if (fault.contains("silent")) {
       line +=
-          fmt::format("; {} can be told from their bytes, {} cannot",
+          fmt::format("; {} detectable, {} not detectable from their content",
                       fault["refused"].get<std::uint64_t>(), fault["silent"].get<std::uint64_t>());
     }
     spdlog::info("{}", line);
   }
   const auto unsent = summary["unsent"].get<std::uint64_t>();
   if (unsent > 0) {
-    spdlog::warn("{} datagrams found no receiver: nobody was connected, or read too slowly",
-                 unsent);
+    spdlog::warn("{} datagrams not sent: no receiver connected, or receiver too slow", unsent);
   }
 }
 
-void Stream(StreamOptions& o) {
-  const mvn::FaultSettings settings = Check(o);
-  const auto feed = OpenFeed(o.feed);
-  const auto sender = mvn::OpenSender(o.to);
-  mvn::FaultInjector faults(settings, o.seed);
+void Stream(const StreamOptions& o) {
+  const FeedSettings settings = ToFeed(o);
+  const auto feed = OpenFeed(settings);
+  const auto sender = mvn::OpenSender(*o.to);
+  mvn::FaultInjector faults(*o.fault, static_cast<std::uint64_t>(*o.seed));
   spdlog::info("streaming {} to {}", feed->description(), sender->description());
   Transmission transmission(*feed, faults, *sender);
-  transmission.Run(o.seconds);
-  const nlohmann::json summary = Summary(o, *feed, transmission, *sender, settings, faults);
+  transmission.Run(*o.seconds);
+  const nlohmann::json summary = Summary(o, *feed, transmission, *sender, *o.fault, faults);
   LogSummary(summary);
-  if (o.as_json) fmt::print("{}\n", JsonText(summary, 2));
+  if (*o.json) fmt::print("{}\n", JsonText(summary));
 }
 
 }  // namespace
 
-void AddStream(CommandLine line) {
-  CLI::App* command = line.app.add_subcommand(
-      "stream", "Send any source as a suit would, over UDP or TCP, with faults if asked for");
-  const auto o = std::make_shared<StreamOptions>();
-  command->add_option("source", o->feed.source, kSourceKinds)->required();
-  command
-      ->add_option("--to", o->to,
-                   "receiver: udp://host:port; tcp://host:port connects; tcp://:port?listen waits "
-                   "for receivers")
-      ->capture_default_str();
-  command
-      ->add_option("--characters", o->feed.characters,
-                   "1 to 16: so many of everybody, 1 m apart along y, ids from 0")
-      ->capture_default_str();
-  command->add_option("--types", o->types, "message types to send, such as 02,20,24 (see below)");
-  const CLI::Option* const rate =
-      command->add_option("--rate_hz", o->rate_hz, "samples a second of demo:, 1 to 1000")
-          ->capture_default_str();
-  command->add_option("--stream_hz", o->feed.stream_hz,
-                      "send only so many of the samples captured in a second; the counter goes on "
-                      "counting all; 0: every sample");
-  command->add_option("--speed", o->feed.speed, "times as fast as captured, 0.01 to 100")
-      ->capture_default_str();
-  command->add_flag("--loop", o->feed.loop,
-                    "start a file over at its end; counters and time codes go on");
-  command->add_option("--seconds", o->seconds, "stop after so long; 0: at the end, or never");
-  command->add_flag("--gloves", o->feed.gloves,
-                    "add moving fingers: 40 segments (sources of samples only)");
-  command->add_option("--props", o->feed.props, "add so many props, 0 to 4 (likewise)");
-  command->add_option("--fault", o->faults, "NAME=SHARE[:SECONDS], such as loss=0.05 (see below)")
-      ->allow_extra_args(false);
-  command->add_option("--seed", o->seed, "of the faults")->capture_default_str();
-  command->add_flag("--json", o->as_json, "print what was sent as JSON");
-  command->footer(kMore);
-  command->callback([o, rate] {
-    o->rate_is_given = rate->count() > 0;
-    Stream(*o);
-  });
+Command StreamCommand() {
+  const auto values = std::make_shared<StreamOptions>();
+  Command command;
+  command.name = "stream";
+  command.about = "Sends a source as a suit would, over UDP or TCP, with faults on request";
+  values->List(command.options);
+  command.positionals = {"source"};
+  command.required = {"source"};
+  command.footer = kMore;
+  command.run = [values](options::OptionList&) {
+    Stream(*values);
+    return 0;
+  };
+  return command;
 }
 
 }  // namespace kinescope::app

@@ -43,14 +43,14 @@ bool Thinner::Keeps(double stream_hz, std::uint32_t counter, std::int64_t time_n
 std::unique_ptr<Feed> OpenFeed(const FeedSettings& settings) {
   const bool is_pipe = settings.source == "-";
   if (settings.loop && is_pipe) {
-    throw UsageError("--loop: standard input cannot be read twice; save it as a file");
+    throw UsageError("--loop: standard input cannot be read twice; save it to a file first");
   }
   auto datagrams = mvn::OpenDatagrams(settings.source);
   if (datagrams == nullptr) {
     if (is_pipe) {
       throw SourceError(
-          "standard input: only captures and raw datagrams can be streamed from a pipe; save it as "
-          "a file");
+          "standard input: only captures and raw datagrams can be streamed from a pipe; save it to "
+          "a file first");
     }
     if (ros_bridge::IsGraphUrl(settings.source)) {
       throw SourceError(
@@ -63,14 +63,15 @@ std::unique_ptr<Feed> OpenFeed(const FeedSettings& settings) {
   if (settings.gloves || settings.props > 0) {
     throw UsageError(std::string(settings.gloves ? "--gloves" : "--props") + ": '" +
                      settings.source +
-                     "' is sent as it is, nothing can be added; expected a source of samples "
-                     "(MVNX, a ROS bag, demo:)");
+                     "' contains datagrams, which are forwarded unchanged; gloves and props can be "
+                     "added only to MVNX, ROS bags and demo:");
   }
   if (datagrams->is_live() && settings.speed != 1) {
-    throw UsageError("--speed: '" + settings.source + "' is live and has its own speed");
+    throw UsageError("--speed: '" + settings.source +
+                     "' is a live stream; its speed cannot be changed");
   }
   if (datagrams->is_live() && settings.loop) {
-    throw UsageError("--loop: '" + settings.source + "' is live and has no end");
+    throw UsageError("--loop: '" + settings.source + "' is a live stream without an end");
   }
   return MakeDatagramFeed(settings, std::move(datagrams));
 }

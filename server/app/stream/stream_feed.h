@@ -1,5 +1,5 @@
-/// What `kinescope stream` sends: any source as datagrams with the times at which they are due,
-/// before faults and pacing. One thread.
+/// Reads the data that `kinescope stream` sends: any source as datagrams with the times at which
+/// they are due, before faults and pacing. One thread.
 #pragma once
 
 #include <chrono>
@@ -17,19 +17,19 @@ namespace kinescope::app {
 
 struct FeedSettings {
   std::string source;
-  double rate_hz = 0;  // of `demo:`
-  int characters = 1;  // copies of everybody, side by side
+  double rate_hz = 0;  // samples per second of `demo:`
+  int characters = 1;  // copies of each character, side by side
   std::optional<mvn::TypeSet>
-      types;             // none: the usual ones with 12 and 13, or all that a source has
-  double stream_hz = 0;  // most samples a second of each character; 0: all
-  double speed = 1;      // 2: twice as fast as it was captured
+      types;             // absent: the usual ones with 12 and 13, or all that a source has
+  double stream_hz = 0;  // maximum samples per second of each character; 0: all
+  double speed = 1;      // 2: twice the original speed
   bool loop = false;
-  bool gloves = false;  // made up; not for sources that are datagrams
-  int props = 0;        // likewise
+  bool gloves = false;  // generated; not for sources of datagrams
+  int props = 0;        // generated; not for sources of datagrams
 };
 
 struct FeedDatagram {
-  std::int64_t due_nanos = 0;  // since the beginning; never goes back
+  std::int64_t due_nanos = 0;  // ns since the beginning; never goes back
   std::string bytes;
   bool begins_sample = false;
 };
@@ -42,52 +42,52 @@ class Feed {
 
   enum class State { kMore, kEnded };
 
-  /// Appends what comes next to `out`: of a file at once, of a live source what comes within
-  /// `timeout`; maybe nothing.
-  /// @throws SourceError when the source cannot go on.
+  /// Appends the next datagrams to `out`: of a file at once, of a live source those that arrive
+  /// within `timeout`; possibly none.
+  /// @throws SourceError if the source cannot continue.
   virtual State Read(std::chrono::nanoseconds timeout, std::vector<FeedDatagram>& out) = 0;
 
   virtual bool is_live() const = 0;
-  virtual std::string description() const = 0;  // of the source, with the real port
+  virtual std::string description() const = 0;  // of the source, with the actual port
 
  protected:
   Feed() = default;
 };
 
-/// `settings.source`, whatever it is. Datagrams (a socket, a capture) are passed on byte for byte,
-/// apart from the character's id of copies and, after the first round of a loop, counter and time
-/// code. Everything else is encoded.
-/// @throws SourceError naming the source and what is wrong with it; UsageError for settings that do
-/// not go with it.
+/// Opens `settings.source` of any kind. Datagrams (a socket, a capture) are passed on unchanged,
+/// except for the character id of copies and, after the first round of a loop, counter and time
+/// code. All other sources are encoded.
+/// @throws SourceError with the source and the reason; UsageError for settings that the source does
+/// not support.
 std::unique_ptr<Feed> OpenFeed(const FeedSettings& settings);
 
-// For the feeds.
+// The two kinds of feeds, for OpenFeed().
 
 std::unique_ptr<Feed> MakeSampleFeed(const FeedSettings& settings);
 std::unique_ptr<Feed> MakeDatagramFeed(const FeedSettings& settings,
                                        std::unique_ptr<mvn::DatagramSource> source);
 
-/// The ids of copies: 0 to `copies` - 1 for the first character that is met, then on. Without
-/// copies everybody keeps his own.
+/// Assigns the character ids of copies: 0 to `copies` - 1 for the first character, then the next
+/// ones. Without copies every character keeps its id.
 class CopyIds {
  public:
   explicit CopyIds(int copies) : copies_(copies) {}
 
-  /// Nothing where there are more than a header can tell apart.
+  /// nullopt if there are more characters than a header can distinguish.
   std::optional<int> Find(int character, int copy);
 
  private:
   const int copies_;
-  std::map<int, int> first_;  // by original id
+  std::map<int, int> first_;  // first id, by original id
 };
 
-/// Which samples of one character a slower stream keeps: one in each period of `stream_hz`, as
-/// evenly as captured frames allow.
+/// Selects the samples of one character for a slower stream: one per period of `stream_hz`, as
+/// evenly as the samples allow.
 class Thinner {
  public:
-  /// Whether to keep the sample `counter`, taken at `time_nanos` of the sender's clock; the same
-  /// answer for every datagram of it, also when they come out of order. `clock_step_nanos`: the
-  /// clock's resolution. `stream_hz` 0: all.
+  /// Whether to keep the sample `counter`, taken at `time_nanos` on the sender's clock. All
+  /// datagrams of a sample get the same answer, also out of order. `clock_step_nanos`: resolution
+  /// of that clock. `stream_hz` 0: all.
   [[nodiscard]] bool Keeps(double stream_hz, std::uint32_t counter, std::int64_t time_nanos,
                            std::int64_t clock_step_nanos);
 
@@ -96,7 +96,7 @@ class Thinner {
     std::uint32_t counter = 0;
     bool keep = true;
   };
-  std::vector<Decision> latest_;  // a ring
+  std::vector<Decision> latest_;  // ring buffer
   std::size_t next_ = 0;
   std::int64_t slot_ = 0;
   std::int64_t time_nanos_ = 0;

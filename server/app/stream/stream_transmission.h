@@ -1,5 +1,5 @@
-/// Sends a feed in real time: every datagram at its deadline, counted from the beginning, so that
-/// nothing drifts; through faults, and counted. One thread.
+/// Sends a feed in real time through fault injection, and counts it. Every datagram has a deadline
+/// relative to the beginning, so that delays do not add up. One thread.
 #pragma once
 
 #include <array>
@@ -17,20 +17,20 @@ namespace kinescope::app {
 
 class Transmission {
  public:
-  /// Borrows what it is given.
+  /// All references are borrowed.
   Transmission(Feed& feed, mvn::FaultInjector& faults, mvn::DatagramSender& sender)
       : feed_(feed), faults_(faults), sender_(sender) {}
 
-  /// Until the feed ends, what is due after `seconds` (0: no limit) comes up, or somebody stops the
-  /// program; then what faults still hold back goes out too.
-  /// @throws SourceError when the source or sending cannot go on.
+  /// Sends until the feed ends, the next datagram is due after `seconds` (0: no limit), or the
+  /// program is interrupted; then sends the datagrams that faults still delay.
+  /// @throws SourceError if the source or the sender cannot continue.
   void Run(double seconds);
 
   double secs() const { return progress_.secs(); }
   std::uint64_t samples() const { return samples_; }      // before faults
   std::uint64_t datagrams() const { return datagrams_; }  // sent
   std::uint64_t bytes() const { return bytes_; }
-  /// Of the datagrams sent, by "02"; "other" for what has no readable header.
+  /// Number of datagrams sent, by "02"; "other": without a readable header.
   std::map<std::string, std::uint64_t> types() const;
 
  private:
@@ -46,7 +46,7 @@ class Transmission {
   Feed& feed_;
   mvn::FaultInjector& faults_;
   mvn::DatagramSender& sender_;
-  std::int64_t start_nanos_ = 0;  // monotonic
+  std::int64_t start_nanos_ = 0;  // monotonic clock
   Progress progress_{"samples sent:", 0};
   std::uint64_t samples_ = 0;
   std::uint64_t datagrams_ = 0;

@@ -1,4 +1,4 @@
-/// A person as files that others can use without Kinescope: RViz, Gazebo, a ROS package.
+/// Writes a person as files for use without Kinescope: RViz, Gazebo, a ROS package. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +11,15 @@
 namespace kinescope::app {
 
 struct PersonFiles {
-  std::vector<FigureFile> figure;  // FigureFiles; none for a figure of primitives
-  std::vector<FigureFile> tools;   // ToolFiles
+  std::vector<FigureFile> figure;  // from FigureFiles; empty for a body of primitives
+  std::vector<FigureFile> tools;   // from ToolFiles
 };
 
-/// Writes `folder`/person.urdf and `meshes` into `folder`/meshes; makes the folders. The URDF names
-/// them as package://`package`/meshes/..., so that `folder` is, or goes into, the package of that
-/// name; where `package` is "", as file:// URIs of where they now are. Each file appears under its
-/// name only when it is whole, the URDF last. What is there is replaced.
-/// @throws UsageError naming the file and the reason, or a package name that ROS would not take.
+/// Writes `folder`/person.urdf and `meshes` into `folder`/meshes; creates the folders. The URDF
+/// refers to them as package://`package`/meshes/..., so `folder` must be, or be copied to, the
+/// package of that name. If `package` is "", it refers to their present place by file:// URIs. Each
+/// file gets its name only when complete, the URDF last. Existing files are replaced.
+/// @throws UsageError with the file and the reason, or for a package name that is invalid in ROS.
 void ExportPerson(urdf::HumanModel human, const PersonFiles& meshes,
                   const std::filesystem::path& folder, const std::string& package);
 

@@ -30,17 +30,34 @@ namespace {
 namespace fs = std::filesystem;
 
 struct WriteOptions {
-  std::string source;
-  std::string out;
-  std::string package;
-  bool gazebo = false;
+  options::Text source, out, package;
+  options::Flag gazebo;
   PersonOptions person;
+
+  void List(options::OptionList& option) {
+    option("source", source,
+           "person to write: " + SourceKinds() + "; default: the default body of --height");
+    option("out", out,
+           "FILE.urdf, or a folder for person.urdf and meshes/; default: standard output");
+    option("package", package,
+           "name of the ROS package that the folder is: meshes are written as package://NAME/...");
+    option("gazebo", gazebo,
+           "give every link a mass, taken from its segment: Gazebo ignores links without mass and "
+           "their children");
+    person.List(option);
+  }
 };
 
 struct UrdfCheckOptions {
-  std::string file;
-  bool json = false;
-  std::vector<std::string> package_path;
+  options::Text file;
+  options::Flag json;
+  options::Texts package_path;
+
+  void List(options::OptionList& option) {
+    option("file", file, "URDF to check");
+    option("json", json, "print one JSON object with every problem");
+    option("package_path", package_path, kPackagePathHelp);
+  }
 };
 
 // Remembers of whom a source has told the lengths.
@@ -78,8 +95,8 @@ urdf::HumanModel LiveHuman(const std::string& url, const SceneOptions& options) 
     }
   }
   throw SourceError(
-      fmt::format("source '{}': no person with poses and segment lengths came within {} s (a suit "
-                  "has to send scale data; `kinescope inspect` says what comes)",
+      fmt::format("source '{}': no person with poses and segment lengths received within {} s; "
+                  "switch on Scaling Data in MVN, and check the stream with `kinescope inspect`",
                   url, kPatienceSecs));
 }
 
@@ -92,7 +109,7 @@ urdf::HumanModel HumanOf(const std::string& source, const SceneOptions& scene) {
   if (IsLiveUrl(source)) return LiveHuman(source, scene);
   SceneReader reader(source, scene);
   const auto state = reader.Next();
-  if (!state) throw SourceError("source '" + source + "' has no frame");
+  if (!state) throw SourceError("source '" + source + "' contains no sample");
   return state->people.front().model->human;
 }
 
@@ -102,97 +119,92 @@ bool IsFileName(const fs::path& out) {
 }
 
 void Write(const WriteOptions& options) {
-  const bool is_folder = !options.out.empty() && !IsFileName(options.out);
-  if (!options.package.empty() && !is_folder) {
-    throw UsageError("--package=" + options.package + ": needs --out FOLDER, the package");
+  const bool is_folder = !options.out->empty() && !IsFileName(*options.out);
+  if (!options.package->empty() && !is_folder) {
+    throw UsageError("--package=" + *options.package +
+                     ": needs --out FOLDER, the folder of the package");
   }
-  if (is_folder && fs::is_regular_file(options.out)) {
-    throw UsageError("--out=" + options.out + ": is a file; name a folder, or a file *.urdf");
+  if (is_folder && fs::is_regular_file(*options.out)) {
+    throw UsageError("--out=" + *options.out +
+                     ": this file exists and is not a URDF; expected a folder or NAME.urdf");
   }
-  const SceneOptions scene = ToSceneOptions(options.person, SceneOptions().stale_secs);
-  urdf::HumanModel human = HumanOf(options.source, scene);
-  human.mass_inside_joints = options.gazebo;
+  const SceneOptions scene = ToSceneOptions(options.person);
+  urdf::HumanModel human = HumanOf(*options.source, scene);
+  human.mass_inside_joints = *options.gazebo;
   if (is_folder) {
     PersonFiles files;
     if (scene.smooth_figure) files.figure = FigureFiles(human, scene.figure_meshes.get());
     if (scene.tools) files.tools = ToolFiles(*scene.tools, human.skeleton);
-    ExportPerson(human, files, options.out, options.package);
+    ExportPerson(human, files, *options.out, *options.package);
     const bool has_meshes = !files.figure.empty() || !files.tools.empty();
-    fmt::print("{}: person.urdf{}\n", options.out, has_meshes ? " and its meshes" : "");
+    fmt::print("{}: person.urdf{}\n", *options.out, has_meshes ? " and its meshes" : "");
     return;
   }
   const std::string xml = urdf::WriteUrdf(human);
-  if (options.out.empty()) {
+  if (options.out->empty()) {
     fmt::print("{}", xml);
     return;
   }
   try {
-    render::WriteNewFile(options.out, xml);
+    render::WriteNewFile(*options.out, xml);
   } catch (const std::runtime_error& error) {
-    throw UsageError(fmt::format("--out={}: {}", options.out, error.what()));
+    throw UsageError(fmt::format("--out={}: {}", *options.out, error.what()));
   }
 }
 
 bool Check(const UrdfCheckOptions& options) {
   const urdf::UrdfReport report = urdf::CheckUrdf(
-      ReadUrdfFile(options.file), urdf::MakeMeshSearch(options.file, options.package_path));
-  fmt::print("{}", options.json ? UrdfReportJson(options.file, report)
-                                : UrdfReportText(options.file, report));
+      ReadUrdfFile(*options.file), urdf::MakeMeshSearch(*options.file, *options.package_path));
+  fmt::print("{}", *options.json ? UrdfReportJson(*options.file, report)
+                                 : UrdfReportText(*options.file, report));
   return report.is_usable();
 }
 
-constexpr char kPackagePathHelp[] =
-    "folder with packages, for package:// names; may be given again. Before $ROS_PACKAGE_PATH";
-
-void AddCheck(CLI::App& urdf, int& exit_code) {
-  CLI::App* command =
-      urdf.add_subcommand("check", "What is in a URDF, and what is wrong with it, with lines");
-  const auto o = std::make_shared<UrdfCheckOptions>();
-  command->add_option("file", o->file, "a URDF")->required();
-  command->add_flag("--json", o->json, "one JSON object with every problem");
-  command->add_option("--package-path", o->package_path, kPackagePathHelp)->allow_extra_args(false);
-  command->footer("Exit code: 0 usable, 1 something is wrong, 2 it could not be read.");
-  command->callback([o, &exit_code] { exit_code = Check(*o) ? 0 : 1; });
+Command CheckCommand() {
+  const auto values = std::make_shared<UrdfCheckOptions>();
+  Command command;
+  command.name = "check";
+  command.about = "Checks a URDF and reports errors with line numbers";
+  values->List(command.options);
+  command.positionals = {"file"};
+  command.required = {"file"};
+  command.footer = "Exit code: 0 usable, 1 not usable, 2 error.";
+  command.run = [values](options::OptionList&) { return Check(*values) ? 0 : 1; };
+  return command;
 }
 
-void AddPicture(CLI::App& urdf) {
-  CLI::App* command = urdf.add_subcommand("picture", "Any robot as a picture");
-  const auto o = std::make_shared<UrdfPictureOptions>();
-  command->add_option("file", o->file, "a URDF")->required();
-  command->add_option("--out", o->out, "file to write, .png")->required();
-  o->view.Visit(FlagAdder(*command));
-  o->backend.Visit(FlagAdder(*command));
-  command->add_option("--joint", o->joints, "NAME=RADIANS (or metres); may be given again")
-      ->allow_extra_args(false);
-  command->add_option("--package-path", o->package_path, kPackagePathHelp)->allow_extra_args(false);
-  command->add_flag("--json", o->json,
-                    "tell the result as JSON: the camera, and each mesh that is missing");
-  command->callback([o] { DrawUrdf(*o); });
+Command PictureCommand() {
+  const auto values = std::make_shared<UrdfPictureOptions>();
+  Command command;
+  command.name = "picture";
+  command.about = "Draws any robot";
+  values->List(command.options);
+  command.positionals = {"file"};
+  command.required = {"file", "out"};
+  command.run = [values](options::OptionList&) {
+    DrawUrdf(*values);
+    return 0;
+  };
+  return command;
 }
 
 }  // namespace
 
-void AddUrdf(CommandLine line) {
-  CLI::App* command = line.app.add_subcommand(
-      "urdf",
-      "Write the URDF of a person; `urdf check FILE` looks for faults in one, `urdf picture FILE` "
-      "draws one");
-  const auto o = std::make_shared<WriteOptions>();
-  command->add_option("--source,source", o->source, "whose; default: the default body of --height");
-  command->add_option(
-      "--out", o->out,
-      "FILE.urdf, or a folder for person.urdf and meshes/; default: standard output");
-  command->add_option("--package", o->package,
-                      "the folder is the ROS package of this name: meshes are package://NAME/...");
-  command->add_flag("--gazebo", o->gazebo,
-                    "let every link weigh something, at the cost of its segment: Gazebo leaves out "
-                    "links without mass, and with them what hangs on them");
-  o->person.Visit(FlagAdder(*command));
-  AddCheck(*command, line.exit_code);
-  AddPicture(*command);
-  command->callback([o, command] {
-    if (command->get_subcommands().empty()) Write(*o);
-  });
+Command UrdfCommand() {
+  const auto values = std::make_shared<WriteOptions>();
+  Command command;
+  command.name = "urdf";
+  command.about =
+      "Writes the URDF of a person; `urdf check FILE` checks a URDF, `urdf picture FILE` draws one";
+  values->List(command.options);
+  command.positionals = {"source"};
+  command.run = [values](options::OptionList&) {
+    Write(*values);
+    return 0;
+  };
+  command.parts.push_back(CheckCommand());
+  command.parts.push_back(PictureCommand());
+  return command;
 }
 
 }  // namespace kinescope::app

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -13,42 +12,25 @@
 #include "render/camera.h"
 #include "render/png_file.h"
 #include "render/renderer.h"
-#include "server/options/option_list.h"
 #include "server/picture/shots.h"
 #include "server/scene/robot_source.h"
 
 namespace kinescope::app {
 namespace {
 
-urdf::JointPositions ToPositions(const std::vector<std::string>& joints) {
-  urdf::JointPositions positions;
-  for (const std::string& text : joints) {
-    const std::size_t equals = text.rfind('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw UsageError("--joint " + text + ": expected NAME=RADIANS");
-    }
-    const double position =
-        ParseOption<double>("--joint " + text.substr(0, equals), text.substr(equals + 1));
-    if (!std::isfinite(position))
-      throw UsageError("--joint " + text + ": expected a finite number");
-    positions[text.substr(0, equals)] = position;
-  }
-  return positions;
-}
-
 std::vector<double> XyzList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 void Tell(const UrdfPictureOptions& options, const RobotState& robot, const render::Camera& camera,
           const std::vector<std::string>& problems) {
-  if (!options.json) {
+  if (!*options.json) {
     const std::string boxes =
-        problems.empty() ? "" : fmt::format(", {} mesh files missing or refused", problems.size());
-    fmt::print("{}: robot '{}', {} links{}\n", options.out, robot.name, robot.model->links.size(),
+        problems.empty() ? "" : fmt::format(", {} mesh files missing or rejected", problems.size());
+    fmt::print("{}: robot '{}', {} links{}\n", *options.out, robot.name, robot.model->links.size(),
                boxes);
     return;
   }
   const nlohmann::ordered_json json = {
-      {"out", options.out},
+      {"out", *options.out},
       {"robot", robot.name},
       {"links", robot.model->links.size()},
       {"root_position", XyzList(robot.world_from_link.front().translation())},
@@ -65,32 +47,60 @@ void Tell(const UrdfPictureOptions& options, const RobotState& robot, const rend
 
 }  // namespace
 
+void JointsValue::ParseAll(const std::vector<std::string>& texts) {
+  urdf::JointPositions positions;
+  for (const std::string& text : texts) {
+    const auto parts = options::SplitAtLast(text, '=');
+    const auto position = parts ? options::ParseNumber(parts->second) : std::nullopt;
+    if (!position || parts->first.empty()) RefuseText();
+    positions[parts->first] = *position;
+  }
+  value_ = std::move(positions);
+}
+
+std::string JointsValue::ToText() const {
+  std::string text;
+  for (const auto& [name, position] : value_) {
+    text += (text.empty() ? "" : ";") + name + "=" + options::NumberText(position);
+  }
+  return text;
+}
+
+void UrdfPictureOptions::List(options::OptionList& option) {
+  option("file", file, "URDF to draw");
+  option("out", out, "file to write, .png");
+  option("joint", joint, "position of a joint; may be repeated");
+  option("package_path", package_path, kPackagePathHelp);
+  option("json", json, "print the result as JSON: the camera, and each missing mesh");
+  view.List(option);
+  backend.List(option);
+}
+
 void DrawUrdf(const UrdfPictureOptions& options) {
-  if (std::filesystem::path(options.out).extension() != ".png") {
-    throw UsageError("--out=" + options.out + ": expected a name that ends in .png");
+  if (std::filesystem::path(*options.out).extension() != ".png") {
+    throw UsageError("--out=" + *options.out + ": expected a name that ends in .png");
   }
   ShotPlanner planner(options.view);
   SceneState scene;
   scene.liveness = Liveness::kLive;
-  scene.source = options.file;
-  scene.robots.push_back(
-      LoadRobot(options.file, options.package_path, ToPositions(options.joints)));
+  scene.source = *options.file;
+  scene.robots.push_back(LoadRobot(*options.file, *options.package_path, *options.joint));
   RobotState& robot = scene.robots.front();
-  for (const std::string& note : robot.model->notes) spdlog::warn("{}: {}", options.file, note);
+  for (const std::string& note : robot.model->notes) spdlog::warn("{}: {}", *options.file, note);
 
   const auto renderer = StartRenderer(options.backend);
   robot.bounds = renderer->Bounds(robot);
   if (robot.bounds.isEmpty()) {
-    throw SourceError(options.file + ": has no <visual>, so there is nothing to draw");
+    throw SourceError(*options.file + ": has no <visual>, so there is nothing to draw");
   }
   StandOnFloor(robot);
   const Shot shot = planner.Only(std::move(scene));
   const render::Image image = renderer->Render(shot.state, shot.camera, shot.view);
   std::map<std::string, std::string> facts = DrawnBy(*renderer);
   facts["Software"] = "Kinescope " KINESCOPE_VERSION;
-  facts["Source"] = std::filesystem::path(options.file).filename().string();
-  facts["Camera"] = options.view.camera;
-  render::WritePng(options.out, image, facts);
+  facts["Source"] = std::filesystem::path(*options.file).filename().string();
+  facts["Camera"] = options.view.camera.ToText();
+  render::WritePng(*options.out, image, facts);
   Tell(options, shot.state.robots.front(), shot.camera, renderer->problems());
 }
 

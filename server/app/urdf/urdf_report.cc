@@ -31,8 +31,8 @@ std::string VerdictText(const UrdfReport& report) {
       warnings == 0 ? "" : (errors == 0 ? ", with " : " and ") + Counted(warnings, "warning");
   if (errors == 0) return "usable" + told;
   const bool is_readable = count(UrdfProblem::Kind::kUnreadable) == 0;
-  return (is_readable ? "can be drawn, but is wrong: " : "not usable: ") +
-         Counted(errors, "error") + told;
+  return (is_readable ? "can be drawn, but contains " : "not usable: ") + Counted(errors, "error") +
+         told;
 }
 
 std::string Roots(const UrdfReport& report) {
@@ -87,7 +87,7 @@ std::string UrdfReportJson(const std::string& file, const UrdfReport& report) {
       {"problems", problems},
   };
   // Names come from outside and are cut at any byte.
-  return JsonText(json, 2) + "\n";
+  return JsonText(json) + "\n";
 }
 
 }  // namespace kinescope::app

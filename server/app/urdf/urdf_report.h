@@ -1,4 +1,4 @@
-/// What `kinescope urdf check` says.
+/// Writes the report of `kinescope urdf check`. Pure functions, any thread.
 #pragma once
 
 #include <string>
@@ -7,11 +7,11 @@
 
 namespace kinescope::app {
 
-/// Lines of text: what it is, each problem as `file:line: kind: ...`, and the verdict. Of problems
-/// that only differ by element, the first few.
+/// Lines of text: a summary, each problem as `file:line: kind: ...`, and the result. Of problems
+/// that differ only by element, the first few are listed.
 std::string UrdfReportText(const std::string& file, const urdf::UrdfReport& report);
 
-/// One JSON object with all of them, and a line end.
+/// One JSON object with all problems, and a line end.
 std::string UrdfReportJson(const std::string& file, const urdf::UrdfReport& report);
 
 }  // namespace kinescope::app

@@ -10,8 +10,8 @@
 namespace kinescope::mvn {
 namespace {
 
-// A sequence number further off than any window is not of this connection, or the capture lost
-// more than can be waited for.
+// A sequence number beyond any window belongs to another connection, or the capture lost more than
+// can be waited for.
 constexpr std::int64_t kFarOff = 1 << 24;
 constexpr std::size_t kMostSegments = 4096;
 
@@ -25,7 +25,7 @@ void CapturedTcp::Decide(Direction& direction, std::string_view bytes) {
     direction.framer.Append(direction.head);
     direction.head = {};
   } else if (direction.head.size() > kMostUndecidedBytes) {
-    direction.head.erase(0, direction.head.size() - kIdStringBytes);  // it may be cut in two
+    direction.head.erase(0, direction.head.size() - kIdStringBytes);  // may be divided here
   }
 }
 
@@ -35,7 +35,7 @@ void CapturedTcp::HandOn(Direction& direction, const Arrival& arrival, DatagramS
   }
 }
 
-// What comes next does not continue what came before.
+// The following bytes do not continue the earlier ones.
 void CapturedTcp::Restart(Direction& direction, const Arrival& arrival, DatagramSink& sink) {
   direction.head.clear();
   if (!direction.is_mvn) return;
@@ -57,7 +57,7 @@ void CapturedTcp::SkipGap(Direction& direction, std::int64_t to_place, const Arr
 // @pre place <= direction.next_place
 void CapturedTcp::Take(Direction& direction, std::int64_t place, std::string_view bytes,
                        const Arrival& arrival, DatagramSink& sink) {
-  const std::int64_t known = direction.next_place - place;  // bytes that came already
+  const std::int64_t known = direction.next_place - place;  // bytes received already
   if (known >= static_cast<std::int64_t>(bytes.size())) return;
   bytes.remove_prefix(static_cast<std::size_t>(known));
   direction.next_place += static_cast<std::int64_t>(bytes.size());
@@ -82,7 +82,7 @@ void CapturedTcp::TakeWaiting(Direction& direction, const Arrival& arrival, Data
   }
 }
 
-// What came before the bytes that it continues.
+// Keeps bytes that arrived before the ones that they continue.
 void CapturedTcp::Keep(Direction& direction, std::int64_t place, std::string_view bytes,
                        const Arrival& arrival, DatagramSink& sink) {
   if (direction.waiting.empty()) direction.waiting_since_nanos = arrival.monotonic_nanos;
@@ -126,7 +126,8 @@ CapturedTcp::Directions::iterator CapturedTcp::FindOrMake(const TcpSegment& segm
     return found;
   }
   if (directions_.size() == kMostDirections) {
-    // What is not MVN's goes first: a capture of a busy machine has hundreds of those.
+    // Connections without MVN data are removed first: a capture of a busy machine has hundreds of
+    // them.
     auto victim = std::find_if(directions_.begin(), directions_.end(),
                                [](const Direction& known) { return !known.is_mvn; });
     Close(victim == directions_.end() ? directions_.begin() : victim, arrival, sink);
@@ -156,7 +157,7 @@ bool CapturedTcp::Add(const TcpSegment& segment, const Arrival& arrival, Datagra
     Keep(direction, place, segment.payload, arrival, sink);
   }
   const bool is_mvn = direction.is_mvn || segment.payload.empty();
-  // A FIN that overtook data waits with it; what never comes is given up at the end.
+  // A FIN that overtook data waits with it; missing data are given up at the end.
   if (segment.is_reset || (segment.is_last && direction.waiting.empty())) {
     Close(at, arrival, sink);
   }

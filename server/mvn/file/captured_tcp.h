@@ -1,6 +1,6 @@
-/// TCP as it was captured, made into MVN datagrams again: segments in order, each byte once,
-/// whatever the network did to them. Only connections on which an MVN datagram begins are followed;
-/// memory is bounded. One thread.
+/// Restores MVN datagrams from captured TCP packets: the bytes in order, each once, despite losses,
+/// repetitions and reordering in the capture. Only connections that carry MVN datagrams are
+/// followed; memory is limited. One thread.
 #pragma once
 
 #include <cstdint>
@@ -17,41 +17,41 @@ namespace kinescope::mvn {
 
 class CapturedTcp {
  public:
-  /// Takes a segment captured at `arrival` and hands on the datagrams that it completes.
-  /// @return false for data of a connection that is (not yet) known to be MVN's.
+  /// Adds a segment captured at `arrival` and delivers the datagrams that it completes.
+  /// @return false for data of a connection that is not (yet) known to carry MVN.
   [[nodiscard]] bool Add(const TcpSegment& segment, const Arrival& arrival, DatagramSink& sink);
 
-  /// Nothing more will come: hands on what still waits for missing segments.
+  /// End of the capture: delivers everything that waits for missing segments.
   void End(const Arrival& arrival, DatagramSink& sink);
 
-  std::uint64_t connections() const { return connections_; }  // that were followed
-  std::uint64_t gaps() const { return gaps_; }                // pieces of them that never came
+  std::uint64_t connections() const { return connections_; }  // connections that were followed
+  std::uint64_t gaps() const { return gaps_; }                // missing pieces in these connections
   std::uint64_t resyncs() const;
   std::uint64_t skipped_bytes() const;
 
-  /// For one direction of a connection: beyond any of these a gap is taken for a loss. Less is kept
-  /// of one that is not known to be MVN's.
-  static constexpr std::int64_t kPatienceNanos = 2'000'000'000;  // a retransmission comes sooner
+  /// Limits per direction of a connection: beyond any of them a gap counts as a loss. An undecided
+  /// connection has a smaller limit.
+  static constexpr std::int64_t kPatienceNanos = 2'000'000'000;  // retransmissions take less time
   static constexpr std::size_t kMostWaitingBytes = 1 << 20;
   static constexpr std::size_t kMostUndecidedBytes = 16 << 10;
   static constexpr std::size_t kMostDirections = 32;
 
  private:
-  // One direction of a connection. Places are counted from an arbitrary 0, in 64 bits, so that they
+  // One direction of a connection. Places are counted from an arbitrary 0 in 64 bits, so that they
   // do not wrap as sequence numbers do.
   struct Direction {
     Endpoint from, to;
     bool is_mvn = false;
-    std::string head;                  // of one that is not yet known to be
-    std::uint32_t first_sequence = 0;  // where the capture met it
+    std::string head;                  // bytes of an undecided connection
+    std::uint32_t first_sequence = 0;  // at the first captured segment
     std::uint32_t next_sequence = 0;
     std::int64_t next_place = 0;
-    std::map<std::int64_t, std::string> waiting;  // by place; after a gap
+    std::map<std::int64_t, std::string> waiting;  // by place; bytes after a gap
     std::size_t waiting_bytes = 0;
     std::int64_t waiting_since_nanos = 0;
     StreamFramer framer;
   };
-  using Directions = std::list<Direction>;  // the one heard last is last
+  using Directions = std::list<Direction>;  // the most recently used is last
 
   Directions::iterator FindOrMake(const TcpSegment& segment, const Arrival& arrival,
                                   DatagramSink& sink);
@@ -70,8 +70,8 @@ class CapturedTcp {
   Directions directions_;
   std::uint64_t connections_ = 0;
   std::uint64_t gaps_ = 0;
-  std::uint64_t resyncs_ = 0;        // of framers that are gone
-  std::uint64_t skipped_bytes_ = 0;  // likewise
+  std::uint64_t resyncs_ = 0;        // of framers that no longer exist
+  std::uint64_t skipped_bytes_ = 0;  // of framers that no longer exist
 };
 
 }  // namespace kinescope::mvn

@@ -28,7 +28,7 @@ std::optional<IpPacket> IpFragments::Add(const IpPacket& piece, std::int64_t now
   const std::size_t begin = piece.fragment.offset;
   const std::size_t end = begin + piece.payload.size();
   const bool is_last = !piece.fragment.more_follow;
-  // Only the last piece may end between two units.
+  // Only the last fragment may end between two units.
   if (end > kMostBytes || piece.payload.empty() || (!is_last && end % kUnit != 0)) {
     ++lost_;
     return std::nullopt;
@@ -49,7 +49,7 @@ std::optional<IpPacket> IpFragments::Add(const IpPacket& piece, std::int64_t now
   std::memcpy(partial->bytes.data() + begin, piece.payload.data(), piece.payload.size());
   for (std::size_t unit = begin / kUnit; unit * kUnit < end; ++unit) partial->units.set(unit);
   if (!partial->size) return std::nullopt;
-  if (partial->bytes.size() > *partial->size) {  // a piece beyond the last one
+  if (partial->bytes.size() > *partial->size) {  // a fragment beyond the last one
     partials_.erase(partial);
     ++lost_;
     return std::nullopt;

@@ -6,7 +6,7 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr std::string_view kWhiteSpace = " \t\r\n";
-constexpr double kLargestMvnxNumber = 1e6;  // as in the stream: beyond anything a human does
+constexpr double kLargestMvnxNumber = 1e6;  // as in the stream: beyond any human motion
 
 struct Rule {
   Element parent;
@@ -14,7 +14,7 @@ struct Rule {
   Element element;
 };
 
-// Where it stands decides what it is: <segment> of a finger list is not a segment of the body.
+// The parent decides the meaning: <segment> in a finger list is not a segment of the body.
 constexpr Rule kRules[] = {
     {Element::kDocument, "mvnx", Element::kMvnx},
     {Element::kMvnx, "subject", Element::kSubject},
@@ -74,7 +74,7 @@ std::string ParseNumbers(std::string_view text, std::vector<double>& numbers) {
     }
     if (!std::isfinite(number)) return "a number is NaN or infinite";
     if (std::abs(number) > kLargestMvnxNumber) {
-      return std::to_string(number) + " is beyond anything a human does";
+      return std::to_string(number) + " is out of range";
     }
     numbers.push_back(number);
     at = parsed.ptr;

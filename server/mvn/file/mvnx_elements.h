@@ -1,4 +1,5 @@
-/// The elements of MVNX that are read, and helpers for their text. Only for mvnx_reader.cc.
+/// Finds the MVNX elements that are read, and parses their text. Only for mvnx_reader.cc. Pure
+/// functions.
 #pragma once
 
 #include <cmath>
@@ -28,15 +29,16 @@ enum class Element {
   kFrames,
   kFrame,
   kList,
-  kOther,  // skipped, with all that is in it
+  kOther,  // skipped with all its content
 };
 
-/// What `name` is inside `parent`; `list` is set for Element::kList. A namespace prefix is ignored.
+/// The element `name` inside `parent`; sets `list` for Element::kList. A namespace prefix is
+/// ignored.
 Element FindElement(Element parent, std::string_view name, MvnxList& list);
 
 const char* Name(MvnxList list);
 
-/// Numbers separated by white space, whatever the locale. @return what is wrong; "" if nothing.
+/// Numbers separated by white space, independent of the locale. @return the problem; "" if none.
 std::string ParseNumbers(std::string_view text, std::vector<double>& numbers);
 
 std::optional<std::int64_t> ParseInteger(std::string_view text);

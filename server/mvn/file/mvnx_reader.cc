@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMvnxChunkBytes = 64 * 1024;
 constexpr std::size_t kLongestText = 1 << 18;  // a list of a body with two gloves has 8 kB
-constexpr std::int64_t kLongestTag = 1 << 20;  // expat holds a tag in memory until it is whole
+constexpr std::int64_t kLongestTag = 1 << 20;  // expat keeps a tag in memory until it is complete
 constexpr std::size_t kDeepest = 32;
 constexpr std::size_t kMostMvnxSegments = 128;
 constexpr std::size_t kMostJoints = 256;
@@ -22,7 +22,7 @@ constexpr std::size_t kMostPoints = 4096;
 constexpr std::size_t kMostContacts = 64;
 constexpr double kHighestRate = 10000;
 
-// The value of an attribute; nullptr where it is absent.
+// The value of an attribute; nullptr if it is absent.
 const char* Find(const char** attributes, const char* name) {
   for (; attributes[0] != nullptr; attributes += 2) {
     if (std::strcmp(attributes[0], name) == 0) return attributes[1];
@@ -42,8 +42,8 @@ std::optional<std::int64_t> FindInteger(const char** attributes, const char* nam
 
 }  // namespace
 
-// Expat calls back while it reads. A callback cannot throw through C code, so it notes what is
-// wrong and stops the parser; Run() throws.
+// Expat calls back while it reads. A callback cannot throw through C code, so it records the error
+// and stops the parser; Run() throws.
 class MvnxReader::Parser {
  public:
   Parser(InputFile file, std::string name)
@@ -63,11 +63,11 @@ class MvnxReader::Parser {
     XML_SetStartDoctypeDeclHandler(
         expat_.get(), [](void* self, const char*, const char*, const char*, int) {
           static_cast<Parser*>(self)->Fail(
-              "has a DOCTYPE, which could pull in other files; MVN writes none");
+              "DOCTYPE is not supported, because it can include other files; remove it");
         });
   }
 
-  /// Reads on until the header or a frame is whole; false at the end of the file.
+  /// Reads on until the header or a frame is complete; false at the end of the file.
   bool Run() {
     stopped_ = false;
     while (!stopped_) {
@@ -96,10 +96,10 @@ class MvnxReader::Parser {
  private:
   XML_Status Feed() {
     void* const buffer = XML_GetBuffer(expat_.get(), kMvnxChunkBytes);
-    if (buffer == nullptr) Refuse("not enough memory to read on");
+    if (buffer == nullptr) Refuse("not enough memory");
     const std::size_t size = std::fread(buffer, 1, kMvnxChunkBytes, file_.get());
     if (std::ferror(file_.get()) != 0) {
-      Refuse("the file breaks off here, after " + std::to_string(frames_) +
+      Refuse("the file is truncated here, after " + std::to_string(frames_) +
              " frames: " + file_.failure() + "; copy or export it again");
     }
     bytes_read_ += static_cast<std::int64_t>(size);
@@ -115,10 +115,10 @@ class MvnxReader::Parser {
     if (!seen_root_) Refuse("not XML, so not MVNX (" + message + ")");
     if (at_end_ && (error == XML_ERROR_NO_ELEMENTS || error == XML_ERROR_UNCLOSED_TOKEN ||
                     error == XML_ERROR_PARTIAL_CHAR)) {
-      Refuse("the file breaks off here, after " + std::to_string(frames_) +
+      Refuse("the file is truncated here, after " + std::to_string(frames_) +
              " frames; copy or export it again");
     }
-    Refuse("broken XML (" + message + ")");
+    Refuse("invalid XML (" + message + ")");
   }
 
   void Fail(std::string reason) {
@@ -126,7 +126,7 @@ class MvnxReader::Parser {
     XML_StopParser(expat_.get(), XML_FALSE);
   }
 
-  // Run() returns once expat is out of the current tag.
+  // Run() returns after expat has finished the current tag.
   void Pause() {
     stopped_ = true;
     XML_StopParser(expat_.get(), XML_TRUE);
@@ -140,7 +140,7 @@ class MvnxReader::Parser {
     Element element = FindElement(parent, name, list);
     if (element == Element::kList && list == MvnxList::kFootContacts &&
         header_.foot_contacts.empty()) {
-      element = Element::kOther;  // nobody says which is which
+      element = Element::kOther;  // their meaning is not stated
     }
     path_.push_back(element);
     text_.clear();
@@ -168,9 +168,9 @@ class MvnxReader::Parser {
     const std::string version = FindText(attributes, "version");
     const auto number = ParseInteger(version.substr(0, version.find('.')));
     if (number != 3 && number != 4) {
-      return Fail("MVNX version '" + version +
-                  "'; versions 3 (MVN Studio 3 and 4) and 4 (since MVN 2018) are read. Open the "
-                  "recording in a newer MVN and export it again");
+      return Fail("unsupported MVNX version '" + version +
+                  "'; expected 3 (MVN Studio 3 and 4) or 4 (since MVN 2018). Open the recording in "
+                  "a newer MVN and export it again");
     }
     header_.version = static_cast<int>(*number);
   }
@@ -185,7 +185,8 @@ class MvnxReader::Parser {
     std::vector<double> numbers;
     if (!ParseNumbers(rate, numbers).empty() || numbers.size() != 1 || numbers[0] <= 0 ||
         numbers[0] > kHighestRate) {
-      return Fail("frameRate is '" + rate + "'; expected frames per second");
+      return Fail("frameRate is '" + rate +
+                  "'; expected more than 0, at most 10000 frames per second");
     }
     header_.rate_hz = numbers[0];
   }
@@ -235,7 +236,7 @@ class MvnxReader::Parser {
   void OnText(std::string_view text) {
     if (!failure_.empty() || path_.empty()) return;
     if (path_.back() != Element::kList && path_.back() != Element::kPointPosition) return;
-    if (text_.size() + text.size() > kLongestText) return Fail("a list of numbers has no end");
+    if (text_.size() + text.size() > kLongestText) return Fail("a list of numbers is too long");
     text_.append(text);
   }
 
@@ -255,9 +256,9 @@ class MvnxReader::Parser {
     if (!wrong.empty()) return Fail("point " + point_label_ + ": " + wrong);
     if (numbers_.size() != 3) {
       return Fail("point " + point_label_ + " has " + std::to_string(numbers_.size()) +
-                  " coordinates, not 3");
+                  " coordinates; expected 3");
     }
-    const auto& segment = header_.segments.back();  // a point stands inside its segment
+    const auto& segment = header_.segments.back();  // a point is inside its segment
     if (!segment) return;
     if (header_.points.size() >= kMostPoints) return Fail("too many points");
     header_.points[{*segment, point_label_}] = {numbers_[0], numbers_[1], numbers_[2]};
@@ -270,8 +271,8 @@ class MvnxReader::Parser {
     const bool short_com = list_ == MvnxList::kCenterOfMass && numbers.size() == 3;
     const std::size_t expected = ExpectedSize(list_);
     if (numbers.size() == expected || short_com) return;
-    Fail(std::string(Name(list_)) + " has " + std::to_string(numbers.size()) + " numbers; " +
-         std::to_string(expected) + " are expected from the file's segments and joints");
+    Fail(std::string(Name(list_)) + " has " + std::to_string(numbers.size()) +
+         " numbers; expected " + std::to_string(expected) + " from the file's segments and joints");
   }
 
   std::size_t ExpectedSize(MvnxList list) const {
@@ -289,7 +290,7 @@ class MvnxReader::Parser {
   std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> expat_;
 
   std::vector<Element> path_;  // open elements
-  std::string text_;           // of the innermost, if it is read
+  std::string text_;           // of the innermost element, if it is read
   std::vector<double> numbers_;
   std::string point_label_;
   MvnxList list_ = MvnxList::kOrientation;
@@ -312,7 +313,7 @@ class MvnxReader::Parser {
 
 MvnxReader::MvnxReader(InputFile file, std::string name)
     : parser_(std::make_unique<Parser>(std::move(file), std::move(name))) {
-  if (!parser_->Run() || !parser_->has_header()) Refuse("MVNX without any <frames>");
+  if (!parser_->Run() || !parser_->has_header()) Refuse("<frames> is missing");
 }
 
 MvnxReader::~MvnxReader() = default;
@@ -321,7 +322,7 @@ const MvnxHeader& MvnxReader::header() const { return parser_->header(); }
 
 bool MvnxReader::Next(MvnxFrame& frame) {
   if (!parser_->Run()) return false;
-  std::swap(frame, parser_->frame());  // so that its lists are used again
+  std::swap(frame, parser_->frame());  // so that its lists are reused
   return true;
 }
 

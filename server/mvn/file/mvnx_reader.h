@@ -1,6 +1,6 @@
-/// Reads an MVNX file (versions 3 and 4) as a stream: the header, then frame by frame, as the file
-/// says it. What the numbers mean is mvnx_source.h's business. Memory does not grow with the file;
-/// a document type, entities and anything outside the file are refused. One thread.
+/// Reads an MVNX file (versions 3 and 4) as a stream: first the header, then frame by frame,
+/// without interpretation; mvnx_source.h interprets the numbers. Memory use does not grow with the
+/// file. A document type, entities and references outside the file are rejected. One thread.
 #pragma once
 
 #include <array>
@@ -17,16 +17,16 @@ namespace kinescope::mvn {
 
 struct MvnxHeader {
   int version = 0;                         // 3 or 4
-  std::string subject;                     // label; "" where it has none
+  std::string subject;                     // label; "" if it has none
   std::optional<std::uint32_t> color_rgb;  // torsoColor
   double rate_hz = 0;
-  std::vector<std::optional<urdf::Segment>> segments;  // in file order; none: a prop
+  std::vector<std::optional<urdf::Segment>> segments;  // in file order; absent: a prop
   std::vector<std::optional<urdf::Joint>> joints;      // in file order
-  urdf::Landmarks points;                              // of body segments, metres
+  urdf::Landmarks points;                              // of body segments, m
   std::vector<std::string> foot_contacts;              // "LeftFoot_Heel", ..., in file order
 };
 
-/// The lists of a frame that are read; the others are skipped.
+/// The lists of a frame that are read; all others are skipped.
 enum class MvnxList {
   kOrientation,
   kPosition,
@@ -41,8 +41,8 @@ enum class MvnxList {
 inline constexpr std::size_t kMvnxListCount = 9;
 
 struct MvnxFrame {
-  std::string type;                   // "normal", "tpose", ...; "" where it says none
-  std::optional<std::int64_t> index;  // of a calibration frame: absent or negative
+  std::string type;                   // "normal", "tpose", ...; "" if absent
+  std::optional<std::int64_t> index;  // absent or negative for a calibration frame
   std::optional<std::int64_t> unix_millis;
   std::array<std::vector<double>, kMvnxListCount> lists;  // empty: not in the frame
 
@@ -53,20 +53,20 @@ struct MvnxFrame {
 
 class MvnxReader {
  public:
-  /// Reads the header; `name` is for errors.
-  /// @throws SourceError naming file, line and reason: not XML, not MVNX, wrong version, a segment
-  /// missing.
+  /// Reads the header; `name` is for messages.
+  /// @throws SourceError with file, line and reason: not XML, not MVNX, wrong version, a missing
+  /// segment.
   MvnxReader(InputFile file, std::string name);
   ~MvnxReader();
 
   const MvnxHeader& header() const;
 
-  /// The next frame; every list that is there has the length that the header asks for, and finite
-  /// numbers. False after the last.
-  /// @throws SourceError as above, also when the file breaks off.
+  /// Reads the next frame. Every list that it contains has the length that the header requires, and
+  /// finite numbers. False after the last frame.
+  /// @throws SourceError as above, also if the file is truncated.
   [[nodiscard]] bool Next(MvnxFrame& frame);
 
-  /// Throws the SourceError for `reason`, with file and current line.
+  /// Throws a SourceError with file, current line and `reason`.
   [[noreturn]] void Refuse(const std::string& reason) const;
 
   std::uint64_t bytes_read() const;

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMvnxNormTolerance = 1e-3;
 constexpr std::int64_t kFirstMillisWithoutClock = 1000;
 constexpr std::int64_t kLatestMillis = 4'102'444'800'000;  // the year 2100
-constexpr std::int64_t kLargestIndex = 0xFFFFFFFF;         // what a sample counter can hold
+constexpr std::int64_t kLargestIndex = 0xFFFFFFFF;         // the largest sample counter
 
 Eigen::Vector3d VectorAt(const std::vector<double>& numbers, std::size_t index) {
   return {numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2]};
@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 4> kContactNames = {"RightFoot_Heel", "Ri
 
 bool IsMotion(const MvnxFrame& frame) { return frame.type.empty() || frame.type == "normal"; }
 
-// The key of a counter must not come from the file: it would let the file fill memory.
+// The key of a counter must not come from the file, which could fill the memory with keys.
 std::string CounterOf(const MvnxFrame& frame) {
   for (const char* known : {"identity", "npose", "tpose", "tpose-isb"}) {
     if (frame.type == known) return std::string("frame ") + known;
@@ -40,7 +40,7 @@ std::string CounterOf(const MvnxFrame& frame) {
 const Eigen::Quaterniond& SegmentFromIsb(int segment) {
   using namespace urdf;
   // An arm that points sideways in the T-pose points down in its anatomical axes; forearm and hand
-  // are turned about their length as well, palm forward.
+  // are also rotated about their long axis, palm forward.
   static const Eigen::Quaterniond kNone = Eigen::Quaterniond::Identity();
   static const Eigen::Quaterniond kRightUpper(M_SQRT1_2, -M_SQRT1_2, 0, 0);
   static const Eigen::Quaterniond kRightLower(0.5, -0.5, 0.5, 0.5);
@@ -63,7 +63,9 @@ MvnxSource::MvnxSource(InputFile file, std::string name)
   const MvnxHeader& header = reader_.header();
   character_.name = header.subject;
   character_.color_rgb = header.color_rgb;
-  if (header.points.empty()) return;  // a file cut down by others: poses are still good
+  if (header.points.empty())
+    return;  // a file reduced by another program: its poses are still
+             // valid
   try {
     character_.skeleton = urdf::SkeletonFromLandmarks(header.points);
   } catch (const std::runtime_error& error) {
@@ -83,20 +85,20 @@ Source::State MvnxSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink
     sink.OnSample(ToSample());
     return State::kMore;
   }
-  if (counters_.samples == 0) reader_.Refuse("no frame of motion in the whole file");
+  if (counters_.samples == 0) reader_.Refuse("the file contains no motion frame");
   return State::kEnded;
 }
 
-// After this the frame has poses and an index above the one before.
+// Afterwards the frame has poses and an index above the one before.
 void MvnxSource::CheckFrame() {
   if (frame_[MvnxList::kOrientation].empty() || frame_[MvnxList::kPosition].empty()) {
-    reader_.Refuse("a frame without orientation or position; export those, too");
+    reader_.Refuse("frame without orientation or position; select both when exporting MVNX");
   }
   const std::int64_t expected = first_index_ ? index_ + 1 : 0;
   const std::int64_t index = frame_.index.value_or(expected);
   if (index < expected || index > kLargestIndex) {
-    reader_.Refuse("frame index " + std::to_string(index) + ", but at least " +
-                   std::to_string(expected) + " is expected here");
+    reader_.Refuse("frame index " + std::to_string(index) + "; expected at least " +
+                   std::to_string(expected));
   }
   index_ = index;
   if (first_index_) return;

@@ -1,5 +1,5 @@
-/// An MVNX file as a source: one sample a call, in body frames, on the file's own clock. One
-/// thread.
+/// Reads an MVNX file as a source: one sample per call, in segment frames, on the clock of the
+/// file. One thread.
 #pragma once
 
 #include <array>
@@ -18,17 +18,17 @@ namespace kinescope::mvn {
 /// Joint angles of every version are about these axes.
 const Eigen::Quaterniond& SegmentFromIsb(int segment);
 
-/// - Calibration frames are kept out by their type and counted as `ignored`.
-/// - counter = frame index; time code = index / frame rate; stamp = `ms` of the first frame of
-/// motion plus
-///   (index - first index) / rate, since `ms` itself is rounded. A file without `ms` begins 1 s
-///   after the Unix epoch (stamp 0 would mean "no time" to ROS).
+/// - Calibration frames are excluded by their type and counted as `ignored`.
+/// - counter = frame index; time code = index / frame rate; stamp = `ms` of the first motion frame
+///   + (index - first index) / rate, because `ms` is rounded. A file without `ms` begins 1 s after
+///   the Unix epoch (stamp 0 would mean "no time" in ROS).
 /// - Neighbouring quaternions never change sign. Version 3 arms are converted to segment frames.
-/// - Joint angles (jointAngle, degrees), centre of mass, derivatives and foot contacts where the
-///   frame has them; contacts by the labels of footContactDefinition, whatever their order.
+/// - Joint angles (jointAngle, degrees), centre of mass, derivatives and foot contacts are present
+///   if the frame has them; contacts are assigned by the labels of footContactDefinition, in any
+///   order.
 class MvnxSource : public Source {
  public:
-  /// Reads the header; `name` is for people. @throws SourceError.
+  /// Reads the header; `name` is for messages. @throws SourceError.
   MvnxSource(InputFile file, std::string name);
 
   [[nodiscard]] State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;

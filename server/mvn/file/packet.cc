@@ -17,8 +17,8 @@ constexpr std::size_t kIpv4Bytes = 20;
 constexpr std::size_t kIpv6Bytes = 40;
 constexpr std::size_t kUdpBytes = 8;
 constexpr std::size_t kTcpBytes = 20;
-constexpr int kMostTags = 4;         // VLAN in VLAN is two
-constexpr int kMostExtensions = 16;  // an honest packet has two or three
+constexpr int kMostTags = 4;         // VLAN in VLAN has two
+constexpr int kMostExtensions = 16;  // a valid packet has two or three
 
 template <class T>
 using Parsed = tl::expected<T, PacketFault>;
@@ -26,7 +26,7 @@ using Parsed = tl::expected<T, PacketFault>;
 tl::unexpected<PacketFault> Other() { return tl::make_unexpected(PacketFault::kOther); }
 tl::unexpected<PacketFault> CutShort() { return tl::make_unexpected(PacketFault::kCutShort); }
 
-// What follows an EtherType, VLAN tags passed over.
+// The bytes after an EtherType, with VLAN tags skipped.
 Parsed<std::string_view> AfterEtherType(std::uint16_t type, std::string_view rest) {
   ByteReader in(rest);
   for (int tags = 0; type == 0x8100 || type == 0x88A8 || type == 0x9100; ++tags) {
@@ -52,7 +52,7 @@ Endpoint EndpointFrom(std::string_view address) {
   Endpoint endpoint;
   if (address.size() == endpoint.address.size()) {
     std::memcpy(endpoint.address.data(), address.data(), address.size());
-  } else if (address.find_first_not_of('\0') != std::string_view::npos) {  // 0.0.0.0: not known
+  } else if (address.find_first_not_of('\0') != std::string_view::npos) {  // 0.0.0.0: unknown
     endpoint.address[10] = endpoint.address[11] = 0xFF;
     std::memcpy(endpoint.address.data() + 12, address.data(), address.size());
   }
@@ -71,14 +71,14 @@ Parsed<IpPacket> ParseIpv4(std::string_view bytes) {
                      in.ReadBytes(4, from) && in.ReadBytes(4, to);
   if (!whole) return CutShort();
   const std::size_t header = 4U * (version_and_words & 0xFU);
-  const bool is_offloaded = total == 0;  // captured before the network card cut it into packets
+  const bool is_offloaded = total == 0;  // captured before the network card divided it into packets
   const std::size_t size = is_offloaded ? bytes.size() : total;
   if (header < kIpv4Bytes || size < header) return Other();
   if (bytes.size() < size) return CutShort();
   packet.from = EndpointFrom(from);
   packet.to = EndpointFrom(to);
   packet.fragment = {id, 8U * (fragment & 0x1FFFU), (fragment & 0x2000U) != 0};
-  packet.payload = bytes.substr(header, size - header);  // short frames are padded: not taken
+  packet.payload = bytes.substr(header, size - header);  // without the padding of short frames
   return packet;
 }
 
@@ -91,7 +91,7 @@ enum Extension : std::uint8_t {
   kMobility = 135,
 };
 
-// Passes over the extension headers; packet.protocol is the next header.
+// Skips the extension headers; packet.protocol is the next header.
 Parsed<IpPacket> SkipExtensions(IpPacket packet) {
   for (int i = 0; i < kMostExtensions; ++i) {
     std::size_t unit = 8;
@@ -120,7 +120,7 @@ Parsed<IpPacket> SkipExtensions(IpPacket packet) {
     const bool is_later_fragment = packet.protocol == kFragment && packet.fragment.offset > 0;
     packet.payload.remove_prefix(size);
     packet.protocol = next;
-    if (is_later_fragment) return packet;  // what follows is no header
+    if (is_later_fragment) return packet;  // not followed by a header
   }
   return Other();
 }
@@ -195,8 +195,8 @@ tl::expected<std::string_view, PacketFault> FindIp(int link_type, std::string_vi
     case DLT_EN10MB: return AfterHeader(captured, 14, 12);
     case DLT_LINUX_SLL: return AfterHeader(captured, 16, 14);
     case DLT_LINUX_SLL2: return AfterHeader(captured, 20, 0);
-    // An address family follows whose number and byte order depend on the machine; the IP version
-    // says the same.
+    // Begins with an address family whose number and byte order depend on the machine; the IP
+    // version gives the same information.
     case DLT_NULL:
     case DLT_LOOP:
       if (captured.size() < 4) return CutShort();
@@ -249,7 +249,7 @@ tl::expected<TcpSegment, PacketFault> ParseTcp(const IpPacket& packet) {
   segment.is_first = (words_and_flags & 0x02U) != 0;
   segment.is_reset = (words_and_flags & 0x04U) != 0;
   segment.is_last = segment.is_reset || (words_and_flags & 0x01U) != 0;
-  if (segment.is_first) ++segment.sequence;  // a SYN takes the place of a byte
+  if (segment.is_first) ++segment.sequence;  // a SYN counts as one byte
   return segment;
 }
 
@@ -262,8 +262,8 @@ void WriteUdpPacket(const Endpoint& from, const Endpoint& to, std::string_view p
   ByteWriter writer(out);
   if (as_ipv4) {
     writer.Write(std::uint32_t{0x45000000U | static_cast<std::uint32_t>(kIpv4Bytes + udp_size)});
-    writer.Write(std::uint32_t{0x00004000});                         // id 0, never to be fragmented
-    writer.Write(std::uint32_t{0x40000000U | kProtocolUdp << 16U});  // 64 hops; checksum to come
+    writer.Write(std::uint32_t{0x00004000});                         // id 0, do not fragment
+    writer.Write(std::uint32_t{0x40000000U | kProtocolUdp << 16U});  // 64 hops; checksum follows
   } else {
     writer.Write(std::uint32_t{0x60000000});
     writer.Write(
@@ -278,7 +278,7 @@ void WriteUdpPacket(const Endpoint& from, const Endpoint& to, std::string_view p
     writer.Write(word);
   }
   out.append(payload);
-  // Over addresses, protocol and length as well.
+  // Also over addresses, protocol and length.
   std::uint32_t sum = AddWords(from_bytes, AddWords(to_bytes, kProtocolUdp + udp_size));
   sum = AddWords(std::string_view(out).substr(udp_at), sum);
   const std::uint16_t checksum = Checksum(sum);

@@ -13,9 +13,9 @@
 namespace kinescope::mvn {
 namespace {
 
-constexpr std::int64_t kLatestSecond = 0xFFFFFFFF;  // what the classic format can hold: 2106
+constexpr std::int64_t kLatestSecond = 0xFFFFFFFF;  // limit of the classic format: 2106
 
-constexpr const char* kWayOut = "; record or copy it again (`capinfos FILE` says more)";
+constexpr const char* kWayOut = "; record or copy it again (for details run `capinfos FILE`)";
 
 class CountingSink : public DatagramSink {
  public:
@@ -41,14 +41,14 @@ PcapDatagrams::PcapDatagrams(InputFile file, std::string name)
                                                        error.data()));
   if (pcap_ == nullptr) {
     const std::string broken = file_.failure();
-    throw SourceError(name_ + ": no capture that can be read: " +
+    throw SourceError(name_ + ": not a readable capture file: " +
                       (broken.empty() ? error.data() : broken) + kWayOut);
   }
   file_.release();  // pcap_close() closes it
   link_type_ = pcap_datalink(pcap_.get());
   if (!KnowsLinkType(link_type_)) {
     const char* const type = pcap_datalink_val_to_name(link_type_);
-    throw SourceError(name_ + ": a capture of link type " +
+    throw SourceError(name_ + ": unsupported link type " +
                       (type != nullptr ? type : std::to_string(link_type_)) +
                       "; expected Ethernet, Linux cooked (tcpdump -i any), raw IP or loopback");
   }
@@ -56,7 +56,7 @@ PcapDatagrams::PcapDatagrams(InputFile file, std::string name)
 }
 
 void PcapDatagrams::Break(const std::string& reason) const {
-  throw SourceError(name_ + ": the capture breaks off after " + std::to_string(packets_) +
+  throw SourceError(name_ + ": the capture is truncated after " + std::to_string(packets_) +
                     " packets: " + reason + kWayOut);
 }
 
@@ -78,8 +78,8 @@ DatagramSource::State PcapDatagrams::Poll(std::chrono::nanoseconds /*timeout*/,
     if (std::ferror(file) != 0) Break(file_.failure());
     if (std::feof(file) == 0) Break(pcap_geterr(pcap_.get()));
     spdlog::warn(
-        "{}: ends in the middle of a packet, as when its writer was killed; {} packets "
-        "before it were read",
+        "{}: the last packet is incomplete (the recorder was probably killed); {} complete packets "
+        "were read",
         name_, packets_);
   }
   Finish(counting);
@@ -91,19 +91,19 @@ void PcapDatagrams::Finish(DatagramSink& sink) {
   tcp_.End({newest_nanos_, newest_nanos_}, sink);
   fragments_.Clear();
   if (datagrams_ > 0) return;
-  const char* const hint = cut_packets_ > 0
-                               ? "many are cut short; capture whole packets (tcpdump -s 0)"
-                               : "was it captured at the address and port that MVN sends to?";
-  spdlog::warn("{}: no MVN datagram among its {} packets: {}", name_, packets_, hint);
+  const char* const hint =
+      cut_packets_ > 0 ? "many are truncated; capture complete packets (tcpdump -s 0)"
+                       : "check that it was captured at the address and port that MVN sends to";
+  spdlog::warn("{}: {} packets, but no MVN datagram; {}", name_, packets_, hint);
 }
 
 void PcapDatagrams::AdvanceTo(const pcap_pkthdr& header) {
   const std::int64_t seconds = header.ts.tv_sec;
-  const std::int64_t nanos = header.ts.tv_usec;  // nanoseconds, since we asked for them
+  const std::int64_t nanos = header.ts.tv_usec;  // nanoseconds, as requested
   if (seconds < 0 || seconds > kLatestSecond || nanos < 0 || nanos >= kNanosPerSecond) return;
   const std::int64_t captured = seconds * kNanosPerSecond + nanos;
   if (!std::exchange(has_time_, true)) newest_nanos_ = captured;
-  // Time that was made to run on after steps back must not run out of its type either.
+  // The time, which continues after steps back, must not exceed its type either.
   if (captured > kLatestSecond * kNanosPerSecond - offset_nanos_) return;
   const std::int64_t arrival = captured + offset_nanos_;
   const std::int64_t back = newest_nanos_ - arrival;

@@ -1,11 +1,12 @@
-/// MVN datagrams out of a capture (pcap, pcapng), as tcpdump, Wireshark or `kinescope record` wrote
-/// it: UDP, also in IP fragments, and TCP, put in order. One thread.
+/// Reads MVN datagrams from a capture (pcap, pcapng) of tcpdump, Wireshark or `kinescope record`:
+/// UDP, also in IP fragments, and TCP, put in order. One thread.
 ///
-/// - Of UDP counts what begins with "MXTP", and whatever goes to a port to which such went or to
-///   MVN's own: sync text is part of the stream, a name lookup beside it is not.
-/// - Arrival is the time of capture on both clocks, of the packet that completed the datagram. It
-///   never goes back: where the file's time does by less than a second (packets written out of
-///   order), it stands still; where by more (a clock that was set), it goes on from there.
+/// - UDP packets count if they begin with "MXTP", or go to MVN's port or to a port that received
+///   "MXTP": sync text is part of the stream, a DNS query is not.
+/// - The receive time is the time of capture, on both clocks, of the packet that completed the
+///   datagram. It never goes back. If the time in the file goes back by less than a second (packets
+///   written out of order), it stands still; if by more (the clock was set), it continues from
+///   there.
 /// - A capture that ends inside a packet (its writer was killed) ends there, with a warning.
 #pragma once
 
@@ -21,18 +22,18 @@
 #include "server/mvn/file/captured_tcp.h"
 #include "server/mvn/file/ip_fragments.h"
 
-struct pcap;         // libpcap's
-struct pcap_pkthdr;  // likewise
+struct pcap;         // of libpcap
+struct pcap_pkthdr;  // of libpcap
 
 namespace kinescope::mvn {
 
 class PcapDatagrams : public DatagramSource {
  public:
-  /// Reads the file's header; `name` is for people.
-  /// @throws SourceError: no capture, or of a kind of network that has no IP packets.
+  /// Reads the header of the file; `name` is for messages.
+  /// @throws SourceError: not a capture, or a network type without IP packets.
   PcapDatagrams(InputFile file, std::string name);
 
-  /// Hands on what one packet completes. @throws SourceError where the file is damaged.
+  /// Delivers the datagrams that one packet completes. @throws SourceError if the file is damaged.
   [[nodiscard]] State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
 
   TransportCounters counters() const override;
@@ -53,7 +54,7 @@ class PcapDatagrams : public DatagramSource {
   [[noreturn]] void Break(const std::string& reason) const;
 
   std::string name_;
-  InputFile file_;  // asked why reading failed; libpcap reads and closes it
+  InputFile file_;  // gives the reason when reading fails; libpcap reads and closes it
   std::unique_ptr<pcap, ClosePcap> pcap_;
   int link_type_ = 0;
   bool ended_ = false;
@@ -68,7 +69,7 @@ class PcapDatagrams : public DatagramSource {
 
   bool has_time_ = false;
   std::int64_t newest_nanos_ = 0;  // arrival of the newest packet
-  std::int64_t offset_nanos_ = 0;  // from the file's time to arrival
+  std::int64_t offset_nanos_ = 0;  // receive time minus time in the file
 };
 
 }  // namespace kinescope::mvn

@@ -11,7 +11,8 @@
 namespace kinescope::mvn {
 namespace {
 
-// Often enough that a kill costs little, seldom enough that the thread is not woken per datagram.
+// Short enough that a kill costs little, long enough that the thread is not woken for each
+// datagram.
 constexpr std::chrono::milliseconds kFlushEvery(200);
 constexpr std::size_t kWakeBytes = 256 * 1024;
 
@@ -32,7 +33,7 @@ PcapRecorder::~PcapRecorder() {
   try {
     Finish();
   } catch (const SourceError&) {
-    // Who wants to know calls Finish().
+    // Callers that need the error call Finish().
   }
 }
 
@@ -89,7 +90,7 @@ void PcapRecorder::WriteAll(const std::string& queue) {
 }
 
 void PcapRecorder::Run() {
-  std::string queue;  // changes places with queue_, so that memory is used again
+  std::string queue;  // swapped with queue_, so that memory is reused
   std::exception_ptr failure;
   for (bool at_end = false; !at_end && failure == nullptr;) {
     {

@@ -1,5 +1,5 @@
-/// Records datagrams to disk from a thread of its own: a disk that stalls must not keep the socket
-/// from being read. Owned and called by one thread, the one that reads the source.
+/// Records datagrams to disk on its own thread, so that a slow disk does not block the socket.
+/// Owned and called by the thread that reads the source.
 #pragma once
 
 #include <condition_variable>
@@ -17,43 +17,44 @@ namespace kinescope::mvn {
 
 class PcapRecorder : public DatagramSink {
  public:
-  /// What to do with a datagram when the disk is so far behind that the queue is full.
+  /// What happens to a datagram when the queue is full because the disk is too slow.
   enum class WhenFull {
-    kDrop,  // a live source, which cannot be told to wait
-    kWait,  // a file
+    kDrop,  // for a live source, which cannot wait
+    kWait,  // for a file
   };
 
-  /// About fifteen seconds of four people at 240 Hz with all message types.
+  /// About 15 s of four people at 240 Hz with all message types.
   static constexpr std::size_t kQueueBytes = 64 << 20;
 
   /// Creates the file. @throws SourceError as PcapWriter does.
   PcapRecorder(const PcapWriterSettings& settings, WhenFull when_full,
                std::size_t queue_bytes = kQueueBytes);
-  ~PcapRecorder() override;  // writes what is queued, as far as that can be done
+  ~PcapRecorder() override;  // writes the queue as far as possible
   PcapRecorder(const PcapRecorder&) = delete;
   PcapRecorder& operator=(const PcapRecorder&) = delete;
 
-  /// Copies the datagram; its wall clock is the time in the file. In the file after 0.5 s at most.
-  /// @throws SourceError what the disk said since the last call.
+  /// Copies the datagram; its wall-clock receive time is its time in the file. It is in the file
+  /// after at most 0.5 s. @throws SourceError if writing failed since the last call.
   void OnDatagram(const ReceivedDatagram& datagram) override;
 
-  /// @throws SourceError likewise; call it now and then while nothing comes.
+  /// @throws SourceError if writing failed; call it now and then while no datagrams arrive.
   void Check();
 
-  /// Waits until everything is on the disk. Nothing may follow. @throws SourceError likewise.
+  /// Waits until everything is on the disk; no datagram may follow. @throws SourceError if writing
+  /// failed.
   void Finish();
 
   struct Counters {
-    std::uint64_t datagrams = 0;  // in the files
+    std::uint64_t datagrams = 0;  // written to the files
     std::uint64_t bytes = 0;      // of the files
     std::uint64_t dropped = 0;    // because the queue was full
-    std::uint64_t too_long = 0;   // for a UDP packet: TCP can carry 52 bytes more
+    std::uint64_t too_long = 0;   // too long for a UDP packet: TCP can carry 52 bytes more
     std::vector<std::string> files;
   };
   Counters counters() const;
 
  private:
-  // How a datagram lies in the queue; its bytes follow.
+  // An entry of the queue; the bytes of the datagram follow it.
   struct Entry {
     Endpoint from, to;
     std::int64_t wall_nanos = 0;
@@ -65,7 +66,7 @@ class PcapRecorder : public DatagramSink {
 
   const WhenFull when_full_;
   const std::size_t queue_bytes_;
-  const std::size_t wake_bytes_;  // so much queued wakes the thread before its time
+  const std::size_t wake_bytes_;  // this many queued bytes wake the thread early
 
   mutable std::mutex mutex_;
   std::condition_variable filled_;
@@ -75,7 +76,7 @@ class PcapRecorder : public DatagramSink {
   std::exception_ptr failure_;  // guarded by mutex_; the thread has ended
   Counters counters_;           // guarded by mutex_
 
-  PcapWriter writer_;  // the thread's, once it runs
+  PcapWriter writer_;  // used by the recorder's thread once it runs
   std::thread thread_;
 };
 

@@ -22,8 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kFlushBytes = 64 * 1024;
-constexpr int kLongestPacket = 1 << 18;                              // libpcap's own limit
-constexpr std::int64_t kLatestNanos = 0xFFFFFFFF * kNanosPerSecond;  // what the format can hold
+constexpr int kLongestPacket = 1 << 18;                              // the limit of libpcap
+constexpr std::int64_t kLatestNanos = 0xFFFFFFFF * kNanosPerSecond;  // the limit of the format
 
 std::string Number(std::uint64_t count, const char* noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
@@ -32,9 +32,9 @@ std::string Number(std::uint64_t count, const char* noun) {
 [[noreturn]] void RefuseToCreate(const fs::path& path, int error) {
   const char* way_out = "";
   switch (error) {
-    case EEXIST: way_out = "; choose another name, or --force to replace it"; break;
-    case ENOENT: way_out = "; make its folder first"; break;
-    case EACCES: way_out = "; record into a folder of yours"; break;
+    case EEXIST: way_out = "; choose another name, or use --force to replace it"; break;
+    case ENOENT: way_out = "; create its folder first"; break;
+    case EACCES: way_out = "; choose a folder with write permission"; break;
     default: break;
   }
   throw SourceError(path.string() + ": cannot create the file: " + std::strerror(error) + way_out);
@@ -48,7 +48,8 @@ bool IsDeviceOrPipe(const fs::path& path) {
 
 }  // namespace
 
-// One capture file. libpcap writes into `pending_`, from which whole packets go to the kernel.
+// One capture file. libpcap writes into `pending_`, from which complete packets are passed to the
+// kernel.
 class PcapWriter::File {
  public:
   /// @throws std::system_error
@@ -92,7 +93,7 @@ class PcapWriter::File {
     if (pending_.size() >= kFlushBytes) Flush();
   }
 
-  /// @throws std::system_error after cutting the file back to its last whole packet.
+  /// @throws std::system_error after truncating the file to its last complete packet.
   void Flush() {
     std::size_t written = 0;
     int error = 0;
@@ -109,7 +110,7 @@ class PcapWriter::File {
       const auto whole = std::upper_bound(ends_.begin(), ends_.end(), written);
       packets_ += static_cast<std::uint64_t>(whole - ends_.begin());
       if (whole != ends_.begin()) bytes_ += *std::prev(whole);
-      // What the kernel took of the next packet would read as damage.
+      // The part of the next packet that the kernel accepted would look like damage.
       if (!is_special_ && ftruncate(descriptor_, static_cast<off_t>(bytes_)) != 0) error = errno;
     }
     pending_.clear();
@@ -117,7 +118,7 @@ class PcapWriter::File {
     if (error != 0) throw std::system_error(error, std::generic_category());
   }
 
-  /// Some file systems tell only now that the disk is full. @throws std::system_error
+  /// Some file systems report a full disk only here. @throws std::system_error
   void Close() {
     if (descriptor_ < 0) return;
     Flush();
@@ -132,9 +133,9 @@ class PcapWriter::File {
   const bool is_special_;
   int descriptor_ = -1;
   std::string pending_;            // not yet in the file
-  std::vector<std::size_t> ends_;  // of the packets in it
-  std::uint64_t bytes_ = 0;        // in the file, and whole
-  std::uint64_t packets_ = 0;      // likewise
+  std::vector<std::size_t> ends_;  // of the packets in pending_
+  std::uint64_t bytes_ = 0;        // complete packets in the file
+  std::uint64_t packets_ = 0;      // complete packets in the file
   pcap_t* dead_ = nullptr;
   pcap_dumper_t* dumper_ = nullptr;
 };
@@ -145,7 +146,7 @@ PcapWriter::~PcapWriter() {
   try {
     if (file_ != nullptr) file_->Close();
   } catch (const std::system_error&) {
-    // Who wants to know calls Close().
+    // Callers that need the error call Close().
   }
 }
 
@@ -162,12 +163,12 @@ void PcapWriter::OpenFirst() {
   const fs::path& path = settings_.path;
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
-    throw SourceError(path.string() + ": is a folder; name the file to write in it");
+    throw SourceError(path.string() + ": is a folder; name a file in it");
   }
   if (settings_.rotate_bytes > 0) {
     for (std::size_t number = 2; fs::exists(PathOf(number), ignored); ++number) {
       if (!settings_.force) RefuseToCreate(PathOf(number), EEXIST);
-      fs::remove(PathOf(number), ignored);  // of a longer recording: it would seem part of this one
+      fs::remove(PathOf(number), ignored);  // of an earlier recording, not of this one
     }
   }
   try {
@@ -176,7 +177,7 @@ void PcapWriter::OpenFirst() {
     RefuseToCreate(path, error.code().value());
   }
   files_.push_back(path.string());
-  Flush();  // so that it is a capture from the beginning
+  Flush();  // so that it is a valid capture from the beginning
 }
 
 void PcapWriter::OpenNext() {
@@ -184,7 +185,7 @@ void PcapWriter::OpenNext() {
   closed_datagrams_ += file_->kept_packets();
   closed_bytes_ += file_->kept_bytes();
   file_.reset();
-  // One that somebody has put there since the beginning is passed over.
+  // Skips a file that another program has created since the beginning.
   std::error_code ignored;
   do {
     ++number_;
@@ -196,14 +197,14 @@ void PcapWriter::OpenNext() {
   });
 }
 
-// Failures of the file as one line that says what is kept.
+// Reports failures of the file as one line, with what is kept.
 template <class Action>
 void PcapWriter::Try(Action&& action) {
   try {
     action();
   } catch (const std::system_error& error) {
     const std::string path = PathOf(number_).string();
-    if (file_ != nullptr && file_->kept_bytes() == 0) {  // not even a header: no capture
+    if (file_ != nullptr && file_->kept_bytes() == 0) {  // not even a header, so not a capture
       std::error_code ignored;
       if (fs::is_regular_file(path, ignored)) fs::remove(path, ignored);
       if (files_.back() == path) files_.pop_back();
@@ -224,7 +225,7 @@ void PcapWriter::Write(const Endpoint& from, const Endpoint& to, std::int64_t wa
   const std::int64_t nanos = std::clamp<std::int64_t>(wall_nanos, 0, kLatestNanos);
   pcap_pkthdr header{};
   header.ts.tv_sec = nanos / kNanosPerSecond;
-  header.ts.tv_usec = nanos % kNanosPerSecond;  // nanoseconds in this kind of file
+  header.ts.tv_usec = nanos % kNanosPerSecond;  // nanoseconds in this format
   header.caplen = header.len = static_cast<bpf_u_int32>(packet_.size());
   constexpr std::size_t kRecordHeaderBytes = 16;
   const std::uint64_t size = file_->bytes() + kRecordHeaderBytes + packet_.size();

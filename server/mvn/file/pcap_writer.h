@@ -1,10 +1,10 @@
 /// Writes datagrams as a capture that tcpdump, Wireshark and pcap_datagrams.h read: pcap with
-/// nanoseconds, link type raw IP, each datagram a whole UDP packet between the ends that it came
-/// from and went to (also one that came over TCP).
+/// nanoseconds, link type raw IP, each datagram one complete UDP packet with its sender and
+/// receiver (also if it was received over TCP).
 ///
-/// What is on the disk always ends with a whole packet, whatever ends the program: whole packets
-/// are handed to the kernel at once, and after a write that failed (disk full) the file is cut back
-/// to the last whole one. One thread.
+/// The file always ends with a complete packet, however the program ends: complete packets are
+/// passed to the kernel at once, and after a failed write (disk full) the file is truncated to the
+/// last complete one. One thread.
 #pragma once
 
 #include <cstdint>
@@ -19,29 +19,30 @@
 namespace kinescope::mvn {
 
 struct PcapWriterSettings {
-  std::filesystem::path path;      // of the first file; take-0002.pcap and so on beside it
-  std::uint64_t rotate_bytes = 0;  // begin a new file rather than exceed this; 0: never
-  bool force = false;              // replace what is there, numbered files included
+  std::filesystem::path path;  // of the first file; the next ones are take-0002.pcap and so on in
+                               // its folder
+  std::uint64_t rotate_bytes = 0;  // start a new file before this size is exceeded; 0: never
+  bool force = false;              // replace existing files, the numbered ones included
 };
 
 class PcapWriter {
  public:
-  /// Creates the first file. A device or a pipe is written to as it is.
-  /// @throws SourceError: a file is there already, the folder is not, it may not be written.
+  /// Creates the first file. A device or a pipe is written to directly.
+  /// @throws SourceError: the file exists, the folder is missing, no permission to write.
   explicit PcapWriter(const PcapWriterSettings& settings);
-  ~PcapWriter();  // as Close(), but says nothing when that fails
+  ~PcapWriter();  // like Close(), but ignores errors
   PcapWriter(const PcapWriter&) = delete;
   PcapWriter& operator=(const PcapWriter&) = delete;
 
-  /// Reaches the file with the next Flush(), or before that when much has gathered.
-  /// @throws SourceError naming the file, the reason and what is kept; the writer is of no use
-  /// then.
+  /// Reaches the file with the next Flush(), or earlier when enough bytes are collected.
+  /// @throws SourceError with the file, the reason and what was kept; the writer cannot be used
+  /// afterwards.
   void Write(const Endpoint& from, const Endpoint& to, std::int64_t wall_nanos,
              std::string_view datagram);
-  void Flush();  // @throws likewise
-  void Close();  // @throws likewise; waits for the disk
+  void Flush();  // @throws SourceError like Write()
+  void Close();  // @throws SourceError like Write(); waits for the disk
 
-  std::uint64_t datagrams() const;  // that are in the files
+  std::uint64_t datagrams() const;  // written to the files
   std::uint64_t bytes() const;      // of all files
   const std::vector<std::string>& files() const { return files_; }
 
@@ -58,8 +59,8 @@ class PcapWriter {
   std::vector<std::string> files_;
   std::size_t number_ = 1;
   std::unique_ptr<File> file_;
-  std::string packet_;                  // being made
-  std::uint64_t closed_datagrams_ = 0;  // in the files before this one
+  std::string packet_;                  // under construction
+  std::uint64_t closed_datagrams_ = 0;  // in the files before the current one
   std::uint64_t closed_bytes_ = 0;
 };
 

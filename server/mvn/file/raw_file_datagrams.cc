@@ -50,7 +50,7 @@ RawFileDatagrams::RawFileDatagrams(InputFile file, std::string name)
 void RawFileDatagrams::ReadChunk() {
   const std::size_t size = std::fread(chunk_.data(), 1, chunk_.size(), file_.get());
   if (std::ferror(file_.get()) != 0) {
-    throw SourceError(name_ + ": breaks off: " + file_.failure() + "; copy it again");
+    throw SourceError(name_ + ": reading stopped: " + file_.failure() + "; copy it again");
   }
   framer_.Append({chunk_.data(), size});
   read_all_ = size < chunk_.size();

@@ -1,5 +1,5 @@
-/// MVN datagrams from a file in which they follow each other with nothing in between: what a TCP
-/// stream carried, or what somebody's receiver appended to a `.bin`. One thread.
+/// Reads MVN datagrams from a file in which they follow each other without anything between them:
+/// the content of a TCP stream, or a `.bin` that another receiver wrote. One thread.
 #pragma once
 
 #include <chrono>
@@ -14,19 +14,18 @@
 
 namespace kinescope::mvn {
 
-/// A clock for datagrams without times of arrival: the sender's own time codes, made to run on.
-/// Milliseconds that step back a little (datagrams out of order) stand still; a step by more than
-/// kFarOff either way counts once a second datagram confirms it, so that a damaged one moves
-/// nothing. Back: the sender's clock was restarted, and time goes on from the newest. Forward: a
-/// pause.
+/// A clock for datagrams without receive times: the sender's time codes, made monotonic. Small
+/// steps back (datagrams out of order) stand still. A step by more than kFarOff in either direction
+/// counts once a second datagram confirms it, so that a corrupt one has no effect. Back: the
+/// sender's clock was restarted, and time continues from the newest. Forward: a pause.
 class TimeCodeClock {
  public:
-  /// The arrival of the next datagram, never before the last; `time_code_millis`: nullopt where it
-  /// carries none.
+  /// The receive time of the next datagram, ns; never before the last. `time_code_millis`: nullopt
+  /// if the datagram has none.
   std::int64_t Advance(std::optional<std::uint32_t> time_code_millis);
 
-  /// Where the first time code of a file lies, and what comes before it: not at 0, which means "no
-  /// time" to ROS.
+  /// Time of the first time code of a file, and of any datagrams before it. It is not 0, which
+  /// means "no time" in ROS.
   static constexpr std::int64_t kStartNanos = 1'000'000'000;
   static constexpr std::int64_t kFarOffMillis = 1'000;
 
@@ -34,17 +33,18 @@ class TimeCodeClock {
   bool IsNear(std::int64_t millis, std::int64_t other) const;
 
   std::optional<std::int64_t> newest_;   // time code, ms, as sent
-  std::int64_t first_ = 0;               // likewise
-  std::optional<std::int64_t> far_off_;  // one that nothing has confirmed
-  std::int64_t restarts_millis_ = 0;     // from time codes to time since the beginning
+  std::int64_t first_ = 0;               // time code, ms, as sent
+  std::optional<std::int64_t> far_off_;  // not yet confirmed
+  std::int64_t restarts_millis_ = 0;     // offset from time codes to the time since the beginning
 };
 
 class RawFileDatagrams : public DatagramSource {
  public:
-  /// `name` is for people.
+  /// `name` is for messages.
   RawFileDatagrams(InputFile file, std::string name);
 
-  /// Hands on one datagram. Neither end of it is known. @throws SourceError as the file does.
+  /// Delivers one datagram. Sender and receiver are unknown. @throws SourceError if the file cannot
+  /// be read.
   [[nodiscard]] State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
 
   TransportCounters counters() const override;

@@ -18,20 +18,20 @@ struct Magic {
   const char* name;
 };
 
-// Both byte orders, microseconds and nanoseconds, and the form with longer packet headers.
+// Both byte orders, microseconds and nanoseconds, and the format with longer packet headers.
 constexpr std::string_view kCaptures[] = {
     "\xa1\xb2\xc3\xd4"sv, "\xd4\xc3\xb2\xa1"sv, "\xa1\xb2\x3c\x4d"sv, "\x4d\x3c\xb2\xa1"sv,
     "\xa1\xb2\xcd\x34"sv, "\x34\xcd\xb2\xa1"sv, "\x0a\x0d\x0d\x0a"sv,
 };
 
-// What people try, and what it takes instead.
+// Formats that users try, and the supported alternative.
 constexpr Magic kRelatives[] = {
-    {"PK\x03\x04"sv, "a zip archive; unpack it first"},
-    {"HIERARCHY"sv, "BVH, which has no segments of MVN; export the recording as MVNX"},
+    {"PK\x03\x04"sv, "a zip archive; extract it first"},
+    {"HIERARCHY"sv, "BVH, which does not contain MVN segments; export the recording as MVNX"},
 };
 
 constexpr const char* kRecordings =
-    "MVNX, a capture (pcap, pcapng), MVN datagrams one after the other (.bin) or a ROS bag";
+    "MVNX, a capture (pcap, pcapng), concatenated MVN datagrams (.bin) or a ROS bag";
 
 bool BeginsWith(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
@@ -56,7 +56,7 @@ RecordingKind KindOf(std::string_view head) {
     if (BeginsWith(head, magic)) return RecordingKind::kPcap;
   }
   if (BeginsWith(head, "#ROSBAG")) return RecordingKind::kRosBag;
-  // Before XML: sync text in XML may be the first that a stream sends.
+  // Checked before XML, because a stream may begin with sync text in XML.
   if (HasDatagram(head)) return RecordingKind::kDatagrams;
   if (IsXml(head)) return RecordingKind::kMvnx;
   return RecordingKind::kUnknown;
@@ -69,7 +69,7 @@ std::string DescribeUnfit(const std::string& path, std::string_view head,
   for (const Magic& magic : kRelatives) {
     if (BeginsWith(head, magic.bytes)) return name + ": is " + magic.name;
   }
-  return name + ": its first bytes are those of no recording; expected " + wanted;
+  return name + ": unknown file format; expected " + wanted;
 }
 
 std::unique_ptr<DatagramSource> OpenRecording(InputFile file, const std::string& name) {

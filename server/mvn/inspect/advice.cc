@@ -19,13 +19,12 @@ std::string Percent(double fraction) {
   return text;
 }
 
-// Why there is nobody to show.
+// Why there is no person to show.
 std::string NoPose(const CharacterReport& character) {
   const bool has_pose = Has(character, Type::kPose) || Has(character, Type::kEulerPose);
   if (has_pose) {
-    return "the pose is never a whole body of 23 segments: choose the full body in MVN, or see "
-           "what "
-           "is not used";
+    return "no message contains all 23 segments: select the full body in MVN, and see the list "
+           "\"Not used\"";
   }
   if (Has(character, Type::kLinear) != Has(character, Type::kAngular)) {
     const Type missing = Has(character, Type::kLinear) ? Type::kAngular : Type::kLinear;
@@ -42,14 +41,14 @@ std::vector<std::string> AdviceFor(const CharacterReport& character, bool has_sc
   if (character.samples == 0) advice.push_back(NoPose(character));
   const bool is_person = character.kind != CharacterKind::kObjects;
   if (character.samples > 0 && Has(character, Type::kEulerPose) && !Has(character, Type::kPose)) {
-    advice.push_back("the pose comes as Euler angles: " + SwitchOn(Type::kPose) +
+    advice.push_back("the pose is sent as Euler angles: " + SwitchOn(Type::kPose) +
                      ", which is smaller and has no gimbal lock");
   }
   if (is_person && !has_scale) {
     advice.push_back("segment lengths are assumed: " +
-                     (Has(character, Type::kScale)
-                          ? DialogName(static_cast<int>(Type::kScale)) + " never came whole"
-                          : SwitchOn(Type::kScale)));
+                     (Has(character, Type::kScale) ? DialogName(static_cast<int>(Type::kScale)) +
+                                                         " was never received completely"
+                                                   : SwitchOn(Type::kScale)));
   }
   if (!has_name) advice.push_back("no name and no colour: " + SwitchOn(Type::kMetaData));
   if (is_person && character.samples > 0) {
@@ -66,13 +65,14 @@ std::vector<std::string> AdviceFor(const CharacterReport& character, bool has_sc
   }
   if (character.has_old_header) {
     advice.push_back(
-        "the header is that of MVN before 2018 (no payload size): gloves, props and "
-        "several characters need a newer MVN");
+        "the message header is older than MVN 2018 (no payload size): update MVN to send gloves, "
+        "props or several characters");
   }
   if (character.lost && *character.lost > 0) {
     const auto lost = static_cast<double>(*character.lost);
-    advice.push_back(Percent(lost / (lost + static_cast<double>(character.frames))) +
-                     " of the frames are lost: use a cable or TCP, or a lower stream rate");
+    advice.push_back(
+        Percent(lost / (lost + static_cast<double>(character.frames))) +
+        " of the frames are lost: use a network cable or TCP, or lower the stream rate");
   }
   return advice;
 }
@@ -81,14 +81,14 @@ std::vector<std::string> AdviceFor(const InspectionReport& report) {
   std::vector<std::string> advice;
   if (report.has_datagrams && report.datagrams == 0) {
     advice.push_back(report.is_live
-                         ? "nothing came: in MVN, Options, Network Streamer, add this machine's "
-                           "address and this port; let the port through the firewall"
-                         : "there is no datagram in it");
+                         ? "no datagrams received: in MVN, Options, Network Streamer, add this "
+                           "machine's address and this port; open the port in the firewall"
+                         : "the file contains no datagrams");
   }
   if (report.transport && report.transport->kernel_drops > 0) {
     advice.push_back(
-        "datagrams were dropped because nobody read them in time: raise "
-        "net.core.rmem_max (sysctl), or give this machine less to do");
+        "datagrams were dropped because the receive buffer was full: raise net.core.rmem_max "
+        "(sysctl), or reduce the CPU load");
   }
   return advice;
 }

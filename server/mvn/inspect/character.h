@@ -1,4 +1,4 @@
-/// What samples and scale data say of one character, for the report. Memory does not grow; one
+/// Collects the samples and scale data of one character for the report. Memory does not grow; one
 /// thread.
 #pragma once
 
@@ -24,7 +24,7 @@ class CharacterTally : public SampleSink {
   }
   bool has_name() const { return character_ && !character_->name.empty(); }
 
-  /// Name, kind, size, segments, quantities.
+  /// Sets name, kind, size, segments and quantities.
   void Fill(CharacterReport& report) const;
 
  private:
@@ -40,11 +40,11 @@ class CharacterTally : public SampleSink {
   decltype(ObjectsSample::present) objects_seen_;
 };
 
-/// Counters, losses, rates and silence. `begin_monotonic`: of the whole stream.
+/// Sets counters, losses, rates and gaps. `begin_monotonic`: start of the whole stream, ns.
 void FillFrames(const FrameTrack& frames, std::int64_t begin_monotonic, CharacterReport& report);
 
-/// What is missing in a stream for Kinescope to show it, and to show it well; each with the switch
-/// in MVN that brings it. Most important first.
+/// What a stream lacks for Kinescope to show it, or to show it well, each with the setting in MVN
+/// that adds it. Most important first.
 std::vector<std::string> AdviceFor(const CharacterReport& character, bool has_scale, bool has_name);
 std::vector<std::string> AdviceFor(const InspectionReport& report);
 

@@ -6,10 +6,10 @@
 namespace kinescope::mvn {
 namespace {
 
-constexpr std::int32_t kFarthestAhead = 10'000;  // while the time code cannot tell: 40 s at 240 Hz
+constexpr std::int32_t kFarthestAhead = 10'000;  // until the time code decides: 40 s at 240 Hz
 constexpr std::int32_t kNextMillis = 2'000;      // from the first to the second frame of a new run
-constexpr double kMostIrregular = 0.02;          // steps shorter than usual, of all
-constexpr int kFramePatience = 256;              // datagrams that a doubt may wait for the next
+constexpr double kMostIrregular = 0.02;          // largest share of steps shorter than usual
+constexpr int kFramePatience = 256;  // datagrams that a doubtful one waits for its successor
 
 }  // namespace
 
@@ -71,7 +71,7 @@ void FrameTrack::Take(int type, std::uint32_t counter, std::uint32_t millis,
   if (!run_first_ || Ahead(counter, run_newest_) > 0) {
     BeginFrame(counter, millis, arrival);
     frame = Frame{true, counter, {}};
-  } else if (!frame.is_used || frame.counter != counter) {  // came after later ones
+  } else if (!frame.is_used || frame.counter != counter) {  // arrived after later ones
     ++frames_;
     if (Ahead(counter, *run_first_) < 0) {
       run_first_ = counter;
@@ -80,7 +80,7 @@ void FrameTrack::Take(int type, std::uint32_t counter, std::uint32_t millis,
     frame = Frame{true, counter, {}};
   }
   const auto index = static_cast<std::size_t>(type);
-  if (frame.types.test(index)) return;  // once more, or another part of it
+  if (frame.types.test(index)) return;  // repeated, or another part of it
   frame.types.set(index);
   ++with_type_[index];
 }
@@ -117,8 +117,8 @@ double FrameTrack::usual_step() const {
   const auto most = std::max_element(steps_.begin(), steps_.end());
   if (*most == 0) return 1;
   const auto index = static_cast<std::size_t>(most - steps_.begin());
-  // Two steps in turn, as a rate makes them that does not divide the capture's. Next to 1, 2 is a
-  // lost frame more often than not, so it must be nearly as frequent.
+  // Two alternating steps, as a rate causes that does not divide the acquisition rate. Beside 1, a
+  // 2 is usually a lost frame, so it must be nearly as frequent.
   const std::uint64_t least = index == 1 ? *most * 2 / 3 : *most / 4;
   double frames = 0;
   double counts = 0;
@@ -142,7 +142,7 @@ std::optional<std::uint64_t> FrameTrack::lost() const {
   const double counts = closed_counts_ + Ahead(run_newest_, *run_first_);
   const double runs = static_cast<double>(restarts_) + 1;
   const double missing = counts / usual_step() + runs - static_cast<double>(frames_);
-  // With a fractional step both ends of a run are uncertain by one.
+  // With a fractional step, both ends of a run are uncertain by one frame.
   const double slack = usual_step() == std::floor(usual_step()) ? 0 : runs;
   return missing <= slack ? 0 : static_cast<std::uint64_t>(std::llround(missing));
 }

@@ -1,6 +1,6 @@
-/// The frames of one sender's character, told by their headers: which there were, which are
-/// missing, how they arrived. A frame is what has one sample counter, whatever types it comes in
-/// and whether a sample can be made of it. Memory does not grow; one thread.
+/// Analyses the frames of one character of a sender by their headers: which exist, which are
+/// missing, when they arrived. A frame is all messages with one sample counter, whatever their
+/// types, and whether or not they make a sample. Memory does not grow; one thread.
 #pragma once
 
 #include <array>
@@ -20,12 +20,12 @@ class FrameTrack {
   static constexpr std::size_t kTypes = 100;
 
   enum class Trust {
-    kNone,   // from a network: a header that contradicts those before is damaged, or a restart
-    kWhole,  // of samples: their source has seen to that
+    kNone,   // from a network: a header that contradicts earlier ones is corrupt, or a restart
+    kWhole,  // of samples: already checked by their source
   };
   explicit FrameTrack(Trust trust = Trust::kNone) : trust_(trust) {}
 
-  /// A datagram of a message type that belongs to a sample (not 12 and 13).
+  /// Adds a datagram of a message type that belongs to a sample (not 12 and 13).
   void Add(int type, std::uint32_t counter, std::uint32_t time_code_millis, const Arrival& arrival);
 
   std::uint64_t frames() const { return frames_; }
@@ -33,22 +33,25 @@ class FrameTrack {
   std::optional<std::uint32_t> first_counter() const { return first_counter_; }
   std::optional<std::uint32_t> last_counter() const { return last_counter_; }
   std::uint64_t restarts() const { return restarts_; }
-  /// By how much the counter grows from frame to frame; a fraction where two steps alternate (240
-  /// Hz sent at 100 Hz: 2.4). 1 where nothing tells.
+  /// Usual step of the counter from frame to frame; a fraction if two steps alternate (240 Hz sent
+  /// at 100 Hz: 2.4). 1 if unknown.
   double usual_step() const;
-  /// Smallest and largest step; 0 without any.
+  /// Smallest and largest step; 0 without a step.
   std::uint32_t smallest_step() const { return smallest_step_; }
   std::uint32_t largest_step() const { return largest_step_; }
-  /// Frames that the counters say there must have been, and that never came. Nullopt where the
-  /// counter grows by less than its usual step, too: then no step says what should have come.
+  /// Number of frames that are missing according to the counters. nullopt if the counter sometimes
+  /// grows by less than its usual step: then no step shows which frames were expected.
   std::optional<std::uint64_t> lost() const;
-  /// Frames a second: as they came; and as counter and time code say the suit captures. 0: unknown.
+  /// Frames per second: as received, and as the suit acquired them according to counter and time
+  /// code. 0: unknown.
   double arrival_rate_hz() const;
   double capture_rate_hz() const;
-  /// How much later frames came than the fastest ones of the last seconds (clock_fit.h).
+  /// Delay of the frames relative to the fastest ones of the last seconds (clock_fit.h).
   const DurationHistogram& delays() const { return delays_; }
   std::int64_t longest_silence_nanos() const { return longest_silence_; }
-  std::int64_t longest_silence_began_nanos() const { return longest_silence_began_; }  // monotonic
+  std::int64_t longest_silence_began_nanos() const {
+    return longest_silence_began_;
+  }  // monotonic clock
 
  private:
   static constexpr std::size_t kRemembered = 256;  // one second at 240 Hz
@@ -59,7 +62,7 @@ class FrameTrack {
     std::uint32_t counter = 0;
     std::bitset<kTypes> types;
   };
-  struct Doubt {  // a frame that may be the first after a restart, or damaged
+  struct Doubt {  // a frame that is either the first after a restart or corrupt
     int type = 0;
     std::uint32_t counter = 0;
     std::uint32_t millis = 0;
@@ -68,7 +71,7 @@ class FrameTrack {
   };
 
   bool BelongsHere(std::uint32_t counter, std::uint32_t millis) const;
-  /// True when the run now begins with the frame of the doubt.
+  /// True if the current run begins with the doubtful frame.
   bool ConfirmsRestart(int type, std::uint32_t counter, std::uint32_t millis,
                        const Arrival& arrival);
   void Take(int type, std::uint32_t counter, std::uint32_t millis, const Arrival& arrival);
@@ -87,7 +90,7 @@ class FrameTrack {
   std::uint32_t smallest_step_ = 0;
   std::uint32_t largest_step_ = 0;
 
-  // The run since the last restart, and the sum of those before.
+  // The run since the last restart, and the sums of earlier runs.
   std::optional<std::uint32_t> run_first_;
   std::uint32_t run_newest_ = 0;
   std::uint32_t run_first_millis_ = 0;

@@ -1,5 +1,5 @@
-/// Durations, counted so that any percentile can be asked for, in memory that does not grow: 32
-/// classes to each doubling, so an answer is right to 2 %. Plain values, one thread.
+/// Counts durations for percentiles in constant memory: 32 classes per doubling, so results are
+/// accurate to 2 %. Plain values, one thread.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class DurationHistogram {
   std::uint64_t total() const { return total_; }
   std::int64_t longest_nanos() const { return longest_; }  // exact
 
-  /// So long or shorter were `fraction` (0 to 1) of the durations; 0 without any.
+  /// The duration that `fraction` (0 to 1) of all durations do not exceed, ns; 0 without any.
   std::int64_t PercentileNanos(double fraction) const {
     const auto wanted =
         static_cast<std::uint64_t>(std::ceil(fraction * static_cast<double>(total_)));
@@ -35,7 +35,7 @@ class DurationHistogram {
  private:
   static constexpr int kPerDoubling = 32;
   static constexpr double kSmallest = 1'000;     // ns; shorter ones are one class
-  static constexpr std::size_t kDoublings = 30;  // to 18 minutes; longer ones are one class
+  static constexpr std::size_t kDoublings = 30;  // up to 18 minutes; longer ones are one class
 
   static std::size_t ClassOf(std::int64_t nanos) {
     const double ratio = static_cast<double>(std::max<std::int64_t>(nanos, 1)) / kSmallest;

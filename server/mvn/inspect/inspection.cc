@@ -8,7 +8,7 @@
 namespace kinescope::mvn {
 namespace {
 
-// How many things a message has, in any of its types.
+// The number of items of a message of any type.
 struct ItemCounter {
   template <class Item>
   int Of(const PerSegment<Item>& body) const {
@@ -34,10 +34,10 @@ struct ItemCounter {
   }
 };
 
-// Reasons that no single datagram shows.
+// Reasons that a single datagram cannot show.
 constexpr int kFirstJoinReason = static_cast<int>(Reason::kPartsContradict);
 
-// Longer than anything waits for the rest of it: scale data of which a part was lost.
+// Longer than any message waits for its rest: scale data with a lost part.
 constexpr std::int64_t kLongWaitNanos = 1'000'000'000;
 
 std::string SenderName(const Endpoint& sender) {
@@ -68,7 +68,7 @@ bool InspectionReport::CanBeShown() const {
                      [](const CharacterReport& character) { return character.samples > 0; });
 }
 
-// One (sender, character) pair. Joined on its own, so that what is counted is its own.
+// One (sender, character) pair, assembled separately, so that the counts are its own.
 class Inspection::Stream {
  public:
   Stream(const Endpoint& sender, int character) : sender_(sender), character_(character) {}
@@ -92,14 +92,14 @@ class Inspection::Stream {
   }
 
   void Expire(std::int64_t now) { assembler_.Expire(now, tally_); }
-  /// Nothing more will come. A frame that the end cut through is no incomplete one.
+  /// End of the stream. A frame cut off by the end does not count as incomplete.
   void Close(std::int64_t now) {
     incomplete_ = assembler_.tally().incomplete;
     assembler_.Expire(now, tally_);
     assembler_.Flush(tally_);
   }
 
-  /// How often `reason` was found when joining, since this was last asked.
+  /// Number of errors with `reason` found when assembling, since the last call.
   std::uint64_t TakeJoinErrors(Reason reason) {
     const std::uint64_t count = assembler_.tally().rejected[static_cast<std::size_t>(reason)];
     std::uint64_t& seen = join_errors_seen_[static_cast<std::size_t>(reason)];
@@ -192,7 +192,7 @@ void Inspection::OnDatagram(const ReceivedDatagram& datagram) {
 
   const auto message = ParseDatagram(datagram.bytes);
   if (!message) NoteError(message.error().reason, 1, datagram.from, message.error());
-  // Of a damaged message too, so that it counts for the character that it names.
+  // Also for a corrupt message, so that it counts for the character in its header.
   const auto header = message ? message->header : ParseHeader(datagram.bytes);
   if (!header) return;
   Stream* const stream = FindStream(datagram.from, header->character);
@@ -200,7 +200,8 @@ void Inspection::OnDatagram(const ReceivedDatagram& datagram) {
     ++not_kept_;
     return;
   }
-  // In a capture time is what its packets say, so what falls due between two of them is due now.
+  // In a capture the packets define the time, so samples that fall due between two packets are
+  // delivered now.
   if (!is_live_) stream->Expire(datagram.arrival.monotonic_nanos);
   stream->Add(*header, message ? &*message : nullptr, datagram);
   NoteJoinErrors(*stream);
@@ -214,7 +215,8 @@ Inspection::Stream* Inspection::FindStream(const Endpoint& sender, int character
     streams_.push_back(std::make_unique<Stream>(sender, character));
     return streams_.back().get();
   }
-  // Damaged headers name characters that nobody has: the first that came but once makes room.
+  // Corrupt headers contain characters that do not exist: the oldest one with a single datagram
+  // makes room.
   for (auto& stream : streams_) {
     if (stream->datagrams() > 1) continue;
     not_kept_ += stream->datagrams();
@@ -267,7 +269,7 @@ InspectionReport Inspection::Report(const DatagramSource& source) {
     NoteJoinErrors(*stream);
     report.characters.push_back(stream->Report(first_.monotonic_nanos, has_arrival_times_));
   }
-  // A character that a single damaged header named, in a stream of others, is nobody.
+  // A character in a single corrupt header, in a stream of others, does not exist.
   const auto is_one_datagram = [](const auto& character) { return character.datagrams == 1; };
   auto& all = report.characters;
   if (!std::all_of(all.begin(), all.end(), is_one_datagram)) {

@@ -1,7 +1,7 @@
-/// What is in a stream: who sends, which messages, how regularly, what is lost, what is wrong, and
-/// what to switch on in MVN. Feed it whatever comes, then ask for the report. It keeps at most 64
-/// (sender, character) pairs and counts what else comes, its percentiles come from histograms of a
-/// fixed size, so its memory does not grow with the stream. One thread.
+/// Analyses a stream: senders, messages, regularity, losses, errors, and the settings to change in
+/// MVN. Feed it all datagrams, then request the report. It keeps at most 64 (sender, character)
+/// pairs and counts the datagrams of others; percentiles come from histograms of fixed size. So its
+/// memory does not grow with the stream. One thread.
 #pragma once
 
 #include <array>
@@ -19,22 +19,23 @@
 
 namespace kinescope::mvn {
 
-/// The name of a message type in MVN's dialog of the network streamer: "Position + Orientation
-/// (Quaternion)". "" for one that Kinescope does not know.
+/// The name of a message type in MVN's network streamer dialog: "Position + Orientation
+/// (Quaternion)". "" for an unknown type.
 std::string DialogName(int type);
 
 struct TypeReport {
   int type = 2;  // MXTP02
   std::uint64_t datagrams = 0;
   std::uint64_t bytes = 0;
-  double rate_hz = 0;    // datagrams a second, while it was sent; 0: one only
+  double rate_hz = 0;    // datagrams per second while it was sent; 0: only one datagram
   int fewest_items = 0;  // in one datagram
   int most_items = 0;
-  /// Of all frames, those that have it, 0 to 1; none for 12 and 13, which belong to no frame.
+  /// Share of all frames that have this type, 0 to 1; absent for 12 and 13, which belong to no
+  /// frame.
   std::optional<double> share;
 };
 
-struct DelayReport {  // ns, against the fastest frames of the last seconds
+struct DelayReport {  // ns, relative to the fastest frames of the last seconds
   std::int64_t median = 0;
   std::int64_t p95 = 0;
   std::int64_t p99 = 0;
@@ -43,20 +44,20 @@ struct DelayReport {  // ns, against the fastest frames of the last seconds
 
 enum class CharacterKind { kUnknown, kPerson, kObjects };
 
-/// What one sender says of one character, or a file of one person.
+/// One character of one sender, or the person in a file.
 struct CharacterReport {
-  std::string sender;  // "192.168.1.20:9763"; "" where there are no datagrams or nobody knows
+  std::string sender;  // "192.168.1.20:9763"; "" without datagrams or if unknown
   int id = 0;          // as sent
   std::string name;
   std::optional<std::uint32_t> color_rgb;
   CharacterKind kind = CharacterKind::kUnknown;
-  std::optional<double> height_m;  // from scale data
-  int body_segments = 0;           // of a sample: 23, or 0 without one
+  std::optional<double> height_m;  // from the scale data
+  int body_segments = 0;           // per sample: 23, or 0 without a body
   int objects = 0;
   int left_fingers = 0;
   int right_fingers = 0;
   int props = 0;
-  std::vector<std::string> names;  // of props or objects, where scale data tell them
+  std::vector<std::string> names;  // of props or objects, from the scale data
 
   std::uint64_t datagrams = 0;
   std::uint64_t bytes = 0;
@@ -69,56 +70,56 @@ struct CharacterReport {
   double usual_step = 1;
   std::uint32_t smallest_step = 0;
   std::uint32_t largest_step = 0;
-  std::optional<std::uint64_t> lost;  // frames; none: the steps are too irregular to tell
+  std::optional<std::uint64_t> lost;  // missing frames; absent: steps too irregular
   double rate_hz = 0;
   double capture_rate_hz = 0;
-  std::optional<DelayReport> delays;  // where arrival is known
+  std::optional<DelayReport> delays;  // if receive times are known
   std::int64_t longest_silence_nanos = 0;
   std::int64_t longest_silence_at_nanos = 0;  // since the beginning of the stream
-  std::uint64_t samples = 0;                  // frames of which a sample could be made
+  std::uint64_t samples = 0;                  // frames that made a sample
   std::uint64_t incomplete = 0;
   std::uint64_t duplicates = 0;  // datagrams
   std::uint64_t late = 0;        // datagrams
   std::uint64_t outliers = 0;    // datagrams
   std::uint64_t restarts = 0;
   std::uint64_t odd_ids = 0;
-  /// How many samples have what: "velocity", "joint angles", "gloves".
+  /// Number of samples per quantity: "velocity", "joint angles", "gloves".
   std::map<std::string, std::uint64_t> quantities;
-  std::vector<std::string> advice;  // what is missing, and what to switch on
+  std::vector<std::string> advice;  // what is missing, and what to switch on in MVN
 };
 
 struct ErrorReport {
   std::string reason;
   std::uint64_t count = 0;
-  // The first of them:
+  // The first occurrence:
   std::int64_t at_nanos = 0;  // since the beginning of the stream
   std::string sender;
-  std::optional<ParseError> where;  // none: found when joining, or told by a file
+  std::optional<ParseError> where;  // absent: detected when assembling, or in a file
 };
 
 struct InspectionReport {
   std::string source;
-  std::string format;  // for people: "MVNX version 4"; whoever opened it knows
+  std::string format;  // "MVNX version 4"; set by the code that opened it
   bool is_live = false;
   bool has_datagrams = true;          // false: a file of samples
-  bool has_arrival_times = true;      // false: a file of datagrams without
-  std::int64_t begin_wall_nanos = 0;  // first and last datagram or sample; 0: none came
+  bool has_arrival_times = true;      // false: a file of datagrams without receive times
+  std::int64_t begin_wall_nanos = 0;  // first and last datagram or sample; 0: none
   std::int64_t end_wall_nanos = 0;
   double secs = 0;  // between them
   std::uint64_t datagrams = 0;
   std::uint64_t bytes = 0;
   std::optional<TransportCounters> transport;
   std::vector<CharacterReport> characters;
-  std::uint64_t datagrams_not_kept = 0;  // of characters beyond the 64
+  std::uint64_t datagrams_not_kept = 0;  // of characters beyond kMostCharacters
   std::vector<ErrorReport> errors;       // most frequent first
   std::map<std::string, std::uint64_t> ignored;
   std::vector<std::string> advice;  // about the stream as a whole
 
-  /// Whether there is anybody, or anything, to show.
+  /// Whether there is a person or an object to show.
   bool CanBeShown() const;
 };
 
-/// Of datagrams.
+/// Inspects datagrams.
 class Inspection : public DatagramSink {
  public:
   static constexpr std::size_t kMostCharacters = 64;
@@ -128,10 +129,11 @@ class Inspection : public DatagramSink {
 
   void OnDatagram(const ReceivedDatagram& datagram) override;
 
-  /// Live: gives on what has waited long enough. Call when all that has come was handed over.
+  /// Live: delivers the samples whose waiting time is over. Call it when all received datagrams
+  /// were added.
   void Expire(std::int64_t now_monotonic_nanos);
 
-  /// Closes what is still open. `source`: what was read.
+  /// Closes all open samples and returns the report. `source`: the inspected source.
   InspectionReport Report(const DatagramSource& source);
 
  private:
@@ -153,7 +155,7 @@ class Inspection : public DatagramSink {
   Arrival last_;
 };
 
-/// Of samples, where there are no datagrams: MVNX, a bag, the built-in subject.
+/// Inspects samples where there are no datagrams: MVNX, a bag, the built-in subject.
 class SampleInspection : public SampleSink {
  public:
   static constexpr std::size_t kMostCharacters = 64;

@@ -23,7 +23,7 @@ class SampleInspection::Person {
     report.id = id_;
     tally_.Fill(report);
     FillFrames(frames_, begin_nanos, report);
-    report.capture_rate_hz = 0;  // a file says at which rate it was captured: that is rate_hz
+    report.capture_rate_hz = 0;  // a file states its acquisition rate: that is rate_hz
     return report;
   }
 

@@ -26,17 +26,17 @@ std::uint16_t ParsePort(std::string_view url, std::string_view text) {
   const char* const end = text.data() + text.size();
   const auto parsed = std::from_chars(text.data(), end, port);
   if (text.empty() || parsed.ec == std::errc::invalid_argument || parsed.ptr != end) {
-    RefuseUrl(url, "'" + std::string(text) + "' is no port; expected a whole number, such as 9763");
+    RefuseUrl(url, "invalid port '" + std::string(text) + "'; expected a number, such as 9763");
   }
   if (parsed.ec != std::errc() || port < 0 || port > kLargestPort) {
-    RefuseUrl(url, "port " + std::string(text) +
-                       " is out of range; ports are 1 to 65535 (MVN sends to 9763), "
-                       "and 0 takes a free one");
+    RefuseUrl(
+        url, "port " + std::string(text) +
+                 " is out of range; expected 1 to 65535 (MVN sends to 9763), or 0 for a free port");
   }
   return static_cast<std::uint16_t>(port);
 }
 
-// An address that means "all of this machine's", in any of its spellings.
+// An address that means all addresses of this machine, in any spelling.
 bool IsAnyAddress(const std::string& host) {
   in_addr ipv4{};
   in6_addr ipv6{};
@@ -45,7 +45,7 @@ bool IsAnyAddress(const std::string& host) {
          (inet_pton(AF_INET6, host.c_str(), &ipv6) == 1 && IN6_IS_ADDR_UNSPECIFIED(&ipv6));
 }
 
-// Takes "host:port" apart: `rest` is what follows the scheme, without a query.
+// Divides "host:port": `rest` is the part after the scheme, without a query.
 void ParseHostAndPort(std::string_view url, std::string_view rest, NetUrl& parsed) {
   const std::string scheme = Scheme(parsed.protocol);
   if (!rest.empty() && rest.front() == '[') {
@@ -56,8 +56,8 @@ void ParseHostAndPort(std::string_view url, std::string_view rest, NetUrl& parse
     parsed.host = rest.substr(1, bracket - 1);
     rest.remove_prefix(bracket + 1);
     if (!rest.empty() && rest.front() != ':') {
-      RefuseUrl(url, "'" + std::string(rest) + "' after the bracket; expected " + scheme +
-                         "://[::1]:9763");
+      RefuseUrl(url, "unexpected '" + std::string(rest) + "' after the bracket; expected " +
+                         scheme + "://[::1]:9763");
     }
   } else {
     const std::size_t colon = rest.find(':');
@@ -68,7 +68,7 @@ void ParseHostAndPort(std::string_view url, std::string_view rest, NetUrl& parse
     }
   }
   if (parsed.host.find_first_of("/ \t\r\n?#@") != std::string::npos) {
-    RefuseUrl(url, "'" + parsed.host + "' is no host; expected " + scheme +
+    RefuseUrl(url, "invalid host name '" + parsed.host + "'; expected " + scheme +
                        "://host:port, such as " + scheme + "://:9763");
   }
   if (!rest.empty()) parsed.port = ParsePort(url, rest.substr(1));
@@ -82,14 +82,15 @@ NetUrl::Mode ParseMode(std::string_view url, std::string_view query, const NetUr
   }
   if (query != "?listen" && query != "?connect") {
     RefuseUrl(url,
-              "'" + std::string(query) + "' is not known; expected ?listen, ?connect or nothing");
+              "unknown query '" + std::string(query) + "'; expected ?listen, ?connect or nothing");
   }
   if (parsed.protocol == Protocol::kUdp) {
-    RefuseUrl(url, "UDP has no connections; leave out '" + std::string(query) + "', or use tcp://");
+    RefuseUrl(url, "UDP has no connections; remove '" + std::string(query) + "', or use tcp://");
   }
   if (query == "?listen") return Mode::kListen;
   if (IsAnyAddress(parsed.host)) {
-    RefuseUrl(url, "no host to connect to; expected one, such as tcp://192.168.1.20:9763");
+    RefuseUrl(
+        url, "the host is missing; expected a host to connect to, such as tcp://192.168.1.20:9763");
   }
   return Mode::kConnect;
 }
@@ -105,7 +106,7 @@ NetUrl ParseNetUrl(std::string_view url) {
   const std::string_view prefix = url.substr(0, kPrefixBytes);
   if (prefix != "udp://" && prefix != "tcp://") {
     RefuseUrl(url,
-              "no network address; expected udp://host:port or tcp://host:port, such as "
+              "not a network address; expected udp://host:port or tcp://host:port, such as "
               "udp://:9763");
   }
   NetUrl parsed;

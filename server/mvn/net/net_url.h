@@ -1,16 +1,17 @@
-/// `udp://host:port` and `tcp://host:port`, for receivers and senders alike.
+/// Parses `udp://host:port` and `tcp://host:port`, for receivers and senders. Pure functions, any
+/// thread.
 ///
 ///   udp://:9763                   every IPv4 address of this machine (a sender needs a host)
-///   udp://127.0.0.1               one address; without a port it is 9763, MVN's own
-///   udp://[::1]:9763              IPv6 addresses stand in brackets
+///   udp://127.0.0.1               one address; the default port is MVN's, 9763
+///   udp://[::1]:9763              IPv6 addresses are in brackets
 ///   udp://[::]:9763               every address, IPv6 and IPv4
 ///   tcp://:9763  tcp://[::]       no host, or an address that means "every": waits for connections
 ///   tcp://192.168.1.20:9763       a host: connects to it
 ///   tcp://127.0.0.1:9763?listen   waits for connections at this address only
-///   tcp://suit-pc:9763?connect    connects; for completeness
+///   tcp://suit-pc:9763?connect    connects; the same as without ?connect
 ///
-/// "localhost" is 127.0.0.1, so that both ends mean the same address. Port 0 takes a free one where
-/// something listens.
+/// "localhost" is 127.0.0.1, so that both ends mean the same address. A listener with port 0 gets a
+/// free port.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,7 @@ inline constexpr std::uint16_t kDefaultPort = 9763;
 enum class Protocol { kUdp, kTcp };
 
 struct NetUrl {
-  /// TCP: who makes the connection. UDP has none; there it is kListen and means nothing.
+  /// TCP: which end makes the connection. Without meaning for UDP, where it is kListen.
   enum class Mode { kListen, kConnect };
 
   Protocol protocol = Protocol::kUdp;
@@ -33,11 +34,11 @@ struct NetUrl {
   Mode mode = Mode::kListen;
 };
 
-/// Whether `url` begins with "udp:" or "tcp:", and so is for ParseNetUrl().
+/// Whether `url` begins with "udp:" or "tcp:" and can be passed to ParseNetUrl().
 bool IsNetUrl(std::string_view url);
 
-/// Pure: asks no name service.
-/// @throws SourceError naming the URL, what is wrong with it and what would be right.
+/// Does not query a name service.
+/// @throws SourceError with the URL, the error and the expected form.
 NetUrl ParseNetUrl(std::string_view url);
 
 /// "udp" or "tcp".

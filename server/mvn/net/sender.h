@@ -1,4 +1,4 @@
-/// Sends datagrams where a suit would send them. One thread.
+/// Sends datagrams as a suit does. One thread.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,12 @@ class DatagramSender {
   DatagramSender(const DatagramSender&) = delete;
   DatagramSender& operator=(const DatagramSender&) = delete;
 
-  /// Sends `datagram` as it is. Where nobody listens it is gone, as with a real suit.
-  /// @throws SourceError when sending can never work (a datagram too long, an address refused).
+  /// Sends `datagram` unchanged. Without a receiver it is lost, as with a real suit.
+  /// @throws SourceError if sending can never succeed (datagram too long, address rejected).
   virtual void Send(std::string_view datagram) = 0;
 
   virtual std::uint64_t datagrams_sent() const = 0;
-  /// Datagrams that found no receiver: TCP without a connection, or one that is too slow.
+  /// Datagrams without a receiver: TCP without a connection, or with a receiver that is too slow.
   virtual std::uint64_t datagrams_unsent() const = 0;
   virtual std::string description() const = 0;
 
@@ -27,9 +27,9 @@ class DatagramSender {
   DatagramSender() = default;
 };
 
-/// `url`: "udp://127.0.0.1:9763"; "tcp://127.0.0.1:9763" connects as MVN does, and again when the
-/// connection is lost; "tcp://:9763?listen" waits for receivers to connect and sends to all.
-/// @throws SourceError naming the URL, what is wrong with it and what would be right.
+/// `url`: "udp://127.0.0.1:9763"; "tcp://127.0.0.1:9763" connects as MVN does, and again after the
+/// connection is lost; "tcp://:9763?listen" waits for receivers to connect and sends to all of
+/// them. @throws SourceError with the URL, the error and the expected form.
 std::unique_ptr<DatagramSender> OpenSender(const std::string& url);
 
 }  // namespace kinescope::mvn

@@ -30,12 +30,13 @@ std::vector<SocketAddress> Resolve(const NetUrl& url, const std::string& text, i
   hints.ai_family = AF_UNSPEC;
   hints.ai_socktype = SocketType(url.protocol);
   hints.ai_flags = flags | AI_NUMERICSERV;
-  // The name service would say ::1 first, where nobody listens who listens on all of IPv4.
+  // The name service would return ::1 first, which a listener on all IPv4 addresses does not
+  // receive.
   const std::string host = url.host == "localhost" ? "127.0.0.1" : url.host;
   addrinfo* found = nullptr;
   const int error = getaddrinfo(host.c_str(), std::to_string(url.port).c_str(), &hints, &found);
   if (error != 0) {
-    Refuse(text, "'" + url.host + "' is no address (" + gai_strerror(error) + "); " + way_out);
+    Refuse(text, "cannot resolve '" + url.host + "' (" + gai_strerror(error) + "); " + way_out);
   }
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, &freeaddrinfo);
   std::vector<SocketAddress> addresses;
@@ -52,12 +53,12 @@ std::vector<SocketAddress> Resolve(const NetUrl& url, const std::string& text, i
   const std::string scheme = Scheme(url.protocol);
   switch (error) {
     case EADDRINUSE:
-      Refuse(text, "port " + port + " is taken; `ss -" +
+      Refuse(text, "port " + port + " is already in use; `ss -" +
                        (url.protocol == Protocol::kUdp ? "u" : "t") + "lpn sport = :" + port +
-                       "` shows by which program. Stop that one, or choose another port here and "
-                       "in MVN's Network Streamer");
+                       "` lists the program that uses it. Stop that program, or choose another "
+                       "port here and in MVN's Network Streamer");
     case EADDRNOTAVAIL:
-      Refuse(text, "not an address of this machine; `ip -brief address` lists those, and " +
+      Refuse(text, "not an address of this machine; `ip -brief address` lists its addresses, and " +
                        scheme + "://:" + port + " listens on all of them");
     case EACCES: Refuse(text, "ports below 1024 need root; choose a higher one, such as 9763");
     default: Refuse(text, "cannot listen: " + ErrorText(error));
@@ -81,18 +82,18 @@ SocketAddress ResolveToListen(const NetUrl& url, const std::string& text) {
   NetUrl numeric = url;
   if (numeric.host.empty()) numeric.host = "0.0.0.0";
   return Resolve(numeric, text, AI_NUMERICHOST,
-                 "give an address of this machine in numbers, or none to listen on all of them: " +
+                 "use a numeric address of this machine, or omit it to listen on all of them: " +
                      std::string(Scheme(url.protocol)) + "://:9763")
       .front();
 }
 
 std::vector<SocketAddress> ResolveToSend(const NetUrl& url, const std::string& text) {
-  if (url.port == 0) Refuse(text, "port 0 cannot be sent to; MVN receivers listen on 9763");
+  if (url.port == 0) Refuse(text, "cannot send to port 0; MVN receivers listen on 9763");
   if (url.host.empty()) {
-    Refuse(text, "no host to send to; expected " + std::string(Scheme(url.protocol)) +
+    Refuse(text, "the host is missing; expected " + std::string(Scheme(url.protocol)) +
                      "://127.0.0.1:9763 or another machine's name");
   }
-  return Resolve(url, text, 0, "check the name, or give the address in numbers");
+  return Resolve(url, text, 0, "check the name, or use a numeric address");
 }
 
 Socket BindToListen(const NetUrl& url, const std::string& text) {
@@ -102,7 +103,7 @@ Socket BindToListen(const NetUrl& url, const std::string& text) {
   if (!socket.is_open()) {
     const bool is_missing = errno == EAFNOSUPPORT && family == AF_INET6;
     Refuse(text, "cannot open a socket: " + ErrorText(errno) +
-                     (is_missing ? "; this machine has no IPv6, listen on " +
+                     (is_missing ? "; this machine does not support IPv6, listen on " +
                                        std::string(Scheme(url.protocol)) + "://:9763"
                                  : ""));
   }
@@ -111,8 +112,8 @@ Socket BindToListen(const NetUrl& url, const std::string& text) {
   if (family == AF_INET6) {
     setsockopt(socket.get(), IPPROTO_IPV6, IPV6_V6ONLY, &off, sizeof off);
   }
-  // TCP: connections of the run before may still linger. UDP: with it two programs would share the
-  // port, and each would miss datagrams.
+  // TCP: connections of an earlier run may still linger. UDP: two programs would share the port,
+  // and each would miss datagrams.
   if (url.protocol == Protocol::kTcp) {
     setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   }
@@ -184,7 +185,7 @@ Arrival ReadClocks() {
     arrival.wall_nanos = WallNanos();
     const std::int64_t took = MonotonicNanos() - before;
     arrival.monotonic_nanos = before + took / 2;
-    if (took <= kAtOnce) break;  // else we were interrupted in between
+    if (took <= kAtOnce) break;  // otherwise the call was interrupted in between
   }
   return arrival;
 }

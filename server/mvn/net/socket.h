@@ -1,4 +1,5 @@
-/// Sockets and their addresses: what UDP and TCP, receivers and senders have in common.
+/// Socket and address functions shared by UDP and TCP, receivers and senders. Any thread; a socket
+/// belongs to one thread at a time.
 #pragma once
 
 #include <sys/socket.h>
@@ -13,7 +14,7 @@
 
 namespace kinescope::mvn {
 
-/// An open socket, closed at the end.
+/// An open socket, closed by the destructor.
 class Socket {
  public:
   Socket() = default;  // none
@@ -40,19 +41,19 @@ struct SocketAddress {
   sockaddr* get() { return reinterpret_cast<sockaddr*>(&storage); }
 };
 
-/// `url.host` as an address of this machine: numbers and "localhost" only. `text` is the URL as the
-/// user wrote it, for errors. @throws SourceError.
+/// `url.host` as an address of this machine; only numeric addresses and "localhost". `text`: the
+/// URL as the user typed it, for errors. @throws SourceError.
 SocketAddress ResolveToListen(const NetUrl& url, const std::string& text);
 
-/// `url.host` as the addresses that it has, best first, at least one; asks the name service, which
-/// may take seconds. @throws SourceError, also when there is no host or no port to send to.
+/// The addresses of `url.host`, best first, at least one. Queries the name service, which may take
+/// seconds. @throws SourceError, also if host or port is missing.
 std::vector<SocketAddress> ResolveToSend(const NetUrl& url, const std::string& text);
 
-/// A socket that does not block, bound to `url`; an IPv6 "every address" takes IPv4, too.
-/// @throws SourceError naming what holds the port, or which addresses there are.
+/// A non-blocking socket bound to `url`; the IPv6 address that means "every" accepts IPv4, too.
+/// @throws SourceError with the program that uses the port, or the addresses that exist.
 Socket BindToListen(const NetUrl& url, const std::string& text);
 
-/// Both ends as the socket has them now; all zero where it has none.
+/// Local and remote address of the socket; all zero if it has none.
 SocketAddress LocalAddress(const Socket& socket);
 SocketAddress PeerAddress(const Socket& socket);
 
@@ -62,13 +63,13 @@ Endpoint EndpointOf(const SocketAddress& address);
 /// "udp://127.0.0.1:9763", "tcp://[fe80::1%eth0]:9763".
 std::string FormatUrl(Protocol protocol, const SocketAddress& address);
 
-/// What the kernel really gave, its own book-keeping included.
+/// The size that the kernel granted, including its own overhead.
 int ReceiveBufferBytes(const Socket& socket);
 
 /// "Connection refused".
 std::string ErrorText(int error);
 
-/// The present instant on both clocks.
+/// The current time on both clocks.
 Arrival ReadClocks();
 
 }  // namespace kinescope::mvn

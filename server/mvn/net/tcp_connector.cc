@@ -15,16 +15,16 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr std::int64_t kBetweenAttempts = kNanosPerSecond;
-// A host that is switched off does not answer at all; the kernel would try for two minutes.
+// A host that is switched off does not answer; the kernel would try for two minutes.
 constexpr std::int64_t kLongestAttempt = 5 * kNanosPerSecond;
-// A connection that held for so long is worth a line in the log when it ends.
+// The end of a connection that lasted this long is logged.
 constexpr std::int64_t kHeld = 10 * kNanosPerSecond;
 
 void Set(const Socket& socket, int level, int option, int value) {
   setsockopt(socket.get(), level, option, &value, sizeof value);
 }
 
-// Among ports that are handed out freely a socket can meet itself.
+// With automatically chosen ports, a socket can connect to itself.
 bool IsConnectedToItself(const Socket& socket) {
   return EndpointOf(LocalAddress(socket)) == EndpointOf(PeerAddress(socket));
 }
@@ -37,7 +37,7 @@ void ConfigureConnection(const Socket& socket) {
   Set(socket, IPPROTO_TCP, TCP_KEEPIDLE, 5);
   Set(socket, IPPROTO_TCP, TCP_KEEPINTVL, 2);
   Set(socket, IPPROTO_TCP, TCP_KEEPCNT, 3);
-  // The same where something is on its way: without, the kernel would repeat it for minutes.
+  // The limit for data under way, which the kernel would otherwise repeat for minutes.
   Set(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, 10'000);
 }
 
@@ -65,13 +65,13 @@ void TcpConnector::Restart(std::int64_t now_monotonic_nanos) {
   if (now_monotonic_nanos - connected_nanos_ >= kHeld) {
     has_told_trouble_ = has_told_connection_ = false;
   }
-  TellTrouble("the connection is lost");
+  TellTrouble("connection lost");
 }
 
-// Once, and not once a second for as long as a suit is switched off.
+// Logs the problem once, and not once per second while a suit is switched off.
 void TcpConnector::TellTrouble(const std::string& what) {
   if (std::exchange(has_told_trouble_, true)) return;
-  spdlog::warn("{}: {}; trying again once a second", text_, what);
+  spdlog::warn("{}: {}; retrying every second", text_, what);
 }
 
 std::int64_t TcpConnector::deadline_nanos() const {
@@ -93,7 +93,7 @@ void TcpConnector::Begin(std::int64_t now) {
   }
 }
 
-// Whether the attempt has become a connection.
+// Whether the attempt has succeeded.
 bool TcpConnector::Finish() {
   pollfd descriptor{attempt_.get(), POLLOUT, 0};
   if (poll(&descriptor, 1, 0) <= 0) return false;
@@ -107,7 +107,7 @@ bool TcpConnector::Finish() {
 }
 
 void TcpConnector::Fail(int error) {
-  TellTrouble("no connection yet (" + ErrorText(error) + ")");
+  TellTrouble("cannot connect yet (" + ErrorText(error) + ")");
   attempt_ = Socket();
 }
 

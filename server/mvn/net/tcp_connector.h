@@ -1,6 +1,6 @@
-/// One end of a TCP connection that is made again whenever it is lost. Nothing blocks and nothing
-/// sleeps: whoever uses it waits for `descriptor()` or until `deadline_nanos()`, then calls
-/// Advance(). One thread.
+/// Keeps one outgoing TCP connection: connects again when it is lost. It never blocks or sleeps:
+/// the caller waits for `descriptor()` or until `deadline_nanos()`, then calls Advance(). One
+/// thread.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +14,20 @@ namespace kinescope::mvn {
 
 class TcpConnector {
  public:
-  /// Asks the name service, once. @throws SourceError when the name has no address.
+  /// Queries the name service once. @throws SourceError if the name has no address.
   TcpConnector(const NetUrl& url, const std::string& text);
 
-  /// Goes on with connecting: attempts begin a second apart, each at the next of the host's
-  /// addresses. A connection that was made is returned once, ready for use; the connector is then
-  /// idle until Restart().
+  /// Continues connecting: attempts start one second apart, each at the next address of the host.
+  /// An established connection is returned once, ready for use; the connector is then idle until
+  /// Restart().
   [[nodiscard]] Socket Advance(std::int64_t now_monotonic_nanos);
 
-  /// The connection that Advance() gave is gone.
+  /// Reports that the connection returned by Advance() is lost.
   void Restart(std::int64_t now_monotonic_nanos);
 
-  /// What becomes writable when the attempt has an outcome; -1: no attempt.
+  /// Becomes writable when the attempt has succeeded or failed; -1: no attempt.
   int descriptor() const { return attempt_.get(); }
-  /// When Advance() has something to do by itself (monotonic).
+  /// When to call Advance() even without an event (monotonic clock, ns).
   /// @pre no connection is in use
   std::int64_t deadline_nanos() const;
 
@@ -40,17 +40,17 @@ class TcpConnector {
   std::string text_;
   std::vector<SocketAddress> addresses_;
   std::size_t next_address_ = 0;
-  bool is_connected_ = false;  // somebody uses what Advance() gave
+  bool is_connected_ = false;  // the connection from Advance() is in use
   Socket attempt_;
   std::int64_t began_nanos_ = 0;  // of the newest attempt
-  bool has_begun_ = false;        // there was one
+  bool has_begun_ = false;        // there was an attempt
   std::int64_t connected_nanos_ = 0;
-  bool has_told_trouble_ = false;  // in the log, since the last connection that held
+  bool has_told_trouble_ = false;  // logged since the last stable connection
   bool has_told_connection_ = false;
 };
 
-/// A connection that just sends or receives: small pieces leave at once, and an end that is gone
-/// without a word, or takes nothing, is given up after some ten seconds.
+/// Sets up a connection that only sends or only receives: small pieces are sent at once, and it is
+/// closed after about ten seconds if the other end is lost or accepts nothing.
 void ConfigureConnection(const Socket& socket);
 
 }  // namespace kinescope::mvn

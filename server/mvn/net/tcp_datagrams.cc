@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kReadBytes = 65536;
 
-// Errors of accept() that say nothing about the next connection.
+// Errors of accept() that do not affect the next connection.
 bool IsPassing(int error) {
   return error == EINTR || error == ECONNABORTED || error == EPROTO || error == ENETDOWN ||
          error == ENETUNREACH || error == EHOSTUNREACH || error == EPERM;
@@ -27,7 +27,7 @@ bool IsPassing(int error) {
 
 struct TcpDatagrams::Connection {
   Socket socket;
-  ReceivedDatagram datagram;  // the one that is handed on; both ends are the same for all
+  ReceivedDatagram datagram;  // the one that is delivered; both ends are the same for all
   StreamFramer framer;
   bool has_ended = false;
 
@@ -63,14 +63,14 @@ void TcpDatagrams::CollectDescriptors(std::int64_t now) {
     descriptors_.push_back({connection->socket.get(), POLLIN, 0});
   }
   if (connector_) {
-    // poll() passes over a descriptor of -1.
+    // poll() skips a descriptor of -1.
     descriptors_.push_back({connector_->descriptor(), POLLOUT, 0});
   } else {
     descriptors_.push_back({now >= accept_again_nanos_ ? listener_.get() : -1, POLLIN, 0});
   }
 }
 
-// Until when to wait (monotonic).
+// Time until which to wait (monotonic clock, ns).
 std::int64_t TcpDatagrams::Deadline(std::int64_t now, std::chrono::nanoseconds timeout) const {
   constexpr std::int64_t kLongestWait = 1'000'000 * kNanosPerSecond;
   std::int64_t deadline = now + std::clamp<std::int64_t>(timeout.count(), 0, kLongestWait);
@@ -80,7 +80,7 @@ std::int64_t TcpDatagrams::Deadline(std::int64_t now, std::chrono::nanoseconds t
   return deadline;
 }
 
-// Fills in what has happened to the descriptors.
+// Sets the events of the descriptors.
 bool TcpDatagrams::WaitForInput(std::chrono::nanoseconds timeout) {
   const std::int64_t now = ReadClocks().monotonic_nanos;
   CollectDescriptors(now);
@@ -122,9 +122,10 @@ void TcpDatagrams::AcceptAll(std::int64_t now) {
     }
     if (errno == EAGAIN || errno == EWOULDBLOCK) return;
     if (IsPassing(errno)) continue;
-    // Out of descriptors or memory: the connection stays in the queue and would wake us for ever.
+    // Out of descriptors or memory: the connection stays in the queue and would wake this thread
+    // without end.
     if (accept_again_nanos_ == 0) {
-      spdlog::warn("{}: cannot accept a connection ({}); trying again once a second", description_,
+      spdlog::warn("{}: cannot accept a connection ({}); retrying every second", description_,
                    ErrorText(errno));
     }
     accept_again_nanos_ = now + kNanosPerSecond;
@@ -135,7 +136,7 @@ void TcpDatagrams::AcceptAll(std::int64_t now) {
 void TcpDatagrams::Add(Socket socket) {
   if (connections_.size() >= kMostConnections) {
     if (counters_.connections_refused++ == 0) {
-      spdlog::warn("{}: more than {} connections; {} is refused, and so are all further ones",
+      spdlog::warn("{}: more than {} connections; {} and all further ones are rejected",
                    description_, kMostConnections, Format(EndpointOf(PeerAddress(socket))));
     }
     return;
@@ -149,7 +150,7 @@ void TcpDatagrams::Add(Socket socket) {
   connections_.push_back(std::move(connection));
 }
 
-// Whether there may be more to read.
+// Reads once; returns whether there may be more to read.
 bool TcpDatagrams::Read(Connection& connection, DatagramSink& sink) {
   const ssize_t size = recv(connection.socket.get(), buffer_.data(), buffer_.size(), MSG_DONTWAIT);
   if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return false;

@@ -1,6 +1,6 @@
-/// The MVN stream over TCP. MVN makes the connection, so this normally waits for it; several
-/// senders may connect, and each is a stream of its own. With a host in its URL it connects
-/// instead, and again whenever the connection is lost. One thread.
+/// Receives the MVN stream over TCP. MVN makes the connection, so this normally listens; several
+/// senders may connect, and each is a separate stream. With a host in its URL it connects instead,
+/// and again whenever the connection is lost. One thread.
 #pragma once
 
 #include <poll.h>
@@ -18,26 +18,27 @@
 
 namespace kinescope::mvn {
 
-/// Arrival is when the bytes were read, on both clocks. `from` and `to` are the connection's ends.
+/// The receive time is when the bytes were read, on both clocks. `from` and `to` are the ends of
+/// the connection.
 class TcpDatagrams : public DatagramSource {
  public:
-  /// Beyond that a newcomer is refused: its connection is closed at once.
+  /// Further connections are rejected: closed at once.
   static constexpr std::size_t kMostConnections = 16;
 
-  /// Listens at once; or resolves the host and begins to connect with the first Poll(). That nobody
-  /// is there yet is no error.
+  /// Listens at once; or resolves the host and starts to connect with the first Poll(). It is not
+  /// an error if the other end does not exist yet.
   /// @throws SourceError: see ParseNetUrl(), BindToListen() and ResolveToSend().
   explicit TcpDatagrams(const std::string& url);
   ~TcpDatagrams() override;
 
-  /// Reads once from each connection that has something; kMore when one may have more. Returns
-  /// early when a connection comes or goes.
+  /// Reads once from each connection with data; kMore if one may have more. Returns early when a
+  /// connection is opened or closed.
   [[nodiscard]] State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
   TransportCounters counters() const override;
   std::string description() const override { return description_; }
   bool is_live() const override { return true; }
 
-  std::uint16_t port() const { return port_; }  // the real one
+  std::uint16_t port() const { return port_; }  // the actual port
 
  private:
   struct Connection;
@@ -52,16 +53,18 @@ class TcpDatagrams : public DatagramSource {
 
   std::string description_;
   std::uint16_t port_ = 0;
-  Socket listener_;                        // or:
-  std::optional<TcpConnector> connector_;  //
-  std::int64_t accept_again_nanos_ = 0;    // monotonic; before, there is no use in trying
+  Socket listener_;                        // when listening
+  std::optional<TcpConnector> connector_;  // when connecting
+  std::int64_t accept_again_nanos_ = 0;    // monotonic clock; accepting fails before
   std::vector<std::unique_ptr<Connection>> connections_;
-  std::vector<pollfd> descriptors_;  // to wait for: connections in their order, then ours
+  std::vector<pollfd> descriptors_;  // to wait for: connections in their order, then listener_ or
+                                     // connector_
   std::string buffer_;
-  TransportCounters counters_;  // of connections that are gone
+  TransportCounters counters_;  // of closed connections
 };
 
-/// `url`: "tcp://:9763" and the like (net_url.h). @throws SourceError as the constructor does.
+/// `url`: "tcp://:9763" and the other forms of net_url.h. @throws SourceError as the constructor
+/// does.
 std::unique_ptr<DatagramSource> OpenTcpDatagrams(const std::string& url);
 
 }  // namespace kinescope::mvn

@@ -20,22 +20,23 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr std::size_t kMostReceivers = 16;
-// A second of one person with all messages. More would only make what arrives older.
+// One second of one person with all messages. A longer queue would only make the received data
+// older.
 constexpr std::size_t kQueueBytes = 1 << 20;
 constexpr int kSendBufferBytes = 256 << 10;
-// How long the first connection may take, and the last bytes.
+// Time limit for the first connection, and for the last bytes.
 constexpr std::int64_t kPatience = 1000 * kNanosPerMilli;
 
 std::int64_t Now() { return ReadClocks().monotonic_nanos; }
 
-// Until something happens to `descriptor`, or `deadline`.
+// Waits for an event of `descriptor`, or until `deadline`.
 void WaitFor(int descriptor, std::int64_t deadline) {
   pollfd waiting{descriptor, POLLOUT, 0};
   const std::int64_t millis = (deadline - Now() + kNanosPerMilli - 1) / kNanosPerMilli;
   if (millis > 0) poll(&waiting, 1, static_cast<int>(millis));
 }
 
-// One connection and what it could not take yet: whole datagrams, and the rest of one.
+// One connection and the data that it could not send yet: complete datagrams, and the rest of one.
 class Receiver {
  public:
   explicit Receiver(Socket socket) : socket_(std::move(socket)) {
@@ -47,7 +48,7 @@ class Receiver {
   bool is_gone() const { return is_gone_; }
   bool has_queue() const { return written_ < queue_.size(); }
 
-  /// Sends what it can of the queue.
+  /// Sends as much of the queue as possible.
   void Flush() {
     if (has_queue()) written_ += Write(std::string_view(queue_).substr(written_));
     if (has_queue()) return;
@@ -55,7 +56,7 @@ class Receiver {
     written_ = 0;
   }
 
-  /// False: there is no room, and nothing of `datagram` is sent.
+  /// Returns false, and sends nothing of `datagram`, if there is no room.
   bool Take(std::string_view datagram) {
     Flush();
     if (!has_queue()) datagram.remove_prefix(Write(datagram));
@@ -73,7 +74,7 @@ class Receiver {
   void Drop() { is_gone_ = true; }
 
  private:
-  // How many of `bytes` the kernel took.
+  // The number of `bytes` that the kernel accepted.
   std::size_t Write(std::string_view bytes) {
     if (is_gone_) return 0;
     const ssize_t sent =
@@ -98,7 +99,7 @@ class TcpSender : public DatagramSender {
       return;
     }
     connector_.emplace(url, text);
-    // So that a receiver that is there misses nothing of what is sent first.
+    // So that an existing receiver also gets the first datagrams.
     const std::int64_t deadline = Now() + kPatience;
     do {
       Progress();
@@ -121,7 +122,7 @@ class TcpSender : public DatagramSender {
   void Send(std::string_view datagram) override {
     if (datagram.size() > kLargestExtent) {
       throw SourceError(description_ + ": " + std::to_string(datagram.size()) +
-                        " bytes are no datagram; the longest has " +
+                        " bytes are too long for a datagram; the limit is " +
                         std::to_string(kLargestExtent));
     }
     Progress();
@@ -135,7 +136,7 @@ class TcpSender : public DatagramSender {
   std::string description() const override { return description_; }
 
  private:
-  // Receivers come and go; nothing waits.
+  // Accepts and removes receivers; never waits.
   void Progress() {
     DropGone();
     if (connector_) {
@@ -145,7 +146,7 @@ class TcpSender : public DatagramSender {
     }
     while (true) {
       Socket newcomer(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-      if (!newcomer.is_open()) return;  // none, or one that comes with the next call
+      if (!newcomer.is_open()) return;  // none, or one that is accepted with the next call
       ConfigureConnection(newcomer);
       Add(std::move(newcomer));
     }
@@ -170,14 +171,14 @@ class TcpSender : public DatagramSender {
     if (receivers_.size() < kMostReceivers) {
       receivers_.push_back(std::make_unique<Receiver>(std::move(socket)));
     } else if (!std::exchange(has_refused_, true)) {
-      spdlog::warn("{}: more than {} receivers; all further ones are refused", description_,
+      spdlog::warn("{}: more than {} receivers; all further ones are rejected", description_,
                    kMostReceivers);
     }
   }
 
   std::string description_;
-  Socket listener_;                        // or:
-  std::optional<TcpConnector> connector_;  //
+  Socket listener_;                        // when listening
+  std::optional<TcpConnector> connector_;  // when connecting
   std::vector<std::unique_ptr<Receiver>> receivers_;
   std::vector<pollfd> descriptors_;
   bool has_refused_ = false;

@@ -1,8 +1,8 @@
-/// The senders behind OpenSender(), by protocol. They have no thread of their own: over TCP all
-/// progress is made within Send(). There receivers are accepted (who connects while nothing is sent
-/// waits), a lost connection is noticed and made again, and what a slow receiver could not take yet
-/// is sent on. Making one waits up to a second for a receiver that is there, and destroying one for
-/// the last bytes to leave.
+/// The UDP and TCP senders behind OpenSender(). They have no thread: over TCP all work is done
+/// within Send(). It accepts receivers (a receiver that connects while nothing is sent waits),
+/// detects and restores lost connections, and continues sending to slow receivers. Opening a sender
+/// waits up to a second for an existing receiver, and its destructor waits for the last bytes to be
+/// sent. One thread.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,9 @@
 
 namespace kinescope::mvn {
 
-/// `text` is the URL as the user wrote it, for errors. Over TCP a datagram counts as sent when all
-/// receivers, at least one, have room for it: up to 1 MB waits for each. @throws SourceError.
+/// `text`: the URL as the user typed it, for errors. Over TCP a datagram counts as sent if all
+/// receivers, at least one, have room for it: up to 1 MB per receiver may be queued. @throws
+/// SourceError.
 std::unique_ptr<DatagramSender> OpenUdpSender(const NetUrl& url, const std::string& text);
 std::unique_ptr<DatagramSender> OpenTcpSender(const NetUrl& url, const std::string& text);
 

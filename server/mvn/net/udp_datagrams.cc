@@ -19,13 +19,13 @@
 namespace kinescope::mvn {
 namespace {
 
-// A burst of 30 frames of four characters is 0.6 MB; the kernel counts its overhead in, and a
-// stalled reader should survive a second of it.
+// A burst of 30 frames of four characters is 0.6 MB. The kernel includes its overhead, and the
+// buffer should hold a second for a blocked reader.
 constexpr int kReceiveBufferBytes = 8 << 20;
 constexpr unsigned kBatchSize = 32;
-constexpr int kBatchesPerPoll = 16;  // then the caller gets its turn, however fast input comes
+constexpr int kBatchesPerPoll = 16;  // then the caller continues, however fast datagrams arrive
 
-// What the kernel says beside a datagram, by its level and type.
+// Reads the kernel's ancillary data of a datagram, by level and type.
 template <class Value>
 bool ReadControl(const cmsghdr& control, int level, int type, Value& value) {
   if (control.cmsg_level != level || control.cmsg_type != type) return false;
@@ -35,7 +35,7 @@ bool ReadControl(const cmsghdr& control, int level, int type, Value& value) {
 
 }  // namespace
 
-// Where recvmmsg writes; made once, used for every read.
+// Buffers for recvmmsg; made once, used for every read.
 struct UdpDatagrams::Batch {
   static constexpr std::size_t kControlBytes =
       CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t)) +
@@ -50,9 +50,9 @@ struct UdpDatagrams::Batch {
 
   std::vector<Slot> slots = std::vector<Slot>(kBatchSize);
   std::vector<mmsghdr> headers = std::vector<mmsghdr>(kBatchSize);
-  ReceivedDatagram datagram;  // the one that is handed on
+  ReceivedDatagram datagram;  // the one that is delivered
 
-  // The kernel writes lengths into the headers, so each read needs them fresh.
+  // The kernel writes lengths into the headers, so they are reset before each read.
   void Reset() {
     for (std::size_t i = 0; i < slots.size(); ++i) {
       Slot& slot = slots[i];
@@ -76,7 +76,7 @@ UdpDatagrams::UdpDatagrams(const std::string& url)
   local_ = EndpointOf(bound);
   const auto* any = reinterpret_cast<const sockaddr_in*>(&bound.storage);
   if (bound.storage.ss_family == AF_INET && any->sin_addr.s_addr == INADDR_ANY) {
-    local_.address = {};  // and not the IPv4 form of it
+    local_.address = {};  // in place of its IPv4 form
   }
   Configure();
 }
@@ -85,13 +85,13 @@ UdpDatagrams::~UdpDatagrams() = default;
 
 void UdpDatagrams::Configure() {
   const int wanted = kReceiveBufferBytes;
-  // Beyond the system's limit only root may go; others get as much as net.core.rmem_max lets them.
+  // Only root may exceed the system's limit; others get at most net.core.rmem_max.
   if (setsockopt(socket_.get(), SOL_SOCKET, SO_RCVBUFFORCE, &wanted, sizeof wanted) != 0) {
     setsockopt(socket_.get(), SOL_SOCKET, SO_RCVBUF, &wanted, sizeof wanted);
   }
   counters_.receive_buffer_bytes = ReceiveBufferBytes(socket_);
-  // Refinements, each of which may fail: without them drops are not counted, stamps feel the
-  // scheduler, and a socket that listens everywhere cannot tell where a datagram went.
+  // Options that may fail: without them drops are not counted, receive times include scheduling
+  // delays, and a socket that listens on all addresses does not know the destination of a datagram.
   const int on = 1;
   setsockopt(socket_.get(), SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
   setsockopt(socket_.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
@@ -114,8 +114,8 @@ bool UdpDatagrams::WaitForInput(std::chrono::nanoseconds timeout) {
   return ready > 0;
 }
 
-// Arrival of one datagram by the kernel's own stamp, the address it was sent to, and what the
-// kernel says about lost ones.
+// Reads the receive time of one datagram from the kernel's stamp, its destination address, and the
+// kernel's count of lost ones.
 void UdpDatagrams::ReadAncillary(const void* message_header, const Arrival& now) {
   msghdr header = *static_cast<const msghdr*>(message_header);
   batch_->datagram.arrival = now;
@@ -127,7 +127,7 @@ void UdpDatagrams::ReadAncillary(const void* message_header, const Arrival& now)
     in_pktinfo ipv4{};
     in6_pktinfo ipv6{};
     if (ReadControl(*control, SOL_SOCKET, SO_TIMESTAMPNS, stamp)) {
-      // The wall clock may have been set in between: then the kernel's stamp is of no use.
+      // The wall clock may have been set in between: then the kernel's stamp cannot be used.
       const std::int64_t queued = now.wall_nanos - (stamp.tv_sec * kNanosPerSecond + stamp.tv_nsec);
       if (queued >= 0 && queued < kNanosPerSecond) {
         batch_->datagram.arrival = {now.monotonic_nanos - queued, now.wall_nanos - queued};
@@ -147,7 +147,7 @@ void UdpDatagrams::ReadAncillary(const void* message_header, const Arrival& now)
   }
 }
 
-// Number of datagrams read; 0 when there are none.
+// Returns the number of datagrams read; 0 if there are none.
 int UdpDatagrams::ReadBatch(DatagramSink& sink) {
   batch_->Reset();
   const int count =

@@ -1,4 +1,4 @@
-/// The MVN stream from a UDP socket. One thread.
+/// Receives the MVN stream from a UDP socket. One thread.
 #pragma once
 
 #include <chrono>
@@ -11,21 +11,21 @@
 
 namespace kinescope::mvn {
 
-/// Arrival is the kernel's own stamp of each datagram. `to` is the address that the sender wrote on
-/// it, one of this machine's, a broadcast or a multicast address.
+/// The receive time is the kernel's time stamp of each datagram. `to` is the destination address of
+/// the datagram: one of this machine's, a broadcast or a multicast address.
 class UdpDatagrams : public DatagramSource {
  public:
   /// Listens at once. @throws SourceError: see ParseNetUrl() and BindToListen().
   explicit UdpDatagrams(const std::string& url);
   ~UdpDatagrams() override;
 
-  /// kMore after as many datagrams as a call hands on, when there may be more.
+  /// kMore after the maximum number of datagrams per call, since more may be available.
   [[nodiscard]] State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
   TransportCounters counters() const override { return counters_; }
   std::string description() const override { return description_; }
   bool is_live() const override { return true; }
 
-  std::uint16_t port() const { return local_.port; }  // the real one
+  std::uint16_t port() const { return local_.port; }  // the actual port
 
  private:
   struct Batch;
@@ -37,14 +37,15 @@ class UdpDatagrams : public DatagramSource {
 
   Socket socket_;
   std::string description_;
-  Endpoint local_;  // address zero when it listens on all of them
+  Endpoint local_;  // address zero if it listens on all addresses
   TransportCounters counters_;
-  std::uint32_t last_overflow_ = 0;      // the kernel's own count, which wraps
-  std::int64_t last_arrival_nanos_ = 0;  // monotonic: never goes back, although stamps may
+  std::uint32_t last_overflow_ = 0;      // the kernel's counter, which wraps
+  std::int64_t last_arrival_nanos_ = 0;  // monotonic clock: never goes back, although stamps may
   std::unique_ptr<Batch> batch_;
 };
 
-/// `url`: "udp://:9763" and the like (net_url.h). @throws SourceError as the constructor does.
+/// `url`: "udp://:9763" and the other forms of net_url.h. @throws SourceError as the constructor
+/// does.
 std::unique_ptr<DatagramSource> OpenUdpDatagrams(const std::string& url);
 
 }  // namespace kinescope::mvn

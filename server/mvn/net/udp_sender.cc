@@ -18,7 +18,7 @@ class UdpSender : public DatagramSender {
     if (!socket_.is_open()) {
       throw SourceError(text + ": cannot open a UDP socket: " + ErrorText(errno));
     }
-    // A whole subnet is a fair receiver.
+    // A broadcast address is a valid receiver.
     const int on = 1;
     setsockopt(socket_.get(), SOL_SOCKET, SO_BROADCAST, &on, sizeof on);
   }
@@ -33,7 +33,7 @@ class UdpSender : public DatagramSender {
     } else {
       throw SourceError(text_ + ": sending " + std::to_string(datagram.size()) +
                         " bytes failed: " + ErrorText(errno) +
-                        (errno == EMSGSIZE ? "; UDP carries at most 65507" : ""));
+                        (errno == EMSGSIZE ? "; the limit of UDP is 65507 bytes" : ""));
     }
   }
 
@@ -42,7 +42,7 @@ class UdpSender : public DatagramSender {
   std::string description() const override { return FormatUrl(Protocol::kUdp, to_); }
 
  private:
-  // A suit goes on sending whether or not anybody listens or a cable is out for a moment.
+  // A suit continues sending without a receiver, and while a cable is unplugged for a moment.
   static bool IsPassing(int error) {
     return error == ECONNREFUSED || error == ENOBUFS || error == EAGAIN || error == EINTR ||
            error == ENETUNREACH || error == EHOSTUNREACH || error == ENETDOWN || error == EPERM;

@@ -14,11 +14,11 @@ test('what the server draws as a box is named with its reason, before what was r
     source: { rejected: { 'no MXTP id string': 2, 'cut short': 1 } },
   };
   assert.deepEqual(problemLines(told, ['/api/mesh/0/1/0']), [
-    'The server’s picture: out of memory',
-    'Not in the picture as it is: mesh hand.stl: no such file',
-    'Not loaded by this page: /api/mesh/0/1/0',
-    '2 datagrams refused: no MXTP id string',
-    '1 datagram refused: cut short',
+    'Server rendering: out of memory',
+    'Missing or replaced in the server picture: mesh hand.stl: no such file',
+    'This page could not load: /api/mesh/0/1/0',
+    '2 datagrams rejected: no MXTP id string',
+    '1 datagram rejected: cut short',
   ]);
 });
 
@@ -26,5 +26,5 @@ test('equal lines are said once, and of very many the first', () => {
   const problems = Array.from({ length: 60 }, (_, i) => `mesh ${i % 40}`);
   const lines = problemLines({ pictures: { problems } }, []);
   assert.equal(lines.length, 12);
-  assert.match(lines[11], /^and 29 more/);
+  assert.match(lines[11], /^and 29 more, see \/api\/diagnostics$/);
 });

@@ -37,5 +37,5 @@ test('before the first connection it connects, and says why it is refused', () =
   const start = { ...good, connected: false, everConnected: false, liveness: null };
   assert.equal(lampOf(start).level, 'wait');
   assert.deepEqual(lampOf({ ...start, reason: 'no token' }),
-    { level: 'disconnected', word: 'Refused', banner: 'no token' });
+    { level: 'disconnected', word: 'Rejected', banner: 'no token' });
 });

@@ -66,7 +66,7 @@ test('a wrong or missing member anywhere in the details or the model is refused 
 test('the refusal says what came, where, and what was expected', () => {
   const message = JSON.stringify({ details: changed(details, 'people.0.name', 5) });
   assert.throws(() => readTextMessage(message),
-    /^Error: the server sent 5 as details\.people\[0\]\.name; expected a text: reload the page$/);
+    /^Error: the server sent 5 as details\.people\[0\]\.name; expected a text; reload the page$/);
   assert.throws(() => readTextMessage('{"details": {}}'), /sent nothing as details\.source; expected a text/);
   assert.throws(() => readTextMessage('[1]'), /sent \[1\] as a message; expected an object/);
   assert.throws(() => readTextMessage('{"pong": 1}'), /sent nothing as a message\.server_micros; expected a number/);

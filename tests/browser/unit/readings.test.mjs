@@ -14,7 +14,7 @@ test('the hint says what the loads are and what they stand on', () => {
   const doubtful = { ...details, mass_is_assumed: true, hand_load: { right_kg: 5, left_kg: 0, both_kg: 0 },
     why_other_metric: 'no strength table' };
   assert.equal(loadsHint({ ...person, comDisagrees: true, comDifference: 0.0123 }, doubtful), 'total, dynamic · '
-    + 'mass assumed 75 kg · holds 5 kg right · centre of mass 1.2 cm from MVN’s · no strength table');
+    + 'body mass assumed: 75 kg · hand load 5 kg right · centre of mass differs from MVN by 1.2 cm · no strength table');
   assert.equal(loadsHint(person, undefined), 'total, dynamic', 'details come a moment after the first state');
 });
 
@@ -33,9 +33,9 @@ test('margin and compression are said while they are live and known', () => {
   assert.equal(live.support, 'Margin of stability 8.3 cm');
   assert.equal(live.compression, 'L5/S1 compression 2.15 kN');
   const stale = readingsOf(person, details, false);
-  assert.deepEqual([stale.support, stale.compression], ['Support of the feet', '']);
+  assert.deepEqual([stale.support, stale.compression], ['Support polygon', '']);
   const unknown = readingsOf({ ...person, margin: NaN, compression: NaN }, details, true);
-  assert.deepEqual([unknown.support, unknown.compression], ['Support of the feet', '']);
+  assert.deepEqual([unknown.support, unknown.compression], ['Support polygon', '']);
 });
 
 test('an assumed mass and a centre of mass that disagrees deserve a second look', () => {
@@ -46,5 +46,5 @@ test('an assumed mass and a centre of mass that disagrees deserve a second look'
 
 test('without a person only the marks are named', () => {
   assert.deepEqual(readingsOf(undefined, undefined, true), { hint: '', isDoubtful: false, com: 'Centre of mass',
-    cop: 'Centre of pressure', support: 'Support of the feet', compression: '' });
+    cop: 'Centre of pressure', support: 'Support polygon', compression: '' });
 });

@@ -28,7 +28,7 @@ test('a refusal is told in the server’s words', async () => {
 
 test('a proxy that answers with a page of its own is named as such', async () => {
   answerWith('<html>', html);
-  await assert.rejects(ask('api/camera', readName), /api\/camera is answered with text\/html, expected JSON/);
+  await assert.rejects(ask('api/camera', readName), /api\/camera returned text\/html, expected JSON/);
   answerWith('<html>', { ...html, status: 502 });
   await assert.rejects(ask('api/camera', readName), /^Error: HTTP status 502$/);
   assert.equal(await refusalOf(new Response('<html>', { status: 502 })), 'HTTP status 502');

@@ -34,14 +34,14 @@ test('a state of two persons, one with gloves, and an object comes out as the se
 
 test('a state that is cut short anywhere is refused', () => {
   for (let size = 0; size < state.byteLength; ++size) {
-    assert.throws(() => decodeState(state.slice(0, size)), /cut short/, `taken at ${size} bytes`);
+    assert.throws(() => decodeState(state.slice(0, size)), /truncated/, `taken at ${size} bytes`);
   }
 });
 
 test('bytes too many are refused', () => {
   const longer = new Uint8Array(state.byteLength + 1);
   longer.set(new Uint8Array(state));
-  assert.throws(() => decodeState(longer.buffer), /too many/);
+  assert.throws(() => decodeState(longer.buffer), /too long/);
 });
 
 test('a person without links is refused: the view would not know where to look', () => {
@@ -58,7 +58,7 @@ test('another version of the protocol asks for a reload', () => {
   const other = new Uint8Array(state.slice(0));
   other[1] = 9;
   assert.throws(() => messageKind(other.buffer), /version 9.*reload/);
-  assert.throws(() => messageKind(new ArrayBuffer(1)), /cut short/);
+  assert.throws(() => messageKind(new ArrayBuffer(1)), /truncated/);
 });
 
 test('classes of a newer server are unknown, not an error', () => {
@@ -73,7 +73,7 @@ test('a picture carries its state and its JPEG', () => {
   assert.equal(messageKind(picture), KIND.picture);
   const { stateNumber, arrivalMicros, jpeg } = decodePicture(picture);
   assert.deepEqual([stateNumber, arrivalMicros, ...jpeg], [41, 5000000, 0xff, 0xd8, 0xff]);
-  assert.throws(() => decodePicture(picture.slice(0, 23)), /cut short/);
+  assert.throws(() => decodePicture(picture.slice(0, 23)), /truncated/);
 });
 
 test('the legend shows the thresholds that the server decides by', () => {

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "server/scene/scene_options.h"
+#include "tests/server/options_testing.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 #include "urdf/figure.h"
@@ -81,9 +82,9 @@ TEST_F(MeshFolder, GivesTheUsersMeshesFittedAndOursForTheRest) {
 }
 
 TEST_F(MeshFolder, IsRefusedWithTheReasonWhereItCannotBeAFigure) {
-  EXPECT_THAT(ErrorOf(), HasSubstr("no file there is named after a segment"));
+  EXPECT_THAT(ErrorOf(), HasSubstr("no mesh file with a segment name found"));
   WriteRod("Sofa.obj", 0.4);
-  EXPECT_THAT(ErrorOf(), HasSubstr("no file there is named after a segment"));
+  EXPECT_THAT(ErrorOf(), HasSubstr("no mesh file with a segment name found"));
   WriteRod("Head.obj", 400);
   EXPECT_THAT(ErrorOf(), ::testing::AllOf(HasSubstr("Head.obj"), HasSubstr("mesh_units")));
   std::ofstream(folder_ / "Head.obj") << "v 0 0 0\n";
@@ -92,27 +93,26 @@ TEST_F(MeshFolder, IsRefusedWithTheReasonWhereItCannotBeAFigure) {
   EXPECT_EQ(ErrorOf(), "");
   WriteRod("xsens_Head.obj", 0.2);
   EXPECT_THAT(ErrorOf(), ::testing::AllOf(HasSubstr("Head.obj and xsens_Head.obj"),
-                                          HasSubstr("both for Head")));
+                                          HasSubstr("both meshes of Head")));
   EXPECT_THROW(ReadFigureMeshes(Path() + "/nowhere", {}), UsageError);
 }
 
 TEST_F(MeshFolder, IsChosenByOptions) {
   WriteRod("Head.obj", 0.2);
-  PersonOptions person;
-  person.figure = "mesh:" + Path();
-  EXPECT_NE(ToSceneOptions(person, 0.5).figure_meshes, nullptr);
-  const auto refuses = [&](std::string PersonOptions::*option, const char* value) {
-    PersonOptions bad = person;
-    bad.*option = value;
-    EXPECT_THROW(ToSceneOptions(bad, 0.5), UsageError) << value;
-  };
-  refuses(&PersonOptions::mesh_units, "inch");
-  refuses(&PersonOptions::mesh_up, "x");
-  refuses(&PersonOptions::mesh_scale, "2");
-  refuses(&PersonOptions::mesh_frame, "world");
-  refuses(&PersonOptions::figure, "mesh:");
-  refuses(&PersonOptions::figure, "mesh:/nowhere/at/all");
-  refuses(&PersonOptions::figure, "pretty");
+  const auto person = testing::With<PersonOptions>({{"body_model", "mesh:" + Path()}});
+  EXPECT_NE(ToSceneOptions(person).figure_meshes, nullptr);
+  EXPECT_THAT(person.figure.Files(), ::testing::ElementsAre(Path() + "/Head.obj"));
+  for (const auto& [name, text] : testing::Settings{{"mesh_units", "inch"},
+                                                    {"mesh_up", "x"},
+                                                    {"mesh_scale", "2"},
+                                                    {"mesh_frame", "world"},
+                                                    {"body_model", "mesh:"},
+                                                    {"body_model", "pretty"}}) {
+    EXPECT_NE(testing::ErrorOfSetting<PersonOptions>(name, text), "") << text;
+  }
+  EXPECT_THROW(
+      ToSceneOptions(testing::With<PersonOptions>({{"body_model", "mesh:/nowhere/at/all"}})),
+      UsageError);
 }
 
 // The surface of a person of the set, in link frames at the N-pose: about as large as a person.

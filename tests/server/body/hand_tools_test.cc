@@ -11,6 +11,7 @@
 #include "server/scene/scene_builder.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
+#include "tests/server/options_testing.h"
 #include "tests/temp_folder.h"
 #include "urdf/robot_model.h"
 
@@ -37,10 +38,16 @@ class HandToolsTest : public ::testing::Test {
     file << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
   }
   std::string Drill() const { return (folder_ / "drill.obj").string(); }
-  std::string ErrorOf(const std::string& text) const {
+  static std::shared_ptr<const HandTools> Read(const std::string& text,
+                                               const urdf::MeshConvention& convention = {}) {
+    ToolsValue files;
+    files.Parse(text);
+    return ReadHandTools(files, convention);
+  }
+  static std::string ErrorOf(const std::string& text) {
     try {
-      ReadHandTools(text, {});
-    } catch (const UsageError& error) {
+      Read(text);
+    } catch (const std::runtime_error& error) {
       return error.what();
     }
     return "";
@@ -51,19 +58,19 @@ class HandToolsTest : public ::testing::Test {
 
 TEST_F(HandToolsTest, LieAtTheGripUnlessAPlaceIsGiven) {
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton(1.75);
-  const auto tools = ReadHandTools("right:" + Drill() + ";left:" + Drill() + "@0.1,0.2,-0.3", {});
+  const auto tools = Read("right:" + Drill() + ";left:" + Drill() + "@0.1,0.2,-0.3");
   const auto right = urdf::BoundsOf(ToHandFrame(*(*tools)[kRight], skeleton, kRight));
   const Vector3d grip = urdf::GripPoint(skeleton, kRight);
   EXPECT_LT((right.min() - (grip + Vector3d(-0.03, -0.02, -0.02))).norm(), 1e-6);
   EXPECT_LT((right.max() - (grip + Vector3d(0.17, 0.02, 0.02))).norm(), 1e-6);
   const auto left = urdf::BoundsOf(ToHandFrame(*(*tools)[kLeft], skeleton, kLeft));
   EXPECT_LT((left.max() - Vector3d(0.27, 0.22, -0.28)).norm(), 1e-6);
-  EXPECT_EQ(ReadHandTools("", {}), nullptr);
+  EXPECT_EQ(Read(""), nullptr);
 }
 
 TEST_F(HandToolsTest, TurnAsAUrdfDoes) {
   // Pitched by 90 degrees, what pointed forward points down.
-  const auto tools = ReadHandTools("right:" + Drill() + "@0,0,0,0,1.5707963267948966,0", {});
+  const auto tools = Read("right:" + Drill() + "@0,0,0,0,1.5707963267948966,0");
   const auto box =
       urdf::BoundsOf(ToHandFrame(*(*tools)[kRight], urdf::DefaultSkeleton(1.75), kRight));
   EXPECT_NEAR(box.min().z(), -0.17, 1e-6);
@@ -74,29 +81,26 @@ TEST_F(HandToolsTest, TakeTheUnitOfTheirFiles) {
   WriteBar("drill_mm.obj", 0.001);
   urdf::MeshConvention millimetres;
   millimetres.metres_per_unit = 0.001;
-  const auto tools = ReadHandTools("left:" + (folder_ / "drill_mm.obj").string(), millimetres);
+  const auto tools = Read("left:" + (folder_ / "drill_mm.obj").string(), millimetres);
   EXPECT_NEAR(urdf::BoundsOf((*tools)[kLeft]->mesh).sizes().x(), 0.2, 1e-6);
   EXPECT_THAT(ErrorOf("left:" + (folder_ / "drill_mm.obj").string()), HasSubstr("--mesh_units"));
 }
 
 TEST_F(HandToolsTest, RefuseWhatIsNoToolAndSayWhatWouldBe) {
-  EXPECT_THAT(ErrorOf("nose:" + Drill()), HasSubstr("names no hand"));
-  EXPECT_THAT(ErrorOf(Drill()), HasSubstr("names no hand"));
-  EXPECT_THAT(ErrorOf("right:"), HasSubstr("names no file"));
+  for (const std::string& bad :
+       {"nose:" + Drill(), Drill(), std::string("right:"), "right:" + Drill() + "@1,2",
+        "right:" + Drill() + "@0,nan,0", "right:" + Drill() + "@3,0,0"}) {
+    EXPECT_THAT(ErrorOf(bad), HasSubstr("right:FILE or left:FILE")) << bad;
+  }
   EXPECT_THAT(ErrorOf("right:" + Drill() + ";right:" + Drill()), HasSubstr("two tools"));
-  EXPECT_THAT(ErrorOf("right:" + Drill() + "@1,2"), HasSubstr("has 2 numbers"));
-  EXPECT_THAT(ErrorOf("right:" + Drill() + "@0,nan,0"), HasSubstr("not a number"));
-  EXPECT_THAT(ErrorOf("right:" + Drill() + "@3,0,0"), HasSubstr("more than 2 m away"));
   EXPECT_THAT(ErrorOf("right:" + (folder_ / "none.stl").string()), HasSubstr("none.stl"));
 }
 
 // One option, and URDF, pictures, page and RViz have it: they all read the person's URDF.
 TEST_F(HandToolsTest, AreInTheUrdfOfThePersonAndTakeThePlaceOfTheDumbbell) {
-  PersonOptions person;
-  person.tool = "right:" + Drill();
-  LoadOptions loads;
-  loads.hand = "right:5,left:5";
-  SceneReader reader("demo:n_pose", ToSceneOptions(person, 0.5, loads));
+  const auto person = testing::With<PersonOptions>({{"tool", "right:" + Drill()}});
+  const auto loads = testing::With<LoadOptions>({{"hand_load", "right:5,left:5"}});
+  SceneReader reader("demo:n_pose", ToSceneOptions(person, loads));
   const auto scene = reader.Next();
   ASSERT_TRUE(scene);
   const PersonState& state = scene->people.front();

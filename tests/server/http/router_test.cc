@@ -144,10 +144,10 @@ TEST_F(RouterTest, SaysWhatThereIsWhereAnAddressIsUnknown) {
     EXPECT_THAT(ErrorIn(answer), HasSubstr(what)) << target;
     EXPECT_FALSE(answer.file) << target;
   };
-  expect_unknown("/nothing", "no such page");
-  expect_unknown("/app.js/", "no such page");
-  expect_unknown("/API/state", "no such page");
-  expect_unknown("/api", "no such page");
+  expect_unknown("/nothing", "no page at this address");
+  expect_unknown("/app.js/", "no page at this address");
+  expect_unknown("/API/state", "no page at this address");
+  expect_unknown("/api", "no page at this address");
   expect_unknown("/lib/three/three.module.js", "npm ci --prefix web");
   expect_unknown("/api/mesh/0", "/api/mesh/<person>/<revision>/<n>");
   EXPECT_EQ(refusals_["unknown address"], 6);
@@ -219,7 +219,7 @@ TEST_F(RouterTest, ServesMeshesOfTheNewestModelUpToALimit) {
         "/api/mesh/0/7/9999", "/api/mesh/18446744073709551615/7/0", "/api/mesh/4294967296/7/0"}) {
     const Answer answer = Get(target);
     EXPECT_EQ(answer.status, 404) << target;
-    EXPECT_THAT(ErrorIn(answer), HasSubstr("no such STL file")) << target;
+    EXPECT_THAT(ErrorIn(answer), HasSubstr("does not contain this STL file")) << target;
   }
   for (const char* target :
        {"/api/mesh/0/7", "/api/mesh/0/7/0/0", "/api/mesh/0/7/", "/api/mesh/a/7/0",

@@ -130,8 +130,8 @@ TEST(HandLoad, IsRefusedWithWhatIsWrong) {
       {"right:60;left:60", "120 kg in all hands together"},
       {"both:nan", "'nan' is not a number"},
       {"right:5@0,0,-3", "within 2 m"},
-      {"both:5@0,0,0", "no place in one"},
-      {"foot:5", "no hand 'foot'"},
+      {"both:5@0,0,0", "takes no position"},
+      {"foot:5", "unknown hand 'foot'"},
       {"right:5;", "'' is not NAME:KG"},
       {"", "'' is not NAME:KG"},
       {"right", "'right' is not NAME:KG"}};

@@ -88,10 +88,8 @@ TEST(Strength, IsRefusedOutsideItsLimits) {
   EXPECT_EQ(FindDefect(Of(Sex::kMale)), "");
   for (const double factor : {0.0, -1.0, 7.0, std::nan("")}) {
     EXPECT_THAT(FindDefect(Of(Sex::kMale, Percentile::k50, factor)),
-                ::testing::HasSubstr("strength factor"));
+                ::testing::HasSubstr("capacity factor"));
   }
-  EXPECT_EQ(ParsePercentile("5"), Percentile::k5);
-  EXPECT_THROW(ParsePercentile("50th"), UsageError);
 }
 
 TEST(ScoreNorm, TakesTheWeakerDirection) {

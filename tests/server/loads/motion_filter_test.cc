@@ -91,12 +91,12 @@ TEST(MotionFilter, IsStaticWithTheReasonWhereSomethingIsMissing) {
   EXPECT_EQ(WhyStatic(whole), "");
   BodySample sample = whole;
   sample.has_linear = false;
-  EXPECT_EQ(WhyStatic(sample), "linear accelerations are not sent");
+  EXPECT_EQ(WhyStatic(sample), "the source sends no linear accelerations");
   sample.has_angular = false;
-  EXPECT_EQ(WhyStatic(sample), "only poses are sent");
+  EXPECT_EQ(WhyStatic(sample), "the source sends only poses");
   sample = whole;
   sample.has_angular = false;
-  EXPECT_EQ(WhyStatic(sample), "angular velocities are not sent");
+  EXPECT_EQ(WhyStatic(sample), "the source sends no angular velocities");
   sample = whole;
   sample.segments[kHead].acceleration.y() = std::nan("");
   EXPECT_EQ(WhyStatic(sample), "accelerations are not finite or too large");
@@ -174,11 +174,11 @@ TEST(MotionFilter, NoticesGravityLeftInAndDegrees) {
   for (const char* motion : {"lift", "walk"}) {
     EXPECT_EQ(WhyStaticAfterASecond(motion, [](SegmentState&) {}), "") << motion;
     EXPECT_EQ(WhyStaticAfterASecond(motion, [](SegmentState& s) { s.acceleration.z() += 9.81; }),
-              "accelerations do not fit the velocities")
+              "accelerations are inconsistent with the velocities")
         << motion;
     EXPECT_EQ(
         WhyStaticAfterASecond(motion, [](SegmentState& s) { s.angular_velocity *= 180 / M_PI; }),
-        "angular velocities do not fit the poses")
+        "angular velocities are inconsistent with the poses")
         << motion;
   }
 }

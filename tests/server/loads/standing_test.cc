@@ -71,7 +71,7 @@ TEST(Standing, InFlightNothingIsSaidAboutTheFloor) {
   BodyMotion falling{};
   for (SegmentMotion& segment : falling) segment.acceleration = {0, 0, -kGravity};
   const Standing standing = Stance(Posed({}), falling).Solve();
-  EXPECT_EQ(standing.why_not, "in the air");
+  EXPECT_EQ(standing.why_not, "no ground reaction force (flight phase)");
   EXPECT_EQ(standing.force, Vector3d::Zero());
   EXPECT_FALSE(standing.cop);
   EXPECT_TRUE(std::isnan(standing.cop_inside));
@@ -80,7 +80,7 @@ TEST(Standing, InFlightNothingIsSaidAboutTheFloor) {
 TEST(Standing, WithoutAFootOnTheFloorSomethingElseCarries) {
   LinkPoses sitting = Posed({}, {0, 0, 1.5});  // half a metre up, at rest
   const Standing standing = Stance(sitting).Solve();
-  EXPECT_EQ(standing.why_not, "no foot is on the floor");
+  EXPECT_EQ(standing.why_not, "no foot contact");
   EXPECT_EQ(standing.force, Vector3d::Zero());
   EXPECT_FALSE(standing.cop);
 }
@@ -142,7 +142,7 @@ TEST(Standing, MeasuredFeetInTheAirAreInTheAir) {
   GroundSensors sensors;
   sensors.feet = {&nothing, &nothing};
   const Standing standing = Stance(Posed({})).Solve(sensors);
-  EXPECT_EQ(standing.why_not, "in the air");
+  EXPECT_EQ(standing.why_not, "no ground reaction force (flight phase)");
   EXPECT_FALSE(standing.cop);
 }
 

@@ -396,7 +396,8 @@ TEST_F(InspectionTest, ASampleWithoutAWholeBodyIsAnErrorWithoutAByte) {
   ASSERT_EQ(report.errors.size(), 1U);
   EXPECT_EQ(report.errors[0].reason, Text(Reason::kNoWholePose));
   EXPECT_FALSE(report.errors[0].where.has_value());
-  EXPECT_THAT(report.characters.at(0).advice, Contains(HasSubstr("never a whole body")));
+  EXPECT_THAT(report.characters.at(0).advice,
+              Contains(HasSubstr("no message contains all 23 segments")));
 }
 
 struct AdviceCase {
@@ -441,7 +442,7 @@ INSTANTIATE_TEST_SUITE_P(
                    {Type::kPose, Type::kLinear},
                    {"only linear velocities", "switch on Angular Segment Kinematics"},
                    true},
-        AdviceCase{"only 01", {Type::kEulerPose}, {"the pose comes as Euler angles"}, true}));
+        AdviceCase{"only 01", {Type::kEulerPose}, {"the pose is sent as Euler angles"}, true}));
 
 TEST_F(InspectionTest, UnityPosesAreAnErrorThatSaysWhatToSwitchOn) {
   RawDatagram unity;
@@ -471,7 +472,7 @@ TEST_F(InspectionTest, AnOldHeaderIsNamed) {
   const CharacterReport character = Only();
   EXPECT_TRUE(character.has_old_header);
   EXPECT_EQ(character.samples, 10U);
-  EXPECT_THAT(character.advice, Contains(HasSubstr("before 2018")));
+  EXPECT_THAT(character.advice, Contains(HasSubstr("older than MVN 2018")));
 }
 
 TEST_F(InspectionTest, NothingAtAllIsSaid) {

@@ -1,83 +1,120 @@
 #include "server/options/option_list.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 
-#include "server/app/serve/serve_options.h"
+#include "core/errors.h"
+#include "server/options/yaml_options.h"
 #include "tests/temp_folder.h"
 
-namespace kinescope::app {
+namespace kinescope::options {
 namespace {
 
-using testing::TempFolder;
+using kinescope::testing::TempFolder;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
-std::string Write(const TempFolder& folder, const std::string& text) {
-  const auto path = folder.path() / "options.yaml";
-  std::ofstream(path) << text;
-  return path.string();
-}
+struct Values {
+  Number mass{75, {20, 300, "kg"}};
+  Choice<int> tf{{{"flat", 0}, {"tree", 1}, {"off", 2}}, 0};
+  Flag loop;
+  List<std::string> show{"words",
+                         3,
+                         [](const std::string& word) {
+                           if (word.size() > 9) throw BadValue("expected short words");
+                           return word;
+                         },
+                         {{"frames", "link_axes"}}};
 
-ServeOptions Read(const std::vector<std::string>& arguments, const std::string& yaml,
-                  const std::map<std::string, std::string>& params) {
-  CLI::App app;
-  ServeOptions options;
-  options.Visit(FlagAdder(app, "source"));
-  std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
-  app.parse(reversed);
-  if (!yaml.empty()) options.Visit(ValueSetter(app, YamlValues(yaml)));
-  options.Visit(ValueSetter(app, [&](const std::string& name) -> std::optional<std::string> {
-    const auto found = params.find(name);
-    if (found == params.end()) return std::nullopt;
-    return found->second;
-  }));
-  return options;
-}
-
-template <class F>
-std::string ErrorOf(F&& f) {
-  try {
-    f();
-  } catch (const UsageError& error) {
-    return error.what();
+  void List(OptionList& option) {
+    option("mass", mass, "body mass");
+    option("tf", tf, "frames");
+    option("loop", loop, "start again");
+    option("show", show, "parts");
+    option.Formerly("parts");
   }
-  return "no error";
+};
+
+class OptionListTest : public ::testing::Test {
+ protected:
+  OptionListTest() { values_.List(list_); }
+
+  std::string Write(const std::string& text) const {
+    const std::string path = folder_ / "options.yaml";
+    std::ofstream(path) << text;
+    return path;
+  }
+  template <class Function>
+  static std::string ErrorOf(Function&& function) {
+    try {
+      function();
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TempFolder folder_;
+  Values values_;
+  OptionList list_;
+};
+
+TEST_F(OptionListTest, OfTheCommandLineWinOverParametersOverYaml) {
+  list_.Set(*list_.Find("mass"), "mass", "90", Channel::kCommandLine);
+  YamlOptions(Write("mass: 80\ntf: tree\nloop: true\n")).SetAll(list_);
+  SetFrom(
+      [](const std::string& name) -> std::optional<Found> {
+        if (name == "loop") return std::nullopt;
+        return Found{name == "mass" ? "70" : "off", "~"};
+      },
+      Channel::kParameter, list_);
+  EXPECT_EQ(*values_.mass, 90);
+  EXPECT_EQ(*values_.tf, 2);
+  EXPECT_TRUE(*values_.loop);
 }
 
-TEST(OptionList, LetsTheCommandLineWinOverParametersOverYaml) {
-  const TempFolder folder;
-  const std::string yaml = Write(folder, "http_port: 1\ntf: tree\nmass: 80\nloop: true\n");
-  const ServeOptions options =
-      Read({"demo:lift", "--http_port=3"}, yaml, {{"http_port", "2"}, {"tf", "off"}});
-  EXPECT_EQ(options.source, "demo:lift");
-  EXPECT_EQ(options.http_port, 3);
-  EXPECT_EQ(options.tf, "off");
-  EXPECT_EQ(options.person.mass, 80);
-  EXPECT_TRUE(options.loop);
+TEST_F(OptionListTest, NameThePlaceTheValueAndTheNearestWord) {
+  EXPECT_EQ(ErrorOf([&] { list_.Set(*list_.Find("tf"), "tf", "tre", Channel::kCommandLine); }),
+            "--tf=tre: expected flat, tree or off; nearest: tree");
+  const std::string path = Write("tf: tree\nmass: heavy\n");
+  EXPECT_EQ(ErrorOf([&] { YamlOptions(path).SetAll(list_); }),
+            path + ":2: mass=heavy: expected a number from 20 to 300 kg");
 }
 
-TEST(OptionList, NamesTheOptionTheValueAndWhatItShouldBe) {
-  EXPECT_EQ(ErrorOf([] {
-              Read({}, "", {{"http_port", "80a"}});
-            }),
-            "http_port=80a: expected a whole number");
-  EXPECT_EQ(ErrorOf([] { Read({}, "", {{"mass", "heavy"}}); }), "mass=heavy: expected a number");
-  EXPECT_EQ(ErrorOf([] { Read({}, "", {{"loop", "yes"}}); }), "loop=yes: expected true or false");
+TEST_F(OptionListTest, OfAFileThatCannotBeReadNameFileAndLine) {
+  EXPECT_THAT(ErrorOf([] { YamlOptions("/nowhere.yaml"); }), HasSubstr("/nowhere.yaml: "));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("- 1\n- 2\n")); }), HasSubstr("expected lines of"));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\nloop: [\n")); }),
+              HasSubstr("options.yaml:"));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\nmas: 80\n")).SetAll(list_); }),
+              AllOf(HasSubstr("options.yaml:2: unknown option 'mas'"), HasSubstr("nearest: mass")));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: [tree]\n")).SetAll(list_); }),
+              HasSubstr("options.yaml:1: tf: expected one value"));
 }
 
-TEST(YamlValues, SayWhereTheFileIsWrong) {
-  const TempFolder folder;
-  EXPECT_EQ(ErrorOf([] { YamlValues("/nowhere.yaml"); }),
-            "--config=/nowhere.yaml: no such file, or it may not be read");
-  const std::string list = Write(folder, "- 1\n- 2\n");
-  EXPECT_NE(ErrorOf([&] { YamlValues{list}; }).find("expected lines of"), std::string::npos);
-  const std::string broken = Write(folder, "tf: tree\nloop: [\n");
-  EXPECT_NE(ErrorOf([&] { YamlValues{broken}; }).find("line "), std::string::npos);
-  const std::string unknown = Write(folder, "tf: tree\ncolour: red\n");
-  const std::string error = ErrorOf([&] { YamlValues(unknown).RefuseUnknown({"tf"}); });
-  EXPECT_NE(error.find("line 2: no option is called 'colour'"), std::string::npos) << error;
+TEST_F(OptionListTest, AcceptsAFormerNameWithAWarning) {
+  YamlOptions(Write("parts: body\n")).SetAll(list_);
+  EXPECT_THAT(*values_.show, ElementsAre("body"));
+  ASSERT_EQ(list_.warnings().size(), 1U);
+  EXPECT_THAT(list_.warnings().front(),
+              HasSubstr("options.yaml:1: parts: this option is now called show"));
+  EXPECT_THAT(ErrorOf([&] {
+                list_.Set(*list_.Find("parts"), "parts", "a_long_word", Channel::kCommandLine);
+              }),
+              HasSubstr("--parts=a_long_word: expected short words"));
+}
+
+TEST_F(OptionListTest, ReplacesAFormerWordWithAWarning) {
+  list_.Set(*list_.Find("show"), "show", "body;frames", Channel::kCommandLine);
+  EXPECT_THAT(*values_.show, ElementsAre("body", "link_axes"));
+  EXPECT_EQ(values_.show.ToText(), "body,link_axes") << "the next version reads it, too";
+  ASSERT_EQ(list_.warnings().size(), 1U);
+  EXPECT_THAT(list_.warnings().front(),
+              HasSubstr("--show=frames: this value is now called link_axes"));
 }
 
 }  // namespace
-}  // namespace kinescope::app
+}  // namespace kinescope::options

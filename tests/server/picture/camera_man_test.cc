@@ -27,11 +27,11 @@ SceneState SceneAt(double secs, double x) {
 }
 
 // The error of making one; "" where there is none.
-std::string Complaint(const std::string& camera, const CameraOptions& options = {}) {
+std::string Complaint(const std::string& camera) {
   try {
-    CameraMan man(camera, options);
+    CameraMan man(ParseCamera(camera), {});
     return "";
-  } catch (const UsageError& error) {
+  } catch (const std::runtime_error& error) {
     return error.what();
   }
 }
@@ -40,39 +40,40 @@ TEST(CameraMan, FollowsWithTheSameLagAtAnyRate) {
   CameraOptions options;
   options.follow = 0.5;
   const auto x_after_a_second = [&](int pictures) {
-    CameraMan man("front", options);
+    CameraMan man(ParseCamera("front"), options);
     double x = man.Aim(SceneAt(0, 0), kAspect).target.x();
     for (int k = 1; k <= pictures; ++k) {
       x = man.Aim(SceneAt(static_cast<double>(k) / pictures, 2), kAspect).target.x();
     }
     return x;
   };
-  const double start = CameraMan("front", options).Only(SceneAt(0, 0), 0, kAspect).target.x();
+  const double start =
+      CameraMan(ParseCamera("front"), options).Only(SceneAt(0, 0), 0, kAspect).target.x();
   EXPECT_NEAR(x_after_a_second(10) - start, 2 * (1 - std::exp(-1 / 0.5)), 1e-6);
   EXPECT_NEAR(x_after_a_second(120), x_after_a_second(10), 1e-6);
-  options.follow = 0;
+  options.follow = 0.0;
   EXPECT_NEAR(x_after_a_second(1) - start, 2, 1e-9) << "no lag at all";
 }
 
 TEST(CameraMan, AFreeCameraStandsStillOrGoesAlong) {
   CameraOptions options;
-  options.fov = 40;
-  CameraMan still("3,-2,1.5:0,0,1", options);
+  options.fov = 40.0;
+  CameraMan still(ParseCamera("3,-2,1.5:0,0,1"), options);
   still.Aim(SceneAt(0, 0), kAspect);
   const render::Camera camera = still.Aim(SceneAt(1, 2), kAspect);
   EXPECT_EQ(camera.position, Vector3d(3, -2, 1.5));
   EXPECT_EQ(camera.target, Vector3d(0, 0, 1));
   EXPECT_NEAR(camera.vertical_fov_rad, 40 * M_PI / 180, 1e-12);
-  options.follow = 0;
-  CameraMan along("3,-2,1.5:0,0,1", options);
+  options.follow = 0.0;
+  CameraMan along(ParseCamera("3,-2,1.5:0,0,1"), options);
   along.Aim(SceneAt(0, 0), kAspect);
   EXPECT_NEAR((along.Aim(SceneAt(1, 2), kAspect).position - Vector3d(5, -2, 1.5)).norm(), 0, 1e-9);
 }
 
 TEST(CameraMan, TurnsOnceOverAClip) {
   CameraOptions options;
-  options.orbit = "turn";
-  CameraMan man("front", options);
+  options.orbit.Parse("turn");
+  CameraMan man(ParseCamera("front"), options);
   ASSERT_TRUE(man.needs_survey());
   for (const double secs : {0.0, 2.0, 4.0}) man.Survey(SceneAt(secs, 0));
   const render::Camera first = man.Aim(SceneAt(0, 0), kAspect);
@@ -86,8 +87,8 @@ TEST(CameraMan, TurnsOnceOverAClip) {
 
 TEST(CameraMan, FramesAllThatIsThereOverTheClipAndStandsStill) {
   CameraOptions options;
-  options.fit = "clip";
-  CameraMan man("left", options);
+  options.fit = Fit::kClip;
+  CameraMan man(ParseCamera("left"), options);
   for (const double x : {-2.0, 0.0, 3.0}) man.Survey(SceneAt(x + 2, x));
   const render::Camera camera = man.Aim(SceneAt(0, -2), kAspect);
   EXPECT_EQ(man.Aim(SceneAt(5, 3), kAspect).position, camera.position);
@@ -109,7 +110,7 @@ TEST(CameraMan, KeysMayNameCamerasThatFindThePerson) {
                          "    position: [1, -4, 2]\n"
                          "    target: [1, 0, 1]\n"
                          "    fov: 50\n";
-  const CameraMan man(path, {});
+  const CameraMan man(ParseCamera(path), {});
   const SceneState scene = SceneAt(0, 1);
   EXPECT_EQ(man.Only(scene, 0, kAspect).position, render::NamedCamera("front", scene).position);
   const render::Camera last = man.Only(scene, 7, kAspect);
@@ -135,7 +136,7 @@ TEST(CameraMan, AWrongKeyIsNamedWithFileAndLine) {
   EXPECT_THAT(complaint("  - {time: 1, position: [0, 1], target: [0, 0, 0]}\n"),
               HasSubstr("position: expected [x, y, z]"));
   EXPECT_THAT(complaint("  - {time: 1, position: [0, 0, 1], target: [0, 0, 1]}\n"),
-              HasSubstr("stands on"));
+              HasSubstr("position that differs from the target"));
   EXPECT_THAT(complaint("  - {time: 1, camera: top, speed: 3}\n"), HasSubstr("'speed'"));
   EXPECT_THAT(complaint("  - [1, 2\n"), HasSubstr("line"));
   EXPECT_THAT(complaint(""), HasSubstr("'keys:'"));
@@ -145,23 +146,24 @@ TEST(CameraMan, AWrongKeyIsNamedWithFileAndLine) {
 TEST(CameraMan, RefusesWhatMakesNoSense) {
   EXPECT_THAT(Complaint("1,2,3:1,2"), HasSubstr("X,Y,Z"));
   EXPECT_THAT(Complaint("1,2,3:1,2,nan"), HasSubstr("X,Y,Z"));
-  EXPECT_THAT(Complaint("1,2,3:1,2,3"), HasSubstr("stands on"));
+  EXPECT_THAT(Complaint("1,2,3:1,2,3"), HasSubstr("position that differs from the target"));
   EXPECT_THAT(Complaint("1,2,3:"), HasSubstr("X,Y,Z"));
-  CameraOptions options;
-  options.orbit = "fast";
-  EXPECT_THAT(Complaint("front", options), HasSubstr("--orbit=fast"));
-  options = {};
-  options.fov = 200;
-  EXPECT_THAT(Complaint("front", options), HasSubstr("--fov=200"));
-  options = {};
-  options.follow = -1;
-  EXPECT_THAT(Complaint("front", options), HasSubstr("--follow=-1"));
-  options = {};
-  options.projection = "fisheye";
-  EXPECT_THAT(Complaint("front", options), HasSubstr("--projection=fisheye"));
-  options = {};
-  options.fit = "tight";
-  EXPECT_THAT(Complaint("front", options), HasSubstr("--fit=tight"));
+  const auto error = [](const char* name, const char* text) {
+    CameraOptions options;
+    options::OptionList list;
+    options.List(list);
+    try {
+      list.Set(*list.Find(name), name, text, options::Channel::kCommandLine);
+    } catch (const UsageError& refusal) {
+      return std::string(refusal.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(error("orbit", "fast"), AllOf(HasSubstr("--orbit=fast"), HasSubstr("turn")));
+  EXPECT_THAT(error("fov", "200"), HasSubstr("from 1 to 150 degrees"));
+  EXPECT_THAT(error("follow", "-1"), HasSubstr("--follow=-1"));
+  EXPECT_THAT(error("projection", "fisheye"), HasSubstr("perspective or orthographic"));
+  EXPECT_THAT(error("fit", "tight"), HasSubstr("off, now or clip"));
 }
 
 }  // namespace

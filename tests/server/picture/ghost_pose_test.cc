@@ -26,7 +26,9 @@ SceneState BentScene() {
 
 std::vector<render::Ghost> GhostsOf(const std::string& text, double opacity,
                                     const SceneState& scene) {
-  return GhostPose(text, opacity, {}).Make(scene);
+  GhostValue ghost;
+  ghost.Parse(text);
+  return GhostPose(ghost, opacity, {}).Make(scene);
 }
 
 double LowestOfFeet(const PersonState& person) {

@@ -13,22 +13,13 @@
 
 #include "core/errors.h"
 #include "core/stop_signal.h"
-#include "tests/deadline.h"
+#include "tests/server/options_testing.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::app {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::string Complaint(const ViewOptions& options) {
-  try {
-    ShotPlanner planner(options);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::vector<SceneState> Scenes(const char* url, int count) {
   SceneReader reader(url, SceneOptions());
@@ -39,9 +30,8 @@ std::vector<SceneState> Scenes(const char* url, int count) {
 }
 
 TEST(Shots, ATrailIsTheLastSecondsOfWhatWasAskedFor) {
-  ViewOptions options;
-  options.trail = "com,RightHand";
-  options.trail_secs = 0.5;
+  const auto options =
+      testing::With<ViewOptions>({{"trail", "com,RightHand"}, {"trail_secs", "0.5"}});
   ShotPlanner planner(options);
   const std::vector<SceneState> scenes = Scenes("demo:lift", 12);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -61,9 +51,7 @@ TEST(Shots, ATrailIsTheLastSecondsOfWhatWasAskedFor) {
 }
 
 TEST(Shots, APictureAloneHasTheTrailOfAClip) {
-  ViewOptions options;
-  options.trail = "left_hand";
-  options.trail_secs = 1;
+  const auto options = testing::With<ViewOptions>({{"trail", "left_hand"}, {"trail_secs", "1"}});
   SceneReader reader("demo:walk", SceneOptions());
   SceneTimeline timeline(reader);
   ShotPlanner planner(options);
@@ -75,9 +63,7 @@ TEST(Shots, APictureAloneHasTheTrailOfAClip) {
 
 TEST(Shots, AGhostStandsOnTheFloorWhereThePersonIs) {
   for (const char* pose : {"n_pose", "t_pose"}) {
-    ViewOptions options;
-    options.ghost = pose;
-    options.ghost_opacity = 0.2;
+    const auto options = testing::With<ViewOptions>({{"ghost", pose}, {"ghost_opacity", "0.2"}});
     ShotPlanner planner(options);
     const SceneState scene = Scenes("demo:lift", 25).back();
     const Shot shot = planner.Only(scene);
@@ -100,8 +86,7 @@ TEST(Shots, AGhostStandsOnTheFloorWhereThePersonIs) {
 }
 
 TEST(Shots, AGhostOfARecordingIsWhereItWas) {
-  ViewOptions options;
-  options.ghost = "demo:lift@1.5";
+  const auto options = testing::With<ViewOptions>({{"ghost", "demo:lift@1.5"}});
   ShotPlanner planner(options);
   const std::vector<SceneState> scenes = Scenes("demo:lift", 16);
   const Shot shot = planner.Only(scenes[0]);
@@ -111,19 +96,14 @@ TEST(Shots, AGhostOfARecordingIsWhereItWas) {
 
 TEST(Shots, AGhostsTimeIsOneThatARecordingCanHave) {
   for (const std::string secs : {"-1", "864001", "1e9", "1e300", "inf", "nan"}) {
-    ViewOptions options;
-    options.ghost = "demo:lift@" + secs;
-    testing::WithDeadline([&] {
-      EXPECT_EQ(Complaint(options),
-                "--ghost=demo:lift@" + secs + ": expected 0 to 864000 s after the @");
-    });
+    EXPECT_THAT(testing::ErrorOfSetting<ViewOptions>("ghost", "demo:lift@" + secs),
+                HasSubstr("0 to 864000 s"));
   }
 }
 
 // In a process of its own, whose flag stays set and which ends if it reads on.
 TEST(ShotsDeathTest, CtrlCEndsTheReadingForAGhost) {
-  ViewOptions options;
-  options.ghost = "demo:lift@864000";
+  const auto options = testing::With<ViewOptions>({{"ghost", "demo:lift@864000"}});
   const auto read = [&] {
     alarm(20);
     CatchStopSignals();
@@ -146,7 +126,7 @@ TEST(Shots, RobotsStandOnTheFloorWhereTheyWerePut) {
       << "<robot name='arm'><link name='base'><visual><geometry><box size='1 .2 .4'/>"
          "</geometry></visual></link></robot>";
   ViewOptions options;
-  options.robot = {file + "@2,-1,90", file};
+  options.robot.ParseAll({file + "@2,-1,90", file});
   ShotPlanner planner(options);
   SceneState scene;
   scene.floor_z = 0.5;
@@ -157,26 +137,6 @@ TEST(Shots, RobotsStandOnTheFloorWhereTheyWerePut) {
   EXPECT_NEAR(placed.bounds.min().z(), 0.5, 1e-6);
   EXPECT_NEAR(placed.bounds.sizes().y(), 1, 1e-6) << "turned by 90 degrees";
   EXPECT_GT(shown.robots[1].bounds.min().y(), 1) << "beside whoever is in the middle";
-}
-
-TEST(Shots, RefuseWhatMakesNoSense) {
-  const auto with = [](auto member, auto value) {
-    ViewOptions options;
-    options.*member = value;
-    return Complaint(options);
-  };
-  EXPECT_THAT(with(&ViewOptions::theme, "blue"), HasSubstr("--theme=blue"));
-  EXPECT_THAT(with(&ViewOptions::background, "#12345"), HasSubstr("--background=#12345"));
-  EXPECT_THAT(with(&ViewOptions::floor, "maybe"), HasSubstr("floor=maybe"));
-  EXPECT_THAT(with(&ViewOptions::show, "frames,wings"), HasSubstr("--show=wings"));
-  EXPECT_THAT(with(&ViewOptions::hide, "wings"), HasSubstr("--hide=wings"));
-  EXPECT_THAT(with(&ViewOptions::trail, "tail"), HasSubstr("right_hand"));
-  EXPECT_THAT(with(&ViewOptions::trail_secs, 0.0), HasSubstr("--trail_secs=0"));
-  EXPECT_THAT(with(&ViewOptions::ghost, "demo:lift"), HasSubstr("FILE@SECS"));
-  EXPECT_THAT(with(&ViewOptions::ghost, "demo:lift@soon"), HasSubstr("soon"));
-  EXPECT_THAT(with(&ViewOptions::ghost_opacity, 2.0), HasSubstr("--ghost_opacity=2"));
-  EXPECT_THAT(with(&ViewOptions::robot, std::vector<std::string>{"a.urdf@1"}), HasSubstr("X,Y"));
-  EXPECT_EQ(Complaint(ViewOptions()), "");
 }
 
 }  // namespace

@@ -5,17 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
-#include "core/errors.h"
+#include "server/picture/view_options.h"
 #include "tests/render/test_scene.h"
+#include "tests/server/options_testing.h"
 
 namespace kinescope::app {
 namespace {
 
 using Eigen::Vector3d;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
@@ -35,7 +33,7 @@ void RememberTenths(Trails& trails, int from, int to) {
 }
 
 TEST(Trails, AreAsLongAsTheyAreToBeAndEndWhereThePersonIs) {
-  Trails trails("com", 1);
+  Trails trails({-1}, 1);
   RememberTenths(trails, 0, 30);
   const auto made = trails.Make();
   ASSERT_THAT(made, SizeIs(1));
@@ -45,14 +43,14 @@ TEST(Trails, AreAsLongAsTheyAreToBeAndEndWhereThePersonIs) {
 }
 
 TEST(Trails, OfOnePointAreNone) {
-  Trails trails("com", 1);
+  Trails trails({-1}, 1);
   EXPECT_THAT(trails.Make(), IsEmpty());
   trails.Remember(SceneOnItsWay(0));
   EXPECT_THAT(trails.Make(), IsEmpty());
 }
 
 TEST(Trails, SegmentsGoByEitherOfTheirNames) {
-  Trails trails("com,RightHand,left_hand", 1);
+  Trails trails(*testing::With<ViewOptions>({{"trail", "com,RightHand,left_hand"}}).trail, 1);
   EXPECT_FALSE(trails.empty());
   RememberTenths(trails, 0, 3);
   const auto made = trails.Make();
@@ -66,14 +64,14 @@ TEST(Trails, SegmentsGoByEitherOfTheirNames) {
 }
 
 TEST(Trails, WithoutNamesThereAreNone) {
-  Trails trails("", 1);
+  Trails trails({}, 1);
   EXPECT_TRUE(trails.empty());
   RememberTenths(trails, 0, 3);
   EXPECT_THAT(trails.Make(), IsEmpty());
 }
 
 TEST(Trails, AGapInTheCentreOfMassIsNoStraightLine) {
-  Trails trails("com,pelvis", 10);
+  Trails trails({-1, urdf::kPelvis}, 10);
   RememberTenths(trails, 0, 5);
   SceneState without = SceneOnItsWay(0.6);
   without.people[0].com.reset();
@@ -86,7 +84,7 @@ TEST(Trails, AGapInTheCentreOfMassIsNoStraightLine) {
 }
 
 TEST(Trails, WhoHasGoneHasNoneAndStartsAfresh) {
-  Trails trails("pelvis", 10);
+  Trails trails({urdf::kPelvis}, 10);
   RememberTenths(trails, 0, 5);
   SceneState empty = SceneOnItsWay(0.6);
   empty.people.clear();
@@ -98,7 +96,7 @@ TEST(Trails, WhoHasGoneHasNoneAndStartsAfresh) {
 }
 
 TEST(Trails, EveryPersonHasTheirOwn) {
-  Trails trails("pelvis", 10);
+  Trails trails({urdf::kPelvis}, 10);
   for (int i = 0; i < 3; ++i) {
     SceneState scene = SceneOnItsWay(0.1 * i);
     scene.people.push_back(SceneOnItsWay(5 + 0.1 * i).people[0]);
@@ -112,7 +110,7 @@ TEST(Trails, EveryPersonHasTheirOwn) {
 }
 
 TEST(Trails, ARecordingThatStartsOverForgetsWhatComesLater) {
-  Trails trails("pelvis", 10);
+  Trails trails({urdf::kPelvis}, 10);
   RememberTenths(trails, 0, 10);
   RememberTenths(trails, 3, 4);
   const auto made = trails.Make();
@@ -122,40 +120,19 @@ TEST(Trails, ARecordingThatStartsOverForgetsWhatComesLater) {
 }
 
 TEST(Trails, TheSameSceneTwiceIsOnePoint) {
-  Trails trails("pelvis", 10);
+  Trails trails({urdf::kPelvis}, 10);
   RememberTenths(trails, 0, 2);
   RememberTenths(trails, 2, 2);
   EXPECT_THAT(trails.Make().at(0).points, SizeIs(3));
 }
 
 TEST(Trails, AStreamThatStoppedAddsNothing) {
-  Trails trails("pelvis", 1);
+  Trails trails({urdf::kPelvis}, 1);
   RememberTenths(trails, 0, 2);
   SceneState stale = SceneOnItsWay(0.3);
   stale.liveness = Liveness::kStale;
   trails.Remember(stale);
   EXPECT_THAT(trails.Make().at(0).points, SizeIs(3));
-}
-
-std::string TrailsError(const std::string& names, double secs) {
-  try {
-    Trails trails(names, secs);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-TEST(Trails, NameWhatTheyCannotFollow) {
-  for (const char* bad : {"foot", "com,,pelvis", "com, pelvis", "COM"}) {
-    EXPECT_THAT(TrailsError(bad, 1),
-                AllOf(HasSubstr("--trail="), HasSubstr("com, pelvis"), HasSubstr("right_hand")))
-        << bad;
-  }
-  for (const double secs : {0.0, -1.0, 60.01, std::numeric_limits<double>::quiet_NaN()}) {
-    EXPECT_THAT(TrailsError("com", secs), HasSubstr("--trail_secs=")) << secs;
-  }
-  EXPECT_EQ(TrailsError("com", 60), "");
 }
 
 }  // namespace

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
-#include "core/errors.h"
 #include "server/picture/shots.h"
 #include "tests/render/test_scene.h"
+#include "tests/server/options_testing.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::app {
 namespace {
@@ -15,47 +17,87 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-template <class Function>
-std::string Complaint(Function&& function) {
-  try {
-    function();
-    return "";
-  } catch (const UsageError& error) {
-    return error.what();
-  }
+render::OverlayParts Overlays(const std::string& text) {
+  return *testing::With<ViewOptions>({{"overlay", text}}).overlay;
+}
+
+ViewGrid Grid(const std::string& text) {
+  return *testing::With<ViewOptions>({{"views", text}}).views;
+}
+
+std::string Error(const std::string& name, const std::string& text) {
+  return testing::ErrorOfSetting<ViewOptions>(name, text);
 }
 
 TEST(ViewOptions, OverlaysAreAListOrChangesOfTheUsualOnes) {
-  EXPECT_TRUE(ToOverlayParts("").legend);
-  EXPECT_FALSE(ToOverlayParts("").strip);
-  EXPECT_FALSE(ToOverlayParts("time,scale").legend);
-  EXPECT_TRUE(ToOverlayParts("time,scale").scale);
-  EXPECT_TRUE(ToOverlayParts("+strip,-legend").time);
-  EXPECT_TRUE(ToOverlayParts("+strip,-legend").strip);
-  EXPECT_FALSE(ToOverlayParts("+strip,-legend").legend);
-  EXPECT_THAT(Complaint([] { ToOverlayParts("time,-legend"); }), HasSubstr("either"));
-  EXPECT_THAT(Complaint([] { ToOverlayParts("+clock"); }), HasSubstr("'clock' is not known"));
-  EXPECT_THAT(Complaint([] { ToOverlayParts("time,"); }), HasSubstr("'' is not known"));
+  EXPECT_TRUE(Overlays("").legend);
+  EXPECT_FALSE(Overlays("").strip);
+  EXPECT_FALSE(Overlays("time,scale").legend);
+  EXPECT_TRUE(Overlays("time,scale").scale);
+  EXPECT_TRUE(Overlays("+frame_code,-legend").time);
+  EXPECT_TRUE(Overlays("+frame_code,-legend").strip);
+  EXPECT_FALSE(Overlays("+frame_code,-legend").legend);
+  EXPECT_THAT(Error("overlay", "time,-legend"), HasSubstr("either"));
+  EXPECT_THAT(Error("overlay", "+legnd"), HasSubstr("unknown 'legnd'"));
+  EXPECT_THAT(Error("overlay", "+legnd"), HasSubstr("nearest: legend"));
+  EXPECT_THAT(Error("overlay", "time,"), HasSubstr("unknown ''"));
 }
 
 TEST(ViewOptions, ViewsAreRowsOfCameras) {
-  EXPECT_TRUE(ToViewGrid("").cameras.empty());
-  const ViewGrid grid = ToViewGrid("front,left,top/camera");
-  EXPECT_EQ(grid.columns, 3);
-  EXPECT_THAT(ToViewGrid("2x2").cameras, ElementsAre("front", "right", "top", "three_quarter"));
-  EXPECT_THAT(Complaint([] { ToViewGrid("front/left,top"); }), HasSubstr("row 2 has 2"));
-  EXPECT_THAT(Complaint([] { ToViewGrid("front,top//left,right"); }), HasSubstr("row 2 has 0"));
-  EXPECT_THAT(Complaint([] {
-                ViewOptions options;
-                options.views = "front,nowhere";
-                ShotPlanner planner(options);
-              }),
-              HasSubstr("nowhere"));
+  EXPECT_TRUE(Grid("").cameras.empty());
+  EXPECT_EQ(Grid("front,left,top/camera").columns, 3);
+  EXPECT_THAT(Grid("2x2").cameras, ElementsAre("front", "right", "top", "three_quarter"));
+  EXPECT_THAT(Error("views", "front/left,top"), HasSubstr("row 2 has 2"));
+  EXPECT_THAT(Error("views", "front,top//left,right"), HasSubstr("row 2 has 0"));
+  EXPECT_THAT(Error("views", "front,nowhere"), HasSubstr("front, back"));
 }
 
 TEST(ViewOptions, APlotIsOfJointsThatHaveALoad) {
-  EXPECT_THAT(ToPlotJoints("l5_s1,right_elbow"), ElementsAre(urdf::jL5S1, urdf::jRightElbow));
-  EXPECT_THAT(Complaint([] { ToPlotJoints("right_toe"); }), HasSubstr("right_knee"));
+  EXPECT_THAT(*testing::With<ViewOptions>({{"plot", "l5_s1,right_elbow"}}).plot,
+              ElementsAre(urdf::jL5S1, urdf::jRightElbow));
+  EXPECT_THAT(Error("plot", "right_toe"), HasSubstr("right_knee"));
+  const auto shown = testing::With<ViewOptions>({{"plot", "l5_s1"}, {"overlay", "title"}});
+  EXPECT_TRUE(ToView(shown).parts.plot);
+  const auto hidden = testing::With<ViewOptions>({{"plot", "l5_s1"}, {"overlay", "-plot"}});
+  EXPECT_FALSE(ToView(hidden).parts.plot);
+}
+
+TEST(ViewOptions, NamesAreRejectedWithTheNearest) {
+  EXPECT_THAT(Error("theme", "drak"), HasSubstr("expected light or dark; nearest: dark"));
+  EXPECT_THAT(Error("background", "#12345"), HasSubstr("#RRGGBB"));
+  EXPECT_THAT(Error("floor", "maybe"), HasSubstr("--floor=maybe: expected on or off"));
+  EXPECT_THAT(Error("show", "link_frames,wings"), HasSubstr("unknown 'wings'"));
+  EXPECT_THAT(Error("hide", "bdy"), HasSubstr("nearest: body"));
+  EXPECT_THAT(Error("trail", "tail"), HasSubstr("right_hand"));
+  for (const char* secs : {"0", "-1", "60.01", "nan"}) {
+    EXPECT_THAT(Error("trail_secs", secs), HasSubstr("at most 60 s")) << secs;
+  }
+  for (const char* bad : {"demo:lift", "demo:lift@soon", "@3", "nose"}) {
+    EXPECT_THAT(Error("ghost", bad), HasSubstr("SOURCE@SECS")) << bad;
+  }
+  EXPECT_THAT(Error("ghost_opacity", "2"), HasSubstr("from 0 to 1"));
+  for (const char* bad : {"a.urdf@1", "a.urdf@1,2,3,4", "a.urdf@1,y", "a.urdf@1001,0", "@1,2"}) {
+    EXPECT_THAT(Error("robot", bad), HasSubstr("FILE.urdf@X,Y")) << bad;
+  }
+  EXPECT_THAT(Error("camera", "front,top"), HasSubstr("at most 1 camera"));
+  EXPECT_THAT(Error("camera", "fron"), HasSubstr("nearest: front"));
+}
+
+TEST(ViewOptions, FilesAreThoseThatDecideThePicture) {
+  const kinescope::testing::TempFolder folder;
+  std::ofstream(folder / "box.obj") << "mtllib box.mtl\n";
+  std::ofstream(folder / "box.mtl") << "newmtl a\n";
+  const std::string urdf = folder / "r.urdf", walk = folder / "walk.mvnx";
+  std::ofstream(urdf) << "<robot name='r'><link name='a'><visual><geometry>"
+                         "<mesh filename='box.obj'/></geometry></visual></link></robot>";
+  std::ofstream(walk) << "x";
+  const auto view = testing::With<ViewOptions>(
+      {{"robot", urdf + "@1,0"}, {"ghost", walk + "@2"}, {"camera", folder / "keys.yaml"}});
+  EXPECT_THAT(view.robot.Files(),
+              ::testing::UnorderedElementsAre(urdf, folder / "box.obj", folder / "box.mtl"));
+  EXPECT_THAT(view.ghost.Files(), ElementsAre(walk));
+  EXPECT_THAT(view.camera.Files(), ElementsAre(folder / "keys.yaml"));
+  EXPECT_THAT(ViewOptions().camera.Files(), ::testing::IsEmpty());
 }
 
 SceneState SceneAt(double secs, double ratio) {
@@ -66,8 +108,7 @@ SceneState SceneAt(double secs, double ratio) {
 }
 
 TEST(ShotPlanner, APlotShowsTheWholeClipThatWasSurveyedAndElseTheNewestSeconds) {
-  ViewOptions options;
-  options.plot = "l5_s1";
+  const auto options = testing::With<ViewOptions>({{"plot", "l5_s1"}});
   ShotPlanner surveyed(options), growing(options);
   for (int k = 0; k <= 40; ++k) surveyed.Survey(SceneAt(0.5 * k, 0.01 * k));
   for (int k = 0; k <= 40; ++k) {

@@ -15,7 +15,7 @@ using urdf::At;
 
 TEST(JointLoads, CarryEveryScoredJointWithItsReasonOrItsNumbers) {
   PersonState person = testing::MakePerson(testing::MakeModel(), testing::Posture(1), 5, 7);
-  person.loads[0].reason = "in the air";
+  person.loads[0].reason = "no foot contact";
   person.loads[0].load_class = LoadClass::kUnknown;
   person.loads[0].ratio = std::nan("");
   person.loads[1].ratio = 0.42;
@@ -34,7 +34,7 @@ TEST(JointLoads, CarryEveryScoredJointWithItsReasonOrItsNumbers) {
   EXPECT_EQ(unknown.level, JointLoad::UNKNOWN);
   EXPECT_FALSE(unknown.valid);
   EXPECT_TRUE(std::isnan(unknown.ratio));
-  EXPECT_EQ(unknown.reason, "in the air");
+  EXPECT_EQ(unknown.reason, "no foot contact");
   const auto& known = message.loads[1];
   EXPECT_EQ(known.joint, "jRightShoulder");
   EXPECT_TRUE(known.valid);

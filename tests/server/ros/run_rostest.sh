@@ -1,16 +1,16 @@
 #!/bin/sh
 # run_rostest.sh SETUP PYTHON ROSTEST FOLDER FILE: runs one *.test in the devel space of SETUP, on a free
-# UDP port and with a master of its own. FOLDER takes logs and results.
+# UDP port and with its own master. Logs and results go to FOLDER.
 set -eu
 setup=$1 python=$2 rostest=$3 folder=$4 file=$5
 mkdir -p "$folder"
 export ROS_HOME="$folder" ROS_LOG_DIR="$folder/log" ROS_TEST_RESULTS_DIR="$folder/results"
 export ROS_IP=127.0.0.1
 unset ROS_HOSTNAME ROS_MASTER_URI
-# catkin's setup asks `python3` on PATH, which may be one that has no catkin_pkg.
+# The setup script of catkin runs `python3` from PATH, which may not have catkin_pkg.
 PATH=$(dirname "$python"):$PATH
 set +u; . "$setup"; set -u
-# Below the range from which the kernel gives ports to whoever asks for any: until the suit takes it nobody else gets it.
+# The port is below the kernel's range of automatic ports, so no other program gets it before the suit opens it.
 port=$("$python" -c '
 import os, socket
 end = int(open("/proc/sys/net/ipv4/ip_local_port_range").read().split()[0])

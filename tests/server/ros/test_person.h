@@ -70,7 +70,7 @@ inline PersonState MakePerson(std::shared_ptr<const PersonModel> model,
   for (int joint = 0; joint < urdf::kJointCount; ++joint) {
     JointForce& force = person.forces.joints[static_cast<std::size_t>(joint)];
     force.moment = {1.0 + joint, -2.0, 0.5 * joint};
-    if (joint % 4 == 0) force.why_unknown = "in the air";
+    if (joint % 4 == 0) force.why_unknown = "no foot contact";
   }
   return person;
 }

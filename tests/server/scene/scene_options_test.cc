@@ -1,66 +1,52 @@
 #include "server/scene/scene_options.h"
 
-#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "core/errors.h"
-#include "server/app/serve/serve_options.h"
-#include "server/options/choose.h"
+#include "tests/server/options_testing.h"
 
 namespace kinescope::app {
 namespace {
 
-TEST(PipelineOptions, AssumeAMassOnlyWhenNoneIsGivenAndSaySo) {
-  PersonOptions person;
-  EXPECT_TRUE(ToSceneOptions(person, 0.5).body.mass_is_assumed);
-  EXPECT_EQ(ToSceneOptions(person, 0.5).body.mass_kg, 75);
-  person.sex = "female";
-  EXPECT_EQ(ToSceneOptions(person, 0.5).body.mass_kg, 62);
-  person.mass = 54;
-  EXPECT_EQ(ToSceneOptions(person, 0.5).body.mass_kg, 54);
-  EXPECT_FALSE(ToSceneOptions(person, 0.5).body.mass_is_assumed);
+using ::testing::AllOf;
+using testing::ErrorOfSetting;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+using testing::With;
+
+TEST(PersonOptions, AssumeAMassOnlyWhenNoneIsGiven) {
+  EXPECT_TRUE(ToBody(PersonOptions()).mass_is_assumed);
+  EXPECT_EQ(ToBody(PersonOptions()).mass_kg, 75);
+  EXPECT_EQ(ToBody(With<PersonOptions>({{"sex", "female"}})).mass_kg, 62);
+  const auto given = ToBody(With<PersonOptions>({{"sex", "female"}, {"mass", "54"}}));
+  EXPECT_EQ(given.mass_kg, 54);
+  EXPECT_FALSE(given.mass_is_assumed);
 }
 
-TEST(PipelineOptions, RefuseBodiesThatNobodyHas) {
-  for (const double mass : {0.0, -1.0, 5.0, 500.0, std::nan("")}) {
-    PersonOptions person;
-    person.mass = mass;
-    EXPECT_THROW(ToSceneOptions(person, 0.5), UsageError) << mass;
+TEST(PersonOptions, ReportWhatIsAssumed) {
+  EXPECT_TRUE(ToSceneOptions(PersonOptions()).body.sex_is_assumed);
+  EXPECT_TRUE(ToSceneOptions(PersonOptions()).height_is_assumed);
+  const auto scene = ToSceneOptions(With<PersonOptions>({{"sex", "male"}, {"height", "1.75"}}));
+  EXPECT_FALSE(scene.body.sex_is_assumed);
+  EXPECT_FALSE(scene.height_is_assumed);
+}
+
+TEST(PersonOptions, RejectBodiesOutsideTheLimits) {
+  for (const char* mass : {"0", "-1", "5", "500", "nan", "inf", "heavy", ""}) {
+    EXPECT_THAT(ErrorOfSetting<PersonOptions>("mass", mass),
+                AllOf(StartsWith("--mass=" + std::string(mass) + ": "), HasSubstr("20 to 300 kg")));
   }
-  PersonOptions person;
-  person.height = 17.5;
-  EXPECT_THROW(ToSceneOptions(person, 0.5), UsageError);
-  person = {};
-  person.sex = "other";
-  EXPECT_THROW(ToSceneOptions(person, 0.5), UsageError);
+  EXPECT_THAT(ErrorOfSetting<PersonOptions>("height", "17.5"), HasSubstr("0.5 to 2.5 m"));
+  EXPECT_THAT(ErrorOfSetting<PersonOptions>("sex", "femal"),
+              HasSubstr("expected male or female; nearest: female"));
+  EXPECT_THAT(ErrorOfSetting<PersonOptions>("body_table", "tailor"), HasSubstr("de_leva"));
 }
 
-TEST(PipelineOptions, SayWhatNobodyGave) {
-  PersonOptions person;
-  EXPECT_TRUE(ToSceneOptions(person, 0.5).body.sex_is_assumed);
-  EXPECT_TRUE(ToSceneOptions(person, 0.5).height_is_assumed);
-  person.sex = "male";
-  person.height = 1.75;
-  EXPECT_FALSE(ToSceneOptions(person, 0.5).body.sex_is_assumed);
-  EXPECT_FALSE(ToSceneOptions(person, 0.5).height_is_assumed);
-}
-
-std::string ErrorOf(const PersonOptions& person, const LoadOptions& loads) {
-  try {
-    ToSceneOptions(person, 0.5, loads);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
-TEST(PipelineOptions, ReadWhatIsWornWithCommasOrSemicolonsBetween) {
-  PersonOptions person;
-  person.body_table = "dumas";
-  person.extra_mass = "Head:1.5@0,0,0.12, t8:8;pelvis:0.7";
-  const urdf::BodyDescription body = ToBody(person);
+TEST(PersonOptions, TakeExtraMassesWithCommasOrSemicolonsBetween) {
+  const urdf::BodyDescription body = ToBody(With<PersonOptions>(
+      {{"body_table", "dumas"}, {"extra_mass", "Head:1.5@0,0,0.12, t8:8;pelvis:0.7"}}));
   EXPECT_EQ(body.table, urdf::BodyTable::kDumas);
   ASSERT_EQ(body.extra_masses.size(), 3U);
   EXPECT_EQ(body.extra_masses[0].segment, urdf::kHead);
@@ -70,17 +56,36 @@ TEST(PipelineOptions, ReadWhatIsWornWithCommasOrSemicolonsBetween) {
   EXPECT_EQ(body.extra_masses[2].segment, urdf::kPelvis);
 }
 
-TEST(PipelineOptions, ReadWhatLoadsAreComputedFrom) {
-  LoadOptions options;
-  EXPECT_FALSE(ToLoadSettings(options).hands.is_known);
-  options.capacity_factor = 0.8;
-  options.capacity_percentile = "5";
-  options.load_metric = "overload";
-  options.load_mode = "static";
-  options.hand = "right:5,left:2.5@0,0,-0.2";
-  options.filter_hz = 8;
-  options.lumbar_compression = "off";
-  const loads::LoadSettings settings = ToLoadSettings(options);
+TEST(PersonOptions, NameTheExtraMassThatIsWrong) {
+  for (const char* bad : {"head", "tail:1", "head:0", "head:-1", "head:nan", "head:500",
+                          "head:1@0,0,9", "head:1@0,0", ";", "head:1 t8:2"}) {
+    EXPECT_THAT(ErrorOfSetting<PersonOptions>("extra_mass", bad),
+                AllOf(StartsWith("--extra_mass=" + std::string(bad) + ": "), HasSubstr("expected"),
+                      Not(HasSubstr("\n"))));
+  }
+}
+
+TEST(PersonOptions, AModelNameFitsIntoNamesOfLinks) {
+  for (const char* good : {"skeleton", "anna_2", "Person1", "_"}) {
+    const auto person = With<PersonOptions>({{"model_name", good}, {"body_model", "primitive"}});
+    EXPECT_EQ(ToSceneOptions(person).model_name, good);
+  }
+  for (const char* bad : {"", "a b/", "/anna", "anna-2", "J\xC3\xBCrgen", "a.b"}) {
+    EXPECT_EQ(ErrorOfSetting<PersonOptions>("model_name", bad),
+              std::string("--model_name=") + bad + ": expected letters, digits and _");
+  }
+}
+
+TEST(LoadOptions, BecomeSettings) {
+  EXPECT_FALSE(ToLoadSettings(LoadOptions()).hands.is_known);
+  const loads::LoadSettings settings =
+      ToLoadSettings(With<LoadOptions>({{"capacity_factor", "0.8"},
+                                        {"capacity_percentile", "5"},
+                                        {"load_metric", "overload"},
+                                        {"load_mode", "static"},
+                                        {"hand_load", "right:5,left:2.5@0,0,-0.2"},
+                                        {"filter_hz", "8"},
+                                        {"lumbar_compression", "off"}}));
   EXPECT_EQ(settings.strength.factor, 0.8);
   EXPECT_EQ(settings.strength.percentile, loads::Percentile::k5);
   EXPECT_EQ(settings.metric, LoadMetric::kOverload);
@@ -91,104 +96,42 @@ TEST(PipelineOptions, ReadWhatLoadsAreComputedFrom) {
   EXPECT_EQ(settings.hands.mass_kg[urdf::kRight], 5);
   EXPECT_EQ(settings.hands.mass_kg[urdf::kLeft], 2.5);
   EXPECT_EQ(settings.hands.com_in_hand[urdf::kLeft], Eigen::Vector3d(0, 0, -0.2));
-  options.hand = "none";
-  EXPECT_TRUE(ToLoadSettings(options).hands.is_known);
+  EXPECT_TRUE(ToLoadSettings(With<LoadOptions>({{"hand_load", "none"}})).hands.is_known);
 }
 
-TEST(PipelineOptions, AModelNameIsOneThatFitsIntoNamesOfLinks) {
-  PersonOptions person;
-  person.figure = "primitive";
-  for (const char* good : {"skeleton", "anna_2", "Person1", "_"}) {
-    person.model_name = good;
-    EXPECT_EQ(ToSceneOptions(person, 0.5).model_name, good);
-  }
-  for (const char* bad : {"", "a b/", "/anna", "anna-2", "J\xC3\xBCrgen", "a.b"}) {
-    person.model_name = bad;
-    try {
-      ToSceneOptions(person, 0.5);
-      ADD_FAILURE() << "accepted '" << bad << "'";
-    } catch (const UsageError& error) {
-      EXPECT_EQ(error.what(),
-                std::string("--model_name=") + bad + ": expected letters, digits and _");
-    }
-  }
-}
-
-// Each refusal names the option, the value and what would be right.
-TEST(PipelineOptions, ReadClassLimitsWithRoomToFallBack) {
-  LoadOptions loads;
-  const auto defaults = ToLoadSettings(loads).classes;
+TEST(LoadOptions, ClassLimitsHaveRoomToFallBack) {
+  const auto defaults = ToLoadSettings(LoadOptions()).classes;
   EXPECT_EQ(defaults.up, loads::LoadClassifier::Settings().up);
   for (const std::size_t i : {0U, 1U}) {
     EXPECT_DOUBLE_EQ(defaults.down[i], loads::LoadClassifier::Settings().down[i]);
   }
-  loads.class_limits = "0.06, 0.9";
-  const auto classes = ToLoadSettings(loads).classes;
+  const auto classes = ToLoadSettings(With<LoadOptions>({{"class_limits", "0.06, 0.9"}})).classes;
   EXPECT_DOUBLE_EQ(classes.down[0], 0.05);
   EXPECT_DOUBLE_EQ(classes.down[1], 0.85);
   for (const char* bad :
        {"", "0.3", "0.6,0.3", "0,0.6", "0.3,nan", "0.3,60", "30 %,60 %", "1,2,3"}) {
-    loads.class_limits = bad;
-    EXPECT_THROW(ToLoadSettings(loads), UsageError) << bad;
+    EXPECT_THAT(ErrorOfSetting<LoadOptions>("class_limits", bad), HasSubstr("0.3,0.6"));
   }
 }
 
-TEST(PipelineOptions, RefuseLoadsThatMakeNoSense) {
-  const auto expect = [](const std::string& error, const std::string& option,
-                         const std::string& value) {
-    EXPECT_EQ(error.rfind("--" + option, 0), 0U) << error;
-    EXPECT_NE(error.find(value), std::string::npos) << error;
-    EXPECT_NE(error.find("expected"), std::string::npos) << error;
-    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+TEST(LoadOptions, AreRejectedWithTheirValueAndTheWholeRange) {
+  const auto expect = [](const char* name, const char* value) {
+    EXPECT_THAT(ErrorOfSetting<LoadOptions>(name, value),
+                AllOf(StartsWith("--" + std::string(name) + "=" + value + ": "),
+                      HasSubstr("expected"), Not(HasSubstr("\n"))));
   };
-  const auto person = [&](std::string PersonOptions::*option, const char* name, const char* value) {
-    PersonOptions bad;
-    bad.*option = value;
-    expect(ErrorOf(bad, {}), name, value);
-  };
-  const auto load = [&](std::string LoadOptions::*option, const char* name, const char* value) {
-    LoadOptions bad;
-    bad.*option = value;
-    expect(ErrorOf({}, bad), name, value);
-  };
-  person(&PersonOptions::body_table, "body_table", "tailor");
-  for (const char* bad : {"head", "tail:1", "head:0", "head:-1", "head:nan", "head:500",
-                          "head:1@0,0,9", "head:1@0,0", "head:1,", ";", "head:1 t8:2"}) {
-    person(&PersonOptions::extra_mass, "extra_mass", bad);
-  }
-  load(&LoadOptions::capacity_percentile, "capacity_percentile", "42");
-  load(&LoadOptions::load_metric, "load_metric", "most");
-  load(&LoadOptions::load_mode, "load_mode", "quick");
-  load(&LoadOptions::lumbar_compression, "lumbar_compression", "maybe");
+  expect("capacity_percentile", "42");
+  expect("load_metric", "most");
+  expect("load_mode", "quick");
+  expect("lumbar_compression", "maybe");
   for (const char* bad :
        {"right", "tail:5", "right:500", "right:-5", "right:nan", "both:1@0,0,0", "right:5@0,0,9"}) {
-    load(&LoadOptions::hand, "hand", bad);
+    expect("hand_load", bad);
   }
-  for (const double bad : {0.0, -1.0, 50.0, std::nan("")}) {
-    LoadOptions options;
-    options.capacity_factor = bad;
-    expect(ErrorOf({}, options), "capacity_factor", fmt::format("{}", bad));
-    options = {};
-    options.filter_hz = bad;
-    expect(ErrorOf({}, options), "filter_hz", fmt::format("{}", bad));
+  for (const char* bad : {"0", "-1", "50", "nan", "1e400", "0x1"}) {
+    expect("capacity_factor", bad);
+    expect("filter_hz", bad);
   }
-}
-
-TEST(PipelineOptions, ReadSizes) {
-  EXPECT_EQ(ToSize("size", "1280x720"), std::make_pair(1280, 720));
-  for (const char* bad : {"", "1280", "x", "1280x", "x720", "1280x720p", "0x0", "1000000x2", "-5x7",
-                          "99999999999999x1"}) {
-    EXPECT_THROW(ToSize("size", bad), UsageError) << bad;
-  }
-}
-
-TEST(PipelineOptions, ReadModesAndSwitches) {
-  EXPECT_EQ(ToRosMode("off"), ros_bridge::RosMode::kOff);
-  EXPECT_THROW(ToRosMode("maybe"), UsageError);
-  EXPECT_EQ(ToStamps("arrival"), mvn::Stamps::kArrival);
-  EXPECT_THROW(ToStamps("sender"), UsageError);
-  EXPECT_TRUE(ToSwitch("pictures", "on"));
-  EXPECT_THROW(ToSwitch("pictures", "yes"), UsageError);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST(SceneReader, NamesTheBadSourceAndEveryKindThatThereIs) {
     const std::string error = SceneReaderError(bad);
     EXPECT_THAT(error, HasSubstr("'" + std::string(bad) + "'"));
     for (const char* kind : {"udp://", "tcp://", "MVNX", "pcap", ".bin", "ROS bag",
-                             "ros:", "demo:lift", "demo:walk"}) {
+                             "ros:", "demo:", "lift", "walk", "overhead"}) {
       EXPECT_THAT(error, HasSubstr(kind)) << "for '" << bad << "'";
     }
   }

@@ -37,19 +37,20 @@ TEST(GoldenObjects, ComeBackFromTheirFile) {
 TEST(GoldenObjects, NameTheJointWhoseClassHasChanged) {
   EXPECT_THAT(FindObjectChanges({Sphere("right_elbow", LoadClass::kLow, 0.299)},
                                 {Sphere("right_elbow", LoadClass::kMedium, 0.301)}),
-              ElementsAre("right_elbow: expected low (green), is medium (orange)"));
+              ElementsAre("right_elbow: expected low (green), found medium (orange)"));
 }
 
 TEST(GoldenObjects, NameWhatIsGoneNewMovedOrUnknown) {
   SphereInPicture moved = Sphere("l5_s1", LoadClass::kLow, 0.1);
   moved.x_px += 3;
   SphereInPicture silent = Sphere("left_hip", LoadClass::kLow, NAN);
-  EXPECT_THAT(FindObjectChanges(
-                  {Sphere("l5_s1", LoadClass::kLow, 0.1), Sphere("left_hip", LoadClass::kLow, 0.1),
-                   Sphere("left_knee", LoadClass::kLow, 0.1)},
-                  {moved, silent, Sphere("t9_t8", LoadClass::kHigh, 0.9)}),
-              ElementsAre("l5_s1: moved by 3.0 px", "left_hip: its load is not known now",
-                          "left_knee: its sphere is gone", "t9_t8: a new sphere, high (red)"));
+  EXPECT_THAT(
+      FindObjectChanges(
+          {Sphere("l5_s1", LoadClass::kLow, 0.1), Sphere("left_hip", LoadClass::kLow, 0.1),
+           Sphere("left_knee", LoadClass::kLow, 0.1)},
+          {moved, silent, Sphere("t9_t8", LoadClass::kHigh, 0.9)}),
+      ElementsAre("l5_s1: moved by 3.0 px", "left_hip: its load is now unknown",
+                  "left_knee: load sphere is missing", "t9_t8: new load sphere, high (red)"));
 }
 
 TEST(GoldenObjects, SayWhichFileIsBroken) {

@@ -123,7 +123,7 @@ TEST(LoadFigures, AxesSayWhatAndInWhichUnit) {
   for (std::size_t joint = 0; joint < urdf::kScoredJoints.size(); ++joint) {
     const Figure figure = JointFigure(trial, TrialContext(), joint);
     EXPECT_EQ(figure.panels[0].y_label, "load ratio");
-    EXPECT_EQ(figure.panels[1].y_label, "moment (N m)");
+    EXPECT_EQ(figure.panels[1].y_label, "moment (N·m)");
     EXPECT_EQ(figure.panels.back().x_label, "time (s)");
     EXPECT_TRUE(figure.panels.back().has_x_numbers);
     for (std::size_t i = 0; i + 1 < figure.panels.size(); ++i) {
@@ -198,7 +198,7 @@ TEST(LoadFigures, CurvesAreBrokenWhereSamplesAreMissingAndTheGapIsHatched) {
     EXPECT_NEAR(panel.gaps[0].from, 1.5, 1e-9) << "a sample counts for half a second";
     EXPECT_NEAR(panel.gaps[0].to, 3, 1e-9);
   }
-  EXPECT_THAT(TextsOf(figure), ::testing::Contains("not known: no samples"));
+  EXPECT_THAT(TextsOf(figure), ::testing::Contains("unknown: no samples"));
 }
 
 TEST(LoadFigures, AStepOfLessThanHalfASecondIsNoGap) {
@@ -208,13 +208,13 @@ TEST(LoadFigures, AStepOfLessThanHalfASecondIsNoGap) {
   const Figure figure = JointFigure(trial, TrialContext(), kElbowIndex);
   EXPECT_THAT(DrawnParts(figure.panels[0].curves[0]), SizeIs(1));
   EXPECT_THAT(figure.panels[0].gaps, IsEmpty());
-  EXPECT_THAT(TextsOf(figure), Each(::testing::Not(HasSubstr("not known"))));
+  EXPECT_THAT(TextsOf(figure), Each(::testing::Not(HasSubstr("unknown"))));
 }
 
 TEST(LoadFigures, WhatIsNotKnownIsNotDrawnAndSaysWhy) {
   LoadTrial trial(true, 0);
   AddRatios(trial, 0, 1, 0.2);
-  AddRatios(trial, 1.01, 2, std::numeric_limits<double>::quiet_NaN(), "in the air");
+  AddRatios(trial, 1.01, 2, std::numeric_limits<double>::quiet_NaN(), "no foot contact");
   AddRatios(trial, 2.01, 3, 0.2);
   const Figure figure = JointFigure(trial, TrialContext(), kElbowIndex);
   const auto parts = DrawnParts(figure.panels[0].curves[0]);
@@ -223,7 +223,7 @@ TEST(LoadFigures, WhatIsNotKnownIsNotDrawnAndSaysWhy) {
   EXPECT_NEAR(parts[1].first, 2.01, 1e-9);
   ASSERT_THAT(figure.panels[0].gaps, SizeIs(1));
   EXPECT_NEAR(figure.panels[0].gaps[0].from, 1.01, 1e-9);
-  EXPECT_THAT(TextsOf(figure), ::testing::Contains("not known: in the air (1.00 s)"));
+  EXPECT_THAT(TextsOf(figure), ::testing::Contains("unknown: no foot contact (1.00 s)"));
   const auto& strip = figure.panels[0].strip;
   ASSERT_THAT(strip, SizeIs(3));
   EXPECT_EQ(strip[0].load_class, LoadClass::kLow);

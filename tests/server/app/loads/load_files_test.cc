@@ -148,7 +148,7 @@ TEST(LoadFiles, TimesKeepTheirMicrosecondsForHours) {
 
 TEST(LoadFiles, WhatIsNotKnownIsEmptyInCsvAndNullInJsonAndNeverANumber) {
   const auto add = [](LoadFile& file) {
-    PersonState person = SceneWithRatio(1, kNoRatioInFile, "in the air").people[0];
+    PersonState person = SceneWithRatio(1, kNoRatioInFile, "no foot contact").people[0];
     person.loads[1].ratio = std::numeric_limits<double>::infinity();
     file.Add(person, 0);
   };
@@ -157,7 +157,7 @@ TEST(LoadFiles, WhatIsNotKnownIsEmptyInCsvAndNullInJsonAndNeverANumber) {
     const std::string joint(ScoredName(i));
     EXPECT_EQ(table.At(0, joint + "_ratio"), "");
     EXPECT_EQ(table.At(0, joint + "_class"), "unknown");
-    EXPECT_EQ(table.At(0, joint + "_reason"), "in the air");
+    EXPECT_EQ(table.At(0, joint + "_reason"), "no foot contact");
   }
   for (const char* name : {"cop_x_m", "com_minus_mvn_y_m", "margin_of_stability_m", "l5_s1_shear_N",
                            "metric_reason"}) {
@@ -172,13 +172,13 @@ TEST(LoadFiles, WhatIsNotKnownIsEmptyInCsvAndNullInJsonAndNeverANumber) {
 TEST(LoadFiles, ForcesOfAGroundThatIsNotKnownAreNotZeroButEmpty) {
   const CsvTable table(CsvOf(Layout::kWide, [](LoadFile& file) {
     file.Add(LiftingPersonWith([](PersonState& person) {
-               person.forces.why_no_ground = "in the air";
+               person.forces.why_no_ground = "no foot contact";
                person.forces.ground_force = Eigen::Vector3d::Zero();
              }),
              0);
   }));
   EXPECT_EQ(table.At(0, "ground_force_z_N"), "");
-  EXPECT_EQ(table.At(0, "ground_reason"), "in the air");
+  EXPECT_EQ(table.At(0, "ground_reason"), "no foot contact");
 }
 
 TEST(LoadFiles, TextsWithCommasQuotesAndLineBreaksComeBackAsTheyWere) {

@@ -54,7 +54,7 @@ TEST(LoadSummary, TellsWhatWasGivenFromWhatIsAssumed) {
   EXPECT_EQ(assumed.at("sex"), "male (assumed)");
   EXPECT_EQ(assumed.at("mass"), "75 kg (assumed)");
   EXPECT_EQ(assumed.at("stature"), "1.68 m (assumed)");
-  EXPECT_EQ(assumed.at("in the hands"), "nothing (assumed)");
+  EXPECT_EQ(assumed.at("hand load"), "nothing (assumed)");
 
   urdf::BodyDescription body;
   body.sex = urdf::Sex::kFemale;
@@ -72,11 +72,12 @@ TEST(LoadSummary, TellsWhatWasGivenFromWhatIsAssumed) {
   EXPECT_EQ(given.at("sex"), "female");
   EXPECT_EQ(given.at("mass"), "61.5 kg");
   EXPECT_EQ(given.at("stature"), "1.68 m");
-  EXPECT_EQ(given.at("in the hands"), "5 kg right, 2.5 kg left, 10 kg with both");
-  EXPECT_EQ(given.at("worn"), "1.5 kg on head, 8 kg on t8");
-  EXPECT_EQ(given.at("ratio of"), "total moment to the 5th percentile of strength x 0.8");
+  EXPECT_EQ(given.at("hand load"), "5 kg right, 2.5 kg left, 10 kg both hands");
+  EXPECT_EQ(given.at("added mass"), "1.5 kg on head, 8 kg on t8");
+  EXPECT_EQ(given.at("load metric"),
+            "total moment relative to the 5th percentile of capacity x 0.8");
   EXPECT_EQ(FactTexts(TrialOfBody({}, true), TrialContext()).at("stature"),
-            "1.68 m (from the recording)");
+            "1.68 m (from the source)");
 }
 
 TEST(LoadSummary, SaysWhetherAccelerationsTookPart) {
@@ -85,9 +86,10 @@ TEST(LoadSummary, SaysWhetherAccelerationsTookPart) {
   scene.people[0].forces.is_dynamic = true;
   LoadTrial dynamic(false, 0);
   AddTo(dynamic, scene);
-  EXPECT_THAT(FactTexts(dynamic, context).at("accelerations"), HasSubstr("in, below "));
+  EXPECT_THAT(FactTexts(dynamic, context).at("load mode"),
+              HasSubstr("dynamic, accelerations below "));
   context.scene.loads.motion.dynamic = false;
-  EXPECT_EQ(FactTexts(dynamic, context).at("accelerations"), "left out: static");
+  EXPECT_EQ(FactTexts(dynamic, context).at("load mode"), "static");
 }
 
 TEST(LoadSummary, JointsThatAreUnknownForTheSameReasonAreOneNote) {
@@ -98,13 +100,14 @@ TEST(LoadSummary, JointsThatAreUnknownForTheSameReasonAreOneNote) {
       JointLoad& load = scene.people[0].loads[joint];
       load.ratio = kNoRatioInSummary;
       load.load_class = LoadClass::kUnknown;
-      load.reason = i < 30 ? "in the air" : "";
+      load.reason = i < 30 ? "no foot contact" : "";
     }
     AddTo(trial, scene);
   }
-  EXPECT_THAT(NotesOf(trial, {}),
-              Contains("Not known for 75 % of the time (3.00 s): Right hip, Left hip. Why: in the "
-                       "air."));
+  EXPECT_THAT(
+      NotesOf(trial, {}),
+      Contains(
+          "Load unknown for 75 % of the time (3.00 s): Right hip, Left hip (no foot contact)."));
 }
 
 TEST(LoadSummary, TheTableHasALineForEveryJointAndDashesForWhatIsNotKnown) {
@@ -136,7 +139,7 @@ TEST(LoadSummary, TheTableHasALineForEveryJointAndDashesForWhatIsNotKnown) {
   EXPECT_THAT(
       lines["Right elbow    "],
       ::testing::ElementsAre("50", "%", "0", "%", "0", "%", "50", "%", "0.20", "0.20", "0.20",
-                             "0.20", "0.00", "s", "flexion", "12.3", "of", "61.7", "N", "m"));
+                             "0.20", "0.00", "s", "flexion", "12.3", "of", "61.7", "N·m"));
   EXPECT_THAT(lines["Left elbow     "], ::testing::ElementsAre("0", "%", "0", "%", "0", "%", "100",
                                                                "%", "-", "-", "-", "-", "-"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
@@ -145,7 +148,7 @@ TEST(LoadSummary, TheTableHasALineForEveryJointAndDashesForWhatIsNotKnown) {
 TEST(LoadSummary, JsonHasNullForWhatIsNotKnownAndParses) {
   LoadTrial trial(false, 0);
   for (int i = 0; i <= 10; ++i)
-    AddTo(trial, SceneWithRatio(0.1 * i, kNoRatioInSummary, "in the air"));
+    AddTo(trial, SceneWithRatio(0.1 * i, kNoRatioInSummary, "no foot contact"));
   const auto json = nlohmann::json::parse(SummaryJson(trial, {}).dump());
   ASSERT_EQ(json.at("exposure").size(), 15U);
   for (std::size_t i = 0; i < 15; ++i) {
@@ -156,7 +159,7 @@ TEST(LoadSummary, JsonHasNullForWhatIsNotKnownAndParses) {
       EXPECT_TRUE(joint.at(key).is_null()) << key;
     }
     EXPECT_NEAR(joint.at("seconds").at("unknown").get<double>(), 1, 1e-9);
-    EXPECT_NEAR(joint.at("unknown").at("in the air").get<double>(), 1, 1e-9);
+    EXPECT_NEAR(joint.at("unknown").at("no foot contact").get<double>(), 1, 1e-9);
   }
   for (const char* key : {"com_minus_mvn_m", "l5_s1_compression_N", "l5_s1_shear_N"}) {
     EXPECT_TRUE(json.at(key).is_null()) << key;

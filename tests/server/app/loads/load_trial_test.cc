@@ -49,15 +49,17 @@ TEST(LoadTrial, KeepsThePeakOfALongTrial) {
 
 TEST(LoadTrial, ShowsNoMomentOfLoadsThatAreNotKnown) {
   LoadTrial trial(false, 0);
-  for (int i = 0; i <= 100; ++i) AddTo(trial, SceneWithRatio(0.01 * i, std::nan(""), "in the air"));
+  for (int i = 0; i <= 100; ++i) {
+    AddTo(trial, SceneWithRatio(0.01 * i, std::nan(""), "no foot contact"));
+  }
   EXPECT_TRUE(trial.Worst(3).empty());
   EXPECT_FALSE(trial.knows_anything());
   ASSERT_EQ(trial.why_unknown(0).size(), 1U);
-  EXPECT_NEAR(trial.why_unknown(0).at("in the air"), 1, 1e-9);
+  EXPECT_NEAR(trial.why_unknown(0).at("no foot contact"), 1, 1e-9);
   const std::vector<std::string> notes = NotesOf(trial, TrialContext());
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
     return note.find("100 % of the time (1.00 s)") != std::string::npos &&
-           note.find("in the air") != std::string::npos;
+           note.find("no foot contact") != std::string::npos;
   }));
 }
 

@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "core/errors.h"
 #include "tests/temp_folder.h"
 
@@ -26,19 +24,13 @@ TEST(PathOfPicture, NumbersAsFfmpegAndBlenderDo) {
   EXPECT_EQ(PathOfPicture("%", 3), "%");
 }
 
-TEST(SplitCameras, LeavesNumbersWithTheirCamera) {
-  EXPECT_THAT(SplitCameras("front,top"), ElementsAre("front", "top"));
-  EXPECT_THAT(SplitCameras("orbit:30,-20,iso"), ElementsAre("orbit:30,-20", "iso"));
-  EXPECT_THAT(SplitCameras("orbit(30,a),iso"), ElementsAre("orbit(30,a)", "iso"));
-  EXPECT_THAT(SplitCameras("front"), ElementsAre("front"));
-}
-
 TEST(PlanOutputs, IsEverySourceWithEveryNameAndCamera) {
   const testing::TempFolder folder;
   RenderOptions options;
-  options.sources = {"demo:lift", "takes/one.mvnx.gz"};
-  options.outs = {folder / "{source} {camera}.mp4", folder / "{camera}-{source}-%d.png"};
-  options.view.camera = "front,top";
+  options.sources = std::vector<std::string>{"demo:lift", "takes/one.mvnx.gz"};
+  options.outs = std::vector<std::string>{folder / "{source} {camera}.mp4",
+                                          folder / "{camera}-{source}-%d.png"};
+  options.view.camera.Parse("front,top");
   const std::vector<SourcePlan> plans = PlanOutputs(options);
   ASSERT_EQ(plans.size(), 2u);
   EXPECT_EQ(plans[1].source, "takes/one.mvnx.gz");
@@ -58,8 +50,8 @@ TEST(PlanOutputs, SaysWhatTellsTwoOutputsApart) {
                            const std::string& out) -> std::string {
     RenderOptions options;
     options.sources = std::move(sources);
-    options.view.camera = camera;
-    options.outs = {folder / out};
+    options.view.camera.Parse(camera);
+    options.outs = std::vector<std::string>{folder / out};
     try {
       PlanOutputs(options);
     } catch (const UsageError& error) {
@@ -78,8 +70,8 @@ TEST(PlanOutputs, RefusesWhatNothingWouldHeed) {
   const testing::TempFolder folder;
   const auto refuses = [&](const std::string& out, auto&& change) {
     RenderOptions options;
-    options.sources = {"demo:lift"};
-    options.outs = {out[0] == '/' ? out : (folder / out).string()};
+    options.sources = std::vector<std::string>{"demo:lift"};
+    options.outs = std::vector<std::string>{out[0] == '/' ? out : (folder / out).string()};
     change(options);
     try {
       PlanOutputs(options);
@@ -94,10 +86,10 @@ TEST(PlanOutputs, RefusesWhatNothingWouldHeed) {
     EXPECT_TRUE(refuses(out, as_is)) << out;
   }
   EXPECT_TRUE(refuses(folder.path(), as_is)) << "a folder";
-  const auto time = [](RenderOptions& o) { o.moment.time = 1; };
-  const auto both = [](RenderOptions& o) { o.moment.time = 1, o.moment.frame = 1; };
-  const auto start = [](RenderOptions& o) { o.clip.start = 1; };
-  const auto crf = [](RenderOptions& o) { o.pack.crf = 20; };
+  const auto time = [](RenderOptions& o) { o.moment.time = 1.0; };
+  const auto both = [](RenderOptions& o) { o.moment.time = 1.0, o.moment.frame = 1L; };
+  const auto start = [](RenderOptions& o) { o.clip.start = 1.0; };
+  const auto crf = [](RenderOptions& o) { o.pack.crf = 20L; };
   EXPECT_FALSE(refuses("a.png", time));
   EXPECT_TRUE(refuses("a.png", both));
   EXPECT_TRUE(refuses("a.png", start));
@@ -105,14 +97,13 @@ TEST(PlanOutputs, RefusesWhatNothingWouldHeed) {
   EXPECT_FALSE(refuses("a%d.png", start));
   EXPECT_FALSE(refuses("a.webm", crf));
   EXPECT_TRUE(refuses("a.gif", crf));
-  const auto quality = [](RenderOptions& o) { o.pack.quality = 50; };
+  const auto quality = [](RenderOptions& o) { o.pack.quality = 50L; };
   EXPECT_FALSE(refuses("a.webp", quality));
   EXPECT_TRUE(refuses("a.png", quality));
   EXPECT_TRUE(refuses("a.gif", quality));
-  for (const double never : {-1.0, 864'001.0, 1e300, std::nan("")}) {
-    EXPECT_TRUE(refuses("a.png", [&](RenderOptions& o) { o.moment.time = never; })) << never;
-  }
-  EXPECT_TRUE(refuses("a.mp4", [](RenderOptions& o) { o.outs.push_back(o.outs[0]); }));
+  EXPECT_TRUE(refuses("a.mp4", [](RenderOptions& o) {
+    o.outs = std::vector<std::string>{o.outs->front(), o.outs->front()};
+  }));
 }
 
 }  // namespace

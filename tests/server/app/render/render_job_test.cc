@@ -28,10 +28,10 @@ using kinescope::testing::WithDeadline;
 
 RenderOptions SmallJob(const std::string& source, const std::vector<std::string>& outs) {
   RenderOptions options;
-  options.sources = {source};
+  options.sources = std::vector<std::string>{source};
   options.outs = outs;
-  options.view.size = "16x16";
-  options.person.figure = "primitive";
+  options.view.size = {16, 16};
+  options.person.figure.Parse("primitive");
   return options;
 }
 
@@ -48,8 +48,8 @@ TEST(RenderJob, AnyNumberOfStillsNeedsRoomForOnePictureAlone) {
     const TempFolder folder;
     RenderOptions options =
         SmallJob("demo:lift", {folder / "{camera}.png", folder / "{camera}_again.png"});
-    options.view.camera = "front,back,left,right,top,iso,three_quarter";
-    options.moment.overlay_layer = layer;
+    options.view.camera.Parse("front,back,left,right,top,iso,three_quarter");
+    if (*layer != '\0') options.moment.overlay_layer.Parse(layer);
     std::vector<OutputResult> results;
     WithDeadline([&] { results = RenderFaked(options, 1); });
     ASSERT_EQ(results.size(), 14u);
@@ -72,7 +72,7 @@ TEST(RenderJob, StillsBesideAClipNeedNoMoreRoom) {
   const TempFolder folder;
   RenderOptions options =
       SmallJob("demo:lift", {folder / "{camera}.png", folder / "{camera}_%02d.png"});
-  options.view.camera = "front,left,top";
+  options.view.camera.Parse("front,left,top");
   options.moment.time = 0.05;
   options.clip.seconds = 0.1;
   WithDeadline([&] { RenderFaked(options, 1); });
@@ -83,7 +83,7 @@ TEST(RenderJob, ALayerThatCannotBeWrittenLeavesNoPictureWithoutIt) {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "a.svg");
   RenderOptions options = SmallJob("demo:lift", {folder / "a.png"});
-  options.moment.overlay_layer = "svg";
+  options.moment.overlay_layer.Parse("svg");
   EXPECT_THROW(RenderFaked(options, 2), std::runtime_error);
   EXPECT_THAT(folder.Names(), ::testing::ElementsAre("a.svg"));
 }
@@ -91,8 +91,8 @@ TEST(RenderJob, ALayerThatCannotBeWrittenLeavesNoPictureWithoutIt) {
 TEST(RenderJob, AGhostOfARecordingLooksAsThePersonDoes) {
   const TempFolder folder;
   RenderOptions options = SmallJob("demo:lift", {folder / "a.png"});
-  options.view.ghost = "demo:walk@0.5";
-  options.person.model_name = "anna";
+  options.view.ghost.Parse("demo:walk@0.5");
+  options.person.model_name.Parse("anna");
   options.person.height = 1.6;
   int drawn = 0;
   RenderFaked(options, 2, [&](const auto&, const SceneState& state, const auto&, const auto& view) {

@@ -33,7 +33,7 @@ class PictureLoopTest : public ::testing::Test {
  protected:
   void Start(double rate_hz, const std::string& camera = "front") {
     PictureOptions options;
-    options.camera = camera;
+    options.camera = ParseCamera(camera);
     options.width = 96;
     options.height = 64;
     options.rate_hz = rate_hz;
@@ -179,7 +179,7 @@ TEST_F(PictureLoopTest, ASnapshotThatCannotBeIsAnErrorOfItsOwnAndNoOnesElse) {
   try {
     loop_->SnapshotPng("upside_down", 64, 48);
     FAIL() << "a camera that does not exist";
-  } catch (const UsageError& error) {
+  } catch (const options::BadValue& error) {
     EXPECT_THAT(error.what(), HasSubstr("upside_down"));
   }
   EXPECT_EQ(loop_->status().last_error, "");
@@ -189,7 +189,7 @@ TEST_F(PictureLoopTest, ASnapshotThatCannotBeIsAnErrorOfItsOwnAndNoOnesElse) {
 }
 
 TEST_F(PictureLoopTest, RefusesACameraThatThereIsNot) {
-  EXPECT_THROW(Start(kAtOnce, "upside_down"), UsageError);
+  EXPECT_THROW(Start(kAtOnce, "upside_down"), options::BadValue);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ class PictureProblems : public ::testing::Test {
  protected:
   PictureProblems()
       : first_(std::make_shared<const SceneState>(Scene())),
-        drawing_({"front", 64, 64, 30, {}}, first_, pictures_),
+        drawing_({ParseCamera("front"), 64, 64, 30, {}, {}}, first_, pictures_),
         server_(Config(), states_, pictures_, &drawing_,
                 [this] { return DiagnosticsJson(first_, nullptr, {}, drawing_.status()); }) {}
 
@@ -74,7 +74,7 @@ TEST_F(PictureProblems, OfARobotWithoutItsMeshAreNamedInTheStatusWhileItIsThere)
   with_robot.robots.push_back(Robot("package://arm_description/meshes/hand.stl"));
   const auto problems = ProblemsWith(with_robot).get<std::vector<std::string>>();
   EXPECT_THAT(problems, ElementsAre(AllOf(HasSubstr("package://arm_description/meshes/hand.stl"),
-                                          HasSubstr("'arm_description' is not found"))));
+                                          HasSubstr("'arm_description' was not found"))));
   EXPECT_EQ(ProblemsWith(Scene()), nlohmann::json::array()) << "the robot has left";
 }
 

@@ -371,7 +371,7 @@ TEST(Pcap, EndsWhereTheFileIsCutInsideAPacket) {
       if (size == shorter.size()) {
         EXPECT_EQ(said, "") << "that one is whole";
       } else {
-        EXPECT_THAT(said, AllOf(HasSubstr("test.pcap"), HasSubstr("1 packets before")));
+        EXPECT_THAT(said, AllOf(HasSubstr("test.pcap"), HasSubstr("1 complete packets")));
         EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
       }
     }
@@ -404,8 +404,9 @@ TEST(Pcap, TakesNoPacketWhoseLengthsLie) {
 
 TEST(Pcap, RefusesWhatIsNoCaptureOrNoNetworkOfIp) {
   EXPECT_THAT(ErrorOf("this is no capture at all, but a text that is long enough"),
-              AllOf(HasSubstr("test.pcap: no capture"), HasSubstr("capinfos")));
-  EXPECT_THAT(ErrorOf(PcapBuilder(kLinkRaw).bytes().substr(0, 20)), HasSubstr("no capture"));
+              AllOf(HasSubstr("test.pcap: not a readable capture file"), HasSubstr("capinfos")));
+  EXPECT_THAT(ErrorOf(PcapBuilder(kLinkRaw).bytes().substr(0, 20)),
+              HasSubstr("not a readable capture file"));
   EXPECT_THAT(ErrorOf(PcapBuilder(kLinkWifi).bytes()),
               AllOf(HasSubstr("IEEE802_11"), HasSubstr("expected Ethernet")));
 }
@@ -414,7 +415,7 @@ TEST(Pcap, SaysAfterHowManyPacketsAFileIsDamaged) {
   std::string file = PcapBuilder(kLinkRaw).Add(kNoon, Udp(kSuit, kUs, Pose(1))).bytes();
   const std::string header_of_a_giant = FromHex("60000000 00000000 7fffffff 7fffffff");
   EXPECT_THAT(ErrorOf(file + header_of_a_giant + "x"),
-              AllOf(HasSubstr("test.pcap: the capture breaks off after 1 packets"),
+              AllOf(HasSubstr("test.pcap: the capture is truncated after 1 packets"),
                     HasSubstr("record or copy it again")));
 }
 
@@ -455,7 +456,7 @@ TEST(Pcap, SaysSoWhenThereIsNothingOfMvnInIt) {
       PcapBuilder(kLinkEthernet).Add(kNoon, Ethernet(Udp(kSuit, Ipv4(1, 53), "a name"))).bytes());
   EXPECT_THAT(reading.sink.datagrams, IsEmpty());
   EXPECT_THAT(::testing::internal::GetCapturedStdout(),
-              AllOf(HasSubstr("no MVN datagram among its 1 packets"), HasSubstr("port")));
+              AllOf(HasSubstr("1 packets, but no MVN datagram"), HasSubstr("port")));
 }
 
 }  // namespace

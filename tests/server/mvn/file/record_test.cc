@@ -187,7 +187,7 @@ TEST(PcapWriter, ReplacesNothingWithoutBeingForced) {
 TEST(PcapWriter, SaysWhyAFileCannotBeCreated) {
   TempFolder folder;
   EXPECT_THAT(ErrorOf([&] { PcapWriter({folder / "none/take.pcap"}); }),
-              AllOf(HasSubstr("none/take.pcap"), HasSubstr("make its folder first")));
+              AllOf(HasSubstr("none/take.pcap"), HasSubstr("create its folder first")));
   EXPECT_THAT(ErrorOf([&] { PcapWriter({folder.path()}); }), HasSubstr("is a folder"));
 }
 

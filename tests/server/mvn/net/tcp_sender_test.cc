@@ -154,7 +154,8 @@ TEST(TcpSender, SaysWhereItCannotSend) {
   EXPECT_THAT(ErrorOf([] { OpenSender("tcp://no.such.host.invalid:1"); }),
               HasSubstr("check the name"));
   const Listener listener;
-  EXPECT_THAT(ErrorOf([&] { OpenSender(listener.url() + "?listen"); }), HasSubstr("is taken"));
+  EXPECT_THAT(ErrorOf([&] { OpenSender(listener.url() + "?listen"); }),
+              HasSubstr("is already in use"));
 }
 
 TEST(TcpStream, GivesEverySampleOfASenderOnce) {

@@ -33,7 +33,7 @@ TEST(TcpDatagrams, SayWhoCouldHoldATakenPort) {
   const std::string port = std::to_string(first.port());
   EXPECT_EQ(first.description(), "tcp://127.0.0.1:" + port);
   EXPECT_THAT(ErrorOf([&first] { TcpDatagrams second(first.description() + "?listen"); }),
-              AllOf(HasSubstr("port " + port + " is taken"), HasSubstr("ss -tlpn"),
+              AllOf(HasSubstr("port " + port + " is already in use"), HasSubstr("ss -tlpn"),
                     HasSubstr("choose another port")));
   EXPECT_THAT(ErrorOf([] { OpenTcpDatagrams("tcp://203.0.113.1:0?listen"); }),
               AllOf(HasSubstr("not an address of this machine"), HasSubstr("tcp://:0")));

@@ -31,7 +31,7 @@ TEST(UdpDatagrams, SayWhoCouldHoldATakenPort) {
   const std::string port = std::to_string(first.port());
   EXPECT_EQ(first.description(), "udp://127.0.0.1:" + port);
   EXPECT_THAT(ErrorOf([&first] { UdpDatagrams second(first.description()); }),
-              AllOf(HasSubstr("port " + port + " is taken"), HasSubstr("ss -ulpn"),
+              AllOf(HasSubstr("port " + port + " is already in use"), HasSubstr("ss -ulpn"),
                     HasSubstr("choose another port")));
 }
 
@@ -39,7 +39,7 @@ TEST(UdpDatagrams, NameAnAddressTheyCannotListenOn) {
   EXPECT_THAT(ErrorOf([] { OpenUdpDatagrams("udp://203.0.113.1:0"); }),
               AllOf(HasSubstr("203.0.113.1"), HasSubstr("not an address of this machine")));
   EXPECT_THAT(ErrorOf([] { OpenUdpDatagrams("udp://no.such.host:0"); }),
-              AllOf(HasSubstr("'no.such.host'"), HasSubstr("in numbers")));
+              AllOf(HasSubstr("'no.such.host'"), HasSubstr("numeric address")));
 }
 
 TEST(UdpDatagrams, ListenEverywhereWithALargeBuffer) {
@@ -145,7 +145,7 @@ TEST(UdpDatagrams, AreCountedWhereTheKernelDroppedThem) {
 }
 
 TEST(UdpSender, SaysWhereItCannotSend) {
-  EXPECT_THAT(ErrorOf([] { OpenSender("udp://:9763"); }), HasSubstr("no host to send to"));
+  EXPECT_THAT(ErrorOf([] { OpenSender("udp://:9763"); }), HasSubstr("the host is missing"));
   EXPECT_THAT(ErrorOf([] { OpenSender("udp://127.0.0.1:0"); }), HasSubstr("port 0"));
   EXPECT_THAT(ErrorOf([] { OpenSender("out.pcap"); }), HasSubstr("udp://host:port"));
 }

@@ -1,0 +1,229 @@
+// The one place that knows CLI11.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/errors.h"
+#include "server/app/command.h"
+#include "server/options/yaml_options.h"
+
+namespace kinescope::app {
+namespace {
+
+using options::Channel;
+using options::JsonKind;
+using options::Option;
+using options::OptionList;
+
+// Columns of the terminal that --help uses, and those of names.
+constexpr std::size_t kHelpColumns = 100, kNameColumns = 28;
+
+// CLI11 indents what follows a line break, but breaks no lines itself.
+std::string Wrapped(const std::string& text) {
+  std::istringstream words(text);
+  std::string wrapped, word;
+  std::size_t column = 0;
+  while (words >> word) {
+    if (column > 0 && column + 1 + word.size() > kHelpColumns - kNameColumns) {
+      wrapped += '\n';
+      column = 0;
+    } else if (column > 0) {
+      wrapped += ' ';
+      ++column;
+    }
+    wrapped += word;
+    column += word.size();
+  }
+  return wrapped;
+}
+
+// The expected value stands in brackets, unless the help explains each of its words.
+std::string HelpOf(const Option& option) {
+  const std::vector<std::string> names = option.value->Names();
+  const std::string expected = option.value->Expected();
+  const bool explains_all = !names.empty() && expected == options::Alternatives(names) &&
+                            std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+                              return option.help.find(name) != std::string::npos;
+                            });
+  return option.help + (expected.empty() || explains_all ? "" : " [" + expected + "]");
+}
+
+// Positionals are options, too, and listed with them.
+class HelpFormatter : public CLI::Formatter {
+ public:
+  HelpFormatter() { column_width(kNameColumns); }
+  std::string make_positionals(const CLI::App* /*app*/) const override { return ""; }
+  // The first line of its description; the command's own --help has the rest.
+  std::string make_subcommand(const CLI::App* command) const override {
+    const std::string about = command->get_description();
+    std::ostringstream line;
+    CLI::detail::format_help(line, command->get_name(), about.substr(0, about.find('\n')),
+                             kNameColumns);
+    return line.str();
+  }
+};
+
+// `name`: of the option, or its former one, which --help does not show.
+void AddOption(CLI::App& app, OptionList& list, Option& option, const std::string& name,
+               bool is_positional) {
+  const std::string names = "--" + name + (is_positional ? "," + name : "");
+  CLI::Option* added = nullptr;
+  if (option.value->json_kind() == JsonKind::kTruth) {
+    added = app.add_flag_function(
+        names,
+        [&list, &option, name](std::int64_t count) {
+          list.Set(option, name, count > 0 ? "true" : "false", Channel::kCommandLine);
+        },
+        Wrapped(option.help));
+  } else if (option.value->is_repeatable()) {
+    added = app.add_option_function<std::vector<std::string>>(
+                   names,
+                   [&list, &option, name](const std::vector<std::string>& texts) {
+                     list.SetAll(option, name, texts);
+                   },
+                   Wrapped(HelpOf(option)))
+                ->allow_extra_args(is_positional);
+  } else {
+    added = app.add_option_function<std::string>(
+        names,
+        [&list, &option, name](const std::string& text) {
+          list.Set(option, name, text, Channel::kCommandLine);
+        },
+        Wrapped(HelpOf(option)));
+    if (option.value->IsGiven()) added->default_str(option.value->ToText());
+  }
+  added->type_name("");
+  const bool is_hidden = option.group == options::kHidden || name != option.name;
+  if (is_hidden || !option.group.empty()) added->group(is_hidden ? "" : option.group);
+}
+
+// A command as CLI11 sees it. The Command stays where it is.
+struct Registered {
+  Command* command;
+  CLI::App* app;
+  std::shared_ptr<std::string> config;
+};
+
+void Register(Command& command, CLI::App& parent, std::vector<Registered>& all) {
+  CLI::App& app = *parent.add_subcommand(command.name, command.about);
+  app.formatter(std::make_shared<HelpFormatter>());
+  app.footer(command.footer);
+  for (Option& option : command.options) {
+    const bool is_positional =
+        std::count(command.positionals.begin(), command.positionals.end(), option.name) > 0;
+    AddOption(app, command.options, option, option.name, is_positional);
+    if (!option.former_name.empty()) {
+      AddOption(app, command.options, option, option.former_name, false);
+    }
+  }
+  const auto config = std::make_shared<std::string>();
+  if (command.run != nullptr) {
+    app.add_option("--config", *config, "YAML file of options, one `name: value` per line")
+        ->type_name("");
+  }
+  all.push_back({&command, &app, config});
+  if (!command.parts.empty() && command.run == nullptr) app.require_subcommand(1);
+  for (Command& part : command.parts) Register(part, app, all);
+}
+
+// CLI11 would only say that a subcommand is required.
+void RefuseUnknownCommand(const std::vector<Command>& commands, const std::string& word) {
+  if (word.empty() || word[0] == '-') return;
+  std::vector<std::string> names;
+  for (const Command& command : commands) {
+    if (command.name == word) return;
+    names.push_back(command.name);
+  }
+  const std::string nearest = options::Nearest(word, names);
+  throw UsageError(fmt::format("unknown command '{}': expected {}{}{} (see --help)", word,
+                               options::Alternatives(names),
+                               nearest.empty() ? "" : "; nearest: ", nearest));
+}
+
+// The innermost command that was named.
+const Registered* Chosen(const std::vector<Registered>& all) {
+  const Registered* chosen = nullptr;
+  for (const Registered& each : all) {
+    if (each.app->parsed()) chosen = &each;
+  }
+  return chosen;
+}
+
+[[noreturn]] void RefuseUnknownOption(const Registered& chosen, const std::string& given) {
+  const std::string name = given.substr(0, given.find('='));
+  std::vector<std::string> names;
+  for (const std::string& each : chosen.command->options.Names()) names.push_back("--" + each);
+  const std::string nearest = options::Nearest(name, names);
+  std::string command = chosen.app->get_name();
+  for (const CLI::App* app = chosen.app->get_parent(); app != nullptr; app = app->get_parent()) {
+    command = app->get_name() + " " + command;
+  }
+  throw UsageError(fmt::format("unknown {} '{}'{}{} (see {} --help)",
+                               given.rfind('-', 0) == 0 ? "option" : "argument", given,
+                               nearest.empty() ? "" : "; nearest: ", nearest, command));
+}
+
+// Names of options have underscores; people also type dashes. CLI11 takes arguments in reverse.
+std::vector<std::string> ReversedArguments(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  for (int i = argc - 1; i > 0; --i) {
+    std::string argument = argv[i];
+    if (argument.rfind("--", 0) == 0) {
+      const auto end = argument.begin() +
+                       static_cast<std::ptrdiff_t>(std::min(argument.find('='), argument.size()));
+      std::replace(argument.begin() + 2, end, '-', '_');
+    }
+    arguments.push_back(std::move(argument));
+  }
+  return arguments;
+}
+
+}  // namespace
+
+int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
+  CLI::App line(
+      "Kinescope: shows and monitors a person in a motion-capture suit, without a display.");
+  line.name("kinescope");
+  line.formatter(std::make_shared<HelpFormatter>());
+  line.require_subcommand(1);
+  line.set_version_flag("--version", KINESCOPE_VERSION);
+  line.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("kinescope: ") + error.what() + " (see --help)\n";
+  });
+  std::vector<Registered> all;
+  for (Command& command : commands) Register(command, line, all);
+  RefuseUnknownCommand(commands, argc > 1 ? argv[1] : "");
+  try {
+    line.parse(ReversedArguments(argc, argv));
+  } catch (const CLI::ExtrasError&) {
+    const Registered* const chosen = Chosen(all);
+    const std::vector<std::string> extras = line.remaining(true);
+    if (chosen == nullptr || extras.empty()) throw;
+    RefuseUnknownOption(*chosen, extras.front());
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string text = error.what();
+    throw UsageError(text.substr(0, text.find(':')) + ": value missing (see --help)");
+  } catch (const CLI::ParseError& error) {
+    return line.exit(error) == 0 ? 0 : 2;
+  }
+  const Registered& chosen = *Chosen(all);
+  Command& command = *chosen.command;
+  if (!chosen.config->empty()) options::YamlOptions(*chosen.config).SetAll(command.options);
+  for (const Option& option : command.options) {
+    if (option.channel != Channel::kDefault || command.required.count(option.name) == 0) continue;
+    throw UsageError(fmt::format("--{} is missing: {}", option.name, HelpOf(option)));
+  }
+  for (const std::string& warning : command.options.warnings()) spdlog::warn(warning);
+  return command.run(command.options);
+}
+
+}  // namespace kinescope::app

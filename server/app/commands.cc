@@ -1,0 +1,15 @@
+#include "server/app/commands.h"
+
+namespace kinescope::app {
+
+std::vector<Command> AllCommands() {
+  std::vector<Command> commands;
+  for (const auto make :
+       {ServeCommand, BridgeCommand, RenderCommand, LoadsCommand, GoldenCommand, StreamCommand,
+        RecordCommand, InspectCommand, UrdfCommand, ProbeCommand}) {
+    commands.push_back(make());
+  }
+  return commands;
+}
+
+}  // namespace kinescope::app

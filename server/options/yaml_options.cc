@@ -1,0 +1,55 @@
+#include "server/options/yaml_options.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include "core/errors.h"
+
+namespace kinescope::options {
+
+struct YamlOptions::Root {
+  YAML::Node node;
+};
+
+namespace {
+
+std::string PlaceOf(const std::string& path, const YAML::Node& node) {
+  return fmt::format("{}:{}: ", path, node.Mark().line + 1);
+}
+
+}  // namespace
+
+YamlOptions::YamlOptions(const std::string& path) : path_(path), root_(std::make_unique<Root>()) {
+  try {
+    root_->node = YAML::LoadFile(path);
+  } catch (const YAML::BadFile&) {
+    throw UsageError(path + ": cannot read this file");
+  } catch (const YAML::Exception& error) {
+    throw UsageError(fmt::format("{}:{}: {}", path, error.mark.line + 1, error.msg));
+  }
+  if (!root_->node.IsMap()) throw UsageError(path + ": expected lines of 'name: value'");
+}
+
+YamlOptions::~YamlOptions() = default;
+
+std::optional<Found> YamlOptions::Look(const std::string& name) const {
+  const YAML::Node value = root_->node[name];
+  if (!value) return std::nullopt;
+  const std::string place = PlaceOf(path_, value);
+  if (!value.IsScalar()) throw UsageError(place + name + ": expected one value");
+  return Found{value.Scalar(), place};
+}
+
+void YamlOptions::SetAll(OptionList& options) const {
+  for (const auto& entry : root_->node) {
+    const std::string key = entry.first.Scalar();
+    if (options.Find(key) != nullptr) continue;
+    const std::string nearest = Nearest(key, options.Names());
+    throw UsageError(fmt::format("{}unknown option '{}'{}{} (see --help)",
+                                 PlaceOf(path_, entry.first), key,
+                                 nearest.empty() ? "" : "; nearest: ", nearest));
+  }
+  SetFrom([this](const std::string& name) { return Look(name); }, Channel::kFile, options);
+}
+
+}  // namespace kinescope::options

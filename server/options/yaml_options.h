@@ -1,0 +1,31 @@
+/// Options in a YAML file of `name: value` lines.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "server/options/option_list.h"
+
+namespace kinescope::options {
+
+class YamlOptions {
+ public:
+  /// @throws UsageError naming the file, the line and the reason.
+  explicit YamlOptions(const std::string& path);
+  ~YamlOptions();
+
+  /// The text of `name`, and "FILE:LINE: ". @throws UsageError where it is not one value.
+  std::optional<Found> Look(const std::string& name) const;
+
+  /// Sets `options` that were not given before, and refuses a name that none of them has.
+  /// @throws UsageError naming file, line, name and the nearest one.
+  void SetAll(OptionList& options) const;
+
+ private:
+  struct Root;  // keeps yaml-cpp out of here
+  std::string path_;
+  std::unique_ptr<Root> root_;
+};
+
+}  // namespace kinescope::options

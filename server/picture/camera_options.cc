@@ -1,0 +1,116 @@
+#include "server/picture/camera_options.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "server/options/text.h"
+#include "server/picture/camera_keys.h"
+
+namespace kinescope::app {
+namespace {
+
+using options::BadValue;
+using options::Number;
+
+constexpr double kMostOrbit = 3600;  // degrees per second; more shows no motion any more
+
+bool IsKeyFile(const std::string& camera) {
+  const std::string extension = std::filesystem::path(camera).extension();
+  return extension == ".yaml" || extension == ".yml";
+}
+
+}  // namespace
+
+CameraChoice ParseCamera(const std::string& text) {
+  CameraChoice choice{text, std::nullopt, IsKeyFile(text)};
+  if (choice.is_key_file) return choice;
+  const std::size_t colon = text.find(':');
+  if (colon != std::string::npos) {
+    const auto position = ParsePoint(text.substr(0, colon));
+    const auto target = ParsePoint(text.substr(colon + 1));
+    if (!position || !target) throw BadValue("expected X,Y,Z:X,Y,Z, in m");
+    choice.place = CameraFromTo(*position, *target);
+    if (!choice.place) throw BadValue("expected a position that differs from the target");
+    return choice;
+  }
+  for (const std::string& name : render::CameraNames()) {
+    if (name == text) return choice;
+  }
+  throw BadValue(fmt::format(
+      "unknown camera '{}'; expected {}, X,Y,Z:X,Y,Z (position: target, m) or FILE.yaml with keys",
+      text, fmt::join(render::CameraNames(), ", ")));
+}
+
+CamerasValue::CamerasValue(std::size_t most)
+    : ValueOf({{"three_quarter", std::nullopt, false}}), most_(most) {}
+
+void CamerasValue::Parse(const std::string& text) {
+  std::vector<CameraChoice> cameras;
+  for (const std::string& item : options::SplitItems(text)) cameras.push_back(ParseCamera(item));
+  if (cameras.empty()) RefuseText();
+  if (cameras.size() > most_) {
+    throw BadValue(fmt::format("expected at most {} camera{}", most_, most_ == 1 ? "" : "s"));
+  }
+  value_ = std::move(cameras);
+}
+
+std::string CamerasValue::ToText() const {
+  std::string text;
+  for (const CameraChoice& camera : value_) text += (text.empty() ? "" : ";") + camera.text;
+  return text;
+}
+
+std::string CamerasValue::Expected() const {
+  return fmt::format("{}, X,Y,Z:X,Y,Z (position: target, m) or FILE.yaml with keys{}",
+                     fmt::join(render::CameraNames(), ", "),
+                     most_ > 1 ? "; several with , or ; between" : "");
+}
+
+std::vector<std::filesystem::path> CamerasValue::Files() const {
+  std::vector<std::filesystem::path> files;
+  for (const CameraChoice& camera : value_) {
+    if (camera.is_key_file) files.emplace_back(camera.text);
+  }
+  return files;
+}
+
+void OrbitValue::Parse(const std::string& text) {
+  if (text == "turn") {
+    value_ = {true, 0};
+    return;
+  }
+  const auto degrees = options::ParseNumber(text);
+  if (!degrees || std::abs(*degrees) > kMostOrbit) RefuseText();
+  value_ = {false, *degrees};
+}
+
+std::string OrbitValue::ToText() const {
+  return value_.is_one_turn ? "turn" : options::NumberText(value_.degrees_per_sec);
+}
+
+std::string OrbitValue::Expected() const {
+  return fmt::format("degrees per second from -{} to {}, or turn (once over the clip)", kMostOrbit,
+                     kMostOrbit);
+}
+
+CameraOptions::CameraOptions()
+    : projection({{"perspective", false}, {"orthographic", true}}, false),
+      fov(Number(30, {1, 150, "degrees"})),
+      follow(Number(0, {0, 60, "s"})),
+      fit({{"off", Fit::kOff}, {"now", Fit::kNow}, {"clip", Fit::kClip}}, Fit::kOff) {}
+
+void CameraOptions::List(options::OptionList& option) {
+  option("projection", projection, "how depth is shown");
+  option("fov", fov, "vertical field of view; not given: that of the named camera");
+  option("orbit", orbit, "rotation of the camera around its target");
+  option(
+      "follow", follow,
+      "time constant with which the camera follows the people; not given: only when they leave the "
+      "middle");
+  option("fit", fit,
+         "whether the picture is filled with everything that it shows now, or during the clip");
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,29 @@
+/// The kinds of sources, told by the beginning of their URL. Pure functions; any thread.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace kinescope::app {
+
+enum class SourceKind { kUdp, kTcp, kGraph, kSubject, kFile };
+
+/// Never fails: whatever has no scheme is a file.
+SourceKind KindOfSource(std::string_view url);
+
+/// Whether samples arrive when they are measured, and the source has no end.
+bool IsLiveUrl(std::string_view url);
+bool IsSubjectUrl(std::string_view url);
+bool IsNetworkUrl(std::string_view url);
+
+/// After the scheme: "lift" of "demo:lift".
+std::string WithoutScheme(std::string_view url);
+
+/// "udp://[address]:port, ..., demo:MOTION (lift, walk, ...)", for --help and errors.
+const std::string& SourceKinds();
+
+// The built-in subject never ends: how much of it is taken unless told otherwise, s.
+inline constexpr double kSubjectClipSecs = 10;
+inline constexpr double kSubjectLoadsSecs = 8;  // one lift
+
+}  // namespace kinescope::app

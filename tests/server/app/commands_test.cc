@@ -1,0 +1,85 @@
+// All options of all commands: each rejects a wrong text in one line that has the option, the text
+// and what was expected, and reads back what it prints.
+#include "server/app/commands.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "core/errors.h"
+
+namespace kinescope::app {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+template <class Function>
+void ForEveryOption(std::vector<Command>& commands, Function&& function) {
+  for (Command& command : commands) {
+    for (options::Option& option : command.options) function(command, option);
+    ForEveryOption(command.parts, function);
+  }
+}
+
+std::string ErrorOf(options::OptionList& list, options::Option& option, const std::string& text) {
+  try {
+    list.Set(option, option.name, text, options::Channel::kCommandLine);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Options, EachRejectsAWrongTextInOneLine) {
+  auto commands = AllCommands();
+  int rejected = 0;
+  ForEveryOption(commands, [&](Command& command, options::Option& option) {
+    if (option.value->Expected().empty()) return;  // takes any text
+    const std::string bad = "?;=\"wrong/";
+    const std::string error = ErrorOf(command.options, option, bad);
+    if (option.value->is_repeatable() && error.empty()) return;  // names of files
+    EXPECT_THAT(error, AllOf(StartsWith("--" + option.name + "=" + bad + ": "),
+                             HasSubstr("expected"), Not(HasSubstr("\n"))))
+        << command.name;
+    ++rejected;
+  });
+  EXPECT_GT(rejected, 100);
+}
+
+TEST(Options, EachIsLeftAsItWasByAWrongText) {
+  auto commands = AllCommands();
+  ForEveryOption(commands, [&](Command& command, options::Option& option) {
+    const std::string before = option.value->ToText();
+    if (ErrorOf(command.options, option, "?;=\"wrong/").empty()) return;
+    EXPECT_EQ(option.value->ToText(), before) << command.name << " --" << option.name;
+  });
+}
+
+TEST(Options, EachReadsBackItsDefault) {
+  auto commands = AllCommands();
+  ForEveryOption(commands, [&](Command& command, options::Option& option) {
+    if (!option.value->IsGiven()) return;
+    const std::string before = option.value->ToText();
+    EXPECT_EQ(ErrorOf(command.options, option, before), "") << command.name << " --" << option.name;
+    EXPECT_EQ(option.value->ToText(), before) << command.name << " --" << option.name;
+  });
+}
+
+TEST(Options, EachHasItsNameOnceInACommandAndAHelpThatStandsAlone) {
+  auto commands = AllCommands();
+  std::set<std::pair<const Command*, std::string>> seen;
+  ForEveryOption(commands, [&](Command& command, options::Option& option) {
+    EXPECT_TRUE(seen.insert({&command, option.name}).second) << command.name << " " << option.name;
+    EXPECT_GT(option.help.size(), 10u) << option.name;
+    for (const char* habit : {"of the ", "likewise", "so long", "so many", "the same"}) {
+      EXPECT_THAT(option.help, Not(StartsWith(habit))) << option.name;
+    }
+  });
+}
+
+}  // namespace
+}  // namespace kinescope::app

@@ -1,0 +1,13 @@
+/// The files behind a mesh: which of them have changed decides whether a picture is still true.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace kinescope::urdf {
+
+/// `mesh` and, for an OBJ, the material files that it names and that exist. Reads no more than the
+/// first 64 MiB. Never throws: a file that cannot be read has nothing behind it.
+std::vector<std::filesystem::path> FilesOfMesh(const std::filesystem::path& mesh);
+
+}  // namespace kinescope::urdf
