@@ -18,22 +18,22 @@ tile() {
 at() { tile "$1" demo:lift --time "$2" --fit now "${@:3}"; }
 
 for camera in front back left right top iso three_quarter; do
-  at "camera $camera" 2.9 --camera $camera --hand both:8 --overlay=-legend,-time,-lamp
+  at "camera $camera" 2.9 --camera $camera --hand_load both:8 --overlay=-legend,-time,-status
 done
 at "orthographic, with a scale" 2.9 --camera right --projection orthographic --overlay title,scale
 tile "room for arms overhead, where nothing is fitted" demo:lift --time 1.4 --overlay title
 tile "four views" demo:walk --time 3.3 --views 2x2 --overlay title,names
-at "dark" 2.9 --theme dark --hand both:8
-at "white, without floor" 2.9 --background white --floor off --hand both:8 --overlay title
+at "dark" 2.9 --theme dark --hand_load both:8
+at "white, without floor" 2.9 --background white --floor off --hand_load both:8 --overlay title
 at "no load in the hands" 2.9
-at "18 kg in both hands" 2.9 --hand both:18
-at "6 kg in the right hand" 1.2 --hand right:6
+at "18 kg in both hands" 2.9 --hand_load both:18
+at "6 kg in the right hand" 1.2 --hand_load right:6
 tile "trails and a ghost" demo:lift --time 2.4 --trail com,right_hand --ghost n_pose --overlay title
-at "frames of the links" 3.3 --camera front --show frames --hide loads,com,cop,support --overlay title
-at "axes of the joints" 3.3 --camera front --show axes --hide loads,com,cop,support --overlay title
+at "frames of the links" 3.3 --camera front --show link_frames --hide loads,com,cop,support --overlay title
+at "axes of the joints" 3.3 --camera front --show joint_axes --hide loads,com,cop,support --overlay title
 at "metres and newtons" 2.9 --show scale --overlay title,names
-at "loads over time" 2.9 --plot l5_s1,right_knee --hand both:8 --overlay=-legend
-at "sample and time for machines" 2.9 --overlay title,time,strip
+at "loads over time" 2.9 --plot l5_s1,right_knee --hand_load both:8 --overlay=-legend
+at "sample and time for machines" 2.9 --overlay title,time,frame_code
 at "limits of one's own" 2.9 --class_limits 0.15,0.4
 cp golden_images/stale_front.png "$folder/stale.png"
 cp golden_images/no_data.png "$folder/no_data.png"
