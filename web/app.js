@@ -26,7 +26,7 @@ const elements = findElements(document);
 let state = null;
 /** @type {ArrayBuffer|null} */
 let newest = null;  // not decoded yet: of the states received between two frames, only the last one is decoded
-let stateChangedAt = 0;  // browser clock, last time the number grew
+let stateChangedAt = 0;  // browser clock, last time its number grew
 /** @type {import('./messages.js').Details} */
 let details = { source: '', camera: '', has_pictures: true, people: [], objects: [] };
 /** @type {import('./messages.js').Model|null} */
@@ -108,17 +108,17 @@ function takeNewest(now) {
   if (newest === null) return false;
   const buffer = newest;
   newest = null;
-  const before = state?.number;
+  const before = state?.stateNumber;
   try {
     state = decodeState(buffer);
   } catch (error) {
     showNotice(messageOf(error));
     return false;
   }
-  if (state.number !== before) stateChangedAt = now;
+  if (state.stateNumber !== before) stateChangedAt = now;
   scene?.update(state, lampNow().level === 'live');
   if (model === null || state.people.some((person) => scene && !scene.hasModelOf(person))) loadModel(now);
-  return state.number !== before;
+  return state.stateNumber !== before;
 }
 
 function lampNow() {

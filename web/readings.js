@@ -37,13 +37,13 @@ export function loadsHint(person, details) {
     `${person.metric}${motion}`,
     details?.mass_is_assumed ? `body mass assumed: ${details.mass_kg} kg` : '',
     heldText(details?.hand_load),
-    person.comDisagrees ? `centre of mass differs from MVN by ${centimetres(person.comDifference)}` : '',
+    person.comDisagrees ? `centre of mass differs from MVN by ${centimetres(person.comMinusMvn)}` : '',
     details?.why_other_metric ?? '',
   ].filter(Boolean).join(' · ');
 }
 
 /** @param {Person} person */
-export const comText = (person) => (person.comIsOurs ? 'Centre of mass (body model)' : 'Centre of mass');
+export const comText = (person) => (person.comSource === 'body_model' ? 'Centre of mass (body model)' : 'Centre of mass');
 
 /** @param {Person} person
  *  @param {PersonDetails|undefined} details */

@@ -24,13 +24,13 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *  @typedef {{kind: (typeof SOLID_KIND)[number], position: number[], quaternion: number[], size: number[]}} Solid
  *    size: edges, or radius, radius, length along z
  *  @typedef {{character: number, revision: number, com: number[]|null, cop: number[]|null,
- *    comIsOurs: boolean, massIsAssumed: boolean, isDynamic: boolean, groundIsMeasured: boolean,
+ *    comSource: 'mvn'|'body_model', massIsAssumed: boolean, isDynamic: boolean, groundIsMeasured: boolean,
  *    leans: boolean, comDisagrees: boolean, compression: number, margin: number,
- *    comDifference: number, heldKg: number[], metric: (typeof METRIC)[number],
+ *    comMinusMvn: number, heldKg: number[], metric: (typeof METRIC)[number],
  *    links: Pose[], loads: Load[], support: number[][], held: Solid[]}} Person
- *    compression (N), margin and comDifference (m): NaN if unknown; heldKg: right, left
+ *    compression (N), margin and comMinusMvn (m): NaN if unknown; heldKg: right, left
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
- *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, number: number,
+ *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, stateNumber: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
  *    rateHz: number, viewers: number, floor: number, people: Person[],
  *    objects: TrackedObject[]}} State  arrivalMicros 0: unknown
@@ -56,7 +56,7 @@ export function decodeState(buffer) {
   const state = {
     liveness: LIVENESS[view.getUint8(2)] ?? 'no data',
     counter: view.getUint32(4, true),
-    number: view.getFloat64(8, true),
+    stateNumber: view.getFloat64(8, true),
     sentMicros: view.getFloat64(16, true),
     arrivalMicros: view.getFloat64(24, true),
     stampMicros: view.getFloat64(32, true),
@@ -120,7 +120,7 @@ function readPerson(view, offset) {
     revision: view.getFloat64(offset + 8, true),
     com: flags & 1 ? floats(view, offset + 16, 3) : null,
     cop: flags & 2 ? floats(view, offset + 28, 3) : null,
-    comIsOurs: (flags & 4) !== 0,
+    comSource: flags & 4 ? 'body_model' : 'mvn',
     massIsAssumed: (flags & 8) !== 0,
     isDynamic: (flags & 16) !== 0,
     groundIsMeasured: (flags & 32) !== 0,
@@ -128,7 +128,7 @@ function readPerson(view, offset) {
     comDisagrees: (flags & 128) !== 0,
     compression: view.getFloat32(offset + 40, true),
     margin: view.getFloat32(offset + 44, true),
-    comDifference: view.getFloat32(offset + 48, true),
+    comMinusMvn: view.getFloat32(offset + 48, true),
     heldKg: floats(view, offset + 52, 2),
     metric: METRIC[view.getUint8(offset + 61)] ?? 'total',
     links: Array.from({ length: linkCount }, (_, i) => readPose(view, firstLink + LINK * i)),

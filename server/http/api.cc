@@ -98,7 +98,7 @@ json ForcesToJson(const BodyForces& forces) {
            forces.margin_of_stability ? json(*forces.margin_of_stability) : json(nullptr)},
           {"l5_s1_compression_n", forces.lumbar ? json(forces.lumbar->compression) : json(nullptr)},
           {"l5_s1_shear_n", forces.lumbar ? json(forces.lumbar->shear) : json(nullptr)},
-          {"com_difference_m",
+          {"com_minus_mvn_m",
            forces.com_difference ? json(forces.com_difference->norm()) : json(nullptr)},
           {"com_disagrees", forces.com_disagrees},
           {"hand_load", ToldToJson(forces.told)},
@@ -126,7 +126,7 @@ json PersonToJson(const PersonState& person) {
           {"name", person.name},
           {"revision", person.model->revision},
           {"com", OptionalPoint(person.com)},
-          {"com_is_ours", person.com_is_ours},
+          {"com_source", person.com_is_ours ? "body_model" : "mvn"},
           {"cop", OptionalPoint(person.cop)},
           {"loads", std::move(loads)},
           {"deviation_mm", DeviationToJson(person)},
@@ -212,7 +212,7 @@ std::string StateJson(const SceneState* state, std::int64_t now_nanos) {
   const bool has_age = state->arrival_nanos != 0;
   const double age_ms = static_cast<double>(now_nanos - state->arrival_nanos) / 1e6;
   return Text({{"liveness", Name(state->liveness)},
-               {"number", state->number},
+               {"state_number", state->number},
                {"counter", state->counter},
                {"stamp_nanos", state->stamp_nanos},
                {"time_code_millis", state->time_code_millis},

@@ -31,7 +31,7 @@ std::string WithHttpCounters(const std::string& diagnostics, const Counters& cou
   closed.erase("pictures");
   document["http"] = {{"requests", counters.requests},
                       {"snapshots", counters.snapshots},
-                      {"refused", counters.refused},
+                      {"rejected", counters.rejected},
                       {"failures", counters.failures},
                       {"websockets_opened", counters.opened},
                       {"states_encoded", counters.states_encoded},

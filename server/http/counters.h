@@ -20,9 +20,9 @@ struct ClientCounters {
 struct Counters {
   std::uint64_t requests = 0;
   std::uint64_t snapshots = 0;
-  std::map<std::string, std::uint64_t> refused;  // rejected requests by reason, a fixed set of
-                                                 // reasons
-  std::uint64_t opened = 0;                      // WebSockets
+  std::map<std::string, std::uint64_t> rejected;  // rejected requests by reason, a fixed set of
+                                                  // reasons
+  std::uint64_t opened = 0;                       // WebSockets
   std::uint64_t states_encoded = 0;
   std::uint64_t pictures_encoded = 0;
   ClientCounters closed;       // sums over closed connections

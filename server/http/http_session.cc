@@ -86,7 +86,7 @@ void HttpSession::OnRead(beast::error_code error) {
   if (error) {
     const int status = StatusOf(error);
     if (status == 0) return;
-    ++shared_.counters->refused["bad request"];
+    ++shared_.counters->rejected["bad request"];
     return Send(ErrorAnswer(status, "invalid or unsupported HTTP request"));
   }
   ++shared_.counters->requests;
@@ -110,7 +110,7 @@ void HttpSession::BecomeWebSocket() {
     return Send(*std::move(refusal));
   }
   if (shared_.hub->client_count() >= kMaxClients) {
-    ++shared_.counters->refused["too many clients"];
+    ++shared_.counters->rejected["too many clients"];
     return Send(ErrorAnswer(
         503, "too many clients (limit " + std::to_string(kMaxClients) + "); try again later"));
   }
@@ -131,7 +131,7 @@ void HttpSession::Draw(Answer answer) {
     });
   };
   if (shared_.snapshots != nullptr && shared_.snapshots->Submit(request, std::move(done))) return;
-  ++shared_.counters->refused["too many snapshots"];
+  ++shared_.counters->rejected["too many snapshots"];
   Answer busy = ErrorAnswer(503, "too many snapshots are being rendered; try again later");
   busy.headers.emplace_back("Retry-After", "1");
   Send(std::move(busy));

@@ -79,12 +79,12 @@ void Hub::Tick(Clock::time_point now) {
 void Hub::OnMessage(HubClient& client, std::string_view text) {
   const auto command = ParseCommand(text);
   if (!command) {
-    ++counters_.refused["bad message"];
+    ++counters_.rejected["bad message"];
     return client.Offer(Slot::kError, Share(EncodeError(command.error())));
   }
   if ((command->seen_states && !client.OnSeen(Slot::kState, *command->seen_states)) ||
       (command->seen_pictures && !client.OnSeen(Slot::kPicture, *command->seen_pictures))) {
-    ++counters_.refused["bad message"];
+    ++counters_.rejected["bad message"];
     return client.Offer(
         Slot::kError,
         Share(EncodeError("seen_states or seen_pictures is larger than the number sent")));
@@ -94,7 +94,7 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
     if (feed_ != nullptr && feed_->SetCamera(*command->camera)) {
       camera_ = *command->camera;
     } else {
-      ++counters_.refused["unknown camera"];
+      ++counters_.rejected["unknown camera"];
       client.Offer(Slot::kError, Share(EncodeError("unknown camera " + *command->camera)));
     }
   }

@@ -178,7 +178,7 @@ Router::Site HttpServer::Impl::MakeSite() {
                             hub_.client_counters());
   };
   site.live_camera = [this] { return hub_.camera(); };
-  site.count_refusal = [this](const std::string& reason) { ++counters_.refused[reason]; };
+  site.count_refusal = [this](const std::string& reason) { ++counters_.rejected[reason]; };
   return site;
 }
 
@@ -251,12 +251,12 @@ void HttpServer::Impl::OnAccepted(error_code error, tcp::socket socket) {
     accept_pause_.async_wait([this](error_code cancelled) {
       if (!cancelled) Accept();
     });
-    ++counters_.refused["accept failed"];
+    ++counters_.rejected["accept failed"];
     return;
   }
   Accept();
   if (shared_.connections >= kMaxConnections) {
-    ++counters_.refused["too many connections"];  // closed by its destructor
+    ++counters_.rejected["too many connections"];  // closed by its destructor
   } else {
     KeepKernelQueueShort(socket);
     std::make_shared<HttpSession>(std::move(socket), shared_)->Read();

@@ -245,13 +245,13 @@ TEST_F(ViewOverRos, WhoseDriverHangsDoesNotKeepTheProgramFromStopping) {
   setenv("LD_PRELOAD", KINESCOPE_HANGING_DRIVER, 1);
   StartServe("--ros_view_size 64x48 --picture_size 64x48 --draw_limit_secs 3");
   unsetenv("LD_PRELOAD");
-  const auto hangs = [&] { return Diagnostics("view").at("hangs").get<bool>(); };
+  const auto hangs = [&] { return Diagnostics("view").at("driver_hung").get<bool>(); };
   ASSERT_TRUE(Spin([&] { return has_image && !hangs(); }));
   std::ofstream(hang).flush();
   ASSERT_TRUE(Spin(hangs));
   EXPECT_NE(Diagnostics("view").at("last_error").get<std::string>().find("does not respond"),
             std::string::npos);
-  EXPECT_FALSE(Diagnostics("pictures").at("hangs").get<bool>()) << "nobody looks at the page";
+  EXPECT_FALSE(Diagnostics("pictures").at("driver_hung").get<bool>()) << "nobody looks at the page";
   program_->Signal(SIGTERM);
   EXPECT_NE(WaitForLine(*program_, "kinescope: stopped without a clean shutdown: ")
                 .find("does not respond"),

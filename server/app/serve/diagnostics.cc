@@ -15,19 +15,18 @@ using nlohmann::json;
 json ToJson(const ros_bridge::InputCounters& counters) {
   return {{"received", counters.received},
           {"used", counters.used},
-          {"refused", counters.refused},
+          {"rejected", counters.refused},
           {"unknown_joints", counters.unknown_joints},
           {"skewed", counters.skewed},
           {"worst_skew_secs", counters.worst_skew_secs},
           {"last_problem", counters.last_problem}};
 }
 
-// What is wrong with a person's loads, for whoever wonders about a colour; nothing where all is
-// well.
-json Doubts(const BodyForces& forces) {
-  json doubts = json::array();
+// Limits of the validity of a person's loads; empty without any.
+json WarningsOf(const BodyForces& forces) {
+  json warnings = json::array();
   const auto add = [&](std::string_view text) {
-    if (!text.empty()) doubts.push_back(text);
+    if (!text.empty()) warnings.push_back(text);
   };
   if (forces.body_mass_is_assumed) add("the body mass is assumed");
   if (forces.com_disagrees) {
@@ -39,23 +38,22 @@ json Doubts(const BodyForces& forces) {
   add(forces.why_no_ground);
   add(forces.why_static);
   add(forces.why_other_metric);
-  return doubts;
+  return warnings;
 }
 
 json LoadsOf(const SceneState& state) {
   json people = json::array();
   for (const PersonState& person : state.people) {
     const BodyForces& forces = person.forces;
-    people.push_back(
-        {{"character", person.character},
-         {"metric", Name(forces.metric)},
-         {"mode", forces.is_dynamic ? "dynamic" : "static"},
-         {"doubts", Doubts(forces)},
-         {"com_difference_mm",
-          forces.com_difference ? json(1000 * forces.com_difference->norm()) : json(nullptr)},
-         {"ground_is_measured", forces.ground_is_measured},
-         {"residual_force_share", forces.residual_force_share},
-         {"residual_moment_share", forces.residual_moment_share}});
+    people.push_back({{"character", person.character},
+                      {"metric", Name(forces.metric)},
+                      {"mode", forces.is_dynamic ? "dynamic" : "static"},
+                      {"warnings", WarningsOf(forces)},
+                      {"com_minus_mvn_m",
+                       forces.com_difference ? json(forces.com_difference->norm()) : json(nullptr)},
+                      {"ground_is_measured", forces.ground_is_measured},
+                      {"residual_force_share", forces.residual_force_share},
+                      {"residual_moment_share", forces.residual_moment_share}});
   }
   return people;
 }
@@ -106,7 +104,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                        {"gl_version", pictures->renderer.gl_version},
                        {"software", pictures->renderer.is_software},
                        {"note", pictures->renderer.note},
-                       {"hangs", pictures->hangs},
+                       {"driver_hung", pictures->hangs},
                        {"drawn", pictures->drawn},
                        {"draw_millis", pictures->draw_millis},
                        {"encode_millis", pictures->encode_millis},
@@ -119,7 +117,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                    {"drawn", view->drawn},
                    {"draw_millis", view->draw_millis},
                    {"last_error", view->last_error},
-                   {"hangs", view->hangs}};
+                   {"driver_hung", view->hangs}};
   }
   // A file name need not be UTF-8.
   return JsonText(out);

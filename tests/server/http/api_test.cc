@@ -137,6 +137,13 @@ TEST(Json, RepairsNamesThatAreNoUtf8) {
   }
 }
 
+TEST(StateJson, NamesTheOriginOfTheCentreOfMass) {
+  SceneState state = Scene();
+  EXPECT_EQ(json::parse(StateJson(&state, 0))["people"][0]["com_source"], "mvn");
+  state.people[0].com_is_ours = true;
+  EXPECT_EQ(json::parse(StateJson(&state, 0))["people"][0]["com_source"], "body_model");
+}
+
 TEST(DetailsJson, IsEqualForEqualStates) {
   const SceneState a = Scene();
   SceneState b = a;

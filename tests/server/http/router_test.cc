@@ -128,7 +128,7 @@ TEST_F(RouterTest, AnswersWithTheNewestStateAndWithoutOne) {
   EXPECT_EQ(nlohmann::json::parse(Get("/api/state").body).at("liveness"), "no data");
   EXPECT_TRUE(nlohmann::json::parse(Get("/api/model").body).at("people").empty());
   PublishPeople(2);
-  EXPECT_EQ(nlohmann::json::parse(Get("/api/state").body).at("number"), 12);
+  EXPECT_EQ(nlohmann::json::parse(Get("/api/state").body).at("state_number"), 12);
   EXPECT_EQ(nlohmann::json::parse(Get("/api/model").body).at("people").size(), 2u);
   const auto cameras = nlohmann::json::parse(Get("/api/cameras").body);
   EXPECT_EQ(cameras.at("cameras").size(), MakeCameras().size());

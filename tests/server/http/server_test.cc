@@ -132,7 +132,7 @@ TEST(HttpServer, AnswersOddRequestsAndGoesOn) {
     EXPECT_EQ(response.headers.at("allow"), "GET, HEAD");
   }
   EXPECT_EQ(site.Get("/").status, 200);
-  EXPECT_GE(site.HttpCounters()["refused"]["bad method"], 5);
+  EXPECT_GE(site.HttpCounters()["rejected"]["bad method"], 5);
 }
 
 TEST(HttpServer, ServesTheNewestState) {
@@ -140,7 +140,7 @@ TEST(HttpServer, ServesTheNewestState) {
   EXPECT_EQ(site.Get("/api/state").json()["liveness"], "no data");
   site.PublishState(12);
   const Response state = site.Get("/api/state");
-  EXPECT_EQ(state.json()["number"], 12);
+  EXPECT_EQ(state.json()["state_number"], 12);
   EXPECT_EQ(state.headers.at("cache-control"), "no-store");
   EXPECT_EQ(site.Get("/api/model").json()["people"][0]["revision"], 7);
   EXPECT_EQ(site.Get("/api/cameras").json()["cameras"].size(), 7u);
@@ -170,7 +170,7 @@ TEST(HttpServer, AddsItsOwnPartToTheDiagnostics) {
   site.Get("/nothing");
   const auto diagnostics = site.Get("/api/diagnostics").json();
   EXPECT_EQ(diagnostics["source"]["datagrams"], 5);
-  EXPECT_EQ(diagnostics["http"]["refused"]["unknown address"], 1);
+  EXPECT_EQ(diagnostics["http"]["rejected"]["unknown address"], 1);
   EXPECT_EQ(diagnostics["http"]["clients"].size(), 0u);
 }
 

@@ -242,7 +242,7 @@ TEST(WebSocket, AnswersNonsenseAndGoesOn) {
   client.ReceiveText("error");
   client.Send(R"({"ping": 1})");
   client.ReceiveText("pong");
-  EXPECT_EQ(site.HttpCounters()["refused"]["bad message"], 2);
+  EXPECT_EQ(site.HttpCounters()["rejected"]["bad message"], 2);
 }
 
 TEST(WebSocket, HangsUpOnMessagesThatAreTooLargeOrTooMany) {
