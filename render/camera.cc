@@ -19,8 +19,6 @@ glm::dvec3 ToGlm(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 constexpr double kTargetHeight = 1.06;  // m
 constexpr double kReach = 2.50;         // m, of the vertical that must be visible
 
-constexpr double kNarrowestAspect = 4.0 / 3;  // that a group must fit into
-
 constexpr double kLeash = 0.35;  // m, that people may go before a steady camera follows
 constexpr double kSlack = 0.5;   // m, by which a group may draw together before it comes nearer
 
@@ -87,7 +85,8 @@ Camera NamedCameraAt(const std::string& name, const Whereabouts& about) {
     camera.up = direction.up;
     // Pictures are wider than high, so a group may stand wider than a person is tall; its nearest
     // member comes closer than its middle.
-    const double half_extent = std::max(0.5 * kReach, (about.radius + 0.7) / kNarrowestAspect);
+    const double half_width = about.radius + kGroupFraming.margin_m;
+    const double half_extent = std::max(0.5 * kReach, half_width / kGroupFraming.narrowest_aspect);
     const double distance = half_extent / std::tan(0.5 * camera.vertical_fov_rad) + about.radius;
     camera.position = camera.target + distance * direction.to_camera;
     camera.far_m = std::max(camera.far_m, 4 * distance);

@@ -34,6 +34,15 @@ const std::vector<std::string>& CameraNames();
 /// @throws UsageError with the requested camera and those that exist.
 Camera NamedCamera(const std::string& name, const SceneState& state);
 
+/// Numbers by which the named cameras frame people. The page receives them in /api/cameras.
+struct GroupFraming {
+  double min_width_m = 1.9;  // visible around the target in any picture: the arms of a T-pose and
+                             // a little beside them
+  double margin_m = 0.7;     // beside the outermost person of a group
+  double narrowest_aspect = 4.0 / 3;  // width / height of a picture that a group must fit into
+};
+inline constexpr GroupFraming kGroupFraming;
+
 /// Target of the named cameras: the middle of the people on the floor, and the distance of the
 /// outermost person from it.
 struct Whereabouts {
@@ -54,7 +63,7 @@ double ShownHeight(const Camera& camera);
 [[nodiscard]] Camera Orthographic(const Camera& camera);
 
 /// `camera` moved back if a narrow picture (width / height = `aspect`) would cut off the arms of
-/// the person in its middle; web/cameras.js does the same.
+/// the person in its middle (GroupFraming::min_width_m).
 [[nodiscard]] Camera ForAspect(const Camera& camera, double aspect);
 
 /// Rotated about the vertical through its target, counter-clockwise seen from above.

@@ -9,10 +9,6 @@
 namespace kinescope::render {
 namespace {
 
-// Of what must be seen around the target, m: arms held out in the T-pose and a little beside them.
-// web/cameras.js: LEAST_WIDTH.
-constexpr double kLeastWidth = 1.9;
-
 // How far a limb reaches beyond the joint that it is known by: half a head, a hand, a foot.
 constexpr double kFlesh = 0.16;  // m
 
@@ -74,7 +70,7 @@ Camera Orthographic(const Camera& camera) {
 }
 
 Camera ForAspect(const Camera& camera, double aspect) {
-  const double widened = kLeastWidth / (ShownHeight(camera) * aspect);
+  const double widened = kGroupFraming.min_width_m / (ShownHeight(camera) * aspect);
   if (widened <= 1) return camera;
   Camera wider = camera;
   if (camera.is_orthographic()) {

@@ -189,18 +189,19 @@ async function loadCameras() {
   }
 }
 
-/** @param {ReturnType<typeof readCameras>} answer */
-function showCameras({ cameras, live }) {
+/** @param {import('./messages.js').Cameras} answer */
+function showCameras({ cameras, framing, live }) {
   picture.setCameras(cameras);
   elements['picture-camera'].value = live;
   if (elements.cameras.childElementCount > 0) return;  // a reconnection keeps the camera that the viewer selected
-  elements.cameras.replaceChildren(...cameras.map(cameraButton));
+  elements.cameras.replaceChildren(...cameras.map((view) => cameraButton(view, framing)));
   const start = cameras.find(({ name }) => name === START_VIEW) ?? cameras[0];
-  if (start) chooseView(start);
+  if (start) chooseView(start, framing);
 }
 
-/** @param {import('./cameras.js').CameraView} view */
-function cameraButton(view) {
+/** @param {import('./messages.js').CameraView} view
+ *  @param {import('./messages.js').Framing} framing */
+function cameraButton(view, framing) {
   const button = document.createElement('button');
   button.type = 'button';
   button.textContent = shortCameraLabel(view.name);
@@ -208,13 +209,14 @@ function cameraButton(view) {
   button.ariaLabel = cameraLabel(view.name);
   button.dataset.camera = view.name;
   button.ariaPressed = 'false';
-  button.addEventListener('click', () => chooseView(view));
+  button.addEventListener('click', () => chooseView(view, framing));
   return button;
 }
 
-/** @param {import('./cameras.js').CameraView} view */
-function chooseView(view) {
-  scene?.setView(view);
+/** @param {import('./messages.js').CameraView} view
+ *  @param {import('./messages.js').Framing} framing */
+function chooseView(view, framing) {
+  scene?.setView(view, framing);
   markView(view.name);
 }
 

@@ -2,14 +2,9 @@
 // and video. World frame: z up, metres. Pure functions.
 
 /** @typedef {import('./messages.js').CameraView} CameraView
+ *  @typedef {import('./messages.js').Framing} Framing
  *  @typedef {{position: number[], target: number[], fovDegrees: number}} Aim */
 
-/** Least width that a view must show, m: arms stretched out to both sides. */
-const LEAST_WIDTH = 1.9;
-/** Room beside the outermost of several people, m, and the narrowest picture that they must fit into; the latter is
- *  kNarrowestAspect in render/camera.cc. */
-const BESIDE = 0.7;
-const NARROWEST_ASPECT = 4 / 3;
 /** Tilt of a view straight down, as a share of its distance: an orbit has no "up" exactly at its pole. */
 const POLE_TILT = 1e-3;
 
@@ -32,15 +27,16 @@ export function groundOf(pelvises, floor) {
 
 /** Position and target of the camera that shows `view` of the people on `ground`.
  *  @param {CameraView} view
+ *  @param {Framing} framing
  *  @param {{middle: number[], radius: number}} ground
  *  @param {number} aspect  width / height of the canvas
  *  @returns {Aim} */
-export function aim(view, ground, aspect) {
+export function aim(view, framing, ground, aspect) {
   const half = Math.tan(view.vertical_fov_rad / 2);
   let offset = subtract(view.position, view.target);
-  const extent = Math.max(length(offset) * half, (ground.radius + BESIDE) / NARROWEST_ASPECT);
+  const extent = Math.max(length(offset) * half, (ground.radius + framing.margin_m) / framing.narrowest_aspect);
   const distance = extent / half + ground.radius;
-  const widened = Math.max(1, LEAST_WIDTH / (2 * distance * half * aspect));
+  const widened = Math.max(1, framing.min_width_m / (2 * distance * half * aspect));
   offset = scale(offset, (distance * widened) / length(offset));
   const isPole = Math.hypot(offset[0], offset[1]) < POLE_TILT * length(offset);
   if (isPole) offset = subtract(offset, scale(view.up, POLE_TILT * length(offset)));
@@ -51,9 +47,3 @@ export function aim(view, ground, aspect) {
     fovDegrees: (view.vertical_fov_rad * 180) / Math.PI,
   };
 }
-
-/** Used if the server sends no cameras. */
-export const FALLBACK_VIEW = {
-  name: 'three_quarter', position: [3.5, -2.7, 2.1], target: [0, 0, 1.02], up: [0, 0, 1],
-  vertical_fov_rad: 0.52,
-};

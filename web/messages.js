@@ -153,8 +153,11 @@ export const readModel = object({
 const readCameraView = object({
   name: string, position: numbers(3), target: numbers(3), up: numbers(3), vertical_fov_rad: number,
 });
-export const readCameras = object({ cameras: listOf(readCameraView), live: string });
-/** @typedef {ReturnType<typeof readCameraView>} CameraView  of a person at the origin */
+const readFraming = object({ min_width_m: number, margin_m: number, narrowest_aspect: number });
+export const readCameras = object({ cameras: listOf(readCameraView), framing: readFraming, live: string });
+/** @typedef {ReturnType<typeof readCameraView>} CameraView  of a person at the origin
+ *  @typedef {ReturnType<typeof readFraming>} Framing  of several people and of narrow views; docs/http.md
+ *  @typedef {ReturnType<typeof readCameras>} Cameras */
 
 /** /api/diagnostics: parts of the server that are not running are absent or null. */
 export const readDiagnostics = object({

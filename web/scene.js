@@ -2,12 +2,15 @@
 // World frame: z up, metres.
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { aim, FALLBACK_VIEW, groundOf } from './cameras.js';
+import { aim, groundOf } from './cameras.js';
 import { makeMarkMaterials } from './human.js';
 import { ObjectMarks } from './objects.js';
 import { People } from './people.js';
 
 const FOLLOW_SECONDS = 0.35;  // time constant with which the view follows a walking person
+// Until the server has sent its cameras.
+const START_POSITION = [3.6, -2.8, 2.2];
+const START_TARGET = [0, 0, 1];
 const SLOW_FRAME_MILLIS = 45;
 const FRAMES_JUDGED = 24;
 
@@ -30,8 +33,8 @@ export class Scene {
   #objectNames = /** @type {import('./messages.js').ObjectName[]} */ ([]);
   #ground = { middle: [0, 0, 0], radius: 0 };
   #followed = [0, 0, 0];
-  #view = FALLBACK_VIEW;
-  #viewIsNamed = true;
+  #view = /** @type {import('./messages.js').CameraView|null} */ (null);  // null: selected by hand, or not received yet
+  #framing = /** @type {import('./messages.js').Framing|null} */ (null);
   #dirty = true;
   #lastFrameAt = 0;
   #frameMillis = /** @type {number[]} */ ([]);
@@ -51,13 +54,15 @@ export class Scene {
     canvas.setAttribute('aria-label', 'The people in the stream');
     host.append(canvas);
     this.#camera.up.set(0, 0, 1);  // before the controls are created: they take their axis from it
+    this.#camera.position.fromArray(START_POSITION);
     this.controls = new OrbitControls(this.#camera, canvas);
+    this.controls.target.fromArray(START_TARGET);
     this.controls.enableDamping = true;
     this.controls.minDistance = 0.6;
     this.controls.maxDistance = 30;
     this.controls.addEventListener('change', () => { this.#dirty = true; });
     this.controls.addEventListener('start', () => {
-      this.#viewIsNamed = false;
+      this.#view = null;
       events.onOrbit();
     });
     this.#buildStage();
@@ -108,10 +113,11 @@ export class Scene {
     this.#dirty = true;
   }
 
-  /** @param {import('./cameras.js').CameraView} view */
-  setView(view) {
+  /** @param {import('./messages.js').CameraView} view
+   *  @param {import('./messages.js').Framing} framing */
+  setView(view, framing) {
     this.#view = view;
-    this.#viewIsNamed = true;
+    this.#framing = framing;
     this.#followed = this.#ground.middle;
     this.#aim();
   }
@@ -131,9 +137,11 @@ export class Scene {
     return true;
   }
 
+  /** Moves the camera to the named view, if there is one. */
   #aim() {
+    if (this.#view === null || this.#framing === null) return;
     const ground = { middle: this.#followed, radius: this.#ground.radius };
-    const { position, target, fovDegrees } = aim(this.#view, ground, this.#camera.aspect);
+    const { position, target, fovDegrees } = aim(this.#view, this.#framing, ground, this.#camera.aspect);
     this.#camera.fov = fovDegrees;
     this.#objects?.setFieldOfView(fovDegrees);
     this.#camera.updateProjectionMatrix();
@@ -198,7 +206,7 @@ export class Scene {
     this.renderer.setSize(width, height, false);
     this.#camera.aspect = width / height;
     this.#camera.updateProjectionMatrix();
-    if (this.#viewIsNamed) this.#aim();
+    this.#aim();
     this.#dirty = true;
   }
 

@@ -255,8 +255,8 @@ std::string ModelJson(const SceneState* state) {
                  {"stale_body", ToJson(kStaleBodyColor)}}}});
 }
 
-std::string CamerasJson(const std::vector<CameraView>& cameras, const std::string& live_camera,
-                        bool has_pictures) {
+std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFraming& framing,
+                        const std::string& live_camera, bool has_pictures) {
   json list = json::array();
   for (const CameraView& camera : cameras) {
     list.push_back({{"name", camera.name},
@@ -265,8 +265,13 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const std::strin
                     {"up", ToJson(camera.up)},
                     {"vertical_fov_rad", camera.vertical_fov_rad}});
   }
-  return Text(
-      {{"cameras", std::move(list)}, {"live", live_camera}, {"has_pictures", has_pictures}});
+  return Text({{"cameras", std::move(list)},
+               {"framing",
+                {{"min_width_m", framing.min_width_m},
+                 {"margin_m", framing.margin_m},
+                 {"narrowest_aspect", framing.narrowest_aspect}}},
+               {"live", live_camera},
+               {"has_pictures", has_pictures}});
 }
 
 std::string DetailsJson(const SceneState* state, const std::string& live_camera,

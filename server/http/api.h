@@ -23,8 +23,8 @@ std::string StateJson(const SceneState* state, std::int64_t now_nanos);
 std::string ModelJson(const SceneState* state);
 
 /// /api/cameras.
-std::string CamerasJson(const std::vector<CameraView>& cameras, const std::string& live_camera,
-                        bool has_pictures);
+std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFraming& framing,
+                        const std::string& live_camera, bool has_pictures);
 
 /// The WebSocket message "details": texts and values that change seldom. Equal inputs give equal
 /// text.

@@ -117,7 +117,8 @@ Answer Router::Api(const std::string& path) const {
   if (path == "/api/model") return JsonAnswer(ModelJson(state.get()));
   if (path == "/api/diagnostics") return JsonAnswer(site_.diagnostics());
   if (path == "/api/cameras") {
-    return JsonAnswer(CamerasJson(site_.cameras, site_.live_camera(), site_.has_pictures));
+    return JsonAnswer(
+        CamerasJson(site_.cameras, site_.framing, site_.live_camera(), site_.has_pictures));
   }
   return Refuse(404, "unknown address",
                 "unknown route; expected /api/state, /api/model, /api/cameras, /api/diagnostics "

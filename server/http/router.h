@@ -24,6 +24,7 @@ class Router {
     std::string token;
     std::string cookie_name;
     std::vector<CameraView> cameras;
+    CameraFraming framing;
     bool has_pictures = false;
     const StaticFiles* files = nullptr;
     const Latest<SceneState>* states = nullptr;

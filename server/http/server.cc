@@ -169,6 +169,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   // Cookies ignore ports: without the number, two servers on one machine would share a cookie.
   site.cookie_name = "kinescope_" + std::to_string(port_);
   site.cameras = config_.cameras;
+  site.framing = config_.framing;
   site.has_pictures = feed_ != nullptr;
   site.files = &files_;
   site.states = &states_;

@@ -35,6 +35,13 @@ struct CameraView {
   double vertical_fov_rad = 0.52;
 };
 
+/// Numbers by which every camera frames several people and narrow pictures.
+struct CameraFraming {
+  double min_width_m = 0;       // visible around the target in any picture
+  double margin_m = 0;          // beside the outermost person of a group
+  double narrowest_aspect = 1;  // width / height of a picture that a group must fit into
+};
+
 /// Renders for the server. Implemented in server/app; any thread may call it. SetViewers and
 /// SetCamera are called on the server's thread (SetViewers(0) also by the destructor) and must
 /// return at once; SnapshotPng is called on a separate thread.
@@ -57,6 +64,7 @@ struct HttpConfig {
   std::string token;                // required as ?token= or cookie unless empty
   std::filesystem::path web_root;   // folder with index.html
   std::vector<CameraView> cameras;  // in display order
+  CameraFraming framing;            // of `cameras`
   std::string camera;               // of the live picture at the start; one of `cameras`
   /// Sets the hand load of `character`: returns "" or why it is rejected. Called on the server's
   /// thread, must return at once. Null: hand loads cannot be set over HTTP.

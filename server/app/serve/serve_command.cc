@@ -98,6 +98,11 @@ std::vector<http::CameraView> CameraViews() {
   return views;
 }
 
+http::CameraFraming FramingOfCameras() {
+  const render::GroupFraming& framing = render::kGroupFraming;
+  return {framing.min_width_m, framing.margin_m, framing.narrowest_aspect};
+}
+
 http::HttpConfig ToHttpConfig(const ServeOptions& options) {
   http::HttpConfig config;
   config.bind_ip = *options.bind_ip;
@@ -105,6 +110,7 @@ http::HttpConfig ToHttpConfig(const ServeOptions& options) {
   config.token = *options.token;
   config.web_root = FindResource("web");
   config.cameras = CameraViews();
+  config.framing = FramingOfCameras();
   config.camera = options.camera->front().text;
   return config;
 }

@@ -5,14 +5,15 @@ import { aim, groundOf } from '../../../web/cameras.js';
 
 const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
 const top = { name: 'top', position: [0, 0, 5.6], target: [0, 0, 1], up: [1, 0, 0], vertical_fov_rad: 0.5 };
+const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 4 / 3 };
 const here = { middle: [0, 0, 0], radius: 0 };
 const near = (actual, expected) =>
   actual.forEach((v, i) => assert.ok(Math.abs(v - expected[i]) < 1e-9, `${actual} instead of ${expected}`));
 const distance = ({ position, target }) => Math.hypot(...position.map((v, i) => v - target[i]));
 
 test('a named view is the server’s, moved to where the person stands', () => {
-  near(aim(front, here, 1.5).position, front.position);
-  const moved = aim(front, { middle: [2, -1, 0], radius: 0 }, 1.5);
+  near(aim(front, framing, here, 1.5).position, front.position);
+  const moved = aim(front, framing, { middle: [2, -1, 0], radius: 0 }, 1.5);
   near(moved.position, [6.6, -1, 1.5]);
   near(moved.target, [2, -1, 1]);
   assert.ok(Math.abs(moved.fovDegrees - 28.6479) < 1e-3);
@@ -20,10 +21,10 @@ test('a named view is the server’s, moved to where the person stands', () => {
 
 test('each name shows what the server’s picture of that name shows, of one person and of a group', () => {
   // named_views_test.cc holds the same file against the server's own cameras.
-  const views = JSON.parse(readFileSync(new URL('named_views.json', import.meta.url), 'utf8'));
+  const { framing: sent, views } = JSON.parse(readFileSync(new URL('named_views.json', import.meta.url), 'utf8'));
   for (const view of views) {
     const alone = views.find((v) => v.name === view.name && v.radius === 0 && v.aspect > 1);
-    const { position, target, fovDegrees } = aim(alone, { middle: [0, 0, 0], radius: view.radius }, view.aspect);
+    const { position, target, fovDegrees } = aim(alone, sent, { middle: [0, 0, 0], radius: view.radius }, view.aspect);
     const lean = view.name === 'top' ? 0.02 : 1e-5;  // an orbit has no "up" at its pole
     position.forEach((v, i) => assert.ok(Math.abs(v - view.position[i]) < lean, `${view.name}: ${position}`));
     near(target, view.target);
@@ -33,12 +34,12 @@ test('each name shows what the server’s picture of that name shows, of one per
 
 test('a narrow screen still shows both arms', () => {
   const aspect = 0.5;
-  const visible = 2 * distance(aim(front, here, aspect)) * Math.tan(0.25) * aspect;
+  const visible = 2 * distance(aim(front, framing, here, aspect)) * Math.tan(0.25) * aspect;
   assert.ok(visible >= 1.9 - 1e-9, `${visible} m`);
 });
 
 test('straight down, the camera leans so that "up" of the view is up on the screen', () => {
-  const { position, target } = aim(top, here, 1.5);
+  const { position, target } = aim(top, framing, here, 1.5);
   assert.ok(position[0] < target[0], 'it stands a trace behind');
   assert.ok(Math.abs(position[0]) < 0.01);
 });

@@ -82,10 +82,11 @@ test('a model without a colour for every class is refused, because spheres need 
 });
 
 test('cameras come as numbers', () => {
+  const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 1.3 };
   const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
-  assert.deepEqual(readCameras({ cameras: [front], live: 'front', has_pictures: true }, 'api/cameras'),
-    { cameras: [front], live: 'front' });
-  assert.throws(() => readCameras({ cameras: [{ ...front, up: [0, 1] }], live: 'front' }, 'api/cameras'),
+  assert.deepEqual(readCameras({ cameras: [front], framing, live: 'front', has_pictures: true }, 'api/cameras'),
+    { cameras: [front], framing, live: 'front' });
+  assert.throws(() => readCameras({ cameras: [{ ...front, up: [0, 1] }], framing, live: 'front' }, 'api/cameras'),
     /\[0,1\] as api\/cameras\.cameras\[0\]\.up; expected a list of 3/);
 });
 

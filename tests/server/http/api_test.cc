@@ -155,12 +155,15 @@ TEST(DetailsJson, IsEqualForEqualStates) {
 }
 
 TEST(CamerasJson, HasTheNumbersOfEveryView) {
-  const json told = json::parse(CamerasJson(testing::MakeCameras(), "front", false));
+  const json told =
+      json::parse(CamerasJson(testing::MakeCameras(), {1.5, 0.5, 1.25}, "front", false));
   EXPECT_EQ(told["live"], "front");
   EXPECT_EQ(told["has_pictures"], false);
   ASSERT_EQ(told["cameras"].size(), 7u);
   EXPECT_EQ(told["cameras"][0]["name"], "front");
   EXPECT_GT(told["cameras"][0]["position"][0], 4.0) << "front is seen from +x";
+  EXPECT_EQ(told["framing"],
+            (json{{"min_width_m", 1.5}, {"margin_m", 0.5}, {"narrowest_aspect", 1.25}}));
 }
 
 TEST(FindMesh, GivesOnlyStlFilesThatTheModelNames) {

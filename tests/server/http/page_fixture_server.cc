@@ -275,6 +275,7 @@ int Main(const std::vector<std::string>& arguments) {
   config.port = 0;
   config.web_root = FindResource("web");
   config.cameras = MakeCameras();
+  config.framing = MakeFraming();
   config.camera = "front";
   PlainFeed feed;
   PlainFeed* used_feed = &feed;

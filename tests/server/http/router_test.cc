@@ -72,6 +72,7 @@ class RouterTest : public ::testing::Test {
     Router::Site site;
     site.cookie_name = kCookie;
     site.cameras = MakeCameras();
+    site.framing = MakeFraming();
     site.has_pictures = true;
     site.files = files_.get();
     site.states = &states_;

@@ -23,5 +23,6 @@ SceneState MakeScene(std::uint64_t number, double seconds, std::int64_t arrival_
 
 /// The names of render/camera.h, with numbers like its own.
 std::vector<CameraView> MakeCameras();
+CameraFraming MakeFraming();
 
 }  // namespace kinescope::http::testing

@@ -88,6 +88,7 @@ struct TestServer {
     config.token = token;
     config.web_root = std::string(KINESCOPE_SOURCE_DIR) + "/web";
     config.cameras = MakeCameras();
+    config.framing = MakeFraming();
     config.camera = "front";
     return config;
   }

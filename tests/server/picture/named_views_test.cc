@@ -24,8 +24,13 @@ Vector3d ToVector(const nlohmann::json& json) {
 TEST(NamedViews, AreThoseThatThePageIsTestedAgainst) {
   std::ifstream file(kSource + "/tests/browser/unit/named_views.json");
   ASSERT_TRUE(file);
+  const nlohmann::json page = nlohmann::json::parse(file);
+  const nlohmann::json& framing = page.at("framing");
+  EXPECT_EQ(framing.at("min_width_m").get<double>(), render::kGroupFraming.min_width_m);
+  EXPECT_EQ(framing.at("margin_m").get<double>(), render::kGroupFraming.margin_m);
+  EXPECT_EQ(framing.at("narrowest_aspect").get<double>(), render::kGroupFraming.narrowest_aspect);
   std::map<std::string, int> views;
-  for (const auto& view : nlohmann::json::parse(file)) {
+  for (const auto& view : page.at("views")) {
     const std::string name = view.at("name");
     const render::Camera camera = render::ForAspect(
         render::NamedCameraAt(name, {Vector3d::Zero(), view.at("radius").get<double>()}),
