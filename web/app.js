@@ -5,7 +5,7 @@ import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
 import { cameraLabel, hexColor, latency, rate, shortCameraLabel, timeCode } from './format.js';
 import { mountHandLoad } from './hand_load.js';
-import { lampOf } from './lamp.js';
+import { statusOf } from './status.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { readCameras, readDiagnostics, readModel } from './messages.js';
 import { PicturePanel } from './picture_panel.js';
@@ -116,12 +116,12 @@ function takeNewest(now) {
     return false;
   }
   if (state.stateNumber !== before) stateChangedAt = now;
-  scene?.update(state, lampNow().level === 'live');
+  scene?.update(state, statusNow().level === 'live');
   if (model === null || state.people.some((person) => scene && !scene.hasModelOf(person))) loadModel(now);
   return state.stateNumber !== before;
 }
 
-function lampNow() {
+function statusNow() {
   const now = performance.now();
   const serverNow = connection.clock.at(now);
   /** @type {number|null} */
@@ -131,14 +131,14 @@ function lampNow() {
   } else if (state && state.liveness === 'stale') {
     ageMillis = now - stateChangedAt;
   }
-  return lampOf({
+  return statusOf({
     connected: connection.connected,
     everConnected: connection.everConnected,
     silentMillis: connection.silentMillis(now),
     liveness: state?.liveness ?? null,
     ageMillis,
     source: details.source,
-    reason: connection.refusal,
+    reason: connection.rejection,
   });
 }
 
@@ -153,7 +153,7 @@ async function loadModel(now) {
     applyPalette(model.palette);
     fillLegend(elements.legend, model.class_limits);
     scene?.setModel(model);
-    if (state) scene?.update(state, lampNow().level === 'live');
+    if (state) scene?.update(state, statusNow().level === 'live');
   } catch (error) {
     showNotice(`Could not load the body model: ${messageOf(error)}`);
   }
@@ -230,18 +230,18 @@ function markView(name) {
 function showReadings() {
   const now = performance.now();
   if (document.hidden) takeNewest(now);  // a hidden page has no animation frames, but its title still shows the status
-  const lamp = lampNow();
-  const isLive = lamp.level === 'live';
-  if (elements.lamp.dataset.level !== lamp.level && state) scene?.update(state, isLive);
-  elements.lamp.dataset.level = lamp.level;
-  setText('lamp-word', lamp.word);
-  document.title = `${lamp.word} · Kinescope`;
+  const status = statusNow();
+  const isLive = status.level === 'live';
+  if (elements.status.dataset.level !== status.level && state) scene?.update(state, isLive);
+  elements.status.dataset.level = status.level;
+  setText('status-word', status.word);
+  document.title = `${status.word} · Kinescope`;
   const meshes = scene?.failedMeshes.length ?? 0;
-  const banner = (now < notice.until && notice.text) || lamp.banner
+  const banner = (now < notice.until && notice.text) || status.banner
     || (meshes > 0 ? `${meshes} ${meshes === 1 ? 'mesh' : 'meshes'} of the body model could not be loaded` : '');
   setText('banner', banner);
   elements.banner.hidden = banner === '';
-  elements.banner.dataset.level = lamp.level;
+  elements.banner.dataset.level = status.level;
   if (!isLive) latencies.clear();
   const summary = latencies.summary(now);
   setText('rate', isLive && state ? rate(state.rateHz) : '–');

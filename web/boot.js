@@ -2,13 +2,13 @@
 // console.
 import('./app.js').catch((/** @type {unknown} */ error) => {
   const banner = document.getElementById('banner');
-  const lamp = document.getElementById('lamp');
-  const word = document.getElementById('lamp-word');
+  const status = document.getElementById('status');
+  const word = document.getElementById('status-word');
   if (banner) {
     banner.textContent = `The page could not start: ${error instanceof Error ? error.message : error}. `
       + 'If a file under /lib is missing, run “npm ci” in the server’s web folder.';
     banner.hidden = false;
   }
-  if (lamp) lamp.dataset.level = 'disconnected';
+  if (status) status.dataset.level = 'disconnected';
   if (word) word.textContent = 'Page failed';
 });

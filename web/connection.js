@@ -1,7 +1,7 @@
 // The page's only connection: one WebSocket for state, pictures and commands. It reconnects automatically.
 import { ServerClock } from './clock.js';
 import { readTextMessage } from './messages.js';
-import { messageOf, ownRefusalOf } from './server_api.js';
+import { messageOf, ownRejectionOf } from './server_api.js';
 import { KIND, messageKind } from './state_codec.js';
 
 const FIRST_RETRY_MILLIS = 400;
@@ -20,7 +20,7 @@ export class Connection {
   connected = false;
   everConnected = false;
   lastMessageAt = 0;  // performance.now()
-  refusal = '';       // why the server rejected the connection; "" if it accepted it or is not reachable
+  rejection = '';       // why the server rejected the connection; "" if it accepted it or is not reachable
   #retryMillis = FIRST_RETRY_MILLIS;
   /** @type {WebSocket|null} */ #socket = null;
   /** @type {ReturnType<typeof setTimeout>|undefined} */ #pingTimer;
@@ -67,7 +67,7 @@ export class Connection {
   #onOpen() {
     this.connected = true;
     this.everConnected = true;
-    this.refusal = '';
+    this.rejection = '';
     this.lastMessageAt = performance.now();
     this.#retryMillis = FIRST_RETRY_MILLIS;
     this.clock.reset();
@@ -83,7 +83,7 @@ export class Connection {
     clearTimeout(this.#pingTimer);
     this.connected = false;
     if (this.#closed) return;
-    this.refusal = await askWhyRefused();
+    this.rejection = await askWhyRejected();
     setTimeout(() => this.#open(), this.#retryMillis);
     this.#retryMillis = Math.min(2 * this.#retryMillis, LAST_RETRY_MILLIS);
   }
@@ -136,10 +136,10 @@ export class Connection {
 }
 
 // A rejected WebSocket has no reason; the answer to a plain request has one.
-async function askWhyRefused() {
+async function askWhyRejected() {
   try {
     const answer = await fetch('api/cameras');
-    return answer.ok ? '' : await ownRefusalOf(answer) ?? '';
+    return answer.ok ? '' : await ownRejectionOf(answer) ?? '';
   } catch {
     return '';  // no server reachable
   }

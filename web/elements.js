@@ -2,7 +2,7 @@
 
 /** id -> tag */
 export const ELEMENTS = /** @type {const} */ ({
-  'lamp': 'div', 'lamp-word': 'span', 'banner': 'p',
+  'status': 'div', 'status-word': 'span', 'banner': 'p',
   'rate': 'dd', 'latency': 'span', 'latency-p95': 'small', 'sample': 'dd', 'time-code': 'dd',
   'source': 'span', 'viewers': 'span',
   'view': 'div', 'cameras': 'div',

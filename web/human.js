@@ -7,7 +7,7 @@ import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
 const GHOST_OPACITY = 0.45;  // of symbols that are visible through the body
 const RIM = 1.14;            // radius of the dark rim of the class "high", as a multiple of the sphere's radius
 const CREASE = 0.7;          // rad; edges with a smaller angle are shaded smooth
-const MARK_LIFT = 0.004;     // m above the floor, so that disc and floor do not flicker
+const MARKER_LIFT = 0.004;     // m above the floor, so that disc and floor do not flicker
 
 const SUPPORT_LIFT = 0.003;
 
@@ -48,7 +48,7 @@ function shiningMesh(geometry, materials) {
 
 /** Materials of the symbols, shared by all people.
  *  @param {Palette} palette */
-export function makeMarkMaterials(palette) {
+export function makeMarkerMaterials(palette) {
   return {
     classes: Object.fromEntries(
       palette.classes.map(({ name, color }) => [name, makeShining(toColor(color))])),
@@ -75,11 +75,11 @@ export class Human {
 
   /** @param {import('./messages.js').PersonModel} model
    *  @param {Palette} palette
-   *  @param {ReturnType<typeof makeMarkMaterials>} marks
+   *  @param {ReturnType<typeof makeMarkerMaterials>} markers
    *  @param {() => void} onChange  called whenever a mesh has been loaded */
-  constructor(model, palette, marks, onChange) {
+  constructor(model, palette, markers, onChange) {
     this.palette = palette;
-    this.marks = marks;
+    this.markers = markers;
     this.revision = model.revision;
     this.staleColor = toColor(palette.stale_body);
     for (const link of model.links) {
@@ -88,13 +88,13 @@ export class Human {
       this.#links.push(group);
       this.group.add(group);
     }
-    this.com = shiningMesh(unitSphere, marks.com);
+    this.com = shiningMesh(unitSphere, markers.com);
     this.com.scale.setScalar(0.03);
     this.comLine = new THREE.Line(
-      new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3(0, 0, -1)]), marks.line);
-    this.comRing = new THREE.Mesh(new THREE.RingGeometry(0.035, 0.045, 40), marks.com.solid);
-    this.cop = new THREE.Mesh(new THREE.CircleGeometry(0.04, 40), marks.cop);
-    this.support = new THREE.LineLoop(new THREE.BufferGeometry(), marks.support);
+      new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3(0, 0, -1)]), markers.line);
+    this.comRing = new THREE.Mesh(new THREE.RingGeometry(0.035, 0.045, 40), markers.com.solid);
+    this.cop = new THREE.Mesh(new THREE.CircleGeometry(0.04, 40), markers.cop);
+    this.support = new THREE.LineLoop(new THREE.BufferGeometry(), markers.support);
     this.group.add(this.com, this.comLine, this.comRing, this.cop, this.support);
   }
 
@@ -129,7 +129,7 @@ export class Human {
     for (const load of person.loads) {
       const sphere = this.#spheres.get(load.joint) ?? this.#addSphere(load.joint);
       const loadClass = isLive ? load.loadClass : 'unknown';
-      const { solid, ghost } = this.marks.classes[loadClass];
+      const { solid, ghost } = this.markers.classes[loadClass];
       const [front, through] = sphere.group.children[0].children;
       /** @type {THREE.Mesh} */ (front).material = solid;
       /** @type {THREE.Mesh} */ (through).material = ghost;
@@ -153,9 +153,9 @@ export class Human {
       this.com.position.fromArray(com);
       this.comLine.position.fromArray(com);
       this.comLine.scale.z = Math.max(0.001, com[2] - floor);
-      this.comRing.position.set(com[0], com[1], floor + MARK_LIFT);
+      this.comRing.position.set(com[0], com[1], floor + MARKER_LIFT);
     }
-    if (cop) this.cop.position.set(cop[0], cop[1], cop[2] + MARK_LIFT / 2);
+    if (cop) this.cop.position.set(cop[0], cop[1], cop[2] + MARKER_LIFT / 2);
   }
 
   /** The support polygon.
@@ -173,7 +173,7 @@ export class Human {
   /** @param {import('./state_codec.js').Person} person */
   #updateHeld({ held }) {
     while (this.#held.length < held.length) {
-      const mesh = new THREE.Mesh(unitBox, this.marks.held);
+      const mesh = new THREE.Mesh(unitBox, this.markers.held);
       mesh.castShadow = true;
       this.#held.push(mesh);
       this.group.add(mesh);
@@ -192,9 +192,9 @@ export class Human {
   /** @param {number} joint */
   #addSphere(joint) {
     const group = new THREE.Group();
-    const rim = new THREE.Mesh(unitSphere, this.marks.rim);
+    const rim = new THREE.Mesh(unitSphere, this.markers.rim);
     rim.scale.setScalar(RIM);
-    group.add(shiningMesh(unitSphere, this.marks.classes.unknown), rim);
+    group.add(shiningMesh(unitSphere, this.markers.classes.unknown), rim);
     this.group.add(group);
     const sphere = { group, rim };
     this.#spheres.set(joint, sphere);

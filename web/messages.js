@@ -11,34 +11,34 @@ const LONGEST_QUOTE = 60;  // characters of an invalid value
  *  @param {string} path
  *  @param {string} expected
  *  @returns {never} */
-function refuse(value, path, expected) {
+function reject(value, path, expected) {
   const quote = value === undefined ? 'nothing' : JSON.stringify(value).slice(0, LONGEST_QUOTE);
   throw new Error(`the server sent ${quote} as ${path}; expected ${expected}; reload the page`);
 }
 
 /** @type {Reader<string>} */
-export const string = (value, path) => (typeof value === 'string' ? value : refuse(value, path, 'a text'));
+export const string = (value, path) => (typeof value === 'string' ? value : reject(value, path, 'a text'));
 
 /** @type {Reader<number>} */
-export const number = (value, path) => (typeof value === 'number' ? value : refuse(value, path, 'a number'));
+export const number = (value, path) => (typeof value === 'number' ? value : reject(value, path, 'a number'));
 
 /** @type {Reader<boolean>} */
 export const boolean = (value, path) =>
-  (typeof value === 'boolean' ? value : refuse(value, path, 'true or false'));
+  (typeof value === 'boolean' ? value : reject(value, path, 'true or false'));
 
 /** @template {string} Word
  *  @param {readonly Word[]} words
  *  @returns {Reader<Word>} */
 export const oneOf = (words) => (value, path) =>
-  words.find((word) => word === value) ?? refuse(value, path, words.join(', '));
+  words.find((word) => word === value) ?? reject(value, path, words.join(', '));
 
 /** @template T
  *  @param {Reader<T>} entry
  *  @param {number} [count]  length of the list; default: any
  *  @returns {Reader<T[]>} */
 export const listOf = (entry, count) => (value, path) => {
-  if (!Array.isArray(value)) return refuse(value, path, 'a list');
-  if (count !== undefined && value.length !== count) return refuse(value, path, `a list of ${count}`);
+  if (!Array.isArray(value)) return reject(value, path, 'a list');
+  if (count !== undefined && value.length !== count) return reject(value, path, `a list of ${count}`);
   return value.map((/** @type {unknown} */ each, i) => entry(each, `${path}[${i}]`));
 };
 
@@ -60,7 +60,7 @@ export const optional = (reader) => (value, path) => (value === undefined ? unde
  *  @returns {Record<string, unknown>} */
 const members = (value, path) =>
   (typeof value === 'object' && value !== null && !Array.isArray(value)
-    ? Object.fromEntries(Object.entries(value)) : refuse(value, path, 'an object'));
+    ? Object.fromEntries(Object.entries(value)) : reject(value, path, 'an object'));
 
 /** An object with any keys.
  *  @template T
@@ -136,7 +136,7 @@ const readPalette = object({
   classes: (value, path) => {
     const colors = readClassColors(value, path);
     const missing = LOAD_CLASSES.find((wanted) => !colors.some(({ name }) => name === wanted));
-    return missing ? refuse(value, path, `a colour of the class ${missing}`) : colors;
+    return missing ? reject(value, path, `a colour of the class ${missing}`) : colors;
   },
   cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, object: rgb, axes: listOf(rgb, 3),
 });
@@ -167,4 +167,4 @@ export const readDiagnostics = object({
 /** @typedef {ReturnType<typeof readDiagnostics>} Diagnostics */
 
 /** The answer to any rejected request. */
-export const readRefusal = object({ error: string });
+export const readRejection = object({ error: string });

@@ -15,10 +15,10 @@ const LABEL_PIXELS = 44;     // font size of the label's texture
  *  @param {{character: number, number: number}} object */
 export const keyOf = ({ character, number }) => `${character}/${number}`;
 
-export class ObjectMarks {
+export class ObjectMarkers {
   group = new THREE.Group();
   #fovDegrees;
-  #marks = /** @type {Map<string, {group: THREE.Group, name: string, label: THREE.Sprite|null}>} */ (new Map());
+  #markers = /** @type {Map<string, {group: THREE.Group, name: string, label: THREE.Sprite|null}>} */ (new Map());
   #names = /** @type {Map<string, string>} */ (new Map());
   #block = new THREE.BoxGeometry(BLOCK, BLOCK, BLOCK);
   #rod = new THREE.CylinderGeometry(AXIS_RADIUS, AXIS_RADIUS, AXIS_LENGTH, 12).translate(0, AXIS_LENGTH / 2, 0);
@@ -37,14 +37,14 @@ export class ObjectMarks {
   setFieldOfView(degrees) {
     if (degrees === this.#fovDegrees) return;
     this.#fovDegrees = degrees;
-    for (const { label } of this.#marks.values()) if (label) this.#fit(label);
+    for (const { label } of this.#markers.values()) if (label) this.#fit(label);
   }
 
   /** Names arrive separately from poses, and later.
    *  @param {import('./messages.js').ObjectName[]} names */
   setNames(names) {
     this.#names = new Map(names.map((object) => [keyOf(object), object.name]));
-    for (const [key, mark] of this.#marks) this.#relabel(key, mark);
+    for (const [key, marker] of this.#markers) this.#relabel(key, marker);
   }
 
   /** @param {import('./state_codec.js').TrackedObject[]} objects
@@ -52,14 +52,14 @@ export class ObjectMarks {
   update(objects, isLive) {
     for (const { color, material } of this.materials) material.color.copy(isLive ? color : this.staleColor);
     const seen = new Set(objects.map(keyOf));
-    for (const [key, { group, label }] of this.#marks) {
+    for (const [key, { group, label }] of this.#markers) {
       if (seen.has(key)) continue;
       group.removeFromParent();
       dispose(label);
-      this.#marks.delete(key);
+      this.#markers.delete(key);
     }
     for (const object of objects) {
-      const { group, label } = this.#marks.get(keyOf(object)) ?? this.#add(keyOf(object));
+      const { group, label } = this.#markers.get(keyOf(object)) ?? this.#add(keyOf(object));
       group.position.fromArray(object.position);
       group.children[0].quaternion.fromArray(object.quaternion);
       label?.position.set(0, 0, LABEL_LIFT);
@@ -81,24 +81,24 @@ export class ObjectMarks {
     const group = new THREE.Group();
     group.add(body);
     this.group.add(group);
-    const mark = { group, name: '', label: null };
-    this.#marks.set(key, mark);
-    this.#relabel(key, mark);
-    return mark;
+    const marker = { group, name: '', label: null };
+    this.#markers.set(key, marker);
+    this.#relabel(key, marker);
+    return marker;
   }
 
   /** @param {string} key
-   *  @param {{group: THREE.Group, name: string, label: THREE.Sprite|null}} mark */
-  #relabel(key, mark) {
+   *  @param {{group: THREE.Group, name: string, label: THREE.Sprite|null}} marker */
+  #relabel(key, marker) {
     const name = this.#names.get(key) ?? '';
-    if (name === mark.name) return;
-    dispose(mark.label);
-    mark.name = name;
-    mark.label = name ? makeLabel(labelText(name)) : null;
-    if (!mark.label) return;
-    mark.label.position.set(0, 0, LABEL_LIFT);
-    this.#fit(mark.label);
-    mark.group.add(mark.label);
+    if (name === marker.name) return;
+    dispose(marker.label);
+    marker.name = name;
+    marker.label = name ? makeLabel(labelText(name)) : null;
+    if (!marker.label) return;
+    marker.label.position.set(0, 0, LABEL_LIFT);
+    this.#fit(marker.label);
+    marker.group.add(marker.label);
   }
 
   /** @param {THREE.Sprite} label */

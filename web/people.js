@@ -18,12 +18,12 @@ export class People {
 
   /** @param {import('./messages.js').PersonModel[]} models  those with a revision already shown are skipped
    *  @param {import('./messages.js').Palette} palette
-   *  @param {ReturnType<typeof import('./human.js').makeMarkMaterials>} marks */
-  setModels(models, palette, marks) {
+   *  @param {ReturnType<typeof import('./human.js').makeMarkerMaterials>} markers */
+  setModels(models, palette, markers) {
     for (const model of models) {
       if (this.has(model.character, model.revision)) continue;
       this.#people.get(model.character)?.human.dispose();
-      const human = new Human(model, palette, marks, this.onChange);
+      const human = new Human(model, palette, markers, this.onChange);
       this.#people.set(model.character, { human, seenMicros: null });
       this.group.add(human.group);
     }

@@ -1,6 +1,6 @@
 // The picture rendered by the server, next to the view of the page. It equals the pictures in PNG, video and CI.
 import { shortCameraLabel } from './format.js';
-import { messageOf, refusalOf } from './server_api.js';
+import { messageOf, rejectionOf } from './server_api.js';
 import { decodePicture } from './state_codec.js';
 
 const SAVED_SIZE = { width: 1920, height: 1080 };
@@ -99,7 +99,7 @@ export class PicturePanel {
         camera: camera.value, width: String(SAVED_SIZE.width), height: String(SAVED_SIZE.height),
       });
       const answer = await fetch(`snapshot.png?${query}`);
-      if (!answer.ok) throw new Error(`Could not save the picture: ${await refusalOf(answer)}`);
+      if (!answer.ok) throw new Error(`Could not save the picture: ${await rejectionOf(answer)}`);
       const link = document.createElement('a');
       link.href = URL.createObjectURL(await answer.blob());
       link.download = `kinescope_${camera.value}_${new Date().toISOString().replace(/[:.]/g, '-')}.png`;

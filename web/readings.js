@@ -1,6 +1,6 @@
 // Texts next to the view about one person. Pure functions.
 import { centimetres, kilonewtons } from './format.js';
-import { heldText } from './hand_load.js';
+import { handLoadText } from './hand_load.js';
 
 /** @typedef {import('./state_codec.js').Person} Person
  *  @typedef {import('./messages.js').PersonDetails} PersonDetails
@@ -36,7 +36,7 @@ export function loadsHint(person, details) {
   return [
     `${person.metric}${motion}`,
     details?.mass_is_assumed ? `body mass assumed: ${details.mass_kg} kg` : '',
-    heldText(details?.hand_load),
+    handLoadText(details?.hand_load),
     person.comDisagrees ? `centre of mass differs from MVN by ${centimetres(person.comMinusMvn)}` : '',
     details?.why_other_metric ?? '',
   ].filter(Boolean).join(' · ');

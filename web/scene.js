@@ -3,8 +3,8 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { aim, groundOf } from './cameras.js';
-import { makeMarkMaterials } from './human.js';
-import { ObjectMarks } from './objects.js';
+import { makeMarkerMaterials } from './human.js';
+import { ObjectMarkers } from './objects.js';
 import { People } from './people.js';
 
 const FOLLOW_SECONDS = 0.35;  // time constant with which the view follows a walking person
@@ -28,8 +28,8 @@ export class Scene {
   #shade = new THREE.Mesh(new THREE.PlaneGeometry(5, 5), new THREE.ShadowMaterial());
   #grid = new THREE.LineSegments(gridGeometry(12, 0.5), new THREE.LineBasicMaterial());
   #people = new People(() => { this.#dirty = true; });
-  #marks = /** @type {ReturnType<typeof makeMarkMaterials>|null} */ (null);
-  #objects = /** @type {ObjectMarks|null} */ (null);
+  #markers = /** @type {ReturnType<typeof makeMarkerMaterials>|null} */ (null);
+  #objects = /** @type {ObjectMarkers|null} */ (null);
   #objectNames = /** @type {import('./messages.js').ObjectName[]} */ ([]);
   #ground = { middle: [0, 0, 0], radius: 0 };
   #followed = [0, 0, 0];
@@ -75,13 +75,13 @@ export class Scene {
   /** Sets the bodies of the people; called again whenever a revision changes.
    *  @param {import('./messages.js').Model} model */
   setModel(model) {
-    this.#marks ??= makeMarkMaterials(model.palette);
+    this.#markers ??= makeMarkerMaterials(model.palette);
     if (this.#objects === null) {
-      this.#objects = new ObjectMarks(model.palette, this.#camera.fov);
+      this.#objects = new ObjectMarkers(model.palette, this.#camera.fov);
       this.#objects.setNames(this.#objectNames);
       this.#scene.add(this.#objects.group);
     }
-    this.#people.setModels(model.people, model.palette, this.#marks);
+    this.#people.setModels(model.people, model.palette, this.#markers);
     this.#dirty = true;
   }
 

@@ -1,6 +1,6 @@
 // Requests to the routes of the server, with errors of one line: the server may be unreachable, reject the request, or
 // be behind a proxy that answers with a page of its own.
-import { readRefusal } from './messages.js';
+import { readRejection } from './messages.js';
 
 /** @param {unknown} error  any thrown value */
 export const messageOf = (error) => (error instanceof Error ? error.message : String(error));
@@ -13,7 +13,7 @@ export const messageOf = (error) => (error instanceof Error ? error.message : St
 export async function ask(route, read) {
   const answer = await fetch(route).catch(() => null);
   if (answer === null) return null;
-  if (!answer.ok) throw new Error(await refusalOf(answer));
+  if (!answer.ok) throw new Error(await rejectionOf(answer));
   return read(await jsonOf(answer, route), route);
 }
 
@@ -31,13 +31,13 @@ async function jsonOf(answer, route) {
 
 /** @param {Response} answer  with an error status
  *  @returns {Promise<string>}  the server's message, or the status if the answer is not from the server */
-export const refusalOf = async (answer) => await ownRefusalOf(answer) ?? `HTTP status ${answer.status}`;
+export const rejectionOf = async (answer) => await ownRejectionOf(answer) ?? `HTTP status ${answer.status}`;
 
 /** @param {Response} answer  with an error status
  *  @returns {Promise<string|null>}  the server's message; null if the answer is not from a Kinescope server */
-export async function ownRefusalOf(answer) {
+export async function ownRejectionOf(answer) {
   try {
-    return readRefusal(await answer.json(), '').error;
+    return readRejection(await answer.json(), '').error;
   } catch {
     return null;
   }

@@ -9,7 +9,7 @@ after(closeBrowser);
 
 test('a suit that streams is seen, with its rate', async () => {
   const { page, problems, close } = await openPage(process.env.KINESCOPE_PAGE);
-  await page.waitForFunction(() => document.getElementById('lamp-word').textContent === 'Live', null, LONG);
+  await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live', null, LONG);
   // Of samples as they come, a second at a time: a busy machine lets one second have fewer and the next more.
   await page.waitForFunction(() => /^1[12]\d\.\d Hz$/.test(document.getElementById('rate').textContent), null, LONG);
   const isBody = (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) < 30 && g > 90 && g < 215;

@@ -17,8 +17,8 @@ after(async () => {
   await closeBrowser();
 });
 
-const lampIs = (page, word) =>
-  page.waitForFunction((w) => document.getElementById('lamp-word').textContent === w, word, LONG);
+const statusIs = (page, word) =>
+  page.waitForFunction((w) => document.getElementById('status-word').textContent === w, word, LONG);
 const text = (page, selector) => page.locator(selector).textContent();
 const isRed = (r, g, b) => r > 150 && g < 90 && b < 90;
 const isGreen = (r, g, b) => g > 90 && r < 0.75 * g && b < 0.93 * g;  // through the body, too
@@ -39,7 +39,7 @@ async function openLive(options) {
   site.say('people 1');
   site.say('live');
   const visit = await openPage(site.url, options);
-  await lampIs(visit.page, 'Live');
+  await statusIs(visit.page, 'Live');
   return visit;
 }
 
@@ -108,7 +108,7 @@ test('a stream that stops is stale, then no data, then live again, by itself', a
   const { page, problems, close } = await openLive();
   await seePixels(page, 'red', isRed, 300);
   site.say('stale');
-  await lampIs(page, 'Stale');
+  await statusIs(page, 'Stale');
   await page.waitForFunction(() => /last sample received \d/.test(document.getElementById('banner').textContent), null, LONG);
   const words = await page.$$eval('#loads .word', (parts) => [...new Set(parts.map((part) => part.textContent))]);
   assert.deepEqual(words, ['unknown'], 'an old load is no load');
@@ -121,11 +121,11 @@ test('a stream that stops is stale, then no data, then live again, by itself', a
   assert.equal(coloured, 0, 'a stale human is grey');
   await saveScreenshot(page, 'stale_desktop');
   site.say('nodata');
-  await lampIs(page, 'No data');
+  await statusIs(page, 'No data');
   assert.equal(await text(page, '#banner'), 'Waiting for udp://0.0.0.0:9763');
   await saveScreenshot(page, 'no_data_desktop');
   site.say('live');
-  await lampIs(page, 'Live');
+  await statusIs(page, 'Live');
   assert.equal(await page.locator('#banner').isVisible(), false);
   await seePixels(page, 'red', isRed, 300);
   assert.deepEqual(problems, []);
@@ -135,13 +135,13 @@ test('a stream that stops is stale, then no data, then live again, by itself', a
 test('a server that dies is noticed, one that hangs too', async () => {
   const mortal = await startFixture();
   const { page, close } = await openPage(mortal.url);
-  await lampIs(page, 'Live');
+  await statusIs(page, 'Live');
   process.kill(mortal.pid, 'SIGSTOP');
-  await lampIs(page, 'Disconnected');
+  await statusIs(page, 'Disconnected');
   process.kill(mortal.pid, 'SIGCONT');
-  await lampIs(page, 'Live');
+  await statusIs(page, 'Live');
   await mortal.kill();
-  await lampIs(page, 'Disconnected');
+  await statusIs(page, 'Disconnected');
   assert.match(await text(page, '#banner'), /No connection/);
   await close();
 });
@@ -226,7 +226,7 @@ test('the server’s picture is shown when wanted, and saved at full size', asyn
 test('without a renderer the page says so and works', async () => {
   const blind = await startFixture(['--no-pictures']);
   const { page, close } = await openPage(blind.url);
-  await lampIs(page, 'Live');
+  await statusIs(page, 'Live');
   await page.waitForFunction(() => document.getElementById('picture-note').textContent === 'This server does not render pictures.', null, LONG);
   assert.equal(await page.locator('#save-picture').isDisabled(), true);
   await close();
@@ -266,13 +266,13 @@ test('a token is asked for, and does not stay in the address', async () => {
   assert.match(await text(denied.page, 'body'), /token/);
   await denied.close();
   const { page, problems, close } = await openPage(guarded.url);
-  await lampIs(page, 'Live');
+  await statusIs(page, 'Live');
   assert.equal(new URL(page.url()).search, '');
   // A request that the reload cuts short counts as failed.
   await page.waitForFunction(() => performance.getEntriesByType('resource')
     .some(({ name, responseEnd }) => name.endsWith('/api/model') && responseEnd > 0), null, LONG);
   await page.reload();
-  await lampIs(page, 'Live');
+  await statusIs(page, 'Live');
   assert.deepEqual(problems, []);
   await close();
   await guarded.stop();
@@ -304,7 +304,7 @@ test('a body of mesh files is drawn, and a file that is missing is named as miss
   const [missing, ...others] = links;
   await Promise.all(others.map((name) => writeFile(join(folder, `${name}.stl`), boxStl([0.15, 0.15, 0.15]))));
   const { page, problems, close } = await openPage(meshed.url);
-  await lampIs(page, 'Live');
+  await statusIs(page, 'Live');
   await page.waitForFunction(
     () => document.getElementById('banner').textContent === '1 mesh of the body model could not be loaded', null, LONG);
   const isBody = (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) < 30 && g > 90 && g < 215;
@@ -343,7 +343,7 @@ test('gloves, props and tracked objects are in the view, and what the server can
   assert.equal(meshed.length, 21 + 40, 'the fingers, and no hand beside them');
   await Promise.all(meshed.map((name) => writeFile(join(folder, `${name}.stl`), boxStl([0.03, 0.03, 0.03]))));
   const { page, problems, close } = await openPage(worn.url, { viewport: DESKTOP });
-  await lampIs(page, 'Live');
+  await statusIs(page, 'Live');
   const until = Date.now() + LONG.timeout;
   while (await besideHead(page) < 200) assert.ok(Date.now() < until, 'no props beside the head');
   await page.waitForFunction(() => performance.getEntriesByType('resource')
@@ -379,7 +379,7 @@ for (const [name, viewport, colorScheme] of [
       scroll: document.documentElement.scrollWidth, client: document.documentElement.clientWidth }));
     assert.ok(scroll <= client, `${scroll} px wide on ${client}`);
     const cut = await page.evaluate(() => [...document.querySelectorAll(
-      '#lamp, .readings dd, button, select, #loads .label, #loads .word, #loads .ratio, #loads .note, #legend li, h1, h2')]
+      '#status, .readings dd, button, select, #loads .label, #loads .word, #loads .ratio, #loads .note, #legend li, h1, h2')]
       .filter((part) => part.offsetParent && part.scrollWidth > part.clientWidth + 1 && getComputedStyle(part).display !== 'inline'
         || part.getBoundingClientRect().right > innerWidth + 0.5)
       .map((part) => `${part.className || part.id || part.tagName}: ${part.textContent}`));
@@ -413,7 +413,7 @@ test('words stand out from their background by at least 4.5 to 1', async () => {
         .reduce((sum, v, i) => sum + v * [0.2126, 0.7152, 0.0722][i], 0);
       const background = (part) => (part === null ? [255, 255, 255]
         : over(css(background(part.parentElement)), getComputedStyle(part).backgroundColor));
-      return [...document.querySelectorAll('#lamp-word, dt, dd, #source, #viewers, button, h1, h2, .label, .note, .word, .ratio, .hint, #legend li')]
+      return [...document.querySelectorAll('#status-word, dt, dd, #source, #viewers, button, h1, h2, .label, .note, .word, .ratio, .hint, #legend li')]
         .filter((part) => part.offsetParent && part.textContent.trim() && !part.disabled)
         .map((part) => {
           const behind = background(part);

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { heldText, withHand } from '../../../web/hand_load.js';
+import { handLoadText, withHand } from '../../../web/hand_load.js';
 
 test('setting one hand leaves the other as it was', () => {
   assert.deepEqual(withHand({ right_kg: 5, left_kg: 1, both_kg: 0 }, 'left_kg', 2.5),
@@ -9,8 +9,8 @@ test('setting one hand leaves the other as it was', () => {
 });
 
 test('what is held is told in words, and empty hands not at all', () => {
-  assert.equal(heldText({ right_kg: 5, left_kg: 2.25, both_kg: 0 }), 'hand load 5 kg right, 2.25 kg left');
-  assert.equal(heldText({ right_kg: 0, left_kg: 0, both_kg: 10 }), 'hand load 10 kg in both hands');
-  assert.equal(heldText({ right_kg: 0, left_kg: 0, both_kg: 0 }), '');
-  assert.equal(heldText(undefined), '');
+  assert.equal(handLoadText({ right_kg: 5, left_kg: 2.25, both_kg: 0 }), 'hand load 5 kg right, 2.25 kg left');
+  assert.equal(handLoadText({ right_kg: 0, left_kg: 0, both_kg: 10 }), 'hand load 10 kg in both hands');
+  assert.equal(handLoadText({ right_kg: 0, left_kg: 0, both_kg: 0 }), '');
+  assert.equal(handLoadText(undefined), '');
 });

@@ -63,7 +63,7 @@ test('a wrong or missing member anywhere in the details or the model is refused 
   }
 });
 
-test('the refusal says what came, where, and what was expected', () => {
+test('the rejection says what came, where, and what was expected', () => {
   const message = JSON.stringify({ details: changed(details, 'people.0.name', 5) });
   assert.throws(() => readTextMessage(message),
     /^Error: the server sent 5 as details\.people\[0\]\.name; expected a text; reload the page$/);

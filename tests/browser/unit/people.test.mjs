@@ -1,7 +1,7 @@
 // Bodies of made-up people, with the real three.js; nothing is drawn.
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { makeMarkMaterials } from '../../../web/human.js';
+import { makeMarkerMaterials } from '../../../web/human.js';
 import { People } from '../../../web/people.js';
 
 const rgb = [0.5, 0.5, 0.5];
@@ -19,8 +19,8 @@ const stateOf = (seconds, ...characters) =>
 /** People 0 and 1; `disposed` counts what has been given back of each. */
 function twoPeople() {
   const people = new People(() => {});
-  const marks = makeMarkMaterials(palette);
-  people.setModels([modelOf(0), modelOf(1)], palette, marks);
+  const markers = makeMarkerMaterials(palette);
+  people.setModels([modelOf(0), modelOf(1)], palette, markers);
   const disposed = people.group.children.map((body) => {
     const counts = { geometries: 0, materials: 0 };
     const limb = body.children[0].children[0].children[0];
@@ -28,7 +28,7 @@ function twoPeople() {
     limb.material.addEventListener('dispose', () => { counts.materials += 1; });
     return counts;
   });
-  return { people, marks, disposed };
+  return { people, markers, disposed };
 }
 
 test('who leaves is hidden at once and given back ten seconds later', () => {
@@ -45,9 +45,9 @@ test('who leaves is hidden at once and given back ten seconds later', () => {
 });
 
 test('people who come and go for an hour leave nothing behind', () => {
-  const { people, marks } = twoPeople();
+  const { people, markers } = twoPeople();
   for (let i = 2; i < 360; ++i) {
-    people.setModels([modelOf(i)], palette, marks);
+    people.setModels([modelOf(i)], palette, markers);
     people.update(stateOf(10 * i, i), true);
   }
   assert.ok(people.size <= 3, `${people.size} bodies are kept`);
@@ -70,8 +70,8 @@ test('a model that comes before its person waits for it', () => {
 });
 
 test('a new revision replaces the body and gives the old one back', () => {
-  const { people, marks, disposed } = twoPeople();
-  people.setModels([modelOf(0, 1), modelOf(1, 2)], palette, marks);
+  const { people, markers, disposed } = twoPeople();
+  people.setModels([modelOf(0, 1), modelOf(1, 2)], palette, markers);
   assert.deepEqual(disposed, [{ geometries: 0, materials: 0 }, { geometries: 1, materials: 1 }]);
   assert.equal(people.group.children.length, 2);
   assert.equal(people.has(1, 2), true);

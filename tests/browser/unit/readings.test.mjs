@@ -18,7 +18,7 @@ test('the hint says what the loads are and what they stand on', () => {
   assert.equal(loadsHint(person, undefined), 'total, dynamic', 'details come a moment after the first state');
 });
 
-test('the marks say whose they are, and why one is not there', () => {
+test('the markers say whose they are, and why one is not there', () => {
   assert.equal(comText(person), 'Centre of mass');
   assert.equal(comText({ ...person, comSource: 'body_model' }), 'Centre of mass (body model)');
   assert.equal(copText(person, details), 'Centre of pressure');
@@ -44,7 +44,7 @@ test('an assumed mass and a centre of mass that disagrees deserve a second look'
   assert.equal(readingsOf({ ...person, comDisagrees: true }, undefined, true).isDoubtful, true);
 });
 
-test('without a person only the marks are named', () => {
+test('without a person only the markers are named', () => {
   assert.deepEqual(readingsOf(undefined, undefined, true), { hint: '', isDoubtful: false, com: 'Centre of mass',
     cop: 'Centre of pressure', support: 'Support polygon', compression: '' });
 });

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { afterEach, test } from 'node:test';
 import { object, string } from '../../../web/messages.js';
-import { ask, messageOf, ownRefusalOf, refusalOf } from '../../../web/server_api.js';
+import { ask, messageOf, ownRejectionOf, rejectionOf } from '../../../web/server_api.js';
 
 const realFetch = globalThis.fetch;
 afterEach(() => { globalThis.fetch = realFetch; });
@@ -16,12 +16,12 @@ test('an answer is read with its shape', async () => {
   await assert.rejects(ask('api/camera', readName), /sent 5 as api\/camera\.name; expected a text/);
 });
 
-test('where no server answers there is nothing to say: the lamp tells', async () => {
+test('without a server there is no answer and no error: the status indicator shows it', async () => {
   globalThis.fetch = async () => { throw new TypeError('Failed to fetch'); };
   assert.equal(await ask('api/camera', readName), null);
 });
 
-test('a refusal is told in the server’s words', async () => {
+test('a rejection is told in the server’s words', async () => {
   answerWith('{"error": "no camera \'x\'"}', { status: 404 });
   await assert.rejects(ask('api/camera', readName), /^Error: no camera 'x'$/);
 });
@@ -31,8 +31,8 @@ test('a proxy that answers with a page of its own is named as such', async () =>
   await assert.rejects(ask('api/camera', readName), /api\/camera returned text\/html, expected JSON/);
   answerWith('<html>', { ...html, status: 502 });
   await assert.rejects(ask('api/camera', readName), /^Error: HTTP status 502$/);
-  assert.equal(await refusalOf(new Response('<html>', { status: 502 })), 'HTTP status 502');
-  assert.equal(await ownRefusalOf(new Response('<html>', { status: 502 })), null, 'it is not our server that refuses');
+  assert.equal(await rejectionOf(new Response('<html>', { status: 502 })), 'HTTP status 502');
+  assert.equal(await ownRejectionOf(new Response('<html>', { status: 502 })), null, 'it is not our server that refuses');
 });
 
 test('whatever is thrown has a message', () => {

@@ -8,15 +8,15 @@ export const SILENCE_MILLIS = 1500;
 export const OLD_MILLIS = 2000;
 
 /** @typedef {'live'|'stale'|'no-data'|'disconnected'|'wait'} Level
- *  @typedef {{level: Level, word: string, banner: string}} Lamp  banner "": none
+ *  @typedef {{level: Level, word: string, banner: string}} Status  banner "": none
  *  @typedef {{connected: boolean, everConnected: boolean, silentMillis: number,
  *    liveness: 'no data'|'live'|'stale'|null, ageMillis: number|null, source: string,
  *    reason: string}} Situation  reason: why the server rejected the connection; "" otherwise
  */
 
 /** @param {Situation} now
- *  @returns {Lamp} */
-export function lampOf(now) {
+ *  @returns {Status} */
+export function statusOf(now) {
   if (!now.connected || now.silentMillis > SILENCE_MILLIS) return disconnected(now);
   if (now.liveness === null) return { level: 'wait', word: 'Connecting', banner: '' };
   if (now.liveness === 'no data') {
@@ -32,7 +32,7 @@ export function lampOf(now) {
 }
 
 /** @param {Situation} now
- *  @returns {Lamp} */
+ *  @returns {Status} */
 function disconnected(now) {
   if (now.reason) return { level: 'disconnected', word: 'Rejected', banner: now.reason };
   if (!now.everConnected) return { level: 'wait', word: 'Connecting', banner: 'Connecting to the server' };

@@ -1,21 +1,21 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { lampOf, OLD_MILLIS, SILENCE_MILLIS } from '../../../web/lamp.js';
+import { statusOf, OLD_MILLIS, SILENCE_MILLIS } from '../../../web/status.js';
 
 const good = { connected: true, everConnected: true, silentMillis: 20, liveness: 'live', ageMillis: 8,
   source: 'udp://:9763', reason: '' };
-const level = (change) => lampOf({ ...good, ...change }).level;
+const level = (change) => statusOf({ ...good, ...change }).level;
 
 test('live is live only while everything is', () => {
   assert.equal(level({}), 'live');
-  assert.equal(lampOf(good).banner, '');
+  assert.equal(statusOf(good).banner, '');
   assert.equal(level({ ageMillis: null }), 'live');
 });
 
 test('what the server calls stale is stale, with its age', () => {
-  const lamp = lampOf({ ...good, liveness: 'stale', ageMillis: 3210 });
-  assert.equal(lamp.word, 'Stale');
-  assert.match(lamp.banner, /3\.2 s ago/);
+  const status = statusOf({ ...good, liveness: 'stale', ageMillis: 3210 });
+  assert.equal(status.word, 'Stale');
+  assert.match(status.banner, /3\.2 s ago/);
 });
 
 test('a sample that gets old makes the page stale by itself', () => {
@@ -28,14 +28,14 @@ test('a server that says nothing is not believed any more', () => {
 });
 
 test('before the first sample it names what it waits for', () => {
-  const lamp = lampOf({ ...good, liveness: 'no data', ageMillis: null });
-  assert.deepEqual([lamp.level, lamp.word, lamp.banner], ['no-data', 'No data', 'Waiting for udp://:9763']);
-  assert.equal(lampOf({ ...good, liveness: 'no data', source: '' }).banner, 'Waiting for the source');
+  const status = statusOf({ ...good, liveness: 'no data', ageMillis: null });
+  assert.deepEqual([status.level, status.word, status.banner], ['no-data', 'No data', 'Waiting for udp://:9763']);
+  assert.equal(statusOf({ ...good, liveness: 'no data', source: '' }).banner, 'Waiting for the source');
 });
 
 test('before the first connection it connects, and says why it is refused', () => {
   const start = { ...good, connected: false, everConnected: false, liveness: null };
-  assert.equal(lampOf(start).level, 'wait');
-  assert.deepEqual(lampOf({ ...start, reason: 'no token' }),
+  assert.equal(statusOf(start).level, 'wait');
+  assert.deepEqual(statusOf({ ...start, reason: 'no token' }),
     { level: 'disconnected', word: 'Rejected', banner: 'no token' });
 });
