@@ -3,13 +3,13 @@ import { RecentValues } from './clock.js';
 import { Connection } from './connection.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
-import { cameraLabel, hexColor, latency, rate, shortCameraLabel, timeCode } from './format.js';
+import { cameraLabel, hexColor, shortCameraLabel } from './format.js';
 import { mountHandLoad } from './hand_load.js';
 import { statusOf } from './status.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { readCameras, readDiagnostics, readModel } from './messages.js';
 import { PicturePanel } from './picture_panel.js';
-import { readingsOf } from './readings.js';
+import { meshesText, readingsOf, streamReadingsOf } from './readings.js';
 import { Scene } from './scene.js';
 import { ask, messageOf } from './server_api.js';
 import { decodeState } from './state_codec.js';
@@ -233,25 +233,29 @@ function showReadings() {
   const status = statusNow();
   const isLive = status.level === 'live';
   if (elements.status.dataset.level !== status.level && state) scene?.update(state, isLive);
+  showStatus(status, now);
+  if (!isLive) latencies.clear();
+  const readings = streamReadingsOf(state, latencies.summary(now), isLive);
+  setText('rate', readings.rate);
+  setText('latency', readings.latency);
+  setText('latency-p95', readings.latencyP95);
+  setText('sample', readings.sample);
+  setText('time-code', readings.timeCode);
+  setText('viewers', readings.viewers);
+  setText('source', details.source);
+  showPeople(isLive);
+}
+
+/** @param {import('./status.js').Status} status
+ *  @param {number} now */
+function showStatus(status, now) {
+  const banner = (now < notice.until && notice.text) || status.banner || meshesText(scene?.failedMeshes.length ?? 0);
   elements.status.dataset.level = status.level;
   setText('status-word', status.word);
   document.title = `${status.word} · Kinescope`;
-  const meshes = scene?.failedMeshes.length ?? 0;
-  const banner = (now < notice.until && notice.text) || status.banner
-    || (meshes > 0 ? `${meshes} ${meshes === 1 ? 'mesh' : 'meshes'} of the body model could not be loaded` : '');
   setText('banner', banner);
   elements.banner.hidden = banner === '';
   elements.banner.dataset.level = status.level;
-  if (!isLive) latencies.clear();
-  const summary = latencies.summary(now);
-  setText('rate', isLive && state ? rate(state.rateHz) : '–');
-  setText('latency', latency(summary?.median ?? null));
-  setText('latency-p95', summary ? `p95 ${latency(summary.p95)}` : '');
-  setText('sample', state && state.liveness !== 'no data' ? String(state.counter) : '–');
-  setText('time-code', state && state.liveness !== 'no data' ? timeCode(state.timeCodeMillis) : '–');
-  setText('source', details.source);
-  setText('viewers', state ? `${state.viewers} ${state.viewers === 1 ? 'viewer' : 'viewers'}` : '');
-  showPeople(isLive);
 }
 
 /** @param {boolean} isLive */

@@ -97,14 +97,14 @@ export const asUnknown = (row) =>
 /** @param {HTMLElement} list  an <ol>
  *  @returns {(rows: Row[]) => void} function that shows these rows */
 export function mountLoadList(list) {
-  /** @type {Map<string, ReturnType<typeof makeRow>>} */
+  /** @type {Map<string, RowElements>} */
   const shown = new Map();
   let order = /** @type {string[]} */ ([]);
   return (rows) => {
     const sorted = byUrgency(rows, order);
     const keys = sorted.map(({ key }) => key);
     for (const row of sorted) {
-      if (!shown.has(row.key)) shown.set(row.key, makeRow());
+      if (!shown.has(row.key)) shown.set(row.key, new RowElements());
       shown.get(row.key)?.show(row);
     }
     if (keys.join() === order.join()) return;
@@ -114,48 +114,58 @@ export function mountLoadList(list) {
   };
 }
 
-function makeRow() {
-  const element = document.createElement('li');
-  const [label, word, ratio, bar, note] = ['label', 'word', 'ratio', 'bar', 'note'].map((name) => {
-    const part = document.createElement('span');
-    part.className = name;
-    return part;
+/** @param {string} className */
+function makeSpan(className) {
+  const span = document.createElement('span');
+  span.className = className;
+  return span;
+}
+
+/** @param {HTMLElement} part
+ *  @param {string} text */
+function setText(part, text) {
+  if (part.textContent !== text) part.textContent = text;
+}
+
+/** The elements of one row. Bar and strip are hidden from screen readers: ratio and title have the same content. */
+class RowElements {
+  element = document.createElement('li');
+  #label = makeSpan('label');
+  #note = makeSpan('note');
+  #loadClass = makeSpan('word');
+  #ratio = makeSpan('ratio');
+  #fill = makeSpan('fill');
+  #exposure = LOAD_CLASSES.map((name) => {
+    const share = makeSpan('share');
+    share.dataset.class = name;
+    return share;
   });
-  const fill = document.createElement('span');
-  bar.append(fill);
-  bar.ariaHidden = 'true';  // the ratio beside it has the same content
-  const strip = document.createElement('span');
-  strip.className = 'exposure';
-  strip.ariaHidden = 'true';  // the title of the row has the same content
-  const parts = LOAD_CLASSES.map((name) => {
-    const part = document.createElement('span');
-    part.dataset.class = name;
-    return part;
-  });
-  strip.append(...parts);
-  element.append(label, note, word, ratio, bar, strip);
-  const setText = (/** @type {HTMLElement} */ part, /** @type {string} */ text) => {
-    if (part.textContent !== text) part.textContent = text;
-  };
-  return {
-    element,
-    /** @param {Row} row */
-    show(row) {
-      element.dataset.class = row.loadClass;
-      setText(label, row.label);
-      setText(word, row.loadClass);
-      setText(ratio, percent(row.ratio));
-      setText(note, explain(row));
-      const share = Number.isFinite(row.ratio) ? Math.min(1, Math.max(0, row.ratio)) : 0;
-      fill.style.transform = `scaleX(${share.toFixed(3)})`;
-      const title = [explain(row), exposureText(row.secs)].filter(Boolean).join('\n');
-      if (element.title !== title) element.title = title;
-      exposureShares(row.secs).forEach((part, i) => {
-        const grow = part.toFixed(3);
-        if (parts[i].style.flexGrow !== grow) parts[i].style.flexGrow = grow;
-      });
-    },
-  };
+
+  constructor() {
+    const bar = makeSpan('bar');
+    bar.append(this.#fill);
+    const strip = makeSpan('exposure');
+    strip.append(...this.#exposure);
+    for (const part of [bar, strip]) part.ariaHidden = 'true';
+    this.element.append(this.#label, this.#note, this.#loadClass, this.#ratio, bar, strip);
+  }
+
+  /** @param {Row} row */
+  show(row) {
+    this.element.dataset.class = row.loadClass;
+    setText(this.#label, row.label);
+    setText(this.#note, explain(row));
+    setText(this.#loadClass, row.loadClass);
+    setText(this.#ratio, percent(row.ratio));
+    const filled = Number.isFinite(row.ratio) ? Math.min(1, Math.max(0, row.ratio)) : 0;
+    this.#fill.style.transform = `scaleX(${filled.toFixed(3)})`;
+    const title = [explain(row), exposureText(row.secs)].filter(Boolean).join('\n');
+    if (this.element.title !== title) this.element.title = title;
+    exposureShares(row.secs).forEach((share, i) => {
+      const grow = share.toFixed(3);
+      if (this.#exposure[i].style.flexGrow !== grow) this.#exposure[i].style.flexGrow = grow;
+    });
+  }
 }
 
 /** Class and text of each entry of the legend.

@@ -1,11 +1,34 @@
-// Texts next to the view about one person. Pure functions.
-import { centimetres, kilonewtons } from './format.js';
+// Texts of the header about the stream, and next to the view about one person. Pure functions.
+import { centimetres, kilonewtons, latency, rate, timeCode } from './format.js';
 import { handLoadText } from './hand_load.js';
 
-/** @typedef {import('./state_codec.js').Person} Person
+/** @typedef {import('./state_codec.js').State} State
+ *  @typedef {import('./state_codec.js').Person} Person
  *  @typedef {import('./messages.js').PersonDetails} PersonDetails
  *  @typedef {{hint: string, isDoubtful: boolean, com: string, cop: string, support: string,
  *    compression: string}} Readings  isDoubtful: the hint is highlighted as a warning; compression "": unknown */
+
+/** @param {State|null} state  the newest one
+ *  @param {{median: number, p95: number}|null} latencies  ms; null: unknown
+ *  @param {boolean} isLive */
+export function streamReadingsOf(state, latencies, isLive) {
+  const hasSample = state !== null && state.liveness !== 'no data';
+  return {
+    rate: isLive && state ? rate(state.rateHz) : '–',
+    latency: latency(latencies?.median ?? null),
+    latencyP95: latencies ? `p95 ${latency(latencies.p95)}` : '',
+    sample: hasSample ? String(state.counter) : '–',
+    timeCode: hasSample ? timeCode(state.timeCodeMillis) : '–',
+    viewers: state ? `${state.viewers} ${state.viewers === 1 ? 'viewer' : 'viewers'}` : '',
+  };
+}
+
+/** @param {number} count  of meshes that could not be loaded
+ *  @returns {string} "" for none */
+export function meshesText(count) {
+  if (count === 0) return '';
+  return `${count} ${count === 1 ? 'mesh' : 'meshes'} of the body model could not be loaded`;
+}
 
 /** @param {Person|undefined} person  of the newest state
  *  @param {PersonDetails|undefined} details  of the same character; they arrive separately from the state, and later

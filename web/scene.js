@@ -45,21 +45,11 @@ export class Scene {
    *  @throws if WebGL is not available */
   constructor(host, events) {
     this.host = host;
-    const software = drawsInSoftware();
-    this.renderer = new THREE.WebGLRenderer({ antialias: !software });
-    this.renderer.shadowMap.enabled = !software;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    const canvas = this.renderer.domElement;
-    canvas.setAttribute('role', 'img');
-    canvas.setAttribute('aria-label', 'The people in the stream');
-    host.append(canvas);
+    this.renderer = makeRenderer();
+    host.append(this.renderer.domElement);
     this.#camera.up.set(0, 0, 1);  // before the controls are created: they take their axis from it
     this.#camera.position.fromArray(START_POSITION);
-    this.controls = new OrbitControls(this.#camera, canvas);
-    this.controls.target.fromArray(START_TARGET);
-    this.controls.enableDamping = true;
-    this.controls.minDistance = 0.6;
-    this.controls.maxDistance = 30;
+    this.controls = makeControls(this.#camera, this.renderer.domElement);
     this.controls.addEventListener('change', () => { this.#dirty = true; });
     this.controls.addEventListener('start', () => {
       this.#view = null;
@@ -228,6 +218,28 @@ export class Scene {
     if (this.#quality === 3) this.renderer.setPixelRatio(0.7);
     this.#resize();
   }
+}
+
+/** @throws if WebGL is not available */
+function makeRenderer() {
+  const isSoftware = drawsInSoftware();
+  const renderer = new THREE.WebGLRenderer({ antialias: !isSoftware });
+  renderer.shadowMap.enabled = !isSoftware;
+  renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+  renderer.domElement.setAttribute('role', 'img');
+  renderer.domElement.setAttribute('aria-label', 'The people in the stream');
+  return renderer;
+}
+
+/** @param {THREE.Camera} camera
+ *  @param {HTMLCanvasElement} canvas */
+function makeControls(camera, canvas) {
+  const controls = new OrbitControls(camera, canvas);
+  controls.target.fromArray(START_TARGET);
+  controls.enableDamping = true;
+  controls.minDistance = 0.6;
+  controls.maxDistance = 30;
+  return controls;
 }
 
 /** Grid lines every `step` from -half to half, in pieces of that length: some drivers drop a line that extends behind

@@ -2,14 +2,6 @@
 
 export const KIND = { state: 1, picture: 2 };
 export const VERSION = 2;
-const STATE_HEADER = 64;
-const PERSON_HEADER = 64;
-const LINK = 28;
-const LOAD = 28;
-const CORNER = 8;
-const SOLID = 44;
-const OBJECT = 36;
-const PICTURE_HEADER = 24;
 
 // Names by their number in a message.
 const LIVENESS = /** @type {const} */ (['no data', 'live', 'stale']);
@@ -47,141 +39,156 @@ export function messageKind(buffer) {
   return bytes[0];
 }
 
+/** Reads a message from its beginning to its end; little-endian. Each call returns the next value. */
+class Bytes {
+  #view;
+  #offset = 0;
+
+  /** @param {ArrayBuffer} buffer */
+  constructor(buffer) {
+    this.#view = new DataView(buffer);
+  }
+
+  u8() { return this.#view.getUint8(this.skip(1)); }
+
+  u16() { return this.#view.getUint16(this.skip(2), true); }
+
+  u32() { return this.#view.getUint32(this.skip(4), true); }
+
+  i32() { return this.#view.getInt32(this.skip(4), true); }
+
+  f32() { return this.#view.getFloat32(this.skip(4), true); }
+
+  f64() { return this.#view.getFloat64(this.skip(8), true); }
+
+  /** @param {number} count */
+  floats(count) { return Array.from({ length: count }, () => this.f32()); }
+
+  /** @template T
+   *  @param {number} count
+   *  @param {(bytes: Bytes) => T} read */
+  list(count, read) { return Array.from({ length: count }, () => read(this)); }
+
+  /** @param {number} size
+   *  @returns {number} the offset of the skipped bytes */
+  skip(size) {
+    const offset = this.#offset;
+    this.#offset += size;
+    if (this.#offset > this.#view.byteLength) throw new Error('message from the server is truncated');
+    return offset;
+  }
+
+  end() {
+    if (this.#offset < this.#view.byteLength) throw new Error('message from the server is too long');
+  }
+}
+
 /** @param {ArrayBuffer} buffer
  *  @returns {State} */
 export function decodeState(buffer) {
-  const view = new DataView(buffer);
-  need(view, 0, STATE_HEADER);
-  /** @type {State} */
-  const state = {
-    liveness: LIVENESS[view.getUint8(2)] ?? 'no data',
-    counter: view.getUint32(4, true),
-    stateNumber: view.getFloat64(8, true),
-    sentMicros: view.getFloat64(16, true),
-    arrivalMicros: view.getFloat64(24, true),
-    stampMicros: view.getFloat64(32, true),
-    timeCodeMillis: view.getFloat64(40, true),
-    rateHz: view.getFloat32(48, true),
-    viewers: view.getUint32(52, true),
-    floor: view.getFloat32(56, true),
-    people: [],
-    objects: [],
-  };
-  let offset = STATE_HEADER;
-  for (let count = view.getUint8(3); count > 0; --count) {
-    const person = readPerson(view, offset);
-    state.people.push(person);
-    offset += PERSON_HEADER + LINK * person.links.length + LOAD * person.loads.length
-      + CORNER * person.support.length + SOLID * person.held.length;
-  }
-  for (let count = view.getUint8(60); count > 0; --count, offset += OBJECT) {
-    need(view, offset, OBJECT);
-    state.objects.push({
-      character: view.getInt32(offset, true),
-      number: view.getUint8(offset + 4),
-      ...readPose(view, offset + 8),
-    });
-  }
-  if (offset !== view.byteLength) throw new Error('message from the server is too long');
-  return state;
+  const bytes = new Bytes(buffer);
+  const { peopleCount, objectCount, ...header } = readStateHeader(bytes);
+  const people = bytes.list(peopleCount, readPerson);
+  const objects = bytes.list(objectCount, readObject);
+  bytes.end();
+  return { ...header, people, objects };
 }
 
 /** @param {ArrayBuffer} buffer
  *  @returns {{stateNumber: number, arrivalMicros: number, jpeg: Uint8Array<ArrayBuffer>}} */
 export function decodePicture(buffer) {
-  const view = new DataView(buffer);
-  need(view, 0, PICTURE_HEADER);
+  const bytes = new Bytes(buffer);
+  bytes.skip(8);
+  return { stateNumber: bytes.f64(), arrivalMicros: bytes.f64(), jpeg: new Uint8Array(buffer, bytes.skip(0)) };
+}
+
+/** @param {Bytes} bytes */
+function readStateHeader(bytes) {
+  bytes.skip(2);  // kind and version
+  const liveness = LIVENESS[bytes.u8()] ?? 'no data';
+  const peopleCount = bytes.u8();
+  const counter = bytes.u32();
+  const [stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis] = bytes.list(5, () => bytes.f64());
+  const rateHz = bytes.f32();
+  const viewers = bytes.u32();
+  const floor = bytes.f32();
+  const objectCount = bytes.u8();
+  bytes.skip(3);
   return {
-    stateNumber: view.getFloat64(8, true),
-    arrivalMicros: view.getFloat64(16, true),
-    jpeg: new Uint8Array(buffer, PICTURE_HEADER),
+    liveness, peopleCount, counter, stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis, rateHz,
+    viewers, floor, objectCount,
   };
 }
 
-/** @param {DataView} view
- *  @param {number} offset
+/** @param {Bytes} bytes
  *  @returns {Person} */
-function readPerson(view, offset) {
-  need(view, offset, PERSON_HEADER);
-  const flags = view.getUint8(offset + 4);
-  const linkCount = view.getUint8(offset + 5);
-  const loadCount = view.getUint8(offset + 6);
-  const solidCount = view.getUint8(offset + 7);
-  const cornerCount = view.getUint8(offset + 60);
+function readPerson(bytes) {
+  const { linkCount, loadCount, solidCount, cornerCount, ...header } = readPersonHeader(bytes);
   if (linkCount === 0) throw new Error('the server sent a person without links; reload the page');
-  need(view, offset, PERSON_HEADER + LINK * linkCount + LOAD * loadCount + CORNER * cornerCount
-    + SOLID * solidCount);
-  const firstLink = offset + PERSON_HEADER;
-  const firstLoad = firstLink + LINK * linkCount;
-  const firstCorner = firstLoad + LOAD * loadCount;
-  const firstSolid = firstCorner + CORNER * cornerCount;
   return {
-    character: view.getInt32(offset, true),
-    revision: view.getFloat64(offset + 8, true),
-    com: flags & 1 ? floats(view, offset + 16, 3) : null,
-    cop: flags & 2 ? floats(view, offset + 28, 3) : null,
-    comSource: flags & 4 ? 'body_model' : 'mvn',
-    massIsAssumed: (flags & 8) !== 0,
-    isDynamic: (flags & 16) !== 0,
-    groundIsMeasured: (flags & 32) !== 0,
-    leans: (flags & 64) !== 0,
-    comDisagrees: (flags & 128) !== 0,
-    compression: view.getFloat32(offset + 40, true),
-    margin: view.getFloat32(offset + 44, true),
-    comMinusMvn: view.getFloat32(offset + 48, true),
-    heldKg: floats(view, offset + 52, 2),
-    metric: METRIC[view.getUint8(offset + 61)] ?? 'total',
-    links: Array.from({ length: linkCount }, (_, i) => readPose(view, firstLink + LINK * i)),
-    loads: Array.from({ length: loadCount }, (_, i) => readLoad(view, firstLoad + LOAD * i)),
-    support: Array.from({ length: cornerCount }, (_, i) => floats(view, firstCorner + CORNER * i, 2)),
-    held: Array.from({ length: solidCount }, (_, i) => readSolid(view, firstSolid + SOLID * i)),
+    ...header,
+    links: bytes.list(linkCount, readPose),
+    loads: bytes.list(loadCount, readLoad),
+    support: bytes.list(cornerCount, () => bytes.floats(2)),
+    held: bytes.list(solidCount, readSolid),
   };
 }
 
-/** @param {DataView} view
- *  @param {number} offset
+/** @param {Bytes} bytes */
+function readPersonHeader(bytes) {
+  const character = bytes.i32();
+  const flags = bytes.u8();
+  const [linkCount, loadCount, solidCount] = bytes.list(3, () => bytes.u8());
+  const revision = bytes.f64();
+  const com = bytes.floats(3);
+  const cop = bytes.floats(3);
+  const [compression, margin, comMinusMvn] = bytes.floats(3);
+  const heldKg = bytes.floats(2);
+  const cornerCount = bytes.u8();
+  const metric = METRIC[bytes.u8()] ?? 'total';
+  bytes.skip(2);
+  return {
+    character, linkCount, loadCount, solidCount, cornerCount, revision, compression, margin, comMinusMvn, heldKg, metric,
+    com: flags & 1 ? com : null,
+    cop: flags & 2 ? cop : null,
+    ...traitsOf(flags),
+  };
+}
+
+/** @param {number} flags  of a person */
+const traitsOf = (flags) => ({
+  comSource: /** @type {'mvn'|'body_model'} */ (flags & 4 ? 'body_model' : 'mvn'),
+  massIsAssumed: (flags & 8) !== 0,
+  isDynamic: (flags & 16) !== 0,
+  groundIsMeasured: (flags & 32) !== 0,
+  leans: (flags & 64) !== 0,
+  comDisagrees: (flags & 128) !== 0,
+});
+
+/** @param {Bytes} bytes
+ *  @returns {TrackedObject} */
+function readObject(bytes) {
+  const character = bytes.i32();
+  const number = bytes.u8();
+  bytes.skip(3);
+  return { character, number, ...readPose(bytes) };
+}
+
+/** @param {Bytes} bytes
  *  @returns {Solid} */
-function readSolid(view, offset) {
-  return {
-    kind: SOLID_KIND[view.getUint32(offset, true)] ?? 'box',
-    position: floats(view, offset + 4, 3),
-    quaternion: floats(view, offset + 16, 4),
-    size: floats(view, offset + 32, 3),
-  };
-}
+const readSolid = (bytes) => ({ kind: SOLID_KIND[bytes.u32()] ?? 'box', ...readPose(bytes), size: bytes.floats(3) });
 
-/** @param {DataView} view
- *  @param {number} offset
+/** @param {Bytes} bytes
  *  @returns {Pose} */
-function readPose(view, offset) {
-  return { position: floats(view, offset, 3), quaternion: floats(view, offset + 12, 4) };
-}
+const readPose = (bytes) => ({ position: bytes.floats(3), quaternion: bytes.floats(4) });
 
-/** @param {DataView} view
- *  @param {number} offset
+/** @param {Bytes} bytes
  *  @returns {Load} */
-function readLoad(view, offset) {
-  return {
-    joint: view.getUint8(offset),
-    loadClass: LOAD_CLASS[view.getUint8(offset + 1)] ?? 'unknown',
-    radius: view.getUint16(offset + 2, true) / 1000,
-    position: floats(view, offset + 4, 3),
-    ratio: view.getFloat32(offset + 16, true),
-    moment: view.getFloat32(offset + 20, true),
-    capacity: view.getFloat32(offset + 24, true),
-  };
-}
-
-/** @param {DataView} view
- *  @param {number} offset
- *  @param {number} count */
-function floats(view, offset, count) {
-  return Array.from({ length: count }, (_, i) => view.getFloat32(offset + 4 * i, true));
-}
-
-/** @param {DataView} view
- *  @param {number} offset
- *  @param {number} size */
-function need(view, offset, size) {
-  if (offset + size > view.byteLength) throw new Error('message from the server is truncated');
+function readLoad(bytes) {
+  const joint = bytes.u8();
+  const loadClass = LOAD_CLASS[bytes.u8()] ?? 'unknown';
+  const radius = bytes.u16() / 1000;
+  const position = bytes.floats(3);
+  const [ratio, moment, capacity] = bytes.floats(3);
+  return { joint, loadClass, radius, position, ratio, moment, capacity };
 }

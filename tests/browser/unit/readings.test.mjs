@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { comText, copText, loadsHint, readingsOf } from '../../../web/readings.js';
+import { comText, copText, loadsHint, meshesText, readingsOf, streamReadingsOf } from '../../../web/readings.js';
 
 const person = { metric: 'total', isDynamic: true, comSource: 'mvn', comDisagrees: false, comMinusMvn: NaN,
   groundIsMeasured: false, cop: [0, 0, 0], margin: 0.083, compression: 2150 };
@@ -47,4 +47,30 @@ test('an assumed mass and a centre of mass that disagrees deserve a second look'
 test('without a person only the markers are named', () => {
   assert.deepEqual(readingsOf(undefined, undefined, true), { hint: '', isDoubtful: false, com: 'Centre of mass',
     cop: 'Centre of pressure', support: 'Support polygon', compression: '' });
+});
+
+const stream = { liveness: 'live', rateHz: 60, counter: 812, timeCodeMillis: 83456, viewers: 1 };
+
+test('the header has the numbers of a live stream', () => {
+  assert.deepEqual(streamReadingsOf(stream, { median: 6.04, p95: 11.6 }, true), {
+    rate: '60.0 Hz', latency: '6.0 ms', latencyP95: 'p95 12 ms', sample: '812', timeCode: '00:01:23.456',
+    viewers: '1 viewer',
+  });
+});
+
+test('a stream that stopped keeps its last sample, but has no rate', () => {
+  const stale = streamReadingsOf({ ...stream, liveness: 'stale', viewers: 2 }, null, false);
+  assert.deepEqual(stale, { rate: '–', latency: '–', latencyP95: '', sample: '812', timeCode: '00:01:23.456',
+    viewers: '2 viewers' });
+});
+
+test('before the first sample the header has no numbers', () => {
+  const dashes = { rate: '–', latency: '–', latencyP95: '', sample: '–', timeCode: '–' };
+  assert.deepEqual(streamReadingsOf(null, null, false), { ...dashes, viewers: '' });
+  assert.deepEqual(streamReadingsOf({ ...stream, liveness: 'no data' }, null, false), { ...dashes, viewers: '1 viewer' });
+});
+
+test('meshes that are missing are counted', () => {
+  assert.deepEqual([0, 1, 2].map(meshesText), ['', '1 mesh of the body model could not be loaded',
+    '2 meshes of the body model could not be loaded']);
 });
