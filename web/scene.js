@@ -14,11 +14,6 @@ const START_TARGET = [0, 0, 1];
 const SLOW_FRAME_MILLIS = 45;
 const FRAMES_JUDGED = 24;
 
-const LOOK = {
-  light: { background: 0xe8ecf1, line: 0xb9c2cd, shadow: 0.2, sky: 2.3 },
-  dark: { background: 0x171c23, line: 0x343d49, shadow: 0.45, sky: 1.9 },
-};
-
 export class Scene {
   #scene = new THREE.Scene();
   #camera = new THREE.PerspectiveCamera(30, 1, 0.05, 80);
@@ -180,13 +175,16 @@ export class Scene {
     this.#placeFloor();
   }
 
+  /** The style sheet has the colours and intensities of both colour schemes. */
   #applyTheme() {
-    const look = matchMedia('(prefers-color-scheme: dark)').matches ? LOOK.dark : LOOK.light;
-    this.#scene.background = new THREE.Color(look.background);
-    this.#scene.fog = new THREE.Fog(look.background, 7, 15);
-    this.#sky.intensity = look.sky;
-    this.#shade.material.opacity = look.shadow;
-    this.#grid.material.color.set(look.line);
+    const style = getComputedStyle(this.host);
+    const valueOf = (/** @type {string} */ property) => style.getPropertyValue(property).trim();
+    const background = new THREE.Color(valueOf('--scene'));
+    this.#scene.background = background;
+    this.#scene.fog = new THREE.Fog(background, 7, 15);
+    this.#sky.intensity = Number(valueOf('--scene-sky'));
+    this.#shade.material.opacity = Number(valueOf('--scene-shadow'));
+    this.#grid.material.color.set(valueOf('--scene-line'));
     this.#dirty = true;
   }
 

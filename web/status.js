@@ -2,7 +2,8 @@
 // connection must not show "live" any longer.
 import { age } from './format.js';
 
-/** Time without a message after which the server counts as disconnected. It sends a message at least every 0.35 s. */
+/** Time without a message after which the server counts as disconnected: several times kHeartbeat of
+ *  server/http/hub.h. */
 export const SILENCE_MILLIS = 1500;
 /** Age from which a sample counts as stale, even if the server reports it as live: the server does not respond. */
 export const OLD_MILLIS = 2000;

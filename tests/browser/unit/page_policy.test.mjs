@@ -4,6 +4,7 @@ import { createHash } from 'node:crypto';
 import { readdirSync, readFileSync } from 'node:fs';
 import test from 'node:test';
 import { ELEMENTS } from '../../../web/elements.js';
+import { SILENCE_MILLIS } from '../../../web/status.js';
 
 const root = new URL('../../../', import.meta.url);
 const read = (name) => readFileSync(new URL(name, root), 'utf8');
@@ -54,6 +55,15 @@ test('every element that the page’s code asks for is there, with the tag that 
   for (const [, id] of read('web/boot.js').matchAll(/getElementById\('([^']+)'/g)) {
     assert.ok(tags.has(id), `index.html has no #${id}`);
   }
+});
+
+test('the page waits for several heartbeats before it calls the server disconnected', () => {
+  const millisOf = (name) => {
+    const [, millis] = read('server/http/hub.h').match(new RegExp(`milliseconds ${name}\\{(\\d+)\\}`));
+    return Number(millis);
+  };
+  const longest = millisOf('kHeartbeat') + millisOf('kTickInterval');  // a tick looks whether a heartbeat is due
+  assert.ok(SILENCE_MILLIS >= 3 * longest, `${SILENCE_MILLIS} ms, and a message comes every ${longest} ms`);
 });
 
 test('lock files name versions and hashes, no host', () => {
