@@ -46,6 +46,7 @@ const connection = new Connection({
     details = newDetails;
     picture.setDetails(details);
     scene?.setObjectNames(details.objects);
+    handLoad.setPeople(details.people);
   },
   onError: showNotice,
   onOpen() {
@@ -57,8 +58,9 @@ const picture = new PicturePanel({
   image: elements['picture-image'], note: elements['picture-note'], on: elements['picture-on'],
   camera: elements['picture-camera'], save: elements['save-picture'],
 }, (command) => connection.send(command), showNotice);
-mountHandLoad({ form: elements['hand-load'], hand: elements.hand, mass: elements['hand-kg'] },
-  () => details.people[0], showNotice);
+const handLoad = mountHandLoad({
+  form: elements['hand-load'], person: elements['hand-person'], hand: elements.hand, mass: elements['hand-kg'],
+}, showNotice);
 // Pictures cost the server rendering time and a phone its data volume. On a small screen the user switches them on.
 elements['picture-on'].checked = scene === null || matchMedia('(min-width: 900px)').matches;
 requestAnimationFrame(onFrame);
@@ -151,7 +153,7 @@ async function loadModel(now) {
     if (newModel === null) return;
     model = newModel;
     applyPalette(model.palette);
-    fillLegend(elements.legend, model.class_limits);
+    applyClassLimits(model.class_limits);
     scene?.setModel(model);
     if (state) scene?.update(state, statusNow().level === 'live');
   } catch (error) {
@@ -178,6 +180,14 @@ function applyPalette(palette) {
   style.setProperty('--com', hexColor(palette.com));
   style.setProperty('--cop', hexColor(palette.cop));
   style.setProperty('--support', hexColor(palette.support));
+}
+
+/** @param {number[]} limits  the load ratios at which a load becomes medium and high */
+function applyClassLimits([mediumFrom, highFrom]) {
+  const style = document.documentElement.style;
+  style.setProperty('--medium-from', String(mediumFrom));
+  style.setProperty('--high-from', String(highFrom));
+  fillLegend(elements.legend, [mediumFrom, highFrom]);
 }
 
 async function loadCameras() {
@@ -263,7 +273,8 @@ function showPeople(isLive) {
   if (state === null || model === null) return;
   const rows = rowsOf(state, model.joints, details);
   showLoads(isLive ? rows : rows.map(asUnknown));
-  const person = state.people[0];
+  const selected = handLoad.selected();
+  const person = state.people.find(({ character }) => character === selected?.character) ?? state.people[0];
   const readings = readingsOf(person, details.people.find(({ character }) => character === person?.character), isLive);
   setText('loads-hint', readings.hint);
   elements['loads-hint'].title = readings.hint;

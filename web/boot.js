@@ -6,7 +6,7 @@ import('./app.js').catch((/** @type {unknown} */ error) => {
   const word = document.getElementById('status-word');
   if (banner) {
     banner.textContent = `The page could not start: ${error instanceof Error ? error.message : error}. `
-      + 'If a file under /lib is missing, run “npm ci” in the server’s web folder.';
+      + 'If a file under /lib is missing, run “npm ci --prefix web” on the server.';
     banner.hidden = false;
   }
   if (status) status.dataset.level = 'disconnected';

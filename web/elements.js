@@ -9,7 +9,7 @@ export const ELEMENTS = /** @type {const} */ ({
   'com': 'dd', 'cop': 'dd', 'support': 'dd', 'compression-row': 'div', 'compression': 'dd',
   'picture-image': 'img', 'picture-note': 'p', 'picture-on': 'input', 'picture-camera': 'select',
   'save-picture': 'button',
-  'hand-load': 'form', 'hand': 'select', 'hand-kg': 'input',
+  'hand-load': 'form', 'hand-person': 'select', 'hand': 'select', 'hand-kg': 'input',
   'loads': 'ol', 'legend': 'ul', 'loads-hint': 'p',
   'diagnostics': 'section', 'problems': 'ul',
 });

@@ -60,6 +60,9 @@ export const hexColor = (rgb) =>
 
 const LONGEST_LABEL = 24;  // characters; names in a stream may have any length
 
+/** @param {{character: number, name: string}} person */
+export const personLabel = ({ character, name }) => name || `Person ${character + 1}`;
+
 /** Shortens a name so that it fits over an object in the view.
  *  @param {string} name */
 export function labelText(name) {

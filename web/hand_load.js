@@ -1,8 +1,10 @@
-// The form that sets the hand load of a person: hand and mass.
+// The form that sets the hand load of a person: person, hand and mass.
+import { labelText, personLabel } from './format.js';
 import { rejectionOf } from './server_api.js';
 
 /** @typedef {import('./messages.js').HandLoad} HandLoad
- *  @typedef {{form: HTMLFormElement, hand: HTMLSelectElement, mass: HTMLInputElement}} Parts */
+ *  @typedef {import('./messages.js').PersonDetails} PersonDetails
+ *  @typedef {{form: HTMLFormElement, person: HTMLSelectElement, hand: HTMLSelectElement, mass: HTMLInputElement}} Parts */
 
 /** The hand load with `kilograms` in `hand` ("right_kg", "left_kg", "both_kg"); the other masses are kept.
  *  @param {HandLoad|undefined} current
@@ -27,24 +29,54 @@ export function handLoadText(current) {
   return parts.length > 0 ? `hand load ${parts.join(', ')}` : '';
 }
 
-/** Sends the hand load to the server. The page shows the new hand load with the next details.
+/** Sends hand loads to the server. The page shows a new hand load with the next details. The list of people is visible
+ *  only if there are several.
  *  @param {Parts} parts
- *  @param {() => {character: number, hand_load?: HandLoad}|undefined} person  whose hand load is set, if any
- *  @param {(text: string) => void} showNotice */
-export function mountHandLoad({ form, hand, mass }, person, showNotice) {
+ *  @param {(text: string) => void} showNotice
+ *  @returns {{setPeople: (people: PersonDetails[]) => void, selected: () => PersonDetails|undefined}} */
+export function mountHandLoad({ form, person, hand, mass }, showNotice) {
+  let people = /** @type {PersonDetails[]} */ ([]);
+  const selected = () => people.find(({ character }) => String(character) === person.value);
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
-    const who = person();
-    if (!who) return showNotice('No person in the stream');
-    const load = withHand(who.hand_load, hand.value, mass.valueAsNumber);
-    try {
-      const answer = await fetch('api/hand_load', {
-        method: 'POST', headers: { 'Content-Type': 'application/json' },
-        body: JSON.stringify({ person: who.character, ...load }),
-      });
-      if (!answer.ok) showNotice(await rejectionOf(answer));
-    } catch {
-      showNotice('No connection to the server');
-    }
+    const target = selected();
+    if (!target) return showNotice('No person in the stream');
+    const load = withHand(target.hand_load, hand.value, mass.valueAsNumber);
+    const problem = await sendHandLoad(target.character, load);
+    if (problem) showNotice(problem);
   });
+  return {
+    setPeople(newPeople) {
+      people = newPeople;
+      showPeople(person, people);
+    },
+    selected,
+  };
+}
+
+/** Keeps the selection. Unchanged options stay, because a browser closes an open list whose options are replaced.
+ *  @param {HTMLSelectElement} list
+ *  @param {PersonDetails[]} people */
+function showPeople(list, people) {
+  const options = people.map((each) => new Option(labelText(personLabel(each)), String(each.character)));
+  const textOf = (/** @type {Iterable<HTMLOptionElement>} */ all) => [...all].map((one) => `${one.value} ${one.text}`).join('\n');
+  if (textOf(options) === textOf(list.options)) return;
+  const before = list.value;
+  list.replaceChildren(...options);
+  if (people.some(({ character }) => String(character) === before)) list.value = before;
+  list.hidden = people.length < 2;
+}
+
+/** @param {number} person
+ *  @param {HandLoad} load
+ *  @returns {Promise<string>} why the server did not accept it; "" if it did */
+async function sendHandLoad(person, load) {
+  try {
+    const answer = await fetch('api/hand_load', {
+      method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ person, ...load }),
+    });
+    return answer.ok ? '' : await rejectionOf(answer);
+  } catch {
+    return 'No connection to the server';
+  }
 }

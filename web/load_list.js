@@ -1,5 +1,5 @@
 // The list of joint loads, in order of severity.
-import { age, moment, percent } from './format.js';
+import { age, moment, percent, personLabel } from './format.js';
 import { LOAD_CLASSES } from './messages.js';
 
 /** @typedef {import('./messages.js').LoadClass} LoadClass
@@ -44,12 +44,12 @@ export function explain(row) {
   return channel && amount ? `${amount}, ${channel}` : amount || channel;
 }
 
-/** "low 40 s, medium 12 s, high 3 s since the start", without classes below 1 s; "" if there are no others.
+/** "low 40 s, medium 12 s, high 3 s since the first sample", without classes below 1 s; "" if there are no others.
  *  @param {Secs|undefined} secs */
 export function exposureText(secs) {
   if (!secs) return '';
   const parts = LOAD_CLASSES.filter((name) => secs[name] >= 1).map((name) => `${name} ${age(secs[name])}`);
-  return parts.length > 0 ? `${parts.join(', ')} since the start` : '';
+  return parts.length > 0 ? `${parts.join(', ')} since the first sample` : '';
 }
 
 /** Widths of the exposure strip: shares of the time, which add up to 1; all 0 at the start.
@@ -69,7 +69,7 @@ export function rowsOf(state, joints, details) {
   const several = state.people.length > 1;
   return state.people.flatMap((person) => {
     const its = details.people.find(({ character }) => character === person.character);
-    const who = several ? `${its?.name || `Person ${person.character + 1}`}: ` : '';
+    const who = several ? `${personLabel({ character: person.character, name: its?.name ?? '' })}: ` : '';
     return person.loads.map((load) => {
       const words = its?.loads.find(({ joint }) => joint === load.joint);
       return {

@@ -57,7 +57,7 @@ export function readingsOf(person, details, isLive) {
 export function loadsHint(person, details) {
   const motion = person.metric === 'external' ? '' : person.isDynamic ? ', dynamic' : ', static';
   return [
-    `${person.metric}${motion}`,
+    `load metric: ${person.metric}${motion}`,
     details?.mass_is_assumed ? `body mass assumed: ${details.mass_kg} kg` : '',
     handLoadText(details?.hand_load),
     person.comDisagrees ? `centre of mass differs from MVN by ${centimetres(person.comMinusMvn)}` : '',

@@ -104,6 +104,22 @@ test('the class colours are the server’s palette', async () => {
   await close();
 });
 
+test('bars and legend show the limits of the load classes that the server uses', async () => {
+  const { page, close } = await openLive({
+    beforeLoad: (fresh) => fresh.route('**/api/model', async (request) => {
+      const answer = await request.fetch();
+      await request.fulfill({ response: answer, json: { ...await answer.json(), class_limits: [0.15, 0.4] } });
+    }),
+  });
+  await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
+  assert.deepEqual(await page.$$eval('#legend li', (all) => all.map((entry) => entry.textContent)),
+    ['low', 'medium > 15 %', 'high > 40 %', 'unknown']);
+  const shares = await page.locator('#loads .bar').first().evaluate((bar) => ['::before', '::after'].map(
+    (tick) => parseFloat(getComputedStyle(bar, tick).left) / bar.clientWidth));
+  assert.deepEqual(shares.map((share) => share.toFixed(2)), ['0.15', '0.40']);
+  await close();
+});
+
 test('a stream that stops is stale, then no data, then live again, by itself', async () => {
   const { page, problems, close } = await openLive();
   await seePixels(page, 'red', isRed, 300);
@@ -195,7 +211,7 @@ test('a load is put into a hand, seen in it, and refused when nobody could hold 
 
 test('what the numbers stand on is said beside them', async () => {
   const { page, close } = await openLive();
-  await page.waitForFunction(() => /^total, dynamic · body mass assumed: 75 kg/
+  await page.waitForFunction(() => /^load metric: total, dynamic · body mass assumed: 75 kg/
     .test(document.getElementById('loads-hint').textContent), null, LONG);
   assert.equal(await text(page, '#support'), 'Margin of stability 8.3 cm');
   assert.equal(await text(page, '#compression'), 'L5/S1 compression 2.15 kN');
@@ -366,6 +382,28 @@ test('two persons are both drawn and listed by name', async () => {
     const labels = [...document.querySelectorAll('#loads .label')].map((label) => label.textContent);
     return labels.length === 30 && labels.includes('Demo: L5/S1') && labels.includes('Demo 2: L5/S1');
   }, null, LONG);
+  await close();
+});
+
+test('a load can be set for every person, and the readings are those of the selected one', async () => {
+  const { page, problems, close } = await openLive();
+  assert.equal(await page.locator('#hand-person').isVisible(), false, 'one person needs no choice');
+  site.say('people 2');
+  await page.locator('#hand-person').waitFor({ state: 'visible', ...LONG });
+  assert.deepEqual(await page.$$eval('#hand-person option', (all) => all.map((option) => option.text)), ['Demo', 'Demo 2']);
+  await page.selectOption('#hand-person', { label: 'Demo 2' });
+  await page.selectOption('#hand', 'left_kg');
+  await page.fill('#hand-kg', '3.5');
+  await page.click('#hand-load button');
+  await page.waitForFunction(() => document.getElementById('loads-hint').textContent.includes('hand load 3.5 kg left'), null, LONG);
+  const cut = await page.evaluate(() => [...document.querySelectorAll('#hand-load > *, #loads-title')]
+    .filter((part) => part.getBoundingClientRect().right > document.querySelector('.loads').getBoundingClientRect().right)
+    .map((part) => part.id || part.tagName));
+  assert.deepEqual(cut, []);
+  await saveScreenshot(page, 'two_people_desktop');
+  await page.selectOption('#hand-person', { label: 'Demo' });
+  await page.waitForFunction(() => !document.getElementById('loads-hint').textContent.includes('3.5 kg'), null, LONG);
+  assert.deepEqual(problems, []);
   await close();
 });
 

@@ -69,7 +69,7 @@ test('persons are named when there are several', () => {
 
 test('time in each class is told without classes that never were, and adds up', () => {
   const secs = { low: 40, medium: 12.4, high: 0, unknown: 7.6 };
-  assert.equal(exposureText(secs), 'low 40 s, medium 12 s, unknown 7.6 s since the start');
+  assert.equal(exposureText(secs), 'low 40 s, medium 12 s, unknown 7.6 s since the first sample');
   assert.equal(exposureText(undefined), '');
   assert.deepEqual(exposureShares({ low: 30, medium: 10, high: 0, unknown: 0 }), [0.75, 0.25, 0, 0]);
   assert.deepEqual(exposureShares({ low: 0, medium: 0, high: 0, unknown: 0 }), [0, 0, 0, 0]);

@@ -66,6 +66,12 @@ test('the page waits for several heartbeats before it calls the server disconnec
   assert.ok(SILENCE_MILLIS >= 3 * longest, `${SILENCE_MILLIS} ms, and a message comes every ${longest} ms`);
 });
 
+test('no line of the page is longer than 140 characters', () => {
+  const long = [...modules, 'index.html', 'style.css'].flatMap((name) => read(`web/${name}`).split('\n')
+    .flatMap((line, i) => (line.length > 140 ? [`${name}:${i + 1}`] : [])));
+  assert.deepEqual(long, []);
+});
+
 test('lock files name versions and hashes, no host', () => {
   for (const folder of ['web', 'tests/browser']) {
     const lock = read(`${folder}/package-lock.json`);

@@ -8,14 +8,14 @@ const details = { mass_kg: 75, mass_is_assumed: false, hand_load: { right_kg: 0,
   why_other_metric: '', why_no_ground: '' };
 
 test('the hint says what the loads are and what they stand on', () => {
-  assert.equal(loadsHint(person, details), 'total, dynamic');
-  assert.equal(loadsHint({ ...person, isDynamic: false }, details), 'total, static');
-  assert.equal(loadsHint({ ...person, metric: 'external' }, details), 'external');
+  assert.equal(loadsHint(person, details), 'load metric: total, dynamic');
+  assert.equal(loadsHint({ ...person, isDynamic: false }, details), 'load metric: total, static');
+  assert.equal(loadsHint({ ...person, metric: 'external' }, details), 'load metric: external');
   const doubtful = { ...details, mass_is_assumed: true, hand_load: { right_kg: 5, left_kg: 0, both_kg: 0 },
     why_other_metric: 'no strength table' };
-  assert.equal(loadsHint({ ...person, comDisagrees: true, comMinusMvn: 0.0123 }, doubtful), 'total, dynamic · '
+  assert.equal(loadsHint({ ...person, comDisagrees: true, comMinusMvn: 0.0123 }, doubtful), 'load metric: total, dynamic · '
     + 'body mass assumed: 75 kg · hand load 5 kg right · centre of mass differs from MVN by 1.2 cm · no strength table');
-  assert.equal(loadsHint(person, undefined), 'total, dynamic', 'details come a moment after the first state');
+  assert.equal(loadsHint(person, undefined), 'load metric: total, dynamic', 'details come a moment after the first state');
 });
 
 test('the markers say whose they are, and why one is not there', () => {

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -218,14 +219,16 @@ void AddWorn(SceneState& state, const std::shared_ptr<const PersonModel>& model)
   state.objects = {{9, 2, "HTC Vive", {{0.4, -0.6, 1.2}, {1, 0, 0, 0}}, state.stamp_nanos}};
 }
 
-// What the page said is held, on its way into the made-up person.
+// Hand loads set on the page, on their way into the made-up people.
 struct Told {
   std::mutex mutex;
-  HandLoad load;  // guarded by mutex
+  std::map<int, HandLoad> loads;  // by character; guarded by mutex
 };
 
-void Hold(const HandLoad& load, SceneState& state) {
+void Hold(const std::map<int, HandLoad>& loads, SceneState& state) {
   for (PersonState& person : state.people) {
+    const auto found = loads.find(person.character);
+    const HandLoad load = found != loads.end() ? found->second : HandLoad();
     person.forces.told = {true, load.mass_kg, load.both_kg};
     person.forces.hands[urdf::kRight].mass_kg = load.mass_kg[urdf::kRight];
     person.forces.hands[urdf::kLeft] = person.forces.hands[urdf::kRight];
@@ -235,10 +238,10 @@ void Hold(const HandLoad& load, SceneState& state) {
 
 void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
   Told told;
-  config.set_hand_load = [&told](int, const HandLoad& load) {
+  config.set_hand_load = [&told](int character, const HandLoad& load) {
     const std::lock_guard<std::mutex> lock(told.mutex);
     if (load.mass_kg[urdf::kRight] > 50) return std::string("load of more than 50 kg");
-    told.load = load;
+    told.loads[character] = load;
     return std::string();
   };
   Latest<SceneState> states;
@@ -260,7 +263,7 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
     if (options.worn && orders.mode == "live") AddWorn(state, worn_model);
     {
       const std::lock_guard<std::mutex> lock(told.mutex);
-      Hold(told.load, state);
+      Hold(told.loads, state);
     }
     states.Publish(std::make_shared<const SceneState>(state));
     if (feed != nullptr && feed->viewers() > 0 && state.number % 4 == 0) {
