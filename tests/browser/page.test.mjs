@@ -417,7 +417,7 @@ for (const [name, viewport, colorScheme] of [
       scroll: document.documentElement.scrollWidth, client: document.documentElement.clientWidth }));
     assert.ok(scroll <= client, `${scroll} px wide on ${client}`);
     const cut = await page.evaluate(() => [...document.querySelectorAll(
-      '#status, .readings dd, button, select, #loads .label, #loads .word, #loads .ratio, #loads .note, #legend li, h1, h2')]
+      '#status, .readings dd, button, select, #loads .label, #loads .word, #loads .ratio, #loads .note, #loads-hint, #legend li, h1, h2')]
       .filter((part) => part.offsetParent && part.scrollWidth > part.clientWidth + 1 && getComputedStyle(part).display !== 'inline'
         || part.getBoundingClientRect().right > innerWidth + 0.5)
       .map((part) => `${part.className || part.id || part.tagName}: ${part.textContent}`));
