@@ -1,6 +1,6 @@
 // The form that sets the hand load of a person: person, hand and mass.
 import { labelText, personLabel } from './format.js';
-import { rejectionOf } from './server_api.js';
+import { messageOf, request } from './server_api.js';
 
 /** @typedef {import('./messages.js').HandLoad} HandLoad
  *  @typedef {import('./messages.js').PersonDetails} PersonDetails
@@ -42,8 +42,11 @@ export function mountHandLoad({ form, person, hand, mass }, showNotice) {
     const target = selected();
     if (!target) return showNotice('No person in the stream');
     const load = withHand(target.hand_load, hand.value, mass.valueAsNumber);
-    const problem = await sendHandLoad(target.character, load);
-    if (problem) showNotice(problem);
+    try {
+      await sendHandLoad(target.character, load);
+    } catch (error) {
+      showNotice(`Could not set the hand load: ${messageOf(error)}`);
+    }
   });
   return {
     setPeople(newPeople) {
@@ -59,8 +62,9 @@ export function mountHandLoad({ form, person, hand, mass }, showNotice) {
  *  @param {PersonDetails[]} people */
 function showPeople(list, people) {
   const options = people.map((each) => new Option(labelText(personLabel(each)), String(each.character)));
-  const textOf = (/** @type {Iterable<HTMLOptionElement>} */ all) => [...all].map((one) => `${one.value} ${one.text}`).join('\n');
-  if (textOf(options) === textOf(list.options)) return;
+  const isUnchanged = options.length === list.options.length
+    && options.every(({ value, text }, i) => value === list.options[i].value && text === list.options[i].text);
+  if (isUnchanged) return;
   const before = list.value;
   list.replaceChildren(...options);
   if (people.some(({ character }) => String(character) === before)) list.value = before;
@@ -68,15 +72,7 @@ function showPeople(list, people) {
 }
 
 /** @param {number} person
- *  @param {HandLoad} load
- *  @returns {Promise<string>} why the server did not accept it; "" if it did */
-async function sendHandLoad(person, load) {
-  try {
-    const answer = await fetch('api/hand_load', {
-      method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ person, ...load }),
-    });
-    return answer.ok ? '' : await rejectionOf(answer);
-  } catch {
-    return 'No connection to the server';
-  }
-}
+ *  @param {HandLoad} load */
+const sendHandLoad = (person, load) => request('api/hand_load', {
+  method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ person, ...load }),
+});

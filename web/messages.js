@@ -112,10 +112,20 @@ const readPong = object({ pong: number, server_micros: number });
 
 /** @typedef {{pong: number, server_micros: number}|{details: Details}|{error: string}} TextMessage */
 
+/** @param {string} text
+ *  @returns {unknown} */
+function parseJson(text) {
+  try {
+    return JSON.parse(text);
+  } catch {
+    throw new Error('the server sent a message that is not JSON; check for a proxy in front of the server');
+  }
+}
+
 /** @param {string} text  a text message of the WebSocket
  *  @returns {TextMessage|null}  null: a kind of message that this page does not support */
 export function readTextMessage(text) {
-  const message = members(JSON.parse(text), 'a message');
+  const message = members(parseJson(text), 'a message');
   if ('pong' in message) return readPong(message, 'a message');
   if ('details' in message) return { details: readDetails(message.details, 'details') };
   if ('error' in message) return { error: string(message.error, 'error') };

@@ -1,6 +1,6 @@
 // The picture rendered by the server, next to the view of the page. It equals the pictures in PNG, video and CI.
 import { shortCameraLabel } from './format.js';
-import { messageOf, rejectionOf } from './server_api.js';
+import { messageOf, request } from './server_api.js';
 import { decodePicture } from './state_codec.js';
 
 const SAVED_SIZE = { width: 1920, height: 1080 };
@@ -23,7 +23,7 @@ export class PicturePanel {
     parts.on.addEventListener('change', () => this.ask());
     parts.camera.addEventListener('change', () => send({ camera: parts.camera.value }));
     parts.save.addEventListener('click', () => this.#save()
-      .catch((/** @type {unknown} */ error) => report(messageOf(error))));
+      .catch((/** @type {unknown} */ error) => report(`Could not save the picture: ${messageOf(error)}`)));
     parts.image.addEventListener('load', () => this.#onShown());
     parts.image.addEventListener('error', () => this.#onShown());
   }
@@ -98,8 +98,7 @@ export class PicturePanel {
       const query = new URLSearchParams({
         camera: camera.value, width: String(SAVED_SIZE.width), height: String(SAVED_SIZE.height),
       });
-      const answer = await fetch(`snapshot.png?${query}`);
-      if (!answer.ok) throw new Error(`Could not save the picture: ${await rejectionOf(answer)}`);
+      const answer = await request(`snapshot.png?${query}`);
       const link = document.createElement('a');
       link.href = URL.createObjectURL(await answer.blob());
       link.download = `kinescope_${camera.value}_${new Date().toISOString().replace(/[:.]/g, '-')}.png`;

@@ -17,6 +17,17 @@ export async function ask(route, read) {
   return read(await jsonOf(answer, route), route);
 }
 
+/** @param {string} route
+ *  @param {RequestInit} [options]
+ *  @returns {Promise<Response>}
+ *  @throws {Error} if the server is unreachable or rejects the request */
+export async function request(route, options) {
+  const answer = await fetch(route, options).catch(() => null);
+  if (answer === null) throw new Error('no connection to the server');
+  if (!answer.ok) throw new Error(await rejectionOf(answer));
+  return answer;
+}
+
 /** @param {Response} answer
  *  @param {string} route
  *  @returns {Promise<unknown>} */

@@ -201,7 +201,7 @@ test('a load is put into a hand, seen in it, and refused when nobody could hold 
   await page.selectOption('#hand', 'right_kg');
   await page.fill('#hand-kg', '60');
   await page.click('#hand-load button');
-  await page.waitForFunction(() => document.getElementById('banner').textContent === 'load of more than 50 kg', null, LONG);
+  await page.waitForFunction(() => document.getElementById('banner').textContent === 'Could not set the hand load: load of more than 50 kg', null, LONG);
   await page.fill('#hand-kg', '0');
   await page.click('#hand-load button');
   await page.waitForFunction(() => !document.getElementById('loads-hint').textContent.includes('right'), null, LONG);

@@ -40,6 +40,7 @@ test('a message that is not what it should be is reported, and the next one is t
   socket.receive(JSON.stringify({ details }));
   assert.deepEqual(seen.map(([name]) => name), ['error', 'error', 'error', 'error', 'details']);
   assert.match(seen[0][1], /sent "many" as details\.people; expected a list; reload the page/);
+  assert.equal(seen[1][1], 'the server sent a message that is not JSON; check for a proxy in front of the server');
   assert.match(seen[2][1], /sent null as a message; expected an object/);
   assert.match(seen[3][1], /version 99/);
   assert.deepEqual(seen[4][1], details);

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { afterEach, test } from 'node:test';
 import { object, string } from '../../../web/messages.js';
-import { ask, messageOf, ownRejectionOf, rejectionOf } from '../../../web/server_api.js';
+import { ask, messageOf, ownRejectionOf, rejectionOf, request } from '../../../web/server_api.js';
 
 const realFetch = globalThis.fetch;
 afterEach(() => { globalThis.fetch = realFetch; });
@@ -24,6 +24,15 @@ test('without a server there is no answer and no error: the status indicator sho
 test('a rejection is told in the server’s words', async () => {
   answerWith('{"error": "no camera \'x\'"}', { status: 404 });
   await assert.rejects(ask('api/camera', readName), /^Error: no camera 'x'$/);
+});
+
+test('an order that does not reach the server fails in words for the user', async () => {
+  globalThis.fetch = async () => { throw new TypeError('Failed to fetch'); };
+  await assert.rejects(request('api/hand_load', { method: 'POST' }), /^Error: no connection to the server$/);
+  answerWith('{"error": "no person in the stream yet"}', { status: 409 });
+  await assert.rejects(request('api/hand_load', { method: 'POST' }), /^Error: no person in the stream yet$/);
+  answerWith('{}');
+  assert.equal((await request('api/hand_load', { method: 'POST' })).status, 200);
 });
 
 test('a proxy that answers with a page of its own is named as such', async () => {
