@@ -4,12 +4,11 @@ import * as THREE from 'three';
 import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
 
-const GHOST_OPACITY = 0.45;  // of symbols that are visible through the body
-const RIM = 1.14;            // radius of the dark rim of the class "high", as a multiple of the sphere's radius
-const CREASE = 0.7;          // rad; edges with a smaller angle are shaded smooth
-const MARKER_LIFT = 0.004;     // m above the floor, so that disc and floor do not flicker
-
-const SUPPORT_LIFT = 0.003;
+const OCCLUDED_OPACITY = 0.45;  // of markers that are visible through the body
+const RIM = 1.14;               // radius of the dark rim of the class "high", as a multiple of the sphere's radius
+const CREASE = 0.7;             // rad; edges with a smaller angle are shaded smooth
+const MARKER_LIFT = 0.004;      // m above the floor, so that disc and floor do not flicker
+const SUPPORT_LIFT = 0.003;     // m above the floor; the support polygon is below the markers
 
 const unitSphere = new THREE.SphereGeometry(1, 32, 20);
 // Shapes of hand loads, scaled to their sizes.
@@ -24,36 +23,36 @@ const SHARED = new Set([unitSphere, unitBox, unitCylinder]);
 /** @param {number[]} rgb  sRGB 0..1 */
 export const toColor = (rgb) => new THREE.Color().setRGB(rgb[0], rgb[1], rgb[2], THREE.SRGBColorSpace);
 
-/** Two materials: opaque where the symbol is unobstructed, and translucent without depth test, so that it is visible
+/** Two materials: opaque where the marker is unobstructed, and translucent without depth test, so that it is visible
  *  through the body.
  *  @param {THREE.Color} color */
-function makeShining(color) {
+function makeMarkerMaterial(color) {
   const solid = new THREE.MeshStandardMaterial({ color, roughness: 0.55 });
-  const ghost = new THREE.MeshBasicMaterial({
-    color, transparent: true, opacity: GHOST_OPACITY, depthTest: false, depthWrite: false,
+  const occluded = new THREE.MeshBasicMaterial({
+    color, transparent: true, opacity: OCCLUDED_OPACITY, depthTest: false, depthWrite: false,
   });
-  return { solid, ghost };
+  return { solid, occluded };
 }
 
 /** @param {THREE.BufferGeometry} geometry
- *  @param {ReturnType<typeof makeShining>} materials */
-function shiningMesh(geometry, materials) {
+ *  @param {ReturnType<typeof makeMarkerMaterial>} materials */
+function markerMesh(geometry, materials) {
   const group = new THREE.Group();
   const solid = new THREE.Mesh(geometry, materials.solid);
-  const ghost = new THREE.Mesh(geometry, materials.ghost);
-  ghost.renderOrder = 10;
-  group.add(solid, ghost);
+  const occluded = new THREE.Mesh(geometry, materials.occluded);
+  occluded.renderOrder = 10;
+  group.add(solid, occluded);
   return group;
 }
 
-/** Materials of the symbols, shared by all people.
+/** Materials of the markers, shared by all people.
  *  @param {Palette} palette */
 export function makeMarkerMaterials(palette) {
   return {
     classes: Object.fromEntries(
-      palette.classes.map(({ name, color }) => [name, makeShining(toColor(color))])),
+      palette.classes.map(({ name, color }) => [name, makeMarkerMaterial(toColor(color))])),
     rim: new THREE.MeshBasicMaterial({ color: 0x2a0608, side: THREE.BackSide }),
-    com: makeShining(toColor(palette.com)),
+    com: makeMarkerMaterial(toColor(palette.com)),
     cop: new THREE.MeshBasicMaterial({ color: toColor(palette.cop) }),
     line: new THREE.LineBasicMaterial({ color: toColor(palette.com) }),
     support: new THREE.LineBasicMaterial({ color: toColor(palette.support) }),
@@ -88,7 +87,7 @@ export class Human {
       this.#links.push(group);
       this.group.add(group);
     }
-    this.com = shiningMesh(unitSphere, markers.com);
+    this.com = markerMesh(unitSphere, markers.com);
     this.com.scale.setScalar(0.03);
     this.comLine = new THREE.Line(
       new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), new THREE.Vector3(0, 0, -1)]), markers.line);
@@ -129,10 +128,10 @@ export class Human {
     for (const load of person.loads) {
       const sphere = this.#spheres.get(load.joint) ?? this.#addSphere(load.joint);
       const loadClass = isLive ? load.loadClass : 'unknown';
-      const { solid, ghost } = this.markers.classes[loadClass];
+      const { solid, occluded } = this.markers.classes[loadClass];
       const [front, through] = sphere.group.children[0].children;
       /** @type {THREE.Mesh} */ (front).material = solid;
-      /** @type {THREE.Mesh} */ (through).material = ghost;
+      /** @type {THREE.Mesh} */ (through).material = occluded;
       sphere.rim.visible = loadClass === 'high';
       sphere.group.position.fromArray(load.position);
       sphere.group.scale.setScalar(load.radius);
@@ -194,7 +193,7 @@ export class Human {
     const group = new THREE.Group();
     const rim = new THREE.Mesh(unitSphere, this.markers.rim);
     rim.scale.setScalar(RIM);
-    group.add(shiningMesh(unitSphere, this.markers.classes.unknown), rim);
+    group.add(markerMesh(unitSphere, this.markers.classes.unknown), rim);
     this.group.add(group);
     const sphere = { group, rim };
     this.#spheres.set(joint, sphere);

@@ -12,7 +12,7 @@ const FOLLOW_SECONDS = 0.35;  // time constant with which the view follows a wal
 const START_POSITION = [3.6, -2.8, 2.2];
 const START_TARGET = [0, 0, 1];
 const SLOW_FRAME_MILLIS = 45;
-const FRAMES_JUDGED = 24;
+const FRAMES_MEASURED = 24;
 
 export class Scene {
   #scene = new THREE.Scene();
@@ -203,8 +203,8 @@ export class Scene {
   #adaptQuality(elapsed) {
     if (elapsed > 500) return;  // the view was idle or hidden, not slow
     this.#frameMillis.push(elapsed);
-    if (this.#frameMillis.length < FRAMES_JUDGED) return;
-    const median = this.#frameMillis.sort((a, b) => a - b)[FRAMES_JUDGED / 2];
+    if (this.#frameMillis.length < FRAMES_MEASURED) return;
+    const median = this.#frameMillis.sort((a, b) => a - b)[FRAMES_MEASURED / 2];
     this.#frameMillis = [];
     if (median < SLOW_FRAME_MILLIS || this.#quality >= 3) return;
     this.#quality += 1;
