@@ -10,14 +10,20 @@ const program = process.argv[2] ?? fileOf('../build/dev/bin/kinescope');
 const server = spawn(program, ['serve', 'demo:lift', '--hand', 'both:8', '--mass', '75', '--ros', 'off', '--http_port', '0'],
   { stdio: ['ignore', 'ignore', 'pipe'] });
 try {
-  const visit = await openPage(`${await urlOf(server)}?quality=fine`, { viewport: DESKTOP });
+  const url = await urlOf(server);
+  const visit = await openPage(`${url}?quality=fine`, { viewport: DESKTOP });
   await visit.page.locator('#picture-image').waitFor({ state: 'visible' });
-  await visit.page.waitForFunction(isLifting, null, { polling: 'raf' });
+  await visit.page.waitForFunction(() => document.getElementById('latency-p95').textContent !== '');
+  await straightening(url);
+  server.kill('SIGSTOP');  // view, list and picture then show the same sample
+  await visit.page.waitForTimeout(400);  // the list is updated every 150 ms
   await visit.page.screenshot({ path: fileOf('page.png') });
+  const status = await visit.page.textContent('#status-word');
+  if (status !== 'Live') throw new Error(`the status is ${status}: the machine is too busy; try again`);
   if (visit.problems.length > 0) throw new Error(visit.problems.join('\n'));
 } finally {
   await closeBrowser();
-  server.kill();
+  server.kill('SIGKILL');
 }
 
 /** The address of the page, which the server logs. */
@@ -29,10 +35,12 @@ async function urlOf({ stderr }) {
   throw new Error(`${program} ended before it served the page`);
 }
 
-/** Runs in the page: L5/S1 was highly loaded a moment ago, so the person is straightening up; the latency is known. */
-function isLifting() {
-  const rows = [...document.querySelectorAll('#loads li')];
-  const back = rows.find((row) => row.querySelector('.label').textContent === 'L5/S1');
-  return back?.querySelector('.word').textContent === 'high' && parseInt(back.querySelector('.ratio').textContent, 10) < 55
-    && document.getElementById('latency-p95').textContent !== '';
+/** Resolves when L5/S1 is highly loaded and the person is straightening up.
+ *  @param {string} url */
+async function straightening(url) {
+  for (;;) {
+    const { people } = await fetch(new URL('api/state', url)).then((answer) => answer.json());
+    const back = people[0]?.loads.find(({ joint }) => joint === 'l5_s1');
+    if (back?.class === 'high' && people[0].com[2] > 0.7) return;
+  }
 }

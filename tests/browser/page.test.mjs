@@ -396,11 +396,14 @@ test('a load can be set for every person, and the readings are those of the sele
   await page.fill('#hand-kg', '3.5');
   await page.click('#hand-load button');
   await page.waitForFunction(() => document.getElementById('loads-hint').textContent.includes('hand load 3.5 kg left'), null, LONG);
-  const cut = await page.evaluate(() => [...document.querySelectorAll('#hand-load > *, #loads-title')]
-    .filter((part) => part.getBoundingClientRect().right > document.querySelector('.loads').getBoundingClientRect().right)
-    .map((part) => part.id || part.tagName));
-  assert.deepEqual(cut, []);
-  await saveScreenshot(page, 'two_people_desktop');
+  for (const [name, viewport] of [['phone', PHONE], ['desktop', DESKTOP]]) {
+    await page.setViewportSize(viewport);
+    const cut = await page.evaluate(() => [...document.querySelectorAll('#hand-load > *, #loads-title')]
+      .filter((part) => part.getBoundingClientRect().right > document.querySelector('.loads').getBoundingClientRect().right)
+      .map((part) => part.id || part.tagName));
+    assert.deepEqual(cut, [], name);
+    await saveScreenshot(page, `two_people_${name}`);
+  }
   await page.selectOption('#hand-person', { label: 'Demo' });
   await page.waitForFunction(() => !document.getElementById('loads-hint').textContent.includes('3.5 kg'), null, LONG);
   assert.deepEqual(problems, []);
