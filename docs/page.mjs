@@ -1,6 +1,7 @@
 // Takes docs/page.png: the web page while a person lifts 8 kg with both hands.
 // node docs/page.mjs [PROGRAM]   (needs npm ci --prefix web, npm ci --prefix tests/browser, and Chromium)
 import { spawn } from 'node:child_process';
+import { writeFile } from 'node:fs/promises';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
 import { closeBrowser, DESKTOP, openPage } from '../tests/browser/open_page.mjs';
@@ -15,12 +16,13 @@ try {
   await visit.page.locator('#picture-image').waitFor({ state: 'visible' });
   await visit.page.waitForFunction(() => document.getElementById('latency-p95').textContent !== '');
   await straightening(url);
-  server.kill('SIGSTOP');  // view, list and picture then show the same sample
+  server.kill('SIGSTOP');  // view and list then show the same sample
   await visit.page.waitForTimeout(400);  // the list is updated every 150 ms
-  await visit.page.screenshot({ path: fileOf('page.png') });
+  const png = await visit.page.screenshot();
   const status = await visit.page.textContent('#status-word');
   if (status !== 'Live') throw new Error(`the status is ${status}: the machine is too busy; try again`);
   if (visit.problems.length > 0) throw new Error(visit.problems.join('\n'));
+  await writeFile(fileOf('page.png'), png);
 } finally {
   await closeBrowser();
   server.kill('SIGKILL');
