@@ -70,7 +70,7 @@ OverlayFonts& Overlay::fonts() {
 void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
                     const View& view) {
   const double scale = std::max(0.5, std::min(view.height / 720.0, view.width / 1000.0));
-  const double strip = view.parts.strip ? StripLayoutOf(view.width, view.height).height() : 0;
+  const double strip = view.parts.frame_code ? StripLayoutOf(view.width, view.height).height() : 0;
   Page page{painter,
             InksOf(view),
             fonts(),
@@ -93,7 +93,7 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
   page.height = whole.height;
   page.bottom = whole.bottom;
   PaintAround(page, state, view);
-  if (view.parts.strip && state.liveness != Liveness::kNoData) {
+  if (view.parts.frame_code && state.liveness != Liveness::kNoData) {
     PaintStrip(painter, view.width, view.height, {state.counter, state.time_code_millis});
   }
 }
@@ -111,7 +111,7 @@ void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& dr
   if (drawn.name.empty()) return;
   // In the upper middle, where nobody's feet are; in the top row below title and lamp.
   const int size = page.FontPx(kSmallSize);
-  const bool is_below_title = drawn.tile.y == 0 && (view.parts.lamp || !view.title.empty());
+  const bool is_below_title = drawn.tile.y == 0 && (view.parts.status || !view.title.empty());
   const double top = is_below_title ? margin + 1.6 * page.FontPx(kTitleSize) : 0.5 * margin;
   const std::string name = Shorten(drawn.name, page.fonts.bold, size, page.width - 2 * margin);
   const double half = page.fonts.bold.Width(name, size) / 2;
@@ -125,7 +125,7 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const View& view)
   const OverlayParts& parts = view.parts;
   if (parts.title && !page.is_small) PaintTitle(page, state, view);
   if (HasOnlyRobots(state)) return;
-  if (parts.lamp) PaintLamp(page, state);
+  if (parts.status) PaintLamp(page, state);
   if (!page.is_small) {
     if (parts.legend) PaintLegend(page, state, view.look);
     if (parts.time && state.liveness != Liveness::kNoData) PaintTimeCode(page, state);
@@ -170,7 +170,7 @@ void Overlay::PaintLamp(Page& page, const SceneState& state) {
 void Overlay::PaintTitle(Page& page, const SceneState& state, const View& view) {
   if (view.title.empty()) return;
   const int size = page.FontPx(kTitleSize);
-  const bool is_beside_lamp = view.parts.lamp && !HasOnlyRobots(state);
+  const bool is_beside_lamp = view.parts.status && !HasOnlyRobots(state);
   const double room = is_beside_lamp ? 0.6 * page.width : page.right() - page.Px(kMargin);
   const std::string line = Shorten(view.title, page.fonts.bold, size, room);
   page.canvas.Text(page.Px(kMargin), page.Px(kMargin) + size, line, page.fonts.bold, size,

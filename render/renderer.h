@@ -14,6 +14,7 @@
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/load_history.h"
+#include "render/overlay_parts.h"
 #include "render/scene_look.h"
 
 namespace kinescope::render {
@@ -23,19 +24,6 @@ namespace kinescope::render {
 class RenderError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-};
-
-/// The overlays, one by one; View::overlays switches all of them.
-struct OverlayParts {
-  bool title = true;
-  bool lamp = true;    // status indicator: live, recorded or stale, and the sample rate
-  bool legend = true;  // with units
-  bool time = true;    // time code and sample number
-  bool names = true;   // of several people, frames, placeholder boxes
-  bool banner = true;  // "STALE", "NO DATA"
-  bool scale = false;  // scale bar, true at the depth of the camera's target
-  bool strip = false;  // machine-readable frame code: sample and time (strip.h)
-  bool plot = false;   // View::history
 };
 
 /// One of several views in a picture.

@@ -15,7 +15,6 @@
 namespace kinescope::http {
 namespace {
 
-constexpr const char* kHandLoadPath = "/api/hand_load";
 constexpr int kMinPixels = 16;
 constexpr int kMaxPixels = 4096;
 constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
@@ -64,21 +63,45 @@ std::optional<Answer> Router::RefuseStranger(const Request& request, const Targe
   return Refuse(401, "no token", "token missing or wrong; open the URL that the server printed");
 }
 
+// A new route: a line here, and one in docs/http.md.
+const std::array<Router::ApiRoute, 5> Router::kApiRoutes = {{
+    {"/api/state", Method::kGet, &Router::State},
+    {"/api/model", Method::kGet, &Router::Model},
+    {"/api/cameras", Method::kGet, &Router::Cameras},
+    {"/api/diagnostics", Method::kGet, &Router::Diagnostics},
+    {"/api/hand_load", Method::kPost, &Router::SetHandLoad},
+}};
+
+const Router::ApiRoute* Router::FindApi(const std::string& path) {
+  const auto* const found = std::find_if(kApiRoutes.begin(), kApiRoutes.end(),
+                                         [&](const ApiRoute& route) { return path == route.path; });
+  return found == kApiRoutes.end() ? nullptr : found;
+}
+
+std::string Router::ApiPaths() {
+  std::string paths;
+  for (const ApiRoute& route : kApiRoutes) {
+    paths += (paths.empty() ? "" : ", ") + std::string(route.path) +
+             (route.method == Method::kPost ? " (POST)" : "");
+  }
+  return paths;
+}
+
 Answer Router::Route(const Request& request) const {
   const auto target = ParseTarget(request.target);
   if (!target) return Refuse(400, "bad address", target.error());
   bool set_cookie = false;
   if (auto refusal = RefuseStranger(request, *target, &set_cookie)) return *std::move(refusal);
-  const bool may_post = target->path == kHandLoadPath;
-  if (request.method == "POST" && may_post) return SetHandLoad(request);
-  if (may_post || (request.method != "GET" && request.method != "HEAD")) {
-    const std::string allowed = may_post ? "POST" : "GET, HEAD";
+  const ApiRoute* const api = FindApi(target->path);
+  const bool posts = api != nullptr && api->method == Method::kPost;
+  if (posts ? request.method != "POST" : request.method != "GET" && request.method != "HEAD") {
+    const std::string allowed = posts ? "POST" : "GET, HEAD";
     Answer answer = Refuse(405, "bad method", "this address accepts only " + allowed);
     answer.headers.emplace_back("Allow", allowed);
     return answer;
   }
-  Answer answer = RouteAdmitted(*target, request);
-  if (set_cookie) {
+  Answer answer = api != nullptr ? (this->*api->answer)(request) : RouteAdmitted(*target, request);
+  if (set_cookie && !posts) {
     answer.headers.emplace_back("Set-Cookie", site_.cookie_name + "=" + site_.token +
                                                   "; Path=/; HttpOnly; SameSite=Strict");
   }
@@ -107,22 +130,27 @@ Answer Router::RouteAdmitted(const Target& target, const Request& request) const
   }
   if (target.path == "/snapshot.png") return Snapshot(target);
   if (StartsWith(target.path, "/api/mesh/")) return Mesh(target.path);
-  if (StartsWith(target.path, "/api/")) return Api(target.path);
+  if (StartsWith(target.path, "/api/")) {
+    return Refuse(404, "unknown address", "unknown route; expected one of " + ApiPaths());
+  }
   return File(target.path, request);
 }
 
-Answer Router::Api(const std::string& path) const {
-  const std::shared_ptr<const SceneState> state = site_.states->Get();
-  if (path == "/api/state") return JsonAnswer(StateJson(state.get(), MonotonicNanos()));
-  if (path == "/api/model") return JsonAnswer(ModelJson(state.get()));
-  if (path == "/api/diagnostics") return JsonAnswer(site_.diagnostics());
-  if (path == "/api/cameras") {
-    return JsonAnswer(
-        CamerasJson(site_.cameras, site_.framing, site_.live_camera(), site_.has_pictures));
-  }
-  return Refuse(404, "unknown address",
-                "unknown route; expected /api/state, /api/model, /api/cameras, /api/diagnostics "
-                "or, with POST, /api/hand_load");
+Answer Router::State(const Request& /*request*/) const {
+  return JsonAnswer(StateJson(site_.states->Get().get(), MonotonicNanos()));
+}
+
+Answer Router::Model(const Request& /*request*/) const {
+  return JsonAnswer(ModelJson(site_.states->Get().get()));
+}
+
+Answer Router::Diagnostics(const Request& /*request*/) const {
+  return JsonAnswer(site_.diagnostics());
+}
+
+Answer Router::Cameras(const Request& /*request*/) const {
+  return JsonAnswer(
+      CamerasJson(site_.cameras, site_.framing, site_.live_camera(), site_.has_pictures));
 }
 
 // A foreign page can make a browser send anything that a form could send. JSON is not possible: for
@@ -142,7 +170,7 @@ Answer Router::SetHandLoad(const Request& request) const {
   const std::shared_ptr<const SceneState> state = site_.states->Get();
   static const std::vector<PersonState> kNobody;
   const std::vector<PersonState>& people = state ? state->people : kNobody;
-  if (people.empty()) return Refuse(409, "nobody is here", "no person in the stream yet");
+  if (people.empty()) return Refuse(409, "no person", "no person in the stream yet");
   if (!order->person && people.size() > 1) {
     return Refuse(400, "bad hand load", "several persons in the stream; set \"person\"");
   }
@@ -151,7 +179,7 @@ Answer Router::SetHandLoad(const Request& request) const {
     return person.character == character;
   });
   if (!is_here) {
-    return Refuse(404, "nobody is here", "unknown person " + std::to_string(character));
+    return Refuse(404, "no person", "unknown person " + std::to_string(character));
   }
   const std::string wrong = site_.set_hand_load(character, order->load);
   if (!wrong.empty()) return Refuse(400, "bad hand load", wrong);

@@ -2,6 +2,7 @@
 /// the server's thread.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -48,7 +49,21 @@ class Router {
   [[nodiscard]] Answer Refuse(int status, const char* kind, const std::string& reason) const;
   [[nodiscard]] std::optional<Answer> RefuseStranger(const Request& request, const Target& target,
                                                      bool* set_cookie) const;
-  Answer Api(const std::string& path) const;
+  enum class Method { kGet, kPost };  // GET: HEAD, too
+  struct ApiRoute {
+    const char* path;
+    Method method;
+    Answer (Router::*answer)(const Request&) const;
+  };
+  static const std::array<ApiRoute, 5> kApiRoutes;
+  /// Null if there is no such route.
+  static const ApiRoute* FindApi(const std::string& path);
+  static std::string ApiPaths();
+
+  Answer State(const Request& request) const;
+  Answer Model(const Request& request) const;
+  Answer Diagnostics(const Request& request) const;
+  Answer Cameras(const Request& request) const;
   Answer SetHandLoad(const Request& request) const;
   Answer Mesh(const std::string& path) const;
   Answer Snapshot(const Target& target) const;

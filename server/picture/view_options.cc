@@ -21,17 +21,14 @@ using options::BadValue;
 constexpr std::size_t kMostViews = 16, kMostPlots = 8, kMostTrails = 24, kMostRobots = 64;
 constexpr double kFarthestRobot = 1000;  // m
 
-constexpr std::array<std::pair<const char*, bool render::OverlayParts::*>, 9> kOverlayParts = {{
-    {"title", &render::OverlayParts::title},
-    {"status", &render::OverlayParts::lamp},
-    {"legend", &render::OverlayParts::legend},
-    {"time", &render::OverlayParts::time},
-    {"names", &render::OverlayParts::names},
-    {"banner", &render::OverlayParts::banner},
-    {"scale", &render::OverlayParts::scale},
-    {"frame_code", &render::OverlayParts::strip},
-    {"plot", &render::OverlayParts::plot},
-}};
+std::string DefaultOverlays() {
+  std::string off;
+  for (const render::OverlayInfo& overlay : render::kOverlays) {
+    if (!(render::OverlayParts().*overlay.part))
+      off += (off.empty() ? "" : ", ") + std::string(overlay.name);
+  }
+  return "all but " + off;
+}
 
 const std::vector<options::FormerWord> kFormerOverlays = {{"lamp", "status"},
                                                           {"strip", "frame_code"}};
@@ -108,7 +105,7 @@ void OverlayValue::Parse(const std::string& text) {
   std::string text_now;
   const bool are_changes = !names.empty() && IsChange(names.front());
   if (!names.empty() && !are_changes) {
-    for (const auto& [name, part] : kOverlayParts) parts.*part = false;
+    for (const render::OverlayInfo& overlay : render::kOverlays) parts.*overlay.part = false;
   }
   for (const std::string& name : names) {
     if (IsChange(name) != are_changes) {
@@ -121,10 +118,11 @@ void OverlayValue::Parse(const std::string& text) {
       word = former->current;
     }
     text_now += (text_now.empty() ? "" : ",") + sign + word;
-    const auto found = std::find_if(kOverlayParts.begin(), kOverlayParts.end(),
-                                    [&](const auto& part) { return part.first == word; });
-    if (found == kOverlayParts.end()) RefuseWord(word, Names());
-    parts.*found->second = !are_changes || name[0] == '+';
+    const auto* const found =
+        std::find_if(render::kOverlays.begin(), render::kOverlays.end(),
+                     [&](const render::OverlayInfo& overlay) { return overlay.name == word; });
+    if (found == render::kOverlays.end()) RefuseWord(word, Names());
+    parts.*found->part = !are_changes || name[0] == '+';
   }
   value_ = parts;
   text_ = former_words.empty() ? text : text_now;
@@ -137,7 +135,7 @@ std::string OverlayValue::Expected() const {
 
 std::vector<std::string> OverlayValue::Names() const {
   std::vector<std::string> names;
-  for (const auto& [name, part] : kOverlayParts) names.emplace_back(name);
+  for (const render::OverlayInfo& overlay : render::kOverlays) names.emplace_back(overlay.name);
   return names;
 }
 
@@ -309,8 +307,7 @@ void ViewOptions::List(options::OptionList& option) {
   moves.List(option);
   option("supersample", supersample, "pixels drawn per pixel of the picture, each way");
   option("title", title, "text in the upper left corner");
-  option("overlay", overlay,
-         "texts and plots over the picture; default: all but scale, frame_code and plot");
+  option("overlay", overlay, "texts and plots over the picture; default: " + DefaultOverlays());
   option("plot", plot, "joints whose loads are plotted over time");
   option("no_overlays", no_overlays, "no text or plot over the picture");
   option("theme", theme, "colours of floor and background");

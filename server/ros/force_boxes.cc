@@ -81,7 +81,7 @@ std::int64_t ForceBox::StampOf(const char* topic, const std_msgs::Header& header
 
 std::optional<FoundFrame> ForceBox::Place(const char* topic, const std_msgs::Header& header) {
   if (!body_) {
-    Refuse(topic, {"nobody is here", "no person has been received yet"});
+    Refuse(topic, {"no person", "no person has been received yet"});
     return std::nullopt;
   }
   const auto stamp = static_cast<std::int64_t>(header.stamp.toNSec());
@@ -224,7 +224,7 @@ void ForceBox::OnExternalLoads(const kinescope_ros::JointLoadArray& message) {
 
 void ForceBox::OnExternalJointStates(const sensor_msgs::JointState& message) {
   if (!body_) {
-    return Refuse(kExternalJointStates, {"nobody is here", "no person has been received yet"});
+    return Refuse(kExternalJointStates, {"no person", "no person has been received yet"});
   }
   UseExternal(kExternalJointStates, ToExternalLoads(message, *body_, settings_.external_scale),
               StampOf(kExternalJointStates, message.header));

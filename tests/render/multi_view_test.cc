@@ -59,7 +59,7 @@ TEST(OverlayLayer, IsAsLargeAsThePictureAndTheSameEveryTime) {
   const Camera camera = NamedCamera("front", state);
   View view = Small();
   view.title = "Ümlaut & <tag>";
-  view.parts.scale = view.parts.strip = true;
+  view.parts.scale = view.parts.frame_code = true;
   renderer->Render(state, camera, view);
   const std::string svg = renderer->OverlayLayer(state, camera, view, LayerFormat::kSvg);
   EXPECT_THAT(svg, HasSubstr("width=\"321px\" height=\"180px\""));

@@ -127,7 +127,7 @@ GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
   GoldenDrawing drawing;
   drawing.image = renderer.Render(shot.state, shot.camera, shot.view);
   drawing.spheres = SpheresOf(shot);
-  if (shot.view.overlays && shot.view.parts.strip && *golden_case.state != Liveness::kNoData) {
+  if (shot.view.overlays && shot.view.parts.frame_code && *golden_case.state != Liveness::kNoData) {
     drawing.strip = {shot.state.counter, shot.state.time_code_millis};
   }
   return drawing;

@@ -387,7 +387,7 @@ TEST_F(RouterTest, SaysWhyAHandLoadIsRefusedAndHandsNothingOn) {
   EXPECT_THAT(held_, IsEmpty());
   EXPECT_EQ(refusals_["bad hand load"], 3);
   EXPECT_EQ(refusals_["bad content type"], 5);
-  EXPECT_EQ(refusals_["nobody is here"], 2);
+  EXPECT_EQ(refusals_["no person"], 2);
 }
 
 TEST(ErrorAnswer, IsOneJsonObjectWhateverTheReasonHolds) {

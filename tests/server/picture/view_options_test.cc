@@ -31,11 +31,11 @@ std::string Error(const std::string& name, const std::string& text) {
 
 TEST(ViewOptions, OverlaysAreAListOrChangesOfTheUsualOnes) {
   EXPECT_TRUE(Overlays("").legend);
-  EXPECT_FALSE(Overlays("").strip);
+  EXPECT_FALSE(Overlays("").frame_code);
   EXPECT_FALSE(Overlays("time,scale").legend);
   EXPECT_TRUE(Overlays("time,scale").scale);
   EXPECT_TRUE(Overlays("+frame_code,-legend").time);
-  EXPECT_TRUE(Overlays("+frame_code,-legend").strip);
+  EXPECT_TRUE(Overlays("+frame_code,-legend").frame_code);
   EXPECT_FALSE(Overlays("+frame_code,-legend").legend);
   EXPECT_THAT(Error("overlay", "time,-legend"), HasSubstr("either"));
   EXPECT_THAT(Error("overlay", "+legnd"), HasSubstr("unknown 'legnd'"));
