@@ -217,10 +217,10 @@ Taken<ExternalLoads> ToExternalLoads(const kinescope_ros::JointLoadArray& messag
     load.moment = frame.pose.orientation *
                   (scale * Vector3d(given.moment[0], given.moment[1], given.moment[2]));
     load.ratio = given.ratio;
-    const bool has_level = given.level >= kinescope_ros::JointLoad::LOW &&
-                           given.level <= kinescope_ros::JointLoad::HIGH;
-    load.load_class = has_level ? static_cast<LoadClass>(given.level) : LoadClass::kUnknown;
-    loads.is_given[At(named.joint)] = has_level || given.ratio >= 0 || load.moment.allFinite();
+    const bool has_class = given.load_class >= kinescope_ros::JointLoad::LOW &&
+                           given.load_class <= kinescope_ros::JointLoad::HIGH;
+    load.load_class = has_class ? static_cast<LoadClass>(given.load_class) : LoadClass::kUnknown;
+    loads.is_given[At(named.joint)] = has_class || given.ratio >= 0 || load.moment.allFinite();
   }
   return loads;
 }

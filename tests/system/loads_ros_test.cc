@@ -158,11 +158,12 @@ TEST_F(LoadsOverRos, LoadsOfAnotherProgramReplaceOursPerJointWhileTheyCome) {
     message.effort = {0, 0, -70, 1};  // the arm lies along y there: it bends about z
     return message;
   };
-  ASSERT_TRUE(Answer(other, say, [&] { return LoadOf("jRightElbow").level == JointLoad::HIGH; }));
+  ASSERT_TRUE(
+      Answer(other, say, [&] { return LoadOf("jRightElbow").load_class == JointLoad::HIGH; }));
   EXPECT_EQ(LoadOf("jRightElbow").source, JointLoad::EXTERNAL);
   EXPECT_EQ(LoadOf("jLeftElbow").source, JointLoad::COMPUTED);
   ASSERT_TRUE(Spin([&] { return LoadOf("jRightElbow").source == JointLoad::COMPUTED; }));
-  ASSERT_TRUE(Spin([&] { return LoadOf("jRightElbow").level == JointLoad::LOW; }));
+  ASSERT_TRUE(Spin([&] { return LoadOf("jRightElbow").load_class == JointLoad::LOW; }));
 }
 
 TEST_F(LoadsOverRos, WhatAHandHoldsIsToldByServiceAndByTopic) {
@@ -171,7 +172,7 @@ TEST_F(LoadsOverRos, WhatAHandHoldsIsToldByServiceAndByTopic) {
     for (const auto& marker : message.markers) held.insert(marker.ns);
   });
   StartBridge("demo:t_pose");
-  ASSERT_TRUE(Spin([&] { return LoadOf("jRightShoulder").level == JointLoad::LOW; }));
+  ASSERT_TRUE(Spin([&] { return LoadOf("jRightShoulder").load_class == JointLoad::LOW; }));
   EXPECT_EQ(held.count("hand_loads"), 0u);
   kinescope_ros::SetHandLoad order;
   order.request.right_kg = 500;
@@ -182,9 +183,9 @@ TEST_F(LoadsOverRos, WhatAHandHoldsIsToldByServiceAndByTopic) {
   order.request.right_kg = 2;
   ASSERT_TRUE(ros::service::call("/kinescope/set_hand_load", order));
   EXPECT_TRUE(order.response.success) << order.response.message;
-  ASSERT_TRUE(Spin([&] { return LoadOf("jRightShoulder").level == JointLoad::MEDIUM; }));
+  ASSERT_TRUE(Spin([&] { return LoadOf("jRightShoulder").load_class == JointLoad::MEDIUM; }));
   EXPECT_EQ(loads_->held_mass[0], 2);
-  EXPECT_EQ(LoadOf("jLeftShoulder").level, JointLoad::LOW);
+  EXPECT_EQ(LoadOf("jLeftShoulder").load_class, JointLoad::LOW);
   // The same mass farther out is a larger moment.
   const double at_the_grip = LoadOf("jRightShoulder").ratio;
   order.request.right_com = {0, 0, -0.4};

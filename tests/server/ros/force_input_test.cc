@@ -218,11 +218,11 @@ TEST(ExternalArray, IsTurnedIntoTheWorldAndItsLevelsAreTaken) {
   message.loads[0].moment = {1, 0, 0};
   message.loads[0].ratio = kNan;
   message.loads[1].joint = "left_knee";
-  message.loads[1].level = 77;
+  message.loads[1].load_class = 77;
   message.loads[1].moment = {kNan, kNan, kNan};
   message.loads[1].ratio = kNan;
   message.loads[2].joint = "jLeftHip";
-  message.loads[2].level = kinescope_ros::JointLoad::HIGH;
+  message.loads[2].load_class = kinescope_ros::JointLoad::HIGH;
   const FoundFrame turned{{{}, Quaterniond(AngleAxisd(M_PI_2, Vector3d::UnitZ()))}, true};
   const auto loads = ToExternalLoads(message, turned, -1);
   ASSERT_TRUE(loads);

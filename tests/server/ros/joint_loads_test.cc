@@ -31,14 +31,14 @@ TEST(JointLoads, CarryEveryScoredJointWithItsReasonOrItsNumbers) {
   ASSERT_EQ(message.loads.size(), person.loads.size());
   const auto& unknown = message.loads[0];
   EXPECT_EQ(unknown.joint, "jL5S1");
-  EXPECT_EQ(unknown.level, JointLoad::UNKNOWN);
+  EXPECT_EQ(unknown.load_class, JointLoad::UNKNOWN);
   EXPECT_FALSE(unknown.valid);
   EXPECT_TRUE(std::isnan(unknown.ratio));
   EXPECT_EQ(unknown.reason, "no foot contact");
   const auto& known = message.loads[1];
   EXPECT_EQ(known.joint, "jRightShoulder");
   EXPECT_TRUE(known.valid);
-  EXPECT_EQ(known.level, JointLoad::MEDIUM);
+  EXPECT_EQ(known.load_class, JointLoad::MEDIUM);
   EXPECT_EQ(known.ratio, 0.42);
   EXPECT_EQ(known.channel, "elevation");
   EXPECT_EQ(known.channel_moment, 12.5);
