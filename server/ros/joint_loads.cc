@@ -84,8 +84,8 @@ void FillJointLoads(const PersonState& person, const std::string& reference_fram
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     message.held_mass[side] = forces.hands[side].mass_kg;
   }
-  message.l5s1_compression = forces.lumbar ? forces.lumbar->compression : kNotKnown;
-  message.l5s1_shear = forces.lumbar ? forces.lumbar->shear : kNotKnown;
+  message.l5_s1_compression = forces.lumbar ? forces.lumbar->compression : kNotKnown;
+  message.l5_s1_shear = forces.lumbar ? forces.lumbar->shear : kNotKnown;
   message.margin_of_stability = forces.margin_of_stability.value_or(kNotKnown);
   message.com_difference = forces.com_difference ? forces.com_difference->norm() : kNotKnown;
 }

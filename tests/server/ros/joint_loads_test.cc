@@ -62,7 +62,7 @@ TEST(JointLoads, SayWhatIsNotKnownOfTheWholeBody) {
   EXPECT_FALSE(message.dynamic);
   EXPECT_EQ(message.why_static, "no accelerations");
   EXPECT_TRUE(message.body_mass_assumed);
-  EXPECT_TRUE(std::isnan(message.l5s1_compression));
+  EXPECT_TRUE(std::isnan(message.l5_s1_compression));
   EXPECT_TRUE(std::isnan(message.margin_of_stability));
 }
 
