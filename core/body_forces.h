@@ -110,8 +110,8 @@ struct BodyForces {
 
   Eigen::Vector3d com_of_model = Eigen::Vector3d::Zero();  // world, m
   std::optional<Eigen::Vector3d> com_velocity;             // of the model, world, m/s
-  std::optional<Eigen::Vector3d> com_difference;  // com_of_model minus MVN's CoM, world, m; absent
-                                                  // where MVN's is not streamed
+  std::optional<Eigen::Vector3d> com_minus_mvn;  // com_of_model minus MVN's CoM, world, m; absent
+                                                 // where MVN's is not streamed
   bool com_disagrees = false;  // by more than 1 cm: wrong frames, segment lengths or body model
 
   /// The part of the measured ground forces that the motion does not explain, relative to body

@@ -99,7 +99,7 @@ json ForcesToJson(const BodyForces& forces) {
           {"l5_s1_compression_n", forces.lumbar ? json(forces.lumbar->compression) : json(nullptr)},
           {"l5_s1_shear_n", forces.lumbar ? json(forces.lumbar->shear) : json(nullptr)},
           {"com_minus_mvn_m",
-           forces.com_difference ? json(forces.com_difference->norm()) : json(nullptr)},
+           forces.com_minus_mvn ? json(forces.com_minus_mvn->norm()) : json(nullptr)},
           {"com_disagrees", forces.com_disagrees},
           {"hand_load", ToldToJson(forces.told)},
           {"hands", std::move(hands)},

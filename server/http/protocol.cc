@@ -105,7 +105,7 @@ void PutPerson(Writer& out, const PersonState& person) {
   out.PutVector(person.cop.value_or(Eigen::Vector3d::Zero()));
   out.PutFloat(forces.lumbar ? forces.lumbar->compression : kUnknown);
   out.PutFloat(forces.margin_of_stability.value_or(kUnknown));
-  out.PutFloat(forces.com_difference ? forces.com_difference->norm() : kUnknown);
+  out.PutFloat(forces.com_minus_mvn ? forces.com_minus_mvn->norm() : kUnknown);
   for (const HandForce& hand : forces.hands) out.PutFloat(hand.mass_kg);
   out.Put(CountByte(forces.support.size));
   out.Put(static_cast<std::uint8_t>(forces.metric));

@@ -152,8 +152,8 @@ void LoadEstimator::ShowBody(const BodySample& sample, const LoadSubject& subjec
   }
   if (sample.com && sample.com->position.allFinite() && !subject.wears_extra_masses) {
     constexpr double kMostDifference = 0.01;  // m, joint-loads.md 1.6
-    forces.com_difference = forces.com_of_model - sample.com->position;
-    forces.com_disagrees = forces.com_difference->norm() > kMostDifference;
+    forces.com_minus_mvn = forces.com_of_model - sample.com->position;
+    forces.com_disagrees = forces.com_minus_mvn->norm() > kMostDifference;
   }
   forces.support = contacts_.support();
   if (forces.com_velocity && forces.support.size > 2 && subject.has_legs) {

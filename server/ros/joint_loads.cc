@@ -87,7 +87,7 @@ void FillJointLoads(const PersonState& person, const std::string& reference_fram
   message.l5_s1_compression = forces.lumbar ? forces.lumbar->compression : kNotKnown;
   message.l5_s1_shear = forces.lumbar ? forces.lumbar->shear : kNotKnown;
   message.margin_of_stability = forces.margin_of_stability.value_or(kNotKnown);
-  message.com_difference = forces.com_difference ? forces.com_difference->norm() : kNotKnown;
+  message.com_minus_mvn = forces.com_minus_mvn ? forces.com_minus_mvn->norm() : kNotKnown;
 }
 
 NamedJoint FindNamedJoint(std::string_view name) {

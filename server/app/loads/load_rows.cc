@@ -66,7 +66,7 @@ void VisitBody(const PersonState& person, CellSink& cells) {
   cells.Whole("is_dynamic", forces.is_dynamic ? 1 : 0);
   cells.Text("static_reason", forces.why_static);
   Vector("com", "m", forces.com_of_model, cells);
-  Vector("com_minus_mvn", "m", forces.com_difference.value_or(kNowhere), cells);
+  Vector("com_minus_mvn", "m", forces.com_minus_mvn.value_or(kNowhere), cells);
   Vector("ground_force", "N", forces.why_no_ground.empty() ? forces.ground_force : kNowhere, cells);
   const Vector3d cop = person.cop.value_or(kNowhere);
   cells.Number("cop_x_m", cop.x());

@@ -135,7 +135,7 @@ std::vector<std::string> NotesOf(const LoadTrial& trial, const TrialContext& con
                     100 * Share(secs, all), why));
   }
   NoteUnknown(trial, notes);
-  if (const Peak& off = trial.com_difference(); off.count > 0) {
+  if (const Peak& off = trial.com_minus_mvn(); off.count > 0) {
     notes.push_back(fmt::format(
         "Centre of mass: {:.1f} mm from MVN's on average, {:.1f} mm at most{}.", 1e3 * off.mean(),
         1e3 * off.most,
@@ -238,7 +238,7 @@ json SummaryJson(const LoadTrial& trial, const TrialContext& context) {
           {"facts", facts},
           {"notes", NotesOf(trial, context)},
           {"exposure", exposure},
-          {"com_minus_mvn_m", peak(trial.com_difference())},
+          {"com_minus_mvn_m", peak(trial.com_minus_mvn())},
           {"l5_s1_compression_N", peak(trial.compression())},
           {"l5_s1_shear_N", peak(trial.shear())}};
 }

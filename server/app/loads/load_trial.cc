@@ -40,7 +40,7 @@ void LoadTrial::Add(const std::shared_ptr<const SceneState>& scene, const Person
   }
   exposure_.Add(person.loads, stamp);
   const BodyForces& forces = person.forces;
-  if (forces.com_difference) com_difference_.Add(forces.com_difference->norm(), stamp);
+  if (forces.com_minus_mvn) com_minus_mvn_.Add(forces.com_minus_mvn->norm(), stamp);
   if (forces.lumbar) {
     compression_.Add(forces.lumbar->compression, stamp);
     shear_.Add(std::abs(forces.lumbar->shear), stamp);

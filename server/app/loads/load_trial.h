@@ -82,7 +82,7 @@ class LoadTrial {
   const SecsByReason& why_other_metric() const { return why_other_metric_; }
   const SecsByReason& why_no_ground() const { return why_no_ground_; }
 
-  const Peak& com_difference() const { return com_difference_; }  // |com_of_model - MVN's CoM|, m
+  const Peak& com_minus_mvn() const { return com_minus_mvn_; }  // |com_of_model - MVN's CoM|, m
   double com_disagrees_secs() const { return com_disagrees_secs_; }
   const Peak& compression() const { return compression_; }  // N, L5/S1
   const Peak& shear() const { return shear_; }              // N, L5/S1, absolute value
@@ -107,7 +107,7 @@ class LoadTrial {
   std::int64_t slot_nanos_ = 250'000'000;
   std::array<SecsByReason, urdf::kScoredJointCount> why_unknown_;
   SecsByReason why_static_, why_other_metric_, why_no_ground_;
-  Peak com_difference_, compression_, shear_;
+  Peak com_minus_mvn_, compression_, shear_;
   double com_disagrees_secs_ = 0;
   std::array<double, 2> compression_secs_{};
 };

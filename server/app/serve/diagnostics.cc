@@ -33,7 +33,7 @@ json WarningsOf(const BodyForces& forces) {
     add(
         fmt::format("centre of mass differs from MVN's by {:.0f} mm; check frames, segment lengths "
                     "and body data",
-                    1000 * forces.com_difference->norm()));
+                    1000 * forces.com_minus_mvn->norm()));
   }
   add(forces.why_no_ground);
   add(forces.why_static);
@@ -50,7 +50,7 @@ json LoadsOf(const SceneState& state) {
                       {"mode", forces.is_dynamic ? "dynamic" : "static"},
                       {"warnings", WarningsOf(forces)},
                       {"com_minus_mvn_m",
-                       forces.com_difference ? json(forces.com_difference->norm()) : json(nullptr)},
+                       forces.com_minus_mvn ? json(forces.com_minus_mvn->norm()) : json(nullptr)},
                       {"ground_is_measured", forces.ground_is_measured},
                       {"residual_force_share", forces.residual_force_share},
                       {"residual_moment_share", forces.residual_moment_share}});

@@ -345,12 +345,12 @@ TEST(LoadEstimator, TellsWhenOurCentreOfMassIsNotThatOfMvn) {
   sample.com.emplace().position = Vector3d(0.002, 0, 1.0079 + 0.02);
   LoadEstimator estimator;
   const LoadResult& result = estimator.Update(sample, links, {Person(), Body()}, LoadSettings());
-  ASSERT_TRUE(result.forces.com_difference);
-  EXPECT_NEAR(result.forces.com_difference->z(), -0.02, 1e-4);
+  ASSERT_TRUE(result.forces.com_minus_mvn);
+  EXPECT_NEAR(result.forces.com_minus_mvn->z(), -0.02, 1e-4);
   EXPECT_TRUE(result.forces.com_disagrees);
   LoadSubject laden{Person(), Body()};
   laden.wears_extra_masses = true;
-  EXPECT_FALSE(estimator.Update(sample, links, laden, LoadSettings()).forces.com_difference);
+  EXPECT_FALSE(estimator.Update(sample, links, laden, LoadSettings()).forces.com_minus_mvn);
 }
 
 TEST(LoadEstimator, MeasuresTheMarginOfStabilityFromTheMovingCentreOfMass) {

@@ -87,11 +87,11 @@ void ExpectSameCom(const std::vector<BodySample>& samples, const Skeleton& skele
   for (const BodySample& sample : samples) {
     const LoadResult& result =
         estimator.Update(sample, LinkPosesOf(sample), {skeleton, body}, LoadSettings());
-    ASSERT_TRUE(result.forces.com_difference);
-    EXPECT_LT(result.forces.com_difference->cwiseAbs().maxCoeff(), 0.005)
-        << "frame " << sample.counter << ": " << result.forces.com_difference->transpose();
+    ASSERT_TRUE(result.forces.com_minus_mvn);
+    EXPECT_LT(result.forces.com_minus_mvn->cwiseAbs().maxCoeff(), 0.005)
+        << "frame " << sample.counter << ": " << result.forces.com_minus_mvn->transpose();
     EXPECT_FALSE(result.forces.com_disagrees);
-    sum += result.forces.com_difference->norm();
+    sum += result.forces.com_minus_mvn->norm();
   }
   const double mean = sum / static_cast<double>(samples.size());
   ::testing::Test::RecordProperty("mean_mm", std::to_string(1e3 * mean));

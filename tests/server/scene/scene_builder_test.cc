@@ -168,7 +168,7 @@ TEST(SceneBuilder, LoadsTheJointsWithWhatIsHeldAndWorn) {
   EXPECT_EQ(RatioOf(held.last(), urdf::jLeftShoulder), RatioOf(bare.last(), urdf::jLeftShoulder));
   EXPECT_GT(RatioOf(laden.last(), urdf::jL5S1), RatioOf(bare.last(), urdf::jL5S1) + 0.05);
   EXPECT_NEAR(laden.last().people.at(0).forces.body_mass_kg, 95, 1e-9);
-  EXPECT_FALSE(laden.last().people.at(0).forces.com_difference) << "MVN knows of no backpack";
+  EXPECT_FALSE(laden.last().people.at(0).forces.com_minus_mvn) << "MVN knows of no backpack";
   EXPECT_TRUE(bare.last().people.at(0).forces.body_mass_is_assumed);
 }
 
