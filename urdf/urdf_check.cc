@@ -96,7 +96,7 @@ void FindMeshes(const std::vector<NamedMesh>& meshes, const MeshSearch& search,
 bool IsUnreadable(const UrdfProblem& problem) { return problem.kind == Kind::kUnreadable; }
 
 std::string OneLine(const UrdfProblem& problem) {
-  return problem.element + ": " + problem.what + "; " + problem.way_out;
+  return problem.element + ": " + problem.what + "; " + problem.suggestion;
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct UrdfProblem {
   int line = 0;         // from 1; 0 if unknown
   std::string element;  // "link 'arm'"
   std::string what;     // what is wrong, with the value
-  std::string way_out;
+  std::string suggestion;
 };
 
 /// "unreadable", "wrong", "warning".

@@ -49,9 +49,9 @@ class Tree {
     bool moves = false;
   };
 
-  void Say(Kind kind, int at, std::string element, std::string what, std::string way_out) {
+  void Say(Kind kind, int at, std::string element, std::string what, std::string suggestion) {
     problems_.push_back(
-        {kind, xml_[at].line, std::move(element), std::move(what), std::move(way_out)});
+        {kind, xml_[at].line, std::move(element), std::move(what), std::move(suggestion)});
   }
 
   const std::string* NameOf(int at, const std::string& tag) {

@@ -30,8 +30,8 @@ class Values {
   Values(const XmlOutline& xml, std::string element, std::vector<UrdfProblem>& problems)
       : xml_(xml), element_(std::move(element)), problems_(problems) {}
 
-  void Say(Kind kind, int at, std::string what, std::string way_out) {
-    problems_.push_back({kind, xml_[at].line, element_, std::move(what), std::move(way_out)});
+  void Say(Kind kind, int at, std::string what, std::string suggestion) {
+    problems_.push_back({kind, xml_[at].line, element_, std::move(what), std::move(suggestion)});
   }
 
   // The numbers of an attribute; nullopt, and a problem, when there are not `count` finite ones.

@@ -66,7 +66,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   bool has_unreadable = false;
   const UrdfReport report = CheckUrdf(xml, MeshSearch());
   for (const UrdfProblem& problem : report.problems) {
-    KINESCOPE_CHECK(!problem.element.empty() && !problem.what.empty() && !problem.way_out.empty());
+    KINESCOPE_CHECK(!problem.element.empty() && !problem.what.empty() &&
+                    !problem.suggestion.empty());
     has_unreadable = has_unreadable || problem.kind == UrdfProblem::Kind::kUnreadable;
   }
   KINESCOPE_CHECK(is_read == !has_unreadable);

@@ -28,7 +28,7 @@ std::string All(const UrdfReport& report) {
                                 const std::string& element, const std::string& what) {
   for (const UrdfProblem& problem : report.problems) {
     if (problem.kind == kind && problem.line == line && problem.element == element &&
-        problem.what.find(what) != std::string::npos && !problem.way_out.empty()) {
+        problem.what.find(what) != std::string::npos && !problem.suggestion.empty()) {
       return ::testing::AssertionSuccess();
     }
   }

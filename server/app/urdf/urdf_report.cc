@@ -57,7 +57,7 @@ std::string UrdfReportText(const std::string& file, const UrdfReport& report) {
     if (number > kMostAlike && all > kMostAlike + 1) continue;
     const std::string place = problem.line > 0 ? fmt::format(":{}", problem.line) : "";
     text += fmt::format("{}{}: {}: {}: {}; {}\n", file, place, Name(problem.kind), problem.element,
-                        problem.what, problem.way_out);
+                        problem.what, problem.suggestion);
     if (number == kMostAlike && all > kMostAlike + 1) {
       text += fmt::format("  … and {} more like this (--json lists them)\n", all - kMostAlike);
     }
@@ -72,7 +72,7 @@ std::string UrdfReportJson(const std::string& file, const UrdfReport& report) {
                         {"line", problem.line},
                         {"element", problem.element},
                         {"what", problem.what},
-                        {"way_out", problem.way_out}});
+                        {"suggestion", problem.suggestion}});
   }
   const nlohmann::ordered_json json = {
       {"file", file},
