@@ -193,11 +193,11 @@ void FaultInjector::Damage(Fault fault, Waiting& waiting) {
   ++count.datagrams;
   Injection injection{fault, waiting.header, std::nullopt, Reason::kEmpty};
   if (const auto parsed = ParseDatagram(bytes)) {
-    ++count.silent;
+    ++count.undetectable;
     injection.claimed = parsed->header;
   } else {
-    ++count.refused;
-    injection.refused_for = parsed.error().reason;
+    ++count.detectable;
+    injection.rejected_for = parsed.error().reason;
   }
   if (listener_) listener_(injection);
 }

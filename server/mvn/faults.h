@@ -73,9 +73,9 @@ void SetFault(std::string_view text, FaultSettings& settings);
 struct FaultCount {
   std::uint64_t injected = 0;   // datagrams, bursts, silences, resets
   std::uint64_t datagrams = 0;  // affected datagrams: delayed by a burst, discarded by a silence
-  std::uint64_t refused = 0;    // truncate, corrupt: of these, ParseDatagram() rejects the result
-  std::uint64_t silent = 0;     // truncate, corrupt: of these, the result is valid, so the damage
-                                // cannot be detected
+  // Of truncate and corrupt, whether ParseDatagram() rejects the result or takes it for valid.
+  std::uint64_t detectable = 0;
+  std::uint64_t undetectable = 0;
 };
 
 /// One fault applied to one datagram.
@@ -84,8 +84,8 @@ struct Injection {
   std::optional<Header> header;   // header before the fault; none: not readable
   std::optional<Header> claimed;  // truncate, corrupt: header after the fault, if the datagram is
                                   // still accepted
-  Reason refused_for = Reason::kEmpty;  // truncate, corrupt, foreign: why ParseDatagram() rejects
-                                        // it, if it does
+  Reason rejected_for = Reason::kEmpty;  // truncate, corrupt, foreign: why ParseDatagram() rejects
+                                         // it, if it does
 };
 
 struct TimedDatagram {

@@ -173,8 +173,8 @@ FeedSettings ToFeed(const StreamOptions& o) {
 nlohmann::json ToJson(const mvn::FaultCount& count, mvn::Fault fault) {
   nlohmann::json out = {{"injected", count.injected}, {"datagrams", count.datagrams}};
   if (fault == mvn::Fault::kTruncate || fault == mvn::Fault::kCorrupt) {
-    out["refused"] = count.refused;
-    out["silent"] = count.silent;
+    out["detectable"] = count.detectable;
+    out["undetectable"] = count.undetectable;
   }
   return out;
 }
@@ -207,10 +207,10 @@ void LogSummary(const nlohmann::json& summary) {
     std::string line = fmt::format("fault {}: {} times, {} datagrams", name,
                                    fault["injected"].get<std::uint64_t>(),
                                    fault["datagrams"].get<std::uint64_t>());
-    if (fault.contains("silent")) {
-      line +=
-          fmt::format("; {} detectable, {} not detectable from their content",
-                      fault["refused"].get<std::uint64_t>(), fault["silent"].get<std::uint64_t>());
+    if (fault.contains("undetectable")) {
+      line += fmt::format("; {} detectable, {} not detectable from their content",
+                          fault["detectable"].get<std::uint64_t>(),
+                          fault["undetectable"].get<std::uint64_t>());
     }
     spdlog::info("{}", line);
   }

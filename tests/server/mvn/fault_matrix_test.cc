@@ -135,7 +135,7 @@ class FaultyStream : private SampleSink {
   void CheckCounters() const {
     const SourceCounters counters = assembler_.counters();
     const std::uint64_t slack =
-        faults_.count(Fault::kCorrupt).silent + faults_.count(Fault::kTruncate).silent;
+        faults_.count(Fault::kCorrupt).undetectable + faults_.count(Fault::kTruncate).undetectable;
     const auto is_about = [&](std::uint64_t low, std::uint64_t high) {
       return ::testing::AllOf(::testing::Ge(low - std::min(low, slack)),
                               ::testing::Le(high + slack));
@@ -231,7 +231,7 @@ class FaultyStream : private SampleSink {
           claimed_.insert(injection.claimed->sample_counter);
           (is_character_ ? is_description_garbled_ : fate.is_garbled) = true;
         } else {
-          ++told_[injection.refused_for];
+          ++told_[injection.rejected_for];
         }
         if (!is_character_) fate.came.reset(adding_);
         return;
@@ -239,7 +239,7 @@ class FaultyStream : private SampleSink {
       case Fault::kSilence:
         if (!is_character_) fate.came.reset(adding_);
         return;
-      case Fault::kForeign: ++told_[injection.refused_for]; return;
+      case Fault::kForeign: ++told_[injection.rejected_for]; return;
       case Fault::kReorder:
       case Fault::kJitter:
       case Fault::kBurst: return;

@@ -235,21 +235,21 @@ TEST(Faults, CutDatagramsAnywhereAndSayWhetherThatShows) {
   const auto stream = Stream(5000);
   const Received received = Pass(injector, stream);
   ASSERT_EQ(received.datagrams.size(), stream.size());
-  std::uint64_t refused = 0, cut = 0;
+  std::uint64_t rejected = 0, cut = 0;
   bool cut_to_nothing = false;
   for (std::size_t i = 0; i < stream.size(); ++i) {
     const std::string& bytes = received.datagrams[i].bytes;
     if (bytes == stream[i].bytes) continue;
     ++cut;
     EXPECT_EQ(bytes, stream[i].bytes.substr(0, bytes.size()));
-    refused += ParseDatagram(bytes) ? 0U : 1U;
+    rejected += ParseDatagram(bytes) ? 0U : 1U;
     cut_to_nothing |= bytes.empty();
   }
   const FaultCount& count = injector.count(Fault::kTruncate);
   EXPECT_THAT(cut, IsShare(0.05, stream.size()));
   EXPECT_EQ(count.injected, cut);
-  EXPECT_EQ(count.refused, refused);
-  EXPECT_EQ(count.silent, cut - refused);
+  EXPECT_EQ(count.detectable, rejected);
+  EXPECT_EQ(count.undetectable, cut - rejected);
   EXPECT_TRUE(cut_to_nothing);
 }
 
@@ -260,7 +260,7 @@ TEST(Faults, CorruptOneToFourBytesAndSayWhatAReaderTakesItFor) {
   ASSERT_EQ(received.datagrams.size(), stream.size());
   std::set<int> changed_bytes;
   std::size_t corrupt = 0;
-  std::uint64_t refused = 0;
+  std::uint64_t rejected = 0;
   for (std::size_t i = 0; i < stream.size(); ++i) {
     const std::string& bytes = received.datagrams[i].bytes;
     ASSERT_EQ(bytes.size(), stream[i].bytes.size());
@@ -269,23 +269,23 @@ TEST(Faults, CorruptOneToFourBytesAndSayWhatAReaderTakesItFor) {
     for (std::size_t k = 0; k < bytes.size(); ++k) changed += bytes[k] != stream[i].bytes[k];
     changed_bytes.insert(changed);
     const auto parsed = ParseDatagram(bytes);
-    refused += parsed ? 0U : 1U;
+    rejected += parsed ? 0U : 1U;
     const Injection& told = received.injections.at(corrupt++);
     EXPECT_EQ(told.header->sample_counter, HeaderOf(stream[i].bytes).sample_counter);
     EXPECT_EQ(told.claimed.has_value(), parsed.has_value());
     if (parsed) {
       EXPECT_EQ(told.claimed->sample_counter, parsed->header.sample_counter);
     } else {
-      EXPECT_EQ(told.refused_for, parsed.error().reason);
+      EXPECT_EQ(told.rejected_for, parsed.error().reason);
     }
   }
   EXPECT_THAT(changed_bytes, ::testing::ElementsAre(1, 2, 3, 4));
   EXPECT_THAT(corrupt, IsShare(0.05, stream.size()));
   EXPECT_EQ(injector.count(Fault::kCorrupt).injected, corrupt);
-  EXPECT_EQ(injector.count(Fault::kCorrupt).refused, refused);
-  EXPECT_EQ(injector.count(Fault::kCorrupt).silent, corrupt - refused);
-  EXPECT_GT(refused, 0U);
-  EXPECT_LT(refused, corrupt);
+  EXPECT_EQ(injector.count(Fault::kCorrupt).detectable, rejected);
+  EXPECT_EQ(injector.count(Fault::kCorrupt).undetectable, corrupt - rejected);
+  EXPECT_GT(rejected, 0U);
+  EXPECT_LT(rejected, corrupt);
 }
 
 TEST(Faults, InsertForeignTextsThatAReaderRefusesByReason) {
@@ -296,7 +296,7 @@ TEST(Faults, InsertForeignTextsThatAReaderRefusesByReason) {
   EXPECT_THAT(inserted, IsShare(0.05, stream.size()));
   ASSERT_EQ(received.datagrams.size(), stream.size() + inserted);
   std::map<Reason, int> reasons;
-  for (const Injection& injection : received.injections) ++reasons[injection.refused_for];
+  for (const Injection& injection : received.injections) ++reasons[injection.rejected_for];
   std::map<Reason, int> seen;
   for (const TimedDatagram& datagram : received.datagrams) {
     if (const auto parsed = ParseDatagram(datagram.bytes); !parsed) ++seen[parsed.error().reason];
