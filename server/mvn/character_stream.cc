@@ -331,7 +331,7 @@ void CharacterStream::Finish(OpenSample& open, SampleSink& sink) {
   }
   closed_ = sample.counter();
   history_.Add(sample);
-  tally_->odd_ids += static_cast<std::uint64_t>(sample.odd_ids());
+  tally_->mismatched_ids += static_cast<std::uint64_t>(sample.mismatched_ids());
   const bool is_incomplete = types_.IsAnyMissingIn(sample.begun());
   types_.Learn(sample.begun());
   const bool has_pose = sample.HasPose();

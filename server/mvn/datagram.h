@@ -82,7 +82,8 @@ struct PerSegment {
   std::bitset<kSlotCount> present;
   int skipped = 0;  // ids that are no segment, prop or finger according to the numbers in the
                     // header
-  int odd_ids = 0;  // props and fingers identified by their place because their id contradicts it
+  int mismatched_ids =
+      0;  // props and fingers identified by their place because their id contradicts it
 
   bool HasBody() const {  // all 23
     constexpr unsigned long long kBody = (1ULL << urdf::kSegmentCount) - 1;

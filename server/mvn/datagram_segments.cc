@@ -54,7 +54,7 @@ class SlotFinder {
 
   struct Slot {
     int index = -1;  // -1: unknown
-    bool is_odd = false;
+    bool is_mismatched = false;
   };
 
   Slot Find(std::uint32_t id, int place) const {
@@ -93,7 +93,7 @@ bool Parse(ItemReader& in, const Header& header, std::size_t wire_bytes, PerSegm
     WireItem item;
     // Unknown items are read as well, so that their numbers are checked.
     if (!in.GoTo(layout, i) || !in.ReadId(id) || !ReadItem(in, item)) return false;
-    const auto [index, is_odd] = finder.Find(id, i);
+    const auto [index, is_mismatched] = finder.Find(id, i);
     if (index < 0) {
       ++out.skipped;
       continue;
@@ -102,7 +102,7 @@ bool Parse(ItemReader& in, const Header& header, std::size_t wire_bytes, PerSegm
     if (out.present.test(slot)) return in.Fail(Reason::kRepeatedId, id);
     out.present.set(slot);
     out.items[slot] = item;
-    if (is_odd) ++out.odd_ids;
+    if (is_mismatched) ++out.mismatched_ids;
   }
   return true;
 }

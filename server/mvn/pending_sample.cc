@@ -83,7 +83,7 @@ void PendingSample::Store(const PoseMessage& body) {
     poses_[i] = {body.items[i].position, body.items[i].orientation};
   });
   posed_ |= body.present;
-  odd_ids_ += body.odd_ids;
+  mismatched_ids_ += body.mismatched_ids;
 }
 
 void PendingSample::Store(const EulerPoseMessage& body) {
@@ -91,7 +91,7 @@ void PendingSample::Store(const EulerPoseMessage& body) {
     euler_poses_[i] = {body.items[i].position, body.items[i].orientation};
   });
   euler_posed_ |= body.present;
-  odd_ids_ += body.odd_ids;
+  mismatched_ids_ += body.mismatched_ids;
 }
 
 void PendingSample::Store(const LinearMessage& body) {

@@ -56,7 +56,7 @@ class PendingSample {
   SampleTypes begun() const;                                 // at least one part received
   SampleTypes whole() const;                                 // all parts received
   const SampleDigests& digests() const { return digests_; }  // of the first part of each type
-  int odd_ids() const { return odd_ids_; }
+  int mismatched_ids() const { return mismatched_ids_; }
 
   bool HasPose() const;     // all 23 segments: 02, or 21 and 22, or 01
   bool HasObjects() const;  // a complete 02 of a few segments that are not a body
@@ -93,7 +93,7 @@ class PendingSample {
   SampleDigests digests_{};
   std::uint64_t datagrams_ = 0;
   int body_segments_ = 0;  // according to the header of 02
-  int odd_ids_ = 0;
+  int mismatched_ids_ = 0;
   Arrival first_arrival_;
   BodySample sample_;  // everything except the poses
   Slots posed_, euler_posed_, linear_, angular_;

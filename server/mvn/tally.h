@@ -20,7 +20,7 @@ struct Tally {
   std::uint64_t counter_gaps = 0;
   std::uint64_t restarts = 0;
   std::uint64_t outliers = 0;
-  std::uint64_t odd_ids = 0;               // items whose place contradicts their id; not datagrams
+  std::uint64_t mismatched_ids = 0;        // items whose place contradicts their id; not datagrams
   std::array<std::uint64_t, 100> types{};  // datagrams read, by message type
   std::array<std::uint64_t, kReasonCount> rejected{};
   std::uint64_t in_samples = 0;     // datagrams of delivered samples

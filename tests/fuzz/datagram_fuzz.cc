@@ -129,7 +129,7 @@ struct IsWritable {
       return false;
     }
     // Told by their place or by their id, but not by both: skipped or odd ones would shift it.
-    return body.present.any() && body.skipped == 0 && body.odd_ids == 0;
+    return body.present.any() && body.skipped == 0 && body.mismatched_ids == 0;
   }
   bool operator()(const PoseMessage& body) const { return HasItems(body); }
   bool operator()(const EulerPoseMessage& body) const { return HasItems(body); }

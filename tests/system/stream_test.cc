@@ -212,7 +212,7 @@ TEST(StreamCommand, AddsGlovesAndProps) {
     EXPECT_EQ(headers[i].props, 2);
     EXPECT_EQ(headers[i].finger_segments, 40);
     EXPECT_EQ(poses[i].present.count(), 23U + 2 + 40);
-    EXPECT_EQ(poses[i].odd_ids, 0);
+    EXPECT_EQ(poses[i].mismatched_ids, 0);
     // Every finger hangs on its hand.
     for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
       const auto hand =

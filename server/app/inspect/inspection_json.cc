@@ -100,7 +100,7 @@ Json CharacterOf(const CharacterReport& character) {
   out["duplicates"] = character.duplicates;
   out["late"] = character.late;
   out["outliers"] = character.outliers;
-  out["odd_ids"] = character.odd_ids;
+  out["mismatched_ids"] = character.mismatched_ids;
   out["advice"] = character.advice;
   return out;
 }

@@ -175,7 +175,7 @@ std::string Samples(const CharacterReport& character, bool has_datagrams) {
     add(character.duplicates, "duplicate datagrams");
     add(character.late, "late datagrams");
     add(character.outliers, "outliers");
-    add(character.odd_ids, "items with mismatched id (identified by position)");
+    add(character.mismatched_ids, "items with mismatched id (identified by position)");
   }
   return Joined(parts);
 }

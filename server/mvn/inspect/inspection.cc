@@ -176,7 +176,7 @@ CharacterReport Inspection::Stream::Report(std::int64_t begin_monotonic,
   report.late = joined.late;
   report.outliers = joined.outliers;
   report.restarts = std::max(joined.restarts, frames_.restarts());
-  report.odd_ids = joined.odd_ids;
+  report.mismatched_ids = joined.mismatched_ids;
   report.advice = AdviceFor(report, tally_.has_scale(), tally_.has_name());
   return report;
 }

@@ -82,7 +82,7 @@ struct CharacterReport {
   std::uint64_t late = 0;        // datagrams
   std::uint64_t outliers = 0;    // datagrams
   std::uint64_t restarts = 0;
-  std::uint64_t odd_ids = 0;
+  std::uint64_t mismatched_ids = 0;
   /// Number of samples per quantity: "velocity", "joint angles", "gloves".
   std::map<std::string, std::uint64_t> quantities;
   std::vector<std::string> advice;  // what is missing, and what to switch on in MVN

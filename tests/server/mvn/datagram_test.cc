@@ -464,7 +464,7 @@ TEST(Datagram, PutsPropsAndFingersWhereTheyBelongHoweverManyPropsThereAre) {
     ASSERT_EQ(raw.Bytes().size(), static_cast<std::size_t>(24 + 32 * raw.items));
     const auto pose = Parsed<PoseMessage>(raw.Bytes());
     EXPECT_EQ(pose.present.count(), static_cast<std::size_t>(raw.items));
-    EXPECT_EQ(pose.skipped + pose.odd_ids, 0);
+    EXPECT_EQ(pose.skipped + pose.mismatched_ids, 0);
     const auto number = [&](int extra) {
       return std::lround(pose.items[Slot(extra)].position.x() * 128);
     };
@@ -483,7 +483,7 @@ TEST(Datagram, GoesByOrderWherePropsAreNumberedDifferentlyAndSaysSo) {
   raw.payload = PoseItems(1, 23) + Items(25, 1, 7, 0.5, 3);  // 25, as some senders have it
   const auto pose = Parsed<PoseMessage>(raw.Bytes());
   EXPECT_TRUE(pose.present.test(Slot(PropIndex(0))));
-  EXPECT_EQ(pose.odd_ids, 1);
+  EXPECT_EQ(pose.mismatched_ids, 1);
 }
 
 TEST(Datagram, KnowsThePropsOfAnOldHeaderByTheirId) {

@@ -94,7 +94,7 @@ TEST_P(RoundTrip, KeepsPosesOfBodyPropsAndFingers) {
   const auto back = BodyBack<PoseMessage>(message);
   EXPECT_EQ(back.present, body.present);
   EXPECT_EQ(back.skipped, 0);
-  EXPECT_EQ(back.odd_ids, 0) << "our ids are those of the specification";
+  EXPECT_EQ(back.mismatched_ids, 0) << "our ids are those of the specification";
   for (std::size_t i = 0; i < body.items.size(); ++i) {
     EXPECT_EQ(back.items[i].position, body.items[i].position);
     EXPECT_LT(back.items[i].orientation.angularDistance(body.items[i].orientation), kFloatNoise);
