@@ -28,7 +28,7 @@ BackendReport FromJson(const json& told) {
   report.renderer = told.value("renderer", "");
   report.gl_version = told.value("gl_version", "");
   report.is_software = told.value("software", false);
-  report.first_picture_secs = told.value("first_picture_secs", 0.0);
+  report.first_picture_seconds = told.value("first_picture_seconds", 0.0);
   report.pictures_per_second = told.value("pictures_per_second", 0.0);
   report.log = told.value("log", std::vector<std::string>());
   return report;
@@ -65,7 +65,7 @@ json ToJson(const BackendReport& report) {
           {"renderer", report.renderer},
           {"gl_version", report.gl_version},
           {"software", report.is_software},
-          {"first_picture_secs", report.first_picture_secs},
+          {"first_picture_seconds", report.first_picture_seconds},
           {"pictures_per_second", report.pictures_per_second},
           {"log", report.log}};
 }
@@ -81,7 +81,7 @@ BackendReport MeasureBackend(const std::string& backend) {
         render::MakeRenderer(backend, [&](const std::string& line) { report.log.push_back(line); });
     render::Image image;
     renderer->RenderInto(image, *scene, camera, render::View{});
-    report.first_picture_secs = SecsSince(start);
+    report.first_picture_seconds = SecsSince(start);
     const auto measured_from = Clock::now();
     int pictures = 0;
     do {  // every one of them differs from the one before

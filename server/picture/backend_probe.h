@@ -15,9 +15,9 @@ struct BackendReport {
   std::string reason;  // why it does not work
   std::string renderer, gl_version;
   bool is_software = false;
-  double first_picture_secs = 0;   // from the start, including the loading of its libraries
-  double pictures_per_second = 0;  // of a person at 1280 x 720 px, rendered and read back
-  std::vector<std::string> log;    // warnings
+  double first_picture_seconds = 0;  // from the start, including the loading of its libraries
+  double pictures_per_second = 0;    // of a person at 1280 x 720 px, rendered and read back
+  std::vector<std::string> log;      // warnings
 };
 
 nlohmann::json ToJson(const BackendReport& report);

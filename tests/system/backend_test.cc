@@ -168,7 +168,7 @@ TEST_F(Backend, ProbeMeasuresEachAndSurvivesDriversThatHangOrCrash) {
     EXPECT_THAT(backend.at("renderer").get<std::string>(), HasSubstr("llvmpipe"));
     EXPECT_TRUE(backend.at("software").get<bool>());
     EXPECT_GT(backend.at("pictures_per_second").get<double>(), 0);
-    EXPECT_GT(backend.at("first_picture_secs").get<double>(), 0);
+    EXPECT_GT(backend.at("first_picture_seconds").get<double>(), 0);
   }
   EXPECT_EQ(found.at("hardware").at("devices").size(), app::FindGpus().size());
 

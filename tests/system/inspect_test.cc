@@ -263,7 +263,7 @@ TEST(Inspect, TheBuiltInSubjectIsLookedAtForTheSecondsAskedFor) {
   const Json report = Parsed(result.out);
   EXPECT_EQ(report["has_datagrams"], false);
   EXPECT_EQ(report["format"], "built-in subject");
-  EXPECT_NEAR(report["secs"].get<double>(), 2, 0.02);
+  EXPECT_NEAR(report["seconds"].get<double>(), 2, 0.02);
   EXPECT_NEAR(report["characters"][0]["frames"]["rate_hz"].get<double>(), 120, 0.01);
 }
 

@@ -237,7 +237,7 @@ TEST(Record, MakesACaptureOfAFileOrAPipe) {
   const auto summary = nlohmann::json::parse(result.out);
   EXPECT_EQ(summary["datagrams"], datagrams.size());
   EXPECT_EQ(summary["people"], 2);
-  EXPECT_NEAR(summary["stream_secs"].get<double>(), 239 / 240.0, 0.002);
+  EXPECT_NEAR(summary["stream_seconds"].get<double>(), 239 / 240.0, 0.002);
   EXPECT_EQ(ReadBack(folder / "take.pcap").Brief(), Brief(datagrams));
 
   const ProgramResult piped =

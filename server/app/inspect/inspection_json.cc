@@ -69,8 +69,8 @@ Json FramesOf(const CharacterReport& character) {
           {"rate_hz", RateOrNull(character.rate_hz)},
           {"capture_rate_hz", RateOrNull(character.capture_rate_hz)},
           {"jitter_ms", std::move(delays)},
-          {"longest_silence_secs", Secs(character.longest_silence_nanos)},
-          {"longest_silence_at_secs", Secs(character.longest_silence_at_nanos)}};
+          {"longest_silence_seconds", Secs(character.longest_silence_nanos)},
+          {"longest_silence_at_seconds", Secs(character.longest_silence_at_nanos)}};
 }
 
 Json CharacterOf(const CharacterReport& character) {
@@ -108,7 +108,7 @@ Json CharacterOf(const CharacterReport& character) {
 Json ErrorOf(const mvn::ErrorReport& error, bool has_datagrams) {
   Json out = {{"reason", error.reason}, {"count", error.count}, {"first", nullptr}};
   if (!has_datagrams) return out;
-  out["first"] = {{"at_secs", Secs(error.at_nanos)},
+  out["first"] = {{"at_seconds", Secs(error.at_nanos)},
                   {"sender", error.sender},
                   {"offset", nullptr},
                   {"value", nullptr}};
@@ -128,9 +128,9 @@ std::string ReportJson(const InspectionReport& report) {
               {"can_be_shown", report.CanBeShown()},
               {"has_datagrams", report.has_datagrams},
               {"has_arrival_times", report.has_arrival_times},
-              {"begin_unix_secs", Secs(report.begin_wall_nanos)},
-              {"end_unix_secs", Secs(report.end_wall_nanos)},
-              {"secs", report.secs},
+              {"begin_unix_seconds", Secs(report.begin_wall_nanos)},
+              {"end_unix_seconds", Secs(report.end_wall_nanos)},
+              {"seconds", report.secs},
               {"datagrams", report.datagrams},
               {"bytes", report.bytes},
               {"transport", nullptr}};

@@ -66,7 +66,7 @@ void PrintText(const Report& found) {
     fmt::print("{:<11}works: {}, OpenGL {}, {:.0f} frames/s, first frame after {:.2f} s\n", name,
                backend["renderer"].get<std::string>(), backend["gl_version"].get<std::string>(),
                backend["pictures_per_second"].get<double>(),
-               backend["first_picture_secs"].get<double>());
+               backend["first_picture_seconds"].get<double>());
   }
   const Report& hardware = found["hardware"];
   const auto devices = hardware["devices"].get<std::vector<std::string>>();
