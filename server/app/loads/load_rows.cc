@@ -55,7 +55,7 @@ void VisitTime(const PersonState& person, std::int64_t begin_nanos, CellSink& ce
   const std::int64_t stamp = person.sample.stamp_nanos;
   cells.Number("time_s", Secs(stamp - begin_nanos));
   cells.Text("utc", IsoTime(stamp));
-  cells.Whole("frame", person.sample.counter);
+  cells.Whole("sample_counter", person.sample.counter);
   cells.Whole("person", person.character);
 }
 

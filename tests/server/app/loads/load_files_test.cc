@@ -82,9 +82,10 @@ TEST(LoadFiles, EveryColumnHasANameOfItsOwnAndEveryQuantityItsUnit) {
   const CsvTable table(CsvOf(Layout::kWide, AddShortLift));
   const std::set<std::string> distinct(table.names.begin(), table.names.end());
   EXPECT_EQ(distinct.size(), table.names.size());
-  for (const char* name : {"time_s", "utc", "frame", "person", "metric", "ground_force_z_N",
-                           "cop_x_m", "l5_s1_compression_N", "right_hand_load_kg",
-                           "right_knee_ratio", "right_knee_class", "left_ankle_reason"}) {
+  for (const char* name :
+       {"time_s", "utc", "sample_counter", "person", "metric", "ground_force_z_N", "cop_x_m",
+        "l5_s1_compression_N", "right_hand_load_kg", "right_knee_ratio", "right_knee_class",
+        "left_ankle_reason"}) {
     EXPECT_EQ(distinct.count(name), 1U) << name;
   }
   NumberNames numbers;
@@ -126,7 +127,7 @@ TEST(LoadFiles, HoldTheRatiosAndTimesOfTheSamplesToSevenDigits) {
     const PersonState& person = scene.people[0];
     EXPECT_NEAR(table.Number(row, "time_s"),
                 Secs(scene.stamp_nanos - ShortLift().front()->stamp_nanos), 5e-7);
-    EXPECT_EQ(table.At(row, "frame"), std::to_string(person.sample.counter));
+    EXPECT_EQ(table.At(row, "sample_counter"), std::to_string(person.sample.counter));
     EXPECT_EQ(table.Number(row, "right_hand_load_kg"),
               std::stod(fmt::format("{:.7g}", person.forces.hands[urdf::kRight].mass_kg)));
     for (std::size_t i = 0; i < person.loads.size(); ++i) {
@@ -199,7 +200,7 @@ TEST(LoadFiles, TheLongLayoutHasARowForEveryJointOfASample) {
   const CsvTable wide(CsvOf(Layout::kWide, AddShortLift));
   const CsvTable tall(CsvOf(Layout::kLong, AddShortLift));
   EXPECT_THAT(std::vector<std::string>(tall.names.begin(), tall.names.begin() + 7),
-              ElementsAre("time_s", "utc", "frame", "person", "joint", "ratio", "class"));
+              ElementsAre("time_s", "utc", "sample_counter", "person", "joint", "ratio", "class"));
   ASSERT_EQ(tall.rows.size(), 15 * wide.rows.size());
   for (std::size_t row = 0; row < tall.rows.size(); ++row) {
     const std::string joint(ScoredName(row % 15));
