@@ -9,7 +9,7 @@
 
 namespace kinescope {
 
-const void* LoadModule(const std::string& file_name, const char* entry, const std::size_t* abi,
+const void* OpenModule(const std::string& file_name, const char* entry, const std::size_t* abi,
                        std::size_t abi_words) {
   const std::filesystem::path path = FindModule(file_name);
   if (path.empty()) {

@@ -1,5 +1,5 @@
 /// Loads shared libraries when they are first needed. Host and module exchange C++ values, so both
-/// must come from the same build; LoadModule rejects other modules. Any thread.
+/// must come from the same build; OpenModule rejects other modules. Any thread.
 #pragma once
 
 #include <array>
@@ -30,14 +30,14 @@ struct ModuleAbi {
 
 /// Returns the table that `entry` of a module returns. The module stays loaded until the process
 /// ends. `abi`: the words that the table must begin with. @throws ModuleError.
-const void* LoadModule(const std::string& file_name, const char* entry, const std::size_t* abi,
+const void* OpenModule(const std::string& file_name, const char* entry, const std::size_t* abi,
                        std::size_t abi_words);
 
 template <class Module>
-const Module& LoadModule(const std::string& file_name, const char* entry) {
+const Module& OpenModule(const std::string& file_name, const char* entry) {
   const decltype(Module::abi) ours{};
   return *static_cast<const Module*>(
-      LoadModule(file_name, entry, ours.words.data(), ours.words.size()));
+      OpenModule(file_name, entry, ours.words.data(), ours.words.size()));
 }
 
 }  // namespace kinescope

@@ -96,10 +96,10 @@ inline constexpr const char* kDrawingEntry = "KinescopeDrawingModule";  // -> co
 inline constexpr const char* kVideoEntry = "KinescopeVideoModule";      // -> const VideoModule*
 inline constexpr const char* kPlotEntry = "KinescopePlotModule";        // -> const PlotModule*
 
-/// As kinescope::LoadModule. @throws RenderError.
+/// As kinescope::OpenModule. @throws RenderError.
 template <class Module>
-const Module& LoadModule(const std::string& file_name, const char* entry) try {
-  return kinescope::LoadModule<Module>(file_name, entry);
+const Module& OpenModule(const std::string& file_name, const char* entry) try {
+  return kinescope::OpenModule<Module>(file_name, entry);
 } catch (const ModuleError& error) {
   throw RenderError(error.what());
 }

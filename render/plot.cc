@@ -7,7 +7,7 @@ namespace kinescope::render {
 namespace {
 
 const PlotModule& OpenPlotModule() {
-  static const PlotModule& module = LoadModule<PlotModule>("libkinescope_plot.so", kPlotEntry);
+  static const PlotModule& module = OpenModule<PlotModule>("libkinescope_plot.so", kPlotEntry);
   return module;
 }
 

@@ -49,7 +49,7 @@ void ToStderr(const std::string& line) { std::fprintf(stderr, "render: %s\n", li
 const DrawingModule& ModuleOf(const std::string& backend) {
   const char* file =
       backend == "osmesa" ? "libkinescope_render_osmesa.so" : "libkinescope_render_egl.so";
-  return LoadModule<DrawingModule>(file, kDrawingEntry);
+  return OpenModule<DrawingModule>(file, kDrawingEntry);
 }
 
 // GLEW's table of functions, VTK's direct calls and Mesa's choice of a driver are the process'.

@@ -44,7 +44,7 @@ void CheckQuality(ClipFormat format, const VideoOptions& options) {
 }
 
 const VideoModule& OpenVideoModule() {
-  return LoadModule<VideoModule>("libkinescope_video.so", kVideoEntry);
+  return OpenModule<VideoModule>("libkinescope_video.so", kVideoEntry);
 }
 
 }  // namespace

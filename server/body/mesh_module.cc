@@ -4,7 +4,7 @@ namespace kinescope::app {
 
 urdf::TriangleMesh ReadMesh(const std::filesystem::path& path) {
   static const MeshModule& module =
-      LoadModule<MeshModule>("libkinescope_meshes.so", "KinescopeMeshModule");
+      OpenModule<MeshModule>("libkinescope_meshes.so", "KinescopeMeshModule");
   const urdf::Mesh from = module.read(std::filesystem::absolute(path).string());
   urdf::TriangleMesh mesh;
   mesh.vertices = from.positions;

@@ -17,7 +17,7 @@ constexpr double kApart = 1.2;  // m, between people and robots that nobody plac
 // The root over the place, the lowest point on z = 0.
 RobotState Stand(const std::string& file, const RobotPlace::Place& place,
                  render::Renderer& renderer) {
-  RobotState robot = LoadRobot(file, {});
+  RobotState robot = ReadRobot(file, {});
   for (const std::string& note : robot.model->notes) spdlog::warn("{}: {}", file, note);
   Eigen::Isometry3d world_from_root(Eigen::AngleAxisd(place.yaw, Eigen::Vector3d::UnitZ()));
   world_from_root.pretranslate(Eigen::Vector3d(place.x, place.y, 0));

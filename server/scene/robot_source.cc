@@ -39,7 +39,7 @@ std::string ReadUrdfFile(const fs::path& path) {
   return bytes;
 }
 
-RobotState LoadRobot(const fs::path& path, const std::vector<std::string>& package_path,
+RobotState ReadRobot(const fs::path& path, const std::vector<std::string>& package_path,
                      const urdf::JointPositions& joints) {
   RobotState robot;
   try {

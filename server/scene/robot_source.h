@@ -17,7 +17,7 @@ std::string ReadUrdfFile(const std::filesystem::path& path);
 /// The robot in `path`, its root at the origin, its joints at `joints` (others as in
 /// urdf::PlaceLinks).
 /// @throws SourceError with the file, line and reason.
-RobotState LoadRobot(const std::filesystem::path& path,
+RobotState ReadRobot(const std::filesystem::path& path,
                      const std::vector<std::string>& package_path,
                      const urdf::JointPositions& joints = {});
 

@@ -29,7 +29,7 @@ struct TableWithAnotherImage {
 template <class Table>
 std::string ErrorOfLoading(const char* entry = kPlotEntry) {
   try {
-    LoadModule<Table>(kPlotFile, entry);
+    OpenModule<Table>(kPlotFile, entry);
   } catch (const RenderError& error) {
     return error.what();
   }
@@ -38,7 +38,7 @@ std::string ErrorOfLoading(const char* entry = kPlotEntry) {
 
 TEST(Module, OfThisBuildIsLoaded) {
   EXPECT_EQ(ErrorOfLoading<PlotModule>(), "");
-  EXPECT_NE(LoadModule<PlotModule>(kPlotFile, kPlotEntry).svg, nullptr);
+  EXPECT_NE(OpenModule<PlotModule>(kPlotFile, kPlotEntry).svg, nullptr);
 }
 
 TEST(Module, OfAnotherBuildIsRefusedWithTheWayOut) {

@@ -100,7 +100,7 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   return golden_case;
 }
 
-std::vector<GoldenCase> LoadGoldenCases(const fs::path& folder) {
+std::vector<GoldenCase> ReadGoldenCases(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {

@@ -44,7 +44,7 @@ struct GoldenCase {
 GoldenCase LoadGoldenCase(const std::filesystem::path& yaml);
 
 /// Every case of a folder, by name. @throws UsageError where there is none.
-std::vector<GoldenCase> LoadGoldenCases(const std::filesystem::path& folder);
+std::vector<GoldenCase> ReadGoldenCases(const std::filesystem::path& folder);
 
 struct GoldenDrawing {
   render::Image image;

@@ -42,7 +42,7 @@ struct GoldenOptions {
 };
 
 std::vector<GoldenCase> CasesOf(const GoldenOptions& options) {
-  std::vector<GoldenCase> cases = LoadGoldenCases(*options.folder);
+  std::vector<GoldenCase> cases = ReadGoldenCases(*options.folder);
   if (options.only->empty()) return cases;
   std::vector<GoldenCase> chosen;
   for (const std::string& name : *options.only) {

@@ -84,7 +84,7 @@ void DrawUrdf(const UrdfPictureOptions& options) {
   SceneState scene;
   scene.liveness = Liveness::kLive;
   scene.source = *options.file;
-  scene.robots.push_back(LoadRobot(*options.file, *options.package_path, *options.joint));
+  scene.robots.push_back(ReadRobot(*options.file, *options.package_path, *options.joint));
   RobotState& robot = scene.robots.front();
   for (const std::string& note : robot.model->notes) spdlog::warn("{}: {}", *options.file, note);
 

@@ -44,7 +44,7 @@ std::string RobotSourceError(Action&& action) {
 }
 
 TEST_F(RobotSource, PlacesEveryLinkWithTheRootInTheOrigin) {
-  const RobotState robot = LoadRobot(Write(kTwoLinkArm), {});
+  const RobotState robot = ReadRobot(Write(kTwoLinkArm), {});
   EXPECT_EQ(robot.name, "arm");
   ASSERT_TRUE(robot.model);
   ASSERT_TRUE(robot.meshes);
@@ -55,7 +55,7 @@ TEST_F(RobotSource, PlacesEveryLinkWithTheRootInTheOrigin) {
 }
 
 TEST_F(RobotSource, TurnsItsJoints) {
-  const RobotState robot = LoadRobot(Write(kTwoLinkArm), {}, {{"elbow", M_PI_2}});
+  const RobotState robot = ReadRobot(Write(kTwoLinkArm), {}, {{"elbow", M_PI_2}});
   const Vector3d y_of_hand = robot.world_from_link[1].linear() * Vector3d::UnitY();
   EXPECT_NEAR((y_of_hand - Vector3d::UnitZ()).norm(), 0, 1e-12);
 }
@@ -66,14 +66,14 @@ TEST_F(RobotSource, NamesTheFileAndTheReason) {
   EXPECT_THAT(RobotSourceError([&] { ReadUrdfFile(folder_.path()); }),
               AllOf(HasSubstr(folder_.path().string()), HasSubstr("is a folder")));
   const auto path = Write("<robot name='arm'>\n<link name='base'>\n</robot>");
-  EXPECT_THAT(RobotSourceError([&] { LoadRobot(path, {}); }),
+  EXPECT_THAT(RobotSourceError([&] { ReadRobot(path, {}); }),
               AllOf(HasSubstr(path.string()), HasSubstr("line 3")));
 }
 
 TEST_F(RobotSource, NamesAJointThatTheRobotHasNot) {
   const auto path = Write(kTwoLinkArm);
   EXPECT_THAT(RobotSourceError([&] {
-                LoadRobot(path, {}, {{"knee", 1}});
+                ReadRobot(path, {}, {{"knee", 1}});
               }),
               AllOf(HasSubstr(path.string()), HasSubstr("knee")));
 }
@@ -88,7 +88,7 @@ TEST_F(RobotSource, ReadsNoMoreOfAFileThanItsReadersTake) {
 }
 
 TEST_F(RobotSource, StandsOnTheFloorWhereItIsPut) {
-  RobotState robot = LoadRobot(Write(kTwoLinkArm), {});
+  RobotState robot = ReadRobot(Write(kTwoLinkArm), {});
   robot.bounds = Eigen::AlignedBox3d(Vector3d(-1, 0, -0.5), Vector3d(3, 2, 1.5));
   const std::vector<Eigen::Isometry3d> before = robot.world_from_link;
   StandOnFloor(robot, 10, -20);
