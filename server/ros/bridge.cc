@@ -13,13 +13,13 @@
 #include "core/check.h"
 #include "core/clocks.h"
 #include "core/errors.h"
-#include "server/ros/announcer.h"
 #include "server/ros/force_boxes.h"
 #include "server/ros/joint_loads.h"
 #include "server/ros/joint_states.h"
 #include "server/ros/link_states.h"
 #include "server/ros/marker_topics.h"
 #include "server/ros/markers.h"
+#include "server/ros/master_registration.h"
 #include "server/ros/names.h"
 #include "server/ros/transforms.h"
 #include "server/ros/view_topics.h"
@@ -56,10 +56,10 @@ bool IsNew(const BodySample& sample, const Outlet& outlet) {
 class Bridge : public RosBridge {
  public:
   explicit Bridge(const BridgeConfig& config)
-      : config_(config), announcer_(config.initial_urdf, config.tf != "off", MakeWiring()) {}
+      : config_(config), registration_(config.initial_urdf, config.tf != "off", MakeWiring()) {}
 
   void PublishView(const ViewPicture& picture) override {
-    if (const auto view = announcer_.View()) view->Publish(picture);
+    if (const auto view = registration_.View()) view->Publish(picture);
   }
 
   void TakeInputs(InputSink& sink) override {
@@ -85,7 +85,7 @@ class Bridge : public RosBridge {
   }
 
   BridgeStatus status() const override {
-    BridgeStatus status = announcer_.status();
+    BridgeStatus status = registration_.status();
     status.published = published_;
     status.missed = missed_;
     return status;
@@ -104,7 +104,7 @@ class Bridge : public RosBridge {
     wiring.make_box = [this] {
       return std::make_shared<ForceBox>(
           ForceSettings{config_.reference_frame, config_.external_scale, config_.check_hand_load,
-                        transforms_, [this] { announcer_.WantTransforms(); }});
+                        transforms_, [this] { registration_.WantTransforms(); }});
     };
     wiring.on_transforms = [this](const tf2_msgs::TFMessage& message, bool is_static) {
       transforms_->Add(message, is_static);
@@ -121,7 +121,7 @@ class Bridge : public RosBridge {
   Outlet& OutletOf(const PersonState& person) {
     const auto found = outlets_.find(person.character);
     if (found != outlets_.end() && found->second.model == person.model) return found->second;
-    announcer_.SetPerson(person.character, person.model);
+    registration_.SetPerson(person.character, person.model);
     if (found == outlets_.end()) {
       return outlets_.emplace(person.character, Outlet(person)).first->second;
     }
@@ -134,7 +134,7 @@ class Bridge : public RosBridge {
     outlet.has_last = true;
     outlet.last_counter = person.sample.counter;
     outlet.last_stamp_nanos = person.sample.stamp_nanos;
-    if (!outlet.topics) outlet.topics = announcer_.TopicsOf(person.character);
+    if (!outlet.topics) outlet.topics = registration_.TopicsOf(person.character);
     if (!outlet.topics) {
       ++missed_;
       return;
@@ -204,7 +204,7 @@ class Bridge : public RosBridge {
   std::optional<int> view_listeners_;  // publishing thread only; until passed on
   const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // publishing thread only
   const std::shared_ptr<MarkerBox> markers_in_ = MakeMarkerBox();          // null: no marker topics
-  Announcer announcer_;
+  MasterRegistration registration_;
   std::atomic<std::uint64_t> published_ = 0;
   std::atomic<std::uint64_t> missed_ = 0;
 

@@ -1,5 +1,5 @@
 /// Receives one person's input topics: measured forces, external joint loads, hand loads
-/// (docs/ros.md). The announcer's thread subscribes. The thread that reads samples calls the queue
+/// (docs/ros.md). The registration thread subscribes. The thread that reads samples calls the queue
 /// and so receives the messages, which wait in the box for the next sample.
 #pragma once
 

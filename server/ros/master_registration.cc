@@ -1,4 +1,4 @@
-#include "server/ros/announcer.h"
+#include "server/ros/master_registration.h"
 
 #include <geometry_msgs/PointStamped.h>
 #include <ros/init.h>
@@ -49,7 +49,7 @@ XmlRpcValue Typed(const std::string& text) {
 
 }  // namespace
 
-Announcer::Announcer(std::string initial_urdf, bool with_tf, InputWiring wiring)
+MasterRegistration::MasterRegistration(std::string initial_urdf, bool with_tf, InputWiring wiring)
     : initial_urdf_(std::move(initial_urdf)), with_tf_(with_tf), wiring_(std::move(wiring)) {
   status_.master_uri = ros::master::getURI();
   // Otherwise roscpp would retry without limit if the master stops while a topic is registered.
@@ -57,7 +57,7 @@ Announcer::Announcer(std::string initial_urdf, bool with_tf, InputWiring wiring)
   thread_ = std::thread([this] { Run(); });
 }
 
-Announcer::~Announcer() {
+MasterRegistration::~MasterRegistration() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;
@@ -72,7 +72,7 @@ Announcer::~Announcer() {
   LeaveRos();  // before the publishers, each of which would unregister itself
 }
 
-void Announcer::SetPerson(int character, std::shared_ptr<const PersonModel> model) {
+void MasterRegistration::SetPerson(int character, std::shared_ptr<const PersonModel> model) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const bool is_first = slots_.empty();
@@ -95,18 +95,18 @@ void Announcer::SetPerson(int character, std::shared_ptr<const PersonModel> mode
   changed_.notify_all();
 }
 
-std::shared_ptr<const PersonTopics> Announcer::TopicsOf(int character) const {
+std::shared_ptr<const PersonTopics> MasterRegistration::TopicsOf(int character) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto slot = slots_.find(character);
   return slot == slots_.end() ? nullptr : slot->second.topics;
 }
 
-std::shared_ptr<ViewTopics> Announcer::View() const {
+std::shared_ptr<ViewTopics> MasterRegistration::View() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return view_;
 }
 
-void Announcer::WantTransforms() {
+void MasterRegistration::WantTransforms() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (wants_transforms_) return;
@@ -116,7 +116,7 @@ void Announcer::WantTransforms() {
   changed_.notify_all();
 }
 
-BridgeStatus Announcer::status() const {
+BridgeStatus MasterRegistration::status() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   BridgeStatus status = status_;
   const auto add = [&](const std::string& prefix, const PersonTopics* topics) {
@@ -133,14 +133,14 @@ BridgeStatus Announcer::status() const {
   return status;
 }
 
-bool Announcer::WaitForNext() {
+bool MasterRegistration::WaitForNext() {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait_for(lock, kAskMasterEvery, [&] { return stopping_ || has_work_; });
   has_work_ = false;
   return !stopping_ && !status_.told_to_stop;
 }
 
-void Announcer::Run() {
+void MasterRegistration::Run() {
   do {
     bool answers = false;
     const bool is_known = MasterKnowsUs(answers);
@@ -159,12 +159,12 @@ void Announcer::Run() {
     AdvertiseMissing();
     if (!RegisterAll()) continue;
     Subscribe();
-    if (!is_known && was_announced_) {
+    if (!is_known && was_registered_) {
       spdlog::info("the ROS master was restarted: all topics are advertised again");
       const std::lock_guard<std::mutex> lock(mutex_);
       ++status_.master_returns;
     }
-    was_announced_ = true;
+    was_registered_ = true;
     SetParameters();
   } while (WaitForNext());
 }
@@ -172,7 +172,7 @@ void Announcer::Run() {
 // A master that was restarted during the registration knows this node by its last topics, but not
 // the earlier ones: roscpp waits for a master and continues with the next topic. So the process id
 // must be the same, too.
-bool Announcer::MasterKnowsUs(bool& answers) {
+bool MasterRegistration::MasterKnowsUs(bool& answers) {
   const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
   const Standing standing = master_.AskStanding(our_uri, kMasterPatience);
   if (standing == Standing::kNameTaken) StopForGood("another node with the same name");
@@ -182,7 +182,7 @@ bool Announcer::MasterKnowsUs(bool& answers) {
   return answers && std::exchange(master_pid_, pid) == pid && standing == Standing::kKnown;
 }
 
-void Announcer::Start() {
+void MasterRegistration::Start() {
   node_ = std::make_unique<ros::NodeHandle>("~");
   auto topics = Advertise("");
   std::shared_ptr<ViewTopics> view;
@@ -198,7 +198,7 @@ void Announcer::Start() {
   }
 }
 
-void Announcer::AdvertiseMissing() {
+void MasterRegistration::AdvertiseMissing() {
   std::map<int, std::string> missing;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -214,13 +214,13 @@ void Announcer::AdvertiseMissing() {
 }
 
 template <class Message>
-ros::Publisher Announcer::Topic(const std::string& name) {
+ros::Publisher MasterRegistration::Topic(const std::string& name) {
   ros::Publisher publisher = node_->advertise<Message>(name, kSampleQueue);
   topic_types_[publisher.getTopic()] = ros::message_traits::DataType<Message>::value();
   return publisher;
 }
 
-std::shared_ptr<const PersonTopics> Announcer::Advertise(const std::string& prefix) {
+std::shared_ptr<const PersonTopics> MasterRegistration::Advertise(const std::string& prefix) {
   auto topics = std::make_shared<PersonTopics>();
   topics->joint_states = Topic<sensor_msgs::JointState>(prefix + "joint_states");
   topics->link_states = Topic<xsens_mvn_ros_msgs::LinkStateArray>(prefix + "link_states");
@@ -234,7 +234,7 @@ std::shared_ptr<const PersonTopics> Announcer::Advertise(const std::string& pref
   return topics;
 }
 
-void Announcer::Subscribe() {
+void MasterRegistration::Subscribe() {
   for (const auto& [prefix, box] : boxes_) {
     if (inputs_.count(prefix) != 0) continue;
     ForceSubscriptions all = SubscribeForces(*node_, prefix, *wiring_.queue, box);
@@ -252,7 +252,7 @@ void Announcer::Subscribe() {
   transforms_ = {SubscribeTransforms("/tf", false), SubscribeTransforms("/tf_static", true)};
 }
 
-ros::Subscriber Announcer::SubscribeTransforms(const char* topic, bool is_static) {
+ros::Subscriber MasterRegistration::SubscribeTransforms(const char* topic, bool is_static) {
   using Event = ros::MessageEvent<const tf2_msgs::TFMessage>;
   ros::SubscribeOptions options;
   options.initByFullCallbackType<const Event&>(
@@ -267,7 +267,7 @@ ros::Subscriber Announcer::SubscribeTransforms(const char* topic, bool is_static
 // roscpp registers a topic when it is advertised, and never again. So topics are registered at
 // every master that does not know this node; at the first one twice, which has no effect. Only the
 // registration check shows whether it arrived.
-bool Announcer::RegisterAll() {
+bool MasterRegistration::RegisterAll() {
   const std::string our_uri = ros::XMLRPCManager::instance()->getServerURI();
   for (const auto& [topic, type] : topic_types_) {
     if (registered_.count(topic) != 0) continue;
@@ -283,7 +283,7 @@ bool Announcer::RegisterAll() {
   return true;
 }
 
-bool Announcer::SetParameter(const std::string& name, const XmlRpcValue& value) {
+bool MasterRegistration::SetParameter(const std::string& name, const XmlRpcValue& value) {
   XmlRpcValue arguments;
   arguments[0] = ros::names::resolve(name);
   arguments[1] = value;
@@ -291,7 +291,7 @@ bool Announcer::SetParameter(const std::string& name, const XmlRpcValue& value) 
 }
 
 // Stops at the first parameter that the master does not accept; the rest is tried again next time.
-void Announcer::SetParameters() {
+void MasterRegistration::SetParameters() {
   if (!has_arguments_) {
     for (const auto& [name, value] : PrivateArguments()) {
       if (!SetParameter("~" + name, Typed(value))) return;
@@ -315,7 +315,7 @@ void Announcer::SetParameters() {
   }
 }
 
-void Announcer::SetReachable(bool reachable) {
+void MasterRegistration::SetReachable(bool reachable) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (reachable == status_.master_reachable) return;
   status_.master_reachable = reachable;
@@ -327,7 +327,7 @@ void Announcer::SetReachable(bool reachable) {
   }
 }
 
-void Announcer::StopForGood(const char* reason) {
+void MasterRegistration::StopForGood(const char* reason) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (status_.told_to_stop) return;
   status_.told_to_stop = true;

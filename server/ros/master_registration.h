@@ -40,21 +40,21 @@ struct PersonTopics {
 
 /// Destinations of the input topics. The callbacks run on the thread that calls `queue`.
 struct InputWiring {
-  ros::CallbackQueue* queue = nullptr;  // must outlive the announcer
+  ros::CallbackQueue* queue = nullptr;  // must outlive the registration
   std::function<std::shared_ptr<ForceBox>()> make_box;
   std::function<void(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;  // of other nodes
   std::shared_ptr<MarkerBox> markers;  // null: no marker topics
   std::function<std::shared_ptr<ViewTopics>(const ros::NodeHandle&)> make_view;  // null: no view
 };
 
-class Announcer {
+class MasterRegistration {
  public:
   /// `initial_urdf`: robot_description until the first person; "": none.
   /// @pre ros::init was called.
-  Announcer(std::string initial_urdf, bool with_tf, InputWiring wiring);
-  ~Announcer();  // unregisters the topics
-  Announcer(const Announcer&) = delete;
-  Announcer& operator=(const Announcer&) = delete;
+  MasterRegistration(std::string initial_urdf, bool with_tf, InputWiring wiring);
+  ~MasterRegistration();  // unregisters the topics
+  MasterRegistration(const MasterRegistration&) = delete;
+  MasterRegistration& operator=(const MasterRegistration&) = delete;
 
   /// Adds a person, or updates its model. The topics of the first person are `~joint_states` and so
   /// on, those of others `~<model>/joint_states`; `robot_description` follows the same rule. Never
@@ -110,7 +110,7 @@ class Announcer {
   bool stopping_ = false;                             // guarded by mutex_
   bool wants_transforms_ = false;                     // guarded by mutex_
 
-  // Used by the announcer's thread only.
+  // Used by the registration thread only.
   MasterClient master_;
   std::optional<int> master_pid_;  // process id of the master that the following members refer to
   std::unique_ptr<ros::NodeHandle> node_;  // private names; null until a master has answered
@@ -121,9 +121,9 @@ class Announcer {
   std::vector<ros::Subscriber> transforms_;           // registered at this master
   std::vector<ros::Subscriber> markers_;              // registered at this master
   std::map<std::string, std::uint64_t>
-      described_;               // description parameters that were set, with their revision
-  bool has_arguments_ = false;  // the `_name:=value` parameters were set at this master
-  bool was_announced_ = false;  // registered at least once, at any master
+      described_;                // description parameters that were set, with their revision
+  bool has_arguments_ = false;   // the `_name:=value` parameters were set at this master
+  bool was_registered_ = false;  // registered at least once, at any master
 
   std::thread thread_;  // last: it uses all other members
 };
