@@ -13,7 +13,7 @@
 #include "core/check.h"
 #include "core/clocks.h"
 #include "core/errors.h"
-#include "server/ros/force_boxes.h"
+#include "server/ros/force_inbox.h"
 #include "server/ros/joint_loads.h"
 #include "server/ros/joint_states.h"
 #include "server/ros/link_states.h"
@@ -92,17 +92,17 @@ class Bridge : public RosBridge {
   }
 
  private:
-  std::shared_ptr<MarkerBox> MakeMarkerBox() const {
+  std::shared_ptr<MarkerInbox> MakeMarkerInbox() const {
     std::vector<std::string> topics = MarkerTopicNames(config_.markers);
     if (topics.empty()) return nullptr;
-    return std::make_shared<MarkerBox>(std::move(topics), config_.reference_frame, transforms_);
+    return std::make_shared<MarkerInbox>(std::move(topics), config_.reference_frame, transforms_);
   }
 
   InputWiring MakeWiring() {
     InputWiring wiring;
     wiring.queue = &queue_;
-    wiring.make_box = [this] {
-      return std::make_shared<ForceBox>(
+    wiring.make_inbox = [this] {
+      return std::make_shared<ForceInbox>(
           ForceSettings{config_.reference_frame, config_.external_scale, config_.check_hand_load,
                         transforms_, [this] { registration_.WantTransforms(); }});
     };
@@ -203,7 +203,7 @@ class Bridge : public RosBridge {
   ros::CallbackQueue queue_;           // called by the publishing thread
   std::optional<int> view_listeners_;  // publishing thread only; until passed on
   const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // publishing thread only
-  const std::shared_ptr<MarkerBox> markers_in_ = MakeMarkerBox();          // null: no marker topics
+  const std::shared_ptr<MarkerInbox> markers_in_ = MakeMarkerInbox();      // null: no marker topics
   MasterRegistration registration_;
   std::atomic<std::uint64_t> published_ = 0;
   std::atomic<std::uint64_t> missed_ = 0;

@@ -41,13 +41,13 @@ std::vector<std::string> MarkerTopicNames(const std::string& comma_separated) {
   return topics;
 }
 
-MarkerBox::MarkerBox(std::vector<std::string> topics, std::string reference_frame,
-                     std::shared_ptr<const TfTree> tf)
+MarkerInbox::MarkerInbox(std::vector<std::string> topics, std::string reference_frame,
+                         std::shared_ptr<const TfTree> tf)
     : topics_(std::move(topics)), reference_frame_(std::move(reference_frame)), tf_(std::move(tf)) {
   for (const std::string& topic : topics_) counters_[topic];  // shown even without messages
 }
 
-void MarkerBox::OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos) {
+void MarkerInbox::OnMessage(std::size_t topic, const Event& event, std::int64_t monotonic_nanos) {
   const RawMessage& raw = *event.getConstMessage();
   const ros::M_string& connection = event.getConnectionHeader();
   const auto said = [&](const char* key) {
@@ -72,8 +72,8 @@ void MarkerBox::OnMessage(std::size_t topic, const Event& event, std::int64_t mo
                              said("type").substr(0, kLongestMarkerType))});
 }
 
-void MarkerBox::Take(std::size_t topic, const visualization_msgs::Marker& message,
-                     std::int64_t monotonic_nanos) {
+void MarkerInbox::Take(std::size_t topic, const visualization_msgs::Marker& message,
+                       std::int64_t monotonic_nanos) {
   if (const auto refusal = store_.Apply(topic, message, monotonic_nanos)) {
     return Refuse(topic, *refusal);
   }
@@ -83,7 +83,7 @@ void MarkerBox::Take(std::size_t topic, const visualization_msgs::Marker& messag
   ++counters.used;
 }
 
-void MarkerBox::Refuse(std::size_t topic, const Refusal& refusal) {
+void MarkerInbox::Refuse(std::size_t topic, const Refusal& refusal) {
   const std::lock_guard<std::mutex> lock(mutex_);
   InputCounters& counters = counters_[topics_[topic]];
   ++counters.received;
@@ -91,14 +91,14 @@ void MarkerBox::Refuse(std::size_t topic, const Refusal& refusal) {
   counters.last_problem = refusal.text;
 }
 
-void MarkerBox::SetPerson(const PersonState& person, double floor_z) {
+void MarkerInbox::SetPerson(const PersonState& person, double floor_z) {
   Body& body = bodies_[person.character];
   body.model = person.model->human.model_name;
   body.now = {person.links, person.model->human.skeleton, floor_z, person.sample.stamp_nanos};
 }
 
-std::optional<urdf::Pose> MarkerBox::Find(const std::string& frame,
-                                          std::int64_t stamp_nanos) const {
+std::optional<urdf::Pose> MarkerInbox::Find(const std::string& frame,
+                                            std::int64_t stamp_nanos) const {
   // An empty frame means the reference frame.
   if (frame.empty() || frame == reference_frame_) return urdf::Pose{};
   for (const auto& [character, body] : bodies_) {
@@ -109,7 +109,7 @@ std::optional<urdf::Pose> MarkerBox::Find(const std::string& frame,
   return std::nullopt;
 }
 
-void MarkerBox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
+void MarkerInbox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
   const bool changed =
       store_.Update(monotonic_nanos, [this](const std::string& frame, std::int64_t stamp_nanos) {
         return Find(frame, stamp_nanos);
@@ -123,19 +123,19 @@ void MarkerBox::Deliver(std::int64_t monotonic_nanos, InputSink& sink) {
   }
 }
 
-std::map<std::string, InputCounters> MarkerBox::counters() const {
+std::map<std::string, InputCounters> MarkerInbox::counters() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return counters_;
 }
 
 std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::CallbackQueue& queue,
-                                              const std::shared_ptr<MarkerBox>& box) {
+                                              const std::shared_ptr<MarkerInbox>& inbox) {
   std::vector<ros::Subscriber> all;
-  for (std::size_t topic = 0; topic < box->topics().size(); ++topic) {
+  for (std::size_t topic = 0; topic < inbox->topics().size(); ++topic) {
     ros::SubscribeOptions options;
-    options.initByFullCallbackType<const MarkerBox::Event&>(
-        box->topics()[topic], kMarkerQueue, [box, topic](const MarkerBox::Event& event) {
-          box->OnMessage(topic, event, MonotonicNanos());
+    options.initByFullCallbackType<const MarkerInbox::Event&>(
+        inbox->topics()[topic], kMarkerQueue, [inbox, topic](const MarkerInbox::Event& event) {
+          inbox->OnMessage(topic, event, MonotonicNanos());
         });
     options.callback_queue = &queue;
     options.transport_hints = ros::TransportHints().tcpNoDelay();

@@ -28,10 +28,10 @@ namespace kinescope::ros_bridge {
 /// @throws UsageError with the invalid topic name. @pre InitRos was called.
 std::vector<std::string> MarkerTopicNames(const std::string& comma_separated);
 
-class MarkerBox {
+class MarkerInbox {
  public:
-  MarkerBox(std::vector<std::string> topics, std::string reference_frame,
-            std::shared_ptr<const TfTree> tf);
+  MarkerInbox(std::vector<std::string> topics, std::string reference_frame,
+              std::shared_ptr<const TfTree> tf);
 
   const std::vector<std::string>& topics() const { return topics_; }
 
@@ -72,9 +72,9 @@ class MarkerBox {
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
 };
 
-/// The connections that fill a box; a master that was restarted needs new ones. Calls the master,
-/// so it may block.
+/// The connections that fill an inbox; a master that was restarted needs new ones. Calls the
+/// master, so it may block.
 std::vector<ros::Subscriber> SubscribeMarkers(ros::NodeHandle& node, ros::CallbackQueue& queue,
-                                              const std::shared_ptr<MarkerBox>& box);
+                                              const std::shared_ptr<MarkerInbox>& inbox);
 
 }  // namespace kinescope::ros_bridge

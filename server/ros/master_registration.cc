@@ -65,8 +65,8 @@ MasterRegistration::~MasterRegistration() {
   changed_.notify_all();
   thread_.join();
   if (!node_) return;
-  // Callbacks that are still queued will not be called: they hold boxes, and the queue is destroyed
-  // next.
+  // Callbacks that are still queued will not be called: they hold inboxes, and the queue is
+  // destroyed next.
   wiring_.queue->disable();
   wiring_.queue->clear();
   LeaveRos();  // before the publishers, each of which would unregister itself
@@ -229,15 +229,15 @@ std::shared_ptr<const PersonTopics> MasterRegistration::Advertise(const std::str
   topics->cop = Topic<geometry_msgs::PointStamped>(prefix + "cop");
   topics->markers = Topic<visualization_msgs::MarkerArray>(prefix + "markers");
   topics->joint_loads = Topic<kinescope_ros::JointLoadArray>(prefix + "joint_loads");
-  topics->inputs = boxes_[prefix] = wiring_.make_box();
+  topics->inputs = inboxes_[prefix] = wiring_.make_inbox();
   if (with_tf_) topics->tf = Topic<tf2_msgs::TFMessage>("/tf");
   return topics;
 }
 
 void MasterRegistration::Subscribe() {
-  for (const auto& [prefix, box] : boxes_) {
+  for (const auto& [prefix, inbox] : inboxes_) {
     if (inputs_.count(prefix) != 0) continue;
-    ForceSubscriptions all = SubscribeForces(*node_, prefix, *wiring_.queue, box);
+    ForceSubscriptions all = SubscribeForces(*node_, prefix, *wiring_.queue, inbox);
     if (all.AreComplete()) inputs_[prefix] = std::move(all);  // else the master has just stopped
   }
   if (wiring_.markers && markers_.empty()) {

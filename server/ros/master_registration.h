@@ -24,7 +24,7 @@
 
 #include "core/scene_state.h"
 #include "server/ros/bridge.h"
-#include "server/ros/force_boxes.h"
+#include "server/ros/force_inbox.h"
 #include "server/ros/marker_topics.h"
 #include "server/ros/master_client.h"
 #include "server/ros/view_topics.h"
@@ -35,15 +35,15 @@ namespace kinescope::ros_bridge {
 struct PersonTopics {
   ros::Publisher joint_states, link_states, com, com_stamped, cop, markers, joint_loads;
   ros::Publisher tf;  // the same for all people; invalid if TF is off
-  std::shared_ptr<ForceBox> inputs;
+  std::shared_ptr<ForceInbox> inputs;
 };
 
 /// Destinations of the input topics. The callbacks run on the thread that calls `queue`.
 struct InputWiring {
   ros::CallbackQueue* queue = nullptr;  // must outlive the registration
-  std::function<std::shared_ptr<ForceBox>()> make_box;
+  std::function<std::shared_ptr<ForceInbox>()> make_inbox;
   std::function<void(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;  // of other nodes
-  std::shared_ptr<MarkerBox> markers;  // null: no marker topics
+  std::shared_ptr<MarkerInbox> markers;  // null: no marker topics
   std::function<std::shared_ptr<ViewTopics>(const ros::NodeHandle&)> make_view;  // null: no view
 };
 
@@ -116,7 +116,7 @@ class MasterRegistration {
   std::unique_ptr<ros::NodeHandle> node_;  // private names; null until a master has answered
   std::map<std::string, std::string> topic_types_;  // all advertised topics, by name
   std::set<std::string> registered_;                // of these, those that this master has accepted
-  std::map<std::string, std::shared_ptr<ForceBox>> boxes_;  // by prefix; all input topics
+  std::map<std::string, std::shared_ptr<ForceInbox>> inboxes_;  // by prefix; all input topics
   std::map<std::string, ForceSubscriptions> inputs_;  // of these, those registered at this master
   std::vector<ros::Subscriber> transforms_;           // registered at this master
   std::vector<ros::Subscriber> markers_;              // registered at this master

@@ -1,4 +1,4 @@
-#include "server/ros/force_boxes.h"
+#include "server/ros/force_inbox.h"
 
 #include <ros/advertise_service_options.h>
 #include <ros/subscribe_options.h>
@@ -29,12 +29,12 @@ bool AreOfOneTime(std::int64_t a, std::int64_t b) { return std::abs(Secs(a - b))
 
 }  // namespace
 
-void ForceBox::SetBody(const PersonState& person, double floor_z) {
+void ForceInbox::SetBody(const PersonState& person, double floor_z) {
   model_ = person.model->human.model_name;
   body_ = BodyNow{person.links, person.model->human.skeleton, floor_z, person.sample.stamp_nanos};
 }
 
-void ForceBox::Deliver(int character, InputSink& sink) {
+void ForceInbox::Deliver(int character, InputSink& sink) {
   if (told_) {
     sink.OnHandLoad(character, *told_);
     told_.reset();
@@ -44,18 +44,18 @@ void ForceBox::Deliver(int character, InputSink& sink) {
   sink.OnMeasurements(character, measured_);
 }
 
-std::map<std::string, InputCounters> ForceBox::counters() const {
+std::map<std::string, InputCounters> ForceInbox::counters() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return counters_;
 }
 
-void ForceBox::Use(const char* topic) {
+void ForceInbox::Use(const char* topic) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++counters_[topic].received;
   ++counters_[topic].used;
 }
 
-void ForceBox::Refuse(const char* topic, const Refusal& refusal) {
+void ForceInbox::Refuse(const char* topic, const Refusal& refusal) {
   const std::lock_guard<std::mutex> lock(mutex_);
   InputCounters& counters = counters_[topic];
   ++counters.received;
@@ -65,7 +65,7 @@ void ForceBox::Refuse(const char* topic, const Refusal& refusal) {
 
 // A header without a time counts as new as the sample; the result is compared with the sample's
 // stamp.
-std::int64_t ForceBox::StampOf(const char* topic, const std_msgs::Header& header) {
+std::int64_t ForceInbox::StampOf(const char* topic, const std_msgs::Header& header) {
   if (header.stamp.isZero()) return body_->stamp_nanos;
   const auto stamp = static_cast<std::int64_t>(header.stamp.toNSec());
   const double skew = Secs(stamp - body_->stamp_nanos);
@@ -79,7 +79,7 @@ std::int64_t ForceBox::StampOf(const char* topic, const std_msgs::Header& header
   return stamp;
 }
 
-std::optional<FoundFrame> ForceBox::Place(const char* topic, const std_msgs::Header& header) {
+std::optional<FoundFrame> ForceInbox::Place(const char* topic, const std_msgs::Header& header) {
   if (!body_) {
     Refuse(topic, {"no person", "no person has been received yet"});
     return std::nullopt;
@@ -99,7 +99,7 @@ std::optional<FoundFrame> ForceBox::Place(const char* topic, const std_msgs::Hea
 }
 
 template <class Message>
-std::string ForceBox::TakeHandLoad(const char* topic, const Message& message) {
+std::string ForceInbox::TakeHandLoad(const char* topic, const Message& message) {
   HandLoad load;
   load.is_known = true;
   load.mass_kg = {message.right_kg, message.left_kg};
@@ -124,18 +124,18 @@ std::string ForceBox::TakeHandLoad(const char* topic, const Message& message) {
   return "";
 }
 
-void ForceBox::OnHandLoad(const kinescope_ros::HandLoad& message) {
+void ForceInbox::OnHandLoad(const kinescope_ros::HandLoad& message) {
   TakeHandLoad(kHandLoad, message);
 }
 
-bool ForceBox::OnSetHandLoad(kinescope_ros::SetHandLoad::Request& request,
-                             kinescope_ros::SetHandLoad::Response& response) {
+bool ForceInbox::OnSetHandLoad(kinescope_ros::SetHandLoad::Request& request,
+                               kinescope_ros::SetHandLoad::Response& response) {
   response.message = TakeHandLoad(kSetHandLoad, request);
   response.success = response.message.empty();
   return true;
 }
 
-void ForceBox::OnHandWrench(urdf::Side side, const geometry_msgs::WrenchStamped& message) {
+void ForceInbox::OnHandWrench(urdf::Side side, const geometry_msgs::WrenchStamped& message) {
   const char* const topic = kHandWrench[side];
   const auto frame = Place(topic, message.header);
   if (!frame) return;
@@ -147,7 +147,7 @@ void ForceBox::OnHandWrench(urdf::Side side, const geometry_msgs::WrenchStamped&
   Use(topic);
 }
 
-void ForceBox::OnFootWrench(urdf::Side side, const geometry_msgs::WrenchStamped& message) {
+void ForceInbox::OnFootWrench(urdf::Side side, const geometry_msgs::WrenchStamped& message) {
   const char* const topic = kFootWrench[side];
   const auto frame = Place(topic, message.header);
   if (!frame) return;
@@ -159,7 +159,7 @@ void ForceBox::OnFootWrench(urdf::Side side, const geometry_msgs::WrenchStamped&
   Use(topic);
 }
 
-void ForceBox::OnGroundWrench(const geometry_msgs::WrenchStamped& message) {
+void ForceInbox::OnGroundWrench(const geometry_msgs::WrenchStamped& message) {
   const auto frame = Place(kGroundWrench, message.header);
   if (!frame) return;
   auto ground = ToGroundForce(message, *frame, *body_);
@@ -170,7 +170,7 @@ void ForceBox::OnGroundWrench(const geometry_msgs::WrenchStamped& message) {
   Use(kGroundWrench);
 }
 
-void ForceBox::OnGroundCop(const geometry_msgs::PointStamped& message) {
+void ForceInbox::OnGroundCop(const geometry_msgs::PointStamped& message) {
   const auto frame = Place(kGroundCop, message.header);
   if (!frame) return;
   const auto cop = ToCop(message, *frame, *body_);
@@ -183,7 +183,7 @@ void ForceBox::OnGroundCop(const geometry_msgs::PointStamped& message) {
 
 // A measured CoP is a more accurate point of action than the moments of a measured force. A CoP
 // alone is used with the force that the motion requires.
-void ForceBox::CombineGround() {
+void ForceInbox::CombineGround() {
   has_news_ = true;
   const bool has_cop = ground_cop_.has_value();
   if (ground_wrench_ && (!has_cop || ground_wrench_->stamp_nanos >= ground_cop_nanos_ ||
@@ -200,8 +200,8 @@ void ForceBox::CombineGround() {
   measured_.ground = ground;
 }
 
-void ForceBox::UseExternal(const char* topic, const Taken<ExternalLoads>& loads,
-                           std::int64_t stamp_nanos) {
+void ForceInbox::UseExternal(const char* topic, const Taken<ExternalLoads>& loads,
+                             std::int64_t stamp_nanos) {
   if (!loads) return Refuse(topic, loads.error());
   for (std::size_t joint = 0; joint < loads->joints.size(); ++joint) {
     if (!loads->is_given[joint]) continue;
@@ -215,14 +215,14 @@ void ForceBox::UseExternal(const char* topic, const Taken<ExternalLoads>& loads,
   counters_[topic].unknown_joints += static_cast<std::uint64_t>(loads->unknown_joints);
 }
 
-void ForceBox::OnExternalLoads(const kinescope_ros::JointLoadArray& message) {
+void ForceInbox::OnExternalLoads(const kinescope_ros::JointLoadArray& message) {
   const auto frame = Place(kExternalLoads, message.header);
   if (!frame) return;
   UseExternal(kExternalLoads, ToExternalLoads(message, *frame, settings_.external_scale),
               StampOf(kExternalLoads, message.header));
 }
 
-void ForceBox::OnExternalJointStates(const sensor_msgs::JointState& message) {
+void ForceInbox::OnExternalJointStates(const sensor_msgs::JointState& message) {
   if (!body_) {
     return Refuse(kExternalJointStates, {"no person", "no person has been received yet"});
   }
@@ -239,44 +239,45 @@ bool ForceSubscriptions::AreComplete() const {
 
 ForceSubscriptions SubscribeForces(ros::NodeHandle& node, const std::string& prefix,
                                    ros::CallbackQueue& queue,
-                                   const std::shared_ptr<ForceBox>& box) {
+                                   const std::shared_ptr<ForceInbox>& inbox) {
   ForceSubscriptions all;
   const auto hear = [&](const std::string& name, auto take, auto message) {
     using Message = decltype(message);
     auto options = ros::SubscribeOptions::create<Message>(
         prefix + name, kForceQueue,
-        [box, take](const boost::shared_ptr<const Message>& heard) { take(*box, *heard); },
+        [inbox, take](const boost::shared_ptr<const Message>& heard) { take(*inbox, *heard); },
         ros::VoidConstPtr(), &queue);
     options.transport_hints = ros::TransportHints().tcpNoDelay();
     all.subscribers.push_back(node.subscribe(options));
   };
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     hear(
-        kHandWrench[side], [side](ForceBox& b, const auto& m) { b.OnHandWrench(side, m); },
+        kHandWrench[side], [side](ForceInbox& in, const auto& m) { in.OnHandWrench(side, m); },
         geometry_msgs::WrenchStamped());
     hear(
-        kFootWrench[side], [side](ForceBox& b, const auto& m) { b.OnFootWrench(side, m); },
+        kFootWrench[side], [side](ForceInbox& in, const auto& m) { in.OnFootWrench(side, m); },
         geometry_msgs::WrenchStamped());
   }
   hear(
-      kGroundWrench, [](ForceBox& b, const auto& m) { b.OnGroundWrench(m); },
+      kGroundWrench, [](ForceInbox& in, const auto& m) { in.OnGroundWrench(m); },
       geometry_msgs::WrenchStamped());
   hear(
-      kGroundCop, [](ForceBox& b, const auto& m) { b.OnGroundCop(m); },
+      kGroundCop, [](ForceInbox& in, const auto& m) { in.OnGroundCop(m); },
       geometry_msgs::PointStamped());
   hear(
-      kExternalLoads, [](ForceBox& b, const auto& m) { b.OnExternalLoads(m); },
+      kExternalLoads, [](ForceInbox& in, const auto& m) { in.OnExternalLoads(m); },
       kinescope_ros::JointLoadArray());
   hear(
-      kExternalJointStates, [](ForceBox& b, const auto& m) { b.OnExternalJointStates(m); },
+      kExternalJointStates, [](ForceInbox& in, const auto& m) { in.OnExternalJointStates(m); },
       sensor_msgs::JointState());
   hear(
-      kHandLoad, [](ForceBox& b, const auto& m) { b.OnHandLoad(m); }, kinescope_ros::HandLoad());
+      kHandLoad, [](ForceInbox& in, const auto& m) { in.OnHandLoad(m); },
+      kinescope_ros::HandLoad());
   using Service = kinescope_ros::SetHandLoad;
   auto service = ros::AdvertiseServiceOptions::create<Service>(
       prefix + kSetHandLoad,
-      [box](Service::Request& request, Service::Response& response) {
-        return box->OnSetHandLoad(request, response);
+      [inbox](Service::Request& request, Service::Response& response) {
+        return inbox->OnSetHandLoad(request, response);
       },
       ros::VoidConstPtr(), &queue);
   all.service = node.advertiseService(service);

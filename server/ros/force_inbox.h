@@ -1,6 +1,6 @@
 /// Receives one person's input topics: measured forces, external joint loads, hand loads
 /// (docs/ros.md). The registration thread subscribes. The thread that reads samples calls the queue
-/// and so receives the messages, which wait in the box for the next sample.
+/// and so receives the messages, which wait in the inbox for the next sample.
 #pragma once
 
 #include <geometry_msgs/PointStamped.h>
@@ -37,13 +37,13 @@ struct ForceSettings {
                                   // block
 };
 
-class ForceBox {
+class ForceInbox {
  public:
-  explicit ForceBox(ForceSettings settings) : settings_(std::move(settings)) {}
+  explicit ForceInbox(ForceSettings settings) : settings_(std::move(settings)) {}
 
   // The following functions are for the thread that reads samples.
 
-  /// Sets the newest sample of this box's person.
+  /// Sets the newest sample of this inbox's person.
   void SetBody(const PersonState& person, double floor_z);
   /// Passes on new inputs.
   void Deliver(int character, InputSink& sink);
@@ -89,8 +89,8 @@ class ForceBox {
   std::map<std::string, InputCounters> counters_;  // guarded by mutex_
 };
 
-/// The connections that fill a box; their destructors close them. A master that was restarted needs
-/// new ones.
+/// The connections that fill an inbox; their destructors close them. A master that was restarted
+/// needs new ones.
 struct ForceSubscriptions {
   std::vector<ros::Subscriber> subscribers;
   ros::ServiceServer service;
@@ -100,6 +100,7 @@ struct ForceSubscriptions {
 /// Subscribes below `prefix` ("" or "<model>/") of the private names of `node`. Calls the master,
 /// so it may block.
 ForceSubscriptions SubscribeForces(ros::NodeHandle& node, const std::string& prefix,
-                                   ros::CallbackQueue& queue, const std::shared_ptr<ForceBox>& box);
+                                   ros::CallbackQueue& queue,
+                                   const std::shared_ptr<ForceInbox>& inbox);
 
 }  // namespace kinescope::ros_bridge
