@@ -73,10 +73,10 @@ void LiveTopics::Run() {
 
 void LiveTopics::Ask() {
   const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
-  const Standing standing = master_.AskStanding(our_uri, kMasterPatience);
-  if ((node_ && !ros::ok()) || standing == Standing::kNameTaken) return StopForGood();
-  SetMasterAnswers(standing != Standing::kNoAnswer);
-  if (standing == Standing::kNoAnswer) return;
+  const RegistrationState state = master_.AskRegistration(our_uri, kMasterPatience);
+  if ((node_ && !ros::ok()) || state == RegistrationState::kNameTaken) return StopForGood();
+  SetMasterAnswers(state != RegistrationState::kNoAnswer);
+  if (state == RegistrationState::kNoAnswer) return;
   if (!node_) Start();
   // Registering again has no effect on a registered node. A master that has forgotten only the
   // subscription cannot be distinguished from one that knows it.

@@ -31,15 +31,17 @@ MasterClient::MasterClient()
 
 MasterClient::MasterClient(std::string host, int port) : host_(std::move(host)), port_(port) {}
 
-Standing MasterClient::AskStanding(const std::string& our_uri, std::chrono::milliseconds timeout) {
+RegistrationState MasterClient::AskRegistration(const std::string& our_uri,
+                                                std::chrono::milliseconds timeout) {
   XmlRpcValue arguments;
   arguments[0] = ros::this_node::getName();
   MasterReply reply = Call("lookupNode", arguments, timeout);
-  if (reply.code == MasterReply::Code::kNoAnswer) return Standing::kNoAnswer;
+  if (reply.code == MasterReply::Code::kNoAnswer) return RegistrationState::kNoAnswer;
   const bool has_uri = !our_uri.empty() && reply.code == MasterReply::Code::kGood &&
                        reply.value.getType() == XmlRpcValue::TypeString;
-  if (!has_uri) return Standing::kUnknown;
-  return static_cast<std::string>(reply.value) == our_uri ? Standing::kKnown : Standing::kNameTaken;
+  if (!has_uri) return RegistrationState::kUnknown;
+  return static_cast<std::string>(reply.value) == our_uri ? RegistrationState::kKnown
+                                                          : RegistrationState::kNameTaken;
 }
 
 std::optional<int> MasterClient::AskPid(std::chrono::milliseconds timeout) {

@@ -25,7 +25,7 @@ struct MasterReply {
 };
 
 /// Registration state of this node at the master.
-enum class Standing {
+enum class RegistrationState {
   kNoAnswer,
   kUnknown,    // never registered there, or the master was restarted
   kKnown,      // registered under this name
@@ -49,7 +49,7 @@ class MasterClient {
   /// Whether the master knows this node. It detects a master restarted under the same process id,
   /// as in a container, and one that `rosnode cleanup` made forget this node.
   /// `our_uri`: of this node's own server; "" before it exists.
-  Standing AskStanding(const std::string& our_uri, std::chrono::milliseconds timeout);
+  RegistrationState AskRegistration(const std::string& our_uri, std::chrono::milliseconds timeout);
 
   /// The process id of the master; 0 if it does not report one, nullopt without an answer.
   std::optional<int> AskPid(std::chrono::milliseconds timeout);

@@ -174,12 +174,12 @@ void MasterRegistration::Run() {
 // must be the same, too.
 bool MasterRegistration::MasterKnowsUs(bool& answers) {
   const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
-  const Standing standing = master_.AskStanding(our_uri, kMasterPatience);
-  if (standing == Standing::kNameTaken) StopForGood("another node with the same name");
+  const RegistrationState state = master_.AskRegistration(our_uri, kMasterPatience);
+  if (state == RegistrationState::kNameTaken) StopForGood("another node with the same name");
   const std::optional<int> pid =
-      standing == Standing::kNoAnswer ? std::nullopt : master_.AskPid(kMasterPatience);
+      state == RegistrationState::kNoAnswer ? std::nullopt : master_.AskPid(kMasterPatience);
   answers = pid.has_value();
-  return answers && std::exchange(master_pid_, pid) == pid && standing == Standing::kKnown;
+  return answers && std::exchange(master_pid_, pid) == pid && state == RegistrationState::kKnown;
 }
 
 void MasterRegistration::Start() {
