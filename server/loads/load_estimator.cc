@@ -69,7 +69,7 @@ GroundSensors SensorsOf(const Measurements& measured, std::int64_t stamp) {
 
 // Whether the values of a plate exceed its noise and the errors of the body model (joint-loads.md
 // 3.3).
-bool FeelsLoad(const Standing& measured, const Standing& bare) {
+bool FeelsLoad(const GroundReaction& measured, const GroundReaction& bare) {
   constexpr double kLeastForce = 5, kLeastDistance = 0.005;  // N, m
   if (!measured.is_measured || !measured.cop || !bare.cop) return true;
   return std::abs(measured.force.z() - bare.force.z()) >= kLeastForce ||
@@ -78,7 +78,7 @@ bool FeelsLoad(const Standing& measured, const Standing& bare) {
 
 using JointMoments = std::array<Vector3d, kJointCount>;
 
-JointMoments MomentsOf(const Standing& loaded) {
+JointMoments MomentsOf(const GroundReaction& loaded) {
   JointMoments moments;
   for (int joint = 0; joint < kJointCount; ++joint) {
     moments[At(joint)] = loaded.joints[At(ChildOf(joint))].moment;
@@ -87,7 +87,7 @@ JointMoments MomentsOf(const Standing& loaded) {
 }
 
 // Moments that hand loads or a measured ground force add to the `bare` body's (joint-loads.md 3.3).
-JointMoments AddedMoments(const Standing& loaded, const Standing& bare) {
+JointMoments AddedMoments(const GroundReaction& loaded, const GroundReaction& bare) {
   JointMoments moments = MomentsOf(loaded);
   const bool feels = FeelsLoad(loaded, bare);
   for (int joint = 0; joint < kJointCount; ++joint) {
@@ -188,19 +188,19 @@ bool LoadEstimator::SuspectContact(bool outside, std::int64_t stamp) {
   return suspects_contact_;
 }
 
-void LoadEstimator::ShowFloor(const Standing& standing, const LoadSubject& subject,
+void LoadEstimator::ShowFloor(const GroundReaction& ground, const LoadSubject& subject,
                               std::int64_t stamp) {
   BodyForces& forces = result_.forces;
-  forces.why_no_ground = subject.has_legs ? standing.why_not : kNoLegs;
-  forces.ground_is_measured = standing.is_measured;
-  forces.cop_inside = subject.has_legs ? standing.cop_inside : kNothing;
+  forces.why_no_ground = subject.has_legs ? ground.why_not : kNoLegs;
+  forces.ground_is_measured = ground.is_measured;
+  forces.cop_inside = subject.has_legs ? ground.cop_inside : kNothing;
   result_.cop.reset();
   if (!forces.why_no_ground.empty()) {
     last_cop_nanos_.reset();
-  } else if (standing.is_measured) {
+  } else if (ground.is_measured) {
     constexpr double kMostForce = 0.10, kMostMoment = 0.05;  // joint-loads.md 2.2
     const double weight = forces.body_mass_kg * kGravity;
-    const Wrench& residual = standing.joints[kPelvis];
+    const Wrench& residual = ground.joints[kPelvis];
     forces.residual_force_share = residual.force.norm() / weight;
     forces.residual_moment_share = residual.moment.norm() / (weight * subject.skeleton.height);
     if (forces.residual_force_share > kMostForce || forces.residual_moment_share > kMostMoment) {
@@ -208,20 +208,20 @@ void LoadEstimator::ShowFloor(const Standing& standing, const LoadSubject& subje
     }
   } else {
     constexpr double kMostOutside = 0.03;  // m, joint-loads.md 2.4
-    forces.external_contact_suspected = SuspectContact(standing.cop_inside < -kMostOutside, stamp);
+    forces.external_contact_suspected = SuspectContact(ground.cop_inside < -kMostOutside, stamp);
     if (forces.external_contact_suspected) forces.why_no_ground = kLeans;
   }
-  if (subject.has_legs && standing.cop) {
-    result_.cop = Vector3d(standing.shown_cop.x(), standing.shown_cop.y(), subject.floor_z);
+  if (subject.has_legs && ground.cop) {
+    result_.cop = Vector3d(ground.shown_cop.x(), ground.shown_cop.y(), subject.floor_z);
   }
   const bool known = forces.why_no_ground.empty();
   if (known) {
-    forces.ground_force = standing.force;
-    forces.ground_free_moment = standing.cop->free_moment;
+    forces.ground_force = ground.force;
+    forces.ground_free_moment = ground.cop->free_moment;
   }
   for (const Side side : {kRight, kLeft}) {
     FootForce& foot = forces.feet[side];
-    const FootShare& share = standing.feet[side];
+    const FootShare& share = ground.feet[side];
     foot.force = known ? share.force : Vector3d::Constant(kNothing);
     foot.cop = known ? Vector3d(share.point.x(), share.point.y(), subject.floor_z)
                      : Vector3d::Constant(kNothing);
@@ -237,11 +237,11 @@ std::string_view LoadEstimator::WhyUnknown(int joint) const {
   return IsLegJoint(joint) ? result_.forces.why_no_ground : std::string_view();
 }
 
-void LoadEstimator::ShowJoints(const Standing& standing, const LinkPoses& links) {
+void LoadEstimator::ShowJoints(const GroundReaction& ground, const LinkPoses& links) {
   BodyForces& forces = result_.forces;
   for (int joint = 0; joint < kJointCount; ++joint) {
     JointForce& shown = forces.joints[At(joint)];
-    const Wrench& wrench = standing.joints[At(ChildOf(joint))];
+    const Wrench& wrench = ground.joints[At(ChildOf(joint))];
     shown = {wrench.force, wrench.moment, WhyUnknown(joint)};
     if (!shown.why_unknown.empty()) {
       shown.force = shown.moment = Vector3d::Constant(kNothing);
@@ -368,11 +368,11 @@ const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPose
   }
   const GroundSensors sensors = SensorsOf(measured, stamp);
   const auto stand = [&](const ExternalForces& pushed, const GroundSensors& felt) {
-    return SolveStanding({links, demand, pushed, contacts_, subject.floor_z, forces.body_mass_kg,
-                          settings.clamp_cop},
-                         felt);
+    return SolveGroundReaction({links, demand, pushed, contacts_, subject.floor_z,
+                                forces.body_mass_kg, settings.clamp_cop},
+                               felt);
   };
-  const Standing loaded = stand(hands, sensors);
+  const GroundReaction loaded = stand(hands, sensors);
   ShowFloor(loaded, subject, stamp);
   ShowJoints(loaded, links);
 

@@ -16,13 +16,13 @@
 #include "core/body_forces.h"
 #include "core/scene_state.h"
 #include "server/loads/foot_contact.h"
+#include "server/loads/ground_reaction.h"
 #include "server/loads/hand_loads.h"
 #include "server/loads/inverse_dynamics.h"
 #include "server/loads/joint_score.h"
 #include "server/loads/load_classifier.h"
 #include "server/loads/load_settings.h"
 #include "server/loads/motion_filter.h"
-#include "server/loads/standing.h"
 
 namespace kinescope::loads {
 
@@ -55,8 +55,8 @@ class LoadEstimator {
  private:
   void ForgetEverything(const urdf::LinkPoses& links, std::string_view why, std::int64_t stamp);
   void ShowBody(const BodySample& sample, const LoadSubject& subject, const BodyDemand& demand);
-  void ShowFloor(const Standing& standing, const LoadSubject& subject, std::int64_t stamp);
-  void ShowJoints(const Standing& standing, const urdf::LinkPoses& links);
+  void ShowFloor(const GroundReaction& ground, const LoadSubject& subject, std::int64_t stamp);
+  void ShowJoints(const GroundReaction& ground, const urdf::LinkPoses& links);
   std::string_view WhyUnknown(int joint) const;
   /// `rated`: the moments to compare with the capacities, by joint, N·m.
   void ShowLoads(const std::array<Eigen::Vector3d, urdf::kJointCount>& rated,

@@ -7,11 +7,11 @@
 #include "core/body_forces.h"
 #include "core/force_inputs.h"
 #include "server/loads/foot_contact.h"
+#include "server/loads/ground_reaction.h"
 #include "server/loads/hand_loads.h"
 #include "server/loads/joint_score.h"
 #include "server/loads/load_classifier.h"
 #include "server/loads/motion_filter.h"
-#include "server/loads/standing.h"
 
 namespace kinescope::loads {
 

@@ -23,7 +23,7 @@ struct GroundSensors {
   const MeasuredGroundForce* total = nullptr;
 };
 
-struct StandingInput {
+struct GroundReactionInput {
   const urdf::LinkPoses& links;
   const BodyDemand& demand;
   const ExternalForces& hands;  // all external forces except those of the floor
@@ -33,7 +33,7 @@ struct StandingInput {
   bool clamp_cop = true;
 };
 
-struct Standing {
+struct GroundReaction {
   JointWrenches joints;
   std::string_view why_not;  // why the ground reaction force is unknown; "" otherwise
   bool is_measured = false;
@@ -47,6 +47,6 @@ struct Standing {
 
 /// Measured forces take precedence: those of both feet, else the total, else the force that the
 /// motion requires. The CoP of a foot is clamped into the foot last, which leaves a small residual.
-Standing SolveStanding(const StandingInput& input, const GroundSensors& sensors);
+GroundReaction SolveGroundReaction(const GroundReactionInput& input, const GroundSensors& sensors);
 
 }  // namespace kinescope::loads
