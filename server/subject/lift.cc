@@ -24,7 +24,7 @@ constexpr std::array<LiftStance, 2> kStance = {
 
 Curve Schedule(std::vector<Curve::Key> keys) { return {kPeriodSecs, std::move(keys)}; }
 
-class Lift final : public Choreography {
+class Lift final : public MotionGenerator {
  public:
   explicit Lift(const urdf::Skeleton& skeleton)
       : skeleton_(skeleton), scale_(skeleton.height / 1.75) {}
@@ -150,7 +150,7 @@ void Lift::PlaceArm(Side side, const Jet& time, Posture& posture) const {
 
 }  // namespace
 
-std::unique_ptr<Choreography> MakeLift(const urdf::Skeleton& skeleton) {
+std::unique_ptr<MotionGenerator> MakeLift(const urdf::Skeleton& skeleton) {
   return std::make_unique<Lift>(skeleton);
 }
 

@@ -13,26 +13,26 @@ namespace kinescope::subject {
 inline constexpr double kDegree = M_PI / 180;
 
 /// Poses one skeleton over time. Borrows the skeleton; any thread, no state.
-class Choreography {
+class MotionGenerator {
  public:
-  virtual ~Choreography() = default;
+  virtual ~MotionGenerator() = default;
   virtual Posture PoseAt(const Jet& time) const = 0;
   virtual double period_secs() const = 0;  // time after which the motion repeats
 
  protected:
-  Choreography() = default;
+  MotionGenerator() = default;
 };
 
-std::unique_ptr<Choreography> MakeLift(const urdf::Skeleton& skeleton);
-std::unique_ptr<Choreography> MakeWalk(const urdf::Skeleton& skeleton);
+std::unique_ptr<MotionGenerator> MakeLift(const urdf::Skeleton& skeleton);
+std::unique_ptr<MotionGenerator> MakeWalk(const urdf::Skeleton& skeleton);
 
 enum class Arms { kHanging, kSideways };
 /// The N-pose or T-pose: every link or segment frame parallel to the world.
-std::unique_ptr<Choreography> MakeStand(const urdf::Skeleton& skeleton, Arms arms);
+std::unique_ptr<MotionGenerator> MakeStand(const urdf::Skeleton& skeleton, Arms arms);
 
 enum class Held { kSquat, kOverhead, kSit };
 /// Deep squat with arms forward; upright with arms raised; seated posture without a chair: the feet
 /// carry everything.
-std::unique_ptr<Choreography> MakeHold(const urdf::Skeleton& skeleton, Held posture);
+std::unique_ptr<MotionGenerator> MakeHold(const urdf::Skeleton& skeleton, Held posture);
 
 }  // namespace kinescope::subject

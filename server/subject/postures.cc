@@ -28,7 +28,7 @@ Stance StanceOf(Held posture) {
   return {{-0.40, 0, 0.545}, -6, 12, -2, 0.12, 8, 0, 24, 4, 62};
 }
 
-class Hold final : public Choreography {
+class Hold final : public MotionGenerator {
  public:
   Hold(const urdf::Skeleton& skeleton, Held posture)
       : skeleton_(skeleton), scale_(skeleton.height / 1.75), stance_(StanceOf(posture)) {}
@@ -80,7 +80,7 @@ class Hold final : public Choreography {
 
 }  // namespace
 
-std::unique_ptr<Choreography> MakeHold(const urdf::Skeleton& skeleton, Held posture) {
+std::unique_ptr<MotionGenerator> MakeHold(const urdf::Skeleton& skeleton, Held posture) {
   return std::make_unique<Hold>(skeleton, posture);
 }
 

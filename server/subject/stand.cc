@@ -5,7 +5,7 @@ namespace {
 
 JetQuaternion ConstantTurn(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
-class Stand final : public Choreography {
+class Stand final : public MotionGenerator {
  public:
   Stand(const urdf::Skeleton& skeleton, Arms arms) : skeleton_(skeleton), arms_(arms) {}
 
@@ -31,7 +31,7 @@ class Stand final : public Choreography {
 
 }  // namespace
 
-std::unique_ptr<Choreography> MakeStand(const urdf::Skeleton& skeleton, Arms arms) {
+std::unique_ptr<MotionGenerator> MakeStand(const urdf::Skeleton& skeleton, Arms arms) {
   return std::make_unique<Stand>(skeleton, arms);
 }
 

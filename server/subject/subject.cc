@@ -17,7 +17,7 @@ constexpr std::int64_t kEpochNanos = 1'577'836'800'000'000'000;
 
 constexpr double kHighestRateHz = 10'000;
 
-std::unique_ptr<Choreography> MakeChoreography(const std::string& name,
+std::unique_ptr<MotionGenerator> MakeGenerator(const std::string& name,
                                                const urdf::Skeleton& skeleton) {
   if (name == "lift") return MakeLift(skeleton);
   if (name == "walk") return MakeWalk(skeleton);
@@ -36,16 +36,16 @@ class BuiltInMotion final : public Motion {
   BuiltInMotion(const std::string& name, double height_m)
       : skeleton_(urdf::DefaultSkeleton(height_m)),
         body_(urdf::MakeBodyParameters({}, skeleton_)),
-        choreography_(MakeChoreography(name, skeleton_)) {
+        generator_(MakeGenerator(name, skeleton_)) {
     character_.name = "Demo";
     character_.skeleton = skeleton_;
   }
 
   BodySample At(double seconds) const override {
     // Time within the period: late samples are as exact as the first.
-    const double period = choreography_->period_secs();
+    const double period = generator_->period_secs();
     const double within = seconds - period * std::floor(seconds / period);
-    BodySample sample = choreography_->PoseAt({within, 1, 0}).ToSample(body_);
+    BodySample sample = generator_->PoseAt({within, 1, 0}).ToSample(body_);
     sample.time_code_millis = std::llround(seconds * 1e3);
     sample.stamp_nanos = kEpochNanos + std::llround(seconds * 1e9);
     return sample;
@@ -56,7 +56,7 @@ class BuiltInMotion final : public Motion {
  private:
   const urdf::Skeleton skeleton_;
   const urdf::BodyParameters body_;
-  const std::unique_ptr<Choreography> choreography_;  // borrows skeleton_
+  const std::unique_ptr<MotionGenerator> generator_;  // borrows skeleton_
   Character character_;
 };
 

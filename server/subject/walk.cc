@@ -69,7 +69,7 @@ struct Footprint {
   Jet yaw;
 };
 
-class Walk final : public Choreography {
+class Walk final : public MotionGenerator {
  public:
   explicit Walk(const urdf::Skeleton& skeleton)
       : skeleton_(skeleton), scale_(skeleton.height / 1.75) {}
@@ -221,7 +221,7 @@ FootPose Walk::FootAt(Side side, const Jet& strides) const {
 
 }  // namespace
 
-std::unique_ptr<Choreography> MakeWalk(const urdf::Skeleton& skeleton) {
+std::unique_ptr<MotionGenerator> MakeWalk(const urdf::Skeleton& skeleton) {
   return std::make_unique<Walk>(skeleton);
 }
 
