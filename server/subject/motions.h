@@ -30,9 +30,10 @@ enum class Arms { kHanging, kSideways };
 /// The N-pose or T-pose: every link or segment frame parallel to the world.
 std::unique_ptr<MotionGenerator> MakeStand(const urdf::Skeleton& skeleton, Arms arms);
 
-enum class Held { kSquat, kOverhead, kSit };
+enum class StaticPosture { kSquat, kOverhead, kSit };
 /// Deep squat with arms forward; upright with arms raised; seated posture without a chair: the feet
 /// carry everything.
-std::unique_ptr<MotionGenerator> MakeHold(const urdf::Skeleton& skeleton, Held posture);
+std::unique_ptr<MotionGenerator> MakeStaticPosture(const urdf::Skeleton& skeleton,
+                                                   StaticPosture posture);
 
 }  // namespace kinescope::subject

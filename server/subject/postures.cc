@@ -1,4 +1,4 @@
-// Postures that are held still, for pictures and tests: what a figure must look right in.
+// Static postures for pictures and tests, in which the body model must look right.
 #include "server/subject/motions.h"
 
 namespace kinescope::subject {
@@ -19,18 +19,18 @@ struct Stance {
   double arm_flexion, arm_abduction, elbow_flexion;
 };
 
-Stance StanceOf(Held posture) {
+Stance StanceOf(StaticPosture posture) {
   switch (posture) {
-    case Held::kSquat: return {{-0.225, 0, 0.50}, 30, 22, -34, 0.125, 18, 4, 118, 6, 8};
-    case Held::kOverhead: return {{0, 0, 0.978}, 0, -6, -6, 0.10, 8, 22, 158, 26, 10};
-    case Held::kSit: break;
+    case StaticPosture::kSquat: return {{-0.225, 0, 0.50}, 30, 22, -34, 0.125, 18, 4, 118, 6, 8};
+    case StaticPosture::kOverhead: return {{0, 0, 0.978}, 0, -6, -6, 0.10, 8, 22, 158, 26, 10};
+    case StaticPosture::kSit: break;
   }
   return {{-0.40, 0, 0.545}, -6, 12, -2, 0.12, 8, 0, 24, 4, 62};
 }
 
-class Hold final : public MotionGenerator {
+class HeldPosture final : public MotionGenerator {
  public:
-  Hold(const urdf::Skeleton& skeleton, Held posture)
+  HeldPosture(const urdf::Skeleton& skeleton, StaticPosture posture)
       : skeleton_(skeleton), scale_(skeleton.height / 1.75), stance_(StanceOf(posture)) {}
 
   double period_secs() const override { return 1; }
@@ -80,8 +80,9 @@ class Hold final : public MotionGenerator {
 
 }  // namespace
 
-std::unique_ptr<MotionGenerator> MakeHold(const urdf::Skeleton& skeleton, Held posture) {
-  return std::make_unique<Hold>(skeleton, posture);
+std::unique_ptr<MotionGenerator> MakeStaticPosture(const urdf::Skeleton& skeleton,
+                                                   StaticPosture posture) {
+  return std::make_unique<HeldPosture>(skeleton, posture);
 }
 
 }  // namespace kinescope::subject

@@ -23,9 +23,9 @@ std::unique_ptr<MotionGenerator> MakeGenerator(const std::string& name,
   if (name == "walk") return MakeWalk(skeleton);
   if (name == "n_pose") return MakeStand(skeleton, Arms::kHanging);
   if (name == "t_pose") return MakeStand(skeleton, Arms::kSideways);
-  if (name == "squat") return MakeHold(skeleton, Held::kSquat);
-  if (name == "overhead") return MakeHold(skeleton, Held::kOverhead);
-  if (name == "sit") return MakeHold(skeleton, Held::kSit);
+  if (name == "squat") return MakeStaticPosture(skeleton, StaticPosture::kSquat);
+  if (name == "overhead") return MakeStaticPosture(skeleton, StaticPosture::kOverhead);
+  if (name == "sit") return MakeStaticPosture(skeleton, StaticPosture::kSit);
   std::string known;
   for (const std::string& motion : MotionNames()) known += (known.empty() ? "" : ", ") + motion;
   throw SourceError("demo:" + name + ": unknown motion; expected one of " + known);
