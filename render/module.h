@@ -1,5 +1,5 @@
 /// Interfaces of the modules that are loaded on demand, each with dozens of libraries: rendering
-/// (VTK, Mesa, LLVM), video (libav) and figures (Cairo).
+/// (VTK, Mesa, LLVM), video (libav) and plots (Cairo).
 #pragma once
 
 #include <filesystem>
@@ -83,11 +83,11 @@ class LayerPainter : public Painter {
 std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, LayerFormat format);
 
 struct PlotModule {
-  ModuleAbi<Figure, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotStretch, PlotMark,
+  ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotStretch, PlotMark,
             PlotSwatch, PlotText, Image, Ink, Tile, Font, Glyph>
       abi;
-  std::string (*svg)(const Figure& figure);
-  Image (*image)(const Figure& figure, double px_per_pt);
+  std::string (*svg)(const Plot& plot);
+  Image (*image)(const Plot& plot, double px_per_pt);
   std::unique_ptr<LayerPainter> (*layer)(int width_px, int height_px, LayerFormat format);
 };
 

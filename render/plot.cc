@@ -13,11 +13,11 @@ const PlotModule& OpenPlotModule() {
 
 }  // namespace
 
-std::string ToSvg(const Figure& figure) { return OpenPlotModule().svg(figure); }
+std::string ToSvg(const Plot& plot) { return OpenPlotModule().svg(plot); }
 
-Image ToImage(const Figure& figure, double px_per_pt) {
+Image ToImage(const Plot& plot, double px_per_pt) {
   KINESCOPE_CHECK(px_per_pt >= 0.5 && px_per_pt <= 20);
-  return OpenPlotModule().image(figure, px_per_pt);
+  return OpenPlotModule().image(plot, px_per_pt);
 }
 
 std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, LayerFormat format) {

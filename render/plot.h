@@ -1,6 +1,6 @@
-/// Draws figures for papers and reports: curves over an axis with bands, limits and gaps, as SVG
+/// Draws plots for papers and reports: curves over an axis with bands, limits and gaps, as SVG
 /// and as a picture of the same description. Cairo draws them in a module that is loaded with the
-/// first figure. Lengths in points (1/72 inch), y downwards. Any thread; a figure is used by one at
+/// first plot. Lengths in points (1/72 inch), y downwards. Any thread; a plot is used by one at
 /// a time.
 #pragma once
 
@@ -53,7 +53,7 @@ struct PlotMark {
 
 /// One pair of axes with its content.
 struct PlotPanel {
-  double left = 0, top = 0, width = 0, height = 0;  // of the axes' box, within the figure
+  double left = 0, top = 0, width = 0, height = 0;  // of the axes' box, within the plot
   std::string title, x_label, y_label;
   bool has_x_numbers = true, has_y_numbers = true;
   double x_from = 0, x_to = 1, y_from = 0, y_to = 1;  // @pre from < to, finite
@@ -81,7 +81,7 @@ struct PlotSwatch {
   bool is_hatched = false;
 };
 
-struct Figure {
+struct Plot {
   double width = 480, height = 300;
   std::vector<PlotPanel> panels;
   std::vector<PlotSwatch> swatches;
@@ -91,9 +91,9 @@ struct Figure {
 // The following two functions @throw RenderError if the module or its font is missing.
 
 /// Text is converted to outlines, so it looks the same whatever fonts are installed.
-std::string ToSvg(const Figure& figure);
+std::string ToSvg(const Plot& plot);
 /// @pre 0.5 <= px_per_pt <= 20
-Image ToImage(const Figure& figure, double px_per_pt);
+Image ToImage(const Plot& plot, double px_per_pt);
 
 /// Round numbers that divide [from, to] into about `most` parts. @pre from < to
 std::vector<double> NiceTicks(double from, double to, int most);

@@ -1,4 +1,4 @@
-/// Common Cairo parts of figures and overlay layers: the fonts, and text that Cairo accepts.
+/// Common Cairo parts of plots and overlay layers: the fonts, and text that Cairo accepts.
 #pragma once
 
 #include <string>

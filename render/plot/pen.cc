@@ -46,7 +46,7 @@ struct Pen::Parts {
   void Finish() {
     cairo_surface_flush(surface);
     if (const cairo_status_t status = cairo_status(context); status != CAIRO_STATUS_SUCCESS) {
-      throw RenderError(std::string("cannot draw the figure: ") + cairo_status_to_string(status));
+      throw RenderError(std::string("cannot draw the plot: ") + cairo_status_to_string(status));
     }
   }
 };
@@ -120,7 +120,7 @@ void Pen::Hatch(double x, double y, double width, double height) {
   Box(x, y, width, height, kHatchGround);
   Clip(x, y, width, height);
   constexpr double kApart = 4;
-  // On one grid for the whole figure, so that neighbours join.
+  // On one grid for the whole plot, so that neighbours join.
   const int first = static_cast<int>(std::floor((x - height) / kApart));
   for (int i = first; i * kApart < x + width + height; ++i) {
     const double at = i * kApart - std::fmod(y, kApart);

@@ -1,5 +1,5 @@
-/// Wraps the parts of Cairo that figures need: owns surface, context and fonts. No other file uses
-/// Cairo for figures. Points (1/72 inch), y downwards. One thread.
+/// Wraps the parts of Cairo that plots need: owns surface, context and fonts. No other file uses
+/// Cairo for plots. Points (1/72 inch), y downwards. One thread.
 #pragma once
 
 #include <memory>

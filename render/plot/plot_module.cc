@@ -1,6 +1,6 @@
 #include "render/module.h"
-#include "render/plot/figure.h"
 #include "render/plot/layer.h"
+#include "render/plot/plot_drawing.h"
 
 extern "C" __attribute__((visibility("default"))) const void* KinescopePlotModule() {
   static const kinescope::render::PlotModule module = {{},

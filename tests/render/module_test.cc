@@ -15,13 +15,13 @@ using ::testing::HasSubstr;
 constexpr char kPlotFile[] = "libkinescope_plot.so";
 
 struct TableOfOneType {
-  ModuleAbi<Figure> abi;
+  ModuleAbi<Plot> abi;
 };
 struct TableWithAnotherImage {
   struct LargerImage : Image {
     int depth = 0;
   };
-  ModuleAbi<Figure, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotStretch, PlotMark,
+  ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotStretch, PlotMark,
             PlotSwatch, PlotText, LargerImage, Ink, Tile, Font, Glyph>
       abi;
 };

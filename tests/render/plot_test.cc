@@ -45,10 +45,10 @@ TEST(Plot, ThinsACurveWithoutLosingItsPeaksAndItsGaps) {
   EXPECT_EQ(breaks, 1);
 }
 
-Figure OnePanel() {
-  Figure figure;
-  figure.width = 100;
-  figure.height = 80;
+Plot OnePanel() {
+  Plot plot;
+  plot.width = 100;
+  plot.height = 80;
   PlotPanel panel;
   panel.left = 20;
   panel.top = 10;
@@ -56,8 +56,8 @@ Figure OnePanel() {
   panel.height = 40;
   panel.bands = {{0, 0.5, {1, 0, 0}, ""}, {0.5, 1e9, {0, 0, 1}, ""}};
   panel.strip = {{0, 0.5, LoadClass::kHigh}, {0.5, 1, LoadClass::kLow}};
-  figure.panels.push_back(panel);
-  return figure;
+  plot.panels.push_back(panel);
+  return plot;
 }
 
 std::vector<double> PixelAt(const Image& image, double x_pt, double y_pt, double scale) {
@@ -93,12 +93,12 @@ TEST(Plot, IsTheSameEveryTimeInBothFormats) {
 }
 
 TEST(Plot, SetsNamesThatAreNoUtf8AndValuesThatAreFarAway) {
-  Figure figure = OnePanel();
-  figure.texts.push_back({5, 70, "\xFF\xC0 name", 8, false, {}});
+  Plot plot = OnePanel();
+  plot.texts.push_back({5, 70, "\xFF\xC0 name", 8, false, {}});
   PlotCurve curve;
   curve.points = {{0, 0}, {0.5, 1e300}, {1, -1e300}};
-  figure.panels[0].curves.push_back(curve);
-  EXPECT_THAT(ToSvg(figure), HasSubstr("</svg>"));
+  plot.panels[0].curves.push_back(curve);
+  EXPECT_THAT(ToSvg(plot), HasSubstr("</svg>"));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 #include "render/png_file.h"
 #include "render/renderer.h"
 #include "server/app/loads/html.h"
-#include "server/app/loads/load_figures.h"
+#include "server/app/loads/load_plots.h"
 #include "server/app/loads/load_rows.h"
 #include "server/loads/joint_score.h"
 
@@ -219,7 +219,7 @@ std::string PersonHtml(const LoadTrial& trial, const TrialContext& context,
   html += "<h2>Highest loads</h2>\n" + MomentsHtml(trial, renderer);
   html += "<h2>Exposure</h2>\n" + ExposureHtml(trial) + LegendHtml(context);
   html += fmt::format("<h2>Load ratio over time</h2>\n<img class=\"plot\" alt=\"\" src=\"{}\">\n",
-                      DataUrl("image/svg+xml", render::ToSvg(OverviewFigure(trial, context))));
+                      DataUrl("image/svg+xml", render::ToSvg(OverviewPlot(trial, context))));
   html += "<h2>Assumptions, checks and unknown loads</h2>\n<ul>\n";
   for (const std::string& note : NotesOf(trial, context)) {
     html += "<li>" + EscapeHtml(note) + "</li>\n";

@@ -14,8 +14,8 @@
 #include "core/clocks.h"
 #include "core/stop_signal.h"
 #include "server/app/commands.h"
-#include "server/app/loads/load_figures.h"
 #include "server/app/loads/load_files.h"
+#include "server/app/loads/load_plots.h"
 #include "server/app/loads/load_report.h"
 #include "server/app/loads/load_summary.h"
 #include "server/app/loads/load_trial.h"
@@ -37,7 +37,7 @@ struct LoadsOptions {
   LoadOptions loads;
   BackendOptions backend;
 
-  bool wants_figures() const { return !plots->empty() || !report->empty(); }
+  bool wants_plots() const { return !plots->empty() || !report->empty(); }
 
   void List(options::OptionList& option) {
     option("source", source, "source of the people: " + SourceKinds());
@@ -120,7 +120,7 @@ class Recording {
   // A scene has everybody; only one of them has just moved.
   void AddIfNew(const std::shared_ptr<const SceneState>& scene, const PersonState& person) {
     const auto [found, is_first] =
-        trials_.try_emplace(person.character, options_.wants_figures(), *begin_nanos_);
+        trials_.try_emplace(person.character, options_.wants_plots(), *begin_nanos_);
     LoadTrial& trial = found->second;
     if (!is_first && trial.newest().sample.stamp_nanos == person.sample.stamp_nanos &&
         trial.newest().sample.counter == person.sample.counter) {

@@ -63,7 +63,7 @@ TEST(LoadTrial, ShowsNoMomentOfLoadsThatAreNotKnown) {
   }));
 }
 
-TEST(LoadTrial, KeepsCurvesOnlyWhereFiguresAreWanted) {
+TEST(LoadTrial, KeepsCurvesOnlyWherePlotsAreWanted) {
   LoadTrial without(false, 0), with(true, 0);
   for (int i = 0; i < 10; ++i) {
     AddTo(without, SceneWithRatio(0.01 * i, 0.2));

@@ -1,4 +1,4 @@
-#include "render/plot/figure.h"
+#include "render/plot/plot_drawing.h"
 
 #include <fmt/format.h>
 
@@ -185,31 +185,31 @@ class PanelDrawing {
   Pen& pen_;
 };
 
-void Draw(const Figure& figure, Pen& pen) {
-  for (const PlotPanel& panel : figure.panels) PanelDrawing(panel, pen).Draw();
-  for (const PlotSwatch& swatch : figure.swatches) {
+void Draw(const Plot& plot, Pen& pen) {
+  for (const PlotPanel& panel : plot.panels) PanelDrawing(panel, pen).Draw();
+  for (const PlotSwatch& swatch : plot.swatches) {
     if (swatch.is_hatched) {
       pen.Hatch(swatch.x, swatch.y, swatch.width, swatch.height);
     } else {
       pen.Box(swatch.x, swatch.y, swatch.width, swatch.height, swatch.color);
     }
   }
-  for (const PlotText& text : figure.texts) {
+  for (const PlotText& text : plot.texts) {
     pen.Text(text.x, text.y, text.text, text.size, text.color, Pen::Anchor::kLeft, text.is_bold);
   }
 }
 
 }  // namespace
 
-std::string DrawSvg(const Figure& figure) {
-  const auto pen = Pen::ForSvg(figure.width, figure.height);
-  Draw(figure, *pen);
+std::string DrawSvg(const Plot& plot) {
+  const auto pen = Pen::ForSvg(plot.width, plot.height);
+  Draw(plot, *pen);
   return pen->TakeSvg();
 }
 
-Image DrawImage(const Figure& figure, double px_per_pt) {
-  const auto pen = Pen::ForImage(figure.width, figure.height, px_per_pt);
-  Draw(figure, *pen);
+Image DrawImage(const Plot& plot, double px_per_pt) {
+  const auto pen = Pen::ForImage(plot.width, plot.height, px_per_pt);
+  Draw(plot, *pen);
   return pen->TakeImage();
 }
 

@@ -1,6 +1,6 @@
 // The plots of `kinescope loads`: how many curves, where they break, where the bands lie, and that
 // what is written is XML.
-#include "server/app/loads/load_figures.h"
+#include "server/app/loads/load_plots.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@
 namespace kinescope::app {
 namespace {
 
-using render::Figure;
+using render::Plot;
 using render::PlotBand;
 using render::PlotCurve;
 using render::PlotPanel;
@@ -69,9 +69,9 @@ std::vector<std::pair<double, double>> DrawnParts(const PlotCurve& curve) {
   return parts;
 }
 
-std::vector<std::string> TextsOf(const Figure& figure) {
+std::vector<std::string> TextsOf(const Plot& plot) {
   std::vector<std::string> texts;
-  for (const render::PlotText& text : figure.texts) texts.push_back(text.text);
+  for (const render::PlotText& text : plot.texts) texts.push_back(text.text);
   return texts;
 }
 
@@ -82,32 +82,32 @@ void AddRatios(LoadTrial& trial, double from, double to, double ratio, std::stri
   }
 }
 
-TEST(LoadFigures, AJointHasItsRatioAndItsMomentAboutThreeAxes) {
+TEST(LoadPlots, AJointHasItsRatioAndItsMomentAboutThreeAxes) {
   const LoadTrial trial = TrialOf(ShortLift());
-  const Figure figure = JointFigure(trial, TrialContext(), kElbowIndex);
-  ASSERT_THAT(figure.panels, SizeIs(2));
-  EXPECT_THAT(figure.panels[0].curves, SizeIs(1));
-  EXPECT_THAT(CurveNames(figure.panels[1]), ElementsAre("x, forward", "y, left", "z, up"));
-  EXPECT_NE(figure.panels[1].curves[0].dash, figure.panels[1].curves[1].dash)
+  const Plot plot = JointPlot(trial, TrialContext(), kElbowIndex);
+  ASSERT_THAT(plot.panels, SizeIs(2));
+  EXPECT_THAT(plot.panels[0].curves, SizeIs(1));
+  EXPECT_THAT(CurveNames(plot.panels[1]), ElementsAre("x, forward", "y, left", "z, up"));
+  EXPECT_NE(plot.panels[1].curves[0].dash, plot.panels[1].curves[1].dash)
       << "colour alone does not tell them apart in print";
-  for (const PlotPanel& panel : figure.panels) {
+  for (const PlotPanel& panel : plot.panels) {
     for (const PlotCurve& curve : panel.curves) {
       EXPECT_THAT(curve.points, SizeIs(ShortLift().size()));
     }
   }
   for (std::size_t i = 0; i < ShortLift().size(); ++i) {
     const PersonState& person = ShortLift()[i]->people[0];
-    const auto& [secs, ratio] = figure.panels[0].curves[0].points[i];
+    const auto& [secs, ratio] = plot.panels[0].curves[0].points[i];
     EXPECT_NEAR(secs, Secs(ShortLift()[i]->stamp_nanos - ShortLift()[0]->stamp_nanos), 1e-9);
     EXPECT_NEAR(ratio, person.loads[kElbowIndex].ratio, 1e-6);
   }
 }
 
-TEST(LoadFigures, TheLowBackHasItsCompressionAsWell) {
+TEST(LoadPlots, TheLowBackHasItsCompressionAsWell) {
   const LoadTrial trial = TrialOf(ShortLift());
-  const Figure figure = JointFigure(trial, TrialContext(), kLowBackIndex);
-  ASSERT_THAT(figure.panels, SizeIs(3));
-  const PlotPanel& compression = figure.panels[2];
+  const Plot plot = JointPlot(trial, TrialContext(), kLowBackIndex);
+  ASSERT_THAT(plot.panels, SizeIs(3));
+  const PlotPanel& compression = plot.panels[2];
   EXPECT_EQ(compression.y_label, "compression (kN)");
   ASSERT_THAT(compression.curves, SizeIs(1));
   EXPECT_NEAR(compression.curves[0].points.back().second,
@@ -118,33 +118,33 @@ TEST(LoadFigures, TheLowBackHasItsCompressionAsWell) {
   EXPECT_GT(compression.y_to, 3.4) << "the limit is to be seen";
 }
 
-TEST(LoadFigures, AxesSayWhatAndInWhichUnit) {
+TEST(LoadPlots, AxesSayWhatAndInWhichUnit) {
   const LoadTrial trial = TrialOf(ShortLift());
   for (std::size_t joint = 0; joint < urdf::kScoredJoints.size(); ++joint) {
-    const Figure figure = JointFigure(trial, TrialContext(), joint);
-    EXPECT_EQ(figure.panels[0].y_label, "load ratio");
-    EXPECT_EQ(figure.panels[1].y_label, "moment (N·m)");
-    EXPECT_EQ(figure.panels.back().x_label, "time (s)");
-    EXPECT_TRUE(figure.panels.back().has_x_numbers);
-    for (std::size_t i = 0; i + 1 < figure.panels.size(); ++i) {
-      EXPECT_EQ(figure.panels[i].x_label, "") << "one time axis for all of them";
+    const Plot plot = JointPlot(trial, TrialContext(), joint);
+    EXPECT_EQ(plot.panels[0].y_label, "load ratio");
+    EXPECT_EQ(plot.panels[1].y_label, "moment (N·m)");
+    EXPECT_EQ(plot.panels.back().x_label, "time (s)");
+    EXPECT_TRUE(plot.panels.back().has_x_numbers);
+    for (std::size_t i = 0; i + 1 < plot.panels.size(); ++i) {
+      EXPECT_EQ(plot.panels[i].x_label, "") << "one time axis for all of them";
     }
-    EXPECT_EQ(figure.texts.at(0).text, ScoredLabel(joint));
-    for (const PlotPanel& panel : figure.panels) {
+    EXPECT_EQ(plot.texts.at(0).text, ScoredLabel(joint));
+    for (const PlotPanel& panel : plot.panels) {
       EXPECT_DOUBLE_EQ(panel.x_from, 0);
       EXPECT_NEAR(panel.x_to, 0.25, 1e-6);
-      EXPECT_LE(panel.left + panel.width, figure.width);
-      EXPECT_LE(panel.top + panel.height, figure.height);
+      EXPECT_LE(panel.left + panel.width, plot.width);
+      EXPECT_LE(panel.top + panel.height, plot.height);
     }
   }
 }
 
-TEST(LoadFigures, BandsLieAtTheLimitsOfTheClassesThatWereAskedFor) {
+TEST(LoadPlots, BandsLieAtTheLimitsOfTheClassesThatWereAskedFor) {
   const LoadTrial trial = TrialOf(ShortLift());
   for (const auto& [medium_from, high_from] :
        {std::pair(0.3, 0.6), std::pair(0.1, 0.25), std::pair(2.0, 4.0)}) {
     const TrialContext context = ContextWithLimits(medium_from, high_from);
-    const Figure joint = JointFigure(trial, context, kElbowIndex);
+    const Plot joint = JointPlot(trial, context, kElbowIndex);
     const PlotPanel& panel = joint.panels[0];
     ASSERT_THAT(panel.bands, SizeIs(3));
     EXPECT_EQ(panel.bands[0].from, 0);
@@ -158,7 +158,7 @@ TEST(LoadFigures, BandsLieAtTheLimitsOfTheClassesThatWereAskedFor) {
     EXPECT_EQ(panel.limits[0].y, medium_from);
     EXPECT_EQ(panel.limits[1].y, high_from);
     EXPECT_GT(panel.y_to, high_from) << "all bands are to be seen";
-    for (const PlotPanel& small : OverviewFigure(trial, context).panels) {
+    for (const PlotPanel& small : OverviewPlot(trial, context).panels) {
       if (small.title == "L5/S1 compression (kN)") continue;
       EXPECT_EQ(small.bands.at(1).from, medium_from) << small.title;
       EXPECT_EQ(small.bands.at(2).from, high_from) << small.title;
@@ -166,12 +166,12 @@ TEST(LoadFigures, BandsLieAtTheLimitsOfTheClassesThatWereAskedFor) {
   }
 }
 
-TEST(LoadFigures, BandsHaveAPaleTintOfTheirClass) {
+TEST(LoadPlots, BandsHaveAPaleTintOfTheirClass) {
   const LoadTrial trial = TrialOf(ShortLift());
-  const Figure figure = JointFigure(trial, TrialContext(), kElbowIndex);
+  const Plot plot = JointPlot(trial, TrialContext(), kElbowIndex);
   const LoadClass classes[] = {LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh};
   for (std::size_t i = 0; i < 3; ++i) {
-    const Rgb full = ColorOf(classes[i]), tint = figure.panels[0].bands[i].color;
+    const Rgb full = ColorOf(classes[i]), tint = plot.panels[0].bands[i].color;
     const double depth = (1 - tint[0]) + (1 - tint[1]) + (1 - tint[2]);
     const double full_depth = (1 - full[0]) + (1 - full[1]) + (1 - full[2]);
     EXPECT_LT(depth, 0.3 * full_depth) << "curves stand out from it";
@@ -182,12 +182,12 @@ TEST(LoadFigures, BandsHaveAPaleTintOfTheirClass) {
   }
 }
 
-TEST(LoadFigures, CurvesAreBrokenWhereSamplesAreMissingAndTheGapIsHatched) {
+TEST(LoadPlots, CurvesAreBrokenWhereSamplesAreMissingAndTheGapIsHatched) {
   LoadTrial trial(true, 0);
   AddRatios(trial, 0, 1, 0.2);
   AddRatios(trial, 3, 4, 0.2);
-  const Figure figure = JointFigure(trial, TrialContext(), kElbowIndex);
-  for (const PlotPanel& panel : figure.panels) {
+  const Plot plot = JointPlot(trial, TrialContext(), kElbowIndex);
+  for (const PlotPanel& panel : plot.panels) {
     for (const PlotCurve& curve : panel.curves) {
       const auto parts = DrawnParts(curve);
       ASSERT_THAT(parts, SizeIs(2));
@@ -198,47 +198,47 @@ TEST(LoadFigures, CurvesAreBrokenWhereSamplesAreMissingAndTheGapIsHatched) {
     EXPECT_NEAR(panel.gaps[0].from, 1.5, 1e-9) << "a sample counts for half a second";
     EXPECT_NEAR(panel.gaps[0].to, 3, 1e-9);
   }
-  EXPECT_THAT(TextsOf(figure), ::testing::Contains("unknown: no samples"));
+  EXPECT_THAT(TextsOf(plot), ::testing::Contains("unknown: no samples"));
 }
 
-TEST(LoadFigures, AStepOfLessThanHalfASecondIsNoGap) {
+TEST(LoadPlots, AStepOfLessThanHalfASecondIsNoGap) {
   LoadTrial trial(true, 0);
   AddRatios(trial, 0, 1, 0.2);
   AddRatios(trial, 1.4, 2, 0.2);
-  const Figure figure = JointFigure(trial, TrialContext(), kElbowIndex);
-  EXPECT_THAT(DrawnParts(figure.panels[0].curves[0]), SizeIs(1));
-  EXPECT_THAT(figure.panels[0].gaps, IsEmpty());
-  EXPECT_THAT(TextsOf(figure), Each(::testing::Not(HasSubstr("unknown"))));
+  const Plot plot = JointPlot(trial, TrialContext(), kElbowIndex);
+  EXPECT_THAT(DrawnParts(plot.panels[0].curves[0]), SizeIs(1));
+  EXPECT_THAT(plot.panels[0].gaps, IsEmpty());
+  EXPECT_THAT(TextsOf(plot), Each(::testing::Not(HasSubstr("unknown"))));
 }
 
-TEST(LoadFigures, WhatIsNotKnownIsNotDrawnAndSaysWhy) {
+TEST(LoadPlots, WhatIsNotKnownIsNotDrawnAndSaysWhy) {
   LoadTrial trial(true, 0);
   AddRatios(trial, 0, 1, 0.2);
   AddRatios(trial, 1.01, 2, std::numeric_limits<double>::quiet_NaN(), "no foot contact");
   AddRatios(trial, 2.01, 3, 0.2);
-  const Figure figure = JointFigure(trial, TrialContext(), kElbowIndex);
-  const auto parts = DrawnParts(figure.panels[0].curves[0]);
+  const Plot plot = JointPlot(trial, TrialContext(), kElbowIndex);
+  const auto parts = DrawnParts(plot.panels[0].curves[0]);
   ASSERT_THAT(parts, SizeIs(2));
   EXPECT_NEAR(parts[0].second, 1, 1e-9);
   EXPECT_NEAR(parts[1].first, 2.01, 1e-9);
-  ASSERT_THAT(figure.panels[0].gaps, SizeIs(1));
-  EXPECT_NEAR(figure.panels[0].gaps[0].from, 1.01, 1e-9);
-  EXPECT_THAT(TextsOf(figure), ::testing::Contains("unknown: no foot contact (1.00 s)"));
-  const auto& strip = figure.panels[0].strip;
+  ASSERT_THAT(plot.panels[0].gaps, SizeIs(1));
+  EXPECT_NEAR(plot.panels[0].gaps[0].from, 1.01, 1e-9);
+  EXPECT_THAT(TextsOf(plot), ::testing::Contains("unknown: no foot contact (1.00 s)"));
+  const auto& strip = plot.panels[0].strip;
   ASSERT_THAT(strip, SizeIs(3));
   EXPECT_EQ(strip[0].load_class, LoadClass::kLow);
   EXPECT_EQ(strip[1].load_class, LoadClass::kUnknown);
   EXPECT_EQ(strip[2].load_class, LoadClass::kLow);
 }
 
-TEST(LoadFigures, MarkThePeakAndLeaveRoomAboveIt) {
+TEST(LoadPlots, MarkThePeakAndLeaveRoomAboveIt) {
   LoadTrial trial(true, 0);
   AddRatios(trial, 0, 1, 0.2);
   SceneState peak = SceneWithRatio(1.01, 1.7);
   peak.people[0].loads[kElbowIndex].channel = "flexion";
   AddTo(trial, peak);
   AddRatios(trial, 1.02, 2, 0.2);
-  const PlotPanel panel = JointFigure(trial, TrialContext(), kElbowIndex).panels[0];
+  const PlotPanel panel = JointPlot(trial, TrialContext(), kElbowIndex).panels[0];
   ASSERT_THAT(panel.marks, SizeIs(1));
   EXPECT_NEAR(panel.marks[0].x, 1.01, 1e-9);
   EXPECT_NEAR(panel.marks[0].y, 1.7, 1e-9);
@@ -246,36 +246,35 @@ TEST(LoadFigures, MarkThePeakAndLeaveRoomAboveIt) {
   EXPECT_GT(panel.y_to, 1.7);
 }
 
-TEST(LoadFigures, OneSampleIsAFigureToo) {
+TEST(LoadPlots, OneSampleIsAPlotToo) {
   LoadTrial trial(true, 0);
   AddTo(trial, SceneWithRatio(0, 0.2));
-  EXPECT_THAT(render::ToSvg(JointFigure(trial, TrialContext(), kLowBackIndex)),
-              HasSubstr("</svg>"));
-  EXPECT_THAT(render::ToSvg(OverviewFigure(trial, TrialContext())), HasSubstr("</svg>"));
+  EXPECT_THAT(render::ToSvg(JointPlot(trial, TrialContext(), kLowBackIndex)), HasSubstr("</svg>"));
+  EXPECT_THAT(render::ToSvg(OverviewPlot(trial, TrialContext())), HasSubstr("</svg>"));
 }
 
-TEST(LoadFigures, TheOverviewHasEveryJointOnceOnOneScale) {
+TEST(LoadPlots, TheOverviewHasEveryJointOnceOnOneScale) {
   const LoadTrial trial = TrialOf(ShortLift());
-  const Figure figure = OverviewFigure(trial, TrialContext());
-  ASSERT_THAT(figure.panels, SizeIs(16));
+  const Plot plot = OverviewPlot(trial, TrialContext());
+  ASSERT_THAT(plot.panels, SizeIs(16));
   std::vector<std::string> titles, labels;
-  for (const PlotPanel& panel : figure.panels) {
+  for (const PlotPanel& panel : plot.panels) {
     titles.push_back(panel.title);
     EXPECT_THAT(panel.curves, SizeIs(1)) << panel.title;
     if (panel.title != "L5/S1 compression (kN)") {
-      EXPECT_EQ(panel.y_to, figure.panels[0].y_to) << panel.title;
+      EXPECT_EQ(panel.y_to, plot.panels[0].y_to) << panel.title;
     }
   }
   for (std::size_t i = 0; i < 15; ++i) labels.emplace_back(ScoredLabel(i));
   labels.emplace_back("L5/S1 compression (kN)");
   EXPECT_THAT(titles, ::testing::UnorderedElementsAreArray(labels));
-  EXPECT_EQ(std::count_if(figure.panels.begin(), figure.panels.end(),
+  EXPECT_EQ(std::count_if(plot.panels.begin(), plot.panels.end(),
                           [](const PlotPanel& panel) { return panel.x_label == "time (s)"; }),
             4);
 }
 
 // Through the parser that urdfdom's input goes through.
-TEST(LoadFigures, SvgIsXmlWhateverThePersonAndTheFileAreCalled) {
+TEST(LoadPlots, SvgIsXmlWhateverThePersonAndTheFileAreCalled) {
   testing::Scenes scenes = ShortLift();
   auto named = std::make_shared<SceneState>(*scenes.back());
   named->people[0].name = "<b>\"Anna\" & Bob\x01\x1b \xFF\xC0 ]]>";
@@ -283,17 +282,16 @@ TEST(LoadFigures, SvgIsXmlWhateverThePersonAndTheFileAreCalled) {
   const LoadTrial trial = TrialOf(scenes);
   TrialContext context;
   context.source = "a<b>&\"c\x02\xFE.mvnx";
-  for (const Figure& figure :
-       {JointFigure(trial, context, kElbowIndex), OverviewFigure(trial, context)}) {
-    const urdf::XmlOutline svg = urdf::ReadOutline(render::ToSvg(figure));
+  for (const Plot& plot : {JointPlot(trial, context, kElbowIndex), OverviewPlot(trial, context)}) {
+    const urdf::XmlOutline svg = urdf::ReadOutline(render::ToSvg(plot));
     EXPECT_EQ(svg[0].tag, "svg");
     ASSERT_NE(svg[0].Attribute("width"), nullptr);
-    EXPECT_EQ(std::stod(*svg[0].Attribute("width")), figure.width);
+    EXPECT_EQ(std::stod(*svg[0].Attribute("width")), plot.width);
   }
 }
 
 // The curves arrive in the file as paths: the whole line of x, the dashed one of y, the dots of z.
-TEST(LoadFigures, SvgHasAPathForEveryCurve) {
+TEST(LoadPlots, SvgHasAPathForEveryCurve) {
   const LoadTrial trial = TrialOf(ShortLift());
   const auto paths_with = [](const std::string& svg, const std::string& dash) {
     const urdf::XmlOutline outline = urdf::ReadOutline(svg);
@@ -305,7 +303,7 @@ TEST(LoadFigures, SvgHasAPathForEveryCurve) {
               (style != nullptr && style->find("stroke-dasharray:" + dash) != std::string::npos));
     });
   };
-  const std::string svg = render::ToSvg(JointFigure(trial, TrialContext(), kElbowIndex));
+  const std::string svg = render::ToSvg(JointPlot(trial, TrialContext(), kElbowIndex));
   EXPECT_EQ(paths_with(svg, "5"), 2) << "y: the curve and its sample in the legend";
   EXPECT_EQ(paths_with(svg, "1.2"), 2) << "z, likewise";
   EXPECT_EQ(paths_with(svg, "3"), 2) << "the limits of the classes";
@@ -323,7 +321,7 @@ std::string WritePlotsError(const LoadTrial& trial, const std::filesystem::path&
   return "";
 }
 
-TEST(LoadFigures, NameTheFileAndTheReasonWhenTheDiskIsFull) {
+TEST(LoadPlots, NameTheFileAndTheReasonWhenTheDiskIsFull) {
   const TempFolder folder;
   const testing::SmallFilesOnly full(1000);
   EXPECT_THAT(WritePlotsError<std::runtime_error>(TrialOf(ShortLift()), folder / "plots"),
@@ -332,7 +330,7 @@ TEST(LoadFigures, NameTheFileAndTheReasonWhenTheDiskIsFull) {
   EXPECT_THAT(std::filesystem::is_empty(folder / "plots"), true);
 }
 
-TEST(LoadFigures, NameTheFolderThatCannotBeMade) {
+TEST(LoadPlots, NameTheFolderThatCannotBeMade) {
   const TempFolder folder;
   std::ofstream(folder / "file") << "not a folder";
   const auto inside = folder / "file" / "plots";

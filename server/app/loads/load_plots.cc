@@ -1,4 +1,4 @@
-#include "server/app/loads/load_figures.h"
+#include "server/app/loads/load_plots.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 namespace kinescope::app {
 namespace {
 
-using render::Figure;
+using render::Plot;
 using render::PlotBand;
 using render::PlotCurve;
 using render::PlotPanel;
@@ -181,26 +181,25 @@ std::string Described(const LoadTrial& trial, const TrialContext& context) {
   return text;
 }
 
-void AddReasons(const LoadTrial& trial, std::size_t joint, double x, double y, Figure& figure) {
+void AddReasons(const LoadTrial& trial, std::size_t joint, double x, double y, Plot& plot) {
   std::string text;
   for (const auto& [why, secs] : trial.why_unknown(joint)) {
     text += fmt::format("{}{} ({:.2f} s)", text.empty() ? "" : "; ", why, secs);
   }
-  if (text.empty() && figure.panels[0].gaps.empty()) return;
-  figure.swatches.push_back({x, y - 7, 14, 8, {}, true});
-  figure.texts.push_back({x + 19, y,
-                          "unknown: " + (text.empty() ? std::string("no samples") : text), 7.5,
-                          false, kFaint});
+  if (text.empty() && plot.panels[0].gaps.empty()) return;
+  plot.swatches.push_back({x, y - 7, 14, 8, {}, true});
+  plot.texts.push_back({x + 19, y, "unknown: " + (text.empty() ? std::string("no samples") : text),
+                        7.5, false, kFaint});
 }
 
 }  // namespace
 
-Figure JointFigure(const LoadTrial& trial, const TrialContext& context, std::size_t joint) {
+Plot JointPlot(const LoadTrial& trial, const TrialContext& context, std::size_t joint) {
   constexpr double kLeft = 50, kWidth = 352;
-  Figure figure;
-  figure.width = 480;
-  figure.texts = {{kLeft, 20, std::string(ScoredLabel(joint)), 12, true, kInk},
-                  {kLeft, 33, Described(trial, context), 7.5, false, kFaint}};
+  Plot plot;
+  plot.width = 480;
+  plot.texts = {{kLeft, 20, std::string(ScoredLabel(joint)), 12, true, kInk},
+                {kLeft, 33, Described(trial, context), 7.5, false, kFaint}};
 
   PlotPanel ratio;
   ratio.left = kLeft;
@@ -216,7 +215,7 @@ Figure JointFigure(const LoadTrial& trial, const TrialContext& context, std::siz
     ratio.marks.push_back({trial.SecsOf(exposure.peak_stamp_nanos), exposure.peak_ratio,
                            fmt::format("{:.2f} {}", exposure.peak_ratio, exposure.peak_channel)});
   }
-  figure.panels.push_back(std::move(ratio));
+  plot.panels.push_back(std::move(ratio));
 
   double bottom = 44 + 130 + 12;
   const auto add = [&](PlotPanel panel) {
@@ -225,9 +224,9 @@ Figure JointFigure(const LoadTrial& trial, const TrialContext& context, std::siz
     panel.top = bottom + 22;
     panel.height = 76;
     panel.has_x_numbers = false;
-    panel.gaps = figure.panels[0].gaps;
+    panel.gaps = plot.panels[0].gaps;
     bottom = panel.top + panel.height;
-    figure.panels.push_back(std::move(panel));
+    plot.panels.push_back(std::move(panel));
   };
   add(MomentPanel(trial, joint));
   if (joint == 0) {
@@ -235,14 +234,14 @@ Figure JointFigure(const LoadTrial& trial, const TrialContext& context, std::siz
     compression.y_label = "compression (kN)";
     add(std::move(compression));
   }
-  figure.panels.back().has_x_numbers = true;
-  figure.panels.back().x_label = "time (s)";
-  AddReasons(trial, joint, kLeft, bottom + 38, figure);
-  figure.height = bottom + 46;
-  return figure;
+  plot.panels.back().has_x_numbers = true;
+  plot.panels.back().x_label = "time (s)";
+  AddReasons(trial, joint, kLeft, bottom + 38, plot);
+  plot.height = bottom + 46;
+  return plot;
 }
 
-Figure OverviewFigure(const LoadTrial& trial, const TrialContext& context) {
+Plot OverviewPlot(const LoadTrial& trial, const TrialContext& context) {
   // By rows; 15: the compression.
   constexpr std::array<std::size_t, 16> kOrder = {0, 1, 2, 15, 3,  4,  5,  6,
                                                   7, 8, 9, 10, 11, 12, 13, 14};
@@ -253,9 +252,9 @@ Figure OverviewFigure(const LoadTrial& trial, const TrialContext& context) {
     const double of = trial.exposure().Of(i).peak_ratio;
     if (std::isfinite(of)) peak = std::max(peak, of);
   }
-  Figure figure;
-  figure.width = 4 * kCellWidth + 3;
-  figure.height = 4 * kCellHeight + 21;
+  Plot plot;
+  plot.width = 4 * kCellWidth + 3;
+  plot.height = 4 * kCellHeight + 21;
   for (std::size_t cell = 0; cell < kOrder.size(); ++cell) {
     const std::size_t joint = kOrder[cell];
     const bool is_compression = joint == urdf::kScoredJoints.size();
@@ -263,7 +262,7 @@ Figure OverviewFigure(const LoadTrial& trial, const TrialContext& context) {
     if (is_compression) {
       panel = CompressionPanel(trial);
       panel.title = "L5/S1 compression (kN)";
-      panel.gaps = figure.panels[0].gaps;
+      panel.gaps = plot.panels[0].gaps;
     } else {
       SetRatio(trial, context, joint, panel);
       panel.title = ScoredLabel(joint);
@@ -279,9 +278,9 @@ Figure OverviewFigure(const LoadTrial& trial, const TrialContext& context) {
     panel.has_x_numbers = row == 3;
     panel.has_y_numbers = column == 0 || is_compression;
     if (row == 3) panel.x_label = "time (s)";
-    figure.panels.push_back(std::move(panel));
+    plot.panels.push_back(std::move(panel));
   }
-  return figure;
+  return plot;
 }
 
 void WritePlots(const std::map<int, LoadTrial>& trials, const TrialContext& context,
@@ -296,11 +295,10 @@ void WritePlots(const std::map<int, LoadTrial>& trials, const TrialContext& cont
     const std::string person = trials.size() > 1 ? fmt::format("person_{}_", character) : "";
     for (std::size_t joint = 0; joint < urdf::kScoredJoints.size(); ++joint) {
       if (StopRequested()) throw std::runtime_error("interrupted; not all plots were written");
-      const Figure figure = JointFigure(trial, context, joint);
+      const Plot plot = JointPlot(trial, context, joint);
       const auto stem = folder / (person + std::string(ScoredName(joint)));
-      render::WriteNewFile(stem.string() + ".svg", render::ToSvg(figure));
-      render::WritePng(stem.string() + ".png",
-                       render::ToImage(figure, kDotsPerInch / kPointsPerInch),
+      render::WriteNewFile(stem.string() + ".svg", render::ToSvg(plot));
+      render::WritePng(stem.string() + ".png", render::ToImage(plot, kDotsPerInch / kPointsPerInch),
                        {{"Software", "Kinescope " KINESCOPE_VERSION}, {"Source", context.source}});
     }
   }

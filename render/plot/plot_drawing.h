@@ -1,4 +1,4 @@
-/// Draws a figure from its description with a Pen. One thread per figure.
+/// Draws a plot from its description with a Pen. One thread per plot.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 namespace kinescope::render::plot {
 
 // As render::ToSvg and render::ToImage.
-std::string DrawSvg(const Figure& figure);
-Image DrawImage(const Figure& figure, double px_per_pt);
+std::string DrawSvg(const Plot& plot);
+Image DrawImage(const Plot& plot, double px_per_pt);
 
 }  // namespace kinescope::render::plot
