@@ -83,7 +83,7 @@ class LayerPainter : public Painter {
 std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, LayerFormat format);
 
 struct PlotModule {
-  ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotStretch, PlotMark,
+  ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotClassInterval, PlotMark,
             PlotSwatch, PlotText, Image, Ink, Tile, Font, Glyph>
       abi;
   std::string (*svg)(const Plot& plot);

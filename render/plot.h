@@ -40,8 +40,8 @@ struct PlotGap {
   double from = 0, to = 0;
 };
 
-/// A range of x in the strip below the curves. Colour and height show the class.
-struct PlotStretch {
+/// A range of x in the class timeline below the curves. Colour and height show the class.
+struct PlotClassInterval {
   double from = 0, to = 0;
   LoadClass load_class = LoadClass::kUnknown;
 };
@@ -61,7 +61,7 @@ struct PlotPanel {
   std::vector<PlotGap> gaps;
   std::vector<PlotLimit> limits;
   std::vector<PlotCurve> curves;
-  std::vector<PlotStretch> strip;
+  std::vector<PlotClassInterval> class_timeline;
   std::vector<PlotMark> marks;
   double font_size = 8;
 };

@@ -12,7 +12,7 @@ namespace kinescope::render::plot {
 namespace {
 
 constexpr Rgb kInk = {0.13, 0.15, 0.19}, kFaint = {0.38, 0.41, 0.46}, kGrid = {0.88, 0.89, 0.91};
-constexpr double kStripHeight = 9, kStripGap = 2.5, kTick = 2.5;  // pt
+constexpr double kTimelineHeight = 9, kTimelineGap = 2.5, kTick = 2.5;  // pt
 
 // So many decimals as tell neighbours apart, and no "-0".
 std::string TickText(double value, double step) {
@@ -39,7 +39,7 @@ class PanelDrawing {
     Ground();
     Limits();
     Curves();
-    Strip();
+    ClassTimeline();
     Axes();
     Legend();
     Marks();
@@ -49,8 +49,10 @@ class PanelDrawing {
   double X(double x) const { return p_.left + (x - p_.x_from) / (p_.x_to - p_.x_from) * p_.width; }
   double Y(double y) const { return p_.top + (p_.y_to - y) / (p_.y_to - p_.y_from) * p_.height; }
   double bottom() const { return p_.top + p_.height; }
-  double strip_top() const { return bottom() + kStripGap; }
-  double axis_bottom() const { return p_.strip.empty() ? bottom() : strip_top() + kStripHeight; }
+  double timeline_top() const { return bottom() + kTimelineGap; }
+  double axis_bottom() const {
+    return p_.class_timeline.empty() ? bottom() : timeline_top() + kTimelineHeight;
+  }
 
   void Ground() {
     for (const PlotBand& band : p_.bands) {
@@ -101,21 +103,21 @@ class PanelDrawing {
     pen_.Unclip();
   }
 
-  void Strip() {
+  void ClassTimeline() {
     constexpr double kWide = 200;  // pt; small panels have no room for it
-    if (!p_.strip.empty() && p_.width > kWide) {
-      pen_.Text(p_.left - kTick - 2, strip_top() + kStripHeight - 1.5, "class", p_.font_size, kInk,
-                Pen::Anchor::kRight);
+    if (!p_.class_timeline.empty() && p_.width > kWide) {
+      pen_.Text(p_.left - kTick - 2, timeline_top() + kTimelineHeight - 1.5, "class", p_.font_size,
+                kInk, Pen::Anchor::kRight);
     }
-    for (const PlotStretch& stretch : p_.strip) {
-      const double from = X(stretch.from), width = std::max(0.3, X(stretch.to) - from);
-      if (stretch.load_class == LoadClass::kUnknown) {
-        pen_.Hatch(from, strip_top(), width, kStripHeight);
+    for (const PlotClassInterval& interval : p_.class_timeline) {
+      const double from = X(interval.from), width = std::max(0.3, X(interval.to) - from);
+      if (interval.load_class == LoadClass::kUnknown) {
+        pen_.Hatch(from, timeline_top(), width, kTimelineHeight);
         continue;
       }
-      const double height = kStripHeight * static_cast<double>(stretch.load_class) / 3;
-      pen_.Box(from, strip_top() + kStripHeight - height, width, height,
-               ColorOf(stretch.load_class));
+      const double height = kTimelineHeight * static_cast<double>(interval.load_class) / 3;
+      pen_.Box(from, timeline_top() + kTimelineHeight - height, width, height,
+               ColorOf(interval.load_class));
     }
   }
 

@@ -21,7 +21,7 @@ struct TableWithAnotherImage {
   struct LargerImage : Image {
     int depth = 0;
   };
-  ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotStretch, PlotMark,
+  ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotClassInterval, PlotMark,
             PlotSwatch, PlotText, LargerImage, Ink, Tile, Font, Glyph>
       abi;
 };

@@ -55,7 +55,7 @@ Plot OnePanel() {
   panel.width = 70;
   panel.height = 40;
   panel.bands = {{0, 0.5, {1, 0, 0}, ""}, {0.5, 1e9, {0, 0, 1}, ""}};
-  panel.strip = {{0, 0.5, LoadClass::kHigh}, {0.5, 1, LoadClass::kLow}};
+  panel.class_timeline = {{0, 0.5, LoadClass::kHigh}, {0.5, 1, LoadClass::kLow}};
   plot.panels.push_back(panel);
   return plot;
 }
@@ -74,17 +74,17 @@ TEST(Plot, DrawsBandsAndClassesWhereTheyBelong) {
   EXPECT_THAT(PixelAt(image, 50, 20, 4), ElementsAre(0, 0, 255));    // y 0.75
   EXPECT_THAT(PixelAt(image, 50, 40, 4), ElementsAre(255, 0, 0));    // y 0.25
   EXPECT_THAT(PixelAt(image, 2, 2, 4), ElementsAre(255, 255, 255));  // outside
-  // The strip: high fills it, low a third of it.
+  // The class timeline: high fills it, low a third of it.
   const Rgb high = ColorOf(LoadClass::kHigh), low = ColorOf(LoadClass::kLow);
   const auto levels = [](const Rgb& color) {
     std::vector<double> all;
     for (const double channel : color) all.push_back(255 * channel);
     return all;
   };
-  const double top_of_strip = 10 + 40 + 3.5, foot_of_strip = 10 + 40 + 10;
-  EXPECT_THAT(PixelAt(image, 30, top_of_strip, 4), Pointwise(DoubleNear(1), levels(high)));
-  EXPECT_THAT(PixelAt(image, 80, top_of_strip, 4), ElementsAre(255, 255, 255));
-  EXPECT_THAT(PixelAt(image, 80, foot_of_strip, 4), Pointwise(DoubleNear(1), levels(low)));
+  const double top_of_timeline = 10 + 40 + 3.5, foot_of_timeline = 10 + 40 + 10;
+  EXPECT_THAT(PixelAt(image, 30, top_of_timeline, 4), Pointwise(DoubleNear(1), levels(high)));
+  EXPECT_THAT(PixelAt(image, 80, top_of_timeline, 4), ElementsAre(255, 255, 255));
+  EXPECT_THAT(PixelAt(image, 80, foot_of_timeline, 4), Pointwise(DoubleNear(1), levels(low)));
 }
 
 TEST(Plot, IsTheSameEveryTimeInBothFormats) {

@@ -57,14 +57,14 @@ Points CurveOf(const LoadTrial& trial, Value&& value) {
   return points;
 }
 
-// Stretches of one class; what lies between samples far apart is unknown.
-std::vector<render::PlotStretch> StripOf(const LoadTrial& trial, std::size_t joint) {
-  std::vector<render::PlotStretch> strip;
+// Intervals of one class. The time between samples that are far apart is unknown.
+std::vector<render::PlotClassInterval> ClassTimelineOf(const LoadTrial& trial, std::size_t joint) {
+  std::vector<render::PlotClassInterval> timeline;
   const auto add = [&](double from, double to, LoadClass load_class) {
-    if (!strip.empty() && strip.back().load_class == load_class) {
-      strip.back().to = to;
+    if (!timeline.empty() && timeline.back().load_class == load_class) {
+      timeline.back().to = to;
     } else {
-      strip.push_back({from, to, load_class});
+      timeline.push_back({from, to, load_class});
     }
   };
   const std::vector<TrialSample>& samples = trial.curves();
@@ -76,7 +76,7 @@ std::vector<render::PlotStretch> StripOf(const LoadTrial& trial, std::size_t joi
     add(from, to, samples[i].joints[joint].load_class);
     if (to < next) add(to, next, LoadClass::kUnknown);
   }
-  return strip;
+  return timeline;
 }
 
 void SetRatio(const LoadTrial& trial, const TrialContext& context, std::size_t joint,
@@ -95,10 +95,10 @@ void SetRatio(const LoadTrial& trial, const TrialContext& context, std::size_t j
     return of.load_class == LoadClass::kUnknown ? kNoValue : static_cast<double>(of.ratio);
   });
   panel.curves = {std::move(curve)};
-  panel.strip = StripOf(trial, joint);
-  for (const render::PlotStretch& stretch : panel.strip) {
-    if (stretch.load_class != LoadClass::kUnknown) continue;
-    panel.gaps.push_back({stretch.from, stretch.to});
+  panel.class_timeline = ClassTimelineOf(trial, joint);
+  for (const render::PlotClassInterval& interval : panel.class_timeline) {
+    if (interval.load_class != LoadClass::kUnknown) continue;
+    panel.gaps.push_back({interval.from, interval.to});
   }
 }
 

@@ -224,11 +224,11 @@ TEST(LoadPlots, WhatIsNotKnownIsNotDrawnAndSaysWhy) {
   ASSERT_THAT(plot.panels[0].gaps, SizeIs(1));
   EXPECT_NEAR(plot.panels[0].gaps[0].from, 1.01, 1e-9);
   EXPECT_THAT(TextsOf(plot), ::testing::Contains("unknown: no foot contact (1.00 s)"));
-  const auto& strip = plot.panels[0].strip;
-  ASSERT_THAT(strip, SizeIs(3));
-  EXPECT_EQ(strip[0].load_class, LoadClass::kLow);
-  EXPECT_EQ(strip[1].load_class, LoadClass::kUnknown);
-  EXPECT_EQ(strip[2].load_class, LoadClass::kLow);
+  const auto& timeline = plot.panels[0].class_timeline;
+  ASSERT_THAT(timeline, SizeIs(3));
+  EXPECT_EQ(timeline[0].load_class, LoadClass::kLow);
+  EXPECT_EQ(timeline[1].load_class, LoadClass::kUnknown);
+  EXPECT_EQ(timeline[2].load_class, LoadClass::kLow);
 }
 
 TEST(LoadPlots, MarkThePeakAndLeaveRoomAboveIt) {
