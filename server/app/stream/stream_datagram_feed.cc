@@ -40,7 +40,7 @@ class DatagramFeed final : public Feed, private mvn::DatagramSink {
  private:
   // One character's counting, so that it can go on in the next round.
   struct Track {
-    Thinner thinner;
+    Decimator decimator;
     std::uint64_t samples = 0;  // of this round
     std::uint32_t first_counter = 0;
     std::uint32_t newest_counter = 0;
@@ -64,8 +64,8 @@ class DatagramFeed final : public Feed, private mvn::DatagramSink {
     if (mvn::BelongsToSample(header->type)) {
       Track& track = tracks_[header->character];
       begins_sample = Follow(*header, track);
-      if (!track.thinner.Keeps(settings_.stream_hz, header->sample_counter,
-                               header->time_code_millis * kNanosPerMilli, kNanosPerMilli)) {
+      if (!track.decimator.Keeps(settings_.stream_hz, header->sample_counter,
+                                 header->time_code_millis * kNanosPerMilli, kNanosPerMilli)) {
         return;
       }
       if (is_repeated_) {

@@ -17,8 +17,8 @@ std::optional<int> CopyIds::Find(int character, int copy) {
   return id;
 }
 
-bool Thinner::Keeps(double stream_hz, std::uint32_t counter, std::int64_t time_nanos,
-                    std::int64_t clock_step_nanos) {
+bool Decimator::Keeps(double stream_hz, std::uint32_t counter, std::int64_t time_nanos,
+                      std::int64_t clock_step_nanos) {
   constexpr std::size_t kRemembered = 8;
   if (stream_hz == 0) return true;
   for (const Decision& decision : latest_) {

@@ -83,7 +83,7 @@ class CopyIds {
 
 /// Selects the samples of one character for a slower stream: one per period of `stream_hz`, as
 /// evenly as the samples allow.
-class Thinner {
+class Decimator {
  public:
   /// Whether to keep the sample `counter`, taken at `time_nanos` on the sender's clock. All
   /// datagrams of a sample get the same answer, also out of order. `clock_step_nanos`: resolution

@@ -60,7 +60,7 @@ class SampleFeed final : public Feed, private SampleSink {
     Character character;
     bool is_described = false;          // by the source
     std::int64_t described_nanos = -1;  // when it was sent last; -1: it has changed since
-    Thinner thinner;
+    Decimator decimator;
     std::uint64_t samples = 0;  // of this round
     std::uint32_t newest_counter = 0;
     std::uint32_t counter_offset = 0;
@@ -108,7 +108,8 @@ class SampleFeed final : public Feed, private SampleSink {
     if (is_repeated_) sample.time_code_millis = track.time_code_base + played_millis;
     sample.stamp_nanos = last_played_;
     track.newest_counter = sample.counter;
-    if (!track.thinner.Keeps(settings_.stream_hz, sample.counter, last_played_, kClockStepNanos)) {
+    if (!track.decimator.Keeps(settings_.stream_hz, sample.counter, last_played_,
+                               kClockStepNanos)) {
       return;
     }
     add_more(track, sample);

@@ -40,29 +40,30 @@ TEST(CopyIds, EndWhereAHeaderCannotTellMoreApart) {
 }
 
 // Counters of the samples that are kept of `count` at `rate_hz`, as a clock of `step_nanos` tells.
-std::vector<std::uint32_t> KeptOf(Thinner& thinner, double stream_hz, double rate_hz,
+std::vector<std::uint32_t> KeptOf(Decimator& decimator, double stream_hz, double rate_hz,
                                   std::uint32_t count, std::int64_t step_nanos) {
   std::vector<std::uint32_t> kept;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto exact = static_cast<std::int64_t>(i * 1e9 / rate_hz);
-    if (thinner.Keeps(stream_hz, i, exact / step_nanos * step_nanos, step_nanos)) kept.push_back(i);
+    if (decimator.Keeps(stream_hz, i, exact / step_nanos * step_nanos, step_nanos))
+      kept.push_back(i);
   }
   return kept;
 }
 
-TEST(Thinner, KeepsAllUnlessASlowerStreamIsAskedFor) {
-  Thinner thinner;
-  EXPECT_EQ(KeptOf(thinner, 0, 240, 100, kFeedMilli).size(), 100U);
-  EXPECT_EQ(KeptOf(thinner, 0, 240, 100, kFeedMilli).size(), 100U) << "even the same ones";
+TEST(Decimator, KeepsAllUnlessASlowerStreamIsAskedFor) {
+  Decimator decimator;
+  EXPECT_EQ(KeptOf(decimator, 0, 240, 100, kFeedMilli).size(), 100U);
+  EXPECT_EQ(KeptOf(decimator, 0, 240, 100, kFeedMilli).size(), 100U) << "even the same ones";
 }
 
-TEST(Thinner, KeepsOneInEachPeriodAsEvenlyAsFramesAllow) {
+TEST(Decimator, KeepsOneInEachPeriodAsEvenlyAsFramesAllow) {
   for (const auto& [stream_hz, rate_hz] :
        {std::pair(60.0, 240.0), std::pair(30.0, 60.0), std::pair(25.0, 240.0),
         std::pair(100.0, 240.0), std::pair(59.0, 60.0)}) {
-    Thinner thinner;
+    Decimator decimator;
     const std::uint32_t count = static_cast<std::uint32_t>(10 * rate_hz);
-    const auto kept = KeptOf(thinner, stream_hz, rate_hz, count, kFeedMilli);
+    const auto kept = KeptOf(decimator, stream_hz, rate_hz, count, kFeedMilli);
     EXPECT_NEAR(static_cast<double>(kept.size()), 10 * stream_hz, 1) << stream_hz;
     EXPECT_EQ(kept.front(), 0U);
     const double apart = rate_hz / stream_hz;
@@ -73,30 +74,30 @@ TEST(Thinner, KeepsOneInEachPeriodAsEvenlyAsFramesAllow) {
   }
 }
 
-TEST(Thinner, AStreamFasterThanTheSourceIsTheSource) {
-  Thinner thinner;
-  EXPECT_EQ(KeptOf(thinner, 480, 60, 100, kFeedMilli).size(), 100U);
+TEST(Decimator, AStreamFasterThanTheSourceIsTheSource) {
+  Decimator decimator;
+  EXPECT_EQ(KeptOf(decimator, 480, 60, 100, kFeedMilli).size(), 100U);
 }
 
-TEST(Thinner, EveryDatagramOfASampleGetsTheSameAnswerAlsoOutOfOrder) {
-  Thinner thinner;
+TEST(Decimator, EveryDatagramOfASampleGetsTheSameAnswerAlsoOutOfOrder) {
+  Decimator decimator;
   std::vector<bool> first;
   for (std::uint32_t i = 0; i < 8; ++i)
-    first.push_back(thinner.Keeps(60, i, i * 4 * kFeedMilli, kFeedMilli));
+    first.push_back(decimator.Keeps(60, i, i * 4 * kFeedMilli, kFeedMilli));
   EXPECT_TRUE(std::find(first.begin(), first.end(), false) != first.end());
   EXPECT_TRUE(std::find(first.begin(), first.end(), true) != first.end());
   for (const std::uint32_t i : {7U, 2U, 5U, 0U, 1U, 6U, 3U, 4U}) {
-    EXPECT_EQ(thinner.Keeps(60, i, i * 4 * kFeedMilli, kFeedMilli), first[i]) << i;
+    EXPECT_EQ(decimator.Keeps(60, i, i * 4 * kFeedMilli, kFeedMilli), first[i]) << i;
   }
 }
 
 // Frames at 240 Hz whose time code is in whole 10 ms: several have the same time.
-TEST(Thinner, WhereTheClockStandsStillWhatWasDecidedHolds) {
-  Thinner thinner;
-  EXPECT_TRUE(thinner.Keeps(60, 0, 0, kFeedMilli));
-  for (std::uint32_t i = 1; i < 20; ++i) EXPECT_TRUE(thinner.Keeps(60, i, 0, kFeedMilli));
-  EXPECT_FALSE(thinner.Keeps(60, 20, 4 * kFeedMilli, kFeedMilli));
-  EXPECT_FALSE(thinner.Keeps(60, 21, 4 * kFeedMilli, kFeedMilli));
+TEST(Decimator, WhereTheClockStandsStillWhatWasDecidedHolds) {
+  Decimator decimator;
+  EXPECT_TRUE(decimator.Keeps(60, 0, 0, kFeedMilli));
+  for (std::uint32_t i = 1; i < 20; ++i) EXPECT_TRUE(decimator.Keeps(60, i, 0, kFeedMilli));
+  EXPECT_FALSE(decimator.Keeps(60, 20, 4 * kFeedMilli, kFeedMilli));
+  EXPECT_FALSE(decimator.Keeps(60, 21, 4 * kFeedMilli, kFeedMilli));
 }
 
 }  // namespace
