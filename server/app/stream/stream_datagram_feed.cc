@@ -130,7 +130,7 @@ class DatagramFeed final : public Feed, private mvn::DatagramSink {
 
   const FeedSettings settings_;
   std::unique_ptr<mvn::DatagramSource> source_;
-  CopyIds ids_;
+  CharacterIds ids_;
   std::map<int, Track> tracks_;               // by the sender's id
   std::vector<FeedDatagram>* out_ = nullptr;  // during Read
   bool is_begun_ = false;                     // this round

@@ -8,7 +8,7 @@
 
 namespace kinescope::app {
 
-std::optional<int> CopyIds::Find(int character, int copy) {
+std::optional<int> CharacterIds::Find(int character, int copy) {
   constexpr int kMostIds = 256;  // one byte
   if (copies_ == 1) return character;
   const auto first = first_.try_emplace(character, copies_ * static_cast<int>(first_.size())).first;

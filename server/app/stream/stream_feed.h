@@ -69,9 +69,9 @@ std::unique_ptr<Feed> MakeDatagramFeed(const FeedSettings& settings,
 
 /// Assigns the character ids of copies: 0 to `copies` - 1 for the first character, then the next
 /// ones. Without copies every character keeps its id.
-class CopyIds {
+class CharacterIds {
  public:
-  explicit CopyIds(int copies) : copies_(copies) {}
+  explicit CharacterIds(int copies) : copies_(copies) {}
 
   /// nullopt if there are more characters than a header can distinguish.
   std::optional<int> Find(int character, int copy);

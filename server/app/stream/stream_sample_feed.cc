@@ -177,7 +177,7 @@ class SampleFeed final : public Feed, private SampleSink {
   const FeedSettings settings_;
   const mvn::TypeSet types_;
   std::unique_ptr<Source> source_;
-  CopyIds ids_;
+  CharacterIds ids_;
   const std::int64_t start_wall_;
   std::map<int, Track> tracks_;               // by the source's id
   std::vector<FeedDatagram>* out_ = nullptr;  // during Read

@@ -11,13 +11,13 @@ namespace {
 
 constexpr std::int64_t kFeedMilli = 1'000'000;
 
-TEST(CopyIds, EverybodyKeepsTheirOwnWithoutCopies) {
-  CopyIds ids(1);
+TEST(CharacterIds, EverybodyKeepsTheirOwnWithoutCopies) {
+  CharacterIds ids(1);
   for (const int character : {0, 7, 255, 3}) EXPECT_EQ(ids.Find(character, 0), character);
 }
 
-TEST(CopyIds, FollowTheOrderInWhichPeopleAreMetAndNoTwoAreEqual) {
-  CopyIds ids(3);
+TEST(CharacterIds, FollowTheOrderInWhichPeopleAreMetAndNoTwoAreEqual) {
+  CharacterIds ids(3);
   EXPECT_EQ(ids.Find(7, 0), 0);
   EXPECT_EQ(ids.Find(7, 2), 2);
   EXPECT_EQ(ids.Find(2, 0), 3);
@@ -25,8 +25,8 @@ TEST(CopyIds, FollowTheOrderInWhichPeopleAreMetAndNoTwoAreEqual) {
   EXPECT_EQ(ids.Find(2, 2), 5);
 }
 
-TEST(CopyIds, EndWhereAHeaderCannotTellMoreApart) {
-  CopyIds ids(100);
+TEST(CharacterIds, EndWhereAHeaderCannotTellMoreApart) {
+  CharacterIds ids(100);
   std::set<int> found;
   for (int character = 0; character < 4; ++character) {
     for (int copy = 0; copy < 100; ++copy) {
