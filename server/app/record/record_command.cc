@@ -45,9 +45,9 @@ struct RecordOptions {
 };
 
 // Passes datagrams on to the recorder and looks into them on the way, for the people who watch.
-class Meter : public mvn::DatagramSink, private SampleSink {
+class StreamStatistics : public mvn::DatagramSink, private SampleSink {
  public:
-  explicit Meter(mvn::DatagramSink& next) : next_(next) {}
+  explicit StreamStatistics(mvn::DatagramSink& next) : next_(next) {}
 
   void OnDatagram(const mvn::ReceivedDatagram& datagram) override {
     next_.OnDatagram(datagram);
@@ -102,19 +102,20 @@ class StatusLine {
     if (drawn_) std::fputc('\n', stderr);
   }
 
-  void Draw(std::int64_t now, const Meter& meter, const mvn::TransportCounters& transport,
-            const mvn::PcapRecorder& recorder) {
+  void Draw(std::int64_t now, const StreamStatistics& statistics,
+            const mvn::TransportCounters& transport, const mvn::PcapRecorder& recorder) {
     if (!is_terminal_ || now - drawn_nanos_ < kStatusEveryNanos) return;
     const double secs = Secs(now - drawn_nanos_);
-    const double datagrams = static_cast<double>(meter.datagrams() - datagrams_) / secs;
-    const double samples = static_cast<double>(meter.samples() - samples_) / secs;
+    const double datagrams = static_cast<double>(statistics.datagrams() - datagrams_) / secs;
+    const double samples = static_cast<double>(statistics.samples() - samples_) / secs;
     drawn_nanos_ = now;
-    datagrams_ = meter.datagrams();
-    samples_ = meter.samples();
+    datagrams_ = statistics.datagrams();
+    samples_ = statistics.samples();
     const auto file = recorder.counters();
-    const std::string line = fmt::format(
-        "{:.0f} datagrams/s, {} people, {:.0f} samples/s, {}, {:.1f} MB", datagrams, meter.people(),
-        samples, LostText(transport, file), static_cast<double>(file.bytes) / kBytesPerMb);
+    const std::string line =
+        fmt::format("{:.0f} datagrams/s, {} people, {:.0f} samples/s, {}, {:.1f} MB", datagrams,
+                    statistics.people(), samples, LostText(transport, file),
+                    static_cast<double>(file.bytes) / kBytesPerMb);
     fmt::print(stderr, "\r{:<100}", line);
     std::fflush(stderr);
     drawn_ = true;
@@ -144,25 +145,25 @@ void CheckRecordOptions(const RecordOptions& options) {
   }
 }
 
-void Summarise(const RecordOptions& options, const Meter& meter,
+void Summarise(const RecordOptions& options, const StreamStatistics& statistics,
                const mvn::TransportCounters& transport, const mvn::PcapRecorder& recorder) {
   const auto file = recorder.counters();
   const std::string files = file.files.size() == 1
                                 ? file.files.front()
                                 : fmt::format("{} to {}", file.files.front(), file.files.back());
   spdlog::info("recorded {} datagrams in {:.1f} s ({} samples, {} people) to {}, {:.1f} MB; {}",
-               file.datagrams, meter.seconds(), meter.samples(), meter.people(), files,
-               static_cast<double>(file.bytes) / kBytesPerMb, LostText(transport, file));
+               file.datagrams, statistics.seconds(), statistics.samples(), statistics.people(),
+               files, static_cast<double>(file.bytes) / kBytesPerMb, LostText(transport, file));
   if (!*options.json) return;
   const nlohmann::ordered_json summary = {
       {"source", *options.source},
       {"files", file.files},
       {"bytes", file.bytes},
       {"datagrams", file.datagrams},
-      {"samples", meter.samples()},
-      {"people", meter.people()},
-      {"stream_seconds", meter.seconds()},
-      {"counter_gaps", meter.counter_gaps()},
+      {"samples", statistics.samples()},
+      {"people", statistics.people()},
+      {"stream_seconds", statistics.seconds()},
+      {"counter_gaps", statistics.counter_gaps()},
       {"lost",
        {{"kernel", transport.kernel_drops}, {"disk", file.dropped}, {"too_long", file.too_long}}},
       {"receive_buffer_bytes", transport.receive_buffer_bytes},
@@ -187,7 +188,7 @@ void Record(const RecordOptions& options) {
   settings.force = *options.force;
   using WhenFull = mvn::PcapRecorder::WhenFull;
   mvn::PcapRecorder recorder(settings, source->is_live() ? WhenFull::kDrop : WhenFull::kWait);
-  Meter meter(recorder);
+  StreamStatistics statistics(recorder);
   spdlog::info("recording {} to {}", source->description(), *options.out);
   {
     StatusLine status;
@@ -195,21 +196,21 @@ void Record(const RecordOptions& options) {
     const auto is_over = [&](std::int64_t now) {
       if (*options.seconds <= 0) return false;
       const double live = Secs(now - start);
-      return (source->is_live() ? live : meter.seconds()) >= *options.seconds;
+      return (source->is_live() ? live : statistics.seconds()) >= *options.seconds;
     };
     while (!StopRequested()) {
-      const auto state = source->Poll(std::chrono::milliseconds(20), meter);
+      const auto state = source->Poll(std::chrono::milliseconds(20), statistics);
       if (state == mvn::DatagramSource::State::kEnded) break;
       const std::int64_t now = MonotonicNanos();
-      if (source->is_live() && state == mvn::DatagramSource::State::kIdle) meter.Expire(now);
+      if (source->is_live() && state == mvn::DatagramSource::State::kIdle) statistics.Expire(now);
       recorder.Check();
       if (is_over(now)) break;
-      status.Draw(now, meter, source->counters(), recorder);
+      status.Draw(now, statistics, source->counters(), recorder);
     }
   }
-  meter.Flush();
+  statistics.Flush();
   recorder.Finish();
-  Summarise(options, meter, source->counters(), recorder);
+  Summarise(options, statistics, source->counters(), recorder);
 }
 
 }  // namespace
