@@ -22,7 +22,7 @@ void Count(std::string_view why, double secs, SecsByReason& reasons) {
 }  // namespace
 
 bool IsWorse(const WorstMoment& a, const WorstMoment& b) {
-  return std::tie(a.load_class, a.badness) > std::tie(b.load_class, b.badness);
+  return std::tie(a.load_class, a.severity) > std::tie(b.load_class, b.severity);
 }
 
 void Peak::Add(double value, std::int64_t stamp_nanos) {
@@ -105,7 +105,7 @@ void LoadTrial::KeepWorst(const std::shared_ptr<const SceneState>& scene,
   for (std::size_t i = 0; i < person.loads.size(); ++i) {
     raise({person.loads[i].load_class, person.loads[i].ratio, i, false, nullptr});
   }
-  // Where the class of L5/S1 is that of its compression, so is its badness.
+  // Where the class of L5/S1 is that of its compression, so is its severity.
   if (person.loads[0].class_is_of_compression && person.forces.lumbar) {
     raise(
         {person.loads[0].load_class, loads::LumbarRatio(*person.forces.lumbar), 0, true, nullptr});

@@ -32,7 +32,7 @@ struct TrialSample {
 /// A point in time with a high joint load, with its full scene state for rendering.
 struct WorstMoment {
   LoadClass load_class = LoadClass::kUnknown;
-  double badness = 0;     // the ratio, or the L5/S1 compression force on the same scale
+  double severity = 0;    // the ratio, or the L5/S1 compression force on the same scale
   std::size_t joint = 0;  // index into kScoredJoints
   bool by_compression = false;
   std::shared_ptr<const SceneState> scene;
