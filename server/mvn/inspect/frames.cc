@@ -24,7 +24,7 @@ void FrameTrack::Add(int type, std::uint32_t counter, std::uint32_t time_code_mi
 }
 
 bool FrameTrack::BelongsHere(std::uint32_t counter, std::uint32_t millis) const {
-  if (!run_first_ || trust_ == Trust::kWhole) return true;
+  if (!run_first_ || confirmation_ == Confirmation::kConfirmed) return true;
   const std::int32_t ahead = Ahead(counter, run_newest_);
   if (ahead <= -static_cast<std::int32_t>(kRemembered)) return false;
   switch (line_.Fits(counter, millis)) {

@@ -19,11 +19,13 @@ class FrameTrack {
  public:
   static constexpr std::size_t kTypes = 100;
 
-  enum class Trust {
-    kNone,   // from a network: a header that contradicts earlier ones is corrupt, or a restart
-    kWhole,  // of samples: already checked by their source
+  enum class Confirmation {
+    kUnconfirmed,  // from a network: a header that contradicts earlier ones is corrupt, or a
+                   // restart
+    kConfirmed,    // of samples: already checked by their source
   };
-  explicit FrameTrack(Trust trust = Trust::kNone) : trust_(trust) {}
+  explicit FrameTrack(Confirmation confirmation = Confirmation::kUnconfirmed)
+      : confirmation_(confirmation) {}
 
   /// Adds a datagram of a message type that belongs to a sample (not 12 and 13).
   void Add(int type, std::uint32_t counter, std::uint32_t time_code_millis, const Arrival& arrival);
@@ -78,7 +80,7 @@ class FrameTrack {
   void BeginFrame(std::uint32_t counter, std::uint32_t millis, const Arrival& arrival);
   void CloseRun();
 
-  Trust trust_;
+  Confirmation confirmation_;
   std::array<Frame, kRemembered> remembered_{};
   std::optional<Doubt> doubt_;
   std::uint64_t frames_ = 0;

@@ -30,7 +30,7 @@ class SampleInspection::Person {
  private:
   const int id_;
   CharacterTally tally_;
-  FrameTrack frames_{FrameTrack::Trust::kWhole};
+  FrameTrack frames_{FrameTrack::Confirmation::kConfirmed};
 };
 
 SampleInspection::SampleInspection() = default;
