@@ -71,9 +71,9 @@ struct AngularItem {
   Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();
 };
 
-/// Items by slot: the body by urdf::Segment, then the segments of ExtraSegments in its order. The
-/// slot does not depend on the number of props; the id in the stream does.
-inline constexpr int kSlotCount = urdf::kSegmentCount + kExtraCount;
+/// Items by slot: the body by urdf::Segment, then the segments of FingerAndPropSegments in its
+/// order. The slot does not depend on the number of props; the id in the stream does.
+inline constexpr int kSlotCount = urdf::kSegmentCount + kFingerAndPropCount;
 
 /// The items of one datagram, one per segment; items that are not `present` have default values.
 template <class Item>

@@ -33,14 +33,14 @@ struct ExtraCounts {
   int finger_segments = 0;
 };
 
-// Counts for the header. `is_present` is called for every index of ExtraSegments.
+// Counts for the header. `is_present` is called for every index of FingerAndPropSegments.
 template <class IsPresent>
 ExtraCounts CountExtra(const IsPresent& is_present) {
   ExtraCounts counts;
   for (int prop = 0; prop < kMostProps; ++prop) {
     if (is_present(static_cast<std::size_t>(PropIndex(prop)))) counts.props = prop + 1;
   }
-  for (std::size_t index = kMostProps; index < kExtraCount; ++index) {
+  for (std::size_t index = kMostProps; index < kFingerAndPropCount; ++index) {
     if (is_present(index)) counts.finger_segments = 2 * kFingersPerHand;
   }
   return counts;

@@ -184,7 +184,7 @@ BodySample PendingSample::TakeBody() const {
       segment.angular_velocity = segment.angular_acceleration = Eigen::Vector3d::Zero();
     }
   }
-  for (std::size_t i = 0; i < kExtraCount; ++i) {
+  for (std::size_t i = 0; i < kFingerAndPropCount; ++i) {
     const std::size_t slot = urdf::kSegmentCount + i;
     sample.extra.present.set(i, slots.test(slot));
     if (slots.test(slot)) sample.extra.poses[i] = poses[slot];

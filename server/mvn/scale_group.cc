@@ -13,10 +13,10 @@ constexpr double kLongestBone = 1.0;
 
 using Origins = std::array<Eigen::Vector3d, urdf::kSegmentCount>;
 
-// The index of a finger segment in ExtraSegments; nullopt for other names.
+// The index of a finger segment in FingerAndPropSegments; nullopt for other names.
 std::optional<std::size_t> FindFinger(const std::string& name) {
-  for (int index = kMostProps; index < kExtraCount; ++index) {
-    if (ExtraName(index) == name) return static_cast<std::size_t>(index);
+  for (int index = kMostProps; index < kFingerAndPropCount; ++index) {
+    if (FingerOrPropName(index) == name) return static_cast<std::size_t>(index);
   }
   return std::nullopt;
 }
@@ -58,7 +58,7 @@ std::optional<Reason> ScaleGroup::Read(const ScaleMessage& part, Segments& segme
     auto index = FindFinger(segment.name);
     if (!index && props < kMostProps) index = static_cast<std::size_t>(PropIndex(props++));
     if (!index) continue;
-    segments.extra.resize(kExtraCount);
+    segments.extra.resize(kFingerAndPropCount);
     segments.extra[*index] = std::move(segment);
   }
   return std::nullopt;

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/extra_segments.h"
+#include "core/finger_and_prop_segments.h"
 #include "urdf/human_urdf.h"
 #include "urdf/segments.h"
 
@@ -33,11 +33,11 @@ struct PersonNames {
   /// The two massless links that the URDF has inside joint j: after its rotation about y, and after
   /// that about x. By urdf::Joint.
   std::array<std::array<std::string, 2>, urdf::kJointCount> between;
-  /// `<model>_left_second_mp`, `<model>_prop1`, indexed as ExtraSegments.
-  std::array<std::string, kExtraCount> extra;
+  /// `<model>_left_second_mp`, `<model>_prop1`, indexed as FingerAndPropSegments.
+  std::array<std::string, kFingerAndPropCount> extra;
   /// The massless links before each of these, in the order of the chain: two for a finger, five for
-  /// a prop. Empty if the model has none. Indexed as ExtraSegments.
-  std::array<std::vector<std::string>, kExtraCount> before_extra;
+  /// a prop. Empty if the model has none. Indexed as FingerAndPropSegments.
+  std::array<std::vector<std::string>, kFingerAndPropCount> before_extra;
   std::string model;
 };
 

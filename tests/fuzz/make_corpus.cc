@@ -130,10 +130,10 @@ void WriteSessions(const fs::path& folder, RandomValues& random) {
 // Groups of type 13: whole, with a part lost, begun again half-way; a body and tracked objects.
 void WriteScaleGroups(const fs::path& folder) {
   Character person = Ines();
-  person.extra.resize(kExtraCount);
-  for (int i = 1; i < kExtraCount; ++i) {
+  person.extra.resize(kFingerAndPropCount);
+  for (int i = 1; i < kFingerAndPropCount; ++i) {
     if (i >= 2 && i < kMostProps) continue;
-    person.extra[static_cast<std::size_t>(i)] = {ExtraName(i), {0.1, 0.01 * i, 1.4}};
+    person.extra[static_cast<std::size_t>(i)] = {FingerOrPropName(i), {0.1, 0.01 * i, 1.4}};
   }
   Character objects;
   objects.extra = {{"Tracker 1", {0, 0, 1}}, {"Tracker 2", {1, 0, 1}}};

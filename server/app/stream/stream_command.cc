@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "core/extra_segments.h"
+#include "core/finger_and_prop_segments.h"
 #include "core/json_text.h"
 #include "server/app/commands.h"
 #include "server/app/stream/stream_feed.h"

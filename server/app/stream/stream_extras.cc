@@ -105,7 +105,7 @@ void AddAll(bool gloves, int props, std::optional<double> seconds, const Charact
 
 void AddExtras(bool gloves, int props, Character& character) {
   if (!character.skeleton || (!gloves && props == 0)) return;
-  character.extra.resize(kExtraCount);
+  character.extra.resize(kFingerAndPropCount);
   // The T-pose is a sample like any other.
   BodySample t_pose;
   const auto origins = mvn::TPoseOrigins(*character.skeleton);
@@ -113,7 +113,7 @@ void AddExtras(bool gloves, int props, Character& character) {
   AddAll(gloves, props, std::nullopt, character, t_pose);
   for (std::size_t i = 0; i < character.extra.size(); ++i) {
     if (!t_pose.extra.present.test(i) || !character.extra[i].name.empty()) continue;
-    character.extra[i] = {i < kMostProps ? Places()[i].name : ExtraName(static_cast<int>(i)),
+    character.extra[i] = {i < kMostProps ? Places()[i].name : FingerOrPropName(static_cast<int>(i)),
                           t_pose.extra.poses[i].position};
   }
 }

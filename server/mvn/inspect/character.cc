@@ -18,10 +18,10 @@ void CharacterTally::OnSample(const BodySample& sample) {
   if (sample.extra.present.any()) AddExtra(sample.extra);
 }
 
-void CharacterTally::AddExtra(const ExtraSegments& extra) {
+void CharacterTally::AddExtra(const FingerAndPropSegments& extra) {
   bool props = false;
   bool gloves = false;
-  for (int i = 0; i < kExtraCount; ++i) {
+  for (int i = 0; i < kFingerAndPropCount; ++i) {
     if (!extra.present.test(urdf::At(i))) continue;
     (i < kMostProps ? props : gloves) = true;
   }
@@ -45,7 +45,7 @@ void CharacterTally::Fill(CharacterReport& report) const {
   }
   if (people_samples_ > 0) report.body_segments = urdf::kSegmentCount;
   report.objects = static_cast<int>(objects_seen_.count());
-  for (int i = 0; i < kExtraCount; ++i) {
+  for (int i = 0; i < kFingerAndPropCount; ++i) {
     if (!extra_seen_.test(urdf::At(i))) continue;
     if (i < kMostProps) {
       ++report.props;

@@ -28,7 +28,7 @@ class CharacterTally : public SampleSink {
   void Fill(CharacterReport& report) const;
 
  private:
-  void AddExtra(const ExtraSegments& extra);
+  void AddExtra(const FingerAndPropSegments& extra);
 
   enum Quantity { kLinear, kAngular, kCom, kAngles, kTrackers, kUtc, kGloves, kProps, kQuantities };
 
@@ -36,7 +36,7 @@ class CharacterTally : public SampleSink {
   std::uint64_t people_samples_ = 0;
   std::uint64_t objects_samples_ = 0;
   std::array<std::uint64_t, kQuantities> quantities_{};
-  decltype(ExtraSegments::present) extra_seen_;
+  decltype(FingerAndPropSegments::present) extra_seen_;
   decltype(ObjectsSample::present) objects_seen_;
 };
 

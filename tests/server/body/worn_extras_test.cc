@@ -151,7 +151,7 @@ TEST(WornExtras, LengthsAreThoseOfScaleDataOnlyWhereTheyDescribeAHand) {
   };
   const urdf::HandSkeleton average = glove_of({});
   Character character;
-  character.extra.resize(kExtraCount);
+  character.extra.resize(kFingerAndPropCount);
   for (int i = 0; i < kFingersPerHand; ++i) {
     ScaledSegment& segment = character.extra[At(FingerIndex(urdf::kRight, i))];
     segment.name = "finger";

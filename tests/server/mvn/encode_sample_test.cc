@@ -240,10 +240,10 @@ TEST(EncodeSample, SplitsScaleDataIntoSegmentsAndPoints) {
 TEST(EncodeSample, NamesPropsAndFingersBehindTheBody) {
   Character character;
   character.skeleton = urdf::DefaultSkeleton();
-  character.extra.resize(kExtraCount);
+  character.extra.resize(kFingerAndPropCount);
   character.extra[0] = {"Prop1Sword", {0.25, 0, 1}};
-  for (std::size_t i = kMostProps; i < kExtraCount; ++i) {
-    character.extra[i].name = ExtraName(static_cast<int>(i));
+  for (std::size_t i = kMostProps; i < kFingerAndPropCount; ++i) {
+    character.extra[i].name = FingerOrPropName(static_cast<int>(i));
   }
   const auto datagrams = EncodeCharacter(character);
   for (const std::string& datagram : datagrams) {

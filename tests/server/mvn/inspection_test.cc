@@ -198,7 +198,7 @@ TEST_F(InspectionTest, SeesGlovesAndPropsByName) {
   Character carrier;
   carrier.name = "Carrier";
   carrier.skeleton = urdf::DefaultSkeleton();
-  carrier.extra.resize(kExtraCount);
+  carrier.extra.resize(kFingerAndPropCount);
   carrier.extra[0].name = "Box Generic";
   BodySample sample = RandomSample(random_, 0);
   sample.extra.present.set(static_cast<std::size_t>(PropIndex(0)));
@@ -206,8 +206,8 @@ TEST_F(InspectionTest, SeesGlovesAndPropsByName) {
     sample.extra.present.set(static_cast<std::size_t>(FingerIndex(urdf::kLeft, finger)));
     sample.extra.present.set(static_cast<std::size_t>(FingerIndex(urdf::kRight, finger)));
   }
-  for (int finger = kMostProps; finger < kExtraCount; ++finger) {
-    carrier.extra[static_cast<std::size_t>(finger)].name = ExtraName(finger);
+  for (int finger = kMostProps; finger < kFingerAndPropCount; ++finger) {
+    carrier.extra[static_cast<std::size_t>(finger)].name = FingerOrPropName(finger);
   }
   Send(EncodeCharacter(carrier));
   for (std::uint32_t counter = 0; counter < 20; ++counter) {

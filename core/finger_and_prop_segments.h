@@ -21,20 +21,20 @@ using urdf::kFingers;
 using urdf::kFingersPerHand;
 using urdf::kMostProps;
 
-inline constexpr int kExtraCount = kMostProps + 2 * kFingersPerHand;
+inline constexpr int kFingerAndPropCount = kMostProps + 2 * kFingersPerHand;
 
-/// Index of a prop (0 to 3) or of a finger segment in ExtraSegments.
+/// Index of a prop (0 to 3) or of a finger segment in FingerAndPropSegments.
 constexpr int PropIndex(int prop) { return prop; }
 constexpr int FingerIndex(urdf::Side side, int finger) {
   return kMostProps + (side == urdf::kLeft ? 0 : kFingersPerHand) + finger;
 }
 
-struct ExtraSegments {
-  std::array<urdf::Pose, kExtraCount> poses{};  // world_from_segment
-  std::bitset<kExtraCount> present;
+struct FingerAndPropSegments {
+  std::array<urdf::Pose, kFingerAndPropCount> poses{};  // world_from_segment
+  std::bitset<kFingerAndPropCount> present;
 };
 
 /// "Left" or "Right" + kFingers for a finger, "Prop1" for a prop without a name.
-std::string ExtraName(int index);
+std::string FingerOrPropName(int index);
 
 }  // namespace kinescope

@@ -1,11 +1,11 @@
-#include "core/extra_segments.h"
+#include "core/finger_and_prop_segments.h"
 
 #include "core/check.h"
 
 namespace kinescope {
 
-std::string ExtraName(int index) {
-  KINESCOPE_CHECK(index >= 0 && index < kExtraCount);
+std::string FingerOrPropName(int index) {
+  KINESCOPE_CHECK(index >= 0 && index < kFingerAndPropCount);
   if (index < kMostProps) return "Prop" + std::to_string(index + 1);
   const int finger = index - kMostProps;
   const bool left = finger < kFingersPerHand;
