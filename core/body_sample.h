@@ -65,7 +65,7 @@ struct BodySample {
   std::optional<std::array<Eigen::Vector3d, urdf::kJointCount>> streamed_angles_deg;
   /// By urdf::Side (MVNX footContacts); absent if the sender does not report contacts.
   std::optional<std::array<FootContactFlags, 2>> foot_contacts;
-  FingerAndPropSegments extra;  // gloves and props, where streamed
+  FingerAndPropSegments fingers_and_props;  // gloves and props, where streamed
   std::array<TrackerState, urdf::kSegmentCount> trackers{};
   std::bitset<urdf::kSegmentCount> has_tracker;
   std::optional<std::int32_t> utc_millis_of_day;  // type 25: time of day, UTC, without a date
@@ -105,7 +105,7 @@ struct Character {
   std::optional<urdf::Skeleton> skeleton;  // of a person; from type 13 or MVNX points
   /// Of a person: props and fingers, indexed as FingerAndPropSegments; name "" where there is none.
   /// Of a group of objects: all of them, in order.
-  std::vector<ScaledSegment> extra;
+  std::vector<ScaledSegment> scaled_segments;
 };
 
 }  // namespace kinescope

@@ -15,8 +15,9 @@ std::optional<urdf::HandSkeleton> DescribedHand(const Character& character, urdf
   std::array<Vector3d, kFingersPerHand> origins;
   for (int i = 0; i < kFingersPerHand; ++i) {
     const std::size_t index = At(FingerIndex(side, i));
-    if (index >= character.extra.size() || character.extra[index].name.empty()) return std::nullopt;
-    origins[At(i)] = character.extra[index].origin_in_world;
+    if (index >= character.scaled_segments.size() || character.scaled_segments[index].name.empty())
+      return std::nullopt;
+    origins[At(i)] = character.scaled_segments[index].origin_in_world;
   }
   const urdf::HandSkeleton hand = urdf::HandFromTPose(side, origins, carpus_in_hand, length);
   for (const Vector3d& bone : hand.origin_in_parent) {
@@ -31,18 +32,19 @@ bool WornExtras::Notice(const BodySample& sample) {
   bool is_more = false;
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     const std::size_t carpus = At(FingerIndex(side, 0));
-    if (carpus_in_hand_[side] || !sample.extra.present.test(carpus)) continue;
+    if (carpus_in_hand_[side] || !sample.fingers_and_props.present.test(carpus)) continue;
     // Scale data have the T-pose of the fingers, but a Character not their hand's place in it.
     const Pose world_from_hand = LinkPoseOf(sample, urdf::HandSegmentOf(side));
     constexpr double kReach = 0.1;  // m; farther off is no part of this hand
-    const Vector3d offset = Relative(world_from_hand, sample.extra.poses[carpus]).position;
+    const Vector3d offset =
+        Relative(world_from_hand, sample.fingers_and_props.poses[carpus]).position;
     carpus_in_hand_[side].emplace(Vector3d::Zero());
     if (offset.norm() <= kReach) *carpus_in_hand_[side] = offset;
     is_more = true;
   }
   for (std::size_t prop = 0; prop < kMostProps; ++prop) {
     const std::size_t index = At(PropIndex(static_cast<int>(prop)));
-    if (props_.test(prop) || !sample.extra.present.test(index)) continue;
+    if (props_.test(prop) || !sample.fingers_and_props.present.test(index)) continue;
     props_.set(prop);
     is_more = true;
   }
@@ -79,8 +81,8 @@ GloveState WornExtras::FollowGlove(urdf::Side side, const BodySample& sample,
   urdf::FingerPoses measured;
   for (int i = 0; i < kFingersPerHand; ++i) {
     const std::size_t index = At(FingerIndex(side, i));
-    present.set(At(i), sample.extra.present.test(index));
-    const Pose& segment = sample.extra.poses[index];
+    present.set(At(i), sample.fingers_and_props.present.test(index));
+    const Pose& segment = sample.fingers_and_props.poses[index];
     measured[At(i)] = {segment.position, segment.orientation * urdf::SegmentFromLink(hand)};
   }
   GloveState glove;
@@ -93,7 +95,8 @@ GloveState WornExtras::FollowGlove(urdf::Side side, const BodySample& sample,
 PropState WornExtras::FollowProp(std::size_t prop, const BodySample& sample, const Pose& pelvis) {
   const std::size_t index = At(PropIndex(static_cast<int>(prop)));
   Pose& in_pelvis = pelvis_from_prop_[prop];
-  if (sample.extra.present.test(index)) in_pelvis = Relative(pelvis, sample.extra.poses[index]);
+  if (sample.fingers_and_props.present.test(index))
+    in_pelvis = Relative(pelvis, sample.fingers_and_props.poses[index]);
   prop_angles_[prop] = urdf::AnglesFromRotation(in_pelvis.orientation, prop_angles_[prop]);
   PropState state;
   state.pose = {pelvis.position + pelvis.orientation * in_pelvis.position,

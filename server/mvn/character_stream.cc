@@ -59,10 +59,11 @@ void CharacterStream::AddScale(const Message& message, std::int64_t now_nanos, S
 void CharacterStream::TakeScale(std::int64_t now_nanos, SampleSink& sink) {
   const auto scale = scale_.Take(now_nanos);
   if (!scale) return;
-  const bool same = character_.skeleton == scale->skeleton && character_.extra == scale->extra;
+  const bool same = character_.skeleton == scale->skeleton &&
+                    character_.scaled_segments == scale->scaled_segments;
   if (same) return;
   character_.skeleton = scale->skeleton;
-  character_.extra = scale->extra;
+  character_.scaled_segments = scale->scaled_segments;
   Announce(sink);
 }
 
@@ -76,7 +77,7 @@ void CharacterStream::AnnounceOnce(SampleSink& sink) {
   if (!wants_announcement_) return;
   // A sample alone does not make a character: its message may contain no pose.
   if (character_.name.empty() && !character_.color_rgb && !character_.skeleton &&
-      character_.extra.empty() && !has_given_) {
+      character_.scaled_segments.empty() && !has_given_) {
     return;
   }
   wants_announcement_ = false;

@@ -28,15 +28,15 @@ const Eigen::Vector3d& MagneticFieldInWorld() {
   return kField;
 }
 
-struct ExtraCounts {
+struct FingerAndPropCounts {
   int props = 0;
   int finger_segments = 0;
 };
 
 // Counts for the header. `is_present` is called for every index of FingerAndPropSegments.
 template <class IsPresent>
-ExtraCounts CountExtra(const IsPresent& is_present) {
-  ExtraCounts counts;
+FingerAndPropCounts CountFingersAndProps(const IsPresent& is_present) {
+  FingerAndPropCounts counts;
   for (int prop = 0; prop < kMostProps; ++prop) {
     if (is_present(static_cast<std::size_t>(PropIndex(prop)))) counts.props = prop + 1;
   }
@@ -49,11 +49,11 @@ ExtraCounts CountExtra(const IsPresent& is_present) {
 // Writes the datagrams of one sample, or of one character, with a common header.
 class Writer {
  public:
-  Writer(int character, int body_segments, const ExtraCounts& extra) {
+  Writer(int character, int body_segments, const FingerAndPropCounts& counts) {
     header_.character = character;
     header_.body_segments = body_segments;
-    header_.props = extra.props;
-    header_.finger_segments = extra.finger_segments;
+    header_.props = counts.props;
+    header_.finger_segments = counts.finger_segments;
   }
 
   void SetTime(std::uint32_t counter, std::int64_t time_code_millis) {
@@ -92,10 +92,11 @@ PoseBody Poses(const BodySample& sample) {
   auto body = ForAllSegments<PoseBody>(sample, [](const SegmentState& segment) {
     return PoseItem{segment.position, segment.orientation};
   });
-  for (std::size_t i = 0; i < sample.extra.poses.size(); ++i) {
-    if (!sample.extra.present.test(i)) continue;
+  for (std::size_t i = 0; i < sample.fingers_and_props.poses.size(); ++i) {
+    if (!sample.fingers_and_props.present.test(i)) continue;
     const std::size_t slot = urdf::kSegmentCount + i;
-    body.items[slot] = {sample.extra.poses[i].position, sample.extra.poses[i].orientation};
+    body.items[slot] = {sample.fingers_and_props.poses[i].position,
+                        sample.fingers_and_props.poses[i].orientation};
     body.present.set(slot);
   }
   return body;
@@ -185,9 +186,9 @@ ScaleMessage ScaleSegments(const Character& character) {
       body.segments.push_back({std::string(urdf::kSegments[i].mvn_name), origins[i]});
     }
   }
-  for (const ScaledSegment& extra : character.extra) {
-    if (character.skeleton && extra.name.empty()) continue;  // a place without a segment
-    body.segments.push_back({Cleaned(extra.name), extra.origin_in_world});
+  for (const ScaledSegment& segment : character.scaled_segments) {
+    if (character.skeleton && segment.name.empty()) continue;  // a place without a segment
+    body.segments.push_back({Cleaned(segment.name), segment.origin_in_world});
   }
   return body;
 }
@@ -202,9 +203,9 @@ const TypeSet& UsualTypes() {
 
 std::vector<std::string> EncodeSample(const BodySample& sample, const TypeSet& types,
                                       const urdf::Skeleton* skeleton) {
-  const ExtraCounts extra =
-      CountExtra([&](std::size_t index) { return sample.extra.present.test(index); });
-  Writer out(sample.character, urdf::kSegmentCount, extra);
+  const FingerAndPropCounts counts = CountFingersAndProps(
+      [&](std::size_t index) { return sample.fingers_and_props.present.test(index); });
+  Writer out(sample.character, urdf::kSegmentCount, counts);
   out.SetTime(sample.counter, sample.time_code_millis);
   const auto add = [&](Type type, bool has_it, const auto& make) {
     if (has_it && Contains(types, type)) out.Add(make());
@@ -242,13 +243,15 @@ std::vector<std::string> EncodeObjects(const ObjectsSample& sample, const TypeSe
 }
 
 std::vector<std::string> EncodeCharacter(const Character& character) {
-  const bool is_objects = !character.skeleton && !character.extra.empty() &&
-                          character.extra.size() <= urdf::kSegmentCount;
-  const ExtraCounts extra = CountExtra([&](std::size_t index) {
-    return !is_objects && index < character.extra.size() && !character.extra[index].name.empty();
+  const bool is_objects = !character.skeleton && !character.scaled_segments.empty() &&
+                          character.scaled_segments.size() <= urdf::kSegmentCount;
+  const FingerAndPropCounts counts = CountFingersAndProps([&](std::size_t index) {
+    return !is_objects && index < character.scaled_segments.size() &&
+           !character.scaled_segments[index].name.empty();
   });
   Writer out(character.id,
-             is_objects ? static_cast<int>(character.extra.size()) : urdf::kSegmentCount, extra);
+             is_objects ? static_cast<int>(character.scaled_segments.size()) : urdf::kSegmentCount,
+             counts);
   MetaDataMessage meta;
   if (!character.name.empty()) meta.name = Cleaned(character.name);
   meta.color_rgb = character.color_rgb;

@@ -186,8 +186,8 @@ BodySample PendingSample::TakeBody() const {
   }
   for (std::size_t i = 0; i < kFingerAndPropCount; ++i) {
     const std::size_t slot = urdf::kSegmentCount + i;
-    sample.extra.present.set(i, slots.test(slot));
-    if (slots.test(slot)) sample.extra.poses[i] = poses[slot];
+    sample.fingers_and_props.present.set(i, slots.test(slot));
+    if (slots.test(slot)) sample.fingers_and_props.poses[i] = poses[slot];
   }
   if (angled_.all()) sample.streamed_angles_deg = angles_;
   return sample;

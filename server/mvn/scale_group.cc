@@ -47,7 +47,7 @@ std::optional<Reason> ScaleGroup::Read(const ScaleMessage& part, Segments& segme
   }
   if (found.none()) {
     if (others.size() > urdf::kSegmentCount) return Reason::kScaleWithoutBody;
-    segments.extra = std::move(others);
+    segments.scaled_segments = std::move(others);
     return std::nullopt;
   }
   if (!found.all()) return Reason::kScaleWithoutBody;
@@ -58,8 +58,8 @@ std::optional<Reason> ScaleGroup::Read(const ScaleMessage& part, Segments& segme
     auto index = FindFinger(segment.name);
     if (!index && props < kMostProps) index = static_cast<std::size_t>(PropIndex(props++));
     if (!index) continue;
-    segments.extra.resize(kFingerAndPropCount);
-    segments.extra[*index] = std::move(segment);
+    segments.scaled_segments.resize(kFingerAndPropCount);
+    segments.scaled_segments[*index] = std::move(segment);
   }
   return std::nullopt;
 }
@@ -93,7 +93,7 @@ std::optional<ScaleGroup::Scale> ScaleGroup::Take(std::int64_t now_nanos) {
   taken_ = true;
   Scale scale;
   if (segments_->body) scale.skeleton = urdf::SkeletonFromTPose(*segments_->body, landmarks_);
-  scale.extra = segments_->extra;
+  scale.scaled_segments = segments_->scaled_segments;
   return scale;
 }
 

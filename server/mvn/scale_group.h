@@ -21,8 +21,8 @@ class ScaleGroup {
   std::optional<Reason> Add(const Header& header, const ScaleMessage& part, std::int64_t now_nanos);
 
   struct Scale {
-    std::optional<urdf::Skeleton> skeleton;  // absent: objects
-    std::vector<ScaledSegment> extra;        // as in Character
+    std::optional<urdf::Skeleton> skeleton;      // absent: objects
+    std::vector<ScaledSegment> scaled_segments;  // as in Character
   };
 
   /// Returns the description once per group: when all parts are received, or when no part was
@@ -37,7 +37,7 @@ class ScaleGroup {
 
   struct Segments {
     std::optional<Origins> body;
-    std::vector<ScaledSegment> extra;
+    std::vector<ScaledSegment> scaled_segments;
   };
 
   static std::optional<Reason> Read(const ScaleMessage& part, Segments& segments);

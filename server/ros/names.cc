@@ -36,11 +36,11 @@ const std::array<int, urdf::kSegmentCount>& SegmentsByName() {
 
 PersonNames::PersonNames(const std::string& model_name) : model(model_name) {
   for (int prop = 0; prop < kMostProps; ++prop) {
-    extra[At(PropIndex(prop))] = urdf::PropLinkName(model, prop);
+    fingers_and_props[At(PropIndex(prop))] = urdf::PropLinkName(model, prop);
   }
   for (const urdf::Side side : {urdf::kLeft, urdf::kRight}) {
     for (int finger = 0; finger < kFingersPerHand; ++finger) {
-      extra[At(FingerIndex(side, finger))] = urdf::FingerLinkName(model, side, finger);
+      fingers_and_props[At(FingerIndex(side, finger))] = urdf::FingerLinkName(model, side, finger);
     }
   }
   for (const int joint : JointsByName()) {
@@ -66,7 +66,7 @@ PersonNames::PersonNames(const urdf::HumanModel& human) : PersonNames(human.mode
         joints.push_back(urdf::FingerJointName(model, side, finger, axis));
       }
       for (const int axis : {1, 0}) {
-        before_extra[At(FingerIndex(side, finger))].push_back(
+        before_fingers_and_props[At(FingerIndex(side, finger))].push_back(
             urdf::LinkInside(urdf::FingerJointName(model, side, finger, axis)));
       }
     }
@@ -76,7 +76,7 @@ PersonNames::PersonNames(const urdf::HumanModel& human) : PersonNames(human.mode
     const auto chain = urdf::PropJointNames(model, prop);
     joints.insert(joints.end(), chain.begin(), chain.end());
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-      before_extra[At(PropIndex(prop))].push_back(urdf::LinkInside(chain[i]));
+      before_fingers_and_props[At(PropIndex(prop))].push_back(urdf::LinkInside(chain[i]));
     }
   }
 }

@@ -34,10 +34,10 @@ struct PersonNames {
   /// that about x. By urdf::Joint.
   std::array<std::array<std::string, 2>, urdf::kJointCount> between;
   /// `<model>_left_second_mp`, `<model>_prop1`, indexed as FingerAndPropSegments.
-  std::array<std::string, kFingerAndPropCount> extra;
+  std::array<std::string, kFingerAndPropCount> fingers_and_props;
   /// The massless links before each of these, in the order of the chain: two for a finger, five for
   /// a prop. Empty if the model has none. Indexed as FingerAndPropSegments.
-  std::array<std::vector<std::string>, kFingerAndPropCount> before_extra;
+  std::array<std::vector<std::string>, kFingerAndPropCount> before_fingers_and_props;
   std::string model;
 };
 

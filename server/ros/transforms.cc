@@ -100,9 +100,9 @@ void WriteGlove(const PersonState& person, const PersonNames& names, urdf::Side 
   const std::size_t hand = At(urdf::HandSegmentOf(side));
   for (int finger = 0; finger < kFingersPerHand; ++finger) {
     const int above = kFingerParents[At(finger)];
-    const Frame parent =
-        above < 0 ? Frame{names.links[hand], person.links[hand]}
-                  : Frame{names.extra[At(FingerIndex(side, above))], glove.links[At(above)]};
+    const Frame parent = above < 0 ? Frame{names.links[hand], person.links[hand]}
+                                   : Frame{names.fingers_and_props[At(FingerIndex(side, above))],
+                                           glove.links[At(above)]};
     const std::size_t index = At(FingerIndex(side, finger));
     const Pose& link = glove.links[At(finger)];
     const Vector3d& angles = glove.angles[At(finger)];
@@ -111,11 +111,11 @@ void WriteGlove(const PersonState& person, const PersonNames& names, urdf::Side 
                        parent.pose.orientation * AngleAxisd(angles.y(), Vector3d::UnitY())};
     const Pose after_x{link.position,
                        after_y.orientation * AngleAxisd(angles.x(), Vector3d::UnitX())};
-    const Frame y{names.before_extra[index][0], after_y};
-    const Frame x{names.before_extra[index][1], after_x};
+    const Frame y{names.before_fingers_and_props[index][0], after_y};
+    const Frame x{names.before_fingers_and_props[index][1], after_x};
     Put(shape, parent, y, out);
     Put(shape, y, x, out);
-    Put(shape, x, {names.extra[index], link}, out);
+    Put(shape, x, {names.fingers_and_props[index], link}, out);
   }
 }
 
@@ -139,23 +139,24 @@ void WriteProp(const PersonState& person, const PersonNames& names, int prop, Tf
               chain[3].orientation * AngleAxisd(state.angles.x(), Vector3d::UnitX())};
   chain[5] = state.pose;
   for (std::size_t i = 0; i < chain.size(); ++i) {
-    const std::vector<std::string>& before = names.before_extra[index];
+    const std::vector<std::string>& before = names.before_fingers_and_props[index];
     const Frame parent =
         i == 0 ? Frame{names.links[urdf::kPelvis], pelvis} : Frame{before[i - 1], chain[i - 1]};
-    Put(shape, parent, {i < before.size() ? before[i] : names.extra[index], chain[i]}, out);
+    Put(shape, parent, {i < before.size() ? before[i] : names.fingers_and_props[index], chain[i]},
+        out);
   }
 }
 
 // Number of frames of gloves and props.
-std::size_t CountExtra(const PersonState& person) {
+std::size_t CountFingersAndProps(const PersonState& person) {
   std::size_t count = 0;
   for (const auto& glove : person.gloves) count += glove ? 3 * kFingersPerHand : 0;
   for (const auto& prop : person.props) count += prop ? 6 : 0;
   return count;
 }
 
-void WriteExtra(const PersonState& person, const PersonNames& names, TfShape shape,
-                TransformWriter& out) {
+void WriteFingersAndProps(const PersonState& person, const PersonNames& names, TfShape shape,
+                          TransformWriter& out) {
   for (const urdf::Side side : {urdf::kLeft, urdf::kRight}) {
     if (person.gloves[side]) WriteGlove(person, names, side, shape, out);
   }
@@ -182,14 +183,15 @@ void AddObjects(const SceneState& scene, const PersonNames& names,
 void FillTransforms(const PersonState& person, const PersonNames& names,
                     const std::string& reference_frame, TfShape shape,
                     tf2_msgs::TFMessage& message) {
-  message.transforms.resize(urdf::kSegmentCount + 2 * urdf::kJointCount + CountExtra(person));
+  message.transforms.resize(urdf::kSegmentCount + 2 * urdf::kJointCount +
+                            CountFingersAndProps(person));
   TransformWriter out(message, reference_frame, StampOf(person.sample));
   if (shape == TfShape::kFlat) {
     WriteFlat(person, names, out);
   } else {
     WriteTree(person, names, out);
   }
-  WriteExtra(person, names, shape, out);
+  WriteFingersAndProps(person, names, shape, out);
 }
 
 }  // namespace kinescope::ros_bridge

@@ -131,7 +131,7 @@ std::shared_ptr<const PersonModel> SceneBuilder::MakeModel(const Person& person)
 }
 
 void SceneBuilder::OnCharacter(const Character& character) {
-  if (!character.skeleton && !character.extra.empty()) {
+  if (!character.skeleton && !character.scaled_segments.empty()) {
     clusters_[character.id] = character;
     return;
   }
@@ -142,14 +142,14 @@ void SceneBuilder::OnCharacter(const Character& character) {
   }
   Person& person = known->second;
   const bool same_body = person.character.skeleton == character.skeleton;
-  const bool same_extra = person.character.extra == character.extra;
+  const bool same_segments = person.character.scaled_segments == character.scaled_segments;
   const bool same_color = person.character.color_rgb == character.color_rgb;
   person.character = character;
   if (!same_body) {
     person.l5_is_checked = false;
     person.l5_from_poses.reset();
   }
-  const bool is_told_more = character.skeleton && !(same_body && same_extra);
+  const bool is_told_more = character.skeleton && !(same_body && same_segments);
   if (!is_told_more && same_color) return;
   person.model = MakeModel(person);
   if (same_body) return;
@@ -245,10 +245,12 @@ void SceneBuilder::OnObjects(const ObjectsSample& sample) {
   objects.clear();
   for (std::size_t i = 0; i < sample.poses.size(); ++i) {
     if (!sample.present.test(i)) continue;
-    const bool has_name = i < cluster.extra.size() && !cluster.extra[i].name.empty();
-    objects.push_back({sample.character, static_cast<int>(i),
-                       has_name ? cluster.extra[i].name : "object_" + std::to_string(i + 1),
-                       sample.poses[i], sample.stamp_nanos});
+    const bool has_name =
+        i < cluster.scaled_segments.size() && !cluster.scaled_segments[i].name.empty();
+    objects.push_back(
+        {sample.character, static_cast<int>(i),
+         has_name ? cluster.scaled_segments[i].name : "object_" + std::to_string(i + 1),
+         sample.poses[i], sample.stamp_nanos});
   }
 }
 

@@ -49,7 +49,7 @@ class EndlessStream {
         sample.character = person;
         if (full) {
           const BodySample random_sample = mvn::testing::RandomFullSample(random, sample.counter);
-          sample.extra = random_sample.extra;
+          sample.fingers_and_props = random_sample.fingers_and_props;
           sample.streamed_angles_deg = random_sample.streamed_angles_deg;
         }
         for (std::string& datagram : mvn::EncodeSample(sample, types, &skeleton)) {

@@ -21,7 +21,7 @@ inline void CheckSample(const BodySample& sample) {
     check(segment.angular_acceleration);
     KINESCOPE_CHECK(std::abs(segment.orientation.norm() - 1.0) < 1e-6);
   }
-  for (const urdf::Pose& pose : sample.extra.poses) {
+  for (const urdf::Pose& pose : sample.fingers_and_props.poses) {
     check(pose.position);
     KINESCOPE_CHECK(std::abs(pose.orientation.norm() - 1.0) < 1e-6);
   }

@@ -130,13 +130,14 @@ void WriteSessions(const fs::path& folder, RandomValues& random) {
 // Groups of type 13: whole, with a part lost, begun again half-way; a body and tracked objects.
 void WriteScaleGroups(const fs::path& folder) {
   Character person = Ines();
-  person.extra.resize(kFingerAndPropCount);
+  person.scaled_segments.resize(kFingerAndPropCount);
   for (int i = 1; i < kFingerAndPropCount; ++i) {
     if (i >= 2 && i < kMostProps) continue;
-    person.extra[static_cast<std::size_t>(i)] = {FingerOrPropName(i), {0.1, 0.01 * i, 1.4}};
+    person.scaled_segments[static_cast<std::size_t>(i)] = {FingerOrPropName(i),
+                                                           {0.1, 0.01 * i, 1.4}};
   }
   Character objects;
-  objects.extra = {{"Tracker 1", {0, 0, 1}}, {"Tracker 2", {1, 0, 1}}};
+  objects.scaled_segments = {{"Tracker 1", {0, 0, 1}}, {"Tracker 2", {1, 0, 1}}};
   std::string whole, lost, again, things;
   for (const std::string& datagram : mvn::EncodeCharacter(person)) {
     if (datagram.substr(4, 2) != "13") continue;

@@ -32,8 +32,8 @@ std::string DatagramOf(std::uint8_t counter, std::string_view payload) {
 }
 
 void Check(const mvn::ScaleGroup::Scale& scale) {
-  KINESCOPE_CHECK(scale.extra.size() <= static_cast<std::size_t>(kFingerAndPropCount));
-  for (const ScaledSegment& segment : scale.extra) {
+  KINESCOPE_CHECK(scale.scaled_segments.size() <= static_cast<std::size_t>(kFingerAndPropCount));
+  for (const ScaledSegment& segment : scale.scaled_segments) {
     KINESCOPE_CHECK(segment.name.size() <= 128 && segment.origin_in_world.allFinite());
   }
   if (!scale.skeleton) return;

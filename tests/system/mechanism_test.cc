@@ -322,7 +322,8 @@ double WorstFinger(const PersonState& person) {
 
 TEST(Mechanism, GetsHandsOfTheLengthsThatScaleDataTellAndOnlyOnceTheyAreStreamed) {
   GlovedPerson person(Described(true));
-  const PersonState bare = person.See(0, [](BodySample& sample) { sample.extra.present.reset(); });
+  const PersonState bare =
+      person.See(0, [](BodySample& sample) { sample.fingers_and_props.present.reset(); });
   EXPECT_EQ(bare.model->urdf_xml.find("carpus"), std::string::npos);
   EXPECT_FALSE(bare.gloves[urdf::kLeft]);
   for (int frame = 1; frame < 300; ++frame) {
@@ -348,7 +349,7 @@ TEST(Mechanism, LeavesFingersAsTheyWereWhileTheyAreNotStreamed) {
   GlovedPerson person(Described(true));
   const PersonState with = person.See(1.0);
   const PersonState without =
-      person.See(1.5, [](BodySample& sample) { sample.extra.present.reset(); });
+      person.See(1.5, [](BodySample& sample) { sample.fingers_and_props.present.reset(); });
   EXPECT_EQ(with.model, without.model);
   for (std::size_t i = 0; i < kFingersPerHand; ++i) {
     EXPECT_EQ(without.gloves[urdf::kLeft]->angles[i], with.gloves[urdf::kLeft]->angles[i]);

@@ -60,10 +60,10 @@ void AddHand(urdf::Side side, std::optional<double> seconds, const Character& ch
   }
   for (std::size_t i = 0; i < in_hand.size(); ++i) {
     const auto index = static_cast<std::size_t>(FingerIndex(side, static_cast<int>(i)));
-    if (sample.extra.present.test(index)) continue;
-    sample.extra.poses[index] = {hand.position + hand.orientation * in_hand[i].position,
-                                 hand.orientation * in_hand[i].orientation};
-    sample.extra.present.set(index);
+    if (sample.fingers_and_props.present.test(index)) continue;
+    sample.fingers_and_props.poses[index] = {hand.position + hand.orientation * in_hand[i].position,
+                                             hand.orientation * in_hand[i].orientation};
+    sample.fingers_and_props.present.set(index);
   }
 }
 
@@ -88,12 +88,12 @@ void AddAll(bool gloves, int props, std::optional<double> seconds, const Charact
   KINESCOPE_CHECK(props >= 0 && props <= kMostProps);
   for (int prop = 0; prop < props; ++prop) {
     const auto index = static_cast<std::size_t>(PropIndex(prop));
-    if (sample.extra.present.test(index)) continue;
+    if (sample.fingers_and_props.present.test(index)) continue;
     const Place& place = Places()[static_cast<std::size_t>(prop)];
     const SegmentState& carrier = sample.segments[urdf::At(place.segment)];
-    sample.extra.poses[index] = {carrier.position + carrier.orientation * place.offset,
-                                 carrier.orientation};
-    sample.extra.present.set(index);
+    sample.fingers_and_props.poses[index] = {carrier.position + carrier.orientation * place.offset,
+                                             carrier.orientation};
+    sample.fingers_and_props.present.set(index);
   }
   if (!gloves) return;
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
@@ -105,16 +105,18 @@ void AddAll(bool gloves, int props, std::optional<double> seconds, const Charact
 
 void AddExtras(bool gloves, int props, Character& character) {
   if (!character.skeleton || (!gloves && props == 0)) return;
-  character.extra.resize(kFingerAndPropCount);
+  character.scaled_segments.resize(kFingerAndPropCount);
   // The T-pose is a sample like any other.
   BodySample t_pose;
   const auto origins = mvn::TPoseOrigins(*character.skeleton);
   for (std::size_t i = 0; i < origins.size(); ++i) t_pose.segments[i].position = origins[i];
   AddAll(gloves, props, std::nullopt, character, t_pose);
-  for (std::size_t i = 0; i < character.extra.size(); ++i) {
-    if (!t_pose.extra.present.test(i) || !character.extra[i].name.empty()) continue;
-    character.extra[i] = {i < kMostProps ? Places()[i].name : FingerOrPropName(static_cast<int>(i)),
-                          t_pose.extra.poses[i].position};
+  for (std::size_t i = 0; i < character.scaled_segments.size(); ++i) {
+    if (!t_pose.fingers_and_props.present.test(i) || !character.scaled_segments[i].name.empty())
+      continue;
+    character.scaled_segments[i] = {
+        i < kMostProps ? Places()[i].name : FingerOrPropName(static_cast<int>(i)),
+        t_pose.fingers_and_props.poses[i].position};
   }
 }
 

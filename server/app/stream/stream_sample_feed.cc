@@ -24,7 +24,7 @@ mvn::TypeSet TypesOf(const FeedSettings& settings) {
 void MoveAside(double metres, BodySample& sample) {
   const Eigen::Vector3d offset(0, metres, 0);
   for (SegmentState& segment : sample.segments) segment.position += offset;
-  for (urdf::Pose& pose : sample.extra.poses) pose.position += offset;
+  for (urdf::Pose& pose : sample.fingers_and_props.poses) pose.position += offset;
   if (sample.com) sample.com->position += offset;
 }
 

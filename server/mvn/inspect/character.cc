@@ -15,19 +15,19 @@ void CharacterTally::OnSample(const BodySample& sample) {
   count(kAngles, sample.streamed_angles_deg.has_value());
   count(kTrackers, sample.has_tracker.any());
   count(kUtc, sample.utc_millis_of_day.has_value());
-  if (sample.extra.present.any()) AddExtra(sample.extra);
+  if (sample.fingers_and_props.present.any()) AddFingersAndProps(sample.fingers_and_props);
 }
 
-void CharacterTally::AddExtra(const FingerAndPropSegments& extra) {
+void CharacterTally::AddFingersAndProps(const FingerAndPropSegments& segments) {
   bool props = false;
   bool gloves = false;
   for (int i = 0; i < kFingerAndPropCount; ++i) {
-    if (!extra.present.test(urdf::At(i))) continue;
+    if (!segments.present.test(urdf::At(i))) continue;
     (i < kMostProps ? props : gloves) = true;
   }
   if (props) ++quantities_[kProps];
   if (gloves) ++quantities_[kGloves];
-  extra_seen_ |= extra.present;
+  fingers_and_props_seen_ |= segments.present;
 }
 
 void CharacterTally::OnObjects(const ObjectsSample& sample) {
@@ -46,7 +46,7 @@ void CharacterTally::Fill(CharacterReport& report) const {
   if (people_samples_ > 0) report.body_segments = urdf::kSegmentCount;
   report.objects = static_cast<int>(objects_seen_.count());
   for (int i = 0; i < kFingerAndPropCount; ++i) {
-    if (!extra_seen_.test(urdf::At(i))) continue;
+    if (!fingers_and_props_seen_.test(urdf::At(i))) continue;
     if (i < kMostProps) {
       ++report.props;
     } else {
@@ -56,18 +56,20 @@ void CharacterTally::Fill(CharacterReport& report) const {
   const bool has_skeleton = character_ && character_->skeleton;
   if (people_samples_ > objects_samples_ || (people_samples_ == 0 && has_skeleton)) {
     report.kind = CharacterKind::kPerson;
-  } else if (objects_samples_ > 0 || (character_ && !character_->extra.empty())) {
+  } else if (objects_samples_ > 0 || (character_ && !character_->scaled_segments.empty())) {
     report.kind = CharacterKind::kObjects;
   }
   if (!character_) return;
   report.name = character_->name;
   report.color_rgb = character_->color_rgb;
   if (has_skeleton) report.height_m = character_->skeleton->height;
-  const std::size_t named = report.kind == CharacterKind::kPerson
-                                ? std::min<std::size_t>(kMostProps, character_->extra.size())
-                                : character_->extra.size();
+  const std::size_t named =
+      report.kind == CharacterKind::kPerson
+          ? std::min<std::size_t>(kMostProps, character_->scaled_segments.size())
+          : character_->scaled_segments.size();
   for (std::size_t i = 0; i < named; ++i) {
-    if (!character_->extra[i].name.empty()) report.names.push_back(character_->extra[i].name);
+    if (!character_->scaled_segments[i].name.empty())
+      report.names.push_back(character_->scaled_segments[i].name);
   }
 }
 

@@ -20,7 +20,7 @@ class CharacterTally : public SampleSink {
   void OnObjects(const ObjectsSample& sample) override;
 
   bool has_scale() const {
-    return character_ && (character_->skeleton || !character_->extra.empty());
+    return character_ && (character_->skeleton || !character_->scaled_segments.empty());
   }
   bool has_name() const { return character_ && !character_->name.empty(); }
 
@@ -28,7 +28,7 @@ class CharacterTally : public SampleSink {
   void Fill(CharacterReport& report) const;
 
  private:
-  void AddExtra(const FingerAndPropSegments& extra);
+  void AddFingersAndProps(const FingerAndPropSegments& segments);
 
   enum Quantity { kLinear, kAngular, kCom, kAngles, kTrackers, kUtc, kGloves, kProps, kQuantities };
 
@@ -36,7 +36,7 @@ class CharacterTally : public SampleSink {
   std::uint64_t people_samples_ = 0;
   std::uint64_t objects_samples_ = 0;
   std::array<std::uint64_t, kQuantities> quantities_{};
-  decltype(FingerAndPropSegments::present) extra_seen_;
+  decltype(FingerAndPropSegments::present) fingers_and_props_seen_;
   decltype(ObjectsSample::present) objects_seen_;
 };
 

@@ -28,8 +28,8 @@ BodySample BareSample(const urdf::Pose& pelvis = TurnedPoseAt({0, 0, 1})) {
 }
 
 void ShowExtra(BodySample& sample, int index, const urdf::Pose& pose) {
-  sample.extra.poses[At(index)] = pose;
-  sample.extra.present.set(At(index));
+  sample.fingers_and_props.poses[At(index)] = pose;
+  sample.fingers_and_props.present.set(At(index));
 }
 
 // The person of `sample`, with the model that the extras make.
@@ -151,18 +151,18 @@ TEST(WornExtras, LengthsAreThoseOfScaleDataOnlyWhereTheyDescribeAHand) {
   };
   const urdf::HandSkeleton average = glove_of({});
   Character character;
-  character.extra.resize(kFingerAndPropCount);
+  character.scaled_segments.resize(kFingerAndPropCount);
   for (int i = 0; i < kFingersPerHand; ++i) {
-    ScaledSegment& segment = character.extra[At(FingerIndex(urdf::kRight, i))];
+    ScaledSegment& segment = character.scaled_segments[At(FingerIndex(urdf::kRight, i))];
     segment.name = "finger";
     segment.origin_in_world = Vector3d(0.001 * i, -0.7 - 0.004 * i, 1.4);
   }
   EXPECT_NE(glove_of(character).origin_in_parent, average.origin_in_parent);
   Character long_boned = character;
-  long_boned.extra[At(FingerIndex(urdf::kRight, 9))].origin_in_world.y() -= 0.3;
+  long_boned.scaled_segments[At(FingerIndex(urdf::kRight, 9))].origin_in_world.y() -= 0.3;
   EXPECT_EQ(glove_of(long_boned).origin_in_parent, average.origin_in_parent) << "no bone of 30 cm";
   Character with_hole = character;
-  with_hole.extra[At(FingerIndex(urdf::kRight, 19))].name.clear();
+  with_hole.scaled_segments[At(FingerIndex(urdf::kRight, 19))].name.clear();
   EXPECT_EQ(glove_of(with_hole).origin_in_parent, average.origin_in_parent);
 }
 

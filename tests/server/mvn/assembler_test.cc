@@ -404,9 +404,9 @@ TEST_F(AssemblerTest, HandsOnGlovesPropsTrackersAndTimeOfDay) {
   ExpectAllAccountedFor();
   ASSERT_EQ(sink_.samples.size(), 1U);
   const BodySample& sample = sink_.samples[0];
-  EXPECT_EQ(sample.extra.present.count(), 42U);
-  EXPECT_TRUE(sample.extra.present.test(static_cast<std::size_t>(PropIndex(1))));
-  EXPECT_FALSE(sample.extra.present.test(static_cast<std::size_t>(PropIndex(2))));
+  EXPECT_EQ(sample.fingers_and_props.present.count(), 42U);
+  EXPECT_TRUE(sample.fingers_and_props.present.test(static_cast<std::size_t>(PropIndex(1))));
+  EXPECT_FALSE(sample.fingers_and_props.present.test(static_cast<std::size_t>(PropIndex(2))));
   EXPECT_EQ(sample.has_tracker.count(), 17U);
   EXPECT_EQ(sample.utc_millis_of_day, 1500);
 }

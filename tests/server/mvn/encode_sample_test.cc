@@ -15,8 +15,8 @@ using testing::RandomValues;
 // Everything that a sample can have: all messages, gloves, props.
 BodySample FullSample(RandomValues& random) {
   BodySample sample = testing::RandomSample(random, 1200);
-  sample.extra.present.set();
-  for (urdf::Pose& pose : sample.extra.poses) pose = {random.Vector(2), random.Turn()};
+  sample.fingers_and_props.present.set();
+  for (urdf::Pose& pose : sample.fingers_and_props.poses) pose = {random.Vector(2), random.Turn()};
   sample.utc_millis_of_day = 57'586'065;
   return sample;
 }
@@ -51,7 +51,7 @@ TEST(EncodeSample, WritesGlovesAndPropsInTheSizesOfACurrentMvn) {
   const TypeSet poses = MakeTypeSet({Type::kEulerPose, Type::kPose});
   EXPECT_THAT(Sizes(EncodeSample(sample, poses)), ElementsAre(P("01", 1900), P("02", 2168)));
   for (int prop = 0; prop < kMostProps; ++prop) {
-    sample.extra.present.reset(static_cast<std::size_t>(PropIndex(prop)));
+    sample.fingers_and_props.present.reset(static_cast<std::size_t>(PropIndex(prop)));
   }
   EXPECT_THAT(Sizes(EncodeSample(sample, poses)), ElementsAre(P("01", 1788), P("02", 2040)));
 }
@@ -59,8 +59,8 @@ TEST(EncodeSample, WritesGlovesAndPropsInTheSizesOfACurrentMvn) {
 TEST(EncodeSample, NumbersPropsAndFingersOnBehindThePropsThatAreThere) {
   RandomValues random(3);
   BodySample sample = FullSample(random);
-  sample.extra.present.reset(static_cast<std::size_t>(PropIndex(2)));
-  sample.extra.present.reset(static_cast<std::size_t>(PropIndex(3)));
+  sample.fingers_and_props.present.reset(static_cast<std::size_t>(PropIndex(2)));
+  sample.fingers_and_props.present.reset(static_cast<std::size_t>(PropIndex(3)));
   const std::string pose = EncodeSample(sample)[0];
   EXPECT_EQ(pose.substr(17, 3), testing::FromHex("17 02 28")) << "23 segments, 2 props, 40 fingers";
   std::vector<int> ids;
@@ -198,7 +198,7 @@ TEST(EncodeSample, WritesObjectsAsACharacterOfAsManySegments) {
 
   Character objects;
   objects.id = 3;
-  objects.extra = {{"Box", {0, 0, 0}}, {"Trolley", {1, 0, 0}}};
+  objects.scaled_segments = {{"Box", {0, 0, 0}}, {"Trolley", {1, 0, 0}}};
   const auto described = EncodeCharacter(objects);
   ASSERT_EQ(described.size(), 2U);
   const auto scale = ParseDatagram(described[1]).value();
@@ -240,10 +240,10 @@ TEST(EncodeSample, SplitsScaleDataIntoSegmentsAndPoints) {
 TEST(EncodeSample, NamesPropsAndFingersBehindTheBody) {
   Character character;
   character.skeleton = urdf::DefaultSkeleton();
-  character.extra.resize(kFingerAndPropCount);
-  character.extra[0] = {"Prop1Sword", {0.25, 0, 1}};
+  character.scaled_segments.resize(kFingerAndPropCount);
+  character.scaled_segments[0] = {"Prop1Sword", {0.25, 0, 1}};
   for (std::size_t i = kMostProps; i < kFingerAndPropCount; ++i) {
-    character.extra[i].name = FingerOrPropName(static_cast<int>(i));
+    character.scaled_segments[i].name = FingerOrPropName(static_cast<int>(i));
   }
   const auto datagrams = EncodeCharacter(character);
   for (const std::string& datagram : datagrams) {
@@ -254,7 +254,7 @@ TEST(EncodeSample, NamesPropsAndFingersBehindTheBody) {
   ASSERT_EQ(segments.size(), 23U + 1 + 40);
   EXPECT_EQ(segments[22].name, "LeftToe");
   EXPECT_EQ(segments[23].name, "Prop1Sword");
-  EXPECT_EQ(segments[23].origin_in_world, character.extra[0].origin_in_world);
+  EXPECT_EQ(segments[23].origin_in_world, character.scaled_segments[0].origin_in_world);
   EXPECT_EQ(segments[24].name, "LeftCarpus");
   EXPECT_EQ(segments[44].name, "RightCarpus");
 }

@@ -167,7 +167,7 @@ TEST_F(InspectionTest, TellsPeopleObjectsAndSendersApart) {
   Character cluster;
   cluster.id = 3;
   cluster.name = "Tracked";
-  cluster.extra = {{"HTC Vive 1", {0, 0, 1}}, {"HTC Vive 2", {0, 1, 1}}};
+  cluster.scaled_segments = {{"HTC Vive 1", {0, 0, 1}}, {"HTC Vive 2", {0, 1, 1}}};
   Send(EncodeCharacter(cluster));
   for (std::uint32_t counter = 100; counter < 200; ++counter) {
     WaitFor(counter);
@@ -198,16 +198,18 @@ TEST_F(InspectionTest, SeesGlovesAndPropsByName) {
   Character carrier;
   carrier.name = "Carrier";
   carrier.skeleton = urdf::DefaultSkeleton();
-  carrier.extra.resize(kFingerAndPropCount);
-  carrier.extra[0].name = "Box Generic";
+  carrier.scaled_segments.resize(kFingerAndPropCount);
+  carrier.scaled_segments[0].name = "Box Generic";
   BodySample sample = RandomSample(random_, 0);
-  sample.extra.present.set(static_cast<std::size_t>(PropIndex(0)));
+  sample.fingers_and_props.present.set(static_cast<std::size_t>(PropIndex(0)));
   for (int finger = 0; finger < kFingersPerHand; ++finger) {
-    sample.extra.present.set(static_cast<std::size_t>(FingerIndex(urdf::kLeft, finger)));
-    sample.extra.present.set(static_cast<std::size_t>(FingerIndex(urdf::kRight, finger)));
+    sample.fingers_and_props.present.set(
+        static_cast<std::size_t>(FingerIndex(urdf::kLeft, finger)));
+    sample.fingers_and_props.present.set(
+        static_cast<std::size_t>(FingerIndex(urdf::kRight, finger)));
   }
   for (int finger = kMostProps; finger < kFingerAndPropCount; ++finger) {
-    carrier.extra[static_cast<std::size_t>(finger)].name = FingerOrPropName(finger);
+    carrier.scaled_segments[static_cast<std::size_t>(finger)].name = FingerOrPropName(finger);
   }
   Send(EncodeCharacter(carrier));
   for (std::uint32_t counter = 0; counter < 20; ++counter) {

@@ -74,8 +74,8 @@ inline BodySample RandomFullSample(RandomValues& random, std::uint32_t counter) 
   sample.utc_millis_of_day = static_cast<std::int32_t>(counter % 86'400'000);
   for (int i = 0; i < kFingerAndPropCount; ++i) {
     if (i >= 2 && i < kMostProps) continue;
-    sample.extra.present.set(static_cast<std::size_t>(i));
-    sample.extra.poses[static_cast<std::size_t>(i)] = {random.Vector(2), random.Turn()};
+    sample.fingers_and_props.present.set(static_cast<std::size_t>(i));
+    sample.fingers_and_props.poses[static_cast<std::size_t>(i)] = {random.Vector(2), random.Turn()};
   }
   for (std::size_t i = 0; i < sample.trackers.size(); i += 2) {
     sample.has_tracker.set(i);
