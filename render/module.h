@@ -56,7 +56,7 @@ class Drawing {
 };
 
 struct DrawingModule {
-  ModuleAbi<SceneState, PersonState, PersonModel, urdf::ExtraMass, JointLoad, TrackedObject,
+  ModuleAbi<SceneState, PersonState, PersonModel, urdf::AddedMass, JointLoad, TrackedObject,
             RobotState, urdf::RobotModel, urdf::Link, urdf::Visual, urdf::Collision,
             urdf::RobotJoint, urdf::MeshSearch, SceneMarker, Camera, SceneLook, Trail, Ghost, Image,
             Label, Driver>

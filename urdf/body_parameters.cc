@@ -14,8 +14,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kLightest = 20, kHeaviest = 300;  // kg, of a person
-constexpr double kMostExtraKg = 100;
-constexpr double kFarthestExtra = 2;  // m
+constexpr double kMostAddedKg = 100;
+constexpr double kFarthestAddedMass = 2;  // m
 
 struct TableName {
   const char* name;
@@ -41,12 +41,12 @@ Matrix3d PointInertia(double mass, const Vector3d& at) {
   return mass * (at.squaredNorm() * Matrix3d::Identity() - at * at.transpose());
 }
 
-void Add(const ExtraMass& extra, SegmentInertia& segment) {
-  const double mass = segment.mass + extra.mass_kg;
+void Add(const AddedMass& added, SegmentInertia& segment) {
+  const double mass = segment.mass + added.mass_kg;
   const Vector3d com =
-      (segment.mass * segment.com_in_link + extra.mass_kg * extra.position_in_link) / mass;
+      (segment.mass * segment.com_in_link + added.mass_kg * added.position_in_link) / mass;
   segment.inertia_about_com += PointInertia(segment.mass, segment.com_in_link - com) +
-                               PointInertia(extra.mass_kg, extra.position_in_link - com);
+                               PointInertia(added.mass_kg, added.position_in_link - com);
   segment.mass = mass;
   segment.com_in_link = com;
 }
@@ -65,24 +65,24 @@ std::string FindDefect(const BodyDescription& body) {
   if (!(body.mass_kg >= kLightest && body.mass_kg <= kHeaviest)) {
     return fmt::format("body mass {} kg: expected {} to {} kg", body.mass_kg, kLightest, kHeaviest);
   }
-  if (body.extra_masses.size() > kMostExtraMasses) {
-    return fmt::format("{} extra masses: expected at most {}", body.extra_masses.size(),
-                       kMostExtraMasses);
+  if (body.added_masses.size() > kMostAddedMasses) {
+    return fmt::format("{} added masses: expected at most {}", body.added_masses.size(),
+                       kMostAddedMasses);
   }
-  for (const ExtraMass& extra : body.extra_masses) {
-    if (extra.segment < 0 || extra.segment >= kSegmentCount) {
-      return fmt::format("extra mass on segment {}: expected 0 to {}", extra.segment,
+  for (const AddedMass& added : body.added_masses) {
+    if (added.segment < 0 || added.segment >= kSegmentCount) {
+      return fmt::format("added mass on segment {}: expected 0 to {}", added.segment,
                          kSegmentCount - 1);
     }
-    const std::string_view on = kSegments[At(extra.segment)].link_name;
-    if (!(extra.mass_kg > 0 && extra.mass_kg <= kMostExtraKg)) {
-      return fmt::format("extra mass {} kg on {}: expected more than 0, at most {} kg",
-                         extra.mass_kg, on, kMostExtraKg);
+    const std::string_view on = kSegments[At(added.segment)].link_name;
+    if (!(added.mass_kg > 0 && added.mass_kg <= kMostAddedKg)) {
+      return fmt::format("added mass {} kg on {}: expected more than 0, at most {} kg",
+                         added.mass_kg, on, kMostAddedKg);
     }
-    if (!(extra.position_in_link.norm() <= kFarthestExtra)) {
-      const Vector3d& at = extra.position_in_link;
-      return fmt::format("extra mass on {} at ({}, {}, {}) m: expected within {} m of its origin",
-                         on, at.x(), at.y(), at.z(), kFarthestExtra);
+    if (!(added.position_in_link.norm() <= kFarthestAddedMass)) {
+      const Vector3d& at = added.position_in_link;
+      return fmt::format("added mass on {} at ({}, {}, {}) m: expected within {} m of its origin",
+                         on, at.x(), at.y(), at.z(), kFarthestAddedMass);
     }
   }
   return "";
@@ -101,7 +101,7 @@ BodyParameters MakeBodyParameters(const BodyDescription& body, const Skeleton& s
     const double mass = body.mass_kg * shares[i].mass / sum;
     parameters[i] = {mass, shares[i].com_in_link, mass * shares[i].inertia_by_mass};
   }
-  for (const ExtraMass& extra : body.extra_masses) Add(extra, parameters[At(extra.segment)]);
+  for (const AddedMass& added : body.added_masses) Add(added, parameters[At(added.segment)]);
   return parameters;
 }
 
@@ -118,22 +118,22 @@ const char* Name(BodyTable table) {
   return "";
 }
 
-ExtraMass ParseExtraMass(const std::string& text) try {
+AddedMass ParseAddedMass(const std::string& text) try {
   const PlacedMass placed = ParsePlacedMass(text);
-  ExtraMass extra;
-  extra.segment = SegmentNamed(placed.where);
-  if (extra.segment < 0) throw std::invalid_argument("unknown segment '" + placed.where + "'");
-  extra.mass_kg = placed.mass_kg;
-  extra.position_in_link = placed.position.value_or(Vector3d::Zero());
+  AddedMass added;
+  added.segment = SegmentNamed(placed.where);
+  if (added.segment < 0) throw std::invalid_argument("unknown segment '" + placed.where + "'");
+  added.mass_kg = placed.mass_kg;
+  added.position_in_link = placed.position.value_or(Vector3d::Zero());
   BodyDescription body;
-  body.extra_masses = {extra};
+  body.added_masses = {added};
   if (const std::string defect = FindDefect(body); !defect.empty()) {
     throw std::invalid_argument(defect);
   }
-  return extra;
+  return added;
 } catch (const std::invalid_argument& error) {
   throw std::invalid_argument(
-      fmt::format("extra mass '{}': {}; expected SEGMENT:KG or SEGMENT:KG@X,Y,Z, such as "
+      fmt::format("added mass '{}': {}; expected SEGMENT:KG or SEGMENT:KG@X,Y,Z, such as "
                   "head:1.5@0,0,0.12",
                   text, error.what()));
 }

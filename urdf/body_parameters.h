@@ -23,21 +23,21 @@ enum class BodyTable {
 };
 
 /// A point mass that is fixed to one segment: helmet, belt, backpack, tool.
-struct ExtraMass {
+struct AddedMass {
   int segment = kPelvis;
   double mass_kg = 0;
   Eigen::Vector3d position_in_link = Eigen::Vector3d::Zero();  // in the link frame of the segment,
                                                                // m
 };
 
-constexpr std::size_t kMostExtraMasses = 16;
+constexpr std::size_t kMostAddedMasses = 16;
 
 struct BodyDescription {
   Sex sex = Sex::kMale;
   double mass_kg = 75.0;        // without added masses
   bool mass_is_assumed = true;  // the default value: every display of a load must say so
   BodyTable table = BodyTable::kDeLeva;
-  std::vector<ExtraMass> extra_masses{};
+  std::vector<AddedMass> added_masses{};
   bool sex_is_assumed = true;  // the default value
 };
 
@@ -50,7 +50,7 @@ struct SegmentInertia {
 using BodyParameters = std::array<SegmentInertia, kSegmentCount>;
 
 /// Why `body` is invalid, with the value and the expected range; "" if it is valid. Limits: a body
-/// mass of 20 to 300 kg; at most kMostExtraMasses added masses, each above 0 and at most 100 kg, on
+/// mass of 20 to 300 kg; at most kMostAddedMasses added masses, each above 0 and at most 100 kg, on
 /// an existing segment, at most 2 m from its origin.
 [[nodiscard]] std::string FindDefect(const BodyDescription& body);
 
@@ -67,6 +67,6 @@ const char* Name(BodyTable table);
 /// "head:1.5@0,0,0.12": segment (MVN or link name), mass in kg, position in its link frame in m;
 /// without @: at the origin of the segment. @throws std::invalid_argument with the text and the
 /// expected form.
-ExtraMass ParseExtraMass(const std::string& text);
+AddedMass ParseAddedMass(const std::string& text);
 
 }  // namespace kinescope::urdf

@@ -25,8 +25,8 @@ bool IsModelName(const std::string& text) {
   });
 }
 
-urdf::ExtraMass ToExtraMass(const std::string& item) try {
-  return urdf::ParseExtraMass(item);
+urdf::AddedMass ToAddedMass(const std::string& item) try {
+  return urdf::ParseAddedMass(item);
 } catch (const std::invalid_argument& error) {
   throw BadValue(error.what());
 }
@@ -75,7 +75,7 @@ PersonOptions::PersonOptions()
                      "SEGMENT:KG or SEGMENT:KG@X,Y,Z (m, in the frame of the segment's link), with "
                      "commas between several, such as head:1.5,t8:8@-0.15,0,0.1; segments: {}",
                      fmt::join(SegmentNames(), ", ")),
-                 urdf::kMostExtraMasses, ToExtraMass, {}, SegmentNames()),
+                 urdf::kMostAddedMasses, ToAddedMass, {}, SegmentNames()),
       mesh_units({{"m", 1}, {"cm", 0.01}, {"mm", 0.001}}, 1),
       mesh_up({{"z", false}, {"y", true}}, false),
       mesh_scale({{"fit", true}, {"none", false}}, true),
@@ -132,7 +132,7 @@ urdf::BodyDescription ToBody(const PersonOptions& person) {
   body.mass_kg =
       person.mass.value_or(body.sex == urdf::Sex::kMale ? kAssumedMaleKg : kAssumedFemaleKg);
   body.table = *person.body_table;
-  body.extra_masses = *person.extra_mass;
+  body.added_masses = *person.extra_mass;
   if (const auto defect = urdf::FindDefect(body); !defect.empty()) {
     throw UsageError(fmt::format("--extra_mass={}: {}", person.extra_mass.ToText(), defect));
   }

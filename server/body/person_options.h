@@ -39,7 +39,7 @@ struct PersonOptions {
   options::Optional<options::Choice<urdf::Sex>> sex;
   options::Optional<options::Number> mass, height;  // kg, m
   options::Choice<urdf::BodyTable> body_table;
-  options::List<urdf::ExtraMass> extra_mass;
+  options::List<urdf::AddedMass> extra_mass;
   FigureValue figure;
   ToolsValue tool;
   options::Choice<double> mesh_units;  // m

@@ -150,7 +150,7 @@ void LoadEstimator::ShowBody(const BodySample& sample, const LoadSubject& subjec
     const Vector3d velocity = VelocityOf(sample, demand, subject.body);
     if (velocity.allFinite()) forces.com_velocity = velocity;
   }
-  if (sample.com && sample.com->position.allFinite() && !subject.wears_extra_masses) {
+  if (sample.com && sample.com->position.allFinite() && !subject.has_added_masses) {
     constexpr double kMostDifference = 0.01;  // m, joint-loads.md 1.6
     forces.com_minus_mvn = forces.com_of_model - sample.com->position;
     forces.com_disagrees = forces.com_minus_mvn->norm() > kMostDifference;

@@ -205,7 +205,7 @@ PersonState SceneBuilder::StateOf(Person& person, const BodySample& sample) cons
   }
   const loads::LoadResult& result = person.loads.Update(
       sample, state.links,
-      {human.skeleton, human.body, body.mass_is_assumed, !body.extra_masses.empty(),
+      {human.skeleton, human.body, body.mass_is_assumed, !body.added_masses.empty(),
        person.has_legs, *person.floor_z},
       settings, measured == measured_.end() ? kNothingMeasured : measured->second);
   state.com_is_ours = !sample.com;

@@ -91,7 +91,7 @@ void ParseTexts(const std::string& text) {
   }
   try {
     urdf::BodyDescription body;
-    body.extra_masses = {urdf::ParseExtraMass(text)};
+    body.added_masses = {urdf::ParseAddedMass(text)};
     KINESCOPE_CHECK(urdf::FindDefect(body).empty());
   } catch (const std::invalid_argument& refused) {
     KINESCOPE_CHECK(refused.what()[0] != '\0');

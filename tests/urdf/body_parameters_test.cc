@@ -71,7 +71,7 @@ TEST(BodyParameters, AreBodiesThatCanExist) {  // triangle inequality of every i
     for (const Sex sex : {Sex::kMale, Sex::kFemale}) {
       for (const double height : {1.2, 1.75, 2.1}) {
         BodyDescription body = Described(table, sex);
-        body.extra_masses = {{kHead, 1.5, {0.03, 0, 0.1}}, {kT8, 20, {-0.2, 0.01, 0}}};
+        body.added_masses = {{kHead, 1.5, {0.03, 0, 0.1}}, {kT8, 20, {-0.2, 0.01, 0}}};
         for (const SegmentInertia& s : MakeBodyParameters(body, DefaultSkeleton(height))) {
           const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(s.inertia_about_com);
           const Eigen::Vector3d i = solver.eigenvalues();
@@ -158,7 +158,7 @@ TEST(BodyParameters, HaveTheCentresThatTheirTablesSay) {
 
 TEST(BodyParameters, IncludeWhatIsWorn) {
   BodyDescription body;
-  body.extra_masses = {{kHead, 1.5, {0, 0, 0.2}}, {kHead, 0.5, {0.1, 0, 0.1}}};
+  body.added_masses = {{kHead, 1.5, {0, 0, 0.2}}, {kHead, 0.5, {0.1, 0, 0.1}}};
   const BodyParameters bare = MakeBodyParameters({}, DefaultSkeleton());
   const BodyParameters worn = MakeBodyParameters(body, DefaultSkeleton());
   EXPECT_NEAR(TotalMass(worn), 77, 1e-9);
@@ -177,9 +177,9 @@ TEST(BodyParameters, IncludeWhatIsWorn) {
 }
 
 TEST(BodyParameters, RefuseWhatNobodyWearsNamingIt) {
-  const auto defect = [](ExtraMass extra) {
+  const auto defect = [](AddedMass added) {
     BodyDescription body;
-    body.extra_masses = {extra};
+    body.added_masses = {added};
     return FindDefect(body);
   };
   EXPECT_EQ(defect({kHead, 1.5, {0, 0, 0.1}}), "");
@@ -190,21 +190,21 @@ TEST(BodyParameters, RefuseWhatNobodyWearsNamingIt) {
   EXPECT_THAT(defect({kT8, 5, {0, std::nan(""), 0}}), ::testing::HasSubstr("within 2 m"));
   EXPECT_THAT(defect({23, 5, {0, 0, 0}}), ::testing::HasSubstr("segment 23"));
   BodyDescription many;
-  many.extra_masses.assign(kMostExtraMasses + 1, {kHead, 1, {0, 0, 0}});
+  many.added_masses.assign(kMostAddedMasses + 1, {kHead, 1, {0, 0, 0}});
   EXPECT_THROW(MakeBodyParameters(many, DefaultSkeleton()), std::invalid_argument);
 }
 
-TEST(ExtraMass, IsReadFromTextOrRefusedWithTheText) {
-  const ExtraMass helmet = ParseExtraMass("Head:1.5@0.01,0,0.12");
+TEST(AddedMass, IsReadFromTextOrRefusedWithTheText) {
+  const AddedMass helmet = ParseAddedMass("Head:1.5@0.01,0,0.12");
   EXPECT_EQ(helmet.segment, kHead);
   EXPECT_EQ(helmet.mass_kg, 1.5);
   EXPECT_EQ(helmet.position_in_link, Eigen::Vector3d(0.01, 0, 0.12));
-  EXPECT_EQ(ParseExtraMass("right_forearm:0.3").segment, kRightForeArm);
+  EXPECT_EQ(ParseAddedMass("right_forearm:0.3").segment, kRightForeArm);
   for (const char* text :
        {"", "head", "head:", ":1", "hat:1", "head:1kg", "head:-1", "head:nan", "head:1@",
         "head:1@1,2", "head:1@0,0,0,0", "head:1@0,0,x", "head:1@0,0,9", "head:500"}) {
     try {
-      ParseExtraMass(text);
+      ParseAddedMass(text);
       ADD_FAILURE() << "took '" << text << "'";
     } catch (const std::invalid_argument& error) {
       EXPECT_THAT(error.what(), ::testing::HasSubstr(std::string("'") + text + "'"));

@@ -48,9 +48,9 @@ std::string HandsText(const loads::HandLoad& hands) {
 
 std::string WornText(const urdf::BodyDescription& body) {
   std::string text;
-  for (const urdf::ExtraMass& extra : body.extra_masses) {
-    text += fmt::format("{}{:g} kg on {}", text.empty() ? "" : ", ", extra.mass_kg,
-                        urdf::kSegments[urdf::At(extra.segment)].link_name);
+  for (const urdf::AddedMass& added : body.added_masses) {
+    text += fmt::format("{}{:g} kg on {}", text.empty() ? "" : ", ", added.mass_kg,
+                        urdf::kSegments[urdf::At(added.segment)].link_name);
   }
   return text;
 }
@@ -91,7 +91,7 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
                    fmt::format("{:.2f} m{}", model.human.skeleton.height,
                                model.lengths_are_measured ? " (from the source)" : ""),
                    !model.lengths_are_measured && context.scene.height_is_assumed});
-  if (!body.extra_masses.empty()) facts.push_back({"added mass", WornText(body), false});
+  if (!body.added_masses.empty()) facts.push_back({"added mass", WornText(body), false});
   facts.push_back({"body table", urdf::Name(body.table), false});
   facts.push_back({"hand load", HandsText(settings.hands), !settings.hands.is_known});
   facts.push_back(

@@ -349,7 +349,7 @@ TEST(LoadEstimator, TellsWhenOurCentreOfMassIsNotThatOfMvn) {
   EXPECT_NEAR(result.forces.com_minus_mvn->z(), -0.02, 1e-4);
   EXPECT_TRUE(result.forces.com_disagrees);
   LoadSubject laden{Person(), Body()};
-  laden.wears_extra_masses = true;
+  laden.has_added_masses = true;
   EXPECT_FALSE(estimator.Update(sample, links, laden, LoadSettings()).forces.com_minus_mvn);
 }
 

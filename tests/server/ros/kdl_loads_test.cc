@@ -134,7 +134,7 @@ TEST(KdlNewtonEuler, NeedsTheTorquesThatWeNeedWithALoadInTheHand) {
   human.body = urdf::MakeBodyParameters({}, human.skeleton);
   // To KDL the load is a part of the hand.
   urdf::BodyDescription laden;
-  laden.extra_masses = {{urdf::kRightHand, kHeldKg, urdf::GripPoint(human.skeleton, urdf::kRight)}};
+  laden.added_masses = {{urdf::kRightHand, kHeldKg, urdf::GripPoint(human.skeleton, urdf::kRight)}};
   urdf::HumanModel laden_human = human;
   laden_human.body = urdf::MakeBodyParameters(laden, human.skeleton);
   const KDL::Tree tree = TreeOf(laden_human);

@@ -159,7 +159,7 @@ TEST(SceneBuilder, LoadsTheJointsWithWhatIsHeldAndWorn) {
   settings.hands.is_known = true;
   settings.hands.mass_kg = {10, 0};
   held.builder.SetLoads(settings);
-  options.body.extra_masses = {{urdf::kT8, 20, {-0.2, 0, 0.1}}};
+  options.body.added_masses = {{urdf::kT8, 20, {-0.2, 0, 0.1}}};
   Built laden(options);
   const BodySample sample = SampleOf("t_pose", 0);
   for (Built* built : {&bare, &held, &laden}) built->builder.OnSample(sample);

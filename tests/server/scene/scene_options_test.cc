@@ -48,12 +48,12 @@ TEST(PersonOptions, TakeExtraMassesWithCommasOrSemicolonsBetween) {
   const urdf::BodyDescription body = ToBody(With<PersonOptions>(
       {{"body_table", "dumas"}, {"extra_mass", "Head:1.5@0,0,0.12, t8:8;pelvis:0.7"}}));
   EXPECT_EQ(body.table, urdf::BodyTable::kDumas);
-  ASSERT_EQ(body.extra_masses.size(), 3U);
-  EXPECT_EQ(body.extra_masses[0].segment, urdf::kHead);
-  EXPECT_EQ(body.extra_masses[0].position_in_link, Eigen::Vector3d(0, 0, 0.12));
-  EXPECT_EQ(body.extra_masses[1].segment, urdf::kT8);
-  EXPECT_EQ(body.extra_masses[1].mass_kg, 8);
-  EXPECT_EQ(body.extra_masses[2].segment, urdf::kPelvis);
+  ASSERT_EQ(body.added_masses.size(), 3U);
+  EXPECT_EQ(body.added_masses[0].segment, urdf::kHead);
+  EXPECT_EQ(body.added_masses[0].position_in_link, Eigen::Vector3d(0, 0, 0.12));
+  EXPECT_EQ(body.added_masses[1].segment, urdf::kT8);
+  EXPECT_EQ(body.added_masses[1].mass_kg, 8);
+  EXPECT_EQ(body.added_masses[2].segment, urdf::kPelvis);
 }
 
 TEST(PersonOptions, NameTheExtraMassThatIsWrong) {

@@ -60,7 +60,7 @@ TEST(LoadSummary, TellsWhatWasGivenFromWhatIsAssumed) {
   body.sex = urdf::Sex::kFemale;
   body.mass_kg = 61.5;
   body.sex_is_assumed = body.mass_is_assumed = false;
-  body.extra_masses = {{urdf::kHead, 1.5, Eigen::Vector3d::Zero()},
+  body.added_masses = {{urdf::kHead, 1.5, Eigen::Vector3d::Zero()},
                        {urdf::kT8, 8, Eigen::Vector3d::Zero()}};
   context.scene.height_is_assumed = false;
   context.scene.loads.hands.is_known = true;
