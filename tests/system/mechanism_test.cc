@@ -12,7 +12,7 @@
 #include <sstream>
 #include <vector>
 
-#include "server/app/stream/stream_extras.h"
+#include "server/app/stream/synthetic_gloves.h"
 #include "server/http/api.h"
 #include "server/mvn/datagram.h"
 #include "server/ros/bridge.h"
@@ -279,7 +279,7 @@ class GlovedPerson {
   }
   PersonState See(double seconds, const std::function<void(BodySample&)>& change = {}) {
     BodySample sample = motion_->At(seconds);
-    app::AddExtras(true, 1, seconds, character_, sample);
+    app::AddGlovesAndProps(true, 1, seconds, character_, sample);
     if (change) change(sample);
     builder_.OnSample(sample);
     return state_->people.at(0);
@@ -299,7 +299,7 @@ class GlovedPerson {
 
 Character Described(bool with_fingers) {
   Character character = subject::MakeMotion("lift")->character();
-  if (with_fingers) app::AddExtras(true, 1, character);
+  if (with_fingers) app::AddGlovesAndProps(true, 1, character);
   return character;
 }
 

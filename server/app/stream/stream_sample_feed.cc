@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/clocks.h"
-#include "server/app/stream/stream_extras.h"
 #include "server/app/stream/stream_feed.h"
+#include "server/app/stream/synthetic_gloves.h"
 #include "server/source/open_source.h"
 
 namespace kinescope::app {
@@ -76,7 +76,7 @@ class SampleFeed final : public Feed, private SampleSink {
   void OnCharacter(const Character& character) override {
     Track& track = tracks_[character.id];
     track.character = character;
-    AddExtras(settings_.gloves, settings_.props, track.character);
+    AddGlovesAndProps(settings_.gloves, settings_.props, track.character);
     // Every round of a loop begins with the same people.
     if (!is_repeated_ || !track.is_described) track.described_nanos = -1;
     track.is_described = true;
@@ -84,8 +84,8 @@ class SampleFeed final : public Feed, private SampleSink {
 
   void OnSample(const BodySample& sample) override {
     Take(sample, [&](const Track& track, BodySample& made) {
-      AddExtras(settings_.gloves, settings_.props, static_cast<double>(made.stamp_nanos) * 1e-9,
-                track.character, made);
+      AddGlovesAndProps(settings_.gloves, settings_.props,
+                        static_cast<double>(made.stamp_nanos) * 1e-9, track.character, made);
     });
   }
 

@@ -1,4 +1,4 @@
-#include "server/app/stream/stream_extras.h"
+#include "server/app/stream/synthetic_gloves.h"
 
 #include <array>
 #include <cmath>
@@ -103,7 +103,7 @@ void AddAll(bool gloves, int props, std::optional<double> seconds, const Charact
 
 }  // namespace
 
-void AddExtras(bool gloves, int props, Character& character) {
+void AddGlovesAndProps(bool gloves, int props, Character& character) {
   if (!character.skeleton || (!gloves && props == 0)) return;
   character.scaled_segments.resize(kFingerAndPropCount);
   // The T-pose is a sample like any other.
@@ -120,8 +120,8 @@ void AddExtras(bool gloves, int props, Character& character) {
   }
 }
 
-void AddExtras(bool gloves, int props, double seconds, const Character& character,
-               BodySample& sample) {
+void AddGlovesAndProps(bool gloves, int props, double seconds, const Character& character,
+                       BodySample& sample) {
   AddAll(gloves, props, seconds, character, sample);
 }
 
