@@ -70,7 +70,7 @@ struct HandForce {
 };
 
 /// Hand loads as they were set (option, page, ROS): the end values of the ramps. kg.
-struct ToldLoad {
+struct StatedHandLoad {
   bool is_known = false;                   // false: no hand load was set
   std::array<double, 2> alone_kg{{0, 0}};  // held by one hand, by urdf::Side
   double both_kg = 0;
@@ -105,7 +105,7 @@ struct BodyForces {
   std::optional<double> margin_of_stability;        // m; positive inside the support polygon
 
   std::array<HandForce, 2> hands{};  // by urdf::Side
-  ToldLoad told;                     // the hand loads as they were set
+  StatedHandLoad stated_hand_load;   // the hand loads as they were set
   std::optional<LumbarLoad> lumbar;
 
   Eigen::Vector3d com_of_model = Eigen::Vector3d::Zero();  // world, m

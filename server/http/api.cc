@@ -58,11 +58,11 @@ json LoadToJson(const JointLoad& load) {
           {"secs_in_class", SecsToJson(load, 0.001)}};
 }
 
-json ToldToJson(const ToldLoad& told) {
-  return {{"is_known", told.is_known},
-          {"right_kg", told.alone_kg[urdf::kRight]},
-          {"left_kg", told.alone_kg[urdf::kLeft]},
-          {"both_kg", told.both_kg}};
+json HandLoadToJson(const StatedHandLoad& stated) {
+  return {{"is_known", stated.is_known},
+          {"right_kg", stated.alone_kg[urdf::kRight]},
+          {"left_kg", stated.alone_kg[urdf::kLeft]},
+          {"both_kg", stated.both_kg}};
 }
 
 json ForcesToJson(const BodyForces& forces) {
@@ -101,7 +101,7 @@ json ForcesToJson(const BodyForces& forces) {
           {"com_minus_mvn_m",
            forces.com_minus_mvn ? json(forces.com_minus_mvn->norm()) : json(nullptr)},
           {"com_disagrees", forces.com_disagrees},
-          {"hand_load", ToldToJson(forces.told)},
+          {"hand_load", HandLoadToJson(forces.stated_hand_load)},
           {"hands", std::move(hands)},
           {"feet", std::move(feet)}};
 }
@@ -295,7 +295,7 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
                       {"why_other_metric", person.forces.why_other_metric},
                       {"why_static", person.forces.why_static},
                       {"why_no_ground", person.forces.why_no_ground},
-                      {"hand_load", ToldToJson(person.forces.told)},
+                      {"hand_load", HandLoadToJson(person.forces.stated_hand_load)},
                       {"loads", std::move(loads)}});
   }
   json objects = json::array();

@@ -346,7 +346,8 @@ const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPose
   BodyForces& forces = result_.forces;
   forces = BodyForces();
   forces.metric = settings.metric;
-  forces.told = {settings.hands.is_known, settings.hands.mass_kg, settings.hands.both_kg};
+  forces.stated_hand_load = {settings.hands.is_known, settings.hands.mass_kg,
+                             settings.hands.both_kg};
   if (!IsPose(links)) {
     ForgetEverything(links, kNoPose, stamp);
     return result_;

@@ -83,8 +83,8 @@ void AddForces(PersonState& person) {
   forces.support.corners[3] = {middle.x() - 0.1, middle.y() + 0.15};
   forces.margin_of_stability = 0.083;
   forces.lumbar = LumbarLoad{2150, 310};
-  forces.told.is_known = true;
-  forces.told.alone_kg[urdf::kRight] = 5;
+  forces.stated_hand_load.is_known = true;
+  forces.stated_hand_load.alone_kg[urdf::kRight] = 5;
   const urdf::Pose& hand = person.links[urdf::kRightHand];
   HandForce& held = forces.hands[urdf::kRight];
   held.mass_kg = 5;

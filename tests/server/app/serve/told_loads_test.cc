@@ -69,7 +69,7 @@ TEST(ToldLoads, ReachTheShoulderWithTheNextSamples) {
   EXPECT_EQ(LoadOf(person, urdf::jRightShoulder).load_class, LoadClass::kMedium);
   EXPECT_EQ(LoadOf(person, urdf::jLeftShoulder).load_class, LoadClass::kLow);
   EXPECT_EQ(person.forces.hands[kRight].mass_kg, 2);
-  EXPECT_EQ(person.forces.told.alone_kg[kRight], 2);
+  EXPECT_EQ(person.forces.stated_hand_load.alone_kg[kRight], 2);
 }
 
 TEST(ToldLoads, AreThoseOfOnePerson) {
