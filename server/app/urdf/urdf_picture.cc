@@ -20,8 +20,8 @@ namespace {
 
 std::vector<double> XyzList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
-void Tell(const UrdfPictureOptions& options, const RobotState& robot, const render::Camera& camera,
-          const std::vector<std::string>& problems) {
+void PrintPicture(const UrdfPictureOptions& options, const RobotState& robot,
+                  const render::Camera& camera, const std::vector<std::string>& problems) {
   if (!*options.json) {
     const std::string boxes =
         problems.empty() ? "" : fmt::format(", {} mesh files missing or rejected", problems.size());
@@ -101,7 +101,7 @@ void DrawUrdf(const UrdfPictureOptions& options) {
   facts["Source"] = std::filesystem::path(*options.file).filename().string();
   facts["Camera"] = options.view.camera.ToText();
   render::WritePng(*options.out, image, facts);
-  Tell(options, shot.state.robots.front(), shot.camera, renderer->problems());
+  PrintPicture(options, shot.state.robots.front(), shot.camera, renderer->problems());
 }
 
 }  // namespace kinescope::app
