@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/clocks.h"
+
 namespace kinescope::mvn {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr std::int64_t kBucketNanos = 2'000'000'000;
 constexpr double kPauseNanos = 0.5e9;
 constexpr double kTimeCodeJumpNanos = 20e6;
 constexpr std::int64_t kLeastStepNanos = 100'000;
-constexpr std::int64_t kWallSetBackNanos = 1'000'000'000;
+constexpr std::int64_t kWallSetBackNanos = kNanosPerSecond;
 
 // With fewer samples, the rounding of the time code makes the period too inaccurate.
 constexpr std::uint32_t kFramesForPeriod = 8;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/check.h"
+#include "core/clocks.h"
 #include "server/mvn/encode.h"
 #include "server/mvn/item_reader.h"
 
@@ -171,7 +172,7 @@ bool HasTrackers(const BodySample& sample) {
 
 TimeCodeMessage TimeOfDay(const BodySample& sample) {
   if (sample.utc_millis_of_day) return {*sample.utc_millis_of_day};
-  const std::int64_t millis = sample.stamp_nanos / 1'000'000 % kMillisPerDay;
+  const std::int64_t millis = sample.stamp_nanos / kNanosPerMilli % kMillisPerDay;
   return {static_cast<std::int32_t>(millis < 0 ? millis + kMillisPerDay : millis)};
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/body_sample.h"
+#include "core/clocks.h"
 
 namespace kinescope {
 
@@ -17,7 +18,7 @@ class SkeletonWatch {
   static constexpr double kOtherLength = 0.02;  // m
   /// Time for which the lengths must differ from the skeleton and agree with each other. Changes
   /// caused by a calibration or a lost sensor are shorter or not constant.
-  static constexpr std::int64_t kForGoodNanos = 1'000'000'000;
+  static constexpr std::int64_t kForGoodNanos = kNanosPerSecond;
 
   /// Returns the person's skeleton when it is new: with the first sample that looks like a human,
   /// and when other lengths have lasted for kForGoodNanos. End points, which poses do not contain,

@@ -8,13 +8,13 @@
 #include <limits>
 
 #include "core/body_sample.h"
+#include "core/clocks.h"
 
 namespace kinescope::ros_bridge {
 
 /// `nanos` since the Unix epoch as ROS time. Values that ROS time cannot represent (before 1970,
 /// after 2106) become the nearest one: a stamp in a file is untrusted.
 inline ros::Time ToRosTime(std::int64_t stamp_nanos) {
-  constexpr std::int64_t kNanosPerSecond = 1'000'000'000;
   constexpr std::int64_t kLast =
       std::int64_t{std::numeric_limits<std::uint32_t>::max()} * kNanosPerSecond +
       (kNanosPerSecond - 1);
@@ -24,7 +24,7 @@ inline ros::Time ToRosTime(std::int64_t stamp_nanos) {
 }
 
 inline std::int64_t ToNanos(const ros::Time& time) {
-  return std::int64_t{time.sec} * 1'000'000'000 + std::int64_t{time.nsec};
+  return std::int64_t{time.sec} * kNanosPerSecond + std::int64_t{time.nsec};
 }
 
 inline ros::Time StampOf(const BodySample& sample) { return ToRosTime(sample.stamp_nanos); }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/clocks.h"
+
 namespace kinescope::ros_bridge {
 namespace {
 
@@ -12,7 +14,6 @@ using urdf::At;
 using urdf::Pose;
 
 constexpr std::int64_t kDayNanos = 86'400'000'000'000;
-constexpr std::int64_t kMilliNanos = 1'000'000;
 constexpr std::int64_t kLeastStepNanos = 1'000;  // between two samples
 
 constexpr double kShortestArmBone = 0.05;  // m
@@ -120,7 +121,7 @@ bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_na
   }
   sample_.counter = samples_;
   sample_.stamp_nanos = stamp;
-  sample_.time_code_millis = (stamp - first_stamp_ + kMilliNanos / 2) / kMilliNanos;
+  sample_.time_code_millis = (stamp - first_stamp_ + kNanosPerMilli / 2) / kNanosPerMilli;
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <string_view>
 
+#include "core/clocks.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/byte_order.h"
 #include "tests/fuzz/invariants.h"
@@ -14,7 +15,6 @@ namespace {
 using namespace kinescope;
 
 constexpr std::int64_t kEpoch = 1'700'000'000'000'000'000;
-constexpr std::int64_t kNanosPerMilli = 1'000'000;
 constexpr std::size_t kMostRecords = 5000;
 
 struct CheckingSink : SampleSink {

@@ -53,7 +53,7 @@ std::string Joined(const std::vector<std::string>& parts) {
 // "2026-03-06 14:03:11.250 UTC", to the millisecond.
 std::string TimeOfDay(std::int64_t wall_nanos) {
   const std::int64_t seconds = wall_nanos / kNanosPerSecond;
-  const std::int64_t millis = wall_nanos % kNanosPerSecond / 1'000'000;
+  const std::int64_t millis = wall_nanos % kNanosPerSecond / kNanosPerMilli;
   return fmt::format("{:%Y-%m-%d %H:%M:%S}.{:03d} UTC",
                      fmt::gmtime(static_cast<std::time_t>(seconds)), millis);
 }

@@ -40,11 +40,10 @@ std::string_view ScoredName(std::size_t index) { return InfoOf(index).ros_name; 
 std::string_view ScoredLabel(std::size_t index) { return InfoOf(index).label; }
 
 std::string IsoTime(std::int64_t stamp_nanos) {
-  constexpr std::int64_t kNanos = 1'000'000'000;
-  std::int64_t secs = stamp_nanos / kNanos;
-  std::int64_t rest = stamp_nanos % kNanos;
+  std::int64_t secs = stamp_nanos / kNanosPerSecond;
+  std::int64_t rest = stamp_nanos % kNanosPerSecond;
   if (rest < 0) {
-    rest += kNanos;
+    rest += kNanosPerSecond;
     --secs;
   }
   return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:06}Z", fmt::gmtime(static_cast<std::time_t>(secs)),

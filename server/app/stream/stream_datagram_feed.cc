@@ -120,7 +120,7 @@ class DatagramFeed final : public Feed, private mvn::DatagramSink {
     }
     const std::int64_t length = newest_arrival_ - first_arrival_;
     const std::int64_t steps = static_cast<std::int64_t>(most_samples) - 1;
-    constexpr std::int64_t kPause = 1'000'000'000;  // one sample or none: no period is known
+    constexpr std::int64_t kPause = kNanosPerSecond;  // one sample or none: no period is known
     round_offset_ += length + (steps > 0 ? length / steps : kPause);
     newest_arrival_ = 0;
     is_begun_ = false;

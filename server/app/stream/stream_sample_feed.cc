@@ -12,7 +12,7 @@ namespace kinescope::app {
 namespace {
 
 // Meta and scale data go out again this often, so that a receiver may start at any time.
-constexpr std::int64_t kCharacterEveryNanos = 1'000'000'000;
+constexpr std::int64_t kCharacterEveryNanos = kNanosPerSecond;
 constexpr double kSideBySide = 1;               // m, from copy to copy, along y
 constexpr std::int64_t kClockStepNanos = 1000;  // stamps are computed, not measured
 

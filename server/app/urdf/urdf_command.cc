@@ -86,7 +86,7 @@ urdf::HumanModel LiveHuman(const std::string& url, const SceneOptions& options) 
   builder.Start();
   DescribedPeople described(builder);
   spdlog::info("waiting up to {} s for a person from {}", kPatienceSecs, source->description());
-  const std::int64_t end = MonotonicNanos() + std::int64_t{kPatienceSecs} * 1'000'000'000;
+  const std::int64_t end = MonotonicNanos() + kPatienceSecs * kNanosPerSecond;
   bool has_ended = false;
   while (!has_ended && !StopRequested() && MonotonicNanos() < end) {
     has_ended = source->Poll(std::chrono::milliseconds(50), described) == Source::State::kEnded;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/clocks.h"
 #include "core/input_file.h"
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/stream_framer.h"
@@ -26,7 +27,7 @@ class TimeCodeClock {
 
   /// Time of the first time code of a file, and of any datagrams before it. It is not 0, which
   /// means "no time" in ROS.
-  static constexpr std::int64_t kStartNanos = 1'000'000'000;
+  static constexpr std::int64_t kStartNanos = kNanosPerSecond;
   static constexpr std::int64_t kFarOffMillis = 1'000;
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/clocks.h"
 #include "server/mvn/inspect/character.h"
 
 namespace kinescope::mvn {
@@ -38,7 +39,7 @@ struct ItemCounter {
 constexpr int kFirstJoinReason = static_cast<int>(Reason::kPartsContradict);
 
 // Longer than any message waits for its rest: scale data with a lost part.
-constexpr std::int64_t kLongWaitNanos = 1'000'000'000;
+constexpr std::int64_t kLongWaitNanos = kNanosPerSecond;
 
 std::string SenderName(const Endpoint& sender) {
   return sender == Endpoint() ? "" : Format(sender);
