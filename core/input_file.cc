@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/starts_with.h"
 
 namespace kinescope {
 namespace {
@@ -32,10 +33,6 @@ constexpr Magic kPacked[] = {
     {"\x1f\x8b"sv, "gzip"}, {"\xfd\x37zXZ\0"sv, "xz"},     {"\x28\xb5\x2f\xfd"sv, "zstd"},
     {"BZh"sv, "bzip2"},     {"\x04\x22\x4d\x18"sv, "lz4"},
 };
-
-bool StartsWith(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
-}
 
 const Magic* FindPacking(std::string_view head) {
   const auto* found = std::find_if(std::begin(kPacked), std::end(kPacked), [&](const Magic& magic) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/starts_with.h"
 #include "server/app/command.h"
 #include "server/options/yaml_options.h"
 
@@ -168,7 +169,7 @@ const Registered* Chosen(const std::vector<Registered>& all) {
     command = app->get_name() + " " + command;
   }
   throw UsageError(fmt::format("unknown {} '{}'{}{} (see {} --help)",
-                               given.rfind('-', 0) == 0 ? "option" : "argument", given,
+                               StartsWith(given, "-") ? "option" : "argument", given,
                                nearest.empty() ? "" : "; nearest: ", nearest, command));
 }
 
@@ -177,7 +178,7 @@ std::vector<std::string> ReversedArguments(int argc, char** argv) {
   std::vector<std::string> arguments;
   for (int i = argc - 1; i > 0; --i) {
     std::string argument = argv[i];
-    if (argument.rfind("--", 0) == 0) {
+    if (StartsWith(argument, "--")) {
       const auto end = argument.begin() +
                        static_cast<std::ptrdiff_t>(std::min(argument.find('='), argument.size()));
       std::replace(argument.begin() + 2, end, '-', '_');

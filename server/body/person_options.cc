@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/errors.h"
+#include "core/starts_with.h"
 
 namespace kinescope::app {
 namespace {
@@ -43,7 +44,7 @@ void FigureValue::Parse(const std::string& text) {
   const std::string own = kOwnMeshes;
   if (text == "smooth" || text == "primitive") {
     value_ = {text == "smooth", ""};
-  } else if (text.rfind(own, 0) == 0 && text.size() > own.size()) {
+  } else if (StartsWith(text, own) && text.size() > own.size()) {
     value_ = {true, text.substr(own.size())};
   } else {
     RefuseText();

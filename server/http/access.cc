@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/starts_with.h"
+
 namespace kinescope::http {
 namespace {
 
@@ -65,10 +67,10 @@ bool IsSameOrigin(std::string_view origin, std::string_view host) {
 }
 
 bool NamesThisMachine(std::string_view host) {
-  if (host.substr(0, 5) == "[::1]") return host.size() == 5 || host[5] == ':';
+  if (StartsWith(host, "[::1]")) return host.size() == 5 || host[5] == ':';
   const std::string_view name = host.substr(0, host.find(':'));
   if (name == "localhost") return true;
-  if (name.substr(0, 4) != "127.") return false;
+  if (!StartsWith(name, "127.")) return false;
   return std::all_of(name.begin(), name.end(),
                      [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
 }

@@ -8,6 +8,7 @@
 #include "core/json_text.h"
 #include "core/palette.h"
 #include "core/person_links.h"
+#include "core/starts_with.h"
 #include "server/http/target.h"
 
 namespace kinescope::http {
@@ -322,7 +323,7 @@ std::optional<std::filesystem::path> FindMesh(const SceneState* state, int chara
       for (const urdf::Visual& visual : link.visuals) {
         if (!IsMesh(visual) || number++ != n) continue;
         const std::string& uri = visual.geometry.mesh_uri;
-        if (uri.rfind("file://", 0) != 0) return std::nullopt;
+        if (!StartsWith(uri, "file://")) return std::nullopt;
         const auto decoded = PercentDecode(std::string_view(uri).substr(7));
         if (!decoded || decoded->find('\0') != std::string::npos) return std::nullopt;
         std::filesystem::path path(*decoded);

@@ -8,6 +8,7 @@
 
 #include "core/clocks.h"
 #include "core/json_text.h"
+#include "core/starts_with.h"
 #include "server/http/access.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"
@@ -25,10 +26,6 @@ std::optional<Number> ParseNumber(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
-}
-
-bool StartsWith(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
 }
 
 Answer JsonAnswer(std::string body) {

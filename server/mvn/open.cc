@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/starts_with.h"
 #include "server/mvn/file/recording.h"
 #include "server/mvn/net/net_url.h"
 #include "server/mvn/net/tcp_datagrams.h"
@@ -11,7 +12,7 @@ namespace kinescope::mvn {
 
 std::unique_ptr<DatagramSource> OpenDatagrams(const std::string& url) {
   if (IsNetUrl(url)) return url[0] == 'u' ? OpenUdpDatagrams(url) : OpenTcpDatagrams(url);
-  if (url.rfind("demo:", 0) == 0 || url.rfind("ros:", 0) == 0) return nullptr;
+  if (StartsWith(url, "demo:") || StartsWith(url, "ros:")) return nullptr;
   InputFile file = OpenInputFile(url);
   const RecordingKind kind = KindOf(file.head());
   if (kind == RecordingKind::kMvnx || kind == RecordingKind::kRosBag) return nullptr;

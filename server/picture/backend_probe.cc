@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "core/starts_with.h"
 #include "render/renderer.h"
 #include "server/picture/child_process.h"
 #include "server/scene/scene_reader.h"
@@ -133,7 +134,7 @@ std::vector<std::string> FindGpus(const std::filesystem::path& dev) {
     std::error_code none;
     for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
       const std::string name = entry.path().filename();
-      if (name.size() > prefix.size() && name.compare(0, prefix.size(), prefix) == 0 &&
+      if (name.size() > prefix.size() && StartsWith(name, prefix) &&
           std::all_of(name.begin() + static_cast<std::ptrdiff_t>(prefix.size()), name.end(),
                       [](char c) { return c >= '0' && c <= '9'; })) {
         found.push_back(entry.path());

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/starts_with.h"
 #include "server/ros/stamp.h"
 #include "urdf/segments.h"
 
@@ -21,8 +22,8 @@ bool IsGood(const geometry_msgs::TransformStamped& stamped) {
 }
 
 std::string_view WithoutModel(std::string_view frame, const std::string& model) {
-  const bool has_model = frame.size() > model.size() + 1 && frame[model.size()] == '_' &&
-                         frame.compare(0, model.size(), model) == 0;
+  const bool has_model =
+      frame.size() > model.size() + 1 && frame[model.size()] == '_' && StartsWith(frame, model);
   return has_model ? frame.substr(model.size() + 1) : frame;
 }
 

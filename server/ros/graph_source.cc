@@ -11,6 +11,7 @@
 #include "core/check.h"
 #include "core/clocks.h"
 #include "core/errors.h"
+#include "core/starts_with.h"
 #include "server/ros/link_states_person.h"
 #include "server/ros/live_topics.h"
 #include "server/ros/names.h"
@@ -40,7 +41,7 @@ std::string ToTopic(const std::string& url) {
                       "; expected ros: or ros:/topic, such as ros:/xsens/link_states");
   }
   std::string topic = ros::names::resolve(name.empty() ? "/tf" : name);
-  if (topic.rfind(ros::this_node::getName() + "/", 0) == 0) {
+  if (StartsWith(topic, ros::this_node::getName() + "/")) {
     throw SourceError(
         "source '" + url + "': " + ros::this_node::getName() +
         " is this node's own name; start it with another one, such as __name:=kinescope_view");

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/starts_with.h"
 #include "server/ros/convert.h"
 #include "server/ros/names.h"
 #include "server/ros/stamp.h"
@@ -100,7 +101,7 @@ NamedJoint FindNamedJoint(std::string_view name) {
   std::string_view rest = name;
   const std::size_t last = rest.rfind('_');
   const std::string axis = Plain(last == std::string_view::npos ? "" : rest.substr(last + 1));
-  found.is_rot = axis.size() == 4 && axis.compare(0, 3, "rot") == 0;
+  found.is_rot = axis.size() == 4 && StartsWith(axis, "rot");
   const char letter = axis.size() == 1 || found.is_rot ? axis.back() : '\0';
   if (letter >= 'x' && letter <= 'z') {
     found.axis = letter - 'x';

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "core/errors.h"
+#include "core/starts_with.h"
 #include "server/ros/bag_source.h"
 #include "server/ros/bridge.h"
 #include "server/ros/graph_source.h"
@@ -36,7 +37,7 @@ std::unique_ptr<Source> OpenBag(const std::string& path) {
                     "packages in packages.txt and configure with -DKINESCOPE_WITH_ROS=ON");
 }
 
-bool IsGraphUrl(std::string_view url) { return url.substr(0, 4) == "ros:"; }
+bool IsGraphUrl(std::string_view url) { return StartsWith(url, "ros:"); }
 
 std::unique_ptr<Source> OpenGraph(const std::string& url) {
   throw SourceError("source '" + url +

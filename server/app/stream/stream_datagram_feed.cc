@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/clocks.h"
+#include "core/starts_with.h"
 #include "server/app/stream/stream_feed.h"
 #include "server/mvn/open.h"
 
@@ -17,7 +18,7 @@ std::uint32_t StepBehind(std::uint32_t first, std::uint32_t last, std::uint64_t 
       std::llround(static_cast<double>(last - first) / static_cast<double>(of - 1)));
 }
 
-bool IsMvn(std::string_view bytes) { return bytes.substr(0, 4) == "MXTP"; }
+bool IsMvn(std::string_view bytes) { return StartsWith(bytes, "MXTP"); }
 
 class DatagramFeed final : public Feed, private mvn::DatagramSink {
  public:

@@ -8,6 +8,7 @@
 
 #include "core/clocks.h"
 #include "core/errors.h"
+#include "core/starts_with.h"
 #include "server/mvn/net/net_url.h"
 
 namespace kinescope::mvn {
@@ -133,7 +134,7 @@ void PcapDatagrams::Take(std::string_view captured, DatagramSink& sink) {
 void PcapDatagrams::TakeUdp(const IpPacket& packet, DatagramSink& sink) {
   const auto udp = ParseUdp(packet);
   if (!udp) return Count(udp.error());
-  if (udp->payload.substr(0, 4) == "MXTP") mvn_ports_.set(udp->to.port);
+  if (StartsWith(udp->payload, "MXTP")) mvn_ports_.set(udp->to.port);
   if (!mvn_ports_.test(udp->to.port)) return Count(PacketFault::kOther);
   sink.OnDatagram({udp->from, udp->to, udp->payload, {newest_nanos_, newest_nanos_}});
 }

@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "core/errors.h"
+#include "core/starts_with.h"
 
 namespace kinescope::mvn {
 namespace {
@@ -15,10 +16,6 @@ constexpr int kLargestPort = 65535;
 
 [[noreturn]] void RefuseUrl(std::string_view url, const std::string& why) {
   throw SourceError(std::string(url) + ": " + why);
-}
-
-bool StartsWith(std::string_view text, std::string_view start) {
-  return text.substr(0, start.size()) == start;
 }
 
 std::uint16_t ParsePort(std::string_view url, std::string_view text) {
