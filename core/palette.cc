@@ -1,31 +1,26 @@
 #include "core/palette.h"
 
+#include <array>
+
+#include "urdf/segments.h"
+
 namespace kinescope {
 namespace {
 
-// Of a body 1.75 m tall: just larger than the limb at that joint, so that the sphere shows.
-double BaseRadius(int joint) {
-  using namespace urdf;
-  switch (joint) {
-    case jL5S1:
-    case jL4L3:
-    case jL1T12:
-    case jT9T8: return 0.065;
-    case jT1C7:
-    case jC1Head: return 0.048;
-    case jRightShoulder:
-    case jLeftShoulder: return 0.056;
-    case jRightElbow:
-    case jLeftElbow: return 0.046;
-    case jRightWrist:
-    case jLeftWrist: return 0.038;
-    case jRightHip:
-    case jLeftHip: return 0.064;
-    case jRightKnee:
-    case jLeftKnee: return 0.058;
-    default: return 0.046;
-  }
-}
+// By urdf::JointGroup, of a body 1.75 m tall, m: just larger than the limb at that joint, so that
+// the sphere shows.
+constexpr std::array<double, urdf::kJointGroupCount> kBaseRadius = {
+    0.065,  // spine
+    0.048,  // neck
+    0.046,  // clavicle
+    0.056,  // shoulder
+    0.046,  // elbow
+    0.038,  // wrist
+    0.064,  // hip
+    0.058,  // knee
+    0.046,  // ankle
+    0.046,  // ball of the foot
+};
 
 }  // namespace
 
@@ -44,7 +39,8 @@ double SphereRadius(int joint, LoadClass load_class, double height) {
   if (load_class == LoadClass::kLow) factor = 1.0;
   if (load_class == LoadClass::kMedium) factor = 1.2;
   if (load_class == LoadClass::kHigh) factor = 1.4;
-  return BaseRadius(joint) * factor * (height > 0 ? height / 1.75 : 1.0);
+  const double radius = kBaseRadius[urdf::At(urdf::JointGroupOf(joint))];
+  return radius * factor * (height > 0 ? height / 1.75 : 1.0);
 }
 
 }  // namespace kinescope

@@ -27,17 +27,18 @@ using Axes = std::array<Axis, 3>;  // x, y, z
 //
 // Velocities: above the fastest seen in sport: throwing (upper arm inwards 7700 deg/s, elbow 2300
 // deg/s), kicking and sprinting (knee 1700 deg/s).
-constexpr Axes kSpine = {{{-25, 25, 261, 10}, {-25, 45, 503, 10}, {-25, 25, 140, 15}}};
-constexpr Axes kNeckAxes = {{{-50, 50, 64, 15}, {-60, 60, 102, 15}, {-80, 80, 26, 20}}};
-constexpr Axes kClavicle = {{{-50, 30, 180, 10}, {-35, 35, 180, 10}, {-40, 40, 180, 10}}};
-constexpr Axes kShoulderRanges = {
-    {{-200, 200, 180, 40}, {-200, 200, 180, 40}, {-200, 200, 104, 140}}};
-constexpr Axes kElbow = {{{-120, 120, 111, 50}, {-200, 200, 111, 50}, {-200, 200, 111, 60}}};
-constexpr Axes kWrist = {{{-100, 100, 24, 60}, {-55, 55, 22, 60}, {-45, 45, 24, 60}}};
-constexpr Axes kHip = {{{-90, 60, 194, 20}, {-150, 50, 342, 20}, {-80, 80, 120, 25}}};
-constexpr Axes kKnee = {{{-25, 25, 318, 35}, {-20, 170, 318, 35}, {-50, 50, 318, 35}}};
-constexpr Axes kAnkle = {{{-50, 50, 60, 30}, {-50, 75, 237, 30}, {-50, 50, 60, 30}}};
-constexpr Axes kBallOfFoot = {{{-25, 25, 60, 30}, {-90, 55, 60, 30}, {-25, 25, 60, 30}}};
+constexpr std::array<Axes, kJointGroupCount> kBodyAxes = {{
+    {{{-25, 25, 261, 10}, {-25, 45, 503, 10}, {-25, 25, 140, 15}}},         // spine
+    {{{-50, 50, 64, 15}, {-60, 60, 102, 15}, {-80, 80, 26, 20}}},           // neck
+    {{{-50, 30, 180, 10}, {-35, 35, 180, 10}, {-40, 40, 180, 10}}},         // clavicle
+    {{{-200, 200, 180, 40}, {-200, 200, 180, 40}, {-200, 200, 104, 140}}},  // shoulder
+    {{{-120, 120, 111, 50}, {-200, 200, 111, 50}, {-200, 200, 111, 60}}},   // elbow
+    {{{-100, 100, 24, 60}, {-55, 55, 22, 60}, {-45, 45, 24, 60}}},          // wrist
+    {{{-90, 60, 194, 20}, {-150, 50, 342, 20}, {-80, 80, 120, 25}}},        // hip
+    {{{-25, 25, 318, 35}, {-20, 170, 318, 35}, {-50, 50, 318, 35}}},        // knee
+    {{{-50, 50, 60, 30}, {-50, 75, 237, 30}, {-50, 50, 60, 30}}},           // ankle
+    {{{-25, 25, 60, 30}, {-90, 55, 60, 30}, {-25, 25, 60, 30}}},            // ball of the foot
+}};
 
 // Fingers: ranges as above; bent about +x on the right. Efforts from the strongest grip, some 120 N
 // at a finger's tip.
@@ -47,32 +48,6 @@ constexpr Axes kThumbBaseAxes = {{{-80, 80, 10, 60}, {-80, 80, 10, 60}, {-80, 80
 constexpr Axes kKnuckleAxes = {{{-55, 105, 10, 60}, {-40, 40, 10, 60}, {-40, 40, 10, 60}}};
 constexpr Axes kMiddleAxes = {{{-25, 125, 6, 60}, {-30, 30, 6, 60}, {-30, 30, 6, 60}}};
 constexpr Axes kEndAxes = {{{-35, 105, 3, 60}, {-30, 30, 3, 60}, {-30, 30, 3, 60}}};
-
-const Axes& AxesOf(int joint) {
-  switch (joint) {
-    case jL5S1:
-    case jL4L3:
-    case jL1T12:
-    case jT9T8: return kSpine;
-    case jT1C7:
-    case jC1Head: return kNeckAxes;
-    case jRightC7Shoulder:
-    case jLeftC7Shoulder: return kClavicle;
-    case jRightShoulder:
-    case jLeftShoulder: return kShoulderRanges;
-    case jRightElbow:
-    case jLeftElbow: return kElbow;
-    case jRightWrist:
-    case jLeftWrist: return kWrist;
-    case jRightHip:
-    case jLeftHip: return kHip;
-    case jRightKnee:
-    case jLeftKnee: return kKnee;
-    case jRightAnkle:
-    case jLeftAnkle: return kAnkle;
-    default: return kBallOfFoot;
-  }
-}
 
 const Axes& AxesOf(FingerJoint joint) {
   switch (joint) {
@@ -99,8 +74,8 @@ AxisLimit ToLimit(const Axis& right, bool is_left, int axis) {
 }  // namespace
 
 AxisLimit LimitOf(int joint, int axis) {
-  const bool is_left = kJoints[At(joint)].ros_name.substr(0, 5) == "left_";
-  return ToLimit(AxesOf(joint)[At(axis)], is_left, axis);
+  const Axes& axes = kBodyAxes[At(JointGroupOf(joint))];
+  return ToLimit(axes[At(axis)], IsLeftJoint(joint), axis);
 }
 
 AxisLimit LimitOf(FingerJoint joint, bool is_left, int axis) {

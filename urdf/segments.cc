@@ -60,6 +60,32 @@ const std::array<int, kScoredJointCount> kScoredJoints = {
     jRightElbow, jLeftElbow, jRightWrist, jLeftWrist,     jRightHip,
     jLeftHip,    jRightKnee, jLeftKnee,   jRightAnkle,    jLeftAnkle};
 
+JointGroup JointGroupOf(int joint) {
+  switch (joint) {
+    case jL5S1:
+    case jL4L3:
+    case jL1T12:
+    case jT9T8: return JointGroup::kSpine;
+    case jT1C7:
+    case jC1Head: return JointGroup::kNeck;
+    case jRightC7Shoulder:
+    case jLeftC7Shoulder: return JointGroup::kClavicle;
+    case jRightShoulder:
+    case jLeftShoulder: return JointGroup::kShoulder;
+    case jRightElbow:
+    case jLeftElbow: return JointGroup::kElbow;
+    case jRightWrist:
+    case jLeftWrist: return JointGroup::kWrist;
+    case jRightHip:
+    case jLeftHip: return JointGroup::kHip;
+    case jRightKnee:
+    case jLeftKnee: return JointGroup::kKnee;
+    case jRightAnkle:
+    case jLeftAnkle: return JointGroup::kAnkle;
+    default: return JointGroup::kBallOfFoot;
+  }
+}
+
 std::optional<Segment> FindSegment(std::string_view mvn_name) {
   for (int i = 0; i < kSegmentCount; ++i) {
     if (kSegments[static_cast<std::size_t>(i)].mvn_name == mvn_name) return static_cast<Segment>(i);

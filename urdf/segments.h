@@ -74,6 +74,21 @@ enum Joint : int {
   jLeftBallFoot,
 };
 
+/// Joints that have the same ranges, strengths and size, on both sides.
+enum class JointGroup {
+  kSpine,  // L5/S1 to T9/T8
+  kNeck,   // T1/C7 and C1/head
+  kClavicle,
+  kShoulder,
+  kElbow,
+  kWrist,
+  kHip,
+  kKnee,
+  kAnkle,
+  kBallOfFoot,
+};
+constexpr std::size_t kJointGroupCount = 10;
+
 struct SegmentInfo {
   std::string_view mvn_name;   // "RightForeArm", as in type 13 and MVNX
   std::string_view link_name;  // "right_forearm", as xsens_mvn_ros publishes it
@@ -100,6 +115,13 @@ constexpr std::size_t At(int index) { return static_cast<std::size_t>(index); }
 constexpr int ChildOf(int joint) { return joint + 1; }
 inline int ParentOf(int joint) {
   return kSegments[At(joint) + 1].parent;  // of the child segment
+}
+
+JointGroup JointGroupOf(int joint);
+constexpr std::size_t At(JointGroup group) { return static_cast<std::size_t>(group); }
+
+constexpr bool IsLeftJoint(int joint) {
+  return (joint >= jLeftC7Shoulder && joint <= jLeftWrist) || joint >= jLeftHip;
 }
 
 /// The segment with the MVN name `mvn_name`; nullopt for a prop, a finger or an unknown name.

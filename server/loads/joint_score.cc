@@ -125,37 +125,16 @@ constexpr Channels kKnee = {{{{Channel::kParentY, 1, 1, &kKneeFlexion, "flexion"
                             1};
 constexpr Channels kAnkle = {
     {{{Channel::kParentY, -1, -1, &kAnkleDorsiflexion, "dorsiflexion", "plantar flexion"}}}, 1};
-constexpr Channels kNotScored = {{}, 0};
+constexpr Channels kNotScored = {{}, 0};  // clavicle and ball of the foot
 
-const Channels& ChannelsOf(int joint) {
-  switch (joint) {
-    case jL5S1:
-    case jL4L3:
-    case jL1T12:
-    case jT9T8: return kTrunk;
-    case jT1C7:
-    case jC1Head: return kNeckJoints;
-    case jRightShoulder:
-    case jLeftShoulder: return kShoulder;
-    case jRightElbow:
-    case jLeftElbow: return kElbow;
-    case jRightWrist:
-    case jLeftWrist: return kWrist;
-    case jRightHip:
-    case jLeftHip: return kHip;
-    case jRightKnee:
-    case jLeftKnee: return kKnee;
-    case jRightAnkle:
-    case jLeftAnkle: return kAnkle;
-    default: return kNotScored;  // clavicle and ball of the foot
-  }
-}
+// By urdf::JointGroup.
+constexpr std::array<const Channels*, kJointGroupCount> kChannels = {
+    &kTrunk, &kNeckJoints, &kNotScored, &kShoulder, &kElbow,
+    &kWrist, &kHip,        &kKnee,      &kAnkle,    &kNotScored};
 
-bool IsShoulder(int joint) { return joint == jRightShoulder || joint == jLeftShoulder; }
+const Channels& ChannelsOf(int joint) { return *kChannels[At(JointGroupOf(joint))]; }
 
-bool IsLeft(int joint) {
-  return (joint >= jLeftC7Shoulder && joint <= jLeftWrist) || joint >= jLeftHip;
-}
+bool IsShoulder(int joint) { return JointGroupOf(joint) == JointGroup::kShoulder; }
 
 // The joint coordinate axes of MVN's ZXY angles.
 struct Axes {
@@ -221,7 +200,7 @@ Score ScoreJoint(int joint, const Vector3d& moment, const LinkPoses& links,
   }
   for (std::size_t i = 0; i < channels.size; ++i) {
     const Channel& channel = channels.all[i];
-    const double sign = IsLeft(joint) ? channel.left_sign : channel.right_sign;
+    const double sign = IsLeftJoint(joint) ? channel.left_sign : channel.right_sign;
     const double value = sign * moment.dot(axes.unit[channel.axis]);
     best.Try(value, CapacityFor(value, *channel.capacity, strength),
              value >= 0 ? channel.positive : channel.negative);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace kinescope::urdf {
 namespace {
 
@@ -13,6 +15,22 @@ TEST(Segments, KnowBothNamesOfTheClavicleJoint) {
   EXPECT_EQ(FindJoint("jTail"), std::nullopt);
   EXPECT_EQ(FindSegment("LeftForeArm"), kLeftForeArm);
   EXPECT_EQ(FindSegment("leftforearm"), std::nullopt);
+}
+
+TEST(Joints, ThoseOfBothSidesAreInOneGroup) {
+  for (int right = 0; right < kJointCount; ++right) {
+    const std::string name(kJoints[At(right)].ros_name);
+    EXPECT_EQ(IsLeftJoint(right), name.substr(0, 5) == "left_") << name;
+    if (name.substr(0, 6) != "right_") continue;
+    int left = 0;
+    while (left < kJointCount && kJoints[At(left)].ros_name != "left_" + name.substr(6)) ++left;
+    ASSERT_LT(left, kJointCount) << name;
+    EXPECT_EQ(JointGroupOf(left), JointGroupOf(right)) << name;
+  }
+  EXPECT_EQ(JointGroupOf(jRightKnee), JointGroup::kKnee);
+  EXPECT_EQ(JointGroupOf(jLeftC7Shoulder), JointGroup::kClavicle);
+  EXPECT_EQ(JointGroupOf(jRightBallFoot), JointGroup::kBallOfFoot);
+  EXPECT_EQ(JointGroupOf(jC1Head), JointGroup::kNeck);
 }
 
 TEST(Segments, HangTheArmsOfTheTPoseInTheNPose) {
