@@ -159,27 +159,49 @@ void AddGirdle(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
           GirdleProfile(), {0, 0.9, 0.030, 0.042, 20, 6}, mesh);
 }
 
-void AddArm(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
-  const bool is_upper = segment == kRightUpperArm || segment == kLeftUpperArm;
+// The two lofts of an arm or leg: they meet at the middle joint (elbow, knee), which runs on.
+struct LimbLofts {
+  double from;  // of the upper part: the rest of it is one long cap, over the proximal joint
+  double proximal_cap;  // m, as the following
+  double middle_cap;
+  double distal_cap;
+  int upper_points, lower_points;  // around
+  int upper_rings, lower_rings;
+  int start_rings;  // of the long cap
+};
+constexpr LimbLofts kArmLofts = {0.12, 0.084, 0.039, 0.022, 16, 16, 8, 10, 6};
+constexpr LimbLofts kLegLofts = {0.10, 0.118, 0.054, 0.036, 18, 16, 7, 10, 5};
+
+void AddLimb(const Skeleton& skeleton, int segment, bool is_upper, const LimbLofts& limb,
+             const Profile& profile, TriangleMesh& mesh) {
   LoftRange range;
-  range.points = 16;
   if (is_upper) {
-    range.rings = 8;
-    range.from = 0.12;  // the rest of it is the deltoid: one long cap, over the joint
-    range.start_cap = 0.084;
-    range.start_rings = 6;
-    range.end_cap = 0.039;
+    range.from = limb.from;
+    range.start_cap = limb.proximal_cap;
+    range.start_rings = limb.start_rings;
+    range.end_cap = limb.middle_cap;
     range.end_runs_on = true;
   } else {
     range.from = 1;
     range.to = 2;
-    range.start_cap = 0.039;
-    range.end_cap = 0.022;
-    range.rings = 10;
+    range.start_cap = limb.middle_cap;
+    range.end_cap = limb.distal_cap;
     range.start_runs_on = true;
   }
+  range.points = is_upper ? limb.upper_points : limb.lower_points;
+  range.rings = is_upper ? limb.upper_rings : limb.lower_rings;
   const int upper = is_upper ? segment : segment - 1;
-  AddLoft(ChainAxis(skeleton, upper, 2, segment, Outward(segment)), ArmProfile(), range, mesh);
+  AddLoft(ChainAxis(skeleton, upper, 2, segment, Outward(segment)), profile, range, mesh);
+}
+
+void AddArm(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
+  const bool is_upper = segment == kRightUpperArm || segment == kLeftUpperArm;
+  AddLimb(skeleton, segment, is_upper, kArmLofts, ArmProfile(), mesh);
+}
+
+void AddLeg(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
+  const bool is_thigh = segment == kRightUpperLeg || segment == kLeftUpperLeg;
+  AddLimb(skeleton, segment, is_thigh, kLegLofts, LegProfile(), mesh);
 }
 
 void AddHand(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
@@ -225,29 +247,6 @@ void AddHand(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
   const Vector3d joint = 0.37 * along + hand.scale * (0.045 * hand.u - 0.014 * back);
   const Vector3d tip = 0.59 * along + hand.scale * (0.060 * hand.u - 0.026 * back);
   add_digit(root, joint, tip, 0.0138);
-}
-
-void AddLeg(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
-  const bool is_thigh = segment == kRightUpperLeg || segment == kLeftUpperLeg;
-  LoftRange range;
-  range.points = is_thigh ? 18 : 16;
-  if (is_thigh) {
-    range.from = 0.10;  // the rest of it is one long cap, within the pelvis while standing
-    range.start_cap = 0.118;
-    range.start_rings = 5;
-    range.end_cap = 0.054;
-    range.end_runs_on = true;
-    range.rings = 7;
-  } else {
-    range.from = 1;
-    range.to = 2;
-    range.start_cap = 0.054;
-    range.end_cap = 0.036;
-    range.rings = 10;
-    range.start_runs_on = true;
-  }
-  const int thigh = is_thigh ? segment : segment - 1;
-  AddLoft(ChainAxis(skeleton, thigh, 2, segment, Outward(segment)), LegProfile(), range, mesh);
 }
 
 void AddFoot(const Skeleton& skeleton, int segment, TriangleMesh& mesh) {
