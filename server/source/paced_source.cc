@@ -55,18 +55,15 @@ void PacedSource::Enqueue(Sample sample) {
   if (std::exchange(is_round_empty_, false)) first_stamp_ = sample.stamp_nanos;
   const auto [at, is_new] = tracks_.try_emplace(sample.character);
   Track& track = at->second;
-  if (track.samples++ == 0) {
-    track.counter_offset = is_new ? 0 : track.last_counter + 1 - sample.counter;
-  }
+  ++track.samples;
   std::int64_t played = round_offset_ + sample.stamp_nanos - first_stamp_;
   // A file may say anything, but a person's samples stay in their order.
   if (!is_new) played = std::max(played, track.last_played);
   track.last_played = played;
-  track.last_counter = sample.counter + track.counter_offset;
   last_played_ = std::max(last_played_, played);
 
   sample.stamp_nanos = played;
-  sample.counter = track.last_counter;
+  sample.counter = track.counter.Add(sample.counter);
   sample.time_code_millis += round_offset_ / kNanosPerMilli;
   EnqueueCharacter(sample.character, played);
   queue_.emplace(played, std::move(sample));
@@ -104,7 +101,10 @@ void PacedSource::EndRound() {
   if (rate > 0) period = static_cast<std::int64_t>(1e9 / rate);
   round_offset_ = last_played_ + period;
   is_round_empty_ = true;
-  for (auto& [id, track] : tracks_) track.samples = 0;
+  for (auto& [id, track] : tracks_) {
+    track.samples = 0;
+    track.counter.BeginRound();
+  }
   AddUp(earlier_, source_->counters());
   source_ = reopen_();
 }

@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "core/source.h"
+#include "server/source/counter_splice.h"
 
 namespace kinescope::app {
 
@@ -40,8 +41,7 @@ class PacedSource : public Source, private SampleSink {
 
   // One person, or group of objects, by id.
   struct Track {
-    std::uint32_t counter_offset = 0;  // sent counter minus counter in the file
-    std::uint32_t last_counter = 0;    // as sent
+    CounterSplice counter;
     std::int64_t last_played = 0;
     std::uint64_t samples = 0;  // of this round
   };

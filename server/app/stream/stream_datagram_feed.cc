@@ -1,22 +1,15 @@
 // Captures and live streams as they are.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/clocks.h"
 #include "core/starts_with.h"
 #include "server/app/stream/stream_feed.h"
 #include "server/mvn/open.h"
+#include "server/source/counter_splice.h"
 
 namespace kinescope::app {
 namespace {
-
-// `of` things that are `first` to `last` apart: what the next one would be.
-std::uint32_t StepBehind(std::uint32_t first, std::uint32_t last, std::uint64_t of) {
-  if (of < 2) return 1;
-  return static_cast<std::uint32_t>(
-      std::llround(static_cast<double>(last - first) / static_cast<double>(of - 1)));
-}
 
 bool IsMvn(std::string_view bytes) { return StartsWith(bytes, "MXTP"); }
 
@@ -42,13 +35,9 @@ class DatagramFeed final : public Feed, private mvn::DatagramSink {
   // One character's counting, so that it can go on in the next round.
   struct Track {
     Decimator decimator;
-    std::uint64_t samples = 0;  // of this round
-    std::uint32_t first_counter = 0;
-    std::uint32_t newest_counter = 0;
-    std::uint32_t first_time = 0;
-    std::uint32_t newest_time = 0;
-    std::uint32_t counter_offset = 0;
-    std::uint32_t time_offset = 0;
+    std::uint64_t samples = 0;         // of this round
+    std::uint32_t newest_counter = 0;  // as the sender has it
+    CounterSplice counter, time_code;
   };
 
   void OnDatagram(const mvn::ReceivedDatagram& datagram) override {
@@ -70,8 +59,8 @@ class DatagramFeed final : public Feed, private mvn::DatagramSink {
         return;
       }
       if (is_repeated_) {
-        patch.sample_counter = header->sample_counter + track.counter_offset;
-        patch.time_code_millis = header->time_code_millis + track.time_offset;
+        patch.sample_counter = track.counter.Continued(header->sample_counter);
+        patch.time_code_millis = track.time_code.Continued(header->time_code_millis);
       }
     }
     for (int copy = 0; copy < settings_.characters; ++copy) {
@@ -91,12 +80,9 @@ class DatagramFeed final : public Feed, private mvn::DatagramSink {
     constexpr std::int32_t kRestart = -1000;
     if (!is_first && ahead <= 0 && ahead > kRestart) return false;
     ++track.samples;
-    if (is_first) {
-      track.first_counter = header.sample_counter;
-      track.first_time = header.time_code_millis;
-    }
     track.newest_counter = header.sample_counter;
-    track.newest_time = header.time_code_millis;
+    track.counter.Add(header.sample_counter);
+    track.time_code.Add(header.time_code_millis);
     return true;
   }
 
@@ -113,10 +99,8 @@ class DatagramFeed final : public Feed, private mvn::DatagramSink {
     std::uint64_t most_samples = 0;
     for (auto& [id, track] : tracks_) {
       most_samples = std::max(most_samples, track.samples);
-      track.counter_offset += track.newest_counter - track.first_counter +
-                              StepBehind(track.first_counter, track.newest_counter, track.samples);
-      track.time_offset += track.newest_time - track.first_time +
-                           StepBehind(track.first_time, track.newest_time, track.samples);
+      track.counter.BeginRound();
+      track.time_code.BeginRound();
       track.samples = 0;
     }
     const std::int64_t length = newest_arrival_ - first_arrival_;

@@ -6,6 +6,7 @@
 #include "core/clocks.h"
 #include "server/app/stream/stream_feed.h"
 #include "server/app/stream/synthetic_gloves.h"
+#include "server/source/counter_splice.h"
 #include "server/source/open_source.h"
 
 namespace kinescope::app {
@@ -62,8 +63,7 @@ class SampleFeed final : public Feed, private SampleSink {
     std::int64_t described_nanos = -1;  // when it was sent last; -1: it has changed since
     Decimator decimator;
     std::uint64_t samples = 0;  // of this round
-    std::uint32_t newest_counter = 0;
-    std::uint32_t counter_offset = 0;
+    CounterSplice counter;
     std::int64_t time_code_base = 0;  // at the beginning of the stream
   };
 
@@ -100,14 +100,12 @@ class SampleFeed final : public Feed, private SampleSink {
     Track& track = tracks_[sample.character];
     const std::int64_t played_millis =
         std::llround(static_cast<double>(last_played_) / static_cast<double>(kNanosPerMilli));
-    if (track.samples++ == 0) {
-      if (is_repeated_) track.counter_offset = track.newest_counter + 1 - sample.counter;
-      if (!is_repeated_) track.time_code_base = sample.time_code_millis - played_millis;
+    if (track.samples++ == 0 && !is_repeated_) {
+      track.time_code_base = sample.time_code_millis - played_millis;
     }
-    sample.counter += track.counter_offset;
+    sample.counter = track.counter.Add(sample.counter);
     if (is_repeated_) sample.time_code_millis = track.time_code_base + played_millis;
     sample.stamp_nanos = last_played_;
-    track.newest_counter = sample.counter;
     if (!track.decimator.Keeps(settings_.stream_hz, sample.counter, last_played_,
                                kClockStepNanos)) {
       return;
@@ -162,6 +160,7 @@ class SampleFeed final : public Feed, private SampleSink {
     for (auto& [id, track] : tracks_) {
       most_samples = std::max(most_samples, track.samples);
       track.samples = 0;
+      track.counter.BeginRound();
     }
     const double rate = source_->nominal_rate_hz();
     const std::int64_t length = last_played_ - round_offset_;
