@@ -1,9 +1,13 @@
-/// Summarises a trial as text and as JSON: person, assumptions, exposure of each joint, unknown
-/// loads and the reasons. Pure functions; any thread.
+/// Summarises a trial as values: person, assumptions, exposure of each joint, unknown loads and the
+/// reasons. load_summary_print.cc prints them as text and as JSON. Pure functions; any thread.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/app/loads/load_trial.h"
@@ -36,10 +40,46 @@ std::vector<std::string> NotesOf(const LoadTrial& trial, const TrialContext& con
 /// "Person 0", with the name if there is one.
 std::string TitleOf(const LoadTrial& trial);
 
-/// Several lines: title, facts, exposure, notes.
-std::string SummaryText(const LoadTrial& trial, const TrialContext& context);
+/// Exposure of one joint.
+struct JointSummary {
+  struct PeakRatio {
+    double ratio = 0;
+    double at_secs = 0;  // since the beginning of the recording
+    std::string_view channel;
+    double moment = 0, capacity = 0;  // N·m; NaN: unknown
+  };
+  std::array<double, 4> secs{};      // by LoadClass
+  double p10 = 0, p50 = 0, p90 = 0;  // of the ratio; NaN: always unknown
+  std::optional<PeakRatio> peak;     // absent: always unknown
+  SecsByReason why_unknown;
+};
 
-/// For one person, as described in docs/loads.md.
-nlohmann::json SummaryJson(const LoadTrial& trial, const TrialContext& context);
+/// Mean and maximum of a value over the trial.
+struct ValueSummary {
+  double mean = 0, most = 0;
+  double most_at_secs = 0;  // since the beginning of the recording
+};
+
+/// All that is printed about one person.
+struct TrialSummary {
+  std::string source, title;
+  int character = 0;
+  std::string name;  // "": unknown
+  std::uint64_t samples = 0;
+  double secs = 0;
+  double mass_kg = 0, mass_with_added_kg = 0, height_m = 0;
+  std::vector<Fact> facts;
+  std::array<JointSummary, urdf::kScoredJointCount> joints;  // in the order of kScoredJoints
+  std::vector<std::string> notes;
+  std::optional<ValueSummary> com_minus_mvn_m, compression, shear;  // N, at L5/S1
+};
+
+TrialSummary SummaryOf(const LoadTrial& trial, const TrialContext& context);
+
+/// Several lines: title, facts, exposure, notes.
+std::string SummaryText(const TrialSummary& summary);
+
+/// As described in docs/loads.md.
+nlohmann::json SummaryJson(const TrialSummary& summary);
 
 }  // namespace kinescope::app

@@ -172,10 +172,10 @@ void CheckArguments(const LoadsOptions& options) {
   CheckOutputsDiffer(options);
 }
 
-nlohmann::json SummaryOf(const Recording& recording, const TrialContext& context) {
+nlohmann::json ReportOf(const Recording& recording, const TrialContext& context) {
   nlohmann::json people = nlohmann::json::array();
   for (const auto& [character, trial] : recording.trials()) {
-    people.push_back(SummaryJson(trial, context));
+    people.push_back(SummaryJson(SummaryOf(trial, context)));
   }
   return {{"program", "kinescope " KINESCOPE_VERSION},
           {"source", context.source},
@@ -200,11 +200,11 @@ bool Loads(LoadsOptions& options) {
   if (!options.report->empty()) {
     WriteReport(recording.trials(), context, options.backend, *options.report);
   }
-  recording.Finish(SummaryOf(recording, context));
+  recording.Finish(ReportOf(recording, context));
   bool knows_anything = false;
   for (const auto& [character, trial] : recording.trials()) {
     knows_anything = knows_anything || trial.knows_anything();
-    if (!has_stdout) fmt::print("{}\n", SummaryText(trial, context));
+    if (!has_stdout) fmt::print("{}\n", SummaryText(SummaryOf(trial, context)));
   }
   if (has_stdout && !knows_anything) {
     fmt::print(

@@ -124,7 +124,7 @@ TEST(LoadSummary, TheTableHasALineForEveryJointAndDashesForWhatIsNotKnown) {
   }
   TrialContext context;
   context.source = "take.mvnx";
-  const std::string text = SummaryText(trial, context);
+  const std::string text = SummaryText(SummaryOf(trial, context));
   EXPECT_THAT(text, HasSubstr("take.mvnx, Person 0: 41 samples, 4.00 s\n"));
   std::map<std::string, std::vector<std::string>> lines;
   std::istringstream in(text);
@@ -149,7 +149,7 @@ TEST(LoadSummary, JsonHasNullForWhatIsNotKnownAndParses) {
   LoadTrial trial(false, 0);
   for (int i = 0; i <= 10; ++i)
     AddTo(trial, SceneWithRatio(0.1 * i, kNoRatioInSummary, "no foot contact"));
-  const auto json = nlohmann::json::parse(SummaryJson(trial, {}).dump());
+  const auto json = nlohmann::json::parse(SummaryJson(SummaryOf(trial, {})).dump());
   ASSERT_EQ(json.at("exposure").size(), 15U);
   for (std::size_t i = 0; i < 15; ++i) {
     const auto& joint = json.at("exposure").at(i);
@@ -167,7 +167,7 @@ TEST(LoadSummary, JsonHasNullForWhatIsNotKnownAndParses) {
 }
 
 TEST(LoadSummary, JsonHasThePeaksOfTheRealLift) {
-  const auto json = SummaryJson(TrialOf(ShortLift()), {});
+  const auto json = SummaryJson(SummaryOf(TrialOf(ShortLift()), {}));
   double most_ratio = 0, most_compression = 0;
   for (const auto& scene : ShortLift()) {
     most_ratio = std::max(most_ratio, scene->people[0].loads[5].ratio);

@@ -1,0 +1,115 @@
+// The two forms of a summary: text for the terminal, JSON for other programs.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "server/app/loads/load_rows.h"
+#include "server/app/loads/load_summary.h"
+
+namespace kinescope::app {
+namespace {
+
+using nlohmann::json;
+
+json NumberOrNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
+
+std::string RatioText(double value) {
+  return std::isfinite(value) ? fmt::format("{:.2f}", value) : "-";
+}
+
+// "flexion 12.3 of 61.7 N·m".
+std::string DirectionText(const JointSummary::PeakRatio& peak) {
+  if (!std::isfinite(peak.moment)) return std::string(peak.channel);
+  return fmt::format("{} {:.1f} of {:.1f} N·m", peak.channel, std::abs(peak.moment), peak.capacity);
+}
+
+std::string JointLine(std::string_view label, const JointSummary& joint, double all) {
+  const auto percent = [&](LoadClass load_class) {
+    const double secs = joint.secs[static_cast<std::size_t>(load_class)];
+    return fmt::format("{:.0f} %", all > 0 ? 100 * (secs / all) : 0.0);
+  };
+  return fmt::format("{:<15}{:>7}{:>8}{:>7}{:>9}{:>8}{:>6}{:>6}{:>7}{:>9}  {}\n", label,
+                     percent(LoadClass::kLow), percent(LoadClass::kMedium),
+                     percent(LoadClass::kHigh), percent(LoadClass::kUnknown), RatioText(joint.p10),
+                     RatioText(joint.p50), RatioText(joint.p90),
+                     joint.peak ? RatioText(joint.peak->ratio) : "-",
+                     joint.peak ? fmt::format("{:.2f} s", joint.peak->at_secs) : "-",
+                     joint.peak ? DirectionText(*joint.peak) : "");
+}
+
+json JointJson(std::string_view name, const JointSummary& joint) {
+  json secs = json::object(), why = json::object();
+  for (std::size_t i = 0; i < joint.secs.size(); ++i) {
+    secs[kinescope::Name(static_cast<LoadClass>(i))] = joint.secs[i];
+  }
+  for (const auto& [reason, reason_secs] : joint.why_unknown) {
+    why[std::string(reason)] = reason_secs;
+  }
+  json out = {{"joint", name},
+              {"seconds", secs},
+              {"p10", NumberOrNull(joint.p10)},
+              {"p50", NumberOrNull(joint.p50)},
+              {"p90", NumberOrNull(joint.p90)},
+              {"unknown", why}};
+  for (const char* key :
+       {"peak_ratio", "peak_time_s", "peak_channel", "peak_moment_Nm", "peak_capacity_Nm"}) {
+    out[key] = nullptr;
+  }
+  if (joint.peak) {
+    out["peak_ratio"] = joint.peak->ratio;
+    out["peak_time_s"] = joint.peak->at_secs;
+    out["peak_channel"] = joint.peak->channel;
+    out["peak_moment_Nm"] = NumberOrNull(joint.peak->moment);
+    out["peak_capacity_Nm"] = NumberOrNull(joint.peak->capacity);
+  }
+  return out;
+}
+
+json ValueJson(const std::optional<ValueSummary>& value) {
+  if (!value) return nullptr;
+  return {{"mean", value->mean}, {"most", value->most}, {"most_at_s", value->most_at_secs}};
+}
+
+}  // namespace
+
+std::string SummaryText(const TrialSummary& summary) {
+  std::string text = fmt::format("{}, {}: {} samples, {:.2f} s\n", summary.source, summary.title,
+                                 summary.samples, summary.secs);
+  for (const Fact& fact : summary.facts) {
+    text +=
+        fmt::format("  {:<14} {}{}\n", fact.label, fact.value, fact.is_assumed ? " (assumed)" : "");
+  }
+  text += fmt::format("\n{:<15}{:>7}{:>8}{:>7}{:>9}{:>8}{:>6}{:>6}{:>7}{:>9}  {}\n", "joint", "low",
+                      "medium", "high", "unknown", "p10", "p50", "p90", "peak", "at", "direction");
+  for (std::size_t i = 0; i < summary.joints.size(); ++i) {
+    text += JointLine(ScoredLabel(i), summary.joints[i], summary.secs);
+  }
+  if (!summary.notes.empty()) text += '\n';
+  for (const std::string& note : summary.notes) text += note + '\n';
+  return text;
+}
+
+json SummaryJson(const TrialSummary& summary) {
+  json facts = json::array(), exposure = json::array();
+  for (const Fact& fact : summary.facts) {
+    facts.push_back({{"name", fact.label}, {"value", fact.value}, {"is_assumed", fact.is_assumed}});
+  }
+  for (std::size_t i = 0; i < summary.joints.size(); ++i) {
+    exposure.push_back(JointJson(ScoredName(i), summary.joints[i]));
+  }
+  return {{"person", summary.character},
+          {"name", summary.name},
+          {"samples", summary.samples},
+          {"seconds", summary.secs},
+          {"mass_kg", summary.mass_kg},
+          {"mass_with_extra_kg", summary.mass_with_added_kg},
+          {"height_m", summary.height_m},
+          {"facts", facts},
+          {"notes", summary.notes},
+          {"exposure", exposure},
+          {"com_minus_mvn_m", ValueJson(summary.com_minus_mvn_m)},
+          {"l5_s1_compression_N", ValueJson(summary.compression)},
+          {"l5_s1_shear_N", ValueJson(summary.shear)}};
+}
+
+}  // namespace kinescope::app
