@@ -29,8 +29,7 @@ TEST(CounterSplice, AGapIsNotAStep) {
 }
 
 TEST(CounterSplice, ARestartOfTheSenderInARoundIsNotAStep) {
-  EXPECT_THAT(Rounds({1000, 1001, 5, 6}, 2),
-              ElementsAre(1000, 1001, 5, 6, 7, 8, 0xFFFF'FC24, 0xFFFF'FC25));
+  EXPECT_THAT(Rounds({1000, 1001, 5}, 2), ElementsAre(1000, 1001, 5, 6, 7, 0xFFFF'FC23));
 }
 
 TEST(CounterSplice, ASingleValueGoesUpByOne) {
