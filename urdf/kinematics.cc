@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace kinescope::urdf {
 namespace {
@@ -88,6 +89,23 @@ LinkPoses ForwardKinematics(const Skeleton& skeleton, const Pose& pelvis,
 Pose Relative(const Pose& from, const Pose& to) {
   const Quaterniond back = from.orientation.conjugate();
   return {back * (to.position - from.position), back * to.orientation};
+}
+
+std::array<Vector3d, 2> SolePoints(const Skeleton& skeleton, const LinkPoses& links, Side side) {
+  const Pose& foot = links[At(FootSegmentOf(side))];
+  const Pose& toe = links[At(FootSegmentOf(side) + 1)];
+  return {foot.position + foot.orientation * skeleton.heel_in_foot[side],
+          toe.position + toe.orientation * skeleton.toe_tip_in_toe[side]};
+}
+
+double LowestSolePoint(const Skeleton& skeleton, const LinkPoses& links) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Side side : {kRight, kLeft}) {
+    for (const Vector3d& point : SolePoints(skeleton, links, side)) {
+      lowest = std::min(lowest, point.z());
+    }
+  }
+  return lowest;
 }
 
 Pose Interpolate(const Pose& a, const Pose& b, double t) {

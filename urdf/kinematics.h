@@ -51,6 +51,13 @@ JointAngles AnglesFromPoses(const LinkPoses& poses, const JointAngles& near);
 LinkPoses ForwardKinematics(const Skeleton& skeleton, const Pose& pelvis,
                             const JointAngles& angles);
 
+/// Heel and tip of the toe on the sole of one foot.
+std::array<Eigen::Vector3d, 2> SolePoints(const Skeleton& skeleton, const LinkPoses& links,
+                                          Side side);
+
+/// Height of the lowest of these points of both feet, m.
+double LowestSolePoint(const Skeleton& skeleton, const LinkPoses& links);
+
 /// Between `a` and `b`: positions linear, orientations slerp along the shorter arc. t in [0, 1].
 [[nodiscard]] Pose Interpolate(const Pose& a, const Pose& b, double t);
 [[nodiscard]] LinkPoses Interpolate(const LinkPoses& a, const LinkPoses& b, double t);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "urdf/kinematics.h"
+
 namespace kinescope::urdf {
 namespace {
 
@@ -186,11 +188,9 @@ std::array<Vector3d, kSegmentCount> NPoseOrigins(const Skeleton& skeleton) {
     origins[At(segment)] =
         origins[At(kSegments[At(segment)].parent)] + skeleton.origin_in_parent[At(segment)];
   }
-  double lowest = 0;
-  for (const Side side : {kRight, kLeft}) {
-    lowest = std::min({lowest, (origins[At(kFoot[side])] + skeleton.heel_in_foot[side]).z(),
-                       (origins[At(kToe[side])] + skeleton.toe_tip_in_toe[side]).z()});
-  }
+  LinkPoses links;  // all upright, as link frames are in the N-pose
+  for (std::size_t i = 0; i < links.size(); ++i) links[i].position = origins[i];
+  const double lowest = LowestSolePoint(skeleton, links);
   for (Vector3d& origin : origins) origin.z() -= lowest;
   return origins;
 }

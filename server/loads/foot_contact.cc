@@ -90,9 +90,8 @@ void FootContacts::Update(const BodySample& sample, const urdf::LinkPoses& links
     const std::size_t foot = At(urdf::FootSegmentOf(side));
     const std::size_t toe = foot + 1;
     Points points;
-    points.at = {links[foot].position + links[foot].orientation * skeleton.heel_in_foot[side],
-                 links[toe].position,
-                 links[toe].position + links[toe].orientation * skeleton.toe_tip_in_toe[side]};
+    const auto [heel, tip] = urdf::SolePoints(skeleton, links, side);
+    points.at = {heel, links[toe].position, tip};
     const auto speed = [&](std::size_t point, std::size_t segment) {
       if (!fresh) return (points.at[point] - last_points_[side].at[point]).norm() / step_secs;
       return has_speeds ? SpeedOf(sample.segments[segment], points.at[point]) : 0.0;

@@ -1,8 +1,6 @@
 #include "server/picture/ghost_pose.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/errors.h"
 #include "server/scene/scene_reader.h"
@@ -20,19 +18,6 @@ std::vector<PersonState> ReadMoment(const GhostValue& ghost, const SceneOptions&
     throw UsageError("--ghost=" + ghost.ToText() + ": no person at that time");
   }
   return scene->people;
-}
-
-double LowestPoint(const urdf::Skeleton& skeleton, const urdf::LinkPoses& links) {
-  double lowest = std::numeric_limits<double>::max();
-  const auto take = [&](int segment, const Vector3d& in_link) {
-    const urdf::Pose& pose = links[urdf::At(segment)];
-    lowest = std::min(lowest, (pose.position + pose.orientation * in_link).z());
-  };
-  take(urdf::kRightFoot, skeleton.heel_in_foot[urdf::kRight]);
-  take(urdf::kLeftFoot, skeleton.heel_in_foot[urdf::kLeft]);
-  take(urdf::kRightToe, skeleton.toe_tip_in_toe[urdf::kRight]);
-  take(urdf::kLeftToe, skeleton.toe_tip_in_toe[urdf::kLeft]);
-  return lowest;
 }
 
 // Fingers and props go along with the hand, and with the pelvis.
@@ -53,7 +38,7 @@ void Carry(const urdf::LinkPoses& before, PersonState& person) {
   }
 }
 
-PersonState Standing(PersonState person, bool is_t_pose, double floor_z) {
+PersonState NeutralPose(PersonState person, bool is_t_pose, double floor_z) {
   urdf::JointAngles angles;
   angles.fill(Vector3d::Zero());
   if (is_t_pose) {  // link frames are those of the N-pose
@@ -68,7 +53,7 @@ PersonState Standing(PersonState person, bool is_t_pose, double floor_z) {
   const urdf::Skeleton& skeleton = person.model->human.skeleton;
   const urdf::LinkPoses before = person.links;
   person.links = urdf::ForwardKinematics(skeleton, pelvis, angles);
-  const double lift = floor_z - LowestPoint(skeleton, person.links);
+  const double lift = floor_z - urdf::LowestSolePoint(skeleton, person.links);
   for (urdf::Pose& link : person.links) link.position.z() += lift;
   Carry(before, person);
   return person;
@@ -90,7 +75,7 @@ std::vector<render::Ghost> GhostPose::Make(const SceneState& state) const {
   }
   for (const PersonState& person : state.people) {
     ghosts.push_back(
-        {Standing(person, kind_ == GhostSource::Kind::kTPose, state.floor_z), opacity_});
+        {NeutralPose(person, kind_ == GhostSource::Kind::kTPose, state.floor_z), opacity_});
   }
   return ghosts;
 }
