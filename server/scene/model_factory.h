@@ -1,0 +1,48 @@
+/// Makes the model of a person (segment lengths, masses, URDF) from the options of the command and
+/// from what the stream says about the person. Pure: it writes no files. Any thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/scene_state.h"
+#include "server/body/figure_meshes.h"
+#include "server/body/hand_tools.h"
+#include "server/body/worn_extras.h"
+
+namespace kinescope::app {
+
+struct ModelSettings {
+  std::string model_name = "skeleton";  // prefix of links and joints; further people get _1, _2 ...
+  urdf::BodyDescription body;
+  double height_m = 1.75;         // of the default body, until the source sends segment lengths, m
+  bool height_is_assumed = true;  // the default value
+  bool smooth_figure = true;      // meshes; false: boxes, cylinders and spheres
+  std::shared_ptr<const FigureMeshes> figure_meshes;  // custom meshes; null: the built-in ones
+  std::shared_ptr<const HandTools> tools;             // in the hands of all people; null: none
+};
+
+/// What is known about one person.
+struct PersonDescription {
+  std::size_t index = 0;  // in the order of appearance
+  Character character;
+  std::optional<Eigen::Vector3d> l5_in_pelvis;  // m, link frame; overrides the scale data
+  WornExtras worn;
+};
+
+class ModelFactory {
+ public:
+  explicit ModelFactory(ModelSettings settings) : settings_(std::move(settings)) {}
+
+  /// `revision`: one more than that of the person's model before, 1 for the first.
+  std::shared_ptr<const PersonModel> Make(const PersonDescription& person,
+                                          std::uint64_t revision) const;
+
+ private:
+  const ModelSettings settings_;
+};
+
+}  // namespace kinescope::app

@@ -1,0 +1,102 @@
+#include "server/scene/person_tracker.h"
+
+#include <utility>
+
+#include "urdf/kinematics.h"
+
+namespace kinescope::app {
+
+PersonTracker::PersonTracker(const ModelFactory& models, Character character, std::size_t index)
+    : models_(models) {
+  person_.index = index;
+  person_.character = std::move(character);
+  model_ = models_.Make(person_, 1);
+}
+
+void PersonTracker::Remodel() { model_ = models_.Make(person_, model_->revision + 1); }
+
+void PersonTracker::SetCharacter(const Character& character) {
+  const bool same_body = person_.character.skeleton == character.skeleton;
+  const bool same_extra = person_.character.scaled_segments == character.scaled_segments;
+  const bool same_color = person_.character.color_rgb == character.color_rgb;
+  person_.character = character;
+  if (!same_body) {
+    l5_is_checked_ = false;
+    person_.l5_in_pelvis.reset();
+  }
+  const bool has_more_lengths = character.skeleton && !(same_body && same_extra);
+  if (!has_more_lengths && same_color) return;
+  Remodel();
+  if (same_body) return;
+  floor_z_.reset();  // judged by the soles, which have just moved
+  worst_deviation_ = {};
+}
+
+// Scale data without points can have L5 a centimetre and more off where all poses have it (a tilted
+// pelvis that the T-pose calls upright), and with it everything above. True when the poses are
+// followed.
+bool PersonTracker::CheckL5(const BodySample& sample) {
+  const std::optional<urdf::Skeleton>& skeleton = person_.character.skeleton;
+  if (l5_is_checked_ || !skeleton) return false;
+  l5_is_checked_ = true;
+  constexpr double kAgrees = 0.005, kNoLongerL5 = 0.03;  // m
+  const SegmentState& pelvis = sample.segments[urdf::kPelvis];
+  const Eigen::Vector3d measured =
+      pelvis.orientation.conjugate() * (sample.segments[urdf::kL5].position - pelvis.position);
+  const double off = (measured - skeleton->origin_in_parent[urdf::kL5]).norm();
+  if (off < kAgrees || off > kNoLongerL5) return false;
+  person_.l5_in_pelvis = measured;
+  return true;
+}
+
+// Without leg sensors MVN keeps the pelvis near z = 0 and hangs rigid legs below it; with them the
+// floor is z = 0.
+void PersonTracker::FindFloor(const urdf::LinkPoses& links) {
+  if (floor_z_) return;
+  constexpr double kDeepestSole = -0.3;  // m, with leg sensors
+  const double lowest = urdf::LowestSolePoint(model_->human.skeleton, links);
+  has_legs_ = lowest > kDeepestSole;
+  floor_z_ = has_legs_ ? 0.0 : lowest;
+}
+
+void PersonTracker::AddLoads(const BodySample& sample, const loads::LoadSettings& settings,
+                             const loads::Measurements& measured, PersonState& state) {
+  const urdf::HumanModel& human = model_->human;
+  const urdf::BodyDescription& body = model_->description;
+  const loads::LoadResult& result =
+      loads_.Update(sample, state.links,
+                    {human.skeleton, human.body, body.mass_is_assumed, !body.added_masses.empty(),
+                     has_legs_, *floor_z_},
+                    settings, measured);
+  state.com_is_ours = !sample.com;
+  state.com = sample.com ? sample.com->position : result.forces.com_of_model;
+  state.cop = result.cop;
+  exposure_.Add(result.loads, sample.stamp_nanos);
+  state.loads.assign(result.loads.begin(), result.loads.end());
+  for (std::size_t i = 0; i < state.loads.size(); ++i) {
+    state.loads[i].class_secs = exposure_.SecsOf(i);
+  }
+  state.forces = result.forces;
+}
+
+void PersonTracker::Update(const BodySample& sample, const loads::LoadSettings& settings,
+                           const loads::Measurements& measured) {
+  const bool l5_has_moved = CheckL5(sample);
+  if (person_.worn.Notice(sample) || l5_has_moved) Remodel();
+  PersonState state;
+  state.character = sample.character;
+  state.name = person_.character.name;
+  state.model = model_;
+  state.sample = sample;
+  state.links = LinkPosesOf(sample);
+  state.angles = angles_ = urdf::AnglesFromPoses(state.links, angles_);
+  state.deviation = urdf::MeasureDeviation(model_->human.skeleton, state.links, state.angles);
+  worst_deviation_.Raise(state.deviation);
+  state.worst_deviation = worst_deviation_;
+  person_.worn.Follow(sample, state);
+  FindFloor(state.links);
+  AddLoads(sample, settings, measured, state);
+  state_ = std::move(state);
+}
+
+}  // namespace kinescope::app

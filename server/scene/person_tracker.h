@@ -1,0 +1,55 @@
+/// Follows one person of a stream from sample to sample: model, angles, gloves and props, loads and
+/// exposure. The result depends only on the samples in order. One thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/scene_state.h"
+#include "server/loads/exposure.h"
+#include "server/loads/load_estimator.h"
+#include "server/scene/model_factory.h"
+
+namespace kinescope::app {
+
+class PersonTracker {
+ public:
+  /// `index`: in the order of appearance. `models` is borrowed for the lifetime.
+  PersonTracker(const ModelFactory& models, Character character, std::size_t index);
+
+  /// Takes over name, colour and scale data; the model changes with them.
+  void SetCharacter(const Character& character);
+
+  /// Computes the state of the next sample.
+  /// @pre the sample is of this person; FindDefect(settings) is ""
+  void Update(const BodySample& sample, const loads::LoadSettings& settings,
+              const loads::Measurements& measured);
+
+  /// That of the newest sample; null before the first.
+  const PersonState* state() const { return state_ ? &*state_ : nullptr; }
+  /// Height of the ground under this person, world, m; absent before the first sample.
+  std::optional<double> floor_z() const { return floor_z_; }
+
+ private:
+  void Remodel();
+  bool CheckL5(const BodySample& sample);
+  void FindFloor(const urdf::LinkPoses& links);
+  void AddLoads(const BodySample& sample, const loads::LoadSettings& settings,
+                const loads::Measurements& measured, PersonState& state);
+
+  const ModelFactory& models_;
+  PersonDescription person_;
+  std::shared_ptr<const PersonModel> model_;  // never null
+  bool l5_is_checked_ = false;                // against the first pose; see CheckL5
+  urdf::JointAngles angles_{};
+  urdf::RigidDeviation worst_deviation_;
+  loads::LoadEstimator loads_;
+  loads::Exposure exposure_;
+  bool has_legs_ = true;           // false: recorded without leg sensors
+  std::optional<double> floor_z_;  // m; set with the first sample
+  std::optional<PersonState> state_;
+};
+
+}  // namespace kinescope::app
