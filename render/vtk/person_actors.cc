@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/held_look.h"
+#include "core/hand_load_shape.h"
 #include "core/palette.h"
 
 namespace kinescope::render {
@@ -25,7 +25,7 @@ enum MarkPart {
 };
 
 // Of what is held: cylinders, and one box behind them.
-constexpr int kHeldBox = static_cast<int>(kMostHeldSolids) - 1;
+constexpr int kHeldBox = static_cast<int>(kMostHandLoadSolids) - 1;
 constexpr int kHeldParts = kHeldBox + 1;
 
 Eigen::Vector4f Color(const Rgb& rgb, float alpha = 1) {
@@ -70,7 +70,7 @@ urdf::Mesh HeldMesh() {
     all.Append(
         part == kHeldBox ? urdf::BoxMesh({1, 1, 1}, detail) : urdf::CylinderMesh(1, 1, detail),
         Eigen::Affine3d::Identity());
-    all.Paint(first, Color(kHeldColor), part);
+    all.Paint(first, Color(kHandLoadColor), part);
   }
   return all;
 }
@@ -229,14 +229,14 @@ void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera) 
 }
 
 void PersonActors::UpdateHeld(const PersonState& person, Liveness liveness) {
-  const HeldSolids held = HeldBy(person);
+  const HandLoadShape held = ShapeOfHandLoad(person);
   held_.actor()->SetVisibility(held.count > 0);
   if (held.count == 0) return;
   for (int part = 0; part < kHeldParts; ++part) held_.Hide(part);
   int cylinder = 0;
   for (std::size_t i = 0; i < held.count; ++i) {
-    const HeldSolid& solid = held.solids[i];
-    const bool is_box = solid.kind == HeldSolid::Kind::kBox;
+    const HandLoadSolid& solid = held.solids[i];
+    const bool is_box = solid.kind == HandLoadSolid::Kind::kBox;
     Eigen::Affine3d place(Eigen::Translation3d(solid.pose.position) * solid.pose.orientation);
     place.scale(solid.size);
     held_.Place(is_box ? kHeldBox : cylinder++, place);

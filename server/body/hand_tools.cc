@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "server/body/figure_meshes.h"
+#include "server/body/custom_body_meshes.h"
 #include "server/options/text.h"
 #include "urdf/mesh_inputs.h"
 

@@ -58,7 +58,7 @@ std::string FigureValue::ToText() const {
 
 std::vector<std::filesystem::path> FigureValue::Files() const {
   return value_.folder.empty() ? std::vector<std::filesystem::path>()
-                               : FilesOfFigure(value_.folder);
+                               : FilesOfCustomBody(value_.folder);
 }
 
 PersonOptions::PersonOptions()
@@ -110,19 +110,19 @@ void PersonOptions::List(options::OptionList& option) {
       "the longer side)");
 }
 
-FigureChoice ToFigure(const PersonOptions& person) {
+BodyAppearance ToAppearance(const PersonOptions& person) {
   urdf::MeshConvention convention;
   convention.metres_per_unit = *person.mesh_units;
   convention.y_is_up = *person.mesh_up;
   convention.fits_person = *person.mesh_scale;
   convention.frame = *person.mesh_frame;
-  FigureChoice figure;
-  figure.is_smooth = person.figure->is_smooth;
+  BodyAppearance appearance;
+  appearance.is_smooth = person.figure->is_smooth;
   if (!person.figure->folder.empty()) {
-    figure.meshes = ReadFigureMeshes(person.figure->folder, convention);
+    appearance.meshes = ReadCustomBodyMeshes(person.figure->folder, convention);
   }
-  figure.tools = ReadHandTools(person.tool, convention);
-  return figure;
+  appearance.tools = ReadHandTools(person.tool, convention);
+  return appearance;
 }
 
 urdf::BodyDescription ToBody(const PersonOptions& person) {

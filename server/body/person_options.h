@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "server/body/figure_meshes.h"
+#include "server/body/custom_body_meshes.h"
 #include "server/body/hand_tools.h"
 #include "server/options/option_list.h"
 #include "urdf/body_parameters.h"
@@ -51,15 +51,15 @@ struct PersonOptions {
 };
 
 /// How a person is drawn.
-struct FigureChoice {
-  bool is_smooth = true;                       // mesh files; false: boxes, cylinders and spheres
-  std::shared_ptr<const FigureMeshes> meshes;  // instead of the built-in ones; null: these
-  std::shared_ptr<const HandTools> tools;      // in the hands of every person; null: none
+struct BodyAppearance {
+  bool is_smooth = true;  // mesh files; false: boxes, cylinders and spheres
+  std::shared_ptr<const CustomBodyMeshes> meshes;  // instead of the built-in ones; null: these
+  std::shared_ptr<const HandTools> tools;          // in the hands of every person; null: none
 };
 
 /// @throws UsageError naming option, value and what was expected, where values do not fit together.
 urdf::BodyDescription ToBody(const PersonOptions& person);
 /// Reads the meshes. @throws UsageError naming the file.
-FigureChoice ToFigure(const PersonOptions& person);
+BodyAppearance ToAppearance(const PersonOptions& person);
 
 }  // namespace kinescope::app

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "core/held_look.h"
+#include "core/hand_load_shape.h"
 #include "core/json_text.h"
 #include "core/palette.h"
 #include "core/person_links.h"
@@ -251,7 +251,7 @@ std::string ModelJson(const SceneState* state) {
                  {"cop", ToJson(kCopColor)},
                  {"com", ToJson(kComColor)},
                  {"support", ToJson(kSupportColor)},
-                 {"held", ToJson(kHeldColor)},
+                 {"held", ToJson(kHandLoadColor)},
                  {"body", ToJson(kBodyColor)},
                  {"stale_body", ToJson(kStaleBodyColor)}}}});
 }

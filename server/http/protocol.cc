@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/check.h"
-#include "core/held_look.h"
+#include "core/hand_load_shape.h"
 #include "core/json_text.h"
 #include "core/palette.h"
 #include "core/person_links.h"
@@ -87,7 +87,7 @@ void PutPerson(Writer& out, const PersonState& person) {
   KINESCOPE_CHECK(person.model != nullptr);
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const BodyForces& forces = person.forces;
-  const HeldSolids held = HeldBy(person);
+  const HandLoadShape held = ShapeOfHandLoad(person);
   const std::uint8_t loads = CountByte(person.loads.size());
   const std::vector<urdf::Pose> links = VisibleLinkPoses(person);
   const unsigned flags =

@@ -31,10 +31,10 @@ double SecsSince(std::optional<std::int64_t>& start_nanos, const SceneState& sta
 
 ShotPlanner::ShotPlanner(const ViewOptions& options, const BackendOptions& backend,
                          const SceneOptions& people)
-    : ShotPlanner(options, SceneExtras(options, backend, people)) {}
+    : ShotPlanner(options, SceneAdditions(options, backend, people)) {}
 
-ShotPlanner::ShotPlanner(const ViewOptions& options, SceneExtras extras)
-    : view_(ToView(options)), extras_(std::move(extras)), loads_(*options.plot) {
+ShotPlanner::ShotPlanner(const ViewOptions& options, SceneAdditions additions)
+    : view_(ToView(options)), additions_(std::move(additions)), loads_(*options.plot) {
   const ViewGrid& grid = *options.views;
   cameras_ = CamerasOf(options, grid);
   if (grid.cameras.empty()) {
@@ -64,9 +64,9 @@ void ShotPlanner::Survey(const SceneState& state) {
 }
 
 Shot ShotPlanner::With(SceneState state, std::vector<render::Camera> cameras, double secs,
-                       const SceneExtras& extras) const {
+                       const SceneAdditions& additions) const {
   Shot shot{std::move(state), cameras.front(), view_, {}};
-  extras.AddTo(shot.state, shot.view.look);
+  additions.AddTo(shot.state, shot.view.look);
   for (std::size_t i = 0; i < shot.view.panes.size(); ++i) {
     shot.view.panes[i].camera = cameras[i];
   }
@@ -76,12 +76,12 @@ Shot ShotPlanner::With(SceneState state, std::vector<render::Camera> cameras, do
 
 Shot ShotPlanner::Next(SceneState state) {
   const double secs = SecsSince(start_nanos_, state);
-  extras_.Remember(state);
+  additions_.Remember(state);
   std::vector<render::Camera> cameras;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     cameras.push_back(cameras_[i].Aim(state, aspects_[i]));
   }
-  if (loads_.is_empty()) return With(std::move(state), std::move(cameras), secs, extras_);
+  if (loads_.is_empty()) return With(std::move(state), std::move(cameras), secs, additions_);
   std::shared_ptr<const render::LoadHistory> history;
   if (survey_start_nanos_) {
     if (whole_ == nullptr) whole_ = std::make_shared<const render::LoadHistory>(loads_.All());
@@ -90,7 +90,7 @@ Shot ShotPlanner::Next(SceneState state) {
     loads_.Add(state, secs);
     history = std::make_shared<const render::LoadHistory>(loads_.Last(kWindowSecs));
   }
-  Shot shot = With(std::move(state), std::move(cameras), secs, extras_);
+  Shot shot = With(std::move(state), std::move(cameras), secs, additions_);
   shot.view.history = std::move(history);
   return shot;
 }
@@ -102,9 +102,9 @@ Shot ShotPlanner::Only(SceneState state, double secs) const {
   }
   LoadWindow loads = loads_;
   if (!survey_start_nanos_) loads.Add(state, secs);
-  SceneExtras extras = extras_;
-  extras.Remember(state);
-  Shot shot = With(std::move(state), std::move(cameras), secs, extras);
+  SceneAdditions additions = additions_;
+  additions.Remember(state);
+  Shot shot = With(std::move(state), std::move(cameras), secs, additions);
   if (!loads.is_empty()) {
     shot.view.history = std::make_shared<const render::LoadHistory>(loads.All());
   }

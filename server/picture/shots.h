@@ -14,7 +14,7 @@
 #include "render/renderer.h"
 #include "server/picture/camera_man.h"
 #include "server/picture/load_window.h"
-#include "server/picture/scene_extras.h"
+#include "server/picture/scene_additions.h"
 #include "server/picture/view_options.h"
 #include "server/scene/scene_reader.h"
 
@@ -36,8 +36,8 @@ class ShotPlanner {
   /// options.
   explicit ShotPlanner(const ViewOptions& options, const BackendOptions& backend = {},
                        const SceneOptions& people = {});
-  /// With `extras` shared by several planners, so that files are read and robots measured once.
-  ShotPlanner(const ViewOptions& options, SceneExtras extras);
+  /// With `additions` shared by several planners, so that files are read and robots measured once.
+  ShotPlanner(const ViewOptions& options, SceneAdditions additions);
 
   /// Whether the first picture requires the whole clip: one revolution over the clip, a frame
   /// around all of it, a plot of all of it. Without a first pass they use the available data: no
@@ -54,20 +54,20 @@ class ShotPlanner {
   Shot Only(SceneState state, double secs = 0) const;
 
   /// Adds a scene before the first picture; in order. Needed if history_secs() > 0.
-  void Remember(const SceneState& state) { extras_.Remember(state); }
+  void Remember(const SceneState& state) { additions_.Remember(state); }
   /// Length of the history that a picture shows, s.
-  double history_secs() const { return extras_.history_secs(); }
+  double history_secs() const { return additions_.history_secs(); }
 
   const render::View& view() const { return view_; }
 
  private:
   Shot With(SceneState state, std::vector<render::Camera> cameras, double secs,
-            const SceneExtras& extras) const;
+            const SceneAdditions& additions) const;
 
   render::View view_;
   std::vector<CameraMan> cameras_;  // one, or one per view
   std::vector<double> aspects_;     // of the views, width / height
-  SceneExtras extras_;
+  SceneAdditions additions_;
   LoadWindow loads_;  // of the first pass, or else of the scenes so far
   std::optional<std::int64_t> start_nanos_, survey_start_nanos_;
   std::shared_ptr<const render::LoadHistory> whole_;  // of the first pass, made with the first shot

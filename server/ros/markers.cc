@@ -1,6 +1,6 @@
 #include "server/ros/markers.h"
 
-#include "core/held_look.h"
+#include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "server/ros/convert.h"
 #include "server/ros/stamp.h"
@@ -115,16 +115,15 @@ void AddFootForces(const BodyForces& forces, MarkerWriter& out) {
 }
 
 void AddHeld(const PersonState& person, MarkerWriter& out) {
-  const HeldSolids held = HeldBy(person);
+  const HandLoadShape held = ShapeOfHandLoad(person);
   for (std::size_t i = 0; i < held.count; ++i) {
-    const HeldSolid& solid = held.solids[i];
-    const bool is_box = solid.kind == HeldSolid::Kind::kBox;
+    const HandLoadSolid& solid = held.solids[i];
+    const bool is_box = solid.kind == HandLoadSolid::Kind::kBox;
     const Eigen::Vector3d size =
         is_box ? solid.size
                : Eigen::Vector3d(2 * solid.size.x(), 2 * solid.size.y(), solid.size.z());
-    Marker& marker =
-        out.Add(kHandLoads, static_cast<int>(i), is_box ? Marker::CUBE : Marker::CYLINDER,
-                solid.pose.position, size, kHeldColor);
+    Marker& marker = out.Add(kHandLoads, static_cast<int>(i), is_box ? Marker::CUBE : Marker::CYLINDER,
+                             solid.pose.position, size, kHandLoadColor);
     Set(marker.pose.orientation, solid.pose.orientation);
   }
 }

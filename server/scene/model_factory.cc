@@ -1,7 +1,7 @@
 #include "server/scene/model_factory.h"
 
 #include "server/body/body_color.h"
-#include "server/body/figure_files.h"
+#include "server/body/body_meshes.h"
 
 namespace kinescope::app {
 
@@ -20,10 +20,10 @@ std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& p
   human.body_rgb = BodyColor(person.character.color_rgb, person.index);
   person.worn.AddTo(person.character, human);
   if (settings_.smooth_figure) {
-    human.mesh_folder = WriteToCache(FigureFiles(human, settings_.figure_meshes.get()));
+    human.mesh_folder = WriteToCache(BodyMeshFiles(human, settings_.figure_meshes.get()));
   }
   if (settings_.tools) {
-    human.tool_folder = WriteToCache(ToolFiles(*settings_.tools, human.skeleton));
+    human.tool_folder = WriteToCache(ToolMeshFiles(*settings_.tools, human.skeleton));
     for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
       human.tools.set(side, (*settings_.tools)[side] && !human.tool_folder.empty());
     }

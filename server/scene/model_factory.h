@@ -9,9 +9,9 @@
 #include <string>
 
 #include "core/scene_state.h"
-#include "server/body/figure_meshes.h"
+#include "server/body/custom_body_meshes.h"
+#include "server/body/gloves_and_props.h"
 #include "server/body/hand_tools.h"
-#include "server/body/worn_extras.h"
 
 namespace kinescope::app {
 
@@ -21,8 +21,8 @@ struct ModelSettings {
   double height_m = 1.75;         // of the default body, until the source sends segment lengths, m
   bool height_is_assumed = true;  // the default value
   bool smooth_figure = true;      // meshes; false: boxes, cylinders and spheres
-  std::shared_ptr<const FigureMeshes> figure_meshes;  // custom meshes; null: the built-in ones
-  std::shared_ptr<const HandTools> tools;             // in the hands of all people; null: none
+  std::shared_ptr<const CustomBodyMeshes> figure_meshes;  // custom meshes; null: the built-in ones
+  std::shared_ptr<const HandTools> tools;                 // in the hands of all people; null: none
 };
 
 /// What is known about one person.
@@ -30,7 +30,7 @@ struct PersonDescription {
   std::size_t index = 0;  // in the order of appearance
   Character character;
   std::optional<Eigen::Vector3d> l5_in_pelvis;  // m, link frame; overrides the scale data
-  WornExtras worn;
+  GlovesAndProps worn;
 };
 
 class ModelFactory {

@@ -109,10 +109,10 @@ SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& load
   scene.height_is_assumed = !person.height;
   scene.height_m = person.height.value_or(scene.height_m);
   scene.stale_secs = stale_secs;
-  FigureChoice figure = ToFigure(person);
-  scene.smooth_figure = figure.is_smooth;
-  scene.figure_meshes = std::move(figure.meshes);
-  scene.tools = std::move(figure.tools);
+  BodyAppearance appearance = ToAppearance(person);
+  scene.smooth_figure = appearance.is_smooth;
+  scene.figure_meshes = std::move(appearance.meshes);
+  scene.tools = std::move(appearance.tools);
   return scene;
 }
 

@@ -55,7 +55,7 @@ class Job {
         reader_(plan.source, people_),
         grid_(ToTimeGrid(options.clip, IsSubjectUrl(plan.source))),
         provenance_(options, plan.source, pool.info()),
-        extras_(options.view, options.backend, people_) {
+        additions_(options.view, options.backend, people_) {
     for (const Output& output : plan.outputs) AddOutput(output);
     if (HasWork(true) || HasWork(false)) Survey();
   }
@@ -89,7 +89,7 @@ class Job {
     if (planners_.count(key) == 0) {
       ViewOptions view = options_.view;
       view.camera.Parse(output.camera);
-      planners_.try_emplace(key, view, extras_);
+      planners_.try_emplace(key, view, additions_);
     }
     if (output.kind == OutputKind::kClip && !run.is_finished) {
       // What cannot be written or encoded is said now, not after the first picture.
@@ -374,7 +374,7 @@ class Job {
   SceneReader reader_;
   const TimeGrid grid_;
   const Provenance provenance_;
-  const SceneExtras extras_;  // of every planner
+  const SceneAdditions additions_;  // of every planner
   std::map<PlannerKey, ShotPlanner> planners_;
   std::optional<std::int64_t> start_nanos_;  // of the first sample
   std::unique_ptr<Progress> progress_;       // once there is something to do

@@ -14,11 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // @return how a URDF names where they are, "" for none.
-std::string WriteMeshes(const std::vector<FigureFile>& files, const fs::path& folder,
+std::string WriteMeshes(const std::vector<MeshFile>& files, const fs::path& folder,
                         const std::string& package) {
   if (files.empty()) return "";
   fs::create_directories(folder);
-  for (const FigureFile& file : files) render::WriteNewFile(folder / file.name, file.stl);
+  for (const MeshFile& file : files) render::WriteNewFile(folder / file.name, file.stl);
   return package.empty() ? fs::canonical(folder).string() : "package://" + package + "/meshes";
 }
 

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "server/body/figure_files.h"
+#include "server/body/body_meshes.h"
 #include "urdf/human_urdf.h"
 
 namespace kinescope::app {
 
 struct PersonFiles {
-  std::vector<FigureFile> figure;  // from FigureFiles; empty for a body of primitives
-  std::vector<FigureFile> tools;   // from ToolFiles
+  std::vector<MeshFile> figure;  // from BodyMeshFiles; empty for a body of primitives
+  std::vector<MeshFile> tools;   // from ToolMeshFiles
 };
 
 /// Writes `folder`/person.urdf and `meshes` into `folder`/meshes; creates the folders. The URDF

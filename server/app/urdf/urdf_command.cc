@@ -15,7 +15,7 @@
 #include "server/app/urdf/person_export.h"
 #include "server/app/urdf/urdf_picture.h"
 #include "server/app/urdf/urdf_report.h"
-#include "server/body/figure_files.h"
+#include "server/body/body_meshes.h"
 #include "server/options/option_list.h"
 #include "server/scene/robot_source.h"
 #include "server/scene/scene_options.h"
@@ -133,8 +133,8 @@ void Write(const WriteOptions& options) {
   human.mass_inside_joints = *options.gazebo;
   if (is_folder) {
     PersonFiles files;
-    if (scene.smooth_figure) files.figure = FigureFiles(human, scene.figure_meshes.get());
-    if (scene.tools) files.tools = ToolFiles(*scene.tools, human.skeleton);
+    if (scene.smooth_figure) files.figure = BodyMeshFiles(human, scene.figure_meshes.get());
+    if (scene.tools) files.tools = ToolMeshFiles(*scene.tools, human.skeleton);
     ExportPerson(human, files, *options.out, *options.package);
     const bool has_meshes = !files.figure.empty() || !files.tools.empty();
     fmt::print("{}: person.urdf{}\n", *options.out, has_meshes ? " and its meshes" : "");

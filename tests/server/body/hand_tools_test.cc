@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "core/errors.h"
-#include "core/held_look.h"
+#include "core/hand_load_shape.h"
 #include "server/loads/hand_loads.h"
 #include "server/scene/scene_builder.h"
 #include "server/scene/scene_options.h"
@@ -114,7 +114,7 @@ TEST_F(HandToolsTest, AreInTheUrdfOfThePersonAndTakeThePlaceOfTheDumbbell) {
   EXPECT_THAT(hand_meshes[1], HasSubstr("/right_tool.stl"));
   EXPECT_TRUE(std::filesystem::exists(hand_meshes[1].substr(std::string("file://").size())));
 
-  const HeldSolids held = HeldBy(state);
+  const HandLoadShape held = ShapeOfHandLoad(state);
   ASSERT_GT(held.count, 0U);  // of the left hand
   for (std::size_t i = 0; i < held.count; ++i) {
     const Vector3d& left = state.links[urdf::kLeftHand].position;

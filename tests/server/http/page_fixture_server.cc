@@ -18,7 +18,7 @@
 #include <string>
 
 #include "core/clocks.h"
-#include "core/held_look.h"
+#include "core/hand_load_shape.h"
 #include "core/install_paths.h"
 #include "core/palette.h"
 #include "core/person_links.h"
@@ -97,11 +97,11 @@ json Describe() {
       const Eigen::Vector2d& corner = person.forces.support.corners[i];
       support.push_back({corner.x(), corner.y()});
     }
-    const HeldSolids solids = HeldBy(person);
+    const HandLoadShape solids = ShapeOfHandLoad(person);
     for (std::size_t i = 0; i < solids.count; ++i) {
-      const HeldSolid& solid = solids.solids[i];
+      const HandLoadSolid& solid = solids.solids[i];
       const Eigen::Quaterniond& q = solid.pose.orientation;
-      held.push_back({{"kind", solid.kind == HeldSolid::Kind::kBox ? "box" : "cylinder"},
+      held.push_back({{"kind", solid.kind == HandLoadSolid::Kind::kBox ? "box" : "cylinder"},
                       {"position", Numbers(solid.pose.position)},
                       {"quaternion", {q.x(), q.y(), q.z(), q.w()}},
                       {"size", Numbers(solid.size)}});

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/held_look.h"
+#include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/worn.h"
@@ -53,7 +53,7 @@ void ExpectPerson(Reader& in, const PersonState& person) {
   EXPECT_EQ(in.Get<std::uint8_t>(), 1 | 2 | 8 | 16) << "CoM, CoP, assumed mass, dynamic";
   EXPECT_EQ(in.Get<std::uint8_t>(), urdf::kSegmentCount);
   EXPECT_EQ(in.Get<std::uint8_t>(), person.loads.size());
-  const HeldSolids held = HeldBy(person);
+  const HandLoadShape held = ShapeOfHandLoad(person);
   EXPECT_EQ(in.Get<std::uint8_t>(), held.count);
   EXPECT_EQ(in.Get<double>(), 7);
   EXPECT_TRUE(in.GetVector().isApprox(*person.com, 1e-6));

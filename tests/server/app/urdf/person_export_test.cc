@@ -24,7 +24,7 @@ urdf::HumanModel Person() {
   return human;
 }
 
-PersonFiles Meshes() { return {FigureFiles(Person(), nullptr), {}}; }
+PersonFiles Meshes() { return {BodyMeshFiles(Person(), nullptr), {}}; }
 
 std::vector<std::string> MeshUris(const fs::path& urdf_file) {
   std::vector<std::string> uris;

@@ -1,4 +1,4 @@
-#include "core/held_look.h"
+#include "core/hand_load_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,13 +26,13 @@ Quaterniond AlongZ(const Vector3d& direction) {
 
 class Maker {
  public:
-  void Add(HeldSolid::Kind kind, const Vector3d& position, const Quaterniond& turn,
+  void Add(HandLoadSolid::Kind kind, const Vector3d& position, const Quaterniond& turn,
            const Vector3d& size) {
     held_.solids[held_.count++] = {kind, {position, turn}, size};
   }
   void AddCylinder(const Vector3d& position, const Quaterniond& turn, double radius,
                    double length) {
-    Add(HeldSolid::Kind::kCylinder, position, turn, {radius, radius, length});
+    Add(HandLoadSolid::Kind::kCylinder, position, turn, {radius, radius, length});
   }
 
   // Along the thumb: that is how a fist holds a bar.
@@ -60,19 +60,19 @@ class Maker {
     const double width = std::max(kLeastWidth, across.norm() - kWall);
     const double edge = std::sqrt(mass_kg / (kPackedBox * width));
     const double heading = std::atan2(across.y(), across.x()) - M_PI_2;
-    Add(HeldSolid::Kind::kBox, 0.5 * (right + left),
+    Add(HandLoadSolid::Kind::kBox, 0.5 * (right + left),
         Quaterniond(Eigen::AngleAxisd(heading, Vector3d::UnitZ())), {edge, width, edge});
   }
 
-  HeldSolids Take() const { return held_; }
+  HandLoadShape Take() const { return held_; }
 
  private:
-  HeldSolids held_;
+  HandLoadShape held_;
 };
 
 }  // namespace
 
-HeldSolids HeldBy(const PersonState& person) {
+HandLoadShape ShapeOfHandLoad(const PersonState& person) {
   Maker maker;
   double shared_kg = 0;
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {

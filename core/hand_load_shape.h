@@ -13,10 +13,10 @@
 
 namespace kinescope {
 
-inline constexpr Rgb kHeldColor = {0.23, 0.26, 0.31};
+inline constexpr Rgb kHandLoadColor = {0.23, 0.26, 0.31};
 
 /// A solid as in a URDF: the axis of a cylinder is z.
-struct HeldSolid {
+struct HandLoadSolid {
   enum class Kind { kBox = 0, kCylinder = 1 };
   Kind kind = Kind::kBox;
   urdf::Pose pose;                                 // world_from_solid
@@ -24,15 +24,15 @@ struct HeldSolid {
 };
 
 /// A bar with two discs in each hand, and one box.
-inline constexpr std::size_t kMostHeldSolids = 7;
+inline constexpr std::size_t kMostHandLoadSolids = 7;
 
-struct HeldSolids {
-  std::array<HeldSolid, kMostHeldSolids> solids{};
+struct HandLoadShape {
+  std::array<HandLoadSolid, kMostHandLoadSolids> solids{};
   std::size_t count = 0;
 };
 
 /// The solids of the current hand load of `person`, ramps included: a load that is being gripped
 /// grows. A hand with a visible tool (urdf::HumanModel::tools) gets none.
-HeldSolids HeldBy(const PersonState& person);
+HandLoadShape ShapeOfHandLoad(const PersonState& person);
 
 }  // namespace kinescope

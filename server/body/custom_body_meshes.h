@@ -15,7 +15,7 @@
 
 namespace kinescope::app {
 
-struct FigureMeshes {
+struct CustomBodyMeshes {
   std::array<std::optional<urdf::TriangleMesh>, urdf::kSegmentCount> meshes;  // link frames, m
   bool fit_person = true;  // stretched to each person's segment lengths
 };
@@ -29,19 +29,20 @@ std::optional<urdf::Segment> SegmentOfFile(std::string_view stem);
 /// segments have no file (the built-in mesh is used) and which files were skipped. @throws
 /// UsageError with the folder or file: missing folder, no file for any segment, two files for one
 /// segment, a mesh that cannot be read or whose size cannot be that of a body part.
-std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
-                                                     const urdf::MeshConvention& convention);
+std::shared_ptr<const CustomBodyMeshes> ReadCustomBodyMeshes(
+    const std::string& folder, const urdf::MeshConvention& convention);
 
-/// The files that ReadFigureMeshes() would read, and those behind them. Empty where it would throw.
-std::vector<std::filesystem::path> FilesOfFigure(const std::string& folder);
+/// The files that ReadCustomBodyMeshes() would read, and those behind them. Empty where it would
+/// throw.
+std::vector<std::filesystem::path> FilesOfCustomBody(const std::string& folder);
 
 /// One such file, in metres and in the link frame of `segment`.
-/// @throws UsageError with `option` and the file, as ReadFigureMeshes.
+/// @throws UsageError with `option` and the file, as ReadCustomBodyMeshes.
 urdf::TriangleMesh ReadOwnMesh(const char* option, const std::filesystem::path& path,
                                urdf::MeshConvention convention, int segment);
 
 /// The surface of `segment`: the user's mesh if there is one, else the built-in one.
-urdf::TriangleMesh FigureMeshOf(const FigureMeshes* own, const urdf::Skeleton& skeleton,
-                                int segment);
+urdf::TriangleMesh BodyMeshOf(const CustomBodyMeshes* own, const urdf::Skeleton& skeleton,
+                              int segment);
 
 }  // namespace kinescope::app

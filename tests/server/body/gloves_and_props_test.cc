@@ -1,6 +1,6 @@
 // Gloves and props from sample to sample: once seen they stay, and where nothing is measured they
 // go along.
-#include "server/body/worn_extras.h"
+#include "server/body/gloves_and_props.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ void ShowExtra(BodySample& sample, int index, const urdf::Pose& pose) {
 }
 
 // The person of `sample`, with the model that the extras make.
-PersonState PersonWith(const WornExtras& extras, const BodySample& sample) {
+PersonState PersonWith(const GlovesAndProps& extras, const BodySample& sample) {
   auto model = std::make_shared<PersonModel>();
   model->human.skeleton = urdf::DefaultSkeleton();
   extras.AddTo({}, model->human);
@@ -43,8 +43,8 @@ PersonState PersonWith(const WornExtras& extras, const BodySample& sample) {
   return person;
 }
 
-TEST(WornExtras, AreNoticedOnce) {
-  WornExtras extras;
+TEST(GlovesAndProps, AreNoticedOnce) {
+  GlovesAndProps extras;
   BodySample sample = BareSample();
   EXPECT_FALSE(extras.Notice(sample));
   ShowExtra(sample, PropIndex(2), TurnedPoseAt({1, 0, 1}));
@@ -56,8 +56,8 @@ TEST(WornExtras, AreNoticedOnce) {
   EXPECT_FALSE(extras.Notice(BareSample())) << "they stay, whatever a sample lacks";
 }
 
-TEST(WornExtras, AreThoseOfTheModelThatWereSeen) {
-  WornExtras extras;
+TEST(GlovesAndProps, AreThoseOfTheModelThatWereSeen) {
+  GlovesAndProps extras;
   BodySample sample = BareSample();
   ShowExtra(sample, PropIndex(0), TurnedPoseAt({1, 0, 1}));
   ShowExtra(sample, PropIndex(3), TurnedPoseAt({1, 0, 1}));
@@ -72,9 +72,9 @@ TEST(WornExtras, AreThoseOfTheModelThatWereSeen) {
 }
 
 // The carpus of a glove is where the first sample has it, unless that is no part of the hand.
-TEST(WornExtras, TheCarpusIsWhereItWasFirstSeenOnTheHand) {
+TEST(GlovesAndProps, TheCarpusIsWhereItWasFirstSeenOnTheHand) {
   for (const auto& [away, expected] : {std::pair(0.02, 0.02), std::pair(0.5, 0.0)}) {
-    WornExtras extras;
+    GlovesAndProps extras;
     BodySample sample = BareSample();
     ShowExtra(sample, FingerIndex(urdf::kRight, 0), TurnedPoseAt(Vector3d(away, -0.3, 0.8)));
     EXPECT_TRUE(extras.Notice(sample));
@@ -86,8 +86,8 @@ TEST(WornExtras, TheCarpusIsWhereItWasFirstSeenOnTheHand) {
   }
 }
 
-TEST(WornExtras, APropThatIsNotMeasuredGoesAlongWithThePelvis) {
-  WornExtras extras;
+TEST(GlovesAndProps, APropThatIsNotMeasuredGoesAlongWithThePelvis) {
+  GlovesAndProps extras;
   BodySample seen = BareSample(TurnedPoseAt({0, 0, 1}));
   ShowExtra(seen, PropIndex(1), TurnedPoseAt({0.5, 0, 1.2}));
   EXPECT_TRUE(extras.Notice(seen));
@@ -105,8 +105,8 @@ TEST(WornExtras, APropThatIsNotMeasuredGoesAlongWithThePelvis) {
       << "half a metre ahead of a pelvis that looks along y";
 }
 
-TEST(WornExtras, AMeasuredFingerIsWhereItIsAndTheOthersGoAlong) {
-  WornExtras extras;
+TEST(GlovesAndProps, AMeasuredFingerIsWhereItIsAndTheOthersGoAlong) {
+  GlovesAndProps extras;
   BodySample sample = BareSample();
   ShowExtra(sample, FingerIndex(urdf::kRight, 0), TurnedPoseAt({0, -0.3, 0.8}));
   EXPECT_TRUE(extras.Notice(sample));
@@ -138,8 +138,8 @@ TEST(WornExtras, AMeasuredFingerIsWhereItIsAndTheOthersGoAlong) {
 
 // Scale data give the fingers' lengths only where they describe the whole hand, and a hand that can
 // be.
-TEST(WornExtras, LengthsAreThoseOfScaleDataOnlyWhereTheyDescribeAHand) {
-  WornExtras extras;
+TEST(GlovesAndProps, LengthsAreThoseOfScaleDataOnlyWhereTheyDescribeAHand) {
+  GlovesAndProps extras;
   BodySample sample = BareSample();
   ShowExtra(sample, FingerIndex(urdf::kRight, 0), TurnedPoseAt({0, -0.3, 0.8}));
   EXPECT_TRUE(extras.Notice(sample));

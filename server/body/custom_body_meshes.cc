@@ -1,4 +1,4 @@
-#include "server/body/figure_meshes.h"
+#include "server/body/custom_body_meshes.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -127,8 +127,8 @@ std::optional<urdf::Segment> SegmentOfFile(std::string_view stem) {
   return std::nullopt;
 }
 
-std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
-                                                     const urdf::MeshConvention& convention) {
+std::shared_ptr<const CustomBodyMeshes> ReadCustomBodyMeshes(
+    const std::string& folder, const urdf::MeshConvention& convention) {
   std::vector<std::string> not_taken;
   const std::map<int, fs::path> files = FilesBySegment(folder, not_taken);
   if (files.empty()) {
@@ -137,15 +137,15 @@ std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
         "as RightForeArm.stl, xsens_RightForeArm.dae or right_forearm.obj",
         folder));
   }
-  auto figure = std::make_shared<FigureMeshes>();
-  figure->fit_person = convention.fits_person;
+  auto body = std::make_shared<CustomBodyMeshes>();
+  body->fit_person = convention.fits_person;
   std::vector<std::string> missing;
   for (int i = 0; i < urdf::kSegmentCount; ++i) {
     const auto file = files.find(i);
     if (file == files.end()) {
       missing.emplace_back(urdf::kSegments[At(i)].mvn_name);
     } else {
-      figure->meshes[At(i)] = ReadOwnMesh("--body_model", file->second, convention, i);
+      body->meshes[At(i)] = ReadOwnMesh("--body_model", file->second, convention, i);
     }
   }
   if (!missing.empty()) {
@@ -154,10 +154,10 @@ std::shared_ptr<const FigureMeshes> ReadFigureMeshes(const std::string& folder,
   if (!not_taken.empty()) {
     spdlog::info("files ignored (no segment name): {}", CommaJoined(not_taken));
   }
-  return figure;
+  return body;
 }
 
-std::vector<fs::path> FilesOfFigure(const std::string& folder) try {
+std::vector<fs::path> FilesOfCustomBody(const std::string& folder) try {
   std::vector<std::string> not_taken;
   std::vector<fs::path> all;
   for (const auto& [segment, path] : FilesBySegment(folder, not_taken)) {
@@ -194,8 +194,8 @@ urdf::TriangleMesh ReadOwnMesh(const char* option, const fs::path& path,
   return mesh;
 }
 
-urdf::TriangleMesh FigureMeshOf(const FigureMeshes* own, const urdf::Skeleton& skeleton,
-                                int segment) {
+urdf::TriangleMesh BodyMeshOf(const CustomBodyMeshes* own, const urdf::Skeleton& skeleton,
+                              int segment) {
   if (own == nullptr || !own->meshes[At(segment)]) return urdf::SegmentMesh(skeleton, segment);
   const urdf::TriangleMesh& mesh = *own->meshes[At(segment)];
   return own->fit_person ? urdf::FitToPerson(mesh, skeleton, segment) : mesh;

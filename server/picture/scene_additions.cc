@@ -1,4 +1,4 @@
-#include "server/picture/scene_extras.h"
+#include "server/picture/scene_additions.h"
 
 #include <spdlog/spdlog.h>
 
@@ -46,13 +46,13 @@ std::vector<RobotState> ReadRobots(const std::vector<RobotPlace>& places,
 
 }  // namespace
 
-SceneExtras::SceneExtras(const ViewOptions& options, const BackendOptions& backend,
-                         const SceneOptions& people)
+SceneAdditions::SceneAdditions(const ViewOptions& options, const BackendOptions& backend,
+                               const SceneOptions& people)
     : trails_(*options.trail, *options.trail_secs),
       ghost_(options.ghost, *options.ghost_opacity, people),
       robots_(ReadRobots(*options.robot, backend)) {}
 
-void SceneExtras::AddTo(SceneState& state, render::SceneLook& look) const {
+void SceneAdditions::AddTo(SceneState& state, render::SceneLook& look) const {
   look.trails = trails_.Make();
   look.ghosts = ghost_.Make(state);
   const Eigen::Vector3d up(0, 0, state.floor_z);

@@ -1,4 +1,4 @@
-#include "server/body/figure_meshes.h"
+#include "server/body/custom_body_meshes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using urdf::At;
 
-TEST(FigureMeshes, FilesAreKnownByTheNamesThatPeopleGiveThem) {
+TEST(CustomBodyMeshes, FilesAreKnownByTheNamesThatPeopleGiveThem) {
   const auto expect = [](std::initializer_list<const char*> stems, urdf::Segment segment) {
     for (const char* stem : stems) EXPECT_EQ(SegmentOfFile(stem), segment) << stem;
   };
@@ -50,7 +50,7 @@ class MeshFolder : public ::testing::Test {
   std::string Path() const { return folder_.path().string(); }
   std::string ErrorOf(const urdf::MeshConvention& convention = {}) const {
     try {
-      ReadFigureMeshes(Path(), convention);
+      ReadCustomBodyMeshes(Path(), convention);
     } catch (const UsageError& error) {
       return error.what();
     }
@@ -64,20 +64,20 @@ TEST_F(MeshFolder, GivesTheUsersMeshesFittedAndOursForTheRest) {
   WriteRod("left_lower_leg.obj", 0.400, 0.001);
   urdf::MeshConvention convention;
   convention.metres_per_unit = 0.001;
-  const auto figure = ReadFigureMeshes(Path(), convention);
+  const auto figure = ReadCustomBodyMeshes(Path(), convention);
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton(1.9);
-  const auto shank = FigureMeshOf(figure.get(), skeleton, urdf::kLeftLowerLeg);
+  const auto shank = BodyMeshOf(figure.get(), skeleton, urdf::kLeftLowerLeg);
   EXPECT_EQ(shank.triangles.size(), 12U);
   const Eigen::AlignedBox3d box = urdf::BoundsOf(shank);
   EXPECT_NEAR(box.min().z(), urdf::EndOf(skeleton, urdf::kLeftLowerLeg).z(), 1e-6);
   EXPECT_NEAR(box.max().z(), 0, 1e-6);
   EXPECT_NEAR(box.sizes().x(), 0.06, 1e-6);
-  EXPECT_EQ(FigureMeshOf(figure.get(), skeleton, urdf::kHead).triangles.size(),
+  EXPECT_EQ(BodyMeshOf(figure.get(), skeleton, urdf::kHead).triangles.size(),
             urdf::SegmentMesh(skeleton, urdf::kHead).triangles.size());
 
   convention.fits_person = false;
-  const auto as_it_is = ReadFigureMeshes(Path(), convention);
-  EXPECT_NEAR(urdf::BoundsOf(FigureMeshOf(as_it_is.get(), skeleton, urdf::kLeftLowerLeg)).min().z(),
+  const auto as_it_is = ReadCustomBodyMeshes(Path(), convention);
+  EXPECT_NEAR(urdf::BoundsOf(BodyMeshOf(as_it_is.get(), skeleton, urdf::kLeftLowerLeg)).min().z(),
               -0.4, 1e-6);
 }
 
@@ -94,7 +94,7 @@ TEST_F(MeshFolder, IsRefusedWithTheReasonWhereItCannotBeAFigure) {
   WriteRod("xsens_Head.obj", 0.2);
   EXPECT_THAT(ErrorOf(), ::testing::AllOf(HasSubstr("Head.obj and xsens_Head.obj"),
                                           HasSubstr("both meshes of Head")));
-  EXPECT_THROW(ReadFigureMeshes(Path() + "/nowhere", {}), UsageError);
+  EXPECT_THROW(ReadCustomBodyMeshes(Path() + "/nowhere", {}), UsageError);
 }
 
 TEST_F(MeshFolder, IsChosenByOptions) {
@@ -116,16 +116,16 @@ TEST_F(MeshFolder, IsChosenByOptions) {
 }
 
 // The surface of a person of the set, in link frames at the N-pose: about as large as a person.
-TEST(FigureMeshes, RealSetsOfOthersFitThePerson) {
+TEST(CustomBodyMeshes, RealSetsOfOthersFitThePerson) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-model-generator/meshes");
   const auto figure =
-      ReadFigureMeshes(testing::SharedData("models/human-model-generator/meshes").string(), {});
+      ReadCustomBodyMeshes(testing::SharedData("models/human-model-generator/meshes").string(), {});
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton(1.82);
   const auto origins = urdf::NPoseOrigins(skeleton);
   Eigen::AlignedBox3d person;
   for (int i = 0; i < urdf::kSegmentCount; ++i) {
     ASSERT_TRUE(figure->meshes[At(i)]) << urdf::kSegments[At(i)].mvn_name;
-    const auto mesh = FigureMeshOf(figure.get(), skeleton, i);
+    const auto mesh = BodyMeshOf(figure.get(), skeleton, i);
     Eigen::AlignedBox3d box = urdf::BoundsOf(mesh);
     person.extend(box.translate(origins[At(i)]));
   }

@@ -1,4 +1,4 @@
-#include "core/held_look.h"
+#include "core/hand_load_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace kinescope {
 namespace {
 
 using Eigen::Vector3d;
-using Kind = HeldSolid::Kind;
+using Kind = HandLoadSolid::Kind;
 
 PersonState Person(double right_kg, double left_kg = 0, double both_kg = 0) {
   PersonState person;
@@ -27,18 +27,18 @@ PersonState Person(double right_kg, double left_kg = 0, double both_kg = 0) {
   return person;
 }
 
-double VolumeOf(const HeldSolid& disc) {
+double VolumeOf(const HandLoadSolid& disc) {
   return M_PI * disc.size.x() * disc.size.x() * disc.size.z();
 }
 
-TEST(HeldLook, OfEmptyHandsIsNothing) { EXPECT_EQ(HeldBy(Person(0)).count, 0u); }
+TEST(HandLoadShape, OfEmptyHandsIsNothing) { EXPECT_EQ(ShapeOfHandLoad(Person(0)).count, 0u); }
 
-TEST(HeldLook, InOneHandIsADumbbellOfItsWeightInIronAroundTheLoadsCentre) {
+TEST(HandLoadShape, InOneHandIsADumbbellOfItsWeightInIronAroundTheLoadsCentre) {
   const PersonState person = Person(5);
-  const HeldSolids held = HeldBy(person);
+  const HandLoadShape held = ShapeOfHandLoad(person);
   ASSERT_EQ(held.count, 3u);
-  const HeldSolid& front = held.solids[1];
-  const HeldSolid& back = held.solids[2];
+  const HandLoadSolid& front = held.solids[1];
+  const HandLoadSolid& back = held.solids[2];
   EXPECT_NEAR(7800 * (VolumeOf(front) + VolumeOf(back)), 5, 1e-9);
   EXPECT_LT(
       (0.5 * (front.pose.position + back.pose.position) - person.forces.hands[urdf::kRight].point)
@@ -48,14 +48,14 @@ TEST(HeldLook, InOneHandIsADumbbellOfItsWeightInIronAroundTheLoadsCentre) {
   EXPECT_LT(axis.cross(Vector3d::UnitX()).norm(), 1e-12) << "the bar lies along the thumb";
 }
 
-TEST(HeldLook, GrowsWithTheMassAndNeverStopsBeingDrawable) {
+TEST(HandLoadShape, GrowsWithTheMassAndNeverStopsBeingDrawable) {
   double last = 0;
   for (double mass = 0.02; mass <= 100; mass *= 1.7) {
-    const HeldSolids held = HeldBy(Person(mass, mass, mass));
-    ASSERT_EQ(held.count, kMostHeldSolids);
+    const HandLoadShape held = ShapeOfHandLoad(Person(mass, mass, mass));
+    ASSERT_EQ(held.count, kMostHandLoadSolids);
     EXPECT_GT(held.solids[1].size.x(), last);
     last = held.solids[1].size.x();
-    for (const HeldSolid& solid : held.solids) {
+    for (const HandLoadSolid& solid : held.solids) {
       EXPECT_TRUE(solid.size.allFinite());
       EXPECT_GT(solid.size.minCoeff(), 0);
       EXPECT_NEAR(solid.pose.orientation.norm(), 1, 1e-9);
@@ -63,19 +63,19 @@ TEST(HeldLook, GrowsWithTheMassAndNeverStopsBeingDrawable) {
   }
 }
 
-TEST(HeldLook, OfAToolWhoseCentreIsElsewhereReachesThere) {
+TEST(HandLoadShape, OfAToolWhoseCentreIsElsewhereReachesThere) {
   PersonState person = Person(2);
   person.forces.hands[urdf::kRight].point += Vector3d(0.2, 0, -0.3);
-  const HeldSolids held = HeldBy(person);
+  const HandLoadShape held = ShapeOfHandLoad(person);
   ASSERT_EQ(held.count, 2u);
   EXPECT_NEAR(held.solids[0].size.z(), std::hypot(0.2, 0.3), 1e-12);
   EXPECT_EQ(held.solids[1].pose.position, person.forces.hands[urdf::kRight].point);
 }
 
-TEST(HeldLook, BetweenTwoHandsIsABoxAsWideAsTheyAreApart) {
-  const HeldSolids held = HeldBy(Person(0, 0, 10));
+TEST(HandLoadShape, BetweenTwoHandsIsABoxAsWideAsTheyAreApart) {
+  const HandLoadShape held = ShapeOfHandLoad(Person(0, 0, 10));
   ASSERT_EQ(held.count, 1u);
-  const HeldSolid& box = held.solids[0];
+  const HandLoadSolid& box = held.solids[0];
   EXPECT_EQ(box.kind, Kind::kBox);
   EXPECT_LT((box.pose.position - Vector3d(0.3, 0, 0.82)).norm(), 1e-12);
   EXPECT_NEAR(box.size.y(), 0.46, 1e-12);

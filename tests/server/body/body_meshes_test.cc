@@ -1,4 +1,4 @@
-#include "server/body/figure_files.h"
+#include "server/body/body_meshes.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class FigureFiles : public ::testing::Test {
+class BodyMeshFiles : public ::testing::Test {
  protected:
   void SetUp() override { setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1); }
   void TearDown() override { unsetenv("XDG_CACHE_HOME"); }
@@ -27,11 +27,11 @@ urdf::HumanModel Person(double height) {
   return human;
 }
 
-std::vector<FigureFile> FilesOf(const urdf::HumanModel& human) {
-  return app::FigureFiles(human, nullptr);
+std::vector<MeshFile> FilesOf(const urdf::HumanModel& human) {
+  return app::BodyMeshFiles(human, nullptr);
 }
 
-TEST_F(FigureFiles, AreWrittenOnceForEachBody) {
+TEST_F(BodyMeshFiles, AreWrittenOnceForEachBody) {
   const std::string small = WriteToCache(FilesOf(Person(1.6)));
   const std::string tall = WriteToCache(FilesOf(Person(1.9)));
   EXPECT_NE(small, tall);
@@ -41,7 +41,7 @@ TEST_F(FigureFiles, AreWrittenOnceForEachBody) {
   }
 }
 
-TEST_F(FigureFiles, AreThoseOfFingersInPlaceOfAGlovedHand) {
+TEST_F(BodyMeshFiles, AreThoseOfFingersInPlaceOfAGlovedHand) {
   urdf::HumanModel human = Person(1.75);
   human.gloves[urdf::kRight] = urdf::DefaultHand(urdf::kRight, 0.19);
   const fs::path gloved = WriteToCache(FilesOf(human));
@@ -64,7 +64,7 @@ TEST_F(FigureFiles, AreThoseOfFingersInPlaceOfAGlovedHand) {
                        std::distance(fs::directory_iterator(gloved), fs::directory_iterator())));
 }
 
-TEST_F(FigureFiles, FallBackToNoneWhereNothingCanBeWritten) {
+TEST_F(BodyMeshFiles, FallBackToNoneWhereNothingCanBeWritten) {
   const fs::path file = folder_.path() / "kinescope";
   std::FILE* blocks_the_folder = std::fopen(file.c_str(), "w");
   ASSERT_NE(blocks_the_folder, nullptr);

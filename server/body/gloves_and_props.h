@@ -10,7 +10,7 @@
 
 namespace kinescope::app {
 
-class WornExtras {
+class GlovesAndProps {
  public:
   /// True if `sample` has gloves or props that were not seen before: the model must then be
   /// rebuilt.

@@ -1,4 +1,4 @@
-#include "server/body/worn_extras.h"
+#include "server/body/gloves_and_props.h"
 
 namespace kinescope::app {
 namespace {
@@ -28,7 +28,7 @@ std::optional<urdf::HandSkeleton> DescribedHand(const Character& character, urdf
 
 }  // namespace
 
-bool WornExtras::Notice(const BodySample& sample) {
+bool GlovesAndProps::Notice(const BodySample& sample) {
   bool is_more = false;
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     const std::size_t carpus = At(FingerIndex(side, 0));
@@ -51,7 +51,7 @@ bool WornExtras::Notice(const BodySample& sample) {
   return is_more;
 }
 
-void WornExtras::AddTo(const Character& character, urdf::HumanModel& human) const {
+void GlovesAndProps::AddTo(const Character& character, urdf::HumanModel& human) const {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     const auto& carpus = carpus_in_hand_[side];
     if (!carpus) continue;
@@ -64,7 +64,7 @@ void WornExtras::AddTo(const Character& character, urdf::HumanModel& human) cons
   human.props = props_;
 }
 
-void WornExtras::Follow(const BodySample& sample, PersonState& state) {
+void GlovesAndProps::Follow(const BodySample& sample, PersonState& state) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     if (carpus_in_hand_[side]) state.gloves[side] = FollowGlove(side, sample, state);
   }
@@ -74,8 +74,8 @@ void WornExtras::Follow(const BodySample& sample, PersonState& state) {
   }
 }
 
-GloveState WornExtras::FollowGlove(urdf::Side side, const BodySample& sample,
-                                   const PersonState& state) {
+GloveState GlovesAndProps::FollowGlove(urdf::Side side, const BodySample& sample,
+                                       const PersonState& state) {
   const int hand = urdf::HandSegmentOf(side);
   std::bitset<kFingersPerHand> present;
   urdf::FingerPoses measured;
@@ -92,7 +92,8 @@ GloveState WornExtras::FollowGlove(urdf::Side side, const BodySample& sample,
   return glove;
 }
 
-PropState WornExtras::FollowProp(std::size_t prop, const BodySample& sample, const Pose& pelvis) {
+PropState GlovesAndProps::FollowProp(std::size_t prop, const BodySample& sample,
+                                     const Pose& pelvis) {
   const std::size_t index = At(PropIndex(static_cast<int>(prop)));
   Pose& in_pelvis = pelvis_from_prop_[prop];
   if (sample.fingers_and_props.present.test(index))

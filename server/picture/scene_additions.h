@@ -14,14 +14,14 @@
 
 namespace kinescope::app {
 
-class SceneExtras {
+class SceneAdditions {
  public:
   /// Reads robots and reference poses; measures the robots, if any, with a renderer of its own.
   /// `people`: options of the people in the pictures, also used for a reference pose from a
   /// recording.
   /// @throws UsageError, SourceError with option or file and the reason.
-  SceneExtras(const ViewOptions& options, const BackendOptions& backend,
-              const SceneOptions& people);
+  SceneAdditions(const ViewOptions& options, const BackendOptions& backend,
+                 const SceneOptions& people);
 
   /// Length of the history that a picture shows, s; 0 without trails.
   double history_secs() const { return trails_.empty() ? 0 : trails_.secs(); }

@@ -1,4 +1,4 @@
-#include "server/body/figure_files.h"
+#include "server/body/body_meshes.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -36,12 +36,12 @@ std::uint64_t Hash(const std::string& bytes, std::uint64_t hash) {
   return hash;
 }
 
-void WriteAll(const fs::path& folder, const std::vector<FigureFile>& meshes) {
+void WriteAll(const fs::path& folder, const std::vector<MeshFile>& meshes) {
   fs::create_directories(folder.parent_path());
   // Written aside and renamed: a reader, or a second process, sees all of it or nothing.
   const fs::path aside = folder.string() + fmt::format(".{}", getpid());
   fs::create_directory(aside);
-  for (const FigureFile& mesh : meshes) {
+  for (const MeshFile& mesh : meshes) {
     const fs::path path = aside / mesh.name;
     std::ofstream file(path, std::ios::binary);
     file << mesh.stl << std::flush;
@@ -54,14 +54,14 @@ void WriteAll(const fs::path& folder, const std::vector<FigureFile>& meshes) {
 
 }  // namespace
 
-std::vector<FigureFile> FigureFiles(const urdf::HumanModel& human, const FigureMeshes* own) {
-  std::vector<FigureFile> files;
+std::vector<MeshFile> BodyMeshFiles(const urdf::HumanModel& human, const CustomBodyMeshes* own) {
+  std::vector<MeshFile> files;
   for (int i = 0; i < urdf::kSegmentCount; ++i) {
     const bool is_gloved = (i == urdf::kRightHand && human.gloves[urdf::kRight]) ||
                            (i == urdf::kLeftHand && human.gloves[urdf::kLeft]);
     if (is_gloved) continue;
     files.push_back({std::string(urdf::kSegments[urdf::At(i)].link_name) + ".stl",
-                     urdf::ToBinaryStl(FigureMeshOf(own, human.skeleton, i))});
+                     urdf::ToBinaryStl(BodyMeshOf(own, human.skeleton, i))});
   }
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     for (int i = 0; human.gloves[side] && i < urdf::kFingersPerHand; ++i) {
@@ -72,8 +72,8 @@ std::vector<FigureFile> FigureFiles(const urdf::HumanModel& human, const FigureM
   return files;
 }
 
-std::vector<FigureFile> ToolFiles(const HandTools& tools, const urdf::Skeleton& skeleton) {
-  std::vector<FigureFile> files;
+std::vector<MeshFile> ToolMeshFiles(const HandTools& tools, const urdf::Skeleton& skeleton) {
+  std::vector<MeshFile> files;
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     if (!tools[side]) continue;
     files.push_back({urdf::ToolFileName(side) + ".stl",
@@ -82,9 +82,9 @@ std::vector<FigureFile> ToolFiles(const HandTools& tools, const urdf::Skeleton& 
   return files;
 }
 
-std::string WriteToCache(const std::vector<FigureFile>& files) {
+std::string WriteToCache(const std::vector<MeshFile>& files) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const FigureFile& file : files) hash = Hash(file.name + file.stl, hash);
+  for (const MeshFile& file : files) hash = Hash(file.name + file.stl, hash);
   try {
     const fs::path folder = CacheFolder() / fmt::format("figure-{:016x}", hash);
     if (!fs::exists(folder)) WriteAll(folder, files);
