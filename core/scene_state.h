@@ -15,6 +15,7 @@
 
 #include "core/body_forces.h"
 #include "core/body_sample.h"
+#include "core/mesh_files.h"
 #include "core/scene_marker.h"
 #include "urdf/human_urdf.h"
 #include "urdf/kinematics.h"
@@ -56,6 +57,9 @@ struct PersonModel {
   std::string urdf_xml;               // content of robot_description
   urdf::RobotModel robot;             // urdf_xml, parsed
   std::uint64_t revision = 0;         // increases with every change; sinks then reload
+  /// Those that urdf_xml names, in a folder of their own; null without any. Readers of the files
+  /// call Provide() first.
+  std::shared_ptr<const MeshFiles> mesh_files;
 };
 
 /// All segments of a gloved hand. A segment that the sample lacks keeps its last joint angles.

@@ -34,7 +34,7 @@ struct HumanModel {
   Skeleton skeleton;
   BodyParameters body;
   /// Absolute path, or package://name/folder. Contains <link>.stl of every visible link except
-  /// props (body_meshes.h). "": primitives instead.
+  /// props (server/body/body_meshes.h). "": primitives instead.
   std::string mesh_folder;
   std::bitset<2> tools;     // by Side: the link of that hand also shows <ToolFileName>.stl
   std::string tool_folder;  // absolute path, or package://name/folder

@@ -12,6 +12,7 @@ namespace {}  // namespace
 void FigureActor::Load(const PersonModel& model, OnceLog& log) {
   groups_.clear();
   problems_.clear();
+  if (model.mesh_files) model.mesh_files->Provide();  // what is missing is reported below
   VisualReader reader(urdf::MeshSearch(), urdf::ShapeDetail::Figure());
   const std::vector<std::string> names = VisibleLinks(model.human);
   for (std::size_t first = 0; first < names.size(); first += PartActor::kMostParts) {

@@ -1,14 +1,10 @@
 #include "server/body/body_meshes.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <mutex>
-#include <stdexcept>
+#include <array>
+#include <type_traits>
+#include <utility>
 
 #include "urdf/figure.h"
 #include "urdf/hand_figure.h"
@@ -17,51 +13,89 @@
 namespace kinescope::app {
 namespace {
 
-namespace fs = std::filesystem;
+using Eigen::Vector3d;
 
-fs::path CacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && cache[0] == '/') {
-    return fs::path(cache) / "kinescope";
+// FNV-1a.
+class MeshHash {
+ public:
+  std::uint64_t value() const { return value_; }
+
+  void AddBytes(const void* data, std::size_t size) {
+    const auto* const bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) value_ = (value_ ^ bytes[i]) * 0x100000001b3ULL;
   }
-  if (const char* home = std::getenv("HOME"); home != nullptr && home[0] == '/') {
-    return fs::path(home) / ".cache/kinescope";
+  template <class Number>
+  void Add(Number number) {
+    static_assert(std::is_arithmetic_v<Number>);
+    AddBytes(&number, sizeof number);
   }
-  return fs::temp_directory_path() / fmt::format("kinescope-{}", getuid());
+  void Add(const Vector3d& vector) { AddBytes(vector.data(), 3 * sizeof(double)); }
+  template <std::size_t size>
+  void Add(const std::array<Vector3d, size>& vectors) {
+    for (const Vector3d& vector : vectors) Add(vector);
+  }
+  void Add(const std::string& text) {
+    Add(text.size());
+    AddBytes(text.data(), text.size());
+  }
+  void Add(const std::vector<MeshFile>& files) {
+    for (const MeshFile& file : files) {
+      Add(file.name);
+      Add(file.stl);
+    }
+  }
+
+  // Every member: a body that differs in one of them must not get the meshes of another.
+  void Add(const urdf::Skeleton& skeleton) {
+    static_assert(sizeof skeleton == (3 * (urdf::kSegmentCount + 7) + 1) * sizeof(double));
+    Add(skeleton.origin_in_parent);
+    Add(skeleton.head_top_in_head);
+    Add(skeleton.finger_tip_in_hand);
+    Add(skeleton.heel_in_foot);
+    Add(skeleton.toe_tip_in_toe);
+    Add(skeleton.height);
+  }
+  void Add(const urdf::HandSkeleton& hand) {
+    static_assert(sizeof hand == (3 * urdf::kFingersPerHand + 1) * sizeof(double));
+    Add(hand.origin_in_parent);
+    Add(hand.length);
+  }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+// Any body will do: its files change with every change of how surfaces are made.
+urdf::HumanModel SampleBody() {
+  constexpr double kStature = 1.9;  // m
+  urdf::HumanModel human;
+  human.skeleton = urdf::DefaultSkeleton(kStature);
+  return human;
 }
 
-// FNV-1a over the meshes themselves: another body, or another way of drawing one, is another
-// folder.
-std::uint64_t Hash(const std::string& bytes, std::uint64_t hash) {
-  for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3ULL;
-  return hash;
-}
-
-void WriteAll(const fs::path& folder, const std::vector<MeshFile>& meshes) {
-  fs::create_directories(folder.parent_path());
-  // Written aside and renamed: a reader, or a second process, sees all of it or nothing.
-  const fs::path aside = folder.string() + fmt::format(".{}", getpid());
-  fs::create_directory(aside);
-  for (const MeshFile& mesh : meshes) {
-    const fs::path path = aside / mesh.name;
-    std::ofstream file(path, std::ios::binary);
-    file << mesh.stl << std::flush;
-    if (!file) throw std::runtime_error(path.string() + " cannot be written");
-  }
-  std::error_code already_there;
-  fs::rename(aside, folder, already_there);
-  if (already_there) fs::remove_all(aside);
+// The same as long as the program is the same.
+std::uint64_t HashOfBuiltInSurfaces() {
+  static const std::uint64_t kHash = [] {
+    constexpr double kHandLength = 0.2;  // m
+    urdf::HumanModel gloved = SampleBody();
+    gloved.gloves[urdf::kRight] = urdf::DefaultHand(urdf::kRight, kHandLength);
+    MeshHash hash;
+    hash.Add(BodyMeshFiles(gloved, nullptr));
+    return hash.value();
+  }();
+  return kHash;
 }
 
 }  // namespace
 
-std::vector<MeshFile> BodyMeshFiles(const urdf::HumanModel& human, const CustomBodyMeshes* own) {
+std::vector<MeshFile> BodyMeshFiles(const urdf::HumanModel& human, const CustomBodyMeshes* custom) {
   std::vector<MeshFile> files;
   for (int i = 0; i < urdf::kSegmentCount; ++i) {
     const bool is_gloved = (i == urdf::kRightHand && human.gloves[urdf::kRight]) ||
                            (i == urdf::kLeftHand && human.gloves[urdf::kLeft]);
     if (is_gloved) continue;
     files.push_back({std::string(urdf::kSegments[urdf::At(i)].link_name) + ".stl",
-                     urdf::ToBinaryStl(BodyMeshOf(own, human.skeleton, i))});
+                     urdf::ToBinaryStl(BodyMeshOf(custom, human.skeleton, i))});
   }
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     for (int i = 0; human.gloves[side] && i < urdf::kFingersPerHand; ++i) {
@@ -82,22 +116,39 @@ std::vector<MeshFile> ToolMeshFiles(const HandTools& tools, const urdf::Skeleton
   return files;
 }
 
-std::string WriteToCache(const std::vector<MeshFile>& files) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const MeshFile& file : files) hash = Hash(file.name + file.stl, hash);
-  try {
-    const fs::path folder = CacheFolder() / fmt::format("figure-{:016x}", hash);
-    if (!fs::exists(folder)) WriteAll(folder, files);
-    return folder.string();
-  } catch (const std::exception& error) {
-    static std::once_flag warned;  // builders on several threads may come here
-    std::call_once(warned, [&] {
-      spdlog::warn(
-          "cannot write mesh files, so the body is drawn with primitives and without tools: {}",
-          error.what());
-    });
-    return "";
+std::vector<MeshFile> AllMeshFiles(const BodyAppearance& appearance,
+                                   const urdf::HumanModel& human) {
+  std::vector<MeshFile> files;
+  if (appearance.is_smooth) files = BodyMeshFiles(human, appearance.custom.get());
+  if (!appearance.tools) return files;
+  for (MeshFile& file : ToolMeshFiles(*appearance.tools, human.skeleton)) {
+    files.push_back(std::move(file));
   }
+  return files;
+}
+
+std::uint64_t HashOf(const BodyAppearance& appearance) {
+  MeshHash hash;
+  hash.Add(appearance.is_smooth);
+  if (appearance.is_smooth) hash.Add(HashOfBuiltInSurfaces());
+  const urdf::HumanModel sample = SampleBody();
+  if (appearance.custom) {
+    hash.Add(appearance.custom->fit_person);
+    hash.Add(BodyMeshFiles(sample, appearance.custom.get()));
+  }
+  if (appearance.tools) hash.Add(ToolMeshFiles(*appearance.tools, sample.skeleton));
+  return hash.value();
+}
+
+std::string MeshSetName(std::uint64_t appearance_hash, const urdf::HumanModel& human) {
+  MeshHash hash;
+  hash.Add(appearance_hash);
+  hash.Add(human.skeleton);
+  for (const auto& glove : human.gloves) {
+    hash.Add(glove.has_value());
+    if (glove) hash.Add(*glove);
+  }
+  return fmt::format("body-{:016x}", hash.value());
 }
 
 }  // namespace kinescope::app

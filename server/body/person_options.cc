@@ -119,7 +119,7 @@ BodyAppearance ToAppearance(const PersonOptions& person) {
   BodyAppearance appearance;
   appearance.is_smooth = person.figure->is_smooth;
   if (!person.figure->folder.empty()) {
-    appearance.meshes = ReadCustomBodyMeshes(person.figure->folder, convention);
+    appearance.custom = ReadCustomBodyMeshes(person.figure->folder, convention);
   }
   appearance.tools = ReadHandTools(person.tool, convention);
   return appearance;

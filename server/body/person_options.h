@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "server/body/custom_body_meshes.h"
+#include "server/body/body_meshes.h"
 #include "server/body/hand_tools.h"
 #include "server/options/option_list.h"
 #include "urdf/body_parameters.h"
@@ -48,13 +48,6 @@ struct PersonOptions {
   options::Choice<urdf::MeshConvention::Frame> mesh_frame;
 
   void List(options::OptionList& option);
-};
-
-/// How a person is drawn.
-struct BodyAppearance {
-  bool is_smooth = true;  // mesh files; false: boxes, cylinders and spheres
-  std::shared_ptr<const CustomBodyMeshes> meshes;  // instead of the built-in ones; null: these
-  std::shared_ptr<const HandTools> tools;          // in the hands of every person; null: none
 };
 
 /// @throws UsageError naming option, value and what was expected, where values do not fit together.

@@ -35,6 +35,14 @@ Answer JsonAnswer(std::string body) {
   return answer;
 }
 
+// They are written for the first sink that reads them, which may be this one.
+void ProvideMeshes(const SceneState& state, int character) {
+  for (const PersonState& person : state.people) {
+    const auto& files = person.model->mesh_files;
+    if (person.character == character && files) files->Provide();
+  }
+}
+
 }  // namespace
 
 Answer ErrorAnswer(int status, const std::string& reason) {
@@ -201,6 +209,7 @@ Answer Router::Mesh(const std::string& path) const {
   const std::shared_ptr<const SceneState> state = site_.states->Get();
   const auto person = static_cast<int>(std::min<std::uint64_t>(*numbers[0], INT32_MAX));
   const auto file = FindMesh(state.get(), person, *numbers[1], *numbers[2]);
+  if (file) ProvideMeshes(*state, person);
   std::error_code error;
   if (!file || !std::filesystem::is_regular_file(*file, error) ||
       std::filesystem::file_size(*file, error) > kMaxMeshBytes || error) {

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/starts_with.h"
+#include "core/scratch_folder.h"
 #include "render/renderer.h"
 #include "server/picture/child_process.h"
 #include "server/scene/scene_reader.h"
@@ -58,6 +59,14 @@ std::vector<std::string> Lines(const std::string& text) {
   return lines;
 }
 
+// Of the meshes: a probe leaves nothing in the user's cache. Null where no folder can be made; the
+// body then consists of primitives.
+std::unique_ptr<ScratchFolder> MakeScratchFolder() try {
+  return std::make_unique<ScratchFolder>();
+} catch (const std::runtime_error&) {
+  return nullptr;
+}
+
 }  // namespace
 
 json ToJson(const BackendReport& report) {
@@ -74,7 +83,10 @@ json ToJson(const BackendReport& report) {
 BackendReport MeasureBackend(const std::string& backend) {
   BackendReport report;
   try {
-    SceneReader reader("demo:lift", SceneOptions());
+    const auto meshes = MakeScratchFolder();
+    SceneOptions people;
+    if (meshes) people.mesh_cache = std::make_shared<const MeshCache>(meshes->path());
+    SceneReader reader("demo:lift", people);
     std::shared_ptr<const SceneState> scene = reader.Next();
     const render::Camera camera = render::NamedCamera("three_quarter", *scene);
     const auto start = Clock::now();

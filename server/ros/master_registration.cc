@@ -310,6 +310,8 @@ void MasterRegistration::SetParameters() {
   for (const auto& [name, model] : models) {
     const auto set = described_.find(name);
     if (set != described_.end() && set->second == model->revision) continue;
+    // RViz reads the meshes whenever it likes. They stay as long as the slot has the model.
+    if (model->mesh_files) model->mesh_files->Provide();
     if (!SetParameter(name, model->urdf_xml)) return;
     described_[name] = model->revision;
   }

@@ -1,9 +1,28 @@
 #include "server/scene/model_factory.h"
 
+#include <utility>
+
 #include "server/body/body_color.h"
-#include "server/body/body_meshes.h"
 
 namespace kinescope::app {
+
+ModelFactory::ModelFactory(ModelSettings settings)
+    : settings_(std::move(settings)),
+      appearance_hash_(settings_.mesh_cache ? HashOf(settings_.appearance) : 0) {}
+
+void ModelFactory::NameMeshes(PersonModel& model) const {
+  const BodyAppearance& appearance = settings_.appearance;
+  const std::string name = MeshSetName(appearance_hash_, model.human);
+  model.mesh_files = settings_.mesh_cache->Files(
+      name, [appearance, human = model.human] { return AllMeshFiles(appearance, human); });
+  const std::string folder = settings_.mesh_cache->FolderOf(name).string();
+  if (appearance.is_smooth) model.human.mesh_folder = folder;
+  if (!appearance.tools) return;
+  model.human.tool_folder = folder;
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    model.human.tools.set(side, (*appearance.tools)[side].has_value());
+  }
+}
 
 std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& person,
                                                       std::uint64_t revision) const {
@@ -19,15 +38,7 @@ std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& p
   human.body = urdf::MakeBodyParameters(settings_.body, human.skeleton);
   human.body_rgb = BodyColor(person.character.color_rgb, person.index);
   person.worn.AddTo(person.character, human);
-  if (settings_.smooth_figure) {
-    human.mesh_folder = WriteToCache(BodyMeshFiles(human, settings_.figure_meshes.get()));
-  }
-  if (settings_.tools) {
-    human.tool_folder = WriteToCache(ToolMeshFiles(*settings_.tools, human.skeleton));
-    for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-      human.tools.set(side, (*settings_.tools)[side] && !human.tool_folder.empty());
-    }
-  }
+  if (settings_.mesh_cache && settings_.appearance.has_meshes()) NameMeshes(*model);
   model->urdf_xml = urdf::WriteUrdf(human);
   model->robot = urdf::ParseUrdf(model->urdf_xml);
   return model;

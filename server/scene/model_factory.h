@@ -1,5 +1,6 @@
 /// Makes the model of a person (segment lengths, masses, URDF) from the options of the command and
-/// from what the stream says about the person. Pure: it writes no files. Any thread.
+/// from what the stream says about the person. Writes no files: a model names its mesh
+/// files, and the sinks that need them have them written (core/mesh_files.h). Any thread.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +10,9 @@
 #include <string>
 
 #include "core/scene_state.h"
-#include "server/body/custom_body_meshes.h"
+#include "server/body/body_meshes.h"
 #include "server/body/gloves_and_props.h"
-#include "server/body/hand_tools.h"
+#include "server/body/mesh_cache.h"
 
 namespace kinescope::app {
 
@@ -20,9 +21,10 @@ struct ModelSettings {
   urdf::BodyDescription body;
   double height_m = 1.75;         // of the default body, until the source sends segment lengths, m
   bool height_is_assumed = true;  // the default value
-  bool smooth_figure = true;      // meshes; false: boxes, cylinders and spheres
-  std::shared_ptr<const CustomBodyMeshes> figure_meshes;  // custom meshes; null: the built-in ones
-  std::shared_ptr<const HandTools> tools;                 // in the hands of all people; null: none
+  BodyAppearance appearance;
+  /// Where the URDF says that meshes are. Null: the body consists of primitives, without tools, for
+  /// commands that show nobody.
+  std::shared_ptr<const MeshCache> mesh_cache;
 };
 
 /// What is known about one person.
@@ -35,14 +37,17 @@ struct PersonDescription {
 
 class ModelFactory {
  public:
-  explicit ModelFactory(ModelSettings settings) : settings_(std::move(settings)) {}
+  explicit ModelFactory(ModelSettings settings);
 
   /// `revision`: one more than that of the person's model before, 1 for the first.
   std::shared_ptr<const PersonModel> Make(const PersonDescription& person,
                                           std::uint64_t revision) const;
 
  private:
+  void NameMeshes(PersonModel& model) const;
+
   const ModelSettings settings_;
+  const std::uint64_t appearance_hash_;
 };
 
 }  // namespace kinescope::app

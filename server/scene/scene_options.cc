@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "core/check.h"
 #include "core/errors.h"
 
@@ -109,10 +107,14 @@ SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& load
   scene.height_is_assumed = !person.height;
   scene.height_m = person.height.value_or(scene.height_m);
   scene.stale_secs = stale_secs;
-  BodyAppearance appearance = ToAppearance(person);
-  scene.smooth_figure = appearance.is_smooth;
-  scene.figure_meshes = std::move(appearance.meshes);
-  scene.tools = std::move(appearance.tools);
+  scene.appearance = ToAppearance(person);
+  return scene;
+}
+
+SceneOptions ToShownSceneOptions(const PersonOptions& person, const LoadOptions& loads,
+                                 double stale_secs) {
+  SceneOptions scene = ToSceneOptions(person, loads, stale_secs);
+  if (scene.appearance.has_meshes()) scene.mesh_cache = MeshCache::OfUser();
   return scene;
 }
 

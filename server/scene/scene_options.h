@@ -58,6 +58,10 @@ options::Number StaleSecs();
 /// Reads the meshes of the person. @throws UsageError naming option, value and what was expected.
 SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& loads = {},
                             double stale_secs = SceneOptions().stale_secs);
+/// For commands that show the people or publish their URDF: with the mesh cache of the user, if the
+/// people need one and it can be written.
+SceneOptions ToShownSceneOptions(const PersonOptions& person, const LoadOptions& loads = {},
+                                 double stale_secs = SceneOptions().stale_secs);
 loads::LoadSettings ToLoadSettings(const LoadOptions& loads);
 
 }  // namespace kinescope::app

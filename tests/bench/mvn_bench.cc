@@ -170,7 +170,6 @@ BENCHMARK(FourPeopleEveryType)->Unit(benchmark::kMillisecond);
 void SampleToScene(benchmark::State& run) {
   const std::vector<BodySample> samples = Samples();
   app::SceneOptions options;
-  options.smooth_figure = false;
   app::SceneBuilder builder(options, "", kRateHz,
                             [](const auto& state) { benchmark::DoNotOptimize(state.get()); });
   std::size_t next = 0;

@@ -9,6 +9,7 @@
 
 #include "render/compare.h"
 #include "render/renderer.h"
+#include "tests/mesh_file_on_demand.h"
 #include "tests/render/test_scene.h"
 #include "tests/temp_folder.h"
 #include "urdf/human_urdf.h"
@@ -126,6 +127,16 @@ TEST_F(MeshDrawing, ShowsEveryKindOfFileWhereTheLinkIs) {
     EXPECT_NEAR((drawn.left + drawn.right + 1) / 2.0, head.x_px, 1.5) << uri;
     EXPECT_NEAR((drawn.top + drawn.bottom + 1) / 2.0, head.y_px, 3) << uri;
   }
+  EXPECT_THAT(log_, ::testing::IsEmpty());
+}
+
+TEST_F(MeshDrawing, HasTheFilesOfAModelWrittenBeforeItReadsThem) {
+  SceneState state = HeadFromFile((folder_ / "cube.stl").string());
+  auto model = std::make_shared<PersonModel>(*state.people[0].model);
+  model->mesh_files =
+      std::make_shared<kinescope::testing::MeshFileOnDemand>(folder_ / "cube.stl", CubeStl());
+  state.people[0].model = model;
+  renderer_->Render(state, NamedCamera("front", state), view_);
   EXPECT_THAT(log_, ::testing::IsEmpty());
 }
 

@@ -121,7 +121,6 @@ double AsAgreed(int segment) {
 
 Judge ReadAll(const std::string& source, int most_frames) {
   app::SceneOptions options;
-  options.smooth_figure = false;
   app::SceneReader reader(source, options);
   Judge judge;
   for (int frame = 0; frame < most_frames; ++frame) {
@@ -182,7 +181,6 @@ TEST(Mechanism, IsWithinMillimetresOfEveryFrameOfAnExportToExcel) {
   ASSERT_EQ(turns.size(), positions.size());
   std::shared_ptr<const SceneState> state;
   app::SceneOptions options;
-  options.smooth_figure = false;
   app::SceneBuilder builder(options, "", 60, [&](const auto& newest) { state = newest; });
   SkeletonWatch lengths;
   Judge judge;
@@ -228,7 +226,6 @@ TEST(Mechanism, IsWithinMillimetresOfARecordedDatagramAndTheScaleDataBesideIt) {
   }
   std::shared_ptr<const SceneState> state;
   app::SceneOptions options;
-  options.smooth_figure = false;
   app::SceneBuilder builder(options, "", 0, [&](const auto& newest) { state = newest; });
   Character character;
   character.skeleton = urdf::SkeletonFromTPose(t_pose, {});
@@ -242,7 +239,6 @@ TEST(Mechanism, IsWithinMillimetresOfARecordedDatagramAndTheScaleDataBesideIt) {
 TEST(Mechanism, ReportsItsDeviationByJointOverHttp) {
   const double kStretched = 0.004;  // m
   app::SceneOptions options;
-  options.smooth_figure = false;
   std::shared_ptr<const SceneState> state;
   app::SceneBuilder builder(options, "", 0, [&](const auto& newest) { state = newest; });
   const auto motion = subject::MakeMotion("lift");
@@ -288,7 +284,6 @@ class GlovedPerson {
  private:
   static app::SceneOptions Options() {
     app::SceneOptions options;
-    options.smooth_figure = false;
     return options;
   }
   const std::unique_ptr<subject::Motion> motion_ = subject::MakeMotion("lift");

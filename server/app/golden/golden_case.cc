@@ -117,7 +117,7 @@ std::vector<GoldenCase> ReadGoldenCases(const fs::path& folder) {
 }
 
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
-  const SceneOptions options = ToSceneOptions(golden_case.person, golden_case.loads);
+  const SceneOptions options = ToShownSceneOptions(golden_case.person, golden_case.loads);
   ShotPlanner planner(golden_case.view, {}, options);
   if (planner.needs_survey()) {
     SceneReader reader(*golden_case.source, options);

@@ -76,7 +76,8 @@ TrialContext ContextOf(LoadsOptions& options) {
   const std::string& source = *options.source;
   const bool is_demo = IsSubjectUrl(source);
   context.source = is_demo ? source : std::filesystem::path(source).filename().string();
-  context.scene = ToSceneOptions(options.person, options.loads);
+  context.scene = options.report->empty() ? ToSceneOptions(options.person, options.loads)
+                                          : ToShownSceneOptions(options.person, options.loads);
   context.options = OptionsAsJson(options);
   return context;
 }

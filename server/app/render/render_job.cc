@@ -51,7 +51,7 @@ class Job {
         plan_(plan),
         settings_(settings),
         pool_(pool),
-        people_(ToSceneOptions(options.person, options.loads)),
+        people_(ToShownSceneOptions(options.person, options.loads)),
         reader_(plan.source, people_),
         grid_(ToTimeGrid(options.clip, IsSubjectUrl(plan.source))),
         provenance_(options, plan.source, pool.info()),

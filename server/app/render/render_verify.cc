@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <stdlib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -15,6 +14,7 @@
 
 #include "core/errors.h"
 #include "core/json_text.h"
+#include "core/scratch_folder.h"
 #include "core/sha256.h"
 #include "render/compare.h"
 #include "render/png_file.h"
@@ -29,29 +29,6 @@ namespace fs = std::filesystem;
 
 constexpr int kClipTolerance = 24;         // levels: what two versions of an encoder may differ by
 constexpr double kClipMostPixels = 0.001;  // of a picture
-
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = fs::temp_directory_path() / "kinescope-verify-XXXXXX";
-    if (::mkdtemp(name.data()) == nullptr) {
-      throw std::runtime_error("cannot create a folder in " + fs::temp_directory_path().string() +
-                               "; set TMPDIR to a folder with write permission");
-    }
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 struct Verdict {
   bool same = true;

@@ -161,7 +161,7 @@ void Serve(const ServeOptions& options, bool with_page) {
   const std::int64_t start_nanos = MonotonicNanos();
   CheckServeOptions(options);
   const SceneOptions scene_options =
-      ToSceneOptions(options.person, options.loads, *options.stale_secs);
+      ToShownSceneOptions(options.person, options.loads, *options.stale_secs);
   const ros_bridge::RosMode ros_mode = *options.ros;
   ros_bridge::BridgeConfig bridge_config = ToBridgeConfig(options);
   bridge_config.check_hand_load = [](const HandLoad& load) { return loads::FindDefect(load); };
@@ -197,9 +197,12 @@ void Serve(const ServeOptions& options, bool with_page) {
                          if (view) view->OnState(state);
                          announcer.OnState(*state);
                        });
+  std::shared_ptr<const PersonModel> initial_model;  // its meshes stay as long as this does
   if (ros_mode == ros_bridge::RosMode::kRequired ||
       (ros_mode == ros_bridge::RosMode::kAuto && ros_bridge::BuiltWithRos())) {
-    bridge_config.initial_urdf = builder.InitialModel()->urdf_xml;
+    initial_model = builder.InitialModel();
+    if (initial_model->mesh_files) initial_model->mesh_files->Provide();
+    bridge_config.initial_urdf = initial_model->urdf_xml;
     ros = ros_bridge::MakeRosBridge(bridge_config, ros_mode);
   }
   builder.Start();

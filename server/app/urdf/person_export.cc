@@ -25,7 +25,7 @@ std::string WriteMeshes(const std::vector<MeshFile>& files, const fs::path& fold
 void Write(urdf::HumanModel& human, const PersonFiles& files, const fs::path& folder,
            const std::string& package) {
   fs::create_directories(folder);
-  human.mesh_folder = WriteMeshes(files.figure, folder / "meshes", package);
+  human.mesh_folder = WriteMeshes(files.body, folder / "meshes", package);
   human.tool_folder = WriteMeshes(files.tools, folder / "meshes", package);
   render::WriteNewFile(folder / "person.urdf", urdf::WriteUrdf(human));
 }

@@ -11,8 +11,8 @@
 namespace kinescope::app {
 
 struct PersonFiles {
-  std::vector<MeshFile> figure;  // from BodyMeshFiles; empty for a body of primitives
-  std::vector<MeshFile> tools;   // from ToolMeshFiles
+  std::vector<MeshFile> body;   // from BodyMeshFiles; empty for a body of primitives
+  std::vector<MeshFile> tools;  // from ToolMeshFiles
 };
 
 /// Writes `folder`/person.urdf and `meshes` into `folder`/meshes; creates the folders. The URDF

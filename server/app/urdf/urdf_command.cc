@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "core/clocks.h"
 #include "core/stop_signal.h"
@@ -28,6 +29,7 @@ namespace kinescope::app {
 namespace {
 
 namespace fs = std::filesystem;
+using Model = std::shared_ptr<const PersonModel>;
 
 struct WriteOptions {
   options::Text source, out, package;
@@ -78,7 +80,7 @@ class DescribedPeople : public SampleSink {
 };
 
 // A suit tells lengths every few seconds; before, everybody would have those of the default body.
-urdf::HumanModel LiveHuman(const std::string& url, const SceneOptions& options) {
+Model LiveModel(const std::string& url, const SceneOptions& options) {
   constexpr int kPatienceSecs = 10;
   const auto source = OpenSource(url);
   std::shared_ptr<const SceneState> state;
@@ -91,7 +93,7 @@ urdf::HumanModel LiveHuman(const std::string& url, const SceneOptions& options) 
   while (!has_ended && !StopRequested() && MonotonicNanos() < end) {
     has_ended = source->Poll(std::chrono::milliseconds(50), described) == Source::State::kEnded;
     for (const PersonState& person : state->people) {
-      if (described.Has(person.character)) return person.model->human;
+      if (described.Has(person.character)) return person.model;
     }
   }
   throw SourceError(
@@ -101,21 +103,36 @@ urdf::HumanModel LiveHuman(const std::string& url, const SceneOptions& options) 
 }
 
 // Without a source, the default body.
-urdf::HumanModel HumanOf(const std::string& source, const SceneOptions& scene) {
+Model ModelOf(const std::string& source, const SceneOptions& scene) {
   if (source.empty()) {
     const auto to_nobody = [](const std::shared_ptr<const SceneState>&) {};
-    return SceneBuilder(scene, "", 0, to_nobody).InitialModel()->human;
+    return SceneBuilder(scene, "", 0, to_nobody).InitialModel();
   }
-  if (IsLiveUrl(source)) return LiveHuman(source, scene);
+  if (IsLiveUrl(source)) return LiveModel(source, scene);
   SceneReader reader(source, scene);
   const auto state = reader.Next();
   if (!state) throw SourceError("source '" + source + "' contains no sample");
-  return state->people.front().model->human;
+  return state->people.front().model;
 }
 
 // A name that ends as a URDF does is a file, anything else a folder.
 bool IsFileName(const fs::path& out) {
   return out.extension() == ".urdf" || out.extension() == ".xml";
+}
+
+// True if there are meshes in it.
+bool WriteFolder(urdf::HumanModel human, const BodyAppearance& appearance,
+                 const WriteOptions& options) {
+  PersonFiles files;
+  if (appearance.is_smooth) files.body = BodyMeshFiles(human, appearance.custom.get());
+  if (appearance.tools) {
+    files.tools = ToolMeshFiles(*appearance.tools, human.skeleton);
+    for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+      human.tools.set(side, (*appearance.tools)[side].has_value());
+    }
+  }
+  ExportPerson(std::move(human), files, *options.out, *options.package);
+  return !files.body.empty() || !files.tools.empty();
 }
 
 void Write(const WriteOptions& options) {
@@ -128,18 +145,18 @@ void Write(const WriteOptions& options) {
     throw UsageError("--out=" + *options.out +
                      ": this file exists and is not a URDF; expected a folder or NAME.urdf");
   }
-  const SceneOptions scene = ToSceneOptions(options.person);
-  urdf::HumanModel human = HumanOf(*options.source, scene);
-  human.mass_inside_joints = *options.gazebo;
   if (is_folder) {
-    PersonFiles files;
-    if (scene.smooth_figure) files.figure = BodyMeshFiles(human, scene.figure_meshes.get());
-    if (scene.tools) files.tools = ToolMeshFiles(*scene.tools, human.skeleton);
-    ExportPerson(human, files, *options.out, *options.package);
-    const bool has_meshes = !files.figure.empty() || !files.tools.empty();
+    const SceneOptions scene = ToSceneOptions(options.person);
+    urdf::HumanModel human = ModelOf(*options.source, scene)->human;
+    human.mass_inside_joints = *options.gazebo;
+    const bool has_meshes = WriteFolder(std::move(human), scene.appearance, options);
     fmt::print("{}: person.urdf{}\n", *options.out, has_meshes ? " and its meshes" : "");
     return;
   }
+  const auto model = ModelOf(*options.source, ToShownSceneOptions(options.person));
+  if (model->mesh_files) model->mesh_files->Provide();
+  urdf::HumanModel human = model->human;
+  human.mass_inside_joints = *options.gazebo;
   const std::string xml = urdf::WriteUrdf(human);
   if (options.out->empty()) {
     fmt::print("{}", xml);

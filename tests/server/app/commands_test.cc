@@ -5,9 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <set>
 
 #include "core/errors.h"
+#include "server/picture/backend_probe.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::app {
 namespace {
@@ -79,6 +83,26 @@ TEST(Options, EachHasItsNameOnceInACommandAndAHelpThatStandsAlone) {
       EXPECT_THAT(option.help, Not(StartsWith(habit))) << option.name;
     }
   });
+}
+
+// Commands that show nobody must not fill the user's disk.
+TEST(Commands, LoadsAndProbeLeaveTheMeshCacheEmpty) {
+  const testing::TempFolder cache, out;
+  setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+  for (Command& command : AllCommands()) {
+    if (command.name != "loads") continue;
+    for (options::Option& option : command.options) {
+      if (option.name == "source") option.value->Parse("demo:lift");
+      if (option.name == "seconds") option.value->Parse("0.1");
+      if (option.name == "csv") option.value->Parse((out / "loads.csv").string());
+    }
+    EXPECT_EQ(command.run(command.options), 0);
+  }
+  EXPECT_EQ(out.Names().size(), 1U);
+  EXPECT_FALSE(std::filesystem::exists(cache / "kinescope")) << "after loads";
+  EXPECT_TRUE(MeasureBackend("osmesa").works);
+  EXPECT_FALSE(std::filesystem::exists(cache / "kinescope")) << "after probe";
+  unsetenv("XDG_CACHE_HOME");
 }
 
 }  // namespace

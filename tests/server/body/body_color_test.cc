@@ -67,7 +67,7 @@ void ExpectColor(const PersonState& person, const Rgb& expected) {
 
 TEST(BodyColor, IsInEachPersonsUrdfAndFollowsWhatIsSent) {
   SceneOptions options;
-  options.smooth_figure = false;
+  options.appearance.is_smooth = false;
   std::shared_ptr<const SceneState> last;
   SceneBuilder builder(options, "test", 0, [&](auto state) { last = state; });
   BodySample sample = subject::MakeMotion("n_pose")->At(0);

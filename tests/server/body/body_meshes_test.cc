@@ -2,24 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
 
-#include "tests/temp_folder.h"
+#include "urdf/figure.h"
 #include "urdf/robot_model.h"
 #include "urdf/segments.h"
 
 namespace kinescope::app {
 namespace {
-
-namespace fs = std::filesystem;
-
-class BodyMeshFiles : public ::testing::Test {
- protected:
-  void SetUp() override { setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1); }
-  void TearDown() override { unsetenv("XDG_CACHE_HOME"); }
-  testing::TempFolder folder_;
-};
 
 urdf::HumanModel Person(double height) {
   urdf::HumanModel human;
@@ -27,49 +20,60 @@ urdf::HumanModel Person(double height) {
   return human;
 }
 
-std::vector<MeshFile> FilesOf(const urdf::HumanModel& human) {
-  return app::BodyMeshFiles(human, nullptr);
+std::set<std::string> NamesOf(const std::vector<MeshFile>& files) {
+  std::set<std::string> names;
+  for (const MeshFile& file : files) names.insert(file.name);
+  return names;
 }
 
-TEST_F(BodyMeshFiles, AreWrittenOnceForEachBody) {
-  const std::string small = WriteToCache(FilesOf(Person(1.6)));
-  const std::string tall = WriteToCache(FilesOf(Person(1.9)));
-  EXPECT_NE(small, tall);
-  EXPECT_EQ(WriteToCache(FilesOf(Person(1.6))), small);
-  for (const urdf::SegmentInfo& segment : urdf::kSegments) {
-    EXPECT_GT(fs::file_size(fs::path(small) / (std::string(segment.link_name) + ".stl")), 1000u);
-  }
+TEST(BodyMeshFiles, AreThoseOfAllSegments) {
+  const std::vector<MeshFile> files = BodyMeshFiles(Person(1.75), nullptr);
+  ASSERT_EQ(files.size(), std::size_t{urdf::kSegmentCount});
+  for (const MeshFile& file : files) EXPECT_GT(file.stl.size(), 1000u) << file.name;
 }
 
-TEST_F(BodyMeshFiles, AreThoseOfFingersInPlaceOfAGlovedHand) {
+TEST(BodyMeshFiles, AreThoseOfFingersInPlaceOfAGlovedHand) {
   urdf::HumanModel human = Person(1.75);
   human.gloves[urdf::kRight] = urdf::DefaultHand(urdf::kRight, 0.19);
-  const fs::path gloved = WriteToCache(FilesOf(human));
-  EXPECT_FALSE(fs::exists(gloved / "right_hand.stl"));
-  EXPECT_TRUE(fs::exists(gloved / "left_hand.stl"));
-  for (int i = 0; i < urdf::kFingersPerHand; ++i) {
-    EXPECT_GT(fs::file_size(gloved / (urdf::FingerFileName(urdf::kRight, i) + ".stl")), 1000u);
-  }
-  // Whatever the URDF names is there, and nothing else.
+  const std::set<std::string> names = NamesOf(BodyMeshFiles(human, nullptr));
+  EXPECT_EQ(names.count("right_hand.stl"), 0u);
+  EXPECT_EQ(names.count("left_hand.stl"), 1u);
+  // The URDF names exactly these.
   human.body = urdf::MakeBodyParameters({}, human.skeleton);
-  human.mesh_folder = gloved;
-  std::size_t named = 0;
+  human.mesh_folder = "/meshes";
+  std::set<std::string> named;
   for (const urdf::Link& link : urdf::ParseUrdf(urdf::WriteUrdf(human)).links) {
     for (const urdf::Visual& visual : link.visuals) {
-      EXPECT_TRUE(fs::exists(visual.geometry.mesh_uri.substr(7))) << visual.geometry.mesh_uri;
-      ++named;
+      named.insert(visual.geometry.mesh_uri.substr(std::string("file:///meshes/").size()));
     }
   }
-  EXPECT_EQ(named, static_cast<std::size_t>(
-                       std::distance(fs::directory_iterator(gloved), fs::directory_iterator())));
+  EXPECT_EQ(names, named);
 }
 
-TEST_F(BodyMeshFiles, FallBackToNoneWhereNothingCanBeWritten) {
-  const fs::path file = folder_.path() / "kinescope";
-  std::FILE* blocks_the_folder = std::fopen(file.c_str(), "w");
-  ASSERT_NE(blocks_the_folder, nullptr);
-  std::fclose(blocks_the_folder);
-  EXPECT_EQ(WriteToCache(FilesOf(Person(1.75))), "");
+TEST(MeshSetName, IsThatOfTheBodyAndOfHowItIsDrawn) {
+  const BodyAppearance smooth;
+  BodyAppearance with_tool;
+  const auto tools = std::make_shared<HandTools>();
+  (*tools)[urdf::kRight] = HandTool{urdf::SegmentMesh(urdf::DefaultSkeleton(), urdf::kHead), {}};
+  with_tool.tools = tools;
+  BodyAppearance custom;
+  const auto head = std::make_shared<CustomBodyMeshes>();
+  head->meshes[urdf::kHead] = urdf::SegmentMesh(urdf::DefaultSkeleton(), urdf::kPelvis);
+  custom.custom = head;
+  urdf::HumanModel gloved = Person(1.6);
+  gloved.gloves[urdf::kLeft] = urdf::DefaultHand(urdf::kLeft, 0.19);
+  urdf::HumanModel other_toe = Person(1.6);
+  other_toe.skeleton.toe_tip_in_toe[urdf::kLeft].x() += 1e-9;
+
+  const std::string name = MeshSetName(HashOf(smooth), Person(1.6));
+  EXPECT_EQ(name, MeshSetName(HashOf(BodyAppearance()), Person(1.6)));
+  const std::set<std::string> all = {name,
+                                     MeshSetName(HashOf(smooth), Person(1.9)),
+                                     MeshSetName(HashOf(smooth), gloved),
+                                     MeshSetName(HashOf(smooth), other_toe),
+                                     MeshSetName(HashOf(with_tool), Person(1.6)),
+                                     MeshSetName(HashOf(custom), Person(1.6))};
+  EXPECT_EQ(all.size(), 6u) << "two bodies share a folder";
 }
 
 }  // namespace

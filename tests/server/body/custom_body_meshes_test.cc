@@ -100,7 +100,7 @@ TEST_F(MeshFolder, IsRefusedWithTheReasonWhereItCannotBeAFigure) {
 TEST_F(MeshFolder, IsChosenByOptions) {
   WriteRod("Head.obj", 0.2);
   const auto person = testing::With<PersonOptions>({{"body_model", "mesh:" + Path()}});
-  EXPECT_NE(ToSceneOptions(person).figure_meshes, nullptr);
+  EXPECT_NE(ToSceneOptions(person).appearance.custom, nullptr);
   EXPECT_THAT(person.figure.Files(), ::testing::ElementsAre(Path() + "/Head.obj"));
   for (const auto& [name, text] : testing::Settings{{"mesh_units", "inch"},
                                                     {"mesh_up", "x"},

@@ -100,7 +100,10 @@ TEST_F(HandToolsTest, RefuseWhatIsNoToolAndSayWhatWouldBe) {
 TEST_F(HandToolsTest, AreInTheUrdfOfThePersonAndTakeThePlaceOfTheDumbbell) {
   const auto person = testing::With<PersonOptions>({{"tool", "right:" + Drill()}});
   const auto loads = testing::With<LoadOptions>({{"hand_load", "right:5,left:5"}});
-  SceneReader reader("demo:n_pose", ToSceneOptions(person, loads));
+  const testing::TempFolder cache;
+  SceneOptions options = ToSceneOptions(person, loads);
+  options.mesh_cache = std::make_shared<const MeshCache>(cache.path());
+  SceneReader reader("demo:n_pose", options);
   const auto scene = reader.Next();
   ASSERT_TRUE(scene);
   const PersonState& state = scene->people.front();
@@ -112,6 +115,8 @@ TEST_F(HandToolsTest, AreInTheUrdfOfThePersonAndTakeThePlaceOfTheDumbbell) {
   }
   ASSERT_EQ(hand_meshes.size(), 2U);
   EXPECT_THAT(hand_meshes[1], HasSubstr("/right_tool.stl"));
+  EXPECT_THAT(cache.Names(), ::testing::IsEmpty()) << "before a sink asks for the files";
+  ASSERT_TRUE(state.model->mesh_files->Provide());
   EXPECT_TRUE(std::filesystem::exists(hand_meshes[1].substr(std::string("file://").size())));
 
   const HandLoadShape held = ShapeOfHandLoad(state);

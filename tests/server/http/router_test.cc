@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/mesh_file_on_demand.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/temp_folder.h"
 
@@ -123,6 +124,18 @@ TEST_F(RouterTest, AnswersEveryRouteInItsOwnFormat) {
     EXPECT_EQ(HeaderOf(answer, "Cache-Control"), route.cache_control) << route.target;
   }
   EXPECT_THAT(refusals_, IsEmpty());
+}
+
+TEST_F(RouterTest, HasTheMeshesOfAModelWrittenBeforeItServesOne) {
+  auto model = std::make_shared<PersonModel>(*MakePersonModel(8, meshes_.path().string()));
+  const std::string uri = model->robot.links.front().visuals.front().geometry.mesh_uri;
+  const std::filesystem::path path = uri.substr(std::string("file://").size());
+  std::filesystem::remove(path);
+  model->mesh_files = std::make_shared<kinescope::testing::MeshFileOnDemand>(path, "an STL file");
+  states_.Publish(std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, model, 1)));
+  const Answer answer = Get("/api/mesh/0/8/0");
+  EXPECT_EQ(answer.status, 200) << answer.body;
+  EXPECT_EQ(answer.file, path);
 }
 
 TEST_F(RouterTest, AnswersWithTheNewestStateAndWithoutOne) {

@@ -5,7 +5,9 @@
 
 #include "core/errors.h"
 #include "server/ros/master_client.h"
+#include "tests/mesh_file_on_demand.h"
 #include "tests/server/ros/bridge_fixture.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -13,8 +15,10 @@ namespace {
 using ::testing::ElementsAre;
 using testing::MakeModel;
 using testing::MakePerson;
+using testing::MeshFileOnDemand;
 using testing::Posture;
 using testing::SceneWith;
+using testing::TempFolder;
 
 TEST_F(RosBridgeWithMaster, DescribesEveryPersonAndDescribesAnewWhoeverChanges) {
   StartMaster();
@@ -32,7 +36,10 @@ TEST_F(RosBridgeWithMaster, DescribesEveryPersonAndDescribesAnewWhoeverChanges) 
     return parameter("/robot_description") == model_->urdf_xml;
   })) << "nobody is there yet: the initial one";
 
-  const auto anna = MakeModel("anna", 1.6, 7);
+  const TempFolder folder;
+  auto anna = std::make_shared<PersonModel>(*MakeModel("anna", 1.6, 7));
+  const auto meshes = std::make_shared<MeshFileOnDemand>(folder / "head.stl", "an STL file");
+  anna->mesh_files = meshes;
   SceneState state = SceneWith(MakePerson(MakeModel("skeleton", 1.9, 2), Posture(0), 1, 1));
   state.people.push_back(MakePerson(anna, Posture(1), 1, 1));
   state.people[1].character = 3;
@@ -41,6 +48,7 @@ TEST_F(RosBridgeWithMaster, DescribesEveryPersonAndDescribesAnewWhoeverChanges) 
     return parameter("/robot_description") == state.people[0].model->urdf_xml &&
            parameter("/anna/robot_description") == anna->urdf_xml;
   }));
+  EXPECT_TRUE(meshes->is_provided()) << "RViz reads the meshes that robot_description names";
 
   XmlRpc::XmlRpcValue arguments;
   arguments[0] = "/kinescope";

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <vector>
 
 #include "server/subject/subject.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::app {
 namespace {
@@ -143,6 +146,25 @@ TEST(SceneBuilder, DoesNotInventLegLoadsOfARecordingWithoutLegs) {
     EXPECT_EQ(load.load_class == LoadClass::kUnknown, is_leg);
     EXPECT_EQ(load.reason.empty(), !is_leg);
   }
+}
+
+TEST(SceneBuilder, WritesNoFiles) {
+  const testing::TempFolder folder;
+  setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+  SceneOptions options;
+  options.mesh_cache = std::make_shared<const MeshCache>(folder.path());
+  Built built(options);
+  for (int i = 0; i < 3; ++i) {
+    Character person;
+    person.skeleton = urdf::DefaultSkeleton(1.6 + 0.1 * i);
+    built.builder.OnCharacter(person);
+    built.builder.OnSample(SampleOf("n_pose", 0.1 * i));
+  }
+  unsetenv("XDG_CACHE_HOME");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  const PersonState& person = built.last().people.at(0);
+  EXPECT_TRUE(person.model->mesh_files->Provide());
+  EXPECT_EQ(folder.Names().size(), 1U) << "only of the body that is shown";
 }
 
 double RatioOf(const SceneState& state, int joint) {

@@ -35,7 +35,6 @@ inline Scenes ReadScenes(const std::string& source, double secs, const app::Scen
 inline const Scenes& ShortLift() {
   static const Scenes scenes = [] {
     app::SceneOptions options;
-    options.smooth_figure = false;
     options.loads.hands.is_known = true;
     options.loads.hands.mass_kg[urdf::kRight] = 5;
     return ReadScenes("demo:lift", 0.25, options);

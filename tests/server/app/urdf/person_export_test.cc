@@ -64,7 +64,7 @@ TEST(PersonExport, ReplacesOldMeshes) {
   const testing::TempFolder folder;
   ExportPerson(Person(), Meshes(), folder / "out", "");
   PersonFiles own = Meshes();
-  own.figure.back().stl = "the left toe";
+  own.body.back().stl = "the left toe";
   ExportPerson(Person(), own, folder / "out", "");
   EXPECT_EQ(ReadFile(folder / "out" / "meshes" / "left_toe.stl"), "the left toe");
   EXPECT_EQ(MeshUris(folder / "out" / "person.urdf").size(), 23U);
