@@ -40,7 +40,7 @@ double SphereRadius(int joint, LoadClass load_class, double height) {
   if (load_class == LoadClass::kMedium) factor = 1.2;
   if (load_class == LoadClass::kHigh) factor = 1.4;
   const double radius = kBaseRadius[urdf::At(urdf::JointGroupOf(joint))];
-  return radius * factor * (height > 0 ? height / 1.75 : 1.0);
+  return radius * factor * (height > 0 ? height / urdf::kReferenceHeight : 1.0);
 }
 
 }  // namespace kinescope

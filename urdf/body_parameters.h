@@ -13,6 +13,9 @@ namespace kinescope::urdf {
 
 enum class Sex { kMale, kFemale };
 
+/// Body mass of a person whose mass is unknown, kg.
+constexpr double DefaultMass(Sex sex) { return sex == Sex::kMale ? 75 : 62; }
+
 /// Source of the mass shares, with sections of joint-loads.md 1. Values that a table lacks are
 /// taken from the default table, as body_tables.cc states row by row.
 enum class BodyTable {
@@ -34,7 +37,7 @@ constexpr std::size_t kMostAddedMasses = 16;
 
 struct BodyDescription {
   Sex sex = Sex::kMale;
-  double mass_kg = 75.0;        // without added masses
+  double mass_kg = DefaultMass(Sex::kMale);  // without added masses
   bool mass_is_assumed = true;  // the default value: every display of a load must say so
   BodyTable table = BodyTable::kDeLeva;
   std::vector<AddedMass> added_masses{};

@@ -9,8 +9,6 @@
 
 namespace kinescope::urdf {
 
-constexpr double kReferenceHeight = 1.75;
-
 /// Trunk and neck are one profile, so that the outline is continuous across their joints. 0 is at
 /// the hips, each joint upwards is the next whole number; 6 is C1. u is forward, v to the left.
 const Profile& TrunkProfile();

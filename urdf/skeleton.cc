@@ -111,7 +111,6 @@ bool Skeleton::operator==(const Skeleton& other) const {
 
 Skeleton DefaultSkeleton(double height_m) {
   // R75, joint-loads.md 6.1: stature 1.750 m.
-  constexpr double kReferenceHeight = 1.75;
   Skeleton skeleton;
   auto& origin = skeleton.origin_in_parent;
   origin[kPelvis] = {0, 0, 0};

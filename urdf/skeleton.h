@@ -33,10 +33,16 @@ struct Skeleton {
   bool operator==(const Skeleton& other) const;
 };
 
-/// The default body with a stature of `height_m` metres: the reference skeleton R75 (joint-loads.md
-/// 6.1, stature 1.750 m), scaled in proportion.
+/// Stature of the reference skeleton R75 (joint-loads.md 6.1), m. Bodies, motions and sizes in
+/// pictures are made for it, and scaled in proportion for other statures.
+inline constexpr double kReferenceHeight = 1.75;
+
+/// Stature of a person whose segment lengths and stature are unknown, m.
+inline constexpr double kDefaultHeight = kReferenceHeight;
+
+/// The default body with a stature of `height_m` metres: the reference skeleton, scaled.
 /// @pre 0.5 <= height_m <= 2.5
-Skeleton DefaultSkeleton(double height_m = 1.75);
+Skeleton DefaultSkeleton(double height_m = kDefaultHeight);
 
 /// Landmarks by (segment, name), such as {kHead, "pTopOfHead"}: offset from the segment's origin in
 /// the *segment* frame (as in type 13 and MVNX), m.

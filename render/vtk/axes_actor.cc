@@ -56,7 +56,7 @@ AxesActor::AxesActor(Kind kind) : kind_(kind) {
 
 void AxesActor::Show(const PersonState& person) {
   const double height = person.model->human.skeleton.height;
-  const double size = height > 0 ? height / 1.75 : 1;
+  const double size = height > 0 ? height / urdf::kReferenceHeight : 1;
   const bool is_joint = kind_ == Kind::kJoints;
   const double length = size * (is_joint ? kHalfJointAxis : kFrameLength);
   const double radius = size * (is_joint ? kJointAxisRadius : kFrameRadius);

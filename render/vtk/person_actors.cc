@@ -163,7 +163,7 @@ void PersonActors::UpdateShadow(const PersonState& person, const SceneLook& look
   if (!look.Shows(ScenePart::kShadows)) return;
   shadow_.SetOverride(Color(ColorsOf(look.theme).shadow));
   const urdf::Skeleton& skeleton = person.model->human.skeleton;
-  const double size = skeleton.height / 1.75;
+  const double size = skeleton.height / urdf::kReferenceHeight;
   const Eigen::Vector3d middle =
       0.5 * (person.links[urdf::kPelvis].position + person.links[urdf::kT8].position);
   shadow_.Place(kBodyShadow, At(middle.x(), middle.y(), 0.002, 0.55 * size));
@@ -193,7 +193,7 @@ void PersonActors::UpdateShadow(const PersonState& person, const SceneLook& look
 
 void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera) {
   const double height = person.model->human.skeleton.height;
-  const double size = height > 0 ? height / 1.75 : 1;
+  const double size = height > 0 ? height / urdf::kReferenceHeight : 1;
   looks_.clear();
   for (const JointLoad& load : person.loads) {
     if (looks_.size() + 1 == kSphereCapacity) break;  // the last one is for the centre of mass

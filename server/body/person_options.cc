@@ -17,7 +17,6 @@ using options::Number;
 using Frame = urdf::MeshConvention::Frame;
 
 constexpr char kOwnMeshes[] = "mesh:";
-constexpr double kAssumedMaleKg = 75, kAssumedFemaleKg = 62, kAssumedHeight = 1.75;
 
 // Links, joints and TF frames have it in their names.
 bool IsModelName(const std::string& text) {
@@ -65,8 +64,8 @@ PersonOptions::PersonOptions()
     : model_name("skeleton", "letters, digits and _", IsModelName),
       sex(Choice<urdf::Sex>({{"male", urdf::Sex::kMale}, {"female", urdf::Sex::kFemale}},
                             urdf::Sex::kMale)),
-      mass(Number(kAssumedMaleKg, {20, 300, "kg"})),
-      height(Number(kAssumedHeight, {0.5, 2.5, "m"})),
+      mass(Number(urdf::DefaultMass(urdf::Sex::kMale), {20, 300, "kg"})),
+      height(Number(urdf::kDefaultHeight, {0.5, 2.5, "m"})),
       body_table({{"de_leva", urdf::BodyTable::kDeLeva},
                   {"winter", urdf::BodyTable::kWinter},
                   {"dumas", urdf::BodyTable::kDumas},
@@ -87,9 +86,13 @@ void PersonOptions::List(options::OptionList& option) {
   option.Group("The person");
   option("model_name", model_name, "prefix of links, joints and TF frames");
   option("sex", sex, "selects body table and strength; not given: male is assumed");
-  option("mass", mass, "body mass; not given: 75 kg (male) or 62 kg (female) is assumed");
-  option("height", height,
-         "stature until the stream contains segment lengths; not given: 1.75 m is assumed");
+  option("mass", mass,
+         fmt::format("body mass; not given: {} kg (male) or {} kg (female) is assumed",
+                     urdf::DefaultMass(urdf::Sex::kMale), urdf::DefaultMass(urdf::Sex::kFemale)));
+  option(
+      "height", height,
+      fmt::format("stature until the stream contains segment lengths; not given: {} m is assumed",
+                  urdf::kDefaultHeight));
   option("body_table", body_table, "source of the segment masses (docs/loads.md)");
   option("extra_mass", extra_mass, "equipment that is worn or carried");
   option(
@@ -130,8 +133,7 @@ urdf::BodyDescription ToBody(const PersonOptions& person) {
   body.sex_is_assumed = !person.sex;
   body.sex = person.sex.value_or(urdf::Sex::kMale);
   body.mass_is_assumed = !person.mass;
-  body.mass_kg =
-      person.mass.value_or(body.sex == urdf::Sex::kMale ? kAssumedMaleKg : kAssumedFemaleKg);
+  body.mass_kg = person.mass.value_or(urdf::DefaultMass(body.sex));
   body.table = *person.body_table;
   body.added_masses = *person.extra_mass;
   if (const auto defect = urdf::FindDefect(body); !defect.empty()) {

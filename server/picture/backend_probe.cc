@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/starts_with.h"
 #include "core/scratch_folder.h"
+#include "core/starts_with.h"
 #include "render/renderer.h"
 #include "server/picture/child_process.h"
 #include "server/scene/scene_reader.h"

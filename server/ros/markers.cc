@@ -122,8 +122,9 @@ void AddHeld(const PersonState& person, MarkerWriter& out) {
     const Eigen::Vector3d size =
         is_box ? solid.size
                : Eigen::Vector3d(2 * solid.size.x(), 2 * solid.size.y(), solid.size.z());
-    Marker& marker = out.Add(kHandLoads, static_cast<int>(i), is_box ? Marker::CUBE : Marker::CYLINDER,
-                             solid.pose.position, size, kHandLoadColor);
+    Marker& marker =
+        out.Add(kHandLoads, static_cast<int>(i), is_box ? Marker::CUBE : Marker::CYLINDER,
+                solid.pose.position, size, kHandLoadColor);
     Set(marker.pose.orientation, solid.pose.orientation);
   }
 }

@@ -19,8 +19,9 @@ namespace kinescope::app {
 struct ModelSettings {
   std::string model_name = "skeleton";  // prefix of links and joints; further people get _1, _2 ...
   urdf::BodyDescription body;
-  double height_m = 1.75;         // of the default body, until the source sends segment lengths, m
-  bool height_is_assumed = true;  // the default value
+  double height_m = urdf::kDefaultHeight;  // of the default body, until the source sends segment
+                                           // lengths, m
+  bool height_is_assumed = true;           // the default value
   BodyAppearance appearance;
   /// Where the URDF says that meshes are. Null: the body consists of primitives, without tools, for
   /// commands that show nobody.

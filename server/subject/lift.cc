@@ -27,7 +27,7 @@ Curve Schedule(std::vector<Curve::Key> keys) { return {kPeriodSecs, std::move(ke
 class Lift final : public MotionGenerator {
  public:
   explicit Lift(const urdf::Skeleton& skeleton)
-      : skeleton_(skeleton), scale_(skeleton.height / 1.75) {}
+      : skeleton_(skeleton), scale_(skeleton.height / urdf::kReferenceHeight) {}
 
   double period_secs() const override { return kPeriodSecs; }
   Posture PoseAt(const Jet& time) const override;

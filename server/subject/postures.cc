@@ -31,7 +31,9 @@ Stance StanceOf(StaticPosture posture) {
 class HeldPosture final : public MotionGenerator {
  public:
   HeldPosture(const urdf::Skeleton& skeleton, StaticPosture posture)
-      : skeleton_(skeleton), scale_(skeleton.height / 1.75), stance_(StanceOf(posture)) {}
+      : skeleton_(skeleton),
+        scale_(skeleton.height / urdf::kReferenceHeight),
+        stance_(StanceOf(posture)) {}
 
   double period_secs() const override { return 1; }
 

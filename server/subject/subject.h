@@ -33,7 +33,7 @@ class Motion {
 
 /// @pre 0.5 <= height_m <= 2.5
 /// @throws SourceError with the requested motion and those that exist.
-std::unique_ptr<Motion> MakeMotion(const std::string& name, double height_m = 1.75);
+std::unique_ptr<Motion> MakeMotion(const std::string& name, double height_m = urdf::kDefaultHeight);
 
 /// `demo:lift` as a source of `rate_hz` samples per second that ends after `seconds` (0: never). It
 /// is not live: each Poll() returns the next sample at once.

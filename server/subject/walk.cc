@@ -72,7 +72,7 @@ struct Footprint {
 class Walk final : public MotionGenerator {
  public:
   explicit Walk(const urdf::Skeleton& skeleton)
-      : skeleton_(skeleton), scale_(skeleton.height / 1.75) {}
+      : skeleton_(skeleton), scale_(skeleton.height / urdf::kReferenceHeight) {}
 
   double period_secs() const override { return 2 * kLapSecs; }  // a quaternion's way round
   Posture PoseAt(const Jet& time) const override;
