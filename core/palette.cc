@@ -3,6 +3,7 @@
 #include <array>
 
 #include "urdf/segments.h"
+#include "urdf/skeleton.h"
 
 namespace kinescope {
 namespace {

@@ -108,6 +108,7 @@ extern const std::array<JointInfo, kJointCount> kJoints;
 /// wrist, hip, knee, ankle, right before left.
 inline constexpr std::size_t kScoredJointCount = 15;
 extern const std::array<int, kScoredJointCount> kScoredJoints;
+inline constexpr std::size_t kScoredL5S1 = 0;  // index of L5/S1, which has a compression too
 
 /// A segment or joint as an array index.
 constexpr std::size_t At(int index) { return static_cast<std::size_t>(index); }

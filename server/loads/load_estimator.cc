@@ -331,7 +331,7 @@ void LoadEstimator::Classify(const LoadSettings& settings, std::int64_t stamp) {
   compression_.set_settings(of_the_disc);
   const LoadClass of_compression =
       compression_.Update(forces.lumbar ? LumbarRatio(*forces.lumbar) : kNothing, stamp);
-  JointLoad& lumbar = result_.loads[0];
+  JointLoad& lumbar = result_.loads[urdf::kScoredL5S1];
   if (counts && !lumbar.is_external && lumbar.load_class != LoadClass::kUnknown &&
       of_compression > lumbar.load_class) {
     lumbar.load_class = of_compression;

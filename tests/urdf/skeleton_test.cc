@@ -33,6 +33,8 @@ TEST(Joints, ThoseOfBothSidesAreInOneGroup) {
   EXPECT_EQ(JointGroupOf(jC1Head), JointGroup::kNeck);
 }
 
+TEST(Segments, HaveTheLoadOfL5S1WhereItsIndexSays) { EXPECT_EQ(kScoredJoints[kScoredL5S1], jL5S1); }
+
 TEST(Segments, HangTheArmsOfTheTPoseInTheNPose) {
   // In the T-pose the right arm lies along -y of its segment frame; in its link frame along -z.
   EXPECT_LT((SegmentFromLink(kRightForeArm) * Vector3d(0, 0, -1) - Vector3d(0, -1, 0)).norm(),

@@ -229,7 +229,7 @@ Plot JointPlot(const LoadTrial& trial, const TrialContext& context, std::size_t 
     plot.panels.push_back(std::move(panel));
   };
   add(MomentPanel(trial, joint));
-  if (joint == 0) {
+  if (joint == urdf::kScoredL5S1) {
     PlotPanel compression = CompressionPanel(trial);
     compression.y_label = "compression (kN)";
     add(std::move(compression));
@@ -242,9 +242,10 @@ Plot JointPlot(const LoadTrial& trial, const TrialContext& context, std::size_t 
 }
 
 Plot OverviewPlot(const LoadTrial& trial, const TrialContext& context) {
-  // By rows; 15: the compression.
-  constexpr std::array<std::size_t, 16> kOrder = {0, 1, 2, 15, 3,  4,  5,  6,
-                                                  7, 8, 9, 10, 11, 12, 13, 14};
+  // By rows of four; the compression fills the row of the trunk.
+  constexpr std::size_t kCompression = urdf::kScoredJointCount;
+  constexpr std::array<std::size_t, urdf::kScoredJointCount + 1> kOrder = {
+      urdf::kScoredL5S1, 1, 2, kCompression, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
   constexpr double kMostShown = 2;
   constexpr double kCellWidth = 131, kCellHeight = 56, kFont = 6.5;
   double peak = 0;
@@ -257,7 +258,7 @@ Plot OverviewPlot(const LoadTrial& trial, const TrialContext& context) {
   plot.height = 4 * kCellHeight + 21;
   for (std::size_t cell = 0; cell < kOrder.size(); ++cell) {
     const std::size_t joint = kOrder[cell];
-    const bool is_compression = joint == urdf::kScoredJoints.size();
+    const bool is_compression = joint == kCompression;
     PlotPanel panel;
     if (is_compression) {
       panel = CompressionPanel(trial);

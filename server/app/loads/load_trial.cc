@@ -106,9 +106,10 @@ void LoadTrial::KeepWorst(const std::shared_ptr<const SceneState>& scene,
     raise({person.loads[i].load_class, person.loads[i].ratio, i, false, nullptr});
   }
   // Where the class of L5/S1 is that of its compression, so is its severity.
-  if (person.loads[0].class_is_of_compression && person.forces.lumbar) {
-    raise(
-        {person.loads[0].load_class, loads::LumbarRatio(*person.forces.lumbar), 0, true, nullptr});
+  const JointLoad& lumbar = person.loads[urdf::kScoredL5S1];
+  if (lumbar.class_is_of_compression && person.forces.lumbar) {
+    raise({lumbar.load_class, loads::LumbarRatio(*person.forces.lumbar), urdf::kScoredL5S1, true,
+           nullptr});
   }
   if (worst.load_class == LoadClass::kUnknown) return;
   const std::int64_t slot = (person.sample.stamp_nanos - begin_nanos_) / slot_nanos_;
