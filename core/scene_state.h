@@ -15,6 +15,7 @@
 
 #include "core/body_forces.h"
 #include "core/body_sample.h"
+#include "core/load_class.h"
 #include "core/mesh_files.h"
 #include "core/scene_marker.h"
 #include "urdf/human_urdf.h"
@@ -24,11 +25,6 @@
 #include "urdf/robot_model.h"
 
 namespace kinescope {
-
-enum class LoadClass { kUnknown = 0, kLow = 1, kMedium = 2, kHigh = 3 };
-
-/// "unknown", "low", "medium", "high".
-const char* Name(LoadClass load_class);
 
 /// One load sphere. The joints with a load are urdf::kScoredJoints. Texts live as long as the
 /// program.
@@ -45,7 +41,7 @@ struct JointLoad {
   bool class_is_of_compression = false;  // L5/S1: the compression force decides, not the moment
   bool is_external = false;              // moment, ratio or class are of another program
   /// Time in each class up to this sample, s, by LoadClass: the exposure of this run or clip.
-  std::array<double, 4> class_secs{};
+  std::array<double, kLoadClassCount> class_secs{};
   std::string_view reason;  // why unknown; "" otherwise
 };
 
@@ -132,9 +128,7 @@ struct SceneState {
   std::int64_t time_code_millis = 0;  // of the newest sample, ms
   std::int64_t arrival_nanos = 0;     // receive time, monotonic clock; 0 for files
   double rate_hz = 0;                 // samples per second over the last second (file: nominal)
-  /// Ratios of capacity. While the ratio rises, a load above the first is medium, above the second
-  /// high.
-  std::array<double, 2> class_limits{{0.30, 0.60}};
+  std::array<double, 2> class_limits = kDefaultClassLimits;
   double floor_z = 0;                  // height of the ground, world, m
   std::string source;                  // "udp://0.0.0.0:9763"
   std::vector<PersonState> people;     // one per character with a sample in the last second

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene_state.h"
+#include "core/load_class.h"
 
 namespace kinescope::render {
 

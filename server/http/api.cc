@@ -188,8 +188,7 @@ json LinksToJson(const PersonState& person) {
 
 json ClassesToJson() {
   json classes = json::array();
-  for (const LoadClass load_class :
-       {LoadClass::kUnknown, LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh}) {
+  for (const LoadClass load_class : kLoadClasses) {
     classes.push_back({{"name", Name(load_class)}, {"color", ToJson(ColorOf(load_class))}});
   }
   return classes;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/load_class.h"
 
 namespace kinescope::loads {
 namespace {
@@ -234,7 +235,7 @@ LumbarLoad LumbarLoadOf(const Vector3d& force, const Vector3d& moment, const Lin
 double LumbarRatio(const LumbarLoad& load) {
   constexpr auto kActionLimit = kCompressionLimits[0], kUpperLimit = kCompressionLimits[1];
   constexpr double kShearLimit = 1000;  // N
-  constexpr double kMedium = 0.30, kHigh = 0.60;
+  constexpr double kMedium = kDefaultClassLimits[0], kHigh = kDefaultClassLimits[1];
   const double of_compression = load.compression <= kActionLimit
                                     ? kMedium * std::max(load.compression, 0.0) / kActionLimit
                                     : kMedium + (kHigh - kMedium) *

@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/scene_state.h"
+#include "core/load_class.h"
 
 namespace kinescope::loads {
 
@@ -15,7 +15,7 @@ class LoadClassifier {
   /// Limits are ratios, times are seconds. Index 0: between low and medium; 1: between medium and
   /// high.
   struct Settings {
-    std::array<double, 2> up = {0.30, 0.60};
+    std::array<double, 2> up = kDefaultClassLimits;
     std::array<double, 2> down = {0.25, 0.55};
     double low_pass_secs = 0.15;
     double dwell_up_secs = 0.2;

@@ -30,8 +30,8 @@ std::string ClassLimitsValue::ToText() const {
 }
 
 std::string ClassLimitsValue::Expected() const {
-  return fmt::format("MEDIUM,HIGH: two rising numbers above 0, at most {}, such as 0.3,0.6",
-                     kMostClassLimit);
+  return fmt::format("MEDIUM,HIGH: two rising numbers above 0, at most {}, such as {},{}",
+                     kMostClassLimit, kDefaultClassLimits[0], kDefaultClassLimits[1]);
 }
 
 void HandLoadValue::Parse(const std::string& text) try {

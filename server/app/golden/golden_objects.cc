@@ -24,7 +24,7 @@ std::map<Key, const SphereInPicture*> ByKey(const std::vector<SphereInPicture>& 
 }
 
 LoadClass ToClass(const std::string& name) {
-  for (const LoadClass load_class : {LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh}) {
+  for (const LoadClass load_class : kLoadClasses) {
     if (name == Name(load_class)) return load_class;
   }
   return LoadClass::kUnknown;

@@ -23,8 +23,6 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::array<LoadClass, 4> kReportClasses = {LoadClass::kLow, LoadClass::kMedium,
-                                                     LoadClass::kHigh, LoadClass::kUnknown};
 constexpr std::size_t kPictures = 3;
 
 std::string CssColor(LoadClass load_class) {
@@ -162,7 +160,7 @@ std::string MomentsHtml(const LoadTrial& trial, render::Renderer& renderer) {
 
 std::string BarHtml(const loads::JointExposure& exposure, double all) {
   std::string bar = "<div class=\"bar\">";
-  for (const LoadClass load_class : kReportClasses) {
+  for (const LoadClass load_class : kLoadClassesOfTables) {
     const double secs = exposure.secs[static_cast<std::size_t>(load_class)];
     if (secs <= 0) continue;
     bar += fmt::format("<i class=\"{}\" style=\"width:{:.2f}%\"></i>", Name(load_class),
@@ -173,7 +171,7 @@ std::string BarHtml(const loads::JointExposure& exposure, double all) {
 
 std::string ExposureHtml(const LoadTrial& trial) {
   std::string html = "<table>\n<tr><th>joint</th><th class=\"text\">time in each class</th>";
-  for (const LoadClass load_class : kReportClasses) {
+  for (const LoadClass load_class : kLoadClassesOfTables) {
     html += fmt::format("<th>{} %</th>", Name(load_class));
   }
   html +=
@@ -184,7 +182,7 @@ std::string ExposureHtml(const LoadTrial& trial) {
     const loads::JointExposure of = trial.exposure().Of(i);
     html +=
         fmt::format("<tr><td>{}</td><td class=\"text\">{}</td>", ScoredLabel(i), BarHtml(of, all));
-    for (const LoadClass load_class : kReportClasses) {
+    for (const LoadClass load_class : kLoadClassesOfTables) {
       const double secs = of.secs[static_cast<std::size_t>(load_class)];
       html += fmt::format("<td>{}</td>", all > 0 ? Number(100 * secs / all, 1) : "–");
     }
