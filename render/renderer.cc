@@ -21,19 +21,17 @@ struct Renderer::Owner {
 
 namespace {
 
-constexpr int kSmallestPicture = 16;
-constexpr int kLargestPicture = 8192;
-
 void CheckView(const View& view) {
   const auto check_side = [](const char* name, int value) {
-    if (value >= kSmallestPicture && value <= kLargestPicture) return;
+    if (value >= kMinPictureSide && value <= kMaxPictureSide) return;
     throw UsageError(std::string("picture ") + name + " " + std::to_string(value) + ": expected " +
-                     std::to_string(kSmallestPicture) + " to " + std::to_string(kLargestPicture) +
+                     std::to_string(kMinPictureSide) + " to " + std::to_string(kMaxPictureSide) +
                      " px");
   };
   check_side("width", view.width);
   check_side("height", view.height);
-  if (view.supersample != 1 && view.supersample != 2 && view.supersample != 4) {
+  const auto& factors = kSupersampleFactors;
+  if (std::find(factors.begin(), factors.end(), view.supersample) == factors.end()) {
     throw UsageError("--supersample=" + std::to_string(view.supersample) + ": expected 1, 2 or 4");
   }
 }

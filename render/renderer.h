@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/picture_limits.h"
 #include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/image.h"
@@ -33,9 +34,9 @@ struct Pane {
 };
 
 struct View {
-  int width = 1280;      // px, 16..8192
-  int height = 720;      // px, 16..8192
-  int supersample = 1;   // 1, 2 or 4: supersampling factor in each direction
+  int width = kDefaultPictureWidth;    // px, kMinPictureSide to kMaxPictureSide
+  int height = kDefaultPictureHeight;  // px, likewise limited
+  int supersample = 1;   // one of kSupersampleFactors: of pixels drawn, in each direction
   std::string title;     // upper left; "": none
   bool overlays = true;  // legend, time code, banner
   OverlayParts parts = {};

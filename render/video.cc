@@ -3,19 +3,17 @@
 #include <algorithm>
 
 #include "core/errors.h"
+#include "core/picture_limits.h"
 #include "render/module.h"
 
 namespace kinescope::render {
 namespace {
 
-constexpr int kSmallestSide = 16;
-constexpr int kLargestSide = 8192;
-
 void CheckSize(ClipFormat format, int width, int height) {
   // 4:2:0 stores colour for every second pixel of every second row.
   const bool is_even = format == ClipFormat::kMp4 || format == ClipFormat::kWebm;
   const auto fits = [&](int side) {
-    return side >= kSmallestSide && side <= kLargestSide && (!is_even || side % 2 == 0);
+    return side >= kMinPictureSide && side <= kMaxPictureSide && (!is_even || side % 2 == 0);
   };
   if (fits(width) && fits(height)) return;
   throw UsageError("clip size " + std::to_string(width) + " x " + std::to_string(height) +

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/picture_limits.h"
+
 namespace kinescope::http {
 
 struct Request {
@@ -21,9 +23,9 @@ struct Request {
 };
 
 struct SnapshotRequest {
-  std::string camera;  // "": that of the live picture
-  int width = 1280;    // px
-  int height = 720;    // px
+  std::string camera;                  // "": that of the live picture
+  int width = kDefaultPictureWidth;    // px
+  int height = kDefaultPictureHeight;  // px
 };
 
 struct Answer {

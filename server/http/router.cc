@@ -8,6 +8,7 @@
 
 #include "core/clocks.h"
 #include "core/json_text.h"
+#include "core/picture_limits.h"
 #include "core/starts_with.h"
 #include "server/http/access.h"
 #include "server/http/api.h"
@@ -16,7 +17,6 @@
 namespace kinescope::http {
 namespace {
 
-constexpr int kMinPixels = 16;
 constexpr int kMaxPixels = 4096;
 constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
 
@@ -237,10 +237,10 @@ Answer Router::Snapshot(const Target& target) const {
                         : name == "height" ? &snapshot.height
                                            : nullptr;
     const auto number = ParseNumber<int>(value);
-    if (pixels == nullptr || !number || *number < kMinPixels || *number > kMaxPixels) {
+    if (pixels == nullptr || !number || *number < kMinPictureSide || *number > kMaxPixels) {
       return Refuse(400, "bad snapshot",
                     name + "=" + value + ": expected camera=<name>, width= and height= from " +
-                        std::to_string(kMinPixels) + " to " + std::to_string(kMaxPixels));
+                        std::to_string(kMinPictureSide) + " to " + std::to_string(kMaxPixels));
     }
     *pixels = *number;
   }

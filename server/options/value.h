@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/picture_limits.h"
 #include "server/options/text.h"
 
 namespace kinescope::options {
@@ -249,7 +250,7 @@ struct PixelSize {
 /// WIDTHxHEIGHT, px.
 class Size : public ValueOf<PixelSize> {
  public:
-  static constexpr int kLeast = 16, kMost = 8192;
+  static constexpr int kLeast = kMinPictureSide, kMost = kMaxPictureSide;
 
   explicit Size(PixelSize value) : ValueOf(value) {}
   Size& operator=(PixelSize value) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/picture_limits.h"
 #include "server/options/text.h"
 #include "server/picture/trails.h"
 #include "server/scene/robot_source.h"
@@ -94,6 +95,12 @@ int TrackNamed(const std::string& name) {
 
 std::string Joined(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ","));
+}
+
+options::Choice<int>::Words SupersampleWords() {
+  options::Choice<int>::Words words;
+  for (const int factor : kSupersampleFactors) words.emplace_back(std::to_string(factor), factor);
+  return words;
 }
 
 }  // namespace
@@ -286,9 +293,9 @@ std::vector<std::filesystem::path> RobotsValue::Files() const {
 }
 
 ViewOptions::ViewOptions(std::size_t most_cameras)
-    : size({1280, 720}),
+    : size({kDefaultPictureWidth, kDefaultPictureHeight}),
       camera(most_cameras),
-      supersample({{"1", 1}, {"2", 2}, {"4", 4}}, 2),
+      supersample(SupersampleWords(), 2),
       plot(Joined(ScoredJointNames()), kMostPlots, ScoredJointNamed),
       theme({{"light", render::Theme::kLight}, {"dark", render::Theme::kDark}},
             render::Theme::kLight),

@@ -8,12 +8,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/picture_limits.h"
 #include "server/options/text.h"
 
 namespace kinescope::app {
 namespace {
 
-constexpr double kMostRateHz = 240;
 constexpr std::size_t kMostMarkerTopics = 16;
 constexpr double kLeastFactor = 1e-6, kMostFactor = 1e6;
 
@@ -77,13 +77,13 @@ ServeOptions::ServeOptions()
       http_port(8080, {0, 65535, "", false, "0: a free one, which is printed"}),
       pictures(true),
       camera(1),
-      picture_size({1280, 720}),
-      picture_rate_hz(30, {0.1, kMostRateHz, "Hz"}),
+      picture_size({kDefaultPictureWidth, kDefaultPictureHeight}),
+      picture_rate_hz(kDefaultPictureRateHz, {kMinPictureRateHz, kMaxPictureRateHz, "Hz"}),
       markers("", "up to 16 topics with commas between, such as /walls,/plan", AreTopicNames),
       view(true),
       view_camera(CamerasValue(1)),
-      view_size({1280, 720}),
-      view_rate_hz(30, {0.1, kMostRateHz, "Hz"}) {}
+      view_size({kDefaultPictureWidth, kDefaultPictureHeight}),
+      view_rate_hz(kDefaultPictureRateHz, {kMinPictureRateHz, kMaxPictureRateHz, "Hz"}) {}
 
 void ServeOptions::ListBridge(options::OptionList& option) {
   option.Group("The source");
