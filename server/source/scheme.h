@@ -22,8 +22,10 @@ std::string WithoutScheme(std::string_view url);
 /// "udp://[address]:port, ..., demo:MOTION (lift, walk, ...)", for --help and errors.
 const std::string& SourceKinds();
 
-// The built-in subject never ends: how much of it is taken unless told otherwise, s.
+// Length that is read of a source without an end unless an option sets it, s.
 inline constexpr double kSubjectClipSecs = 10;
-inline constexpr double kSubjectLoadsSecs = 8;  // one lift
+inline constexpr double kSubjectLoadsSecs = 8;   // one lift
+inline constexpr double kSubjectSurveySecs = 5;  // for a camera that depends on the whole motion
+inline constexpr double kInspectSecs = 5;
 
 }  // namespace kinescope::app

@@ -20,8 +20,6 @@ namespace fs = std::filesystem;
 
 options::PixelSize PixelSizeOfCases() { return {640, 360}; }
 
-constexpr double kSurveySecs = 5;  // of a source that may have no end
-
 SceneState SceneOf(const GoldenCase& golden_case, const SceneOptions& options,
                    ShotPlanner& planner) {
   SceneReader reader(*golden_case.source, options);
@@ -121,7 +119,7 @@ GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
   ShotPlanner planner(golden_case.view, {}, options);
   if (planner.needs_survey()) {
     SceneReader reader(*golden_case.source, options);
-    SurveyClip({&planner}, reader, kSurveySecs);
+    SurveyClip({&planner}, reader, kSubjectSurveySecs);
   }
   const Shot shot = planner.Only(SceneOf(golden_case, options, planner), *golden_case.time);
   GoldenDrawing drawing;

@@ -21,13 +21,14 @@
 #include "server/mvn/open.h"
 #include "server/ros/bag_source.h"
 #include "server/source/open_source.h"
+#include "server/source/scheme.h"
 
 namespace kinescope::app {
 namespace {
 
 struct InspectOptions {
   options::Text source;
-  options::Number seconds{5, {0, 86'400, "s", true}};
+  options::Number seconds{kInspectSecs, {0, 86'400, "s", true}};
   options::Flag json;
 
   void List(options::OptionList& option) {
