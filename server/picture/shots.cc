@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kWindowSecs = 10;  // of a plot without a survey
 
-std::vector<CameraMan> CamerasOf(const ViewOptions& options, const ViewGrid& grid) {
+std::vector<CameraController> CamerasOf(const ViewOptions& options, const ViewGrid& grid) {
   const CameraChoice& given = options.camera->front();
-  if (grid.cameras.empty()) return {CameraMan(given, options.moves)};
-  std::vector<CameraMan> cameras;
+  if (grid.cameras.empty()) return {CameraController(given, options.moves)};
+  std::vector<CameraController> cameras;
   for (const std::string& camera : grid.cameras) {
     cameras.emplace_back(camera == "camera" ? given : ParseCamera(camera), options.moves);
   }
@@ -42,7 +42,7 @@ ShotPlanner::ShotPlanner(const ViewOptions& options, SceneAdditions additions)
     return;
   }
   view_.pane_columns = grid.columns;
-  for (const CameraMan& camera : cameras_) {
+  for (const CameraController& camera : cameras_) {
     std::string name = camera.name();
     std::replace(name.begin(), name.end(), '_', ' ');
     view_.panes.push_back({name, {}});
@@ -54,12 +54,13 @@ ShotPlanner::ShotPlanner(const ViewOptions& options, SceneAdditions additions)
 }
 
 bool ShotPlanner::needs_survey() const {
-  return !loads_.is_empty() || std::any_of(cameras_.begin(), cameras_.end(),
-                                           [](const CameraMan& c) { return c.needs_survey(); });
+  return !loads_.is_empty() ||
+         std::any_of(cameras_.begin(), cameras_.end(),
+                     [](const CameraController& c) { return c.needs_survey(); });
 }
 
 void ShotPlanner::Survey(const SceneState& state) {
-  for (CameraMan& camera : cameras_) camera.Survey(state);
+  for (CameraController& camera : cameras_) camera.Survey(state);
   if (!loads_.is_empty()) loads_.Add(state, SecsSince(survey_start_nanos_, state));
 }
 

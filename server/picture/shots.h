@@ -12,7 +12,7 @@
 #include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/renderer.h"
-#include "server/picture/camera_man.h"
+#include "server/picture/camera_controller.h"
 #include "server/picture/load_window.h"
 #include "server/picture/scene_additions.h"
 #include "server/picture/view_options.h"
@@ -65,7 +65,7 @@ class ShotPlanner {
             const SceneAdditions& additions) const;
 
   render::View view_;
-  std::vector<CameraMan> cameras_;  // one, or one per view
+  std::vector<CameraController> cameras_;  // one, or one per view
   std::vector<double> aspects_;     // of the views, width / height
   SceneAdditions additions_;
   LoadWindow loads_;  // of the first pass, or else of the scenes so far

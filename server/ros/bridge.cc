@@ -21,8 +21,8 @@
 #include "server/ros/markers.h"
 #include "server/ros/master_registration.h"
 #include "server/ros/names.h"
+#include "server/ros/ros_camera_topics.h"
 #include "server/ros/transforms.h"
-#include "server/ros/view_topics.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -58,7 +58,7 @@ class Bridge : public RosBridge {
   explicit Bridge(const BridgeConfig& config)
       : config_(config), registration_(config.initial_urdf, config.tf != "off", MakeWiring()) {}
 
-  void PublishView(const ViewPicture& picture) override {
+  void PublishView(const RosImage& picture) override {
     if (const auto view = registration_.View()) view->Publish(picture);
   }
 
@@ -112,8 +112,8 @@ class Bridge : public RosBridge {
     wiring.markers = markers_in_;
     if (!config_.with_view) return wiring;
     wiring.make_view = [this](const ros::NodeHandle& node) {
-      return std::make_shared<ViewTopics>(node, queue_, config_.reference_frame,
-                                          [this](int count) { view_listeners_ = count; });
+      return std::make_shared<RosCameraTopics>(node, queue_, config_.reference_frame,
+                                               [this](int count) { view_listeners_ = count; });
     };
     return wiring;
   }

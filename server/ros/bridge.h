@@ -39,7 +39,7 @@ struct BridgeConfig {
 };
 
 /// A picture for `~view/image_raw` and its camera.
-struct ViewPicture {
+struct RosImage {
   int width = 0, height = 0;              // px
   const std::vector<std::uint8_t>& rgba;  // (height, width, 4), top row first; opaque
   std::int64_t stamp_nanos = 0;           // ns, of the sample that it shows; 0 before the first
@@ -69,7 +69,7 @@ struct BridgeStatus {
   std::uint64_t master_returns = 0;  // times the topics were registered again at a restarted master
   /// `rosnode kill`, or another node took this node's name: nothing is published any more. A
   /// program without another task should end.
-  bool told_to_stop = false;
+  bool shutdown_requested = false;
   std::map<std::string, InputCounters> inputs;  // by topic, as "hand_wrench/right"
 };
 
@@ -106,7 +106,7 @@ class RosBridge {
 
   /// Publishes a picture to the subscribers of the view. Call it on one thread, which may be any;
   /// never blocks on the master.
-  virtual void PublishView(const ViewPicture& picture) = 0;
+  virtual void PublishView(const RosImage& picture) = 0;
 
  protected:
   RosBridge() = default;

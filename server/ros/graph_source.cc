@@ -87,7 +87,7 @@ class GraphSource : public Source {
     sink_ = &sink;
     topics_.Take(timeout);
     sink_ = nullptr;
-    return topics_.status().told_to_stop ? State::kEnded : State::kMore;
+    return topics_.status().shutdown_requested ? State::kEnded : State::kMore;
   }
 
   SourceCounters counters() const override {

@@ -63,7 +63,7 @@ LiveTopics::Status LiveTopics::status() const {
 
 void LiveTopics::Run() {
   std::unique_lock<std::mutex> lock(mutex_);
-  while (!stopping_ && !status_.told_to_stop) {
+  while (!stopping_ && !status_.shutdown_requested) {
     lock.unlock();
     Ask();
     lock.lock();
@@ -178,7 +178,7 @@ void LiveTopics::SetMasterAnswers(bool answers) {
 
 void LiveTopics::StopForGood() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  status_.told_to_stop = true;
+  status_.shutdown_requested = true;
   spdlog::warn("{}: stopped by rosnode kill, or by another node named {}", description_,
                ros::this_node::getName());
 }

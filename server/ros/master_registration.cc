@@ -101,7 +101,7 @@ std::shared_ptr<const PersonTopics> MasterRegistration::TopicsOf(int character) 
   return slot == slots_.end() ? nullptr : slot->second.topics;
 }
 
-std::shared_ptr<ViewTopics> MasterRegistration::View() const {
+std::shared_ptr<RosCameraTopics> MasterRegistration::View() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return view_;
 }
@@ -137,7 +137,7 @@ bool MasterRegistration::WaitForNext() {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait_for(lock, kAskMasterEvery, [&] { return stopping_ || has_work_; });
   has_work_ = false;
-  return !stopping_ && !status_.told_to_stop;
+  return !stopping_ && !status_.shutdown_requested;
 }
 
 void MasterRegistration::Run() {
@@ -146,7 +146,7 @@ void MasterRegistration::Run() {
     const bool is_known = MasterKnowsUs(answers);
     SetReachable(answers);
     if (node_ && !ros::ok()) StopForGood("a ROS shutdown request (rosnode kill)");
-    if (!answers || status().told_to_stop) continue;
+    if (!answers || status().shutdown_requested) continue;
     if (!is_known) {
       registered_.clear();
       described_.clear();
@@ -185,7 +185,7 @@ bool MasterRegistration::MasterKnowsUs(bool& answers) {
 void MasterRegistration::Start() {
   node_ = std::make_unique<ros::NodeHandle>("~");
   auto topics = Advertise("");
-  std::shared_ptr<ViewTopics> view;
+  std::shared_ptr<RosCameraTopics> view;
   if (wiring_.make_view) {
     view = wiring_.make_view(*node_);
     topic_types_.merge(view->TypesByTopic());
@@ -331,8 +331,8 @@ void MasterRegistration::SetReachable(bool reachable) {
 
 void MasterRegistration::StopForGood(const char* reason) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (status_.told_to_stop) return;
-  status_.told_to_stop = true;
+  if (status_.shutdown_requested) return;
+  status_.shutdown_requested = true;
   spdlog::warn("publishing to ROS was stopped by {}", reason);
 }
 

@@ -27,7 +27,7 @@
 #include "server/ros/force_inbox.h"
 #include "server/ros/marker_topics.h"
 #include "server/ros/master_client.h"
-#include "server/ros/view_topics.h"
+#include "server/ros/ros_camera_topics.h"
 
 namespace kinescope::ros_bridge {
 
@@ -44,7 +44,7 @@ struct InputWiring {
   std::function<std::shared_ptr<ForceInbox>()> make_inbox;
   std::function<void(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;  // of other nodes
   std::shared_ptr<MarkerInbox> markers;  // null: no marker topics
-  std::function<std::shared_ptr<ViewTopics>(const ros::NodeHandle&)> make_view;  // null: no view
+  std::function<std::shared_ptr<RosCameraTopics>(const ros::NodeHandle&)> make_view;  // null: no view
 };
 
 class MasterRegistration {
@@ -65,7 +65,7 @@ class MasterRegistration {
   std::shared_ptr<const PersonTopics> TopicsOf(int character) const;
 
   /// Null until a master has answered, and if there is no view. Never blocks; any thread.
-  std::shared_ptr<ViewTopics> View() const;
+  std::shared_ptr<RosCameraTopics> View() const;
 
   /// Subscribes to /tf and /tf_static from now on. Never blocks; any thread.
   void WantTransforms();
@@ -104,7 +104,7 @@ class MasterRegistration {
   std::condition_variable changed_;
   std::map<int, Slot> slots_;                         // guarded by mutex_
   std::shared_ptr<const PersonTopics> first_topics_;  // guarded by mutex_; of the first person
-  std::shared_ptr<ViewTopics> view_;                  // guarded by mutex_
+  std::shared_ptr<RosCameraTopics> view_;             // guarded by mutex_
   BridgeStatus status_;                               // guarded by mutex_
   bool has_work_ = false;                             // guarded by mutex_
   bool stopping_ = false;                             // guarded by mutex_

@@ -17,7 +17,7 @@ std::string OpticalFrame(const std::string& view) {
   return frame + "_camera_optical";
 }
 
-void FillImage(const ViewPicture& picture, const std::string& frame, sensor_msgs::Image& message) {
+void FillImage(const RosImage& picture, const std::string& frame, sensor_msgs::Image& message) {
   const auto pixels =
       static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   KINESCOPE_CHECK(picture.rgba.size() == 4 * pixels);
@@ -38,7 +38,7 @@ void FillImage(const ViewPicture& picture, const std::string& frame, sensor_msgs
   }
 }
 
-void FillCameraInfo(const ViewPicture& picture, const std::string& frame,
+void FillCameraInfo(const RosImage& picture, const std::string& frame,
                     sensor_msgs::CameraInfo& message) {
   message.header.stamp = ToRosTime(picture.stamp_nanos);
   message.header.frame_id = frame;
@@ -56,7 +56,7 @@ void FillCameraInfo(const ViewPicture& picture, const std::string& frame,
   message.P = {f, 0, cx, 0, 0, f, cy, 0, 0, 0, 1, 0};
 }
 
-void FillCameraFrame(const ViewPicture& picture, const std::string& reference_frame,
+void FillCameraFrame(const RosImage& picture, const std::string& reference_frame,
                      const std::string& frame, geometry_msgs::TransformStamped& message) {
   message.header.stamp = ToRosTime(picture.stamp_nanos);
   message.header.frame_id = reference_frame;

@@ -19,16 +19,16 @@ std::string OpticalFrame(const std::string& view);
 
 /// rgb8; alpha is dropped, because the picture is opaque. `message` keeps its memory from picture
 /// to picture.
-void FillImage(const ViewPicture& picture, const std::string& frame, sensor_msgs::Image& message);
+void FillImage(const RosImage& picture, const std::string& frame, sensor_msgs::Image& message);
 
 /// K and P of a pinhole camera without distortion (plumb_bob, five zeros), with pixel centres at
 /// whole numbers, as in sensor_msgs/CameraInfo and OpenCV: in a picture of width w the axis is at
 /// (w - 1) / 2. K is zero ("not calibrated") if the picture is not of a pinhole camera.
-void FillCameraInfo(const ViewPicture& picture, const std::string& frame,
+void FillCameraInfo(const RosImage& picture, const std::string& frame,
                     sensor_msgs::CameraInfo& message);
 
 /// reference_frame <- `frame`.
-void FillCameraFrame(const ViewPicture& picture, const std::string& reference_frame,
+void FillCameraFrame(const RosImage& picture, const std::string& reference_frame,
                      const std::string& frame, geometry_msgs::TransformStamped& message);
 
 }  // namespace kinescope::ros_bridge

@@ -64,7 +64,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
                             const std::optional<PictureStatus>& pictures,
-                            const std::optional<ViewStatus>& view) {
+                            const std::optional<RosCameraStatus>& view) {
   json out;
   out["version"] = KINESCOPE_VERSION;
   if (state) {

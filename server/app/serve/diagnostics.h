@@ -9,7 +9,7 @@
 #include "core/scene_state.h"
 #include "core/source.h"
 #include "server/app/serve/picture_loop.h"
-#include "server/app/serve/view_loop.h"
+#include "server/app/serve/ros_camera_loop.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::app {
@@ -19,6 +19,6 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
                             const std::optional<PictureStatus>& pictures,
-                            const std::optional<ViewStatus>& view = {});
+                            const std::optional<RosCameraStatus>& view = {});
 
 }  // namespace kinescope::app

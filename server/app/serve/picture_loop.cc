@@ -36,7 +36,7 @@ PictureLoop::PictureLoop(const PictureOptions& options, std::shared_ptr<const Sc
       pictures_(pictures),
       state_(std::move(first)),
       camera_(options.camera.text) {
-  const CameraMan probe(options_.camera, options_.moves);  // throws for what does not exist
+  const CameraController probe(options_.camera, options_.moves);  // throws for what does not exist
   std::promise<void> started;
   std::future<void> has_started = started.get_future();
   thread_ = std::thread(&PictureLoop::Run, this, std::move(started));
@@ -180,8 +180,8 @@ void PictureLoop::DrawSnapshot(render::Renderer& renderer, const SceneState& sta
   }
   try {
     const double aspect = static_cast<double>(view.width) / view.height;
-    const render::Image image =
-        renderer.Render(state, CameraMan(ParseCamera(camera), {}).Only(state, 0, aspect), view);
+    const render::Image image = renderer.Render(
+        state, CameraController(ParseCamera(camera), {}).Only(state, 0, aspect), view);
     std::vector<std::uint8_t> png = render::EncodePng(image);
     {  // before the picture goes out: whoever has it may ask what it lacks
       const std::lock_guard<std::mutex> lock(mutex_);

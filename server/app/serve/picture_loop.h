@@ -19,7 +19,7 @@
 #include "render/renderer.h"
 #include "server/http/server.h"
 #include "server/picture/backend.h"
-#include "server/picture/camera_man.h"
+#include "server/picture/camera_controller.h"
 
 namespace kinescope::app {
 
@@ -92,7 +92,7 @@ class PictureLoop : public http::PictureFeed {
   // Used by the rendering thread only:
   render::Image live_image_;
   std::string live_camera_name_;
-  std::optional<CameraMan> live_camera_;  // a new name is a cut
+  std::optional<CameraController> live_camera_;  // a new name is a cut
 
   std::thread thread_;
 };

@@ -18,9 +18,9 @@
 #include "server/app/commands.h"
 #include "server/app/serve/diagnostics.h"
 #include "server/app/serve/picture_loop.h"
+#include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/serve_options.h"
 #include "server/app/serve/told_loads.h"
-#include "server/app/serve/view_loop.h"
 #include "server/http/server.h"
 #include "server/loads/hand_loads.h"
 #include "server/options/option_list.h"
@@ -119,7 +119,7 @@ PictureOptions ToPictureOptions(const ServeOptions& options) {
   PictureOptions pictures;
   pictures.camera = options.camera->front();
   pictures.moves = options.camera_moves;
-  if (CameraMan(pictures.camera, pictures.moves).needs_survey()) {
+  if (CameraController(pictures.camera, pictures.moves).needs_survey()) {
     throw UsageError(
         "--orbit=turn and --fit=clip need a clip that ends; a live picture takes degrees per "
         "second, "
@@ -132,8 +132,8 @@ PictureOptions ToPictureOptions(const ServeOptions& options) {
   return pictures;
 }
 
-ViewSettings ToViewSettings(const ServeOptions& options) {
-  ViewSettings view;
+RosCameraSettings ToViewSettings(const ServeOptions& options) {
+  RosCameraSettings view;
   view.camera = options.view_camera ? (*options.view_camera).front() : options.camera->front();
   view.width = options.view_size->width;
   view.height = options.view_size->height;
@@ -154,7 +154,7 @@ bool WantsView(const ServeOptions& options, bool with_page) {
 // are off.
 void CheckServeOptions(const ServeOptions& options) {
   ToPictureOptions(options);
-  CameraMan(ToViewSettings(options).camera, {});
+  CameraController(ToViewSettings(options).camera, {});
 }
 
 void Serve(const ServeOptions& options, bool with_page) {
@@ -187,7 +187,7 @@ void Serve(const ServeOptions& options, bool with_page) {
   ToldLoads told;                  // page -> reading thread
   std::unique_ptr<PictureLoop> drawing;
   std::unique_ptr<ros_bridge::RosBridge> ros;
-  std::unique_ptr<ViewLoop> view;
+  std::unique_ptr<RosCameraLoop> view;
   Announcer announcer;
   SceneBuilder builder(scene_options, source->description(), source->nominal_rate_hz(),
                        [&](const std::shared_ptr<const SceneState>& state) {
@@ -222,11 +222,11 @@ void Serve(const ServeOptions& options, bool with_page) {
                    Secs(MonotonicNanos() - start_nanos), drawing->status().renderer.renderer);
     }
     if (ros && bridge_config.with_view) {
-      ViewSettings settings = ToViewSettings(options);
+      RosCameraSettings settings = ToViewSettings(options);
       settings.backend.backend = drawing->status().renderer.backend;
-      view = std::make_unique<ViewLoop>(
+      view = std::make_unique<RosCameraLoop>(
           settings, states.Get(),
-          [&](const ros_bridge::ViewPicture& picture) { ros->PublishView(picture); });
+          [&](const ros_bridge::RosImage& picture) { ros->PublishView(picture); });
     }
     http::HttpConfig config = ToHttpConfig(options);
     config.set_hand_load = [&](int character, const HandLoad& load) {
@@ -255,7 +255,7 @@ void Serve(const ServeOptions& options, bool with_page) {
       useless_stream.OnCounters(*newest, source->description(), now);
       counters_due = now + 500'000'000;
     }
-    if (ros && ros->status().told_to_stop) {
+    if (ros && ros->status().shutdown_requested) {
       spdlog::info("shut down through ROS");
       break;
     }

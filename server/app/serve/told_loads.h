@@ -10,7 +10,7 @@
 
 #include "core/force_inputs.h"
 #include "core/source.h"
-#include "server/app/serve/view_loop.h"
+#include "server/app/serve/ros_camera_loop.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
 
@@ -36,7 +36,7 @@ class InputsFirst : public SampleSink, private ros_bridge::InputSink {
  public:
   /// `view` may be null; it receives the number of its subscribers.
   InputsFirst(SceneBuilder& builder, ToldLoads& told, ros_bridge::RosBridge* ros,
-              ViewLoop* view = nullptr)
+              RosCameraLoop* view = nullptr)
       : builder_(builder), told_(told), ros_(ros), view_(view) {}
 
   /// Call it also while no samples arrive, because ROS services wait for their answer.
@@ -55,7 +55,7 @@ class InputsFirst : public SampleSink, private ros_bridge::InputSink {
   SceneBuilder& builder_;
   ToldLoads& told_;
   ros_bridge::RosBridge* const ros_;
-  ViewLoop* const view_;
+  RosCameraLoop* const view_;
 };
 
 }  // namespace kinescope::app

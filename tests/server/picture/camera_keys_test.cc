@@ -1,5 +1,5 @@
 // What a file of camera keys may say, and where it says something else. What cameras make of it:
-// camera_man_test.cc.
+// camera_controller_test.cc.
 #include "server/picture/camera_keys.h"
 
 #include <gmock/gmock.h>

@@ -203,7 +203,7 @@ TEST_F(RosBridgeWithMaster, SaysWhenRosnodeKillToldItToStop) {
   arguments[0] = "/rosnode";
   arguments[1] = "user request";
   ASSERT_TRUE(ours.execute("shutdown", arguments, response));
-  EXPECT_TRUE(PublishUntil([&] { return bridge_->status().told_to_stop; }));
+  EXPECT_TRUE(PublishUntil([&] { return bridge_->status().shutdown_requested; }));
 }
 
 }  // namespace

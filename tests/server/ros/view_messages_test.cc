@@ -11,7 +11,7 @@ const std::vector<std::uint8_t>& Pixels() {  // 3 x 2
   return rgba;
 }
 
-ViewPicture Picture() { return {3, 2, Pixels(), 1'500'000'000, {{1, 2, 3}, {}}, 40}; }
+RosImage Picture() { return {3, 2, Pixels(), 1'500'000'000, {{1, 2, 3}, {}}, 40}; }
 
 TEST(ViewMessages, HoldThePixelsInOrderWithoutTheAlphaThatSaysNothing) {
   sensor_msgs::Image image;
@@ -49,7 +49,7 @@ TEST(ViewMessages, ACameraThatIsNoPinholeIsNotCalibrated) {
   EXPECT_EQ(info.P[6], 0.5);  // between the two rows
   EXPECT_EQ(info.distortion_model, "plumb_bob");
   EXPECT_EQ(info.D, std::vector<double>(5, 0.0));
-  const ViewPicture flat{3, 2, Pixels(), 0, {}, 0};
+  const RosImage flat{3, 2, Pixels(), 0, {}, 0};
   FillCameraInfo(flat, "eye", info);
   EXPECT_EQ(info.K[0], 0);
   EXPECT_EQ(info.P[10], 0);

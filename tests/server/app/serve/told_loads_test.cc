@@ -94,7 +94,7 @@ TEST(ToldLoads, ThatNobodyCouldHoldChangeNothing) {
 class TellingBridge : public ros_bridge::RosBridge {
  public:
   void Publish(const SceneState&) override {}
-  void PublishView(const ros_bridge::ViewPicture&) override {}
+  void PublishView(const ros_bridge::RosImage&) override {}
   void TakeInputs(ros_bridge::InputSink& sink) override {
     if (measured) sink.OnMeasurements(0, *measured);
     if (load) sink.OnHandLoad(0, *load);

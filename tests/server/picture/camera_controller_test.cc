@@ -1,4 +1,4 @@
-#include "server/picture/camera_man.h"
+#include "server/picture/camera_controller.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,69 +29,69 @@ SceneState SceneAt(double secs, double x) {
 // The error of making one; "" where there is none.
 std::string Complaint(const std::string& camera) {
   try {
-    CameraMan man(ParseCamera(camera), {});
+    CameraController controller(ParseCamera(camera), {});
     return "";
   } catch (const std::runtime_error& error) {
     return error.what();
   }
 }
 
-TEST(CameraMan, FollowsWithTheSameLagAtAnyRate) {
+TEST(CameraController, FollowsWithTheSameLagAtAnyRate) {
   CameraOptions options;
   options.follow = 0.5;
   const auto x_after_a_second = [&](int pictures) {
-    CameraMan man(ParseCamera("front"), options);
-    double x = man.Aim(SceneAt(0, 0), kAspect).target.x();
+    CameraController controller(ParseCamera("front"), options);
+    double x = controller.Aim(SceneAt(0, 0), kAspect).target.x();
     for (int k = 1; k <= pictures; ++k) {
-      x = man.Aim(SceneAt(static_cast<double>(k) / pictures, 2), kAspect).target.x();
+      x = controller.Aim(SceneAt(static_cast<double>(k) / pictures, 2), kAspect).target.x();
     }
     return x;
   };
   const double start =
-      CameraMan(ParseCamera("front"), options).Only(SceneAt(0, 0), 0, kAspect).target.x();
+      CameraController(ParseCamera("front"), options).Only(SceneAt(0, 0), 0, kAspect).target.x();
   EXPECT_NEAR(x_after_a_second(10) - start, 2 * (1 - std::exp(-1 / 0.5)), 1e-6);
   EXPECT_NEAR(x_after_a_second(120), x_after_a_second(10), 1e-6);
   options.follow = 0.0;
   EXPECT_NEAR(x_after_a_second(1) - start, 2, 1e-9) << "no lag at all";
 }
 
-TEST(CameraMan, AFreeCameraStandsStillOrGoesAlong) {
+TEST(CameraController, AFreeCameraStandsStillOrGoesAlong) {
   CameraOptions options;
   options.fov = 40.0;
-  CameraMan still(ParseCamera("3,-2,1.5:0,0,1"), options);
+  CameraController still(ParseCamera("3,-2,1.5:0,0,1"), options);
   still.Aim(SceneAt(0, 0), kAspect);
   const render::Camera camera = still.Aim(SceneAt(1, 2), kAspect);
   EXPECT_EQ(camera.position, Vector3d(3, -2, 1.5));
   EXPECT_EQ(camera.target, Vector3d(0, 0, 1));
   EXPECT_NEAR(camera.vertical_fov_rad, 40 * M_PI / 180, 1e-12);
   options.follow = 0.0;
-  CameraMan along(ParseCamera("3,-2,1.5:0,0,1"), options);
+  CameraController along(ParseCamera("3,-2,1.5:0,0,1"), options);
   along.Aim(SceneAt(0, 0), kAspect);
   EXPECT_NEAR((along.Aim(SceneAt(1, 2), kAspect).position - Vector3d(5, -2, 1.5)).norm(), 0, 1e-9);
 }
 
-TEST(CameraMan, TurnsOnceOverAClip) {
+TEST(CameraController, TurnsOnceOverAClip) {
   CameraOptions options;
   options.orbit.Parse("turn");
-  CameraMan man(ParseCamera("front"), options);
-  ASSERT_TRUE(man.needs_survey());
-  for (const double secs : {0.0, 2.0, 4.0}) man.Survey(SceneAt(secs, 0));
-  const render::Camera first = man.Aim(SceneAt(0, 0), kAspect);
-  const render::Camera quarter = man.Aim(SceneAt(1, 0), kAspect);
-  const render::Camera last = man.Aim(SceneAt(4, 0), kAspect);
+  CameraController controller(ParseCamera("front"), options);
+  ASSERT_TRUE(controller.needs_survey());
+  for (const double secs : {0.0, 2.0, 4.0}) controller.Survey(SceneAt(secs, 0));
+  const render::Camera first = controller.Aim(SceneAt(0, 0), kAspect);
+  const render::Camera quarter = controller.Aim(SceneAt(1, 0), kAspect);
+  const render::Camera last = controller.Aim(SceneAt(4, 0), kAspect);
   const Vector3d from = first.position - first.target;
   const Vector3d turned(-from.y(), from.x(), from.z());
   EXPECT_NEAR((quarter.position - quarter.target - turned).norm(), 0, 1e-9);
   EXPECT_NEAR((last.position - first.position).norm(), 0, 1e-9);
 }
 
-TEST(CameraMan, FramesAllThatIsThereOverTheClipAndStandsStill) {
+TEST(CameraController, FramesAllThatIsThereOverTheClipAndStandsStill) {
   CameraOptions options;
   options.fit = Fit::kClip;
-  CameraMan man(ParseCamera("left"), options);
-  for (const double x : {-2.0, 0.0, 3.0}) man.Survey(SceneAt(x + 2, x));
-  const render::Camera camera = man.Aim(SceneAt(0, -2), kAspect);
-  EXPECT_EQ(man.Aim(SceneAt(5, 3), kAspect).position, camera.position);
+  CameraController controller(ParseCamera("left"), options);
+  for (const double x : {-2.0, 0.0, 3.0}) controller.Survey(SceneAt(x + 2, x));
+  const render::Camera camera = controller.Aim(SceneAt(0, -2), kAspect);
+  EXPECT_EQ(controller.Aim(SceneAt(5, 3), kAspect).position, camera.position);
   for (const double x : {-2.0, 3.0}) {
     const SceneState state = SceneAt(0, x);
     for (const urdf::Pose& link : state.people[0].links) {
@@ -101,7 +101,7 @@ TEST(CameraMan, FramesAllThatIsThereOverTheClipAndStandsStill) {
   }
 }
 
-TEST(CameraMan, KeysMayNameCamerasThatFindThePerson) {
+TEST(CameraController, KeysMayNameCamerasThatFindThePerson) {
   const kinescope::testing::TempFolder folder;
   const std::string path = folder.path() / "keys.yaml";
   std::ofstream(path) << "keys:\n"
@@ -110,16 +110,17 @@ TEST(CameraMan, KeysMayNameCamerasThatFindThePerson) {
                          "    position: [1, -4, 2]\n"
                          "    target: [1, 0, 1]\n"
                          "    fov: 50\n";
-  const CameraMan man(ParseCamera(path), {});
+  const CameraController controller(ParseCamera(path), {});
   const SceneState scene = SceneAt(0, 1);
-  EXPECT_EQ(man.Only(scene, 0, kAspect).position, render::NamedCamera("front", scene).position);
-  const render::Camera last = man.Only(scene, 7, kAspect);
+  EXPECT_EQ(controller.Only(scene, 0, kAspect).position,
+            render::NamedCamera("front", scene).position);
+  const render::Camera last = controller.Only(scene, 7, kAspect);
   EXPECT_EQ(last.position, Vector3d(1, -4, 2));
   EXPECT_NEAR(last.vertical_fov_rad, 50 * M_PI / 180, 1e-12);
-  EXPECT_EQ(man.name(), "keys.yaml");
+  EXPECT_EQ(controller.name(), "keys.yaml");
 }
 
-TEST(CameraMan, AWrongKeyIsNamedWithFileAndLine) {
+TEST(CameraController, AWrongKeyIsNamedWithFileAndLine) {
   const kinescope::testing::TempFolder folder;
   const std::string path = folder.path() / "keys.yaml";
   const auto complaint = [&](const std::string& keys) {
@@ -143,7 +144,7 @@ TEST(CameraMan, AWrongKeyIsNamedWithFileAndLine) {
   EXPECT_THAT(Complaint(folder.path() / "none.yaml"), HasSubstr("none.yaml"));
 }
 
-TEST(CameraMan, RefusesWhatMakesNoSense) {
+TEST(CameraController, RefusesWhatMakesNoSense) {
   EXPECT_THAT(Complaint("1,2,3:1,2"), HasSubstr("X,Y,Z"));
   EXPECT_THAT(Complaint("1,2,3:1,2,nan"), HasSubstr("X,Y,Z"));
   EXPECT_THAT(Complaint("1,2,3:1,2,3"), HasSubstr("position that differs from the target"));

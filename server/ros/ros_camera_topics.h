@@ -15,7 +15,7 @@
 
 namespace kinescope::ros_bridge {
 
-class ViewTopics {
+class RosCameraTopics {
  public:
   /// Number of connections, of image, its transports and camera_info together. Called on the thread
   /// that calls the queue.
@@ -24,18 +24,18 @@ class ViewTopics {
   /// Advertises below the private names of `node`. Calls the master, so it may block. If
   /// image_transport finds no plugins, the plain topics are advertised all the same, which is
   /// logged.
-  ViewTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue, std::string reference_frame,
-             OnListeners on_listeners);
-  ~ViewTopics();
-  ViewTopics(const ViewTopics&) = delete;
-  ViewTopics& operator=(const ViewTopics&) = delete;
+  RosCameraTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue,
+                  std::string reference_frame, OnListeners on_listeners);
+  ~RosCameraTopics();
+  RosCameraTopics(const RosCameraTopics&) = delete;
+  RosCameraTopics& operator=(const RosCameraTopics&) = delete;
 
   /// All advertised topics with their types, to register them again at a restarted master.
   std::map<std::string, std::string> TypesByTopic() const;
 
   /// Publishes the frame first, so that a receiver of the picture can look it up. Call it on one
   /// thread.
-  void Publish(const ViewPicture& picture);
+  void Publish(const RosImage& picture);
 
  private:
   struct Parts;  // types of image_transport

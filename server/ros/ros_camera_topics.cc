@@ -1,4 +1,4 @@
-#include "server/ros/view_topics.h"
+#include "server/ros/ros_camera_topics.h"
 
 #include <image_transport/image_transport.h>
 #include <ros/publication.h>
@@ -36,7 +36,7 @@ class Errand : public ros::CallbackInterface {
 
 }  // namespace
 
-struct ViewTopics::Parts {
+struct RosCameraTopics::Parts {
   std::string reference_frame, optical_frame;
   std::string base;  // resolved: "/kinescope/view/"
   OnListeners on_listeners;
@@ -70,7 +70,7 @@ struct ViewTopics::Parts {
   void AdvertisePlain(ros::NodeHandle& node);
 };
 
-void ViewTopics::Parts::AdvertiseCamera(const ros::NodeHandle& node) {
+void RosCameraTopics::Parts::AdvertiseCamera(const ros::NodeHandle& node) {
   image_transport::ImageTransport transport(node);
   const image_transport::SubscriberStatusCallback image_come = [this](const auto&) {
     OnConnection(true);
@@ -83,15 +83,15 @@ void ViewTopics::Parts::AdvertiseCamera(const ros::NodeHandle& node) {
   camera = transport.advertiseCamera(kImage, kViewQueue, image_come, image_go, info_come, info_go);
 }
 
-void ViewTopics::Parts::AdvertisePlain(ros::NodeHandle& node) {
+void RosCameraTopics::Parts::AdvertisePlain(ros::NodeHandle& node) {
   const ros::SubscriberStatusCallback come = [this](const auto&) { OnConnection(true); };
   const ros::SubscriberStatusCallback go = [this](const auto&) { OnConnection(false); };
   plain_image = node.advertise<sensor_msgs::Image>(kImage, kViewQueue, come, go);
   plain_info = node.advertise<sensor_msgs::CameraInfo>(kCameraInfo, kViewQueue, come, go);
 }
 
-ViewTopics::ViewTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue,
-                       std::string reference_frame, OnListeners on_listeners)
+RosCameraTopics::RosCameraTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue,
+                                 std::string reference_frame, OnListeners on_listeners)
     : parts_(std::make_unique<Parts>()) {
   ros::NodeHandle own(node);
   own.setCallbackQueue(&queue);
@@ -114,9 +114,9 @@ ViewTopics::ViewTopics(const ros::NodeHandle& node, ros::CallbackQueue& queue,
       boost::make_shared<Errand>([parts = parts_.get()] { parts->OnConnection(true); }));
 }
 
-ViewTopics::~ViewTopics() = default;
+RosCameraTopics::~RosCameraTopics() = default;
 
-std::map<std::string, std::string> ViewTopics::TypesByTopic() const {
+std::map<std::string, std::string> RosCameraTopics::TypesByTopic() const {
   std::map<std::string, std::string> types;
   ros::V_string topics;
   ros::this_node::getAdvertisedTopics(topics);
@@ -128,7 +128,7 @@ std::map<std::string, std::string> ViewTopics::TypesByTopic() const {
   return types;
 }
 
-void ViewTopics::Publish(const ViewPicture& picture) {
+void RosCameraTopics::Publish(const RosImage& picture) {
   Parts& parts = *parts_;
   // Frames with an equal time are known, and tf2 warns when it receives them again.
   const bool frame_is_due = parts.frame_is_due.exchange(false);

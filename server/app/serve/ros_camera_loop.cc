@@ -1,4 +1,4 @@
-#include "server/app/serve/view_loop.h"
+#include "server/app/serve/ros_camera_loop.h"
 
 #include <spdlog/spdlog.h>
 
@@ -28,15 +28,16 @@ Pinhole PinholeOf(const render::Camera& camera, int height_px) {
   return pinhole;
 }
 
-ViewLoop::ViewLoop(const ViewSettings& settings, std::shared_ptr<const SceneState> first, Send send)
+RosCameraLoop::RosCameraLoop(const RosCameraSettings& settings,
+                             std::shared_ptr<const SceneState> first, Send send)
     : settings_(settings),
       send_(std::move(send)),
       state_(std::move(first)),
       camera_(settings.camera, CameraOptions()) {
-  thread_ = std::thread(&ViewLoop::Run, this);
+  thread_ = std::thread(&RosCameraLoop::Run, this);
 }
 
-ViewLoop::~ViewLoop() {
+RosCameraLoop::~RosCameraLoop() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stop_ = true;
@@ -47,7 +48,7 @@ ViewLoop::~ViewLoop() {
   thread_.join();
 }
 
-void ViewLoop::OnState(std::shared_ptr<const SceneState> state) {
+void RosCameraLoop::OnState(std::shared_ptr<const SceneState> state) {
   bool wake = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -58,7 +59,7 @@ void ViewLoop::OnState(std::shared_ptr<const SceneState> state) {
   if (wake) wake_.notify_one();
 }
 
-void ViewLoop::SetListeners(int count) {
+void RosCameraLoop::SetListeners(int count) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (count > status_.listeners) is_due_ = true;
@@ -67,12 +68,12 @@ void ViewLoop::SetListeners(int count) {
   wake_.notify_one();
 }
 
-ViewStatus ViewLoop::status() const {
+RosCameraStatus RosCameraLoop::status() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return status_;
 }
 
-void ViewLoop::Draw(const SceneState& state) {
+void RosCameraLoop::Draw(const SceneState& state) {
   const auto start = Clock::now();
   if (!renderer_) {
     renderer_ = StartRenderer(settings_.backend, {*settings_.backend.backend, ""},
@@ -91,7 +92,7 @@ void ViewLoop::Draw(const SceneState& state) {
 }
 
 // On the watchdog's thread. Robots need what else the process does: it goes on without the view.
-void ViewLoop::OnHang(const std::string& what) {
+void RosCameraLoop::OnHang(const std::string& what) {
   spdlog::error("view: {}", what);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stop_) render::EndProcess(what);
@@ -99,7 +100,7 @@ void ViewLoop::OnHang(const std::string& what) {
   status_.last_error = what;
 }
 
-void ViewLoop::Run() {
+void RosCameraLoop::Run() {
   const auto period = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(1.0 / settings_.rate_hz));
   Clock::time_point next = Clock::now();

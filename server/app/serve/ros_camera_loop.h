@@ -15,12 +15,12 @@
 #include "core/scene_state.h"
 #include "render/renderer.h"
 #include "server/picture/backend.h"
-#include "server/picture/camera_man.h"
+#include "server/picture/camera_controller.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::app {
 
-struct ViewSettings {
+struct RosCameraSettings {
   CameraChoice camera = {"three_quarter", std::nullopt, false};
   int width = 1280;
   int height = 720;
@@ -28,7 +28,7 @@ struct ViewSettings {
   BackendOptions backend = {};  // the back-end of this process; not "auto"
 };
 
-struct ViewStatus {
+struct RosCameraStatus {
   int listeners = 0;
   std::uint64_t drawn = 0;
   double draw_millis = 0;  // of the last one, rendered, read back and sent
@@ -44,32 +44,33 @@ struct Pinhole {
 };
 Pinhole PinholeOf(const render::Camera& camera, int height_px);
 
-class ViewLoop {
+class RosCameraLoop {
  public:
-  using Send = std::function<void(const ros_bridge::ViewPicture&)>;
+  using Send = std::function<void(const ros_bridge::RosImage&)>;
 
   /// `send` receives every picture, on the rendering thread.
   /// @throws UsageError for an unknown camera.
-  ViewLoop(const ViewSettings& settings, std::shared_ptr<const SceneState> first, Send send);
+  RosCameraLoop(const RosCameraSettings& settings, std::shared_ptr<const SceneState> first,
+                Send send);
   /// Ends the process (exit code 2) if the driver does not respond, because the thread cannot be
   /// joined then.
-  ~ViewLoop();
-  ViewLoop(const ViewLoop&) = delete;
-  ViewLoop& operator=(const ViewLoop&) = delete;
+  ~RosCameraLoop();
+  RosCameraLoop(const RosCameraLoop&) = delete;
+  RosCameraLoop& operator=(const RosCameraLoop&) = delete;
 
   // Any thread; these functions never wait for rendering.
   void OnState(std::shared_ptr<const SceneState> state);
   /// Sets the number of subscribers. A new subscriber receives a picture at once, even if the scene
   /// does not change.
   void SetListeners(int count);
-  ViewStatus status() const;
+  RosCameraStatus status() const;
 
  private:
   void Run();
   void Draw(const SceneState& state);
   void OnHang(const std::string& what);
 
-  const ViewSettings settings_;
+  const RosCameraSettings settings_;
   const Send send_;
 
   mutable std::mutex mutex_;
@@ -78,10 +79,10 @@ class ViewLoop {
   std::shared_ptr<const SceneState> state_;
   bool is_due_ = false;  // the newest state, or a new subscriber, has no picture yet
   bool stop_ = false;
-  ViewStatus status_;
+  RosCameraStatus status_;
   // Used by the rendering thread only:
   std::unique_ptr<render::Renderer> renderer_;  // null before the first subscriber
-  CameraMan camera_;
+  CameraController camera_;
   render::Image image_;
 
   std::thread thread_;  // last: it uses all other members

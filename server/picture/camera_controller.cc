@@ -1,4 +1,4 @@
-#include "server/picture/camera_man.h"
+#include "server/picture/camera_controller.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ double SecsBetween(std::int64_t from_nanos, std::int64_t to_nanos) {
 
 }  // namespace
 
-CameraMan::CameraMan(const CameraChoice& camera, const CameraOptions& options)
+CameraController::CameraController(const CameraChoice& camera, const CameraOptions& options)
     : camera_(camera.text),
       place_(camera.place),
       is_orthographic_(*options.projection),
@@ -37,12 +37,12 @@ CameraMan::CameraMan(const CameraChoice& camera, const CameraOptions& options)
   }
 }
 
-std::string CameraMan::name() const {
+std::string CameraController::name() const {
   if (place_) return "";
   return keys_.empty() ? camera_ : std::filesystem::path(camera_).filename().string();
 }
 
-void CameraMan::Survey(const SceneState& state) {
+void CameraController::Survey(const SceneState& state) {
   if (!survey_start_nanos_) survey_start_nanos_ = state.stamp_nanos;
   clip_secs_ = std::max(clip_secs_, SecsBetween(*survey_start_nanos_, state.stamp_nanos));
   const Eigen::AlignedBox3d box = render::BoxOf(state);
@@ -50,8 +50,8 @@ void CameraMan::Survey(const SceneState& state) {
 }
 
 // Where it stands but for orbit and frame.
-render::Camera CameraMan::Placed(const SceneState& state, const render::Whereabouts& ground,
-                                 double secs) const {
+render::Camera CameraController::Placed(const SceneState& state, const render::Whereabouts& ground,
+                                        double secs) const {
   if (!keys_.empty()) {
     std::vector<render::CameraKey> keys;
     for (const CameraKeySpec& spec : keys_) {
@@ -72,8 +72,8 @@ render::Camera CameraMan::Placed(const SceneState& state, const render::Whereabo
 }
 
 // With lens, turn and frame, which are the same for all.
-render::Camera CameraMan::Finished(render::Camera camera, const SceneState& state, double secs,
-                                   double aspect) const {
+render::Camera CameraController::Finished(render::Camera camera, const SceneState& state,
+                                          double secs, double aspect) const {
   if (fov_rad_ && IsNamed()) camera = render::WithFov(camera, *fov_rad_);
   if (is_orthographic_) camera = render::Orthographic(camera);
   const double turn_rate =
@@ -87,14 +87,14 @@ render::Camera CameraMan::Finished(render::Camera camera, const SceneState& stat
   return IsNamed() ? render::ForAspect(camera, aspect) : camera;
 }
 
-double CameraMan::SecsOf(const SceneState& state) {
+double CameraController::SecsOf(const SceneState& state) {
   if (!start_nanos_ && state.stamp_nanos != 0) start_nanos_ = state.stamp_nanos;
   return start_nanos_ ? std::max(0.0, SecsBetween(*start_nanos_, state.stamp_nanos)) : 0;
 }
 
 // A first-order lag: of the way to go, the share 1 - exp(-dt / lag) is gone in dt, however often
 // it is asked.
-const render::Whereabouts& CameraMan::Follow(const SceneState& state, double secs) {
+const render::Whereabouts& CameraController::Follow(const SceneState& state, double secs) {
   const render::Whereabouts now = render::WhereaboutsOf(state);
   if (!has_met_) {
     has_met_ = !state.people.empty();
@@ -110,7 +110,7 @@ const render::Whereabouts& CameraMan::Follow(const SceneState& state, double sec
   return followed_;
 }
 
-render::Camera CameraMan::Aim(const SceneState& state, double aspect) {
+render::Camera CameraController::Aim(const SceneState& state, double aspect) {
   const double secs = SecsOf(state);
   const render::Whereabouts& ground = follow_secs_ ? Follow(state, secs) : steady_.Follow(state);
   render::Camera camera = Placed(state, ground, secs);
@@ -122,7 +122,7 @@ render::Camera CameraMan::Aim(const SceneState& state, double aspect) {
   return Finished(camera, state, secs, aspect);
 }
 
-render::Camera CameraMan::Only(const SceneState& state, double secs, double aspect) const {
+render::Camera CameraController::Only(const SceneState& state, double secs, double aspect) const {
   return Finished(Placed(state, render::WhereaboutsOf(state), secs), state, secs, aspect);
 }
 

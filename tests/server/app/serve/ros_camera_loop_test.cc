@@ -1,6 +1,6 @@
 // What ROS sees: the picture of the state, by the camera that goes out with it, while somebody
 // listens.
-#include "server/app/serve/view_loop.h"
+#include "server/app/serve/ros_camera_loop.h"
 
 #include <gtest/gtest.h>
 
@@ -33,8 +33,8 @@ struct Taken {
 
 class Album {
  public:
-  ViewLoop::Send Send() {
-    return [this](const ros_bridge::ViewPicture& picture) {
+  RosCameraLoop::Send Send() {
+    return [this](const ros_bridge::RosImage& picture) {
       const std::lock_guard<std::mutex> lock(mutex_);
       taken_.push_back({picture.rgba, picture.stamp_nanos});
       changed_.notify_all();
@@ -58,12 +58,12 @@ class Album {
   std::vector<Taken> taken_;
 };
 
-const ViewSettings kSmall{ParseCamera("front"), 96, 64, 240, {}};
+const RosCameraSettings kSmall{ParseCamera("front"), 96, 64, 240, {}};
 
-TEST(ViewLoop, ShowsWhatARendererShowsOfThatStateByThatCamera) {
+TEST(RosCameraLoop, ShowsWhatARendererShowsOfThatStateByThatCamera) {
   const auto state = SceneAt(7);
   Album album;
-  ViewLoop loop(kSmall, state, album.Send());
+  RosCameraLoop loop(kSmall, state, album.Send());
   loop.SetListeners(1);
   const Taken taken = album.Newest(1);
   EXPECT_EQ(taken.stamp_nanos, 7);
@@ -72,9 +72,9 @@ TEST(ViewLoop, ShowsWhatARendererShowsOfThatStateByThatCamera) {
   EXPECT_TRUE(taken.rgba == alone.rgba) << "not the same bytes";
 }
 
-TEST(ViewLoop, DrawsOnlyWhileSomebodyListensAndAtOnceForWhoeverComes) {
+TEST(RosCameraLoop, DrawsOnlyWhileSomebodyListensAndAtOnceForWhoeverComes) {
   Album album;
-  ViewLoop loop(kSmall, SceneAt(1), album.Send());
+  RosCameraLoop loop(kSmall, SceneAt(1), album.Send());
   for (std::int64_t stamp = 2; stamp < 50; ++stamp) loop.OnState(SceneAt(stamp));
   EXPECT_EQ(loop.status().drawn, 0u);
   loop.SetListeners(1);
@@ -91,7 +91,7 @@ TEST(ViewLoop, DrawsOnlyWhileSomebodyListensAndAtOnceForWhoeverComes) {
 
 // K and the frame that go out put every point of the world where the renderer draws it: pixel 0 has
 // its centre at 0 for ROS and half a pixel from the edge for us.
-TEST(ViewLoop, ThePinholeSeesWhatTheCameraSees) {
+TEST(RosCameraLoop, ThePinholeSeesWhatTheCameraSees) {
   constexpr int kWidth = 640, kHeight = 360;
   for (const std::string& name : render::CameraNames()) {
     const render::Camera camera = render::NamedCamera(name, *SceneAt(1));

@@ -15,11 +15,11 @@
 
 namespace kinescope::app {
 
-class CameraMan {
+class CameraController {
  public:
   /// @throws UsageError naming the file of keys and what is wrong in it, or options that do not fit
   /// together.
-  CameraMan(const CameraChoice& camera, const CameraOptions& options);
+  CameraController(const CameraChoice& camera, const CameraOptions& options);
 
   /// Whether Aim needs to know the whole clip before its first picture.
   bool needs_survey() const { return fit_ == Fit::kClip || is_one_turn_; }
