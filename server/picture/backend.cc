@@ -87,9 +87,15 @@ std::unique_ptr<render::Renderer> StartRenderer(const BackendOptions& options,
 }
 
 std::unique_ptr<render::Renderer> StartRenderer(const BackendOptions& options) {
+  return RenderersOf(options)(nullptr);
+}
+
+RendererFactory RenderersOf(const BackendOptions& options) {
   const BackendChoice choice = ChooseBackend(options);
   if (!choice.note.empty()) spdlog::warn("pictures: {}", choice.note);
-  return StartRenderer(options, choice);
+  return [options, choice](std::function<void(const std::string&)> on_hang) {
+    return StartRenderer(options, choice, std::move(on_hang));
+  };
 }
 
 std::map<std::string, std::string> DrawnBy(const render::Renderer& renderer) {

@@ -48,6 +48,15 @@ std::unique_ptr<render::Renderer> StartRenderer(
 /// Chooses and starts a back-end; the note is logged once.
 std::unique_ptr<render::Renderer> StartRenderer(const BackendOptions& options);
 
+/// Makes a renderer that belongs to the calling thread and reports a driver that does not respond
+/// to `on_hang`, on another thread. @throws render::RenderError, UsageError.
+using RendererFactory = std::function<std::unique_ptr<render::Renderer>(
+    std::function<void(const std::string&)> on_hang)>;
+
+/// Chooses a back-end now, for all renderers of the process; the note is logged once.
+/// @throws as ChooseBackend.
+RendererFactory RenderersOf(const BackendOptions& options);
+
 /// For the metadata of a picture: "Renderer", "Backend" and, if there is one, "Backend note".
 std::map<std::string, std::string> DrawnBy(const render::Renderer& renderer);
 

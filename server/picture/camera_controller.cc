@@ -87,8 +87,12 @@ render::Camera CameraController::Finished(render::Camera camera, const SceneStat
   return IsNamed() ? render::ForAspect(camera, aspect) : camera;
 }
 
-double CameraController::SecsOf(const SceneState& state) {
+void CameraController::StartTime(const SceneState& state) {
   if (!start_nanos_ && state.stamp_nanos != 0) start_nanos_ = state.stamp_nanos;
+}
+
+double CameraController::SecsOf(const SceneState& state) {
+  StartTime(state);
   return start_nanos_ ? std::max(0.0, SecsBetween(*start_nanos_, state.stamp_nanos)) : 0;
 }
 

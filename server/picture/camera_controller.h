@@ -26,7 +26,11 @@ class CameraController {
   /// Once for every scene of the clip, in order, before the first Aim.
   void Survey(const SceneState& state);
 
-  /// Once per picture, in order. Time is that of the states' stamps, from the first one on.
+  /// Time begins with the first state that has a stamp and was passed to this function or to Aim.
+  /// Call it for every state of a live source, so that time runs while no pictures are taken.
+  void StartTime(const SceneState& state);
+
+  /// Once per picture, in order. Time is that of the states' stamps.
   /// @param aspect width / height of the picture
   render::Camera Aim(const SceneState& state, double aspect);
 

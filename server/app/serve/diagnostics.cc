@@ -63,8 +63,8 @@ json LoadsOf(const SceneState& state) {
 std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
-                            const std::optional<PictureStatus>& pictures,
-                            const std::optional<RosCameraStatus>& view) {
+                            const std::optional<DrawingStatus>& pictures,
+                            const std::optional<DrawingStatus>& view) {
   json out;
   out["version"] = KINESCOPE_VERSION;
   if (state) {
@@ -107,17 +107,16 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                        {"driver_hung", pictures->hangs},
                        {"drawn", pictures->drawn},
                        {"draw_millis", pictures->draw_millis},
-                       {"encode_millis", pictures->encode_millis},
+                       {"encode_millis", pictures->deliver_millis},
                        {"last_error", pictures->last_error},
                        {"problems", pictures->problems}};
   }
   out["view"] = nullptr;
   if (view) {
-    out["view"] = {{"listeners", view->listeners},
-                   {"drawn", view->drawn},
-                   {"draw_millis", view->draw_millis},
-                   {"last_error", view->last_error},
-                   {"driver_hung", view->hangs}};
+    out["view"] = {{"listeners", view->viewers},       {"drawn", view->drawn},
+                   {"draw_millis", view->draw_millis}, {"send_millis", view->deliver_millis},
+                   {"last_error", view->last_error},   {"driver_hung", view->hangs},
+                   {"problems", view->problems}};
   }
   // A file name need not be UTF-8.
   return JsonText(out);

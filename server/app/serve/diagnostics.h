@@ -8,8 +8,7 @@
 
 #include "core/scene_state.h"
 #include "core/source.h"
-#include "server/app/serve/picture_loop.h"
-#include "server/app/serve/ros_camera_loop.h"
+#include "server/picture/drawing_loop.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::app {
@@ -18,7 +17,7 @@ namespace kinescope::app {
 std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
-                            const std::optional<PictureStatus>& pictures,
-                            const std::optional<RosCameraStatus>& view = {});
+                            const std::optional<DrawingStatus>& pictures,
+                            const std::optional<DrawingStatus>& view = {});
 
 }  // namespace kinescope::app

@@ -17,7 +17,7 @@
 #include "core/stop_signal.h"
 #include "server/app/commands.h"
 #include "server/app/serve/diagnostics.h"
-#include "server/app/serve/picture_loop.h"
+#include "server/app/serve/live_pictures.h"
 #include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/serve_options.h"
 #include "server/app/serve/told_loads.h"
@@ -115,11 +115,11 @@ http::HttpConfig ToHttpConfig(const ServeOptions& options) {
   return config;
 }
 
-PictureOptions ToPictureOptions(const ServeOptions& options) {
-  PictureOptions pictures;
-  pictures.camera = options.camera->front();
+LivePictureSettings ToLivePictureSettings(const ServeOptions& options) {
+  LivePictureSettings pictures;
   pictures.moves = options.camera_moves;
-  if (CameraController(pictures.camera, pictures.moves).needs_survey()) {
+  pictures.camera = CameraController(options.camera->front(), pictures.moves);
+  if (pictures.camera.needs_survey()) {
     throw UsageError(
         "--orbit=turn and --fit=clip need a clip that ends; a live picture takes degrees per "
         "second, "
@@ -128,17 +128,16 @@ PictureOptions ToPictureOptions(const ServeOptions& options) {
   pictures.width = options.picture_size->width;
   pictures.height = options.picture_size->height;
   pictures.rate_hz = *options.picture_rate_hz;
-  pictures.backend = options.backend;
   return pictures;
 }
 
 RosCameraSettings ToViewSettings(const ServeOptions& options) {
   RosCameraSettings view;
-  view.camera = options.view_camera ? (*options.view_camera).front() : options.camera->front();
+  view.camera = CameraController(
+      options.view_camera ? (*options.view_camera).front() : options.camera->front(), {});
   view.width = options.view_size->width;
   view.height = options.view_size->height;
   view.rate_hz = *options.view_rate_hz;
-  view.backend = options.backend;
   return view;
 }
 
@@ -153,8 +152,8 @@ bool WantsView(const ServeOptions& options, bool with_page) {
 // Everything that can be wrong with the options is found before anything starts, also in parts that
 // are off.
 void CheckServeOptions(const ServeOptions& options) {
-  ToPictureOptions(options);
-  CameraController(ToViewSettings(options).camera, {});
+  ToLivePictureSettings(options);
+  ToViewSettings(options);
 }
 
 void Serve(const ServeOptions& options, bool with_page) {
@@ -185,7 +184,7 @@ void Serve(const ServeOptions& options, bool with_page) {
   Latest<SceneState> states;       // reading thread -> page
   Latest<http::Picture> pictures;  // drawing thread -> page
   ToldLoads told;                  // page -> reading thread
-  std::unique_ptr<PictureLoop> drawing;
+  std::unique_ptr<LivePictures> drawing;
   std::unique_ptr<ros_bridge::RosBridge> ros;
   std::unique_ptr<RosCameraLoop> view;
   Announcer announcer;
@@ -217,16 +216,16 @@ void Serve(const ServeOptions& options, bool with_page) {
   };
   if (with_page) {
     if (*options.pictures) {
-      drawing = std::make_unique<PictureLoop>(ToPictureOptions(options), states.Get(), pictures);
+      const RendererFactory make_renderer = RenderersOf(options.backend);
+      drawing = std::make_unique<LivePictures>(ToLivePictureSettings(options), make_renderer,
+                                               states.Get(), pictures);
       spdlog::info("first picture {:.2f} s after start, rendered by {}",
                    Secs(MonotonicNanos() - start_nanos), drawing->status().renderer.renderer);
-    }
-    if (ros && bridge_config.with_view) {
-      RosCameraSettings settings = ToViewSettings(options);
-      settings.backend.backend = drawing->status().renderer.backend;
-      view = std::make_unique<RosCameraLoop>(
-          settings, states.Get(),
-          [&](const ros_bridge::RosImage& picture) { ros->PublishView(picture); });
+      if (ros && bridge_config.with_view) {
+        view = std::make_unique<RosCameraLoop>(
+            ToViewSettings(options), make_renderer, states.Get(),
+            [&](const ros_bridge::RosImage& picture) { ros->PublishView(picture); });
+      }
     }
     http::HttpConfig config = ToHttpConfig(options);
     config.set_hand_load = [&](int character, const HandLoad& load) {

@@ -42,7 +42,7 @@ void InputsFirst::OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>
 }
 
 void InputsFirst::OnViewListeners(int count) {
-  if (view_ != nullptr) view_->SetListeners(count);
+  if (view_ != nullptr) view_->SetSubscribers(count);
 }
 
 }  // namespace kinescope::app

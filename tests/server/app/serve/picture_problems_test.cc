@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/app/serve/diagnostics.h"
-#include "server/app/serve/picture_loop.h"
+#include "server/app/serve/live_pictures.h"
 #include "server/http/server.h"
 #include "tests/server/http/test_client.h"
 #include "urdf/robot_kinematics.h"
@@ -41,7 +41,8 @@ class PictureProblems : public ::testing::Test {
  protected:
   PictureProblems()
       : first_(std::make_shared<const SceneState>(Scene())),
-        drawing_({ParseCamera("front"), 64, 64, 30, {}, {}}, first_, pictures_),
+        drawing_({CameraController(ParseCamera("front"), {}), {}, 64, 64, 30}, RenderersOf({}),
+                 first_, pictures_),
         server_(Config(), states_, pictures_, &drawing_,
                 [this] { return DiagnosticsJson(first_, nullptr, {}, drawing_.status()); }) {}
 
@@ -64,7 +65,7 @@ class PictureProblems : public ::testing::Test {
   Latest<SceneState> states_;
   Latest<http::Picture> pictures_;
   std::shared_ptr<const SceneState> first_;
-  PictureLoop drawing_;
+  LivePictures drawing_;
   http::HttpServer server_;
 };
 

@@ -1,0 +1,57 @@
+/// Renders the pictures of the page: the live picture as JPEG, while it has viewers, and snapshots
+/// as PNG. A camera that a viewer selects keeps the camera options of the live picture. A snapshot
+/// without a camera is taken by the camera of the live picture; a named camera has no options.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/latest.h"
+#include "core/scene_state.h"
+#include "server/http/server.h"
+#include "server/picture/backend.h"
+#include "server/picture/camera_controller.h"
+#include "server/picture/camera_options.h"
+#include "server/picture/drawing_loop.h"
+
+namespace kinescope::app {
+
+struct LivePictureSettings {
+  CameraController camera{{"three_quarter", std::nullopt, false}, {}};  // until one is selected
+  CameraOptions moves;  // of `camera` and of those that viewers select
+  int width = 1280;
+  int height = 720;
+  double rate_hz = 30;  // maximum frame rate
+};
+
+class LivePictures : public http::PictureFeed {
+ public:
+  /// Returns when the first picture (of `first`) is published.
+  /// @throws what the renderer throws. Ends the process (exit code 2) if the driver does not
+  /// respond.
+  LivePictures(const LivePictureSettings& settings, RendererFactory make_renderer,
+               const std::shared_ptr<const SceneState>& first, Latest<http::Picture>& pictures);
+
+  /// Any thread; never waits for rendering.
+  void OnState(std::shared_ptr<const SceneState> state) { loop_.OnState(std::move(state)); }
+
+  void SetViewers(int count) override { loop_.SetViewers(count); }
+  [[nodiscard]] bool SetCamera(const std::string& camera) override;
+  std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width, int height) override;
+
+  DrawingStatus status() const { return loop_.status(); }
+
+ private:
+  void Publish(const render::Image& image, const SceneState& state);
+
+  const CameraOptions moves_;
+  Latest<http::Picture>& pictures_;
+  std::string camera_;  // name of the live picture's; used by the thread that calls SetCamera
+  DrawingLoop loop_;    // last: it uses all other members
+};
+
+}  // namespace kinescope::app

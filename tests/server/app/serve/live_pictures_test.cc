@@ -1,0 +1,167 @@
+// What the page receives: small pictures of a real renderer. When they are drawn is tested in
+// drawing_loop_test.cc; here, the next one is due at once.
+#include "server/app/serve/live_pictures.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "core/errors.h"
+#include "render/png_file.h"
+#include "tests/render/test_scene.h"
+
+namespace kinescope::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr std::chrono::seconds kPicturePatience{30};  // only a failure takes so long
+constexpr double kAtOnceHz = 1e6;
+
+std::shared_ptr<const SceneState> NumberedScene(std::uint64_t number) {
+  static const SceneState standing = testing::SceneWith(testing::Posture::kStanding);
+  auto scene = std::make_shared<SceneState>(standing);
+  scene->number = number;
+  scene->arrival_nanos = static_cast<std::int64_t>(100 * number);
+  return scene;
+}
+
+class LivePicturesTest : public ::testing::Test {
+ protected:
+  void Start(const std::string& camera = "front", const CameraOptions& moves = CameraOptions()) {
+    LivePictureSettings settings;
+    settings.moves = moves;
+    settings.camera = CameraController(ParseCamera(camera), moves);
+    settings.width = 96;
+    settings.height = 64;
+    settings.rate_hz = kAtOnceHz;
+    live_.emplace(settings, RenderersOf({}), NumberedScene(1), pictures_);
+  }
+
+  // The next live picture that has not been asked for yet.
+  std::shared_ptr<const http::Picture> Next() {
+    auto picture = pictures_.WaitNewer(seen_, kPicturePatience);
+    EXPECT_TRUE(picture) << "no picture came";
+    return picture ? picture : std::make_shared<const http::Picture>();
+  }
+
+  Latest<http::Picture> pictures_;
+  std::uint64_t seen_ = 0;
+  std::optional<LivePictures> live_;
+};
+
+TEST_F(LivePicturesTest, TheFirstPictureIsThereBeforeAnybodyLooks) {
+  Start();
+  const auto picture = pictures_.Get();
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->state_number, 1u);
+  EXPECT_EQ(picture->arrival_nanos, 100);
+  ASSERT_GT(picture->jpeg.size(), 100u);
+  EXPECT_EQ(picture->jpeg[0], 0xFF);
+  EXPECT_EQ(picture->jpeg[1], 0xD8);
+  const DrawingStatus status = live_->status();
+  EXPECT_EQ(status.drawn, 1u);
+  EXPECT_EQ(status.last_error, "");
+  EXPECT_EQ(status.renderer.backend, "osmesa");
+}
+
+TEST_F(LivePicturesTest, ANewViewerSeesTheNewestState) {
+  Start();
+  Next();
+  for (std::uint64_t number = 2; number < 20; ++number) live_->OnState(NumberedScene(number));
+  live_->SetViewers(1);
+  EXPECT_EQ(Next()->state_number, 19u) << "the newest, and none of those before";
+}
+
+TEST_F(LivePicturesTest, AnotherCameraIsAnotherPictureOfTheSameState) {
+  Start("top");
+  const auto from_top = Next()->jpeg;
+  live_.reset();
+  Start();
+  const auto from_front = Next()->jpeg;
+  ASSERT_NE(from_front, from_top);
+  live_->SetViewers(1);
+  EXPECT_EQ(Next()->jpeg, from_front);
+  EXPECT_TRUE(live_->SetCamera("top"));
+  EXPECT_EQ(Next()->jpeg, from_top);
+  EXPECT_FALSE(live_->SetCamera("upside_down"));
+  live_->OnState(NumberedScene(1));
+  EXPECT_EQ(Next()->jpeg, from_top) << "it stays where it was";
+}
+
+// Width and height as they stand in the header of a PNG.
+std::pair<int, int> SizeOfPng(const std::vector<std::uint8_t>& png) {
+  if (png.size() < 24 || png[1] != 'P' || png[2] != 'N' || png[3] != 'G') return {};
+  const auto number = [&](std::size_t at) {
+    return png[at] << 24 | png[at + 1] << 16 | png[at + 2] << 8 | png[at + 3];
+  };
+  return {number(16), number(20)};
+}
+
+TEST_F(LivePicturesTest, ASnapshotHasItsOwnSizeAndCameraAndLeavesTheLivePictureAlone) {
+  Start();
+  const auto live = Next()->jpeg;
+  const auto front = live_->SnapshotPng("front", 64, 48);
+  const auto top = live_->SnapshotPng("top", 64, 48);
+  EXPECT_EQ(SizeOfPng(front), std::pair(64, 48));
+  EXPECT_NE(front, top);
+  EXPECT_EQ(SizeOfPng(live_->SnapshotPng("top", 80, 20)), std::pair(80, 20));
+  EXPECT_EQ(live_->SnapshotPng("top", 64, 48), top) << "the same every time";
+  live_->SetViewers(1);
+  EXPECT_EQ(Next()->jpeg, live);
+}
+
+TEST_F(LivePicturesTest, ASnapshotWithoutACameraIsByTheLivePictures) {
+  Start();
+  EXPECT_EQ(live_->SnapshotPng("", 64, 48), live_->SnapshotPng("front", 64, 48));
+  EXPECT_TRUE(live_->SetCamera("top"));
+  EXPECT_EQ(live_->SnapshotPng("", 64, 48), live_->SnapshotPng("top", 64, 48));
+}
+
+TEST_F(LivePicturesTest, ASnapshotShowsTheNewestState) {
+  Start();
+  const auto standing = live_->SnapshotPng("front", 64, 48);
+  auto bent = std::make_shared<SceneState>(testing::SceneWith(testing::Posture::kDeepBend));
+  live_->OnState(bent);
+  EXPECT_NE(live_->SnapshotPng("front", 64, 48), standing);
+}
+
+TEST_F(LivePicturesTest, ASnapshotThatCannotBeIsAnErrorOfItsOwnAndNoOnesElse) {
+  Start();
+  Next();
+  try {
+    live_->SnapshotPng("upside_down", 64, 48);
+    FAIL() << "a camera that does not exist";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("upside_down"));
+  }
+  EXPECT_EQ(live_->status().last_error, "");
+  EXPECT_EQ(SizeOfPng(live_->SnapshotPng("front", 64, 48)), std::pair(64, 48));
+  live_->SetViewers(1);
+  EXPECT_EQ(Next()->state_number, 1u);
+}
+
+// What the picture of a renderer alone looks like.
+std::vector<std::uint8_t> PngBy(const std::string& camera, const CameraOptions& moves) {
+  const auto scene = NumberedScene(1);
+  CameraController controller(ParseCamera(camera), moves);
+  return render::EncodePng(render::MakeRenderer()->Render(*scene, controller.Aim(*scene, 64.0 / 48),
+                                                          {64, 48, 2, "", true}));
+}
+
+TEST_F(LivePicturesTest, ASnapshotWithoutACameraHasTheOptionsOfTheLivePicture) {
+  CameraOptions moves;
+  moves.projection = true;
+  moves.fit = Fit::kNow;
+  Start("left", moves);
+  EXPECT_EQ(live_->SnapshotPng("", 64, 48), PngBy("left", moves));
+  EXPECT_EQ(live_->SnapshotPng("left", 64, 48), PngBy("left", {})) << "a named one has none";
+  EXPECT_TRUE(live_->SetCamera("front"));
+  EXPECT_EQ(live_->SnapshotPng("", 64, 48), PngBy("front", moves)) << "they stay";
+}
+
+}  // namespace
+}  // namespace kinescope::app
