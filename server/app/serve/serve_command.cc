@@ -17,10 +17,11 @@
 #include "core/stop_signal.h"
 #include "server/app/commands.h"
 #include "server/app/serve/diagnostics.h"
+#include "server/app/serve/hand_load_mailbox.h"
+#include "server/app/serve/input_merger.h"
 #include "server/app/serve/live_pictures.h"
 #include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/serve_options.h"
-#include "server/app/serve/told_loads.h"
 #include "server/http/server.h"
 #include "server/loads/hand_loads.h"
 #include "server/options/option_list.h"
@@ -183,7 +184,7 @@ void Serve(const ServeOptions& options, bool with_page) {
 
   Latest<SceneState> states;       // reading thread -> page
   Latest<http::Picture> pictures;  // drawing thread -> page
-  ToldLoads told;                  // page -> reading thread
+  HandLoadMailbox hand_loads;      // page -> reading thread
   std::unique_ptr<LivePictures> drawing;
   std::unique_ptr<ros_bridge::RosBridge> ros;
   std::unique_ptr<RosCameraLoop> view;
@@ -229,7 +230,7 @@ void Serve(const ServeOptions& options, bool with_page) {
     }
     http::HttpConfig config = ToHttpConfig(options);
     config.set_hand_load = [&](int character, const HandLoad& load) {
-      return told.Tell(character, load);
+      return hand_loads.Put(character, load);
     };
     page.emplace(config, states, pictures, drawing.get(), diagnostics);
     spdlog::info("page at {}", page->url());
@@ -240,7 +241,9 @@ void Serve(const ServeOptions& options, bool with_page) {
     spdlog::info("listening at {}, receive buffer {:.1f} MB", source->description(),
                  static_cast<double>(buffer->second) * 1e-6);
   }
-  InputsFirst sink(builder, told, ros.get(), view.get());
+  InputMerger sink(builder, hand_loads, ros.get(), [&](int count) {
+    if (view) view->SetSubscribers(count);
+  });
   UselessStreamWatch useless_stream;
   std::int64_t counters_due = 0;
   while (!StopRequested()) {

@@ -1,4 +1,4 @@
-#include "server/app/serve/told_loads.h"
+#include "server/app/serve/input_merger.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ class Wired {
   explicit Wired(ros_bridge::RosBridge* ros = nullptr)
       : builder({}, "test", 0,
                 [this](std::shared_ptr<const SceneState> state) { last = std::move(state); }),
-        sink(builder, told, ros) {}
+        sink(builder, hand_loads, ros, [this](int count) { subscribers = count; }) {}
 
   // A second of samples: longer than ramps and dwell times.
   const SceneState& RunOneSecond(const std::vector<int>& characters = {0}) {
@@ -54,17 +54,18 @@ class Wired {
   }
 
   std::shared_ptr<const SceneState> last;
-  ToldLoads told;
+  HandLoadMailbox hand_loads;
   SceneBuilder builder;
-  InputsFirst sink;
+  InputMerger sink;
+  int subscribers = 0;  // of the ROS camera
   double now = 0;
 };
 
-TEST(ToldLoads, ReachTheShoulderWithTheNextSamples) {
+TEST(HandLoads, ReachTheShoulderWithTheNextSamples) {
   Wired wired;
   wired.RunOneSecond();
   EXPECT_EQ(LoadOf(wired.last->people[0], urdf::jRightShoulder).load_class, LoadClass::kLow);
-  EXPECT_EQ(wired.told.Tell(0, InRightHand(2)), "");
+  EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(2)), "");
   const PersonState& person = wired.RunOneSecond().people[0];
   EXPECT_EQ(LoadOf(person, urdf::jRightShoulder).load_class, LoadClass::kMedium);
   EXPECT_EQ(LoadOf(person, urdf::jLeftShoulder).load_class, LoadClass::kLow);
@@ -72,20 +73,20 @@ TEST(ToldLoads, ReachTheShoulderWithTheNextSamples) {
   EXPECT_EQ(person.forces.stated_hand_load.alone_kg[kRight], 2);
 }
 
-TEST(ToldLoads, AreThoseOfOnePerson) {
+TEST(HandLoads, AreThoseOfOnePerson) {
   Wired wired;
-  EXPECT_EQ(wired.told.Tell(1, InRightHand(3)), "");
+  EXPECT_EQ(wired.hand_loads.Put(1, InRightHand(3)), "");
   const SceneState& scene = wired.RunOneSecond({0, 1});
   ASSERT_EQ(scene.people.size(), 2u);
   EXPECT_EQ(scene.people[0].forces.hands[kRight].mass_kg, 0);
   EXPECT_EQ(scene.people[1].forces.hands[kRight].mass_kg, 3);
 }
 
-TEST(ToldLoads, ThatNobodyCouldHoldChangeNothing) {
+TEST(HandLoads, ThatNobodyCouldHoldChangeNothing) {
   Wired wired;
-  EXPECT_EQ(wired.told.Tell(0, InRightHand(4)), "");
+  EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(4)), "");
   for (const double wrong : {500.0, -1.0, std::nan("")}) {
-    EXPECT_NE(wired.told.Tell(0, InRightHand(wrong)), "") << wrong;
+    EXPECT_NE(wired.hand_loads.Put(0, InRightHand(wrong)), "") << wrong;
   }
   EXPECT_EQ(wired.RunOneSecond().people[0].forces.hands[kRight].mass_kg, 4);
 }
@@ -99,12 +100,30 @@ class TellingBridge : public ros_bridge::RosBridge {
     if (measured) sink.OnMeasurements(0, *measured);
     if (load) sink.OnHandLoad(0, *load);
     if (markers) sink.OnMarkers(*std::exchange(markers, std::nullopt));
+    if (listeners) sink.OnViewListeners(*std::exchange(listeners, std::nullopt));
   }
   ros_bridge::BridgeStatus status() const override { return {}; }
   std::optional<Measurements> measured;
   std::optional<HandLoad> load;
   std::optional<std::vector<std::shared_ptr<const SceneMarker>>> markers;
+  std::optional<int> listeners;
 };
+
+TEST(InputMerger, AppliesAHandLoadOfRosBeforeTheSampleThatFollows) {
+  TellingBridge bridge;
+  Wired wired(&bridge);
+  bridge.load = InRightHand(2);
+  wired.sink.OnSample(TPose(1));
+  EXPECT_EQ(wired.last->people[0].forces.told.alone_kg[kRight], 2);
+}
+
+TEST(InputMerger, PassesOnTheSubscribersOfTheRosCameraAlsoWithoutSamples) {
+  TellingBridge bridge;
+  Wired wired(&bridge);
+  bridge.listeners = 3;
+  wired.sink.TakeInputs();
+  EXPECT_EQ(wired.subscribers, 3);
+}
 
 TEST(Markers, OfOtherProgramsStayInTheSceneAndAreSeenAtOnceWhileNobodyMoves) {
   TellingBridge bridge;
@@ -154,7 +173,7 @@ TEST(Measurements, OfAHandThatStopLeaveItUnknownUntilItsLoadIsTold) {
   const PersonState stopped = wired.RunOneSecond().people[0];
   EXPECT_EQ(LoadOf(stopped, urdf::jRightElbow).load_class, LoadClass::kUnknown);
   EXPECT_NE(LoadOf(stopped, urdf::jRightElbow).reason, "");
-  EXPECT_EQ(wired.told.Tell(0, InRightHand(0)), "");
+  EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(0)), "");
   const PersonState told = wired.RunOneSecond().people[0];
   EXPECT_EQ(LoadOf(told, urdf::jRightElbow).load_class, LoadClass::kLow)
       << LoadOf(told, urdf::jRightElbow).reason;
@@ -178,7 +197,7 @@ TEST(Measurements, OfTheCopAloneMoveItAndKeepTheForceOfTheMotion) {
 
 TEST(Exposure, OfARunIsInItsStates) {
   Wired wired;
-  EXPECT_EQ(wired.told.Tell(0, InRightHand(2)), "");
+  EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(2)), "");
   wired.RunOneSecond();
   const PersonState& person = wired.RunOneSecond().people[0];
   double sum = 0;
