@@ -136,13 +136,4 @@ void ServeOptions::List(options::OptionList& option) {
   option.Formerly("view_rate_hz");
 }
 
-ros_bridge::BridgeConfig ToBridgeConfig(const ServeOptions& options) {
-  ros_bridge::BridgeConfig config;
-  config.reference_frame = *options.reference_frame;
-  config.tf = *options.tf;
-  config.joint_states = *options.joint_states;
-  config.external_scale = *options.external_scale;
-  return config;
-}
-
 }  // namespace kinescope::app

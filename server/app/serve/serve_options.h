@@ -60,6 +60,4 @@ struct ServeOptions {
   void ListBridge(options::OptionList& option);
 };
 
-ros_bridge::BridgeConfig ToBridgeConfig(const ServeOptions& options);
-
 }  // namespace kinescope::app

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/clocks.h"
+#include "core/errors.h"
 #include "core/stop_signal.h"
 #include "render/new_file.h"
 #include "server/app/commands.h"

@@ -1,0 +1,122 @@
+#include "server/app/serve/serve_config.h"
+
+#include <fmt/format.h>
+
+#include "core/errors.h"
+#include "core/install_paths.h"
+#include "render/camera.h"
+#include "server/loads/hand_loads.h"
+#include "server/ros/graph_source.h"
+
+namespace kinescope::app {
+namespace {
+
+std::vector<http::CameraView> CameraViews() {
+  std::vector<http::CameraView> views;
+  for (const std::string& name : render::CameraNames()) {
+    const render::Camera camera = render::NamedCamera(name, SceneState{});
+    views.push_back({name, camera.position, camera.target, camera.up, camera.vertical_fov_rad});
+  }
+  return views;
+}
+
+http::CameraFraming FramingOfCameras() {
+  const render::GroupFraming& framing = render::kGroupFraming;
+  return {framing.min_width_m, framing.margin_m, framing.narrowest_aspect};
+}
+
+http::HttpConfig PageOf(const ServeOptions& options) {
+  http::HttpConfig config;
+  config.bind_ip = *options.bind_ip;
+  config.port = static_cast<int>(*options.http_port);
+  config.token = *options.token;
+  config.web_root = FindResource("web");
+  config.cameras = CameraViews();
+  config.framing = FramingOfCameras();
+  config.camera = options.camera->front().text;
+  return config;
+}
+
+LivePictureSettings LivePicturesOf(const ServeOptions& options) {
+  LivePictureSettings pictures;
+  pictures.moves = options.camera_moves;
+  pictures.camera = CameraController(options.camera->front(), pictures.moves);
+  if (pictures.camera.needs_survey()) {
+    throw UsageError(
+        "--orbit=turn and --fit=clip need a clip that ends; a live picture takes degrees per "
+        "second, and --fit=now");
+  }
+  pictures.width = options.picture_size->width;
+  pictures.height = options.picture_size->height;
+  pictures.rate_hz = *options.picture_rate_hz;
+  return pictures;
+}
+
+RosCameraSettings RosCameraOf(const ServeOptions& options) {
+  RosCameraSettings settings;
+  const CameraChoice& camera =
+      options.view_camera ? (*options.view_camera).front() : options.camera->front();
+  settings.camera = CameraController(camera, {});
+  settings.width = options.view_size->width;
+  settings.height = options.view_size->height;
+  settings.rate_hz = *options.view_rate_hz;
+  return settings;
+}
+
+ros_bridge::BridgeConfig BridgeOf(const ServeOptions& options) {
+  ros_bridge::BridgeConfig config;
+  config.reference_frame = *options.reference_frame;
+  config.tf = *options.tf;
+  config.joint_states = *options.joint_states;
+  config.external_scale = *options.external_scale;
+  config.check_hand_load = [](const HandLoad& load) { return loads::FindDefect(load); };
+  return config;
+}
+
+// Without its page and pictures.
+ServeConfig BridgeConfigOf(const ServeOptions& options) {
+  ServeConfig config;
+  config.source_url =
+      *options.udp_port == 0 ? *options.source : fmt::format("udp://:{}", *options.udp_port);
+  config.loop = *options.loop;
+  config.source.stream.stamps = *options.stamps;
+  config.scene = ToShownSceneOptions(options.person, options.loads, *options.stale_secs);
+  config.ros_mode = *options.ros;
+  if (config.ros_mode == ros_bridge::RosMode::kOff ||
+      (config.ros_mode == ros_bridge::RosMode::kAuto && !ros_bridge::BuiltWithRos())) {
+    return config;
+  }
+  config.ros = BridgeOf(options);
+  if (ros_bridge::IsGraphUrl(config.source_url) && config.ros->tf != "off") {
+    // The frames of these people are on /tf already. With a second publisher they would jump
+    // between two poses, and Kinescope would receive its own.
+    config.ros->tf = "off";
+    config.notes.push_back(fmt::format(
+        "TF frames of people from {} are not republished (as with --tf=off)", config.source_url));
+  }
+  return config;
+}
+
+}  // namespace
+
+ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
+  const LivePictureSettings pictures = LivePicturesOf(options);
+  const RosCameraSettings ros_camera = RosCameraOf(options);
+  ServeConfig config = BridgeConfigOf(options);
+  if (!with_page) return config;
+  config.page = PageOf(options);
+  config.backend = options.backend;
+  if (*options.pictures) config.pictures = pictures;
+  if (!config.ros) return config;
+  config.ros->markers = *options.markers;
+  if (!*options.view) return config;
+  if (!config.pictures) {
+    config.notes.emplace_back("~view/image_raw is off because --pictures is off");
+    return config;
+  }
+  config.ros->with_view = true;
+  config.ros_camera = ros_camera;
+  return config;
+}
+
+}  // namespace kinescope::app

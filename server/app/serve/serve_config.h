@@ -1,0 +1,39 @@
+/// The configuration of a running `serve` or `bridge`: the options as values that its parts take.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/app/serve/live_pictures.h"
+#include "server/app/serve/ros_camera_loop.h"
+#include "server/app/serve/serve_options.h"
+#include "server/http/server.h"
+#include "server/picture/backend.h"
+#include "server/ros/bridge.h"
+#include "server/scene/scene_builder.h"
+#include "server/source/open_source.h"
+
+namespace kinescope::app {
+
+/// nullopt: that part is off.
+struct ServeConfig {
+  std::string source_url;
+  bool loop = false;
+  SourceSettings source;
+  SceneOptions scene;
+  ros_bridge::RosMode ros_mode = ros_bridge::RosMode::kAuto;
+  std::optional<ros_bridge::BridgeConfig> ros;  // initial_urdf is known when the scene builder is
+  BackendOptions backend;
+  std::optional<LivePictureSettings> pictures;
+  std::optional<RosCameraSettings> ros_camera;  // only with `pictures` and `ros`
+  std::optional<http::HttpConfig> page;         // without its callbacks
+  std::vector<std::string> notes;  // parts that other options switched off, for the log
+};
+
+/// Checks all options before anything starts, also those of parts that are off; opens no source and
+/// no port, but reads the files that options name. `with_page`: `serve`; else `bridge`.
+/// @throws UsageError naming the option.
+ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page);
+
+}  // namespace kinescope::app

@@ -1,0 +1,66 @@
+/// Runs `serve` and `bridge`: reads a source and passes every state on to ROS, the page and the
+/// pictures.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/latest.h"
+#include "core/scene_state.h"
+#include "core/source.h"
+#include "server/app/serve/hand_load_mailbox.h"
+#include "server/app/serve/live_pictures.h"
+#include "server/app/serve/liveness_log.h"
+#include "server/app/serve/missing_pose_warning.h"
+#include "server/app/serve/ros_camera_loop.h"
+#include "server/app/serve/serve_config.h"
+#include "server/http/server.h"
+#include "server/ros/bridge.h"
+#include "server/scene/scene_builder.h"
+
+namespace kinescope::app {
+
+/// Create, run and destroy it on one thread, the reading thread.
+class Server {
+ public:
+  /// When it returns, the first picture is rendered and the page can be opened.
+  /// @throws SourceError, UsageError or render::RenderError of the part that cannot start.
+  explicit Server(const ServeConfig& config);
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// Returns on Ctrl-C, when ROS requests the shutdown, or at the end of the source if there is no
+  /// page.
+  void Run();
+
+ private:
+  void StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode);
+  void StartPictures(const ServeConfig& config);
+  void StartPage(http::HttpConfig config);
+  void OnState(const std::shared_ptr<const SceneState>& state);
+  void OnTime(std::int64_t now_nanos);  // between polls
+  std::string Diagnostics() const;      // on the page's thread
+
+  const std::int64_t start_nanos_;
+  const std::unique_ptr<Source> source_;
+  // Between threads:
+  Latest<SceneState> states_;        // reading thread -> page
+  Latest<SourceCounters> counters_;  // reading thread -> page
+  Latest<http::Picture> pictures_;   // drawing thread -> page
+  HandLoadMailbox hand_loads_;       // page -> reading thread
+  // Used by the reading thread only:
+  LivenessLog liveness_log_;
+  MissingPoseWarning missing_pose_warning_;
+  std::int64_t counters_due_nanos_ = 0;
+  SceneBuilder builder_;
+  std::shared_ptr<const PersonModel> initial_model_;  // its mesh files stay as long as this does
+  // Outputs, null if off; each uses only members above it.
+  std::unique_ptr<LivePictures> live_pictures_;
+  std::unique_ptr<ros_bridge::RosBridge> ros_;
+  std::unique_ptr<RosCameraLoop> ros_camera_;
+  std::optional<http::HttpServer> page_;
+};
+
+}  // namespace kinescope::app

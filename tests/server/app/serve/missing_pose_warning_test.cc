@@ -1,0 +1,54 @@
+#include "server/app/serve/missing_pose_warning.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/captured_log.h"
+
+namespace kinescope::app {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+SourceCounters DatagramsWithoutPose() {
+  SourceCounters counters;
+  counters.datagrams = 240;
+  counters.rejected = {{"cut short", 3}, {"no MXTP id string", 200}, {"wrong size", 7}};
+  return counters;
+}
+
+TEST(MissingPoseWarning, GivesTheMostFrequentReasonOnceAfterTwoSeconds) {
+  const testing::CapturedLog log;
+  MissingPoseWarning warning;
+  warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", 0);
+  warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", 2 * kSecond - 1);
+  EXPECT_EQ(log.text(), "");
+  for (int i = 2; i < 5; ++i) {
+    warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", i * kSecond);
+  }
+  EXPECT_EQ(log.text(),
+            "warning: 240 datagrams from udp://:9763, but no complete pose: no MXTP id string. For "
+            "details run `kinescope inspect udp://:9763`\n");
+}
+
+TEST(MissingPoseWarning, CountsTheTimeFromTheFirstDatagrams) {
+  const testing::CapturedLog log;
+  MissingPoseWarning warning;
+  warning.OnCounters(SourceCounters(), "udp://:9763", 0);
+  warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", 10 * kSecond);
+  EXPECT_EQ(log.text(), "") << "a suit that was switched on now";
+}
+
+TEST(MissingPoseWarning, IsSilentWhileThereAreSamplesOrNoDatagrams) {
+  const testing::CapturedLog log;
+  MissingPoseWarning warning;
+  SourceCounters fine = DatagramsWithoutPose();
+  fine.samples = 1;
+  for (int i = 0; i < 5; ++i) {
+    warning.OnCounters(SourceCounters(), "udp://:9763", i * kSecond);
+    warning.OnCounters(fine, "udp://:9763", i * kSecond);
+  }
+  EXPECT_EQ(log.text(), "");
+}
+
+}  // namespace
+}  // namespace kinescope::app

@@ -1,0 +1,120 @@
+#include "server/app/serve/serve_config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "tests/server/options_testing.h"
+
+namespace kinescope::app {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+ServeConfig ConfigOf(const testing::Settings& settings, bool with_page = true) {
+  return MakeServeConfig(testing::With<ServeOptions>(settings), with_page);
+}
+
+std::string ErrorOf(const testing::Settings& settings, bool with_page = true) {
+  try {
+    ConfigOf(settings, with_page);
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ServeConfig, HasEveryPartByDefault) {
+  const ServeConfig config = ConfigOf({});
+  EXPECT_EQ(config.source_url, "udp://:9763");
+  ASSERT_TRUE(config.page);
+  EXPECT_EQ(config.page->camera, "three_quarter");
+  EXPECT_EQ(config.page->cameras.size(), render::CameraNames().size());
+  ASSERT_TRUE(config.pictures);
+  EXPECT_EQ(config.pictures->camera.name(), "three_quarter");
+  EXPECT_EQ(config.ros.has_value(), ros_bridge::BuiltWithRos());
+  EXPECT_EQ(config.ros_camera.has_value(), ros_bridge::BuiltWithRos());
+  EXPECT_THAT(config.notes, IsEmpty());
+}
+
+TEST(ServeConfig, OfABridgeHasNeitherPageNorPictures) {
+  const ServeConfig config = ConfigOf({{"ros", "required"}}, false);
+  EXPECT_FALSE(config.page);
+  EXPECT_FALSE(config.pictures);
+  EXPECT_FALSE(config.ros_camera);
+  ASSERT_TRUE(config.ros) << "without ROS in this build, the bridge reports that";
+  EXPECT_FALSE(config.ros->with_view);
+  EXPECT_EQ(config.ros->markers, "");
+}
+
+TEST(ServeConfig, UdpPortReplacesTheSource) {
+  EXPECT_EQ(ConfigOf({{"source", "demo:lift"}}).source_url, "demo:lift");
+  EXPECT_EQ(ConfigOf({{"source", "demo:lift"}, {"udp_port", "9000"}}).source_url, "udp://:9000");
+}
+
+TEST(ServeConfig, WithoutRosHasNoRosCamera) {
+  const ServeConfig config = ConfigOf({{"ros", "off"}, {"pictures", "off"}});
+  EXPECT_FALSE(config.ros);
+  EXPECT_FALSE(config.ros_camera);
+  EXPECT_THAT(config.notes, IsEmpty()) << "nobody expects a topic";
+}
+
+TEST(ServeConfig, WithoutPicturesHasNoRosCameraAndSaysSo) {
+  const ServeConfig config = ConfigOf({{"ros", "required"}, {"pictures", "off"}});
+  EXPECT_FALSE(config.pictures);
+  EXPECT_FALSE(config.ros_camera);
+  EXPECT_FALSE(config.ros->with_view);
+  EXPECT_THAT(config.notes, ElementsAre("~view/image_raw is off because --pictures is off"));
+  EXPECT_THAT(ConfigOf({{"ros", "required"}, {"pictures", "off"}, {"view", "off"}}).notes,
+              IsEmpty());
+}
+
+TEST(ServeConfig, TheRosCameraIsThatOfThePageUnlessItHasItsOwn) {
+  const ServeConfig same = ConfigOf({{"ros", "required"}, {"camera", "top"}});
+  ASSERT_TRUE(same.ros_camera);
+  EXPECT_EQ(same.ros_camera->camera.name(), "top");
+  const ServeConfig own =
+      ConfigOf({{"ros", "required"}, {"camera", "top"}, {"view_camera", "left"}});
+  EXPECT_EQ(own.ros_camera->camera.name(), "left");
+  EXPECT_EQ(own.pictures->camera.name(), "top");
+}
+
+TEST(ServeConfig, TheRosCameraHasNoneOfTheOptionsOfTheLivePicture) {
+  const ServeConfig config = ConfigOf({{"ros", "required"},
+                                       {"camera", "front"},
+                                       {"projection", "orthographic"},
+                                       {"fov", "80"},
+                                       {"fit", "now"}});
+  const SceneState nobody;
+  EXPECT_TRUE(config.pictures->camera.Only(nobody, 0, 1).is_orthographic());
+  const render::Camera camera = config.ros_camera->camera.Only(nobody, 0, 16.0 / 9);
+  EXPECT_FALSE(camera.is_orthographic());
+  EXPECT_EQ(camera.vertical_fov_rad, render::NamedCamera("front", nobody).vertical_fov_rad);
+}
+
+TEST(ServeConfig, FramesOfARosGraphAreNotPublishedAgain) {
+  const testing::Settings graph = {{"source", "ros:"}, {"ros", "required"}};
+  const ServeConfig config = ConfigOf(graph);
+  EXPECT_EQ(config.ros->tf, "off");
+  EXPECT_THAT(config.notes, ElementsAre(HasSubstr("not republished")));
+  EXPECT_EQ(ConfigOf({{"source", "demo:lift"}, {"ros", "required"}}).ros->tf, "flat");
+}
+
+TEST(ServeConfig, OptionsAreCheckedAlsoInPartsThatAreOff) {
+  const testing::Settings off = {{"ros", "off"}, {"pictures", "off"}, {"view", "off"}};
+  const auto error_with = [&](const std::string& name, const std::string& text) {
+    testing::Settings settings = off;
+    settings.emplace_back(name, text);
+    return ErrorOf(settings);
+  };
+  EXPECT_EQ(ErrorOf(off), "");
+  EXPECT_THAT(error_with("camera", "/nowhere/keys.yaml"), HasSubstr("/nowhere/keys.yaml"));
+  EXPECT_THAT(error_with("view_camera", "/nowhere/keys.yaml"), HasSubstr("/nowhere/keys.yaml"));
+  EXPECT_THAT(error_with("orbit", "turn"), HasSubstr("--orbit=turn"));
+  EXPECT_THAT(error_with("fit", "clip"), HasSubstr("--fit=clip"));
+}
+
+}  // namespace
+}  // namespace kinescope::app

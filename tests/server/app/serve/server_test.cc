@@ -1,0 +1,58 @@
+// The parts of `serve` together, in this process and without ROS. What it does for hours is tested
+// with the program, in tests/system.
+#include "server/app/serve/server.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/errors.h"
+#include "tests/captured_log.h"
+#include "tests/server/http/test_client.h"
+#include "tests/server/options_testing.h"
+
+namespace kinescope::app {
+namespace {
+
+using http::testing::Fetch;
+using ::testing::HasSubstr;
+
+ServeConfig ConfigOf(testing::Settings settings) {
+  settings.insert(settings.end(), {{"source", "demo:t_pose"}, {"ros", "off"}});
+  return MakeServeConfig(testing::With<ServeOptions>(settings), true);
+}
+
+int PortIn(const testing::CapturedLog& log) {
+  const std::string text = log.text();
+  const std::size_t page = text.find("page at http://127.0.0.1:");
+  EXPECT_NE(page, std::string::npos) << text;
+  return std::stoi(text.substr(text.find(':', page + 14) + 1));
+}
+
+TEST(Server, AnswersBeforeItRunsAndNamesThePartsThatAreOff) {
+  const testing::CapturedLog log;
+  const Server server(ConfigOf({{"http_port", "0"}, {"pictures", "off"}}));
+  const int port = PortIn(log);
+  const auto diagnostics = Fetch(port, "/api/diagnostics").json();
+  EXPECT_EQ(diagnostics.at("source").at("liveness"), "no data");
+  EXPECT_TRUE(diagnostics.at("ros").is_null());
+  EXPECT_TRUE(diagnostics.at("pictures").is_null());
+  EXPECT_TRUE(diagnostics.at("view").is_null());
+  EXPECT_EQ(Fetch(port, "/snapshot.png").status, 503);
+}
+
+TEST(Server, WhosePortIsTakenEndsThePartsThatRunAlready) {
+  const testing::CapturedLog log;
+  const Server first(ConfigOf({{"http_port", "0"}, {"picture_size", "64x48"}}));
+  const int port = PortIn(log);
+  EXPECT_THAT(log.text(), HasSubstr("rendered by llvmpipe"));
+  try {
+    const Server second(ConfigOf({{"http_port", std::to_string(port)}, {"picture_size", "64x48"}}));
+    ADD_FAILURE() << "two servers on one port";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(std::to_string(port)));
+  }
+  EXPECT_EQ(Fetch(port, "/snapshot.png?width=64&height=48").status, 200);
+}
+
+}  // namespace
+}  // namespace kinescope::app
