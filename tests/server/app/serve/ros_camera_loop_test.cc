@@ -1,15 +1,15 @@
-// What ROS sees: the picture of the state, by the camera that goes out with it, while somebody
-// listens.
+// What ROS receives: the picture of the state, with the calibration of its camera. When it is drawn
+// is tested in drawing_loop_test.cc.
 #include "server/app/serve/ros_camera_loop.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <condition_variable>
-#include <mutex>
+#include <future>
 #include <vector>
 
-#include "core/errors.h"
+#include "server/picture/pinhole.h"
+#include "tests/server/picture/fake_renderer.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::app {
@@ -26,66 +26,66 @@ std::shared_ptr<const SceneState> SceneAt(std::int64_t stamp_nanos) {
   return scene;
 }
 
-struct Taken {
+struct Sent {
   std::vector<std::uint8_t> rgba;
   std::int64_t stamp_nanos = 0;
+  urdf::Pose world_from_optical;
+  double focal_px = 0;
 };
 
-class Album {
+// The first picture that is sent; further ones are dropped.
+class FirstPicture {
  public:
   RosCameraLoop::Send Send() {
-    return [this](const ros_bridge::RosImage& picture) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      taken_.push_back({picture.rgba, picture.stamp_nanos});
-      changed_.notify_all();
+    return [this](const ros_bridge::RosImage& image) {
+      if (is_sent_) return;
+      is_sent_ = true;
+      picture_.set_value({image.rgba, image.stamp_nanos, image.world_from_optical, image.focal_px});
     };
   }
-  // The newest, once there are so many; empty when they do not come.
-  Taken Newest(std::size_t count) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    const bool came = changed_.wait_for(lock, kPatience, [&] { return taken_.size() >= count; });
-    EXPECT_TRUE(came) << taken_.size() << " of " << count << " pictures";
-    return came ? taken_.back() : Taken();
-  }
-  std::size_t size() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return taken_.size();
+  Sent Get() {
+    std::future<Sent> picture = picture_.get_future();
+    if (picture.wait_for(kPatience) == std::future_status::ready) return picture.get();
+    ADD_FAILURE() << "no picture was sent";
+    return {};
   }
 
  private:
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
-  std::vector<Taken> taken_;
+  bool is_sent_ = false;  // used by the drawing thread only
+  std::promise<Sent> picture_;
 };
 
 const RosCameraSettings kSmall{CameraController(ParseCamera("front"), {}), 96, 64, 240};
 
-TEST(RosCameraLoop, ShowsWhatARendererShowsOfThatStateByThatCamera) {
+TEST(RosCameraLoop, SendsThePictureOfARendererAndTheCalibrationOfItsCamera) {
   const auto state = SceneAt(7);
-  Album album;
-  RosCameraLoop loop(kSmall, RenderersOf({}), state, album.Send());
+  FirstPicture first;
+  RosCameraLoop loop(kSmall, RenderersOf({}), state, first.Send());
   loop.SetSubscribers(1);
-  const Taken taken = album.Newest(1);
-  EXPECT_EQ(taken.stamp_nanos, 7);
-  const render::Image alone = render::MakeRenderer()->Render(
-      *state, render::NamedCamera("front", *state), {96, 64, 1, "", true});
-  EXPECT_TRUE(taken.rgba == alone.rgba) << "not the same bytes";
+  const Sent sent = first.Get();
+  EXPECT_EQ(sent.stamp_nanos, 7);
+  const render::Camera camera = render::NamedCamera("front", *state);
+  EXPECT_TRUE(sent.rgba ==
+              render::MakeRenderer()->Render(*state, camera, {96, 64, 1, "", true}).rgba)
+      << "not the same bytes";
+  const Pinhole pinhole = PinholeOf(camera, 64);
+  EXPECT_EQ(sent.focal_px, pinhole.focal_px);
+  EXPECT_EQ(sent.world_from_optical.position, pinhole.world_from_optical.position);
+  EXPECT_TRUE(sent.world_from_optical.orientation.isApprox(pinhole.world_from_optical.orientation));
 }
 
-TEST(RosCameraLoop, DrawsOnlyWhileSomebodyListensAndAtOnceForWhoeverComes) {
-  Album album;
-  RosCameraLoop loop(kSmall, RenderersOf({}), SceneAt(1), album.Send());
-  for (std::int64_t stamp = 2; stamp < 50; ++stamp) loop.OnState(SceneAt(stamp));
-  EXPECT_EQ(loop.status().drawn, 0u);
+TEST(RosCameraLoop, DrawsNothingBeforeTheFirstSubscriber) {
+  FirstPicture first;
+  RosCameraLoop loop(
+      kSmall,
+      [](const std::function<void(const std::string&)>&) {
+        return std::make_unique<testing::FakeRenderer>();
+      },
+      SceneAt(1), first.Send());
+  for (const std::int64_t stamp : {2, 3, 4}) loop.OnState(SceneAt(stamp));
+  EXPECT_EQ(loop.status().renderer.backend, "") << "no renderer";
   loop.SetSubscribers(1);
-  EXPECT_EQ(album.Newest(1).stamp_nanos, 49) << "the newest, and none of those before";
-  loop.SetSubscribers(2);
-  EXPECT_EQ(album.Newest(2).stamp_nanos, 49) << "nothing moves, but somebody new is there";
-  loop.SetSubscribers(0);
-  loop.OnState(SceneAt(50));
-  loop.SetSubscribers(1);
-  EXPECT_EQ(album.Newest(3).stamp_nanos, 50);
-  EXPECT_EQ(album.size(), 3u);
+  EXPECT_EQ(first.Get().stamp_nanos, 4) << "the newest, and none of those before";
   EXPECT_EQ(loop.status().viewers, 1);
 }
 
