@@ -2,6 +2,7 @@
 /// UTF-8 becomes U+FFFD instead of an exception.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 namespace kinescope {
@@ -15,6 +16,12 @@ enum class JsonBytes {
 template <class Json>
 std::string JsonText(const Json& json, int indent = -1, JsonBytes bytes = JsonBytes::kUtf8) {
   return json.dump(indent, ' ', bytes == JsonBytes::kAscii, Json::error_handler_t::replace);
+}
+
+/// JSON has no NaN; null means unknown. `Json` as above.
+template <class Json>
+Json NumberOrNull(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 }  // namespace kinescope

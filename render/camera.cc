@@ -61,14 +61,14 @@ const std::vector<std::string>& CameraNames() {
   return names;
 }
 
-Whereabouts WhereaboutsOf(const SceneState& state) {
+GroundExtent GroundExtentOf(const SceneState& state) {
   if (state.people.empty()) return {Eigen::Vector3d(0, 0, state.floor_z), 0};
   const auto on_floor = [&](const PersonState& person) {
     Eigen::Vector3d point = person.links[urdf::kPelvis].position;
     point.z() = state.floor_z;
     return point;
   };
-  Whereabouts about;
+  GroundExtent about;
   for (const PersonState& person : state.people) about.middle += on_floor(person);
   about.middle /= static_cast<double>(state.people.size());
   for (const PersonState& person : state.people) {
@@ -77,7 +77,7 @@ Whereabouts WhereaboutsOf(const SceneState& state) {
   return about;
 }
 
-Camera NamedCameraAt(const std::string& name, const Whereabouts& about) {
+Camera NamedCameraAt(const std::string& name, const GroundExtent& about) {
   for (const auto& [known, direction] : Directions()) {
     if (known != name) continue;
     Camera camera;
@@ -103,7 +103,7 @@ namespace {
 Camera Around(const std::string& name, const Eigen::AlignedBox3d& box) {
   constexpr double kMargin = 1.15, kSmallest = 0.02;  // m
   const double radius = std::max(0.5 * box.diagonal().norm(), kSmallest);
-  Camera camera = NamedCameraAt(name, Whereabouts());
+  Camera camera = NamedCameraAt(name, GroundExtent());
   const Eigen::Vector3d to_camera = (camera.position - camera.target).normalized();
   const double distance = kMargin * radius / std::sin(0.5 * camera.vertical_fov_rad);
   camera.target = box.center();
@@ -130,13 +130,13 @@ Camera NamedCamera(const std::string& name, const SceneState& state) {
     const Eigen::AlignedBox3d box = BoxOfRobots(state.robots);
     if (!box.isEmpty()) return Around(name, box);
   }
-  return NamedCameraAt(name, WhereaboutsOf(state));
+  return NamedCameraAt(name, GroundExtentOf(state));
 }
 
-const Whereabouts& SteadyWhereabouts::Follow(const SceneState& state) {
-  const Whereabouts now = WhereaboutsOf(state);
-  if (!has_met_) {
-    has_met_ = !state.people.empty();
+const GroundExtent& SmoothedGroundExtent::Follow(const SceneState& state) {
+  const GroundExtent now = GroundExtentOf(state);
+  if (!has_people_) {
+    has_people_ = !state.people.empty();
     about_ = now;
   } else if (!state.people.empty()) {
     const Eigen::Vector3d away = now.middle - about_.middle;

@@ -1,6 +1,6 @@
 /// Defines the named cameras, and projects points of the world into the picture. A name gives the
 /// same view in pictures, page and RViz. World: z up, metres. GLM computes the matrices but does
-/// not appear here. Pure functions, any thread, except SteadyWhereabouts.
+/// not appear here. Pure functions, any thread, except SmoothedGroundExtent.
 #pragma once
 
 #include <Eigen/Core>
@@ -45,14 +45,14 @@ inline constexpr GroupFraming kGroupFraming;
 
 /// Target of the named cameras: the middle of the people on the floor, and the distance of the
 /// outermost person from it.
-struct Whereabouts {
+struct GroundExtent {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // world, m
   double radius = 0;                                 // m
 };
-Whereabouts WhereaboutsOf(const SceneState& state);
+GroundExtent GroundExtentOf(const SceneState& state);
 
 /// The named camera aimed at `about`, as if people stood there. @throws as NamedCamera.
-Camera NamedCameraAt(const std::string& name, const Whereabouts& about);
+Camera NamedCameraAt(const std::string& name, const GroundExtent& about);
 
 /// Height of the visible area at the depth of the target, m.
 double ShownHeight(const Camera& camera);
@@ -76,18 +76,18 @@ Eigen::AlignedBox3d BoxOf(const SceneState& state);
 /// !box.isEmpty()
 [[nodiscard]] Camera Framing(const Camera& camera, const Eigen::AlignedBox3d& box, double aspect);
 
-/// Camera target with a dead zone: it does not move while the people stay near the picture centre,
+/// GroundExtent with a dead zone: it does not move while the people stay near the picture centre,
 /// and follows them smoothly when they leave it. A floor that stands still is more pleasant to
 /// watch and far cheaper to render and encode. The same states give the same targets. One thread.
-class SteadyWhereabouts {
+class SmoothedGroundExtent {
  public:
   /// Call it once per picture. The first people set the target at once; without people it does not
   /// move.
-  const Whereabouts& Follow(const SceneState& state);
+  const GroundExtent& Follow(const SceneState& state);
 
  private:
-  bool has_met_ = false;
-  Whereabouts about_;  // radius: of the group that fits into the view
+  bool has_people_ = false;
+  GroundExtent about_;  // radius: of the group that fits into the view
 };
 
 struct Projected {

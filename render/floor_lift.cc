@@ -24,14 +24,14 @@ void Lift(PersonState& person, const Eigen::Vector3d& lift) {
 
 }  // namespace
 
-void LiftToFloor(SceneState& state, Camera& camera, View& view) {
+void LiftToFloor(SceneState& state, Camera& camera, PictureSpec& spec) {
   const Eigen::Vector3d lift(0, 0, -state.floor_z);
   const auto raise = [&](Camera& each) {
     each.position += lift;
     each.target += lift;
   };
   raise(camera);
-  for (Pane& pane : view.panes) raise(pane.camera);
+  for (Pane& pane : spec.panes) raise(pane.camera);
   for (PersonState& person : state.people) Lift(person, lift);
   for (TrackedObject& object : state.objects) object.pose.position += lift;
   for (RobotState& robot : state.robots) {
@@ -42,10 +42,10 @@ void LiftToFloor(SceneState& state, Camera& camera, View& view) {
     lifted->pose.position += lift;
     marker = std::move(lifted);
   }
-  for (Trail& trail : view.look.trails) {
+  for (Trail& trail : spec.look.trails) {
     for (Eigen::Vector3d& point : trail.points) point += lift;
   }
-  for (Ghost& ghost : view.look.ghosts) Lift(ghost.person, lift);
+  for (Ghost& ghost : spec.look.ghosts) Lift(ghost.person, lift);
   state.floor_z = 0;
 }
 

@@ -8,6 +8,6 @@
 namespace kinescope::render {
 
 /// Moves everything vertically so that the floor is at z = 0. Pure function, any thread.
-void LiftToFloor(SceneState& state, Camera& camera, View& view);
+void LiftToFloor(SceneState& state, Camera& camera, PictureSpec& spec);
 
 }  // namespace kinescope::render

@@ -28,36 +28,36 @@ std::string TookTooLong(const std::string& what, std::chrono::milliseconds limit
 // The picture's arguments raised so that the floor is at z = 0, where the drawing has it.
 class Lifted {
  public:
-  Lifted(const SceneState& state, const Camera& camera, const View& view)
-      : state_(state), camera_(camera), view_(view) {
+  Lifted(const SceneState& state, const Camera& camera, const PictureSpec& spec)
+      : state_(state), camera_(camera), spec_(spec) {
     if (state.floor_z == 0) return;
-    raised_.emplace(Raised{state, camera, view});
-    LiftToFloor(raised_->state, raised_->camera, raised_->view);
+    raised_.emplace(Raised{state, camera, spec});
+    LiftToFloor(raised_->state, raised_->camera, raised_->spec);
   }
 
   const SceneState& state() const { return raised_ ? raised_->state : state_; }
   const Camera& camera() const { return raised_ ? raised_->camera : camera_; }
-  const View& view() const { return raised_ ? raised_->view : view_; }
+  const PictureSpec& spec() const { return raised_ ? raised_->spec : spec_; }
 
  private:
   struct Raised {
     SceneState state;
     Camera camera;
-    View view;
+    PictureSpec spec;
   };
   const SceneState& state_;
   const Camera& camera_;
-  const View& view_;
+  const PictureSpec& spec_;
   std::optional<Raised> raised_;
 };
 
-std::vector<DrawnView> ViewsOf(const Camera& camera, const View& view) {
-  if (view.panes.empty()) return {{{0, 0, view.width, view.height}, camera, "", {}}};
+std::vector<DrawnView> ViewsOf(const Camera& camera, const PictureSpec& spec) {
+  if (spec.panes.empty()) return {{{0, 0, spec.width, spec.height}, camera, "", {}}};
   const auto tiles =
-      PaneTiles(view.width, view.height, static_cast<int>(view.panes.size()), view.pane_columns);
+      PaneTiles(spec.width, spec.height, static_cast<int>(spec.panes.size()), spec.pane_columns);
   std::vector<DrawnView> views;
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    views.push_back({tiles[i], view.panes[i].camera, view.panes[i].name, {}});
+    views.push_back({tiles[i], spec.panes[i].camera, spec.panes[i].name, {}});
   }
   return views;
 }
@@ -67,8 +67,8 @@ std::vector<DrawnView> ViewsOf(const Camera& camera, const View& view) {
 ModuleRenderer::ModuleRenderer(const DrawingModule& module, RendererSettings settings)
     : settings_(std::move(settings)),
       watchdog_(settings_.on_hang ? settings_.on_hang : Watchdog::OnHang(EndProcess)) {
-  const Watchdog::Work work(watchdog_, LimitOf(View()), [this] {
-    return TookTooLong("starting back-end " + settings_.backend, LimitOf(View()));
+  const Watchdog::Work work(watchdog_, LimitOf(PictureSpec()), [this] {
+    return TookTooLong("starting back-end " + settings_.backend, LimitOf(PictureSpec()));
   });
   drawing_ = module.make(settings_.backend, settings_.log);
 }
@@ -85,8 +85,8 @@ std::vector<std::string> ModuleRenderer::problems() const {
   return all;
 }
 
-std::chrono::milliseconds ModuleRenderer::LimitOfPicture(const View& view) const {
-  return settings_.limit.count() > 0 ? settings_.limit : LimitOf(view);
+std::chrono::milliseconds ModuleRenderer::LimitOfPicture(const PictureSpec& spec) const {
+  return settings_.limit.count() > 0 ? settings_.limit : LimitOf(spec);
 }
 
 const SceneState& ModuleRenderer::Drawable(const SceneState& state,
@@ -100,63 +100,63 @@ const SceneState& ModuleRenderer::Drawable(const SceneState& state,
 }
 
 void ModuleRenderer::DoRender(Image& image, const SceneState& state, const Camera& camera,
-                              const View& view) {
+                              const PictureSpec& spec) {
   std::optional<SceneState> kept;
-  const Lifted lifted(Drawable(state, kept), camera, view);
-  if (lifted.view().look.is_transparent) {
-    RenderTransparent(image, lifted.state(), lifted.camera(), lifted.view());
+  const Lifted lifted(Drawable(state, kept), camera, spec);
+  if (lifted.spec().look.is_transparent) {
+    RenderTransparent(image, lifted.state(), lifted.camera(), lifted.spec());
   } else {
-    RenderOpaque(image, lifted.state(), lifted.camera(), lifted.view());
+    RenderOpaque(image, lifted.state(), lifted.camera(), lifted.spec());
   }
 }
 
 std::string ModuleRenderer::DoOverlayLayer(const SceneState& state, const Camera& camera,
-                                           const View& view, LayerFormat format) {
+                                           const PictureSpec& spec, LayerFormat format) {
   std::optional<SceneState> kept;
-  const Lifted lifted(Drawable(state, kept), camera, view);
-  std::vector<DrawnView> views = ViewsOf(lifted.camera(), lifted.view());
+  const Lifted lifted(Drawable(state, kept), camera, spec);
+  std::vector<DrawnView> views = ViewsOf(lifted.camera(), lifted.spec());
   KINESCOPE_CHECK(views.size() == drawn_.size());  // of the picture drawn last
   for (std::size_t i = 0; i < views.size(); ++i) views[i].labels = drawn_[i].labels;
-  const auto painter = MakeLayerPainter(view.width, view.height, format);
-  overlay_.Paint(*painter, lifted.state(), views, lifted.view());
+  const auto painter = MakeLayerPainter(spec.width, spec.height, format);
+  overlay_.Paint(*painter, lifted.state(), views, lifted.spec());
   return painter->Finish();
 }
 
-void ModuleRenderer::DrawWatched(const SceneState& state, DrawnView& drawn, const View& view,
+void ModuleRenderer::DrawWatched(const SceneState& state, DrawnView& drawn, const PictureSpec& spec,
                                  Image& image) {
-  const Watchdog::Work work(watchdog_, LimitOfPicture(view), [this, &view] {
-    return TookTooLong("a picture of " + std::to_string(view.width) + " x " +
-                           std::to_string(view.height) + " px by back-end " + settings_.backend,
-                       LimitOfPicture(view));
+  const Watchdog::Work work(watchdog_, LimitOfPicture(spec), [this, &spec] {
+    return TookTooLong("a picture of " + std::to_string(spec.width) + " x " +
+                           std::to_string(spec.height) + " px by back-end " + settings_.backend,
+                       LimitOfPicture(spec));
   });
-  drawing_->Draw(state, drawn.camera, view.look, view.supersample, image, drawn.labels);
+  drawing_->Draw(state, drawn.camera, spec.look, spec.supersample, image, drawn.labels);
 }
 
 void ModuleRenderer::RenderOpaque(Image& image, const SceneState& state, const Camera& camera,
-                                  const View& view) {
+                                  const PictureSpec& spec) {
   std::optional<SceneState> shown;
-  if (HidesAnything(view.look)) shown = Without(state, view.look);
+  if (HidesAnything(spec.look)) shown = Without(state, spec.look);
   const SceneState& scene = shown ? *shown : state;
-  drawn_ = ViewsOf(camera, view);
+  drawn_ = ViewsOf(camera, spec);
   if (drawn_.size() == 1) {
-    DrawWatched(scene, drawn_.front(), view, image);
+    DrawWatched(scene, drawn_.front(), spec, image);
   } else {
-    FillWith(image, InksOf(view).separator.color);
+    FillWith(image, InksOf(spec).separator.color);
     for (DrawnView& each : drawn_) {
       SetSize(part_, each.tile.width, each.tile.height);
-      DrawWatched(scene, each, view, part_);
+      DrawWatched(scene, each, spec, part_);
       CopyInto(image, part_, each.tile);
     }
   }
-  if (!view.overlays) return;
+  if (!spec.overlays) return;
   Canvas canvas(image);
-  overlay_.Paint(canvas, state, drawn_, view);
+  overlay_.Paint(canvas, state, drawn_, spec);
 }
 
 // Overlays and all, so that nothing that is drawn or written needs to know about alpha.
 void ModuleRenderer::RenderTransparent(Image& image, const SceneState& state, const Camera& camera,
-                                       const View& view) {
-  View opaque = view;
+                                       const PictureSpec& spec) {
+  PictureSpec opaque = spec;
   opaque.look.is_transparent = false;
   opaque.look.background = Rgb{0, 0, 0};
   SetSize(over_black_, image.width, image.height);

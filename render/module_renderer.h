@@ -28,17 +28,19 @@ class ModuleRenderer : public Renderer {
 
  private:
   void DoRender(Image& image, const SceneState& state, const Camera& camera,
-                const View& view) override;
-  std::string DoOverlayLayer(const SceneState& state, const Camera& camera, const View& view,
+                const PictureSpec& spec) override;
+  std::string DoOverlayLayer(const SceneState& state, const Camera& camera, const PictureSpec& spec,
                              LayerFormat format) override;
 
-  void RenderOpaque(Image& image, const SceneState& state, const Camera& camera, const View& view);
+  void RenderOpaque(Image& image, const SceneState& state, const Camera& camera,
+                    const PictureSpec& spec);
   void RenderTransparent(Image& image, const SceneState& state, const Camera& camera,
-                         const View& view);
-  void DrawWatched(const SceneState& state, DrawnView& drawn, const View& view, Image& image);
+                         const PictureSpec& spec);
+  void DrawWatched(const SceneState& state, DrawnView& drawn, const PictureSpec& spec,
+                   Image& image);
   // `state`, or the part of it that can be rendered, in `kept`.
   const SceneState& Drawable(const SceneState& state, std::optional<SceneState>& kept);
-  std::chrono::milliseconds LimitOfPicture(const View& view) const;
+  std::chrono::milliseconds LimitOfPicture(const PictureSpec& spec) const;
 
   const RendererSettings settings_;
   Watchdog watchdog_;

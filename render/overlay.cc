@@ -1,44 +1,18 @@
 #include "render/overlay.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <utility>
 
+#include "render/frame_code.h"
+#include "render/overlay_legend.h"
 #include "render/overlay_plot.h"
 #include "render/overlay_scale.h"
-#include "render/strip.h"
 
 namespace kinescope::render {
 namespace {
 
-constexpr double kWidestLegend = 0.3;  // of the picture: a person is in its middle
 constexpr double kTimeCodeLine = 22;  // of a picture 720 px high, from its baseline to the sample's
-
-// Any person of whom nobody said the mass: their loads are only as good as that assumption.
-const PersonState* WithAssumedMass(const SceneState& state) {
-  for (const PersonState& person : state.people) {
-    if (!person.loads.empty() && person.model->description.mass_is_assumed) return &person;
-  }
-  return nullptr;
-}
-
-// What the ratios are of, and from what: of the first person who has any.
-std::string MetricOf(const SceneState& state) {
-  for (const PersonState& person : state.people) {
-    if (person.loads.empty()) continue;
-    const BodyForces& forces = person.forces;
-    std::string text = Name(forces.metric);
-    if (forces.metric != LoadMetric::kExternal)
-      text += forces.is_dynamic ? ", dynamic" : ", static";
-    return text;
-  }
-  return "";
-}
 
 // Then there is no stream to tell of, and no load.
 bool HasOnlyRobots(const SceneState& state) {
@@ -68,17 +42,18 @@ OverlayFonts& Overlay::fonts() {
 }
 
 void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
-                    const View& view) {
-  const double scale = std::max(0.5, std::min(view.height / 720.0, view.width / 1000.0));
-  const double strip = view.parts.frame_code ? StripLayoutOf(view.width, view.height).height() : 0;
+                    const PictureSpec& spec) {
+  const double scale = std::max(0.5, std::min(spec.height / 720.0, spec.width / 1000.0));
+  const double frame_code =
+      spec.parts.frame_code ? FrameCodeLayoutOf(spec.width, spec.height).height() : 0;
   Page page{painter,
-            InksOf(view),
+            InksOf(spec),
             fonts(),
-            static_cast<double>(view.width),
-            static_cast<double>(view.height),
+            static_cast<double>(spec.width),
+            static_cast<double>(spec.height),
             scale,
-            view.height - strip,
-            view.width < 300 || view.height < 160};
+            spec.height - frame_code,
+            spec.width < 300 || spec.height < 160};
   const Page whole = page;
   for (const DrawnView& each : drawn) {
     painter.Enter(each.tile);
@@ -86,24 +61,24 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
     page.height = each.tile.height;
     page.bottom = std::min(page.height, whole.bottom - each.tile.y);
     const bool is_last = &each == &drawn.back();
-    PaintView(page, state, each, view, is_last && view.parts.time && !HasOnlyRobots(state));
+    PaintView(page, state, each, spec, is_last && spec.parts.time && !HasOnlyRobots(state));
   }
-  painter.Enter({0, 0, view.width, view.height});
+  painter.Enter({0, 0, spec.width, spec.height});
   page.width = whole.width;
   page.height = whole.height;
   page.bottom = whole.bottom;
-  PaintAround(page, state, view);
-  if (view.parts.frame_code && state.liveness != Liveness::kNoData) {
-    PaintStrip(painter, view.width, view.height, {state.counter, state.time_code_millis});
+  PaintAround(page, state, spec);
+  if (spec.parts.frame_code && state.liveness != Liveness::kNoData) {
+    PaintFrameCode(painter, spec.width, spec.height, {state.counter, state.time_code_millis});
   }
 }
 
 void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& drawn,
-                        const View& view, bool has_time_code) {
-  PaintNames(page, state, drawn.camera, view.parts.names, drawn.labels);
+                        const PictureSpec& spec, bool has_time_code) {
+  PaintNames(page, state, drawn.camera, spec.parts.names, drawn.labels);
   if (page.is_small) return;
   const double margin = page.Px(kMargin);
-  if (view.parts.scale) {
+  if (spec.parts.scale) {
     const double time_code =
         has_time_code ? page.Px(kTimeCodeLine) + 1.3 * page.FontPx(kTitleSize) : 0;
     PaintScaleBar(page, drawn.camera, margin + time_code);
@@ -111,7 +86,7 @@ void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& dr
   if (drawn.name.empty()) return;
   // In the upper middle, where nobody's feet are; in the top row below title and lamp.
   const int size = page.FontPx(kSmallSize);
-  const bool is_below_title = drawn.tile.y == 0 && (view.parts.status || !view.title.empty());
+  const bool is_below_title = drawn.tile.y == 0 && (spec.parts.status || !spec.title.empty());
   const double top = is_below_title ? margin + 1.6 * page.FontPx(kTitleSize) : 0.5 * margin;
   const std::string name = Shorten(drawn.name, page.fonts.bold, size, page.width - 2 * margin);
   const double half = page.fonts.bold.Width(name, size) / 2;
@@ -121,17 +96,17 @@ void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& dr
                    page.inks.text);
 }
 
-void Overlay::PaintAround(Page& page, const SceneState& state, const View& view) {
-  const OverlayParts& parts = view.parts;
-  if (parts.title && !page.is_small) PaintTitle(page, state, view);
+void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec& spec) {
+  const OverlayParts& parts = spec.parts;
+  if (parts.title && !page.is_small) PaintTitle(page, state, spec);
   if (HasOnlyRobots(state)) return;
   if (parts.status) PaintLamp(page, state);
   if (!page.is_small) {
-    if (parts.legend) PaintLegend(page, state, view.look);
+    if (parts.legend) PaintLegend(page, state, spec.look);
     if (parts.time && state.liveness != Liveness::kNoData) PaintTimeCode(page, state);
-    if (parts.plot && view.history != nullptr) {
+    if (parts.plot && spec.load_curves != nullptr) {
       const double below = page.Px(kMargin) + page.Px(4 * kTitleSize);
-      PaintPlot(page, *view.history, state.class_limits, view.plot_secs,
+      PaintPlot(page, *spec.load_curves, state.class_limits, spec.plot_secs,
                 page.Px(kMargin) + 1.8 * page.FontPx(kTextSize), page.bottom - below);
     }
   }
@@ -167,124 +142,14 @@ void Overlay::PaintLamp(Page& page, const SceneState& state) {
   page.canvas.Text(next, baseline, rate, f.regular, size, page.inks.faint_text);
 }
 
-void Overlay::PaintTitle(Page& page, const SceneState& state, const View& view) {
-  if (view.title.empty()) return;
+void Overlay::PaintTitle(Page& page, const SceneState& state, const PictureSpec& spec) {
+  if (spec.title.empty()) return;
   const int size = page.FontPx(kTitleSize);
-  const bool is_beside_lamp = view.parts.status && !HasOnlyRobots(state);
+  const bool is_beside_lamp = spec.parts.status && !HasOnlyRobots(state);
   const double room = is_beside_lamp ? 0.6 * page.width : page.right() - page.Px(kMargin);
-  const std::string line = Shorten(view.title, page.fonts.bold, size, room);
+  const std::string line = Shorten(spec.title, page.fonts.bold, size, room);
   page.canvas.Text(page.Px(kMargin), page.Px(kMargin) + size, line, page.fonts.bold, size,
                    page.inks.text);
-}
-
-std::vector<Overlay::LegendRow> Overlay::LegendOf(const SceneState& state, const SceneLook& look) {
-  std::vector<LegendRow> rows;
-  const auto add = [&](ScenePart part, const Rgb& color, double radius, const char* name,
-                       const std::string& range, bool has_rim = false) {
-    if (look.Shows(part)) rows.push_back({{color, 1}, radius, has_rim, name, range, false});
-  };
-  const std::string medium = fmt::format("{:.3g} %", 100 * state.class_limits[0]);
-  const std::string high = fmt::format("{:.3g} %", 100 * state.class_limits[1]);
-  const auto add_class = [&](LoadClass load_class, double radius, const char* name,
-                             const std::string& range, bool has_rim = false) {
-    add(ScenePart::kLoads, ColorOf(load_class), radius, name, range, has_rim);
-  };
-  add_class(LoadClass::kLow, 6.0, "low", "≤ " + medium);
-  add_class(LoadClass::kMedium, 7.2, "medium", "≤ " + high);
-  add_class(LoadClass::kHigh, 8.4, "high", "> " + high, true);
-  add_class(LoadClass::kUnknown, 4.8, "no data", "–");
-  add(ScenePart::kCom, kComColor, 5.0, "centre of mass", "");
-  add(ScenePart::kCop, kCopColor, 5.0, "centre of pressure", "");
-  const bool has_force =
-      std::any_of(state.people.begin(), state.people.end(), [](const PersonState& person) {
-        return std::any_of(
-            person.forces.feet.begin(), person.forces.feet.end(),
-            [](const FootForce& foot) { return foot.touches_floor && foot.force.norm() > 0; });
-      });
-  if (has_force && look.Shows(ScenePart::kForces)) {
-    rows.push_back({{kCopColor, 1}, 0, false, "force on a foot", "1 m/kN", /*is_arrow=*/true});
-  }
-  return rows;
-}
-
-void Overlay::PaintLegend(Page& page, const SceneState& state, const SceneLook& look) {
-  const std::vector<LegendRow> rows = LegendOf(state, look);
-  if (rows.empty()) return;
-  OverlayFonts& f = page.fonts;
-  const int size = page.FontPx(kSmallSize);
-  const double line = page.Px(21), pad = page.Px(12), column = page.Px(24);
-  const PersonState* assumed = WithAssumedMass(state);
-  const std::string metric = MetricOf(state);
-  const double width = 2 * pad + column +
-                       std::max(f.regular.Width("centre of pressure", size),
-                                f.bold.Width("Joint load, % of capacity", size) - column);
-  const double notes = (metric.empty() ? 0.0 : 1.0) + (assumed != nullptr ? 1.0 : 0.0);
-  const double height =
-      2 * pad + line * (1.0 + static_cast<double>(rows.size()) + notes + (notes > 0 ? 0.5 : 0.0)) -
-      page.Px(4);
-  if (width > kWidestLegend * page.width) return PaintShortLegend(page, state);
-  const double left = page.Px(kMargin), top = page.bottom - page.Px(kMargin) - height;
-  page.canvas.RoundedBox(left, top, width, height, page.Px(8), page.inks.panel);
-  double baseline = top + pad + 0.8 * size;
-  page.canvas.Text(left + pad, baseline, "Joint load, % of capacity", f.bold, size, page.inks.text);
-  for (const LegendRow& row : rows) {
-    baseline += line;
-    const double x = left + pad + 0.36 * column, y = baseline - 0.36 * size;
-    if (row.is_arrow) {
-      const double half = page.Px(6);
-      page.canvas.Polyline({{x, y + half}, {x, y - half}}, page.Px(2), row.ink);
-      page.canvas.Polyline(
-          {{x - 0.6 * half, y - 0.3 * half}, {x, y - half}, {x + 0.6 * half, y - 0.3 * half}},
-          page.Px(2), row.ink);
-    }
-    const double radius = page.Px(row.radius);
-    if (row.has_rim) page.canvas.Disc(x, y, radius, page.inks.rim);
-    page.canvas.Disc(x, y, row.has_rim ? 0.76 * radius : radius, row.ink);
-    page.canvas.Text(left + pad + column, baseline, row.name, f.regular, size, page.inks.text);
-    page.canvas.Text(left + width - pad - f.regular.Width(row.range, size), baseline, row.range,
-                     f.regular, size, page.inks.text);
-  }
-  baseline += 0.5 * line;
-  const auto note = [&](const std::string& text) {
-    baseline += line;
-    page.canvas.Text(left + pad, baseline, text, f.regular, size, page.inks.faint_text);
-  };
-  if (!metric.empty()) note(metric);
-  if (assumed == nullptr) return;
-  char text[64];
-  std::snprintf(text, sizeof text, "body mass assumed: %.0f kg",
-                assumed->model->description.mass_kg);
-  note(text);
-}
-
-// For small pictures: the classes alone, in one line, so that the person is not covered.
-void Overlay::PaintShortLegend(Page& page, const SceneState& state) {
-  const std::string medium = fmt::format("{:.3g}", 100 * state.class_limits[0]);
-  const std::string high = fmt::format("{:.3g}", 100 * state.class_limits[1]);
-  const std::array<std::pair<LoadClass, std::string>, 3> classes = {{
-      {LoadClass::kLow, "≤ " + medium},
-      {LoadClass::kMedium, "≤ " + high},
-      {LoadClass::kHigh, "> " + high + " %"},
-  }};
-  const int size = page.FontPx(kSmallSize);
-  const double pad = 0.5 * size;
-  double width = pad;
-  for (const auto& [load_class, text] : classes) {
-    width += 1.2 * size + page.fonts.regular.Width(text, size) + pad;
-  }
-  double x = page.Px(kMargin);
-  const double top = page.bottom - page.Px(kMargin) - 1.8 * size;
-  page.canvas.RoundedBox(x, top, width, 1.8 * size, page.Px(8), page.inks.panel);
-  for (const auto& [load_class, text] : classes) {
-    const double y = top + 0.9 * size;
-    if (load_class == LoadClass::kHigh) {
-      page.canvas.Disc(x + pad + 0.45 * size, y, 0.55 * size, page.inks.rim);
-    }
-    page.canvas.Disc(x + pad + 0.45 * size, y, 0.4 * size, {ColorOf(load_class), 1});
-    page.canvas.Text(x + pad + 1.2 * size, top + 1.25 * size, text, page.fonts.regular, size,
-                     page.inks.text);
-    x += 1.2 * size + page.fonts.regular.Width(text, size) + pad;
-  }
 }
 
 void Overlay::PaintTimeCode(Page& page, const SceneState& state) {

@@ -29,31 +29,19 @@ struct DrawnView {
 
 class Overlay {
  public:
-  /// Paints on a picture with the size of `view`. @throws RenderError if a font is missing.
+  /// Paints on a picture with the size of `spec`. @throws RenderError if a font is missing.
   void Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
-             const View& view);
+             const PictureSpec& spec);
 
  private:
   using Page = OverlayPage;
   OverlayFonts& fonts();  // opened when first needed
 
-  void PaintView(Page& page, const SceneState& state, const DrawnView& drawn, const View& view,
-                 bool has_time_code);
-  void PaintAround(Page& page, const SceneState& state, const View& view);
+  void PaintView(Page& page, const SceneState& state, const DrawnView& drawn,
+                 const PictureSpec& spec, bool has_time_code);
+  void PaintAround(Page& page, const SceneState& state, const PictureSpec& spec);
   void PaintLamp(Page& page, const SceneState& state);
-  void PaintTitle(Page& page, const SceneState& state, const View& view);
-  struct LegendRow {
-    Ink ink;
-    double radius;  // px in a picture 720 px high
-    bool has_rim;
-    const char* name;
-    std::string range;
-    bool is_arrow;  // the symbol is an arrow, not a disc
-  };
-  /// Rows for the elements that are shown and exist.
-  static std::vector<LegendRow> LegendOf(const SceneState& state, const SceneLook& look);
-  void PaintLegend(Page& page, const SceneState& state, const SceneLook& look);
-  void PaintShortLegend(Page& page, const SceneState& state);
+  void PaintTitle(Page& page, const SceneState& state, const PictureSpec& spec);
   void PaintTimeCode(Page& page, const SceneState& state);
   void PaintStaleBanner(Page& page, const SceneState& state);
   void PaintNoData(Page& page, const SceneState& state);

@@ -50,8 +50,8 @@ inline constexpr Inks kDarkInks = {{{0.93, 0.94, 0.96}, 1},
                                    {{0.34, 0.36, 0.40}, 1},
                                    0.30};
 
-inline const Inks& InksOf(const View& view) {
-  return view.look.theme == Theme::kDark ? kDarkInks : kLightInks;
+inline const Inks& InksOf(const PictureSpec& spec) {
+  return spec.look.theme == Theme::kDark ? kDarkInks : kLightInks;
 }
 
 // Sizes in px for a picture 720 px high; all scale with the height.

@@ -6,7 +6,7 @@
 
 namespace kinescope::render {
 
-/// The overlays, one by one; View::overlays switches all of them.
+/// The overlays, one by one; PictureSpec::overlays switches all of them.
 struct OverlayParts {
   bool title = true;
   bool status = true;       // status indicator: live, recorded or stale, and the sample rate
@@ -15,8 +15,8 @@ struct OverlayParts {
   bool names = true;        // of several people, frames, placeholder boxes
   bool banner = true;       // "STALE", "NO DATA"
   bool scale = false;       // scale bar, true at the depth of the camera's target
-  bool frame_code = false;  // machine-readable: sample and time
-  bool plot = false;        // View::history
+  bool frame_code = false;  // machine-readable: sample and time (frame_code.h)
+  bool plot = false;        // PictureSpec::load_curves
 };
 
 struct OverlayInfo {

@@ -28,11 +28,11 @@ struct Frame {
 
 // The same for all rows, so that they compare: all of capacity and some of the high class, or more
 // where more was needed.
-double TopRatio(const LoadHistory& history, const std::array<double, 2>& class_limits) {
+double TopRatio(const LoadCurves& loads, const std::array<double, 2>& class_limits) {
   const auto round_up = [](double ratio) { return std::ceil(2 * ratio - 1e-9) / 2; };
   const double least = round_up(std::max(1.0, 1.1 * class_limits[1]));
   double top = least;
-  for (const LoadCurve& curve : history.curves) {
+  for (const LoadCurve& curve : loads.curves) {
     for (const LoadPoint& point : curve.points) {
       if (std::isfinite(point.ratio)) top = std::max(top, point.ratio);
     }
@@ -132,20 +132,20 @@ void PaintRow(OverlayPage& page, const Frame& frame, const LoadCurve& curve, dou
 
 }  // namespace
 
-void PaintPlot(OverlayPage& page, const LoadHistory& history,
+void PaintPlot(OverlayPage& page, const LoadCurves& loads,
                const std::array<double, 2>& class_limits, double now_secs, double top,
                double bottom) {
-  if (history.curves.empty()) return;
+  if (loads.curves.empty()) return;
   const int size = page.FontPx(kSmallSize);
   // Text has a least size, so rows follow it and not the picture alone.
   const double head = std::max(page.Px(kHead), 1.3 * size),
                foot = std::max(page.Px(kFoot), 1.2 * size);
   const double pad = page.Px(kPad), row = head + page.Px(kAxes) + page.Px(kGap);
   const double room = bottom - top - 2 * pad - foot + page.Px(kGap);
-  const auto rows = std::min(history.curves.size(),
+  const auto rows = std::min(loads.curves.size(),
                              static_cast<std::size_t>(std::max(0.0, std::floor(room / row))));
   if (rows == 0) return;
-  const std::size_t hidden = history.curves.size() - rows;
+  const std::size_t hidden = loads.curves.size() - rows;
   const double width = std::max(std::min(page.Px(kWidth), kNarrowest * page.width),
                                 std::min(12.0 * size, 0.5 * page.width));
   const double left = std::round(page.right() - width);
@@ -155,17 +155,17 @@ void PaintPlot(OverlayPage& page, const LoadHistory& history,
               0,
               std::round(width - 2 * pad),
               std::round(page.Px(kAxes)),
-              history.from_secs,
-              history.to_secs,
-              TopRatio(history, class_limits),
+              loads.from_secs,
+              loads.to_secs,
+              TopRatio(loads, class_limits),
               class_limits};
   for (std::size_t i = 0; i < rows; ++i) {
     frame.top = std::round(top + pad + static_cast<double>(i) * row + head);
-    PaintRow(page, frame, history.curves[i], now_secs, i == 0);
+    PaintRow(page, frame, loads.curves[i], now_secs, i == 0);
   }
   const double baseline = frame.top + frame.height + 0.95 * size;
   const int small = std::max(8, size - 2);
-  const std::string from = SecsText(history.from_secs), to = SecsText(history.to_secs);
+  const std::string from = SecsText(loads.from_secs), to = SecsText(loads.to_secs);
   page.canvas.Text(frame.left, baseline, from, page.fonts.regular, small, page.inks.faint_text);
   const double to_left = frame.left + frame.width - page.fonts.regular.Width(to, small);
   page.canvas.Text(to_left, baseline, to, page.fonts.regular, small, page.inks.faint_text);

@@ -4,14 +4,14 @@
 
 #include <array>
 
-#include "render/load_history.h"
+#include "render/load_curves.h"
 #include "render/overlay_page.h"
 
 namespace kinescope::render {
 
 /// At the upper right, between `top` and `bottom`, px. Rows without room are omitted, and the last
 /// row shows their number. `class_limits`: SceneState::class_limits.
-void PaintPlot(OverlayPage& page, const LoadHistory& history,
+void PaintPlot(OverlayPage& page, const LoadCurves& loads,
                const std::array<double, 2>& class_limits, double now_secs, double top,
                double bottom);
 

@@ -21,18 +21,18 @@ struct Renderer::Owner {
 
 namespace {
 
-void CheckView(const View& view) {
+void CheckSpec(const PictureSpec& spec) {
   const auto check_side = [](const char* name, int value) {
     if (value >= kMinPictureSide && value <= kMaxPictureSide) return;
     throw UsageError(std::string("picture ") + name + " " + std::to_string(value) + ": expected " +
                      std::to_string(kMinPictureSide) + " to " + std::to_string(kMaxPictureSide) +
                      " px");
   };
-  check_side("width", view.width);
-  check_side("height", view.height);
+  check_side("width", spec.width);
+  check_side("height", spec.height);
   const auto& factors = kSupersampleFactors;
-  if (std::find(factors.begin(), factors.end(), view.supersample) == factors.end()) {
-    throw UsageError("--supersample=" + std::to_string(view.supersample) + ": expected 1, 2 or 4");
+  if (std::find(factors.begin(), factors.end(), spec.supersample) == factors.end()) {
+    throw UsageError("--supersample=" + std::to_string(spec.supersample) + ": expected 1, 2 or 4");
   }
 }
 
@@ -70,27 +70,27 @@ Renderer::Renderer() : owner_(std::make_unique<const Owner>()) {}
 
 Renderer::~Renderer() { KINESCOPE_CHECK(std::this_thread::get_id() == owner_->thread); }
 
-Image Renderer::Render(const SceneState& state, const Camera& camera, const View& view) {
+Image Renderer::Render(const SceneState& state, const Camera& camera, const PictureSpec& spec) {
   Image image;
-  RenderInto(image, state, camera, view);
+  RenderInto(image, state, camera, spec);
   return image;
 }
 
 void Renderer::RenderInto(Image& image, const SceneState& state, const Camera& camera,
-                          const View& view) {
+                          const PictureSpec& spec) {
   KINESCOPE_CHECK(std::this_thread::get_id() == owner_->thread);
-  CheckView(view);
+  CheckSpec(spec);
   CheckCamera(camera);
-  for (const Pane& pane : view.panes) CheckCamera(pane.camera);
-  SetSize(image, view.width, view.height);
-  DoRender(image, state, camera, view);
+  for (const Pane& pane : spec.panes) CheckCamera(pane.camera);
+  SetSize(image, spec.width, spec.height);
+  DoRender(image, state, camera, spec);
 }
 
-std::string Renderer::OverlayLayer(const SceneState& state, const Camera& camera, const View& view,
-                                   LayerFormat format) {
+std::string Renderer::OverlayLayer(const SceneState& state, const Camera& camera,
+                                   const PictureSpec& spec, LayerFormat format) {
   KINESCOPE_CHECK(std::this_thread::get_id() == owner_->thread);
-  CheckView(view);
-  return DoOverlayLayer(state, camera, view, format);
+  CheckSpec(spec);
+  return DoOverlayLayer(state, camera, spec, format);
 }
 
 const std::vector<std::string>& BackendNames() {
@@ -107,10 +107,10 @@ bool HasBackend(const std::string& backend) {
   }
 }
 
-std::chrono::milliseconds LimitOf(const View& view) {
+std::chrono::milliseconds LimitOf(const PictureSpec& spec) {
   // The first picture compiles shaders: that is in the seconds, whatever the size.
   constexpr double kSecs = 30, kSecsPerPixel = 1e-6;
-  const double pixels = 1.0 * view.width * view.height * view.supersample * view.supersample;
+  const double pixels = 1.0 * spec.width * spec.height * spec.supersample * spec.supersample;
   return std::chrono::milliseconds(
       static_cast<std::chrono::milliseconds::rep>(1000 * (kSecs + kSecsPerPixel * pixels)));
 }

@@ -14,7 +14,7 @@
 #include "core/scene_state.h"
 #include "render/camera.h"
 #include "render/image.h"
-#include "render/load_history.h"
+#include "render/load_curves.h"
 #include "render/overlay_parts.h"
 #include "render/scene_look.h"
 
@@ -33,9 +33,9 @@ struct Pane {
   Camera camera;
 };
 
-struct View {
+struct PictureSpec {
   int width = kDefaultPictureWidth;    // px, kMinPictureSide to kMaxPictureSide
-  int height = kDefaultPictureHeight;  // px, likewise limited
+  int height = kDefaultPictureHeight;  // px, kMinPictureSide to kMaxPictureSide
   int supersample = 1;   // one of kSupersampleFactors: of pixels drawn, in each direction
   std::string title;     // upper left; "": none
   bool overlays = true;  // legend, time code, banner
@@ -44,7 +44,7 @@ struct View {
   std::vector<Pane> panes = {};
   int pane_columns = 1;
   /// For the plot; its cursor is at plot_secs.
-  std::shared_ptr<const LoadHistory> history = nullptr;
+  std::shared_ptr<const LoadCurves> load_curves = nullptr;
   double plot_secs = 0;
   SceneLook look = {};  // theme, background, visible elements
 };
@@ -72,15 +72,16 @@ class Renderer {
 
   /// `state` as `camera` sees it. Equal arguments give equal bytes.
   /// @throws RenderError if the driver fails; UsageError for a size out of range.
-  Image Render(const SceneState& state, const Camera& camera, const View& view);
+  Image Render(const SceneState& state, const Camera& camera, const PictureSpec& spec);
 
   /// As Render, into `image`, whose memory is reused: for streams of pictures.
-  void RenderInto(Image& image, const SceneState& state, const Camera& camera, const View& view);
+  void RenderInto(Image& image, const SceneState& state, const Camera& camera,
+                  const PictureSpec& spec);
 
   /// The overlays of the picture rendered last, alone and as vectors, in its size (SVG: px; PDF: 96
   /// px per inch). Pass the arguments of that picture; the layer is made whether or not
   /// view.overlays is set. Equal arguments give equal bytes.
-  std::string OverlayLayer(const SceneState& state, const Camera& camera, const View& view,
+  std::string OverlayLayer(const SceneState& state, const Camera& camera, const PictureSpec& spec,
                            LayerFormat format);
 
   /// The smallest axis-aligned box around the rendered shapes of `robot`, world, m; empty if there
@@ -99,11 +100,11 @@ class Renderer {
   Renderer();
 
  private:
-  /// `image` has the size of `view`; every pixel must be written.
+  /// `image` has the size of `spec`; every pixel must be written.
   virtual void DoRender(Image& image, const SceneState& state, const Camera& camera,
-                        const View& view) = 0;
+                        const PictureSpec& spec) = 0;
   virtual std::string DoOverlayLayer(const SceneState& state, const Camera& camera,
-                                     const View& view, LayerFormat format) = 0;
+                                     const PictureSpec& spec, LayerFormat format) = 0;
   struct Owner;  // the thread that made it
   std::unique_ptr<const Owner> owner_;
 };
@@ -132,7 +133,7 @@ struct RendererSettings {
 
 /// Thousands of times the rendering time of a picture of this size on a slow core; beyond it the
 /// driver counts as hanging.
-std::chrono::milliseconds LimitOf(const View& view);
+std::chrono::milliseconds LimitOf(const PictureSpec& spec);
 
 /// Sets GALLIUM_OVERRIDE_CPU_CAPS=sse4.1 in the environment unless it is set, so that llvmpipe
 /// rounds alike on every x86-64 machine; for "egl" also LIBGL_ALWAYS_SOFTWARE=1. Make the first

@@ -1,5 +1,5 @@
 /// Appearance of a scene: theme, background, visible elements, and elements beside the scene itself
-/// (trails, reference poses). Plain data, part of View. World, metres.
+/// (trails, reference poses). Plain data, part of PictureSpec. World, metres.
 #pragma once
 
 #include <array>

@@ -24,9 +24,6 @@ json ToJson(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; 
 
 json ToJson(const Rgb& color) { return json(color); }
 
-// JSON has no NaN; null means unknown.
-json NumberOrNull(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
-
 json OptionalPoint(const std::optional<Eigen::Vector3d>& point) {
   return point ? ToJson(*point) : json(nullptr);
 }
@@ -50,9 +47,9 @@ json LoadToJson(const JointLoad& load) {
   return {{"joint", urdf::kJoints[static_cast<std::size_t>(load.joint)].ros_name},
           {"label", JointLabel(load.joint)},
           {"class", Name(load.load_class)},
-          {"ratio", NumberOrNull(load.ratio)},
-          {"moment_nm", NumberOrNull(load.deciding_moment)},
-          {"capacity_nm", NumberOrNull(load.capacity)},
+          {"ratio", NumberOrNull<json>(load.ratio)},
+          {"moment_nm", NumberOrNull<json>(load.deciding_moment)},
+          {"capacity_nm", NumberOrNull<json>(load.capacity)},
           {"channel", load.channel},
           {"reason", load.reason},
           {"is_external", load.is_external},
@@ -216,7 +213,7 @@ std::string StateJson(const SceneState* state, std::int64_t now_nanos) {
                {"counter", state->counter},
                {"stamp_nanos", state->stamp_nanos},
                {"time_code_millis", state->time_code_millis},
-               {"rate_hz", NumberOrNull(state->rate_hz)},
+               {"rate_hz", NumberOrNull<json>(state->rate_hz)},
                {"age_ms", has_age ? json(age_ms) : json(nullptr)},
                {"source", state->source},
                {"people", std::move(people)},

@@ -34,8 +34,8 @@ SnapshotWorker::~SnapshotWorker() {
 bool SnapshotWorker::Submit(SnapshotRequest request, std::function<void(SnapshotResult)> done) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (jobs_.size() >= kMaxWaiting) return false;
-    jobs_.push_back({std::move(request), std::move(done)});
+    if (tasks_.size() >= kMaxWaiting) return false;
+    tasks_.push_back({std::move(request), std::move(done)});
   }
   changed_.notify_one();
   return true;
@@ -43,15 +43,15 @@ bool SnapshotWorker::Submit(SnapshotRequest request, std::function<void(Snapshot
 
 void SnapshotWorker::Run() {
   while (true) {
-    Job job;
+    SnapshotTask task;
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      changed_.wait(lock, [this] { return stopping_ || !jobs_.empty(); });
+      changed_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });
       if (stopping_) return;
-      job = std::move(jobs_.front());
-      jobs_.pop_front();
+      task = std::move(tasks_.front());
+      tasks_.pop_front();
     }
-    job.done(Draw(feed_, job.request));
+    task.done(Draw(feed_, task.request));
   }
 }
 

@@ -38,7 +38,7 @@ class SnapshotWorker {
   [[nodiscard]] bool Submit(SnapshotRequest request, std::function<void(SnapshotResult)> done);
 
  private:
-  struct Job {
+  struct SnapshotTask {
     SnapshotRequest request;
     std::function<void(SnapshotResult)> done;
   };
@@ -47,9 +47,9 @@ class SnapshotWorker {
   PictureFeed& feed_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Job> jobs_;   // guarded by mutex_
-  bool stopping_ = false;  // guarded by mutex_
-  std::thread thread_;     // last: starts when all other members exist
+  std::deque<SnapshotTask> tasks_;  // guarded by mutex_
+  bool stopping_ = false;           // guarded by mutex_
+  std::thread thread_;              // last: starts when all other members exist
 };
 
 }  // namespace kinescope::http

@@ -57,6 +57,8 @@ class Value {
   virtual void ParseAll(const std::vector<std::string>& texts) {
     for (const std::string& text : texts) Parse(text);
   }
+  /// As ParseAll() reads them.
+  virtual std::vector<std::string> ToTexts() const { return {ToText()}; }
   /// Words of an earlier version that were accepted so far.
   virtual std::vector<FormerWord> former_words() const { return {}; }
 
@@ -117,6 +119,7 @@ class Texts : public ValueOf<std::vector<std::string>> {
   void Parse(const std::string& text) override;
   void ParseAll(const std::vector<std::string>& texts) override { value_ = texts; }
   bool is_repeatable() const override { return true; }
+  std::vector<std::string> ToTexts() const override { return value_; }
   std::string ToText() const override;
   std::string Expected() const override { return expected_; }
 

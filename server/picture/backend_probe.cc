@@ -93,13 +93,13 @@ BackendReport MeasureBackend(const std::string& backend) {
     const auto renderer =
         render::MakeRenderer(backend, [&](const std::string& line) { report.log.push_back(line); });
     render::Image image;
-    renderer->RenderInto(image, *scene, camera, render::View{});
+    renderer->RenderInto(image, *scene, camera, render::PictureSpec{});
     report.first_picture_seconds = SecsSince(start);
     const auto measured_from = Clock::now();
     int pictures = 0;
     do {  // every one of them differs from the one before
       scene = reader.Next();
-      renderer->RenderInto(image, *scene, camera, render::View{});
+      renderer->RenderInto(image, *scene, camera, render::PictureSpec{});
       ++pictures;
     } while (Clock::now() - measured_from < kMeasuring);
     report.pictures_per_second = pictures / SecsSince(measured_from);

@@ -42,15 +42,15 @@ std::string CameraController::name() const {
   return keys_.empty() ? camera_ : std::filesystem::path(camera_).filename().string();
 }
 
-void CameraController::Survey(const SceneState& state) {
-  if (!survey_start_nanos_) survey_start_nanos_ = state.stamp_nanos;
-  clip_secs_ = std::max(clip_secs_, SecsBetween(*survey_start_nanos_, state.stamp_nanos));
+void CameraController::Prescan(const SceneState& state) {
+  if (!prescan_start_nanos_) prescan_start_nanos_ = state.stamp_nanos;
+  clip_secs_ = std::max(clip_secs_, SecsBetween(*prescan_start_nanos_, state.stamp_nanos));
   const Eigen::AlignedBox3d box = render::BoxOf(state);
   if (!box.isEmpty()) clip_box_.extend(box);
 }
 
 // Where it stands but for orbit and frame.
-render::Camera CameraController::Placed(const SceneState& state, const render::Whereabouts& ground,
+render::Camera CameraController::Placed(const SceneState& state, const render::GroundExtent& ground,
                                         double secs) const {
   if (!keys_.empty()) {
     std::vector<render::CameraKey> keys;
@@ -98,8 +98,8 @@ double CameraController::SecsOf(const SceneState& state) {
 
 // A first-order lag: of the way to go, the share 1 - exp(-dt / lag) is gone in dt, however often
 // it is asked.
-const render::Whereabouts& CameraController::Follow(const SceneState& state, double secs) {
-  const render::Whereabouts now = render::WhereaboutsOf(state);
+const render::GroundExtent& CameraController::Follow(const SceneState& state, double secs) {
+  const render::GroundExtent now = render::GroundExtentOf(state);
   if (!has_met_) {
     has_met_ = !state.people.empty();
     followed_ = now;
@@ -116,7 +116,7 @@ const render::Whereabouts& CameraController::Follow(const SceneState& state, dou
 
 render::Camera CameraController::Aim(const SceneState& state, double aspect) {
   const double secs = SecsOf(state);
-  const render::Whereabouts& ground = follow_secs_ ? Follow(state, secs) : steady_.Follow(state);
+  const render::GroundExtent& ground = follow_secs_ ? Follow(state, secs) : steady_.Follow(state);
   render::Camera camera = Placed(state, ground, secs);
   if (place_ && follow_secs_) {
     const Eigen::Vector3d shift = ground.middle - first_middle_;
@@ -127,7 +127,7 @@ render::Camera CameraController::Aim(const SceneState& state, double aspect) {
 }
 
 render::Camera CameraController::Only(const SceneState& state, double secs, double aspect) const {
-  return Finished(Placed(state, render::WhereaboutsOf(state), secs), state, secs, aspect);
+  return Finished(Placed(state, render::GroundExtentOf(state), secs), state, secs, aspect);
 }
 
 }  // namespace kinescope::app

@@ -22,9 +22,9 @@ class CameraController {
   CameraController(const CameraChoice& camera, const CameraOptions& options);
 
   /// Whether Aim needs to know the whole clip before its first picture.
-  bool needs_survey() const { return fit_ == Fit::kClip || is_one_turn_; }
+  bool needs_prescan() const { return fit_ == Fit::kClip || is_one_turn_; }
   /// Once for every scene of the clip, in order, before the first Aim.
-  void Survey(const SceneState& state);
+  void Prescan(const SceneState& state);
 
   /// Time begins with the first state that has a stamp and was passed to this function or to Aim.
   /// Call it for every state of a live source, so that time runs while no pictures are taken.
@@ -42,12 +42,12 @@ class CameraController {
 
  private:
   bool IsNamed() const { return !place_ && keys_.empty(); }
-  render::Camera Placed(const SceneState& state, const render::Whereabouts& ground,
+  render::Camera Placed(const SceneState& state, const render::GroundExtent& ground,
                         double secs) const;
   render::Camera Finished(render::Camera camera, const SceneState& state, double secs,
                           double aspect) const;
   double SecsOf(const SceneState& state);
-  const render::Whereabouts& Follow(const SceneState& state, double secs);
+  const render::GroundExtent& Follow(const SceneState& state, double secs);
 
   std::string camera_;
   std::optional<render::Camera> place_;
@@ -56,15 +56,15 @@ class CameraController {
   std::optional<double> fov_rad_, follow_secs_;
   double orbit_rad_per_sec_ = 0;
   Fit fit_ = Fit::kOff;
-  // Of the survey:
+  // Of the prescan:
   Eigen::AlignedBox3d clip_box_;
-  std::optional<std::int64_t> survey_start_nanos_;
+  std::optional<std::int64_t> prescan_start_nanos_;
   double clip_secs_ = 0;
   // Of the pictures so far:
   std::optional<std::int64_t> start_nanos_;
-  render::SteadyWhereabouts steady_;
-  render::Whereabouts followed_;  // where the lagging camera is
-  bool has_met_ = false;          // anybody to follow
+  render::SmoothedGroundExtent steady_;
+  render::GroundExtent followed_;  // where the lagging camera is
+  bool has_met_ = false;           // anybody to follow
   Eigen::Vector3d first_middle_ = Eigen::Vector3d::Zero();
   double followed_at_secs_ = 0;
 };

@@ -15,7 +15,9 @@ double MillisBetween(DrawingLoop::Clock::time_point from, DrawingLoop::Clock::ti
   return std::chrono::duration<double, std::milli>(to - from).count();
 }
 
-double AspectOf(const render::View& view) { return static_cast<double>(view.width) / view.height; }
+double AspectOf(const render::PictureSpec& view) {
+  return static_cast<double>(view.width) / view.height;
+}
 
 }  // namespace
 
@@ -75,7 +77,7 @@ void DrawingLoop::SetCamera(CameraController camera) {
   wake_.notify_one();
 }
 
-std::future<render::Image> DrawingLoop::Request(const render::View& view,
+std::future<render::Image> DrawingLoop::Request(const render::PictureSpec& view,
                                                 std::optional<CameraController> camera) {
   Order order{view, std::move(camera), {}};
   std::future<render::Image> picture = order.picture.get_future();
@@ -131,7 +133,7 @@ void DrawingLoop::DrawLive(std::unique_lock<std::mutex>& lock) {
   // neither after a pause nor after a picture that came late.
   next_live_ = begin + period_;
   const std::shared_ptr<const SceneState> state = state_;
-  const render::View view{settings_.width, settings_.height, 1, "", true};
+  const render::PictureSpec view{settings_.width, settings_.height, 1, "", true};
   const render::Camera camera = camera_.Aim(*state, AspectOf(view));
   lock.unlock();
   std::string error;

@@ -74,13 +74,13 @@ class DrawingLoop {
   /// picture. The future fails with what rendering threw, or std::runtime_error if the driver does
   /// not respond or the loop ends.
   /// @throws std::runtime_error if the driver does not respond, or if kMaxWaiting requests wait.
-  std::future<render::Image> Request(const render::View& view,
+  std::future<render::Image> Request(const render::PictureSpec& view,
                                      std::optional<CameraController> camera = std::nullopt);
   DrawingStatus status() const;
 
  private:
   struct Order {
-    render::View view;
+    render::PictureSpec view;
     std::optional<CameraController> camera;
     std::promise<render::Image> picture;
   };

@@ -329,24 +329,24 @@ void ViewOptions::List(options::OptionList& option) {
   option("robot", robot, "robot that stands on the floor beside the people; may be repeated");
 }
 
-render::View ToView(const ViewOptions& options) {
-  render::View view;
-  view.width = options.size->width;
-  view.height = options.size->height;
-  view.supersample = *options.supersample;
-  view.title = *options.title;
-  view.overlays = !*options.no_overlays;
-  view.parts = *options.overlay;
+render::PictureSpec ToPictureSpec(const ViewOptions& options) {
+  render::PictureSpec spec;
+  spec.width = options.size->width;
+  spec.height = options.size->height;
+  spec.supersample = *options.supersample;
+  spec.title = *options.title;
+  spec.overlays = !*options.no_overlays;
+  spec.parts = *options.overlay;
   // Naming joints shows the plot, unless --overlay decides.
-  if (!options.plot->empty() && !options.overlay.names_plot()) view.parts.plot = true;
-  render::SceneLook& look = view.look;
+  if (!options.plot->empty() && !options.overlay.names_plot()) spec.parts.plot = true;
+  render::SceneLook& look = spec.look;
   look.theme = *options.theme;
   look.is_transparent = options.background->is_transparent;
   look.background = options.background->color;
   look.floor = *options.floor;
   for (const render::ScenePart part : *options.show) look.shown.Set(part, true);
   for (const render::ScenePart part : *options.hide) look.shown.Set(part, false);
-  return view;
+  return spec;
 }
 
 }  // namespace kinescope::app

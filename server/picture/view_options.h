@@ -109,6 +109,7 @@ class RobotsValue : public options::ValueOf<std::vector<RobotPlace>> {
   void Parse(const std::string& text) override;
   void ParseAll(const std::vector<std::string>& texts) override;
   bool is_repeatable() const override { return true; }
+  std::vector<std::string> ToTexts() const override { return texts_; }
   std::string ToText() const override;
   std::string Expected() const override;
   std::vector<std::filesystem::path> Files() const override;
@@ -144,6 +145,6 @@ struct ViewOptions {
 };
 
 /// Without cameras.
-render::View ToView(const ViewOptions& options);
+render::PictureSpec ToPictureSpec(const ViewOptions& options);
 
 }  // namespace kinescope::app

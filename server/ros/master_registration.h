@@ -44,7 +44,8 @@ struct InputWiring {
   std::function<std::shared_ptr<ForceInbox>()> make_inbox;
   std::function<void(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;  // of other nodes
   std::shared_ptr<MarkerInbox> markers;  // null: no marker topics
-  std::function<std::shared_ptr<RosCameraTopics>(const ros::NodeHandle&)> make_view;  // null: no view
+  std::function<std::shared_ptr<RosCameraTopics>(const ros::NodeHandle&)>
+      make_view;  // null: no view
 };
 
 class MasterRegistration {

@@ -24,8 +24,8 @@ const std::string& SourceKinds();
 
 // Length that is read of a source without an end unless an option sets it, s.
 inline constexpr double kSubjectClipSecs = 10;
-inline constexpr double kSubjectLoadsSecs = 8;   // one lift
-inline constexpr double kSubjectSurveySecs = 5;  // for a camera that depends on the whole motion
+inline constexpr double kSubjectLoadsSecs = 8;    // one lift
+inline constexpr double kSubjectPrescanSecs = 5;  // for a camera that depends on the whole motion
 inline constexpr double kInspectSecs = 5;
 
 }  // namespace kinescope::app

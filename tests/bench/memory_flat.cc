@@ -33,15 +33,15 @@ int main(int argc, char** argv) {
   long next_report = 1000;
   for (long i = 1; i <= pictures; ++i) {
     const auto scene = reader.Next();
-    render::View view;
-    view.width = view.height = 64;
+    render::PictureSpec spec;
+    spec.width = spec.height = 64;
     // What is kept from picture to picture is given back and made anew: another view of the floor,
     // another size.
-    if (i % 10 == 0) view.width = 80;
-    if (i % 50 == 0) view.supersample = 2;
+    if (i % 10 == 0) spec.width = 80;
+    if (i % 50 == 0) spec.supersample = 2;
     const auto& cameras = render::CameraNames();
     const std::string& name = cameras[static_cast<std::size_t>(i / 25) % cameras.size()];
-    renderer->RenderInto(image, *scene, render::NamedCamera(name, *scene), view);
+    renderer->RenderInto(image, *scene, render::NamedCamera(name, *scene), spec);
     if (i != next_report) continue;
     std::printf("%7ld pictures: RSS %.1f MB\n", i, RssMb());
     std::fflush(stdout);

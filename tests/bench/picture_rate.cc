@@ -28,21 +28,21 @@ void Measure(render::Renderer& renderer, int supersample, bool overlays, double 
   app::SceneReader reader("demo:lift", app::SceneOptions());
   auto scene = reader.Next();
   const render::Camera camera = render::NamedCamera("three_quarter", *scene);
-  render::View view;
-  view.supersample = supersample;
-  view.overlays = overlays;
+  render::PictureSpec spec;
+  spec.supersample = supersample;
+  spec.overlays = overlays;
   render::Image image;
-  for (int i = 0; i < 10; ++i) renderer.RenderInto(image, *(scene = reader.Next()), camera, view);
+  for (int i = 0; i < 10; ++i) renderer.RenderInto(image, *(scene = reader.Next()), camera, spec);
   const double cpu = CpuSecs();
   const auto start = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   int pictures = 0;
   for (; elapsed() < secs; ++pictures) {
     scene = reader.Next();  // reading and loads of a sample are in the figure
-    renderer.RenderInto(image, *scene, camera, view);
+    renderer.RenderInto(image, *scene, camera, spec);
   }
   std::printf("kinescope %dx%d, %dx, overlays %s: %.1f pictures/s, CPU %.2f ms a picture\n",
-              view.width, view.height, supersample, overlays ? "on" : "off", pictures / elapsed(),
+              spec.width, spec.height, supersample, overlays ? "on" : "off", pictures / elapsed(),
               1000 * (CpuSecs() - cpu) / pictures);
 }
 

@@ -50,7 +50,7 @@ void Draw(benchmark::State& run, bool moves) {
   const auto renderer = MakeRenderer();
   run.SetLabel(renderer->renderer_string());
   Sway sway;
-  View view;
+  PictureSpec view;
   view.supersample = static_cast<int>(run.range(0));
   view.overlays = run.range(1) != 0;
   Camera camera = NamedCamera("three_quarter", sway.state());
@@ -127,7 +127,7 @@ class BareGl {
 
 void ClearAndReadBack(benchmark::State& run) {
   const auto renderer = MakeRenderer();
-  View view;
+  PictureSpec view;
   view.width = 1280 * static_cast<int>(run.range(0));
   view.height = 720 * static_cast<int>(run.range(0));
   Sway sway;
@@ -147,12 +147,12 @@ void FirstPicture(benchmark::State& run) {
   const SceneState state = MixedScene(Posture::kStanding);
   const Camera camera = NamedCamera("front", state);
   for (auto _ : run)
-    benchmark::DoNotOptimize(MakeRenderer()->Render(state, camera, View()).rgba.data());
+    benchmark::DoNotOptimize(MakeRenderer()->Render(state, camera, PictureSpec()).rgba.data());
 }
 
 Image Sample() {
   const SceneState state = MixedScene(Posture::kStanding);
-  return MakeRenderer()->Render(state, NamedCamera("three_quarter", state), View());
+  return MakeRenderer()->Render(state, NamedCamera("three_quarter", state), PictureSpec());
 }
 
 void Jpeg(benchmark::State& run) {
@@ -176,7 +176,8 @@ void H264(benchmark::State& run) {
   Sway sway;
   std::vector<Image> pictures;
   const Camera camera = NamedCamera("three_quarter", sway.state());
-  for (int i = 0; i < 30; ++i) pictures.push_back(renderer->Render(sway.Next(), camera, View()));
+  for (int i = 0; i < 30; ++i)
+    pictures.push_back(renderer->Render(sway.Next(), camera, PictureSpec()));
   const auto path = std::filesystem::temp_directory_path() / "kinescope_render_bench.mp4";
   const auto video = MakeVideoWriter(path, 1280, 720, {});
   std::size_t next = 0;

@@ -117,11 +117,11 @@ SceneState StandingAt(double x, double y) {
   return testing::SceneWith(testing::Posture::kStanding, LoadClass::kLow, x, y);
 }
 
-TEST(SteadyWhereabouts, StandStillUntilSomebodyWalksAway) {
-  SteadyWhereabouts steady;
+TEST(SmoothedGroundExtent, StandsStillUntilAPersonWalksAway) {
+  SmoothedGroundExtent steady;
   const auto x_at = [&](double x) { return steady.Follow(StandingAt(x, 0)).middle.x(); };
   const double first = x_at(0);
-  EXPECT_EQ(first, WhereaboutsOf(StandingAt(0, 0)).middle.x());
+  EXPECT_EQ(first, GroundExtentOf(StandingAt(0, 0)).middle.x());
   EXPECT_EQ(x_at(0.3), first);
   EXPECT_EQ(x_at(-0.3), first);
   // Drawn along without a jump: as much further as they went.
@@ -131,12 +131,13 @@ TEST(SteadyWhereabouts, StandStillUntilSomebodyWalksAway) {
   EXPECT_EQ(x_at(0.4), far) << "turning back does not drag them back";
 }
 
-TEST(SteadyWhereabouts, WaitWhileNobodyIsThere) {
-  SteadyWhereabouts steady;
+TEST(SmoothedGroundExtent, StandsStillWithoutAPerson) {
+  SmoothedGroundExtent steady;
   const SceneState there = StandingAt(4, 2);
   EXPECT_NEAR(steady.Follow(SceneState()).middle.x(), 0, 1e-12);
-  EXPECT_EQ(steady.Follow(there).middle, WhereaboutsOf(there).middle) << "met at once";
-  EXPECT_EQ(steady.Follow(SceneState()).middle, WhereaboutsOf(there).middle);
+  EXPECT_EQ(steady.Follow(there).middle, GroundExtentOf(there).middle)
+      << "the first person sets it at once";
+  EXPECT_EQ(steady.Follow(SceneState()).middle, GroundExtentOf(there).middle);
 }
 
 TEST(Camera, WithoutPerspectiveAMetreIsAsLargeAtAnyDepth) {
@@ -163,7 +164,7 @@ TEST(Camera, ANarrowPictureStillShowsBothArms) {
     Camera camera = NamedCamera("front", state);
     if (is_flat) camera = Orthographic(camera);
     EXPECT_EQ(ForAspect(camera, 16.0 / 9).position, camera.position) << "wide enough";
-    const Vector3d hand = WhereaboutsOf(state).middle + Vector3d(0, 0.94, 1.06);
+    const Vector3d hand = GroundExtentOf(state).middle + Vector3d(0, 0.94, 1.06);
     EXPECT_GT(Project(hand, camera, 270, 480).x_px, 270);
     EXPECT_LT(Project(hand, ForAspect(camera, 270.0 / 480), 270, 480).x_px, 270);
   }

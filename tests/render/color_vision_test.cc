@@ -60,19 +60,19 @@ TEST(ColorVision, TellsTheClassesOfThePaletteApart) {
 
 TEST(ColorVision, TellsTheClassesApartAsThePictureShadesThem) {
   const auto renderer = MakeRenderer();
-  View view;
-  view.width = 480;
-  view.height = 360;
-  view.overlays = false;
+  PictureSpec spec;
+  spec.width = 480;
+  spec.height = 360;
+  spec.overlays = false;
   for (const char* camera_name : {"front", "top", "left"}) {
     std::map<LoadClass, Rgb> colors;
     for (const LoadClass load_class : kClasses) {
       SceneState state = testing::SceneWith(testing::Posture::kStanding, load_class);
       state.people[0].loads = {testing::LoadOf(state, urdf::jLeftShoulder)};
       const Camera camera = NamedCamera(camera_name, state);
-      const Image image = renderer->Render(state, camera, view);
+      const Image image = renderer->Render(state, camera, spec);
       colors[load_class] =
-          ShownIn(image, LocateSpheres(state, camera, view.width, view.height).at(0));
+          ShownIn(image, LocateSpheres(state, camera, spec.width, spec.height).at(0));
     }
     ExpectApart(colors, camera_name);
   }

@@ -12,7 +12,8 @@ namespace kinescope::render {
 namespace {
 
 // Heights of all that is drawn, in an order of this test's own.
-std::vector<double> HeightsOf(const SceneState& scene, const Camera& camera, const View& view) {
+std::vector<double> HeightsOf(const SceneState& scene, const Camera& camera,
+                              const PictureSpec& spec) {
   std::vector<double> heights = {camera.position.z(), camera.target.z()};
   const auto add = [&](const Eigen::Vector3d& point) { heights.push_back(point.z()); };
   const auto add_person = [&](const PersonState& person) {
@@ -34,17 +35,17 @@ std::vector<double> HeightsOf(const SceneState& scene, const Camera& camera, con
     if (person.cop) add(*person.cop);
   };
   for (const PersonState& person : scene.people) add_person(person);
-  for (const Ghost& ghost : view.look.ghosts) add_person(ghost.person);
+  for (const Ghost& ghost : spec.look.ghosts) add_person(ghost.person);
   for (const TrackedObject& object : scene.objects) add(object.pose.position);
   for (const RobotState& robot : scene.robots) {
     for (const Eigen::Isometry3d& link : robot.world_from_link) add(link.translation());
   }
   for (const auto& marker : scene.markers) add(marker->pose.position);
-  for (const Pane& pane : view.panes) {
+  for (const Pane& pane : spec.panes) {
     add(pane.camera.position);
     add(pane.camera.target);
   }
-  for (const Trail& trail : view.look.trails) {
+  for (const Trail& trail : spec.look.trails) {
     for (const Eigen::Vector3d& point : trail.points) add(point);
   }
   return heights;
@@ -60,19 +61,19 @@ TEST(LiftToFloor, RaisesAllThatHasAPlaceAndNothingSideways) {
   const auto marker = std::make_shared<const SceneMarker>();
   scene.markers.push_back(marker);
   Camera camera;
-  View view;
-  view.panes.resize(2);
-  view.look.trails.resize(1);
-  view.look.trails[0].points = {{1, 2, 3}, {4, 5, 6}};
-  view.look.ghosts.push_back({scene.people[0], 0.5});
+  PictureSpec spec;
+  spec.panes.resize(2);
+  spec.look.trails.resize(1);
+  spec.look.trails[0].points = {{1, 2, 3}, {4, 5, 6}};
+  spec.look.ghosts.push_back({scene.people[0], 0.5});
 
-  std::vector<double> expected = HeightsOf(scene, camera, view);
+  std::vector<double> expected = HeightsOf(scene, camera, spec);
   for (double& height : expected) height += 0.75;
   const SceneState before = scene;
-  LiftToFloor(scene, camera, view);
+  LiftToFloor(scene, camera, spec);
 
   EXPECT_EQ(scene.floor_z, 0);
-  const std::vector<double> heights = HeightsOf(scene, camera, view);
+  const std::vector<double> heights = HeightsOf(scene, camera, spec);
   ASSERT_EQ(heights.size(), expected.size());
   for (std::size_t i = 0; i < heights.size(); ++i) EXPECT_NEAR(heights[i], expected[i], 1e-12) << i;
   for (std::size_t i = 0; i < before.people[0].links.size(); ++i) {
@@ -85,10 +86,10 @@ TEST(LiftToFloor, RaisesAllThatHasAPlaceAndNothingSideways) {
 TEST(LiftToFloor, AFloorThatIsAtZeroChangesNothing) {
   SceneState scene = testing::SceneWith(testing::Posture::kDeepBend);
   Camera camera;
-  View view;
-  const std::vector<double> before = HeightsOf(scene, camera, view);
-  LiftToFloor(scene, camera, view);
-  EXPECT_EQ(HeightsOf(scene, camera, view), before);
+  PictureSpec spec;
+  const std::vector<double> before = HeightsOf(scene, camera, spec);
+  LiftToFloor(scene, camera, spec);
+  EXPECT_EQ(HeightsOf(scene, camera, spec), before);
 }
 
 }  // namespace

@@ -41,21 +41,21 @@ Camera Ahead() {
 class MarkerDrawing : public ::testing::Test {
  protected:
   MarkerDrawing() {
-    view_.width = kWidth;
-    view_.height = kHeight;
+    spec_.width = kWidth;
+    spec_.height = kHeight;
     std::ofstream(folder_ / "box.stl", std::ios::binary) << kinescope::testing::BoxStl();
   }
   std::vector<SceneMarker> All() const {
     return kinescope::testing::MarkersOfAllTypes("file://" + (folder_ / "box.stl").string());
   }
   SceneMarker Sample(MarkerType type) const { return All().at(static_cast<std::size_t>(type)); }
-  Image Draw(const SceneState& state) { return renderer_->Render(state, Ahead(), view_); }
+  Image Draw(const SceneState& state) { return renderer_->Render(state, Ahead(), spec_); }
 
   const kinescope::testing::TempFolder folder_;
   std::vector<std::string> log_;
   const std::unique_ptr<Renderer> renderer_ =
       MakeRenderer("osmesa", [this](const std::string& line) { log_.push_back(line); });
-  View view_;
+  PictureSpec spec_;
 };
 
 TEST_F(MarkerDrawing, EveryTypeIsDrawnWhereItIs) {

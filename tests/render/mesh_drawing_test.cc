@@ -79,9 +79,9 @@ class MeshDrawing : public ::testing::Test {
   MeshDrawing()
       : renderer_(
             MakeRenderer("osmesa", [this](const std::string& line) { log_.push_back(line); })) {
-    view_.width = 640;
-    view_.height = 360;
-    view_.overlays = false;
+    spec_.width = 640;
+    spec_.height = 360;
+    spec_.overlays = false;
   }
 
   std::filesystem::path Write(const std::string& name, const std::string& text) {
@@ -96,14 +96,14 @@ class MeshDrawing : public ::testing::Test {
     auto model = std::make_shared<PersonModel>(*state.people[0].model);
     for (urdf::Link& link : model->robot.links) link.visuals.clear();
     bodiless.people[0].model = model;
-    return Compare(renderer_->Render(bodiless, camera, view_),
-                   renderer_->Render(state, camera, view_));
+    return Compare(renderer_->Render(bodiless, camera, spec_),
+                   renderer_->Render(state, camera, spec_));
   }
 
   TempFolder folder_;
   std::vector<std::string> log_;
   std::unique_ptr<Renderer> renderer_;
-  View view_;
+  PictureSpec spec_;
 };
 
 // What a cube of `side` metres at the head covers from the front, px.
@@ -150,7 +150,7 @@ TEST_F(MeshDrawing, AMeshThatIsInsideOutIsStillASolid) {
   const SceneState good = HeadFromFile(Write("good.stl", CubeStl()).string());
   const SceneState bad = HeadFromFile(Write("bad.stl", CubeStl(true)).string());
   const Camera camera = NamedCamera("three_quarter", good);
-  EXPECT_TRUE(Compare(renderer_->Render(good, camera, view_), renderer_->Render(bad, camera, view_))
+  EXPECT_TRUE(Compare(renderer_->Render(good, camera, spec_), renderer_->Render(bad, camera, spec_))
                   .equal());
 }
 
@@ -169,19 +169,19 @@ TEST_F(MeshDrawing, AnOpenSurfaceIsSeenFromWithinToo) {
       4 * (static_cast<int>(inside.y_px) * 640 + static_cast<int>(inside.x_px)));
   SceneState nobody;
   nobody.liveness = Liveness::kLive;
-  const Image floor = renderer_->Render(nobody, camera, view_);
-  const Image picture = renderer_->Render(open, camera, view_);
+  const Image floor = renderer_->Render(nobody, camera, spec_);
+  const Image picture = renderer_->Render(open, camera, spec_);
   EXPECT_GT(std::abs(picture.rgba[at] - floor.rgba[at]), 10);
-  EXPECT_GT(Compare(picture, renderer_->Render(closed, camera, view_)).pixels, 100);
+  EXPECT_GT(Compare(picture, renderer_->Render(closed, camera, spec_)).pixels, 100);
 }
 
 TEST_F(MeshDrawing, AMissingMeshIsABoxWithALabelAndOneLineOfLog) {
   const SceneState state = HeadFromFile("file:///no/such/head.stl");
   const Camera camera = NamedCamera("front", state);
   EXPECT_GT(Drawn(state).pixels, 100);
-  const Image without_label = renderer_->Render(state, camera, view_);
-  view_.overlays = true;
-  const Image labelled = renderer_->Render(state, camera, view_);
+  const Image without_label = renderer_->Render(state, camera, spec_);
+  spec_.overlays = true;
+  const Image labelled = renderer_->Render(state, camera, spec_);
   const Projected head = Project(state.people[0].links[urdf::kHead].position, camera, 640, 360);
   int changed = 0;
   for (int y = static_cast<int>(head.y_px) - 8; y < static_cast<int>(head.y_px) + 8; ++y) {

@@ -15,28 +15,28 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-View Small() {
-  View view;
-  view.width = 321;
-  view.height = 180;
-  view.overlays = false;
-  return view;
+PictureSpec Small() {
+  PictureSpec spec;
+  spec.width = 321;
+  spec.height = 180;
+  spec.overlays = false;
+  return spec;
 }
 
 TEST(MultiView, EachViewIsThePictureOfItsCamera) {
   const auto renderer = MakeRenderer();
   const SceneState state = kinescope::testing::MixedScene(kinescope::testing::Posture::kStanding);
-  View view = Small();
-  for (const char* name : {"front", "top"}) view.panes.push_back({name, NamedCamera(name, state)});
-  view.pane_columns = 2;
-  const Image both = renderer->Render(state, Camera(), view);
-  const auto tiles = PaneTiles(view.width, view.height, 2, 2);
+  PictureSpec spec = Small();
+  for (const char* name : {"front", "top"}) spec.panes.push_back({name, NamedCamera(name, state)});
+  spec.pane_columns = 2;
+  const Image both = renderer->Render(state, Camera(), spec);
+  const auto tiles = PaneTiles(spec.width, spec.height, 2, 2);
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    View alone = Small();
+    PictureSpec alone = Small();
     alone.width = tiles[i].width;
     Image expected = both;
-    CopyInto(expected, renderer->Render(state, view.panes[i].camera, alone), tiles[i]);
-    EXPECT_EQ(expected.rgba, both.rgba) << view.panes[i].name;
+    CopyInto(expected, renderer->Render(state, spec.panes[i].camera, alone), tiles[i]);
+    EXPECT_EQ(expected.rgba, both.rgba) << spec.panes[i].name;
   }
 }
 
@@ -44,11 +44,11 @@ TEST(MultiView, WithoutPerspectiveSpheresAreWhereTheCameraSays) {
   const auto renderer = MakeRenderer();
   const SceneState state = kinescope::testing::MixedScene(kinescope::testing::Posture::kStanding);
   const Camera camera = Orthographic(NamedCamera("front", state));
-  View view = Small();
-  view.width = 640;
-  view.height = 360;
-  const Image image = renderer->Render(state, camera, view);
-  const auto spheres = LocateSpheres(state, camera, view.width, view.height);
+  PictureSpec spec = Small();
+  spec.width = 640;
+  spec.height = 360;
+  const Image image = renderer->Render(state, camera, spec);
+  const auto spheres = LocateSpheres(state, camera, spec.width, spec.height);
   EXPECT_TRUE(ReadSphere(image, spheres, 0).is_readable);
   EXPECT_THAT(FindSphereMismatches(image, spheres), ::testing::IsEmpty());
 }
@@ -57,19 +57,19 @@ TEST(OverlayLayer, IsAsLargeAsThePictureAndTheSameEveryTime) {
   const auto renderer = MakeRenderer();
   const SceneState state = kinescope::testing::MixedScene(kinescope::testing::Posture::kStanding);
   const Camera camera = NamedCamera("front", state);
-  View view = Small();
-  view.title = "Ümlaut & <tag>";
-  view.parts.scale = view.parts.frame_code = true;
-  renderer->Render(state, camera, view);
-  const std::string svg = renderer->OverlayLayer(state, camera, view, LayerFormat::kSvg);
+  PictureSpec spec = Small();
+  spec.title = "Ümlaut & <tag>";
+  spec.parts.scale = spec.parts.frame_code = true;
+  renderer->Render(state, camera, spec);
+  const std::string svg = renderer->OverlayLayer(state, camera, spec, LayerFormat::kSvg);
   EXPECT_THAT(svg, HasSubstr("width=\"321px\" height=\"180px\""));
   EXPECT_THAT(svg, Not(HasSubstr("<image"))) << "vectors, no pixels";
-  const std::string pdf = renderer->OverlayLayer(state, camera, view, LayerFormat::kPdf);
+  const std::string pdf = renderer->OverlayLayer(state, camera, spec, LayerFormat::kPdf);
   EXPECT_THAT(pdf, StartsWith("%PDF-"));
-  EXPECT_EQ(renderer->OverlayLayer(state, camera, view, LayerFormat::kSvg), svg);
-  EXPECT_EQ(renderer->OverlayLayer(state, camera, view, LayerFormat::kPdf), pdf);
-  view.parts.legend = false;
-  EXPECT_LT(renderer->OverlayLayer(state, camera, view, LayerFormat::kSvg).size(), svg.size());
+  EXPECT_EQ(renderer->OverlayLayer(state, camera, spec, LayerFormat::kSvg), svg);
+  EXPECT_EQ(renderer->OverlayLayer(state, camera, spec, LayerFormat::kPdf), pdf);
+  spec.parts.legend = false;
+  EXPECT_LT(renderer->OverlayLayer(state, camera, spec, LayerFormat::kSvg).size(), svg.size());
 }
 
 }  // namespace

@@ -55,21 +55,21 @@ std::vector<PlotBand> BandsIn(const Image& image) {
 
 // A plot of one joint whose ratio was `ratio` at the clip's beginning.
 Image PlotWith(const std::array<double, 2>& class_limits, double ratio) {
-  LoadHistory history;
-  history.curves = {{"Right elbow", {{0, ratio, LoadClass::kLow}, {0.1, ratio, LoadClass::kLow}}}};
-  View view;
-  view.width = kPlotPictureWidth;
-  view.height = kPlotPictureHeight;
-  view.parts = {false, false, false, false, false, false, false, false, true};
-  view.history = std::make_shared<const LoadHistory>(history);
+  LoadCurves loads;
+  loads.curves = {{"Right elbow", {{0, ratio, LoadClass::kLow}, {0.1, ratio, LoadClass::kLow}}}};
+  PictureSpec spec;
+  spec.width = kPlotPictureWidth;
+  spec.height = kPlotPictureHeight;
+  spec.parts = {false, false, false, false, false, false, false, false, true};
+  spec.load_curves = std::make_shared<const LoadCurves>(loads);
   SceneState state;
   state.liveness = Liveness::kLive;
   state.class_limits = class_limits;
   Image image;
-  SetSize(image, view.width, view.height);
+  SetSize(image, spec.width, spec.height);
   std::fill(image.rgba.begin(), image.rgba.end(), 255);
   Canvas canvas(image);
-  Overlay().Paint(canvas, state, {}, view);
+  Overlay().Paint(canvas, state, {}, spec);
   return image;
 }
 

@@ -27,12 +27,12 @@ using kinescope::testing::MixedScene;
 using kinescope::testing::Posture;
 using kinescope::testing::SceneWith;
 
-View SmallView(bool overlays = false) {
-  View view;
-  view.width = 640;
-  view.height = 360;
-  view.overlays = overlays;
-  return view;
+PictureSpec SmallView(bool overlays = false) {
+  PictureSpec spec;
+  spec.width = 640;
+  spec.height = 360;
+  spec.overlays = overlays;
+  return spec;
 }
 
 SceneState EmptyScene() {
@@ -93,38 +93,38 @@ TEST(Renderer, PutsThePersonWhereTheStateSays) {
 TEST(Renderer, TheSameStateIsTheSameBytesWhateverWasDrawnBefore) {
   const SceneState state = MixedScene(Posture::kDeepBend);
   const Camera camera = NamedCamera("three_quarter", state);
-  View view = SmallView(true);
-  view.title = "trial";
+  PictureSpec spec = SmallView(true);
+  spec.title = "trial";
   for (const int supersample : {1, 2}) {
-    view.supersample = supersample;
+    spec.supersample = supersample;
     const auto first = MakeRenderer();
     const auto second = MakeRenderer();
-    const Image picture = first->Render(state, camera, view);
+    const Image picture = first->Render(state, camera, spec);
     // The second and third find the floor unchanged and take it from memory.
-    EXPECT_EQ(first->Render(state, camera, view).rgba, picture.rgba);
-    EXPECT_EQ(first->Render(state, camera, view).rgba, picture.rgba);
-    EXPECT_EQ(second->Render(state, camera, view).rgba, picture.rgba);
+    EXPECT_EQ(first->Render(state, camera, spec).rgba, picture.rgba);
+    EXPECT_EQ(first->Render(state, camera, spec).rgba, picture.rgba);
+    EXPECT_EQ(second->Render(state, camera, spec).rgba, picture.rgba);
     const SceneState other = SceneWith(Posture::kStanding, LoadClass::kHigh);
     second->Render(other, NamedCamera("top", other), SmallView());
     second->Render(SceneState(), NamedCamera("top", other), SmallView());
-    EXPECT_EQ(second->Render(state, camera, view).rgba, picture.rgba);
-    EXPECT_EQ(first->Render(state, camera, view).rgba, picture.rgba);
+    EXPECT_EQ(second->Render(state, camera, spec).rgba, picture.rgba);
+    EXPECT_EQ(first->Render(state, camera, spec).rgba, picture.rgba);
   }
 }
 
 TEST(Renderer, EightThreadsWithOneEachDrawTheSameBytes) {
   const SceneState state = MixedScene(Posture::kStanding);
   const Camera camera = NamedCamera("iso", state);
-  View view = SmallView(true);
-  view.width = 160;
-  view.height = 90;
-  const Image expected = MakeRenderer()->Render(state, camera, view);
+  PictureSpec spec = SmallView(true);
+  spec.width = 160;
+  spec.height = 90;
+  const Image expected = MakeRenderer()->Render(state, camera, spec);
   std::array<Image, 8> pictures;
   std::array<std::thread, 8> threads;
   for (std::size_t i = 0; i < threads.size(); ++i) {
     threads[i] = std::thread([&, i] {
       const auto renderer = MakeRenderer();
-      for (int k = 0; k < 5; ++k) pictures[i] = renderer->Render(state, camera, view);
+      for (int k = 0; k < 5; ++k) pictures[i] = renderer->Render(state, camera, spec);
     });
   }
   for (std::thread& thread : threads) thread.join();
@@ -156,11 +156,11 @@ TEST(Renderer, ShowsTheSamePictureWhereverTheFloorIs) {
   }
   for (FootForce& foot : person.forces.feet) foot.cop += down;
   const auto renderer = MakeRenderer();
-  View view;
-  view.width = 320;
-  view.height = 180;
-  const Image a = renderer->Render(here, NamedCamera("front", here), view);
-  const Image b = renderer->Render(lower, NamedCamera("front", lower), view);
+  PictureSpec spec;
+  spec.width = 320;
+  spec.height = 180;
+  const Image a = renderer->Render(here, NamedCamera("front", here), spec);
+  const Image b = renderer->Render(lower, NamedCamera("front", lower), spec);
   EXPECT_LE(Compare(a, b).pixels, 5) << Describe(Compare(a, b), b);  // of 57600; edges may round
 }
 
@@ -173,14 +173,14 @@ TEST(Renderer, EveryPixelIsOpaque) {
 TEST(Renderer, RenderIntoReusesMemoryAndTakesAnyFormerSize) {
   const auto renderer = MakeRenderer();
   const SceneState state = MixedScene(Posture::kStanding);
-  View view = SmallView();
-  const Image expected = renderer->Render(state, Camera(), view);
+  PictureSpec spec = SmallView();
+  const Image expected = renderer->Render(state, Camera(), spec);
   Image image;
-  view.width = 900;
-  renderer->RenderInto(image, state, Camera(), view);
+  spec.width = 900;
+  renderer->RenderInto(image, state, Camera(), spec);
   const std::uint8_t* memory = image.rgba.data();
-  view.width = 640;
-  renderer->RenderInto(image, state, Camera(), view);
+  spec.width = 640;
+  renderer->RenderInto(image, state, Camera(), spec);
   EXPECT_EQ(image.rgba.data(), memory);
   EXPECT_EQ(image.rgba, expected.rgba);
   EXPECT_EQ(image.width, 640);
@@ -239,11 +239,11 @@ TEST(Renderer, SupersamplingSmoothsAndChangesNothingElse) {
   const auto renderer = MakeRenderer();
   const SceneState state = MixedScene(Posture::kStanding);
   const Camera camera = NamedCamera("three_quarter", state);
-  View view = SmallView();
-  const Image rough = renderer->Render(state, camera, view);
+  PictureSpec spec = SmallView();
+  const Image rough = renderer->Render(state, camera, spec);
   for (const int supersample : {2, 4}) {
-    view.supersample = supersample;
-    const Image smooth = renderer->Render(state, camera, view);
+    spec.supersample = supersample;
+    const Image smooth = renderer->Render(state, camera, spec);
     double sum = 0;
     for (std::size_t i = 0; i < rough.rgba.size(); ++i)
       sum += std::abs(rough.rgba[i] - smooth.rgba[i]);
@@ -256,9 +256,9 @@ TEST(Renderer, SupersamplingSmoothsAndChangesNothingElse) {
 TEST(Renderer, LargePicturesHaveNoSeams) {
   const auto renderer = MakeRenderer();
   const SceneState state = MixedScene(Posture::kStanding);
-  View view = SmallView();
-  view.width = 4200;
-  view.height = 300;
+  PictureSpec spec = SmallView();
+  spec.width = 4200;
+  spec.height = 300;
   Camera camera = NamedCamera("front", state);
   // From afar with a long lens, or spheres at the edge of so wide a picture would be ovals.
   camera.vertical_fov_rad = 0.05;
@@ -269,7 +269,7 @@ TEST(Renderer, LargePicturesHaveNoSeams) {
   const Projected pelvis =
       Project(state.people[0].links[urdf::kPelvis].position, camera, 4200, 300);
   ASSERT_NEAR(pelvis.x_px, 4096, 30) << "the test must look at the seam";
-  const Image image = renderer->Render(state, camera, view);
+  const Image image = renderer->Render(state, camera, spec);
   EXPECT_THAT(FindSphereMismatches(image, LocateSpheres(state, camera, 4200, 300)),
               ::testing::IsEmpty());
   double seam = 0, beside = 0;
@@ -288,13 +288,13 @@ TEST(Renderer, OverlaysKeepClearOfThePerson) {
   const Camera camera = NamedCamera("front", state);
   for (const auto& [width, height] :
        {std::pair{1280, 720}, {1920, 1080}, {640, 480}, {720, 1280}, {320, 180}, {160, 90}}) {
-    View view;
-    view.width = width;
-    view.height = height;
-    view.title = "A title of usual length";
-    const Image with = renderer->Render(state, camera, view);
-    view.overlays = false;
-    const Image without = renderer->Render(state, camera, view);
+    PictureSpec spec;
+    spec.width = width;
+    spec.height = height;
+    spec.title = "A title of usual length";
+    const Image with = renderer->Render(state, camera, spec);
+    spec.overlays = false;
+    const Image without = renderer->Render(state, camera, spec);
     EXPECT_GT(Compare(with, without).pixels, 20);
     double left = width, right = 0;
     for (const urdf::Pose& pose : state.people[0].links) {
@@ -321,11 +321,11 @@ TEST(Renderer, TakesTextOfAnyKind) {
   state.people[0].name = std::string(5000, 'W');
   state.people[1].name = "\xFF\xFE\xC0 \x01";
   state.source = std::string(3000, 'x');
-  View view = SmallView(true);
-  view.title = std::string(20000, 'M') + "\xE2\x82";
+  PictureSpec spec = SmallView(true);
+  spec.title = std::string(20000, 'M') + "\xE2\x82";
   for (const Liveness liveness : {Liveness::kLive, Liveness::kStale, Liveness::kNoData}) {
     state.liveness = liveness;
-    EXPECT_EQ(renderer->Render(state, NamedCamera("front", state), view).width, 640);
+    EXPECT_EQ(renderer->Render(state, NamedCamera("front", state), spec).width, 640);
   }
 }
 
@@ -333,21 +333,21 @@ TEST(Renderer, RefusesSizesThatNobodyCanMean) {
   const auto renderer = MakeRenderer();
   for (const auto& [width, height] :
        {std::pair{0, 720}, {-5, 720}, {15, 720}, {1280, 8193}, {1 << 30, 16}}) {
-    View view;
-    view.width = width;
-    view.height = height;
-    EXPECT_THROW(renderer->Render(SceneState(), Camera(), view), UsageError)
+    PictureSpec spec;
+    spec.width = width;
+    spec.height = height;
+    EXPECT_THROW(renderer->Render(SceneState(), Camera(), spec), UsageError)
         << width << " x " << height;
   }
-  View view;
-  view.supersample = 3;
-  EXPECT_THROW(renderer->Render(SceneState(), Camera(), view), UsageError);
-  view.supersample = 1;
-  view.width = view.height = 16;
-  EXPECT_NO_THROW(renderer->Render(SceneState(), Camera(), view));
-  view.width = 333;
-  view.height = 17;  // odd sizes are sizes
-  EXPECT_EQ(renderer->Render(SceneState(), Camera(), view).rgba.size(), 4u * 333 * 17);
+  PictureSpec spec;
+  spec.supersample = 3;
+  EXPECT_THROW(renderer->Render(SceneState(), Camera(), spec), UsageError);
+  spec.supersample = 1;
+  spec.width = spec.height = 16;
+  EXPECT_NO_THROW(renderer->Render(SceneState(), Camera(), spec));
+  spec.width = 333;
+  spec.height = 17;  // odd sizes are sizes
+  EXPECT_EQ(renderer->Render(SceneState(), Camera(), spec).rgba.size(), 4u * 333 * 17);
 }
 
 TEST(Renderer, WhatIsNotFiniteIsLeftOutAndNamed) {

@@ -30,9 +30,9 @@ class RobotDrawing : public ::testing::Test {
   RobotDrawing()
       : renderer_(
             MakeRenderer("osmesa", [this](const std::string& line) { log_.push_back(line); })) {
-    view_.width = kWidth;
-    view_.height = kHeight;
-    view_.overlays = false;
+    spec_.width = kWidth;
+    spec_.height = kHeight;
+    spec_.overlays = false;
   }
 
   RobotState Robot(const std::string& xml, const urdf::JointPositions& positions = {}) {
@@ -70,8 +70,8 @@ class RobotDrawing : public ::testing::Test {
 
   // What differs from the empty floor.
   Comparison Drawn(const SceneState& state, const Camera& camera) {
-    return Compare(renderer_->Render(SceneOf({}), camera, view_),
-                   renderer_->Render(state, camera, view_));
+    return Compare(renderer_->Render(SceneOf({}), camera, spec_),
+                   renderer_->Render(state, camera, spec_));
   }
 
   void Write(const std::string& name, const std::string& bytes) {
@@ -90,7 +90,7 @@ class RobotDrawing : public ::testing::Test {
   TempFolder folder_;
   std::vector<std::string> log_;
   std::unique_ptr<Renderer> renderer_;
-  View view_;
+  PictureSpec spec_;
 };
 
 TEST_F(RobotDrawing, ALinkIsWhereItsJointPutsIt) {
@@ -118,8 +118,8 @@ TEST_F(RobotDrawing, HasAsManyLinksAsItLikes) {
            std::to_string((i - 50) * 0.03) + " 1'/></joint>";
   }
   const RobotState robot = Robot(xml + "</robot>");
-  const Image picture = renderer_->Render(SceneOf({robot}), Front(), view_);
-  const Image floor = renderer_->Render(SceneOf({}), Front(), view_);
+  const Image picture = renderer_->Render(SceneOf({robot}), Front(), spec_);
+  const Image floor = renderer_->Render(SceneOf({}), Front(), spec_);
   for (std::size_t i = 1; i <= 100; ++i) {
     const Eigen::Vector3d front = robot.world_from_link[i] * Eigen::Vector3d(0.01, 0, 0);
     EXPECT_NE(ColorAt(picture, Front(), front), ColorAt(floor, Front(), front)) << i;
@@ -145,8 +145,8 @@ TEST_F(RobotDrawing, NegativeAndUnevenScalesKeepSurfacesOutside) {
       RobotState framed = plain;
       framed.bounds = renderer_->Bounds(plain);
       const Camera camera = NamedCamera(name, SceneOf({framed}));
-      const Comparison comparison = Compare(renderer_->Render(SceneOf({plain}), camera, view_),
-                                            renderer_->Render(SceneOf({mirrored}), camera, view_));
+      const Comparison comparison = Compare(renderer_->Render(SceneOf({plain}), camera, spec_),
+                                            renderer_->Render(SceneOf({mirrored}), camera, spec_));
       EXPECT_LT(comparison.pixels, 60) << scale << " from " << name;  // along edges
       EXPECT_GT(Drawn(SceneOf({plain}), camera).pixels, 1000);
     }
@@ -164,19 +164,19 @@ TEST_F(RobotDrawing, AMissingOrRefusedMeshIsALabelledBoxAndNamed) {
         std::tuple("giant.stl", "0 1 1", "scale is 0")}) {
     const SceneState state = SceneOf({MeshAt("0 0 1", file, scale)});
     log_.clear();
-    view_.overlays = false;
-    const Image box = renderer_->Render(state, Front(), view_);
+    spec_.overlays = false;
+    const Image box = renderer_->Render(state, Front(), spec_);
     ASSERT_EQ(renderer_->problems().size(), 1u) << file;
     EXPECT_THAT(renderer_->problems()[0], HasSubstr(reason));
     EXPECT_EQ(log_, renderer_->problems());
     EXPECT_GT(Drawn(state, Front()).pixels, 200) << file;
-    view_.overlays = true;
-    EXPECT_GT(Compare(box, renderer_->Render(state, Front(), view_)).pixels, 300)
+    spec_.overlays = true;
+    EXPECT_GT(Compare(box, renderer_->Render(state, Front(), spec_)).pixels, 300)
         << "no label over " << file;
     EXPECT_EQ(log_.size(), 1u) << "once, not with every picture";
   }
-  view_.overlays = false;
-  renderer_->Render(SceneOf({Visual("<geometry><box size='1 1 1'/></geometry>")}), Front(), view_);
+  spec_.overlays = false;
+  renderer_->Render(SceneOf({Visual("<geometry><box size='1 1 1'/></geometry>")}), Front(), spec_);
   EXPECT_THAT(renderer_->problems(), ::testing::IsEmpty());
 }
 
@@ -187,7 +187,7 @@ TEST_F(RobotDrawing, ColoursComeFromTheFileThenFromTheUrdf) {
   const auto color = [&](const std::string& file, const std::string& material) {
     const RobotState robot = Visual("<origin xyz='-0.5 -1 0'/><geometry><mesh filename='" + file +
                                     "'/></geometry>" + material);
-    return ColorAt(renderer_->Render(SceneOf({robot}), Front(), view_), Front(), {0.5, 0, 1});
+    return ColorAt(renderer_->Render(SceneOf({robot}), Front(), spec_), Front(), {0.5, 0, 1});
   };
   const std::string green = "<material name='m'><color rgba='0.1 0.9 0.1 1'/></material>";
   for (const std::string& material : {std::string(), green}) {
@@ -208,8 +208,8 @@ TEST_F(RobotDrawing, AColladasUpAxisIsIgnoredAsInRViz) {
     options.up = up;
     Write(std::string(up) + ".dae", kinescope::testing::BoxDae(options));
     const SceneState told = SceneOf({MeshAt("0 0 0.5", std::string(up) + ".dae", "0.2 0.2 0.2")});
-    EXPECT_TRUE(Compare(renderer_->Render(as_written, Front(), view_),
-                        renderer_->Render(told, Front(), view_))
+    EXPECT_TRUE(Compare(renderer_->Render(as_written, Front(), spec_),
+                        renderer_->Render(told, Front(), spec_))
                     .equal())
         << up;
   }
@@ -226,7 +226,7 @@ TEST_F(RobotDrawing, WhatIsTranslucentShowsWhatIsBehindIt) {
                 {Robot("<robot name='r'><link name='a'><visual><origin xyz='1 0 1'/><geometry>"
                        "<box size='0.05 1 1'/></geometry><material name='p'><color rgba='0 0 1 " +
                        alpha + "'/></material></visual>" + back + "</link></robot>")}),
-            Front(), view_),
+            Front(), spec_),
         Front(), {1, 0.05, 1});
   };
   EXPECT_GT(with_pane("1")[2], 5 * with_pane("1")[0]);
@@ -289,22 +289,22 @@ TEST_F(RobotDrawing, StandsBesideAPersonAndComesAndGoes) {
   SceneState both = alone;
   both.robots.push_back(Visual("<origin xyz='0 1 0.5'/><geometry><box size='1 1 1'/></geometry>"));
   const Camera camera = NamedCamera("front", alone);
-  const Image before = renderer_->Render(alone, camera, view_);
-  EXPECT_GT(Compare(before, renderer_->Render(both, camera, view_)).pixels, 1000);
-  EXPECT_TRUE(Compare(before, renderer_->Render(alone, camera, view_)).equal());
+  const Image before = renderer_->Render(alone, camera, spec_);
+  EXPECT_GT(Compare(before, renderer_->Render(both, camera, spec_)).pixels, 1000);
+  EXPECT_TRUE(Compare(before, renderer_->Render(alone, camera, spec_)).equal());
 }
 
 TEST_F(RobotDrawing, AnotherFloorIsTheSamePictureOneStoreyUp) {
   SceneState state =
       SceneOf({Visual("<origin xyz='0 0 0.5'/><geometry><box size='1 1 1'/></geometry>")});
   Camera camera = Front();
-  const Image ground = renderer_->Render(state, camera, view_);
+  const Image ground = renderer_->Render(state, camera, spec_);
   const Eigen::Vector3d up(0, 0, 3);
   state.floor_z = up.z();
   state.robots[0].world_from_link[0].pretranslate(up);
   camera.position += up;
   camera.target += up;
-  EXPECT_TRUE(Compare(ground, renderer_->Render(state, camera, view_)).equal());
+  EXPECT_TRUE(Compare(ground, renderer_->Render(state, camera, spec_)).equal());
 }
 
 // The template with a box for every link, each put in place by the mesh of its name.

@@ -53,12 +53,12 @@ SceneState FullScene() {
   return state;
 }
 
-View SmallView(int supersample = 1) {
-  View view;
-  view.width = kWidth;
-  view.height = kHeight;
-  view.supersample = supersample;
-  return view;
+PictureSpec SmallView(int supersample = 1) {
+  PictureSpec spec;
+  spec.width = kWidth;
+  spec.height = kHeight;
+  spec.supersample = supersample;
+  return spec;
 }
 
 Camera Front(const SceneState& state) { return NamedCamera("three_quarter", state); }
@@ -73,7 +73,7 @@ std::array<int, 3> PixelAt(const Image& image, const Camera& camera, const Eigen
 
 class SceneLookDrawing : public ::testing::Test {
  protected:
-  Image Draw(const View& view) { return renderer_->Render(state_, camera_, view); }
+  Image Draw(const PictureSpec& spec) { return renderer_->Render(state_, camera_, spec); }
 
   const SceneState state_ = FullScene();
   const Camera camera_ = Front(state_);
@@ -83,14 +83,14 @@ class SceneLookDrawing : public ::testing::Test {
 TEST_F(SceneLookDrawing, ATransparentPictureOverWhiteIsTheOneOnWhite) {
   for (const Theme theme : {Theme::kLight, Theme::kDark}) {
     for (const int supersample : {1, 2, 4}) {
-      View view = SmallView(supersample);
-      view.look.theme = theme;
-      view.look.ghosts.push_back({state_.people[0], 0.4});
-      for (urdf::Pose& link : view.look.ghosts[0].person.links) link.position.y() += 0.4;
-      View white = view;
+      PictureSpec spec = SmallView(supersample);
+      spec.look.theme = theme;
+      spec.look.ghosts.push_back({state_.people[0], 0.4});
+      for (urdf::Pose& link : spec.look.ghosts[0].person.links) link.position.y() += 0.4;
+      PictureSpec white = spec;
       white.look.background = Rgb{1, 1, 1};
-      view.look.is_transparent = true;
-      const Image over = Draw(white), clear = Draw(view);
+      spec.look.is_transparent = true;
+      const Image over = Draw(white), clear = Draw(spec);
       int covered = 0, empty = 0, soft = 0, worst = 0;
       for (std::size_t at = 0; at < clear.rgba.size(); at += 4) {
         const int alpha = clear.rgba[at + 3];
@@ -110,12 +110,12 @@ TEST_F(SceneLookDrawing, ATransparentPictureOverWhiteIsTheOneOnWhite) {
 }
 
 TEST_F(SceneLookDrawing, TheBackgroundIsThatOfTheThemeOrWhatWasAskedFor) {
-  View view = SmallView();
-  view.look.floor = false;
+  PictureSpec spec = SmallView();
+  spec.look.floor = false;
   const auto corner = [&](const SceneLook& look) {
-    view.look.theme = look.theme;
-    view.look.background = look.background;
-    const Image image = Draw(view);
+    spec.look.theme = look.theme;
+    spec.look.background = look.background;
+    const Image image = Draw(spec);
     return Rgb{image.rgba[0] / 255.0, image.rgba[1] / 255.0, image.rgba[2] / 255.0};
   };
   SceneLook look;
@@ -130,14 +130,14 @@ TEST_F(SceneLookDrawing, TheBackgroundIsThatOfTheThemeOrWhatWasAskedFor) {
 }
 
 TEST_F(SceneLookDrawing, EveryPartCanBeSwitched) {
-  const View standard = SmallView();
+  const PictureSpec standard = SmallView();
   const Image shown = Draw(standard);
   for (const ScenePartInfo& info : kSceneParts) {
-    View view = standard;
-    view.look.shown.Set(info.part, !info.by_default);
-    EXPECT_GT(Compare(shown, Draw(view)).pixels, 20) << info.name;
+    PictureSpec spec = standard;
+    spec.look.shown.Set(info.part, !info.by_default);
+    EXPECT_GT(Compare(shown, Draw(spec)).pixels, 20) << info.name;
   }
-  View bare = standard;
+  PictureSpec bare = standard;
   bare.look.floor = false;
   EXPECT_GT(Compare(shown, Draw(bare)).pixels, 5000) << "floor";
   // And nothing of it stays behind in the renderer.
@@ -146,7 +146,7 @@ TEST_F(SceneLookDrawing, EveryPartCanBeSwitched) {
 }
 
 TEST_F(SceneLookDrawing, AForceThatIsNotKnownHasNoArrow) {
-  View without = SmallView();
+  PictureSpec without = SmallView();
   without.look.shown.Set(ScenePart::kForces, false);
   SceneState unknown = state_;
   for (FootForce& foot : unknown.people[0].forces.feet) {
@@ -162,7 +162,7 @@ TEST_F(SceneLookDrawing, AnArrowOfAMetreIsAThousandNewtons) {
   FootForce& foot = person.forces.feet[urdf::kRight];
   foot.cop = {0, -1.2, 0};  // away from everything else
   foot.force = {0, 0, 800};
-  View bare = SmallView(2);
+  PictureSpec bare = SmallView(2);
   bare.overlays = false;  // the legend would cover it
   const auto reaches = [&](double height) {
     const Eigen::Vector3d point = foot.cop + Eigen::Vector3d(0, 0, height);
@@ -176,23 +176,23 @@ TEST_F(SceneLookDrawing, AnArrowOfAMetreIsAThousandNewtons) {
 }
 
 TEST_F(SceneLookDrawing, TrailsAndGhostsAreWhereTheyShouldBe) {
-  View view = SmallView();
-  view.overlays = false;
-  const Image before = Draw(view);
+  PictureSpec spec = SmallView();
+  spec.overlays = false;
+  const Image before = Draw(spec);
   const Eigen::Vector3d from(0.2, 0.8, 1.4), to(0.2, 1.2, 1.8);
-  view.look.trails.push_back({{from, 0.5 * (from + to), to}, {0, 0, 1}});
-  view.look.trails.push_back({{from}, {0, 0, 1}});  // one point is no line
-  const Image after = Draw(view);
+  spec.look.trails.push_back({{from, 0.5 * (from + to), to}, {0, 0, 1}});
+  spec.look.trails.push_back({{from}, {0, 0, 1}});  // one point is no line
+  const Image after = Draw(spec);
   EXPECT_GT(PixelAt(after, camera_, 0.25 * from + 0.75 * to)[2],
             PixelAt(after, camera_, 0.25 * from + 0.75 * to)[0] + 60);
   EXPECT_LT(Compare(before, after).pixels, 200) << "a thin line";
-  view.look.trails.clear();
-  view.look.ghosts.push_back({state_.people[0], 0.5});
-  for (urdf::Pose& link : view.look.ghosts[0].person.links) link.position.y() += 0.9;
-  const Eigen::Vector3d chest = view.look.ghosts[0].person.links[urdf::kT8].position;
-  const Image ghost = Draw(view);
-  view.look.ghosts[0].opacity = 1;
-  const Image solid = Draw(view);
+  spec.look.trails.clear();
+  spec.look.ghosts.push_back({state_.people[0], 0.5});
+  for (urdf::Pose& link : spec.look.ghosts[0].person.links) link.position.y() += 0.9;
+  const Eigen::Vector3d chest = spec.look.ghosts[0].person.links[urdf::kT8].position;
+  const Image ghost = Draw(spec);
+  spec.look.ghosts[0].opacity = 1;
+  const Image solid = Draw(spec);
   const int behind = PixelAt(before, camera_, chest)[0],
             through = PixelAt(ghost, camera_, chest)[0], full = PixelAt(solid, camera_, chest)[0];
   EXPECT_NEAR(through, 0.5 * (behind + full), 2);

@@ -19,13 +19,13 @@ using kinescope::testing::SceneWith;
 
 constexpr int kWidth = 1280, kHeight = 720;
 
-View PlainView(int supersample = 1) {
-  View view;
-  view.width = kWidth;
-  view.height = kHeight;
-  view.supersample = supersample;
-  view.overlays = false;
-  return view;
+PictureSpec PlainView(int supersample = 1) {
+  PictureSpec spec;
+  spec.width = kWidth;
+  spec.height = kHeight;
+  spec.supersample = supersample;
+  spec.overlays = false;
+  return spec;
 }
 
 const SphereInPicture& Find(const std::vector<SphereInPicture>& spheres, const std::string& joint) {

@@ -19,8 +19,8 @@ extern "C" {
 
 #include "core/errors.h"
 #include "render/canvas.h"
+#include "render/frame_code.h"
 #include "render/resample.h"
-#include "render/strip.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 
@@ -415,7 +415,7 @@ TEST(Video, SaysWhichPathItCannotWrite) {
   }
 }
 
-TEST(Video, AStripIsReadFromACompressedClip) {
+TEST(Video, AFrameCodeIsReadFromACompressedClip) {
   const TempFolder folder;
   const auto path = folder.path() / "strip.mp4";
   VideoOptions options;
@@ -423,7 +423,7 @@ TEST(Video, AStripIsReadFromACompressedClip) {
   constexpr int kFrames = 12;
   // Noise above it takes the bits that the encoder would rather spend there.
   std::mt19937 random(1);
-  const auto code = [](int k) { return StripCode{1000000007u * (k + 1u), 33 * k + 12'345}; };
+  const auto code = [](int k) { return FrameCode{1000000007u * (k + 1u), 33 * k + 12'345}; };
   for (const auto& [width, height] : {std::pair{320, 240}, {1280, 96}}) {
     const auto writer = MakeVideoWriter(path, width, height, options);
     for (int k = 0; k < kFrames; ++k) {
@@ -432,7 +432,7 @@ TEST(Video, AStripIsReadFromACompressedClip) {
         if (i % 4 != 3) image.rgba[i] ^= random() & 0x3F;
       }
       Canvas canvas(image);
-      PaintStrip(canvas, width, height, code(k));
+      PaintFrameCode(canvas, width, height, code(k));
       writer->Add(image);
     }
     writer->Finish();
@@ -440,11 +440,12 @@ TEST(Video, AStripIsReadFromACompressedClip) {
     ASSERT_EQ(clip.frames.size(), static_cast<std::size_t>(kFrames));
     for (int k = 0; k < kFrames; ++k) {
       const Image& frame = clip.frames[static_cast<std::size_t>(k)];
-      EXPECT_EQ(ReadStrip(frame), code(k)) << "frame " << k << ", " << width << " px wide";
+      EXPECT_EQ(ReadFrameCode(frame), code(k)) << "frame " << k << ", " << width << " px wide";
       Image half{width / 2, height / 2, {}};
       half.rgba.resize(static_cast<std::size_t>(4 * half.width * half.height));
       AverageInto(frame.rgba.data(), half.width, half.height, 2, half, 0, 0);
-      EXPECT_EQ(ReadStrip(half), code(k)) << "half of frame " << k << ", " << width << " px wide";
+      EXPECT_EQ(ReadFrameCode(half), code(k))
+          << "half of frame " << k << ", " << width << " px wide";
     }
   }
 }

@@ -48,11 +48,11 @@ SceneState Handless() {
 class WornDrawing : public ::testing::Test {
  protected:
   WornDrawing() {
-    view_.width = kWidth;
-    view_.height = kHeight;
-    view_.overlays = false;
+    spec_.width = kWidth;
+    spec_.height = kHeight;
+    spec_.overlays = false;
   }
-  Image Draw(const SceneState& state) { return renderer_->Render(state, Front(), view_); }
+  Image Draw(const SceneState& state) { return renderer_->Render(state, Front(), spec_); }
   Comparison Change(const SceneState& before, const SceneState& after) {
     return Compare(Draw(before), Draw(after));
   }
@@ -64,7 +64,7 @@ class WornDrawing : public ::testing::Test {
   }
 
   std::unique_ptr<Renderer> renderer_ = MakeRenderer();
-  View view_;
+  PictureSpec spec_;
 };
 
 constexpr double kOutOfSight = -50;  // m, x: behind the person and beyond the floor's end
@@ -145,7 +145,7 @@ TEST_F(WornDrawing, ATrackedObjectIsABlockWithItsName) {
   EXPECT_NEAR(change.bottom, seen.y_px + 0.025 * seen.px_per_m, 3);
   EXPECT_NEAR(change.top, seen.y_px - 0.15 * seen.px_per_m, 3) << "its z axis";
   EXPECT_NEAR(change.right, seen.x_px + 0.15 * seen.px_per_m, 3) << "its y axis";
-  view_.overlays = true;
+  spec_.overlays = true;
   SceneState nameless = after;
   nameless.objects[0].name.clear();
   EXPECT_GT(Compare(Draw(nameless), Draw(after)).pixels, 200);
@@ -184,7 +184,7 @@ TEST_F(WornDrawing, EverythingGoesAlongWithTheFloor) {
   Camera camera = Front();
   camera.position += down;
   camera.target += down;
-  EXPECT_TRUE(Compare(Draw(state), renderer_->Render(low, camera, view_)).equal());
+  EXPECT_TRUE(Compare(Draw(state), renderer_->Render(low, camera, spec_)).equal());
 }
 
 }  // namespace

@@ -77,16 +77,16 @@ TEST_F(Backend, EglDrawsTheSameBytesAsOsmesa) {
 
 TEST_F(Backend, EglDrawsOnSeveralThreadsAtOnce) {
   const SceneState state = testing::MixedScene(testing::Posture::kStanding);
-  render::View view;
-  view.width = 160;
-  view.height = 90;
+  render::PictureSpec spec;
+  spec.width = 160;
+  spec.height = 90;
   std::array<render::Image, 4> pictures;
   std::array<std::thread, 4> threads;
   for (std::size_t i = 0; i < threads.size(); ++i) {
     threads[i] = std::thread([&, i] {
       const auto renderer = render::MakeRenderer("egl");
       const render::Camera camera = render::NamedCamera("iso", state);
-      for (int k = 0; k < 5; ++k) pictures[i] = renderer->Render(state, camera, view);
+      for (int k = 0; k < 5; ++k) pictures[i] = renderer->Render(state, camera, spec);
     });
   }
   for (std::thread& thread : threads) thread.join();

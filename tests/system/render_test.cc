@@ -18,9 +18,10 @@
 #include "render/png_file.h"
 #include "render/renderer.h"
 #include "render/video.h"
-#include "server/app/render/provenance.h"
+#include "server/app/render/provenance_comparison.h"
+#include "server/app/render/provenance_files.h"
 #include "server/app/render/render_options.h"
-#include "server/picture/shots.h"
+#include "server/picture/render_planner.h"
 #include "server/scene/scene_reader.h"
 #include "tests/process.h"
 #include "tests/shared_data.h"
@@ -136,16 +137,16 @@ TEST_F(RenderCommand, PictureKShowsTheTimeKOverTheRate) {
   view.camera.Parse("right");
   view.supersample = 1;
   view.no_overlays = true;
-  app::ShotPlanner planner(view);
+  app::RenderPlanner planner(view);
   const auto renderer = render::MakeRenderer();
   std::vector<render::Image> expected;
   std::int64_t first_nanos = 0;
   for (std::int64_t k = 0; k < 15; ++k) {
-    const app::Shot shot = planner.Next(*timeline.AtNanos(k * 1001 * 1'000'000 / 30));
-    if (k == 0) first_nanos = shot.state.stamp_nanos;
-    EXPECT_NEAR(static_cast<double>(shot.state.stamp_nanos - first_nanos) * 1e-9,
+    const app::RenderRequest request = planner.Next(*timeline.AtNanos(k * 1001 * 1'000'000 / 30));
+    if (k == 0) first_nanos = request.state.stamp_nanos;
+    EXPECT_NEAR(static_cast<double>(request.state.stamp_nanos - first_nanos) * 1e-9,
                 static_cast<double>(k) * 1001 / 30000, 2e-9);
-    expected.push_back(renderer->Render(shot.state, shot.camera, shot.view));
+    expected.push_back(renderer->Render(request.state, request.camera, request.spec));
   }
   const auto difference = [&](std::size_t shown, std::size_t drawn) {
     return render::Compare(expected[drawn], clip[shown], 24).pixels;
@@ -276,8 +277,34 @@ TEST_F(RenderCommand, VerifiesWhatItDrewAndSaysWhereAFileDiffers) {
   EXPECT_THAT(bare.err, HasSubstr("contains no provenance"));
 }
 
+// The record of the first version: texts of all options, former names of options and words.
+TEST_F(RenderCommand, VerifiesAPictureOfTheFirstVersion) {
+  Lines(Render({"--out", Path("a.png"), "--sample", "30", "--overlay", "title,status,frame_code",
+                "--show", "link_frames,joint_axes", "--body_model", "primitive", "--no_sidecar",
+                "--json"}));
+  std::ofstream(Path("a.png.json")) << R"({
+    "kinescope": "0.1.0", "schema": 1, "source": {"name": "demo:walk"}, "inputs": [],
+    "renderer": ")" << app::ReadEmbedded(Path("a.png"))->value("renderer", "")
+                                    << R"(",
+    "kind": "picture", "format": "png",
+    "options": {"frame": 30, "overlay_layer": "", "size": "160x96", "camera": "three_quarter",
+      "views": "", "supersample": 1, "title": "", "overlay": "title,lamp,strip", "plot": "",
+      "no_overlays": false, "show": "frames,axes", "figure": "primitive", "robot": "", "hand": "",
+      "class_limits": "0.3,0.6", "lumbar_compression": "on"}})";
+  const ProgramResult result = Verify(Path("a.png"));
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST_F(RenderCommand, VerifiesOnePictureOfASequenceWithAPlotOfAllOfIt) {
+  Lines(Render({"--out", Path("%d.png"), "--seconds", "0.2", "--plot", "l5_s1", "--size", "320x192",
+                "--json"}));
+  const ProgramResult result = Verify(Path("2.png"));
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
 TEST_F(RenderCommand, NamesAFileThatHasChangedWhateverItsBytesAre) {
-  std::ofstream(Path("tool.obj")) << "mtllib n\xFF.mtl\nv 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\n"
+  std::ofstream(Path("tool.obj")) << "mtllib n\xFF.mtl\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\n"
                                      "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   std::ofstream(Path("n\xFF.mtl")) << "newmtl red\nKd 1 0 0\n";
   Lines(Render({"--out", Path("a.png"), "--tool", "right:" + Path("tool.obj"), "--json"}));

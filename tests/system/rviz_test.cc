@@ -211,13 +211,13 @@ Window Geometry: {{Height: {}, Width: {}, X: 0, Y: 0, Hide Left Dock: true, Hide
                                                        std::sin(orbit.yaw) * std::cos(orbit.pitch),
                                                        std::sin(orbit.pitch));
     camera.vertical_fov_rad = kRvizFov;
-    render::View view;
-    view.width = kWidth;
-    view.height = kHeight;
-    view.overlays = false;
+    render::PictureSpec spec;
+    spec.width = kWidth;
+    spec.height = kHeight;
+    spec.overlays = false;
     const auto renderer = render::MakeRenderer();
-    const render::Image empty = renderer->Render(without, camera, view);
-    const render::Image full = renderer->Render(with, camera, view);
+    const render::Image empty = renderer->Render(without, camera, spec);
+    const render::Image full = renderer->Render(with, camera, spec);
     EXPECT_TRUE(renderer->problems().empty()) << renderer->problems().front();
     Sight sight;
     for (std::size_t i = 0; i < kWidth * kHeight; ++i) {

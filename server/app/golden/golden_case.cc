@@ -9,7 +9,7 @@
 
 #include "render/multi_view.h"
 #include "server/options/yaml_options.h"
-#include "server/picture/shots.h"
+#include "server/picture/render_planner.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
 
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 options::PixelSize PixelSizeOfCases() { return {640, 360}; }
 
 SceneState SceneOf(const GoldenCase& golden_case, const SceneOptions& options,
-                   ShotPlanner& planner) {
+                   RenderPlanner& planner) {
   SceneReader reader(*golden_case.source, options);
   if (*golden_case.state == Liveness::kNoData) return *reader.Empty();
   SceneTimeline timeline(reader);
@@ -35,18 +35,18 @@ SceneState SceneOf(const GoldenCase& golden_case, const SceneOptions& options,
   return *golden_case.state == Liveness::kStale ? *reader.Stale() : *scene;
 }
 
-std::vector<render::SphereInPicture> SpheresOf(const Shot& shot) {
-  const render::View& view = shot.view;
-  const SceneState shown = render::Without(shot.state, view.look);
-  if (view.panes.empty()) {
-    return render::LocateSpheres(shown, shot.camera, view.width, view.height);
+std::vector<render::SphereInPicture> SpheresOf(const RenderRequest& request) {
+  const render::PictureSpec& spec = request.spec;
+  const SceneState shown = render::Without(request.state, spec.look);
+  if (spec.panes.empty()) {
+    return render::LocateSpheres(shown, request.camera, spec.width, spec.height);
   }
   std::vector<render::SphereInPicture> all;
-  const auto tiles = render::PaneTiles(view.width, view.height, static_cast<int>(view.panes.size()),
-                                       view.pane_columns);
+  const auto tiles = render::PaneTiles(spec.width, spec.height, static_cast<int>(spec.panes.size()),
+                                       spec.pane_columns);
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const render::Tile& tile = tiles[i];
-    const render::Pane& pane = view.panes[i];
+    const render::Pane& pane = spec.panes[i];
     for (render::SphereInPicture& sphere :
          render::LocateSpheres(shown, pane.camera, tile.width, tile.height)) {
       const double r = sphere.radius_px;
@@ -116,17 +116,19 @@ std::vector<GoldenCase> ReadGoldenCases(const fs::path& folder) {
 
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
   const SceneOptions options = ToShownSceneOptions(golden_case.person, golden_case.loads);
-  ShotPlanner planner(golden_case.view, {}, options);
-  if (planner.needs_survey()) {
+  RenderPlanner planner(golden_case.view, {}, options);
+  if (planner.needs_prescan()) {
     SceneReader reader(*golden_case.source, options);
-    SurveyClip({&planner}, reader, kSubjectSurveySecs);
+    PrescanClip({&planner}, reader, kSubjectPrescanSecs);
   }
-  const Shot shot = planner.Only(SceneOf(golden_case, options, planner), *golden_case.time);
+  const RenderRequest request =
+      planner.Only(SceneOf(golden_case, options, planner), *golden_case.time);
   GoldenDrawing drawing;
-  drawing.image = renderer.Render(shot.state, shot.camera, shot.view);
-  drawing.spheres = SpheresOf(shot);
-  if (shot.view.overlays && shot.view.parts.frame_code && *golden_case.state != Liveness::kNoData) {
-    drawing.strip = {shot.state.counter, shot.state.time_code_millis};
+  drawing.image = renderer.Render(request.state, request.camera, request.spec);
+  drawing.spheres = SpheresOf(request);
+  if (request.spec.overlays && request.spec.parts.frame_code &&
+      *golden_case.state != Liveness::kNoData) {
+    drawing.frame_code = {request.state.counter, request.state.time_code_millis};
   }
   return drawing;
 }

@@ -16,10 +16,10 @@
 
 #include "core/scene_state.h"
 #include "render/camera.h"
+#include "render/frame_code.h"
 #include "render/image.h"
 #include "render/renderer.h"
 #include "render/spheres.h"
-#include "render/strip.h"
 #include "server/picture/view_options.h"
 #include "server/scene/scene_options.h"
 
@@ -50,7 +50,7 @@ struct GoldenDrawing {
   render::Image image;
   /// Several views: "<view>/<joint>", those that lie wholly within their view.
   std::vector<render::SphereInPicture> spheres;
-  std::optional<render::StripCode> strip;  // what the picture's strip must say
+  std::optional<render::FrameCode> frame_code;  // what the picture must contain
 };
 
 GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer);

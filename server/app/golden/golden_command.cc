@@ -81,9 +81,10 @@ std::vector<std::string> Check(const GoldenOptions& options, const GoldenCase& g
   for (std::string& mismatch : render::FindSphereMismatches(drawing.image, drawing.spheres)) {
     problems.push_back(std::move(mismatch));
   }
-  if (drawing.strip && !(render::ReadStrip(drawing.image) == drawing.strip)) {
-    problems.push_back(fmt::format("frame code: expected sample {}, {} ms", drawing.strip->counter,
-                                   drawing.strip->time_code_millis));
+  if (drawing.frame_code && !(render::ReadFrameCode(drawing.image) == drawing.frame_code)) {
+    problems.push_back(fmt::format("frame code: expected sample {}, {} ms",
+                                   drawing.frame_code->counter,
+                                   drawing.frame_code->time_code_millis));
   }
   const render::Comparison comparison = render::Compare(expected, drawing.image);
   if (!comparison.equal()) problems.push_back(render::Describe(comparison, drawing.image));

@@ -116,7 +116,7 @@ std::string CaptionHtml(const LoadTrial& trial, const WorstMoment& moment,
 
 // The named camera, drawn near: `person` fills the picture.
 render::Camera CloseUp(const SceneState& scene, const PersonState& person,
-                       const render::View& view) {
+                       const render::PictureSpec& view) {
   Eigen::AlignedBox3d box;
   for (const urdf::Pose& link : person.links) box.extend(link.position);
   render::Camera camera = render::NamedCamera("three_quarter", scene);
@@ -140,7 +140,7 @@ render::Camera CloseUp(const SceneState& scene, const PersonState& person,
 }
 
 std::string MomentsHtml(const LoadTrial& trial, render::Renderer& renderer) {
-  const render::View view = {560, 410, 2, {}, false};
+  const render::PictureSpec view = {560, 410, 2, {}, false};
   const std::vector<WorstMoment> worst = trial.Worst(kPictures);
   if (worst.empty()) return "<p>No load could be computed at any time.</p>\n";
   std::string html = "<div class=\"moments\">\n";

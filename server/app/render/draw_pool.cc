@@ -9,9 +9,9 @@ namespace kinescope::app {
 
 // The memory of pictures, used over and over: a large block fresh from the system costs as much as
 // drawing on it.
-class DrawPool::Shelf : public std::enable_shared_from_this<Shelf> {
+class DrawPool::ImagePool : public std::enable_shared_from_this<ImagePool> {
  public:
-  explicit Shelf(std::size_t most) : left_(most) {}
+  explicit ImagePool(std::size_t most) : left_(most) {}
 
   /// Waits until fewer than the most are out.
   void Reserve() {
@@ -30,8 +30,8 @@ class DrawPool::Shelf : public std::enable_shared_from_this<Shelf> {
         used_.pop_back();
       }
     }
-    return {image.release(), [shelf = shared_from_this()](DrawnPicture* back) {
-              shelf->Return(std::unique_ptr<DrawnPicture>(back));
+    return {image.release(), [images = shared_from_this()](DrawnPicture* back) {
+              images->Return(std::unique_ptr<DrawnPicture>(back));
             }};
   }
 
@@ -52,7 +52,7 @@ class DrawPool::Shelf : public std::enable_shared_from_this<Shelf> {
 };
 
 DrawPool::DrawPool(int jobs, std::size_t most_pictures, MakeRenderer make)
-    : make_(std::move(make)), shelf_(std::make_shared<Shelf>(most_pictures)) {
+    : make_(std::move(make)), images_(std::make_shared<ImagePool>(most_pictures)) {
   KINESCOPE_CHECK(jobs >= 1 && most_pictures >= static_cast<std::size_t>(jobs));
   std::promise<render::RendererInfo> promise;
   std::future<render::RendererInfo> started = promise.get_future();
@@ -70,19 +70,19 @@ DrawPool::~DrawPool() {
   {
     const std::lock_guard lock(mutex_);
     is_closing_ = true;
-    jobs_.clear();  // breaks their promises, so nobody waits for them
+    tasks_.clear();  // breaks their promises, so nobody waits for them
   }
   changed_.notify_all();
   for (std::thread& thread : threads_) thread.join();
 }
 
-FuturePicture DrawPool::Draw(Shot shot) {
-  shelf_->Reserve();
-  Job job{std::move(shot), {}};
-  FuturePicture picture = job.picture.get_future().share();
+FuturePicture DrawPool::Draw(RenderRequest request) {
+  images_->Reserve();
+  DrawTask task{std::move(request), {}};
+  FuturePicture picture = task.picture.get_future().share();
   {
     const std::lock_guard lock(mutex_);
-    jobs_.push_back(std::move(job));
+    tasks_.push_back(std::move(task));
   }
   changed_.notify_one();
   return picture;
@@ -101,23 +101,24 @@ void DrawPool::Work(std::promise<render::RendererInfo>* started) {
   }
   while (true) {
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return is_closing_ || !jobs_.empty(); });
+    changed_.wait(lock, [&] { return is_closing_ || !tasks_.empty(); });
     if (is_closing_) return;
-    Job job = std::move(jobs_.front());
-    jobs_.pop_front();
+    DrawTask task = std::move(tasks_.front());
+    tasks_.pop_front();
     lock.unlock();
-    std::shared_ptr<DrawnPicture> image = shelf_->Take();
+    std::shared_ptr<DrawnPicture> image = images_->Take();
     try {
       if (renderer == nullptr) renderer = make_();
-      const Shot& shot = job.shot;
-      renderer->RenderInto(*image, shot.state, shot.camera, shot.view);
-      if (shot.layer) {
-        image->layer = renderer->OverlayLayer(shot.state, shot.camera, shot.view, *shot.layer);
+      const RenderRequest& request = task.request;
+      renderer->RenderInto(*image, request.state, request.camera, request.spec);
+      if (request.layer) {
+        image->layer =
+            renderer->OverlayLayer(request.state, request.camera, request.spec, *request.layer);
       }
-      job.picture.set_value(std::move(image));
+      task.picture.set_value(std::move(image));
     } catch (...) {
       image.reset();
-      job.picture.set_exception(std::current_exception());
+      task.picture.set_exception(std::current_exception());
     }
   }
 }

@@ -1,5 +1,5 @@
 /// Renders pictures on several threads. Each thread makes and uses its own renderer; a picture
-/// depends only on its Shot, so any of them may render it at any time.
+/// depends only on its RenderRequest, so any of them may render it at any time.
 #pragma once
 
 #include <condition_variable>
@@ -15,12 +15,12 @@
 
 #include "render/image.h"
 #include "render/renderer.h"
-#include "server/picture/shots.h"
+#include "server/picture/render_planner.h"
 
 namespace kinescope::app {
 
 struct DrawnPicture : render::Image {
-  std::string layer;  // its overlays as a vector file, if Shot::layer requests it
+  std::string layer;  // its overlays as a vector file, if RenderRequest::layer requests it
 };
 
 /// A picture whose memory returns to the pool when the last owner releases it.
@@ -45,27 +45,27 @@ class DrawPool {
   /// Waits until there is room for one more picture, then queues it. The future contains the
   /// picture or the error; the pool's destructor also makes it ready. Call it on one thread, which
   /// may be any.
-  [[nodiscard]] FuturePicture Draw(Shot shot);
+  [[nodiscard]] FuturePicture Draw(RenderRequest request);
 
   /// Of the renderers, which are all the same.
   const render::RendererInfo& info() const { return info_; }
 
  private:
-  class Shelf;
-  struct Job {
-    Shot shot;
+  class ImagePool;
+  struct DrawTask {
+    RenderRequest request;
     std::promise<PicturePtr> picture;
   };
 
   void Work(std::promise<render::RendererInfo>* started);
 
   const MakeRenderer make_;
-  const std::shared_ptr<Shelf> shelf_;  // shared with pictures that may outlive the pool
+  const std::shared_ptr<ImagePool> images_;  // shared with pictures that may outlive the pool
   render::RendererInfo info_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Job> jobs_;     // guarded by mutex_
-  bool is_closing_ = false;  // guarded by mutex_
+  std::deque<DrawTask> tasks_;  // guarded by mutex_
+  bool is_closing_ = false;     // guarded by mutex_
   std::vector<std::thread> threads_;
 };
 

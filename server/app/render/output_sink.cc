@@ -43,10 +43,10 @@ class PngSink : public OutputSink {
 
 class ClipSink : public OutputSink {
  public:
-  ClipSink(const std::string& path, const render::View& view, render::VideoOptions options,
+  ClipSink(const std::string& path, const render::PictureSpec& spec, render::VideoOptions options,
            MetadataOf metadata)
       : path_(path),
-        view_(view),
+        spec_(spec),
         options_(std::move(options)),
         metadata_(std::move(metadata)),
         thread_(1, [this](Item& item) { video_->Add(*item.picture.get()); }) {}
@@ -54,7 +54,7 @@ class ClipSink : public OutputSink {
   void Put(long k, FuturePicture picture, const render::Camera& camera) override {
     if (video_ == nullptr) {  // what is written into it names the first picture's camera
       options_.metadata = metadata_(camera, k);
-      video_ = render::MakeVideoWriter(path_, view_.width, view_.height, options_);
+      video_ = render::MakeVideoWriter(path_, spec_.width, spec_.height, options_);
     }
     thread_.Put({k, std::move(picture), camera});
   }
@@ -66,7 +66,7 @@ class ClipSink : public OutputSink {
 
  private:
   const std::string path_;
-  const render::View view_;
+  const render::PictureSpec spec_;
   render::VideoOptions options_;
   const MetadataOf metadata_;
   std::unique_ptr<render::VideoWriter> video_;  // made before the first item, then the thread's
@@ -80,9 +80,9 @@ std::unique_ptr<OutputSink> MakePngSink(const std::string& path, int threads, Me
   return std::make_unique<PngSink>(path, threads, std::move(metadata), layer_path);
 }
 
-std::unique_ptr<OutputSink> MakeClipSink(const std::string& path, const render::View& view,
+std::unique_ptr<OutputSink> MakeClipSink(const std::string& path, const render::PictureSpec& spec,
                                          render::VideoOptions options, MetadataOf metadata) {
-  return std::make_unique<ClipSink>(path, view, std::move(options), std::move(metadata));
+  return std::make_unique<ClipSink>(path, spec, std::move(options), std::move(metadata));
 }
 
 }  // namespace kinescope::app

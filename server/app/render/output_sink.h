@@ -41,7 +41,7 @@ std::unique_ptr<OutputSink> MakePngSink(const std::string& path, int threads, Me
 
 /// A clip on its own thread. `options`: without metadata.
 /// @throws the exceptions of MakeVideoWriter, here and from Put.
-std::unique_ptr<OutputSink> MakeClipSink(const std::string& path, const render::View& view,
+std::unique_ptr<OutputSink> MakeClipSink(const std::string& path, const render::PictureSpec& spec,
                                          render::VideoOptions options, MetadataOf metadata);
 
 }  // namespace kinescope::app

@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "core/json_text.h"
 #include "core/sha256.h"
-#include "render/new_file.h"
-#include "render/png_file.h"
 #include "server/options/option_list.h"
 #include "server/scene/scene_options.h"
 #include "server/source/scheme.h"
@@ -29,6 +26,10 @@ Json ValuesOf(const options::OptionList& list) {
   Json values = Json::object();
   for (const options::Option& option : list) {
     if (!option.value->IsGiven()) continue;
+    if (option.value->is_repeatable()) {
+      values[option.name] = option.value->ToTexts();
+      continue;
+    }
     const std::string text = option.value->ToText();
     values[option.name] =
         option.value->json_kind() == options::JsonKind::kText ? Json(text) : Json::parse(text);
@@ -85,7 +86,17 @@ const char* NameOf(OutputKind kind) {
   return "";
 }
 
-std::vector<double> ToList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+// The options that determine pixels, of every kind of output.
+options::OptionList DecidingOptions(RenderOptions& options) {
+  options::OptionList list;
+  options.moment.List(list);
+  options.clip.List(list);
+  options.pack.List(list);
+  options.view.List(list);
+  options.person.List(list);
+  options.loads.List(list);
+  return list;
+}
 
 }  // namespace
 
@@ -129,20 +140,13 @@ Json Provenance::Of(const Output& output, std::optional<long> number) const {
   } else if (output.kind == OutputKind::kClip) {
     values["quality"] = *copy.pack.quality;
   }
-  if (number) {
-    result["number"] = *number;
+  if (number) result["number"] = *number;
+  if (number && !DependsOnWholeClip(copy.view)) {
     values.erase("seconds");  // a picture is the same in a longer sequence
     values.erase("end");
   }
   result["options"] = std::move(values);
   return result;
-}
-
-Json Describe(const render::Camera& camera) {
-  return {{"position_m", ToList(camera.position)},
-          {"target_m", ToList(camera.target)},
-          {"up", ToList(camera.up)},
-          {"vertical_fov_rad", camera.vertical_fov_rad}};
 }
 
 RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
@@ -156,24 +160,46 @@ RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
   const Json& values = provenance.at("options");
   const auto lookup = [&values](const std::string& name) -> std::optional<options::Found> {
     const auto found = values.find(name);
-    if (found == values.end()) return std::nullopt;
+    if (found == values.end() || found->is_array()) return std::nullopt;
     const std::string text = found->is_string() ? found->get<std::string>() : JsonText(*found);
     if (text.empty()) return std::nullopt;  // schema 1 has "" where nothing was given
     return options::Found{text, "provenance: "};
   };
   RenderOptions options;
-  options::OptionList list;
-  options.moment.List(list);
-  options.clip.List(list);
-  options.pack.List(list);
-  options.view.List(list);
-  options.person.List(list);
-  options.loads.List(list);
+  options::OptionList list = DecidingOptions(options);
   options::SetFrom(lookup, options::Channel::kFile, list);
+  for (options::Option& option : list) {
+    const auto found = values.find(option.name);
+    if (found == values.end() || !found->is_array()) continue;
+    list.SetAll(option, option.name, found->get<std::vector<std::string>>());
+  }
   // A .gif names a quality, too, which it does not have.
   if (!HasQuality(path)) options.pack.quality = *PackOptions().quality;
   options.outs = std::vector<std::string>{path};
   return options;
+}
+
+std::vector<std::string> UnknownOptionsOf(const Json& provenance) {
+  RenderOptions options;
+  options::OptionList list = DecidingOptions(options);
+  std::vector<std::string> unknown;
+  const Json values = provenance.value("options", Json::object());
+  for (const auto& [name, value] : values.items()) {
+    if (list.Find(name) == nullptr) unknown.push_back(name);
+  }
+  return unknown;
+}
+
+std::string PresentNameOf(const std::string& name) {
+  RenderOptions options;
+  options::OptionList list = DecidingOptions(options);
+  const options::Option* const option = list.Find(name);
+  return option == nullptr ? name : option->name;
+}
+
+bool DependsOnWholeClip(const ViewOptions& options) {
+  return !options.plot->empty() || *options.moves.fit == Fit::kClip ||
+         options.moves.orbit->is_one_turn;
 }
 
 std::string ToText(const Json& provenance) { return JsonText(provenance, -1, JsonBytes::kAscii); }
@@ -182,70 +208,6 @@ std::optional<Json> FromText(const std::string& text) {
   Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("kinescope")) return std::nullopt;
   return json;
-}
-
-bool DecideTheSame(const Json& a, const Json& b) {
-  const auto decisive = [](const Json& given) {
-    // Through text, so that 1.0 and 1 are what they are after reading.
-    auto json = nlohmann::json::parse(ToText(given));
-    for (const char* follows : {"camera", "path", "pictures", "file"}) json.erase(follows);
-    return json;
-  };
-  return decisive(a) == decisive(b);
-}
-
-std::optional<Json> ReadEmbedded(const std::string& path) {
-  try {
-    std::map<std::string, std::string> texts;
-    std::string key = "comment";
-    if (render::ClipFormatOf(path)) {
-      texts = render::OpenVideo(path)->metadata();
-    } else {
-      texts = render::ReadPngText(path);
-      key = kProvenanceKey;
-    }
-    const auto found = texts.find(key);
-    return found == texts.end() ? std::nullopt : FromText(found->second);
-  } catch (const std::runtime_error&) {
-    return std::nullopt;
-  }
-}
-
-std::string SidecarOf(const std::string& path) { return path + ".json"; }
-
-std::optional<Json> ReadSidecar(const std::string& path) {
-  constexpr std::uintmax_t kMostBytes = 16u << 20;  // ours have some kilobytes
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(SidecarOf(path), error);
-  if (error || size > kMostBytes) return std::nullopt;
-  std::ifstream file(SidecarOf(path), std::ios::binary);
-  return FromText({std::istreambuf_iterator<char>(file), {}});
-}
-
-void WriteSidecar(const Output& output, Json provenance, const std::string& source, long pictures) {
-  provenance["path"] = source;
-  provenance["pictures"] = pictures;
-  if (output.kind != OutputKind::kSequence) {
-    const FileDigest digest = DigestOf(output.path);
-    provenance["file"] = {{"sha256", digest.sha256}, {"bytes", digest.bytes}};
-  }
-  const std::string text = JsonText(provenance, 2, JsonBytes::kAscii) + "\n";
-  render::WriteNewFile(SidecarOf(output.path), text);
-}
-
-bool IsFinished(const Output& output, const Json& provenance, bool has_sidecar) {
-  if (!has_sidecar) {
-    const auto embedded = ReadEmbedded(output.path);
-    return embedded && DecideTheSame(*embedded, provenance);
-  }
-  const auto sidecar = ReadSidecar(output.path);
-  if (!sidecar || !DecideTheSame(*sidecar, provenance)) return false;
-  try {
-    const Json file = sidecar->value("file", Json());
-    return file.is_object() && file.value("sha256", Json()) == DigestOf(output.path).sha256;
-  } catch (const std::runtime_error&) {
-    return false;  // the file is gone
-  }
 }
 
 }  // namespace kinescope::app

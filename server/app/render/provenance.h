@@ -1,13 +1,13 @@
-/// Describes where a picture came from: everything that determines its pixels, as JSON, in the file
-/// and beside it. Two files with equal provenance show the same. An object belongs to one thread at
-/// a time; the functions have no state.
+/// Describes where a picture came from: everything that determines its pixels, as JSON. Two files
+/// with equal provenance show the same. Files of provenance: provenance_files.h. An object belongs
+/// to one thread at a time; the functions have no state.
 #pragma once
 
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "render/camera.h"
 #include "render/renderer.h"
 #include "server/app/render/output_plan.h"
 #include "server/app/render/render_options.h"
@@ -18,9 +18,6 @@ using Json = nlohmann::ordered_json;
 
 /// 2: inputs are those that the options read. 1: they were guessed from texts of options.
 inline constexpr int kProvenanceSchema = 2;
-
-/// The keyword of a PNG's text chunk. Clips have it as their comment.
-inline constexpr const char* kProvenanceKey = "Kinescope";
 
 /// The part that all outputs of one source share. Computes the SHA-256 of the source and of every
 /// file in the options. @throws SourceError.
@@ -42,32 +39,24 @@ class Provenance {
   bool is_repeatable_ = true;
 };
 
-Json Describe(const render::Camera& camera);
-
-/// The options that gave `provenance`, with one output named `path`.
+/// The options that gave `provenance`, with one output named `path`. Former names of options are
+/// read as their present ones; unknown ones are ignored.
 /// @throws std::runtime_error for a provenance of another program or of a newer version.
 RenderOptions OptionsOf(const Json& provenance, const std::string& path);
+
+/// The options in `provenance` that this version does not know.
+std::vector<std::string> UnknownOptionsOf(const Json& provenance);
+
+/// The present name of an option; `name` itself if there is none.
+std::string PresentNameOf(const std::string& name);
+
+/// Whether each picture depends on the length of the clip or sequence: its plot shows all of it, or
+/// its camera makes one turn or fits all of it.
+bool DependsOnWholeClip(const ViewOptions& options);
 
 /// As text for a file: ASCII, one line.
 std::string ToText(const Json& provenance);
 /// Parses such a text; nullopt if it is not a provenance.
 std::optional<Json> FromText(const std::string& text);
-
-/// Whether two provenances describe the same pixels; ignores values that follow from others
-/// (camera, size of the file, ...).
-[[nodiscard]] bool DecideTheSame(const Json& a, const Json& b);
-
-/// The provenance in the file `path`; nullopt if it has none, is missing or is not a picture.
-std::optional<Json> ReadEmbedded(const std::string& path);
-
-/// The path of the sidecar file of an output: FILE.json.
-std::string SidecarOf(const std::string& path);
-std::optional<Json> ReadSidecar(const std::string& path);
-/// Writes FILE.json: `provenance`, the path of the source, the number of pictures and, except for a
-/// sequence, size and SHA-256 of the finished file. @throws std::runtime_error.
-void WriteSidecar(const Output& output, Json provenance, const std::string& source, long pictures);
-
-/// Whether the file of `output` exists, is complete and was rendered with `provenance`.
-[[nodiscard]] bool IsFinished(const Output& output, const Json& provenance, bool has_sidecar);
 
 }  // namespace kinescope::app

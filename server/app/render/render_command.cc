@@ -10,14 +10,14 @@
 #include "core/json_text.h"
 #include "server/app/commands.h"
 #include "server/app/render/output_plan.h"
-#include "server/app/render/render_job.h"
 #include "server/app/render/render_options.h"
+#include "server/app/render/render_run.h"
 #include "server/app/render/render_verify.h"
 
 namespace kinescope::app {
 namespace {
 
-void Tell(const OutputResult& result, bool as_json) {
+void PrintResult(const OutputResult& result, bool as_json) {
   const bool is_still = result.kind == OutputKind::kStill;
   if (as_json) {
     nlohmann::json line = {
@@ -46,16 +46,16 @@ void Render(const RenderOptions& options) {
   if (options.sources->empty()) throw UsageError("source is missing: name what to render");
   if (options.outs->empty()) throw UsageError("--out is missing: name the file to write");
   const std::vector<SourcePlan> plans = PlanOutputs(options);
-  const render::View view = ToView(options.view);
+  const render::PictureSpec spec = ToPictureSpec(options.view);
   ToTimeGrid(options.clip, false);  // refuses contradictions before a renderer is made
-  JobSettings settings;
+  RunSettings settings;
   settings.jobs = *options.jobs > 0 ? static_cast<int>(*options.jobs) : DefaultJobs();
   settings.force = *options.force;
   settings.sidecar = !*options.no_sidecar;
-  const auto pool = MakeDrawPool(settings.jobs, view, options.backend);
+  const auto pool = MakeDrawPool(settings.jobs, spec, options.backend);
   for (const SourcePlan& plan : plans) {
     for (const OutputResult& result : RenderSource(options, plan, settings, *pool)) {
-      Tell(result, *options.json);
+      PrintResult(result, *options.json);
     }
   }
 }

@@ -6,11 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "core/errors.h"
 #include "core/json_text.h"
@@ -18,8 +17,11 @@
 #include "core/sha256.h"
 #include "render/compare.h"
 #include "render/png_file.h"
+#include "server/app/render/picture_comparison.h"
 #include "server/app/render/provenance.h"
-#include "server/app/render/render_job.h"
+#include "server/app/render/provenance_comparison.h"
+#include "server/app/render/provenance_files.h"
+#include "server/app/render/render_run.h"
 #include "server/source/scheme.h"
 
 namespace kinescope::app {
@@ -27,70 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kClipTolerance = 24;         // levels: what two versions of an encoder may differ by
-constexpr double kClipMostPixels = 0.001;  // of a picture
-
-struct Verdict {
-  bool same = true;
-  bool same_bytes = false;
-  long picture = 0;  // the first that differs
-  std::string how;   // "123 pixels differ ..."
-  render::Image diff;
-};
-
-// The pictures of a file or of a numbered sequence, one after the other.
-class Pictures {
- public:
-  explicit Pictures(std::string path) : path_(std::move(path)) {
-    if (render::ClipFormatOf(path_)) video_ = render::OpenVideo(path_);
-  }
-
-  bool Next(render::Image& image) {
-    if (video_ != nullptr) return video_->Next(image);
-    const std::string path = PathOfPicture(path_, next_);
-    const bool is_single = path == path_;
-    if ((is_single && next_ > 0) || !fs::exists(path)) return false;
-    image = render::ReadPng(path);
-    ++next_;
-    return true;
-  }
-
- private:
-  const std::string path_;
-  std::unique_ptr<render::VideoReader> video_;
-  long next_ = 0;
-};
+// What two versions of an encoder may differ by.
+constexpr Tolerance kClipTolerance = {24, 0.001};
 
 std::string BytesOf(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// `count`: of a sequence, whose folder may hold more of an older one.
-Verdict Compare(const std::string& then, const std::string& now, int tolerance, double most_pixels,
-                std::optional<long> count) {
-  Verdict verdict;
-  Pictures expected(then), actual(now);
-  render::Image a, b;
-  for (long k = 0; !count || k < *count; ++k) {
-    const bool has_a = expected.Next(a), has_b = actual.Next(b);
-    if (!has_a && !has_b) break;
-    verdict.picture = k;
-    if (has_a != has_b) {
-      verdict.same = false;
-      verdict.how = has_a ? fmt::format("it has more than {} pictures", k)
-                          : fmt::format("it has only {} pictures", k);
-      return verdict;
-    }
-    const render::Comparison comparison = render::Compare(a, b, tolerance);
-    const auto most = static_cast<std::int64_t>(most_pixels * b.width * b.height);
-    if (comparison.same_size && comparison.pixels <= most) continue;
-    verdict.same = false;
-    verdict.how = render::Describe(comparison, b);
-    verdict.diff = render::DiffImage(a, b, tolerance);
-    return verdict;
-  }
-  return verdict;
 }
 
 // Where the source is now. @throws SourceError when it is nowhere or another one.
@@ -132,34 +76,12 @@ Json FindProvenance(const std::string& file) {
                                SidecarOf(file)));
 }
 
-// By option and name. In schema 1 inputs were guessed from the texts of options, so that some were
-// missed and some were listed that decide nothing: only those that both list are compared.
-void CheckInputs(const Json& then, const Json& now, const std::string& file) {
-  const auto inputs = [](const Json& provenance) {
-    std::map<std::pair<std::string, std::string>, std::string> hashes;
-    for (const Json& input : provenance.value("inputs", Json::array())) {
-      hashes[{input.value("option", ""), input.value("name", "")}] = input.value("sha256", "");
-    }
-    return hashes;
-  };
-  const auto before = inputs(then), after = inputs(now);
-  const bool is_guessed = then.value("schema", 0) < kProvenanceSchema;
-  for (const auto& [key, hash] : before) {
-    const auto found = after.find(key);
-    if (found == after.end() ? is_guessed : found->second == hash) continue;
-    throw SourceError(fmt::format(
-        "{}: --{} read another {} when it was drawn: SHA-256 {}; {}", file, key.first, key.second,
-        hash, found == after.end() ? "the file is missing now" : "now it is " + found->second));
-  }
-  for (const auto& [key, hash] : after) {
-    if (is_guessed || before.count(key) > 0) continue;
-    throw SourceError(fmt::format("{}: --{} reads {} now, which it did not when it was drawn", file,
-                                  key.first, key.second));
-  }
-}
-
 void NoteDifferences(const Json& then, const Json& now, const std::string& file) {
-  CheckInputs(then, now, file);
+  const std::string difference = DifferenceOfInputs(then, now);
+  if (!difference.empty()) throw SourceError(file + ": " + difference);
+  for (const std::string& option : UnknownOptionsOf(then)) {
+    spdlog::warn("{}: unknown option --{} in its provenance; it is ignored", file, option);
+  }
   for (const char* name : {"kinescope", "renderer"}) {
     if (then.value(name, "") == now.value(name, "")) continue;
     spdlog::warn("{}: rendered with {} {}, compared with {}", file, name, then.value(name, ""),
@@ -174,17 +96,20 @@ std::string FormatOf(const Json& provenance) {
   throw std::runtime_error("unknown format '" + format + "'");
 }
 
-// Picture `k` of a clip, which is long enough for that and no longer.
-void DrawOnly(long k, RenderOptions& options, JobSettings& settings) {
+// Picture `k` of a clip, which is long enough for that and no longer, unless its length matters.
+void DrawOnly(long k, RenderOptions& options, RunSettings& settings) {
   constexpr long kMostPictures = 100'000'000;  // a day at 1000 a second
   if (k < 0 || k > kMostPictures)
     throw std::runtime_error(fmt::format("invalid picture number {}", k));
+  settings.only_picture = k;
+  if (DependsOnWholeClip(options.view)) return;
   const std::int64_t nanos = options.clip.fps->NanosOf(k);
   options.clip.seconds = static_cast<double>(nanos + 1'000) * 1e-9;
-  settings.only_picture = k;
 }
 
-void Tell(const std::string& file, const Verdict& verdict, bool as_json) {
+// `corrections`: why an earlier version drew other pixels.
+void PrintVerdict(const std::string& file, const Verdict& verdict,
+                  const std::vector<std::string>& corrections, bool as_json) {
   std::string diff;
   if (!verdict.same && verdict.diff.width > 0) {
     diff = file + ".diff.png";
@@ -194,13 +119,15 @@ void Tell(const std::string& file, const Verdict& verdict, bool as_json) {
     nlohmann::json line = {{"file", file}, {"same", verdict.same}};
     if (!verdict.same) {
       line.update({{"picture", verdict.picture}, {"how", verdict.how}, {"diff", diff}});
+      if (!corrections.empty()) line["corrected_since"] = corrections;
     }
     fmt::print("{}\n", JsonText(line));
   } else if (verdict.same) {
     fmt::print("{}: same{}\n", file, verdict.same_bytes ? ", byte for byte" : " pictures");
   } else {
-    fmt::print("{}: DIFFERS, picture {}: {}{}\n", file, verdict.picture, verdict.how,
-               diff.empty() ? "" : "; see " + diff);
+    fmt::print("{}: DIFFERS, picture {}: {}{}{}{}\n", file, verdict.picture, verdict.how,
+               corrections.empty() ? "" : "; rendered by an earlier version, in which ",
+               fmt::join(corrections, ", and "), diff.empty() ? "" : "; see " + diff);
   }
 }
 
@@ -214,10 +141,10 @@ int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions
   options.sources = std::vector<std::string>{FindSource(then, file, given)};
   options.backend = given.backend;
   const std::vector<SourcePlan> plans = PlanOutputs(options);
-  JobSettings settings;
+  RunSettings settings;
   settings.jobs = *given.jobs > 0 ? static_cast<int>(*given.jobs) : DefaultJobs();
   if (is_one) DrawOnly(then.at("number").get<long>(), options, settings);
-  const auto pool = MakeDrawPool(settings.jobs, ToView(options.view), options.backend);
+  const auto pool = MakeDrawPool(settings.jobs, ToPictureSpec(options.view), options.backend);
   const auto results = RenderSource(options, plans.front(), settings, *pool);
   const Provenance now(options, options.sources->front(), pool->info());
   NoteDifferences(then, now.Of(plans.front().outputs.front()), file);
@@ -228,13 +155,13 @@ int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions
   verdict.same_bytes = (is_clip || !is_numbered || is_one) && BytesOf(file) == BytesOf(drawn);
   if (!verdict.same_bytes) {
     const bool same_renderer = then.value("renderer", "") == pool->info().renderer;
-    const int tolerance = is_clip ? kClipTolerance : same_renderer ? 0 : render::kChannelTolerance;
-    verdict = Compare(
-        file, drawn, tolerance, is_clip ? kClipMostPixels : 0,
+    const Tolerance rounding = {same_renderer ? 0 : render::kChannelTolerance, 0};
+    verdict = ComparePictures(
+        file, drawn, is_clip ? kClipTolerance : rounding,
         is_numbered && !is_one ? std::optional<long>(results.front().pictures) : std::nullopt);
     if (is_one) verdict.picture = *settings.only_picture;
   }
-  Tell(file, verdict, *given.json);
+  PrintVerdict(file, verdict, CorrectionsSince(then), *given.json);
   return verdict.same ? 0 : 1;
 }
 

@@ -41,7 +41,7 @@ LivePictureSettings LivePicturesOf(const ServeOptions& options) {
   LivePictureSettings pictures;
   pictures.moves = options.camera_moves;
   pictures.camera = CameraController(options.camera->front(), pictures.moves);
-  if (pictures.camera.needs_survey()) {
+  if (pictures.camera.needs_prescan()) {
     throw UsageError(
         "--orbit=turn and --fit=clip need a clip that ends; a live picture takes degrees per "
         "second, and --fit=now");

@@ -12,13 +12,12 @@
 #include "render/camera.h"
 #include "render/png_file.h"
 #include "render/renderer.h"
-#include "server/picture/shots.h"
+#include "server/picture/camera_json.h"
+#include "server/picture/render_planner.h"
 #include "server/scene/robot_source.h"
 
 namespace kinescope::app {
 namespace {
-
-std::vector<double> XyzList(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 void PrintPicture(const UrdfPictureOptions& options, const RobotState& robot,
                   const render::Camera& camera, const std::vector<std::string>& problems) {
@@ -35,11 +34,7 @@ void PrintPicture(const UrdfPictureOptions& options, const RobotState& robot,
       {"links", robot.model->links.size()},
       {"root_position", XyzList(robot.world_from_link.front().translation())},
       {"bounds", {XyzList(robot.bounds.min()), XyzList(robot.bounds.max())}},
-      {"camera",
-       {{"position", XyzList(camera.position)},
-        {"target", XyzList(camera.target)},
-        {"up", XyzList(camera.up)},
-        {"vertical_fov_rad", camera.vertical_fov_rad}}},
+      {"camera", ToJson(camera)},
       {"problems", problems},
   };
   fmt::print("{}\n", JsonText(json));
@@ -80,7 +75,7 @@ void DrawUrdf(const UrdfPictureOptions& options) {
   if (std::filesystem::path(*options.out).extension() != ".png") {
     throw UsageError("--out=" + *options.out + ": expected a name that ends in .png");
   }
-  ShotPlanner planner(options.view);
+  RenderPlanner planner(options.view);
   SceneState scene;
   scene.liveness = Liveness::kLive;
   scene.source = *options.file;
@@ -94,14 +89,14 @@ void DrawUrdf(const UrdfPictureOptions& options) {
     throw SourceError(*options.file + ": has no <visual>, so there is nothing to draw");
   }
   StandOnFloor(robot);
-  const Shot shot = planner.Only(std::move(scene));
-  const render::Image image = renderer->Render(shot.state, shot.camera, shot.view);
+  const RenderRequest request = planner.Only(std::move(scene));
+  const render::Image image = renderer->Render(request.state, request.camera, request.spec);
   std::map<std::string, std::string> facts = DrawnBy(*renderer);
   facts["Software"] = "Kinescope " KINESCOPE_VERSION;
   facts["Source"] = std::filesystem::path(*options.file).filename().string();
   facts["Camera"] = options.view.camera.ToText();
   render::WritePng(*options.out, image, facts);
-  PrintPicture(options, shot.state.robots.front(), shot.camera, renderer->problems());
+  PrintPicture(options, request.state.robots.front(), request.camera, renderer->problems());
 }
 
 }  // namespace kinescope::app

@@ -74,8 +74,8 @@ TEST(CameraController, TurnsOnceOverAClip) {
   CameraOptions options;
   options.orbit.Parse("turn");
   CameraController controller(ParseCamera("front"), options);
-  ASSERT_TRUE(controller.needs_survey());
-  for (const double secs : {0.0, 2.0, 4.0}) controller.Survey(SceneAt(secs, 0));
+  ASSERT_TRUE(controller.needs_prescan());
+  for (const double secs : {0.0, 2.0, 4.0}) controller.Prescan(SceneAt(secs, 0));
   const render::Camera first = controller.Aim(SceneAt(0, 0), kAspect);
   const render::Camera quarter = controller.Aim(SceneAt(1, 0), kAspect);
   const render::Camera last = controller.Aim(SceneAt(4, 0), kAspect);
@@ -89,7 +89,7 @@ TEST(CameraController, FramesAllThatIsThereOverTheClipAndStandsStill) {
   CameraOptions options;
   options.fit = Fit::kClip;
   CameraController controller(ParseCamera("left"), options);
-  for (const double x : {-2.0, 0.0, 3.0}) controller.Survey(SceneAt(x + 2, x));
+  for (const double x : {-2.0, 0.0, 3.0}) controller.Prescan(SceneAt(x + 2, x));
   const render::Camera camera = controller.Aim(SceneAt(0, -2), kAspect);
   EXPECT_EQ(controller.Aim(SceneAt(5, 3), kAspect).position, camera.position);
   for (const double x : {-2.0, 3.0}) {

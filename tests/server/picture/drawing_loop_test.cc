@@ -138,7 +138,7 @@ class Studio {
     EXPECT_TRUE(changed_.wait_for(lock, kPatience, [&] { return starts_ >= count; }));
   }
 
-  const render::View kSmall{16, 16, 1, "", true};
+  const render::PictureSpec kSmall{16, 16, 1, "", true};
 
  private:
   std::unique_ptr<render::Renderer> MakeRenderer(std::function<void(const std::string&)> on_hang) {
@@ -148,7 +148,7 @@ class Studio {
     if (std::exchange(fails_, false)) throw render::RenderError("no back-end starts");
     return std::make_unique<ProblematicRenderer>(
         [this, on_hang](render::Image&, const SceneState&, const render::Camera& camera,
-                        const render::View&) { Draw(camera, on_hang); });
+                        const render::PictureSpec&) { Draw(camera, on_hang); });
   }
 
   void Draw(const render::Camera& camera, const std::function<void(const std::string&)>& on_hang) {

@@ -16,7 +16,7 @@ class FakeRenderer : public render::Renderer {
  public:
   /// Called for every picture, which it may change, on the renderer's thread; may wait or throw.
   using OnDraw = std::function<void(render::Image& image, const SceneState& state,
-                                    const render::Camera& camera, const render::View& view)>;
+                                    const render::Camera& camera, const render::PictureSpec& spec)>;
 
   explicit FakeRenderer(OnDraw on_draw = nullptr) : on_draw_(std::move(on_draw)) {}
 
@@ -27,13 +27,13 @@ class FakeRenderer : public render::Renderer {
  private:
   // Every level is the number of the picture, from 1; what is written over it names that.
   void DoRender(render::Image& image, const SceneState& state, const render::Camera& camera,
-                const render::View& view) override {
+                const render::PictureSpec& spec) override {
     ++drawn_;
     std::fill(image.rgba.begin(), image.rgba.end(), drawn_);
     for (std::size_t i = 3; i < image.rgba.size(); i += 4) image.rgba[i] = 255;
-    if (on_draw_) on_draw_(image, state, camera, view);
+    if (on_draw_) on_draw_(image, state, camera, spec);
   }
-  std::string DoOverlayLayer(const SceneState&, const render::Camera&, const render::View&,
+  std::string DoOverlayLayer(const SceneState&, const render::Camera&, const render::PictureSpec&,
                              render::LayerFormat) override {
     return "over picture " + std::to_string(drawn_);
   }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "server/picture/shots.h"
+#include "server/picture/render_planner.h"
 #include "tests/render/test_scene.h"
 #include "tests/server/options_testing.h"
 #include "tests/temp_folder.h"
@@ -57,9 +57,9 @@ TEST(ViewOptions, APlotIsOfJointsThatHaveALoad) {
               ElementsAre(urdf::jL5S1, urdf::jRightElbow));
   EXPECT_THAT(Error("plot", "right_toe"), HasSubstr("right_knee"));
   const auto shown = testing::With<ViewOptions>({{"plot", "l5_s1"}, {"overlay", "title"}});
-  EXPECT_TRUE(ToView(shown).parts.plot);
+  EXPECT_TRUE(ToPictureSpec(shown).parts.plot);
   const auto hidden = testing::With<ViewOptions>({{"plot", "l5_s1"}, {"overlay", "-plot"}});
-  EXPECT_FALSE(ToView(hidden).parts.plot);
+  EXPECT_FALSE(ToPictureSpec(hidden).parts.plot);
 }
 
 TEST(ViewOptions, NamesAreRejectedWithTheNearest) {
@@ -107,21 +107,21 @@ SceneState SceneAt(double secs, double ratio) {
   return state;
 }
 
-TEST(ShotPlanner, APlotShowsTheWholeClipThatWasSurveyedAndElseTheNewestSeconds) {
+TEST(RenderPlanner, APlotShowsTheWholeClipThatWasPrescannedAndElseTheNewestSeconds) {
   const auto options = testing::With<ViewOptions>({{"plot", "l5_s1"}});
-  ShotPlanner surveyed(options), growing(options);
-  for (int k = 0; k <= 40; ++k) surveyed.Survey(SceneAt(0.5 * k, 0.01 * k));
+  RenderPlanner prescanned(options), growing(options);
+  for (int k = 0; k <= 40; ++k) prescanned.Prescan(SceneAt(0.5 * k, 0.01 * k));
   for (int k = 0; k <= 40; ++k) {
     const SceneState scene = SceneAt(0.5 * k, 0.01 * k);
-    const Shot whole = surveyed.Next(scene), newest = growing.Next(scene);
-    ASSERT_TRUE(whole.view.history && newest.view.history && whole.view.parts.plot);
-    EXPECT_NEAR(whole.view.plot_secs, 0.5 * k, 1e-9);
-    EXPECT_EQ(whole.view.history->curves.at(0).points.size(), 41u);
-    EXPECT_NEAR(whole.view.history->to_secs, 20, 1e-9);
-    const auto& points = newest.view.history->curves.at(0).points;
+    const RenderRequest whole = prescanned.Next(scene), newest = growing.Next(scene);
+    ASSERT_TRUE(whole.spec.load_curves && newest.spec.load_curves && whole.spec.parts.plot);
+    EXPECT_NEAR(whole.spec.plot_secs, 0.5 * k, 1e-9);
+    EXPECT_EQ(whole.spec.load_curves->curves.at(0).points.size(), 41u);
+    EXPECT_NEAR(whole.spec.load_curves->to_secs, 20, 1e-9);
+    const auto& points = newest.spec.load_curves->curves.at(0).points;
     EXPECT_EQ(points.size(), static_cast<std::size_t>(std::min(k, 20) + 1)) << "10 s";
     EXPECT_EQ(points.back().ratio, 0.01 * k);
-    EXPECT_GE(points.front().secs, newest.view.history->from_secs - 1e-6);
+    EXPECT_GE(points.front().secs, newest.spec.load_curves->from_secs - 1e-6);
   }
 }
 

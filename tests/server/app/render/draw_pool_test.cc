@@ -28,11 +28,11 @@ DrawPool::MakeRenderer FakeRenderers(FakeRenderer::OnDraw on_draw = nullptr) {
   return [on_draw = std::move(on_draw)] { return std::make_unique<FakeRenderer>(on_draw); };
 }
 
-Shot CountedShot(std::uint32_t counter) {
-  Shot shot;
-  shot.state.counter = counter;
-  shot.view.width = shot.view.height = 16;
-  return shot;
+RenderRequest CountedRequest(std::uint32_t counter) {
+  RenderRequest request;
+  request.state.counter = counter;
+  request.spec.width = request.spec.height = 16;
+  return request;
 }
 
 int FirstLevel(const FuturePicture& picture) { return picture.get()->rgba.front(); }
@@ -41,7 +41,7 @@ TEST(DrawPool, OneThreadDrawsInTheOrderOfTheShots) {
   DrawPool pool(1, 5, FakeRenderers());
   EXPECT_EQ(pool.info().renderer, "a fake");
   std::vector<FuturePicture> pictures;
-  for (std::uint32_t i = 0; i < 5; ++i) pictures.push_back(pool.Draw(CountedShot(i)));
+  for (std::uint32_t i = 0; i < 5; ++i) pictures.push_back(pool.Draw(CountedRequest(i)));
   for (int i = 0; i < 5; ++i) EXPECT_EQ(FirstLevel(pictures[static_cast<std::size_t>(i)]), i + 1);
 }
 
@@ -53,7 +53,7 @@ TEST(DrawPool, EachFutureHasThePictureOfItsShotWhicheverThreadDrewIt) {
   std::deque<std::pair<int, FuturePicture>> held;
   for (int i = 0; i < 200; ++i) {
     if (held.size() == 4) held.pop_front();
-    held.emplace_back(i, pool.Draw(CountedShot(static_cast<std::uint32_t>(i))));
+    held.emplace_back(i, pool.Draw(CountedRequest(static_cast<std::uint32_t>(i))));
     EXPECT_EQ(FirstLevel(held.front().second), held.front().first);
   }
 }
@@ -61,11 +61,11 @@ TEST(DrawPool, EachFutureHasThePictureOfItsShotWhicheverThreadDrewIt) {
 TEST(DrawPool, WaitsForRoomAndUsesTheMemoryOfPicturesAgain) {
   WithDeadline([] {
     DrawPool pool(1, 2, FakeRenderers());
-    FuturePicture first = pool.Draw(CountedShot(1));
-    const FuturePicture second = pool.Draw(CountedShot(2));
+    FuturePicture first = pool.Draw(CountedRequest(1));
+    const FuturePicture second = pool.Draw(CountedRequest(2));
     second.wait();
     const std::uint8_t* const memory = first.get()->rgba.data();
-    auto third = std::async(std::launch::async, [&] { return pool.Draw(CountedShot(3)); });
+    auto third = std::async(std::launch::async, [&] { return pool.Draw(CountedRequest(3)); });
     // Not a wait for something to come: it must not.
     EXPECT_EQ(third.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout)
         << "two pictures are held, and there is room for two";
@@ -81,7 +81,7 @@ TEST(DrawPool, AnErrorIsThatOfItsPictureAndTakesNoRoom) {
                     if (state.counter == 0) throw RenderError("the driver fails");
                   }));
     for (int i = 0; i < 5; ++i) {
-      const FuturePicture bad = pool.Draw(CountedShot(0)), good = pool.Draw(CountedShot(1));
+      const FuturePicture bad = pool.Draw(CountedRequest(0)), good = pool.Draw(CountedRequest(1));
       EXPECT_THROW(bad.get(), RenderError);
       EXPECT_NO_THROW(good.get());
     }
@@ -104,7 +104,7 @@ TEST(DrawPool, ALaterRendererThatDoesNotStartIsTheErrorOfThePicture) {
       if (before > 0) throw RenderError("no second context");
       return std::make_unique<FakeRenderer>([&](const auto&...) { has_failed.wait(); });
     });
-    const FuturePicture pictures[] = {pool.Draw(CountedShot(1)), pool.Draw(CountedShot(2))};
+    const FuturePicture pictures[] = {pool.Draw(CountedRequest(1)), pool.Draw(CountedRequest(2))};
     int errors = 0;
     for (const FuturePicture& picture : pictures) {
       try {
@@ -127,8 +127,8 @@ TEST(DrawPool, ItsEndWaitsForThePictureBeingDrawnAndForNoOther) {
                    started.set_value();
                    may_go_on.wait();
                  }));
-    const FuturePicture drawn = pool->Draw(CountedShot(1)), left = pool->Draw(CountedShot(2)),
-                        last = pool->Draw(CountedShot(3));
+    const FuturePicture drawn = pool->Draw(CountedRequest(1)), left = pool->Draw(CountedRequest(2)),
+                        last = pool->Draw(CountedRequest(3));
     started.get_future().wait();
     auto end = std::async(std::launch::async, [&] { pool.reset(); });
     EXPECT_THROW(left.get(), std::future_error);

@@ -34,11 +34,11 @@ using ::testing::IsEmpty;
 constexpr int kSinkWidth = 64, kSinkHeight = 48;
 constexpr std::array<const char*, 4> kClipNames = {"a.mp4", "a.webm", "a.webp", "a.gif"};
 
-render::View SinkView() {
-  render::View view;
-  view.width = kSinkWidth;
-  view.height = kSinkHeight;
-  return view;
+render::PictureSpec SinkView() {
+  render::PictureSpec spec;
+  spec.width = kSinkWidth;
+  spec.height = kSinkHeight;
+  return spec;
 }
 
 // Grey of one level.

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/errors.h"
+#include "server/app/render/provenance_comparison.h"
 #include "tests/server/options_testing.h"
 #include "tests/temp_folder.h"
 
@@ -99,6 +100,138 @@ TEST(Provenance, ChangesWithTheFilesBehindRobotsAndGhosts) {
     std::ofstream(file) << "<robot name='after'><link name='a'/></robot>";
     EXPECT_FALSE(DecideTheSame(first, Sample(options))) << name;
   }
+}
+
+TEST(Provenance, AFileNameMayContainTheSeparatorOfLists) {
+  const testing::TempFolder folder;
+  const std::string first = folder / "a;b.urdf", second = folder / "c.urdf";
+  for (const std::string& file : {first, second}) {
+    std::ofstream(file) << "<robot name='r'><link name='a'/></robot>";
+  }
+  RenderOptions options;
+  options.view.robot.ParseAll({first + "@1,0", second});
+  const Json json = Sample(options);
+  const RenderOptions again = OptionsOf(FromText(ToText(json)).value(), "a.mp4");
+  ASSERT_EQ(again.view.robot->size(), 2u);
+  EXPECT_EQ(again.view.robot->at(0).file, first);
+  EXPECT_EQ(again.view.robot->at(0).place->x, 1);
+  EXPECT_TRUE(DecideTheSame(json, Sample(again)));
+}
+
+// As version 0.1.0 wrote it first: texts of all options, "" for those not given, former names.
+Json SchemaOne(const Json& options, const Json& inputs = Json::array()) {
+  Json json = Json::parse(R"({
+    "kinescope": "0.1.0", "schema": 1, "source": {"name": "demo:lift"}, "inputs": [],
+    "renderer": "a renderer", "gl_version": "4.5", "backend": "osmesa", "backend_note": "",
+    "kind": "picture", "format": "png",
+    "options": {
+      "frame": 100, "overlay_layer": "", "size": "320x180", "camera": "three_quarter", "views": "",
+      "projection": "perspective", "orbit": "0", "fit": "off", "supersample": 2, "title": "",
+      "overlay": "", "plot": "", "no_overlays": false, "theme": "light", "background": "theme",
+      "floor": "on", "show": "", "hide": "", "trail": "", "trail_secs": 2.0, "ghost": "",
+      "ghost_opacity": 0.35, "robot": "", "model_name": "skeleton", "body_table": "de_leva",
+      "extra_mass": "", "figure": "smooth", "tool": "", "mesh_units": "m", "mesh_up": "z",
+      "mesh_scale": "fit", "mesh_frame": "auto", "capacity_factor": 1.0,
+      "capacity_percentile": "50", "load_metric": "total", "load_mode": "dynamic",
+      "class_limits": "0.3,0.6", "hand": "", "filter_hz": 5.0, "lumbar_compression": "on"}})");
+  if (options.is_object()) json["options"].update(options);
+  json["inputs"] = inputs;
+  return json;
+}
+
+// Options as the command line gives them, for comparison.
+std::string OptionText(const RenderOptions& options, const std::string& name) {
+  RenderOptions copy = options;
+  options::OptionList list;
+  copy.List(list);
+  return list.Find(name)->value->ToText();
+}
+
+TEST(Provenance, TheFirstSchemaIsReadWithItsNamesAndWords) {
+  const RenderOptions plain = OptionsOf(SchemaOne({}), "a.png");
+  RenderOptions untouched;
+  options::OptionList list;
+  untouched.List(list);
+  for (const options::Option& option : list) {
+    if (option.name == "size" || option.name == "out") continue;
+    if (SchemaOne({}).at("options").value(option.name, Json("")).is_string()) {
+      EXPECT_EQ(OptionText(plain, option.name),
+                option.former_name == "frame" ? "100" : option.value->ToText())
+          << option.name << " has the default of that version";
+    }
+  }
+  const RenderOptions options = OptionsOf(SchemaOne({{"overlay", "+scale,+strip,-lamp"},
+                                                     {"show", "frames,axes"},
+                                                     {"hide", "held"},
+                                                     {"figure", "primitive"},
+                                                     {"hand", "right:2,left:1.5"},
+                                                     {"extra_mass", "head:1.5,t8:8@-0.15,0,0.1"},
+                                                     {"robot", ""},
+                                                     {"camera", "0,-4,1.2:0,0,1"},
+                                                     {"views", "front,right/top,camera"}}),
+                                          "a.png");
+  EXPECT_EQ(OptionText(options, "frame"), "100");
+  EXPECT_EQ(OptionText(options, "figure"), "primitive");
+  EXPECT_EQ(OptionText(options, "hand"), "right:2,left:1.5");
+  EXPECT_EQ(options.view.camera->size(), 1u);
+  EXPECT_EQ(options.view.views->cameras.size(), 4u);
+  const render::OverlayParts& parts = *options.view.overlay;
+  EXPECT_TRUE(parts.scale && parts.frame_code && !parts.lamp && parts.legend);
+  const render::SceneLook look = ToPictureSpec(options.view).look;
+  EXPECT_TRUE(look.Shows(render::ScenePart::kFrames) && look.Shows(render::ScenePart::kAxes));
+  EXPECT_FALSE(look.Shows(render::ScenePart::kHeld));
+  EXPECT_THAT(UnknownOptionsOf(SchemaOne({})), ::testing::IsEmpty());
+  EXPECT_THAT(UnknownOptionsOf(SchemaOne({{"colour", "red"}})), ::testing::ElementsAre("colour"));
+}
+
+TEST(Provenance, OfTheFirstSchemaOnlyInputsThatBothListAreCompared) {
+  const auto input = [](const char* option, const char* hash) {
+    return Json{{"option", option}, {"name", "Head.stl"}, {"sha256", hash}, {"bytes", 5}};
+  };
+  const auto listing = [](const Json& inputs, int schema) {
+    Json json = SchemaOne({}, inputs);
+    json["schema"] = schema;
+    return json;
+  };
+  const Json one = Json::array({input("figure", "aa")});
+  const std::string present = PresentNameOf("figure");
+  const Json same = listing(Json::array({input(present.c_str(), "aa")}), 2);
+  const Json other = listing(Json::array({input(present.c_str(), "bb")}), 2);
+  const Json none = listing(Json::array(), 2);
+  EXPECT_EQ(DifferenceOfInputs(listing(one, 1), same), "") << "a former name is the same option";
+  EXPECT_THAT(DifferenceOfInputs(listing(one, 1), other),
+              ::testing::AllOf(::testing::HasSubstr("--" + present), ::testing::HasSubstr("bb")));
+  EXPECT_EQ(DifferenceOfInputs(listing(one, 1), none), "") << "it may have been listed by mistake";
+  EXPECT_EQ(DifferenceOfInputs(listing(Json::array(), 1), same), "") << "or missed";
+  Json wild = same, read = same;
+  wild["inputs"][0]["name"] = "n\xFF.stl";
+  read["inputs"][0]["name"] = "n\uFFFD.stl";
+  EXPECT_EQ(DifferenceOfInputs(read, wild), "") << "bytes that JSON cannot have";
+  EXPECT_NE(DifferenceOfInputs(same, none), "");
+  EXPECT_NE(DifferenceOfInputs(none, same), "");
+}
+
+TEST(Provenance, NamesTheErrorsOfTheEarlierVersionThatAffectItsPictures) {
+  using ::testing::ElementsAre;
+  using ::testing::HasSubstr;
+  using ::testing::IsEmpty;
+  EXPECT_THAT(CorrectionsSince(SchemaOne({})), IsEmpty());
+  EXPECT_THAT(CorrectionsSince(SchemaOne({{"plot", "l5_s1"}})), IsEmpty());
+  EXPECT_THAT(CorrectionsSince(SchemaOne({{"plot", "l5_s1"}, {"class_limits", "0.1,0.2"}})),
+              ElementsAre(HasSubstr("--class_limits")));
+  EXPECT_THAT(CorrectionsSince(SchemaOne({{"ghost", "demo:lift@1"}})),
+              ElementsAre(HasSubstr("ghost")));
+  EXPECT_THAT(CorrectionsSince(SchemaOne({{"ghost", "n_pose"}})), IsEmpty());
+  Json clip = SchemaOne({{"size", "320x192"}});
+  clip["format"] = "mp4";
+  EXPECT_THAT(CorrectionsSince(clip), ElementsAre(HasSubstr("multiple of 128")));
+  clip["options"]["size"] = "256x192";
+  EXPECT_THAT(CorrectionsSince(clip), IsEmpty());
+  Json numbered = SchemaOne({{"plot", "l5_s1"}});
+  numbered["number"] = 3;
+  EXPECT_THAT(CorrectionsSince(numbered), ElementsAre(HasSubstr("length of the sequence")));
+  numbered["schema"] = 2;
+  EXPECT_THAT(CorrectionsSince(numbered), IsEmpty());
 }
 
 // A folder that is called as a camera, a theme or a segment is no input of the picture.

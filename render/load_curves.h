@@ -19,8 +19,8 @@ struct LoadCurve {
   std::vector<LoadPoint> points;  // times ascend
 };
 
-/// Immutable once a View holds it; the pictures of a clip share it, on any thread.
-struct LoadHistory {
+/// Immutable once a PictureSpec holds it; the pictures of a clip share it, on any thread.
+struct LoadCurves {
   double from_secs = 0, to_secs = 1;  // visible range; @pre from < to
   std::vector<LoadCurve> curves;      // from top to bottom
 };

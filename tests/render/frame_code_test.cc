@@ -1,4 +1,4 @@
-#include "render/strip.h"
+#include "render/frame_code.h"
 
 #include <gtest/gtest.h>
 
@@ -16,41 +16,41 @@ Image Grey(int width, int height) {
           std::vector<std::uint8_t>(static_cast<std::size_t>(4 * width * height), 128)};
 }
 
-Image WithStrip(int width, int height, const StripCode& code) {
+Image WithFrameCode(int width, int height, const FrameCode& code) {
   Image image = Grey(width, height);
   Canvas canvas(image);
-  PaintStrip(canvas, width, height, code);
+  PaintFrameCode(canvas, width, height, code);
   return image;
 }
 
-TEST(Strip, SaysWhatWasWrittenInAnySizeAndInHalfOfIt) {
+TEST(FrameCode, SaysWhatWasWrittenInAnySizeAndInHalfOfIt) {
   std::mt19937 random(6);
   for (const auto& [width, height] : {std::pair{160, 160}, {320, 240}, {641, 361}, {1080, 1920}}) {
     for (int i = 0; i < 20; ++i) {
-      const StripCode code{static_cast<std::uint32_t>(random()),
+      const FrameCode code{static_cast<std::uint32_t>(random()),
                            static_cast<std::int64_t>(random()) - (1LL << 31)};
-      const Image image = WithStrip(width, height, code);
-      ASSERT_EQ(ReadStrip(image), code) << width << " x " << height;
+      const Image image = WithFrameCode(width, height, code);
+      ASSERT_EQ(ReadFrameCode(image), code) << width << " x " << height;
       Image half{width / 2, height / 2, {}};
       half.rgba.resize(static_cast<std::size_t>(4 * half.width * half.height));
       if (width % 2 != 0) continue;
       AverageInto(image.rgba.data(), half.width, half.height, 2, half, 0, 0);
-      ASSERT_EQ(ReadStrip(half), code) << "half of " << width << " x " << height;
+      ASSERT_EQ(ReadFrameCode(half), code) << "half of " << width << " x " << height;
     }
   }
 }
 
-TEST(Strip, KeepsTheEndsOfItsRange) {
-  for (const StripCode code :
-       {StripCode{0, 0}, StripCode{0xFFFFFFFF, (1LL << 47) - 1}, StripCode{1, -(1LL << 47)}}) {
-    EXPECT_EQ(ReadStrip(WithStrip(640, 360, code)), code);
+TEST(FrameCode, KeepsTheEndsOfItsRange) {
+  for (const FrameCode code :
+       {FrameCode{0, 0}, FrameCode{0xFFFFFFFF, (1LL << 47) - 1}, FrameCode{1, -(1LL << 47)}}) {
+    EXPECT_EQ(ReadFrameCode(WithFrameCode(640, 360, code)), code);
   }
 }
 
-TEST(Strip, ADamagedOneSaysNothing) {
-  const StripCode code{1234567, 89'012'345};
-  for (int bit = 0; bit < kStripBits; ++bit) {
-    Image image = WithStrip(1120, 360, code);  // cells of 10 px
+TEST(FrameCode, ADamagedOneSaysNothing) {
+  const FrameCode code{1234567, 89'012'345};
+  for (int bit = 0; bit < kFrameCodeBits; ++bit) {
+    Image image = WithFrameCode(1120, 360, code);  // cells of 10 px
     for (int y = 350; y < 360; ++y) {
       for (int x = 10 * bit; x < 10 * bit + 10; ++x) {
         for (int channel = 0; channel < 3; ++channel) {
@@ -59,11 +59,11 @@ TEST(Strip, ADamagedOneSaysNothing) {
         }
       }
     }
-    EXPECT_FALSE(ReadStrip(image)) << "cell " << bit << " is turned over";
+    EXPECT_FALSE(ReadFrameCode(image)) << "cell " << bit << " is turned over";
   }
-  EXPECT_FALSE(ReadStrip(Grey(640, 360)));
-  EXPECT_FALSE(ReadStrip(Image()));
-  EXPECT_FALSE(ReadStrip(Grey(1, 1)));
+  EXPECT_FALSE(ReadFrameCode(Grey(640, 360)));
+  EXPECT_FALSE(ReadFrameCode(Image()));
+  EXPECT_FALSE(ReadFrameCode(Grey(1, 1)));
 }
 
 }  // namespace

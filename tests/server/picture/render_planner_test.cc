@@ -1,6 +1,6 @@
 // What pictures show of the time before, and beside the recording.
 
-#include "server/picture/shots.h"
+#include "server/picture/render_planner.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,14 +29,14 @@ std::vector<SceneState> Scenes(const char* url, int count) {
   return scenes;
 }
 
-TEST(Shots, ATrailIsTheLastSecondsOfWhatWasAskedFor) {
+TEST(RenderPlanner, ATrailIsTheLastSecondsOfWhatWasAskedFor) {
   const auto options =
       testing::With<ViewOptions>({{"trail", "com,RightHand"}, {"trail_secs", "0.5"}});
-  ShotPlanner planner(options);
+  RenderPlanner planner(options);
   const std::vector<SceneState> scenes = Scenes("demo:lift", 12);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const Shot shot = planner.Next(scenes[i]);
-    const auto& trails = shot.view.look.trails;
+    const RenderRequest request = planner.Next(scenes[i]);
+    const auto& trails = request.spec.look.trails;
     if (i == 0) {
       EXPECT_TRUE(trails.empty()) << "a point is no trail";
       continue;
@@ -47,28 +47,28 @@ TEST(Shots, ATrailIsTheLastSecondsOfWhatWasAskedFor) {
     EXPECT_EQ(trails[1].points.back(), scenes[i].people[0].links[urdf::kRightHand].position);
   }
   // A recording that starts over drags no line through the room.
-  EXPECT_TRUE(planner.Next(scenes[0]).view.look.trails.empty());
+  EXPECT_TRUE(planner.Next(scenes[0]).spec.look.trails.empty());
 }
 
-TEST(Shots, APictureAloneHasTheTrailOfAClip) {
+TEST(RenderPlanner, APictureAloneHasTheTrailOfAClip) {
   const auto options = testing::With<ViewOptions>({{"trail", "left_hand"}, {"trail_secs", "1"}});
   SceneReader reader("demo:walk", SceneOptions());
   SceneTimeline timeline(reader);
-  ShotPlanner planner(options);
+  RenderPlanner planner(options);
   RememberBefore(2, timeline, planner);
-  const Shot shot = planner.Only(timeline.At(2).value());
-  ASSERT_EQ(shot.view.look.trails.size(), 1u);
-  EXPECT_EQ(shot.view.look.trails[0].points.size(), 61u) << "60 a second and now";
+  const RenderRequest request = planner.Only(timeline.At(2).value());
+  ASSERT_EQ(request.spec.look.trails.size(), 1u);
+  EXPECT_EQ(request.spec.look.trails[0].points.size(), 61u) << "60 a second and now";
 }
 
-TEST(Shots, AGhostStandsOnTheFloorWhereThePersonIs) {
+TEST(RenderPlanner, AGhostStandsOnTheFloorWhereThePersonIs) {
   for (const char* pose : {"n_pose", "t_pose"}) {
     const auto options = testing::With<ViewOptions>({{"ghost", pose}, {"ghost_opacity", "0.2"}});
-    ShotPlanner planner(options);
+    RenderPlanner planner(options);
     const SceneState scene = Scenes("demo:lift", 25).back();
-    const Shot shot = planner.Only(scene);
-    ASSERT_EQ(shot.view.look.ghosts.size(), 1u);
-    const render::Ghost& ghost = shot.view.look.ghosts[0];
+    const RenderRequest request = planner.Only(scene);
+    ASSERT_EQ(request.spec.look.ghosts.size(), 1u);
+    const render::Ghost& ghost = request.spec.look.ghosts[0];
     EXPECT_EQ(ghost.opacity, 0.2);
     const urdf::LinkPoses& links = ghost.person.links;
     const auto& pelvis = scene.people[0].links[urdf::kPelvis].position;
@@ -85,16 +85,16 @@ TEST(Shots, AGhostStandsOnTheFloorWhereThePersonIs) {
   }
 }
 
-TEST(Shots, AGhostOfARecordingIsWhereItWas) {
+TEST(RenderPlanner, AGhostOfARecordingIsWhereItWas) {
   const auto options = testing::With<ViewOptions>({{"ghost", "demo:lift@1.5"}});
-  ShotPlanner planner(options);
+  RenderPlanner planner(options);
   const std::vector<SceneState> scenes = Scenes("demo:lift", 16);
-  const Shot shot = planner.Only(scenes[0]);
-  EXPECT_EQ(shot.view.look.ghosts.at(0).person.links[urdf::kHead].position,
+  const RenderRequest request = planner.Only(scenes[0]);
+  EXPECT_EQ(request.spec.look.ghosts.at(0).person.links[urdf::kHead].position,
             scenes[15].people[0].links[urdf::kHead].position);
 }
 
-TEST(Shots, AGhostsTimeIsOneThatARecordingCanHave) {
+TEST(RenderPlanner, AGhostsTimeIsOneThatARecordingCanHave) {
   for (const std::string secs : {"-1", "864001", "1e9", "1e300", "inf", "nan"}) {
     EXPECT_THAT(testing::ErrorOfSetting<ViewOptions>("ghost", "demo:lift@" + secs),
                 HasSubstr("0 to 864000 s"));
@@ -109,7 +109,7 @@ TEST(ShotsDeathTest, CtrlCEndsTheReadingForAGhost) {
     CatchStopSignals();
     std::raise(SIGINT);
     try {
-      const ShotPlanner planner(options);
+      const RenderPlanner planner(options);
     } catch (const std::runtime_error& error) {
       std::fprintf(stderr, "%s\n", error.what());
       std::_Exit(2);
@@ -119,7 +119,7 @@ TEST(ShotsDeathTest, CtrlCEndsTheReadingForAGhost) {
   EXPECT_EXIT(read(), ::testing::ExitedWithCode(2), "interrupted while reading demo:lift");
 }
 
-TEST(Shots, RobotsStandOnTheFloorWhereTheyWerePut) {
+TEST(RenderPlanner, RobotsStandOnTheFloorWhereTheyWerePut) {
   const testing::TempFolder folder;
   const std::string file = (folder / "arm@home.urdf").string();
   std::ofstream(file)
@@ -127,7 +127,7 @@ TEST(Shots, RobotsStandOnTheFloorWhereTheyWerePut) {
          "</geometry></visual></link></robot>";
   ViewOptions options;
   options.robot.ParseAll({file + "@2,-1,90", file});
-  ShotPlanner planner(options);
+  RenderPlanner planner(options);
   SceneState scene;
   scene.floor_z = 0.5;
   const SceneState shown = planner.Only(scene).state;

@@ -1,4 +1,4 @@
-#include "server/picture/load_window.h"
+#include "server/picture/plot_buffer.h"
 
 #include <algorithm>
 #include <limits>
@@ -7,13 +7,13 @@
 
 namespace kinescope::app {
 
-LoadWindow::LoadWindow(std::vector<int> joints) : joints_(std::move(joints)) {
+PlotBuffer::PlotBuffer(std::vector<int> joints) : joints_(std::move(joints)) {
   for (const int joint : joints_) {
     curves_.push_back({std::string(urdf::kJoints[urdf::At(joint)].label), {}});
   }
 }
 
-void LoadWindow::Add(const SceneState& state, double secs) {
+void PlotBuffer::Add(const SceneState& state, double secs) {
   const auto person = std::find_if(state.people.begin(), state.people.end(),
                                    [](const PersonState& p) { return !p.loads.empty(); });
   for (std::size_t i = 0; i < joints_.size(); ++i) {
@@ -30,12 +30,12 @@ void LoadWindow::Add(const SceneState& state, double secs) {
   last_secs_ = secs;
 }
 
-render::LoadHistory LoadWindow::All() const {
+render::LoadCurves PlotBuffer::All() const {
   // One scene alone has no duration; any will do.
   return {0, std::max(last_secs_, 0.1), curves_};
 }
 
-render::LoadHistory LoadWindow::Last(double length_secs) {
+render::LoadCurves PlotBuffer::Last(double length_secs) {
   constexpr double kRounding = 1e-6;  // s
   const double from = last_secs_ - length_secs;
   for (render::LoadCurve& curve : curves_) {

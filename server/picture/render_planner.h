@@ -1,7 +1,7 @@
 /// Plans the pictures of a recording. Everything that depends on other scenes (a camera that
 /// follows, a plot of loads) is computed here, one scene after the other, so that any number of
-/// renderers can render the pictures in any order. A planner belongs to one thread; a Shot is a
-/// value for any thread.
+/// renderers can render the pictures in any order. A planner belongs to one thread; a RenderRequest
+/// is a value for any thread.
 #pragma once
 
 #include <cstdint>
@@ -13,73 +13,74 @@
 #include "render/camera.h"
 #include "render/renderer.h"
 #include "server/picture/camera_controller.h"
-#include "server/picture/load_window.h"
+#include "server/picture/plot_buffer.h"
 #include "server/picture/scene_additions.h"
 #include "server/picture/view_options.h"
 #include "server/scene/scene_reader.h"
 
 namespace kinescope::app {
 
-/// Everything that one picture depends on. With several views, the cameras are in view.panes, and
+/// Everything that one picture depends on. With several views, the cameras are in spec.panes, and
 /// `camera` is the first of them.
-struct Shot {
+struct RenderRequest {
   SceneState state;
   render::Camera camera;
-  render::View view;
+  render::PictureSpec spec;
   std::optional<render::LayerFormat> layer;  // format for its overlays as a vector file, if
                                              // requested
 };
 
-class ShotPlanner {
+class RenderPlanner {
  public:
   /// `people`: options of the people in the scenes. @throws UsageError for invalid or impossible
   /// options.
-  explicit ShotPlanner(const ViewOptions& options, const BackendOptions& backend = {},
-                       const SceneOptions& people = {});
+  explicit RenderPlanner(const ViewOptions& options, const BackendOptions& backend = {},
+                         const SceneOptions& people = {});
   /// With `additions` shared by several planners, so that files are read and robots measured once.
-  ShotPlanner(const ViewOptions& options, SceneAdditions additions);
+  RenderPlanner(const ViewOptions& options, SceneAdditions additions);
 
   /// Whether the first picture requires the whole clip: one revolution over the clip, a frame
   /// around all of it, a plot of all of it. Without a first pass they use the available data: no
   /// revolution, no frame, a plot of the newest seconds.
-  bool needs_survey() const;
-  /// First pass: call it for every scene of the clip, in order, before the first shot.
-  void Survey(const SceneState& state);
+  bool needs_prescan() const;
+  /// First pass: call it for every scene of the clip, in order, before the first request.
+  void Prescan(const SceneState& state);
 
   /// The next picture of a clip; call it with the scenes in order.
-  Shot Next(SceneState state);
+  RenderRequest Next(SceneState state);
 
   /// A single picture, `secs` after the start of the recording. Trails are those of the scenes
   /// passed to Remember before.
-  Shot Only(SceneState state, double secs = 0) const;
+  RenderRequest Only(SceneState state, double secs = 0) const;
 
   /// Adds a scene before the first picture; in order. Needed if history_secs() > 0.
   void Remember(const SceneState& state) { additions_.Remember(state); }
   /// Length of the history that a picture shows, s.
   double history_secs() const { return additions_.history_secs(); }
 
-  const render::View& view() const { return view_; }
+  const render::PictureSpec& spec() const { return spec_; }
 
  private:
-  Shot With(SceneState state, std::vector<render::Camera> cameras, double secs,
-            const SceneAdditions& additions) const;
+  RenderRequest With(SceneState state, std::vector<render::Camera> cameras, double secs,
+                     const SceneAdditions& additions) const;
 
-  render::View view_;
+  render::PictureSpec spec_;
   std::vector<CameraController> cameras_;  // one, or one per view
-  std::vector<double> aspects_;     // of the views, width / height
+  std::vector<double> aspects_;            // of the views, width / height
   SceneAdditions additions_;
-  LoadWindow loads_;  // of the first pass, or else of the scenes so far
-  std::optional<std::int64_t> start_nanos_, survey_start_nanos_;
-  std::shared_ptr<const render::LoadHistory> whole_;  // of the first pass, made with the first shot
+  PlotBuffer loads_;  // of the first pass, or else of the scenes so far
+  std::optional<std::int64_t> start_nanos_, prescan_start_nanos_;
+  // Of the first pass, made with the first request.
+  std::shared_ptr<const render::LoadCurves> whole_;
 };
 
 /// Performs the first pass for `planners` that need it: reads `source` up to `seconds` after its
 /// first scene.
 /// @throws as SceneReader.
-void SurveyClip(const std::vector<ShotPlanner*>& planners, SceneReader& source,
-                std::optional<double> seconds);
+void PrescanClip(const std::vector<RenderPlanner*>& planners, SceneReader& source,
+                 std::optional<double> seconds);
 
 /// Passes to `planner` the history that a picture at `secs` needs. @pre as SceneTimeline::At
-void RememberBefore(double secs, SceneTimeline& timeline, ShotPlanner& planner);
+void RememberBefore(double secs, SceneTimeline& timeline, RenderPlanner& planner);
 
 }  // namespace kinescope::app

@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "core/scene_state.h"
-#include "render/load_history.h"
+#include "render/load_curves.h"
 
 namespace kinescope::app {
 
 /// Loads of the first person who has any. One thread.
-class LoadWindow {
+class PlotBuffer {
  public:
   /// @param joints urdf::Joint, in display order
-  explicit LoadWindow(std::vector<int> joints);
+  explicit PlotBuffer(std::vector<int> joints);
 
   bool is_empty() const { return joints_.empty(); }
 
@@ -23,10 +23,10 @@ class LoadWindow {
   void Add(const SceneState& state, double secs);
 
   /// All from 0 to the last one added.
-  render::LoadHistory All() const;
+  render::LoadCurves All() const;
 
   /// The `length_secs` up to the last one added; older values are discarded.
-  render::LoadHistory Last(double length_secs);
+  render::LoadCurves Last(double length_secs);
 
  private:
   std::vector<int> joints_;

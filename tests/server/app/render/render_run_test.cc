@@ -1,6 +1,6 @@
 // What `kinescope render` hands to the pool that draws and to its files; the drawing itself is
 // faked.
-#include "server/app/render/render_job.h"
+#include "server/app/render/render_run.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -26,7 +26,7 @@ using kinescope::testing::ReadFile;
 using kinescope::testing::TempFolder;
 using kinescope::testing::WithDeadline;
 
-RenderOptions SmallJob(const std::string& source, const std::vector<std::string>& outs) {
+RenderOptions SmallRun(const std::string& source, const std::vector<std::string>& outs) {
   RenderOptions options;
   options.sources = std::vector<std::string>{source};
   options.outs = outs;
@@ -38,16 +38,16 @@ RenderOptions SmallJob(const std::string& source, const std::vector<std::string>
 std::vector<OutputResult> RenderFaked(const RenderOptions& options, std::size_t most_pictures,
                                       FakeRenderer::OnDraw on_draw = nullptr) {
   DrawPool pool(1, most_pictures, [&] { return std::make_unique<FakeRenderer>(on_draw); });
-  JobSettings settings;
+  RunSettings settings;
   settings.sidecar = false;
   return RenderSource(options, PlanOutputs(options).at(0), settings, pool);
 }
 
-TEST(RenderJob, AnyNumberOfStillsNeedsRoomForOnePictureAlone) {
+TEST(RenderRun, AnyNumberOfStillsNeedsRoomForOnePictureAlone) {
   for (const char* layer : {"", "svg"}) {
     const TempFolder folder;
     RenderOptions options =
-        SmallJob("demo:lift", {folder / "{camera}.png", folder / "{camera}_again.png"});
+        SmallRun("demo:lift", {folder / "{camera}.png", folder / "{camera}_again.png"});
     options.view.camera.Parse("front,back,left,right,top,iso,three_quarter");
     if (*layer != '\0') options.moment.overlay_layer.Parse(layer);
     std::vector<OutputResult> results;
@@ -68,10 +68,48 @@ TEST(RenderJob, AnyNumberOfStillsNeedsRoomForOnePictureAlone) {
   }
 }
 
-TEST(RenderJob, StillsBesideAClipNeedNoMoreRoom) {
+TEST(RenderRun, EightStillsNeedNoMoreThanAPoolOfTwoPictures) {
+  const TempFolder folder;
+  RenderOptions options = SmallRun("demo:lift", {folder / "{camera}.png"});
+  options.view.camera.Parse("front,back,left,right,top,iso,three_quarter;0,-4,1:0,0,1");
+  std::vector<OutputResult> results;
+  WithDeadline([&] { results = RenderFaked(options, 2); });
+  EXPECT_EQ(results.size(), 8u);
+  EXPECT_EQ(folder.Names().size(), 8u);
+}
+
+TEST(RenderRun, TheFilesDoNotDependOnTheNumberOfThreads) {
+  const auto files_with = [](int jobs) {
+    const TempFolder folder;
+    RenderOptions options =
+        SmallRun("demo:lift", {folder / "{camera}.png", folder / "{camera}_%d.png"});
+    options.view.camera.Parse("front,top");
+    options.moment.time = 0.15;
+    options.clip.seconds = 0.3;
+    options.clip.fps.Parse("10");
+    DrawPool pool(jobs, 6, [] {
+      return std::make_unique<FakeRenderer>(
+          [](render::Image& image, const SceneState& state, const auto&...) {
+            const auto level = static_cast<std::uint8_t>(state.stamp_nanos / 1'000'000);
+            std::fill(image.rgba.begin(), image.rgba.end(), level);
+          });
+    });
+    RunSettings settings;
+    settings.jobs = jobs;
+    RenderSource(options, PlanOutputs(options).at(0), settings, pool);
+    std::map<std::string, std::string> files;
+    for (const std::string& name : folder.Names()) files[name] = ReadFile(folder / name);
+    return files;
+  };
+  const auto one = files_with(1);
+  EXPECT_EQ(one.size(), 2u * (1 + 1) + 2u * (3 + 1)) << "pictures and sidecars";
+  EXPECT_TRUE(files_with(3) == one);
+}
+
+TEST(RenderRun, StillsBesideAClipNeedNoMoreRoom) {
   const TempFolder folder;
   RenderOptions options =
-      SmallJob("demo:lift", {folder / "{camera}.png", folder / "{camera}_%02d.png"});
+      SmallRun("demo:lift", {folder / "{camera}.png", folder / "{camera}_%02d.png"});
   options.view.camera.Parse("front,left,top");
   options.moment.time = 0.05;
   options.clip.seconds = 0.1;
@@ -79,18 +117,18 @@ TEST(RenderJob, StillsBesideAClipNeedNoMoreRoom) {
   EXPECT_EQ(folder.Names().size(), 3u * (1 + 3));
 }
 
-TEST(RenderJob, ALayerThatCannotBeWrittenLeavesNoPictureWithoutIt) {
+TEST(RenderRun, ALayerThatCannotBeWrittenLeavesNoPictureWithoutIt) {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "a.svg");
-  RenderOptions options = SmallJob("demo:lift", {folder / "a.png"});
+  RenderOptions options = SmallRun("demo:lift", {folder / "a.png"});
   options.moment.overlay_layer.Parse("svg");
   EXPECT_THROW(RenderFaked(options, 2), std::runtime_error);
   EXPECT_THAT(folder.Names(), ::testing::ElementsAre("a.svg"));
 }
 
-TEST(RenderJob, AGhostOfARecordingLooksAsThePersonDoes) {
+TEST(RenderRun, AGhostOfARecordingLooksAsThePersonDoes) {
   const TempFolder folder;
-  RenderOptions options = SmallJob("demo:lift", {folder / "a.png"});
+  RenderOptions options = SmallRun("demo:lift", {folder / "a.png"});
   options.view.ghost.Parse("demo:walk@0.5");
   options.person.model_name.Parse("anna");
   options.person.height = 1.6;

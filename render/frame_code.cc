@@ -1,4 +1,4 @@
-#include "render/strip.h"
+#include "render/frame_code.h"
 
 #include <zlib.h>
 
@@ -10,7 +10,7 @@ namespace kinescope::render {
 namespace {
 
 constexpr std::uint8_t kMark = 0b10110100;
-constexpr std::size_t kBytes = kStripBits / 8, kCheckBytes = 3;
+constexpr std::size_t kBytes = kFrameCodeBits / 8, kCheckBytes = 3;
 constexpr double kNarrowestCell = 5.5;  // px; half of it still outlives an encoder
 constexpr int kLowestRow = 6, kRowsOfPicture = 90;
 constexpr int kMostRows = 8;
@@ -22,7 +22,7 @@ std::uint32_t CheckOf(const Bytes& bytes) {
          0xFFFFFF;
 }
 
-Bytes Encode(const StripCode& code) {
+Bytes Encode(const FrameCode& code) {
   Bytes bytes{kMark};
   const auto put = [&](std::size_t at, std::size_t count, std::uint64_t value) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -35,14 +35,14 @@ Bytes Encode(const StripCode& code) {
   return bytes;
 }
 
-std::optional<StripCode> Decode(const Bytes& bytes) {
+std::optional<FrameCode> Decode(const Bytes& bytes) {
   const auto take = [&](std::size_t at, std::size_t count) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < count; ++i) value = value << 8 | bytes[at + i];
     return value;
   };
   if (bytes[0] != kMark || take(11, 3) != CheckOf(bytes)) return std::nullopt;
-  StripCode code;
+  FrameCode code;
   code.counter = static_cast<std::uint32_t>(take(1, 4));
   const std::uint64_t time = take(5, 6);
   const std::uint64_t sign = std::uint64_t{1} << 47;
@@ -76,14 +76,14 @@ double BrightnessOf(const Image& image, double left, double top, double width, d
   return sum / (3.0 * (x1 - x0 + 1) * (y1 - y0 + 1));
 }
 
-std::optional<StripCode> ReadAt(const Image& image, int shrunk) {
-  const StripLayout layout = StripLayoutOf(image.width * shrunk, image.height * shrunk);
-  const int cells = kStripBits / layout.rows;
+std::optional<FrameCode> ReadAt(const Image& image, int shrunk) {
+  const FrameCodeLayout layout = FrameCodeLayoutOf(image.width * shrunk, image.height * shrunk);
+  const int cells = kFrameCodeBits / layout.rows;
   const double cell = static_cast<double>(image.width) / cells;
   const double row_height = static_cast<double>(layout.row_height) / shrunk;
   const double top = image.height - layout.rows * row_height;
-  std::array<double, kStripBits> levels{};
-  for (int bit = 0; bit < kStripBits; ++bit) {
+  std::array<double, kFrameCodeBits> levels{};
+  for (int bit = 0; bit < kFrameCodeBits; ++bit) {
     const int row = bit / cells;
     levels[static_cast<std::size_t>(bit)] =
         BrightnessOf(image, bit % cells * cell, top + row * row_height, cell, row_height);
@@ -100,9 +100,9 @@ std::optional<StripCode> ReadAt(const Image& image, int shrunk) {
 
 }  // namespace
 
-StripLayout StripLayoutOf(int width_px, int height_px) {
-  StripLayout layout;
-  while (layout.rows < kMostRows && width_px * layout.rows < kNarrowestCell * kStripBits) {
+FrameCodeLayout FrameCodeLayoutOf(int width_px, int height_px) {
+  FrameCodeLayout layout;
+  while (layout.rows < kMostRows && width_px * layout.rows < kNarrowestCell * kFrameCodeBits) {
     layout.rows *= 2;
   }
   // Even, so that half of it is whole.
@@ -110,16 +110,16 @@ StripLayout StripLayoutOf(int width_px, int height_px) {
   return layout;
 }
 
-void PaintStrip(Painter& painter, int width_px, int height_px, const StripCode& code) {
-  const StripLayout layout = StripLayoutOf(width_px, height_px);
+void PaintFrameCode(Painter& painter, int width_px, int height_px, const FrameCode& code) {
+  const FrameCodeLayout layout = FrameCodeLayoutOf(width_px, height_px);
   const Bytes bytes = Encode(code);
-  const int cells = kStripBits / layout.rows;
+  const int cells = kFrameCodeBits / layout.rows;
   const auto edge = [&](int cell) {
     return std::round(static_cast<double>(width_px) * cell / cells);
   };
   const double top = height_px - layout.height();
   painter.RoundedBox(0, top, width_px, layout.height(), 0, {{0, 0, 0}, 1});
-  for (int bit = 0; bit < kStripBits; ++bit) {
+  for (int bit = 0; bit < kFrameCodeBits; ++bit) {
     if (!BitOf(bytes, bit)) continue;
     const int cell = bit % cells, row = bit / cells;
     painter.RoundedBox(edge(cell), top + row * layout.row_height, edge(cell + 1) - edge(cell),
@@ -127,7 +127,7 @@ void PaintStrip(Painter& painter, int width_px, int height_px, const StripCode& 
   }
 }
 
-std::optional<StripCode> ReadStrip(const Image& image) {
+std::optional<FrameCode> ReadFrameCode(const Image& image) {
   if (image.width <= 0 || image.height <= 0) return std::nullopt;
   for (const int shrunk : {1, 2}) {
     if (auto code = ReadAt(image, shrunk)) return code;

@@ -1,0 +1,106 @@
+#include "server/app/render/output_writer.h"
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "server/app/render/provenance_files.h"
+#include "server/picture/camera_json.h"
+
+namespace kinescope::app {
+namespace {
+
+render::VideoOptions PackingOf(const RunContext& run, const Output& output) {
+  render::VideoOptions options;
+  options.rate = run.grid.rate;
+  if (HasCrf(output.path) && run.options.pack.crf) {
+    options.crf = static_cast<int>(*run.options.pack.crf);
+  }
+  options.quality = static_cast<int>(*run.options.pack.quality);
+  options.alpha = run.options.view.background->is_transparent;
+  return options;
+}
+
+// The file of the overlays as vectors; "" if they stay in the picture.
+std::string LayerPathOf(const RunContext& run, const Output& output) {
+  const auto& layer = run.options.moment.overlay_layer;
+  if (!layer) return "";
+  return std::filesystem::path(output.path).replace_extension(layer.ToText());
+}
+
+}  // namespace
+
+OutputWriter::OutputWriter(const RunContext& run, Output output, bool is_up_to_date)
+    : run_(run),
+      output_(std::move(output)),
+      is_up_to_date_(is_up_to_date),
+      result_{output_.path, output_.kind} {
+  if (is_up_to_date && run.settings.sidecar) {
+    const Json pictures =
+        ReadSidecar(output_.path).value_or(Json::object()).value("pictures", Json());
+    if (pictures.is_number_integer()) result_.pictures = pictures.get<long>();
+  }
+  if (output_.kind == OutputKind::kClip && !is_up_to_date) {
+    const options::Size& size = run.options.view.size;
+    render::MakeVideoWriter(output_.path, size->width, size->height, PackingOf(run, output_));
+  }
+}
+
+void OutputWriter::Put(long k, const FuturePicture& picture, const render::Camera& camera) {
+  if (sink_ == nullptr) {
+    sink_ = MakeSink();
+    first_camera_ = ToJson(camera);
+  }
+  sink_->Put(k, picture, camera);
+  ++result_.drawn;
+}
+
+std::unique_ptr<OutputSink> OutputWriter::MakeSink() const {
+  const MetadataOf metadata = [this](const render::Camera& camera, long k) {
+    return MetadataFor(camera, k);
+  };
+  switch (output_.kind) {
+    case OutputKind::kStill:
+      return MakePngSink(output_.path, 1, metadata, LayerPathOf(run_, output_));
+    case OutputKind::kSequence: return MakePngSink(output_.path, run_.settings.jobs, metadata);
+    case OutputKind::kClip: break;
+  }
+  return MakeClipSink(output_.path, ToPictureSpec(run_.options.view), PackingOf(run_, output_),
+                      metadata);
+}
+
+// On the threads of the sink.
+std::map<std::string, std::string> OutputWriter::MetadataFor(const render::Camera& camera,
+                                                             long k) const {
+  const bool is_numbered = output_.kind == OutputKind::kSequence;
+  Json provenance =
+      run_.provenance.Of(output_, is_numbered ? std::optional<long>(k) : std::nullopt);
+  provenance["camera"] = ToJson(camera);
+  std::map<std::string, std::string> text;
+  if (!run_.options.view.title->empty()) {
+    text[output_.kind == OutputKind::kClip ? "title" : "Title"] = *run_.options.view.title;
+  }
+  if (output_.kind == OutputKind::kClip) {
+    text["comment"] = ToText(provenance);
+    return text;
+  }
+  text["Software"] = "Kinescope " KINESCOPE_VERSION;
+  text["Source"] = provenance.at("source").at("name");
+  text["Camera"] = output_.camera;
+  text["Renderer"] = provenance.at("renderer");
+  text[kProvenanceKey] = ToText(provenance);
+  return text;
+}
+
+void OutputWriter::Finish(long clip_pictures) {
+  if (is_up_to_date_) return;
+  if (sink_ != nullptr) sink_->Finish();
+  result_.pictures = is_still() ? 1 : clip_pictures;
+  result_.secs = is_still() ? 0 : static_cast<double>(run_.grid.rate.NanosOf(clip_pictures)) * 1e-9;
+  if (!run_.settings.sidecar || run_.settings.only_picture || result_.drawn == 0) return;
+  Json provenance = run_.provenance.Of(output_);
+  provenance["camera"] = first_camera_;
+  WriteSidecar(output_, std::move(provenance), run_.source, result_.pictures);
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,279 @@
+#include "server/app/render/render_run.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "core/clocks.h"
+#include "core/errors.h"
+#include "core/stop_signal.h"
+#include "server/app/progress.h"
+#include "server/app/render/moments.h"
+#include "server/app/render/render_tasks.h"
+#include "server/app/render/resume_check.h"
+#include "server/picture/backend.h"
+#include "server/scene/scene_reader.h"
+#include "server/source/scheme.h"
+
+namespace kinescope::app {
+namespace {
+
+// Reads the source once and hands its scenes to the tasks that need them.
+class RenderRun {
+ public:
+  RenderRun(const RenderOptions& options, const SourcePlan& plan, const RunSettings& settings,
+            DrawPool& pool)
+      : options_(options),
+        plan_(plan),
+        settings_(settings),
+        pool_(pool),
+        people_(ToShownSceneOptions(options.person, options.loads)),
+        reader_(plan.source, people_),
+        grid_(ToTimeGrid(options.clip, IsSubjectUrl(plan.source))),
+        provenance_(options, plan.source, pool.info()),
+        check_(provenance_, settings),
+        additions_(options.view, options.backend, people_) {
+    for (const Output& output : plan.outputs) AddOutput(output);
+    Prescan();
+  }
+
+  std::vector<OutputResult> Run() {
+    if (HasStills() || HasClips()) {
+      progress_.emplace("pictures:", static_cast<int>(CountPictures()));
+      if (HasClips() || (HasStills() && options_.moment.time)) RenderAtTimes();
+      if (HasStills() && !options_.moment.time) ReadUpToStill();
+      for (OutputWriter& writer : writers_) writer.Finish(clip_pictures_);
+    }
+    std::vector<OutputResult> results;
+    for (const OutputWriter& writer : writers_) {
+      results.push_back(writer.result());
+      results.back().took_secs = progress_ ? progress_->secs() : 0;
+    }
+    return results;
+  }
+
+ private:
+  void AddOutput(const Output& output) {
+    const bool is_up_to_date = check_.IsUpToDate(output);
+    if (output.kind == OutputKind::kStill) {
+      const auto& layer = options_.moment.overlay_layer;
+      const auto format = layer ? std::optional(*layer) : std::nullopt;
+      StillTask& task = TaskOf(stills_, output.camera, [&](RenderPlanner planner) {
+        return StillTask(std::move(planner), format);
+      });
+      AddWriter(output, is_up_to_date, task);
+    } else {
+      ClipTask& task = TaskOf(clips_, output.camera,
+                              [](RenderPlanner planner) { return ClipTask(std::move(planner)); });
+      AddWriter(output, is_up_to_date, task);
+    }
+  }
+
+  template <class Task, class MakeTask>
+  Task& TaskOf(std::map<std::string, Task>& tasks, const std::string& camera, MakeTask make) {
+    const auto found = tasks.find(camera);
+    if (found != tasks.end()) return found->second;
+    ViewOptions view = options_.view;
+    view.camera.Parse(camera);
+    return tasks.emplace(camera, make(RenderPlanner(view, additions_))).first->second;
+  }
+
+  template <class Task>
+  void AddWriter(const Output& output, bool is_up_to_date, Task& task) {
+    const RunContext run = {options_, plan_.source, settings_, provenance_, grid_};
+    OutputWriter& writer = writers_.emplace_back(run, output, is_up_to_date);
+    if (!is_up_to_date) task.AddOutput(writer);
+  }
+
+  bool HasStills() const { return HasOutputs(stills_); }
+  bool HasClips() const { return HasOutputs(clips_); }
+
+  template <class Tasks>
+  static bool HasOutputs(const Tasks& tasks) {
+    return std::any_of(tasks.begin(), tasks.end(),
+                       [](const auto& task) { return task.second.HasOutputs(); });
+  }
+
+  // A source is read once more where pictures depend on scenes after them.
+  void Prescan() {
+    std::vector<RenderPlanner*> planners;
+    const auto add_from = [&](auto& tasks) {
+      for (auto& [camera, task] : tasks) {
+        if (task.HasOutputs() && task.planner().needs_prescan()) {
+          planners.push_back(&task.planner());
+        }
+      }
+    };
+    add_from(stills_);
+    add_from(clips_);
+    if (planners.empty()) return;
+    if (!provenance_.is_repeatable()) {
+      throw UsageError(plan_.source +
+                       ": can be read only once, but --plot, --orbit=turn and --fit=clip need two "
+                       "passes; save it to a file first");
+    }
+    std::optional<double> end;
+    if (grid_.length_nanos) end = Secs(grid_.start_nanos + *grid_.length_nanos);
+    if (end && options_.moment.time) end = std::max(*end, *options_.moment.time);
+    SceneReader reader(plan_.source, people_);
+    PrescanClip(planners, reader, end);
+  }
+
+  // For the progress line; 0: unknown.
+  long CountPictures() const {
+    const auto stills = std::count_if(
+        writers_.begin(), writers_.end(),
+        [](const OutputWriter& writer) { return writer.is_still() && !writer.is_up_to_date(); });
+    const auto clip_cameras = std::count_if(
+        clips_.begin(), clips_.end(), [](const auto& task) { return task.second.HasOutputs(); });
+    if (clip_cameras == 0) return stills;
+    const std::optional<long> count = grid_.count();
+    return count ? stills + clip_cameras * *count : 0;
+  }
+
+  void CheckStop() const {
+    if (!StopRequested()) return;
+    std::string left;
+    bool is_sequence = false;
+    for (const OutputWriter& writer : writers_) {
+      if (writer.is_up_to_date()) continue;
+      left += (left.empty() ? "" : ", ") + writer.output().path;
+      is_sequence = is_sequence || writer.output().kind == OutputKind::kSequence;
+    }
+    throw std::runtime_error("interrupted; not finished: " + left +
+                             (is_sequence ? " (run the same command again to resume)" : ""));
+  }
+
+  // The next sample; the one that a still by number shows is rendered as it passes.
+  std::shared_ptr<const SceneState> Next() {
+    CheckStop();
+    auto state = reader_.Next();
+    if (state == nullptr) return state;
+    const long number = samples_++;
+    if (!start_nanos_) start_nanos_ = state->stamp_nanos;
+    if (still_is_rendered_) return state;
+    for (auto& [camera, task] : stills_) task.Remember(*state);
+    if (!options_.moment.time && number == options_.moment.frame.value_or(0L)) {
+      RenderStills(*state);
+    }
+    return state;
+  }
+
+  void ReadUpToStill() {
+    while (!still_is_rendered_) {
+      if (Next() == nullptr) {
+        throw UsageError(fmt::format("--sample={}: {} has only {} samples, counted from 0",
+                                     options_.moment.frame.value_or(0L), plan_.source, samples_));
+      }
+    }
+  }
+
+  // The pictures of clips, and a still by time.
+  void RenderAtTimes() {
+    SceneTimeline timeline([this] { return Next(); });
+    std::optional<std::int64_t> still_nanos;
+    if (HasStills() && options_.moment.time) {
+      still_nanos = std::llround(*options_.moment.time * 1e9);
+    }
+    Moments moments(still_nanos, HasClips() ? std::optional(grid_) : std::nullopt);
+    while (const auto moment = moments.Next()) {
+      const auto scene = timeline.AtNanos(moment->nanos);
+      if (!moment->picture) {
+        if (!scene) ThrowEndsBefore("time", *options_.moment.time);
+        RenderStills(*scene);
+      } else if (scene) {
+        RenderClips(*moment->picture, *scene);
+      } else {
+        CheckHasPictures();
+        moments.EndClip();
+      }
+    }
+  }
+
+  // A clip without any is an error.
+  void CheckHasPictures() const {
+    if (clip_pictures_ > 0) return;
+    if (samples_ > 0 && grid_.start_nanos > 0) ThrowEndsBefore("start", *options_.clip.start);
+    throw UsageError(plan_.source + ": contains no sample to render");
+  }
+
+  [[noreturn]] void ThrowEndsBefore(const char* option, double secs) const {
+    throw UsageError(fmt::format("--{}={}: {} ends before this time; choose an earlier one", option,
+                                 secs, plan_.source));
+  }
+
+  void RenderStills(const SceneState& scene) {
+    still_is_rendered_ = true;
+    const double secs = Secs(scene.stamp_nanos - *start_nanos_);
+    for (auto& [camera, task] : stills_) {
+      if (task.HasOutputs()) task.Draw(scene, secs, pool_, *progress_);
+    }
+  }
+
+  void RenderClips(long k, const SceneState& scene) {
+    CheckStop();
+    for (auto& [camera, task] : clips_) {
+      if (task.HasOutputs()) task.Draw(k, scene, check_, pool_, *progress_);
+    }
+    clip_pictures_ = k + 1;
+  }
+
+  const RenderOptions& options_;
+  const SourcePlan& plan_;
+  const RunSettings& settings_;
+  DrawPool& pool_;
+  const SceneOptions people_;
+  SceneReader reader_;
+  const TimeGrid grid_;
+  const Provenance provenance_;
+  const ResumeCheck check_;
+  const SceneAdditions additions_;           // of every planner
+  std::map<std::string, StillTask> stills_;  // by camera
+  std::map<std::string, ClipTask> clips_;
+  std::optional<std::int64_t> start_nanos_;  // of the first sample
+  std::optional<Progress> progress_;         // once there is something to do
+  long samples_ = 0;                         // read so far
+  bool still_is_rendered_ = false;
+  long clip_pictures_ = 0;            // of each clip, so far
+  std::deque<OutputWriter> writers_;  // last: their threads use the other members
+};
+
+// Each renderer says once what is wrong with a mesh; all of them together, too.
+render::LogLine LogOnce() {
+  struct Said {
+    std::mutex mutex;
+    std::set<std::string> lines;  // guarded by mutex
+  };
+  return [said = std::make_shared<Said>()](const std::string& line) {
+    const std::lock_guard lock(said->mutex);
+    if (said->lines.insert(line).second) spdlog::warn("{}", line);
+  };
+}
+
+}  // namespace
+
+std::vector<OutputResult> RenderSource(const RenderOptions& options, const SourcePlan& plan,
+                                       const RunSettings& settings, DrawPool& pool) {
+  return RenderRun(options, plan, settings, pool).Run();
+}
+
+std::unique_ptr<DrawPool> MakeDrawPool(int jobs, const render::PictureSpec& spec,
+                                       const BackendOptions& backend) {
+  const BackendChoice choice = ChooseBackend(backend);
+  if (!choice.note.empty()) spdlog::warn("pictures: {}", choice.note);
+  return std::make_unique<DrawPool>(
+      jobs, MostPictures(jobs, spec.width, spec.height),
+      [backend, choice, log = LogOnce()] { return StartRenderer(backend, choice, {}, log); });
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,38 @@
+#include "server/app/render/render_tasks.h"
+
+namespace kinescope::app {
+
+void StillTask::Remember(const SceneState& scene) {
+  if (planner_.history_secs() > 0) planner_.Remember(scene);
+}
+
+void StillTask::Draw(const SceneState& scene, double secs, DrawPool& pool, Progress& progress) {
+  RenderRequest request = planner_.Only(scene, secs);
+  if (layer_) {
+    request.layer = layer_;
+    request.spec.overlays = false;
+  }
+  const render::Camera camera = request.camera;
+  const FuturePicture picture = pool.Draw(std::move(request));
+  for (OutputWriter* const writer : writers_) {
+    writer->SetCounter(scene.counter);
+    writer->Put(0, picture, camera);
+    progress.Step();
+  }
+}
+
+void ClipTask::Draw(long k, const SceneState& scene, const ResumeCheck& check, DrawPool& pool,
+                    Progress& progress) {
+  RenderRequest request = planner_.Next(scene);
+  std::vector<OutputWriter*> takers;
+  for (OutputWriter* const writer : writers_) {
+    if (check.Wants(writer->output(), k)) takers.push_back(writer);
+  }
+  if (takers.empty()) return progress.Skip();
+  const render::Camera camera = request.camera;
+  const FuturePicture picture = pool.Draw(std::move(request));
+  for (OutputWriter* const taker : takers) taker->Put(k, picture, camera);
+  progress.Step();
+}
+
+}  // namespace kinescope::app
