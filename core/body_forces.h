@@ -27,12 +27,12 @@ enum class LoadMetric {
 const char* Name(LoadMetric metric);
 
 /// Two feet with at most six points each.
-constexpr std::size_t kMostSupportPoints = 12;
+constexpr std::size_t kMaxSupportPoints = 12;
 
 /// Support polygon: convex, counter-clockwise, corners (x, y) on the floor, world, m. Empty without
 /// foot contact.
 struct SupportPolygon {
-  std::array<Eigen::Vector2d, kMostSupportPoints> corners{};
+  std::array<Eigen::Vector2d, kMaxSupportPoints> corners{};
   std::size_t size = 0;
 };
 

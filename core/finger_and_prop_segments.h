@@ -19,14 +19,14 @@ namespace kinescope {
 using urdf::kFingerParents;
 using urdf::kFingers;
 using urdf::kFingersPerHand;
-using urdf::kMostProps;
+using urdf::kMaxProps;
 
-inline constexpr int kFingerAndPropCount = kMostProps + 2 * kFingersPerHand;
+inline constexpr int kFingerAndPropCount = kMaxProps + 2 * kFingersPerHand;
 
 /// Index of a prop (0 to 3) or of a finger segment in FingerAndPropSegments.
 constexpr int PropIndex(int prop) { return prop; }
 constexpr int FingerIndex(urdf::Side side, int finger) {
-  return kMostProps + (side == urdf::kLeft ? 0 : kFingersPerHand) + finger;
+  return kMaxProps + (side == urdf::kLeft ? 0 : kFingersPerHand) + finger;
 }
 
 struct FingerAndPropSegments {

@@ -9,7 +9,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kLeastKg = 0.01;         // less is nothing to see
+constexpr double kMinKg = 0.01;           // less is nothing to see
 constexpr double kIron = 7800;            // kg/m^3
 constexpr double kPackedBox = 350;        // kg/m^3, what people carry in boxes
 constexpr double kBarRadius = 0.014;      // m
@@ -55,9 +55,9 @@ class Maker {
 
   // As wide as the hands are apart, level, and as high as the mass asks for.
   void AddBox(const Vector3d& right, const Vector3d& left, double mass_kg) {
-    constexpr double kLeastWidth = 0.15, kWall = 0.04;  // m; a hand's thickness on either side
+    constexpr double kMinWidth = 0.15, kWall = 0.04;  // m; a hand's thickness on either side
     const Vector3d across(left.x() - right.x(), left.y() - right.y(), 0);
-    const double width = std::max(kLeastWidth, across.norm() - kWall);
+    const double width = std::max(kMinWidth, across.norm() - kWall);
     const double edge = std::sqrt(mass_kg / (kPackedBox * width));
     const double heading = std::atan2(across.y(), across.x()) - M_PI_2;
     Add(HandLoadSolid::Kind::kBox, 0.5 * (right + left),
@@ -79,7 +79,7 @@ HandLoadShape ShapeOfHandLoad(const PersonState& person) {
     const HandForce& hand = person.forces.hands[side];
     shared_kg += hand.shared_kg;
     const double alone_kg = hand.mass_kg - hand.shared_kg;
-    if (!(alone_kg > kLeastKg) || person.model->human.tools.test(side)) continue;
+    if (!(alone_kg > kMinKg) || person.model->human.tools.test(side)) continue;
     const urdf::Pose& link = person.links[urdf::At(urdf::HandSegmentOf(side))];
     if ((hand.point - hand.grip).norm() < kInTheFist) {
       maker.AddDumbbell(hand.point, link.orientation, alone_kg);
@@ -87,7 +87,7 @@ HandLoadShape ShapeOfHandLoad(const PersonState& person) {
       maker.AddIronOnRod(hand.grip, hand.point, alone_kg);
     }
   }
-  if (shared_kg > kLeastKg) {
+  if (shared_kg > kMinKg) {
     maker.AddBox(person.forces.hands[urdf::kRight].grip, person.forces.hands[urdf::kLeft].grip,
                  shared_kg);
   }

@@ -24,10 +24,10 @@ struct HandLoadSolid {
 };
 
 /// A bar with two discs in each hand, and one box.
-inline constexpr std::size_t kMostHandLoadSolids = 7;
+inline constexpr std::size_t kMaxHandLoadSolids = 7;
 
 struct HandLoadShape {
-  std::array<HandLoadSolid, kMostHandLoadSolids> solids{};
+  std::array<HandLoadSolid, kMaxHandLoadSolids> solids{};
   std::size_t count = 0;
 };
 

@@ -21,7 +21,7 @@ inline constexpr Rgb kComColor = {0.55, 0.20, 0.75};
 inline constexpr Rgb kSupportColor = {0.36, 0.49, 0.71};
 /// Length of the arrow of a ground reaction force: 1 m for 1000 N.
 inline constexpr double kMetresPerNewton = 1e-3;
-inline constexpr double kLeastForceShown = 20;  // N; below it the arrow is a dot
+inline constexpr double kMinForceShown = 20;  // N; below it the arrow is a dot
 inline constexpr Rgb kBodyColor = {0.78, 0.80, 0.84};
 inline constexpr Rgb kStaleBodyColor = {0.55, 0.55, 0.55};
 inline constexpr Rgb kObjectColor = {0.42, 0.46, 0.54};  // tracked objects and props

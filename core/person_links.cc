@@ -14,7 +14,7 @@ std::vector<std::string> VisibleLinks(const urdf::HumanModel& human) {
       names.push_back(urdf::FingerLinkName(human.model_name, side, i));
     }
   }
-  for (int i = 0; i < kMostProps; ++i) {
+  for (int i = 0; i < kMaxProps; ++i) {
     if (human.props.test(urdf::At(i))) names.push_back(urdf::PropLinkName(human.model_name, i));
   }
   return names;
@@ -29,7 +29,7 @@ std::vector<urdf::Pose> VisibleLinkPoses(const PersonState& person) {
     const urdf::FingerPoses& links = person.gloves[side]->links;
     poses.insert(poses.end(), links.begin(), links.end());
   }
-  for (std::size_t i = 0; i < kMostProps; ++i) {
+  for (std::size_t i = 0; i < kMaxProps; ++i) {
     if (!human.props.test(i)) continue;
     KINESCOPE_CHECK(person.props[i].has_value());
     poses.push_back(person.props[i]->pose);

@@ -20,8 +20,8 @@ std::optional<std::string> FindPointDefect(const SceneMarker& marker) {
     return std::string(Name(marker.type)) + " has " + std::to_string(count) + " points; expected " +
            need;
   };
-  if (count > kMostMarkerPoints) {
-    return have("at most ") + std::to_string(kMostMarkerPoints);
+  if (count > kMaxMarkerPoints) {
+    return have("at most ") + std::to_string(kMaxMarkerPoints);
   }
   switch (marker.type) {
     case MarkerType::kArrow:
@@ -113,7 +113,7 @@ std::optional<std::string> FindDefect(const SceneMarker& marker) {
   if (auto defect = FindColorDefect(marker)) return defect;
   if (marker.type == MarkerType::kText) {
     if (marker.text.empty()) return "its text is empty";
-    if (marker.text.size() > kMostMarkerText) return "its text is longer than 200 bytes";
+    if (marker.text.size() > kMaxMarkerText) return "its text is longer than 200 bytes";
   }
   if (marker.type == MarkerType::kMesh && marker.mesh_uri.empty()) return "its mesh name is empty";
   return std::nullopt;

@@ -51,8 +51,8 @@ struct SceneMarker {
                                      // `color`
 };
 
-constexpr std::size_t kMostMarkerPoints = 100'000;  // per marker
-constexpr std::size_t kMostMarkerText = 200;        // bytes
+constexpr std::size_t kMaxMarkerPoints = 100'000;  // per marker
+constexpr std::size_t kMaxMarkerText = 200;        // bytes
 constexpr double kFarthestMarker = 1e5;  // m; limit of the distance from the origin and of any size
 
 /// Why `marker` cannot be rendered, such as "its scale is not a finite number"; nullopt if it has

@@ -79,7 +79,7 @@ struct PersonState {
   urdf::JointAngles angles{};                // rad, computed from the poses
   /// Exactly those of model->human: by urdf::Side, and by number of the prop.
   std::array<std::optional<GloveState>, 2> gloves;
-  std::array<std::optional<PropState>, kMostProps> props;
+  std::array<std::optional<PropState>, kMaxProps> props;
   urdf::RigidDeviation deviation;        // of the rigid body of the URDF from `links`
   urdf::RigidDeviation worst_deviation;  // largest so far with this skeleton
   std::optional<Eigen::Vector3d> com;    // world, m; MVN's where streamed, else the body model's

@@ -13,7 +13,7 @@ constexpr std::uint8_t kMark = 0b10110100;
 constexpr std::size_t kBytes = kFrameCodeBits / 8, kCheckBytes = 3;
 constexpr double kNarrowestCell = 5.5;  // px; half of it still outlives an encoder
 constexpr int kLowestRow = 6, kRowsOfPicture = 90;
-constexpr int kMostRows = 8;
+constexpr int kMaxRows = 8;
 
 using Bytes = std::array<std::uint8_t, kBytes>;
 
@@ -102,7 +102,7 @@ std::optional<FrameCode> ReadAt(const Image& image, int shrunk) {
 
 FrameCodeLayout FrameCodeLayoutOf(int width_px, int height_px) {
   FrameCodeLayout layout;
-  while (layout.rows < kMostRows && width_px * layout.rows < kNarrowestCell * kFrameCodeBits) {
+  while (layout.rows < kMaxRows && width_px * layout.rows < kNarrowestCell * kFrameCodeBits) {
     layout.rows *= 2;
   }
   // Even, so that half of it is whole.

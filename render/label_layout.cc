@@ -54,7 +54,7 @@ std::vector<std::optional<LabelPlace>> PlaceLabels(const std::vector<LabelBox>& 
                                                    double picture_width, double picture_height) {
   std::vector<std::optional<LabelPlace>> places(boxes.size());
   std::vector<Rect> taken;
-  for (std::size_t i = 0; i < std::min(boxes.size(), kMostLabels); ++i) {
+  for (std::size_t i = 0; i < std::min(boxes.size(), kMaxLabels); ++i) {
     const LabelBox& box = boxes[i];
     // Said so that NaN is outside too.
     const bool is_inside =

@@ -19,10 +19,10 @@ struct LabelPlace {
 };
 
 /// One place for each of `boxes`; nullopt if its point is outside the picture, or if there is no
-/// room near it. Only the first kMostLabels are placed, the others get nullopt.
+/// room near it. Only the first kMaxLabels are placed, the others get nullopt.
 std::vector<std::optional<LabelPlace>> PlaceLabels(const std::vector<LabelBox>& boxes,
                                                    double picture_width, double picture_height);
 
-constexpr std::size_t kMostLabels = 300;
+constexpr std::size_t kMaxLabels = 300;
 
 }  // namespace kinescope::render

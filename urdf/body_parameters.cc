@@ -14,7 +14,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kLightest = 20, kHeaviest = 300;  // kg, of a person
-constexpr double kMostAddedKg = 100;
+constexpr double kMaxAddedKg = 100;
 constexpr double kFarthestAddedMass = 2;  // m
 
 struct TableName {
@@ -65,9 +65,9 @@ std::string FindDefect(const BodyDescription& body) {
   if (!(body.mass_kg >= kLightest && body.mass_kg <= kHeaviest)) {
     return fmt::format("body mass {} kg: expected {} to {} kg", body.mass_kg, kLightest, kHeaviest);
   }
-  if (body.added_masses.size() > kMostAddedMasses) {
+  if (body.added_masses.size() > kMaxAddedMasses) {
     return fmt::format("{} added masses: expected at most {}", body.added_masses.size(),
-                       kMostAddedMasses);
+                       kMaxAddedMasses);
   }
   for (const AddedMass& added : body.added_masses) {
     if (added.segment < 0 || added.segment >= kSegmentCount) {
@@ -75,9 +75,9 @@ std::string FindDefect(const BodyDescription& body) {
                          kSegmentCount - 1);
     }
     const std::string_view on = kSegments[At(added.segment)].link_name;
-    if (!(added.mass_kg > 0 && added.mass_kg <= kMostAddedKg)) {
+    if (!(added.mass_kg > 0 && added.mass_kg <= kMaxAddedKg)) {
       return fmt::format("added mass {} kg on {}: expected more than 0, at most {} kg",
-                         added.mass_kg, on, kMostAddedKg);
+                         added.mass_kg, on, kMaxAddedKg);
     }
     if (!(added.position_in_link.norm() <= kFarthestAddedMass)) {
       const Vector3d& at = added.position_in_link;

@@ -33,7 +33,7 @@ struct AddedMass {
                                                                // m
 };
 
-constexpr std::size_t kMostAddedMasses = 16;
+constexpr std::size_t kMaxAddedMasses = 16;
 
 struct BodyDescription {
   Sex sex = Sex::kMale;
@@ -53,7 +53,7 @@ struct SegmentInertia {
 using BodyParameters = std::array<SegmentInertia, kSegmentCount>;
 
 /// Why `body` is invalid, with the value and the expected range; "" if it is valid. Limits: a body
-/// mass of 20 to 300 kg; at most kMostAddedMasses added masses, each above 0 and at most 100 kg, on
+/// mass of 20 to 300 kg; at most kMaxAddedMasses added masses, each above 0 and at most 100 kg, on
 /// an existing segment, at most 2 m from its origin.
 [[nodiscard]] std::string FindDefect(const BodyDescription& body);
 

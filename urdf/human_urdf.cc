@@ -338,7 +338,7 @@ std::string WriteUrdf(const HumanModel& human) {
   for (const Side side : {kLeft, kRight}) {
     if (human.gloves[side]) text += Glove(human, side);
   }
-  for (int prop = 0; prop < kMostProps; ++prop) {
+  for (int prop = 0; prop < kMaxProps; ++prop) {
     if (human.props.test(At(prop))) text += Prop(human, prop);
   }
   return text + "</robot>\n";

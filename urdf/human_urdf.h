@@ -27,7 +27,7 @@
 
 namespace kinescope::urdf {
 
-inline constexpr int kMostProps = 4;
+inline constexpr int kMaxProps = 4;
 
 struct HumanModel {
   std::string model_name = "skeleton";  // prefix of link and joint names, name of the robot
@@ -39,7 +39,7 @@ struct HumanModel {
   std::bitset<2> tools;     // by Side: the link of that hand also shows <ToolFileName>.stl
   std::string tool_folder;  // absolute path, or package://name/folder
   std::array<std::optional<HandSkeleton>, 2> gloves;  // by Side; present where fingers are streamed
-  std::bitset<kMostProps> props;                      // those that are streamed
+  std::bitset<kMaxProps> props;                       // those that are streamed
   /// Gives every link a mass, for Gazebo. Each of the two links inside a joint gets a hundredth of
   /// its segment's mass and inertia, which is subtracted from the segment's own link. The sum does
   /// not change, and the dynamics change little in any pose. The mass of the fingers is taken from

@@ -100,9 +100,9 @@ TriangleMesh FitToPerson(TriangleMesh mesh, const Skeleton& skeleton, int segmen
   const Span wants = OwnSpan(skeleton, segment, along);
   // Nothing of a skeleton or a mesh is trusted to have a length.
   constexpr double kShortest = 1e-3;
-  constexpr double kMostStretch = 5;
+  constexpr double kMaxStretch = 5;
   const auto ratio = [&](double wanted, double is) {
-    return std::clamp(wanted / std::max(is, kShortest), 1 / kMostStretch, kMostStretch);
+    return std::clamp(wanted / std::max(is, kShortest), 1 / kMaxStretch, kMaxStretch);
   };
   constexpr double kOffMiddle = 0.3;  // of half the length
   const bool is_about_middle = has.middle() < kOffMiddle * 0.5 * has.length();

@@ -8,22 +8,22 @@
 namespace kinescope::urdf {
 
 std::vector<std::filesystem::path> FilesOfMesh(const std::filesystem::path& mesh) {
-  constexpr std::size_t kMostBytes = 64u << 20;  // as a mesh may have
-  constexpr std::size_t kMostFiles = 64;
+  constexpr std::size_t kMaxBytes = 64u << 20;  // as a mesh may have
+  constexpr std::size_t kMaxFiles = 64;
   std::vector<std::filesystem::path> files = {mesh};
   const std::string extension = mesh.extension();
   if (extension != ".obj" && extension != ".OBJ") return files;
   const std::string keyword = "mtllib ";
   std::ifstream lines(mesh);
   std::size_t read = 0;
-  for (std::string line; read < kMostBytes && std::getline(lines, line); read += line.size() + 1) {
+  for (std::string line; read < kMaxBytes && std::getline(lines, line); read += line.size() + 1) {
     if (line.compare(0, keyword.size(), keyword) != 0) continue;
     std::string name = line.substr(keyword.size());
     while (!name.empty() && (name.back() == '\r' || name.back() == ' ')) name.pop_back();
     const std::filesystem::path material = mesh.parent_path() / name;
     std::error_code ignored;
     if (std::filesystem::is_regular_file(material, ignored)) files.push_back(material);
-    if (files.size() > kMostFiles) break;
+    if (files.size() > kMaxFiles) break;
   }
   return files;
 }

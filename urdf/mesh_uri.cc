@@ -13,9 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // As much of a tree as a workspace has; a path entry such as "/" must not be walked to its end.
-constexpr int kMostDepth = 5;
-constexpr int kMostFolders = 20'000;
-constexpr std::streamsize kMostManifestBytes = 4096;  // <name> stands near the beginning
+constexpr int kMaxDepth = 5;
+constexpr int kMaxFolders = 20'000;
+constexpr std::streamsize kMaxManifestBytes = 4096;  // <name> stands near the beginning
 
 bool IsFile(const fs::path& path) {
   std::error_code ignored;
@@ -48,9 +48,9 @@ std::string PercentDecoded(std::string_view text) {
 std::string NameInManifest(const fs::path& folder) {
   const fs::path manifest = folder / "package.xml";
   if (!IsFile(manifest)) return "";
-  std::string text(static_cast<std::size_t>(kMostManifestBytes), '\0');
+  std::string text(static_cast<std::size_t>(kMaxManifestBytes), '\0');
   std::ifstream file(manifest, std::ios::binary);
-  file.read(text.data(), kMostManifestBytes);
+  file.read(text.data(), kMaxManifestBytes);
   text.resize(static_cast<std::size_t>(file.gcount()));
   const std::string open = "<name>";
   const std::size_t begin = text.find(open);
@@ -76,12 +76,12 @@ std::optional<fs::path> SearchBelow(const fs::path& top, const std::string& name
   for (const fs::recursive_directory_iterator end; !error && each != end; each.increment(error)) {
     std::error_code ignored;
     if (!each->is_directory(ignored)) continue;
-    if (++folders > kMostFolders) break;
+    if (++folders > kMaxFolders) break;
     const fs::path& folder = each->path();
     const std::string leaf = folder.filename().string();
     if (IsPackage(folder, name)) return folder;
     const bool is_closed = leaf.empty() || leaf[0] == '.' || IsFile(folder / "CATKIN_IGNORE") ||
-                           IsFile(folder / "package.xml") || each.depth() + 1 >= kMostDepth;
+                           IsFile(folder / "package.xml") || each.depth() + 1 >= kMaxDepth;
     if (is_closed) each.disable_recursion_pending();
   }
   return std::nullopt;

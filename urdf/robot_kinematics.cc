@@ -20,13 +20,13 @@ double Rest(const RobotJoint& joint) {
 }
 
 // What multipliers of a hostile document lead to is no place.
-constexpr double kMostPosition = 1e6;
-constexpr int kMostMimics = 100;  // in a row; more is a ring, or no mechanism
+constexpr double kMaxPosition = 1e6;
+constexpr int kMaxMimics = 100;  // in a row; more is a ring, or no mechanism
 
 double Follow(const RobotJoint& joint, const JointPositions& given, const JointIndex& joints) {
   double multiplier = 1, offset = 0;
   const RobotJoint* at = &joint;
-  for (int hops = 0; hops < kMostMimics; ++hops) {
+  for (int hops = 0; hops < kMaxMimics; ++hops) {
     const auto own = given.find(at->name);
     if (own != given.end()) return multiplier * own->second + offset;
     if (!at->mimic) return multiplier * Rest(*at) + offset;
@@ -41,7 +41,7 @@ double Follow(const RobotJoint& joint, const JointPositions& given, const JointI
 
 double PositionOf(const RobotJoint& joint, const JointPositions& given, const JointIndex& joints) {
   const double position = Follow(joint, given, joints);
-  return std::abs(position) <= kMostPosition ? position : 0;  // not for NaN either
+  return std::abs(position) <= kMaxPosition ? position : 0;  // not for NaN either
 }
 
 Isometry3d Motion(const RobotJoint& joint, double position) {

@@ -74,7 +74,7 @@ Isometry3d ToEigen(const ::urdf::Pose& pose, const std::string& where) {
       std::abs(rotation.norm() - 1) > 1e-3) {
     throw UrdfError(where + ": <origin> contains a number that is not finite");
   }
-  if (position.cwiseAbs().maxCoeff() > kMostMeters) {
+  if (position.cwiseAbs().maxCoeff() > kMaxMeters) {
     throw UrdfError(where + ": <origin> is too far away");
   }
   Isometry3d transform = Isometry3d::Identity();
@@ -85,7 +85,7 @@ Isometry3d ToEigen(const ::urdf::Pose& pose, const std::string& where) {
 
 void CheckSize(const Geometry& geometry, const std::string& where) {
   const bool is_mesh = geometry.kind == Geometry::Kind::kMesh;
-  const double most = is_mesh ? kMostScale : kMostMeters;
+  const double most = is_mesh ? kMaxScale : kMaxMeters;
   if (!geometry.size.allFinite()) {
     throw UrdfError(where + ": <geometry> has a size that is not finite");
   }

@@ -93,9 +93,9 @@ struct RobotModel {
 
 /// Limits of a robot, so that it can be rendered and no number overflows. A URDF beyond them is
 /// rejected.
-constexpr double kMostMeters = 1000;  // largest shape, largest distance between frames
-constexpr double kMostScale = 1e6;    // largest scale of a mesh
-constexpr std::size_t kMostLinks = 10'000;
+constexpr double kMaxMeters = 1000;  // largest shape, largest distance between frames
+constexpr double kMaxScale = 1e6;    // largest scale of a mesh
+constexpr std::size_t kMaxLinks = 10'000;
 
 /// @throws UrdfError. The size and the nesting are checked before anything is built. Problems that
 /// urdfdom only logs are errors here, because an incomplete robot is worse than none.

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = UrdfProblem::Kind;
 
-constexpr std::size_t kMostNamed = 6;  // links of a loop or roots that are listed
+constexpr std::size_t kMaxNamed = 6;  // links of a loop or roots that are listed
 
 // Links are counted from 0; -1: none, or none that exists.
 class Tree {
@@ -29,9 +29,9 @@ class Tree {
     CheckMimics();
     if (report_.links == 0) {
       Say(Kind::kUnreadable, 0, "robot", "it has no <link>", "add at least one <link>");
-    } else if (report_.links > kMostLinks) {
+    } else if (report_.links > kMaxLinks) {
       Say(Kind::kUnreadable, 0, "robot", fmt::format("it has {} links", report_.links),
-          fmt::format("at most {} are drawn", kMostLinks));
+          fmt::format("at most {} are drawn", kMaxLinks));
     }
     FindRoots();
     FindLoops();
@@ -145,13 +145,13 @@ class Tree {
     }
     if (report_.roots.size() < 2) return;
     std::string names;
-    for (std::size_t i = 0; i < std::min(report_.roots.size(), kMostNamed); ++i) {
+    for (std::size_t i = 0; i < std::min(report_.roots.size(), kMaxNamed); ++i) {
       names += (i == 0 ? "" : ", ") + Called("link", report_.roots[i]);
     }
     Say(Kind::kUnreadable, links_[static_cast<std::size_t>(link_of_.at(report_.roots[1]))].at,
         "robot",
         fmt::format("it has {} roots: {}{}", report_.roots.size(), names,
-                    report_.roots.size() > kMostNamed ? ", …" : ""),
+                    report_.roots.size() > kMaxNamed ? ", …" : ""),
         "connect all but one with a joint, such as a fixed one");
   }
 
@@ -174,12 +174,12 @@ class Tree {
     int at = start;
     do {
       at = links_[static_cast<std::size_t>(at)].parent;
-      if (++length <= kMostNamed) path = links_[static_cast<std::size_t>(at)].name + " → " + path;
+      if (++length <= kMaxNamed) path = links_[static_cast<std::size_t>(at)].name + " → " + path;
     } while (at != start);
     const Link& link = links_[static_cast<std::size_t>(start)];
     Say(Kind::kUnreadable, link.joint, Called("link", link.name),
         fmt::format("it is its own ancestor in a loop of {} links: {}{}", length,
-                    length > kMostNamed ? "… " : "", path),
+                    length > kMaxNamed ? "… " : "", path),
         "a URDF is a tree: remove one of these joints");
   }
 

@@ -16,12 +16,12 @@ namespace {
 
 using Kind = UrdfProblem::Kind;
 
-constexpr double kMostMass = 1e6;        // kg, of a link
+constexpr double kMaxMass = 1e6;         // kg, of a link
 constexpr double kTriangleSlack = 1e-3;  // of the largest moment: digits that were rounded off
-constexpr std::size_t kMostQuoted = 60;  // characters of a value that are shown
+constexpr std::size_t kMaxQuoted = 60;   // characters of a value that are shown
 
 std::string Quoted(const std::string& text) {
-  return text.size() <= kMostQuoted ? "'" + text + "'" : "'" + text.substr(0, kMostQuoted) + "…'";
+  return text.size() <= kMaxQuoted ? "'" + text + "'" : "'" + text.substr(0, kMaxQuoted) + "…'";
 }
 
 // One element under test: where its problems go, and its numbers.
@@ -91,10 +91,9 @@ void CheckOrigin(Values& values, int owner) {
   if (origin < 0) return;
   if (const auto xyz = values.Numbers(origin, "xyz", 3)) {
     for (const double each : *xyz) {
-      if (std::abs(each) <= kMostMeters) continue;
-      values.Say(
-          Kind::kUnreadable, origin, fmt::format("<origin> is {:g} m away", each),
-          fmt::format("expected at most {:g} m; convert millimetres to metres", kMostMeters));
+      if (std::abs(each) <= kMaxMeters) continue;
+      values.Say(Kind::kUnreadable, origin, fmt::format("<origin> is {:g} m away", each),
+                 fmt::format("expected at most {:g} m; convert millimetres to metres", kMaxMeters));
       break;
     }
   }
@@ -109,10 +108,9 @@ void CheckLength(Values& values, int shape, const char* name, std::size_t count)
     if (each < 0) {
       values.Say(Kind::kUnreadable, shape, fmt::format("{} is negative: {:g} m", what, each),
                  "expected 0 m or more");
-    } else if (each > kMostMeters) {
-      values.Say(
-          Kind::kUnreadable, shape, fmt::format("{} is {:g} m", what, each),
-          fmt::format("expected at most {:g} m; convert millimetres to metres", kMostMeters));
+    } else if (each > kMaxMeters) {
+      values.Say(Kind::kUnreadable, shape, fmt::format("{} is {:g} m", what, each),
+                 fmt::format("expected at most {:g} m; convert millimetres to metres", kMaxMeters));
     } else if (each == 0) {
       values.Say(Kind::kWarning, shape, what + " is 0, so nothing is visible",
                  "give it a size, or remove the shape");
@@ -134,10 +132,10 @@ void CheckMesh(Values& values, int mesh, std::vector<NamedMesh>& meshes) {
   const auto scale = values.Numbers(mesh, "scale", 3);
   if (!scale) return;
   for (const double each : *scale) {
-    if (each != 0 && std::abs(each) <= kMostScale) continue;
+    if (each != 0 && std::abs(each) <= kMaxScale) continue;
     values.Say(each == 0 ? Kind::kWarning : Kind::kUnreadable, mesh,
                fmt::format("<mesh> scale is {:g}", each),
-               fmt::format("expected a number other than 0, up to {:g}", kMostScale));
+               fmt::format("expected a number other than 0, up to {:g}", kMaxScale));
     return;
   }
 }
@@ -196,9 +194,9 @@ void CheckMass(Values& values, int at, double mass, bool moves) {
   if (mass < 0) {
     values.Say(Kind::kWrong, at, fmt::format("its mass is negative: {:g} kg", mass),
                "expected more than 0 kg");
-  } else if (mass > kMostMass) {
+  } else if (mass > kMaxMass) {
     values.Say(Kind::kWrong, at, fmt::format("its mass is {:g} kg", mass),
-               fmt::format("expected at most {:g} kg; convert grams to kilograms", kMostMass));
+               fmt::format("expected at most {:g} kg; convert grams to kilograms", kMaxMass));
   } else if (mass == 0 && moves) {
     values.Say(Kind::kWarning, at, "it moves and has no mass",
                "fine for RViz and TF; Gazebo leaves it out, with all its child links");

@@ -13,12 +13,12 @@ class OnceLog {
  public:
   explicit OnceLog(const LogLine& log) : log_(log) {}
   void operator()(const std::string& line) {
-    if (said_.size() >= kMostLines) said_.clear();  // limits memory: names are untrusted
+    if (said_.size() >= kMaxLines) said_.clear();  // limits memory: names are untrusted
     if (said_.insert(line).second) log_(line);
   }
 
  private:
-  static constexpr std::size_t kMostLines = 1000;
+  static constexpr std::size_t kMaxLines = 1000;
   const LogLine& log_;
   std::set<std::string> said_;
 };

@@ -10,7 +10,7 @@ namespace kinescope::render {
 namespace {
 
 constexpr double kPlaceholderSide = 0.12;                            // m
-constexpr std::size_t kMostVisualTriangles = 4'000'000;              // of one robot
+constexpr std::size_t kMaxVisualTriangles = 4'000'000;               // of one robot
 const Eigen::Vector4f kPlaceholderColor = {0.85f, 0.62f, 0.80f, 1};  // not one of the palette's
 
 std::string FileName(const std::string& uri) {
@@ -53,11 +53,11 @@ std::string VisualReader::FaultOf(const File& file, const urdf::Geometry& shape,
   if (!file.fault.empty()) return file.fault;
   const std::string mesh = "mesh " + shape.mesh_uri + ": ";
   if (shape.size.cwiseAbs().minCoeff() < 1e-12) return mesh + "its scale is 0";
-  if (Reach(file.mesh, place) > urdf::kMostMeters) {
+  if (Reach(file.mesh, place) > urdf::kMaxMeters) {
     return mesh +
            "it is too large for a robot; if it is in millimetres, set scale=\"0.001 0.001 0.001\"";
   }
-  if (triangles_ + file.mesh.triangles.size() / 3 > kMostVisualTriangles) {
+  if (triangles_ + file.mesh.triangles.size() / 3 > kMaxVisualTriangles) {
     return mesh + "all meshes together have too many triangles";
   }
   return "";

@@ -15,10 +15,10 @@ void FigureActor::Load(const PersonModel& model, OnceLog& log) {
   if (model.mesh_files) model.mesh_files->Provide();  // what is missing is reported below
   VisualReader reader(urdf::MeshSearch(), urdf::ShapeDetail::Figure());
   const std::vector<std::string> names = VisibleLinks(model.human);
-  for (std::size_t first = 0; first < names.size(); first += PartActor::kMostParts) {
+  for (std::size_t first = 0; first < names.size(); first += PartActor::kMaxParts) {
     Group group;
     group.first = first;
-    group.count = std::min(PartActor::kMostParts, names.size() - first);
+    group.count = std::min(PartActor::kMaxParts, names.size() - first);
     VisualMesh mesh;
     for (std::size_t part = 0; part < group.count; ++part) {
       const auto& links = model.robot.links;

@@ -49,7 +49,7 @@ void ForceArrows::Show(const PersonState& person, std::vector<Label>* labels) {
       actor->Hide(shaft);
       actor->Hide(head);
       const double force = foot.force.norm();
-      if (!(force > kLeastForceShown) || !std::isfinite(force) || !foot.cop.allFinite()) continue;
+      if (!(force > kMinForceShown) || !std::isfinite(force) || !foot.cop.allFinite()) continue;
       is_any = true;
       const double length = kMetresPerNewton * force;
       const double head_length = std::min(kHeadLength, 0.6 * length);

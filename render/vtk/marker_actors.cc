@@ -9,10 +9,10 @@
 namespace kinescope::render {
 namespace {
 
-constexpr std::size_t kMostMarkerTriangles = 2'000'000;  // of all markers together
-constexpr std::size_t kMostMarkers = 10'000;
-constexpr std::size_t kMostMeshFiles = 64;  // kept
-constexpr std::size_t kMostProblems = 20;   // named; a flood of markers is one fault, not thousands
+constexpr std::size_t kMaxMarkerTriangles = 2'000'000;  // of all markers together
+constexpr std::size_t kMaxMarkers = 10'000;
+constexpr std::size_t kMaxMeshFiles = 64;  // kept
+constexpr std::size_t kMaxProblems = 20;   // named; a flood of markers is one fault, not thousands
 
 bool IsTranslucent(const SceneMarker& marker) {
   const auto is_clear = [](const Eigen::Vector4d& color) { return color.w() < 1; };
@@ -35,7 +35,7 @@ MarkerActors::MarkerActors()
 const VisualMesh& MarkerActors::MeshOf(const std::string& uri) {
   const auto known = meshes_.find(uri);
   if (known != meshes_.end()) return known->second;
-  if (meshes_.size() >= kMostMeshFiles) meshes_.clear();
+  if (meshes_.size() >= kMaxMeshFiles) meshes_.clear();
   urdf::Visual visual;
   visual.geometry = {urdf::Geometry::Kind::kMesh, Eigen::Vector3d::Ones(), uri};
   visual.rgba = Eigen::Vector4d::Zero();  // stays where the file has no colour
@@ -57,7 +57,7 @@ void MarkerActors::AddMesh(const SceneMarker& marker, urdf::Mesh& to) {
     labels_.push_back({marker.pose.position, mesh.placeholders.front().label, Label::Kind::kFault});
   }
   const std::size_t count = mesh.mesh.triangles.size() / 3;
-  if (triangles_ + count > kMostMarkerTriangles) {
+  if (triangles_ + count > kMaxMarkerTriangles) {
     problems_.push_back("marker " + IdentityOf(marker) +
                         ": all markers together have too many triangles");
     return;
@@ -85,9 +85,9 @@ void MarkerActors::Build() {
     const auto refuse = [&](const std::string& why) {
       problems_.push_back("marker " + IdentityOf(*marker) + " is not drawn: " + why);
     };
-    if (++count > kMostMarkers) {
+    if (++count > kMaxMarkers) {
       refuse("there are " + std::to_string(markers_.size()) + " markers, more than " +
-             std::to_string(kMostMarkers));
+             std::to_string(kMaxMarkers));
       break;
     }
     if (const auto defect = FindDefect(*marker)) {
@@ -110,16 +110,16 @@ void MarkerActors::Build() {
       continue;
     }
     const std::size_t more = TriangleCount(*marker);
-    if (triangles_ + more > kMostMarkerTriangles) {
+    if (triangles_ + more > kMaxMarkerTriangles) {
       refuse("all markers together have too many triangles");
       continue;
     }
     triangles_ += more;
     AppendMarker(*marker, to);
   }
-  if (problems_.size() > kMostProblems) {
-    const std::size_t more = problems_.size() - kMostProblems;
-    problems_.resize(kMostProblems);
+  if (problems_.size() > kMaxProblems) {
+    const std::size_t more = problems_.size() - kMaxProblems;
+    problems_.resize(kMaxProblems);
     problems_.push_back("and " + std::to_string(more) + " more markers");
   }
   solid_.actor()->SetVisibility(!solid.triangles.empty());

@@ -38,7 +38,7 @@ ShaderText PartText(PartActor::Light light) {
 PartActor::PartActor(Pass pass, Light light, int part_count)
     : shaded_(pass, PartText(light)),
       world_from_part_(static_cast<std::size_t>(part_count), Eigen::Matrix4f::Zero()) {
-  KINESCOPE_CHECK(part_count >= 1 && part_count <= static_cast<int>(kMostParts));
+  KINESCOPE_CHECK(part_count >= 1 && part_count <= static_cast<int>(kMaxParts));
   Commit();  // the uniforms' declarations become part of the shader
 }
 

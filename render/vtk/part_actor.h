@@ -18,9 +18,9 @@ class PartActor {
     kSoft,  // unlit, fades out from the part's origin to radius 1 around its z axis
   };
 
-  static constexpr std::size_t kMostParts = 32;  // length of the array in the shader
+  static constexpr std::size_t kMaxParts = 32;  // length of the array in the shader
 
-  /// @pre 1 <= part_count <= kMostParts
+  /// @pre 1 <= part_count <= kMaxParts
   PartActor(Pass pass, Light light, int part_count);
 
   void SetMesh(const urdf::Mesh& mesh) { shaded_.SetMesh(mesh); }

@@ -21,11 +21,11 @@ enum MarkPart {
   kCopEdge,
   kCopDisc,
   kSupportEdge,  // the first of as many as a polygon may have
-  kMarkParts = kSupportEdge + static_cast<int>(kMostSupportPoints)
+  kMarkParts = kSupportEdge + static_cast<int>(kMaxSupportPoints)
 };
 
 // Of what is held: cylinders, and one box behind them.
-constexpr int kHeldBox = static_cast<int>(kMostHandLoadSolids) - 1;
+constexpr int kHeldBox = static_cast<int>(kMaxHandLoadSolids) - 1;
 constexpr int kHeldParts = kHeldBox + 1;
 
 Eigen::Vector4f Color(const Rgb& rgb, float alpha = 1) {

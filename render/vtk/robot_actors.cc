@@ -68,7 +68,7 @@ void RobotActors::LoadGroups(const urdf::RobotModel& model, bool is_translucent,
       is_part = true;
       reader.Add(visual, static_cast<int>(links.size()) - 1, mesh);
     }
-    if (links.size() < PartActor::kMostParts) continue;
+    if (links.size() < PartActor::kMaxParts) continue;
     AddGroup(std::move(mesh), std::move(links), is_translucent);
     mesh = VisualMesh();
     links.clear();

@@ -13,7 +13,7 @@ namespace kinescope::app {
 
 /// Colour of the `index`-th person that appeared, from 0. A person's own colour (type 12, MVNX;
 /// 0xRRGGBB) keeps its hue, but is muted and lightened, so that its contrast to the load classes is
-/// at least kLeastContrast. Without one, the first person has kBodyColor and the next ones the
+/// at least kMinContrast. Without one, the first person has kBodyColor and the next ones the
 /// colours of a small palette, which repeats.
 Rgb BodyColor(std::optional<std::uint32_t> own_rgb, std::size_t index);
 
@@ -22,6 +22,6 @@ inline constexpr std::size_t kBodyColors = 7;
 
 /// Of the body's colour to green, orange and red, as ColorDifference. About 2 is visible when
 /// adjacent.
-inline constexpr double kLeastContrast = 20;
+inline constexpr double kMinContrast = 20;
 
 }  // namespace kinescope::app

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using urdf::At;
 
-constexpr std::size_t kMostFiles = 10'000;  // of a folder of meshes; more is another folder
+constexpr std::size_t kMaxFiles = 10'000;  // of a folder of meshes; more is another folder
 
 std::string Lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -72,11 +72,11 @@ std::map<int, fs::path> FilesBySegment(const std::string& folder,
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     if (IsMeshFile(entry->path())) paths.push_back(entry->path());
-    if (paths.size() > kMostFiles) {
+    if (paths.size() > kMaxFiles) {
       throw UsageError(
           fmt::format("--body_model=mesh:{}: more than {} mesh files; expected a folder with the "
                       "meshes of one body",
-                      folder, kMostFiles));
+                      folder, kMaxFiles));
     }
   }
   if (error) throw UsageError(fmt::format("--body_model=mesh:{}: {}", folder, error.message()));

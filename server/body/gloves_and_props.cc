@@ -42,7 +42,7 @@ bool GlovesAndProps::Notice(const BodySample& sample) {
     if (offset.norm() <= kReach) *carpus_in_hand_[side] = offset;
     is_more = true;
   }
-  for (std::size_t prop = 0; prop < kMostProps; ++prop) {
+  for (std::size_t prop = 0; prop < kMaxProps; ++prop) {
     const std::size_t index = At(PropIndex(static_cast<int>(prop)));
     if (props_.test(prop) || !sample.fingers_and_props.present.test(index)) continue;
     props_.set(prop);
@@ -68,7 +68,7 @@ void GlovesAndProps::Follow(const BodySample& sample, PersonState& state) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     if (carpus_in_hand_[side]) state.gloves[side] = FollowGlove(side, sample, state);
   }
-  for (std::size_t prop = 0; prop < kMostProps; ++prop) {
+  for (std::size_t prop = 0; prop < kMaxProps; ++prop) {
     if (!props_.test(prop)) continue;
     state.props[prop] = FollowProp(prop, sample, state.links[urdf::kPelvis]);
   }

@@ -31,9 +31,9 @@ class GlovesAndProps {
 
   std::array<std::optional<Eigen::Vector3d>, 2> carpus_in_hand_;  // m, link frames, by urdf::Side
   std::array<urdf::FingerAngles, 2> finger_angles_{};             // rad, by urdf::Side
-  std::bitset<kMostProps> props_;
-  std::array<urdf::Pose, kMostProps> pelvis_from_prop_{};
-  std::array<Eigen::Vector3d, kMostProps> prop_angles_{};
+  std::bitset<kMaxProps> props_;
+  std::array<urdf::Pose, kMaxProps> pelvis_from_prop_{};
+  std::array<Eigen::Vector3d, kMaxProps> prop_angles_{};
 };
 
 }  // namespace kinescope::app

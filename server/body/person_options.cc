@@ -75,7 +75,7 @@ PersonOptions::PersonOptions()
                      "SEGMENT:KG or SEGMENT:KG@X,Y,Z (m, in the frame of the segment's link), with "
                      "commas between several, such as head:1.5,t8:8@-0.15,0,0.1; segments: {}",
                      fmt::join(SegmentNames(), ", ")),
-                 urdf::kMostAddedMasses, ToAddedMass, {}, SegmentNames()),
+                 urdf::kMaxAddedMasses, ToAddedMass, {}, SegmentNames()),
       mesh_units({{"m", 1}, {"cm", 0.01}, {"mm", 0.001}}, 1),
       mesh_up({{"z", false}, {"y", true}}, false),
       mesh_scale({{"fit", true}, {"none", false}}, true),

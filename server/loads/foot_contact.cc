@@ -18,7 +18,7 @@ using urdf::kRight;
 using urdf::Side;
 
 // A foot that has just touched the floor carries load at once if it is the only one.
-constexpr double kLeastWeight = 1e-3;
+constexpr double kMinWeight = 1e-3;
 
 double SpeedOf(const SegmentState& segment, const Vector3d& point) {
   return (segment.velocity + segment.angular_velocity.cross(point - segment.position)).norm();
@@ -63,7 +63,7 @@ void FootContacts::Place(Side side, const Points& points, double stature,
         (flat * foot.center + (of_heel - flat) * heel + (of_fore - flat) * 0.5 * (ball + tip)) /
         most;
   }
-  foot.weight = touches(side) ? std::max(most, kLeastWeight) : most;
+  foot.weight = touches(side) ? std::max(most, kMinWeight) : most;
 
   polygons_[side] = {};
   if (!touches(side)) return;
@@ -109,7 +109,7 @@ void FootContacts::Update(const BodySample& sample, const urdf::LinkPoses& links
     Place(side, points, skeleton.height, settings);
     last_points_[side] = points;
   }
-  std::array<Vector2d, kMostSupportPoints> corners;
+  std::array<Vector2d, kMaxSupportPoints> corners;
   std::size_t count = 0;
   for (const SupportPolygon& polygon : polygons_) {
     for (std::size_t i = 0; i < polygon.size; ++i) corners[count++] = polygon.corners[i];

@@ -13,10 +13,10 @@ using urdf::kRight;
 
 std::optional<CenterOfPressure> FindCenterOfPressure(const Wrench& ground, double floor_z,
                                                      double mass_kg) {
-  constexpr double kLeastShareOfWeight = 0.1;
+  constexpr double kMinShareOfWeight = 0.1;
   const Vector3d& f = ground.force;
   const Vector3d& m = ground.moment;
-  if (!(f.z() >= kLeastShareOfWeight * mass_kg * kGravity)) return std::nullopt;
+  if (!(f.z() >= kMinShareOfWeight * mass_kg * kGravity)) return std::nullopt;
   CenterOfPressure cop;
   cop.point = {(floor_z * f.x() - m.y()) / f.z(), (m.x() + floor_z * f.y()) / f.z()};
   cop.free_moment = m.z() - (cop.point.x() * f.y() - cop.point.y() * f.x());

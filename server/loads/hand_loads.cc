@@ -25,10 +25,10 @@ constexpr double kFarthest = 2;  // m, of a CoM from its hand
 
 constexpr std::array<const char*, 2> kSideName = {"right", "left"};
 
-bool IsMass(double mass_kg) { return mass_kg >= 0 && mass_kg <= kMostHeldKg; }
+bool IsMass(double mass_kg) { return mass_kg >= 0 && mass_kg <= kMaxHeldKg; }
 
 std::string MassDefect(const char* where, double mass_kg) {
-  return fmt::format("load of {} kg in {}: expected 0 to {} kg", mass_kg, where, kMostHeldKg);
+  return fmt::format("load of {} kg in {}: expected 0 to {} kg", mass_kg, where, kMaxHeldKg);
 }
 
 // Share of the right hand in a load that both hands hold (joint-loads.md 2.7).

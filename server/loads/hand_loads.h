@@ -16,13 +16,13 @@
 
 namespace kinescope::loads {
 
-constexpr double kMostHeldKg = 100;  // a larger value is a typing error
+constexpr double kMaxHeldKg = 100;  // a larger value is a typing error
 
 using kinescope::HandLoad;
 using kinescope::MeasuredHandForce;
 
 /// Why `load` is invalid, with the hand, the value and the expected range; "" if it is valid.
-/// Invalid: a mass that is negative, not a number or in sum above kMostHeldKg; a CoM more than 2 m
+/// Invalid: a mass that is negative, not a number or in sum above kMaxHeldKg; a CoM more than 2 m
 /// from the hand.
 [[nodiscard]] std::string FindDefect(const HandLoad& load);
 

@@ -184,9 +184,9 @@ class Best {
 }  // namespace
 
 std::string FindDefect(const Strength& strength) {
-  constexpr double kLeast = 0.1, kMost = 5;
-  if (strength.factor >= kLeast && strength.factor <= kMost) return "";
-  return fmt::format("capacity factor {}: expected {} to {}", strength.factor, kLeast, kMost);
+  constexpr double kMin = 0.1, kMax = 5;
+  if (strength.factor >= kMin && strength.factor <= kMax) return "";
+  return fmt::format("capacity factor {}: expected {} to {}", strength.factor, kMin, kMax);
 }
 
 Score ScoreJoint(int joint, const Vector3d& moment, const LinkPoses& links,

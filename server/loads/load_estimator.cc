@@ -34,12 +34,12 @@ bool IsArmJoint(int joint, Side side) {
 }
 
 bool IsPose(const LinkPoses& links) {
-  constexpr double kMost = 1e9;  // far beyond any room; its square does not overflow
+  constexpr double kMax = 1e9;  // far beyond any room; its square does not overflow
   double sum = 0;
   for (const Pose& link : links) {
     sum += link.position.cwiseAbs().sum() + link.orientation.coeffs().cwiseAbs().sum();
   }
-  return sum < kMost;  // also false if one of them is NaN
+  return sum < kMax;  // also false if one of them is NaN
 }
 
 Vector3d VelocityOf(const BodySample& sample, const BodyDemand& demand,
@@ -70,10 +70,10 @@ GroundSensors SensorsOf(const Measurements& measured, std::int64_t stamp) {
 // Whether the values of a plate exceed its noise and the errors of the body model (joint-loads.md
 // 3.3).
 bool FeelsLoad(const GroundReaction& measured, const GroundReaction& bare) {
-  constexpr double kLeastForce = 5, kLeastDistance = 0.005;  // N, m
+  constexpr double kMinForce = 5, kMinDistance = 0.005;  // N, m
   if (!measured.is_measured || !measured.cop || !bare.cop) return true;
-  return std::abs(measured.force.z() - bare.force.z()) >= kLeastForce ||
-         (measured.cop->point - bare.cop->point).norm() >= kLeastDistance;
+  return std::abs(measured.force.z() - bare.force.z()) >= kMinForce ||
+         (measured.cop->point - bare.cop->point).norm() >= kMinDistance;
 }
 
 using JointMoments = std::array<Vector3d, kJointCount>;
@@ -151,9 +151,9 @@ void LoadEstimator::ShowBody(const BodySample& sample, const LoadSubject& subjec
     if (velocity.allFinite()) forces.com_velocity = velocity;
   }
   if (sample.com && sample.com->position.allFinite() && !subject.has_added_masses) {
-    constexpr double kMostDifference = 0.01;  // m, joint-loads.md 1.6
+    constexpr double kMaxDifference = 0.01;  // m, joint-loads.md 1.6
     forces.com_minus_mvn = forces.com_of_model - sample.com->position;
-    forces.com_disagrees = forces.com_minus_mvn->norm() > kMostDifference;
+    forces.com_disagrees = forces.com_minus_mvn->norm() > kMaxDifference;
   }
   forces.support = contacts_.support();
   if (forces.com_velocity && forces.support.size > 2 && subject.has_legs) {
@@ -198,17 +198,17 @@ void LoadEstimator::ShowFloor(const GroundReaction& ground, const LoadSubject& s
   if (!forces.why_no_ground.empty()) {
     last_cop_nanos_.reset();
   } else if (ground.is_measured) {
-    constexpr double kMostForce = 0.10, kMostMoment = 0.05;  // joint-loads.md 2.2
+    constexpr double kMaxForce = 0.10, kMaxMoment = 0.05;  // joint-loads.md 2.2
     const double weight = forces.body_mass_kg * kGravity;
     const Wrench& residual = ground.joints[kPelvis];
     forces.residual_force_share = residual.force.norm() / weight;
     forces.residual_moment_share = residual.moment.norm() / (weight * subject.skeleton.height);
-    if (forces.residual_force_share > kMostForce || forces.residual_moment_share > kMostMoment) {
+    if (forces.residual_force_share > kMaxForce || forces.residual_moment_share > kMaxMoment) {
       forces.why_no_ground = kMisfit;
     }
   } else {
-    constexpr double kMostOutside = 0.03;  // m, joint-loads.md 2.4
-    forces.external_contact_suspected = SuspectContact(ground.cop_inside < -kMostOutside, stamp);
+    constexpr double kMaxOutside = 0.03;  // m, joint-loads.md 2.4
+    forces.external_contact_suspected = SuspectContact(ground.cop_inside < -kMaxOutside, stamp);
     if (forces.external_contact_suspected) forces.why_no_ground = kLeans;
   }
   if (subject.has_legs && ground.cop) {

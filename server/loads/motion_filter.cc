@@ -26,14 +26,14 @@ Mean MeanOf(const BodySample& sample) {
 }
 
 bool HasMotion(const BodySample& sample) {
-  constexpr double kMost = 1e9;  // larger values would stay in a filter too long
+  constexpr double kMax = 1e9;  // larger values would stay in a filter too long
   double sum = 0;
   for (const SegmentState& segment : sample.segments) {
     sum += segment.velocity.cwiseAbs().sum() + segment.acceleration.cwiseAbs().sum() +
            segment.angular_velocity.cwiseAbs().sum() +
            segment.angular_acceleration.cwiseAbs().sum();
   }
-  return sum < kMost;  // also false if one of them is NaN
+  return sum < kMax;  // also false if one of them is NaN
 }
 
 std::string_view WhatIsMissing(const BodySample& sample) {
@@ -52,9 +52,9 @@ Vector3d Shortened(const Vector3d& vector, double longest) {
 }  // namespace
 
 LowPassStep::LowPassStep(double step_secs, double cutoff_hz) {
-  constexpr double kMostOfRate = 0.4;
+  constexpr double kMaxOfRate = 0.4;
   const double damping = std::sqrt(2.0);  // Butterworth
-  const double g = std::tan(M_PI * std::min(cutoff_hz * step_secs, kMostOfRate));
+  const double g = std::tan(M_PI * std::min(cutoff_hz * step_secs, kMaxOfRate));
   a1 = 1 / (1 + g * (g + damping));
   a2 = g * a1;
   a3 = g * a2;
@@ -119,13 +119,13 @@ void MotionFilter::Compare(const BodySample& sample, double step_secs) {
 }
 
 std::string_view MotionFilter::Doubt() const {
-  constexpr double kMostExcess = 3;  // m/s within a second; gravity included would make 9.8
-  constexpr double kMostFactor = 5;  // degrees would make 57
-  constexpr double kMostTurnOfNoise = 0.2 * kSegments;  // rad within a second
-  if (linear_is_streamed_ && velocity_excess_.norm() > kMostExcess) {
+  constexpr double kMaxExcess = 3;  // m/s within a second; gravity included would make 9.8
+  constexpr double kMaxFactor = 5;  // degrees would make 57
+  constexpr double kMaxTurnOfNoise = 0.2 * kSegments;  // rad within a second
+  if (linear_is_streamed_ && velocity_excess_.norm() > kMaxExcess) {
     return "accelerations are inconsistent with the velocities";
   }
-  if (claimed_turn_ > kMostFactor * turned_ + kMostTurnOfNoise) {
+  if (claimed_turn_ > kMaxFactor * turned_ + kMaxTurnOfNoise) {
     return "angular velocities are inconsistent with the poses";
   }
   return "";

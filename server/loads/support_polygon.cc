@@ -48,7 +48,7 @@ Border Locate(const SupportPolygon& polygon, const Vector2d& point) {
 
 }  // namespace
 
-SupportPolygon ConvexHull(std::array<Vector2d, kMostSupportPoints> points, std::size_t count) {
+SupportPolygon ConvexHull(std::array<Vector2d, kMaxSupportPoints> points, std::size_t count) {
   const auto end = points.begin() + static_cast<std::ptrdiff_t>(count);
   std::sort(points.begin(), end, [](const Vector2d& a, const Vector2d& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
@@ -62,7 +62,7 @@ SupportPolygon ConvexHull(std::array<Vector2d, kMostSupportPoints> points, std::
   }
   // The lower chain from left to right, then the upper one back. The stack may contain every point,
   // and the first one twice.
-  std::array<Vector2d, kMostSupportPoints + 1> chain;
+  std::array<Vector2d, kMaxSupportPoints + 1> chain;
   std::size_t size = 0;
   const auto add = [&](const Vector2d& point, std::size_t bottom) {
     while (size >= bottom + 2 &&

@@ -12,8 +12,7 @@ namespace kinescope::loads {
 
 /// The convex hull of the first `count` of `points`, counter-clockwise, without points on its
 /// edges. Andrew's monotone chain (A. M. Andrew, Information Processing Letters 9, 1979, 216).
-SupportPolygon ConvexHull(std::array<Eigen::Vector2d, kMostSupportPoints> points,
-                          std::size_t count);
+SupportPolygon ConvexHull(std::array<Eigen::Vector2d, kMaxSupportPoints> points, std::size_t count);
 
 /// Distance of `point` from the border, m: positive inside, negative outside. For a polygon with
 /// one or two points: minus the distance. @pre it is not empty

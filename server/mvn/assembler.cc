@@ -61,7 +61,7 @@ bool Assembler::IsOnTrial(const Endpoint& sender, int character, std::int64_t no
       return now - trial.since_nanos <= kTakeOverNanos;
     }
   }
-  if (trials_.size() < kMostStreams) trials_.push_back({sender, character, now});
+  if (trials_.size() < kMaxStreams) trials_.push_back({sender, character, now});
   return true;
 }
 
@@ -75,7 +75,7 @@ Assembler::Stream* Assembler::AddStream(const Endpoint& sender, int character, s
 
 // Removes a stream that has become silent if the new one needs its id or its place.
 bool Assembler::MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink) {
-  const bool full = streams_.size() >= kMostStreams;
+  const bool full = streams_.size() >= kMaxStreams;
   auto victim = streams_.end();
   for (auto stream = streams_.begin(); stream != streams_.end(); ++stream) {
     if (now - (*stream)->state.last_heard_nanos() <= kForgetNanos) continue;

@@ -53,7 +53,7 @@ class Assembler {
   Assembler(const Assembler&) = delete;  // streams point to the tally
   Assembler& operator=(const Assembler&) = delete;
 
-  static constexpr std::size_t kMostStreams = 16;
+  static constexpr std::size_t kMaxStreams = 16;
 
   /// Adds one datagram that `sender` sent and that arrived at `arrival`. Arrivals never go back.
   void Add(const Endpoint& sender, std::string_view datagram, const Arrival& arrival,
@@ -95,8 +95,8 @@ class Assembler {
 
   Stamps stamps_;
   Tally tally_;
-  std::vector<std::unique_ptr<Stream>> streams_;  // at most kMostStreams
-  std::vector<Trial> trials_;                     // at most kMostStreams
+  std::vector<std::unique_ptr<Stream>> streams_;  // at most kMaxStreams
+  std::vector<Trial> trials_;                     // at most kMaxStreams
 };
 
 }  // namespace kinescope::mvn

@@ -10,11 +10,11 @@ namespace {
 constexpr double kPeriodGain = 1.0 / 16;
 constexpr double kLongestInterval = 0.5e9;  // a pause is not a period
 constexpr double kPatienceInPeriods = 1.5;
-constexpr double kLeastPatience = 5e6;
-constexpr double kMostPatience = 100e6;
+constexpr double kMinPatience = 5e6;
+constexpr double kMaxPatience = 100e6;
 constexpr double kFirstPatience = 50e6;  // until the period is known
 
-constexpr std::int32_t kMostFramesReordered = 120;  // half a second at 240 Hz
+constexpr std::int32_t kMaxFramesReordered = 120;  // half a second at 240 Hz
 constexpr int kPlacesReordered = 3;
 constexpr std::int64_t kSilenceNanos = 250'000'000;  // afterwards a lower counter is a restart
 constexpr std::int64_t kDoubtNanos = 250'000'000;
@@ -146,7 +146,7 @@ CharacterStream::Place CharacterStream::PlaceBehind(const Header& header, Sample
     case ClosedSamples::Known::kDifferent: break;
     case ClosedSamples::Known::kNo: {
       const auto fit = line_.Fits(header.sample_counter, header.time_code_millis);
-      const bool near = Ahead(*newest_, header.sample_counter) <= kMostFramesReordered;
+      const bool near = Ahead(*newest_, header.sample_counter) <= kMaxFramesReordered;
       // Once the run has begun, a datagram before its first sample is not a late one.
       const bool before_the_run = Ahead(header.sample_counter, run_start_) < 0 &&
                                   Ahead(*newest_, run_start_) >= PlausibleStep();
@@ -366,7 +366,7 @@ std::int64_t CharacterStream::StampOf(const PendingSample& sample) {
 
 std::int64_t CharacterStream::PatienceNanos() const {
   return static_cast<std::int64_t>(
-      period_nanos_ ? std::clamp(kPatienceInPeriods * *period_nanos_, kLeastPatience, kMostPatience)
+      period_nanos_ ? std::clamp(kPatienceInPeriods * *period_nanos_, kMinPatience, kMaxPatience)
                     : kFirstPatience);
 }
 

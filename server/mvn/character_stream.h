@@ -51,7 +51,7 @@ class CharacterStream {
   void Discard();
 
  private:
-  static constexpr std::size_t kMostOpen = 4;
+  static constexpr std::size_t kMaxOpen = 4;
 
   struct OpenSample {
     bool is_open = false;
@@ -112,7 +112,7 @@ class CharacterStream {
   bool is_heard_ = false;  // a first datagram was received
   bool is_confirmed_ = false;
 
-  std::array<OpenSample, kMostOpen> open_;
+  std::array<OpenSample, kMaxOpen> open_;
   std::uint32_t run_start_ = 0;          // counter of the first sample since the last restart
   std::optional<std::uint32_t> newest_;  // largest counter of a sample so far
   std::optional<std::uint32_t> closed_;  // samples up to this counter are not delivered any more

@@ -12,7 +12,7 @@ constexpr double kMilliNanos = 1e6;
 constexpr std::int64_t kBucketNanos = 2'000'000'000;
 constexpr double kPauseNanos = 0.5e9;
 constexpr double kTimeCodeJumpNanos = 20e6;
-constexpr std::int64_t kLeastStepNanos = 100'000;
+constexpr std::int64_t kMinStepNanos = 100'000;
 constexpr std::int64_t kWallSetBackNanos = kNanosPerSecond;
 
 // With fewer samples, the rounding of the time code makes the period too inaccurate.
@@ -88,7 +88,7 @@ std::int64_t ClockFit::Stamp(std::uint32_t counter, std::uint32_t time_code_mill
     stamp -= static_cast<std::int64_t>(delay);
   }
   const bool wall_set_back = arrival.wall_nanos < last_wall_ - kWallSetBackNanos;
-  if (last_stamp_ && !wall_set_back) stamp = std::max(stamp, *last_stamp_ + kLeastStepNanos);
+  if (last_stamp_ && !wall_set_back) stamp = std::max(stamp, *last_stamp_ + kMinStepNanos);
   last_stamp_ = stamp;
   last_wall_ = arrival.wall_nanos;
   return stamp;

@@ -46,7 +46,7 @@ bool ReadItem(ItemReader& in, AngularItem& item) {
 class SlotFinder {
  public:
   SlotFinder(const Header& header, int item_count)
-      : props_(header.body_segments == 0 ? kMostProps : header.props),  // absent in old headers
+      : props_(header.body_segments == 0 ? kMaxProps : header.props),  // absent in old headers
         fingers_(header.finger_segments),
         goes_by_order_(header.body_segments == urdf::kSegmentCount && header.part == 0 &&
                        header.is_last_part &&
@@ -70,7 +70,7 @@ class SlotFinder {
   int SlotOf(int number) const {
     if (number < urdf::kSegmentCount) return number;
     const int prop = number - urdf::kSegmentCount;
-    if (prop < props_) return prop < kMostProps ? urdf::kSegmentCount + PropIndex(prop) : -1;
+    if (prop < props_) return prop < kMaxProps ? urdf::kSegmentCount + PropIndex(prop) : -1;
     const int finger = prop - props_;
     if (finger >= fingers_ || finger >= 2 * kFingersPerHand) return -1;
     const bool left = finger < kFingersPerHand;

@@ -12,7 +12,7 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr std::size_t kLargestPayload = 65535 - kHeaderBytes;
-constexpr std::size_t kMostItems = 255;
+constexpr std::size_t kMaxItems = 255;
 constexpr double kDegrees = 180 / M_PI;
 
 void WriteVector(ByteWriter& out, const Eigen::Vector3d& value) {
@@ -63,7 +63,7 @@ void WriteEulerItem(ByteWriter& out, const PoseItem& item) {
 
 // The id of a slot, which depends on the number of props: the ids of fingers follow theirs.
 std::uint32_t IdOf(std::size_t slot, const Header& header) {
-  constexpr std::size_t kFirstFinger = urdf::kSegmentCount + kMostProps;
+  constexpr std::size_t kFirstFinger = urdf::kSegmentCount + kMaxProps;
   const auto props = static_cast<std::size_t>(header.props);
   if (slot < kFirstFinger) {
     KINESCOPE_CHECK(slot < urdf::kSegmentCount + props);
@@ -222,7 +222,7 @@ std::string Encode(const Message& message) {
   ByteWriter payload_out(payload);
   Header header = message.header;
   const auto [type, items] = std::visit(BodyWriter{payload_out, message.header}, message.body);
-  KINESCOPE_CHECK(payload.size() <= kLargestPayload && items <= kMostItems);
+  KINESCOPE_CHECK(payload.size() <= kLargestPayload && items <= kMaxItems);
   header.type = type;
   header.item_count = static_cast<int>(items);
   header.payload_bytes = static_cast<int>(payload.size());

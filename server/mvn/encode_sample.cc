@@ -38,10 +38,10 @@ struct FingerAndPropCounts {
 template <class IsPresent>
 FingerAndPropCounts CountFingersAndProps(const IsPresent& is_present) {
   FingerAndPropCounts counts;
-  for (int prop = 0; prop < kMostProps; ++prop) {
+  for (int prop = 0; prop < kMaxProps; ++prop) {
     if (is_present(static_cast<std::size_t>(PropIndex(prop)))) counts.props = prop + 1;
   }
-  for (std::size_t index = kMostProps; index < kFingerAndPropCount; ++index) {
+  for (std::size_t index = kMaxProps; index < kFingerAndPropCount; ++index) {
     if (is_present(index)) counts.finger_segments = 2 * kFingersPerHand;
   }
   return counts;

@@ -17,10 +17,10 @@ constexpr std::array<const char*, kFaultCount> kNames = {
     "truncate", "corrupt",   "foreign", "silence", "reset"};
 
 constexpr double kNanos = 1e9;
-constexpr int kMostPlaces = 3;  // limit of places that a datagram is moved back
-constexpr int kMostCorruptBytes = 4;
+constexpr int kMaxPlaces = 3;  // limit of places that a datagram is moved back
+constexpr int kMaxCorruptBytes = 4;
 constexpr std::int64_t kLongestAside = 50'000'000;  // a network does not keep a packet for longer
-constexpr double kLeastBetweenResets = 1.0;         // s: a recording is not shorter
+constexpr double kMinBetweenResets = 1.0;           // s: a recording is not shorter
 constexpr std::int32_t kSourceRestart = 1000;       // a counter this far back is a restart
 constexpr double kLongestSecs = 60;
 
@@ -133,7 +133,7 @@ bool FaultInjector::IsSwallowed(const std::optional<Header>& header, std::int64_
 
 void FaultInjector::ScheduleReset(Count& count) {
   const double cycle = 1 / settings_[Fault::kReset];
-  const double least = std::min(kLeastBetweenResets, cycle / 2);
+  const double least = std::min(kMinBetweenResets, cycle / 2);
   count.next_reset = count.cycle_start + ToNanos(least + Random(Fault::kReset) * (cycle - least));
   count.cycle_start += ToNanos(cycle);
 }
@@ -181,7 +181,7 @@ void FaultInjector::Damage(Fault fault, Waiting& waiting) {
     bytes.resize(static_cast<std::size_t>(RandomInt(fault, 0, size - 1)));
   } else {
     const std::string whole = bytes;
-    for (int left = RandomInt(fault, 1, kMostCorruptBytes); left > 0; --left) {
+    for (int left = RandomInt(fault, 1, kMaxCorruptBytes); left > 0; --left) {
       const auto at = static_cast<std::size_t>(RandomInt(fault, 0, size - 1));
       if (bytes[at] != whole[at]) continue;  // this byte is already changed
       bytes[at] = static_cast<char>(static_cast<std::uint8_t>(bytes[at]) ^
@@ -267,9 +267,9 @@ void FaultInjector::Add(std::string_view datagram, std::int64_t due_nanos) {
   if (is_cut || is_corrupt) {
     Damage(is_cut ? Fault::kTruncate : Fault::kCorrupt, waiting);
   } else if (comes_again) {
-    waiting.again_after = RandomInt(Fault::kDuplicate, 0, kMostPlaces);
+    waiting.again_after = RandomInt(Fault::kDuplicate, 0, kMaxPlaces);
   }
-  if (is_reordered) waiting.put_back_by = RandomInt(Fault::kReorder, 1, kMostPlaces);
+  if (is_reordered) waiting.put_back_by = RandomInt(Fault::kReorder, 1, kMaxPlaces);
   if (follows_foreign) InsertForeign(waiting.datagram.send_nanos);
   Enqueue(std::move(waiting));
 }

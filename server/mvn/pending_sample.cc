@@ -9,7 +9,7 @@ namespace {
 
 // More objects than any observed group of tracked objects; a body with more segments than this has
 // lost parts.
-constexpr int kMostUnannouncedObjects = 8;
+constexpr int kMaxUnannouncedObjects = 8;
 
 template <std::size_t kBits, class Visit>
 void ForEachSet(const std::bitset<kBits>& bits, const Visit& visit) {
@@ -160,7 +160,7 @@ bool PendingSample::HasObjects() const {
   const auto count = static_cast<int>(posed_.count());
   if (body_segments_ == urdf::kSegmentCount) return false;  // a body with parts missing
   const bool announced = body_segments_ == count;
-  return announced || (body_segments_ == 0 && count <= kMostUnannouncedObjects);
+  return announced || (body_segments_ == 0 && count <= kMaxUnannouncedObjects);
 }
 
 BodySample PendingSample::TakeBody() const {

@@ -6,8 +6,8 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr std::int64_t kPatienceNanos = 500'000'000;
-constexpr std::size_t kMostLandmarks = 512;  // a current MVN sends 127
-constexpr double kShortestHuman = 0.4;       // m
+constexpr std::size_t kMaxLandmarks = 512;  // a current MVN sends 127
+constexpr double kShortestHuman = 0.4;      // m
 constexpr double kTallestHuman = 2.8;
 constexpr double kLongestBone = 1.0;
 
@@ -15,7 +15,7 @@ using Origins = std::array<Eigen::Vector3d, urdf::kSegmentCount>;
 
 // The index of a finger segment in FingerAndPropSegments; nullopt for other names.
 std::optional<std::size_t> FindFinger(const std::string& name) {
-  for (int index = kMostProps; index < kFingerAndPropCount; ++index) {
+  for (int index = kMaxProps; index < kFingerAndPropCount; ++index) {
     if (FingerOrPropName(index) == name) return static_cast<std::size_t>(index);
   }
   return std::nullopt;
@@ -56,7 +56,7 @@ std::optional<Reason> ScaleGroup::Read(const ScaleMessage& part, Segments& segme
   int props = 0;
   for (ScaledSegment& segment : others) {
     auto index = FindFinger(segment.name);
-    if (!index && props < kMostProps) index = static_cast<std::size_t>(PropIndex(props++));
+    if (!index && props < kMaxProps) index = static_cast<std::size_t>(PropIndex(props++));
     if (!index) continue;
     segments.scaled_segments.resize(kFingerAndPropCount);
     segments.scaled_segments[*index] = std::move(segment);
@@ -81,7 +81,7 @@ std::optional<Reason> ScaleGroup::Add(const Header& header, const ScaleMessage& 
   for (const ScalePoint& point : part.points) {
     const double reach = point.offset.norm();
     if (point.segment_id > urdf::kSegmentCount || reach > kLongestBone) continue;
-    if (landmarks_.size() >= kMostLandmarks) break;
+    if (landmarks_.size() >= kMaxLandmarks) break;
     landmarks_[{point.segment_id - 1, point.name}] = point.offset;
   }
   return std::nullopt;

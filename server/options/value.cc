@@ -80,7 +80,7 @@ void Size::Parse(const std::string& text) {
   const auto sides = SplitAtLast(text, 'x');
   const auto width = sides ? ParseWhole(sides->first) : std::nullopt;
   const auto height = sides ? ParseWhole(sides->second) : std::nullopt;
-  const auto fits = [](long pixels) { return pixels >= kLeast && pixels <= kMost; };
+  const auto fits = [](long pixels) { return pixels >= kMin && pixels <= kMax; };
   if (!width || !height || !fits(*width) || !fits(*height)) RefuseText();
   value_ = {static_cast<int>(*width), static_cast<int>(*height)};
 }
@@ -88,7 +88,7 @@ void Size::Parse(const std::string& text) {
 std::string Size::ToText() const { return fmt::format("{}x{}", value_.width, value_.height); }
 
 std::string Size::Expected() const {
-  return fmt::format("WIDTHxHEIGHT, each from {} to {} px, such as 1280x720", kLeast, kMost);
+  return fmt::format("WIDTHxHEIGHT, each from {} to {} px, such as 1280x720", kMin, kMax);
 }
 
 }  // namespace kinescope::options

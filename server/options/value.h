@@ -253,7 +253,7 @@ struct PixelSize {
 /// WIDTHxHEIGHT, px.
 class Size : public ValueOf<PixelSize> {
  public:
-  static constexpr int kLeast = kMinPictureSide, kMost = kMaxPictureSide;
+  static constexpr int kMin = kMinPictureSide, kMax = kMaxPictureSide;
 
   explicit Size(PixelSize value) : ValueOf(value) {}
   Size& operator=(PixelSize value) {

@@ -12,8 +12,8 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::size_t kMostKeys = 1000;
-constexpr std::uintmax_t kMostKeyBytes = 1 << 20;
+constexpr std::size_t kMaxKeys = 1000;
+constexpr std::uintmax_t kMaxKeyBytes = 1 << 20;
 constexpr double kFarthest = 1000;  // m; beyond, a depth buffer shows nothing
 
 // One file being read: says where something is wrong.
@@ -25,9 +25,9 @@ class KeyFile {
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(path_, error);
     if (error) throw UsageError(fmt::format("--camera={}: {}", path_, error.message()));
-    if (bytes > kMostKeyBytes) {
+    if (bytes > kMaxKeyBytes) {
       throw UsageError(fmt::format("--camera={}: {} bytes; expected at most {} bytes", path_, bytes,
-                                   kMostKeyBytes));
+                                   kMaxKeyBytes));
     }
     try {
       return YAML::LoadFile(path_);
@@ -134,9 +134,9 @@ std::vector<CameraKeySpec> ReadCameraKeys(const std::string& path) {
     file.Refuse(root, "expected 'keys:' and a list of keyframes");
   }
   const YAML::Node list = root["keys"];
-  if (list.size() > kMostKeys) {
+  if (list.size() > kMaxKeys) {
     file.Refuse(list,
-                fmt::format("keys: {} keyframes; expected at most {}", list.size(), kMostKeys));
+                fmt::format("keys: {} keyframes; expected at most {}", list.size(), kMaxKeys));
   }
   std::vector<CameraKeySpec> keys;
   for (const YAML::Node& node : list) {

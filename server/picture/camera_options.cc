@@ -14,7 +14,7 @@ namespace {
 using options::BadValue;
 using options::Number;
 
-constexpr double kMostOrbit = 3600;  // degrees per second; more shows no motion any more
+constexpr double kMaxOrbit = 3600;  // degrees per second; more shows no motion any more
 
 bool IsKeyFile(const std::string& camera) {
   const std::string extension = std::filesystem::path(camera).extension();
@@ -82,7 +82,7 @@ void OrbitValue::Parse(const std::string& text) {
     return;
   }
   const auto degrees = options::ParseNumber(text);
-  if (!degrees || std::abs(*degrees) > kMostOrbit) RefuseText();
+  if (!degrees || std::abs(*degrees) > kMaxOrbit) RefuseText();
   value_ = {false, *degrees};
 }
 
@@ -91,8 +91,8 @@ std::string OrbitValue::ToText() const {
 }
 
 std::string OrbitValue::Expected() const {
-  return fmt::format("degrees per second from -{} to {}, or turn (once over the clip)", kMostOrbit,
-                     kMostOrbit);
+  return fmt::format("degrees per second from -{} to {}, or turn (once over the clip)", kMaxOrbit,
+                     kMaxOrbit);
 }
 
 CameraOptions::CameraOptions()

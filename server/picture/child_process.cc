@@ -17,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostOutputBytes = 1 << 20;
+constexpr std::size_t kMaxOutputBytes = 1 << 20;
 
 class Pipe {
  public:
@@ -68,7 +68,7 @@ bool ReadSome(int from, std::string& to) {
   const ssize_t count = ::read(from, buffer.data(), buffer.size());
   if (count < 0 && errno == EINTR) return true;
   if (count <= 0) return false;
-  if (to.size() < kMostOutputBytes) to.append(buffer.data(), static_cast<std::size_t>(count));
+  if (to.size() < kMaxOutputBytes) to.append(buffer.data(), static_cast<std::size_t>(count));
   return true;
 }
 

@@ -15,7 +15,7 @@ constexpr std::array<Rgb, 4> kColors = {
 }  // namespace
 
 Trails::Trails(const std::vector<int>& tracks, double secs) : secs_(secs) {
-  KINESCOPE_CHECK(secs > 0 && secs <= kMostSecs);
+  KINESCOPE_CHECK(secs > 0 && secs <= kMaxSecs);
   for (const int segment : tracks) {
     tracks_.push_back(
         {segment, segment < 0 ? kComColor : kColors[tracks_.size() % kColors.size()]});

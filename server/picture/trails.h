@@ -14,9 +14,9 @@ namespace kinescope::app {
 
 class Trails {
  public:
-  static constexpr double kMostSecs = 60;
+  static constexpr double kMaxSecs = 60;
 
-  /// `tracks`: urdf::Segment, or -1 for the centre of mass. @pre 0 < secs <= kMostSecs
+  /// `tracks`: urdf::Segment, or -1 for the centre of mass. @pre 0 < secs <= kMaxSecs
   Trails(const std::vector<int>& tracks, double secs);
 
   bool empty() const { return tracks_.empty(); }

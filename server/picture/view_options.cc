@@ -19,7 +19,7 @@ namespace {
 
 using options::BadValue;
 
-constexpr std::size_t kMostViews = 16, kMostPlots = 8, kMostTrails = 24, kMostRobots = 64;
+constexpr std::size_t kMaxViews = 16, kMaxPlots = 8, kMaxTrails = 24, kMaxRobots = 64;
 constexpr double kFarthestRobot = 1000;  // m
 
 std::string DefaultOverlays() {
@@ -177,9 +177,9 @@ void ViewsValue::Parse(const std::string& text) {
       grid.cameras.push_back(camera);
     }
   }
-  if (grid.cameras.size() > kMostViews) {
+  if (grid.cameras.size() > kMaxViews) {
     throw BadValue(
-        fmt::format("has {} views; expected at most {}", grid.cameras.size(), kMostViews));
+        fmt::format("has {} views; expected at most {}", grid.cameras.size(), kMaxViews));
   }
   value_ = std::move(grid);
   text_ = text;
@@ -251,8 +251,8 @@ void RobotsValue::Parse(const std::string& text) {
 }
 
 void RobotsValue::ParseAll(const std::vector<std::string>& texts) {
-  if (texts.size() > kMostRobots) {
-    throw BadValue(fmt::format("expected at most {} robots", kMostRobots));
+  if (texts.size() > kMaxRobots) {
+    throw BadValue(fmt::format("expected at most {} robots", kMaxRobots));
   }
   std::vector<RobotPlace> robots;
   for (const std::string& text : texts) {
@@ -296,14 +296,14 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
     : size({kDefaultPictureWidth, kDefaultPictureHeight}),
       camera(most_cameras),
       supersample(SupersampleWords(), 2),
-      plot(Joined(ScoredJointNames()), kMostPlots, ScoredJointNamed),
+      plot(Joined(ScoredJointNames()), kMaxPlots, ScoredJointNamed),
       theme({{"light", render::Theme::kLight}, {"dark", render::Theme::kDark}},
             render::Theme::kLight),
       floor(true),
       show(Joined(PartNames(false)), render::kSceneParts.size(), PartNamed, kFormerParts),
       hide(Joined(PartNames(true)), render::kSceneParts.size(), PartNamed, kFormerParts),
-      trail(Joined(TrackNames()), kMostTrails, TrackNamed),
-      trail_secs(2, {0, Trails::kMostSecs, "s", true}),
+      trail(Joined(TrackNames()), kMaxTrails, TrackNamed),
+      trail_secs(2, {0, Trails::kMaxSecs, "s", true}),
       ghost_opacity(0.35, {0, 1}) {}
 
 void ViewOptions::List(options::OptionList& option) {

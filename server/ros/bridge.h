@@ -53,13 +53,13 @@ struct InputCounters {
   std::uint64_t received = 0, used = 0;
   std::map<std::string, std::uint64_t> refused;  // rejected, by kind: "not a number"
   std::uint64_t unknown_joints = 0;              // joints in messages that are unknown
-  std::uint64_t skewed = 0;    // stamps more than kMostSkewSecs off the newest sample's stamp
+  std::uint64_t skewed = 0;    // stamps more than kMaxSkewSecs off the newest sample's stamp
   double worst_skew_secs = 0;  // the worst of those, s; positive: later than the sample
   std::string last_problem;    // with its values; "" without a problem
 };
 /// Beyond this the clocks disagree, which is reported; a measurement more than half a second off is
 /// never used.
-inline constexpr double kMostSkewSecs = 0.2;
+inline constexpr double kMaxSkewSecs = 0.2;
 
 struct BridgeStatus {
   bool master_reachable = false;  // at the last check; checked once a second

@@ -15,10 +15,10 @@ bool IsGood(const geometry_msgs::TransformStamped& stamped) {
   const auto& p = stamped.transform.translation;
   const auto& q = stamped.transform.rotation;
   const double norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-  constexpr double kMostOff = 0.01;
+  constexpr double kMaxOff = 0.01;
   return !stamped.child_frame_id.empty() && !stamped.header.frame_id.empty() &&
          stamped.child_frame_id != stamped.header.frame_id && std::isfinite(p.x) &&
-         std::isfinite(p.y) && std::isfinite(p.z) && std::abs(norm - 1) < kMostOff;
+         std::isfinite(p.y) && std::isfinite(p.z) && std::abs(norm - 1) < kMaxOff;
 }
 
 std::string_view WithoutModel(std::string_view frame, const std::string& model) {

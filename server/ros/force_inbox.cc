@@ -25,7 +25,7 @@ constexpr char kExternalJointStates[] = "external_joint_states";
 constexpr std::uint32_t kForceQueue = 32;
 
 // Whether two measurements have about the same time.
-bool AreOfOneTime(std::int64_t a, std::int64_t b) { return std::abs(Secs(a - b)) <= kMostSkewSecs; }
+bool AreOfOneTime(std::int64_t a, std::int64_t b) { return std::abs(Secs(a - b)) <= kMaxSkewSecs; }
 
 }  // namespace
 
@@ -69,7 +69,7 @@ std::int64_t ForceInbox::StampOf(const char* topic, const std_msgs::Header& head
   if (header.stamp.isZero()) return body_->stamp_nanos;
   const auto stamp = static_cast<std::int64_t>(header.stamp.toNSec());
   const double skew = Secs(stamp - body_->stamp_nanos);
-  if (std::abs(skew) <= kMostSkewSecs) return stamp;
+  if (std::abs(skew) <= kMaxSkewSecs) return stamp;
   const std::lock_guard<std::mutex> lock(mutex_);
   InputCounters& counters = counters_[topic];
   ++counters.skewed;

@@ -13,11 +13,11 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kMostForce = 20'000;      // N, ten times what landing from a jump takes
-constexpr double kMostMoment = 20'000;     // N·m
-constexpr double kReach = 2;               // m
-constexpr double kLeastGroundForce = 20;   // N; below it, a plate's CoP is noise
-constexpr std::size_t kMostJoints = 1000;  // per message; a person has 66
+constexpr double kMaxForce = 20'000;      // N, ten times what landing from a jump takes
+constexpr double kMaxMoment = 20'000;     // N·m
+constexpr double kReach = 2;              // m
+constexpr double kMinGroundForce = 20;    // N; below it, a plate's CoP is noise
+constexpr std::size_t kMaxJoints = 1000;  // per message; a person has 66
 
 tl::unexpected<Refusal> NoForce(const char* kind, std::string text) {
   return tl::unexpected(Refusal{kind, std::move(text)});
@@ -37,12 +37,12 @@ Taken<WorldWrench> ToWorld(const geometry_msgs::WrenchStamped& message, const Fo
   if (!force.allFinite() || !moment.allFinite()) {
     return NoForce("not a number", "a force or moment is not a number");
   }
-  if (force.norm() > kMostForce || moment.norm() > kMostMoment) {
+  if (force.norm() > kMaxForce || moment.norm() > kMaxMoment) {
     return NoForce(
         "too large",
         fmt::format(
             "{:.3g} N, {:.3g} N·m: expected at most {:.0f} N and {:.0f} N·m; check the unit",
-            force.norm(), moment.norm(), kMostForce, kMostMoment));
+            force.norm(), moment.norm(), kMaxForce, kMaxMoment));
   }
   return WorldWrench{frame.pose.orientation * force, frame.pose.orientation * moment};
 }
@@ -139,13 +139,13 @@ Taken<MeasuredGroundForce> ToGroundForce(const geometry_msgs::WrenchStamped& mes
   const Vector3d& origin = frame.pose.position;
   MeasuredGroundForce ground;
   ground.only_vertical = message.wrench.force.x == 0 && message.wrench.force.y == 0;
-  if (force.z() < -kLeastGroundForce) {
+  if (force.z() < -kMinGroundForce) {
     return NoForce("pushes down",
                    fmt::format("the force points down ({:.0f} N); expected the ground reaction "
                                "force on the person, which points up; invert the sign",
                                -force.z()));
   }
-  if (force.z() < kLeastGroundForce) {
+  if (force.z() < kMinGroundForce) {
     ground.point = {origin.x(), origin.y(), body.floor_z};
     return ground;
   }
@@ -202,9 +202,9 @@ Taken<MeasuredHandForce> ToHandForce(const geometry_msgs::WrenchStamped& message
 
 Taken<ExternalLoads> ToExternalLoads(const kinescope_ros::JointLoadArray& message,
                                      const FoundFrame& frame, double scale) {
-  if (message.loads.size() > kMostJoints) {
-    return NoForce("too many joints", fmt::format("{} joints: expected at most {}",
-                                                  message.loads.size(), kMostJoints));
+  if (message.loads.size() > kMaxJoints) {
+    return NoForce("too many joints",
+                   fmt::format("{} joints: expected at most {}", message.loads.size(), kMaxJoints));
   }
   ExternalLoads loads;
   for (const kinescope_ros::JointLoad& given : message.loads) {
@@ -228,9 +228,9 @@ Taken<ExternalLoads> ToExternalLoads(const kinescope_ros::JointLoadArray& messag
 Taken<ExternalLoads> ToExternalLoads(const sensor_msgs::JointState& message, const BodyNow& body,
                                      double scale) {
   const std::size_t count = message.name.size();
-  if (count > kMostJoints) {
+  if (count > kMaxJoints) {
     return NoForce("too many joints",
-                   fmt::format("{} joints: expected at most {}", count, kMostJoints));
+                   fmt::format("{} joints: expected at most {}", count, kMaxJoints));
   }
   for (const auto* values : {&message.position, &message.velocity, &message.effort}) {
     if (!values->empty() && values->size() != count) {

@@ -125,7 +125,7 @@ void LiveTopics::Register(const std::string& topic) {
 std::set<std::string> LiveTopics::Orphans(const std::string& topic,
                                           const std::set<std::string>& heard,
                                           const std::set<std::string>& known) {
-  constexpr int kMostTries = 5;  // one second each: then it no longer exists
+  constexpr int kMaxTries = 5;  // one second each: then it no longer exists
   std::map<std::string, int>& orphans = orphans_[topic];
   for (const std::string& uri : heard) {
     if (known.count(uri) == 0) orphans[uri] = 0;
@@ -133,7 +133,7 @@ std::set<std::string> LiveTopics::Orphans(const std::string& topic,
   std::set<std::string> uris;
   for (auto orphan = orphans.begin(); orphan != orphans.end();) {
     const std::string& uri = orphan->first;
-    const bool is_lost = heard.count(uri) == 0 && ++orphan->second > kMostTries;
+    const bool is_lost = heard.count(uri) == 0 && ++orphan->second > kMaxTries;
     if (is_lost || known.count(uri) > 0) {
       orphan = orphans.erase(orphan);
       continue;

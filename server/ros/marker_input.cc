@@ -52,9 +52,9 @@ tl::unexpected<Refusal> NoMarker(const char* kind, const Marker& message, const 
 
 // Checked before anything is copied.
 std::optional<std::string> FindExcess(const Marker& message) {
-  if (message.points.size() > kMostMarkerPoints || message.colors.size() > kMostMarkerPoints) {
+  if (message.points.size() > kMaxMarkerPoints || message.colors.size() > kMaxMarkerPoints) {
     return fmt::format("{} points and {} colors: expected at most {}", message.points.size(),
-                       message.colors.size(), kMostMarkerPoints);
+                       message.colors.size(), kMaxMarkerPoints);
   }
   if (message.ns.size() > kLongestMarkerName ||
       message.header.frame_id.size() > kLongestMarkerName) {
@@ -131,15 +131,15 @@ std::optional<Refusal> MarkerStore::Apply(std::size_t topic, const Marker& messa
   auto shape = ToSceneMarker(message);
   if (!shape) return shape.error();
   const std::size_t freed = old == entries_.end() ? 0 : old->second.shape->points.size();
-  if (old == entries_.end() && entries_.size() >= kMostMarkers) {
+  if (old == entries_.end() && entries_.size() >= kMaxMarkers) {
     return NoMarker("too many", message,
-                    fmt::format("the limit of {} markers is reached", kMostMarkers))
+                    fmt::format("the limit of {} markers is reached", kMaxMarkers))
         .value();
   }
-  if (points_ - freed + shape->points.size() > kMostPointsOfAll) {
+  if (points_ - freed + shape->points.size() > kMaxPointsOfAll) {
     return NoMarker(
                "too many", message,
-               fmt::format("all markers together would have more than {} points", kMostPointsOfAll))
+               fmt::format("all markers together would have more than {} points", kMaxPointsOfAll))
         .value();
   }
   points_ = points_ - freed + shape->points.size();

@@ -13,7 +13,7 @@
 namespace kinescope::ros_bridge {
 namespace {
 
-constexpr std::size_t kMostTopics = 16;
+constexpr std::size_t kMaxTopics = 16;
 // Each message may be the only one of its marker, so none should be lost while a sample is
 // processed.
 constexpr std::uint32_t kMarkerQueue = 1000;
@@ -34,9 +34,9 @@ std::vector<std::string> MarkerTopicNames(const std::string& comma_separated) {
     }
     topics.push_back(ros::names::resolve(name));
   }
-  if (topics.size() > kMostTopics) {
+  if (topics.size() > kMaxTopics) {
     throw UsageError(
-        fmt::format("--marker_topics: {} topics; expected at most {}", topics.size(), kMostTopics));
+        fmt::format("--marker_topics: {} topics; expected at most {}", topics.size(), kMaxTopics));
   }
   return topics;
 }

@@ -108,7 +108,7 @@ void AddSupport(const BodyForces& forces, double floor_z, MarkerWriter& out) {
 void AddFootForces(const BodyForces& forces, MarkerWriter& out) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     const FootForce& foot = forces.feet[side];
-    if (!(foot.force.norm() > kLeastForceShown) || !foot.cop.allFinite()) continue;
+    if (!(foot.force.norm() > kMinForceShown) || !foot.cop.allFinite()) continue;
     Marker& arrow = out.AddShape(kForces, side, Marker::ARROW, {0.02, 0.04, 0}, kCopColor);
     arrow.points = {PointAt(foot.cop), PointAt(foot.cop + kMetresPerNewton * foot.force)};
   }

@@ -35,7 +35,7 @@ const std::array<int, urdf::kSegmentCount>& SegmentsByName() {
 }
 
 PersonNames::PersonNames(const std::string& model_name) : model(model_name) {
-  for (int prop = 0; prop < kMostProps; ++prop) {
+  for (int prop = 0; prop < kMaxProps; ++prop) {
     fingers_and_props[At(PropIndex(prop))] = urdf::PropLinkName(model, prop);
   }
   for (const urdf::Side side : {urdf::kLeft, urdf::kRight}) {
@@ -71,7 +71,7 @@ PersonNames::PersonNames(const urdf::HumanModel& human) : PersonNames(human.mode
       }
     }
   }
-  for (int prop = 0; prop < kMostProps; ++prop) {
+  for (int prop = 0; prop < kMaxProps; ++prop) {
     if (!human.props.test(At(prop))) continue;
     const auto chain = urdf::PropJointNames(model, prop);
     joints.insert(joints.end(), chain.begin(), chain.end());

@@ -10,7 +10,7 @@ namespace {
 
 using urdf::At;
 
-constexpr std::size_t kMostEndings = 64;  // tried per prefix; a name has as many as it has words
+constexpr std::size_t kMaxEndings = 64;  // tried per prefix; a name has as many as it has words
 
 bool IsWordCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
@@ -43,7 +43,7 @@ std::string Trimmed(std::string text) {
 }  // namespace
 
 bool PeopleFrames::Add(const std::string& frame) {
-  if (frame.size() > kLongestName || names_.size() >= kMostNames) return false;
+  if (frame.size() > kLongestName || names_.size() >= kMaxNames) return false;
   bool is_candidate = false;
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
     const std::string_view link = urdf::kSegments[At(segment)].link_name;
@@ -71,14 +71,14 @@ void PeopleFrames::FindWithPrefix(const std::string& prefix,
                                   const std::vector<Candidate>& candidates) {
   std::set<std::string> endings;
   for (const Candidate& candidate : candidates) {
-    if (candidate.segment != urdf::kPelvis || endings.size() >= kMostEndings) continue;
+    if (candidate.segment != urdf::kPelvis || endings.size() >= kMaxEndings) continue;
     for (std::string& ending : EndingsOf(candidate.suffix)) endings.insert(std::move(ending));
   }
   std::vector<std::string> longest_first(endings.begin(), endings.end());
   std::stable_sort(longest_first.begin(), longest_first.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
   for (const std::string& ending : longest_first) {
-    if (people_.size() >= kMostPeople) return;
+    if (people_.size() >= kMaxPeople) return;
     TakePerson(prefix, ending, candidates);
   }
 }

@@ -25,8 +25,8 @@ struct PersonFrames {
 
 class PeopleFrames {
  public:
-  static constexpr std::size_t kMostPeople = 16;
-  static constexpr std::size_t kMostNames =
+  static constexpr std::size_t kMaxPeople = 16;
+  static constexpr std::size_t kMaxNames =
       4096;  // frame names that contain a segment's name; further ones are ignored
   static constexpr std::size_t kLongestName = 255;  // bytes; longer names are ignored
 

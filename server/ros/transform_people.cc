@@ -62,7 +62,7 @@ void TransformPeople::TakeStatic(const tf2_msgs::TFMessage& message, SourceCount
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     const std::string name = WithoutSlash(transform.child_frame_id);
     const bool is_kept = name.size() <= PeopleFrames::kLongestName &&
-                         (static_.size() < kMostStatic || static_.count(name) > 0);
+                         (static_.size() < kMaxStatic || static_.count(name) > 0);
     if (!is_kept) {
       ++counters.ignored["static frame beyond the limit"];
       continue;

@@ -50,7 +50,7 @@ class TransformPeople {
   const std::vector<PersonFrames>& people() const { return frames_.people(); }
 
  private:
-  static constexpr std::size_t kMostStatic = 4096;  // frames kept, those of robots included
+  static constexpr std::size_t kMaxStatic = 4096;  // frames kept, those of robots included
 
   struct Person {
     explicit Person(int id) : transforms(id) {}

@@ -14,7 +14,7 @@ using urdf::At;
 using urdf::Pose;
 
 constexpr std::int64_t kDayNanos = 86'400'000'000'000;
-constexpr std::int64_t kLeastStepNanos = 1'000;  // between two samples
+constexpr std::int64_t kMinStepNanos = 1'000;  // between two samples
 
 constexpr double kShortestArmBone = 0.05;  // m
 
@@ -117,7 +117,7 @@ bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_na
     first_stamp_ = stamp;
   } else {
     // Equal record times, and the change from header to record times, must not turn time back.
-    stamp = std::max(stamp, sample_.stamp_nanos + kLeastStepNanos);
+    stamp = std::max(stamp, sample_.stamp_nanos + kMinStepNanos);
   }
   sample_.counter = samples_;
   sample_.stamp_nanos = stamp;

@@ -160,7 +160,7 @@ void WriteFingersAndProps(const PersonState& person, const PersonNames& names, T
   for (const urdf::Side side : {urdf::kLeft, urdf::kRight}) {
     if (person.gloves[side]) WriteGlove(person, names, side, shape, out);
   }
-  for (int prop = 0; prop < kMostProps; ++prop) {
+  for (int prop = 0; prop < kMaxProps; ++prop) {
     if (person.props[At(prop)]) WriteProp(person, names, prop, shape, out);
   }
 }

@@ -11,7 +11,7 @@ namespace {
 using loads::Percentile;
 using options::BadValue;
 
-constexpr double kMostClassLimit = 5;  // of capacity; more is no limit
+constexpr double kMaxClassLimit = 5;  // of capacity; more is no limit
 
 }  // namespace
 
@@ -20,7 +20,7 @@ ClassLimitsValue::ClassLimitsValue() : ValueOf(loads::LoadClassifier::Settings()
 void ClassLimitsValue::Parse(const std::string& text) {
   const auto up = options::ParseNumbers(text);
   const bool is_good =
-      up && up->size() == 2 && (*up)[0] > 0 && (*up)[0] < (*up)[1] && (*up)[1] <= kMostClassLimit;
+      up && up->size() == 2 && (*up)[0] > 0 && (*up)[0] < (*up)[1] && (*up)[1] <= kMaxClassLimit;
   if (!is_good) RefuseText();
   value_ = {(*up)[0], (*up)[1]};
 }
@@ -31,7 +31,7 @@ std::string ClassLimitsValue::ToText() const {
 
 std::string ClassLimitsValue::Expected() const {
   return fmt::format("MEDIUM,HIGH: two rising numbers above 0, at most {}, such as {},{}",
-                     kMostClassLimit, kDefaultClassLimits[0], kDefaultClassLimits[1]);
+                     kMaxClassLimit, kDefaultClassLimits[0], kDefaultClassLimits[1]);
 }
 
 void HandLoadValue::Parse(const std::string& text) try {

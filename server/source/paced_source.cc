@@ -12,7 +12,7 @@ namespace {
 
 // People in one capture are out of order by what the network and joining delay one of them.
 constexpr std::int64_t kReadAheadNanos = 100 * kNanosPerMilli;
-constexpr std::size_t kMostQueued = 2048;  // some 20 MB
+constexpr std::size_t kMaxQueued = 2048;  // some 20 MB
 
 void AddUp(SourceCounters& sum, const SourceCounters& more) {
   sum.datagrams += more.datagrams;
@@ -70,7 +70,7 @@ void PacedSource::Enqueue(Sample sample) {
 }
 
 bool PacedSource::HasEnough() const {
-  return read_all_ || queue_.size() >= kMostQueued ||
+  return read_all_ || queue_.size() >= kMaxQueued ||
          (!queue_.empty() && last_played_ - queue_.begin()->first >= kReadAheadNanos);
 }
 

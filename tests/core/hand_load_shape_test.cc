@@ -52,7 +52,7 @@ TEST(HandLoadShape, GrowsWithTheMassAndNeverStopsBeingDrawable) {
   double last = 0;
   for (double mass = 0.02; mass <= 100; mass *= 1.7) {
     const HandLoadShape held = ShapeOfHandLoad(Person(mass, mass, mass));
-    ASSERT_EQ(held.count, kMostHandLoadSolids);
+    ASSERT_EQ(held.count, kMaxHandLoadSolids);
     EXPECT_GT(held.solids[1].size.x(), last);
     last = held.solids[1].size.x();
     for (const HandLoadSolid& solid : held.solids) {

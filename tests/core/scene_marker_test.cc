@@ -61,7 +61,7 @@ TEST(SceneMarker, SaysWhatIsWrong) {
 
 TEST(SceneMarker, CountsPointsAndColours) {
   EXPECT_THAT(DefectOf(Strip(1)), HasSubstr("has 1 points"));
-  EXPECT_THAT(DefectOf(Strip(kMostMarkerPoints + 1)), HasSubstr("at most 100000"));
+  EXPECT_THAT(DefectOf(Strip(kMaxMarkerPoints + 1)), HasSubstr("at most 100000"));
   SceneMarker pairs = Strip(3);
   pairs.type = MarkerType::kLineList;
   EXPECT_THAT(DefectOf(pairs), HasSubstr("expected pairs"));

@@ -15,7 +15,7 @@ namespace {
 using namespace kinescope;
 
 constexpr std::int64_t kEpoch = 1'700'000'000'000'000'000;
-constexpr std::size_t kMostRecords = 5000;
+constexpr std::size_t kMaxRecords = 5000;
 
 struct CheckingSink : SampleSink {
   void OnCharacter(const Character& character) override {
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::uint8_t sender = 0, wait = 0;
   std::uint16_t length = 0;
   std::string_view datagram;
-  for (std::size_t i = 0; i < kMostRecords && in.Read(sender) && in.Read(wait) && in.Read(length) &&
+  for (std::size_t i = 0; i < kMaxRecords && in.Read(sender) && in.Read(wait) && in.Read(length) &&
                           in.ReadBytes(length, datagram);
        ++i) {
     now += wait * kNanosPerMilli;

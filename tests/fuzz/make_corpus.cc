@@ -132,7 +132,7 @@ void WriteScaleGroups(const fs::path& folder) {
   Character person = Ines();
   person.scaled_segments.resize(kFingerAndPropCount);
   for (int i = 1; i < kFingerAndPropCount; ++i) {
-    if (i >= 2 && i < kMostProps) continue;
+    if (i >= 2 && i < kMaxProps) continue;
     person.scaled_segments[static_cast<std::size_t>(i)] = {FingerOrPropName(i),
                                                            {0.1, 0.01 * i, 1.4}};
   }

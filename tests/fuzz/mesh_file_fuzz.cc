@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Mesh mesh = ReadMesh(bytes, kExtensions[data[0] % kExtensions.size()], "",
                                ignores_up ? ColladaUp::kIgnored : ColladaUp::kAsTold);
     KINESCOPE_CHECK(!mesh.triangles.empty() && mesh.triangles.size() % 3 == 0);
-    KINESCOPE_CHECK(mesh.triangles.size() <= 3 * kMostMeshTriangles);
+    KINESCOPE_CHECK(mesh.triangles.size() <= 3 * kMaxMeshTriangles);
     KINESCOPE_CHECK(mesh.normals.size() == mesh.positions.size());
     KINESCOPE_CHECK(mesh.colors.empty() || mesh.colors.size() == mesh.positions.size());
     for (const std::uint32_t corner : mesh.triangles) {

@@ -16,7 +16,7 @@ namespace {
 using namespace kinescope;
 
 constexpr std::int64_t kWaitNanos = 10'000'000;
-constexpr std::size_t kMostRecords = 1000;
+constexpr std::size_t kMaxRecords = 1000;
 
 std::string DatagramOf(std::uint8_t counter, std::string_view payload) {
   std::string datagram = "MXTP13";
@@ -52,8 +52,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::uint8_t counter = 0, wait = 0;
   std::uint16_t length = 0;
   std::string_view payload;
-  for (std::size_t i = 0; i < kMostRecords && in.Read(counter) && in.Read(wait) &&
-                          in.Read(length) && in.ReadBytes(length, payload);
+  for (std::size_t i = 0; i < kMaxRecords && in.Read(counter) && in.Read(wait) && in.Read(length) &&
+                          in.ReadBytes(length, payload);
        ++i) {
     now += wait * kWaitNanos;
     const auto message = mvn::ParseDatagram(DatagramOf(counter, payload));

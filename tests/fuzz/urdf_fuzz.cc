@@ -17,13 +17,13 @@ using namespace kinescope::urdf;
 
 void CheckGeometry(const Geometry& geometry) {
   KINESCOPE_CHECK(geometry.size.allFinite());
-  KINESCOPE_CHECK(geometry.size.cwiseAbs().maxCoeff() <= kMostScale);
+  KINESCOPE_CHECK(geometry.size.cwiseAbs().maxCoeff() <= kMaxScale);
 }
 
 void CheckTree(const RobotModel& robot) {
   std::set<std::string> links, reached = {robot.root_link};
   for (const Link& link : robot.links) links.insert(link.name);
-  KINESCOPE_CHECK(links.size() == robot.links.size() && robot.links.size() <= kMostLinks);
+  KINESCOPE_CHECK(links.size() == robot.links.size() && robot.links.size() <= kMaxLinks);
   KINESCOPE_CHECK(robot.links.front().name == robot.root_link);
   for (const RobotJoint& joint : robot.joints) {
     KINESCOPE_CHECK(reached.count(joint.parent_link) == 1);  // parents come before children

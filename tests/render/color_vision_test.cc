@@ -16,7 +16,7 @@ namespace {
 using kinescope::testing::ColorVisions;
 using kinescope::testing::SeenBy;
 
-constexpr double kLeastDifference = 15;  // CIEDE2000
+constexpr double kMinDifference = 15;  // CIEDE2000
 
 constexpr LoadClass kClasses[] = {LoadClass::kUnknown, LoadClass::kLow, LoadClass::kMedium,
                                   LoadClass::kHigh};
@@ -27,7 +27,7 @@ void ExpectApart(const std::map<LoadClass, Rgb>& colors, const char* where) {
       for (const auto& [other, other_color] : colors) {
         if (other <= one) continue;
         EXPECT_GE(ColorDifference(SeenBy(vision, color), SeenBy(vision, other_color)),
-                  kLeastDifference)
+                  kMinDifference)
             << where << ": " << Name(one) << " and " << Name(other) << " with " << vision.name;
       }
     }

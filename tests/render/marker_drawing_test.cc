@@ -91,7 +91,7 @@ TEST_F(MarkerDrawing, MoreThanAPictureCanTakeIsRefusedByName) {
   SceneMarker flood;
   flood.ns = "flood";
   flood.type = MarkerType::kSphereList;
-  flood.points.assign(kMostMarkerPoints, Eigen::Vector3d::Zero());
+  flood.points.assign(kMaxMarkerPoints, Eigen::Vector3d::Zero());
   const Image empty = Draw(Empty());
   EXPECT_EQ(Draw(With({flood})).rgba, empty.rgba);
   EXPECT_THAT(renderer_->problems(),

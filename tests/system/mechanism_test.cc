@@ -33,9 +33,9 @@ using Eigen::Isometry3d;
 using testing::SharedData;
 using urdf::At;
 
-constexpr double kMostMillimetres = 5;
-constexpr double kMostMillimetresOfL5 = 15;  // MVN interpolates it between pelvis and T8
-constexpr double kMostRadians = 1e-6;
+constexpr double kMaxMillimetres = 5;
+constexpr double kMaxMillimetresOfL5 = 15;  // MVN interpolates it between pelvis and T8
+constexpr double kMaxRadians = 1e-6;
 
 // Chains the URDF's text by the published angles from the measured pelvis, and keeps the worst.
 class Judge {
@@ -97,7 +97,7 @@ class Judge {
       const double millimetres = 1e3 * worst_.position[At(segment)];
       table += fmt::format(" {} {:.2f}", Name(segment), millimetres);
       EXPECT_LE(millimetres, limit_mm(segment)) << Name(segment);
-      EXPECT_LT(worst_.orientation[At(segment)], kMostRadians) << Name(segment);
+      EXPECT_LT(worst_.orientation[At(segment)], kMaxRadians) << Name(segment);
       EXPECT_NEAR(last_reported_.position[At(segment)], worst_.position[At(segment)], 1e-9);
     }
     fmt::print("{}; orientation {:.1e} rad\n", table, worst_.LargestOrientation());
@@ -116,7 +116,7 @@ class Judge {
 };
 
 double AsAgreed(int segment) {
-  return segment == urdf::kL5 ? kMostMillimetresOfL5 : kMostMillimetres;
+  return segment == urdf::kL5 ? kMaxMillimetresOfL5 : kMaxMillimetres;
 }
 
 Judge ReadAll(const std::string& source, int most_frames) {

@@ -190,7 +190,7 @@ TEST(BodyParameters, RefuseWhatNobodyWearsNamingIt) {
   EXPECT_THAT(defect({kT8, 5, {0, std::nan(""), 0}}), ::testing::HasSubstr("within 2 m"));
   EXPECT_THAT(defect({23, 5, {0, 0, 0}}), ::testing::HasSubstr("segment 23"));
   BodyDescription many;
-  many.added_masses.assign(kMostAddedMasses + 1, {kHead, 1, {0, 0, 0}});
+  many.added_masses.assign(kMaxAddedMasses + 1, {kHead, 1, {0, 0, 0}});
   EXPECT_THROW(MakeBodyParameters(many, DefaultSkeleton()), std::invalid_argument);
 }
 

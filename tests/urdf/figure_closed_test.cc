@@ -83,8 +83,8 @@ struct Range {
 };
 Range RangeOf(int joint, int axis) {
   const AxisLimit limit = LimitOf(joint, axis);
-  constexpr double kMost = 170 * M_PI / 180;
-  return {std::max(limit.lower, -kMost), std::min(limit.upper, kMost)};
+  constexpr double kMax = 170 * M_PI / 180;
+  return {std::max(limit.lower, -kMax), std::min(limit.upper, kMax)};
 }
 
 // Each axis alone in five steps; then what people combine, by chance.

@@ -135,8 +135,8 @@ std::string Chain(std::size_t links) {
 }
 
 TEST(RobotModel, ReadsTheDeepestChainThatItAllows) {
-  const RobotModel robot = ParseUrdf(Chain(kMostLinks));
-  ASSERT_EQ(robot.links.size(), kMostLinks);
+  const RobotModel robot = ParseUrdf(Chain(kMaxLinks));
+  ASSERT_EQ(robot.links.size(), kMaxLinks);
   EXPECT_EQ(robot.links.back().name, "a009999");
 }
 

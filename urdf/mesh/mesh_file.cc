@@ -25,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 using Fault = std::runtime_error;
 
-constexpr std::size_t kMostVertices = 3 * kMostMeshTriangles;
-constexpr unsigned kMostCorners = 1000;          // of a polygon: it takes their square to cut it up
-constexpr std::size_t kMostAtOnePoint = 20'000;  // vertices, likewise for smooth normals
+constexpr std::size_t kMaxVertices = 3 * kMaxMeshTriangles;
+constexpr unsigned kMaxCorners = 1000;          // of a polygon: it takes their square to cut it up
+constexpr std::size_t kMaxAtOnePoint = 20'000;  // vertices, likewise for smooth normals
 
 constexpr float kSmoothBelowDeg = 66;  // sharper creases stay creases
 
@@ -45,8 +45,8 @@ std::string ReadBytes(const fs::path& path) {
   }
   const std::uintmax_t size = fs::file_size(path, error);
   if (error) throw Fault(error.message());
-  if (size > kMostMeshBytes) {
-    throw Fault("larger than " + std::to_string(kMostMeshBytes >> 20) + " MiB");
+  if (size > kMaxMeshBytes) {
+    throw Fault("larger than " + std::to_string(kMaxMeshBytes >> 20) + " MiB");
   }
   std::ifstream file(path, std::ios::binary);
   std::string bytes(static_cast<std::size_t>(size), '\0');
@@ -108,9 +108,9 @@ void CheckMesh(const aiMesh& mesh) {
   if (mesh.mNumVertices > 0 && mesh.mVertices == nullptr) throw Fault("it has no vertices");
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];
-    if (face.mNumIndices > kMostCorners) {
+    if (face.mNumIndices > kMaxCorners) {
       throw Fault("a polygon has " + std::to_string(face.mNumIndices) + " corners; at most " +
-                  std::to_string(kMostCorners));
+                  std::to_string(kMaxCorners));
     }
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       if (face.mIndices[k] < mesh.mNumVertices) continue;
@@ -124,8 +124,8 @@ void CheckMesh(const aiMesh& mesh) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
       throw Fault("vertex " + std::to_string(i) + " is not finite");
     }
-    if (mesh.mNumVertices > kMostAtOnePoint && ++at_point[p] > kMostAtOnePoint) {
-      throw Fault("more than " + std::to_string(kMostAtOnePoint) + " corners at one point");
+    if (mesh.mNumVertices > kMaxAtOnePoint && ++at_point[p] > kMaxAtOnePoint) {
+      throw Fault("more than " + std::to_string(kMaxAtOnePoint) + " corners at one point");
     }
   }
 }
@@ -136,11 +136,11 @@ void CheckScene(const aiScene& scene) {
     vertices += scene.mMeshes[i]->mNumVertices;
     faces += scene.mMeshes[i]->mNumFaces;
   }
-  if (faces > kMostMeshTriangles) {
-    throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
+  if (faces > kMaxMeshTriangles) {
+    throw Fault("more than " + std::to_string(kMaxMeshTriangles) + " triangles");
   }
-  if (vertices > kMostVertices) {
-    throw Fault("more than " + std::to_string(kMostVertices) + " vertices");
+  if (vertices > kMaxVertices) {
+    throw Fault("more than " + std::to_string(kMaxVertices) + " vertices");
   }
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) CheckMesh(*scene.mMeshes[i]);
 }
@@ -234,8 +234,8 @@ class Collector {
     if (!(std::abs(place.linear().determinant()) > 1e-18) || !place.matrix().allFinite()) {
       throw Fault("a node has a scale of 0");
     }
-    if (mesh_.triangles.size() + mesh.triangles.size() > 3 * kMostMeshTriangles) {
-      throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
+    if (mesh_.triangles.size() + mesh.triangles.size() > 3 * kMaxMeshTriangles) {
+      throw Fault("more than " + std::to_string(kMaxMeshTriangles) + " triangles");
     }
     const auto color =
         has_colors_ ? ColorOf(scene_, *scene_.mMeshes[index], is_linear_) : std::nullopt;

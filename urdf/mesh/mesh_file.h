@@ -10,8 +10,8 @@
 namespace kinescope::urdf {
 
 /// Limits per file; a larger file is a mistake or an attack that would block rendering.
-constexpr std::uintmax_t kMostMeshBytes = 64u << 20;
-constexpr std::size_t kMostMeshTriangles = 500'000;
+constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
+constexpr std::size_t kMaxMeshTriangles = 500'000;
 
 /// How the up axis of a COLLADA file is handled.
 enum class ColladaUp {

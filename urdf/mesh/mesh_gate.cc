@@ -20,9 +20,9 @@ namespace {
 using nlohmann::json;
 using Fault = std::runtime_error;
 
-constexpr std::size_t kMostNodes = 20'000;        // of a scene, instances counted
-constexpr int kMostDepth = 100;                   // of nodes and of JSON
-constexpr std::size_t kMostJsonBytes = 8u << 20;  // numbers are in the binary part
+constexpr std::size_t kMaxNodes = 20'000;        // of a scene, instances counted
+constexpr int kMaxDepth = 100;                   // of nodes and of JSON
+constexpr std::size_t kMaxJsonBytes = 8u << 20;  // numbers are in the binary part
 
 std::uint32_t GlbWord(const std::string& bytes, std::size_t at) {  // little-endian
   std::uint32_t word = 0;
@@ -47,7 +47,7 @@ class NodeGraph {
   };
 
   std::size_t SizeOf(const std::string& node, int depth, std::map<std::string, Size>& sizes) {
-    if (depth > kMostDepth) throw Fault("its nodes are nested too deeply");
+    if (depth > kMaxDepth) throw Fault("its nodes are nested too deeply");
     const auto [known, is_new] = sizes.emplace(node, Size{});
     if (!is_new && known->second.is_open) throw Fault("node '" + node + "' contains itself");
     if (!is_new) return known->second.nodes;
@@ -55,7 +55,7 @@ class NodeGraph {
     if (children != children_.end()) {
       for (const std::string& child : children->second) {
         known->second.nodes += SizeOf(child, depth + 1, sizes);
-        if (known->second.nodes > kMostNodes) throw Fault("it expands to too many nodes");
+        if (known->second.nodes > kMaxNodes) throw Fault("it expands to too many nodes");
       }
     }
     known->second.is_open = false;
@@ -105,7 +105,7 @@ void CheckIndices(const std::string& bytes) {
 void CheckDae(const std::string& bytes) {
   NodeGraph graph;
   std::vector<std::string> open;  // by depth: the node that we are in
-  const urdf::XmlLimits limits{kMostMeshBytes, 500'000, kMostDepth};
+  const urdf::XmlLimits limits{kMaxMeshBytes, 500'000, kMaxDepth};
   int nameless = 0;
   urdf::ScanXml(
       bytes, limits, [&](const char* tag, const char* const* attributes, int line, int depth) {
@@ -145,8 +145,7 @@ void CheckJsonDepth(std::string_view text) {
     if (c == '"') is_string = !is_string;
     if (is_string && c == '\\') ++i;
     if (is_string) continue;
-    if ((c == '[' || c == '{') && ++depth > kMostDepth)
-      throw Fault("its JSON is nested too deeply");
+    if ((c == '[' || c == '{') && ++depth > kMaxDepth) throw Fault("its JSON is nested too deeply");
     if (c == ']' || c == '}') --depth;
   }
 }
@@ -281,7 +280,7 @@ void CheckGlb(const std::string& bytes) {
                   " bytes, but the file ends before");
     }
   }
-  if (json_bytes > kMostJsonBytes) throw Fault("its JSON part is too large");
+  if (json_bytes > kMaxJsonBytes) throw Fault("its JSON part is too large");
   const auto text = std::string_view(bytes).substr(kHeader + kChunkHeader, json_bytes);
   CheckJsonDepth(text);
   const json document = json::parse(text, nullptr, /*allow_exceptions=*/false);

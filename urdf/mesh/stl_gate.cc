@@ -68,8 +68,8 @@ class TextStl {
   void Facet() {
     if (vertices_ != 3 * facets_) throw Wrong("a facet has fewer than three vertices");
     ++facets_;
-    if (facets_ > kMostMeshTriangles) {
-      throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
+    if (facets_ > kMaxMeshTriangles) {
+      throw Fault("more than " + std::to_string(kMaxMeshTriangles) + " triangles");
     }
     if (WordOfLine() != "normal") throw Wrong("a facet has no normal");
     Numbers("a normal");
@@ -130,8 +130,8 @@ void CheckStl(const std::string& bytes) {
                 std::to_string(expected) + " bytes), but has " + std::to_string(bytes.size()) +
                 " bytes");
   }
-  if (triangles > kMostMeshTriangles) {
-    throw Fault("more than " + std::to_string(kMostMeshTriangles) + " triangles");
+  if (triangles > kMaxMeshTriangles) {
+    throw Fault("more than " + std::to_string(kMaxMeshTriangles) + " triangles");
   }
 }
 

@@ -252,7 +252,7 @@ void Errors(const InspectionReport& report, std::string& out) {
   if (report.datagrams_not_kept > 0) {
     out += fmt::format(
         "  {:>8}  datagrams of further characters (limit {}) or of characters seen only once\n",
-        report.datagrams_not_kept, mvn::Inspection::kMostCharacters);
+        report.datagrams_not_kept, mvn::Inspection::kMaxCharacters);
   }
   if (!report.ignored.empty()) out += "\nNot needed\n";
   for (const auto& [what, count] : report.ignored) {

@@ -246,7 +246,7 @@ Plot OverviewPlot(const LoadTrial& trial, const TrialContext& context) {
   constexpr std::size_t kCompression = urdf::kScoredJointCount;
   constexpr std::array<std::size_t, urdf::kScoredJointCount + 1> kOrder = {
       urdf::kScoredL5S1, 1, 2, kCompression, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
-  constexpr double kMostShown = 2;
+  constexpr double kMaxShown = 2;
   constexpr double kCellWidth = 131, kCellHeight = 56, kFont = 6.5;
   double peak = 0;
   for (std::size_t i = 0; i < urdf::kScoredJoints.size(); ++i) {
@@ -267,7 +267,7 @@ Plot OverviewPlot(const LoadTrial& trial, const TrialContext& context) {
     } else {
       SetRatio(trial, context, joint, panel);
       panel.title = ScoredLabel(joint);
-      panel.y_to = std::min(RatioTop(peak, context), kMostShown);
+      panel.y_to = std::min(RatioTop(peak, context), kMaxShown);
     }
     for (PlotBand& band : panel.bands) band.label.clear();
     const std::size_t column = cell % 4, row = cell / 4;

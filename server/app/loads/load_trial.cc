@@ -13,7 +13,7 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::size_t kMostSlots = 128;  // of scenes kept, some 20 kB each
+constexpr std::size_t kMaxSlots = 128;  // of scenes kept, some 20 kB each
 
 void Count(std::string_view why, double secs, SecsByReason& reasons) {
   if (!why.empty()) reasons[why] += secs;
@@ -117,7 +117,7 @@ void LoadTrial::KeepWorst(const std::shared_ptr<const SceneState>& scene,
   if (best.scene && !IsWorse(worst, best)) return;
   best = worst;
   best.scene = scene;
-  if (slots_.size() > kMostSlots) MergeSlots();
+  if (slots_.size() > kMaxSlots) MergeSlots();
 }
 
 void LoadTrial::MergeSlots() {

@@ -130,10 +130,10 @@ class StatusLine {
 };
 
 void CheckRecordOptions(const RecordOptions& options) {
-  constexpr double kLeastMb = 0.1;
-  if (*options.rotate_mb != 0 && *options.rotate_mb < kLeastMb) {
+  constexpr double kMinMb = 0.1;
+  if (*options.rotate_mb != 0 && *options.rotate_mb < kMinMb) {
     throw UsageError(fmt::format("--rotate_mb={}: expected 0 (one file) or {} to 1e9 MB",
-                                 *options.rotate_mb, kLeastMb));
+                                 *options.rotate_mb, kMinMb));
   }
   std::error_code ignored;  // equivalent() minds files that are not there
   if (fs::path(*options.out).extension() != ".pcap") {

@@ -131,10 +131,10 @@ int DefaultJobs() {
 }
 
 std::size_t MostPictures(int jobs, int width, int height) {
-  constexpr std::size_t kMostBytes = 512u << 20;
+  constexpr std::size_t kMaxBytes = 512u << 20;
   const std::size_t bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const auto threads = static_cast<std::size_t>(jobs);
-  return std::clamp(kMostBytes / bytes, threads + 1, 3 * threads + 4);
+  return std::clamp(kMaxBytes / bytes, threads + 1, 3 * threads + 4);
 }
 
 }  // namespace kinescope::app

@@ -35,10 +35,10 @@ std::optional<Json> ReadEmbedded(const std::string& path) {
 std::string SidecarOf(const std::string& path) { return path + ".json"; }
 
 std::optional<Json> ReadSidecar(const std::string& path) {
-  constexpr std::uintmax_t kMostBytes = 16u << 20;  // ours have some kilobytes
+  constexpr std::uintmax_t kMaxBytes = 16u << 20;  // ours have some kilobytes
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(SidecarOf(path), error);
-  if (error || size > kMostBytes) return std::nullopt;
+  if (error || size > kMaxBytes) return std::nullopt;
   std::ifstream file(SidecarOf(path), std::ios::binary);
   return FromText({std::istreambuf_iterator<char>(file), {}});
 }

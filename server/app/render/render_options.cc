@@ -16,7 +16,7 @@ namespace {
 using options::Number;
 using options::Whole;
 
-constexpr std::size_t kMostCameras = 64;
+constexpr std::size_t kMaxCameras = 64;
 
 std::optional<long> ParseWhole(const std::string& text) {
   long value = 0;
@@ -34,8 +34,8 @@ struct Fraction {
 
 // "30000/1001", "12.5", "30".
 std::optional<Fraction> ParseFraction(const std::string& text) {
-  constexpr std::size_t kMostDigits = 9;  // so that nothing overflows
-  if (text.size() > 2 * kMostDigits) return std::nullopt;
+  constexpr std::size_t kMaxDigits = 9;  // so that nothing overflows
+  if (text.size() > 2 * kMaxDigits) return std::nullopt;
   if (const std::size_t slash = text.find('/'); slash != std::string::npos) {
     const auto above = ParseWhole(text.substr(0, slash));
     const auto below = ParseWhole(text.substr(slash + 1));
@@ -45,7 +45,7 @@ std::optional<Fraction> ParseFraction(const std::string& text) {
   const std::size_t point = std::min(text.find('.'), text.size());
   const std::string decimals = text.substr(std::min(point + 1, text.size()));
   const auto whole = ParseWhole(text.substr(0, point) + decimals);
-  if (!whole || decimals.size() > kMostDigits) return std::nullopt;
+  if (!whole || decimals.size() > kMaxDigits) return std::nullopt;
   long scale = 1;
   for (std::size_t i = 0; i < decimals.size(); ++i) scale *= 10;
   return Fraction{*whole, scale};
@@ -125,7 +125,7 @@ void PackOptions::List(options::OptionList& option) {
 
 RenderOptions::RenderOptions()
     : outs("FILE.png, .mp4, .webm, .webp or .gif"),
-      view(kMostCameras),
+      view(kMaxCameras),
       jobs(0, {0, 64, "", false, "0: as many as are fastest here"}) {}
 
 void RenderOptions::List(options::OptionList& option) {

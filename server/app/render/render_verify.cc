@@ -98,8 +98,8 @@ std::string FormatOf(const Json& provenance) {
 
 // Picture `k` of a clip, which is long enough for that and no longer, unless its length matters.
 void DrawOnly(long k, RenderOptions& options, RunSettings& settings) {
-  constexpr long kMostPictures = 100'000'000;  // a day at 1000 a second
-  if (k < 0 || k > kMostPictures)
+  constexpr long kMaxPictures = 100'000'000;  // a day at 1000 a second
+  if (k < 0 || k > kMaxPictures)
     throw std::runtime_error(fmt::format("invalid picture number {}", k));
   settings.only_picture = k;
   if (DependsOnWholeClip(options.view)) return;

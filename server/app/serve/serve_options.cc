@@ -14,8 +14,8 @@
 namespace kinescope::app {
 namespace {
 
-constexpr std::size_t kMostMarkerTopics = 16;
-constexpr double kLeastFactor = 1e-6, kMostFactor = 1e6;
+constexpr std::size_t kMaxMarkerTopics = 16;
+constexpr double kMinFactor = 1e-6, kMaxFactor = 1e6;
 
 options::Choice<std::string>::Words Words(const std::vector<std::string>& names) {
   options::Choice<std::string>::Words words;
@@ -41,22 +41,21 @@ bool IsTopicName(const std::string& text) {
 
 bool AreTopicNames(const std::string& text) {
   const std::vector<std::string> names = options::SplitItems(text);
-  return names.size() <= kMostMarkerTopics && std::all_of(names.begin(), names.end(), IsTopicName);
+  return names.size() <= kMaxMarkerTopics && std::all_of(names.begin(), names.end(), IsTopicName);
 }
 
 }  // namespace
 
 void FactorValue::Parse(const std::string& text) {
   const auto number = options::ParseNumber(text);
-  if (!number || std::abs(*number) < kLeastFactor || std::abs(*number) > kMostFactor) RefuseText();
+  if (!number || std::abs(*number) < kMinFactor || std::abs(*number) > kMaxFactor) RefuseText();
   value_ = *number;
 }
 
 std::string FactorValue::ToText() const { return options::NumberText(value_); }
 
 std::string FactorValue::Expected() const {
-  return fmt::format("1, -1 or another factor whose size is from {} to {}", kLeastFactor,
-                     kMostFactor);
+  return fmt::format("1, -1 or another factor whose size is from {} to {}", kMinFactor, kMaxFactor);
 }
 
 ServeOptions::ServeOptions()

@@ -21,7 +21,7 @@
 namespace kinescope::app {
 namespace {
 
-constexpr int kMostCopies = 16;
+constexpr int kMaxCopies = 16;
 
 // The numbers of message types, as MVN writes them: "02,20".
 class TypesValue : public options::ValueOf<std::optional<mvn::TypeSet>> {
@@ -59,7 +59,7 @@ class FaultsValue : public options::ValueOf<mvn::FaultSettings> {
 struct StreamOptions {
   options::Text source;
   options::Text to{"udp://127.0.0.1:9763"};
-  options::Whole characters{1, {1, kMostCopies}};
+  options::Whole characters{1, {1, kMaxCopies}};
   TypesValue types;
   options::Optional<options::Number> rate_hz{options::Number(kSubjectRateHz, {1, 1000, "Hz"})};
   options::Number stream_hz{0, {0, 1000, "Hz", false, "0: every sample"}};
@@ -67,7 +67,7 @@ struct StreamOptions {
   options::Flag loop;
   options::Number seconds{0, {0, 1e9, "s", false, "0: to the end, or without end"}};
   options::Flag gloves;
-  options::Whole props{0, {0, kMostProps}};
+  options::Whole props{0, {0, kMaxProps}};
   FaultsValue fault;
   options::Whole seed{1, {0, 4294967295.0}};
   options::Flag json;

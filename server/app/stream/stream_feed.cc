@@ -9,11 +9,11 @@
 namespace kinescope::app {
 
 std::optional<int> CharacterIds::Find(int character, int copy) {
-  constexpr int kMostIds = 256;  // one byte
+  constexpr int kMaxIds = 256;  // one byte
   if (copies_ == 1) return character;
   const auto first = first_.try_emplace(character, copies_ * static_cast<int>(first_.size())).first;
   const int id = first->second + copy;
-  if (id >= kMostIds) return std::nullopt;
+  if (id >= kMaxIds) return std::nullopt;
   return id;
 }
 

@@ -73,8 +73,8 @@ struct Place {
   Eigen::Vector3d offset;
   const char* name;  // ends with the kind, as MVN's do
 };
-const std::array<Place, kMostProps>& Places() {
-  static const std::array<Place, kMostProps> kPlaces = {{
+const std::array<Place, kMaxProps>& Places() {
+  static const std::array<Place, kMaxProps> kPlaces = {{
       {urdf::kRightHand, {0, -0.08, -0.03}, "RightHandSword"},
       {urdf::kLeftHand, {0, 0.08, -0.03}, "LeftHandCrutch"},
       {urdf::kT8, {-0.15, 0, 0.05}, "BackGeneric"},
@@ -85,7 +85,7 @@ const std::array<Place, kMostProps>& Places() {
 
 void AddAll(bool gloves, int props, std::optional<double> seconds, const Character& character,
             BodySample& sample) {
-  KINESCOPE_CHECK(props >= 0 && props <= kMostProps);
+  KINESCOPE_CHECK(props >= 0 && props <= kMaxProps);
   for (int prop = 0; prop < props; ++prop) {
     const auto index = static_cast<std::size_t>(PropIndex(prop));
     if (sample.fingers_and_props.present.test(index)) continue;
@@ -115,7 +115,7 @@ void AddGlovesAndProps(bool gloves, int props, Character& character) {
     if (!t_pose.fingers_and_props.present.test(i) || !character.scaled_segments[i].name.empty())
       continue;
     character.scaled_segments[i] = {
-        i < kMostProps ? Places()[i].name : FingerOrPropName(static_cast<int>(i)),
+        i < kMaxProps ? Places()[i].name : FingerOrPropName(static_cast<int>(i)),
         t_pose.fingers_and_props.poses[i].position};
   }
 }

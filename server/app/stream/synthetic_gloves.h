@@ -13,7 +13,7 @@ void AddGlovesAndProps(bool gloves, int props, Character& character);
 /// Adds poses at `seconds` since the beginning: the 40 finger segments of both hands, scaled to the
 /// character's hands (or the default body's), and `props` objects: in the right hand, in the left
 /// hand, on the back and at the hip. Segments that the sample has already stay.
-/// @pre 0 <= props <= kMostProps
+/// @pre 0 <= props <= kMaxProps
 void AddGlovesAndProps(bool gloves, int props, double seconds, const Character& character,
                        BodySample& sample);
 

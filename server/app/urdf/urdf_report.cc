@@ -14,7 +14,7 @@ namespace {
 using urdf::UrdfProblem;
 using urdf::UrdfReport;
 
-constexpr int kMostAlike = 3;
+constexpr int kMaxAlike = 3;
 
 std::string Counted(std::size_t count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
@@ -54,12 +54,12 @@ std::string UrdfReportText(const std::string& file, const UrdfReport& report) {
   for (const UrdfProblem& problem : report.problems) {
     const int number = ++told[problem.what];
     const int all = alike[problem.what];
-    if (number > kMostAlike && all > kMostAlike + 1) continue;
+    if (number > kMaxAlike && all > kMaxAlike + 1) continue;
     const std::string place = problem.line > 0 ? fmt::format(":{}", problem.line) : "";
     text += fmt::format("{}{}: {}: {}: {}; {}\n", file, place, Name(problem.kind), problem.element,
                         problem.what, problem.suggestion);
-    if (number == kMostAlike && all > kMostAlike + 1) {
-      text += fmt::format("  … and {} more like this (--json lists them)\n", all - kMostAlike);
+    if (number == kMaxAlike && all > kMaxAlike + 1) {
+      text += fmt::format("  … and {} more like this (--json lists them)\n", all - kMaxAlike);
     }
   }
   return text + fmt::format("{}: {}\n", file, VerdictText(report));

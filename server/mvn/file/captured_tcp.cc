@@ -13,7 +13,7 @@ namespace {
 // A sequence number beyond any window belongs to another connection, or the capture lost more than
 // can be waited for.
 constexpr std::int64_t kFarOff = 1 << 24;
-constexpr std::size_t kMostSegments = 4096;
+constexpr std::size_t kMaxSegments = 4096;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void CapturedTcp::Decide(Direction& direction, std::string_view bytes) {
     ++connections_;
     direction.framer.Append(direction.head);
     direction.head = {};
-  } else if (direction.head.size() > kMostUndecidedBytes) {
+  } else if (direction.head.size() > kMaxUndecidedBytes) {
     direction.head.erase(0, direction.head.size() - kIdStringBytes);  // may be divided here
   }
 }
@@ -91,8 +91,8 @@ void CapturedTcp::Keep(Direction& direction, std::int64_t place, std::string_vie
     direction.waiting_bytes += bytes.size() - kept.size();
     kept = bytes;
   }
-  const std::size_t most = direction.is_mvn ? kMostWaitingBytes : kMostUndecidedBytes;
-  if (direction.waiting_bytes <= most && direction.waiting.size() <= kMostSegments &&
+  const std::size_t most = direction.is_mvn ? kMaxWaitingBytes : kMaxUndecidedBytes;
+  if (direction.waiting_bytes <= most && direction.waiting.size() <= kMaxSegments &&
       arrival.monotonic_nanos - direction.waiting_since_nanos <= kPatienceNanos) {
     return;
   }
@@ -125,7 +125,7 @@ CapturedTcp::Directions::iterator CapturedTcp::FindOrMake(const TcpSegment& segm
     directions_.splice(directions_.end(), directions_, found);
     return found;
   }
-  if (directions_.size() == kMostDirections) {
+  if (directions_.size() == kMaxDirections) {
     // Connections without MVN data are removed first: a capture of a busy machine has hundreds of
     // them.
     auto victim = std::find_if(directions_.begin(), directions_.end(),

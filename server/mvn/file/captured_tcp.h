@@ -32,9 +32,9 @@ class CapturedTcp {
   /// Limits per direction of a connection: beyond any of them a gap counts as a loss. An undecided
   /// connection has a smaller limit.
   static constexpr std::int64_t kPatienceNanos = 2'000'000'000;  // retransmissions take less time
-  static constexpr std::size_t kMostWaitingBytes = 1 << 20;
-  static constexpr std::size_t kMostUndecidedBytes = 16 << 10;
-  static constexpr std::size_t kMostDirections = 32;
+  static constexpr std::size_t kMaxWaitingBytes = 1 << 20;
+  static constexpr std::size_t kMaxUndecidedBytes = 16 << 10;
+  static constexpr std::size_t kMaxDirections = 32;
 
  private:
   // One direction of a connection. Places are counted from an arbitrary 0 in 64 bits, so that they

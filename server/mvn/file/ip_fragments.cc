@@ -29,13 +29,13 @@ std::optional<IpPacket> IpFragments::Add(const IpPacket& piece, std::int64_t now
   const std::size_t end = begin + piece.payload.size();
   const bool is_last = !piece.fragment.more_follow;
   // Only the last fragment may end between two units.
-  if (end > kMostBytes || piece.payload.empty() || (!is_last && end % kUnit != 0)) {
+  if (end > kMaxBytes || piece.payload.empty() || (!is_last && end % kUnit != 0)) {
     ++lost_;
     return std::nullopt;
   }
   auto partial = Find(piece);
   if (partial == partials_.end()) {
-    if (partials_.size() == kMostAtOnce) {
+    if (partials_.size() == kMaxAtOnce) {
       partials_.pop_front();
       ++lost_;
     }

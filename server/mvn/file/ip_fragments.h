@@ -27,17 +27,17 @@ class IpFragments {
   void Clear();
 
   static constexpr std::int64_t kPatienceNanos = 30'000'000'000;  // as in Linux
-  static constexpr std::size_t kMostAtOnce = 64;
+  static constexpr std::size_t kMaxAtOnce = 64;
 
  private:
-  static constexpr std::size_t kMostBytes = 65536;
+  static constexpr std::size_t kMaxBytes = 65536;
   static constexpr std::size_t kUnit = 8;  // bytes; offsets are multiples of it
 
   struct Partial {
     IpPacket head;  // of the first fragment received, without its payload
     std::string bytes;
-    std::bitset<kMostBytes / kUnit> units;  // received so far
-    std::optional<std::size_t> size;        // known once the last fragment is received
+    std::bitset<kMaxBytes / kUnit> units;  // received so far
+    std::optional<std::size_t> size;       // known once the last fragment is received
     std::int64_t since_nanos = 0;
   };
   using Partials = std::list<Partial>;  // oldest first

@@ -16,10 +16,10 @@ constexpr int kMvnxChunkBytes = 64 * 1024;
 constexpr std::size_t kLongestText = 1 << 18;  // a list of a body with two gloves has 8 kB
 constexpr std::int64_t kLongestTag = 1 << 20;  // expat keeps a tag in memory until it is complete
 constexpr std::size_t kDeepest = 32;
-constexpr std::size_t kMostMvnxSegments = 128;
-constexpr std::size_t kMostJoints = 256;
-constexpr std::size_t kMostPoints = 4096;
-constexpr std::size_t kMostContacts = 64;
+constexpr std::size_t kMaxMvnxSegments = 128;
+constexpr std::size_t kMaxJoints = 256;
+constexpr std::size_t kMaxPoints = 4096;
+constexpr std::size_t kMaxContacts = 64;
 constexpr double kHighestRate = 10000;
 
 // The value of an attribute; nullptr if it is absent.
@@ -192,17 +192,17 @@ class MvnxReader::Parser {
   }
 
   void OnSegment(const char** attributes) {
-    if (header_.segments.size() >= kMostMvnxSegments) return Fail("too many segments");
+    if (header_.segments.size() >= kMaxMvnxSegments) return Fail("too many segments");
     header_.segments.push_back(urdf::FindSegment(FindText(attributes, "label")));
   }
 
   void OnJoint(const char** attributes) {
-    if (header_.joints.size() >= kMostJoints) return Fail("too many joints");
+    if (header_.joints.size() >= kMaxJoints) return Fail("too many joints");
     header_.joints.push_back(urdf::FindJoint(FindText(attributes, "label")));
   }
 
   void OnContact(const char** attributes) {
-    if (header_.foot_contacts.size() >= kMostContacts) return Fail("too many foot contacts");
+    if (header_.foot_contacts.size() >= kMaxContacts) return Fail("too many foot contacts");
     header_.foot_contacts.push_back(FindText(attributes, "label"));
   }
 
@@ -260,7 +260,7 @@ class MvnxReader::Parser {
     }
     const auto& segment = header_.segments.back();  // a point is inside its segment
     if (!segment) return;
-    if (header_.points.size() >= kMostPoints) return Fail("too many points");
+    if (header_.points.size() >= kMaxPoints) return Fail("too many points");
     header_.points[{*segment, point_label_}] = {numbers_[0], numbers_[1], numbers_[2]};
   }
 

@@ -17,8 +17,8 @@ constexpr std::size_t kIpv4Bytes = 20;
 constexpr std::size_t kIpv6Bytes = 40;
 constexpr std::size_t kUdpBytes = 8;
 constexpr std::size_t kTcpBytes = 20;
-constexpr int kMostTags = 4;         // VLAN in VLAN has two
-constexpr int kMostExtensions = 16;  // a valid packet has two or three
+constexpr int kMaxTags = 4;         // VLAN in VLAN has two
+constexpr int kMaxExtensions = 16;  // a valid packet has two or three
 
 template <class T>
 using Parsed = tl::expected<T, PacketFault>;
@@ -31,7 +31,7 @@ Parsed<std::string_view> AfterEtherType(std::uint16_t type, std::string_view res
   ByteReader in(rest);
   for (int tags = 0; type == 0x8100 || type == 0x88A8 || type == 0x9100; ++tags) {
     std::uint16_t tag = 0;
-    if (tags == kMostTags) return Other();
+    if (tags == kMaxTags) return Other();
     if (!in.Read(tag) || !in.Read(type)) return CutShort();
   }
   if (type != kEtherIpv4 && type != kEtherIpv6) return Other();
@@ -93,7 +93,7 @@ enum Extension : std::uint8_t {
 
 // Skips the extension headers; packet.protocol is the next header.
 Parsed<IpPacket> SkipExtensions(IpPacket packet) {
-  for (int i = 0; i < kMostExtensions; ++i) {
+  for (int i = 0; i < kMaxExtensions; ++i) {
     std::size_t unit = 8;
     std::size_t extra = 8;  // the length does not count the first 8 bytes
     switch (packet.protocol) {
@@ -255,7 +255,7 @@ tl::expected<TcpSegment, PacketFault> ParseTcp(const IpPacket& packet) {
 
 void WriteUdpPacket(const Endpoint& from, const Endpoint& to, std::string_view payload,
                     std::string& out) {
-  KINESCOPE_CHECK(payload.size() <= kMostUdpPayload);
+  KINESCOPE_CHECK(payload.size() <= kMaxUdpPayload);
   const bool as_ipv4 = (IsIpv4(from) || IsUnknown(from)) && (IsIpv4(to) || IsUnknown(to));
   const auto udp_size = static_cast<std::uint16_t>(kUdpBytes + payload.size());
   out.clear();

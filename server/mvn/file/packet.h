@@ -66,11 +66,11 @@ struct TcpSegment {
 [[nodiscard]] tl::expected<TcpSegment, PacketFault> ParseTcp(const IpPacket& packet);
 
 /// The most that one UDP packet carries over IPv4 or IPv6.
-inline constexpr std::size_t kMostUdpPayload = 65507;
+inline constexpr std::size_t kMaxUdpPayload = 65507;
 
 /// Writes an IP packet with a UDP datagram and checksums to `out`: IPv4 if both ends are IPv4, else
 /// IPv6. An unknown end (all zero) is written as 0.0.0.0 or :: and is read as unknown again.
-/// @pre payload.size() <= kMostUdpPayload
+/// @pre payload.size() <= kMaxUdpPayload
 void WriteUdpPacket(const Endpoint& from, const Endpoint& to, std::string_view payload,
                     std::string& out);
 

@@ -42,7 +42,7 @@ void PcapRecorder::OnDatagram(const ReceivedDatagram& datagram) {
   static_assert(std::is_trivially_copyable_v<Entry>, "it is copied as bytes");
   const std::size_t size = sizeof entry + entry.size;
   std::unique_lock lock(mutex_);
-  if (entry.size > kMostUdpPayload) {
+  if (entry.size > kMaxUdpPayload) {
     ++counters_.too_long;
     return;
   }

@@ -23,7 +23,7 @@ void CharacterTally::AddFingersAndProps(const FingerAndPropSegments& segments) {
   bool gloves = false;
   for (int i = 0; i < kFingerAndPropCount; ++i) {
     if (!segments.present.test(urdf::At(i))) continue;
-    (i < kMostProps ? props : gloves) = true;
+    (i < kMaxProps ? props : gloves) = true;
   }
   if (props) ++quantities_[kProps];
   if (gloves) ++quantities_[kGloves];
@@ -47,7 +47,7 @@ void CharacterTally::Fill(CharacterReport& report) const {
   report.objects = static_cast<int>(objects_seen_.count());
   for (int i = 0; i < kFingerAndPropCount; ++i) {
     if (!fingers_and_props_seen_.test(urdf::At(i))) continue;
-    if (i < kMostProps) {
+    if (i < kMaxProps) {
       ++report.props;
     } else {
       ++(i < FingerIndex(urdf::kRight, 0) ? report.left_fingers : report.right_fingers);
@@ -65,7 +65,7 @@ void CharacterTally::Fill(CharacterReport& report) const {
   if (has_skeleton) report.height_m = character_->skeleton->height;
   const std::size_t named =
       report.kind == CharacterKind::kPerson
-          ? std::min<std::size_t>(kMostProps, character_->scaled_segments.size())
+          ? std::min<std::size_t>(kMaxProps, character_->scaled_segments.size())
           : character_->scaled_segments.size();
   for (std::size_t i = 0; i < named; ++i) {
     if (!character_->scaled_segments[i].name.empty())

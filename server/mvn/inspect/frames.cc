@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int32_t kFarthestAhead = 10'000;  // until the time code decides: 40 s at 240 Hz
 constexpr std::int32_t kNextMillis = 2'000;      // from the first to the second frame of a new run
-constexpr double kMostIrregular = 0.02;          // largest share of steps shorter than usual
+constexpr double kMaxIrregular = 0.02;           // largest share of steps shorter than usual
 constexpr int kFramePatience = 256;  // datagrams that a doubtful one waits for its successor
 
 }  // namespace
@@ -138,7 +138,7 @@ std::optional<std::uint64_t> FrameTrack::lost() const {
     all += steps_[step];
     if (static_cast<double>(step) <= usual_step() - 1) shorter += steps_[step];
   }
-  if (static_cast<double>(shorter) > kMostIrregular * static_cast<double>(all)) return std::nullopt;
+  if (static_cast<double>(shorter) > kMaxIrregular * static_cast<double>(all)) return std::nullopt;
   const double counts = closed_counts_ + Ahead(run_newest_, *run_first_);
   const double runs = static_cast<double>(restarts_) + 1;
   const double missing = counts / usual_step() + runs - static_cast<double>(frames_);

@@ -212,7 +212,7 @@ Inspection::Stream* Inspection::FindStream(const Endpoint& sender, int character
   for (const auto& stream : streams_) {
     if (stream->character() == character && stream->sender() == sender) return stream.get();
   }
-  if (streams_.size() < kMostCharacters) {
+  if (streams_.size() < kMaxCharacters) {
     streams_.push_back(std::make_unique<Stream>(sender, character));
     return streams_.back().get();
   }

@@ -110,7 +110,7 @@ struct InspectionReport {
   std::uint64_t bytes = 0;
   std::optional<TransportCounters> transport;
   std::vector<CharacterReport> characters;
-  std::uint64_t datagrams_not_kept = 0;  // of characters beyond kMostCharacters
+  std::uint64_t datagrams_not_kept = 0;  // of characters beyond kMaxCharacters
   std::vector<ErrorReport> errors;       // most frequent first
   std::map<std::string, std::uint64_t> ignored;
   std::vector<std::string> advice;  // about the stream as a whole
@@ -122,7 +122,7 @@ struct InspectionReport {
 /// Inspects datagrams.
 class Inspection : public DatagramSink {
  public:
-  static constexpr std::size_t kMostCharacters = 64;
+  static constexpr std::size_t kMaxCharacters = 64;
 
   explicit Inspection(bool is_live);
   ~Inspection() override;
@@ -145,7 +145,7 @@ class Inspection : public DatagramSink {
   void NoteJoinErrors(Stream& stream);
 
   const bool is_live_;
-  std::vector<std::unique_ptr<Stream>> streams_;  // at most kMostCharacters
+  std::vector<std::unique_ptr<Stream>> streams_;  // at most kMaxCharacters
   std::uint64_t not_kept_ = 0;
   std::map<Reason, ErrorReport> errors_;
   std::uint64_t datagrams_ = 0;
@@ -158,7 +158,7 @@ class Inspection : public DatagramSink {
 /// Inspects samples where there are no datagrams: MVNX, a bag, the built-in subject.
 class SampleInspection : public SampleSink {
  public:
-  static constexpr std::size_t kMostCharacters = 64;
+  static constexpr std::size_t kMaxCharacters = 64;
 
   SampleInspection();
   ~SampleInspection() override;

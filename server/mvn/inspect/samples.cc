@@ -40,7 +40,7 @@ SampleInspection::Person* SampleInspection::Find(int id) {
   for (const auto& person : people_) {
     if (person->id() == id) return person.get();
   }
-  if (people_.size() >= kMostCharacters) return nullptr;
+  if (people_.size() >= kMaxCharacters) return nullptr;
   people_.push_back(std::make_unique<Person>(id));
   return people_.back().get();
 }

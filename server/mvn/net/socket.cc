@@ -178,9 +178,9 @@ std::string ErrorText(int error) { return std::generic_category().message(error)
 
 Arrival ReadClocks() {
   constexpr std::int64_t kAtOnce = 20'000;
-  constexpr int kMostTries = 4;
+  constexpr int kMaxTries = 4;
   Arrival arrival;
-  for (int i = 0; i < kMostTries; ++i) {
+  for (int i = 0; i < kMaxTries; ++i) {
     const std::int64_t before = MonotonicNanos();
     arrival.wall_nanos = WallNanos();
     const std::int64_t took = MonotonicNanos() - before;

@@ -41,8 +41,8 @@ struct TcpDatagrams::Connection {
 
 TcpDatagrams::TcpDatagrams(const std::string& url) : description_(url), buffer_(kReadBytes, '\0') {
   const NetUrl parsed = ParseNetUrl(url);
-  connections_.reserve(kMostConnections);
-  descriptors_.reserve(kMostConnections + 1);
+  connections_.reserve(kMaxConnections);
+  descriptors_.reserve(kMaxConnections + 1);
   if (parsed.mode == NetUrl::Mode::kConnect) {
     port_ = parsed.port;
     connector_.emplace(parsed, url);
@@ -113,7 +113,7 @@ DatagramSource::State TcpDatagrams::Poll(std::chrono::nanoseconds timeout, Datag
 }
 
 void TcpDatagrams::AcceptAll(std::int64_t now) {
-  for (std::size_t i = 0; i < kMostConnections; ++i) {
+  for (std::size_t i = 0; i < kMaxConnections; ++i) {
     Socket newcomer(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (newcomer.is_open()) {
       ConfigureConnection(newcomer);
@@ -134,10 +134,10 @@ void TcpDatagrams::AcceptAll(std::int64_t now) {
 }
 
 void TcpDatagrams::Add(Socket socket) {
-  if (connections_.size() >= kMostConnections) {
+  if (connections_.size() >= kMaxConnections) {
     if (counters_.connections_refused++ == 0) {
       spdlog::warn("{}: more than {} connections; {} and all further ones are rejected",
-                   description_, kMostConnections, Format(EndpointOf(PeerAddress(socket))));
+                   description_, kMaxConnections, Format(EndpointOf(PeerAddress(socket))));
     }
     return;
   }

@@ -23,7 +23,7 @@ namespace kinescope::mvn {
 class TcpDatagrams : public DatagramSource {
  public:
   /// Further connections are rejected: closed at once.
-  static constexpr std::size_t kMostConnections = 16;
+  static constexpr std::size_t kMaxConnections = 16;
 
   /// Listens at once; or resolves the host and starts to connect with the first Poll(). It is not
   /// an error if the other end does not exist yet.

@@ -19,7 +19,7 @@
 namespace kinescope::mvn {
 namespace {
 
-constexpr std::size_t kMostReceivers = 16;
+constexpr std::size_t kMaxReceivers = 16;
 // One second of one person with all messages. A longer queue would only make the received data
 // older.
 constexpr std::size_t kQueueBytes = 1 << 20;
@@ -168,11 +168,11 @@ class TcpSender : public DatagramSender {
   }
 
   void Add(Socket socket) {
-    if (receivers_.size() < kMostReceivers) {
+    if (receivers_.size() < kMaxReceivers) {
       receivers_.push_back(std::make_unique<Receiver>(std::move(socket)));
     } else if (!std::exchange(has_refused_, true)) {
       spdlog::warn("{}: more than {} receivers; all further ones are rejected", description_,
-                   kMostReceivers);
+                   kMaxReceivers);
     }
   }
 

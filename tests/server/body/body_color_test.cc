@@ -25,7 +25,7 @@ TEST(BodyColor, OfTheFirstPersonIsWhatItAlwaysWas) {
 
 TEST(BodyColor, TellsPeopleApartAndLeavesTheClassesReadable) {
   for (std::size_t i = 0; i < kBodyColors; ++i) {
-    EXPECT_GE(NearestClass(BodyColor(std::nullopt, i)), kLeastContrast) << i;
+    EXPECT_GE(NearestClass(BodyColor(std::nullopt, i)), kMinContrast) << i;
     // A joint whose load is unknown, and a body that went stale, are grey: nearer, but not the
     // same.
     EXPECT_GE(ColorDifference(BodyColor({}, i), ColorOf(LoadClass::kUnknown)), 12) << i;
@@ -42,7 +42,7 @@ TEST(BodyColor, OfAPersonsOwnIsMutedUntilTheClassesStandOut) {
     for (std::uint32_t g = 0; g <= 0xFF; g += 0x11) {
       for (std::uint32_t b = 0; b <= 0xFF; b += 0x11) {
         const Rgb body = BodyColor(r << 16 | g << 8 | b, 0);
-        ASSERT_GE(NearestClass(body), kLeastContrast) << r << ' ' << g << ' ' << b;
+        ASSERT_GE(NearestClass(body), kMinContrast) << r << ' ' << g << ' ' << b;
         for (const double channel : body) {
           ASSERT_GE(channel, 0);
           ASSERT_LE(channel, 1);

@@ -6,7 +6,7 @@ namespace kinescope::loads::testing {
 namespace {
 
 SupportPolygon HullOf(const std::vector<Vector2d>& points) {
-  std::array<Vector2d, kMostSupportPoints> all;
+  std::array<Vector2d, kMaxSupportPoints> all;
   std::copy(points.begin(), points.end(), all.begin());
   return ConvexHull(all, points.size());
 }
@@ -48,7 +48,7 @@ TEST(SupportPolygon, HoldsEveryPointItWasMadeFromAndClampsOntoItsBorder) {
   Random random(1);
   for (int trial = 0; trial < 2000; ++trial) {
     std::vector<Vector2d> points;
-    for (std::size_t i = 0; i < 1 + static_cast<std::size_t>(trial) % kMostSupportPoints; ++i) {
+    for (std::size_t i = 0; i < 1 + static_cast<std::size_t>(trial) % kMaxSupportPoints; ++i) {
       points.push_back(random.Vector(1).head<2>());
     }
     const SupportPolygon hull = HullOf(points);

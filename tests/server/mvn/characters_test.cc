@@ -168,11 +168,11 @@ TEST_F(CharactersTest, KeepsABoundedNumberOfStreams) {
     sender_ = Sender(static_cast<std::uint8_t>(port), port);
     Send(Datagrams(1)[0]);
   }
-  EXPECT_EQ(counters().rejected.at(Text(Reason::kTooManyStreams)), 100U - Assembler::kMostStreams);
+  EXPECT_EQ(counters().rejected.at(Text(Reason::kTooManyStreams)), 100U - Assembler::kMaxStreams);
   Wait(4000 * kMilli);
   sender_ = Sender(200);
   Send(Datagrams(1)[0]);
-  EXPECT_EQ(counters().rejected.at(Text(Reason::kTooManyStreams)), 100U - Assembler::kMostStreams)
+  EXPECT_EQ(counters().rejected.at(Text(Reason::kTooManyStreams)), 100U - Assembler::kMaxStreams)
       << "a silent one makes room";
   ExpectAllAccountedFor();
 }

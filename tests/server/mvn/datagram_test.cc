@@ -455,7 +455,7 @@ std::string NumberedPoses(int count) {
 }
 
 TEST(Datagram, PutsPropsAndFingersWhereTheyBelongHoweverManyPropsThereAre) {
-  for (int props = 0; props <= kMostProps; ++props) {
+  for (int props = 0; props <= kMaxProps; ++props) {
     RawDatagram raw;
     raw.props = props;
     raw.fingers = 40;

@@ -50,7 +50,7 @@ TEST(EncodeSample, WritesGlovesAndPropsInTheSizesOfACurrentMvn) {
   BodySample sample = FullSample(random);
   const TypeSet poses = MakeTypeSet({Type::kEulerPose, Type::kPose});
   EXPECT_THAT(Sizes(EncodeSample(sample, poses)), ElementsAre(P("01", 1900), P("02", 2168)));
-  for (int prop = 0; prop < kMostProps; ++prop) {
+  for (int prop = 0; prop < kMaxProps; ++prop) {
     sample.fingers_and_props.present.reset(static_cast<std::size_t>(PropIndex(prop)));
   }
   EXPECT_THAT(Sizes(EncodeSample(sample, poses)), ElementsAre(P("01", 1788), P("02", 2040)));
@@ -242,7 +242,7 @@ TEST(EncodeSample, NamesPropsAndFingersBehindTheBody) {
   character.skeleton = urdf::DefaultSkeleton();
   character.scaled_segments.resize(kFingerAndPropCount);
   character.scaled_segments[0] = {"Prop1Sword", {0.25, 0, 1}};
-  for (std::size_t i = kMostProps; i < kFingerAndPropCount; ++i) {
+  for (std::size_t i = kMaxProps; i < kFingerAndPropCount; ++i) {
     character.scaled_segments[i].name = FingerOrPropName(static_cast<int>(i));
   }
   const auto datagrams = EncodeCharacter(character);

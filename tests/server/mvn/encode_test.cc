@@ -34,8 +34,8 @@ Message RandomMessage(RandomValues& random, Body body) {
 bool HasPlace(const Header& header, std::size_t slot) {
   if (slot < urdf::kSegmentCount) return true;
   const std::size_t extra = slot - urdf::kSegmentCount;
-  return extra < kMostProps ? extra < static_cast<std::size_t>(header.props)
-                            : header.finger_segments > 0;
+  return extra < kMaxProps ? extra < static_cast<std::size_t>(header.props)
+                           : header.finger_segments > 0;
 }
 
 // Body, props and fingers as the header announces them; all of them, or each with a chance.

@@ -288,7 +288,7 @@ class FaultyStream : private SampleSink {
 
   void OnSample(const BodySample& sample) override {
     strangers_ += sample.character == 0 ? 0 : 1;
-    ASSERT_LT(given_count_, kMostGiven);
+    ASSERT_LT(given_count_, kMaxGiven);
     given_[given_count_++] = sample;
   }
 
@@ -320,8 +320,8 @@ class FaultyStream : private SampleSink {
   static std::string Number(int index) { return std::to_string(index); }
 
   void Problem(const BodySample& sample, const std::string& what) {
-    constexpr std::size_t kMostProblems = 10;
-    if (problems_.size() >= kMostProblems) return;
+    constexpr std::size_t kMaxProblems = 10;
+    if (problems_.size() >= kMaxProblems) return;
     problems_.push_back("counter " + std::to_string(sample.counter) + " (while sample " +
                         Number(sending_) + " is sent): " + what);
   }
@@ -344,7 +344,7 @@ class FaultyStream : private SampleSink {
     return found == told_.end() ? 0 : found->second;
   }
 
-  static constexpr std::size_t kMostGiven = 64;
+  static constexpr std::size_t kMaxGiven = 64;
   static constexpr std::size_t kLongestNoted = 64;
 
   FaultInjector faults_;
@@ -369,7 +369,7 @@ class FaultyStream : private SampleSink {
   std::int64_t live_bytes_at_half_ = 0;
 
   // What the assembler has just given, kept without allocating.
-  BodySample given_[kMostGiven];
+  BodySample given_[kMaxGiven];
   std::size_t given_count_ = 0;
   std::string last_name_ = std::string(kLongestNoted, ' ');
   int strangers_ = 0;

@@ -208,7 +208,7 @@ TEST_F(InspectionTest, SeesGlovesAndPropsByName) {
     sample.fingers_and_props.present.set(
         static_cast<std::size_t>(FingerIndex(urdf::kRight, finger)));
   }
-  for (int finger = kMostProps; finger < kFingerAndPropCount; ++finger) {
+  for (int finger = kMaxProps; finger < kFingerAndPropCount; ++finger) {
     carrier.scaled_segments[static_cast<std::size_t>(finger)].name = FingerOrPropName(finger);
   }
   Send(EncodeCharacter(carrier));
@@ -520,7 +520,7 @@ TEST_F(InspectionTest, MoreThanSixtyFourRealCharactersAreCountedAndNotKept) {
     }
   }
   const InspectionReport report = Report();
-  EXPECT_EQ(report.characters.size(), Inspection::kMostCharacters);
+  EXPECT_EQ(report.characters.size(), Inspection::kMaxCharacters);
   EXPECT_EQ(report.datagrams_not_kept, 6U * 3);
 }
 

@@ -73,7 +73,7 @@ inline BodySample RandomFullSample(RandomValues& random, std::uint32_t counter) 
   BodySample sample = RandomSample(random, counter);
   sample.utc_millis_of_day = static_cast<std::int32_t>(counter % 86'400'000);
   for (int i = 0; i < kFingerAndPropCount; ++i) {
-    if (i >= 2 && i < kMostProps) continue;
+    if (i >= 2 && i < kMaxProps) continue;
     sample.fingers_and_props.present.set(static_cast<std::size_t>(i));
     sample.fingers_and_props.poses[static_cast<std::size_t>(i)] = {random.Vector(2), random.Turn()};
   }

@@ -267,7 +267,7 @@ TEST(TenFacts, Fact08ForeignTextAndASecondCharacterShareThePort) {
 }
 
 TEST(TenFacts, Fact09IdsOfFingersDependOnHowManyPropsThereAre) {
-  for (int props = 0; props <= kMostProps; ++props) {
+  for (int props = 0; props <= kMaxProps; ++props) {
     // Only the first finger of each hand and the props, so that ids decide and not the order.
     RawDatagram pose;
     pose.props = props;

@@ -606,10 +606,10 @@ TEST(PeopleFrames, TwentyTwoSegmentsAreNobody) {
 
 TEST(PeopleFrames, WhateverTheNamesItKeepsABoundedNumber) {
   PeopleFrames frames;
-  for (int i = 0; i < 3 * static_cast<int>(PeopleFrames::kMostNames); ++i) {
+  for (int i = 0; i < 3 * static_cast<int>(PeopleFrames::kMaxNames); ++i) {
     frames.Add("p" + std::to_string(i) + "_pelvis");
   }
-  EXPECT_FALSE(frames.IsCandidate("p" + std::to_string(2 * PeopleFrames::kMostNames) + "_pelvis"));
+  EXPECT_FALSE(frames.IsCandidate("p" + std::to_string(2 * PeopleFrames::kMaxNames) + "_pelvis"));
   EXPECT_FALSE(frames.Add(std::string(300, 'x') + "_pelvis"));
   frames.Find();
   EXPECT_THAT(frames.people(), IsEmpty());

@@ -89,7 +89,7 @@ TEST(MarkerInput, WhatCannotBeDrawnIsRefusedByNameAndReason) {
   bad.points.pop_back();
   EXPECT_TRUE(store.Apply(0, bad, 0));
   bad = Of(Marker::POINTS);
-  bad.points.resize(kMostMarkerPoints + 1);
+  bad.points.resize(kMaxMarkerPoints + 1);
   refusal = store.Apply(0, bad, 0);
   ASSERT_TRUE(refusal);
   EXPECT_STREQ(refusal->kind, "too large");
@@ -214,7 +214,7 @@ TEST(MarkerStore, ManyLockedPointsMoveLessOften) {
   Cart cart;
   Marker cloud = Of(Marker::POINTS);
   cloud.colors.clear();
-  cloud.points.resize(kMostMarkerPoints);
+  cloud.points.resize(kMaxMarkerPoints);
   cloud.frame_locked = 1;
   EXPECT_FALSE(store.Apply(0, cloud, 0));
   EXPECT_TRUE(store.Update(0, cart.Find()));
@@ -225,7 +225,7 @@ TEST(MarkerStore, ManyLockedPointsMoveLessOften) {
 
 TEST(MarkerStore, IsBoundedInMarkersAndInPoints) {
   MarkerStore store;
-  for (int id = 0; id < static_cast<int>(kMostMarkers); ++id) {
+  for (int id = 0; id < static_cast<int>(kMaxMarkers); ++id) {
     ASSERT_FALSE(store.Apply(0, Cube(id), 0)) << id;
   }
   EXPECT_TRUE(store.Apply(0, Cube(-1), 0));
@@ -235,8 +235,8 @@ TEST(MarkerStore, IsBoundedInMarkersAndInPoints) {
   EXPECT_FALSE(store.Apply(0, all, 0));
   Marker cloud = Of(Marker::POINTS);
   cloud.colors.clear();
-  cloud.points.resize(kMostMarkerPoints);
-  const int most = static_cast<int>(kMostPointsOfAll / kMostMarkerPoints);
+  cloud.points.resize(kMaxMarkerPoints);
+  const int most = static_cast<int>(kMaxPointsOfAll / kMaxMarkerPoints);
   for (cloud.id = 0; cloud.id < most; ++cloud.id) ASSERT_FALSE(store.Apply(0, cloud, 0));
   EXPECT_TRUE(store.Apply(0, cloud, 0));
   cloud.id = 0;

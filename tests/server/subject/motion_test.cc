@@ -73,17 +73,17 @@ TEST_P(EveryMotion, AccelerationsHaveNoStepsNotEvenWhereAPeriodEnds) {
   // A step stands out against what continuous acceleration can change by in so short a time; the
   // hardest blow is a heel's, about two thirds of these.
   constexpr double kStep = 5e-4;
-  constexpr double kMostJerk = 1.4e4;         // m/s^3
-  constexpr double kMostAngularJerk = 4.5e4;  // rad/s^3
+  constexpr double kMaxJerk = 1.4e4;         // m/s^3
+  constexpr double kMaxAngularJerk = 4.5e4;  // rad/s^3
   BodySample last = motion->At(-0.1);
   for (double t = -0.1 + kStep; t < 8.1; t += kStep) {
     const BodySample now = motion->At(t);
     for (std::size_t i = 0; i < now.segments.size(); ++i) {
       const SegmentState& a = last.segments[i];
       const SegmentState& b = now.segments[i];
-      ASSERT_LT((b.acceleration - a.acceleration).norm(), kMostJerk * kStep)
+      ASSERT_LT((b.acceleration - a.acceleration).norm(), kMaxJerk * kStep)
           << "segment " << i << " at " << t << " s";
-      ASSERT_LT((b.angular_acceleration - a.angular_acceleration).norm(), kMostAngularJerk * kStep)
+      ASSERT_LT((b.angular_acceleration - a.angular_acceleration).norm(), kMaxAngularJerk * kStep)
           << "segment " << i << " at " << t << " s";
       ASSERT_GT(a.orientation.dot(b.orientation), 0.99)
           << "the quaternion of segment " << i << " changes its sign at " << t << " s";

@@ -345,7 +345,7 @@ TEST(PcapTcp, WaitsForAMissingSegmentWithBoundedMemoryAndTime) {
     ASSERT_EQ(source.Poll({}, sink), DatagramSource::State::kMore);
     ++waited_packets;
   }
-  EXPECT_LE(waited_packets * 1400, CapturedTcp::kMostWaitingBytes + 10 * 1400);
+  EXPECT_LE(waited_packets * 1400, CapturedTcp::kMaxWaitingBytes + 10 * 1400);
   EXPECT_EQ(source.counters().incomplete_packets, 1U);
 }
 

@@ -77,7 +77,7 @@ TEST(PcapWriter, ItsFileGivesBackEveryByteEndAndTime) {
       {kSuit, Ipv6(2, 9763), Datagram(4).bytes, {}},  // a mapped address
       {kSuit, kUs, "", {}},
       {kSuit, kUs, "odd", {}},
-      {kSuit, kUs, std::string(kMostUdpPayload, 'x'), {}},
+      {kSuit, kUs, std::string(kMaxUdpPayload, 'x'), {}},
       {Endpoint(), kUs, "MXTP", {}},
       {nobody, nobody, "MXTP", {}},
   };
@@ -322,7 +322,7 @@ TEST(PcapRecorder, CountsWhatDoesNotFitIntoItsQueue) {
   PcapRecorder recorder({disk.path()}, PcapRecorder::WhenFull::kDrop, kQueue);
   constexpr std::uint32_t kCount = 2400;
   for (std::uint32_t i = 0; i < kCount; ++i) recorder.OnDatagram(View(Datagram(i)));
-  recorder.OnDatagram({kSuit, kUs, std::string(kMostUdpPayload + 1, 'x'), {}});
+  recorder.OnDatagram({kSuit, kUs, std::string(kMaxUdpPayload + 1, 'x'), {}});
   std::string file;
   std::thread reader([&] { file = disk.ReadAll(); });
   recorder.Finish();

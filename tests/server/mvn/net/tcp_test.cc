@@ -164,11 +164,11 @@ TEST(TcpDatagrams, RefuseMoreConnectionsThanTheyCanHold) {
   TcpDatagrams source(kListenOnLoopback);
   RecordingDatagrams sink;
   std::vector<std::unique_ptr<Client>> clients;
-  for (std::size_t i = 0; i < TcpDatagrams::kMostConnections + 2; ++i) {
+  for (std::size_t i = 0; i < TcpDatagrams::kMaxConnections + 2; ++i) {
     clients.push_back(std::make_unique<Client>(source.description()));
   }
   ASSERT_TRUE(PollUntil(source, sink, [&] { return source.counters().connections_refused == 2; }));
-  EXPECT_EQ(source.counters().connections_open, static_cast<int>(TcpDatagrams::kMostConnections));
+  EXPECT_EQ(source.counters().connections_open, static_cast<int>(TcpDatagrams::kMaxConnections));
   char byte = 0;
   EXPECT_EQ(recv(clients.back()->socket().get(), &byte, 1, 0), 0) << "the newcomer is told at once";
   clients.front()->Send(Pose(1));
