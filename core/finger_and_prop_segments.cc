@@ -1,6 +1,6 @@
 #include "core/finger_and_prop_segments.h"
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace kinescope {
 

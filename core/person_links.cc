@@ -1,6 +1,6 @@
 #include "core/person_links.h"
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace kinescope {
 

@@ -20,9 +20,9 @@
 #include "core/scene_marker.h"
 #include "urdf/human_urdf.h"
 #include "urdf/kinematics.h"
-#include "urdf/mesh_uri.h"
 #include "urdf/rigid_deviation.h"
-#include "urdf/robot_model.h"
+#include "urdf/robot/mesh_uri.h"
+#include "urdf/robot/robot_model.h"
 
 namespace kinescope {
 

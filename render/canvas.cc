@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/utf8.h"
+#include "core/system/utf8.h"
 
 namespace kinescope::render {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/image.h"
+#include "render/image/image.h"
 #include "render/painter.h"
 
 namespace kinescope::render {

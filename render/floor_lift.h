@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/scene_state.h"
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "render/renderer.h"
 
 namespace kinescope::render {

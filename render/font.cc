@@ -3,7 +3,7 @@
 #include <ft2build.h>
 #include FT_FREETYPE_H
 
-#include "core/utf8.h"
+#include "core/system/utf8.h"
 #include "render/renderer.h"
 
 namespace kinescope::render {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "core/module_loader.h"
 #include "core/scene_state.h"
-#include "render/camera.h"
-#include "render/image.h"
+#include "core/system/module_loader.h"
+#include "render/camera/camera.h"
+#include "render/image/image.h"
 #include "render/painter.h"
 #include "render/plot.h"
 #include "render/renderer.h"

@@ -2,11 +2,11 @@
 
 #include <utility>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "render/canvas.h"
 #include "render/finite.h"
 #include "render/floor_lift.h"
-#include "render/matte.h"
+#include "render/image/matte.h"
 #include "render/multi_view.h"
 
 namespace kinescope::render {

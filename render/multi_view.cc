@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "core/check.h"
-#include "core/errors.h"
+#include "core/system/check.h"
+#include "core/system/errors.h"
 
 namespace kinescope::render {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "render/image.h"
-#include "render/tile.h"
+#include "render/camera/tile.h"
+#include "render/image/image.h"
 
 namespace kinescope::render {
 

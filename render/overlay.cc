@@ -84,7 +84,7 @@ void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& dr
     PaintScaleBar(page, drawn.camera, margin + time_code);
   }
   if (drawn.name.empty()) return;
-  // In the upper middle, where nobody's feet are; in the top row below title and lamp.
+  // In the upper middle, where no feet are; in the top row below title and lamp.
   const int size = page.FontPx(kSmallSize);
   const bool is_below_title = drawn.tile.y == 0 && (spec.parts.status || !spec.title.empty());
   const double top = is_below_title ? margin + 1.6 * page.FontPx(kTitleSize) : 0.5 * margin;

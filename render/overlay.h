@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "render/label_layout.h"
 #include "render/module.h"
 #include "render/overlay_page.h"

@@ -13,7 +13,7 @@ namespace {
 constexpr double kWidestLegend = 0.3;  // of the picture: a person is in its middle
 constexpr const char* kLegendTitle = "Joint load, % of capacity";
 
-// Any person of whom nobody said the mass: their loads are only as good as that assumption.
+// Whether the body mass of any person is assumed: the loads are only as good as that assumption.
 const PersonState* WithAssumedMass(const SceneState& state) {
   for (const PersonState& person : state.people) {
     if (!person.loads.empty() && person.model->description.mass_is_assumed) return &person;

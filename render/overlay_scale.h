@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "render/overlay_page.h"
 
 namespace kinescope::render {

@@ -1,6 +1,6 @@
 #include "render/plot.h"
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "render/module.h"
 
 namespace kinescope::render {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/palette.h"
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace kinescope::render {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "render/plot.h"
 
 namespace kinescope::render {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/check.h"
-#include "core/errors.h"
+#include "core/system/check.h"
+#include "core/system/errors.h"
 #include "render/module_renderer.h"
 
 namespace kinescope::render {

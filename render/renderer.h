@@ -12,8 +12,8 @@
 
 #include "core/picture_limits.h"
 #include "core/scene_state.h"
-#include "render/camera.h"
-#include "render/image.h"
+#include "render/camera/camera.h"
+#include "render/image/image.h"
 #include "render/load_curves.h"
 #include "render/overlay_parts.h"
 #include "render/scene_look.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/errors.h"
 #include "core/picture_limits.h"
+#include "core/system/errors.h"
 #include "render/module.h"
 
 namespace kinescope::render {

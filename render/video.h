@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace kinescope::render {
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Checks the includes between folders. The table "Folders" in ARCHITECTURE.md lists the folders that each
-folder may include. LIBRARIES below lists the folders that may include the headers of a third-party library, so
+folder may include. A row "part of X" describes a folder that X, and every folder that may include X, may include
+too. LIBRARIES below lists the folders that may include the headers of a third-party library, so
 that its types stay there. Both lists are exact: an entry that no include needs is an error too, so the lists
 cannot become outdated.
 
@@ -22,33 +23,33 @@ EXCEPTIONS = {
 
 # Third-party headers, by the beginning of their name: the library and the folders that may include them ("/*": all subfolders).
 LIBRARIES = {
-    r"Eigen/": ("Eigen", {"urdf", "urdf/mesh", "core", "server/mvn", "server/subject", "server/loads",
-                          "server/ros", "server/http", "server/body", "server/picture", "render",
-                          "render/shape", "render/vtk"}),
-    r"fmt/": ("fmt", {"urdf", "server/loads", "server/options", "server/body", "server/scene",
+    r"Eigen/": ("Eigen", {"urdf", "urdf/mesh", "urdf/robot", "core", "server/mvn", "server/subject",
+                          "server/loads", "server/ros", "server/http", "server/body", "server/picture",
+                          "render/camera", "render/shape", "render/vtk"}),
+    r"fmt/": ("fmt", {"urdf", "urdf/robot", "server/loads", "server/options", "server/body", "server/scene",
                       "server/picture", "server/app", "server/app/*", "render",
                       "render/plot"}),
-    r"spdlog/": ("spdlog", {"server/mvn/net", "server/mvn/file", "server/ros", "server/body",
+    r"spdlog/": ("spdlog", {"server/mvn/net", "server/mvn/file", "server/ros", "server/ros/source", "server/body",
                             "server/picture", "server/app", "server/app/*"}),
     r"tl/expected": ("libexpected", {"server/mvn", "server/mvn/file", "server/http", "server/ros"}),
     r"nlohmann/": ("nlohmann-json", {"server/http", "urdf/mesh", "server/picture", "server/app/*"}),
     r"CLI/": ("CLI11", {"server/app"}),
     r"yaml-cpp/": ("yaml-cpp", {"server/options", "server/picture"}),
-    r"(urdf_parser|urdf_model|console_bridge)/": ("urdfdom", {"urdf"}),
-    r"expat\.h": ("expat", {"urdf", "server/mvn/file"}),
-    r"archive(_entry)?\.h": ("libarchive", {"core"}),
-    r"nettle/": ("nettle", {"core"}),
+    r"(urdf_parser|urdf_model|console_bridge)/": ("urdfdom", {"urdf/robot"}),
+    r"expat\.h": ("expat", {"urdf/robot", "server/mvn/file"}),
+    r"archive(_entry)?\.h": ("libarchive", {"core/system"}),
+    r"nettle/": ("nettle", {"core/system"}),
     r"pcap/|pcap\.h": ("libpcap", {"server/mvn/file"}),
     r"boost/": ("Boost.Beast", {"server/http"}),
-    r"rosbag/": ("rosbag_storage", {"server/ros"}),
+    r"rosbag/": ("rosbag_storage", {"server/ros/source"}),
     r"image_transport/": ("image_transport", {"server/ros"}),
-    r"tf2(_msgs)?/": ("tf2", {"server/ros"}),
-    r"(ros|xmlrpcpp|kinescope|\w+_msgs)/": ("roscpp and messages", {"server/ros"}),
-    r"png\.h": ("libpng", {"render"}),
-    r"jpeglib\.h": ("libjpeg-turbo", {"render"}),
+    r"tf2(_msgs)?/": ("tf2", {"server/ros", "server/ros/source"}),
+    r"(ros|xmlrpcpp|kinescope|\w+_msgs)/": ("roscpp and messages", {"server/ros", "server/ros/source"}),
+    r"png\.h": ("libpng", {"render/image"}),
+    r"jpeglib\.h": ("libjpeg-turbo", {"render/image"}),
     r"zlib\.h": ("zlib", {"render"}),
     r"ft2build\.h|freetype/": ("FreeType", {"render"}),
-    r"glm/": ("GLM", {"render", "render/vtk"}),
+    r"glm/": ("GLM", {"render/camera", "render/vtk"}),
     r"lib(av|sw)\w+/": ("libav", {"render/av"}),
     r"webp/": ("libwebp", {"render/av"}),
     r"cairo/|cairo[\w-]*\.h": ("Cairo", {"render/plot"}),
@@ -91,10 +92,16 @@ def read_arrows(architecture):
     return arrows
 
 
+def read_parts(architecture):
+    """Folder -> the folder that it is a part of."""
+    return {part: whole for part, whole in re.findall(r"\| `([^`]+)/` \| part of `([^`]+)`:", architecture)}
+
+
 def check(tree):
     """(number of checked includes, list of problems, one line each)"""
     problems = []
     arrows = read_arrows(tree["ARCHITECTURE.md"])
+    parts = read_parts(tree["ARCHITECTURE.md"])
     if not arrows:
         return 0, ['ARCHITECTURE.md: no table "folder | holds | may include"']
     dependencies = tree["ARCHITECTURE.md"].partition("\n## Dependencies")[2]
@@ -120,12 +127,15 @@ def check(tree):
             where, target = f"{name}:{number}", include.group(2)
             if include.group(1) == '"':
                 other = folder_of(target)
+                whole = parts.get(other, other)
                 if target not in tree:
                     problems.append(f"{where}: {target} not found; expected a path from the top folder")
-                elif other == folder or arrows[folder] is None:
+                elif other == folder or whole == folder or arrows[folder] is None:
                     pass
                 elif other in arrows[folder]:
                     used_arrows.add((folder, other))
+                elif whole in arrows[folder]:
+                    used_arrows.add((folder, whole))
                 elif other in EXCEPTIONS.get(name, ()):
                     used_exceptions.add((name, other))
                 else:
@@ -167,23 +177,23 @@ def faults_not_found(tree):
         number = len(text.splitlines()) + 1
         expected.update(problem.format(f"{name}:{number}") for problem in problems)
 
-    include("core/clocks.h", '#include "server/app/progress.h"',
-            "{}: core may not include server/app/progress.h")
+    include("core/system/clocks.h", '#include "server/app/progress.h"',
+            "{}: core/system may not include server/app/progress.h")
     include("server/app/loads/html.h", '#include "server/app/render/provenance.h"',
             "{}: server/app/loads may not include server/app/render/provenance.h")
     include("server/app/loads/html.h", "#include <CLI/CLI.hpp>",
             "{}: CLI/CLI.hpp may only be included in server/app")
-    include("render/image.h", '#  include "render/vtk/ground.h"  // indented',
-            "{}: render may not include render/vtk/ground.h")
+    include("render/image/image.h", '#  include "render/vtk/ground.h"  // indented',
+            "{}: render/image may not include render/vtk/ground.h")
     include("server/mvn/assembler.h", '#include "server/mvn/net/socket.h"',
             "{}: server/mvn may not include server/mvn/net/socket.h")
     include("server/mvn/net/socket.h", '#include "server/mvn/file/packet.h"',
             "{}: server/mvn/net may not include server/mvn/file/packet.h")
-    include("render/png_file.cc", "#include <libavutil/error.h>",
+    include("render/image/png_file.cc", "#include <libavutil/error.h>",
             "{}: libavutil/error.h may only be included in render/av")
     include("server/mvn/tally.h", "#include <pcap/pcap.h>",
             "{}: pcap/pcap.h may only be included in server/mvn/file")
-    include("server/http/hub.h", "#include <ros/ros.h>", "{}: ros/ros.h may only be included in server/ros")
+    include("server/http/hub.h", "#include <ros/ros.h>", "{}: ros/ros.h may only be included in server/ros or server/ros/source")
     include("urdf/figure.h", "#include <range/v3/all.hpp>",
             "{}: range/v3/all.hpp belongs to no library in tests/layers_test.py")
     include("render/vtk/ground.h", '#include "tests/temp_folder.h"',
@@ -198,9 +208,9 @@ def faults_not_found(tree):
     for name in [n for n in faulty if folder_of(n) == "server/subject"]:
         faulty[name] = re.sub(r'#include "urdf/.*', "", faulty[name])
     expected.add("ARCHITECTURE.md: nothing in server/subject includes urdf")
-    for name in [n for n in faulty if folder_of(n) == "core"]:
+    for name in [n for n in faulty if folder_of(n) == "core/system"]:
         faulty[name] = re.sub(r"#include <nettle/.*", "", faulty[name])
-    expected.add("tests/layers_test.py: nothing in core includes nettle/")
+    expected.add("tests/layers_test.py: nothing in core/system includes nettle/")
     faulty["ARCHITECTURE.md"] = faulty["ARCHITECTURE.md"].replace("| libpcap |", "| capture library |")
     expected.add("ARCHITECTURE.md: libpcap is not among the dependencies")
     found = set(check(faulty)[1])

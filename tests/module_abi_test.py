@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Checks the list of types that the program and its modules exchange. They exchange C++ values
-(core/module_loader.h), so the table of functions that a module exports begins with the sizes of these types:
+(core/system/module_loader.h), so the table of functions that a module exports begins with the sizes of these types:
 `ModuleAbi<...> abi`. A type that is missing in this list could change on one side without an error. This script
 finds such types from the text of the sources: it starts at the functions of each table and follows every member
 of every type. A member held by value changes the size of its owner. A type behind a container, a pointer or a

@@ -40,7 +40,7 @@ std::optional<Vector3d> FindJointPoint(const Landmarks& landmarks, int joint) {
   return offset;
 }
 
-// Fractions of stature for end points that nobody measured: joint-loads.md 1.6.
+// Fractions of stature for end points without measurements: joint-loads.md 1.6.
 constexpr double kHeadFraction = 0.108;
 constexpr double kHandFraction = 0.108;
 constexpr double kAnkleHeightFraction = 0.046;

@@ -13,7 +13,7 @@ extern "C" {
 
 #include "render/av/hidden_color.h"
 #include "render/av/libav.h"
-#include "render/new_file.h"
+#include "render/image/new_file.h"
 
 namespace kinescope::render::av {
 namespace {
@@ -203,7 +203,7 @@ class CodecWriter : public VideoWriter {
       av_packet_rescale_ts(packet_.get(), codec_->time_base, stream_->time_base);
       packet_->stream_index = stream_->index;
       Check(av_interleaved_write_frame(format_.get(), packet_.get()), "write", path_);
-      Check(format_->pb->error, "write", path_);  // a full disk is told here, hours before the end
+      Check(format_->pb->error, "write", path_);  // reports a full disk here, hours before the end
     }
   }
 

@@ -13,7 +13,7 @@ extern "C" {
 
 #include "render/av/libav.h"
 #include "render/av/spool.h"
-#include "render/new_file.h"
+#include "render/image/new_file.h"
 
 namespace kinescope::render::av {
 namespace {

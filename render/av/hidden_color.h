@@ -2,7 +2,7 @@
 /// function, any thread.
 #pragma once
 
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace kinescope::render::av {
 

@@ -11,7 +11,7 @@ extern "C" {
 #include <filesystem>
 #include <memory>
 
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace kinescope::render::av {
 

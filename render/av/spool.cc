@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace kinescope::render::av {
 

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "render/av/libav.h"
-#include "render/new_file.h"
+#include "render/image/new_file.h"
 
 namespace kinescope::render::av {
 namespace {

@@ -3,7 +3,7 @@
 #include <cairo/cairo-ft.h>
 #include <cairo/cairo.h>
 
-#include "core/utf8.h"
+#include "core/system/utf8.h"
 #include "render/font.h"
 #include "render/renderer.h"
 

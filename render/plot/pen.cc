@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "render/plot/fonts.h"
 #include "render/renderer.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/palette.h"
-#include "render/image.h"
+#include "render/image/image.h"
 
 namespace kinescope::render::plot {
 

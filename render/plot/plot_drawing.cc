@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "render/plot/pen.h"
 
 namespace kinescope::render::plot {

@@ -6,7 +6,7 @@ namespace kinescope::render {
 namespace {
 
 constexpr int kScaleReach = 3;  // m, to either side of what the camera looks at
-constexpr double kAside = 1;    // m, from there to the lines, so that nobody stands on them
+constexpr double kAside = 1;    // m, from there to the lines, so that no person stands on them
 
 }  // namespace
 

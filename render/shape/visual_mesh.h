@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "urdf/mesh/mesh.h"
-#include "urdf/mesh_uri.h"
-#include "urdf/robot_model.h"
+#include "urdf/robot/mesh_uri.h"
+#include "urdf/robot/robot_model.h"
 
 namespace kinescope::render {
 

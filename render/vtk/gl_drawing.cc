@@ -19,8 +19,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/camera_matrices.h"
-#include "render/resample.h"
+#include "render/camera/camera_matrices.h"
+#include "render/image/resample.h"
 #include "render/shape/floor_scale.h"
 #include "render/vtk/floor_cache.h"
 #include "render/vtk/ghost_actors.h"
@@ -153,7 +153,7 @@ class GlDrawing : public Drawing {
 
   void UpdateActors(const SceneState& state, const Camera& camera, const SceneLook& look,
                     std::vector<Label>& labels) {
-    // By character: whoever stays keeps their mesh.
+    // By character: people who stay keep their meshes.
     bool is_changed = people_.size() != state.people.size();
     for (const PersonState& person : state.people) {
       auto& actors = people_[person.character];

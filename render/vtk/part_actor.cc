@@ -1,6 +1,6 @@
 #include "render/vtk/part_actor.h"
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace kinescope::render {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
-#include "core/check.h"
-#include "render/camera_matrices.h"
+#include "core/system/check.h"
+#include "render/camera/camera_matrices.h"
 
 namespace kinescope::render {
 namespace {

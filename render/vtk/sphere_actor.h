@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/palette.h"
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "render/vtk/shaded_actor.h"
 
 namespace kinescope::render {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/starts_with.h"
+#include "core/system/errors.h"
+#include "core/system/starts_with.h"
 #include "server/app/command.h"
 #include "server/options/yaml_options.h"
 

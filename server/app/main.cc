@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/stop_signal.h"
+#include "core/system/stop_signal.h"
 #include "server/app/commands.h"
 #include "server/ros/bridge.h"
 

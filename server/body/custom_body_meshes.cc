@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/body/mesh_module.h"
 #include "urdf/figure.h"
 #include "urdf/mesh_inputs.h"

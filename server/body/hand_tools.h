@@ -1,5 +1,5 @@
 /// Meshes of what is held: a drill, a screwdriver, whatever its user has a file of. Only its look:
-/// what it weighs, and where, is told as a hand load.
+/// its mass and centre of mass are set as a hand load.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/module_loader.h"
+#include "core/system/module_loader.h"
 #include "urdf/figure.h"
 #include "urdf/mesh/mesh.h"
 
@@ -17,7 +17,7 @@ namespace kinescope::app {
 /// loaded).
 urdf::TriangleMesh ReadMesh(const std::filesystem::path& path);
 
-/// The table that the module exports as `KinescopeMeshModule`; see core/module_loader.h.
+/// The table that the module exports as `KinescopeMeshModule`; see core/system/module_loader.h.
 struct MeshModule {
   ModuleAbi<urdf::Mesh> abi;
   urdf::Mesh (*read)(const std::string& absolute_path);

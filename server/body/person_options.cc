@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "core/errors.h"
-#include "core/starts_with.h"
+#include "core/system/errors.h"
+#include "core/system/starts_with.h"
 
 namespace kinescope::app {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/starts_with.h"
+#include "core/system/starts_with.h"
 
 namespace kinescope::http {
 namespace {

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/hand_load_shape.h"
-#include "core/json_text.h"
 #include "core/palette.h"
 #include "core/person_links.h"
-#include "core/starts_with.h"
+#include "core/system/json_text.h"
+#include "core/system/starts_with.h"
 #include "server/http/target.h"
 
 namespace kinescope::http {

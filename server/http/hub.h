@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/latest.h"
 #include "core/scene_state.h"
+#include "core/system/latest.h"
 #include "server/http/counters.h"
 #include "server/http/protocol.h"
 #include "server/http/server.h"

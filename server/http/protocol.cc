@@ -6,11 +6,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "core/check.h"
 #include "core/hand_load_shape.h"
-#include "core/json_text.h"
 #include "core/palette.h"
 #include "core/person_links.h"
+#include "core/system/check.h"
+#include "core/system/json_text.h"
 
 namespace kinescope::http {
 namespace {

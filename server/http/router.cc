@@ -6,10 +6,10 @@
 #include <system_error>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/json_text.h"
 #include "core/picture_limits.h"
-#include "core/starts_with.h"
+#include "core/system/clocks.h"
+#include "core/system/json_text.h"
+#include "core/system/starts_with.h"
 #include "server/http/access.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"

@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/http/access.h"
 #include "server/http/http_session.h"
 

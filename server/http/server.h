@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/force_inputs.h"
-#include "core/latest.h"
 #include "core/scene_state.h"
+#include "core/system/latest.h"
 
 namespace kinescope::http {
 

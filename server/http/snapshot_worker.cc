@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 
 namespace kinescope::http {
 namespace {

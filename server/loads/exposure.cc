@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/check.h"
-#include "core/clocks.h"
+#include "core/system/check.h"
+#include "core/system/clocks.h"
 #include "server/loads/gap.h"
 
 namespace kinescope::loads {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 #include "server/loads/gap.h"
 #include "server/loads/support_polygon.h"
 
@@ -99,9 +99,9 @@ void FootContacts::Update(const BodySample& sample, const urdf::LinkPoses& links
     const auto height = [&](std::size_t point) { return points.at[point].z() - floor_z; };
     const std::size_t lower = height(1) < height(2) ? 1 : 2;
     if (sample.foot_contacts) {
-      const FootContactFlags& told = (*sample.foot_contacts)[side];
-      Follow(ends_[side][kHeel], told.heel, fresh, step_secs, settings);
-      Follow(ends_[side][kForefoot], told.forefoot, fresh, step_secs, settings);
+      const FootContactFlags& flags = (*sample.foot_contacts)[side];
+      Follow(ends_[side][kHeel], flags.heel, fresh, step_secs, settings);
+      Follow(ends_[side][kForefoot], flags.forefoot, fresh, step_secs, settings);
     } else {
       Judge(ends_[side][kHeel], height(0), speed(0, foot), fresh, step_secs, settings);
       Judge(ends_[side][kForefoot], height(lower), speed(lower, toe), fresh, step_secs, settings);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "server/loads/gap.h"
 #include "urdf/placed_mass.h"
 

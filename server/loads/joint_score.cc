@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.h"
 #include "core/load_class.h"
+#include "core/system/errors.h"
 
 namespace kinescope::loads {
 namespace {

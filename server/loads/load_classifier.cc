@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 #include "server/loads/gap.h"
 
 namespace kinescope::loads {

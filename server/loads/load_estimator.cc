@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 #include "server/loads/gap.h"
 #include "server/loads/support_polygon.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 
 namespace kinescope::loads {
 namespace {

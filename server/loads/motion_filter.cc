@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 
 namespace kinescope::loads {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/loads/inverse_dynamics.h"
 
 namespace kinescope::loads {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/mvn/byte_order.h"
 #include "server/mvn/item_reader.h"
 

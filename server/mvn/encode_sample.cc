@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/check.h"
-#include "core/clocks.h"
+#include "core/system/check.h"
+#include "core/system/clocks.h"
 #include "server/mvn/encode.h"
 #include "server/mvn/item_reader.h"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/check.h"
-#include "core/errors.h"
+#include "core/system/check.h"
+#include "core/system/errors.h"
 #include "server/mvn/encode.h"
 
 namespace kinescope::mvn {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/starts_with.h"
+#include "core/system/starts_with.h"
 #include "server/mvn/file/recording.h"
 #include "server/mvn/net/net_url.h"
 #include "server/mvn/net/tcp_datagrams.h"

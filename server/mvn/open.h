@@ -1,6 +1,6 @@
 /// Opens streams and recordings by URL, in the same way for all commands: `udp://:9763`,
 /// `tcp://:9763`, `tcp://host:9763`, `motion.mvnx`, `take.pcap`, `take.bin`; files may be
-/// compressed (core/input_file.h). Any thread.
+/// compressed (core/system/input_file.h). Any thread.
 #pragma once
 
 #include <memory>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 
 namespace kinescope::options {
 namespace {

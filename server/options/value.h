@@ -198,7 +198,7 @@ class Flag : public ValueOf<bool> {
   JsonKind json_kind() const override { return JsonKind::kTruth; }
 };
 
-/// Which numbers are accepted, both ends included unless told otherwise.
+/// Which numbers are accepted, both ends included by default.
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();

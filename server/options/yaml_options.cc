@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 
 namespace kinescope::options {
 

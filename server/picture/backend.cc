@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/picture/backend_probe.h"
 
 namespace kinescope::app {

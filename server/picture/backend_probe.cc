@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/scratch_folder.h"
-#include "core/starts_with.h"
+#include "core/system/scratch_folder.h"
+#include "core/system/starts_with.h"
 #include "render/renderer.h"
 #include "server/picture/child_process.h"
 #include "server/scene/scene_reader.h"
@@ -23,16 +23,16 @@ double SecsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-BackendReport FromJson(const json& told) {
+BackendReport FromJson(const json& reported) {
   BackendReport report;
-  report.works = told.at("works");
-  report.reason = told.value("reason", "");
-  report.renderer = told.value("renderer", "");
-  report.gl_version = told.value("gl_version", "");
-  report.is_software = told.value("software", false);
-  report.first_picture_seconds = told.value("first_picture_seconds", 0.0);
-  report.pictures_per_second = told.value("pictures_per_second", 0.0);
-  report.log = told.value("log", std::vector<std::string>());
+  report.works = reported.at("works");
+  report.reason = reported.value("reason", "");
+  report.renderer = reported.value("renderer", "");
+  report.gl_version = reported.value("gl_version", "");
+  report.is_software = reported.value("software", false);
+  report.first_picture_seconds = reported.value("first_picture_seconds", 0.0);
+  report.pictures_per_second = reported.value("pictures_per_second", 0.0);
+  report.log = reported.value("log", std::vector<std::string>());
   return report;
 }
 
@@ -130,11 +130,11 @@ BackendReport ProbeBackend(const std::filesystem::path& program, const std::stri
     return Failed(fmt::format("the driver crashed ({}){}", ::strsignal(child.signal),
                               child.err.empty() ? "" : ": " + LastLine(child.err)));
   }
-  const json told = json::parse(child.out, nullptr, false);
-  if (child.exit_code != 0 || !told.is_object() || !told.contains("works")) {
+  const json reported = json::parse(child.out, nullptr, false);
+  if (child.exit_code != 0 || !reported.is_object() || !reported.contains("works")) {
     return Failed(child.err.empty() ? "it exited without an error message" : LastLine(child.err));
   }
-  BackendReport report = FromJson(told);
+  BackendReport report = FromJson(reported);
   // What drivers write to stderr themselves.
   for (std::string& line : Lines(child.err)) report.log.push_back(std::move(line));
   return report;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 
 namespace kinescope::app {
 namespace {
@@ -83,7 +83,7 @@ render::Camera CameraController::Finished(render::Camera camera, const SceneStat
                                   : fit_ == Fit::kClip ? clip_box_
                                                        : Eigen::AlignedBox3d();
   if (!box.isEmpty()) return render::Framing(camera, box, aspect);
-  // Whoever says the place or the lens means it; a name means that the person is seen.
+  // A given position or lens is kept; a named camera keeps the person in the picture.
   return IsNamed() ? render::ForAspect(camera, aspect) : camera;
 }
 

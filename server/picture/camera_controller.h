@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "server/picture/camera_keys.h"
 #include "server/picture/camera_options.h"
 
@@ -64,7 +64,7 @@ class CameraController {
   std::optional<std::int64_t> start_nanos_;
   render::SmoothedGroundExtent steady_;
   render::GroundExtent followed_;  // where the lagging camera is
-  bool has_met_ = false;           // anybody to follow
+  bool has_met_ = false;           // a person to follow
   Eigen::Vector3d first_middle_ = Eigen::Vector3d::Zero();
   double followed_at_secs_ = 0;
 };

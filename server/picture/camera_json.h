@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
-#include "render/camera.h"
+#include "render/camera/camera.h"
 
 namespace kinescope::app {
 

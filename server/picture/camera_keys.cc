@@ -6,7 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/options/text.h"
 
 namespace kinescope::app {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "render/camera.h"
-#include "render/camera_path.h"
+#include "render/camera/camera.h"
+#include "render/camera/camera_path.h"
 
 namespace kinescope::app {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "server/options/option_list.h"
 
 namespace kinescope::app {

@@ -142,7 +142,7 @@ void DrawingLoop::DrawLive(std::unique_lock<std::mutex>& lock) {
     StartedRenderer().RenderInto(live_image_, *state, camera, view);
     drawn = settings_.now();
     lock.lock();
-    NoteDrawn();  // first: whoever receives the picture may ask what it lacks
+    NoteDrawn();  // first: the receiver of the picture may ask what it lacks
     status_.draw_millis = MillisBetween(begin, drawn);
     lock.unlock();
     deliver_(live_image_, *state, camera);

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
-#include "render/image.h"
+#include "render/image/image.h"
 #include "render/renderer.h"
 #include "server/picture/backend.h"
 #include "server/picture/camera_controller.h"
@@ -111,7 +111,7 @@ class DrawingLoop {
   bool live_is_due_ = false;  // the newest state, camera or viewer has no picture yet
   bool stop_ = false;
   std::deque<Order> orders_;
-  /// Of the order being drawn; whoever takes it away answers it: the drawing thread, or the
+  /// Of the order being drawn; answered by the thread that takes it: the drawing thread, or the
   /// watchdog's while the driver does not respond.
   std::optional<std::promise<render::Image>> in_hand_;
   DrawingStatus status_;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/scene/scene_reader.h"
 
 namespace kinescope::app {

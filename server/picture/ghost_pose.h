@@ -20,7 +20,8 @@ class GhostPose {
   GhostPose(const GhostValue& ghost, double opacity, const SceneOptions& options);
 
   /// n_pose and t_pose: of every person in `state`, with their own lengths, where their pelvis is,
-  /// facing as it does, soles on the floor. FILE@SECS: whoever is there then, where they were.
+  /// facing as it does, soles on the floor. FILE@SECS: the people at that time, at their recorded
+  /// positions.
   std::vector<render::Ghost> Make(const SceneState& state) const;
 
  private:

@@ -1,7 +1,7 @@
 /// Describes a camera as a pinhole camera, as calibrations of robot vision do. Pure, any thread.
 #pragma once
 
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "urdf/kinematics.h"
 
 namespace kinescope::app {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/stop_signal.h"
+#include "core/system/clocks.h"
+#include "core/system/stop_signal.h"
 #include "render/multi_view.h"
 
 namespace kinescope::app {

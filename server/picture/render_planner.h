@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "render/renderer.h"
 #include "server/picture/camera_controller.h"
 #include "server/picture/plot_buffer.h"

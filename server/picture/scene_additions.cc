@@ -5,14 +5,14 @@
 #include <cmath>
 #include <utility>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "render/renderer.h"
 #include "server/scene/robot_source.h"
 
 namespace kinescope::app {
 namespace {
 
-constexpr double kApart = 1.2;  // m, between people and robots that nobody placed
+constexpr double kApart = 1.2;  // m, between people and robots without a given place
 
 // The root over the place, the lowest point on z = 0.
 RobotState Stand(const std::string& file, const RobotPlace::Place& place,

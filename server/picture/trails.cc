@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace kinescope::app {
 namespace {

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "core/check.h"
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/check.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "server/ros/force_inbox.h"
 #include "server/ros/joint_loads.h"
 #include "server/ros/joint_states.h"

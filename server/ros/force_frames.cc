@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/starts_with.h"
+#include "core/system/starts_with.h"
 #include "server/ros/stamp.h"
 #include "urdf/segments.h"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 
 namespace kinescope::ros_bridge {
 namespace {

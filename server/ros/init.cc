@@ -12,8 +12,8 @@
 #include <mutex>
 #include <optional>
 
-#include "core/check.h"
-#include "core/errors.h"
+#include "core/system/check.h"
+#include "core/system/errors.h"
 #include "server/ros/bridge.h"
 #include "server/ros/master_client.h"
 

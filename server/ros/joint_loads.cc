@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/starts_with.h"
+#include "core/system/starts_with.h"
 #include "server/ros/convert.h"
 #include "server/ros/names.h"
 #include "server/ros/stamp.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 
 namespace kinescope::ros_bridge {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/body_sample.h"
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 
 namespace kinescope::ros_bridge {
 

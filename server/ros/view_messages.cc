@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/ros/convert.h"
 #include "server/ros/stamp.h"
 

@@ -24,7 +24,7 @@ struct ModelSettings {
   bool height_is_assumed = true;           // the default value
   BodyAppearance appearance;
   /// Where the URDF says that meshes are. Null: the body consists of primitives, without tools, for
-  /// commands that show nobody.
+  /// commands that draw no person.
   std::shared_ptr<const MeshCache> mesh_cache;
 };
 

@@ -1,6 +1,6 @@
 #include "server/scene/rate_meter.h"
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 
 namespace kinescope::app {
 

@@ -8,12 +8,12 @@
 #include <stdexcept>
 #include <variant>
 
-#include "core/check.h"
-#include "core/errors.h"
+#include "core/system/check.h"
+#include "core/system/errors.h"
 #include "urdf/mesh_inputs.h"
-#include "urdf/mesh_uri.h"
-#include "urdf/robot_model.h"
-#include "urdf/xml_outline.h"
+#include "urdf/robot/mesh_uri.h"
+#include "urdf/robot/robot_model.h"
+#include "urdf/robot/xml_outline.h"
 
 namespace kinescope::app {
 

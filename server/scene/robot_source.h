@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
-#include "urdf/robot_kinematics.h"
+#include "urdf/robot/robot_kinematics.h"
 
 namespace kinescope::app {
 

@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/check.h"
-#include "core/clocks.h"
+#include "core/system/check.h"
+#include "core/system/clocks.h"
 
 namespace kinescope::app {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/check.h"
-#include "core/errors.h"
+#include "core/system/check.h"
+#include "core/system/errors.h"
 
 namespace kinescope::app {
 namespace {

@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/errors.h"
 #include "core/scene_interpolation.h"
-#include "core/stop_signal.h"
+#include "core/system/errors.h"
+#include "core/system/stop_signal.h"
 #include "server/source/open_source.h"
 
 namespace kinescope::app {

@@ -5,13 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/input_file.h"
+#include "core/system/errors.h"
+#include "core/system/input_file.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/recording.h"
 #include "server/options/text.h"
-#include "server/ros/bag_source.h"
-#include "server/ros/graph_source.h"
+#include "server/ros/source/bag_source.h"
+#include "server/ros/source/graph_source.h"
 #include "server/source/paced_source.h"
 #include "server/subject/subject.h"
 

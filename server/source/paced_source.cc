@@ -4,8 +4,8 @@
 #include <thread>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 
 namespace kinescope::app {
 namespace {

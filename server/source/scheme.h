@@ -1,4 +1,4 @@
-/// The kinds of sources, told by the beginning of their URL. Pure functions; any thread.
+/// The kinds of sources, distinguished by the beginning of their URL. Pure functions; any thread.
 #pragma once
 
 #include <string>

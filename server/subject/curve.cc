@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace kinescope::subject {
 namespace {

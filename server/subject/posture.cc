@@ -1,6 +1,6 @@
 #include "server/subject/posture.h"
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/subject/mvn_angles.h"
 
 namespace kinescope::subject {

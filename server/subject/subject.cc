@@ -4,8 +4,8 @@
 #include <sstream>
 #include <utility>
 
-#include "core/check.h"
-#include "core/errors.h"
+#include "core/system/check.h"
+#include "core/system/errors.h"
 #include "server/subject/motions.h"
 
 namespace kinescope::subject {

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <string>
 
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "render/renderer.h"
 #include "server/scene/scene_reader.h"
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "render/renderer.h"
 #include "server/scene/scene_reader.h"
 

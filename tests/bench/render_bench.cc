@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "render/png_file.h"
+#include "render/image/png_file.h"
 #include "render/renderer.h"
 #include "render/video.h"
 #include "tests/render/test_scene.h"

@@ -1,5 +1,5 @@
 // A hand load set on the page of a running `kinescope serve` (KINESCOPE_PAGE), to which a suit streams the
-// T-pose; started by tests/system/pipeline_test.cc.
+// T-pose; started by tests/system/ros/pipeline_test.cc.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { closeBrowser, countPixels, openPage, pixelsOf, saveScreenshot } from './open_page.mjs';

@@ -1,5 +1,5 @@
 // The page of a running `kinescope serve` (KINESCOPE_PAGE) that a suit streams to; started by
-// tests/system/pipeline_test.cc.
+// tests/system/ros/pipeline_test.cc.
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
 import { closeBrowser, countPixels, openPage, pixelsOf, saveScreenshot } from './open_page.mjs';

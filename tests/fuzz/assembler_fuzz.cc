@@ -5,7 +5,7 @@
 #include <map>
 #include <string_view>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/byte_order.h"
 #include "tests/fuzz/invariants.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <variant>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/mvn/encode.h"
 
 namespace {

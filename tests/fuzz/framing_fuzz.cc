@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/mvn/stream_framer.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/body_sample.h"
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace kinescope::fuzz {
 

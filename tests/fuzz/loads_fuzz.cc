@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/loads/load_estimator.h"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "urdf/mesh/mesh_file.h"
 
 // assimp leaks what it has made so far of many a file that it refuses; that is bounded by the file,

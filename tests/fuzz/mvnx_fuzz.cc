@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <string>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "tests/fuzz/invariants.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/http/hand_load_order.h"
 #include "server/http/hub.h"
 

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <string>
 
-#include "core/errors.h"
-#include "core/input_file.h"
+#include "core/system/errors.h"
+#include "core/system/input_file.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/file/pcap_datagrams.h"
 #include "server/mvn/file/raw_file_datagrams.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/mvn/byte_order.h"
 #include "server/mvn/scale_group.h"
 

@@ -6,10 +6,10 @@
 #include <set>
 #include <string>
 
-#include "core/check.h"
-#include "urdf/robot_kinematics.h"
-#include "urdf/robot_model.h"
-#include "urdf/urdf_check.h"
+#include "core/system/check.h"
+#include "urdf/robot/robot_kinematics.h"
+#include "urdf/robot/robot_model.h"
+#include "urdf/robot/urdf_check.h"
 
 namespace {
 

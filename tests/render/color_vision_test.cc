@@ -6,8 +6,8 @@
 
 #include <map>
 
+#include "render/camera/spheres.h"
 #include "render/renderer.h"
-#include "render/spheres.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::render {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "render/canvas.h"
-#include "render/resample.h"
+#include "render/image/resample.h"
 
 namespace kinescope::render {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <limits>
 
-#include "render/compare.h"
+#include "render/image/compare.h"
 #include "render/renderer.h"
 #include "tests/render/marker_samples.h"
 #include "tests/temp_folder.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "render/compare.h"
+#include "render/image/compare.h"
 #include "render/renderer.h"
 #include "tests/mesh_file_on_demand.h"
 #include "tests/render/test_scene.h"
@@ -136,7 +136,7 @@ TEST_F(MeshDrawing, HasTheFilesOfAModelWrittenBeforeItReadsThem) {
   model->mesh_files =
       std::make_shared<kinescope::testing::MeshFileOnDemand>(folder_ / "cube.stl", CubeStl());
   state.people[0].model = model;
-  renderer_->Render(state, NamedCamera("front", state), view_);
+  renderer_->Render(state, NamedCamera("front", state), spec_);
   EXPECT_THAT(log_, ::testing::IsEmpty());
 }
 

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "render/camera/spheres.h"
 #include "render/renderer.h"
-#include "render/spheres.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::render {

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "core/errors.h"
-#include "core/utf8.h"
+#include "core/system/errors.h"
+#include "core/system/utf8.h"
 #include "render/canvas.h"
 #include "render/font.h"
 #include "render/multi_view.h"

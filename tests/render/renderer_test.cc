@@ -13,9 +13,9 @@
 #include <mutex>
 #include <thread>
 
-#include "core/errors.h"
-#include "render/compare.h"
-#include "render/spheres.h"
+#include "core/system/errors.h"
+#include "render/camera/spheres.h"
+#include "render/image/compare.h"
 #include "render/watchdog.h"
 #include "tests/render/test_scene.h"
 

@@ -8,13 +8,13 @@
 #include <limits>
 #include <regex>
 
-#include "render/compare.h"
+#include "render/image/compare.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 #include "tests/urdf/mesh_samples.h"
-#include "urdf/robot_kinematics.h"
+#include "urdf/robot/robot_kinematics.h"
 
 namespace kinescope::render {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/compare.h"
+#include "render/image/compare.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 

@@ -17,10 +17,10 @@ extern "C" {
 #include <memory>
 #include <random>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "render/canvas.h"
 #include "render/frame_code.h"
-#include "render/resample.h"
+#include "render/image/resample.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 

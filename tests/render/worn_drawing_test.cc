@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/palette.h"
-#include "render/compare.h"
+#include "render/image/compare.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
 #include "tests/worn.h"

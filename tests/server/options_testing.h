@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/options/option_list.h"
 
 namespace kinescope::testing {

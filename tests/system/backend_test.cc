@@ -14,9 +14,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "core/errors.h"
-#include "render/compare.h"
-#include "render/png_file.h"
+#include "core/system/errors.h"
+#include "render/image/compare.h"
+#include "render/image/png_file.h"
 #include "server/picture/backend_probe.h"
 #include "server/picture/child_process.h"
 #include "tests/process.h"

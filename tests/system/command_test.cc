@@ -16,8 +16,8 @@
 #include <set>
 #include <sstream>
 
-#include "render/compare.h"
-#include "render/png_file.h"
+#include "render/image/compare.h"
+#include "render/image/png_file.h"
 #include "server/app/commands.h"
 #include "server/picture/view_options.h"
 #include "tests/process.h"

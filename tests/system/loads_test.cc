@@ -8,7 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "render/png_file.h"
+#include "render/image/png_file.h"
 #include "server/loads/joint_score.h"
 #include "tests/csv_table.h"
 #include "tests/process.h"

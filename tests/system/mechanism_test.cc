@@ -16,7 +16,7 @@
 #include "server/http/api.h"
 #include "server/mvn/datagram.h"
 #include "server/ros/bridge.h"
-#include "server/ros/skeleton_watch.h"
+#include "server/ros/source/skeleton_watch.h"
 #include "server/scene/scene_builder.h"
 #include "server/scene/scene_reader.h"
 #include "server/subject/subject.h"
@@ -24,7 +24,7 @@
 #include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 #include "urdf/joint_limits.h"
-#include "urdf/robot_kinematics.h"
+#include "urdf/robot/robot_kinematics.h"
 
 namespace kinescope {
 namespace {

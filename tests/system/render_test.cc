@@ -14,8 +14,8 @@
 #include <sstream>
 #include <thread>
 
-#include "render/compare.h"
-#include "render/png_file.h"
+#include "render/image/compare.h"
+#include "render/image/png_file.h"
 #include "render/renderer.h"
 #include "render/video.h"
 #include "server/app/render/provenance_comparison.h"

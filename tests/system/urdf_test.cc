@@ -7,14 +7,14 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "render/compare.h"
-#include "render/png_file.h"
+#include "render/image/compare.h"
+#include "render/image/png_file.h"
 #include "tests/shared_data.h"
 #include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/temp_folder.h"
 #include "tests/urdf/mesh_samples.h"
-#include "urdf/robot_model.h"
+#include "urdf/robot/robot_model.h"
 
 namespace kinescope {
 namespace {

@@ -13,7 +13,7 @@
 #include "urdf/joint_limits.h"
 #include "urdf/kinematics.h"
 #include "urdf/primitive_figure.h"
-#include "urdf/robot_model.h"
+#include "urdf/robot/robot_model.h"
 
 namespace kinescope::urdf {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "urdf/robot_model.h"
+#include "urdf/robot/robot_model.h"
 
 namespace kinescope::urdf {
 

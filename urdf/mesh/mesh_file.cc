@@ -303,7 +303,7 @@ Mesh ReadMesh(const std::string& bytes, const std::string& extension, const fs::
   scene = importer.ApplyPostProcessing(steps);
   if (scene == nullptr) throw Fault(importer.GetErrorString());
 
-  // assimp turns COLLADA's up axis to y unless told not to, and y is GLB's anyway.
+  // assimp turns COLLADA's up axis to y by default, and y is GLB's anyway.
   Eigen::Affine3d world_from_root = Eigen::Affine3d::Identity();
   if (extension == ".glb" || (extension == ".dae" && !ignores_up)) {
     world_from_root.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;

@@ -12,7 +12,7 @@
 
 #include "urdf/mesh/mesh_file.h"
 #include "urdf/mesh/stl_gate.h"
-#include "urdf/xml_outline.h"
+#include "urdf/robot/xml_outline.h"
 
 namespace kinescope::urdf {
 namespace {

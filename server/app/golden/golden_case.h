@@ -6,7 +6,7 @@
 ///     camera: front
 ///     size: 640x360
 ///     supersample: 2
-///     why: one line for whoever sees it fail
+///     why: the purpose of the case in one line, shown when it fails
 #pragma once
 
 #include <filesystem>
@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "core/scene_state.h"
-#include "render/camera.h"
+#include "render/camera/camera.h"
+#include "render/camera/spheres.h"
 #include "render/frame_code.h"
-#include "render/image.h"
+#include "render/image/image.h"
 #include "render/renderer.h"
-#include "render/spheres.h"
 #include "server/picture/view_options.h"
 #include "server/scene/scene_options.h"
 

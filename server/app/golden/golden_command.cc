@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/json_text.h"
-#include "render/compare.h"
-#include "render/new_file.h"
-#include "render/png_file.h"
+#include "core/system/errors.h"
+#include "core/system/json_text.h"
+#include "render/image/compare.h"
+#include "render/image/new_file.h"
+#include "render/image/png_file.h"
 #include "render/renderer.h"
 #include "server/app/commands.h"
 #include "server/app/golden/golden_case.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "render/spheres.h"
+#include "render/camera/spheres.h"
 
 namespace kinescope::app {
 

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/errors.h"
-#include "core/input_file.h"
-#include "core/stop_signal.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
+#include "core/system/input_file.h"
+#include "core/system/stop_signal.h"
 #include "server/app/commands.h"
 #include "server/app/inspect/inspection_report.h"
 #include "server/app/progress.h"
@@ -19,7 +19,7 @@
 #include "server/mvn/file/recording.h"
 #include "server/mvn/inspect/inspection.h"
 #include "server/mvn/open.h"
-#include "server/ros/bag_source.h"
+#include "server/ros/source/bag_source.h"
 #include "server/source/open_source.h"
 #include "server/source/scheme.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "core/clocks.h"
-#include "core/json_text.h"
+#include "core/system/clocks.h"
+#include "core/system/json_text.h"
 #include "server/app/inspect/inspection_report.h"
 
 namespace kinescope::app {

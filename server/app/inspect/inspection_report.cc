@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 
 namespace kinescope::app {
 namespace {

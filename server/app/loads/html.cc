@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "core/utf8.h"
+#include "core/system/utf8.h"
 
 namespace kinescope::app {
 

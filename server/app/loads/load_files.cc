@@ -7,8 +7,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "core/json_text.h"
-#include "render/new_file.h"
+#include "core/system/json_text.h"
+#include "render/image/new_file.h"
 #include "server/app/loads/load_rows.h"
 
 namespace kinescope::app {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/errors.h"
-#include "core/stop_signal.h"
-#include "render/new_file.h"
-#include "render/png_file.h"
+#include "core/system/errors.h"
+#include "core/system/stop_signal.h"
+#include "render/image/new_file.h"
+#include "render/image/png_file.h"
 #include "server/app/loads/load_rows.h"
 #include "server/loads/gap.h"
 #include "server/loads/joint_score.h"

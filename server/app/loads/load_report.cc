@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/check.h"
 #include "core/palette.h"
-#include "core/stop_signal.h"
-#include "render/camera.h"
-#include "render/new_file.h"
+#include "core/system/check.h"
+#include "core/system/stop_signal.h"
+#include "render/camera/camera.h"
+#include "render/image/new_file.h"
+#include "render/image/png_file.h"
 #include "render/plot.h"
-#include "render/png_file.h"
 #include "render/renderer.h"
 #include "server/app/loads/html.h"
 #include "server/app/loads/load_plots.h"

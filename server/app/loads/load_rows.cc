@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 #include "server/loads/joint_score.h"
 
 namespace kinescope::app {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/json_text.h"
+#include "core/system/json_text.h"
 #include "server/app/loads/load_rows.h"
 #include "server/loads/joint_score.h"
 

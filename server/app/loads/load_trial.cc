@@ -5,8 +5,8 @@
 #include <limits>
 #include <tuple>
 
-#include "core/check.h"
-#include "core/clocks.h"
+#include "core/system/check.h"
+#include "core/system/clocks.h"
 #include "server/loads/gap.h"
 #include "server/loads/joint_score.h"
 

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/clocks.h"
-#include "core/stop_signal.h"
+#include "core/system/clocks.h"
+#include "core/system/stop_signal.h"
 #include "server/app/commands.h"
 #include "server/app/loads/load_files.h"
 #include "server/app/loads/load_plots.h"

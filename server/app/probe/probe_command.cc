@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/json_text.h"
+#include "core/system/errors.h"
+#include "core/system/json_text.h"
 #include "render/renderer.h"
 #include "render/video.h"
 #include "server/app/commands.h"

@@ -11,10 +11,10 @@
 #include <set>
 #include <string>
 
-#include "core/clocks.h"
-#include "core/errors.h"
-#include "core/json_text.h"
-#include "core/stop_signal.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
+#include "core/system/json_text.h"
+#include "core/system/stop_signal.h"
 #include "server/app/commands.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/file/pcap_recorder.h"

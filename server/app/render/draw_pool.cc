@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace kinescope::app {
 
@@ -70,7 +70,7 @@ DrawPool::~DrawPool() {
   {
     const std::lock_guard lock(mutex_);
     is_closing_ = true;
-    tasks_.clear();  // breaks their promises, so nobody waits for them
+    tasks_.clear();  // breaks their promises, so no thread waits for them
   }
   changed_.notify_all();
   for (std::thread& thread : threads_) thread.join();

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "render/image.h"
+#include "render/image/image.h"
 #include "render/renderer.h"
 #include "server/picture/render_planner.h"
 

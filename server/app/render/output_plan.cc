@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/source/scheme.h"
 
 namespace kinescope::app {

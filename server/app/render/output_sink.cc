@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "render/new_file.h"
-#include "render/png_file.h"
+#include "render/image/new_file.h"
+#include "render/image/png_file.h"
 #include "server/app/render/writer_threads.h"
 
 namespace kinescope::app {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "render/video.h"
 #include "server/app/render/draw_pool.h"
 #include "server/app/render/output_plan.h"

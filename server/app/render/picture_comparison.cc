@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "render/compare.h"
-#include "render/png_file.h"
+#include "render/image/compare.h"
+#include "render/image/png_file.h"
 #include "server/app/render/output_plan.h"
 
 namespace kinescope::app {

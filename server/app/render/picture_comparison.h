@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "render/image.h"
+#include "render/image/image.h"
 #include "render/video.h"
 
 namespace kinescope::app {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/json_text.h"
-#include "core/sha256.h"
+#include "core/system/json_text.h"
+#include "core/system/sha256.h"
 #include "server/options/option_list.h"
 #include "server/scene/scene_options.h"
 #include "server/source/scheme.h"

@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/json_text.h"
-#include "core/sha256.h"
-#include "render/new_file.h"
-#include "render/png_file.h"
+#include "core/system/json_text.h"
+#include "core/system/sha256.h"
+#include "render/image/new_file.h"
+#include "render/image/png_file.h"
 #include "render/video.h"
 
 namespace kinescope::app {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/json_text.h"
+#include "core/system/errors.h"
+#include "core/system/json_text.h"
 #include "server/app/commands.h"
 #include "server/app/render/output_plan.h"
 #include "server/app/render/render_options.h"

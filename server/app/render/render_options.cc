@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
 

@@ -90,7 +90,7 @@ struct TimeGrid {
   std::optional<long> count() const;
 };
 
-/// `is_endless`: of a source that never ends a clip has 10 s unless told otherwise.
+/// `is_endless`: a clip of a source without an end has 10 s by default.
 /// @throws UsageError where options do not fit together.
 TimeGrid ToTimeGrid(const ClipOptions& options, bool is_endless);
 

@@ -14,9 +14,9 @@
 #include <string>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/errors.h"
-#include "core/stop_signal.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
+#include "core/system/stop_signal.h"
 #include "server/app/progress.h"
 #include "server/app/render/moments.h"
 #include "server/app/render/render_tasks.h"

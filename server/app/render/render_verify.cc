@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "core/errors.h"
-#include "core/json_text.h"
-#include "core/scratch_folder.h"
-#include "core/sha256.h"
-#include "render/compare.h"
-#include "render/png_file.h"
+#include "core/system/errors.h"
+#include "core/system/json_text.h"
+#include "core/system/scratch_folder.h"
+#include "core/system/sha256.h"
+#include "render/image/compare.h"
+#include "render/image/png_file.h"
 #include "server/app/render/picture_comparison.h"
 #include "server/app/render/provenance.h"
 #include "server/app/render/provenance_comparison.h"
@@ -89,7 +89,7 @@ void NoteDifferences(const Json& then, const Json& now, const std::string& file)
   }
 }
 
-// Part of a file name, so nobody else's word is taken for it.
+// Becomes part of a file name, so only known words are accepted.
 std::string FormatOf(const Json& provenance) {
   std::string format = provenance.value("format", "");
   if (format == "png" || render::ClipFormatOf("a." + format)) return format;

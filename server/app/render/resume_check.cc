@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "core/sha256.h"
+#include "core/system/sha256.h"
 #include "server/app/render/provenance_comparison.h"
 #include "server/app/render/provenance_files.h"
 

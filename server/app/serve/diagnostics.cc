@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/json_text.h"
+#include "core/system/json_text.h"
 
 namespace kinescope::app {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/errors.h"
-#include "render/camera.h"
-#include "render/png_file.h"
+#include "core/system/errors.h"
+#include "render/camera/camera.h"
+#include "render/image/png_file.h"
 
 namespace kinescope::app {
 namespace {

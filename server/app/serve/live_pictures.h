@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/latest.h"
 #include "core/scene_state.h"
+#include "core/system/latest.h"
 #include "server/http/server.h"
 #include "server/picture/backend.h"
 #include "server/picture/camera_controller.h"

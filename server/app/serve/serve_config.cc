@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "core/errors.h"
-#include "core/install_paths.h"
-#include "render/camera.h"
+#include "core/system/errors.h"
+#include "core/system/install_paths.h"
+#include "render/camera/camera.h"
 #include "server/loads/hand_loads.h"
-#include "server/ros/graph_source.h"
+#include "server/ros/source/graph_source.h"
 
 namespace kinescope::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <thread>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/stop_signal.h"
+#include "core/system/clocks.h"
+#include "core/system/stop_signal.h"
 #include "server/app/serve/diagnostics.h"
 #include "server/app/serve/input_merger.h"
 #include "server/source/open_source.h"

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "core/latest.h"
 #include "core/scene_state.h"
 #include "core/source.h"
+#include "core/system/latest.h"
 #include "server/app/serve/hand_load_mailbox.h"
 #include "server/app/serve/live_pictures.h"
 #include "server/app/serve/liveness_log.h"

@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.h"
 #include "core/finger_and_prop_segments.h"
-#include "core/json_text.h"
+#include "core/system/errors.h"
+#include "core/system/json_text.h"
 #include "server/app/commands.h"
 #include "server/app/stream/stream_feed.h"
 #include "server/app/stream/stream_transmission.h"
@@ -98,7 +98,7 @@ constexpr const char* kMore = R"(
 Types (--types), as MVN numbers its messages:
   01 Euler pose  02 quaternion pose  03 virtual markers  12 meta data  13 scale data
   20 joint angles  21 linear and 22 angular kinematics  23 trackers  24 centre of mass  25 time code
-  Sources of samples are encoded: 02 12 13 20 21 22 24 unless told otherwise. Sources that are
+  Sources of samples are encoded: 02 12 13 20 21 22 24 by default. Sources that are
   datagrams already (udp:, tcp:, pcap, .bin) are sent on byte for byte, those of --types only.
 
 Faults (--fault NAME=SHARE, SHARE from 0 to 1; may be given several times; all=SHARE for every one):

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/starts_with.h"
+#include "core/system/clocks.h"
+#include "core/system/starts_with.h"
 #include "server/app/stream/stream_feed.h"
 #include "server/mvn/open.h"
 #include "server/source/counter_splice.h"

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/open.h"
-#include "server/ros/graph_source.h"
+#include "server/ros/source/graph_source.h"
 
 namespace kinescope::app {
 

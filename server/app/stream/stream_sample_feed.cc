@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 #include "server/app/stream/stream_feed.h"
 #include "server/app/stream/synthetic_gloves.h"
 #include "server/source/counter_splice.h"

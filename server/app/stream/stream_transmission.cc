@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/stop_signal.h"
+#include "core/system/clocks.h"
+#include "core/system/stop_signal.h"
 
 namespace kinescope::app {
 namespace {
@@ -85,7 +85,7 @@ void Transmission::RunLive(std::int64_t end_nanos) {
   }
 }
 
-// Whoever stops the program does not want to wait.
+// A user who stops the program does not want to wait.
 void Transmission::Drain() {
   faults_.End();
   while (const auto held = faults_.next_send_nanos()) {

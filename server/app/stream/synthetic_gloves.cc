@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/mvn/encode.h"
 
 namespace kinescope::app {

@@ -5,8 +5,8 @@
 #include <regex>
 #include <stdexcept>
 
-#include "core/errors.h"
-#include "render/new_file.h"
+#include "core/system/errors.h"
+#include "render/image/new_file.h"
 
 namespace kinescope::app {
 namespace {

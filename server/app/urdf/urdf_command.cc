@@ -1,4 +1,4 @@
-// `kinescope urdf`: the URDF of a person, and a look at anybody's.
+// `kinescope urdf`: writes the URDF of a person; checks and draws any URDF.
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/errors.h"
-#include "core/stop_signal.h"
-#include "render/new_file.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
+#include "core/system/stop_signal.h"
+#include "render/image/new_file.h"
 #include "server/app/commands.h"
 #include "server/app/urdf/person_export.h"
 #include "server/app/urdf/urdf_picture.h"
@@ -23,8 +23,8 @@
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/open_source.h"
-#include "urdf/mesh_uri.h"
-#include "urdf/urdf_check.h"
+#include "urdf/robot/mesh_uri.h"
+#include "urdf/robot/urdf_check.h"
 
 namespace kinescope::app {
 namespace {
@@ -63,7 +63,7 @@ struct UrdfCheckOptions {
   }
 };
 
-// Remembers of whom a source has told the lengths.
+// Remembers whose segment lengths a source has sent.
 class DescribedPeople : public SampleSink {
  public:
   explicit DescribedPeople(SceneBuilder& to) : to_(to) {}

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "core/errors.h"
-#include "core/json_text.h"
-#include "render/camera.h"
-#include "render/png_file.h"
+#include "core/system/errors.h"
+#include "core/system/json_text.h"
+#include "render/camera/camera.h"
+#include "render/image/png_file.h"
 #include "render/renderer.h"
 #include "server/picture/camera_json.h"
 #include "server/picture/render_planner.h"

@@ -7,7 +7,7 @@
 #include "server/options/text.h"
 #include "server/picture/backend.h"
 #include "server/picture/view_options.h"
-#include "urdf/robot_kinematics.h"
+#include "urdf/robot/robot_kinematics.h"
 
 namespace kinescope::app {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/json_text.h"
+#include "core/system/json_text.h"
 
 namespace kinescope::app {
 namespace {
@@ -27,12 +27,12 @@ std::string VerdictText(const UrdfReport& report) {
   };
   const std::size_t warnings = count(UrdfProblem::Kind::kWarning);
   const std::size_t errors = report.problems.size() - warnings;
-  const std::string told =
+  const std::string reported =
       warnings == 0 ? "" : (errors == 0 ? ", with " : " and ") + Counted(warnings, "warning");
-  if (errors == 0) return "usable" + told;
+  if (errors == 0) return "usable" + reported;
   const bool is_readable = count(UrdfProblem::Kind::kUnreadable) == 0;
   return (is_readable ? "can be drawn, but contains " : "not usable: ") + Counted(errors, "error") +
-         told;
+         reported;
 }
 
 std::string Roots(const UrdfReport& report) {
@@ -50,9 +50,9 @@ std::string UrdfReportText(const std::string& file, const UrdfReport& report) {
                                  Counted(report.meshes, "mesh file"));
   std::map<std::string, int> alike;
   for (const UrdfProblem& problem : report.problems) ++alike[problem.what];
-  std::map<std::string, int> told;
+  std::map<std::string, int> reported;
   for (const UrdfProblem& problem : report.problems) {
-    const int number = ++told[problem.what];
+    const int number = ++reported[problem.what];
     const int all = alike[problem.what];
     if (number > kMaxAlike && all > kMaxAlike + 1) continue;
     const std::string place = problem.line > 0 ? fmt::format(":{}", problem.line) : "";

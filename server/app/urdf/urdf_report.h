@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "urdf/urdf_check.h"
+#include "urdf/robot/urdf_check.h"
 
 namespace kinescope::app {
 

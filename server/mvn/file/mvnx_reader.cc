@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/file/mvnx_elements.h"
 #include "server/mvn/item_reader.h"
 

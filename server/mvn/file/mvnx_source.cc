@@ -5,8 +5,8 @@
 #include <string_view>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "server/mvn/open.h"
 
 namespace kinescope::mvn {

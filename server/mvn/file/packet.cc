@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "server/mvn/byte_order.h"
 
 namespace kinescope::mvn {

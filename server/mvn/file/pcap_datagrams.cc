@@ -6,9 +6,9 @@
 #include <array>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/errors.h"
-#include "core/starts_with.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
+#include "core/system/starts_with.h"
 #include "server/mvn/net/net_url.h"
 
 namespace kinescope::mvn {

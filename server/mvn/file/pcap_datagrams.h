@@ -17,7 +17,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/input_file.h"
+#include "core/system/input_file.h"
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/file/captured_tcp.h"
 #include "server/mvn/file/ip_fragments.h"

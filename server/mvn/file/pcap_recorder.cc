@@ -5,7 +5,7 @@
 #include <cstring>
 #include <type_traits>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/file/packet.h"
 
 namespace kinescope::mvn {

@@ -11,9 +11,9 @@
 #include <system_error>
 #include <utility>
 
-#include "core/check.h"
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/check.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "server/mvn/file/packet.h"
 
 namespace kinescope::mvn {

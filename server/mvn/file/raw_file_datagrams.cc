@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "server/mvn/datagram.h"
 
 namespace kinescope::mvn {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "core/clocks.h"
-#include "core/input_file.h"
+#include "core/system/clocks.h"
+#include "core/system/input_file.h"
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/stream_framer.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/datagram_extent.h"
 #include "server/mvn/file/pcap_datagrams.h"
 #include "server/mvn/file/raw_file_datagrams.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/input_file.h"
+#include "core/system/input_file.h"
 #include "server/mvn/datagram_source.h"
 
 namespace kinescope::mvn {

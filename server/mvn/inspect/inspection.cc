@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 #include "server/mvn/inspect/character.h"
 
 namespace kinescope::mvn {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <charconv>
 
-#include "core/errors.h"
-#include "core/starts_with.h"
+#include "core/system/errors.h"
+#include "core/system/starts_with.h"
 
 namespace kinescope::mvn {
 namespace {

@@ -12,8 +12,8 @@
 #include <system_error>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 
 namespace kinescope::mvn {
 namespace {

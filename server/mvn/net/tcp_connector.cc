@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 
 namespace kinescope::mvn {
 namespace {

@@ -8,8 +8,8 @@
 #include <cerrno>
 #include <utility>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "server/mvn/stream_framer.h"
 
 namespace kinescope::mvn {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "server/mvn/datagram_extent.h"
 #include "server/mvn/net/socket.h"
 #include "server/mvn/net/tcp_connector.h"

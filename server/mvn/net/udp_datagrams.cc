@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "server/mvn/datagram.h"
 
 namespace kinescope::mvn {

@@ -2,7 +2,7 @@
 
 #include <cerrno>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/net/socket.h"
 #include "server/mvn/net/transport_senders.h"
 

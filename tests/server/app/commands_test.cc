@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <set>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/picture/backend_probe.h"
 #include "tests/temp_folder.h"
 

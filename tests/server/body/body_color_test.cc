@@ -6,7 +6,7 @@
 
 #include "server/scene/scene_builder.h"
 #include "server/subject/subject.h"
-#include "urdf/robot_model.h"
+#include "urdf/robot/robot_model.h"
 
 namespace kinescope::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "urdf/figure.h"
-#include "urdf/robot_model.h"
+#include "urdf/robot/robot_model.h"
 #include "urdf/segments.h"
 
 namespace kinescope::app {

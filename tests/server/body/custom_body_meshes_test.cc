@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/scene/scene_options.h"
 #include "tests/server/options_testing.h"
 #include "tests/shared_data.h"

@@ -5,15 +5,15 @@
 
 #include <fstream>
 
-#include "core/errors.h"
 #include "core/hand_load_shape.h"
+#include "core/system/errors.h"
 #include "server/loads/hand_loads.h"
 #include "server/scene/scene_builder.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
 #include "tests/server/options_testing.h"
 #include "tests/temp_folder.h"
-#include "urdf/robot_model.h"
+#include "urdf/robot/robot_model.h"
 
 namespace kinescope::app {
 namespace {

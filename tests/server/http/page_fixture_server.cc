@@ -17,11 +17,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "core/clocks.h"
 #include "core/hand_load_shape.h"
-#include "core/install_paths.h"
 #include "core/palette.h"
 #include "core/person_links.h"
+#include "core/system/clocks.h"
+#include "core/system/install_paths.h"
 #include "server/http/api.h"
 #include "server/http/protocol.h"
 #include "server/http/server.h"

@@ -21,7 +21,7 @@ std::shared_ptr<const PersonModel> MakePersonModel(std::uint64_t revision = 1,
 SceneState MakeScene(std::uint64_t number, double seconds, std::int64_t arrival_nanos,
                      const std::shared_ptr<const PersonModel>& model, int people = 1);
 
-/// The names of render/camera.h, with numbers like its own.
+/// The names of render/camera/camera.h, with numbers like its own.
 std::vector<CameraView> MakeCameras();
 CameraFraming MakeFraming();
 

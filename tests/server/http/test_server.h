@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "server/http/server.h"
 #include "tests/server/http/test_client.h"
 #include "tests/server/http/test_scene.h"

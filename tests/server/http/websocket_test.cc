@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 #include "server/http/hub.h"
 #include "server/http/protocol.h"
 #include "tests/server/http/test_server.h"

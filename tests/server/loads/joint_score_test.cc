@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/server/loads/loads_testing.h"
 
 namespace kinescope::loads::testing {

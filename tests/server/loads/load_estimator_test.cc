@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/subject/subject.h"
 #include "tests/server/loads/loads_testing.h"
 

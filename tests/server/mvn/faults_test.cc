@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/encode.h"
 #include "tests/server/mvn/mvn_testing.h"
 

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/options/yaml_options.h"
 #include "tests/temp_folder.h"
 

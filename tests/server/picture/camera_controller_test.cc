@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/render/test_scene.h"
 #include "tests/temp_folder.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::app {

@@ -7,7 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "render/camera.h"
+#include "render/camera/camera.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::app {

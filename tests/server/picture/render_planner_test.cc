@@ -11,8 +11,8 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "core/errors.h"
-#include "core/stop_signal.h"
+#include "core/system/errors.h"
+#include "core/system/stop_signal.h"
 #include "tests/server/options_testing.h"
 #include "tests/temp_folder.h"
 

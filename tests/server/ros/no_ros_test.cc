@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.h"
-#include "server/ros/bag_source.h"
+#include "core/system/errors.h"
 #include "server/ros/bridge.h"
-#include "server/ros/graph_source.h"
+#include "server/ros/source/bag_source.h"
+#include "server/ros/source/graph_source.h"
 
 namespace kinescope::ros_bridge {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/ros/master_client.h"
 #include "tests/mesh_file_on_demand.h"
 #include "tests/server/ros/bridge_fixture.h"

@@ -6,9 +6,9 @@
 
 #include <fstream>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/temp_folder.h"
-#include "urdf/xml_outline.h"
+#include "urdf/robot/xml_outline.h"
 
 namespace kinescope::app {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/clocks.h"
-#include "core/errors.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
 
 namespace kinescope::app {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/server/subject/subject_checks.h"
 #include "urdf/body_parameters.h"
 

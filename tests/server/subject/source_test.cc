@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/subject/subject.h"
 
 namespace kinescope::subject {

@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/server/picture/fake_renderer.h"
 #include "tests/temp_folder.h"
 

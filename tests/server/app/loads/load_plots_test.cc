@@ -11,13 +11,13 @@
 #include <fstream>
 #include <limits>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/app/loads/load_rows.h"
 #include "tests/full_disk.h"
 #include "tests/server/app/loads/trial_scenes.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
-#include "urdf/xml_outline.h"
+#include "urdf/robot/xml_outline.h"
 
 namespace kinescope::app {
 namespace {

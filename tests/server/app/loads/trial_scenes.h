@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/clocks.h"
+#include "core/system/clocks.h"
 #include "server/app/loads/load_trial.h"
 #include "server/loads/joint_score.h"
 #include "server/scene/scene_reader.h"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope::app {

@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.h"
-#include "render/png_file.h"
+#include "core/system/errors.h"
+#include "render/image/png_file.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "render/png_file.h"
+#include "render/image/png_file.h"
 #include "server/app/render/output_plan.h"
 #include "tests/temp_folder.h"
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <tuple>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/app/render/provenance_comparison.h"
 #include "tests/server/options_testing.h"
 #include "tests/temp_folder.h"
@@ -176,7 +176,7 @@ TEST(Provenance, TheFirstSchemaIsReadWithItsNamesAndWords) {
   EXPECT_EQ(options.view.camera->size(), 1u);
   EXPECT_EQ(options.view.views->cameras.size(), 4u);
   const render::OverlayParts& parts = *options.view.overlay;
-  EXPECT_TRUE(parts.scale && parts.frame_code && !parts.lamp && parts.legend);
+  EXPECT_TRUE(parts.scale && parts.frame_code && !parts.status && parts.legend);
   const render::SceneLook look = ToPictureSpec(options.view).look;
   EXPECT_TRUE(look.Shows(render::ScenePart::kFrames) && look.Shows(render::ScenePart::kAxes));
   EXPECT_FALSE(look.Shows(render::ScenePart::kHeld));

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/server/options_testing.h"
 
 namespace kinescope::app {

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "render/png_file.h"
+#include "render/image/png_file.h"
 #include "tests/deadline.h"
 #include "tests/server/picture/fake_renderer.h"
 #include "tests/shared_data.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "render/png_file.h"
+#include "render/image/png_file.h"
 #include "server/app/render/provenance_files.h"
 #include "tests/server/options_testing.h"
 #include "tests/temp_folder.h"

@@ -23,7 +23,7 @@ TEST(DiagnosticsJson, WarnsOfAnAssumedMassAndOfADifferentCentreOfMass) {
   BodyForces& forces = state->people[0].forces;
   forces.body_mass_is_assumed = true;
   forces.com_disagrees = true;
-  forces.com_difference = Eigen::Vector3d(0.012, 0, -0.009);
+  forces.com_minus_mvn = Eigen::Vector3d(0.012, 0, -0.009);
   const json person = json::parse(DiagnosticsJson(state, nullptr, {}, {}))["loads"][0];
   EXPECT_THAT(person["warnings"],
               ElementsAre("the body mass is assumed",
@@ -34,14 +34,14 @@ TEST(DiagnosticsJson, WarnsOfAnAssumedMassAndOfADifferentCentreOfMass) {
 
 TEST(DiagnosticsJson, HasNoDifferenceOfTheCentreOfMassIfMvnSendsNone) {
   const auto state = OnePerson();
-  state->people[0].forces.com_difference.reset();
+  state->people[0].forces.com_minus_mvn.reset();
   const json person = json::parse(DiagnosticsJson(state, nullptr, {}, {}))["loads"][0];
   EXPECT_TRUE(person.at("com_minus_mvn_m").is_null());
 }
 
 TEST(DiagnosticsJson, ReportsADriverThatDoesNotRespondOfThePictureAndOfTheView) {
-  PictureStatus pictures;
-  ViewStatus view;
+  DrawingStatus pictures;
+  DrawingStatus view;
   pictures.hangs = true;
   json status = json::parse(DiagnosticsJson(nullptr, nullptr, {}, pictures, view));
   EXPECT_EQ(status["pictures"]["driver_hung"], true);

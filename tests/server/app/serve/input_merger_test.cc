@@ -114,7 +114,7 @@ TEST(InputMerger, AppliesAHandLoadOfRosBeforeTheSampleThatFollows) {
   Wired wired(&bridge);
   bridge.load = InRightHand(2);
   wired.sink.OnSample(TPose(1));
-  EXPECT_EQ(wired.last->people[0].forces.told.alone_kg[kRight], 2);
+  EXPECT_EQ(wired.last->people[0].forces.stated_hand_load.alone_kg[kRight], 2);
 }
 
 TEST(InputMerger, PassesOnTheSubscribersOfTheRosCameraAlsoWithoutSamples) {

@@ -9,8 +9,8 @@
 #include <chrono>
 #include <string>
 
-#include "core/errors.h"
-#include "render/png_file.h"
+#include "core/system/errors.h"
+#include "render/image/png_file.h"
 #include "tests/render/test_scene.h"
 
 namespace kinescope::app {

@@ -9,7 +9,7 @@
 #include "server/app/serve/live_pictures.h"
 #include "server/http/server.h"
 #include "tests/server/http/test_client.h"
-#include "urdf/robot_kinematics.h"
+#include "urdf/robot/robot_kinematics.h"
 
 namespace kinescope::app {
 namespace {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/server/options_testing.h"
 
 namespace kinescope::app {

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/captured_log.h"
 #include "tests/server/http/test_client.h"
 #include "tests/server/options_testing.h"

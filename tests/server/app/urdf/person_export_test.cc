@@ -5,11 +5,11 @@
 
 #include <fstream>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
 #include "urdf/figure.h"
-#include "urdf/robot_model.h"
+#include "urdf/robot/robot_model.h"
 
 namespace kinescope::app {
 namespace {

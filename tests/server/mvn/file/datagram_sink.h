@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/input_file.h"
+#include "core/system/input_file.h"
 #include "server/mvn/byte_order.h"
 #include "server/mvn/datagram_source.h"
 

@@ -1,4 +1,4 @@
-#include "core/input_file.h"
+#include "core/system/input_file.h"
 
 #include <archive.h>
 #include <archive_entry.h>
@@ -11,7 +11,7 @@
 #include <fstream>
 #include <thread>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/raw_file_datagrams.h"
 #include "server/mvn/file/recording.h"

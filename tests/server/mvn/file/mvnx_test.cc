@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/open.h"
 #include "tests/heap_in_use.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <random>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/file/pcap_datagrams.h"
 #include "tests/server/mvn/file/capture_builder.h"
 #include "tests/server/mvn/file/datagram_sink.h"

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/encode.h"
 #include "server/mvn/file/pcap_datagrams.h"
 #include "server/mvn/file/pcap_recorder.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "core/errors.h"
+#include "core/system/errors.h"
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/net/socket.h"
 #include "tests/server/mvn/mvn_testing.h"

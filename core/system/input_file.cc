@@ -1,0 +1,256 @@
+#include "core/system/input_file.h"
+
+#include <archive.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/system/errors.h"
+#include "core/system/starts_with.h"
+
+namespace kinescope {
+namespace {
+
+using namespace std::string_view_literals;
+
+constexpr std::size_t kChunkBytes = 64 * 1024;
+constexpr std::size_t kLongestMagic = 16;
+
+struct Magic {
+  std::string_view bytes;
+  const char* name;
+};
+
+constexpr Magic kPacked[] = {
+    {"\x1f\x8b"sv, "gzip"}, {"\xfd\x37zXZ\0"sv, "xz"},     {"\x28\xb5\x2f\xfd"sv, "zstd"},
+    {"BZh"sv, "bzip2"},     {"\x04\x22\x4d\x18"sv, "lz4"},
+};
+
+const Magic* FindPacking(std::string_view head) {
+  const auto* found = std::find_if(std::begin(kPacked), std::end(kPacked), [&](const Magic& magic) {
+    return StartsWith(head, magic.bytes);
+  });
+  return found == std::end(kPacked) ? nullptr : found;
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
+
+  int get() const { return number_; }
+
+ private:
+  int number_;
+};
+
+// Bytes read, 0 at the end, -1 with errno. A signal ends the input: the user asked to stop while
+// the program waited for a pipe, and what has come is all there will be.
+ssize_t ReadSome(int descriptor, char* to, std::size_t size) {
+  const ssize_t count = read(descriptor, to, size);
+  return count < 0 && errno == EINTR ? 0 : count;
+}
+
+Descriptor Open(const std::string& path) {
+  const bool is_stdin = path == "-";
+  Descriptor file(is_stdin ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) {
+    const int error = errno;
+    const char* way_out = "";
+    if (error == ENOENT) way_out = "; check the path";
+    if (error == EACCES) way_out = "; add read permission (chmod +r), or run as its owner";
+    throw SourceError(NameOfInput(path) + ": cannot open the file: " + std::strerror(error) +
+                      way_out);
+  }
+  struct stat about {};
+  if (fstat(file.get(), &about) == 0 && S_ISDIR(about.st_mode)) {
+    throw SourceError(path + ": is a folder; name a file in it");
+  }
+  return file;
+}
+
+}  // namespace
+
+// What stands behind the FILE: the bytes of the descriptor, unpacked where they are packed.
+class InputFile::Content {
+ public:
+  Content(Descriptor file, std::string name, std::shared_ptr<Notes> notes)
+      : file_(std::move(file)), name_(std::move(name)), notes_(std::move(notes)) {}
+
+  /// @throws SourceError when there is nothing to be read.
+  void Start() {
+    std::string raw_head = ReadHead([this](char* to, std::size_t size) {
+      const ssize_t count = ReadSome(file_.get(), to, size);
+      if (count < 0) notes_->failure = std::strerror(errno);
+      return count;
+    });
+    const Magic* const packing = FindPacking(raw_head);
+    notes_->is_packed = packing != nullptr || lseek(file_.get(), 0, SEEK_CUR) < 0;
+    if (packing != nullptr) {
+      packing_ = packing->name;
+      raw_head_ = std::move(raw_head);
+      Unpack();
+      notes_->head =
+          ReadHead([this](char* to, std::size_t size) { return ReadUnpacked(to, size); });
+    } else {
+      notes_->head = std::move(raw_head);
+    }
+    if (!notes_->failure.empty() && notes_->head.empty()) {
+      throw SourceError(name_ + ": cannot read the file: " + notes_->failure + WayOut());
+    }
+  }
+
+  ssize_t Read(char* to, std::size_t size) {
+    const std::string_view rest = std::string_view(notes_->head).substr(head_given_);
+    if (!rest.empty()) {
+      const std::size_t count = std::min(size, rest.size());
+      std::memcpy(to, rest.data(), count);
+      head_given_ += count;
+      return static_cast<ssize_t>(count);
+    }
+    if (!notes_->failure.empty()) {  // met while the head was read
+      errno = EIO;
+      return -1;
+    }
+    if (archive_ != nullptr) return ReadUnpacked(to, size);
+    const ssize_t count = ReadSome(file_.get(), to, size);
+    if (count < 0) notes_->failure = std::strerror(errno);
+    return count;
+  }
+
+ private:
+  struct FreeArchive {
+    void operator()(archive* unpacker) const { archive_read_free(unpacker); }
+  };
+
+  std::string WayOut() const {
+    return packing_.empty() ? "" : "; the " + packing_ + " file is damaged; copy it again";
+  }
+
+  // Enough to tell what it is, and no more than comes by itself: a pipe may be slow.
+  template <class ReadInto>
+  std::string ReadHead(ReadInto&& read_into) {
+    std::string head(kHeadBytes, '\0');
+    std::size_t size = 0;
+    while (size < kLongestMagic) {
+      const ssize_t count = read_into(head.data() + size, head.size() - size);
+      if (count <= 0) break;
+      size += static_cast<std::size_t>(count);
+    }
+    head.resize(size);
+    return head;
+  }
+
+  void Unpack() {
+    archive_.reset(archive_read_new());
+    if (archive_ == nullptr) throw SourceError(name_ + ": not enough memory to decompress it");
+    // Not "all": some filters start other programs.
+    archive_read_support_filter_gzip(archive_.get());
+    archive_read_support_filter_bzip2(archive_.get());
+    archive_read_support_filter_xz(archive_.get());
+    archive_read_support_filter_zstd(archive_.get());
+    archive_read_support_filter_lz4(archive_.get());
+    archive_read_support_format_raw(archive_.get());
+    archive_read_support_format_empty(archive_.get());
+    const auto read_packed = [](archive*, void* self, const void** bytes) -> la_ssize_t {
+      return static_cast<Content*>(self)->ReadPacked(bytes);
+    };
+    archive_entry* entry = nullptr;
+    int status = archive_read_open(archive_.get(), this, nullptr, read_packed, nullptr);
+    if (status == ARCHIVE_OK) status = archive_read_next_header(archive_.get(), &entry);
+    at_end_ = status == ARCHIVE_EOF;
+    if (status < ARCHIVE_WARN) NoteFailure();
+  }
+
+  la_ssize_t ReadPacked(const void** bytes) {
+    if (!std::exchange(raw_head_given_, true)) {
+      *bytes = raw_head_.data();
+      return static_cast<la_ssize_t>(raw_head_.size());
+    }
+    const ssize_t count = ReadSome(file_.get(), chunk_.data(), chunk_.size());
+    if (count < 0) {
+      archive_set_error(archive_.get(), errno, "%s", std::strerror(errno));
+      return ARCHIVE_FATAL;
+    }
+    *bytes = chunk_.data();
+    return count;
+  }
+
+  ssize_t ReadUnpacked(char* to, std::size_t size) {
+    if (at_end_) return 0;
+    la_ssize_t count = ARCHIVE_RETRY;
+    if (notes_->failure.empty()) {
+      while (count == ARCHIVE_RETRY) count = archive_read_data(archive_.get(), to, size);
+    }
+    if (count >= 0) return count;
+    NoteFailure();
+    errno = EIO;
+    return -1;
+  }
+
+  void NoteFailure() {
+    if (!notes_->failure.empty()) return;
+    const char* reason = archive_error_string(archive_.get());
+    notes_->failure = reason != nullptr ? reason : "the archive is damaged";
+  }
+
+  Descriptor file_;
+  std::string name_;
+  std::string packing_;  // "": none
+  std::shared_ptr<Notes> notes_;
+  std::size_t head_given_ = 0;
+
+  std::unique_ptr<archive, FreeArchive> archive_;  // null: plain
+  std::string raw_head_;                           // shows whether it is compressed
+  bool raw_head_given_ = false;
+  bool at_end_ = false;
+  std::vector<char> chunk_ = std::vector<char>(kChunkBytes);
+};
+
+InputFile::InputFile(std::FILE* file) : file_(file), notes_(std::make_shared<Notes>()) {}
+
+std::string_view InputFile::head() const { return notes_->head; }
+
+bool InputFile::is_packed() const { return notes_->is_packed; }
+
+std::string InputFile::failure() const {
+  if (!notes_->failure.empty()) return notes_->failure;
+  return file_ != nullptr && std::ferror(file_.get()) != 0 ? std::strerror(errno) : "";
+}
+
+InputFile OpenInputFile(const std::string& path) {
+  InputFile input(nullptr);
+  auto content = std::make_unique<InputFile::Content>(Open(path), NameOfInput(path), input.notes_);
+  content->Start();
+  cookie_io_functions_t functions{};
+  functions.read = [](void* self, char* to, std::size_t size) {
+    return static_cast<InputFile::Content*>(self)->Read(to, size);
+  };
+  functions.close = [](void* self) {
+    delete static_cast<InputFile::Content*>(self);
+    return 0;
+  };
+  input.file_.reset(fopencookie(content.get(), "rb", functions));
+  if (input.file_ == nullptr) {
+    throw SourceError(NameOfInput(path) + ": cannot open the file: " + std::strerror(errno));
+  }
+  static_cast<void>(content.release());  // the FILE owns it now
+  std::setvbuf(input.file_.get(), nullptr, _IOFBF, kChunkBytes);
+  return input;
+}
+
+std::string NameOfInput(const std::string& path) { return path == "-" ? "standard input" : path; }
+
+}  // namespace kinescope

@@ -1,0 +1,198 @@
+#include "render/camera/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+#include <map>
+
+#include "core/system/errors.h"
+#include "render/camera/camera_matrices.h"
+
+namespace kinescope::render {
+namespace {
+
+glm::dvec3 ToGlm(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+// Where everything that one wants to see of a standing adult fits: soles to fingers overhead.
+constexpr double kTargetHeight = 1.06;  // m
+constexpr double kReach = 2.50;         // m, of the vertical that must be visible
+
+constexpr double kLeash = 0.35;  // m, that people may go before a steady camera follows
+constexpr double kSlack = 0.5;   // m, by which a group may draw together before it comes nearer
+
+struct Direction {
+  Eigen::Vector3d to_camera;  // from the target
+  Eigen::Vector3d up;
+};
+
+// Horizontal views look down by a few degrees, so that the floor reads as a floor.
+Direction Horizontal(double azimuth_deg, double elevation_deg) {
+  const double azimuth = azimuth_deg * M_PI / 180;
+  const double elevation = elevation_deg * M_PI / 180;
+  return {{std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
+           std::sin(elevation)},
+          Eigen::Vector3d::UnitZ()};
+}
+
+const std::vector<std::pair<std::string, Direction>>& Directions() {
+  // "left" is the person's left side (+y), as in an anatomical drawing.
+  static const std::vector<std::pair<std::string, Direction>> directions = {
+      {"front", Horizontal(0, 6)},
+      {"back", Horizontal(180, 6)},
+      {"left", Horizontal(90, 6)},
+      {"right", Horizontal(-90, 6)},
+      {"top", {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitX()}},
+      {"iso", Horizontal(45, 35.264)},
+      {"three_quarter", Horizontal(-38, 14)},
+  };
+  return directions;
+}
+
+}  // namespace
+
+const std::vector<std::string>& CameraNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, direction] : Directions()) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+GroundExtent GroundExtentOf(const SceneState& state) {
+  if (state.people.empty()) return {Eigen::Vector3d(0, 0, state.floor_z), 0};
+  const auto on_floor = [&](const PersonState& person) {
+    Eigen::Vector3d point = person.links[urdf::kPelvis].position;
+    point.z() = state.floor_z;
+    return point;
+  };
+  GroundExtent about;
+  for (const PersonState& person : state.people) about.middle += on_floor(person);
+  about.middle /= static_cast<double>(state.people.size());
+  for (const PersonState& person : state.people) {
+    about.radius = std::max(about.radius, (on_floor(person) - about.middle).norm());
+  }
+  return about;
+}
+
+Camera NamedCameraAt(const std::string& name, const GroundExtent& about) {
+  for (const auto& [known, direction] : Directions()) {
+    if (known != name) continue;
+    Camera camera;
+    camera.target = about.middle + Eigen::Vector3d(0, 0, kTargetHeight);
+    camera.up = direction.up;
+    // Pictures are wider than high, so a group may stand wider than a person is tall; its nearest
+    // member comes closer than its middle.
+    const double half_width = about.radius + kGroupFraming.margin_m;
+    const double half_extent = std::max(0.5 * kReach, half_width / kGroupFraming.narrowest_aspect);
+    const double distance = half_extent / std::tan(0.5 * camera.vertical_fov_rad) + about.radius;
+    camera.position = camera.target + distance * direction.to_camera;
+    camera.far_m = std::max(camera.far_m, 4 * distance);
+    return camera;
+  }
+  std::string known;
+  for (const std::string& each : CameraNames()) known += (known.empty() ? "" : ", ") + each;
+  throw UsageError("unknown camera '" + name + "'; expected one of " + known);
+}
+
+namespace {
+
+// Robots come in all sizes, so the view is as large as they are.
+Camera Around(const std::string& name, const Eigen::AlignedBox3d& box) {
+  constexpr double kMargin = 1.15, kSmallest = 0.02;  // m
+  const double radius = std::max(0.5 * box.diagonal().norm(), kSmallest);
+  Camera camera = NamedCameraAt(name, GroundExtent());
+  const Eigen::Vector3d to_camera = (camera.position - camera.target).normalized();
+  const double distance = kMargin * radius / std::sin(0.5 * camera.vertical_fov_rad);
+  camera.target = box.center();
+  camera.position = camera.target + distance * to_camera;
+  camera.near_m = std::min(camera.near_m, 0.02 * distance);
+  camera.far_m = std::max(camera.far_m, 4 * distance);
+  return camera;
+}
+
+Eigen::AlignedBox3d BoxOfRobots(const std::vector<RobotState>& robots) {
+  Eigen::AlignedBox3d box;
+  for (const RobotState& robot : robots) {
+    box.extend(robot.bounds);
+    if (!robot.bounds.isEmpty()) continue;
+    for (const Eigen::Isometry3d& link : robot.world_from_link) box.extend(link.translation());
+  }
+  return box;
+}
+
+}  // namespace
+
+Camera NamedCamera(const std::string& name, const SceneState& state) {
+  if (state.people.empty()) {
+    const Eigen::AlignedBox3d box = BoxOfRobots(state.robots);
+    if (!box.isEmpty()) return Around(name, box);
+  }
+  return NamedCameraAt(name, GroundExtentOf(state));
+}
+
+const GroundExtent& SmoothedGroundExtent::Follow(const SceneState& state) {
+  const GroundExtent now = GroundExtentOf(state);
+  if (!has_people_) {
+    has_people_ = !state.people.empty();
+    about_ = now;
+  } else if (!state.people.empty()) {
+    const Eigen::Vector3d away = now.middle - about_.middle;
+    const double distance = away.norm();
+    if (distance > kLeash) about_.middle += away * (1 - kLeash / distance);
+    about_.radius = std::clamp(about_.radius, now.radius, now.radius + kSlack);
+  }
+  return about_;
+}
+
+glm::dmat4 ViewFromWorld(const Camera& camera) {
+  const Eigen::Vector3d forward = (camera.target - camera.position).normalized();
+  Eigen::Vector3d up = camera.up;
+  if (forward.cross(up).norm() < 1e-6 * up.norm()) {
+    up = std::abs(forward.x()) < 0.9 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  }
+  return glm::lookAt(ToGlm(camera.position), ToGlm(camera.target), ToGlm(up));
+}
+
+glm::dmat4 ClipFromView(const Camera& camera, double aspect) {
+  if (camera.is_orthographic()) {
+    const double half = 0.5 * camera.ortho_height_m;
+    return glm::ortho(-half * aspect, half * aspect, -half, half, camera.near_m, camera.far_m);
+  }
+  return glm::perspective(camera.vertical_fov_rad, aspect, camera.near_m, camera.far_m);
+}
+
+glm::dmat4 TileFromClip(const Tile& tile, int width_px, int height_px) {
+  const double scale_x = static_cast<double>(width_px) / tile.width;
+  const double scale_y = static_cast<double>(height_px) / tile.height;
+  // Centre of the tile in the whole picture's normalised coordinates; y points up there.
+  const double center_x = (2.0 * tile.x + tile.width) / width_px - 1;
+  const double center_y = 1 - (2.0 * tile.y + tile.height) / height_px;
+  glm::dmat4 matrix(1.0);
+  matrix[0][0] = scale_x;
+  matrix[1][1] = scale_y;
+  matrix[3][0] = -center_x * scale_x;
+  matrix[3][1] = -center_y * scale_y;
+  return matrix;
+}
+
+Projected Project(const Eigen::Vector3d& point_in_world, const Camera& camera, int width_px,
+                  int height_px) {
+  const glm::dvec4 in_view = ViewFromWorld(camera) * glm::dvec4(ToGlm(point_in_world), 1);
+  const double aspect = static_cast<double>(width_px) / height_px;
+  Projected projected;
+  projected.depth_m = -in_view.z;
+  if (projected.depth_m <= 0) return projected;
+  const glm::dvec4 clip = ClipFromView(camera, aspect) * in_view;
+  projected.x_px = (clip.x / clip.w + 1) / 2 * width_px;
+  projected.y_px = (1 - clip.y / clip.w) / 2 * height_px;
+  projected.px_per_m =
+      height_px / (camera.is_orthographic()
+                       ? camera.ortho_height_m
+                       : 2 * std::tan(0.5 * camera.vertical_fov_rad) * projected.depth_m);
+  return projected;
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,185 @@
+#include "render/image/png_file.h"
+
+#include <png.h>
+
+#include <cerrno>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+
+#include "core/system/check.h"
+#include "render/image/new_file.h"
+
+namespace kinescope::render {
+namespace {
+
+constexpr png_uint_32 kMaxSide = 16384;  // px; larger is no picture of ours
+
+bool IsOpaque(const Image& image) {
+  for (std::size_t at = 3; at < image.rgba.size(); at += 4) {
+    if (image.rgba[at] != 255) return false;
+  }
+  return true;
+}
+
+void Append(png_structp png, png_bytep data, png_size_t size) {
+  auto* out = static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
+  out->insert(out->end(), data, data + size);
+}
+
+void KeepMessage(png_structp png, png_const_charp message) {
+  *static_cast<std::string*>(png_get_error_ptr(png)) = message;
+  png_longjmp(png, 1);
+}
+void IgnoreWarning(png_structp, png_const_charp) {}
+
+struct EncodeJob {
+  const Image* image;
+  bool has_alpha;
+  std::vector<png_text>* texts;
+  std::vector<png_bytep>* rows;
+};
+
+// Everything that longjmp may skip lives in the caller. False: libpng gave up.
+bool RunEncoder(png_structp png, png_infop info, const EncodeJob& job) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_IHDR(png, info, static_cast<png_uint_32>(job.image->width),
+               static_cast<png_uint_32>(job.image->height), 8,
+               job.has_alpha ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  // Measured on our pictures, which are mostly flat: a quarter of the default's time, 2 % more
+  // bytes.
+  png_set_compression_level(png, 3);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  if (!job.texts->empty()) {
+    png_set_text(png, info, job.texts->data(), static_cast<int>(job.texts->size()));
+  }
+  png_write_info(png, info);
+  if (!job.has_alpha) png_set_filler(png, 0, PNG_FILLER_AFTER);
+  png_write_image(png, job.rows->data());
+  png_write_end(png, info);
+  return true;
+}
+
+std::vector<png_text> TextChunks(const std::map<std::string, std::string>& text) {
+  std::vector<png_text> chunks;
+  for (const auto& [key, value] : text) {
+    png_text chunk = {};
+    chunk.compression = PNG_TEXT_COMPRESSION_NONE;
+    chunk.key = const_cast<char*>(key.c_str());  // libpng only reads them
+    chunk.text = const_cast<char*>(value.c_str());
+    chunk.text_length = value.size();
+    chunks.push_back(chunk);
+  }
+  return chunks;
+}
+
+// As RunEncoder.
+bool RunHeadReader(png_structp png, png_infop info, std::FILE* file) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_init_io(png, file);
+  png_read_info(png, info);
+  return true;
+}
+
+std::vector<std::uint8_t> ReadWhole(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
+  if (!file.is_open() || file.bad()) {
+    throw std::runtime_error("cannot read " + path.string() + ": " + std::strerror(errno));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> EncodePng(const Image& image,
+                                    const std::map<std::string, std::string>& text) {
+  KINESCOPE_CHECK(image.width > 0 && image.height > 0);
+  KINESCOPE_CHECK(image.rgba.size() == 4 * static_cast<std::size_t>(image.width) *
+                                           static_cast<std::size_t>(image.height));
+  std::vector<std::uint8_t> out;
+  out.reserve(image.rgba.size() / 8);
+  std::vector<png_text> texts = TextChunks(text);
+  std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(image.height));
+  for (int y = 0; y < image.height; ++y) {
+    rows.push_back(const_cast<png_bytep>(image.rgba.data()) +
+                   4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width));
+  }
+  std::string message;
+  png_structp png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, KeepMessage, IgnoreWarning);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  bool done = false;
+  if (info != nullptr) {
+    png_set_write_fn(png, &out, Append, nullptr);
+    done = RunEncoder(png, info, {&image, !IsOpaque(image), &texts, &rows});
+  }
+  png_destroy_write_struct(&png, &info);
+  if (!done) throw std::runtime_error("libpng cannot encode the picture: " + message);
+  return out;
+}
+
+void WritePng(const std::filesystem::path& path, const Image& image,
+              const std::map<std::string, std::string>& text) {
+  const std::vector<std::uint8_t> bytes = EncodePng(image, text);
+  NewFile file(path);
+  file.Write(bytes.data(), bytes.size());
+  file.Commit();
+}
+
+Image ReadPng(const std::filesystem::path& path) {
+  const std::vector<std::uint8_t> bytes = ReadWhole(path);
+  png_image header = {};
+  header.version = PNG_IMAGE_VERSION;
+  const auto fail = [&](const std::string& why) {
+    png_image_free(&header);
+    throw std::runtime_error(path.string() + " is not a readable PNG: " + why);
+  };
+  if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0)
+    fail(header.message);
+  if (header.width > kMaxSide || header.height > kMaxSide) {
+    fail(std::to_string(header.width) + " x " + std::to_string(header.height) +
+         " px is larger than the limit of " + std::to_string(kMaxSide) + " px per side");
+  }
+  header.format = PNG_FORMAT_RGBA;
+  Image image;
+  image.width = static_cast<int>(header.width);
+  image.height = static_cast<int>(header.height);
+  image.rgba.resize(PNG_IMAGE_SIZE(header));
+  if (png_image_finish_read(&header, nullptr, image.rgba.data(), 0, nullptr) == 0)
+    fail(header.message);
+  return image;
+}
+
+std::map<std::string, std::string> ReadPngText(const std::filesystem::path& path) {
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rbe"));
+  if (!file) throw std::runtime_error("cannot read " + path.string() + ": " + std::strerror(errno));
+  std::string message;
+  png_structp png =
+      png_create_read_struct(PNG_LIBPNG_VER_STRING, &message, KeepMessage, IgnoreWarning);
+  png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+  std::map<std::string, std::string> text;
+  const bool done = info != nullptr && RunHeadReader(png, info, file.get());
+  if (done) {
+    png_textp chunks = nullptr;
+    const int count = png_get_text(png, info, &chunks, nullptr);
+    for (int i = 0; i < count; ++i) text[chunks[i].key] = chunks[i].text;
+  }
+  png_destroy_read_struct(&png, &info, nullptr);
+  if (!done) {
+    throw std::runtime_error(path.string() + " is not a readable PNG: " + message);
+  }
+  return text;
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,33 @@
+/// Writes PNG and JPEG from an Image (libpng, libjpeg-turbo), and reads PNG. Pure functions apart
+/// from files, any thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "render/image/image.h"
+
+namespace kinescope::render {
+
+/// RGB (without alpha if every pixel is opaque); `text` becomes tEXt chunks. The file gets its name
+/// only when complete.
+/// @throws std::runtime_error with the path and the reason.
+void WritePng(const std::filesystem::path& path, const Image& image,
+              const std::map<std::string, std::string>& text = {});
+std::vector<std::uint8_t> EncodePng(const Image& image,
+                                    const std::map<std::string, std::string>& text = {});
+
+/// @throws std::runtime_error with the path and the reason.
+Image ReadPng(const std::filesystem::path& path);
+
+/// The tEXt, zTXt and iTXt chunks before the pixels. @throws std::runtime_error with the path and
+/// the reason.
+std::map<std::string, std::string> ReadPngText(const std::filesystem::path& path);
+
+/// Baseline JPEG, 4:2:0. quality 1..100.
+std::vector<std::uint8_t> EncodeJpeg(const Image& image, int quality);
+
+}  // namespace kinescope::render

@@ -1,0 +1,163 @@
+#include "server/ros/source/graph_source.h"
+
+#include <ros/init.h>
+#include <ros/names.h>
+#include <ros/network.h>
+#include <ros/this_node.h>
+
+#include <utility>
+#include <vector>
+
+#include "core/system/check.h"
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
+#include "core/system/starts_with.h"
+#include "server/ros/names.h"
+#include "server/ros/source/link_states_person.h"
+#include "server/ros/source/live_topics.h"
+#include "server/ros/source/transform_people.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+constexpr std::string_view kScheme = "ros:";
+constexpr std::int64_t kSettleNanos = 250'000'000;
+constexpr char kUnreadableMessage[] = "is truncated or has a wrong length field";
+constexpr std::size_t kLongestTypeName = 80;  // bytes, in the name of a counter: it is untrusted
+
+// "xsens" of "/xsens/link_states".
+std::string OwnerOf(const std::string& topic) {
+  const std::size_t end = topic.rfind('/');
+  if (end == std::string::npos || end == 0) return "";
+  const std::size_t begin = topic.rfind('/', end - 1) + 1;
+  return topic.substr(begin, end - begin);
+}
+
+std::string ToTopic(const std::string& url) {
+  const std::string name = url.substr(kScheme.size());
+  std::string why;
+  if (!ros::names::validate(name, why)) {
+    throw SourceError("source '" + url + "': " + why +
+                      "; expected ros: or ros:/topic, such as ros:/xsens/link_states");
+  }
+  std::string topic = ros::names::resolve(name.empty() ? "/tf" : name);
+  if (StartsWith(topic, ros::this_node::getName() + "/")) {
+    throw SourceError(
+        "source '" + url + "': " + ros::this_node::getName() +
+        " is this node's own name; start it with another one, such as __name:=kinescope_view");
+  }
+  return topic;
+}
+
+// The master shuts down a node with this node's name as soon as this node registers: probably the
+// one to subscribe to.
+void RefuseNameOfAnother(const std::string& url) {
+  XmlRpc::XmlRpcValue name;
+  name[0] = ros::this_node::getName();
+  MasterReply other = MasterClient().Call("lookupNode", name);
+  if (other.code != MasterReply::Code::kGood) return;
+  std::string host;
+  std::uint32_t port = 0;
+  const bool has_address = other.value.getType() == XmlRpc::XmlRpcValue::TypeString &&
+                           ros::network::splitURI(other.value, host, port);
+  if (!has_address) return;
+  MasterClient node(host, static_cast<int>(port));
+  if (node.Call("getPid", XmlRpc::XmlRpcValue()).code != MasterReply::Code::kGood) return;
+  throw SourceError("source '" + url + "': another running node is already named " +
+                    ros::this_node::getName() + "; start this one with __name:=kinescope_view");
+}
+
+std::vector<std::string> TopicsBeside(const std::string& topic) {
+  if (!EndsWith(topic, "tf")) return {topic};
+  return {topic, topic + "_static"};
+}
+
+class GraphSource : public Source {
+ public:
+  explicit GraphSource(const std::string& topic)
+      : description_("ros:" + topic),
+        people_(kSettleNanos),
+        link_states_(OwnerOf(topic)),
+        names_(TopicsBeside(topic)),
+        topics_(names_, description_, [this](std::size_t index, const LiveTopics::Event& event) {
+          OnMessage(index, event);
+        }) {}
+
+  State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override {
+    sink_ = &sink;
+    topics_.Take(timeout);
+    sink_ = nullptr;
+    return topics_.status().shutdown_requested ? State::kEnded : State::kMore;
+  }
+
+  SourceCounters counters() const override {
+    SourceCounters counters = counters_;
+    const LiveTopics::Status status = topics_.status();
+    counters.transport = {{"ros_master_answers", status.master_answers ? 1 : 0},
+                          {"publishers", status.publishers}};
+    return counters;
+  }
+  std::string description() const override { return description_; }
+  bool is_live() const override { return true; }
+
+ private:
+  Arrival Now() const {
+    const std::int64_t now = MonotonicNanos();
+    return {start_wall_ + (now - start_monotonic_), now};
+  }
+
+  void OnMessage(std::size_t index, const LiveTopics::Event& event) {
+    KINESCOPE_CHECK(sink_ != nullptr);
+    const RawMessage& raw = *event.getConstMessage();
+    ++counters_.datagrams;
+    counters_.bytes += raw.bytes.size();
+    if (event.getPublisherName() == ros::this_node::getName()) {
+      ++counters_.ignored["message published by this node"];
+      return;
+    }
+    const ros::M_string& connection = event.getConnectionHeader();
+    const auto md5 = connection.find("md5sum");
+    const std::string sum = md5 == connection.end() ? "" : md5->second;
+    if (sum == ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
+      if (!Decode(raw.bytes, transforms_)) return Reject(index, kUnreadableMessage);
+      if (index > 0) return people_.TakeStatic(transforms_, counters_);
+      return people_.Take(transforms_, Now(), counters_, *sink_);
+    }
+    if (sum == ros::message_traits::md5sum<xsens_mvn_ros_msgs::LinkStateArray>()) {
+      if (!Decode(raw.bytes, link_state_array_)) return Reject(index, kUnreadableMessage);
+      return link_states_.Take(link_state_array_, Now(), counters_, *sink_);
+    }
+    const auto type = connection.find("type");
+    Reject(index, "is a " + (type == connection.end() ? std::string("message without a type")
+                                                      : type->second.substr(0, kLongestTypeName)));
+  }
+
+  void Reject(std::size_t index, const std::string& what) {
+    ++counters_.rejected["message on " + names_[index] + " that " + what];
+  }
+
+  const std::string description_;
+  const std::int64_t start_wall_ = WallNanos();
+  const std::int64_t start_monotonic_ = MonotonicNanos();
+  TransformPeople people_;
+  LinkStatesPerson link_states_;
+  tf2_msgs::TFMessage transforms_;                       // reused, keeps its memory
+  xsens_mvn_ros_msgs::LinkStateArray link_state_array_;  // reused, keeps its memory
+  SourceCounters counters_;
+  SampleSink* sink_ = nullptr;  // during Poll
+  const std::vector<std::string> names_;
+  LiveTopics topics_;  // last: it calls this object
+};
+
+}  // namespace
+
+bool IsGraphUrl(std::string_view url) { return url.substr(0, kScheme.size()) == kScheme; }
+
+std::unique_ptr<Source> OpenGraph(const std::string& url) {
+  KINESCOPE_CHECK(ros::isInitialized());
+  const std::string topic = ToTopic(url);
+  RefuseNameOfAnother(url);
+  return std::make_unique<GraphSource>(topic);
+}
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,78 @@
+/// Assembles the transforms on /tf and /tf_static, of a bag or of a running ROS graph, to samples.
+/// people_frames.h identifies the frames, transform_person.h makes the samples, skeleton_watch.h
+/// measures the lengths. Memory is limited; no clock; one thread.
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/source.h"
+#include "server/ros/source/people_frames.h"
+#include "server/ros/source/skeleton_watch.h"
+#include "server/ros/source/transform_person.h"
+
+namespace kinescope::ros_bridge {
+
+/// Receive time of a message. `stamp_nanos` never goes back.
+struct Arrival {
+  std::int64_t stamp_nanos = 0;      // Unix epoch; replaces implausible header stamps
+  std::int64_t monotonic_nanos = 0;  // as BodySample::arrival_nanos; 0: from a file
+};
+
+class TransformPeople {
+ public:
+  /// `settle_nanos`: people are searched when no new frame with a segment's name has appeared for
+  /// this time. Live, the names arrive one by one, and a missing one must not be taken from a robot
+  /// that also has a "head".
+  explicit TransformPeople(std::int64_t settle_nanos) : settle_nanos_(settle_nanos) {}
+
+  /// Adds a frame name while reading ahead; true if the frame may be a segment.
+  bool AddName(const std::string& frame);
+  void FindPeople() { frames_.Find(); }
+
+  /// Processes one message. Samples and characters are delivered to `sink`; rejected transforms are
+  /// counted by reason.
+  void Take(const tf2_msgs::TFMessage& message, const Arrival& arrival, SourceCounters& counters,
+            SampleSink& sink);
+  /// Processes a message of /tf_static: its frames are part of every sample that does not contain
+  /// them itself.
+  void TakeStatic(const tf2_msgs::TFMessage& message, SourceCounters& counters);
+  /// End of the input: counts the sets that lack segments.
+  void End(SourceCounters& counters);
+
+  const std::vector<PersonFrames>& people() const { return frames_.people(); }
+
+ private:
+  static constexpr std::size_t kMaxStatic = 4096;  // frames kept, those of robots included
+
+  struct Person {
+    explicit Person(int id) : transforms(id) {}
+    TransformPerson transforms;
+    SkeletonWatch skeleton;
+    bool is_known = false;  // delivered to the sink
+  };
+
+  void NoticeNames(const tf2_msgs::TFMessage& message, std::int64_t now);
+  /// The transform as one of a person's frames; nothing if it belongs to no person or is invalid.
+  std::optional<FrameTransform> Read(const geometry_msgs::TransformStamped& transform,
+                                     SourceCounters& counters) const;
+  void AddStatic(const geometry_msgs::TransformStamped& transform, SourceCounters& counters);
+  void Give(int index, const Arrival& arrival, SourceCounters& counters, SampleSink& sink);
+
+  const std::int64_t settle_nanos_;
+  PeopleFrames frames_;
+  std::optional<std::int64_t> new_name_at_;  // when the last new name appeared, if people were not
+                                             // searched since
+  std::vector<Person> people_;               // by index of frames_.people()
+  std::map<std::string, geometry_msgs::TransformStamped> static_;  // by child
+  std::set<int> touched_;  // people with a transform in the current message
+};
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,158 @@
+#include "server/ros/source/transform_person.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "core/system/clocks.h"
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using urdf::At;
+using urdf::Pose;
+
+constexpr std::int64_t kDayNanos = 86'400'000'000'000;
+constexpr std::int64_t kMinStepNanos = 1'000;  // between two samples
+
+constexpr double kShortestArmBone = 0.05;  // m
+
+// Direction of the next joint in the segment frames of the arms: along the arm, which is horizontal
+// in the T-pose.
+struct ArmBone {
+  int segment;
+  double along_y;
+};
+constexpr std::array<ArmBone, 4> kArmBones = {{{urdf::kRightUpperArm, -1},
+                                               {urdf::kRightForeArm, -1},
+                                               {urdf::kLeftUpperArm, 1},
+                                               {urdf::kLeftForeArm, 1}}};
+
+}  // namespace
+
+bool TransformPerson::HasSegments() const {
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    if (present_.test(At(segment))) return true;
+  }
+  return false;
+}
+
+bool TransformPerson::Add(const FrameTransform& transform) {
+  const std::size_t slot = At(transform.slot);
+  bool cut_short = false;
+  if (transform.slot < urdf::kSegmentCount && present_.test(slot)) {
+    cut_short = HasSegments();
+    present_.reset();
+  }
+  if (present_.none()) first_record_nanos_ = transform.record_nanos;
+  pending_[slot] = transform;
+  present_.set(slot);
+  return cut_short;
+}
+
+void TransformPerson::AddStatic(const FrameTransform& transform) {
+  static_[At(transform.slot)] = transform;
+  is_static_.set(At(transform.slot));
+}
+
+const FrameTransform* TransformPerson::Find(int slot) const {
+  if (present_.test(At(slot))) return &pending_[At(slot)];
+  return is_static_.test(At(slot)) ? &static_[At(slot)] : nullptr;
+}
+
+TransformPerson::Result TransformPerson::Finish(std::int64_t arrival_nanos) {
+  if (!HasSegments()) return Result::kNothing;
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    if (Find(segment) == nullptr) return Result::kNothing;
+  }
+  Poses poses;
+  const Result chained = Chain(poses);
+  if (chained == Result::kNothing) return chained;  // a link between two segments is still missing
+  const std::int64_t header_nanos = StampInHeaders();
+  present_.reset();
+  if (chained == Result::kNoTree) return chained;
+  if (!SetStamp(header_nanos, first_record_nanos_)) return Result::kDuplicate;
+  SetSegments(poses);
+  sample_.arrival_nanos = arrival_nanos;
+  ++samples_;
+  return Result::kSample;
+}
+
+TransformPerson::Result TransformPerson::Chain(Poses& poses) const {
+  const std::string* root = nullptr;
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    const FrameTransform* at = Find(segment);
+    Pose pose = at->parent_from_child;
+    for (int steps = 0; at->parent_slot >= 0; ++steps) {
+      if (steps == kFrameSlots) return Result::kNoTree;  // a cycle
+      at = Find(at->parent_slot);
+      if (at == nullptr) return Result::kNothing;
+      const Pose& up = at->parent_from_child;
+      pose = {up.position + up.orientation * pose.position, up.orientation * pose.orientation};
+    }
+    if (root != nullptr && *root != at->parent) return Result::kNoTree;
+    root = &at->parent;
+    poses[At(segment)] = pose;
+  }
+  return Result::kSample;
+}
+
+// That of the pelvis, unless it is static.
+std::int64_t TransformPerson::StampInHeaders() const {
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    if (present_.test(At(segment))) return pending_[At(segment)].header_nanos;
+  }
+  return 0;
+}
+
+bool TransformPerson::SetStamp(std::int64_t header_nanos, std::int64_t record_nanos) {
+  if (headers_are_right_ && samples_ > 0 && header_nanos == last_header_nanos_) return false;
+  headers_are_right_ = headers_are_right_ && std::llabs(header_nanos - record_nanos) < kDayNanos &&
+                       (samples_ == 0 || header_nanos > last_header_nanos_);
+  if (samples_ > 0 && header_nanos < last_header_nanos_) ++steps_back_;
+  last_header_nanos_ = header_nanos;
+  std::int64_t stamp = headers_are_right_ ? header_nanos : record_nanos;
+  if (samples_ == 0) {
+    first_stamp_ = stamp;
+  } else {
+    // Equal record times, and the change from header to record times, must not turn time back.
+    stamp = std::max(stamp, sample_.stamp_nanos + kMinStepNanos);
+  }
+  sample_.counter = samples_;
+  sample_.stamp_nanos = stamp;
+  sample_.time_code_millis = (stamp - first_stamp_ + kNanosPerMilli / 2) / kNanosPerMilli;
+  return true;
+}
+
+void TransformPerson::SetSegments(const Poses& poses) {
+  if (!arms_are_turned_) FindArmFrames(poses);
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    SegmentState& state = sample_.segments[At(segment)];
+    Quaterniond orientation = poses[At(segment)].orientation;
+    if (arms_are_turned_.value_or(true)) {
+      orientation = orientation * urdf::SegmentFromLink(segment).conjugate();
+    }
+    orientation.normalize();
+    // Both signs mean the same rotation; the one nearer to the sample before avoids a jump.
+    if (samples_ > 0 && orientation.dot(state.orientation) < 0) orientation.coeffs() *= -1;
+    state.orientation = orientation;
+    state.position = poses[At(segment)].position;
+  }
+}
+
+void TransformPerson::FindArmFrames(const Poses& poses) {
+  double level = 0;    // as in segment frames
+  double hanging = 0;  // as in link frames
+  for (const ArmBone& bone : kArmBones) {
+    const Pose& from = poses[At(bone.segment)];
+    const Vector3d next = poses[At(bone.segment + 1)].position - from.position;
+    if (next.norm() < kShortestArmBone) return;  // not a body yet; a later sample decides
+    const Vector3d direction = from.orientation.conjugate() * next.normalized();
+    level += bone.along_y * direction.y();
+    hanging -= direction.z();
+  }
+  arms_are_turned_ = hanging > level;
+}
+
+}  // namespace kinescope::ros_bridge

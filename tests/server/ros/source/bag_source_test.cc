@@ -1,0 +1,619 @@
+#include "server/ros/source/bag_source.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "core/system/errors.h"
+#include "server/ros/source/people_frames.h"
+#include "server/ros/transforms.h"
+#include "tests/recording_sink.h"
+#include "tests/server/ros/test_person.h"
+#include "tests/shared_data.h"
+#include "tests/system/run_program.h"
+#include "tests/temp_folder.h"
+
+namespace kinescope::ros_bridge {
+
+// Bytes that claim to be a message of some type, true or not.
+struct AnyBytes {
+  static inline std::string datatype;
+  static inline std::string md5;
+  std::vector<std::uint8_t> bytes;
+};
+
+}  // namespace kinescope::ros_bridge
+
+namespace ros {
+namespace message_traits {
+using kinescope::ros_bridge::AnyBytes;
+template <>
+struct MD5Sum<AnyBytes> {
+  static const char* value() { return AnyBytes::md5.c_str(); }
+  static const char* value(const AnyBytes&) { return value(); }
+};
+template <>
+struct DataType<AnyBytes> {
+  static const char* value() { return AnyBytes::datatype.c_str(); }
+  static const char* value(const AnyBytes&) { return value(); }
+};
+template <>
+struct Definition<AnyBytes> {
+  static const char* value() { return ""; }
+  static const char* value(const AnyBytes&) { return value(); }
+};
+}  // namespace message_traits
+namespace serialization {
+template <>
+struct Serializer<kinescope::ros_bridge::AnyBytes> {
+  template <class Stream>
+  static void write(Stream& stream, const kinescope::ros_bridge::AnyBytes& message) {
+    std::copy(message.bytes.begin(), message.bytes.end(),
+              stream.advance(static_cast<std::uint32_t>(message.bytes.size())));
+  }
+  static std::uint32_t serializedLength(const kinescope::ros_bridge::AnyBytes& message) {
+    return static_cast<std::uint32_t>(message.bytes.size());
+  }
+};
+}  // namespace serialization
+}  // namespace ros
+
+namespace kinescope::ros_bridge {
+namespace {
+
+using kinescope::testing::MakeModel;
+using kinescope::testing::MakePerson;
+using kinescope::testing::Posture;
+using kinescope::testing::RunProgram;
+using kinescope::testing::SharedData;
+using kinescope::testing::TempFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Pair;
+using ::testing::UnorderedElementsAre;
+
+constexpr std::int64_t kMilli = 1'000'000;
+constexpr std::int64_t kStart = 1'700'000'000'000 * kMilli;
+constexpr std::int64_t kPeriod = 10 * kMilli;
+
+struct Recorded : kinescope::testing::RecordingSink {
+  SourceCounters counters;
+  double rate_hz = 0;
+};
+
+Recorded ReadBag(const std::string& path) {
+  Recorded recorded;
+  const auto source = OpenBag(path);
+  EXPECT_FALSE(source->is_live());
+  EXPECT_EQ(source->description(), path);
+  while (source->Poll(std::chrono::milliseconds(0), recorded) == Source::State::kMore) {
+  }
+  EXPECT_EQ(source->Poll(std::chrono::milliseconds(0), recorded), Source::State::kEnded);
+  recorded.counters = source->counters();
+  recorded.rate_hz = source->nominal_rate_hz();
+  return recorded;
+}
+
+std::string RefusalOf(const std::string& path) {
+  try {
+    ReadBag(path);
+  } catch (const SourceError& error) {
+    return error.what();
+  }
+  return "it was read";
+}
+
+ros::Time TimeOf(std::int64_t nanos) {
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(nanos));
+  return time;
+}
+
+// The n-th sample of a person who moves a little each time.
+PersonState PersonAt(int n, const std::string& model = "skeleton") {
+  return MakePerson(MakeModel(model), Posture(0.05 * n), static_cast<std::uint32_t>(n),
+                    kStart + n * kPeriod);
+}
+
+tf2_msgs::TFMessage TransformsOf(const PersonState& person, TfShape shape = TfShape::kFlat) {
+  tf2_msgs::TFMessage message;
+  FillTransforms(person, PersonNames(person.model->human.model_name), "world", shape, message);
+  return message;
+}
+
+void ExpectPoses(const BodySample& sample, const PersonState& person, double tolerance = 1e-12) {
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    const SegmentState& got = sample.segments[At(segment)];
+    const SegmentState& sent = person.sample.segments[At(segment)];
+    const std::string_view name = urdf::kSegments[At(segment)].link_name;
+    EXPECT_LT((got.position - sent.position).norm(), tolerance) << name;
+    EXPECT_LT(got.orientation.angularDistance(sent.orientation), 1e-7) << name;
+    EXPECT_NEAR(got.orientation.norm(), 1, 1e-12) << name;
+  }
+}
+
+class BagTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    AnyBytes::datatype = "tf/tfMessage";
+    AnyBytes::md5 = ros::message_traits::md5sum<tf2_msgs::TFMessage>();
+  }
+
+  std::string path() const { return folder_ / "recording.bag"; }
+
+  // A bag of what `write` writes.
+  template <class Write>
+  std::string Bag(const Write& write,
+                  rosbag::CompressionType compression = rosbag::compression::Uncompressed) {
+    rosbag::Bag bag(path(), rosbag::bagmode::Write);
+    bag.setCompression(compression);
+    write(bag);
+    bag.close();
+    return path();
+  }
+
+  TempFolder folder_;
+};
+
+// What somebody else's driver streamed from a suit, next to a robot with a head and hands of its
+// own.
+TEST_F(BagTest, RecordedBagHasTheHundredAndThirtyFiveSamplesOfItsCsv) {
+  KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
+  KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.xsens_tf.csv");
+  const Recorded recorded = ReadBag(SharedData("ros1/2018-05-28-17-34-45.bag.xz"));
+  ASSERT_EQ(recorded.samples.size(), 135U);
+  std::ifstream csv(SharedData("ros1/2018-05-28-17-34-45.xsens_tf.csv"));
+  std::string line;
+  ASSERT_TRUE(std::getline(csv, line));
+  for (const BodySample& sample : recorded.samples) {
+    for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+      ASSERT_TRUE(std::getline(csv, line));
+      std::istringstream fields(line);
+      std::vector<std::string> row;
+      for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+      ASSERT_EQ(row.size(), 13U);
+      ASSERT_THAT(row[5], HasSubstr(std::string(urdf::kSegments[At(segment)].link_name)));
+      const auto number = [&](std::size_t column) { return std::stod(row[column]); };
+      const Eigen::Vector3d position(number(6), number(7), number(8));
+      const Eigen::Quaterniond turn(number(12), number(9), number(10), number(11));
+      const SegmentState& got = sample.segments[At(segment)];
+      EXPECT_EQ(got.position, position) << line;
+      EXPECT_NEAR(std::abs(got.orientation.dot(turn)), 1, 1e-15) << line;
+      if (segment == urdf::kPelvis) {  // its header says 34486 s after the epoch, and steps back
+        EXPECT_EQ(sample.stamp_nanos, std::stoll(row[0]) * 1'000'000'000 + std::stoll(row[1]));
+      }
+    }
+  }
+  EXPECT_FALSE(std::getline(csv, line)) << "the recording has more";
+  ASSERT_EQ(recorded.characters.size(), 1U);
+  EXPECT_EQ(recorded.characters[0].name, "xsens");
+  EXPECT_THAT(recorded.counters.rejected, IsEmpty());
+  EXPECT_EQ(
+      recorded.counters.ignored.count("topic /ar_pose_marker (ar_track_alvar_msgs/AlvarMarkers)"),
+      1U);
+  EXPECT_NEAR(recorded.rate_hz, 57, 1);
+}
+
+// How it is known that the recorded arms are in segment frames: the next joint lies along y in
+// them, at the same place in all samples.
+TEST_F(BagTest, RecordedArmsLieAlongTheirOwnYAndBonesAreRigid) {
+  KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
+  const Recorded recorded = ReadBag(SharedData("ros1/2018-05-28-17-34-45.bag.xz"));
+  ASSERT_FALSE(recorded.samples.empty());
+  for (const BodySample& sample : recorded.samples) {
+    const auto next_joint = [&](int segment) -> Eigen::Vector3d {
+      const SegmentState& from = sample.segments[At(segment)];
+      return from.orientation.conjugate() *
+             (sample.segments[At(segment) + 1].position - from.position);
+    };
+    EXPECT_LT((next_joint(urdf::kRightUpperArm) - Eigen::Vector3d(0, -0.2849, 0)).norm(), 2e-4);
+    EXPECT_LT((next_joint(urdf::kLeftUpperArm) - Eigen::Vector3d(0, 0.2849, 0)).norm(), 2e-4);
+    EXPECT_LT((next_joint(urdf::kRightForeArm) - Eigen::Vector3d(0, -0.2344, 0)).norm(), 2e-4);
+    EXPECT_LT((next_joint(urdf::kLeftForeArm) - Eigen::Vector3d(0, 0.2344, 0)).norm(), 2e-4);
+  }
+  ASSERT_TRUE(recorded.characters[0].skeleton);
+  const urdf::Skeleton& skeleton = *recorded.characters[0].skeleton;
+  EXPECT_NEAR(skeleton.origin_in_parent[urdf::kRightForeArm].z(), -0.2849, 2e-4)
+      << "hangs, in a link";
+  EXPECT_NEAR(skeleton.origin_in_parent[urdf::kLeftLowerLeg].z(), -0.4669, 2e-4);
+  EXPECT_NEAR(skeleton.height, 1.7, 0.15);
+}
+
+struct Written {
+  TfShape shape;
+  rosbag::CompressionType compression;
+  bool one_by_one;  // a message for each transform
+};
+
+class WrittenBagTest : public BagTest, public ::testing::WithParamInterface<Written> {};
+
+TEST_P(WrittenBagTest, GivesBackThePosesWeWouldPublish) {
+  constexpr int kSamples = 50;
+  const Written& how = GetParam();
+  const std::string bag = Bag(
+      [&](rosbag::Bag& out) {
+        for (int n = 0; n < kSamples; ++n) {
+          const tf2_msgs::TFMessage message = TransformsOf(PersonAt(n), how.shape);
+          std::int64_t recorded_at = kStart + n * kPeriod + 3 * kMilli;
+          if (!how.one_by_one) {
+            out.write("/tf", TimeOf(recorded_at), message);
+            continue;
+          }
+          for (const auto& transform : message.transforms) {
+            tf2_msgs::TFMessage single;
+            single.transforms.push_back(transform);
+            out.write("/tf", TimeOf(recorded_at), single);
+            recorded_at += 10'000;
+          }
+        }
+      },
+      how.compression);
+  const Recorded recorded = ReadBag(bag);
+  ASSERT_EQ(recorded.samples.size(), static_cast<std::size_t>(kSamples));
+  for (int n = 0; n < kSamples; ++n) {
+    const BodySample& sample = recorded.samples[static_cast<std::size_t>(n)];
+    ExpectPoses(sample, PersonAt(n));
+    EXPECT_EQ(sample.stamp_nanos, kStart + n * kPeriod) << "the header's, not the bag's";
+    EXPECT_EQ(sample.counter, static_cast<std::uint32_t>(n));
+    EXPECT_EQ(sample.time_code_millis, n * kPeriod / kMilli);
+    EXPECT_EQ(sample.arrival_nanos, 0);
+    EXPECT_FALSE(sample.has_linear || sample.has_angular || sample.com);
+  }
+  ASSERT_EQ(recorded.characters.size(), 1U);
+  EXPECT_EQ(recorded.characters[0].name, "skeleton");
+  ASSERT_TRUE(recorded.characters[0].skeleton);
+  EXPECT_NEAR(recorded.characters[0].skeleton->origin_in_parent[urdf::kRightLowerLeg].z(),
+              urdf::DefaultSkeleton().origin_in_parent[urdf::kRightLowerLeg].z(), 1e-9);
+  EXPECT_NEAR(recorded.rate_hz, 100, 0.1);
+  EXPECT_THAT(recorded.counters.rejected, IsEmpty());
+  EXPECT_EQ(recorded.counters.samples, static_cast<std::uint64_t>(kSamples));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, WrittenBagTest,
+    ::testing::Values(Written{TfShape::kFlat, rosbag::compression::Uncompressed, false},
+                      Written{TfShape::kFlat, rosbag::compression::BZ2, true},
+                      Written{TfShape::kTree, rosbag::compression::LZ4, false},
+                      Written{TfShape::kTree, rosbag::compression::Uncompressed, true}));
+
+TEST_F(BagTest, ReadsABagPackedWithGzip) {
+  const std::string bag =
+      Bag([](rosbag::Bag& out) { out.write("/tf", TimeOf(kStart), TransformsOf(PersonAt(0))); });
+  ASSERT_EQ(RunProgram({"/bin/gzip", bag}).exit_code, 0);
+  const Recorded recorded = ReadBag(bag + ".gz");
+  ASSERT_EQ(recorded.samples.size(), 1U);
+  ExpectPoses(recorded.samples[0], PersonAt(0));
+}
+
+TEST_F(BagTest, TwoPeopleAndARobotWithHandsStayApart) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 3; ++n) {
+      tf2_msgs::TFMessage both = TransformsOf(PersonAt(n, "anna"));
+      tf2_msgs::TFMessage ben = TransformsOf(PersonAt(n + 10, "ben"), TfShape::kTree);
+      for (auto& transform : ben.transforms) {  // tf before tf2 put a slash before each
+        transform.child_frame_id.insert(0, "/");
+        transform.header.frame_id.insert(0, "/");
+      }
+      both.transforms.insert(both.transforms.end(), ben.transforms.begin(), ben.transforms.end());
+      tf2_msgs::TFMessage robot;
+      for (const char* frame : {"left_hand", "right_hand", "head", "pelvis", "head_camera"}) {
+        geometry_msgs::TransformStamped transform;
+        transform.header.frame_id = "base";
+        transform.child_frame_id = frame;
+        transform.transform.rotation.w = 1;
+        robot.transforms.push_back(transform);
+      }
+      std_msgs::String text;
+      text.data = "hello";
+      out.write("/chatter", TimeOf(kStart + n * kPeriod), text);
+      out.write("/tf", TimeOf(kStart + n * kPeriod), robot);
+      out.write("/tf", TimeOf(kStart + n * kPeriod), both);
+    }
+  });
+  const Recorded recorded = ReadBag(bag);
+  ASSERT_EQ(recorded.characters.size(), 2U);
+  EXPECT_EQ(recorded.characters[0].name, "anna");
+  EXPECT_EQ(recorded.characters[1].name, "ben");
+  ASSERT_EQ(recorded.samples.size(), 6U);
+  for (const BodySample& sample : recorded.samples) {
+    const int n = static_cast<int>(sample.counter);
+    ExpectPoses(sample, sample.character == 0 ? PersonAt(n, "anna") : PersonAt(n + 10, "ben"));
+  }
+  EXPECT_THAT(recorded.counters.ignored,
+              UnorderedElementsAre(Pair("topic /chatter (std_msgs/String)", 3),
+                                   Pair("message on /tf without a person's segment", 3)));
+  EXPECT_EQ(recorded.counters.datagrams, 9U);
+}
+
+// Names as foreign drivers give them, orientations as MVN has them.
+TEST_F(BagTest, ArmsInSegmentFramesAreToldByTheirGeometry) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    const PersonState person = PersonAt(4);
+    tf2_msgs::TFMessage message = TransformsOf(person);
+    message.transforms.resize(urdf::kSegmentCount);
+    for (std::size_t i = 0; i < message.transforms.size(); ++i) {
+      auto& transform = message.transforms[i];
+      const SegmentState& state = person.sample.segments[At(SegmentsByName()[i])];
+      transform.transform.rotation.w = state.orientation.w();
+      transform.transform.rotation.x = state.orientation.x();
+      transform.transform.rotation.y = state.orientation.y();
+      transform.transform.rotation.z = state.orientation.z();
+    }
+    out.write("/tf", TimeOf(kStart), message);
+  });
+  const Recorded recorded = ReadBag(bag);
+  ASSERT_EQ(recorded.samples.size(), 1U);
+  ExpectPoses(recorded.samples[0], PersonAt(4));
+}
+
+TEST_F(BagTest, OldMessageTypeOfTheSameLayoutIsRead) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    const tf2_msgs::TFMessage message = TransformsOf(PersonAt(1));
+    AnyBytes raw;
+    raw.bytes.resize(ros::serialization::serializationLength(message));
+    ros::serialization::OStream stream(raw.bytes.data(),
+                                       static_cast<std::uint32_t>(raw.bytes.size()));
+    ros::serialization::serialize(stream, message);
+    out.write("/tf", TimeOf(kStart), raw);
+  });
+  EXPECT_EQ(ReadBag(bag).samples.size(), 1U);
+}
+
+TEST_F(BagTest, HeaderStampsCountUntilTheyStepBack) {
+  const std::vector<std::int64_t> headers = {0, 10, 20, 20, 5, 40, 50};  // ms
+  const std::string bag = Bag([&](rosbag::Bag& out) {
+    for (std::size_t i = 0; i < headers.size(); ++i) {
+      PersonState person = PersonAt(static_cast<int>(i));
+      person.sample.stamp_nanos = kStart + headers[i] * kMilli;
+      out.write("/tf", TimeOf(kStart + (static_cast<std::int64_t>(i) * 10 + 2) * kMilli),
+                TransformsOf(person));
+    }
+  });
+  const Recorded recorded = ReadBag(bag);
+  std::vector<std::int64_t> millis;
+  for (const BodySample& sample : recorded.samples) {
+    millis.push_back((sample.stamp_nanos - kStart) / kMilli);
+  }
+  EXPECT_THAT(millis, ElementsAre(0, 10, 20, 42, 52, 62));
+  EXPECT_EQ(recorded.counters.duplicates, 1U) << "20 ms twice is one sample";
+}
+
+TEST_F(BagTest, HeaderStampsOfAnotherDayAreNotBelieved) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 3; ++n) {
+      PersonState person = PersonAt(n);
+      person.sample.stamp_nanos = 34'486'000 * kMilli;  // the same wrong stamp every time
+      out.write("/tf", TimeOf(kStart + n * kPeriod), TransformsOf(person));
+    }
+  });
+  const Recorded recorded = ReadBag(bag);
+  ASSERT_EQ(recorded.samples.size(), 3U);
+  EXPECT_EQ(recorded.samples[0].stamp_nanos, kStart);
+  EXPECT_EQ(recorded.samples[2].stamp_nanos, kStart + 2 * kPeriod);
+  EXPECT_EQ(recorded.samples[2].time_code_millis, 20);
+}
+
+TEST_F(BagTest, SamplesThatLackASegmentAreSkippedAndCounted) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 5; ++n) {
+      tf2_msgs::TFMessage message = TransformsOf(PersonAt(n));
+      if (n == 1 || n == 4) message.transforms.erase(message.transforms.begin() + 7);
+      out.write("/tf", TimeOf(kStart + n * kPeriod), message);
+    }
+  });
+  const Recorded recorded = ReadBag(bag);
+  ASSERT_EQ(recorded.samples.size(), 3U);
+  ExpectPoses(recorded.samples[1], PersonAt(2));
+  EXPECT_THAT(recorded.counters.rejected, ElementsAre(Pair("sample without all 23 segments", 2)));
+}
+
+TEST_F(BagTest, FramesOfTfStaticBelongToThePerson) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    tf2_msgs::TFMessage fixed;
+    for (int n = 0; n < 3; ++n) {
+      tf2_msgs::TFMessage moving;
+      for (const auto& transform : TransformsOf(PersonAt(0)).transforms) {
+        const bool is_toe = transform.child_frame_id == "skeleton_left_toe";
+        if (is_toe && n == 0) fixed.transforms.push_back(transform);
+        if (is_toe) continue;
+        moving.transforms.push_back(transform);
+        moving.transforms.back().header.stamp = TimeOf(kStart + n * kPeriod);
+      }
+      if (n == 0) out.write("/tf_static", TimeOf(kStart - kPeriod), fixed);
+      out.write("/tf", TimeOf(kStart + n * kPeriod), moving);
+    }
+  });
+  const Recorded recorded = ReadBag(bag);
+  ASSERT_EQ(recorded.samples.size(), 3U);
+  for (const BodySample& sample : recorded.samples) ExpectPoses(sample, PersonAt(0));
+  EXPECT_THAT(recorded.counters.rejected, IsEmpty());
+  EXPECT_THAT(recorded.counters.ignored, IsEmpty());
+}
+
+TEST_F(BagTest, SomebodyWhoComesLaterIsFound) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 30; ++n) {
+      out.write("/tf", TimeOf(kStart + n * 1000 * kMilli), TransformsOf(PersonAt(n, "anna")));
+      if (n >= 20) {
+        out.write("/tf", TimeOf(kStart + n * 1000 * kMilli), TransformsOf(PersonAt(n, "aa")));
+      }
+    }
+  });
+  const Recorded recorded = ReadBag(bag);
+  ASSERT_EQ(recorded.characters.size(), 2U);
+  EXPECT_EQ(recorded.characters[0].name, "anna") << "keeps her number";
+  EXPECT_EQ(recorded.characters[1].name, "aa");
+  EXPECT_EQ(recorded.samples.size(), 40U);
+}
+
+TEST_F(BagTest, TransformsThatCannotBeUsedAreCountedByReason) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 6; ++n) {
+      tf2_msgs::TFMessage message = TransformsOf(PersonAt(n));
+      auto& transform = message.transforms[3].transform;
+      if (n == 1) transform.translation.y = std::numeric_limits<double>::quiet_NaN();
+      if (n == 2) transform.rotation.w += 0.1;
+      if (n == 3) transform.translation.z = 1e9;
+      if (n == 4) message.transforms[3].header.frame_id = "somewhere_else";
+      out.write("/tf", TimeOf(kStart + n * kPeriod), message);
+    }
+    AnyBytes liar;
+    liar.bytes.assign(100, 0xFF);  // 4294967295 transforms
+    out.write("/tf", TimeOf(kStart + 6 * kPeriod), liar);
+    liar.bytes.assign(100, 0);
+    liar.bytes[0] = 1;
+    liar.bytes[16] = 0xFF;  // a name longer than the message
+    out.write("/tf", TimeOf(kStart + 7 * kPeriod), liar);
+    liar.bytes.assign(2, 0);
+    out.write("/tf", TimeOf(kStart + 8 * kPeriod), liar);
+    AnyBytes::datatype = "std_msgs/String";
+    AnyBytes::md5 = ros::message_traits::md5sum<std_msgs::String>();
+    out.write("tf", TimeOf(kStart + 9 * kPeriod), AnyBytes{{0, 0, 0, 0}});  // a topic has one type
+  });
+  const Recorded recorded = ReadBag(bag);
+  EXPECT_EQ(recorded.samples.size(), 2U);
+  EXPECT_THAT(
+      recorded.counters.rejected,
+      UnorderedElementsAre(Pair("transform with a number that is not finite", 1),
+                           Pair("transform with a quaternion that is not of unit length", 1),
+                           Pair("transform with a position out of range", 1),
+                           Pair("sample without all 23 segments", 3),
+                           Pair("sample whose frames have no common parent", 1),
+                           Pair("message on /tf that is truncated or has a wrong length field", 3),
+                           Pair("message on /tf that is not a TFMessage", 1)));
+}
+
+TEST_F(BagTest, FramesInACircleAreNoSample) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    tf2_msgs::TFMessage message = TransformsOf(PersonAt(0));
+    message.transforms[0].header.frame_id = message.transforms[1].child_frame_id;
+    message.transforms[1].header.frame_id = message.transforms[0].child_frame_id;
+    out.write("/tf", TimeOf(kStart), message);
+  });
+  EXPECT_THAT(ReadBag(bag).counters.rejected,
+              ElementsAre(Pair("sample whose frames have no common parent", 1)));
+}
+
+TEST_F(BagTest, WhatCannotBeReadIsRefusedWithNameAndWayOut) {
+  EXPECT_THAT(RefusalOf("no/such.bag"), HasSubstr("no/such.bag: cannot open the file"));
+  EXPECT_THAT(RefusalOf(folder_.path()), HasSubstr("is a folder"));
+  const std::string text = folder_ / "text.bag";
+  std::ofstream(text) << "MXTP02, or anything that is no bag";
+  EXPECT_THAT(RefusalOf(text), HasSubstr("not a ROS 1 bag"));
+  ASSERT_EQ(RunProgram({"/bin/gzip", text}).exit_code, 0);
+  EXPECT_THAT(RefusalOf(text + ".gz"), HasSubstr("not a ROS 1 bag"));
+
+  const std::string nobody = Bag([](rosbag::Bag& out) {
+    tf2_msgs::TFMessage message = TransformsOf(PersonAt(0));
+    message.transforms.resize(20);
+    out.write("/tf", TimeOf(kStart), message);
+  });
+  EXPECT_THAT(RefusalOf(nobody), AllOf(HasSubstr(nobody), HasSubstr("no person found on /tf"),
+                                       HasSubstr("skeleton_pelvis")));
+  const std::string no_tf =
+      Bag([](rosbag::Bag& out) { out.write("/chatter", TimeOf(kStart), std_msgs::String()); });
+  EXPECT_THAT(RefusalOf(no_tf), HasSubstr("contains no /tf"));
+  const std::string empty = Bag([](rosbag::Bag&) {});
+  EXPECT_THAT(RefusalOf(empty), HasSubstr("contains no /tf"));
+}
+
+TEST_F(BagTest, EveryTruncationIsRefusedInOneLine) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 3; ++n) out.write("/tf", TimeOf(kStart + n), TransformsOf(PersonAt(n)));
+  });
+  const std::string whole = kinescope::testing::ReadFile(bag);
+  const std::string cut = folder_ / "cut.bag";
+  for (std::size_t size = 0; size < whole.size(); size += 97) {
+    std::ofstream(cut, std::ios::binary).write(whole.data(), static_cast<std::streamsize>(size));
+    const std::string refusal = RefusalOf(cut);
+    EXPECT_THAT(refusal, HasSubstr(cut)) << size << " of " << whole.size() << " bytes";
+    EXPECT_EQ(refusal.find('\n'), std::string::npos) << refusal;
+  }
+}
+
+TEST_F(BagTest, ACompressedBagThatBreaksOffIsRefused) {
+  const std::string bag = Bag([](rosbag::Bag& out) {
+    for (int n = 0; n < 20; ++n) out.write("/tf", TimeOf(kStart + n), TransformsOf(PersonAt(n)));
+  });
+  ASSERT_EQ(RunProgram({"/bin/gzip", bag}).exit_code, 0);
+  std::filesystem::resize_file(bag + ".gz", std::filesystem::file_size(bag + ".gz") / 2);
+  EXPECT_THAT(RefusalOf(bag + ".gz"), HasSubstr("cannot be decompressed"));
+}
+
+TEST_F(BagTest, NothingIsLeftInTheTemporaryFolder) {
+  const TempFolder temporary;
+  const std::string bag =
+      Bag([](rosbag::Bag& out) { out.write("/tf", TimeOf(kStart), TransformsOf(PersonAt(0))); });
+  ASSERT_EQ(RunProgram({"/bin/gzip", bag}).exit_code, 0);
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  setenv("TMPDIR", temporary.path().c_str(), 1);
+  EXPECT_EQ(ReadBag(bag + ".gz").samples.size(), 1U);
+  EXPECT_THAT(temporary.Names(), IsEmpty());
+  setenv("TMPDIR", "/no/such/folder", 1);
+  EXPECT_THAT(RefusalOf(bag + ".gz"), HasSubstr("TMPDIR"));
+  if (before == nullptr) {
+    unsetenv("TMPDIR");
+  } else {
+    setenv("TMPDIR", kept.c_str(), 1);
+  }
+}
+
+std::vector<std::string> NamesOf(const PeopleFrames& frames) {
+  std::vector<std::string> names;
+  for (const PersonFrames& person : frames.people()) names.push_back(person.name);
+  return names;
+}
+
+TEST(PeopleFrames, PrefersTheLongestCommonEndingAndTheShortestName) {
+  PeopleFrames frames;
+  for (const urdf::SegmentInfo& segment : urdf::kSegments) {
+    frames.Add(std::string(segment.link_name) + "_of_suit");
+    frames.Add("lab/" + std::string(segment.link_name));
+  }
+  for (const char* other : {"head", "left_hand", "lab/left_hand_marker", "heading_of_suit"}) {
+    frames.Add(other);
+  }
+  frames.Find();
+  EXPECT_THAT(NamesOf(frames), UnorderedElementsAre("of_suit", "lab"));
+  EXPECT_EQ(frames.PlaceOf("left_hand").person, -1);
+  EXPECT_EQ(frames.PlaceOf("lab/left_hand_marker").person, -1);
+  EXPECT_EQ(frames.PlaceOf("lab/left_hand").slot, urdf::kLeftHand);
+  EXPECT_EQ(frames.PlaceOf("heading_of_suit").person, -1) << "a head is a word of its own";
+}
+
+TEST(PeopleFrames, TwentyTwoSegmentsAreNobody) {
+  PeopleFrames frames;
+  for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
+    frames.Add("a_" + std::string(urdf::kSegments[At(segment)].link_name));
+  }
+  frames.Find();
+  EXPECT_THAT(frames.people(), IsEmpty());
+  frames.Add("a_pelvis");
+  frames.Find();
+  EXPECT_THAT(NamesOf(frames), ElementsAre("a"));
+}
+
+TEST(PeopleFrames, WhateverTheNamesItKeepsABoundedNumber) {
+  PeopleFrames frames;
+  for (int i = 0; i < 3 * static_cast<int>(PeopleFrames::kMaxNames); ++i) {
+    frames.Add("p" + std::to_string(i) + "_pelvis");
+  }
+  EXPECT_FALSE(frames.IsCandidate("p" + std::to_string(2 * PeopleFrames::kMaxNames) + "_pelvis"));
+  EXPECT_FALSE(frames.Add(std::string(300, 'x') + "_pelvis"));
+  frames.Find();
+  EXPECT_THAT(frames.people(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace kinescope::ros_bridge
