@@ -156,6 +156,50 @@ TEST(Command, RefusesOutputsThatCannotBe) {
   ExpectRefusal(Kinescope({"golden", "check", "/nowhere"}), "/nowhere");
 }
 
+// "| `urdf check` | one object per | members |" of docs/json.md: the members.
+std::string DocumentedMembers(const std::string& command) {
+  std::ifstream document(std::string(KINESCOPE_DOCS) + "/json.md");
+  for (std::string line; std::getline(document, line);) {
+    const std::string begin = "| `" + command + "` |";
+    if (line.compare(0, begin.size(), begin) == 0) return line.substr(line.find('|', begin.size()));
+  }
+  return "";
+}
+
+TEST(Command, PrintsOneDocumentedJsonObjectPerLine) {
+  const testing::TempFolder folder;
+  const std::string still = folder / "a.png", clip = folder / "a.gif", urdf = folder / "p.urdf";
+  ASSERT_EQ(Kinescope({"urdf", "--body_model", "primitive", "--out", urdf}).exit_code, 0);
+  const std::map<std::string, std::vector<std::string>> commands = {
+      {"render",
+       {"demo:lift", "--size", "64x48", "--seconds", "0.1", "--out", still, "--out", clip}},
+      {"stream", {"demo:lift", "--seconds", "0.05", "--to", "udp://127.0.0.1:9"}},
+      {"urdf check", {urdf}},
+      {"urdf picture", {urdf, "--size", "64x48", "--out", folder / "p.png"}},
+      {"probe", {}}};
+  for (const auto& [command, arguments] : commands) {
+    std::vector<std::string> words;
+    std::istringstream names(command);
+    for (std::string name; names >> name;) words.push_back(name);
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    words.emplace_back("--json");
+    const ProgramResult result = Kinescope(words);
+    ASSERT_EQ(result.exit_code, 0) << command << ": " << result.err;
+    const std::string documented = DocumentedMembers(command);
+    std::istringstream lines(result.out);
+    int objects = 0;
+    for (std::string line; std::getline(lines, line); ++objects) {
+      const auto object = nlohmann::json::parse(line, nullptr, false);
+      ASSERT_TRUE(object.is_object()) << command << ": " << line;
+      for (const auto& [key, value] : object.items()) {
+        EXPECT_NE(documented.find("`" + key + "`"), std::string::npos)
+            << command << ": " << key << " is not in docs/json.md";
+      }
+    }
+    EXPECT_EQ(objects, command == "render" ? 2 : 1) << command;
+  }
+}
+
 // The names below "Subcommands:" in what --help says.
 std::set<std::string> SubcommandsIn(const std::string& help) {
   std::set<std::string> names;

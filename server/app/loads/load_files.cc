@@ -153,6 +153,7 @@ class JsonValues : public CellSink {
   std::string& line_;
 };
 
+// One object on one line, as every --json.
 class JsonFile : public LoadFile {
  public:
   explicit JsonFile(const std::string& path) : out_(path) {}
@@ -161,9 +162,9 @@ class JsonFile : public LoadFile {
     if (samples_++ == 0) {
       JsonNames header;
       VisitWide(person, begin_nanos, header);
-      out_.buffer() += "{\"columns\": " + JsonText(header.names) + ",\n\"samples\": [\n";
+      out_.buffer() += "{\"columns\":" + JsonText(header.names) + ",\"samples\":[";
     } else {
-      out_.buffer() += ",\n";
+      out_.buffer() += ",";
     }
     std::string line = "[";
     JsonValues cells(line);
@@ -173,10 +174,10 @@ class JsonFile : public LoadFile {
   }
 
   void Finish(const nlohmann::json& summary) override {
-    if (samples_ == 0) out_.buffer() += "{\"columns\": [], \"samples\": [";
-    out_.buffer() += "\n]";
+    if (samples_ == 0) out_.buffer() += "{\"columns\":[],\"samples\":[";
+    out_.buffer() += "]";
     for (const auto& [key, value] : summary.items()) {
-      out_.buffer() += fmt::format(",\n\"{}\": {}", key, JsonText(value));
+      out_.buffer() += fmt::format(",\"{}\":{}", key, JsonText(value));
     }
     out_.buffer() += "}\n";
     out_.Finish();
