@@ -194,7 +194,7 @@ def faults_not_found(tree):
     include("server/mvn/tally.h", "#include <pcap/pcap.h>",
             "{}: pcap/pcap.h may only be included in server/mvn/file")
     include("server/http/hub.h", "#include <ros/ros.h>", "{}: ros/ros.h may only be included in server/ros or server/ros/source")
-    include("urdf/figure.h", "#include <range/v3/all.hpp>",
+    include("urdf/body_surface.h", "#include <range/v3/all.hpp>",
             "{}: range/v3/all.hpp belongs to no library in tests/layers_test.py")
     include("render/vtk/ground.h", '#include "tests/temp_folder.h"',
             "{}: render/vtk may not include tests/temp_folder.h")

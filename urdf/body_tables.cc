@@ -5,7 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "urdf/primitive_figure.h"
+#include "urdf/primitive_body.h"
 
 namespace kinescope::urdf {
 namespace {
@@ -201,7 +201,7 @@ BodyShares IitShares(const Skeleton& skeleton) {
       0.125, 0.0365, 0.0130, 0.0015};  // left
   BodyShares shares;
   for (int i = 0; i < kSegmentCount; ++i) {
-    const Primitive solid = PrimitiveFigure(skeleton, i).front();
+    const Primitive solid = PrimitiveBody(skeleton, i).front();
     SegmentShare& share = shares[At(i)];
     share.mass = kMass[i];
     share.com_in_link = solid.center;

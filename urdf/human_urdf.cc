@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "urdf/hand_figure.h"
+#include "urdf/hand_surface.h"
 #include "urdf/joint_limits.h"
-#include "urdf/primitive_figure.h"
+#include "urdf/primitive_body.h"
 
 namespace kinescope::urdf {
 namespace {
@@ -113,7 +113,7 @@ std::string SegmentShapes(const HumanModel& human, int segment) {
   if (const HandSkeleton* glove = GloveOn(human, segment)) {
     return tool + Collisions({PalmBoxInHand(*glove)});
   }
-  const std::vector<Primitive> parts = PrimitiveFigure(human.skeleton, segment);
+  const std::vector<Primitive> parts = PrimitiveBody(human.skeleton, segment);
   return Visuals(human, std::string(kSegments[At(segment)].link_name), parts, "body") + tool +
          Collisions(parts);
 }
@@ -227,7 +227,7 @@ std::string Glove(const HumanModel& human, Side side) {
   for (int finger = 0; finger < kFingersPerHand; ++finger) {
     const std::string name = FingerLinkName(human.model_name, side, finger);
     const int parent = kFingerParents[At(finger)];
-    const std::vector<Primitive> parts = FingerFigure(glove, finger);
+    const std::vector<Primitive> parts = FingerPrimitives(glove, finger);
     // The carpus: its hand's link collides in its place.
     const std::string collisions = finger == 0 ? "" : Collisions(parts);
     text += LinkElement(

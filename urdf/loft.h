@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 
 namespace kinescope::urdf {
 

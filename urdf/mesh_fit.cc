@@ -53,7 +53,8 @@ Span SpanOf(const AlignedBox3d& box, const Direction& along) {
   return {std::min(low, high), std::max(low, high)};
 }
 
-// Where the segment begins and ends. Those that reach behind their joint do so as our own figure.
+// Where the segment begins and ends. Those that reach behind their joint do so as the built-in
+// surface.
 Span OwnSpan(const Skeleton& skeleton, int segment, const Direction& along) {
   Span span = {0, along.sign * EndOf(skeleton, segment)[along.axis]};
   if (segment == kPelvis || segment == kHead || IsFoot(segment)) {

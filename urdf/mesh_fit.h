@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 #include "urdf/skeleton.h"
 
 namespace kinescope::urdf {

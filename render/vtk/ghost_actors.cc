@@ -12,20 +12,20 @@ const Eigen::Vector4f kTintOnDark = {0.60f, 0.72f, 0.92f, 0.75f};
 bool GhostActors::Update(const SceneLook& look, OnceLog& log, std::vector<Label>& labels) {
   const std::vector<Ghost>& ghosts = look.ghosts;
   const Eigen::Vector4f& tint = look.theme == Theme::kDark ? kTintOnDark : kTintOnLight;
-  bool is_changed = figures_.size() != ghosts.size();
-  figures_.resize(ghosts.size());
+  bool is_changed = bodies_.size() != ghosts.size();
+  bodies_.resize(ghosts.size());
   for (std::size_t i = 0; i < ghosts.size(); ++i) {
-    if (figures_[i] == nullptr) figures_[i] = std::make_unique<FigureActor>(Pass::kVeil);
-    figures_[i]->SetOpacity(ghosts[i].opacity);
-    is_changed = figures_[i]->Update(ghosts[i].person, tint, log, labels) || is_changed;
+    if (bodies_[i] == nullptr) bodies_[i] = std::make_unique<BodyActor>(Pass::kVeil);
+    bodies_[i]->SetOpacity(ghosts[i].opacity);
+    is_changed = bodies_[i]->Update(ghosts[i].person, tint, log, labels) || is_changed;
   }
   return is_changed;
 }
 
 std::vector<vtkActor*> GhostActors::actors() {
   std::vector<vtkActor*> actors;
-  for (const auto& figure : figures_) {
-    for (vtkActor* actor : figure->actors()) actors.push_back(actor);
+  for (const auto& body : bodies_) {
+    for (vtkActor* actor : body->actors()) actors.push_back(actor);
   }
   return actors;
 }

@@ -6,7 +6,7 @@
 
 #include "render/module.h"
 #include "render/scene_look.h"
-#include "render/vtk/figure_actor.h"
+#include "render/vtk/body_actor.h"
 
 namespace kinescope::render {
 
@@ -17,7 +17,7 @@ class GhostActors {
   std::vector<vtkActor*> actors();
 
  private:
-  std::vector<std::unique_ptr<FigureActor>> figures_;
+  std::vector<std::unique_ptr<BodyActor>> bodies_;
 };
 
 }  // namespace kinescope::render

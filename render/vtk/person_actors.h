@@ -10,7 +10,7 @@
 #include "render/scene_look.h"
 #include "render/shape/once_log.h"
 #include "render/vtk/axes_actor.h"
-#include "render/vtk/figure_actor.h"
+#include "render/vtk/body_actor.h"
 #include "render/vtk/force_arrows.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/sphere_actor.h"
@@ -41,7 +41,7 @@ class PersonActors {
   void UpdateMarks(const PersonState& person, const Camera& camera);
   void UpdateHeld(const PersonState& person, Liveness liveness);
 
-  FigureActor body_;
+  BodyActor body_;
   ForceArrows forces_;
   std::unique_ptr<AxesActor> frames_, joint_axes_;  // null: hidden
   PartActor shadow_, held_, ghost_marks_, marks_;

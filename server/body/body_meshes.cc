@@ -6,8 +6,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "urdf/figure.h"
-#include "urdf/hand_figure.h"
+#include "urdf/body_surface.h"
+#include "urdf/hand_surface.h"
 #include "urdf/segments.h"
 
 namespace kinescope::app {

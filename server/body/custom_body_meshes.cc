@@ -12,7 +12,7 @@
 
 #include "core/system/errors.h"
 #include "server/body/mesh_module.h"
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 #include "urdf/mesh_inputs.h"
 
 namespace kinescope::app {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/system/module_loader.h"
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 #include "urdf/mesh/mesh.h"
 
 namespace kinescope::app {

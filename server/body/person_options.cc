@@ -39,7 +39,7 @@ std::vector<std::string> SegmentNames() {
 
 }  // namespace
 
-void FigureValue::Parse(const std::string& text) {
+void BodyModelValue::Parse(const std::string& text) {
   const std::string own = kOwnMeshes;
   if (text == "smooth" || text == "primitive") {
     value_ = {text == "smooth", ""};
@@ -50,12 +50,12 @@ void FigureValue::Parse(const std::string& text) {
   }
 }
 
-std::string FigureValue::ToText() const {
+std::string BodyModelValue::ToText() const {
   if (!value_.folder.empty()) return kOwnMeshes + value_.folder;
   return value_.is_smooth ? "smooth" : "primitive";
 }
 
-std::vector<std::filesystem::path> FigureValue::Files() const {
+std::vector<std::filesystem::path> BodyModelValue::Files() const {
   return value_.folder.empty() ? std::vector<std::filesystem::path>()
                                : FilesOfCustomBody(value_.folder);
 }
@@ -96,7 +96,7 @@ void PersonOptions::List(options::OptionList& option) {
   option("body_table", body_table, "source of the segment masses (docs/loads.md)");
   option("extra_mass", extra_mass, "equipment that is worn or carried");
   option(
-      "body_model", figure,
+      "body_model", body_model,
       "surface of the body; a FOLDER has STL, DAE, OBJ or GLB files named after segments, such as "
       "RightForeArm.stl");
   option.Formerly("figure");
@@ -120,9 +120,9 @@ BodyAppearance ToAppearance(const PersonOptions& person) {
   convention.fits_person = *person.mesh_scale;
   convention.frame = *person.mesh_frame;
   BodyAppearance appearance;
-  appearance.is_smooth = person.figure->is_smooth;
-  if (!person.figure->folder.empty()) {
-    appearance.custom = ReadCustomBodyMeshes(person.figure->folder, convention);
+  appearance.is_smooth = person.body_model->is_smooth;
+  if (!person.body_model->folder.empty()) {
+    appearance.custom = ReadCustomBodyMeshes(person.body_model->folder, convention);
   }
   appearance.tools = ReadHandTools(person.tool, convention);
   return appearance;

@@ -15,15 +15,15 @@
 namespace kinescope::app {
 
 /// The body's surface.
-struct FigureSource {
+struct BodyModelSource {
   bool is_smooth = true;  // false: boxes, cylinders and spheres
-  std::string folder;     // of the user's own meshes; "": the built-in figure
+  std::string folder;     // of custom meshes; "": the built-in body model
 };
 
 /// smooth, primitive or mesh:FOLDER.
-class FigureValue : public options::ValueOf<FigureSource> {
+class BodyModelValue : public options::ValueOf<BodyModelSource> {
  public:
-  FigureValue() : ValueOf({}) {}
+  BodyModelValue() : ValueOf({}) {}
 
   void Parse(const std::string& text) override;
   std::string ToText() const override;
@@ -40,7 +40,7 @@ struct PersonOptions {
   options::Optional<options::Number> mass, height;  // kg, m
   options::Choice<urdf::BodyTable> body_table;
   options::List<urdf::AddedMass> extra_mass;
-  FigureValue figure;
+  BodyModelValue body_model;
   ToolsValue tool;
   options::Choice<double> mesh_units;  // m
   options::Choice<bool> mesh_up;       // true: y

@@ -75,7 +75,7 @@ void LoadOptions::List(options::OptionList& option) {
   option("load_mode", load_mode, "dynamic: with inertial forces; static: without");
   option("class_limits", class_limits,
          "shares of the capacity above which a rising load is medium (orange) and high (red)");
-  option("hand_load", hand, "loads in the hands; none: known to be empty; not given: unknown");
+  option("hand_load", hand_load, "loads in the hands; none: known to be empty; not given: unknown");
   option.Formerly("hand");
   option("filter_hz", filter_hz, "cut-off frequency of the low-pass filter of accelerations");
   option("lumbar_compression", lumbar_compression,
@@ -91,7 +91,7 @@ loads::LoadSettings ToLoadSettings(const LoadOptions& loads) {
   settings.metric = *loads.load_metric;
   settings.motion.dynamic = *loads.load_mode;
   settings.classes = loads::LoadClassifier::WithLimits(*loads.class_limits);
-  settings.hands = *loads.hand;
+  settings.hands = *loads.hand_load;
   settings.motion.cutoff_hz = *loads.filter_hz;
   settings.compression_counts = *loads.lumbar_compression;
   KINESCOPE_CHECK(loads::FindDefect(settings).empty());

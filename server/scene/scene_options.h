@@ -45,7 +45,7 @@ struct LoadOptions {
   options::Choice<LoadMetric> load_metric;
   options::Choice<bool> load_mode;  // true: dynamic
   ClassLimitsValue class_limits;
-  HandLoadValue hand;
+  HandLoadValue hand_load;
   options::Number filter_hz;
   options::Switch lumbar_compression;
 

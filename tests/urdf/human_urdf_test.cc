@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "urdf/hand_figure.h"
+#include "urdf/hand_surface.h"
 #include "urdf/joint_limits.h"
 #include "urdf/kinematics.h"
-#include "urdf/primitive_figure.h"
+#include "urdf/primitive_body.h"
 #include "urdf/robot/robot_model.h"
 
 namespace kinescope::urdf {
@@ -228,7 +228,7 @@ TEST(HumanUrdf, LosesNothingOnTheWayThroughUrdfdomAndTheReader) {
       EXPECT_EQ(link.inertial->inertia, segment.inertia_about_com) << link.name;
       const bool is_gloved = human.gloves[kRight] && (i == kRightHand || i == kLeftHand);
       if (is_gloved) continue;  // drawn by its fingers
-      ExpectSameShapes(PrimitiveFigure(human.skeleton, i), link, body);
+      ExpectSameShapes(PrimitiveBody(human.skeleton, i), link, body);
     }
     for (int joint = 0; joint < kJointCount; ++joint) {
       std::string parent = LinkName(name, ParentOf(joint));
@@ -255,7 +255,7 @@ TEST(HumanUrdf, LosesNothingOnTheWayThroughUrdfdomAndTheReader) {
         }
         EXPECT_EQ(parent, FingerLinkName(name, side, finger));
         if (finger == 0) continue;  // whose hand's link collides in its place
-        ExpectSameShapes(FingerFigure(*human.gloves[side], finger), read.link(parent), glove);
+        ExpectSameShapes(FingerPrimitives(*human.gloves[side], finger), read.link(parent), glove);
       }
     }
     const std::size_t gloves = human.gloves[kRight] ? 120 : 0;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 
 namespace kinescope::urdf::testing {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 #include "urdf/kinematics.h"
 
 namespace kinescope::urdf::testing {

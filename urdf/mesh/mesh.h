@@ -37,15 +37,15 @@ struct ShapeDetail {
   int sphere_sides = 0;  // around the equator, even; 0: by its size
 
   /// As coarse and rounded as a body model of about 700 px height allows.
-  static constexpr ShapeDetail Figure() { return {0.22, 16, 0}; }
+  static constexpr ShapeDetail Body() { return {0.22, 16, 0}; }
   /// As in the URDF, with a thin bright edge.
   static constexpr ShapeDetail Robot() { return {0.02, 48, 40}; }
 };
 
 /// Sizes as in urdf::Geometry. Call Paint for colours and parts.
-Mesh BoxMesh(const Eigen::Vector3d& size, const ShapeDetail& detail = ShapeDetail::Figure());
-Mesh CylinderMesh(double radius, double length, const ShapeDetail& detail = ShapeDetail::Figure());
-Mesh SphereMesh(double radius, const ShapeDetail& detail = ShapeDetail::Figure());
+Mesh BoxMesh(const Eigen::Vector3d& size, const ShapeDetail& detail = ShapeDetail::Body());
+Mesh CylinderMesh(double radius, double length, const ShapeDetail& detail = ShapeDetail::Body());
+Mesh SphereMesh(double radius, const ShapeDetail& detail = ShapeDetail::Body());
 
 /// Flat, in the plane z = 0, facing up, outer radius 1 m.
 Mesh DiscMesh(int corners);

@@ -141,14 +141,14 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
     }
   }
   const MomentOptions& moment = options.moment;
-  if (moment.frame && moment.time) {
+  if (moment.sample && moment.time) {
     throw UsageError("--sample and --time both select the picture; give only one of them");
   }
   if (moment.overlay_layer && !has_still) {
     throw UsageError(
         "--overlay_layer is written beside one picture; give --out a name that ends in .png");
   }
-  if (!has_still && (moment.frame || moment.time)) {
+  if (!has_still && (moment.sample || moment.time)) {
     throw UsageError(
         "--sample and --time apply to still pictures only; use --out NAME.png, or select a part of "
         "the clip with --start and --seconds");

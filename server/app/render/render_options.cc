@@ -65,14 +65,14 @@ std::int64_t ToNanos(double secs) { return std::llround(secs * 1e9); }
 }  // namespace
 
 MomentOptions::MomentOptions()
-    : frame(Whole(0, {0, 1e15})),
+    : sample(Whole(0, {0, 1e15})),
       time(Number(0, {0, kLatestSecs, "s"})),
       overlay_layer(options::Choice<render::LayerFormat>(
           {{"svg", render::LayerFormat::kSvg}, {"pdf", render::LayerFormat::kPdf}},
           render::LayerFormat::kSvg)) {}
 
 void MomentOptions::List(options::OptionList& option) {
-  option("sample", frame, "index of the sample that one picture shows, from 0 (the default)");
+  option("sample", sample, "index of the sample that one picture shows, from 0 (the default)");
   option.Formerly("frame");
   option("time", time, "time that one picture shows, after the first sample; between samples too");
   option("overlay_layer", overlay_layer,

@@ -18,7 +18,7 @@ namespace kinescope::app {
 struct MomentOptions {
   MomentOptions();
 
-  options::Optional<options::Whole> frame;
+  options::Optional<options::Whole> sample;
   options::Optional<options::Number> time;  // s
   options::Optional<options::Choice<render::LayerFormat>> overlay_layer;
 

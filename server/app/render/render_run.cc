@@ -163,7 +163,7 @@ class RenderRun {
     if (!start_nanos_) start_nanos_ = state->stamp_nanos;
     if (still_is_rendered_) return state;
     for (auto& [camera, task] : stills_) task.Remember(*state);
-    if (!options_.moment.time && number == options_.moment.frame.value_or(0L)) {
+    if (!options_.moment.time && number == options_.moment.sample.value_or(0L)) {
       RenderStills(*state);
     }
     return state;
@@ -173,7 +173,7 @@ class RenderRun {
     while (!still_is_rendered_) {
       if (Next() == nullptr) {
         throw UsageError(fmt::format("--sample={}: {} has only {} samples, counted from 0",
-                                     options_.moment.frame.value_or(0L), plan_.source, samples_));
+                                     options_.moment.sample.value_or(0L), plan_.source, samples_));
       }
     }
   }

@@ -55,11 +55,11 @@ LivePictureSettings LivePicturesOf(const ServeOptions& options) {
 RosCameraSettings RosCameraOf(const ServeOptions& options) {
   RosCameraSettings settings;
   const CameraChoice& camera =
-      options.view_camera ? (*options.view_camera).front() : options.camera->front();
+      options.ros_view_camera ? (*options.ros_view_camera).front() : options.camera->front();
   settings.camera = CameraController(camera, {});
-  settings.width = options.view_size->width;
-  settings.height = options.view_size->height;
-  settings.rate_hz = *options.view_rate_hz;
+  settings.width = options.ros_view_size->width;
+  settings.height = options.ros_view_size->height;
+  settings.rate_hz = *options.ros_view_rate_hz;
   return settings;
 }
 
@@ -67,7 +67,7 @@ ros_bridge::BridgeConfig BridgeOf(const ServeOptions& options) {
   ros_bridge::BridgeConfig config;
   config.reference_frame = *options.reference_frame;
   config.tf = *options.tf;
-  config.joint_states = *options.joint_states;
+  config.joint_states = *options.joint_angle_source;
   config.external_scale = *options.external_scale;
   config.check_hand_load = [](const HandLoad& load) { return loads::FindDefect(load); };
   return config;
@@ -108,8 +108,8 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
   config.backend = options.backend;
   if (*options.pictures) config.pictures = pictures;
   if (!config.ros) return config;
-  config.ros->markers = *options.markers;
-  if (!*options.view) return config;
+  config.ros->markers = *options.marker_topics;
+  if (!*options.ros_view) return config;
   if (!config.pictures) {
     config.notes.emplace_back("~view/image_raw is off because --pictures is off");
     return config;

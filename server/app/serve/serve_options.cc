@@ -71,18 +71,18 @@ ServeOptions::ServeOptions()
       reference_frame("world", "a TF frame name: letters, digits, _ and /, not beginning with /",
                       IsFrameName),
       tf(Words({"flat", "tree", "off"}), "flat"),
-      joint_states(Words({"computed", "streamed"}), "computed"),
+      joint_angle_source(Words({"computed", "streamed"}), "computed"),
       bind_ip("127.0.0.1"),
       http_port(8080, {0, 65535, "", false, "0: a free one, which is printed"}),
       pictures(true),
       camera(1),
       picture_size({kDefaultPictureWidth, kDefaultPictureHeight}),
       picture_rate_hz(kDefaultPictureRateHz, {kMinPictureRateHz, kMaxPictureRateHz, "Hz"}),
-      markers("", "up to 16 topics with commas between, such as /walls,/plan", AreTopicNames),
-      view(true),
-      view_camera(CamerasValue(1)),
-      view_size({kDefaultPictureWidth, kDefaultPictureHeight}),
-      view_rate_hz(kDefaultPictureRateHz, {kMinPictureRateHz, kMaxPictureRateHz, "Hz"}) {}
+      marker_topics("", "up to 16 topics with commas between, such as /walls,/plan", AreTopicNames),
+      ros_view(true),
+      ros_view_camera(CamerasValue(1)),
+      ros_view_size({kDefaultPictureWidth, kDefaultPictureHeight}),
+      ros_view_rate_hz(kDefaultPictureRateHz, {kMinPictureRateHz, kMaxPictureRateHz, "Hz"}) {}
 
 void ServeOptions::ListBridge(options::OptionList& option) {
   option.Group("The source");
@@ -100,7 +100,7 @@ void ServeOptions::ListBridge(options::OptionList& option) {
   option("ros", ros, "auto: publish when a master is reachable");
   option("reference_frame", reference_frame, "parent frame of all TF frames");
   option("tf", tf, "TF frames: flat (as xsens_mvn_ros), as a tree, or none");
-  option("joint_angle_source", joint_states,
+  option("joint_angle_source", joint_angle_source,
          "joint angles in ~joint_states: computed from the poses, or streamed by MVN");
   option.Formerly("joint_states");
   option(
@@ -121,17 +121,18 @@ void ServeOptions::List(options::OptionList& option) {
   option("picture_size", picture_size, "size of the live picture");
   option("picture_rate_hz", picture_rate_hz, "highest frame rate of the live picture");
   backend.List(option);
-  option("marker_topics", markers, "topics of visualization_msgs/Marker or MarkerArray to show");
+  option("marker_topics", marker_topics,
+         "topics of visualization_msgs/Marker or MarkerArray to show");
   option.Formerly("markers");
-  option("ros_view", view,
+  option("ros_view", ros_view,
          "whether the ROS camera ~view is published (image_raw, camera_info and its frame); "
          "rendered while it has subscribers");
   option.Formerly("view");
-  option("ros_view_camera", view_camera, "camera of ~view; not given: that of --camera");
+  option("ros_view_camera", ros_view_camera, "camera of ~view; not given: that of --camera");
   option.Formerly("view_camera");
-  option("ros_view_size", view_size, "size of ~view");
+  option("ros_view_size", ros_view_size, "size of ~view");
   option.Formerly("view_size");
-  option("ros_view_rate_hz", view_rate_hz, "highest frame rate of ~view");
+  option("ros_view_rate_hz", ros_view_rate_hz, "highest frame rate of ~view");
   option.Formerly("view_rate_hz");
 }
 

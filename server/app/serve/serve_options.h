@@ -36,7 +36,7 @@ struct ServeOptions {
   // ROS
   options::Choice<ros_bridge::RosMode> ros;
   options::Text reference_frame;
-  options::Choice<std::string> tf, joint_states;
+  options::Choice<std::string> tf, joint_angle_source;
   FactorValue external_scale;
   // page and pictures
   options::Text bind_ip;
@@ -48,11 +48,11 @@ struct ServeOptions {
   options::Size picture_size;
   options::Number picture_rate_hz;
   BackendOptions backend;
-  options::Text markers;
-  options::Switch view;
-  options::Optional<CamerasValue> view_camera;
-  options::Size view_size;
-  options::Number view_rate_hz;
+  options::Text marker_topics;
+  options::Switch ros_view;
+  options::Optional<CamerasValue> ros_view_camera;
+  options::Size ros_view_size;
+  options::Number ros_view_rate_hz;
 
   /// With those of page and pictures.
   void List(options::OptionList& option);

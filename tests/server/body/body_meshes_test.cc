@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 #include "urdf/robot/robot_model.h"
 #include "urdf/segments.h"
 

@@ -10,7 +10,7 @@
 #include "tests/server/options_testing.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 
 namespace kinescope::app {
 namespace {
@@ -101,7 +101,7 @@ TEST_F(MeshFolder, IsChosenByOptions) {
   WriteRod("Head.obj", 0.2);
   const auto person = testing::With<PersonOptions>({{"body_model", "mesh:" + Path()}});
   EXPECT_NE(ToSceneOptions(person).appearance.custom, nullptr);
-  EXPECT_THAT(person.figure.Files(), ::testing::ElementsAre(Path() + "/Head.obj"));
+  EXPECT_THAT(person.body_model.Files(), ::testing::ElementsAre(Path() + "/Head.obj"));
   for (const auto& [name, text] : testing::Settings{{"mesh_units", "inch"},
                                                     {"mesh_up", "x"},
                                                     {"mesh_scale", "2"},

@@ -87,7 +87,7 @@ TEST(PlanOutputs, RefusesWhatNothingWouldHeed) {
   }
   EXPECT_TRUE(refuses(folder.path(), as_is)) << "a folder";
   const auto time = [](RenderOptions& o) { o.moment.time = 1.0; };
-  const auto both = [](RenderOptions& o) { o.moment.time = 1.0, o.moment.frame = 1L; };
+  const auto both = [](RenderOptions& o) { o.moment.time = 1.0, o.moment.sample = 1L; };
   const auto start = [](RenderOptions& o) { o.clip.start = 1.0; };
   const auto crf = [](RenderOptions& o) { o.pack.crf = 20L; };
   EXPECT_FALSE(refuses("a.png", time));

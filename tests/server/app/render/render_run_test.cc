@@ -31,7 +31,7 @@ RenderOptions SmallRun(const std::string& source, const std::vector<std::string>
   options.sources = std::vector<std::string>{source};
   options.outs = outs;
   options.view.size = {16, 16};
-  options.person.figure.Parse("primitive");
+  options.person.body_model.Parse("primitive");
   return options;
 }
 

@@ -8,7 +8,7 @@
 #include "core/system/errors.h"
 #include "tests/shared_data.h"
 #include "tests/temp_folder.h"
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 #include "urdf/robot/robot_model.h"
 
 namespace kinescope::app {

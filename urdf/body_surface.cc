@@ -1,4 +1,4 @@
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <cstring>
 #include <utility>
 
-#include "urdf/figure_profiles.h"
+#include "urdf/body_profiles.h"
 #include "urdf/loft.h"
 
 namespace kinescope::urdf {

@@ -1,4 +1,4 @@
-#include "urdf/figure_profiles.h"
+#include "urdf/body_profiles.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "render/vtk/figure_actor.h"
+#include "render/vtk/body_actor.h"
 
 #include <vtkActor.h>
 
@@ -9,11 +9,11 @@
 namespace kinescope::render {
 namespace {}  // namespace
 
-void FigureActor::Load(const PersonModel& model, OnceLog& log) {
+void BodyActor::Load(const PersonModel& model, OnceLog& log) {
   groups_.clear();
   problems_.clear();
   if (model.mesh_files) model.mesh_files->Provide();  // what is missing is reported below
-  VisualReader reader(urdf::MeshSearch(), urdf::ShapeDetail::Figure());
+  VisualReader reader(urdf::MeshSearch(), urdf::ShapeDetail::Body());
   const std::vector<std::string> names = VisibleLinks(model.human);
   for (std::size_t first = 0; first < names.size(); first += PartActor::kMaxParts) {
     Group group;
@@ -41,8 +41,8 @@ void FigureActor::Load(const PersonModel& model, OnceLog& log) {
   for (const std::string& problem : problems_) log(problem);
 }
 
-bool FigureActor::Update(const PersonState& person, const Eigen::Vector4f& override_color,
-                         OnceLog& log, std::vector<Label>& labels) {
+bool BodyActor::Update(const PersonState& person, const Eigen::Vector4f& override_color,
+                       OnceLog& log, std::vector<Label>& labels) {
   const bool is_new = model_ != person.model || revision_ != person.model->revision;
   if (is_new) {
     Load(*person.model, log);
@@ -68,11 +68,11 @@ bool FigureActor::Update(const PersonState& person, const Eigen::Vector4f& overr
   return is_new;
 }
 
-void FigureActor::SetVisible(bool is_visible) {
+void BodyActor::SetVisible(bool is_visible) {
   for (Group& group : groups_) group.actor->actor()->SetVisibility(is_visible);
 }
 
-std::vector<vtkActor*> FigureActor::actors() {
+std::vector<vtkActor*> BodyActor::actors() {
   std::vector<vtkActor*> actors;
   for (Group& group : groups_) actors.push_back(group.actor->actor());
   return actors;

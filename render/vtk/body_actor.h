@@ -15,9 +15,9 @@
 
 namespace kinescope::render {
 
-class FigureActor {
+class BodyActor {
  public:
-  explicit FigureActor(Pass pass = Pass::kSolid) : pass_(pass) {}
+  explicit BodyActor(Pass pass = Pass::kSolid) : pass_(pass) {}
 
   /// Adds the names of missing meshes to `labels`. `override_color`: see PartActor.
   /// @return whether the list of actors has changed.

@@ -1,4 +1,4 @@
-#include "urdf/hand_figure.h"
+#include "urdf/hand_surface.h"
 
 #include <gtest/gtest.h>
 
@@ -115,7 +115,7 @@ TEST(HandFigure, StaysASurfaceForBonesThatCannotBe) {
       for (const Eigen::Vector3f& vertex : mesh.vertices) {
         ASSERT_TRUE(vertex.allFinite() && vertex.norm() < 1) << Name(i);
       }
-      for (const Primitive& part : FingerFigure(hand, i)) {
+      for (const Primitive& part : FingerPrimitives(hand, i)) {
         EXPECT_TRUE(part.size.allFinite() && part.center.allFinite() && part.rpy.allFinite());
       }
     }
@@ -125,7 +125,7 @@ TEST(HandFigure, StaysASurfaceForBonesThatCannotBe) {
 TEST(HandFigure, OfPrimitivesFillsTheBonesAndHasThePalmOfTheSmoothOne) {
   const HandSkeleton hand = DefaultHand(kLeft, 0.19);
   for (int i = 0; i < kFingersPerHand; ++i) {
-    const auto parts = FingerFigure(hand, i);
+    const auto parts = FingerPrimitives(hand, i);
     const Eigen::Quaterniond turn = Eigen::AngleAxisd(parts[0].rpy.z(), Vector3d::UnitZ()) *
                                     Eigen::AngleAxisd(parts[0].rpy.y(), Vector3d::UnitY()) *
                                     Eigen::AngleAxisd(parts[0].rpy.x(), Vector3d::UnitX());

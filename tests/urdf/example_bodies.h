@@ -12,7 +12,7 @@
 #include "server/mvn/datagram.h"
 #include "server/mvn/open.h"
 #include "tests/shared_data.h"
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 #include "urdf/skeleton.h"
 
 namespace kinescope::urdf::testing {

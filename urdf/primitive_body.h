@@ -20,6 +20,6 @@ struct Primitive {
 };
 
 /// The primitives of one segment; at least one.
-std::vector<Primitive> PrimitiveFigure(const Skeleton& skeleton, int segment);
+std::vector<Primitive> PrimitiveBody(const Skeleton& skeleton, int segment);
 
 }  // namespace kinescope::urdf

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "server/subject/subject.h"
-#include "tests/urdf/figure_bodies.h"
+#include "tests/urdf/example_bodies.h"
 #include "tests/urdf/pixels.h"
 #include "urdf/kinematics.h"
 

@@ -1,4 +1,4 @@
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 
 #include <gtest/gtest.h>
 

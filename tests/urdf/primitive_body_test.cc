@@ -1,4 +1,4 @@
-#include "urdf/primitive_figure.h"
+#include "urdf/primitive_body.h"
 
 #include <gtest/gtest.h>
 
@@ -36,12 +36,12 @@ bool Contains(const std::vector<Primitive>& primitives, const Vector3d& point) {
 }
 
 // From the belly to the back, across the joint, nothing opens that one could see through.
-TEST(PrimitiveFigure, ASpineThatBendsShowsNoGap) {
+TEST(PrimitiveBody, ASpineThatBendsShowsNoGap) {
   const Skeleton skeleton = DefaultSkeleton();
   constexpr double kDeep = 0.085;  // m, from the axis: nearly to the surface
   for (const int joint : {jL5S1, jL4L3, jL1T12, jT9T8}) {
-    const std::vector<Primitive> parent = PrimitiveFigure(skeleton, ParentOf(joint));
-    const std::vector<Primitive> child = PrimitiveFigure(skeleton, ChildOf(joint));
+    const std::vector<Primitive> parent = PrimitiveBody(skeleton, ParentOf(joint));
+    const std::vector<Primitive> child = PrimitiveBody(skeleton, ChildOf(joint));
     const Vector3d& center = skeleton.origin_in_parent[At(ChildOf(joint))];
     for (double flexion = -0.5; flexion <= 0.5; flexion += 0.125) {
       const Eigen::Quaterniond child_from_parent =

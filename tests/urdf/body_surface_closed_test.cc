@@ -7,9 +7,9 @@
 #include <map>
 #include <random>
 
-#include "tests/urdf/figure_bodies.h"
+#include "tests/urdf/example_bodies.h"
 #include "tests/urdf/mesh_checks.h"
-#include "urdf/figure.h"
+#include "urdf/body_surface.h"
 #include "urdf/joint_limits.h"
 #include "urdf/kinematics.h"
 

@@ -1,4 +1,4 @@
-#include "urdf/primitive_figure.h"
+#include "urdf/primitive_body.h"
 
 #include <cmath>
 
@@ -44,7 +44,7 @@ std::vector<Primitive> Limb(const Vector3d& end, double radius) {
 
 }  // namespace
 
-std::vector<Primitive> PrimitiveFigure(const Skeleton& skeleton, int segment) {
+std::vector<Primitive> PrimitiveBody(const Skeleton& skeleton, int segment) {
   const double h = skeleton.height;  // girths are fractions of stature, by eye
   const Vector3d end = EndOf(skeleton, segment);
   switch (segment) {

@@ -1,4 +1,4 @@
-#include "urdf/hand_figure.h"
+#include "urdf/hand_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -149,7 +149,7 @@ TriangleMesh FingerMesh(const HandSkeleton& hand, int finger) {
   return mesh;
 }
 
-std::vector<Primitive> FingerFigure(const HandSkeleton& hand, int finger) {
+std::vector<Primitive> FingerPrimitives(const HandSkeleton& hand, int finger) {
   if (finger == 0) return {PalmBox(hand)};
   const Radii radii = RadiiOf(hand, finger);
   const Vector3d bone = BoneOf(hand, finger);
