@@ -212,7 +212,19 @@ int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
     RefuseUnknownOption(*chosen, extras.front());
   } catch (const CLI::ArgumentMismatch& error) {
     const std::string text = error.what();
-    throw UsageError(text.substr(0, text.find(':')) + ": value missing (see --help)");
+    const bool is_repeated = text.find("At Most") != std::string::npos;
+    throw UsageError(text.substr(0, text.find(':')) + (is_repeated
+                                                           ? ": given several times; give one value"
+                                                           : ": value missing (see --help)"));
+  } catch (const CLI::RequiredError&) {
+    const Registered* const chosen = Chosen(all);
+    std::vector<std::string> names;
+    for (const Command& command : chosen == nullptr ? commands : chosen->command->parts) {
+      names.push_back(command.name);
+    }
+    throw UsageError("command missing: expected " + options::Alternatives(names) + " (see " +
+                     (chosen == nullptr ? "kinescope" : "kinescope " + chosen->command->name) +
+                     " --help)");
   } catch (const CLI::ParseError& error) {
     return line.exit(error) == 0 ? 0 : 2;
   }

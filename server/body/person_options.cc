@@ -33,6 +33,7 @@ urdf::AddedMass ToAddedMass(const std::string& item) try {
 
 std::vector<std::string> SegmentNames() {
   std::vector<std::string> names;
+  names.reserve(urdf::kSegments.size());
   for (const urdf::SegmentInfo& segment : urdf::kSegments) names.emplace_back(segment.link_name);
   return names;
 }

@@ -43,7 +43,19 @@ void KeepKernelQueueShort(tcp::socket& socket) {
   socket.set_option(tcp::no_delay(true), ignored);
 }
 
-void CheckConfig(const HttpConfig& config, const asio::ip::address& address) {
+}  // namespace
+
+void CheckConfig(const HttpConfig& config) {
+  error_code error;
+  const auto address = asio::ip::make_address(config.bind_ip, error);
+  if (error) {
+    throw UsageError(
+        "--bind_ip=" + config.bind_ip +
+        ": not an IP address; use 127.0.0.1 for this machine or 0.0.0.0 for the network");
+  }
+  if (config.port < 0 || config.port > 65535) {
+    throw UsageError("--http_port=" + std::to_string(config.port) + ": expected 0 to 65535");
+  }
   if (!address.is_loopback() && config.token.empty()) {
     throw UsageError(
         "--bind_ip=" + config.bind_ip +
@@ -54,19 +66,14 @@ void CheckConfig(const HttpConfig& config, const asio::ip::address& address) {
   }
 }
 
+namespace {
+
 tcp::acceptor Listen(asio::io_context& io, const HttpConfig& config) {
-  error_code error;
-  const auto address = asio::ip::make_address(config.bind_ip, error);
-  if (error)
-    throw UsageError(
-        "--bind_ip=" + config.bind_ip +
-        ": not an IP address; use 127.0.0.1 for this machine or 0.0.0.0 for the network");
-  if (config.port < 0 || config.port > 65535) {
-    throw UsageError("--http_port=" + std::to_string(config.port) + ": expected 0 to 65535");
-  }
-  CheckConfig(config, address);
+  CheckConfig(config);
   tcp::acceptor acceptor(io);
-  const tcp::endpoint endpoint(address, static_cast<unsigned short>(config.port));
+  const tcp::endpoint endpoint(asio::ip::make_address(config.bind_ip),
+                               static_cast<unsigned short>(config.port));
+  error_code error;
   acceptor.open(endpoint.protocol(), error);
   if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
   if (!error) acceptor.bind(endpoint, error);

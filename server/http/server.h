@@ -71,6 +71,9 @@ struct HttpConfig {
   std::function<std::string(int character, const HandLoad& load)> set_hand_load;
 };
 
+/// @throws UsageError for an address, port or token that cannot be used; listens nowhere.
+void CheckConfig(const HttpConfig& config);
+
 /// Maximum number of clients; further ones are asked to try again later.
 inline constexpr int kMaxClients = 64;
 

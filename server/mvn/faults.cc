@@ -25,9 +25,9 @@ constexpr std::int32_t kSourceRestart = 1000;       // a counter this far back i
 constexpr double kLongestSecs = 60;
 
 std::string AllNames() {
-  std::string names;
-  for (const char* name : kNames) names += std::string(name) + ", ";
-  return names + "all";
+  std::string all;
+  for (const std::string& name : FaultNames()) all += (all.empty() ? "" : ", ") + name;
+  return all;
 }
 
 double ParseNumber(std::string_view text, double low, double high, const std::string& error) {
@@ -52,6 +52,12 @@ double* SecsOf(Fault fault, FaultSettings& settings) {
 std::int64_t ToNanos(double secs) { return std::llround(secs * kNanos); }
 
 }  // namespace
+
+std::vector<std::string> FaultNames() {
+  std::vector<std::string> names(kNames.begin(), kNames.end());
+  names.emplace_back("all");
+  return names;
+}
 
 const char* Name(Fault fault) { return kNames[static_cast<std::size_t>(fault)]; }
 

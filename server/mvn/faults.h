@@ -54,6 +54,8 @@ inline constexpr int kFaultCount = static_cast<int>(Fault::kReset) + 1;
 
 /// "loss".
 const char* Name(Fault fault);
+/// The names of all faults, and "all".
+std::vector<std::string> FaultNames();
 
 struct FaultSettings {
   std::array<double, kFaultCount> share{};  // by Fault, 0 to 1

@@ -76,8 +76,10 @@ void OptionList::OnSet(Option& option, const std::string& given_name, Channel ch
                        const std::string& origin) {
   option.channel = channel;
   if (given_name != option.name) {
-    Warn(fmt::format("{}{}: this option is now called {}; the next version rejects the former name",
-                     origin, given_name, option.name));
+    const std::string dashes = origin == "--" || origin == "~" ? origin : "";
+    Warn(fmt::format(
+        "{}{}: this option is now called {}{}; the next version rejects the former name", origin,
+        given_name, dashes, option.name));
   }
   for (const FormerWord& word : option.value->former_words()) {
     Warn(fmt::format(

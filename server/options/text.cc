@@ -129,7 +129,17 @@ std::string Nearest(std::string_view text, const std::vector<std::string>& names
     least = distance;
     nearest = name;
   }
-  return nearest;
+  if (!nearest.empty()) return nearest;
+  // An abbreviation: the beginning of one name only, or a word within the first that has it.
+  constexpr std::size_t kShortest = 3;  // of a word; shorter ones occur anywhere
+  std::size_t beginnings = 0;
+  std::string within;
+  for (const std::string& name : names) {
+    const std::size_t at = name.find(lower);
+    if (at == 0 && ++beginnings == 1) nearest = name;
+    if (at != std::string::npos && lower.size() >= kShortest && within.empty()) within = name;
+  }
+  return beginnings == 1 ? nearest : within;
 }
 
 }  // namespace kinescope::options

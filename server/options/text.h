@@ -36,7 +36,7 @@ std::string NumberText(double number);
 std::string Alternatives(const std::vector<std::string>& names);
 
 /// The one of `names` that `text` probably means: at most a third of its letters are different,
-/// missing, added or exchanged. "" if there is none.
+/// missing, added or exchanged, or it is an abbreviation. "" if there is none.
 std::string Nearest(std::string_view text, const std::vector<std::string>& names);
 
 }  // namespace kinescope::options

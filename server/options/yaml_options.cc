@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <map>
+
 #include "core/system/errors.h"
 
 namespace kinescope::options {
@@ -41,8 +43,15 @@ std::optional<Found> YamlOptions::Look(const std::string& name) const {
 }
 
 void YamlOptions::SetAll(OptionList& options) const {
+  std::map<std::string, int> lines;
   for (const auto& entry : root_->node) {
     const std::string key = entry.first.Scalar();
+    const int line = entry.first.Mark().line + 1;
+    const auto [first, is_new] = lines.emplace(key, line);
+    if (!is_new) {
+      throw UsageError(fmt::format("{}:{}: {}: given twice, first in line {}; remove one", path_,
+                                   line, key, first->second));
+    }
     if (options.Find(key) != nullptr) continue;
     const std::string nearest = Nearest(key, options.Names());
     throw UsageError(fmt::format("{}unknown option '{}'{}{} (see --help)",

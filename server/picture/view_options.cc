@@ -48,6 +48,7 @@ bool IsChange(const std::string& name) {
 
 std::vector<std::string> ScoredJointNames() {
   std::vector<std::string> names;
+  names.reserve(urdf::kScoredJoints.size());
   for (const int joint : urdf::kScoredJoints) {
     names.emplace_back(urdf::kJoints[urdf::At(joint)].ros_name);
   }
@@ -142,6 +143,7 @@ std::string OverlayValue::Expected() const {
 
 std::vector<std::string> OverlayValue::Names() const {
   std::vector<std::string> names;
+  names.reserve(render::kOverlays.size());
   for (const render::OverlayInfo& overlay : render::kOverlays) names.emplace_back(overlay.name);
   return names;
 }

@@ -22,7 +22,13 @@ namespace {
 std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& settings) {
   std::error_code ignored;
   if (path != "-" && !std::filesystem::exists(path, ignored)) {
-    throw SourceError("source '" + path + "': file not found; expected " + SourceKinds());
+    const std::size_t colon = path.find(':');
+    const std::string scheme =
+        colon == std::string::npos
+            ? ""
+            : options::Nearest(path.substr(0, colon), {"udp", "tcp", "ros", "demo"});
+    throw SourceError("source '" + path + "': file not found; expected " + SourceKinds() +
+                      (scheme.empty() ? "" : "; nearest: " + scheme + ":"));
   }
   InputFile file = OpenInputFile(path);
   const std::string name = NameOfInput(path);
@@ -42,7 +48,7 @@ std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& 
 }
 
 void CheckMotion(const std::string& motion) {
-  const std::vector<std::string> known = subject::MotionNames();
+  const std::vector<std::string>& known = subject::MotionNames();
   if (std::count(known.begin(), known.end(), motion) > 0) return;
   const std::string nearest = options::Nearest(motion, known);
   throw SourceError("demo:" + motion + ": unknown motion; expected " +

@@ -69,7 +69,7 @@ TEST(Command, RefusesWhatItDoesNotKnowByName) {
   ExpectRefusal(Kinescope({"serve", "--http_port", "80a"}), "80a");
   ExpectRefusal(Kinescope({"bridge", "--tf", "sideways", "--ros", "off"}), "sideways");
   ExpectRefusal(Kinescope({"serve", "--mass", "500"}), "500");
-  ExpectRefusal(Kinescope({}), "subcommand");
+  ExpectRefusal(Kinescope({}), "command missing: expected serve, bridge");
 }
 
 TEST(Command, RefusesSourcesThatAreNone) {

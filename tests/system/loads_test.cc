@@ -299,7 +299,7 @@ TEST(LoadsCommand, RefusesOneFileForTwoOutputs) {
 TEST(LoadsCommand, LeavesNothingBehindWhenItIsStopped) {
   const TempFolder folder;
   testing::Process child({testing::KinescopePath(), "loads", "demo:walk", "--seconds", "100000",
-                          "--csv", folder / "loads.csv", "--json", "-"});
+                          "--csv", "-", "--json", folder / "loads.json"});
   ASSERT_TRUE(child.ReadLine(std::chrono::seconds(60)));  // it has begun to write
   child.Signal(SIGINT);
   while (child.ReadLine(std::chrono::seconds(60))) {  // until it has ended

@@ -49,8 +49,12 @@ std::vector<GoldenCase> CasesOf(const GoldenOptions& options) {
     const auto found = std::find_if(cases.begin(), cases.end(),
                                     [&](const GoldenCase& c) { return c.name == name; });
     if (found == cases.end()) {
+      std::vector<std::string> known;
+      for (const GoldenCase& each : cases) known.push_back(each.name);
+      const std::string nearest = options::Nearest(name, known);
       throw UsageError(
-          fmt::format("folder '{}' contains no golden case '{}'", *options.folder, name));
+          fmt::format("folder '{}' contains no golden case '{}'; {}", *options.folder, name,
+                      nearest.empty() ? "write " + name + ".yaml there" : "nearest: " + nearest));
     }
     chosen.push_back(*found);
   }

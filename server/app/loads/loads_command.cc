@@ -171,6 +171,11 @@ void CheckArguments(const LoadsOptions& options) {
         "file name");
   }
   CheckOutputsDiffer(options);
+  const std::string ending = std::filesystem::path(*options.report).extension().string();
+  if (!options.report->empty() && ending != ".html" && ending != ".htm") {
+    throw UsageError(
+        fmt::format("--report={}: expected a name that ends in .html", *options.report));
+  }
 }
 
 nlohmann::json ReportOf(const Recording& recording, const TrialContext& context) {

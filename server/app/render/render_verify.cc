@@ -61,6 +61,10 @@ std::string FindSource(const Json& provenance, const std::string& file,
                     "the original file",
                     file, name, path, source.value("sha256", "unknown")));
   }
+  if (!given.sources->empty()) {
+    throw SourceError(fmt::format("source '{}': file not found; give the path of {}",
+                                  given.sources->front(), name));
+  }
   throw SourceError(
       fmt::format("{}: its source {} was not found; give the path of the source", file, name));
 }

@@ -105,6 +105,7 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
   ServeConfig config = BridgeConfigOf(options);
   if (!with_page) return config;
   config.page = PageOf(options);
+  http::CheckConfig(*config.page);
   config.backend = options.backend;
   if (*options.pictures) config.pictures = pictures;
   if (!config.ros) return config;

@@ -32,7 +32,7 @@ class TypesValue : public options::ValueOf<std::optional<mvn::TypeSet>> {
   std::string ToText() const override { return text_; }
   bool IsGiven() const override { return value_.has_value(); }
   std::string Expected() const override {
-    return "some of 01,02,03,12,13,20,21,22,23,24,25 (see below)";
+    return "some of 01,02,03,12,13,20,21,22,23,24,25, as listed by kinescope stream --help";
   }
 
  private:
@@ -49,8 +49,10 @@ class FaultsValue : public options::ValueOf<mvn::FaultSettings> {
   bool is_repeatable() const override { return true; }
   std::string ToText() const override { return text_; }
   std::string Expected() const override {
-    return "NAME=SHARE or NAME=SHARE:SECONDS, such as loss=0.05 (see below)";
+    return "NAME=SHARE or NAME=SHARE:SECONDS, such as loss=0.05, as listed by kinescope stream "
+           "--help";
   }
+  std::vector<std::string> Names() const override { return mvn::FaultNames(); }
 
  private:
   std::string text_;

@@ -93,6 +93,8 @@ TEST_F(OptionListTest, OfAFileThatCannotBeReadNameFileAndLine) {
               AllOf(HasSubstr("options.yaml:2: unknown option 'mas'"), HasSubstr("nearest: mass")));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: [tree]\n")).SetAll(list_); }),
               HasSubstr("options.yaml:1: tf: expected one value"));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\nmass: 80\ntf: flat\n")).SetAll(list_); }),
+              HasSubstr("options.yaml:3: tf: given twice, first in line 1"));
 }
 
 TEST_F(OptionListTest, AcceptsAFormerNameWithAWarning) {

@@ -56,6 +56,11 @@ TEST(SceneReader, NamesTheBadSourceAndEveryKindThatThereIs) {
   }
 }
 
+TEST(SceneReader, NamesTheNearestSchemeAndMotion) {
+  EXPECT_THAT(SceneReaderError("upd://:9763"), HasSubstr("; nearest: udp:"));
+  EXPECT_THAT(SceneReaderError("demo:lfit"), HasSubstr("; nearest: lift"));
+}
+
 TEST(SceneReader, NamesWhatIsWrongWithASourceOfAKnownKind) {
   EXPECT_THAT(SceneReaderError("demo:fly"), AllOf(HasSubstr("fly"), HasSubstr("lift")));
   EXPECT_THAT(SceneReaderError("tcp:/x"), AllOf(HasSubstr("tcp:/x"), HasSubstr("tcp://")));
