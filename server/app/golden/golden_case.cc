@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/system/errors.h"
 #include "render/multi_view.h"
 #include "server/options/yaml_options.h"
 #include "server/picture/render_planner.h"

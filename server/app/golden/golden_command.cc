@@ -50,6 +50,7 @@ std::vector<GoldenCase> CasesOf(const GoldenOptions& options) {
                                     [&](const GoldenCase& c) { return c.name == name; });
     if (found == cases.end()) {
       std::vector<std::string> known;
+      known.reserve(cases.size());
       for (const GoldenCase& each : cases) known.push_back(each.name);
       const std::string nearest = options::Nearest(name, known);
       throw UsageError(

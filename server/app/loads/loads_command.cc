@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "core/system/stop_signal.h"
 #include "server/app/commands.h"
 #include "server/app/loads/load_files.h"
