@@ -132,10 +132,8 @@ AddedMass ParseAddedMass(const std::string& text) try {
   }
   return added;
 } catch (const std::invalid_argument& error) {
-  throw std::invalid_argument(
-      fmt::format("added mass '{}': {}; expected SEGMENT:KG or SEGMENT:KG@X,Y,Z, such as "
-                  "head:1.5@0,0,0.12",
-                  text, error.what()));
+  throw std::invalid_argument(fmt::format(
+      "{}; expected SEGMENT:KG or SEGMENT:KG@X,Y,Z, such as head:1.5@0,0,0.12", error.what()));
 }
 
 }  // namespace kinescope::urdf

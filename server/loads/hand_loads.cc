@@ -88,10 +88,10 @@ HandLoad ParseHandLoad(const std::string& text) try {
   }
   return load;
 } catch (const std::invalid_argument& error) {
-  throw UsageError(fmt::format(
-      "hand load '{}': {}; expected right:KG, left:KG or both:KG, comma-separated; right:KG@X,Y,Z "
-      "if the centre of mass is not at the grip (m, in the hand's link frame); or none",
-      text, error.what()));
+  throw UsageError(
+      fmt::format("{}; expected right:KG, left:KG or both:KG, comma-separated; right:KG@X,Y,Z "
+                  "if the centre of mass is not at the grip (m, in the hand's link frame); or none",
+                  error.what()));
 }
 
 bool IsFresh(std::int64_t measured_nanos, std::int64_t sample_nanos) {

@@ -10,6 +10,7 @@
 
 #include "core/system/check.h"
 #include "core/system/errors.h"
+#include "server/options/text.h"
 #include "urdf/mesh_inputs.h"
 #include "urdf/robot/mesh_uri.h"
 #include "urdf/robot/robot_model.h"
@@ -39,11 +40,28 @@ std::string ReadUrdfFile(const fs::path& path) {
   return bytes;
 }
 
+namespace {
+
+void CheckJoints(const urdf::JointPositions& positions, const urdf::RobotModel& model) {
+  std::vector<std::string> known;
+  known.reserve(model.joints.size());
+  for (const urdf::RobotJoint& joint : model.joints) known.push_back(joint.name);
+  for (const auto& [name, position] : positions) {
+    if (std::count(known.begin(), known.end(), name) > 0) continue;
+    const std::string nearest = options::Nearest(name, known);
+    throw urdf::UrdfError("unknown joint '" + name + "'" +
+                          (nearest.empty() ? "" : "; nearest: " + nearest));
+  }
+}
+
+}  // namespace
+
 RobotState ReadRobot(const fs::path& path, const std::vector<std::string>& package_path,
                      const urdf::JointPositions& joints) {
   RobotState robot;
   try {
     robot.model = std::make_shared<urdf::RobotModel>(urdf::ParseUrdf(ReadUrdfFile(path)));
+    CheckJoints(joints, *robot.model);
     robot.world_from_link = urdf::PlaceLinks(*robot.model, joints);
   } catch (const urdf::UrdfError& error) {
     throw SourceError(path.string() + ": " + error.what());

@@ -49,21 +49,33 @@ std::string WithoutScheme(std::string_view url) {
   return std::string(url.substr(SchemeOf(url).prefix.size()));
 }
 
-const std::string& SourceKinds() {
-  static const std::string kinds = [] {
-    std::string text;
-    for (const Scheme& scheme : kSchemes) {
-      const bool is_last = scheme.kind == kSchemes.back().kind;
-      text += (text.empty() ? "" : is_last ? " or " : ", ") + std::string(scheme.help);
-      if (scheme.kind != SourceKind::kSubject) continue;
-      std::string motions;
-      for (const std::string& name : subject::MotionNames()) {
-        motions += (motions.empty() ? "" : ", ") + name;
-      }
-      text += " (" + motions + ")";
+namespace {
+
+std::string Kinds(bool with_live) {
+  std::string text;
+  for (const Scheme& scheme : kSchemes) {
+    if (scheme.is_live && !with_live) continue;
+    const bool is_last = scheme.kind == kSchemes.back().kind;
+    text += (text.empty() ? "" : is_last ? " or " : ", ") + std::string(scheme.help);
+    if (scheme.kind != SourceKind::kSubject) continue;
+    std::string motions;
+    for (const std::string& name : subject::MotionNames()) {
+      motions += (motions.empty() ? "" : ", ") + name;
     }
-    return text;
-  }();
+    text += " (" + motions + ")";
+  }
+  return text;
+}
+
+}  // namespace
+
+const std::string& SourceKinds() {
+  static const std::string kinds = Kinds(true);
+  return kinds;
+}
+
+const std::string& RecordedSourceKinds() {
+  static const std::string kinds = Kinds(false);
   return kinds;
 }
 

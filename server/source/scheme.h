@@ -21,6 +21,8 @@ std::string WithoutScheme(std::string_view url);
 
 /// "udp://[address]:port, ..., demo:MOTION (lift, walk, ...)", for --help and errors.
 const std::string& SourceKinds();
+/// Those with an end or a beginning of their own: the subject and files.
+const std::string& RecordedSourceKinds();
 
 // Length that is read of a source without an end unless an option sets it, s.
 inline constexpr double kSubjectClipSecs = 10;

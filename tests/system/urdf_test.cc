@@ -265,6 +265,8 @@ TEST_F(UrdfCommand, PictureRefusesInOneLine) {
   };
   EXPECT_THAT(refusal({file, "--out", At("a.jpg")}), HasSubstr("a.jpg"));
   EXPECT_THAT(refusal({file, "--out", At("a.png"), "--joint", "knee=1"}), HasSubstr("'knee'"));
+  EXPECT_THAT(refusal({file, "--out", At("a.png"), "--joint", "elbwo=1"}),
+              HasSubstr("nearest: elbow"));
   EXPECT_THAT(refusal({file, "--out", At("a.png"), "--joint", "elbow"}), HasSubstr("NAME=RADIANS"));
   EXPECT_THAT(refusal({file, "--out", At("a.png"), "--joint", "elbow=nan"}),
               HasSubstr("--joint=elbow=nan: expected NAME=RADIANS"));

@@ -41,7 +41,7 @@ struct LoadsOptions {
   bool wants_plots() const { return !plots->empty() || !report->empty(); }
 
   void List(options::OptionList& option) {
-    option("source", source, "source of the people: " + SourceKinds());
+    option("source", source, "source of the people: " + RecordedSourceKinds());
     option.Group("Files");
     option("csv", csv, "CSV file to write; -: standard output");
     option("json", json, "JSON file to write, with exposure and provenance; -: standard output");

@@ -130,7 +130,8 @@ RenderOptions::RenderOptions()
 
 void RenderOptions::List(options::OptionList& option) {
   option.Group("Files");
-  option("source", sources, "source of the people, once or several times: " + SourceKinds());
+  option("source", sources,
+         "source of the people, once or several times: " + RecordedSourceKinds());
   option("out", outs,
          "file to write, once or several times; its ending selects the format. A .png with %05d or "
          "##### in its name is a numbered sequence. {source} and {camera} are replaced");
