@@ -14,6 +14,7 @@
 
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
+#include "core/system/words.h"
 #include "server/app/command.h"
 #include "server/options/yaml_options.h"
 
@@ -51,7 +52,7 @@ std::string Wrapped(const std::string& text) {
 std::string HelpOf(const Option& option) {
   const std::vector<std::string> names = option.value->Names();
   const std::string expected = option.value->Expected();
-  const bool explains_all = !names.empty() && expected == options::Alternatives(names) &&
+  const bool explains_all = !names.empty() && expected == Alternatives(names) &&
                             std::all_of(names.begin(), names.end(), [&](const std::string& name) {
                               return option.help.find(name) != std::string::npos;
                             });
@@ -82,14 +83,14 @@ void AddOption(CLI::App& app, OptionList& list, Option& option, const std::strin
     added = app.add_flag_function(
         names,
         [&list, &option, name](std::int64_t count) {
-          list.Set(option, name, count > 0 ? "true" : "false", Channel::kCommandLine);
+          list.Set(option, name, {count > 0 ? "true" : "false"}, Channel::kCommandLine);
         },
         Wrapped(option.help));
   } else if (option.value->is_repeatable()) {
     added = app.add_option_function<std::vector<std::string>>(
                    names,
                    [&list, &option, name](const std::vector<std::string>& texts) {
-                     list.SetAll(option, name, texts);
+                     list.Set(option, name, {"", "--", texts}, Channel::kCommandLine);
                    },
                    Wrapped(HelpOf(option)))
                 ->allow_extra_args(is_positional);
@@ -97,7 +98,7 @@ void AddOption(CLI::App& app, OptionList& list, Option& option, const std::strin
     added = app.add_option_function<std::string>(
         names,
         [&list, &option, name](const std::string& text) {
-          list.Set(option, name, text, Channel::kCommandLine);
+          list.Set(option, name, {text}, Channel::kCommandLine);
         },
         Wrapped(HelpOf(option)));
     if (option.value->IsGiven()) added->default_str(option.value->ToText());
@@ -144,10 +145,8 @@ void RefuseUnknownCommand(const std::vector<Command>& commands, const std::strin
     if (command.name == word) return;
     names.push_back(command.name);
   }
-  const std::string nearest = options::Nearest(word, names);
-  throw UsageError(fmt::format("unknown command '{}': expected {}{}{} (see --help)", word,
-                               options::Alternatives(names),
-                               nearest.empty() ? "" : "; nearest: ", nearest));
+  throw UsageError(fmt::format("unknown command '{}': expected {}{} (see --help)", word,
+                               Alternatives(names), SuggestionFor(word, names)));
 }
 
 // The innermost command that was named.
@@ -163,14 +162,13 @@ const Registered* Chosen(const std::vector<Registered>& all) {
   const std::string name = given.substr(0, given.find('='));
   std::vector<std::string> names;
   for (const std::string& each : chosen.command->options.Names()) names.push_back("--" + each);
-  const std::string nearest = options::Nearest(name, names);
   std::string command = chosen.app->get_name();
   for (const CLI::App* app = chosen.app->get_parent(); app != nullptr; app = app->get_parent()) {
     command = app->get_name() + " " + command;
   }
-  throw UsageError(fmt::format("unknown {} '{}'{}{} (see {} --help)",
+  throw UsageError(fmt::format("unknown {} '{}'{} (see {} --help)",
                                StartsWith(given, "-") ? "option" : "argument", given,
-                               nearest.empty() ? "" : "; nearest: ", nearest, command));
+                               SuggestionFor(name, names), command));
 }
 
 // Names of options have underscores; people also type dashes. CLI11 takes arguments in reverse.
@@ -222,7 +220,7 @@ int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
     for (const Command& command : chosen == nullptr ? commands : chosen->command->parts) {
       names.push_back(command.name);
     }
-    throw UsageError("command missing: expected " + options::Alternatives(names) + " (see " +
+    throw UsageError("command missing: expected " + Alternatives(names) + " (see " +
                      (chosen == nullptr ? "kinescope" : "kinescope " + chosen->command->name) +
                      " --help)");
   } catch (const CLI::ParseError& error) {

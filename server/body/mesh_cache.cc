@@ -20,6 +20,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/system/starts_with.h"
+
 namespace kinescope::app {
 namespace {
 
@@ -171,7 +173,7 @@ void MeshCache::Store::RemoveOldest() const {
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     // "figure-": of earlier versions.
-    if (name.rfind("body-", 0) != 0 && name.rfind("figure-", 0) != 0) continue;
+    if (!StartsWith(name, "body-") && !StartsWith(name, "figure-")) continue;
     folders.push_back(Inspect(entry->path()));
     bytes += folders.back().bytes;
   }

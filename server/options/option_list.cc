@@ -6,27 +6,20 @@
 #include <utility>
 
 #include "core/system/errors.h"
+#include "core/system/words.h"
 
 namespace kinescope::options {
 namespace {
 
-// The known word that the text, or the first word of one of its items, probably means.
-std::string NearestWord(const std::string& text, const std::vector<std::string>& names) {
-  std::string nearest = Nearest(text, names);
+// For the text, or else for the first word of one of its items.
+std::string SuggestionForItems(const std::string& text, const std::vector<std::string>& names) {
+  std::string suggestion = SuggestionFor(text, names);
   for (const std::string& item : SplitItems(text)) {
-    if (!nearest.empty()) break;
+    if (!suggestion.empty()) break;
     const std::string word = item.substr(0, item.find_first_of(":=@"));
-    if (std::count(names.begin(), names.end(), word) == 0) nearest = Nearest(word, names);
+    if (std::count(names.begin(), names.end(), word) == 0) suggestion = SuggestionFor(word, names);
   }
-  return nearest;
-}
-
-[[noreturn]] void Refuse(const std::string& name, const Value& value, const std::string& text,
-                         const std::string& reason) {
-  const bool names_it = reason.find("; nearest: ") != std::string::npos;
-  const std::string nearest = names_it ? "" : NearestWord(text, value.Names());
-  throw UsageError(fmt::format("{}={}: {}{}{}", name, text, reason,
-                               nearest.empty() ? "" : "; nearest: ", nearest));
+  return suggestion;
 }
 
 }  // namespace
@@ -51,25 +44,23 @@ std::vector<std::string> OptionList::Names() const {
   return names;
 }
 
-void OptionList::Set(Option& option, const std::string& given_name, const std::string& text,
-                     Channel channel, const std::string& origin) {
+void OptionList::Set(Option& option, const std::string& given_name, const Found& found,
+                     Channel channel) {
+  const bool is_one = found.texts.empty();
   try {
-    option.value->Parse(text);
+    if (is_one) {
+      option.value->Parse(found.text);
+    } else {
+      option.value->ParseAll(found.texts);
+    }
   } catch (const BadValue& error) {
-    Refuse(origin + given_name, *option.value, text, error.what());
+    const std::string text = is_one ? found.text : fmt::format("{}", fmt::join(found.texts, ";"));
+    throw UsageError(fmt::format("{}{}={}: {}{}", found.origin, given_name, text, error.what(),
+                                 error.suggestion().empty()
+                                     ? SuggestionForItems(text, option.value->Names())
+                                     : error.suggestion()));
   }
-  OnSet(option, given_name, channel, origin);
-}
-
-void OptionList::SetAll(Option& option, const std::string& given_name,
-                        const std::vector<std::string>& texts) {
-  try {
-    option.value->ParseAll(texts);
-  } catch (const BadValue& error) {
-    Refuse("--" + given_name, *option.value, fmt::format("{}", fmt::join(texts, ";")),
-           error.what());
-  }
-  OnSet(option, given_name, Channel::kCommandLine, "--");
+  OnSet(option, given_name, channel, found.origin);
 }
 
 void OptionList::OnSet(Option& option, const std::string& given_name, Channel channel,
@@ -100,7 +91,7 @@ void SetFrom(const Lookup& lookup, Channel channel, OptionList& options) {
     for (const std::string& name : {option.name, option.former_name}) {
       if (name.empty()) continue;
       if (const auto found = lookup(name)) {
-        options.Set(option, name, found->text, channel, found->origin);
+        options.Set(option, name, *found, channel);
         break;
       }
     }

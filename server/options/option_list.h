@@ -27,6 +27,14 @@ struct Option {
   std::string former_name;  // accepted with a warning, for one version; "": none
 };
 
+/// A value as it was given.
+struct Found {
+  std::string text;
+  std::string origin = "--";  // stands before the name in an error: "--", "~" or "file.yaml:3: "
+  /// Of a repeatable option, each text as it was given; `text` is then not used.
+  std::vector<std::string> texts = {};
+};
+
 class OptionList {
  public:
   /// The heading of the options that follow.
@@ -44,12 +52,8 @@ class OptionList {
   std::vector<std::string> Names() const;
 
   /// Sets an option, under the name that was given: its own or its former one.
-  /// `origin` stands before the name in an error: "--", or "file.yaml:3: ".
   /// @throws UsageError: "--sex=mael: expected male or female; nearest: male".
-  void Set(Option& option, const std::string& given_name, const std::string& text, Channel channel,
-           const std::string& origin = "--");
-  /// Sets an option that was given several times on the command line. @throws UsageError.
-  void SetAll(Option& option, const std::string& given_name, const std::vector<std::string>& texts);
+  void Set(Option& option, const std::string& given_name, const Found& found, Channel channel);
 
   /// One sentence for each former name of an option or a word that was given.
   const std::vector<std::string>& warnings() const { return warnings_; }
@@ -64,11 +68,7 @@ class OptionList {
   std::vector<std::string> warnings_;
 };
 
-/// Where values of options may come from: name -> text and what to call the place in an error.
-struct Found {
-  std::string text;
-  std::string origin;
-};
+/// Where values of options may come from.
 using Lookup = std::function<std::optional<Found>(const std::string& name)>;
 
 /// Sets the options that no later channel has set, by their names or former names.

@@ -1,5 +1,4 @@
-/// Parses the grammar of option values: lists, numbers, and the nearest of several known names.
-/// Pure functions, any thread.
+/// Parses the grammar of option values: lists and numbers. Pure functions, any thread.
 #pragma once
 
 #include <optional>
@@ -31,12 +30,5 @@ std::optional<std::vector<double>> ParseNumbers(std::string_view text);
 
 /// The shortest text that ParseNumber() reads as the same number, bit by bit.
 std::string NumberText(double number);
-
-/// "a, b or c".
-std::string Alternatives(const std::vector<std::string>& names);
-
-/// The one of `names` that `text` probably means: at most a third of its letters are different,
-/// missing, added or exchanged, or it is an abbreviation. "" if there is none.
-std::string Nearest(std::string_view text, const std::vector<std::string>& names);
 
 }  // namespace kinescope::options

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/picture_limits.h"
+#include "core/system/words.h"
 #include "server/options/text.h"
 
 namespace kinescope::options {
@@ -19,7 +20,13 @@ namespace kinescope::options {
 /// A text that a value refuses. what() is the reason: "expected male or female".
 class BadValue : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// `suggestion`: SuggestionFor() the word that is wrong, if the value knows which one it is.
+  explicit BadValue(const std::string& reason, std::string suggestion = {})
+      : std::runtime_error(reason), suggestion_(std::move(suggestion)) {}
+  const std::string& suggestion() const { return suggestion_; }
+
+ private:
+  std::string suggestion_;
 };
 
 /// A word of an earlier version in a text, and the word that has replaced it.

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/system/errors.h"
+#include "core/system/words.h"
 
 namespace kinescope::options {
 
@@ -53,10 +54,9 @@ void YamlOptions::SetAll(OptionList& options) const {
                                    line, key, first->second));
     }
     if (options.Find(key) != nullptr) continue;
-    const std::string nearest = Nearest(key, options.Names());
-    throw UsageError(fmt::format("{}unknown option '{}'{}{} (see --help)",
+    throw UsageError(fmt::format("{}unknown option '{}'{} (see --help)",
                                  PlaceOf(path_, entry.first), key,
-                                 nearest.empty() ? "" : "; nearest: ", nearest));
+                                 SuggestionFor(key, options.Names())));
   }
   SetFrom([this](const std::string& name) { return Look(name); }, Channel::kFile, options);
 }

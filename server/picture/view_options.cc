@@ -41,9 +41,8 @@ bool IsChange(const std::string& name) {
 }
 
 [[noreturn]] void RefuseWord(const std::string& word, const std::vector<std::string>& known) {
-  const std::string nearest = options::Nearest(word, known);
-  throw BadValue(fmt::format("unknown '{}'; expected {}{}{}", word, options::Alternatives(known),
-                             nearest.empty() ? "" : "; nearest: ", nearest));
+  throw BadValue(fmt::format("unknown '{}'; expected {}", word, Alternatives(known)),
+                 SuggestionFor(word, known));
 }
 
 std::vector<std::string> ScoredJointNames() {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/system/starts_with.h"
 #include "server/ros/view_messages.h"
 
 namespace kinescope::ros_bridge {
@@ -121,7 +122,7 @@ std::map<std::string, std::string> RosCameraTopics::TypesByTopic() const {
   ros::V_string topics;
   ros::this_node::getAdvertisedTopics(topics);
   for (const std::string& topic : topics) {
-    if (topic != "/tf" && topic.rfind(parts_->base, 0) != 0) continue;
+    if (topic != "/tf" && !StartsWith(topic, parts_->base)) continue;
     const auto publication = ros::TopicManager::instance()->lookupPublication(topic);
     if (publication) types[topic] = publication->getDataType();
   }

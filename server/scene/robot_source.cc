@@ -10,7 +10,7 @@
 
 #include "core/system/check.h"
 #include "core/system/errors.h"
-#include "server/options/text.h"
+#include "core/system/words.h"
 #include "urdf/mesh_inputs.h"
 #include "urdf/robot/mesh_uri.h"
 #include "urdf/robot/robot_model.h"
@@ -48,9 +48,7 @@ void CheckJoints(const urdf::JointPositions& positions, const urdf::RobotModel& 
   for (const urdf::RobotJoint& joint : model.joints) known.push_back(joint.name);
   for (const auto& [name, position] : positions) {
     if (std::count(known.begin(), known.end(), name) > 0) continue;
-    const std::string nearest = options::Nearest(name, known);
-    throw urdf::UrdfError("unknown joint '" + name + "'" +
-                          (nearest.empty() ? "" : "; nearest: " + nearest));
+    throw urdf::UrdfError("unknown joint '" + name + "'" + SuggestionFor(name, known));
   }
 }
 

@@ -1,15 +1,13 @@
 #include "server/source/open_source.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <utility>
-#include <vector>
 
 #include "core/system/errors.h"
 #include "core/system/input_file.h"
+#include "core/system/words.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/recording.h"
-#include "server/options/text.h"
 #include "server/ros/source/bag_source.h"
 #include "server/ros/source/graph_source.h"
 #include "server/source/paced_source.h"
@@ -23,12 +21,10 @@ std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& 
   std::error_code ignored;
   if (path != "-" && !std::filesystem::exists(path, ignored)) {
     const std::size_t colon = path.find(':');
-    const std::string scheme =
-        colon == std::string::npos
-            ? ""
-            : options::Nearest(path.substr(0, colon), {"udp", "tcp", "ros", "demo"});
     throw SourceError("source '" + path + "': file not found; expected " + SourceKinds() +
-                      (scheme.empty() ? "" : "; nearest: " + scheme + ":"));
+                      (colon == std::string::npos
+                           ? ""
+                           : SuggestionFor(path.substr(0, colon + 1), SchemePrefixes())));
   }
   InputFile file = OpenInputFile(path);
   const std::string name = NameOfInput(path);
@@ -47,15 +43,6 @@ std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& 
   throw SourceError(mvn::DescribeUnfit(path, file.head(), SourceKinds()));
 }
 
-void CheckMotion(const std::string& motion) {
-  const std::vector<std::string>& known = subject::MotionNames();
-  if (std::count(known.begin(), known.end(), motion) > 0) return;
-  const std::string nearest = options::Nearest(motion, known);
-  throw SourceError("demo:" + motion + ": unknown motion; expected " +
-                    options::Alternatives(known) +
-                    (nearest.empty() ? "" : "; nearest: " + nearest));
-}
-
 }  // namespace
 
 std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings) {
@@ -64,7 +51,6 @@ std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings&
     case SourceKind::kTcp: return mvn::OpenStream(mvn::OpenDatagrams(url), settings.stream);
     case SourceKind::kGraph: return ros_bridge::OpenGraph(url);
     case SourceKind::kSubject:
-      CheckMotion(WithoutScheme(url));
       return subject::OpenSubject(WithoutScheme(url), settings.subject_rate_hz, 0);
     case SourceKind::kFile: break;
   }

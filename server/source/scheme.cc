@@ -21,8 +21,7 @@ constexpr std::array<Scheme, 5> kSchemes = {{
     {SourceKind::kSubject, "demo:", false, "demo:MOTION"},
     {SourceKind::kFile, "", false,
      "a recording (MVNX, pcap, pcapng, .bin or ROS bag, also packed with gzip or xz; - for "
-     "standard "
-     "input)"},
+     "standard input)"},
 }};
 
 const Scheme& SchemeOf(std::string_view url) {
@@ -30,6 +29,22 @@ const Scheme& SchemeOf(std::string_view url) {
     if (url.substr(0, scheme.prefix.size()) == scheme.prefix) return scheme;
   }
   return kSchemes.back();
+}
+
+std::string Kinds(bool with_live) {
+  std::string text;
+  for (const Scheme& scheme : kSchemes) {
+    if (scheme.is_live && !with_live) continue;
+    const bool is_last = scheme.kind == kSchemes.back().kind;
+    text += (text.empty() ? "" : is_last ? " or " : ", ") + std::string(scheme.help);
+    if (scheme.kind != SourceKind::kSubject) continue;
+    std::string motions;
+    for (const std::string& name : subject::MotionNames()) {
+      motions += (motions.empty() ? "" : ", ") + name;
+    }
+    text += " (" + motions + ")";
+  }
+  return text;
 }
 
 }  // namespace
@@ -49,25 +64,13 @@ std::string WithoutScheme(std::string_view url) {
   return std::string(url.substr(SchemeOf(url).prefix.size()));
 }
 
-namespace {
-
-std::string Kinds(bool with_live) {
-  std::string text;
+std::vector<std::string> SchemePrefixes() {
+  std::vector<std::string> prefixes;
   for (const Scheme& scheme : kSchemes) {
-    if (scheme.is_live && !with_live) continue;
-    const bool is_last = scheme.kind == kSchemes.back().kind;
-    text += (text.empty() ? "" : is_last ? " or " : ", ") + std::string(scheme.help);
-    if (scheme.kind != SourceKind::kSubject) continue;
-    std::string motions;
-    for (const std::string& name : subject::MotionNames()) {
-      motions += (motions.empty() ? "" : ", ") + name;
-    }
-    text += " (" + motions + ")";
+    if (!scheme.prefix.empty()) prefixes.emplace_back(scheme.prefix);
   }
-  return text;
+  return prefixes;
 }
-
-}  // namespace
 
 const std::string& SourceKinds() {
   static const std::string kinds = Kinds(true);

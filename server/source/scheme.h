@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace kinescope::app {
 
@@ -15,6 +16,9 @@ SourceKind KindOfSource(std::string_view url);
 bool IsLiveUrl(std::string_view url);
 bool IsSubjectUrl(std::string_view url);
 bool IsNetworkUrl(std::string_view url);
+
+/// "udp:", "tcp:", ...
+std::vector<std::string> SchemePrefixes();
 
 /// After the scheme: "lift" of "demo:lift".
 std::string WithoutScheme(std::string_view url);

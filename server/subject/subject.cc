@@ -6,6 +6,7 @@
 
 #include "core/system/check.h"
 #include "core/system/errors.h"
+#include "core/system/words.h"
 #include "server/subject/motions.h"
 
 namespace kinescope::subject {
@@ -26,9 +27,8 @@ std::unique_ptr<MotionGenerator> MakeGenerator(const std::string& name,
   if (name == "squat") return MakeStaticPosture(skeleton, StaticPosture::kSquat);
   if (name == "overhead") return MakeStaticPosture(skeleton, StaticPosture::kOverhead);
   if (name == "sit") return MakeStaticPosture(skeleton, StaticPosture::kSit);
-  std::string known;
-  for (const std::string& motion : MotionNames()) known += (known.empty() ? "" : ", ") + motion;
-  throw SourceError("demo:" + name + ": unknown motion; expected one of " + known);
+  throw SourceError("demo:" + name + ": unknown motion; expected " + Alternatives(MotionNames()) +
+                    SuggestionFor(name, MotionNames()));
 }
 
 class BuiltInMotion final : public Motion {

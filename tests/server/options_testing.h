@@ -22,7 +22,7 @@ void Set(Values& values, const Settings& settings) {
   for (const auto& [name, text] : settings) {
     options::Option* const option = list.Find(name);
     ASSERT_NE(option, nullptr) << name;
-    list.Set(*option, name, text, options::Channel::kCommandLine);
+    list.Set(*option, name, {text}, options::Channel::kCommandLine);
   }
 }
 

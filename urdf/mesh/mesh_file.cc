@@ -27,7 +27,7 @@ using Fault = std::runtime_error;
 
 constexpr std::size_t kMaxVertices = 3 * kMaxMeshTriangles;
 constexpr unsigned kMaxCorners = 1000;          // of a polygon: it takes their square to cut it up
-constexpr std::size_t kMaxAtOnePoint = 20'000;  // vertices, likewise for smooth normals
+constexpr std::size_t kMaxAtOnePoint = 20'000;  // vertices; smooth normals take their square
 
 constexpr float kSmoothBelowDeg = 66;  // sharper creases stay creases
 

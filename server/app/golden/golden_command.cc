@@ -52,10 +52,10 @@ std::vector<GoldenCase> CasesOf(const GoldenOptions& options) {
       std::vector<std::string> known;
       known.reserve(cases.size());
       for (const GoldenCase& each : cases) known.push_back(each.name);
-      const std::string nearest = options::Nearest(name, known);
+      const std::string suggestion = SuggestionFor(name, known);
       throw UsageError(
-          fmt::format("folder '{}' contains no golden case '{}'; {}", *options.folder, name,
-                      nearest.empty() ? "write " + name + ".yaml there" : "nearest: " + nearest));
+          fmt::format("folder '{}' contains no golden case '{}'{}", *options.folder, name,
+                      suggestion.empty() ? "; write " + name + ".yaml there" : suggestion));
     }
     chosen.push_back(*found);
   }

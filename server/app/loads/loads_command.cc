@@ -23,6 +23,7 @@
 #include "server/app/progress.h"
 #include "server/options/option_list.h"
 #include "server/picture/backend.h"
+#include "server/picture/option_json.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
@@ -62,13 +63,7 @@ nlohmann::json OptionsAsJson(LoadsOptions& values) {
   values.person.List(list);
   values.loads.List(list);
   nlohmann::json out = nlohmann::json::object();
-  for (const options::Option& option : list) {
-    const std::string text = option.value->ToText();
-    out[option.name] = !option.value->IsGiven() ? nlohmann::json(nullptr)
-                       : option.value->json_kind() == options::JsonKind::kText
-                           ? nlohmann::json(text)
-                           : nlohmann::json::parse(text);
-  }
+  for (const options::Option& option : list) out[option.name] = ToJson(*option.value);
   return out;
 }
 
@@ -119,7 +114,7 @@ class Recording {
   const std::map<int, LoadTrial>& trials() const { return trials_; }
 
  private:
-  // A scene has everybody; only one of them has just moved.
+  // A scene has all people; only one of them has a new sample.
   void AddIfNew(const std::shared_ptr<const SceneState>& scene, const PersonState& person) {
     const auto [found, is_first] =
         trials_.try_emplace(person.character, options_.wants_plots(), *begin_nanos_);

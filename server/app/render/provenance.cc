@@ -11,6 +11,7 @@
 #include "core/system/json_text.h"
 #include "core/system/sha256.h"
 #include "server/options/option_list.h"
+#include "server/picture/option_json.h"
 #include "server/scene/scene_options.h"
 #include "server/source/scheme.h"
 
@@ -25,14 +26,7 @@ constexpr const char* kCapacityTable = "Stobbe 1982, Delp 1996, Vasavada 2001 (d
 Json ValuesOf(const options::OptionList& list) {
   Json values = Json::object();
   for (const options::Option& option : list) {
-    if (!option.value->IsGiven()) continue;
-    if (option.value->is_repeatable()) {
-      values[option.name] = option.value->ToTexts();
-      continue;
-    }
-    const std::string text = option.value->ToText();
-    values[option.name] =
-        option.value->json_kind() == options::JsonKind::kText ? Json(text) : Json::parse(text);
+    if (option.value->IsGiven()) values[option.name] = ToJson(*option.value);
   }
   return values;
 }
@@ -160,7 +154,8 @@ RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
   const Json& values = provenance.at("options");
   const auto lookup = [&values](const std::string& name) -> std::optional<options::Found> {
     const auto found = values.find(name);
-    if (found == values.end() || found->is_array()) return std::nullopt;
+    if (found == values.end() || found->empty()) return std::nullopt;
+    if (found->is_array()) return options::Found{"", "provenance: ", *found};
     const std::string text = found->is_string() ? found->get<std::string>() : JsonText(*found);
     if (text.empty()) return std::nullopt;  // schema 1 has "" where nothing was given
     return options::Found{text, "provenance: "};
@@ -168,11 +163,6 @@ RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
   RenderOptions options;
   options::OptionList list = DecidingOptions(options);
   options::SetFrom(lookup, options::Channel::kFile, list);
-  for (options::Option& option : list) {
-    const auto found = values.find(option.name);
-    if (found == values.end() || !found->is_array()) continue;
-    list.SetAll(option, option.name, found->get<std::vector<std::string>>());
-  }
   // A .gif names a quality, too, which it does not have.
   if (!HasQuality(path)) options.pack.quality = *PackOptions().quality;
   options.outs = std::vector<std::string>{path};

@@ -80,7 +80,7 @@ class DescribedPeople : public SampleSink {
   std::set<int> ids_;
 };
 
-// A suit tells lengths every few seconds; before, everybody would have those of the default body.
+// A suit sends lengths every few seconds; before, all people would have those of the default body.
 Model LiveModel(const std::string& url, const SceneOptions& options) {
   constexpr int kPatienceSecs = 10;
   const auto source = OpenSource(url);

@@ -31,7 +31,7 @@ void ForEveryOption(std::vector<Command>& commands, Function&& function) {
 
 std::string ErrorOf(options::OptionList& list, options::Option& option, const std::string& text) {
   try {
-    list.Set(option, option.name, text, options::Channel::kCommandLine);
+    list.Set(option, option.name, {text}, options::Channel::kCommandLine);
   } catch (const UsageError& error) {
     return error.what();
   }

@@ -2,10 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "tests/temp_folder.h"
 
 namespace kinescope::http {
 namespace {
@@ -15,13 +16,7 @@ using ::testing::ElementsAre;
 
 class StaticFilesTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "kinescope_static_XXXXXX").string();
-    ASSERT_NE(::mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-    fs::create_directory(web());
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  StaticFilesTest() { fs::create_directory(web()); }
 
   fs::path web() const { return folder_ / "web"; }
   void Write(const fs::path& path, const std::string& text = "x") {
@@ -35,7 +30,7 @@ class StaticFilesTest : public ::testing::Test {
     return urls;
   }
 
-  fs::path folder_;
+  const testing::TempFolder folder_;
 };
 
 TEST_F(StaticFilesTest, ListsThePageAndItsLibrariesOnly) {

@@ -63,7 +63,7 @@ class OptionListTest : public ::testing::Test {
 };
 
 TEST_F(OptionListTest, OfTheCommandLineWinOverParametersOverYaml) {
-  list_.Set(*list_.Find("mass"), "mass", "90", Channel::kCommandLine);
+  list_.Set(*list_.Find("mass"), "mass", {"90"}, Channel::kCommandLine);
   YamlOptions(Write("mass: 80\ntf: tree\nloop: true\n")).SetAll(list_);
   SetFrom(
       [](const std::string& name) -> std::optional<Found> {
@@ -77,7 +77,7 @@ TEST_F(OptionListTest, OfTheCommandLineWinOverParametersOverYaml) {
 }
 
 TEST_F(OptionListTest, NameThePlaceTheValueAndTheNearestWord) {
-  EXPECT_EQ(ErrorOf([&] { list_.Set(*list_.Find("tf"), "tf", "tre", Channel::kCommandLine); }),
+  EXPECT_EQ(ErrorOf([&] { list_.Set(*list_.Find("tf"), "tf", {"tre"}, Channel::kCommandLine); }),
             "--tf=tre: expected flat, tree or off; nearest: tree");
   const std::string path = Write("tf: tree\nmass: heavy\n");
   EXPECT_EQ(ErrorOf([&] { YamlOptions(path).SetAll(list_); }),
@@ -104,13 +104,13 @@ TEST_F(OptionListTest, AcceptsAFormerNameWithAWarning) {
   EXPECT_THAT(list_.warnings().front(),
               HasSubstr("options.yaml:1: parts: this option is now called show"));
   EXPECT_THAT(ErrorOf([&] {
-                list_.Set(*list_.Find("parts"), "parts", "a_long_word", Channel::kCommandLine);
+                list_.Set(*list_.Find("parts"), "parts", {"a_long_word"}, Channel::kCommandLine);
               }),
               HasSubstr("--parts=a_long_word: expected short words"));
 }
 
 TEST_F(OptionListTest, ReplacesAFormerWordWithAWarning) {
-  list_.Set(*list_.Find("show"), "show", "body;frames", Channel::kCommandLine);
+  list_.Set(*list_.Find("show"), "show", {"body;frames"}, Channel::kCommandLine);
   EXPECT_THAT(*values_.show, ElementsAre("body", "link_axes"));
   EXPECT_EQ(values_.show.ToText(), "body,link_axes") << "the next version reads it, too";
   ASSERT_EQ(list_.warnings().size(), 1U);

@@ -154,7 +154,7 @@ TEST(CameraController, RefusesWhatMakesNoSense) {
     options::OptionList list;
     options.List(list);
     try {
-      list.Set(*list.Find(name), name, text, options::Channel::kCommandLine);
+      list.Set(*list.Find(name), name, {text}, options::Channel::kCommandLine);
     } catch (const UsageError& refusal) {
       return std::string(refusal.what());
     }

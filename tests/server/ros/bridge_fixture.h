@@ -11,12 +11,10 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -25,6 +23,7 @@
 #include "tests/free_port.h"
 #include "tests/process.h"
 #include "tests/server/ros/test_person.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::ros_bridge {
 
@@ -39,11 +38,8 @@ class RosBridgeWithMaster : public ::testing::Test {
  protected:
   void SetUp() override {
     if (ros::isInitialized()) GTEST_SKIP() << "needs a process of its own: run it through ctest";
-    std::string folder = std::filesystem::temp_directory_path() / "kinescope_ros_XXXXXX";
-    ASSERT_NE(mkdtemp(folder.data()), nullptr);
-    folder_ = folder;
-    setenv("ROS_HOME", folder.c_str(), 1);
-    setenv("ROS_LOG_DIR", folder.c_str(), 1);
+    setenv("ROS_HOME", folder_.path().c_str(), 1);
+    setenv("ROS_LOG_DIR", folder_.path().c_str(), 1);
     setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + std::to_string(port_.number())).c_str(), 1);
     setenv("ROS_IP", "127.0.0.1", 1);
     unsetenv("ROS_HOSTNAME");
@@ -56,11 +52,7 @@ class RosBridgeWithMaster : public ::testing::Test {
     remaining_.assign(argv.begin(), argv.end());
   }
 
-  void TearDown() override {
-    bridge_.reset();
-    std::error_code ignored;
-    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
-  }
+  void TearDown() override { bridge_.reset(); }
 
   void StartMaster() {
     master_ = std::make_unique<testing::Process>(std::vector<std::string>{
@@ -164,7 +156,7 @@ class RosBridgeWithMaster : public ::testing::Test {
   }
 
   const testing::FreePort port_;  // the master's
-  std::filesystem::path folder_;
+  const testing::TempFolder folder_;
   std::vector<std::string> remaining_;  // of argv, after InitRos
   std::shared_ptr<const PersonModel> model_ = testing::MakeModel();
   std::unique_ptr<testing::Process> master_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
@@ -227,14 +228,19 @@ TEST(SceneBuilder, TakesMeasuredForcesForWhomTheyAreMeantWhileTheyAreFresh) {
   EXPECT_FALSE(built.last().people.at(0).forces.ground_is_measured);
 }
 
-TEST(SceneBuilder, MeasuresTheRateOfALiveStream) {
-  Built built;
-  BodySample sample = SampleOf("n_pose", 0);
-  for (int i = 0; i < 300; ++i) {
-    sample.arrival_nanos += 10'000'000;
+// Samples of 100 Hz that arrive every `arrival_step_nanos`.
+void SendSamples(int count, std::int64_t arrival_step_nanos, BodySample& sample, Built& built) {
+  for (int i = 0; i < count; ++i) {
+    sample.arrival_nanos += arrival_step_nanos;
     sample.stamp_nanos += 10'000'000;
     built.builder.OnSample(sample);
   }
+}
+
+TEST(SceneBuilder, MeasuresTheRateOfALiveStream) {
+  Built built;
+  BodySample sample = SampleOf("n_pose", 0);
+  SendSamples(300, 10'000'000, sample, built);
   EXPECT_NEAR(built.last().rate_hz, 100, 1);
 }
 
@@ -242,22 +248,12 @@ TEST(SceneBuilder, HasNoRateBeforeASecondOfSamplesHasCome) {
   Built built;
   BodySample sample = SampleOf("n_pose", 0);
   // As at the start of a program: what waited in the socket comes at once, then 100 per second.
-  for (int i = 0; i < 10; ++i) {
-    sample.arrival_nanos += 100'000;
-    sample.stamp_nanos += 10'000'000;
-    built.builder.OnSample(sample);
-  }
+  SendSamples(10, 100'000, sample, built);
   for (int i = 0; i < 98; ++i) {
-    sample.arrival_nanos += 10'000'000;
-    sample.stamp_nanos += 10'000'000;
-    built.builder.OnSample(sample);
+    SendSamples(1, 10'000'000, sample, built);
     ASSERT_EQ(built.last().rate_hz, 0) << "after " << i + 1 << " samples";
   }
-  for (int i = 0; i < 300; ++i) {
-    sample.arrival_nanos += 10'000'000;
-    sample.stamp_nanos += 10'000'000;
-    built.builder.OnSample(sample);
-  }
+  SendSamples(300, 10'000'000, sample, built);
   EXPECT_NEAR(built.last().rate_hz, 100, 1);
 }
 

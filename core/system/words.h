@@ -1,0 +1,20 @@
+/// Names in errors: alternatives, and the one that was probably meant. Pure functions, any thread.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kinescope {
+
+/// "a, b or c".
+std::string Alternatives(const std::vector<std::string>& names);
+
+/// The one of `names` that `text` probably means: at most a third of its letters are different,
+/// missing, added or exchanged, or it is an abbreviation. "" if there is none.
+std::string Nearest(std::string_view text, const std::vector<std::string>& names);
+
+/// The end of an error: "; nearest: left", or "" if there is no Nearest().
+std::string SuggestionFor(std::string_view text, const std::vector<std::string>& names);
+
+}  // namespace kinescope
