@@ -171,9 +171,15 @@ const Registered* Chosen(const std::vector<Registered>& all) {
                                SuggestionFor(name, names), command));
 }
 
-// Names of options have underscores; people also type dashes. CLI11 takes arguments in reverse.
+// Names of options have underscores; people also type dashes. "help render" is "render --help".
+// CLI11 takes arguments in reverse.
 std::vector<std::string> ReversedArguments(int argc, char** argv) {
   std::vector<std::string> arguments;
+  if (argc > 1 && std::string(argv[1]) == "help") {
+    arguments.emplace_back("--help");
+    ++argv;
+    --argc;
+  }
   for (int i = argc - 1; i > 0; --i) {
     std::string argument = argv[i];
     if (StartsWith(argument, "--")) {
@@ -200,7 +206,8 @@ int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
   });
   std::vector<Registered> all;
   for (Command& command : commands) Register(command, line, all);
-  RefuseUnknownCommand(commands, argc > 1 ? argv[1] : "");
+  const bool is_help = argc > 1 && std::string(argv[1]) == "help";
+  RefuseUnknownCommand(commands, argc > 1 + is_help ? argv[1 + is_help] : "");
   try {
     line.parse(ReversedArguments(argc, argv));
   } catch (const CLI::ExtrasError&) {
@@ -233,6 +240,7 @@ int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
     if (option.channel != Channel::kDefault || command.required.count(option.name) == 0) continue;
     throw UsageError(fmt::format("--{} is missing: {}", option.name, HelpOf(option)));
   }
+  command.options.CheckEffects();
   for (const std::string& warning : command.options.warnings()) spdlog::warn(warning);
   return command.run(command.options);
 }

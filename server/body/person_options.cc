@@ -110,8 +110,8 @@ void PersonOptions::List(options::OptionList& option) {
          "whether custom meshes are stretched along their segments to the person's lengths");
   option(
       "mesh_frame", mesh_frame,
-      "orientation of arm meshes: segment (along y, T-pose), link (along -z, N-pose), auto (along "
-      "the longer side)");
+      "arm meshes point: segment (along y, as in the T-pose), link (along -z, as in the N-pose), "
+      "auto (whichever of the two is the longer side of the mesh)");
 }
 
 BodyAppearance ToAppearance(const PersonOptions& person) {

@@ -11,6 +11,8 @@ using nlohmann::json;
 
 namespace {
 
+constexpr auto kReplace = json::error_handler_t::replace;
+
 bool IsNumber(const json& value) { return value.is_number() && std::isfinite(value.get<double>()); }
 
 bool IsPoint(const json& value) {
@@ -43,7 +45,9 @@ tl::expected<HandLoadOrder, std::string> ParseHandLoadOrder(std::string_view bod
                value.get<std::int64_t>() <= std::numeric_limits<std::int32_t>::max()) {
       parsed.person = value.get<int>();
     } else {
-      return tl::unexpected(expected);
+      constexpr std::size_t kMaxShown = 40;  // bytes
+      return tl::unexpected(json(key.substr(0, kMaxShown)).dump(-1, ' ', true, kReplace) +
+                            ": unknown member or invalid value; " + expected);
     }
   }
   return parsed;

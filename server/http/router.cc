@@ -10,6 +10,7 @@
 #include "core/system/clocks.h"
 #include "core/system/json_text.h"
 #include "core/system/starts_with.h"
+#include "core/system/words.h"
 #include "server/http/access.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"
@@ -244,11 +245,12 @@ Answer Router::Snapshot(const Target& target) const {
     }
     *pixels = *number;
   }
-  const auto is_asked = [&](const CameraView& camera) { return camera.name == snapshot.camera; };
-  if (!snapshot.camera.empty() &&
-      std::none_of(site_.cameras.begin(), site_.cameras.end(), is_asked)) {
-    return Refuse(400, "bad snapshot",
-                  "camera=" + snapshot.camera + ": unknown camera; see /api/cameras");
+  std::vector<std::string> names;
+  for (const CameraView& camera : site_.cameras) names.push_back(camera.name);
+  if (!snapshot.camera.empty() && std::count(names.begin(), names.end(), snapshot.camera) == 0) {
+    return Refuse(
+        400, "bad snapshot",
+        "camera=" + snapshot.camera + ": unknown camera; expected " + Alternatives(names));
   }
   Answer answer;
   answer.content_type = "image/png";

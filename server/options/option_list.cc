@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/system/check.h"
 #include "core/system/errors.h"
 #include "core/system/words.h"
 
@@ -29,6 +30,21 @@ void OptionList::operator()(std::string name, Value& value, std::string help) {
 }
 
 void OptionList::Formerly(std::string name) { options_.back().former_name = std::move(name); }
+
+void OptionList::Remove(const std::vector<std::string>& names) {
+  const auto is_named = [&](const auto& each) {
+    return std::count(names.begin(), names.end(), each.name) > 0;
+  };
+  options_.erase(std::remove_if(options_.begin(), options_.end(), is_named), options_.end());
+  conditions_.erase(std::remove_if(conditions_.begin(), conditions_.end(), is_named),
+                    conditions_.end());
+}
+
+void OptionList::HasNoEffect(const std::string& name, std::string when,
+                             std::function<bool()> is_so) {
+  KINESCOPE_CHECK(Find(name) != nullptr);
+  conditions_.push_back({name, std::move(when), std::move(is_so)});
+}
 
 Option* OptionList::Find(const std::string& name) {
   const auto found = std::find_if(options_.begin(), options_.end(), [&](const Option& option) {
@@ -61,6 +77,19 @@ void OptionList::Set(Option& option, const std::string& given_name, const Found&
                                      : error.suggestion()));
   }
   OnSet(option, given_name, channel, found.origin);
+}
+
+void OptionList::CheckEffects() const {
+  for (const Condition& condition : conditions_) {
+    const auto option = std::find_if(options_.begin(), options_.end(), [&](const Option& each) {
+      return each.name == condition.name;
+    });
+    const bool is_given =
+        option->channel == Channel::kFile || option->channel == Channel::kCommandLine;
+    if (!is_given || !condition.is_so()) continue;
+    throw UsageError(fmt::format("--{}={}: has no effect {}", option->name, option->value->ToText(),
+                                 condition.when));
+  }
 }
 
 void OptionList::OnSet(Option& option, const std::string& given_name, Channel channel,

@@ -42,6 +42,11 @@ class OptionList {
   void operator()(std::string name, Value& value, std::string help);
   /// Accepts `name`, too, for the option added last. @pre there is one
   void Formerly(std::string name);
+  /// Leaves out what a shared list has added, but this command cannot use.
+  void Remove(const std::vector<std::string>& names);
+  /// `name` does nothing while `is_so`, which looks at other values: CheckEffects() then rejects
+  /// it. `when`: "without --trail", "with --pictures=off". @pre there is an option of that name
+  void HasNoEffect(const std::string& name, std::string when, std::function<bool()> is_so);
 
   std::vector<Option>::iterator begin() { return options_.begin(); }
   std::vector<Option>::iterator end() { return options_.end(); }
@@ -55,15 +60,26 @@ class OptionList {
   /// @throws UsageError: "--sex=mael: expected male or female; nearest: male".
   void Set(Option& option, const std::string& given_name, const Found& found, Channel channel);
 
+  /// To be called when all options are set. ROS parameters may set what has no effect, since a
+  /// launch file sets all of its own.
+  /// @throws UsageError: "--trail_secs=3: has no effect without --trail".
+  void CheckEffects() const;
+
   /// One sentence for each former name of an option or a word that was given.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  struct Condition {
+    std::string name, when;
+    std::function<bool()> is_so;
+  };
+
   void OnSet(Option& option, const std::string& given_name, Channel channel,
              const std::string& origin);
   void Warn(std::string warning);
 
   std::vector<Option> options_;
+  std::vector<Condition> conditions_;
   std::string group_;
   std::vector<std::string> warnings_;
 };

@@ -28,7 +28,8 @@ YamlOptions::YamlOptions(const std::string& path) : path_(path), root_(std::make
   } catch (const YAML::BadFile&) {
     throw UsageError(path + ": cannot read this file");
   } catch (const YAML::Exception& error) {
-    throw UsageError(fmt::format("{}:{}: {}", path, error.mark.line + 1, error.msg));
+    throw UsageError(fmt::format("{}:{}: not valid YAML ({}); expected one 'name: value' per line",
+                                 path, error.mark.line + 1, error.msg));
   }
   if (!root_->node.IsMap()) throw UsageError(path + ": expected lines of 'name: value'");
 }

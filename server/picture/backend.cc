@@ -52,8 +52,10 @@ void BackendOptions::List(options::OptionList& option) {
       "backend", backend,
       "OpenGL implementation: osmesa and egl (software), egl_device (a GPU), auto (a GPU where one "
       "works, else software)");
-  option("draw_limit_secs", draw_limit_secs,
-         "time after which the driver counts as hung; 0: 30 s and 1 s per million pixels");
+  option(
+      "draw_limit_secs", draw_limit_secs,
+      "time for one picture after which the graphics driver counts as hung; 0: 30 s plus 1 s per "
+      "million pixels");
 }
 
 BackendChoice ChooseBackend(const BackendOptions& options, const Machine& machine) {

@@ -109,8 +109,10 @@ void CameraOptions::List(options::OptionList& option) {
       "follow", follow,
       "time constant with which the camera follows the people; not given: only when they leave the "
       "middle");
-  option("fit", fit,
-         "whether the picture is filled with everything that it shows now, or during the clip");
+  option(
+      "fit", fit,
+      "field of view in which everything shown fills the picture: off, now (chosen anew for each "
+      "picture) or clip (one for the whole clip)");
 }
 
 }  // namespace kinescope::app

@@ -22,6 +22,13 @@ using options::BadValue;
 constexpr std::size_t kMaxViews = 16, kMaxPlots = 8, kMaxTrails = 24, kMaxRobots = 64;
 constexpr double kFarthestRobot = 1000;  // m
 
+constexpr std::array<std::pair<const char*, const char*>, 4> kGrids = {{
+    {"2x1", "front,right"},
+    {"3x1", "front,right,top"},
+    {"1x2", "front/right"},
+    {"2x2", "front,right/top,three_quarter"},
+}};
+
 std::string DefaultOverlays() {
   std::string off;
   for (const render::OverlayInfo& overlay : render::kOverlays) {
@@ -35,6 +42,13 @@ const std::vector<options::FormerWord> kFormerOverlays = {{"lamp", "status"},
                                                           {"strip", "frame_code"}};
 const std::vector<options::FormerWord> kFormerParts = {
     {"held", "hand_loads"}, {"frames", "link_frames"}, {"axes", "joint_axes"}};
+
+std::string GridNames() {
+  std::string names;
+  for (const auto& [name, cameras] : kGrids)
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
 
 bool IsChange(const std::string& name) {
   return !name.empty() && (name[0] == '+' || name[0] == '-');
@@ -150,14 +164,8 @@ std::vector<std::string> OverlayValue::Names() const {
 bool OverlayValue::names_plot() const { return text_.find("plot") != std::string::npos; }
 
 void ViewsValue::Parse(const std::string& text) {
-  static const std::array<std::pair<const char*, const char*>, 4> shorthands = {{
-      {"2x1", "front,right"},
-      {"1x2", "front/right"},
-      {"3x1", "front,right,top"},
-      {"2x2", "front,right/top,three_quarter"},
-  }};
   std::string rest = text;
-  for (const auto& [name, cameras] : shorthands) {
+  for (const auto& [name, cameras] : kGrids) {
     if (text == name) rest = cameras;
   }
   ViewGrid grid;
@@ -187,8 +195,15 @@ void ViewsValue::Parse(const std::string& text) {
 }
 
 std::string ViewsValue::Expected() const {
-  return "2x1, 3x1, 1x2, 2x2, or cameras with , between and / between rows, such as "
+  return GridNames() +
+         ", or cameras with , between and / between rows, such as "
          "front,right/top,camera (camera: the one of --camera)";
+}
+
+std::vector<std::string> ViewsValue::Names() const {
+  std::vector<std::string> names = render::CameraNames();
+  for (const auto& [name, cameras] : kGrids) names.emplace_back(name);
+  return names;
 }
 
 void BackgroundValue::Parse(const std::string& text) {
@@ -328,6 +343,15 @@ void ViewOptions::List(options::OptionList& option) {
   option("ghost", ghost, "a translucent second body to compare with");
   option("ghost_opacity", ghost_opacity, "opacity of the ghost");
   option("robot", robot, "robot that stands on the floor beside the people; may be repeated");
+  const auto no_overlays_at_all = [this] { return *no_overlays; };
+  for (const char* name : {"title", "overlay", "plot"}) {
+    option.HasNoEffect(name, "with --no_overlays", no_overlays_at_all);
+  }
+  option.HasNoEffect("title", "unless --overlay includes title",
+                     [this] { return !overlay->title; });
+  option.HasNoEffect("trail_secs", "without --trail", [this] { return trail->empty(); });
+  option.HasNoEffect("ghost_opacity", "without --ghost",
+                     [this] { return ghost->kind == GhostSource::Kind::kNone; });
 }
 
 render::PictureSpec ToPictureSpec(const ViewOptions& options) {

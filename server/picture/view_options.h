@@ -44,7 +44,7 @@ class ViewsValue : public options::ValueOf<ViewGrid> {
   void Parse(const std::string& text) override;
   std::string ToText() const override { return text_; }
   std::string Expected() const override;
-  std::vector<std::string> Names() const override { return render::CameraNames(); }
+  std::vector<std::string> Names() const override;
 
  private:
   std::string text_;

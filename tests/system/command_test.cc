@@ -72,6 +72,27 @@ TEST(Command, RefusesWhatItDoesNotKnowByName) {
   ExpectRefusal(Kinescope({}), "command missing: expected serve, bridge");
 }
 
+TEST(Command, RejectsOptionsWithoutEffect) {
+  const TempFolder folder;
+  const std::string png = folder.path() / "a.png";
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{"render", "demo:walk", "--out", png, "--trail_secs", "3"}, "without --trail"},
+      {{"render", "demo:walk", "--out", png, "--ghost_opacity", "0.5"}, "without --ghost"},
+      {{"render", "demo:walk", "--out", png, "--title", "x", "--no_overlays"}, "--no_overlays"},
+      {{"render", "demo:walk", "--out", png, "--fps", "25"}, "on a single picture"},
+      {{"serve", "--udp_port", "9763", "--source", "demo:walk"}, "with --udp_port"},
+      {{"serve", "--pictures", "off", "--picture_size", "320x240"}, "with --pictures=off"},
+      {{"bridge", "--ros", "off", "--tf", "tree"}, "with --ros=off"},
+      {{"loads", "demo:lift", "--layout", "long"}, "without --csv"},
+      {{"stream", "demo:lift", "--seed", "3"}, "without --fault"},
+  };
+  for (const auto& [arguments, reason] : cases) {
+    ExpectRefusal(Kinescope(arguments), "has no effect");
+    ExpectRefusal(Kinescope(arguments), reason);
+  }
+  EXPECT_TRUE(folder.Names().empty());
+}
+
 TEST(Command, RefusesSourcesThatAreNone) {
   const TempFolder folder;
   const std::string text = folder.path() / "text.mvnx";
@@ -267,6 +288,13 @@ TEST(Command, HelpsEveryCommandWithEveryOption) {
   for (const auto& [command, options] : expected) {
     EXPECT_EQ(met.count(command), 1u) << "--help does not list '" << command << "'";
   }
+}
+
+TEST(Command, HelpIsAlsoACommand) {
+  EXPECT_EQ(Kinescope({"help"}).out, Kinescope({"--help"}).out);
+  EXPECT_EQ(Kinescope({"help", "golden", "check"}).out,
+            Kinescope({"golden", "check", "--help"}).out);
+  ExpectRefusal(Kinescope({"help", "rendr"}), "nearest: render");
 }
 
 TEST(Command, RendersTheSamePictureTwice) {

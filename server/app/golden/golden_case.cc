@@ -105,7 +105,10 @@ std::vector<GoldenCase> ReadGoldenCases(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   }
-  if (error) throw UsageError(fmt::format("folder '{}': {}", folder.string(), error.message()));
+  if (error) {
+    throw UsageError(fmt::format("folder '{}': {}; name the folder that holds the golden cases",
+                                 folder.string(), error.message()));
+  }
   if (files.empty())
     throw UsageError(fmt::format("folder '{}' contains no golden case (*.yaml)", folder.string()));
   std::sort(files.begin(), files.end());

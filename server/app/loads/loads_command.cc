@@ -54,6 +54,10 @@ struct LoadsOptions {
     loads.List(option);
     option.Group("Drawing");
     backend.List(option);
+    option.HasNoEffect("layout", "without --csv", [this] { return csv->empty(); });
+    for (const char* name : {"backend", "draw_limit_secs"}) {
+      option.HasNoEffect(name, "without --report", [this] { return report->empty(); });
+    }
   }
 };
 
@@ -186,6 +190,12 @@ nlohmann::json ReportOf(const Recording& recording, const TrialContext& context)
           {"people", people}};
 }
 
+void PrintWritten(const LoadsOptions& options) {
+  for (const options::Text* out : {&options.csv, &options.json, &options.plots, &options.report}) {
+    if (!(*out)->empty()) fmt::print("{}: written\n", **out);
+  }
+}
+
 // False: there is not one load that is known.
 bool Loads(LoadsOptions& options) {
   CheckArguments(options);
@@ -208,6 +218,7 @@ bool Loads(LoadsOptions& options) {
     knows_anything = knows_anything || trial.knows_anything();
     if (!has_stdout) fmt::print("{}\n", SummaryText(SummaryOf(trial, context)));
   }
+  if (!has_stdout) PrintWritten(options);
   if (has_stdout && !knows_anything) {
     fmt::print(
         stderr,

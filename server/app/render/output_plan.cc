@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <map>
@@ -132,12 +133,13 @@ void CheckNames(const std::vector<SourcePlan>& plans) {
 
 // Options that nothing to be made would heed are mistakes.
 void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans) {
-  bool has_still = false, has_clip = false, has_crf = false, has_quality = false;
+  bool has_still = false, has_clip = false, has_crf = false, has_quality = false, has_mp4 = false;
   for (const SourcePlan& plan : plans) {
     for (const Output& output : plan.outputs) {
       (output.kind == OutputKind::kStill ? has_still : has_clip) = true;
       has_crf = has_crf || HasCrf(output.path);
       has_quality = has_quality || HasQuality(output.path);
+      has_mp4 = has_mp4 || render::ClipFormatOf(output.path) == render::ClipFormat::kMp4;
     }
   }
   const MomentOptions& moment = options.moment;
@@ -164,6 +166,11 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
     throw UsageError(fmt::format(
         "--crf={}: applies to .mp4 and .webm only; for .webp use --quality", *options.pack.crf));
   }
+  constexpr long kMaxCrfOfMp4 = 51;
+  if (has_mp4 && options.pack.crf && *options.pack.crf > kMaxCrfOfMp4) {
+    throw UsageError(fmt::format("--crf={}: expected 0 to {} for .mp4; .webm takes up to 63",
+                                 *options.pack.crf, kMaxCrfOfMp4));
+  }
   if (!has_quality && *options.pack.quality != *PackOptions().quality) {
     throw UsageError(
         fmt::format("--quality={}: applies to .webp only; for .mp4 and .webm use --crf",
@@ -172,6 +179,12 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
 }
 
 }  // namespace
+
+bool AreStills(const std::vector<std::string>& outs) {
+  return std::all_of(outs.begin(), outs.end(), [](const std::string& out) {
+    return fs::path(out).extension() == ".png" && FindNumbers(out).empty();
+  });
+}
 
 bool HasCrf(const std::string& path) {
   const auto format = render::ClipFormatOf(path);

@@ -35,6 +35,9 @@ std::vector<SourcePlan> PlanOutputs(const RenderOptions& options);
 /// The path of picture `k`, from 0, of a sequence.
 std::string PathOfPicture(const std::string& pattern, long k);
 
+/// Whether all of them are single pictures, as far as their endings tell.
+bool AreStills(const std::vector<std::string>& outs);
+
 /// Whether a clip with that name is encoded to a constant quality (--crf), or to --quality.
 bool HasCrf(const std::string& path);
 bool HasQuality(const std::string& path);

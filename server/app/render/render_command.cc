@@ -74,6 +74,9 @@ Command RenderCommand() {
       "  kinescope render take.mvnx --start 2 --seconds 3 --out 'frames/%05d.png'\n"
       "Outputs that are up to date are skipped.";
   values->List(command.options);
+  command.options.HasNoEffect(
+      "fps", "on a single picture; name a clip or a sequence in --out",
+      [values = values.get()] { return !values->outs->empty() && AreStills(*values->outs); });
   command.positionals = {"source"};
   command.run = [values](options::OptionList&) {
     if (!values->verify->empty()) return Verify(*values->verify, *values);

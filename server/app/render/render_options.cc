@@ -137,7 +137,7 @@ void RenderOptions::List(options::OptionList& option) {
          "##### in its name is a numbered sequence. {source} and {camera} are replaced");
   option("force", force, "draw again although the output is up to date");
   option("no_sidecar", no_sidecar, "write no FILE.json beside each output");
-  option("jobs", jobs, "threads that draw; the files do not depend on it");
+  option("jobs", jobs, "number of drawing threads; any number makes the same files");
   option("json", json, "print the result as JSON, one line per output");
   option(
       "verify", verify,

@@ -161,6 +161,7 @@ class RenderRun {
     if (state == nullptr) return state;
     const long number = samples_++;
     if (!start_nanos_) start_nanos_ = state->stamp_nanos;
+    newest_nanos_ = state->stamp_nanos;
     if (still_is_rendered_) return state;
     for (auto& [camera, task] : stills_) task.Remember(*state);
     if (!options_.moment.time && number == options_.moment.sample.value_or(0L)) {
@@ -208,8 +209,8 @@ class RenderRun {
   }
 
   [[noreturn]] void ThrowEndsBefore(const char* option, double secs) const {
-    throw UsageError(fmt::format("--{}={}: {} ends before this time; choose an earlier one", option,
-                                 secs, plan_.source));
+    throw UsageError(fmt::format("--{}={}: {} ends before this time, at {:.3f} s", option, secs,
+                                 plan_.source, Secs(newest_nanos_ - start_nanos_.value_or(0))));
   }
 
   void RenderStills(const SceneState& scene) {
@@ -241,6 +242,7 @@ class RenderRun {
   std::map<std::string, StillTask> stills_;  // by camera
   std::map<std::string, ClipTask> clips_;
   std::optional<std::int64_t> start_nanos_;  // of the first sample
+  std::int64_t newest_nanos_ = 0;            // of the last one read
   std::optional<Progress> progress_;         // once there is something to do
   long samples_ = 0;                         // read so far
   bool still_is_rendered_ = false;

@@ -88,6 +88,7 @@ void ServeOptions::ListBridge(options::OptionList& option) {
   option.Group("The source");
   option("source", source, "source of the people: " + SourceKinds());
   option("udp_port", udp_port, "short for --source udp://:PORT");
+  option.HasNoEffect("source", "with --udp_port", [this] { return *udp_port != 0; });
   option("loop", loop, "start a file again at its end");
   option(
       "stamps", stamps,
@@ -106,6 +107,10 @@ void ServeOptions::ListBridge(options::OptionList& option) {
   option(
       "external_scale", external_scale,
       "factor of joint moments that are received over ROS; -1 for a program that sends reactions");
+  for (const char* name : {"reference_frame", "tf", "joint_angle_source", "external_scale"}) {
+    option.HasNoEffect(name, "with --ros=off",
+                       [this] { return *ros == ros_bridge::RosMode::kOff; });
+  }
 }
 
 void ServeOptions::List(options::OptionList& option) {
@@ -134,6 +139,19 @@ void ServeOptions::List(options::OptionList& option) {
   option.Formerly("view_size");
   option("ros_view_rate_hz", ros_view_rate_hz, "highest frame rate of ~view");
   option.Formerly("view_rate_hz");
+  for (const char* name :
+       {"marker_topics", "ros_view", "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
+    option.HasNoEffect(name, "with --ros=off",
+                       [this] { return *ros == ros_bridge::RosMode::kOff; });
+  }
+  for (const char* name : {"ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
+    option.HasNoEffect(name, "with --ros_view=off", [this] { return !*ros_view; });
+  }
+  for (const char* name :
+       {"camera", "projection", "fov", "orbit", "follow", "fit", "picture_size", "picture_rate_hz",
+        "backend", "draw_limit_secs", "ros_view_camera", "ros_view_size", "ros_view_rate_hz"}) {
+    option.HasNoEffect(name, "with --pictures=off", [this] { return !*pictures; });
+  }
 }
 
 }  // namespace kinescope::app

@@ -93,6 +93,7 @@ struct StreamOptions {
     option("fault", fault, "fault to inject, with its share; may be repeated");
     option("seed", seed, "random seed of the faults");
     option("json", json, "print a summary of what was sent, as JSON");
+    option.HasNoEffect("seed", "without --fault", [this] { return fault.ToText().empty(); });
   }
 };
 

@@ -142,6 +142,13 @@ void Write(const WriteOptions& options) {
     throw UsageError("--package=" + *options.package +
                      ": needs --out FOLDER, the folder of the package");
   }
+  const bool looks_like_file = fs::path(*options.out).has_extension() && !fs::exists(*options.out);
+  if (is_folder && looks_like_file) {
+    throw UsageError(
+        "--out=" + *options.out +
+        ": expected NAME.urdf, NAME.xml, or a folder (a new folder has no point in its "
+        "name)");
+  }
   if (is_folder && fs::is_regular_file(*options.out)) {
     throw UsageError("--out=" + *options.out +
                      ": this file exists and is not a URDF; expected a folder or NAME.urdf");
@@ -168,6 +175,7 @@ void Write(const WriteOptions& options) {
   } catch (const std::runtime_error& error) {
     throw UsageError(fmt::format("--out={}: {}", *options.out, error.what()));
   }
+  fmt::print("{}: written\n", *options.out);
 }
 
 bool Check(const UrdfCheckOptions& options) {

@@ -40,6 +40,20 @@ void PrintPicture(const UrdfPictureOptions& options, const RobotState& robot,
   fmt::print("{}\n", JsonText(json));
 }
 
+// The picture shows what was asked for; the robot could not stand like that.
+void WarnOutsideLimits(const urdf::RobotModel& model, const urdf::JointPositions& positions) {
+  for (const urdf::RobotJoint& joint : model.joints) {
+    const auto given = positions.find(joint.name);
+    if (given == positions.end() || !joint.limits) continue;
+    const auto& [name, position] = *given;
+    const bool has_range = joint.type != urdf::RobotJoint::Type::kContinuous;
+    if (!has_range || (position >= joint.limits->lower && position <= joint.limits->upper))
+      continue;
+    spdlog::warn("--joint={}={}: outside the limits of this joint, {:.4g} to {:.4g}", name,
+                 position, joint.limits->lower, joint.limits->upper);
+  }
+}
+
 }  // namespace
 
 void JointsValue::ParseAll(const std::vector<std::string>& texts) {
@@ -68,6 +82,7 @@ void UrdfPictureOptions::List(options::OptionList& option) {
   option("package_path", package_path, kPackagePathHelp);
   option("json", json, "print the result as JSON: the camera, and each missing mesh");
   view.List(option);
+  option.Remove({"ghost", "ghost_opacity", "trail", "trail_secs", "plot", "orbit", "follow"});
   backend.List(option);
 }
 
@@ -82,6 +97,8 @@ void DrawUrdf(const UrdfPictureOptions& options) {
   scene.robots.push_back(ReadRobot(*options.file, *options.package_path, *options.joint));
   RobotState& robot = scene.robots.front();
   for (const std::string& note : robot.model->notes) spdlog::warn("{}: {}", *options.file, note);
+
+  WarnOutsideLimits(*robot.model, *options.joint);
 
   const auto renderer = StartRenderer(options.backend);
   robot.bounds = renderer->Bounds(robot);

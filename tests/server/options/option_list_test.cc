@@ -88,7 +88,7 @@ TEST_F(OptionListTest, OfAFileThatCannotBeReadNameFileAndLine) {
   EXPECT_THAT(ErrorOf([] { YamlOptions("/nowhere.yaml"); }), HasSubstr("/nowhere.yaml: "));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("- 1\n- 2\n")); }), HasSubstr("expected lines of"));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\nloop: [\n")); }),
-              HasSubstr("options.yaml:"));
+              AllOf(HasSubstr("options.yaml:"), HasSubstr("not valid YAML")));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\nmas: 80\n")).SetAll(list_); }),
               AllOf(HasSubstr("options.yaml:2: unknown option 'mas'"), HasSubstr("nearest: mass")));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: [tree]\n")).SetAll(list_); }),
@@ -107,6 +107,25 @@ TEST_F(OptionListTest, AcceptsAFormerNameWithAWarning) {
                 list_.Set(*list_.Find("parts"), "parts", {"a_long_word"}, Channel::kCommandLine);
               }),
               HasSubstr("--parts=a_long_word: expected short words"));
+}
+
+TEST_F(OptionListTest, RejectsAnOptionWithoutEffectUnlessARosParameterSetIt) {
+  list_.HasNoEffect("mass", "with --tf=off", [this] { return *values_.tf == 2; });
+  list_.Set(*list_.Find("tf"), "tf", {"off"}, Channel::kCommandLine);
+  list_.CheckEffects();  // by default, the mass was not given
+  list_.Set(*list_.Find("mass"), "mass", {"80"}, Channel::kParameter);
+  list_.CheckEffects();
+  list_.Set(*list_.Find("mass"), "mass", {"80"}, Channel::kCommandLine);
+  EXPECT_EQ(ErrorOf([&] { list_.CheckEffects(); }), "--mass=80: has no effect with --tf=off");
+  list_.Set(*list_.Find("tf"), "tf", {"flat"}, Channel::kCommandLine);
+  list_.CheckEffects();
+}
+
+TEST_F(OptionListTest, LeavesOutRemovedOptionsAndTheirConditions) {
+  list_.HasNoEffect("mass", "ever", [] { return true; });
+  list_.Remove({"mass", "loop"});
+  EXPECT_THAT(list_.Names(), ElementsAre("tf", "show"));
+  list_.CheckEffects();
 }
 
 TEST_F(OptionListTest, ReplacesAFormerWordWithAWarning) {
