@@ -16,7 +16,7 @@ SourceCounters DatagramsWithoutPose() {
   return counters;
 }
 
-TEST(MissingPoseWarning, GivesTheMostFrequentReasonOnceAfterTwoSeconds) {
+TEST(MissingPoseWarning, ReportsTheMostFrequentReasonOnceAfterTwoSeconds) {
   const testing::CapturedLog log;
   MissingPoseWarning warning;
   warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", 0);
