@@ -62,7 +62,7 @@ class OptionListTest : public ::testing::Test {
   OptionList list_;
 };
 
-TEST_F(OptionListTest, OfTheCommandLineWinOverParametersOverYaml) {
+TEST_F(OptionListTest, PrefersTheCommandLineToParametersAndParametersToYaml) {
   list_.Set(*list_.Find("mass"), "mass", "90", Channel::kCommandLine);
   YamlOptions(Write("mass: 80\ntf: tree\nloop: true\n")).SetAll(list_);
   SetFrom(
@@ -76,7 +76,7 @@ TEST_F(OptionListTest, OfTheCommandLineWinOverParametersOverYaml) {
   EXPECT_TRUE(*values_.loop);
 }
 
-TEST_F(OptionListTest, NameThePlaceTheValueAndTheNearestWord) {
+TEST_F(OptionListTest, ReportsPlaceValueAndNearestWordOfAnError) {
   EXPECT_EQ(ErrorOf([&] { list_.Set(*list_.Find("tf"), "tf", "tre", Channel::kCommandLine); }),
             "--tf=tre: expected flat, tree or off; nearest: tree");
   const std::string path = Write("tf: tree\nmass: heavy\n");
@@ -84,7 +84,7 @@ TEST_F(OptionListTest, NameThePlaceTheValueAndTheNearestWord) {
             path + ":2: mass=heavy: expected a number from 20 to 300 kg");
 }
 
-TEST_F(OptionListTest, OfAFileThatCannotBeReadNameFileAndLine) {
+TEST_F(OptionListTest, ReportsFileAndLineOfAnUnreadableFile) {
   EXPECT_THAT(ErrorOf([] { YamlOptions("/nowhere.yaml"); }), HasSubstr("/nowhere.yaml: "));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("- 1\n- 2\n")); }), HasSubstr("expected lines of"));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\nloop: [\n")); }),
@@ -109,7 +109,7 @@ TEST_F(OptionListTest, AcceptsAFormerNameWithAWarning) {
               HasSubstr("--parts=a_long_word: expected short words"));
 }
 
-TEST_F(OptionListTest, ReplacesAFormerWordWithAWarning) {
+TEST_F(OptionListTest, ReplacesAFormerValueWithAWarning) {
   list_.Set(*list_.Find("show"), "show", "body;frames", Channel::kCommandLine);
   EXPECT_THAT(*values_.show, ElementsAre("body", "link_axes"));
   EXPECT_EQ(values_.show.ToText(), "body,link_axes") << "the next version reads it, too";
