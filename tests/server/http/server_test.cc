@@ -254,7 +254,7 @@ TEST(HttpServer, RejectsUnsafeAndInvalidConfigurations) {
   EXPECT_NO_THROW(start("0.0.0.0", "a", 0));
 }
 
-TEST(HttpServer, NamesAnAddressThatCanBeOpened) {
+TEST(HttpServer, ReportsAUrlThatCanBeOpened) {
   Latest<SceneState> states;
   Latest<Picture> pictures;
   HttpConfig config = TestServer::MakeConfig("abc");

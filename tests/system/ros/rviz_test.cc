@@ -303,7 +303,7 @@ TEST_F(RViz, ShowsTheSameMeshesOfEveryFormat) {
       {{0, 0, 0}, 3.4, 0.5, 0.35});
 }
 
-TEST_F(RViz, ShowsTheSamePersonAsExported) {
+TEST_F(RViz, ShowsTheExportedPersonIdentically) {
   WritePackage("person");
   const auto result =
       testing::RunProgram({testing::KinescopePath(), "urdf", "--height", "1.75", "--package",

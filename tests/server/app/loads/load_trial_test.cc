@@ -47,7 +47,7 @@ TEST(LoadTrial, KeepsThePeakOfALongTrial) {
   EXPECT_NEAR(trial.SecsOf(worst[0].scene->stamp_nanos), 2000, 1e-6);
 }
 
-TEST(LoadTrial, FindsNoTimeOfHighestLoadIfAllLoadsAreUnknown) {
+TEST(LoadTrial, FindsNoTimeOfTheHighestLoadIfAllLoadsAreUnknown) {
   LoadTrial trial(false, 0);
   for (int i = 0; i <= 100; ++i) {
     AddTo(trial, SceneWithRatio(0.01 * i, std::nan(""), "no foot contact"));

@@ -87,7 +87,7 @@ TEST(Provenance, ContainsTheHashesOfTheSourceAndOfInputFiles) {
   EXPECT_FALSE(DecideTheSame(first, Sample(options, folder / "take.mvnx")));
 }
 
-TEST(Provenance, ChangesWithTheFilesBehindRobotsAndGhosts) {
+TEST(Provenance, ChangesWithTheFilesOfRobotsAndReferencePoses) {
   const testing::TempFolder folder;
   const std::string urdf = folder / "r.urdf", ghost = folder / "take.mvnx";
   std::ofstream(urdf) << "<robot name='before'><link name='a'/></robot>";

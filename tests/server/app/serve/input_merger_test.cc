@@ -117,7 +117,7 @@ TEST(InputMerger, AppliesAHandLoadOfRosBeforeTheSampleThatFollows) {
   EXPECT_EQ(wired.last->people[0].forces.stated_hand_load.alone_kg[kRight], 2);
 }
 
-TEST(InputMerger, PassesOnTheSubscribersOfTheRosCameraAlsoWithoutSamples) {
+TEST(InputMerger, ForwardsTheNumberOfRosCameraSubscribersWithoutSamples) {
   TellingBridge bridge;
   Wired wired(&bridge);
   bridge.listeners = 3;
