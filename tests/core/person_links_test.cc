@@ -46,7 +46,7 @@ TEST(PersonLinks, HaveNamesAndPosesInTheSameOrder) {
 }
 
 // What is drawn of a link without a pose would be nowhere, and a hand beside its glove there twice.
-TEST(PersonLinks, AreAllLinksWithVisualsExceptGlovedHands) {
+TEST(PersonLinks, AreTheLinksWithVisualsAndTheGlovedHands) {
   PersonState person = Person();
   testing::Wear(person);
   std::set<std::string> with_visuals;

@@ -120,7 +120,7 @@ TEST(GroundSplit, ReducesTheShareOfALiftedFootGradually) {
   }
 }
 
-TEST(GroundSplit, GivesFeetAtTheSamePlaceEqualShares) {
+TEST(GroundSplit, GivesFeetLessThanFiveCentimetresApartEqualShares) {
   std::array<FootOnGround, 2> feet = TwoFeet();
   feet[kRight].center = {0, -0.0249};
   feet[kLeft].center = {0, 0.0249};

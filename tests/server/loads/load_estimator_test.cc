@@ -271,7 +271,7 @@ TEST(LoadEstimator, AppliesMeasuredFootForcesAtTheFeet) {
   EXPECT_FALSE(Estimate(Posed({}), LoadSettings(), nullptr, measured).forces.ground_is_measured);
 }
 
-TEST(LoadEstimator, ComputesOverloadOfTheLegsOnlyFromAForcePlate) {
+TEST(LoadEstimator, ComputesOverloadFromAForcePlateForTheLegsOnly) {
   Measurements measured;
   measured.ground.emplace().force = {0, 0, 735.75 + 50};
   measured.ground->point = {0.03, 0, 0};

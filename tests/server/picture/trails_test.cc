@@ -70,7 +70,7 @@ TEST(Trails, AreAbsentWithoutNames) {
   EXPECT_THAT(trails.Make(), IsEmpty());
 }
 
-TEST(Trails, EndAtAGapOfTheCentreOfMass) {
+TEST(Trails, StartAgainAfterAGapOfTheCentreOfMass) {
   Trails trails({-1, urdf::kPelvis}, 10);
   RememberTenths(trails, 0, 5);
   SceneState without = SceneOnItsWay(0.6);

@@ -201,7 +201,7 @@ TEST(LoadPlots, InterruptCurvesAtMissingSamplesAndHatchTheGap) {
   EXPECT_THAT(TextsOf(plot), ::testing::Contains("unknown: no samples"));
 }
 
-TEST(LoadPlots, DrawNoGapForAStepBelowHalfASecond) {
+TEST(LoadPlots, ShowNoGapForAStepBelowHalfASecond) {
   LoadTrial trial(true, 0);
   AddRatios(trial, 0, 1, 0.2);
   AddRatios(trial, 1.4, 2, 0.2);
