@@ -7,7 +7,7 @@ import { closeBrowser, countPixels, openPage, pixelsOf, saveScreenshot } from '.
 const LONG = { timeout: 60000 };
 after(closeBrowser);
 
-test('two kilograms in a stretched-out hand turn that shoulder orange', async () => {
+test('a load of two kilograms in a stretched-out hand makes that shoulder orange', async () => {
   const { page, problems, close } = await openPage(process.env.KINESCOPE_PAGE);
   const shoulderIs = (word) => page.waitForFunction((wanted) => {
     const row = [...document.querySelectorAll('#loads li')]

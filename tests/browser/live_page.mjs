@@ -7,7 +7,7 @@ import { closeBrowser, countPixels, openPage, pixelsOf, saveScreenshot } from '.
 const LONG = { timeout: 60000 };
 after(closeBrowser);
 
-test('a suit that streams is seen, with its rate', async () => {
+test('the page shows the person of a streaming suit and its rate', async () => {
   const { page, problems, close } = await openPage(process.env.KINESCOPE_PAGE);
   await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live', null, LONG);
   // Of samples as they come, a second at a time: a busy machine lets one second have fewer and the next more.

@@ -43,7 +43,7 @@ async function openLive(options) {
   return visit;
 }
 
-test('the human is there, in colours that mean something', async () => {
+test('the page shows the person in the colours of the load classes', async () => {
   const visit = await openLive();
   await seePixels(visit.page, 'red', isRed, 300);
   await seePixels(visit.page, 'orange', isOrange, 200);
@@ -58,7 +58,7 @@ test('the human is there, in colours that mean something', async () => {
   await visit.close();
 });
 
-test('the readings are those of the stream', async () => {
+test('the readings show the values of the stream', async () => {
   const { page, close } = await openLive();
   await page.waitForFunction(() => /^\d+(\.\d)? ms$/.test(document.getElementById('latency').textContent), null, LONG);
   assert.equal(await text(page, '#rate'), '60.0 Hz');
@@ -71,7 +71,7 @@ test('the readings are those of the stream', async () => {
   await close();
 });
 
-test('loads stand worst first, in words and numbers', async () => {
+test('the highest loads are listed first, as words and numbers', async () => {
   const { page, close } = await openLive();
   await page.waitForFunction(() => {
     const notes = [...document.querySelectorAll('#loads .note')].map((note) => note.textContent);
@@ -93,7 +93,7 @@ test('loads stand worst first, in words and numbers', async () => {
   await close();
 });
 
-test('the class colours are the server’s palette', async () => {
+test('the class colours equal the palette of the server', async () => {
   const { page, close } = await openLive();
   const { palette } = await page.evaluate(() => fetch('api/model').then((answer) => answer.json()));
   for (const { name, color } of palette.classes) {
@@ -104,7 +104,7 @@ test('the class colours are the server’s palette', async () => {
   await close();
 });
 
-test('bars and legend show the limits of the load classes that the server uses', async () => {
+test('bars and legend show the class limits of the server', async () => {
   const { page, close } = await openLive({
     beforeLoad: (fresh) => fresh.route('**/api/model', async (request) => {
       const answer = await request.fetch();
@@ -120,7 +120,7 @@ test('bars and legend show the limits of the load classes that the server uses',
   await close();
 });
 
-test('a stream that stops is stale, then no data, then live again, by itself', async () => {
+test('the status follows a stream that stops, is missing and starts again', async () => {
   const { page, problems, close } = await openLive();
   await seePixels(page, 'red', isRed, 300);
   site.say('stale');
@@ -148,7 +148,7 @@ test('a stream that stops is stale, then no data, then live again, by itself', a
   await close();
 });
 
-test('a server that dies is noticed, one that hangs too', async () => {
+test('the page detects a server that ends or does not respond', async () => {
   const mortal = await startFixture();
   const { page, close } = await openPage(mortal.url);
   await statusIs(page, 'Live');
@@ -162,7 +162,7 @@ test('a server that dies is noticed, one that hangs too', async () => {
   await close();
 });
 
-test('the named cameras turn the view, and a hand takes it over', async () => {
+test('the named cameras rotate the view until the user moves it', async () => {
   const { page, close } = await openLive();
   await page.locator('#cameras button').first().waitFor(LONG);
   assert.deepEqual(await page.$$eval('#cameras button', (all) => all.map((button) => button.dataset.camera)),
@@ -182,7 +182,7 @@ test('the named cameras turn the view, and a hand takes it over', async () => {
   await close();
 });
 
-test('a load is put into a hand, seen in it, and refused when nobody could hold it', async () => {
+test('a hand load is set and shown, and rejected if it is impossible', async () => {
   const { page, problems, close } = await openLive();
   const hint = (part) => page.waitForFunction(
     (wanted) => document.getElementById('loads-hint').textContent.includes(wanted), part, LONG);
@@ -209,7 +209,7 @@ test('a load is put into a hand, seen in it, and refused when nobody could hold 
   await close();
 });
 
-test('what the numbers stand on is said beside them', async () => {
+test('the page shows metric, load mode and assumptions beside the loads', async () => {
   const { page, close } = await openLive();
   await page.waitForFunction(() => /^load metric: total, dynamic · body mass assumed: 75 kg/
     .test(document.getElementById('loads-hint').textContent), null, LONG);
@@ -220,7 +220,7 @@ test('what the numbers stand on is said beside them', async () => {
   await close();
 });
 
-test('the server’s picture is shown when wanted, and saved at full size', async () => {
+test('the server picture is shown on request and saved at full size', async () => {
   const { page, problems, close } = await openLive();
   const image = page.locator('#picture-image');
   await image.waitFor({ state: 'visible', ...LONG });
@@ -239,7 +239,7 @@ test('the server’s picture is shown when wanted, and saved at full size', asyn
   await close();
 });
 
-test('without a renderer the page says so and works', async () => {
+test('the page reports a missing renderer and works without it', async () => {
   const blind = await startFixture(['--no-pictures']);
   const { page, close } = await openPage(blind.url);
   await statusIs(page, 'Live');
@@ -249,7 +249,7 @@ test('without a renderer the page says so and works', async () => {
   await blind.stop();
 });
 
-test('without WebGL the server’s picture stands in', async () => {
+test('the server picture replaces the view without WebGL', async () => {
   const { page, close } = await openLive({
     beforeLoad: (fresh) => fresh.addInitScript(() => {
       HTMLCanvasElement.prototype.getContext = () => null;
@@ -261,7 +261,7 @@ test('without WebGL the server’s picture stands in', async () => {
   await close();
 });
 
-test('a proxy that answers with a page of its own is named, and the rest of the page works', async () => {
+test('an HTML answer of a proxy is reported, and the rest of the page works', async () => {
   const { page, problems, close } = await openLive({
     beforeLoad: async (fresh) => {
       for (const route of ['diagnostics', 'cameras']) {
@@ -276,7 +276,7 @@ test('a proxy that answers with a page of its own is named, and the rest of the 
   await close();
 });
 
-test('a token is asked for, and does not stay in the address', async () => {
+test('the page requires a token and removes it from the address', async () => {
   const guarded = await startFixture(['--token', 's3cret']);
   const denied = await openPage(guarded.url.replace(/\?.*/, ''));
   assert.match(await text(denied.page, 'body'), /token/);
@@ -313,7 +313,7 @@ async function linksOf(url) {
   assert.fail('nobody came');
 }
 
-test('a body of mesh files is drawn, and a file that is missing is named as missing', async () => {
+test('a body of mesh files is shown, and missing files are counted', async () => {
   const folder = await mkdtemp(join(tmpdir(), 'kinescope_meshes_'));
   const meshed = await startFixture(['--meshes', folder]);
   const links = (await linksOf(meshed.url)).map(({ name }) => name.replace('skeleton_', ''));
@@ -332,7 +332,7 @@ test('a body of mesh files is drawn, and a file that is missing is named as miss
   await rm(folder, { recursive: true });
 });
 
-test('gloves, props and tracked objects are in the view, and what the server cannot show is named', async () => {
+test('the page shows gloves and props and names problems of the server picture', async () => {
   // Beside the head of a person who stands: where props are, and nothing else.
   const besideHead = async (page) => {
     const { width, height, data } = await pixelsOf(page, '#view');
@@ -374,7 +374,7 @@ test('gloves, props and tracked objects are in the view, and what the server can
   await rm(folder, { recursive: true });
 });
 
-test('two persons are both drawn and listed by name', async () => {
+test('the loads of two people are listed by name', async () => {
   const { page, close } = await openLive();
   site.say('people 2');
   // Names come in a message of their own, a moment after the numbers.
@@ -385,7 +385,7 @@ test('two persons are both drawn and listed by name', async () => {
   await close();
 });
 
-test('a load can be set for every person, and the readings are those of the selected one', async () => {
+test('a hand load can be set for each person, and the readings show the selected person', async () => {
   const { page, problems, close } = await openLive();
   assert.equal(await page.locator('#hand-person').isVisible(), false, 'one person needs no choice');
   site.say('people 2');
@@ -412,7 +412,7 @@ test('a load can be set for every person, and the readings are those of the sele
 
 for (const [name, viewport, colorScheme] of [
   ['desktop', DESKTOP, 'light'], ['desktop_dark', DESKTOP, 'dark'], ['phone', PHONE, 'light'], ['phone_dark', PHONE, 'dark']]) {
-  test(`it fits ${name}: nothing is cut off or scrolls sideways`, async () => {
+  test(`the page fits ${name} without clipping or horizontal scrolling`, async () => {
     const { page, problems, close } = await openLive({ viewport, colorScheme });
     await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
     await seePixels(page, 'red', isRed, 100);
@@ -435,7 +435,7 @@ for (const [name, viewport, colorScheme] of [
   });
 }
 
-test('words stand out from their background by at least 4.5 to 1', async () => {
+test('the contrast of texts to their background is at least 4.5 to 1', async () => {
   for (const colorScheme of ['light', 'dark']) {
     const { page, close } = await openLive({ colorScheme });
     await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);

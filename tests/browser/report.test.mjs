@@ -15,7 +15,7 @@ after(async () => {
   await rm(folder, { recursive: true, force: true });
 });
 
-test('the report of a person is one page of A4 that needs nothing else', async () => {
+test('the report of a person is one self-contained A4 page', async () => {
   const file = join(folder, 'report.html');
   await promisify(execFile)(process.env.KINESCOPE, ['loads', 'demo:lift', '--seconds', '8', '--hand_load', 'both:12',
     '--extra_mass', 'head:1.5,t8:8', '--mass', '82', '--sex', 'female', '--report', file]);

@@ -49,14 +49,14 @@ constexpr Pair kPublished[] = {
     {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082},
 };
 
-TEST(ColorDifference, IsThatOfThePublishedPairs) {
+TEST(ColorDifference, EqualsTheValuesOfThePublishedPairs) {
   for (const Pair& pair : kPublished) {
     EXPECT_NEAR(ColorDifference(pair.one, pair.other), pair.difference, 5e-5)
         << pair.one.a << ' ' << pair.one.b << " to " << pair.other.a << ' ' << pair.other.b;
   }
 }
 
-TEST(ColorDifference, TakesScreenColoursToLabAndBack) {
+TEST(ColorDifference, ConvertsScreenColoursToLabAndBack) {
   // Of the sRGB primaries, by others' implementations.
   EXPECT_NEAR(ColorDifference(Rgb{0, 0, 0}, Rgb{1, 1, 1}), 100, 0.01);
   EXPECT_NEAR(ColorDifference(Rgb{1, 0, 0}, Rgb{0, 1, 0}), 86.61, 0.02);

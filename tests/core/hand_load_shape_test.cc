@@ -31,9 +31,9 @@ double VolumeOf(const HandLoadSolid& disc) {
   return M_PI * disc.size.x() * disc.size.x() * disc.size.z();
 }
 
-TEST(HandLoadShape, OfEmptyHandsIsNothing) { EXPECT_EQ(ShapeOfHandLoad(Person(0)).count, 0u); }
+TEST(HandLoadShape, IsAbsentForEmptyHands) { EXPECT_EQ(ShapeOfHandLoad(Person(0)).count, 0u); }
 
-TEST(HandLoadShape, InOneHandIsADumbbellOfItsWeightInIronAroundTheLoadsCentre) {
+TEST(HandLoadShape, IsAnIronDumbbellAroundTheLoadsCentreInOneHand) {
   const PersonState person = Person(5);
   const HandLoadShape held = ShapeOfHandLoad(person);
   ASSERT_EQ(held.count, 3u);
@@ -48,7 +48,7 @@ TEST(HandLoadShape, InOneHandIsADumbbellOfItsWeightInIronAroundTheLoadsCentre) {
   EXPECT_LT(axis.cross(Vector3d::UnitX()).norm(), 1e-12) << "the bar lies along the thumb";
 }
 
-TEST(HandLoadShape, GrowsWithTheMassAndNeverStopsBeingDrawable) {
+TEST(HandLoadShape, GrowsWithTheMassAndStaysDrawable) {
   double last = 0;
   for (double mass = 0.02; mass <= 100; mass *= 1.7) {
     const HandLoadShape held = ShapeOfHandLoad(Person(mass, mass, mass));
@@ -63,7 +63,7 @@ TEST(HandLoadShape, GrowsWithTheMassAndNeverStopsBeingDrawable) {
   }
 }
 
-TEST(HandLoadShape, OfAToolWhoseCentreIsElsewhereReachesThere) {
+TEST(HandLoadShape, ReachesTheCentreOfMassOfATool) {
   PersonState person = Person(2);
   person.forces.hands[urdf::kRight].point += Vector3d(0.2, 0, -0.3);
   const HandLoadShape held = ShapeOfHandLoad(person);
@@ -72,7 +72,7 @@ TEST(HandLoadShape, OfAToolWhoseCentreIsElsewhereReachesThere) {
   EXPECT_EQ(held.solids[1].pose.position, person.forces.hands[urdf::kRight].point);
 }
 
-TEST(HandLoadShape, BetweenTwoHandsIsABoxAsWideAsTheyAreApart) {
+TEST(HandLoadShape, IsABoxBetweenTwoHandsAsWideAsTheirDistance) {
   const HandLoadShape held = ShapeOfHandLoad(Person(0, 0, 10));
   ASSERT_EQ(held.count, 1u);
   const HandLoadSolid& box = held.solids[0];

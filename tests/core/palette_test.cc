@@ -5,7 +5,7 @@
 namespace kinescope {
 namespace {
 
-TEST(Palette, TellsTheClassesApartBySizeToo) {
+TEST(Palette, DistinguishesTheClassesBySizeToo) {
   for (int joint = 0; joint < urdf::kJointCount; ++joint) {
     double before = 0;
     for (const LoadClass load_class :
@@ -17,7 +17,7 @@ TEST(Palette, TellsTheClassesApartBySizeToo) {
   }
 }
 
-TEST(Palette, GrowsSpheresWithThePerson) {
+TEST(Palette, ScalesSpheresWithThePerson) {
   EXPECT_DOUBLE_EQ(SphereRadius(urdf::jRightElbow, LoadClass::kLow, 3.5),
                    2 * SphereRadius(urdf::jRightElbow, LoadClass::kLow, 1.75));
 }

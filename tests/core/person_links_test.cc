@@ -19,7 +19,7 @@ PersonState Person() {
   return person;
 }
 
-TEST(PersonLinks, AreTheSegmentsOfWhoWearsNothing) {
+TEST(PersonLinks, AreTheSegmentsOfAPersonWithoutGlovesAndProps) {
   const PersonState person = Person();
   const auto names = VisibleLinks(person.model->human);
   ASSERT_EQ(names.size(), static_cast<std::size_t>(urdf::kSegmentCount));
@@ -46,7 +46,7 @@ TEST(PersonLinks, HaveNamesAndPosesInTheSameOrder) {
 }
 
 // What is drawn of a link without a pose would be nowhere, and a hand beside its glove there twice.
-TEST(PersonLinks, AreAllThatHasVisualsButForTheHandsInGloves) {
+TEST(PersonLinks, AreTheLinksWithVisualsAndTheGlovedHands) {
   PersonState person = Person();
   testing::Wear(person);
   std::set<std::string> with_visuals;

@@ -20,7 +20,7 @@ SceneState SceneAt(std::int64_t stamp_nanos, double x, LoadClass load_class) {
   return scene;
 }
 
-TEST(SceneInterpolation, MovesPosesAndHoldsDecisions) {
+TEST(SceneInterpolation, InterpolatesPosesAndKeepsDiscreteValues) {
   const SceneState a = SceneAt(0, 0.0, LoadClass::kLow);
   const SceneState b = SceneAt(10'000'000, 1.0, LoadClass::kHigh);
   const SceneState between = Interpolate(a, b, 2'500'000);
@@ -33,7 +33,7 @@ TEST(SceneInterpolation, MovesPosesAndHoldsDecisions) {
   EXPECT_EQ(person.loads.at(0).load_class, LoadClass::kLow);
 }
 
-TEST(SceneInterpolation, MovesGlovesPropsAndObjectsToo) {
+TEST(SceneInterpolation, InterpolatesGlovesPropsAndObjectsToo) {
   using Eigen::Quaterniond;
   const auto scene_at = [](std::int64_t stamp, double x, double angle, double sign) {
     SceneState scene = SceneAt(stamp, x, LoadClass::kLow);
@@ -60,7 +60,7 @@ TEST(SceneInterpolation, MovesGlovesPropsAndObjectsToo) {
   EXPECT_FALSE(between.people[0].gloves[urdf::kRight]);
 }
 
-TEST(SceneInterpolation, ReturnsTheNearerStateOutside) {
+TEST(SceneInterpolation, ReturnsTheNearerStateOutsideTheInterval) {
   const SceneState a = SceneAt(0, 0.0, LoadClass::kLow);
   const SceneState b = SceneAt(10, 1.0, LoadClass::kHigh);
   EXPECT_EQ(Interpolate(a, b, -5).people[0].com->x(), 0);
@@ -68,7 +68,7 @@ TEST(SceneInterpolation, ReturnsTheNearerStateOutside) {
   EXPECT_EQ(Interpolate(b, a, 5).people[0].com->x(), 1) << "time ran backwards: hold";
 }
 
-TEST(SceneInterpolation, HoldsAPersonWhoLeaves) {
+TEST(SceneInterpolation, KeepsAPersonWhoLeavesInPlace) {
   const SceneState a = SceneAt(0, 0.0, LoadClass::kLow);
   SceneState b = SceneAt(10, 1.0, LoadClass::kLow);
   b.people[0].character = 5;

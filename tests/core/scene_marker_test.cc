@@ -19,7 +19,7 @@ SceneMarker Strip(std::size_t points) {
 
 std::string DefectOf(const SceneMarker& marker) { return FindDefect(marker).value_or(""); }
 
-TEST(SceneMarker, AWholeOneHasNoDefect) {
+TEST(SceneMarker, HasNoDefectIfItIsValid) {
   EXPECT_EQ(DefectOf(SceneMarker()), "");
   EXPECT_EQ(DefectOf(Strip(2)), "");
   SceneMarker mirrored;
@@ -32,7 +32,7 @@ TEST(SceneMarker, AWholeOneHasNoDefect) {
   EXPECT_EQ(DefectOf(flat), "") << "a line has but a width";
 }
 
-TEST(SceneMarker, SaysWhatIsWrong) {
+TEST(SceneMarker, NamesItsInvalidField) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   SceneMarker marker;
   marker.pose.position.x() = nan;
@@ -59,7 +59,7 @@ TEST(SceneMarker, SaysWhatIsWrong) {
   EXPECT_EQ(DefectOf(marker), "its mesh name is empty");
 }
 
-TEST(SceneMarker, CountsPointsAndColours) {
+TEST(SceneMarker, RejectsInvalidNumbersOfPointsAndColours) {
   EXPECT_THAT(DefectOf(Strip(1)), HasSubstr("has 1 points"));
   EXPECT_THAT(DefectOf(Strip(kMaxMarkerPoints + 1)), HasSubstr("at most 100000"));
   SceneMarker pairs = Strip(3);

@@ -52,13 +52,13 @@ Rgb ShownIn(const Image& image, const SphereInPicture& sphere) {
   return sum;
 }
 
-TEST(ColorVision, TellsTheClassesOfThePaletteApart) {
+TEST(ColorVision, DistinguishesTheClassesOfThePalette) {
   std::map<LoadClass, Rgb> colors;
   for (const LoadClass load_class : kClasses) colors[load_class] = ColorOf(load_class);
   ExpectApart(colors, "palette");
 }
 
-TEST(ColorVision, TellsTheClassesApartAsThePictureShadesThem) {
+TEST(ColorVision, DistinguishesTheClassesAsShadedInThePicture) {
   const auto renderer = MakeRenderer();
   PictureSpec spec;
   spec.width = 480;

@@ -43,7 +43,7 @@ Drawable DrawableOf(const SceneState& scene) {
   return drawable;
 }
 
-TEST(WithoutNonFinite, CopiesNothingWhereAllCanBeDrawn) {
+TEST(WithoutNonFinite, CopiesNothingIfEverythingIsFinite) {
   SceneState scene = TwoStanding();
   scene.people[0].com.reset();  // what is not known is nothing to complain about
   scene.people[1].cop.reset();
@@ -52,7 +52,7 @@ TEST(WithoutNonFinite, CopiesNothingWhereAllCanBeDrawn) {
   EXPECT_THAT(drawable.problems, IsEmpty());
 }
 
-TEST(WithoutNonFinite, LeavesOutAPersonOneOfWhoseLinksIsNowhere) {
+TEST(WithoutNonFinite, RemovesAPersonWithANonFiniteLink) {
   for (const double value : kNotFinite) {
     SceneState scene = TwoStanding();
     scene.people[1].links[urdf::kLeftToe].position.y() = value;
@@ -65,7 +65,7 @@ TEST(WithoutNonFinite, LeavesOutAPersonOneOfWhoseLinksIsNowhere) {
   }
 }
 
-TEST(WithoutNonFinite, LooksAtOrientationsGlovesAndPropsToo) {
+TEST(WithoutNonFinite, ChecksOrientationsGlovesAndPropsToo) {
   const double nan = kNotFinite[0];
   SceneState turned = TwoStanding();
   turned.people[0].links[urdf::kHead].orientation.w() = nan;
@@ -82,7 +82,7 @@ TEST(WithoutNonFinite, LooksAtOrientationsGlovesAndPropsToo) {
   EXPECT_THAT(DrawableOf(prop).problems, SizeIs(1));
 }
 
-TEST(WithoutNonFinite, APersonLosesOnlyTheMarksThatAreNowhere) {
+TEST(WithoutNonFinite, RemovesOnlyNonFiniteMarksOfAPerson) {
   const double nan = kNotFinite[0];
   SceneState scene = TwoStanding();
   scene.people[0].loads[2].position.x() = nan;
@@ -103,7 +103,7 @@ TEST(WithoutNonFinite, APersonLosesOnlyTheMarksThatAreNowhere) {
                           HasSubstr("the centre of pressure")));
 }
 
-TEST(WithoutNonFinite, LeavesOutAnObjectByName) {
+TEST(WithoutNonFinite, RemovesANonFiniteObjectAndNamesIt) {
   SceneState scene = TwoStanding();
   scene.objects.push_back(scene.objects[0]);
   scene.objects[0].name = "crate";

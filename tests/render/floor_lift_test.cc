@@ -51,7 +51,7 @@ std::vector<double> HeightsOf(const SceneState& scene, const Camera& camera,
   return heights;
 }
 
-TEST(LiftToFloor, RaisesAllThatHasAPlaceAndNothingSideways) {
+TEST(LiftToFloor, RaisesEverythingWithAPositionWithoutSidewaysMotion) {
   SceneState scene = testing::SceneWith(testing::Posture::kStanding);
   scene.floor_z = -0.75;
   testing::Wear(scene.people[0]);
@@ -83,7 +83,7 @@ TEST(LiftToFloor, RaisesAllThatHasAPlaceAndNothingSideways) {
   EXPECT_EQ(marker->pose.position.z(), 0) << "a marker is shared and must not be changed";
 }
 
-TEST(LiftToFloor, AFloorThatIsAtZeroChangesNothing) {
+TEST(LiftToFloor, ChangesNothingIfTheFloorIsAtZero) {
   SceneState scene = testing::SceneWith(testing::Posture::kDeepBend);
   Camera camera;
   PictureSpec spec;

@@ -23,7 +23,7 @@ Image WithFrameCode(int width, int height, const FrameCode& code) {
   return image;
 }
 
-TEST(FrameCode, SaysWhatWasWrittenInAnySizeAndInHalfOfIt) {
+TEST(FrameCode, IsReadableInAnySizeAndInHalfTheSize) {
   std::mt19937 random(6);
   for (const auto& [width, height] : {std::pair{160, 160}, {320, 240}, {641, 361}, {1080, 1920}}) {
     for (int i = 0; i < 20; ++i) {
@@ -40,14 +40,14 @@ TEST(FrameCode, SaysWhatWasWrittenInAnySizeAndInHalfOfIt) {
   }
 }
 
-TEST(FrameCode, KeepsTheEndsOfItsRange) {
+TEST(FrameCode, KeepsTheLimitsOfItsRange) {
   for (const FrameCode code :
        {FrameCode{0, 0}, FrameCode{0xFFFFFFFF, (1LL << 47) - 1}, FrameCode{1, -(1LL << 47)}}) {
     EXPECT_EQ(ReadFrameCode(WithFrameCode(640, 360, code)), code);
   }
 }
 
-TEST(FrameCode, ADamagedOneSaysNothing) {
+TEST(FrameCode, IsUnreadableIfDamagedOrMissing) {
   const FrameCode code{1234567, 89'012'345};
   for (int bit = 0; bit < kFrameCodeBits; ++bit) {
     Image image = WithFrameCode(1120, 360, code);  // cells of 10 px

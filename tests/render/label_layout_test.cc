@@ -15,7 +15,7 @@ bool Overlap(const LabelBox& a, const LabelPlace& at, const LabelBox& b, const L
          bt.top < at.top + a.height;
 }
 
-TEST(LabelLayout, LeavesALoneLabelWhereItIs) {
+TEST(LabelLayout, LeavesASingleLabelInPlace) {
   const auto places = PlaceLabels({{100, 50, 40, 20}}, kWidth, kHeight);
   ASSERT_TRUE(places[0]);
   EXPECT_EQ(places[0]->left, 80);
@@ -23,7 +23,7 @@ TEST(LabelLayout, LeavesALoneLabelWhereItIs) {
   EXPECT_FALSE(places[0]->is_moved);
 }
 
-TEST(LabelLayout, NoLabelCoversAnotherOrLeavesThePicture) {
+TEST(LabelLayout, KeepsLabelsSeparateAndInsideThePicture) {
   std::mt19937 random(6);  // the same on every run
   std::uniform_real_distribution<double> x(0, kWidth), y(0, kHeight), width(20, 120);
   std::vector<LabelBox> boxes;
@@ -45,7 +45,7 @@ TEST(LabelLayout, NoLabelCoversAnotherOrLeavesThePicture) {
   EXPECT_GE(shown, 60) << "of 70, a third of the picture: there is room for nearly all";
 }
 
-TEST(LabelLayout, WhatMayNotMoveIsThereOrNowhere) {
+TEST(LabelLayout, PlacesFixedLabelsAtTheirPlaceOrNotAtAll) {
   const std::vector<LabelBox> boxes = {
       {100, 100, 40, 20}, {110, 105, 40, 20, false}, {200, 100, 40, 20, false}};
   const auto places = PlaceLabels(boxes, kWidth, kHeight);
@@ -55,7 +55,7 @@ TEST(LabelLayout, WhatMayNotMoveIsThereOrNowhere) {
   EXPECT_EQ(places[2]->left, 180);
 }
 
-TEST(LabelLayout, NamesNothingThatIsOutsideOrNowhere) {
+TEST(LabelLayout, OmitsLabelsOutsideThePictureAndNonFiniteOnes) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto places = PlaceLabels(
       {{-1, 50, 40, 20}, {100, 400, 40, 20}, {nan, 50, 40, 20}, {1, 1, 40, 20}}, kWidth, kHeight);
@@ -66,7 +66,7 @@ TEST(LabelLayout, NamesNothingThatIsOutsideOrNowhere) {
   EXPECT_EQ(places[3]->left, 0);
 }
 
-TEST(LabelLayout, TakesAnyNumber) {
+TEST(LabelLayout, AcceptsAnyNumberOfLabels) {
   const std::vector<LabelBox> boxes(20'000, LabelBox{320, 180, 60, 20});
   const auto places = PlaceLabels(boxes, kWidth, kHeight);
   ASSERT_EQ(places.size(), boxes.size());

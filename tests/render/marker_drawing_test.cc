@@ -58,7 +58,7 @@ class MarkerDrawing : public ::testing::Test {
   PictureSpec spec_;
 };
 
-TEST_F(MarkerDrawing, EveryTypeIsDrawnWhereItIs) {
+TEST_F(MarkerDrawing, RendersEveryTypeAtItsPosition) {
   const Image empty = Draw(Empty());
   const std::vector<SceneMarker> all = All();
   ASSERT_EQ(all.size(), 12u);
@@ -75,7 +75,7 @@ TEST_F(MarkerDrawing, EveryTypeIsDrawnWhereItIs) {
   EXPECT_THAT(renderer_->problems(), ::testing::IsEmpty());
 }
 
-TEST_F(MarkerDrawing, WhatIsNotANumberIsNamedAndTheRestIsDrawn) {
+TEST_F(MarkerDrawing, NamesNonFiniteMarkersAndRendersTheOthers) {
   SceneMarker good = Sample(MarkerType::kCube);
   SceneMarker bad = good;
   bad.ns = "walls";
@@ -87,7 +87,7 @@ TEST_F(MarkerDrawing, WhatIsNotANumberIsNamedAndTheRestIsDrawn) {
   EXPECT_THAT(log_, ::testing::ElementsAre(::testing::HasSubstr("position is not finite")));
 }
 
-TEST_F(MarkerDrawing, MoreThanAPictureCanTakeIsRefusedByName) {
+TEST_F(MarkerDrawing, RejectsTooManyTrianglesByName) {
   SceneMarker flood;
   flood.ns = "flood";
   flood.type = MarkerType::kSphereList;
@@ -102,7 +102,7 @@ TEST_F(MarkerDrawing, MoreThanAPictureCanTakeIsRefusedByName) {
   EXPECT_THAT(renderer_->problems(), ::testing::SizeIs(21)) << "one fault, not thousands of lines";
 }
 
-TEST_F(MarkerDrawing, AMissingMeshIsABoxWithItsName) {
+TEST_F(MarkerDrawing, ShowsABoxForAMissingMeshAndNamesIt) {
   SceneMarker mesh = Sample(MarkerType::kMesh);
   mesh.mesh_uri = "file:///nowhere/cup.stl";
   const Image empty = Draw(Empty());
@@ -110,7 +110,7 @@ TEST_F(MarkerDrawing, AMissingMeshIsABoxWithItsName) {
   EXPECT_THAT(renderer_->problems(), ::testing::ElementsAre(::testing::HasSubstr("cup.stl")));
 }
 
-TEST_F(MarkerDrawing, OneThatShinesThroughMixesWithWhatIsBehind) {
+TEST_F(MarkerDrawing, BlendsTranslucentMarkersWithTheirBackground) {
   SceneMarker cube = Sample(MarkerType::kCube);
   cube.pose.position = {0, 0, 0.8};
   const auto middle = [&](double opacity) {

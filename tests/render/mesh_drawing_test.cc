@@ -113,7 +113,7 @@ double ExpectedSide(const SceneState& state, double side) {
   return side * Project(front, NamedCamera("front", state), 640, 360).px_per_m;
 }
 
-TEST_F(MeshDrawing, ShowsEveryKindOfFileWhereTheLinkIs) {
+TEST_F(MeshDrawing, ShowsEveryFileFormatAtTheLink) {
   for (const std::string& uri :
        {"file://" + Write("cube.stl", CubeStl()).string(), Write("cube.obj", CubeObj()).string(),
         "file://" + Write("a%b cube.stl", CubeStl()).parent_path().string() +
@@ -130,7 +130,7 @@ TEST_F(MeshDrawing, ShowsEveryKindOfFileWhereTheLinkIs) {
   EXPECT_THAT(log_, ::testing::IsEmpty());
 }
 
-TEST_F(MeshDrawing, HasTheFilesOfAModelWrittenBeforeItReadsThem) {
+TEST_F(MeshDrawing, RequestsTheMeshFilesOfAModelBeforeReadingThem) {
   SceneState state = HeadFromFile((folder_ / "cube.stl").string());
   auto model = std::make_shared<PersonModel>(*state.people[0].model);
   model->mesh_files =
@@ -140,13 +140,13 @@ TEST_F(MeshDrawing, HasTheFilesOfAModelWrittenBeforeItReadsThem) {
   EXPECT_THAT(log_, ::testing::IsEmpty());
 }
 
-TEST_F(MeshDrawing, ScalesAsTheUrdfSays) {
+TEST_F(MeshDrawing, AppliesTheScaleOfTheUrdf) {
   const SceneState state = HeadFromFile(Write("cube.stl", CubeStl()).string(), 0.5);
   const Comparison drawn = Drawn(state);
   EXPECT_NEAR(drawn.right - drawn.left + 1, ExpectedSide(state, 0.1), 2);
 }
 
-TEST_F(MeshDrawing, AMeshThatIsInsideOutIsStillASolid) {
+TEST_F(MeshDrawing, RendersAnInsideOutMeshLikeACorrectOne) {
   const SceneState good = HeadFromFile(Write("good.stl", CubeStl()).string());
   const SceneState bad = HeadFromFile(Write("bad.stl", CubeStl(true)).string());
   const Camera camera = NamedCamera("three_quarter", good);
@@ -155,7 +155,7 @@ TEST_F(MeshDrawing, AMeshThatIsInsideOutIsStillASolid) {
 }
 
 // Four walls without lid and floor: seen from above at an angle, the far walls show from within.
-TEST_F(MeshDrawing, AnOpenSurfaceIsSeenFromWithinToo) {
+TEST_F(MeshDrawing, RendersBothSidesOfAnOpenSurface) {
   std::string tube = CubeObj();
   const std::string::size_type lids = tube.find("f 1 3 4 2");
   tube = tube.substr(0, lids) + "f 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
@@ -175,7 +175,7 @@ TEST_F(MeshDrawing, AnOpenSurfaceIsSeenFromWithinToo) {
   EXPECT_GT(Compare(picture, renderer_->Render(closed, camera, spec_)).pixels, 100);
 }
 
-TEST_F(MeshDrawing, AMissingMeshIsABoxWithALabelAndOneLineOfLog) {
+TEST_F(MeshDrawing, ShowsALabelledBoxForAMissingMeshAndLogsItOnce) {
   const SceneState state = HeadFromFile("file:///no/such/head.stl");
   const Camera camera = NamedCamera("front", state);
   EXPECT_GT(Drawn(state).pixels, 100);
@@ -197,7 +197,7 @@ TEST_F(MeshDrawing, AMissingMeshIsABoxWithALabelAndOneLineOfLog) {
                                         ::testing::Not(::testing::HasSubstr("\n"))));
 }
 
-TEST_F(MeshDrawing, WhatIsNoMeshIsReportedAndDrawnAsABox) {
+TEST_F(MeshDrawing, ReportsInvalidMeshesAndRendersBoxes) {
   const std::string whole = CubeStl();
   for (const std::string& uri :
        {Write("empty.stl", "").string(), Write("noise.stl", "no mesh at all").string(),
@@ -210,7 +210,7 @@ TEST_F(MeshDrawing, WhatIsNoMeshIsReportedAndDrawnAsABox) {
   }
 }
 
-TEST_F(MeshDrawing, AMeshOfTenMillionTrianglesIsABoxAndIsNamed) {
+TEST_F(MeshDrawing, ShowsABoxForAMeshOfTenMillionTrianglesAndNamesIt) {
   constexpr std::uint32_t kTriangles = 10'000'000;
   std::string header(84, '\0');
   std::memcpy(header.data() + 80, &kTriangles, sizeof kTriangles);
@@ -221,7 +221,7 @@ TEST_F(MeshDrawing, AMeshOfTenMillionTrianglesIsABoxAndIsNamed) {
   EXPECT_THAT(log_[0], ::testing::HasSubstr("many.stl"));
 }
 
-TEST_F(MeshDrawing, AFileTheSizeOfADiskIsNotRead) {
+TEST_F(MeshDrawing, RejectsHugeFilesWithoutReadingThem) {
   const std::filesystem::path huge = Write("huge.stl", "");
   std::filesystem::resize_file(huge, std::uintmax_t{1} << 32);  // sparse: it takes no room
   Drawn(HeadFromFile(huge.string()));

@@ -18,7 +18,7 @@ extern "C" __attribute__((visibility("default"))) const AVCodec* avcodec_find_en
 namespace kinescope::render {
 namespace {
 
-TEST(MissingEncoder, IsNamedWithThePackageThatHasIt) {
+TEST(MissingEncoder, IsReportedWithItsPackage) {
   const testing::TempFolder folder;
   const auto message = [&](const char* name) -> std::string {
     try {

@@ -36,12 +36,12 @@ std::string ErrorOfLoading(const char* entry = kPlotEntry) {
   return "";
 }
 
-TEST(Module, OfThisBuildIsLoaded) {
+TEST(Module, IsLoadedIfItBelongsToThisBuild) {
   EXPECT_EQ(ErrorOfLoading<PlotModule>(), "");
   EXPECT_NE(OpenModule<PlotModule>(kPlotFile, kPlotEntry).svg, nullptr);
 }
 
-TEST(Module, OfAnotherBuildIsRefusedWithTheWayOut) {
+TEST(Module, IsRejectedWithARemedyIfItBelongsToAnotherBuild) {
   EXPECT_THAT(ErrorOfLoading<TableWithAnotherImage>(),
               AllOf(HasSubstr(kPlotFile), HasSubstr("different builds"), HasSubstr("again")));
   EXPECT_THAT(ErrorOfLoading<TableOfOneType>(), HasSubstr("different builds"));

@@ -23,7 +23,7 @@ PictureSpec Small() {
   return spec;
 }
 
-TEST(MultiView, EachViewIsThePictureOfItsCamera) {
+TEST(MultiView, ShowsThePictureOfEachCamera) {
   const auto renderer = MakeRenderer();
   const SceneState state = kinescope::testing::MixedScene(kinescope::testing::Posture::kStanding);
   PictureSpec spec = Small();
@@ -40,7 +40,7 @@ TEST(MultiView, EachViewIsThePictureOfItsCamera) {
   }
 }
 
-TEST(MultiView, WithoutPerspectiveSpheresAreWhereTheCameraSays) {
+TEST(MultiView, PutsSpheresAtTheirProjectionsWithoutPerspective) {
   const auto renderer = MakeRenderer();
   const SceneState state = kinescope::testing::MixedScene(kinescope::testing::Posture::kStanding);
   const Camera camera = Orthographic(NamedCamera("front", state));
@@ -53,7 +53,7 @@ TEST(MultiView, WithoutPerspectiveSpheresAreWhereTheCameraSays) {
   EXPECT_THAT(FindSphereMismatches(image, spheres), ::testing::IsEmpty());
 }
 
-TEST(OverlayLayer, IsAsLargeAsThePictureAndTheSameEveryTime) {
+TEST(OverlayLayer, HasTheSizeOfThePictureAndIsReproducible) {
   const auto renderer = MakeRenderer();
   const SceneState state = kinescope::testing::MixedScene(kinescope::testing::Posture::kStanding);
   const Camera camera = NamedCamera("front", state);

@@ -72,7 +72,7 @@ TEST(OverlayLegend, NamesTheLimitsOfTheClasses) {
   EXPECT_TRUE(rows[2].has_rim) << "the high class differs in shape, too";
 }
 
-TEST(OverlayLegend, HasNoRowForAHiddenPart) {
+TEST(OverlayLegend, HasNoRowForAHiddenElement) {
   const SceneState state = SceneWith(Posture::kStanding);
   SceneLook look;
   for (const ScenePart part : {ScenePart::kCom, ScenePart::kCop}) look.shown.Set(part, true);
@@ -82,7 +82,7 @@ TEST(OverlayLegend, HasNoRowForAHiddenPart) {
   EXPECT_THAT(LegendOf(state, look), IsEmpty());
 }
 
-TEST(OverlayLegend, ExplainsForceArrowsOnceAForceActsOnAFoot) {
+TEST(OverlayLegend, ExplainsForceArrowsIfAForceActsOnAFoot) {
   SceneState state = SceneWith(Posture::kStanding);
   SceneLook look;
   look.shown.Set(ScenePart::kForces, true);
@@ -97,7 +97,7 @@ TEST(OverlayLegend, ExplainsForceArrowsOnceAForceActsOnAFoot) {
   EXPECT_TRUE(rows.back().is_arrow);
 }
 
-TEST(OverlayLegend, CoversAtMostThreeTenthsOfThePictureOrHasTheClassesAlone) {
+TEST(OverlayLegend, CoversAtMostThreeTenthsOfThePictureOrShowsTheClassesOnly) {
   const SceneState state = SceneWith(Posture::kStanding);
   const TextRecorder wide = PaintedLegend(state, 1280), narrow = PaintedLegend(state, 500);
   EXPECT_EQ(wide.texts.front(), "Joint load, % of capacity");
@@ -105,7 +105,7 @@ TEST(OverlayLegend, CoversAtMostThreeTenthsOfThePictureOrHasTheClassesAlone) {
   EXPECT_THAT(narrow.texts, ElementsAre("≤ 30", "≤ 60", "> 60 %"));
 }
 
-TEST(OverlayLegend, EndsWithTheMetricAndAnAssumedMass) {
+TEST(OverlayLegend, EndsWithTheAssumedBodyMass) {
   SceneState state = SceneWith(Posture::kStanding);
   auto model = std::make_shared<PersonModel>(*state.people[0].model);
   model->description.mass_is_assumed = true;

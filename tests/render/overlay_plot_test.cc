@@ -73,7 +73,7 @@ Image PlotWith(const std::array<double, 2>& class_limits, double ratio) {
   return image;
 }
 
-TEST(OverlayPlot, ItsBandsAreThoseOfTheScenesClassLimits) {
+TEST(OverlayPlot, HasBandsAtTheClassLimitsOfTheScene) {
   struct Case {
     std::array<double, 2> limits;
     double ratio, top;

@@ -14,7 +14,7 @@
 namespace kinescope::render {
 namespace {
 
-TEST(Overlay, WritesTimesAsPeopleReadThem) {
+TEST(Overlay, WritesTimesAsHoursMinutesAndSeconds) {
   EXPECT_EQ(TimeCode(0), "00:00:00.000");
   EXPECT_EQ(TimeCode(12'345), "00:00:12.345");
   EXPECT_EQ(TimeCode(3'600'000 + 2 * 60'000 + 3'004), "01:02:03.004");
@@ -23,7 +23,7 @@ TEST(Overlay, WritesTimesAsPeopleReadThem) {
   EXPECT_FALSE(TimeCode(std::numeric_limits<std::int64_t>::min()).empty());
 }
 
-TEST(Font, DecodesWhatIsUtf8AndMarksWhatIsNot) {
+TEST(Font, DecodesUtf8AndReplacesInvalidBytes) {
   EXPECT_EQ(DecodeUtf8("aé€😀"), U"aé€😀");
   EXPECT_EQ(DecodeUtf8("\xC0\xAF"), U"\uFFFD\uFFFD") << "overlong";
   EXPECT_EQ(DecodeUtf8("\xE2\x82"), U"\uFFFD") << "cut short";
@@ -32,13 +32,13 @@ TEST(Font, DecodesWhatIsUtf8AndMarksWhatIsNot) {
   EXPECT_EQ(DecodeUtf8("a\nb"), U"a\uFFFDb") << "control character";
 }
 
-TEST(Font, LongerTextIsWider) {
+TEST(Font, MeasuresLongerTextAsWiderAndDigitsAsEqual) {
   Font font("DejaVuSans.ttf");
   EXPECT_GT(font.Width("MM", 16), font.Width("M", 16));
   EXPECT_NEAR(font.Width("00", 16), font.Width("19", 16), 1e-9) << "a clock must not jitter";
 }
 
-TEST(Font, AMissingFontNamesThePackage) {
+TEST(Font, NamesThePackageOfAMissingFont) {
   try {
     Font("NoSuchFont.ttf");
     FAIL() << "opened a font that does not exist";
@@ -47,7 +47,7 @@ TEST(Font, AMissingFontNamesThePackage) {
   }
 }
 
-TEST(Canvas, CutsOffWhatLiesOutside) {
+TEST(Canvas, ClipsShapesAtItsEdges) {
   Image image{8, 8, std::vector<std::uint8_t>(4 * 8 * 8, 255)};
   Canvas canvas(image);
   Font font("DejaVuSans.ttf");
@@ -60,7 +60,7 @@ TEST(Canvas, CutsOffWhatLiesOutside) {
   EXPECT_EQ(image.rgba[4 * (4 * 8 + 0) + 3], 255) << "opaque as before";
 }
 
-TEST(Canvas, EdgesAreHalfCovered) {
+TEST(Canvas, AntialiasesEdges) {
   Image image{4, 1, std::vector<std::uint8_t>(16, 255)};
   Canvas canvas(image);
   canvas.RoundedBox(0, -10, 1.5, 20, 0, {{0, 0, 0}, 1});
@@ -69,7 +69,7 @@ TEST(Canvas, EdgesAreHalfCovered) {
   EXPECT_EQ(image.rgba[8], 255);
 }
 
-TEST(Canvas, ALineIsPaintedOnceWhereItsPiecesMeet) {
+TEST(Canvas, PaintsALineOnceWhereItsSegmentsMeet) {
   Image bent{20, 20, std::vector<std::uint8_t>(1600, 255)}, straight = bent;
   Canvas(bent).Polyline({{3, 10.2}, {7, 10.2}, {11, 10.2}, {17, 10.2}}, 3, {{0, 0, 0}, 0.5});
   Canvas(straight).Polyline({{3, 10.2}, {17, 10.2}}, 3, {{0, 0, 0}, 0.5});
@@ -77,7 +77,7 @@ TEST(Canvas, ALineIsPaintedOnceWhereItsPiecesMeet) {
   EXPECT_NEAR(bent.rgba[4 * (10 * 20 + 10)], 128, 1);
 }
 
-TEST(Canvas, APartIsNeverLeft) {
+TEST(Canvas, PaintsOnlyInsideTheSelectedPart) {
   Image image{20, 20, std::vector<std::uint8_t>(1600, 255)};
   Canvas canvas(image);
   canvas.Enter({5, 6, 4, 3});
@@ -88,7 +88,7 @@ TEST(Canvas, APartIsNeverLeft) {
   EXPECT_EQ(painted, 4 * 3);
 }
 
-TEST(ScaleBar, IsARoundLengthThatIsTrueAtTheTarget) {
+TEST(ScaleBar, HasARoundLengthThatIsCorrectAtTheTarget) {
   Camera camera;
   camera.position = {7, 0, 1};
   camera.target = {0, 0, 1};
@@ -102,7 +102,7 @@ TEST(ScaleBar, IsARoundLengthThatIsTrueAtTheTarget) {
   EXPECT_EQ(ScaleBarOf(camera, 1280, 720, 200).text, "10 m");
 }
 
-TEST(MultiView, CutsThePictureWithoutRemainder) {
+TEST(MultiView, DividesThePictureWithoutRemainder) {
   const auto tiles = PaneTiles(1001, 500, 5, 3);
   ASSERT_EQ(tiles.size(), 5u);
   EXPECT_EQ(tiles[2].x + tiles[2].width, 1001);

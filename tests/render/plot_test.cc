@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Pointwise;
 
-TEST(Plot, PutsTicksAtRoundNumbers) {
+TEST(Plot, HasTicksAtRoundNumbers) {
   EXPECT_THAT(NiceTicks(0, 1, 5), ElementsAre(0, 0.2, 0.4, DoubleNear(0.6, 1e-12), 0.8, 1));
   EXPECT_THAT(NiceTicks(-7, 12, 4), ElementsAre(-5, 0, 5, 10));
   EXPECT_THAT(NiceTicks(0, 8, 8), ElementsAre(0, 1, 2, 3, 4, 5, 6, 7, 8));
@@ -25,7 +25,7 @@ TEST(Plot, PutsTicksAtRoundNumbers) {
   }
 }
 
-TEST(Plot, ThinsACurveWithoutLosingItsPeaksAndItsGaps) {
+TEST(Plot, KeepsPeaksAndGapsOfAThinnedCurve) {
   std::vector<std::pair<double, double>> points;
   for (int i = 0; i < 100000; ++i) points.emplace_back(i, std::sin(0.01 * i));
   points[31415].second = 7;
@@ -67,7 +67,7 @@ std::vector<double> PixelAt(const Image& image, double x_pt, double y_pt, double
   return {1.0 * image.rgba[at], 1.0 * image.rgba[at + 1], 1.0 * image.rgba[at + 2]};
 }
 
-TEST(Plot, DrawsBandsAndClassesWhereTheyBelong) {
+TEST(Plot, ShowsBandsAndClassesAtTheirPlaces) {
   const Image image = ToImage(OnePanel(), 4);
   EXPECT_EQ(image.width, 400);
   EXPECT_EQ(image.height, 320);
@@ -87,12 +87,12 @@ TEST(Plot, DrawsBandsAndClassesWhereTheyBelong) {
   EXPECT_THAT(PixelAt(image, 80, foot_of_timeline, 4), Pointwise(DoubleNear(1), levels(low)));
 }
 
-TEST(Plot, IsTheSameEveryTimeInBothFormats) {
+TEST(Plot, IsReproducibleInBothFormats) {
   EXPECT_EQ(ToSvg(OnePanel()), ToSvg(OnePanel()));
   EXPECT_EQ(ToImage(OnePanel(), 2).rgba, ToImage(OnePanel(), 2).rgba);
 }
 
-TEST(Plot, SetsNamesThatAreNoUtf8AndValuesThatAreFarAway) {
+TEST(Plot, AcceptsInvalidUtf8AndHugeValues) {
   Plot plot = OnePanel();
   plot.texts.push_back({5, 70, "\xFF\xC0 name", 8, false, {}});
   PlotCurve curve;

@@ -64,7 +64,7 @@ SceneState BareScene(Posture posture, double x = 0, double y = 0) {
   return state;
 }
 
-TEST(Renderer, PutsThePersonWhereTheStateSays) {
+TEST(Renderer, ShowsThePersonAtThePositionOfTheState) {
   const auto renderer = MakeRenderer();
   for (const Posture posture : {Posture::kStanding, Posture::kDeepBend, Posture::kArmsForward}) {
     const SceneState state = BareScene(posture, 1.5, -0.5);
@@ -90,7 +90,7 @@ TEST(Renderer, PutsThePersonWhereTheStateSays) {
   }
 }
 
-TEST(Renderer, TheSameStateIsTheSameBytesWhateverWasDrawnBefore) {
+TEST(Renderer, RendersTheSameBytesForTheSameStateAfterAnyOtherPicture) {
   const SceneState state = MixedScene(Posture::kDeepBend);
   const Camera camera = NamedCamera("three_quarter", state);
   PictureSpec spec = SmallView(true);
@@ -112,7 +112,7 @@ TEST(Renderer, TheSameStateIsTheSameBytesWhateverWasDrawnBefore) {
   }
 }
 
-TEST(Renderer, EightThreadsWithOneEachDrawTheSameBytes) {
+TEST(Renderer, RendersTheSameBytesInEightThreads) {
   const SceneState state = MixedScene(Posture::kStanding);
   const Camera camera = NamedCamera("iso", state);
   PictureSpec spec = SmallView(true);
@@ -132,7 +132,7 @@ TEST(Renderer, EightThreadsWithOneEachDrawTheSameBytes) {
 }
 
 // Recordings without leg sensors have the pelvis near z = 0 and the floor below it.
-TEST(Renderer, ShowsTheSamePictureWhereverTheFloorIs) {
+TEST(Renderer, ShowsTheSamePictureAtAnyFloorHeight) {
   SceneState here = MixedScene(Posture::kStanding);
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     PersonState& person = here.people.at(0);
@@ -164,13 +164,13 @@ TEST(Renderer, ShowsTheSamePictureWhereverTheFloorIs) {
   EXPECT_LE(Compare(a, b).pixels, 5) << Describe(Compare(a, b), b);  // of 57600; edges may round
 }
 
-TEST(Renderer, EveryPixelIsOpaque) {
+TEST(Renderer, RendersOpaquePixelsOnly) {
   const Image image =
       MakeRenderer()->Render(MixedScene(Posture::kStanding), Camera(), SmallView(true));
   for (std::size_t at = 3; at < image.rgba.size(); at += 4) ASSERT_EQ(image.rgba[at], 255);
 }
 
-TEST(Renderer, RenderIntoReusesMemoryAndTakesAnyFormerSize) {
+TEST(Renderer, ReusesTheMemoryOfAPictureOfAnySize) {
   const auto renderer = MakeRenderer();
   const SceneState state = MixedScene(Posture::kStanding);
   PictureSpec spec = SmallView();
@@ -186,7 +186,7 @@ TEST(Renderer, RenderIntoReusesMemoryAndTakesAnyFormerSize) {
   EXPECT_EQ(image.width, 640);
 }
 
-TEST(Renderer, StaleAndNoDataLookLikeNothingElse) {
+TEST(Renderer, ShowsStaleAndMissingDataClearly) {
   const auto renderer = MakeRenderer();
   const SceneState live = SceneWith(Posture::kStanding, LoadClass::kUnknown);
   SceneState stale = live;
@@ -206,7 +206,7 @@ TEST(Renderer, StaleAndNoDataLookLikeNothingElse) {
   EXPECT_GT(DifferenceAt(bare_live, bare_stale, camera, head), 30);
 }
 
-TEST(Renderer, DrawsThePeopleWhoAreThere) {
+TEST(Renderer, ShowsExactlyThePeopleOfTheScene) {
   const auto renderer = MakeRenderer();
   SceneState one = SceneWith(Posture::kStanding, LoadClass::kLow, 0, -0.8);
   SceneState two = one;
@@ -235,7 +235,7 @@ TEST(Renderer, ShowsAChangedModelAtOnce) {
   EXPECT_GT(Compare(before, renderer->Render(state, camera, SmallView())).pixels, 500);
 }
 
-TEST(Renderer, SupersamplingSmoothsAndChangesNothingElse) {
+TEST(Renderer, SmoothsEdgesAndChangesNothingElseWhenSupersampling) {
   const auto renderer = MakeRenderer();
   const SceneState state = MixedScene(Posture::kStanding);
   const Camera camera = NamedCamera("three_quarter", state);
@@ -253,7 +253,7 @@ TEST(Renderer, SupersamplingSmoothsAndChangesNothingElse) {
 }
 
 // 4200 px are drawn as two tiles; the person stands on the seam.
-TEST(Renderer, LargePicturesHaveNoSeams) {
+TEST(Renderer, RendersLargePicturesWithoutSeams) {
   const auto renderer = MakeRenderer();
   const SceneState state = MixedScene(Posture::kStanding);
   PictureSpec spec = SmallView();
@@ -282,7 +282,7 @@ TEST(Renderer, LargePicturesHaveNoSeams) {
       << "neighbouring columns differ more across the seam than beside it";
 }
 
-TEST(Renderer, OverlaysKeepClearOfThePerson) {
+TEST(Renderer, KeepsOverlaysAwayFromThePerson) {
   const auto renderer = MakeRenderer();
   const SceneState state = MixedScene(Posture::kStanding);
   const Camera camera = NamedCamera("front", state);
@@ -313,7 +313,7 @@ TEST(Renderer, OverlaysKeepClearOfThePerson) {
   }
 }
 
-TEST(Renderer, TakesTextOfAnyKind) {
+TEST(Renderer, AcceptsAnyText) {
   const auto renderer = MakeRenderer();
   SceneState state = MixedScene(Posture::kStanding);
   state.people.push_back(state.people[0]);
@@ -329,7 +329,7 @@ TEST(Renderer, TakesTextOfAnyKind) {
   }
 }
 
-TEST(Renderer, RefusesSizesThatNobodyCanMean) {
+TEST(Renderer, RejectsInvalidSizesAndSupersampling) {
   const auto renderer = MakeRenderer();
   for (const auto& [width, height] :
        {std::pair{0, 720}, {-5, 720}, {15, 720}, {1280, 8193}, {1 << 30, 16}}) {
@@ -350,7 +350,7 @@ TEST(Renderer, RefusesSizesThatNobodyCanMean) {
   EXPECT_EQ(renderer->Render(SceneState(), Camera(), spec).rgba.size(), 4u * 333 * 17);
 }
 
-TEST(Renderer, WhatIsNotFiniteIsLeftOutAndNamed) {
+TEST(Renderer, OmitsNonFiniteElementsAndNamesThem) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::string> log;
   const auto renderer =
@@ -378,7 +378,7 @@ TEST(Renderer, WhatIsNotFiniteIsLeftOutAndNamed) {
   EXPECT_THROW(renderer->Render(one, nowhere, SmallView()), RenderError);
 }
 
-TEST(Renderer, AProcessHasOneBackEnd) {
+TEST(Renderer, RejectsASecondBackEndInTheSameProcess) {
   MakeRenderer();
   try {
     MakeRenderer("egl");
@@ -389,7 +389,7 @@ TEST(Renderer, AProcessHasOneBackEnd) {
 }
 
 // What a driver says of itself through KHR_debug, here by its own means of saying anything.
-TEST(Renderer, WarningsOfOpenGlComeToTheLogOnceAndInOneLine) {
+TEST(Renderer, LogsWarningsOfOpenGlOnceAndInOneLine) {
   std::vector<std::string> log;
   const auto renderer =
       MakeRenderer("osmesa", [&](const std::string& line) { log.push_back(line); });
@@ -410,7 +410,7 @@ TEST(Renderer, WarningsOfOpenGlComeToTheLogOnceAndInOneLine) {
 
 // VTK notes every step of drawing in one list of the process, without a lock: two threads that draw
 // lose its strings or write into freed ones.
-TEST(Renderer, LeavesTheListThatVtksRenderersShareEmpty) {
+TEST(Renderer, LeavesTheSharedEventListOfVtkEmpty) {
   const auto renderer = MakeRenderer();
   renderer->Render(EmptyScene(), Camera(), SmallView());
   std::string path;  // of the library, which the module alone is linked with
@@ -428,7 +428,7 @@ TEST(Renderer, LeavesTheListThatVtksRenderersShareEmpty) {
   EXPECT_EQ(count(), 0);
 }
 
-TEST(Watchdog, SpeaksOnceOfWorkThatTakesTooLongAndNotOfOther) {
+TEST(Watchdog, ReportsOnceEachWorkThatExceedsItsLimit) {
   std::mutex mutex;
   std::condition_variable changed;
   std::vector<std::string> said;
@@ -453,7 +453,7 @@ TEST(Watchdog, SpeaksOnceOfWorkThatTakesTooLongAndNotOfOther) {
   EXPECT_THAT(said, ::testing::ElementsAre("short limit", "again"));
 }
 
-TEST(Renderer, AnUnknownBackEndIsAnsweredWithTheKnownOnes) {
+TEST(Renderer, RejectsAnUnknownBackEndAndListsTheKnownOnes) {
   try {
     MakeRenderer("vulkan");
     FAIL() << "made a back-end that does not exist";
@@ -463,12 +463,12 @@ TEST(Renderer, AnUnknownBackEndIsAnsweredWithTheKnownOnes) {
   }
 }
 
-TEST(Renderer, SaysWhatDraws) {
+TEST(Renderer, NamesTheRenderingSoftware) {
   EXPECT_THAT(MakeRenderer()->renderer_string(), ::testing::HasSubstr("llvmpipe"));
 }
 
 // Only so does a picture not depend on the machine's processor.
-TEST(Renderer, PinsTheInstructionSetUnlessTheUserChose) {
+TEST(Renderer, SetsTheInstructionSetUnlessTheUserChoseOne) {
   ::unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");
   MakeRenderer();
   ASSERT_NE(std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"), nullptr);
@@ -479,7 +479,7 @@ TEST(Renderer, PinsTheInstructionSetUnlessTheUserChose) {
   ::unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");
 }
 
-TEST(RendererDeathTest, StopsWhoeverUsesItOnAnotherThread) {
+TEST(RendererDeathTest, EndsTheProcessWhenUsedOnAnotherThread) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_DEATH(
       {

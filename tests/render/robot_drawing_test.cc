@@ -93,7 +93,7 @@ class RobotDrawing : public ::testing::Test {
   PictureSpec spec_;
 };
 
-TEST_F(RobotDrawing, ALinkIsWhereItsJointPutsIt) {
+TEST_F(RobotDrawing, ShowsLinksAtThePositionsOfTheirJoints) {
   const std::string xml =
       "<robot name='r'><link name='a'/><link name='b'><visual><geometry><box size='0.2 0.2 0.2'/>"
       "</geometry></visual></link><joint name='j' type='prismatic'><parent link='a'/>"
@@ -108,7 +108,7 @@ TEST_F(RobotDrawing, ALinkIsWhereItsJointPutsIt) {
   }
 }
 
-TEST_F(RobotDrawing, HasAsManyLinksAsItLikes) {
+TEST_F(RobotDrawing, ShowsAnyNumberOfLinks) {
   std::string xml = "<robot name='r'><link name='l0'/>";
   for (int i = 1; i <= 100; ++i) {
     const std::string n = std::to_string(i);
@@ -128,7 +128,7 @@ TEST_F(RobotDrawing, HasAsManyLinksAsItLikes) {
 
 // A mesh mirrored by its scale is the same surface as one whose corners were mirrored: were it
 // inside out, its light or its culled faces would tell.
-TEST_F(RobotDrawing, NegativeAndUnevenScalesKeepSurfacesOutside) {
+TEST_F(RobotDrawing, KeepsSurfacesFacingOutwardForNegativeAndUnevenScales) {
   Write("box.stl", BoxStl());
   for (const auto& [scale, origin, size] :
        {std::tuple("-0.2 0.2 0.2", "0.1 -0.2 0.7", "0.2 0.4 0.6"),
@@ -153,7 +153,7 @@ TEST_F(RobotDrawing, NegativeAndUnevenScalesKeepSurfacesOutside) {
   }
 }
 
-TEST_F(RobotDrawing, AMissingOrRefusedMeshIsALabelledBoxAndNamed) {
+TEST_F(RobotDrawing, ShowsALabelledBoxForAMissingOrRejectedMeshAndNamesIt) {
   Write("lies.stl", BoxStl(4'000'000'000u));
   Write("giant.stl", BoxStl());
   for (const auto& [file, scale, reason] :
@@ -181,7 +181,7 @@ TEST_F(RobotDrawing, AMissingOrRefusedMeshIsALabelledBoxAndNamed) {
 }
 
 // As RViz does it.
-TEST_F(RobotDrawing, ColoursComeFromTheFileThenFromTheUrdf) {
+TEST_F(RobotDrawing, PrefersColoursOfTheFileToThoseOfTheUrdf) {
   Write("box.dae", kinescope::testing::BoxDae());
   Write("plain.obj", kinescope::testing::BoxObj());
   const auto color = [&](const std::string& file, const std::string& material) {
@@ -200,7 +200,7 @@ TEST_F(RobotDrawing, ColoursComeFromTheFileThenFromTheUrdf) {
   EXPECT_NEAR(from_none[0], from_none[1], 12) << "grey";
 }
 
-TEST_F(RobotDrawing, AColladasUpAxisIsIgnoredAsInRViz) {
+TEST_F(RobotDrawing, IgnoresTheUpAxisOfColladaAsRVizDoes) {
   kinescope::testing::DaeOptions options;
   Write("z.dae", kinescope::testing::BoxDae(options));
   const SceneState as_written = SceneOf({MeshAt("0 0 0.5", "z.dae", "0.2 0.2 0.2")});
@@ -215,7 +215,7 @@ TEST_F(RobotDrawing, AColladasUpAxisIsIgnoredAsInRViz) {
   }
 }
 
-TEST_F(RobotDrawing, WhatIsTranslucentShowsWhatIsBehindIt) {
+TEST_F(RobotDrawing, BlendsTranslucentVisualsWithTheirBackground) {
   const std::string back =
       "<visual><origin xyz='-1 0 1'/><geometry><box size='0.1 0.5 0.5'/></geometry>"
       "<material name='r'><color rgba='0.9 0.05 0.05 1'/></material></visual>";
@@ -235,7 +235,7 @@ TEST_F(RobotDrawing, WhatIsTranslucentShowsWhatIsBehindIt) {
   EXPECT_LT(with_pane("0")[2], 60) << "alpha 0 is not there at all";
 }
 
-TEST_F(RobotDrawing, ALinkThatIsNowhereIsLeftOut) {
+TEST_F(RobotDrawing, OmitsLinksWithNonFinitePoses) {
   RobotState robot = Visual("<geometry><box size='1 1 1'/></geometry>");
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
@@ -247,7 +247,7 @@ TEST_F(RobotDrawing, ALinkThatIsNowhereIsLeftOut) {
   EXPECT_TRUE(Drawn(SceneOf({robot}), Front()).equal());
 }
 
-TEST_F(RobotDrawing, BoundsAreThoseOfWhatIsDrawn) {
+TEST_F(RobotDrawing, ComputesTheBoundsOfTheVisuals) {
   Write("box.stl", BoxStl());
   RobotState robot = MeshAt("0 0 0", "box.stl", "1 1 1");
   robot.world_from_link[0] =
@@ -259,7 +259,7 @@ TEST_F(RobotDrawing, BoundsAreThoseOfWhatIsDrawn) {
   EXPECT_TRUE(renderer_->Bounds(Robot("<robot name='r'><link name='a'/></robot>")).isEmpty());
 }
 
-TEST_F(RobotDrawing, NamedCamerasFrameARobotOfAnySize) {
+TEST_F(RobotDrawing, FitsARobotOfAnySizeIntoNamedViews) {
   for (const double size : {0.05, 1.0, 40.0}) {
     const std::string text = std::to_string(size);
     RobotState robot =
@@ -284,7 +284,7 @@ TEST_F(RobotDrawing, NamedCamerasFrameARobotOfAnySize) {
   }
 }
 
-TEST_F(RobotDrawing, StandsBesideAPersonAndComesAndGoes) {
+TEST_F(RobotDrawing, ShowsARobotBesideAPersonUntilItIsRemoved) {
   const SceneState alone = kinescope::testing::SceneWith(kinescope::testing::Posture::kStanding);
   SceneState both = alone;
   both.robots.push_back(Visual("<origin xyz='0 1 0.5'/><geometry><box size='1 1 1'/></geometry>"));
@@ -294,7 +294,7 @@ TEST_F(RobotDrawing, StandsBesideAPersonAndComesAndGoes) {
   EXPECT_TRUE(Compare(before, renderer_->Render(alone, camera, spec_)).equal());
 }
 
-TEST_F(RobotDrawing, AnotherFloorIsTheSamePictureOneStoreyUp) {
+TEST_F(RobotDrawing, ShowsTheSamePictureAtAnotherFloorHeight) {
   SceneState state =
       SceneOf({Visual("<origin xyz='0 0 0.5'/><geometry><box size='1 1 1'/></geometry>")});
   Camera camera = Front();
@@ -308,7 +308,7 @@ TEST_F(RobotDrawing, AnotherFloorIsTheSamePictureOneStoreyUp) {
 }
 
 // The template with a box for every link, each put in place by the mesh of its name.
-TEST_F(RobotDrawing, DrawsTheHumansOfOthers) {
+TEST_F(RobotDrawing, RendersThePublishedHumanModelsOfOtherProjects) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-model-generator/humanModelTemplate.urdf");
   using kinescope::testing::ReadFile;
   using kinescope::testing::SharedData;

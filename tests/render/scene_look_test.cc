@@ -80,7 +80,7 @@ class SceneLookDrawing : public ::testing::Test {
   const std::unique_ptr<Renderer> renderer_ = MakeRenderer();
 };
 
-TEST_F(SceneLookDrawing, ATransparentPictureOverWhiteIsTheOneOnWhite) {
+TEST_F(SceneLookDrawing, MatchesTheOpaquePictureWhenATransparentOneIsLaidOverWhite) {
   for (const Theme theme : {Theme::kLight, Theme::kDark}) {
     for (const int supersample : {1, 2, 4}) {
       PictureSpec spec = SmallView(supersample);
@@ -109,7 +109,7 @@ TEST_F(SceneLookDrawing, ATransparentPictureOverWhiteIsTheOneOnWhite) {
   }
 }
 
-TEST_F(SceneLookDrawing, TheBackgroundIsThatOfTheThemeOrWhatWasAskedFor) {
+TEST_F(SceneLookDrawing, HasTheBackgroundOfTheThemeOrTheRequestedOne) {
   PictureSpec spec = SmallView();
   spec.look.floor = false;
   const auto corner = [&](const SceneLook& look) {
@@ -129,7 +129,7 @@ TEST_F(SceneLookDrawing, TheBackgroundIsThatOfTheThemeOrWhatWasAskedFor) {
   expect_near(corner(look), *look.background);
 }
 
-TEST_F(SceneLookDrawing, EveryPartCanBeSwitched) {
+TEST_F(SceneLookDrawing, CanHideEveryElement) {
   const PictureSpec standard = SmallView();
   const Image shown = Draw(standard);
   for (const ScenePartInfo& info : kSceneParts) {
@@ -145,7 +145,7 @@ TEST_F(SceneLookDrawing, EveryPartCanBeSwitched) {
   EXPECT_EQ(Draw(standard).rgba, shown.rgba) << "floor from memory";
 }
 
-TEST_F(SceneLookDrawing, AForceThatIsNotKnownHasNoArrow) {
+TEST_F(SceneLookDrawing, ShowsNoArrowForAnUnknownForce) {
   PictureSpec without = SmallView();
   without.look.shown.Set(ScenePart::kForces, false);
   SceneState unknown = state_;
@@ -155,7 +155,7 @@ TEST_F(SceneLookDrawing, AForceThatIsNotKnownHasNoArrow) {
   EXPECT_EQ(renderer_->Render(unknown, camera_, SmallView()).rgba, Draw(without).rgba);
 }
 
-TEST_F(SceneLookDrawing, AnArrowOfAMetreIsAThousandNewtons) {
+TEST_F(SceneLookDrawing, ShowsAThousandNewtonsAsAnArrowOfOneMetre) {
   SceneState state = state_;
   PersonState& person = state.people[0];
   person.forces.feet[urdf::kLeft].force.setZero();
@@ -175,7 +175,7 @@ TEST_F(SceneLookDrawing, AnArrowOfAMetreIsAThousandNewtons) {
   EXPECT_FALSE(reaches(0.84));
 }
 
-TEST_F(SceneLookDrawing, TrailsAndGhostsAreWhereTheyShouldBe) {
+TEST_F(SceneLookDrawing, ShowsTrailsAndReferencePosesAtTheirPlaces) {
   PictureSpec spec = SmallView();
   spec.overlays = false;
   const Image before = Draw(spec);

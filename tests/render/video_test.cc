@@ -129,7 +129,7 @@ void WriteClip(const std::filesystem::path& path, int frames, FrameRate rate) {
   video->Finish();
 }
 
-TEST(Video, EveryPictureIsThereInOrderAndInColour) {
+TEST(Video, ContainsEveryFrameInOrderAndInColour) {
   const TempFolder folder;
   WriteClip(folder / "clip.mp4", 45, {30, 1});
   const Clip clip = ReadClip(folder / "clip.mp4");
@@ -151,7 +151,7 @@ TEST(Video, EveryPictureIsThereInOrderAndInColour) {
   }
 }
 
-TEST(Video, IsTaggedSoThatPlayersShowTheColoursThatWereDrawn) {
+TEST(Video, HasTheColourTagsThatPlayersNeed) {
   const TempFolder folder;
   WriteClip(folder / "clip.mp4", 3, {25, 1});
   const Clip clip = ReadClip(folder / "clip.mp4");
@@ -162,7 +162,7 @@ TEST(Video, IsTaggedSoThatPlayersShowTheColoursThatWereDrawn) {
   EXPECT_EQ(clip.range, AVCOL_RANGE_MPEG);
 }
 
-TEST(Video, KeepsTheRateExactly) {
+TEST(Video, KeepsTheFrameRateExactly) {
   const TempFolder folder;
   for (const FrameRate& rate :
        {FrameRate{60, 1}, {30000, 1001}, {60000, 1001}, {24000, 1001}, {25, 2}, {240, 1}, {1, 1}}) {
@@ -212,7 +212,7 @@ class VideoFormat : public ::testing::TestWithParam<const char*> {
   TempFolder folder_;
 };
 
-TEST_P(VideoFormat, ComesBackInOrderInTimeAndWithItsComment) {
+TEST_P(VideoFormat, IsReadInOrderWithItsTimesAndItsComment) {
   const auto video = OpenVideo(Write("disc", false));
   EXPECT_EQ(video->metadata()["comment"], kComment);
   Image image;
@@ -229,14 +229,14 @@ TEST_P(VideoFormat, ComesBackInOrderInTimeAndWithItsComment) {
   EXPECT_FALSE(video->Next(image));
 }
 
-TEST_P(VideoFormat, TheSamePicturesAreTheSameBytes) {
+TEST_P(VideoFormat, HasTheSameBytesForTheSameFrames) {
   const std::string first = ReadFile(Write("first", false));
   for (int again = 0; again < 8; ++again) {  // of memory that others have used
     EXPECT_TRUE(ReadFile(Write("again", false)) == first) << "clip " << again << " differs";
   }
 }
 
-TEST_P(VideoFormat, KeepsGlassOrSaysThatItCannot) {
+TEST_P(VideoFormat, KeepsTransparencyOrReportsThatItCannot) {
   if (std::string(GetParam()) == ".mp4") {
     try {
       Write("glass", true);
@@ -258,7 +258,7 @@ TEST_P(VideoFormat, KeepsGlassOrSaysThatItCannot) {
 
 // Colour is stored for two by two pixels: without care those at the edge would take on the colour
 // that nobody sees beside them.
-TEST(Video, GlassDoesNotStainWhatStandsBeforeIt) {
+TEST(Video, KeepsTheColourOfEdgesBesideTransparentPixels) {
   const TempFolder folder;
   const auto video = MakeVideoWriter(folder / "a.webm", 64, 48, {});
   video->Add(Disc(3, true));
@@ -276,7 +276,7 @@ TEST(Video, GlassDoesNotStainWhatStandsBeforeIt) {
   EXPECT_LE(most, 12) << "levels";
 }
 
-TEST_P(VideoFormat, NothingIsLeftOfAClipThatWasNotFinished) {
+TEST_P(VideoFormat, LeavesNothingOfAnUnfinishedClip) {
   {
     const auto video = MakeVideoWriter(folder_ / ("a" + std::string(GetParam())), 64, 48, {});
     video->Add(Disc(0, false));
@@ -284,7 +284,7 @@ TEST_P(VideoFormat, NothingIsLeftOfAClipThatWasNotFinished) {
   EXPECT_THAT(folder_.Names(), ::testing::IsEmpty());
 }
 
-TEST_P(VideoFormat, ADamagedFileIsRefusedByName) {
+TEST_P(VideoFormat, ReadsNoFrameFromADamagedFile) {
   const std::filesystem::path path = Write("whole", false);
   const std::string bytes = ReadFile(path);
   const std::filesystem::path cut = folder_ / ("cut" + std::string(GetParam()));
@@ -301,7 +301,7 @@ TEST_P(VideoFormat, ADamagedFileIsRefusedByName) {
 INSTANTIATE_TEST_SUITE_P(All, VideoFormat, ::testing::Values(".mp4", ".webm", ".webp", ".gif"),
                          [](const auto& each) { return std::string(each.param).substr(1); });
 
-TEST(FrameRate, GivesTheNearestNanosecondOfEveryPicture) {
+TEST(FrameRate, ReturnsTheNearestNanosecondOfEveryFrame) {
   EXPECT_EQ((FrameRate{30, 1}.NanosOf(1)), 33'333'333);
   EXPECT_EQ((FrameRate{30, 1}.NanosOf(1800)), 60'000'000'000);
   EXPECT_EQ((FrameRate{30000, 1001}.NanosOf(30000)), 1'001'000'000'000);
@@ -309,7 +309,7 @@ TEST(FrameRate, GivesTheNearestNanosecondOfEveryPicture) {
   EXPECT_EQ((FrameRate{1'000'000, 9000}.NanosOf(9'600'000)), 86'400'000'000'000);
 }
 
-TEST(Video, StartsPlayingBeforeItIsLoaded) {
+TEST(Video, HasItsIndexBeforeItsDataForStreaming) {
   const TempFolder folder;
   WriteClip(folder / "clip.mp4", 10, {30, 1});
   const std::string bytes = ReadFile(folder / "clip.mp4");
@@ -317,21 +317,21 @@ TEST(Video, StartsPlayingBeforeItIsLoaded) {
   EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
 }
 
-TEST(Video, TheSamePicturesAreTheSameBytes) {
+TEST(Video, HasTheSameBytesForTheSameFrames) {
   const TempFolder folder;
   WriteClip(folder / "a.mp4", 20, {30, 1});
   WriteClip(folder / "b.mp4", 20, {30, 1});
   EXPECT_EQ(ReadFile(folder / "a.mp4"), ReadFile(folder / "b.mp4"));
 }
 
-TEST(Video, WorksInSilence) {
+TEST(Video, PrintsNothingToStandardError) {
   const TempFolder folder;
   ::testing::internal::CaptureStderr();
   WriteClip(folder / "clip.mp4", 5, {30, 1});
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(Video, FfprobeCountsTheSameFrames) {
+TEST(Video, HasTheSameFramesAccordingToFfprobe) {
   if (std::system("command -v ffprobe >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe here";
   const TempFolder folder;
   WriteClip(folder / "clip.mp4", 31, {30000, 1001});
@@ -347,7 +347,7 @@ TEST(Video, FfprobeCountsTheSameFrames) {
   EXPECT_STREQ(line, "bt709,30000/1001,31\n");
 }
 
-TEST(Video, NothingIsLeftOfAClipThatWasNotFinished) {
+TEST(Video, LeavesNothingOfAnUnfinishedClip) {
   const TempFolder folder;
   {
     const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
@@ -358,7 +358,7 @@ TEST(Video, NothingIsLeftOfAClipThatWasNotFinished) {
   EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
 }
 
-TEST(Video, AnOldClipStaysUntilTheNewOneIsWhole) {
+TEST(Video, KeepsTheOldClipUntilTheNewOneIsComplete) {
   const TempFolder folder;
   std::ofstream(folder / "clip.mp4") << "old";
   {
@@ -371,7 +371,7 @@ TEST(Video, AnOldClipStaysUntilTheNewOneIsWhole) {
   EXPECT_THAT(folder.Names(), ::testing::ElementsAre("clip.mp4"));
 }
 
-TEST(Video, RefusesAPictureOfAnotherSize) {
+TEST(Video, RejectsAFrameOfAnotherSize) {
   const TempFolder folder;
   const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
   video->Add(Frame(0));
@@ -381,13 +381,13 @@ TEST(Video, RefusesAPictureOfAnotherSize) {
   EXPECT_EQ(ReadClip(folder / "clip.mp4").frames.size(), 2u);
 }
 
-TEST(Video, RefusesAnEmptyClip) {
+TEST(Video, RejectsAnEmptyClip) {
   const TempFolder folder;
   const auto video = MakeVideoWriter(folder / "clip.mp4", kWidth, kHeight, {});
   EXPECT_THROW(video->Finish(), std::runtime_error);
 }
 
-TEST(Video, RefusesWhatCannotBeEncoded) {
+TEST(Video, RejectsSizesAndRatesThatCannotBeEncoded) {
   const TempFolder folder;
   EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 321, 180, {}), UsageError);
   EXPECT_THROW(MakeVideoWriter(folder / "c.mp4", 320, 181, {}), UsageError);
@@ -406,7 +406,7 @@ TEST(Video, RefusesWhatCannotBeEncoded) {
   EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
 }
 
-TEST(Video, SaysWhichPathItCannotWrite) {
+TEST(Video, NamesAPathThatIsNotWritable) {
   try {
     MakeVideoWriter("/no/such/folder/clip.mp4", 320, 180, {});
     FAIL() << "writes into a folder that does not exist";
@@ -415,7 +415,7 @@ TEST(Video, SaysWhichPathItCannotWrite) {
   }
 }
 
-TEST(Video, AFrameCodeIsReadFromACompressedClip) {
+TEST(Video, KeepsTheFrameCodeReadable) {
   const TempFolder folder;
   const auto path = folder.path() / "strip.mp4";
   VideoOptions options;

@@ -69,7 +69,7 @@ class WornDrawing : public ::testing::Test {
 
 constexpr double kOutOfSight = -50;  // m, x: behind the person and beyond the floor's end
 
-TEST_F(WornDrawing, AGlovedHandIsDrawnByItsFingersAlone) {
+TEST_F(WornDrawing, ShowsAGlovedHandByItsFingersOnly) {
   SceneState gone = Gloved();
   for (auto& glove : gone.people[0].gloves) {
     for (urdf::Pose& link : glove->links) link.position = {10, 0, 0};  // behind the camera
@@ -81,7 +81,7 @@ TEST_F(WornDrawing, AGlovedHandIsDrawnByItsFingersAlone) {
   EXPECT_GT(Change(gone, Gloved()).pixels, 500);
 }
 
-TEST_F(WornDrawing, AFingerIsWhereItsPoseIs) {
+TEST_F(WornDrawing, ShowsAFingerAtItsPose) {
   SceneState before = Gloved();
   SceneState after = before;
   const int tip = 7;  // SecondDP
@@ -96,7 +96,7 @@ TEST_F(WornDrawing, AFingerIsWhereItsPoseIs) {
   EXPECT_NEAR(change.right, to.x_px, 4);
 }
 
-TEST_F(WornDrawing, FingersThatBendShow) {
+TEST_F(WornDrawing, ShowsBentFingers) {
   const Comparison change = Change(Gloved(0), Gloved(1.2));
   EXPECT_GT(change.pixels, 100);
   const PersonState person = Gloved(0).people[0];
@@ -105,7 +105,7 @@ TEST_F(WornDrawing, FingersThatBendShow) {
   EXPECT_GT(change.top, wrist.y_px) << "all below the wrists";
 }
 
-TEST_F(WornDrawing, AppearAndVanishWhileThePersonStays) {
+TEST_F(WornDrawing, AddsAndRemovesGlovesWhileThePersonStays) {
   EXPECT_TRUE(Compare(Draw(Standing()), Draw(Standing())).equal());
   const Image bare = Draw(Standing());
   const Image gloved = Draw(Gloved());
@@ -114,7 +114,7 @@ TEST_F(WornDrawing, AppearAndVanishWhileThePersonStays) {
   EXPECT_TRUE(Compare(gloved, Draw(Gloved())).equal());
 }
 
-TEST_F(WornDrawing, APropIsABlockAtItsPose) {
+TEST_F(WornDrawing, ShowsAPropAsABoxAtItsPose) {
   SceneState before = Gloved();
   before.people[0].props[0]->pose.position.x() = kOutOfSight;
   SceneState after = Gloved();
@@ -125,7 +125,7 @@ TEST_F(WornDrawing, APropIsABlockAtItsPose) {
   EXPECT_NEAR(change.right - change.left, 0.06 * seen.px_per_m, 4);
 }
 
-TEST_F(WornDrawing, AStaleGloveAndPropAreGrey) {
+TEST_F(WornDrawing, ShowsAStaleGloveAndPropInGrey) {
   SceneState state = Gloved();
   state.liveness = Liveness::kStale;
   const Image stale = Draw(state);
@@ -135,7 +135,7 @@ TEST_F(WornDrawing, AStaleGloveAndPropAreGrey) {
   EXPECT_NEAR(stale.rgba[pixel], stale.rgba[pixel + 2], 12) << "a live prop is bluish";
 }
 
-TEST_F(WornDrawing, ATrackedObjectIsABlockWithItsName) {
+TEST_F(WornDrawing, ShowsATrackedObjectAsABoxWithItsName) {
   const SceneState before = Standing();
   SceneState after = before;
   const Eigen::Vector3d at(0, 0.8, 1.2);
@@ -151,7 +151,7 @@ TEST_F(WornDrawing, ATrackedObjectIsABlockWithItsName) {
   EXPECT_GT(Compare(Draw(nameless), Draw(after)).pixels, 200);
 }
 
-TEST_F(WornDrawing, ThereMayBeAnyNumberOfObjects) {
+TEST_F(WornDrawing, ShowsAnyNumberOfObjects) {
   SceneState state = Standing();
   for (int i = 0; i < 70; ++i) {
     state.objects.push_back({4 + i / 23, i % 23, "", {{0, -1.0 + 0.03 * i, 0.3}, {1, 0, 0, 0}}, 5});
@@ -166,7 +166,7 @@ TEST_F(WornDrawing, ThereMayBeAnyNumberOfObjects) {
 }
 
 // Where the legs are not measured, the floor is wherever the soles are.
-TEST_F(WornDrawing, EverythingGoesAlongWithTheFloor) {
+TEST_F(WornDrawing, MovesEverythingWithTheFloor) {
   SceneState state = Gloved();
   state.objects.push_back({4, 0, "", {{0, 0.8, 1.2}, Eigen::Quaterniond::Identity()}, 5});
   SceneState low = state;

@@ -61,7 +61,7 @@ class Backend : public ::testing::Test {
   fs::path hang_ = switches_ / "hang";
 };
 
-TEST_F(Backend, EglDrawsTheSameBytesAsOsmesa) {
+TEST_F(Backend, RendersTheSameBytesWithEglAsWithOsmesa) {
   ASSERT_EQ(Picture(folder_ / "osmesa.png", "osmesa").exit_code, 0);
   const ProgramResult egl = Picture(folder_ / "egl.png", "egl");
   ASSERT_EQ(egl.exit_code, 0) << egl.err;
@@ -75,7 +75,7 @@ TEST_F(Backend, EglDrawsTheSameBytesAsOsmesa) {
             render::ReadPng(folder_ / "osmesa.png").rgba);
 }
 
-TEST_F(Backend, EglDrawsOnSeveralThreadsAtOnce) {
+TEST_F(Backend, RendersWithEglOnSeveralThreads) {
   const SceneState state = testing::MixedScene(testing::Posture::kStanding);
   render::PictureSpec spec;
   spec.width = 160;
@@ -95,14 +95,14 @@ TEST_F(Backend, EglDrawsOnSeveralThreadsAtOnce) {
 }
 
 // As a service or a container has it: no DISPLAY, HOME, PATH or XDG folder.
-TEST_F(Backend, EglDrawsInABareEnvironment) {
+TEST_F(Backend, RendersWithEglWithoutEnvironmentVariables) {
   const ProgramResult result =
       RunProgram({"/usr/bin/env", "-i", testing::KinescopePath(), "render", "demo:n_pose", "--size",
                   "64x64", "--backend", "egl", "--out", folder_ / "a.png"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
 }
 
-TEST_F(Backend, EightProcessesAtOnceDrawTheSameBytes) {
+TEST_F(Backend, RendersTheSameBytesInEightProcesses) {
   ASSERT_EQ(Picture(folder_ / "alone.png", "osmesa").exit_code, 0);
   const std::string command = fmt::format(
       "for i in 1 2 3 4 5 6 7 8; do '{}' render demo:lift --time 3 --size 160x90 --out "
@@ -115,7 +115,7 @@ TEST_F(Backend, EightProcessesAtOnceDrawTheSameBytes) {
   }
 }
 
-TEST_F(Backend, OneThatIsNotThereIsRefusedWithTheWayOut) {
+TEST_F(Backend, RejectsAnUnknownOrMissingBackEndWithARemedy) {
   const ProgramResult unknown = Picture(folder_ / "a.png", "vulkan");
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, AllOf(HasSubstr("vulkan"), HasSubstr("osmesa"), HasSubstr("auto")));
@@ -135,7 +135,7 @@ TEST_F(Backend, OneThatIsNotThereIsRefusedWithTheWayOut) {
   EXPECT_THAT(folder_.Names(), IsEmpty());
 }
 
-TEST_F(Backend, AMachineWithAGpuThatDoesNotWorkFallsBackAndSaysWhy) {
+TEST_F(Backend, FallsBackWithTheReasonIfTheGpuDoesNotWork) {
   fs::create_directories(folder_ / "dri");
   for (const char* name : {"dri/card0", "dri/renderD128", "dri/renderD", "nvidia0", "nvidiactl"}) {
     std::ofstream(folder_ / name).flush();
@@ -158,7 +158,7 @@ TEST_F(Backend, AMachineWithAGpuThatDoesNotWorkFallsBackAndSaysWhy) {
               AllOf(HasSubstr("rendered by osmesa"), HasSubstr("egl_device does not")));
 }
 
-TEST_F(Backend, ProbeMeasuresEachAndSurvivesDriversThatHangOrCrash) {
+TEST_F(Backend, MeasuresEachBackEndAndSurvivesDriversThatHangOrCrash) {
   const ProgramResult fine = Kinescope({"probe", "--json"});
   ASSERT_EQ(fine.exit_code, 0) << fine.err;
   const auto found = nlohmann::json::parse(fine.out);
@@ -184,7 +184,7 @@ TEST_F(Backend, ProbeMeasuresEachAndSurvivesDriversThatHangOrCrash) {
               HasSubstr("hangs"));
 }
 
-TEST_F(Backend, ADriverThatHangsEndsACommandAndLeavesNoFile) {
+TEST_F(Backend, EndsACommandWithoutFileIfTheDriverDoesNotRespond) {
   Hang();
   for (const char* name : {"a.png", "a.mp4"}) {
     const ProgramResult result = Kinescope({"render", "demo:lift", "--size", "64x64",
@@ -198,7 +198,7 @@ TEST_F(Backend, ADriverThatHangsEndsACommandAndLeavesNoFile) {
   EXPECT_THAT(folder_.Names(), IsEmpty());
 }
 
-TEST_F(Backend, AServerWhoseDriverHangsSaysSoAndGoesOnWhenItComesBack) {
+TEST_F(Backend, ReportsADriverThatDoesNotRespondAndContinuesAfterwards) {
   const std::string command = fmt::format(
       "{}; exec '{}' serve --source demo:n_pose --http_port 0 --ros off --picture_size 64x64 "
       "--draw_limit_secs 5 2>&1; ",  // the first picture compiles shaders, on a busy machine too
@@ -230,7 +230,7 @@ TEST_F(Backend, AServerWhoseDriverHangsSaysSoAndGoesOnWhenItComesBack) {
               HasSubstr("does not respond"));
 }
 
-TEST(ChildProcess, TellsHowItEnded) {
+TEST(ChildProcess, ReportsHowItEnded) {
   using app::RunChild;
   const auto shell = [](const std::string& script, int millis = 20'000) {
     return RunChild({"/bin/sh", "-c", script}, std::chrono::milliseconds(millis));

@@ -63,7 +63,7 @@ class TakenPort {
   int number_ = 0;
 };
 
-TEST(Command, RefusesWhatItDoesNotKnowByName) {
+TEST(Command, RejectsUnknownCommandsOptionsAndValuesByName) {
   ExpectRefusal(Kinescope({"frobnicate"}), "frobnicate");
   ExpectRefusal(Kinescope({"serve", "--prot", "3"}), "--prot");
   ExpectRefusal(Kinescope({"serve", "--http_port", "80a"}), "80a");
@@ -106,7 +106,7 @@ TEST(Command, RefusesSourcesThatAreNone) {
   EXPECT_FALSE(fs::exists(out));
 }
 
-TEST(Command, RefusesPortsThatAreTaken) {
+TEST(Command, RejectsPortsThatAreInUse) {
   const TakenPort tcp(SOCK_STREAM), udp(SOCK_DGRAM);
   ExpectRefusal(
       Kinescope({"bridge", "--source", "udp://127.0.0.1:" + udp.number(), "--ros", "off"}),
@@ -118,7 +118,7 @@ TEST(Command, RefusesPortsThatAreTaken) {
 }
 
 // What is no datagram of a suit is counted by reason, and the suit's stream goes on.
-TEST(Command, CountsRubbishByReasonAndGoesOn) {
+TEST(Command, CountsRejectedDatagramsByReasonAndContinues) {
   testing::Process server({"/bin/bash", "-c",
                            "exec '" + testing::KinescopePath() +
                                "' serve --source udp://127.0.0.1:0 --http_port 0 "
@@ -154,7 +154,7 @@ TEST(Command, CountsRubbishByReasonAndGoesOn) {
   EXPECT_GE(source.at("rejected").size(), 2u) << diagnostics;
 }
 
-TEST(Command, SaysWhenItCannotDraw) {
+TEST(Command, ReportsThatItCannotRender) {
   // A program without its module, as after half an installation.
   const TempFolder folder;
   fs::copy(testing::KinescopePath(), folder.path() / "kinescope");
@@ -168,7 +168,7 @@ TEST(Command, SaysWhenItCannotDraw) {
   EXPECT_FALSE(fs::exists(folder.path() / "a.png"));
 }
 
-TEST(Command, RefusesOutputsThatCannotBe) {
+TEST(Command, RejectsInvalidOutputs) {
   ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "/nowhere/a.png"}), "/nowhere/a.png");
   ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "a.avi"}), "a.avi");
   for (const char* size : {"0x0", "1000000x10", "wide"}) {
@@ -249,7 +249,7 @@ bool HasOption(const std::string& help, const std::string& name) {
   return false;
 }
 
-TEST(Command, HelpsEveryCommandWithEveryOption) {
+TEST(Command, PrintsHelpForEveryOptionOfEveryCommand) {
   std::map<std::string, std::vector<std::string>> expected;
   const auto add = [&](const app::Command& command, const std::string& before,
                        auto&& self) -> void {
@@ -328,7 +328,7 @@ TEST(Command, RendersRealRecordings) {
   EXPECT_THAT(result.out, HasSubstr("\"pictures\":56"));
 }
 
-TEST(Command, WritesAUrdfThatItReadsItself) {
+TEST(Command, WritesAUrdfThatItsOwnCheckAccepts) {
   const TempFolder folder;
   const std::string file = folder.path() / "person.urdf";
   EXPECT_EQ(Kinescope({"urdf", "--height", "1.62", "--out", file}).exit_code, 0);
@@ -355,9 +355,11 @@ class GoldenCheck : public ::testing::Test {
   fs::path case_ = folder_.path();
 };
 
-TEST_F(GoldenCheck, AcceptsWhatItWrote) { EXPECT_EQ(Check().exit_code, 0) << Check().out; }
+TEST_F(GoldenCheck, AcceptsThePictureThatItWrote) {
+  EXPECT_EQ(Check().exit_code, 0) << Check().out;
+}
 
-TEST_F(GoldenCheck, NamesTheJointWhoseClassIsNotTheAcceptedOne) {
+TEST_F(GoldenCheck, NamesTheJointWhoseClassDiffers) {
   std::string objects = testing::ReadFile(case_ / "bend.objects.json");
   const std::string before = "\"joint\": \"left_wrist\", \"class\": \"low\"";
   const std::size_t at = objects.find(before);
@@ -369,14 +371,14 @@ TEST_F(GoldenCheck, NamesTheJointWhoseClassIsNotTheAcceptedOne) {
   EXPECT_THAT(result.out, HasSubstr("left_wrist: expected high (red), found low (green)"));
 }
 
-TEST_F(GoldenCheck, NamesTheJointWhenThePersonIsAnother) {
+TEST_F(GoldenCheck, NamesAJointWhoseLoadDiffersForAnotherPerson) {
   std::ofstream(case_ / "bend.yaml", std::ios::app) << "sex: female\nmass: 120\n";
   const ProgramResult result = Check();
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.out, HasSubstr("l5_s1: expected "));
 }
 
-TEST_F(GoldenCheck, SeesPixelsThatDifferAndShowsThem) {
+TEST_F(GoldenCheck, DetectsDifferentPixelsAndShowsThem) {
   render::Image image = render::ReadPng(case_ / "bend.png");
   for (std::size_t i = 0; i < 400; ++i) image.rgba[i] ^= 0x80;
   render::WritePng(case_ / "bend.png", image);
@@ -387,14 +389,14 @@ TEST_F(GoldenCheck, SeesPixelsThatDifferAndShowsThem) {
   EXPECT_TRUE(fs::exists(case_ / "out/bend.diff.png"));
 }
 
-TEST_F(GoldenCheck, SaysHowToMakeAMissingPicture) {
+TEST_F(GoldenCheck, NamesTheCommandThatWritesAMissingPicture) {
   fs::remove(case_ / "bend.png");
   const ProgramResult result = Check();
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.out, HasSubstr("golden update"));
 }
 
-TEST_F(GoldenCheck, NamesACaseInJsonWhateverItsBytesAre) {
+TEST_F(GoldenCheck, NamesACaseWithInvalidUtf8InJson) {
   fs::remove(case_ / "bend.yaml");
   std::ofstream(case_ / "n\xFF.yaml") << "source: demo:lift\nsize: 32x32\n";
   const ProgramResult result =
@@ -403,7 +405,7 @@ TEST_F(GoldenCheck, NamesACaseInJsonWhateverItsBytesAre) {
   EXPECT_EQ(nlohmann::json::parse(result.out).at("case"), "n\uFFFD");
 }
 
-TEST_F(GoldenCheck, SaysWhyItCannotWrite) {
+TEST_F(GoldenCheck, ReportsWhyItCannotWrite) {
   fs::create_directories(case_ / "out/bend.objects.json");
   fs::remove(case_ / "bend.png");
   ExpectRefusal(Check(), "out/bend.objects.json: Is a directory");
@@ -412,7 +414,7 @@ TEST_F(GoldenCheck, SaysWhyItCannotWrite) {
   ExpectRefusal(Kinescope({"golden", "update", case_}), "bend.objects.json: Is a directory");
 }
 
-TEST_F(GoldenCheck, RefusesAKeyThatNoCaseHas) {
+TEST_F(GoldenCheck, RejectsAnUnknownKey) {
   std::ofstream(case_ / "bend.yaml", std::ios::app) << "colour: red\n";
   ExpectRefusal(Check(), "colour");
 }

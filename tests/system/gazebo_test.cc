@@ -55,7 +55,7 @@ urdf::HumanModel Gloved() {
   return human;
 }
 
-TEST(Gazebo, KeepsEveryLinkAndTheMassOfAPersonThatIsWrittenForIt) {
+TEST(Gazebo, KeepsEveryLinkAndTheMassOfAPersonWrittenForGazebo) {
   const testing::TempFolder folder;
   const std::string file = folder / "person.urdf";
   const auto written =
@@ -84,7 +84,7 @@ TEST(Gazebo, KeepsGlovesAndPropsToo) {
 }
 
 // Why the flag is there; should this ever fail, Gazebo has learnt to do without.
-TEST(Gazebo, LosesAllButThePelvisOfAPersonWithLinksThatWeighNothing) {
+TEST(Gazebo, KeepsOnlyThePelvisOfAPersonWithMasslessLinks) {
   const testing::TempFolder folder;
   std::ofstream(folder / "person.urdf") << urdf::WriteUrdf(Gloved());
   EXPECT_EQ(InGazebo(folder / "person.urdf").links, 1u);

@@ -88,7 +88,7 @@ void ExpectBen(const Json& report) {
   EXPECT_THAT(types, ElementsAre("02", "12", "13", "20", "21", "22", "24"));
 }
 
-TEST(Inspect, AFileOfDatagramsIsToldInJsonAndInText) {
+TEST(Inspect, ReportsAFileOfDatagramsInJsonAndInText) {
   const TempFolder folder;
   const std::string file = Write(folder / "take.bin", Stream());
   const ProgramResult as_json = Inspect({file, "--json"});
@@ -115,7 +115,7 @@ TEST(Inspect, AFileOfDatagramsIsToldInJsonAndInText) {
   }
 }
 
-TEST(Inspect, WhatIsWrongIsToldWithItsFirstPlace) {
+TEST(Inspect, ReportsErrorsWithTheirFirstPlace) {
   const TempFolder folder;
   auto datagrams = Stream();
   RawDatagram zero_id;
@@ -128,7 +128,7 @@ TEST(Inspect, WhatIsWrongIsToldWithItsFirstPlace) {
                                 ContainsRegex("first at .* s, byte [0-9]+, value 0")));
 }
 
-TEST(Inspect, TrackersAloneAreNobodyAndTheSwitchIsNamed) {
+TEST(Inspect, ReportsNoPersonForTrackersOnlyAndNamesTheMissingSetting) {
   const TempFolder folder;
   RandomValues random(3);
   std::vector<std::string> datagrams;
@@ -147,7 +147,7 @@ TEST(Inspect, TrackersAloneAreNobodyAndTheSwitchIsNamed) {
   EXPECT_EQ(Parsed(Inspect({file, "--json"}).out)["can_be_shown"], false);
 }
 
-TEST(Inspect, WhatCannotBeReadIsRefusedInOneLine) {
+TEST(Inspect, RejectsUnreadableSourcesInOneLine) {
   const TempFolder folder;
   std::ofstream(folder / "note.txt") << "no recording\n";
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
@@ -207,7 +207,7 @@ void ExpectLiveBen(const Json& report) {
   EXPECT_THAT(report["characters"][0]["sender"].get<std::string>(), HasSubstr("127.0.0.1:"));
 }
 
-TEST(Inspect, ListensToUdpUntilCtrlCAndThenReports) {
+TEST(Inspect, ReceivesUdpUntilCtrlCAndThenReports) {
   Listening program("udp://127.0.0.1:0");
   ASSERT_NE(program.port(), 0);
   const auto sender = mvn::OpenSender("udp://127.0.0.1:" + std::to_string(program.port()));
@@ -238,7 +238,7 @@ void SendOverTcp(int port, const std::vector<std::string>& datagrams) {
   close(connection);
 }
 
-TEST(Inspect, ListensToTcpUntilCtrlCAndThenReports) {
+TEST(Inspect, ReceivesTcpUntilCtrlCAndThenReports) {
   Listening program("tcp://:0");
   ASSERT_NE(program.port(), 0);
   SendOverTcp(program.port(), Stream());
@@ -249,7 +249,7 @@ TEST(Inspect, ListensToTcpUntilCtrlCAndThenReports) {
   EXPECT_EQ(report["transport"]["connections_open"], 0);
 }
 
-TEST(Inspect, ALiveStreamWithoutAnybodySaysWhatToDoInMvn) {
+TEST(Inspect, ReportsTheMvnSettingsIfALiveStreamHasNoData) {
   const ProgramResult result = Inspect({"udp://127.0.0.1:0", "--seconds", "0.1"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("for 0.1 s"));
@@ -257,7 +257,7 @@ TEST(Inspect, ALiveStreamWithoutAnybodySaysWhatToDoInMvn) {
                                 HasSubstr("receive buffer")));
 }
 
-TEST(Inspect, TheBuiltInSubjectIsLookedAtForTheSecondsAskedFor) {
+TEST(Inspect, InspectsTheBuiltInSubjectForTheRequestedTime) {
   const ProgramResult result = Inspect({"demo:lift", "--seconds", "2", "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   const Json report = Parsed(result.out);
@@ -267,7 +267,7 @@ TEST(Inspect, TheBuiltInSubjectIsLookedAtForTheSecondsAskedFor) {
   EXPECT_NEAR(report["characters"][0]["frames"]["rate_hz"].get<double>(), 120, 0.01);
 }
 
-TEST(Inspect, AnMvnxFileTellsItsVersionPersonAndRate) {
+TEST(Inspect, ReportsVersionPersonAndRateOfAnMvnxFile) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   const ProgramResult result = Inspect({SharedData("mvnx/test_mocap.mvnx"), "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -281,7 +281,7 @@ TEST(Inspect, AnMvnxFileTellsItsVersionPersonAndRate) {
 }
 
 #ifdef KINESCOPE_WITH_ROS
-TEST(Inspect, ABagTellsItsPersonAndWhatElseIsInIt) {
+TEST(Inspect, ReportsThePersonAndOtherTopicsOfABag) {
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
   const std::string bag = SharedData("ros1/2018-05-28-17-34-45.bag.xz");
   const ProgramResult result = Inspect({bag, "--json"});

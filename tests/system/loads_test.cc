@@ -45,7 +45,7 @@ void ExpectSame(double printed, double value, const std::string& what) {
   }
 }
 
-TEST(LoadsCommand, WritesWhatTheLibraryComputesInEveryRow) {
+TEST(LoadsCommand, WritesTheLoadsThatTheLibraryComputesInEveryRow) {
   const TempFolder folder;
   const std::string csv = folder / "loads.csv";
   const ProgramResult result = Loads(
@@ -81,7 +81,7 @@ TEST(LoadsCommand, WritesWhatTheLibraryComputesInEveryRow) {
   EXPECT_NEAR(table.Number(states.size() - 1, "time_s"), 1, 1e-6);
 }
 
-TEST(LoadsCommand, WritesARowForEveryJointWhenAskedTo) {
+TEST(LoadsCommand, WritesOneRowPerJointOnRequest) {
   const ProgramResult wide = Loads({"demo:lift", "--seconds", "0.1", "--csv", "-"});
   const ProgramResult tall =
       Loads({"demo:lift", "--seconds", "0.1", "--csv", "-", "--layout", "long"});
@@ -95,7 +95,7 @@ TEST(LoadsCommand, WritesARowForEveryJointWhenAskedTo) {
   }
 }
 
-TEST(LoadsCommand, TellsExposureAndWhatWasAssumedAsJson) {
+TEST(LoadsCommand, WritesExposureAndAssumptionsAsJson) {
   const ProgramResult result =
       Loads({"demo:lift", "--seconds", "2", "--sex", "female", "--json", "-"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -121,7 +121,7 @@ TEST(LoadsCommand, TellsExposureAndWhatWasAssumedAsJson) {
   }
 }
 
-TEST(LoadsCommand, PrintsATableThatSaysWhatIsAssumed) {
+TEST(LoadsCommand, PrintsATableWithMarkedAssumptions) {
   const ProgramResult result = Loads({"demo:lift", "--seconds", "1"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("75 kg (assumed)"));
@@ -131,7 +131,7 @@ TEST(LoadsCommand, PrintsATableThatSaysWhatIsAssumed) {
   EXPECT_THAT(given.out, Not(HasSubstr("assumed")));
 }
 
-TEST(LoadsCommand, DrawsEveryJointAsPngAndSvg) {
+TEST(LoadsCommand, PlotsEveryJointAsPngAndSvg) {
   const TempFolder folder;
   const auto plots = folder / "plots";
   ASSERT_EQ(Loads({"demo:lift", "--seconds", "0.5", "--plots", plots}).exit_code, 0);
@@ -148,7 +148,7 @@ TEST(LoadsCommand, DrawsEveryJointAsPngAndSvg) {
   EXPECT_EQ(pictures, 15);
 }
 
-TEST(LoadsCommand, WritesAReportThatNeedsNothingElse) {
+TEST(LoadsCommand, WritesASelfContainedReport) {
   const TempFolder folder;
   const std::string path = folder / "report.html";
   const ProgramResult result = Loads({"demo:lift", "--report", path});
@@ -166,7 +166,7 @@ TEST(LoadsCommand, WritesAReportThatNeedsNothingElse) {
   EXPECT_EQ(pictures, 3U);
 }
 
-TEST(LoadsCommand, SaysWhyTheLegsOfAnUpperBodyTakeAreNotKnown) {
+TEST(LoadsCommand, ReportsWhyLegLoadsOfAnUpperBodyRecordingAreUnknown) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   const std::string take = SharedData("mvnx/test_mocap.mvnx");
   const ProgramResult result = Loads({take, "--csv", "-"});
@@ -197,7 +197,7 @@ TEST(LoadsCommand, ReadsAFullBodyRecordingOfFourSamples) {
 }
 
 // A stream with nothing but poses has no accelerations: static, and it says so.
-TEST(LoadsCommand, IsStaticWithTheReasonWhereThereAreOnlyPoses) {
+TEST(LoadsCommand, ComputesStaticLoadsWithTheReasonForAStreamOfPoses) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp02.bin");
   const ProgramResult result = Loads({SharedData("udp/mxtp02.bin"), "--csv", "-"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -209,7 +209,7 @@ TEST(LoadsCommand, IsStaticWithTheReasonWhereThereAreOnlyPoses) {
 }
 
 #ifdef KINESCOPE_WITH_ROS
-TEST(LoadsCommand, IsStaticForABagOfPoses) {
+TEST(LoadsCommand, ComputesStaticLoadsForABagOfPoses) {
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
   const ProgramResult result = Loads({SharedData("ros1/2018-05-28-17-34-45.bag.xz"), "--csv", "-"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -224,14 +224,14 @@ TEST(LoadsCommand, IsStaticForABagOfPoses) {
 }
 #endif
 
-TEST(LoadsCommand, EndsWithOneWhereNothingIsKnown) {
+TEST(LoadsCommand, EndsWithCodeOneIfNoLoadIsKnown) {
   const ProgramResult result =
       Loads({"demo:lift", "--seconds", "0.2", "--load_metric", "external"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.out, HasSubstr("no external load received"));
 }
 
-TEST(LoadsCommand, RefusesWhatMakesNoSenseInOneLine) {
+TEST(LoadsCommand, RejectsInvalidOptionsInOneLine) {
   const auto refuses = [](const std::vector<std::string>& more, const std::string& named) {
     std::vector<std::string> arguments = {"demo:lift"};
     arguments.insert(arguments.end(), more.begin(), more.end());
@@ -254,7 +254,7 @@ TEST(LoadsCommand, RefusesWhatMakesNoSenseInOneLine) {
   ExpectRefusal(Loads({"/nowhere.mvnx"}), "/nowhere.mvnx");
 }
 
-TEST(LoadsCommand, NamesTheFileThatTheDiskHasNoRoomForAndLeavesNothing) {
+TEST(LoadsCommand, NamesTheFileThatDoesNotFitOnTheDiskAndLeavesNothing) {
   const TempFolder folder;
   const std::string csv = folder / "loads.csv";
   // A limit in units of 512 bytes: less than the header.
@@ -265,7 +265,7 @@ TEST(LoadsCommand, NamesTheFileThatTheDiskHasNoRoomForAndLeavesNothing) {
   EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
 }
 
-TEST(LoadsCommand, SaysSoWhenStandardOutputTakesNoMore) {
+TEST(LoadsCommand, ReportsThatStandardOutputIsFull) {
   for (const char* output : {"", "--csv -", "--json -"}) {
     const ProgramResult result = testing::RunProgram(
         {"/bin/sh", "-c",
@@ -275,7 +275,7 @@ TEST(LoadsCommand, SaysSoWhenStandardOutputTakesNoMore) {
   }
 }
 
-TEST(LoadsCommand, RefusesOneFileForTwoOutputs) {
+TEST(LoadsCommand, RejectsOneFileForTwoOutputs) {
   const TempFolder folder;
   const std::string file = folder / "loads", same = folder / "." / "none" / ".." / "loads";
   std::filesystem::create_directory(folder / "none");
@@ -296,7 +296,7 @@ TEST(LoadsCommand, RefusesOneFileForTwoOutputs) {
   EXPECT_THAT(folder.Names(), ::testing::ElementsAre("here", "none"));
 }
 
-TEST(LoadsCommand, LeavesNothingBehindWhenItIsStopped) {
+TEST(LoadsCommand, LeavesNoFilesWhenItIsStopped) {
   const TempFolder folder;
   testing::Process child({testing::KinescopePath(), "loads", "demo:walk", "--seconds", "100000",
                           "--csv", "-", "--json", folder / "loads.json"});

@@ -133,7 +133,7 @@ Judge ReadAll(const std::string& source, int most_frames) {
 
 constexpr int kAll = 1'000'000;
 
-TEST(Mechanism, IsWhereTheBuiltInSubjectsAreInEveryFrame) {
+TEST(Mechanism, MatchesEverySampleOfTheBuiltInSubjects) {
   for (const std::string& motion : subject::MotionNames()) {
     SCOPED_TRACE(motion);
     constexpr int kTenSeconds = 600;  // longer than any motion's period
@@ -141,17 +141,17 @@ TEST(Mechanism, IsWhereTheBuiltInSubjectsAreInEveryFrame) {
   }
 }
 
-TEST(Mechanism, IsWithinMillimetresOfEveryFrameOfAFullBodyRecording) {
+TEST(Mechanism, MatchesEverySampleOfAFullBodyRecordingWithinMillimetres) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/Meri-020.mvnx");
   ReadAll(SharedData("mvnx/Meri-020.mvnx"), kAll).Expect(AsAgreed);
 }
 
-TEST(Mechanism, IsWithinMillimetresOfEveryFrameOfAnUpperBodyRecording) {
+TEST(Mechanism, MatchesEverySampleOfAnUpperBodyRecordingWithinMillimetres) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   ReadAll(SharedData("mvnx/test_mocap.mvnx"), kAll).Expect(AsAgreed);
 }
 
-TEST(Mechanism, IsWithinMillimetresOfEveryFrameOfABag) {
+TEST(Mechanism, MatchesEverySampleOfABagWithinMillimetres) {
   if (!ros_bridge::BuiltWithRos()) GTEST_SKIP() << "bags need ROS";
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
   ReadAll(SharedData("ros1/2018-05-28-17-34-45.bag.xz"), kAll).Expect(AsAgreed);
@@ -172,7 +172,7 @@ std::vector<std::vector<double>> ReadSheet(const std::string& file) {
 }
 
 // It has no scale data: the lengths are those of its first frame, as for a person on TF.
-TEST(Mechanism, IsWithinMillimetresOfEveryFrameOfAnExportToExcel) {
+TEST(Mechanism, MatchesEverySampleOfAnExcelExportWithinMillimetres) {
   KINESCOPE_NEEDS_SHARED_DATA("excel-export-P005/segment_position.csv");
   KINESCOPE_NEEDS_SHARED_DATA("excel-export-P005/segment_orientation_quat.csv");
   const auto positions = ReadSheet("excel-export-P005/segment_position.csv");
@@ -209,7 +209,7 @@ TEST(Mechanism, IsWithinMillimetresOfEveryFrameOfAnExportToExcel) {
   judge.Expect(AsAgreed);
 }
 
-TEST(Mechanism, IsWithinMillimetresOfARecordedDatagramAndTheScaleDataBesideIt) {
+TEST(Mechanism, MatchesARecordedDatagramWithItsScaleDataWithinMillimetres) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp13.bin");
   const auto scale_message = mvn::ParseDatagram(testing::ReadFile(SharedData("udp/mxtp13.bin")));
   const auto pose_message = mvn::ParseDatagram(testing::ReadFile(SharedData("udp/mxtp02.bin")));
@@ -315,7 +315,7 @@ double WorstFinger(const PersonState& person) {
   return worst;
 }
 
-TEST(Mechanism, GetsHandsOfTheLengthsThatScaleDataTellAndOnlyOnceTheyAreStreamed) {
+TEST(Mechanism, GetsHandsWithLengthsOfTheScaleDataWhenTheyAreStreamed) {
   GlovedPerson person(Described(true));
   const PersonState bare =
       person.See(0, [](BodySample& sample) { sample.fingers_and_props.present.reset(); });
@@ -331,7 +331,7 @@ TEST(Mechanism, GetsHandsOfTheLengthsThatScaleDataTellAndOnlyOnceTheyAreStreamed
   EXPECT_EQ(person.See(7).model, person.See(8).model) << "the URDF changes once";
 }
 
-TEST(Mechanism, GetsAverageHandsWhereNobodyTellsTheirLengths) {
+TEST(Mechanism, GetsAverageHandsIfTheirLengthsAreUnknown) {
   GlovedPerson person(Described(false));
   const double worst = WorstFinger(person.See(1));
   EXPECT_LT(worst, 0.01) << "the streamed hand is an average one";
@@ -340,7 +340,7 @@ TEST(Mechanism, GetsAverageHandsWhereNobodyTellsTheirLengths) {
   EXPECT_NEAR(hand->length, urdf::DefaultSkeleton().finger_tip_in_hand[urdf::kRight].norm(), 1e-9);
 }
 
-TEST(Mechanism, LeavesFingersAsTheyWereWhileTheyAreNotStreamed) {
+TEST(Mechanism, KeepsTheLastFingerAnglesWhileFingersAreNotStreamed) {
   GlovedPerson person(Described(true));
   const PersonState with = person.See(1.0);
   const PersonState without =
@@ -359,7 +359,7 @@ TEST(Mechanism, LeavesFingersAsTheyWereWhileTheyAreNotStreamed) {
 }
 
 // The tool that comes with urdfdom, which people run on a URDF before anything else.
-TEST(Mechanism, IsAUrdfThatCheckUrdfAccepts) {
+TEST(Mechanism, IsAcceptedByCheckUrdf) {
   const testing::TempFolder folder;
   urdf::HumanModel human;
   human.skeleton = urdf::DefaultSkeleton();

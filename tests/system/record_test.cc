@@ -122,7 +122,7 @@ void WaitForSize(const fs::path& path, std::uintmax_t bytes) {
   }
 }
 
-TEST(Record, FourPeopleAt240HzLoseNothing) {
+TEST(Record, LosesNothingOfFourPeopleAt240Hz) {
   TempFolder folder;
   const std::string path = folder / "take.pcap";
   Recording recording("udp://127.0.0.1:0", "--json --out " + Quoted(path));
@@ -156,7 +156,7 @@ TEST(Record, FourPeopleAt240HzLoseNothing) {
   }
 }
 
-TEST(Record, AKillLeavesEveryWholePacketReadable) {
+TEST(Record, LeavesEveryCompletePacketReadableWhenKilled) {
   TempFolder folder;
   const fs::path path = folder / "take.pcap";
   Recording recording("udp://127.0.0.1:0", "--out " + Quoted(path));
@@ -185,7 +185,7 @@ TEST(Record, AKillLeavesEveryWholePacketReadable) {
   EXPECT_EQ(kept, Brief(sent));
 }
 
-TEST(Record, CtrlCEndsItWellAndTcpIsRecordedToo) {
+TEST(Record, RecordsTcpAndEndsRegularlyOnCtrlC) {
   TempFolder folder;
   const fs::path path = folder / "take.pcap";
   Recording recording("tcp://127.0.0.1:0?listen", "--json --out " + Quoted(path));
@@ -207,7 +207,7 @@ TEST(Record, CtrlCEndsItWellAndTcpIsRecordedToo) {
   EXPECT_EQ(ReadBack(path).Brief(), Brief(sent));
 }
 
-TEST(Record, EndsByItselfAfterSomeSeconds) {
+TEST(Record, EndsAfterTheGivenTime) {
   TempFolder folder;
   const ProgramResult result =
       Record({"udp://127.0.0.1:0", "--seconds", "0.2", "--json", "--out", folder / "take.pcap"});
@@ -228,7 +228,7 @@ fs::path WriteRawFile(const TempFolder& folder, std::vector<std::string>& datagr
   return folder / "take.bin";
 }
 
-TEST(Record, MakesACaptureOfAFileOrAPipe) {
+TEST(Record, ConvertsAFileOrAPipeToACapture) {
   TempFolder folder;
   std::vector<std::string> datagrams;
   const std::string raw = WriteRawFile(folder, datagrams);
@@ -247,7 +247,7 @@ TEST(Record, MakesACaptureOfAFileOrAPipe) {
   EXPECT_EQ(ReadBack(folder / "again.pcap").datagrams, ReadBack(folder / "take.pcap").datagrams);
 }
 
-TEST(Record, NamesAFileInJsonWhateverItsBytesAre) {
+TEST(Record, NamesAFileWithInvalidUtf8InJson) {
   TempFolder folder;
   std::vector<std::string> datagrams;
   const std::string raw = folder / "n\xFF.bin";
@@ -259,7 +259,7 @@ TEST(Record, NamesAFileInJsonWhateverItsBytesAre) {
   EXPECT_EQ(summary["files"][0], (folder / "n\uFFFD.pcap").string());
 }
 
-TEST(Record, RotatesBySizeAndNamesItsFiles) {
+TEST(Record, SplitsItsFileBySizeAndNumbersTheFiles) {
   TempFolder folder;
   std::vector<std::string> datagrams;
   const std::string raw = WriteRawFile(folder, datagrams);
@@ -276,7 +276,7 @@ TEST(Record, RotatesBySizeAndNamesItsFiles) {
   EXPECT_TRUE(fs::exists(folder / "take-0002.pcap"));
 }
 
-TEST(Record, RefusesWhatItCannotOrMustNotDo) {
+TEST(Record, RejectsInvalidSourcesAndExistingOutputs) {
   TempFolder folder;
   std::vector<std::string> datagrams;
   const std::string raw = WriteRawFile(folder, datagrams);
@@ -315,7 +315,7 @@ void ExpectWholePackets(const fs::path& path, std::uintmax_t disk_bytes,
   EXPECT_EQ(kept, Brief(datagrams));
 }
 
-TEST(Record, AFileThatMayNotGrowKeepsWholePackets) {
+TEST(Record, KeepsCompletePacketsInAFileOfLimitedSize) {
   TempFolder folder;
   std::vector<std::string> datagrams;
   const std::string raw = WriteRawFile(folder, datagrams);
@@ -329,7 +329,7 @@ TEST(Record, AFileThatMayNotGrowKeepsWholePackets) {
   ExpectWholePackets(out, 400 * 512, datagrams);
 }
 
-TEST(Record, AFullDiskKeepsWholePackets) {
+TEST(Record, KeepsCompletePacketsOnAFullDisk) {
   TempFolder folder;
   std::vector<std::string> datagrams;
   const std::string raw = WriteRawFile(folder, datagrams);

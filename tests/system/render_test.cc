@@ -86,7 +86,7 @@ class RenderCommand : public ::testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(RenderCommand, MakesEveryFormatAndCameraInOnePass) {
+TEST_F(RenderCommand, WritesEveryFormatAndCameraInOnePass) {
   const auto lines =
       Lines(Render({"--out", Path("{camera}.mp4"), "--out", Path("{camera}.webm"), "--out",
                     Path("{source}-{camera}.png"), "--out", Path("{camera}-%02d.png"), "--camera",
@@ -109,7 +109,7 @@ TEST_F(RenderCommand, MakesEveryFormatAndCameraInOnePass) {
   EXPECT_EQ(Decode(Path("top.webm")).size(), 3u);
 }
 
-TEST_F(RenderCommand, AnyNumberOfJobsGivesTheSameBytes) {
+TEST_F(RenderCommand, WritesTheSameBytesWithAnyNumberOfJobs) {
   for (const std::string jobs : {"1", "3"}) {
     const auto lines =
         Lines(Render({"--out", Path(jobs + ".mp4"), "--out", Path(jobs + ".webm"), "--out",
@@ -124,7 +124,7 @@ TEST_F(RenderCommand, AnyNumberOfJobsGivesTheSameBytes) {
 
 // What picture k of the decoded clip looks like is the scene at k / fps, and not the one before or
 // after it.
-TEST_F(RenderCommand, PictureKShowsTheTimeKOverTheRate) {
+TEST_F(RenderCommand, ShowsTheTimeOfEachFrameNumberDividedByTheFrameRate) {
   Lines(Render({"--out", Path("a.mp4"), "--fps", "29.97", "--seconds", "0.5", "--camera", "right",
                 "--no_overlays", "--size", "320x240", "--json"}));
   const std::vector<render::Image> clip = Decode(Path("a.mp4"));
@@ -157,7 +157,7 @@ TEST_F(RenderCommand, PictureKShowsTheTimeKOverTheRate) {
   }
 }
 
-TEST_F(RenderCommand, DoesNotDrawAgainWhatIsThere) {
+TEST_F(RenderCommand, SkipsOutputsThatAreUpToDate) {
   const std::vector<std::string> command = {"--out",       Path("a.mp4"), "--out",
                                             Path("a.png"), "--out",       Path("%d.png"),
                                             "--seconds",   "0.1",         "--json"};
@@ -178,7 +178,7 @@ TEST_F(RenderCommand, DoesNotDrawAgainWhatIsThere) {
   EXPECT_EQ(Lines(Render({"--out", Path("a.png"), "--json"}, "demo:lift")).at(0).at("drawn"), 1);
 }
 
-TEST_F(RenderCommand, WithoutSidecarsItLooksIntoTheFiles) {
+TEST_F(RenderCommand, ReadsProvenanceFromTheFilesIfSidecarsAreOff) {
   for (const long drawn : {3, 0}) {
     const auto lines = Lines(Render({"--out", Path("a.webm"), "--out", Path("a.webp"), "--out",
                                      Path("a.gif"), "--seconds", "0.1", "--no_sidecar", "--json"}));
@@ -188,7 +188,7 @@ TEST_F(RenderCommand, WithoutSidecarsItLooksIntoTheFiles) {
   EXPECT_EQ(Verify(Path("a.gif")).exit_code, 0);
 }
 
-TEST_F(RenderCommand, GoesOnWhereItWasInterrupted) {
+TEST_F(RenderCommand, ResumesAnInterruptedRun) {
   const std::string pattern = Path("%04d.png");
   {
     testing::Process run({"/bin/bash", "-c",
@@ -221,7 +221,7 @@ TEST_F(RenderCommand, GoesOnWhereItWasInterrupted) {
   EXPECT_EQ(Verify(pattern).exit_code, 0);
 }
 
-TEST_F(RenderCommand, TellsInTheFileHowItWasDrawn) {
+TEST_F(RenderCommand, WritesProvenanceIntoTheFile) {
   Lines(Render({"--out", Path("a.png"), "--out", Path("a.mp4"), "--seconds", "0.1", "--time", "1.5",
                 "--title", "trial <3>", "--hand_load", "both:5", "--json"}));
   const auto still = app::ReadEmbedded(Path("a.png"));
@@ -239,7 +239,7 @@ TEST_F(RenderCommand, TellsInTheFileHowItWasDrawn) {
   EXPECT_TRUE(app::DecideTheSame(*clip, *app::ReadSidecar(Path("a.mp4"))));
 }
 
-TEST_F(RenderCommand, VerifiesWhatItDrewAndSaysWhereAFileDiffers) {
+TEST_F(RenderCommand, VerifiesItsFilesAndReportsDifferences) {
   Lines(Render({"--out", Path("a.png"), "--out", Path("a.mp4"), "--out", Path("%d.png"),
                 "--seconds", "0.1", "--json"}));
   for (const char* name : {"a.png", "a.mp4", "%d.png", "2.png"}) {
@@ -296,14 +296,14 @@ TEST_F(RenderCommand, VerifiesAPictureOfTheFirstVersion) {
   EXPECT_THAT(result.err, IsEmpty());
 }
 
-TEST_F(RenderCommand, VerifiesOnePictureOfASequenceWithAPlotOfAllOfIt) {
+TEST_F(RenderCommand, VerifiesOneFrameOfASequenceWithAPlotOfTheWholeSequence) {
   Lines(Render({"--out", Path("%d.png"), "--seconds", "0.2", "--plot", "l5_s1", "--size", "320x192",
                 "--json"}));
   const ProgramResult result = Verify(Path("2.png"));
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
 }
 
-TEST_F(RenderCommand, NamesAFileThatHasChangedWhateverItsBytesAre) {
+TEST_F(RenderCommand, NamesAChangedFileWithInvalidUtf8) {
   std::ofstream(Path("tool.obj")) << "mtllib n\xFF.mtl\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\n"
                                      "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   std::ofstream(Path("n\xFF.mtl")) << "newmtl red\nKd 1 0 0\n";
@@ -317,7 +317,7 @@ TEST_F(RenderCommand, NamesAFileThatHasChangedWhateverItsBytesAre) {
             HasSubstr("n\uFFFD.mtl")));
 }
 
-TEST_F(RenderCommand, VerifiesOnlyAgainstTheSourceThatItWas) {
+TEST_F(RenderCommand, VerifiesOnlyAgainstTheOriginalSource) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   const std::string source = Path("take.mvnx"), moved = Path("moved.mvnx");
   fs::copy_file(testing::SharedData("mvnx/test_mocap.mvnx"), source);
@@ -334,7 +334,7 @@ TEST_F(RenderCommand, VerifiesOnlyAgainstTheSourceThatItWas) {
   EXPECT_THAT(other.err, HasSubstr("SHA-256"));
 }
 
-TEST_F(RenderCommand, AFullDiskLeavesNothingBehind) {
+TEST_F(RenderCommand, LeavesNoFilesOnAFullDisk) {
   for (const char* name : {"a.mp4", "a.webm", "a.webp", "a.gif", "a.png"}) {
     const bool is_still = fs::path(name).extension() == ".png";
     const ProgramResult result =
@@ -346,7 +346,7 @@ TEST_F(RenderCommand, AFullDiskLeavesNothingBehind) {
   }
 }
 
-TEST_F(RenderCommand, RefusesWhatCannotBeBeforeAnythingIsRead) {
+TEST_F(RenderCommand, RejectsInvalidOptionsBeforeReadingTheSource) {
   struct Case {
     std::vector<std::string> arguments;
     const char* named;
@@ -369,7 +369,7 @@ TEST_F(RenderCommand, RefusesWhatCannotBeBeforeAnythingIsRead) {
   EXPECT_THAT(folder_.Names(), IsEmpty());
 }
 
-TEST_F(RenderCommand, FfprobeFindsWhatWasAskedFor) {
+TEST_F(RenderCommand, WritesTheRequestedFormatAccordingToFfprobe) {
   if (std::system("command -v ffprobe >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffprobe here";
   Lines(Render({"--out", Path("a.mp4"), "--out", Path("a.webm"), "--fps", "30000/1001", "--seconds",
                 "1", "--json"}));

@@ -139,7 +139,7 @@ std::vector<std::string> WriteRecording(const fs::path& path, int samples) {
   return datagrams;
 }
 
-TEST(StreamCommand, SendsTheSubjectAsASuitDoes) {
+TEST(StreamCommand, SendsTheSubjectLikeASuit) {
   const Sent sent = StreamToUdp({"demo:lift", "--seconds", "0.5"});
   const auto poses = HeadersOf(sent.datagrams, mvn::Type::kPose);
   ASSERT_EQ(poses.size(), 60U) << "half a second at 120 Hz";
@@ -172,7 +172,7 @@ TEST(StreamCommand, SendsOverTcp) {
   EXPECT_EQ(sent.summary.at("datagrams"), 2 * 60);
 }
 
-TEST(StreamCommand, SendsExactlyTheTypesAskedFor) {
+TEST(StreamCommand, SendsExactlyTheRequestedTypes) {
   const Sent sent =
       StreamToUdp({"demo:lift", "--seconds", "0.1", "--types", "01,02,03,12,13,20,21,22,23,24,25"});
   for (const char* type : {"01", "02", "03", "20", "21", "22", "23", "24", "25"}) {
@@ -182,7 +182,7 @@ TEST(StreamCommand, SendsExactlyTheTypesAskedFor) {
   EXPECT_EQ(some.summary.at("types"), json({{"02", 12}, {"25", 12}}));
 }
 
-TEST(StreamCommand, PutsCopiesSideBySide) {
+TEST(StreamCommand, SendsCopiesSideBySide) {
   const Sent sent = StreamToUdp({"demo:walk", "--seconds", "0.1", "--characters", "3"});
   const auto first = BodiesOf<mvn::PoseMessage>(sent.datagrams, 0);
   ASSERT_EQ(first.size(), 12U);
@@ -239,14 +239,14 @@ TEST(StreamCommand, AddsGlovesAndProps) {
   EXPECT_EQ(names[64], "RightFifthDP");
 }
 
-TEST(StreamCommand, LeavesOutSamplesButCountsThem) {
+TEST(StreamCommand, SkipsSamplesButCountsThem) {
   const Sent sent = StreamToUdp({"demo:walk", "--seconds", "0.5", "--stream_hz", "30"});
   const auto poses = HeadersOf(sent.datagrams, mvn::Type::kPose);
   ASSERT_EQ(poses.size(), 15U);
   for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_EQ(poses[i].sample_counter, 4 * i);
 }
 
-TEST(StreamCommand, PassesDatagramsOnByteForByte) {
+TEST(StreamCommand, ForwardsDatagramsByteForByte) {
   const TempFolder folder;
   const auto written = WriteRecording(folder / "walk.bin", 30);
   EXPECT_EQ(StreamToUdp({folder / "walk.bin"}).datagrams, written);
@@ -254,7 +254,7 @@ TEST(StreamCommand, PassesDatagramsOnByteForByte) {
 }
 
 // Ten seconds in a tenth; a busy machine makes more of it, but not a hundred times as much.
-TEST(StreamCommand, SendsFasterThanItWasRecordedWhereAsked) {
+TEST(StreamCommand, SendsFasterThanRecordedOnRequest) {
   const TempFolder folder;
   WriteRecording(folder / "walk.bin", 1001);
   const Sent sent = StreamToUdp({folder / "walk.bin", "--speed", "100", "--types", "24"});
@@ -263,14 +263,14 @@ TEST(StreamCommand, SendsFasterThanItWasRecordedWhereAsked) {
   EXPECT_LT(sent.summary.at("seconds").get<double>(), 9.9);
 }
 
-TEST(StreamCommand, NamesAFileInJsonWhateverItsBytesAre) {
+TEST(StreamCommand, NamesAFileWithInvalidUtf8InJson) {
   const TempFolder folder;
   WriteRecording(folder / "n\xFF.bin", 3);
   EXPECT_THAT(StreamToUdp({folder / "n\xFF.bin"}).summary.at("source").get<std::string>(),
               HasSubstr("n\uFFFD.bin"));
 }
 
-TEST(StreamCommand, ChangesNothingInCopiesOfDatagramsButTheCharacter) {
+TEST(StreamCommand, ChangesOnlyTheCharacterInCopiesOfDatagrams) {
   const TempFolder folder;
   const auto written = WriteRecording(folder / "walk.bin", 10);
   const Sent sent = StreamToUdp({folder / "walk.bin", "--characters", "2", "--types", "02,24"});
@@ -284,7 +284,7 @@ TEST(StreamCommand, ChangesNothingInCopiesOfDatagramsButTheCharacter) {
   EXPECT_EQ(sent.datagrams, expected);
 }
 
-TEST(StreamCommand, LetsCountersAndTimeCodesGoOnInALoop) {
+TEST(StreamCommand, ContinuesCountersAndTimeCodesInALoop) {
   const TempFolder folder;
   WriteRecording(folder / "walk.bin", 20);
   const Sent sent = StreamToUdp({folder / "walk.bin", "--loop", "--seconds", "0.7"});
@@ -304,7 +304,7 @@ TEST(StreamCommand, SendsARecordingOfSamples) {
   EXPECT_GE(sent.summary.at("seconds").get<double>(), 111.0 / 60 / 4);
 }
 
-TEST(StreamCommand, LoopsARecordingOfSamplesWithoutASeam) {
+TEST(StreamCommand, LoopsARecordingOfSamplesWithoutAGap) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/Meri-020.mvnx");
   const Sent sent = StreamToUdp({SharedData("mvnx/Meri-020.mvnx"), "--loop", "--seconds", "0.248"});
   const auto poses = HeadersOf(sent.datagrams, mvn::Type::kPose);
@@ -316,7 +316,7 @@ TEST(StreamCommand, LoopsARecordingOfSamplesWithoutASeam) {
   EXPECT_EQ(BodiesOf<mvn::MetaDataMessage>(sent.datagrams).size(), 1U) << "once a second";
 }
 
-TEST(StreamCommand, DoesWhatFaultsSayAndCountsIt) {
+TEST(StreamCommand, InjectsTheRequestedFaultsAndCountsThem) {
   const Arguments arguments = {"demo:walk",
                                "--seconds",
                                "2",
@@ -355,7 +355,7 @@ TEST(StreamCommand, DoesWhatFaultsSayAndCountsIt) {
 }
 
 // Held back until its end, a burst still goes out before the program ends.
-TEST(StreamCommand, SendsWhatFaultsHoldBackBeforeItEnds) {
+TEST(StreamCommand, SendsDelayedDatagramsBeforeItEnds) {
   const Sent sent = StreamToUdp({"demo:walk", "--seconds", "0.2", "--fault", "burst=1:0.5"});
   EXPECT_EQ(HeadersOf(sent.datagrams, mvn::Type::kPose).size(), 24U);
   EXPECT_GE(sent.summary.at("seconds").get<double>(), 0.5);
@@ -397,7 +397,7 @@ TEST(StreamCommand, RelaysALiveStreamUntilItIsStopped) {
   EXPECT_EQ(summary.at("samples"), 24);
 }
 
-TEST(StreamCommand, RefusesWhatCannotBeByFlagValueAndRange) {
+TEST(StreamCommand, RejectsInvalidOptionsWithNameValueAndRange) {
   const auto expect_refusal = [](const Arguments& arguments, const std::string& flag,
                                  const std::string& range) {
     const ProgramResult result = Stream(arguments);

@@ -58,7 +58,7 @@ constexpr char kArm[] =
     "<origin xyz='0 0 0.3'/><axis xyz='1 0 0'/>"
     "<limit lower='-2' upper='2' effort='1' velocity='1'/></joint>\n</robot>\n";
 
-TEST_F(UrdfCommand, WritesAPersonToTheScreenOrAFileAsSourceOrAsHeight) {
+TEST_F(UrdfCommand, WritesAPersonOfASourceOrAHeightToTheScreenOrAFile) {
   const ProgramResult screen = Urdf({"--height", "1.62"});
   EXPECT_EQ(screen.exit_code, 0) << screen.err;
   EXPECT_EQ(urdf::ParseUrdf(screen.out).links.size(), 67u);
@@ -69,7 +69,7 @@ TEST_F(UrdfCommand, WritesAPersonToTheScreenOrAFileAsSourceOrAsHeight) {
   EXPECT_EQ(Urdf({"--source", "demo:lift", "--body_model", "primitive"}).out, positional.out);
 }
 
-TEST_F(UrdfCommand, AFullDiskIsTheReasonAndLeavesTheFileAsItWas) {
+TEST_F(UrdfCommand, ReportsAFullDiskAndKeepsTheOldFile) {
   const std::string file = Write("a.urdf", "<robot name='before'/>");
   const ProgramResult result =
       testing::RunProgram({"/usr/bin/prlimit", "--fsize=8192", testing::KinescopePath(), "urdf",
@@ -84,7 +84,7 @@ TEST_F(UrdfCommand, AFullDiskIsTheReasonAndLeavesTheFileAsItWas) {
   EXPECT_THAT(nowhere.err, HasSubstr("No such file or directory"));
 }
 
-TEST_F(UrdfCommand, ExportsAPackageThatItFindsItselfAgain) {
+TEST_F(UrdfCommand, ExportsAPackageThatItsOwnCheckFinds) {
   const ProgramResult result = Urdf({"--height", "1.9", "--out", At("ines"), "--package", "ines"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(ReadFile(At("ines/person.urdf")), HasSubstr("package://ines/meshes/"));
@@ -114,7 +114,7 @@ std::vector<std::string> MeshUris(const std::string& urdf_file) {
   return uris;
 }
 
-TEST_F(UrdfCommand, DressesThePersonAsAskedWithAndWithoutASource) {
+TEST_F(UrdfCommand, AppliesTheBodyModelWithAndWithoutASource) {
   Write("own/Head.stl", testing::BoxStl());  // of metres; as centimetres it may be a head
   for (const std::string source : {"", "demo:n_pose"}) {
     const auto write = [&](const std::string& figure, const std::string& out) {
@@ -149,7 +149,7 @@ TEST_F(UrdfCommand, DressesThePersonAsAskedWithAndWithoutASource) {
   }
 }
 
-TEST_F(UrdfCommand, LetsEveryLinkWeighSomethingForGazebo) {
+TEST_F(UrdfCommand, GivesEveryLinkAMassForGazebo) {
   const auto links_of = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--mass", "70", "--body_model", "primitive"});
     const ProgramResult result = Urdf(arguments);
@@ -169,7 +169,7 @@ TEST_F(UrdfCommand, LetsEveryLinkWeighSomethingForGazebo) {
   }
 }
 
-TEST_F(UrdfCommand, CheckTellsFileLineElementAndWayOut) {
+TEST_F(UrdfCommand, ReportsFileLineAndElementOfAProblem) {
   const std::string file = Write("r.urdf", kArm);
   const ProgramResult missing = Urdf({"check", file});
   EXPECT_EQ(missing.exit_code, 1);
@@ -195,7 +195,7 @@ TEST_F(UrdfCommand, CheckTellsFileLineElementAndWayOut) {
   EXPECT_EQ(wrong->at("element"), "link 'hand'");
 }
 
-TEST_F(UrdfCommand, CheckTellsApartWhatIsWrongAndWhatCannotBeRead) {
+TEST_F(UrdfCommand, DistinguishesInvalidUrdfsFromUnreadableFiles) {
   EXPECT_EQ(Urdf({"check", Write("bomb.urdf", "<!DOCTYPE a [<!ENTITY b 'c'>]><robot name='&b;'/>")})
                 .exit_code,
             1);
@@ -214,7 +214,7 @@ TEST_F(UrdfCommand, CheckTellsApartWhatIsWrongAndWhatCannotBeRead) {
   EXPECT_THAT(result.out, HasSubstr("the limit is"));
 }
 
-TEST_F(UrdfCommand, ManyAlikeAreToldOnceWithTheirNumber) {
+TEST_F(UrdfCommand, PrintsRepeatedProblemsWithTheirNumber) {
   std::string xml = "<robot name='r'><link name='l0'/>";
   for (int i = 1; i <= 50; ++i) {
     const std::string n = std::to_string(i);
@@ -227,7 +227,7 @@ TEST_F(UrdfCommand, ManyAlikeAreToldOnceWithTheirNumber) {
                                 HasSubstr("usable, with 50 warnings"), Not(HasSubstr("'l9'"))));
 }
 
-TEST_F(UrdfCommand, DrawsAnyRobotInAnyPose) {
+TEST_F(UrdfCommand, RendersAnyRobotInAnyPose) {
   const std::string file = Write("robot/urdf/r.urdf", kArm);
   Write("robot/package.xml", "<package><name>arm_description</name></package>");
   Write("robot/meshes/hand.stl", testing::BoxStl());
@@ -254,7 +254,7 @@ TEST_F(UrdfCommand, DrawsAnyRobotInAnyPose) {
   EXPECT_THAT(missing.err, HasSubstr("hand.stl"));
 }
 
-TEST_F(UrdfCommand, PictureRefusesInOneLine) {
+TEST_F(UrdfCommand, RejectsInvalidPictureOptionsInOneLine) {
   const std::string file = Write("r.urdf", kArm);
   const auto refusal = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "picture");
@@ -276,7 +276,7 @@ TEST_F(UrdfCommand, PictureRefusesInOneLine) {
   EXPECT_THAT(refusal({bare, "--out", At("a.png")}), HasSubstr("nothing to draw"));
 }
 
-TEST_F(UrdfCommand, DrawsAndChecksTheHumansOfOthers) {
+TEST_F(UrdfCommand, RendersAndChecksPublishedHumanModels) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-gazebo/humanSubject01_66dof.urdf");
   for (const char* file :
        {"human-gazebo/humanSubject01_66dof.urdf", "human-gazebo/humanSubject01_48dof.urdf",

@@ -9,7 +9,7 @@
 namespace kinescope::urdf {
 namespace {
 
-TEST(BodyParameters, AreThoseOfTheReferencePerson) {  // joint-loads.md 6.1: male, 75 kg, R75
+TEST(BodyParameters, EqualThoseOfTheReferencePerson) {  // joint-loads.md 6.1: male, 75 kg, R75
   const BodyParameters body = MakeBodyParameters({}, DefaultSkeleton());
   struct Expected {
     int segment;
@@ -43,7 +43,7 @@ TEST(BodyParameters, AreThoseOfTheReferencePerson) {  // joint-loads.md 6.1: mal
   EXPECT_LT((body[kHead].inertia_about_com.diagonal() - head).norm(), 2e-5);
 }
 
-TEST(BodyParameters, OfAWomanAddUpToHerMass) {
+TEST(BodyParameters, AddUpToTheBodyMassOfAWoman) {
   BodyDescription woman;
   woman.sex = Sex::kFemale;
   woman.mass_kg = 60;
@@ -66,7 +66,7 @@ BodyDescription Described(BodyTable table, Sex sex) {
   return body;
 }
 
-TEST(BodyParameters, AreBodiesThatCanExist) {  // triangle inequality of every inertia tensor
+TEST(BodyParameters, ArePhysicallyPossible) {  // triangle inequality of every inertia tensor
   for (const BodyTable table : kEveryTable) {
     for (const Sex sex : {Sex::kMale, Sex::kFemale}) {
       for (const double height : {1.2, 1.75, 2.1}) {
@@ -83,7 +83,7 @@ TEST(BodyParameters, AreBodiesThatCanExist) {  // triangle inequality of every i
   }
 }
 
-TEST(BodyParameters, OfEveryTableAddUpToTheBodysMassAndMirror) {
+TEST(BodyParameters, AddUpToTheBodyMassAndAreSymmetricInEveryTable) {
   for (const BodyTable table : kEveryTable) {
     for (const Sex sex : {Sex::kMale, Sex::kFemale}) {
       const BodyParameters body = MakeBodyParameters(Described(table, sex), DefaultSkeleton());
@@ -102,7 +102,7 @@ TEST(BodyParameters, OfEveryTableAddUpToTheBodysMassAndMirror) {
 }
 
 // joint-loads.md 1.5 quotes it of every table, in percent: it decides the lumbar moment.
-TEST(BodyParameters, HaveTheMassAboveTheLumbarJointThatTheirSourcesHave) {
+TEST(BodyParameters, HaveTheMassAboveTheLumbarJointOfTheirSources) {
   const auto above = [](BodyTable table, Sex sex) {
     const BodyParameters body = MakeBodyParameters(Described(table, sex), DefaultSkeleton());
     double mass = 0;
@@ -118,7 +118,7 @@ TEST(BodyParameters, HaveTheMassAboveTheLumbarJointThatTheirSourcesHave) {
 }
 
 // Where the coarser tables give one CoM for what are several segments of ours.
-TEST(BodyParameters, HaveTheCentresThatTheirTablesSay) {
+TEST(BodyParameters, HaveTheCentresOfMassOfTheirTables) {
   const Skeleton skeleton = DefaultSkeleton();
   const auto origin = NPoseOrigins(skeleton);
   const auto common = [&](const BodyParameters& body, std::initializer_list<int> segments) {
@@ -156,7 +156,7 @@ TEST(BodyParameters, HaveTheCentresThatTheirTablesSay) {
               1e-9);
 }
 
-TEST(BodyParameters, IncludeWhatIsWorn) {
+TEST(BodyParameters, IncludeAddedMasses) {
   BodyDescription body;
   body.added_masses = {{kHead, 1.5, {0, 0, 0.2}}, {kHead, 0.5, {0.1, 0, 0.1}}};
   const BodyParameters bare = MakeBodyParameters({}, DefaultSkeleton());
@@ -176,7 +176,7 @@ TEST(BodyParameters, IncludeWhatIsWorn) {
   EXPECT_EQ(worn[kT8].mass, bare[kT8].mass);
 }
 
-TEST(BodyParameters, RefuseWhatNobodyWearsNamingIt) {
+TEST(BodyParameters, RejectImpossibleAddedMassesByName) {
   const auto defect = [](AddedMass added) {
     BodyDescription body;
     body.added_masses = {added};
@@ -194,7 +194,7 @@ TEST(BodyParameters, RefuseWhatNobodyWearsNamingIt) {
   EXPECT_THROW(MakeBodyParameters(many, DefaultSkeleton()), std::invalid_argument);
 }
 
-TEST(AddedMass, IsReadFromTextOrRejectedWithWhatIsExpected) {
+TEST(AddedMass, IsReadFromTextOrRejectedWithTheExpectedFormat) {
   const AddedMass helmet = ParseAddedMass("Head:1.5@0.01,0,0.12");
   EXPECT_EQ(helmet.segment, kHead);
   EXPECT_EQ(helmet.mass_kg, 1.5);
@@ -212,7 +212,7 @@ TEST(AddedMass, IsReadFromTextOrRejectedWithWhatIsExpected) {
   }
 }
 
-TEST(BodyParameters, RefuseAMassThatNobodyHas) {
+TEST(BodyParameters, RejectImpossibleBodyMasses) {
   for (const double mass : {0.0, -70.0, 19.9, 301.0, std::nan("")}) {
     EXPECT_THROW(MakeBodyParameters({Sex::kMale, mass, false}, DefaultSkeleton()),
                  std::invalid_argument)

@@ -26,7 +26,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, Figure, testing::kBodies, testing::NameOfBody);
 
 std::string_view NameOf(int segment) { return kSegments[At(segment)].mvn_name; }
 
-TEST_P(Figure, EverySurfaceIsClosedAndFinite) {
+TEST_P(Figure, HasClosedAndFiniteSurfaces) {
   for (int i = 0; i < kSegmentCount; ++i) {
     SCOPED_TRACE(NameOf(i));
     const TriangleMesh& mesh = meshes_[At(i)];
@@ -47,7 +47,7 @@ TEST_P(Figure, EverySurfaceIsClosedAndFinite) {
   }
 }
 
-TEST_P(Figure, IsAsFineAsItsShapeNeeds) {
+TEST_P(Figure, HasAsManyTrianglesAsItsShapeNeeds) {
   for (int i = 0; i < kSegmentCount; ++i) {
     // A face and five fingers do not fit into what a limb takes, and segments of the trunk, which
     // twist against each other, show facets that are coarser.
@@ -58,7 +58,7 @@ TEST_P(Figure, IsAsFineAsItsShapeNeeds) {
   }
 }
 
-TEST_P(Figure, NoFaceIsInsideOut) {
+TEST_P(Figure, HasNoFaceThatIsInsideOut) {
   // Just below each face the surface winds round once at least, just above never the wrong way.
   constexpr double kJustBeside = 2e-5;
   for (int i = 0; i < kSegmentCount; ++i) {
@@ -136,7 +136,7 @@ double CoreRadius(int joint) {
   }
 }
 
-TEST_P(Figure, NoJointOpensHoweverItBends) {
+TEST_P(Figure, HasNoGapAtAnyBentJoint) {
   std::mt19937 random(7);
   std::normal_distribution<double> any;
   std::vector<Vector3d> directions(24);
@@ -179,7 +179,7 @@ Sample SampleOf(const TriangleMesh& mesh, std::size_t triangle, const Vector3d& 
   return {origin + (a + b + c) / 3, (b - a).cross(c - a).normalized(), shading.normalized()};
 }
 
-TEST_P(Figure, NothingFlickersWhereSegmentsMeet) {
+TEST_P(Figure, HasNoFlickeringFacesWhereSegmentsMeet) {
   // Two faces fight for a pixel where they are this near and parallel; it shows if they are shaded
   // differently. 0.1 mm is several steps of the depth buffer at the distance of a picture.
   constexpr double kNear = 1e-4;

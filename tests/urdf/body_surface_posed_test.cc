@@ -120,7 +120,7 @@ void PosedFigure::ExpectNoFights(const Pixels& pixels) const {
   }
 }
 
-TEST_P(PosedFigure, IsOneWholePersonFromAllSides) {
+TEST_P(PosedFigure, IsInOnePieceFromAllSides) {
   for (const auto& [posture, seconds] : kPostures) {
     const LinkPoses poses = Take(posture, seconds);
     for (const auto& [view, to_eye] : kViews) {

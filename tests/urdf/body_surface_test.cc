@@ -58,7 +58,7 @@ TEST_P(EverySegment, CoversItsBoneFromJointToJoint) {
   }
 }
 
-TEST_P(EverySegment, IsASurfaceEvenWhereTheSkeletonIsNonsense) {
+TEST_P(EverySegment, IsASurfaceEvenForAnImpossibleSkeleton) {
   Skeleton flat;  // every length and the height zero, as a broken stream may claim
   Skeleton folded = skeleton_;
   for (Vector3d& origin : folded.origin_in_parent) origin = -10 * origin;
@@ -70,7 +70,7 @@ TEST_P(EverySegment, IsASurfaceEvenWhereTheSkeletonIsNonsense) {
   }
 }
 
-TEST_P(EverySegment, IsTheSameAsABinaryStl) {
+TEST_P(EverySegment, IsTheSameInABinaryStlFile) {
   const std::string stl = ToBinaryStl(mesh_);
   ASSERT_EQ(stl.size(), 84 + 50 * mesh_.triangles.size());
   EXPECT_NE(stl.substr(0, 5), "solid") << "would be taken for the text form";
@@ -94,7 +94,7 @@ TEST_P(EverySegment, IsTheSameAsABinaryStl) {
   }
 }
 
-TEST(Figure, LeftIsTheMirrorImageOfRight) {
+TEST(Figure, HasLeftSegmentsThatMirrorTheRightOnes) {
   const Skeleton skeleton = DefaultSkeleton();
   for (int right = kRightShoulder; right <= kRightToe; ++right) {
     if (right >= kLeftShoulder && right <= kLeftHand) continue;
@@ -128,7 +128,7 @@ TEST(Figure, HasTheSizeOfAPerson) {
   EXPECT_NEAR(volume, 0.085, 0.020);
 }
 
-TEST(Figure, TheFaceLooksForward) {
+TEST(Figure, HasAFaceThatLooksForward) {
   const TriangleMesh head = SegmentMesh(DefaultSkeleton(), kHead);
   float front = 0, back = 0;
   Vector3f nose = Vector3f::Zero();

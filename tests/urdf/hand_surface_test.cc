@@ -29,7 +29,7 @@ void ExpectClosed(const TriangleMesh& mesh, const std::string& name) {
 
 std::string Name(int finger) { return std::string(kFingers[At(finger)]); }
 
-TEST(HandFigure, IsOfClosedShellsThatFaceOutwardAndHoldTheirBones) {
+TEST(HandFigure, ConsistsOfClosedShellsThatFaceOutwardAndContainTheirBones) {
   for (const double length : {0.12, 0.19, 0.24}) {
     const HandSkeleton hand = DefaultHand(kRight, length);
     for (int i = 0; i < kFingersPerHand; ++i) {
@@ -46,7 +46,7 @@ TEST(HandFigure, IsOfClosedShellsThatFaceOutwardAndHoldTheirBones) {
   }
 }
 
-TEST(HandFigure, EndsWhereTheFingerEnds) {
+TEST(HandFigure, EndsAtTheFingertip) {
   const HandSkeleton hand = DefaultHand(kLeft, 0.19);
   for (int i = 1; i < kFingersPerHand; ++i) {
     if (!IsFingertip(i)) continue;
@@ -62,7 +62,7 @@ TEST(HandFigure, EndsWhereTheFingerEnds) {
 
 // Both ends of a joint are balls about it, so a turn opens nothing: from one to the other there is
 // no way out.
-TEST(HandFigure, HasNoGapAtAnyJointHoweverItBends) {
+TEST(HandFigure, HasNoGapAtAnyBentJoint) {
   const HandSkeleton hand = DefaultHand(kRight, 0.19);
   for (int i = 1; i < kFingersPerHand; ++i) {
     const int parent = kFingerParents[At(i)];
@@ -83,7 +83,7 @@ TEST(HandFigure, HasNoGapAtAnyJointHoweverItBends) {
   }
 }
 
-TEST(HandFigure, HasThePalmOverEveryKnuckleAndTheWrist) {
+TEST(HandFigure, HasAPalmThatCoversEveryKnuckleAndTheWrist) {
   HandSkeleton hand = DefaultHand(kLeft, 0.19);
   for (const Vector3d& carpus : {Vector3d(0, 0, 0), Vector3d(0.004, -0.003, -0.02)}) {
     hand.origin_in_parent[0] = carpus;
@@ -99,7 +99,7 @@ TEST(HandFigure, HasThePalmOverEveryKnuckleAndTheWrist) {
 }
 
 // Scale data may say anything.
-TEST(HandFigure, StaysASurfaceForBonesThatCannotBe) {
+TEST(HandFigure, IsASurfaceEvenForImpossibleBones) {
   HandSkeleton none;
   none.origin_in_parent.fill(Vector3d::Zero());
   none.length = 0;
@@ -122,7 +122,7 @@ TEST(HandFigure, StaysASurfaceForBonesThatCannotBe) {
   }
 }
 
-TEST(HandFigure, OfPrimitivesFillsTheBonesAndHasThePalmOfTheSmoothOne) {
+TEST(HandFigure, HasTheSameBonesAndPalmIfMadeOfPrimitives) {
   const HandSkeleton hand = DefaultHand(kLeft, 0.19);
   for (int i = 0; i < kFingersPerHand; ++i) {
     const auto parts = FingerPrimitives(hand, i);

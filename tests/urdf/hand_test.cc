@@ -28,7 +28,7 @@ int FindFinger(std::string_view name) {
   return 0;
 }
 
-TEST(Hand, DefaultReachesAsFarAsAskedWithTheMiddleFinger) {
+TEST(Hand, HasTheRequestedLengthUpToTheMiddleFingertip) {
   for (const double length : {0.15, 0.21}) {
     const HandSkeleton hand = DefaultHand(kRight, length);
     const auto origins = Origins(hand);
@@ -55,7 +55,7 @@ TEST(Hand, HasTheThumbInFrontAndFingersOfNaturalLengths) {
   }
 }
 
-TEST(Hand, ComesBackFromItsOwnTPose) {
+TEST(Hand, IsRestoredFromItsOwnTPose) {
   for (const Side side : {kRight, kLeft}) {
     const HandSkeleton hand = DefaultHand(side, 0.2);
     auto world = Origins(hand);
@@ -69,7 +69,7 @@ TEST(Hand, ComesBackFromItsOwnTPose) {
   }
 }
 
-TEST(Hand, KnowsItsJoints) {
+TEST(Hand, HasAKindForEachOfItsJoints) {
   EXPECT_EQ(KindOf(FindFinger("Carpus")), FingerJoint::kCarpus);
   EXPECT_EQ(KindOf(FindFinger("FirstMC")), FingerJoint::kThumbBase);
   EXPECT_EQ(KindOf(FindFinger("FirstPP")), FingerJoint::kKnuckle);
@@ -93,7 +93,7 @@ TEST(Hand, BendsItsFingersTowardsThePalmWithinTheirLimits) {
   }
 }
 
-TEST(Hand, CompletesWhatIsNotMeasuredAndMeasuresTheAnglesOfTheRest) {
+TEST(Hand, CompletesUnmeasuredFingersAndComputesTheAnglesOfMeasuredOnes) {
   const HandSkeleton hand = DefaultHand(kRight, 0.19);
   const Pose world_from_hand = {{1, 2, 3}, RotationFromAngles({0.3, -0.2, 0.9})};
   FingerAngles truth;
@@ -119,7 +119,7 @@ TEST(Hand, CompletesWhatIsNotMeasuredAndMeasuresTheAnglesOfTheRest) {
   }
 }
 
-TEST(Hand, CountsItsRaysAsTheyFollowEachOther) {
+TEST(Hand, NumbersItsRaysInTheirOrder) {
   for (int ray = 0; ray < 5; ++ray) {
     int finger = MetacarpalOf(ray);
     EXPECT_EQ(kFingerParents[At(finger)], 0) << ray;

@@ -60,7 +60,7 @@ std::map<std::string, Isometry3d> Chain(const RobotModel& robot, const Isometry3
   return world_from_link;
 }
 
-TEST(HumanUrdf, MovesAsOurOwnKinematicsSays) {
+TEST(HumanUrdf, MovesAsComputedByTheKinematics) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> angle(-1.2, 1.2);
   const HumanModel human = Human();
@@ -95,7 +95,7 @@ TEST(HumanUrdf, KeepsUnsafeNamesOutOfTheDocument) {
   EXPECT_EQ(robot.root_link, "a_b_____c_pelvis");
 }
 
-TEST(HumanUrdf, NamesItsMeshesWhereAFolderIsGiven) {
+TEST(HumanUrdf, NamesItsMeshesIfAFolderIsGiven) {
   HumanModel human = Human();
   human.mesh_folder = "/some/folder";
   for (const Link& link : ParseUrdf(WriteUrdf(human)).links) {
@@ -209,7 +209,7 @@ class Read {
   int checked_ = 0;
 };
 
-TEST(HumanUrdf, LosesNothingOnTheWayThroughUrdfdomAndTheReader) {
+TEST(HumanUrdf, KeepsEveryValueThroughUrdfdomAndTheReader) {
   std::mt19937 random(17);
   const Eigen::Vector4d body(0.78, 0.80, 0.84, 1);
   const Eigen::Vector4d glove(0.55, 0.60, 0.68, 1);
@@ -265,7 +265,7 @@ TEST(HumanUrdf, LosesNothingOnTheWayThroughUrdfdomAndTheReader) {
   }
 }
 
-TEST(HumanUrdf, HangsAPropOnThePelvisBySixJointsThatEveryReaderTakes) {
+TEST(HumanUrdf, ConnectsAPropToThePelvisBySixJointsThatEveryReaderAccepts) {
   HumanModel human = Human();
   human.props = 0b0100;
   Read read(human);
@@ -306,7 +306,7 @@ TEST(HumanUrdf, HangsAPropOnThePelvisBySixJointsThatEveryReaderTakes) {
   EXPECT_EQ(parent, "skeleton_prop3");
 }
 
-TEST(HumanUrdf, IsTheSameTextForTheSameBodyAndHasNothingOfGlovesWithoutThem) {
+TEST(HumanUrdf, IsTheSameTextForTheSameBodyAndHasNoFingersWithoutGloves) {
   const std::string text = WriteUrdf(Human());
   EXPECT_EQ(text, WriteUrdf(Human()));
   for (const char* word : {"carpus", "prop", "glove"}) {
@@ -314,7 +314,7 @@ TEST(HumanUrdf, IsTheSameTextForTheSameBodyAndHasNothingOfGlovesWithoutThem) {
   }
 }
 
-TEST(HumanUrdf, WeighsWhatTheBodyWeighsWhateverItsBuild) {
+TEST(HumanUrdf, HasTheMassOfTheBodyInEveryVariant) {
   std::mt19937 random(18);
   for (int trial = 0; trial < 200; ++trial) {
     HumanModel human = RandomHuman(random);
@@ -376,7 +376,7 @@ bool Holds(const Collision& collision, const Vector3d& point) {
   return false;
 }
 
-TEST(HumanUrdf, DrawsAGlovedHandOnceByItsFingersAndCollidesOnceWithItsPalm) {
+TEST(HumanUrdf, HasOneSetOfVisualsAndOneCollisionShapePerGlovedHand) {
   HumanModel human = Human();
   human.gloves[kLeft] = DefaultHand(kLeft, 0.19);
   for (const char* folder : {"", "/some/folder"}) {
@@ -407,7 +407,7 @@ TEST(HumanUrdf, HasEveryCentreOfMassInsideItsSegmentsCollisionShapes) {
   }
 }
 
-TEST(JointLimits, MirrorLeftAndRightAndHoldEveryAxisOfEveryJoint) {
+TEST(JointLimits, AreSymmetricAndIncludeTheNPoseOnEveryAxisOfEveryJoint) {
   for (int joint = 0; joint < kJointCount; ++joint) {
     for (int axis = 0; axis < 3; ++axis) {
       const AxisLimit limit = LimitOf(joint, axis);

@@ -15,7 +15,7 @@ using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-TEST(Kinematics, ChainsYThenXThenZ) {
+TEST(Kinematics, RotatesAboutYThenXThenZ) {
   const Vector3d xyz(0.3, -0.7, 1.1);
   const Quaterniond by_hand = AngleAxisd(-0.7, Vector3d::UnitY()) *
                               AngleAxisd(0.3, Vector3d::UnitX()) *
@@ -35,7 +35,7 @@ Quaterniond RandomRotation(std::mt19937& random) {
   return Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
 }
 
-TEST(Kinematics, TenThousandRandomPosesOfEveryJointComeBackFromTheirAngles) {
+TEST(Kinematics, RestoresTenThousandRandomPosesOfEveryJointFromTheirAngles) {
   std::mt19937 random(42);
   const Skeleton skeleton = DefaultSkeleton();
   JointAngles angles{};
@@ -53,7 +53,7 @@ TEST(Kinematics, TenThousandRandomPosesOfEveryJointComeBackFromTheirAngles) {
   RecordProperty("worst_rad", InDigits(worst));
 }
 
-TEST(Kinematics, AnglesComeBackFromTheirRotationsThoughOneOfThemIsNearTheLock) {
+TEST(Kinematics, RestoresAnglesFromRotationsNearGimbalLock) {
   std::mt19937 random(43);
   std::uniform_real_distribution<double> angle(-M_PI, M_PI);
   std::uniform_real_distribution<double> small(-M_PI_2 + 1e-6, M_PI_2 - 1e-6);
@@ -66,7 +66,7 @@ TEST(Kinematics, AnglesComeBackFromTheirRotationsThoughOneOfThemIsNearTheLock) {
 
 // Down to where y and z are told apart no more (kGimbalLock): the rotation still comes back to the
 // last digits, and so do the angles, as far as a rotation can tell them.
-TEST(Kinematics, TenThousandRandomPosesOfEveryJointNearTheLockComeBackFromTheirAngles) {
+TEST(Kinematics, RestoresTenThousandRandomPosesOfEveryJointNearGimbalLock) {
   std::mt19937 random(44);
   std::uniform_real_distribution<double> angle(-M_PI, M_PI);
   std::uniform_real_distribution<double> magnitude(std::log10(2 * kGimbalLock), -1);
@@ -122,7 +122,7 @@ struct SmoothMotion {
   Vector3d center;
 };
 
-TEST(Kinematics, AnglesOfRandomSmoothMotionsThroughTheLockNeverLeaveThem) {
+TEST(Kinematics, KeepsAnglesSmoothInRandomMotionsThroughGimbalLock) {
   std::mt19937 random(7);
   constexpr double kPeriod = 1.0 / 240;
   int crossings = 0;
@@ -152,7 +152,7 @@ TEST(Kinematics, AnglesOfRandomSmoothMotionsThroughTheLockNeverLeaveThem) {
   EXPECT_GT(crossings, 300) << "the motions do not reach the lock";
 }
 
-TEST(Kinematics, AnglesOfAJointThatRestsInTheLockDoNotShake) {
+TEST(Kinematics, KeepsAnglesOfARestingJointSteadyInGimbalLock) {
   std::mt19937 random(8);
   std::normal_distribution<double> noise(0, 1e-8);
   const Vector3d truth(M_PI_2, 0.7, -0.4);
@@ -170,7 +170,7 @@ TEST(Kinematics, AnglesOfAJointThatRestsInTheLockDoNotShake) {
   }
 }
 
-TEST(Kinematics, AnglesDoNotJumpWhenAJointTurnsPastHalfATurn) {
+TEST(Kinematics, KeepsAnglesContinuousBeyondHalfARevolution) {
   Vector3d before = Vector3d::Zero();
   for (int step = 0; step <= 720; ++step) {
     const Vector3d truth(0.2, step * M_PI / 180, -step * M_PI / 360);
@@ -180,7 +180,7 @@ TEST(Kinematics, AnglesDoNotJumpWhenAJointTurnsPastHalfATurn) {
   }
 }
 
-TEST(Kinematics, AnglesStayContinuousThroughGimbalLock) {
+TEST(Kinematics, KeepsAnglesContinuousThroughGimbalLock) {
   Vector3d before(80 * M_PI / 180, 0.4, -0.2);
   for (int step = 0; step <= 40; ++step) {
     const double x_deg = 80 + 0.5 * step;
@@ -193,7 +193,7 @@ TEST(Kinematics, AnglesStayContinuousThroughGimbalLock) {
   }
 }
 
-TEST(Kinematics, ForwardKinematicsGivesBackTheAnglesItWasGiven) {
+TEST(Kinematics, RestoresTheAnglesGivenToForwardKinematics) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> angle(-1.0, 1.0);
   JointAngles angles;
@@ -204,7 +204,7 @@ TEST(Kinematics, ForwardKinematicsGivesBackTheAnglesItWasGiven) {
   for (std::size_t i = 0; i < angles.size(); ++i) EXPECT_LT((back[i] - angles[i]).norm(), 1e-12);
 }
 
-TEST(Kinematics, InterpolationTakesTheShorterWayWhateverTheSign) {
+TEST(Kinematics, InterpolatesAlongTheShorterWayForEitherQuaternionSign) {
   LinkPoses a, b;
   a[kHead].orientation = RotationFromAngles({0, 0, 0.1});
   b[kHead].orientation = RotationFromAngles({0, 0, 0.3});
@@ -215,7 +215,7 @@ TEST(Kinematics, InterpolationTakesTheShorterWayWhateverTheSign) {
   EXPECT_DOUBLE_EQ(half[kHead].position.x(), 1);
 }
 
-TEST(Kinematics, InterpolationTurnsEvenlyBetweenRandomPosesOfEitherSign) {
+TEST(Kinematics, InterpolatesUniformlyBetweenRandomRotationsOfEitherSign) {
   std::mt19937 random(9);
   std::uniform_real_distribution<double> share(0, 1);
   for (int i = 0; i < 1000; ++i) {

@@ -59,12 +59,12 @@ void ExpectBox(const urdf::Mesh& mesh, const Eigen::Vector3f& least, const Eigen
   for (const Eigen::Vector3f& normal : mesh.normals) EXPECT_NEAR(normal.norm(), 1, 1e-4);
 }
 
-TEST(MeshFile, StlAndObjAreTakenAsTheyAre) {
+TEST(MeshFile, ReadsStlAndObjFilesUnchanged) {
   ExpectBox(urdf::ReadMesh(BoxStl(), ".stl", ""), {0, 0, 0}, {1, 2, 3});
   ExpectBox(urdf::ReadMesh(BoxObj(), ".obj", ""), {0, 0, 0}, {1, 2, 3});
 }
 
-TEST(MeshFile, ColladasUnitAndUpAxisAreHonoured) {
+TEST(MeshFile, AppliesTheUnitAndUpAxisOfCollada) {
   DaeOptions options;
   ExpectBox(urdf::ReadMesh(BoxDae(options), ".dae", ""), {0, 0, 0}, {1, 2, 3});
   options.unit = "0.01";
@@ -76,7 +76,7 @@ TEST(MeshFile, ColladasUnitAndUpAxisAreHonoured) {
   ExpectBox(urdf::ReadMesh(BoxDae(options), ".dae", ""), {-2, -3, 0}, {0, 0, 1});
 }
 
-TEST(MeshFile, ColladasUpAxisIsIgnoredOnDemandButNotItsUnitAndNodes) {
+TEST(MeshFile, IgnoresOnlyTheUpAxisOfColladaOnRequest) {
   DaeOptions options;
   options.unit = "0.01";
   options.nodes =
@@ -90,9 +90,11 @@ TEST(MeshFile, ColladasUpAxisIsIgnoredOnDemandButNotItsUnitAndNodes) {
   }
 }
 
-TEST(MeshFile, GlbHasYUp) { ExpectBox(ReadMesh(BoxGlb(), ".glb", ""), {0, -3, 0}, {1, 0, 2}); }
+TEST(MeshFile, ReadsGlbFilesWithYUp) {
+  ExpectBox(ReadMesh(BoxGlb(), ".glb", ""), {0, -3, 0}, {1, 0, 2});
+}
 
-TEST(MeshFile, ColoursComeFromTheFileWhereItHasAny) {
+TEST(MeshFile, ReadsColoursFromFilesThatContainThem) {
   EXPECT_TRUE(urdf::ReadMesh(BoxStl(), ".stl", "").colors.empty());
   EXPECT_TRUE(urdf::ReadMesh(BoxObj(), ".obj", "").colors.empty());
   const urdf::Mesh dae = urdf::ReadMesh(BoxDae(), ".dae", "");
@@ -111,7 +113,7 @@ TEST(MeshFile, ColoursComeFromTheFileWhereItHasAny) {
 }
 
 // Some exporters write all of a colour as light that the surface gives off, and black as diffuse.
-TEST(MeshFile, WhatASurfaceGivesOffIsPartOfItsColour) {
+TEST(MeshFile, AddsTheEmissiveColourOfASurfaceToItsColour) {
   std::string dae = BoxDae();
   const std::string tag = "<lambert>";
   dae.insert(dae.find(tag) + tag.size(), "<emission><color>0.1 0.5 0.9 1</color></emission>");
@@ -121,7 +123,7 @@ TEST(MeshFile, WhatASurfaceGivesOffIsPartOfItsColour) {
       << mesh.colors[0].transpose();
 }
 
-TEST(MeshFile, ReadsNothingButTheFileAndColoursBesideIt) {
+TEST(MeshFile, ReadsNoFilesOutsideTheFolderOfTheMesh) {
   const TempFolder folder;
   std::filesystem::create_directories(folder / "in");
   std::ofstream(folder / "secret.mtl") << "newmtl paint\nKd 0.25 0.5 0.75\n";
@@ -132,7 +134,7 @@ TEST(MeshFile, ReadsNothingButTheFileAndColoursBesideIt) {
   }
 }
 
-TEST(MeshFile, MirroringNodesKeepsSurfacesOutside) {
+TEST(MeshFile, KeepsSurfacesOfMirroredNodesFacingOutward) {
   DaeOptions options;
   const auto with = [&](const std::string& transform) {
     options.nodes = "<node id='n'>" + transform + "<instance_geometry url='#g'/></node>";
@@ -144,7 +146,7 @@ TEST(MeshFile, MirroringNodesKeepsSurfacesOutside) {
 }
 
 // assimp would leak what it had made so far.
-TEST(MeshFile, TextStlThatMakesNoTrianglesIsRefusedWithItsLine) {
+TEST(MeshFile, RejectsTextStlWithoutTrianglesWithItsLine) {
   const std::string facet =
       "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex +1 0 0\n  vertex 0 1.5e0 0\n "
       "endloop\nendfacet\n";
@@ -182,7 +184,7 @@ TEST(MeshFile, TextStlThatMakesNoTrianglesIsRefusedWithItsLine) {
   }
 }
 
-TEST(MeshFile, CountsThatTheBytesCannotHoldAreToldWithNumbers) {
+TEST(MeshFile, RejectsCountsLargerThanTheFileWithBothNumbers) {
   EXPECT_THAT(Fault(BoxStl(4'000'000'000u), ".stl"), HasSubstr("4000000000 triangles"));
   EXPECT_THAT(Fault(BoxStl(13), ".stl"), HasSubstr("13 triangles (734 bytes), but has 684"));
   EXPECT_THAT(Fault(std::string(40, '\0'), ".stl"), HasSubstr("40 bytes"));
@@ -203,7 +205,7 @@ TEST(MeshFile, CountsThatTheBytesCannotHoldAreToldWithNumbers) {
   EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("1000000000 bytes"));
 }
 
-TEST(MeshFile, EveryTruncationIsRefusedOrDrawn) {
+TEST(MeshFile, RejectsOrReadsEveryTruncation) {
   for (const auto& [bytes, extension] :
        {std::pair(BoxStl(), ".stl"), std::pair(BoxDae(), ".dae"), std::pair(BoxGlb(), ".glb"),
         std::pair(BoxObj(), ".obj")}) {
@@ -216,7 +218,7 @@ TEST(MeshFile, EveryTruncationIsRefusedOrDrawn) {
   }
 }
 
-TEST(MeshFile, CirclesAndUnfoldingNodesAreRefused) {
+TEST(MeshFile, RejectsCyclicDeepAndExpandingNodes) {
   DaeOptions dae;
   dae.nodes = "<node id='a'><instance_geometry url='#g'/><instance_node url='#a'/></node>";
   EXPECT_THAT(Fault(BoxDae(dae), ".dae"), HasSubstr("contains itself"));
@@ -240,13 +242,13 @@ TEST(MeshFile, CirclesAndUnfoldingNodesAreRefused) {
   EXPECT_THAT(Fault(BoxGlb(glb), ".glb"), HasSubstr("nested too deeply"));
 }
 
-TEST(MeshFile, AnIndexThatIsNoneIsRefused) {  // assimp would look at it for ever
+TEST(MeshFile, RejectsAnInvalidIndex) {  // assimp would look at it for ever
   std::string dae = BoxDae();
   dae.insert(dae.find("<p>") + 10, "~");
   EXPECT_THAT(Fault(dae, ".dae"), HasSubstr("<p> contains a value that is not an index"));
 }
 
-TEST(MeshFile, EntitiesAndForeignFilesAreRefused) {
+TEST(MeshFile, RejectsEntitiesExternalFilesAndUnsupportedFormats) {
   std::string dae = BoxDae();
   dae.insert(dae.find("<COLLADA"), "<!DOCTYPE COLLADA [<!ENTITY a 'b'>]>");
   EXPECT_THAT(Fault(dae, ".dae"), HasSubstr("DOCTYPE"));
@@ -258,7 +260,7 @@ TEST(MeshFile, EntitiesAndForeignFilesAreRefused) {
   EXPECT_THAT(Fault("x", ".blend"), HasSubstr("unsupported mesh format '.blend'"));
 }
 
-TEST(MeshFile, WhatCannotBeDrawnIsRefused) {
+TEST(MeshFile, RejectsMeshesThatCannotBeRendered) {
   EXPECT_THAT(Fault("", ".stl"), HasSubstr("empty"));
   std::string nan = BoxStl();
   const float not_a_number = std::numeric_limits<float>::quiet_NaN();
@@ -279,7 +281,7 @@ TEST(MeshFile, WhatCannotBeDrawnIsRefused) {
   EXPECT_THAT(Fault(many, ".stl"), HasSubstr("more than 500000 triangles"));
 }
 
-TEST(MeshFile, FilesThatAreNoneAreNamed) {
+TEST(MeshFile, NamesMissingAndIrregularFiles) {
   const auto fault = [](const std::string& path) -> std::string {
     try {
       urdf::ReadMeshFile(path);
@@ -295,7 +297,7 @@ TEST(MeshFile, FilesThatAreNoneAreNamed) {
   EXPECT_THAT(fault("/dev/zero"), HasSubstr("not a regular file"));
 }
 
-TEST(MeshFile, ReadsTheMeshesOfOthers) {
+TEST(MeshFile, ReadsThePublishedMeshesOfOtherProjects) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-model-generator/meshes/Head.stl");
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(

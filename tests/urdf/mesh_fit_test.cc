@@ -32,7 +32,7 @@ void ExpectBounds(const TriangleMesh& mesh, const Vector3d& low, const Vector3d&
   EXPECT_GT(testing::Volume(mesh), 0) << "inside out";
 }
 
-TEST(MeshFit, UnitsAndUpAxisBecomeMetresAndZ) {
+TEST(MeshFit, ConvertsUnitsToMetresAndTheUpAxisToZ) {
   const TriangleMesh millimetres = Box({-50, -400, -60}, {50, 20, 60});
   MeshConvention convention;
   convention.metres_per_unit = 0.001;
@@ -41,7 +41,7 @@ TEST(MeshFit, UnitsAndUpAxisBecomeMetresAndZ) {
                {0.05, 0.06, 0.02});
 }
 
-TEST(MeshFit, ArmsOfTheTPoseHangInLinkFrames) {
+TEST(MeshFit, TurnsArmsOfTheTPoseDownInLinkFrames) {
   const TriangleMesh right = Box({-0.03, -0.25, -0.04}, {0.05, 0.01, 0.02});
   MeshConvention convention;
   for (const Frame frame : {Frame::kSegment, Frame::kLonger}) {
@@ -58,7 +58,7 @@ TEST(MeshFit, ArmsOfTheTPoseHangInLinkFrames) {
                {0.05, 0.01, 0.02});
 }
 
-TEST(MeshFit, AMeshFromItsJointKeepsItsOriginAndGetsThePersonsLength) {
+TEST(MeshFit, KeepsTheOriginAtTheJointAndScalesToThePersonsSegmentLength) {
   const Skeleton skeleton = DefaultSkeleton();
   const double length = -EndOf(skeleton, kLeftUpperLeg).z();
   const TriangleMesh thigh = Box({-0.06, -0.05, -0.4}, {0.07, 0.06, 0.02});
@@ -66,7 +66,7 @@ TEST(MeshFit, AMeshFromItsJointKeepsItsOriginAndGetsThePersonsLength) {
                {0.07, 0.06, 0.02 * length / 0.4});
 }
 
-TEST(MeshFit, AMeshAboutItsMiddleIsMovedOntoItsSegment) {
+TEST(MeshFit, MovesACentredMeshOntoItsSegment) {
   const Skeleton skeleton = DefaultSkeleton(1.95);
   const double length = -EndOf(skeleton, kRightLowerLeg).z();
   const TriangleMesh shank = Box({-0.06, -0.06, -0.2}, {0.06, 0.05, 0.2});
@@ -77,7 +77,7 @@ TEST(MeshFit, AMeshAboutItsMiddleIsMovedOntoItsSegment) {
                {0.1, 0.16, EndOf(skeleton, kT8).z()});
 }
 
-TEST(MeshFit, FeetStandOnTheFloor) {
+TEST(MeshFit, PutsFeetOnTheFloor) {
   const Skeleton skeleton = DefaultSkeleton(1.6);
   const auto origins = NPoseOrigins(skeleton);
   const TriangleMesh foot = Box({-0.05, -0.04, -0.03}, {0.15, 0.04, 0.05});
@@ -90,7 +90,7 @@ TEST(MeshFit, FeetStandOnTheFloor) {
   EXPECT_NEAR(box.max().x(), EndOf(skeleton, kRightToe).x(), 1e-6);
 }
 
-TEST(MeshFit, StaysFiniteWhereMeshOrSkeletonIsNonsense) {
+TEST(MeshFit, StaysFiniteForAnImpossibleMeshOrSkeleton) {
   for (int i = 0; i < kSegmentCount; ++i) {
     for (const TriangleMesh& mesh :
          {TriangleMesh(), Box({0, 0, 0}, {0, 0, 0}), Box({-1, -1, -1}, {1, 1, 1})}) {

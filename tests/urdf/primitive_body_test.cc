@@ -36,7 +36,7 @@ bool Contains(const std::vector<Primitive>& primitives, const Vector3d& point) {
 }
 
 // From the belly to the back, across the joint, nothing opens that one could see through.
-TEST(PrimitiveBody, ASpineThatBendsShowsNoGap) {
+TEST(PrimitiveBody, HasNoGapInABentSpine) {
   const Skeleton skeleton = DefaultSkeleton();
   constexpr double kDeep = 0.085;  // m, from the axis: nearly to the surface
   for (const int joint : {jL5S1, jL4L3, jL1T12, jT9T8}) {

@@ -21,14 +21,14 @@ JointAngles SomeAngles() {
   return angles;
 }
 
-TEST(RigidDeviation, IsNothingForABodyThatIsRigid) {
+TEST(RigidDeviation, IsZeroForARigidBody) {
   const JointAngles angles = SomeAngles();
   const RigidDeviation deviation = MeasureDeviation(DefaultSkeleton(), Bent(angles), angles);
   EXPECT_LT(deviation.LargestPosition(), 1e-12);
   EXPECT_LT(deviation.LargestOrientation(), 1e-7);
 }
 
-TEST(RigidDeviation, IsWhereASegmentWasMovedOrTurnedAndHowFar) {
+TEST(RigidDeviation, IsTheDisplacementAndRotationOfEachSegment) {
   const JointAngles angles = SomeAngles();
   LinkPoses measured = Bent(angles);
   measured[kLeftHand].position += Vector3d(0.003, 0, -0.004);
@@ -42,7 +42,7 @@ TEST(RigidDeviation, IsWhereASegmentWasMovedOrTurnedAndHowFar) {
 }
 
 // A longer upper arm in the URDF moves all that hangs on it, and nothing else.
-TEST(RigidDeviation, RunsOnAlongTheChainFromAWrongLength) {
+TEST(RigidDeviation, PropagatesFromAWrongLengthAlongTheChain) {
   const JointAngles angles = SomeAngles();
   Skeleton longer = DefaultSkeleton();
   longer.origin_in_parent[kRightForeArm].z() -= 0.01;
@@ -53,7 +53,7 @@ TEST(RigidDeviation, RunsOnAlongTheChainFromAWrongLength) {
   }
 }
 
-TEST(RigidDeviation, RaisesEachSegmentToTheLargerOfTwo) {
+TEST(RigidDeviation, TakesTheMaximumOfTwoDeviationsPerSegment) {
   RigidDeviation a, b;
   a.position[kHead] = 1;
   a.orientation[kHead] = 2;

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(Segments, KnowBothNamesOfTheClavicleJoint) {
+TEST(Segments, AcceptBothNamesOfTheClavicleJoint) {
   EXPECT_EQ(FindJoint("jRightT4Shoulder"), jRightC7Shoulder);
   EXPECT_EQ(FindJoint("jRightC7Shoulder"), jRightC7Shoulder);
   EXPECT_EQ(FindJoint("jTail"), std::nullopt);
@@ -17,7 +17,7 @@ TEST(Segments, KnowBothNamesOfTheClavicleJoint) {
   EXPECT_EQ(FindSegment("leftforearm"), std::nullopt);
 }
 
-TEST(Joints, ThoseOfBothSidesAreInOneGroup) {
+TEST(Joints, OfBothSidesAreInOneGroup) {
   for (int right = 0; right < kJointCount; ++right) {
     const std::string name(kJoints[At(right)].ros_name);
     EXPECT_EQ(IsLeftJoint(right), name.substr(0, 5) == "left_") << name;
@@ -33,16 +33,16 @@ TEST(Joints, ThoseOfBothSidesAreInOneGroup) {
   EXPECT_EQ(JointGroupOf(jC1Head), JointGroup::kNeck);
 }
 
-TEST(Segments, HaveTheLoadOfL5S1WhereItsIndexSays) { EXPECT_EQ(kScoredJoints[kScoredL5S1], jL5S1); }
+TEST(Segments, HaveTheL5S1LoadAtItsIndex) { EXPECT_EQ(kScoredJoints[kScoredL5S1], jL5S1); }
 
-TEST(Segments, HangTheArmsOfTheTPoseInTheNPose) {
+TEST(Segments, TurnTheArmsFromTheTPoseToTheNPose) {
   // In the T-pose the right arm lies along -y of its segment frame; in its link frame along -z.
   EXPECT_LT((SegmentFromLink(kRightForeArm) * Vector3d(0, 0, -1) - Vector3d(0, -1, 0)).norm(),
             1e-15);
   EXPECT_LT((SegmentFromLink(kLeftHand) * Vector3d(0, 0, -1) - Vector3d(0, 1, 0)).norm(), 1e-15);
 }
 
-TEST(Skeleton, DefaultIsAsTallAsAsked) {
+TEST(Skeleton, HasTheRequestedHeight) {
   for (const double height : {1.50, 1.75, 1.95}) {
     const Skeleton skeleton = DefaultSkeleton(height);
     const auto origins = NPoseOrigins(skeleton);
@@ -65,7 +65,7 @@ std::array<Vector3d, kSegmentCount> TPoseOrigins(const Skeleton& skeleton) {
   return origins;
 }
 
-TEST(Skeleton, ComesBackFromItsOwnTPoseAndLandmarks) {
+TEST(Skeleton, IsRestoredFromItsOwnTPoseAndLandmarks) {
   const Skeleton skeleton = DefaultSkeleton(1.8);
   Landmarks landmarks;
   landmarks[{kHead, "pTopOfHead"}] = skeleton.head_top_in_head;
@@ -85,7 +85,7 @@ TEST(Skeleton, ComesBackFromItsOwnTPoseAndLandmarks) {
   EXPECT_NEAR(back.height, 1.8, 0.004);
 }
 
-TEST(Skeleton, GuessesMissingEndPointsFromStature) {
+TEST(Skeleton, EstimatesMissingEndPointsFromTheStature) {
   const Skeleton skeleton = DefaultSkeleton(1.8);
   const Skeleton back = SkeletonFromTPose(TPoseOrigins(skeleton), {});
   EXPECT_NEAR(back.height, 1.8, 0.01);
@@ -95,7 +95,7 @@ TEST(Skeleton, GuessesMissingEndPointsFromStature) {
   EXPECT_GT(back.toe_tip_in_toe[kRight].x(), 0.05);
 }
 
-TEST(Skeleton, TakesJointsFromTheLandmarksBeforeTheTPose) {
+TEST(Skeleton, PrefersJointsOfTheLandmarksToThoseOfTheTPose) {
   const Skeleton skeleton = DefaultSkeleton(1.8);
   auto origins = TPoseOrigins(skeleton);
   for (int i = kL5; i <= kLeftHand; ++i) origins[At(i)].x() -= 0.0125;  // all that L5 carries
@@ -111,7 +111,7 @@ TEST(Skeleton, TakesJointsFromTheLandmarksBeforeTheTPose) {
   EXPECT_LT((told.origin_in_parent[kL3] - skeleton.origin_in_parent[kL3]).norm(), 1e-12);
 }
 
-TEST(Skeleton, TakesTheFloorOfTheTPoseForTheSoleThatNoLandmarkTells) {
+TEST(Skeleton, PutsSolesWithoutLandmarksOnTheFloorOfTheTPose) {
   const Skeleton skeleton = DefaultSkeleton(1.9);
   const Skeleton back = SkeletonFromTPose(TPoseOrigins(skeleton), {});
   for (const Side side : {kRight, kLeft}) {
@@ -120,7 +120,7 @@ TEST(Skeleton, TakesTheFloorOfTheTPoseForTheSoleThatNoLandmarkTells) {
   }
 }
 
-TEST(Skeleton, DoesNotTakeZeroForTheFloorOfATPoseThatHangsInTheAir) {
+TEST(Skeleton, IgnoresTheFloorBelowATPoseThatIsInTheAir) {
   auto origins = TPoseOrigins(DefaultSkeleton(1.8));
   for (Vector3d& origin : origins) origin.z() += 0.3;
   const Skeleton above = SkeletonFromTPose(origins, {});
@@ -133,7 +133,7 @@ TEST(Skeleton, DoesNotTakeZeroForTheFloorOfATPoseThatHangsInTheAir) {
 }
 
 // joint-loads.md 1.6, as fractions of the stature that the rest of the body leads to.
-TEST(Skeleton, EndPointsThatNobodyToldAreFractionsOfTheStature) {
+TEST(Skeleton, UsesFractionsOfTheStatureForUnknownEndPoints) {
   auto origins = TPoseOrigins(DefaultSkeleton(1.8));
   for (Vector3d& origin : origins) origin.z() += 5;
   const Skeleton skeleton = SkeletonFromTPose(origins, {});
@@ -150,7 +150,7 @@ TEST(Skeleton, EndPointsThatNobodyToldAreFractionsOfTheStature) {
   }
 }
 
-TEST(Skeleton, NamesTheJointThatTheLandmarksLack) {
+TEST(Skeleton, NamesTheJointThatIsMissingFromTheLandmarks) {
   try {
     SkeletonFromLandmarks({});
     FAIL() << "accepted a body without joints";

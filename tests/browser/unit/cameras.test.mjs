@@ -11,7 +11,7 @@ const near = (actual, expected) =>
   actual.forEach((v, i) => assert.ok(Math.abs(v - expected[i]) < 1e-9, `${actual} instead of ${expected}`));
 const distance = ({ position, target }) => Math.hypot(...position.map((v, i) => v - target[i]));
 
-test('a named view is the server’s, moved to where the person stands', () => {
+test('a named view equals that of the server, moved to the person', () => {
   near(aim(front, framing, here, 1.5).position, front.position);
   const moved = aim(front, framing, { middle: [2, -1, 0], radius: 0 }, 1.5);
   near(moved.position, [6.6, -1, 1.5]);
@@ -19,7 +19,7 @@ test('a named view is the server’s, moved to where the person stands', () => {
   assert.ok(Math.abs(moved.fovDegrees - 28.6479) < 1e-3);
 });
 
-test('each name shows what the server’s picture of that name shows, of one person and of a group', () => {
+test('each named view matches the server picture of one person and of a group', () => {
   // named_views_test.cc holds the same file against the server's own cameras.
   const { framing: sent, views } = JSON.parse(readFileSync(new URL('named_views.json', import.meta.url), 'utf8'));
   for (const view of views) {
@@ -32,19 +32,19 @@ test('each name shows what the server’s picture of that name shows, of one per
   }
 });
 
-test('a narrow screen still shows both arms', () => {
+test('a narrow screen shows both arms', () => {
   const aspect = 0.5;
   const visible = 2 * distance(aim(front, framing, here, aspect)) * Math.tan(0.25) * aspect;
   assert.ok(visible >= 1.9 - 1e-9, `${visible} m`);
 });
 
-test('straight down, the camera leans so that "up" of the view is up on the screen', () => {
+test('the camera above the person leans slightly, so that the up direction is defined', () => {
   const { position, target } = aim(top, framing, here, 1.5);
   assert.ok(position[0] < target[0], 'it stands a trace behind');
   assert.ok(Math.abs(position[0]) < 0.01);
 });
 
-test('the ground is the middle of the people', () => {
+test('the ground point is the middle of the people', () => {
   assert.deepEqual(groundOf([], 0), here);
   assert.deepEqual(groundOf([[0, 0, 0.9], [2, 0, 1]], -0.5), { middle: [1, 0, -0.5], radius: 1 });
 });

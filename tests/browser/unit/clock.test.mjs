@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { RecentValues, ServerClock } from '../../../web/clock.js';
 
-test('the offset is that of the quickest ping', () => {
+test('the offset is taken from the fastest ping', () => {
   const clock = new ServerClock();
   assert.equal(clock.at(100), null);
   clock.addPing(0, 80, 5070);      // slow on its way there: wrong by 30
@@ -12,7 +12,7 @@ test('the offset is that of the quickest ping', () => {
   assert.equal(clock.at(300), 5300);
 });
 
-test('old pings are forgotten, so that a drift is followed', () => {
+test('old pings are discarded, so that the clock follows a drift', () => {
   const clock = new ServerClock();
   clock.addPing(0, 1, 5000.5);
   for (let i = 0; i < 16; ++i) clock.addPing(100 * i, 100 * i + 4, 100 * i + 2 + 5003);
@@ -21,13 +21,13 @@ test('old pings are forgotten, so that a drift is followed', () => {
   assert.equal(clock.offset, null);
 });
 
-test('a clock that jumps back while a ping is under way teaches nothing', () => {
+test('a ping is ignored if the clock jumps back meanwhile', () => {
   const clock = new ServerClock();
   clock.addPing(100, 90, 5000);
   assert.equal(clock.offset, null);
 });
 
-test('median and 95th percentile are of the last five seconds', () => {
+test('median and 95th percentile cover the last five seconds', () => {
   const values = new RecentValues();
   assert.equal(values.summary(0), null);
   for (let i = 0; i < 1000; ++i) values.add(1e6, i);

@@ -29,7 +29,7 @@ function open() {
   return { connection, seen, socket: FakeSocket.newest };
 }
 
-test('a message that is not what it should be is reported, and the next one is taken', (t) => {
+test('an invalid message is reported, and the next one is accepted', (t) => {
   holdTimers(t, ['setTimeout']);  // its pings
   const { seen, socket, connection } = open();
   const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, people: [], objects: [] };

@@ -2,13 +2,13 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { problemLines } from '../../../web/diagnostics.js';
 
-test('nothing is said while nothing is wrong', () => {
+test('there are no lines without problems', () => {
   assert.deepEqual(problemLines({}, []), []);
   assert.deepEqual(problemLines({ pictures: null }, []), []);
   assert.deepEqual(problemLines({ pictures: { problems: [], last_error: '' }, source: { rejected: {} } }, []), []);
 });
 
-test('what the server draws as a box is named with its reason, before what was refused', () => {
+test('problems of the picture are listed before rejected datagrams', () => {
   const told = {
     pictures: { problems: ['mesh hand.stl: no such file'], last_error: 'out of memory' },
     source: { rejected: { 'no MXTP id string': 2, 'cut short': 1 } },
@@ -22,7 +22,7 @@ test('what the server draws as a box is named with its reason, before what was r
   ]);
 });
 
-test('equal lines are said once, and of very many the first', () => {
+test('equal lines appear once, and long lists are shortened', () => {
   const problems = Array.from({ length: 60 }, (_, i) => `mesh ${i % 40}`);
   const lines = problemLines({ pictures: { problems } }, []);
   assert.equal(lines.length, 12);

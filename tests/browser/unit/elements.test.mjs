@@ -11,7 +11,7 @@ test('every element is found by its id', () => {
   assert.equal(found['picture-image'].localName, 'img');
 });
 
-test('what the page lacks, or has as another tag, is named, all of it at once', () => {
+test('missing elements and those with other tags are named in one error', () => {
   const { rate, ...others } = ELEMENTS;
   assert.throws(() => findElements(pageOf({ ...others, 'picture-on': 'span' })),
     /^Error: index\.html has no <dd id="rate">, <input id="picture-on">; reload the page$/);

@@ -6,28 +6,28 @@ const row = (key, loadClass, ratio) =>
   ({ key, label: key, loadClass, ratio, moment: -12.34, capacity: 60, channel: 'flexion', reason: '' });
 const keys = (rows) => rows.map(({ key }) => key);
 
-test('the worst class is on top, within it the largest ratio, unknown last', () => {
+test('rows are ordered by class and ratio, with unknown loads last', () => {
   const rows = [row('a', 'unknown', NaN), row('b', 'low', 0.2), row('c', 'high', 0.7),
     row('d', 'medium', 0.59), row('e', 'high', 0.9), row('f', 'low', 0.25)];
   assert.deepEqual(keys(byUrgency(rows)), ['e', 'c', 'd', 'f', 'b', 'a']);
 });
 
-test('the class decides before the ratio: hysteresis may keep a smaller one in the higher class', () => {
+test('the class precedes the ratio, because hysteresis may keep a smaller ratio in the higher class', () => {
   assert.deepEqual(keys(byUrgency([row('a', 'medium', 0.59), row('b', 'high', 0.56)])), ['b', 'a']);
 });
 
-test('rows that tremble around each other stay where they are', () => {
+test('rows with nearly equal ratios keep their order', () => {
   const shown = ['a', 'b'];
   assert.deepEqual(keys(byUrgency([row('a', 'low', 0.20), row('b', 'low', 0.21)], shown)), ['a', 'b']);
   assert.deepEqual(keys(byUrgency([row('a', 'low', 0.20), row('b', 'low', 0.23)], shown)), ['b', 'a']);
 });
 
-test('a change of class moves a row at once, however small the ratio', () => {
+test('a change of class moves a row at once', () => {
   const shown = ['a', 'b'];
   assert.deepEqual(keys(byUrgency([row('a', 'low', 0.30), row('b', 'medium', 0.30)], shown)), ['b', 'a']);
 });
 
-test('whatever the order before, no class stands below a better one', () => {
+test('higher classes are above lower ones after any previous order', () => {
   const classes = ['high', 'medium', 'low', 'unknown'];
   let seed = 7;
   const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
@@ -43,20 +43,20 @@ test('whatever the order before, no class stands below a better one', () => {
   }
 });
 
-test('the input is left as it was', () => {
+test('the input is not changed', () => {
   const rows = [row('a', 'low', 0.1), row('b', 'high', 0.9)];
   byUrgency(rows);
   assert.deepEqual(keys(rows), ['a', 'b']);
 });
 
-test('a row explains itself: how much of what, or why nothing is known', () => {
+test('a row states moment, capacity and direction, or why the load is unknown', () => {
   assert.equal(explain(row('a', 'low', 0.2)), '12 of 60 N·m, flexion');
   assert.equal(explain({ ...row('a', 'low', 0.2), channel: '' }), '12 of 60 N·m');
   assert.equal(explain({ ...row('a', 'unknown', NaN), reason: 'both feet are off the floor' }),
     'both feet are off the floor');
 });
 
-test('persons are named when there are several', () => {
+test('rows contain the names of people if there are several', () => {
   const load = { joint: 1, loadClass: 'low', ratio: 0.1, moment: 1, capacity: 10 };
   const joints = [{ label: 'L5/S1' }, { label: 'Neck' }];
   const one = { people: [{ character: 0, loads: [load] }] };
@@ -67,7 +67,7 @@ test('persons are named when there are several', () => {
   assert.equal(new Set(rowsOf(two, joints, details).map(({ key }) => key)).size, 2);
 });
 
-test('time in each class is told without classes that never were, and adds up', () => {
+test('the time in each class omits unused classes, and the shares add up', () => {
   const secs = { low: 40, medium: 12.4, high: 0, unknown: 7.6 };
   assert.equal(exposureText(secs), 'low 40 s, medium 12 s, unknown 7.6 s since the first sample');
   assert.equal(exposureText(undefined), '');
@@ -75,7 +75,7 @@ test('time in each class is told without classes that never were, and adds up', 
   assert.deepEqual(exposureShares({ low: 0, medium: 0, high: 0, unknown: 0 }), [0, 0, 0, 0]);
 });
 
-test('a load of another program says so', () => {
+test('an external load is marked as external', () => {
   assert.equal(explain({ ...row('a', 'low', 0.2), isExternal: true }), '12 of 60 N·m, flexion, external');
   assert.equal(explain({ ...row('a', 'low', 0.2), isExternal: true, moment: NaN, channel: 'external' }), 'external');
 });

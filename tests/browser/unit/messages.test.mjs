@@ -36,19 +36,19 @@ const pathsOf = (value, path = '') => (typeof value === 'object' && value !== nu
     return [at, ...pathsOf(part, at)];
   }) : []);
 
-test('messages of the server come through as they are', () => {
+test('valid messages of the server are returned unchanged', () => {
   assert.deepEqual(readTextMessage(JSON.stringify({ details })), { details });
   assert.deepEqual(readTextMessage('{"pong": 12.5, "server_micros": 5000}'), { pong: 12.5, server_micros: 5000 });
   assert.deepEqual(readTextMessage('{"error": "no camera \'x\'"}'), { error: 'no camera \'x\'' });
   assert.deepEqual(readModel(model, 'api/model'), model);
 });
 
-test('what a newer server says more is left out, and a message of another kind is no error', () => {
+test('unknown members are removed, and unknown messages are ignored', () => {
   assert.deepEqual(readTextMessage(JSON.stringify({ details: { ...details, weather: 'fair' } })), { details });
   assert.equal(readTextMessage('{"greeting": "hello"}'), null);
 });
 
-test('a wrong or missing member anywhere in the details or the model is refused by its path', () => {
+test('an invalid or missing member of the details or the model is rejected with its path', () => {
   for (const [whole, read] of [[{ details }, (value) => readTextMessage(JSON.stringify(value))],
     [model, (value) => readModel(value, 'api/model')]]) {
     const paths = pathsOf(whole);
@@ -63,7 +63,7 @@ test('a wrong or missing member anywhere in the details or the model is refused 
   }
 });
 
-test('the rejection says what came, where, and what was expected', () => {
+test('the error states the received value, its place and the expected type', () => {
   const message = JSON.stringify({ details: changed(details, 'people.0.name', 5) });
   assert.throws(() => readTextMessage(message),
     /^Error: the server sent 5 as details\.people\[0\]\.name; expected a text; reload the page$/);
@@ -76,12 +76,12 @@ test('the rejection says what came, where, and what was expected', () => {
     /sent "mild" as .*classes\[2\]\.name; expected low, medium, high, unknown/);
 });
 
-test('a model without a colour for every class is refused, because spheres need them all', () => {
+test('a model without a colour for every class is rejected', () => {
   const three = { ...model, palette: { ...palette, classes: palette.classes.slice(1) } };
   assert.throws(() => readModel(three, 'api/model'), /palette\.classes; expected a colour of the class unknown/);
 });
 
-test('cameras come as numbers', () => {
+test('cameras are read as numbers and rejected if invalid', () => {
   const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 1.3 };
   const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
   assert.deepEqual(readCameras({ cameras: [front], framing, live: 'front', has_pictures: true }, 'api/cameras'),
@@ -90,7 +90,7 @@ test('cameras come as numbers', () => {
     /\[0,1\] as api\/cameras\.cameras\[0\]\.up; expected a list of 3/);
 });
 
-test('diagnostics of whatever part is not running are absent', () => {
+test('diagnostics of parts that do not run are absent', () => {
   assert.deepEqual(readDiagnostics({}, ''), { pictures: undefined, source: undefined });
   assert.equal(readDiagnostics({ pictures: null }, '').pictures, null);
   assert.deepEqual(readDiagnostics({ source: { rejected: { 'cut short': 2 } } }, '').source, { rejected: { 'cut short': 2 } });

@@ -19,7 +19,7 @@ const shareOf = (markers, fovDegrees) => {
   return label.scale.y / (2 * Math.tan((fovDegrees * Math.PI) / 360));
 };
 
-test('a label takes the same share of the view through any lens, also when the lens changes', () => {
+test('a label has the same share of the view at any field of view', () => {
   const markers = new ObjectMarkers(palette, 60);
   markers.setNames([cart]);
   markers.update([cart], true);

@@ -11,14 +11,14 @@ const read = (name) => readFileSync(new URL(name, root), 'utf8');
 const modules = readdirSync(new URL('web/', root)).filter((name) => name.endsWith('.js'));
 const html = read('web/index.html');
 
-test('the content security policy allows the import map, by the hash that it has now', () => {
+test('the content security policy contains the current hash of the import map', () => {
   const [, map] = html.match(/<script type="importmap">([^]*?)<\/script>/);
   const hash = createHash('sha256').update(map).digest('base64');
   assert.ok(read('server/http/http_session.cc').includes(`'sha256-${hash}'`),
     `server/http/http_session.cc needs 'sha256-${hash}'`);
 });
 
-test('every library of the import map and of the modules is one that the server gives out', () => {
+test('the server provides every library that the modules import', () => {
   const given = read('server/http/static_files.cc');
   const { imports } = JSON.parse(html.match(/<script type="importmap">([^]*?)<\/script>/)[1]);
   for (const name of modules) {
@@ -30,26 +30,26 @@ test('every library of the import map and of the modules is one that the server 
   }
 });
 
-test('the installed files are those that the server gives out', () => {
+test('the installation contains every library file that the server provides', () => {
   const installed = read('web/CMakeLists.txt');
   for (const [, path] of read('server/http/static_files.cc').matchAll(/"three\/([^"]+)"/g)) {
     assert.ok(installed.includes(path), `web/CMakeLists.txt does not install ${path}`);
   }
 });
 
-test('nothing comes from another site', () => {
+test('the page loads nothing from other sites', () => {
   for (const name of [...modules, 'index.html', 'style.css']) {
     assert.doesNotMatch(read(`web/${name}`), /(https?|wss?):\/\/|@import|[ :]url\(/, name);
   }
 });
 
-test('no text from outside can become markup', () => {
+test('no external text can become markup', () => {
   for (const name of modules) {
     assert.doesNotMatch(read(`web/${name}`), /innerHTML|outerHTML|insertAdjacentHTML|document\.write|eval\(/, name);
   }
 });
 
-test('every element that the page’s code asks for is there, with the tag that it counts on', () => {
+test('every element that the code needs exists with the expected tag', () => {
   const tags = new Map([...html.matchAll(/<(\w+)[^>]*? id="([^"]+)"/g)].map(([, tag, id]) => [id, tag]));
   for (const [id, tag] of Object.entries(ELEMENTS)) assert.equal(tags.get(id), tag, `#${id} of index.html`);
   for (const [, id] of read('web/boot.js').matchAll(/getElementById\('([^']+)'/g)) {

@@ -31,7 +31,7 @@ function twoPeople() {
   return { people, markers, disposed };
 }
 
-test('who leaves is hidden at once and given back ten seconds later', () => {
+test('a person who leaves is hidden at once and released ten seconds later', () => {
   const { people, disposed } = twoPeople();
   people.update(stateOf(100, 0, 1), true);
   people.update(stateOf(101, 0), true);
@@ -44,7 +44,7 @@ test('who leaves is hidden at once and given back ten seconds later', () => {
   assert.equal(people.has(0, 1), true);
 });
 
-test('people who come and go for an hour leave nothing behind', () => {
+test('people who appear and leave for an hour leave no bodies in memory', () => {
   const { people, markers } = twoPeople();
   for (let i = 2; i < 360; ++i) {
     people.setModels([modelOf(i)], palette, markers);
@@ -53,7 +53,7 @@ test('people who come and go for an hour leave nothing behind', () => {
   assert.ok(people.size <= 3, `${people.size} bodies are kept`);
 });
 
-test('a gap in the stream costs nobody the body', () => {
+test('a person keeps the body during a short gap in the stream', () => {
   const { people, disposed } = twoPeople();
   people.update(stateOf(100, 0, 1), true);
   people.update(stateOf(109, 0), true);
@@ -63,13 +63,13 @@ test('a gap in the stream costs nobody the body', () => {
   assert.equal(disposed[1].geometries, 0);
 });
 
-test('a model that comes before its person waits for it', () => {
+test('a model is kept if it arrives before its person', () => {
   const { people } = twoPeople();
   people.update(stateOf(5000, 0), true);
   assert.equal(people.has(1, 1), true);
 });
 
-test('a new revision replaces the body and gives the old one back', () => {
+test('a new revision replaces the body and releases the old one', () => {
   const { people, markers, disposed } = twoPeople();
   people.setModels([modelOf(0, 1), modelOf(1, 2)], palette, markers);
   assert.deepEqual(disposed, [{ geometries: 0, materials: 0 }, { geometries: 1, materials: 1 }]);

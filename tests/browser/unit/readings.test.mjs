@@ -7,7 +7,7 @@ const person = { metric: 'total', isDynamic: true, comSource: 'mvn', comDisagree
 const details = { mass_kg: 75, mass_is_assumed: false, hand_load: { right_kg: 0, left_kg: 0, both_kg: 0 },
   why_other_metric: '', why_no_ground: '' };
 
-test('the hint says what the loads are and what they stand on', () => {
+test('the hint states the metric, the mode and the assumptions of the loads', () => {
   assert.equal(loadsHint(person, details), 'load metric: total, dynamic');
   assert.equal(loadsHint({ ...person, isDynamic: false }, details), 'load metric: total, static');
   assert.equal(loadsHint({ ...person, metric: 'external' }, details), 'load metric: external');
@@ -18,7 +18,7 @@ test('the hint says what the loads are and what they stand on', () => {
   assert.equal(loadsHint(person, undefined), 'load metric: total, dynamic', 'details come a moment after the first state');
 });
 
-test('the markers say whose they are, and why one is not there', () => {
+test('the marker texts state their origin, or why a marker is missing', () => {
   assert.equal(comText(person), 'Centre of mass');
   assert.equal(comText({ ...person, comSource: 'body_model' }), 'Centre of mass (body model)');
   assert.equal(copText(person, details), 'Centre of pressure');
@@ -28,7 +28,7 @@ test('the markers say whose they are, and why one is not there', () => {
   assert.equal(copText({ ...person, cop: null }, undefined), 'Centre of pressure: unknown');
 });
 
-test('margin and compression are said while they are live and known', () => {
+test('margin and compression are shown while they are live and known', () => {
   const live = readingsOf(person, details, true);
   assert.equal(live.support, 'Margin of stability 8.3 cm');
   assert.equal(live.compression, 'L5/S1 compression 2.15 kN');
@@ -38,7 +38,7 @@ test('margin and compression are said while they are live and known', () => {
   assert.deepEqual([unknown.support, unknown.compression], ['Support polygon', '']);
 });
 
-test('an assumed mass and a centre of mass that disagrees deserve a second look', () => {
+test('an assumed mass and a different centre of mass are marked as doubtful', () => {
   assert.equal(readingsOf(person, details, true).isDoubtful, false);
   assert.equal(readingsOf(person, { ...details, mass_is_assumed: true }, true).isDoubtful, true);
   assert.equal(readingsOf({ ...person, comDisagrees: true }, undefined, true).isDoubtful, true);
@@ -51,26 +51,26 @@ test('without a person only the markers are named', () => {
 
 const stream = { liveness: 'live', rateHz: 60, counter: 812, timeCodeMillis: 83456, viewers: 1 };
 
-test('the header has the numbers of a live stream', () => {
+test('the header shows the values of a live stream', () => {
   assert.deepEqual(streamReadingsOf(stream, { median: 6.04, p95: 11.6 }, true), {
     rate: '60.0 Hz', latency: '6.0 ms', latencyP95: 'p95 12 ms', sample: '812', timeCode: '00:01:23.456',
     viewers: '1 viewer',
   });
 });
 
-test('a stream that stopped keeps its last sample, but has no rate', () => {
+test('a stopped stream keeps its last sample and has no rate', () => {
   const stale = streamReadingsOf({ ...stream, liveness: 'stale', viewers: 2 }, null, false);
   assert.deepEqual(stale, { rate: '–', latency: '–', latencyP95: '', sample: '812', timeCode: '00:01:23.456',
     viewers: '2 viewers' });
 });
 
-test('before the first sample the header has no numbers', () => {
+test('the header has no numbers before the first sample', () => {
   const dashes = { rate: '–', latency: '–', latencyP95: '', sample: '–', timeCode: '–' };
   assert.deepEqual(streamReadingsOf(null, null, false), { ...dashes, viewers: '' });
   assert.deepEqual(streamReadingsOf({ ...stream, liveness: 'no data' }, null, false), { ...dashes, viewers: '1 viewer' });
 });
 
-test('meshes that are missing are counted', () => {
+test('missing meshes are counted', () => {
   assert.deepEqual([0, 1, 2].map(meshesText), ['', '1 mesh of the body model could not be loaded',
     '2 meshes of the body model could not be loaded']);
 });

@@ -9,24 +9,24 @@ const answerWith = (body, init) => { globalThis.fetch = async () => new Response
 const readName = object({ name: string });
 const html = { headers: { 'Content-Type': 'text/html' } };
 
-test('an answer is read with its shape', async () => {
+test('an answer is checked for its members', async () => {
   answerWith('{"name": "front"}');
   assert.deepEqual(await ask('api/camera', readName), { name: 'front' });
   answerWith('{"name": 5}');
   await assert.rejects(ask('api/camera', readName), /sent 5 as api\/camera\.name; expected a text/);
 });
 
-test('without a server there is no answer and no error: the status indicator shows it', async () => {
+test('a request without a server returns null and no error', async () => {
   globalThis.fetch = async () => { throw new TypeError('Failed to fetch'); };
   assert.equal(await ask('api/camera', readName), null);
 });
 
-test('a rejection is told in the server’s words', async () => {
+test('a rejection has the error text of the server', async () => {
   answerWith('{"error": "no camera \'x\'"}', { status: 404 });
   await assert.rejects(ask('api/camera', readName), /^Error: no camera 'x'$/);
 });
 
-test('an order that does not reach the server fails in words for the user', async () => {
+test('a request that fails has an error text for the user', async () => {
   globalThis.fetch = async () => { throw new TypeError('Failed to fetch'); };
   await assert.rejects(request('api/hand_load', { method: 'POST' }), /^Error: no connection to the server$/);
   answerWith('{"error": "no person in the stream yet"}', { status: 409 });
@@ -35,7 +35,7 @@ test('an order that does not reach the server fails in words for the user', asyn
   assert.equal((await request('api/hand_load', { method: 'POST' })).status, 200);
 });
 
-test('a proxy that answers with a page of its own is named as such', async () => {
+test('an HTML answer of a proxy is reported with its type or status', async () => {
   answerWith('<html>', html);
   await assert.rejects(ask('api/camera', readName), /api\/camera returned text\/html, expected JSON/);
   answerWith('<html>', { ...html, status: 502 });
@@ -44,7 +44,7 @@ test('a proxy that answers with a page of its own is named as such', async () =>
   assert.equal(await ownRejectionOf(new Response('<html>', { status: 502 })), null, 'it is not our server that refuses');
 });
 
-test('whatever is thrown has a message', () => {
+test('every thrown value has a message', () => {
   assert.equal(messageOf(new Error('why')), 'why');
   assert.equal(messageOf('why'), 'why');
 });

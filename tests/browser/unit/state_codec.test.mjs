@@ -27,24 +27,24 @@ function assertClose(actual, expected, path = 'state') {
   }
 }
 
-test('a state of two persons, one with gloves, and an object comes out as the server meant it', () => {
+test('a state of two people, gloves and an object is decoded as the server encoded it', () => {
   assert.equal(messageKind(state), KIND.state);
   assertClose(decodeState(state), told.state);
 });
 
-test('a state that is cut short anywhere is refused', () => {
+test('every truncated state is rejected', () => {
   for (let size = 0; size < state.byteLength; ++size) {
     assert.throws(() => decodeState(state.slice(0, size)), /truncated/, `taken at ${size} bytes`);
   }
 });
 
-test('bytes too many are refused', () => {
+test('a state with extra bytes is rejected', () => {
   const longer = new Uint8Array(state.byteLength + 1);
   longer.set(new Uint8Array(state));
   assert.throws(() => decodeState(longer.buffer), /too long/);
 });
 
-test('a person without links is refused: the view would not know where to look', () => {
+test('a person without links is rejected', () => {
   const other = new Uint8Array(128);
   other.set(new Uint8Array(state.slice(0, 128)));
   other[3] = 1;       // people
@@ -54,21 +54,21 @@ test('a person without links is refused: the view would not know where to look',
   assert.throws(() => decodeState(other.buffer), /without links/);
 });
 
-test('another version of the protocol asks for a reload', () => {
+test('the error for another protocol version contains the instruction to reload', () => {
   const other = new Uint8Array(state.slice(0));
   other[1] = 9;
   assert.throws(() => messageKind(other.buffer), /version 9.*reload/);
   assert.throws(() => messageKind(new ArrayBuffer(1)), /truncated/);
 });
 
-test('classes of a newer server are unknown, not an error', () => {
+test('unknown classes of a newer server are read as unknown', () => {
   const other = new Uint8Array(state.slice(0));
   const firstLoad = 64 + 64 + 28 * 23;
   other[firstLoad + 1] = 200;
   assert.equal(decodeState(other.buffer).people[0].loads[0].loadClass, 'unknown');
 });
 
-test('a picture carries its state and its JPEG', () => {
+test('a picture contains the number of its state and its JPEG', () => {
   const picture = toBuffer(told.picture_hex);
   assert.equal(messageKind(picture), KIND.picture);
   const { stateNumber, arrivalMicros, jpeg } = decodePicture(picture);
@@ -76,7 +76,7 @@ test('a picture carries its state and its JPEG', () => {
   assert.throws(() => decodePicture(picture.slice(0, 23)), /truncated/);
 });
 
-test('the legend shows the thresholds that the server decides by', () => {
+test('the legend shows the class limits of the server', () => {
   assert.deepEqual(legendWords(told.class_limits).map(([, text]) => text),
     ['low', 'medium > 30 %', 'high > 60 %', 'unknown']);
 });

@@ -6,34 +6,34 @@ const good = { connected: true, everConnected: true, silentMillis: 20, liveness:
   source: 'udp://:9763', reason: '' };
 const level = (change) => statusOf({ ...good, ...change }).level;
 
-test('live is live only while everything is', () => {
+test('the status is live only if every condition is met', () => {
   assert.equal(level({}), 'live');
   assert.equal(statusOf(good).banner, '');
   assert.equal(level({ ageMillis: null }), 'live');
 });
 
-test('what the server calls stale is stale, with its age', () => {
+test('a stale stream is shown as stale with its age', () => {
   const status = statusOf({ ...good, liveness: 'stale', ageMillis: 3210 });
   assert.equal(status.word, 'Stale');
   assert.match(status.banner, /3\.2 s ago/);
 });
 
-test('a sample that gets old makes the page stale by itself', () => {
+test('the status becomes stale when the last sample is old', () => {
   assert.equal(level({ ageMillis: OLD_MILLIS + 1 }), 'stale');
 });
 
-test('a server that says nothing is not believed any more', () => {
+test('the status is disconnected if the server is silent or unreachable', () => {
   assert.equal(level({ silentMillis: SILENCE_MILLIS + 1 }), 'disconnected');
   assert.equal(level({ connected: false }), 'disconnected');
 });
 
-test('before the first sample it names what it waits for', () => {
+test('the status names the expected source before the first sample', () => {
   const status = statusOf({ ...good, liveness: 'no data', ageMillis: null });
   assert.deepEqual([status.level, status.word, status.banner], ['no-data', 'No data', 'Waiting for udp://:9763']);
   assert.equal(statusOf({ ...good, liveness: 'no data', source: '' }).banner, 'Waiting for the source');
 });
 
-test('before the first connection it connects, and says why it is refused', () => {
+test('the status before the first connection is waiting, or rejected with the reason', () => {
   const start = { ...good, connected: false, everConnected: false, liveness: null };
   assert.equal(statusOf(start).level, 'wait');
   assert.deepEqual(statusOf({ ...start, reason: 'no token' }),

@@ -9,7 +9,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-TEST(Latest, HandsOverTheNewestAndDropsWhatNobodyFetched) {
+TEST(Latest, DeliversTheLatestValueAndDropsOlderOnes) {
   Latest<int> latest;
   std::uint64_t seen = 0;
   EXPECT_EQ(latest.Get(), nullptr);
@@ -21,7 +21,7 @@ TEST(Latest, HandsOverTheNewestAndDropsWhatNobodyFetched) {
   EXPECT_EQ(*latest.Get(), 2);
 }
 
-TEST(Latest, WakesAReaderThatWaits) {
+TEST(Latest, WakesAWaitingReader) {
   Latest<int> latest;
   std::thread writer([&] { latest.Publish(std::make_shared<const int>(7)); });
   std::uint64_t seen = 0;
@@ -31,7 +31,7 @@ TEST(Latest, WakesAReaderThatWaits) {
   EXPECT_EQ(*value, 7);
 }
 
-TEST(Latest, LetsReadersGoWhenInterrupted) {
+TEST(Latest, ReleasesWaitingReadersWhenInterrupted) {
   Latest<int> latest;
   std::thread stopper([&] { latest.Interrupt(); });
   std::uint64_t seen = 0;

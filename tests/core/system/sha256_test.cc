@@ -12,7 +12,7 @@ namespace kinescope {
 namespace {
 
 // FIPS 180-4's examples, and a file of several blocks.
-TEST(DigestOf, IsTheStandards) {
+TEST(DigestOf, EqualsTheExamplesOfTheStandard) {
   const testing::TempFolder folder;
   const auto digest = [&](const std::string& content) {
     std::ofstream(folder / "file", std::ios::binary) << content;
@@ -26,7 +26,7 @@ TEST(DigestOf, IsTheStandards) {
   EXPECT_EQ(million.bytes, 1'000'000u);
 }
 
-TEST(DigestOf, NamesWhatItCannotRead) {
+TEST(DigestOf, NamesAFileThatIsNotReadable) {
   for (const char* path : {"/nowhere/file", "/"}) {
     try {
       DigestOf(path);

@@ -23,7 +23,7 @@ Camera AtTenMetres() {
   return camera;
 }
 
-TEST(Camera, ProjectsItsTargetToTheMiddle) {
+TEST(Camera, ProjectsItsTargetToTheMiddleOfThePicture) {
   const Projected middle = Project({0, 0, 1}, AtTenMetres(), 1280, 720);
   EXPECT_NEAR(middle.x_px, 640, 1e-9);
   EXPECT_NEAR(middle.y_px, 360, 1e-9);
@@ -42,11 +42,11 @@ TEST(Camera, ProjectsByThePinholeFormula) {
   EXPECT_NEAR(nearer.px_per_m, 2 * px_per_m, 1e-9);
 }
 
-TEST(Camera, SaysWhatIsBehindIt) {
+TEST(Camera, ReportsANegativeDepthForPointsBehindIt) {
   EXPECT_LT(Project({11, 0, 1}, AtTenMetres(), 1280, 720).depth_m, 0);
 }
 
-TEST(Camera, ShowsTheEdgesOfItsFieldAtTheEdgesOfThePicture) {
+TEST(Camera, MapsTheEdgesOfItsFieldOfViewToTheEdgesOfThePicture) {
   const Camera camera = AtTenMetres();
   const double half = 10 * std::tan(camera.vertical_fov_rad / 2);
   EXPECT_NEAR(Project({0, 0, 1 + half}, camera, 640, 480).y_px, 0, 1e-9);
@@ -54,13 +54,13 @@ TEST(Camera, ShowsTheEdgesOfItsFieldAtTheEdgesOfThePicture) {
   EXPECT_NEAR(Project({0, half * 640 / 480, 1}, camera, 640, 480).x_px, 640, 1e-9);
 }
 
-TEST(Camera, NamesAreThoseThatPeopleKnow) {
+TEST(Camera, HasTheUsualNames) {
   EXPECT_THAT(CameraNames(), ::testing::ElementsAre("front", "back", "left", "right", "top", "iso",
                                                     "three_quarter"));
   for (const std::string& name : CameraNames()) EXPECT_NO_THROW(NamedCamera(name, SceneState()));
 }
 
-TEST(Camera, AnUnknownNameIsAnsweredWithTheKnownOnes) {
+TEST(Camera, RejectsAnUnknownNameAndListsTheKnownOnes) {
   try {
     NamedCamera("botom", SceneState());
     FAIL() << "took a camera that does not exist";
@@ -70,7 +70,7 @@ TEST(Camera, AnUnknownNameIsAnsweredWithTheKnownOnes) {
   }
 }
 
-TEST(Camera, FrontLooksThePersonInTheFace) {
+TEST(Camera, ShowsTheFaceFromTheFront) {
   const Camera front = NamedCamera("front", SceneState());
   EXPECT_GT(front.position.x(), front.target.x() + 2);
   EXPECT_NEAR(front.position.y(), 0, 1e-9);
@@ -82,7 +82,7 @@ TEST(Camera, FrontLooksThePersonInTheFace) {
   EXPECT_GT(NamedCamera("top", SceneState()).position.z(), 4);
 }
 
-TEST(Camera, EveryViewHoldsAnAdultWithArmsOverheadWhereverTheyStand) {
+TEST(Camera, ShowsAnAdultWithArmsOverheadCompletelyInEveryView) {
   const SceneState state =
       testing::SceneWith(testing::Posture::kStanding, LoadClass::kLow, 3.5, -2.25);
   for (const std::string& name : CameraNames()) {
@@ -98,7 +98,7 @@ TEST(Camera, EveryViewHoldsAnAdultWithArmsOverheadWhereverTheyStand) {
   }
 }
 
-TEST(Camera, AGroupFitsIntoThePicture) {
+TEST(Camera, ShowsAGroupCompletely) {
   SceneState state = testing::SceneWith(testing::Posture::kStanding, LoadClass::kLow, 0, -2);
   state.people.push_back(
       testing::SceneWith(testing::Posture::kStanding, LoadClass::kLow, 0, 2).people[0]);
@@ -117,7 +117,7 @@ SceneState StandingAt(double x, double y) {
   return testing::SceneWith(testing::Posture::kStanding, LoadClass::kLow, x, y);
 }
 
-TEST(SmoothedGroundExtent, StandsStillUntilAPersonWalksAway) {
+TEST(SmoothedGroundExtent, StaysConstantUntilAPersonWalksAway) {
   SmoothedGroundExtent steady;
   const auto x_at = [&](double x) { return steady.Follow(StandingAt(x, 0)).middle.x(); };
   const double first = x_at(0);
@@ -131,7 +131,7 @@ TEST(SmoothedGroundExtent, StandsStillUntilAPersonWalksAway) {
   EXPECT_EQ(x_at(0.4), far) << "turning back does not drag them back";
 }
 
-TEST(SmoothedGroundExtent, StandsStillWithoutAPerson) {
+TEST(SmoothedGroundExtent, StaysConstantWithoutAPerson) {
   SmoothedGroundExtent steady;
   const SceneState there = StandingAt(4, 2);
   EXPECT_NEAR(steady.Follow(SceneState()).middle.x(), 0, 1e-12);
@@ -140,7 +140,7 @@ TEST(SmoothedGroundExtent, StandsStillWithoutAPerson) {
   EXPECT_EQ(steady.Follow(SceneState()).middle, GroundExtentOf(there).middle);
 }
 
-TEST(Camera, WithoutPerspectiveAMetreIsAsLargeAtAnyDepth) {
+TEST(Camera, ShowsAMetreEquallyLargeAtAnyDepthWithoutPerspective) {
   const Camera perspective = NamedCamera("front", SceneState());
   const Camera camera = Orthographic(perspective);
   const double at_target = Project(camera.target, perspective, 640, 480).px_per_m;
@@ -151,14 +151,14 @@ TEST(Camera, WithoutPerspectiveAMetreIsAsLargeAtAnyDepth) {
   }
 }
 
-TEST(Camera, AnotherLensKeepsTheSizeAtTheTarget) {
+TEST(Camera, KeepsTheSizeAtTheTargetWithAnotherLens) {
   const Camera camera = NamedCamera("iso", SceneState());
   const Camera wide = WithFov(camera, 1.2);
   EXPECT_NEAR(ShownHeight(wide), ShownHeight(camera), 1e-9);
   EXPECT_LT((wide.position - wide.target).norm(), (camera.position - camera.target).norm());
 }
 
-TEST(Camera, ANarrowPictureStillShowsBothArms) {
+TEST(Camera, ShowsBothArmsInANarrowPicture) {
   const SceneState state = testing::SceneWith(testing::Posture::kStanding);
   for (const bool is_flat : {false, true}) {
     Camera camera = NamedCamera("front", state);
@@ -170,7 +170,7 @@ TEST(Camera, ANarrowPictureStillShowsBothArms) {
   }
 }
 
-TEST(Camera, FramingFillsThePictureAndCutsNothingOff) {
+TEST(Camera, FramesTheBoundsInAFullPictureWithoutCuttingThem) {
   const Eigen::AlignedBox3d box(Vector3d(-1, 2, 0), Vector3d(0.5, 3, 1.8));
   for (const std::string& name : CameraNames()) {
     for (const bool is_flat : {false, true}) {
@@ -191,7 +191,7 @@ TEST(Camera, FramingFillsThePictureAndCutsNothingOff) {
   }
 }
 
-TEST(CameraPath, GoesAroundThePersonWithALevelHorizonAndStandsStillAtBothEnds) {
+TEST(CameraPath, CirclesThePersonAndStandsStillAtBothEnds) {
   const Camera front = NamedCamera("front", SceneState());
   const std::vector<CameraKey> keys = {{1, front, Ease::kLinear},
                                        {3, NamedCamera("right", SceneState()), Ease::kSmooth},
@@ -217,7 +217,7 @@ TEST(CameraPath, GoesAroundThePersonWithALevelHorizonAndStandsStillAtBothEnds) {
       << "half way between +x and -y";
 }
 
-TEST(Camera, LooksStraightDownWithoutLosingItsBearings) {
+TEST(Camera, LooksStraightDownWithoutADegenerateOrientation) {
   Camera camera;
   camera.position = {1, 2, 8};
   camera.target = {1, 2, 0};
@@ -227,7 +227,7 @@ TEST(Camera, LooksStraightDownWithoutLosingItsBearings) {
   EXPECT_NEAR(at.y_px, 50, 1e-9);
 }
 
-TEST(Camera, ATileShowsItsPartOfThePicture) {
+TEST(Camera, ProjectsATileLikeItsPartOfThePicture) {
   const Camera camera = AtTenMetres();
   const Tile tile{300, 100, 400, 200};
   const Vector3d point(1, -0.7, 1.3);

@@ -35,7 +35,7 @@ const SphereInPicture& Find(const std::vector<SphereInPicture>& spheres, const s
   throw std::logic_error("no sphere at " + joint);
 }
 
-TEST(Spheres, LieWhereTheCameraPutsTheirJoints) {
+TEST(Spheres, AreAtTheProjectionsOfTheirJoints) {
   const SceneState state = SceneWith(Posture::kStanding);
   const Camera camera = NamedCamera("front", state);
   const auto spheres = LocateSpheres(state, camera, kWidth, kHeight);
@@ -49,7 +49,7 @@ TEST(Spheres, LieWhereTheCameraPutsTheirJoints) {
   EXPECT_GT(elbow.radius_px, 5);
 }
 
-TEST(Spheres, EveryClassReadsBackFromThePicture) {
+TEST(Spheres, ShowEveryClassReadably) {
   const auto renderer = MakeRenderer();
   for (const LoadClass load_class :
        {LoadClass::kUnknown, LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh}) {
@@ -72,7 +72,7 @@ TEST(Spheres, EveryClassReadsBackFromThePicture) {
 }
 
 // All of a mixed body, from all sides: hidden joints shine through in their own colour.
-TEST(Spheres, AgreeWithTheStateFromEverySide) {
+TEST(Spheres, MatchTheStateFromEverySide) {
   const auto renderer = MakeRenderer();
   for (const Posture posture : {Posture::kStanding, Posture::kDeepBend, Posture::kArmsForward}) {
     const SceneState state = MixedScene(posture);
@@ -85,7 +85,7 @@ TEST(Spheres, AgreeWithTheStateFromEverySide) {
   }
 }
 
-TEST(Spheres, AHiddenJointShinesThroughTheBody) {
+TEST(Spheres, OfHiddenJointsAreVisibleThroughTheBody) {
   SceneState state = SceneWith(Posture::kStanding, LoadClass::kLow);
   JointLoad& hip = LoadOf(state, urdf::jRightHip);
   hip.load_class = LoadClass::kHigh;
@@ -107,7 +107,7 @@ TEST(Spheres, AHiddenJointShinesThroughTheBody) {
   EXPECT_GT(red_minus_green(open, right), red_minus_green(image, camera) + 40);
 }
 
-TEST(Spheres, ContradictionsAreSaidInWords) {
+TEST(Spheres, OfAnotherStateAreReportedAsMismatches) {
   const SceneState drawn = SceneWith(Posture::kStanding, LoadClass::kMedium);
   SceneState expected = drawn;
   LoadOf(expected, urdf::jRightElbow).load_class = LoadClass::kLow;
@@ -117,14 +117,14 @@ TEST(Spheres, ContradictionsAreSaidInWords) {
               ::testing::ElementsAre("right_elbow shows orange, expected green"));
 }
 
-TEST(Spheres, ABlankPictureShowsNoLoads) {
+TEST(Spheres, AreMissingInABlankPicture) {
   const SceneState state = SceneWith(Posture::kStanding, LoadClass::kHigh);
   const Camera camera = NamedCamera("front", state);
   Image blank{kWidth, kHeight, std::vector<std::uint8_t>(std::size_t{4} * kWidth * kHeight, 240)};
   EXPECT_GE(FindSphereMismatches(blank, LocateSpheres(state, camera, kWidth, kHeight)).size(), 13u);
 }
 
-TEST(Spheres, TheHighClassHasARimForThoseWhoSeeNoRed) {
+TEST(Spheres, HaveADarkRimInTheHighClassForColourBlindViewers) {
   const auto renderer = MakeRenderer();
   const auto rim_brightness = [&](LoadClass load_class) {
     const SceneState state = SceneWith(Posture::kStanding, load_class);
@@ -146,7 +146,7 @@ TEST(Spheres, TheHighClassHasARimForThoseWhoSeeNoRed) {
   EXPECT_GT(rim_brightness(LoadClass::kMedium), 130);
 }
 
-TEST(Spheres, WhatLiesBehindTheCameraOrOutsideIsNotRead) {
+TEST(Spheres, OutsideThePictureOrBehindTheCameraAreNotRead) {
   SceneState state = SceneWith(Posture::kStanding);
   Camera camera;
   camera.position = {3, 0, 1};

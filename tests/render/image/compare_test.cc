@@ -18,7 +18,7 @@ std::uint8_t& Channel(Image& image, int x, int y, int channel) {
   return image.rgba[static_cast<std::size_t>(4 * (y * image.width + x) + channel)];
 }
 
-TEST(Compare, TwoLevelsAreRoundingAndThreeAreADifference) {
+TEST(Compare, IgnoresTwoLevelsAndReportsThree) {
   const Image expected = Grey(8, 6);
   Image actual = expected;
   Channel(actual, 3, 2, 1) = 102;
@@ -30,7 +30,7 @@ TEST(Compare, TwoLevelsAreRoundingAndThreeAreADifference) {
   EXPECT_EQ(Compare(expected, actual).pixels, 1);
 }
 
-TEST(Compare, TellsHowManyPixelsAndWhere) {
+TEST(Compare, ReportsTheNumberAndPlaceOfDifferentPixels) {
   const Image expected = Grey(20, 10);
   Image actual = expected;
   Channel(actual, 4, 7, 0) = 0;
@@ -46,14 +46,14 @@ TEST(Compare, TellsHowManyPixelsAndWhere) {
             "2 pixels differ (1.00 %), in x 4..15, y 3..7, by up to 100 levels");
 }
 
-TEST(Compare, AnotherSizeIsADifferenceOfItsOwn) {
+TEST(Compare, ReportsADifferentSize) {
   const Comparison comparison = Compare(Grey(8, 6), Grey(6, 8));
   EXPECT_FALSE(comparison.equal());
   EXPECT_FALSE(comparison.same_size);
   EXPECT_THAT(Describe(comparison, Grey(6, 8)), ::testing::HasSubstr("6 x 8"));
 }
 
-TEST(Compare, TheDifferenceIsRedAndTheRestIsPale) {
+TEST(Compare, ShowsDifferencesInRedOnAPalePicture) {
   const Image expected = Grey(4, 4, 30);
   Image actual = expected;
   Channel(actual, 1, 2, 0) = 200;

@@ -31,16 +31,16 @@ std::array<int, 4> Matted(const MatteChannels& over_white, const MatteChannels& 
   return {picture.rgba[0], picture.rgba[1], picture.rgba[2], picture.rgba[3]};
 }
 
-TEST(Matte, WhatHidesTheBackgroundIsOpaqueAndKeepsItsColour) {
+TEST(Matte, KeepsTheColourOfOpaquePixels) {
   EXPECT_EQ(Matted({10, 200, 255}, {10, 200, 255}), (std::array<int, 4>{10, 200, 255, 255}));
   EXPECT_EQ(Matted({0, 0, 0}, {0, 0, 0}), (std::array<int, 4>{0, 0, 0, 255}));
 }
 
-TEST(Matte, WhatIsTheBackgroundIsTransparent) {
+TEST(Matte, MakesTheBackgroundTransparent) {
   EXPECT_EQ(Matted({255, 255, 255}, {0, 0, 0}), (std::array<int, 4>{0, 0, 0, 0}));
 }
 
-TEST(Matte, HalfOfAColourIsThatColourAtHalfAlpha) {
+TEST(Matte, ComputesStraightColourAtHalfAlpha) {
   const auto [red, green, blue, alpha] = Matted({228, 178, 128}, {100, 50, 0});
   EXPECT_EQ(alpha, 127);
   EXPECT_NEAR(red, 200, 2);
@@ -49,7 +49,7 @@ TEST(Matte, HalfOfAColourIsThatColourAtHalfAlpha) {
 }
 
 // Any colour at any alpha, also where rounding lets the channels disagree by a level.
-TEST(Matte, LaidOverWhiteItIsWhatItWasToHalfALevel) {
+TEST(Matte, RestoresThePictureOverWhiteToHalfALevel) {
   for (int level = 1; level <= 255; level += 2) {
     const double alpha = (level - 0.4) / 255;  // so that channels round apart
     for (const MatteChannels& color : {MatteChannels{0, 0, 0}, MatteChannels{255, 255, 255},
@@ -69,7 +69,7 @@ TEST(Matte, LaidOverWhiteItIsWhatItWasToHalfALevel) {
   }
 }
 
-TEST(Matte, EveryPixelIsItsOwn) {
+TEST(Matte, ProcessesEveryPixelSeparately) {
   Image picture = OnePixel({255, 255, 255});
   picture.width = 2;
   picture.rgba.insert(picture.rgba.end(), {9, 8, 7, 255});

@@ -36,7 +36,7 @@ std::string NewFileError(Action&& action) {
   return "";
 }
 
-TEST(NewFile, HasItsNameOnlyOnceItIsWhole) {
+TEST(NewFile, GetsItsNameOnlyWhenComplete) {
   const TempFolder folder;
   NewFile file(folder / "a.txt");
   WriteText(file, "first ");
@@ -57,7 +57,7 @@ TEST(NewFile, LeavesNothingBehindWithoutCommit) {
   EXPECT_THAT(folder.Names(), IsEmpty());
 }
 
-TEST(NewFile, KeepsWhatIsThereUntilItIsReplacedWhole) {
+TEST(NewFile, KeepsTheOldFileUntilTheNewOneIsComplete) {
   const TempFolder folder;
   std::ofstream(folder / "a.txt") << "before";
   {
@@ -74,7 +74,7 @@ TEST(NewFile, KeepsWhatIsThereUntilItIsReplacedWhole) {
 }
 
 // Root could put a file in the place of /dev/null, and everything on the machine would miss it.
-TEST(NewFile, DoesNotTakeThePlaceOfADeviceOrAPipe) {
+TEST(NewFile, DoesNotReplaceADeviceOrAPipe) {
   const TempFolder folder;
   const std::string pipe = folder / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -85,7 +85,7 @@ TEST(NewFile, DoesNotTakeThePlaceOfADeviceOrAPipe) {
 }
 
 // Whoever has the old file open goes on reading the old file.
-TEST(NewFile, ReplacesTheNameAndNotTheContent) {
+TEST(NewFile, LeavesTheContentOfAnOpenOldFileUnchanged) {
   const TempFolder folder;
   std::ofstream(folder / "a.txt") << "before";
   std::ifstream reader(folder / "a.txt");
@@ -97,7 +97,7 @@ TEST(NewFile, ReplacesTheNameAndNotTheContent) {
   EXPECT_EQ(seen, "before");
 }
 
-TEST(NewFile, TwoOfTheSameNameDoNotMeet) {
+TEST(NewFile, IsSeparateFromAnotherNewFileOfTheSameName) {
   const TempFolder folder;
   NewFile first(folder / "a.txt"), second(folder / "a.txt");
   WriteText(first, "first");
@@ -109,7 +109,7 @@ TEST(NewFile, TwoOfTheSameNameDoNotMeet) {
   EXPECT_THAT(folder.Names(), ElementsAre("a.txt"));
 }
 
-TEST(NewFile, LibrariesCanWriteAndReadItBeforeItHasItsName) {
+TEST(NewFile, CanBeWrittenAndReadByLibrariesBeforeItHasItsName) {
   const TempFolder folder;
   NewFile file(folder / "a.txt");
   std::ofstream(file.open_path()) << "by a library";
@@ -119,7 +119,7 @@ TEST(NewFile, LibrariesCanWriteAndReadItBeforeItHasItsName) {
   EXPECT_EQ(ReadFile(folder / "a.txt"), "by a library");
 }
 
-TEST(NewFile, MayBeReadByWhomTheUmaskAllows) {
+TEST(NewFile, HasThePermissionsThatTheUmaskAllows) {
   const TempFolder folder;
   const mode_t before = umask(027);
   {
@@ -130,7 +130,7 @@ TEST(NewFile, MayBeReadByWhomTheUmaskAllows) {
   EXPECT_EQ(fs::status(folder / "a.txt").permissions(), fs::perms(0640));
 }
 
-TEST(NewFile, NamesTheTargetAndWhyItCannotBe) {
+TEST(NewFile, NamesAnInvalidTargetAndTheReason) {
   const TempFolder folder;
   std::ofstream(folder / "file") << "not a folder";
   fs::create_directory(folder / "sub");
@@ -160,7 +160,7 @@ TEST(NewFile, NamesTheTargetWhenTheDiskIsFull) {
   EXPECT_THAT(folder.Names(), IsEmpty());
 }
 
-TEST(NewFile, NamesTheTargetWhenItsFolderHasGoneMeanwhile) {
+TEST(NewFile, NamesTheTargetWhenItsFolderWasRemoved) {
   const TempFolder folder;
   fs::create_directory(folder / "sub");
   NewFile file(folder / "sub" / "a.txt");
@@ -169,7 +169,7 @@ TEST(NewFile, NamesTheTargetWhenItsFolderHasGoneMeanwhile) {
               AllOf(HasSubstr("sub/a.txt"), EndsWith("No such file or directory")));
 }
 
-TEST(NewFile, ANameWithoutAFolderIsInTheOneWeAreIn) {
+TEST(NewFile, IsInTheCurrentFolderIfItsNameHasNoFolder) {
   const TempFolder folder;
   const fs::path before = fs::current_path();
   fs::current_path(folder.path());

@@ -36,7 +36,7 @@ Image Noise(int width, int height, bool is_opaque, unsigned seed = 7) {
   return image;
 }
 
-TEST(PngFile, ComesBackAsItWasWritten) {
+TEST(PngFile, IsReadAsItWasWritten) {
   const TempFolder folder;
   for (const bool is_opaque : {true, false}) {
     for (const int width : {1, 3, 64, 333}) {
@@ -50,7 +50,7 @@ TEST(PngFile, ComesBackAsItWasWritten) {
   }
 }
 
-TEST(PngFile, DropsAlphaOnlyWhereThereIsNone) {
+TEST(PngFile, OmitsAlphaOnlyForOpaquePictures) {
   const auto color_type = [](const Image& image) { return EncodePng(image).at(25); };
   EXPECT_EQ(color_type(Noise(5, 5, true)), PNG_COLOR_TYPE_RGB);
   Image glass = Noise(5, 5, true);
@@ -58,7 +58,7 @@ TEST(PngFile, DropsAlphaOnlyWhereThereIsNone) {
   EXPECT_EQ(color_type(glass), PNG_COLOR_TYPE_RGBA);
 }
 
-TEST(PngFile, CarriesTextThatOtherProgramsRead) {
+TEST(PngFile, ContainsTextInStandardChunks) {
   const std::vector<std::uint8_t> bytes =
       EncodePng(Noise(4, 4, true), {{"Software", "kinescope"}, {"Title", "trial 3"}});
   const std::string text(bytes.begin(), bytes.end());
@@ -66,11 +66,11 @@ TEST(PngFile, CarriesTextThatOtherProgramsRead) {
   EXPECT_NE(text.find(std::string("tEXtTitle\0trial 3", 17)), std::string::npos);
 }
 
-TEST(PngFile, TheSamePictureIsTheSameBytes) {
+TEST(PngFile, HasTheSameBytesForTheSamePicture) {
   EXPECT_EQ(EncodePng(Noise(90, 40, true)), EncodePng(Noise(90, 40, true)));
 }
 
-TEST(PngFile, ReplacesAFileAndLeavesNoOtherBehind) {
+TEST(PngFile, ReplacesAFileAndLeavesNoOtherFile) {
   const TempFolder folder;
   WritePng(folder / "a.png", Noise(4, 4, true, 1));
   WritePng(folder / "a.png", Noise(4, 4, true, 2));
@@ -78,7 +78,7 @@ TEST(PngFile, ReplacesAFileAndLeavesNoOtherBehind) {
   EXPECT_THAT(folder.Names(), ::testing::ElementsAre("a.png"));
 }
 
-TEST(PngFile, SaysWhichPathItCannotWrite) {
+TEST(PngFile, NamesAPathThatIsNotWritable) {
   const TempFolder folder;
   const auto message = [&](const fs::path& path) -> std::string {
     try {
@@ -95,7 +95,7 @@ TEST(PngFile, SaysWhichPathItCannotWrite) {
   EXPECT_THAT(folder.Names(), ::testing::ElementsAre("folder.png"));
 }
 
-TEST(PngFile, RefusesEveryTruncation) {
+TEST(PngFile, RejectsEveryTruncation) {
   const TempFolder folder;
   const std::vector<std::uint8_t> whole = EncodePng(Noise(6, 5, true));
   for (std::size_t size = 0; size + 12 < whole.size(); size += 3) {  // IEND is no loss
@@ -105,7 +105,7 @@ TEST(PngFile, RefusesEveryTruncation) {
   }
 }
 
-TEST(PngFile, DoesNotAllocateWhatAHeaderClaims) {
+TEST(PngFile, AllocatesNoMemoryForAFalseSizeInTheHeader) {
   const TempFolder folder;
   std::vector<std::uint8_t> bomb = EncodePng(Noise(6, 5, true));
   bomb[16] = 0x40;  // a width of 2^30 and more
@@ -117,7 +117,7 @@ TEST(PngFile, DoesNotAllocateWhatAHeaderClaims) {
   EXPECT_THROW(ReadPng(folder / "bomb.png"), std::runtime_error);
 }
 
-TEST(PngFile, SaysWhichFileIsMissing) {
+TEST(PngFile, NamesAMissingFile) {
   try {
     ReadPng("/no/such/picture.png");
     FAIL() << "read a file that does not exist";
@@ -146,7 +146,7 @@ Image DecodeJpeg(const std::vector<std::uint8_t>& bytes) {
   return image;
 }
 
-TEST(Jpeg, ShowsThePictureToAnyDecoder) {
+TEST(Jpeg, IsReadByAnotherDecoder) {
   Image image{121, 67, {}};
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
@@ -162,7 +162,7 @@ TEST(Jpeg, ShowsThePictureToAnyDecoder) {
   EXPECT_LT(sum / static_cast<double>(image.rgba.size()), 2.0) << "levels, on average";
 }
 
-TEST(Jpeg, ALowerQualityIsASmallerFile) {
+TEST(Jpeg, IsSmallerAtLowerQuality) {
   const Image image = Noise(64, 64, true);
   EXPECT_LT(EncodeJpeg(image, 30).size(), EncodeJpeg(image, 95).size());
 }

@@ -38,7 +38,7 @@ std::string ErrorOf(options::OptionList& list, options::Option& option, const st
   return "";
 }
 
-TEST(Options, EachRejectsAWrongTextInOneLine) {
+TEST(Options, RejectInvalidTextsInOneLine) {
   auto commands = AllCommands();
   int rejected = 0;
   ForEveryOption(commands, [&](Command& command, options::Option& option) {
@@ -54,7 +54,7 @@ TEST(Options, EachRejectsAWrongTextInOneLine) {
   EXPECT_GT(rejected, 100);
 }
 
-TEST(Options, EachIsLeftAsItWasByAWrongText) {
+TEST(Options, KeepTheirValueAfterAnInvalidText) {
   auto commands = AllCommands();
   ForEveryOption(commands, [&](Command& command, options::Option& option) {
     const std::string before = option.value->ToText();
@@ -63,7 +63,7 @@ TEST(Options, EachIsLeftAsItWasByAWrongText) {
   });
 }
 
-TEST(Options, EachReadsBackItsDefault) {
+TEST(Options, AcceptTheTextOfTheirDefault) {
   auto commands = AllCommands();
   ForEveryOption(commands, [&](Command& command, options::Option& option) {
     if (!option.value->IsGiven()) return;
@@ -73,7 +73,7 @@ TEST(Options, EachReadsBackItsDefault) {
   });
 }
 
-TEST(Options, EachHasItsNameOnceInACommandAndAHelpThatStandsAlone) {
+TEST(Options, HaveUniqueNamesAndACompleteHelpText) {
   auto commands = AllCommands();
   std::set<std::pair<const Command*, std::string>> seen;
   ForEveryOption(commands, [&](Command& command, options::Option& option) {

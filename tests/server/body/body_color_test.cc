@@ -19,11 +19,11 @@ double NearestClass(const Rgb& body) {
   return nearest;
 }
 
-TEST(BodyColor, OfTheFirstPersonIsWhatItAlwaysWas) {
+TEST(BodyColor, OfTheFirstPersonIsTheStandardColour) {
   EXPECT_EQ(BodyColor(std::nullopt, 0), kBodyColor);
 }
 
-TEST(BodyColor, TellsPeopleApartAndLeavesTheClassesReadable) {
+TEST(BodyColor, DistinguishesPeopleAndKeepsTheClassesReadable) {
   for (std::size_t i = 0; i < kBodyColors; ++i) {
     EXPECT_GE(NearestClass(BodyColor(std::nullopt, i)), kMinContrast) << i;
     // A joint whose load is unknown, and a body that went stale, are grey: nearer, but not the
@@ -37,7 +37,7 @@ TEST(BodyColor, TellsPeopleApartAndLeavesTheClassesReadable) {
   EXPECT_EQ(BodyColor({}, kBodyColors), BodyColor({}, 0));
 }
 
-TEST(BodyColor, OfAPersonsOwnIsMutedUntilTheClassesStandOut) {
+TEST(BodyColor, IsMutedIfAPersonalColourHidesTheClasses) {
   for (std::uint32_t r = 0; r <= 0xFF; r += 0x11) {
     for (std::uint32_t g = 0; g <= 0xFF; g += 0x11) {
       for (std::uint32_t b = 0; b <= 0xFF; b += 0x11) {
@@ -65,7 +65,7 @@ void ExpectColor(const PersonState& person, const Rgb& expected) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(actual[i], expected[i], 1e-5) << i;
 }
 
-TEST(BodyColor, IsInEachPersonsUrdfAndFollowsWhatIsSent) {
+TEST(BodyColor, IsInTheUrdfOfEachPersonAndFollowsTheStream) {
   SceneOptions options;
   options.appearance.is_smooth = false;
   std::shared_ptr<const SceneState> last;

@@ -26,13 +26,13 @@ std::set<std::string> NamesOf(const std::vector<MeshFile>& files) {
   return names;
 }
 
-TEST(BodyMeshFiles, AreThoseOfAllSegments) {
+TEST(BodyMeshFiles, ContainEverySegment) {
   const std::vector<MeshFile> files = BodyMeshFiles(Person(1.75), nullptr);
   ASSERT_EQ(files.size(), std::size_t{urdf::kSegmentCount});
   for (const MeshFile& file : files) EXPECT_GT(file.stl.size(), 1000u) << file.name;
 }
 
-TEST(BodyMeshFiles, AreThoseOfFingersInPlaceOfAGlovedHand) {
+TEST(BodyMeshFiles, ContainFingersInsteadOfAGlovedHand) {
   urdf::HumanModel human = Person(1.75);
   human.gloves[urdf::kRight] = urdf::DefaultHand(urdf::kRight, 0.19);
   const std::set<std::string> names = NamesOf(BodyMeshFiles(human, nullptr));
@@ -50,7 +50,7 @@ TEST(BodyMeshFiles, AreThoseOfFingersInPlaceOfAGlovedHand) {
   EXPECT_EQ(names, named);
 }
 
-TEST(MeshSetName, IsThatOfTheBodyAndOfHowItIsDrawn) {
+TEST(MeshSetName, DependsOnBodyAndAppearance) {
   const BodyAppearance smooth;
   BodyAppearance with_tool;
   const auto tools = std::make_shared<HandTools>();

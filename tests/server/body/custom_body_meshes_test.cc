@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using urdf::At;
 
-TEST(CustomBodyMeshes, FilesAreKnownByTheNamesThatPeopleGiveThem) {
+TEST(CustomBodyMeshes, AreRecognisedByCommonFileNames) {
   const auto expect = [](std::initializer_list<const char*> stems, urdf::Segment segment) {
     for (const char* stem : stems) EXPECT_EQ(SegmentOfFile(stem), segment) << stem;
   };
@@ -60,7 +60,7 @@ class MeshFolder : public ::testing::Test {
   testing::TempFolder folder_;
 };
 
-TEST_F(MeshFolder, GivesTheUsersMeshesFittedAndOursForTheRest) {
+TEST_F(MeshFolder, ProvidesFittedCustomMeshesAndBuiltInMeshesForTheRest) {
   WriteRod("left_lower_leg.obj", 0.400, 0.001);
   urdf::MeshConvention convention;
   convention.metres_per_unit = 0.001;
@@ -81,7 +81,7 @@ TEST_F(MeshFolder, GivesTheUsersMeshesFittedAndOursForTheRest) {
               -0.4, 1e-6);
 }
 
-TEST_F(MeshFolder, IsRefusedWithTheReasonWhereItCannotBeAFigure) {
+TEST_F(MeshFolder, IsRejectedWithTheReasonIfItIsNoBodyModel) {
   EXPECT_THAT(ErrorOf(), HasSubstr("no mesh file with a segment name found"));
   WriteRod("Sofa.obj", 0.4);
   EXPECT_THAT(ErrorOf(), HasSubstr("no mesh file with a segment name found"));
@@ -97,7 +97,7 @@ TEST_F(MeshFolder, IsRefusedWithTheReasonWhereItCannotBeAFigure) {
   EXPECT_THROW(ReadCustomBodyMeshes(Path() + "/nowhere", {}), UsageError);
 }
 
-TEST_F(MeshFolder, IsChosenByOptions) {
+TEST_F(MeshFolder, IsSelectedByOptions) {
   WriteRod("Head.obj", 0.2);
   const auto person = testing::With<PersonOptions>({{"body_model", "mesh:" + Path()}});
   EXPECT_NE(ToSceneOptions(person).appearance.custom, nullptr);
@@ -116,7 +116,7 @@ TEST_F(MeshFolder, IsChosenByOptions) {
 }
 
 // The surface of a person of the set, in link frames at the N-pose: about as large as a person.
-TEST(CustomBodyMeshes, RealSetsOfOthersFitThePerson) {
+TEST(CustomBodyMeshes, OfPublishedSetsFitThePerson) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-model-generator/meshes");
   const auto figure =
       ReadCustomBodyMeshes(testing::SharedData("models/human-model-generator/meshes").string(), {});

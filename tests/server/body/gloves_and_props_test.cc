@@ -43,7 +43,7 @@ PersonState PersonWith(const GlovesAndProps& extras, const BodySample& sample) {
   return person;
 }
 
-TEST(GlovesAndProps, AreNoticedOnce) {
+TEST(GlovesAndProps, AreDetectedOnce) {
   GlovesAndProps extras;
   BodySample sample = BareSample();
   EXPECT_FALSE(extras.Notice(sample));
@@ -56,7 +56,7 @@ TEST(GlovesAndProps, AreNoticedOnce) {
   EXPECT_FALSE(extras.Notice(BareSample())) << "they stay, whatever a sample lacks";
 }
 
-TEST(GlovesAndProps, AreThoseOfTheModelThatWereSeen) {
+TEST(GlovesAndProps, AreAddedToTheModelWhenDetected) {
   GlovesAndProps extras;
   BodySample sample = BareSample();
   ShowExtra(sample, PropIndex(0), TurnedPoseAt({1, 0, 1}));
@@ -72,7 +72,7 @@ TEST(GlovesAndProps, AreThoseOfTheModelThatWereSeen) {
 }
 
 // The carpus of a glove is where the first sample has it, unless that is no part of the hand.
-TEST(GlovesAndProps, TheCarpusIsWhereItWasFirstSeenOnTheHand) {
+TEST(GlovesAndProps, PutTheCarpusAtItsFirstPositionOnTheHand) {
   for (const auto& [away, expected] : {std::pair(0.02, 0.02), std::pair(0.5, 0.0)}) {
     GlovesAndProps extras;
     BodySample sample = BareSample();
@@ -86,7 +86,7 @@ TEST(GlovesAndProps, TheCarpusIsWhereItWasFirstSeenOnTheHand) {
   }
 }
 
-TEST(GlovesAndProps, APropThatIsNotMeasuredGoesAlongWithThePelvis) {
+TEST(GlovesAndProps, MoveAnUnmeasuredPropWithThePelvis) {
   GlovesAndProps extras;
   BodySample seen = BareSample(TurnedPoseAt({0, 0, 1}));
   ShowExtra(seen, PropIndex(1), TurnedPoseAt({0.5, 0, 1.2}));
@@ -105,7 +105,7 @@ TEST(GlovesAndProps, APropThatIsNotMeasuredGoesAlongWithThePelvis) {
       << "half a metre ahead of a pelvis that looks along y";
 }
 
-TEST(GlovesAndProps, AMeasuredFingerIsWhereItIsAndTheOthersGoAlong) {
+TEST(GlovesAndProps, MoveUnmeasuredFingersWithTheHand) {
   GlovesAndProps extras;
   BodySample sample = BareSample();
   ShowExtra(sample, FingerIndex(urdf::kRight, 0), TurnedPoseAt({0, -0.3, 0.8}));
@@ -138,7 +138,7 @@ TEST(GlovesAndProps, AMeasuredFingerIsWhereItIsAndTheOthersGoAlong) {
 
 // Scale data give the fingers' lengths only where they describe the whole hand, and a hand that can
 // be.
-TEST(GlovesAndProps, LengthsAreThoseOfScaleDataOnlyWhereTheyDescribeAHand) {
+TEST(GlovesAndProps, UseLengthsOfScaleDataOnlyIfTheyDescribeAHand) {
   GlovesAndProps extras;
   BodySample sample = BareSample();
   ShowExtra(sample, FingerIndex(urdf::kRight, 0), TurnedPoseAt({0, -0.3, 0.8}));

@@ -56,7 +56,7 @@ class HandToolsTest : public ::testing::Test {
   testing::TempFolder folder_;
 };
 
-TEST_F(HandToolsTest, LieAtTheGripUnlessAPlaceIsGiven) {
+TEST_F(HandToolsTest, PutsToolsAtTheGripByDefault) {
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton(1.75);
   const auto tools = Read("right:" + Drill() + ";left:" + Drill() + "@0.1,0.2,-0.3");
   const auto right = urdf::BoundsOf(ToHandFrame(*(*tools)[kRight], skeleton, kRight));
@@ -68,7 +68,7 @@ TEST_F(HandToolsTest, LieAtTheGripUnlessAPlaceIsGiven) {
   EXPECT_EQ(Read(""), nullptr);
 }
 
-TEST_F(HandToolsTest, TurnAsAUrdfDoes) {
+TEST_F(HandToolsTest, RotatesToolsLikeAUrdf) {
   // Pitched by 90 degrees, what pointed forward points down.
   const auto tools = Read("right:" + Drill() + "@0,0,0,0,1.5707963267948966,0");
   const auto box =
@@ -77,7 +77,7 @@ TEST_F(HandToolsTest, TurnAsAUrdfDoes) {
   EXPECT_NEAR(box.max().z(), 0.03, 1e-6);
 }
 
-TEST_F(HandToolsTest, TakeTheUnitOfTheirFiles) {
+TEST_F(HandToolsTest, AppliesTheUnitOfTheFiles) {
   WriteBar("drill_mm.obj", 0.001);
   urdf::MeshConvention millimetres;
   millimetres.metres_per_unit = 0.001;
@@ -86,7 +86,7 @@ TEST_F(HandToolsTest, TakeTheUnitOfTheirFiles) {
   EXPECT_THAT(ErrorOf("left:" + (folder_ / "drill_mm.obj").string()), HasSubstr("--mesh_units"));
 }
 
-TEST_F(HandToolsTest, RefuseWhatIsNoToolAndSayWhatWouldBe) {
+TEST_F(HandToolsTest, RejectsInvalidToolsWithTheExpectedFormat) {
   for (const std::string& bad :
        {"nose:" + Drill(), Drill(), std::string("right:"), "right:" + Drill() + "@1,2",
         "right:" + Drill() + "@0,nan,0", "right:" + Drill() + "@3,0,0"}) {
@@ -97,7 +97,7 @@ TEST_F(HandToolsTest, RefuseWhatIsNoToolAndSayWhatWouldBe) {
 }
 
 // One option, and URDF, pictures, page and RViz have it: they all read the person's URDF.
-TEST_F(HandToolsTest, AreInTheUrdfOfThePersonAndTakeThePlaceOfTheDumbbell) {
+TEST_F(HandToolsTest, AddsToolsToTheUrdfInsteadOfTheDumbbell) {
   const auto person = testing::With<PersonOptions>({{"tool", "right:" + Drill()}});
   const auto loads = testing::With<LoadOptions>({{"hand_load", "right:5,left:5"}});
   const testing::TempFolder cache;

@@ -48,7 +48,7 @@ class MeshCacheTest : public ::testing::Test {
   int made_ = 0;
 };
 
-TEST_F(MeshCacheTest, WritesNothingBeforeItIsAsked) {
+TEST_F(MeshCacheTest, WritesNothingBeforeFilesAreRequested) {
   const MeshCache cache(folder_.path());
   const auto files = Set("body-1", cache);
   EXPECT_EQ(cache.FolderOf("body-1"), folder_ / "body-1");
@@ -77,14 +77,14 @@ TEST_F(MeshCacheTest, WritesASetAgainThatTheUserHasRemoved) {
 }
 
 // A sender whose scale data change with every message.
-TEST_F(MeshCacheTest, ThousandBodiesLeaveAtMostTheLimit) {
+TEST_F(MeshCacheTest, KeepsItsLimitWithAThousandBodies) {
   const MeshCache cache(folder_.path(), 10 * kSetBytes);
   for (int i = 0; i < 1000; ++i) ASSERT_TRUE(Set(NameOf(i), cache)->Provide());
   EXPECT_LE(folder_.Names().size(), 10U);
   EXPECT_THAT(folder_.Names(), Contains(NameOf(999)));
 }
 
-TEST_F(MeshCacheTest, RemovesFirstWhatWasNotUsedForTheLongestTime) {
+TEST_F(MeshCacheTest, RemovesTheLeastRecentlyUsedSetFirst) {
   const MeshCache cache(folder_.path(), 3 * kSetBytes);
   for (int i = 1; i <= 3; ++i) {
     ASSERT_TRUE(Set(NameOf(i), cache)->Provide());
@@ -134,7 +134,7 @@ TEST_F(MeshCacheTest, KeepsTheMeshesThatAnotherProcessUses) {
   for (const int end : {ready[0], ready[1], done[0], done[1]}) close(end);
 }
 
-TEST_F(MeshCacheTest, RemovesWhatEarlierVersionsAndCrashedProcessesLeft) {
+TEST_F(MeshCacheTest, RemovesFilesOfEarlierVersionsAndCrashedProcesses) {
   for (const char* left : {"figure-0123", "body-1.new-77-0", "body-2.old-77"}) {
     fs::create_directory(folder_ / left);
     std::ofstream(folder_ / left / "hand.stl") << std::string(kSetBytes, 'x');
@@ -162,13 +162,13 @@ TEST_F(MeshCacheTest, IsUsedByManyThreadsAtOnce) {
   EXPECT_EQ(provided, 200);
 }
 
-TEST_F(MeshCacheTest, SaysWhatCannotBeWritten) {
+TEST_F(MeshCacheTest, ReportsFailureIfItCannotWrite) {
   const MeshCache cache(folder_.path());
   std::ofstream(folder_ / "body-1") << "a file where the folder has to be";
   EXPECT_FALSE(Set("body-1", cache)->Provide());
 }
 
-TEST_F(MeshCacheTest, IsThatOfTheUserUnlessItCannotBeWritten) {
+TEST_F(MeshCacheTest, UsesTheFolderOfTheUserIfItIsWritable) {
   setenv("XDG_CACHE_HOME", folder_.path().c_str(), 1);
   EXPECT_NE(MeshCache::OfUser(), nullptr);
   EXPECT_THAT(folder_.Names(), ElementsAre("kinescope"));

@@ -11,7 +11,7 @@ Access Check(const std::string& token, const std::string& target, const std::str
 
 TEST(Access, IsOpenWithoutToken) { EXPECT_EQ(Check("", "/", ""), Access::kOpen); }
 
-TEST(Access, TakesTheTokenFromQueryOrCookie) {
+TEST(Access, AcceptsTheTokenFromQueryOrCookie) {
   EXPECT_EQ(Check("abc", "/?token=abc", ""), Access::kByQuery);
   EXPECT_EQ(Check("abc", "/", "kinescope_80=abc"), Access::kByCookie);
   EXPECT_EQ(Check("abc", "/", "a=b;  kinescope_80=abc ; c=d"), Access::kByCookie);
@@ -29,14 +29,14 @@ TEST(Access, IsDeniedForAnythingElse) {
   }
 }
 
-TEST(Access, KnowsWhichTokensFitIntoACookie) {
+TEST(Access, RejectsTokensThatDoNotFitIntoACookie) {
   EXPECT_TRUE(FitsIntoCookie("Az09-._~"));
   for (const char* token : {"a b", "a;b", "a\r\nb", "a=b", "\"a\"", "ä"}) {
     EXPECT_FALSE(FitsIntoCookie(token)) << token;
   }
 }
 
-TEST(Access, ComparesOriginWithHost) {
+TEST(Access, AllowsOnlyTheOriginOfTheHost) {
   EXPECT_TRUE(IsSameOrigin("", "127.0.0.1:8080"));
   EXPECT_TRUE(IsSameOrigin("http://127.0.0.1:8080", "127.0.0.1:8080"));
   EXPECT_TRUE(IsSameOrigin("https://lab.example", "lab.example"));
@@ -48,7 +48,7 @@ TEST(Access, ComparesOriginWithHost) {
   EXPECT_FALSE(IsSameOrigin("http://", ""));
 }
 
-TEST(Access, KnowsNamesOfThisMachine) {
+TEST(Access, RecognisesNamesOfThisMachine) {
   for (const char* host : {"localhost", "localhost:8080", "127.0.0.1", "127.0.0.1:8080",
                            "127.1.2.3:80", "[::1]", "[::1]:8080"}) {
     EXPECT_TRUE(NamesThisMachine(host)) << host;

@@ -74,7 +74,7 @@ TEST(DetailsJson, NamesTheTrackedObjects) {
   EXPECT_EQ(objects[0], (json{{"character", 4}, {"number", 2}, {"name", "HTC Vive"}}));
 }
 
-TEST(ModelJson, TellsAVisualAsTheUrdfHasIt) {
+TEST(ModelJson, DescribesVisualsAsInTheUrdf) {
   const SceneState state = Scene();
   const urdf::RobotModel& robot = state.people[0].model->robot;
   const json model = json::parse(ModelJson(&state));
@@ -90,7 +90,7 @@ TEST(ModelJson, TellsAVisualAsTheUrdfHasIt) {
   EXPECT_EQ(told["quaternion"].size(), 4u);
 }
 
-TEST(ModelJson, HasThePaletteOfEveryOtherSink) {
+TEST(ModelJson, ContainsThePaletteOfTheOtherSinks) {
   const json palette = json::parse(ModelJson(nullptr))["palette"];
   EXPECT_EQ(palette["cop"], json(kCopColor));
   EXPECT_EQ(palette["com"], json(kComColor));
@@ -112,7 +112,7 @@ TEST(ModelJson, NamesAllJoints) {
   EXPECT_EQ(joints[urdf::jRightElbow]["label"], "Right elbow");
 }
 
-TEST(StateJson, SaysNothingThatIsNotKnown) {
+TEST(StateJson, ContainsNullForUnknownValues) {
   const json nothing = json::parse(StateJson(nullptr, 1));
   EXPECT_EQ(nothing["liveness"], "no data");
   EXPECT_TRUE(nothing["age_ms"].is_null());
@@ -127,7 +127,7 @@ TEST(StateJson, SaysNothingThatIsNotKnown) {
   EXPECT_EQ(loads.back()["reason"], "left foot is not on the floor");
 }
 
-TEST(Json, RepairsNamesThatAreNoUtf8) {
+TEST(Json, ReplacesInvalidUtf8InNames) {
   SceneState state = Scene();
   state.people[0].name = "\xFF\xFE<b>";
   state.source = "udp://\x80";
@@ -154,7 +154,7 @@ TEST(DetailsJson, IsEqualForEqualStates) {
   EXPECT_NE(DetailsJson(&a, "front", true), DetailsJson(&b, "front", true));
 }
 
-TEST(CamerasJson, HasTheNumbersOfEveryView) {
+TEST(CamerasJson, ContainsTheParametersOfEveryView) {
   const json told =
       json::parse(CamerasJson(testing::MakeCameras(), {1.5, 0.5, 1.25}, "front", false));
   EXPECT_EQ(told["live"], "front");
@@ -166,7 +166,7 @@ TEST(CamerasJson, HasTheNumbersOfEveryView) {
             (json{{"min_width_m", 1.5}, {"margin_m", 0.5}, {"narrowest_aspect", 1.25}}));
 }
 
-TEST(FindMesh, GivesOnlyStlFilesThatTheModelNames) {
+TEST(FindMesh, FindsOnlyStlFilesOfTheModel) {
   const SceneState state = Scene("/tmp/some meshes");
   const auto first = FindMesh(&state, 0, 7, 0);
   ASSERT_TRUE(first);
@@ -179,7 +179,7 @@ TEST(FindMesh, GivesOnlyStlFilesThatTheModelNames) {
   EXPECT_FALSE(FindMesh(nullptr, 0, 7, 0));
 }
 
-TEST(FindMesh, RefusesWhatIsNoLocalStlFile) {
+TEST(FindMesh, RejectsEverythingExceptLocalStlFiles) {
   for (const char* uri :
        {"package://robot/a.stl", "http://elsewhere/a.stl", "/etc/a.stl", "file://etc/a.stl",
         "file:///etc/passwd", "file:///etc/a.stl%00", "file:///a%zz.stl", "file://", ""}) {

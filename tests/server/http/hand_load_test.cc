@@ -28,7 +28,7 @@ TEST(HandLoadOrder, IsOneObjectOfMasses) {
   EXPECT_EQ(ParseHandLoadOrder(R"({"person": 3, "both_kg": 2})")->person, 3);
 }
 
-TEST(HandLoadOrder, SaysWhereTheLoadIs) {
+TEST(HandLoadOrder, ContainsThePositionOfTheLoad) {
   const auto order = ParseHandLoadOrder(R"({"right_kg": 2, "right_com_m": [0.1, 0, -0.25]})");
   ASSERT_TRUE(order);
   ASSERT_TRUE(order->load.com_in_hand[urdf::kRight]);
@@ -36,7 +36,7 @@ TEST(HandLoadOrder, SaysWhereTheLoadIs) {
   EXPECT_FALSE(order->load.com_in_hand[urdf::kLeft]);
 }
 
-TEST(HandLoadOrder, ThatIsOddIsRefused) {
+TEST(HandLoadOrder, IsRejectedIfItIsInvalid) {
   for (const std::string& body :
        {std::string(), std::string("{}"), std::string("5"), std::string("[5]"), std::string("{"),
         std::string(R"({"right_kg": "5"})"), std::string(R"({"right": 5})"),
@@ -50,7 +50,7 @@ TEST(HandLoadOrder, ThatIsOddIsRefused) {
   }
 }
 
-TEST(HandLoadRoute, HandsTheLoadOnAndSaysWhatItTook) {
+TEST(HandLoadRoute, AppliesTheLoadAndReturnsTheAcceptedValues) {
   TestServer site;
   site.PublishState(1);
   const Response answer = Post(site, kFive);
@@ -59,7 +59,7 @@ TEST(HandLoadRoute, HandsTheLoadOnAndSaysWhatItTook) {
   EXPECT_EQ(site.Told().at(0).mass_kg[urdf::kLeft], 0.5);
 }
 
-TEST(HandLoadRoute, RefusesEveryOtherWayInAndCountsIt) {
+TEST(HandLoadRoute, RejectsOtherOriginsTypesAndMethodsAndCountsThem) {
   TestServer site;
   site.PublishState(1);
   const std::string own = "http://127.0.0.1:" + std::to_string(site.server.port());
@@ -85,7 +85,7 @@ TEST(HandLoadRoute, RefusesEveryOtherWayInAndCountsIt) {
   EXPECT_EQ(rejected["bad hand load"], 2);
 }
 
-TEST(HandLoadRoute, NeedsTheTokenAndSomebodyWhoIsHere) {
+TEST(HandLoadRoute, NeedsTheTokenAndAPerson) {
   TestServer site("s3cret");
   EXPECT_EQ(Post(site, kFive).status, 401);
   EXPECT_EQ(Post(site, kFive, {}, "/api/hand_load?token=s3cret").status, 409) << "nobody is here";
@@ -94,7 +94,7 @@ TEST(HandLoadRoute, NeedsTheTokenAndSomebodyWhoIsHere) {
   EXPECT_EQ(site.Told().size(), 1u);
 }
 
-TEST(StateJson, SaysWhatTheLoadsStandOn) {
+TEST(StateJson, ContainsTheInputsOfTheLoads) {
   TestServer site;
   site.PublishState(1);
   const auto person = site.Get("/api/state").json()["people"][0];

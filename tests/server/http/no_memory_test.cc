@@ -9,7 +9,7 @@
 namespace kinescope::http::testing {
 namespace {
 
-TEST(HttpServerWithoutMemory, GoesOnAcceptingAfterAConnectionThatItCouldNotMake) {
+TEST(HttpServerWithoutMemory, AcceptsConnectionsAfterAFailedAllocation) {
   const TestServer site;
   ASSERT_EQ(site.Get("/api/state").status, 200);
   // Of what the idle server's threads allocate, only a new connection is so large.

@@ -97,7 +97,7 @@ void ExpectPerson(Reader& in, const PersonState& person) {
   }
 }
 
-TEST(StateMessage, CarriesEveryFieldWhereTheManualSaysSo) {
+TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
   SceneState state = Scene(2);
   state.floor_z = -0.75;
   const Bytes bytes = EncodeState(state, 5'004'000'000, 3);
@@ -120,7 +120,7 @@ TEST(StateMessage, CarriesEveryFieldWhereTheManualSaysSo) {
   EXPECT_TRUE(in.AtEnd());
 }
 
-TEST(StateMessage, CarriesTheFingersAndPropsOfAPersonInTheOrderOfTheModel) {
+TEST(StateMessage, HasFingersAndPropsInTheOrderOfTheModel) {
   SceneState state = Scene();
   PersonState& person = state.people[0];
   kinescope::testing::Wear(person);
@@ -139,7 +139,7 @@ TEST(StateMessage, CarriesTheFingersAndPropsOfAPersonInTheOrderOfTheModel) {
   EXPECT_LT((position_of(64) - person.props[2]->pose.position).norm(), 1e-6);
 }
 
-TEST(StateMessage, CarriesTrackedObjectsAfterThePeople) {
+TEST(StateMessage, HasTrackedObjectsAfterThePeople) {
   SceneState state = Scene();
   const std::size_t people = EncodeState(state, 0, 1).size();
   const urdf::Pose pose{{1, -2, 0.5}, Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5)};
@@ -163,11 +163,11 @@ TEST(StateMessage, OfOnePersonWithALoadStaysBelow1500Bytes) {
   EXPECT_LT(EncodeState(Scene(), 0, 1).size(), 1500u);
 }
 
-TEST(StateMessage, OfNobodyIsItsHeader) {
+TEST(StateMessage, ConsistsOfItsHeaderWithoutPeople) {
   EXPECT_EQ(EncodeState(SceneState(), 0, 0).size(), kStateHeaderBytes);
 }
 
-TEST(StateMessage, SendsAtMost255People) {
+TEST(StateMessage, ContainsAtMost255People) {
   SceneState state = Scene();
   state.people.resize(300, state.people.front());
   const Bytes bytes = EncodeState(state, 0, 1);
@@ -176,14 +176,14 @@ TEST(StateMessage, SendsAtMost255People) {
   EXPECT_EQ(bytes.size(), kStateHeaderBytes + 255 * person_bytes);
 }
 
-TEST(StateMessage, SaysWhatIsMissing) {
+TEST(StateMessage, MarksMissingValues) {
   SceneState state = Scene();
   state.people[0].com.reset();
   state.people[0].cop.reset();
   EXPECT_EQ(EncodeState(state, 0, 1)[kStateHeaderBytes + 4] & 3, 0);
 }
 
-TEST(PictureMessage, SaysWhichStateItShows) {
+TEST(PictureMessage, ContainsTheNumberOfItsState) {
   const Bytes bytes = EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000});
   Reader in(bytes);
   EXPECT_EQ(in.Get<std::uint8_t>(), 2);
@@ -209,7 +209,7 @@ TEST(ClientCommand, IsOneJsonObjectWithKnownMembers) {
   EXPECT_EQ(seen->seen_pictures, 0u);
 }
 
-TEST(ClientCommand, IsRefusedWhenAnythingIsOdd) {
+TEST(ClientCommand, IsRejectedIfItIsInvalid) {
   for (const std::string& text :
        {std::string(), std::string("{"), std::string("[]"), std::string("1"), std::string("null"),
         std::string(R"({"pictures": 1})"), std::string(R"({"camera": 3})"),
@@ -223,7 +223,7 @@ TEST(ClientCommand, IsRefusedWhenAnythingIsOdd) {
   }
 }
 
-TEST(ProtocolManual, KnowsTheSizesAndTheVersion) {
+TEST(ProtocolManual, StatesTheSizesAndTheVersion) {
   std::ifstream file(std::string(KINESCOPE_SOURCE_DIR) + "/docs/http.md");
   const std::string manual(std::istreambuf_iterator<char>(file), {});
   const auto expect = [&](const std::string& text) {

@@ -103,7 +103,7 @@ class RouterTest : public ::testing::Test {
   std::map<std::string, int> refusals_;
 };
 
-TEST_F(RouterTest, AnswersEveryRouteInItsOwnFormat) {
+TEST_F(RouterTest, AnswersEveryRouteInItsFormat) {
   PublishPeople(1);
   struct Route {
     const char* target;
@@ -126,7 +126,7 @@ TEST_F(RouterTest, AnswersEveryRouteInItsOwnFormat) {
   EXPECT_THAT(refusals_, IsEmpty());
 }
 
-TEST_F(RouterTest, HasTheMeshesOfAModelWrittenBeforeItServesOne) {
+TEST_F(RouterTest, RequestsTheMeshFilesOfAModelBeforeServingOne) {
   auto model = std::make_shared<PersonModel>(*MakePersonModel(8, meshes_.path().string()));
   const std::string uri = model->robot.links.front().visuals.front().geometry.mesh_uri;
   const std::filesystem::path path = uri.substr(std::string("file://").size());
@@ -138,7 +138,7 @@ TEST_F(RouterTest, HasTheMeshesOfAModelWrittenBeforeItServesOne) {
   EXPECT_EQ(answer.file, path);
 }
 
-TEST_F(RouterTest, AnswersWithTheNewestStateAndWithoutOne) {
+TEST_F(RouterTest, AnswersWithTheNewestStateOrWithoutData) {
   EXPECT_EQ(nlohmann::json::parse(Get("/api/state").body).at("liveness"), "no data");
   EXPECT_TRUE(nlohmann::json::parse(Get("/api/model").body).at("people").empty());
   PublishPeople(2);
@@ -150,7 +150,7 @@ TEST_F(RouterTest, AnswersWithTheNewestStateAndWithoutOne) {
   EXPECT_EQ(Get("/api/diagnostics").body, R"({"source": {}})");
 }
 
-TEST_F(RouterTest, SaysWhatThereIsWhereAnAddressIsUnknown) {
+TEST_F(RouterTest, ListsTheKnownAddressesForAnUnknownOne) {
   const auto expect_unknown = [&](const std::string& target, const std::string& what) {
     const Answer answer = Get(target);
     EXPECT_EQ(answer.status, 404) << target;
@@ -173,7 +173,7 @@ TEST_F(RouterTest, SaysWhatThereIsWhereAnAddressIsUnknown) {
   }
 }
 
-TEST_F(RouterTest, TakesGetAndHeadAlikeAndNothingElse) {
+TEST_F(RouterTest, AcceptsOnlyGetAndHead) {
   for (const char* target : {"/", "/api/state", "/api/mesh/0/7/0", "/snapshot.png", "/nothing"}) {
     EXPECT_EQ(Send(RequestOf("HEAD", target)).status, Get(target).status) << target;
     for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "TRACE", "get", ""}) {
@@ -191,7 +191,7 @@ TEST_F(RouterTest, TakesGetAndHeadAlikeAndNothingElse) {
   EXPECT_EQ(refusals_["bad method"], 5 * 7 + 4);
 }
 
-TEST_F(RouterTest, RefusesAddressesThatAreOddBeforeAnyRoute) {
+TEST_F(RouterTest, RejectsInvalidAddressesBeforeRouting) {
   for (const std::string& target :
        {std::string(), std::string("app.js"), std::string("http://localhost/"),
         std::string("/../index.html"), std::string("/%2e%2e/index.html"), std::string("/%"),
@@ -207,7 +207,7 @@ TEST_F(RouterTest, RefusesAddressesThatAreOddBeforeAnyRoute) {
   EXPECT_EQ(refusals_["bad address"], 2 * 8);
 }
 
-TEST_F(RouterTest, SendsAFileUnlessItIsKnownAlready) {
+TEST_F(RouterTest, SendsAFileUnlessTheClientHasIt) {
   const Answer first = Get("/app.js?v=2");
   EXPECT_EQ(first.file.value_or(""), web_ / "app.js");
   const std::string tag = HeaderOf(first, "ETag");
@@ -250,7 +250,7 @@ TEST_F(RouterTest, ServesMeshesOfTheNewestModelUpToALimit) {
   EXPECT_EQ(Get("/api/mesh/0/7/0").status, 404) << "a folder";
 }
 
-TEST_F(RouterTest, DrawsSnapshotsOfSizesFrom16To4096) {
+TEST_F(RouterTest, AcceptsSnapshotSizesFrom16To4096) {
   const Answer plain = Get("/snapshot.png");
   ASSERT_TRUE(plain.snapshot);
   EXPECT_EQ(plain.snapshot->camera, "");
@@ -282,7 +282,7 @@ TEST_F(RouterTest, HasNoSnapshotWithoutARenderer) {
   EXPECT_THAT(refusals_, UnorderedElementsAre(Pair("no renderer", 1)));
 }
 
-TEST_F(RouterTest, SpeaksOnlyWebSocketAtItsAddress) {
+TEST_F(RouterTest, RequiresAnUpgradeAtTheWebSocketAddress) {
   const Answer answer = Get("/ws");
   EXPECT_EQ(answer.status, 426);
   EXPECT_EQ(HeaderOf(answer, "Upgrade"), "websocket");
@@ -313,7 +313,7 @@ TEST_F(RouterTest, OpensTheWebSocketForItsOwnPageOnly) {
   EXPECT_EQ(refusals_["unknown host"], 1);
 }
 
-TEST_F(RouterTest, WithATokenAsksForItEverywhere) {
+TEST_F(RouterTest, RequiresTheTokenAtEveryAddress) {
   PublishPeople(1);
   Router::Site site = SiteOf();
   site.token = "s3cret";
@@ -342,7 +342,7 @@ TEST_F(RouterTest, WithATokenAsksForItEverywhere) {
   EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/ws?token=s3cret")));
 }
 
-TEST_F(RouterTest, WithoutATokenServesThisMachineOnly) {
+TEST_F(RouterTest, ServesOnlyThisMachineWithoutAToken) {
   Request request = RequestOf("GET", "/api/state");
   for (const char* host : {"", "example.org", "192.168.1.2:8080", "localhost.example.org"}) {
     request.host = host;
@@ -355,7 +355,7 @@ TEST_F(RouterTest, WithoutATokenServesThisMachineOnly) {
   EXPECT_EQ(refusals_["unknown host"], 4);
 }
 
-TEST_F(RouterTest, HandsAHandLoadToThePersonItIsFor) {
+TEST_F(RouterTest, AppliesAHandLoadToTheGivenPerson) {
   PublishPeople(1);
   const Answer alone = Send(PostOf(kFiveInTheRightHand));
   EXPECT_EQ(alone.status, 200) << alone.body;
@@ -373,7 +373,7 @@ TEST_F(RouterTest, HandsAHandLoadToThePersonItIsFor) {
   EXPECT_EQ(Send(with_charset).status, 200);
 }
 
-TEST_F(RouterTest, SaysWhyAHandLoadIsRefusedAndHandsNothingOn) {
+TEST_F(RouterTest, RejectsAnInvalidHandLoadWithTheReason) {
   EXPECT_EQ(Send(PostOf(kFiveInTheRightHand)).status, 409) << "nobody is here yet";
   PublishPeople(1);
   const auto expect_refusal = [&](const Request& request, int status, const std::string& what) {
@@ -403,7 +403,7 @@ TEST_F(RouterTest, SaysWhyAHandLoadIsRefusedAndHandsNothingOn) {
   EXPECT_EQ(refusals_["no person"], 2);
 }
 
-TEST(ErrorAnswer, IsOneJsonObjectWhateverTheReasonHolds) {
+TEST(ErrorAnswer, IsOneJsonObjectForAnyReason) {
   const Answer answer = ErrorAnswer(418, "\"quotes\"\nand \xff bytes");
   EXPECT_EQ(answer.status, 418);
   EXPECT_EQ(answer.content_type, "application/json");

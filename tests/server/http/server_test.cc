@@ -20,7 +20,7 @@ std::string FileText(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST(HttpServer, ServesThePageAsItLiesInTheFolder) {
+TEST(HttpServer, ServesThePageUnchangedFromItsFolder) {
   const TestServer site;
   const Response page = site.Get("/");
   EXPECT_EQ(page.status, 200);
@@ -31,7 +31,7 @@ TEST(HttpServer, ServesThePageAsItLiesInTheFolder) {
   EXPECT_EQ(site.Get("/app.js").headers.at("content-type"), "text/javascript; charset=utf-8");
 }
 
-TEST(HttpServer, LetsThePageLoadNothingFromElsewhere) {
+TEST(HttpServer, ForbidsThePageToLoadFromOtherSites) {
   const TestServer site;
   for (const char* target : {"/", "/app.js", "/api/state", "/nothing"}) {
     const Response response = site.Get(target);
@@ -51,7 +51,7 @@ TEST(HttpServer, SendsAFileAgainOnlyWhenItChanged) {
   EXPECT_EQ(site.Get("/app.js", {{"If-None-Match", "\"other\""}}).status, 200);
 }
 
-TEST(HttpServer, AnswersHeadWithTheSizeAlone) {
+TEST(HttpServer, AnswersHeadWithTheSizeOnly) {
   const TestServer site;
   const Response head = Fetch(site.server.port(), "/app.js", {}, "HEAD");
   EXPECT_EQ(head.status, 200);
@@ -71,7 +71,7 @@ TEST(HttpServer, AnswersSeveralRequestsOnOneConnection) {
   EXPECT_THAT(answer, HasSubstr("liveness"));
 }
 
-TEST(HttpServer, RefusesEveryWayOutOfTheFolder) {
+TEST(HttpServer, RejectsEveryPathOutOfTheFolder) {
   const TestServer site;
   for (const std::string& target : {"/../server/http/server.h"s,
                                     "/%2e%2e/server/http/server.h"s,
@@ -112,7 +112,7 @@ TEST(HttpServer, RefusesEveryWayOutOfTheFolder) {
   }
 }
 
-TEST(HttpServer, AnswersOddRequestsAndGoesOn) {
+TEST(HttpServer, AnswersInvalidRequestsAndContinues) {
   const TestServer site;
   const int port = site.server.port();
   EXPECT_THAT(Exchange(port, "hello\r\n\r\n"), StartsWith("HTTP/1.1 400"));
@@ -146,7 +146,7 @@ TEST(HttpServer, ServesTheNewestState) {
   EXPECT_EQ(site.Get("/api/cameras").json()["cameras"].size(), 7u);
 }
 
-TEST(HttpServer, ServesMeshesOfTheModelOnly) {
+TEST(HttpServer, ServesOnlyMeshesOfTheModel) {
   const std::filesystem::path folder =
       std::filesystem::path(::testing::TempDir()) / "kinescope_meshes";
   std::filesystem::create_directories(folder);
@@ -189,7 +189,7 @@ TEST(HttpServer, SurvivesDiagnosticsThatFail) {
               HasSubstr("not JSON"));
 }
 
-TEST(HttpServer, TokenGuardsEveryRoute) {
+TEST(HttpServer, RequiresTheTokenForEveryRoute) {
   const TestServer site("s3cret");
   EXPECT_THAT(site.server.url(), HasSubstr("/?token=s3cret"));
   const std::string cookie = "kinescope_" + std::to_string(site.server.port()) + "=s3cret";
@@ -207,19 +207,19 @@ TEST(HttpServer, TokenGuardsEveryRoute) {
   EXPECT_EQ(site.Get("/", {{"Cookie", cookie}}).headers.count("set-cookie"), 0u);
 }
 
-TEST(HttpServer, WithATokenAnyHostNameMayBeUsed) {
+TEST(HttpServer, AcceptsAnyHostNameWithAToken) {
   const TestServer site("s3cret");
   EXPECT_EQ(site.Get("/?token=s3cret", {{"Host", "lab.example:8080"}}).status, 200);
 }
 
-TEST(HttpServer, WithoutATokenOnlyNamesOfThisMachineAreServed) {
+TEST(HttpServer, AcceptsOnlyNamesOfThisMachineWithoutAToken) {
   const TestServer site;
   EXPECT_EQ(site.Get("/api/state", {{"Host", "localhost:1234"}}).status, 200);
   EXPECT_EQ(site.Get("/api/state", {{"Host", "evil.example"}}).status, 403);
   EXPECT_EQ(site.Get("/", {{"Host", "127.0.0.1.evil.example:80"}}).status, 403);
 }
 
-TEST(HttpServer, SaysWhatToDoWhenThePortIsTaken) {
+TEST(HttpServer, ReportsAPortInUseWithARemedy) {
   const TestServer site;
   HttpConfig config = TestServer::MakeConfig("");
   config.port = site.server.port();
@@ -236,7 +236,7 @@ TEST(HttpServer, SaysWhatToDoWhenThePortIsTaken) {
   }
 }
 
-TEST(HttpServer, RefusesAConfigurationThatLetsStrangersIn) {
+TEST(HttpServer, RejectsUnsafeAndInvalidConfigurations) {
   Latest<SceneState> states;
   Latest<Picture> pictures;
   const auto start = [&](const std::string& ip, const std::string& token, int port) {
@@ -254,7 +254,7 @@ TEST(HttpServer, RefusesAConfigurationThatLetsStrangersIn) {
   EXPECT_NO_THROW(start("0.0.0.0", "a", 0));
 }
 
-TEST(HttpServer, NamesAnAddressThatCanBeOpened) {
+TEST(HttpServer, ReportsAUrlThatCanBeOpened) {
   Latest<SceneState> states;
   Latest<Picture> pictures;
   HttpConfig config = TestServer::MakeConfig("abc");

@@ -15,7 +15,7 @@ namespace {
 using namespace std::string_literals;
 using ::testing::HasSubstr;
 
-TEST(Snapshot, IsDrawnAsAskedFor) {
+TEST(Snapshot, IsRenderedAsRequested) {
   const TestServer site;
   const Response picture = site.Get("/snapshot.png?camera=front&width=640&height=360");
   EXPECT_EQ(picture.status, 200);
@@ -25,7 +25,7 @@ TEST(Snapshot, IsDrawnAsAskedFor) {
   EXPECT_EQ(site.Get("/snapshot.png").body, " 1280x720");
 }
 
-TEST(Snapshot, TakesSizesFrom16To4096) {
+TEST(Snapshot, AcceptsSizesFrom16To4096) {
   const TestServer site;
   EXPECT_EQ(site.Get("/snapshot.png?width=16&height=4096").status, 200);
   for (const char* query :
@@ -37,7 +37,7 @@ TEST(Snapshot, TakesSizesFrom16To4096) {
   }
 }
 
-TEST(Snapshot, SaysWhyThereIsNone) {
+TEST(Snapshot, ReportsWhyItFailed) {
   const TestServer site;
   const Response refused = site.Get("/snapshot.png?camera=iso");
   EXPECT_EQ(refused.status, 400);
@@ -49,7 +49,7 @@ TEST(Snapshot, SaysWhyThereIsNone) {
   EXPECT_EQ(blind.Get("/snapshot.png").status, 503);
 }
 
-TEST(Snapshot, DoesNotHoldUpAnythingElse) {
+TEST(Snapshot, DoesNotDelayOtherRequests) {
   TestServer site;
   site.feed.Hold(true);
   std::thread slow([&] { EXPECT_EQ(site.Get("/snapshot.png?camera=front").status, 200); });
@@ -63,7 +63,7 @@ TEST(Snapshot, DoesNotHoldUpAnythingElse) {
   slow.join();
 }
 
-TEST(Snapshot, WaitsInAShortQueueOnly) {
+TEST(Snapshot, IsRejectedIfTheShortQueueIsFull) {
   TestServer site;
   site.feed.Hold(true);
   std::atomic<int> drawn{0};
@@ -84,7 +84,7 @@ TEST(Snapshot, WaitsInAShortQueueOnly) {
   EXPECT_EQ(drawn, SnapshotWorker::kMaxWaiting + 1);
 }
 
-TEST(Snapshot, BeingDrawnWhenTheServerStopsDoesNoHarm) {
+TEST(Snapshot, InProgressDoesNotPreventTheServerFromStopping) {
   FakeFeed feed;
   std::thread client, release;
   {

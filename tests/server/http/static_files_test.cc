@@ -33,7 +33,7 @@ class StaticFilesTest : public ::testing::Test {
   const testing::TempFolder folder_;
 };
 
-TEST_F(StaticFilesTest, ListsThePageAndItsLibrariesOnly) {
+TEST_F(StaticFilesTest, ListsOnlyThePageAndItsLibraries) {
   for (const char* name :
        {"index.html", "app.js", "style.css", "parts/icon.svg", "package.json", "CMakeLists.txt",
         ".npmrc", ".secret/a.js", "notes.txt", "node_modules/three/build/three.module.js",
@@ -44,7 +44,7 @@ TEST_F(StaticFilesTest, ListsThePageAndItsLibrariesOnly) {
                                     "/parts/icon.svg", "/style.css"));
 }
 
-TEST_F(StaticFilesTest, LeavesOutLinksThatLeadOut) {
+TEST_F(StaticFilesTest, OmitsLinksOutOfTheFolder) {
   Write(folder_ / "secret.js");
   Write(folder_ / "elsewhere/inner.js");
   Write(web() / "app.js");
@@ -62,7 +62,7 @@ TEST_F(StaticFilesTest, IsEmptyWithoutAFolder) {
   EXPECT_TRUE(StaticFiles("").all().empty());
 }
 
-TEST_F(StaticFilesTest, GivesANewTagWhenTheFileChanges) {
+TEST_F(StaticFilesTest, ChangesTheEntityTagWhenTheFileChanges) {
   Write(web() / "app.js", "one");
   const std::string before = EntityTag(web() / "app.js");
   EXPECT_EQ(EntityTag(web() / "app.js"), before);
@@ -71,7 +71,7 @@ TEST_F(StaticFilesTest, GivesANewTagWhenTheFileChanges) {
   EXPECT_EQ(EntityTag(web() / "gone.js"), "");
 }
 
-TEST(StaticFilesOfThePage, AreAllThere) {
+TEST(StaticFilesOfThePage, AreComplete) {
   const StaticFiles files(fs::path(KINESCOPE_SOURCE_DIR) / "web");
   for (const char* url : {"/", "/index.html", "/app.js", "/style.css", "/favicon.svg"}) {
     EXPECT_NE(files.Find(url), nullptr) << url;

@@ -22,7 +22,7 @@ TEST(Target, MayEndWithASlash) {
   EXPECT_EQ(ParseTarget("/api/")->path, "/api/");
 }
 
-TEST(Target, IsRefusedWhenItIsNotClearlyHarmless) {
+TEST(Target, IsRejectedIfItMayBeUnsafe) {
   for (const std::string& text : {""s,
                                   "app.js"s,
                                   "http://elsewhere/app.js"s,
@@ -57,12 +57,12 @@ TEST(Target, IsRefusedWhenItIsNotClearlyHarmless) {
   }
 }
 
-TEST(Target, DecodesOnceOnly) {
+TEST(Target, IsDecodedOnlyOnce) {
   // %252e is an escaped "%2e", not a dot: no file of ours has such a name.
   EXPECT_EQ(ParseTarget("/%252e%252e/x")->path, "/%2e%2e/x");
 }
 
-TEST(PercentDecode, RefusesEveryTruncation) {
+TEST(PercentDecode, RejectsEveryTruncation) {
   EXPECT_EQ(*PercentDecode("a%41b"), "aAb");
   for (const char* text : {"%", "%4", "a%", "a%4", "%4g", "%g4"})
     EXPECT_FALSE(PercentDecode(text)) << text;

@@ -38,7 +38,7 @@ std::string Refusal(const std::function<void()>& connect) {
   return "let in";
 }
 
-TEST(WebSocket, GreetsWithDetailsAndTheNewestState) {
+TEST(WebSocket, SendsDetailsAndTheNewestStateAtFirst) {
   TestServer site;
   site.PublishState(5);
   WsClient client(site.server.port());
@@ -51,7 +51,7 @@ TEST(WebSocket, GreetsWithDetailsAndTheNewestState) {
   EXPECT_EQ(site.server.clients(), 1);
 }
 
-TEST(WebSocket, SaysNoDataBeforeAnythingCame) {
+TEST(WebSocket, ReportsNoDataBeforeTheFirstSample) {
   TestServer site;
   WsClient client(site.server.port());
   const WsClient::Message state = client.ReceiveState();
@@ -59,13 +59,13 @@ TEST(WebSocket, SaysNoDataBeforeAnythingCame) {
   EXPECT_EQ(state.bytes[2], 0);
 }
 
-TEST(WebSocket, BringsEachStateInOrder) {
+TEST(WebSocket, SendsEachStateInOrder) {
   TestServer site;
   WsClient client(site.server.port());
   for (std::uint64_t number = 1; number <= 50; ++number) PublishAndSee(site, client, number);
 }
 
-TEST(WebSocket, RepeatsAnOldStateSoThatSilenceMeansADeadServer) {
+TEST(WebSocket, RepeatsAnOldStateSoThatClientsDetectADeadServer) {
   TestServer site;
   site.PublishState(5);
   WsClient client(site.server.port());
@@ -80,7 +80,7 @@ TEST(WebSocket, RepeatsAnOldStateSoThatSilenceMeansADeadServer) {
   }
 }
 
-TEST(WebSocket, SendsNoMoreStatesThanAScreenShows) {
+TEST(WebSocket, LimitsTheRateOfStates) {
   TestServer site;
   WsClient client(site.server.port());
   client.ReceiveState();
@@ -96,7 +96,7 @@ TEST(WebSocket, SendsNoMoreStatesThanAScreenShows) {
   EXPECT_EQ(*seen.rbegin(), 400u) << "the newest always comes";
 }
 
-TEST(WebSocket, PicturesGoToThoseWhoAskedOnly) {
+TEST(WebSocket, SendsPicturesOnlyToSubscribers) {
   TestServer site;
   WsClient viewer(site.server.port()), other(site.server.port());
   viewer.Send(R"({"pictures": true})");
@@ -115,7 +115,7 @@ TEST(WebSocket, PicturesGoToThoseWhoAskedOnly) {
   EXPECT_TRUE(site.feed.WaitForViewers(0)) << "nothing is drawn for nobody";
 }
 
-TEST(WebSocket, ViewersWhoLeaveAreNoLongerDrawnFor) {
+TEST(WebSocket, RemovesViewersThatDisconnect) {
   TestServer site;
   {
     WsClient viewer(site.server.port());
@@ -126,7 +126,7 @@ TEST(WebSocket, ViewersWhoLeaveAreNoLongerDrawnFor) {
   EXPECT_EQ(site.server.clients(), 0);
 }
 
-TEST(WebSocket, ASecondViewerGetsTheCurrentPictureAtOnce) {
+TEST(WebSocket, SendsTheCurrentPictureToASecondViewerAtOnce) {
   TestServer site;
   WsClient first(site.server.port()), second(site.server.port());
   first.Send(R"({"pictures": true})");
@@ -137,7 +137,7 @@ TEST(WebSocket, ASecondViewerGetsTheCurrentPictureAtOnce) {
   EXPECT_EQ(second.ReceivePicture().state_number(), 8u);
 }
 
-TEST(WebSocket, AClientThatDoesNotReadGetsTheNewestWhenItReadsAgain) {
+TEST(WebSocket, SendsTheNewestStateWhenAClientReadsAgain) {
   TestServer site;
   WsClient stalled(site.server.port(), "/ws", {}, /*receive_buffer_bytes=*/4096);
   WsClient other(site.server.port());
@@ -165,7 +165,7 @@ TEST(WebSocket, AClientThatDoesNotReadGetsTheNewestWhenItReadsAgain) {
   PublishAndSee(site, stalled, kLast + 1);
 }
 
-TEST(WebSocket, AStalledClientKeepsOneStateOnly) {
+TEST(WebSocket, KeepsOnlyOneStateForAStalledClient) {
   TestServer site;
   WsClient stalled(site.server.port(), "/ws", {}, 4096), other(site.server.port());
   stalled.ReceiveState();
@@ -178,7 +178,7 @@ TEST(WebSocket, AStalledClientKeepsOneStateOnly) {
       << "the first state after the stall is the newest";
 }
 
-TEST(WebSocket, AClientThatTellsWhatItHasSeenIsNeverSentMuchAhead) {
+TEST(WebSocket, SendsOnlyAFewStatesAheadOfAcknowledgements) {
   TestServer site;
   site.PublishState(1);
   WsClient busy(site.server.port()), other(site.server.port());
@@ -198,7 +198,7 @@ TEST(WebSocket, AClientThatTellsWhatItHasSeenIsNeverSentMuchAhead) {
   EXPECT_EQ(busy.ReceiveState().state_number(), 60u) << "then the newest at once";
 }
 
-TEST(WebSocket, NobodyHasSeenMoreThanWasSent) {
+TEST(WebSocket, RejectsAcknowledgementsOfUnsentMessages) {
   TestServer site;
   WsClient client(site.server.port());
   client.ReceiveState();
@@ -208,7 +208,7 @@ TEST(WebSocket, NobodyHasSeenMoreThanWasSent) {
   client.ReceiveText("error");
 }
 
-TEST(WebSocket, AnswersAPingWithItsOwnClock) {
+TEST(WebSocket, AnswersAPingWithTheTimeOfTheServer) {
   TestServer site;
   WsClient client(site.server.port());
   const double before = static_cast<double>(MonotonicNanos()) / 1e3;
@@ -220,7 +220,7 @@ TEST(WebSocket, AnswersAPingWithItsOwnClock) {
   EXPECT_LE(answer["server_micros"], after);
 }
 
-TEST(WebSocket, ACameraChosenByOneIsToldToAll) {
+TEST(WebSocket, ReportsACameraSelectedByOneClientToAll) {
   TestServer site;
   WsClient chooser(site.server.port()), other(site.server.port());
   other.ReceiveText("details");
@@ -233,7 +233,7 @@ TEST(WebSocket, ACameraChosenByOneIsToldToAll) {
   EXPECT_EQ(site.Get("/api/cameras").json()["live"], "iso");
 }
 
-TEST(WebSocket, AnswersNonsenseAndGoesOn) {
+TEST(WebSocket, ReportsInvalidMessagesAndContinues) {
   TestServer site;
   WsClient client(site.server.port());
   client.Send("nonsense");
@@ -245,7 +245,7 @@ TEST(WebSocket, AnswersNonsenseAndGoesOn) {
   EXPECT_EQ(site.HttpCounters()["rejected"]["bad message"], 2);
 }
 
-TEST(WebSocket, HangsUpOnMessagesThatAreTooLargeOrTooMany) {
+TEST(WebSocket, ClosesAfterTooLargeOrTooManyMessages) {
   TestServer site;
   WsClient large(site.server.port());
   large.Send(std::string(5000, ' '));
@@ -280,7 +280,7 @@ TEST(WebSocket, NeedsTheTokenAndThePageOfThisServer) {
   EXPECT_EQ(Refusal([&] { WsClient(port, "/api/state", cookie); }), "refused: 404");
 }
 
-TEST(WebSocket, TakesAsManyClientsAsItSaysAndNoMore) {
+TEST(WebSocket, AcceptsClientsUpToItsLimit) {
   TestServer site;
   std::vector<std::unique_ptr<WsClient>> clients;
   for (int i = 0; i < kMaxClients; ++i) {

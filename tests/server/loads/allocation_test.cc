@@ -8,7 +8,7 @@
 namespace kinescope::loads::testing {
 namespace {
 
-TEST(Loads, AllocateNothingPerSampleWhateverIsAsked) {
+TEST(Loads, AllocateNothingPerSampleForAnyMetric) {
   std::vector<BodySample> samples;
   std::vector<LinkPoses> links(120);
   const auto motion = subject::MakeMotion("walk");

@@ -43,7 +43,7 @@ TEST(Exposure, CountsTheTimeInEachClassUpToTheNextSample) {
   EXPECT_EQ(joint.peak_stamp_nanos, 400 * kMillis);
 }
 
-TEST(Exposure, HasThePercentilesOfTheWholeTrialWithinHalfABin) {
+TEST(Exposure, ComputesPercentilesOfTheWholeTrialWithinHalfABin) {
   Random random(1);
   Exposure exposure;
   std::vector<double> ratios;
@@ -59,7 +59,7 @@ TEST(Exposure, HasThePercentilesOfTheWholeTrialWithinHalfABin) {
   EXPECT_NEAR(joint.p90, ratios[9000], kExposureBin / 2 + 1e-3);
 }
 
-TEST(Exposure, SaysThatItKnowsNothingInsteadOfZero) {
+TEST(Exposure, ReportsUnknownLoadsAsNaNInsteadOfZero) {
   Exposure exposure;
   EXPECT_TRUE(std::isnan(exposure.Of(0).p50));
   for (int i = 0; i < 10; ++i) {
@@ -70,7 +70,7 @@ TEST(Exposure, SaysThatItKnowsNothingInsteadOfZero) {
   EXPECT_NEAR(exposure.Of(0).secs[0], 0.9, 1e-9);
 }
 
-TEST(Exposure, DoesNotCountGapsNorTimeThatGoesBack) {
+TEST(Exposure, IgnoresGapsAndBackwardTimeSteps) {
   Exposure exposure;
   exposure.Add(LoadsOf(0.1, LoadClass::kLow), 0);
   exposure.Add(LoadsOf(0.1, LoadClass::kLow), 3'600'000 * kMillis);
@@ -79,7 +79,7 @@ TEST(Exposure, DoesNotCountGapsNorTimeThatGoesBack) {
   EXPECT_NEAR(exposure.secs(), 0.5, 1e-9);
 }
 
-TEST(Exposure, TakesLoadsBeyondItsScaleAsThatOrMore) {
+TEST(Exposure, LimitsPercentilesToItsScaleButNotThePeak) {
   Exposure exposure;
   exposure.Add(LoadsOf(17, LoadClass::kHigh), 0);
   exposure.Add(LoadsOf(17, LoadClass::kHigh), 100 * kMillis);

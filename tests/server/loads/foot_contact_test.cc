@@ -36,7 +36,7 @@ class Feet {
   FootContacts contacts_;
 };
 
-TEST(FootContacts, StandOnBothFeetAtOnce) {
+TEST(FootContacts, IncludeBothFeetInTheFirstSample) {
   const Feet feet;
   EXPECT_TRUE(feet.touches());
   EXPECT_EQ(feet.weight(), 1);
@@ -75,7 +75,7 @@ TEST(FootContacts, EndByHeightOrBySpeedWithHysteresis) {
   EXPECT_TRUE(sliding.touches());
 }
 
-TEST(FootContacts, ChangeTheirWeightOverATenthOfASecond) {
+TEST(FootContacts, ChangeTheirWeightWithinATenthOfASecond) {
   Feet feet;
   feet.Move(0.3, 0, 25);
   EXPECT_FALSE(feet.touches());
@@ -86,7 +86,7 @@ TEST(FootContacts, ChangeTheirWeightOverATenthOfASecond) {
   EXPECT_EQ(feet.weight(), 0);
 }
 
-TEST(FootContacts, OfAnEndAloneAreThatEndOfTheFoot) {
+TEST(FootContacts, OfHeelOrToesUseThatEndOfTheFootOnly) {
   Feet heel;
   heel.Move(0.045, 0, 1000, -20);  // toes up, heel about where it was
   ASSERT_TRUE(heel.touches());
@@ -109,7 +109,7 @@ TEST(FootContacts, OfAnEndAloneAreThatEndOfTheFoot) {
   EXPECT_LT(DistanceInside(toes.contacts().polygon(kRight), {0.0, -0.085}), 0);
 }
 
-TEST(FootContacts, DoNotJumpWhenTheHeelLeavesTheFloor) {
+TEST(FootContacts, ChangeSmoothlyWhenTheHeelLeavesTheFloor) {
   Feet feet;
   Vector2d last = feet.contacts().feet()[kRight].center;
   double most = 0;
@@ -124,7 +124,7 @@ TEST(FootContacts, DoNotJumpWhenTheHeelLeavesTheFloor) {
   EXPECT_LT(most, 0.02) << "m within 10 ms";
 }
 
-TEST(FootContacts, AreThoseThatTheSenderTellsWithRampsThoughTheFeetSeemToSayElse) {
+TEST(FootContacts, FollowTheSenderWithRampsEvenAgainstThePose) {
   const LinkPoses links = Posed({});
   FootContacts contacts;
   BodySample sample = SampleOf(links);
@@ -145,7 +145,7 @@ TEST(FootContacts, AreThoseThatTheSenderTellsWithRampsThoughTheFeetSeemToSayElse
   EXPECT_FALSE(contacts.touches(kRight));
 }
 
-TEST(FootContacts, AreNoneInTheAir) {
+TEST(FootContacts, AreAbsentInTheAir) {
   LinkPoses links = Posed({});
   for (Pose& link : links) link.position.z() += 0.2;
   FootContacts contacts;

@@ -44,7 +44,7 @@ double ResidualOf(const GroundReaction& ground) {
   return ground.joints[kPelvis].force.norm() + ground.joints[kPelvis].moment.norm();
 }
 
-TEST(GroundReaction, TheFloorCarriesTheWeightBelowTheCentreOfMass) {
+TEST(GroundReaction, CarriesTheWeightBelowTheCentreOfMass) {
   const Stance stance(Posed({}));
   const GroundReaction ground = stance.Solve();
   EXPECT_EQ(ground.why_not, "");
@@ -58,7 +58,7 @@ TEST(GroundReaction, TheFloorCarriesTheWeightBelowTheCentreOfMass) {
   EXPECT_LT(ResidualOf(ground), 1e-6) << "nothing is left unexplained";
 }
 
-TEST(GroundReaction, ALoadInTheHandsIsCarriedAsWell) {
+TEST(GroundReaction, CarriesAHandLoadToo) {
   Stance stance(Posed({}));
   stance.hands.Push(stance.links, kRightHand, {0, 0, -100},
                     stance.links[urdf::At(kRightHand)].position);
@@ -68,7 +68,7 @@ TEST(GroundReaction, ALoadInTheHandsIsCarriedAsWell) {
       << "further to the right";
 }
 
-TEST(GroundReaction, InFlightNothingIsSaidAboutTheFloor) {
+TEST(GroundReaction, IsUnknownInTheFlightPhase) {
   BodyMotion falling{};
   for (SegmentMotion& segment : falling) segment.acceleration = {0, 0, -kGravity};
   const GroundReaction ground = Stance(Posed({}), falling).Solve();
@@ -78,7 +78,7 @@ TEST(GroundReaction, InFlightNothingIsSaidAboutTheFloor) {
   EXPECT_TRUE(std::isnan(ground.cop_inside));
 }
 
-TEST(GroundReaction, WithoutAFootOnTheFloorSomethingElseCarries) {
+TEST(GroundReaction, IsUnknownWithoutFootContact) {
   LinkPoses sitting = Posed({}, {0, 0, 1.5});  // half a metre up, at rest
   const GroundReaction ground = Stance(sitting).Solve();
   EXPECT_EQ(ground.why_not, "no foot contact");
@@ -86,7 +86,7 @@ TEST(GroundReaction, WithoutAFootOnTheFloorSomethingElseCarries) {
   EXPECT_FALSE(ground.cop);
 }
 
-TEST(GroundReaction, ACentreOfPressureOutsideTheFeetIsToldAndShownAtTheirBorder) {
+TEST(GroundReaction, ShowsACentreOfPressureOutsideTheFeetAtTheirBorder) {
   Stance stance(Posed({}));
   stance.hands.Push(stance.links, kRightHand, {0, 0, -300}, {1, 0, 1});  // a metre ahead
   const GroundReaction ground = stance.Solve();
@@ -104,7 +104,7 @@ TEST(GroundReaction, ACentreOfPressureOutsideTheFeetIsToldAndShownAtTheirBorder)
   EXPECT_GT(ResidualOf(ground), 1) << "which a clamped one cannot explain";
 }
 
-TEST(GroundReaction, BothFeetMeasuredComeBeforeAllElse) {
+TEST(GroundReaction, PrefersMeasurementsOfBothFeet) {
   const Stance stance(Posed({}));
   const auto right = MeasuredAt({10, 5, 500}, {0.1, -0.08, 0}, 2);
   const auto left = MeasuredAt({-10, 0, 250}, {0.05, 0.09, 0}, -1);
@@ -129,7 +129,7 @@ TEST(GroundReaction, BothFeetMeasuredComeBeforeAllElse) {
   EXPECT_NEAR(ground.cop->free_moment, moment, 1e-9);
 }
 
-TEST(GroundReaction, OneMeasuredFootAloneDoesNotCount) {
+TEST(GroundReaction, IgnoresTheMeasurementOfASingleFoot) {
   const auto right = MeasuredAt({0, 0, 500}, {0.1, -0.08, 0});
   GroundSensors sensors;
   sensors.feet[kRight] = &right;
@@ -138,7 +138,7 @@ TEST(GroundReaction, OneMeasuredFootAloneDoesNotCount) {
   EXPECT_NEAR(ground.force.z(), kStandingWeight, 1e-6);
 }
 
-TEST(GroundReaction, MeasuredFeetInTheAirAreInTheAir) {
+TEST(GroundReaction, ReportsFlightIfBothMeasuredForcesAreZero) {
   const auto nothing = MeasuredAt(Vector3d::Zero(), Vector3d::Zero());
   GroundSensors sensors;
   sensors.feet = {&nothing, &nothing};
@@ -147,7 +147,7 @@ TEST(GroundReaction, MeasuredFeetInTheAirAreInTheAir) {
   EXPECT_FALSE(ground.cop);
 }
 
-TEST(GroundReaction, ATotalForceIsTakenAsFarAsItIsMeasured) {
+TEST(GroundReaction, UsesTheMeasuredComponentsOfATotalForce) {
   const Stance stance(Squat());
   auto total = MeasuredAt({30, -20, 700}, {0.06, 0.01, 0}, 3);
   GroundSensors sensors;

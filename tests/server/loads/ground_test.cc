@@ -35,7 +35,7 @@ TEST(CenterOfPressure, IsWhereTheForceActsOnTheFloor) {
   }
 }
 
-TEST(CenterOfPressure, IsNoneBelowATenthOfTheWeight) {
+TEST(CenterOfPressure, IsAbsentBelowATenthOfTheWeight) {
   const auto has_cop = [](double vertical) {
     return FindCenterOfPressure(GroundAt({0, 0, vertical}, Vector3d::Zero(), 0), 0, kGroundMassKg)
         .has_value();
@@ -67,7 +67,7 @@ Wrench SumOf(const GroundSplit& split, const Vector2d& about) {
   return sum;
 }
 
-TEST(GroundSplit, BothFeetTogetherAreTheWhole) {
+TEST(GroundSplit, AddsUpToTheTotalForce) {
   Random random(12);
   for (int trial = 0; trial < 100; ++trial) {
     CenterOfPressure cop;
@@ -83,7 +83,7 @@ TEST(GroundSplit, BothFeetTogetherAreTheWhole) {
   }
 }
 
-TEST(GroundSplit, TheNearerFootCarriesMore) {
+TEST(GroundSplit, GivesTheNearerFootMore) {
   const auto right_share = [](double y) {
     CenterOfPressure cop;
     cop.point = {0.03, y};
@@ -97,7 +97,7 @@ TEST(GroundSplit, TheNearerFootCarriesMore) {
   EXPECT_NEAR(right_share(0.4), 0, 1e-12);
 }
 
-TEST(GroundSplit, AFootInTheAirCarriesNothing) {
+TEST(GroundSplit, GivesAFootInTheAirNothing) {
   CenterOfPressure cop;
   for (const double y : {-0.1, -0.05, 0.0, 0.1}) {
     cop.point = {0, y};
@@ -108,7 +108,7 @@ TEST(GroundSplit, AFootInTheAirCarriesNothing) {
   }
 }
 
-TEST(GroundSplit, AFootThatIsBeingLiftedHandsOverGradually) {
+TEST(GroundSplit, ReducesTheShareOfALiftedFootGradually) {
   CenterOfPressure cop;
   cop.point = {0, 0};
   double last = 0;
@@ -120,7 +120,7 @@ TEST(GroundSplit, AFootThatIsBeingLiftedHandsOverGradually) {
   }
 }
 
-TEST(GroundSplit, FeetThatCannotBeToldApartShareEqually) {
+TEST(GroundSplit, GivesFeetLessThanFiveCentimetresApartEqualShares) {
   std::array<FootOnGround, 2> feet = TwoFeet();
   feet[kRight].center = {0, -0.0249};
   feet[kLeft].center = {0, 0.0249};

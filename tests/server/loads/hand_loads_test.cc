@@ -30,7 +30,7 @@ Pushed PushOnce(const HandLoad& load, const LinkPoses& links, const BodyMotion& 
   return PushAt(hands, links, motion);
 }
 
-TEST(HandLoads, WeighAtTheirCentreOfMassAndResistTheHandsMotion) {
+TEST(HandLoads, ActAtTheirCentreOfMassWithWeightAndInertia) {
   const LinkPoses links = ArmForward();
   BodyMotion motion;
   motion[kRightHand] = {{1, 2, 3}, {0, 2, 0}, {0, 0, 4}};
@@ -47,7 +47,7 @@ TEST(HandLoads, WeighAtTheirCentreOfMassAndResistTheHandsMotion) {
   EXPECT_TRUE(pushed.external.on(kLeftHand).force.isZero(0));
 }
 
-TEST(HandLoads, OfBothHandsAreSharedByWhereTheyAre) {
+TEST(HandLoads, OfBothHandsAreSharedByTheirPosition) {
   HandLoad load;
   load.is_known = true;
   load.both_kg = 10;
@@ -65,7 +65,7 @@ TEST(HandLoads, OfBothHandsAreSharedByWhereTheyAre) {
   EXPECT_NEAR(PushOnce(load, links).shown[kRight].mass_kg, 10, 1e-12);
 }
 
-TEST(HandLoads, ComeAndGoWithinThreeTenthsOfASecond) {
+TEST(HandLoads, ChangeWithinThreeTenthsOfASecond) {
   HandLoads hands;
   const auto mass_at = [&](const HandLoad& load, std::int64_t millis) {
     hands.Update(load, millis * kMillis);
@@ -82,7 +82,7 @@ TEST(HandLoads, ComeAndGoWithinThreeTenthsOfASecond) {
   EXPECT_NEAR(mass_at(Held(9), 2000), 9, 1e-9) << "at once after a gap";
 }
 
-TEST(HandLoads, ThatAreLetGoStayWhereTheyWere) {
+TEST(HandLoads, KeepTheirPlaceWhenReleased) {
   HandLoads hands;
   HandLoad load = Held(6);
   load.com_in_hand[kRight] = Vector3d(0.1, 0, 0);
@@ -96,7 +96,7 @@ TEST(HandLoads, ThatAreLetGoStayWhereTheyWere) {
   EXPECT_LT((after.point - before).norm(), 1e-12);
 }
 
-TEST(HandLoads, AddMeasuredForcesWhileTheyAreFresh) {
+TEST(HandLoads, IncludeMeasuredForcesWhileTheyAreValid) {
   const HandLoads hands;
   std::array<std::optional<MeasuredHandForce>, 2> measured;
   measured[kLeft] = MeasuredHandForce{{10, 0, -20}, {0, 0, 1}, Vector3d(0.5, 0.2, 1), 0};
@@ -123,7 +123,7 @@ TEST(HandLoad, IsReadFromText) {
   EXPECT_TRUE(ParseHandLoad("none").is_known);
 }
 
-TEST(HandLoad, IsRefusedWithWhatIsWrong) {
+TEST(HandLoad, IsRejectedWithTheReason) {
   const std::pair<const char*, const char*> cases[] = {
       {"right:500", "500 kg in the right hand"},
       {"left:-1", "-1 kg in the left hand"},

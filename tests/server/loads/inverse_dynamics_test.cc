@@ -22,7 +22,7 @@ void PushGround(const LinkPoses& links, const Wrench& ground, ExternalForces& ex
   external.Push(links, kRightFoot, ground.force, Vector3d::Zero(), ground.moment);
 }
 
-TEST(InverseDynamics, LeavesNothingUnexplainedWithTheGroundItAsksFor) {
+TEST(InverseDynamics, HasNoResidualWithTheRequiredGroundReactionForce) {
   Random random(1);
   for (int trial = 0; trial < kTrials; ++trial) {
     const LinkPoses links = random.Pose();
@@ -37,7 +37,7 @@ TEST(InverseDynamics, LeavesNothingUnexplainedWithTheGroundItAsksFor) {
 
 // Virtual work, statically: a small turn of everything beyond one joint, against gravity and the
 // hands, takes as much work as the joint's moment does.
-TEST(InverseDynamics, HoldsAgainstVirtualWork) {
+TEST(InverseDynamics, AgreesWithVirtualWork) {
   Random random(2);
   for (int trial = 0; trial < kTrials; ++trial) {
     const LinkPoses links = random.Pose();
@@ -76,7 +76,7 @@ TEST(InverseDynamics, HoldsAgainstVirtualWork) {
 
 // A motion with known derivatives: every segment a free rigid body that turns steadily about an
 // axis of its own while its origin is thrown. Momentum by differences must be what DemandOf says.
-TEST(InverseDynamics, DemandsTheChangeOfMomentum) {
+TEST(InverseDynamics, MatchesTheChangeOfMomentum) {
   Random random(3);
   for (int trial = 0; trial < kTrials; ++trial) {
     const LinkPoses links = random.Pose();
@@ -120,7 +120,7 @@ TEST(InverseDynamics, DemandsTheChangeOfMomentum) {
   }
 }
 
-TEST(InverseDynamics, NeedsNothingInFreeFall) {
+TEST(InverseDynamics, NeedsNoForcesInFreeFall) {
   BodyMotion falling;
   for (SegmentMotion& segment : falling) segment.acceleration = {0, 0, -kGravity};
   Random random(4);
@@ -147,7 +147,7 @@ TEST(InverseDynamics, DoublesWithTheMasses) {
   }
 }
 
-TEST(InverseDynamics, ShortensAccelerationsThatNoBodyHas) {
+TEST(InverseDynamics, LimitsImpossibleAccelerations) {
   const LinkPoses links = Posed({});
   BodyMotion motion;
   motion[kRightToe].acceleration = {300, 0, 0};

@@ -18,7 +18,7 @@ double CapacityOf(int joint, const Vector3d& moment, const Strength& strength,
 }
 
 // In the N-pose every link is upright: moments about world axes are those of the joint.
-TEST(Score, SaysWhichDirectionDecides) {
+TEST(Score, NamesTheGoverningDirection) {
   struct Row {
     int joint;
     Vector3d moment;
@@ -68,7 +68,7 @@ TEST(Strength, DependsOnSexPercentileAndPerson) {
               0.5 * (90 - 0.47 * 90) * 15 / 37, 1e-9);
 }
 
-TEST(Strength, ThatNobodyPublishedPercentilesOfIsScaledAsTheOthersAre) {
+TEST(Strength, IsScaledLikeTheOthersWithoutPublishedPercentiles) {
   for (const Sex sex : {Sex::kMale, Sex::kFemale}) {
     const double median = CapacityOf(jRightWrist, {10, 0, 0}, Of(sex));
     const double weak = CapacityOf(jRightWrist, {10, 0, 0}, Of(sex, Percentile::k5));
@@ -84,7 +84,7 @@ TEST(Strength, ThatNobodyPublishedPercentilesOfIsScaledAsTheOthersAre) {
   }
 }
 
-TEST(Strength, IsRefusedOutsideItsLimits) {
+TEST(Strength, IsRejectedOutsideItsLimits) {
   EXPECT_EQ(FindDefect(Of(Sex::kMale)), "");
   for (const double factor : {0.0, -1.0, 7.0, std::nan("")}) {
     EXPECT_THAT(FindDefect(Of(Sex::kMale, Percentile::k50, factor)),
@@ -92,7 +92,7 @@ TEST(Strength, IsRefusedOutsideItsLimits) {
   }
 }
 
-TEST(ScoreNorm, TakesTheWeakerDirection) {
+TEST(ScoreNorm, UsesTheWeakerDirection) {
   const Vector3d moment(3, 4, 12);
   EXPECT_NEAR(ScoreNorm(jL5S1, moment, Posed({}), {}).ratio, 13.0 / 143, 1e-12);
   EXPECT_NEAR(ScoreNorm(jRightAnkle, moment, Posed({}), {}).ratio, 13.0 / 43, 1e-12);
@@ -100,7 +100,7 @@ TEST(ScoreNorm, TakesTheWeakerDirection) {
   EXPECT_NEAR(ScoreNorm(jLeftWrist, moment, Posed({}), {}).ratio, 13.0 / 7.1, 1e-12);
 }
 
-TEST(LumbarLoad, TurnsIntoARatioByItsLimits) {
+TEST(LumbarLoad, IsConvertedToARatioByItsLimits) {
   EXPECT_NEAR(LumbarRatio({3400, 0}), 0.30, 1e-12);
   EXPECT_NEAR(LumbarRatio({1700, 100}), 0.15, 1e-12);
   EXPECT_NEAR(LumbarRatio({6400, 0}), 0.60, 1e-12);

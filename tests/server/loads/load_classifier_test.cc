@@ -36,7 +36,7 @@ double SecsToLeave(double from, double to) {
   return std::numeric_limits<double>::infinity();
 }
 
-TEST(LoadClassifier, WaitsForFilterAndDwellBeforeItChanges) {
+TEST(LoadClassifier, ChangesTheClassAfterFilterAndDwellTime) {
   // The filter passes 0.30 after -0.15 ln(0.6) = 0.077 s on the way from 0 to 0.75; then 0.2 s.
   EXPECT_NEAR(SecsToLeave(0.0, 0.75), 0.077 + 0.2, 0.02);
   // Down from 0.50 to 0: below 0.25 after 0.15 ln 2 = 0.104 s; then 0.5 s.
@@ -44,7 +44,7 @@ TEST(LoadClassifier, WaitsForFilterAndDwellBeforeItChanges) {
   EXPECT_TRUE(std::isinf(SecsToLeave(0.50, 0.27)));  // inside the hysteresis: stays for ever
 }
 
-TEST(LoadClassifier, JumpsOverTwoLevelsInOneUpdateOnceTheDwellIsOver) {
+TEST(LoadClassifier, SkipsAClassInOneUpdateAfterTheDwellTime) {
   LoadClassifier::Settings settings;
   settings.low_pass_secs = 0;
   LoadClassifier classifier(settings);
@@ -54,14 +54,14 @@ TEST(LoadClassifier, JumpsOverTwoLevelsInOneUpdateOnceTheDwellIsOver) {
   EXPECT_EQ(classes, "G" + std::string(20, 'G') + "RR");
 }
 
-TEST(LoadClassifier, CallsMissingDataUnknownAndStartsAfreshAfterIt) {
+TEST(LoadClassifier, ReportsMissingDataAsUnknownAndRestartsAfterwards) {
   LoadClassifier classifier;
   EXPECT_EQ(classifier.Update(0.1, 0), LoadClass::kLow);
   EXPECT_EQ(classifier.Update(std::nan(""), 10 * kMillis), LoadClass::kUnknown);
   EXPECT_EQ(classifier.Update(0.9, 20 * kMillis), LoadClass::kHigh);
 }
 
-TEST(LoadClassifier, StartsAfreshAfterAGapOrWhenTimeGoesBack) {
+TEST(LoadClassifier, RestartsAfterAGapOrABackwardTimeStep) {
   LoadClassifier classifier;
   EXPECT_EQ(classifier.Update(0.9, 0), LoadClass::kHigh);
   EXPECT_EQ(classifier.Update(0.1, 600 * kMillis), LoadClass::kLow);

@@ -35,7 +35,7 @@ Moment RandomMoment(Random& random) {
   return moment;
 }
 
-TEST(LoadEstimator, DoesNotCareWhereThePersonStandsAndFaces) {
+TEST(LoadEstimator, IsIndependentOfPositionAndHeading) {
   Random random(1);
   int legs = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -100,7 +100,7 @@ TEST(LoadEstimator, GivesAMirroredPersonMirroredLoads) {
   EXPECT_GT(legs, 50);
 }
 
-TEST(LoadEstimator, OverloadOfArmsAndSpineDoesNotDependOnTheBodysMass) {
+TEST(LoadEstimator, ComputesOverloadOfArmsAndSpineIndependentlyOfBodyMass) {
   BodyDescription heavy;
   heavy.mass_kg = 120;
   const BodyParameters other = MakeBodyParameters(heavy, Person());
@@ -121,7 +121,7 @@ TEST(LoadEstimator, OverloadOfArmsAndSpineDoesNotDependOnTheBodysMass) {
   }
 }
 
-TEST(LoadEstimator, ShowsTotalsAndSaysSoWhereNoLoadIsKnown) {
+TEST(LoadEstimator, UsesTheTotalMetricWithTheReasonIfTheHandLoadIsUnknown) {
   LoadSettings settings = Unclamped();
   settings.metric = LoadMetric::kOverload;
   const LoadResult result = Estimate(ArmForward(), settings);
@@ -131,7 +131,7 @@ TEST(LoadEstimator, ShowsTotalsAndSaysSoWhereNoLoadIsKnown) {
   ExpectRatio(result, jRightShoulder, 0.234);
 }
 
-TEST(LoadEstimator, NormIsTheWholeMomentAgainstTheWeakerDirection) {
+TEST(LoadEstimator, DividesTheNormOfTheMomentByTheWeakerDirection) {
   LoadSettings settings = Unclamped();
   settings.metric = LoadMetric::kNorm;
   settings.hands = Held(5);
@@ -154,7 +154,7 @@ void ExpectUnknown(const LoadResult& result, const char* reason, bool (*concerns
 
 bool Any(int) { return true; }
 
-TEST(LoadEstimator, DoesNotKnowTheLegsOfSomebodyInTheAir) {
+TEST(LoadEstimator, ReportsUnknownLegLoadsInTheAir) {
   LinkPoses links = Posed({});
   for (Pose& link : links) link.position.z() += 0.2;
   const LoadResult result = Estimate(links);
@@ -166,7 +166,7 @@ TEST(LoadEstimator, DoesNotKnowTheLegsOfSomebodyInTheAir) {
   ExpectUnknown(Estimate(Posed({}), LoadSettings(), &falling), "flight phase", IsLeg);
 }
 
-TEST(LoadEstimator, DoesNotKnowTheLegsOfSomebodyWhoSitsOrLeans) {
+TEST(LoadEstimator, ReportsUnknownLegLoadsWhenSittingOrLeaning) {
   // On a chair: hips and knees bent by 90 degrees, the CoM half a metre behind the feet.
   std::map<int, Quaterniond> seated = {{kRightUpperLeg, Ry(-90)}, {kLeftUpperLeg, Ry(-90)}};
   const LoadResult sitting = Estimate(Posed(seated, {0, 0, 0.525}), LoadSettings());
@@ -177,7 +177,7 @@ TEST(LoadEstimator, DoesNotKnowTheLegsOfSomebodyWhoSitsOrLeans) {
   EXPECT_GT(sitting.cop->x(), 0.4);
 }
 
-TEST(LoadEstimator, WaitsBeforeItCallsALurchLeaning) {
+TEST(LoadEstimator, ReportsLeaningOnlyAfterADelay) {
   LoadEstimator estimator;
   const LoadSubject subject{Person(), Body()};
   std::int64_t now = 1;
@@ -198,7 +198,7 @@ TEST(LoadEstimator, WaitsBeforeItCallsALurchLeaning) {
   EXPECT_TRUE(step(4, 30)) << "0.2 s of it";
 }
 
-TEST(LoadEstimator, DoesNotKnowLegsThatWereNotRecorded) {
+TEST(LoadEstimator, ReportsUnknownLoadsOfUnrecordedLegs) {
   LoadEstimator estimator;
   LoadSubject subject{Person(), Body()};
   subject.has_legs = false;
@@ -209,7 +209,7 @@ TEST(LoadEstimator, DoesNotKnowLegsThatWereNotRecorded) {
   EXPECT_FALSE(result.forces.margin_of_stability);
 }
 
-TEST(LoadEstimator, DoesNotKnowAnythingOfAPoseThatIsNotFiniteAndRecovers) {
+TEST(LoadEstimator, ReportsUnknownLoadsOfANonFinitePoseAndRecovers) {
   LoadEstimator estimator;
   LinkPoses links = Posed({});
   const LoadSubject subject{Person(), Body()};
@@ -223,14 +223,14 @@ TEST(LoadEstimator, DoesNotKnowAnythingOfAPoseThatIsNotFiniteAndRecovers) {
   EXPECT_EQ(LoadOf(after, jRightKnee).load_class, LoadClass::kLow);
 }
 
-TEST(LoadEstimator, IsStaticWithItsReasonWhereAccelerationsAreMissing) {
+TEST(LoadEstimator, IsStaticWithTheReasonIfAccelerationsAreMissing) {
   const LoadResult result = Estimate(Posed({}));
   EXPECT_FALSE(result.forces.is_dynamic);
   EXPECT_EQ(result.forces.why_static, "the source sends only poses");
   EXPECT_FALSE(result.forces.margin_of_stability) << "nobody knows how fast the CoM is";
 }
 
-TEST(LoadEstimator, DoesNotKnowWhatAHandCarriesWhoseSensorStopped) {
+TEST(LoadEstimator, ReportsUnknownLoadsAfterAHandSensorStopped) {
   Measurements measured;
   measured.hands[kRight].emplace().force = {0, 0, -50};
   measured.hands[kRight]->stamp_nanos = 1;
@@ -248,7 +248,7 @@ TEST(LoadEstimator, DoesNotKnowWhatAHandCarriesWhoseSensorStopped) {
       "no more data from the hand force sensor", concerns);
 }
 
-TEST(LoadEstimator, PutsMeasuredFootForcesUnderTheFeet) {
+TEST(LoadEstimator, AppliesMeasuredFootForcesAtTheFeet) {
   Measurements measured;
   for (const Side side : {kRight, kLeft}) {
     MeasuredGroundForce& foot = measured.feet[side].emplace();
@@ -271,7 +271,7 @@ TEST(LoadEstimator, PutsMeasuredFootForcesUnderTheFeet) {
   EXPECT_FALSE(Estimate(Posed({}), LoadSettings(), nullptr, measured).forces.ground_is_measured);
 }
 
-TEST(LoadEstimator, OverloadFromAPlateAloneIsThatOfTheLegs) {
+TEST(LoadEstimator, ComputesOverloadFromAForcePlateForTheLegsOnly) {
   Measurements measured;
   measured.ground.emplace().force = {0, 0, 735.75 + 50};
   measured.ground->point = {0.03, 0, 0};
@@ -291,7 +291,7 @@ TEST(LoadEstimator, OverloadFromAPlateAloneIsThatOfTheLegs) {
   EXPECT_NEAR(LoadOf(result, jRightAnkle).ratio, 0, 1e-12);
 }
 
-TEST(LoadEstimator, ShowsExternalLoadsAsGivenWhileTheyAreFresh) {
+TEST(LoadEstimator, UsesExternalLoadsUnchangedWhileTheyAreValid) {
   Measurements measured;
   ExternalJointLoad& knee = measured.joints[jRightKnee];
   knee.ratio = 0.7;
@@ -325,7 +325,7 @@ TEST(LoadEstimator, ShowsExternalLoadsAsGivenWhileTheyAreFresh) {
   EXPECT_EQ(LoadOf(stale, jRightKnee).reason, "no more external loads received for this joint");
 }
 
-TEST(LoadEstimator, ShowsTheWorseOfLumbarMomentAndCompression) {
+TEST(LoadEstimator, UsesTheHigherClassOfLumbarMomentAndCompression) {
   // Limits of the joints' own that nothing passes: the disc has its limits in newtons.
   LoadSettings settings = Unclamped();
   settings.hands = Held(30, 30);
@@ -339,7 +339,7 @@ TEST(LoadEstimator, ShowsTheWorseOfLumbarMomentAndCompression) {
   EXPECT_EQ(LoadOf(Estimate(TrunkBent(), settings), jL5S1).load_class, LoadClass::kLow);
 }
 
-TEST(LoadEstimator, TellsWhenOurCentreOfMassIsNotThatOfMvn) {
+TEST(LoadEstimator, ReportsADifferenceFromTheCentreOfMassOfMvn) {
   const LinkPoses links = Posed({});
   BodySample sample = SampleOf(links);
   sample.com.emplace().position = Vector3d(0.002, 0, 1.0079 + 0.02);
@@ -353,7 +353,7 @@ TEST(LoadEstimator, TellsWhenOurCentreOfMassIsNotThatOfMvn) {
   EXPECT_FALSE(estimator.Update(sample, links, laden, LoadSettings()).forces.com_minus_mvn);
 }
 
-TEST(LoadEstimator, MeasuresTheMarginOfStabilityFromTheMovingCentreOfMass) {
+TEST(LoadEstimator, ComputesTheMarginOfStabilityFromTheMovingCentreOfMass) {
   const LinkPoses links = Posed({});
   BodyMotion still;
   BodySample sample = SampleOf(links, 1, &still);
@@ -367,7 +367,7 @@ TEST(LoadEstimator, MeasuresTheMarginOfStabilityFromTheMovingCentreOfMass) {
   EXPECT_NEAR(*forces.margin_of_stability, xcom + 0.045, 2e-4) << "to the heels";
 }
 
-TEST(LoadSettings, AreRefusedWithWhatIsWrong) {
+TEST(LoadSettings, AreRejectedWithTheReason) {
   EXPECT_EQ(FindDefect(LoadSettings()), "");
   LoadSettings settings;
   settings.hands = Held(500);
@@ -384,7 +384,7 @@ TEST(LoadSettings, AreRefusedWithWhatIsWrong) {
 }
 
 // Flight, wrong floors and unbalanced motion would all show here; so would a filter that lags.
-TEST(LoadEstimator, KeepsTheCentreOfPressureOfTheBuiltInWalkUnderTheStandingFoot) {
+TEST(LoadEstimator, KeepsTheCentreOfPressureOfTheWalkUnderTheStandingFoot) {
   const auto motion = subject::MakeMotion("walk");
   for (const int rate : {60, 120, 240}) {
     LoadEstimator estimator;
@@ -406,7 +406,7 @@ TEST(LoadEstimator, KeepsTheCentreOfPressureOfTheBuiltInWalkUnderTheStandingFoot
 }
 
 // The same samples give the same loads, whoever else looked at them.
-TEST(LoadEstimator, IsAFunctionOfTheSamplesAlone) {
+TEST(LoadEstimator, DependsOnTheSamplesOnly) {
   const auto motion = subject::MakeMotion("lift");
   LoadEstimator one, two;
   for (int i = 0; i < 240; ++i) {

@@ -25,7 +25,7 @@ std::complex<double> ResponseAt(double hz, double cutoff_hz, double rate_hz) {
   return sum * (2.0 / counted);
 }
 
-TEST(LowPass, IsAButterworthOfSecondOrderAtAnyRate) {
+TEST(LowPass, IsAButterworthFilterOfSecondOrderAtAnyRate) {
   for (const double rate : {30.0, 60.0, 100.0, 240.0}) {
     // The bilinear form warps frequencies: the analogue one that `hz` stands for.
     const auto warped = [&](double hz) { return std::tan(M_PI * hz / rate); };
@@ -42,7 +42,7 @@ TEST(LowPass, IsAButterworthOfSecondOrderAtAnyRate) {
   }
 }
 
-TEST(LowPass, GivesTheDerivativeOfWhatItLetsThrough) {
+TEST(LowPass, ComputesTheDerivativeOfItsOutput) {
   LowPass filter;
   filter.Restart(Vector3d::Zero());
   Random random(1);
@@ -57,7 +57,7 @@ TEST(LowPass, GivesTheDerivativeOfWhatItLetsThrough) {
   EXPECT_LT((sum - filter.value()).norm(), 1e-9) << "its rate does not add up to its value";
 }
 
-TEST(LowPass, SettlesOnAConstantHoweverUnevenTheSteps) {
+TEST(LowPass, SettlesOnAConstantWithUnevenSteps) {
   LowPass filter;
   filter.Restart(Vector3d::Zero());
   Random random(2);
@@ -86,7 +86,7 @@ std::string_view WhyStatic(const BodySample& sample) {
   return filter.Update(sample, {}).why_static;
 }
 
-TEST(MotionFilter, IsStaticWithTheReasonWhereSomethingIsMissing) {
+TEST(MotionFilter, IsStaticWithTheReasonIfInputsAreMissing) {
   const BodySample whole = MovingSample(1.5);
   EXPECT_EQ(WhyStatic(whole), "");
   BodySample sample = whole;
@@ -104,7 +104,7 @@ TEST(MotionFilter, IsStaticWithTheReasonWhereSomethingIsMissing) {
   EXPECT_EQ(WhyStatic(sample), "accelerations are not finite or too large");
 }
 
-TEST(MotionFilter, DifferentiatesVelocitiesWhereAccelerationsAreLeftAtZero) {
+TEST(MotionFilter, DifferentiatesVelocitiesIfAccelerationsAreZero) {
   MotionFilter streamed, differentiated;
   const auto motion = subject::MakeMotion("lift");
   double worst = 0, largest = 0;
@@ -132,7 +132,7 @@ TEST(MotionFilter, DifferentiatesVelocitiesWhereAccelerationsAreLeftAtZero) {
   EXPECT_LT(worst, 0.01 * largest) << "m/s^2 or rad/s^2";
 }
 
-TEST(MotionFilter, StartsAfreshAfterAGapOrAStepBack) {
+TEST(MotionFilter, RestartsAfterAGapOrABackwardTimeStep) {
   for (const std::int64_t jump : {300'000'000LL, -50'000'000LL}) {
     MotionFilter filter;
     BodySample sample = MovingSample(1.5);
@@ -143,7 +143,7 @@ TEST(MotionFilter, StartsAfreshAfterAGapOrAStepBack) {
   }
 }
 
-TEST(MotionFilter, KeepsWhatItHadThroughALostDatagramButNotForLong) {
+TEST(MotionFilter, KeepsItsValuesDuringAShortLossOnly) {
   MotionFilter filter;
   BodySample sample = MovingSample(1.5);
   const Vector3d before = filter.Update(sample, {}).motion[kHead].acceleration;
@@ -170,7 +170,7 @@ std::string_view WhyStaticAfterASecond(const char* motion_name, Spoil&& spoil) {
   return why;
 }
 
-TEST(MotionFilter, NoticesGravityLeftInAndDegrees) {
+TEST(MotionFilter, DetectsAccelerationsWithGravityAndVelocitiesInDegrees) {
   for (const char* motion : {"lift", "walk"}) {
     EXPECT_EQ(WhyStaticAfterASecond(motion, [](SegmentState&) {}), "") << motion;
     EXPECT_EQ(WhyStaticAfterASecond(motion, [](SegmentState& s) { s.acceleration.z() += 9.81; }),
@@ -183,7 +183,7 @@ TEST(MotionFilter, NoticesGravityLeftInAndDegrees) {
   }
 }
 
-TEST(MotionFilter, CutsAngularAccelerationsThatNoBodyHas) {
+TEST(MotionFilter, LimitsImpossibleAngularAccelerations) {
   MotionFilter filter;
   BodySample sample = MovingSample(1.5);
   sample.segments[kRightHand].angular_acceleration = {0, 900, 0};

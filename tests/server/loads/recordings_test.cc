@@ -100,7 +100,7 @@ void ExpectSameCom(const std::vector<BodySample>& samples, const Skeleton& skele
 
 class CaseK : public ::testing::TestWithParam<const char*> {};
 
-TEST_P(CaseK, OurCentreOfMassIsThatOfMvn) {
+TEST_P(CaseK, ComputesTheCentreOfMassOfMvn) {
   KINESCOPE_NEEDS_SHARED_DATA(GetParam());
   const auto source = mvn::OpenMvnx(SharedData(GetParam()).string());
   kinescope::testing::RecordingSink sink;
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Recordings, CaseK,
                          ::testing::Values("mvnx/Meri-020.mvnx", "mvnx/test_mocap.mvnx"),
                          [](const auto& one) { return one.index == 0 ? "Meri" : "TestMocap"; });
 
-TEST(CaseKExport, OurCentreOfMassIsThatOfTheExportedRecording) {
+TEST(CaseKExport, ComputesTheCentreOfMassOfTheExportedRecording) {
   KINESCOPE_NEEDS_SHARED_DATA("excel-export-P005/segment_position.csv");
   const std::vector<BodySample> samples = ReadP005();
   ASSERT_EQ(samples.size(), 103U);
@@ -126,7 +126,7 @@ TEST(CaseKExport, OurCentreOfMassIsThatOfTheExportedRecording) {
 
 // Somebody who stands: contacts, filter and floor have no reason to doubt it in any frame, and what
 // moves adds little to what stands (joint-loads.md 2.3).
-TEST(RealRecording, OfSomebodyStandingIsDynamicAndOnItsFeetThroughout) {
+TEST(RealRecording, OfAStandingPersonIsDynamicWithFootContactInEverySample) {
   KINESCOPE_NEEDS_SHARED_DATA("excel-export-P005/segment_position.csv");
   const std::vector<BodySample> samples = ReadP005();
   const Skeleton skeleton = P005Skeleton(samples[0]);
@@ -149,7 +149,7 @@ TEST(RealRecording, OfSomebodyStandingIsDynamicAndOnItsFeetThroughout) {
   }
 }
 
-TEST(CaseL, EndToEndOnARealFrame) {
+TEST(CaseL, GivesTheExpectedLoadsForARecordedSample) {
   KINESCOPE_NEEDS_SHARED_DATA("excel-export-P005/segment_position.csv");
   const BodySample sample = ReadP005().at(50);
   const Skeleton skeleton = P005Skeleton(sample);

@@ -44,7 +44,7 @@ TEST(SupportPolygon, MayBeALineOrAPoint) {
   EXPECT_EQ(straight.size, 2U);
 }
 
-TEST(SupportPolygon, HoldsEveryPointItWasMadeFromAndClampsOntoItsBorder) {
+TEST(SupportPolygon, ContainsItsPointsAndClampsOtherPointsToItsBorder) {
   Random random(1);
   for (int trial = 0; trial < 2000; ++trial) {
     std::vector<Vector2d> points;
@@ -64,7 +64,7 @@ TEST(SupportPolygon, HoldsEveryPointItWasMadeFromAndClampsOntoItsBorder) {
   }
 }
 
-TEST(ExtrapolatedCenterOfMass, RunsAheadOfAMovingBody) {  // Hof 2005: v / sqrt(g / l)
+TEST(ExtrapolatedCenterOfMass, IsAheadOfAMovingBody) {  // Hof 2005: v / sqrt(g / l)
   const Vector2d xcom = ExtrapolatedCenterOfMass({0.1, 0, 0.981 + 0.2}, {0.5, -1, 3}, 0.2);
   EXPECT_NEAR(xcom.x(), 0.1 + 0.5 * std::sqrt(0.1), 1e-12);
   EXPECT_NEAR(xcom.y(), -std::sqrt(0.1), 1e-12);

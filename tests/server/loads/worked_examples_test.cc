@@ -26,7 +26,7 @@ void ExpectForce(const LoadResult& result, int joint, const Vector3d& expected) 
       << kJoints[urdf::At(joint)].mvn_name << ": " << At(result, joint).force.transpose();
 }
 
-TEST(WorkedExample, ANPoseNeedsNoMomentAnywhere) {
+TEST(WorkedExample, ANPoseNeedsNoMoments) {
   const LoadResult result = Estimate(Posed({}));
   EXPECT_LT((result.forces.com_of_model - Vector3d(0.0020, 0, 1.0079)).norm(), kPointTolerance);
   ExpectGround(result, {0, 0, 735.750}, {0.0020, 0});
@@ -39,7 +39,7 @@ TEST(WorkedExample, ANPoseNeedsNoMomentAnywhere) {
   for (const auto& [joint, expected] : force_z) ExpectForce(result, joint, {0, 0, expected});
 }
 
-TEST(WorkedExample, B0ArmHorizontalForward) {
+TEST(WorkedExample, B0ArmIsHorizontallyForward) {
   const LoadResult result = Estimate(ArmForward());
   EXPECT_LT((result.forces.com_of_model - Vector3d(0.0172, 0, 1.0231)).norm(), kPointTolerance);
   ExpectGround(result, {0, 0, 735.750}, {0.0172, 0});
@@ -60,7 +60,7 @@ TEST(WorkedExample, B0ArmHorizontalForward) {
   EXPECT_NEAR(result.forces.lumbar->compression, 549.6, 0.1);
 }
 
-TEST(WorkedExample, B1FiveKilogramsInTheRightHand) {
+TEST(WorkedExample, B1RightHandHoldsFiveKilograms) {
   LoadSettings settings = Unclamped();
   settings.hands = Held(5);
   const LoadResult result = Estimate(ArmForward(), settings);
@@ -99,7 +99,7 @@ TEST(WorkedExample, B1FiveKilogramsInTheRightHand) {
               kMomentTolerance);
 }
 
-TEST(WorkedExample, B1OverloadIsWhatTheLoadAdds) {
+TEST(WorkedExample, B1OverloadIsCausedByTheHandLoadOnly) {
   LoadSettings settings = Unclamped();
   settings.hands = Held(5);
   settings.metric = LoadMetric::kOverload;
@@ -115,7 +115,7 @@ TEST(WorkedExample, B1OverloadIsWhatTheLoadAdds) {
   EXPECT_EQ(nothing.forces.metric, LoadMetric::kOverload);
 }
 
-TEST(WorkedExample, CTrunkBentForwardWithoutAndWithLoad) {
+TEST(WorkedExample, CTrunkIsBentForwardWithoutAndWithHandLoad) {
   struct Row {
     int joint;
     double bare, loaded, bare_ratio, loaded_ratio;
@@ -148,7 +148,7 @@ TEST(WorkedExample, CTrunkBentForwardWithoutAndWithLoad) {
   EXPECT_NEAR(loaded.forces.lumbar->compression, 1798.9, 0.1);
 }
 
-TEST(WorkedExample, DMeasuredGroundForce) {
+TEST(WorkedExample, DGroundReactionForceIsMeasured) {
   Measurements measured;
   measured.ground.emplace();
   measured.ground->force = {0, 0, 735.75};
@@ -170,7 +170,7 @@ TEST(WorkedExample, DMeasuredGroundForce) {
   EXPECT_NEAR(result.forces.residual_moment_share * 75 * kGravity * 1.75, 35.336, kMomentTolerance);
 }
 
-TEST(WorkedExample, ESymmetricSquat) {
+TEST(WorkedExample, ESquatIsSymmetric) {
   const LoadResult result = Estimate(Squat());
   EXPECT_LT((result.forces.com_of_model - Vector3d(-0.0428, 0, 0.8093)).norm(), kPointTolerance);
   const std::map<int, std::pair<double, double>> moment_and_ratio = {
@@ -189,7 +189,7 @@ TEST(WorkedExample, ESymmetricSquat) {
   EXPECT_NEAR(result.forces.lumbar->shear, -181.7, 0.1);
 }
 
-TEST(WorkedExample, FDynamicElbowFlexion) {
+TEST(WorkedExample, FElbowFlexionIsDynamic) {
   const LinkPoses links = Posed({{kRightForeArm, Ry(-90)}, {kRightHand, Ry(-90)}});
   BodyMotion motion;
   for (const int i : {kRightForeArm, kRightHand}) {
@@ -222,7 +222,7 @@ TEST(WorkedExample, FDynamicElbowFlexion) {
   ExpectMoment(still, jRightElbow, {0, -2.794, 0});
 }
 
-TEST(WorkedExample, GWholeBodyAcceleration) {
+TEST(WorkedExample, GWholeBodyAccelerates) {
   BodyMotion motion;
   for (SegmentMotion& segment : motion) segment.acceleration = {0.3, -0.2, 0.5};
   const LoadResult result = Estimate(Posed({}), Unclamped(), &motion);
@@ -246,7 +246,7 @@ TEST(WorkedExample, GWholeBodyAcceleration) {
   EXPECT_NEAR(LoadOf(result, jRightHip).deciding_moment, -4.688, kMomentTolerance);
 }
 
-TEST(WorkedExample, HSplittingFunctionAlone) {
+TEST(WorkedExample, HSplitDividesTheGroundReactionForce) {
   std::array<FootOnGround, 2> feet;
   feet[kLeft] = {{0.30, 0.10}, 1};
   feet[kRight] = {{-0.10, -0.12}, 1};
@@ -263,7 +263,7 @@ TEST(WorkedExample, HSplittingFunctionAlone) {
 
 // Case I, the hysteresis, is in load_classifier_test.cc.
 
-TEST(WorkedExample, JStaticallyEquivalentChain) {
+TEST(WorkedExample, JStaticallyEquivalentChainGivesTheCentreOfMass) {
   const EquivalentChain chain = EquivalentChainOf(Person(), Body());
   const std::map<int, Vector3d> expected = {{kPelvis, {0, 0, 0.058052}},
                                             {kL5, {0, 0, 0.041641}},

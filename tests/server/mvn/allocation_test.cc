@@ -16,7 +16,7 @@ struct CountingSink : SampleSink {
   void OnSample(const BodySample&) override { ++samples; }
 };
 
-TEST(InputPath, AllocatesNothingPerDatagramOfASampleOrRubbish) {
+TEST(InputPath, AllocatesNothingPerValidOrRejectedDatagram) {
   testing::RandomValues random(5);
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
   const TypeSet every_type =

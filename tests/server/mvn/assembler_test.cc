@@ -19,7 +19,7 @@ using testing::PoseItems;
 using testing::RandomSample;
 using testing::RawDatagram;
 
-TEST_F(AssemblerTest, GivesASampleOnAsSoonAsAllUsualTypesHaveCome) {
+TEST_F(AssemblerTest, DeliversASampleWhenAllUsualTypesHaveArrived) {
   LearnFrom(1);
   const auto datagrams = Datagrams(7);
   for (std::size_t i = 0; i + 1 < datagrams.size(); ++i) {
@@ -35,7 +35,7 @@ TEST_F(AssemblerTest, GivesASampleOnAsSoonAsAllUsualTypesHaveCome) {
   EXPECT_EQ(counters().incomplete, 0U);
 }
 
-TEST_F(AssemblerTest, HandsOnEveryNumberOfTheSample) {
+TEST_F(AssemblerTest, DeliversEveryValueOfTheSample) {
   LearnFrom(1);
   const BodySample sent = RandomSample(random_, 7);
   Send(EncodeSample(sent));
@@ -58,7 +58,7 @@ TEST_F(AssemblerTest, HandsOnEveryNumberOfTheSample) {
   EXPECT_EQ(given.streamed_angles_deg, sent.streamed_angles_deg);
 }
 
-TEST_F(AssemblerTest, TakesTheTypesOfASampleInAnyOrder) {
+TEST_F(AssemblerTest, AcceptsTheTypesOfASampleInAnyOrder) {
   LearnFrom(1);
   for (std::uint32_t counter = 7; counter < 30; ++counter) {
     auto datagrams = Datagrams(counter);
@@ -71,7 +71,7 @@ TEST_F(AssemblerTest, TakesTheTypesOfASampleInAnyOrder) {
   EXPECT_EQ(counters().late, 0U);
 }
 
-TEST_F(AssemblerTest, WhenATypeIsLostTheNextSampleReleasesTheOneBefore) {
+TEST_F(AssemblerTest, DeliversASampleWithALostTypeWhenTheNextOneIsComplete) {
   LearnFrom(1);
   auto datagrams = Datagrams(7);
   datagrams.pop_back();  // the centre of mass
@@ -87,7 +87,7 @@ TEST_F(AssemblerTest, WhenATypeIsLostTheNextSampleReleasesTheOneBefore) {
   EXPECT_EQ(counters().incomplete, 1U);
 }
 
-TEST_F(AssemblerTest, WhenTheStreamFallsSilentATimeoutOfItsOwnPeriodReleasesTheSample) {
+TEST_F(AssemblerTest, DeliversTheLastSampleAfterATimeoutOfAboutOnePeriod) {
   LearnFrom(1);
   auto datagrams = Datagrams(7);
   datagrams.pop_back();
@@ -119,7 +119,7 @@ TEST_F(AssemblerTest, StopsWaitingForATypeThatIsSwitchedOff) {
   EXPECT_EQ(counters().incomplete, 5U);
 }
 
-TEST_F(AssemblerTest, WaitsForATypeOnceItIsSwitchedOn) {
+TEST_F(AssemblerTest, WaitsForATypeAfterItIsSwitchedOn) {
   for (std::uint32_t counter = 1; counter < 10; ++counter) {
     Send(Datagrams(counter)[0]);
     Wait(kPeriod);
@@ -147,7 +147,7 @@ TEST_F(AssemblerTest, NeedsAllTwentyThreeSegments) {
   EXPECT_EQ(counters().rejected.at(Text(Reason::kNoWholePose)), 5U);
 }
 
-TEST_F(AssemblerTest, MakesThePoseOfLinearAndAngularKinematicsWhere02IsNotSent) {
+TEST_F(AssemblerTest, BuildsThePoseFromLinearAndAngularKinematicsWithoutType02) {
   const BodySample sent = RandomSample(random_, 7);
   auto datagrams = EncodeSample(sent);
   datagrams.erase(datagrams.begin(), datagrams.begin() + 2);  // 02 and 20
@@ -161,7 +161,7 @@ TEST_F(AssemblerTest, MakesThePoseOfLinearAndAngularKinematicsWhere02IsNotSent) 
   }
 }
 
-TEST_F(AssemblerTest, JoinsAMessageThatCameInPartsInAnyOrder) {
+TEST_F(AssemblerTest, JoinsTheDatagramsOfAMessageInAnyOrder) {
   LearnFrom(1);
   RawDatagram first, second;
   first.counter = second.counter = 7;
@@ -183,7 +183,7 @@ TEST_F(AssemblerTest, JoinsAMessageThatCameInPartsInAnyOrder) {
   ExpectAllAccountedFor();
 }
 
-TEST_F(AssemblerTest, RefusesPartsThatContradictEachOther) {
+TEST_F(AssemblerTest, RejectsContradictoryPartsOfAMessage) {
   RawDatagram part;
   part.items = 1;
   part.payload = PoseItems(1, 1);
@@ -197,7 +197,7 @@ TEST_F(AssemblerTest, RefusesPartsThatContradictEachOther) {
   ExpectAllAccountedFor();
 }
 
-TEST_F(AssemblerTest, CountsDuplicatesAndGivesTheSampleOnce) {
+TEST_F(AssemblerTest, CountsDuplicatesAndDeliversTheSampleOnce) {
   LearnFrom(1);
   for (std::uint32_t counter = 7; counter < 12; ++counter) {
     const auto datagrams = Datagrams(counter);
@@ -227,7 +227,7 @@ TEST_F(AssemblerTest, CountsADatagramOfAnOlderSampleAsLate) {
   ExpectAllAccountedFor();
 }
 
-TEST_F(AssemblerTest, ASteadyStrideIsNoGapAndALostSampleIsOne) {
+TEST_F(AssemblerTest, CountsALostSampleButNoConstantCounterStepAsGap) {
   // 240 Hz captured, 60 Hz sent.
   for (std::uint32_t counter = 100; counter < 180; counter += 4) {
     if (counter != 148) Send(Datagrams(counter));
@@ -236,7 +236,7 @@ TEST_F(AssemblerTest, ASteadyStrideIsNoGapAndALostSampleIsOne) {
   EXPECT_EQ(counters().counter_gaps, 1U);
 }
 
-TEST_F(AssemblerTest, AStrideThatAlternatesIsNoGapEither) {
+TEST_F(AssemblerTest, CountsNoAlternatingCounterStepAsGap) {
   std::uint32_t counter = 0;  // 240 Hz captured, 100 Hz sent: steps of 2 and 3
   for (int i = 0; i < 100; ++i) {
     counter = static_cast<std::uint32_t>(i * 240 / 100);
@@ -248,7 +248,7 @@ TEST_F(AssemblerTest, AStrideThatAlternatesIsNoGapEither) {
   EXPECT_EQ(counters().counter_gaps, 1U);
 }
 
-TEST_F(AssemblerTest, ACounterThatStartsOverIsARestart) {
+TEST_F(AssemblerTest, DetectsARestartWhenTheCounterStartsAgain) {
   LearnFrom(5000);
   Send(Datagrams(0));
   Wait(kPeriod);
@@ -258,7 +258,7 @@ TEST_F(AssemblerTest, ACounterThatStartsOverIsARestart) {
   EXPECT_EQ(counters().late, 0U);
 }
 
-TEST_F(AssemblerTest, ARestartSoonAfterTheStartIsToldFromLateDatagrams) {
+TEST_F(AssemblerTest, DistinguishesAnEarlyRestartFromLateDatagrams) {
   LearnFrom(1, 20);
   for (std::uint32_t counter = 0; counter < 15; ++counter) {
     Send(Datagrams(counter));
@@ -270,7 +270,7 @@ TEST_F(AssemblerTest, ARestartSoonAfterTheStartIsToldFromLateDatagrams) {
   EXPECT_EQ(GivenCounters().back(), 14U);
 }
 
-TEST_F(AssemblerTest, AfterASilenceALowerCounterIsARestart) {
+TEST_F(AssemblerTest, DetectsARestartByALowerCounterAfterAGap) {
   LearnFrom(1, 20);
   Wait(300 * kMilli);
   Send(Datagrams(10));
@@ -278,7 +278,7 @@ TEST_F(AssemblerTest, AfterASilenceALowerCounterIsARestart) {
   EXPECT_EQ(counters().restarts, 1U);
 }
 
-TEST_F(AssemblerTest, ACounterThatWrapsGoesOn) {
+TEST_F(AssemblerTest, ContinuesWhenTheCounterWraps) {
   for (std::uint32_t i = 0; i < 20; ++i) {
     BodySample sample = RandomSample(random_, 0xFFFFFFF6U + i);
     sample.time_code_millis = 0xFFFFFFF0U + i * 1000 / 240;
@@ -291,7 +291,7 @@ TEST_F(AssemblerTest, ACounterThatWrapsGoesOn) {
   EXPECT_EQ(counters().counter_gaps, 0U);
 }
 
-TEST_F(AssemblerTest, ADatagramThatOvertookThreeOthersIsStillPartOfItsSample) {
+TEST_F(AssemblerTest, AcceptsADatagramThatOvertookThreeOthers) {
   LearnFrom(1);
   std::vector<std::string> sent;
   for (std::uint32_t counter = 7; counter < 40; ++counter) {
@@ -307,7 +307,7 @@ TEST_F(AssemblerTest, ADatagramThatOvertookThreeOthersIsStillPartOfItsSample) {
 }
 
 // What a flipped bit in the header can do.
-TEST_F(AssemblerTest, OneWildHeaderCostsOneDatagram) {
+TEST_F(AssemblerTest, LosesOnlyTheDatagramWithADamagedHeader) {
   LearnFrom(1);
   std::uint32_t counter = 7;
   int wild = 0;
@@ -337,7 +337,7 @@ TEST_F(AssemblerTest, OneWildHeaderCostsOneDatagram) {
   ExpectAllAccountedFor();
 }
 
-TEST_F(AssemblerTest, NobodyAppearsFromOneDatagramOfAnUnknownCharacter) {
+TEST_F(AssemblerTest, AddsNoPersonForOneDatagramOfAnUnknownCharacter) {
   LearnFrom(1);
   Send(Datagrams(7, 77)[0]);
   for (std::uint32_t counter = 7; counter < 1000; ++counter) {
@@ -351,7 +351,7 @@ TEST_F(AssemblerTest, NobodyAppearsFromOneDatagramOfAnUnknownCharacter) {
   ExpectAllAccountedFor();
 }
 
-TEST_F(AssemblerTest, MakesThePoseOf01WhereThatIsAllThereIs) {
+TEST_F(AssemblerTest, BuildsThePoseFromType01IfItIsTheOnlyOne) {
   for (std::uint32_t counter = 1; counter < 5; ++counter) {
     RawDatagram raw;
     raw.type = "01";
@@ -367,7 +367,7 @@ TEST_F(AssemblerTest, MakesThePoseOf01WhereThatIsAllThereIs) {
   EXPECT_TRUE(sink_.samples[0].segments[0].position.isApprox(Eigen::Vector3d(0.9, 0.9, 0.9), 1e-6));
 }
 
-TEST_F(AssemblerTest, TrackedObjectsAreACharacterOfTheirOwn) {
+TEST_F(AssemblerTest, TreatsTrackedObjectsAsASeparateCharacter) {
   RawDatagram raw;
   raw.items = raw.body_segments = 3;
   raw.payload = PoseItems(1, 3);
@@ -386,7 +386,7 @@ TEST_F(AssemblerTest, TrackedObjectsAreACharacterOfTheirOwn) {
   EXPECT_NEAR(sink_.objects[6].stamp_nanos, sink_.samples[6].stamp_nanos, kMilli);
 }
 
-TEST_F(AssemblerTest, HandsOnGlovesPropsTrackersAndTimeOfDay) {
+TEST_F(AssemblerTest, DeliversGlovesPropsTrackersAndTimeOfDay) {
   RawDatagram raw;
   raw.props = 2;
   raw.fingers = 40;
@@ -411,7 +411,7 @@ TEST_F(AssemblerTest, HandsOnGlovesPropsTrackersAndTimeOfDay) {
   EXPECT_EQ(sample.utc_millis_of_day, 1500);
 }
 
-TEST_F(AssemblerTest, StampsAreArrivalTimesWhereThatIsAskedFor) {
+TEST_F(AssemblerTest, UsesReceiveTimesAsTimeStampsOnRequest) {
   Assembler assembler(Stamps::kArrival);
   for (std::uint32_t counter = 1; counter < 40; ++counter) {
     const std::int64_t jitter = random_.Integer(0, 3) * kMilli;

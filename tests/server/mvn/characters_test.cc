@@ -14,7 +14,7 @@ using testing::Sender;
 
 class CharactersTest : public testing::AssemblerTest {};
 
-TEST_F(CharactersTest, MetaAndScaleDataInTheMiddleLeaveTheSamplesAlone) {
+TEST_F(CharactersTest, KeepsSamplesIntactAroundMetaAndScaleData) {
   LearnFrom(5000);
   Character character;
   character.name = "Ines";
@@ -39,7 +39,7 @@ TEST_F(CharactersTest, MetaAndScaleDataInTheMiddleLeaveTheSamplesAlone) {
   ExpectAllAccountedFor();
 }
 
-TEST_F(CharactersTest, ScaleDataGiveBackTheSkeletonThatWasSent) {
+TEST_F(CharactersTest, RestoresTheSkeletonFromScaleData) {
   Character character;
   character.skeleton = urdf::DefaultSkeleton(1.62);
   auto datagrams = EncodeCharacter(character);
@@ -55,7 +55,7 @@ TEST_F(CharactersTest, ScaleDataGiveBackTheSkeletonThatWasSent) {
   EXPECT_LT((back.heel_in_foot[0] - character.skeleton->heel_in_foot[0]).norm(), 1e-6);
 }
 
-TEST_F(CharactersTest, ScaleDataWithALostPartAreUsedAfterAMoment) {
+TEST_F(CharactersTest, UsesIncompleteScaleDataAfterATimeout) {
   Character character;
   character.skeleton = urdf::DefaultSkeleton();
   const auto datagrams = EncodeCharacter(character);
@@ -72,7 +72,7 @@ TEST_F(CharactersTest, ScaleDataWithALostPartAreUsedAfterAMoment) {
   EXPECT_TRUE(sink_.characters[0].skeleton);
 }
 
-TEST_F(CharactersTest, RefusesScaleDataOfNoHuman) {
+TEST_F(CharactersTest, RejectsScaleDataThatAreNotHuman) {
   Message message;
   ScaleMessage scale;
   for (const auto& segment : urdf::kSegments) {
@@ -88,7 +88,7 @@ TEST_F(CharactersTest, RefusesScaleDataOfNoHuman) {
   EXPECT_TRUE(sink_.characters.empty());
 }
 
-TEST_F(CharactersTest, KeepsTwoCharactersOfOneSenderApart) {
+TEST_F(CharactersTest, DistinguishesTwoCharactersOfOneSender) {
   for (std::uint32_t counter = 1; counter < 12; ++counter) {
     const auto ines = Datagrams(counter, 0);
     const auto ben = Datagrams(counter + 1000, 1);
@@ -106,7 +106,7 @@ TEST_F(CharactersTest, KeepsTwoCharactersOfOneSenderApart) {
   }
 }
 
-TEST_F(CharactersTest, GivesTwoSendersOfTheSameCharacterIdsOfTheirOwn) {
+TEST_F(CharactersTest, GivesTwoSendersOfTheSameCharacterDifferentIds) {
   for (std::uint32_t counter = 1; counter < 6; ++counter) {
     sender_ = Sender(1);
     Send(Datagrams(counter));
@@ -120,7 +120,7 @@ TEST_F(CharactersTest, GivesTwoSendersOfTheSameCharacterIdsOfTheirOwn) {
   EXPECT_EQ(counters().restarts, 0U);
 }
 
-TEST_F(CharactersTest, ASenderThatComesBackFromAnotherPortIsTheSamePerson) {
+TEST_F(CharactersTest, KeepsThePersonOfASenderThatReturnsFromAnotherPort) {
   Character character;
   character.name = "Ines";
   Send(EncodeCharacter(character));
@@ -134,7 +134,7 @@ TEST_F(CharactersTest, ASenderThatComesBackFromAnotherPortIsTheSamePerson) {
   EXPECT_EQ(counters().restarts, 1U);
 }
 
-TEST_F(CharactersTest, ASenderRestartedAtOnceIsTheSamePersonToo) {
+TEST_F(CharactersTest, KeepsThePersonOfASenderThatRestartsAtOnce) {
   LearnFrom(5000);
   sender_ = Sender(1, 2);  // within a period of the old one's last sample
   for (std::uint32_t counter = 1; counter < 60; ++counter) {
@@ -148,7 +148,7 @@ TEST_F(CharactersTest, ASenderRestartedAtOnceIsTheSamePersonToo) {
   ExpectAllAccountedFor();
 }
 
-TEST_F(CharactersTest, TwoThatSendOnFromOneMachineAreTwoPeople) {
+TEST_F(CharactersTest, TreatsTwoActiveSendersOfOneMachineAsTwoPeople) {
   for (std::uint32_t counter = 1; counter < 120; ++counter) {
     sender_ = Sender(1, 1);
     Send(Datagrams(counter));
@@ -163,7 +163,7 @@ TEST_F(CharactersTest, TwoThatSendOnFromOneMachineAreTwoPeople) {
   EXPECT_EQ(counters().restarts, 0U);
 }
 
-TEST_F(CharactersTest, KeepsABoundedNumberOfStreams) {
+TEST_F(CharactersTest, KeepsALimitedNumberOfStreams) {
   for (std::uint16_t port = 1; port <= 100; ++port) {
     sender_ = Sender(static_cast<std::uint8_t>(port), port);
     Send(Datagrams(1)[0]);

@@ -45,7 +45,7 @@ double Deviation(const std::vector<double>& values) {
   return std::sqrt(std::max(0.0, squares / static_cast<double>(values.size()) - mean * mean));
 }
 
-TEST_F(ClockFitTest, TakesTheNetworksJitterOutOfTheStamps) {
+TEST_F(ClockFitTest, RemovesNetworkJitterFromTimeStamps) {
   std::vector<double> stamp_steps, arrival_steps, errors;
   double last_arrival = 0;
   std::int64_t last_stamp = 0;
@@ -78,7 +78,7 @@ TEST_F(ClockFitTest, FollowsASenderWhoseClockDrifts) {
   }
 }
 
-TEST_F(ClockFitTest, StampsAlwaysIncreaseAndAreNeverAheadOfTheArrival) {
+TEST_F(ClockFitTest, ReturnsIncreasingTimeStampsNotAfterTheReceiveTime) {
   std::int64_t last_stamp = 0;
   double last_arrival = 30 * kPeriod;  // the first thirty come in one burst, as MVN sends them
   for (std::uint32_t counter = 0; counter < 2000; ++counter) {
@@ -91,7 +91,7 @@ TEST_F(ClockFitTest, StampsAlwaysIncreaseAndAreNeverAheadOfTheArrival) {
   }
 }
 
-TEST_F(ClockFitTest, StartsAfreshAfterTheSenderPaused) {
+TEST_F(ClockFitTest, RestartsAfterThePauseOfASender) {
   std::uint32_t counter = 0;
   for (; counter < 1000; ++counter) Stamp(counter, counter * kPeriod + Delay());
   const double pause = 3e9;  // its time code stood still meanwhile
@@ -102,7 +102,7 @@ TEST_F(ClockFitTest, StartsAfreshAfterTheSenderPaused) {
   }
 }
 
-TEST_F(ClockFitTest, StartsAfreshWhenTheTimeCodeJumpsAgainstTheCounter) {
+TEST_F(ClockFitTest, RestartsWhenTheTimeCodeJumpsAgainstTheCounter) {
   std::uint32_t counter = 0;
   for (; counter < 1000; ++counter) Stamp(counter, counter * kPeriod);
   for (; counter < 1100; ++counter) {
@@ -112,7 +112,7 @@ TEST_F(ClockFitTest, StartsAfreshWhenTheTimeCodeJumpsAgainstTheCounter) {
   }
 }
 
-TEST_F(ClockFitTest, StampsWithTheArrivalWhereTheTimeCodeStandsStill) {
+TEST_F(ClockFitTest, UsesTheReceiveTimeIfTheTimeCodeStandsStill) {
   for (std::uint32_t counter = 0; counter < 1000; ++counter) {
     const Arrival arrival = ArriveAt(counter * kPeriod);
     EXPECT_EQ(fit_.Stamp(counter, 0, arrival), arrival.wall_nanos);

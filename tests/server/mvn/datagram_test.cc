@@ -68,7 +68,7 @@ std::vector<std::string> EveryType() {
   return datagrams;
 }
 
-TEST(Datagram, RefusesEveryTruncationOfEveryTypeAndSaysWhere) {
+TEST(Datagram, RejectsEveryTruncationOfEveryTypeWithItsPlace) {
   std::set<std::string> types;
   for (const std::string& whole : EveryType()) {
     types.insert(whole.substr(4, 2));
@@ -84,7 +84,7 @@ TEST(Datagram, RefusesEveryTruncationOfEveryTypeAndSaysWhere) {
                                             "24", "25"));
 }
 
-TEST(Datagram, ReadsAnyBytesWithoutReadingPastThem) {
+TEST(Datagram, ReadsAnyBytesWithoutReadingBeyondThem) {
   RandomValues random(2);
   for (const std::string& whole : EveryType()) {
     for (int round = 0; round < 300; ++round) {
@@ -145,7 +145,7 @@ TEST(Datagram, FindsJointsByTheirPairOfPoints) {
   EXPECT_EQ(angles.ergonomic_present.count(), 1U);
 }
 
-TEST(Datagram, ReadsTwentyTwoTwentySixAndTwentyEightJointsAndTellsTheTwinsApartByPosition) {
+TEST(Datagram, DistinguishesJointsWithEqualIdsByTheirPosition) {
   for (const std::size_t ergonomic : {0U, 4U, 6U}) {
     Message message;
     JointAnglesMessage body;
@@ -166,7 +166,7 @@ TEST(Datagram, ReadsTwentyTwoTwentySixAndTwentyEightJointsAndTellsTheTwinsApartB
   EXPECT_EQ(PointsOf(kPelvisT8).child, PointsOf(kVerticalT8).child);
 }
 
-TEST(Datagram, KnowsThePointsOfEveryJoint) {
+TEST(Datagram, HasThePointsOfEveryJoint) {
   // Parent and child points as MVN numbers them: 256 * segment + point.
   constexpr std::array<std::array<std::uint32_t, 2>, urdf::kJointCount> kPoints = {{
       {0x102, 0x201},   {0x202, 0x301},   {0x302, 0x401},   {0x402, 0x501},  {0x502, 0x601},
@@ -199,7 +199,7 @@ TEST(Datagram, ReadsLinearAndAngularKinematics) {
   EXPECT_EQ(angular.items[urdf::kHead].acceleration, Eigen::Vector3d(-8, 16, 0.5));
 }
 
-TEST(Datagram, ReadsTheCentreOfMassInBothItsSizes) {
+TEST(Datagram, ReadsTheCentreOfMassInBothSizes) {
   RawDatagram raw;
   raw.type = "24";
   raw.payload = FromHex("bf000000 3e800000 3f600000");
@@ -256,7 +256,7 @@ TEST(Datagram, ReadsScaleDataInParts) {
   EXPECT_EQ(points.points[0].offset, Eigen::Vector3d(0.125, 0, 0.1875));
 }
 
-TEST(Datagram, TurnsEulerPosesToTheAxesAndUnitsOfQuaternionPoses) {
+TEST(Datagram, ConvertsEulerPosesToTheAxesAndUnitsOfQuaternionPoses) {
   RawDatagram raw;
   raw.type = "01";
   raw.items = 1;
@@ -288,7 +288,7 @@ TEST(Datagram, ReadsVirtualMarkersInMetres) {
   EXPECT_TRUE(markers.markers[0].position.isApprox(Eigen::Vector3d(0.1, 0.5, 0.95), 1e-6));
 }
 
-TEST(Datagram, ReadsTrackersInBothTheirSizes) {
+TEST(Datagram, ReadsTrackersInBothSizes) {
   RawDatagram raw;
   raw.type = "23";
   raw.items = 2;
@@ -320,7 +320,7 @@ TEST(Datagram, ReadsTrackersInBothTheirSizes) {
   EXPECT_EQ(old.trackers[urdf::kT8].magnetic_field, Eigen::Vector3d(3, 4, 5));
 }
 
-TEST(Datagram, ReadsTheTimeOfDayHoweverItIsPacked) {
+TEST(Datagram, ReadsTheTimeOfDayInEveryEncoding) {
   RawDatagram raw;
   raw.type = "25";
   const auto millis = [&raw](const std::string& payload) {
@@ -343,7 +343,7 @@ TEST(Datagram, ReadsTheTimeOfDayHoweverItIsPacked) {
   }
 }
 
-TEST(Datagram, RefusesLegacyTypesByNameAndSaysWhatToSwitchOn) {
+TEST(Datagram, ReportsLegacyTypesByNameWithTheSettingToSwitchOn) {
   for (const std::string type : {"04", "05", "10", "11"}) {
     RawDatagram raw;
     raw.type = type;
@@ -354,7 +354,7 @@ TEST(Datagram, RefusesLegacyTypesByNameAndSaysWhatToSwitchOn) {
   }
 }
 
-TEST(Datagram, GivesEachFaultItsOwnReason) {
+TEST(Datagram, ReportsASeparateReasonForEachFault) {
   RawDatagram pose;
   pose.items = 2;
   pose.payload = PoseItems(1, 2);
@@ -415,7 +415,7 @@ TEST(Datagram, HasADifferentTextForEveryReason) {
   EXPECT_EQ(texts.size(), static_cast<std::size_t>(kReasonCount));
 }
 
-TEST(Datagram, UnderstandsSendersFromBeforePayloadSizesWereSent) {
+TEST(Datagram, AcceptsOldSendersWithoutPayloadSizes) {
   RawDatagram raw;
   raw.items = 23;
   raw.payload = PoseItems(1, 23);
@@ -436,7 +436,7 @@ TEST(Datagram, IgnoresBytesAfterThePayload) {
   EXPECT_TRUE(Parsed<PoseMessage>(raw.Bytes() + "and more").HasBody());
 }
 
-TEST(Datagram, AcceptsItemsThatALaterVersionMadeLonger) {
+TEST(Datagram, AcceptsLongerItemsOfLaterVersions) {
   RawDatagram raw;
   raw.items = 23;
   raw.payload = Items(1, 23, 8, 0.25, 3);  // one float more in each
@@ -454,7 +454,7 @@ std::string NumberedPoses(int count) {
   return payload;
 }
 
-TEST(Datagram, PutsPropsAndFingersWhereTheyBelongHoweverManyPropsThereAre) {
+TEST(Datagram, AssignsPropsAndFingersForAnyNumberOfProps) {
   for (int props = 0; props <= kMaxProps; ++props) {
     RawDatagram raw;
     raw.props = props;
@@ -476,7 +476,7 @@ TEST(Datagram, PutsPropsAndFingersWhereTheyBelongHoweverManyPropsThereAre) {
   }
 }
 
-TEST(Datagram, GoesByOrderWherePropsAreNumberedDifferentlyAndSaysSo) {
+TEST(Datagram, AssignsPropsByOrderIfTheirIdsDifferAndReportsIt) {
   RawDatagram raw;
   raw.props = 1;
   raw.items = 24;
@@ -486,7 +486,7 @@ TEST(Datagram, GoesByOrderWherePropsAreNumberedDifferentlyAndSaysSo) {
   EXPECT_EQ(pose.mismatched_ids, 1);
 }
 
-TEST(Datagram, KnowsThePropsOfAnOldHeaderByTheirId) {
+TEST(Datagram, RecognisesPropsOfAnOldHeaderByTheirId) {
   RawDatagram raw;
   raw.body_segments = 0;
   raw.items = 24;
@@ -494,7 +494,7 @@ TEST(Datagram, KnowsThePropsOfAnOldHeaderByTheirId) {
   EXPECT_TRUE(Parsed<PoseMessage>(raw.Bytes()).present.test(Slot(PropIndex(0))));
 }
 
-TEST(Datagram, SkipsWhatItsHeaderDoesNotAnnounce) {
+TEST(Datagram, SkipsItemsThatItsHeaderDoesNotAnnounce) {
   RawDatagram raw;
   raw.items = 63;
   raw.payload = PoseItems(1, 63);

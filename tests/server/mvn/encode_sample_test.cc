@@ -56,7 +56,7 @@ TEST(EncodeSample, WritesGlovesAndPropsInTheSizesOfACurrentMvn) {
   EXPECT_THAT(Sizes(EncodeSample(sample, poses)), ElementsAre(P("01", 1788), P("02", 2040)));
 }
 
-TEST(EncodeSample, NumbersPropsAndFingersOnBehindThePropsThatAreThere) {
+TEST(EncodeSample, NumbersFingersAfterTheExistingProps) {
   RandomValues random(3);
   BodySample sample = FullSample(random);
   sample.fingers_and_props.present.reset(static_cast<std::size_t>(PropIndex(2)));
@@ -71,7 +71,7 @@ TEST(EncodeSample, NumbersPropsAndFingersOnBehindThePropsThatAreThere) {
   for (std::size_t i = 0; i < ids.size(); ++i) EXPECT_EQ(ids[i], static_cast<int>(i) + 1);
 }
 
-TEST(EncodeSample, TellsTheNumbersOfSegmentsInEveryDatagram) {
+TEST(EncodeSample, WritesTheNumbersOfSegmentsIntoEveryDatagram) {
   RandomValues random(3);
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
   for (const std::string& datagram : EncodeSample(FullSample(random), AllTypes(), &skeleton)) {
@@ -79,7 +79,7 @@ TEST(EncodeSample, TellsTheNumbersOfSegmentsInEveryDatagram) {
   }
 }
 
-TEST(EncodeSample, LeavesOutWhatASampleDoesNotHave) {
+TEST(EncodeSample, OmitsDataThatTheSampleDoesNotContain) {
   BodySample sample;
   EXPECT_EQ(EncodeSample(sample).size(), 1U);
   EXPECT_THAT(Sizes(EncodeSample(sample, AllTypes())),
@@ -90,7 +90,7 @@ TEST(EncodeSample, LeavesOutWhatASampleDoesNotHave) {
   EXPECT_EQ(datagrams[1].size(), 36U) << "without derivatives the centre of mass is 12 bytes";
 }
 
-TEST(EncodeSample, LeavesOutWhatIsNotAskedFor) {
+TEST(EncodeSample, OmitsTypesThatAreNotRequested) {
   RandomValues random(3);
   const auto datagrams =
       EncodeSample(FullSample(random), MakeTypeSet({Type::kLinear, Type::kTimeCode}));
@@ -113,7 +113,7 @@ Content ParseOnly(const std::vector<std::string>& datagrams) {
   return std::get<Content>(ParseDatagram(datagrams.at(0)).value().body);
 }
 
-TEST(EncodeSample, WritesTheSamplesOwnTrackersWhereItHasThem) {
+TEST(EncodeSample, WritesTheTrackersOfTheSample) {
   RandomValues random(3);
   BodySample sample = testing::RandomSample(random, 1);
   sample.has_tracker.set(urdf::kT8);
@@ -125,7 +125,7 @@ TEST(EncodeSample, WritesTheSamplesOwnTrackersWhereItHasThem) {
 }
 
 // The T8 leans 90 degrees forward: its z axis points along the world's x.
-TEST(EncodeSample, MakesTrackersThatMeasureGravityRatesAndTheFieldInTheirOwnAxes) {
+TEST(EncodeSample, ComputesGravityRatesAndMagneticFieldInTheAxesOfTheTrackers) {
   BodySample sample;
   sample.has_linear = sample.has_angular = true;
   SegmentState& t8 = sample.segments[urdf::kT8];
@@ -147,7 +147,7 @@ TEST(EncodeSample, MakesTrackersThatMeasureGravityRatesAndTheFieldInTheirOwnAxes
       << "one field for all";
 }
 
-TEST(EncodeSample, CarriesMarkersWithTheirSegmentsUnderTheIdsOfTheScaleData) {
+TEST(EncodeSample, WritesMarkersAtTheirSegmentsWithTheIdsOfTheScaleData) {
   BodySample sample;
   SegmentState& head = sample.segments[urdf::kHead];
   head.position = {1, 2, 3};
@@ -172,7 +172,7 @@ TEST(EncodeSample, CarriesMarkersWithTheirSegmentsUnderTheIdsOfTheScaleData) {
   EXPECT_TRUE(found);
 }
 
-TEST(EncodeSample, TakesTheTimeOfDayFromTheStampWhereNoneWasSent) {
+TEST(EncodeSample, UsesTheTimeStampAsTimeOfDayIfNoneWasSent) {
   BodySample sample;
   sample.stamp_nanos = 1'577'836'800'000'000'000 + 3'723'004'900'000;  // 2020-01-01, 01:02:03.0049
   const TypeSet time_code = MakeTypeSet({Type::kTimeCode});
@@ -237,7 +237,7 @@ TEST(EncodeSample, SplitsScaleDataIntoSegmentsAndPoints) {
   }
 }
 
-TEST(EncodeSample, NamesPropsAndFingersBehindTheBody) {
+TEST(EncodeSample, WritesNamesOfPropsAndFingersAfterTheBody) {
   Character character;
   character.skeleton = urdf::DefaultSkeleton();
   character.scaled_segments.resize(kFingerAndPropCount);
@@ -259,7 +259,7 @@ TEST(EncodeSample, NamesPropsAndFingersBehindTheBody) {
   EXPECT_EQ(segments[44].name, "RightCarpus");
 }
 
-TEST(EncodeSample, StandsTheTPoseOnTheFloorWithArmsSideways) {
+TEST(EncodeSample, PutsTheTPoseOnTheFloorWithArmsSideways) {
   const auto origins = TPoseOrigins(urdf::DefaultSkeleton());
   EXPECT_LT(origins[urdf::kRightHand].y(), -0.6);
   EXPECT_GT(origins[urdf::kLeftHand].y(), 0.6);

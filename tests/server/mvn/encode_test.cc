@@ -273,7 +273,7 @@ TEST_P(RoundTrip, KeepsMetaAndScaleData) {
 }
 
 // Straight up and down, where two of the three angles turn about the same axis.
-TEST(Encode, WritesEulerAnglesWhereTheyLock) {
+TEST(Encode, WritesEulerAnglesInGimbalLock) {
   const auto about = [](double degrees, const Eigen::Vector3d& axis) {
     return Eigen::AngleAxisd(degrees * M_PI / 180, axis);
   };
@@ -295,7 +295,7 @@ TEST(Encode, WritesEulerAnglesWhereTheyLock) {
   }
 }
 
-TEST(Encode, PatchesTheHeaderAndNothingElse) {
+TEST(Encode, ChangesOnlyTheHeader) {
   RandomValues random(3);
   const std::string before = EncodeSample(testing::RandomSample(random, 9))[0];
   std::string after = before;

@@ -416,7 +416,7 @@ INSTANTIATE_TEST_SUITE_P(
              std::to_string(std::get<1>(test.param));
     });
 
-TEST_P(FaultMatrix, LeavesEverySampleThatItDoesNotTouch) {
+TEST_P(FaultMatrix, LeavesUnaffectedSamplesUnchanged) {
   const auto& [test_case, seed] = GetParam();
   FaultSettings settings;
   for (const char* fault : test_case.faults) SetFault(fault, settings);
@@ -428,7 +428,7 @@ TEST_P(FaultMatrix, LeavesEverySampleThatItDoesNotTouch) {
   stream->CheckMemory();
 }
 
-TEST(FaultyStream, HasNothingToCountWithoutFaults) {
+TEST(FaultyStream, CountsNothingWithoutFaults) {
   const auto stream = std::make_unique<FaultyStream>(FaultSettings(), 1);
   stream->Run();
   stream->CheckSamples();

@@ -109,7 +109,7 @@ std::vector<int> PlacesOf(const std::vector<Sent>& stream, const Received& recei
   return result;
 }
 
-TEST(Faults, PassWithoutAnyEveryByteAtItsTime) {
+TEST(Faults, ChangeNeitherBytesNorTimesIfAllAreOff) {
   FaultInjector injector(FaultSettings(), 1);
   const auto stream = Stream(50);
   const Received received = Pass(injector, stream);
@@ -121,7 +121,7 @@ TEST(Faults, PassWithoutAnyEveryByteAtItsTime) {
   EXPECT_TRUE(received.injections.empty());
 }
 
-TEST(Faults, AreTheSameForTheSameSeedOnly) {
+TEST(Faults, AreReproducibleForTheSameSeedOnly) {
   const auto stream = Stream(2000);
   const auto run = [&](std::uint64_t seed) {
     FaultInjector injector(Only("all=0.02"), seed);
@@ -166,7 +166,7 @@ TEST(Faults, RepeatDatagramsAtMostThreePlacesLater) {
   EXPECT_LE(*distances.rbegin(), 6U);
 }
 
-TEST(Faults, PutDatagramsBackByOneToThreePlaces) {
+TEST(Faults, MoveDatagramsBackByOneToThreePlaces) {
   FaultInjector injector(Only("reorder=0.05"), 4);
   const auto stream = Stream(5000);
   const Received received = Pass(injector, stream);
@@ -208,7 +208,7 @@ TEST(Faults, DelayByJitterWithoutChangingTheOrder) {
   EXPECT_THAT(injector.count(Fault::kJitter).injected, IsShare(0.05, stream.size()));
 }
 
-TEST(Faults, HoldBackTheGivenShareOfTimeAndSendItAtOnce) {
+TEST(Faults, DelayTheGivenShareOfTimeAndSendItAtOnce) {
   FaultInjector injector(Only("burst=0.05"), 6);
   const auto stream = Stream(7200);
   const Received received = Pass(injector, stream);
@@ -230,7 +230,7 @@ TEST(Faults, HoldBackTheGivenShareOfTimeAndSendItAtOnce) {
               30.0 * kPerSample);
 }
 
-TEST(Faults, CutDatagramsAnywhereAndSayWhetherThatShows) {
+TEST(Faults, TruncateDatagramsAnywhereAndReportWhetherThatIsDetectable) {
   FaultInjector injector(Only("truncate=0.05"), 7);
   const auto stream = Stream(5000);
   const Received received = Pass(injector, stream);
@@ -253,7 +253,7 @@ TEST(Faults, CutDatagramsAnywhereAndSayWhetherThatShows) {
   EXPECT_TRUE(cut_to_nothing);
 }
 
-TEST(Faults, CorruptOneToFourBytesAndSayWhatAReaderTakesItFor) {
+TEST(Faults, CorruptOneToFourBytesAndReportTheResultOfTheParser) {
   FaultInjector injector(Only("corrupt=0.05"), 8);
   const auto stream = Stream(5000);
   const Received received = Pass(injector, stream);
@@ -288,7 +288,7 @@ TEST(Faults, CorruptOneToFourBytesAndSayWhatAReaderTakesItFor) {
   EXPECT_LT(rejected, corrupt);
 }
 
-TEST(Faults, InsertForeignTextsThatAReaderRefusesByReason) {
+TEST(Faults, InsertForeignTextsThatTheParserRejectsByReason) {
   FaultInjector injector(Only("foreign=0.05"), 9);
   const auto stream = Stream(5000);
   const Received received = Pass(injector, stream);
@@ -307,7 +307,7 @@ TEST(Faults, InsertForeignTextsThatAReaderRefusesByReason) {
                            ::testing::Key(Reason::kForeignText), ::testing::Key(Reason::kForeign)));
 }
 
-TEST(Faults, AreSilentForTheGivenShareOfTimeASecondAtATime) {
+TEST(Faults, InterruptTheStreamForTheGivenShareOfTime) {
   FaultInjector injector(Only("silence=0.05"), 10);
   const auto stream = Stream(7200);
   const Received received = Pass(injector, stream);
@@ -327,7 +327,7 @@ TEST(Faults, AreSilentForTheGivenShareOfTimeASecondAtATime) {
   EXPECT_EQ(pauses, 3);
 }
 
-TEST(Faults, StartCountersAndTimeCodesOverTogetherForAWholeSample) {
+TEST(Faults, ResetCountersAndTimeCodesTogetherForAWholeSample) {
   FaultInjector injector(Only("reset=0.05"), 11);
   const auto stream = Stream(7200);
   const Received received = Pass(injector, stream);
@@ -351,7 +351,7 @@ TEST(Faults, StartCountersAndTimeCodesOverTogetherForAWholeSample) {
   EXPECT_EQ(resets, 3);
 }
 
-TEST(Faults, LeaveCharactersAndScaleDataOutOfResets) {
+TEST(Faults, ResetNoCharactersAndNoScaleData) {
   FaultInjector injector(Only("reset=1"), 12);
   auto stream = Stream(600);
   Character character;
@@ -366,7 +366,7 @@ TEST(Faults, LeaveCharactersAndScaleDataOutOfResets) {
 }
 
 // What was put back or repeated does not hang in the air for as long as nothing follows.
-TEST(Faults, LetNothingWaitThroughASilence) {
+TEST(Faults, DelayNothingThroughAnInterruption) {
   FaultSettings settings = Only("reorder=1");
   SetFault("silence=0.5", settings);
   FaultInjector injector(settings, 13);
@@ -379,7 +379,7 @@ TEST(Faults, LetNothingWaitThroughASilence) {
   }
 }
 
-TEST(Faults, LetNothingWaitForTheEndOfABurst) {
+TEST(Faults, DelayNothingUntilTheEndOfABurst) {
   FaultSettings settings = Only("reorder=0.5");
   SetFault("burst=0.5", settings);
   FaultInjector injector(settings, 14);
@@ -395,7 +395,7 @@ TEST(Faults, LetNothingWaitForTheEndOfABurst) {
   EXPECT_LE(bursts.size(), injector.count(Fault::kBurst).injected) << "the bursts, nothing else";
 }
 
-TEST(Faults, AreGivenByNameShareAndSeconds) {
+TEST(Faults, AreSetByNameShareAndSeconds) {
   FaultSettings settings;
   SetFault("all=0.01", settings);
   SetFault("burst=0.2:0.5", settings);

@@ -109,7 +109,7 @@ const TypeReport& OfType(const CharacterReport& character, int type) {
   return kNone;
 }
 
-TEST_F(InspectionTest, TellsWhoSendsWhatAndHowOften) {
+TEST_F(InspectionTest, ReportsSendersTypesAndRates) {
   Character anna;
   anna.name = "Anna";
   anna.color_rgb = 0xE96417;
@@ -160,7 +160,7 @@ TEST_F(InspectionTest, TellsWhoSendsWhatAndHowOften) {
   EXPECT_EQ(OfType(character, 12).share, std::nullopt) << "belongs to no frame";
 }
 
-TEST_F(InspectionTest, TellsPeopleObjectsAndSendersApart) {
+TEST_F(InspectionTest, DistinguishesPeopleObjectsAndSenders) {
   ObjectsSample objects;
   objects.character = 3;
   for (std::size_t i = 0; i < 2; ++i) objects.present.set(i);
@@ -194,7 +194,7 @@ TEST_F(InspectionTest, TellsPeopleObjectsAndSendersApart) {
   EXPECT_EQ(who.size(), 4U);
 }
 
-TEST_F(InspectionTest, SeesGlovesAndPropsByName) {
+TEST_F(InspectionTest, DetectsGlovesAndPropsByName) {
   Character carrier;
   carrier.name = "Carrier";
   carrier.skeleton = urdf::DefaultSkeleton();
@@ -228,7 +228,7 @@ TEST_F(InspectionTest, SeesGlovesAndPropsByName) {
   EXPECT_EQ(character.quantities.at("props"), 20U);
 }
 
-TEST_F(InspectionTest, CountsEveryLostFrameAndOnlyThose) {
+TEST_F(InspectionTest, CountsEveryLostSampleAndNoOther) {
   std::uint64_t dropped = 0;
   SendFrames(1000, 3000, 1, UsualTypes(), [&](std::uint32_t counter) {
     const bool is_sent = counter == 1000 || counter == 3000 || !random_.Coin(0.1);
@@ -243,7 +243,7 @@ TEST_F(InspectionTest, CountsEveryLostFrameAndOnlyThose) {
   EXPECT_THAT(character.advice, Contains(HasSubstr("of the frames are lost")));
 }
 
-TEST_F(InspectionTest, AStreamSlowerThanTheCaptureLosesNothing) {
+TEST_F(InspectionTest, CountsNoLossIfTheStreamIsSlowerThanTheSuit) {
   SendFrames(0, 2400, 4);
   const CharacterReport character = Only();
   EXPECT_EQ(character.usual_step, 4);
@@ -252,7 +252,7 @@ TEST_F(InspectionTest, AStreamSlowerThanTheCaptureLosesNothing) {
   EXPECT_NEAR(character.capture_rate_hz, 240, 0.5);
 }
 
-TEST_F(InspectionTest, AnAlternatingStepIsNoLossEither) {
+TEST_F(InspectionTest, CountsNoLossForAnAlternatingStep) {
   for (int i = 0; i < 1000; ++i) {  // 100 Hz of 240
     const auto counter = static_cast<std::uint32_t>(i * 24 / 10);
     WaitFor(counter);
@@ -264,7 +264,7 @@ TEST_F(InspectionTest, AnAlternatingStepIsNoLossEither) {
   EXPECT_EQ(character.frames, 1000U);
 }
 
-TEST_F(InspectionTest, SaysWhichShareOfFramesCarriesAType) {
+TEST_F(InspectionTest, ReportsTheShareOfSamplesPerType) {
   for (std::uint32_t counter = 0; counter < 400; ++counter) {
     WaitFor(counter);
     Send(Frame(counter, counter % 4 == 0 ? UsualTypes() : MakeTypeSet({Type::kPose})));
@@ -275,7 +275,7 @@ TEST_F(InspectionTest, SaysWhichShareOfFramesCarriesAType) {
   EXPECT_NEAR(OfType(character, 24).rate_hz, 60, 0.2);
 }
 
-TEST_F(InspectionTest, TheFrameThatTheEndCutsThroughIsNotIncomplete) {
+TEST_F(InspectionTest, DoesNotCountTheLastSampleAsIncomplete) {
   SendFrames(0, 99);
   for (const std::uint32_t counter : {100U, 101U, 102U}) {
     WaitFor(counter);
@@ -288,7 +288,7 @@ TEST_F(InspectionTest, TheFrameThatTheEndCutsThroughIsNotIncomplete) {
   EXPECT_EQ(character.incomplete, 1U) << "100, but not 102";
 }
 
-TEST_F(InspectionTest, ReorderedAndRepeatedDatagramsAreNoLoss) {
+TEST_F(InspectionTest, CountsNoLossForReorderedAndRepeatedDatagrams) {
   SendFrames(1, 100);
   for (std::uint32_t counter = 101; counter < 201; counter += 2) {
     WaitFor(counter);
@@ -307,7 +307,7 @@ TEST_F(InspectionTest, ReorderedAndRepeatedDatagramsAreNoLoss) {
   EXPECT_EQ(OfType(character, 2).share, 1.0);
 }
 
-TEST_F(InspectionTest, ARecordingThatStartsOverIsARestartAndNoLoss) {
+TEST_F(InspectionTest, CountsARestartAndNoLossIfTheRecordingStartsAgain) {
   SendFrames(5000, 5500);
   const std::int64_t later = DueNanos(6000);
   for (std::uint32_t counter = 0; counter <= 500; ++counter) {
@@ -324,7 +324,7 @@ TEST_F(InspectionTest, ARecordingThatStartsOverIsARestartAndNoLoss) {
   EXPECT_EQ(character.longest_silence_at_nanos, DueNanos(5500) - DueNanos(5000));
 }
 
-TEST_F(InspectionTest, OneWildHeaderChangesNoNumberOfTheStream) {
+TEST_F(InspectionTest, CountsADamagedHeaderAsOutlierOnly) {
   SendFrames(1, 200);
   RawDatagram wild;
   wild.counter = 0x7F00'0000;
@@ -340,7 +340,7 @@ TEST_F(InspectionTest, OneWildHeaderChangesNoNumberOfTheStream) {
   EXPECT_EQ(character.outliers, 1U);
 }
 
-TEST_F(InspectionTest, MeasuresJitterAgainstTheFastestFrames) {
+TEST_F(InspectionTest, MeasuresJitterRelativeToTheFastestSamples) {
   // Every tenth frame is 20 ms late (though before the next in order), the others on time.
   for (std::uint32_t counter = 0; counter < 2400; counter += 24) {
     WaitFor(counter);
@@ -355,7 +355,7 @@ TEST_F(InspectionTest, MeasuresJitterAgainstTheFastestFrames) {
   EXPECT_NEAR(static_cast<double>(character.delays->longest), 20e6, 1e6);
 }
 
-TEST_F(InspectionTest, SaysWhereTheFirstOfEachFaultWas) {
+TEST_F(InspectionTest, ReportsTheFirstPlaceOfEachFault) {
   SendFrames(0, 240);
   Send(R"({"type":"transport","value":"record"})");
   RawDatagram zero_id;
@@ -383,7 +383,7 @@ TEST_F(InspectionTest, SaysWhereTheFirstOfEachFaultWas) {
   }
 }
 
-TEST_F(InspectionTest, ASampleWithoutAWholeBodyIsAnErrorWithoutAByte) {
+TEST_F(InspectionTest, ReportsAnIncompleteBodyWithoutABytePosition) {
   for (std::uint32_t counter = 0; counter < 20; ++counter) {
     WaitFor(counter);
     RawDatagram part;
@@ -411,7 +411,7 @@ struct AdviceCase {
 
 class AdviceTest : public InspectionTest, public ::testing::WithParamInterface<AdviceCase> {};
 
-TEST_P(AdviceTest, NamesTheSwitchThatIsMissing) {
+TEST_P(AdviceTest, NamesTheMissingMvnSetting) {
   TypeSet types;
   for (const Type type : GetParam().types) types.set(static_cast<std::size_t>(type));
   SendFrames(0, 100, 1, types);
@@ -446,7 +446,7 @@ INSTANTIATE_TEST_SUITE_P(
                    true},
         AdviceCase{"only 01", {Type::kEulerPose}, {"the pose is sent as Euler angles"}, true}));
 
-TEST_F(InspectionTest, UnityPosesAreAnErrorThatSaysWhatToSwitchOn) {
+TEST_F(InspectionTest, ReportsUnityPosesWithTheSettingToSwitchOn) {
   RawDatagram unity;
   unity.type = "05";
   unity.items = 23;
@@ -459,7 +459,7 @@ TEST_F(InspectionTest, UnityPosesAreAnErrorThatSaysWhatToSwitchOn) {
   EXPECT_THAT(report.characters, IsEmpty());
 }
 
-TEST_F(InspectionTest, AnOldHeaderIsNamed) {
+TEST_F(InspectionTest, ReportsAnOldHeader) {
   for (std::uint32_t counter = 0; counter < 10; ++counter) {
     WaitFor(counter);
     RawDatagram old;
@@ -477,7 +477,7 @@ TEST_F(InspectionTest, AnOldHeaderIsNamed) {
   EXPECT_THAT(character.advice, Contains(HasSubstr("older than MVN 2018")));
 }
 
-TEST_F(InspectionTest, NothingAtAllIsSaid) {
+TEST_F(InspectionTest, ReportsThatNoDatagramArrived) {
   EXPECT_THAT(Report().advice, ElementsAre(HasSubstr("no datagram")));
   Inspection live(true);
   const InspectionReport report = live.Report(NoTransport(true));
@@ -485,7 +485,7 @@ TEST_F(InspectionTest, NothingAtAllIsSaid) {
   EXPECT_THAT(report.advice, ElementsAre(HasSubstr("Network Streamer")));
 }
 
-TEST_F(InspectionTest, TheTransportIsReportedAndDropsGiveAdvice) {
+TEST_F(InspectionTest, ReportsTheTransportAndAdviceAboutDrops) {
   SendFrames(0, 10);
   transport_.transport.receive_buffer_bytes = 1 << 20;
   transport_.transport.kernel_drops = 7;
@@ -495,7 +495,7 @@ TEST_F(InspectionTest, TheTransportIsReportedAndDropsGiveAdvice) {
   EXPECT_THAT(report.advice, ElementsAre(HasSubstr("net.core.rmem_max")));
 }
 
-TEST_F(InspectionTest, KeepsAtMostSixtyFourCharactersAndARealOneFindsRoomAmongDamagedHeaders) {
+TEST_F(InspectionTest, KeepsARealCharacterAmongManyDamagedHeaders) {
   for (int ghost = 0; ghost < 200; ++ghost) {
     RawDatagram datagram;
     datagram.character = 1 + ghost;
@@ -512,7 +512,7 @@ TEST_F(InspectionTest, KeepsAtMostSixtyFourCharactersAndARealOneFindsRoomAmongDa
   EXPECT_EQ(report.characters[0].datagrams + 200, report.datagrams) << "each is somewhere";
 }
 
-TEST_F(InspectionTest, MoreThanSixtyFourRealCharactersAreCountedAndNotKept) {
+TEST_F(InspectionTest, CountsCharactersBeyondSixtyFourWithoutKeepingThem) {
   for (int character = 0; character < 70; ++character) {
     for (std::uint32_t counter = 0; counter < 3; ++counter) {
       now_ = character * kMilli + DueNanos(counter);
@@ -524,7 +524,7 @@ TEST_F(InspectionTest, MoreThanSixtyFourRealCharactersAreCountedAndNotKept) {
   EXPECT_EQ(report.datagrams_not_kept, 6U * 3);
 }
 
-TEST_F(InspectionTest, LiveStreamsAreClosedByTime) {
+TEST_F(InspectionTest, CompletesSamplesOfLiveStreamsByTime) {
   Inspection live(true);
   for (const std::int64_t at : {0, 1}) {
     const auto frame = Frame(static_cast<std::uint32_t>(1 + at), MakeTypeSet({Type::kPose}));
@@ -537,7 +537,7 @@ TEST_F(InspectionTest, LiveStreamsAreClosedByTime) {
   EXPECT_EQ(report.characters[0].samples, 2U);
 }
 
-TEST(Inspection, RecordedTrackersAloneCannotBeShown) {
+TEST(Inspection, ReportsThatRecordedTrackersCannotBeShown) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp23_lowerbody_000-149.bin");
   const std::string path = SharedData("udp/mxtp23_lowerbody_000-149.bin");
 
@@ -560,7 +560,7 @@ TEST(Inspection, RecordedTrackersAloneCannotBeShown) {
   EXPECT_THAT(character.advice, Contains(HasSubstr("no pose")));
 }
 
-TEST(SampleInspection, TellsWhatASourceWithoutDatagramsHas) {
+TEST(SampleInspection, ReportsTheContentOfASourceWithoutDatagrams) {
   const auto subject = subject::OpenSubject("lift", 120, 0);
   SampleInspection inspection;
   for (int i = 0; i < 240; ++i) {
@@ -580,7 +580,7 @@ TEST(SampleInspection, TellsWhatASourceWithoutDatagramsHas) {
   EXPECT_NEAR(report.secs, static_cast<double>(character.samples - 1) / 120, 1e-6);
 }
 
-TEST(DurationHistogram, IsRightToThreePercentOverSixDecades) {
+TEST(DurationHistogram, IsAccurateToThreePercentOverSixDecades) {
   RandomValues random(5);
   DurationHistogram histogram;
   std::vector<std::int64_t> durations;

@@ -26,7 +26,7 @@ Message Recorded(const std::string& file) {
   return *message;
 }
 
-TEST(RecordedDatagram, PoseHasTheCounterTimeCodeAndPelvisOfItsBytes) {
+TEST(RecordedDatagram, HasTheCounterTimeCodeAndPelvisOfItsBytes) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp02.bin");
   const Message message = Recorded("udp/mxtp02.bin");
   EXPECT_EQ(message.header.sample_counter, 6681U);
@@ -45,7 +45,7 @@ TEST(RecordedDatagram, PoseHasTheCounterTimeCodeAndPelvisOfItsBytes) {
 }
 
 // 01 says it in centimetres, degrees and Y-up, 02 in metres, quaternions and Z-up.
-TEST(RecordedDatagram, EulerAndQuaternionPoseOfOneSampleAgreeToFloatPrecision) {
+TEST(RecordedDatagram, HasEqualEulerAndQuaternionPosesToFloatPrecision) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp01.bin");
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp02.bin");
   const Message euler_message = Recorded("udp/mxtp01.bin");
@@ -65,7 +65,7 @@ TEST(RecordedDatagram, EulerAndQuaternionPoseOfOneSampleAgreeToFloatPrecision) {
   }
 }
 
-TEST(RecordedDatagram, MetaDataHasNameAndColour) {
+TEST(RecordedDatagram, HasNameAndColourInItsMetaData) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp12.bin");
   const Message message = Recorded("udp/mxtp12.bin");
   const auto& meta = std::get<MetaDataMessage>(message.body);
@@ -97,7 +97,7 @@ constexpr TPoseRow kTPose[] = {
     {urdf::kRightToe, .2009, -.0924, .0205},
 };
 
-TEST(RecordedDatagram, ScaleDataIsTheTPose) {
+TEST(RecordedDatagram, HasTheTPoseInItsScaleData) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp13.bin");
   const Message message = Recorded("udp/mxtp13.bin");
   EXPECT_EQ(message.header.item_count, 0);
@@ -121,7 +121,7 @@ TEST(RecordedDatagram, ScaleDataIsTheTPose) {
   }
 }
 
-TEST(RecordedDatagram, PoseTurnsTheTPoseOntoItsOwnPositions) {
+TEST(RecordedDatagram, HasAPoseThatMovesTheTPoseToItsPositions) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp02.bin");
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp13.bin");
   const Message pose_message = Recorded("udp/mxtp02.bin");
@@ -140,7 +140,7 @@ TEST(RecordedDatagram, PoseTurnsTheTPoseOntoItsOwnPositions) {
   }
 }
 
-TEST(RecordedDatagram, MakesASampleACharacterAndASkeleton) {
+TEST(RecordedDatagram, GivesASampleACharacterAndASkeleton) {
   KINESCOPE_NEEDS_SHARED_DATA("udp/mxtp13.bin");
   Assembler assembler;
   RecordingSink sink;
@@ -182,7 +182,7 @@ class RecordedTrackers : public ::testing::Test {
   }
 };
 
-TEST_F(RecordedTrackers, AllHundredAndFiftyMeasureGravityAndTheFieldOfTheEarth) {
+TEST_F(RecordedTrackers, MeasureGravityAndTheMagneticFieldOfTheEarth) {
   KINESCOPE_NEEDS_SHARED_DATA(kFile);
   const auto datagrams = Datagrams();
   ASSERT_EQ(datagrams.size(), kDatagrams);
@@ -218,7 +218,7 @@ TEST_F(RecordedTrackers, AllHundredAndFiftyMeasureGravityAndTheFieldOfTheEarth) 
   }
 }
 
-TEST_F(RecordedTrackers, TheOneThatIsPickedUpMoves) {
+TEST_F(RecordedTrackers, MoveWhenPickedUp) {
   KINESCOPE_NEEDS_SHARED_DATA(kFile);
   double fastest_before = 0;
   double fastest_after = 0;
@@ -236,7 +236,7 @@ TEST_F(RecordedTrackers, TheOneThatIsPickedUpMoves) {
   EXPECT_GT(fastest_after, 1);
 }
 
-TEST_F(RecordedTrackers, WithoutAPoseTheyMakeNoSampleAndAreCounted) {
+TEST_F(RecordedTrackers, AreCountedAndGiveNoSampleWithoutAPose) {
   KINESCOPE_NEEDS_SHARED_DATA(kFile);
   Assembler assembler;
   RecordingSink sink;

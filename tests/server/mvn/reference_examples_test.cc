@@ -217,7 +217,7 @@ struct Compare {
   void operator()(const MarkersMessage&) const { FAIL() << "the reference has no such example"; }
 };
 
-TEST_F(ReferenceExamples, EveryValueIsTheSame) {
+TEST_F(ReferenceExamples, GiveTheSameValuesInBothParsers) {
   int compared = 0;
   for (const auto& [name, example] : json_["examples"].items()) {
     SCOPED_TRACE(name);
@@ -233,7 +233,7 @@ TEST_F(ReferenceExamples, EveryValueIsTheSame) {
   EXPECT_GE(compared, 13);
 }
 
-TEST_F(ReferenceExamples, EveryTruncationIsRefusedByBoth) {
+TEST_F(ReferenceExamples, AreRejectedByBothParsersIfTruncated) {
   for (const auto& [name, example] : json_["examples"].items()) {
     const std::string whole = FromHex(example["hex"]);
     for (std::size_t size = 0; size < whole.size(); ++size) {
@@ -242,7 +242,7 @@ TEST_F(ReferenceExamples, EveryTruncationIsRefusedByBoth) {
   }
 }
 
-TEST_F(ReferenceExamples, AStreamWithJunkInItIsCutAlike) {
+TEST_F(ReferenceExamples, AreFoundEquallyInAStreamWithForeignBytes) {
   StreamFramer framer;
   framer.Append(FromHex(json_["stream"]));
   framer.End();

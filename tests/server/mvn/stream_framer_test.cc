@@ -128,14 +128,14 @@ std::string Joined(const Pieces& pieces) {
 
 std::string TypeOf(const std::string& datagram) { return "type " + datagram.substr(4, 2); }
 
-TEST(StreamFramer, CutsAStreamIntoItsDatagrams) {
+TEST(StreamFramer, DividesAStreamIntoItsDatagrams) {
   const Framed framed = Frame(Joined(OneOfEach()));
   EXPECT_EQ(framed.pieces, OneOfEach());
   EXPECT_EQ(framed.resyncs, 0U);
   EXPECT_EQ(framed.skipped, 0U);
 }
 
-TEST(StreamFramer, GivesADatagramOnWithItsLastByte) {
+TEST(StreamFramer, ReturnsADatagramWithItsLastByte) {
   StreamFramer framer;
   for (const std::string& datagram : OneOfEach()) {
     framer.Append(std::string_view(datagram).substr(0, datagram.size() - 1));
@@ -148,7 +148,7 @@ TEST(StreamFramer, GivesADatagramOnWithItsLastByte) {
   }
 }
 
-TEST(StreamFramer, AllowsNamesThatLookLikeADatagram) {
+TEST(StreamFramer, AcceptsNamesThatLookLikeADatagram) {
   for (const std::string& datagram : {MetaData("MXTP02"), MetaData("MXTP02 MXTP13 and so on"),
                                       Scale("MXTP02", "MXTP13"), Scale("aMXTP22b", "jL5S1")}) {
     StreamFramer framer;
@@ -161,7 +161,7 @@ TEST(StreamFramer, AllowsNamesThatLookLikeADatagram) {
   }
 }
 
-TEST(StreamFramer, TakesTheLargestDatagram) {
+TEST(StreamFramer, AcceptsTheLargestDatagram) {
   const std::string large = Raw("26", 1, std::string(65535, 'x')).Bytes();
   const std::string next = MetaData("Anna");
   for (const std::size_t chunk : {1, 1460, 200000}) {
@@ -172,7 +172,7 @@ TEST(StreamFramer, TakesTheLargestDatagram) {
 }
 
 // What a sender that dies, a cut capture or a broken program leaves: the next one begins early.
-TEST(StreamFramer, LosesOnlyTheDatagramThatIsCutShort) {
+TEST(StreamFramer, LosesOnlyTheTruncatedDatagram) {
   const Pieces after = {Raw("02", 23, PoseItems(1, 23)).Bytes(), MetaData("Bob")};
   for (const std::string& damaged : OneOfEach()) {
     for (const std::string& next : {after[0], after[1]}) {
@@ -189,7 +189,7 @@ TEST(StreamFramer, LosesOnlyTheDatagramThatIsCutShort) {
   }
 }
 
-TEST(StreamFramer, LosesOnlyTheDatagramWhoseSizeLies) {
+TEST(StreamFramer, LosesOnlyTheDatagramWithAWrongSize) {
   const Pieces after = {Raw("02", 23, PoseItems(1, 23)).Bytes(), MetaData("Bob"),
                         Raw("24", 1, Numbers(9)).Bytes()};
   for (const std::string& good : OneOfEach()) {
@@ -208,7 +208,7 @@ TEST(StreamFramer, LosesOnlyTheDatagramWhoseSizeLies) {
   }
 }
 
-TEST(StreamFramer, DoesNotWaitForASizeThatLies) {
+TEST(StreamFramer, DoesNotWaitForAWrongSize) {
   std::string damaged = Raw("02", 23, PoseItems(1, 23)).Bytes();
   damaged[22] = static_cast<char>(0xFF);
   const std::string next = Raw("24", 1, Numbers(9)).Bytes();
@@ -248,7 +248,7 @@ TEST(StreamFramer, FindsTheLengthOfOldDatagramsByTheirContent) {
 }
 
 // 23 and 24 have had two sizes; where the header says nothing, only the next datagram can.
-TEST(StreamFramer, LearnsWhichOfTwoSizesAnOldSenderHas) {
+TEST(StreamFramer, LearnsWhichOfTwoSizesAnOldSenderUses) {
   for (const bool is_long : {false, true}) {
     Pieces old;
     for (RawDatagram raw :
@@ -277,7 +277,7 @@ TEST(StreamFramer, FindsTheShortSizeAtTheEndOfTheStream) {
   EXPECT_THAT(Frame(raw.Bytes()).pieces, ElementsAre(raw.Bytes()));
 }
 
-TEST(StreamFramer, SearchesForTheEndOfOldDatagramsOfUnknownContent) {
+TEST(StreamFramer, FindsTheEndOfOldDatagramsOfUnknownContent) {
   const std::string next = MetaData("Anna");
   for (const auto* type : {"04", "10", "11", "77"}) {
     RawDatagram raw = Raw(type, 3, std::string(100, '\x01'));
@@ -286,7 +286,7 @@ TEST(StreamFramer, SearchesForTheEndOfOldDatagramsOfUnknownContent) {
   }
 }
 
-TEST(StreamFramer, HandsOutForeignTextAndCountsWhatElseItPassesOver) {
+TEST(StreamFramer, ReturnsForeignTextAndCountsSkippedBytes) {
   const Pieces good = OneOfEach();
   const std::string json = R"({"type":"transport","value":"record","name":"José"})";
   const std::string xml = "<CaptureStart><Name VALUE=\"a\"/></CaptureStart>\r\n";
@@ -300,7 +300,7 @@ TEST(StreamFramer, HandsOutForeignTextAndCountsWhatElseItPassesOver) {
   EXPECT_EQ(framed.reread, 0U);
 }
 
-TEST(StreamFramer, KeepsNoMoreThanADatagramOfWhateverComes) {
+TEST(StreamFramer, KeepsAtMostOneDatagramOfAnyInput) {
   RandomValues random(3);
   std::string noise;
   for (int i = 0; i < 1'000'000; ++i) noise.push_back(static_cast<char>(random.Integer(0, 255)));
@@ -320,7 +320,7 @@ TEST(StreamFramer, KeepsNoMoreThanADatagramOfWhateverComes) {
 }
 
 // Foreign bytes and old datagrams around the sizes at which they are cut into pieces.
-TEST(StreamFramer, FindsTheNextDatagramBehindAsMuchAsItKeeps) {
+TEST(StreamFramer, FindsTheNextDatagramAfterAFullBuffer) {
   const std::string next = MetaData("Anna");
   for (const int around : {65536, 65535 + 24}) {
     for (int size = around - 40; size <= around + 40; ++size) {
@@ -349,7 +349,7 @@ TEST(StreamFramer, FindsTheNextDatagramBehindAsMuchAsItKeeps) {
   }
 }
 
-TEST(StreamFramer, HasNothingToSayOfAnEmptyStream) {
+TEST(StreamFramer, ReturnsNothingForAnEmptyStream) {
   StreamFramer framer;
   EXPECT_FALSE(framer.Next());
   framer.Append("");
@@ -385,7 +385,7 @@ std::string BadStream(RandomValues& random) {
   return stream;
 }
 
-TEST(StreamFramer, GivesTheSamePiecesHoweverTheBytesAreCut) {
+TEST(StreamFramer, ReturnsTheSamePiecesForAnyPartitionOfTheBytes) {
   RandomValues random(7);
   for (int round = 0; round < 40; ++round) {
     const std::string stream = BadStream(random);

@@ -111,7 +111,7 @@ TEST(TenFacts, Fact01EulerPosesAndMarkersAreYUpCentimetresAllOthersZUpMetres) {
   ExpectNear(com.position, place, "24");
 }
 
-TEST(TenFacts, Fact02CentreOfMassTakes36BytesAndTimeCode16) {
+TEST(TenFacts, Fact02CentreOfMassHas36BytesAndTimeCode16) {
   const RawDatagram com = Datagram("24", 1, Floats({1, 2, 3, 4, 5, 6, 7, 8, 9}));
   ASSERT_EQ(com.payload.size(), 36U);
   const auto whole = Parse<CenterOfMassMessage>(com);
@@ -126,7 +126,7 @@ TEST(TenFacts, Fact02CentreOfMassTakes36BytesAndTimeCode16) {
   EXPECT_EQ(Parse<TimeCodeMessage>(time).utc_millis_of_day, ((15 * 60 + 59) * 60 + 46) * 1000 + 65);
 }
 
-TEST(TenFacts, Fact03TrackersTake68BytesEach) {
+TEST(TenFacts, Fact03TrackersHave68BytesEach) {
   const auto tracker = [](std::uint32_t id, bool is_whole) {
     std::string item = Word(id) + Floats({1, 0, 0, 0, 0.1, 0.2, 0.3});
     if (is_whole) item += Floats({0, 0, 9.81, 1, 2, 3});
@@ -179,7 +179,7 @@ RawDatagram PoseWithEverything(int props) {
   return pose;
 }
 
-TEST(TenFacts, Fact05WithGlovesAPoseIsOneLongDatagramAndTheSocketTakesItWhole) {
+TEST(TenFacts, Fact05APoseWithGlovesIsOneLongDatagramThatIsReceivedCompletely) {
   EXPECT_EQ(PoseWithEverything(0).Bytes().size(), 2040U);
   EXPECT_EQ(PoseWithEverything(1).Bytes().size(), 2072U) << "more than 2048";
   EXPECT_EQ(PoseWithEverything(4).Bytes().size(), 2168U);
@@ -206,7 +206,7 @@ TEST(TenFacts, Fact05WithGlovesAPoseIsOneLongDatagramAndTheSocketTakesItWhole) {
   }
 }
 
-TEST(TenFacts, Fact06TheNumberOfItemsMeansNothingIn12And13And24And25) {
+TEST(TenFacts, Fact06TheNumberOfItemsIsUnusedIn12And13And24And25) {
   const std::string scale = Word(1) + SizedText("Pelvis") + Floats({0, 0, 1}) + Word(0);
   for (const int items : {0, 1, 7, 255}) {
     EXPECT_EQ(Parse<MetaDataMessage>(Datagram("12", items, SizedText("name:Anna\n"))).name, "Anna");
@@ -220,7 +220,7 @@ TEST(TenFacts, Fact06TheNumberOfItemsMeansNothingIn12And13And24And25) {
   }
 }
 
-TEST(TenFacts, Fact07JointItems26And28HaveEqualIdsAndAreToldByPosition) {
+TEST(TenFacts, Fact07JointItems26And28HaveEqualIdsAndDifferByPosition) {
   const std::uint32_t pelvis = 0x0100;
   const std::uint32_t t8 = 0x0500;
   const std::string twenty_sixth = Word(pelvis) + Word(t8) + Floats({26, 0, 0});
@@ -266,7 +266,7 @@ TEST(TenFacts, Fact08ForeignTextAndASecondCharacterShareThePort) {
   EXPECT_EQ(assembler.counters().restarts, 0U) << "the characters do not disturb each other";
 }
 
-TEST(TenFacts, Fact09IdsOfFingersDependOnHowManyPropsThereAre) {
+TEST(TenFacts, Fact09IdsOfFingersDependOnTheNumberOfProps) {
   for (int props = 0; props <= kMaxProps; ++props) {
     // Only the first finger of each hand and the props, so that ids decide and not the order.
     RawDatagram pose;

@@ -84,7 +84,7 @@ TEST_F(OptionListTest, NameThePlaceTheValueAndTheNearestWord) {
             path + ":2: mass=heavy: expected a number from 20 to 300 kg");
 }
 
-TEST_F(OptionListTest, OfAFileThatCannotBeReadNameFileAndLine) {
+TEST_F(OptionListTest, ReportsFileAndLineOfAnUnreadableFile) {
   EXPECT_THAT(ErrorOf([] { YamlOptions("/nowhere.yaml"); }), HasSubstr("/nowhere.yaml: "));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("- 1\n- 2\n")); }), HasSubstr("expected lines of"));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\nloop: [\n")); }),

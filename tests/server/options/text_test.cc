@@ -23,7 +23,7 @@ TEST(SplitItems, SeparatesAtSemicolonsAndAtCommasBeforeNames) {
   EXPECT_THAT(SplitItems("a,,b,"), ElementsAre("a", "", "b", ""));
 }
 
-TEST(ParseNumber, TakesFiniteNumbersAndNothingElse) {
+TEST(ParseNumber, AcceptsOnlyFiniteNumbers) {
   EXPECT_EQ(ParseNumber("1"), 1);
   EXPECT_EQ(ParseNumber("+2.5"), 2.5);
   EXPECT_EQ(ParseNumber("-.5e1"), -5);
@@ -33,14 +33,14 @@ TEST(ParseNumber, TakesFiniteNumbersAndNothingElse) {
   }
 }
 
-TEST(ParseNumber, ReadsBackEveryNumberThatIsPrinted) {
+TEST(ParseNumber, AcceptsEveryPrintedNumber) {
   for (const double number :
        {0.0, 0.1, 1.0 / 3, 1e-300, 1e300, -123456789.125, std::numeric_limits<double>::min()}) {
     EXPECT_EQ(ParseNumber(NumberText(number)), number);
   }
 }
 
-TEST(ParseNumbers, WantsANumberBetweenAnyTwoCommas) {
+TEST(ParseNumbers, RequiresANumberBetweenCommas) {
   EXPECT_THAT(*ParseNumbers("1, -2.5,3e2"), ElementsAre(1, -2.5, 300));
   for (const char* bad : {"", "1,", ",1", "1,,2", "1;2", "1,x"})
     EXPECT_FALSE(ParseNumbers(bad)) << bad;

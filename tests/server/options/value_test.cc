@@ -17,7 +17,7 @@ std::string Reason(Value& value, const std::string& text) {
   return "";
 }
 
-TEST(Value, IsAsBeforeAfterATextThatItRejects) {
+TEST(Value, IsUnchangedAfterARejectedText) {
   Number number(3, {0, 10, "s"});
   EXPECT_EQ(Reason(number, "11"), "expected a number from 0 to 10 s");
   EXPECT_EQ(*number, 3);
@@ -32,7 +32,7 @@ TEST(Value, IsAsBeforeAfterATextThatItRejects) {
   EXPECT_EQ(size.ToText(), "640x360");
 }
 
-TEST(Value, PrintsWhatItReads) {
+TEST(Value, PrintsTheTextThatItReads) {
   Size size({16, 16});
   size.Parse("1280x720");
   EXPECT_EQ(size.ToText(), "1280x720");
@@ -47,7 +47,7 @@ TEST(Value, PrintsWhatItReads) {
   EXPECT_THAT(*again, ElementsAre("a", "b"));
 }
 
-TEST(Number, ToldWithItsUnitAndItsOpenEnd) {
+TEST(Number, IsDescribedWithItsUnitAndItsOpenRange) {
   Number above(1, {0, 60, "s", true});
   EXPECT_EQ(Reason(above, "0"), "expected a number above 0, at most 60 s");
   EXPECT_EQ(Reason(above, "60"), "");
@@ -66,7 +66,7 @@ TEST(Optional, IsNotGivenBeforeItIsSet) {
   EXPECT_EQ(*value, 2);
 }
 
-TEST(List, HasAsManyItemsAsItMay) {
+TEST(List, HasAtMostTheAllowedNumberOfItems) {
   List<int> digits("digits", 2, [](const std::string& item) {
     if (item.size() != 1) throw BadValue("expected a digit");
     return item[0] - '0';

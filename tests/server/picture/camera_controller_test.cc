@@ -55,7 +55,7 @@ TEST(CameraController, FollowsWithTheSameLagAtAnyRate) {
   EXPECT_NEAR(x_after_a_second(1) - start, 2, 1e-9) << "no lag at all";
 }
 
-TEST(CameraController, AFreeCameraStandsStillOrGoesAlong) {
+TEST(CameraController, KeepsACameraGivenByCoordinatesFixedOrFollowsThePerson) {
   CameraOptions options;
   options.fov = 40.0;
   CameraController still(ParseCamera("3,-2,1.5:0,0,1"), options);
@@ -70,7 +70,7 @@ TEST(CameraController, AFreeCameraStandsStillOrGoesAlong) {
   EXPECT_NEAR((along.Aim(SceneAt(1, 2), kAspect).position - Vector3d(5, -2, 1.5)).norm(), 0, 1e-9);
 }
 
-TEST(CameraController, TurnsOnceOverAClip) {
+TEST(CameraController, MakesOneRevolutionPerClip) {
   CameraOptions options;
   options.orbit.Parse("turn");
   CameraController controller(ParseCamera("front"), options);
@@ -85,7 +85,7 @@ TEST(CameraController, TurnsOnceOverAClip) {
   EXPECT_NEAR((last.position - first.position).norm(), 0, 1e-9);
 }
 
-TEST(CameraController, FramesAllThatIsThereOverTheClipAndStandsStill) {
+TEST(CameraController, FramesTheWholeClipWithAFixedCamera) {
   CameraOptions options;
   options.fit = Fit::kClip;
   CameraController controller(ParseCamera("left"), options);
@@ -101,7 +101,7 @@ TEST(CameraController, FramesAllThatIsThereOverTheClipAndStandsStill) {
   }
 }
 
-TEST(CameraController, KeysMayNameCamerasThatFindThePerson) {
+TEST(CameraController, AcceptsNamedCamerasInKeyframes) {
   const kinescope::testing::TempFolder folder;
   const std::string path = folder.path() / "keys.yaml";
   std::ofstream(path) << "keys:\n"
@@ -120,7 +120,7 @@ TEST(CameraController, KeysMayNameCamerasThatFindThePerson) {
   EXPECT_EQ(controller.name(), "keys.yaml");
 }
 
-TEST(CameraController, AWrongKeyIsNamedWithFileAndLine) {
+TEST(CameraController, ReportsFileAndLineOfAnInvalidKeyframe) {
   const kinescope::testing::TempFolder folder;
   const std::string path = folder.path() / "keys.yaml";
   const auto complaint = [&](const std::string& keys) {
@@ -144,7 +144,7 @@ TEST(CameraController, AWrongKeyIsNamedWithFileAndLine) {
   EXPECT_THAT(Complaint(folder.path() / "none.yaml"), HasSubstr("none.yaml"));
 }
 
-TEST(CameraController, RefusesWhatMakesNoSense) {
+TEST(CameraController, RejectsInvalidCameraOptions) {
   EXPECT_THAT(Complaint("1,2,3:1,2"), HasSubstr("X,Y,Z"));
   EXPECT_THAT(Complaint("1,2,3:1,2,nan"), HasSubstr("X,Y,Z"));
   EXPECT_THAT(Complaint("1,2,3:1,2,3"), HasSubstr("position that differs from the target"));

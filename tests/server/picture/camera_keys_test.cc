@@ -42,7 +42,7 @@ class CameraKeys : public ::testing::Test {
   const std::string path_ = (folder_ / "keys.yaml").string();
 };
 
-TEST_F(CameraKeys, HaveEveryFieldThatTheFileHas) {
+TEST_F(CameraKeys, HaveEveryFieldOfTheFile) {
   const auto keys = Read(
       "keys:\n"
       "- {time: 0, camera: front}\n"
@@ -68,7 +68,7 @@ TEST_F(CameraKeys, HaveEveryFieldThatTheFileHas) {
   EXPECT_EQ(keys[3].place.vertical_fov_rad, render::Camera().vertical_fov_rad);
 }
 
-TEST_F(CameraKeys, AreRefusedWithFileAndLineOutsideTheLimits) {
+TEST_F(CameraKeys, AreRejectedWithFileAndLineOutsideTheLimits) {
   for (const char* time : {"-1", "1e7", ".inf", "soon", "[1]"}) {
     EXPECT_THAT(
         ErrorOf("- {time: 0, camera: top}\n- {time: " + std::string(time) + "}\n"),
@@ -90,7 +90,7 @@ TEST_F(CameraKeys, AreRefusedWithFileAndLineOutsideTheLimits) {
   EXPECT_THAT(ErrorOf("- front\n"), HasSubstr("line 2: expected a keyframe"));
 }
 
-TEST_F(CameraKeys, ComeInTheOrderOfTheirTimes) {
+TEST_F(CameraKeys, MustBeInTheOrderOfTheirTimes) {
   const std::string first = "- {time: 2, camera: top}\n";
   for (const char* time : {"2", "1.999", "0"}) {
     EXPECT_THAT(ErrorOf(first + "- {time: " + time + ", camera: top}\n"),
@@ -99,7 +99,7 @@ TEST_F(CameraKeys, ComeInTheOrderOfTheirTimes) {
   EXPECT_EQ(ErrorOf(first + "- {time: 2.001, camera: top}\n"), "");
 }
 
-TEST_F(CameraKeys, AFileThatHasNoneSaysWhatWasExpected) {
+TEST_F(CameraKeys, AreReportedAsMissingWithTheExpectedFormat) {
   for (const char* text : {"", "keys:\n", "keys: []\n", "keys: front\n", "front\n", "- 1\n",
                            "keys: [{time: 0, camera: top}]\nfps: 30\n"}) {
     EXPECT_THAT(ErrorOfText(text), AllOf(HasSubstr(path_), HasSubstr("'keys:'"))) << text;
@@ -107,7 +107,7 @@ TEST_F(CameraKeys, AFileThatHasNoneSaysWhatWasExpected) {
   EXPECT_THAT(ErrorOfText("keys:\n- {time: 0\n- }"), HasSubstr(path_ + ": line "));
 }
 
-TEST_F(CameraKeys, AreNoMoreThanAThousandInAMegabyte) {
+TEST_F(CameraKeys, AreLimitedToAThousandInAMegabyte) {
   std::string keys;
   for (int i = 0; i < 1000; ++i) keys += "- {time: " + std::to_string(i) + ", camera: top}\n";
   EXPECT_EQ(ErrorOf(keys), "");
@@ -116,12 +116,12 @@ TEST_F(CameraKeys, AreNoMoreThanAThousandInAMegabyte) {
   EXPECT_THAT(ErrorOfText(std::string((1 << 20) + 1, '#')), HasSubstr("at most 1048576"));
 }
 
-TEST_F(CameraKeys, NameAFileThatCannotBeRead) {
+TEST_F(CameraKeys, AreRejectedFromAnUnreadableFile) {
   EXPECT_THROW(ReadCameraKeys(folder_ / "none.yaml"), UsageError);
   EXPECT_THROW(ReadCameraKeys(folder_.path()), UsageError);
 }
 
-TEST(ParsePoint, TakesThreeNumbersAndNothingElse) {
+TEST(ParsePoint, AcceptsOnlyThreeNumbers) {
   EXPECT_EQ(ParsePoint("1,-2.5,3e2"), Vector3d(1, -2.5, 300));
   EXPECT_EQ(ParsePoint("-1000,1000,0"), Vector3d(-1000, 1000, 0));
   for (const char* bad : {"", "1", "1,2", "1,2,3,4", "1,2,", ",,", "a,b,c", "1,2,nan", "1,2,inf",
@@ -130,7 +130,7 @@ TEST(ParsePoint, TakesThreeNumbersAndNothingElse) {
   }
 }
 
-TEST(CameraFromTo, SeesWhatItLooksAtNearAndFar) {
+TEST(CameraFromTo, HasClippingPlanesBeforeAndBehindItsTarget) {
   for (const double distance : {0.01, 1.0, 10.0, 1000.0}) {
     const auto camera = CameraFromTo({distance, 0, 0}, Vector3d::Zero());
     ASSERT_TRUE(camera);

@@ -187,7 +187,7 @@ std::string ErrorOf(std::future<render::Image>& picture) {
   return "";
 }
 
-TEST(DrawingLoop, DrawsTheLivePictureOnlyForViewersAndOfTheNewestState) {
+TEST(DrawingLoop, RendersTheNewestStateOnlyForViewers) {
   Studio studio;
   for (const int secs : {1, 2, 3}) studio.loop().OnState(StateAt(secs));
   studio.TakeOne();
@@ -207,7 +207,7 @@ TEST(DrawingLoop, DrawsTheLivePictureOnlyForViewersAndOfTheNewestState) {
   EXPECT_EQ(studio.loop().status().drawn, 5u);
 }
 
-TEST(DrawingLoop, NoTwoLivePicturesAreCloserThanThePeriodAfterAPause) {
+TEST(DrawingLoop, KeepsThePeriodBetweenLivePicturesAfterAPause) {
   Studio studio;
   studio.loop().SetViewers(1);
   EXPECT_THAT(studio.Live(1), ElementsAre(0));
@@ -223,7 +223,7 @@ TEST(DrawingLoop, NoTwoLivePicturesAreCloserThanThePeriodAfterAPause) {
   EXPECT_THAT(studio.Live(3), ElementsAre(0, 1, 2));
 }
 
-TEST(DrawingLoop, ALatePictureDoesNotBringTheNextOneForward) {
+TEST(DrawingLoop, KeepsThePeriodAfterALatePicture) {
   Studio studio;
   studio.loop().SetViewers(1);
   EXPECT_THAT(studio.Live(1), ElementsAre(0));
@@ -238,7 +238,7 @@ TEST(DrawingLoop, ALatePictureDoesNotBringTheNextOneForward) {
   EXPECT_THAT(studio.Live(3), ElementsAre(0, 1, 2));
 }
 
-TEST(DrawingLoop, NeitherViewersNorCamerasRaiseTheRateAndRequestsDoNotWaitForIt) {
+TEST(DrawingLoop, LimitsTheRateOfLivePicturesButNotOfRequests) {
   Studio studio;
   studio.loop().SetViewers(1);
   studio.Live(1);
@@ -248,7 +248,7 @@ TEST(DrawingLoop, NeitherViewersNorCamerasRaiseTheRateAndRequestsDoNotWaitForIt)
   EXPECT_EQ(studio.loop().status().drawn, 3u);
 }
 
-TEST(DrawingLoop, AnotherCameraIsAnotherLivePictureOfTheSameState) {
+TEST(DrawingLoop, RendersTheSameStateAgainForAnotherCamera) {
   Studio studio;
   studio.loop().SetViewers(1);
   studio.Live(1);
@@ -260,7 +260,7 @@ TEST(DrawingLoop, AnotherCameraIsAnotherLivePictureOfTheSameState) {
   EXPECT_EQ(studio.TakeOne(), Vector3d(9, 8, 7));
 }
 
-TEST(DrawingLoop, KeyframesRunFromTheFirstSampleAlsoWhileNothingIsDrawn) {
+TEST(DrawingLoop, RunsKeyframesFromTheFirstSampleEvenWithoutViewers) {
   const testing::TempFolder folder;
   const std::string path = folder / "keys.yaml";
   std::ofstream(path) << "keys:\n"
@@ -275,7 +275,7 @@ TEST(DrawingLoop, KeyframesRunFromTheFirstSampleAlsoWhileNothingIsDrawn) {
   EXPECT_NEAR((studio.TakeOne() - Vector3d(8, -4, 1)).norm(), 0, 1e-9);
 }
 
-TEST(DrawingLoop, ASelectedCameraStartsToTurnWhenItIsSelected) {
+TEST(DrawingLoop, StartsTheRotationOfACameraWhenItIsSelected) {
   CameraOptions options;
   options.orbit.Parse("9");
   Studio studio;
@@ -285,7 +285,7 @@ TEST(DrawingLoop, ASelectedCameraStartsToTurnWhenItIsSelected) {
   EXPECT_NEAR((studio.TakeOne() - Vector3d(0, 2, 1)).norm(), 0, 1e-9);
 }
 
-TEST(DrawingLoop, SixteenRequestsMayWaitAndNoMore) {
+TEST(DrawingLoop, RejectsMoreThanSixteenWaitingRequests) {
   Studio studio;
   studio.Hold(false);
   std::vector<std::future<render::Image>> pictures;
@@ -304,7 +304,7 @@ TEST(DrawingLoop, SixteenRequestsMayWaitAndNoMore) {
 }
 
 // With a picture or with the reason: which of them depends on when the end is noticed.
-TEST(DrawingLoop, RequestsThatWaitAtTheEndAreAnswered) {
+TEST(DrawingLoop, AnswersWaitingRequestsAtItsEnd) {
   std::future<render::Image> waiting;
   {
     Studio studio;
@@ -321,7 +321,7 @@ TEST(DrawingLoop, RequestsThatWaitAtTheEndAreAnswered) {
   EXPECT_TRUE(error.empty() || error == "the server is shutting down") << error;
 }
 
-TEST(DrawingLoop, ARendererThatDoesNotStartIsReportedAndTriedAgain) {
+TEST(DrawingLoop, ReportsARendererThatDoesNotStartAndTriesAgain) {
   const testing::CapturedLog log;
   Studio studio;
   studio.FailToStartOnce();
@@ -338,7 +338,7 @@ TEST(DrawingLoop, ARendererThatDoesNotStartIsReportedAndTriedAgain) {
   EXPECT_EQ(log.text(), "error: picture: no back-end starts\n");
 }
 
-TEST(DrawingLoop, NamesTheRendererAndWhatItsPicturesLack) {
+TEST(DrawingLoop, NamesTheRendererAndTheProblemsOfItsPictures) {
   Studio studio;
   EXPECT_EQ(studio.loop().status().renderer.backend, "");
   EXPECT_THAT(studio.loop().status().problems, IsEmpty());
@@ -348,7 +348,7 @@ TEST(DrawingLoop, NamesTheRendererAndWhatItsPicturesLack) {
   EXPECT_THAT(studio.loop().status().problems, ElementsAre("a mesh is missing"));
 }
 
-TEST(DrawingLoop, ADriverThatHangsAnswersAllRequestsAndIsForgivenWhenItComesBack) {
+TEST(DrawingLoop, AnswersAllRequestsWhileTheDriverDoesNotRespond) {
   const testing::CapturedLog log;
   Studio studio;
   studio.TakeOne();
@@ -370,7 +370,7 @@ TEST(DrawingLoop, ADriverThatHangsAnswersAllRequestsAndIsForgivenWhenItComesBack
                             "\nwarning: picture: the graphics driver responds again\n");
 }
 
-TEST(DrawingLoop, TheSameHoldsForTheLivePicture) {
+TEST(DrawingLoop, ReportsADriverThatDoesNotRespondForTheLivePicture) {
   const testing::CapturedLog log;
   Studio studio;
   studio.Hold(true);
@@ -387,7 +387,7 @@ TEST(DrawingLoop, TheSameHoldsForTheLivePicture) {
 }
 
 // The drawing thread cannot be joined; the process ends all the same.
-TEST(DrawingLoopDeathTest, ShutdownAfterAHangEndsTheProcess) {
+TEST(DrawingLoopDeathTest, EndsTheProcessAtShutdownIfTheDriverDoesNotRespond) {
   const auto shut_down_during = [](bool live) {
     alarm(20);  // only a failure takes so long
     Studio studio;

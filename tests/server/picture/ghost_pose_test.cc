@@ -43,9 +43,9 @@ double LowestOfFeet(const PersonState& person) {
   return lowest;
 }
 
-TEST(GhostPose, IsNoneUnlessAskedFor) { EXPECT_THAT(GhostsOf("", 0.5, BentScene()), IsEmpty()); }
+TEST(GhostPose, IsAbsentByDefault) { EXPECT_THAT(GhostsOf("", 0.5, BentScene()), IsEmpty()); }
 
-TEST(GhostPose, StandsUprightOnTheFloorWhereThePelvisIs) {
+TEST(GhostPose, StandsUprightOnTheFloorBelowThePelvis) {
   const SceneState scene = BentScene();
   for (const char* pose : {"n_pose", "t_pose"}) {
     const auto ghosts = GhostsOf(pose, 0.35, scene);
@@ -60,7 +60,7 @@ TEST(GhostPose, StandsUprightOnTheFloorWhereThePelvisIs) {
   }
 }
 
-TEST(GhostPose, ArmsHangInTheNPoseAndAreOutInTheTPose) {
+TEST(GhostPose, HasArmsDownInTheNPoseAndSidewaysInTheTPose) {
   const auto hand_from_shoulder = [](const char* pose, int hand, int upper_arm) -> Vector3d {
     const PersonState ghost = GhostsOf(pose, 1, BentScene()).at(0).person;
     return ghost.links[urdf::At(hand)].position - ghost.links[urdf::At(upper_arm)].position;
@@ -76,7 +76,7 @@ TEST(GhostPose, ArmsHangInTheNPoseAndAreOutInTheTPose) {
   EXPECT_GT(left.y(), 0.99);
 }
 
-TEST(GhostPose, FacesAsThePersonDoes) {
+TEST(GhostPose, HasTheHeadingOfThePerson) {
   SceneState scene = BentScene();
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(2, Vector3d::UnitZ()));
   for (urdf::Pose& link : scene.people[0].links) {
@@ -88,7 +88,7 @@ TEST(GhostPose, FacesAsThePersonDoes) {
   EXPECT_NEAR((ahead - turn * Vector3d::UnitX()).norm(), 0, 1e-9);
 }
 
-TEST(GhostPose, TakesGlovesAndPropsAlong) {
+TEST(GhostPose, IncludesGlovesAndProps) {
   SceneState scene = BentScene();
   testing::Wear(scene.people[0]);
   const PersonState& person = scene.people[0];
@@ -105,7 +105,7 @@ TEST(GhostPose, TakesGlovesAndPropsAlong) {
   }
 }
 
-TEST(GhostPose, EverybodyHasOne) {
+TEST(GhostPose, ExistsForEveryPerson) {
   SceneState scene = BentScene();
   scene.people.push_back(scene.people[0]);
   EXPECT_THAT(GhostsOf("t_pose", 1, scene), SizeIs(2));
@@ -113,7 +113,7 @@ TEST(GhostPose, EverybodyHasOne) {
   EXPECT_THAT(GhostsOf("t_pose", 1, scene), IsEmpty());
 }
 
-TEST(GhostPose, AMomentOfARecordingIsThatMoment) {
+TEST(GhostPose, ShowsTheGivenTimeOfARecording) {
   SceneReader reader("demo:lift", {});
   SceneTimeline timeline(reader);
   const auto then = timeline.At(0.5);

@@ -21,7 +21,7 @@ Vector3d ToVector(const nlohmann::json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
-TEST(NamedViews, AreThoseThatThePageIsTestedAgainst) {
+TEST(NamedViews, MatchTheViewsThatThePageTestsUse) {
   std::ifstream file(kSource + "/tests/browser/unit/named_views.json");
   ASSERT_TRUE(file);
   const nlohmann::json page = nlohmann::json::parse(file);
@@ -46,7 +46,7 @@ TEST(NamedViews, AreThoseThatThePageIsTestedAgainst) {
 
 // RViz's orbit: perspective with a field of view of 45 degrees, about a point that goes with the
 // target frame but does not turn with it.
-TEST(NamedViews, AreSavedInTheRvizConfiguration) {
+TEST(NamedViews, AreContainedInTheRvizConfiguration) {
   const YAML::Node saved =
       YAML::LoadFile(kSource + "/launch/kinescope.rviz")["Visualization Manager"]["Views"]["Saved"];
   const SceneState standing = kinescope::testing::SceneWith(kinescope::testing::Posture::kStanding);

@@ -9,7 +9,7 @@ namespace {
 
 // K and the frame that go out put every point of the world where the renderer draws it: pixel 0 has
 // its centre at 0 for ROS and half a pixel from the edge for us.
-TEST(Pinhole, SeesWhatTheCameraSees) {
+TEST(Pinhole, ProjectsPointsLikeTheCamera) {
   constexpr int kWidth = 640, kHeight = 360;
   for (const std::string& name : render::CameraNames()) {
     const render::Camera camera = render::NamedCamera(name, SceneState());

@@ -29,7 +29,7 @@ std::vector<SceneState> Scenes(const char* url, int count) {
   return scenes;
 }
 
-TEST(RenderPlanner, ATrailIsTheLastSecondsOfWhatWasAskedFor) {
+TEST(RenderPlanner, GivesTrailsTheRequestedPointsAndTime) {
   const auto options =
       testing::With<ViewOptions>({{"trail", "com,RightHand"}, {"trail_secs", "0.5"}});
   RenderPlanner planner(options);
@@ -50,7 +50,7 @@ TEST(RenderPlanner, ATrailIsTheLastSecondsOfWhatWasAskedFor) {
   EXPECT_TRUE(planner.Next(scenes[0]).spec.look.trails.empty());
 }
 
-TEST(RenderPlanner, APictureAloneHasTheTrailOfAClip) {
+TEST(RenderPlanner, GivesASinglePictureTheTrailOfAClip) {
   const auto options = testing::With<ViewOptions>({{"trail", "left_hand"}, {"trail_secs", "1"}});
   SceneReader reader("demo:walk", SceneOptions());
   SceneTimeline timeline(reader);
@@ -61,7 +61,7 @@ TEST(RenderPlanner, APictureAloneHasTheTrailOfAClip) {
   EXPECT_EQ(request.spec.look.trails[0].points.size(), 61u) << "60 a second and now";
 }
 
-TEST(RenderPlanner, AGhostStandsOnTheFloorWhereThePersonIs) {
+TEST(RenderPlanner, PutsAReferencePoseOnTheFloorAtThePerson) {
   for (const char* pose : {"n_pose", "t_pose"}) {
     const auto options = testing::With<ViewOptions>({{"ghost", pose}, {"ghost_opacity", "0.2"}});
     RenderPlanner planner(options);
@@ -85,7 +85,7 @@ TEST(RenderPlanner, AGhostStandsOnTheFloorWhereThePersonIs) {
   }
 }
 
-TEST(RenderPlanner, AGhostOfARecordingIsWhereItWas) {
+TEST(RenderPlanner, PutsAReferencePoseOfARecordingAtItsRecordedPlace) {
   const auto options = testing::With<ViewOptions>({{"ghost", "demo:lift@1.5"}});
   RenderPlanner planner(options);
   const std::vector<SceneState> scenes = Scenes("demo:lift", 16);
@@ -94,7 +94,7 @@ TEST(RenderPlanner, AGhostOfARecordingIsWhereItWas) {
             scenes[15].people[0].links[urdf::kHead].position);
 }
 
-TEST(RenderPlanner, AGhostsTimeIsOneThatARecordingCanHave) {
+TEST(RenderPlanner, RejectsAnInvalidTimeOfAReferencePose) {
   for (const std::string secs : {"-1", "864001", "1e9", "1e300", "inf", "nan"}) {
     EXPECT_THAT(testing::ErrorOfSetting<ViewOptions>("ghost", "demo:lift@" + secs),
                 HasSubstr("0 to 864000 s"));
@@ -102,7 +102,7 @@ TEST(RenderPlanner, AGhostsTimeIsOneThatARecordingCanHave) {
 }
 
 // In a process of its own, whose flag stays set and which ends if it reads on.
-TEST(ShotsDeathTest, CtrlCEndsTheReadingForAGhost) {
+TEST(ShotsDeathTest, EndOnCtrlCWhileReadingAReferencePose) {
   const auto options = testing::With<ViewOptions>({{"ghost", "demo:lift@864000"}});
   const auto read = [&] {
     alarm(20);
@@ -119,7 +119,7 @@ TEST(ShotsDeathTest, CtrlCEndsTheReadingForAGhost) {
   EXPECT_EXIT(read(), ::testing::ExitedWithCode(2), "interrupted while reading demo:lift");
 }
 
-TEST(RenderPlanner, RobotsStandOnTheFloorWhereTheyWerePut) {
+TEST(RenderPlanner, PutsRobotsOnTheFloorAtTheirGivenPlaces) {
   const testing::TempFolder folder;
   const std::string file = (folder / "arm@home.urdf").string();
   std::ofstream(file)

@@ -32,7 +32,7 @@ void RememberTenths(Trails& trails, int from, int to) {
   for (int i = from; i <= to; ++i) trails.Remember(SceneOnItsWay(0.1 * i));
 }
 
-TEST(Trails, AreAsLongAsTheyAreToBeAndEndWhereThePersonIs) {
+TEST(Trails, HaveTheGivenLengthAndEndAtThePerson) {
   Trails trails({-1}, 1);
   RememberTenths(trails, 0, 30);
   const auto made = trails.Make();
@@ -42,14 +42,14 @@ TEST(Trails, AreAsLongAsTheyAreToBeAndEndWhereThePersonIs) {
   EXPECT_NEAR(made[0].points.back().x(), 3, 1e-9);
 }
 
-TEST(Trails, OfOnePointAreNone) {
+TEST(Trails, NeedMoreThanOnePoint) {
   Trails trails({-1}, 1);
   EXPECT_THAT(trails.Make(), IsEmpty());
   trails.Remember(SceneOnItsWay(0));
   EXPECT_THAT(trails.Make(), IsEmpty());
 }
 
-TEST(Trails, SegmentsGoByEitherOfTheirNames) {
+TEST(Trails, AcceptBothNamesOfASegment) {
   Trails trails(*testing::With<ViewOptions>({{"trail", "com,RightHand,left_hand"}}).trail, 1);
   EXPECT_FALSE(trails.empty());
   RememberTenths(trails, 0, 3);
@@ -63,14 +63,14 @@ TEST(Trails, SegmentsGoByEitherOfTheirNames) {
   EXPECT_NE(made[0].color, made[1].color);
 }
 
-TEST(Trails, WithoutNamesThereAreNone) {
+TEST(Trails, AreAbsentWithoutNames) {
   Trails trails({}, 1);
   EXPECT_TRUE(trails.empty());
   RememberTenths(trails, 0, 3);
   EXPECT_THAT(trails.Make(), IsEmpty());
 }
 
-TEST(Trails, AGapInTheCentreOfMassIsNoStraightLine) {
+TEST(Trails, StartAgainAfterAGapOfTheCentreOfMass) {
   Trails trails({-1, urdf::kPelvis}, 10);
   RememberTenths(trails, 0, 5);
   SceneState without = SceneOnItsWay(0.6);
@@ -83,7 +83,7 @@ TEST(Trails, AGapInTheCentreOfMassIsNoStraightLine) {
   EXPECT_THAT(made[1].points, SizeIs(10)) << "the pelvis was always there";
 }
 
-TEST(Trails, WhoHasGoneHasNoneAndStartsAfresh) {
+TEST(Trails, AreRemovedWithThePersonAndStartAgain) {
   Trails trails({urdf::kPelvis}, 10);
   RememberTenths(trails, 0, 5);
   SceneState empty = SceneOnItsWay(0.6);
@@ -95,7 +95,7 @@ TEST(Trails, WhoHasGoneHasNoneAndStartsAfresh) {
   EXPECT_THAT(trails.Make()[0].points, SizeIs(2));
 }
 
-TEST(Trails, EveryPersonHasTheirOwn) {
+TEST(Trails, AreSeparateForEveryPerson) {
   Trails trails({urdf::kPelvis}, 10);
   for (int i = 0; i < 3; ++i) {
     SceneState scene = SceneOnItsWay(0.1 * i);
@@ -109,7 +109,7 @@ TEST(Trails, EveryPersonHasTheirOwn) {
   EXPECT_NEAR(made[1].points.front().x(), 5, 1e-9);
 }
 
-TEST(Trails, ARecordingThatStartsOverForgetsWhatComesLater) {
+TEST(Trails, LoseTheirLaterPointsWhenARecordingStartsAgain) {
   Trails trails({urdf::kPelvis}, 10);
   RememberTenths(trails, 0, 10);
   RememberTenths(trails, 3, 4);
@@ -119,14 +119,14 @@ TEST(Trails, ARecordingThatStartsOverForgetsWhatComesLater) {
   EXPECT_NEAR(made[0].points.back().x(), 0.4, 1e-9);
 }
 
-TEST(Trails, TheSameSceneTwiceIsOnePoint) {
+TEST(Trails, HaveOnePointForARepeatedScene) {
   Trails trails({urdf::kPelvis}, 10);
   RememberTenths(trails, 0, 2);
   RememberTenths(trails, 2, 2);
   EXPECT_THAT(trails.Make().at(0).points, SizeIs(3));
 }
 
-TEST(Trails, AStreamThatStoppedAddsNothing) {
+TEST(Trails, DoNotGrowAfterTheStreamStopped) {
   Trails trails({urdf::kPelvis}, 1);
   RememberTenths(trails, 0, 2);
   SceneState stale = SceneOnItsWay(0.3);

@@ -29,7 +29,7 @@ std::string Error(const std::string& name, const std::string& text) {
   return testing::ErrorOfSetting<ViewOptions>(name, text);
 }
 
-TEST(ViewOptions, OverlaysAreAListOrChangesOfTheUsualOnes) {
+TEST(ViewOptions, AcceptAListOfOverlaysOrChangesOfTheDefault) {
   EXPECT_TRUE(Overlays("").legend);
   EXPECT_FALSE(Overlays("").frame_code);
   EXPECT_FALSE(Overlays("time,scale").legend);
@@ -43,7 +43,7 @@ TEST(ViewOptions, OverlaysAreAListOrChangesOfTheUsualOnes) {
   EXPECT_THAT(Error("overlay", "time,"), HasSubstr("unknown ''"));
 }
 
-TEST(ViewOptions, ViewsAreRowsOfCameras) {
+TEST(ViewOptions, AcceptRowsOfCamerasAsViews) {
   EXPECT_TRUE(Grid("").cameras.empty());
   EXPECT_EQ(Grid("front,left,top/camera").columns, 3);
   EXPECT_THAT(Grid("2x2").cameras, ElementsAre("front", "right", "top", "three_quarter"));
@@ -52,7 +52,7 @@ TEST(ViewOptions, ViewsAreRowsOfCameras) {
   EXPECT_THAT(Error("views", "front,nowhere"), HasSubstr("front, back"));
 }
 
-TEST(ViewOptions, APlotIsOfJointsThatHaveALoad) {
+TEST(ViewOptions, AcceptOnlyJointsWithALoadForPlots) {
   EXPECT_THAT(*testing::With<ViewOptions>({{"plot", "l5_s1,right_elbow"}}).plot,
               ElementsAre(urdf::jL5S1, urdf::jRightElbow));
   EXPECT_THAT(Error("plot", "right_toe"), HasSubstr("right_knee"));
@@ -62,7 +62,7 @@ TEST(ViewOptions, APlotIsOfJointsThatHaveALoad) {
   EXPECT_FALSE(ToPictureSpec(hidden).parts.plot);
 }
 
-TEST(ViewOptions, NamesAreRejectedWithTheNearest) {
+TEST(ViewOptions, RejectUnknownNamesWithTheNearestOne) {
   EXPECT_THAT(Error("theme", "drak"), HasSubstr("expected light or dark; nearest: dark"));
   EXPECT_THAT(Error("background", "#12345"), HasSubstr("#RRGGBB"));
   EXPECT_THAT(Error("floor", "maybe"), HasSubstr("--floor=maybe: expected on or off"));
@@ -83,7 +83,7 @@ TEST(ViewOptions, NamesAreRejectedWithTheNearest) {
   EXPECT_THAT(Error("camera", "fron"), HasSubstr("nearest: front"));
 }
 
-TEST(ViewOptions, FilesAreThoseThatDecideThePicture) {
+TEST(ViewOptions, ListTheFilesThatDetermineThePicture) {
   const kinescope::testing::TempFolder folder;
   std::ofstream(folder / "box.obj") << "mtllib box.mtl\n";
   std::ofstream(folder / "box.mtl") << "newmtl a\n";
@@ -107,7 +107,7 @@ SceneState SceneAt(double secs, double ratio) {
   return state;
 }
 
-TEST(RenderPlanner, APlotShowsTheWholeClipThatWasPrescannedAndElseTheNewestSeconds) {
+TEST(RenderPlanner, PlotsTheWholeClipAfterAFirstPassOrTheNewestSeconds) {
   const auto options = testing::With<ViewOptions>({{"plot", "l5_s1"}});
   RenderPlanner prescanned(options), growing(options);
   for (int k = 0; k <= 40; ++k) prescanned.Prescan(SceneAt(0.5 * k, 0.01 * k));

@@ -39,7 +39,7 @@ geometry_msgs::WrenchStamped Wrench(const Vector3d& force, const Vector3d& momen
   return message;
 }
 
-TEST(GroundForce, ActsWhereItsLineMeetsTheFloorWhateverThePlatesFrame) {
+TEST(GroundForce, ActsWhereItsLineMeetsTheFloorInAnyPlateFrame) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> number(-1, 1);
   const auto vector = [&] { return Vector3d(number(random), number(random), number(random)); };
@@ -62,7 +62,7 @@ TEST(GroundForce, ActsWhereItsLineMeetsTheFloorWhateverThePlatesFrame) {
   }
 }
 
-TEST(GroundForce, WithoutAHorizontalPartIsOfAOneAxisPlate) {
+TEST(GroundForce, IsVerticalOnlyForAOneAxisPlate) {
   const BodyNow body = Body();
   const auto ground = ToGroundForce(Wrench({0, 0, 700}, {0, 0, 0}),
                                     {{{0.3, -0.2, 0}, Quaterniond::Identity()}, false}, body);
@@ -70,14 +70,14 @@ TEST(GroundForce, WithoutAHorizontalPartIsOfAOneAxisPlate) {
   EXPECT_TRUE(ground->only_vertical);
 }
 
-TEST(GroundForce, BelowANoiseIsNone) {
+TEST(GroundForce, IsZeroBelowTheNoiseLevel) {
   const auto ground = ToGroundForce(Wrench({0, 0, 15}, {8, 8, 0}),
                                     {{{0.3, -0.2, 0}, Quaterniond::Identity()}, false}, Body());
   ASSERT_TRUE(ground);
   EXPECT_EQ(ground->force, Vector3d(Vector3d::Zero()));
 }
 
-TEST(GroundForce, ThatCannotBeIsRefusedWithItsValues) {
+TEST(GroundForce, IsRejectedWithItsValuesIfImpossible) {
   const FoundFrame frame{{{0.3, -0.2, 0}, Quaterniond::Identity()}, false};
   const struct {
     geometry_msgs::WrenchStamped message;
@@ -98,7 +98,7 @@ TEST(GroundForce, ThatCannotBeIsRefusedWithItsValues) {
   }
 }
 
-TEST(HandForce, ActsAtTheSensorOrWhereNoSensorSitsAtTheGrip) {
+TEST(HandForce, ActsAtTheSensorOrAtTheGrip) {
   const BodyNow body = Body();
   const urdf::Pose& hand = body.links[urdf::kRightHand];
   const Vector3d pull(10, -20, 30);
@@ -118,7 +118,7 @@ TEST(HandForce, ActsAtTheSensorOrWhereNoSensorSitsAtTheGrip) {
 }
 
 // What our own joint_states say comes back as the moments that they were made of.
-TEST(ExternalEfforts, OfOurOwnNamesGiveTheMomentBack) {
+TEST(ExternalEfforts, RestoreTheMomentsUnderOwnJointNames) {
   const PersonState person = Person();
   sensor_msgs::JointState message;
   FillComputedJointStates(person, PersonNames("skeleton"), message);
@@ -139,7 +139,7 @@ TEST(ExternalEfforts, OfOurOwnNamesGiveTheMomentBack) {
 
 // Torques about x, then y, then z between T-pose frames, as human-gazebo's models chain them:
 // virtual work by differences of orientation, not by our formula.
-TEST(ExternalEfforts, OfHumanGazebosNamesAreAboutItsAxes) {
+TEST(ExternalEfforts, UseTheAxesOfHumanGazeboUnderItsJointNames) {
   const BodyNow body = Body();
   const Vector3d moment(7, -11, 5);
   for (const int joint : {urdf::jRightShoulder, urdf::jLeftElbow, urdf::jL5S1, urdf::jRightKnee}) {
@@ -174,7 +174,7 @@ TEST(ExternalEfforts, OfHumanGazebosNamesAreAboutItsAxes) {
   }
 }
 
-TEST(ExternalEfforts, OfUnequalLengthsOrWithoutAnythingAreRefused) {
+TEST(ExternalEfforts, AreRejectedIfEmptyOrOfUnequalLengths) {
   sensor_msgs::JointState message;
   message.name = {"right_elbow_x", "right_elbow_y"};
   message.effort = {1};
@@ -189,7 +189,7 @@ TEST(ExternalEfforts, OfUnequalLengthsOrWithoutAnythingAreRefused) {
   EXPECT_STREQ(ToExternalLoads(message, Body(), 1).error().kind, "too many joints");
 }
 
-TEST(ExternalEfforts, OfStrangersJointsAreCountedAndNaNStaysUnknown) {
+TEST(ExternalEfforts, CountUnknownJointsAndTreatNaNAsUnknown) {
   sensor_msgs::JointState message;
   message.name = {"wheel_left", "right_elbow_y", "right_knee_y"};
   message.effort = {1, kNan, 20};
@@ -200,7 +200,7 @@ TEST(ExternalEfforts, OfStrangersJointsAreCountedAndNaNStaysUnknown) {
   EXPECT_TRUE(loads->is_given[urdf::jRightKnee]);
 }
 
-TEST(ExternalRatios, AreWholeJointsWithoutEfforts) {
+TEST(ExternalRatios, AreAcceptedPerJointWithoutEfforts) {
   sensor_msgs::JointState message;
   message.name = {"right_elbow", "jL5S1", "left_knee"};
   message.position = {0.7, 0.2, -1};
@@ -211,7 +211,7 @@ TEST(ExternalRatios, AreWholeJointsWithoutEfforts) {
   EXPECT_FALSE(loads->is_given[urdf::jLeftKnee]) << "a negative share is none";
 }
 
-TEST(ExternalArray, IsTurnedIntoTheWorldAndItsLevelsAreTaken) {
+TEST(ExternalArray, IsRotatedIntoTheWorldFrameAndKeepsItsClasses) {
   kinescope_ros::JointLoadArray message;
   message.loads.resize(3);
   message.loads[0].joint = "jRightElbow";
@@ -243,7 +243,7 @@ tf2_msgs::TFMessage Frame(const std::string& parent, const std::string& child, d
   return message;
 }
 
-TEST(Frames, AreFoundByEveryNameOfALinkInTfAndBelowALink) {
+TEST(Frames, AreFoundByEveryLinkNameInTfAndBelowALink) {
   const BodyNow body = Body();
   TfTree tf;
   EXPECT_EQ(tf.Add(Frame("world", "plate", 1.5), true), 0);
@@ -270,7 +270,7 @@ TEST(Frames, AreFoundByEveryNameOfALinkInTfAndBelowALink) {
   EXPECT_FALSE(find(""));
 }
 
-TEST(Frames, ThatAreNoPosesAreLeftOut) {
+TEST(Frames, AreRejectedIfInvalid) {
   TfTree tf;
   EXPECT_EQ(tf.Add(Frame("world", "world", 0), false), 1);
   EXPECT_EQ(tf.Add(Frame("", "plate", 0), false), 1);

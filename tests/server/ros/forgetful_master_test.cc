@@ -113,7 +113,7 @@ const std::vector<std::string> kTopics = {"/kinescope/com", "/kinescope/joint_st
 const std::vector<std::string> kInputs = {"/kinescope/hand_wrench/right",
                                           "/kinescope/ground_wrench", "/kinescope/hand_load"};
 
-TEST_F(RosBridgeWithMaster, TellsAMasterThatIsRestartedWhileItSubscribesEverythingAgain) {
+TEST_F(RosBridgeWithMaster, RegistersEverythingAgainIfTheMasterRestartsDuringSubscribing) {
   const ForgetfulMaster master(port_.number(), "registerSubscriber", kInputs[1], 1);
   MakeBridge();
   EXPECT_TRUE(PublishUntil([&] { return bridge_->status().master_returns == 1; }));
@@ -124,7 +124,7 @@ TEST_F(RosBridgeWithMaster, TellsAMasterThatIsRestartedWhileItSubscribesEverythi
   EXPECT_EQ(master.restarts(), 1);
 }
 
-TEST_F(RosBridgeWithMaster, TellsAMasterThatIsRestartedWhileItAnnouncesEverythingAgain) {
+TEST_F(RosBridgeWithMaster, RegistersEverythingAgainIfTheMasterRestartsDuringAdvertising) {
   // roscpp has announced them already, and now it is said once more.
   const ForgetfulMaster master(port_.number(), "registerPublisher", kTopics[1], 2);
   MakeBridge();

@@ -13,7 +13,7 @@ namespace {
 using kinescope_ros::JointLoad;
 using urdf::At;
 
-TEST(JointLoads, CarryEveryScoredJointWithItsReasonOrItsNumbers) {
+TEST(JointLoads, ContainEveryScoredJointWithValuesOrReason) {
   PersonState person = testing::MakePerson(testing::MakeModel(), testing::Posture(1), 5, 7);
   person.loads[0].reason = "no foot contact";
   person.loads[0].load_class = LoadClass::kUnknown;
@@ -48,7 +48,7 @@ TEST(JointLoads, CarryEveryScoredJointWithItsReasonOrItsNumbers) {
   EXPECT_EQ(message.loads[2].source, JointLoad::EXTERNAL);
 }
 
-TEST(JointLoads, SayWhatIsNotKnownOfTheWholeBody) {
+TEST(JointLoads, MarkUnknownValuesOfTheWholeBody) {
   PersonState person = testing::MakePerson(testing::MakeModel(), testing::Posture(1), 5, 7);
   person.cop.reset();
   person.forces.metric = LoadMetric::kOverload;
@@ -66,7 +66,7 @@ TEST(JointLoads, SayWhatIsNotKnownOfTheWholeBody) {
   EXPECT_TRUE(std::isnan(message.margin_of_stability));
 }
 
-TEST(JointNames, OfEitherSchemeAreOneJoint) {
+TEST(JointNames, OfBothSchemesFindTheSameJoint) {
   for (int joint = 0; joint < urdf::kJointCount; ++joint) {
     for (int axis = 0; axis < 3; ++axis) {
       const char letter = static_cast<char>('x' + axis);
@@ -88,7 +88,7 @@ TEST(JointNames, OfEitherSchemeAreOneJoint) {
   EXPECT_EQ(FindNamedJoint("human/jL5S1").joint, urdf::jL5S1);
 }
 
-TEST(JointNames, OfOthersAreNone) {
+TEST(JointNames, FindNoJointForUnknownNames) {
   for (const char* name : {"", "_", "x", "_x", "shoulder_pan_joint", "right_finger_x", "rotx",
                            "left", "right_shoulder_lift_joint"}) {
     EXPECT_EQ(FindNamedJoint(name).joint, -1) << name;

@@ -32,7 +32,7 @@ PersonState Person() {
   return testing::MakePerson(testing::MakeModel(), testing::Posture(1), 5, 2'000'000'003);
 }
 
-TEST(JointStates, CarryTheAnglesThatThePosesGive) {
+TEST(JointStates, ContainTheAnglesOfThePoses) {
   const PersonState person = Person();
   sensor_msgs::JointState message;
   FillComputedJointStates(person, PersonNames("skeleton"), message);
@@ -45,7 +45,7 @@ TEST(JointStates, CarryTheAnglesThatThePosesGive) {
   }
 }
 
-TEST(JointStates, HaveNoVelocitiesWhereNoneWereMeasured) {
+TEST(JointStates, HaveNoVelocitiesIfNoneWereMeasured) {
   PersonState person = Person();
   sensor_msgs::JointState message;
   person.sample.has_angular = true;
@@ -70,7 +70,7 @@ void MeasureRates(const urdf::JointAngles& before, const urdf::JointAngles& afte
   person.sample.has_angular = true;
 }
 
-TEST(JointStates, VelocitiesAreTheDerivativesOfThePositions) {
+TEST(JointStates, HaveVelocitiesThatAreTheDerivativesOfThePositions) {
   const double dt = 1e-5;
   PersonState person = Person();
   const urdf::JointAngles rates = testing::Posture(0.4);
@@ -89,7 +89,7 @@ TEST(JointStates, VelocitiesAreTheDerivativesOfThePositions) {
   }
 }
 
-TEST(JointStates, VelocitiesStayFiniteWhereTwoAxesFallTogether) {
+TEST(JointStates, HaveFiniteVelocitiesInGimbalLock) {
   const Vector3d rate(0.3, 1.0, 7.0);
   for (const double x : {M_PI_2, -M_PI_2, M_PI_2 - 1e-6}) {
     const Vector3d rates = AngleRates({x, 0.2, 0.1}, rate);
@@ -101,7 +101,7 @@ TEST(JointStates, VelocitiesStayFiniteWhereTwoAxesFallTogether) {
   }
 }
 
-TEST(JointStates, EffortIsTheLoadAboutEachAxisAndNotANumberWhereUnknown) {
+TEST(JointStates, HaveTheMomentAboutEachAxisAsEffortOrNaNIfUnknown) {
   const PersonState person = Person();
   sensor_msgs::JointState message;
   FillComputedJointStates(person, PersonNames("skeleton"), message);
@@ -125,7 +125,7 @@ TEST(JointStates, EffortIsTheLoadAboutEachAxisAndNotANumberWhereUnknown) {
   }
 }
 
-TEST(JointStates, EffortsStayWhenTheWholeSceneIsTurnedAndMoved) {
+TEST(JointStates, HaveEffortsIndependentOfPositionAndHeading) {
   const PersonState person = Person();
   PersonState moved = person;
   const Quaterniond turn(AngleAxisd(2.1, Vector3d(0.3, -0.5, 0.8).normalized()));
@@ -143,7 +143,7 @@ TEST(JointStates, EffortsStayWhenTheWholeSceneIsTurnedAndMoved) {
   }
 }
 
-TEST(JointStates, HaveNoEffortsWhenNoLoadIsKnown) {
+TEST(JointStates, HaveNoEffortsIfNoLoadIsKnown) {
   PersonState person = Person();
   MakeUnknown("flight", person.forces);
   sensor_msgs::JointState message;
@@ -177,7 +177,7 @@ Quaterniond LinkFromMvn(int segment) {
   return Quaterniond::Identity();
 }
 
-TEST(JointStates, StreamedAnglesAgreeWithThoseFromThePosesButForTheWrists) {
+TEST(JointStates, HaveStreamedAnglesEqualToComputedOnesExceptAtTheWrists) {
   PersonState person = Person();
   auto& streamed = person.sample.streamed_angles_deg.emplace();
   for (int joint = 0; joint < urdf::kJointCount; ++joint) {
@@ -199,7 +199,7 @@ TEST(JointStates, StreamedAnglesAgreeWithThoseFromThePosesButForTheWrists) {
   }
 }
 
-TEST(JointStates, StreamedAnglesHaveTheSeedsSignsAndItsExchangeOfYAndZ) {
+TEST(JointStates, HaveStreamedAnglesInTheConventionOfXsensMvnRos) {
   const Vector3d streamed(10, 20, 30);
   const auto expect = [&](int joint, double x, double y, double z) {
     EXPECT_TRUE(SeedAngles(joint, streamed).isApprox(Vector3d(x, y, z) * kDegree, 1e-12))
@@ -217,14 +217,14 @@ TEST(JointStates, StreamedAnglesHaveTheSeedsSignsAndItsExchangeOfYAndZ) {
   expect(urdf::jLeftBallFoot, 10, -30, -20);
 }
 
-TEST(JointStates, StreamedAnglesThatAreMissingAreNotInvented) {
+TEST(JointStates, AreNotFilledFromMissingStreamedAngles) {
   PersonState person = Person();
   sensor_msgs::JointState message;
   EXPECT_FALSE(FillStreamedJointStates(person, PersonNames("skeleton"), message));
   EXPECT_TRUE(message.position.empty());
 }
 
-TEST(JointStates, OfGlovesAndPropsComeAfterThoseOfTheBodyAndNobodyMeasuredTheirRates) {
+TEST(JointStates, OfGlovesAndPropsFollowTheBodyAndHaveNoMeasuredRates) {
   PersonState person =
       testing::MakePerson(testing::MakeGlovedModel(), testing::Posture(1), 5, 2'000'000'003);
   testing::BendFingers(0.3, person);

@@ -128,7 +128,7 @@ void ExpectSame(double ours, double theirs, const std::string& what) {
   EXPECT_NEAR(ours, theirs, kRelative * std::max(1.0, std::abs(theirs))) << what;
 }
 
-TEST(KdlNewtonEuler, NeedsTheTorquesThatWeNeedWithALoadInTheHand) {
+TEST(KdlNewtonEuler, GivesTheSameTorquesAsKinescopeWithAHandLoad) {
   urdf::HumanModel human;
   human.skeleton = urdf::DefaultSkeleton();
   human.body = urdf::MakeBodyParameters({}, human.skeleton);

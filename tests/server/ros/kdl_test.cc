@@ -82,7 +82,7 @@ void ExpectSameFrames(const PersonState& person, const KDL::Tree& tree) {
   }
 }
 
-TEST(Kdl, PutsEveryLinkOfRandomPosesWhereWeDo) {
+TEST(Kdl, GivesTheSameLinkPosesAsKinescopeForRandomPoses) {
   const auto model = testing::MakeModel();
   const KDL::Tree tree = TreeOf(*model);
   EXPECT_EQ(tree.getNrOfJoints(), 66U);
@@ -94,7 +94,7 @@ TEST(Kdl, PutsEveryLinkOfRandomPosesWhereWeDo) {
   }
 }
 
-TEST(Kdl, PutsFingersAndPropsWhereWeDo) {
+TEST(Kdl, GivesTheSamePosesOfFingersAndPropsAsKinescope) {
   const auto model = testing::MakeGlovedModel();
   const KDL::Tree tree = TreeOf(*model);
   EXPECT_EQ(tree.getNrOfJoints(), 66U + 120 + 12);
@@ -106,7 +106,7 @@ TEST(Kdl, PutsFingersAndPropsWhereWeDo) {
   }
 }
 
-TEST(Kdl, HasTheMassOfTheBodyAndItsDynamicsInSpiteOfLinksWithoutMass) {
+TEST(Kdl, ReadsTheMassOfTheBodyAndSolvesItsDynamicsWithMasslessLinks) {
   const auto model = testing::MakeModel();
   const KDL::Tree tree = TreeOf(*model);
   double mass = model->human.body[urdf::kPelvis].mass;  // KDL leaves the root's inertia out

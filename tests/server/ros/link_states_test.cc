@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(LinkStates, TypeNamesAndSumsAreTheSeeds) {
+TEST(LinkStates, HaveTheTypeNamesAndMd5SumsOfXsensMvnRos) {
   namespace traits = ros::message_traits;
   using xsens_mvn_ros_msgs::LinkState;
   using xsens_mvn_ros_msgs::LinkStateArray;
@@ -25,7 +25,7 @@ TEST(LinkStates, TypeNamesAndSumsAreTheSeeds) {
   EXPECT_STREQ(traits::MD5Sum<LinkStateArray>::value(), "60e3b550b31b607e6e37f091193f9981");
 }
 
-TEST(LinkStates, CarryEveryLinkByItsBareNameInAlphabeticalOrder) {
+TEST(LinkStates, ContainEveryLinkByItsBareNameInAlphabeticalOrder) {
   const auto person = testing::MakePerson(testing::MakeModel(), testing::Posture(1), 5, 1'000);
   xsens_mvn_ros_msgs::LinkStateArray message;
   FillLinkStates(person, "lab", message);
@@ -39,7 +39,7 @@ TEST(LinkStates, CarryEveryLinkByItsBareNameInAlphabeticalOrder) {
                                  "right_upper_arm", "right_upper_leg", "t12", "t8"));
 }
 
-TEST(LinkStates, CarryThePoseOfTheLinkAndTheMeasuredMotion) {
+TEST(LinkStates, ContainThePoseOfTheLinkAndTheMeasuredMotion) {
   const auto person = testing::MakePerson(testing::MakeModel(), testing::Posture(1), 5, 1'000);
   xsens_mvn_ros_msgs::LinkStateArray message;
   FillLinkStates(person, "world", message);
@@ -59,7 +59,7 @@ TEST(LinkStates, CarryThePoseOfTheLinkAndTheMeasuredMotion) {
   EXPECT_EQ(hand.accel.angular.x, measured.angular_acceleration.x());
 }
 
-TEST(LinkStates, HaveOneStamp) {
+TEST(LinkStates, HaveOneTimeStamp) {
   const std::int64_t stamp = 1'700'000'000'123'456'789;
   const auto person = testing::MakePerson(testing::MakeModel(), testing::Posture(1), 5, stamp);
   xsens_mvn_ros_msgs::LinkStateArray message;
@@ -73,7 +73,7 @@ TEST(LinkStates, HaveOneStamp) {
   EXPECT_EQ(point.point.z, person.com->z());
 }
 
-TEST(Stamp, OfAStrangersFileIsKeptWithinWhatRosCanSay) {
+TEST(Stamp, IsLimitedToTheRangeOfRosTime) {
   BodySample sample;
   sample.stamp_nanos = std::numeric_limits<std::int64_t>::min();
   EXPECT_EQ(StampOf(sample), ros::Time(0, 0));

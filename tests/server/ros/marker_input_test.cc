@@ -56,7 +56,7 @@ double X(const MarkerStore& store, std::size_t index = 0) {
   return store.markers().at(index)->pose.position.x();
 }
 
-TEST(MarkerInput, TakesEveryTypeAndOfEachWhatCountsForIt) {
+TEST(MarkerInput, ReadsEveryTypeWithItsRelevantFields) {
   for (int type = Marker::ARROW; type <= Marker::TRIANGLE_LIST; ++type) {
     const auto marker = ToSceneMarker(Of(type));
     ASSERT_TRUE(marker) << type << ": " << marker.error().text;
@@ -69,7 +69,7 @@ TEST(MarkerInput, TakesEveryTypeAndOfEachWhatCountsForIt) {
   }
 }
 
-TEST(MarkerInput, ATurnThatNobodySetIsNone) {
+TEST(MarkerInput, TreatsAnUnsetOrientationAsIdentity) {
   const auto marker = ToSceneMarker(Cube(1));
   ASSERT_TRUE(marker);
   EXPECT_EQ(marker->pose.orientation.w(), 1);
@@ -78,7 +78,7 @@ TEST(MarkerInput, ATurnThatNobodySetIsNone) {
   EXPECT_NEAR(ToSceneMarker(turned)->pose.orientation.z(), std::sqrt(0.5), 1e-12);
 }
 
-TEST(MarkerInput, WhatCannotBeDrawnIsRefusedByNameAndReason) {
+TEST(MarkerInput, RejectsInvalidMarkersByNameAndReason) {
   MarkerStore store;
   Marker bad = Cube(7);
   bad.pose.position.y = std::nan("");
@@ -129,7 +129,7 @@ TEST(MarkerStore, AddsChangesAndDeletesByTopicNamespaceAndNumber) {
   EXPECT_TRUE(store.markers().empty());
 }
 
-TEST(MarkerStore, WhatIsSentAgainUnchangedIsTheSameObject) {
+TEST(MarkerStore, KeepsTheObjectOfARepeatedMarker) {
   MarkerStore store;
   const Cart cart;
   EXPECT_FALSE(store.Apply(0, Cube(1), 0));
@@ -140,7 +140,7 @@ TEST(MarkerStore, WhatIsSentAgainUnchangedIsTheSameObject) {
   EXPECT_EQ(store.markers().at(0), first);
 }
 
-TEST(MarkerStore, ThoseThatLiveATimeLeaveAfterItUnlessTheyComeAgain) {
+TEST(MarkerStore, RemovesMarkersAfterTheirLifetimeUnlessTheyAreSentAgain) {
   MarkerStore store;
   const Cart cart;
   Marker brief = Cube(1);
@@ -154,7 +154,7 @@ TEST(MarkerStore, ThoseThatLiveATimeLeaveAfterItUnlessTheyComeAgain) {
   EXPECT_TRUE(store.markers().empty());
 }
 
-TEST(MarkerStore, LockedOnesGoWithTheirFrameAndOthersStay) {
+TEST(MarkerStore, MovesOnlyLockedMarkersWithTheirFrame) {
   MarkerStore store;
   Cart cart;
   Marker locked = Cube(1);
@@ -173,7 +173,7 @@ TEST(MarkerStore, LockedOnesGoWithTheirFrameAndOthersStay) {
   EXPECT_FALSE(store.Update(0, cart.Find())) << "nothing has moved";
 }
 
-TEST(MarkerStore, AFrameThatIsNotKnownYetIsWaitedForAndNamedOnce) {
+TEST(MarkerStore, WaitsForAnUnknownFrameAndNamesItOnce) {
   MarkerStore store;
   Cart cart;
   cart.x.reset();
@@ -191,7 +191,7 @@ TEST(MarkerStore, AFrameThatIsNotKnownYetIsWaitedForAndNamedOnce) {
   EXPECT_TRUE(store.TakeLost().empty());
 }
 
-TEST(MarkerStore, FramesAreLookedUpOnceForAllMarkersInThem) {
+TEST(MarkerStore, LooksUpAFrameOnceForAllItsMarkers) {
   MarkerStore store;
   const Cart cart;
   for (int id = 0; id < 100; ++id) {
@@ -209,7 +209,7 @@ TEST(MarkerStore, FramesAreLookedUpOnceForAllMarkersInThem) {
 }
 
 // A cloud that a stranger locks to a frame that moves must not cost the stream its time.
-TEST(MarkerStore, ManyLockedPointsMoveLessOften) {
+TEST(MarkerStore, MovesManyLockedPointsLessOften) {
   MarkerStore store;
   Cart cart;
   Marker cloud = Of(Marker::POINTS);
@@ -223,7 +223,7 @@ TEST(MarkerStore, ManyLockedPointsMoveLessOften) {
   EXPECT_TRUE(store.Update(100'000'000, cart.Find()));
 }
 
-TEST(MarkerStore, IsBoundedInMarkersAndInPoints) {
+TEST(MarkerStore, LimitsTheNumbersOfMarkersAndPoints) {
   MarkerStore store;
   for (int id = 0; id < static_cast<int>(kMaxMarkers); ++id) {
     ASSERT_FALSE(store.Apply(0, Cube(id), 0)) << id;

@@ -49,7 +49,7 @@ TEST(Markers, ShowEveryLoadAsThePictureDoes) {
   }
 }
 
-TEST(Markers, LockedToTheLinksAreAtTheSamePlaces) {
+TEST(Markers, AreAtTheSamePlacesIfLockedToLinks) {
   const PersonState person = Person();
   const PersonNames names("skeleton");
   const auto free = Of(person, MarkerFrames::kReference);
@@ -73,7 +73,7 @@ TEST(Markers, LockedToTheLinksAreAtTheSamePlaces) {
   EXPECT_EQ(locked.markers[0].header.frame_id, "skeleton_l5") << "the child of jL5S1";
 }
 
-TEST(Markers, GoAwayByThemselvesWhenNotRenewed) {
+TEST(Markers, HaveALifetimeSoThatOldOnesDisappear) {
   const auto message = Of(Person());
   for (const Marker& marker : message.markers) {
     EXPECT_EQ(marker.action, Marker::ADD);
@@ -81,7 +81,7 @@ TEST(Markers, GoAwayByThemselvesWhenNotRenewed) {
   }
 }
 
-TEST(Markers, OfAnEarlierSampleAreNotCarriedOver) {
+TEST(Markers, AreNotKeptFromAnEarlierSample) {
   PersonState person = Person();
   auto message = Of(person);
   person.cop.reset();
@@ -91,7 +91,7 @@ TEST(Markers, OfAnEarlierSampleAreNotCarriedOver) {
   EXPECT_EQ(message.markers.back().ns, "com");
 }
 
-TEST(Markers, OfAStreamThatStoppedAreGreySmallAndStay) {
+TEST(Markers, AreGreySmallAndPermanentAfterTheStreamStopped) {
   const PersonState person = Person();
   auto message = Of(person);
   MakeStale(1.6, message);

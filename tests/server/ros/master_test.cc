@@ -64,14 +64,14 @@ TEST_F(RosBridgeWithMaster, DeliversEverySampleAt240HzExactlyOnceOnEveryTopic) {
   RecordProperty("longest_wait_ms", std::to_string(longest_wait_millis_));
 }
 
-TEST_F(RosBridgeWithMaster, DeliversABurstAsCompletelyAsAnEvenStream) {
+TEST_F(RosBridgeWithMaster, DeliversABurstCompletely) {
   StartMaster();
   MakeBridge();
   const auto listener = Listen();
   ExpectEveryOneOnce(*listener, 400, Description::kThere, Pace::kBurst);
 }
 
-TEST_F(RosBridgeWithMaster, GoesOnWithoutAMasterAndAnnouncesItselfToOneThatComes) {
+TEST_F(RosBridgeWithMaster, RunsWithoutAMasterAndRegistersWhenOneStarts) {
   EXPECT_FALSE(MasterIsReachable());
   MakeBridge();
   for (int i = 0; i < 20; ++i) PublishNext();
@@ -85,7 +85,7 @@ TEST_F(RosBridgeWithMaster, GoesOnWithoutAMasterAndAnnouncesItselfToOneThatComes
   EXPECT_EQ(bridge_->status().master_returns, 0U);
 }
 
-TEST_F(RosBridgeWithMaster, SurvivesAMasterThatIsKilledAndRestarted) {
+TEST_F(RosBridgeWithMaster, SurvivesARestartOfTheMaster) {
   StartMaster();
   MakeBridge();
   const auto early = Listen();
@@ -102,7 +102,7 @@ TEST_F(RosBridgeWithMaster, SurvivesAMasterThatIsKilledAndRestarted) {
   RecordProperty("longest_wait_ms", std::to_string(longest_wait_millis_));
 }
 
-TEST_F(RosBridgeWithMaster, IsNotHeldUpByAMasterThatTakesConnectionsAndNeverAnswers) {
+TEST_F(RosBridgeWithMaster, IsNotDelayedByAMasterThatNeverAnswers) {
   StartMaster();
   MakeBridge();
   const auto listener = Listen();
@@ -116,7 +116,7 @@ TEST_F(RosBridgeWithMaster, IsNotHeldUpByAMasterThatTakesConnectionsAndNeverAnsw
   EXPECT_LT(longest_wait_millis_, kLongestWaitMillis);
 }
 
-TEST_F(RosBridgeWithMaster, EndsSoonThoughTheMasterNoLongerAnswers) {
+TEST_F(RosBridgeWithMaster, EndsSoonIfTheMasterDoesNotAnswer) {
   StartMaster();
   MakeBridge();
   // Whatever roscpp registers by itself, without a time limit, is registered: the service comes
@@ -131,7 +131,7 @@ TEST_F(RosBridgeWithMaster, EndsSoonThoughTheMasterNoLongerAnswers) {
   EXPECT_LT(Clock::now() - before, 10s) << "asks twice at most, a second each";
 }
 
-TEST_F(RosBridgeWithMaster, PublishesTheSameSampleOnceAndNothingThatIsNotLive) {
+TEST_F(RosBridgeWithMaster, PublishesEachLiveSampleOnceAndNoStaleOnes) {
   StartMaster();
   MakeBridge();
   ASSERT_TRUE(PublishUntil([&] { return bridge_->status().published > 0; }));
@@ -174,7 +174,7 @@ TEST_F(RosBridgeWithMaster, TurnsTheMarkersGreyOnceWhenTheStreamStops) {
   EXPECT_GT(arrays[2].markers[0].lifetime.toSec(), 0);
 }
 
-TEST_F(RosBridgeWithMaster, LeavesWhoLeftBeforeTheStreamStoppedAlone) {
+TEST_F(RosBridgeWithMaster, PublishesNoGreyMarkersOfAPersonWhoLeftBefore) {
   StartMaster();
   MakeBridge();
   ASSERT_TRUE(PublishUntil([&] { return bridge_->status().published > 0; }));
@@ -192,7 +192,7 @@ TEST_F(RosBridgeWithMaster, LeavesWhoLeftBeforeTheStreamStoppedAlone) {
   for (const auto& array : arrays) EXPECT_GT(array.markers.at(0).lifetime.toSec(), 0);
 }
 
-TEST_F(RosBridgeWithMaster, SaysWhenRosnodeKillToldItToStop) {
+TEST_F(RosBridgeWithMaster, ReportsAShutdownThroughRos) {
   StartMaster();
   MakeBridge();
   ASSERT_TRUE(PublishUntil([&] { return bridge_->status().published > 0; }));

@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(RosNames, JointsAreInTheSeedsAlphabeticalOrder) {
+TEST(RosNames, ListJointsInAlphabeticalOrder) {
   const PersonNames names("skeleton");
   ASSERT_EQ(names.joints.size(), 66U);
   std::vector<std::string> bare;
@@ -32,7 +32,7 @@ TEST(RosNames, JointsAreInTheSeedsAlphabeticalOrder) {
                                 "right_knee", "right_shoulder", "right_wrist", "t1_c7", "t9_t8"));
 }
 
-TEST(RosNames, EveryLinkAndJointOfTheUrdfIsNamedOnce) {
+TEST(RosNames, ContainEveryLinkAndJointOfTheUrdfOnce) {
   const auto model = testing::MakeModel("anna");
   const PersonNames names("anna");
   std::set<std::string> links(names.links.begin(), names.links.end());
@@ -46,7 +46,7 @@ TEST(RosNames, EveryLinkAndJointOfTheUrdfIsNamedOnce) {
   EXPECT_EQ(std::set<std::string>(names.joints.begin(), names.joints.end()), joints_in_urdf);
 }
 
-TEST(RosNames, AnythingBecomesAValidName) {
+TEST(RosNames, AreValidForAnyInput) {
   EXPECT_EQ(AsRosName("anna_2"), "anna_2");
   EXPECT_EQ(AsRosName("Änne B/../"), "person___nne_B____");
   EXPECT_EQ(AsRosName("2nd"), "person_2nd");

@@ -14,7 +14,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TEST(WithoutRos, RemappingsAreTakenOutAndEverythingElseStays) {
+TEST(WithoutRos, RemappingsAreRemovedFromTheArguments) {
   std::vector<std::string> words = {"kinescope",   "serve",        "__name:=xsens",
                                     "udp://:9763", "_udp_port:=1", "--tf=off"};
   std::vector<char*> argv;
@@ -28,7 +28,7 @@ TEST(WithoutRos, RemappingsAreTakenOutAndEverythingElseStays) {
   EXPECT_STREQ(argv[3], "--tf=off");
 }
 
-TEST(WithoutRos, PublishingIsRefusedWithAWayOut) {
+TEST(WithoutRos, PublishingIsRejectedWithARemedy) {
   EXPECT_FALSE(BuiltWithRos());
   EXPECT_FALSE(MasterIsReachable());
   EXPECT_EQ(MasterUri(), "");
@@ -42,7 +42,7 @@ TEST(WithoutRos, PublishingIsRefusedWithAWayOut) {
   }
 }
 
-TEST(WithoutRos, ABagIsRefusedByNameWithAWayOut) {
+TEST(WithoutRos, ABagIsRejectedByNameWithARemedy) {
   try {
     OpenBag("take.bag");
     FAIL() << "opened a bag without ROS";
@@ -52,7 +52,7 @@ TEST(WithoutRos, ABagIsRefusedByNameWithAWayOut) {
   }
 }
 
-TEST(WithoutRos, ALiveGraphIsRefusedByNameWithAWayOut) {
+TEST(WithoutRos, ALiveGraphIsRejectedByNameWithARemedy) {
   EXPECT_TRUE(IsGraphUrl("ros:"));
   try {
     OpenGraph("ros:/tf");

@@ -20,7 +20,7 @@ using testing::Posture;
 using testing::SceneWith;
 using testing::TempFolder;
 
-TEST_F(RosBridgeWithMaster, DescribesEveryPersonAndDescribesAnewWhoeverChanges) {
+TEST_F(RosBridgeWithMaster, PublishesDescriptionsOfAllPeopleAndUpdatesChangedOnes) {
   StartMaster();
   BridgeConfig config;
   config.initial_urdf = model_->urdf_xml;
@@ -107,7 +107,7 @@ TEST_F(RosBridgeWithMaster, ReadsTheCommandLineWithoutAMaster) {
   EXPECT_EQ(MakeRosBridge({}, RosMode::kOff), nullptr);
 }
 
-TEST_F(RosBridgeWithMaster, RefusesAConfigThatMeansNothing) {
+TEST_F(RosBridgeWithMaster, RejectsAnInvalidConfiguration) {
   BridgeConfig config;
   config.tf = "sideways";
   EXPECT_THROW(MakeRosBridge(config, RosMode::kAuto), UsageError);

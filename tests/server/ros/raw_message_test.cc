@@ -50,7 +50,7 @@ void ExpectEveryTruncationRefused(const std::vector<std::uint8_t>& whole) {
   EXPECT_EQ(BytesOf(message), whole);
 }
 
-TEST(RawMessage, IsTransformsOrLinkStatesWithoutLossAndNothingWhenItIsCutShort) {
+TEST(RawMessage, RestoresTransformsAndLinkStatesAndRejectsEveryTruncation) {
   ExpectEveryTruncationRefused<tf2_msgs::TFMessage>(Transforms());
   ExpectEveryTruncationRefused<xsens_mvn_ros_msgs::LinkStateArray>(LinkStates());
 }
@@ -69,14 +69,14 @@ visualization_msgs::MarkerArray Markers() {
   return array;
 }
 
-TEST(RawMessage, IsMarkersWithoutLossAndNothingWhenItIsCutShort) {
+TEST(RawMessage, RestoresMarkersAndRejectsEveryTruncation) {
   ExpectEveryTruncationRefused<visualization_msgs::MarkerArray>(BytesOf(Markers()));
   ExpectEveryTruncationRefused<visualization_msgs::Marker>(BytesOf(Markers().markers[0]));
 }
 
 // Whatever is written over a message: its lists are counted before any of them is reserved, and so
 // it is refused or has no more in it than its bytes.
-TEST(RawMessage, OfMarkersThatIsDamagedAnywhereNeverHoldsMoreThanItsBytes) {
+TEST(RawMessage, NeverAllocatesMoreThanItsBytesForDamagedMarkers) {
   const std::vector<std::uint8_t> whole = BytesOf(Markers());
   for (std::size_t at = 0; at + 4 <= whole.size(); ++at) {
     for (const std::uint8_t value : {0x7f, 0xff}) {
@@ -90,7 +90,7 @@ TEST(RawMessage, OfMarkersThatIsDamagedAnywhereNeverHoldsMoreThanItsBytes) {
 }
 
 // Four thousand million elements would be reserved before the first of them is missed.
-TEST(RawMessage, ThatClaimsMoreElementsThanFitIsRefusedBeforeAnythingIsReserved) {
+TEST(RawMessage, IsRejectedBeforeAllocationIfItsCountsDoNotFit) {
   tf2_msgs::TFMessage transforms;
   auto bytes = Transforms();
   for (std::size_t i = 0; i < 4; ++i) bytes[i] = 0xFF;
@@ -109,7 +109,7 @@ TEST(RawMessage, ThatClaimsMoreElementsThanFitIsRefusedBeforeAnythingIsReserved)
   EXPECT_EQ(states.states.capacity(), 0U);
 }
 
-TEST(RawMessage, WithRandomBytesInItIsReadOrRefused) {
+TEST(RawMessage, IsReadOrRejectedWithRandomBytes) {
   std::mt19937 random(21);
   tf2_msgs::TFMessage transforms;
   xsens_mvn_ros_msgs::LinkStateArray states;

@@ -62,7 +62,7 @@ class Transforms : public ::testing::Test {
   PersonState person_ = testing::MakePerson(model_, testing::Posture(2), 5, 1'234'567'890);
 };
 
-TEST_F(Transforms, FlatHangsEveryLinkOnTheReferenceFrame) {
+TEST_F(Transforms, HaveTheReferenceFrameAsParentInFlatMode) {
   const auto message = Of(person_, TfShape::kFlat);
   ASSERT_EQ(message.transforms.size(), 67U);
   for (const auto& one : message.transforms) {
@@ -78,7 +78,7 @@ TEST_F(Transforms, FlatHangsEveryLinkOnTheReferenceFrame) {
   }
 }
 
-TEST_F(Transforms, TreePutsEveryLinkWhereFlatDoesThoughSegmentsAreNotRigid) {
+TEST_F(Transforms, PutEveryLinkAtTheSamePlaceInTreeAndFlatMode) {
   for (std::size_t i = 0; i < person_.links.size(); ++i) {
     person_.links[i].position += Eigen::Vector3d(0.003, -0.002, 0.001) * static_cast<double>(i);
   }
@@ -127,7 +127,7 @@ TEST_F(Transforms, AgreeWithTheUrdfAndTheJointAngles) {
   }
 }
 
-TEST_F(Transforms, TreeHasTheParentsOfTheUrdf) {
+TEST_F(Transforms, HaveTheParentsOfTheUrdfInTreeMode) {
   std::map<std::string, std::string> parents;
   for (const auto& one : Of(person_, TfShape::kTree).transforms) {
     parents[one.child_frame_id] = one.header.frame_id;
@@ -164,7 +164,7 @@ TEST_F(GlovedTransforms, AgreeWithTheUrdfAndTheJointAngles) {
   }
 }
 
-TEST_F(GlovedTransforms, TreePutsFingersAndPropsWhereFlatDoesThoughNothingIsRigid) {
+TEST_F(GlovedTransforms, PutFingersAndPropsAtTheSamePlaceInTreeAndFlatMode) {
   for (auto& glove : person_.gloves) {
     for (std::size_t i = 0; i < glove->links.size(); ++i) {
       glove->links[i].position += Eigen::Vector3d(0.003, -0.002, 0.001) * static_cast<double>(i);
@@ -180,7 +180,7 @@ TEST_F(GlovedTransforms, TreePutsFingersAndPropsWhereFlatDoesThoughNothingIsRigi
   EXPECT_EQ(flat.at("skeleton_prop2").translation(), person_.props[1]->pose.position);
 }
 
-TEST_F(GlovedTransforms, TreeHasTheParentsOfTheUrdf) {
+TEST_F(GlovedTransforms, HaveTheParentsOfTheUrdfInTreeMode) {
   std::map<std::string, std::string> parents;
   for (const auto& one : Of(person_, TfShape::kTree).transforms) {
     parents[one.child_frame_id] = one.header.frame_id;
@@ -193,7 +193,7 @@ TEST_F(GlovedTransforms, TreeHasTheParentsOfTheUrdf) {
   EXPECT_EQ(parents.at("skeleton_prop1_tx_link"), "skeleton_pelvis");
 }
 
-TEST_F(Transforms, TrackedObjectsAreFramesOfTheirOwn) {
+TEST_F(Transforms, IncludeTrackedObjects) {
   SceneState scene;
   scene.objects.push_back({7, 1, "HTC Vive 2", {{1, 2, 3}, Eigen::Quaterniond::Identity()}, 5});
   tf2_msgs::TFMessage message;

@@ -13,7 +13,7 @@ const std::vector<std::uint8_t>& Pixels() {  // 3 x 2
 
 RosImage Picture() { return {3, 2, Pixels(), 1'500'000'000, {{1, 2, 3}, {}}, 40}; }
 
-TEST(ViewMessages, HoldThePixelsInOrderWithoutTheAlphaThatSaysNothing) {
+TEST(ViewMessages, ContainThePixelsInOrderWithoutAlpha) {
   sensor_msgs::Image image;
   FillImage(Picture(), "eye", image);
   EXPECT_EQ(image.width, 3u);
@@ -24,7 +24,7 @@ TEST(ViewMessages, HoldThePixelsInOrderWithoutTheAlphaThatSaysNothing) {
   EXPECT_EQ(image.data.size(), 18u);
 }
 
-TEST(ViewMessages, CarryOneStampAndFrame) {
+TEST(ViewMessages, HaveOneTimeStampAndFrame) {
   sensor_msgs::Image image;
   sensor_msgs::CameraInfo info;
   geometry_msgs::TransformStamped frame;
@@ -41,7 +41,7 @@ TEST(ViewMessages, CarryOneStampAndFrame) {
   EXPECT_EQ(frame.transform.translation.z, 3);
 }
 
-TEST(ViewMessages, ACameraThatIsNoPinholeIsNotCalibrated) {
+TEST(ViewMessages, ContainACalibrationOnlyForPinholeCameras) {
   sensor_msgs::CameraInfo info;
   FillCameraInfo(Picture(), "eye", info);
   EXPECT_EQ(info.K[0], 40);
@@ -55,7 +55,7 @@ TEST(ViewMessages, ACameraThatIsNoPinholeIsNotCalibrated) {
   EXPECT_EQ(info.P[10], 0);
 }
 
-TEST(ViewMessages, NoTwoNodesShareAFrame) {
+TEST(ViewMessages, HaveDifferentFramesForDifferentNodes) {
   EXPECT_EQ(OpticalFrame("/kinescope/view"), "kinescope_view_camera_optical");
   EXPECT_EQ(OpticalFrame("/lab/kinescope/view"), "lab_kinescope_view_camera_optical");
 }

@@ -43,7 +43,7 @@ std::string RobotSourceError(Action&& action) {
   return "";
 }
 
-TEST_F(RobotSource, PlacesEveryLinkWithTheRootInTheOrigin) {
+TEST_F(RobotSource, PutsEveryLinkInPlaceWithTheRootAtTheOrigin) {
   const RobotState robot = ReadRobot(Write(kTwoLinkArm), {});
   EXPECT_EQ(robot.name, "arm");
   ASSERT_TRUE(robot.model);
@@ -54,7 +54,7 @@ TEST_F(RobotSource, PlacesEveryLinkWithTheRootInTheOrigin) {
   EXPECT_TRUE(robot.bounds.isEmpty()) << "who draws it knows them";
 }
 
-TEST_F(RobotSource, TurnsItsJoints) {
+TEST_F(RobotSource, RotatesItsJoints) {
   const RobotState robot = ReadRobot(Write(kTwoLinkArm), {}, {{"elbow", M_PI_2}});
   const Vector3d y_of_hand = robot.world_from_link[1].linear() * Vector3d::UnitY();
   EXPECT_NEAR((y_of_hand - Vector3d::UnitZ()).norm(), 0, 1e-12);
@@ -70,7 +70,7 @@ TEST_F(RobotSource, NamesTheFileAndTheReason) {
               AllOf(HasSubstr(path.string()), HasSubstr("line 3")));
 }
 
-TEST_F(RobotSource, NamesAJointThatTheRobotHasNot) {
+TEST_F(RobotSource, NamesAnUnknownJoint) {
   const auto path = Write(kTwoLinkArm);
   EXPECT_THAT(RobotSourceError([&] {
                 ReadRobot(path, {}, {{"knee", 1}});
@@ -79,7 +79,7 @@ TEST_F(RobotSource, NamesAJointThatTheRobotHasNot) {
 }
 
 // What is too long is read one byte further than any reader takes, so that it is refused as that.
-TEST_F(RobotSource, ReadsNoMoreOfAFileThanItsReadersTake) {
+TEST_F(RobotSource, ReadsFilesUpToTheLimitOfTheirReaders) {
   const std::size_t most = urdf::XmlLimits().bytes;
   EXPECT_EQ(ReadUrdfFile(Write("<robot/>")), "<robot/>");
   const auto path = Write("");
@@ -87,7 +87,7 @@ TEST_F(RobotSource, ReadsNoMoreOfAFileThanItsReadersTake) {
   EXPECT_EQ(ReadUrdfFile(path).size(), most + 1);
 }
 
-TEST_F(RobotSource, StandsOnTheFloorWhereItIsPut) {
+TEST_F(RobotSource, PutsTheRobotOnTheFloorAtTheGivenPlace) {
   RobotState robot = ReadRobot(Write(kTwoLinkArm), {});
   robot.bounds = Eigen::AlignedBox3d(Vector3d(-1, 0, -0.5), Vector3d(3, 2, 1.5));
   const std::vector<Eigen::Isometry3d> before = robot.world_from_link;

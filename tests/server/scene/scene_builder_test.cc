@@ -35,7 +35,7 @@ BodySample SampleOf(const char* motion, double secs) {
   return sample;
 }
 
-TEST(SceneBuilder, SaysThatNothingHasComeYet) {
+TEST(SceneBuilder, ReportsNoDataBeforeTheFirstSample) {
   Built built;
   built.builder.Start();
   EXPECT_EQ(built.last().liveness, Liveness::kNoData);
@@ -43,7 +43,7 @@ TEST(SceneBuilder, SaysThatNothingHasComeYet) {
   EXPECT_EQ(built.last().source, "test");
 }
 
-TEST(SceneBuilder, TurnsTheArmsOfTheStreamIntoLinkFrames) {
+TEST(SceneBuilder, ConvertsTheArmsOfTheStreamToLinkFrames) {
   Built built;
   built.builder.OnSample(SampleOf("n_pose", 0));
   const PersonState& person = built.last().people.at(0);
@@ -54,7 +54,7 @@ TEST(SceneBuilder, TurnsTheArmsOfTheStreamIntoLinkFrames) {
   }
 }
 
-TEST(SceneBuilder, PublishesAnglesThatRebuildThePose) {
+TEST(SceneBuilder, PublishesAnglesThatRestoreThePose) {
   Built built;
   for (const double secs : {0.0, 1.0, 2.0, 3.0}) {
     built.builder.OnSample(SampleOf("lift", secs));
@@ -68,7 +68,7 @@ TEST(SceneBuilder, PublishesAnglesThatRebuildThePose) {
   }
 }
 
-TEST(SceneBuilder, TurnsStaleWhenTheStreamStopsAndLiveWhenItReturns) {
+TEST(SceneBuilder, BecomesStaleWhenTheStreamStopsAndLiveWhenItContinues) {
   Built built;
   BodySample sample = SampleOf("lift", 2);
   built.builder.OnSample(sample);
@@ -94,7 +94,7 @@ TEST(SceneBuilder, TurnsStaleWhenTheStreamStopsAndLiveWhenItReturns) {
   EXPECT_EQ(built.last().liveness, Liveness::kLive);
 }
 
-TEST(SceneBuilder, TakesTheNewBodyWhenScaleDataArrive) {
+TEST(SceneBuilder, UpdatesTheBodyWhenScaleDataArrive) {
   Built built;
   built.builder.OnSample(SampleOf("n_pose", 0));
   const auto before = built.last().people.at(0).model;
@@ -112,7 +112,7 @@ TEST(SceneBuilder, TakesTheNewBodyWhenScaleDataArrive) {
   EXPECT_EQ(built.last().people.at(0).model, person.model) << "the same body again is no news";
 }
 
-TEST(SceneBuilder, KeepsTwoPeopleApart) {
+TEST(SceneBuilder, DistinguishesTwoPeople) {
   Built built;
   BodySample second = SampleOf("walk", 0);
   second.character = 3;
@@ -123,7 +123,7 @@ TEST(SceneBuilder, KeepsTwoPeopleApart) {
   EXPECT_EQ(built.last().people[1].model->human.model_name, "skeleton_1");
 }
 
-TEST(SceneBuilder, ForgetsAPersonWhoLeft) {
+TEST(SceneBuilder, RemovesAPersonWhoLeft) {
   Built built;
   built.builder.OnSample(SampleOf("n_pose", 0));
   BodySample second = SampleOf("walk", 2);
@@ -133,7 +133,7 @@ TEST(SceneBuilder, ForgetsAPersonWhoLeft) {
   EXPECT_EQ(built.last().people[0].character, 3);
 }
 
-TEST(SceneBuilder, DoesNotInventLegLoadsOfARecordingWithoutLegs) {
+TEST(SceneBuilder, ReportsUnknownLegLoadsOfARecordingWithoutLegs) {
   Built built;
   BodySample sample = SampleOf("n_pose", 0);
   const double pelvis = sample.segments[0].position.z();
@@ -175,7 +175,7 @@ double RatioOf(const SceneState& state, int joint) {
   return std::nan("");
 }
 
-TEST(SceneBuilder, LoadsTheJointsWithWhatIsHeldAndWorn) {
+TEST(SceneBuilder, AppliesHandLoadsAndAddedMassesToTheJoints) {
   SceneOptions options;
   Built bare(options), held(options);
   loads::LoadSettings settings;
@@ -195,7 +195,7 @@ TEST(SceneBuilder, LoadsTheJointsWithWhatIsHeldAndWorn) {
   EXPECT_TRUE(bare.last().people.at(0).forces.body_mass_is_assumed);
 }
 
-TEST(SceneBuilder, JudgesAWomanByTheStrengthOfWomen) {
+TEST(SceneBuilder, UsesTheStrengthOfWomenForAWoman) {
   SceneOptions options;
   options.body.sex = urdf::Sex::kFemale;
   Built woman(options), man;
@@ -208,7 +208,7 @@ TEST(SceneBuilder, JudgesAWomanByTheStrengthOfWomen) {
   EXPECT_NEAR(capacity(woman), capacity(man) / 2, 1e-9);
 }
 
-TEST(SceneBuilder, TakesMeasuredForcesForWhomTheyAreMeantWhileTheyAreFresh) {
+TEST(SceneBuilder, AppliesValidMeasuredForcesToTheirPersonOnly) {
   Built built;
   BodySample sample = SampleOf("n_pose", 0);
   loads::Measurements measured;
@@ -244,7 +244,7 @@ TEST(SceneBuilder, MeasuresTheRateOfALiveStream) {
   EXPECT_NEAR(built.last().rate_hz, 100, 1);
 }
 
-TEST(SceneBuilder, HasNoRateBeforeASecondOfSamplesHasCome) {
+TEST(SceneBuilder, HasNoRateBeforeOneSecondOfSamples) {
   Built built;
   BodySample sample = SampleOf("n_pose", 0);
   // As at the start of a program: what waited in the socket comes at once, then 100 per second.
@@ -257,7 +257,7 @@ TEST(SceneBuilder, HasNoRateBeforeASecondOfSamplesHasCome) {
   EXPECT_NEAR(built.last().rate_hz, 100, 1);
 }
 
-TEST(SceneBuilder, TheRateOfManyPeopleIsThatOfOne) {
+TEST(SceneBuilder, ReportsTheRateOfOnePersonForSeveralPeople) {
   Built built;
   BodySample sample = SampleOf("n_pose", 0);
   for (int i = 0; i < 300; ++i) {
@@ -270,7 +270,7 @@ TEST(SceneBuilder, TheRateOfManyPeopleIsThatOfOne) {
   EXPECT_NEAR(built.last().rate_hz, 100, 1);
 }
 
-TEST(SceneBuilder, TheRateOfACaptureIsThatOfItsStamps) {
+TEST(SceneBuilder, ComputesTheRateOfACaptureFromItsTimeStamps) {
   Built built;
   BodySample sample = SampleOf("n_pose", 0);
   sample.arrival_nanos = 0;
@@ -281,7 +281,7 @@ TEST(SceneBuilder, TheRateOfACaptureIsThatOfItsStamps) {
   EXPECT_NEAR(built.last().rate_hz, 100, 1);
 }
 
-TEST(SceneBuilder, SomebodyWhoIsOnlyAnnouncedIsNoReasonToFail) {
+TEST(SceneBuilder, AcceptsAPersonWithoutSamples) {
   Built built;
   built.builder.OnCharacter({0, "Anna", {}, {}, {}});
   BodySample sample = SampleOf("n_pose", 0);

@@ -25,7 +25,7 @@ TEST(PersonOptions, AssumeAMassOnlyWhenNoneIsGiven) {
   EXPECT_FALSE(given.mass_is_assumed);
 }
 
-TEST(PersonOptions, ReportWhatIsAssumed) {
+TEST(PersonOptions, MarkAssumedValues) {
   EXPECT_TRUE(ToSceneOptions(PersonOptions()).body.sex_is_assumed);
   EXPECT_TRUE(ToSceneOptions(PersonOptions()).height_is_assumed);
   const auto scene = ToSceneOptions(With<PersonOptions>({{"sex", "male"}, {"height", "1.75"}}));
@@ -44,7 +44,7 @@ TEST(PersonOptions, RejectBodiesOutsideTheLimits) {
   EXPECT_THAT(ErrorOfSetting<PersonOptions>("body_table", "tailor"), HasSubstr("de_leva"));
 }
 
-TEST(PersonOptions, TakeExtraMassesWithCommasOrSemicolonsBetween) {
+TEST(PersonOptions, AcceptExtraMassesSeparatedByCommasOrSemicolons) {
   const urdf::BodyDescription body = ToBody(With<PersonOptions>(
       {{"body_table", "dumas"}, {"extra_mass", "Head:1.5@0,0,0.12, t8:8;pelvis:0.7"}}));
   EXPECT_EQ(body.table, urdf::BodyTable::kDumas);
@@ -56,7 +56,7 @@ TEST(PersonOptions, TakeExtraMassesWithCommasOrSemicolonsBetween) {
   EXPECT_EQ(body.added_masses[2].segment, urdf::kPelvis);
 }
 
-TEST(PersonOptions, NameTheExtraMassThatIsWrong) {
+TEST(PersonOptions, NameAnInvalidExtraMass) {
   for (const char* bad : {"head", "tail:1", "head:0", "head:-1", "head:nan", "head:500",
                           "head:1@0,0,9", "head:1@0,0", ";", "head:1 t8:2"}) {
     EXPECT_THAT(ErrorOfSetting<PersonOptions>("extra_mass", bad),
@@ -65,7 +65,7 @@ TEST(PersonOptions, NameTheExtraMassThatIsWrong) {
   }
 }
 
-TEST(PersonOptions, AModelNameFitsIntoNamesOfLinks) {
+TEST(PersonOptions, AcceptOnlyModelNamesThatAreValidInLinkNames) {
   for (const char* good : {"skeleton", "anna_2", "Person1", "_"}) {
     const auto person = With<PersonOptions>({{"model_name", good}, {"body_model", "primitive"}});
     EXPECT_EQ(ToSceneOptions(person).model_name, good);
@@ -76,7 +76,7 @@ TEST(PersonOptions, AModelNameFitsIntoNamesOfLinks) {
   }
 }
 
-TEST(LoadOptions, BecomeSettings) {
+TEST(LoadOptions, AreConvertedToLoadSettings) {
   EXPECT_FALSE(ToLoadSettings(LoadOptions()).hands.is_known);
   const loads::LoadSettings settings =
       ToLoadSettings(With<LoadOptions>({{"capacity_factor", "0.8"},
@@ -99,7 +99,7 @@ TEST(LoadOptions, BecomeSettings) {
   EXPECT_TRUE(ToLoadSettings(With<LoadOptions>({{"hand_load", "none"}})).hands.is_known);
 }
 
-TEST(LoadOptions, ClassLimitsHaveRoomToFallBack) {
+TEST(LoadOptions, GiveClassLimitsHysteresis) {
   const auto defaults = ToLoadSettings(LoadOptions()).classes;
   EXPECT_EQ(defaults.up, loads::LoadClassifier::Settings().up);
   for (const std::size_t i : {0U, 1U}) {

@@ -12,7 +12,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-TEST(SceneTimeline, IsAFixedGridWhateverTheSourcesRate) {
+TEST(SceneTimeline, IsAFixedGridForAnyRateOfTheSource) {
   SceneReader reader("demo:walk", {});
   SceneTimeline timeline(reader);
   std::int64_t start = 0;
@@ -32,7 +32,7 @@ TEST(SceneTimeline, EndsWithTheRecording) {
   EXPECT_FALSE(timeline.At(112.0 / 60));
 }
 
-TEST(SceneReader, RefusesALiveStream) {
+TEST(SceneReader, RejectsALiveStream) {
   EXPECT_THROW(SceneReader("udp://127.0.0.1:0", {}), UsageError);
 }
 
@@ -45,7 +45,7 @@ std::string SceneReaderError(const std::string& url) {
   return "";
 }
 
-TEST(SceneReader, NamesTheBadSourceAndEveryKindThatThereIs) {
+TEST(SceneReader, NamesAnInvalidSourceAndEverySupportedKind) {
   for (const char* bad : {"", "nonsense", "/nowhere.mvnx", "upd://:9763"}) {
     const std::string error = SceneReaderError(bad);
     EXPECT_THAT(error, HasSubstr("'" + std::string(bad) + "'"));
@@ -61,7 +61,7 @@ TEST(SceneReader, NamesTheNearestSchemeAndMotion) {
   EXPECT_THAT(SceneReaderError("demo:lfit"), HasSubstr("; nearest: lift"));
 }
 
-TEST(SceneReader, NamesWhatIsWrongWithASourceOfAKnownKind) {
+TEST(SceneReader, NamesTheErrorInASourceOfAKnownKind) {
   EXPECT_THAT(SceneReaderError("demo:fly"), AllOf(HasSubstr("fly"), HasSubstr("lift")));
   EXPECT_THAT(SceneReaderError("tcp:/x"), AllOf(HasSubstr("tcp:/x"), HasSubstr("tcp://")));
 }

@@ -19,20 +19,20 @@ std::vector<std::uint32_t> Rounds(const std::vector<std::uint32_t>& values, int 
   return continued;
 }
 
-TEST(CounterSplice, EveryRoundBeginsOneStepAfterTheEndOfTheOneBefore) {
+TEST(CounterSplice, StartsEveryRoundOneStepAfterThePreviousOne) {
   EXPECT_THAT(Rounds({7, 8, 9}, 3), ElementsAre(7, 8, 9, 10, 11, 12, 13, 14, 15));
   EXPECT_THAT(Rounds({16, 20, 24}, 2), ElementsAre(16, 20, 24, 28, 32, 36));
 }
 
-TEST(CounterSplice, AGapIsNotAStep) {
+TEST(CounterSplice, DoesNotUseAGapAsStep) {
   EXPECT_THAT(Rounds({1, 2, 9}, 2), ElementsAre(1, 2, 9, 10, 11, 18));
 }
 
-TEST(CounterSplice, ARestartOfTheSenderInARoundIsNotAStep) {
+TEST(CounterSplice, DoesNotUseARestartOfTheSenderAsStep) {
   EXPECT_THAT(Rounds({1000, 1001, 5}, 2), ElementsAre(1000, 1001, 5, 6, 7, 0xFFFF'FC23));
 }
 
-TEST(CounterSplice, ASingleValueGoesUpByOne) {
+TEST(CounterSplice, IncreasesASingleValueByOne) {
   EXPECT_THAT(Rounds({90}, 3), ElementsAre(90, 91, 92));
 }
 
@@ -40,7 +40,7 @@ TEST(CounterSplice, WrapsAround) {
   EXPECT_THAT(Rounds({0xFFFF'FFFE, 0xFFFF'FFFF}, 2), ElementsAre(0xFFFF'FFFE, 0xFFFF'FFFF, 0, 1));
 }
 
-TEST(CounterSplice, ALateValueOfThisRoundIsContinuedWithoutBeingAdded) {
+TEST(CounterSplice, ContinuesALateValueOfTheRoundWithoutAddingIt) {
   CounterSplice splice;
   splice.Add(1);
   splice.Add(2);

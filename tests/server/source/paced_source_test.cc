@@ -48,7 +48,7 @@ struct Collector : SampleSink {
   std::vector<BodySample> samples;
 };
 
-TEST(PacedSource, GivesEverySampleOnceNotBeforeItIsDue) {
+TEST(PacedSource, DeliversEverySampleOnceAndNotTooEarly) {
   PacedSource source(std::make_unique<ShortFile>());
   Collector collector;
   const std::int64_t before = MonotonicNanos();
@@ -75,7 +75,7 @@ TEST(PacedSource, ReturnsWithoutASampleWhenTheTimeoutIsShorter) {
   EXPECT_EQ(source.Poll(milliseconds(0), collector), Source::State::kMore);
 }
 
-TEST(PacedSource, LoopsWithCounterAndTimeGoingOn) {
+TEST(PacedSource, ContinuesCounterAndTimeInALoop) {
   PacedSource source(std::make_unique<ShortFile>(), [] { return std::make_unique<ShortFile>(); });
   Collector collector;
   while (collector.samples.size() < 7) {
@@ -173,7 +173,7 @@ void PlayToEnd(PacedSource& source, SampleSink& sink) {
   }
 }
 
-TEST(PacedSource, PutsSeveralPeopleAndObjectsInOrderOfTime) {
+TEST(PacedSource, DeliversPeopleAndObjectsInOrderOfTime) {
   PacedSource source(std::make_unique<Recording>(
       Steps{Named(0, "Ann"), Named(1, "Bob"), Sample(0, 10, 0), Sample(0, 11, 4), Sample(1, 70, 1),
             Objects(5, 3, 2), Named(1, "Rob"), Sample(1, 71, 5), Sample(0, 12, 8)}));
@@ -186,7 +186,7 @@ TEST(PacedSource, PutsSeveralPeopleAndObjectsInOrderOfTime) {
   EXPECT_THAT(millis, ElementsAre(0, 1, 2, 4, 5, 8));
 }
 
-TEST(PacedSource, EveryPersonsCounterGoesOnInTheNextRound) {
+TEST(PacedSource, ContinuesTheCounterOfEveryPersonInTheNextRound) {
   const auto open = [] {
     return std::make_unique<Recording>(Steps{Sample(0, 6681, 0), Sample(1, 5, 1),
                                              Sample(0, 6682, 2), Sample(1, 6, 3),
@@ -203,7 +203,7 @@ TEST(PacedSource, EveryPersonsCounterGoesOnInTheNextRound) {
   for (std::size_t i = 1; i < 12; ++i) EXPECT_GT(log.stamps[i], log.stamps[i - 1]) << i;
 }
 
-TEST(PacedSource, APersonsSamplesKeepTheirOrderWhateverTheirStampsSay) {
+TEST(PacedSource, KeepsTheOrderOfSamplesForAnyTimeStamps) {
   PacedSource source(std::make_unique<Recording>(
       Steps{Sample(0, 1, 5), Sample(0, 2, 3), Sample(0, 3, -3'600'000), Sample(0, 4, 6)}));
   Log log;
@@ -212,7 +212,7 @@ TEST(PacedSource, APersonsSamplesKeepTheirOrderWhateverTheirStampsSay) {
   EXPECT_TRUE(std::is_sorted(log.stamps.begin(), log.stamps.end()));
 }
 
-TEST(PacedSource, CountsWhatItsSourceCountedInAllRounds) {
+TEST(PacedSource, AddsTheCountersOfItsSourceOverAllRounds) {
   const auto open = [] {
     return std::make_unique<Recording>(Steps{Sample(0, 1, 0), Sample(0, 2, 1)});
   };
@@ -229,7 +229,7 @@ TEST(PacedSource, CountsWhatItsSourceCountedInAllRounds) {
   EXPECT_EQ(counters.transport.at("other_packets"), counters.rejected.at("id 0"));
 }
 
-TEST(PacedSource, GivesWhatCameBeforeAnErrorAndThenTheError) {
+TEST(PacedSource, DeliversTheSamplesBeforeAnErrorAndThenTheError) {
   PacedSource source(
       std::make_unique<Recording>(Steps{Sample(0, 1, 0), Sample(0, 2, 3)}, "the file breaks off"));
   Log log;
@@ -237,7 +237,7 @@ TEST(PacedSource, GivesWhatCameBeforeAnErrorAndThenTheError) {
   EXPECT_THAT(log.words, ElementsAre("0:1", "0:2"));
 }
 
-TEST(PacedSource, AnEmptyFileEndsEvenInALoop) {
+TEST(PacedSource, EndsWithAnEmptyFileEvenInALoop) {
   const auto open = [] { return std::make_unique<Recording>(Steps{}); };
   PacedSource source(open(), open);
   Log log;

@@ -8,7 +8,7 @@
 namespace kinescope::app {
 namespace {
 
-TEST(Scheme, IsToldByTheBeginningOfTheUrl) {
+TEST(Scheme, IsRecognisedByTheBeginningOfTheUrl) {
   EXPECT_EQ(KindOfSource("udp://:9763"), SourceKind::kUdp);
   EXPECT_EQ(KindOfSource("tcp://10.0.0.5:9763"), SourceKind::kTcp);
   EXPECT_EQ(KindOfSource("ros:/tf"), SourceKind::kGraph);
@@ -20,12 +20,12 @@ TEST(Scheme, IsToldByTheBeginningOfTheUrl) {
   EXPECT_EQ(WithoutScheme("take.mvnx"), "take.mvnx");
 }
 
-TEST(Scheme, LiveAreThoseWithoutAnEndOfTheirOwnTime) {
+TEST(Scheme, IsLiveForNetworkAndRosSources) {
   for (const char* live : {"udp:9763", "tcp:9763", "ros:"}) EXPECT_TRUE(IsLiveUrl(live)) << live;
   for (const char* not_live : {"demo:lift", "take.mvnx"}) EXPECT_FALSE(IsLiveUrl(not_live));
 }
 
-TEST(Scheme, HelpHasEveryMotion) {
+TEST(Scheme, ListsEveryMotionInTheHelp) {
   for (const std::string& motion : subject::MotionNames()) {
     EXPECT_THAT(SourceKinds(), ::testing::HasSubstr(motion));
   }

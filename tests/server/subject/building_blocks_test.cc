@@ -17,7 +17,7 @@ Jet Everything(const Jet& t) {
   return sqrt(a) * acos(0.5 * b / a) - c / (1.0 + t * t) + -b;
 }
 
-TEST(Jet, DerivativesAgreeWithFiniteDifferences) {
+TEST(Jet, HasDerivativesThatAgreeWithFiniteDifferences) {
   constexpr double kStep = 1e-4;
   for (double t = -2; t < 2; t += 0.037) {
     const Jet now = Everything({t, 1, 0});
@@ -28,14 +28,14 @@ TEST(Jet, DerivativesAgreeWithFiniteDifferences) {
   }
 }
 
-TEST(Jet, ChainsThroughATimeThatIsItselfAccelerated) {
+TEST(Jet, AppliesTheChainRuleForAcceleratedTime) {
   const Jet inner(0.4, 1.7, -2.3);  // u(t) with u' = 1.7 and u'' = -2.3
   const Jet outer = sin(inner);
   EXPECT_DOUBLE_EQ(outer.rate, std::cos(0.4) * 1.7);
   EXPECT_DOUBLE_EQ(outer.accel, std::cos(0.4) * -2.3 - std::sin(0.4) * 1.7 * 1.7);
 }
 
-TEST(Jet, AQuaternionTurnsAVectorAsAMatrixDoes) {
+TEST(Jet, RotatesVectorsByQuaternionsLikeByMatrices) {
   const JetQuaternion q = TurnZ(Jet(0.3, 1, 2)) * TurnY(Jet(-0.8, 3, 0)) * TurnX(Jet(1.1, 0, -1));
   const JetVector v(Jet(0.2, 1, 0), Jet(-0.4, 0, 1), Jet(0.9, -2, 3));
   const JetVector turned = q * v;
@@ -59,7 +59,7 @@ TEST(Curve, PassesThroughItsKeysInEveryPeriod) {
   }
 }
 
-TEST(Curve, IsSteadyUpToItsSecondDerivativeAtKeysAndPeriodEnds) {
+TEST(Curve, IsContinuousUpToTheSecondDerivativeAtKeysAndPeriodEnds) {
   const Curve curve(kPeriod, kKeys);
   for (const double at : {0.0, 0.5, 1.0, 1.8, 2.5, 3.5, 4.0}) {
     const Jet before = curve.At({at - 1e-9, 1, 0});
@@ -70,7 +70,7 @@ TEST(Curve, IsSteadyUpToItsSecondDerivativeAtKeysAndPeriodEnds) {
   }
 }
 
-TEST(Curve, StaysBetweenNeighbouringKeysAndRestsBetweenEqualOnes) {
+TEST(Curve, StaysBetweenNeighbouringKeysAndIsConstantBetweenEqualOnes) {
   const Curve curve(kPeriod, kKeys);
   for (std::size_t i = 0; i < kKeys.size(); ++i) {
     const Curve::Key& from = kKeys[i];
@@ -87,7 +87,7 @@ TEST(Curve, StaysBetweenNeighbouringKeysAndRestsBetweenEqualOnes) {
   }
 }
 
-TEST(GlideStep, RisesFromZeroToOneWithoutAJerkInAcceleration) {
+TEST(GlideStep, RisesFromZeroToOneWithContinuousAcceleration) {
   for (const double ramp : {0.2, 0.35, 0.5}) {
     EXPECT_EQ(GlideStep(-1.0, ramp).value, 0);
     EXPECT_EQ(GlideStep(2.0, ramp).value, 1);

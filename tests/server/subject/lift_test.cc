@@ -34,7 +34,7 @@ TEST(Lift, KeepsBothFeetFlatAndFixedOnTheFloor) {
   }
 }
 
-TEST(Lift, TakesABoxFromTheFloorToTheChestAndBack) {
+TEST(Lift, MovesABoxFromTheFloorToTheChestAndBack) {
   const auto motion = MakeMotion("lift");
   const auto box = [&](double t) -> Vector3d {
     const urdf::LinkPoses links = LinkPosesOf(motion->At(t));
@@ -48,7 +48,7 @@ TEST(Lift, TakesABoxFromTheFloorToTheChestAndBack) {
   EXPECT_NEAR((box(6.45) - box(1.9)).norm(), 0, 1e-6) << "put down elsewhere";
 }
 
-TEST(Lift, HandsKeepTheirDistanceWhileTheyHoldTheBox) {
+TEST(Lift, KeepsTheDistanceOfTheHandsWhileTheyHoldTheBox) {
   const auto motion = MakeMotion("lift");
   for (double t = 1.8; t < 6.4; t += 1e-2) {
     const urdf::LinkPoses links = LinkPosesOf(motion->At(t));
@@ -71,7 +71,7 @@ TEST(Lift, StaysInBalance) {
   }
 }
 
-TEST(Lift, ShowsEveryClassOfLoad) {
+TEST(Lift, ShowsEveryLoadClass) {
   const auto motion = MakeMotion("lift");
   const urdf::Skeleton& skeleton = *motion->character().skeleton;
   const auto body = urdf::MakeBodyParameters({}, skeleton);

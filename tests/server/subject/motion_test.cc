@@ -38,7 +38,7 @@ class EveryMotion : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Subject, EveryMotion, ::testing::ValuesIn(MotionNames()),
                          [](const auto& motion) { return motion.param; });
 
-TEST_P(EveryMotion, VelocitiesAndAccelerationsAreTheDerivativesOfThePose) {
+TEST_P(EveryMotion, HasVelocitiesAndAccelerationsThatAreDerivativesOfThePose) {
   const auto motion = MakeMotion(GetParam());
   // Differences of the poses themselves: independent of how the derivatives came about.
   constexpr double kStep = 1e-5;
@@ -68,7 +68,7 @@ TEST_P(EveryMotion, VelocitiesAndAccelerationsAreTheDerivativesOfThePose) {
   }
 }
 
-TEST_P(EveryMotion, AccelerationsHaveNoStepsNotEvenWhereAPeriodEnds) {
+TEST_P(EveryMotion, HasContinuousAccelerationsEvenAtPeriodEnds) {
   const auto motion = MakeMotion(GetParam());
   // A step stands out against what continuous acceleration can change by in so short a time; the
   // hardest blow is a heel's, about two thirds of these.
@@ -92,7 +92,7 @@ TEST_P(EveryMotion, AccelerationsHaveNoStepsNotEvenWhereAPeriodEnds) {
   }
 }
 
-TEST_P(EveryMotion, JointsMeetExactly) {
+TEST_P(EveryMotion, HasSegmentsThatMeetExactlyInTheirJoints) {
   for (const double height : {0.5, 1.75, 2.5}) {
     const auto motion = MakeMotion(GetParam(), height);
     const urdf::Skeleton& skeleton = *motion->character().skeleton;
@@ -111,7 +111,7 @@ TEST_P(EveryMotion, JointsMeetExactly) {
   }
 }
 
-TEST_P(EveryMotion, IsTheSameForEveryStatureInProportion) {
+TEST_P(EveryMotion, IsProportionalToTheStature) {
   const auto reference = MakeMotion(GetParam(), 1.75);
   for (const double height : {0.5, 2.5}) {
     const auto motion = MakeMotion(GetParam(), height);
@@ -126,7 +126,7 @@ TEST_P(EveryMotion, IsTheSameForEveryStatureInProportion) {
   }
 }
 
-TEST_P(EveryMotion, FeetNeverSinkIntoTheFloor) {
+TEST_P(EveryMotion, KeepsTheFeetAboveTheFloor) {
   const auto motion = MakeMotion(GetParam());
   for (double t = 0; t < kLapSecs; t += 2e-3) {
     const BodySample sample = motion->At(t);
@@ -137,7 +137,7 @@ TEST_P(EveryMotion, FeetNeverSinkIntoTheFloor) {
   }
 }
 
-TEST_P(EveryMotion, IsTheSameWheneverAndInWhateverOrderItIsAsked) {
+TEST_P(EveryMotion, IsTheSameInAnyOrderOfTimes) {
   const auto motion = MakeMotion(GetParam());
   const auto other = MakeMotion(GetParam());
   const BodySample first = motion->At(3.21);
@@ -153,7 +153,7 @@ TEST_P(EveryMotion, IsTheSameWheneverAndInWhateverOrderItIsAsked) {
   }
 }
 
-TEST_P(EveryMotion, CarriesTheCentreOfMassOfItsOwnBody) {
+TEST_P(EveryMotion, ContainsTheCentreOfMassOfItsBody) {
   const auto motion = MakeMotion(GetParam());
   const auto body =
       urdf::MakeBodyParameters({urdf::Sex::kMale, 75.0}, *motion->character().skeleton);
@@ -202,7 +202,7 @@ Range RangeOf(int joint) {
   }
 }
 
-TEST_P(EveryMotion, AsksNothingOfAJointThatAPersonCannotDo) {
+TEST_P(EveryMotion, StaysWithinTheRangeOfMotionOfEveryJoint) {
   const auto motion = MakeMotion(GetParam());
   for (double t = 0; t < kLapSecs; t += 5e-3) {
     const BodySample sample = motion->At(t);
@@ -219,7 +219,7 @@ TEST_P(EveryMotion, AsksNothingOfAJointThatAPersonCannotDo) {
   }
 }
 
-TEST(Motion, RefusesAnUnknownNameAndSaysWhichThereAre) {
+TEST(Motion, RejectsAnUnknownNameAndListsTheKnownOnes) {
   try {
     MakeMotion("dance");
     FAIL() << "took it";
@@ -231,7 +231,7 @@ TEST(Motion, RefusesAnUnknownNameAndSaysWhichThereAre) {
   }
 }
 
-TEST(Motion, NPoseHasIdentityLinksAndTPoseIdentitySegments) {
+TEST(Motion, HasIdentityLinksInTheNPoseAndIdentitySegmentsInTheTPose) {
   const urdf::LinkPoses links = LinkPosesOf(MakeMotion("n_pose")->At(1.5));
   for (const urdf::Pose& link : links) {
     EXPECT_LT(link.orientation.angularDistance(Quaterniond::Identity()), 1e-9);

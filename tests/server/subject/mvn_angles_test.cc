@@ -28,7 +28,7 @@ Quaterniond AsSeedPublishes(int joint, const Vector3d& streamed) {
   return urdf::RotationFromAngles(published * M_PI / 180);
 }
 
-TEST(MvnAngles, TheSeedsMappingTurnsThemBackIntoOurLinks) {
+TEST(MvnAngles, AreConvertedToLinkRotationsByTheMappingOfXsensMvnRos) {
   for (const std::string& name : MotionNames()) {
     const auto motion = MakeMotion(name);
     for (double t = 0.05; t < 8; t += 0.31) {
@@ -84,7 +84,7 @@ std::vector<std::vector<double>> FramesOf(const std::string& document, const std
   return frames;
 }
 
-TEST(MvnAngles, AreThoseThatMvnStoredForARecording) {
+TEST(MvnAngles, EqualThoseThatMvnStoredInARecording) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   const std::string document =
       kinescope::testing::ReadFile(kinescope::testing::SharedData("mvnx/test_mocap.mvnx"));

@@ -20,7 +20,7 @@ struct Collected final : SampleSink {
   std::vector<BodySample> samples;
 };
 
-TEST(SubjectSource, GivesOneSampleACallAndEndsAfterItsSeconds) {
+TEST(SubjectSource, DeliversSamplesOneByOneAndEndsAfterItsDuration) {
   const auto source = OpenSubject("lift", 240, 0.5);
   Collected sink;
   while (source->Poll(std::chrono::milliseconds(0), sink) == Source::State::kMore) {
@@ -39,7 +39,7 @@ TEST(SubjectSource, GivesOneSampleACallAndEndsAfterItsSeconds) {
   EXPECT_EQ(source->nominal_rate_hz(), 240);
 }
 
-TEST(SubjectSource, CountsSamplesAndStampsThemFromItsEpoch) {
+TEST(SubjectSource, CountsSamplesAndGivesThemTimeStampsFromItsEpoch) {
   const auto source = OpenSubject("walk", 60, 0);
   Collected sink;
   for (int i = 0; i < 600; ++i) {
@@ -57,7 +57,7 @@ TEST(SubjectSource, CountsSamplesAndStampsThemFromItsEpoch) {
   }
 }
 
-TEST(SubjectSource, RefusesRatesAndDurationsThatMakeNoSense) {
+TEST(SubjectSource, RejectsInvalidRatesDurationsAndMotions) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double rate : {0.0, -60.0, 1e9, nan}) {
     EXPECT_THROW(OpenSubject("lift", rate, 1), SourceError) << rate;

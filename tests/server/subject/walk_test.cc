@@ -16,7 +16,7 @@ constexpr double kLapSecs = 2 * M_PI * 1.5 / 1.2;
 constexpr double kStrideSecs = kLapSecs / 7;
 constexpr double kFrameSecs = 2e-3;
 
-TEST(Walk, ThePointOfTheFootThatTouchesTheFloorStaysWhereItIs) {
+TEST(Walk, KeepsTheContactPointOfTheFootFixed) {
   const auto motion = MakeMotion("walk");
   const urdf::Skeleton& skeleton = *motion->character().skeleton;
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
@@ -39,7 +39,7 @@ TEST(Walk, ThePointOfTheFootThatTouchesTheFloorStaysWhereItIs) {
   }
 }
 
-TEST(Walk, AFootIsAlwaysOnTheFloorAndBothAreAboutAQuarterOfTheTime) {
+TEST(Walk, HasAFootOnTheFloorAlwaysAndBothForAQuarterOfTheTime) {
   const auto motion = MakeMotion("walk");
   const urdf::Skeleton& skeleton = *motion->character().skeleton;
   int both = 0;
@@ -54,7 +54,7 @@ TEST(Walk, AFootIsAlwaysOnTheFloorAndBothAreAboutAQuarterOfTheTime) {
   EXPECT_NEAR(static_cast<double>(both) / frames, 0.24, 0.05);
 }
 
-TEST(Walk, StrikesWithTheHeelAndLeavesWithTheToes) {
+TEST(Walk, StartsContactWithTheHeelAndEndsItWithTheToes) {
   const auto motion = MakeMotion("walk");
   const urdf::Skeleton& skeleton = *motion->character().skeleton;
   const auto right = [&](double phase) {
@@ -68,7 +68,7 @@ TEST(Walk, StrikesWithTheHeelAndLeavesWithTheToes) {
   EXPECT_NEAR(right(0.6).tip.z(), 0, 1e-9);
 }
 
-TEST(Walk, GoesRoundTheOriginAtItsSpeedAndComesBack) {
+TEST(Walk, CirclesTheOriginAtItsSpeedAndReturns) {
   const auto motion = MakeMotion("walk");
   double way = 0;
   for (double t = 0; t < kLapSecs; t += kFrameSecs) {
@@ -88,7 +88,7 @@ TEST(Walk, GoesRoundTheOriginAtItsSpeedAndComesBack) {
   }
 }
 
-TEST(Walk, ArmsSwingAgainstTheLegs) {
+TEST(Walk, SwingsTheArmsAgainstTheLegs) {
   const auto motion = MakeMotion("walk");
   // How far in front of the pelvis, along where it faces.
   const auto ahead = [&](const BodySample& sample, int segment) {

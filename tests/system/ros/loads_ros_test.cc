@@ -72,7 +72,7 @@ class LoadsOverRos : public testing::RosProgram {
   std::optional<sensor_msgs::JointState> joints_;
 };
 
-TEST_F(LoadsOverRos, EffortsAreThoseOfKdlsNewtonEulerOnThePublishedUrdf) {
+TEST_F(LoadsOverRos, MatchKdlNewtonEulerEffortsOnThePublishedUrdf) {
   std::optional<tf2_msgs::TFMessage> frames;
   Hear<tf2_msgs::TFMessage>("/tf", [&](const auto& m) { frames = m; });
   StartBridge("demo:t_pose");
@@ -115,7 +115,7 @@ TEST_F(LoadsOverRos, EffortsAreThoseOfKdlsNewtonEulerOnThePublishedUrdf) {
   EXPECT_EQ(compared, 42);
 }
 
-TEST_F(LoadsOverRos, AMeasuredGroundForceReplacesTheComputedOneAndExpires) {
+TEST_F(LoadsOverRos, UseAMeasuredGroundReactionForceUntilItExpires) {
   StartBridge("demo:n_pose");
   ASSERT_TRUE(Spin([&] { return std::isfinite(loads_->cop.x); }));
   EXPECT_FALSE(loads_->cop_measured);
@@ -148,7 +148,7 @@ TEST_F(LoadsOverRos, AMeasuredGroundForceReplacesTheComputedOneAndExpires) {
   EXPECT_NEAR(loads_->cop.x, computed.x, 2e-3);
 }
 
-TEST_F(LoadsOverRos, LoadsOfAnotherProgramReplaceOursPerJointWhileTheyCome) {
+TEST_F(LoadsOverRos, UseExternalLoadsPerJointWhileTheyArrive) {
   StartBridge("demo:n_pose");
   ros::Publisher other = Advertise<sensor_msgs::JointState>("/kinescope/external_joint_states");
   const auto say = [&] {
@@ -166,7 +166,7 @@ TEST_F(LoadsOverRos, LoadsOfAnotherProgramReplaceOursPerJointWhileTheyCome) {
   ASSERT_TRUE(Spin([&] { return LoadOf("jRightElbow").load_class == JointLoad::LOW; }));
 }
 
-TEST_F(LoadsOverRos, WhatAHandHoldsIsToldByServiceAndByTopic) {
+TEST_F(LoadsOverRos, AcceptHandLoadsByServiceAndByTopic) {
   std::set<std::string> held;
   Hear<visualization_msgs::MarkerArray>("/kinescope/markers", [&](const auto& message) {
     for (const auto& marker : message.markers) held.insert(marker.ns);
@@ -202,7 +202,7 @@ TEST_F(LoadsOverRos, WhatAHandHoldsIsToldByServiceAndByTopic) {
   ASSERT_TRUE(Spin([&] { return loads_->held_mass[0] == 0; }));
 }
 
-TEST_F(LoadsOverRos, InputsAreHeardAgainByAMasterThatWasRestarted) {
+TEST_F(LoadsOverRos, ReceiveInputsAgainAfterARestartOfTheMaster) {
   StartBridge("demo:t_pose");
   master_.reset();
   StartMaster();

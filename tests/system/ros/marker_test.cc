@@ -75,7 +75,7 @@ class MarkersOverRos : public testing::RosProgram {
   ros::Publisher single_, many_, frames_;
 };
 
-TEST_F(MarkersOverRos, OfEveryTypeArriveAndAreDeleted) {
+TEST_F(MarkersOverRos, AreShownAndDeletedForEveryType) {
   std::string all;
   for (int type = Marker::ARROW; type <= Marker::TRIANGLE_LIST; ++type) {
     single_.publish(Of(type, type));
@@ -92,7 +92,7 @@ TEST_F(MarkersOverRos, OfEveryTypeArriveAndAreDeleted) {
   Await("0 markers");
 }
 
-TEST_F(MarkersOverRos, InAFrameWaitForItAndGoWithItWhereTheyAreLockedToIt) {
+TEST_F(MarkersOverRos, WaitForTheirFrameAndFollowItIfLocked) {
   visualization_msgs::MarkerArray array;
   array.markers = {Of(Marker::CUBE, 1), Of(Marker::SPHERE, 2)};
   for (Marker& marker : array.markers) marker.header.frame_id = "cart";
@@ -104,7 +104,7 @@ TEST_F(MarkersOverRos, InAFrameWaitForItAndGoWithItWhereTheyAreLockedToIt) {
   Await("2 markers; cube walls/1 at 2.000 0.000 0.000; sphere walls/2 at 1.000 0.000 0.000");
 }
 
-TEST_F(MarkersOverRos, OnALinkGoWithThePerson) {
+TEST_F(MarkersOverRos, OnALinkFollowThePerson) {
   Marker badge = Of(Marker::CYLINDER, 1);
   badge.header.frame_id = "skeleton_pelvis";
   badge.frame_locked = 1;
@@ -115,7 +115,7 @@ TEST_F(MarkersOverRos, OnALinkGoWithThePerson) {
   Await("1 markers; cylinder walls/1 at 0.700 0.100 1.000");
 }
 
-TEST_F(MarkersOverRos, ThatLiveATimeLeaveByThemselves) {
+TEST_F(MarkersOverRos, AreRemovedAfterTheirLifetime) {
   Marker brief = Of(Marker::CUBE, 1);
   brief.lifetime = ros::Duration(0.2);
   single_.publish(brief);
@@ -123,7 +123,7 @@ TEST_F(MarkersOverRos, ThatLiveATimeLeaveByThemselves) {
   Await("0 markers");
 }
 
-TEST_F(MarkersOverRos, ThatCannotBeShownAreCountedByTopicWithTheReason) {
+TEST_F(MarkersOverRos, AreCountedByTopicWithTheReasonIfRejected) {
   const ros::Publisher other = Advertise<geometry_msgs::Point>("/other");
   other.publish(geometry_msgs::Point());
   Marker lost = Of(Marker::CUBE, 3);

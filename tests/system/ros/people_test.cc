@@ -106,7 +106,7 @@ class People : public RosProgram {
   std::map<std::string, int> heads_;
 };
 
-TEST_F(People, ComeAndGoWhileTheOthersArePublished) {
+TEST_F(People, AppearAndLeaveWhileOthersArePublished) {
   const auto both_are_heard = [&, before = joint_states_]() {
     return joint_states_[0] > before[0] + 30 && joint_states_[1] > before[1] + 30 &&
            heads_["skeleton_head"] > 30 && heads_["skeleton_1_head"] > 30;

@@ -110,7 +110,7 @@ class Pipeline : public testing::RosProgram {
   std::string page_;          // http://127.0.0.1:PORT/
 };
 
-TEST_F(Pipeline, PublishesEverySampleOnceAtTheStreamsRate) {
+TEST_F(Pipeline, PublishesEverySampleOnceAtTheRateOfTheStream) {
   ros::NodeHandle node;
   Listener listener(node);
   const auto suit = Start("stream demo:lift --rate_hz 240 --to " + suit_address_);
@@ -167,7 +167,7 @@ int DistanceFromBackground(const render::Image& image, double x, double y) {
   return distance;
 }
 
-TEST_F(Pipeline, ShowsTheHumanWhereTheStateSaysAndOnThePage) {
+TEST_F(Pipeline, ShowsThePersonAtTheStatesPositionAndOnThePage) {
   const auto suit = Start("stream demo:t_pose --to " + suit_address_);
   WaitForLine(*server_, "live: ");
 
@@ -208,7 +208,7 @@ TEST_F(Pipeline, ShowsTheHumanWhereTheStateSaysAndOnThePage) {
   EXPECT_EQ(page.exit_code, 0) << page.out << page.err;
 }
 
-TEST_F(Pipeline, TakesALoadFromThePageAndShowsTheShoulderThatCarriesIt) {
+TEST_F(Pipeline, AcceptsAHandLoadFromThePageAndShowsTheLoadedShoulder) {
   const auto suit = Start("stream demo:t_pose --to " + suit_address_);
   WaitForLine(*server_, "live: ");
   const auto page = RunProgram(
@@ -217,7 +217,7 @@ TEST_F(Pipeline, TakesALoadFromThePageAndShowsTheShoulderThatCarriesIt) {
   EXPECT_EQ(page.exit_code, 0) << page.out << page.err;
 }
 
-TEST_F(Pipeline, GoesOnWhenTheMasterDies) {
+TEST_F(Pipeline, ContinuesWithoutTheMaster) {
   const auto suit = Start("stream demo:walk --to " + suit_address_);
   WaitForLine(*server_, "live: ");
   master_.reset();

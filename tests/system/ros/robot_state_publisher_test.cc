@@ -103,12 +103,12 @@ class RobotStatePublisher : public testing::RosProgram {
   double worst_metres_ = 0, worst_radians_ = 0;
 };
 
-TEST_F(RobotStatePublisher, PublishesOurTree) {
+TEST_F(RobotStatePublisher, PublishesTheSameTreeAsKinescope) {
   const auto bridge = Start("bridge demo:lift --tf tree --ros required");
   ExpectSameTrees(66, 200);
 }
 
-TEST_F(RobotStatePublisher, PublishesOurTreeOfAGlovedHandWithPropsThatWasStreamed) {
+TEST_F(RobotStatePublisher, PublishesTheSameTreeForStreamedGlovesAndProps) {
   const auto bridge = Start("bridge udp://127.0.0.1:0 --tf tree --ros required");
   const std::string suit_address = WaitForAddress(*bridge);
   const auto suit = Start(fmt::format("stream demo:lift --gloves --props 2 --to {}", suit_address));

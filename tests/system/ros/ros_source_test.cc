@@ -143,13 +143,13 @@ class RosSource : public testing::RosProgram {
   double worst_metres_ = 0, worst_radians_ = 0;
 };
 
-TEST_F(RosSource, ShowsTheSamePosesAsTheBridgeWhoseFramesItHears) {
+TEST_F(RosSource, ShowsTheSamePosesAsTheBridgeThatPublishesItsFrames) {
   const auto suit = Start("bridge demo:lift --ros required --tf flat __name:=suit");
   const auto view = Start("bridge ros: __name:=view");
   Compare(100);
 }
 
-TEST_F(RosSource, ShowsTheSamePosesWhenTheFramesAreATreeAndPublishesNoFramesItself) {
+TEST_F(RosSource, ShowsTheSamePosesFromATreeWithoutPublishingFrames) {
   const auto suit = Start("bridge demo:lift --ros required --tf tree __name:=suit");
   const auto view = Start("bridge ros: --tf flat __name:=view");
   WaitForLine(*view, "not republished");
@@ -163,7 +163,7 @@ TEST_F(RosSource, ShowsTheSamePosesWhenTheFramesAreATreeAndPublishesNoFramesItse
 
 // A suit that somebody else's driver put on /tf, next to a robot with a head and hands of its own:
 // played as it was recorded, it gives the samples that reading the recording gives.
-TEST_F(RosSource, GivesTheSamplesOfARecordedGraphThatIsPlayedAgain) {
+TEST_F(RosSource, ReceivesTheSamplesOfAReplayedBag) {
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
   const std::string path = testing::SharedData("ros1/2018-05-28-17-34-45.bag.xz");
   kinescope::testing::RecordingSink read;
@@ -216,14 +216,14 @@ TEST_F(RosSource, GivesTheSamplesOfARecordedGraphThatIsPlayedAgain) {
   }
 }
 
-TEST_F(RosSource, TakesVelocitiesFromLinkStates) {
+TEST_F(RosSource, ReadsVelocitiesFromLinkStates) {
   const auto suit = Start("bridge demo:lift --ros required --tf off __name:=suit");
   const auto view = Start("bridge ros:/suit/link_states __name:=view");
   Compare(100);
   EXPECT_EQ(worst_velocity_, 0);
 }
 
-TEST_F(RosSource, NeverTakesWhatItPublishedItself) {
+TEST_F(RosSource, IgnoresItsOwnMessages) {
   const auto suit = Start(
       "bridge demo:lift --ros required --tf off __name:=suit /suit/link_states:=/loop/link_states");
   const auto view = Start(
@@ -239,7 +239,7 @@ TEST_F(RosSource, NeverTakesWhatItPublishedItself) {
   }));
 }
 
-TEST_F(RosSource, MeasuresTheLengthsThatTheOthersUrdfHas) {
+TEST_F(RosSource, MeasuresTheSegmentLengthsOfThePublishedUrdf) {
   const auto suit = Start("bridge demo:lift --ros required __name:=suit");
   const auto urdf_of = [](const std::string& source) {
     return RunProgram(
@@ -260,7 +260,7 @@ TEST_F(RosSource, MeasuresTheLengthsThatTheOthersUrdfHas) {
 }
 
 // Without a name of its own: it must not end the node that it looks at.
-TEST_F(RosSource, IsInspectedLikeAnyOther) {
+TEST_F(RosSource, IsInspectedLikeOtherSources) {
   const auto suit = Start("bridge demo:walk --ros required");
   int heard = 0;
   Hear<tf2_msgs::TFMessage>("/tf", [&](const auto&) { ++heard; });
@@ -284,7 +284,7 @@ TEST_F(RosSource, IsInspectedLikeAnyOther) {
   EXPECT_GT(report.at("characters").at(0).at("samples").at("count"), 30);
 }
 
-TEST_F(RosSource, WaitsForAMasterAndHearsTheNextPublisherAfterItsRestart) {
+TEST_F(RosSource, WaitsForAMasterAndFindsPublishersAfterItsRestart) {
   const std::string uri = std::getenv("ROS_MASTER_URI");
   master_.reset();
   const auto view = Start("bridge ros: __name:=view");
@@ -304,7 +304,7 @@ TEST_F(RosSource, WaitsForAMasterAndHearsTheNextPublisherAfterItsRestart) {
   WaitForLine(*view, "live: 'skeleton' from ros:/tf");
 }
 
-TEST_F(RosSource, ADeadMasterDoesNotSilenceWhoIsConnectedNorDoesANewOneThatDoesNotKnowThem) {
+TEST_F(RosSource, KeepsConnectedPublishersDuringAndAfterARestartOfTheMaster) {
   // A node as most are: it registers once, and a restarted master never hears of it.
   const ros::Publisher publisher = node_->advertise<tf2_msgs::TFMessage>("/tf", 10);
   const auto view = Start("serve ros: --http_port 0 --pictures off --ros off __name:=view");
@@ -340,7 +340,7 @@ TEST_F(RosSource, ADeadMasterDoesNotSilenceWhoIsConnectedNorDoesANewOneThatDoesN
   }));
 }
 
-TEST_F(RosSource, CountsWhatCannotBeUsedAndGoesOn) {
+TEST_F(RosSource, CountsRejectedMessagesAndContinues) {
   const ros::Publisher publisher = node_->advertise<tf2_msgs::TFMessage>("/people", 100);
   const auto view = Start("serve ros:/people --http_port 0 --pictures off __name:=view");
   const std::string page = WaitForLine(*view, "page at ");
@@ -380,7 +380,7 @@ TEST_F(RosSource, CountsWhatCannotBeUsedAndGoesOn) {
   })) << SourceAt(page).dump(1);
 }
 
-TEST_F(RosSource, RefusesATopicOfAnotherTypeByName) {
+TEST_F(RosSource, RejectsATopicOfAnotherTypeByName) {
   const ros::Publisher publisher = node_->advertise<sensor_msgs::JointState>("/joints", 10);
   const auto view = Start("serve ros:/joints --http_port 0 --pictures off __name:=view");
   const std::string page = WaitForLine(*view, "page at ");
@@ -391,7 +391,7 @@ TEST_F(RosSource, RefusesATopicOfAnotherTypeByName) {
   }));
 }
 
-TEST_F(RosSource, RefusesNamesThatCannotBeAndANameThatIsTaken) {
+TEST_F(RosSource, RejectsInvalidNamesAndANameInUse) {
   const auto refusal = [](const std::vector<std::string>& arguments) {
     std::vector<std::string> command = {testing::KinescopePath(), "bridge"};
     command.insert(command.end(), arguments.begin(), arguments.end());

@@ -254,7 +254,7 @@ std::string Shelf(const std::vector<std::string>& visuals) {
   return xml + "</robot>";
 }
 
-TEST_F(RViz, ShowsTheSameMeshesOfEveryKind) {
+TEST_F(RViz, ShowsTheSameMeshesOfEveryFormat) {
   WritePackage("meshes");
   const auto with_nodes = [](const std::string& transform) {
     DaeOptions options;
@@ -303,7 +303,7 @@ TEST_F(RViz, ShowsTheSameMeshesOfEveryKind) {
       {{0, 0, 0}, 3.4, 0.5, 0.35});
 }
 
-TEST_F(RViz, ShowsTheSamePersonAsExported) {
+TEST_F(RViz, ShowsTheExportedPersonIdentically) {
   WritePackage("person");
   const auto result =
       testing::RunProgram({testing::KinescopePath(), "urdf", "--height", "1.75", "--package",
@@ -319,7 +319,7 @@ TEST_F(RViz, ShowsTheSamePersonAsExported) {
   ExpectTheSamePicture(xml, positions, {{0, 0, -0.1}, 2.6, 0.6, 0.25});
 }
 
-TEST_F(RViz, ShowsTheSameHumanOfOthers) {
+TEST_F(RViz, ShowsTheSamePublishedHumanModels) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-gazebo/humanSubject01_66dof.urdf");
   // Nearly black, which would tell nothing of colours.
   std::string xml =

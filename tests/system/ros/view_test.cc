@@ -85,7 +85,7 @@ render::Image FloorAlone(const Eigen::Isometry3d& world_from_optical,
   return render::MakeRenderer()->Render(nobody, camera, {kWidth, kHeight, 1, "", false});
 }
 
-TEST_F(ViewOverRos, ShowsEveryLinkWhereFramesAndCalibrationSayItIs) {
+TEST_F(ViewOverRos, ShowsEveryLinkAtItsFrameAccordingToTheCalibration) {
   StartServe("--ros_view_size 320x240 --ros_view_rate_hz 10 --ros_view_camera iso");
   HearFrames();
   EXPECT_EQ(Diagnostics("view").at("drawn"), 0) << "nobody listens";
@@ -137,7 +137,7 @@ TEST_F(ViewOverRos, ShowsEveryLinkWhereFramesAndCalibrationSayItIs) {
   }
 }
 
-TEST_F(ViewOverRos, IsDrawnAtItsRateWhileSomebodyListensAndNotAfterwards) {
+TEST_F(ViewOverRos, IsRenderedAtItsRateOnlyWhileItHasSubscribers) {
   int images = 0;
   Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto&) { ++images; });
   StartServe("--ros_view_size 64x48 --ros_view_rate_hz 5");  // somebody waits for it already
@@ -162,7 +162,7 @@ TEST_F(ViewOverRos, IsDrawnAtItsRateWhileSomebodyListensAndNotAfterwards) {
 }
 
 // A wall that another program shows is in the picture, where it says it is and in its colour.
-TEST_F(ViewOverRos, HasMarkersOfOtherProgramsInIt) {
+TEST_F(ViewOverRos, ShowsExternalMarkers) {
   StartServe(
       "--ros_view_size 320x240 --ros_view_rate_hz 10 --ros_view_camera front --marker_topics "
       "/walls");
@@ -195,7 +195,7 @@ TEST_F(ViewOverRos, HasMarkersOfOtherProgramsInIt) {
   EXPECT_TRUE(Spin(is_red)) << Diagnostics("ros");
 }
 
-TEST_F(ViewOverRos, ComesThroughEveryTransportThatIsInstalled) {
+TEST_F(ViewOverRos, ArrivesThroughEveryInstalledTransport) {
   StartServe("--ros_view_size 64x48 --ros_view_rate_hz 10");
   image_transport::ImageTransport transport(*node_);
   std::string installed;
@@ -213,7 +213,7 @@ TEST_F(ViewOverRos, ComesThroughEveryTransportThatIsInstalled) {
   EXPECT_NE(installed.find("/raw "), std::string::npos) << installed;
 }
 
-TEST_F(ViewOverRos, IsFoundAgainThroughAMasterThatWasRestarted) {
+TEST_F(ViewOverRos, IsAdvertisedAgainAfterARestartOfTheMaster) {
   StartServe("--ros_view_size 64x48 --ros_view_rate_hz 10");
   master_.reset();
   StartMaster();
@@ -223,7 +223,7 @@ TEST_F(ViewOverRos, IsFoundAgainThroughAMasterThatWasRestarted) {
   EXPECT_TRUE(Spin([&] { return has_image; }));
 }
 
-TEST_F(ViewOverRos, IsNotThereWithoutPicturesNorWhereItIsOff) {
+TEST_F(ViewOverRos, IsNotAdvertisedIfItOrPicturesAreOff) {
   StartServe("--pictures off");
   ASSERT_TRUE(Spin([] { return IsAdvertised("/kinescope/joint_states"); }));
   EXPECT_FALSE(IsAdvertised("/kinescope/view/image_raw"));
@@ -235,7 +235,7 @@ TEST_F(ViewOverRos, IsNotThereWithoutPicturesNorWhereItIsOff) {
 }
 
 #ifdef KINESCOPE_HANGING_DRIVER
-TEST_F(ViewOverRos, WhoseDriverHangsDoesNotKeepTheProgramFromStopping) {
+TEST_F(ViewOverRos, AllowsTheProgramToStopIfItsDriverDoesNotRespond) {
   const std::filesystem::path hang = folder_ / "hang";
   bool has_image = false;
   Hear<sensor_msgs::Image>("/kinescope/view/image_raw", [&](const auto&) { has_image = true; });

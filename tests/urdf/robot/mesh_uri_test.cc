@@ -39,7 +39,7 @@ class MeshUri : public ::testing::Test {
   TempFolder folder_;
 };
 
-TEST_F(MeshUri, RelativeNamesStartAtTheUrdf) {
+TEST_F(MeshUri, ResolvesRelativeNamesFromTheFolderOfTheUrdf) {
   const fs::path mesh = Write("robot/meshes/a b.stl");
   const MeshSearch search = MakeMeshSearch(folder_ / "robot/urdf/r.urdf", {});
   EXPECT_TRUE(fs::equivalent(
@@ -49,7 +49,7 @@ TEST_F(MeshUri, RelativeNamesStartAtTheUrdf) {
   EXPECT_TRUE(fs::equivalent(Found(mesh.string(), MeshSearch()), mesh));
 }
 
-TEST_F(MeshUri, PackagesAreFoundOnThePackagePathInItsOrder) {
+TEST_F(MeshUri, FindsPackagesOnThePackagePathInItsOrder) {
   const fs::path first = Write("one/arm/meshes/a.stl"), second = Write("two/arm/meshes/a.stl");
   const std::string uri = "package://arm/meshes/a.stl";
   const fs::path urdf = Write("elsewhere/r.urdf");
@@ -58,7 +58,7 @@ TEST_F(MeshUri, PackagesAreFoundOnThePackagePathInItsOrder) {
   EXPECT_EQ(Found(uri, MakeMeshSearch(urdf, {(folder_ / "one").string()})), first);
 }
 
-TEST_F(MeshUri, APackageIsCalledAsItsManifestSaysAndMayLieDeep) {
+TEST_F(MeshUri, FindsNestedPackagesByTheNameInTheirManifest) {
   const fs::path mesh = Write("src/group/repo/folder/meshes/a.stl");
   Write("src/group/repo/folder/package.xml", "<package>\n <name> arm </name></package>");
   const fs::path urdf = Write("elsewhere/r.urdf");
@@ -69,7 +69,7 @@ TEST_F(MeshUri, APackageIsCalledAsItsManifestSaysAndMayLieDeep) {
   EXPECT_NE(Reason(uri, MakeMeshSearch(urdf, {(folder_ / "src").string()})), "found");
 }
 
-TEST_F(MeshUri, ThePackageAroundTheUrdfIsFoundByWalkingUp) {
+TEST_F(MeshUri, FindsThePackageThatContainsTheUrdf) {
   const fs::path mesh = Write("checkout/meshes/a.stl");
   Write("checkout/package.xml", "<package><name>arm</name></package>");
   const fs::path neighbour = Write("hand/meshes/h.stl");
@@ -79,7 +79,7 @@ TEST_F(MeshUri, ThePackageAroundTheUrdfIsFoundByWalkingUp) {
   EXPECT_EQ(Found("package://hand/meshes/h.stl", search), neighbour);
 }
 
-TEST_F(MeshUri, WhatIsNotFoundIsToldWithThePlacesAndAWayOut) {
+TEST_F(MeshUri, ReportsMissingFilesWithTheSearchedPlacesAndARemedy) {
   const MeshSearch search = MakeMeshSearch(Write("r.urdf"), {(folder_ / "packages").string()});
   const std::string package = Reason("package://arm/a.stl", search);
   EXPECT_NE(package.find("'arm'"), std::string::npos) << package;

@@ -18,7 +18,7 @@ RobotModel WithJoint(const std::string& type, const std::string& inner,
 
 constexpr char kWide[] = "<limit lower='-2' upper='2' effort='1' velocity='1'/>";
 
-TEST(RobotKinematics, TurnsAndSlidesAlongTheAxisWhateverItsLength) {
+TEST(RobotKinematics, RotatesAndSlidesAlongAnAxisOfAnyLength) {
   const auto turned = PlaceLinks(WithJoint("revolute", kWide), {{"j", M_PI / 2}});
   EXPECT_LT((turned.at(1) * Vector3d::UnitX() - Vector3d(1, 1, 0)).norm(), 1e-12);
   const auto slid = PlaceLinks(WithJoint("prismatic", kWide), {{"j", 0.25}});
@@ -28,7 +28,7 @@ TEST(RobotKinematics, TurnsAndSlidesAlongTheAxisWhateverItsLength) {
   EXPECT_LT((moved.at(1).translation() - Vector3d(1, 0, 5)).norm(), 1e-12);
 }
 
-TEST(RobotKinematics, RestsAtZeroOrAtTheLimitNextToIt) {
+TEST(RobotKinematics, UsesZeroOrTheNearestLimitByDefault) {
   const auto angle = [](const std::string& type, const std::string& limit) {
     const auto links = PlaceLinks(WithJoint(type, limit));
     const Vector3d x = links.at(1).linear().col(0);
@@ -44,7 +44,7 @@ TEST(RobotKinematics, RestsAtZeroOrAtTheLimitNextToIt) {
   EXPECT_DOUBLE_EQ(angle("revolute", "<limit lower='2' upper='1' effort='1' velocity='1'/>"), 0);
 }
 
-TEST(RobotKinematics, AMimicFollowsUnlessItIsGivenItself) {
+TEST(RobotKinematics, MovesMimicJointsUnlessTheirAngleIsGiven) {
   const std::string follower =
       "<link name='c'/><joint name='k' type='revolute'><parent link='a'/><child link='c'/>"
       "<axis xyz='0 0 1'/><limit lower='-9' upper='9' effort='1' velocity='1'/>"
@@ -58,7 +58,7 @@ TEST(RobotKinematics, AMimicFollowsUnlessItIsGivenItself) {
   EXPECT_NEAR(angle_of_c({{"j", 0.5}, {"k", 0.2}}), 0.2, 1e-12);
 }
 
-TEST(RobotKinematics, AHostileRobotStillHasPlaces) {
+TEST(RobotKinematics, HasFinitePosesForExtremeValues) {
   const std::string ring =
       "<link name='c'/><joint name='k' type='prismatic'><parent link='a'/><child link='c'/>"
       "<axis xyz='0 0 1'/><limit lower='1e300' upper='1e301' effort='1' velocity='1'/>"
@@ -68,7 +68,7 @@ TEST(RobotKinematics, AHostileRobotStillHasPlaces) {
   }
 }
 
-TEST(RobotKinematics, RefusesAJointThatIsNotThereOrCannotMove) {
+TEST(RobotKinematics, RejectsAnglesOfUnknownAndFixedJoints) {
   EXPECT_THROW(PlaceLinks(WithJoint("revolute", kWide), {{"elbow", 1}}), UrdfError);
   EXPECT_THROW(PlaceLinks(WithJoint("fixed", ""), {{"j", 1}}), UrdfError);
 }

@@ -40,7 +40,7 @@ TEST(RobotModel, ReadsShapesColoursAndOrigins) {
   EXPECT_EQ(robot.joints.at(0).type, RobotJoint::Type::kPrismatic);
 }
 
-TEST(RobotModel, RefusesWhatIsNoUrdfAndSaysWhy) {
+TEST(RobotModel, RejectsInvalidUrdfsWithTheReason) {
   EXPECT_NE(ReasonFor(""), "accepted");
   EXPECT_NE(ReasonFor("this is not XML"), "accepted");
   EXPECT_NE(ReasonFor("<robot name='r'></robot>"), "accepted");
@@ -66,7 +66,7 @@ TEST(RobotModel, RefusesWhatIsNoUrdfAndSaysWhy) {
   EXPECT_NE(bad_number.find("line 1"), std::string::npos) << bad_number;
 }
 
-TEST(RobotModel, KeepsLimitsInertiaCollisionsAndWhatAJointMimics) {
+TEST(RobotModel, ReadsLimitsInertiaCollisionsAndMimicJoints) {
   const RobotModel robot = ParseUrdf(R"(<robot name="r"><link name="a"/>
     <link name="b"><inertial><origin xyz="1 2 3" rpy="0 0 1.5707963267948966"/><mass value="4"/>
         <inertia ixx="1" ixy="0.1" ixz="0.2" iyy="2" iyz="0.3" izz="2.5"/></inertial>
@@ -105,7 +105,7 @@ TEST(RobotModel, KeepsLimitsInertiaCollisionsAndWhatAJointMimics) {
   EXPECT_EQ(robot.joints.at(1).mimic->offset, 0.5);
 }
 
-TEST(RobotModel, SaysWhatItReadsOver) {
+TEST(RobotModel, ReportsIgnoredElements) {
   const RobotModel robot = ParseUrdf(R"(<robot name="r">
     <link name="a"><visual><geometry><box size="1 1 1"/></geometry><material name="wood">
       <texture filename="wood.png"/></material></visual></link>
@@ -134,13 +134,13 @@ std::string Chain(std::size_t links) {
   return xml + "</robot>";
 }
 
-TEST(RobotModel, ReadsTheDeepestChainThatItAllows) {
+TEST(RobotModel, ReadsTheLongestAllowedChain) {
   const RobotModel robot = ParseUrdf(Chain(kMaxLinks));
   ASSERT_EQ(robot.links.size(), kMaxLinks);
   EXPECT_EQ(robot.links.back().name, "a009999");
 }
 
-TEST(RobotModel, RefusesHostileDocumentsAtOnce) {
+TEST(RobotModel, RejectsOversizedAndTooDeeplyNestedDocuments) {
   const std::string deep = ReasonFor(Chain(60'000));
   EXPECT_NE(deep.find("60000 links"), std::string::npos) << deep;
   EXPECT_NE(ReasonFor(Chain(300'000)), "accepted");
@@ -164,7 +164,7 @@ TEST(RobotModel, RefusesHostileDocumentsAtOnce) {
   EXPECT_NE(file.find("DOCTYPE"), std::string::npos) << file;
 }
 
-TEST(RobotModel, RefusesSizesThatNoRobotHas) {
+TEST(RobotModel, RejectsImpossibleSizes) {
   const auto with = [](const std::string& visual) {
     return ReasonFor("<robot name='r'>\n<link name='a'><visual>\n" + visual +
                      "</visual></link></robot>");
@@ -181,7 +181,7 @@ TEST(RobotModel, RefusesSizesThatNoRobotHas) {
   }
 }
 
-TEST(RobotModel, ReadsTheHumansOfOthers) {
+TEST(RobotModel, ReadsThePublishedHumanModelsOfOtherProjects) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-gazebo/humanSubject01_66dof.urdf");
   using testing::ReadFile;
   using testing::SharedData;

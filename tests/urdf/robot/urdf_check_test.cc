@@ -59,7 +59,7 @@ std::string Robot(const std::vector<std::string>& pieces) {
   return xml + "</robot>";
 }
 
-TEST(UrdfCheck, FindsNothingInAGoodRobot) {
+TEST(UrdfCheck, FindsNoProblemsInAValidRobot) {
   const UrdfReport report = Check(Robot({Body("a"), Body("b"), Joint("j", "a", "b")}));
   EXPECT_TRUE(report.problems.empty()) << All(report);
   EXPECT_TRUE(report.is_usable());
@@ -71,7 +71,7 @@ TEST(UrdfCheck, FindsNothingInAGoodRobot) {
   EXPECT_EQ(report.mass, 2);
 }
 
-TEST(UrdfCheck, TellsTwoParentsLoopsAndRootsApart) {
+TEST(UrdfCheck, DistinguishesTwoParentsLoopsAndSeveralRoots) {
   const UrdfReport two =
       Check(Robot({Body("a"), Body("b"), Body("c"), Joint("j", "a", "c"), Joint("k", "b", "c")}));
   EXPECT_TRUE(Says(two, Kind::kUnreadable, 6, "link 'c'", "two joints; the other is in line 5"));
@@ -87,7 +87,7 @@ TEST(UrdfCheck, TellsTwoParentsLoopsAndRootsApart) {
   EXPECT_TRUE(own.roots.empty());
 }
 
-TEST(UrdfCheck, TellsWhatIsMissingOrThereTwice) {
+TEST(UrdfCheck, ReportsMissingAndDuplicateElements) {
   const UrdfReport report =
       Check(Robot({Body("a"), Body("a"), Joint("j", "a", "ghost"), Joint("j", "a", ""), "<link/>\n",
                    "<joint type='fixed'/>\n"}));
@@ -101,7 +101,7 @@ TEST(UrdfCheck, TellsWhatIsMissingOrThereTwice) {
       Says(Check("<robot><link name='a'/></robot>"), Kind::kUnreadable, 1, "robot", "no name"));
 }
 
-TEST(UrdfCheck, WeighsAndMeasuresEveryLink) {
+TEST(UrdfCheck, ChecksTheMassAndInertiaOfEveryLink) {
   const auto inertial = [](const std::string& mass, const std::string& xx, const std::string& yy,
                            const std::string& zz, const std::string& xy = "0") {
     return "<link name='b'><inertial><mass value='" + mass + "'/><inertia ixx='" + xx + "' ixy='" +
@@ -127,7 +127,7 @@ TEST(UrdfCheck, WeighsAndMeasuresEveryLink) {
   EXPECT_TRUE(Check("<robot name='r'><link name='a'/></robot>").problems.empty());
 }
 
-TEST(UrdfCheck, LooksAtEveryShape) {
+TEST(UrdfCheck, ChecksEveryShape) {
   const auto says = [](const std::string& visual, Kind kind, const std::string& what) {
     return Says(Check("<robot name='r'><link name='a'>\n<collision>\n" + visual +
                       "</collision></link></robot>"),
@@ -149,7 +149,7 @@ TEST(UrdfCheck, LooksAtEveryShape) {
                    Kind::kUnreadable, "1e+07 m away"));
 }
 
-TEST(UrdfCheck, LooksAtEveryJoint) {
+TEST(UrdfCheck, ChecksEveryJoint) {
   const auto says = [](const std::string& inner, Kind kind, const std::string& what) {
     return Says(Check(Robot({Body("a"), Body("b"), Joint("j", "a", "b", inner)})), kind, 4,
                 "joint 'j'", what);
@@ -168,7 +168,7 @@ TEST(UrdfCheck, LooksAtEveryJoint) {
   EXPECT_TRUE(says("<mimic joint='ghost'/>" + limit, Kind::kWrong, "'ghost', which does not"));
 }
 
-TEST(UrdfCheck, SaysWhatIsNoUrdfAtAll) {
+TEST(UrdfCheck, ReportsDocumentsThatAreNotUrdfs) {
   EXPECT_TRUE(Says(Check(""), Kind::kUnreadable, 1, "document", "no element found"));
   EXPECT_TRUE(Says(Check("<robot name='r'>\n<link name='a'>\n</robot>"), Kind::kUnreadable, 3,
                    "document", "mismatched tag"));
@@ -179,7 +179,7 @@ TEST(UrdfCheck, SaysWhatIsNoUrdfAtAll) {
                    Kind::kUnreadable, 2, "<xacro:include>", "xacro"));
 }
 
-TEST(UrdfCheck, WhateverItCallsReadableIsRead) {
+TEST(UrdfCheck, ReportsSwappedLimitsAsWrongButReadable) {
   const UrdfReport report = Check(Robot({Body("a"), Body("b"),
                                          Joint("j", "a", "b",
                                                "<limit lower='2' "
@@ -189,7 +189,7 @@ TEST(UrdfCheck, WhateverItCallsReadableIsRead) {
   EXPECT_TRUE(std::none_of(report.problems.begin(), report.problems.end(), is_unreadable));
 }
 
-TEST(UrdfCheck, AMaterialIsDefinedSomewhere) {
+TEST(UrdfCheck, ReportsMaterialsWithoutDefinition) {
   const auto check = [](const std::string& before, const std::string& inner) {
     return Check(
         "<robot name='r'>" + before + "<link name='a'>\n<visual><geometry><box size='1 1 1'/>" +
@@ -204,7 +204,7 @@ TEST(UrdfCheck, AMaterialIsDefinedSomewhere) {
       Says(check("", "<color rgba='255 0 0 1'/>"), Kind::kWarning, 2, "link 'a'", "0 to 1"));
 }
 
-TEST(UrdfCheck, FindsNoFaultInTheHumanThatWeWrite) {
+TEST(UrdfCheck, FindsOnlyMasslessLinksInTheGeneratedHuman) {
   HumanModel human;
   human.skeleton = DefaultSkeleton(1.8);
   human.body = MakeBodyParameters(BodyDescription(), human.skeleton);
@@ -216,7 +216,7 @@ TEST(UrdfCheck, FindsNoFaultInTheHumanThatWeWrite) {
   }
 }
 
-TEST(UrdfCheck, LooksThroughAMillionElementsInNoTime) {
+TEST(UrdfCheck, ChecksAMillionElementsInSeconds) {
   std::string xml = "<robot name='r'>";
   for (int i = 0; i < 150'000; ++i) {
     xml += "<joint name='j" + std::to_string(i) + "' type='fixed'><parent link='p'/></joint>";
@@ -227,7 +227,7 @@ TEST(UrdfCheck, LooksThroughAMillionElementsInNoTime) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
-TEST(UrdfCheck, ReadsTheHumansOfOthers) {
+TEST(UrdfCheck, AcceptsThePublishedHumanModelsOfOtherProjects) {
   KINESCOPE_NEEDS_SHARED_DATA("models/human-gazebo/humanSubject01_66dof.urdf");
   using testing::ReadFile;
   using testing::SharedData;

@@ -34,7 +34,7 @@ class GoldenCaseFile : public ::testing::Test {
   kinescope::testing::TempFolder folder_;
 };
 
-TEST_F(GoldenCaseFile, RefusesATimeThatNoRecordingHas) {
+TEST_F(GoldenCaseFile, RejectsAnInvalidTime) {
   for (const std::string time : {"-3", "-0.001", "864001", "1e300", "nan", "inf"}) {
     EXPECT_THAT(Complaint("source: demo:lift\ntime: " + time + "\n"),
                 AllOf(HasSubstr("case.yaml:2: time=" + time + ": expected"),
@@ -44,7 +44,7 @@ TEST_F(GoldenCaseFile, RefusesATimeThatNoRecordingHas) {
   EXPECT_EQ(Complaint("source: demo:lift\ntime: 864000\n"), "");
 }
 
-TEST_F(GoldenCaseFile, ItsGhostLooksAsItsPersonDoes) {
+TEST_F(GoldenCaseFile, GivesTheReferencePoseTheAppearanceOfThePerson) {
   const GoldenCase golden_case =
       Load("source: demo:lift\nghost: demo:lift@1\nbody_model: primitive\nsize: 16x16\n");
   int drawn = 0;

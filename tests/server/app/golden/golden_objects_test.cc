@@ -26,7 +26,7 @@ SphereInPicture Sphere(const std::string& joint, LoadClass load_class, double ra
   return sphere;
 }
 
-TEST(GoldenObjects, ComeBackFromTheirFile) {
+TEST(GoldenObjects, AreReadAsTheyWereWritten) {
   const testing::TempFolder folder;
   const std::vector<SphereInPicture> spheres = {Sphere("right_elbow", LoadClass::kMedium, 0.4321),
                                                 Sphere("l5_s1", LoadClass::kUnknown, NAN)};
@@ -40,7 +40,7 @@ TEST(GoldenObjects, NameTheJointWhoseClassHasChanged) {
               ElementsAre("right_elbow: expected low (green), found medium (orange)"));
 }
 
-TEST(GoldenObjects, NameWhatIsGoneNewMovedOrUnknown) {
+TEST(GoldenObjects, NameMissingNewMovedAndUnknownObjects) {
   SphereInPicture moved = Sphere("l5_s1", LoadClass::kLow, 0.1);
   moved.x_px += 3;
   SphereInPicture silent = Sphere("left_hip", LoadClass::kLow, NAN);
@@ -53,7 +53,7 @@ TEST(GoldenObjects, NameWhatIsGoneNewMovedOrUnknown) {
                   "left_knee: load sphere is missing", "t9_t8: new load sphere, high (red)"));
 }
 
-TEST(GoldenObjects, SayWhichFileIsBroken) {
+TEST(GoldenObjects, NameADamagedFile) {
   const testing::TempFolder folder;
   const auto path = folder.path() / "o.json";
   std::ofstream(path) << "{\"spheres\": [{}]}";

@@ -5,7 +5,7 @@
 namespace kinescope::app {
 namespace {
 
-TEST(Html, LetsNoNameBecomeMarkup) {
+TEST(Html, EscapesNames) {
   EXPECT_EQ(EscapeHtml("Anna, 75 kg"), "Anna, 75 kg");
   EXPECT_EQ(EscapeHtml("<script>"), "&#60;script&#62;");
   EXPECT_EQ(EscapeHtml("a\"b'c&d"), "a&#34;b&#39;c&#38;d");
@@ -14,7 +14,7 @@ TEST(Html, LetsNoNameBecomeMarkup) {
 }
 
 // The vectors of RFC 4648, section 10.
-TEST(Html, PutsBytesIntoBase64) {
+TEST(Html, EncodesBytesInBase64) {
   const std::pair<const char*, const char*> vectors[] = {{"", ""},
                                                          {"f", "Zg=="},
                                                          {"fo", "Zm8="},

@@ -78,7 +78,7 @@ class NumberNames : public CellSink {
   std::vector<std::string> names;
 };
 
-TEST(LoadFiles, EveryColumnHasANameOfItsOwnAndEveryQuantityItsUnit) {
+TEST(LoadFiles, HaveUniqueColumnNamesWithUnits) {
   const CsvTable table(CsvOf(Layout::kWide, AddShortLift));
   const std::set<std::string> distinct(table.names.begin(), table.names.end());
   EXPECT_EQ(distinct.size(), table.names.size());
@@ -97,7 +97,7 @@ TEST(LoadFiles, EveryColumnHasANameOfItsOwnAndEveryQuantityItsUnit) {
   }
 }
 
-TEST(LoadFiles, JsonHasTheColumnsOfTheCsvAndTheSameValues) {
+TEST(LoadFiles, ContainTheSameColumnsAndValuesInJsonAndCsv) {
   const CsvTable table(CsvOf(Layout::kWide, AddShortLift));
   const JsonValue json = JsonOf({}, AddShortLift);
   EXPECT_EQ(json.at("columns").get<std::vector<std::string>>(), table.names);
@@ -120,7 +120,7 @@ TEST(LoadFiles, JsonHasTheColumnsOfTheCsvAndTheSameValues) {
   }
 }
 
-TEST(LoadFiles, HoldTheRatiosAndTimesOfTheSamplesToSevenDigits) {
+TEST(LoadFiles, ContainRatiosAndTimesWithSevenDigits) {
   const CsvTable table(CsvOf(Layout::kWide, AddShortLift));
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const SceneState& scene = *ShortLift()[row];
@@ -139,7 +139,7 @@ TEST(LoadFiles, HoldTheRatiosAndTimesOfTheSamplesToSevenDigits) {
   }
 }
 
-TEST(LoadFiles, TimesKeepTheirMicrosecondsForHours) {
+TEST(LoadFiles, KeepMicrosecondsOfTimesForHours) {
   const CsvTable table(CsvOf(Layout::kWide, [](LoadFile& file) {
     file.Add(SceneWithRatio(36'000.123456, 0.2).people[0], 0);
   }));
@@ -147,7 +147,7 @@ TEST(LoadFiles, TimesKeepTheirMicrosecondsForHours) {
   EXPECT_EQ(table.At(0, "utc"), "1970-01-01T10:00:00.123456Z");
 }
 
-TEST(LoadFiles, WhatIsNotKnownIsEmptyInCsvAndNullInJsonAndNeverANumber) {
+TEST(LoadFiles, ContainUnknownValuesAsEmptyCsvFieldsAndJsonNull) {
   const auto add = [](LoadFile& file) {
     PersonState person = SceneWithRatio(1, kNoRatioInFile, "no foot contact").people[0];
     person.loads[1].ratio = std::numeric_limits<double>::infinity();
@@ -170,7 +170,7 @@ TEST(LoadFiles, WhatIsNotKnownIsEmptyInCsvAndNullInJsonAndNeverANumber) {
   }
 }
 
-TEST(LoadFiles, ForcesOfAGroundThatIsNotKnownAreNotZeroButEmpty) {
+TEST(LoadFiles, LeaveUnknownGroundReactionForcesEmpty) {
   const CsvTable table(CsvOf(Layout::kWide, [](LoadFile& file) {
     file.Add(LiftingPersonWith([](PersonState& person) {
                person.forces.why_no_ground = "no foot contact";
@@ -182,7 +182,7 @@ TEST(LoadFiles, ForcesOfAGroundThatIsNotKnownAreNotZeroButEmpty) {
   EXPECT_EQ(table.At(0, "ground_reason"), "no foot contact");
 }
 
-TEST(LoadFiles, TextsWithCommasQuotesAndLineBreaksComeBackAsTheyWere) {
+TEST(LoadFiles, KeepCommasQuotesAndLineBreaksOfTexts) {
   constexpr std::string_view kOdd = "a, \"b\"\r\nc\td \x01 <e>";
   const auto add = [&](LoadFile& file) {
     file.Add(LiftingPersonWith([&](PersonState& person) { person.loads[3].reason = kOdd; }), 0);
@@ -196,7 +196,7 @@ TEST(LoadFiles, TextsWithCommasQuotesAndLineBreaksComeBackAsTheyWere) {
   EXPECT_EQ(json.at("samples").at(0).at(static_cast<std::size_t>(at - columns.begin())), kOdd);
 }
 
-TEST(LoadFiles, TheLongLayoutHasARowForEveryJointOfASample) {
+TEST(LoadFiles, HaveOneRowPerJointInTheLongLayout) {
   const CsvTable wide(CsvOf(Layout::kWide, AddShortLift));
   const CsvTable tall(CsvOf(Layout::kLong, AddShortLift));
   EXPECT_THAT(std::vector<std::string>(tall.names.begin(), tall.names.begin() + 7),
@@ -213,7 +213,7 @@ TEST(LoadFiles, TheLongLayoutHasARowForEveryJointOfASample) {
 }
 
 // Parent's axes turned by 90 deg about the vertical: the world's x is their -y.
-TEST(LoadFiles, MomentsAndForcesOfJointsAreInTheAxesOfTheParent) {
+TEST(LoadFiles, ContainMomentsAndForcesInTheAxesOfTheParentSegment) {
   const CsvTable table(CsvOf(Layout::kWide, [](LoadFile& file) {
     PersonState person = SceneWithRatio(0, 0.2).people[0];
     JointLoad& elbow = person.loads[5];
@@ -230,7 +230,7 @@ TEST(LoadFiles, MomentsAndForcesOfJointsAreInTheAxesOfTheParent) {
   EXPECT_NEAR(table.Number(0, "left_elbow_moment_x_Nm"), 0, 1e-9);
 }
 
-TEST(LoadFiles, ARecordingWithoutSamplesIsAnEmptyTableAndStillJson) {
+TEST(LoadFiles, AreValidForARecordingWithoutSamples) {
   EXPECT_EQ(CsvOf(Layout::kWide, [](LoadFile&) {}), "");
   const JsonValue json = JsonOf({{"source", "a.mvnx"}}, [](LoadFile&) {});
   EXPECT_THAT(json.at("columns"), IsEmpty());
@@ -238,13 +238,13 @@ TEST(LoadFiles, ARecordingWithoutSamplesIsAnEmptyTableAndStillJson) {
   EXPECT_EQ(json.at("source"), "a.mvnx");
 }
 
-TEST(LoadFiles, TheSummaryStandsBesideTheSamplesWhateverItsNamesAreMadeOf) {
+TEST(LoadFiles, ContainTheSummaryInJsonEvenWithInvalidUtf8) {
   const JsonValue json =
       JsonOf({{"people", {{{"name", "Anna \xFF\xC0 \"x\"\x01 </script>"}}}}}, AddShortLift);
   EXPECT_EQ(json.at("people").at(0).at("name"), "Anna \uFFFD\uFFFD \"x\"\x01 </script>");
 }
 
-TEST(LoadFiles, AppearOnlyWhenTheyAreWhole) {
+TEST(LoadFiles, AppearOnlyWhenTheyAreComplete) {
   const TempFolder folder;
   {
     const auto csv = MakeCsv(folder / "a.csv", Layout::kLong);
@@ -290,7 +290,7 @@ TEST(LoadFiles, NameTheFileAndTheReasonWhenTheDiskIsFull) {
   EXPECT_THAT(folder.Names(), IsEmpty());
 }
 
-TEST(LoadFiles, NameStandardOutputWhenItTakesNoMore) {
+TEST(LoadFiles, NameStandardOutputWhenItIsFull) {
   for (const int rounds : {1, 20}) {  // what fits into the buffer of the C library, and more
     std::string error;
     {
@@ -305,7 +305,7 @@ TEST(LoadFiles, NameStandardOutputWhenItTakesNoMore) {
   }
 }
 
-TEST(LoadFiles, NameAFolderThatTakesNone) {
+TEST(LoadFiles, NameAPathThatIsNotWritable) {
   for (const char* path : {"/nowhere/loads.csv", "/proc/loads.csv"}) {
     EXPECT_THAT(LoadFileError([&] { MakeCsv(path, Layout::kWide); }), HasSubstr(path));
     EXPECT_THAT(LoadFileError([&] { MakeJson(path); }), HasSubstr(path));

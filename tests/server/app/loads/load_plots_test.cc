@@ -82,7 +82,7 @@ void AddRatios(LoadTrial& trial, double from, double to, double ratio, std::stri
   }
 }
 
-TEST(LoadPlots, AJointHasItsRatioAndItsMomentAboutThreeAxes) {
+TEST(LoadPlots, ShowTheRatioAndTheMomentsAboutThreeAxesOfAJoint) {
   const LoadTrial trial = TrialOf(ShortLift());
   const Plot plot = JointPlot(trial, TrialContext(), kElbowIndex);
   ASSERT_THAT(plot.panels, SizeIs(2));
@@ -103,7 +103,7 @@ TEST(LoadPlots, AJointHasItsRatioAndItsMomentAboutThreeAxes) {
   }
 }
 
-TEST(LoadPlots, TheLowBackHasItsCompressionAsWell) {
+TEST(LoadPlots, ShowTheCompressionOfTheLowBack) {
   const LoadTrial trial = TrialOf(ShortLift());
   const Plot plot = JointPlot(trial, TrialContext(), kLowBackIndex);
   ASSERT_THAT(plot.panels, SizeIs(3));
@@ -118,7 +118,7 @@ TEST(LoadPlots, TheLowBackHasItsCompressionAsWell) {
   EXPECT_GT(compression.y_to, 3.4) << "the limit is to be seen";
 }
 
-TEST(LoadPlots, AxesSayWhatAndInWhichUnit) {
+TEST(LoadPlots, HaveQuantityAndUnitAtEveryAxis) {
   const LoadTrial trial = TrialOf(ShortLift());
   for (std::size_t joint = 0; joint < urdf::kScoredJoints.size(); ++joint) {
     const Plot plot = JointPlot(trial, TrialContext(), joint);
@@ -139,7 +139,7 @@ TEST(LoadPlots, AxesSayWhatAndInWhichUnit) {
   }
 }
 
-TEST(LoadPlots, BandsLieAtTheLimitsOfTheClassesThatWereAskedFor) {
+TEST(LoadPlots, HaveBandsAtTheGivenClassLimits) {
   const LoadTrial trial = TrialOf(ShortLift());
   for (const auto& [medium_from, high_from] :
        {std::pair(0.3, 0.6), std::pair(0.1, 0.25), std::pair(2.0, 4.0)}) {
@@ -166,7 +166,7 @@ TEST(LoadPlots, BandsLieAtTheLimitsOfTheClassesThatWereAskedFor) {
   }
 }
 
-TEST(LoadPlots, BandsHaveAPaleTintOfTheirClass) {
+TEST(LoadPlots, HaveBandsInPaleColoursOfTheirClasses) {
   const LoadTrial trial = TrialOf(ShortLift());
   const Plot plot = JointPlot(trial, TrialContext(), kElbowIndex);
   const LoadClass classes[] = {LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh};
@@ -182,7 +182,7 @@ TEST(LoadPlots, BandsHaveAPaleTintOfTheirClass) {
   }
 }
 
-TEST(LoadPlots, CurvesAreBrokenWhereSamplesAreMissingAndTheGapIsHatched) {
+TEST(LoadPlots, InterruptCurvesAtMissingSamplesAndHatchTheGap) {
   LoadTrial trial(true, 0);
   AddRatios(trial, 0, 1, 0.2);
   AddRatios(trial, 3, 4, 0.2);
@@ -201,7 +201,7 @@ TEST(LoadPlots, CurvesAreBrokenWhereSamplesAreMissingAndTheGapIsHatched) {
   EXPECT_THAT(TextsOf(plot), ::testing::Contains("unknown: no samples"));
 }
 
-TEST(LoadPlots, AStepOfLessThanHalfASecondIsNoGap) {
+TEST(LoadPlots, ShowNoGapForAStepBelowHalfASecond) {
   LoadTrial trial(true, 0);
   AddRatios(trial, 0, 1, 0.2);
   AddRatios(trial, 1.4, 2, 0.2);
@@ -211,7 +211,7 @@ TEST(LoadPlots, AStepOfLessThanHalfASecondIsNoGap) {
   EXPECT_THAT(TextsOf(plot), Each(::testing::Not(HasSubstr("unknown"))));
 }
 
-TEST(LoadPlots, WhatIsNotKnownIsNotDrawnAndSaysWhy) {
+TEST(LoadPlots, InterruptCurvesAtUnknownLoadsAndShowTheReason) {
   LoadTrial trial(true, 0);
   AddRatios(trial, 0, 1, 0.2);
   AddRatios(trial, 1.01, 2, std::numeric_limits<double>::quiet_NaN(), "no foot contact");
@@ -246,14 +246,14 @@ TEST(LoadPlots, MarkThePeakAndLeaveRoomAboveIt) {
   EXPECT_GT(panel.y_to, 1.7);
 }
 
-TEST(LoadPlots, OneSampleIsAPlotToo) {
+TEST(LoadPlots, AcceptASingleSample) {
   LoadTrial trial(true, 0);
   AddTo(trial, SceneWithRatio(0, 0.2));
   EXPECT_THAT(render::ToSvg(JointPlot(trial, TrialContext(), kLowBackIndex)), HasSubstr("</svg>"));
   EXPECT_THAT(render::ToSvg(OverviewPlot(trial, TrialContext())), HasSubstr("</svg>"));
 }
 
-TEST(LoadPlots, TheOverviewHasEveryJointOnceOnOneScale) {
+TEST(LoadPlots, ShowEveryJointOnceWithOneScaleInTheOverview) {
   const LoadTrial trial = TrialOf(ShortLift());
   const Plot plot = OverviewPlot(trial, TrialContext());
   ASSERT_THAT(plot.panels, SizeIs(16));
@@ -274,7 +274,7 @@ TEST(LoadPlots, TheOverviewHasEveryJointOnceOnOneScale) {
 }
 
 // Through the parser that urdfdom's input goes through.
-TEST(LoadPlots, SvgIsXmlWhateverThePersonAndTheFileAreCalled) {
+TEST(LoadPlots, AreValidXmlForAnyNameOfPersonAndFile) {
   testing::Scenes scenes = ShortLift();
   auto named = std::make_shared<SceneState>(*scenes.back());
   named->people[0].name = "<b>\"Anna\" & Bob\x01\x1b \xFF\xC0 ]]>";
@@ -291,7 +291,7 @@ TEST(LoadPlots, SvgIsXmlWhateverThePersonAndTheFileAreCalled) {
 }
 
 // The curves arrive in the file as paths: the whole line of x, the dashed one of y, the dots of z.
-TEST(LoadPlots, SvgHasAPathForEveryCurve) {
+TEST(LoadPlots, ContainOneSvgPathPerCurve) {
   const LoadTrial trial = TrialOf(ShortLift());
   const auto paths_with = [](const std::string& svg, const std::string& dash) {
     const urdf::XmlOutline outline = urdf::ReadOutline(svg);
@@ -330,7 +330,7 @@ TEST(LoadPlots, NameTheFileAndTheReasonWhenTheDiskIsFull) {
   EXPECT_THAT(std::filesystem::is_empty(folder / "plots"), true);
 }
 
-TEST(LoadPlots, NameTheFolderThatCannotBeMade) {
+TEST(LoadPlots, NameAFolderThatCannotBeCreated) {
   const TempFolder folder;
   std::ofstream(folder / "file") << "not a folder";
   const auto inside = folder / "file" / "plots";

@@ -95,7 +95,7 @@ std::string FindUnbalancedTag(const std::string& html) {
   return open.empty() ? "" : open.back();
 }
 
-TEST(LoadReport, HasWhoWhatAndEveryJointOnAPage) {
+TEST(LoadReport, ShowsPersonSourceAndEveryJointOnOnePage) {
   TrialContext context;
   context.source = "take.mvnx";
   context.rate_hz = 60;
@@ -121,7 +121,7 @@ TEST(LoadReport, HasWhoWhatAndEveryJointOnAPage) {
   EXPECT_EQ(CountOf(html, "<img class=\"plot\" alt=\"\" src=\"data:image/svg+xml;base64,"), 1U);
 }
 
-TEST(LoadReport, NothingInItIsRunOrFetched) {
+TEST(LoadReport, ContainsNoScriptsAndNoExternalLinks) {
   const std::string html = ReportOf(TrialWithoutPictures());
   for (const char* part :
        {"<script", "javascript:", "http:", "https:", "<link", "@import", "url("}) {
@@ -129,7 +129,7 @@ TEST(LoadReport, NothingInItIsRunOrFetched) {
   }
 }
 
-TEST(LoadReport, NamesAndReasonsFromOutsideAreTextAndNothingElse) {
+TEST(LoadReport, EscapesExternalNamesAndReasons) {
   TrialContext context;
   context.source = "<script>alert(\"x\")</script>&\x01\xFF.mvnx";
   const std::string html =
@@ -149,7 +149,7 @@ TEST(LoadReport, NamesAndReasonsFromOutsideAreTextAndNothingElse) {
 }
 
 // Of 4 s the first half had a ratio of 0.2, but for the left elbow, of which nothing was known.
-TEST(LoadReport, TheTableHasSharesOfTimeAndDashesForWhatIsNotKnown) {
+TEST(LoadReport, ShowsSharesOfTimeAndDashesForUnknownValues) {
   LoadTrial trial(true, 0);
   for (int i = 0; i <= 40; ++i) {
     SceneState scene = *ShortLift().back();  // who can be drawn
@@ -182,7 +182,7 @@ TEST(LoadReport, TheTableHasSharesOfTimeAndDashesForWhatIsNotKnown) {
   EXPECT_THAT(html, Not(HasSubstr("inf")));
 }
 
-TEST(LoadReport, LegendAndBandsHaveTheLimitsThatWereAskedFor) {
+TEST(LoadReport, ShowsTheGivenClassLimitsInLegendAndBands) {
   TrialContext context;
   context.scene.loads.classes.up = {0.1, 0.25};
   context.scene.loads.compression_counts = false;
@@ -192,7 +192,7 @@ TEST(LoadReport, LegendAndBandsHaveTheLimitsThatWereAskedFor) {
   EXPECT_THAT(html, HasSubstr("(compression is switched off here)"));
 }
 
-TEST(LoadReport, EveryPersonHasAPageInTheirOrder) {
+TEST(LoadReport, HasOnePagePerPersonInTheirOrder) {
   std::map<int, LoadTrial> trials;
   trials.emplace(3, TrialWithoutPictures("Ben"));
   trials.emplace(1, TrialWithoutPictures("Anna"));
@@ -201,7 +201,7 @@ TEST(LoadReport, EveryPersonHasAPageInTheirOrder) {
   EXPECT_LT(html.find("Anna (person"), html.find("Ben (person"));
 }
 
-TEST(LoadReport, ShowsTheWorstMomentWithItsNumbers) {
+TEST(LoadReport, ShowsTheTimeOfTheHighestLoadWithItsValues) {
   const std::string html = ReportOf(TrialOf(ShortLift()));
   EXPECT_EQ(CountOf(html, "<figure><img alt=\"\" src=\"data:image/png;base64,"), 1U)
       << "a quarter of a second has one moment";
@@ -211,7 +211,7 @@ TEST(LoadReport, ShowsTheWorstMomentWithItsNumbers) {
                        "</figcaption>")));
 }
 
-TEST(LoadReport, SaysSoWhereNoLoadIsEverKnown) {
+TEST(LoadReport, ReportsThatNoLoadIsKnown) {
   EXPECT_THAT(ReportOf(TrialWithoutPictures()),
               HasSubstr("No load could be computed at any time."));
 }

@@ -48,7 +48,7 @@ LoadTrial TrialOfBody(const urdf::BodyDescription& body, bool lengths_are_measur
   return trial;
 }
 
-TEST(LoadSummary, TellsWhatWasGivenFromWhatIsAssumed) {
+TEST(LoadSummary, DistinguishesGivenFromAssumedValues) {
   TrialContext context;
   const auto assumed = FactTexts(TrialOfBody({}), context);
   EXPECT_EQ(assumed.at("sex"), "male (assumed)");
@@ -80,7 +80,7 @@ TEST(LoadSummary, TellsWhatWasGivenFromWhatIsAssumed) {
             "1.68 m (from the source)");
 }
 
-TEST(LoadSummary, SaysWhetherAccelerationsTookPart) {
+TEST(LoadSummary, NamesTheLoadMode) {
   TrialContext context;
   SceneState scene = SceneWithRatio(0, 0.2);
   scene.people[0].forces.is_dynamic = true;
@@ -92,7 +92,7 @@ TEST(LoadSummary, SaysWhetherAccelerationsTookPart) {
   EXPECT_EQ(FactTexts(dynamic, context).at("load mode"), "static");
 }
 
-TEST(LoadSummary, JointsThatAreUnknownForTheSameReasonAreOneNote) {
+TEST(LoadSummary, GroupsJointsThatAreUnknownForTheSameReason) {
   LoadTrial trial(false, 0);
   for (int i = 0; i <= 40; ++i) {
     SceneState scene = SceneWithRatio(0.1 * i, 0.2);
@@ -110,7 +110,7 @@ TEST(LoadSummary, JointsThatAreUnknownForTheSameReasonAreOneNote) {
           "Load unknown for 75 % of the time (3.00 s): Right hip, Left hip (no foot contact)."));
 }
 
-TEST(LoadSummary, TheTableHasALineForEveryJointAndDashesForWhatIsNotKnown) {
+TEST(LoadSummary, PrintsOneLinePerJointAndDashesForUnknownValues) {
   LoadTrial trial(false, 0);
   for (int i = 0; i <= 40; ++i) {
     SceneState scene = SceneWithRatio(0.1 * i, i < 20 ? 0.2 : kNoRatioInSummary);
@@ -145,7 +145,7 @@ TEST(LoadSummary, TheTableHasALineForEveryJointAndDashesForWhatIsNotKnown) {
   EXPECT_THAT(text, Not(HasSubstr("nan")));
 }
 
-TEST(LoadSummary, JsonHasNullForWhatIsNotKnownAndParses) {
+TEST(LoadSummary, ContainsNullForUnknownValuesInValidJson) {
   LoadTrial trial(false, 0);
   for (int i = 0; i <= 10; ++i)
     AddTo(trial, SceneWithRatio(0.1 * i, kNoRatioInSummary, "no foot contact"));
@@ -166,7 +166,7 @@ TEST(LoadSummary, JsonHasNullForWhatIsNotKnownAndParses) {
   }
 }
 
-TEST(LoadSummary, JsonHasThePeaksOfTheRealLift) {
+TEST(LoadSummary, ContainsThePeaksOfTheLiftInJson) {
   const auto json = SummaryJson(SummaryOf(TrialOf(ShortLift()), {}));
   double most_ratio = 0, most_compression = 0;
   for (const auto& scene : ShortLift()) {
@@ -179,7 +179,7 @@ TEST(LoadSummary, JsonHasThePeaksOfTheRealLift) {
   EXPECT_NEAR(json.at("seconds").get<double>(), 0.25, 1e-6);
 }
 
-TEST(LoadSummary, TheTitleHasTheNameWhereThereIsOne) {
+TEST(LoadSummary, HasTheNameOfThePersonInItsTitle) {
   SceneState scene = SceneWithRatio(0, 0.2);
   scene.people[0].character = 3;
   LoadTrial nameless(false, 0), named(false, 0);

@@ -16,7 +16,7 @@ using testing::SceneWithRatio;
 
 constexpr std::int64_t kMillis = 1'000'000;
 
-TEST(LoadTrial, FindsTheWorstMomentsApartInTime) {
+TEST(LoadTrial, FindsTheTimesOfTheHighestLoadsApartFromEachOther) {
   LoadTrial trial(false, 0);
   for (int i = 0; i <= 1000; ++i) {  // 10 s with peaks at 2, 5 and 8 s
     const double secs = 0.01 * i;
@@ -47,7 +47,7 @@ TEST(LoadTrial, KeepsThePeakOfALongTrial) {
   EXPECT_NEAR(trial.SecsOf(worst[0].scene->stamp_nanos), 2000, 1e-6);
 }
 
-TEST(LoadTrial, ShowsNoMomentOfLoadsThatAreNotKnown) {
+TEST(LoadTrial, FindsNoTimeOfTheHighestLoadIfAllLoadsAreUnknown) {
   LoadTrial trial(false, 0);
   for (int i = 0; i <= 100; ++i) {
     AddTo(trial, SceneWithRatio(0.01 * i, std::nan(""), "no foot contact"));
@@ -63,7 +63,7 @@ TEST(LoadTrial, ShowsNoMomentOfLoadsThatAreNotKnown) {
   }));
 }
 
-TEST(LoadTrial, KeepsCurvesOnlyWherePlotsAreWanted) {
+TEST(LoadTrial, KeepsCurvesOnlyIfPlotsAreRequested) {
   LoadTrial without(false, 0), with(true, 0);
   for (int i = 0; i < 10; ++i) {
     AddTo(without, SceneWithRatio(0.01 * i, 0.2));
@@ -74,7 +74,7 @@ TEST(LoadTrial, KeepsCurvesOnlyWherePlotsAreWanted) {
   EXPECT_FLOAT_EQ(with.curves()[3].joints[4].ratio, 0.2F);
 }
 
-TEST(LoadRows, WriteTimesOfDayOnEitherSideOfTheEpoch) {
+TEST(LoadRows, WriteUtcTimesBeforeAndAfterTheEpoch) {
   EXPECT_EQ(IsoTime(0), "1970-01-01T00:00:00.000000Z");
   EXPECT_EQ(IsoTime(1'577'836'800'008'333'333), "2020-01-01T00:00:00.008333Z");
   EXPECT_EQ(IsoTime(-1), "1969-12-31T23:59:59.999999Z");

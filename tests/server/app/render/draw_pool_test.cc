@@ -37,7 +37,7 @@ RenderRequest CountedRequest(std::uint32_t counter) {
 
 int FirstLevel(const FuturePicture& picture) { return picture.get()->rgba.front(); }
 
-TEST(DrawPool, OneThreadDrawsInTheOrderOfTheShots) {
+TEST(DrawPool, RendersInOrderWithOneThread) {
   DrawPool pool(1, 5, FakeRenderers());
   EXPECT_EQ(pool.info().renderer, "a fake");
   std::vector<FuturePicture> pictures;
@@ -45,7 +45,7 @@ TEST(DrawPool, OneThreadDrawsInTheOrderOfTheShots) {
   for (int i = 0; i < 5; ++i) EXPECT_EQ(FirstLevel(pictures[static_cast<std::size_t>(i)]), i + 1);
 }
 
-TEST(DrawPool, EachFutureHasThePictureOfItsShotWhicheverThreadDrewIt) {
+TEST(DrawPool, ReturnsThePictureOfEachShotFromAnyThread) {
   DrawPool pool(3, 4,
                 FakeRenderers([](render::Image& image, const SceneState& state, const auto&...) {
                   image.rgba.front() = static_cast<std::uint8_t>(state.counter);
@@ -58,7 +58,7 @@ TEST(DrawPool, EachFutureHasThePictureOfItsShotWhicheverThreadDrewIt) {
   }
 }
 
-TEST(DrawPool, WaitsForRoomAndUsesTheMemoryOfPicturesAgain) {
+TEST(DrawPool, WaitsForFreeMemoryAndReusesIt) {
   WithDeadline([] {
     DrawPool pool(1, 2, FakeRenderers());
     FuturePicture first = pool.Draw(CountedRequest(1));
@@ -75,7 +75,7 @@ TEST(DrawPool, WaitsForRoomAndUsesTheMemoryOfPicturesAgain) {
   });
 }
 
-TEST(DrawPool, AnErrorIsThatOfItsPictureAndTakesNoRoom) {
+TEST(DrawPool, ReportsAnErrorForItsPictureOnlyAndFreesItsMemory) {
   WithDeadline([] {
     DrawPool pool(1, 2, FakeRenderers([](const auto&, const SceneState& state, const auto&...) {
                     if (state.counter == 0) throw RenderError("the driver fails");
@@ -88,12 +88,12 @@ TEST(DrawPool, AnErrorIsThatOfItsPictureAndTakesNoRoom) {
   });
 }
 
-TEST(DrawPool, ThrowsWhatTheFirstRendererThrows) {
+TEST(DrawPool, ThrowsTheErrorOfTheFirstRenderer) {
   const auto make = []() -> std::unique_ptr<render::Renderer> { throw RenderError("no context"); };
   EXPECT_THROW(DrawPool(3, 4, make), RenderError);
 }
 
-TEST(DrawPool, ALaterRendererThatDoesNotStartIsTheErrorOfThePicture) {
+TEST(DrawPool, ReportsTheStartErrorOfALaterRendererForItsPicture) {
   WithDeadline([] {
     std::promise<void> failed;
     std::shared_future<void> has_failed = failed.get_future().share();
@@ -118,7 +118,7 @@ TEST(DrawPool, ALaterRendererThatDoesNotStartIsTheErrorOfThePicture) {
   });
 }
 
-TEST(DrawPool, ItsEndWaitsForThePictureBeingDrawnAndForNoOther) {
+TEST(DrawPool, WaitsAtItsEndOnlyForThePictureInProgress) {
   WithDeadline([] {
     std::promise<void> started, go_on;
     std::shared_future<void> may_go_on = go_on.get_future().share();
@@ -140,7 +140,7 @@ TEST(DrawPool, ItsEndWaitsForThePictureBeingDrawnAndForNoOther) {
   });
 }
 
-TEST(DrawPool, HasRoomForEveryThreadAndOneMoreAndForHalfAGigabyteAtMost) {
+TEST(DrawPool, HasAPictureLimitFromThreadsAndMemory) {
   EXPECT_EQ(MostPictures(2, 160, 90), 10u);
   EXPECT_EQ(MostPictures(2, 3840, 2160), 10u);
   EXPECT_EQ(MostPictures(1, 8192, 4096), 4u) << "128 MiB each";

@@ -34,29 +34,29 @@ std::vector<std::string> AllMoments(Moments moments) {
   return all;
 }
 
-TEST(Moments, AStillIsBetweenThePicturesOfAClip) {
+TEST(Moments, PutAStillBetweenTheFramesOfAClip) {
   EXPECT_THAT(AllMoments({250 * kMillis, TenPerSecond(200, 200)}),
               ElementsAre("0 at 200", "still at 250", "1 at 300"));
 }
 
-TEST(Moments, AStillMayBeBeforeAndAfterAClip) {
+TEST(Moments, PutAStillBeforeOrAfterAClip) {
   EXPECT_THAT(AllMoments({0, TenPerSecond(100, 100)}), ElementsAre("still at 0", "0 at 100"));
   EXPECT_THAT(AllMoments({900 * kMillis, TenPerSecond(0, 200)}),
               ElementsAre("0 at 0", "1 at 100", "still at 900"));
 }
 
-TEST(Moments, TheStillIsTheFirstOfTwoAtOneTime) {
+TEST(Moments, PutAStillBeforeAFrameOfTheSameTime) {
   EXPECT_THAT(AllMoments({100 * kMillis, TenPerSecond(0, 200)}),
               ElementsAre("0 at 0", "still at 100", "1 at 100"));
 }
 
-TEST(Moments, EitherMayBeMissing) {
+TEST(Moments, ConsistOfAStillOrAClipAlone) {
   EXPECT_THAT(AllMoments({std::nullopt, TenPerSecond(0, 100)}), ElementsAre("0 at 0"));
   EXPECT_THAT(AllMoments({5 * kMillis, std::nullopt}), ElementsAre("still at 5"));
   EXPECT_THAT(AllMoments({std::nullopt, std::nullopt}), ElementsAre());
 }
 
-TEST(Moments, AClipThatEndsWithItsSourceLeavesTheStill) {
+TEST(Moments, KeepTheStillIfTheClipEndsWithItsSource) {
   Moments moments(800 * kMillis, TenPerSecond(0, std::nullopt));
   EXPECT_EQ(MomentText(moments.Next().value()), "0 at 0");
   EXPECT_EQ(MomentText(moments.Next().value()), "1 at 100");

@@ -11,7 +11,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(PathOfPicture, NumbersAsFfmpegAndBlenderDo) {
+TEST(PathOfPicture, AcceptsTheNumberPatternsOfFfmpegAndBlender) {
   EXPECT_EQ(PathOfPicture("frames/%05d.png", 42), "frames/00042.png");
   EXPECT_EQ(PathOfPicture("a%d.png", 42), "a42.png");
   EXPECT_EQ(PathOfPicture("a-####.png", 42), "a-0042.png");
@@ -24,7 +24,7 @@ TEST(PathOfPicture, NumbersAsFfmpegAndBlenderDo) {
   EXPECT_EQ(PathOfPicture("%", 3), "%");
 }
 
-TEST(PlanOutputs, IsEverySourceWithEveryNameAndCamera) {
+TEST(PlanOutputs, CombinesEverySourceWithEveryNameAndCamera) {
   const testing::TempFolder folder;
   RenderOptions options;
   options.sources = std::vector<std::string>{"demo:lift", "takes/one.mvnx.gz"};
@@ -44,7 +44,7 @@ TEST(PlanOutputs, IsEverySourceWithEveryNameAndCamera) {
   EXPECT_EQ(plans[0].outputs[3].camera, "top");
 }
 
-TEST(PlanOutputs, SaysWhatTellsTwoOutputsApart) {
+TEST(PlanOutputs, NamesThePlaceholderThatSeparatesTwoOutputs) {
   const testing::TempFolder folder;
   const auto message = [&](std::vector<std::string> sources, const std::string& camera,
                            const std::string& out) -> std::string {
@@ -66,7 +66,7 @@ TEST(PlanOutputs, SaysWhatTellsTwoOutputsApart) {
   EXPECT_EQ(message({"a.mvnx", "b.mvnx"}, "front,top", "{source}{camera}.mp4"), "took it");
 }
 
-TEST(PlanOutputs, RefusesWhatNothingWouldHeed) {
+TEST(PlanOutputs, RejectsInvalidOutputsAndUnusedOptions) {
   const testing::TempFolder folder;
   const auto refuses = [&](const std::string& out, auto&& change) {
     RenderOptions options;

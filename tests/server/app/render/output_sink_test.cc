@@ -111,7 +111,7 @@ class ShortDisk {
   rlimit before_{};
 };
 
-TEST(OutputSink, APictureIsThereWhenItIsWhole) {
+TEST(OutputSink, WritesAPictureOnlyWhenItIsComplete) {
   const TempFolder folder;
   const auto sink = MakePngSink(folder / "a.png", 1, FactsOfPicture, folder / "a.svg");
   std::promise<PicturePtr> picture;
@@ -125,7 +125,7 @@ TEST(OutputSink, APictureIsThereWhenItIsWhole) {
   EXPECT_EQ(ReadFile(folder / "a.svg"), "over it");
 }
 
-TEST(OutputSink, ASequenceIsNumberedInWhateverOrderItIsDrawn) {
+TEST(OutputSink, NumbersASequenceIndependentlyOfTheRenderingOrder) {
   const TempFolder folder;
   std::vector<std::promise<PicturePtr>> pictures(7);
   const auto sink = MakePngSink(folder / "%03d.png", 3, FactsOfPicture);
@@ -144,7 +144,7 @@ TEST(OutputSink, ASequenceIsNumberedInWhateverOrderItIsDrawn) {
   }
 }
 
-TEST(OutputSink, AClipOfAnyFormatIsThereWithAllPicturesOnceItIsFinished) {
+TEST(OutputSink, WritesAllFramesOfAClipOfAnyFormat) {
   for (const char* name : kClipNames) {
     const TempFolder folder;
     const auto sink = MakeClipSink(folder / name, SinkView(), {}, FactsOfPicture);
@@ -166,7 +166,7 @@ TEST(OutputSink, AClipOfAnyFormatIsThereWithAllPicturesOnceItIsFinished) {
   }
 }
 
-TEST(OutputSink, WhatIsNotFinishedLeavesNothing) {
+TEST(OutputSink, LeavesNoUnfinishedFiles) {
   for (const char* name : kClipNames) {
     const TempFolder folder;
     MakeClipSink(folder / name, SinkView(), {}, FactsOfPicture)
@@ -175,7 +175,7 @@ TEST(OutputSink, WhatIsNotFinishedLeavesNothing) {
   }
 }
 
-TEST(OutputSink, APictureThatFailsIsTheErrorAndLeavesNoHalfFile) {
+TEST(OutputSink, ReportsAFailedPictureAndLeavesNoPartialFile) {
   for (const char* name : kClipNames) {
     const TempFolder folder;
     const auto sink = MakeClipSink(folder / name, SinkView(), {}, FactsOfPicture);
@@ -199,7 +199,7 @@ TEST(OutputSink, APictureThatFailsIsTheErrorAndLeavesNoHalfFile) {
   EXPECT_THAT(folder.Names(), ElementsAre("0.png")) << "whole pictures of a sequence stay";
 }
 
-TEST(OutputSink, AFullDiskIsAnErrorWithTheNameAndLeavesNoHalfFile) {
+TEST(OutputSink, ReportsAFullDiskByFileNameAndLeavesNoPartialFile) {
   for (const char* name : {"a.png", "a.mp4", "a.webm", "a.webp", "a.gif"}) {
     const TempFolder folder;
     std::string complaint;
@@ -218,7 +218,7 @@ TEST(OutputSink, AFullDiskIsAnErrorWithTheNameAndLeavesNoHalfFile) {
   }
 }
 
-TEST(OutputSink, SaysWhereItCannotWrite) {
+TEST(OutputSink, NamesAPathThatIsNotWritable) {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "a.png");
   const auto sink = MakePngSink(folder / "a.png", 1, FactsOfPicture);

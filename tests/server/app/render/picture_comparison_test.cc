@@ -40,7 +40,7 @@ TEST(PictureComparison, FindsTheFirstPictureThatDiffers) {
   EXPECT_TRUE(ComparePictures(then, now, {0, 0}, 2).same) << "the first two";
 }
 
-TEST(PictureComparison, NamesTheLengthIfOneIsShorter) {
+TEST(PictureComparison, ReportsADifferentNumberOfFrames) {
   const TempFolder folder;
   const std::string longer = WriteLevels(folder / "a%d.png", {10, 20, 30});
   const std::string shorter = WriteLevels(folder / "b%d.png", {10, 20});

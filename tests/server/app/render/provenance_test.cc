@@ -20,7 +20,7 @@ Json Sample(const RenderOptions& options, const std::string& source = "demo:lift
   return Provenance(options, source, renderer).Of({"a.mp4", OutputKind::kClip, "top"});
 }
 
-TEST(Provenance, GivesBackTheOptionsThatItWasMadeOf) {
+TEST(Provenance, RestoresTheOptionsOfItsPicture) {
   const auto options = testing::With<RenderOptions>({{"fps", "30000/1001"},
                                                      {"start", "0.1"},
                                                      {"end", "2.000000000000001"},
@@ -43,7 +43,7 @@ TEST(Provenance, GivesBackTheOptionsThatItWasMadeOf) {
 }
 
 // A .gif says the quality that was asked for, too; drawn again, nobody asks for it.
-TEST(Provenance, GivesBackAQualityToWhatHasOne) {
+TEST(Provenance, RestoresTheQualityOnlyForFormatsWithAQuality) {
   const auto options = testing::With<RenderOptions>({{"quality", "50"}});
   const render::RendererInfo renderer{"osmesa", "a renderer", "4.5", true, ""};
   for (const std::string out : {"a.webp", "a.gif"}) {
@@ -53,7 +53,7 @@ TEST(Provenance, GivesBackAQualityToWhatHasOne) {
   }
 }
 
-TEST(Provenance, DiffersWithEverythingThatDecidesAPixelAndWithNothingElse) {
+TEST(Provenance, DiffersForEveryOptionThatChangesAPixelAndForNoOther) {
   const RenderOptions plain;
   const auto differs = [&](const char* name, const char* text) {
     return !DecideTheSame(Sample(plain), Sample(testing::With<RenderOptions>({{name, text}})));
@@ -70,7 +70,7 @@ TEST(Provenance, DiffersWithEverythingThatDecidesAPixelAndWithNothingElse) {
   EXPECT_FALSE(differs("sample", "3")) << "a clip has no moment";
 }
 
-TEST(Provenance, HasTheHashOfTheSourceAndOfFilesThatOptionsName) {
+TEST(Provenance, ContainsTheHashesOfTheSourceAndOfInputFiles) {
   const testing::TempFolder folder;
   std::ofstream(folder / "take.mvnx") << "abc";
   std::filesystem::create_directory(folder / "meshes");
@@ -87,7 +87,7 @@ TEST(Provenance, HasTheHashOfTheSourceAndOfFilesThatOptionsName) {
   EXPECT_FALSE(DecideTheSame(first, Sample(options, folder / "take.mvnx")));
 }
 
-TEST(Provenance, ChangesWithTheFilesBehindRobotsAndGhosts) {
+TEST(Provenance, ChangesWithTheFilesOfRobotsAndReferencePoses) {
   const testing::TempFolder folder;
   const std::string urdf = folder / "r.urdf", ghost = folder / "take.mvnx";
   std::ofstream(urdf) << "<robot name='before'><link name='a'/></robot>";
@@ -102,7 +102,7 @@ TEST(Provenance, ChangesWithTheFilesBehindRobotsAndGhosts) {
   }
 }
 
-TEST(Provenance, AFileNameMayContainTheSeparatorOfLists) {
+TEST(Provenance, KeepsFileNamesThatContainTheListSeparator) {
   const testing::TempFolder folder;
   const std::string first = folder / "a;b.urdf", second = folder / "c.urdf";
   for (const std::string& file : {first, second}) {
@@ -147,7 +147,7 @@ std::string OptionText(const RenderOptions& options, const std::string& name) {
   return list.Find(name)->value->ToText();
 }
 
-TEST(Provenance, TheFirstSchemaIsReadWithItsNamesAndWords) {
+TEST(Provenance, ReadsTheFirstSchemaWithItsFormerNamesAndValues) {
   const RenderOptions plain = OptionsOf(SchemaOne({}), "a.png");
   RenderOptions untouched;
   options::OptionList list;
@@ -184,7 +184,7 @@ TEST(Provenance, TheFirstSchemaIsReadWithItsNamesAndWords) {
   EXPECT_THAT(UnknownOptionsOf(SchemaOne({{"colour", "red"}})), ::testing::ElementsAre("colour"));
 }
 
-TEST(Provenance, OfTheFirstSchemaOnlyInputsThatBothListAreCompared) {
+TEST(Provenance, ComparesOnlyCommonInputsWithTheFirstSchema) {
   const auto input = [](const char* option, const char* hash) {
     return Json{{"option", option}, {"name", "Head.stl"}, {"sha256", hash}, {"bytes", 5}};
   };
@@ -235,7 +235,7 @@ TEST(Provenance, NamesTheErrorsOfTheEarlierVersionThatAffectItsPictures) {
 }
 
 // A folder that is called as a camera, a theme or a segment is no input of the picture.
-TEST(Provenance, AFolderOfAnOptionsWordIsNoInput) {
+TEST(Provenance, IgnoresFoldersNamedLikeOptionValues) {
   const testing::TempFolder folder;
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path());
@@ -248,7 +248,7 @@ TEST(Provenance, AFolderOfAnOptionsWordIsNoInput) {
   EXPECT_EQ(json.at("inputs").size(), 0u) << json.at("inputs");
 }
 
-TEST(Provenance, WhateverAFileSaysIsTakenOrRefusedButNeverHarms) {
+TEST(Provenance, AcceptsOrRejectsDamagedRecordsWithoutHarm) {
   const std::string whole = ToText(Sample({}));
   std::mt19937 random(3);
   int taken = 0, refused = 0;

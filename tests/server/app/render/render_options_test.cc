@@ -8,7 +8,7 @@
 namespace kinescope::app {
 namespace {
 
-TEST(FrameRateValue, TakesWholeNumbersDecimalsAndFractionsExactly) {
+TEST(FrameRateValue, AcceptsWholeNumbersDecimalsAndFractionsExactly) {
   struct Case {
     const char* text;
     int numerator, denominator;
@@ -31,14 +31,14 @@ TEST(FrameRateValue, TakesWholeNumbersDecimalsAndFractionsExactly) {
   }
 }
 
-TEST(FrameRateValue, RefusesWhatIsNoRate) {
+TEST(FrameRateValue, RejectsInvalidRates) {
   for (const char* text : {"", "0", "0/1", "30/0", "-30", "nan", "inf", "30 ", "1e3", "30/1/1",
                            "1001", "9999999999999999999", "1.2.3", "/", ".", "30,5", "0.00001"}) {
     EXPECT_NE(testing::ErrorOfSetting<ClipOptions>("fps", text), "") << text;
   }
 }
 
-TEST(TimeGrid, HasThePicturesBeforeItsEndAndNoOther) {
+TEST(TimeGrid, ContainsTheFramesBeforeItsEndOnly) {
   ClipOptions options;
   options.seconds = 60.0;
   EXPECT_EQ(ToTimeGrid(options, false).count(), 1800);
@@ -51,7 +51,7 @@ TEST(TimeGrid, HasThePicturesBeforeItsEndAndNoOther) {
   EXPECT_EQ(ToTimeGrid(options, false).count(), 2);
 }
 
-TEST(TimeGrid, EndsWhereItIsToldOrWithTheSource) {
+TEST(TimeGrid, EndsAtTheGivenTimeOrWithTheSource) {
   ClipOptions options;
   EXPECT_FALSE(ToTimeGrid(options, false).count());
   EXPECT_EQ(ToTimeGrid(options, true).count(), 300) << "the subject never ends";

@@ -43,7 +43,7 @@ std::vector<OutputResult> RenderFaked(const RenderOptions& options, std::size_t 
   return RenderSource(options, PlanOutputs(options).at(0), settings, pool);
 }
 
-TEST(RenderRun, AnyNumberOfStillsNeedsRoomForOnePictureAlone) {
+TEST(RenderRun, RendersAnyNumberOfStillsInTheMemoryOfOnePicture) {
   for (const char* layer : {"", "svg"}) {
     const TempFolder folder;
     RenderOptions options =
@@ -68,7 +68,7 @@ TEST(RenderRun, AnyNumberOfStillsNeedsRoomForOnePictureAlone) {
   }
 }
 
-TEST(RenderRun, EightStillsNeedNoMoreThanAPoolOfTwoPictures) {
+TEST(RenderRun, RendersEightStillsWithAPoolOfTwoPictures) {
   const TempFolder folder;
   RenderOptions options = SmallRun("demo:lift", {folder / "{camera}.png"});
   options.view.camera.Parse("front,back,left,right,top,iso,three_quarter;0,-4,1:0,0,1");
@@ -78,7 +78,7 @@ TEST(RenderRun, EightStillsNeedNoMoreThanAPoolOfTwoPictures) {
   EXPECT_EQ(folder.Names().size(), 8u);
 }
 
-TEST(RenderRun, TheFilesDoNotDependOnTheNumberOfThreads) {
+TEST(RenderRun, WritesTheSameFilesWithAnyNumberOfThreads) {
   const auto files_with = [](int jobs) {
     const TempFolder folder;
     RenderOptions options =
@@ -106,7 +106,7 @@ TEST(RenderRun, TheFilesDoNotDependOnTheNumberOfThreads) {
   EXPECT_TRUE(files_with(3) == one);
 }
 
-TEST(RenderRun, StillsBesideAClipNeedNoMoreRoom) {
+TEST(RenderRun, RendersStillsAndAClipInTheSameMemory) {
   const TempFolder folder;
   RenderOptions options =
       SmallRun("demo:lift", {folder / "{camera}.png", folder / "{camera}_%02d.png"});
@@ -117,7 +117,7 @@ TEST(RenderRun, StillsBesideAClipNeedNoMoreRoom) {
   EXPECT_EQ(folder.Names().size(), 3u * (1 + 3));
 }
 
-TEST(RenderRun, ALayerThatCannotBeWrittenLeavesNoPictureWithoutIt) {
+TEST(RenderRun, LeavesNoPictureIfItsLayerCannotBeWritten) {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "a.svg");
   RenderOptions options = SmallRun("demo:lift", {folder / "a.png"});
@@ -126,7 +126,7 @@ TEST(RenderRun, ALayerThatCannotBeWrittenLeavesNoPictureWithoutIt) {
   EXPECT_THAT(folder.Names(), ::testing::ElementsAre("a.svg"));
 }
 
-TEST(RenderRun, AGhostOfARecordingLooksAsThePersonDoes) {
+TEST(RenderRun, GivesAReferencePoseTheAppearanceOfThePerson) {
   const TempFolder folder;
   RenderOptions options = SmallRun("demo:lift", {folder / "a.png"});
   options.view.ghost.Parse("demo:walk@0.5");

@@ -52,7 +52,7 @@ void WriteWithSidecar(const Output& output, const PlannedRun& run) {
   WriteSidecar(output, run.provenance().Of(output), "demo:lift", 1);
 }
 
-TEST(ResumeCheck, AFileOfTheSameOptionsAndSourceIsUpToDate) {
+TEST(ResumeCheck, AcceptsAFileOfTheSameOptionsAndSource) {
   const TempFolder folder;
   const Output output = {folder / "a.png", OutputKind::kStill, "front"};
   EXPECT_FALSE(PlannedRun().IsUpToDate(output)) << "no file";
@@ -64,7 +64,7 @@ TEST(ResumeCheck, AFileOfTheSameOptionsAndSourceIsUpToDate) {
   EXPECT_FALSE(PlannedRun().IsUpToDate(output, /*force=*/true));
 }
 
-TEST(ResumeCheck, AChangedOrMissingFileIsNotUpToDate) {
+TEST(ResumeCheck, RequestsAChangedOrMissingFileAgain) {
   const TempFolder folder;
   const Output output = {folder / "a.png", OutputKind::kStill, "front"};
   WriteWithSidecar(output, PlannedRun());
@@ -74,7 +74,7 @@ TEST(ResumeCheck, AChangedOrMissingFileIsNotUpToDate) {
   EXPECT_FALSE(PlannedRun().IsUpToDate(output));
 }
 
-TEST(ResumeCheck, WithoutASidecarTheFileSpeaksForItself) {
+TEST(ResumeCheck, ReadsProvenanceFromTheFileIfSidecarsAreOff) {
   const TempFolder folder;
   const Output output = {folder / "a.png", OutputKind::kStill, "front"};
   WritePixel(output.path, PlannedRun().provenance().Of(output));
@@ -83,7 +83,7 @@ TEST(ResumeCheck, WithoutASidecarTheFileSpeaksForItself) {
   EXPECT_FALSE(PlannedRun({{"mass", "60"}}).IsUpToDate(output, false, false));
 }
 
-TEST(ResumeCheck, WhatCanBeReadOnlyOnceIsNeverUpToDate) {
+TEST(ResumeCheck, NeverAcceptsAFileOfASourceThatCanBeReadOnlyOnce) {
   const TempFolder folder;
   const Output output = {folder / "a.png", OutputKind::kStill, "front"};
   const PlannedRun run({}, "/dev/null");
@@ -91,7 +91,7 @@ TEST(ResumeCheck, WhatCanBeReadOnlyOnceIsNeverUpToDate) {
   EXPECT_FALSE(run.IsUpToDate(output));
 }
 
-TEST(ResumeCheck, OfASequenceEachPictureIsChecked) {
+TEST(ResumeCheck, ChecksEachFrameOfASequence) {
   const TempFolder folder;
   const Output output = {folder / "%d.png", OutputKind::kSequence, "front"};
   const PlannedRun run({{"seconds", "1"}});
@@ -109,7 +109,7 @@ TEST(ResumeCheck, OfASequenceEachPictureIsChecked) {
 }
 
 // A longer sequence has the same pictures at its beginning, unless they show all of it.
-TEST(ResumeCheck, TheLengthOfASequenceMattersOnlyToPicturesThatDependOnIt) {
+TEST(ResumeCheck, RequestsFramesAgainOnlyIfTheyDependOnAChangedLength) {
   const TempFolder folder;
   const Output output = {folder / "%d.png", OutputKind::kSequence, "front"};
   const auto wants_longer = [&](Settings options) {
@@ -126,7 +126,7 @@ TEST(ResumeCheck, TheLengthOfASequenceMattersOnlyToPicturesThatDependOnIt) {
   EXPECT_TRUE(wants_longer({{"fit", "clip"}}));
 }
 
-TEST(ResumeCheck, OnlyThePictureAskedForIsWanted) {
+TEST(ResumeCheck, RequestsOnlyTheGivenFrame) {
   const PlannedRun run;
   RunSettings settings;
   settings.only_picture = 4;

@@ -24,7 +24,7 @@ TEST(WriterThreads, WriteEverythingOnceAndInOrder) {
   EXPECT_EQ(written, given);
 }
 
-TEST(WriterThreads, SeveralShareTheWork) {
+TEST(WriterThreads, WorkInParallel) {
   // Each item waits for the other, so one thread alone would never end.
   std::promise<void> first, second;
   std::future<void> first_is_here = first.get_future(), second_is_here = second.get_future();
@@ -37,7 +37,7 @@ TEST(WriterThreads, SeveralShareTheWork) {
   threads.Finish();
 }
 
-TEST(WriterThreads, TellWhatFailedAndLetGoOfTheRest) {
+TEST(WriterThreads, ReportAFailureAndDiscardTheRest) {
   const auto memory = std::make_shared<int>(7);
   std::atomic<int> written{0};
   WriterThreads<std::shared_ptr<int>> threads(1, [&](std::shared_ptr<int>&) {
@@ -57,7 +57,7 @@ TEST(WriterThreads, TellWhatFailedAndLetGoOfTheRest) {
 
 // Each item that is written puts the next one, so the queue never ends by itself: only a destructor
 // that throws away what is left comes to an end.
-TEST(WriterThreads, WhatNobodyFinishedIsNotWaitedFor) {
+TEST(WriterThreads, DiscardUnfinishedWorkAtTheirEnd) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   std::atomic<bool> has_waited{false};
   std::promise<void> started;

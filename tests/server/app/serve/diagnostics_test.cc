@@ -39,7 +39,7 @@ TEST(DiagnosticsJson, HasNoDifferenceOfTheCentreOfMassIfMvnSendsNone) {
   EXPECT_TRUE(person.at("com_minus_mvn_m").is_null());
 }
 
-TEST(DiagnosticsJson, ReportsADriverThatDoesNotRespondOfThePictureAndOfTheView) {
+TEST(DiagnosticsJson, ReportsADriverThatDoesNotRespondForPicturesAndRosView) {
   DrawingStatus pictures;
   DrawingStatus view;
   pictures.hangs = true;

@@ -14,7 +14,7 @@ HandLoad RightHand(double mass_kg) {
   return load;
 }
 
-TEST(HandLoadMailbox, GivesTheNewestLoadOfEachPersonOnce) {
+TEST(HandLoadMailbox, DeliversTheLatestLoadOfEachPersonOnce) {
   HandLoadMailbox mailbox;
   EXPECT_EQ(mailbox.Put(0, RightHand(1)), "");
   EXPECT_EQ(mailbox.Put(4, RightHand(2)), "");
@@ -26,7 +26,7 @@ TEST(HandLoadMailbox, GivesTheNewestLoadOfEachPersonOnce) {
   EXPECT_TRUE(mailbox.TakeAll().empty());
 }
 
-TEST(HandLoadMailbox, RejectsALoadThatNoHandCanHold) {
+TEST(HandLoadMailbox, RejectsImpossibleLoads) {
   HandLoadMailbox mailbox;
   for (const double wrong : {500.0, -1.0, std::nan("")}) {
     EXPECT_NE(mailbox.Put(0, RightHand(wrong)), "") << wrong;

@@ -73,7 +73,7 @@ TEST(HandLoads, ReachTheShoulderWithTheNextSamples) {
   EXPECT_EQ(person.forces.stated_hand_load.alone_kg[kRight], 2);
 }
 
-TEST(HandLoads, AreThoseOfOnePerson) {
+TEST(HandLoads, ApplyToOnePersonOnly) {
   Wired wired;
   EXPECT_EQ(wired.hand_loads.Put(1, InRightHand(3)), "");
   const SceneState& scene = wired.RunOneSecond({0, 1});
@@ -82,7 +82,7 @@ TEST(HandLoads, AreThoseOfOnePerson) {
   EXPECT_EQ(scene.people[1].forces.hands[kRight].mass_kg, 3);
 }
 
-TEST(HandLoads, ThatNobodyCouldHoldChangeNothing) {
+TEST(HandLoads, ChangeNothingIfTheyAreRejected) {
   Wired wired;
   EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(4)), "");
   for (const double wrong : {500.0, -1.0, std::nan("")}) {
@@ -117,7 +117,7 @@ TEST(InputMerger, AppliesAHandLoadOfRosBeforeTheSampleThatFollows) {
   EXPECT_EQ(wired.last->people[0].forces.stated_hand_load.alone_kg[kRight], 2);
 }
 
-TEST(InputMerger, PassesOnTheSubscribersOfTheRosCameraAlsoWithoutSamples) {
+TEST(InputMerger, ForwardsTheNumberOfRosCameraSubscribersWithoutSamples) {
   TellingBridge bridge;
   Wired wired(&bridge);
   bridge.listeners = 3;
@@ -125,7 +125,7 @@ TEST(InputMerger, PassesOnTheSubscribersOfTheRosCameraAlsoWithoutSamples) {
   EXPECT_EQ(wired.subscribers, 3);
 }
 
-TEST(Markers, OfOtherProgramsStayInTheSceneAndAreSeenAtOnceWhileNobodyMoves) {
+TEST(Markers, StayInTheSceneAndAppearAtOnceWithoutSamples) {
   TellingBridge bridge;
   Wired wired(&bridge);
   wired.builder.Start();
@@ -143,7 +143,7 @@ TEST(Markers, OfOtherProgramsStayInTheSceneAndAreSeenAtOnceWhileNobodyMoves) {
   EXPECT_TRUE(wired.RunOneSecond().markers.empty());
 }
 
-TEST(Measurements, OfOtherProgramsReplaceOurLoadsWhileTheyAreFresh) {
+TEST(Measurements, ReplaceComputedLoadsWhileTheyAreValid) {
   TellingBridge bridge;
   Wired wired(&bridge);
   wired.RunOneSecond();
@@ -162,7 +162,7 @@ TEST(Measurements, OfOtherProgramsReplaceOurLoadsWhileTheyAreFresh) {
   EXPECT_EQ(LoadOf(after, urdf::jRightElbow).load_class, LoadClass::kLow);
 }
 
-TEST(Measurements, OfAHandThatStopLeaveItUnknownUntilItsLoadIsTold) {
+TEST(Measurements, LeaveAHandLoadUnknownAfterTheyStopUntilItIsSet) {
   TellingBridge bridge;
   Wired wired(&bridge);
   wired.RunOneSecond();
@@ -179,7 +179,7 @@ TEST(Measurements, OfAHandThatStopLeaveItUnknownUntilItsLoadIsTold) {
       << LoadOf(told, urdf::jRightElbow).reason;
 }
 
-TEST(Measurements, OfTheCopAloneMoveItAndKeepTheForceOfTheMotion) {
+TEST(Measurements, OfTheCentreOfPressureMoveItAndKeepTheComputedForce) {
   TellingBridge bridge;
   Wired wired(&bridge);
   const PersonState before = wired.RunOneSecond().people[0];
@@ -195,7 +195,7 @@ TEST(Measurements, OfTheCopAloneMoveItAndKeepTheForceOfTheMotion) {
   EXPECT_NEAR(during.forces.ground_force.z(), before.forces.ground_force.z(), 1);
 }
 
-TEST(Exposure, OfARunIsInItsStates) {
+TEST(Exposure, IsContainedInTheStates) {
   Wired wired;
   EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(2)), "");
   wired.RunOneSecond();

@@ -53,7 +53,7 @@ class LivePicturesTest : public ::testing::Test {
   std::optional<LivePictures> live_;
 };
 
-TEST_F(LivePicturesTest, TheFirstPictureIsThereBeforeAnybodyLooks) {
+TEST_F(LivePicturesTest, RendersTheFirstPictureBeforeTheFirstViewer) {
   Start();
   const auto picture = pictures_.Get();
   ASSERT_TRUE(picture);
@@ -68,7 +68,7 @@ TEST_F(LivePicturesTest, TheFirstPictureIsThereBeforeAnybodyLooks) {
   EXPECT_EQ(status.renderer.backend, "osmesa");
 }
 
-TEST_F(LivePicturesTest, ANewViewerSeesTheNewestState) {
+TEST_F(LivePicturesTest, ShowsANewViewerTheNewestState) {
   Start();
   Next();
   for (std::uint64_t number = 2; number < 20; ++number) live_->OnState(NumberedScene(number));
@@ -76,7 +76,7 @@ TEST_F(LivePicturesTest, ANewViewerSeesTheNewestState) {
   EXPECT_EQ(Next()->state_number, 19u) << "the newest, and none of those before";
 }
 
-TEST_F(LivePicturesTest, AnotherCameraIsAnotherPictureOfTheSameState) {
+TEST_F(LivePicturesTest, RendersTheSameStateAgainForAnotherCamera) {
   Start("top");
   const auto from_top = Next()->jpeg;
   live_.reset();
@@ -101,7 +101,7 @@ std::pair<int, int> SizeOfPng(const std::vector<std::uint8_t>& png) {
   return {number(16), number(20)};
 }
 
-TEST_F(LivePicturesTest, ASnapshotHasItsOwnSizeAndCameraAndLeavesTheLivePictureAlone) {
+TEST_F(LivePicturesTest, RendersSnapshotsOfAnySizeAndCameraBesideTheLivePicture) {
   Start();
   const auto live = Next()->jpeg;
   const auto front = live_->SnapshotPng("front", 64, 48);
@@ -114,14 +114,14 @@ TEST_F(LivePicturesTest, ASnapshotHasItsOwnSizeAndCameraAndLeavesTheLivePictureA
   EXPECT_EQ(Next()->jpeg, live);
 }
 
-TEST_F(LivePicturesTest, ASnapshotWithoutACameraIsByTheLivePictures) {
+TEST_F(LivePicturesTest, UsesTheLiveCameraForSnapshotsWithoutACamera) {
   Start();
   EXPECT_EQ(live_->SnapshotPng("", 64, 48), live_->SnapshotPng("front", 64, 48));
   EXPECT_TRUE(live_->SetCamera("top"));
   EXPECT_EQ(live_->SnapshotPng("", 64, 48), live_->SnapshotPng("top", 64, 48));
 }
 
-TEST_F(LivePicturesTest, ASnapshotShowsTheNewestState) {
+TEST_F(LivePicturesTest, ShowsTheNewestStateInASnapshot) {
   Start();
   const auto standing = live_->SnapshotPng("front", 64, 48);
   auto bent = std::make_shared<SceneState>(testing::SceneWith(testing::Posture::kDeepBend));
@@ -129,7 +129,7 @@ TEST_F(LivePicturesTest, ASnapshotShowsTheNewestState) {
   EXPECT_NE(live_->SnapshotPng("front", 64, 48), standing);
 }
 
-TEST_F(LivePicturesTest, ASnapshotThatCannotBeIsAnErrorOfItsOwnAndNoOnesElse) {
+TEST_F(LivePicturesTest, ReportsAnInvalidSnapshotOnlyToItsRequester) {
   Start();
   Next();
   try {
@@ -152,7 +152,7 @@ std::vector<std::uint8_t> PngBy(const std::string& camera, const CameraOptions& 
                                                           {64, 48, 2, "", true}));
 }
 
-TEST_F(LivePicturesTest, ASnapshotWithoutACameraHasTheOptionsOfTheLivePicture) {
+TEST_F(LivePicturesTest, UsesTheLiveOptionsForSnapshotsWithoutACamera) {
   CameraOptions moves;
   moves.projection = true;
   moves.fit = Fit::kNow;

@@ -32,7 +32,7 @@ TEST(LivenessLog, ReportsChangesOnly) {
             "info: live: 'Anna' from udp://:9763\n");
 }
 
-TEST(LivenessLog, NamesNobodyInASceneWithoutPeople) {
+TEST(LivenessLog, UsesNoNameInASceneWithoutPeople) {
   const testing::CapturedLog log;
   SceneState state = StateWith(Liveness::kLive);
   state.people.clear();

@@ -16,7 +16,7 @@ SourceCounters DatagramsWithoutPose() {
   return counters;
 }
 
-TEST(MissingPoseWarning, GivesTheMostFrequentReasonOnceAfterTwoSeconds) {
+TEST(MissingPoseWarning, ReportsTheMostFrequentReasonOnceAfterTwoSeconds) {
   const testing::CapturedLog log;
   MissingPoseWarning warning;
   warning.OnCounters(DatagramsWithoutPose(), "udp://:9763", 0);
@@ -38,7 +38,7 @@ TEST(MissingPoseWarning, CountsTheTimeFromTheFirstDatagrams) {
   EXPECT_EQ(log.text(), "") << "a suit that was switched on now";
 }
 
-TEST(MissingPoseWarning, IsSilentWhileThereAreSamplesOrNoDatagrams) {
+TEST(MissingPoseWarning, IsAbsentWhileThereAreSamplesOrNoDatagrams) {
   const testing::CapturedLog log;
   MissingPoseWarning warning;
   SourceCounters fine = DatagramsWithoutPose();

@@ -69,7 +69,7 @@ class PictureProblems : public ::testing::Test {
   http::HttpServer server_;
 };
 
-TEST_F(PictureProblems, OfARobotWithoutItsMeshAreNamedInTheStatusWhileItIsThere) {
+TEST_F(PictureProblems, NameAMissingMeshOfARobotWhileTheRobotIsShown) {
   EXPECT_EQ(ProblemsWith(Scene()), nlohmann::json::array());
   SceneState with_robot = Scene();
   with_robot.robots.push_back(Robot("package://arm_description/meshes/hand.stl"));
@@ -79,7 +79,7 @@ TEST_F(PictureProblems, OfARobotWithoutItsMeshAreNamedInTheStatusWhileItIsThere)
   EXPECT_EQ(ProblemsWith(Scene()), nlohmann::json::array()) << "the robot has left";
 }
 
-TEST_F(PictureProblems, AreTextEvenWhereAFileNameIsNot) {
+TEST_F(PictureProblems, AreValidTextForFileNamesWithInvalidUtf8) {
   SceneState with_robot = Scene();
   with_robot.robots.push_back(Robot("/nowhere/h.stl"));
   auto model = std::make_shared<urdf::RobotModel>(*with_robot.robots[0].model);

@@ -74,7 +74,7 @@ TEST(RosCameraLoop, SendsThePictureOfARendererAndTheCalibrationOfItsCamera) {
   EXPECT_TRUE(sent.world_from_optical.orientation.isApprox(pinhole.world_from_optical.orientation));
 }
 
-TEST(RosCameraLoop, DrawsNothingBeforeTheFirstSubscriber) {
+TEST(RosCameraLoop, RendersNothingBeforeTheFirstSubscriber) {
   FirstPicture first;
   RosCameraLoop loop(
       kSmall,

@@ -39,7 +39,7 @@ TEST(ServeConfig, HasEveryPartByDefault) {
   EXPECT_THAT(config.notes, IsEmpty());
 }
 
-TEST(ServeConfig, OfABridgeHasNeitherPageNorPictures) {
+TEST(ServeConfig, HasNeitherPageNorPicturesForABridge) {
   const ServeConfig config = ConfigOf({{"ros", "required"}}, false);
   EXPECT_FALSE(config.page);
   EXPECT_FALSE(config.pictures);
@@ -54,14 +54,14 @@ TEST(ServeConfig, UdpPortReplacesTheSource) {
   EXPECT_EQ(ConfigOf({{"source", "demo:lift"}, {"udp_port", "9000"}}).source_url, "udp://:9000");
 }
 
-TEST(ServeConfig, WithoutRosHasNoRosCamera) {
+TEST(ServeConfig, HasNoRosCameraWithoutRos) {
   const ServeConfig config = ConfigOf({{"ros", "off"}, {"pictures", "off"}});
   EXPECT_FALSE(config.ros);
   EXPECT_FALSE(config.ros_camera);
   EXPECT_THAT(config.notes, IsEmpty()) << "nobody expects a topic";
 }
 
-TEST(ServeConfig, WithoutPicturesHasNoRosCameraAndSaysSo) {
+TEST(ServeConfig, ReportsThatThereIsNoRosCameraWithoutPictures) {
   const ServeConfig config = ConfigOf({{"ros", "required"}, {"pictures", "off"}});
   EXPECT_FALSE(config.pictures);
   EXPECT_FALSE(config.ros_camera);
@@ -71,7 +71,7 @@ TEST(ServeConfig, WithoutPicturesHasNoRosCameraAndSaysSo) {
               IsEmpty());
 }
 
-TEST(ServeConfig, TheRosCameraIsThatOfThePageUnlessItHasItsOwn) {
+TEST(ServeConfig, UsesTheCameraOfThePageForRosByDefault) {
   const ServeConfig same = ConfigOf({{"ros", "required"}, {"camera", "top"}});
   ASSERT_TRUE(same.ros_camera);
   EXPECT_EQ(same.ros_camera->camera.name(), "top");
@@ -81,7 +81,7 @@ TEST(ServeConfig, TheRosCameraIsThatOfThePageUnlessItHasItsOwn) {
   EXPECT_EQ(own.pictures->camera.name(), "top");
 }
 
-TEST(ServeConfig, TheRosCameraHasNoneOfTheOptionsOfTheLivePicture) {
+TEST(ServeConfig, AppliesNoOptionsOfTheLivePictureToTheRosCamera) {
   const ServeConfig config = ConfigOf({{"ros", "required"},
                                        {"camera", "front"},
                                        {"projection", "orthographic"},
@@ -94,7 +94,7 @@ TEST(ServeConfig, TheRosCameraHasNoneOfTheOptionsOfTheLivePicture) {
   EXPECT_EQ(camera.vertical_fov_rad, render::NamedCamera("front", nobody).vertical_fov_rad);
 }
 
-TEST(ServeConfig, FramesOfARosGraphAreNotPublishedAgain) {
+TEST(ServeConfig, DoesNotRepublishFramesOfARosGraph) {
   const testing::Settings graph = {{"source", "ros:"}, {"ros", "required"}};
   const ServeConfig config = ConfigOf(graph);
   EXPECT_EQ(config.ros->tf, "off");
@@ -102,7 +102,7 @@ TEST(ServeConfig, FramesOfARosGraphAreNotPublishedAgain) {
   EXPECT_EQ(ConfigOf({{"source", "demo:lift"}, {"ros", "required"}}).ros->tf, "flat");
 }
 
-TEST(ServeConfig, OptionsAreCheckedAlsoInPartsThatAreOff) {
+TEST(ServeConfig, ChecksOptionsOfPartsThatAreOff) {
   const testing::Settings off = {{"ros", "off"}, {"pictures", "off"}, {"view", "off"}};
   const auto error_with = [&](const std::string& name, const std::string& text) {
     testing::Settings settings = off;

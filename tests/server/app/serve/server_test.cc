@@ -28,7 +28,7 @@ int PortIn(const testing::CapturedLog& log) {
   return std::stoi(text.substr(text.find(':', page + 14) + 1));
 }
 
-TEST(Server, AnswersBeforeItRunsAndNamesThePartsThatAreOff) {
+TEST(Server, AnswersBeforeItRunsAndReportsNullForPartsThatAreOff) {
   const testing::CapturedLog log;
   const Server server(ConfigOf({{"http_port", "0"}, {"pictures", "off"}}));
   const int port = PortIn(log);
@@ -40,7 +40,7 @@ TEST(Server, AnswersBeforeItRunsAndNamesThePartsThatAreOff) {
   EXPECT_EQ(Fetch(port, "/snapshot.png").status, 503);
 }
 
-TEST(Server, WhosePortIsTakenEndsThePartsThatRunAlready) {
+TEST(Server, RejectsAPortInUseAndLeavesTheFirstServerRunning) {
   const testing::CapturedLog log;
   const Server first(ConfigOf({{"http_port", "0"}, {"picture_size", "64x48"}}));
   const int port = PortIn(log);

@@ -11,12 +11,12 @@ namespace {
 
 constexpr std::int64_t kFeedMilli = 1'000'000;
 
-TEST(CharacterIds, EverybodyKeepsTheirOwnWithoutCopies) {
+TEST(CharacterIds, AreUnchangedWithoutCopies) {
   CharacterIds ids(1);
   for (const int character : {0, 7, 255, 3}) EXPECT_EQ(ids.Find(character, 0), character);
 }
 
-TEST(CharacterIds, FollowTheOrderInWhichPeopleAreMetAndNoTwoAreEqual) {
+TEST(CharacterIds, AreUniqueAndReusedWhenThePersonReturns) {
   CharacterIds ids(3);
   EXPECT_EQ(ids.Find(7, 0), 0);
   EXPECT_EQ(ids.Find(7, 2), 2);
@@ -25,7 +25,7 @@ TEST(CharacterIds, FollowTheOrderInWhichPeopleAreMetAndNoTwoAreEqual) {
   EXPECT_EQ(ids.Find(2, 2), 5);
 }
 
-TEST(CharacterIds, EndWhereAHeaderCannotTellMoreApart) {
+TEST(CharacterIds, AreLimitedToTheRangeOfTheHeader) {
   CharacterIds ids(100);
   std::set<int> found;
   for (int character = 0; character < 4; ++character) {
@@ -51,13 +51,13 @@ std::vector<std::uint32_t> KeptOf(Decimator& decimator, double stream_hz, double
   return kept;
 }
 
-TEST(Decimator, KeepsAllUnlessASlowerStreamIsAskedFor) {
+TEST(Decimator, KeepsAllSamplesUnlessALowerRateIsRequested) {
   Decimator decimator;
   EXPECT_EQ(KeptOf(decimator, 0, 240, 100, kFeedMilli).size(), 100U);
   EXPECT_EQ(KeptOf(decimator, 0, 240, 100, kFeedMilli).size(), 100U) << "even the same ones";
 }
 
-TEST(Decimator, KeepsOneInEachPeriodAsEvenlyAsFramesAllow) {
+TEST(Decimator, KeepsOneSamplePerPeriodAtEvenIntervals) {
   for (const auto& [stream_hz, rate_hz] :
        {std::pair(60.0, 240.0), std::pair(30.0, 60.0), std::pair(25.0, 240.0),
         std::pair(100.0, 240.0), std::pair(59.0, 60.0)}) {
@@ -74,12 +74,12 @@ TEST(Decimator, KeepsOneInEachPeriodAsEvenlyAsFramesAllow) {
   }
 }
 
-TEST(Decimator, AStreamFasterThanTheSourceIsTheSource) {
+TEST(Decimator, KeepsAllSamplesIfTheRequestedRateIsHigher) {
   Decimator decimator;
   EXPECT_EQ(KeptOf(decimator, 480, 60, 100, kFeedMilli).size(), 100U);
 }
 
-TEST(Decimator, EveryDatagramOfASampleGetsTheSameAnswerAlsoOutOfOrder) {
+TEST(Decimator, DecidesEquallyForAllDatagramsOfASampleInAnyOrder) {
   Decimator decimator;
   std::vector<bool> first;
   for (std::uint32_t i = 0; i < 8; ++i)
@@ -92,7 +92,7 @@ TEST(Decimator, EveryDatagramOfASampleGetsTheSameAnswerAlsoOutOfOrder) {
 }
 
 // Frames at 240 Hz whose time code is in whole 10 ms: several have the same time.
-TEST(Decimator, WhereTheClockStandsStillWhatWasDecidedHolds) {
+TEST(Decimator, KeepsItsDecisionWhileTheClockStandsStill) {
   Decimator decimator;
   EXPECT_TRUE(decimator.Keeps(60, 0, 0, kFeedMilli));
   for (std::uint32_t i = 1; i < 20; ++i) EXPECT_TRUE(decimator.Keeps(60, i, 0, kFeedMilli));

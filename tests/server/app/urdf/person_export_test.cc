@@ -34,7 +34,7 @@ std::vector<std::string> MeshUris(const fs::path& urdf_file) {
   return uris;
 }
 
-TEST(PersonExport, WritesAUrdfWhoseMeshesAreThere) {
+TEST(PersonExport, WritesAUrdfWithItsMeshes) {
   const testing::TempFolder folder;
   const fs::path out = folder / "a person & co";
   ExportPerson(Person(), Meshes(), out, "");
@@ -50,7 +50,7 @@ TEST(PersonExport, WritesAUrdfWhoseMeshesAreThere) {
   }
 }
 
-TEST(PersonExport, NamesMeshesByPackageWhereOneIsGiven) {
+TEST(PersonExport, NamesMeshesByPackageIfOneIsGiven) {
   const testing::TempFolder folder;
   ExportPerson(Person(), Meshes(), folder.path(), "anna_description");
   EXPECT_THAT(MeshUris(folder / "person.urdf"),
@@ -70,7 +70,7 @@ TEST(PersonExport, ReplacesOldMeshes) {
   EXPECT_EQ(MeshUris(folder / "out" / "person.urdf").size(), 23U);
 }
 
-TEST(PersonExport, OfPrimitivesHasNoMeshes) {
+TEST(PersonExport, HasNoMeshesForPrimitives) {
   const testing::TempFolder folder;
   urdf::HumanModel human = Person();
   human.mesh_folder = "/of/the/cache";
@@ -79,7 +79,7 @@ TEST(PersonExport, OfPrimitivesHasNoMeshes) {
   EXPECT_FALSE(fs::exists(folder / "out" / "meshes"));
 }
 
-TEST(PersonExport, LeavesNothingHalfWrittenAndSaysWhy) {
+TEST(PersonExport, LeavesNoPartialExportAndNamesTheFailedFile) {
   const testing::TempFolder folder;
   std::ofstream(folder / "file") << "in the way";
   EXPECT_THROW(ExportPerson(Person(), Meshes(), folder / "file", ""), UsageError);

@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(Packed, AnyInput, ::testing::ValuesIn(kPackings), NameO
 class PackedInput : public ::testing::TestWithParam<Packing> {};
 INSTANTIATE_TEST_SUITE_P(All, PackedInput, ::testing::ValuesIn(kPackings), NameOf);
 
-TEST_P(AnyInput, IsReadWhateverItsName) {
+TEST_P(AnyInput, IsReadWithAnyName) {
   TempFolder folder;
   const std::string content = Content();
   const std::string packed = Packed(content, GetParam().add_filter);
@@ -133,7 +133,7 @@ TEST_P(AnyInput, IsReadFromAPipe) {
   writer.join();
 }
 
-TEST_P(PackedInput, SaysWhyItBreaksOff) {
+TEST_P(PackedInput, ReportsWhyItIsTruncated) {
   TempFolder folder;
   const std::string packed = Packed(Content(), GetParam().add_filter);
   for (const std::size_t size : {packed.size() / 2, packed.size() - 200}) {
@@ -154,7 +154,7 @@ bool HasCheckSum(const Packing& packing) {
   return packing.name != std::string("gzip") && packing.name != std::string("zstd");
 }
 
-TEST_P(PackedInput, DamageIsAnErrorOrHarmsNothing) {
+TEST_P(PackedInput, ReportsDamageThatChangesItsContent) {
   TempFolder folder;
   const std::string content = Content().substr(0, 80'000);
   const std::string packed = Packed(content, GetParam().add_filter);
@@ -190,7 +190,7 @@ TEST_P(PackedInput, DamageIsAnErrorOrHarmsNothing) {
   EXPECT_EQ(harmed, 0) << "taken for whole";
 }
 
-TEST(InputFile, ABombCostsNoMemory) {
+TEST(InputFile, NeedsLittleMemoryForADecompressionBomb) {
   TempFolder folder;
   const std::string zeros(1 << 20, '\0');
   // gzip in gzip: 256 MB in a few hundred bytes.
@@ -210,7 +210,7 @@ TEST(InputFile, ABombCostsNoMemory) {
   EXPECT_LT(most, before + (1 << 20));
 }
 
-TEST(InputFile, SaysWhatIsWrongWithAPath) {
+TEST(InputFile, ReportsTheErrorOfAPath) {
   TempFolder folder;
   const auto error_of = [](const std::string& path) {
     return ErrorOf([&] { OpenInputFile(path); });
@@ -228,7 +228,7 @@ TEST(InputFile, SaysWhatIsWrongWithAPath) {
   EXPECT_THAT(error_of(secret), AllOf(HasSubstr("secret"), HasSubstr("Permission denied")));
 }
 
-TEST(InputFile, KnowsARecordingByItsContent) {
+TEST(InputFile, RecognisesARecordingByItsContent) {
   EXPECT_EQ(KindOf(""), RecordingKind::kEmpty);
   EXPECT_EQ(KindOf(PcapBuilder(kLinkRaw).bytes()), RecordingKind::kPcap);
   EXPECT_EQ(KindOf(PcapBuilder(kLinkRaw, false).bytes()), RecordingKind::kPcap);
@@ -241,7 +241,7 @@ TEST(InputFile, KnowsARecordingByItsContent) {
   EXPECT_EQ(KindOf("<sync/>MXTP02"), RecordingKind::kDatagrams);
 }
 
-TEST(OpenDatagrams, TellsRecordingsFromWhatHasSamples) {
+TEST(OpenDatagrams, AcceptsOnlyRecordingsOfDatagrams) {
   TempFolder folder;
   const auto open = [&](const std::string& bytes) {
     return OpenDatagrams(Write(folder / "take.xyz", bytes).string());
@@ -259,7 +259,7 @@ TEST(OpenDatagrams, TellsRecordingsFromWhatHasSamples) {
   EXPECT_THAT(ErrorOf([] { OpenDatagrams("/nowhere/x.pcap"); }), HasSubstr("No such file"));
 }
 
-TEST(OpenDatagrams, ABrokenArchiveIsAnErrorOfEveryReader) {
+TEST(OpenDatagrams, ReportsADamagedArchiveInEveryReader) {
   TempFolder folder;
   const auto cut = [&](const std::string& content) {
     const std::string packed = Packed(content, archive_write_add_filter_gzip);
@@ -319,7 +319,7 @@ TEST(TimeCodeClock, FollowsTheSenderAndNeverGoesBack) {
   EXPECT_THAT(TimesOf({0xFFFFFFFFU, 3, 7}), ElementsAre(0, 0, 0));
 }
 
-TEST(RawFile, GivesDatagramsWithTheSendersTime) {
+TEST(RawFile, ReturnsDatagramsWithTheTimeOfTheSender) {
   std::string stream;
   for (std::uint32_t i = 0; i < 100; ++i) {
     RawDatagram raw;
@@ -341,7 +341,7 @@ TEST(RawFile, GivesDatagramsWithTheSendersTime) {
   EXPECT_EQ(source.counters().resyncs, 0U);
 }
 
-TEST(RawFile, ReadsTheRealTrackerStream) {
+TEST(RawFile, ReadsTheRecordedTrackerStream) {
   const char* const kFile = "udp/mxtp23_lowerbody_000-149.bin";
   KINESCOPE_NEEDS_SHARED_DATA(kFile);
   const auto source = OpenDatagrams(SharedData(kFile));
@@ -363,7 +363,7 @@ INSTANTIATE_TEST_SUITE_P(All, RealDatagram,
                          ::testing::Values("mxtp01", "mxtp02", "mxtp12", "mxtp13"),
                          [](const auto& name) { return name.param; });
 
-TEST_P(RealDatagram, IsOneDatagramAsAFile) {
+TEST_P(RealDatagram, IsReadAsOneDatagram) {
   const std::string file = std::string("udp/") + GetParam() + ".bin";
   KINESCOPE_NEEDS_SHARED_DATA(file);
   const auto source = OpenDatagrams(SharedData(file));

@@ -67,7 +67,7 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
 class MvnxVersion : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Both, MvnxVersion, ::testing::Values(3, 4));
 
-TEST_P(MvnxVersion, GivesBackWhatWasWritten) {
+TEST_P(MvnxVersion, RestoresTheWrittenSamples) {
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton(1.7);
   const auto written = SwingingArms(skeleton, 8);
   std::string text = WriteMvnx(GetParam(), 240, skeleton, written);
@@ -102,7 +102,7 @@ TEST_P(MvnxVersion, GivesBackWhatWasWritten) {
   EXPECT_NEAR(sink.characters[0].skeleton->height, 1.7, 1e-5);
 }
 
-TEST_P(MvnxVersion, KeepsCalibrationFramesOutOfTheMotion) {
+TEST_P(MvnxVersion, ExcludesCalibrationFramesFromTheMotion) {
   std::string text = SmallFile(GetParam());
   MvnxSource source = Open(text);
   ReadAll(source);
@@ -114,7 +114,7 @@ TEST_P(MvnxVersion, KeepsCalibrationFramesOutOfTheMotion) {
   EXPECT_EQ(counters.bytes, text.size());
 }
 
-TEST(Mvnx, TakesTimeFromTheIndexAndStampsFromTheFirstFrame) {
+TEST(Mvnx, ComputesTimesFromTheIndexAndTheFirstFrame) {
   std::string text = SmallFile();
   MvnxSource source = Open(text);
   const RecordingSink sink = ReadAll(source);
@@ -127,7 +127,7 @@ TEST(Mvnx, TakesTimeFromTheIndexAndStampsFromTheFirstFrame) {
   }
 }
 
-TEST(Mvnx, NeighbouringQuaternionsNeverChangeSign) {
+TEST(Mvnx, KeepsTheSignOfNeighbouringQuaternions) {
   std::string text = SmallFile();  // which changes every sign with every frame
   MvnxSource source = Open(text);
   const RecordingSink sink = ReadAll(source);
@@ -140,7 +140,7 @@ TEST(Mvnx, NeighbouringQuaternionsNeverChangeSign) {
   }
 }
 
-TEST(Mvnx, DoesWithoutOptionalListsAndSkipsUnknownOnes) {
+TEST(Mvnx, AcceptsMissingOptionalListsAndSkipsUnknownOnes) {
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
   auto samples = SwingingArms(skeleton, 2);
   for (BodySample& sample : samples) {
@@ -197,7 +197,7 @@ std::optional<std::array<FootContactFlags, 2>> ContactsOf(const std::vector<std:
   return sink.samples.at(0).foot_contacts;
 }
 
-TEST(Mvnx, TakesFootContactsByTheirLabelsWhateverTheirOrder) {
+TEST(Mvnx, ReadsFootContactsByTheirLabelsInAnyOrder) {
   const std::vector<std::string> four = {"LeftFoot_Toe", "RightFoot_Heel", "LeftFoot_Heel",
                                          "RightFoot_Toe"};
   const auto feet = ContactsOf(four, "1 0 0 1");
@@ -211,7 +211,7 @@ TEST(Mvnx, TakesFootContactsByTheirLabelsWhateverTheirOrder) {
   EXPECT_THROW(ContactsOf(four, "1 0 0"), SourceError);
 }
 
-TEST(Mvnx, SkipsFingersAndWhateverElseItDoesNotKnow) {
+TEST(Mvnx, SkipsFingersAndUnknownElements) {
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
   const std::string plain = WriteMvnx(4, 60, skeleton, SwingingArms(skeleton, 3));
   std::string text = Replaced(
@@ -279,7 +279,7 @@ class EndlessFile {
   int frames_;
 };
 
-TEST(Mvnx, ItsMemoryDoesNotGrowWithTheFile) {
+TEST(Mvnx, NeedsNoMoreMemoryForLargerFiles) {
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
   const std::string small = WriteMvnx(4, 240, skeleton, SwingingArms(skeleton, 1));
   const std::string mark = "index=\"0\"";
@@ -309,7 +309,7 @@ TEST(Mvnx, ItsMemoryDoesNotGrowWithTheFile) {
   EXPECT_LT(sink.most, at_the_beginning + 100'000);
 }
 
-TEST(Mvnx, SaysWhichFileAndLineAndWhatIsWrong) {
+TEST(Mvnx, ReportsFileLineAndErrorOfAnInvalidFile) {
   const std::string good = SmallFile();
   ASSERT_EQ(ErrorOf(good), "");
   EXPECT_THAT(ErrorOf(Replaced(good, "version=\"4\"", "version=\"2\"")),
@@ -336,7 +336,7 @@ TEST(Mvnx, SaysWhichFileAndLineAndWhatIsWrong) {
               HasSubstr("second <subject>"));
 }
 
-TEST(Mvnx, SaysThatAFileBreaksOffWhereverItIsCut) {
+TEST(Mvnx, ReportsEveryTruncation) {
   const std::string whole = SmallFile();
   for (std::size_t size = 1; size < whole.size() - 8; size += 997) {
     const std::string error = ErrorOf(whole.substr(0, size));
@@ -345,14 +345,14 @@ TEST(Mvnx, SaysThatAFileBreaksOffWhereverItIsCut) {
   }
 }
 
-TEST(Mvnx, RefusesADocumentType) {
+TEST(Mvnx, RejectsADocumentType) {
   const std::string bomb =
       "<!DOCTYPE mvnx [<!ENTITY a \"aaaaaaaa\"><!ENTITY b \"&a;&a;&a;\">]>"
       "<mvnx version=\"4\">&b;</mvnx>";
   EXPECT_THAT(ErrorOf(bomb), HasSubstr("DOCTYPE"));
 }
 
-TEST(Mvnx, KeepsItsMemoryWhateverTheFileDoes) {
+TEST(Mvnx, RejectsOversizedAndTooDeeplyNestedContent) {
   EXPECT_THAT(ErrorOf("<mvnx version=\"4\" x=\"" + std::string(3 << 20, 'a')),
               HasSubstr("longer than a megabyte"));
   std::string deep = "<mvnx version=\"4\">";
@@ -363,7 +363,7 @@ TEST(Mvnx, KeepsItsMemoryWhateverTheFileDoes) {
               HasSubstr("too long"));
 }
 
-TEST(Mvnx, NamesAFileThatCannotBeOpened) {
+TEST(Mvnx, NamesAFileThatIsMissing) {
   try {
     OpenMvnx("/nowhere/motion.mvnx");
     FAIL() << "opened a file that is not there";
@@ -413,7 +413,7 @@ INSTANTIATE_TEST_SUITE_P(Files, RealMvnx,
                            return file.index == 0 ? "Version3" : "Version4";
                          });
 
-TEST_P(RealMvnx, JointsMeetWithinTwoMillimetres) {
+TEST_P(RealMvnx, HasSegmentsThatMeetWithinTwoMillimetres) {
   KINESCOPE_NEEDS_SHARED_DATA(GetParam().path);
   const auto source = OpenMvnx(SharedData(GetParam().path));
   const RecordingSink sink = ReadAll(*source);
@@ -437,7 +437,7 @@ TEST_P(RealMvnx, JointsMeetWithinTwoMillimetres) {
   RecordProperty("worst_gap_mm", std::to_string(worst * 1000));
 }
 
-TEST_P(RealMvnx, JointAnglesFollowFromTheQuaternions) {
+TEST_P(RealMvnx, HasJointAnglesThatFollowFromTheQuaternions) {
   KINESCOPE_NEEDS_SHARED_DATA(GetParam().path);
   const auto source = OpenMvnx(SharedData(GetParam().path));
   const RecordingSink sink = ReadAll(*source);
@@ -477,7 +477,7 @@ TEST_P(RealMvnx, HasItsRateAndClock) {
   }
 }
 
-TEST(RealMvnxVersion4, TellsTheContactsOfBothFeet) {
+TEST(RealMvnxVersion4, HasFootContactsInEverySample) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   const auto source = OpenMvnx(SharedData("mvnx/test_mocap.mvnx"));
   for (const BodySample& sample : ReadAll(*source).samples) ASSERT_TRUE(sample.foot_contacts);

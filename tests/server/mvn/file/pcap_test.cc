@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         Link{"Null", kLinkNull, Loopback}, Link{"Loop", kLinkLoop, Loopback}),
     [](const auto& link) { return link.param.name; });
 
-TEST_P(PcapLink, GivesUdpWithItsEndsAndTime) {
+TEST_P(PcapLink, ReturnsUdpDatagramsWithAddressesAndTime) {
   const Link& link = GetParam();
   const std::string v4 = link.wrap(Udp(kSuit, kUs, Pose(1)));
   const std::string v6 = link.wrap(Udp(Ipv6(1, 1), Ipv6(2, 2), Pose(2)));
@@ -104,13 +104,13 @@ TEST_P(PcapLink, GivesUdpWithItsEndsAndTime) {
   }
 }
 
-TEST(Pcap, ReadsMicrosecondsToo) {
+TEST(Pcap, ReadsTimesInMicroseconds) {
   const Reading reading =
       Read(PcapBuilder(kLinkRaw, false).Add(kNoon, Udp(kSuit, kUs, Pose(1))).bytes());
   EXPECT_EQ(reading.sink.datagrams.at(0).arrival.wall_nanos, kNoon / 1000 * 1000);
 }
 
-TEST(Pcap, TakesWhatGoesToThePortOfTheStreamAndLeavesTheRest) {
+TEST(Pcap, ReadsOnlyPacketsToThePortOfTheStream) {
   const std::string json = R"({"type":"transport","value":"record"})";
   const Endpoint name_server = Ipv4(1, 53);
   const Reading reading = Read(PcapBuilder(kLinkEthernet)
@@ -125,7 +125,7 @@ TEST(Pcap, TakesWhatGoesToThePortOfTheStreamAndLeavesTheRest) {
   EXPECT_EQ(reading.counters.other_packets, 3U);
 }
 
-TEST(Pcap, PassesOverIpOptionsAndExtensionHeaders) {
+TEST(Pcap, SkipsIpOptionsAndExtensionHeaders) {
   std::string v4 = Udp(kSuit, kUs, Pose(1));
   v4[0] = 0x47;  // 7 words
   v4.insert(20, 8, '\1');
@@ -171,7 +171,7 @@ TEST(Pcap, JoinsIpFragmentsInAnyOrder) {
   }
 }
 
-TEST(Pcap, CountsPacketsOfWhichAFragmentIsMissing) {
+TEST(Pcap, CountsPacketsWithMissingFragments) {
   const auto lost = Fragments(Udp(kSuit, kUs, Pose(1, 63)), 1024, 1);
   const auto late = Fragments(Udp(kSuit, kUs, Pose(2, 63)), 1024, 2);
   const auto good = Fragments(Udp(kSuit, kUs, Pose(3, 63)), 1024, 3);
@@ -188,7 +188,7 @@ TEST(Pcap, CountsPacketsOfWhichAFragmentIsMissing) {
   EXPECT_EQ(reading.counters.incomplete_packets, 3U);
 }
 
-TEST(Pcap, KeepsItsMemoryWhateverFragmentsClaim) {
+TEST(Pcap, CountsManyInvalidFragmentsAsIncompletePackets) {
   PcapBuilder pcap(kLinkRaw);
   constexpr int kCount = 2000;
   for (int id = 0; id < kCount; ++id) {
@@ -233,7 +233,7 @@ std::string CaptureOf(const std::vector<std::string>& segments) {
   return pcap.bytes();
 }
 
-TEST(PcapTcp, MakesDatagramsOfAConnection) {
+TEST(PcapTcp, ReadsTheDatagramsOfAConnection) {
   const Connection connection(333);
   const Reading reading = Read(CaptureOf(connection.segments));
   EXPECT_EQ(reading.sink.Brief(), Brief(connection.datagrams));
@@ -244,7 +244,7 @@ TEST(PcapTcp, MakesDatagramsOfAConnection) {
   EXPECT_EQ(reading.counters.incomplete_packets, 0U);
 }
 
-TEST(PcapTcp, PutsSegmentsInOrderAndTakesEachByteOnce) {
+TEST(PcapTcp, OrdersSegmentsAndReadsEachByteOnce) {
   std::mt19937 random(6);
   for (int round = 0; round < 20; ++round) {
     // The sequence number wraps in the middle.
@@ -262,7 +262,7 @@ TEST(PcapTcp, PutsSegmentsInOrderAndTakesEachByteOnce) {
   }
 }
 
-TEST(PcapTcp, TakesOnlyWhatIsNewOfARetransmissionThatIsLonger) {
+TEST(PcapTcp, ReadsOnlyTheNewBytesOfALongerRetransmission) {
   const Connection connection(300);
   std::vector<std::string> segments = connection.segments;
   const Connection coarse(900);  // the same bytes, other cuts
@@ -270,7 +270,7 @@ TEST(PcapTcp, TakesOnlyWhatIsNewOfARetransmissionThatIsLonger) {
   EXPECT_EQ(Read(CaptureOf(segments)).sink.Brief(), Brief(connection.datagrams));
 }
 
-TEST(PcapTcp, GoesOnAfterAGapWithTheNextWholeDatagram) {
+TEST(PcapTcp, ContinuesAfterAGapWithTheNextCompleteDatagram) {
   const Connection connection(300);
   std::vector<std::string> segments = connection.segments;
   segments.erase(segments.begin() + 5);  // bytes 1200 to 1500: of the second and third datagram
@@ -292,7 +292,7 @@ TEST(PcapTcp, GoesOnAfterAGapWithTheNextWholeDatagram) {
   EXPECT_GE(reading.counters.resyncs, 1U);
 }
 
-TEST(PcapTcp, BeginsInTheMiddleOfAConnection) {
+TEST(PcapTcp, StartsInTheMiddleOfAConnection) {
   Connection connection(300);
   const std::vector<std::string> tail(connection.segments.begin() + 4, connection.segments.end());
   const Reading reading = Read(CaptureOf(tail));
@@ -301,7 +301,7 @@ TEST(PcapTcp, BeginsInTheMiddleOfAConnection) {
   EXPECT_EQ(reading.sink.Brief().back(), Brief(connection.datagrams.back()));
 }
 
-TEST(PcapTcp, AnotherConnectionBetweenTheSamePortsStartsOver) {
+TEST(PcapTcp, TreatsANewConnectionOfTheSamePortsSeparately) {
   Connection first(300);
   const Connection second(400, 77'777);
   std::vector<std::string> segments(first.segments.begin(), first.segments.end() - 1);  // no FIN
@@ -311,7 +311,7 @@ TEST(PcapTcp, AnotherConnectionBetweenTheSamePortsStartsOver) {
   EXPECT_EQ(reading.counters.connections, 2U);
 }
 
-TEST(PcapTcp, LeavesOtherConnectionsAloneHoweverMany) {
+TEST(PcapTcp, IgnoresAnyNumberOfOtherConnections) {
   const Connection connection(300);
   std::vector<std::string> segments;
   std::uint64_t web_packets = 0;
@@ -327,7 +327,7 @@ TEST(PcapTcp, LeavesOtherConnectionsAloneHoweverMany) {
   EXPECT_EQ(reading.counters.other_packets, web_packets);
 }
 
-TEST(PcapTcp, WaitsForAMissingSegmentWithBoundedMemoryAndTime) {
+TEST(PcapTcp, WaitsForAMissingSegmentWithLimitedMemoryAndTime) {
   // After the gap nothing is missing, but megabytes come in the seconds after it.
   const Connection connection(1400, 1000, 6000);
   std::vector<std::string> segments = connection.segments;
@@ -351,7 +351,7 @@ TEST(PcapTcp, WaitsForAMissingSegmentWithBoundedMemoryAndTime) {
 
 // Files that are wrong. ----------------------------------------------------------------------
 
-TEST(Pcap, EndsWhereTheFileIsCutInsideAPacket) {
+TEST(Pcap, EndsWithAWarningAtATruncatedPacket) {
   for (const bool is_ng : {false, true}) {
     std::string whole, shorter;
     if (is_ng) {
@@ -378,7 +378,7 @@ TEST(Pcap, EndsWhereTheFileIsCutInsideAPacket) {
   }
 }
 
-TEST(Pcap, CountsPacketsThatTheCaptureCutShort) {
+TEST(Pcap, CountsPacketsThatTheCaptureTruncated) {
   const Reading reading = Read(PcapBuilder(kLinkEthernet)
                                    .Add(kNoon, Ethernet(Udp(kSuit, kUs, Pose(1))), 96)
                                    .Add(kNoon, Ethernet(Udp(kSuit, kUs, Pose(2))))
@@ -387,7 +387,7 @@ TEST(Pcap, CountsPacketsThatTheCaptureCutShort) {
   EXPECT_EQ(reading.counters.incomplete_packets, 1U);
 }
 
-TEST(Pcap, TakesNoPacketWhoseLengthsLie) {
+TEST(Pcap, RejectsPacketsWithWrongLengthFields) {
   const std::string good = Udp(kSuit, kUs, Pose(1));
   PcapBuilder pcap(kLinkRaw);
   for (std::size_t at = 0; at < 28; ++at) {  // every byte of IP and UDP header at its worst
@@ -402,7 +402,7 @@ TEST(Pcap, TakesNoPacketWhoseLengthsLie) {
   }
 }
 
-TEST(Pcap, RefusesWhatIsNoCaptureOrNoNetworkOfIp) {
+TEST(Pcap, RejectsFilesThatAreNoCapturesOfIpPackets) {
   EXPECT_THAT(ErrorOf("this is no capture at all, but a text that is long enough"),
               AllOf(HasSubstr("test.pcap: not a readable capture file"), HasSubstr("capinfos")));
   EXPECT_THAT(ErrorOf(PcapBuilder(kLinkRaw).bytes().substr(0, 20)),
@@ -411,7 +411,7 @@ TEST(Pcap, RefusesWhatIsNoCaptureOrNoNetworkOfIp) {
               AllOf(HasSubstr("IEEE802_11"), HasSubstr("expected Ethernet")));
 }
 
-TEST(Pcap, SaysAfterHowManyPacketsAFileIsDamaged) {
+TEST(Pcap, ReportsTheNumberOfPacketsBeforeTheDamage) {
   std::string file = PcapBuilder(kLinkRaw).Add(kNoon, Udp(kSuit, kUs, Pose(1))).bytes();
   const std::string header_of_a_giant = FromHex("60000000 00000000 7fffffff 7fffffff");
   EXPECT_THAT(ErrorOf(file + header_of_a_giant + "x"),
@@ -419,7 +419,7 @@ TEST(Pcap, SaysAfterHowManyPacketsAFileIsDamaged) {
                     HasSubstr("record or copy it again")));
 }
 
-TEST(Pcap, TimeNeverGoesBack) {
+TEST(Pcap, ReturnsTimesThatNeverDecrease) {
   const auto packet = [](std::uint32_t counter) { return Udp(kSuit, kUs, Pose(counter)); };
   PcapBuilder pcap(kLinkRaw);
   pcap.Add(kNoon, packet(1))
@@ -436,7 +436,7 @@ TEST(Pcap, TimeNeverGoesBack) {
   EXPECT_THAT(times, ElementsAre(0, 5000, 5000, 9000, 9000, 10'000));
 }
 
-TEST(Pcap, TimeThatWouldRunOutStandsStill) {
+TEST(Pcap, KeepsTheLastTimeOnOverflow) {
   const std::int64_t late = 0xFFFFFFF0LL * kSecond;  // 2106, the last that the format can say
   PcapBuilder pcap(kLinkRaw);
   std::uint32_t counter = 0;
@@ -450,7 +450,7 @@ TEST(Pcap, TimeThatWouldRunOutStandsStill) {
   EXPECT_THAT(times, ElementsAre(0, 0, 0, kSecond, kSecond));
 }
 
-TEST(Pcap, SaysSoWhenThereIsNothingOfMvnInIt) {
+TEST(Pcap, ReportsACaptureWithoutMvnDatagrams) {
   ::testing::internal::CaptureStdout();
   const Reading reading = Read(
       PcapBuilder(kLinkEthernet).Add(kNoon, Ethernet(Udp(kSuit, Ipv4(1, 53), "a name"))).bytes());

@@ -66,7 +66,7 @@ std::string ErrorOf(const std::function<void()>& action) {
   return "";
 }
 
-TEST(PcapWriter, ItsFileGivesBackEveryByteEndAndTime) {
+TEST(PcapWriter, WritesEveryByteAddressAndTime) {
   TempFolder folder;
   Endpoint nobody;
   nobody.port = 9763;
@@ -93,7 +93,7 @@ TEST(PcapWriter, ItsFileGivesBackEveryByteEndAndTime) {
   EXPECT_EQ(ReadBack(path), written);
 }
 
-TEST(PcapWriter, EveryTimeReturnsToTheNanosecond) {
+TEST(PcapWriter, KeepsEveryTimeToTheNanosecond) {
   TempFolder folder;
   const std::string path = folder / "take.pcap";
   std::vector<KeptDatagram> written;
@@ -107,7 +107,7 @@ TEST(PcapWriter, EveryTimeReturnsToTheNanosecond) {
 }
 
 // What tshark says, line by line; it is what Wireshark understands.
-TEST(PcapWriter, WiresharkUnderstandsTheFile) {
+TEST(PcapWriter, WritesFilesThatWiresharkReads) {
   if (std::system("tshark --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no tshark here";
   TempFolder folder;
   const std::string path = folder / "take.pcap";
@@ -135,7 +135,7 @@ TEST(PcapWriter, WiresharkUnderstandsTheFile) {
             "1700000000.123456789 10.0.0.20 10.0.0.10   50001 9763 11 1 1 \n");
 }
 
-TEST(PcapWriter, BeginsANewFileBeforeOneGetsTooLarge) {
+TEST(PcapWriter, StartsANewFileBeforeOneExceedsTheLimit) {
   TempFolder folder;
   const std::string path = folder / "take.pcap";
   PcapWriterSettings settings{path};
@@ -165,7 +165,7 @@ TEST(PcapWriter, BeginsANewFileBeforeOneGetsTooLarge) {
   EXPECT_EQ(folder.Names().size(), writer.files().size());
 }
 
-TEST(PcapWriter, ReplacesNothingWithoutBeingForced) {
+TEST(PcapWriter, ReplacesFilesOnlyWhenForced) {
   TempFolder folder;
   const std::string path = folder / "take.pcap";
   std::ofstream(path) << "dear";
@@ -184,20 +184,20 @@ TEST(PcapWriter, ReplacesNothingWithoutBeingForced) {
   EXPECT_EQ(folder.Names(), std::vector<std::string>{"take.pcap"});
 }
 
-TEST(PcapWriter, SaysWhyAFileCannotBeCreated) {
+TEST(PcapWriter, ReportsWhyAFileCannotBeCreated) {
   TempFolder folder;
   EXPECT_THAT(ErrorOf([&] { PcapWriter({folder / "none/take.pcap"}); }),
               AllOf(HasSubstr("none/take.pcap"), HasSubstr("create its folder first")));
   EXPECT_THAT(ErrorOf([&] { PcapWriter({folder.path()}); }), HasSubstr("is a folder"));
 }
 
-TEST(PcapWriter, ADeviceThatIsFullIsAnError) {
+TEST(PcapWriter, ReportsAFullDevice) {
   EXPECT_THAT(
       ErrorOf([] { PcapWriter({"/dev/full"}); }),
       AllOf(HasSubstr("/dev/full"), HasSubstr("No space left"), HasSubstr("nothing was recorded")));
 }
 
-TEST(PcapWriter, KeepsWholePacketsWhenTheDiskIsFull) {
+TEST(PcapWriter, KeepsCompletePacketsWhenTheDiskIsFull) {
   // Wherever in a packet the disk ends.
   for (std::uint64_t limit = 90'000; limit < 90'800; limit += 97) {
     TempFolder folder;
@@ -251,7 +251,7 @@ TEST(PcapWriter, LeavesNoEmptyFileWhenTheDiskIsFullAtARotation) {
 
 // The thread. --------------------------------------------------------------------------------
 
-TEST(PcapRecorder, ReachesTheFileByItselfSoon) {
+TEST(PcapRecorder, WritesToTheFileWithinSeconds) {
   TempFolder folder;
   const std::string path = folder / "take.pcap";
   PcapRecorder recorder({path}, PcapRecorder::WhenFull::kDrop);
@@ -295,7 +295,7 @@ class StalledPipe {
   int reader_ = -1;
 };
 
-TEST(PcapRecorder, LosesNothingWhileTheDiskStalls) {
+TEST(PcapRecorder, LosesNothingWhileTheDiskIsSlow) {
   TempFolder folder;
   const StalledPipe disk(folder);
   PcapRecorder recorder({disk.path()}, PcapRecorder::WhenFull::kDrop);
@@ -315,7 +315,7 @@ TEST(PcapRecorder, LosesNothingWhileTheDiskStalls) {
   for (std::uint32_t i = 0; i < kCount; ++i) ASSERT_EQ(recorded[i], Datagram(i));
 }
 
-TEST(PcapRecorder, CountsWhatDoesNotFitIntoItsQueue) {
+TEST(PcapRecorder, CountsDatagramsThatDoNotFitIntoItsQueue) {
   TempFolder folder;
   const StalledPipe disk(folder);
   constexpr std::size_t kQueue = 100'000;
@@ -335,7 +335,7 @@ TEST(PcapRecorder, CountsWhatDoesNotFitIntoItsQueue) {
   EXPECT_EQ(ReadToEnd(source).datagrams.size(), counters.datagrams);
 }
 
-TEST(PcapRecorder, AFileAsSourceWaitsInstead) {
+TEST(PcapRecorder, DelaysAFileSourceInsteadOfDroppingDatagrams) {
   TempFolder folder;
   const StalledPipe disk(folder);
   std::string file;
@@ -348,7 +348,7 @@ TEST(PcapRecorder, AFileAsSourceWaitsInstead) {
   EXPECT_EQ(recorder.counters().datagrams, 2400U);
 }
 
-TEST(PcapRecorder, TellsItsOwnerThatTheDiskIsFull) {
+TEST(PcapRecorder, ReportsAFullDiskToItsOwner) {
   TempFolder folder;
   const SmallFilesOnly full(100'000);
   const std::string path = folder / "take.pcap";
@@ -397,7 +397,7 @@ class SerialisingSink : public SampleSink {
   std::ostringstream text_;
 };
 
-TEST(Record, TheSameCaptureTwiceGivesTheSameSamplesToTheBit) {
+TEST(Record, GivesIdenticalSamplesOnEveryPlayback) {
   TempFolder folder;
   const std::string path = folder / "take.pcap";
   RandomValues random(41);

@@ -33,7 +33,7 @@ TEST(NetUrl, ReadsHostAndPort) {
   EXPECT_EQ(Parts("udp://"), "udp  9763 listen");
 }
 
-TEST(NetUrl, ListensOverTcpUnlessThereIsAHostToConnectTo) {
+TEST(NetUrl, ListensOverTcpUnlessAHostIsGiven) {
   EXPECT_EQ(Parts("tcp://:9763"), "tcp  9763 listen");
   EXPECT_EQ(Parts("tcp://"), "tcp  9763 listen");
   EXPECT_EQ(Parts("tcp://0.0.0.0:9763"), "tcp 0.0.0.0 9763 listen");
@@ -44,14 +44,14 @@ TEST(NetUrl, ListensOverTcpUnlessThereIsAHostToConnectTo) {
   EXPECT_EQ(Parts("tcp://[::1]"), "tcp ::1 9763 connect");
 }
 
-TEST(NetUrl, LetsTheUserSayWhoConnects) {
+TEST(NetUrl, AcceptsAnExplicitDirectionOfTheConnection) {
   EXPECT_EQ(Parts("tcp://127.0.0.1:9763?listen"), "tcp 127.0.0.1 9763 listen");
   EXPECT_EQ(Parts("tcp://[::1]?listen"), "tcp ::1 9763 listen");
   EXPECT_EQ(Parts("tcp://:9763?listen"), "tcp  9763 listen");
   EXPECT_EQ(Parts("tcp://suit-pc:9763?connect"), "tcp suit-pc 9763 connect");
 }
 
-TEST(NetUrl, SaysWhatIsWrongAndWhatWouldBeRight) {
+TEST(NetUrl, ReportsInvalidPartsWithTheExpectedFormat) {
   const auto error_of = [](const char* url) { return ErrorOf([url] { ParseNetUrl(url); }); };
   EXPECT_THAT(error_of("udp://:70000"),
               AllOf(StartsWith("udp://:70000: "), HasSubstr("70000"), HasSubstr("1 to 65535")));
@@ -72,14 +72,14 @@ TEST(NetUrl, SaysWhatIsWrongAndWhatWouldBeRight) {
   EXPECT_THAT(error_of("tcp://[::]:9763?connect"), HasSubstr("the host is missing"));
 }
 
-TEST(NetUrl, TellsNetworkAddressesFromFiles) {
+TEST(NetUrl, DistinguishesNetworkAddressesFromFiles) {
   EXPECT_TRUE(IsNetUrl("udp://:9763"));
   EXPECT_TRUE(IsNetUrl("tcp:9763"));
   EXPECT_FALSE(IsNetUrl("tcp.pcap"));
   EXPECT_FALSE(IsNetUrl("/data/udp:1.pcap"));
 }
 
-TEST(Addresses, MeanTheSameAtBothEnds) {
+TEST(Addresses, AreTheSameForSenderAndReceiver) {
   const std::string url = "udp://localhost:9763";
   const NetUrl parsed = ParseNetUrl(url);
   EXPECT_EQ(EndpointOf(ResolveToListen(parsed, url)),
@@ -87,7 +87,7 @@ TEST(Addresses, MeanTheSameAtBothEnds) {
   EXPECT_EQ(Format(EndpointOf(ResolveToListen(parsed, url))), "127.0.0.1:9763");
 }
 
-TEST(Addresses, AreRefusedWhereNobodyCanBe) {
+TEST(Addresses, AreRejectedIfInvalid) {
   const auto send_error = [](const std::string& url) {
     return ErrorOf([&url] { ResolveToSend(ParseNetUrl(url), url); });
   };
@@ -101,7 +101,7 @@ TEST(Addresses, AreRefusedWhereNobodyCanBe) {
       AllOf(HasSubstr("'suit-pc'"), HasSubstr("numeric address"), HasSubstr("tcp://:9763")));
 }
 
-TEST(Addresses, AreWrittenAsPeopleDo) {
+TEST(Addresses, AreWrittenInTheUsualForm) {
   const auto written = [](const std::string& url) {
     const NetUrl parsed = ParseNetUrl(url);
     const SocketAddress address = ResolveToListen(parsed, url);

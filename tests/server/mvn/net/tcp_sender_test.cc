@@ -30,7 +30,7 @@ using testing::RecordingDatagrams;
 using testing::RecordingSink;
 using State = DatagramSource::State;
 
-TEST(TcpSender, ReachesAReceiverThatIsThereWithItsFirstDatagram) {
+TEST(TcpSender, SendsItsFirstDatagramToAWaitingReceiver) {
   TcpDatagrams source(kListenOnLoopback);
   const auto sender = OpenSender(source.description());
   EXPECT_EQ(sender->description(), source.description());
@@ -42,7 +42,7 @@ TEST(TcpSender, ReachesAReceiverThatIsThereWithItsFirstDatagram) {
   EXPECT_EQ(sink.all[0].bytes, Pose(1));
 }
 
-TEST(TcpSender, CountsWhatFindsNoReceiver) {
+TEST(TcpSender, CountsDatagramsWithoutReceiver) {
   std::string url;
   {
     const Listener gone;
@@ -54,7 +54,7 @@ TEST(TcpSender, CountsWhatFindsNoReceiver) {
   EXPECT_EQ(sender->datagrams_unsent(), 5U);
 }
 
-TEST(TcpSender, ConnectsAgainWhenTheReceiverComesBack) {
+TEST(TcpSender, ConnectsAgainWhenTheReceiverReturns) {
   auto receiver = std::make_unique<TcpDatagrams>(kListenOnLoopback);
   const std::string url = receiver->description();
   const auto sender = OpenSender(url);
@@ -79,7 +79,7 @@ TEST(TcpSender, ConnectsAgainWhenTheReceiverComesBack) {
       << "what was sent while nobody was there is gone";
 }
 
-TEST(TcpSender, SendsToAllWhoConnectToIt) {
+TEST(TcpSender, SendsToAllConnectedReceivers) {
   const auto sender = OpenSender(kListenOnLoopback);
   sender->Send(Pose(0));
   EXPECT_EQ(sender->datagrams_unsent(), 1U) << "nobody has connected yet";
@@ -98,7 +98,7 @@ TEST(TcpSender, SendsToAllWhoConnectToIt) {
   EXPECT_THAT(sink_two.bytes(), ElementsAre(Pose(1), Pose(2)));
 }
 
-TEST(TcpSender, TakesWholeDatagramsFromAReceiverThatIsTooSlow) {
+TEST(TcpSender, DropsOnlyCompleteDatagramsForASlowReceiver) {
   TcpDatagrams source(kListenOnLoopback);
   auto sender = OpenSender(source.description());
   std::uint32_t sent = 0;
@@ -126,7 +126,7 @@ TEST(TcpSender, TakesWholeDatagramsFromAReceiverThatIsTooSlow) {
   for (const auto& received : sink.all) ASSERT_EQ(received.bytes.size(), Pose(0).size());
 }
 
-TEST(TcpSender, LetsASlowReceiverHoldUpNobodyElse) {
+TEST(TcpSender, IsNotDelayedByASlowReceiver) {
   const auto sender = OpenSender(kListenOnLoopback);
   Client slow(sender->description());
   TcpDatagrams fast(sender->description());
@@ -144,12 +144,12 @@ TEST(TcpSender, LetsASlowReceiverHoldUpNobodyElse) {
   EXPECT_EQ(fast.counters().resyncs, 0U);
 }
 
-TEST(TcpSender, RefusesWhatIsLongerThanAnyDatagram) {
+TEST(TcpSender, RejectsMessagesThatExceedTheLongestDatagram) {
   const auto sender = OpenSender(kListenOnLoopback);
   EXPECT_THAT(ErrorOf([&] { sender->Send(std::string(70000, 'x')); }), HasSubstr("70000 bytes"));
 }
 
-TEST(TcpSender, SaysWhereItCannotSend) {
+TEST(TcpSender, ReportsInvalidDestinations) {
   EXPECT_THAT(ErrorOf([] { OpenSender("tcp://127.0.0.1:0"); }), HasSubstr("port 0"));
   EXPECT_THAT(ErrorOf([] { OpenSender("tcp://no.such.host.invalid:1"); }),
               HasSubstr("check the name"));
@@ -158,7 +158,7 @@ TEST(TcpSender, SaysWhereItCannotSend) {
               HasSubstr("is already in use"));
 }
 
-TEST(TcpStream, GivesEverySampleOfASenderOnce) {
+TEST(TcpStream, DeliversEverySampleOfASenderOnce) {
   auto datagrams = OpenDatagrams(kListenOnLoopback);
   const auto sender = OpenSender(datagrams->description());
   const auto source = OpenStream(std::move(datagrams));

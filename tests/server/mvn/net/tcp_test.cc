@@ -28,7 +28,7 @@ using testing::Pose;
 using testing::RecordingDatagrams;
 using State = DatagramSource::State;
 
-TEST(TcpDatagrams, SayWhoCouldHoldATakenPort) {
+TEST(TcpDatagrams, ReportAPortInUseWithARemedy) {
   const TcpDatagrams first(kListenOnLoopback);
   const std::string port = std::to_string(first.port());
   EXPECT_EQ(first.description(), "tcp://127.0.0.1:" + port);
@@ -39,7 +39,7 @@ TEST(TcpDatagrams, SayWhoCouldHoldATakenPort) {
               AllOf(HasSubstr("not an address of this machine"), HasSubstr("tcp://:0")));
 }
 
-TEST(TcpDatagrams, ListenAgainAtOnceWhereAConnectionLingers) {
+TEST(TcpDatagrams, ListenAgainAtOnceDespiteALingeringConnection) {
   auto first = std::make_unique<TcpDatagrams>(kListenOnLoopback);
   const std::string url = first->description() + "?listen";
   Client client(first->description());
@@ -49,7 +49,7 @@ TEST(TcpDatagrams, ListenAgainAtOnceWhereAConnectionLingers) {
   EXPECT_EQ(ErrorOf([&url] { TcpDatagrams second(url); }), "");
 }
 
-TEST(TcpDatagrams, ReturnWhenNothingComes) {
+TEST(TcpDatagrams, ReturnWithoutData) {
   TcpDatagrams source("tcp://:0");
   EXPECT_EQ(source.description(), "tcp://0.0.0.0:" + std::to_string(source.port()));
   EXPECT_TRUE(source.is_live());
@@ -59,7 +59,7 @@ TEST(TcpDatagrams, ReturnWhenNothingComes) {
   EXPECT_EQ(source.counters().connections, 0U);
 }
 
-TEST(TcpDatagrams, ComeWithBothEndsAndTheTimeOfArrival) {
+TEST(TcpDatagrams, HaveBothAddressesAndTheReceiveTime) {
   TcpDatagrams source("tcp://:0");
   Client client("tcp://127.0.0.3:" + std::to_string(source.port()));
   RecordingDatagrams sink;
@@ -78,7 +78,7 @@ TEST(TcpDatagrams, ComeWithBothEndsAndTheTimeOfArrival) {
   EXPECT_GT(source.counters().receive_buffer_bytes, 0);
 }
 
-TEST(TcpDatagrams, ComeOverIpv4AndIpv6AtOnce) {
+TEST(TcpDatagrams, ArriveOverIpv4AndIpv6) {
   if (!testing::HasIpv6()) GTEST_SKIP() << "this machine has no IPv6 loopback address";
   TcpDatagrams source("tcp://[::]:0");
   const std::string port = std::to_string(source.port());
@@ -94,7 +94,7 @@ TEST(TcpDatagrams, ComeOverIpv4AndIpv6AtOnce) {
   EXPECT_EQ(by_sender[Format(ipv6.local())], Pose(6));
 }
 
-TEST(TcpDatagrams, OfSeveralConnectionsAreKeptApart) {
+TEST(TcpDatagrams, OfSeveralConnectionsAreSeparate) {
   TcpDatagrams source(kListenOnLoopback);
   Client one(source.description());
   Client two(source.description());
@@ -118,7 +118,7 @@ TEST(TcpDatagrams, OfSeveralConnectionsAreKeptApart) {
   EXPECT_EQ(source.counters().connections_open, 2);
 }
 
-TEST(TcpDatagrams, OfASenderThatDiesAreHandedOnAsFarAsTheyCame) {
+TEST(TcpDatagrams, OfALostSenderAreDeliveredAsFarAsReceived) {
   TcpDatagrams source(kListenOnLoopback);
   RecordingDatagrams sink;
   Client dies(source.description());
@@ -134,7 +134,7 @@ TEST(TcpDatagrams, OfASenderThatDiesAreHandedOnAsFarAsTheyCame) {
   EXPECT_EQ(source.counters().connections, 2U);
 }
 
-TEST(TcpDatagrams, EndWithAConnectionThatIsReset) {
+TEST(TcpDatagrams, CountALostConnectionAfterAReset) {
   TcpDatagrams source(kListenOnLoopback);
   RecordingDatagrams sink;
   Client dies(source.description());
@@ -160,7 +160,7 @@ TEST(TcpDatagrams, AreFoundBetweenForeignText) {
   EXPECT_EQ(source.counters().resyncs, 2U) << "counters outlive their connection";
 }
 
-TEST(TcpDatagrams, RefuseMoreConnectionsThanTheyCanHold) {
+TEST(TcpDatagrams, RejectConnectionsBeyondTheirLimit) {
   TcpDatagrams source(kListenOnLoopback);
   RecordingDatagrams sink;
   std::vector<std::unique_ptr<Client>> clients;
@@ -180,7 +180,7 @@ TEST(TcpDatagrams, RefuseMoreConnectionsThanTheyCanHold) {
   ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 2; }));
 }
 
-TEST(TcpDatagrams, OfAFastSenderLeaveTheCallerItsTurn) {
+TEST(TcpDatagrams, OfAFastSenderAreReadInLimitedBatches) {
   TcpDatagrams source(kListenOnLoopback);
   Client client(source.description());
   RecordingDatagrams sink;
@@ -203,7 +203,7 @@ TEST(TcpDatagrams, OfAFastSenderLeaveTheCallerItsTurn) {
   for (std::uint32_t i = 0; i < kMany; ++i) ASSERT_EQ(sink.all[i].bytes, Pose(i));
 }
 
-TEST(TcpDatagrams, DoNotSpinWhereThereAreNoMoreDescriptors) {
+TEST(TcpDatagrams, WaitWithoutBusyLoopIfNoDescriptorIsFree) {
   if (kinescope::testing::kIsSanitized) {
     GTEST_SKIP() << "the sanitizer needs descriptors of its own to look at memory";
   }
@@ -231,7 +231,7 @@ void SendTo(const Socket& socket, const std::string& bytes) {
             static_cast<ssize_t>(bytes.size()));
 }
 
-TEST(TcpDatagrams, AreFetchedFromASenderThatListens) {
+TEST(TcpDatagrams, AreReceivedFromAListeningSender) {
   const Listener listener;
   TcpDatagrams source(listener.url());
   EXPECT_EQ(source.description(), listener.url());
@@ -259,7 +259,7 @@ TEST(TcpDatagrams, ConnectAgainWhenTheConnectionIsLost) {
   EXPECT_THAT(sink.bytes(), ElementsAre(Pose(1), Pose(2)));
 }
 
-TEST(TcpDatagrams, WaitForASenderThatIsNotThereYet) {
+TEST(TcpDatagrams, WaitForASenderThatStartsLater) {
   std::string url;
   {
     const Listener gone;
@@ -275,7 +275,7 @@ TEST(TcpDatagrams, WaitForASenderThatIsNotThereYet) {
   ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 1; }));
 }
 
-TEST(TcpDatagrams, NeedAHostThatHasAnAddress) {
+TEST(TcpDatagrams, RejectAnUnknownHost) {
   EXPECT_THAT(ErrorOf([] { OpenTcpDatagrams("tcp://no.such.host.invalid:9763"); }),
               AllOf(HasSubstr("no.such.host.invalid"), HasSubstr("check the name")));
 }

@@ -26,7 +26,7 @@ using testing::RecordingDatagrams;
 using testing::RecordingSink;
 using State = DatagramSource::State;
 
-TEST(UdpDatagrams, SayWhoCouldHoldATakenPort) {
+TEST(UdpDatagrams, ReportAPortInUseWithARemedy) {
   const UdpDatagrams first("udp://127.0.0.1:0");
   const std::string port = std::to_string(first.port());
   EXPECT_EQ(first.description(), "udp://127.0.0.1:" + port);
@@ -35,21 +35,21 @@ TEST(UdpDatagrams, SayWhoCouldHoldATakenPort) {
                     HasSubstr("choose another port")));
 }
 
-TEST(UdpDatagrams, NameAnAddressTheyCannotListenOn) {
+TEST(UdpDatagrams, RejectAnInvalidAddressByName) {
   EXPECT_THAT(ErrorOf([] { OpenUdpDatagrams("udp://203.0.113.1:0"); }),
               AllOf(HasSubstr("203.0.113.1"), HasSubstr("not an address of this machine")));
   EXPECT_THAT(ErrorOf([] { OpenUdpDatagrams("udp://no.such.host:0"); }),
               AllOf(HasSubstr("'no.such.host'"), HasSubstr("numeric address")));
 }
 
-TEST(UdpDatagrams, ListenEverywhereWithALargeBuffer) {
+TEST(UdpDatagrams, ListenOnAllInterfacesWithALargeBuffer) {
   const UdpDatagrams source("udp://:0");
   EXPECT_EQ(source.description(), "udp://0.0.0.0:" + std::to_string(source.port()));
   EXPECT_TRUE(source.is_live());
   EXPECT_GE(source.counters().receive_buffer_bytes, 128 * 1024);
 }
 
-TEST(UdpDatagrams, ReturnWhenNothingComes) {
+TEST(UdpDatagrams, ReturnWithoutData) {
   UdpDatagrams source("udp://127.0.0.1:0");
   RecordingDatagrams sink;
   EXPECT_EQ(source.Poll(nanoseconds(0), sink), State::kIdle);
@@ -58,7 +58,7 @@ TEST(UdpDatagrams, ReturnWhenNothingComes) {
   EXPECT_TRUE(sink.all.empty());
 }
 
-TEST(UdpDatagrams, ComeWithBothEndsAndTheTimeOfArrival) {
+TEST(UdpDatagrams, HaveBothAddressesAndTheReceiveTime) {
   UdpDatagrams source("udp://:0");
   // Any address of the loopback network is this machine's.
   Client client("udp://127.0.0.3:" + std::to_string(source.port()));
@@ -80,7 +80,7 @@ TEST(UdpDatagrams, ComeWithBothEndsAndTheTimeOfArrival) {
   EXPECT_LE(received.arrival.monotonic_nanos, read.monotonic_nanos + kSlack);
 }
 
-TEST(UdpDatagrams, ComeOverIpv4AndIpv6AtOnce) {
+TEST(UdpDatagrams, ArriveOverIpv4AndIpv6) {
   if (!testing::HasIpv6()) GTEST_SKIP() << "this machine has no IPv6 loopback address";
   UdpDatagrams source("udp://[::]:0");
   EXPECT_EQ(source.description(), "udp://[::]:" + std::to_string(source.port()));
@@ -99,7 +99,7 @@ TEST(UdpDatagrams, ComeOverIpv4AndIpv6AtOnce) {
   EXPECT_EQ(Format(sink.all[1].to), "[::1]:" + port);
 }
 
-TEST(UdpDatagrams, MayBeOfAnySize) {
+TEST(UdpDatagrams, MayHaveAnySize) {
   UdpDatagrams source("udp://127.0.0.1:0");
   Client client(source.description());
   RecordingDatagrams sink;
@@ -110,7 +110,7 @@ TEST(UdpDatagrams, MayBeOfAnySize) {
   EXPECT_THAT(sink.bytes(), ElementsAre("", std::string(kLargestOverIpv4, 'x')));
 }
 
-TEST(UdpDatagrams, AreHandedOnABoundedNumberAtATime) {
+TEST(UdpDatagrams, AreDeliveredInLimitedBatches) {
   UdpDatagrams source("udp://127.0.0.1:0");
   Client client(source.description());
   RecordingDatagrams sink;
@@ -123,7 +123,7 @@ TEST(UdpDatagrams, AreHandedOnABoundedNumberAtATime) {
   for (std::size_t i = 0; i < kMany; ++i) ASSERT_EQ(sink.all[i].bytes, std::to_string(i));
 }
 
-TEST(UdpDatagrams, AreCountedWhereTheKernelDroppedThem) {
+TEST(UdpDatagrams, AreCountedIfTheKernelDropsThem) {
   UdpDatagrams source("udp://127.0.0.1:0");
   Client client(source.description());
   RecordingDatagrams sink;
@@ -144,13 +144,13 @@ TEST(UdpDatagrams, AreCountedWhereTheKernelDroppedThem) {
   EXPECT_EQ(seen(), sent) << "each datagram was read or counted as dropped";
 }
 
-TEST(UdpSender, SaysWhereItCannotSend) {
+TEST(UdpSender, ReportsInvalidDestinations) {
   EXPECT_THAT(ErrorOf([] { OpenSender("udp://:9763"); }), HasSubstr("the host is missing"));
   EXPECT_THAT(ErrorOf([] { OpenSender("udp://127.0.0.1:0"); }), HasSubstr("port 0"));
   EXPECT_THAT(ErrorOf([] { OpenSender("out.pcap"); }), HasSubstr("udp://host:port"));
 }
 
-TEST(UdpSender, RefusesADatagramThatCanNeverBeSent) {
+TEST(UdpSender, RejectsADatagramThatIsTooLong) {
   const UdpDatagrams source("udp://127.0.0.1:0");
   const auto sender = OpenSender(source.description());
   EXPECT_THAT(ErrorOf([&] { sender->Send(std::string(65508, 'x')); }),
@@ -158,7 +158,7 @@ TEST(UdpSender, RefusesADatagramThatCanNeverBeSent) {
   EXPECT_EQ(sender->datagrams_sent(), 0U);
 }
 
-TEST(UdpSender, GoesOnWhereNobodyListens) {
+TEST(UdpSender, ContinuesWithoutReceiver) {
   std::string url;
   {
     const UdpDatagrams gone("udp://127.0.0.1:0");
@@ -207,16 +207,16 @@ void SendAndReceiveEverySampleOnce(const std::string& listen_url) {
   EXPECT_NEAR(sink.characters.back().skeleton->height, 1.68, 1e-5);
 }
 
-TEST(UdpStream, GivesEverySampleOfASenderOnce) {
+TEST(UdpStream, DeliversEverySampleOfASenderOnce) {
   SendAndReceiveEverySampleOnce("udp://127.0.0.1:0");
 }
 
-TEST(UdpStream, SpeaksIpv6) {
+TEST(UdpStream, ReceivesOverIpv6) {
   if (!testing::HasIpv6()) GTEST_SKIP() << "this machine has no IPv6 loopback address";
   SendAndReceiveEverySampleOnce("udp://[::1]:0");
 }
 
-TEST(UdpStream, CountsForeignTextAndGoesOn) {
+TEST(UdpStream, CountsForeignTextAndContinues) {
   auto datagrams = OpenDatagrams("udp://127.0.0.1:0");
   Client client(datagrams->description());
   const auto source = OpenStream(std::move(datagrams));

@@ -167,7 +167,7 @@ class BagTest : public ::testing::Test {
 
 // What somebody else's driver streamed from a suit, next to a robot with a head and hands of its
 // own.
-TEST_F(BagTest, RecordedBagHasTheHundredAndThirtyFiveSamplesOfItsCsv) {
+TEST_F(BagTest, ReadsTheSamplesOfARecordedBagAsInItsCsv) {
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.xsens_tf.csv");
   const Recorded recorded = ReadBag(SharedData("ros1/2018-05-28-17-34-45.bag.xz"));
@@ -206,7 +206,7 @@ TEST_F(BagTest, RecordedBagHasTheHundredAndThirtyFiveSamplesOfItsCsv) {
 
 // How it is known that the recorded arms are in segment frames: the next joint lies along y in
 // them, at the same place in all samples.
-TEST_F(BagTest, RecordedArmsLieAlongTheirOwnYAndBonesAreRigid) {
+TEST_F(BagTest, ReadsArmsAlongTheirYAxisWithRigidSegments) {
   KINESCOPE_NEEDS_SHARED_DATA("ros1/2018-05-28-17-34-45.bag.xz");
   const Recorded recorded = ReadBag(SharedData("ros1/2018-05-28-17-34-45.bag.xz"));
   ASSERT_FALSE(recorded.samples.empty());
@@ -237,7 +237,7 @@ struct Written {
 
 class WrittenBagTest : public BagTest, public ::testing::WithParamInterface<Written> {};
 
-TEST_P(WrittenBagTest, GivesBackThePosesWeWouldPublish) {
+TEST_P(WrittenBagTest, RestoresThePublishedPoses) {
   constexpr int kSamples = 50;
   const Written& how = GetParam();
   const std::string bag = Bag(
@@ -286,7 +286,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Written{TfShape::kTree, rosbag::compression::LZ4, false},
                       Written{TfShape::kTree, rosbag::compression::Uncompressed, true}));
 
-TEST_F(BagTest, ReadsABagPackedWithGzip) {
+TEST_F(BagTest, ReadsABagCompressedWithGzip) {
   const std::string bag =
       Bag([](rosbag::Bag& out) { out.write("/tf", TimeOf(kStart), TransformsOf(PersonAt(0))); });
   ASSERT_EQ(RunProgram({"/bin/gzip", bag}).exit_code, 0);
@@ -295,7 +295,7 @@ TEST_F(BagTest, ReadsABagPackedWithGzip) {
   ExpectPoses(recorded.samples[0], PersonAt(0));
 }
 
-TEST_F(BagTest, TwoPeopleAndARobotWithHandsStayApart) {
+TEST_F(BagTest, DistinguishesTwoPeopleAndARobotWithHands) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 3; ++n) {
       tf2_msgs::TFMessage both = TransformsOf(PersonAt(n, "anna"));
@@ -336,7 +336,7 @@ TEST_F(BagTest, TwoPeopleAndARobotWithHandsStayApart) {
 }
 
 // Names as foreign drivers give them, orientations as MVN has them.
-TEST_F(BagTest, ArmsInSegmentFramesAreToldByTheirGeometry) {
+TEST_F(BagTest, RecognisesArmsInSegmentFramesByTheirGeometry) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     const PersonState person = PersonAt(4);
     tf2_msgs::TFMessage message = TransformsOf(person);
@@ -356,7 +356,7 @@ TEST_F(BagTest, ArmsInSegmentFramesAreToldByTheirGeometry) {
   ExpectPoses(recorded.samples[0], PersonAt(4));
 }
 
-TEST_F(BagTest, OldMessageTypeOfTheSameLayoutIsRead) {
+TEST_F(BagTest, ReadsAnOldMessageTypeOfTheSameLayout) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     const tf2_msgs::TFMessage message = TransformsOf(PersonAt(1));
     AnyBytes raw;
@@ -369,7 +369,7 @@ TEST_F(BagTest, OldMessageTypeOfTheSameLayoutIsRead) {
   EXPECT_EQ(ReadBag(bag).samples.size(), 1U);
 }
 
-TEST_F(BagTest, HeaderStampsCountUntilTheyStepBack) {
+TEST_F(BagTest, UsesHeaderTimeStampsUntilTheyGoBack) {
   const std::vector<std::int64_t> headers = {0, 10, 20, 20, 5, 40, 50};  // ms
   const std::string bag = Bag([&](rosbag::Bag& out) {
     for (std::size_t i = 0; i < headers.size(); ++i) {
@@ -388,7 +388,7 @@ TEST_F(BagTest, HeaderStampsCountUntilTheyStepBack) {
   EXPECT_EQ(recorded.counters.duplicates, 1U) << "20 ms twice is one sample";
 }
 
-TEST_F(BagTest, HeaderStampsOfAnotherDayAreNotBelieved) {
+TEST_F(BagTest, IgnoresHeaderTimeStampsOfAnotherDay) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 3; ++n) {
       PersonState person = PersonAt(n);
@@ -403,7 +403,7 @@ TEST_F(BagTest, HeaderStampsOfAnotherDayAreNotBelieved) {
   EXPECT_EQ(recorded.samples[2].time_code_millis, 20);
 }
 
-TEST_F(BagTest, SamplesThatLackASegmentAreSkippedAndCounted) {
+TEST_F(BagTest, SkipsAndCountsSamplesWithMissingSegments) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 5; ++n) {
       tf2_msgs::TFMessage message = TransformsOf(PersonAt(n));
@@ -417,7 +417,7 @@ TEST_F(BagTest, SamplesThatLackASegmentAreSkippedAndCounted) {
   EXPECT_THAT(recorded.counters.rejected, ElementsAre(Pair("sample without all 23 segments", 2)));
 }
 
-TEST_F(BagTest, FramesOfTfStaticBelongToThePerson) {
+TEST_F(BagTest, ReadsFramesOfThePersonFromTfStatic) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     tf2_msgs::TFMessage fixed;
     for (int n = 0; n < 3; ++n) {
@@ -440,7 +440,7 @@ TEST_F(BagTest, FramesOfTfStaticBelongToThePerson) {
   EXPECT_THAT(recorded.counters.ignored, IsEmpty());
 }
 
-TEST_F(BagTest, SomebodyWhoComesLaterIsFound) {
+TEST_F(BagTest, FindsAPersonWhoAppearsLater) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 30; ++n) {
       out.write("/tf", TimeOf(kStart + n * 1000 * kMilli), TransformsOf(PersonAt(n, "anna")));
@@ -456,7 +456,7 @@ TEST_F(BagTest, SomebodyWhoComesLaterIsFound) {
   EXPECT_EQ(recorded.samples.size(), 40U);
 }
 
-TEST_F(BagTest, TransformsThatCannotBeUsedAreCountedByReason) {
+TEST_F(BagTest, CountsRejectedTransformsByReason) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 6; ++n) {
       tf2_msgs::TFMessage message = TransformsOf(PersonAt(n));
@@ -493,7 +493,7 @@ TEST_F(BagTest, TransformsThatCannotBeUsedAreCountedByReason) {
                            Pair("message on /tf that is not a TFMessage", 1)));
 }
 
-TEST_F(BagTest, FramesInACircleAreNoSample) {
+TEST_F(BagTest, RejectsCyclicFrames) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     tf2_msgs::TFMessage message = TransformsOf(PersonAt(0));
     message.transforms[0].header.frame_id = message.transforms[1].child_frame_id;
@@ -504,7 +504,7 @@ TEST_F(BagTest, FramesInACircleAreNoSample) {
               ElementsAre(Pair("sample whose frames have no common parent", 1)));
 }
 
-TEST_F(BagTest, WhatCannotBeReadIsRefusedWithNameAndWayOut) {
+TEST_F(BagTest, RejectsUnreadableFilesWithNameAndRemedy) {
   EXPECT_THAT(RefusalOf("no/such.bag"), HasSubstr("no/such.bag: cannot open the file"));
   EXPECT_THAT(RefusalOf(folder_.path()), HasSubstr("is a folder"));
   const std::string text = folder_ / "text.bag";
@@ -527,7 +527,7 @@ TEST_F(BagTest, WhatCannotBeReadIsRefusedWithNameAndWayOut) {
   EXPECT_THAT(RefusalOf(empty), HasSubstr("contains no /tf"));
 }
 
-TEST_F(BagTest, EveryTruncationIsRefusedInOneLine) {
+TEST_F(BagTest, RejectsEveryTruncationInOneLine) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 3; ++n) out.write("/tf", TimeOf(kStart + n), TransformsOf(PersonAt(n)));
   });
@@ -541,7 +541,7 @@ TEST_F(BagTest, EveryTruncationIsRefusedInOneLine) {
   }
 }
 
-TEST_F(BagTest, ACompressedBagThatBreaksOffIsRefused) {
+TEST_F(BagTest, RejectsATruncatedCompressedBag) {
   const std::string bag = Bag([](rosbag::Bag& out) {
     for (int n = 0; n < 20; ++n) out.write("/tf", TimeOf(kStart + n), TransformsOf(PersonAt(n)));
   });
@@ -550,7 +550,7 @@ TEST_F(BagTest, ACompressedBagThatBreaksOffIsRefused) {
   EXPECT_THAT(RefusalOf(bag + ".gz"), HasSubstr("cannot be decompressed"));
 }
 
-TEST_F(BagTest, NothingIsLeftInTheTemporaryFolder) {
+TEST_F(BagTest, LeavesNoTemporaryFiles) {
   const TempFolder temporary;
   const std::string bag =
       Bag([](rosbag::Bag& out) { out.write("/tf", TimeOf(kStart), TransformsOf(PersonAt(0))); });
@@ -575,7 +575,7 @@ std::vector<std::string> NamesOf(const PeopleFrames& frames) {
   return names;
 }
 
-TEST(PeopleFrames, PrefersTheLongestCommonEndingAndTheShortestName) {
+TEST(PeopleFrames, PreferTheLongestCommonSuffixAndTheShortestName) {
   PeopleFrames frames;
   for (const urdf::SegmentInfo& segment : urdf::kSegments) {
     frames.Add(std::string(segment.link_name) + "_of_suit");
@@ -592,7 +592,7 @@ TEST(PeopleFrames, PrefersTheLongestCommonEndingAndTheShortestName) {
   EXPECT_EQ(frames.PlaceOf("heading_of_suit").person, -1) << "a head is a word of its own";
 }
 
-TEST(PeopleFrames, TwentyTwoSegmentsAreNobody) {
+TEST(PeopleFrames, FindNoPersonInTwentyTwoSegments) {
   PeopleFrames frames;
   for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
     frames.Add("a_" + std::string(urdf::kSegments[At(segment)].link_name));
@@ -604,7 +604,7 @@ TEST(PeopleFrames, TwentyTwoSegmentsAreNobody) {
   EXPECT_THAT(NamesOf(frames), ElementsAre("a"));
 }
 
-TEST(PeopleFrames, WhateverTheNamesItKeepsABoundedNumber) {
+TEST(PeopleFrames, KeepALimitedNumberOfNames) {
   PeopleFrames frames;
   for (int i = 0; i < 3 * static_cast<int>(PeopleFrames::kMaxNames); ++i) {
     frames.Add("p" + std::to_string(i) + "_pelvis");

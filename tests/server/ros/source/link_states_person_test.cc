@@ -44,7 +44,7 @@ class LinkStatesPersonTest : public ::testing::Test {
   kinescope::testing::RecordingSink sink_;
 };
 
-TEST_F(LinkStatesPersonTest, GivesBackPosesVelocitiesAndAccelerationsAsWePublishThem) {
+TEST_F(LinkStatesPersonTest, RestoresPublishedPosesVelocitiesAndAccelerations) {
   for (int n = 0; n < 20; ++n) Take(n, MessageAt(n));
   ASSERT_EQ(sink_.samples.size(), 20U);
   for (int n = 0; n < 20; ++n) {
@@ -69,7 +69,7 @@ TEST_F(LinkStatesPersonTest, GivesBackPosesVelocitiesAndAccelerationsAsWePublish
   EXPECT_THAT(counters_.rejected, IsEmpty());
 }
 
-TEST_F(LinkStatesPersonTest, TakesTheStampsOfTheStatesWhereTheArrayHasNoneAndPassesOverOtherLinks) {
+TEST_F(LinkStatesPersonTest, UsesTimeStampsOfTheStatesAndIgnoresOtherLinks) {
   auto message = MessageAt(3);
   message.header.stamp = ros::Time();
   message.states.push_back(message.states.back());
@@ -79,7 +79,7 @@ TEST_F(LinkStatesPersonTest, TakesTheStampsOfTheStatesWhereTheArrayHasNoneAndPas
   EXPECT_EQ(sink_.samples[0].stamp_nanos, kStart + 3 * kPeriod);
 }
 
-TEST_F(LinkStatesPersonTest, TwistsThatAreZeroThroughoutWereNotMeasured) {
+TEST_F(LinkStatesPersonTest, TreatsAllZeroTwistsAsUnmeasured) {
   auto message = MessageAt(0);
   for (auto& state : message.states) {
     state.twist = {};
@@ -91,7 +91,7 @@ TEST_F(LinkStatesPersonTest, TwistsThatAreZeroThroughoutWereNotMeasured) {
   EXPECT_FALSE(sink_.samples[0].has_angular);
 }
 
-TEST_F(LinkStatesPersonTest, WhatCannotBeUsedIsCountedAndTheStreamGoesOn) {
+TEST_F(LinkStatesPersonTest, CountsRejectedMessagesAndContinues) {
   for (int n = 0; n < 8; ++n) {
     auto message = MessageAt(n);
     if (n == 1) message.states[4].pose.position.x = std::numeric_limits<double>::infinity();

@@ -26,7 +26,7 @@ double ShankOf(const urdf::Skeleton& skeleton) {
   return skeleton.origin_in_parent[urdf::kRightFoot].norm();
 }
 
-TEST(SkeletonWatch, MeasuresTheFirstSampleAndThenKeepsQuietWhileThePersonIsTheSame) {
+TEST(SkeletonWatch, MeasuresTheFirstSampleOnceForTheSamePerson) {
   SkeletonWatch watch;
   const auto first = watch.Look(Walker(0, 1.8));
   ASSERT_TRUE(first);
@@ -42,7 +42,7 @@ TEST(SkeletonWatch, MeasuresTheFirstSampleAndThenKeepsQuietWhileThePersonIsTheSa
   }
 }
 
-TEST(SkeletonWatch, MeasuresAnewWhenSomebodyElseHasBeenThereForASecond) {
+TEST(SkeletonWatch, MeasuresAgainOneSecondAfterAChangeOfPerson) {
   SkeletonWatch watch;
   ASSERT_TRUE(watch.Look(Walker(0, 1.6)));
   for (int n = 1; n <= static_cast<int>(kHz); ++n) {
@@ -55,7 +55,7 @@ TEST(SkeletonWatch, MeasuresAnewWhenSomebodyElseHasBeenThereForASecond) {
   EXPECT_FALSE(watch.Look(Walker(100, 1.9)));
 }
 
-TEST(SkeletonWatch, DoesNotBelieveLengthsThatComeForLessThanASecondOrNeverSettle) {
+TEST(SkeletonWatch, IgnoresShortLivedAndUnstableLengths) {
   SkeletonWatch watch;
   ASSERT_TRUE(watch.Look(Walker(0, 1.7)));
   for (int n = 1; n < 600; ++n) {
@@ -67,7 +67,7 @@ TEST(SkeletonWatch, DoesNotBelieveLengthsThatComeForLessThanASecondOrNeverSettle
   }
 }
 
-TEST(SkeletonWatch, ALegThatIsLongerByTwoCentimetresIsAnotherOneAndByOneIsNot) {
+TEST(SkeletonWatch, DetectsALegThatIsTwoCentimetresLonger) {
   for (const double longer : {0.01, 0.03}) {
     SkeletonWatch watch;
     ASSERT_TRUE(watch.Look(Walker(0, 1.75)));
@@ -86,7 +86,7 @@ TEST(SkeletonWatch, ALegThatIsLongerByTwoCentimetresIsAnotherOneAndByOneIsNot) {
   }
 }
 
-TEST(SkeletonWatch, WaitsForASampleThatLooksLikeAHuman) {
+TEST(SkeletonWatch, WaitsForASampleWithHumanLengths) {
   SkeletonWatch watch;
   BodySample heap;  // everything in one point
   EXPECT_FALSE(watch.Look(heap));

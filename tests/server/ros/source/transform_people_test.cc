@@ -71,7 +71,7 @@ class TransformPeopleTest : public ::testing::Test {
   kinescope::testing::RecordingSink sink_;
 };
 
-TEST_F(TransformPeopleTest, GivesThePosesThatWerePublishedOnceTheNamesHaveSettled) {
+TEST_F(TransformPeopleTest, ReturnsThePublishedPosesWhenAllNamesAreKnown) {
   Settle();
   for (int n = 0; n < 20; ++n) {
     const PersonState person = PersonAt(n);
@@ -92,7 +92,7 @@ TEST_F(TransformPeopleTest, GivesThePosesThatWerePublishedOnceTheNamesHaveSettle
 }
 
 // Names come one by one; a robot's "head" must not stand in for one that is still under way.
-TEST_F(TransformPeopleTest, DoesNotTakeARobotsHeadForOneThatIsStillToCome) {
+TEST_F(TransformPeopleTest, DoesNotUseTheHeadOfARobotForAPerson) {
   for (const char* frame : {"head", "pelvis", "left_hand", "right_hand"}) {
     Take(0, FrameAtOrigin("base", frame));
   }
@@ -112,7 +112,7 @@ TEST_F(TransformPeopleTest, DoesNotTakeARobotsHeadForOneThatIsStillToCome) {
   EXPECT_EQ(people_.people()[0].frames[urdf::kHead], "head_xsens");
 }
 
-TEST_F(TransformPeopleTest, FramesOfTfStaticArePartOfEverySample) {
+TEST_F(TransformPeopleTest, IncludesFramesOfTfStaticInEverySample) {
   const auto is_fixed = [](const std::string& child) {
     return child == "skeleton_left_toe" || child == "skeleton_left_ballfoot_x_link";
   };
@@ -139,7 +139,7 @@ TEST_F(TransformPeopleTest, FramesOfTfStaticArePartOfEverySample) {
   EXPECT_THAT(counters_.rejected, IsEmpty());
 }
 
-TEST_F(TransformPeopleTest, WhatCannotBeUsedIsCountedAndTheStreamGoesOn) {
+TEST_F(TransformPeopleTest, CountsRejectedTransformsAndContinues) {
   Settle();
   for (int n = 0; n < 7; ++n) {
     PersonState person = PersonAt(n);
@@ -167,7 +167,7 @@ TEST_F(TransformPeopleTest, WhatCannotBeUsedIsCountedAndTheStreamGoesOn) {
   EXPECT_GT(sink_.samples[2].stamp_nanos, sink_.samples[1].stamp_nanos);
 }
 
-TEST_F(TransformPeopleTest, AnotherPersonInTheSuitGetsALongerSkeletonAfterASecond) {
+TEST_F(TransformPeopleTest, DetectsAChangeOfPersonAfterASecond) {
   Settle();
   for (int n = 0; n < 300; ++n) Take(n, TransformsOf(PersonAt(n, n < 100 ? 1.75 : 1.95)));
   ASSERT_EQ(sink_.characters.size(), 2U);
