@@ -93,7 +93,7 @@ TEST(Command, RejectsOptionsWithoutEffect) {
   EXPECT_TRUE(folder.Names().empty());
 }
 
-TEST(Command, RefusesSourcesThatAreNone) {
+TEST(Command, RejectsInvalidSources) {
   const TempFolder folder;
   const std::string text = folder.path() / "text.mvnx";
   std::ofstream(text) << "no XML at all\n";

@@ -5,7 +5,7 @@
 namespace kinescope {
 namespace {
 
-TEST(Nearest, IsTheNameThatWasLikelyMeant) {
+TEST(Nearest, IsTheMostSimilarName) {
   const std::vector<std::string> cameras = {"front", "back", "left", "right", "three_quarter"};
   EXPECT_EQ(Nearest("fron", cameras), "front");
   EXPECT_EQ(Nearest("Front", cameras), "front");

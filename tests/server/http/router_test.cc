@@ -269,7 +269,7 @@ TEST_F(RouterTest, AcceptsSnapshotSizesFrom16To4096) {
     EXPECT_THAT(ErrorIn(answer), HasSubstr("from 16 to 4096")) << query;
   }
   EXPECT_THAT(ErrorIn(Get("/snapshot.png?camera=fron")),
-              AllOf(HasSubstr("camera=fron"), HasSubstr("/api/cameras")));
+              AllOf(HasSubstr("camera=fron"), HasSubstr("expected front")));
   EXPECT_EQ(refusals_["bad snapshot"], 11);
 }
 

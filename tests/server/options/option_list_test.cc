@@ -62,7 +62,7 @@ class OptionListTest : public ::testing::Test {
   OptionList list_;
 };
 
-TEST_F(OptionListTest, OfTheCommandLineWinOverParametersOverYaml) {
+TEST_F(OptionListTest, PrefersTheCommandLineToParametersAndParametersToYaml) {
   list_.Set(*list_.Find("mass"), "mass", {"90"}, Channel::kCommandLine);
   YamlOptions(Write("mass: 80\ntf: tree\nloop: true\n")).SetAll(list_);
   SetFrom(
@@ -76,7 +76,7 @@ TEST_F(OptionListTest, OfTheCommandLineWinOverParametersOverYaml) {
   EXPECT_TRUE(*values_.loop);
 }
 
-TEST_F(OptionListTest, NameThePlaceTheValueAndTheNearestWord) {
+TEST_F(OptionListTest, ReportsPlaceValueAndNearestWordOfAnError) {
   EXPECT_EQ(ErrorOf([&] { list_.Set(*list_.Find("tf"), "tf", {"tre"}, Channel::kCommandLine); }),
             "--tf=tre: expected flat, tree or off; nearest: tree");
   const std::string path = Write("tf: tree\nmass: heavy\n");
@@ -128,7 +128,7 @@ TEST_F(OptionListTest, LeavesOutRemovedOptionsAndTheirConditions) {
   list_.CheckEffects();
 }
 
-TEST_F(OptionListTest, ReplacesAFormerWordWithAWarning) {
+TEST_F(OptionListTest, ReplacesAFormerValueWithAWarning) {
   list_.Set(*list_.Find("show"), "show", {"body;frames"}, Channel::kCommandLine);
   EXPECT_THAT(*values_.show, ElementsAre("body", "link_axes"));
   EXPECT_EQ(values_.show.ToText(), "body,link_axes") << "the next version reads it, too";
