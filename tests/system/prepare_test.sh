@@ -37,8 +37,8 @@ udp.bind(("127.0.0.1", 0))
 print(tcp.getsockname()[1], udp.getsockname()[1], flush=True)
 sys.stdin.read()'
 exec {hold}> >(exec /usr/bin/python3 -c "$take_ports" > "$room/ports")
-until [ -s "$room/ports" ]; do :; done
-read -r tcp udp < "$room/ports"
+# read succeeds at the end of the line, so not with the first half of it.
+until { read -r tcp udp < "$room/ports"; } 2>/dev/null; do :; done
 expect "port $tcp is in use: stop the server that uses it, or choose another port with --port" ./demo --port "$tcp"
 expect "UDP port $udp is in use: stop the program that uses it, or choose another port with --udp_port" ./demo --udp_port "$udp"
 exec {hold}>&-
