@@ -7,8 +7,6 @@
 #include "core/person_links.h"
 
 namespace kinescope::render {
-namespace {}  // namespace
-
 void BodyActor::Load(const PersonModel& model, OnceLog& log) {
   groups_.clear();
   problems_.clear();

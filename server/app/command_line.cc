@@ -172,22 +172,17 @@ const Registered* Chosen(const std::vector<Registered>& all) {
 }
 
 // Names of options have underscores; people also type dashes. "help render" is "render --help".
-// CLI11 takes arguments in reverse.
-std::vector<std::string> ReversedArguments(int argc, char** argv) {
-  std::vector<std::string> arguments;
-  if (argc > 1 && std::string(argv[1]) == "help") {
-    arguments.emplace_back("--help");
-    ++argv;
-    --argc;
+std::vector<std::string> ArgumentsOf(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  for (std::string& argument : arguments) {
+    if (!StartsWith(argument, "--")) continue;
+    const auto end = argument.begin() +
+                     static_cast<std::ptrdiff_t>(std::min(argument.find('='), argument.size()));
+    std::replace(argument.begin() + 2, end, '-', '_');
   }
-  for (int i = argc - 1; i > 0; --i) {
-    std::string argument = argv[i];
-    if (StartsWith(argument, "--")) {
-      const auto end = argument.begin() +
-                       static_cast<std::ptrdiff_t>(std::min(argument.find('='), argument.size()));
-      std::replace(argument.begin() + 2, end, '-', '_');
-    }
-    arguments.push_back(std::move(argument));
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.emplace_back("--help");
   }
   return arguments;
 }
@@ -206,10 +201,11 @@ int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
   });
   std::vector<Registered> all;
   for (Command& command : commands) Register(command, line, all);
-  const bool is_help = argc > 1 && std::string(argv[1]) == "help";
-  RefuseUnknownCommand(commands, argc > 1 + is_help ? argv[1 + is_help] : "");
+  std::vector<std::string> arguments = ArgumentsOf(argc, argv);
+  RefuseUnknownCommand(commands, arguments.empty() ? "" : arguments.front());
+  std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
   try {
-    line.parse(ReversedArguments(argc, argv));
+    line.parse(arguments);
   } catch (const CLI::ExtrasError&) {
     const Registered* const chosen = Chosen(all);
     const std::vector<std::string> extras = line.remaining(true);

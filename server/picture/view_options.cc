@@ -43,13 +43,6 @@ const std::vector<options::FormerWord> kFormerOverlays = {{"lamp", "status"},
 const std::vector<options::FormerWord> kFormerParts = {
     {"held", "hand_loads"}, {"frames", "link_frames"}, {"axes", "joint_axes"}};
 
-std::string GridNames() {
-  std::string names;
-  for (const auto& [name, cameras] : kGrids)
-    names += (names.empty() ? "" : ", ") + std::string(name);
-  return names;
-}
-
 bool IsChange(const std::string& name) {
   return !name.empty() && (name[0] == '+' || name[0] == '-');
 }
@@ -109,6 +102,13 @@ int TrackNamed(const std::string& name) {
 
 std::string Joined(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ","));
+}
+
+std::vector<std::string> GridNames() {
+  std::vector<std::string> names;
+  names.reserve(kGrids.size());
+  for (const auto& [name, cameras] : kGrids) names.emplace_back(name);
+  return names;
 }
 
 options::Choice<int>::Words SupersampleWords() {
@@ -195,14 +195,14 @@ void ViewsValue::Parse(const std::string& text) {
 }
 
 std::string ViewsValue::Expected() const {
-  return GridNames() +
+  return fmt::format("{}", fmt::join(GridNames(), ", ")) +
          ", or cameras with , between and / between rows, such as "
          "front,right/top,camera (camera: the one of --camera)";
 }
 
 std::vector<std::string> ViewsValue::Names() const {
   std::vector<std::string> names = render::CameraNames();
-  for (const auto& [name, cameras] : kGrids) names.emplace_back(name);
+  for (const std::string& grid : GridNames()) names.push_back(grid);
   return names;
 }
 
