@@ -82,11 +82,15 @@ struct BodyForces {
   std::string_view why_other_metric;
   bool is_dynamic = false;      // inertial forces are included
   std::string_view why_static;  // "" while is_dynamic
-  double body_mass_kg = 0;      // with added masses
+  bool is_zero_phase = false;   // accelerations were filtered without lag, as of recordings
+  double delay_secs = 0;        // by which forces and moments are late; 0 without filter or lag
+  bool acceleration_is_limited = false;  // an acceleration was implausible and has been shortened
+  double body_mass_kg = 0;               // with added masses
   bool body_mass_is_assumed = false;
 
   std::array<JointForce, urdf::kJointCount> joints{};  // by urdf::Joint
 
+  double floor_z = 0;  // that the legs stand on, world, m
   /// Why the ground reaction force is unknown (no foot contact, sitting or leaning, legs not
   /// recorded); "" otherwise. If it is unknown, so are the loads of the leg joints.
   std::string_view why_no_ground;

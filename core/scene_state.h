@@ -33,15 +33,17 @@ struct JointLoad {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // of the joint centre, world, m
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();    // N·m, parent on child, world axes
   Eigen::Vector3d force = Eigen::Vector3d::Zero();     // N, parent on child, world axes
-  double ratio = 0;                                    // of the capacity; NaN where unknown
-  double deciding_moment = 0;                          // N·m, signed, in the governing direction
-  double capacity = 0;                                 // N·m, in the governing direction
-  std::string_view channel;  // the governing direction: "flexion", "elevation", ...
-  LoadClass load_class = LoadClass::kUnknown;
-  bool class_is_of_compression = false;  // L5/S1: the compression force decides, not the moment
-  bool is_external = false;              // moment, ratio or class are of another program
-  /// Time in each class up to this sample, s, by LoadClass: the exposure of this run or clip.
-  std::array<double, kLoadClassCount> class_secs{};
+  double ratio = 0;            // of the capacity in this sample; NaN where unknown
+  double shown_ratio = 0;      // what people see: `ratio` with a held peak; NaN where unknown
+  double deciding_moment = 0;  // N·m, signed, in the governing direction
+  double capacity = 0;         // N·m, in the governing direction
+  std::string_view channel;    // the governing direction: "flexion", "elevation", ...
+  LoadClass load_class = LoadClass::kUnknown;  // of shown_ratio, with hysteresis
+  LoadClass band = LoadClass::kUnknown;        // of ratio: input of exposure
+  bool is_of_compression = false;              // L5/S1: `ratio` is that of the compression force
+  bool is_external = false;                    // moment, ratio or class are of another program
+  /// Time in each band up to this sample, s, by LoadClass: the exposure of this run or clip.
+  std::array<double, kLoadClassCount> band_secs{};
   std::string_view reason;  // why unknown; "" otherwise
 };
 

@@ -39,7 +39,8 @@ export function byUrgency(rows, shownKeys = []) {
  *  @param {Row} row */
 export function explain(row) {
   if (row.loadClass === 'unknown' && row.reason) return row.reason;
-  const amount = moment(row.moment, row.capacity);
+  const now = moment(row.moment, row.capacity); // of this sample; the percentage beside it is held
+  const amount = now && `now ${now}`;
   const channel = row.isExternal && row.channel !== 'external' ? `${row.channel}, external` : row.channel;
   return channel && amount ? `${amount}, ${channel}` : amount || channel;
 }
@@ -82,7 +83,7 @@ export function rowsOf(state, joints, details) {
         channel: words?.channel ?? '',
         reason: words?.reason ?? '',
         isExternal: words?.is_external ?? false,
-        secs: words?.secs_in_class,
+        secs: words?.secs_in_band,
       };
     });
   });

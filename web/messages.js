@@ -94,7 +94,7 @@ const readPersonDetails = object({
   character: number, name: string, mass_kg: number, mass_is_assumed: boolean, why_other_metric: string,
   why_no_ground: string, hand_load: readHandLoad,
   loads: listOf(object({
-    joint: number, channel: string, reason: string, is_external: boolean, secs_in_class: readSecs,
+    joint: number, channel: string, reason: string, is_external: boolean, secs_in_band: readSecs,
   })),
 });
 const readObjectName = object({ character: number, number, name: string });

@@ -53,7 +53,7 @@ std::vector<SphereInPicture> LocateSpheres(const SceneState& state, const Camera
       sphere.character = person.character;
       sphere.joint = std::string(urdf::kJoints[static_cast<std::size_t>(load.joint)].ros_name);
       sphere.load_class = load.load_class;
-      sphere.ratio = load.ratio;
+      sphere.ratio = load.shown_ratio;
       sphere.x_px = center.x_px;
       sphere.y_px = center.y_px;
       sphere.depth_m = center.depth_m;

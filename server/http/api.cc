@@ -37,8 +37,8 @@ json VectorOrNull(const Eigen::Vector3d& v) { return v.allFinite() ? ToJson(v) :
 // Time in each class, s, rounded to `step`.
 json SecsToJson(const JointLoad& load, double step) {
   json secs = json::object();
-  for (std::size_t i = 0; i < load.class_secs.size(); ++i) {
-    secs[Name(static_cast<LoadClass>(i))] = std::round(load.class_secs[i] / step) * step;
+  for (std::size_t i = 0; i < load.band_secs.size(); ++i) {
+    secs[Name(static_cast<LoadClass>(i))] = std::round(load.band_secs[i] / step) * step;
   }
   return secs;
 }
@@ -47,13 +47,14 @@ json LoadToJson(const JointLoad& load) {
   return {{"joint", urdf::kJoints[static_cast<std::size_t>(load.joint)].ros_name},
           {"label", JointLabel(load.joint)},
           {"class", Name(load.load_class)},
+          {"shown_ratio", NumberOrNull<json>(load.shown_ratio)},
           {"ratio", NumberOrNull<json>(load.ratio)},
           {"moment_nm", NumberOrNull<json>(load.deciding_moment)},
           {"capacity_nm", NumberOrNull<json>(load.capacity)},
           {"channel", load.channel},
           {"reason", load.reason},
           {"is_external", load.is_external},
-          {"secs_in_class", SecsToJson(load, 0.001)}};
+          {"secs_in_band", SecsToJson(load, 0.001)}};
 }
 
 json HandLoadToJson(const StatedHandLoad& stated) {
@@ -84,6 +85,7 @@ json ForcesToJson(const BodyForces& forces) {
           {"why_other_metric", forces.why_other_metric},
           {"mode", forces.is_dynamic ? "dynamic" : "static"},
           {"why_static", forces.why_static},
+          {"delay_secs", forces.delay_secs},
           {"body_mass_kg", forces.body_mass_kg},
           {"body_mass_is_assumed", forces.body_mass_is_assumed},
           {"why_no_ground", forces.why_no_ground},
@@ -282,7 +284,7 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
                        {"channel", load.channel},
                        {"reason", load.reason},
                        {"is_external", load.is_external},
-                       {"secs_in_class", SecsToJson(load, 1)}});
+                       {"secs_in_band", SecsToJson(load, 1)}});
     }
     people.push_back({{"character", person.character},
                       {"name", person.name},

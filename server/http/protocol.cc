@@ -65,7 +65,7 @@ void PutLoad(Writer& out, const JointLoad& load, double height) {
   out.Put(static_cast<std::uint8_t>(load.load_class));
   out.Put(static_cast<std::uint16_t>(std::clamp(std::round(radius_mm), 0.0, 65535.0)));
   out.PutVector(load.position);
-  out.PutFloat(load.ratio);
+  out.PutFloat(load.shown_ratio);
   out.PutFloat(load.deciding_moment);
   out.PutFloat(load.capacity);
 }

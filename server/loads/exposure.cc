@@ -6,88 +6,131 @@
 
 #include "core/system/check.h"
 #include "core/system/clocks.h"
-#include "server/loads/gap.h"
 
 namespace kinescope::loads {
 namespace {
 
 constexpr double kNoRatio = std::numeric_limits<double>::quiet_NaN();
-constexpr std::int64_t kLongestStepNanos = static_cast<std::int64_t>(kLongestGapSecs * 1e9);
+
+std::size_t IndexOf(LoadClass band) { return static_cast<std::size_t>(band); }
+
+bool IsAbove(LoadClass band, std::size_t limit) {
+  return band == LoadClass::kHigh || (band == LoadClass::kMedium && limit == 0);
+}
+
+// The smallest value that at least `percent` % of all do not exceed. Sorts a part of `values`.
+double NearestRank(std::vector<double>& values, std::size_t percent) {
+  if (values.empty()) return kNoRatio;
+  const std::size_t rank = (percent * values.size() + 99) / 100;
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
 
 }  // namespace
 
-void Exposure::Add(const JointLoad* loads, std::int64_t stamp_nanos) {
-  const std::int64_t step = stamp_nanos - last_nanos_;
-  const bool counts = has_last_ && step >= 0;
-  const std::int64_t nanos = counts ? std::min(step, kLongestStepNanos) : 0;
+void BandTimes::Add(const std::array<JointLoad, urdf::kScoredJointCount>& loads,
+                    std::int64_t stamp_nanos) {
+  const std::int64_t nanos = times_.Add(stamp_nanos);
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    nanos_[i][IndexOf(last_[i])] += nanos;
+    last_[i] = loads[i].band;
+  }
+}
+
+std::array<double, kLoadClassCount> BandTimes::SecsOf(std::size_t scored_joint) const {
+  KINESCOPE_CHECK(scored_joint < nanos_.size());
+  std::array<double, kLoadClassCount> secs;
+  for (std::size_t i = 0; i < secs.size(); ++i) secs[i] = Secs(nanos_[scored_joint][i]);
+  return secs;
+}
+
+double Exposure::CountLast(std::int64_t nanos) {
   counted_nanos_ += nanos;
+  for (Joint& joint : joints_) {
+    joint.nanos[IndexOf(joint.last_band)] += nanos;
+    for (std::size_t i = 0; i < joint.limits.size(); ++i) {
+      Limit& limit = joint.limits[i];
+      limit.hold_nanos = IsAbove(joint.last_band, i) ? limit.hold_nanos + nanos : 0;
+      limit.longest_nanos = std::max(limit.longest_nanos, limit.hold_nanos);
+    }
+  }
+  return Secs(nanos);
+}
+
+// Exposure counts a rise once, however the ratio trembles at the limit.
+void Exposure::Cross(const JointLoad& load, Joint& joint) const {
+  for (std::size_t i = 0; i < joint.limits.size(); ++i) {
+    Limit& limit = joint.limits[i];
+    if (!times_.continues()) {
+      limit.side = Side::kUnknown;
+      limit.hold_nanos = 0;
+    }
+    if (load.band == LoadClass::kUnknown) {
+      limit.side = Side::kUnknown;
+    } else if (IsAbove(load.band, i)) {
+      if (limit.side == Side::kBelow) ++limit.rises;
+      limit.side = Side::kAbove;
+    } else if (limit.side != Side::kAbove || !(load.ratio >= limits_.down[i])) {
+      limit.side = Side::kBelow;
+    }
+  }
+}
+
+double Exposure::Add(const std::vector<JointLoad>& loads, std::int64_t stamp_nanos) {
+  KINESCOPE_CHECK(loads.size() == joints_.size());
+  const double secs = CountLast(times_.Add(stamp_nanos));
+  ++samples_;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     Joint& joint = joints_[i];
     const JointLoad& load = loads[i];
-    joint.class_nanos[static_cast<std::size_t>(joint.last_class)] += nanos;
-    if (std::isfinite(joint.last_ratio)) {
-      const double bin = std::clamp(joint.last_ratio / kExposureBin, 0.0, kBins - 1.0);
-      joint.nanos[static_cast<std::size_t>(bin)] += nanos;
-    }
-    joint.last_class = load.load_class;
-    joint.last_ratio = load.load_class == LoadClass::kUnknown ? kNoRatio : load.ratio;
-    if (std::isfinite(joint.last_ratio) && (!joint.has_peak || load.ratio > joint.peak.ratio)) {
-      joint.peak = load;
-      joint.peak_stamp_nanos = stamp_nanos;
-      joint.has_peak = true;
-    }
-  }
-  has_last_ = true;
-  last_nanos_ = stamp_nanos;
-}
-
-void Exposure::Add(const std::array<JointLoad, urdf::kScoredJointCount>& loads,
-                   std::int64_t stamp_nanos) {
-  Add(loads.data(), stamp_nanos);
-}
-
-void Exposure::Add(const std::vector<JointLoad>& loads, std::int64_t stamp_nanos) {
-  KINESCOPE_CHECK(loads.size() == joints_.size());
-  Add(loads.data(), stamp_nanos);
-}
-
-double Exposure::PercentileOf(const Joint& joint, double share) {
-  std::int64_t all = 0;
-  for (const std::int64_t nanos : joint.nanos) all += nanos;
-  if (all == 0) return kNoRatio;
-  std::int64_t below = 0;
-  for (std::size_t bin = 0; bin < kBins; ++bin) {
-    below += joint.nanos[bin];
-    if (static_cast<double>(below) < share * static_cast<double>(all)) continue;
-    if (bin + 1 == kBins) return kExposureMost;
-    return (static_cast<double>(bin) + 0.5) * kExposureBin;
-  }
-  return kExposureMost;
-}
-
-std::array<double, 4> Exposure::SecsOf(std::size_t scored_joint) const {
-  KINESCOPE_CHECK(scored_joint < joints_.size());
-  std::array<double, 4> secs;
-  for (std::size_t i = 0; i < secs.size(); ++i) {
-    secs[i] = Secs(joints_[scored_joint].class_nanos[i]);
+    Cross(load, joint);
+    joint.last_band = load.band;
+    ++joint.samples[IndexOf(load.band)];
+    if (load.band == LoadClass::kUnknown || !std::isfinite(load.ratio)) continue;
+    joint.ratios.push_back(load.ratio);
+    if (joint.has_peak && load.ratio <= joint.peak.ratio) continue;
+    joint.peak = load;
+    joint.peak_stamp_nanos = stamp_nanos;
+    joint.has_peak = true;
   }
   return secs;
 }
+
+double Exposure::Finish() { return CountLast(times_.Last()); }
 
 JointExposure Exposure::Of(std::size_t scored_joint) const {
   KINESCOPE_CHECK(scored_joint < joints_.size());
   const Joint& joint = joints_[scored_joint];
   JointExposure exposure;
-  exposure.secs = SecsOf(scored_joint);
-  exposure.p10 = PercentileOf(joint, 0.1);
-  exposure.p50 = PercentileOf(joint, 0.5);
-  exposure.p90 = PercentileOf(joint, 0.9);
+  exposure.samples = joint.samples;
+  for (std::size_t i = 0; i < exposure.secs.size(); ++i) exposure.secs[i] = Secs(joint.nanos[i]);
+  std::vector<double> ratios = joint.ratios;
+  exposure.p10 = NearestRank(ratios, 10);
+  exposure.p50 = NearestRank(ratios, 50);
+  exposure.p90 = NearestRank(ratios, 90);
+  double known_secs = 0;
+  for (const LoadClass band : {LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh}) {
+    known_secs += exposure.secs[IndexOf(band)];
+  }
+  constexpr double kSecsPerMin = 60;
+  for (std::size_t i = 0; i < exposure.above.size(); ++i) {
+    const Limit& limit = joint.limits[i];
+    exposure.above[i] = {
+        Secs(limit.longest_nanos), limit.rises,
+        known_secs > 0 ? static_cast<double>(limit.rises) / known_secs * kSecsPerMin : kNoRatio};
+  }
   exposure.peak_ratio = joint.has_peak ? joint.peak.ratio : kNoRatio;
   exposure.peak_moment = joint.peak.deciding_moment;
   exposure.peak_capacity = joint.peak.capacity;
   exposure.peak_channel = joint.peak.channel;
   exposure.peak_stamp_nanos = joint.peak_stamp_nanos;
   return exposure;
+}
+
+bool Exposure::IsEverKnown(std::size_t scored_joint) const {
+  KINESCOPE_CHECK(scored_joint < joints_.size());
+  return joints_[scored_joint].has_peak;
 }
 
 double Exposure::secs() const { return Secs(counted_nanos_); }

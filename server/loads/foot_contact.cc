@@ -20,10 +20,6 @@ using urdf::Side;
 // A foot that has just touched the floor carries load at once if it is the only one.
 constexpr double kMinWeight = 1e-3;
 
-double SpeedOf(const SegmentState& segment, const Vector3d& point) {
-  return (segment.velocity + segment.angular_velocity.cross(point - segment.position)).norm();
-}
-
 }  // namespace
 
 double FootContacts::ContactEnd::weight() const { return 0.5 * (1 - std::cos(M_PI * ramp)); }
@@ -39,17 +35,21 @@ void FootContacts::Follow(ContactEnd& end, bool on, bool fresh, double step_secs
 void FootContacts::Judge(ContactEnd& end, double height, double speed, bool fresh, double step_secs,
                          const Settings& settings) {
   const bool comes_down = height < settings.on_below && speed < settings.on_slower;
-  end.slow_samples = comes_down && !fresh ? end.slow_samples + 1 : 0;
   const bool stays = height <= settings.off_above && speed <= settings.off_faster;
-  const bool on = fresh ? comes_down : end.on ? stays : end.slow_samples >= settings.on_samples;
-  Follow(end, on, fresh, step_secs, settings);
+  const bool contradicts = end.on ? !stays : comes_down;
+  end.contrary_samples = contradicts && !fresh ? end.contrary_samples + 1 : 0;
+  end.contrary_secs = end.contrary_samples > 1 ? end.contrary_secs + step_secs : 0;
+  constexpr double kRounding = 1e-6;  // s, of stamps
+  const bool lasted = end.contrary_samples >= settings.least_samples &&
+                      end.contrary_secs >= settings.least_secs - kRounding;
+  if (lasted) end.contrary_samples = 0;
+  Follow(end, fresh ? comes_down : end.on != lasted, fresh, step_secs, settings);
 }
 
-void FootContacts::Place(Side side, const Points& points, double stature,
-                         const Settings& settings) {
-  const Vector2d heel = points.at[0].head<2>();
-  const Vector2d ball = points.at[1].head<2>();
-  const Vector2d tip = points.at[2].head<2>();
+void FootContacts::Place(Side side, double stature, const Settings& settings) {
+  const Vector2d heel = motion_.at(side, kHeelPoint).head<2>();
+  const Vector2d ball = motion_.at(side, kBallPoint).head<2>();
+  const Vector2d tip = motion_.at(side, kTipPoint).head<2>();
   const ContactEnd& heel_end = ends_[side][kHeel];
   const ContactEnd& fore_end = ends_[side][kForefoot];
 
@@ -85,29 +85,25 @@ void FootContacts::Update(const BodySample& sample, const urdf::LinkPoses& links
   const double step_secs = Secs(sample.stamp_nanos - last_nanos_);
   if (has_last_ && step_secs == 0) return;
   const bool fresh = !has_last_ || step_secs < 0 || step_secs > kLongestGapSecs;
-  const bool has_speeds = sample.has_linear && sample.has_angular;
+  motion_.Update(sample, links, skeleton);
   for (const Side side : {kRight, kLeft}) {
-    const std::size_t foot = At(urdf::FootSegmentOf(side));
-    const std::size_t toe = foot + 1;
-    Points points;
-    const auto [heel, tip] = urdf::SolePoints(skeleton, links, side);
-    points.at = {heel, links[toe].position, tip};
-    const auto speed = [&](std::size_t point, std::size_t segment) {
-      if (!fresh) return (points.at[point] - last_points_[side].at[point]).norm() / step_secs;
-      return has_speeds ? SpeedOf(sample.segments[segment], points.at[point]) : 0.0;
-    };
-    const auto height = [&](std::size_t point) { return points.at[point].z() - floor_z; };
-    const std::size_t lower = height(1) < height(2) ? 1 : 2;
+    ContactEnd& heel = ends_[side][kHeel];
+    ContactEnd& forefoot = ends_[side][kForefoot];
     if (sample.foot_contacts) {
       const FootContactFlags& flags = (*sample.foot_contacts)[side];
-      Follow(ends_[side][kHeel], flags.heel, fresh, step_secs, settings);
-      Follow(ends_[side][kForefoot], flags.forefoot, fresh, step_secs, settings);
+      Follow(heel, flags.heel, fresh, step_secs, settings);
+      Follow(forefoot, flags.forefoot, fresh, step_secs, settings);
     } else {
-      Judge(ends_[side][kHeel], height(0), speed(0, foot), fresh, step_secs, settings);
-      Judge(ends_[side][kForefoot], height(lower), speed(lower, toe), fresh, step_secs, settings);
+      const auto judge = [&](ContactEnd& end, FootPoint point) {
+        Judge(end, motion_.at(side, point).z() - floor_z, motion_.speed(side, point), fresh,
+              step_secs, settings);
+      };
+      judge(heel, kHeelPoint);
+      judge(forefoot, motion_.lower_forefoot(side));
     }
-    Place(side, points, skeleton.height, settings);
-    last_points_[side] = points;
+    // A foot in the air carries nothing, also during the ramps of its ends.
+    if (!touches(side)) heel.ramp = forefoot.ramp = 0;
+    Place(side, skeleton.height, settings);
   }
   std::array<Vector2d, kMaxSupportPoints> corners;
   std::size_t count = 0;

@@ -13,6 +13,7 @@
 
 #include "core/body_forces.h"
 #include "core/body_sample.h"
+#include "server/loads/foot_motion.h"
 #include "server/loads/ground.h"
 #include "urdf/kinematics.h"
 
@@ -21,20 +22,21 @@ namespace kinescope::loads {
 class FootContacts {
  public:
   struct Settings {
-    double on_below = 0.05, off_above = 0.08;       // m above the floor
-    double on_slower = 0.30, off_faster = 0.50;     // m/s, speed of the point
-    int on_samples = 2;                             // consecutive samples
-    double ramp_secs = 0.10;                        // of the contact weight, raised cosine, s
+    double on_below = 0.05, off_above = 0.08;    // m above the floor
+    double on_slower = 0.30, off_faster = 0.50;  // m/s, speed of the point
+    int least_samples = 2;                       // that a change must last
+    double least_secs = 0.016;                   // that a change must last, s: two samples at 60 Hz
+    double ramp_secs = 0.10;  // of the contact weight after landing, raised cosine, s
     double heel_part = 0.30, forefoot_part = 0.40;  // share of the foot's length that supports when
                                                     // alone
     double half_width_of_stature = 0.0275;  // of the support polygon of a foot, as a share of the
                                             // stature
   };
 
-  /// Adds a sample. Speeds are differences of positions; for the first sample, the streamed ones.
-  /// The first sample, and one after a gap of more than 0.5 s or a step back in time, starts over:
-  /// height and speed decide at once, without a ramp. A repeated stamp changes nothing. `floor_z`:
-  /// world, m.
+  /// Adds a sample. Speeds are those of FootMotion: streamed, or fitted to the positions and then
+  /// 0.05 s late. The first sample, and one after a gap of more than 0.5 s or a step back in time,
+  /// starts over: height and speed decide at once, without a ramp. A repeated stamp changes
+  /// nothing. `floor_z`: world, m.
   void Update(const BodySample& sample, const urdf::LinkPoses& links,
               const urdf::Skeleton& skeleton, double floor_z, const Settings& settings);
 
@@ -53,21 +55,19 @@ class FootContacts {
   enum End { kHeel, kForefoot };
   struct ContactEnd {
     bool on = false;
-    int slow_samples = 0;
-    double ramp = 0;  // progress, 0..1
+    int contrary_samples = 0;  // in a row that say the opposite of `on`
+    double contrary_secs = 0;  // since the first of them
+    double ramp = 0;           // progress, 0..1
     double weight() const;
-  };
-  struct Points {
-    std::array<Eigen::Vector3d, 3> at;  // heel, ball, toe tip; world, m
   };
   static void Follow(ContactEnd& end, bool on, bool fresh, double step_secs,
                      const Settings& settings);
   void Judge(ContactEnd& end, double height, double speed, bool fresh, double step_secs,
              const Settings& settings);
-  void Place(urdf::Side side, const Points& points, double stature, const Settings& settings);
+  void Place(urdf::Side side, double stature, const Settings& settings);
 
   std::array<std::array<ContactEnd, 2>, 2> ends_{};
-  std::array<Points, 2> last_points_{};
+  FootMotion motion_;
   bool has_last_ = false;
   std::int64_t last_nanos_ = 0;
   std::array<FootOnGround, 2> feet_{};

@@ -232,16 +232,15 @@ LumbarLoad LumbarLoadOf(const Vector3d& force, const Vector3d& moment, const Lin
           force.dot(x)};
 }
 
-double LumbarRatio(const LumbarLoad& load) {
+double LumbarRatio(const LumbarLoad& load, const std::array<double, 2>& limits) {
   constexpr auto kActionLimit = kCompressionLimits[0], kUpperLimit = kCompressionLimits[1];
   constexpr double kShearLimit = 1000;  // N
-  constexpr double kMedium = kDefaultClassLimits[0], kHigh = kDefaultClassLimits[1];
+  const auto [medium, high] = limits;
   const double of_compression = load.compression <= kActionLimit
-                                    ? kMedium * std::max(load.compression, 0.0) / kActionLimit
-                                    : kMedium + (kHigh - kMedium) *
-                                                    (load.compression - kActionLimit) /
-                                                    (kUpperLimit - kActionLimit);
-  return std::max(of_compression, std::min(kMedium * std::abs(load.shear) / kShearLimit, kHigh));
+                                    ? medium * std::max(load.compression, 0.0) / kActionLimit
+                                    : medium + (high - medium) * (load.compression - kActionLimit) /
+                                                   (kUpperLimit - kActionLimit);
+  return std::max(of_compression, std::min(medium * std::abs(load.shear) / kShearLimit, high));
 }
 
 }  // namespace kinescope::loads

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/body_forces.h"
+#include "core/load_class.h"
 #include "urdf/body_parameters.h"
 #include "urdf/kinematics.h"
 
@@ -52,9 +53,10 @@ LumbarLoad LumbarLoadOf(const Eigen::Vector3d& force, const Eigen::Vector3d& mom
 /// N: the action limit and the upper limit (NIOSH 1981; joint-loads.md 4.4).
 constexpr std::array<double, 2> kCompressionLimits = {3400, 6400};
 
-/// Lumbar load on the scale of ratios: 0.30 at the action limit of 3400 N, 0.60 at the upper limit
-/// of 6400 N (NIOSH 1981), linear between and beyond. Shear has one limit, 1000 N at 0.30, and
-/// alone never exceeds 0.60.
-double LumbarRatio(const LumbarLoad& load);
+/// Lumbar load on the scale of ratios: the first of the class `limits` at the action limit of
+/// 3400 N, the second at the upper limit of 6400 N (NIOSH 1981), linear between and beyond. Shear
+/// has one limit, 1000 N at the first, and alone never exceeds the second.
+double LumbarRatio(const LumbarLoad& load,
+                   const std::array<double, 2>& limits = kDefaultClassLimits);
 
 }  // namespace kinescope::loads

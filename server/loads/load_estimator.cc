@@ -76,6 +76,22 @@ bool FeelsLoad(const GroundReaction& measured, const GroundReaction& bare) {
          (measured.cop->point - bare.cop->point).norm() >= kMinDistance;
 }
 
+// Shortens what no body does. True if there was such.
+bool Limit(const LoadSettings& settings, BodyMotion& motion) {
+  bool is_limited = false;
+  const auto shorten = [&](Vector3d& vector, double longest) {
+    const double length = vector.norm();
+    if (length < longest) return;
+    vector *= longest / length;
+    is_limited = true;
+  };
+  for (SegmentMotion& segment : motion) {
+    shorten(segment.acceleration, settings.most_acceleration);
+    shorten(segment.angular_acceleration, settings.motion.most_angular_acceleration);
+  }
+  return is_limited;
+}
+
 using JointMoments = std::array<Vector3d, kJointCount>;
 
 JointMoments MomentsOf(const GroundReaction& loaded) {
@@ -97,19 +113,19 @@ JointMoments AddedMoments(const GroundReaction& loaded, const GroundReaction& ba
   return moments;
 }
 
-// A ratio in the middle of a class, for a classifier that uses ratios only.
-double RatioIn(LoadClass load_class, const LoadClassifier::Settings& classes) {
+// A ratio in the middle of a class, for a meter, which reads ratios only.
+double RatioIn(LoadClass load_class, const LoadMeter::Settings& meter) {
   switch (load_class) {
-    case LoadClass::kLow: return 0.5 * classes.down[0];
-    case LoadClass::kMedium: return 0.5 * (classes.up[0] + classes.down[1]);
-    case LoadClass::kHigh: return 2 * classes.up[1];
+    case LoadClass::kLow: return 0.5 * meter.down[0];
+    case LoadClass::kMedium: return 0.5 * (meter.up[0] + meter.down[1]);
+    case LoadClass::kHigh: return 2 * meter.up[1];
     case LoadClass::kUnknown: break;
   }
   return kNothing;
 }
 
 void MakeUnknown(std::string_view why, JointLoad& load) {
-  load.ratio = load.deciding_moment = load.capacity = kNothing;
+  load.ratio = load.shown_ratio = load.deciding_moment = load.capacity = kNothing;
   load.channel = {};
   load.reason = why;
 }
@@ -135,9 +151,8 @@ void LoadEstimator::ForgetEverything(const LinkPoses& links, std::string_view wh
     load.position = links[At(ChildOf(load.joint))].position;
     load.moment = load.force = Vector3d::Constant(kNothing);
     MakeUnknown(why, load);
-    load.load_class = classifiers_[i].Update(kNothing, stamp);
+    meters_[i].Update(kNothing, stamp);
   }
-  compression_.Update(kNothing, stamp);
 }
 
 void LoadEstimator::ShowBody(const BodySample& sample, const LoadSubject& subject,
@@ -297,7 +312,7 @@ void LoadEstimator::ShowExternal(const ExternalJointLoad& given, const LinkPoses
   } else if (has_level || has_ratio) {
     load.ratio = has_ratio ? given.ratio : kNothing;
     load.deciding_moment = load.capacity = kNothing;
-    load.load_class = given.load_class;  // input of Classify
+    load.load_class = given.load_class;  // input of ReadMeters
     load.channel = "external";
   } else if (has_moment) {
     Show(ScoreJoint(load.joint, given.moment, links, settings.strength), load);
@@ -306,63 +321,90 @@ void LoadEstimator::ShowExternal(const ExternalJointLoad& given, const LinkPoses
   }
 }
 
-void LoadEstimator::Classify(const LoadSettings& settings, std::int64_t stamp) {
+void LoadEstimator::CountCompression(const LoadSettings& settings) {
   const BodyForces& forces = result_.forces;
-  if (last_metric_ != forces.metric) {  // another scale: filtered values are meaningless
-    classifiers_.fill(LoadClassifier());
+  JointLoad& lumbar = result_.loads[urdf::kScoredL5S1];
+  const bool counts = settings.compression_counts && forces.lumbar && !lumbar.is_external &&
+                      std::isfinite(lumbar.ratio) && forces.metric != LoadMetric::kExternal &&
+                      forces.metric != LoadMetric::kOverload;
+  if (!counts) return;
+  const double of_compression = LumbarRatio(*forces.lumbar, settings.meter.up);
+  if (of_compression <= lumbar.ratio) return;
+  lumbar.ratio = of_compression;
+  lumbar.deciding_moment = lumbar.capacity = kNothing;
+  lumbar.channel = "compression";
+  lumbar.is_of_compression = true;
+}
+
+void LoadEstimator::ReadMeters(const LoadSettings& settings, std::int64_t stamp) {
+  const BodyForces& forces = result_.forces;
+  if (last_metric_ != forces.metric) {  // another scale: earlier ratios are meaningless
+    meters_.fill(LoadMeter());
     last_metric_ = forces.metric;
   }
   for (std::size_t i = 0; i < result_.loads.size(); ++i) {
     JointLoad& load = result_.loads[i];
-    const double ratio = load.load_class == LoadClass::kUnknown
-                             ? load.ratio
-                             : RatioIn(load.load_class, settings.classes);
-    if (load.is_external != was_external_[i]) classifiers_[i] = LoadClassifier();  // as above
+    if (load.is_external != was_external_[i]) meters_[i] = LoadMeter();  // as above
     was_external_[i] = load.is_external;
-    classifiers_[i].set_settings(settings.classes);
-    load.load_class = classifiers_[i].Update(ratio, stamp);
-  }
-  const bool counts = settings.compression_counts && forces.metric != LoadMetric::kExternal &&
-                      forces.metric != LoadMetric::kOverload;
-  // Its limits are those of the disc, independent of the joints' limits.
-  LoadClassifier::Settings of_the_disc = settings.classes;
-  of_the_disc.up = LoadClassifier::Settings().up;
-  of_the_disc.down = LoadClassifier::Settings().down;
-  compression_.set_settings(of_the_disc);
-  const LoadClass of_compression =
-      compression_.Update(forces.lumbar ? LumbarRatio(*forces.lumbar) : kNothing, stamp);
-  JointLoad& lumbar = result_.loads[urdf::kScoredL5S1];
-  if (counts && !lumbar.is_external && lumbar.load_class != LoadClass::kUnknown &&
-      of_compression > lumbar.load_class) {
-    lumbar.load_class = of_compression;
-    lumbar.class_is_of_compression = true;
+    meters_[i].set_settings(settings.meter);
+    const LoadClass given = load.load_class;  // of another program
+    load.band = given == LoadClass::kUnknown ? BandOf(load.ratio, settings.meter.up) : given;
+    const LoadMeter::Reading shown = meters_[i].Update(
+        given == LoadClass::kUnknown ? load.ratio : RatioIn(given, settings.meter), stamp);
+    load.load_class = shown.load_class;
+    // A class that was given comes without a number that could contradict it.
+    load.shown_ratio = given == LoadClass::kUnknown ? shown.ratio : kNothing;
   }
 }
 
-const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPoses& links,
+// What is held stays in the hands of the newest pose.
+void LoadEstimator::CarryHands(const LinkPoses& from, const LinkPoses& to) {
+  for (const Side side : {kRight, kLeft}) {
+    const Pose& was = from[At(HandSegmentOf(side))];
+    const Pose& is = to[At(HandSegmentOf(side))];
+    HandForce& hand = result_.forces.hands[side];
+    for (Vector3d* const point : {&hand.point, &hand.grip}) {
+      *point =
+          is.position + is.orientation * (was.orientation.conjugate() * (*point - was.position));
+    }
+  }
+}
+
+const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPoses& newest,
                                         const LoadSubject& subject, const LoadSettings& settings,
-                                        const Measurements& measured) {
+                                        const Measurements& measured, const BodyMotion* motion) {
   const std::int64_t stamp = sample.stamp_nanos;
   BodyForces& forces = result_.forces;
   forces = BodyForces();
   forces.metric = settings.metric;
+  forces.floor_z = subject.floor_z;
   forces.stated_hand_load = {settings.hands.is_known, settings.hands.mass_kg,
                              settings.hands.both_kg};
-  if (!IsPose(links)) {
-    ForgetEverything(links, kNoPose, stamp);
+  if (!IsPose(newest)) {
+    ForgetEverything(newest, kNoPose, stamp);
     return result_;
   }
-  const MotionFilter::Output& motion = motion_.Update(sample, settings.motion);
-  forces.is_dynamic = motion.is_dynamic;
-  forces.why_static = motion.why_static;
-  contacts_.Update(sample, links, subject.skeleton, subject.floor_z, settings.contact);
+  const MotionFilter::Output& filtered = motion_.Update(sample, settings.motion);
+  forces.is_dynamic = filtered.is_dynamic;
+  forces.why_static = filtered.why_static;
+  poses_.Add(stamp, newest);
+  BodyMotion moving = filtered.motion;
+  LinkPoses links = newest;
+  if (filtered.is_dynamic && motion != nullptr) {
+    moving = *motion;
+  } else if (filtered.is_dynamic) {
+    forces.delay_secs = filtered.delay_secs;
+    links = poses_.At(stamp - static_cast<std::int64_t>(1e9 * filtered.delay_secs));
+  }
+  forces.is_zero_phase = filtered.is_dynamic && motion != nullptr;
+  forces.acceleration_is_limited = Limit(settings, moving);
+  contacts_.Update(sample, newest, subject.skeleton, subject.floor_z, settings.contact);
   hands_.Update(settings.hands, stamp);
-  const BodyDemand demand =
-      DemandOf(links, motion.motion, subject.body, settings.most_acceleration);
-  ShowBody(sample, subject, demand);
+  const BodyDemand demand = DemandOf(links, moving, subject.body, settings.most_acceleration);
+  ShowBody(sample, subject, DemandOf(newest, BodyMotion(), subject.body));
 
   ExternalForces hands;
-  hands_.Push(links, motion.motion, subject.skeleton, measured.hands, stamp, hands, forces.hands);
+  hands_.Push(links, moving, subject.skeleton, measured.hands, stamp, hands, forces.hands);
   for (const Side side : {kRight, kLeft}) {
     hand_is_lost_[side] =
         measured.hands[side] && !IsFresh(measured.hands[side]->stamp_nanos, stamp);
@@ -386,7 +428,12 @@ const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPose
                                  ? AddedMoments(loaded, stand(ExternalForces(), GroundSensors()))
                                  : MomentsOf(loaded);
   ShowLoads(rated, links, settings, measured, stamp);
-  Classify(settings, stamp);
+  CarryHands(links, newest);
+  for (JointLoad& load : result_.loads) {
+    load.position = newest[At(ChildOf(load.joint))].position;
+  }
+  CountCompression(settings);
+  ReadMeters(settings, stamp);
   return result_;
 }
 

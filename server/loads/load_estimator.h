@@ -1,5 +1,5 @@
 /// Computes all forces of one person in a scene state from the samples. One object per person; it
-/// keeps the parts with memory (filter, contacts, ramps, classes). The result depends only on the
+/// keeps the parts with memory (filter, contacts, ramps, meters). The result depends only on the
 /// samples in order and not on clocks, so live view, clips and scrubbing agree. One thread; no
 /// allocation.
 ///
@@ -20,9 +20,10 @@
 #include "server/loads/hand_loads.h"
 #include "server/loads/inverse_dynamics.h"
 #include "server/loads/joint_score.h"
-#include "server/loads/load_classifier.h"
+#include "server/loads/load_meter.h"
 #include "server/loads/load_settings.h"
 #include "server/loads/motion_filter.h"
+#include "server/loads/pose_history.h"
 
 namespace kinescope::loads {
 
@@ -46,11 +47,13 @@ struct LoadResult {
 
 class LoadEstimator {
  public:
-  /// Processes the next sample; `links` are its poses. The reference is valid until the next call.
+  /// Processes the next sample; `links` are its poses. `motion`: its derivatives, filtered without
+  /// lag (ZeroPhaseFilter); null: they are filtered here, and combined with the poses of as long
+  /// ago as the filter delays them. The reference is valid until the next call.
   /// @pre FindDefect(settings) is ""
   const LoadResult& Update(const BodySample& sample, const urdf::LinkPoses& links,
                            const LoadSubject& subject, const LoadSettings& settings,
-                           const Measurements& measured = {});
+                           const Measurements& measured = {}, const BodyMotion* motion = nullptr);
 
  private:
   void ForgetEverything(const urdf::LinkPoses& links, std::string_view why, std::int64_t stamp);
@@ -64,14 +67,17 @@ class LoadEstimator {
                  const Measurements& measured, std::int64_t stamp);
   static void ShowExternal(const ExternalJointLoad& given, const urdf::LinkPoses& links,
                            const LoadSettings& settings, std::int64_t stamp, JointLoad& load);
-  void Classify(const LoadSettings& settings, std::int64_t stamp);
+  /// The ratio of L5/S1 is that of the compression force where it is the larger one.
+  void CountCompression(const LoadSettings& settings);
+  void ReadMeters(const LoadSettings& settings, std::int64_t stamp);
+  void CarryHands(const urdf::LinkPoses& from, const urdf::LinkPoses& to);
   bool SuspectContact(bool outside, std::int64_t stamp);
 
   MotionFilter motion_;
+  PoseHistory poses_;
   FootContacts contacts_;
   HandLoads hands_;
-  std::array<LoadClassifier, urdf::kScoredJointCount> classifiers_;
-  LoadClassifier compression_;
+  std::array<LoadMeter, urdf::kScoredJointCount> meters_;
   std::optional<LoadMetric> last_metric_;
   std::array<bool, urdf::kScoredJointCount> was_external_{};  // by scored joint
   std::array<bool, 2> hand_is_lost_{};                        // its sensor stopped sending

@@ -14,7 +14,7 @@ std::string OutOf(const char* what, double value, double least, double most, con
   return fmt::format("{} {}: expected {} to {}{}", what, value, least, most, unit);
 }
 
-std::string FindDefect(const LoadClassifier::Settings& classes) {
+std::string FindDefect(const LoadMeter::Settings& classes) {
   const auto [orange, red] = classes.up;
   const auto [green, back_to_orange] = classes.down;
   const bool ordered = green > 0 && green <= orange && orange < red && back_to_orange <= red &&
@@ -30,8 +30,10 @@ std::string FindDefect(const LoadClassifier::Settings& classes) {
 
 std::string FindDefect(const LoadSettings& settings) {
   for (std::string defect :
-       {FindDefect(settings.strength), FindDefect(settings.hands), FindDefect(settings.classes),
-        OutOf("cut-off frequency of accelerations", settings.motion.cutoff_hz, 3, 10, " Hz"),
+       {FindDefect(settings.strength), FindDefect(settings.hands), FindDefect(settings.meter),
+        OutOf("cut-off frequency of accelerations", settings.motion.cutoff_hz, 1, 30, " Hz"),
+        OutOf("cut-off frequency of recorded accelerations", settings.motion.recording_cutoff_hz, 1,
+              30, " Hz"),
         OutOf("acceleration limit", settings.most_acceleration, 1, 1000, " m/s^2"),
         OutOf("ramp of foot contacts", settings.contact.ramp_secs, 0, 1, " s")}) {
     if (!defect.empty()) return defect;

@@ -10,7 +10,7 @@
 #include "server/loads/ground_reaction.h"
 #include "server/loads/hand_loads.h"
 #include "server/loads/joint_score.h"
-#include "server/loads/load_classifier.h"
+#include "server/loads/load_meter.h"
 #include "server/loads/motion_filter.h"
 
 namespace kinescope::loads {
@@ -24,8 +24,8 @@ struct LoadSettings {
   HandLoad hands;
   MotionFilter::Settings motion;
   FootContacts::Settings contact;
-  LoadClassifier::Settings classes;
-  double most_acceleration = 30;   // m/s^2, of a segment's CoM, joint-loads.md 2.3
+  LoadMeter::Settings meter;
+  double most_acceleration = 300;  // m/s^2, of a segment's CoM, more than in a kick
   bool clamp_cop = true;           // to the feet; off only for worked examples
   bool compression_counts = true;  // L5/S1 shows the higher of moment and compression
 };

@@ -11,6 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSegments = urdf::kSegmentCount;
+constexpr double kMaxOfRate = 0.4;  // of the cut-off
 
 struct Mean {
   Vector3d velocity = Vector3d::Zero(), acceleration = Vector3d::Zero();
@@ -36,6 +37,13 @@ bool HasMotion(const BodySample& sample) {
   return sum < kMax;  // also false if one of them is NaN
 }
 
+Vector3d Shortened(const Vector3d& vector, double longest) {
+  const double length = vector.norm();
+  return length > longest ? Vector3d(vector * (longest / length)) : vector;
+}
+
+}  // namespace
+
 std::string_view WhatIsMissing(const BodySample& sample) {
   if (!sample.has_linear && !sample.has_angular) return "the source sends only poses";
   if (!sample.has_linear) return "the source sends no linear accelerations";
@@ -44,17 +52,19 @@ std::string_view WhatIsMissing(const BodySample& sample) {
   return "";
 }
 
-Vector3d Shortened(const Vector3d& vector, double longest) {
-  const double length = vector.norm();
-  return length > longest ? Vector3d(vector * (longest / length)) : vector;
+double DelayOf(double step_secs, double cutoff_hz) {
+  return std::sqrt(2.0) * step_secs /
+         (2 * std::tan(M_PI * std::min(cutoff_hz * step_secs, kMaxOfRate)));
 }
 
-}  // namespace
+LowPassStep LowPassStep::OfTwoPasses(double step_secs, double cutoff_hz) {
+  static const double correction = std::pow(std::sqrt(2.0) - 1, 0.25);
+  return {step_secs, cutoff_hz, correction};
+}
 
-LowPassStep::LowPassStep(double step_secs, double cutoff_hz) {
-  constexpr double kMaxOfRate = 0.4;
+LowPassStep::LowPassStep(double step_secs, double cutoff_hz, double correction) {
   const double damping = std::sqrt(2.0);  // Butterworth
-  const double g = std::tan(M_PI * std::min(cutoff_hz * step_secs, kMaxOfRate));
+  const double g = std::tan(M_PI * std::min(cutoff_hz * step_secs, kMaxOfRate)) / correction;
   a1 = 1 / (1 + g * (g + damping));
   a2 = g * a1;
   a3 = g * a2;
@@ -169,6 +179,7 @@ const MotionFilter::Output& MotionFilter::Update(const BodySample& sample,
   if (continues && step_secs == 0) return output_;
   if (continues) {
     Filter(sample, LowPassStep(step_secs, settings.cutoff_hz));
+    output_.delay_secs = DelayOf(step_secs, settings.cutoff_hz);
     Compare(sample, step_secs);
   } else {
     Restart(sample);

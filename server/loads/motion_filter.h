@@ -21,10 +21,22 @@ namespace kinescope::loads {
 /// Coefficients of one time step for any number of low-passes. `cutoff_hz` is limited to 0.4 of the
 /// sample rate. @pre step_secs > 0
 struct LowPassStep {
-  LowPassStep(double step_secs, double cutoff_hz);
+  LowPassStep(double step_secs, double cutoff_hz) : LowPassStep(step_secs, cutoff_hz, 1) {}
+  /// Of one of two passes, which together have the gain 1/sqrt(2) at the cut-off (biomech-files.md
+  /// B.1).
+  static LowPassStep OfTwoPasses(double step_secs, double cutoff_hz);
   double a1, a2, a3;    // of the implicit step
   double rate_of_band;  // 1/s
+
+ private:
+  LowPassStep(double step_secs, double cutoff_hz, double correction);
 };
+
+/// By how much the low-pass delays slow motion, s.
+double DelayOf(double step_secs, double cutoff_hz);
+
+/// Why a sample has no motion to filter: "the source sends only poses"; "" if it has.
+std::string_view WhatIsMissing(const BodySample& sample);
 
 /// Low-pass of a vector. Starts in the steady state of its first value.
 class LowPass {
@@ -43,16 +55,18 @@ class LowPass {
 class MotionFilter {
  public:
   struct Settings {
-    bool dynamic = true;     // false: static by option
-    double cutoff_hz = 5.0;  // useful values: 3 to 10
+    bool dynamic = true;                // false: static by option
+    double cutoff_hz = 5.0;             // of a stream
+    double recording_cutoff_hz = 10.0;  // of ZeroPhaseFilter, which MotionFilter does not use
     double most_angular_acceleration =
-        150;                         // rad/s^2, joint-loads.md 2.3; longer vectors are shortened
+        1000;                        // rad/s^2, more than in a kick; longer vectors are shortened
     double longest_gap_secs = 0.25;  // the filter starts over after a longer gap
   };
 
   struct Output {
     bool is_dynamic = false;
     std::string_view why_static;  // "" while dynamic; lives as long as the program
+    double delay_secs = 0;        // of `motion`, for slow motion
     BodyMotion motion{};          // zeros while static
   };
 

@@ -21,7 +21,7 @@ void PlotBuffer::Add(const SceneState& state, double secs) {
     if (person != state.people.end()) {
       for (const JointLoad& load : person->loads) {
         if (load.joint != joints_[i]) continue;
-        point.ratio = load.ratio;
+        point.ratio = load.shown_ratio;
         point.load_class = load.load_class;
       }
     }

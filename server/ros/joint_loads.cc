@@ -24,6 +24,7 @@ void Fill(const JointLoad& load, kinescope_ros::JointLoad& out) {
   Copy(load.moment, out.moment);
   Copy(load.force, out.force);
   out.ratio = load.ratio;
+  out.shown_ratio = load.shown_ratio;
   out.load_class = static_cast<std::uint8_t>(load.load_class);
   out.channel = load.channel;
   out.channel_moment = load.deciding_moment;

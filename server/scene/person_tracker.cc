@@ -1,5 +1,7 @@
 #include "server/scene/person_tracker.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "urdf/kinematics.h"
@@ -28,7 +30,7 @@ void PersonTracker::SetCharacter(const Character& character) {
   if (!has_more_lengths && same_color) return;
   Remodel();
   if (same_body) return;
-  floor_z_.reset();  // judged by the soles, which have just moved
+  floor_.Restart();  // found by the soles, which have just moved
   worst_deviation_ = {};
 }
 
@@ -49,38 +51,59 @@ bool PersonTracker::CheckL5(const BodySample& sample) {
   return true;
 }
 
-// Without leg sensors MVN keeps the pelvis near z = 0 and hangs rigid legs below it; with them the
-// floor is z = 0.
-void PersonTracker::FindFloor(const urdf::LinkPoses& links) {
-  if (floor_z_) return;
-  constexpr double kDeepestSole = -0.3;  // m, with leg sensors
-  const double lowest = urdf::LowestSolePoint(model_->human.skeleton, links);
-  has_legs_ = lowest > kDeepestSole;
-  floor_z_ = has_legs_ ? 0.0 : lowest;
+// Without leg sensors MVN keeps the pelvis near z = 0 and hangs straight legs below it, which never
+// bend.
+bool PersonTracker::LegsHang(const urdf::LinkPoses& links) {
+  constexpr double kFarthestPelvis = 0.2, kMostBend = 2e-3;  // m, rad
+  if (std::abs(links[urdf::kPelvis].position.z()) > kFarthestPelvis) return false;
+  for (const int joint : {urdf::jRightHip, urdf::jRightKnee, urdf::jRightAnkle, urdf::jLeftHip,
+                          urdf::jLeftKnee, urdf::jLeftAnkle}) {
+    const Eigen::Quaterniond& parent = links[urdf::At(urdf::ParentOf(joint))].orientation;
+    const Eigen::Quaterniond& child = links[urdf::At(urdf::ChildOf(joint))].orientation;
+    if (!(2 * (parent.conjugate() * child).vec().norm() < kMostBend)) return false;
+  }
+  return true;
+}
+
+void PersonTracker::FindFloor(const BodySample& sample, const urdf::LinkPoses& links,
+                              std::optional<double> given) {
+  if (!has_legs_) has_legs_ = !LegsHang(links);
+  feet_.Update(sample, links, model_->human.skeleton);
+  std::array<double, 2> lowest{}, speeds{};
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const loads::FootPoint forefoot = feet_.lower_forefoot(side);
+    const bool is_heel = feet_.at(side, loads::kHeelPoint).z() < feet_.at(side, forefoot).z();
+    const loads::FootPoint point = is_heel ? loads::kHeelPoint : forefoot;
+    lowest[side] = feet_.at(side, point).z();
+    speeds[side] = feet_.speed(side, point);
+  }
+  floor_.Add(sample.stamp_nanos, lowest, speeds);
+  floor_z_ = given ? *given : has_legs_ ? floor_.height() : std::min(lowest[0], lowest[1]);
 }
 
 void PersonTracker::AddLoads(const BodySample& sample, const loads::LoadSettings& settings,
-                             const loads::Measurements& measured, PersonState& state) {
+                             const loads::Measurements& measured, const loads::BodyMotion* motion,
+                             PersonState& state) {
   const urdf::HumanModel& human = model_->human;
   const urdf::BodyDescription& body = model_->description;
   const loads::LoadResult& result =
       loads_.Update(sample, state.links,
                     {human.skeleton, human.body, body.mass_is_assumed, !body.added_masses.empty(),
                      has_legs_, *floor_z_},
-                    settings, measured);
+                    settings, measured, motion);
   state.com_is_ours = !sample.com;
   state.com = sample.com ? sample.com->position : result.forces.com_of_model;
   state.cop = result.cop;
   exposure_.Add(result.loads, sample.stamp_nanos);
   state.loads.assign(result.loads.begin(), result.loads.end());
   for (std::size_t i = 0; i < state.loads.size(); ++i) {
-    state.loads[i].class_secs = exposure_.SecsOf(i);
+    state.loads[i].band_secs = exposure_.SecsOf(i);
   }
   state.forces = result.forces;
 }
 
 void PersonTracker::Update(const BodySample& sample, const loads::LoadSettings& settings,
-                           const loads::Measurements& measured) {
+                           const loads::Measurements& measured, const Known& known) {
   const bool l5_has_moved = CheckL5(sample);
   if (person_.worn.Notice(sample) || l5_has_moved) Remodel();
   PersonState state;
@@ -94,8 +117,8 @@ void PersonTracker::Update(const BodySample& sample, const loads::LoadSettings& 
   worst_deviation_.Raise(state.deviation);
   state.worst_deviation = worst_deviation_;
   person_.worn.Follow(sample, state);
-  FindFloor(state.links);
-  AddLoads(sample, settings, measured, state);
+  FindFloor(sample, state.links, known.floor_z);
+  AddLoads(sample, settings, measured, known.motion, state);
   state_ = std::move(state);
 }
 

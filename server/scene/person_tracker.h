@@ -9,6 +9,8 @@
 
 #include "core/scene_state.h"
 #include "server/loads/exposure.h"
+#include "server/loads/floor_finder.h"
+#include "server/loads/foot_motion.h"
 #include "server/loads/load_estimator.h"
 #include "server/scene/model_factory.h"
 
@@ -22,10 +24,16 @@ class PersonTracker {
   /// Takes over name, colour and scale data; the model changes with them.
   void SetCharacter(const Character& character);
 
+  /// What is known beside the sample.
+  struct Known {
+    std::optional<double> floor_z;              // of the floor, world, m; absent: it is found
+    const loads::BodyMotion* motion = nullptr;  // filtered without lag
+  };
+
   /// Computes the state of the next sample.
   /// @pre the sample is of this person; FindDefect(settings) is ""
   void Update(const BodySample& sample, const loads::LoadSettings& settings,
-              const loads::Measurements& measured);
+              const loads::Measurements& measured, const Known& known);
 
   /// That of the newest sample; null before the first.
   const PersonState* state() const { return state_ ? &*state_ : nullptr; }
@@ -35,9 +43,12 @@ class PersonTracker {
  private:
   void Remodel();
   bool CheckL5(const BodySample& sample);
-  void FindFloor(const urdf::LinkPoses& links);
+  static bool LegsHang(const urdf::LinkPoses& links);
+  void FindFloor(const BodySample& sample, const urdf::LinkPoses& links,
+                 std::optional<double> given);
   void AddLoads(const BodySample& sample, const loads::LoadSettings& settings,
-                const loads::Measurements& measured, PersonState& state);
+                const loads::Measurements& measured, const loads::BodyMotion* motion,
+                PersonState& state);
 
   const ModelFactory& models_;
   PersonDescription person_;
@@ -46,8 +57,10 @@ class PersonTracker {
   urdf::JointAngles angles_{};
   urdf::RigidDeviation worst_deviation_;
   loads::LoadEstimator loads_;
-  loads::Exposure exposure_;
-  bool has_legs_ = true;           // false: recorded without leg sensors
+  loads::BandTimes exposure_;
+  bool has_legs_ = false;  // from the first sample on in which a leg is bent
+  loads::FootMotion feet_;
+  loads::FloorFinder floor_;
   std::optional<double> floor_z_;  // m; set with the first sample
   std::optional<PersonState> state_;
 };

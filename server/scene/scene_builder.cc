@@ -21,7 +21,7 @@ JointLoad Unknown(int joint, const Vector3d& position, std::string_view reason) 
   load.joint = joint;
   load.position = position;
   load.moment = load.force = Vector3d::Constant(kNothing);
-  load.ratio = load.deciding_moment = load.capacity = kNothing;
+  load.ratio = load.shown_ratio = load.deciding_moment = load.capacity = kNothing;
   load.reason = reason;
   return load;
 }
@@ -42,7 +42,7 @@ void SceneBuilder::SetLoads(const loads::LoadSettings& settings) {
   KINESCOPE_CHECK(loads::FindDefect(settings).empty());
   options_.loads = settings;
   options_.loads.strength.sex = options_.body.sex;
-  current_.class_limits = settings.classes.up;
+  current_.class_limits = settings.meter.up;
 }
 
 void SceneBuilder::SetMeasurements(int character, const loads::Measurements& measured) {
@@ -88,13 +88,13 @@ PersonTracker& SceneBuilder::TrackerOf(const BodySample& sample) {
   return people_.try_emplace(sample.character, models_, character, people_.size()).first->second;
 }
 
-void SceneBuilder::OnSample(const BodySample& sample) {
+void SceneBuilder::OnSample(const BodySample& sample, const loads::BodyMotion* motion) {
   const auto inputs = inputs_.find(sample.character);
   static const PersonInputs kNoInputs;
   const PersonInputs& given = inputs == inputs_.end() ? kNoInputs : inputs->second;
   loads::LoadSettings settings = options_.loads;
   if (given.hand_load) settings.hands = *given.hand_load;
-  TrackerOf(sample).Update(sample, settings, given.measured);
+  TrackerOf(sample).Update(sample, settings, given.measured, {options_.floor_z, motion});
   rate_.Add(sample);
   current_.rate_hz = rate_.hz();
   current_.stamp_nanos = sample.stamp_nanos;
@@ -136,9 +136,9 @@ void SceneBuilder::Publish(Liveness liveness) {
     if (liveness == Liveness::kLive) continue;
     constexpr std::string_view kStopped = "the stream stopped";  // old loads must not look valid
     for (JointLoad& load : scene->people.back().loads) {
-      const std::array<double, 4> class_secs = load.class_secs;
+      const std::array<double, 4> band_secs = load.band_secs;
       load = Unknown(load.joint, load.position, kStopped);
-      load.class_secs = class_secs;
+      load.band_secs = band_secs;
     }
     MakeUnknown(kStopped, scene->people.back().forces);
   }

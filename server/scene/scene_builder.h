@@ -18,15 +18,17 @@
 #include "server/scene/model_factory.h"
 #include "server/scene/person_tracker.h"
 #include "server/scene/rate_meter.h"
+#include "server/scene/sample_smoother.h"
 
 namespace kinescope::app {
 
 struct SceneOptions : ModelSettings {
-  loads::LoadSettings loads;  // with the same sex as `body`
-  double stale_secs = 0.5;    // time without samples after which the stream is stale, s
+  loads::LoadSettings loads;      // with the same sex as `body`
+  double stale_secs = 0.5;        // time without samples after which the stream is stale, s
+  std::optional<double> floor_z;  // of the floor, world, m; absent: it is found
 };
 
-class SceneBuilder : public SampleSink {
+class SceneBuilder : public SampleSink, public SmoothSampleSink {
  public:
   using OnState = std::function<void(std::shared_ptr<const SceneState>)>;
 
@@ -38,7 +40,10 @@ class SceneBuilder : public SampleSink {
   /// The body of the first person until the source sends its own segment lengths.
   std::shared_ptr<const PersonModel> InitialModel() const { return models_.Make({}, 1); }
   void OnCharacter(const Character& character) override;
-  void OnSample(const BodySample& sample) override;
+  /// Of a stream: its motion is filtered with the samples so far.
+  void OnSample(const BodySample& sample) override { OnSample(sample, nullptr); }
+  /// Of a recording: `motion` is filtered without lag; null: as of a stream.
+  void OnSample(const BodySample& sample, const loads::BodyMotion* motion) override;
   void OnObjects(const ObjectsSample& sample) override;
 
   /// Valid from the next sample on. @pre FindDefect(settings) is ""

@@ -15,7 +15,7 @@ constexpr double kMaxClassLimit = 5;  // of capacity; more is no limit
 
 }  // namespace
 
-ClassLimitsValue::ClassLimitsValue() : ValueOf(loads::LoadClassifier::Settings().up) {}
+ClassLimitsValue::ClassLimitsValue() : ValueOf(loads::LoadMeter::Settings().up) {}
 
 void ClassLimitsValue::Parse(const std::string& text) {
   const auto up = options::ParseNumbers(text);
@@ -60,8 +60,10 @@ LoadOptions::LoadOptions()
                    {"external", LoadMetric::kExternal}},
                   loads::LoadSettings().metric),
       load_mode({{"dynamic", true}, {"static", false}}, true),
-      filter_hz(loads::MotionFilter::Settings().cutoff_hz, {3, 10, "Hz"}),
-      lumbar_compression(true) {}
+      filter_hz(options::Number(loads::MotionFilter::Settings().cutoff_hz, {1, 30, "Hz"})),
+      lumbar_compression(true),
+      shown({{"held", false}, {"momentary", true}}, false),
+      floor_z(options::Number(0, {-1000, 1000, "m"})) {}
 
 void LoadOptions::List(options::OptionList& option) {
   option.Group("Joint loads");
@@ -77,9 +79,19 @@ void LoadOptions::List(options::OptionList& option) {
          "shares of the capacity above which a rising load is medium (orange) and high (red)");
   option("hand_load", hand_load, "loads in the hands; none: known to be empty; not given: unknown");
   option.Formerly("hand");
-  option("filter_hz", filter_hz, "cut-off frequency of the low-pass filter of accelerations");
+  option(
+      "filter_hz", filter_hz,
+      "cut-off frequency of the low-pass filter of accelerations; not given: 10 Hz for recordings "
+      "(without lag) and 5 Hz for streams");
   option("lumbar_compression", lumbar_compression,
          "on: L5/S1 shows the larger of moment and compression; off: the moment");
+  option(
+      "shown", shown,
+      "ratio behind number, colour, size and order: held (rises at once, holds a peak for 0.3 s, "
+      "then falls) or momentary (of each sample, for stills and fast motion)");
+  option(
+      "floor_z", floor_z,
+      "height of the floor in the source's world; not given: the lowest level on which feet rest");
 }
 
 options::Number StaleSecs() { return {SceneOptions().stale_secs, {0.05, 60, "s"}}; }
@@ -90,9 +102,12 @@ loads::LoadSettings ToLoadSettings(const LoadOptions& loads) {
   settings.strength.percentile = *loads.capacity_percentile;
   settings.metric = *loads.load_metric;
   settings.motion.dynamic = *loads.load_mode;
-  settings.classes = loads::LoadClassifier::WithLimits(*loads.class_limits);
+  settings.meter = loads::LoadMeter::WithLimits(*loads.class_limits);
+  settings.meter.is_momentary = *loads.shown;
   settings.hands = *loads.hand_load;
-  settings.motion.cutoff_hz = *loads.filter_hz;
+  if (loads.filter_hz) {
+    settings.motion.cutoff_hz = settings.motion.recording_cutoff_hz = *loads.filter_hz;
+  }
   settings.compression_counts = *loads.lumbar_compression;
   KINESCOPE_CHECK(loads::FindDefect(settings).empty());
   return settings;
@@ -103,6 +118,7 @@ SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& load
   SceneOptions scene;
   scene.model_name = *person.model_name;
   scene.body = ToBody(person);
+  if (loads.floor_z) scene.floor_z = *loads.floor_z;
   scene.loads = ToLoadSettings(loads);
   scene.height_is_assumed = !person.height;
   scene.height_m = person.height.value_or(scene.height_m);

@@ -46,8 +46,10 @@ struct LoadOptions {
   options::Choice<bool> load_mode;  // true: dynamic
   ClassLimitsValue class_limits;
   HandLoadValue hand_load;
-  options::Number filter_hz;
+  options::Optional<options::Number> filter_hz;
   options::Switch lumbar_compression;
+  options::Choice<bool> shown;  // true: momentary
+  options::Optional<options::Number> floor_z;
 
   void List(options::OptionList& option);
 };

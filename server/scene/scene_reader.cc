@@ -14,9 +14,9 @@ namespace kinescope::app {
 SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
     : url_(url),
       source_(OpenSource(url)),
-      builder_(
-          options, url, source_->nominal_rate_hz(),
-          [this](const std::shared_ptr<const SceneState>& state) { ready_.push_back(state); }) {
+      builder_(options, url, source_->nominal_rate_hz(),
+               [this](const std::shared_ptr<const SceneState>& state) { ready_.push_back(state); }),
+      smoother_(options.loads.motion.recording_cutoff_hz, builder_) {
   if (source_->is_live()) {
     throw UsageError("source '" + url +
                      "': this command cannot read a live stream; record the stream first "
@@ -29,7 +29,8 @@ SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
 
 std::shared_ptr<const SceneState> SceneReader::Next() {
   while (ready_.empty() && !ended_) {
-    ended_ = source_->Poll(std::chrono::milliseconds(0), builder_) == Source::State::kEnded;
+    ended_ = source_->Poll(std::chrono::milliseconds(0), smoother_) == Source::State::kEnded;
+    if (ended_) smoother_.End();
   }
   if (ready_.empty()) return nullptr;
   auto state = std::move(ready_.front());

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/source.h"
+#include "server/scene/sample_smoother.h"
 #include "server/scene/scene_builder.h"
 
 namespace kinescope::app {
@@ -18,6 +19,7 @@ namespace kinescope::app {
 /// longer than any recording and far below the range of nanoseconds in 64 bits.
 inline constexpr double kLatestSecs = 864'000;
 
+/// The motion of recordings is filtered without lag, up to two seconds ahead of the state.
 class SceneReader {
  public:
   /// @throws SourceError; UsageError for a live source, which has neither an end nor sample numbers
@@ -41,6 +43,7 @@ class SceneReader {
   std::deque<std::shared_ptr<const SceneState>> ready_;
   std::shared_ptr<const SceneState> empty_;
   SceneBuilder builder_;
+  SampleSmoother smoother_;
   bool ended_ = false;
 };
 

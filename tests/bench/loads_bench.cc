@@ -41,7 +41,7 @@ void Run(benchmark::State& run, LoadMetric metric) {
   settings.hands.mass_kg = {5, 2};
   settings.hands.both_kg = 3;
   LoadEstimator estimator;
-  Exposure exposure;
+  BandTimes exposure;
   std::size_t next = 0;
   std::int64_t stamp = 0;
   for (auto _ : run) {

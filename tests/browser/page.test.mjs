@@ -87,7 +87,7 @@ test('the highest loads are listed first, as words and numbers', async () => {
   assert.deepEqual(new Set(ranks).size, 4, 'the made-up person has every class');
   assert.equal(rows[0].label, 'L5/S1');
   assert.match(rows[0].ratio, /^\d+ %$/);
-  assert.match(rows[0].note, /^\d+ of 40 N·m, flexion$/);
+  assert.match(rows[0].note, /^now \d+ of 40 N·m, flexion$/);
   assert.deepEqual(rows.at(-1),
     { label: 'Left ankle', word: 'unknown', ratio: '–', note: 'left foot is not on the floor' });
   await close();

@@ -56,7 +56,8 @@ void CheckLoads(const LoadResult& result) {
       KINESCOPE_CHECK(!load.reason.empty());
     } else {
       KINESCOPE_CHECK(std::isfinite(load.ratio) && load.ratio >= 0);
-      KINESCOPE_CHECK(load.capacity > 0);
+      KINESCOPE_CHECK(load.is_of_compression || load.capacity > 0);
+      KINESCOPE_CHECK(load.shown_ratio >= 0 && load.band != LoadClass::kUnknown);
     }
   }
   for (const JointForce& joint : result.forces.joints) {

@@ -78,7 +78,7 @@ double RatioOf(LoadClass load_class) {
 
 void SetClass(JointLoad& load, LoadClass load_class) {
   load.load_class = load_class;
-  load.ratio = RatioOf(load_class);
+  load.ratio = load.shown_ratio = RatioOf(load_class);
 }
 
 }  // namespace

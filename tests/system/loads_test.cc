@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -21,6 +23,7 @@
 namespace kinescope {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::CsvTable;
 using testing::ExpectRefusal;
 using ::testing::HasSubstr;
@@ -115,9 +118,51 @@ TEST(LoadsCommand, WritesExposureAndAssumptionsAsJson) {
   for (const auto& joint : person["exposure"]) {
     double sum = 0;
     for (const auto& [name, secs] : joint["seconds"].items()) sum += secs.get<double>();
-    EXPECT_NEAR(sum, 2, 1e-6) << joint["joint"];
-    EXPECT_LE(joint["p10"], joint["p90"]);
-    EXPECT_LE(joint["p90"].get<double>(), joint["peak_ratio"].get<double>() + 0.0026);
+    EXPECT_NEAR(sum, 241 / 120.0, 1e-5) << joint["joint"];
+  }
+}
+
+// Exposure is what anybody counts in the samples that stand beside it.
+TEST(LoadsCommand, ReportsTheExposureThatItsSamplesHave) {
+  std::vector<std::vector<std::string>> trials = {
+      {"demo:walk", "--seconds", "8"},
+      {"demo:lift", "--seconds", "8", "--hand_load", "both:10"},
+      {"demo:lift", "--seconds", "4", "--class_limits", "0.1,0.2", "--shown", "momentary"}};
+  const std::string recording = SharedData("mvnx/test_mocap.mvnx");
+  if (fs::exists(recording)) trials.push_back({recording});
+  for (std::vector<std::string> arguments : trials) {
+    arguments.insert(arguments.end(), {"--json", "-"});
+    const auto json = nlohmann::json::parse(Loads(arguments).out);
+    const auto columns = json["columns"].get<std::vector<std::string>>();
+    for (const auto& joint : json["people"].at(0)["exposure"]) {
+      const std::string name = joint["joint"].get<std::string>() + "_ratio";
+      const auto column = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) -
+                                                   columns.begin());
+      ASSERT_LT(column, columns.size()) << name;
+      const std::array<double, 2> limits = {joint["above"][0]["limit"], joint["above"][1]["limit"]};
+      std::vector<double> ratios;
+      std::array<std::uint64_t, 4> counts{};
+      for (const auto& sample : json["samples"]) {
+        const bool is_known = !sample[column].is_null();
+        const double ratio = is_known ? sample[column].get<double>() : 0;
+        if (is_known) ratios.push_back(ratio);
+        ++counts[!is_known ? 0 : ratio <= limits[0] ? 1 : ratio <= limits[1] ? 2 : 3];
+      }
+      const std::string trial = arguments.front() + " " + name;
+      EXPECT_EQ(joint["samples"]["unknown"], counts[0]) << trial;
+      EXPECT_EQ(joint["samples"]["low"], counts[1]) << trial;
+      EXPECT_EQ(joint["samples"]["medium"], counts[2]) << trial;
+      EXPECT_EQ(joint["samples"]["high"], counts[3]) << trial;
+      if (ratios.empty()) continue;
+      std::sort(ratios.begin(), ratios.end());
+      const auto rank = [&](std::size_t percent) {
+        return ratios[(percent * ratios.size() + 99) / 100 - 1];
+      };
+      EXPECT_EQ(joint["p10"], rank(10)) << trial;
+      EXPECT_EQ(joint["p50"], rank(50)) << trial;
+      EXPECT_EQ(joint["p90"], rank(90)) << trial;
+      EXPECT_EQ(joint["peak_ratio"], ratios.back()) << trial;
+    }
   }
 }
 

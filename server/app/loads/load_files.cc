@@ -47,10 +47,9 @@ class Output {
   std::string buffer_;
 };
 
-// Seven digits: more than any of these is true to; times need microseconds of hours.
-std::string FormatNumber(const std::string& name, double value) {
-  if (!std::isfinite(value)) return "";
-  return name == "time_s" ? fmt::format("{:.6f}", value) : fmt::format("{:.7g}", value);
+// The shortest text that reads back as the same number, so that others can count what we counted.
+std::string FormatNumber(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "";
 }
 
 class CsvNames : public CellSink {
@@ -73,7 +72,7 @@ class CsvNames : public CellSink {
 class CsvValues : public CellSink {
  public:
   explicit CsvValues(std::string& line) : line_(line) {}
-  void Number(const std::string& name, double value) override { Push(FormatNumber(name, value)); }
+  void Number(const std::string&, double value) override { Push(FormatNumber(value)); }
   void Whole(const std::string&, long long value) override { Push(std::to_string(value)); }
   void Text(const std::string&, std::string_view value) override {
     if (value.find_first_of(",\"\r\n") == std::string_view::npos) return Push(value);
@@ -136,8 +135,8 @@ class JsonNames : public CellSink {
 class JsonValues : public CellSink {
  public:
   explicit JsonValues(std::string& line) : line_(line) {}
-  void Number(const std::string& name, double value) override {
-    const std::string text = FormatNumber(name, value);
+  void Number(const std::string&, double value) override {
+    const std::string text = FormatNumber(value);
     Push(text.empty() ? "null" : text);
   }
   void Whole(const std::string&, long long value) override { Push(std::to_string(value)); }

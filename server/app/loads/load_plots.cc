@@ -73,7 +73,7 @@ std::vector<render::PlotClassInterval> ClassTimelineOf(const LoadTrial& trial, s
     const double next = i + 1 < samples.size() ? trial.SecsOf(samples[i + 1].stamp_nanos) : from;
     if (next < from) continue;
     const double to = std::min(next, from + loads::kLongestGapSecs);
-    add(from, to, samples[i].joints[joint].load_class);
+    add(from, to, samples[i].joints[joint].band);
     if (to < next) add(to, next, LoadClass::kUnknown);
   }
   return timeline;
@@ -82,7 +82,7 @@ std::vector<render::PlotClassInterval> ClassTimelineOf(const LoadTrial& trial, s
 void SetRatio(const LoadTrial& trial, const TrialContext& context, std::size_t joint,
               PlotPanel& panel) {
   SetTime(trial, panel);
-  const auto& up = context.scene.loads.classes.up;
+  const auto& up = context.scene.loads.meter.up;
   constexpr double kEnd = 1e9;
   panel.bands = {{0, up[0], Tint(LoadClass::kLow), fmt::format("low ≤ {:.2f}", up[0])},
                  {up[0], up[1], Tint(LoadClass::kMedium), "medium"},
@@ -92,7 +92,7 @@ void SetRatio(const LoadTrial& trial, const TrialContext& context, std::size_t j
   curve.color = kInk;
   curve.points = CurveOf(trial, [joint](const TrialSample& sample) {
     const TrialSample::Joint& of = sample.joints[joint];
-    return of.load_class == LoadClass::kUnknown ? kNoValue : static_cast<double>(of.ratio);
+    return of.band == LoadClass::kUnknown ? kNoValue : static_cast<double>(of.ratio);
   });
   panel.curves = {std::move(curve)};
   panel.class_timeline = ClassTimelineOf(trial, joint);
@@ -104,7 +104,7 @@ void SetRatio(const LoadTrial& trial, const TrialContext& context, std::size_t j
 
 // The limits, and room above the highest of the curves.
 double RatioTop(double peak, const TrialContext& context) {
-  const double least = 1.25 * context.scene.loads.classes.up[1];
+  const double least = 1.25 * context.scene.loads.meter.up[1];
   return std::isfinite(peak) ? std::max(least, 1.1 * peak) : least;
 }
 

@@ -102,15 +102,15 @@ std::string CaptionHtml(const LoadTrial& trial, const WorstMoment& moment,
   const JointLoad& load = person.loads[moment.joint];
   const std::string head = fmt::format(
       "<b>{:.2f} s</b> {}: ", trial.SecsOf(person.sample.stamp_nanos), ScoredLabel(moment.joint));
-  if (moment.by_compression) {
+  if (load.is_of_compression) {
     return head + fmt::format("{:.0f} N compression ({})", person.forces.lumbar->compression,
-                              Name(load.load_class));
+                              Name(load.band));
   }
   const std::string of =
       std::isfinite(load.capacity)
           ? fmt::format(", {:.0f} of {:.0f} N·m", std::abs(load.deciding_moment), load.capacity)
           : "";
-  return head + fmt::format("{:.2f} ({}), {}{}", load.ratio, Name(load.load_class),
+  return head + fmt::format("{:.2f} ({}), {}{}", load.ratio, Name(load.band),
                             EscapeHtml(load.channel), of);
 }
 
@@ -158,40 +158,47 @@ std::string MomentsHtml(const LoadTrial& trial, render::Renderer& renderer) {
   return html + "</div>\n";
 }
 
-std::string BarHtml(const loads::JointExposure& exposure, double all) {
+double PercentIn(LoadClass band, const loads::JointExposure& exposure, std::uint64_t all) {
+  const auto samples = static_cast<double>(exposure.samples[static_cast<std::size_t>(band)]);
+  return 100 * samples / static_cast<double>(all);
+}
+
+std::string BarHtml(const loads::JointExposure& exposure, std::uint64_t all) {
   std::string bar = "<div class=\"bar\">";
-  for (const LoadClass load_class : kLoadClassesOfTables) {
-    const double secs = exposure.secs[static_cast<std::size_t>(load_class)];
-    if (secs <= 0) continue;
-    bar += fmt::format("<i class=\"{}\" style=\"width:{:.2f}%\"></i>", Name(load_class),
-                       100 * secs / all);
+  for (const LoadClass band : kLoadClassesOfTables) {
+    const double percent = PercentIn(band, exposure, all);
+    if (percent <= 0) continue;
+    bar += fmt::format("<i class=\"{}\" style=\"width:{:.2f}%\"></i>", Name(band), percent);
   }
   return bar + "</div>";
 }
 
 std::string ExposureHtml(const LoadTrial& trial) {
-  std::string html = "<table>\n<tr><th>joint</th><th class=\"text\">time in each class</th>";
+  std::string html = "<table>\n<tr><th>joint</th><th class=\"text\">share of samples</th>";
   for (const LoadClass load_class : kLoadClassesOfTables) {
     html += fmt::format("<th>{} %</th>", Name(load_class));
   }
   html +=
-      "<th>P10</th><th>P50</th><th>P90</th><th>peak</th><th>at (s)</th>"
-      "<th class=\"text\">direction (N·m)</th></tr>\n";
-  const double all = trial.secs();
+      "<th>P10</th><th>P50</th><th>P90</th><th>peak</th><th>at (s)</th><th>longest (s)</th>"
+      "<th>rises</th><th class=\"text\">direction (N·m)</th></tr>\n";
+  const std::uint64_t all = trial.samples();
   for (std::size_t i = 0; i < urdf::kScoredJoints.size(); ++i) {
     const loads::JointExposure of = trial.exposure().Of(i);
     html +=
         fmt::format("<tr><td>{}</td><td class=\"text\">{}</td>", ScoredLabel(i), BarHtml(of, all));
-    for (const LoadClass load_class : kLoadClassesOfTables) {
-      const double secs = of.secs[static_cast<std::size_t>(load_class)];
-      html += fmt::format("<td>{}</td>", all > 0 ? Number(100 * secs / all, 1) : "–");
+    const std::uint64_t known = all - of.samples[static_cast<std::size_t>(LoadClass::kUnknown)];
+    for (const LoadClass band : kLoadClassesOfTables) {
+      const bool is_known = band != LoadClass::kUnknown;
+      html += fmt::format("<td>{}</td>", Number(PercentIn(band, of, is_known ? known : all), 1));
     }
     const bool has_peak = std::isfinite(of.peak_ratio);
     html += fmt::format(
-        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td "
+        "<td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td "
         "class=\"text\">{}{}</td></tr>\n",
         Number(of.p10, 2), Number(of.p50, 2), Number(of.p90, 2), Number(of.peak_ratio, 2),
         has_peak ? Number(trial.SecsOf(of.peak_stamp_nanos), 2) : "–",
+        has_peak ? Number(of.above[1].longest_secs, 2) : "–",
+        has_peak ? std::to_string(of.above[1].rises) : "–",
         has_peak ? EscapeHtml(of.peak_channel) : "–",
         has_peak && std::isfinite(of.peak_moment)
             ? fmt::format(", {:.1f} of {:.1f}", std::abs(of.peak_moment), of.peak_capacity)
@@ -201,12 +208,14 @@ std::string ExposureHtml(const LoadTrial& trial) {
 }
 
 std::string LegendHtml(const TrialContext& context) {
-  const auto& up = context.scene.loads.classes.up;
+  const auto& up = context.scene.loads.meter.up;
   return fmt::format(
-      "<p class=\"sub\"><i class=\"key low\"></i>low, ratio up to {:.2f}"
-      "<i class=\"key medium\"></i>medium<i class=\"key high\"></i>high, above {:.2f}"
-      "<i class=\"key unknown\"></i>unknown. Classes follow the ratio with hysteresis and dwell "
-      "time; L5/S1 shows the higher class of moment and compression{}.</p>\n",
+      "<p class=\"sub\"><i class=\"key low\"></i>low, ratio up to {0:.2f}"
+      "<i class=\"key medium\"></i>medium<i class=\"key high\"></i>high, above {1:.2f}"
+      "<i class=\"key unknown\"></i>unknown (of all samples; the others of those known). Longest "
+      "time above {1:.2f}, and rises above it. "
+      "L5/S1: "
+      "the larger ratio of moment and compression{2}.</p>\n",
       up[0], up[1],
       context.scene.loads.compression_counts ? "" : " (compression is switched off here)");
 }

@@ -64,6 +64,9 @@ void VisitBody(const PersonState& person, CellSink& cells) {
   cells.Text("metric_reason", forces.why_other_metric);
   cells.Whole("is_dynamic", forces.is_dynamic ? 1 : 0);
   cells.Text("static_reason", forces.why_static);
+  cells.Text("filter", !forces.is_dynamic ? "" : forces.is_zero_phase ? "zero-phase" : "causal");
+  cells.Number("delay_s", forces.delay_secs);
+  cells.Number("floor_z_m", forces.floor_z);
   Vector("com", "m", forces.com_of_model, cells);
   Vector("com_minus_mvn", "m", forces.com_minus_mvn.value_or(kNowhere), cells);
   Vector("ground_force", "N", forces.why_no_ground.empty() ? forces.ground_force : kNowhere, cells);
@@ -88,6 +91,7 @@ void VisitJoint(const PersonState& person, std::size_t index, const std::string&
   const Eigen::Quaterniond parent_from_world =
       person.links[urdf::At(urdf::ParentOf(load.joint))].orientation.conjugate();
   cells.Number(prefix + "ratio", load.ratio);
+  cells.Number(prefix + "shown_ratio", load.shown_ratio);
   cells.Text(prefix + "class", Name(load.load_class));
   cells.Text(prefix + "channel", load.channel);
   cells.Number(prefix + "channel_moment_Nm", load.deciding_moment);

@@ -123,7 +123,9 @@ std::string StatureText(const PersonModel& model) {
 JointSummary JointOf(const LoadTrial& trial, std::size_t joint) {
   const loads::JointExposure exposure = trial.exposure().Of(joint);
   JointSummary summary;
+  summary.samples = exposure.samples;
   summary.secs = exposure.secs;
+  summary.above = exposure.above;
   summary.p10 = exposure.p10;
   summary.p50 = exposure.p50;
   summary.p90 = exposure.p90;
@@ -165,10 +167,15 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
   facts.push_back(
       {"load metric", MetricText(trial.newest().forces.metric, settings.strength), false});
   facts.push_back({"load mode",
-                   IsStatic(trial, settings) ? "static"
-                                             : fmt::format("dynamic, accelerations below {:g} Hz",
-                                                           settings.motion.cutoff_hz),
+                   IsStatic(trial, settings)
+                       ? "static"
+                       : fmt::format("dynamic, accelerations below {:g} Hz, zero-phase",
+                                     settings.motion.recording_cutoff_hz),
                    false});
+  facts.push_back(
+      {"floor",
+       fmt::format("z = {:.3f} m{}", trial.floor_z(), context.scene.floor_z ? "" : " (found)"),
+       false});
   return facts;
 }
 
@@ -176,6 +183,13 @@ std::vector<std::string> NotesOf(const LoadTrial& trial, const TrialContext& con
   std::vector<std::string> notes;
   NoteAssumed(FactsOf(trial, context), notes);
   NoteTimes("Static (without accelerations)", trial.why_static(), trial.secs(), notes);
+  if (trial.limited_secs() > 0) {
+    const loads::LoadSettings& settings = context.scene.loads;
+    notes.push_back(fmt::format(
+        "Accelerations above {:g} m/s² or {:g} rad/s² were limited for {:.2f} s ({:.1f} %).",
+        settings.most_acceleration, settings.motion.most_angular_acceleration, trial.limited_secs(),
+        100 * Share(trial.limited_secs(), trial.secs())));
+  }
   NoteTimes("Load metric differs from the requested one", trial.why_other_metric(), trial.secs(),
             notes);
   NoteUnknown(trial, notes);
@@ -193,6 +207,7 @@ TrialSummary SummaryOf(const LoadTrial& trial, const TrialContext& context) {
   summary.name = person.name;
   summary.samples = trial.samples();
   summary.secs = trial.secs();
+  summary.limits = context.scene.loads.meter.up;
   summary.mass_kg = person.model->description.mass_kg;
   summary.mass_with_added_kg = urdf::TotalMass(person.model->human.body);
   summary.height_m = person.model->human.skeleton.height;

@@ -48,9 +48,11 @@ struct JointSummary {
     std::string_view channel;
     double moment = 0, capacity = 0;  // N·m; NaN: unknown
   };
-  std::array<double, 4> secs{};      // by LoadClass
-  double p10 = 0, p50 = 0, p90 = 0;  // of the ratio; NaN: always unknown
-  std::optional<PeakRatio> peak;     // absent: always unknown
+  std::array<std::uint64_t, kLoadClassCount> samples{};  // by band
+  std::array<double, kLoadClassCount> secs{};            // by band
+  double p10 = 0, p50 = 0, p90 = 0;                      // of the ratio; NaN: always unknown
+  std::array<loads::AboveLimit, 2> above;                // by class limit
+  std::optional<PeakRatio> peak;                         // absent: always unknown
   SecsByReason why_unknown;
 };
 
@@ -67,6 +69,7 @@ struct TrialSummary {
   std::string name;  // "": unknown
   std::uint64_t samples = 0;
   double secs = 0;
+  std::array<double, 2> limits{};  // of the classes
   double mass_kg = 0, mass_with_added_kg = 0, height_m = 0;
   std::vector<Fact> facts;
   std::array<JointSummary, urdf::kScoredJointCount> joints;  // in the order of kScoredJoints

@@ -23,30 +23,50 @@ std::string DirectionText(const JointSummary::PeakRatio& peak) {
   return fmt::format("{} {:.1f} of {:.1f} N·m", peak.channel, std::abs(peak.moment), peak.capacity);
 }
 
-std::string JointLine(std::string_view label, const JointSummary& joint, double all) {
-  const auto percent = [&](LoadClass load_class) {
-    const double secs = joint.secs[static_cast<std::size_t>(load_class)];
-    return fmt::format("{:.0f} %", all > 0 ? 100 * (secs / all) : 0.0);
-  };
-  return fmt::format("{:<15}{:>7}{:>8}{:>7}{:>9}{:>8}{:>6}{:>6}{:>7}{:>9}  {}\n", label,
-                     percent(LoadClass::kLow), percent(LoadClass::kMedium),
-                     percent(LoadClass::kHigh), percent(LoadClass::kUnknown), RatioText(joint.p10),
-                     RatioText(joint.p50), RatioText(joint.p90),
-                     joint.peak ? RatioText(joint.peak->ratio) : "-",
-                     joint.peak ? fmt::format("{:.2f} s", joint.peak->at_secs) : "-",
-                     joint.peak ? DirectionText(*joint.peak) : "");
+std::string ShareText(std::uint64_t part, std::uint64_t all) {
+  if (all == 0) return "-";
+  return fmt::format("{:.1f} %", 100 * static_cast<double>(part) / static_cast<double>(all));
 }
 
-json JointJson(std::string_view name, const JointSummary& joint) {
-  json secs = json::object(), why = json::object();
+std::string JointLine(std::string_view label, const JointSummary& joint, std::uint64_t all) {
+  const std::uint64_t unknown = joint.samples[static_cast<std::size_t>(LoadClass::kUnknown)];
+  const auto percent = [&](LoadClass band) {
+    const std::uint64_t samples = joint.samples[static_cast<std::size_t>(band)];
+    return ShareText(samples, band == LoadClass::kUnknown ? all : all - unknown);
+  };
+  const loads::AboveLimit& high = joint.above[1];
+  return fmt::format(
+      "{:<15}{:>8}{:>8}{:>8}{:>8}{:>7}{:>6}{:>6}{:>7}{:>9}{:>9}{:>6}  {}\n", label,
+      percent(LoadClass::kLow), percent(LoadClass::kMedium), percent(LoadClass::kHigh),
+      percent(LoadClass::kUnknown), RatioText(joint.p10), RatioText(joint.p50),
+      RatioText(joint.p90), joint.peak ? RatioText(joint.peak->ratio) : "-",
+      joint.peak ? fmt::format("{:.2f} s", joint.peak->at_secs) : "-",
+      joint.peak ? fmt::format("{:.2f} s", high.longest_secs) : "-",
+      joint.peak ? std::to_string(high.rises) : "-", joint.peak ? DirectionText(*joint.peak) : "");
+}
+
+json JointJson(std::string_view name, const JointSummary& joint,
+               const std::array<double, 2>& limits) {
+  json secs = json::object(), samples = json::object(), why = json::object();
   for (std::size_t i = 0; i < joint.secs.size(); ++i) {
-    secs[kinescope::Name(static_cast<LoadClass>(i))] = joint.secs[i];
+    const char* const band = kinescope::Name(static_cast<LoadClass>(i));
+    secs[band] = joint.secs[i];
+    samples[band] = joint.samples[i];
   }
   for (const auto& [reason, reason_secs] : joint.why_unknown) {
     why[std::string(reason)] = reason_secs;
   }
+  json above = json::array();
+  for (std::size_t i = 0; i < joint.above.size(); ++i) {
+    above.push_back({{"limit", limits[i]},
+                     {"longest_s", joint.above[i].longest_secs},
+                     {"rises", joint.above[i].rises},
+                     {"rises_per_min", NumberOrNull(joint.above[i].rises_per_min)}});
+  }
   json out = {{"joint", name},
+              {"samples", samples},
               {"seconds", secs},
+              {"above", above},
               {"p10", NumberOrNull(joint.p10)},
               {"p50", NumberOrNull(joint.p50)},
               {"p90", NumberOrNull(joint.p90)},
@@ -79,11 +99,16 @@ std::string SummaryText(const TrialSummary& summary) {
     text +=
         fmt::format("  {:<14} {}{}\n", fact.label, fact.value, fact.is_assumed ? " (assumed)" : "");
   }
-  text += fmt::format("\n{:<15}{:>7}{:>8}{:>7}{:>9}{:>8}{:>6}{:>6}{:>7}{:>9}  {}\n", "joint", "low",
-                      "medium", "high", "unknown", "p10", "p50", "p90", "peak", "at", "direction");
+  text += fmt::format("\n{:<15}{:>8}{:>8}{:>8}{:>8}{:>7}{:>6}{:>6}{:>7}{:>9}{:>9}{:>6}  {}\n",
+                      "joint", "low", "medium", "high", "unknown", "p10", "p50", "p90", "peak",
+                      "at", "longest", "rises", "direction");
   for (std::size_t i = 0; i < summary.joints.size(); ++i) {
-    text += JointLine(ScoredLabel(i), summary.joints[i], summary.secs);
+    text += JointLine(ScoredLabel(i), summary.joints[i], summary.samples);
   }
+  text += fmt::format(
+      "Shares of the samples in which the load is known, with a ratio up to {0:g}, up to {1:g} and "
+      "above; longest: longest time above {1:g}; rises: how often the ratio rose above it.\n",
+      summary.limits[0], summary.limits[1]);
   if (!summary.notes.empty()) text += '\n';
   for (const std::string& note : summary.notes) text += note + '\n';
   return text;
@@ -95,7 +120,7 @@ json SummaryJson(const TrialSummary& summary) {
     facts.push_back({{"name", fact.label}, {"value", fact.value}, {"is_assumed", fact.is_assumed}});
   }
   for (std::size_t i = 0; i < summary.joints.size(); ++i) {
-    exposure.push_back(JointJson(ScoredName(i), summary.joints[i]));
+    exposure.push_back(JointJson(ScoredName(i), summary.joints[i], summary.limits));
   }
   return {{"person", summary.character},
           {"name", summary.name},

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "core/system/check.h"
 #include "core/system/clocks.h"
-#include "server/loads/gap.h"
 #include "server/loads/joint_score.h"
 
 namespace kinescope::app {
@@ -21,10 +19,6 @@ void Count(std::string_view why, double secs, SecsByReason& reasons) {
 
 }  // namespace
 
-bool IsWorse(const WorstMoment& a, const WorstMoment& b) {
-  return std::tie(a.load_class, a.severity) > std::tie(b.load_class, b.severity);
-}
-
 void Peak::Add(double value, std::int64_t stamp_nanos) {
   sum += value;
   if (count++ > 0 && value <= most) return;
@@ -34,11 +28,8 @@ void Peak::Add(double value, std::int64_t stamp_nanos) {
 
 void LoadTrial::Add(const std::shared_ptr<const SceneState>& scene, const PersonState& person) {
   const std::int64_t stamp = person.sample.stamp_nanos;
-  if (newest_ != nullptr) {
-    const double step = Secs(stamp - newest_->sample.stamp_nanos);
-    if (step > 0) CountTime(*newest_, std::min(step, loads::kLongestGapSecs));
-  }
-  exposure_.Add(person.loads, stamp);
+  const double secs_of_last = exposure_.Add(person.loads, stamp);
+  if (newest_ != nullptr) CountTime(*newest_, secs_of_last);
   const BodyForces& forces = person.forces;
   if (forces.com_minus_mvn) com_minus_mvn_.Add(forces.com_minus_mvn->norm(), stamp);
   if (forces.lumbar) {
@@ -52,6 +43,11 @@ void LoadTrial::Add(const std::shared_ptr<const SceneState>& scene, const Person
   ++samples_;
 }
 
+void LoadTrial::Finish() {
+  const double secs_of_last = exposure_.Finish();
+  if (newest_ != nullptr) CountTime(*newest_, secs_of_last);
+}
+
 double LoadTrial::SecsOf(std::int64_t stamp_nanos) const {
   return Secs(stamp_nanos - begin_nanos_);
 }
@@ -61,9 +57,14 @@ const PersonState& LoadTrial::newest() const {
   return *newest_;
 }
 
+double LoadTrial::floor_z() const {
+  KINESCOPE_CHECK(scene_ != nullptr);
+  return scene_->floor_z;
+}
+
 bool LoadTrial::knows_anything() const {
   for (std::size_t i = 0; i < urdf::kScoredJoints.size(); ++i) {
-    if (std::isfinite(exposure_.Of(i).peak_ratio)) return true;
+    if (exposure_.IsEverKnown(i)) return true;
   }
   return false;
 }
@@ -77,6 +78,7 @@ void LoadTrial::CountTime(const PersonState& last, double secs) {
   Count(forces.why_other_metric, secs, why_other_metric_);
   Count(forces.why_no_ground, secs, why_no_ground_);
   if (forces.com_disagrees) com_disagrees_secs_ += secs;
+  if (forces.acceleration_is_limited) limited_secs_ += secs;
   if (!forces.lumbar) return;
   if (forces.lumbar->compression > loads::kCompressionLimits[0]) compression_secs_[0] += secs;
   if (forces.lumbar->compression > loads::kCompressionLimits[1]) compression_secs_[1] += secs;
@@ -92,31 +94,24 @@ void LoadTrial::KeepCurve(const PersonState& person) {
     const Eigen::Quaterniond& world_from_parent =
         person.links[urdf::At(urdf::ParentOf(load.joint))].orientation;
     kept.joints[i] = {static_cast<float>(load.ratio),
-                      (world_from_parent.conjugate() * load.moment).cast<float>(), load.load_class};
+                      (world_from_parent.conjugate() * load.moment).cast<float>(), load.band};
   }
 }
 
 void LoadTrial::KeepWorst(const std::shared_ptr<const SceneState>& scene,
                           const PersonState& person) {
-  WorstMoment worst;
-  const auto raise = [&](const WorstMoment& moment) {
-    if (moment.load_class != LoadClass::kUnknown && IsWorse(moment, worst)) worst = moment;
-  };
+  const std::size_t nothing = person.loads.size();
+  std::size_t worst = nothing;
   for (std::size_t i = 0; i < person.loads.size(); ++i) {
-    raise({person.loads[i].load_class, person.loads[i].ratio, i, false, nullptr});
+    const double ratio = person.loads[i].ratio;
+    if (person.loads[i].band == LoadClass::kUnknown || !std::isfinite(ratio)) continue;
+    if (worst == nothing || ratio > person.loads[worst].ratio) worst = i;
   }
-  // Where the class of L5/S1 is that of its compression, so is its severity.
-  const JointLoad& lumbar = person.loads[urdf::kScoredL5S1];
-  if (lumbar.class_is_of_compression && person.forces.lumbar) {
-    raise({lumbar.load_class, loads::LumbarRatio(*person.forces.lumbar), urdf::kScoredL5S1, true,
-           nullptr});
-  }
-  if (worst.load_class == LoadClass::kUnknown) return;
+  if (worst == nothing) return;
   const std::int64_t slot = (person.sample.stamp_nanos - begin_nanos_) / slot_nanos_;
   WorstMoment& best = slots_[slot];
-  if (best.scene && !IsWorse(worst, best)) return;
-  best = worst;
-  best.scene = scene;
+  if (best.scene && person.loads[worst].ratio <= best.ratio) return;
+  best = {person.loads[worst].ratio, worst, scene};
   if (slots_.size() > kMaxSlots) MergeSlots();
 }
 
@@ -124,7 +119,7 @@ void LoadTrial::MergeSlots() {
   std::map<std::int64_t, WorstMoment> merged;
   for (auto& [slot, moment] : slots_) {
     WorstMoment& best = merged[slot / 2];
-    if (!best.scene || IsWorse(moment, best)) best = std::move(moment);
+    if (!best.scene || moment.ratio > best.ratio) best = std::move(moment);
   }
   slots_ = std::move(merged);
   slot_nanos_ *= 2;
@@ -133,7 +128,8 @@ void LoadTrial::MergeSlots() {
 std::vector<WorstMoment> LoadTrial::Worst(std::size_t count) const {
   std::vector<WorstMoment> moments;
   for (const auto& [slot, moment] : slots_) moments.push_back(moment);
-  std::stable_sort(moments.begin(), moments.end(), &IsWorse);
+  std::stable_sort(moments.begin(), moments.end(),
+                   [](const WorstMoment& a, const WorstMoment& b) { return a.ratio > b.ratio; });
   const double apart = std::max(0.5, secs() / 12);
   std::vector<WorstMoment> chosen;
   for (const WorstMoment& moment : moments) {

@@ -22,7 +22,7 @@ struct TrialSample {
     float ratio = 0;                                   // NaN: unknown
     Eigen::Vector3f moment = Eigen::Vector3f::Zero();  // N·m, in the parent's link axes; NaN:
                                                        // unknown
-    LoadClass load_class = LoadClass::kUnknown;
+    LoadClass band = LoadClass::kUnknown;              // of the ratio
   };
   std::int64_t stamp_nanos = 0;
   std::array<Joint, urdf::kScoredJointCount> joints;  // in the order of kScoredJoints
@@ -31,16 +31,10 @@ struct TrialSample {
 
 /// A point in time with a high joint load, with its full scene state for rendering.
 struct WorstMoment {
-  LoadClass load_class = LoadClass::kUnknown;
-  double severity = 0;    // the ratio, or the L5/S1 compression force on the same scale
+  double ratio = 0;
   std::size_t joint = 0;  // index into kScoredJoints
-  bool by_compression = false;
   std::shared_ptr<const SceneState> scene;
 };
-
-/// Ordered by class, then by ratio: a class follows its ratio with a delay, and pictures show the
-/// class.
-bool IsWorse(const WorstMoment& a, const WorstMoment& b);
 
 /// Mean and maximum of a value over the samples that have it, and the time of the maximum.
 struct Peak {
@@ -57,15 +51,19 @@ using SecsByReason = std::map<std::string_view, double>;
 class LoadTrial {
  public:
   /// `keeps_curves`: required for plots. `begin_nanos`: time 0 of the recording, ns.
-  LoadTrial(bool keeps_curves, std::int64_t begin_nanos)
-      : keeps_curves_(keeps_curves), begin_nanos_(begin_nanos) {}
+  LoadTrial(bool keeps_curves, std::int64_t begin_nanos,
+            const loads::LoadMeter::Settings& limits = {})
+      : keeps_curves_(keeps_curves), begin_nanos_(begin_nanos), exposure_(limits) {}
 
   /// Adds the next state with a new sample of this person.
   void Add(const std::shared_ptr<const SceneState>& scene, const PersonState& person);
+  /// To be called once, after the last sample, before anything is asked.
+  void Finish();
 
   double SecsOf(std::int64_t stamp_nanos) const;  // s since begin_nanos
 
   const PersonState& newest() const;  // @pre Add was called
+  double floor_z() const;             // of the newest state, world, m. @pre Add was called
   std::uint64_t samples() const { return samples_; }
   double secs() const { return exposure_.secs(); }
   bool knows_anything() const;  // true if any joint load is known at any time
@@ -84,6 +82,7 @@ class LoadTrial {
 
   const Peak& com_minus_mvn() const { return com_minus_mvn_; }  // |com_of_model - MVN's CoM|, m
   double com_disagrees_secs() const { return com_disagrees_secs_; }
+  double limited_secs() const { return limited_secs_; }     // BodyForces::acceleration_is_limited
   const Peak& compression() const { return compression_; }  // N, L5/S1
   const Peak& shear() const { return shear_; }              // N, L5/S1, absolute value
   /// Time above 3400 N and above 6400 N, s (joint-loads.md 4.4).
@@ -108,7 +107,7 @@ class LoadTrial {
   std::array<SecsByReason, urdf::kScoredJointCount> why_unknown_;
   SecsByReason why_static_, why_other_metric_, why_no_ground_;
   Peak com_minus_mvn_, compression_, shear_;
-  double com_disagrees_secs_ = 0;
+  double com_disagrees_secs_ = 0, limited_secs_ = 0;
   std::array<double, 2> compression_secs_{};
 };
 

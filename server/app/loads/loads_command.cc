@@ -88,7 +88,9 @@ TrialContext ContextOf(LoadsOptions& options) {
 class Recording {
  public:
   Recording(const LoadsOptions& options, const TrialContext& context)
-      : options_(options), reader_(*options.source, context.scene) {
+      : options_(options),
+        meter_(context.scene.loads.meter),
+        reader_(*options.source, context.scene) {
     if (!options.csv->empty()) files_.push_back(MakeCsv(*options.csv, *options.layout));
     if (!options.json->empty()) files_.push_back(MakeJson(*options.json));
   }
@@ -108,6 +110,7 @@ class Recording {
       for (const PersonState& person : scene->people) AddIfNew(scene, person);
       progress.Step();
     }
+    for (auto& [character, trial] : trials_) trial.Finish();
   }
 
   void Finish(const nlohmann::json& summary) {
@@ -121,7 +124,7 @@ class Recording {
   // A scene has all people; only one of them has a new sample.
   void AddIfNew(const std::shared_ptr<const SceneState>& scene, const PersonState& person) {
     const auto [found, is_first] =
-        trials_.try_emplace(person.character, options_.wants_plots(), *begin_nanos_);
+        trials_.try_emplace(person.character, options_.wants_plots(), *begin_nanos_, meter_);
     LoadTrial& trial = found->second;
     if (!is_first && trial.newest().sample.stamp_nanos == person.sample.stamp_nanos &&
         trial.newest().sample.counter == person.sample.counter) {
@@ -132,6 +135,7 @@ class Recording {
   }
 
   const LoadsOptions& options_;
+  const loads::LoadMeter::Settings meter_;
   SceneReader reader_;
   std::vector<std::unique_ptr<LoadFile>> files_;
   std::optional<std::int64_t> begin_nanos_;

@@ -62,13 +62,10 @@ Json DescribeSource(const std::string& source, bool& is_repeatable) {
 }
 
 Json DescribeLoads(const LoadOptions& options) {
-  const loads::LoadClassifier::Settings classes = ToLoadSettings(options).classes;
-  return {{"class_ratios_up", classes.up},
-          {"class_ratios_down", classes.down},
-          {"low_pass_secs", classes.low_pass_secs},
-          {"dwell_up_secs", classes.dwell_up_secs},
-          {"dwell_down_secs", classes.dwell_down_secs},
-          {"capacities", kCapacityTable}};
+  const loads::LoadMeter::Settings meter = ToLoadSettings(options).meter;
+  return {{"class_ratios_up", meter.up},  {"class_ratios_down", meter.down},
+          {"rise_secs", meter.rise_secs}, {"hold_secs", meter.hold_secs},
+          {"fall_secs", meter.fall_secs}, {"capacities", kCapacityTable}};
 }
 
 const char* NameOf(OutputKind kind) {

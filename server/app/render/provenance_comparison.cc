@@ -59,9 +59,14 @@ std::string DifferenceOfInputs(const Json& then, const Json& now) {
 }
 
 std::vector<std::string> CorrectionsSince(const Json& then) {
-  if (then.value("schema", 0) >= 2) return {};
-  const RenderOptions options = OptionsOf(then, "a." + then.value("format", ""));
   std::vector<std::string> clauses;
+  if (then.value("loads", Json::object()).contains("low_pass_secs")) {
+    clauses.emplace_back(
+        "the classes of load spheres, and the numbers in plots, came from different filters (now: "
+        "--shown)");
+  }
+  if (then.value("schema", 0) >= 2) return clauses;
+  const RenderOptions options = OptionsOf(then, "a." + then.value("format", ""));
   if (!options.view.plot->empty() && *options.loads.class_limits != *LoadOptions().class_limits) {
     clauses.emplace_back("the bands behind --plot did not follow --class_limits");
   }

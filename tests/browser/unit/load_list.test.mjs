@@ -50,8 +50,8 @@ test('the input is not changed', () => {
 });
 
 test('a row states moment, capacity and direction, or why the load is unknown', () => {
-  assert.equal(explain(row('a', 'low', 0.2)), '12 of 60 N·m, flexion');
-  assert.equal(explain({ ...row('a', 'low', 0.2), channel: '' }), '12 of 60 N·m');
+  assert.equal(explain(row('a', 'low', 0.2)), 'now 12 of 60 N·m, flexion');
+  assert.equal(explain({ ...row('a', 'low', 0.2), channel: '' }), 'now 12 of 60 N·m');
   assert.equal(explain({ ...row('a', 'unknown', NaN), reason: 'both feet are off the floor' }),
     'both feet are off the floor');
 });
@@ -76,6 +76,6 @@ test('the time in each class omits unused classes, and the shares add up', () =>
 });
 
 test('an external load is marked as external', () => {
-  assert.equal(explain({ ...row('a', 'low', 0.2), isExternal: true }), '12 of 60 N·m, flexion, external');
+  assert.equal(explain({ ...row('a', 'low', 0.2), isExternal: true }), 'now 12 of 60 N·m, flexion, external');
   assert.equal(explain({ ...row('a', 'low', 0.2), isExternal: true, moment: NaN, channel: 'external' }), 'external');
 });

@@ -7,7 +7,7 @@ const person = {
   character: 0, name: 'Anna', mass_kg: 75, mass_is_assumed: true, why_other_metric: '', why_no_ground: '',
   hand_load: { right_kg: 5, left_kg: 0, both_kg: 0 },
   loads: [{ joint: 3, channel: 'flexion', reason: '', is_external: false,
-    secs_in_class: { low: 1, medium: 2, high: 0, unknown: 0 } }],
+    secs_in_band: { low: 1, medium: 2, high: 0, unknown: 0 } }],
 };
 const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, people: [person],
   objects: [{ character: 9, number: 2, name: 'cart' }] };

@@ -107,7 +107,7 @@ TEST(StateJson, ContainsTheInputsOfTheLoads) {
   EXPECT_EQ(forces["support"].size(), 4u);
   EXPECT_EQ(forces["l5_s1_compression_n"], 2150);
   EXPECT_TRUE(forces["com_minus_mvn_m"].is_null());
-  EXPECT_TRUE(person["loads"][0]["secs_in_class"].contains("high"));
+  EXPECT_TRUE(person["loads"][0]["secs_in_band"].contains("high"));
 }
 
 }  // namespace

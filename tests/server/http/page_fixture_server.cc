@@ -88,7 +88,7 @@ json Describe() {
                        {"loadClass", Name(load.load_class)},
                        {"radius", SphereRadius(load.joint, load.load_class, 1.75)},
                        {"position", Numbers(load.position)},
-                       {"ratio", is_known ? json(load.ratio) : json(nullptr)},
+                       {"ratio", is_known ? json(load.shown_ratio) : json(nullptr)},
                        {"moment", is_known ? json(load.deciding_moment) : json(nullptr)},
                        {"capacity", load.capacity}});
     }
@@ -199,7 +199,7 @@ SceneState NextState(const Orders& orders, const SceneState& last,
     for (PersonState& person : next.people) {
       for (JointLoad& load : person.loads) {
         load.load_class = LoadClass::kUnknown;
-        load.ratio = std::nan("");
+        load.ratio = load.shown_ratio = std::nan("");
         load.reason = "the stream has stopped";
       }
     }

@@ -65,7 +65,8 @@ JointLoad MakeLoad(std::size_t i, double seconds, const urdf::LinkPoses& links) 
   }
   load.deciding_moment = -load.ratio * load.capacity;
   load.moment = Vector3d(0, load.deciding_moment, 0);
-  load.load_class = ClassOf(load.ratio);
+  load.shown_ratio = load.ratio;
+  load.load_class = load.band = ClassOf(load.ratio);
   return load;
 }
 

@@ -26,7 +26,7 @@ TEST(Loads, AllocateNothingPerSampleForAnyMetric) {
     Measurements measured;
     measured.hands[kLeft].emplace().force = {10, 0, 0};
     LoadEstimator estimator;
-    Exposure exposure;
+    BandTimes exposure;
     estimator.Update(samples[0], links[0], {Person(), Body()}, settings, measured);
     const std::size_t before = kinescope::testing::Allocations();
     for (std::size_t i = 1; i < samples.size(); ++i) {

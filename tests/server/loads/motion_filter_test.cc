@@ -186,9 +186,9 @@ TEST(MotionFilter, DetectsAccelerationsWithGravityAndVelocitiesInDegrees) {
 TEST(MotionFilter, LimitsImpossibleAngularAccelerations) {
   MotionFilter filter;
   BodySample sample = MovingSample(1.5);
-  sample.segments[kRightHand].angular_acceleration = {0, 900, 0};
+  sample.segments[kRightHand].angular_acceleration = {0, 5000, 0};
   EXPECT_LT(
-      (filter.Update(sample, {}).motion[kRightHand].angular_acceleration - Vector3d(0, 150, 0))
+      (filter.Update(sample, {}).motion[kRightHand].angular_acceleration - Vector3d(0, 1000, 0))
           .norm(),
       1e-9);
 }

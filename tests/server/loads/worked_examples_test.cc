@@ -261,7 +261,7 @@ TEST(WorkedExample, HSplitDividesTheGroundReactionForce) {
   EXPECT_NEAR(right.free_moment, 1.7198, 1e-4);
 }
 
-// Case I, the hysteresis, is in load_classifier_test.cc.
+// Case I, the hysteresis, is in load_meter_test.cc.
 
 TEST(WorkedExample, JStaticallyEquivalentChainGivesTheCentreOfMass) {
   const EquivalentChain chain = EquivalentChainOf(Person(), Body());

@@ -103,7 +103,7 @@ TEST(ViewOptions, ListTheFilesThatDetermineThePicture) {
 SceneState SceneAt(double secs, double ratio) {
   SceneState state = kinescope::testing::SceneWith(kinescope::testing::Posture::kStanding);
   state.stamp_nanos = 1'000'000'000 + std::llround(1e9 * secs);
-  kinescope::testing::LoadOf(state, urdf::jL5S1).ratio = ratio;
+  kinescope::testing::LoadOf(state, urdf::jL5S1).shown_ratio = ratio;
   return state;
 }
 

@@ -100,12 +100,12 @@ TEST(LoadOptions, AreConvertedToLoadSettings) {
 }
 
 TEST(LoadOptions, GiveClassLimitsHysteresis) {
-  const auto defaults = ToLoadSettings(LoadOptions()).classes;
-  EXPECT_EQ(defaults.up, loads::LoadClassifier::Settings().up);
+  const auto defaults = ToLoadSettings(LoadOptions()).meter;
+  EXPECT_EQ(defaults.up, loads::LoadMeter::Settings().up);
   for (const std::size_t i : {0U, 1U}) {
-    EXPECT_DOUBLE_EQ(defaults.down[i], loads::LoadClassifier::Settings().down[i]);
+    EXPECT_DOUBLE_EQ(defaults.down[i], loads::LoadMeter::Settings().down[i]);
   }
-  const auto classes = ToLoadSettings(With<LoadOptions>({{"class_limits", "0.06, 0.9"}})).classes;
+  const auto classes = ToLoadSettings(With<LoadOptions>({{"class_limits", "0.06, 0.9"}})).meter;
   EXPECT_DOUBLE_EQ(classes.down[0], 0.05);
   EXPECT_DOUBLE_EQ(classes.down[1], 0.85);
   for (const char* bad :

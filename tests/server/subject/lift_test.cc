@@ -87,7 +87,7 @@ TEST(Lift, ShowsEveryLoadClass) {
       const LoadClass now = result.loads[i].load_class;
       ASSERT_NE(now, LoadClass::kUnknown) << result.loads[i].reason << " at " << frame / 60.0;
       worst[i] = std::max(worst[i], now);
-      if (frame == 8 * 60 + 12) upright[i] = now;  // has stood for longer than any dwell
+      if (frame == 8 * 60 + 12) upright[i] = now;  // has stood for longer than any peak is held
     }
   }
   const auto of = [](const auto& classes, int joint) {

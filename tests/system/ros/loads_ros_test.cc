@@ -183,8 +183,8 @@ TEST_F(LoadsOverRos, AcceptHandLoadsByServiceAndByTopic) {
   order.request.right_kg = 2;
   ASSERT_TRUE(ros::service::call("/kinescope/set_hand_load", order));
   EXPECT_TRUE(order.response.success) << order.response.message;
+  ASSERT_TRUE(Spin([&] { return loads_->held_mass[0] == 2; }));  // after its ramp
   ASSERT_TRUE(Spin([&] { return LoadOf("jRightShoulder").load_class == JointLoad::MEDIUM; }));
-  EXPECT_EQ(loads_->held_mass[0], 2);
   EXPECT_EQ(LoadOf("jLeftShoulder").load_class, JointLoad::LOW);
   // The same mass farther out is a larger moment.
   const double at_the_grip = LoadOf("jRightShoulder").ratio;

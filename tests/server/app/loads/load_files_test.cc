@@ -199,8 +199,9 @@ TEST(LoadFiles, KeepCommasQuotesAndLineBreaksOfTexts) {
 TEST(LoadFiles, HaveOneRowPerJointInTheLongLayout) {
   const CsvTable wide(CsvOf(Layout::kWide, AddShortLift));
   const CsvTable tall(CsvOf(Layout::kLong, AddShortLift));
-  EXPECT_THAT(std::vector<std::string>(tall.names.begin(), tall.names.begin() + 7),
-              ElementsAre("time_s", "utc", "sample_counter", "person", "joint", "ratio", "class"));
+  EXPECT_THAT(
+      std::vector<std::string>(tall.names.begin(), tall.names.begin() + 7),
+      ElementsAre("time_s", "utc", "sample_counter", "person", "joint", "ratio", "shown_ratio"));
   ASSERT_EQ(tall.rows.size(), 15 * wide.rows.size());
   for (std::size_t row = 0; row < tall.rows.size(); ++row) {
     const std::string joint(ScoredName(row % 15));

@@ -42,7 +42,7 @@ constexpr std::size_t kLowBackIndex = 0, kElbowIndex = 5;  // into kScoredJoints
 TrialContext ContextWithLimits(double medium_from, double high_from) {
   TrialContext context;
   context.source = "take.mvnx";
-  context.scene.loads.classes.up = {medium_from, high_from};
+  context.scene.loads.meter.up = {medium_from, high_from};
   return context;
 }
 

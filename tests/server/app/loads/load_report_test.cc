@@ -35,13 +35,14 @@ constexpr double kNoRatioInReport = std::numeric_limits<double>::quiet_NaN();
 // Two seconds at 0.2, then two of which nothing is known: no picture to draw.
 LoadTrial TrialWithoutPictures(const std::string& name = "") {
   LoadTrial trial(true, 0);
-  for (int i = 0; i <= 40; ++i) {
+  for (int i = 0; i < 40; ++i) {
     SceneState scene =
         SceneWithRatio(0.1 * i, i < 20 ? 0.2 : kNoRatioInReport, i < 20 ? "" : "<in> the \"air\"");
-    for (JointLoad& load : scene.people[0].loads) load.load_class = LoadClass::kUnknown;
+    for (JointLoad& load : scene.people[0].loads) load.load_class = load.band = LoadClass::kUnknown;
     scene.people[0].name = name;
     AddTo(trial, scene);
   }
+  trial.Finish();
   return trial;
 }
 
@@ -106,7 +107,7 @@ TEST(LoadReport, ShowsPersonSourceAndEveryJointOnOnePage) {
   EXPECT_THAT(
       html,
       HasSubstr(
-          "Anna (person 0), 41 samples, 4.00 s at 60 Hz, starting at 1970-01-01T00:00:00.000000Z"));
+          "Anna (person 0), 40 samples, 4.00 s at 60 Hz, starting at 1970-01-01T00:00:00.000000Z"));
   for (std::size_t i = 0; i < 15; ++i) {
     EXPECT_EQ(CountOf(html, "<tr><td>" + std::string(ScoredLabel(i)) + "</td>"), 1U)
         << ScoredLabel(i);
@@ -149,34 +150,35 @@ TEST(LoadReport, EscapesExternalNamesAndReasons) {
 }
 
 // Of 4 s the first half had a ratio of 0.2, but for the left elbow, of which nothing was known.
-TEST(LoadReport, ShowsSharesOfTimeAndDashesForUnknownValues) {
+TEST(LoadReport, ShowsSharesOfSamplesAndDashesForUnknownValues) {
   LoadTrial trial(true, 0);
-  for (int i = 0; i <= 40; ++i) {
+  for (int i = 0; i < 40; ++i) {
     SceneState scene = *ShortLift().back();  // who can be drawn
     scene.stamp_nanos = scene.people[0].sample.stamp_nanos = i * 100'000'000LL;
     for (std::size_t joint = 0; joint < 15; ++joint) {
       JointLoad& load = scene.people[0].loads[joint];
       const bool is_known = i < 20 && joint != 6;
       load.ratio = is_known ? 0.2 : kNoRatioInReport;
-      load.load_class = is_known ? LoadClass::kLow : LoadClass::kUnknown;
+      load.load_class = load.band = is_known ? LoadClass::kLow : LoadClass::kUnknown;
       load.channel = "flexion";
       load.deciding_moment = -12.34;
       load.capacity = 61.7;
-      load.class_is_of_compression = false;
+      load.is_of_compression = false;
     }
     AddTo(trial, scene);
   }
+  trial.Finish();
   const std::string html = ReportOf(trial);
   const auto row_of = [&](std::size_t joint) {
     const std::size_t begin = html.find("<tr><td>" + std::string(ScoredLabel(joint)));
     return html.substr(begin, html.find("</tr>", begin) - begin);
   };
-  EXPECT_THAT(row_of(5), HasSubstr("<td>50.0</td><td>0.0</td><td>0.0</td><td>50.0</td>"));
-  EXPECT_THAT(row_of(5), HasSubstr("<td>0.20</td><td>0.00</td>"
+  EXPECT_THAT(row_of(5), HasSubstr("<td>100.0</td><td>0.0</td><td>0.0</td><td>50.0</td>"));
+  EXPECT_THAT(row_of(5), HasSubstr("<td>0.20</td><td>0.00</td><td>0.00</td><td>0</td>"
                                    "<td class=\"text\">flexion, 12.3 of 61.7</td>"));
   EXPECT_THAT(row_of(5), HasSubstr("<i class=\"low\" style=\"width:50.00%\"></i>"
                                    "<i class=\"unknown\" style=\"width:50.00%\"></i>"));
-  EXPECT_THAT(row_of(6), HasSubstr("<td>0.0</td><td>0.0</td><td>0.0</td><td>100.0</td>"
+  EXPECT_THAT(row_of(6), HasSubstr("<td>–</td><td>–</td><td>–</td><td>100.0</td>"
                                    "<td>–</td><td>–</td><td>–</td><td>–</td><td>–</td>"));
   EXPECT_THAT(html, Not(HasSubstr("nan")));
   EXPECT_THAT(html, Not(HasSubstr("inf")));
@@ -184,7 +186,7 @@ TEST(LoadReport, ShowsSharesOfTimeAndDashesForUnknownValues) {
 
 TEST(LoadReport, ShowsTheGivenClassLimitsInLegendAndBands) {
   TrialContext context;
-  context.scene.loads.classes.up = {0.1, 0.25};
+  context.scene.loads.meter.up = {0.1, 0.25};
   context.scene.loads.compression_counts = false;
   const std::string html = ReportOf(TrialWithoutPictures(), context);
   EXPECT_THAT(html, HasSubstr("ratio up to 0.10"));

@@ -49,9 +49,10 @@ TEST(LoadTrial, KeepsThePeakOfALongTrial) {
 
 TEST(LoadTrial, FindsNoTimeOfTheHighestLoadIfAllLoadsAreUnknown) {
   LoadTrial trial(false, 0);
-  for (int i = 0; i <= 100; ++i) {
+  for (int i = 0; i < 100; ++i) {
     AddTo(trial, SceneWithRatio(0.01 * i, std::nan(""), "no foot contact"));
   }
+  trial.Finish();
   EXPECT_TRUE(trial.Worst(3).empty());
   EXPECT_FALSE(trial.knows_anything());
   ASSERT_EQ(trial.why_unknown(0).size(), 1U);

@@ -52,8 +52,8 @@ inline SceneState SceneWithRatio(double secs, double ratio, std::string_view why
   for (const int joint : urdf::kScoredJoints) {
     JointLoad load;
     load.joint = joint;
-    load.ratio = ratio;
-    load.load_class = std::isnan(ratio) ? LoadClass::kUnknown : LoadClass::kLow;
+    load.ratio = load.shown_ratio = ratio;
+    load.load_class = load.band = loads::BandOf(ratio, kDefaultClassLimits);
     load.reason = why;
     person.loads.push_back(load);
   }
@@ -71,6 +71,7 @@ inline void AddTo(app::LoadTrial& trial, SceneState scene) {
 inline app::LoadTrial TrialOf(const Scenes& scenes) {
   app::LoadTrial trial(true, scenes.front()->stamp_nanos);
   for (const auto& scene : scenes) trial.Add(scene, scene->people[0]);
+  trial.Finish();
   return trial;
 }
 

@@ -219,6 +219,10 @@ TEST(Provenance, NamesTheErrorsOfTheEarlierVersionThatAffectItsPictures) {
   EXPECT_THAT(CorrectionsSince(SchemaOne({{"plot", "l5_s1"}})), IsEmpty());
   EXPECT_THAT(CorrectionsSince(SchemaOne({{"plot", "l5_s1"}, {"class_limits", "0.1,0.2"}})),
               ElementsAre(HasSubstr("--class_limits")));
+  Json dwelling = SchemaOne({});
+  dwelling["schema"] = 2;
+  dwelling["loads"] = {{"low_pass_secs", 0.15}};
+  EXPECT_THAT(CorrectionsSince(dwelling), ElementsAre(HasSubstr("--shown")));
   EXPECT_THAT(CorrectionsSince(SchemaOne({{"ghost", "demo:lift@1"}})),
               ElementsAre(HasSubstr("ghost")));
   EXPECT_THAT(CorrectionsSince(SchemaOne({{"ghost", "n_pose"}})), IsEmpty());

@@ -44,7 +44,7 @@ class Wired {
                 [this](std::shared_ptr<const SceneState> state) { last = std::move(state); }),
         sink(builder, hand_loads, ros, [this](int count) { subscribers = count; }) {}
 
-  // A second of samples: longer than ramps and dwell times.
+  // A second of samples: longer than ramps and held peaks.
   const SceneState& RunOneSecond(const std::vector<int>& characters = {0}) {
     for (int i = 0; i < 60; ++i) {
       now += 1.0 / 60;
@@ -202,9 +202,9 @@ TEST(Exposure, IsContainedInTheStates) {
   const PersonState& person = wired.RunOneSecond().people[0];
   double sum = 0;
   const JointLoad& shoulder = LoadOf(person, urdf::jRightShoulder);
-  for (const double secs : shoulder.class_secs) sum += secs;
+  for (const double secs : shoulder.band_secs) sum += secs;
   EXPECT_NEAR(sum, 2 - 1.0 / 60, 0.01);
-  EXPECT_GT(shoulder.class_secs[static_cast<std::size_t>(LoadClass::kMedium)], 1);
+  EXPECT_GT(shoulder.band_secs[static_cast<std::size_t>(LoadClass::kMedium)], 1);
 }
 
 }  // namespace
