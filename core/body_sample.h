@@ -54,6 +54,7 @@ struct BodySample {
   std::uint32_t counter = 0;          // sender's sample counter; counts captured frames
   std::int64_t time_code_millis = 0;  // sender's clock: since its recording began
   std::int64_t stamp_nanos = 0;       // ROS time (Unix epoch) of this sample, ns
+  bool has_time_of_day = true;        // false: stamp_nanos begins anywhere, only its steps count
   std::int64_t arrival_nanos = 0;  // receive time of its last datagram, monotonic clock; 0: from a
                                    // file
   std::array<SegmentState, urdf::kSegmentCount> segments{};

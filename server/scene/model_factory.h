@@ -32,6 +32,7 @@ struct ModelSettings {
 struct PersonDescription {
   std::size_t index = 0;  // in the order of appearance
   Character character;
+  bool lengths_are_of_poses = false;            // character.skeleton is measured, not sent
   std::optional<Eigen::Vector3d> l5_in_pelvis;  // m, link frame; overrides the scale data
   GlovesAndProps worn;
 };

@@ -17,7 +17,13 @@ PersonTracker::PersonTracker(const ModelFactory& models, Character character, st
 
 void PersonTracker::Remodel() { model_ = models_.Make(person_, model_->revision + 1); }
 
-void PersonTracker::SetCharacter(const Character& character) {
+void PersonTracker::SetCharacter(const Character& received) {
+  Character character = received;
+  if (character.skeleton) {
+    person_.lengths_are_of_poses = false;
+  } else if (person_.lengths_are_of_poses) {
+    character.skeleton = person_.character.skeleton;
+  }
   const bool same_body = person_.character.skeleton == character.skeleton;
   const bool same_extra = person_.character.scaled_segments == character.scaled_segments;
   const bool same_color = person_.character.color_rgb == character.color_rgb;
@@ -48,6 +54,19 @@ bool PersonTracker::CheckL5(const BodySample& sample) {
   const double off = (measured - skeleton->origin_in_parent[urdf::kL5]).norm();
   if (off < kAgrees || off > kNoLongerL5) return false;
   person_.l5_in_pelvis = measured;
+  return true;
+}
+
+bool PersonTracker::MeasureSkeleton(const BodySample& sample) {
+  if (person_.character.skeleton && !person_.lengths_are_of_poses) return false;
+  const auto measured = watch_.Look(sample);
+  if (!measured) return false;
+  person_.character.skeleton = *measured;
+  person_.lengths_are_of_poses = true;
+  l5_is_checked_ = true;
+  person_.l5_in_pelvis.reset();
+  floor_.Restart();
+  worst_deviation_ = {};
   return true;
 }
 
@@ -104,8 +123,9 @@ void PersonTracker::AddLoads(const BodySample& sample, const loads::LoadSettings
 
 void PersonTracker::Update(const BodySample& sample, const loads::LoadSettings& settings,
                            const loads::Measurements& measured, const Known& known) {
+  const bool has_new_lengths = MeasureSkeleton(sample);
   const bool l5_has_moved = CheckL5(sample);
-  if (person_.worn.Notice(sample) || l5_has_moved) Remodel();
+  if (person_.worn.Notice(sample) || has_new_lengths || l5_has_moved) Remodel();
   PersonState state;
   state.character = sample.character;
   state.name = person_.character.name;

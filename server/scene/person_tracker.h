@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/scene_state.h"
+#include "core/skeleton_watch.h"
 #include "server/loads/exposure.h"
 #include "server/loads/floor_finder.h"
 #include "server/loads/foot_motion.h"
@@ -43,6 +44,9 @@ class PersonTracker {
  private:
   void Remodel();
   bool CheckL5(const BodySample& sample);
+  /// Takes the lengths from the poses as long as the source does not send them. True if they are
+  /// new.
+  bool MeasureSkeleton(const BodySample& sample);
   static bool LegsHang(const urdf::LinkPoses& links);
   void FindFloor(const BodySample& sample, const urdf::LinkPoses& links,
                  std::optional<double> given);
@@ -54,6 +58,7 @@ class PersonTracker {
   PersonDescription person_;
   std::shared_ptr<const PersonModel> model_;  // never null
   bool l5_is_checked_ = false;                // against the first pose; see CheckL5
+  SkeletonWatch watch_;
   urdf::JointAngles angles_{};
   urdf::RigidDeviation worst_deviation_;
   loads::LoadEstimator loads_;

@@ -2,6 +2,7 @@
 /// together with all that came between them. One thread.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <variant>

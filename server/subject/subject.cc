@@ -48,6 +48,7 @@ class BuiltInMotion final : public Motion {
     BodySample sample = generator_->PoseAt({within, 1, 0}).ToSample(body_);
     sample.time_code_millis = std::llround(seconds * 1e3);
     sample.stamp_nanos = kEpochNanos + std::llround(seconds * 1e9);
+    sample.has_time_of_day = false;
     return sample;
   }
 

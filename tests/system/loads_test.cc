@@ -80,7 +80,7 @@ TEST(LoadsCommand, WritesTheLoadsThatTheLibraryComputesInEveryRow) {
     ExpectSame(table.Number(row, "l5_s1_compression_N"), person.forces.lumbar->compression, "L5");
     ExpectSame(table.Number(row, "right_hand_load_kg"), 5, "hand");
   }
-  EXPECT_EQ(table.At(0, "utc"), "2020-01-01T00:00:00.000000Z");
+  EXPECT_EQ(table.At(0, "utc"), "") << "the built-in subject knows no time of day";
   EXPECT_NEAR(table.Number(states.size() - 1, "time_s"), 1, 1e-6);
 }
 

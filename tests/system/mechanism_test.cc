@@ -12,11 +12,11 @@
 #include <sstream>
 #include <vector>
 
+#include "core/skeleton_watch.h"
 #include "server/app/stream/synthetic_gloves.h"
 #include "server/http/api.h"
 #include "server/mvn/datagram.h"
 #include "server/ros/bridge.h"
-#include "server/ros/source/skeleton_watch.h"
 #include "server/scene/scene_builder.h"
 #include "server/scene/scene_reader.h"
 #include "server/subject/subject.h"

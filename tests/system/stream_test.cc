@@ -397,6 +397,23 @@ TEST(StreamCommand, RelaysALiveStreamUntilItIsStopped) {
   EXPECT_EQ(summary.at("samples"), 24);
 }
 
+// Nothing is made up: what the recording lacks is not sent, and asking for it is an error.
+TEST(StreamCommand, SendsOnlyWhatARecordingContains) {
+  KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
+  const std::string recording = SharedData("mvnx/test_mocap.mvnx");
+  const ProgramResult result = Stream({recording, "--types", "02,23"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--types: 23: "));
+  EXPECT_THAT(result.err, HasSubstr("contains no trackers"));
+  const Sent sent = StreamToUdp({recording, "--speed", "20", "--types", "02,25"});
+  ASSERT_FALSE(sent.datagrams.empty());
+  std::string first_time;
+  for (const std::string& datagram : sent.datagrams) {
+    if (datagram.substr(4, 2) == "25" && first_time.empty()) first_time = datagram.substr(28, 12);
+  }
+  EXPECT_EQ(first_time, "04:17:11.842") << "the recording's time of day";
+}
+
 TEST(StreamCommand, RejectsInvalidOptionsWithNameValueAndRange) {
   const auto expect_refusal = [](const Arguments& arguments, const std::string& flag,
                                  const std::string& range) {

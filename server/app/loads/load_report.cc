@@ -76,11 +76,12 @@ std::string Number(double value, int decimals) {
 
 std::string HeadHtml(const LoadTrial& trial, const TrialContext& context) {
   std::string html = fmt::format(
-      "<h1>Joint loads: {}</h1>\n<p class=\"sub\">{}, {} samples, {:.2f} s{}, starting at "
-      "{}</p>\n<dl>",
+      "<h1>Joint loads: {}</h1>\n<p class=\"sub\">{}, {} samples, {:.2f} s{}{}</p>\n<dl>",
       EscapeHtml(context.source), EscapeHtml(TitleOf(trial)), trial.samples(), trial.secs(),
       context.rate_hz > 0 ? fmt::format(" at {:g} Hz", context.rate_hz) : "",
-      IsoTime(trial.curves().front().stamp_nanos));
+      trial.newest().sample.has_time_of_day
+          ? ", starting at " + IsoTime(trial.curves().front().stamp_nanos)
+          : "");
   for (const Fact& fact : FactsOf(trial, context)) {
     html += fmt::format("<div><dt>{}</dt><dd>{}{}</dd></div>\n", EscapeHtml(fact.label),
                         EscapeHtml(fact.value),

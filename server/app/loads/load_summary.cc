@@ -117,7 +117,10 @@ std::string MetricText(LoadMetric metric, const loads::Strength& strength) {
 
 std::string StatureText(const PersonModel& model) {
   return fmt::format("{:.2f} m{}", model.human.skeleton.height,
-                     model.lengths_are_measured ? " (from the source)" : "");
+                     model.lengths_are_of_poses
+                         ? " (from the poses; head, hands and feet estimated)"
+                     : model.lengths_are_measured ? " (from the source)"
+                                                  : "");
 }
 
 JointSummary JointOf(const LoadTrial& trial, std::size_t joint) {

@@ -1,9 +1,12 @@
 // Recordings of samples and the built-in subject, encoded.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/system/clocks.h"
+#include "core/system/errors.h"
 #include "server/app/stream/stream_feed.h"
 #include "server/app/stream/synthetic_gloves.h"
 #include "server/source/counter_splice.h"
@@ -38,6 +41,7 @@ class SampleFeed final : public Feed, private SampleSink {
   explicit SampleFeed(const FeedSettings& settings)
       : settings_(settings),
         types_(TypesOf(settings)),
+        is_subject_(IsSubjectUrl(settings.source)),
         source_(Open()),
         ids_(settings.characters),
         start_wall_(WallNanos()) {}
@@ -82,7 +86,15 @@ class SampleFeed final : public Feed, private SampleSink {
     track.is_described = true;
   }
 
-  void OnSample(const BodySample& sample) override {
+  void OnSample(const BodySample& received) override {
+    if (settings_.types && !std::exchange(types_are_checked_, true)) CheckTypes(received);
+    BodySample sample = received;
+    if (!sample.utc_millis_of_day && sample.has_time_of_day) {
+      constexpr std::int64_t kMillisPerDay = 86'400'000;
+      const std::int64_t millis = sample.stamp_nanos / kNanosPerMilli % kMillisPerDay;
+      sample.utc_millis_of_day =
+          static_cast<std::int32_t>(millis < 0 ? millis + kMillisPerDay : millis);
+    }
     Take(sample, [&](const Track& track, BodySample& made) {
       AddGlovesAndProps(settings_.gloves, settings_.props,
                         static_cast<double>(made.stamp_nanos) * 1e-9, track.character, made);
@@ -91,6 +103,29 @@ class SampleFeed final : public Feed, private SampleSink {
 
   void OnObjects(const ObjectsSample& sample) override {
     Take(sample, [](const Track&, ObjectsSample&) {});
+  }
+
+  // Nothing is sent in the place of what the source does not have. The built-in subject wears
+  // simulated trackers and lives now.
+  void CheckTypes(const BodySample& sample) const {
+    const auto track = tracks_.find(sample.character);
+    const bool has_skeleton = track != tracks_.end() && track->second.character.skeleton;
+    const std::pair<mvn::Type, std::pair<bool, const char*>> needs[] = {
+        {mvn::Type::kMarkers, {has_skeleton, "landmarks"}},
+        {mvn::Type::kScale, {has_skeleton, "segment lengths"}},
+        {mvn::Type::kJointAngles, {sample.streamed_angles_deg.has_value(), "joint angles"}},
+        {mvn::Type::kLinear, {sample.has_linear, "velocities and accelerations"}},
+        {mvn::Type::kAngular, {sample.has_angular, "angular velocities and accelerations"}},
+        {mvn::Type::kTrackers, {is_subject_ || sample.has_tracker.any(), "trackers"}},
+        {mvn::Type::kCenterOfMass, {sample.com.has_value(), "centre of mass"}},
+        {mvn::Type::kTimeCode,
+         {is_subject_ || sample.has_time_of_day || sample.utc_millis_of_day, "time of day"}}};
+    for (const auto& [type, need] : needs) {
+      const auto& [has_it, what] = need;
+      if (has_it || !mvn::Contains(types_, type)) continue;
+      throw UsageError(fmt::format("--types: {:02}: {} contains no {}; leave out this type",
+                                   static_cast<int>(type), settings_.source, what));
+    }
   }
 
   template <class Sample, class AddMore>
@@ -138,7 +173,11 @@ class SampleFeed final : public Feed, private SampleSink {
 
   std::vector<std::string> Encode(const Track& track, const BodySample& sample) const {
     const auto& skeleton = track.character.skeleton;
-    return mvn::EncodeSample(sample, types_, skeleton ? &*skeleton : nullptr);
+    mvn::TypeSet types = types_;
+    if (!is_subject_ && sample.has_tracker.none()) {
+      types.reset(static_cast<std::size_t>(mvn::Type::kTrackers));
+    }
+    return mvn::EncodeSample(sample, types, skeleton ? &*skeleton : nullptr);
   }
   std::vector<std::string> Encode(const Track&, const ObjectsSample& sample) const {
     return mvn::EncodeObjects(sample, types_);
@@ -175,14 +214,16 @@ class SampleFeed final : public Feed, private SampleSink {
 
   const FeedSettings settings_;
   const mvn::TypeSet types_;
+  const bool is_subject_;
   std::unique_ptr<Source> source_;
   CharacterIds ids_;
   const std::int64_t start_wall_;
   std::map<int, Track> tracks_;               // by the source's id
   std::vector<FeedDatagram>* out_ = nullptr;  // during Read
-  bool is_begun_ = false;                     // this round
-  bool is_repeated_ = false;                  // not the first round
-  std::int64_t first_stamp_ = 0;              // of this round
+  bool types_are_checked_ = false;
+  bool is_begun_ = false;         // this round
+  bool is_repeated_ = false;      // not the first round
+  std::int64_t first_stamp_ = 0;  // of this round
   std::int64_t round_offset_ = 0;
   std::int64_t last_played_ = 0;  // since the beginning, before speed
 };

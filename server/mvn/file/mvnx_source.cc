@@ -107,6 +107,7 @@ void MvnxSource::CheckFrame() {
   if (millis < 0 || millis > kLatestMillis) {
     reader_.Refuse("ms is " + std::to_string(millis) + "; expected the Unix time in milliseconds");
   }
+  has_time_of_day_ = millis > 0;
   first_unix_nanos_ = (millis > 0 ? millis : kFirstMillisWithoutClock) * kNanosPerMilli;
 }
 
@@ -162,6 +163,7 @@ void MvnxSource::FillAngles(BodySample& sample) const {
 void MvnxSource::FillTimes(BodySample& sample) const {
   const double rate = reader_.header().rate_hz;
   const auto since_first = static_cast<double>(index_ - *first_index_);
+  sample.has_time_of_day = has_time_of_day_;
   sample.counter = static_cast<std::uint32_t>(index_);
   sample.time_code_millis =
       static_cast<std::int64_t>(std::llround(1000.0 * static_cast<double>(index_) / rate));

@@ -53,6 +53,7 @@ class MvnxSource : public Source {
   Character character_;
   bool character_given_ = false;
   std::optional<std::int64_t> first_index_;
+  bool has_time_of_day_ = false;
   std::int64_t first_unix_nanos_ = 0;
   std::int64_t index_ = 0;  // of the newest sample
   std::array<Eigen::Quaterniond, urdf::kSegmentCount> previous_;

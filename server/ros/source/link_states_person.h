@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "core/skeleton_watch.h"
 #include "core/source.h"
-#include "server/ros/source/skeleton_watch.h"
 #include "server/ros/source/transform_people.h"
 #include "server/ros/source/transform_person.h"
 

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "core/skeleton_watch.h"
 #include "core/source.h"
 #include "server/ros/source/people_frames.h"
-#include "server/ros/source/skeleton_watch.h"
 #include "server/ros/source/transform_person.h"
 
 namespace kinescope::ros_bridge {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "server/subject/subject.h"
@@ -147,6 +149,70 @@ TEST(SceneBuilder, ReportsUnknownLegLoadsOfARecordingWithoutLegs) {
     EXPECT_EQ(load.load_class == LoadClass::kUnknown, is_leg);
     EXPECT_EQ(load.reason.empty(), !is_leg);
   }
+}
+
+// Ten seconds of walking, lifted as a whole.
+std::vector<std::shared_ptr<const SceneState>> WalkAt(double z,
+                                                      std::optional<double> floor_z = {}) {
+  SceneOptions options;
+  options.floor_z = floor_z;
+  Built built(options);
+  const auto motion = subject::MakeMotion("walk");
+  built.builder.OnCharacter(motion->character());
+  for (int i = 0; i < 600; ++i) {
+    BodySample sample = motion->At(i / 60.0);
+    sample.stamp_nanos = std::llround(i * 1e9 / 60) + 1;
+    for (SegmentState& segment : sample.segments) segment.position.z() += z;
+    if (sample.com) sample.com->position.z() += z;
+    built.builder.OnSample(sample);
+  }
+  return built.states;
+}
+
+TEST(SceneBuilder, FindsTheFloorUnderAPersonAtAnyHeight) {
+  const auto at_zero = WalkAt(0);
+  EXPECT_EQ(at_zero.back()->floor_z, 0);
+  for (const double z : {0.06, -0.30}) {
+    const auto lifted = WalkAt(z);
+    ASSERT_EQ(lifted.size(), at_zero.size());
+    EXPECT_NEAR(lifted.back()->floor_z, z, 0.005);
+    for (std::size_t i = 0; i < lifted.size(); ++i) {
+      const PersonState& a = at_zero[i]->people.at(0);
+      const PersonState& b = lifted[i]->people.at(0);
+      for (std::size_t j = 0; j < a.loads.size(); ++j) {
+        ASSERT_EQ(a.loads[j].reason, b.loads[j].reason) << "at " << i << ", " << z << " m higher";
+        ASSERT_NEAR(a.loads[j].ratio, b.loads[j].ratio, 0.01) << "at " << i;
+      }
+    }
+  }
+  EXPECT_EQ(WalkAt(0.06, 0.055).back()->floor_z, 0.055) << "as it was given";
+}
+
+TEST(SceneBuilder, TakesTheLengthsFromThePosesUntilTheSourceSendsThem) {
+  Built built;
+  const auto motion = subject::MakeMotion("walk", 1.6);
+  BodySample sample = motion->At(0.5);
+  sample.stamp_nanos = 1;
+  built.builder.OnSample(sample);
+  const auto shank_of = [](const urdf::Skeleton& skeleton) {
+    return skeleton.origin_in_parent[urdf::kRightFoot].norm();
+  };
+  const PersonModel& measured = *built.last().people.at(0).model;
+  EXPECT_TRUE(measured.lengths_are_measured && measured.lengths_are_of_poses);
+  EXPECT_NEAR(shank_of(measured.human.skeleton), shank_of(urdf::DefaultSkeleton(1.6)), 1e-6);
+  Character named;
+  named.name = "Anna";
+  built.builder.OnCharacter(named);  // without lengths
+  sample.stamp_nanos += 10'000'000;
+  built.builder.OnSample(sample);
+  EXPECT_TRUE(built.last().people.at(0).model->lengths_are_of_poses);
+  named.skeleton = motion->character().skeleton;
+  built.builder.OnCharacter(named);
+  sample.stamp_nanos += 10'000'000;
+  built.builder.OnSample(sample);
+  const PersonModel& sent = *built.last().people.at(0).model;
+  EXPECT_TRUE(sent.lengths_are_measured);
+  EXPECT_FALSE(sent.lengths_are_of_poses);
 }
 
 TEST(SceneBuilder, WritesNoFiles) {

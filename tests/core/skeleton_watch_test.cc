@@ -1,4 +1,4 @@
-#include "server/ros/source/skeleton_watch.h"
+#include "core/skeleton_watch.h"
 
 #include <gtest/gtest.h>
 
