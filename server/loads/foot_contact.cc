@@ -12,7 +12,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using urdf::At;
 using urdf::kLeft;
 using urdf::kRight;
 using urdf::Side;
