@@ -50,11 +50,11 @@ dt {{ color: #61666f; }} dd {{ margin: 0; font-weight: bold; }}
 figure {{ margin: 0; }} figcaption {{ line-height: 1.3; }}
 figure img {{ width: 100%; display: block; border: .2mm solid #d3d6da; }}
 table {{ width: 100%; border-collapse: collapse; font-variant-numeric: tabular-nums; line-height: 1.2; }}
-th {{ text-align: right; font-weight: normal; color: #61666f; border-bottom: .3mm solid #21262f; padding: 0 0 .5mm 2mm; white-space: nowrap; }}
-td {{ text-align: right; padding: .3mm 0 .3mm 2mm; white-space: nowrap; border-bottom: .1mm solid #e2e4e7; }}
+th {{ text-align: right; font-weight: normal; color: #61666f; border-bottom: .3mm solid #21262f; padding: 0 0 .5mm 1.5mm; white-space: nowrap; }}
+td {{ text-align: right; padding: .3mm 0 .3mm 1.5mm; white-space: nowrap; border-bottom: .1mm solid #e2e4e7; }}
 th:first-child, td:first-child, .text {{ text-align: left; padding-left: 0; }}
-td.text, th.text {{ padding-left: 3mm; }}
-.bar {{ display: flex; width: 24mm; height: 2.6mm; }}
+td.text, th.text {{ padding-left: 2mm; }}
+.bar {{ display: flex; width: 14mm; height: 2.6mm; }}
 .low {{ background: {1}; }} .medium {{ background: {2}; }} .high {{ background: {3}; }}
 .unknown {{ background: repeating-linear-gradient(135deg, #a9adb5 0 .25mm, #eceef0 .25mm 1.1mm); }}
 .key {{ display: inline-block; width: 3mm; height: 2.2mm; margin: 0 1mm 0 2mm; }}
@@ -175,7 +175,7 @@ std::string BarHtml(const loads::JointExposure& exposure, std::uint64_t all) {
 }
 
 std::string ExposureHtml(const LoadTrial& trial) {
-  std::string html = "<table>\n<tr><th>joint</th><th class=\"text\">share of samples</th>";
+  std::string html = "<table>\n<tr><th>joint</th><th class=\"text\">share</th>";
   for (const LoadClass load_class : kLoadClassesOfTables) {
     html += fmt::format("<th>{} %</th>", Name(load_class));
   }
