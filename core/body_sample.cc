@@ -13,4 +13,12 @@ urdf::LinkPoses LinkPosesOf(const BodySample& sample) {
   return links;
 }
 
+urdf::SegmentOrientations OrientationsOf(const BodySample& sample) {
+  urdf::SegmentOrientations orientations;
+  for (std::size_t i = 0; i < orientations.size(); ++i) {
+    orientations[i] = sample.segments[i].orientation;
+  }
+  return orientations;
+}
+
 }  // namespace kinescope

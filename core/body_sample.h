@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "core/finger_and_prop_segments.h"
+#include "urdf/anatomical_angles.h"
+#include "urdf/landmarks.h"
 #include "urdf/segments.h"
 #include "urdf/skeleton.h"
 
@@ -76,6 +78,9 @@ struct BodySample {
 urdf::Pose LinkPoseOf(const BodySample& sample, int segment);
 urdf::LinkPoses LinkPosesOf(const BodySample& sample);
 
+/// world_from_segment, as in the sample.
+urdf::SegmentOrientations OrientationsOf(const BodySample& sample);
+
 /// One sample of a group of tracked objects, which MVN streams as a separate character.
 struct ObjectsSample {
   int character = 0;
@@ -104,6 +109,7 @@ struct Character {
   std::string name;                        // "" where unknown
   std::optional<std::uint32_t> color_rgb;  // 0xRRGGBB
   std::optional<urdf::Skeleton> skeleton;  // of a person; from type 13 or MVNX points
+  urdf::Landmarks landmarks;               // that came with the skeleton, as read; empty: none came
   /// Of a person: props and fingers, indexed as FingerAndPropSegments; name "" where there is none.
   /// Of a group of objects: all of them, in order.
   std::vector<ScaledSegment> scaled_segments;

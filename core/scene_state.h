@@ -52,11 +52,12 @@ struct PersonModel {
   urdf::HumanModel human;
   urdf::BodyDescription description;
   bool lengths_are_measured = false;  // from the source; else: the default body of a given height
-  bool lengths_are_of_poses = false;  // measured in its poses, since it sends no lengths; the ends
-                                      // of head, hands and feet are estimated from the stature
-  std::string urdf_xml;               // content of robot_description
-  urdf::RobotModel robot;             // urdf_xml, parsed
-  std::uint64_t revision = 0;         // increases with every change; sinks then reload
+  bool lengths_are_of_poses = false;  // measured in its poses, since it sends no lengths
+  /// The points that came with the lengths, as read; empty: none came.
+  urdf::Landmarks landmarks;
+  std::string urdf_xml;        // content of robot_description
+  urdf::RobotModel robot;      // urdf_xml, parsed
+  std::uint64_t revision = 0;  // increases with every change; sinks then reload
   /// Those that urdf_xml names, in a folder of their own; null without any. Readers of the files
   /// call Provide() first.
   std::shared_ptr<const MeshFiles> mesh_files;

@@ -5,9 +5,7 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <map>
-#include <string>
-#include <utility>
+#include <vector>
 
 #include "urdf/segments.h"
 
@@ -28,7 +26,8 @@ struct Skeleton {
   std::array<Eigen::Vector3d, 2> heel_in_foot{};
   std::array<Eigen::Vector3d, 2> toe_tip_in_toe{};
 
-  double height = 0;  // stature, m
+  double height = 0;                // stature, m
+  bool ends_are_estimated = false;  // at least one of the end points was not measured
 
   bool operator==(const Skeleton& other) const;
 };
@@ -44,15 +43,17 @@ inline constexpr double kDefaultHeight = kReferenceHeight;
 /// @pre 0.5 <= height_m <= 2.5
 Skeleton DefaultSkeleton(double height_m = kDefaultHeight);
 
-/// Landmarks by (segment, name), such as {kHead, "pTopOfHead"}: offset from the segment's origin in
-/// the *segment* frame (as in type 13 and MVNX), m.
-using Landmarks = std::map<std::pair<int, std::string>, Eigen::Vector3d>;
+struct Landmark;  // urdf/landmarks.h
+/// As the source has them, in its order.
+using Landmarks = std::vector<Landmark>;
 
 /// The skeleton from MVN's scale data: segment origins in the T-pose (world axes, m; every segment
 /// frame is identity there) and the landmarks that came with them. A joint is at its landmark
-/// (jL5S1 of the pelvis), as in MVNX, else at the origin of the next segment in the T-pose. Missing
-/// end points follow the stature fractions of joint-loads.md 1.6. A missing sole is the floor of
-/// the T-pose (z = 0), if the ankle then has a human height.
+/// (jL5S1 of the pelvis), as in MVNX, else at the origin of the next segment in the T-pose. A
+/// missing sole is the floor of the T-pose (z = 0), if the ankle then has a human height. Other
+/// missing end points are in proportion to the bone beside them, as in MVN's own skeletons (the
+/// head to the neck, the hand to the forearm, heel and toe to the foot); where that bone has no
+/// human length, to the stature (joint-loads.md 1.6).
 Skeleton SkeletonFromTPose(const std::array<Eigen::Vector3d, kSegmentCount>& origin_in_world,
                            const Landmarks& landmarks);
 

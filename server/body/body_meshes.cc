@@ -45,9 +45,10 @@ class MeshHash {
     }
   }
 
-  // Every member: a body that differs in one of them must not get the meshes of another.
+  // Every member that is a length: a body that differs in one of them must not get the meshes of
+  // another.
   void Add(const urdf::Skeleton& skeleton) {
-    static_assert(sizeof skeleton == (3 * (urdf::kSegmentCount + 7) + 1) * sizeof(double));
+    static_assert(sizeof skeleton == (3 * (urdf::kSegmentCount + 7) + 2) * sizeof(double));
     Add(skeleton.origin_in_parent);
     Add(skeleton.head_top_in_head);
     Add(skeleton.finger_tip_in_hand);

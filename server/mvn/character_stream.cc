@@ -60,9 +60,11 @@ void CharacterStream::TakeScale(std::int64_t now_nanos, SampleSink& sink) {
   const auto scale = scale_.Take(now_nanos);
   if (!scale) return;
   const bool same = character_.skeleton == scale->skeleton &&
+                    character_.landmarks == scale->landmarks &&
                     character_.scaled_segments == scale->scaled_segments;
   if (same) return;
   character_.skeleton = scale->skeleton;
+  character_.landmarks = scale->landmarks;
   character_.scaled_segments = scale->scaled_segments;
   Announce(sink);
 }

@@ -185,10 +185,7 @@ bool ParseTimeCode(ItemReader& in, TimeCodeMessage& out) {
 }
 
 PointPair PointsOf(urdf::Joint joint) {
-  // A joint is point 2 of its parent, the end of the segment; T8 and pelvis have more than one end.
-  std::uint32_t point = 2;
-  if (joint == urdf::jRightC7Shoulder || joint == urdf::jRightHip) point = 3;
-  if (joint == urdf::jLeftC7Shoulder || joint == urdf::jLeftHip) point = 4;
+  const auto point = static_cast<std::uint32_t>(urdf::PointNumberInParent(joint));
   return {PointId(urdf::ParentOf(joint), point), PointId(urdf::ChildOf(joint), 1)};
 }
 

@@ -40,26 +40,26 @@ const TypeSet& UsualTypes();
 /// The datagrams of one sample, in the order of types: those in `types` for which the sample has
 /// data.
 /// - 01 and 02: the body with its gloves and props.
-/// - 03: the points of type 13, moved with the segments; only with `skeleton`.
+/// - 03: `landmarks`, moved with the segments; at most 255.
 /// - 20 (22 items) if it has angles; 21 and 22 if it has derivatives; 24 if it has a CoM.
 /// - 23: its trackers. Without trackers: one on each of the 17 segments of a full suit, at the
 ///   origin and with the orientation of the segment, computed from the derivatives; none without
 ///   derivatives.
 /// - 25: its time of day, else that of its stamp.
 std::vector<std::string> EncodeSample(const BodySample& sample, const TypeSet& types = UsualTypes(),
-                                      const urdf::Skeleton* skeleton = nullptr);
+                                      const urdf::Landmarks& landmarks = {});
 
 /// 01 and 02 of tracked objects, up to the last one present.
 std::vector<std::string> EncodeObjects(const ObjectsSample& sample,
                                        const TypeSet& types = UsualTypes());
 
-/// Type 12 and type 13. For a person with a skeleton, 13 has two parts (segments with props and
-/// fingers, then points); for objects it has one.
+/// Type 12 and type 13. For a person with a skeleton, 13 has several parts (segments with props and
+/// fingers, then LandmarksToSend()); for objects it has one.
 std::vector<std::string> EncodeCharacter(const Character& character);
 
-/// The points of a skeleton that MVN also has, with MVN's numbers and names: the origin of the
-/// pelvis, both sides of every joint, the ends of head, hands, heels and toes.
-std::vector<ScalePoint> ScalePointsOf(const urdf::Skeleton& skeleton);
+/// The points of a person for types 03 and 13: those that came with the skeleton; if none came, its
+/// joints, which are known, without the ends of head, hands and feet, which are estimated.
+urdf::Landmarks LandmarksToSend(const Character& character);
 
 /// Segment origins in type 13, world, m: the T-pose (every segment frame is identity), standing on
 /// z = 0, pelvis above the origin.

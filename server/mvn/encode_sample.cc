@@ -114,13 +114,15 @@ PoseBody Poses(const ObjectsSample& sample) {
   return body;
 }
 
-MarkersMessage Markers(const BodySample& sample, const urdf::Skeleton& skeleton) {
+MarkersMessage Markers(const BodySample& sample, const urdf::Landmarks& landmarks) {
   MarkersMessage body;
-  for (const ScalePoint& point : ScalePointsOf(skeleton)) {
-    const SegmentState& carrier = sample.segments[urdf::At(point.segment_id - 1)];
+  for (const urdf::Landmark& landmark : landmarks) {
+    if (static_cast<std::size_t>(body.count) == body.markers.size()) break;
+    const SegmentState& carrier = sample.segments[urdf::At(landmark.segment)];
     body.markers[static_cast<std::size_t>(body.count++)] = {
-        static_cast<std::uint32_t>(point.segment_id), static_cast<std::uint32_t>(point.point_id),
-        carrier.position + carrier.orientation * point.offset};
+        static_cast<std::uint32_t>(landmark.segment + 1),
+        static_cast<std::uint32_t>(landmark.number),
+        carrier.position + carrier.orientation * landmark.in_segment};
   }
   return body;
 }
@@ -194,7 +196,26 @@ ScaleMessage ScaleSegments(const Character& character) {
   return body;
 }
 
+void AddLandmarks(const urdf::Landmarks& landmarks, Writer& out) {
+  constexpr std::size_t kPerPart = 32;  // as a current MVN sends them
+  ScaleMessage body;
+  int part = 1;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    const urdf::Landmark& landmark = landmarks[i];
+    body.points.push_back({landmark.segment + 1, landmark.number, Cleaned(landmark.name),
+                           landmark.flags, landmark.in_segment});
+    const bool is_last = i + 1 == landmarks.size();
+    if (body.points.size() < kPerPart && !is_last) continue;
+    out.AddPart(std::exchange(body, {}), part++, is_last);
+  }
+}
+
 }  // namespace
+
+urdf::Landmarks LandmarksToSend(const Character& character) {
+  if (!character.landmarks.empty() || !character.skeleton) return character.landmarks;
+  return urdf::JointLandmarksOf(*character.skeleton);
+}
 
 const TypeSet& UsualTypes() {
   static const TypeSet kTypes = MakeTypeSet(
@@ -203,7 +224,7 @@ const TypeSet& UsualTypes() {
 }
 
 std::vector<std::string> EncodeSample(const BodySample& sample, const TypeSet& types,
-                                      const urdf::Skeleton* skeleton) {
+                                      const urdf::Landmarks& landmarks) {
   const FingerAndPropCounts counts = CountFingersAndProps(
       [&](std::size_t index) { return sample.fingers_and_props.present.test(index); });
   Writer out(sample.character, urdf::kSegmentCount, counts);
@@ -213,7 +234,7 @@ std::vector<std::string> EncodeSample(const BodySample& sample, const TypeSet& t
   };
   add(Type::kEulerPose, true, [&] { return Poses<EulerPoseMessage>(sample); });
   add(Type::kPose, true, [&] { return Poses<PoseMessage>(sample); });
-  add(Type::kMarkers, skeleton != nullptr, [&] { return Markers(sample, *skeleton); });
+  add(Type::kMarkers, !landmarks.empty(), [&] { return Markers(sample, landmarks); });
   add(Type::kJointAngles, sample.streamed_angles_deg.has_value(), [&] {
     JointAnglesMessage body;
     body.joints = *sample.streamed_angles_deg;
@@ -261,42 +282,9 @@ std::vector<std::string> EncodeCharacter(const Character& character) {
     out.Add(ScaleSegments(character));
   } else if (character.skeleton) {
     out.AddPart(ScaleSegments(character), 0, false);
-    out.AddPart(ScaleMessage{{}, ScalePointsOf(*character.skeleton)}, 1, true);
+    AddLandmarks(LandmarksToSend(character), out);
   }
   return out.Take();
-}
-
-std::vector<ScalePoint> ScalePointsOf(const urdf::Skeleton& skeleton) {
-  std::vector<ScalePoint> points;
-  const auto add_segment_point = [&](int segment, std::uint32_t point, std::string name,
-                                     const Eigen::Vector3d& in_segment) {
-    points.push_back({segment + 1, static_cast<int>(point), std::move(name), 0, in_segment});
-  };
-  const auto add_link_point = [&](int segment, std::uint32_t point, std::string name,
-                                  const Eigen::Vector3d& in_link) {
-    add_segment_point(segment, point, std::move(name), urdf::SegmentFromLink(segment) * in_link);
-  };
-  add_segment_point(urdf::kPelvis, 1, "pHipOrigin", Eigen::Vector3d::Zero());
-  for (int i = 0; i < urdf::kJointCount; ++i) {
-    const auto joint = static_cast<urdf::Joint>(i);
-    const int child = urdf::ChildOf(joint);
-    const std::string name(urdf::kJoints[urdf::At(i)].mvn_name);
-    add_link_point(urdf::ParentOf(joint), PointsOf(joint).parent % 256, name,
-                   skeleton.origin_in_parent[urdf::At(child)]);
-    add_segment_point(child, PointsOf(joint).child % 256, name, Eigen::Vector3d::Zero());
-  }
-  add_link_point(urdf::kHead, 2, "pTopOfHead", skeleton.head_top_in_head);
-  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-    const bool right = side == urdf::kRight;
-    const std::string prefix = right ? "pRight" : "pLeft";
-    add_link_point(right ? urdf::kRightHand : urdf::kLeftHand, 2, prefix + "TopOfHand",
-                   skeleton.finger_tip_in_hand[side]);
-    add_link_point(right ? urdf::kRightFoot : urdf::kLeftFoot, 3, prefix + "HeelFoot",
-                   skeleton.heel_in_foot[side]);
-    add_link_point(right ? urdf::kRightToe : urdf::kLeftToe, 2, prefix + "Toe",
-                   skeleton.toe_tip_in_toe[side]);
-  }
-  return points;
 }
 
 std::array<Eigen::Vector3d, urdf::kSegmentCount> TPoseOrigins(const urdf::Skeleton& skeleton) {

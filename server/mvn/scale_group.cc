@@ -6,8 +6,7 @@ namespace kinescope::mvn {
 namespace {
 
 constexpr std::int64_t kPatienceNanos = 500'000'000;
-constexpr std::size_t kMaxLandmarks = 512;  // a current MVN sends 127
-constexpr double kShortestHuman = 0.4;      // m
+constexpr double kShortestHuman = 0.4;  // m
 constexpr double kTallestHuman = 2.8;
 constexpr double kLongestBone = 1.0;
 
@@ -81,8 +80,9 @@ std::optional<Reason> ScaleGroup::Add(const Header& header, const ScaleMessage& 
   for (const ScalePoint& point : part.points) {
     const double reach = point.offset.norm();
     if (point.segment_id > urdf::kSegmentCount || reach > kLongestBone) continue;
-    if (landmarks_.size() >= kMaxLandmarks) break;
-    landmarks_[{point.segment_id - 1, point.name}] = point.offset;
+    if (landmarks_.size() >= urdf::kMaxLandmarks) break;
+    landmarks_.push_back(
+        {point.segment_id - 1, point.point_id, point.name, point.offset, point.flags});
   }
   return std::nullopt;
 }
@@ -92,7 +92,10 @@ std::optional<ScaleGroup::Scale> ScaleGroup::Take(std::int64_t now_nanos) {
   if (!deadline || (!IsWhole() && now_nanos < *deadline)) return std::nullopt;
   taken_ = true;
   Scale scale;
-  if (segments_->body) scale.skeleton = urdf::SkeletonFromTPose(*segments_->body, landmarks_);
+  if (segments_->body) {
+    scale.skeleton = urdf::SkeletonFromTPose(*segments_->body, landmarks_);
+    scale.landmarks = std::move(landmarks_);
+  }
   scale.scaled_segments = segments_->scaled_segments;
   return scale;
 }

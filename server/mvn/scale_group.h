@@ -11,7 +11,7 @@
 
 #include "core/body_sample.h"
 #include "server/mvn/datagram.h"
-#include "urdf/skeleton.h"
+#include "urdf/landmarks.h"
 
 namespace kinescope::mvn {
 
@@ -22,6 +22,7 @@ class ScaleGroup {
 
   struct Scale {
     std::optional<urdf::Skeleton> skeleton;      // absent: objects
+    urdf::Landmarks landmarks;                   // of the skeleton, as received
     std::vector<ScaledSegment> scaled_segments;  // as in Character
   };
 

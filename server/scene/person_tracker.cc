@@ -25,7 +25,8 @@ void PersonTracker::SetCharacter(const Character& received) {
     character.skeleton = person_.character.skeleton;
   }
   const bool same_body = person_.character.skeleton == character.skeleton;
-  const bool same_extra = person_.character.scaled_segments == character.scaled_segments;
+  const bool same_extra = person_.character.scaled_segments == character.scaled_segments &&
+                          person_.character.landmarks == character.landmarks;
   const bool same_color = person_.character.color_rgb == character.color_rgb;
   person_.character = character;
   if (!same_body) {

@@ -1,7 +1,6 @@
 #include "server/subject/posture.h"
 
 #include "core/system/check.h"
-#include "server/subject/mvn_angles.h"
 
 namespace kinescope::subject {
 namespace {
@@ -109,14 +108,12 @@ void Posture::LookAt(const JetVector& target, double share) {
 
 BodySample Posture::ToSample(const urdf::BodyParameters& body) const {
   BodySample sample;
-  urdf::LinkPoses links;
   JetVector moment = JetVector::Zero();
   double mass = 0;
   for (int i = 0; i < urdf::kSegmentCount; ++i) {
     const JetVector& p = position(i);
     const JetQuaternion& q = orientation(i);
     const Eigen::Quaterniond value = PartOf(q, &Jet::value);
-    links[Index(i)] = {Values(p), value};
     SegmentState& segment = sample.segments[Index(i)];
     segment.position = Values(p);
     segment.velocity = Rates(p);
@@ -132,7 +129,8 @@ BodySample Posture::ToSample(const urdf::BodyParameters& body) const {
   sample.com = CenterOfMass{Values(com), Rates(com), Accels(com), true};
   sample.has_linear = true;
   sample.has_angular = true;
-  sample.streamed_angles_deg = StreamedAngles(links);
+  sample.streamed_angles_deg =
+      urdf::AnatomicalAngles(OrientationsOf(sample), urdf::AngleSequence::kZxy);
   return sample;
 }
 

@@ -39,6 +39,7 @@ class BuiltInMotion final : public Motion {
         generator_(MakeGenerator(name, skeleton_)) {
     character_.name = "Demo";
     character_.skeleton = skeleton_;
+    character_.landmarks = urdf::LandmarksOf(skeleton_);
   }
 
   BodySample At(double seconds) const override {

@@ -52,7 +52,8 @@ class EndlessStream {
           sample.fingers_and_props = random_sample.fingers_and_props;
           sample.streamed_angles_deg = random_sample.streamed_angles_deg;
         }
-        for (std::string& datagram : mvn::EncodeSample(sample, types, &skeleton)) {
+        for (std::string& datagram :
+             mvn::EncodeSample(sample, types, urdf::LandmarksOf(skeleton))) {
           datagrams_.push_back(
               {sample.counter, sample.counter * 1000 / kRateHz, std::move(datagram)});
         }

@@ -57,11 +57,12 @@ void AddRecord(std::string& out, int first, int wait, const std::string& bytes) 
 void WriteDatagrams(const fs::path& folder, RandomValues& random) {
   const BodySample sample = RandomSample(random, 1200);
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
-  for (const std::string& datagram : mvn::EncodeSample(sample, EveryType(), &skeleton)) {
+  for (const std::string& datagram :
+       mvn::EncodeSample(sample, EveryType(), urdf::LandmarksOf(skeleton))) {
     Write(folder / ("type" + datagram.substr(4, 2)), datagram);
   }
-  for (const std::string& datagram :
-       mvn::EncodeSample(RandomFullSample(random, 1200), EveryType(), &skeleton)) {
+  for (const std::string& datagram : mvn::EncodeSample(RandomFullSample(random, 1200), EveryType(),
+                                                       urdf::LandmarksOf(skeleton))) {
     const std::string type = datagram.substr(4, 2);
     if (type == "01" || type == "02")
       Write(folder / ("type" + type + "_gloves_and_props"), datagram);

@@ -1,8 +1,8 @@
-#include "urdf/skeleton.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "urdf/landmarks.h"
 
 namespace kinescope::urdf {
 namespace {
@@ -68,15 +68,15 @@ std::array<Vector3d, kSegmentCount> TPoseOrigins(const Skeleton& skeleton) {
 TEST(Skeleton, IsRestoredFromItsOwnTPoseAndLandmarks) {
   const Skeleton skeleton = DefaultSkeleton(1.8);
   Landmarks landmarks;
-  landmarks[{kHead, "pTopOfHead"}] = skeleton.head_top_in_head;
-  landmarks[{kRightHand, "pRightTopOfHand"}] =
-      SegmentFromLink(kRightHand) * skeleton.finger_tip_in_hand[kRight];
-  landmarks[{kLeftHand, "pLeftTopOfHand"}] =
-      SegmentFromLink(kLeftHand) * skeleton.finger_tip_in_hand[kLeft];
-  landmarks[{kRightFoot, "pRightHeelFoot"}] = skeleton.heel_in_foot[kRight];
-  landmarks[{kLeftFoot, "pLeftHeelFoot"}] = skeleton.heel_in_foot[kLeft];
-  landmarks[{kRightToe, "pRightToe"}] = skeleton.toe_tip_in_toe[kRight];
-  landmarks[{kLeftToe, "pLeftToe"}] = skeleton.toe_tip_in_toe[kLeft];
+  landmarks.push_back({kHead, 1, "pTopOfHead", skeleton.head_top_in_head});
+  landmarks.push_back({kRightHand, 1, "pRightTopOfHand",
+                       SegmentFromLink(kRightHand) * skeleton.finger_tip_in_hand[kRight]});
+  landmarks.push_back({kLeftHand, 1, "pLeftTopOfHand",
+                       SegmentFromLink(kLeftHand) * skeleton.finger_tip_in_hand[kLeft]});
+  landmarks.push_back({kRightFoot, 1, "pRightHeelFoot", skeleton.heel_in_foot[kRight]});
+  landmarks.push_back({kLeftFoot, 1, "pLeftHeelFoot", skeleton.heel_in_foot[kLeft]});
+  landmarks.push_back({kRightToe, 1, "pRightToe", skeleton.toe_tip_in_toe[kRight]});
+  landmarks.push_back({kLeftToe, 1, "pLeftToe", skeleton.toe_tip_in_toe[kLeft]});
   const Skeleton back = SkeletonFromTPose(TPoseOrigins(skeleton), landmarks);
   for (std::size_t i = 0; i < kSegmentCount; ++i) {
     EXPECT_LT((back.origin_in_parent[i] - skeleton.origin_in_parent[i]).norm(), 1e-12);
@@ -85,13 +85,14 @@ TEST(Skeleton, IsRestoredFromItsOwnTPoseAndLandmarks) {
   EXPECT_NEAR(back.height, 1.8, 0.004);
 }
 
-TEST(Skeleton, EstimatesMissingEndPointsFromTheStature) {
+TEST(Skeleton, EstimatesMissingEndPointsFromTheBonesBesideThem) {
   const Skeleton skeleton = DefaultSkeleton(1.8);
   const Skeleton back = SkeletonFromTPose(TPoseOrigins(skeleton), {});
+  EXPECT_TRUE(back.ends_are_estimated);
   EXPECT_NEAR(back.height, 1.8, 0.01);
   EXPECT_NEAR(back.head_top_in_head.z(), skeleton.head_top_in_head.z(), 0.01);
-  EXPECT_NEAR(back.finger_tip_in_hand[kRight].z(), skeleton.finger_tip_in_hand[kRight].z(), 0.01);
-  EXPECT_NEAR(back.heel_in_foot[kLeft].z(), skeleton.heel_in_foot[kLeft].z(), 0.01);
+  EXPECT_NEAR(back.finger_tip_in_hand[kRight].z(), skeleton.finger_tip_in_hand[kRight].z(), 0.003);
+  EXPECT_NEAR(back.heel_in_foot[kLeft].z(), skeleton.heel_in_foot[kLeft].z(), 0.003);
   EXPECT_GT(back.toe_tip_in_toe[kRight].x(), 0.05);
 }
 
@@ -100,10 +101,10 @@ TEST(Skeleton, PrefersJointsOfTheLandmarksToThoseOfTheTPose) {
   auto origins = TPoseOrigins(skeleton);
   for (int i = kL5; i <= kLeftHand; ++i) origins[At(i)].x() -= 0.0125;  // all that L5 carries
   Landmarks landmarks;
-  landmarks[{kPelvis, "jL5S1"}] = skeleton.origin_in_parent[kL5];
-  landmarks[{kT8, "jRightT4Shoulder"}] =
-      skeleton.origin_in_parent[kRightShoulder] + Vector3d(0, 0, 0.002);
-  landmarks[{kL5, "jL4L3"}] = Vector3d(0, 0.4, 0.4);  // that is no joint
+  landmarks.push_back({kPelvis, 1, "jL5S1", skeleton.origin_in_parent[kL5]});
+  landmarks.push_back({kT8, 1, "jRightT4Shoulder",
+                       skeleton.origin_in_parent[kRightShoulder] + Vector3d(0, 0, 0.002)});
+  landmarks.push_back({kL5, 1, "jL4L3", Vector3d(0, 0.4, 0.4)});  // that is no joint
   const Skeleton told = SkeletonFromTPose(origins, landmarks);
   EXPECT_EQ(told.origin_in_parent[kL5], skeleton.origin_in_parent[kL5]);
   EXPECT_EQ(told.origin_in_parent[kRightShoulder],
@@ -127,14 +128,19 @@ TEST(Skeleton, IgnoresTheFloorBelowATPoseThatIsInTheAir) {
   for (Vector3d& origin : origins) origin.z() -= 1.3;
   const Skeleton below = SkeletonFromTPose(origins, {});
   for (const Skeleton& skeleton : {above, below}) {
-    EXPECT_NEAR(skeleton.heel_in_foot[kLeft].z(), -0.046 * skeleton.height, 0.001);
+    EXPECT_NEAR(skeleton.heel_in_foot[kLeft].z(), -0.080 * 1.8 / kReferenceHeight, 0.003);
     EXPECT_NEAR(skeleton.height, 1.8, 0.01);
   }
 }
 
 // joint-loads.md 1.6, as fractions of the stature that the rest of the body leads to.
-TEST(Skeleton, UsesFractionsOfTheStatureForUnknownEndPoints) {
+TEST(Skeleton, UsesFractionsOfTheStatureBesideBonesOfNoHumanLength) {
   auto origins = TPoseOrigins(DefaultSkeleton(1.8));
+  for (const int segment : {kRightHand, kLeftHand}) {
+    origins[At(segment)] = origins[At(segment - 1)];  // no forearm
+  }
+  origins[kHead] = origins[kNeck];
+  for (const int segment : {kRightToe, kLeftToe}) origins[At(segment)] = origins[At(segment - 1)];
   for (Vector3d& origin : origins) origin.z() += 5;
   const Skeleton skeleton = SkeletonFromTPose(origins, {});
   const double h = skeleton.height;

@@ -63,6 +63,7 @@ class SampleFeed final : public Feed, private SampleSink {
   // One character as the source knows it.
   struct Track {
     Character character;
+    urdf::Landmarks landmarks;          // of the character, to send
     bool is_described = false;          // by the source
     std::int64_t described_nanos = -1;  // when it was sent last; -1: it has changed since
     Decimator decimator;
@@ -81,6 +82,7 @@ class SampleFeed final : public Feed, private SampleSink {
     Track& track = tracks_[character.id];
     track.character = character;
     AddGlovesAndProps(settings_.gloves, settings_.props, track.character);
+    track.landmarks = mvn::LandmarksToSend(track.character);
     // Every round of a loop begins with the same people.
     if (!is_repeated_ || !track.is_described) track.described_nanos = -1;
     track.is_described = true;
@@ -172,12 +174,11 @@ class SampleFeed final : public Feed, private SampleSink {
   }
 
   std::vector<std::string> Encode(const Track& track, const BodySample& sample) const {
-    const auto& skeleton = track.character.skeleton;
     mvn::TypeSet types = types_;
     if (!is_subject_ && sample.has_tracker.none()) {
       types.reset(static_cast<std::size_t>(mvn::Type::kTrackers));
     }
-    return mvn::EncodeSample(sample, types, skeleton ? &*skeleton : nullptr);
+    return mvn::EncodeSample(sample, types, track.landmarks);
   }
   std::vector<std::string> Encode(const Track&, const ObjectsSample& sample) const {
     return mvn::EncodeObjects(sample, types_);

@@ -26,6 +26,8 @@ constexpr Rule kRules[] = {
     {Element::kPoint, "pos_b", Element::kPointPosition},
     {Element::kSubject, "joints", Element::kJoints},
     {Element::kJoints, "joint", Element::kJoint},
+    {Element::kSubject, "sensors", Element::kSensors},
+    {Element::kSensors, "sensor", Element::kSensor},
     {Element::kSubject, "footContactDefinition", Element::kContacts},
     {Element::kContacts, "contactDefinition", Element::kContact},
     {Element::kSubject, "frames", Element::kFrames},
@@ -33,8 +35,20 @@ constexpr Rule kRules[] = {
 };
 
 constexpr const char* kListNames[kMvnxListCount] = {
-    "orientation",         "position",   "velocity",     "acceleration", "angularVelocity",
-    "angularAcceleration", "jointAngle", "centerOfMass", "footContacts",
+    "orientation",
+    "position",
+    "velocity",
+    "acceleration",
+    "angularVelocity",
+    "angularAcceleration",
+    "jointAngle",
+    "centerOfMass",
+    "footContacts",
+    "sensorOrientation",
+    "sensorFreeAcceleration",
+    "sensorAcceleration",
+    "sensorAngularVelocity",
+    "sensorMagneticField",
 };
 
 }  // namespace

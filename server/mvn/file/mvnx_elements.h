@@ -24,6 +24,8 @@ enum class Element {
   kPointPosition,
   kJoints,
   kJoint,
+  kSensors,
+  kSensor,
   kContacts,
   kContact,
   kFrames,

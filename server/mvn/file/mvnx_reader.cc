@@ -2,6 +2,7 @@
 
 #include <expat.h>
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -18,7 +19,6 @@ constexpr std::int64_t kLongestTag = 1 << 20;  // expat keeps a tag in memory un
 constexpr std::size_t kDeepest = 32;
 constexpr std::size_t kMaxMvnxSegments = 128;
 constexpr std::size_t kMaxJoints = 256;
-constexpr std::size_t kMaxPoints = 4096;
 constexpr std::size_t kMaxContacts = 64;
 constexpr double kHighestRate = 10000;
 
@@ -138,10 +138,7 @@ class MvnxReader::Parser {
     MvnxList list = MvnxList::kOrientation;
     const Element parent = path_.empty() ? Element::kDocument : path_.back();
     Element element = FindElement(parent, name, list);
-    if (element == Element::kList && list == MvnxList::kFootContacts &&
-        header_.foot_contacts.empty()) {
-      element = Element::kOther;  // their meaning is not stated
-    }
+    if (element == Element::kList && IsMeaningUnknown(list)) element = Element::kOther;
     path_.push_back(element);
     text_.clear();
     if (parent == Element::kDocument) {
@@ -156,12 +153,19 @@ class MvnxReader::Parser {
       case Element::kSegment: return OnSegment(attributes);
       case Element::kPoint: point_label_ = FindText(attributes, "label"); return;
       case Element::kJoint: return OnJoint(attributes);
+      case Element::kSensor: return OnSensor(attributes);
       case Element::kContact: return OnContact(attributes);
       case Element::kFrames: return OnFrames();
       case Element::kFrame: return OnFrame(attributes);
       case Element::kList: list_ = list; return;
       default: return;
     }
+  }
+
+  // The header does not say what its numbers belong to.
+  bool IsMeaningUnknown(MvnxList list) const {
+    if (IsOfSensors(list)) return header_.sensors.empty();
+    return list == MvnxList::kFootContacts && header_.foot_contacts.empty();
   }
 
   void OnMvnx(const char** attributes) {
@@ -199,6 +203,17 @@ class MvnxReader::Parser {
   void OnJoint(const char** attributes) {
     if (header_.joints.size() >= kMaxJoints) return Fail("too many joints");
     header_.joints.push_back(urdf::FindJoint(FindText(attributes, "label")));
+  }
+
+  void OnSensor(const char** attributes) {
+    const std::string label = FindText(attributes, "label");
+    const auto segment = urdf::FindSegment(label);
+    const auto& sensors = header_.sensors;
+    if (sensors.size() >= kMaxMvnxSegments) return Fail("too many sensors");
+    if (segment && std::find(sensors.begin(), sensors.end(), segment) != sensors.end()) {
+      return Fail("sensor " + label + " is listed twice");
+    }
+    header_.sensors.push_back(segment);
   }
 
   void OnContact(const char** attributes) {
@@ -260,8 +275,12 @@ class MvnxReader::Parser {
     }
     const auto& segment = header_.segments.back();  // a point is inside its segment
     if (!segment) return;
-    if (header_.points.size() >= kMaxPoints) return Fail("too many points");
-    header_.points[{*segment, point_label_}] = {numbers_[0], numbers_[1], numbers_[2]};
+    if (header_.points.size() >= urdf::kMaxLandmarks) return Fail("too many points");
+    const bool is_next = !header_.points.empty() && header_.points.back().segment == *segment;
+    header_.points.push_back({*segment,
+                              is_next ? header_.points.back().number + 1 : 1,
+                              point_label_,
+                              {numbers_[0], numbers_[1], numbers_[2]}});
   }
 
   void OnListEnd() {
@@ -272,7 +291,8 @@ class MvnxReader::Parser {
     const std::size_t expected = ExpectedSize(list_);
     if (numbers.size() == expected || short_com) return;
     Fail(std::string(Name(list_)) + " has " + std::to_string(numbers.size()) +
-         " numbers; expected " + std::to_string(expected) + " from the file's segments and joints");
+         " numbers; expected " + std::to_string(expected) +
+         " from the file's segments, joints and sensors");
   }
 
   std::size_t ExpectedSize(MvnxList list) const {
@@ -281,6 +301,11 @@ class MvnxReader::Parser {
       case MvnxList::kJointAngle: return 3 * header_.joints.size();
       case MvnxList::kCenterOfMass: return 9;  // or only its position, 3
       case MvnxList::kFootContacts: return header_.foot_contacts.size();
+      case MvnxList::kSensorOrientation: return 4 * header_.sensors.size();
+      case MvnxList::kSensorFreeAcceleration:
+      case MvnxList::kSensorAcceleration:
+      case MvnxList::kSensorAngularVelocity:
+      case MvnxList::kSensorMagneticField: return 3 * header_.sensors.size();
       default: return 3 * header_.segments.size();
     }
   }

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/system/input_file.h"
-#include "urdf/skeleton.h"
+#include "urdf/landmarks.h"
 
 namespace kinescope::mvn {
 
@@ -22,7 +22,8 @@ struct MvnxHeader {
   double rate_hz = 0;
   std::vector<std::optional<urdf::Segment>> segments;  // in file order; absent: a prop
   std::vector<std::optional<urdf::Joint>> joints;      // in file order
-  urdf::Landmarks points;                              // of body segments, m
+  urdf::Landmarks points;                              // of body segments, in file order
+  std::vector<std::optional<urdf::Segment>> sensors;   // in file order, by what carries them
   std::vector<std::string> foot_contacts;              // "LeftFoot_Heel", ..., in file order
 };
 
@@ -37,8 +38,15 @@ enum class MvnxList {
   kJointAngle,
   kCenterOfMass,
   kFootContacts,
+  kSensorOrientation,
+  kSensorFreeAcceleration,  // version 4
+  kSensorAcceleration,      // version 3
+  kSensorAngularVelocity,   // version 3
+  kSensorMagneticField,
 };
-inline constexpr std::size_t kMvnxListCount = 9;
+inline constexpr std::size_t kMvnxListCount = 14;
+
+constexpr bool IsOfSensors(MvnxList list) { return list >= MvnxList::kSensorOrientation; }
 
 struct MvnxFrame {
   std::string type;                   // "normal", "tpose", ...; "" if absent

@@ -8,6 +8,7 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "server/mvn/open.h"
+#include "urdf/anatomical_angles.h"
 
 namespace kinescope::mvn {
 namespace {
@@ -19,6 +20,20 @@ constexpr std::int64_t kLargestIndex = 0xFFFFFFFF;         // the largest sample
 
 Eigen::Vector3d VectorAt(const std::vector<double>& numbers, std::size_t index) {
   return {numbers[3 * index], numbers[3 * index + 1], numbers[3 * index + 2]};
+}
+
+bool IsUnit(const double* wxyz) {
+  const double norm = Eigen::Map<const Eigen::Vector4d>(wxyz).norm();
+  return std::abs(norm - 1.0) <= kMvnxNormTolerance;
+}
+
+// Numbers that are a unit quaternion but for their rounding stay as they are, so that what was
+// written exactly is read exactly.
+Eigen::Quaterniond UnitQuaternion(const double* wxyz) {
+  constexpr double kRounding = 1e-15;
+  Eigen::Quaterniond turned(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  if (std::abs(turned.squaredNorm() - 1.0) > kRounding) turned.normalize();
+  return turned;
 }
 
 // By urdf::Side, heel before forefoot.
@@ -37,26 +52,6 @@ std::string CounterOf(const MvnxFrame& frame) {
 
 }  // namespace
 
-const Eigen::Quaterniond& SegmentFromIsb(int segment) {
-  using namespace urdf;
-  // An arm that points sideways in the T-pose points down in its anatomical axes; forearm and hand
-  // are also rotated about their long axis, palm forward.
-  static const Eigen::Quaterniond kNone = Eigen::Quaterniond::Identity();
-  static const Eigen::Quaterniond kRightUpper(M_SQRT1_2, -M_SQRT1_2, 0, 0);
-  static const Eigen::Quaterniond kRightLower(0.5, -0.5, 0.5, 0.5);
-  static const Eigen::Quaterniond kLeftUpper(M_SQRT1_2, M_SQRT1_2, 0, 0);
-  static const Eigen::Quaterniond kLeftLower(0.5, 0.5, 0.5, -0.5);
-  switch (segment) {
-    case kRightUpperArm: return kRightUpper;
-    case kRightForeArm:
-    case kRightHand: return kRightLower;
-    case kLeftUpperArm: return kLeftUpper;
-    case kLeftForeArm:
-    case kLeftHand: return kLeftLower;
-    default: return kNone;
-  }
-}
-
 MvnxSource::MvnxSource(InputFile file, std::string name)
     : name_(std::move(name)), reader_(std::move(file), name_) {
   previous_.fill(Eigen::Quaterniond::Identity());
@@ -68,6 +63,7 @@ MvnxSource::MvnxSource(InputFile file, std::string name)
              // valid
   try {
     character_.skeleton = urdf::SkeletonFromLandmarks(header.points);
+    character_.landmarks = header.points;
   } catch (const std::runtime_error& error) {
     reader_.Refuse(error.what());
   }
@@ -127,6 +123,7 @@ BodySample MvnxSource::ToSample() {
   }
   FillAngles(sample);
   FillContacts(sample);
+  FillTrackers(sample);
   return sample;
 }
 
@@ -143,6 +140,35 @@ void MvnxSource::FillContacts(BodySample& sample) const {
     }
   }
   if (found.all()) sample.foot_contacts = feet;
+}
+
+void MvnxSource::FillTrackers(BodySample& sample) const {
+  const std::vector<double>& orientation = frame_[MvnxList::kSensorOrientation];
+  const std::vector<double>& free = frame_[MvnxList::kSensorFreeAcceleration];
+  const std::vector<double>& with_gravity = frame_[MvnxList::kSensorAcceleration];
+  const std::vector<double>& rates = frame_[MvnxList::kSensorAngularVelocity];
+  const std::vector<double>& field = frame_[MvnxList::kSensorMagneticField];
+  if (orientation.empty() || field.empty() || (free.empty() && with_gravity.empty())) return;
+  const auto& sensors = reader_.header().sensors;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (!sensors[i]) continue;
+    const auto segment = static_cast<std::size_t>(*sensors[i]);
+    TrackerState& tracker = sample.trackers[segment];
+    const double* const q = &orientation[4 * i];
+    if (!IsUnit(q)) continue;  // zeros: this sensor was lost
+    tracker.orientation = UnitQuaternion(q);
+    tracker.magnetic_field = VectorAt(field, i);
+    tracker.has_rates = !with_gravity.empty() && !rates.empty();
+    if (tracker.has_rates) {
+      tracker.acceleration = VectorAt(with_gravity, i);
+      tracker.angular_velocity = VectorAt(rates, i);
+    }
+    constexpr double kMvnGravity = 9.81;  // m/s^2
+    tracker.free_acceleration = !free.empty() ? VectorAt(free, i)
+                                              : tracker.orientation * VectorAt(with_gravity, i) -
+                                                    kMvnGravity * Eigen::Vector3d::UnitZ();
+    sample.has_tracker.set(segment);
+  }
 }
 
 void MvnxSource::FillAngles(BodySample& sample) const {
@@ -185,14 +211,13 @@ void MvnxSource::FillSegments(BodySample& sample) {
     if (!header.segments[i]) continue;  // a prop
     const auto segment = static_cast<std::size_t>(*header.segments[i]);
     const double* const q = &orientation[4 * i];
-    Eigen::Quaterniond turned(q[0], q[1], q[2], q[3]);
-    if (std::abs(turned.norm() - 1.0) > kMvnxNormTolerance) {
+    if (!IsUnit(q)) {
       reader_.Refuse("orientation of " + std::string(urdf::kSegments[segment].mvn_name) +
                      " is not a unit quaternion");
     }
-    turned.normalize();
+    Eigen::Quaterniond turned = UnitQuaternion(q);
     if (header.version == 3) {
-      turned = turned * SegmentFromIsb(*header.segments[i]).conjugate();
+      turned = turned * urdf::SegmentFromIsb(*header.segments[i]).conjugate();
     }
     if (turned.dot(previous_[segment]) < 0) turned.coeffs() = -turned.coeffs();
     previous_[segment] = turned;

@@ -13,19 +13,17 @@
 
 namespace kinescope::mvn {
 
-/// In version 3 files the orientations of upper arms, forearms and hands are those of anatomical
-/// (ISB) axes: world_from_isb = world_from_segment * SegmentFromIsb(segment). Identity elsewhere.
-/// Joint angles of every version are about these axes.
-const Eigen::Quaterniond& SegmentFromIsb(int segment);
-
 /// - Calibration frames are excluded by their type and counted as `ignored`.
 /// - counter = frame index; time code = index / frame rate; stamp = `ms` of the first motion frame
 ///   + (index - first index) / rate, because `ms` is rounded. A file without `ms` begins 1 s after
 ///   the Unix epoch (stamp 0 would mean "no time" in ROS).
-/// - Neighbouring quaternions never change sign. Version 3 arms are converted to segment frames.
+/// - Neighbouring quaternions never change sign. Version 3 arms, which are about anatomical axes,
+///   are converted to segment frames.
 /// - Joint angles (jointAngle, degrees), centre of mass, derivatives and foot contacts are present
 ///   if the frame has them; contacts are assigned by the labels of footContactDefinition, in any
 ///   order.
+/// - Trackers are present if the frame has orientation, acceleration and magnetic field of the
+///   sensors. Version 4 has no acceleration with gravity and no angular velocity of them.
 class MvnxSource : public Source {
  public:
   /// Reads the header; `name` is for messages. @throws SourceError.
@@ -45,6 +43,7 @@ class MvnxSource : public Source {
   void FillSegments(BodySample& sample);
   void FillAngles(BodySample& sample) const;
   void FillContacts(BodySample& sample) const;
+  void FillTrackers(BodySample& sample) const;
   void FillTimes(BodySample& sample) const;
 
   std::string name_;

@@ -24,7 +24,8 @@ TEST(InputPath, AllocatesNothingPerValidOrRejectedDatagram) {
                    Type::kAngular, Type::kTrackers, Type::kCenterOfMass, Type::kTimeCode});
   std::vector<std::vector<std::string>> sent;
   for (std::uint32_t counter = 1; counter <= 200; ++counter) {
-    sent.push_back(EncodeSample(testing::RandomFullSample(random, counter), every_type, &skeleton));
+    sent.push_back(EncodeSample(testing::RandomFullSample(random, counter), every_type,
+                                urdf::LandmarksOf(skeleton)));
     ASSERT_EQ(sent.back().size(), 9U);
     sent.back().push_back(R"({"sync":"start"})");
     sent.back().push_back(sent.back().front().substr(0, 700));

@@ -19,6 +19,7 @@ TEST_F(CharactersTest, KeepsSamplesIntactAroundMetaAndScaleData) {
   Character character;
   character.name = "Ines";
   character.skeleton = urdf::DefaultSkeleton(1.8);
+  character.landmarks = urdf::LandmarksOf(*character.skeleton);
   for (std::uint32_t counter = 5006; counter < 5010; ++counter) {
     const auto datagrams = Datagrams(counter);
     Send(datagrams[0]);
@@ -42,8 +43,9 @@ TEST_F(CharactersTest, KeepsSamplesIntactAroundMetaAndScaleData) {
 TEST_F(CharactersTest, RestoresTheSkeletonFromScaleData) {
   Character character;
   character.skeleton = urdf::DefaultSkeleton(1.62);
+  character.landmarks = urdf::LandmarksOf(*character.skeleton);
   auto datagrams = EncodeCharacter(character);
-  std::swap(datagrams[1], datagrams[2]);  // points overtake segments
+  std::swap(datagrams[1], datagrams[3]);  // points overtake segments
   Send(datagrams);
   ASSERT_FALSE(sink_.characters.empty());
   ASSERT_TRUE(sink_.characters.back().skeleton);

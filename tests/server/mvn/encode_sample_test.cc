@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "server/mvn/assembler.h"
 #include "server/mvn/encode.h"
 #include "tests/server/mvn/mvn_testing.h"
 
@@ -32,6 +33,17 @@ std::vector<std::pair<std::string, std::size_t>> Sizes(const std::vector<std::st
 }
 using P = std::pair<std::string, std::size_t>;
 
+// The points of type 13, in the order in which they are sent.
+std::vector<ScalePoint> SentPoints(const std::vector<std::string>& datagrams) {
+  std::vector<ScalePoint> points;
+  for (const std::string& datagram : datagrams) {
+    const auto message = ParseDatagram(datagram);
+    const auto* const scale = std::get_if<ScaleMessage>(&message->body);
+    if (scale != nullptr) points.insert(points.end(), scale->points.begin(), scale->points.end());
+  }
+  return points;
+}
+
 // mvn-protocol.md 3: "Sizes".
 TEST(EncodeSample, WritesTheDatagramsOfASampleInTheSizesOfACurrentMvn) {
   RandomValues random(3);
@@ -39,8 +51,8 @@ TEST(EncodeSample, WritesTheDatagramsOfASampleInTheSizesOfACurrentMvn) {
   EXPECT_THAT(Sizes(EncodeSample(sample)),
               ElementsAre(P("02", 760), P("20", 464), P("21", 944), P("22", 1036), P("24", 60)));
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
-  const std::size_t markers = kHeaderBytes + 16 * ScalePointsOf(skeleton).size();
-  EXPECT_THAT(Sizes(EncodeSample(sample, AllTypes(), &skeleton)),
+  const std::size_t markers = kHeaderBytes + 16 * urdf::LandmarksOf(skeleton).size();
+  EXPECT_THAT(Sizes(EncodeSample(sample, AllTypes(), urdf::LandmarksOf(skeleton))),
               ElementsAre(P("01", 668), P("02", 760), P("03", markers), P("20", 464), P("21", 944),
                           P("22", 1036), P("23", 1180), P("24", 60), P("25", 40)));
 }
@@ -74,7 +86,8 @@ TEST(EncodeSample, NumbersFingersAfterTheExistingProps) {
 TEST(EncodeSample, WritesTheNumbersOfSegmentsIntoEveryDatagram) {
   RandomValues random(3);
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
-  for (const std::string& datagram : EncodeSample(FullSample(random), AllTypes(), &skeleton)) {
+  for (const std::string& datagram :
+       EncodeSample(FullSample(random), AllTypes(), urdf::LandmarksOf(skeleton))) {
     EXPECT_EQ(datagram.substr(17, 3), testing::FromHex("17 04 28")) << datagram.substr(4, 2);
   }
 }
@@ -153,12 +166,12 @@ TEST(EncodeSample, WritesMarkersAtTheirSegmentsWithTheIdsOfTheScaleData) {
   head.position = {1, 2, 3};
   head.orientation = Eigen::AngleAxisd(M_PI / 2, Eigen::Vector3d::UnitX());
   const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
-  const auto body =
-      ParseOnly<MarkersMessage>(EncodeSample(sample, MakeTypeSet({Type::kMarkers}), &skeleton));
   Character character;
   character.skeleton = skeleton;
-  const auto scale = ParseDatagram(EncodeCharacter(character).back());
-  const auto& points = std::get<ScaleMessage>(scale->body).points;
+  character.landmarks = urdf::LandmarksOf(skeleton);
+  const auto body = ParseOnly<MarkersMessage>(
+      EncodeSample(sample, MakeTypeSet({Type::kMarkers}), LandmarksToSend(character)));
+  const auto points = SentPoints(EncodeCharacter(character));
   ASSERT_EQ(static_cast<std::size_t>(body.count), points.size());
   bool found = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -215,18 +228,19 @@ TEST(EncodeSample, SplitsScaleDataIntoSegmentsAndPoints) {
   character.id = 2;
   character.name = "Ines\nname:Eve";
   character.skeleton = urdf::DefaultSkeleton();
+  character.landmarks = urdf::LandmarksOf(*character.skeleton);
   const auto datagrams = EncodeCharacter(character);
-  ASSERT_EQ(datagrams.size(), 3U);
+  ASSERT_EQ(datagrams.size(), 4U);
   EXPECT_EQ(datagrams[0].substr(10, 2), testing::FromHex("80 01"));
   EXPECT_EQ(datagrams[1].substr(10, 2), testing::FromHex("00 00"));
-  EXPECT_EQ(datagrams[2].substr(10, 2), testing::FromHex("81 00"));
+  EXPECT_EQ(datagrams[2].substr(10, 2), testing::FromHex("01 00"));
+  EXPECT_EQ(datagrams[3].substr(10, 2), testing::FromHex("82 00"));
   const auto meta = ParseDatagram(datagrams[0]);
   EXPECT_EQ(std::get<MetaDataMessage>(meta->body).name, "Ines?name:Eve")
       << "a line break in a name must not make a tag of its own";
-  const auto points = ParseDatagram(datagrams[2]);
   std::set<std::string> names;
   std::set<std::pair<int, int>> ids;
-  for (const ScalePoint& point : std::get<ScaleMessage>(points->body).points) {
+  for (const ScalePoint& point : SentPoints(datagrams)) {
     names.insert(point.name);
     EXPECT_TRUE(ids.emplace(point.segment_id, point.point_id).second) << "twice: " << point.name;
   }
@@ -235,6 +249,50 @@ TEST(EncodeSample, SplitsScaleDataIntoSegmentsAndPoints) {
         "pRightHeelFoot", "pLeftHeelFoot", "pRightToe", "pLeftToe"}) {
     EXPECT_EQ(names.count(name), 1U) << name;
   }
+}
+
+TEST(EncodeSample, SendsNoEndPointsThatNobodyMeasured) {
+  Character character;
+  character.skeleton = urdf::SkeletonFromTPose(TPoseOrigins(urdf::DefaultSkeleton()), {});
+  std::size_t joints = 0;
+  for (const ScalePoint& point : SentPoints(EncodeCharacter(character))) {
+    EXPECT_TRUE(point.name[0] == 'j' || point.name == "pHipOrigin") << point.name;
+    ++joints;
+  }
+  EXPECT_EQ(joints, 1U + 2 * urdf::kJointCount);
+}
+
+TEST(EncodeSample, SendsAllLandmarksThatWereReadAndTheyAreReceivedAgain) {
+  Character character;
+  character.skeleton = urdf::DefaultSkeleton();
+  character.landmarks = urdf::LandmarksOf(*character.skeleton);
+  for (int i = 0; character.landmarks.size() < urdf::kMaxLandmarks; ++i) {
+    character.landmarks.push_back(
+        {i % urdf::kSegmentCount, 20 + i, "pOther" + std::to_string(i), {0.25, 0, -0.125}, 3});
+  }
+  Assembler assembler;
+  testing::RecordingSink sink;
+  for (const std::string& datagram : EncodeCharacter(character)) {
+    assembler.Add({}, datagram, {1, 1}, sink);
+  }
+  BodySample sample;
+  for (const std::string& datagram : EncodeSample(sample)) {
+    assembler.Add({}, datagram, {1, 1}, sink);
+  }
+  assembler.Flush(sink);
+  ASSERT_EQ(sink.characters.size(), 1U);
+  const urdf::Landmarks& received = sink.characters[0].landmarks;
+  ASSERT_EQ(received.size(), character.landmarks.size());
+  for (std::size_t i = 0; i < received.size(); ++i) {
+    EXPECT_EQ(received[i].name, character.landmarks[i].name);
+    EXPECT_EQ(received[i].number, character.landmarks[i].number);
+    EXPECT_EQ(received[i].segment, character.landmarks[i].segment);
+    EXPECT_EQ(received[i].flags, character.landmarks[i].flags);
+    EXPECT_LT((received[i].in_segment - character.landmarks[i].in_segment).norm(), 1e-7);
+  }
+  const auto markers = ParseOnly<MarkersMessage>(
+      EncodeSample(sample, MakeTypeSet({Type::kMarkers}), character.landmarks));
+  EXPECT_EQ(markers.count, 255);
 }
 
 TEST(EncodeSample, WritesNamesOfPropsAndFingersAfterTheBody) {

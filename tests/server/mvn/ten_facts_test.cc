@@ -315,8 +315,8 @@ TEST(TenFacts, Fact10SegmentFramesAreIdentityInTheTPoseAndJointAnglesAreNot) {
     const int parent = urdf::ParentOf(joint);
     const int child = urdf::ChildOf(joint);
     const Eigen::Quaterniond turn =
-        (sample.segments[urdf::At(parent)].orientation * SegmentFromIsb(parent)).conjugate() *
-        (sample.segments[urdf::At(child)].orientation * SegmentFromIsb(child));
+        (sample.segments[urdf::At(parent)].orientation * urdf::SegmentFromIsb(parent)).conjugate() *
+        (sample.segments[urdf::At(child)].orientation * urdf::SegmentFromIsb(child));
     const Eigen::Vector3d cardan = urdf::AnglesFromRotation(turn);  // alpha, -gamma, beta
     return Eigen::Vector3d(side * cardan.x(), -side * cardan.z(), -cardan.y()) * 180 / M_PI;
   };

@@ -16,7 +16,6 @@
 namespace kinescope::mvn {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using ::kinescope::testing::SharedData;
@@ -62,6 +61,41 @@ std::string Replaced(std::string text, const std::string& from, const std::strin
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return text.replace(at, from.size(), to);
+}
+
+TEST(Mvnx, LeavesOutSensorsThatAreNotListedAndRefusesWrongCounts) {
+  const std::string lists =
+      "<sensorOrientation>1 0 0 0 1 0 0 0</sensorOrientation>"
+      "<sensorFreeAcceleration>0 0 1 0 0 2</sensorFreeAcceleration>"
+      "<sensorMagneticField>1 0 0 0 1 0</sensorMagneticField></frame>";
+  std::string unlisted = Replaced(SmallFile(), "</frame>\n</frames>", lists + "</frames>");
+  MvnxSource without = Open(unlisted);
+  EXPECT_TRUE(ReadAll(without).samples.back().has_tracker.none()) << "whose sensors?";
+
+  const auto listed = [&](const std::string& sensors) {
+    return Replaced(unlisted, "<joints>", "<sensors>" + sensors + "</sensors><joints>");
+  };
+  std::string good = listed("<sensor label=\"Head\"/><sensor label=\"Prop1\"/>");
+  MvnxSource with = Open(good);
+  const BodySample last = ReadAll(with).samples.back();
+  EXPECT_EQ(last.has_tracker.count(), 1U);
+  ASSERT_TRUE(last.has_tracker.test(urdf::kHead));
+  EXPECT_EQ(last.trackers[urdf::kHead].free_acceleration, Vector3d(0, 0, 1));
+  EXPECT_FALSE(last.trackers[urdf::kHead].has_rates);
+
+  const auto refusal = [](std::string text) -> std::string {
+    try {
+      MvnxSource source = Open(text);
+      ReadAll(source);
+      return "accepted";
+    } catch (const SourceError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_THAT(refusal(listed("<sensor label=\"Head\"/>")),
+              HasSubstr("sensorOrientation has 8 numbers; expected 4"));
+  EXPECT_THAT(refusal(listed("<sensor label=\"Head\"/><sensor label=\"Head\"/>")),
+              HasSubstr("sensor Head is listed twice"));
 }
 
 class MvnxVersion : public ::testing::TestWithParam<int> {};
@@ -374,44 +408,20 @@ TEST(Mvnx, NamesAFileThatIsMissing) {
 
 // Real files. --------------------------------------------------------------------------------
 
-// MVN's jointAngle (degrees) of a pose, from the orientations about anatomical axes.
-Vector3d JointAngleOf(const BodySample& sample, int joint) {
-  const int parent = urdf::ParentOf(joint);
-  const int child = urdf::ChildOf(joint);
-  const auto anatomical = [&sample](int segment) {
-    return Quaterniond(sample.segments[static_cast<std::size_t>(segment)].orientation *
-                       SegmentFromIsb(segment));
-  };
-  Matrix3d to_isb;  // x forward, y up, z right
-  to_isb << 1, 0, 0, 0, 0, 1, 0, -1, 0;
-  const Matrix3d turn =
-      to_isb * (anatomical(parent).conjugate() * anatomical(child)).matrix() * to_isb.transpose();
-  const double alpha = std::asin(std::clamp(turn(2, 1), -1.0, 1.0));
-  const double beta = std::atan2(-turn(2, 0), turn(2, 2));
-  const double gamma = std::atan2(-turn(0, 1), turn(1, 1));
-  const std::string_view name = urdf::kJoints[static_cast<std::size_t>(joint)].mvn_name;
-  const bool right = name.find("Right") != std::string_view::npos;
-  const bool left = name.find("Left") != std::string_view::npos;
-  const bool bends_back = name.find("Knee") != std::string_view::npos ||
-                          name.find("BallFoot") != std::string_view::npos || (!right && !left);
-  const Vector3d signs(right ? -1 : 1, left ? -1 : 1, bends_back ? -1 : 1);
-  return signs.cwiseProduct(Vector3d(alpha, beta, gamma)) * 180 / M_PI;
-}
-
 struct RealFile {
   const char* path;
   std::size_t samples;
   double rate_hz;
   std::int64_t first_millis;
+  std::size_t landmarks, sensors;
 };
 
 class RealMvnx : public ::testing::TestWithParam<RealFile> {};
-INSTANTIATE_TEST_SUITE_P(Files, RealMvnx,
-                         ::testing::Values(RealFile{"mvnx/Meri-020.mvnx", 4, 240, 1478188786272},
-                                           RealFile{"mvnx/test_mocap.mvnx", 112, 60, 0}),
-                         [](const auto& file) {
-                           return file.index == 0 ? "Version3" : "Version4";
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Files, RealMvnx,
+    ::testing::Values(RealFile{"mvnx/Meri-020.mvnx", 4, 240, 1478188786272, 125, 17},
+                      RealFile{"mvnx/test_mocap.mvnx", 112, 60, 0, 127, 11}),
+    [](const auto& file) { return file.index == 0 ? "Version3" : "Version4"; });
 
 TEST_P(RealMvnx, HasSegmentsThatMeetWithinTwoMillimetres) {
   KINESCOPE_NEEDS_SHARED_DATA(GetParam().path);
@@ -444,8 +454,9 @@ TEST_P(RealMvnx, HasJointAnglesThatFollowFromTheQuaternions) {
   int compared = 0;
   for (const BodySample& sample : sink.samples) {
     if (!sample.streamed_angles_deg) continue;
+    const auto computed = urdf::AnatomicalAngles(OrientationsOf(sample), urdf::AngleSequence::kZxy);
     for (int joint = 0; joint < urdf::kJointCount; ++joint) {
-      const Vector3d difference = JointAngleOf(sample, joint) -
+      const Vector3d difference = computed[static_cast<std::size_t>(joint)] -
                                   (*sample.streamed_angles_deg)[static_cast<std::size_t>(joint)];
       for (const double degrees : difference) {
         EXPECT_LT(std::abs(std::remainder(degrees, 360.0)), 0.002)
@@ -455,6 +466,39 @@ TEST_P(RealMvnx, HasJointAnglesThatFollowFromTheQuaternions) {
     }
   }
   EXPECT_GE(compared, 3 * 22 * 3);
+}
+
+TEST_P(RealMvnx, HasAllItsLandmarks) {
+  KINESCOPE_NEEDS_SHARED_DATA(GetParam().path);
+  const auto source = OpenMvnx(SharedData(GetParam().path));
+  const RecordingSink sink = ReadAll(*source);
+  const urdf::Landmarks& landmarks = sink.characters.at(0).landmarks;
+  ASSERT_EQ(landmarks.size(), GetParam().landmarks);
+  EXPECT_EQ(landmarks[12].name, "pSacrum");
+  EXPECT_EQ(landmarks[12].number, 13) << "269 in the specification: 256 * 1 + 13";
+  EXPECT_FALSE(sink.characters[0].skeleton->ends_are_estimated);
+}
+
+TEST_P(RealMvnx, HasTheSensorsAsTrackers) {
+  KINESCOPE_NEEDS_SHARED_DATA(GetParam().path);
+  const auto source = OpenMvnx(SharedData(GetParam().path));
+  const RecordingSink sink = ReadAll(*source);
+  const bool has_rates = GetParam().sensors == 17;  // the file of version 3
+  for (const BodySample& sample : sink.samples) {
+    ASSERT_EQ(sample.has_tracker.count(), GetParam().sensors);
+    for (std::size_t i = 0; i < urdf::kSegmentCount; ++i) {
+      if (!sample.has_tracker.test(i)) continue;
+      const TrackerState& tracker = sample.trackers[i];
+      EXPECT_NEAR(tracker.orientation.norm(), 1, 1e-12);
+      EXPECT_NEAR(tracker.magnetic_field.norm(), 1, 0.6);
+      EXPECT_LT(tracker.free_acceleration.norm(), 30);
+      EXPECT_EQ(tracker.has_rates, has_rates);
+      if (has_rates) {  // nearly at rest in these frames
+        EXPECT_NEAR(tracker.acceleration.norm(), 9.8, 2.5) << i;
+        EXPECT_LT(tracker.free_acceleration.norm(), 3) << i;
+      }
+    }
+  }
 }
 
 TEST_P(RealMvnx, HasItsRateAndClock) {

@@ -37,7 +37,7 @@ std::string Poses(int version, const BodySample& sample) {
   return List("orientation", sample,
               [version](std::size_t i, const SegmentState& segment) -> Quaterniond {
                 if (version == 4) return segment.orientation;
-                return segment.orientation * SegmentFromIsb(static_cast<int>(i));
+                return segment.orientation * urdf::SegmentFromIsb(static_cast<int>(i));
               }) +
          List("position", sample,
               [](std::size_t, const SegmentState& segment) { return segment.position; });

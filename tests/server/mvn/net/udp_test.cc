@@ -179,6 +179,7 @@ void SendAndReceiveEverySampleOnce(const std::string& listen_url) {
   Character character;
   character.name = "Ines";
   character.skeleton = urdf::DefaultSkeleton(1.68);
+  character.landmarks = urdf::LandmarksOf(*character.skeleton);
   for (const std::string& datagram : EncodeCharacter(character)) sender->Send(datagram);
   constexpr std::uint32_t kSamples = 300;
   std::vector<BodySample> sent;
