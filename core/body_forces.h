@@ -114,6 +114,8 @@ struct BodyForces {
 
   Eigen::Vector3d com_of_model = Eigen::Vector3d::Zero();  // world, m
   std::optional<Eigen::Vector3d> com_velocity;             // of the model, world, m/s
+  std::optional<Eigen::Vector3d> com_acceleration;  // of the model, filtered, world, m/s^2; absent
+                                                    // while not is_dynamic
   std::optional<Eigen::Vector3d> com_minus_mvn;  // com_of_model minus MVN's CoM, world, m; absent
                                                  // where MVN's is not streamed
   bool com_disagrees = false;  // by more than 1 cm: wrong frames, segment lengths or body model

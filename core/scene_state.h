@@ -53,8 +53,10 @@ struct PersonModel {
   urdf::BodyDescription description;
   bool lengths_are_measured = false;  // from the source; else: the default body of a given height
   bool lengths_are_of_poses = false;  // measured in its poses, since it sends no lengths
-  /// The points that came with the lengths, as read; empty: none came.
+  /// As the source sent them: the points that came with the lengths, and the person's colour,
+  /// 0xRRGGBB. Empty: none came.
   urdf::Landmarks landmarks;
+  std::optional<std::uint32_t> color_rgb;
   std::string urdf_xml;        // content of robot_description
   urdf::RobotModel robot;      // urdf_xml, parsed
   std::uint64_t revision = 0;  // increases with every change; sinks then reload

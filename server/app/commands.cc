@@ -5,8 +5,8 @@ namespace kinescope::app {
 std::vector<Command> AllCommands() {
   std::vector<Command> commands;
   for (const auto make :
-       {ServeCommand, BridgeCommand, RenderCommand, LoadsCommand, GoldenCommand, StreamCommand,
-        RecordCommand, InspectCommand, UrdfCommand, ProbeCommand}) {
+       {ServeCommand, BridgeCommand, RenderCommand, LoadsCommand, ConvertCommand, GoldenCommand,
+        StreamCommand, RecordCommand, InspectCommand, StripCommand, UrdfCommand, ProbeCommand}) {
     commands.push_back(make());
   }
   return commands;

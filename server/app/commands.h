@@ -11,10 +11,12 @@ Command ServeCommand();    // source -> ROS, pictures, page
 Command BridgeCommand();   // source -> ROS only
 Command RenderCommand();   // source -> PNG or clips
 Command LoadsCommand();    // source -> CSV, JSON, plots, report
+Command ConvertCommand();  // source -> motion files
 Command GoldenCommand();   // check | update golden images
 Command StreamCommand();   // source -> MVN network stream
 Command RecordCommand();   // source -> capture file
 Command InspectCommand();  // contents of a source
+Command StripCommand();    // clip or picture -> which samples it shows
 Command UrdfCommand();     // the person's URDF; check or draw any
 Command ProbeCommand();    // capabilities of this machine
 

@@ -402,6 +402,11 @@ const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPose
   hands_.Update(settings.hands, stamp);
   const BodyDemand demand = DemandOf(links, moving, subject.body, settings.most_acceleration);
   ShowBody(sample, subject, DemandOf(newest, BodyMotion(), subject.body));
+  if (forces.is_dynamic) {
+    Vector3d carried = Vector3d::Zero();  // N, with the weight
+    for (const SegmentDemand& segment : demand) carried += segment.force;
+    forces.com_acceleration = carried / forces.body_mass_kg - Vector3d(0, 0, kGravity);
+  }
 
   ExternalForces hands;
   hands_.Push(links, moving, subject.skeleton, measured.hands, stamp, hands, forces.hands);

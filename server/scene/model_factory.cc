@@ -32,6 +32,7 @@ std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& p
   model->lengths_are_measured = person.character.skeleton.has_value();
   model->lengths_are_of_poses = person.lengths_are_of_poses;
   model->landmarks = person.character.landmarks;
+  model->color_rgb = person.character.color_rgb;
   urdf::HumanModel& human = model->human;
   human.model_name = settings_.model_name;
   if (person.index > 0) human.model_name += "_" + std::to_string(person.index);

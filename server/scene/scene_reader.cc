@@ -11,25 +11,51 @@
 
 namespace kinescope::app {
 
-SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
+SceneReader::SceneReader(std::unique_ptr<Source> source, const std::string& url,
+                         const SceneOptions& options)
     : url_(url),
-      source_(OpenSource(url)),
+      source_(std::move(source)),
       builder_(options, url, source_->nominal_rate_hz(),
                [this](const std::shared_ptr<const SceneState>& state) { ready_.push_back(state); }),
       smoother_(options.loads.motion.recording_cutoff_hz, builder_) {
-  if (source_->is_live()) {
-    throw UsageError("source '" + url +
-                     "': this command cannot read a live stream; record the stream first "
-                     "(kinescope record, or rosbag record /tf), or use demo:lift");
-  }
   builder_.Start();
   empty_ = std::move(ready_.front());
   ready_.pop_front();
 }
 
+SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
+    : SceneReader(OpenSource(url), url, options) {
+  if (source_->is_live()) {
+    throw UsageError("source '" + url +
+                     "': this command cannot read a live stream; record the stream first "
+                     "(kinescope record, or rosbag record /tf), or use demo:lift");
+  }
+}
+
+SceneReader SceneReader::OfAnySource(const std::string& url, const SceneOptions& options,
+                                     const SourceSettings& settings) {
+  return SceneReader(OpenSource(url, settings), url, options);
+}
+
+// What has arrived before the stop is read.
+void SceneReader::ReadRest() {
+  std::uint64_t before = 0;
+  do {
+    before = source_->counters().datagrams;
+    if (source_->Poll(std::chrono::milliseconds(0), smoother_) == Source::State::kEnded) return;
+  } while (source_->counters().datagrams > before);
+}
+
 std::shared_ptr<const SceneState> SceneReader::Next() {
+  constexpr std::chrono::milliseconds kBetweenChecks(100);
   while (ready_.empty() && !ended_) {
-    ended_ = source_->Poll(std::chrono::milliseconds(0), smoother_) == Source::State::kEnded;
+    const auto state =
+        source_->Poll(is_live() ? kBetweenChecks : std::chrono::milliseconds(0), smoother_);
+    ended_ = state == Source::State::kEnded;
+    if (!ended_ && is_live() && StopRequested()) {
+      ReadRest();
+      ended_ = true;
+    }
     if (ended_) smoother_.End();
   }
   if (ready_.empty()) return nullptr;

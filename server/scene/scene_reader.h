@@ -12,6 +12,7 @@
 #include "core/source.h"
 #include "server/scene/sample_smoother.h"
 #include "server/scene/scene_builder.h"
+#include "server/source/open_source.h"
 
 namespace kinescope::app {
 
@@ -25,6 +26,10 @@ class SceneReader {
   /// @throws SourceError; UsageError for a live source, which has neither an end nor sample numbers
   /// from its beginning.
   SceneReader(const std::string& url, const SceneOptions& options);
+  /// Of any source: a live one ends when the program is asked to stop (core/system/stop_signal.h).
+  /// Its states come up to two seconds late. @throws SourceError
+  static SceneReader OfAnySource(const std::string& url, const SceneOptions& options,
+                                 const SourceSettings& settings);
 
   /// The state of the next sample; null at the end.
   std::shared_ptr<const SceneState> Next();
@@ -35,9 +40,14 @@ class SceneReader {
   std::shared_ptr<const SceneState> Stale();
 
   double rate_hz() const { return source_->nominal_rate_hz(); }
+  bool is_live() const { return source_->is_live(); }
+  std::string description() const { return source_->description(); }  // "udp://0.0.0.0:9763"
   const std::string& url() const { return url_; }
 
  private:
+  SceneReader(std::unique_ptr<Source> source, const std::string& url, const SceneOptions& options);
+  void ReadRest();
+
   const std::string url_;
   std::unique_ptr<Source> source_;
   std::deque<std::shared_ptr<const SceneState>> ready_;

@@ -19,7 +19,7 @@ import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM, SETUP, RECORDING = sys.argv[1:4]
-DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/json.md", "docs/loads.md", "docs/pictures.md", "docs/urdf.md",
+DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/json.md", "docs/loads.md", "docs/motion.md", "docs/pictures.md", "docs/urdf.md",
              "tests/bench/README.md"]
 # Document -> first words of its commands that this test never runs.
 NEVER_RUN = {
@@ -103,6 +103,11 @@ def try_kinescope(words, folder):
         record_take(folder)
     if "--verify" in words:
         problem = run([PROGRAM, "render", "demo:lift", "--time", "2.5", "--out", words[words.index("--verify") + 1]], folder)
+        if problem:
+            return problem
+    if command == "strip":
+        problem = run([PROGRAM, "render", "demo:walk", "--seconds", "0.2", "--size", "640x360", "--overlay", "frame_code",
+                       "--out", "walk.mp4"], folder)
         if problem:
             return problem
     if "person.urdf" in words and "--height" not in words:

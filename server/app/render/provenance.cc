@@ -13,7 +13,7 @@
 #include "server/options/option_list.h"
 #include "server/picture/option_json.h"
 #include "server/scene/scene_options.h"
-#include "server/source/scheme.h"
+#include "server/source/source_identity.h"
 
 namespace kinescope::app {
 namespace {
@@ -50,15 +50,12 @@ Json InputsOf(const options::OptionList& list) {
   return inputs;
 }
 
-Json DescribeSource(const std::string& source, bool& is_repeatable) {
-  std::error_code ignored;
-  if (IsSubjectUrl(source)) return {{"name", source}};
-  is_repeatable = fs::is_regular_file(source, ignored);
-  if (!is_repeatable) return {{"name", fs::path(source).filename().string()}};
-  const FileDigest digest = DigestOf(source);
-  return {{"name", fs::path(source).filename().string()},
-          {"sha256", digest.sha256},
-          {"bytes", digest.bytes}};
+Json SourceJson(const SourceIdentity& source) {
+  Json json = {{"name", source.name}};
+  if (!source.digest) return json;
+  json["sha256"] = source.digest->sha256;
+  json["bytes"] = source.digest->bytes;
+  return json;
 }
 
 Json DescribeLoads(const LoadOptions& options) {
@@ -99,14 +96,12 @@ Provenance::Provenance(const RenderOptions& options, const std::string& source,
   copy.view.List(list);
   copy.person.List(list);
   copy.loads.List(list);
-  shared_ = {{"kinescope", KINESCOPE_VERSION},
-             {"schema", kProvenanceSchema},
-             {"source", DescribeSource(source, is_repeatable_)},
-             {"inputs", InputsOf(list)},
-             {"renderer", renderer.renderer},
-             {"gl_version", renderer.gl_version},
-             {"backend", renderer.backend},
-             {"backend_note", renderer.note},
+  const SourceIdentity identity = IdentityOf(source);
+  is_repeatable_ = identity.is_repeatable;
+  shared_ = {{"kinescope", KINESCOPE_VERSION},       {"schema", kProvenanceSchema},
+             {"source", SourceJson(identity)},       {"inputs", InputsOf(list)},
+             {"renderer", renderer.renderer},        {"gl_version", renderer.gl_version},
+             {"backend", renderer.backend},          {"backend_note", renderer.note},
              {"loads", DescribeLoads(options.loads)}};
 }
 

@@ -1,0 +1,367 @@
+// `kinescope convert`: a motion from any source into files for other programs.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/system/clocks.h"
+#include "core/system/errors.h"
+#include "core/system/stop_signal.h"
+#include "core/system/words.h"
+#include "server/app/commands.h"
+#include "server/app/convert/frame_index.h"
+#include "server/app/convert/motion_file.h"
+#include "server/app/progress.h"
+#include "server/options/option_list.h"
+#include "server/picture/option_json.h"
+#include "server/scene/scene_options.h"
+#include "server/scene/scene_reader.h"
+#include "server/source/scheme.h"
+#include "server/source/source_identity.h"
+
+namespace kinescope::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+// How long a motion is looked at before its files begin.
+constexpr std::int64_t kOutlineNanos = kNanosPerSecond;
+constexpr std::size_t kOutlineStates = 4096;
+
+std::vector<std::string> NamesOfQuantities() {
+  std::vector<std::string> names;
+  for (const auto& [name, quantity] : QuantityNames()) names.push_back(name);
+  return names;
+}
+
+Quantity ParseQuantity(const std::string& text) {
+  for (const auto& [name, quantity] : QuantityNames()) {
+    if (name == text) return quantity;
+  }
+  throw options::BadValue("expected " + Alternatives(NamesOfQuantities()),
+                          SuggestionFor(text, NamesOfQuantities()));
+}
+
+// A file has no colours and no meshes.
+void RemoveUnused(options::OptionList& list) {
+  list.Remove(
+      {"model_name", "body_model", "tool", "mesh_units", "mesh_up", "mesh_scale", "mesh_frame"});
+}
+
+struct ConvertOptions {
+  options::Text source;
+  options::Texts out{MotionFormatNames()};
+  options::Choice<TableLayout> layout{{{"wide", TableLayout::kWide}, {"long", TableLayout::kLong}},
+                                      TableLayout::kWide};
+  options::List<Quantity> quantities{"some of " + Alternatives(NamesOfQuantities()),
+                                     kQuantityCount,
+                                     ParseQuantity,
+                                     {},
+                                     NamesOfQuantities()};
+  options::Optional<options::Number> seconds{options::Number(0, {0, kLatestSecs, "s", true})};
+  options::Number rate_hz{kSubjectRateHz, {1, 1000, "Hz"}};
+  PersonOptions person;
+  LoadOptions loads;
+
+  void List(options::OptionList& option) {
+    option("source", source, "source of the motion: " + SourceKinds());
+    option("out", out, "file to write; may be repeated: all are written in one pass");
+    option.Group("Tables");
+    option("layout", layout, "a row per sample, or a row per value");
+    option("quantities", quantities, "what the table has; default: all that the source has");
+    option.Group("Motion");
+    option("seconds", seconds,
+           "length of the motion to convert; default: all (demo: 10 s; a stream: until Ctrl-C)");
+    option("rate_hz", rate_hz, "sample rate of the built-in subject");
+    person.List(option);
+    loads.List(option);
+    RemoveUnused(option);
+    for (const char* name : {"layout", "quantities"}) {
+      option.HasNoEffect(name, "without a table (.csv)", [this] { return !HasTable(); });
+    }
+    option.HasNoEffect("rate_hz",
+                       "with a source other than demo:", [this] { return !IsSubjectUrl(*source); });
+  }
+
+  bool HasTable() const {
+    return std::any_of(out->begin(), out->end(), [](const std::string& path) {
+      return fs::path(path).extension() == ".csv";
+    });
+  }
+};
+
+void CheckOutputs(const ConvertOptions& options) {
+  std::vector<fs::path> taken;
+  for (const std::string& path : *options.out) {
+    if (FindMotionFormat(path) == nullptr) {
+      throw UsageError(
+          fmt::format("--out={}: expected a name that ends in {}", path, MotionFormatNames()));
+    }
+    std::error_code ignored;
+    if (fs::equivalent(*options.source, path, ignored)) {
+      throw UsageError("--out=" + path +
+                       ": output and source are the same file; choose another name");
+    }
+    const fs::path place = fs::weakly_canonical(fs::absolute(path), ignored);
+    if (std::find(taken.begin(), taken.end(), place) != taken.end()) {
+      throw UsageError("--out=" + path + " is given twice; give each output its own name");
+    }
+    taken.push_back(place);
+  }
+}
+
+// Everything that decides the content of the files.
+nlohmann::ordered_json ProvenanceOf(ConvertOptions& options) {
+  const SourceIdentity identity = IdentityOf(*options.source);
+  nlohmann::ordered_json source = {{"name", identity.name}};
+  if (identity.digest) {
+    source["sha256"] = identity.digest->sha256;
+    source["bytes"] = identity.digest->bytes;
+  }
+  options::OptionList list;
+  options.person.List(list);
+  options.loads.List(list);
+  RemoveUnused(list);
+  nlohmann::ordered_json values = nlohmann::ordered_json::object();
+  for (const options::Option& option : list) {
+    if (option.value->IsGiven()) values[option.name] = ToJson(*option.value);
+  }
+  if (options.seconds) values["seconds"] = *options.seconds;
+  if (IsSubjectUrl(*options.source)) values["rate_hz"] = *options.rate_hz;
+  return {{"program", "kinescope " KINESCOPE_VERSION},
+          {"command", "convert"},
+          {"source", source},
+          {"options", values}};
+}
+
+/// Says which people of a scene have a new sample: a scene has all of them.
+class NewSamples {
+ public:
+  bool IsNew(const PersonState& person) {
+    const std::pair<std::int64_t, std::uint32_t> now = {person.sample.stamp_nanos,
+                                                        person.sample.counter};
+    const auto [found, is_first] = last_.try_emplace(person.character, now);
+    if (!is_first && found->second == now) return false;
+    found->second = now;
+    return true;
+  }
+
+ private:
+  std::map<int, std::pair<std::int64_t, std::uint32_t>> last_;  // by character
+};
+
+// The first second of one person.
+struct Beginning {
+  std::vector<std::int64_t> stamps;
+  std::vector<std::int64_t> time_codes;
+  std::vector<std::uint32_t> counters;
+
+  void Add(const BodySample& sample) {
+    stamps.push_back(sample.stamp_nanos);
+    time_codes.push_back(sample.time_code_millis);
+    counters.push_back(sample.counter);
+  }
+};
+
+// s from the first to the last: by the sender's clock, which does not tremble, else by the stamps.
+double LengthOf(const Beginning& person) {
+  constexpr double kClockMayDiffer = 0.2;
+  const double stamped = Secs(person.stamps.back() - person.stamps.front());
+  const double sent =
+      1e-3 * static_cast<double>(person.time_codes.back() - person.time_codes.front());
+  return std::abs(sent - stamped) <= kClockMayDiffer * stamped ? sent : stamped;
+}
+
+// Whole numbers where a clock trembles around one; 0 for a single sample.
+double MeasuredRate(const Beginning& person, std::uint32_t step) {
+  const double secs = person.stamps.empty() ? 0 : LengthOf(person);
+  if (!(secs > 0)) return 0;
+  const double frames =
+      person.counters.back() > person.counters.front()
+          ? static_cast<double>(person.counters.back() - person.counters.front()) / step
+          : static_cast<double>(person.stamps.size() - 1);
+  const double rate = frames / secs;
+  const double whole = std::round(rate);
+  constexpr double kTremble = 0.005;
+  return whole >= 1 && std::abs(rate - whole) <= kTremble * whole ? whole : rate;
+}
+
+class Conversion {
+ public:
+  explicit Conversion(ConvertOptions& options)
+      : options_(options),
+        provenance_(ProvenanceOf(options)),
+        reader_(SceneReader::OfAnySource(*options.source,
+                                         ToSceneOptions(options.person, options.loads),
+                                         SourceSettings{*options.rate_hz, {}})) {
+    if (options_.seconds) {
+      length_ = *options_.seconds;
+    } else if (IsSubjectUrl(*options_.source)) {
+      length_ = kSubjectClipSecs;
+    }
+  }
+
+  void Run() {
+    if (reader_.is_live()) {
+      spdlog::info("reading {} ; Ctrl-C completes {}", reader_.description(),
+                   options_.out->size() == 1 ? "the file" : "the files");
+    }
+    {
+      const double expected = length_.value_or(0) * reader_.rate_hz();
+      Progress progress("samples:", static_cast<int>(std::ceil(expected)));
+      while (const auto scene = reader_.Next()) {
+        if (!reader_.is_live() && StopRequested()) {
+          throw std::runtime_error("interrupted; nothing was written");
+        }
+        if (!begin_nanos_) begin_nanos_ = scene->stamp_nanos;
+        // A hair, so that rounded stamps do not decide.
+        if (length_ && Secs(scene->stamp_nanos - *begin_nanos_) > *length_ + 1e-6) break;
+        Take(scene);
+        progress.Step();
+      }
+    }
+    if (files_.empty()) Begin();
+    for (const auto& file : files_) file->Finish();
+  }
+
+  void Print() const {
+    for (const auto& file : files_) {
+      for (const std::string& path : file->paths()) fmt::print("{}: written\n", path);
+    }
+    fmt::print("{} {}, {} {}, {:.2f} s{}\n", samples_, samples_ == 1 ? "sample" : "samples",
+               people_.size(), people_.size() == 1 ? "person" : "people",
+               Secs(last_nanos_ - *begin_nanos_),
+               rate_hz_ > 0 ? fmt::format(" at {:.6g} Hz", rate_hz_) : "");
+    for (const auto& [character, index] : people_) {
+      if (index.holes() == 0) continue;
+      const FrameIndex::Hole& longest = *index.longest_hole();
+      fmt::print(
+          "person {}: {} samples are missing in {} {}; the longest: {:.2f} s after {:.2f} s\n",
+          character, index.missing_frames(), index.holes(), index.holes() == 1 ? "hole" : "holes",
+          longest.secs, longest.from_secs);
+    }
+    for (const auto& file : files_) {
+      for (const std::string& note : file->notes()) fmt::print("{}\n", note);
+    }
+  }
+
+ private:
+  void Take(const std::shared_ptr<const SceneState>& scene) {
+    if (!files_.empty()) return Add(*scene);
+    head_.push_back(scene);
+    if (scene->stamp_nanos - *begin_nanos_ >= kOutlineNanos || head_.size() >= kOutlineStates) {
+      Begin();
+    }
+  }
+
+  // All that the files must say before their first sample.
+  void Begin() {
+    MotionOutline outline;
+    outline.source = provenance_.at("source").at("name");
+    outline.layout = *options_.layout;
+    Beginning beginning;
+    std::optional<int> first;
+    NewSamples fresh;
+    for (const auto& scene : head_) {
+      for (const PersonState& person : scene->people) {
+        if (!fresh.IsNew(person)) continue;
+        outline.quantities |= QuantitiesOf(person);
+        outline.trackers |= person.sample.has_tracker;
+        outline.has_foot_contacts |= person.sample.foot_contacts.has_value();
+        if (first.value_or(person.character) != person.character) continue;
+        first = person.character;
+        beginning.Add(person.sample);
+      }
+    }
+    if (!first) throw SourceError(*options_.source + ": contains no sample of a person");
+    counter_step_ = outline.counter_step = CounterStepOf(beginning.counters);
+    rate_hz_ = reader_.rate_hz() > 0 ? reader_.rate_hz() : MeasuredRate(beginning, counter_step_);
+    outline.rate_hz = rate_hz_;
+    outline.begin_nanos = *begin_nanos_;
+    Choose(outline);
+    provenance_["rate_hz"] =
+        rate_hz_ > 0 ? nlohmann::ordered_json(rate_hz_) : nlohmann::ordered_json(nullptr);
+    outline.provenance = provenance_;
+    for (const std::string& path : *options_.out) {
+      files_.push_back(FindMotionFormat(path)->make(path, outline));
+    }
+    for (const auto& scene : head_) Add(*scene);
+    head_.clear();
+  }
+
+  // Those that were asked for; one that the source does not have is an error.
+  void Choose(MotionOutline& outline) const {
+    if (options_.quantities->empty()) return;
+    QuantitySet wanted;
+    for (const Quantity quantity : *options_.quantities) {
+      const auto index = static_cast<std::size_t>(quantity);
+      if (!outline.quantities.test(index)) {
+        throw UsageError(fmt::format("--quantities={}: {} has none of them",
+                                     QuantityNames()[index].first, *options_.source));
+      }
+      wanted.set(index);
+    }
+    outline.quantities = wanted;
+  }
+
+  void Add(const SceneState& scene) {
+    for (const PersonState& person : scene.people) {
+      if (!fresh_.IsNew(person)) continue;
+      ++samples_;
+      last_nanos_ = person.sample.stamp_nanos;
+      people_.try_emplace(person.character, rate_hz_, counter_step_)
+          .first->second.Next(person.sample);
+      for (const auto& file : files_) file->Add(person);
+    }
+  }
+
+  ConvertOptions& options_;
+  nlohmann::ordered_json provenance_;
+  SceneReader reader_;
+  std::optional<double> length_;
+  std::optional<std::int64_t> begin_nanos_;
+  std::vector<std::shared_ptr<const SceneState>> head_;  // before the files begin
+  double rate_hz_ = 0;
+  std::uint32_t counter_step_ = 1;
+  std::vector<std::unique_ptr<MotionFile>> files_;
+  NewSamples fresh_;
+  std::map<int, FrameIndex> people_;  // by character
+  std::uint64_t samples_ = 0;
+  std::int64_t last_nanos_ = 0;
+};
+
+void Convert(ConvertOptions& options) {
+  CheckOutputs(options);
+  Conversion conversion(options);
+  conversion.Run();
+  conversion.Print();
+}
+
+}  // namespace
+
+Command ConvertCommand() {
+  const auto values = std::make_shared<ConvertOptions>();
+  Command command;
+  command.name = "convert";
+  command.about =
+      "Converts a motion from any source into files for other programs: CSV tables and MVNX 4.\n"
+      "  kinescope convert take.pcap --out take.csv --out take.mvnx\n"
+      "  kinescope convert udp://:9763 --out live.mvnx      (until Ctrl-C)";
+  values->List(command.options);
+  command.positionals = {"source"};
+  command.required = {"source", "out"};
+  command.run = [values](options::OptionList&) {
+    Convert(*values);
+    return 0;
+  };
+  return command;
+}
+
+}  // namespace kinescope::app

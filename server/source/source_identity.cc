@@ -1,0 +1,23 @@
+#include "server/source/source_identity.h"
+
+#include <filesystem>
+
+#include "server/source/scheme.h"
+
+namespace kinescope::app {
+
+SourceIdentity IdentityOf(const std::string& url) {
+  SourceIdentity identity{url, {}, true};
+  if (IsSubjectUrl(url)) return identity;
+  if (IsLiveUrl(url)) {
+    identity.is_repeatable = false;
+    return identity;
+  }
+  std::error_code ignored;
+  identity.name = std::filesystem::path(url).filename().string();
+  identity.is_repeatable = std::filesystem::is_regular_file(url, ignored);
+  if (identity.is_repeatable) identity.digest = DigestOf(url);
+  return identity;
+}
+
+}  // namespace kinescope::app
