@@ -24,10 +24,10 @@ EXCEPTIONS = {
 # Third-party headers, by the beginning of their name: the library and the folders that may include them ("/*": all subfolders).
 LIBRARIES = {
     r"Eigen/": ("Eigen", {"urdf", "urdf/mesh", "urdf/robot", "core", "server/mvn", "server/subject",
-                          "server/loads", "server/ros", "server/http", "server/body", "server/picture",
+                          "server/loads", "server/wrenches", "server/ros", "server/http", "server/body", "server/picture",
                           "render/camera", "render/shape", "render/vtk"}),
     r"fmt/": ("fmt", {"urdf", "urdf/robot", "server/loads", "server/mvn/file", "server/options", "server/body",
-                      "server/scene", "server/picture", "server/table", "server/app", "server/app/*", "render",
+                      "server/scene", "server/picture", "server/table", "server/wrenches", "server/app", "server/app/*", "render",
                       "render/plot"}),
     r"spdlog/": ("spdlog", {"server/mvn/net", "server/mvn/file", "server/ros", "server/ros/source", "server/body",
                             "server/picture", "server/app", "server/app/*"}),

@@ -12,7 +12,7 @@
 // tests/fuzz/CMakeLists.txt renames LLVMFuzzerTestOneInput of each source.
 using Entry = int(const std::uint8_t* data, std::size_t size);
 extern "C" Entry Fuzz_assembler, Fuzz_datagram, Fuzz_framing, Fuzz_http_target, Fuzz_loads,
-    Fuzz_mesh_file, Fuzz_mvnx, Fuzz_page_message, Fuzz_pcap, Fuzz_scale, Fuzz_urdf;
+    Fuzz_mesh_file, Fuzz_mvnx, Fuzz_page_message, Fuzz_pcap, Fuzz_scale, Fuzz_urdf, Fuzz_wrenches;
 
 int main(int argc, char** argv) {
   const std::map<std::string, Entry*> entries = {
@@ -21,7 +21,7 @@ int main(int argc, char** argv) {
       {"loads", &Fuzz_loads},         {"mesh_file", &Fuzz_mesh_file},
       {"mvnx", &Fuzz_mvnx},           {"page_message", &Fuzz_page_message},
       {"pcap", &Fuzz_pcap},           {"scale", &Fuzz_scale},
-      {"urdf", &Fuzz_urdf},
+      {"urdf", &Fuzz_urdf},           {"wrenches", &Fuzz_wrenches},
   };
   const auto entry = argc == 3 ? entries.find(argv[1]) : entries.end();
   if (entry == entries.end()) {
