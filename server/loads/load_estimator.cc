@@ -18,7 +18,7 @@ constexpr std::string_view kNoLegs = "the source does not measure the legs";
 constexpr std::string_view kLeans =
     "the person sits, leans or holds on to something; the feet alone do not explain the posture";
 constexpr std::string_view kMisfit = "the measured ground force is inconsistent with the motion";
-constexpr std::string_view kHandLost = "no more data from the hand force sensor";
+constexpr std::string_view kHandLost = "no data from the hand force sensor";
 constexpr std::string_view kNoLoadKnown = "hand load unknown";
 constexpr std::string_view kPostureOnly =
     "hand load unknown, so only the total moment can be rated";

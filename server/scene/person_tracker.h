@@ -14,6 +14,7 @@
 #include "server/loads/foot_motion.h"
 #include "server/loads/load_estimator.h"
 #include "server/scene/model_factory.h"
+#include "server/scene/recorded_forces.h"
 
 namespace kinescope::app {
 
@@ -29,6 +30,7 @@ class PersonTracker {
   struct Known {
     std::optional<double> floor_z;              // of the floor, world, m; absent: it is found
     const loads::BodyMotion* motion = nullptr;  // filtered without lag
+    RecordedForces* forces = nullptr;           // of a file; null: those that were set
   };
 
   /// Computes the state of the next sample.

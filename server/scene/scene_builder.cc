@@ -36,6 +36,7 @@ SceneBuilder::SceneBuilder(SceneOptions options, std::string source, double nomi
       on_state_(std::move(on_state)),
       rate_(nominal_rate_hz) {
   SetLoads(options_.loads);
+  if (options_.wrenches) recorded_forces_.emplace(*options_.wrenches, nominal_rate_hz);
 }
 
 void SceneBuilder::SetLoads(const loads::LoadSettings& settings) {
@@ -94,7 +95,9 @@ void SceneBuilder::OnSample(const BodySample& sample, const loads::BodyMotion* m
   const PersonInputs& given = inputs == inputs_.end() ? kNoInputs : inputs->second;
   loads::LoadSettings settings = options_.loads;
   if (given.hand_load) settings.hands = *given.hand_load;
-  TrackerOf(sample).Update(sample, settings, given.measured, {options_.floor_z, motion});
+  const bool has_forces = recorded_forces_ && recorded_forces_->AreOf(sample);
+  TrackerOf(sample).Update(sample, settings, given.measured,
+                           {options_.floor_z, motion, has_forces ? &*recorded_forces_ : nullptr});
   rate_.Add(sample);
   current_.rate_hz = rate_.hz();
   current_.stamp_nanos = sample.stamp_nanos;

@@ -18,7 +18,9 @@
 #include "server/scene/model_factory.h"
 #include "server/scene/person_tracker.h"
 #include "server/scene/rate_meter.h"
+#include "server/scene/recorded_forces.h"
 #include "server/scene/sample_smoother.h"
+#include "server/wrenches/wrench_reader.h"
 
 namespace kinescope::app {
 
@@ -26,6 +28,8 @@ struct SceneOptions : ModelSettings {
   loads::LoadSettings loads;      // with the same sex as `body`
   double stale_secs = 0.5;        // time without samples after which the stream is stale, s
   std::optional<double> floor_z;  // of the floor, world, m; absent: it is found
+  /// Measured forces of a recording, on the first person; in place of SetMeasurements().
+  std::optional<wrenches::WrenchSettings> wrenches;
 };
 
 class SceneBuilder : public SampleSink, public SmoothSampleSink {
@@ -33,7 +37,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   using OnState = std::function<void(std::shared_ptr<const SceneState>)>;
 
   /// `on_state` receives every new state, on the caller's thread. Start delivers the first one, "no
-  /// data".
+  /// data". @throws SourceError, UsageError if the file of measured forces is refused
   SceneBuilder(SceneOptions options, std::string source, double nominal_rate_hz, OnState on_state);
 
   void Start();
@@ -84,6 +88,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   const ModelFactory models_;
   std::string source_;
   OnState on_state_;
+  std::optional<RecordedForces> recorded_forces_;
   std::map<int, PersonTracker> people_;  // by character id; bounded by the source
   std::map<int, PersonInputs> inputs_;   // by character id; bounded by the source
   std::map<int, Character> clusters_;    // groups of tracked objects, by character id; bounded by

@@ -92,6 +92,7 @@ void LoadOptions::List(options::OptionList& option) {
   option(
       "floor_z", floor_z,
       "height of the floor in the source's world; not given: the lowest level on which feet rest");
+  measured.List(option);
 }
 
 options::Number StaleSecs() { return {SceneOptions().stale_secs, {0.05, 60, "s"}}; }
@@ -120,6 +121,7 @@ SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& load
   scene.body = ToBody(person);
   if (loads.floor_z) scene.floor_z = *loads.floor_z;
   scene.loads = ToLoadSettings(loads);
+  scene.wrenches = ToWrenchSettings(loads.measured);
   scene.height_is_assumed = !person.height;
   scene.height_m = person.height.value_or(scene.height_m);
   scene.stale_secs = stale_secs;

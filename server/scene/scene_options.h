@@ -9,6 +9,7 @@
 #include "server/loads/load_settings.h"
 #include "server/options/option_list.h"
 #include "server/scene/scene_builder.h"
+#include "server/scene/wrench_options.h"
 
 namespace kinescope::app {
 
@@ -50,6 +51,7 @@ struct LoadOptions {
   options::Switch lumbar_compression;
   options::Choice<bool> shown;  // true: momentary
   options::Optional<options::Number> floor_z;
+  WrenchOptions measured;
 
   void List(options::OptionList& option);
 };

@@ -93,6 +93,17 @@ def record_take(folder):
     assert problem is None, problem
 
 
+def write_forces(folder):
+    """A few seconds of a person who stands on two plates, as the documents call the files."""
+    times = [i / 100 for i in range(300)]
+    header = "time_s,body,fx_N,fy_N,fz_N,px_m,py_m,pz_m,tx_Nm,ty_Nm,tz_Nm\n"
+    (folder / "forces.csv").write_text(header + "".join(f"{t},LeftHand,0,0,-20,,,,0,0,0\n" for t in times))
+    labels = [f"ground_{q}_{plate}_{p}{axis}" for plate in (1, 2) for q, p in (("force", "v"), ("force", "p"), ("torque", "")) for axis in "xyz"]
+    foot = "0\t368\t0\t0\t0\t{}\t0\t0\t0"
+    rows = "".join(f"{t}\t{foot.format(0.1)}\t{foot.format(-0.1)}\n" for t in times)
+    (folder / "forces.mot").write_text("plates\nendheader\ntime\t" + "\t".join(labels) + "\n" + rows)
+
+
 def try_kinescope(words, folder):
     words = [PROGRAM] + words[1:]
     command = words[1]
@@ -114,6 +125,8 @@ def try_kinescope(words, folder):
         problem = run([PROGRAM, "urdf", "--out", "person.urdf"], folder)
         if problem:
             return problem
+    if "--wrenches" in words:
+        write_forces(pathlib.Path(folder))
     if command in ("record", "inspect") and any(w.startswith("udp:") for w in words):
         return with_suit(words, folder, port)
     if command in ("serve", "bridge"):

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -274,6 +275,30 @@ TEST(LoadsCommand, EndsWithCodeOneIfNoLoadIsKnown) {
       Loads({"demo:lift", "--seconds", "0.2", "--load_metric", "external"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.out, HasSubstr("no external load received"));
+}
+
+TEST(LoadsCommand, TellsTheTimeWithForcesFromAFileAndRefusesABadFile) {
+  const TempFolder folder;
+  const std::string forces = folder / "forces.csv";
+  const auto write = [&](const std::string& rows) {
+    std::ofstream(forces) << "time_s,body,fx_N,fy_N,fz_N,px_m,py_m,pz_m,tx_Nm,ty_Nm,tz_Nm\n"
+                          << rows;
+  };
+  write("0,LeftHand,0,0,-50,,,,0,0,0\n0.1,LeftHand,0,0,-50,,,,0,0,0\n");
+  const ProgramResult result = Loads({"demo:lift", "--seconds", "0.39", "--wrenches", forces});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("measured       forces.csv: left hand for 28 % of the time"));
+  EXPECT_THAT(result.out, Not(HasSubstr("hand load: nothing")));
+  EXPECT_THAT(result.out, HasSubstr("no data from the hand force sensor"));
+  const ProgramResult late =
+      Loads({"demo:lift", "--seconds", "0.2", "--wrenches", forces, "--wrench_offset", "7"});
+  EXPECT_THAT(late.out, HasSubstr("forces.csv: none at the times of this person's samples"));
+
+  write("0,LeftHand,0,0,x,,,,0,0,0\n");
+  ExpectRefusal(Loads({"demo:lift", "--wrenches", forces}),
+                "forces.csv: line 2: column fz_N: 'x': expected a number");
+  ExpectRefusal(Loads({"demo:lift", "--wrench_offset", "1"}), "without --wrenches");
+  ExpectRefusal(Kinescope({"serve", "demo:lift", "--wrenches", forces}), "wrenches");
 }
 
 TEST(LoadsCommand, RejectsInvalidOptionsInOneLine) {

@@ -317,6 +317,27 @@ TEST_F(RenderCommand, NamesAChangedFileWithInvalidUtf8) {
             HasSubstr("n\uFFFD.mtl")));
 }
 
+TEST_F(RenderCommand, ShowsTheLoadsOfMeasuredForcesAndVerifiesThemAgainstTheirFile) {
+  const std::string forces = Path("forces.csv");
+  const auto write = [&](const char* force) {
+    std::ofstream(forces)
+        << "time_s,body,fx_N,fy_N,fz_N,px_m,py_m,pz_m,tx_Nm,ty_Nm,tz_Nm\n0,LeftHand,0,0," << force
+        << ",,,,0,0,0\n0.1,LeftHand,0,0," << force << ",,,,0,0,0\n";
+  };
+  write("-100");
+  Lines(Render({"--out", Path("a.png"), "--time", "0.05", "--wrenches", forces, "--json"}));
+  Lines(Render({"--out", Path("bare.png"), "--time", "0.05", "--json"}));
+  EXPECT_NE(testing::ReadFile(Path("a.png")), testing::ReadFile(Path("bare.png")));
+  EXPECT_EQ(Verify(Path("a.png")).exit_code, 0);
+  write("-200");
+  const ProgramResult changed = Verify(Path("a.png"));
+  EXPECT_EQ(changed.exit_code, 2);
+  EXPECT_THAT(changed.err, HasSubstr("forces.csv"));
+  testing::ExpectRefusal(Kinescope({"render", "demo:lift", "demo:walk", "--wrenches", forces,
+                                    "--out", Path("{source}.png")}),
+                         "--wrenches=" + forces);
+}
+
 TEST_F(RenderCommand, VerifiesOnlyAgainstTheOriginalSource) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   const std::string source = Path("take.mvnx"), moved = Path("moved.mvnx");

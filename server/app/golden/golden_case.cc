@@ -96,6 +96,8 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   if (!IsSubjectUrl(*golden_case.source)) {
     golden_case.source = (yaml.parent_path() / *golden_case.source).string();
   }
+  WrenchFileValue& wrenches = golden_case.loads.measured.wrenches;
+  if (wrenches.IsGiven()) wrenches = (yaml.parent_path() / *wrenches).string();
   return golden_case;
 }
 

@@ -7,6 +7,8 @@
 ///     size: 640x360
 ///     supersample: 2
 ///     why: the purpose of the case in one line, shown when it fails
+///
+/// Files of `source` and `wrenches` are relative to the case.
 #pragma once
 
 #include <filesystem>

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "core/system/json_text.h"
 #include "server/app/loads/load_rows.h"
@@ -42,6 +43,21 @@ std::string AddedMassText(const urdf::BodyDescription& body) {
                         urdf::kSegments[urdf::At(added.segment)].link_name);
   }
   return text;
+}
+
+// "forces.csv: ground for 100 % of the time, left hand for 20 %".
+std::string MeasuredText(const LoadTrial& trial, const std::string& path) {
+  std::string text;
+  const auto add = [&](const char* where, double secs) {
+    if (secs <= 0) return;
+    text += fmt::format("{}{} for {:.0f} %{}", text.empty() ? ": " : ", ", where,
+                        100 * Share(secs, trial.secs()), text.empty() ? " of the time" : "");
+  };
+  add("ground", trial.measured_ground_secs());
+  add("right hand", trial.measured_hand_secs()[urdf::kRight]);
+  add("left hand", trial.measured_hand_secs()[urdf::kLeft]);
+  return std::filesystem::path(path).filename().string() +
+         (text.empty() ? ": none at the times of this person's samples" : text);
 }
 
 void NoteAssumed(const std::vector<Fact>& facts, std::vector<std::string>& notes) {
@@ -166,7 +182,13 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
     facts.push_back({"added mass", AddedMassText(body), false});
   }
   facts.push_back({"body table", urdf::Name(body.table), false});
-  facts.push_back({"hand load", HandsText(settings.hands), !settings.hands.is_known});
+  const auto [right_secs, left_secs] = trial.measured_hand_secs();
+  const bool is_only_measured = !settings.hands.is_known && right_secs + left_secs > 0;
+  facts.push_back({"hand load", is_only_measured ? "as measured" : HandsText(settings.hands),
+                   !settings.hands.is_known && !is_only_measured});
+  if (context.scene.wrenches) {
+    facts.push_back({"measured", MeasuredText(trial, context.scene.wrenches->path), false});
+  }
   facts.push_back(
       {"load metric", MetricText(trial.newest().forces.metric, settings.strength), false});
   facts.push_back({"load mode",

@@ -77,6 +77,10 @@ void LoadTrial::CountTime(const PersonState& last, double secs) {
   if (!forces.is_dynamic) Count(forces.why_static, secs, why_static_);
   Count(forces.why_other_metric, secs, why_other_metric_);
   Count(forces.why_no_ground, secs, why_no_ground_);
+  if (forces.ground_is_measured) measured_ground_secs_ += secs;
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    if (forces.hands[side].is_measured) measured_hand_secs_[side] += secs;
+  }
   if (forces.com_disagrees) com_disagrees_secs_ += secs;
   if (forces.acceleration_is_limited) limited_secs_ += secs;
   if (!forces.lumbar) return;

@@ -80,6 +80,10 @@ class LoadTrial {
   const SecsByReason& why_other_metric() const { return why_other_metric_; }
   const SecsByReason& why_no_ground() const { return why_no_ground_; }
 
+  // Time with measured forces, s: on the feet, and by urdf::Side on a hand.
+  double measured_ground_secs() const { return measured_ground_secs_; }
+  const std::array<double, 2>& measured_hand_secs() const { return measured_hand_secs_; }
+
   const Peak& com_minus_mvn() const { return com_minus_mvn_; }  // |com_of_model - MVN's CoM|, m
   double com_disagrees_secs() const { return com_disagrees_secs_; }
   double limited_secs() const { return limited_secs_; }     // BodyForces::acceleration_is_limited
@@ -107,7 +111,8 @@ class LoadTrial {
   std::array<SecsByReason, urdf::kScoredJointCount> why_unknown_;
   SecsByReason why_static_, why_other_metric_, why_no_ground_;
   Peak com_minus_mvn_, compression_, shear_;
-  double com_disagrees_secs_ = 0, limited_secs_ = 0;
+  double com_disagrees_secs_ = 0, limited_secs_ = 0, measured_ground_secs_ = 0;
+  std::array<double, 2> measured_hand_secs_{};
   std::array<double, 2> compression_secs_{};
 };
 

@@ -44,6 +44,10 @@ void PrintResult(const OutputResult& result, bool as_json) {
 
 void Render(const RenderOptions& options) {
   if (options.sources->empty()) throw UsageError("source is missing: name what to render");
+  if (options.sources->size() > 1 && options.loads.measured.wrenches.IsGiven()) {
+    throw UsageError("--wrenches=" + *options.loads.measured.wrenches +
+                     ": was measured during one recording; render its source alone");
+  }
   if (options.outs->empty()) throw UsageError("--out is missing: name the file to write");
   const std::vector<SourcePlan> plans = PlanOutputs(options);
   const render::PictureSpec spec = ToPictureSpec(options.view);

@@ -97,6 +97,7 @@ void ServeOptions::ListBridge(options::OptionList& option) {
   option("stale_secs", stale_secs, "time without samples after which the stream is stale");
   person.List(option);
   loads.List(option);
+  option.Remove(WrenchOptionNames());  // sensors of a live session come over ROS
   option.Group("ROS");
   option("ros", ros, "auto: publish when a master is reachable");
   option("reference_frame", reference_frame, "parent frame of all TF frames");

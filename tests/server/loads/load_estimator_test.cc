@@ -246,7 +246,7 @@ TEST(LoadEstimator, ReportsUnknownLoadsAfterAHandSensorStopped) {
   };
   ExpectUnknown(
       estimator.Update(SampleOf(links, 600 * kMillis), links, subject, Unclamped(), measured),
-      "no more data from the hand force sensor", concerns);
+      "no data from the hand force sensor", concerns);
 }
 
 TEST(LoadEstimator, AppliesMeasuredFootForcesAtTheFeet) {
