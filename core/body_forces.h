@@ -51,12 +51,15 @@ struct FootForce {
   Eigen::Vector3d cop = Eigen::Vector3d::Zero();    // centre of pressure of the foot, world, m; NaN
                                                     // where unknown
   double free_moment = 0;                           // N·m, about the vertical through `cop`
+  /// Of heel and forefoot alone, 0 to 1, likewise.
+  double heel_weight = 0, forefoot_weight = 0;
 };
 
 /// L5/S1 disc forces from a single-equivalent-muscle model, joint-loads.md 4.4; accuracy ±25 %.
 struct LumbarLoad {
   double compression = 0;  // N, along the spine at L5/S1
   double shear = 0;        // N, along x of segment L5
+  double ratio = 0;        // of compression or shear, on the scale of load ratios
 };
 
 /// Load of one hand at this sample, ramps included.
@@ -91,6 +94,8 @@ struct BodyForces {
   std::array<JointForce, urdf::kJointCount> joints{};  // by urdf::Joint
 
   double floor_z = 0;  // that the legs stand on, world, m
+  /// Why `floor_z` is only the height of the lowest point of the feet; "" if it was set or found.
+  std::string_view why_no_floor;
   /// Why the ground reaction force is unknown (no foot contact, sitting or leaning, legs not
   /// recorded); "" otherwise. If it is unknown, so are the loads of the leg joints.
   std::string_view why_no_ground;

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,12 @@ struct JointLoad {
   double deciding_moment = 0;  // N·m, signed, in the governing direction
   double capacity = 0;         // N·m, in the governing direction
   std::string_view channel;    // the governing direction: "flexion", "elevation", ...
+  /// The largest ratio of its moments; that of the governing direction unless a compression
+  /// governs. NaN where unknown.
+  double moment_ratio = std::numeric_limits<double>::quiet_NaN();
+  /// The largest ratio of all other directions, and this direction; NaN and "" without another one.
+  double next_ratio = std::numeric_limits<double>::quiet_NaN();
+  std::string_view next_channel;
   LoadClass load_class = LoadClass::kUnknown;  // of shown_ratio, with hysteresis
   LoadClass band = LoadClass::kUnknown;        // of ratio: input of exposure
   bool is_of_compression = false;              // L5/S1: `ratio` is that of the compression force

@@ -50,6 +50,7 @@ void FloorFinder::Find() {
       sum += it->second;
     }
     if (sum < needed) continue;
+    is_found_ = true;
     double found = MedianOf(rests_, bin, sum);
     if (std::abs(found) < kCloseToZero) found = 0;  // MVN's own floor
     if (std::abs(found - height_) > kMoves || found == 0) height_ = found;

@@ -26,6 +26,8 @@ class FloorFinder {
   /// World, m. Before a foot has rested for 0.3 s, the lowest point of the first sample.
   /// @pre Add was called
   double height() const { return height_; }
+  /// Whether a foot has rested, so that height() is that of a level.
+  bool is_found() const { return is_found_; }
 
  private:
   struct Foot {
@@ -39,7 +41,7 @@ class FloorFinder {
   std::array<double, 2> last_lowest_{}, last_speeds_{};
   std::map<int, std::int64_t> rests_;  // ns by bin of height
   std::int64_t rested_nanos_ = 0, judged_nanos_ = 0;
-  bool has_height_ = false;
+  bool has_height_ = false, is_found_ = false;
   double height_ = 0;
 };
 

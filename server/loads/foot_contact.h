@@ -46,6 +46,10 @@ class FootContacts {
   /// For SplitGround, by urdf::Side: centre of the parts in contact, and contact weight.
   const std::array<FootOnGround, 2>& feet() const { return feet_; }
 
+  /// Of one end alone, 0 to 1.
+  double heel_weight(urdf::Side side) const { return ends_[side][kHeel].weight(); }
+  double forefoot_weight(urdf::Side side) const { return ends_[side][kForefoot].weight(); }
+
   /// Support polygon of one foot; empty without contact.
   const SupportPolygon& polygon(urdf::Side side) const { return polygons_[side]; }
   /// Support polygon of both feet.

@@ -173,7 +173,14 @@ class Best {
  public:
   void Try(double moment, double capacity, std::string_view channel) {
     const double ratio = std::abs(moment) / capacity;
-    if (ratio > score_.ratio || score_.channel.empty()) score_ = {ratio, moment, capacity, channel};
+    if (score_.channel.empty()) {
+      score_ = {ratio, moment, capacity, channel};
+    } else if (ratio > score_.ratio) {
+      score_ = {ratio, moment, capacity, channel, score_.ratio, score_.channel};
+    } else if (score_.next_channel.empty() || ratio > score_.next_ratio) {
+      score_.next_ratio = ratio;
+      score_.next_channel = channel;
+    }
   }
   const Score& score() const { return score_; }
 

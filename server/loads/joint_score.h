@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -34,6 +35,9 @@ struct Score {
   double moment = 0;    // N·m, signed, in the governing direction
   double capacity = 0;  // N·m, in that direction and sign
   std::string_view channel;
+  // The largest of the other directions; NaN and "" without another one.
+  double next_ratio = std::numeric_limits<double>::quiet_NaN();
+  std::string_view next_channel = {};
 };
 
 /// Ratio of `joint` under `moment` (N·m, parent on child, world axes).

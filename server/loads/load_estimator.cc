@@ -131,7 +131,9 @@ void MakeUnknown(std::string_view why, JointLoad& load) {
 }
 
 void Show(const Score& score, JointLoad& load) {
-  load.ratio = score.ratio;
+  load.ratio = load.moment_ratio = score.ratio;
+  load.next_ratio = score.next_ratio;
+  load.next_channel = score.next_channel;
   load.deciding_moment = score.moment;
   load.capacity = score.capacity;
   load.channel = score.channel;
@@ -179,7 +181,10 @@ void LoadEstimator::ShowBody(const BodySample& sample, const LoadSubject& subjec
   }
   for (const Side side : {kRight, kLeft}) {
     forces.feet[side].touches_floor = subject.has_legs && contacts_.touches(side);
-    forces.feet[side].contact_weight = subject.has_legs ? contacts_.feet()[side].weight : 0;
+    if (!subject.has_legs) continue;
+    forces.feet[side].contact_weight = contacts_.feet()[side].weight;
+    forces.feet[side].heel_weight = contacts_.heel_weight(side);
+    forces.feet[side].forefoot_weight = contacts_.forefoot_weight(side);
   }
 }
 
@@ -322,14 +327,23 @@ void LoadEstimator::ShowExternal(const ExternalJointLoad& given, const LinkPoses
 }
 
 void LoadEstimator::CountCompression(const LoadSettings& settings) {
-  const BodyForces& forces = result_.forces;
+  BodyForces& forces = result_.forces;
   JointLoad& lumbar = result_.loads[urdf::kScoredL5S1];
+  if (forces.lumbar) forces.lumbar->ratio = LumbarRatio(*forces.lumbar, settings.meter.up);
   const bool counts = settings.compression_counts && forces.lumbar && !lumbar.is_external &&
                       std::isfinite(lumbar.ratio) && forces.metric != LoadMetric::kExternal &&
                       forces.metric != LoadMetric::kOverload;
   if (!counts) return;
-  const double of_compression = LumbarRatio(*forces.lumbar, settings.meter.up);
-  if (of_compression <= lumbar.ratio) return;
+  const double of_compression = forces.lumbar->ratio;
+  if (of_compression <= lumbar.ratio) {
+    if (lumbar.next_channel.empty() || of_compression > lumbar.next_ratio) {
+      lumbar.next_ratio = of_compression;
+      lumbar.next_channel = "compression";
+    }
+    return;
+  }
+  lumbar.next_ratio = lumbar.ratio;
+  lumbar.next_channel = lumbar.channel;
   lumbar.ratio = of_compression;
   lumbar.deciding_moment = lumbar.capacity = kNothing;
   lumbar.channel = "compression";
@@ -378,6 +392,7 @@ const LoadResult& LoadEstimator::Update(const BodySample& sample, const LinkPose
   forces = BodyForces();
   forces.metric = settings.metric;
   forces.floor_z = subject.floor_z;
+  forces.why_no_floor = subject.why_no_floor;
   forces.stated_hand_load = {settings.hands.is_known, settings.hands.mass_kg,
                              settings.hands.both_kg};
   if (!IsPose(newest)) {

@@ -32,10 +32,11 @@ struct LoadSubject {
   const urdf::Skeleton& skeleton;
   const urdf::BodyParameters& body;
   bool mass_is_assumed = false;
-  bool has_added_masses = false;  // MVN does not know the added masses: its CoM is that of
-                                  // another body
-  bool has_legs = true;           // false: recorded without leg sensors
-  double floor_z = 0;             // world, m
+  bool has_added_masses = false;       // MVN does not know the added masses: its CoM is that of
+                                       // another body
+  bool has_legs = true;                // false: recorded without leg sensors
+  double floor_z = 0;                  // world, m
+  std::string_view why_no_floor = {};  // why floor_z is only the lowest point of the feet
 };
 
 struct LoadResult {

@@ -99,6 +99,9 @@ void PersonTracker::FindFloor(const BodySample& sample, const urdf::LinkPoses& l
   }
   floor_.Add(sample.stamp_nanos, lowest, speeds);
   floor_z_ = given ? *given : has_legs_ ? floor_.height() : std::min(lowest[0], lowest[1]);
+  why_no_floor_ = given || (has_legs_ && floor_.is_found()) ? ""
+                  : has_legs_                               ? "no foot has rested for 0.3 s"
+                              : "the source does not measure the legs";
 }
 
 void PersonTracker::AddLoads(const BodySample& sample, const loads::LoadSettings& settings,
@@ -109,7 +112,7 @@ void PersonTracker::AddLoads(const BodySample& sample, const loads::LoadSettings
   const loads::LoadResult& result =
       loads_.Update(sample, state.links,
                     {human.skeleton, human.body, body.mass_is_assumed, !body.added_masses.empty(),
-                     has_legs_, *floor_z_},
+                     has_legs_, *floor_z_, why_no_floor_},
                     settings, measured, motion);
   state.com_is_ours = !sample.com;
   state.com = sample.com ? sample.com->position : result.forces.com_of_model;

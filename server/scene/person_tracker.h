@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "core/scene_state.h"
 #include "core/skeleton_watch.h"
@@ -69,6 +70,7 @@ class PersonTracker {
   loads::FootMotion feet_;
   loads::FloorFinder floor_;
   std::optional<double> floor_z_;  // m; set with the first sample
+  std::string_view why_no_floor_;
   std::optional<PersonState> state_;
 };
 

@@ -277,6 +277,46 @@ TEST(LoadsCommand, EndsWithCodeOneIfNoLoadIsKnown) {
   EXPECT_THAT(result.out, HasSubstr("no external load received"));
 }
 
+// What the program computes for the feet, given back to it as measured.
+TEST(LoadsCommand, ReproducesTheLoadsOfTheLegsFromItsOwnForcesOnTheFeet) {
+  const TempFolder folder;
+  const std::string forces = folder / "forces.csv";
+  const std::vector<std::string> lift = {"demo:lift", "--seconds", "2", "--columns",
+                                         "all",       "--csv",     "-"};
+  const CsvTable computed(Loads(lift).out);
+  {
+    std::ofstream file(forces);
+    file << "time_s,body,fx_N,fy_N,fz_N,px_m,py_m,pz_m,tx_Nm,ty_Nm,tz_Nm\n";
+    for (std::size_t row = 0; row < computed.rows.size(); ++row) {
+      for (const std::string side : {"right", "left"}) {
+        const std::string foot = side + "_foot_";
+        file << computed.At(row, "time_s") << (side == "right" ? ",RightFoot" : ",LeftFoot");
+        for (const char* name : {"force_x_N", "force_y_N", "force_z_N", "cop_x_m", "cop_y_m"}) {
+          file << ',' << computed.At(row, foot + name);
+        }
+        file << ',' << computed.At(row, "floor_z_m") << ",0,0,"
+             << computed.At(row, foot + "free_moment_Nm") << '\n';
+      }
+    }
+  }
+  std::vector<std::string> arguments = lift;
+  arguments.insert(arguments.end(), {"--wrenches", forces});
+  const ProgramResult result = Loads(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const CsvTable measured(result.out);
+  ASSERT_EQ(measured.rows.size(), computed.rows.size());
+  for (std::size_t row = 0; row < measured.rows.size(); ++row) {
+    EXPECT_EQ(measured.At(row, "ground_is_measured"), "1");
+    EXPECT_EQ(computed.At(row, "ground_is_measured"), "0");
+    for (const char* joint : {"right_hip", "left_knee", "right_ankle"}) {
+      for (const char* axis : {"_moment_x_Nm", "_moment_y_Nm", "_moment_z_Nm"}) {
+        EXPECT_NEAR(measured.Number(row, joint + std::string(axis)),
+                    computed.Number(row, joint + std::string(axis)), 0.01);
+      }
+    }
+  }
+}
+
 TEST(LoadsCommand, TellsTheTimeWithForcesFromAFileAndRefusesABadFile) {
   const TempFolder folder;
   const std::string forces = folder / "forces.csv";
@@ -316,6 +356,8 @@ TEST(LoadsCommand, RejectsInvalidOptionsInOneLine) {
   refuses({"--filter_hz", "100"}, "--filter_hz");
   refuses({"--seconds", "0"}, "--seconds=0");
   refuses({"--layout", "tall"}, "--layout=tall");
+  refuses({"--joints", "all"}, "has no effect without --csv or --json");
+  refuses({"--columns", "all"}, "has no effect without --csv or --json");
   refuses({"--csv", "-", "--json", "-"}, "standard output");
   refuses({"--csv", "/nowhere/at/all.csv"}, "/nowhere/at/all.csv");
   refuses({"--report", "/nowhere/at/all.html"}, "/nowhere/at/all.html");

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 #include "core/system/json_text.h"
 #include "render/image/new_file.h"
@@ -93,12 +94,13 @@ class CsvValues : public CellSink {
 
 class Csv : public LoadFile {
  public:
-  Csv(const std::string& path, Layout layout) : out_(path), layout_(layout) {}
+  Csv(const std::string& path, Layout layout, const Columns& columns)
+      : out_(path), layout_(layout), columns_(columns), joints_(JointsOf(columns)) {}
 
   void Add(const PersonState& person, std::int64_t begin_nanos) override {
     if (!has_header_) WriteRows<CsvNames>(person, begin_nanos, 1);
     has_header_ = true;
-    WriteRows<CsvValues>(person, begin_nanos, person.loads.size());
+    WriteRows<CsvValues>(person, begin_nanos, joints_.size());
     out_.FlushWhenLarge();
   }
   void Finish(const nlohmann::json&) override { out_.Finish(); }
@@ -110,17 +112,19 @@ class Csv : public LoadFile {
     for (std::size_t i = 0; i < rows; ++i) {
       Sink cells(out_.buffer());
       if (layout_ == Layout::kWide) {
-        VisitWide(person, begin_nanos, cells);
+        VisitWide(person, begin_nanos, columns_, cells);
       } else {
         VisitTime(person, begin_nanos, cells);
-        cells.Text("joint", ScoredName(i));
-        VisitJoint(person, i, "", cells);
+        cells.Text("joint", ColumnNameOf(joints_[i]));
+        VisitJoint(person, joints_[i], "", columns_, cells);
       }
       out_.buffer() += '\n';
     }
   }
   Output out_;
   const Layout layout_;
+  const Columns columns_;
+  const std::vector<int> joints_;
   bool has_header_ = false;
 };
 
@@ -155,25 +159,27 @@ class JsonValues : public CellSink {
 // One object on one line, as every --json.
 class JsonFile : public LoadFile {
  public:
-  explicit JsonFile(const std::string& path) : out_(path) {}
+  JsonFile(const std::string& path, const Columns& columns) : out_(path), columns_(columns) {
+    out_.buffer() += fmt::format("{{\"schema\":\"{}\",", kLoadsSchema);
+  }
 
   void Add(const PersonState& person, std::int64_t begin_nanos) override {
     if (samples_++ == 0) {
       JsonNames header;
-      VisitWide(person, begin_nanos, header);
-      out_.buffer() += "{\"columns\":" + JsonText(header.names) + ",\"samples\":[";
+      VisitWide(person, begin_nanos, columns_, header);
+      out_.buffer() += "\"columns\":" + JsonText(header.names) + ",\"samples\":[";
     } else {
       out_.buffer() += ",";
     }
     std::string line = "[";
     JsonValues cells(line);
-    VisitWide(person, begin_nanos, cells);
+    VisitWide(person, begin_nanos, columns_, cells);
     out_.buffer() += line + "]";
     out_.FlushWhenLarge();
   }
 
   void Finish(const nlohmann::json& summary) override {
-    if (samples_ == 0) out_.buffer() += "{\"columns\":[],\"samples\":[";
+    if (samples_ == 0) out_.buffer() += "\"columns\":[],\"samples\":[";
     out_.buffer() += "]";
     for (const auto& [key, value] : summary.items()) {
       out_.buffer() += fmt::format(",\"{}\":{}", key, JsonText(value));
@@ -184,17 +190,18 @@ class JsonFile : public LoadFile {
 
  private:
   Output out_;
+  const Columns columns_;
   std::uint64_t samples_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<LoadFile> MakeCsv(const std::string& path, Layout layout) {
-  return std::make_unique<Csv>(path, layout);
+std::unique_ptr<LoadFile> MakeCsv(const std::string& path, Layout layout, const Columns& columns) {
+  return std::make_unique<Csv>(path, layout, columns);
 }
 
-std::unique_ptr<LoadFile> MakeJson(const std::string& path) {
-  return std::make_unique<JsonFile>(path);
+std::unique_ptr<LoadFile> MakeJson(const std::string& path, const Columns& columns) {
+  return std::make_unique<JsonFile>(path, columns);
 }
 
 }  // namespace kinescope::app

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/scene_state.h"
+#include "server/app/loads/load_rows.h"
 
 namespace kinescope::app {
 
@@ -26,9 +27,14 @@ class LoadFile {
 // with the path and the reason.
 
 /// RFC 4180 (with plain line feeds), with a header line; unknown values are empty.
-std::unique_ptr<LoadFile> MakeCsv(const std::string& path, Layout layout);
-/// {"columns": [...], "samples": [[...], ...], and the members of `summary`}; unknown values are
-/// null.
-std::unique_ptr<LoadFile> MakeJson(const std::string& path);
+std::unique_ptr<LoadFile> MakeCsv(const std::string& path, Layout layout,
+                                  const Columns& columns = {});
+/// {"schema": kLoadsSchema, "columns": [...], "samples": [[...], ...], and the members of
+/// `summary`}; unknown values are null.
+std::unique_ptr<LoadFile> MakeJson(const std::string& path, const Columns& columns = {});
+
+/// The $id of docs/loads.schema.json, which describes the JSON. Its number changes when a member
+/// is removed or gets another meaning.
+inline constexpr char kLoadsSchema[] = "urn:kinescope:loads:1";
 
 }  // namespace kinescope::app

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -34,8 +35,57 @@ void VisitFoot(const FootForce& foot, const std::string& name, CellSink& cells) 
   cells.Number(name + "_cop_y_m", foot.cop.y());
 }
 
+bool IsScored(int joint) {
+  return std::count(urdf::kScoredJoints.begin(), urdf::kScoredJoints.end(), joint) > 0;
+}
+
+// That of a joint without capacity has force and moment only.
+JointLoad LoadOf(const PersonState& person, int joint) {
+  const auto scored = std::find_if(person.loads.begin(), person.loads.end(),
+                                   [&](const JointLoad& load) { return load.joint == joint; });
+  if (scored != person.loads.end()) return *scored;
+  const JointForce& force = person.forces.joints[urdf::At(joint)];
+  JointLoad load;
+  load.joint = joint;
+  load.moment = force.moment;
+  load.force = force.force;
+  load.ratio = load.shown_ratio = load.deciding_moment = load.capacity = kEmptyCell;
+  load.reason = force.why_unknown;
+  return load;
+}
+
+double AreaOf(const SupportPolygon& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    const Eigen::Vector2d& a = polygon.corners[i];
+    const Eigen::Vector2d& b = polygon.corners[(i + 1) % polygon.size];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return twice / 2;
+}
+
+// "0.1 0.2; 0.3 0.4": x and y of each corner.
+std::string CornersText(const SupportPolygon& polygon) {
+  std::string text;
+  for (std::size_t i = 0; i < polygon.size; ++i) {
+    text += fmt::format("{}{:.4f} {:.4f}", i == 0 ? "" : "; ", polygon.corners[i].x(),
+                        polygon.corners[i].y());
+  }
+  return text;
+}
+
 }  // namespace
 
+std::vector<int> JointsOf(const Columns& columns) {
+  std::vector<int> joints(urdf::kScoredJoints.begin(), urdf::kScoredJoints.end());
+  if (!columns.all_joints) return joints;
+  for (int joint = 0; joint < urdf::kJointCount; ++joint) {
+    if (!IsScored(joint)) joints.push_back(joint);
+  }
+  return joints;
+}
+
+std::string_view ColumnNameOf(int joint) { return urdf::kJoints[urdf::At(joint)].ros_name; }
 std::string_view ScoredName(std::size_t index) { return InfoOf(index).ros_name; }
 std::string_view ScoredLabel(std::size_t index) { return InfoOf(index).label; }
 
@@ -85,27 +135,66 @@ void VisitBody(const PersonState& person, CellSink& cells) {
   cells.Number("l5_s1_shear_N", lumbar.shear);
 }
 
-void VisitJoint(const PersonState& person, std::size_t index, const std::string& prefix,
-                CellSink& cells) {
-  const JointLoad& load = person.loads[index];
+void VisitDetails(const PersonState& person, CellSink& cells) {
+  const BodyForces& forces = person.forces;
+  cells.Text("floor_reason", forces.why_no_floor);
+  cells.Whole("acceleration_is_limited", forces.acceleration_is_limited ? 1 : 0);
+  Vector("com_velocity", "m_s", forces.com_velocity.value_or(kNowhere), cells);
+  Vector("extrapolated_com", "m", forces.extrapolated_com.value_or(kNowhere), cells);
+  cells.Whole("ground_is_measured", forces.ground_is_measured ? 1 : 0);
+  cells.Number("ground_free_moment_Nm",
+               forces.why_no_ground.empty() ? forces.ground_free_moment : kEmptyCell);
+  cells.Whole("external_contact_suspected", forces.external_contact_suspected ? 1 : 0);
+  cells.Number("residual_force_ratio", forces.residual_force_share);
+  cells.Number("residual_moment_ratio", forces.residual_moment_share);
+  cells.Number("support_area_m2", AreaOf(forces.support));
+  cells.Text("support_corners_m", CornersText(forces.support));
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const FootForce& foot = forces.feet[side];
+    const std::string name = side == urdf::kRight ? "right_foot" : "left_foot";
+    cells.Number(name + "_contact_ratio", foot.contact_weight);
+    cells.Number(name + "_heel_contact_ratio", foot.heel_weight);
+    cells.Number(name + "_forefoot_contact_ratio", foot.forefoot_weight);
+    cells.Number(name + "_free_moment_Nm", foot.free_moment);
+  }
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    const HandForce& hand = forces.hands[side];
+    const std::string name = side == urdf::kRight ? "right_hand" : "left_hand";
+    cells.Whole(name + "_is_measured", hand.is_measured ? 1 : 0);
+    Vector(name + "_force", "N", hand.force, cells);
+    Vector(name + "_point", "m", hand.point, cells);
+  }
+  cells.Number("l5_s1_moment_ratio", person.loads[urdf::kScoredL5S1].moment_ratio);
+  cells.Number("l5_s1_compression_ratio", forces.lumbar ? forces.lumbar->ratio : kEmptyCell);
+}
+
+void VisitJoint(const PersonState& person, int joint, const std::string& prefix,
+                const Columns& columns, CellSink& cells) {
+  const JointLoad load = LoadOf(person, joint);
+  const bool is_scored = IsScored(joint);
   const Eigen::Quaterniond parent_from_world =
-      person.links[urdf::At(urdf::ParentOf(load.joint))].orientation.conjugate();
+      person.links[urdf::At(urdf::ParentOf(joint))].orientation.conjugate();
   cells.Number(prefix + "ratio", load.ratio);
   cells.Number(prefix + "shown_ratio", load.shown_ratio);
-  cells.Text(prefix + "class", Name(load.load_class));
+  cells.Text(prefix + "class", is_scored ? Name(load.load_class) : "");
   cells.Text(prefix + "channel", load.channel);
   cells.Number(prefix + "channel_moment_Nm", load.deciding_moment);
   cells.Number(prefix + "capacity_Nm", load.capacity);
   Vector(prefix + "moment", "Nm", parent_from_world * load.moment, cells);
   Vector(prefix + "force", "N", parent_from_world * load.force, cells);
   cells.Text(prefix + "reason", load.reason);
+  if (!columns.is_detailed) return;
+  cells.Text(prefix + "next_channel", load.next_channel);
+  cells.Number(prefix + "next_ratio", load.next_ratio);
 }
 
-void VisitWide(const PersonState& person, std::int64_t begin_nanos, CellSink& cells) {
+void VisitWide(const PersonState& person, std::int64_t begin_nanos, const Columns& columns,
+               CellSink& cells) {
   VisitTime(person, begin_nanos, cells);
   VisitBody(person, cells);
-  for (std::size_t i = 0; i < person.loads.size(); ++i) {
-    VisitJoint(person, i, std::string(ScoredName(i)) + "_", cells);
+  if (columns.is_detailed) VisitDetails(person, cells);
+  for (const int joint : JointsOf(columns)) {
+    VisitJoint(person, joint, std::string(ColumnNameOf(joint)) + "_", columns, cells);
   }
 }
 

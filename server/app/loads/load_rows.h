@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/scene_state.h"
 
@@ -24,19 +25,33 @@ class CellSink {
   virtual void Text(const std::string& name, std::string_view value) = 0;
 };
 
+/// Which columns there are.
+struct Columns {
+  bool all_joints = false;   // also the joints without capacity, after the scored ones
+  bool is_detailed = false;  // also contacts, hands, support, checks, and the second direction
+};
+
+/// The joints of a row, in their order: urdf::Joint.
+std::vector<int> JointsOf(const Columns& columns);
+
 /// `begin_nanos`: time 0, ns.
 void VisitTime(const PersonState& person, std::int64_t begin_nanos, CellSink& cells);
 /// Body, ground reaction force and spine: values that exist once per person.
 void VisitBody(const PersonState& person, CellSink& cells);
-/// The scored joint `index`; names begin with `prefix`.
-void VisitJoint(const PersonState& person, std::size_t index, const std::string& prefix,
-                CellSink& cells);
+/// More about the body, for Columns::is_detailed.
+void VisitDetails(const PersonState& person, CellSink& cells);
+/// `joint`: urdf::Joint; names begin with `prefix`. A joint without capacity has no ratio.
+void VisitJoint(const PersonState& person, int joint, const std::string& prefix,
+                const Columns& columns, CellSink& cells);
 /// Everything in one row; column names of joints begin with the joint: "right_knee_ratio".
-void VisitWide(const PersonState& person, std::int64_t begin_nanos, CellSink& cells);
+void VisitWide(const PersonState& person, std::int64_t begin_nanos, const Columns& columns,
+               CellSink& cells);
 
 /// "2020-01-01T00:00:00.008333Z", UTC, to the microsecond.
 std::string IsoTime(std::int64_t stamp_nanos);
 
+/// "right_knee", the name of urdf::Joint `joint` in columns.
+std::string_view ColumnNameOf(int joint);
 /// "right_knee", the name of kScoredJoints[index].
 std::string_view ScoredName(std::size_t index);
 /// "Right knee", the label of kScoredJoints[index].

@@ -139,6 +139,12 @@ std::string StatureText(const PersonModel& model) {
                                                   : "");
 }
 
+std::string FloorText(const LoadTrial& trial, const TrialContext& context) {
+  if (context.scene.floor_z) return "";
+  const std::string_view why_not = trial.newest().forces.why_no_floor;
+  return why_not.empty() ? " (found)" : fmt::format(" (lowest point of the feet: {})", why_not);
+}
+
 JointSummary JointOf(const LoadTrial& trial, std::size_t joint) {
   const loads::JointExposure exposure = trial.exposure().Of(joint);
   JointSummary summary;
@@ -198,9 +204,7 @@ std::vector<Fact> FactsOf(const LoadTrial& trial, const TrialContext& context) {
                                      settings.motion.recording_cutoff_hz),
                    false});
   facts.push_back(
-      {"floor",
-       fmt::format("z = {:.3f} m{}", trial.floor_z(), context.scene.floor_z ? "" : " (found)"),
-       false});
+      {"floor", fmt::format("z = {:.3f} m{}", trial.floor_z(), FloorText(trial, context)), false});
   return facts;
 }
 

@@ -34,6 +34,8 @@ namespace {
 struct LoadsOptions {
   options::Text source, csv, json, plots, report;
   options::Choice<Layout> layout{{{"wide", Layout::kWide}, {"long", Layout::kLong}}, Layout::kWide};
+  options::Choice<bool> joints{{{"scored", false}, {"all", true}}, false};
+  options::Choice<bool> columns{{{"usual", false}, {"all", true}}, false};
   options::Optional<options::Number> seconds{options::Number(0, {0, 1e6, "s", true})};
   PersonOptions person;
   LoadOptions loads;
@@ -47,6 +49,12 @@ struct LoadsOptions {
     option("csv", csv, "CSV file to write; -: standard output");
     option("json", json, "JSON file to write, with exposure and provenance; -: standard output");
     option("layout", layout, "rows of the CSV: one per sample, or one per sample and joint");
+    option(
+        "joints", joints,
+        "joints of CSV and JSON: those with a load ratio, or all 22 with their moments and forces");
+    option("columns", columns,
+           "columns of CSV and JSON: usual, or all (contacts, hands, support polygon, checks, and "
+           "the second largest ratio of each joint)");
     option("plots", plots, "folder to write, with a PNG and an SVG per joint");
     option("report", report, "one-page report to write, .html");
     option("seconds", seconds, "length of the motion to read; default: all (demo: 8 s)");
@@ -55,6 +63,10 @@ struct LoadsOptions {
     option.Group("Drawing");
     backend.List(option);
     option.HasNoEffect("layout", "without --csv", [this] { return csv->empty(); });
+    for (const char* name : {"joints", "columns"}) {
+      option.HasNoEffect(name, "without --csv or --json",
+                         [this] { return csv->empty() && json->empty(); });
+    }
     for (const char* name : {"backend", "draw_limit_secs"}) {
       option.HasNoEffect(name, "without --report", [this] { return report->empty(); });
     }
@@ -91,8 +103,9 @@ class Recording {
       : options_(options),
         meter_(context.scene.loads.meter),
         reader_(*options.source, context.scene) {
-    if (!options.csv->empty()) files_.push_back(MakeCsv(*options.csv, *options.layout));
-    if (!options.json->empty()) files_.push_back(MakeJson(*options.json));
+    const Columns columns = {*options.joints, *options.columns};
+    if (!options.csv->empty()) files_.push_back(MakeCsv(*options.csv, *options.layout, columns));
+    if (!options.json->empty()) files_.push_back(MakeJson(*options.json, columns));
   }
 
   void Read() {

@@ -16,6 +16,7 @@ class Walker {
   void Stand(double right, double left, double secs) { Add(right, left, 0.01, secs); }
   void Fly(double height, double secs) { Add(height, height, 2, secs); }
   double height() const { return finder_.height(); }
+  bool is_found() const { return finder_.is_found(); }
 
  private:
   void Add(double right, double left, double speed, double secs) {
@@ -55,6 +56,17 @@ TEST(FloorFinder, StartsWithTheLowestPointAndCorrectsItWhenAFootRests) {
   EXPECT_NEAR(walker.height(), 0.5, 0.005);
   walker.Stand(0.06, 0.06, 1);
   EXPECT_NEAR(walker.height(), 0.06, 0.003);
+}
+
+TEST(FloorFinder, HasFoundAFloorOnlyWhenAFootHasRested) {
+  Walker walker;
+  walker.Fly(0.5, 3);
+  walker.Stand(0, 0, 0.25);
+  EXPECT_FALSE(walker.is_found());
+  walker.Stand(0, 0, 0.5);
+  EXPECT_TRUE(walker.is_found());
+  walker.Fly(0.5, 3);
+  EXPECT_TRUE(walker.is_found());
 }
 
 TEST(FloorFinder, KeepsTheLowestOfSeveralLevels) {

@@ -31,12 +31,23 @@ class Feet {
   const FootContacts& contacts() const { return contacts_; }
   bool touches() const { return contacts_.touches(kRight); }
   double weight() const { return contacts_.feet()[kRight].weight; }
+  double heel_weight() const { return contacts_.heel_weight(kRight); }
+  double forefoot_weight() const { return contacts_.forefoot_weight(kRight); }
 
  private:
   LinkPoses links_ = Posed({});
   std::int64_t now_ = 1;
   FootContacts contacts_;
 };
+
+TEST(FootContacts, WeighsHeelAndForefootEachOnItsOwn) {
+  Feet feet;
+  EXPECT_EQ(feet.heel_weight(), 1);
+  EXPECT_EQ(feet.forefoot_weight(), 1);
+  for (int i = 0; i < 20; ++i) feet.Move(0.08, 0, 20, 40);  // on tiptoe
+  EXPECT_EQ(feet.heel_weight(), 0);
+  EXPECT_EQ(feet.forefoot_weight(), 1);
+}
 
 TEST(FootContacts, IncludeBothFeetInTheFirstSample) {
   const Feet feet;

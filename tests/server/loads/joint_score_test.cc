@@ -52,6 +52,23 @@ TEST(Score, NamesTheGoverningDirection) {
   }
 }
 
+// 10 N·m about all three axes: the ratios are those of the capacities.
+TEST(Score, NamesTheSecondDirectionWithItsRatio) {
+  const Score hip = ScoreJoint(jRightHip, {-10, -10, 10}, Posed({}), {});
+  EXPECT_EQ(hip.channel, "internal rotation");
+  EXPECT_NEAR(hip.ratio, 10.0 / 60, 1e-12);
+  EXPECT_EQ(hip.next_channel, "abduction");
+  EXPECT_NEAR(hip.next_ratio, 10.0 / 97, 1e-12);
+  // The same, found in another order.
+  const Score other = ScoreJoint(jRightHip, {0, -100, 10}, Posed({}), {});
+  EXPECT_EQ(other.channel, "flexion");
+  EXPECT_EQ(other.next_channel, "internal rotation");
+  EXPECT_NEAR(other.next_ratio, 10.0 / 60, 1e-12);
+  const Score knee = ScoreJoint(jRightKnee, {0, 10, 0}, Posed({}), {});
+  EXPECT_EQ(knee.next_channel, "") << "has one direction only";
+  EXPECT_TRUE(std::isnan(knee.next_ratio));
+}
+
 TEST(Strength, DependsOnSexPercentileAndPerson) {
   const Vector3d extension(0, -10, 0);
   EXPECT_NEAR(CapacityOf(jL5S1, extension, Of(Sex::kMale)), 234, 1e-9);

@@ -348,6 +348,26 @@ TEST(LoadEstimator, UsesTheLargerRatioOfLumbarMomentAndCompression) {
   EXPECT_EQ(LoadOf(Estimate(TrunkBent(), settings), jL5S1).load_class, LoadClass::kLow);
 }
 
+TEST(LoadEstimator, TellsBothRatiosOfL5S1WhicheverIsTheLargerOne) {
+  LoadSettings settings = Unclamped();
+  settings.hands = Held(30, 30);
+  for (const std::array<double, 2>& limits : {std::array<double, 2>{3, 4}, {0.01, 0.02}}) {
+    settings.meter = LoadMeter::WithLimits(limits);
+    const LoadResult result = Estimate(TrunkBent(), settings);
+    const JointLoad& disc = LoadOf(result, jL5S1);
+    const double of_compression = result.forces.lumbar->ratio;
+    EXPECT_EQ(of_compression, LumbarRatio(*result.forces.lumbar, limits));
+    EXPECT_EQ(disc.ratio, std::max(of_compression, disc.moment_ratio));
+    EXPECT_EQ(disc.next_ratio, std::min(of_compression, disc.moment_ratio));
+    EXPECT_EQ(disc.channel, limits[0] > 1 ? "compression" : "extension");
+    EXPECT_EQ(disc.next_channel, limits[0] > 1 ? "extension" : "compression");
+  }
+  settings.compression_counts = false;
+  const LoadResult result = Estimate(TrunkBent(), settings);
+  EXPECT_NE(LoadOf(result, jL5S1).next_channel, "compression") << "it does not compete";
+  EXPECT_GT(result.forces.lumbar->ratio, 0);
+}
+
 TEST(LoadEstimator, ReportsADifferenceFromTheCentreOfMassOfMvn) {
   const LinkPoses links = Posed({});
   BodySample sample = SampleOf(links);

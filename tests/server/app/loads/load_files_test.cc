@@ -37,10 +37,10 @@ constexpr double kNoRatioInFile = std::numeric_limits<double>::quiet_NaN();
 
 // What `add` adds, as a file.
 template <class Add>
-std::string CsvOf(Layout layout, Add&& add) {
+std::string CsvOf(Layout layout, Add&& add, const Columns& columns = {}) {
   const TempFolder folder;
   const std::string path = folder / "loads.csv";
-  const auto file = MakeCsv(path, layout);
+  const auto file = MakeCsv(path, layout, columns);
   add(*file);
   file->Finish({});
   return ReadFile(path);
@@ -89,11 +89,11 @@ TEST(LoadFiles, HaveUniqueColumnNamesWithUnits) {
     EXPECT_EQ(distinct.count(name), 1U) << name;
   }
   NumberNames numbers;
-  VisitWide(ShortLift().back()->people[0], 0, numbers);
-  EXPECT_GT(numbers.names.size(), 15U * 9);
+  VisitWide(ShortLift().back()->people[0], 0, {true, true}, numbers);
+  EXPECT_GT(numbers.names.size(), 22U * 10);
   for (const std::string& name : numbers.names) {
     const std::string unit = name.substr(name.rfind('_') + 1);
-    EXPECT_THAT(unit, ::testing::AnyOf("s", "m", "N", "Nm", "kg", "ratio")) << name;
+    EXPECT_THAT(unit, ::testing::AnyOf("s", "m", "m2", "N", "Nm", "kg", "ratio")) << name;
   }
 }
 
@@ -211,6 +211,47 @@ TEST(LoadFiles, HaveOneRowPerJointInTheLongLayout) {
     }
     EXPECT_EQ(tall.At(row, "time_s"), wide.At(row / 15, "time_s"));
   }
+}
+
+TEST(LoadFiles, HaveAllJointsAndDetailsAfterTheUsualColumnsOnRequest) {
+  const CsvTable usual(CsvOf(Layout::kWide, AddShortLift));
+  const CsvTable more(CsvOf(Layout::kWide, AddShortLift, {true, true}));
+  for (const std::string& name : usual.names) {
+    EXPECT_EQ(more.At(1, name), usual.At(1, name)) << "the same as without the options";
+  }
+  const BodyForces& forces = ShortLift()[1]->people[0].forces;
+  EXPECT_EQ(more.Number(1, "l5_s1_compression_ratio"), forces.lumbar->ratio);
+  EXPECT_EQ(more.Number(1, "right_foot_heel_contact_ratio"), 1);
+  EXPECT_EQ(more.Number(1, "ground_is_measured"), 0);
+  EXPECT_EQ(more.Number(1, "right_hand_force_z_N"), forces.hands[urdf::kRight].force.z());
+  EXPECT_GT(more.Number(1, "support_area_m2"), 0.05);
+  EXPECT_EQ(more.At(1, "right_hip_next_channel"), ShortLift()[1]->people[0].loads[9].next_channel);
+  EXPECT_EQ(more.At(1, "l4_l3_ratio") + more.At(1, "l4_l3_class"), "") << "has no capacity";
+  const Eigen::Quaterniond l4_from_world = ShortLift()[1]
+                                               ->people[0]
+                                               .links[urdf::At(urdf::ParentOf(urdf::jL4L3))]
+                                               .orientation.conjugate();
+  EXPECT_NEAR(more.Number(1, "l4_l3_moment_y_Nm"),
+              (l4_from_world * forces.joints[urdf::jL4L3].moment).y(), 1e-9);
+
+  const CsvTable tall(CsvOf(Layout::kLong, AddShortLift, {true, false}));
+  ASSERT_EQ(tall.rows.size(), 22 * usual.rows.size());
+  EXPECT_EQ(tall.At(15, "joint"), "l4_l3");
+  EXPECT_EQ(tall.At(15, "moment_x_Nm"),
+            CsvTable(CsvOf(Layout::kWide, AddShortLift, {true, false})).At(0, "l4_l3_moment_x_Nm"));
+}
+
+TEST(LoadFiles, HaveTheReasonOfAJointWithoutCapacity) {
+  const CsvTable table(CsvOf(Layout::kWide,
+                             [](LoadFile& file) {
+                               file.Add(LiftingPersonWith([](PersonState& person) {
+                                          MakeUnknown("the stream stopped", person.forces);
+                                        }),
+                                        0);
+                             },
+                             {true, false}));
+  EXPECT_EQ(table.At(0, "c1_head_reason"), "the stream stopped");
+  EXPECT_EQ(table.At(0, "c1_head_moment_x_Nm"), "");
 }
 
 // Parent's axes turned by 90 deg about the vertical: the world's x is their -y.
