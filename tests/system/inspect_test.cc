@@ -1,4 +1,5 @@
 // `kinescope inspect` as people and programs use it.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
@@ -13,6 +14,7 @@
 
 #include "server/mvn/encode.h"
 #include "server/mvn/net/sender.h"
+#include "server/subject/subject.h"
 #include "tests/process.h"
 #include "tests/server/mvn/mvn_testing.h"
 #include "tests/shared_data.h"
@@ -267,6 +269,43 @@ TEST(Inspect, InspectsTheBuiltInSubjectForTheRequestedTime) {
   EXPECT_NEAR(report["characters"][0]["frames"]["rate_hz"].get<double>(), 120, 0.01);
 }
 
+// A person who stands for a second on a platform, as a file of datagrams.
+TEST(Inspect, ReportsTheFloorThatLoadsFindsInAFile) {
+  const TempFolder folder;
+  const auto write = [&](double secs) {
+    std::vector<std::string> datagrams;
+    const auto motion = subject::MakeMotion("n_pose");
+    for (std::uint32_t counter = 0; counter < 60 * secs; ++counter) {
+      BodySample sample = motion->At(counter / 60.0);
+      sample.counter = counter;
+      sample.time_code_millis = static_cast<std::int64_t>(counter * 1000 / 60);
+      for (SegmentState& segment : sample.segments) segment.position.z() += 0.4;
+      const auto frame = mvn::EncodeSample(sample);
+      datagrams.insert(datagrams.end(), frame.begin(), frame.end());
+    }
+    return Write(folder / "platform.bin", datagrams);
+  };
+  const std::string file = write(2);
+  const ProgramResult text = Inspect({file});
+  const Json floor = Parsed(Inspect({file, "--json"}).out)["characters"].at(0)["floor"];
+  EXPECT_NEAR(floor["height_m"].get<double>(), 0.4, 0.02);
+  EXPECT_EQ(floor["reason"], nullptr);
+  const std::string height = fmt::format("z = {:.3f} m", floor["height_m"].get<double>());
+  EXPECT_THAT(text.out, HasSubstr("floor       " + height + "\n"));
+  EXPECT_THAT(testing::Kinescope({"loads", file}).out, HasSubstr(height + " (found)"));
+
+  const std::string brief = write(0.2);
+  EXPECT_THAT(Inspect({brief}).out,
+              HasSubstr("floor       not found: no foot has rested for 0.3 s"));
+  const Json none = Parsed(Inspect({brief, "--json"}).out)["characters"].at(0)["floor"];
+  EXPECT_EQ(none["height_m"], nullptr);
+  EXPECT_EQ(none["reason"], "no foot has rested for 0.3 s");
+  EXPECT_EQ(
+      Parsed(Inspect({"demo:walk", "--seconds", "1", "--json"}).out)["characters"].at(0)["floor"],
+      nullptr)
+      << "the built-in subject is no file";
+}
+
 TEST(Inspect, ReportsVersionPersonAndRateOfAnMvnxFile) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   const ProgramResult result = Inspect({SharedData("mvnx/test_mocap.mvnx"), "--json"});
@@ -277,6 +316,7 @@ TEST(Inspect, ReportsVersionPersonAndRateOfAnMvnxFile) {
   EXPECT_EQ(person["samples"]["count"], 112);
   EXPECT_EQ(person["samples"]["quantities"]["joint angles"], 112);
   EXPECT_NEAR(person["frames"]["rate_hz"].get<double>(), 60, 0.01);
+  EXPECT_EQ(person["floor"]["reason"], "the source does not measure the legs");
   EXPECT_NE(person["name"], "");
 }
 

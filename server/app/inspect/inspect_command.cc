@@ -13,6 +13,7 @@
 #include "core/system/input_file.h"
 #include "core/system/stop_signal.h"
 #include "server/app/commands.h"
+#include "server/app/inspect/floor_seeker.h"
 #include "server/app/inspect/inspection_report.h"
 #include "server/app/progress.h"
 #include "server/mvn/file/mvnx_source.h"
@@ -42,23 +43,27 @@ struct InspectOptions {
 constexpr std::chrono::milliseconds kInspectPollTimeout(20);
 constexpr std::int64_t kDrainNanos = 200'000'000;
 
-// Hands datagrams on and moves the progress of a file.
+// Hands datagrams on; of a file, also to the search for the floor and to the progress.
 class DatagramSteps : public mvn::DatagramSink {
  public:
-  DatagramSteps(mvn::Inspection& to, Progress* progress) : to_(to), progress_(progress) {}
+  DatagramSteps(mvn::Inspection& to, FloorSeeker* floors, Progress* progress)
+      : to_(to), floors_(floors), progress_(progress) {}
   void OnDatagram(const mvn::ReceivedDatagram& datagram) override {
     to_.OnDatagram(datagram);
+    if (floors_ != nullptr) floors_->OnDatagram(datagram);
     if (progress_ != nullptr) progress_->Step();
   }
 
  private:
   mvn::Inspection& to_;
+  FloorSeeker* floors_;
   Progress* progress_;
 };
 
 mvn::InspectionReport InspectDatagrams(mvn::DatagramSource& source, double seconds) {
   mvn::Inspection inspection(source.is_live());
   std::unique_ptr<Progress> progress;
+  std::unique_ptr<FloorSeeker> floors;
   std::int64_t end = 0;
   if (source.is_live()) {
     spdlog::info("listening at {} for {:g} s; press Ctrl-C to stop earlier", source.description(),
@@ -66,8 +71,9 @@ mvn::InspectionReport InspectDatagrams(mvn::DatagramSource& source, double secon
     end = MonotonicNanos() + static_cast<std::int64_t>(seconds * 1e9);
   } else {
     progress = std::make_unique<Progress>("datagrams", 0);
+    floors = std::make_unique<FloorSeeker>();
   }
-  DatagramSteps steps(inspection, progress.get());
+  DatagramSteps steps(inspection, floors.get(), progress.get());
   while (!StopRequested() && (end == 0 || MonotonicNanos() < end)) {
     const auto state = source.Poll(kInspectPollTimeout, steps);
     if (state == mvn::DatagramSource::State::kEnded) break;
@@ -82,15 +88,23 @@ mvn::InspectionReport InspectDatagrams(mvn::DatagramSource& source, double secon
     const auto state = source.Poll(std::chrono::milliseconds(0), steps);
     if (state != mvn::DatagramSource::State::kMore) ++idle;  // the first may be a new connection
   }
-  return inspection.Report(source);
+  mvn::InspectionReport report = inspection.Report(source);
+  if (floors != nullptr) floors->Fill(report);
+  return report;
 }
 
 // Likewise for samples.
 class SampleSteps : public SampleSink {
  public:
-  void OnCharacter(const Character& character) override { inspection_.OnCharacter(character); }
+  explicit SampleSteps(FloorSeeker* floors) : floors_(floors) {}
+
+  void OnCharacter(const Character& character) override {
+    inspection_.OnCharacter(character);
+    if (floors_ != nullptr) floors_->OnCharacter(character);
+  }
   void OnSample(const BodySample& sample) override {
     inspection_.OnSample(sample);
+    if (floors_ != nullptr) floors_->OnSample(sample);
     progress_.Step();
     ++samples_;
   }
@@ -100,6 +114,7 @@ class SampleSteps : public SampleSink {
   const mvn::SampleInspection& inspection() const { return inspection_; }
 
  private:
+  FloorSeeker* floors_;
   mvn::SampleInspection inspection_;
   Progress progress_{"samples", 0};
   double samples_ = 0;
@@ -108,7 +123,9 @@ class SampleSteps : public SampleSink {
 // The built-in subject never ends: `seconds` of it will do, as of a live source. A file is read to
 // its end.
 mvn::InspectionReport InspectSamples(Source& source, double seconds, bool has_end) {
-  SampleSteps steps;
+  std::unique_ptr<FloorSeeker> floors;
+  if (has_end) floors = std::make_unique<FloorSeeker>();
+  SampleSteps steps(floors.get());
   if (source.is_live()) {
     spdlog::info("receiving from {} for {:g} s; press Ctrl-C to stop earlier", source.description(),
                  seconds);
@@ -122,7 +139,9 @@ mvn::InspectionReport InspectSamples(Source& source, double seconds, bool has_en
   while (!StopRequested() && (has_end || steps.samples() < most)) {
     if (source.Poll(kInspectPollTimeout, steps) == Source::State::kEnded) break;
   }
-  return steps.inspection().Report(source);
+  mvn::InspectionReport report = steps.inspection().Report(source);
+  if (floors != nullptr) floors->Fill(report);
+  return report;
 }
 
 // "MVNX version 4": the version as the first tag says it.

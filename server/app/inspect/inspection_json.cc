@@ -90,6 +90,12 @@ Json CharacterOf(const CharacterReport& character) {
               {"datagrams", character.datagrams},
               {"bytes", character.bytes},
               {"old_header", character.has_old_header}};
+  out["floor"] = nullptr;
+  if (character.floor) {
+    const bool is_found = character.floor->why_not.empty();
+    out["floor"] = {{"height_m", is_found ? Json(character.floor->height_m) : Json(nullptr)},
+                    {"reason", is_found ? Json(nullptr) : Json(character.floor->why_not)}};
+  }
   if (character.color_rgb) out["color"] = fmt::format("#{:06x}", *character.color_rgb);
   out["types"] = Json::array();
   for (const mvn::TypeReport& type : character.types) out["types"].push_back(TypeOf(type));

@@ -208,6 +208,11 @@ void Person(const CharacterReport& character, const InspectionReport& report, st
   out += "\n";
   if (character.color_rgb) Line(out, "colour", fmt::format("#{:06x}", *character.color_rgb));
   if (character.height_m) Line(out, "height", fmt::format("{:.3f} m", *character.height_m));
+  if (character.floor) {
+    Line(out, "floor",
+         character.floor->why_not.empty() ? fmt::format("z = {:.3f} m", character.floor->height_m)
+                                          : "not found: " + character.floor->why_not);
+  }
   Line(out, "segments", Segments(character));
   Line(out, "frames", Frames(character));
   Line(out, "rate", Rates(character));

@@ -42,6 +42,12 @@ struct DelayReport {  // ns, relative to the fastest frames of the last seconds
   std::int64_t longest = 0;
 };
 
+/// The level on which the feet of a person rest.
+struct FloorReport {
+  double height_m = 0;  // world
+  std::string why_not;  // why it was not found; "" otherwise
+};
+
 enum class CharacterKind { kUnknown, kPerson, kObjects };
 
 /// One character of one sender, or the person in a file.
@@ -85,7 +91,8 @@ struct CharacterReport {
   std::uint64_t mismatched_ids = 0;
   /// Number of samples per quantity: "velocity", "joint angles", "gloves".
   std::map<std::string, std::uint64_t> quantities;
-  std::vector<std::string> advice;  // what is missing, and what to switch on in MVN
+  std::optional<FloorReport> floor;  // of a person in a file; set by the code that opened it
+  std::vector<std::string> advice;   // what is missing, and what to switch on in MVN
 };
 
 struct ErrorReport {
