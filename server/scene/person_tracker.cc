@@ -142,9 +142,12 @@ void PersonTracker::Update(const BodySample& sample, const loads::LoadSettings& 
   state.worst_deviation = worst_deviation_;
   person_.worn.Follow(sample, state);
   FindFloor(sample, state.links, known.floor_z);
-  const loads::Measurements& now =
-      known.forces != nullptr ? known.forces->At(sample, state.links, *floor_z_) : measured;
-  AddLoads(sample, settings, now, known.motion, state);
+  if (known.forces == nullptr) {
+    AddLoads(sample, settings, measured, known.motion, state);
+  } else {
+    AddLoads(sample, settings, known.forces->At(sample, state.links, *floor_z_), known.motion,
+             state);
+  }
   state_ = std::move(state);
 }
 

@@ -30,7 +30,6 @@ class GoldenCaseFile : public ::testing::Test {
     return "";
   }
 
- private:
   kinescope::testing::TempFolder folder_;
 };
 
@@ -42,6 +41,22 @@ TEST_F(GoldenCaseFile, RejectsAnInvalidTime) {
   }
   EXPECT_EQ(Complaint("source: demo:lift\ntime: 0\n"), "");
   EXPECT_EQ(Complaint("source: demo:lift\ntime: 864000\n"), "");
+}
+
+TEST_F(GoldenCaseFile, HasItsMeasuredForcesBesideIt) {
+  const GoldenCase golden_case =
+      Load("source: demo:lift\nsize: 16x16\ntime: 0.05\nwrenches: forces.csv\n");
+  std::ofstream(*golden_case.loads.measured.wrenches)
+      << "time_s,body,fx_N,fy_N,fz_N,px_m,py_m,pz_m,tx_Nm,ty_Nm,tz_Nm\n"
+         "0,LeftHand,0,0,-50,,,,0,0,0\n0.1,LeftHand,0,0,-50,,,,0,0,0\n";
+  EXPECT_EQ(*golden_case.loads.measured.wrenches, folder_ / "forces.csv");
+  bool is_measured = false;
+  kinescope::testing::FakeRenderer renderer(
+      [&](const auto&, const SceneState& state, const auto&, const auto&) {
+        is_measured = state.people.at(0).forces.hands[urdf::kLeft].is_measured;
+      });
+  Draw(golden_case, renderer);
+  EXPECT_TRUE(is_measured);
 }
 
 TEST_F(GoldenCaseFile, GivesTheReferencePoseTheAppearanceOfThePerson) {
