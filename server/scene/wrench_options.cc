@@ -36,6 +36,11 @@ GroupBody ToGroupBody(std::string_view item) {
 
 }  // namespace
 
+void WrenchFileValue::Parse(const std::string& text) {
+  if (!text.empty() && !wrenches::FindWrenchFormat(text)) RefuseText();
+  value_ = text;
+}
+
 std::vector<std::filesystem::path> WrenchFileValue::Files() const {
   if (value_.empty()) return {};
   return {value_};

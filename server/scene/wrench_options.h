@@ -21,7 +21,7 @@ class WrenchFileValue : public options::ValueOf<std::string> {
     return *this;
   }
 
-  void Parse(const std::string& text) override { value_ = text; }
+  void Parse(const std::string& text) override;
   std::string ToText() const override { return value_; }
   std::string Expected() const override { return "FILE.csv, FILE.mot or FILE.sto"; }
   bool IsGiven() const override { return !value_.empty(); }

@@ -41,7 +41,7 @@ class PlacedWrenches : public WrenchReader {
 
 }  // namespace
 
-WrenchFormat WrenchFormatOf(const std::string& path) {
+std::optional<WrenchFormat> FindWrenchFormat(const std::string& path) {
   std::filesystem::path name(path);
   for (const char* packed : {".gz", ".xz", ".zst", ".bz2", ".lz4"}) {
     if (name.extension() == packed) {
@@ -52,6 +52,11 @@ WrenchFormat WrenchFormatOf(const std::string& path) {
   const std::string ending = name.extension().string();
   if (ending == ".csv") return WrenchFormat::kCsv;
   if (ending == ".mot" || ending == ".sto") return WrenchFormat::kMot;
+  return std::nullopt;
+}
+
+WrenchFormat WrenchFormatOf(const std::string& path) {
+  if (const auto format = FindWrenchFormat(path)) return *format;
   throw SourceError(path + ": unknown kind of file; expected the ending .csv, .mot or .sto");
 }
 

@@ -29,7 +29,8 @@ class WrenchReader {
 
 enum class WrenchFormat { kCsv, kMot };
 
-/// By the ending of `path`, .csv, .mot or .sto; .gz and the like may follow.
+/// By the ending of `path`, .csv, .mot or .sto; .gz and the like may follow. nullopt: another one.
+std::optional<WrenchFormat> FindWrenchFormat(const std::string& path);
 /// @throws SourceError for another ending.
 WrenchFormat WrenchFormatOf(const std::string& path);
 

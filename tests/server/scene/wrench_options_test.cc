@@ -58,6 +58,8 @@ TEST(WrenchOptions, NameTheirFileForProvenance) {
 
 TEST(WrenchOptions, RefuseWhatTheyDoNotKnow) {
   WrenchOptions values;
+  EXPECT_THAT(SetWrenchOption(values, "wrenches", "forces.c3d"),
+              HasSubstr("expected FILE.csv, FILE.mot or FILE.sto"));
   values.wrenches = "forces.csv";
   EXPECT_THAT(SetWrenchOption(values, "wrench_bodies", "ground_force"),
               HasSubstr("expected GROUP=BODY"));
