@@ -32,7 +32,7 @@ LIBRARIES = {
     r"spdlog/": ("spdlog", {"server/mvn/net", "server/mvn/file", "server/ros", "server/ros/source", "server/body",
                             "server/picture", "server/app", "server/app/*"}),
     r"tl/expected": ("libexpected", {"server/mvn", "server/mvn/file", "server/http", "server/ros"}),
-    r"nlohmann/": ("nlohmann-json", {"server/http", "urdf/mesh", "server/picture", "server/app/*"}),
+    r"nlohmann/": ("nlohmann-json", {"server/http", "urdf/mesh", "server/options", "server/source", "server/picture", "server/app/*"}),
     r"CLI/": ("CLI11", {"server/app"}),
     r"yaml-cpp/": ("yaml-cpp", {"server/options", "server/picture"}),
     r"(urdf_parser|urdf_model|console_bridge)/": ("urdfdom", {"urdf/robot"}),

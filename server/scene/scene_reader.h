@@ -32,6 +32,9 @@ class SceneReader {
                                  const SourceSettings& settings);
 
   /// The state of the next sample; null at the end.
+  SceneReader(const SceneReader&) = delete;
+  SceneReader& operator=(const SceneReader&) = delete;
+
   std::shared_ptr<const SceneState> Next();
 
   /// The state before the first sample: "no data".

@@ -20,4 +20,12 @@ SourceIdentity IdentityOf(const std::string& url) {
   return identity;
 }
 
+nlohmann::ordered_json ToJson(const SourceIdentity& source) {
+  nlohmann::ordered_json json = {{"name", source.name}};
+  if (!source.digest) return json;
+  json["sha256"] = source.digest->sha256;
+  json["bytes"] = source.digest->bytes;
+  return json;
+}
+
 }  // namespace kinescope::app

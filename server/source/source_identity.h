@@ -2,6 +2,7 @@
 /// same samples. Any thread.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -17,5 +18,8 @@ struct SourceIdentity {
 
 /// Reads the whole file. @throws SourceError with the file and the reason.
 SourceIdentity IdentityOf(const std::string& url);
+
+/// Members `name` and, of a regular file, `sha256` and `bytes`.
+nlohmann::ordered_json ToJson(const SourceIdentity& source);
 
 }  // namespace kinescope::app

@@ -69,10 +69,10 @@ ByJoint OfTable(const PersonState& person) {
     }
   };
   ByJoint all;
-  for (std::size_t i = 0; i < person.loads.size(); ++i) {
+  for (const JointLoad& load : person.loads) {
     Cells cells;
-    app::VisitJoint(person, i, "", cells);
-    all[person.loads[i].joint] = cells.said;
+    app::VisitJoint(person, load.joint, "", app::Columns(), cells);
+    all[load.joint] = cells.said;
   }
   return all;
 }

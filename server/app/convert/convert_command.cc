@@ -19,8 +19,8 @@
 #include "server/app/convert/frame_index.h"
 #include "server/app/convert/motion_file.h"
 #include "server/app/progress.h"
+#include "server/options/option_json.h"
 #include "server/options/option_list.h"
-#include "server/picture/option_json.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
@@ -86,6 +86,10 @@ struct ConvertOptions {
     for (const char* name : {"layout", "quantities"}) {
       option.HasNoEffect(name, "without a table (.csv)", [this] { return !HasTable(); });
     }
+    for (const std::string& name : WrenchOptionNames()) {
+      option.HasNoEffect(name, "with a live stream, whose sensors come over ROS",
+                         [this] { return IsLiveUrl(*source); });
+    }
     option.HasNoEffect("rate_hz",
                        "with a source other than demo:", [this] { return !IsSubjectUrl(*source); });
   }
@@ -119,25 +123,17 @@ void CheckOutputs(const ConvertOptions& options) {
 
 // Everything that decides the content of the files.
 nlohmann::ordered_json ProvenanceOf(ConvertOptions& options) {
-  const SourceIdentity identity = IdentityOf(*options.source);
-  nlohmann::ordered_json source = {{"name", identity.name}};
-  if (identity.digest) {
-    source["sha256"] = identity.digest->sha256;
-    source["bytes"] = identity.digest->bytes;
-  }
   options::OptionList list;
   options.person.List(list);
   options.loads.List(list);
   RemoveUnused(list);
-  nlohmann::ordered_json values = nlohmann::ordered_json::object();
-  for (const options::Option& option : list) {
-    if (option.value->IsGiven()) values[option.name] = ToJson(*option.value);
-  }
+  nlohmann::ordered_json values = options::ValuesOf(list);
   if (options.seconds) values["seconds"] = *options.seconds;
   if (IsSubjectUrl(*options.source)) values["rate_hz"] = *options.rate_hz;
   return {{"program", "kinescope " KINESCOPE_VERSION},
           {"command", "convert"},
-          {"source", source},
+          {"source", ToJson(IdentityOf(*options.source))},
+          {"inputs", options::InputsOf(list)},
           {"options", values}};
 }
 

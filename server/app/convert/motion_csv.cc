@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "core/system/clocks.h"
 #include "core/system/json_text.h"
 #include "server/app/loads/load_rows.h"
 #include "server/table/csv_row.h"
@@ -14,8 +13,7 @@ namespace {
 // A sample's own cells, before its values.
 void AddTimes(const PersonState& person, std::int64_t begin_nanos, CsvRow& row) {
   const BodySample& sample = person.sample;
-  // Divided, and not multiplied by 1e-9, which is inexact: 0.1 and not 0.10000000000000002.
-  row.Number(static_cast<double>(sample.stamp_nanos - begin_nanos) / kNanosPerSecond);
+  row.Number(SecsSince(begin_nanos, sample.stamp_nanos));
   row.Text(sample.has_time_of_day ? IsoTime(sample.stamp_nanos) : "");
   row.Whole(sample.counter);
   row.Whole(person.character);

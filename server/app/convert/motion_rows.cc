@@ -193,9 +193,9 @@ void VisitLoads(const PersonState& person, MotionCells& cells) {
   const LumbarLoad lumbar = forces.lumbar.value_or(LumbarLoad{kUnknownValue, kUnknownValue});
   cells.Number({"l5_s1", "compression", "", "N"}, lumbar.compression);
   cells.Number({"l5_s1", "shear", "", "N"}, lumbar.shear);
-  for (std::size_t i = 0; i < person.loads.size(); ++i) {
-    LoadCells joint(ScoredName(i), cells);
-    VisitJoint(person, i, "", joint);
+  for (const int joint : urdf::kScoredJoints) {
+    LoadCells of_joint(ColumnNameOf(joint), cells);
+    VisitJoint(person, joint, "", Columns(), of_joint);
   }
 }
 

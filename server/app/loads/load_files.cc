@@ -3,50 +3,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
-#include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "core/system/json_text.h"
-#include "render/image/new_file.h"
 #include "server/app/loads/load_rows.h"
+#include "server/table/csv_row.h"
+#include "server/table/output_file.h"
 
 namespace kinescope::app {
 namespace {
-
-// A new file, or standard output. Collects small pieces.
-class Output {
- public:
-  explicit Output(const std::string& path) {
-    if (path != "-") file_.emplace(path);
-  }
-  std::string& buffer() { return buffer_; }
-  void FlushWhenLarge() {
-    constexpr std::size_t kLarge = 1 << 16;
-    if (buffer_.size() >= kLarge) Flush();
-  }
-  void Finish() {
-    Flush();
-    if (file_) {
-      file_->Commit();
-    } else if (std::fflush(stdout) != 0) {
-      throw std::runtime_error("cannot write to standard output");
-    }
-  }
-
- private:
-  void Flush() {
-    if (file_) {
-      file_->Write(buffer_.data(), buffer_.size());
-    } else if (std::fwrite(buffer_.data(), 1, buffer_.size(), stdout) != buffer_.size()) {
-      throw std::runtime_error("cannot write to standard output");
-    }
-    buffer_.clear();
-  }
-  std::optional<render::NewFile> file_;
-  std::string buffer_;
-};
 
 // The shortest text that reads back as the same number, so that others can count what we counted.
 std::string FormatNumber(double value) {
@@ -55,41 +20,24 @@ std::string FormatNumber(double value) {
 
 class CsvNames : public CellSink {
  public:
-  explicit CsvNames(std::string& line) : line_(line) {}
-  void Number(const std::string& name, double) override { Push(name); }
-  void Whole(const std::string& name, long long) override { Push(name); }
-  void Text(const std::string& name, std::string_view) override { Push(name); }
+  explicit CsvNames(std::string& line) : row_(line) {}
+  void Number(const std::string& name, double) override { row_.Text(name); }
+  void Whole(const std::string& name, long long) override { row_.Text(name); }
+  void Text(const std::string& name, std::string_view) override { row_.Text(name); }
 
  private:
-  void Push(const std::string& name) {
-    if (!is_first_) line_ += ',';
-    is_first_ = false;
-    line_ += name;
-  }
-  std::string& line_;
-  bool is_first_ = true;
+  CsvRow row_;
 };
 
 class CsvValues : public CellSink {
  public:
-  explicit CsvValues(std::string& line) : line_(line) {}
-  void Number(const std::string&, double value) override { Push(FormatNumber(value)); }
-  void Whole(const std::string&, long long value) override { Push(std::to_string(value)); }
-  void Text(const std::string&, std::string_view value) override {
-    if (value.find_first_of(",\"\r\n") == std::string_view::npos) return Push(value);
-    std::string quoted = "\"";
-    for (const char c : value) quoted += c == '"' ? "\"\"" : std::string(1, c);
-    Push(quoted + '"');
-  }
+  explicit CsvValues(std::string& line) : row_(line) {}
+  void Number(const std::string&, double value) override { row_.Number(value); }
+  void Whole(const std::string&, long long value) override { row_.Whole(value); }
+  void Text(const std::string&, std::string_view value) override { row_.Text(value); }
 
  private:
-  void Push(std::string_view value) {
-    if (!is_first_) line_ += ',';
-    is_first_ = false;
-    line_ += value;
-  }
-  std::string& line_;
-  bool is_first_ = true;
+  CsvRow row_;
 };
 
 class Csv : public LoadFile {
@@ -121,7 +69,7 @@ class Csv : public LoadFile {
       out_.buffer() += '\n';
     }
   }
-  Output out_;
+  OutputFile out_;
   const Layout layout_;
   const Columns columns_;
   const std::vector<int> joints_;
@@ -189,7 +137,7 @@ class JsonFile : public LoadFile {
   }
 
  private:
-  Output out_;
+  OutputFile out_;
   const Columns columns_;
   std::uint64_t samples_ = 0;
 };

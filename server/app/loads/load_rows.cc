@@ -102,7 +102,7 @@ std::string IsoTime(std::int64_t stamp_nanos) {
 
 void VisitTime(const PersonState& person, std::int64_t begin_nanos, CellSink& cells) {
   const std::int64_t stamp = person.sample.stamp_nanos;
-  cells.Number("time_s", Secs(stamp - begin_nanos));
+  cells.Number("time_s", SecsSince(begin_nanos, stamp));
   cells.Text("utc", person.sample.has_time_of_day ? IsoTime(stamp) : "");
   cells.Whole("sample_counter", person.sample.counter);
   cells.Whole("person", person.character);

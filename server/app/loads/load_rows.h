@@ -47,6 +47,11 @@ void VisitJoint(const PersonState& person, int joint, const std::string& prefix,
 void VisitWide(const PersonState& person, std::int64_t begin_nanos, const Columns& columns,
                CellSink& cells);
 
+/// s, divided and not multiplied by 1e-9, which is inexact: 0.1 and not 0.10000000000000002.
+constexpr double SecsSince(std::int64_t begin_nanos, std::int64_t stamp_nanos) {
+  return static_cast<double>(stamp_nanos - begin_nanos) / 1e9;
+}
+
 /// "2020-01-01T00:00:00.008333Z", UTC, to the microsecond.
 std::string IsoTime(std::int64_t stamp_nanos);
 

@@ -21,9 +21,9 @@
 #include "server/app/loads/load_summary.h"
 #include "server/app/loads/load_trial.h"
 #include "server/app/progress.h"
+#include "server/options/option_json.h"
 #include "server/options/option_list.h"
 #include "server/picture/backend.h"
-#include "server/picture/option_json.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
@@ -79,7 +79,7 @@ nlohmann::json OptionsAsJson(LoadsOptions& values) {
   values.person.List(list);
   values.loads.List(list);
   nlohmann::json out = nlohmann::json::object();
-  for (const options::Option& option : list) out[option.name] = ToJson(*option.value);
+  for (const options::Option& option : list) out[option.name] = options::ToJson(*option.value);
   return out;
 }
 

@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "core/system/json_text.h"
-#include "core/system/sha256.h"
+#include "server/options/option_json.h"
 #include "server/options/option_list.h"
-#include "server/picture/option_json.h"
 #include "server/scene/scene_options.h"
 #include "server/source/source_identity.h"
 
@@ -21,42 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCapacityTable = "Stobbe 1982, Delp 1996, Vasavada 2001 (docs/loads.md)";
-
-// Options that were given or have a default, by name.
-Json ValuesOf(const options::OptionList& list) {
-  Json values = Json::object();
-  for (const options::Option& option : list) {
-    if (option.value->IsGiven()) values[option.name] = ToJson(*option.value);
-  }
-  return values;
-}
-
-// The files that the options read, with their SHA-256.
-Json InputsOf(const options::OptionList& list) {
-  Json inputs = Json::array();
-  for (const options::Option& option : list) {
-    std::vector<fs::path> files = option.value->Files();
-    std::sort(files.begin(), files.end());
-    for (const fs::path& path : files) {
-      std::error_code ignored;
-      if (!fs::is_regular_file(path, ignored)) continue;  // drawing will say so
-      const FileDigest digest = DigestOf(path);
-      inputs.push_back({{"option", option.name},
-                        {"name", path.filename().string()},
-                        {"sha256", digest.sha256},
-                        {"bytes", digest.bytes}});
-    }
-  }
-  return inputs;
-}
-
-Json SourceJson(const SourceIdentity& source) {
-  Json json = {{"name", source.name}};
-  if (!source.digest) return json;
-  json["sha256"] = source.digest->sha256;
-  json["bytes"] = source.digest->bytes;
-  return json;
-}
 
 Json DescribeLoads(const LoadOptions& options) {
   const loads::LoadMeter::Settings meter = ToLoadSettings(options).meter;
@@ -99,7 +62,7 @@ Provenance::Provenance(const RenderOptions& options, const std::string& source,
   const SourceIdentity identity = IdentityOf(source);
   is_repeatable_ = identity.is_repeatable;
   shared_ = {{"kinescope", KINESCOPE_VERSION},       {"schema", kProvenanceSchema},
-             {"source", SourceJson(identity)},       {"inputs", InputsOf(list)},
+             {"source", ToJson(identity)},           {"inputs", options::InputsOf(list)},
              {"renderer", renderer.renderer},        {"gl_version", renderer.gl_version},
              {"backend", renderer.backend},          {"backend_note", renderer.note},
              {"loads", DescribeLoads(options.loads)}};
@@ -120,7 +83,7 @@ Json Provenance::Of(const Output& output, std::optional<long> number) const {
   copy.view.List(list);
   copy.person.List(list);
   copy.loads.List(list);
-  Json values = ValuesOf(list);
+  Json values = options::ValuesOf(list);
   if (HasCrf(output.path)) {
     if (copy.pack.crf) values["crf"] = *copy.pack.crf;
   } else if (output.kind == OutputKind::kClip) {

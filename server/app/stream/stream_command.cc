@@ -173,7 +173,7 @@ FeedSettings ToFeed(const StreamOptions& o) {
   return feed;
 }
 
-nlohmann::json ToJson(const mvn::FaultCount& count, mvn::Fault fault) {
+nlohmann::json FaultJson(const mvn::FaultCount& count, mvn::Fault fault) {
   nlohmann::json out = {{"injected", count.injected}, {"datagrams", count.datagrams}};
   if (fault == mvn::Fault::kTruncate || fault == mvn::Fault::kCorrupt) {
     out["detectable"] = count.detectable;
@@ -197,7 +197,7 @@ nlohmann::json Summary(const StreamOptions& o, const Feed& feed, const Transmiss
                             {"faults", nlohmann::json::object()}};
   for (int i = 0; i < mvn::kFaultCount; ++i) {
     const auto fault = static_cast<mvn::Fault>(i);
-    if (settings[fault] > 0) summary["faults"][Name(fault)] = ToJson(faults.count(fault), fault);
+    if (settings[fault] > 0) summary["faults"][Name(fault)] = FaultJson(faults.count(fault), fault);
   }
   return summary;
 }
