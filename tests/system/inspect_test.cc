@@ -59,6 +59,7 @@ std::vector<std::string> Stream() {
   person.name = "Ben";
   person.color_rgb = 0x2080FF;
   person.skeleton = urdf::DefaultSkeleton(1.80);
+  person.landmarks = urdf::LandmarksOf(*person.skeleton);
   std::vector<std::string> datagrams = mvn::EncodeCharacter(person);
   for (std::uint32_t counter = 0; counter < kFrames; ++counter) {
     const auto frame = mvn::EncodeSample(RandomSample(random, counter));
