@@ -349,7 +349,7 @@ TEST(SceneBuilder, ComputesTheRateOfACaptureFromItsTimeStamps) {
 
 TEST(SceneBuilder, AcceptsAPersonWithoutSamples) {
   Built built;
-  built.builder.OnCharacter({0, "Anna", {}, {}, {}});
+  built.builder.OnCharacter({0, "Anna", {}, {}, {}, {}});
   BodySample sample = SampleOf("n_pose", 0);
   sample.character = 1;
   built.builder.OnSample(sample);
@@ -359,7 +359,7 @@ TEST(SceneBuilder, AcceptsAPersonWithoutSamples) {
 
 TEST(SceneBuilder, ShowsTrackedObjectsByTheirNamesUntilTheyLeave) {
   Built built;
-  built.builder.OnCharacter({7, "Things", {}, {}, {{"HTC Vive Tracker", {0, 0, 1}}}});
+  built.builder.OnCharacter({7, "Things", {}, {}, {}, {{"HTC Vive Tracker", {0, 0, 1}}}});
   ObjectsSample objects;
   objects.character = 7;
   objects.present.set(0).set(1);
