@@ -18,15 +18,6 @@ bool IsAbove(LoadClass band, std::size_t limit) {
   return band == LoadClass::kHigh || (band == LoadClass::kMedium && limit == 0);
 }
 
-// The smallest value that at least `percent` % of all do not exceed. Sorts a part of `values`.
-double NearestRank(std::vector<double>& values, std::size_t percent) {
-  if (values.empty()) return kNoRatio;
-  const std::size_t rank = (percent * values.size() + 99) / 100;
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
 }  // namespace
 
 void BandTimes::Add(const std::array<JointLoad, urdf::kScoredJointCount>& loads,

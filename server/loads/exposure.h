@@ -4,9 +4,11 @@
 /// (joint-loads.md 4.5). One thread.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <vector>
 
@@ -29,6 +31,17 @@ class BandTimes {
   std::array<LoadClass, urdf::kScoredJointCount> last_{};
   std::array<std::array<std::int64_t, kLoadClassCount>, urdf::kScoredJointCount> nanos_{};
 };
+
+/// The smallest of `values` that at least `percent` % of them do not exceed; NaN: there are none.
+/// Sorts a part of `values`.
+template <class T>
+T NearestRank(std::vector<T>& values, std::size_t percent) {
+  if (values.empty()) return std::numeric_limits<T>::quiet_NaN();
+  const std::size_t rank = (percent * values.size() + 99) / 100;
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(rank, 1) - 1);
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
 
 /// Of one joint and one class limit.
 struct AboveLimit {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/scene_interpolation.h"
+#include "core/system/check.h"
 #include "core/system/errors.h"
 #include "core/system/stop_signal.h"
 #include "server/source/open_source.h"
@@ -14,10 +15,12 @@ namespace kinescope::app {
 SceneReader::SceneReader(std::unique_ptr<Source> source, const std::string& url,
                          const SceneOptions& options)
     : url_(url),
+      cutoff_hz_(options.loads.motion.recording_cutoff_hz),
       source_(std::move(source)),
       builder_(options, url, source_->nominal_rate_hz(),
                [this](const std::shared_ptr<const SceneState>& state) { ready_.push_back(state); }),
-      smoother_(options.loads.motion.recording_cutoff_hz, builder_) {
+      smoother_(cutoff_hz_, builders_) {
+  builders_.to.push_back(&builder_);
   builder_.Start();
   empty_ = std::move(ready_.front());
   ready_.pop_front();
@@ -44,6 +47,26 @@ void SceneReader::ReadRest() {
     before = source_->counters().datagrams;
     if (source_->Poll(std::chrono::milliseconds(0), smoother_) == Source::State::kEnded) return;
   } while (source_->counters().datagrams > before);
+}
+
+void SceneReader::Also(const SceneOptions& options, SceneBuilder::OnState on_state) {
+  KINESCOPE_CHECK(options.loads.motion.recording_cutoff_hz == cutoff_hz_);
+  others_.push_back(std::make_unique<SceneBuilder>(options, url_, source_->nominal_rate_hz(),
+                                                   std::move(on_state)));
+  others_.back()->Start();
+  builders_.to.push_back(others_.back().get());
+}
+
+void SceneReader::FanOut::OnCharacter(const Character& character) {
+  for (SmoothSampleSink* const each : to) each->OnCharacter(character);
+}
+
+void SceneReader::FanOut::OnSample(const BodySample& sample, const loads::BodyMotion* motion) {
+  for (SmoothSampleSink* const each : to) each->OnSample(sample, motion);
+}
+
+void SceneReader::FanOut::OnObjects(const ObjectsSample& sample) {
+  for (SmoothSampleSink* const each : to) each->OnObjects(sample);
 }
 
 std::shared_ptr<const SceneState> SceneReader::Next() {

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/source.h"
 #include "server/scene/sample_smoother.h"
@@ -31,10 +32,15 @@ class SceneReader {
   static SceneReader OfAnySource(const std::string& url, const SceneOptions& options,
                                  const SourceSettings& settings);
 
-  /// The state of the next sample; null at the end.
+  /// Computes the states under other `options`, too, from the same samples, which are read once.
+  /// `on_state` receives them during Next(), some before Next() returns the state of their sample.
+  /// @pre Next() was not called; recordings are filtered at one cut-off
+  void Also(const SceneOptions& options, SceneBuilder::OnState on_state);
+
   SceneReader(const SceneReader&) = delete;
   SceneReader& operator=(const SceneReader&) = delete;
 
+  /// The state of the next sample; null at the end.
   std::shared_ptr<const SceneState> Next();
 
   /// The state before the first sample: "no data".
@@ -48,14 +54,25 @@ class SceneReader {
   const std::string& url() const { return url_; }
 
  private:
+  class FanOut : public SmoothSampleSink {
+   public:
+    void OnCharacter(const Character& character) override;
+    void OnSample(const BodySample& sample, const loads::BodyMotion* motion) override;
+    void OnObjects(const ObjectsSample& sample) override;
+    std::vector<SmoothSampleSink*> to;
+  };
+
   SceneReader(std::unique_ptr<Source> source, const std::string& url, const SceneOptions& options);
   void ReadRest();
 
   const std::string url_;
+  const double cutoff_hz_;
   std::unique_ptr<Source> source_;
   std::deque<std::shared_ptr<const SceneState>> ready_;
   std::shared_ptr<const SceneState> empty_;
   SceneBuilder builder_;
+  std::vector<std::unique_ptr<SceneBuilder>> others_;
+  FanOut builders_;  // builder_ and others_
   SampleSmoother smoother_;
   bool ended_ = false;
 };

@@ -32,6 +32,25 @@ TEST(SceneTimeline, EndsWithTheRecording) {
   EXPECT_FALSE(timeline.At(112.0 / 60));
 }
 
+// As if each had read the recording on its own.
+TEST(SceneReader, ComputesTheSameSamplesUnderOtherOptions) {
+  SceneOptions heavy;
+  heavy.body.mass_kg = 90;
+  SceneReader reader("demo:lift", {}), alone("demo:lift", heavy);
+  std::vector<std::shared_ptr<const SceneState>> also;
+  reader.Also(heavy, [&](const auto& state) {
+    if (!state->people.empty()) also.push_back(state);
+  });
+  for (int i = 0; i < 40; ++i) ASSERT_NE(reader.Next(), nullptr);
+  ASSERT_GE(also.size(), 40U);
+  for (std::size_t i = 0; i < 40; ++i) {
+    const auto state = alone.Next();
+    EXPECT_EQ(also[i]->stamp_nanos, state->stamp_nanos);
+    EXPECT_EQ(also[i]->people[0].loads[0].ratio, state->people[0].loads[0].ratio);
+    EXPECT_NEAR(also[i]->people[0].forces.body_mass_kg, 90, 1e-9);
+  }
+}
+
 TEST(SceneReader, RejectsALiveStream) {
   EXPECT_THROW(SceneReader("udp://127.0.0.1:0", {}), UsageError);
 }
