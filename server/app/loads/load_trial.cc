@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/system/check.h"
 #include "core/system/clocks.h"
@@ -15,6 +17,17 @@ constexpr std::size_t kMaxSlots = 128;  // of scenes kept, some 20 kB each
 
 void Count(std::string_view why, double secs, SecsByReason& reasons) {
   if (!why.empty()) reasons[why] += secs;
+}
+
+// With the highest known ratio; nullopt: all are unknown.
+std::optional<std::size_t> HighestJoint(const PersonState& person) {
+  std::optional<std::size_t> highest;
+  for (std::size_t i = 0; i < person.loads.size(); ++i) {
+    const double ratio = person.loads[i].ratio;
+    if (person.loads[i].band == LoadClass::kUnknown || !std::isfinite(ratio)) continue;
+    if (!highest || ratio > person.loads[*highest].ratio) highest = i;
+  }
+  return highest;
 }
 
 }  // namespace
@@ -33,6 +46,7 @@ void LoadTrial::Add(const std::shared_ptr<const SceneState>& scene, const Person
   const BodyForces& forces = person.forces;
   if (forces.com_minus_mvn) com_minus_mvn_.Add(forces.com_minus_mvn->norm(), stamp);
   if (forces.lumbar) {
+    KeepCompression(scene, person);
     compression_.Add(forces.lumbar->compression, stamp);
     shear_.Add(std::abs(forces.lumbar->shear), stamp);
   }
@@ -83,6 +97,10 @@ void LoadTrial::CountTime(const PersonState& last, double secs) {
   }
   if (forces.com_disagrees) com_disagrees_secs_ += secs;
   if (forces.acceleration_is_limited) limited_secs_ += secs;
+  if (forces.is_dynamic && !forces.is_zero_phase) {
+    causal_secs_ += secs;
+    most_delay_secs_ = std::max(most_delay_secs_, forces.delay_secs);
+  }
   if (!forces.lumbar) return;
   if (forces.lumbar->compression > loads::kCompressionLimits[0]) compression_secs_[0] += secs;
   if (forces.lumbar->compression > loads::kCompressionLimits[1]) compression_secs_[1] += secs;
@@ -93,6 +111,11 @@ void LoadTrial::KeepCurve(const PersonState& person) {
   kept.stamp_nanos = person.sample.stamp_nanos;
   kept.compression = person.forces.lumbar ? static_cast<float>(person.forces.lumbar->compression)
                                           : std::numeric_limits<float>::quiet_NaN();
+  kept.is_ground_known = person.forces.why_no_ground.empty();
+  for (std::size_t side = 0; side < kept.foot_on_floor.size(); ++side) {
+    kept.foot_on_floor[side] = person.forces.feet[side].touches_floor;
+    kept.hands_kg += static_cast<float>(person.forces.hands[side].mass_kg);
+  }
   for (std::size_t i = 0; i < kept.joints.size(); ++i) {
     const JointLoad& load = person.loads[i];
     const Eigen::Quaterniond& world_from_parent =
@@ -104,19 +127,23 @@ void LoadTrial::KeepCurve(const PersonState& person) {
 
 void LoadTrial::KeepWorst(const std::shared_ptr<const SceneState>& scene,
                           const PersonState& person) {
-  const std::size_t nothing = person.loads.size();
-  std::size_t worst = nothing;
-  for (std::size_t i = 0; i < person.loads.size(); ++i) {
-    const double ratio = person.loads[i].ratio;
-    if (person.loads[i].band == LoadClass::kUnknown || !std::isfinite(ratio)) continue;
-    if (worst == nothing || ratio > person.loads[worst].ratio) worst = i;
-  }
-  if (worst == nothing) return;
+  const std::optional<std::size_t> worst = HighestJoint(person);
+  if (!worst) return;
   const std::int64_t slot = (person.sample.stamp_nanos - begin_nanos_) / slot_nanos_;
   WorstMoment& best = slots_[slot];
-  if (best.scene && person.loads[worst].ratio <= best.ratio) return;
-  best = {person.loads[worst].ratio, worst, scene};
+  if (best.scene && person.loads[*worst].ratio <= best.ratio) return;
+  best = {person.loads[*worst].ratio, *worst, scene, false};
   if (slots_.size() > kMaxSlots) MergeSlots();
+}
+
+// Before the compression of `person` is added.
+void LoadTrial::KeepCompression(const std::shared_ptr<const SceneState>& scene,
+                                const PersonState& person) {
+  const std::optional<std::size_t> worst = HighestJoint(person);
+  const bool is_highest =
+      most_compressed_.scene == nullptr || person.forces.lumbar->compression > compression_.most;
+  if (!worst || !is_highest) return;
+  most_compressed_ = {person.loads[*worst].ratio, *worst, scene, true};
 }
 
 void LoadTrial::MergeSlots() {
@@ -134,13 +161,25 @@ std::vector<WorstMoment> LoadTrial::Worst(std::size_t count) const {
   for (const auto& [slot, moment] : slots_) moments.push_back(moment);
   std::stable_sort(moments.begin(), moments.end(),
                    [](const WorstMoment& a, const WorstMoment& b) { return a.ratio > b.ratio; });
-  const double apart = std::max(0.5, secs() / 12);
+  return Apart(std::move(moments), count);
+}
+
+std::vector<WorstMoment> LoadTrial::WorstPostures(std::size_t count) const {
+  std::vector<WorstMoment> moments = Worst(slots_.size());
+  if (most_compressed_.scene) moments.insert(moments.begin(), most_compressed_);
+  return Apart(std::move(moments), count);
+}
+
+// The first `count` that are far enough from those before.
+std::vector<WorstMoment> LoadTrial::Apart(std::vector<WorstMoment> moments,
+                                          std::size_t count) const {
+  const double apart = std::max(std::clamp(secs() / 3, 0.5, 1.0), secs() / 12);
   std::vector<WorstMoment> chosen;
-  for (const WorstMoment& moment : moments) {
+  for (WorstMoment& moment : moments) {
     const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](const WorstMoment& other) {
       return std::abs(Secs(moment.scene->stamp_nanos - other.scene->stamp_nanos)) < apart;
     });
-    if (is_new && chosen.size() < count) chosen.push_back(moment);
+    if (is_new && chosen.size() < count) chosen.push_back(std::move(moment));
   }
   return chosen;
 }

@@ -16,7 +16,7 @@
 
 namespace kinescope::app {
 
-/// One sample in compact form: about 300 bytes, so an hour at 60 Hz takes 65 MB.
+/// One sample in compact form: about 310 bytes, so an hour at 60 Hz takes 67 MB.
 struct TrialSample {
   struct Joint {
     float ratio = 0;                                   // NaN: unknown
@@ -27,13 +27,17 @@ struct TrialSample {
   std::int64_t stamp_nanos = 0;
   std::array<Joint, urdf::kScoredJointCount> joints;  // in the order of kScoredJoints
   float compression = 0;                              // N, at L5/S1; NaN: unknown
+  float hands_kg = 0;                                 // load in both hands, ramps included
+  std::array<bool, 2> foot_on_floor{};                // by urdf::Side
+  bool is_ground_known = false;                       // the ground reaction force
 };
 
 /// A point in time with a high joint load, with its full scene state for rendering.
 struct WorstMoment {
-  double ratio = 0;
+  double ratio = 0;       // of `joint`, the highest at that time
   std::size_t joint = 0;  // index into kScoredJoints
   std::shared_ptr<const SceneState> scene;
+  bool is_of_compression = false;  // the highest compression at L5/S1 of the trial
 };
 
 /// Mean and maximum of a value over the samples that have it, and the time of the maximum.
@@ -70,9 +74,11 @@ class LoadTrial {
   const loads::Exposure& exposure() const { return exposure_; }
   const std::vector<TrialSample>& curves() const { return curves_; }
 
-  /// At most `count`, the highest load first, at least half a second and a twelfth of the trial
-  /// apart; none with unknown loads.
+  /// At most `count`, the highest load first; none with unknown loads. They are at least one second
+  /// and a twelfth of the trial apart, in trials below 3 s a third of the trial and 0.5 s.
   std::vector<WorstMoment> Worst(std::size_t count) const;
+  /// As Worst, but first the time of the highest compression at L5/S1, if it is known.
+  std::vector<WorstMoment> WorstPostures(std::size_t count) const;
 
   // Time by reason, for unknown loads and for deviations from the options.
   const SecsByReason& why_unknown(std::size_t joint) const { return why_unknown_[joint]; }
@@ -86,7 +92,9 @@ class LoadTrial {
 
   const Peak& com_minus_mvn() const { return com_minus_mvn_; }  // |com_of_model - MVN's CoM|, m
   double com_disagrees_secs() const { return com_disagrees_secs_; }
-  double limited_secs() const { return limited_secs_; }     // BodyForces::acceleration_is_limited
+  double limited_secs() const { return limited_secs_; }  // BodyForces::acceleration_is_limited
+  double causal_secs() const { return causal_secs_; }    // filtered with lag
+  double most_delay_secs() const { return most_delay_secs_; }
   const Peak& compression() const { return compression_; }  // N, L5/S1
   const Peak& shear() const { return shear_; }              // N, L5/S1, absolute value
   /// Time above 3400 N and above 6400 N, s (joint-loads.md 4.4).
@@ -96,7 +104,9 @@ class LoadTrial {
   void CountTime(const PersonState& last, double secs);
   void KeepCurve(const PersonState& person);
   void KeepWorst(const std::shared_ptr<const SceneState>& scene, const PersonState& person);
+  void KeepCompression(const std::shared_ptr<const SceneState>& scene, const PersonState& person);
   void MergeSlots();
+  std::vector<WorstMoment> Apart(std::vector<WorstMoment> moments, std::size_t count) const;
 
   bool keeps_curves_;
   std::int64_t begin_nanos_;
@@ -108,10 +118,12 @@ class LoadTrial {
   // The highest load of each time slot; slots double in length when there are too many.
   std::map<std::int64_t, WorstMoment> slots_;
   std::int64_t slot_nanos_ = 250'000'000;
+  WorstMoment most_compressed_;
   std::array<SecsByReason, urdf::kScoredJointCount> why_unknown_;
   SecsByReason why_static_, why_other_metric_, why_no_ground_;
   Peak com_minus_mvn_, compression_, shear_;
   double com_disagrees_secs_ = 0, limited_secs_ = 0, measured_ground_secs_ = 0;
+  double causal_secs_ = 0, most_delay_secs_ = 0;
   std::array<double, 2> measured_hand_secs_{};
   std::array<double, 2> compression_secs_{};
 };

@@ -67,6 +67,35 @@ inline void AddTo(app::LoadTrial& trial, SceneState scene) {
   trial.Add(shared, shared->people[0]);
 }
 
+/// A known answer: of 100 samples at 10 Hz, the right knee has 50 at 0.2, 30 at 0.5, 15 at 0.9 and
+/// 5 unknown, in this order; all other joints have 0.1. Compression `newtons`, at most in
+/// sample 70.
+inline app::LoadTrial CountedTrial(double newtons = 2000, bool has_names = true) {
+  constexpr std::size_t kRightKnee = 11;
+  app::LoadTrial trial(true, 0);
+  for (int i = 0; i < 100; ++i) {
+    const bool is_known = i < 95;
+    const double ratio = i < 50 ? 0.2 : i < 80 ? 0.5 : is_known ? 0.9 : std::nan("");
+    SceneState scene = SceneWithRatio(0.1 * i, 0.1);
+    PersonState& person = scene.people[0];
+    if (has_names) person.name = "Anna";
+    JointLoad& knee = person.loads[kRightKnee];
+    knee.ratio = knee.shown_ratio = ratio;
+    knee.load_class = knee.band = loads::BandOf(ratio, kDefaultClassLimits);
+    if (!is_known) knee.reason = "no foot contact";
+    for (JointLoad& load : person.loads) {
+      load.channel = "flexion";
+      load.deciding_moment = -100 * load.ratio;
+      load.capacity = 100;
+    }
+    person.forces.is_dynamic = person.forces.is_zero_phase = true;
+    person.forces.lumbar = LumbarLoad{i == 70 ? newtons : 0.5 * newtons, 0};
+    AddTo(trial, scene);
+  }
+  trial.Finish();
+  return trial;
+}
+
 /// A trial that keeps its curves, of all that is in `scenes`.
 inline app::LoadTrial TrialOf(const Scenes& scenes) {
   app::LoadTrial trial(true, scenes.front()->stamp_nanos);
