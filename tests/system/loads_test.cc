@@ -200,8 +200,8 @@ TEST(LoadsCommand, WritesASelfContainedReport) {
   const ProgramResult result = Loads({"demo:lift", "--report", path});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string html = ReadFile(path);
-  EXPECT_THAT(html, HasSubstr("Joint loads: demo:lift"));
-  EXPECT_THAT(html, HasSubstr("<dd>75 kg <span class=\"assumed\">assumed</span></dd>"));
+  EXPECT_THAT(html, HasSubstr("Joint loads of one trial: demo:lift"));
+  EXPECT_THAT(html, HasSubstr("body mass <b class=\"as\">75 kg, assumed</b>"));
   EXPECT_THAT(html, Not(HasSubstr("<script")));
   EXPECT_THAT(html, Not(HasSubstr("src=\"http")));
   std::size_t pictures = 0;
@@ -210,6 +210,19 @@ TEST(LoadsCommand, WritesASelfContainedReport) {
     ++pictures;
   }
   EXPECT_EQ(pictures, 3U);
+}
+
+// Before the recording is read: a source that does not exist is not even looked for.
+TEST(LoadsCommand, NamesThePackageThatPdfNeedsBeforeTheWorkBegins) {
+  const TempFolder folder;
+  const std::string path = folder / "report.pdf";
+  const ProgramResult result =
+      testing::RunProgram({"/usr/bin/env", "PATH=/nowhere", testing::KinescopePath(), "loads",
+                           "/nowhere/recording.mvnx", "--report", path});
+  ExpectRefusal(result, "--report=" + path);
+  EXPECT_THAT(result.err, HasSubstr("apt install weasyprint"));
+  EXPECT_THAT(result.err, HasSubstr(".html"));
+  EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
 }
 
 TEST(LoadsCommand, ReportsWhyLegLoadsOfAnUpperBodyRecordingAreUnknown) {

@@ -241,49 +241,6 @@ Plot JointPlot(const LoadTrial& trial, const TrialContext& context, std::size_t 
   return plot;
 }
 
-Plot OverviewPlot(const LoadTrial& trial, const TrialContext& context) {
-  // By rows of four; the compression fills the row of the trunk.
-  constexpr std::size_t kCompression = urdf::kScoredJointCount;
-  constexpr std::array<std::size_t, urdf::kScoredJointCount + 1> kOrder = {
-      urdf::kScoredL5S1, 1, 2, kCompression, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14};
-  constexpr double kMaxShown = 2;
-  constexpr double kCellWidth = 131, kCellHeight = 56, kFont = 6.5;
-  double peak = 0;
-  for (std::size_t i = 0; i < urdf::kScoredJoints.size(); ++i) {
-    const double of = trial.exposure().Of(i).peak_ratio;
-    if (std::isfinite(of)) peak = std::max(peak, of);
-  }
-  Plot plot;
-  plot.width = 4 * kCellWidth + 3;
-  plot.height = 4 * kCellHeight + 21;
-  for (std::size_t cell = 0; cell < kOrder.size(); ++cell) {
-    const std::size_t joint = kOrder[cell];
-    const bool is_compression = joint == kCompression;
-    PlotPanel panel;
-    if (is_compression) {
-      panel = CompressionPanel(trial);
-      panel.title = "L5/S1 compression (kN)";
-      panel.gaps = plot.panels[0].gaps;
-    } else {
-      SetRatio(trial, context, joint, panel);
-      panel.title = ScoredLabel(joint);
-      panel.y_to = std::min(RatioTop(peak, context), kMaxShown);
-    }
-    for (PlotBand& band : panel.bands) band.label.clear();
-    const std::size_t column = cell % 4, row = cell / 4;
-    panel.left = static_cast<double>(column) * kCellWidth + 24;
-    panel.top = static_cast<double>(row) * kCellHeight + 12;
-    panel.width = kCellWidth - 32;
-    panel.height = 31.5;
-    panel.font_size = kFont;
-    panel.has_x_numbers = row == 3;
-    panel.has_y_numbers = column == 0 || is_compression;
-    if (row == 3) panel.x_label = "time (s)";
-    plot.panels.push_back(std::move(panel));
-  }
-  return plot;
-}
-
 void WritePlots(const std::map<int, LoadTrial>& trials, const TrialContext& context,
                 const std::filesystem::path& folder) {
   std::error_code error;

@@ -1,4 +1,4 @@
-/// Draws loads over time as plots for papers: one per joint, and one with all joints. Colours and
+/// Draws loads over time as plots for papers: one per joint. Colours and
 /// limits of the load classes are those of all other outputs; times with unknown loads are hatched.
 /// Pure functions except WritePlots; any thread.
 #pragma once
@@ -18,10 +18,6 @@ namespace kinescope::app {
 /// The ratio with its classes, and the moment; for L5/S1 also the compression force.
 render::Plot JointPlot(const LoadTrial& trial, const TrialContext& context,
                        std::size_t scored_joint);
-
-/// The ratios of all joints and the L5/S1 compression force, small, on one time scale; as wide as
-/// the text of an A4 page.
-render::Plot OverviewPlot(const LoadTrial& trial, const TrialContext& context);
 
 /// `folder`/right_knee.png, .svg and so on; `folder`/person_1_right_knee.png if there are several
 /// people. The folder is created if necessary.

@@ -20,6 +20,7 @@
 #include "server/app/loads/load_report.h"
 #include "server/app/loads/load_summary.h"
 #include "server/app/loads/load_trial.h"
+#include "server/app/loads/sensitivity.h"
 #include "server/app/progress.h"
 #include "server/options/option_json.h"
 #include "server/options/option_list.h"
@@ -56,7 +57,7 @@ struct LoadsOptions {
            "columns of CSV and JSON: usual, or all (contacts, hands, support polygon, checks, and "
            "the second largest ratio of each joint)");
     option("plots", plots, "folder to write, with a PNG and an SVG per joint");
-    option("report", report, "one-page report to write, .html");
+    option("report", report, "report to write, one A4 page per person, .html or .pdf");
     option("seconds", seconds, "length of the motion to read; default: all (demo: 8 s)");
     person.List(option);
     loads.List(option);
@@ -102,24 +103,24 @@ class Recording {
   Recording(const LoadsOptions& options, const TrialContext& context)
       : options_(options),
         meter_(context.scene.loads.meter),
+        length_secs_(LengthOf(options)),
         reader_(*options.source, context.scene) {
+    if (!options.report->empty()) sensitivity_.emplace(context.scene, length_secs_, reader_);
     const Columns columns = {*options.joints, *options.columns};
     if (!options.csv->empty()) files_.push_back(MakeCsv(*options.csv, *options.layout, columns));
     if (!options.json->empty()) files_.push_back(MakeJson(*options.json, columns));
   }
 
   void Read() {
-    std::optional<double> length;
-    if (options_.seconds) length = *options_.seconds;
-    if (!length && IsSubjectUrl(*options_.source)) length = kSubjectLoadsSecs;
-    Progress progress("samples:",
-                      length ? static_cast<int>(std::ceil(*length * reader_.rate_hz())) : 0);
+    Progress progress(
+        "samples:",
+        length_secs_ ? static_cast<int>(std::ceil(*length_secs_ * reader_.rate_hz())) : 0);
     while (const auto scene = reader_.Next()) {
       if (StopRequested()) Interrupted();
       if (!begin_nanos_) begin_nanos_ = scene->stamp_nanos;
       const double secs = Secs(scene->stamp_nanos - *begin_nanos_);
       // A hair, so that rounded stamps do not decide; the last sample is the one at the end.
-      if (length && secs > *length + 1e-6) break;
+      if (length_secs_ && secs > *length_secs_ + 1e-6) break;
       for (const PersonState& person : scene->people) AddIfNew(scene, person);
       progress.Step();
     }
@@ -132,8 +133,18 @@ class Recording {
 
   double rate_hz() const { return reader_.rate_hz(); }
   const std::map<int, LoadTrial>& trials() const { return trials_; }
+  /// @pre a report was requested
+  std::vector<SensitivityRow> SensitivityOf(int character) const {
+    return sensitivity_->RowsOf(character);
+  }
 
  private:
+  static std::optional<double> LengthOf(const LoadsOptions& options) {
+    if (options.seconds) return *options.seconds;
+    if (IsSubjectUrl(*options.source)) return kSubjectLoadsSecs;
+    return std::nullopt;
+  }
+
   // A scene has all people; only one of them has a new sample.
   void AddIfNew(const std::shared_ptr<const SceneState>& scene, const PersonState& person) {
     const auto [found, is_first] =
@@ -144,12 +155,15 @@ class Recording {
       return;
     }
     trial.Add(scene, person);
+    if (sensitivity_) sensitivity_->AddAsComputed(person);
     for (const auto& file : files_) file->Add(person, *begin_nanos_);
   }
 
   const LoadsOptions& options_;
   const loads::LoadMeter::Settings meter_;
+  const std::optional<double> length_secs_;
   SceneReader reader_;
+  std::optional<Sensitivity> sensitivity_;  // for the report
   std::vector<std::unique_ptr<LoadFile>> files_;
   std::optional<std::int64_t> begin_nanos_;
   std::map<int, LoadTrial> trials_;  // by character
@@ -188,11 +202,7 @@ void CheckArguments(const LoadsOptions& options) {
         "file name");
   }
   CheckOutputsDiffer(options);
-  const std::string ending = std::filesystem::path(*options.report).extension().string();
-  if (!options.report->empty() && ending != ".html" && ending != ".htm") {
-    throw UsageError(
-        fmt::format("--report={}: expected a name that ends in .html", *options.report));
-  }
+  if (!options.report->empty()) CheckReportName(*options.report);
 }
 
 nlohmann::json ReportOf(const Recording& recording, const TrialContext& context) {
@@ -214,7 +224,7 @@ void PrintWritten(const LoadsOptions& options) {
 }
 
 // False: there is not one load that is known.
-bool Loads(LoadsOptions& options) {
+bool Loads(LoadsOptions& options, const options::OptionList& list) {
   CheckArguments(options);
   TrialContext context = ContextOf(options);
   Recording recording(options, context);
@@ -227,7 +237,9 @@ bool Loads(LoadsOptions& options) {
   const bool has_stdout = *options.csv == "-" || *options.json == "-";
   if (!options.plots->empty()) WritePlots(recording.trials(), context, *options.plots);
   if (!options.report->empty()) {
-    WriteReport(recording.trials(), context, options.backend, *options.report);
+    const auto sensitivity = [&](int character) { return recording.SensitivityOf(character); };
+    WriteReport(recording.trials(), context, OriginOf(*options.source, list), sensitivity,
+                options.backend, *options.report);
   }
   recording.Finish(ReportOf(recording, context));
   bool knows_anything = false;
@@ -258,7 +270,7 @@ Command LoadsCommand() {
   command.positionals = {"source"};
   command.required = {"source"};
   command.footer = "Exit code: 0 some loads are known, 1 none is, 2 error.";
-  command.run = [values](options::OptionList&) { return Loads(*values) ? 0 : 1; };
+  command.run = [values](options::OptionList& list) { return Loads(*values, list) ? 0 : 1; };
   return command;
 }
 

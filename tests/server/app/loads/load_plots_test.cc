@@ -158,11 +158,6 @@ TEST(LoadPlots, HaveBandsAtTheGivenClassLimits) {
     EXPECT_EQ(panel.limits[0].y, medium_from);
     EXPECT_EQ(panel.limits[1].y, high_from);
     EXPECT_GT(panel.y_to, high_from) << "all bands are to be seen";
-    for (const PlotPanel& small : OverviewPlot(trial, context).panels) {
-      if (small.title == "L5/S1 compression (kN)") continue;
-      EXPECT_EQ(small.bands.at(1).from, medium_from) << small.title;
-      EXPECT_EQ(small.bands.at(2).from, high_from) << small.title;
-    }
   }
 }
 
@@ -250,27 +245,6 @@ TEST(LoadPlots, AcceptASingleSample) {
   LoadTrial trial(true, 0);
   AddTo(trial, SceneWithRatio(0, 0.2));
   EXPECT_THAT(render::ToSvg(JointPlot(trial, TrialContext(), kLowBackIndex)), HasSubstr("</svg>"));
-  EXPECT_THAT(render::ToSvg(OverviewPlot(trial, TrialContext())), HasSubstr("</svg>"));
-}
-
-TEST(LoadPlots, ShowEveryJointOnceWithOneScaleInTheOverview) {
-  const LoadTrial trial = TrialOf(ShortLift());
-  const Plot plot = OverviewPlot(trial, TrialContext());
-  ASSERT_THAT(plot.panels, SizeIs(16));
-  std::vector<std::string> titles, labels;
-  for (const PlotPanel& panel : plot.panels) {
-    titles.push_back(panel.title);
-    EXPECT_THAT(panel.curves, SizeIs(1)) << panel.title;
-    if (panel.title != "L5/S1 compression (kN)") {
-      EXPECT_EQ(panel.y_to, plot.panels[0].y_to) << panel.title;
-    }
-  }
-  for (std::size_t i = 0; i < 15; ++i) labels.emplace_back(ScoredLabel(i));
-  labels.emplace_back("L5/S1 compression (kN)");
-  EXPECT_THAT(titles, ::testing::UnorderedElementsAreArray(labels));
-  EXPECT_EQ(std::count_if(plot.panels.begin(), plot.panels.end(),
-                          [](const PlotPanel& panel) { return panel.x_label == "time (s)"; }),
-            4);
 }
 
 // Through the parser that urdfdom's input goes through.
@@ -282,12 +256,11 @@ TEST(LoadPlots, AreValidXmlForAnyNameOfPersonAndFile) {
   const LoadTrial trial = TrialOf(scenes);
   TrialContext context;
   context.source = "a<b>&\"c\x02\xFE.mvnx";
-  for (const Plot& plot : {JointPlot(trial, context, kElbowIndex), OverviewPlot(trial, context)}) {
-    const urdf::XmlOutline svg = urdf::ReadOutline(render::ToSvg(plot));
-    EXPECT_EQ(svg[0].tag, "svg");
-    ASSERT_NE(svg[0].Attribute("width"), nullptr);
-    EXPECT_EQ(std::stod(*svg[0].Attribute("width")), plot.width);
-  }
+  const Plot plot = JointPlot(trial, context, kElbowIndex);
+  const urdf::XmlOutline svg = urdf::ReadOutline(render::ToSvg(plot));
+  EXPECT_EQ(svg[0].tag, "svg");
+  ASSERT_NE(svg[0].Attribute("width"), nullptr);
+  EXPECT_EQ(std::stod(*svg[0].Attribute("width")), plot.width);
 }
 
 // The curves arrive in the file as paths: the whole line of x, the dashed one of y, the dots of z.

@@ -1,0 +1,154 @@
+#include "server/app/loads/sensitivity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/system/clocks.h"
+#include "server/loads/exposure.h"
+#include "server/loads/joint_score.h"
+
+namespace kinescope::app {
+namespace {
+
+constexpr double kVariedShare = 0.1;      // of body mass and hand loads
+constexpr double kLeastVariedKg = 1;      // of hand loads
+constexpr double kSupposedHandKg = 5;     // where the hand load is unknown
+constexpr double kLengthRounding = 1e-6;  // s, of stamps
+
+void VaryMass(const SceneOptions& scene, std::vector<Variation>& variations) {
+  for (const double sign : {-1.0, 1.0}) {
+    Variation varied{"", scene};
+    varied.scene.body.mass_kg *= 1 + sign * kVariedShare;
+    if (!urdf::FindDefect(varied.scene.body).empty()) continue;
+    varied.label = fmt::format("mass {:.4g} kg ({}{:.0f} %)", varied.scene.body.mass_kg,
+                               sign < 0 ? "−" : "+", 100 * kVariedShare);
+    variations.push_back(std::move(varied));
+  }
+}
+
+void VaryHands(const SceneOptions& scene, std::vector<Variation>& variations) {
+  const HandLoad& hands = scene.loads.hands;
+  const double all_kg = hands.mass_kg[urdf::kRight] + hands.mass_kg[urdf::kLeft] + hands.both_kg;
+  if (!hands.is_known) {
+    Variation varied{fmt::format("hand load {:g} kg, both", kSupposedHandKg), scene};
+    varied.scene.loads.hands.is_known = true;
+    varied.scene.loads.hands.both_kg = kSupposedHandKg;
+    variations.push_back(std::move(varied));
+  }
+  if (all_kg <= 0) return;
+  const double step_kg = std::max(kVariedShare * all_kg, kLeastVariedKg);
+  for (const double sign : {-1.0, 1.0}) {
+    const double factor = std::max(0.0, 1 + sign * step_kg / all_kg);
+    Variation varied{fmt::format("hand load {:.4g} kg ({}{:.3g} kg)", factor * all_kg,
+                                 sign < 0 ? "−" : "+", std::abs(factor - 1) * all_kg),
+                     scene};
+    HandLoad& changed = varied.scene.loads.hands;
+    for (double& kg : changed.mass_kg) kg *= factor;
+    changed.both_kg *= factor;
+    if (loads::FindDefect(changed).empty()) variations.push_back(std::move(varied));
+  }
+}
+
+}  // namespace
+
+std::vector<Variation> VariationsOf(const SceneOptions& scene) {
+  std::vector<Variation> variations;
+  VaryMass(scene, variations);
+  VaryHands(scene, variations);
+  const auto vary = [&](std::string label) -> SceneOptions& {
+    return variations.emplace_back(Variation{std::move(label), scene}).scene;
+  };
+  if (scene.body.table == urdf::BodyTable::kWinter) {
+    vary("segment masses: de Leva").body.table = urdf::BodyTable::kDeLeva;
+  } else {
+    vary("segment masses: Winter").body.table = urdf::BodyTable::kWinter;
+  }
+  const bool is_dynamic = scene.loads.motion.dynamic;
+  vary(is_dynamic ? "without accelerations" : "with accelerations").loads.motion.dynamic =
+      !is_dynamic;
+  if (scene.loads.strength.percentile == loads::Percentile::k50) {
+    vary("strength: weakest 5 %").loads.strength.percentile = loads::Percentile::k5;
+  } else {
+    vary("strength: median").loads.strength.percentile = loads::Percentile::k50;
+  }
+  // Nothing of them is shown.
+  for (Variation& variation : variations) variation.scene.mesh_cache = nullptr;
+  return variations;
+}
+
+void LoadTally::Add(const PersonState& person) {
+  ++row_.samples;
+  for (std::size_t i = 0; i < person.loads.size(); ++i) {
+    const JointLoad& load = person.loads[i];
+    if (load.band == LoadClass::kUnknown) continue;
+    row_.is_known[i] = true;
+    if (load.band == LoadClass::kHigh) ++row_.high[i];
+  }
+  const JointLoad& low_back = person.loads[urdf::kScoredL5S1];
+  if (low_back.band != LoadClass::kUnknown && std::isfinite(low_back.ratio)) {
+    low_back_ratios_.push_back(static_cast<float>(low_back.ratio));
+  }
+  if (!person.forces.lumbar) return;
+  const double compression = person.forces.lumbar->compression;
+  ++row_.compressions;
+  if (compression > loads::kCompressionLimits[0]) ++row_.above_action_limit;
+  row_.peak_compression = std::fmax(row_.peak_compression, compression);
+}
+
+SensitivityRow LoadTally::Row(std::string label) const {
+  constexpr std::size_t kPercent = 90;
+  SensitivityRow row = row_;
+  row.label = std::move(label);
+  std::vector<float> ratios = low_back_ratios_;
+  row.low_back_p90 = loads::NearestRank(ratios, kPercent);
+  return row;
+}
+
+Sensitivity::Sensitivity(const SceneOptions& scene, std::optional<double> length_secs,
+                         SceneReader& reader)
+    : length_secs_(length_secs) {
+  const std::vector<Variation> variations = VariationsOf(scene);
+  runs_.resize(variations.size());
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    runs_[i].label = variations[i].label;
+    reader.Also(variations[i].scene, [this, i](const std::shared_ptr<const SceneState>& state) {
+      Add(*state, runs_[i]);
+    });
+  }
+}
+
+void Sensitivity::Add(const SceneState& scene, Run& run) const {
+  if (scene.liveness != Liveness::kLive) return;
+  if (!run.begin_nanos) run.begin_nanos = scene.stamp_nanos;
+  // The reader is ahead of the trial, which ends there.
+  const double secs = Secs(scene.stamp_nanos - *run.begin_nanos);
+  if (length_secs_ && secs > *length_secs_ + kLengthRounding) return;
+  for (const PersonState& state : scene.people) {
+    const auto [found, is_first] = run.people.try_emplace(state.character);
+    Person& person = found->second;
+    const BodySample& sample = state.sample;
+    if (!is_first && person.stamp_nanos == sample.stamp_nanos && person.counter == sample.counter) {
+      continue;
+    }
+    person.stamp_nanos = sample.stamp_nanos;
+    person.counter = sample.counter;
+    person.tally.Add(state);
+  }
+}
+
+std::vector<SensitivityRow> Sensitivity::RowsOf(int character) const {
+  std::vector<SensitivityRow> rows;
+  const auto computed = as_computed_.find(character);
+  if (computed == as_computed_.end()) return rows;
+  rows.push_back(computed->second.Row("as computed"));
+  for (const Run& run : runs_) {
+    const auto person = run.people.find(character);
+    if (person != run.people.end()) rows.push_back(person->second.tally.Row(run.label));
+  }
+  return rows;
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,87 @@
+/// Shows how much the answer of a trial depends on its assumptions: the same samples are computed
+/// again with another body mass, hand load, mass table, load mode and strength, while the recording
+/// is read. Costs about as much computing per variation as the trial itself, but no further
+/// reading. One thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene_state.h"
+#include "server/scene/scene_builder.h"
+#include "server/scene/scene_reader.h"
+
+namespace kinescope::app {
+
+/// One assumption changed, in words, and the options with it.
+struct Variation {
+  std::string label;  // "mass 67.5 kg (−10 %)"
+  SceneOptions scene;
+};
+
+/// Body mass −10 % and +10 %; the hand loads lower and higher by 10 %, at least by 1 kg, or 5 kg in
+/// both hands if the hand load is unknown; another mass table; with or without accelerations;
+/// another percentile of strength. In the order of the report.
+std::vector<Variation> VariationsOf(const SceneOptions& scene);
+
+/// What one run says about one person.
+struct SensitivityRow {
+  std::string label;
+  std::uint64_t samples = 0;
+  std::array<std::uint64_t, urdf::kScoredJointCount> high{};     // samples above the upper limit
+  std::array<bool, urdf::kScoredJointCount> is_known{};          // in at least one sample
+  float low_back_p90 = std::numeric_limits<float>::quiet_NaN();  // ratio of L5/S1
+  double peak_compression = std::numeric_limits<double>::quiet_NaN();  // N
+  std::uint64_t compressions = 0, above_action_limit = 0;  // samples: all with a compression, and
+                                                           // those above 3400 N
+};
+
+/// Counts the samples of one person.
+class LoadTally {
+ public:
+  void Add(const PersonState& person);
+  SensitivityRow Row(std::string label) const;
+
+ private:
+  SensitivityRow row_;
+  std::vector<float> low_back_ratios_;
+};
+
+class Sensitivity {
+ public:
+  /// Adds the variations of `scene` to `reader`. Samples later than `length_secs` after the first
+  /// one do not count. @pre nothing was read
+  Sensitivity(const SceneOptions& scene, std::optional<double> length_secs, SceneReader& reader);
+  Sensitivity(const Sensitivity&) = delete;  // the reader refers to it
+  Sensitivity& operator=(const Sensitivity&) = delete;
+
+  /// A new sample of the trial itself.
+  void AddAsComputed(const PersonState& person) { as_computed_[person.character].Add(person); }
+
+  /// The first row is the trial itself.
+  std::vector<SensitivityRow> RowsOf(int character) const;
+
+ private:
+  struct Person {
+    LoadTally tally;
+    std::int64_t stamp_nanos = 0;
+    std::uint32_t counter = 0;
+  };
+  struct Run {
+    std::string label;
+    std::optional<std::int64_t> begin_nanos;
+    std::map<int, Person> people;  // by character
+  };
+  void Add(const SceneState& scene, Run& run) const;
+
+  std::optional<double> length_secs_;
+  std::vector<Run> runs_;
+  std::map<int, LoadTally> as_computed_;  // by character
+};
+
+}  // namespace kinescope::app
