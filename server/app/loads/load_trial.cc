@@ -19,13 +19,18 @@ void Count(std::string_view why, double secs, SecsByReason& reasons) {
   if (!why.empty()) reasons[why] += secs;
 }
 
-// With the highest known ratio; nullopt: all are unknown.
-std::optional<std::size_t> HighestJoint(const PersonState& person) {
+bool IsKnown(const JointLoad& load) {
+  return load.band != LoadClass::kUnknown && std::isfinite(load.ratio);
+}
+
+// With the highest known ratio of those that are not left out; nullopt: there is none.
+std::optional<std::size_t> HighestJoint(const PersonState& person,
+                                        const std::vector<std::size_t>& left_out = {}) {
   std::optional<std::size_t> highest;
   for (std::size_t i = 0; i < person.loads.size(); ++i) {
-    const double ratio = person.loads[i].ratio;
-    if (person.loads[i].band == LoadClass::kUnknown || !std::isfinite(ratio)) continue;
-    if (!highest || ratio > person.loads[*highest].ratio) highest = i;
+    const bool is_left_out = std::find(left_out.begin(), left_out.end(), i) != left_out.end();
+    if (is_left_out || !IsKnown(person.loads[i])) continue;
+    if (!highest || person.loads[i].ratio > person.loads[*highest].ratio) highest = i;
   }
   return highest;
 }
@@ -52,6 +57,7 @@ void LoadTrial::Add(const std::shared_ptr<const SceneState>& scene, const Person
   }
   if (keeps_curves_) KeepCurve(person);
   KeepWorst(scene, person);
+  KeepPeaks(scene, person);
   scene_ = scene;
   newest_ = &person;
   ++samples_;
@@ -136,6 +142,15 @@ void LoadTrial::KeepWorst(const std::shared_ptr<const SceneState>& scene,
   if (slots_.size() > kMaxSlots) MergeSlots();
 }
 
+void LoadTrial::KeepPeaks(const std::shared_ptr<const SceneState>& scene,
+                          const PersonState& person) {
+  for (std::size_t i = 0; i < peaks_.size(); ++i) {
+    const JointLoad& load = person.loads[i];
+    if (!IsKnown(load) || (peaks_[i].scene && load.ratio <= peaks_[i].ratio)) continue;
+    peaks_[i] = {load.ratio, i, scene, false};
+  }
+}
+
 // Before the compression of `person` is added.
 void LoadTrial::KeepCompression(const std::shared_ptr<const SceneState>& scene,
                                 const PersonState& person) {
@@ -156,32 +171,58 @@ void LoadTrial::MergeSlots() {
   slot_nanos_ *= 2;
 }
 
+double LoadTrial::apart_secs() const {
+  return std::max(std::clamp(secs() / 3, 0.5, 1.0), secs() / 12);
+}
+
+bool LoadTrial::IsApart(const WorstMoment& moment, const std::vector<WorstMoment>& others) const {
+  return std::none_of(others.begin(), others.end(), [&](const WorstMoment& other) {
+    return std::abs(Secs(moment.scene->stamp_nanos - other.scene->stamp_nanos)) < apart_secs();
+  });
+}
+
 std::vector<WorstMoment> LoadTrial::Worst(std::size_t count) const {
   std::vector<WorstMoment> moments;
   for (const auto& [slot, moment] : slots_) moments.push_back(moment);
   std::stable_sort(moments.begin(), moments.end(),
                    [](const WorstMoment& a, const WorstMoment& b) { return a.ratio > b.ratio; });
-  return Apart(std::move(moments), count);
+  std::vector<WorstMoment> chosen;
+  for (const WorstMoment& moment : moments) {
+    if (chosen.size() < count && IsApart(moment, chosen)) chosen.push_back(moment);
+  }
+  return chosen;
 }
 
 std::vector<WorstMoment> LoadTrial::WorstPostures(std::size_t count) const {
-  std::vector<WorstMoment> moments = Worst(slots_.size());
-  if (most_compressed_.scene) moments.insert(moments.begin(), most_compressed_);
-  return Apart(std::move(moments), count);
-}
-
-// The first `count` that are far enough from those before.
-std::vector<WorstMoment> LoadTrial::Apart(std::vector<WorstMoment> moments,
-                                          std::size_t count) const {
-  const double apart = std::max(std::clamp(secs() / 3, 0.5, 1.0), secs() / 12);
   std::vector<WorstMoment> chosen;
-  for (WorstMoment& moment : moments) {
-    const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](const WorstMoment& other) {
-      return std::abs(Secs(moment.scene->stamp_nanos - other.scene->stamp_nanos)) < apart;
-    });
-    if (is_new && chosen.size() < count) chosen.push_back(std::move(moment));
+  if (most_compressed_.scene && count > 0) chosen.push_back(most_compressed_);
+  while (chosen.size() < count) {
+    std::optional<WorstMoment> next = NextPosture(chosen);
+    if (!next) break;
+    chosen.push_back(*std::move(next));
   }
   return chosen;
+}
+
+// Of the scenes that were kept: the highest ratio of a joint that none of `before` is about.
+std::optional<WorstMoment> LoadTrial::NextPosture(const std::vector<WorstMoment>& before) const {
+  std::vector<std::size_t> shown;
+  for (const WorstMoment& moment : before) {
+    if (!moment.is_of_compression) shown.push_back(moment.joint);
+  }
+  std::optional<WorstMoment> next;
+  const auto consider = [&](const WorstMoment& kept) {
+    if (!kept.scene || !IsApart(kept, before)) return;
+    for (const PersonState& person : kept.scene->people) {
+      if (person.character != newest_->character) continue;
+      const std::optional<std::size_t> joint = HighestJoint(person, shown);
+      if (!joint || (next && person.loads[*joint].ratio <= next->ratio)) continue;
+      next = WorstMoment{person.loads[*joint].ratio, *joint, kept.scene, false};
+    }
+  };
+  for (const WorstMoment& peak : peaks_) consider(peak);
+  for (const auto& [slot, moment] : slots_) consider(moment);
+  return next;
 }
 
 }  // namespace kinescope::app

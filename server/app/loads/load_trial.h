@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -34,7 +35,7 @@ struct TrialSample {
 
 /// A point in time with a high joint load, with its full scene state for rendering.
 struct WorstMoment {
-  double ratio = 0;       // of `joint`, the highest at that time
+  double ratio = 0;       // of `joint`
   std::size_t joint = 0;  // index into kScoredJoints
   std::shared_ptr<const SceneState> scene;
   bool is_of_compression = false;  // the highest compression at L5/S1 of the trial
@@ -74,11 +75,13 @@ class LoadTrial {
   const loads::Exposure& exposure() const { return exposure_; }
   const std::vector<TrialSample>& curves() const { return curves_; }
 
-  /// At most `count`, the highest load first; none with unknown loads. They are at least one second
-  /// and a twelfth of the trial apart, in trials below 3 s a third of the trial and 0.5 s.
+  /// At most `count`, apart_secs() apart, the highest load first; none with unknown loads.
   std::vector<WorstMoment> Worst(std::size_t count) const;
-  /// As Worst, but first the time of the highest compression at L5/S1, if it is known.
+  /// At most `count`, apart_secs() apart: the highest compression at L5/S1, if it is known, the
+  /// highest ratio, and the highest ratios of other joints (of the moments that are kept).
   std::vector<WorstMoment> WorstPostures(std::size_t count) const;
+  /// One second and a twelfth of the trial; in trials below 3 s a third of the trial and 0.5 s.
+  double apart_secs() const;
 
   // Time by reason, for unknown loads and for deviations from the options.
   const SecsByReason& why_unknown(std::size_t joint) const { return why_unknown_[joint]; }
@@ -104,9 +107,11 @@ class LoadTrial {
   void CountTime(const PersonState& last, double secs);
   void KeepCurve(const PersonState& person);
   void KeepWorst(const std::shared_ptr<const SceneState>& scene, const PersonState& person);
+  void KeepPeaks(const std::shared_ptr<const SceneState>& scene, const PersonState& person);
   void KeepCompression(const std::shared_ptr<const SceneState>& scene, const PersonState& person);
   void MergeSlots();
-  std::vector<WorstMoment> Apart(std::vector<WorstMoment> moments, std::size_t count) const;
+  std::optional<WorstMoment> NextPosture(const std::vector<WorstMoment>& before) const;
+  bool IsApart(const WorstMoment& moment, const std::vector<WorstMoment>& others) const;
 
   bool keeps_curves_;
   std::int64_t begin_nanos_;
@@ -119,6 +124,7 @@ class LoadTrial {
   std::map<std::int64_t, WorstMoment> slots_;
   std::int64_t slot_nanos_ = 250'000'000;
   WorstMoment most_compressed_;
+  std::array<WorstMoment, urdf::kScoredJointCount> peaks_;  // of each joint; no scene: unknown
   std::array<SecsByReason, urdf::kScoredJointCount> why_unknown_;
   SecsByReason why_static_, why_other_metric_, why_no_ground_;
   Peak com_minus_mvn_, compression_, shear_;

@@ -199,14 +199,16 @@ int LinesForNotes(const ReportPage& page) {
 std::string FiguresHtml(const ReportPage& page) {
   const double high = page.context.scene.loads.meter.up[1];
   return fmt::format(
-      "<table class=\"lay\"><tr><td style=\"width:86mm\"><h2>Worst postures</h2>{}</td><td "
+      "<table class=\"lay\"><tr><td style=\"width:86mm\"><h2>Worst postures <small>at least {:.2g} "
+      "s apart</small></h2>{}</td><td "
       "class=\"fig\"><h2>Over time <small>dark: above {:g}; hatched: "
       "unknown</small></h2>{}</td></tr>"
       "</table>\n<h2>Amplitude distribution <small>% of known samples at or below a ratio (APDF); "
       "dots: P10, P50, P90; right solid, left dashed and hollow; shaded: above "
       "{:g}</small></h2>\n<div class=\"fig\">{}</div>\n",
-      PicturesHtml(page.pictures), high, TimeFigure(page.trial, page.context, TimeFigureMm(page)),
-      high, DistributionFigure(page.trial, page.context));
+      page.trial.apart_secs(), PicturesHtml(page.pictures), high,
+      TimeFigure(page.trial, page.context, TimeFigureMm(page)), high,
+      DistributionFigure(page.trial, page.context));
 }
 
 std::string MethodHtml(const ReportPage& page) {

@@ -54,23 +54,27 @@ render::Camera CloseUp(const SceneState& scene, const PersonState& person,
   return camera;
 }
 
-// The highest ratios at that time, with the direction of the highest.
-std::string RatiosOf(const PersonState& person) {
+// Of the moment's joint with its direction, then the highest others at that time.
+std::string RatiosOf(const PersonState& person, const WorstMoment& moment) {
+  const std::size_t first = moment.joint;
   std::vector<std::size_t> joints;
   for (std::size_t i = 0; i < person.loads.size(); ++i) {
     const JointLoad& load = person.loads[i];
     if (load.band != LoadClass::kUnknown && std::isfinite(load.ratio)) joints.push_back(i);
   }
   std::stable_sort(joints.begin(), joints.end(), [&](std::size_t a, std::size_t b) {
+    if ((a == first) != (b == first)) return a == first;
     return person.loads[a].ratio > person.loads[b].ratio;
   });
   if (joints.size() > kCaptionJoints) joints.resize(kCaptionJoints);
   std::string text;
   for (const std::size_t joint : joints) {
     const JointLoad& load = person.loads[joint];
-    text += fmt::format("{}{} {:.2f}{}", text.empty() ? "" : ", ", JointWord(joint), load.ratio,
+    const bool is_in_title = joint == first && !moment.is_of_compression;
+    text += fmt::format("{}{}{:.2f}{}", text.empty() ? "" : ", ",
+                        is_in_title ? "" : JointWord(joint) + " ", load.ratio,
                         load.ratio > 1 ? "‡" : "");
-    if (joint != joints.front() || load.channel.empty()) continue;
+    if (joint != first || load.channel.empty()) continue;
     text += fmt::format(" ({}", load.channel);
     if (!load.is_of_compression && std::isfinite(load.capacity)) {
       text += fmt::format(", {:.0f} of {:.0f} N·m", std::abs(load.deciding_moment), load.capacity);
@@ -85,7 +89,6 @@ std::string RatiosOf(const PersonState& person) {
 std::vector<ReportPicture> DrawWorstPostures(const LoadTrial& trial, render::Renderer& renderer) {
   const render::PictureSpec view = {420, 480, 2, {}, false};
   std::vector<ReportPicture> pictures;
-  bool has_highest = false;
   for (const WorstMoment& moment : trial.WorstPostures(kPostures)) {
     if (StopRequested()) throw std::runtime_error("interrupted; the report was not written");
     SceneState scene = *moment.scene;
@@ -103,11 +106,11 @@ std::vector<ReportPicture> DrawWorstPostures(const LoadTrial& trial, render::Ren
       picture.title = fmt::format("{:.2f} s, highest compression, {:.0f} N.", secs,
                                   person.forces.lumbar->compression);
     } else {
-      picture.title =
-          fmt::format("{:.2f} s, {} ratio.", secs, has_highest ? "next highest" : "highest");
-      has_highest = true;
+      const bool is_peak = moment.ratio == trial.exposure().Of(moment.joint).peak_ratio;
+      picture.title = fmt::format("{:.2f} s, {}{}.", secs, JointWord(moment.joint),
+                                  is_peak ? " at its peak" : "");
     }
-    picture.lines = RatiosOf(person);
+    picture.lines = RatiosOf(person, moment);
     pictures.push_back(std::move(picture));
   }
   return pictures;

@@ -9,8 +9,9 @@
 
 namespace kinescope::app {
 
-/// At most three: the highest compression at L5/S1, then the highest ratios, apart from each other
-/// (LoadTrial::WorstPostures). Colours are of the ratio in the caption. Empty: no load is known.
+/// At most three: the highest compression at L5/S1, then the joints with the highest ratios
+/// (LoadTrial::WorstPostures). Colours are of the ratio in the caption.
+/// Empty: no load is known.
 /// @throws RenderError; std::runtime_error after Ctrl-C.
 std::vector<ReportPicture> DrawWorstPostures(const LoadTrial& trial, render::Renderer& renderer);
 

@@ -153,7 +153,7 @@ std::string SensitivitySentence(const std::vector<SensitivityRow>& rows) {
            static_cast<double>(std::max<std::uint64_t>(row.samples, 1));
   };
   std::string text =
-      "Each row is a further run on the same samples that changes only what it names.";
+      "Each further row is a run on the same samples that changes only what it names.";
   const auto most = std::max_element(
       rows.begin(), rows.end(), [&](const SensitivityRow& a, const SensitivityRow& b) {
         return std::abs(share(a) - share(computed)) < std::abs(share(b) - share(computed));

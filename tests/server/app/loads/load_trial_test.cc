@@ -50,20 +50,28 @@ TEST(LoadTrial, KeepsWorstTimesOneSecondApartWhereTheTrialIsLongEnough) {
   }
 }
 
-TEST(LoadTrial, ShowsTheHighestCompressionFirstAmongTheWorstPostures) {
+// Compression at 7 s; the right knee at 2 s, and less at 4 s; the left knee at 9 s.
+TEST(LoadTrial, ShowsCompressionThenTheHighestRatioThenThatOfAnotherJoint) {
   LoadTrial trial(false, 0);
   for (int i = 0; i < 100; ++i) {
-    SceneState scene = SceneWithRatio(0.1 * i, i == 20 ? 0.9 : 0.1);
-    scene.people[0].forces.lumbar = LumbarLoad{i == 70 ? 3000.0 : 500.0, 0};
+    SceneState scene = SceneWithRatio(0.1 * i, 0.1);
+    PersonState& person = scene.people[0];
+    person.forces.lumbar = LumbarLoad{i == 70 ? 3000.0 : 500.0, 0};
+    person.loads[11].ratio = i == 20 ? 0.9 : i == 40 ? 0.8 : 0.1;
+    person.loads[12].ratio = i == 90 ? 0.5 : 0.1;
     AddTo(trial, scene);
   }
   trial.Finish();
   const std::vector<WorstMoment> postures = trial.WorstPostures(3);
   ASSERT_EQ(postures.size(), 3U);
   EXPECT_TRUE(postures[0].is_of_compression);
-  EXPECT_NEAR(trial.SecsOf(postures[0].scene->stamp_nanos), 7, 1e-9);
   EXPECT_FALSE(postures[1].is_of_compression);
-  EXPECT_NEAR(trial.SecsOf(postures[1].scene->stamp_nanos), 2, 1e-9);
+  const double secs[] = {7, 2, 9};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(trial.SecsOf(postures[i].scene->stamp_nanos), secs[i], 1e-9);
+  }
+  EXPECT_EQ(postures[1].joint, 11U);
+  EXPECT_EQ(postures[2].joint, 12U);
 }
 
 // An hour, in which only so many scenes may be kept.
