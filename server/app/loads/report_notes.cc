@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -48,7 +49,9 @@ std::string FloorText(const LoadTrial& trial, bool is_given) {
     if (sample.foot_on_floor[0] || sample.foot_on_floor[1]) ++down;
   }
   const std::string height =
-      fmt::format("{} {:.2f} m", is_given ? "given, z =" : "found at z =", trial.floor_z());
+      fmt::format("{} {}{:.2f} m",
+                  is_given ? "given, z =" : "found at z =", trial.floor_z() < -0.005 ? "−" : "",
+                  std::abs(trial.floor_z()));
   if (known == 0) return height + ", no foot contact known";
   return fmt::format("{}, a foot on it {} %", height, PercentText(down, trial.samples()));
 }

@@ -126,7 +126,7 @@ std::string PicturesHtml(const std::vector<ReportPicture>& pictures) {
   if (pictures.empty()) return "<p>No load could be computed at any time.</p>";
   std::string html = "<table class=\"shots\"><tr>";
   for (const ReportPicture& picture : pictures) {
-    html += fmt::format("<td><img alt=\"\" src=\"{}\"><b>{}</b> {}</td>", picture.url,
+    html += fmt::format("<td><img alt=\"{1}\" src=\"{0}\"><b>{1}</b> {2}</td>", picture.url,
                         EscapeHtml(picture.title), EscapeHtml(picture.lines));
   }
   for (std::size_t i = pictures.size(); i < 3; ++i) html += "<td></td>";
@@ -217,7 +217,8 @@ std::string MethodHtml(const ReportPage& page) {
       "<h2>How far to believe it</h2>{}</td><td><h2>What would change the answer</h2>{}</td></tr>"
       "</table>\n",
       EscapeHtml(MethodText(page.trial, page.context)),
-      NotesHtml(TrustNotesOf(page.trial), LinesForNotes(page)), SensitivityTable(page.sensitivity));
+      NotesHtml(TrustNotesOf(page.trial), LinesForNotes(page)),
+      SensitivityTable(page.sensitivity, page.context.scene.loads.meter.up));
 }
 
 std::string FootHtml(const ReportPage& page) {

@@ -13,6 +13,7 @@
 
 #include "core/system/errors.h"
 #include "core/system/scratch_folder.h"
+#include "core/system/stop_signal.h"
 #include "server/picture/child_process.h"
 
 namespace kinescope::app {
@@ -62,11 +63,12 @@ std::string HtmlToPdf(const std::string& converter, std::string_view html) {
   to.close();
   if (!to) throw std::runtime_error(page.string() + ": cannot be written; is the disk full?");
   // Fonts in the PDF have a time of modification, which would be now.
-  const ChildResult result = RunChild({"/usr/bin/env", "SOURCE_DATE_EPOCH=0", converter, "--quiet",
-                                       "--encoding", "utf8", page.string(), pdf.string()},
-                                      kConverterLimit);
+  const ChildResult result = RunChild(
+      {"/usr/bin/env", "SOURCE_DATE_EPOCH=0", converter, "--quiet", page.string(), pdf.string()},
+      kConverterLimit);
   std::ifstream from(pdf, std::ios::binary);
   std::string bytes(std::istreambuf_iterator<char>(from), {});
+  if (StopRequested()) throw std::runtime_error("interrupted; the report was not written");
   if (result.was_too_slow) {
     throw std::runtime_error(
         fmt::format("{}: no PDF after {} minutes", converter, kConverterLimit.count()));

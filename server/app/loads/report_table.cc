@@ -107,29 +107,52 @@ std::string ExposureLegend(const LoadTrial& trial, const TrialContext& context) 
          " ‡ above 1: more than the assumed strength; check contact, hand load and strength.</p>\n";
 }
 
-// Beside L5/S1: with the most samples above the limit, then by known joints.
-std::vector<std::size_t> WorstOtherJoints(const SensitivityRow& computed, std::size_t count) {
+// The runs, and the class limit that they are compared at.
+struct Comparison {
+  const std::vector<SensitivityRow>& rows;
+  std::size_t limit = 1;
+  std::string what;  // "high", "> 0.3"
+
+  std::uint64_t Above(const SensitivityRow& row, std::size_t joint) const {
+    return row.above[limit][joint];
+  }
+};
+
+Comparison ComparisonOf(const std::vector<SensitivityRow>& rows,
+                        const std::array<double, 2>& limits) {
+  for (const SensitivityRow& row : rows) {
+    for (const std::uint64_t samples : row.above[1]) {
+      if (samples > 0) return {rows, 1, "high"};
+    }
+  }
+  return {rows, 0, fmt::format("> {:g},", limits[0])};
+}
+
+// Beside L5/S1: known ones with the most samples above the limit.
+std::vector<std::size_t> WorstOtherJoints(const Comparison& runs, std::size_t count) {
+  const SensitivityRow& computed = runs.rows.front();
   std::vector<std::size_t> joints;
-  for (std::size_t i = 0; i < computed.high.size(); ++i) {
+  for (std::size_t i = 0; i < urdf::kScoredJointCount; ++i) {
     if (i != urdf::kScoredL5S1 && computed.is_known[i]) joints.push_back(i);
   }
   std::stable_sort(joints.begin(), joints.end(), [&](std::size_t a, std::size_t b) {
-    return computed.high[a] > computed.high[b];
+    return runs.Above(computed, a) > runs.Above(computed, b);
   });
   if (joints.size() > count) joints.resize(count);
   std::sort(joints.begin(), joints.end());
   return joints;
 }
 
-std::string HighCell(const SensitivityRow& row, std::size_t joint) {
+std::string AboveCell(const Comparison& runs, const SensitivityRow& row, std::size_t joint) {
   if (!row.is_known[joint]) return "<td>–</td>";
-  return fmt::format("<td>{}</td>", EscapeHtml(PercentText(row.high[joint], row.samples)));
+  return fmt::format("<td>{}</td>", EscapeHtml(PercentText(runs.Above(row, joint), row.samples)));
 }
 
-std::string SensitivityCells(const SensitivityRow& row, const std::vector<std::size_t>& others) {
-  std::string cells = HighCell(row, urdf::kScoredL5S1);
+std::string SensitivityCells(const Comparison& runs, const SensitivityRow& row,
+                             const std::vector<std::size_t>& others) {
+  std::string cells = AboveCell(runs, row, urdf::kScoredL5S1);
   cells += fmt::format("<td>{}</td>", NumberOrDash(row.low_back_p90, 2));
-  for (const std::size_t joint : others) cells += HighCell(row, joint);
+  for (const std::size_t joint : others) cells += AboveCell(runs, row, joint);
   cells += fmt::format(
       "<td>{}</td><td>{}</td>", NumberOrDash(row.peak_compression, 0),
       row.compressions == 0 ? "–" : EscapeHtml(PercentText(row.above_action_limit, row.samples)));
@@ -145,11 +168,12 @@ std::string NarrowLabel(std::size_t joint) {
   return "<br>" + EscapeHtml(label.substr(0, space));
 }
 
-// What moves "L5/S1 high" most, and whether the compression limit is crossed.
-std::string SensitivitySentence(const std::vector<SensitivityRow>& rows) {
+// What moves the share of L5/S1 most, and whether the compression limit is crossed.
+std::string SensitivitySentence(const Comparison& runs) {
+  const std::vector<SensitivityRow>& rows = runs.rows;
   const SensitivityRow& computed = rows.front();
-  const auto share = [](const SensitivityRow& row) {
-    return 100 * static_cast<double>(row.high[urdf::kScoredL5S1]) /
+  const auto share = [&](const SensitivityRow& row) {
+    return 100 * static_cast<double>(runs.Above(row, urdf::kScoredL5S1)) /
            static_cast<double>(std::max<std::uint64_t>(row.samples, 1));
   };
   std::string text =
@@ -160,7 +184,7 @@ std::string SensitivitySentence(const std::vector<SensitivityRow>& rows) {
       });
   const double change = share(*most) - share(computed);
   if (std::abs(change) >= 0.05) {
-    text += fmt::format(" “L5/S1 high” moves most with {}: {}{:.1f} percentage points.",
+    text += fmt::format(" The share of L5/S1 moves most with {}: {}{:.1f} percentage points.",
                         EscapeHtml(most->label), change < 0 ? "−" : "+", std::abs(change));
   }
   std::size_t above = 0, known = 0;
@@ -195,21 +219,26 @@ std::string ExposureTable(const LoadTrial& trial, const TrialContext& context) {
   return html + "</tbody></table>\n" + ExposureLegend(trial, context);
 }
 
-std::string SensitivityTable(const std::vector<SensitivityRow>& rows) {
+std::string SensitivityTable(const std::vector<SensitivityRow>& rows,
+                             const std::array<double, 2>& limits) {
   if (rows.empty()) return "";
-  const std::vector<std::size_t> others = WorstOtherJoints(rows.front(), 2);
-  std::string html =
-      "<table class=\"se\"><thead><tr><th></th><th>L5/S1<br>high %</th><th>L5/S1<br>P90</th>";
-  for (const std::size_t joint : others) html += "<th>" + NarrowLabel(joint) + "<br>high %</th>";
+  const Comparison runs = ComparisonOf(rows, limits);
+  const std::string what = EscapeHtml(runs.what) + " %";
+  const std::vector<std::size_t> others = WorstOtherJoints(runs, 2);
+  std::string html = fmt::format(
+      "<table class=\"se\"><thead><tr><th></th><th>L5/S1<br>{}</th><th>L5/S1<br>P90</th>", what);
+  for (const std::size_t joint : others) {
+    html += fmt::format("<th>{}<br>{}</th>", NarrowLabel(joint), what);
+  }
   html += fmt::format(
       "<th>compr.<br>peak,<br>N</th><th>above<br>{:g} N,<br>%</th></tr></thead><tbody>\n",
       loads::kCompressionLimits[0]);
   for (const SensitivityRow& row : rows) {
     html +=
         fmt::format("<tr{}><th>{}</th>{}</tr>\n", &row == &rows.front() ? " class=\"base\"" : "",
-                    EscapeHtml(row.label), SensitivityCells(row, others));
+                    EscapeHtml(row.label), SensitivityCells(runs, row, others));
   }
-  return html + "</tbody></table>\n<p class=\"sub\">" + SensitivitySentence(rows) + "</p>\n";
+  return html + "</tbody></table>\n<p class=\"sub\">" + SensitivitySentence(runs) + "</p>\n";
 }
 
 }  // namespace kinescope::app

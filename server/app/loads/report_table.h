@@ -2,6 +2,7 @@
 /// assumptions. Pure functions; any thread.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,11 @@ namespace kinescope::app {
 /// With its legend. Shares are of all samples, so that counts and percents add up.
 std::string ExposureTable(const LoadTrial& trial, const TrialContext& context);
 
-/// `rows`: the first is the trial itself. With a sentence on what matters most. "" without rows.
-std::string SensitivityTable(const std::vector<SensitivityRow>& rows);
+/// `rows`: the first is the trial itself; `limits`: of the classes. Shares above the upper limit,
+/// or the lower one if no run is ever above the upper. With a sentence on what matters most. ""
+/// without rows.
+std::string SensitivityTable(const std::vector<SensitivityRow>& rows,
+                             const std::array<double, 2>& limits);
 
 /// "extension, 200 of 234"; of a compression the force.
 std::string PeakText(const loads::JointExposure& exposure, const LoadTrial& trial);

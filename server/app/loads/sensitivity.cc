@@ -85,7 +85,8 @@ void LoadTally::Add(const PersonState& person) {
     const JointLoad& load = person.loads[i];
     if (load.band == LoadClass::kUnknown) continue;
     row_.is_known[i] = true;
-    if (load.band == LoadClass::kHigh) ++row_.high[i];
+    if (load.band != LoadClass::kLow) ++row_.above[0][i];
+    if (load.band == LoadClass::kHigh) ++row_.above[1][i];
   }
   const JointLoad& low_back = person.loads[urdf::kScoredL5S1];
   if (low_back.band != LoadClass::kUnknown && std::isfinite(low_back.ratio)) {

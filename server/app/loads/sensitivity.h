@@ -33,9 +33,10 @@ std::vector<Variation> VariationsOf(const SceneOptions& scene);
 struct SensitivityRow {
   std::string label;
   std::uint64_t samples = 0;
-  std::array<std::uint64_t, urdf::kScoredJointCount> high{};     // samples above the upper limit
-  std::array<bool, urdf::kScoredJointCount> is_known{};          // in at least one sample
-  float low_back_p90 = std::numeric_limits<float>::quiet_NaN();  // ratio of L5/S1
+  /// By class limit and joint: samples above it.
+  std::array<std::array<std::uint64_t, urdf::kScoredJointCount>, 2> above{};
+  std::array<bool, urdf::kScoredJointCount> is_known{};                // in at least one sample
+  float low_back_p90 = std::numeric_limits<float>::quiet_NaN();        // ratio of L5/S1
   double peak_compression = std::numeric_limits<double>::quiet_NaN();  // N
   std::uint64_t compressions = 0, above_action_limit = 0;  // samples: all with a compression, and
                                                            // those above 3400 N

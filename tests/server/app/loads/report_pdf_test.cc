@@ -56,9 +56,9 @@ TEST(ReportPdf, FindsTheConverterInTheSearchPath) {
 
 TEST(ReportPdf, ReturnsWhatTheConverterWrites) {
   const TempFolder folder;
-  // --quiet --encoding utf8 IN OUT
+  // --quiet IN OUT
   const std::string program = MakeConverter(
-      folder, "printf '%%PDF-' > \"$5\"; cat \"$4\" >> \"$5\"; echo $SOURCE_DATE_EPOCH >> \"$5\"");
+      folder, "printf '%%PDF-' > \"$3\"; cat \"$2\" >> \"$3\"; echo $SOURCE_DATE_EPOCH >> \"$3\"");
   EXPECT_EQ(HtmlToPdf(program, "<p>page</p>"), "%PDF-<p>page</p>0\n") << "the time is fixed";
 }
 
@@ -71,7 +71,7 @@ TEST(ReportPdf, ReportsTheLastLineOfAConverterThatFails) {
 
 TEST(ReportPdf, RejectsAFileThatIsNoPdf) {
   const TempFolder folder;
-  EXPECT_THAT(PdfError(MakeConverter(folder, "echo text > \"$5\"")),
+  EXPECT_THAT(PdfError(MakeConverter(folder, "echo text > \"$3\"")),
               HasSubstr("cannot convert the report"));
   EXPECT_THAT(PdfError(MakeConverter(folder, "exit 0")), HasSubstr("cannot convert the report"));
 }

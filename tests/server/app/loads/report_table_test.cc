@@ -95,8 +95,9 @@ SensitivityRow RowWith(const std::string& label, std::uint64_t low_back, std::ui
   row.label = label;
   row.samples = row.compressions = 200;
   row.is_known.fill(true);
-  row.high[urdf::kScoredL5S1] = low_back;
-  row.high[11] = knee;
+  row.above[1][urdf::kScoredL5S1] = low_back;
+  row.above[1][11] = knee;
+  row.above[0] = row.above[1];
   row.low_back_p90 = 0.75F;
   row.peak_compression = compression;
   row.above_action_limit = compression > 3400 ? 10 : 0;
@@ -106,22 +107,34 @@ SensitivityRow RowWith(const std::string& label, std::uint64_t low_back, std::ui
 TEST(SensitivityTable, ShowsWhatEachRunChanges) {
   const std::string html =
       SensitivityTable({RowWith("as computed", 80, 40, 3800), RowWith("mass 67.5 kg", 56, 20, 3300),
-                        RowWith("<weak>", 120, 80, 3800)});
+                        RowWith("<weak>", 120, 80, 3800)},
+                       kDefaultClassLimits);
   EXPECT_THAT(RowOf(html, "as computed"), HasSubstr("<td>40.0</td><td>0.75</td><td>0</td>"
                                                     "<td>20.0</td><td>3800</td><td>5.0</td>"));
   EXPECT_THAT(RowOf(html, "mass 67.5 kg"), HasSubstr("<td>28.0</td>"));
   EXPECT_THAT(html, HasSubstr("Right<br>knee<br>high %"));
-  EXPECT_THAT(html, HasSubstr("moves most with &#60;weak&#62;: +20.0 percentage points"));
+  EXPECT_THAT(html,
+              HasSubstr("share of L5/S1 moves most with &#60;weak&#62;: +20.0 percentage points"));
   EXPECT_THAT(html, HasSubstr("above 3400 N in 2 of 3 rows"));
+}
+
+// Columns of zeros would say nothing.
+TEST(SensitivityTable, ComparesAtTheLowerLimitIfNoRunIsEverAboveTheUpper) {
+  SensitivityRow row = RowWith("as computed", 0, 0, 900);
+  row.above[0][8] = 150;
+  const std::string html = SensitivityTable({row}, {0.3, 0.6});
+  EXPECT_THAT(html, HasSubstr("<th>L5/S1<br>&#62; 0.3, %</th>"));
+  EXPECT_THAT(html, HasSubstr("<th>Left<br>wrist<br>&#62; 0.3, %</th>"));
+  EXPECT_THAT(RowOf(html, "as computed"), HasSubstr("<td>75.0</td>"));
 }
 
 TEST(SensitivityTable, PrintsDashesForUnknownValues) {
   SensitivityRow row;
   row.label = "as computed";
   row.samples = 3;
-  EXPECT_THAT(RowOf(SensitivityTable({row}), "as computed"),
+  EXPECT_THAT(RowOf(SensitivityTable({row}, kDefaultClassLimits), "as computed"),
               HasSubstr("<td>–</td><td>–</td><td>–</td><td>–</td>"));
-  EXPECT_EQ(SensitivityTable({}), "");
+  EXPECT_EQ(SensitivityTable({}, kDefaultClassLimits), "");
 }
 
 }  // namespace

@@ -86,8 +86,10 @@ TEST(Sensitivity, CountsTheSamplesThatATrialWithTheseOptionsCounts) {
     EXPECT_EQ(row.samples, trial.samples()) << row.label;
     EXPECT_EQ(row.peak_compression, trial.compression().most) << row.label;
     for (std::size_t i = 0; i < urdf::kScoredJointCount; ++i) {
-      EXPECT_EQ(row.high[i],
-                trial.exposure().Of(i).samples[static_cast<std::size_t>(LoadClass::kHigh)])
+      const auto& samples = trial.exposure().Of(i).samples;
+      const std::uint64_t high = samples[static_cast<std::size_t>(LoadClass::kHigh)];
+      EXPECT_EQ(row.above[1][i], high) << row.label;
+      EXPECT_EQ(row.above[0][i], high + samples[static_cast<std::size_t>(LoadClass::kMedium)])
           << row.label;
     }
     EXPECT_FLOAT_EQ(row.low_back_p90, static_cast<float>(trial.exposure().Of(0).p90)) << row.label;
