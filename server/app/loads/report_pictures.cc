@@ -21,12 +21,15 @@ namespace {
 constexpr std::size_t kPostures = 3;
 constexpr std::size_t kCaptionJoints = 2;
 
-PersonState& PersonIn(SceneState& scene, int character) {
-  const auto found =
-      std::find_if(scene.people.begin(), scene.people.end(),
-                   [&](const PersonState& person) { return person.character == character; });
-  KINESCOPE_CHECK(found != scene.people.end());
-  return *found;
+// Without the other people, who would stand in the way or be taken for the person of the page.
+SceneState SceneWithOnly(int character, const SceneState& of) {
+  SceneState scene = of;
+  scene.people.erase(
+      std::remove_if(scene.people.begin(), scene.people.end(),
+                     [&](const PersonState& person) { return person.character != character; }),
+      scene.people.end());
+  KINESCOPE_CHECK(scene.people.size() == 1);
+  return scene;
 }
 
 // The named camera, drawn near: `person` fills the picture.
@@ -91,8 +94,8 @@ std::vector<ReportPicture> DrawWorstPostures(const LoadTrial& trial, render::Ren
   std::vector<ReportPicture> pictures;
   for (const WorstMoment& moment : trial.WorstPostures(kPostures)) {
     if (StopRequested()) throw std::runtime_error("interrupted; the report was not written");
-    SceneState scene = *moment.scene;
-    PersonState& person = PersonIn(scene, trial.newest().character);
+    SceneState scene = SceneWithOnly(trial.newest().character, *moment.scene);
+    PersonState& person = scene.people.front();
     for (JointLoad& load : person.loads) {
       load.shown_ratio = load.ratio;
       load.load_class = load.band;

@@ -38,8 +38,9 @@ void DrawTimeAxis(const TimeScale& scale, double bottom, SvgDrawing& drawing) {
   constexpr double kShortSecs = 0.01;  // of a few samples: numbers would need too many digits
   for (const double tick : render::NiceTicks(from, to, kMostTicks)) {
     const bool is_left_out = scale.to - scale.from < kShortSecs && tick > from;
-    if (tick < from || tick > to || is_left_out) continue;
-    const double x = scale.X(tick * unit);
+    const double rounding = 0.01 * (to - from);  // a person may appear a little later than another
+    if (tick < from - rounding || tick > to + rounding || is_left_out) continue;
+    const double x = std::clamp(scale.X(tick * unit), scale.left, scale.right);
     drawing.Line({{x, kCurveTop}, {x, bottom}}, {kGridInk, 0.12, ""});
     drawing.Text(x, bottom + 3.2, fmt::format("{:g}", tick + 0.0), {SvgAnchor::kMiddle});
   }

@@ -227,6 +227,27 @@ TEST(LoadReport, ShowsTheWorstPostureWithItsValues) {
                        "\\([a-z ]+, [0-9]+ of [0-9]+ N[^<]+\\), ")));
 }
 
+TEST(LoadReport, ShowsOnlyThePersonOfThePage) {
+  testing::Scenes with_another;
+  for (const auto& scene : ShortLift()) {
+    auto copy = std::make_shared<SceneState>(*scene);
+    copy->people.push_back(copy->people[0]);
+    copy->people[1].character = 1;
+    for (urdf::Pose& link : copy->people[1].links) link.position.y() += 0.5;
+    with_another.push_back(copy);
+  }
+  const auto picture_of = [](const testing::Scenes& scenes) {
+    const TempFolder folder;
+    std::map<int, LoadTrial> trials;
+    trials.emplace(0, TrialOf(scenes));
+    WriteReport(trials, {}, {}, kNoRuns, {}, folder / "report.html");
+    const std::string html = testing::ReadFile(folder / "report.html");
+    const std::size_t from = html.find("data:image/png");
+    return html.substr(from, html.find('"', from) - from);
+  };
+  EXPECT_TRUE(picture_of(with_another) == picture_of(ShortLift())) << "another person is in it";
+}
+
 TEST(LoadReport, ReportsThatNoLoadIsKnown) {
   LoadTrial trial(true, 0);
   AddTo(trial, SceneWithRatio(0, kNoRatioInReport, "no foot contact"));
