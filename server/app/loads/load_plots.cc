@@ -18,7 +18,6 @@ namespace kinescope::app {
 namespace {
 
 using render::Plot;
-using render::PlotBand;
 using render::PlotCurve;
 using render::PlotPanel;
 using Points = std::vector<std::pair<double, double>>;

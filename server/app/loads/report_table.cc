@@ -203,7 +203,7 @@ std::string SensitivitySentence(const Comparison& runs) {
 }  // namespace
 
 std::string PeakText(const loads::JointExposure& exposure, const LoadTrial& trial) {
-  const std::string channel(exposure.peak_channel);
+  std::string channel(exposure.peak_channel);
   if (channel == "compression") {
     return fmt::format("compression, {:.0f} N", trial.compression().most);
   }

@@ -59,8 +59,10 @@ void SvgDrawing::Hatch(const SvgBox& box, double pitch, bool rises, const SvgStr
   const double right = box.left + box.width;
   std::string path;
   const auto mirrored = [&](double x) { return rises ? x : box.left + right - x; };
-  for (double sum = std::ceil((box.left + box.top) / pitch) * pitch;
-       sum < right + box.top + box.height; sum += pitch) {
+  const double first = std::ceil((box.left + box.top) / pitch),
+               last = (right + box.top + box.height) / pitch;
+  for (int i = 0; first + i < last; ++i) {
+    const double sum = (first + i) * pitch;
     const double x0 = std::max(box.left, sum - box.top - box.height);
     const double x1 = std::min(right, sum - box.top);
     if (x1 <= x0) continue;
