@@ -6,11 +6,11 @@
 #include <string_view>
 
 #include "core/system/errors.h"
-#include "core/system/sha256.h"
 #include "render/image/new_file.h"
 #include "server/app/loads/report_pdf.h"
 #include "server/app/loads/report_pictures.h"
 #include "server/source/scheme.h"
+#include "server/source/source_identity.h"
 
 namespace kinescope::app {
 namespace {
@@ -58,18 +58,19 @@ void CheckReportName(const std::string& path) {
 
 ReportOrigin OriginOf(const std::string& source, const options::OptionList& options) {
   ReportOrigin origin;
-  std::error_code ignored;
+  const SourceIdentity identity = IdentityOf(source);
   if (IsSubjectUrl(source)) {
     origin.digest = "generated motion, no file";
-  } else if (fs::is_regular_file(source, ignored)) {
-    const FileDigest digest = DigestOf(source);
-    origin.digest = fmt::format("sha256 {}, {} bytes", digest.sha256, digest.bytes);
+  } else if (identity.digest) {
+    origin.digest =
+        fmt::format("sha256 {}, {} bytes", identity.digest->sha256, identity.digest->bytes);
   } else {
     origin.digest = "not a file, no hash";
   }
   // Those that do not change the page.
-  constexpr std::string_view kOthers[] = {"source", "csv",    "json",    "layout",
-                                          "plots",  "report", "backend", "draw_limit_secs"};
+  constexpr std::string_view kOthers[] = {
+      "source",  "csv",   "json",   "layout",  "joints",
+      "columns", "plots", "report", "backend", "draw_limit_secs"};
   origin.command = "kinescope loads " + QuotedWord(SourceName(source));
   for (const options::Option& option : options) {
     const bool is_other =

@@ -132,11 +132,11 @@ std::string MetricText(LoadMetric metric, const loads::Strength& strength) {
 }
 
 std::string StatureText(const PersonModel& model) {
-  return fmt::format("{:.2f} m{}", model.human.skeleton.height,
-                     model.lengths_are_of_poses
-                         ? " (from the poses; head, hands and feet estimated)"
-                     : model.lengths_are_measured ? " (from the source)"
-                                                  : "");
+  const urdf::Skeleton& skeleton = model.human.skeleton;
+  std::string text = fmt::format("{:.2f} m", skeleton.height);
+  if (!model.lengths_are_measured) return text;
+  text += model.lengths_are_of_poses ? " (from the poses" : " (from the source";
+  return text + (skeleton.ends_are_estimated ? "; ends of head, hands and feet estimated)" : ")");
 }
 
 std::string FloorText(const LoadTrial& trial, const TrialContext& context) {

@@ -28,6 +28,7 @@
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
+#include "server/source/source_identity.h"
 
 namespace kinescope::app {
 namespace {
@@ -205,13 +206,21 @@ void CheckArguments(const LoadsOptions& options) {
   if (!options.report->empty()) CheckReportName(*options.report);
 }
 
-nlohmann::json ReportOf(const Recording& recording, const TrialContext& context) {
+nlohmann::json ReportOf(const Recording& recording, const TrialContext& context,
+                        LoadsOptions& options) {
+  options::OptionList inputs;
+  options.loads.List(inputs);
+  const SourceIdentity identity = IdentityOf(*options.source);
+  const nlohmann::json hash =
+      identity.digest ? nlohmann::json(identity.digest->sha256) : nlohmann::json(nullptr);
   nlohmann::json people = nlohmann::json::array();
   for (const auto& [character, trial] : recording.trials()) {
     people.push_back(SummaryJson(SummaryOf(trial, context)));
   }
   return {{"program", "kinescope " KINESCOPE_VERSION},
           {"source", context.source},
+          {"source_sha256", hash},
+          {"inputs", options::InputsOf(inputs)},
           {"rate_hz", context.rate_hz},
           {"options", context.options},
           {"people", people}};
@@ -241,7 +250,7 @@ bool Loads(LoadsOptions& options, const options::OptionList& list) {
     WriteReport(recording.trials(), context, OriginOf(*options.source, list), sensitivity,
                 options.backend, *options.report);
   }
-  recording.Finish(ReportOf(recording, context));
+  recording.Finish(ReportOf(recording, context, options));
   bool knows_anything = false;
   for (const auto& [character, trial] : recording.trials()) {
     knows_anything = knows_anything || trial.knows_anything();

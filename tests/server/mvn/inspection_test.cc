@@ -114,6 +114,7 @@ TEST_F(InspectionTest, ReportsSendersTypesAndRates) {
   anna.name = "Anna";
   anna.color_rgb = 0xE96417;
   anna.skeleton = urdf::DefaultSkeleton(1.68);
+  anna.landmarks = urdf::LandmarksOf(*anna.skeleton);
   for (std::uint32_t counter = 0; counter < 480; ++counter) {
     WaitFor(counter);
     if (counter % 240 == 0) Send(EncodeCharacter(anna));
@@ -124,7 +125,7 @@ TEST_F(InspectionTest, ReportsSendersTypesAndRates) {
   EXPECT_EQ(report.source, "a test");
   EXPECT_EQ(report.begin_wall_nanos, kStartWall);
   EXPECT_NEAR(report.secs, 479.0 / 240, 1e-6);
-  EXPECT_EQ(report.datagrams, 480U * 5 + 2 * 3);
+  EXPECT_EQ(report.datagrams, 480U * 5 + 2 * 4);
   EXPECT_THAT(report.errors, IsEmpty());
   EXPECT_THAT(report.advice, IsEmpty());
   ASSERT_EQ(report.characters.size(), 1U);
