@@ -56,8 +56,8 @@ class Drawing {
 };
 
 struct DrawingModule {
-  ModuleAbi<SceneState, PersonState, PersonModel, urdf::AddedMass, JointLoad, TrackedObject,
-            RobotState, urdf::RobotModel, urdf::Link, urdf::Visual, urdf::Collision,
+  ModuleAbi<SceneState, PersonState, PersonModel, urdf::Landmark, urdf::AddedMass, JointLoad,
+            TrackedObject, RobotState, urdf::RobotModel, urdf::Link, urdf::Visual, urdf::Collision,
             urdf::RobotJoint, urdf::MeshSearch, SceneMarker, Camera, SceneLook, Trail, Ghost, Image,
             Label, Driver>
       abi;

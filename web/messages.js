@@ -21,6 +21,8 @@ export const string = (value, path) => (typeof value === 'string' ? value : reje
 
 /** @type {Reader<number>} */
 export const number = (value, path) => (typeof value === 'number' ? value : reject(value, path, 'a number'));
+/** @type {Reader<number|null>} null: unknown */
+const numberOrNull = (value, path) => (value === null ? null : number(value, path));
 
 /** @type {Reader<boolean>} */
 export const boolean = (value, path) =>
@@ -92,7 +94,7 @@ const readSecs = object({ low: number, medium: number, high: number, unknown: nu
 const readHandLoad = object({ right_kg: number, left_kg: number, both_kg: number });
 const readPersonDetails = object({
   character: number, name: string, mass_kg: number, mass_is_assumed: boolean, why_other_metric: string,
-  why_no_ground: string, hand_load: readHandLoad,
+  why_no_ground: string, filter: string, delay_secs: number, floor_z_m: numberOrNull, hand_load: readHandLoad,
   loads: listOf(object({
     joint: number, channel: string, reason: string, is_external: boolean, secs_in_band: readSecs,
   })),

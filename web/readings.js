@@ -58,11 +58,19 @@ export function loadsHint(person, details) {
   const motion = person.metric === 'external' ? '' : person.isDynamic ? ', dynamic' : ', static';
   return [
     `load metric: ${person.metric}${motion}`,
+    details && details.delay_secs > 0 ? `${Math.round(1000 * details.delay_secs)} ms late (${details.filter} filter)` : '',
+    floorText(details),
     details?.mass_is_assumed ? `body mass assumed: ${details.mass_kg} kg` : '',
     handLoadText(details?.hand_load),
     person.comDisagrees ? `centre of mass differs from MVN by ${centimetres(person.comMinusMvn)}` : '',
     details?.why_other_metric ?? '',
   ].filter(Boolean).join(' · ');
+}
+
+/** @param {PersonDetails|undefined} details */
+function floorText(details) {
+  if (!details) return '';
+  return details.floor_z_m === null ? 'floor not found' : `floor at z = ${details.floor_z_m.toFixed(2)} m`;
 }
 
 /** @param {Person} person */

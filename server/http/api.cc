@@ -64,6 +64,15 @@ json HandLoadToJson(const StatedHandLoad& stated) {
           {"both_kg", stated.both_kg}};
 }
 
+// Which filter the accelerations have passed; "" where none counts.
+const char* FilterName(const BodyForces& forces) {
+  return !forces.is_dynamic ? "" : forces.is_zero_phase ? "zero-phase" : "causal";
+}
+
+json FloorOrNull(const BodyForces& forces) {
+  return forces.why_no_floor.empty() ? json(forces.floor_z) : json(nullptr);
+}
+
 json ForcesToJson(const BodyForces& forces) {
   json corners = json::array();
   for (std::size_t i = 0; i < forces.support.size; ++i) {
@@ -85,7 +94,9 @@ json ForcesToJson(const BodyForces& forces) {
           {"why_other_metric", forces.why_other_metric},
           {"mode", forces.is_dynamic ? "dynamic" : "static"},
           {"why_static", forces.why_static},
+          {"filter", FilterName(forces)},
           {"delay_secs", forces.delay_secs},
+          {"floor_z_m", FloorOrNull(forces)},
           {"body_mass_kg", forces.body_mass_kg},
           {"body_mass_is_assumed", forces.body_mass_is_assumed},
           {"why_no_ground", forces.why_no_ground},
@@ -294,6 +305,9 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
                       {"why_other_metric", person.forces.why_other_metric},
                       {"why_static", person.forces.why_static},
                       {"why_no_ground", person.forces.why_no_ground},
+                      {"filter", FilterName(person.forces)},
+                      {"delay_secs", std::round(1e3 * person.forces.delay_secs) / 1e3},
+                      {"floor_z_m", FloorOrNull(person.forces)},
                       {"hand_load", HandLoadToJson(person.forces.stated_hand_load)},
                       {"loads", std::move(loads)}});
   }

@@ -4,7 +4,7 @@ import { readCameras, readDiagnostics, readModel, readTextMessage } from '../../
 
 const rgb = [0.1, 0.2, 0.3];
 const person = {
-  character: 0, name: 'Anna', mass_kg: 75, mass_is_assumed: true, why_other_metric: '', why_no_ground: '',
+  character: 0, name: 'Anna', mass_kg: 75, mass_is_assumed: true, why_other_metric: '', why_no_ground: '', filter: 'causal', delay_secs: 0.045, floor_z_m: 0,
   hand_load: { right_kg: 5, left_kg: 0, both_kg: 0 },
   loads: [{ joint: 3, channel: 'flexion', reason: '', is_external: false,
     secs_in_band: { low: 1, medium: 2, high: 0, unknown: 0 } }],

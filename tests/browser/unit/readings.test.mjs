@@ -5,16 +5,18 @@ import { comText, copText, loadsHint, meshesText, readingsOf, streamReadingsOf }
 const person = { metric: 'total', isDynamic: true, comSource: 'mvn', comDisagrees: false, comMinusMvn: NaN,
   groundIsMeasured: false, cop: [0, 0, 0], margin: 0.083, compression: 2150 };
 const details = { mass_kg: 75, mass_is_assumed: false, hand_load: { right_kg: 0, left_kg: 0, both_kg: 0 },
-  why_other_metric: '', why_no_ground: '' };
+  why_other_metric: '', why_no_ground: '', filter: '', delay_secs: 0, floor_z_m: 0 };
 
 test('the hint states the metric, the mode and the assumptions of the loads', () => {
-  assert.equal(loadsHint(person, details), 'load metric: total, dynamic');
-  assert.equal(loadsHint({ ...person, isDynamic: false }, details), 'load metric: total, static');
-  assert.equal(loadsHint({ ...person, metric: 'external' }, details), 'load metric: external');
+  assert.equal(loadsHint(person, details), 'load metric: total, dynamic · floor at z = 0.00 m');
+  assert.equal(loadsHint(person, { ...details, filter: 'causal', delay_secs: 0.045, floor_z_m: null }),
+    'load metric: total, dynamic · 45 ms late (causal filter) · floor not found');
+  assert.equal(loadsHint({ ...person, isDynamic: false }, details), 'load metric: total, static · floor at z = 0.00 m');
+  assert.equal(loadsHint({ ...person, metric: 'external' }, details), 'load metric: external · floor at z = 0.00 m');
   const doubtful = { ...details, mass_is_assumed: true, hand_load: { right_kg: 5, left_kg: 0, both_kg: 0 },
     why_other_metric: 'no strength table' };
   assert.equal(loadsHint({ ...person, comDisagrees: true, comMinusMvn: 0.0123 }, doubtful), 'load metric: total, dynamic · '
-    + 'body mass assumed: 75 kg · hand load 5 kg right · centre of mass differs from MVN by 1.2 cm · no strength table');
+    + 'floor at z = 0.00 m · body mass assumed: 75 kg · hand load 5 kg right · centre of mass differs from MVN by 1.2 cm · no strength table');
   assert.equal(loadsHint(person, undefined), 'load metric: total, dynamic', 'details come a moment after the first state');
 });
 
