@@ -13,6 +13,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "core/system/json_text.h"
 #include "core/system/stop_signal.h"
 #include "core/system/words.h"
 #include "server/app/commands.h"
@@ -284,7 +285,7 @@ class Conversion {
     Choose(outline);
     provenance_["rate_hz"] =
         rate_hz_ > 0 ? nlohmann::ordered_json(rate_hz_) : nlohmann::ordered_json(nullptr);
-    outline.provenance = provenance_;
+    outline.provenance = JsonText(provenance_, -1, JsonBytes::kAscii);
     for (const std::string& path : *options_.out) {
       files_.push_back(FindMotionFormat(path)->make(path, outline));
     }

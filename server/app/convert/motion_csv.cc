@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "core/system/json_text.h"
 #include "server/app/loads/load_rows.h"
 #include "server/table/csv_row.h"
 #include "server/table/output_file.h"
@@ -87,7 +86,7 @@ class LongCells : public MotionCells {
 class MotionCsv : public MotionFile {
  public:
   MotionCsv(const std::string& path, const MotionOutline& outline)
-      : path_(path), outline_(outline), provenance_(JsonText(outline.provenance)), out_(path) {}
+      : path_(path), outline_(outline), provenance_(outline.provenance), out_(path) {}
 
   void Add(const PersonState& person) override {
     if (!has_header_) WriteHeader(person);

@@ -2,6 +2,9 @@
 /// column, `provenance`, says in the first row where the table comes from.
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include "server/app/convert/motion_file.h"
 
 namespace kinescope::app {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -29,7 +28,7 @@ struct MotionOutline {
   QuantitySet quantities;                     // that were asked for and that the source has
   std::bitset<urdf::kSegmentCount> trackers;  // of anybody
   bool has_foot_contacts = false;
-  nlohmann::ordered_json provenance;
+  std::string provenance;  // JSON, in ASCII
   TableLayout layout = TableLayout::kWide;
 };
 

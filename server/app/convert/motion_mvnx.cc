@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "core/system/json_text.h"
 #include "server/app/convert/frame_index.h"
 #include "server/mvn/file/mvnx_writer.h"
 #include "server/table/output_file.h"
@@ -37,7 +36,7 @@ mvn::MvnxSubject SubjectOf(const PersonState& person, const MotionOutline& outli
   if (person.sample.has_time_of_day) subject.began_nanos = person.sample.stamp_nanos;
   subject.original_file = outline.source;
   subject.program = "Kinescope " KINESCOPE_VERSION;
-  subject.comment = JsonText(outline.provenance, -1, JsonBytes::kAscii);
+  subject.comment = outline.provenance;
   return subject;
 }
 

@@ -2,6 +2,9 @@
 /// second, in the order of their appearance.
 #pragma once
 
+#include <memory>
+#include <string>
+
 #include "server/app/convert/motion_file.h"
 
 namespace kinescope::app {

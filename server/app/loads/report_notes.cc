@@ -52,6 +52,8 @@ std::string FloorText(const LoadTrial& trial, bool is_given) {
       fmt::format("{} {}{:.2f} m",
                   is_given ? "given, z =" : "found at z =", trial.floor_z() < -0.005 ? "−" : "",
                   std::abs(trial.floor_z()));
+  const std::string_view why_not = trial.newest().forces.why_no_floor;
+  if (!why_not.empty()) return fmt::format("not found: {}", why_not);
   if (known == 0) return height + ", no foot contact known";
   return fmt::format("{}, a foot on it {} %", height, PercentText(down, trial.samples()));
 }
