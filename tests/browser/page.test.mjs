@@ -211,7 +211,7 @@ test('a hand load is set and shown, and rejected if it is impossible', async () 
 
 test('the page shows metric, load mode and assumptions beside the loads', async () => {
   const { page, close } = await openLive();
-  await page.waitForFunction(() => /^load metric: total, dynamic · body mass assumed: 75 kg/
+  await page.waitForFunction(() => /^load metric: total, dynamic · floor at z = 0\.00 m · body mass assumed: 75 kg/
     .test(document.getElementById('loads-hint').textContent), null, LONG);
   assert.equal(await text(page, '#support'), 'Margin of stability 8.3 cm');
   assert.equal(await text(page, '#compression'), 'L5/S1 compression 2.15 kN');

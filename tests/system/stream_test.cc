@@ -153,7 +153,7 @@ TEST(StreamCommand, SendsTheSubjectLikeASuit) {
     ++types[datagram.substr(4, 2)];
     bytes += datagram.size();
   }
-  EXPECT_THAT(types, ElementsAre(std::pair("02", 60), std::pair("12", 1), std::pair("13", 2),
+  EXPECT_THAT(types, ElementsAre(std::pair("02", 60), std::pair("12", 1), std::pair("13", 3),
                                  std::pair("20", 60), std::pair("21", 60), std::pair("22", 60),
                                  std::pair("24", 60)));
   EXPECT_EQ(sent.summary.at("types").get<decltype(types)>(), types);
@@ -294,7 +294,8 @@ TEST(StreamCommand, ContinuesCountersAndTimeCodesInALoop) {
     EXPECT_EQ(poses[i].sample_counter, 700 + i);
     EXPECT_EQ(poses[i].time_code_millis, 7000 + 10 * i);
   }
-  EXPECT_EQ(BodiesOf<mvn::ScaleMessage>(sent.datagrams).size(), 8U) << "once in each round";
+  EXPECT_EQ(BodiesOf<mvn::ScaleMessage>(sent.datagrams).size(), 4U * 3)
+      << "once in each round, in three parts";
 }
 
 TEST(StreamCommand, SendsARecordingOfSamples) {
@@ -339,7 +340,7 @@ TEST(StreamCommand, InjectsTheRequestedFaultsAndCountsThem) {
   const auto injected = [&](const char* fault) {
     return faults.at(fault).at("injected").get<std::size_t>();
   };
-  const std::size_t whole = 120 * 5 + 2 * 3;
+  const std::size_t whole = 120 * 5 + 2 * 4;
   EXPECT_EQ(sent.datagrams.size(),
             whole - injected("loss") + injected("foreign") + injected("duplicate"));
   for (const char* fault : {"loss", "foreign", "corrupt", "duplicate", "reorder"}) {
@@ -380,7 +381,7 @@ TEST(StreamCommand, RelaysALiveStreamUntilItIsStopped) {
   const ProgramResult suit =
       Stream({"demo:walk", "--seconds", "0.1", "--characters", "2", "--to", from});
   EXPECT_EQ(suit.exit_code, 0) << suit.err;
-  constexpr std::size_t kSent = 2 * (12 * 5 + 3);
+  constexpr std::size_t kSent = 2 * (12 * 5 + 4);
   BytesSink sink;
   const auto give_up = std::chrono::steady_clock::now() + kPatience;
   while (sink.datagrams.size() < kSent && std::chrono::steady_clock::now() < give_up) {
@@ -401,12 +402,20 @@ TEST(StreamCommand, RelaysALiveStreamUntilItIsStopped) {
 TEST(StreamCommand, SendsOnlyWhatARecordingContains) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   const std::string recording = SharedData("mvnx/test_mocap.mvnx");
-  const ProgramResult result = Stream({recording, "--types", "02,23"});
+  const TempFolder folder;
+  const std::string without_sensors = folder / "walk.mvnx";
+  ASSERT_EQ(
+      testing::Kinescope({"convert", "demo:walk", "--seconds", "0.1", "--out", without_sensors})
+          .exit_code,
+      0);
+  const ProgramResult result = Stream({without_sensors, "--types", "02,23"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("--types: 23: "));
   EXPECT_THAT(result.err, HasSubstr("contains no trackers"));
-  const Sent sent = StreamToUdp({recording, "--speed", "20", "--types", "02,25"});
-  ASSERT_FALSE(sent.datagrams.empty());
+  const Sent sent = StreamToUdp({recording, "--speed", "20", "--types", "02,23,25"});
+  const auto trackers = BodiesOf<mvn::TrackersMessage>(sent.datagrams);
+  ASSERT_EQ(trackers.size(), 112U);
+  EXPECT_EQ(trackers[0].present.count(), 11U) << "an upper body";
   std::string first_time;
   for (const std::string& datagram : sent.datagrams) {
     if (datagram.substr(4, 2) == "25" && first_time.empty()) first_time = datagram.substr(28, 12);
