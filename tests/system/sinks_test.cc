@@ -13,12 +13,12 @@
 #include "core/palette.h"
 #include "render/camera/camera.h"
 #include "render/camera/spheres.h"
-#include "server/app/loads/load_rows.h"
 #include "server/http/api.h"
 #include "server/http/protocol.h"
 #include "server/loads/load_settings.h"
 #include "server/picture/backend.h"
 #include "server/scene/scene_reader.h"
+#include "server/table/load_rows.h"
 #include "tests/shared_data.h"
 #ifdef KINESCOPE_WITH_ROS
 #include "server/ros/joint_loads.h"

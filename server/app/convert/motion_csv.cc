@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "server/app/loads/load_rows.h"
 #include "server/table/csv_row.h"
+#include "server/table/load_rows.h"
 #include "server/table/output_file.h"
 
 namespace kinescope::app {

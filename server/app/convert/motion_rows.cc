@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "server/app/loads/load_rows.h"
+#include "server/table/load_rows.h"
 #include "urdf/anatomical_angles.h"
 
 namespace kinescope::app {

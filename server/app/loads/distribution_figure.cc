@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "server/app/loads/load_rows.h"
 #include "server/app/loads/report_figures.h"
 #include "server/app/loads/report_text.h"
 #include "server/app/loads/svg.h"
+#include "server/table/load_rows.h"
 
 namespace kinescope::app {
 namespace {

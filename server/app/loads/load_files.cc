@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/system/json_text.h"
-#include "server/app/loads/load_rows.h"
 #include "server/table/csv_row.h"
+#include "server/table/load_rows.h"
 #include "server/table/output_file.h"
 
 namespace kinescope::app {

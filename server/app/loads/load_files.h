@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/scene_state.h"
-#include "server/app/loads/load_rows.h"
+#include "server/table/load_rows.h"
 
 namespace kinescope::app {
 

@@ -10,9 +10,9 @@
 #include "core/system/stop_signal.h"
 #include "render/image/new_file.h"
 #include "render/image/png_file.h"
-#include "server/app/loads/load_rows.h"
 #include "server/loads/gap.h"
 #include "server/loads/joint_score.h"
+#include "server/table/load_rows.h"
 
 namespace kinescope::app {
 namespace {

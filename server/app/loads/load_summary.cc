@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "core/system/json_text.h"
-#include "server/app/loads/load_rows.h"
 #include "server/loads/joint_score.h"
+#include "server/table/load_rows.h"
 
 namespace kinescope::app {
 namespace {

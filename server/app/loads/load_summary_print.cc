@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "server/app/loads/load_rows.h"
 #include "server/app/loads/load_summary.h"
+#include "server/table/load_rows.h"
 
 namespace kinescope::app {
 namespace {

@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "server/app/loads/html.h"
-#include "server/app/loads/load_rows.h"
 #include "server/app/loads/report_figures.h"
 #include "server/app/loads/report_finding.h"
 #include "server/app/loads/report_notes.h"
 #include "server/app/loads/report_table.h"
 #include "server/app/loads/report_text.h"
+#include "server/table/load_rows.h"
 
 namespace kinescope::app {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "server/app/loads/html.h"
-#include "server/app/loads/load_rows.h"
 #include "server/app/loads/report_figures.h"
 #include "server/app/loads/report_text.h"
 #include "server/loads/joint_score.h"
+#include "server/table/load_rows.h"
 
 namespace kinescope::app {
 namespace {

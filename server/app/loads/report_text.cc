@@ -9,7 +9,7 @@
 
 #include "core/scene_state.h"
 #include "core/system/utf8.h"
-#include "server/app/loads/load_rows.h"
+#include "server/table/load_rows.h"
 
 namespace kinescope::app {
 namespace {

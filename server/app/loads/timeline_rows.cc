@@ -7,8 +7,8 @@
 #include <string_view>
 #include <utility>
 
-#include "server/app/loads/load_rows.h"
 #include "server/loads/gap.h"
+#include "server/table/load_rows.h"
 
 namespace kinescope::app {
 namespace {

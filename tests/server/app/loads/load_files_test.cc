@@ -11,7 +11,7 @@
 #include <limits>
 #include <set>
 
-#include "server/app/loads/load_rows.h"
+#include "server/table/load_rows.h"
 #include "tests/csv_table.h"
 #include "tests/full_disk.h"
 #include "tests/server/app/loads/trial_scenes.h"

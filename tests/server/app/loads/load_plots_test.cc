@@ -12,7 +12,7 @@
 #include <limits>
 
 #include "core/system/errors.h"
-#include "server/app/loads/load_rows.h"
+#include "server/table/load_rows.h"
 #include "tests/full_disk.h"
 #include "tests/server/app/loads/trial_scenes.h"
 #include "tests/shared_data.h"

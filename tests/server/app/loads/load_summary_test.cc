@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "server/app/loads/load_rows.h"
+#include "server/table/load_rows.h"
 #include "tests/server/app/loads/trial_scenes.h"
 
 namespace kinescope::app {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "server/app/loads/load_rows.h"
 #include "server/app/loads/load_summary.h"
+#include "server/table/load_rows.h"
 #include "tests/server/app/loads/trial_scenes.h"
 
 namespace kinescope::app {

@@ -5,7 +5,7 @@
 
 #include <regex>
 
-#include "server/app/loads/load_rows.h"
+#include "server/table/load_rows.h"
 #include "tests/server/app/loads/trial_scenes.h"
 
 namespace kinescope::app {

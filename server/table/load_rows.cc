@@ -1,4 +1,4 @@
-#include "server/app/loads/load_rows.h"
+#include "server/table/load_rows.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
