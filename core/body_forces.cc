@@ -14,6 +14,11 @@ const char* Name(LoadMetric metric) {
   return "total";
 }
 
+const char* FilterName(const BodyForces& forces) {
+  if (!forces.is_dynamic) return "";
+  return forces.is_zero_phase ? "zero-phase" : "causal";
+}
+
 void MakeUnknown(std::string_view why, BodyForces& forces) {
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   const Eigen::Vector3d nothing = Eigen::Vector3d::Constant(kNothing);

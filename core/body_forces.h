@@ -51,7 +51,7 @@ struct FootForce {
   Eigen::Vector3d cop = Eigen::Vector3d::Zero();    // centre of pressure of the foot, world, m; NaN
                                                     // where unknown
   double free_moment = 0;                           // N·m, about the vertical through `cop`
-  /// Of heel and forefoot alone, 0 to 1, likewise.
+  /// Of heel and forefoot alone, 0 to 1; changes gradually after a change of contact.
   double heel_weight = 0, forefoot_weight = 0;
 };
 
@@ -130,6 +130,10 @@ struct BodyForces {
   double residual_force_share = 0;
   double residual_moment_share = 0;
 };
+
+/// The filter that the accelerations have passed: "zero-phase" or "causal"; "" while not
+/// is_dynamic.
+const char* FilterName(const BodyForces& forces);
 
 /// Marks all computed forces as unknown for the reason `why`. Body, hand loads and support polygon
 /// stay.

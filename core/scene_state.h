@@ -67,8 +67,8 @@ struct PersonModel {
   std::string urdf_xml;        // content of robot_description
   urdf::RobotModel robot;      // urdf_xml, parsed
   std::uint64_t revision = 0;  // increases with every change; sinks then reload
-  /// Those that urdf_xml names, in a folder of their own; null without any. Readers of the files
-  /// call Provide() first.
+  /// Those that urdf_xml names, in a folder of their own; null without any. The files themselves
+  /// exist after Provide() only.
   std::shared_ptr<const MeshFiles> mesh_files;
 };
 
@@ -133,6 +133,16 @@ enum class Liveness {
 /// "no data", "live", "stale".
 const char* Name(Liveness liveness);
 
+/// Of SceneState::waited_nanos; below it, waiting is not worth a word.
+inline constexpr std::int64_t kOverloadNanos = 250'000'000;
+
+/// A person whose samples are not shown, because they cannot be right.
+struct LeftOutPerson {
+  int character = 0;
+  std::string name;  // "" if none came
+  std::string why;   // "900 km from the others"
+};
+
 struct SceneState {
   Liveness liveness = Liveness::kNoData;
   std::uint64_t number = 0;  // of this state, from one state to the next +1; sinks use it to detect
@@ -141,12 +151,16 @@ struct SceneState {
   std::uint32_t counter = 0;          // of the newest sample
   std::int64_t time_code_millis = 0;  // of the newest sample, ms
   std::int64_t arrival_nanos = 0;     // receive time, monotonic clock; 0 for files
-  double rate_hz = 0;                 // samples per second over the last second (file: nominal)
+  /// How long the newest sample waited in this machine before it was processed, ns; 0 for files.
+  /// More than kOverloadNanos: this machine is overloaded, and all that is shown is that old.
+  std::int64_t waited_nanos = 0;
+  double rate_hz = 0;  // samples per second over the last second (file: nominal)
   std::array<double, 2> class_limits = kDefaultClassLimits;
-  double floor_z = 0;                  // height of the ground, world, m
-  std::string source;                  // "udp://0.0.0.0:9763"
-  std::vector<PersonState> people;     // one per character with a sample in the last second
-  std::vector<TrackedObject> objects;  // those with a sample in the last second
+  double floor_z = 0;                   // height of the ground, world, m
+  std::string source;                   // "udp://0.0.0.0:9763"
+  std::vector<PersonState> people;      // one per character with a sample in the last second
+  std::vector<LeftOutPerson> left_out;  // with a sample in the last second that is implausible
+  std::vector<TrackedObject> objects;   // those with a sample in the last second
   std::vector<RobotState> robots;
   /// External markers. Shared, so that unchanged markers cost nothing; a changed marker is a new
   /// object. Never null. A marker with a defect is reported and not rendered.

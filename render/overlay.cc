@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/system/clocks.h"
 #include "render/frame_code.h"
 #include "render/overlay_legend.h"
 #include "render/overlay_plot.h"
@@ -12,6 +13,7 @@
 namespace kinescope::render {
 namespace {
 
+constexpr Rgb kWarningLamp{0.90, 0.60, 0.05};
 constexpr double kTimeCodeLine = 22;  // of a picture 720 px high, from its baseline to the sample's
 
 // Then there is no stream to tell of, and no load.
@@ -111,7 +113,16 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec
     }
   }
   if (!parts.banner) return;
-  if (state.liveness == Liveness::kStale) PaintStaleBanner(page, state);
+  if (state.liveness == Liveness::kStale) {
+    PaintBanner(page, "STALE – last sample " + TimeCode(state.time_code_millis), "STALE");
+  } else if (!state.left_out.empty()) {
+    const LeftOutPerson& first = state.left_out.front();
+    const std::string count = std::to_string(state.left_out.size());
+    const std::string who = state.left_out.size() > 1 ? count + " people"
+                            : first.name.empty()      ? "1 person"
+                                                      : first.name;
+    PaintBanner(page, "LEFT OUT – " + who + ": " + first.why, "LEFT OUT: " + count);
+  }
   if (state.liveness == Liveness::kNoData) PaintNoData(page, state);
 }
 
@@ -120,13 +131,18 @@ void Overlay::PaintLamp(Page& page, const SceneState& state) {
   std::string text = "NO DATA";
   char rate[32] = "";
   if (state.liveness == Liveness::kStale) {
-    lamp = {0.90, 0.60, 0.05};
+    lamp = kWarningLamp;
     text = "STALE";
   } else if (state.liveness == Liveness::kLive) {
     const bool is_file = state.arrival_nanos == 0;
-    lamp = is_file ? Rgb{0.25, 0.45, 0.75} : Rgb{0.10, 0.70, 0.25};
-    text = is_file ? "RECORDED" : "LIVE";
-    if (state.rate_hz > 0) std::snprintf(rate, sizeof rate, "  %.1f Hz", state.rate_hz);
+    const bool is_behind = state.waited_nanos > kOverloadNanos;
+    lamp = is_file ? Rgb{0.25, 0.45, 0.75} : is_behind ? kWarningLamp : Rgb{0.10, 0.70, 0.25};
+    text = is_file ? "RECORDED" : is_behind ? "BEHIND" : "LIVE";
+    if (is_behind) {
+      std::snprintf(rate, sizeof rate, "  by %.1f s", Secs(state.waited_nanos));
+    } else if (state.rate_hz > 0) {
+      std::snprintf(rate, sizeof rate, "  %.1f Hz", state.rate_hz);
+    }
   }
   OverlayFonts& f = page.fonts;
   const int size = page.FontPx(kTextSize);
@@ -164,12 +180,12 @@ void Overlay::PaintTimeCode(Page& page, const SceneState& state) {
                    page.inks.faint_text);
 }
 
-void Overlay::PaintStaleBanner(Page& page, const SceneState& state) {
+// `brief`: where `full` has no room.
+void Overlay::PaintBanner(Page& page, const std::string& full, const std::string& brief) {
   OverlayFonts& f = page.fonts;
   const int size = page.FontPx(18);
-  const std::string full = "STALE – last sample " + TimeCode(state.time_code_millis);
   const double room = page.width - 4 * size;
-  const std::string text = f.bold.Width(full, size) <= room ? full : "STALE";
+  const std::string text = f.bold.Width(full, size) <= room ? full : brief;
   const double width = f.bold.Width(text, size) + 2 * size;
   const double left = (page.width - width) / 2, top = page.Px(kMargin + 28);
   page.canvas.RoundedBox(left, top, width, 2 * size, 0.5 * size, page.inks.banner);

@@ -43,7 +43,7 @@ class Overlay {
   void PaintLamp(Page& page, const SceneState& state);
   void PaintTitle(Page& page, const SceneState& state, const PictureSpec& spec);
   void PaintTimeCode(Page& page, const SceneState& state);
-  void PaintStaleBanner(Page& page, const SceneState& state);
+  void PaintBanner(Page& page, const std::string& full, const std::string& brief);
   void PaintNoData(Page& page, const SceneState& state);
   void PaintNames(Page& page, const SceneState& state, const Camera& camera, bool has_names,
                   const std::vector<Label>& labels);

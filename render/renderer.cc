@@ -1,5 +1,7 @@
 #include "render/renderer.h"
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,7 +13,9 @@
 
 #include "core/system/check.h"
 #include "core/system/errors.h"
+#include "core/system/utf8.h"
 #include "render/module_renderer.h"
+#include "render/shader_cache.h"
 
 namespace kinescope::render {
 
@@ -42,7 +46,17 @@ void CheckCamera(const Camera& camera) {
   if (!is_finite) throw RenderError("the position or direction of the camera is not finite");
 }
 
-void ToStderr(const std::string& line) { std::fprintf(stderr, "render: %s\n", line.c_str()); }
+// Mesa asks for the same megabytes for every picture. Otherwise glibc gives them back each time,
+// and a twentieth of the time goes into page faults.
+void KeepFreedMemory() {
+  constexpr int kBytes = 4 << 20;
+  ::mallopt(M_MMAP_THRESHOLD, kBytes);
+  ::mallopt(M_TRIM_THRESHOLD, kBytes);
+}
+
+void ToStderr(const std::string& line) {
+  std::fprintf(stderr, "render: %s\n", PrintableLine(line).c_str());
+}
 
 const DrawingModule& ModuleOf(const std::string& backend) {
   const char* file =
@@ -115,6 +129,8 @@ std::chrono::milliseconds LimitOf(const PictureSpec& spec) {
       static_cast<std::chrono::milliseconds::rep>(1000 * (kSecs + kSecsPerPixel * pixels)));
 }
 
+void PreferSpeed() { ::setenv("GALLIUM_OVERRIDE_CPU_CAPS", "avx", 0); }
+
 std::unique_ptr<Renderer> MakeRenderer(RendererSettings settings) {
   const auto& names = BackendNames();
   if (std::find(names.begin(), names.end(), settings.backend) == names.end()) {
@@ -123,9 +139,12 @@ std::unique_ptr<Renderer> MakeRenderer(RendererSettings settings) {
     throw RenderError("unknown back-end '" + settings.backend + "'; expected one of " + known);
   }
   ::setenv("GALLIUM_OVERRIDE_CPU_CAPS", "sse4.1", 0);
+  KeepFreedMemory();
   if (settings.backend == "egl") ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
-  const DrawingModule& module = OnlyModule(settings.backend);
   if (!settings.log) settings.log = ToStderr;
+  const std::string cache_note = PrepareShaderCache();
+  if (!cache_note.empty()) settings.log(cache_note);
+  const DrawingModule& module = OnlyModule(settings.backend);
   return std::make_unique<ModuleRenderer>(module, std::move(settings));
 }
 

@@ -68,6 +68,12 @@ struct Ghost {
   double opacity = 0.35;  // 0..1
 };
 
+/// How finely bodies are rendered.
+enum class Detail {
+  kFull,
+  kBySize,  // with fewer triangles where the difference is below a pixel: for live pictures
+};
+
 struct SceneLook {
   Theme theme = Theme::kLight;
   std::optional<Rgb> background;  // replaces that of the theme
@@ -76,6 +82,7 @@ struct SceneLook {
   /// white, the picture equals the one with a white background, up to one level per channel.
   bool is_transparent = false;
   bool floor = true;
+  Detail detail = Detail::kFull;
   ScenePartSet shown;
   std::vector<Trail> trails;
   std::vector<Ghost> ghosts;

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/system/utf8.h"
+
 namespace kinescope::render {
 
 Watchdog::Watchdog(OnHang on_hang) : on_hang_(std::move(on_hang)), thread_([this] { Run(); }) {}
@@ -61,7 +63,7 @@ void Watchdog::Run() {
 }
 
 void EndProcess(const std::string& what) {
-  std::fprintf(stderr, "kinescope: %s\n", what.c_str());
+  std::fprintf(stderr, "kinescope: %s\n", PrintableLine(what).c_str());
   std::fflush(stderr);
   ::_exit(2);
 }

@@ -29,7 +29,7 @@ LIBRARIES = {
     r"fmt/": ("fmt", {"urdf", "urdf/robot", "server/loads", "server/mvn/file", "server/options", "server/body",
                       "server/scene", "server/picture", "server/table", "server/wrenches", "server/app", "server/app/*", "render",
                       "render/plot"}),
-    r"spdlog/": ("spdlog", {"server/mvn/net", "server/mvn/file", "server/ros", "server/ros/source", "server/body",
+    r"spdlog/": ("spdlog", {"server/mvn/net", "server/mvn/file", "server/ros", "server/ros/source", "server/body", "server/scene",
                             "server/picture", "server/app", "server/app/*"}),
     r"tl/expected": ("libexpected", {"server/mvn", "server/mvn/file", "server/http", "server/ros"}),
     r"nlohmann/": ("nlohmann-json", {"server/http", "urdf/mesh", "server/options", "server/source", "server/picture", "server/app/*"}),
@@ -41,7 +41,6 @@ LIBRARIES = {
     r"nettle/": ("nettle", {"core/system"}),
     r"pcap/|pcap\.h": ("libpcap", {"server/mvn/file"}),
     r"boost/": ("Boost.Beast", {"server/http"}),
-    r"rosbag/": ("rosbag_storage", {"server/ros/source"}),
     r"image_transport/": ("image_transport", {"server/ros"}),
     r"tf2(_msgs)?/": ("tf2", {"server/ros", "server/ros/source"}),
     r"(ros|xmlrpcpp|kinescope|\w+_msgs)/": ("roscpp and messages", {"server/ros", "server/ros/source"}),
@@ -56,9 +55,10 @@ LIBRARIES = {
     r"vtk\w+\.h": ("VTK", {"render/vtk"}),
     r"(GL|EGL)/": ("VTK", {"render/vtk"}),  # OpenGL, as used by VTK, and EGL
     r"assimp/": ("assimp", {"urdf/mesh"}),
+    r"meshoptimizer\.h": ("meshoptimizer", {"render/shape"}),
 }
 STANDARD = re.compile(r"[a-z_]+$|(stdlib|stdio|string|math|errno|time|signal|limits)\.h$")
-SYSTEM = re.compile(r"(sys|netinet|arpa|linux)/|(dlfcn|fcntl|netdb|poll|spawn|unistd|pthread)\.h$")
+SYSTEM = re.compile(r"(sys|netinet|arpa|linux)/|(dlfcn|fcntl|malloc|netdb|poll|pwd|spawn|unistd|pthread)\.h$")
 
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
 

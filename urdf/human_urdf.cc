@@ -175,9 +175,9 @@ std::string BodyJointName(const std::string& model_name, int joint) {
 // HumanModel::mass_inside_joints: what a link gets of the segment that lacks it.
 constexpr double kShareInside = 0.01;         // of the joint's own segment
 constexpr double kShareOfFinger = 0.02;       // of its hand
-constexpr double kShareInsideFinger = 0.001;  // likewise
+constexpr double kShareInsideFinger = 0.001;  // of its hand
 constexpr double kShareOfProp = 0.01;         // of the pelvis
-constexpr double kShareInsideProp = 0.001;    // likewise
+constexpr double kShareInsideProp = 0.001;    // of the pelvis
 
 double OwnShare(const HumanModel& human, int segment) {
   if (!human.mass_inside_joints) return 1;

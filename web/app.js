@@ -5,7 +5,7 @@ import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
 import { cameraLabel, hexColor, shortCameraLabel } from './format.js';
 import { mountHandLoad } from './hand_load.js';
-import { statusOf } from './status.js';
+import { leftOutText, statusOf } from './status.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { readCameras, readDiagnostics, readModel } from './messages.js';
 import { PicturePanel } from './picture_panel.js';
@@ -28,7 +28,7 @@ let state = null;
 let newest = null;  // not decoded yet: of the states received between two frames, only the last one is decoded
 let stateChangedAt = 0;  // browser clock, last time its number grew
 /** @type {import('./messages.js').Details} */
-let details = { source: '', camera: '', has_pictures: true, people: [], objects: [] };
+let details = { source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [] };
 /** @type {import('./messages.js').Model|null} */
 let model = null;
 let modelAskedAt = -Infinity;
@@ -139,6 +139,7 @@ function statusNow() {
     silentMillis: connection.silentMillis(now),
     liveness: state?.liveness ?? null,
     ageMillis,
+    waitedMillis: state?.waitedMillis ?? 0,
     source: details.source,
     reason: connection.rejection,
   });
@@ -259,7 +260,8 @@ function showReadings() {
 /** @param {import('./status.js').Status} status
  *  @param {number} now */
 function showStatus(status, now) {
-  const banner = (now < notice.until && notice.text) || status.banner || meshesText(scene?.failedMeshes.length ?? 0);
+  const banner = (now < notice.until && notice.text) || status.banner || leftOutText(details.left_out)
+    || meshesText(scene?.failedMeshes.length ?? 0);
   elements.status.dataset.level = status.level;
   setText('status-word', status.word);
   document.title = `${status.word} · Kinescope`;

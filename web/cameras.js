@@ -13,15 +13,19 @@ const subtract = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.map
 const scale = (/** @type {number[]} */ a, /** @type {number} */ k) => a.map((v) => v * k);
 const length = (/** @type {number[]} */ a) => Math.hypot(...a);
 
-/** Middle of the people on the floor, and the distance of the outermost person from it.
+/** Middle of the people on the floor, and the distance of the outermost person from it. People who are farther than
+ *  `reach` from the person nearest to the origin are ignored: all would be too small to see.
  *  @param {number[][]} pelvises
  *  @param {number} floor  height of the floor, m
+ *  @param {number} reach  m
  *  @returns {{middle: number[], radius: number}} */
-export function groundOf(pelvises, floor) {
+export function groundOf(pelvises, floor, reach) {
   if (pelvises.length === 0) return { middle: [0, 0, floor], radius: 0 };
-  const sum = pelvises.reduce(([x, y], p) => [x + p[0], y + p[1]], [0, 0]);
-  const middle = [sum[0] / pelvises.length, sum[1] / pelvises.length, floor];
-  const radius = Math.max(...pelvises.map((p) => Math.hypot(p[0] - middle[0], p[1] - middle[1])));
+  const first = pelvises.reduce((a, b) => (Math.hypot(b[0], b[1]) < Math.hypot(a[0], a[1]) ? b : a));
+  const framed = pelvises.filter((p) => Math.hypot(p[0] - first[0], p[1] - first[1]) <= reach);
+  const sum = framed.reduce(([x, y], p) => [x + p[0], y + p[1]], [0, 0]);
+  const middle = [sum[0] / framed.length, sum[1] / framed.length, floor];
+  const radius = Math.max(...framed.map((p) => Math.hypot(p[0] - middle[0], p[1] - middle[1])));
   return { middle, radius };
 }
 

@@ -1,5 +1,7 @@
 // Problems of the server and of this page. The panel is visible only if there are any.
 
+import { nameOfLeftOut } from './status.js';
+
 const MOST_LINES = 12;
 
 /** One line per problem, the most urgent first, without duplicates.
@@ -12,6 +14,7 @@ export function problemLines(diagnostics, failedMeshes) {
   if (pictures?.last_error) lines.push(`Server rendering: ${pictures.last_error}`);
   for (const problem of pictures?.problems ?? []) lines.push(`Missing or replaced in the server picture: ${problem}`);
   for (const mesh of failedMeshes) lines.push(`This page could not load: ${mesh}`);
+  for (const person of source?.left_out ?? []) lines.push(`${nameOfLeftOut(person)} is left out: ${person.reason}`);
   for (const [reason, count] of Object.entries(source?.rejected ?? {})) {
     lines.push(`${count} ${count === 1 ? 'datagram' : 'datagrams'} rejected: ${reason}`);
   }

@@ -100,14 +100,16 @@ const readPersonDetails = object({
   })),
 });
 const readObjectName = object({ character: number, number, name: string });
+const readLeftOut = object({ character: number, name: string, reason: string });
 const readDetails = object({
   source: string, camera: string, has_pictures: boolean, people: listOf(readPersonDetails),
-  objects: listOf(readObjectName),
+  objects: listOf(readObjectName), left_out: listOf(readLeftOut),
 });
 /** @typedef {ReturnType<typeof readSecs>} Secs  time in each class so far, s
  *  @typedef {ReturnType<typeof readHandLoad>} HandLoad
  *  @typedef {ReturnType<typeof readPersonDetails>} PersonDetails
  *  @typedef {ReturnType<typeof readObjectName>} ObjectName
+ *  @typedef {ReturnType<typeof readLeftOut>} LeftOut  a person who is not shown, and why
  *  @typedef {ReturnType<typeof readDetails>} Details */
 
 const readPong = object({ pong: number, server_micros: number });
@@ -165,7 +167,7 @@ export const readModel = object({
 const readCameraView = object({
   name: string, position: numbers(3), target: numbers(3), up: numbers(3), vertical_fov_rad: number,
 });
-const readFraming = object({ min_width_m: number, margin_m: number, narrowest_aspect: number });
+const readFraming = object({ min_width_m: number, margin_m: number, narrowest_aspect: number, reach_m: number });
 export const readCameras = object({ cameras: listOf(readCameraView), framing: readFraming, live: string });
 /** @typedef {ReturnType<typeof readCameraView>} CameraView  of a person at the origin
  *  @typedef {ReturnType<typeof readFraming>} Framing  of several people and of narrow views; docs/http.md
@@ -174,7 +176,7 @@ export const readCameras = object({ cameras: listOf(readCameraView), framing: re
 /** /api/diagnostics: parts of the server that are not running are absent or null. */
 export const readDiagnostics = object({
   pictures: optional(orNull(object({ problems: optional(listOf(string)), last_error: optional(string) }))),
-  source: optional(object({ rejected: optional(recordOf(number)) })),
+  source: optional(object({ rejected: optional(recordOf(number)), left_out: optional(listOf(readLeftOut)) })),
 });
 /** @typedef {ReturnType<typeof readDiagnostics>} Diagnostics */
 

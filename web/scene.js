@@ -93,7 +93,8 @@ export class Scene {
     this.#people.update(state, isLive);
     this.#objects?.update(state.objects, isLive);
     if (state.people.length > 0) {
-      this.#ground = groundOf(state.people.map(({ links }) => links[0].position), state.floor);
+      const pelvises = state.people.map(({ links }) => links[0].position);
+      this.#ground = groundOf(pelvises, state.floor, this.#framing?.reach_m ?? Infinity);
     }
     this.#dirty = true;
   }

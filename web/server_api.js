@@ -5,13 +5,17 @@ import { readRejection } from './messages.js';
 /** @param {unknown} error  any thrown value */
 export const messageOf = (error) => (error instanceof Error ? error.message : String(error));
 
+// A page of another site cannot add this header. It shows the server that its own page sends the request, also where
+// browsers send no Sec-Fetch-Site: without TLS, to other machines.
+const FROM_THIS_PAGE = { 'X-Kinescope-Page': '1' };
+
 /** @template T
  *  @param {string} route
  *  @param {import('./messages.js').Reader<T>} read
  *  @returns {Promise<T|null>}  null if the server is unreachable, which the status indicator shows
  *  @throws {Error} if the request is rejected or the answer has another shape */
 export async function ask(route, read) {
-  const answer = await fetch(route).catch(() => null);
+  const answer = await fetch(route, { headers: FROM_THIS_PAGE }).catch(() => null);
   if (answer === null) return null;
   if (!answer.ok) throw new Error(await rejectionOf(answer));
   return read(await jsonOf(answer, route), route);
@@ -22,7 +26,7 @@ export async function ask(route, read) {
  *  @returns {Promise<Response>}
  *  @throws {Error} if the server is unreachable or rejects the request */
 export async function request(route, options) {
-  const answer = await fetch(route, options).catch(() => null);
+  const answer = await fetch(route, { ...options, headers: { ...options?.headers, ...FROM_THIS_PAGE } }).catch(() => null);
   if (answer === null) throw new Error('no connection to the server');
   if (!answer.ok) throw new Error(await rejectionOf(answer));
   return answer;

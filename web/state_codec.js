@@ -24,8 +24,8 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
  *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, stateNumber: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
- *    rateHz: number, viewers: number, floor: number, people: Person[],
- *    objects: TrackedObject[]}} State  arrivalMicros 0: unknown
+ *    rateHz: number, viewers: number, floor: number, waitedMillis: number, people: Person[],
+ *    objects: TrackedObject[]}} State  arrivalMicros 0: unknown; waitedMillis: in the server's machine
  */
 
 /** The kind of a message; throws if the server uses another version of the protocol.
@@ -113,10 +113,11 @@ function readStateHeader(bytes) {
   const viewers = bytes.u32();
   const floor = bytes.f32();
   const objectCount = bytes.u8();
-  bytes.skip(3);
+  bytes.skip(1);
+  const waitedMillis = 10 * bytes.u16();
   return {
     liveness, peopleCount, counter, stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis, rateHz,
-    viewers, floor, objectCount,
+    viewers, floor, objectCount, waitedMillis,
   };
 }
 

@@ -8,11 +8,15 @@ export const SILENCE_MILLIS = 1500;
 /** Age from which a sample counts as stale, even if the server reports it as live: the server does not respond. */
 export const OLD_MILLIS = 2000;
 
+/** Time that a sample waited in the server's machine from which on the server is overloaded: kOverloadNanos of
+ *  core/scene_state.h. */
+export const BEHIND_MILLIS = 250;
+
 /** @typedef {'live'|'stale'|'no-data'|'disconnected'|'wait'} Level
  *  @typedef {{level: Level, word: string, banner: string}} Status  banner "": none
  *  @typedef {{connected: boolean, everConnected: boolean, silentMillis: number,
- *    liveness: 'no data'|'live'|'stale'|null, ageMillis: number|null, source: string,
- *    reason: string}} Situation  reason: why the server rejected the connection; "" otherwise
+ *    liveness: 'no data'|'live'|'stale'|null, ageMillis: number|null, waitedMillis: number,
+ *    source: string, reason: string}} Situation  reason: why the server rejected the connection; "" otherwise
  */
 
 /** @param {Situation} now
@@ -24,12 +28,27 @@ export function statusOf(now) {
     const source = now.source || 'the source';
     return { level: 'no-data', word: 'No data', banner: `Waiting for ${source}` };
   }
+  if (now.liveness === 'live' && now.waitedMillis > BEHIND_MILLIS) {
+    const banner = `The server is too busy: behind by ${age(now.waitedMillis / 1000)}`;
+    return { level: 'stale', word: 'Behind', banner };
+  }
   const isOld = now.ageMillis !== null && now.ageMillis > OLD_MILLIS;
   if (now.liveness === 'stale' || isOld) {
     const since = now.ageMillis === null ? '' : `: last sample received ${age(now.ageMillis / 1000)} ago`;
     return { level: 'stale', word: 'Stale', banner: `The stream has stopped${since}` };
   }
   return { level: 'live', word: 'Live', banner: '' };
+}
+
+/** @param {import('./messages.js').LeftOut} person */
+export const nameOfLeftOut = ({ name, character }) => name || `Character ${character}`;
+
+/** What the banner says about people who are not shown; '' without any. The problems list each of them.
+ *  @param {import('./messages.js').LeftOut[]} people */
+export function leftOutText(people) {
+  if (people.length === 0) return '';
+  const who = people.length === 1 ? `${nameOfLeftOut(people[0])} is` : `${people.length} people are`;
+  return `${who} left out: ${people[0].reason}`;
 }
 
 /** @param {Situation} now

@@ -1,6 +1,5 @@
 #include "core/system/input_file.h"
 
-#include <archive.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/system/decompressor.h"
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
 
@@ -101,7 +101,8 @@ class InputFile::Content {
     if (packing != nullptr) {
       packing_ = packing->name;
       raw_head_ = std::move(raw_head);
-      Unpack();
+      unpacker_ =
+          std::make_unique<Decompressor>([this](const void** bytes) { return ReadPacked(bytes); });
       notes_->head =
           ReadHead([this](char* to, std::size_t size) { return ReadUnpacked(to, size); });
     } else {
@@ -124,17 +125,13 @@ class InputFile::Content {
       errno = EIO;
       return -1;
     }
-    if (archive_ != nullptr) return ReadUnpacked(to, size);
+    if (unpacker_ != nullptr) return ReadUnpacked(to, size);
     const ssize_t count = ReadSome(file_.get(), to, size);
     if (count < 0) notes_->failure = std::strerror(errno);
     return count;
   }
 
  private:
-  struct FreeArchive {
-    void operator()(archive* unpacker) const { archive_read_free(unpacker); }
-  };
-
   std::string WayOut() const {
     return packing_.empty() ? "" : "; the " + packing_ + " file is damaged; copy it again";
   }
@@ -153,57 +150,21 @@ class InputFile::Content {
     return head;
   }
 
-  void Unpack() {
-    archive_.reset(archive_read_new());
-    if (archive_ == nullptr) throw SourceError(name_ + ": not enough memory to decompress it");
-    // Not "all": some filters start other programs.
-    archive_read_support_filter_gzip(archive_.get());
-    archive_read_support_filter_bzip2(archive_.get());
-    archive_read_support_filter_xz(archive_.get());
-    archive_read_support_filter_zstd(archive_.get());
-    archive_read_support_filter_lz4(archive_.get());
-    archive_read_support_format_raw(archive_.get());
-    archive_read_support_format_empty(archive_.get());
-    const auto read_packed = [](archive*, void* self, const void** bytes) -> la_ssize_t {
-      return static_cast<Content*>(self)->ReadPacked(bytes);
-    };
-    archive_entry* entry = nullptr;
-    int status = archive_read_open(archive_.get(), this, nullptr, read_packed, nullptr);
-    if (status == ARCHIVE_OK) status = archive_read_next_header(archive_.get(), &entry);
-    at_end_ = status == ARCHIVE_EOF;
-    if (status < ARCHIVE_WARN) NoteFailure();
-  }
-
-  la_ssize_t ReadPacked(const void** bytes) {
+  ssize_t ReadPacked(const void** bytes) {
     if (!std::exchange(raw_head_given_, true)) {
       *bytes = raw_head_.data();
-      return static_cast<la_ssize_t>(raw_head_.size());
-    }
-    const ssize_t count = ReadSome(file_.get(), chunk_.data(), chunk_.size());
-    if (count < 0) {
-      archive_set_error(archive_.get(), errno, "%s", std::strerror(errno));
-      return ARCHIVE_FATAL;
+      return static_cast<ssize_t>(raw_head_.size());
     }
     *bytes = chunk_.data();
-    return count;
+    return ReadSome(file_.get(), chunk_.data(), chunk_.size());
   }
 
   ssize_t ReadUnpacked(char* to, std::size_t size) {
-    if (at_end_) return 0;
-    la_ssize_t count = ARCHIVE_RETRY;
-    if (notes_->failure.empty()) {
-      while (count == ARCHIVE_RETRY) count = archive_read_data(archive_.get(), to, size);
-    }
+    const ssize_t count = unpacker_->Read(to, size);
     if (count >= 0) return count;
-    NoteFailure();
+    notes_->failure = unpacker_->failure();
     errno = EIO;
     return -1;
-  }
-
-  void NoteFailure() {
-    if (!notes_->failure.empty()) return;
-    const char* reason = archive_error_string(archive_.get());
-    notes_->failure = reason != nullptr ? reason : "the archive is damaged";
   }
 
   Descriptor file_;
@@ -212,10 +173,9 @@ class InputFile::Content {
   std::shared_ptr<Notes> notes_;
   std::size_t head_given_ = 0;
 
-  std::unique_ptr<archive, FreeArchive> archive_;  // null: plain
-  std::string raw_head_;                           // shows whether it is compressed
+  std::unique_ptr<Decompressor> unpacker_;  // null: plain
+  std::string raw_head_;                    // shows whether it is compressed
   bool raw_head_given_ = false;
-  bool at_end_ = false;
   std::vector<char> chunk_ = std::vector<char>(kChunkBytes);
 };
 

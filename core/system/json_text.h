@@ -1,5 +1,5 @@
 /// Writes JSON as text. Names of files and persons are untrusted and may contain any bytes; invalid
-/// UTF-8 becomes U+FFFD instead of an exception.
+/// UTF-8 becomes U+FFFD instead of an exception, and characters that steer a terminal are escaped.
 #pragma once
 
 #include <cmath>
@@ -12,10 +12,14 @@ enum class JsonBytes {
   kAscii,  // all other characters are escaped
 };
 
+/// `json` with DEL, C1 and the characters that reverse a text as \u escapes; C0 has them already.
+std::string EscapeControls(std::string json);
+
 /// `json`: nlohmann::json or ordered_json. `indent`: spaces per level; -1: everything on one line.
 template <class Json>
 std::string JsonText(const Json& json, int indent = -1, JsonBytes bytes = JsonBytes::kUtf8) {
-  return json.dump(indent, ' ', bytes == JsonBytes::kAscii, Json::error_handler_t::replace);
+  return EscapeControls(
+      json.dump(indent, ' ', bytes == JsonBytes::kAscii, Json::error_handler_t::replace));
 }
 
 /// JSON has no NaN; null means unknown. `Json` as above.

@@ -17,7 +17,7 @@ class ModuleError : public std::runtime_error {
 
 /// Increase it by hand when host and module of different builds are incompatible although no size
 /// changed: virtual functions, order of members, meaning of a value.
-inline constexpr std::size_t kModuleAbi = 5;
+inline constexpr std::size_t kModuleAbi = 6;
 
 /// Values that must be equal on both sides; a changed struct changes a size here in nearly every
 /// case. `Types`: all types that the functions of a table take and return, and the types behind

@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include <cstdlib>
 #include <stdexcept>
 #include <system_error>
 
@@ -9,10 +10,23 @@ namespace kinescope {
 
 namespace fs = std::filesystem;
 
+fs::path TempFolderPath() {
+  try {
+    return fs::temp_directory_path();
+  } catch (const fs::filesystem_error&) {
+    const char* const chosen = std::getenv("TMPDIR");
+    throw std::runtime_error(chosen == nullptr
+                                 ? "/tmp is not a folder; set TMPDIR to one with write permission"
+                                 : "TMPDIR=" + std::string(chosen) +
+                                       ": is not a folder; set it to one with write permission");
+  }
+}
+
 ScratchFolder::ScratchFolder() {
-  std::string name = fs::temp_directory_path() / "kinescope-XXXXXX";
+  const fs::path parent = TempFolderPath();
+  std::string name = parent / "kinescope-XXXXXX";
   if (::mkdtemp(name.data()) == nullptr) {
-    throw std::runtime_error("cannot create a folder in " + fs::temp_directory_path().string() +
+    throw std::runtime_error("cannot create a folder in " + parent.string() +
                              "; set TMPDIR to a folder with write permission");
   }
   path_ = name;

@@ -1,4 +1,4 @@
-/// A temporary folder that is deleted with the object. One thread.
+/// Folders for temporary files.
 #pragma once
 
 #include <filesystem>
@@ -6,6 +6,11 @@
 
 namespace kinescope {
 
+/// The folder for temporary files: that of TMPDIR, else /tmp. Any thread.
+/// @throws std::runtime_error with its name and what to do if there is no such folder.
+std::filesystem::path TempFolderPath();
+
+/// A temporary folder that is deleted with the object. One thread.
 class ScratchFolder {
  public:
   /// @throws std::runtime_error with the folder for temporary files and what to do.

@@ -1,4 +1,5 @@
-/// Turns Ctrl-C and SIGTERM into a flag that loops check; a second signal ends the process.
+/// Turns Ctrl-C, SIGTERM and SIGHUP (the terminal was closed) into a flag that loops check; a
+/// second signal ends the process. SIGHUP stays ignored where it is, as under nohup.
 #pragma once
 
 namespace kinescope {

@@ -26,6 +26,12 @@ std::size_t Distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+std::string Counted(std::uint64_t count, std::string_view one, std::string_view many) {
+  const std::string text = std::to_string(count) + " ";
+  if (count != 1 && !many.empty()) return text + std::string(many);
+  return text + std::string(one) + (count == 1 ? "" : "s");
+}
+
 std::string Alternatives(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -1,11 +1,16 @@
-/// Names in errors: alternatives, and the one that was probably meant. Pure functions, any thread.
+/// Words in messages: counts, alternatives, and the name that was probably meant. Pure functions,
+/// any thread.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace kinescope {
+
+/// "0 samples", "1 sample", "2 people". `many`: "" is that of one with an "s".
+std::string Counted(std::uint64_t count, std::string_view one, std::string_view many = "");
 
 /// "a, b or c".
 std::string Alternatives(const std::vector<std::string>& names);

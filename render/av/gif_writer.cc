@@ -81,7 +81,7 @@ class Filters {
   std::filesystem::path path_;
   FilterGraph graph_;
   std::vector<AVFilterContext*> sources_;  // belong to graph_
-  AVFilterContext* sink_ = nullptr;        // likewise
+  AVFilterContext* sink_ = nullptr;        // belongs to graph_
 };
 
 class GifWriter : public VideoWriter {

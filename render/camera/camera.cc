@@ -63,16 +63,24 @@ const std::vector<std::string>& CameraNames() {
 
 GroundExtent GroundExtentOf(const SceneState& state) {
   if (state.people.empty()) return {Eigen::Vector3d(0, 0, state.floor_z), 0};
-  const auto on_floor = [&](const PersonState& person) {
-    Eigen::Vector3d point = person.links[urdf::kPelvis].position;
-    point.z() = state.floor_z;
-    return point;
-  };
-  GroundExtent about;
-  for (const PersonState& person : state.people) about.middle += on_floor(person);
-  about.middle /= static_cast<double>(state.people.size());
+  std::vector<Eigen::Vector3d> places;
   for (const PersonState& person : state.people) {
-    about.radius = std::max(about.radius, (on_floor(person) - about.middle).norm());
+    const Eigen::Vector3d& pelvis = person.links[urdf::kPelvis].position;
+    places.emplace_back(pelvis.x(), pelvis.y(), state.floor_z);
+  }
+  const auto to_origin = [](const Eigen::Vector3d& place) { return place.head<2>().norm(); };
+  const Eigen::Vector3d nearest =
+      *std::min_element(places.begin(), places.end(),
+                        [&](const auto& a, const auto& b) { return to_origin(a) < to_origin(b); });
+  const auto is_far = [&](const Eigen::Vector3d& place) {
+    return (place - nearest).norm() > kGroupFraming.reach_m;
+  };
+  places.erase(std::remove_if(places.begin(), places.end(), is_far), places.end());
+  GroundExtent about;
+  for (const Eigen::Vector3d& place : places) about.middle += place;
+  about.middle /= static_cast<double>(places.size());
+  for (const Eigen::Vector3d& place : places) {
+    about.radius = std::max(about.radius, (place - about.middle).norm());
   }
   return about;
 }

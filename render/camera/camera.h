@@ -40,6 +40,8 @@ struct GroupFraming {
                              // a little beside them
   double margin_m = 0.7;     // beside the outermost person of a group
   double narrowest_aspect = 4.0 / 3;  // width / height of a picture that a group must fit into
+  double reach_m = 50;  // of a group, from the person nearest to the origin: farther people would
+                        // make all too small to see, and may be out of the picture
 };
 inline constexpr GroupFraming kGroupFraming;
 

@@ -3,7 +3,6 @@
 #include <cairo/cairo-ft.h>
 #include <cairo/cairo.h>
 
-#include "core/system/utf8.h"
 #include "render/font.h"
 #include "render/renderer.h"
 
@@ -39,30 +38,6 @@ class Fonts {
 }  // namespace
 
 cairo_font_face_t* FontFace(bool is_bold) { return Fonts::Get(is_bold); }
-
-// Names come from outside; Cairo refuses what is no UTF-8.
-std::string Printable(std::string_view text) {
-  std::string utf8;
-  for (const char32_t c : DecodeUtf8(text)) {
-    const auto put = [&](char32_t bits) { utf8 += static_cast<char>(bits); };
-    if (c < 0x80) {
-      put(c);
-    } else if (c < 0x800) {
-      put(0xC0 | (c >> 6));
-      put(0x80 | (c & 0x3F));
-    } else if (c < 0x10000) {
-      put(0xE0 | (c >> 12));
-      put(0x80 | ((c >> 6) & 0x3F));
-      put(0x80 | (c & 0x3F));
-    } else {
-      put(0xF0 | (c >> 18));
-      put(0x80 | ((c >> 12) & 0x3F));
-      put(0x80 | ((c >> 6) & 0x3F));
-      put(0x80 | (c & 0x3F));
-    }
-  }
-  return utf8;
-}
 
 std::string WithoutSurfaceNumber(std::string svg) {
   const std::string counted = "<g id=\"surface";

@@ -1,4 +1,4 @@
-/// Common Cairo parts of plots and overlay layers: the fonts, and text that Cairo accepts.
+/// Common Cairo parts of plots and overlay layers: the fonts.
 #pragma once
 
 #include <string>
@@ -11,9 +11,6 @@ namespace kinescope::render::plot {
 
 /// DejaVu Sans, opened once per process. @throws RenderError if it is missing.
 cairo_font_face_t* FontFace(bool is_bold);
-
-/// `text` as UTF-8 that Cairo accepts.
-std::string Printable(std::string_view text);
 
 /// Removes the numbers that Cairo gives to surfaces in a process, so that equal drawings give equal
 /// bytes.

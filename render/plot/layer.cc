@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "core/system/utf8.h"
 #include "render/plot/fonts.h"
 
 namespace kinescope::render::plot {
@@ -109,7 +110,7 @@ class CairoLayer : public LayerPainter {
     cairo_set_font_face(context_, FontFace(is_bold));
     cairo_set_font_size(context_, size_px);
     cairo_move_to(context_, x, y);
-    cairo_show_text(context_, Printable(utf8).c_str());
+    cairo_show_text(context_, PrintableLine(utf8).c_str());
     return x + font.Width(utf8, size_px);
   }
 

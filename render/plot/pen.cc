@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/system/check.h"
+#include "core/system/utf8.h"
 #include "render/plot/fonts.h"
 #include "render/renderer.h"
 
@@ -137,7 +138,7 @@ void Pen::UseFont(double size, bool is_bold) {
 double Pen::TextWidth(const std::string& text, double size, bool is_bold) {
   UseFont(size, is_bold);
   cairo_text_extents_t extents;
-  cairo_text_extents(parts_->context, Printable(text).c_str(), &extents);
+  cairo_text_extents(parts_->context, PrintableLine(text).c_str(), &extents);
   return extents.x_advance;
 }
 
@@ -151,7 +152,7 @@ void Pen::Text(double x, double y, const std::string& text, double size, const R
   cairo_translate(cr, x, y);
   if (is_upright) cairo_rotate(cr, -M_PI / 2);
   cairo_move_to(cr, -back, 0);
-  cairo_show_text(cr, Printable(text).c_str());
+  cairo_show_text(cr, PrintableLine(text).c_str());
   cairo_restore(cr);
 }
 

@@ -32,6 +32,16 @@ const VisualReader::File& VisualReader::Read(const std::string& uri) {
   std::unique_ptr<const File>& known = files_[uri];
   if (known != nullptr) return *known;
   auto file = std::make_unique<File>();
+  if (person_files_) {
+    try {
+      file->mesh = ReadOfPerson(FileName(uri));
+      file->is_closed = file->mesh.IsClosed();
+    } catch (const std::exception& error) {
+      file->fault = "mesh " + uri + ": " + error.what();
+    }
+    known = std::move(file);
+    return *known;
+  }
   const auto found = urdf::FindMesh(uri, search_);
   if (const auto* missing = std::get_if<urdf::MeshNotFound>(&found)) {
     file->fault = "mesh " + uri + ": " + missing->reason;
@@ -46,6 +56,12 @@ const VisualReader::File& VisualReader::Read(const std::string& uri) {
   }
   known = std::move(file);
   return *known;
+}
+
+urdf::Mesh VisualReader::ReadOfPerson(const std::string& name) const {
+  const auto content = person_files_->Content(name);
+  if (content == nullptr) throw std::runtime_error("not one of this person's meshes");
+  return urdf::ReadMesh(*content, ".stl", {}, urdf::ColladaUp::kIgnored);
 }
 
 std::string VisualReader::FaultOf(const File& file, const urdf::Geometry& shape,

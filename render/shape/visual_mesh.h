@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh_files.h"
 #include "urdf/mesh/mesh.h"
 #include "urdf/robot/mesh_uri.h"
 #include "urdf/robot/robot_model.h"
@@ -33,6 +34,10 @@ class VisualReader {
   VisualReader(urdf::MeshSearch search, const urdf::ShapeDetail& detail)
       : search_(std::move(search)), detail_(detail) {}
 
+  /// Of a person: reads the meshes from `files`. Null: from the files of absolute paths.
+  VisualReader(std::shared_ptr<const MeshFiles> files, const urdf::ShapeDetail& detail)
+      : detail_(detail), person_files_(std::move(files)) {}
+
   /// Colours are those of the mesh file, else those of the URDF, else kBodyColor.
   void Add(const urdf::Visual& visual, int part, VisualMesh& to);
 
@@ -43,6 +48,7 @@ class VisualReader {
     std::string fault;  // "": no error
   };
   const File& Read(const std::string& uri);
+  urdf::Mesh ReadOfPerson(const std::string& name) const;
   /// Why the mesh cannot be shown; "" if it can.
   std::string FaultOf(const File& file, const urdf::Geometry& shape,
                       const Eigen::Affine3d& place) const;
@@ -50,6 +56,7 @@ class VisualReader {
 
   const urdf::MeshSearch search_;
   const urdf::ShapeDetail detail_;
+  const std::shared_ptr<const MeshFiles> person_files_;
   std::map<std::string, std::unique_ptr<const File>> files_;  // by URI
   std::size_t triangles_ = 0;                                 // of all added visuals
 };

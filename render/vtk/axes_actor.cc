@@ -7,7 +7,7 @@ namespace kinescope::render {
 namespace {
 
 constexpr double kFrameLength = 0.10, kFrameRadius = 0.0045;        // m, of a body 1.75 m tall
-constexpr double kHalfJointAxis = 0.085, kJointAxisRadius = 0.003;  // likewise
+constexpr double kHalfJointAxis = 0.085, kJointAxisRadius = 0.003;  // m, of a body 1.75 m tall
 constexpr float kGhostAxesOpacity = 0.5f;
 
 // One axis of each link along z, of length and radius 1.

@@ -5,19 +5,43 @@
 #include <algorithm>
 
 #include "core/person_links.h"
+#include "render/shape/coarser_mesh.h"
 
 namespace kinescope::render {
+namespace {
+
+constexpr double kErrors[] = {0.001, 0.002, 0.004, 0.006, 0.010};  // m, of the coarser meshes
+constexpr std::size_t kMostTriangles = 200'000;  // of a mesh that is worth the time to make them
+
+// That of the coarsest mesh that may be shown.
+double Permitted(double error_m) {
+  double permitted = 0;
+  for (const double error : kErrors) {
+    if (error <= error_m) permitted = error;
+  }
+  return permitted;
+}
+
+}  // namespace
+
+void BodyActor::AddActor(double error_m, Group& group) const {
+  auto actor =
+      std::make_unique<PartActor>(pass_, PartActor::Light::kLit, static_cast<int>(group.count));
+  actor->SetMesh(error_m > 0 ? CoarserMesh(group.mesh.mesh, error_m) : group.mesh.mesh);
+  actor->SetCulling(group.mesh.is_closed);
+  group.actors[error_m] = std::move(actor);
+  if (group.is_fixed) group.mesh.mesh = urdf::Mesh();
+}
+
 void BodyActor::Load(const PersonModel& model, OnceLog& log) {
   groups_.clear();
   problems_.clear();
-  if (model.mesh_files) model.mesh_files->Provide();  // what is missing is reported below
-  VisualReader reader(urdf::MeshSearch(), urdf::ShapeDetail::Body());
+  VisualReader reader(model.mesh_files, urdf::ShapeDetail::Body());
   const std::vector<std::string> names = VisibleLinks(model.human);
   for (std::size_t first = 0; first < names.size(); first += PartActor::kMaxParts) {
     Group group;
     group.first = first;
     group.count = std::min(PartActor::kMaxParts, names.size() - first);
-    VisualMesh mesh;
     for (std::size_t part = 0; part < group.count; ++part) {
       const auto& links = model.robot.links;
       const auto link = std::find_if(links.begin(), links.end(), [&](const urdf::Link& each) {
@@ -25,23 +49,32 @@ void BodyActor::Load(const PersonModel& model, OnceLog& log) {
       });
       if (link == links.end()) continue;
       for (const urdf::Visual& visual : link->visuals) {
-        reader.Add(visual, static_cast<int>(part), mesh);
+        reader.Add(visual, static_cast<int>(part), group.mesh);
       }
     }
-    group.actor =
-        std::make_unique<PartActor>(pass_, PartActor::Light::kLit, static_cast<int>(group.count));
-    group.actor->SetMesh(mesh.mesh);
-    group.actor->SetCulling(mesh.is_closed);
-    group.placeholders = std::move(mesh.placeholders);
-    problems_.insert(problems_.end(), mesh.problems.begin(), mesh.problems.end());
+    group.is_fixed = group.mesh.mesh.triangles.size() / 3 > kMostTriangles;
+    const std::vector<std::string>& problems = group.mesh.problems;
+    problems_.insert(problems_.end(), problems.begin(), problems.end());
     groups_.push_back(std::move(group));
   }
   for (const std::string& problem : problems_) log(problem);
 }
 
+void BodyActor::Show(PartActor& actor, const Group& group, const std::vector<urdf::Pose>& poses,
+                     const Eigen::Vector4f& override_color) {
+  for (std::size_t part = 0; part < group.count; ++part) {
+    const urdf::Pose& pose = poses[group.first + part];
+    actor.Place(static_cast<int>(part), Eigen::Translation3d(pose.position) * pose.orientation);
+  }
+  actor.SetOverride(override_color);
+  actor.SetOpacity(static_cast<float>(opacity_));
+  actor.Commit();
+}
+
 bool BodyActor::Update(const PersonState& person, const Eigen::Vector4f& override_color,
-                       OnceLog& log, std::vector<Label>& labels) {
+                       double error_m, OnceLog& log, std::vector<Label>& labels) {
   const bool is_new = model_ != person.model || revision_ != person.model->revision;
+  bool is_changed = is_new;
   if (is_new) {
     Load(*person.model, log);
     model_ = person.model;
@@ -49,30 +82,29 @@ bool BodyActor::Update(const PersonState& person, const Eigen::Vector4f& overrid
   }
   const std::vector<urdf::Pose> poses = VisibleLinkPoses(person);
   for (Group& group : groups_) {
-    for (std::size_t part = 0; part < group.count; ++part) {
-      const urdf::Pose& pose = poses[group.first + part];
-      group.actor->Place(static_cast<int>(part),
-                         Eigen::Translation3d(pose.position) * pose.orientation);
+    const double shown = group.is_fixed ? 0 : Permitted(error_m);
+    if (group.actors.count(shown) == 0) {
+      AddActor(shown, group);
+      is_changed = true;
     }
-    group.actor->SetOverride(override_color);
-    group.actor->SetOpacity(static_cast<float>(opacity_));
-    group.actor->Commit();
-    for (const VisualMesh::Placeholder& placeholder : group.placeholders) {
+    for (const auto& [error, actor] : group.actors) {
+      actor->actor()->SetVisibility(is_visible_ && error == shown);
+    }
+    Show(*group.actors[shown], group, poses, override_color);
+    for (const VisualMesh::Placeholder& placeholder : group.mesh.placeholders) {
       const urdf::Pose& pose = poses[group.first + static_cast<std::size_t>(placeholder.part)];
       labels.push_back({pose.position + pose.orientation * placeholder.center_in_link,
                         placeholder.label, Label::Kind::kFault});
     }
   }
-  return is_new;
-}
-
-void BodyActor::SetVisible(bool is_visible) {
-  for (Group& group : groups_) group.actor->actor()->SetVisibility(is_visible);
+  return is_changed;
 }
 
 std::vector<vtkActor*> BodyActor::actors() {
   std::vector<vtkActor*> actors;
-  for (Group& group : groups_) actors.push_back(group.actor->actor());
+  for (Group& group : groups_) {
+    for (const auto& [error, actor] : group.actors) actors.push_back(actor->actor());
+  }
   return actors;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,26 +20,33 @@ class BodyActor {
  public:
   explicit BodyActor(Pass pass = Pass::kSolid) : pass_(pass) {}
 
-  /// Adds the names of missing meshes to `labels`. `override_color`: see PartActor.
+  /// Adds the names of missing meshes to `labels`. `override_color`: see PartActor. `error_m`: how
+  /// far the drawn surface may be from the model's; 0: not at all.
   /// @return whether the list of actors has changed.
-  bool Update(const PersonState& person, const Eigen::Vector4f& override_color, OnceLog& log,
-              std::vector<Label>& labels);
+  bool Update(const PersonState& person, const Eigen::Vector4f& override_color, double error_m,
+              OnceLog& log, std::vector<Label>& labels);
 
   /// Meshes that are replaced by boxes.
   const std::vector<std::string>& problems() const { return problems_; }
   std::vector<vtkActor*> actors();
-  void SetVisible(bool is_visible);
+  /// Takes effect with the next Update.
+  void SetVisible(bool is_visible) { is_visible_ = is_visible; }
   /// 0..1; takes effect with the next Update.
   void SetOpacity(double opacity) { opacity_ = opacity; }
 
  private:
   // The links of one draw call.
   struct Group {
-    std::unique_ptr<PartActor> actor;
-    std::size_t first = 0, count = 0;  // of VisibleLinks
-    std::vector<VisualMesh::Placeholder> placeholders;
+    VisualMesh mesh;        // without triangles if they were too many to keep
+    bool is_fixed = false;  // has one actor, for all errors
+    std::map<double, std::unique_ptr<PartActor>> actors;  // by their error, m, made when needed;
+                                                          // one of them is visible
+    std::size_t first = 0, count = 0;                     // of VisibleLinks
   };
   void Load(const PersonModel& model, OnceLog& log);
+  void AddActor(double error_m, Group& group) const;
+  void Show(PartActor& actor, const Group& group, const std::vector<urdf::Pose>& poses,
+            const Eigen::Vector4f& override_color);
 
   const Pass pass_;
   double opacity_ = 1;
@@ -46,6 +54,7 @@ class BodyActor {
   std::shared_ptr<const PersonModel> model_;  // the loaded model; held, so that its address is not
                                               // reused
   std::uint64_t revision_ = 0;
+  bool is_visible_ = true;
   std::vector<std::string> problems_;
 };
 

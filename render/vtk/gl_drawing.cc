@@ -3,7 +3,6 @@
 #include <GL/glew.h>
 #include <vtkCamera.h>
 #include <vtkCullerCollection.h>
-#include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
@@ -32,6 +31,7 @@
 #include "render/vtk/person_actors.h"
 #include "render/vtk/robot_actors.h"
 #include "render/vtk/trail_actor.h"
+#include "render/vtk/unshown_window.h"
 
 namespace kinescope::render {
 namespace {
@@ -41,6 +41,15 @@ namespace {
 constexpr int kLargestTile = 4096;
 
 constexpr int kBandBytes = 1 << 18;
+
+// At the nearest that any of the person can be; 0: so near that it does not matter.
+double MetresPerPixel(const PersonState& person, const Camera& camera, int height) {
+  constexpr double kReach = 1;  // m, of the limbs from the pelvis
+  const Eigen::Vector3d to_camera = (camera.position - camera.target).normalized();
+  const Eigen::Vector3d nearest = person.links[urdf::kPelvis].position + kReach * to_camera;
+  const Projected place = Project(nearest, camera, height, height);
+  return place.depth_m > 0 && place.px_per_m > 0 ? 1 / place.px_per_m : 0;
+}
 
 std::mutex creation;  // GLEW's table of functions and VTK's factories are the process'
 
@@ -128,7 +137,7 @@ class GlDrawing : public Drawing {
     const VtkLogScope scope(log_);
     context_->MakeCurrent();
     UpdateLook(look, camera, labels);
-    UpdateActors(state, camera, look, labels);
+    UpdateActors(state, camera, look, image.height * supersample, labels);
     AimCamera(camera);
     const int step = kLargestTile / supersample;
     for (int y = 0; y < image.height; y += step) {
@@ -145,14 +154,18 @@ class GlDrawing : public Drawing {
     floor_layer_->SetBackground(background[0], background[1], background[2]);
     ground_->SetFocus(camera.target);
     ground_->SetLook(look);
-    floor_look_ = {background[0], background[1], background[2],
+    floor_look_ = {background[0],
+                   background[1],
+                   background[2],
                    static_cast<double>(look.theme == Theme::kDark),
-                   static_cast<double>(look.floor)};
+                   static_cast<double>(look.floor),
+                   static_cast<double>(look.detail)};
     if (look.Shows(ScenePart::kScale) && look.floor) AddFloorScale(camera, labels);
   }
 
+  // `height`: px, drawn.
   void UpdateActors(const SceneState& state, const Camera& camera, const SceneLook& look,
-                    std::vector<Label>& labels) {
+                    int height, std::vector<Label>& labels) {
     // By character: people who stay keep their meshes.
     bool is_changed = people_.size() != state.people.size();
     for (const PersonState& person : state.people) {
@@ -175,7 +188,11 @@ class GlDrawing : public Drawing {
     is_changed = ghosts_.Update(look, once_, labels) || is_changed;
     for (const PersonState& person : state.people) {
       PersonActors& actors = *people_.at(person.character);
-      is_changed = actors.Update(person, state.liveness, camera, look, once_, labels) || is_changed;
+      const double metres_per_pixel =
+          look.detail == Detail::kFull ? 0 : MetresPerPixel(person, camera, height);
+      is_changed =
+          actors.Update(person, state.liveness, camera, look, metres_per_pixel, once_, labels) ||
+          is_changed;
     }
     if (is_changed || !is_listed_) ListActors();
     is_listed_ = true;
@@ -280,6 +297,8 @@ class GlDrawing : public Drawing {
                            up.z(),
                            static_cast<double>(width),
                            static_cast<double>(height)};
+    static_assert(16 + std::size(rest) + std::tuple_size_v<decltype(floor_look_)> ==
+                  std::tuple_size_v<FloorCache::Key>);
     const auto end = std::copy(std::begin(rest), std::end(rest), key.begin() + 16);
     std::copy(floor_look_.begin(), floor_look_.end(), end);
     return key;
@@ -310,7 +329,7 @@ class GlDrawing : public Drawing {
   LogLine log_;
   OnceLog once_;
   std::unique_ptr<GlContext> context_;  // outlives everything that follows
-  vtkNew<vtkGenericOpenGLRenderWindow> window_;
+  vtkNew<UnshownWindow> window_;
   vtkNew<vtkOpenGLRenderer> floor_layer_;   // drawn first, without depth
   vtkNew<vtkOpenGLRenderer> people_layer_;  // over it
   vtkNew<vtkCamera> camera_;
@@ -322,7 +341,7 @@ class GlDrawing : public Drawing {
   std::unique_ptr<MarkerActors> markers_;
   std::unique_ptr<TrailActor> trails_;
   GhostActors ghosts_;
-  std::array<double, 5> floor_look_{};  // what of it the floor's pixels depend on
+  std::array<double, 6> floor_look_{};  // what of it the floor's pixels depend on
   bool is_listed_ = false;
   std::vector<std::unique_ptr<RobotActors>> robots_;  // in the order of the state
   std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet

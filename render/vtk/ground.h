@@ -16,12 +16,18 @@ class Ground {
   void SetFocus(const Eigen::Vector3d& focus);
   /// Shows the floor of the theme, or none.
   void SetLook(const SceneLook& look);
-  std::array<vtkActor*, 2> actors() { return {light_.actor(), dark_.actor()}; }
+  std::array<vtkActor*, 4> actors();
 
  private:
   void SetUniform(const char* name, const Eigen::Vector3d& value);
 
-  ShadedActor light_, dark_;
+  struct Floor {
+    Floor(Theme theme_of, Detail detail_of);
+    Theme theme;
+    Detail detail;
+    ShadedActor actor;
+  };
+  std::array<Floor, 4> floors_;
 };
 
 }  // namespace kinescope::render

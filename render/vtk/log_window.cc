@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <string>
 
+#include "core/system/utf8.h"
+
 namespace kinescope::render {
 namespace {
 
@@ -61,7 +63,7 @@ void LogHere(const std::string& text) {
   if (current_log != nullptr) {
     (*current_log)(line);
   } else {
-    std::fprintf(stderr, "render: %s\n", line.c_str());
+    std::fprintf(stderr, "render: %s\n", PrintableLine(line).c_str());
   }
 }
 

@@ -11,6 +11,9 @@
 namespace kinescope::render {
 namespace {
 
+// px, by which the outline of a body may be wrong where fewer triangles are drawn.
+constexpr double kUnseen = 1;
+
 constexpr double kGhostBodyOpacity = 0.45;
 constexpr int kMarkCorners = 32;
 
@@ -110,22 +113,24 @@ PersonActors::PersonActors()
 }
 
 bool PersonActors::Update(const PersonState& person, Liveness liveness, const Camera& camera,
-                          const SceneLook& look, OnceLog& log, std::vector<Label>& labels) {
+                          const SceneLook& look, double metres_per_pixel, OnceLog& log,
+                          std::vector<Label>& labels) {
   const bool is_stale = liveness == Liveness::kStale;
-  bool is_changed = body_.Update(
-      person, is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()), log,
-      labels);
   body_.SetVisible(look.Shows(ScenePart::kBody));
+  bool is_changed = body_.Update(
+      person, is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()),
+      kUnseen * metres_per_pixel, log, labels);
   is_changed = UpdateAxes(person, look) || is_changed;
   UpdateShadow(person, look);
-  UpdateMarks(person, camera);
+  UpdateMarks(person, camera, metres_per_pixel);
   forces_.Show(person, look.Shows(ScenePart::kScale) ? &labels : nullptr);
   UpdateHeld(person, liveness);
   return is_changed;
 }
 
 std::vector<vtkActor*> PersonActors::ghosts() {
-  std::vector<vtkActor*> actors = {ghost_marks_.actor(), forces_.ghost(), ghost_spheres_.actor()};
+  std::vector<vtkActor*> actors = {ghost_marks_.actor(), forces_.ghost()};
+  for (vtkActor* spheres : ghost_spheres_.actors()) actors.push_back(spheres);
   for (const auto* axes : {&frames_, &joint_axes_}) {
     if (*axes == nullptr) continue;
     for (vtkActor* actor : (*axes)->ghosts()) actors.push_back(actor);
@@ -134,7 +139,8 @@ std::vector<vtkActor*> PersonActors::ghosts() {
 }
 
 std::vector<vtkActor*> PersonActors::marks() {
-  std::vector<vtkActor*> actors = {marks_.actor(), forces_.solid(), spheres_.actor()};
+  std::vector<vtkActor*> actors = {marks_.actor(), forces_.solid()};
+  for (vtkActor* spheres : spheres_.actors()) actors.push_back(spheres);
   for (const auto* axes : {&frames_, &joint_axes_}) {
     if (*axes == nullptr) continue;
     for (vtkActor* actor : (*axes)->solids()) actors.push_back(actor);
@@ -191,7 +197,8 @@ void PersonActors::UpdateShadow(const PersonState& person, const SceneLook& look
   shadow_.Commit();
 }
 
-void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera) {
+void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera,
+                               double metres_per_pixel) {
   const double height = person.model->human.skeleton.height;
   const double size = height > 0 ? height / urdf::kReferenceHeight : 1;
   looks_.clear();
@@ -224,8 +231,12 @@ void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera) 
     marks->Commit();
   }
   if (person.com) looks_.push_back({*person.com, 0.034 * size, kComColor, 0});
-  spheres_.Show(looks_, camera);
-  ghost_spheres_.Show(looks_, camera);
+  double largest = 0;
+  for (const SphereLook& look : looks_) largest = std::max(largest, look.radius);
+  const bool is_small =
+      metres_per_pixel > 0 && largest < SphereActor::kSmallRadius * metres_per_pixel;
+  spheres_.Show(looks_, camera, is_small);
+  ghost_spheres_.Show(looks_, camera, is_small);
 }
 
 void PersonActors::UpdateHeld(const PersonState& person, Liveness liveness) {

@@ -21,9 +21,12 @@ class PersonActors {
  public:
   PersonActors();
 
-  /// Adds the names of missing meshes to `labels`. @return whether the list of actors has changed.
+  /// Adds the names of missing meshes to `labels`. `metres_per_pixel`: where it
+  /// is nearest to the camera; what is smaller than a pixel may be left out. 0: nothing may be.
+  /// @return whether the list of actors has changed.
   bool Update(const PersonState& person, Liveness liveness, const Camera& camera,
-              const SceneLook& look, OnceLog& log, std::vector<Label>& labels);
+              const SceneLook& look, double metres_per_pixel, OnceLog& log,
+              std::vector<Label>& labels);
 
   /// Meshes that are replaced by boxes.
   const std::vector<std::string>& problems() const { return body_.problems(); }
@@ -38,7 +41,7 @@ class PersonActors {
  private:
   void UpdateShadow(const PersonState& person, const SceneLook& look);
   bool UpdateAxes(const PersonState& person, const SceneLook& look);
-  void UpdateMarks(const PersonState& person, const Camera& camera);
+  void UpdateMarks(const PersonState& person, const Camera& camera, double metres_per_pixel);
   void UpdateHeld(const PersonState& person, Liveness liveness);
 
   BodyActor body_;

@@ -1,5 +1,8 @@
 #include "render/vtk/sphere_actor.h"
 
+#include <vtkActor.h>
+
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -53,9 +56,27 @@ urdf::Mesh DomeMesh() {
   return mesh;
 }
 
-urdf::Mesh AllDomes() {
+// In its place where it is small: its rim, filled with as large triangles as possible. llvmpipe
+// shades 4 x 4 pixels for a triangle that covers one.
+urdf::Mesh DiscMesh() {
+  constexpr std::uint32_t kCorners = 24;
+  urdf::Mesh mesh;
+  for (std::uint32_t i = 0; i < kCorners; ++i) {
+    const double angle = 2 * M_PI * i / kCorners;
+    const auto x = static_cast<float>(std::cos(angle)), y = static_cast<float>(std::sin(angle));
+    mesh.AddVertex({x, y, 0}, {x, y, 0});
+  }
+  for (std::uint32_t step = 1; step < kCorners; step *= 2) {
+    for (std::uint32_t i = 0; i + 2 * step <= kCorners; i += 2 * step) {
+      const std::uint32_t last = (i + 2 * step) % kCorners;
+      if (i != last) mesh.AddTriangle(i, i + step, last);
+    }
+  }
+  return mesh;
+}
+
+urdf::Mesh Each(const urdf::Mesh& dome) {
   urdf::Mesh all;
-  const urdf::Mesh dome = DomeMesh();
   for (int i = 0; i < kSphereCapacity; ++i) {
     const std::size_t first = all.positions.size();
     all.Append(dome, Eigen::Affine3d::Identity());
@@ -95,10 +116,14 @@ flat in int whichVS;
 in vec3 domeVS;
 in vec3 worldVS;
 in float skyVS;
-uniform int ballCount;
 uniform vec3 eye;
 uniform float sphereOpacity;
 )";
+  if (pass == Pass::kGhost) {
+    text.fragment_declarations += "uniform int beside" + capacity + "uniform int besideCount" +
+                                  capacity + "uniform int besideList[" +
+                                  std::to_string(kSphereCapacity * kSphereCapacity) + "];\n";
+  }
   const std::string color = R"(
   vec4 look = looks[whichVS];
   float fromAxis2 = min(dot(domeVS.xy, domeVS.xy), 1.0);
@@ -119,12 +144,14 @@ uniform float sphereOpacity;
   vec3 ray = normalize(worldVS - eye);
   float mine = dot(balls[whichVS].xyz - eye, ray);
   float isNearest = 1.0;
-  for (int i = 0; i < ballCount; ++i) {
+  int others = beside[whichVS];
+  for (int n = 0; n < besideCount[whichVS]; ++n) {
+    int i = besideList[others + n];
     vec3 center = balls[i].xyz - eye;
     float along = dot(center, ray);
     vec3 off = center - along * ray;
     bool isCovered = along < mine && dot(off, off) < balls[i].w * balls[i].w;
-    isNearest = isCovered && i != whichVS ? 0.0 : isNearest;
+    isNearest = isCovered ? 0.0 : isNearest;
   }
   gl_FragData[0].a *= isNearest;
 )";
@@ -132,17 +159,55 @@ uniform float sphereOpacity;
   return text;
 }
 
-}  // namespace
+// For each sphere, the others that a ray from the eye may meet, too.
+struct Neighbours {
+  std::array<int, kSphereCapacity> first{}, count{};
+  std::array<int, kSphereCapacity * kSphereCapacity> list{};
+};
 
-SphereActor::SphereActor(Pass pass, double opacity) : shaded_(pass, SphereText(pass)) {
-  shaded_.SetMesh(AllDomes());
-  shaded_.uniforms().SetUniformf("sphereOpacity", static_cast<float>(opacity));
-  shaded_.uniforms().SetUniformf("towardsEye", kTowardsEye);
-  Show({}, Camera());
+Neighbours NeighboursOf(const std::vector<SphereLook>& spheres, const Eigen::Vector3d& eye) {
+  constexpr double kMore = 0.001;  // rad; the shader computes in floats
+  std::array<Eigen::Vector3d, kSphereCapacity> directions;
+  std::array<double, kSphereCapacity> reaches{};  // rad
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const Eigen::Vector3d away = spheres[i].center - eye;
+    const double distance = away.norm();
+    directions[i] = away / std::max(distance, 1e-9);
+    reaches[i] = distance > spheres[i].radius ? std::asin(spheres[i].radius / distance) : M_PI;
+  }
+  Neighbours beside;
+  int end = 0;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    beside.first[i] = end;
+    for (std::size_t j = 0; j < spheres.size(); ++j) {
+      const double angle = std::min(reaches[i] + reaches[j] + kMore, M_PI);
+      if (j == i || directions[i].dot(directions[j]) < std::cos(angle)) continue;
+      beside.list[static_cast<std::size_t>(end++)] = static_cast<int>(j);
+    }
+    beside.count[i] = end - beside.first[i];
+  }
+  return beside;
 }
 
-void SphereActor::Show(const std::vector<SphereLook>& spheres, const Camera& camera) {
+}  // namespace
+
+SphereActor::SphereActor(Pass pass, double opacity)
+    : pass_(pass), fine_(pass, SphereText(pass)), coarse_(pass, SphereText(pass)) {
+  fine_.SetMesh(Each(DomeMesh()));
+  coarse_.SetMesh(Each(DiscMesh()));
+  for (ShadedActor* domes : {&fine_, &coarse_}) {
+    domes->uniforms().SetUniformf("sphereOpacity", static_cast<float>(opacity));
+    domes->uniforms().SetUniformf("towardsEye", kTowardsEye);
+  }
+  Show({}, Camera(), true);
+  Show({}, Camera(), false);
+}
+
+void SphereActor::Show(const std::vector<SphereLook>& spheres, const Camera& camera,
+                       bool is_small) {
   KINESCOPE_CHECK(spheres.size() <= kSphereCapacity);
+  fine_.actor()->SetVisibility(!is_small && !spheres.empty());
+  coarse_.actor()->SetVisibility(is_small && !spheres.empty());
   float balls[kSphereCapacity][4] = {};
   float looks[kSphereCapacity][4] = {};
   for (std::size_t i = 0; i < spheres.size(); ++i) {
@@ -153,17 +218,23 @@ void SphereActor::Show(const std::vector<SphereLook>& spheres, const Camera& cam
     balls[i][3] = static_cast<float>(spheres[i].radius);
     looks[i][3] = static_cast<float>(spheres[i].rim);
   }
-  vtkUniforms& uniforms = shaded_.uniforms();
+  vtkUniforms& uniforms = (is_small ? coarse_ : fine_).uniforms();
   uniforms.SetUniform4fv("balls", kSphereCapacity, balls);
-  uniforms.SetUniformi("ballCount", static_cast<int>(spheres.size()));
   uniforms.SetUniform4fv("looks", kSphereCapacity, looks);
   // Without perspective all rays are parallel: nearly so from an eye far behind the camera, and
   // near enough for a float.
   constexpr double kFarEye = 1000;  // m
   const Eigen::Vector3d back = (camera.position - camera.target).normalized();
   const double behind = camera.is_orthographic() ? kFarEye : 0;
-  const Eigen::Vector3f eye = (camera.position + behind * back).cast<float>();
-  uniforms.SetUniform3f("eye", eye.data());
+  const Eigen::Vector3d eye = camera.position + behind * back;
+  const Eigen::Vector3f eye_as_float = eye.cast<float>();
+  uniforms.SetUniform3f("eye", eye_as_float.data());
+  if (pass_ == Pass::kGhost) {
+    const Neighbours beside = NeighboursOf(spheres, eye);
+    uniforms.SetUniform1iv("beside", kSphereCapacity, beside.first.data());
+    uniforms.SetUniform1iv("besideCount", kSphereCapacity, beside.count.data());
+    uniforms.SetUniform1iv("besideList", kSphereCapacity * kSphereCapacity, beside.list.data());
+  }
   const glm::dmat4 view = ViewFromWorld(camera);
   const float up[] = {static_cast<float>(view[0][1]), static_cast<float>(view[1][1]),
                       static_cast<float>(view[2][1])};

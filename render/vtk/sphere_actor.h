@@ -25,13 +25,16 @@ class SphereActor {
  public:
   SphereActor(Pass pass, double opacity);
 
-  /// Shows these spheres and hides the others.
-  void Show(const std::vector<SphereLook>& spheres, const Camera& camera);
+  /// Shows these spheres and hides the others. `is_small`: discs will do, because no radius is
+  /// more than kSmallRadius pixels.
+  void Show(const std::vector<SphereLook>& spheres, const Camera& camera, bool is_small);
+  static constexpr double kSmallRadius = 30;
 
-  vtkActor* actor() { return shaded_.actor(); }
+  std::array<vtkActor*, 2> actors() { return {fine_.actor(), coarse_.actor()}; }
 
  private:
-  ShadedActor shaded_;
+  Pass pass_;
+  ShadedActor fine_, coarse_;  // one of them is drawn
 };
 
 }  // namespace kinescope::render

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -16,6 +17,7 @@
 #include "core/system/starts_with.h"
 #include "core/system/words.h"
 #include "server/app/command.h"
+#include "server/app/print.h"
 #include "server/options/yaml_options.h"
 
 namespace kinescope::app {
@@ -158,6 +160,7 @@ const Registered* Chosen(const std::vector<Registered>& all) {
   return chosen;
 }
 
+// Without the value of an option: it may be a token.
 [[noreturn]] void RefuseUnknownOption(const Registered& chosen, const std::string& given) {
   const std::string name = given.substr(0, given.find('='));
   std::vector<std::string> names;
@@ -166,8 +169,9 @@ const Registered* Chosen(const std::vector<Registered>& all) {
   for (const CLI::App* app = chosen.app->get_parent(); app != nullptr; app = app->get_parent()) {
     command = app->get_name() + " " + command;
   }
+  const bool is_option = StartsWith(given, "-");
   throw UsageError(fmt::format("unknown {} '{}'{} (see {} --help)",
-                               StartsWith(given, "-") ? "option" : "argument", given,
+                               is_option ? "option" : "argument", is_option ? name : given,
                                SuggestionFor(name, names), command));
 }
 
@@ -227,7 +231,12 @@ int RunCommandLine(int argc, char** argv, std::vector<Command> commands) {
                      (chosen == nullptr ? "kinescope" : "kinescope " + chosen->command->name) +
                      " --help)");
   } catch (const CLI::ParseError& error) {
-    return line.exit(error) == 0 ? 0 : 2;
+    // Also --help and --version come here.
+    std::ostringstream results, errors;
+    const int exit_code = line.exit(error, results, errors);
+    PrintText(stdout, results.str());
+    PrintText(stderr, errors.str());
+    return exit_code == 0 ? 0 : 2;
   }
   const Registered& chosen = *Chosen(all);
   Command& command = *chosen.command;

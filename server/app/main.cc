@@ -1,16 +1,16 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <exception>
-#include <stdexcept>
 #include <string>
 
+#include "core/system/standard_streams.h"
 #include "core/system/stop_signal.h"
+#include "core/system/utf8.h"
 #include "server/app/commands.h"
+#include "server/app/log.h"
 #include "server/ros/bridge.h"
 
 namespace {
@@ -18,7 +18,7 @@ namespace {
 // stdout belongs to results (--json, paths); what is said to people goes to stderr.
 void SetUpLog() {
   auto log = spdlog::stderr_color_mt("kinescope");
-  log->set_pattern("%H:%M:%S.%e %^%l%$: %v");
+  kinescope::app::MakeLinesPrintable(*log);
   spdlog::set_default_logger(log);
 }
 
@@ -29,28 +29,23 @@ std::string NodeName(int argc, char** argv) {
   return command == "inspect" || command == "urdf" ? "kinescope_" + command : "kinescope";
 }
 
-// What is still in a buffer has to arrive as well; the end of a process would not tell.
-void FlushStdout() {
-  if (std::fflush(stdout) == 0) return;
-  throw std::runtime_error(std::string("cannot write to standard output: ") + std::strerror(errno));
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
   using namespace kinescope;
   try {
+    OpenStandardStreams();
     SetUpLog();
     CatchStopSignals();
     std::signal(SIGXFSZ, SIG_IGN);  // a limit on file size is then an error like a full disk
-    // Takes `a:=b` and `__name:=` out of argv.
-    ros_bridge::InitRos(argc, argv, NodeName(argc, argv));
+    std::signal(SIGPIPE, SIG_IGN);  // a log without a reader (2>&1 | head) ends nothing
+    ros_bridge::TakeRosArguments(argc, argv, NodeName(argc, argv));
 
     const int exit_code = app::RunCommandLine(argc, argv, app::AllCommands());
-    FlushStdout();
+    FlushStandardOutput();
     return exit_code;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "kinescope: %s\n", error.what());
+    std::fprintf(stderr, "kinescope: %s\n", PrintableLine(error.what()).c_str());
     return 2;
   }
 }

@@ -66,10 +66,10 @@ void GlovesAndProps::AddTo(const Character& character, urdf::HumanModel& human) 
 
 void GlovesAndProps::Follow(const BodySample& sample, PersonState& state) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-    if (carpus_in_hand_[side]) state.gloves[side] = FollowGlove(side, sample, state);
+    if (state.model->human.gloves[side]) state.gloves[side] = FollowGlove(side, sample, state);
   }
   for (std::size_t prop = 0; prop < kMaxProps; ++prop) {
-    if (!props_.test(prop)) continue;
+    if (!state.model->human.props.test(prop)) continue;
     state.props[prop] = FollowProp(prop, sample, state.links[urdf::kPelvis]);
   }
 }

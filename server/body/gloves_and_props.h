@@ -21,8 +21,9 @@ class GlovesAndProps {
   /// skeleton
   void AddTo(const Character& character, urdf::HumanModel& human) const;
 
-  /// Writes their poses in `sample` to `state`; parts that the sample lacks keep their pose
-  /// relative to hand or pelvis. @pre `state` has its model, from AddTo, and its links
+  /// Writes the poses in `sample` of those in the model to `state`; parts that the sample lacks
+  /// keep their pose relative to hand or pelvis. @pre `state` has its model, from AddTo now or
+  /// earlier, and its links
   void Follow(const BodySample& sample, PersonState& state);
 
  private:

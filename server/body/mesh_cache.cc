@@ -20,7 +20,9 @@
 #include <tuple>
 #include <utility>
 
+#include "core/system/scratch_folder.h"
 #include "core/system/starts_with.h"
+#include "server/body/mesh_memory.h"
 
 namespace kinescope::app {
 namespace {
@@ -29,15 +31,55 @@ namespace fs = std::filesystem;
 
 constexpr char kLockName[] = "lock";     // in each folder; its time is that of the last use
 constexpr char kUnfinished[] = ".new-";  // in the names of folders that are being written
+constexpr char kRemoved[] = ".old-";     // in the names of folders that are being removed
 
-fs::path UserCacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && cache[0] == '/') {
-    return fs::path(cache) / "kinescope";
+// A name that neither another thread nor another process uses: `infix` follows the folder's name.
+fs::path UniqueName(const fs::path& folder, const char* infix) {
+  static std::atomic<unsigned> count{0};
+  return folder.string() + fmt::format("{}{}-{}", infix, getpid(), ++count);
+}
+
+// A path below a file: it cannot be created.
+constexpr char kNowhere[] = "/dev/null/kinescope";
+
+// An absolute path in the environment; empty without one.
+fs::path FolderInEnvironment(const char* name) {
+  const char* const text = std::getenv(name);
+  return text != nullptr && text[0] == '/' ? fs::path(text) : fs::path();
+}
+
+std::vector<fs::path> LastingFolders() {
+  std::vector<fs::path> folders;
+  const std::string of_service = FolderInEnvironment("CACHE_DIRECTORY").string();
+  if (!of_service.empty()) folders.push_back(of_service.substr(0, of_service.find(':')));
+  if (const fs::path cache = FolderInEnvironment("XDG_CACHE_HOME"); !cache.empty()) {
+    folders.push_back(cache / "kinescope");
+  } else if (const fs::path home = FolderInEnvironment("HOME"); !home.empty()) {
+    folders.push_back(home / ".cache/kinescope");
   }
-  if (const char* home = std::getenv("HOME"); home != nullptr && home[0] == '/') {
-    return fs::path(home) / ".cache/kinescope";
-  }
-  return fs::temp_directory_path() / fmt::format("kinescope-{}", getuid());
+  return folders;
+}
+
+int MakeFolders(const fs::path& folder) {
+  if (::mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST) return 0;
+  if (errno != ENOENT || !folder.has_relative_path()) return errno;
+  const int error = MakeFolders(folder.parent_path());
+  if (error != 0) return error;
+  return ::mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST ? 0 : errno;
+}
+
+// Why `folder`, which is created, may contain files of other users; "" if it cannot.
+// `forbidden`: permissions that it must not give.
+std::string WhyUnfit(const fs::path& folder, mode_t forbidden) {
+  const int error = MakeFolders(folder);
+  if (error != 0) return std::generic_category().message(error);
+  struct stat status {};
+  if (::lstat(folder.c_str(), &status) != 0) return std::generic_category().message(errno);
+  if (!S_ISDIR(status.st_mode)) return std::generic_category().message(ENOTDIR);
+  if (status.st_uid != ::geteuid()) return "it belongs to another user";
+  if ((status.st_mode & forbidden) != 0) return "other users may write to it";
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) return std::generic_category().message(errno);
+  return "";
 }
 
 [[noreturn]] void FailToWrite(const fs::path& path) {
@@ -50,7 +92,8 @@ class FolderLock {
  public:
   // `flags`: O_CREAT, where the folder may have none.
   explicit FolderLock(const fs::path& folder, int flags = 0)
-      : descriptor_(::open((folder / kLockName).c_str(), O_RDWR | O_CLOEXEC | flags, 0666)) {}
+      : descriptor_(
+            ::open((folder / kLockName).c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0600)) {}
   ~FolderLock() {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
@@ -84,11 +127,12 @@ struct CachedFolder {
   std::uintmax_t bytes = 0;
 };
 
-// Everything is read without exceptions: another process may be removing it.
-CachedFolder Inspect(const fs::path& path) {
+// nullopt if another thread or process has renamed or removed it.
+std::optional<CachedFolder> Inspect(const fs::path& path) {
   std::error_code gone;
   CachedFolder folder{path, fs::last_write_time(path / kLockName, gone)};
   if (gone) folder.last_use = fs::last_write_time(path, gone);
+  if (gone) return std::nullopt;
   for (fs::directory_iterator file(path, gone), end; !gone && file != end; file.increment(gone)) {
     std::error_code no_size;
     const std::uintmax_t bytes = file->file_size(no_size);
@@ -107,10 +151,10 @@ void RemoveUnlessUsed(const fs::path& folder) {
   const FolderLock lock(folder);
   if (lock.is_open() && !(lock.Own() && lock.IsOf(folder))) return;
   // Renamed first: a reader sees all files or none.
-  const fs::path removed = folder.string() + fmt::format(".old-{}", getpid());
-  std::error_code ignored;
-  fs::rename(folder, removed, ignored);
-  fs::remove_all(ignored ? folder : removed, ignored);
+  const fs::path removed = UniqueName(folder, kRemoved);
+  std::error_code gone;
+  fs::rename(folder, removed, gone);
+  if (!gone) fs::remove_all(removed, gone);
 }
 
 }  // namespace
@@ -118,9 +162,16 @@ void RemoveUnlessUsed(const fs::path& folder) {
 // What the sets of a cache share.
 class MeshCache::Store {
  public:
-  Store(fs::path root, std::uintmax_t limit) : root_(std::move(root)), limit_(limit) {}
+  Store(fs::path root, std::uintmax_t limit, std::size_t max_sets)
+      : root_(std::move(root)), limit_(limit), max_sets_(max_sets) {}
+
+  /// In a folder that is removed with the store.
+  explicit Store(std::unique_ptr<const ScratchFolder> scratch)
+      : scratch_(std::move(scratch)), root_(scratch_->path()) {}
 
   const fs::path& root() const { return root_; }
+
+  MeshMemory& memory() const { return memory_; }
 
   // Writes the files under another name; nullopt if the folder exists by then.
   std::optional<FolderLock> Write(const fs::path& folder, const std::vector<MeshFile>& files) const;
@@ -130,18 +181,19 @@ class MeshCache::Store {
   }
 
  private:
+  const std::unique_ptr<const ScratchFolder> scratch_;
   const fs::path root_;
-  const std::uintmax_t limit_;
+  const std::uintmax_t limit_ = kDefaultLimit;
+  const std::size_t max_sets_ = kDefaultSets;
   mutable std::atomic<bool> has_warned_{false};
+  mutable MeshMemory memory_;
 };
 
 std::optional<FolderLock> MeshCache::Store::Write(const fs::path& folder,
                                                   const std::vector<MeshFile>& files) const {
   fs::create_directories(root_);  // the user may have removed it
-  fs::path aside;
-  for (int i = 0; aside.empty() || !fs::create_directory(aside); ++i) {
-    aside = folder.string() + fmt::format("{}{}-{}", kUnfinished, getpid(), i);
-  }
+  fs::path aside = UniqueName(folder, kUnfinished);
+  while (!fs::create_directory(aside)) aside = UniqueName(folder, kUnfinished);  // left by a crash
   try {
     FolderLock lock(aside, O_CREAT);
     if (!lock.is_open()) FailToWrite(aside);
@@ -174,17 +226,22 @@ void MeshCache::Store::RemoveOldest() const {
     const std::string name = entry->path().filename().string();
     // "figure-": of earlier versions.
     if (!StartsWith(name, "body-") && !StartsWith(name, "figure-")) continue;
-    folders.push_back(Inspect(entry->path()));
-    bytes += folders.back().bytes;
+    const std::optional<CachedFolder> inspected = Inspect(entry->path());
+    if (!inspected) continue;
+    folders.push_back(*inspected);
+    bytes += inspected->bytes;
   }
   std::sort(folders.begin(), folders.end(), [](const CachedFolder& a, const CachedFolder& b) {
     return std::tie(a.last_use, a.path) < std::tie(b.last_use, b.path);
   });
+  std::size_t sets = folders.size();
   for (const CachedFolder& folder : folders) {
-    if (bytes <= limit_) return;
+    if (bytes <= limit_ && sets <= max_sets_) return;
     if (MayBeWritten(folder)) continue;
     RemoveUnlessUsed(folder.path);
-    if (!fs::exists(folder.path, error)) bytes -= folder.bytes;
+    if (fs::exists(folder.path, error)) continue;
+    bytes -= folder.bytes;
+    --sets;
   }
 }
 
@@ -194,6 +251,7 @@ class MeshCache::Set : public MeshFiles {
       std::function<std::vector<MeshFile>()> make)
       : store_(std::move(store)), folder_(std::move(folder)), make_(std::move(make)) {}
 
+  std::shared_ptr<const std::string> Content(const std::string& name) const override;
   bool Provide() const override;
 
  private:
@@ -205,6 +263,15 @@ class MeshCache::Set : public MeshFiles {
   mutable std::mutex mutex_;
   mutable std::optional<FolderLock> in_use_;  // guarded by mutex_
 };
+
+std::shared_ptr<const std::string> MeshCache::Set::Content(const std::string& name) const {
+  const auto files = store_->memory().Get(folder_.filename().string(), make_);
+  if (!files) return nullptr;
+  for (const MeshFile& mesh : *files) {
+    if (mesh.name == name) return {files, &mesh.stl};  // keeps the others, too
+  }
+  return nullptr;
+}
 
 // Takes the files that exist into use.
 bool MeshCache::Set::Open() const {
@@ -238,19 +305,38 @@ bool MeshCache::Set::Provide() const {
   return false;
 }
 
-MeshCache::MeshCache(fs::path root, std::uintmax_t limit)
-    : store_(std::make_shared<const Store>(std::move(root), limit)) {}
+MeshCache::MeshCache(fs::path root, std::uintmax_t limit, std::size_t sets)
+    : store_(std::make_shared<const Store>(std::move(root), limit, sets)) {}
 
-std::shared_ptr<const MeshCache> MeshCache::OfUser() {
-  const fs::path root = UserCacheFolder();
-  std::error_code error;
-  fs::create_directories(root, error);
-  if (!error && ::access(root.c_str(), W_OK | X_OK) != 0) error = {errno, std::generic_category()};
-  if (!error && !fs::is_directory(root)) error = std::make_error_code(std::errc::not_a_directory);
-  if (!error) return std::make_shared<const MeshCache>(root);
+MeshCache::MeshCache(std::shared_ptr<const Store> store) : store_(std::move(store)) {}
+
+std::shared_ptr<const MeshCache> MeshCache::InMemory() {
+  return std::make_shared<const MeshCache>(kNowhere);
+}
+
+std::shared_ptr<const MeshCache> MeshCache::OfUser(Lifetime lifetime) {
+  std::string why = "neither XDG_CACHE_HOME nor HOME is set";
+  for (const fs::path& folder : LastingFolders()) {
+    const std::string fault = WhyUnfit(folder, S_IWOTH);
+    if (fault.empty()) return std::make_shared<const MeshCache>(folder);
+    why = folder.string() + ": " + fault;
+  }
+  if (lifetime == Lifetime::kProcess) {
+    const fs::path runtime = FolderInEnvironment("XDG_RUNTIME_DIR");
+    if (!runtime.empty() && WhyUnfit(runtime, 0077).empty()) {
+      const fs::path folder = runtime / "kinescope";
+      if (WhyUnfit(folder, 0077).empty()) return std::make_shared<const MeshCache>(folder);
+    }
+    try {
+      auto scratch = std::make_unique<const ScratchFolder>();
+      return std::shared_ptr<const MeshCache>(
+          new MeshCache(std::make_shared<const Store>(std::move(scratch))));
+    } catch (const std::exception& error) {
+      why += std::string("; ") + error.what();
+    }
+  }
   spdlog::warn(
-      "cannot write mesh files, so the body is drawn with primitives and without tools: {}: {}",
-      root.string(), error.message());
+      "cannot write mesh files, so the body is drawn with primitives and without tools: {}", why);
   return nullptr;
 }
 

@@ -1,6 +1,7 @@
 #include "server/http/access.h"
 
 #include <algorithm>
+#include <random>
 
 #include "core/system/starts_with.h"
 
@@ -22,17 +23,29 @@ std::string_view Trim(std::string_view text) {
   return text;
 }
 
-std::string_view FindCookie(std::string_view cookies, std::string_view name) {
+std::vector<std::string> FindCookies(std::string_view cookies, std::string_view name) {
+  std::vector<std::string> found;
   while (!cookies.empty()) {
     const std::size_t end = cookies.find(';');
     const std::string_view pair = Trim(cookies.substr(0, end));
     const std::size_t equals = pair.find('=');
     if (equals != std::string_view::npos && pair.substr(0, equals) == name) {
-      return pair.substr(equals + 1);
+      found.emplace_back(pair.substr(equals + 1));
     }
     cookies.remove_prefix(end == std::string_view::npos ? cookies.size() : end + 1);
   }
-  return {};
+  return found;
+}
+
+std::optional<std::string> FindBearer(std::string_view authorization) {
+  constexpr std::string_view kScheme = "bearer ";
+  if (authorization.size() < kScheme.size()) return std::nullopt;
+  const std::string_view scheme = authorization.substr(0, kScheme.size());
+  const bool is_bearer =
+      std::equal(scheme.begin(), scheme.end(), kScheme.begin(),
+                 [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a + 32 : a) == b; });
+  if (!is_bearer) return std::nullopt;
+  return std::string(Trim(authorization.substr(kScheme.size())));
 }
 
 bool IsAlphaNumeric(char c) {
@@ -41,21 +54,42 @@ bool IsAlphaNumeric(char c) {
 
 }  // namespace
 
-Access CheckToken(const std::string& token, const std::string& cookie_name, const Target& target,
-                  std::string_view cookies) {
-  if (token.empty()) return Access::kOpen;
+GivenTokens FindTokens(const Target& target, std::string_view authorization,
+                       std::string_view cookies, std::string_view cookie_name) {
+  GivenTokens given;
   const auto asked = target.query.find("token");
-  if (asked != target.query.end() && EqualInConstantTime(asked->second, token)) {
-    return Access::kByQuery;
-  }
-  return EqualInConstantTime(FindCookie(cookies, cookie_name), token) ? Access::kByCookie
-                                                                      : Access::kDenied;
+  if (asked != target.query.end()) given.query = asked->second;
+  given.header = FindBearer(authorization);
+  given.cookies = FindCookies(cookies, cookie_name);
+  return given;
+}
+
+Access CheckToken(const std::string& token, const GivenTokens& given) {
+  if (token.empty()) return Access::kOpen;
+  const auto is_right = [&](const std::string& text) { return EqualInConstantTime(text, token); };
+  if (given.query && is_right(*given.query)) return Access::kByQuery;
+  if (given.header && is_right(*given.header)) return Access::kByHeader;
+  return std::any_of(given.cookies.begin(), given.cookies.end(), is_right) ? Access::kByCookie
+                                                                           : Access::kDenied;
 }
 
 bool FitsIntoCookie(std::string_view token) {
   return std::all_of(token.begin(), token.end(), [](char c) {
     return IsAlphaNumeric(c) || c == '-' || c == '.' || c == '_' || c == '~';
   });
+}
+
+std::string RandomToken() {
+  std::random_device random;  // the kernel's
+  std::string token;
+  while (token.size() < 32) token += "0123456789abcdef"[random() % 16];
+  return token;
+}
+
+std::string Shortened(std::string_view token) { return std::string(token.substr(0, 4)) + "..."; }
+
+bool IsFromAnotherSite(std::string_view sec_fetch_site) {
+  return !sec_fetch_site.empty() && sec_fetch_site != "same-origin" && sec_fetch_site != "none";
 }
 
 bool IsSameOrigin(std::string_view origin, std::string_view host) {

@@ -2,8 +2,10 @@
 /// thread.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "server/http/target.h"
 
@@ -12,16 +14,42 @@ namespace kinescope::http {
 enum class Access {
   kDenied,
   kByCookie,
-  kByQuery,  // the answer should set the cookie, so that later requests of the page are accepted
-  kOpen,     // no token is required
+  kByQuery,   // the answer should set the cookie, so that later requests of the page are accepted
+  kByHeader,  // Authorization: Bearer
+  kOpen,      // no token is required
 };
 
-/// `cookies`: the Cookie header. The comparison takes the same time for every wrong token.
-[[nodiscard]] Access CheckToken(const std::string& token, const std::string& cookie_name,
-                                const Target& target, std::string_view cookies);
+/// The tokens that a request contains, right or wrong.
+struct GivenTokens {
+  std::optional<std::string> query, header;
+  /// Of our name. A page on another port of the same host can add some.
+  std::vector<std::string> cookies;
+
+  bool any() const { return query || header || !cookies.empty(); }
+};
+
+/// `authorization`, `cookies`: the headers of these names; several of them joined with "; ".
+[[nodiscard]] GivenTokens FindTokens(const Target& target, std::string_view authorization,
+                                     std::string_view cookies, std::string_view cookie_name);
+
+/// The comparison takes the same time for every wrong token.
+[[nodiscard]] Access CheckToken(const std::string& token, const GivenTokens& given);
+
+/// Shorter tokens can be guessed.
+inline constexpr std::size_t kMinTokenLength = 16;
 
 /// Whether `token` can be used as the value of a cookie: letters, digits and -._~ only.
 [[nodiscard]] bool FitsIntoCookie(std::string_view token);
+
+/// 128 random bits in hexadecimal digits.
+[[nodiscard]] std::string RandomToken();
+
+/// `token` as logs may show it: its first four characters and "...".
+[[nodiscard]] std::string Shortened(std::string_view token);
+
+/// Whether another site made a browser send a request with this Sec-Fetch-Site header. Browsers
+/// send none to plain http:// addresses of other machines; other clients never do.
+[[nodiscard]] bool IsFromAnotherSite(std::string_view sec_fetch_site);
 
 /// Whether a page of `origin` (Origin header) was served by `host` (Host header). True without an
 /// origin: then the client is not a web page.

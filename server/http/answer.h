@@ -1,6 +1,7 @@
 /// Requests and answers as the router uses them. Plain values without types of the HTTP library.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -19,7 +20,14 @@ struct Request {
   std::string cookies;
   std::string if_none_match;
   std::string content_type;
-  std::string body;
+  std::optional<std::string> body;  // nullopt: not read yet
+  std::string authorization;
+  std::string accept;
+  std::string sec_fetch_site;
+  std::string page_header;      // X-Kinescope-Page, which only our page and other programs can set
+  std::string forwarded_proto;  // X-Forwarded-Proto
+  std::string address;          // of the client, without port
+  std::chrono::steady_clock::time_point received_at{};
 };
 
 struct SnapshotRequest {
@@ -35,7 +43,12 @@ struct Answer {
   std::optional<std::filesystem::path> file;  // sent in place of `body`
   std::optional<SnapshotRequest> snapshot;    // rendered first, then sent in place of `body`
   std::vector<std::pair<std::string, std::string>> headers;
+  bool to_token_holder = false;  // the request contained the token
+  bool needs_body = false;       // nothing is sent: the request is routed again with its body
 };
+
+/// The reason if a picture or its camera is requested from a server without a renderer.
+inline constexpr char kNoRenderer[] = "this server renders no pictures (--pictures=off)";
 
 /// {"error": reason}: the form of every error under /api and /snapshot.png.
 [[nodiscard]] Answer ErrorAnswer(int status, const std::string& reason);

@@ -8,8 +8,6 @@
 #include "core/palette.h"
 #include "core/person_links.h"
 #include "core/system/json_text.h"
-#include "core/system/starts_with.h"
-#include "server/http/target.h"
 
 namespace kinescope::http {
 namespace {
@@ -62,11 +60,6 @@ json HandLoadToJson(const StatedHandLoad& stated) {
           {"right_kg", stated.alone_kg[urdf::kRight]},
           {"left_kg", stated.alone_kg[urdf::kLeft]},
           {"both_kg", stated.both_kg}};
-}
-
-// Which filter the accelerations have passed; "" where none counts.
-const char* FilterName(const BodyForces& forces) {
-  return !forces.is_dynamic ? "" : forces.is_zero_phase ? "zero-phase" : "causal";
 }
 
 json FloorOrNull(const BodyForces& forces) {
@@ -279,7 +272,8 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFram
                {"framing",
                 {{"min_width_m", framing.min_width_m},
                  {"margin_m", framing.margin_m},
-                 {"narrowest_aspect", framing.narrowest_aspect}}},
+                 {"narrowest_aspect", framing.narrowest_aspect},
+                 {"reach_m", framing.reach_m}}},
                {"live", live_camera},
                {"has_pictures", has_pictures}});
 }
@@ -317,36 +311,37 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
     objects.push_back(
         {{"character", object.character}, {"number", object.number}, {"name", object.name}});
   }
+  json left_out = json::array();
+  for (std::size_t i = 0; state != nullptr && i < state->left_out.size(); ++i) {
+    const LeftOutPerson& person = state->left_out[i];
+    left_out.push_back(
+        {{"character", person.character}, {"name", person.name}, {"reason", person.why}});
+  }
   return Text({{"details",
                 {{"source", state != nullptr ? state->source : std::string()},
                  {"camera", live_camera},
                  {"has_pictures", has_pictures},
                  {"people", std::move(people)},
-                 {"objects", std::move(objects)}}}});
+                 {"objects", std::move(objects)},
+                 {"left_out", std::move(left_out)}}}});
 }
 
-std::optional<std::filesystem::path> FindMesh(const SceneState* state, int character,
-                                              std::uint64_t revision, std::size_t n) {
-  if (state == nullptr) return std::nullopt;
+std::shared_ptr<const std::string> FindMesh(const SceneState* state, int character,
+                                            std::uint64_t revision, std::size_t n) {
+  if (state == nullptr) return nullptr;
   for (const PersonState& person : state->people) {
     if (person.character != character || person.model->revision != revision) continue;
+    if (!person.model->mesh_files) return nullptr;
     std::size_t number = 0;
     for (const urdf::Link& link : person.model->robot.links) {
       for (const urdf::Visual& visual : link.visuals) {
         if (!IsMesh(visual) || number++ != n) continue;
         const std::string& uri = visual.geometry.mesh_uri;
-        if (!StartsWith(uri, "file://")) return std::nullopt;
-        const auto decoded = PercentDecode(std::string_view(uri).substr(7));
-        if (!decoded || decoded->find('\0') != std::string::npos) return std::nullopt;
-        std::filesystem::path path(*decoded);
-        std::string extension = path.extension().string();
-        for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-        if (!path.is_absolute() || extension != ".stl") return std::nullopt;
-        return path;
+        return person.model->mesh_files->Content(uri.substr(uri.rfind('/') + 1));
       }
     }
   }
-  return std::nullopt;
+  return nullptr;
 }
 
 }  // namespace kinescope::http

@@ -4,8 +4,7 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,10 +29,10 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFram
 /// text.
 std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures);
 
-/// The file for /api/mesh/<person>/<revision>/<n>: the n-th mesh visual of that person's model.
-/// nullopt unless the model names it by a file:// URI of an STL file and the revision is the
-/// current one.
-std::optional<std::filesystem::path> FindMesh(const SceneState* state, int character,
-                                              std::uint64_t revision, std::size_t n);
+/// The STL file for /api/mesh/<person>/<revision>/<n>: the n-th mesh visual of that person's model,
+/// from memory. Null unless it is one of the model's own meshes and the revision is the current
+/// one.
+std::shared_ptr<const std::string> FindMesh(const SceneState* state, int character,
+                                            std::uint64_t revision, std::size_t n);
 
 }  // namespace kinescope::http

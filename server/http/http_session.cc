@@ -1,12 +1,19 @@
 #include "server/http/http_session.h"
 
+#include <sys/socket.h>
+
+#include <algorithm>
 #include <boost/asio/post.hpp>
+#include <boost/beast/core/string.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/file_body.hpp>
 #include <boost/beast/http/read.hpp>
+#include <boost/beast/http/serializer.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+#include <cerrno>
 #include <exception>
+#include <string_view>
 #include <utility>
 
 #include "server/http/ws_session.h"
@@ -17,10 +24,10 @@ namespace {
 namespace beast = boost::beast;
 namespace bhttp = boost::beast::http;
 
-constexpr std::uint32_t kMaxHeaderBytes = 8192;
-constexpr std::uint64_t kMaxBodyBytes = 4096;  // a hand load has 100
-constexpr std::chrono::seconds kReadTimeout{20};
-constexpr std::chrono::seconds kWriteTimeout{60};
+constexpr std::size_t kFirstBytes = 1024;
+constexpr std::size_t kMaxDiscardedBytes = 64 << 10;
+constexpr std::chrono::seconds kLongestDiscarding{1};
+constexpr std::size_t kMinBytesPerWindow = 80'000;
 
 // The hash is that of the import map in web/index.html, the page's only inline script;
 // tests/browser/unit/page_policy.test.mjs checks that they match.
@@ -29,18 +36,6 @@ constexpr const char* kContentSecurityPolicy =
     "style-src 'self'; "
     "img-src 'self' blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";
-
-std::string Header(const bhttp::request<bhttp::string_body>& request, bhttp::field field) {
-  const auto value = request[field];
-  return {value.data(), value.size()};
-}
-
-Request ToRequest(const bhttp::request<bhttp::string_body>& request) {
-  return {std::string(request.method_string()),        std::string(request.target()),
-          Header(request, bhttp::field::host),         Header(request, bhttp::field::origin),
-          Header(request, bhttp::field::cookie),       Header(request, bhttp::field::if_none_match),
-          Header(request, bhttp::field::content_type), request.body()};
-}
 
 void AddHeaders(bhttp::fields& fields, const Answer& answer) {
   fields.set(bhttp::field::server, "kinescope");
@@ -52,89 +47,221 @@ void AddHeaders(bhttp::fields& fields, const Answer& answer) {
   for (const auto& [name, value] : answer.headers) fields.set(name, value);
 }
 
-// 0: no answer, the connection is closed.
-int StatusOf(beast::error_code error) {
-  if (error == bhttp::error::header_limit) return 431;
-  if (error == bhttp::error::body_limit) return 413;
-  if (error == bhttp::error::end_of_stream || error == bhttp::error::partial_message) return 0;
-  return error.category() == make_error_code(bhttp::error::bad_value).category() ? 400 : 0;
-}
-
 }  // namespace
 
-HttpSession::HttpSession(boost::asio::ip::tcp::socket socket, Shared& shared)
-    : stream_(std::move(socket)), shared_(shared) {
-  ++shared_.connections;
+// A response on its way.
+template <class Body>
+struct HttpSession::Outgoing {
+  Outgoing(bhttp::status status, unsigned version) : message(status, version) {}
+
+  bhttp::response<Body> message;
+  std::optional<bhttp::response_serializer<Body>> serializer;  // made when the message is complete
+  std::size_t window_bytes = 0;  // sent since the client was last given time
+  Clock::time_point deadline{};  // for all of it
+};
+
+HttpSession::HttpSession(boost::asio::ip::tcp::socket socket, std::string address, Shared& shared)
+    : stream_(std::move(socket)), shared_(shared), incoming_(kMaxIncomingBytes) {
+  connection_.address = std::move(address);
+  connection_.opened = Clock::now();
+  connection_.close = [this] { stream_.close(); };
+  shared_.connections.Add(connection_);
 }
 
-HttpSession::~HttpSession() { --shared_.connections; }
+HttpSession::~HttpSession() { shared_.connections.Remove(connection_); }
 
 void HttpSession::Read() {
+  is_head_ = false;
+  version_ = 11;
   parser_.emplace();
   parser_->header_limit(kMaxHeaderBytes);
   parser_->body_limit(kMaxBodyBytes);
-  stream_.expires_after(kReadTimeout);
-  bhttp::async_read(
-      stream_, incoming_, *parser_,
-      [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnRead(error); });
+  Enter(Connection::Phase::kWaiting);
+  if (std::exchange(is_first_, false) || incoming_.size() > 0) return ReadHeader();
+  stream_.expires_after(shared_.patience.next_request);
+  stream_.async_read_some(incoming_.prepare(kFirstBytes),
+                          [self = shared_from_this()](beast::error_code error, std::size_t bytes) {
+                            if (error) return;
+                            self->incoming_.commit(bytes);
+                            self->ReadHeader();
+                          });
 }
 
-void HttpSession::OnRead(beast::error_code error) {
-  keep_alive_ = !error && parser_->keep_alive();
-  is_head_ = !error && parser_->get().method() == bhttp::verb::head;
-  version_ = error ? 11 : parser_->get().version();
-  if (error) {
-    const int status = StatusOf(error);
-    if (status == 0) return;
-    ++shared_.counters->rejected["bad request"];
-    return Send(ErrorAnswer(status, "invalid or unsupported HTTP request"));
+void HttpSession::ReadHeader() {
+  stream_.expires_after(shared_.patience.header);
+  bhttp::async_read_header(
+      stream_, incoming_, *parser_,
+      [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnHeader(error); });
+}
+
+void HttpSession::OnHeader(beast::error_code error) {
+  if (error) return RejectUnreadable(error);
+  const auto& request = parser_->get();
+  is_head_ = request.method() == bhttp::verb::head;
+  version_ = request.version();
+  if (const auto defect = FindDefect(request)) return Reject(*defect);
+  const bool has_body = !parser_->is_done();
+  if (has_body && beast::websocket::is_upgrade(request)) {
+    return Reject({400, "the request for a WebSocket has a body; send it without"});
   }
+  request_ = ToRequest(request, connection_.address, Clock::now());
+  if (!has_body) request_.body.emplace();
+  // Most answers do not need the body: then it is not read, and nothing that follows it either.
+  is_unread_ = has_body;
+  keep_alive_ = !has_body && parser_->keep_alive();
   ++shared_.counters->requests;
+  Handle();
+}
+
+void HttpSession::ReadBody() {
+  // Some clients wait a second for this before they send a body.
+  const bool is_awaited = version_ >= 11 && incoming_.size() == 0 &&
+                          beast::iequals(parser_->get()[bhttp::field::expect], "100-continue");
+  if (is_awaited && !SendContinue()) return;
+  stream_.expires_after(shared_.patience.body);
+  bhttp::async_read(
+      stream_, incoming_, *parser_,
+      [self = shared_from_this()](beast::error_code error, std::size_t) { self->OnBody(error); });
+}
+
+void HttpSession::OnBody(beast::error_code error) {
+  if (error) return RejectUnreadable(error);
+  request_.body = std::move(parser_->get().body());
+  is_unread_ = false;
+  keep_alive_ = parser_->keep_alive();
+  Handle();
+}
+
+void HttpSession::Enter(Connection::Phase phase) {
+  connection_.phase = phase;
+  connection_.since = Clock::now();
+}
+
+void HttpSession::Reject(const RequestDefect& defect) {
+  is_unread_ = true;
+  keep_alive_ = false;
+  ++shared_.counters->rejected["bad request"];
+  Send(ErrorAnswer(defect.status, defect.reason));
+}
+
+void HttpSession::RejectUnreadable(beast::error_code error) {
+  if (const auto defect = FindDefect(error, parser_->get())) Reject(*defect);
+}
+
+void HttpSession::Handle() {
   try {
-    Handle();
+    Respond();
   } catch (const std::exception& failure) {
     ++shared_.counters->failures;
     Send(ErrorAnswer(500, failure.what()));
   }
 }
 
-void HttpSession::Handle() {
+void HttpSession::Respond() {
   if (beast::websocket::is_upgrade(parser_->get())) return BecomeWebSocket();
-  Answer answer = shared_.router->Route(ToRequest(parser_->get()));
+  Answer answer = shared_.router->Route(request_);
+  connection_.has_token = answer.to_token_holder;
+  if (answer.needs_body) return ReadBody();
   if (answer.snapshot) return Draw(std::move(answer));
   Send(std::move(answer));
 }
 
 void HttpSession::BecomeWebSocket() {
-  if (auto refusal = shared_.router->RefuseWebSocket(ToRequest(parser_->get()))) {
+  if (auto refusal = shared_.router->RefuseWebSocket(request_)) {
     return Send(*std::move(refusal));
   }
-  if (shared_.hub->client_count() >= kMaxClients) {
+  if (!shared_.hub->HasPlaceFor(connection_.address)) {
     ++shared_.counters->rejected["too many clients"];
-    return Send(ErrorAnswer(
-        503, "too many clients (limit " + std::to_string(kMaxClients) + "); try again later"));
+    return Send(ErrorAnswer(503, shared_.hub->WhyNoPlaceFor(connection_.address)));
   }
-  std::make_shared<WsSession>(std::move(stream_), *shared_.hub, shared_.next_client_id++)
+  shared_.connections.Remove(connection_);
+  std::make_shared<WsSession>(std::move(stream_), connection_.address, *shared_.hub,
+                              shared_.next_client_id++)
       ->Accept(parser_->get());
 }
 
 void HttpSession::Draw(Answer answer) {
-  ++shared_.counters->snapshots;
-  stream_.expires_never();  // no time limit while a picture is rendered
   const SnapshotRequest request = *answer.snapshot;
+  const auto now = Clock::now();
+  if (auto refusal = shared_.pixels->Refuse(connection_.address, request, now)) {
+    ++shared_.counters->rejected["too many pixels"];
+    return Send(*std::move(refusal));
+  }
+  const auto is_wanted = std::make_shared<std::atomic<bool>>(true);
+  // The last reference to this session is let go on the server's thread.
   auto done = [self = shared_from_this(), answer](SnapshotResult result) mutable {
-    boost::asio::post(self->stream_.get_executor(), [self, answer = std::move(answer),
-                                                     result = std::move(result)]() mutable {
+    const auto executor = self->stream_.get_executor();
+    boost::asio::post(executor, [self = std::move(self), answer = std::move(answer),
+                                 result = std::move(result)]() mutable {
+      beast::error_code ignored;
+      self->stream_.socket().cancel(ignored);  // stop watching
+      if (!result && result.error().status == kAbandoned) return;
       if (!result) return self->Send(ErrorAnswer(result.error().status, result.error().reason));
       answer.body.assign(result->begin(), result->end());
       self->Send(std::move(answer));
     });
   };
-  if (shared_.snapshots != nullptr && shared_.snapshots->Submit(request, std::move(done))) return;
+  using Submission = SnapshotWorker::Submission;
+  const auto submission =
+      shared_.snapshots == nullptr
+          ? Submission::kQueueFull
+          : shared_.snapshots->Submit(connection_.address, request, is_wanted, std::move(done));
+  if (submission == Submission::kQueued) {
+    shared_.pixels->Pay(connection_.address, request, now);
+    ++shared_.counters->snapshots;
+    Enter(Connection::Phase::kDrawing);
+    stream_.expires_never();  // no time limit while a picture is rendered
+    return WatchForEnd(is_wanted);
+  }
   ++shared_.counters->rejected["too many snapshots"];
-  Answer busy = ErrorAnswer(503, "too many snapshots are being rendered; try again later");
+  Answer busy = submission == Submission::kShareFull
+                    ? ErrorAnswer(429, std::to_string(SnapshotWorker::kMaxWaitingPerAddress) +
+                                           " snapshots of " + connection_.address +
+                                           " wait already; try again when one has come")
+                    : ErrorAnswer(503, std::to_string(SnapshotWorker::kMaxWaiting) +
+                                           " snapshots wait already; try again later");
   busy.headers.emplace_back("Retry-After", "1");
   Send(std::move(busy));
+}
+
+// Until the picture is there: a client that has hung up needs none.
+void HttpSession::WatchForEnd(const std::shared_ptr<std::atomic<bool>>& is_wanted) {
+  stream_.socket().async_wait(boost::asio::ip::tcp::socket::wait_read,
+                              [self = shared_from_this(), is_wanted](beast::error_code error) {
+                                if (error) return;
+                                char byte = 0;
+                                const ssize_t count = ::recv(self->stream_.socket().native_handle(),
+                                                             &byte, 1, MSG_PEEK | MSG_DONTWAIT);
+                                if (count < 0 && errno == EAGAIN)
+                                  return self->WatchForEnd(is_wanted);
+                                if (count > 0) return;  // its next request
+                                if (count == 0) return self->WatchForReset(is_wanted);
+                                *is_wanted = false;
+                                ++self->shared_.counters->rejected["abandoned"];
+                              });
+}
+
+// The client sends nothing more: it may have hung up, or wait for its picture. A byte tells: who
+// has hung up resets the connection. HTTP/1.1 allows an interim response, HTTP/1.0 does not.
+void HttpSession::WatchForReset(const std::shared_ptr<std::atomic<bool>>& is_wanted) {
+  if (version_ < 11 || !SendContinue()) return;
+  stream_.socket().async_wait(boost::asio::ip::tcp::socket::wait_error,
+                              [self = shared_from_this(), is_wanted](beast::error_code error) {
+                                if (error) return;
+                                *is_wanted = false;
+                                ++self->shared_.counters->rejected["abandoned"];
+                              });
+}
+
+// The interim response, at once or not at all. False: the connection is closed, because a part of
+// it would have spoilt the answer.
+bool HttpSession::SendContinue() {
+  constexpr std::string_view kInterim = "HTTP/1.1 100 Continue\r\n\r\n";
+  const ssize_t sent = ::send(stream_.socket().native_handle(), kInterim.data(), kInterim.size(),
+                              MSG_NOSIGNAL | MSG_DONTWAIT);
+  const bool is_cut = sent >= 0 && sent < static_cast<ssize_t>(kInterim.size());
+  if (is_cut) stream_.close();
+  return !is_cut;
 }
 
 void HttpSession::Send(Answer answer) {
@@ -146,42 +273,84 @@ void HttpSession::Send(Answer answer) {
     if (error) return Send(ErrorAnswer(404, "the file no longer exists"));
     const std::uint64_t size = file.size();
     if (!is_head_) {
-      auto response = std::make_shared<bhttp::response<bhttp::file_body>>(status, version_);
-      AddHeaders(*response, answer);
-      response->body() = std::move(file);
-      response->content_length(size);
+      auto response = std::make_shared<Outgoing<bhttp::file_body>>(status, version_);
+      AddHeaders(response->message, answer);
+      response->message.body() = std::move(file);
+      response->message.content_length(size);
       return Write(std::move(response));
     }
-    auto response = std::make_shared<bhttp::response<bhttp::empty_body>>(status, version_);
-    AddHeaders(*response, answer);
-    response->content_length(size);
+    auto response = std::make_shared<Outgoing<bhttp::empty_body>>(status, version_);
+    AddHeaders(response->message, answer);
+    response->message.content_length(size);
     return Write(std::move(response));
   }
   if (is_head_ || answer.status == 304) {
-    auto response = std::make_shared<bhttp::response<bhttp::empty_body>>(status, version_);
-    AddHeaders(*response, answer);
-    if (is_head_) response->content_length(answer.body.size());
+    auto response = std::make_shared<Outgoing<bhttp::empty_body>>(status, version_);
+    AddHeaders(response->message, answer);
+    if (is_head_) response->message.content_length(answer.body.size());
     return Write(std::move(response));
   }
-  auto response = std::make_shared<bhttp::response<bhttp::string_body>>(status, version_);
-  AddHeaders(*response, answer);
-  response->body() = std::move(answer.body);
-  response->content_length(response->body().size());
+  auto response = std::make_shared<Outgoing<bhttp::string_body>>(status, version_);
+  AddHeaders(response->message, answer);
+  response->message.body() = std::move(answer.body);
+  response->message.content_length(response->message.body().size());
   Write(std::move(response));
 }
 
-template <class Response>
-void HttpSession::Write(std::shared_ptr<Response> response) {
-  response->keep_alive(keep_alive_);
-  stream_.expires_after(kWriteTimeout);
-  bhttp::async_write(stream_, *response,
-                     [self = shared_from_this(), response](beast::error_code error, std::size_t) {
-                       if (error) return;
-                       if (self->keep_alive_) return self->Read();
-                       beast::error_code ignored;
-                       self->stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send,
-                                                       ignored);
-                     });
+template <class Body>
+void HttpSession::Write(std::shared_ptr<Outgoing<Body>> outgoing) {
+  outgoing->message.keep_alive(keep_alive_);
+  outgoing->serializer.emplace(outgoing->message);
+  Enter(Connection::Phase::kWriting);
+  outgoing->deadline = connection_.since + shared_.patience.response;
+  stream_.expires_at(
+      std::min(outgoing->deadline, connection_.since + shared_.patience.write_window));
+  WriteSome(std::move(outgoing));
+}
+
+// A client that reads too slowly is disconnected: its response would stay in memory.
+template <class Body>
+void HttpSession::WriteSome(std::shared_ptr<Outgoing<Body>> outgoing) {
+  auto& serializer = *outgoing->serializer;
+  bhttp::async_write_some(
+      stream_, serializer,
+      [self = shared_from_this(), outgoing](beast::error_code error, std::size_t bytes) {
+        if (error) return self->OnWriteFailed(error);
+        if (outgoing->serializer->is_done()) return self->OnWritten();
+        const auto now = Clock::now();
+        self->connection_.since = now;
+        outgoing->window_bytes += bytes;
+        if (outgoing->window_bytes >= kMinBytesPerWindow) {
+          outgoing->window_bytes = 0;
+          self->stream_.expires_at(
+              std::min(outgoing->deadline, now + self->shared_.patience.write_window));
+        }
+        self->WriteSome(outgoing);
+      });
+}
+
+void HttpSession::OnWriteFailed(beast::error_code error) {
+  if (error == beast::error::timeout) ++shared_.counters->rejected["response not read"];
+}
+
+void HttpSession::OnWritten() {
+  if (keep_alive_) return Read();
+  beast::error_code ignored;
+  stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+  if (!is_unread_) return;
+  Enter(Connection::Phase::kWaiting);
+  stream_.expires_after(kLongestDiscarding);
+  Discard(kMaxDiscardedBytes);
+}
+
+// Closing with unread bytes resets the connection: the client could lose the answer.
+void HttpSession::Discard(std::size_t bytes_left) {
+  incoming_.clear();
+  stream_.async_read_some(
+      incoming_.prepare(kMaxBodyBytes),
+      [self = shared_from_this(), bytes_left](beast::error_code error, std::size_t bytes) {
+        if (!error && bytes < bytes_left) self->Discard(bytes_left - bytes);
+      });
 }
 
 }  // namespace kinescope::http

@@ -1,21 +1,28 @@
 /// Serves one HTTP connection: reads requests, sends the answers of the router, and becomes a
-/// WebSocket on request. Server's thread only.
+/// WebSocket on request. A request is judged by its header; its body is read only if the answer
+/// depends on it. Incoming data take at most the size of a header and a body. Server's thread only.
 #pragma once
 
+#include <atomic>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/string_body.hpp>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "server/http/answer.h"
+#include "server/http/connections.h"
 #include "server/http/counters.h"
 #include "server/http/hub.h"
+#include "server/http/incoming_request.h"
+#include "server/http/pixel_budget.h"
 #include "server/http/router.h"
 #include "server/http/snapshot_worker.h"
+#include "server/http/stream.h"
 
 namespace kinescope::http {
 
@@ -25,13 +32,16 @@ struct Shared {
   Hub* hub = nullptr;
   Counters* counters = nullptr;
   SnapshotWorker* snapshots = nullptr;  // null: no renderer
-  int connections = 0;
+  PixelBudget* pixels = nullptr;
+  Connections connections;
+  PatienceLimits patience;
   std::uint64_t next_client_id = 1;
 };
 
 class HttpSession : public std::enable_shared_from_this<HttpSession> {
  public:
-  HttpSession(boost::asio::ip::tcp::socket socket, Shared& shared);
+  /// `address`: of the client, without port.
+  HttpSession(boost::asio::ip::tcp::socket socket, std::string address, Shared& shared);
   ~HttpSession();
   HttpSession(const HttpSession&) = delete;
   HttpSession& operator=(const HttpSession&) = delete;
@@ -40,21 +50,42 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
 
  private:
   using Parser = boost::beast::http::request_parser<boost::beast::http::string_body>;
+  template <class Body>
+  struct Outgoing;
 
-  void OnRead(boost::beast::error_code error);
+  void ReadHeader();
+  void OnHeader(boost::beast::error_code error);
+  void ReadBody();
+  void OnBody(boost::beast::error_code error);
+  void Reject(const RequestDefect& defect);
+  void RejectUnreadable(boost::beast::error_code error);
+  void Enter(Connection::Phase phase);
   void Handle();
+  void Respond();
   void BecomeWebSocket();
   void Draw(Answer answer);
+  void WatchForEnd(const std::shared_ptr<std::atomic<bool>>& is_wanted);
+  void WatchForReset(const std::shared_ptr<std::atomic<bool>>& is_wanted);
+  [[nodiscard]] bool SendContinue();
   void Send(Answer answer);
-  template <class Response>
-  void Write(std::shared_ptr<Response> response);
+  template <class Body>
+  void Write(std::shared_ptr<Outgoing<Body>> outgoing);
+  template <class Body>
+  void WriteSome(std::shared_ptr<Outgoing<Body>> outgoing);
+  void OnWriteFailed(boost::beast::error_code error);
+  void OnWritten();
+  void Discard(std::size_t bytes_left);
 
-  boost::beast::tcp_stream stream_;
+  Stream stream_;
   Shared& shared_;
   boost::beast::flat_buffer incoming_;
   std::optional<Parser> parser_;  // a new one per request
+  Request request_;               // its header alone, so that trailers change nothing, and its body
+  Connection connection_;         // as the others see it
+  bool is_first_ = true;          // no request has been answered yet
   bool is_head_ = false;
   bool keep_alive_ = false;
+  bool is_unread_ = false;  // the client may still send a part of the request
   unsigned version_ = 11;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/http/answer.h"
 #include "server/http/api.h"
 
 namespace kinescope::http {
@@ -25,8 +26,25 @@ Hub::Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, Pict
       camera_(std::move(camera)),
       counters_(counters) {}
 
+int Hub::CountOf(const std::string& address) const {
+  return static_cast<int>(
+      std::count_if(clients_.begin(), clients_.end(),
+                    [&](const HubClient* client) { return client->address() == address; }));
+}
+
+bool Hub::HasPlaceFor(const std::string& address) const {
+  return CountOf(address) < kMaxClients - client_count_;
+}
+
+std::string Hub::WhyNoPlaceFor(const std::string& address) const {
+  return "too many clients: " + std::to_string(CountOf(address)) + " WebSockets of " + address +
+         " are open, and " + std::to_string(client_count_) + " of " + std::to_string(kMaxClients) +
+         " in all; an address may have as many as there are free places. Close other pages, or "
+         "try again later";
+}
+
 bool Hub::Join(HubClient& client) {
-  if (clients_.size() >= static_cast<std::size_t>(kMaxClients)) return false;
+  if (!HasPlaceFor(client.address())) return false;
   clients_.insert(&client);
   client_count_ = static_cast<int>(clients_.size());
   ++counters_.opened;
@@ -60,10 +78,10 @@ Hub::Clock::duration Hub::SendState(Clock::time_point now) {
 void Hub::SendPicture() {
   const std::shared_ptr<const Picture> picture = pictures_.Get();
   if (viewers_ == 0 || picture == nullptr) return;
-  const SharedBytes message = Share(EncodePicture(*picture));
+  picture_ = Share(EncodePicture(*picture));
   ++counters_.pictures_encoded;
   for (HubClient* const client : clients_) {
-    if (client->wants_pictures()) client->Offer(Slot::kPicture, message);
+    if (client->wants_pictures()) client->Offer(Slot::kPicture, picture_);
   }
 }
 
@@ -90,23 +108,25 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
         Share(EncodeError("seen_states or seen_pictures is larger than the number sent")));
   }
   if (command->pictures) SetPictures(client, *command->pictures);
-  if (command->camera) {
-    if (feed_ != nullptr && feed_->SetCamera(*command->camera)) {
-      camera_ = *command->camera;
-    } else {
-      ++counters_.rejected["unknown camera"];
-      client.Offer(Slot::kError, Share(EncodeError("unknown camera " + *command->camera)));
-    }
-  }
+  if (command->camera) SelectCamera(client, *command->camera);
   if (command->ping) client.Offer(Slot::kPong, Share(EncodePong(*command->ping, NowNanos())));
 }
 
+void Hub::SelectCamera(HubClient& client, const std::string& camera) {
+  if (feed_ != nullptr && feed_->SetCamera(camera)) {
+    camera_ = camera;
+    return;
+  }
+  ++counters_.rejected[feed_ == nullptr ? "no renderer" : "unknown camera"];
+  client.Offer(Slot::kError,
+               Share(EncodeError(feed_ == nullptr ? kNoRenderer : "unknown camera " + camera)));
+}
+
 void Hub::SetPictures(HubClient& client, bool wanted) {
-  // With other viewers the newest picture is current; otherwise it may be an hour old.
-  const std::shared_ptr<const Picture> picture = viewers_ > 0 ? pictures_.Get() : nullptr;
+  if (client.wants_pictures() == wanted) return;
   client.SetWantsPictures(wanted);
   CountViewers();
-  if (wanted && picture != nullptr) client.Offer(Slot::kPicture, Share(EncodePicture(*picture)));
+  if (wanted && picture_ != nullptr) client.Offer(Slot::kPicture, picture_);
 }
 
 void Hub::CountViewers() {
@@ -116,6 +136,7 @@ void Hub::CountViewers() {
       }));
   if (viewers == viewers_) return;
   viewers_ = viewers;
+  if (viewers == 0) picture_ = nullptr;  // without viewers it would grow old
   if (feed_ != nullptr) feed_->SetViewers(viewers);
 }
 

@@ -34,6 +34,7 @@ class HubClient {
   /// Acknowledges `count` messages in `slot`; false if fewer were sent.
   [[nodiscard]] virtual bool OnSeen(Slot slot, std::uint64_t count) = 0;
   virtual ClientCounters counters() const = 0;
+  virtual const std::string& address() const = 0;  // of the client's machine
 };
 
 class Hub {
@@ -44,7 +45,12 @@ class Hub {
   Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, PictureFeed* feed,
       std::string camera, Counters& counters);
 
-  /// False if kMaxClients are connected already.
+  /// Whether a client at `address` may join: while its address has fewer clients than there are
+  /// free places. So one address takes at most half of all, and never the last one.
+  [[nodiscard]] bool HasPlaceFor(const std::string& address) const;
+  /// Why it may not, for the client, with the way out.
+  [[nodiscard]] std::string WhyNoPlaceFor(const std::string& address) const;
+  /// False if there is no place for it.
   [[nodiscard]] bool Join(HubClient& client);
   void Leave(HubClient& client);  // does nothing for a client that has not joined
 
@@ -69,7 +75,9 @@ class Hub {
   static constexpr std::chrono::milliseconds kHeartbeat{350};
 
  private:
+  void SelectCamera(HubClient& client, const std::string& camera);
   void SetPictures(HubClient& client, bool wanted);
+  [[nodiscard]] int CountOf(const std::string& address) const;
   void CountViewers();  // call after a client has changed whether it wants pictures
   SharedBytes EncodeNewestState() const;
   SharedBytes EncodeDetails() const;
@@ -83,6 +91,7 @@ class Hub {
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_
   SharedBytes details_;               // as last sent to all clients
+  SharedBytes picture_;               // as last sent to all viewers; null without any
   Clock::time_point state_sent_at_{};
 };
 

@@ -55,6 +55,11 @@ class Writer {
 
 double Micros(std::int64_t nanos) { return static_cast<double>(nanos) / 1e3; }
 
+// In units of 10 ms.
+std::uint16_t WaitedUnits(std::int64_t nanos) {
+  return static_cast<std::uint16_t>(std::clamp<std::int64_t>(nanos / 10'000'000, 0, 65535));
+}
+
 std::uint8_t CountByte(std::size_t count) {
   return static_cast<std::uint8_t>(std::min<std::size_t>(count, 255));
 }
@@ -149,7 +154,8 @@ Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) 
   out.Put(static_cast<std::uint32_t>(viewers));
   out.PutFloat(state.floor_z);
   out.Put(objects);
-  for (int i = 0; i < 3; ++i) out.Put(std::uint8_t{0});
+  out.Put(std::uint8_t{0});
+  out.Put(WaitedUnits(state.waited_nanos));
   KINESCOPE_CHECK(out.size() == kStateHeaderBytes);
   for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i]);
   for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);

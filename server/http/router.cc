@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
-#include <system_error>
 #include <utility>
 
 #include "core/picture_limits.h"
@@ -11,7 +10,6 @@
 #include "core/system/json_text.h"
 #include "core/system/starts_with.h"
 #include "core/system/words.h"
-#include "server/http/access.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"
 
@@ -20,6 +18,16 @@ namespace {
 
 constexpr int kMaxPixels = 4096;
 constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
+constexpr char kSnapshotPath[] = "/snapshot.png";
+
+bool IsCostly(const Target& target) {
+  return target.path == kSnapshotPath || StartsWith(target.path, "/api/");
+}
+
+std::string EntityTagOf(const std::string& content) {
+  return '"' + std::to_string(content.size()) + '-' +
+         std::to_string(std::hash<std::string>()(content)) + '"';
+}
 
 template <class Number>
 std::optional<Number> ParseNumber(std::string_view text) {
@@ -36,14 +44,6 @@ Answer JsonAnswer(std::string body) {
   return answer;
 }
 
-// They are written for the first sink that reads them, which may be this one.
-void ProvideMeshes(const SceneState& state, int character) {
-  for (const PersonState& person : state.people) {
-    const auto& files = person.model->mesh_files;
-    if (person.character == character && files) files->Provide();
-  }
-}
-
 }  // namespace
 
 Answer ErrorAnswer(int status, const std::string& reason) {
@@ -58,15 +58,81 @@ Answer Router::Refuse(int status, const char* kind, const std::string& reason) c
 }
 
 std::optional<Answer> Router::RefuseStranger(const Request& request, const Target& target,
-                                             bool* set_cookie) const {
-  if (site_.token.empty() && !NamesThisMachine(request.host)) {
+                                             Access* access) const {
+  *access = Access::kOpen;
+  if (site_.token.empty()) {
+    if (NamesThisMachine(request.host)) return std::nullopt;
     return Refuse(403, "unknown host",
                   "no token is set, so only requests to localhost or 127.0.0.1 are accepted");
   }
-  const Access access = CheckToken(site_.token, site_.cookie_name, target, request.cookies);
-  *set_cookie = access == Access::kByQuery;
-  if (access != Access::kDenied) return std::nullopt;
-  return Refuse(401, "no token", "token missing or wrong; open the URL that the server printed");
+  const GivenTokens given =
+      FindTokens(target, request.authorization, request.cookies, site_.cookie_name);
+  *access = CheckToken(site_.token, given);
+  if (*access != Access::kDenied) return std::nullopt;
+  // What another site makes a browser send does not use up the share of its user.
+  const bool is_guess = given.any() && !IsFromAnotherSite(request.sec_fetch_site) &&
+                        IsSameOrigin(request.origin, request.host);
+  if (is_guess && site_.guesses != nullptr) {
+    const int secs = CountGuesses(request, given);
+    if (secs > 0) {
+      Answer answer = Refuse(429, "too many wrong tokens",
+                             "wrong token, and too many of them from " + request.address +
+                                 "; open the URL of the running server, with its token, or try " +
+                                 "another one in " + std::to_string(secs) + " s");
+      answer.headers.emplace_back("Retry-After", std::to_string(secs));
+      return answer;
+    }
+  }
+  Answer answer =
+      Refuse(401, "no token",
+             given.any() ? "wrong token; open the URL of the running server, with its token"
+                         : "token missing; open the URL of the server, which ends with ?token=...");
+  answer.headers.emplace_back("WWW-Authenticate", "Bearer");
+  return answer;
+}
+
+// Each token of the request is a guess. Returns as GuessGuard::OnWrong.
+int Router::CountGuesses(const Request& request, const GivenTokens& given) const {
+  std::vector<std::string> guesses = given.cookies;
+  for (const auto& token : {given.query, given.header}) {
+    if (token) guesses.push_back(*token);
+  }
+  int secs = 0;
+  for (const std::string& guess : guesses) {
+    secs = std::max(secs, site_.guesses->OnWrong(request.address, guess, request.received_at));
+  }
+  return secs;
+}
+
+// A foreign page can make a browser request pictures and data. It can neither read them nor add a
+// header or the token, but rendering and sending them costs time.
+std::optional<Answer> Router::RefuseOtherSite(const Request& request, const Target& target) const {
+  if (!IsCostly(target) || !IsFromAnotherSite(request.sec_fetch_site)) return std::nullopt;
+  return Refuse(403, "another site",
+                "Sec-Fetch-Site: " + request.sec_fetch_site +
+                    ": only the page of this server may request this; open the address directly");
+}
+
+// The same without Sec-Fetch-Site, which browsers do not send to plain http:// addresses of other
+// machines. A picture in a page does not accept text/html; a link does.
+std::optional<Answer> Router::RefuseBareCookie(const Request& request, const Target& target,
+                                               Access access) const {
+  const bool is_certain = !request.sec_fetch_site.empty() || !request.page_header.empty() ||
+                          request.accept.find("text/html") != std::string::npos;
+  if (target.path != kSnapshotPath || access != Access::kByCookie || is_certain) {
+    return std::nullopt;
+  }
+  return Refuse(403, "another site",
+                "the cookie alone does not show that the page of this server requests this; add "
+                "?token=..., or one of the headers Authorization: Bearer and X-Kinescope-Page: 1");
+}
+
+std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const char* what) const {
+  if (IsSameOrigin(request.origin, request.host)) return std::nullopt;
+  return Refuse(403, "foreign origin",
+                "Origin: " + request.origin + " differs from Host: " + request.host +
+                    "; only the page of this server may " + what +
+                    ". Behind a proxy, let it pass on the Host header");
 }
 
 // A new route: a line here, and one in docs/http.md.
@@ -96,8 +162,10 @@ std::string Router::ApiPaths() {
 Answer Router::Route(const Request& request) const {
   const auto target = ParseTarget(request.target);
   if (!target) return Refuse(400, "bad address", target.error());
-  bool set_cookie = false;
-  if (auto refusal = RefuseStranger(request, *target, &set_cookie)) return *std::move(refusal);
+  if (auto refusal = RefuseOtherSite(request, *target)) return *std::move(refusal);
+  Access access = Access::kDenied;
+  if (auto refusal = RefuseStranger(request, *target, &access)) return *std::move(refusal);
+  if (auto refusal = RefuseBareCookie(request, *target, access)) return *std::move(refusal);
   const ApiRoute* const api = FindApi(target->path);
   const bool posts = api != nullptr && api->method == Method::kPost;
   if (posts ? request.method != "POST" : request.method != "GET" && request.method != "HEAD") {
@@ -107,9 +175,12 @@ Answer Router::Route(const Request& request) const {
     return answer;
   }
   Answer answer = api != nullptr ? (this->*api->answer)(request) : RouteAdmitted(*target, request);
-  if (set_cookie && !posts) {
+  answer.to_token_holder = access != Access::kOpen;
+  if (access == Access::kByQuery && !posts) {
+    // A client that forges this header only spoils its own cookie, so that any proxy may set it.
+    const char* const secure = request.forwarded_proto == "https" ? "; Secure" : "";
     answer.headers.emplace_back("Set-Cookie", site_.cookie_name + "=" + site_.token +
-                                                  "; Path=/; HttpOnly; SameSite=Strict");
+                                                  "; Path=/; HttpOnly; SameSite=Strict" + secure);
   }
   return answer;
 }
@@ -117,13 +188,11 @@ Answer Router::Route(const Request& request) const {
 std::optional<Answer> Router::RefuseWebSocket(const Request& request) const {
   const auto target = ParseTarget(request.target);
   if (!target) return Refuse(400, "bad address", target.error());
-  bool set_cookie = false;
-  if (auto refusal = RefuseStranger(request, *target, &set_cookie)) return refusal;
+  if (auto refusal = RefuseForeignOrigin(request, "open its WebSocket")) return refusal;
+  Access access = Access::kDenied;
+  if (auto refusal = RefuseStranger(request, *target, &access)) return refusal;
   if (target->path != kWebSocketPath) {
     return Refuse(404, "unknown address", "the WebSocket is at /ws");
-  }
-  if (!IsSameOrigin(request.origin, request.host)) {
-    return Refuse(403, "foreign origin", "only the page of this server may open its WebSocket");
   }
   return std::nullopt;
 }
@@ -134,8 +203,8 @@ Answer Router::RouteAdmitted(const Target& target, const Request& request) const
     answer.headers.emplace_back("Upgrade", "websocket");
     return answer;
   }
-  if (target.path == "/snapshot.png") return Snapshot(target);
-  if (StartsWith(target.path, "/api/mesh/")) return Mesh(target.path);
+  if (target.path == kSnapshotPath) return Snapshot(target);
+  if (StartsWith(target.path, "/api/mesh/")) return Mesh(target.path, request);
   if (StartsWith(target.path, "/api/")) {
     return Refuse(404, "unknown address", "unknown route; expected one of " + ApiPaths());
   }
@@ -162,16 +231,19 @@ Answer Router::Cameras(const Request& /*request*/) const {
 // A foreign page can make a browser send anything that a form could send. JSON is not possible: for
 // it the browser asks first, and is rejected.
 Answer Router::SetHandLoad(const Request& request) const {
-  if (!IsSameOrigin(request.origin, request.host)) {
-    return Refuse(403, "foreign origin", "only the page of this server may set hand loads");
-  }
+  if (auto refusal = RefuseForeignOrigin(request, "set hand loads")) return *std::move(refusal);
   const std::string type = request.content_type.substr(0, request.content_type.find(';'));
   if (type != "application/json") {
     return Refuse(415, "bad content type", "expected Content-Type: application/json");
   }
   if (!site_.set_hand_load)
     return Refuse(503, "no hand loads", "this server does not accept hand loads");
-  const auto order = ParseHandLoadOrder(request.body);
+  if (!request.body) {
+    Answer answer;
+    answer.needs_body = true;
+    return answer;
+  }
+  const auto order = ParseHandLoadOrder(*request.body);
   if (!order) return Refuse(400, "bad hand load", order.error());
   const std::shared_ptr<const SceneState> state = site_.states->Get();
   static const std::vector<PersonState> kNobody;
@@ -195,7 +267,7 @@ Answer Router::SetHandLoad(const Request& request) const {
                                             {"both_kg", order->load.both_kg}}));
 }
 
-Answer Router::Mesh(const std::string& path) const {
+Answer Router::Mesh(const std::string& path, const Request& request) const {
   std::string_view rest = std::string_view(path).substr(std::string_view("/api/mesh/").size());
   std::vector<std::optional<std::uint64_t>> numbers;
   while (numbers.size() < 4) {
@@ -209,24 +281,26 @@ Answer Router::Mesh(const std::string& path) const {
   }
   const std::shared_ptr<const SceneState> state = site_.states->Get();
   const auto person = static_cast<int>(std::min<std::uint64_t>(*numbers[0], INT32_MAX));
-  const auto file = FindMesh(state.get(), person, *numbers[1], *numbers[2]);
-  if (file) ProvideMeshes(*state, person);
-  std::error_code error;
-  if (!file || !std::filesystem::is_regular_file(*file, error) ||
-      std::filesystem::file_size(*file, error) > kMaxMeshBytes || error) {
+  const auto mesh = FindMesh(state.get(), person, *numbers[1], *numbers[2]);
+  if (!mesh || mesh->size() > kMaxMeshBytes) {
     return Refuse(404, "no such mesh", "the newest model does not contain this STL file");
   }
   Answer answer;
   answer.content_type = "model/stl";
-  answer.file = *file;
-  // The meshes of a revision never change.
-  answer.headers.emplace_back("Cache-Control", "private, max-age=3600");
+  // Another process of this server has other bodies at the same addresses, so browsers ask again.
+  const std::string tag = EntityTagOf(*mesh);
+  answer.headers.emplace_back("Cache-Control", "no-cache");
+  answer.headers.emplace_back("ETag", tag);
+  if (request.if_none_match == tag) {
+    answer.status = 304;
+  } else {
+    answer.body = *mesh;
+  }
   return answer;
 }
 
 Answer Router::Snapshot(const Target& target) const {
-  if (!site_.has_pictures)
-    return Refuse(503, "no renderer", "this server renders no pictures (--pictures=off)");
+  if (!site_.has_pictures) return Refuse(503, "no renderer", kNoRenderer);
   SnapshotRequest snapshot;
   for (const auto& [name, value] : target.query) {
     if (name == "token" || name == "t") continue;  // t: makes a URL unique for a cache

@@ -12,7 +12,9 @@
 
 #include "core/scene_state.h"
 #include "core/system/latest.h"
+#include "server/http/access.h"
 #include "server/http/answer.h"
+#include "server/http/guess_guard.h"
 #include "server/http/server.h"
 #include "server/http/static_files.h"
 #include "server/http/target.h"
@@ -33,10 +35,12 @@ class Router {
     std::function<std::string()> diagnostics;  // the complete JSON, with the part of the server
     std::function<std::string()> live_camera;
     std::function<void(const std::string& reason)> count_refusal;
+    GuessGuard* guesses = nullptr;  // may be null: wrong tokens are not slowed down
   };
   explicit Router(Site site) : site_(std::move(site)) {}
 
-  /// Returns an answer for every request and counts the rejected ones.
+  /// Returns an answer for every request and counts the rejected ones. Without the body of a
+  /// request, all else is judged first: the answer is final unless it is Answer::needs_body.
   [[nodiscard]] Answer Route(const Request& request) const;
 
   /// Whether the request may open a WebSocket: nullopt, or the answer that rejects it.
@@ -48,7 +52,14 @@ class Router {
   Answer RouteAdmitted(const Target& target, const Request& request) const;
   [[nodiscard]] Answer Refuse(int status, const char* kind, const std::string& reason) const;
   [[nodiscard]] std::optional<Answer> RefuseStranger(const Request& request, const Target& target,
-                                                     bool* set_cookie) const;
+                                                     Access* access) const;
+  [[nodiscard]] int CountGuesses(const Request& request, const GivenTokens& given) const;
+  [[nodiscard]] std::optional<Answer> RefuseOtherSite(const Request& request,
+                                                      const Target& target) const;
+  [[nodiscard]] std::optional<Answer> RefuseBareCookie(const Request& request, const Target& target,
+                                                       Access access) const;
+  [[nodiscard]] std::optional<Answer> RefuseForeignOrigin(const Request& request,
+                                                          const char* what) const;
   enum class Method { kGet, kPost };  // GET: HEAD, too
   struct ApiRoute {
     const char* path;
@@ -65,7 +76,7 @@ class Router {
   Answer Diagnostics(const Request& request) const;
   Answer Cameras(const Request& request) const;
   Answer SetHandLoad(const Request& request) const;
-  Answer Mesh(const std::string& path) const;
+  Answer Mesh(const std::string& path, const Request& request) const;
   Answer Snapshot(const Target& target) const;
   Answer File(const std::string& path, const Request& request) const;
 

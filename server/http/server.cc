@@ -2,6 +2,7 @@
 
 #include <netinet/tcp.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <boost/asio/ip/tcp.hpp>
@@ -16,6 +17,7 @@
 
 #include "core/system/errors.h"
 #include "server/http/access.h"
+#include "server/http/client_address.h"
 #include "server/http/http_session.h"
 
 namespace kinescope::http {
@@ -25,8 +27,13 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr int kMaxConnections = 256;  // WebSockets are not counted here
 constexpr std::chrono::seconds kWatch{1};
+
+std::string AddressOf(const tcp::socket& socket) {
+  error_code error;
+  const asio::ip::address address = socket.remote_endpoint(error).address();
+  return error ? "unknown" : ClientAddress(address);
+}
 
 std::string Authority(const std::string& ip, int port) {
   const bool is_v6 = ip.find(':') != std::string::npos;
@@ -59,17 +66,22 @@ void CheckConfig(const HttpConfig& config) {
   if (!address.is_loopback() && config.token.empty()) {
     throw UsageError(
         "--bind_ip=" + config.bind_ip +
-        ": an address that other machines can reach needs --token; set a token, or use 127.0.0.1");
+        ": an address that other machines can reach needs a token; set --token_file=FILE, which is "
+        "made with a random token if it is missing, or use 127.0.0.1");
   }
   if (!FitsIntoCookie(config.token)) {
-    throw UsageError("--token: expected only letters, digits and -._~");
+    throw UsageError(config.token_origin + ": expected only letters, digits and -._~");
+  }
+  if (!config.token.empty() && config.token.size() < kMinTokenLength) {
+    throw UsageError(config.token_origin + ": a token of " + std::to_string(config.token.size()) +
+                     " characters can be guessed; use " + std::to_string(kMinTokenLength) +
+                     " or more, such as these random ones: " + RandomToken());
   }
 }
 
-namespace {
-
-tcp::acceptor Listen(asio::io_context& io, const HttpConfig& config) {
+Listener::Listener(const HttpConfig& config) {
   CheckConfig(config);
+  asio::io_context io;
   tcp::acceptor acceptor(io);
   const tcp::endpoint endpoint(asio::ip::make_address(config.bind_ip),
                                static_cast<unsigned short>(config.port));
@@ -78,18 +90,28 @@ tcp::acceptor Listen(asio::io_context& io, const HttpConfig& config) {
   if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
   if (!error) acceptor.bind(endpoint, error);
   if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (!error) descriptor_ = acceptor.release(error);
+  if (error == boost::system::errc::address_not_available) {
+    throw UsageError("--bind_ip=" + config.bind_ip +
+                     ": this machine does not have this address; use one of its own, 0.0.0.0 for "
+                     "all of them or 127.0.0.1 for this machine only");
+  }
   if (error) {
     throw UsageError("cannot serve the page at " + Authority(config.bind_ip, config.port) + ": " +
                      error.message() + "; choose another port with --http_port (0: a free one)");
   }
-  return acceptor;
 }
 
-}  // namespace
+Listener::~Listener() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+int Listener::Release() { return std::exchange(descriptor_, -1); }
 
 struct HttpServer::Impl {
-  Impl(const HttpConfig& config, Latest<SceneState>& states, Latest<Picture>& pictures,
-       PictureFeed* feed, std::function<std::string()> program_diagnostics);
+  Impl(const HttpConfig& config, Listener& listener, Latest<SceneState>& states,
+       Latest<Picture>& pictures, PictureFeed* feed,
+       std::function<std::string()> program_diagnostics);
   ~Impl();
 
   void Accept();
@@ -113,6 +135,8 @@ struct HttpServer::Impl {
   Counters counters_;
   StaticFiles files_;
   Hub hub_;
+  GuessGuard guesses_;
+  PixelBudget pixels_;
   std::optional<SnapshotWorker> snapshots_;
   std::optional<Router> router_;
   Shared shared_;
@@ -133,7 +157,7 @@ struct HttpServer::Impl {
   std::thread picture_watch_;
 };
 
-HttpServer::Impl::Impl(const HttpConfig& config, Latest<SceneState>& states,
+HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<SceneState>& states,
                        Latest<Picture>& pictures, PictureFeed* feed,
                        std::function<std::string()> program_diagnostics)
     : config_(config),
@@ -143,13 +167,18 @@ HttpServer::Impl::Impl(const HttpConfig& config, Latest<SceneState>& states,
       program_diagnostics_(std::move(program_diagnostics)),
       files_(config.web_root),
       hub_(states, pictures, feed, config.camera, counters_),
-      acceptor_(Listen(io_, config)) {
+      guesses_(config.warn),
+      pixels_(Clock::now()),
+      acceptor_(io_, asio::ip::make_address(config.bind_ip).is_v6() ? tcp::v6() : tcp::v4(),
+                listener.Release()) {
   port_ = acceptor_.local_endpoint().port();
   if (feed_ != nullptr) snapshots_.emplace(*feed_);
   router_.emplace(MakeSite());
   shared_.router = &*router_;
   shared_.hub = &hub_;
   shared_.counters = &counters_;
+  shared_.pixels = &pixels_;
+  shared_.patience = config_.patience;
   shared_.snapshots = snapshots_ ? &*snapshots_ : nullptr;
   Accept();
   ArmTick();
@@ -187,6 +216,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   };
   site.live_camera = [this] { return hub_.camera(); };
   site.count_refusal = [this](const std::string& reason) { ++counters_.rejected[reason]; };
+  site.guesses = &guesses_;
   return site;
 }
 
@@ -241,7 +271,9 @@ void HttpServer::Impl::ArmTick() {
   tick_.async_wait([this](error_code error) {
     if (error) return;
     ArmTick();
-    hub_.Tick(std::chrono::steady_clock::now());
+    const auto now = std::chrono::steady_clock::now();
+    hub_.Tick(now);
+    guesses_.Report(now);
   });
 }
 
@@ -263,29 +295,51 @@ void HttpServer::Impl::OnAccepted(error_code error, tcp::socket socket) {
     return;
   }
   Accept();
-  if (shared_.connections >= kMaxConnections) {
+  std::string address = AddressOf(socket);
+  if (!shared_.connections.MakeRoomFor(address, Clock::now())) {
     ++counters_.rejected["too many connections"];  // closed by its destructor
   } else {
     KeepKernelQueueShort(socket);
-    std::make_shared<HttpSession>(std::move(socket), shared_)->Read();
+    std::make_shared<HttpSession>(std::move(socket), std::move(address), shared_)->Read();
   }
 }
 
-HttpServer::HttpServer(const HttpConfig& config, Latest<SceneState>& states,
+HttpServer::HttpServer(const HttpConfig& config, Listener& listener, Latest<SceneState>& states,
                        Latest<Picture>& pictures, PictureFeed* feed,
                        std::function<std::string()> diagnostics)
-    : impl_(std::make_unique<Impl>(config, states, pictures, feed, std::move(diagnostics))) {}
+    : impl_(std::make_unique<Impl>(config, listener, states, pictures, feed,
+                                   std::move(diagnostics))) {}
+
+HttpServer::HttpServer(const HttpConfig& config, Latest<SceneState>& states,
+                       Latest<Picture>& pictures, PictureFeed* feed,
+                       std::function<std::string()> diagnostics) {
+  Listener listener(config);
+  impl_ = std::make_unique<Impl>(config, listener, states, pictures, feed, std::move(diagnostics));
+}
 
 HttpServer::~HttpServer() = default;
 
 int HttpServer::port() const { return impl_->port_; }
 
-std::string HttpServer::url() const {
-  const std::string& ip = impl_->config_.bind_ip;
+namespace {
+
+std::string UrlOf(const HttpConfig& config, int port, const std::string& token) {
+  const std::string& ip = config.bind_ip;
   // 0.0.0.0 cannot be opened; on this machine it means localhost.
   const bool is_any = ip == "0.0.0.0" || ip == "::";
-  const std::string url = "http://" + Authority(is_any ? "localhost" : ip, impl_->port_) + "/";
-  return impl_->config_.token.empty() ? url : url + "?token=" + impl_->config_.token;
+  const std::string url = "http://" + Authority(is_any ? "localhost" : ip, port) + "/";
+  return token.empty() ? url : url + "?token=" + token;
+}
+
+}  // namespace
+
+std::string HttpServer::url() const {
+  return UrlOf(impl_->config_, impl_->port_, impl_->config_.token);
+}
+
+std::string HttpServer::url_for_log() const {
+  const std::string& token = impl_->config_.token;
+  return UrlOf(impl_->config_, impl_->port_, token.empty() ? "" : Shortened(token));
 }
 
 int HttpServer::clients() const { return impl_->hub_.client_count(); }

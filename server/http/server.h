@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -40,6 +41,7 @@ struct CameraFraming {
   double min_width_m = 0;       // visible around the target in any picture
   double margin_m = 0;          // beside the outermost person of a group
   double narrowest_aspect = 1;  // width / height of a picture that a group must fit into
+  double reach_m = 0;           // of a group, from the person nearest to the origin
 };
 
 /// Renders for the server. Implemented in server/app; any thread may call it. SetViewers and
@@ -58,24 +60,57 @@ class PictureFeed {
                                                 int height) = 0;
 };
 
+/// How long the server waits for a client.
+struct PatienceLimits {
+  std::chrono::milliseconds header{
+      5000};  // from its first byte, of a new connection from the start
+  std::chrono::milliseconds body{10000};
+  std::chrono::milliseconds next_request{20000};
+  /// In this time, a client must read 80 kB of a response, or all that is left.
+  std::chrono::milliseconds write_window{10000};
+  std::chrono::milliseconds response{300'000};  // for reading a whole response
+};
+
 struct HttpConfig {
   std::string bind_ip = "127.0.0.1";
-  int port = 8080;                  // 0: any free port
-  std::string token;                // required as ?token= or cookie unless empty
-  std::filesystem::path web_root;   // folder with index.html
-  std::vector<CameraView> cameras;  // in display order
-  CameraFraming framing;            // of `cameras`
-  std::string camera;               // of the live picture at the start; one of `cameras`
+  int port = 8080;    // 0: any free port
+  std::string token;  // required as ?token=, Authorization: Bearer or cookie unless empty
+  std::string token_origin = "--token";  // where it was set, for messages about it
+  std::filesystem::path web_root;        // folder with index.html
+  std::vector<CameraView> cameras;       // in display order
+  CameraFraming framing;                 // of `cameras`
+  std::string camera;                    // of the live picture at the start; one of `cameras`
   /// Sets the hand load of `character`: returns "" or why it is rejected. Called on the server's
   /// thread, must return at once. Null: hand loads cannot be set over HTTP.
   std::function<std::string(int character, const HandLoad& load)> set_hand_load;
+  PatienceLimits patience;
+  /// Receives lines for the log, on the server's thread. May be null.
+  std::function<void(const std::string& line)> warn;
 };
 
 /// @throws UsageError for an address, port or token that cannot be used; listens nowhere.
 void CheckConfig(const HttpConfig& config);
 
+/// A port that is open already: connections wait in it until an HttpServer serves them. So a port
+/// that is in use is found before anything slow starts. Any thread, one at a time.
+class Listener {
+ public:
+  /// @throws UsageError as CheckConfig does, or with the address and port that could not be bound
+  /// and the remedy.
+  explicit Listener(const HttpConfig& config);
+  ~Listener();
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  /// The socket, which then belongs to the caller.
+  int Release();
+
+ private:
+  int descriptor_ = -1;
+};
+
 /// Maximum number of clients; further ones are asked to try again later.
-inline constexpr int kMaxClients = 64;
+inline constexpr int kMaxClients = 128;
 
 class HttpServer {
  public:
@@ -83,9 +118,11 @@ class HttpServer {
   /// `diagnostics` returns the JSON object of /api/diagnostics, to which the server adds the member
   /// "http"; it is called on the server's thread. All references are borrowed and must outlive the
   /// server. `feed` may be null (no renderer): the page then reports this.
-  /// @throws UsageError with the address and port that could not be bound and the remedy; also for
-  /// an address reachable from other machines without a token, and for a token that cannot be used
-  /// in a cookie.
+  /// `listener`: of the same config; it has served its purpose then.
+  HttpServer(const HttpConfig& config, Listener& listener, Latest<SceneState>& states,
+             Latest<Picture>& pictures, PictureFeed* feed,
+             std::function<std::string()> diagnostics);
+  /// With a listener of its own. @throws UsageError as Listener does.
   HttpServer(const HttpConfig& config, Latest<SceneState>& states, Latest<Picture>& pictures,
              PictureFeed* feed, std::function<std::string()> diagnostics);
   /// Interrupts `states` and `pictures`, which also ends all other waits on them.
@@ -93,9 +130,10 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  int port() const;         // the actual port
-  std::string url() const;  // with the token, ready to open
-  int clients() const;      // open WebSockets
+  int port() const;                 // the actual port
+  std::string url() const;          // with the token, ready to open
+  std::string url_for_log() const;  // with a part of the token
+  int clients() const;              // open WebSockets
 
  private:
   struct Impl;

@@ -1,5 +1,6 @@
 #include "server/http/snapshot_worker.h"
 
+#include <algorithm>
 #include <exception>
 #include <utility>
 
@@ -8,7 +9,8 @@
 namespace kinescope::http {
 namespace {
 
-SnapshotResult Draw(PictureFeed& feed, const SnapshotRequest& request) {
+SnapshotResult Draw(PictureFeed& feed, const SnapshotRequest& request, bool is_wanted) {
+  if (!is_wanted) return tl::unexpected(SnapshotFailure{kAbandoned, "the client has left"});
   try {
     return feed.SnapshotPng(request.camera, request.width, request.height);
   } catch (const UsageError& error) {
@@ -31,14 +33,20 @@ SnapshotWorker::~SnapshotWorker() {
   thread_.join();
 }
 
-bool SnapshotWorker::Submit(SnapshotRequest request, std::function<void(SnapshotResult)> done) {
+SnapshotWorker::Submission SnapshotWorker::Submit(
+    const std::string& address, SnapshotRequest request,
+    std::shared_ptr<const std::atomic<bool>> is_wanted, std::function<void(SnapshotResult)> done) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (tasks_.size() >= kMaxWaiting) return false;
-    tasks_.push_back({std::move(request), std::move(done)});
+    if (tasks_.size() >= kMaxWaiting) return Submission::kQueueFull;
+    const auto waiting = std::count_if(tasks_.begin(), tasks_.end(), [&](const SnapshotTask& task) {
+      return task.address == address && *task.is_wanted;
+    });
+    if (waiting >= kMaxWaitingPerAddress) return Submission::kShareFull;
+    tasks_.push_back({address, std::move(request), std::move(is_wanted), std::move(done)});
   }
   changed_.notify_one();
-  return true;
+  return Submission::kQueued;
 }
 
 void SnapshotWorker::Run() {
@@ -51,7 +59,7 @@ void SnapshotWorker::Run() {
       task = std::move(tasks_.front());
       tasks_.pop_front();
     }
-    task.done(Draw(feed_, task.request));
+    task.done(Draw(feed_, task.request, *task.is_wanted));
   }
 }
 

@@ -3,10 +3,13 @@
 /// again. Submit may be called on any thread.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -18,6 +21,9 @@
 
 namespace kinescope::http {
 
+/// Status of a snapshot that was not rendered because its client had left.
+inline constexpr int kAbandoned = 0;
+
 struct SnapshotFailure {
   int status = 500;  // 400 for a UsageError, 503 for anything else
   std::string reason;
@@ -27,19 +33,26 @@ using SnapshotResult = tl::expected<std::vector<std::uint8_t>, SnapshotFailure>;
 class SnapshotWorker {
  public:
   static constexpr std::size_t kMaxWaiting = 8;
+  static constexpr std::ptrdiff_t kMaxWaitingPerAddress = 2;
 
   explicit SnapshotWorker(PictureFeed& feed);
   ~SnapshotWorker();  // waits for the current picture; queued ones are dropped
   SnapshotWorker(const SnapshotWorker&) = delete;
   SnapshotWorker& operator=(const SnapshotWorker&) = delete;
 
-  /// `done` is called on the worker's thread. If the queue is full, Submit returns false and does
-  /// not call `done`.
-  [[nodiscard]] bool Submit(SnapshotRequest request, std::function<void(SnapshotResult)> done);
+  enum class Submission { kQueued, kQueueFull, kShareFull };
+  /// Queues a snapshot for the client at `address`. `done` is called on the worker's thread, unless
+  /// the queue or the share of this address is full. The snapshot is not rendered if `is_wanted` is
+  /// false when it is its turn.
+  [[nodiscard]] Submission Submit(const std::string& address, SnapshotRequest request,
+                                  std::shared_ptr<const std::atomic<bool>> is_wanted,
+                                  std::function<void(SnapshotResult)> done);
 
  private:
   struct SnapshotTask {
+    std::string address;
     SnapshotRequest request;
+    std::shared_ptr<const std::atomic<bool>> is_wanted;
     std::function<void(SnapshotResult)> done;
   };
   void Run();

@@ -12,6 +12,9 @@ namespace websocket = boost::beast::websocket;
 
 constexpr std::size_t kMaxMessageBytes = 4096;
 constexpr int kMaxMessagesPerSecond = 200;
+constexpr int kMaxControlFramesPerSecond = 20;        // pings and pongs; browsers send one in 15 s
+constexpr std::size_t kMaxBytesPerSecond = 64 << 10;  // a page sends 4 kB
+constexpr std::chrono::seconds kLongestWrite{30};     // of one message
 // Sent, but not yet acknowledged: a tenth of a second at 125 states/s, and one picture under way
 // while one is displayed.
 constexpr std::uint64_t kStatesAhead = 12;
@@ -27,17 +30,32 @@ websocket::stream_base::timeout Timeouts() {
   return timeouts;
 }
 
+// With one more now.
+bool IsFlooded(Bucket& bucket) {
+  const auto now = Clock::now();
+  if (bucket.WaitFor(1, now).count() > 0) return true;
+  bucket.Take(1, now);
+  return false;
+}
+
 }  // namespace
 
-WsSession::WsSession(beast::tcp_stream stream, Hub& hub, std::uint64_t id)
-    : socket_(std::move(stream)), hub_(hub) {
+WsSession::WsSession(Stream stream, std::string address, Hub& hub, std::uint64_t id)
+    : socket_(std::move(stream)),
+      address_(std::move(address)),
+      hub_(hub),
+      messages_(kMaxMessagesPerSecond, kMaxMessagesPerSecond, Clock::now()),
+      control_frames_(kMaxControlFramesPerSecond, kMaxControlFramesPerSecond, Clock::now()) {
   counters_.id = id;
   // The timer of the TCP stream would end the connection; from here the WebSocket's timeouts apply.
   socket_.next_layer().expires_never();
+  socket_.next_layer().rate_policy().read_limit(kMaxBytesPerSecond);
   socket_.set_option(Timeouts());
   socket_.set_option(websocket::stream_base::decorator(
       [](websocket::response_type& response) { response.set("Server", "kinescope"); }));
   socket_.read_message_max(kMaxMessageBytes);
+  // Called while a read of this session is in progress, so that the session exists.
+  socket_.control_callback([this](websocket::frame_type, beast::string_view) { OnControlFrame(); });
   socket_.auto_fragment(false);  // one message, one write: no second copy, no second wake-up
 }
 
@@ -58,7 +76,11 @@ void WsSession::Offer(Slot slot, SharedBytes message) {
   if (place != nullptr && slot == Slot::kState) ++counters_.states_dropped;
   if (place != nullptr && slot == Slot::kPicture) ++counters_.pictures_dropped;
   place = std::move(message);
-  if (sending_ == nullptr) WriteNext();
+  if (sending_ == nullptr) return WriteNext();
+  // Something is offered every 0.4 s. Cancelled operations end later, in OnRead and OnWritten.
+  if (std::chrono::steady_clock::now() - sending_since_ > kLongestWrite) {
+    socket_.next_layer().cancel();
+  }
 }
 
 void WsSession::SetWantsPictures(bool wanted) {
@@ -93,20 +115,16 @@ void WsSession::Read() {
 }
 
 void WsSession::OnRead(beast::error_code error) {
-  if (error || IsFlooding()) return Close();
+  if (error || IsFlooded(messages_)) return Close();
   const auto bytes = incoming_.cdata();
   hub_.OnMessage(*this, {static_cast<const char*>(bytes.data()), bytes.size()});
   incoming_.consume(incoming_.size());
   if (open_) Read();
 }
 
-bool WsSession::IsFlooding() {
-  const auto now = std::chrono::steady_clock::now();
-  if (now - second_began_ >= std::chrono::seconds(1)) {
-    second_began_ = now;
-    messages_this_second_ = 0;
-  }
-  return ++messages_this_second_ > kMaxMessagesPerSecond;
+void WsSession::OnControlFrame() {
+  // The read that has called this ends with an error, in OnRead.
+  if (IsFlooded(control_frames_)) socket_.next_layer().close();
 }
 
 void WsSession::WriteNext() {
@@ -117,6 +135,7 @@ void WsSession::WriteNext() {
     last_slot_ = index;
     sending_ = std::move(waiting_[index]);
     waiting_[index] = nullptr;
+    sending_since_ = std::chrono::steady_clock::now();
     const auto slot = static_cast<Slot>(index);
     socket_.binary(IsBinary(slot));
     socket_.async_write(boost::asio::buffer(*sending_),

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/message.hpp>
 #include <boost/beast/http/string_body.hpp>
 #include <boost/beast/websocket/stream.hpp>
@@ -13,8 +12,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
+#include "server/http/bucket.h"
 #include "server/http/hub.h"
+#include "server/http/stream.h"
 
 namespace kinescope::http {
 
@@ -23,7 +25,7 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
   using Upgrade = boost::beast::http::request<boost::beast::http::string_body>;
 
   /// `hub` is borrowed and must outlive the session.
-  WsSession(boost::beast::tcp_stream stream, Hub& hub, std::uint64_t id);
+  WsSession(Stream stream, std::string address, Hub& hub, std::uint64_t id);
   ~WsSession() override;
 
   /// Accepts the connection; from here on the session keeps itself alive.
@@ -34,6 +36,7 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
   bool wants_pictures() const override { return counters_.pictures; }
   [[nodiscard]] bool OnSeen(Slot slot, std::uint64_t count) override;
   ClientCounters counters() const override { return counters_; }
+  const std::string& address() const override { return address_; }
 
  private:
   void Read();
@@ -41,10 +44,11 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
   void WriteNext();
   void OnWritten(Slot slot, boost::beast::error_code error);
   bool MayWrite(std::size_t slot) const;
-  bool IsFlooding();
+  void OnControlFrame();
   void Close();
 
-  boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
+  boost::beast::websocket::stream<Stream> socket_;
+  const std::string address_;
   Hub& hub_;
   ClientCounters counters_;
   boost::beast::flat_buffer incoming_;
@@ -53,8 +57,8 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
   std::size_t last_slot_ = 0;
   std::optional<std::uint64_t> seen_states_;  // as the client reported; absent: it never does
   std::optional<std::uint64_t> seen_pictures_;
-  std::chrono::steady_clock::time_point second_began_{};
-  int messages_this_second_ = 0;
+  Bucket messages_, control_frames_;  // that the client may still send
+  std::chrono::steady_clock::time_point sending_since_{};
   bool open_ = false;
 };
 

@@ -14,7 +14,7 @@ constexpr std::size_t kMostBins = 4096;                 // a sender cannot claim
 constexpr double kSlow = 0.1;                           // m/s
 constexpr std::int64_t kRestNanos = 300'000'000;        // shorter ones are not counted
 constexpr std::int64_t kLevelNanos = kNanosPerSecond;   // of rest, that make a level the floor
-constexpr double kShareOfLevel = 0.05;                  // of all rest, likewise
+constexpr double kShareOfLevel = 0.05;                  // of all rest, that makes a level the floor
 constexpr std::int64_t kJudgeEveryNanos = 250'000'000;  // of rest
 constexpr double kCloseToZero = 0.005, kMoves = 0.003;  // m
 constexpr double kFarthestFloor = 1e4;                  // m

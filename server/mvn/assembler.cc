@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "server/mvn/giving_way.h"
+
 namespace kinescope::mvn {
 namespace {
 
@@ -20,15 +22,16 @@ void Assembler::Add(const Endpoint& sender, std::string_view datagram, const Arr
   const auto message = ParseDatagram(datagram);
   if (!message) return tally_.Reject(message.error().reason);
   tally_.CountType(message->header.type);
-  const auto stream = FindStream(sender, message->header.character, arrival.monotonic_nanos, sink);
+  const auto stream = FindStream(
+      {sender, message->header.character, HasWholeBody(*message), arrival.monotonic_nanos}, sink);
   if (!stream) return tally_.Reject(stream.error());
   const std::size_t hash = std::hash<std::string_view>()(datagram);
   (*stream)->state.Add(*message, static_cast<std::uint32_t>(hash), arrival, sink);
 }
 
-tl::expected<Assembler::Stream*, Reason> Assembler::FindStream(const Endpoint& sender,
-                                                               int character, std::int64_t now,
+tl::expected<Assembler::Stream*, Reason> Assembler::FindStream(const Newcomer& newcomer,
                                                                SampleSink& sink) {
+  const auto& [sender, character, has_whole_body, now] = newcomer;
   for (const auto& stream : streams_) {
     if (stream->sender == sender && stream->sent_character == character) return stream.get();
   }
@@ -48,7 +51,7 @@ tl::expected<Assembler::Stream*, Reason> Assembler::FindStream(const Endpoint& s
   if (has_rival && IsOnTrial(sender, character, now)) {
     return tl::make_unexpected(Reason::kSecondSender);
   }
-  Stream* const added = AddStream(sender, character, now, sink);
+  Stream* const added = AddStream(newcomer, sink);
   if (added == nullptr) return tl::make_unexpected(Reason::kTooManyStreams);
   return added;
 }
@@ -65,24 +68,52 @@ bool Assembler::IsOnTrial(const Endpoint& sender, int character, std::int64_t no
   return true;
 }
 
-Assembler::Stream* Assembler::AddStream(const Endpoint& sender, int character, std::int64_t now,
-                                        SampleSink& sink) {
-  if (!MakeRoom(character, now, sink)) return nullptr;
+Assembler::Stream* Assembler::AddStream(const Newcomer& newcomer, SampleSink& sink) {
+  if (!MakeRoom(newcomer, sink)) return nullptr;
   streams_.push_back(std::make_unique<Stream>(
-      Stream{sender, character, CharacterStream(FreeId(character), stamps_, tally_)}));
+      Stream{newcomer.sender, newcomer.character, newcomer.now,
+             CharacterStream(FreeId(newcomer.character), stamps_, tally_)}));
   return streams_.back().get();
 }
 
-// Removes a stream that has become silent if the new one needs its id or its place.
-bool Assembler::MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink) {
-  const bool full = streams_.size() >= kMaxStreams;
-  auto victim = streams_.end();
-  for (auto stream = streams_.begin(); stream != streams_.end(); ++stream) {
-    if (now - (*stream)->state.last_heard_nanos() <= kForgetNanos) continue;
-    const bool has_the_id = (*stream)->state.id() == wanted_id;
-    if (has_the_id || (full && victim == streams_.end())) victim = stream;
+// The stream that gives way, if there is one.
+Assembler::Streams::iterator Assembler::VictimOf(const Newcomer& newcomer) {
+  const auto is_silent = [&](const auto& stream) {
+    return newcomer.now - stream->state.last_heard_nanos() > kForgetNanos;
+  };
+  const auto has_its_id = [&](const auto& stream) {
+    return is_silent(stream) && stream->state.id() == newcomer.character;
+  };
+  const auto namesake = std::find_if(streams_.begin(), streams_.end(), has_its_id);
+  if (namesake != streams_.end() || streams_.size() < kMaxStreams) return namesake;
+  const auto silent = std::find_if(streams_.begin(), streams_.end(), is_silent);
+  if (silent != streams_.end()) return silent;
+  std::vector<PlaceHolder> holders;
+  for (const auto& stream : streams_) {
+    const bool has_body = newcomer.now - stream->state.last_given_nanos() <= kForgetNanos;
+    holders.push_back(
+        {stream->sender, has_body, stream->state.is_confirmed(), stream->since_nanos});
   }
-  if (victim == streams_.end()) return !full;
+  const auto victim = WhoGivesWay(holders, newcomer.sender, newcomer.has_whole_body);
+  // Asked twice: a thousand false senders may send one datagram each.
+  if (!victim || !HasKnocked(newcomer)) return streams_.end();
+  return streams_.begin() + static_cast<std::ptrdiff_t>(*victim);
+}
+
+// Whether the newcomer was turned away before, of late.
+bool Assembler::HasKnocked(const Newcomer& newcomer) {
+  const Knock knock{newcomer.sender, newcomer.character};
+  const bool is_known = std::find(knocks_.begin(), knocks_.end(), knock) != knocks_.end();
+  if (!is_known) {
+    if (knocks_.size() < kMaxKnocks) knocks_.emplace_back();
+    knocks_[next_knock_++ % kMaxKnocks] = knock;
+  }
+  return is_known;
+}
+
+bool Assembler::MakeRoom(const Newcomer& newcomer, SampleSink& sink) {
+  const auto victim = VictimOf(newcomer);
+  if (victim == streams_.end()) return streams_.size() < kMaxStreams;
   if ((*victim)->state.is_confirmed()) {
     (*victim)->state.SenderRestarted(sink);  // delivers its open samples
   } else {

@@ -24,8 +24,8 @@
 /// senders may both send character 0). Datagrams of the same character from another port of the
 /// same machine count as the restarted sender if the old port is silent, otherwise as a new sender.
 /// Until 0.1 s have decided which, they are rejected. At most 16 (sender, character) pairs are
-/// kept. Beyond that a pair that has been silent for 3 s is replaced; without one, the new pair is
-/// rejected.
+/// kept. Beyond that a pair that has been silent for 3 s is replaced, or one that must give way to
+/// a newcomer that asks a second time (giving_way.h). Without one, the new pair is rejected.
 ///
 /// Time is an argument, so that tests need no clock. One thread. Pose data cause no allocation.
 #pragma once
@@ -75,6 +75,7 @@ class Assembler {
   struct Stream {
     Endpoint sender;
     int sent_character = 0;
+    std::int64_t since_nanos = 0;
     CharacterStream state;
   };
 
@@ -85,18 +86,40 @@ class Assembler {
     std::int64_t since_nanos = 0;
   };
 
-  tl::expected<Stream*, Reason> FindStream(const Endpoint& sender, int character, std::int64_t now,
-                                           SampleSink& sink);
+  // A sender that is not known yet.
+  struct Newcomer {
+    const Endpoint& sender;
+    int character = 0;
+    bool has_whole_body = false;  // in its first datagram
+    std::int64_t now = 0;
+  };
+
+  tl::expected<Stream*, Reason> FindStream(const Newcomer& newcomer, SampleSink& sink);
   bool IsOnTrial(const Endpoint& sender, int character, std::int64_t now);
-  Stream* AddStream(const Endpoint& sender, int character, std::int64_t now, SampleSink& sink);
+  Stream* AddStream(const Newcomer& newcomer, SampleSink& sink);
   int FreeId(int wanted) const;
-  [[nodiscard]] bool MakeRoom(int wanted_id, std::int64_t now, SampleSink& sink);
+  [[nodiscard]] bool MakeRoom(const Newcomer& newcomer, SampleSink& sink);
+  using Streams = std::vector<std::unique_ptr<Stream>>;
+  Streams::iterator VictimOf(const Newcomer& newcomer);
+
+  // A sender that was turned away because all places are taken.
+  struct Knock {
+    Endpoint sender;
+    int character = 0;
+    bool operator==(const Knock& other) const {
+      return sender == other.sender && character == other.character;
+    }
+  };
+  static constexpr std::size_t kMaxKnocks = 1024;
+  bool HasKnocked(const Newcomer& newcomer);
   void DiscardUnconfirmed(std::int64_t now);
 
   Stamps stamps_;
   Tally tally_;
-  std::vector<std::unique_ptr<Stream>> streams_;  // at most kMaxStreams
-  std::vector<Trial> trials_;                     // at most kMaxStreams
+  Streams streams_;            // at most kMaxStreams, the oldest first
+  std::vector<Trial> trials_;  // at most kMaxStreams
+  std::vector<Knock> knocks_;  // the latest, a ring
+  std::size_t next_knock_ = 0;
 };
 
 }  // namespace kinescope::mvn

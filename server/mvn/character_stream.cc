@@ -345,6 +345,7 @@ void CharacterStream::Finish(OpenSample& open, SampleSink& sink) {
   tally_->in_samples += sample.datagrams();
   if (is_incomplete) ++tally_->incomplete;
   has_given_ = true;
+  last_given_nanos_ = sample.first_arrival().monotonic_nanos;
   AnnounceOnce(sink);
   const std::int64_t stamp = StampOf(sample);
   if (has_pose) {

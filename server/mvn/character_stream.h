@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "core/source.h"
@@ -31,6 +32,8 @@ class CharacterStream {
   /// A second datagram has confirmed that the first was not a corrupt header. Nothing is delivered
   /// before.
   bool is_confirmed() const { return is_confirmed_; }
+  /// When the newest delivered sample was received; long ago without any.
+  std::int64_t last_given_nanos() const { return last_given_nanos_; }
 
   /// `digest` identifies the datagram's bytes. The datagram ends in a sample, a character or the
   /// tally.
@@ -126,7 +129,8 @@ class CharacterStream {
   ClockFit clock_;
 
   LearntTypes types_;
-  bool has_given_ = false;              // a sample was delivered
+  bool has_given_ = false;  // a sample was delivered
+  std::int64_t last_given_nanos_ = std::numeric_limits<std::int64_t>::min() / 2;
   std::optional<double> period_nanos_;  // running mean
   struct Begun {
     std::uint32_t time_code_millis = 0;

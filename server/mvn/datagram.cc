@@ -176,4 +176,12 @@ tl::expected<Message, ParseError> ParseDatagram(std::string_view datagram) {
   return result;
 }
 
+bool HasWholeBody(const Message& message) {
+  if (const auto* poses = std::get_if<PoseMessage>(&message.body)) return poses->HasBody();
+  if (const auto* poses = std::get_if<EulerPoseMessage>(&message.body)) return poses->HasBody();
+  if (const auto* linear = std::get_if<LinearMessage>(&message.body)) return linear->HasBody();
+  if (const auto* angular = std::get_if<AngularMessage>(&message.body)) return angular->HasBody();
+  return false;
+}
+
 }  // namespace kinescope::mvn

@@ -240,6 +240,9 @@ std::string Describe(const ParseError& error);
 
 [[nodiscard]] tl::expected<Message, ParseError> ParseDatagram(std::string_view datagram);
 
+/// Whether `message` alone has all 23 segments (types 01, 02, 21, 22).
+bool HasWholeBody(const Message& message);
+
 /// Parent and child point of a joint, as in type 20: 256 * segment id + point.
 struct PointPair {
   std::uint32_t parent = 0;

@@ -31,10 +31,14 @@ class DatagramSink {
 struct TransportCounters {
   int receive_buffer_bytes = 0;           // size that the kernel granted; 0: no socket
   std::uint64_t kernel_drops = 0;         // datagrams lost because they were not read in time
+  std::uint64_t clock_steps = 0;          // times that the wall clock of this machine was set
   std::uint64_t connections = 0;          // TCP: accepted or made, in total
   int connections_open = 0;               // TCP: now
   std::uint64_t connections_refused = 0;  // TCP: beyond the limit of connections
   std::uint64_t connections_lost = 0;     // TCP: ended by the other side or by an error
+  std::uint64_t connections_ended = 0;    // TCP: idle ones, and those that made room for another
+  std::uint64_t strangers = 0;            // datagrams (TCP: connections) of senders that are not
+                                          // allowed
   std::uint64_t resyncs = 0;              // byte streams: searches for the next MXTP
   std::uint64_t skipped_bytes = 0;        // byte streams: bytes skipped by these searches
   std::uint64_t other_packets = 0;        // capture files: packets without UDP or TCP payload
@@ -46,10 +50,13 @@ struct TransportCounters {
   void Visit(const Counter& counter) const {
     counter("receive_buffer_bytes", static_cast<std::uint64_t>(receive_buffer_bytes));
     counter("kernel_drops", kernel_drops);
+    counter("clock_steps", clock_steps);
     counter("connections", connections);
     counter("connections_open", static_cast<std::uint64_t>(connections_open));
     counter("connections_refused", connections_refused);
     counter("connections_lost", connections_lost);
+    counter("connections_ended", connections_ended);
+    counter("strangers", strangers);
     counter("resyncs", resyncs);
     counter("skipped_bytes", skipped_bytes);
     counter("other_packets", other_packets);

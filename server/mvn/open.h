@@ -24,6 +24,15 @@ struct StreamSettings {
 /// capture).
 std::unique_ptr<DatagramSource> OpenDatagrams(const std::string& url);
 
+/// `url` with the restriction of --from: only these machines may send ("192.168.1.20,10.0.0.0/8").
+/// Unchanged if `from` is "". @throws UsageError naming --from and what was expected; also if `url`
+/// does not receive from a network
+std::string ReceivingFrom(const std::string& url, const std::string& from);
+
+/// For the start of a receiver: "reached from every network of this machine, accepts every sender
+/// (--from admits only some)". "" for a URL that does not listen.
+std::string DescribeReach(const std::string& url);
+
 /// The samples that are assembled from `datagrams`.
 std::unique_ptr<Source> OpenStream(std::unique_ptr<DatagramSource> datagrams,
                                    const StreamSettings& settings = {});

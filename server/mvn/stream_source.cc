@@ -20,6 +20,7 @@ void StreamSource::OnDatagram(const ReceivedDatagram& datagram) {
   // In a capture the packets define the time, so samples that fall due between two packets are
   // delivered now.
   if (!is_live()) assembler_.Expire(datagram.arrival.monotonic_nanos, *this);
+  newest_arrival_nanos_ = datagram.arrival.monotonic_nanos;
   assembler_.Add(datagram.from, datagram.bytes, datagram.arrival, is_live() ? *sink_ : *this);
 }
 
@@ -46,8 +47,10 @@ Source::State StreamSource::Poll(std::chrono::milliseconds timeout, SampleSink& 
     }
   }
   switch (datagrams_->Poll(wait, *this)) {
-    case DatagramSource::State::kMore: break;
-    // Only here: the rest of an overdue sample may have waited in the socket.
+    // The rest of an overdue sample may wait in the socket, so the time is that of its datagrams.
+    case DatagramSource::State::kMore:
+      if (is_live()) assembler_.Expire(newest_arrival_nanos_, sink);
+      break;
     case DatagramSource::State::kIdle:
       if (is_live()) assembler_.Expire(MonotonicNanos(), sink);
       break;

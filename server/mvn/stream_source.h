@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -35,6 +36,7 @@ class StreamSource : public Source, private DatagramSink, private SampleSink {
   std::unique_ptr<DatagramSource> datagrams_;
   Assembler assembler_;
   SampleSink* sink_ = nullptr;  // during Poll
+  std::int64_t newest_arrival_nanos_ = 0;
 };
 
 }  // namespace kinescope::mvn

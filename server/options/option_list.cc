@@ -26,7 +26,7 @@ std::string SuggestionForItems(const std::string& text, const std::vector<std::s
 }  // namespace
 
 void OptionList::operator()(std::string name, Value& value, std::string help) {
-  options_.push_back({std::move(name), &value, std::move(help), group_, Channel::kDefault, {}});
+  options_.push_back({std::move(name), &value, std::move(help), group_, Channel::kDefault, {}, {}});
 }
 
 void OptionList::Formerly(std::string name) { options_.back().former_name = std::move(name); }
@@ -87,14 +87,15 @@ void OptionList::CheckEffects() const {
     const bool is_given =
         option->channel == Channel::kFile || option->channel == Channel::kCommandLine;
     if (!is_given || !condition.is_so()) continue;
-    throw UsageError(fmt::format("--{}={}: has no effect {}", option->name, option->value->ToText(),
-                                 condition.when));
+    throw UsageError(fmt::format("{}={}: has no effect {}", option->given_as,
+                                 option->value->ToText(), condition.when));
   }
 }
 
 void OptionList::OnSet(Option& option, const std::string& given_name, Channel channel,
                        const std::string& origin) {
   option.channel = channel;
+  option.given_as = origin + given_name;
   if (given_name != option.name) {
     const std::string dashes = origin == "--" || origin == "~" ? origin : "";
     Warn(fmt::format(

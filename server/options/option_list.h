@@ -25,6 +25,7 @@ struct Option {
   std::string group;  // its heading in --help
   Channel channel = Channel::kDefault;
   std::string former_name;  // accepted with a warning, for one version; "": none
+  std::string given_as;     // "--mass", "~mass" or "file.yaml:3: mass"; "": not given
 };
 
 /// A value as it was given.

@@ -39,7 +39,7 @@ void Texts::Parse(const std::string& text) {
   value_.clear();
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find(';', begin), text.size());
-    value_.push_back(text.substr(begin, end - begin));
+    if (end > begin) value_.push_back(text.substr(begin, end - begin));
     begin = end + 1;
   }
 }

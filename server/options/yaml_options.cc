@@ -7,6 +7,7 @@
 
 #include "core/system/errors.h"
 #include "core/system/words.h"
+#include "server/options/yaml_file.h"
 
 namespace kinescope::options {
 
@@ -23,15 +24,25 @@ std::string PlaceOf(const std::string& path, const YAML::Node& node) {
 }  // namespace
 
 YamlOptions::YamlOptions(const std::string& path) : path_(path), root_(std::make_unique<Root>()) {
+  Load([&] { return LoadYaml(path); });
+}
+
+YamlOptions::YamlOptions(const std::string& path, const std::string& text)
+    : path_(path), root_(std::make_unique<Root>()) {
+  Load([&] { return ParseYaml(text); });
+}
+
+template <class Read>
+void YamlOptions::Load(const Read& read) {
   try {
-    root_->node = YAML::LoadFile(path);
+    root_->node = read();
   } catch (const YAML::BadFile&) {
-    throw UsageError(path + ": cannot read this file");
+    throw UsageError(path_ + ": cannot read this file");
   } catch (const YAML::Exception& error) {
     throw UsageError(fmt::format("{}:{}: not valid YAML ({}); expected one 'name: value' per line",
-                                 path, error.mark.line + 1, error.msg));
+                                 path_, error.mark.line + 1, error.msg));
   }
-  if (!root_->node.IsMap()) throw UsageError(path + ": expected lines of 'name: value'");
+  if (!root_->node.IsMap()) throw UsageError(path_ + ": expected lines of 'name: value'");
 }
 
 YamlOptions::~YamlOptions() = default;
@@ -47,6 +58,9 @@ std::optional<Found> YamlOptions::Look(const std::string& name) const {
 void YamlOptions::SetAll(OptionList& options) const {
   std::map<std::string, int> lines;
   for (const auto& entry : root_->node) {
+    if (!entry.first.IsScalar()) {
+      throw UsageError(PlaceOf(path_, entry.first) + "expected the name of an option before ':'");
+    }
     const std::string key = entry.first.Scalar();
     const int line = entry.first.Mark().line + 1;
     const auto [first, is_new] = lines.emplace(key, line);

@@ -13,6 +13,8 @@ class YamlOptions {
  public:
   /// @throws UsageError naming the file, the line and the reason.
   explicit YamlOptions(const std::string& path);
+  /// `text`: the content of `path`, which is not opened. @throws UsageError as above.
+  YamlOptions(const std::string& path, const std::string& text);
   ~YamlOptions();
 
   /// The text of `name`, and "FILE:LINE: ". @throws UsageError where it is not one value.
@@ -24,6 +26,9 @@ class YamlOptions {
 
  private:
   struct Root;  // keeps yaml-cpp out of here
+  template <class Read>
+  void Load(const Read& read);
+
   std::string path_;
   std::unique_ptr<Root> root_;
 };

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/system/scratch_folder.h"
 #include "core/system/starts_with.h"
 #include "render/renderer.h"
 #include "server/picture/child_process.h"
@@ -59,14 +58,6 @@ std::vector<std::string> Lines(const std::string& text) {
   return lines;
 }
 
-// Of the meshes: a probe leaves nothing in the user's cache. Null where no folder can be made; the
-// body then consists of primitives.
-std::unique_ptr<ScratchFolder> MakeScratchFolder() try {
-  return std::make_unique<ScratchFolder>();
-} catch (const std::runtime_error&) {
-  return nullptr;
-}
-
 }  // namespace
 
 json ToJson(const BackendReport& report) {
@@ -83,9 +74,8 @@ json ToJson(const BackendReport& report) {
 BackendReport MeasureBackend(const std::string& backend) {
   BackendReport report;
   try {
-    const auto meshes = MakeScratchFolder();
     SceneOptions people;
-    if (meshes) people.mesh_cache = std::make_shared<const MeshCache>(meshes->path());
+    people.mesh_cache = MeshCache::InMemory();
     SceneReader reader("demo:lift", people);
     std::shared_ptr<const SceneState> scene = reader.Next();
     const render::Camera camera = render::NamedCamera("three_quarter", *scene);

@@ -8,12 +8,12 @@
 
 #include "core/system/errors.h"
 #include "server/options/text.h"
+#include "server/options/yaml_file.h"
 
 namespace kinescope::app {
 namespace {
 
 constexpr std::size_t kMaxKeys = 1000;
-constexpr std::uintmax_t kMaxKeyBytes = 1 << 20;
 constexpr double kFarthest = 1000;  // m; beyond, a depth buffer shows nothing
 
 // One file being read: says where something is wrong.
@@ -23,14 +23,16 @@ class KeyFile {
 
   YAML::Node Load() const {
     std::error_code error;
-    const std::uintmax_t bytes = std::filesystem::file_size(path_, error);
+    const bool is_folder = std::filesystem::is_directory(path_, error);
     if (error) throw UsageError(fmt::format("--camera={}: {}", path_, error.message()));
-    if (bytes > kMaxKeyBytes) {
-      throw UsageError(fmt::format("--camera={}: {} bytes; expected at most {} bytes", path_, bytes,
-                                   kMaxKeyBytes));
-    }
+    if (is_folder) throw UsageError(fmt::format("--camera={}: a folder; expected a file", path_));
+    return Parsed([this] { return options::LoadYaml(path_); });
+  }
+
+  template <class Read>
+  YAML::Node Parsed(const Read& read) const {
     try {
-      return YAML::LoadFile(path_);
+      return read();
     } catch (const YAML::BadFile&) {
       throw UsageError(
           fmt::format("--camera={}: cannot open the file (no read permission)", path_));
@@ -124,11 +126,7 @@ CameraKeySpec ReadKey(const KeyFile& file, const YAML::Node& node) {
   return key;
 }
 
-}  // namespace
-
-std::vector<CameraKeySpec> ReadCameraKeys(const std::string& path) {
-  const KeyFile file(path);
-  const YAML::Node root = file.Load();
+std::vector<CameraKeySpec> ReadKeys(const KeyFile& file, const YAML::Node& root) {
   if (!root.IsMap() || root.size() != 1 || !root["keys"] || !root["keys"].IsSequence() ||
       root["keys"].size() == 0) {
     file.Refuse(root, "expected 'keys:' and a list of keyframes");
@@ -149,6 +147,18 @@ std::vector<CameraKeySpec> ReadCameraKeys(const std::string& path) {
     keys.push_back(std::move(key));
   }
   return keys;
+}
+
+}  // namespace
+
+std::vector<CameraKeySpec> ReadCameraKeys(const std::string& path) {
+  const KeyFile file(path);
+  return ReadKeys(file, file.Load());
+}
+
+std::vector<CameraKeySpec> ParseCameraKeys(const std::string& path, const std::string& text) {
+  const KeyFile file(path);
+  return ReadKeys(file, file.Parsed([&] { return options::ParseYaml(text); }));
 }
 
 std::optional<Eigen::Vector3d> ParsePoint(const std::string& text) {

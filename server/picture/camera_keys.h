@@ -21,6 +21,8 @@ struct CameraKeySpec {
 
 /// Times ascend. @throws UsageError naming file, line, key and what was expected.
 std::vector<CameraKeySpec> ReadCameraKeys(const std::string& path);
+/// `text`: the content of `path`, which is not opened. @throws UsageError as above.
+std::vector<CameraKeySpec> ParseCameraKeys(const std::string& path, const std::string& text);
 
 /// "X,Y,Z" in m, each within 1000. nullopt for anything else.
 std::optional<Eigen::Vector3d> ParsePoint(const std::string& text);

@@ -21,6 +21,12 @@ double AspectOf(const render::PictureSpec& view) {
 
 }  // namespace
 
+render::PictureSpec LiveView(int width, int height) {
+  render::PictureSpec view{width, height, 1, "", true};
+  view.look.detail = render::Detail::kBySize;
+  return view;
+}
+
 DrawingLoop::DrawingLoop(DrawingSettings settings, CameraController camera,
                          RendererFactory make_renderer, std::shared_ptr<const SceneState> first,
                          Deliver deliver)
@@ -79,7 +85,19 @@ void DrawingLoop::SetCamera(CameraController camera) {
 
 std::future<render::Image> DrawingLoop::Request(const render::PictureSpec& view,
                                                 std::optional<CameraController> camera) {
-  Order order{view, std::move(camera), {}};
+  return Enqueue({view, std::move(camera), nullptr, {}});
+}
+
+std::future<render::Image> DrawingLoop::RequestAimed(const render::PictureSpec& view, Aim aim) {
+  return Enqueue({view, std::nullopt, std::move(aim), {}});
+}
+
+render::Camera DrawingLoop::AimLive(double aspect) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return camera_.Aim(*state_, aspect);
+}
+
+std::future<render::Image> DrawingLoop::Enqueue(Order order) {
   std::future<render::Image> picture = order.picture.get_future();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -133,7 +151,7 @@ void DrawingLoop::DrawLive(std::unique_lock<std::mutex>& lock) {
   // neither after a pause nor after a picture that came late.
   next_live_ = begin + period_;
   const std::shared_ptr<const SceneState> state = state_;
-  const render::PictureSpec view{settings_.width, settings_.height, 1, "", true};
+  const render::PictureSpec view = LiveView(settings_.width, settings_.height);
   const render::Camera camera = camera_.Aim(*state, AspectOf(view));
   lock.unlock();
   std::string error;
@@ -166,13 +184,18 @@ void DrawingLoop::DrawOrder(std::unique_lock<std::mutex>& lock) {
   in_hand_ = std::move(order.picture);
   const std::shared_ptr<const SceneState> state = state_;
   const double aspect = AspectOf(order.view);
-  const render::Camera camera =
-      order.camera ? order.camera->Only(*state, 0, aspect) : camera_.Aim(*state, aspect);
+  std::optional<render::Camera> camera;
+  if (order.camera) {
+    camera = order.camera->Only(*state, 0, aspect);
+  } else if (!order.aim) {
+    camera = camera_.Aim(*state, aspect);
+  }
   lock.unlock();
   render::Image image;
   std::exception_ptr failure;
   try {
-    image = StartedRenderer().Render(*state, camera, order.view);
+    if (!camera) camera = order.aim(aspect);
+    image = StartedRenderer().Render(*state, *camera, order.view);
   } catch (...) {
     failure = std::current_exception();
   }
@@ -199,6 +222,7 @@ void DrawingLoop::NoteDrawn() {
   NoteReturn();
   ++status_.drawn;
   status_.problems = renderer_->problems();
+  status_.drawn_at = Clock::now();
 }
 
 void DrawingLoop::RefuseOrders(const std::string& reason) {

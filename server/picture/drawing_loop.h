@@ -42,7 +42,12 @@ struct DrawingStatus {
   bool hangs = false;         // the driver does not respond; last_error contains the operation
   /// The elements that the newest picture replaces by labelled boxes (render::Renderer::problems).
   std::vector<std::string> problems;
+  std::chrono::steady_clock::time_point drawn_at{};  // the newest picture
 };
+
+/// What a live picture of this size, px, is: with overlays, one sample per pixel, and bodies of as
+/// many triangles as can be seen.
+render::PictureSpec LiveView(int width, int height);
 
 class DrawingLoop {
  public:
@@ -50,6 +55,7 @@ class DrawingLoop {
   /// Receives every live picture, on the drawing thread.
   using Deliver = std::function<void(const render::Image& image, const SceneState& state,
                                      const render::Camera& camera)>;
+  using Aim = std::function<render::Camera(double aspect)>;
 
   /// Requests that may wait; more would be a client that misbehaves.
   static constexpr std::size_t kMaxWaiting = 16;
@@ -76,15 +82,21 @@ class DrawingLoop {
   /// @throws std::runtime_error if the driver does not respond, or if kMaxWaiting requests wait.
   std::future<render::Image> Request(const render::PictureSpec& view,
                                      std::optional<CameraController> camera = std::nullopt);
+  /// As above, by the camera that `aim` returns for width / height when it is the picture's turn.
+  std::future<render::Image> RequestAimed(const render::PictureSpec& view, Aim aim);
+  /// Where the camera of the live picture is now, for a picture of this shape.
+  render::Camera AimLive(double aspect);
   DrawingStatus status() const;
 
  private:
   struct Order {
     render::PictureSpec view;
     std::optional<CameraController> camera;
+    Aim aim;  // null: `camera`, or that of the live picture
     std::promise<render::Image> picture;
   };
 
+  std::future<render::Image> Enqueue(Order order);
   void Run();
   // Called with `lock` held, which they release while they wait or draw.
   bool WaitForWork(std::unique_lock<std::mutex>& lock);

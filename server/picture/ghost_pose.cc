@@ -11,6 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 std::vector<PersonState> ReadMoment(const GhostValue& ghost, const SceneOptions& options) {
+  CheckReach("--ghost=" + ghost.ToText(), ghost->secs, ghost->source);
   SceneReader reader(ghost->source, options);
   SceneTimeline timeline(reader);
   const auto scene = timeline.At(ghost->secs);

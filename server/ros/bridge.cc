@@ -1,24 +1,26 @@
 #include "server/ros/bridge.h"
 
 #include <geometry_msgs/Point.h>
-#include <ros/init.h>
 #include <spdlog/fmt/fmt.h>
 
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
 #include <map>
 #include <string_view>
 #include <utility>
 
-#include "core/system/check.h"
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "server/ros/force_inbox.h"
+#include "server/ros/init.h"
 #include "server/ros/joint_loads.h"
 #include "server/ros/joint_states.h"
 #include "server/ros/link_states.h"
 #include "server/ros/marker_topics.h"
 #include "server/ros/markers.h"
+#include "server/ros/master_client.h"
 #include "server/ros/master_registration.h"
 #include "server/ros/names.h"
 #include "server/ros/ros_camera_topics.h"
@@ -56,7 +58,9 @@ bool IsNew(const BodySample& sample, const Outlet& outlet) {
 class Bridge : public RosBridge {
  public:
   explicit Bridge(const BridgeConfig& config)
-      : config_(config), registration_(config.initial_urdf, config.tf != "off", MakeWiring()) {}
+      : config_(config),
+        registration_(config.initial_urdf, config.initial_meshes, config.tf != "off",
+                      MakeWiring()) {}
 
   void PublishView(const RosImage& picture) override {
     if (const auto view = registration_.View()) view->Publish(picture);
@@ -82,6 +86,7 @@ class Bridge : public RosBridge {
       if (markers_in_) markers_in_->SetPerson(person, state.floor_z);
       if (IsNew(person.sample, outlet)) PublishSample(state, person, outlet);
     }
+    ReleaseThoseGone(state.stamp_nanos);
   }
 
   BridgeStatus status() const override {
@@ -128,6 +133,17 @@ class Bridge : public RosBridge {
     found->second.model = person.model;
     found->second.names = PersonNames(person.model->human);
     return found->second;
+  }
+
+  // As long after the last sample as the scene forgets a person.
+  void ReleaseThoseGone(std::int64_t stamp_nanos) {
+    constexpr std::int64_t kGone = 60 * kNanosPerSecond;
+    for (auto outlet = outlets_.begin(); outlet != outlets_.end();) {
+      const bool is_gone = outlet->second.has_last &&
+                           std::abs(stamp_nanos - outlet->second.last_stamp_nanos) > kGone;
+      if (is_gone) registration_.ReleasePerson(outlet->first);
+      outlet = is_gone ? outlets_.erase(outlet) : std::next(outlet);
+    }
   }
 
   void PublishSample(const SceneState& state, const PersonState& person, Outlet& outlet) {
@@ -223,10 +239,23 @@ void RequireOneOf(const char* option, const std::string& value,
       fmt::format("--{}={}: expected one of {}", option, value, fmt::join(allowed, ", ")));
 }
 
+void RequireMaster() {
+  MasterClient master;
+  if (master.Call("getPid", XmlRpc::XmlRpcValue()).code == MasterReply::Code::kGood) return;
+  if (!master.problem().empty()) {
+    throw UsageError(
+        fmt::format("--ros=required: the server at {} does not answer as a ROS master: it {}; set "
+                    "ROS_MASTER_URI to the address of a roscore, or use --ros=auto",
+                    MasterUri(), master.problem()));
+  }
+  throw UsageError(fmt::format(
+      "--ros=required: no ROS master at {}; start roscore, set ROS_MASTER_URI, or use --ros=auto",
+      MasterUri()));
+}
+
 }  // namespace
 
 std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mode) {
-  KINESCOPE_CHECK(ros::isInitialized());
   RequireOneOf("tf", config.tf, {"flat", "tree", "off"});
   RequireOneOf("joint_states", config.joint_states, {"computed", "streamed"});
   if (config.reference_frame.empty() || config.reference_frame.front() == '/') {
@@ -241,11 +270,8 @@ std::unique_ptr<RosBridge> MakeRosBridge(const BridgeConfig& config, RosMode mod
                     config.external_scale));
   }
   if (mode == RosMode::kOff) return nullptr;
-  if (mode == RosMode::kRequired && !MasterIsReachable()) {
-    throw UsageError(fmt::format(
-        "--ros=required: no ROS master at {}; start roscore, set ROS_MASTER_URI, or use --ros=auto",
-        MasterUri()));
-  }
+  InitRos();
+  if (mode == RosMode::kRequired) RequireMaster();
   return std::make_unique<Bridge>(config);
 }
 

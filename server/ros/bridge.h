@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/force_inputs.h"
+#include "core/mesh_files.h"
 #include "core/scene_marker.h"
 #include "core/scene_state.h"
 
@@ -28,6 +29,8 @@ struct BridgeConfig {
   /// Content of robot_description until the first person appears; "": not set until then. RViz
   /// reads it once when it starts, which with one launch file is before the first sample.
   std::string initial_urdf;
+  /// The meshes that initial_urdf names, written before it is set; null: it names none.
+  std::shared_ptr<const MeshFiles> initial_meshes;
 
   /// Factor for moments of external joint loads: -1 if the other program means the moment that the
   /// child exerts on the parent.
@@ -71,6 +74,9 @@ struct BridgeStatus {
   /// program without another task should end.
   bool shutdown_requested = false;
   std::map<std::string, InputCounters> inputs;  // by topic, as "hand_wrench/right"
+  /// Answers of the master and requests to this node that were rejected, by reason
+  /// (xmlrpc_limits.h).
+  std::map<std::string, std::uint64_t> rejected_calls;
 };
 
 /// Receives the inputs from ROS, on the thread that calls RosBridge::TakeInputs.
@@ -112,14 +118,15 @@ class RosBridge {
   RosBridge() = default;
 };
 
-/// Removes the ROS remappings (`a:=b`) from argv. Call it first in main. Does not contact a master.
-/// `default_name`: node name unless __name:= sets another.
-/// @throws UsageError if ROS_MASTER_URI or a name is invalid.
-void InitRos(int& argc, char** argv, const std::string& default_name);
+/// Removes the ROS remappings (`a:=b`, `__name:=b`, `_param:=b`) from argv and keeps them for
+/// roscpp. Call it first in main, whether the command uses ROS or not. `default_name`: node name
+/// unless __name:= sets another.
+void TakeRosArguments(int& argc, char** argv, const std::string& default_name);
 
 bool BuiltWithRos();
 
-// In a build with ROS, the following functions require InitRos.
+// The first of the following functions starts roscpp with these arguments; a process that calls
+// none of them does not touch ROS. @throws UsageError if ROS_MASTER_URI or a name is invalid.
 
 std::string MasterUri();   // "" in a build without ROS
 bool MasterIsReachable();  // contacts it, waits at most a second

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/system/clocks.h"
+#include "server/ros/raw_message.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -55,7 +56,7 @@ void ForceInbox::Use(const char* topic) {
   ++counters_[topic].used;
 }
 
-void ForceInbox::Refuse(const char* topic, const Refusal& refusal) {
+void ForceInbox::Refuse(const std::string& topic, const Refusal& refusal) {
   const std::lock_guard<std::mutex> lock(mutex_);
   InputCounters& counters = counters_[topic];
   ++counters.received;
@@ -230,6 +231,11 @@ void ForceInbox::OnExternalJointStates(const sensor_msgs::JointState& message) {
               StampOf(kExternalJointStates, message.header));
 }
 
+void ForceInbox::OnUnreadable(const std::string& topic) {
+  constexpr char kUnreadable[] = "is truncated or has a wrong length field";
+  Refuse(topic, {kUnreadable, "a message that " + std::string(kUnreadable)});
+}
+
 bool ForceSubscriptions::AreComplete() const {
   for (const ros::Subscriber& subscriber : subscribers) {
     if (!subscriber) return false;
@@ -242,10 +248,13 @@ ForceSubscriptions SubscribeForces(ros::NodeHandle& node, const std::string& pre
                                    const std::shared_ptr<ForceInbox>& inbox) {
   ForceSubscriptions all;
   const auto hear = [&](const std::string& name, auto take, auto message) {
-    using Message = decltype(message);
+    using Message = BoundedMessage<decltype(message)>;
     auto options = ros::SubscribeOptions::create<Message>(
         prefix + name, kForceQueue,
-        [inbox, take](const boost::shared_ptr<const Message>& heard) { take(*inbox, *heard); },
+        [inbox, take, name](const boost::shared_ptr<const Message>& heard) {
+          if (!heard->is_sound) return inbox->OnUnreadable(name);
+          take(*inbox, heard->message);
+        },
         ros::VoidConstPtr(), &queue);
     options.transport_hints = ros::TransportHints().tcpNoDelay();
     all.subscribers.push_back(node.subscribe(options));
@@ -274,12 +283,13 @@ ForceSubscriptions SubscribeForces(ros::NodeHandle& node, const std::string& pre
       kHandLoad, [](ForceInbox& in, const auto& m) { in.OnHandLoad(m); },
       kinescope_ros::HandLoad());
   using Service = kinescope_ros::SetHandLoad;
-  auto service = ros::AdvertiseServiceOptions::create<Service>(
-      prefix + kSetHandLoad,
-      [inbox](Service::Request& request, Service::Response& response) {
-        return inbox->OnSetHandLoad(request, response);
-      },
-      ros::VoidConstPtr(), &queue);
+  using Request = BoundedMessage<Service::Request>;
+  ros::AdvertiseServiceOptions service;
+  service.init<Request, Service::Response>(
+      prefix + kSetHandLoad, [inbox](Request& request, Service::Response& response) {
+        return request.is_sound && inbox->OnSetHandLoad(request.message, response);
+      });
+  service.callback_queue = &queue;
   all.service = node.advertiseService(service);
   return all;
 }

@@ -57,6 +57,8 @@ class ForceInbox {
   void OnGroundCop(const geometry_msgs::PointStamped& message);
   void OnExternalLoads(const kinescope_ros::JointLoadArray& message);
   void OnExternalJointStates(const sensor_msgs::JointState& message);
+  /// A message of `topic` that cannot be decoded.
+  void OnUnreadable(const std::string& topic);
 
   /// By topic. Any thread.
   std::map<std::string, InputCounters> counters() const;
@@ -68,7 +70,7 @@ class ForceInbox {
   std::string TakeHandLoad(const char* topic, const Message& message);
   std::optional<FoundFrame> Place(const char* topic, const std_msgs::Header& header);
   std::int64_t StampOf(const char* topic, const std_msgs::Header& header);
-  void Refuse(const char* topic, const Refusal& refusal);
+  void Refuse(const std::string& topic, const Refusal& refusal);
   void Use(const char* topic);
   void UseExternal(const char* topic, const Taken<ExternalLoads>& loads, std::int64_t stamp_nanos);
   void CombineGround();

@@ -1,21 +1,24 @@
 #include "server/ros/init.h"
 
+#include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
 #include <ros/names.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 #include <xmlrpcpp/XmlRpcUtil.h>
 
 #include <cstdlib>
 #include <mutex>
 #include <optional>
+#include <set>
 
-#include "core/system/check.h"
 #include "core/system/errors.h"
 #include "server/ros/bridge.h"
 #include "server/ros/master_client.h"
+#include "server/ros/xmlrpc_limits.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -23,8 +26,14 @@ namespace {
 using XmlRpc::XmlRpcValue;
 
 // roscpp has one node per process, so its command line arguments belong to the process, too.
-std::map<std::string, std::string>& MutablePrivateArguments() {
-  static std::map<std::string, std::string> arguments;
+struct RosArguments {
+  std::string default_name = "kinescope";
+  std::map<std::string, std::string> remappings;          // without private parameters
+  std::map<std::string, std::string> private_parameters;  // by name, without the underscore
+};
+
+RosArguments& MutableArguments() {
+  static RosArguments arguments;
   return arguments;
 }
 
@@ -40,35 +49,27 @@ void SilenceXmlRpc() {
   XmlRpc::XmlRpcErrorHandler::setErrorHandler(&silent);
 }
 
-// Otherwise roscpp would send `_name:=value` to the master on starting, and wait for one without
-// limit.
-void TakePrivateArguments(int& argc, char** argv) {
-  int kept = 0;
-  for (int i = 0; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const std::size_t sign = argument.find(":=");
-    const bool is_private =
-        i > 0 && sign != std::string::npos && sign > 1 && argument[0] == '_' && argument[1] != '_';
-    if (is_private) {
-      MutablePrivateArguments()[argument.substr(1, sign - 1)] = argument.substr(sign + 2);
-    } else {
-      argv[kept++] = argv[i];
-    }
-  }
-  argc = kept;
-}
-
 // roscpp aborts the process if it cannot parse an address.
-void CheckMasterUri(int argc, char** argv) {
-  std::string uri = ros::getROSArg(argc, argv, "__master");
+void CheckMasterUri(const std::map<std::string, std::string>& remappings) {
+  const auto remapped = remappings.find("__master");
   const char* from_environment = std::getenv("ROS_MASTER_URI");
-  if (uri.empty() && from_environment != nullptr) uri = from_environment;
+  const bool is_set = from_environment != nullptr || remapped != remappings.end();
+  if (!is_set) return;
+  const std::string uri = remapped != remappings.end() ? remapped->second : from_environment;
   std::string host;
   std::uint32_t port = 0;
-  const bool is_set = from_environment != nullptr || !uri.empty();
-  if (is_set && (!ros::network::splitURI(uri, host, port) || port == 0 || port > 65535)) {
+  if (!ros::network::splitURI(uri, host, port) || port == 0 || port > 65535) {
     throw UsageError(fmt::format("ROS_MASTER_URI={}: expected http://<host>:<port>", uri));
   }
+}
+
+// roscpp takes the folder of its log from the environment, creates ~/.ros/log without one, and
+// stops the process if that is impossible; then it writes nothing there. It does neither with a
+// file name.
+void ChooseLogFile(std::map<std::string, std::string>& remappings) {
+  const bool is_chosen =
+      std::getenv("ROS_LOG_DIR") != nullptr || std::getenv("ROS_HOME") != nullptr;
+  if (!is_chosen) remappings.try_emplace("__log", "/dev/null");
 }
 
 std::optional<std::string> AsText(XmlRpcValue& value) {
@@ -92,17 +93,47 @@ XmlRpcValue FetchPrivateParameters() {
 
 }  // namespace
 
-const std::map<std::string, std::string>& PrivateArguments() { return MutablePrivateArguments(); }
+const std::map<std::string, std::string>& PrivateArguments() {
+  return MutableArguments().private_parameters;
+}
 
 bool BuiltWithRos() { return true; }
 
-void InitRos(int& argc, char** argv, const std::string& default_name) {
-  TakePrivateArguments(argc, argv);
-  CheckMasterUri(argc, argv);
+void TakeRosArguments(int& argc, char** argv, const std::string& default_name) {
+  RosArguments& arguments = MutableArguments();
+  arguments.default_name = default_name;
+  int kept = 0;
+  for (int i = 0; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::size_t sign = i > 0 ? argument.find(":=") : argument.npos;
+    if (sign == argument.npos) {
+      argv[kept++] = argv[i];
+      continue;
+    }
+    const std::string name = argument.substr(0, sign), value = argument.substr(sign + 2);
+    // Otherwise roscpp would send `_name:=value` to the master on starting, and wait for one
+    // without limit.
+    if (sign > 1 && name[0] == '_' && name[1] != '_') {
+      arguments.private_parameters[name.substr(1)] = value;
+    } else {
+      arguments.remappings[name] = value;
+    }
+  }
+  argc = kept;
+}
+
+void InitRos() {
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (ros::isInitialized()) return;
+  const RosArguments& arguments = MutableArguments();
+  std::map<std::string, std::string> remappings = arguments.remappings;
+  CheckMasterUri(remappings);
+  ChooseLogFile(remappings);
   SilenceXmlRpc();
   try {
     // Kinescope handles Ctrl-C itself, and logs to the terminal and not to /rosout.
-    ros::init(argc, argv, default_name,
+    ros::init(remappings, arguments.default_name,
               ros::init_options::NoSigintHandler | ros::init_options::NoRosout);
   } catch (const ros::Exception& error) {
     throw UsageError(fmt::format("ROS does not accept these names: {}", error.what()));
@@ -110,13 +141,18 @@ void InitRos(int& argc, char** argv, const std::string& default_name) {
 }
 
 std::string MasterUri() {
-  KINESCOPE_CHECK(ros::isInitialized());
+  InitRos();
   return ros::master::getURI();
 }
 
 bool MasterIsReachable() {
-  KINESCOPE_CHECK(ros::isInitialized());
+  InitRos();
   return MasterClient().Call("getPid", XmlRpcValue()).code == MasterReply::Code::kGood;
+}
+
+void HurryRoscpp() {
+  ros::master::setRetryTimeout(ros::WallDuration(0.001));  // 0 would be without limit
+  LimitLastXmlRpcCalls(kMasterPatience);
 }
 
 void LeaveRos() {
@@ -124,11 +160,12 @@ void LeaveRos() {
   // roscpp unregisters topic by topic without a time limit: a master on a machine that was switched
   // off would delay the exit for minutes. So its address is removed first.
   if (!MasterIsReachable()) const_cast<std::string&>(ros::master::getHost()).clear();
+  HurryRoscpp();
   ros::shutdown();
 }
 
 std::optional<std::string> PrivateParameter(const std::string& name) {
-  KINESCOPE_CHECK(ros::isInitialized());
+  InitRos();
   const auto argument = PrivateArguments().find(name);
   if (argument != PrivateArguments().end()) return argument->second;
   static std::mutex mutex;
@@ -142,3 +179,32 @@ std::optional<std::string> PrivateParameter(const std::string& name) {
 }
 
 }  // namespace kinescope::ros_bridge
+
+namespace ros::console {
+namespace {
+
+// A line is logged once: roscpp repeats some with every attempt.
+bool IsFirstTime(const std::string& line) {
+  constexpr std::size_t kMostLines = 256;
+  static std::mutex mutex;
+  static std::set<std::string> lines;  // guarded by mutex
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (lines.size() >= kMostLines) lines.clear();
+  return lines.insert(line).second;
+}
+
+}  // namespace
+
+// roscpp's own log lines, which it would write to the terminal itself, with colours. Defined again
+// as the functions of xmlrpc_limits.h are.
+void Formatter::print(void* /*logger*/, Level level, const char* text, const char* /*file*/,
+                      const char* /*function*/, int /*line*/) {
+  if (text == nullptr || !IsFirstTime(text)) return;
+  const auto severity = level >= levels::Error  ? spdlog::level::err
+                        : level == levels::Warn ? spdlog::level::warn
+                        : level == levels::Info ? spdlog::level::info
+                                                : spdlog::level::debug;
+  spdlog::log(severity, "ROS: {}", text);
+}
+
+}  // namespace ros::console

@@ -6,8 +6,16 @@
 
 namespace kinescope::ros_bridge {
 
+/// Starts roscpp with the arguments of TakeRosArguments, the first time; does not contact a master.
+/// Writes no files. @throws UsageError if ROS_MASTER_URI or a name is invalid. Any thread.
+void InitRos();
+
 /// The private parameters given as `_name:=value`.
 const std::map<std::string, std::string>& PrivateArguments();
+
+/// From now on roscpp's calls of the master take a few seconds together and are not repeated. For
+/// the end of the program, before it waits for a thread that makes such calls.
+void HurryRoscpp();
 
 /// Shuts this node down in a limited time. Called by the object that started roscpp; a second call
 /// does nothing.

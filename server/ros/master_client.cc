@@ -6,6 +6,9 @@
 
 #include <utility>
 
+#include "core/system/starts_with.h"
+#include "server/ros/xmlrpc_limits.h"
+
 namespace kinescope::ros_bridge {
 namespace {
 
@@ -52,16 +55,41 @@ std::optional<int> MasterClient::AskPid(std::chrono::milliseconds timeout) {
 
 MasterReply MasterClient::Call(const char* method, const XmlRpcValue& arguments,
                                std::chrono::milliseconds timeout) {
+  timeout = XmlRpcTimeLeft(timeout);
   XmlRpcValue all;
   all[0] = ros::this_node::getName();
   for (int i = 0; arguments.valid() && i < arguments.size(); ++i) all[i + 1] = arguments[i];
 
   XmlRpc::XmlRpcClient client(host_.c_str(), port_, "/");
-  if (!client.executeNonBlock(method, all)) return {};
-  client._disp.work(std::chrono::duration<double>(timeout).count());
-  XmlRpcValue response;
-  if (!client.executeCheckDone(response) || client.isFault()) return {};
-  return Unwrap(response);
+  TakeXmlRpcProblem();  // of an earlier call
+  MasterReply reply;
+  if (client.executeNonBlock(method, all)) {
+    const auto end = std::chrono::steady_clock::now() + timeout;
+    client._disp.work(std::chrono::duration<double>(timeout).count());
+    const bool is_late = std::chrono::steady_clock::now() >= end;
+    XmlRpcValue response;
+    const bool has_begun = !client._header.empty() || !client._response.empty();
+    const bool is_done = client.executeCheckDone(response);
+    const std::string answered = "answered " + std::string(method) + " with ";
+    if (!has_begun) {  // a refused connection, for one
+    } else if (is_done && client.isFault()) {
+      reply.problem = answered + "an XML-RPC fault";
+    } else if (is_done && response.valid()) {
+      reply = Unwrap(response);
+    } else if (is_late) {
+      reply.problem =
+          "did not complete an answer within " + std::to_string(timeout.count()) + " ms";
+    } else {
+      reply.problem = answered + "something other than XML-RPC";
+    }
+  }
+  const std::string rejected = TakeXmlRpcProblem();
+  if (!rejected.empty()) {
+    reply = {};
+    reply.problem = StartsWith(rejected, "answered ") ? rejected : "sent " + rejected;
+  }
+  problem_ = reply.problem;
+  return reply;
 }
 
 }  // namespace kinescope::ros_bridge

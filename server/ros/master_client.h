@@ -22,6 +22,7 @@ struct MasterReply {
   };
   Code code = Code::kNoAnswer;
   XmlRpc::XmlRpcValue value;  // the result, for kGood
+  std::string problem;        // why an answer was rejected (xmlrpc_limits.h); "": it was not
 };
 
 /// Registration state of this node at the master.
@@ -54,9 +55,13 @@ class MasterClient {
   /// The process id of the master; 0 if it does not report one, nullopt without an answer.
   std::optional<int> AskPid(std::chrono::milliseconds timeout);
 
+  /// Why the answer to the last call was rejected; "" if it was not, or there was none.
+  const std::string& problem() const { return problem_; }
+
  private:
   std::string host_;
   int port_ = 0;
+  std::string problem_;
 };
 
 }  // namespace kinescope::ros_bridge

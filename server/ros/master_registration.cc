@@ -10,15 +10,21 @@
 #include <spdlog/spdlog.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
+#include <xmlrpcpp/XmlRpcException.h>
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
 
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <exception>
 #include <utility>
 
+#include "core/system/clocks.h"
 #include "server/ros/init.h"
 #include "server/ros/names.h"
+#include "server/ros/raw_message.h"
+#include "server/ros/tcpros_limits.h"
+#include "server/ros/xmlrpc_limits.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -29,6 +35,9 @@ using XmlRpc::XmlRpcValue;
 // Hz.
 constexpr std::uint32_t kSampleQueue = 480;
 constexpr char kDescription[] = "robot_description";
+// A stream may change the body with every sample. Each one that is described has its meshes
+// written, so the newest one follows after this time.
+constexpr std::int64_t kDescribeEveryNanos = kNanosPerSecond;
 
 // A parameter of a launch file has a type, an argument does not: text that is a number becomes one.
 XmlRpcValue Typed(const std::string& text) {
@@ -49,11 +58,18 @@ XmlRpcValue Typed(const std::string& text) {
 
 }  // namespace
 
-MasterRegistration::MasterRegistration(std::string initial_urdf, bool with_tf, InputWiring wiring)
-    : initial_urdf_(std::move(initial_urdf)), with_tf_(with_tf), wiring_(std::move(wiring)) {
+MasterRegistration::MasterRegistration(std::string initial_urdf,
+                                       std::shared_ptr<const MeshFiles> initial_meshes,
+                                       bool with_tf, InputWiring wiring)
+    : initial_urdf_(std::move(initial_urdf)),
+      initial_meshes_(std::move(initial_meshes)),
+      with_tf_(with_tf),
+      wiring_(std::move(wiring)) {
   status_.master_uri = ros::master::getURI();
   // Otherwise roscpp would retry without limit if the master stops while a topic is registered.
   ros::master::setRetryTimeout(ros::WallDuration(1));
+  LimitXmlRpcCalls(kMasterPatience);
+  LimitTcprosMessages(kLargestMessage);
   thread_ = std::thread([this] { Run(); });
 }
 
@@ -63,6 +79,7 @@ MasterRegistration::~MasterRegistration() {
     stopping_ = true;
   }
   changed_.notify_all();
+  HurryRoscpp();
   thread_.join();
   if (!node_) return;
   // Callbacks that are still queued will not be called: they hold inboxes, and the queue is
@@ -95,6 +112,12 @@ void MasterRegistration::SetPerson(int character, std::shared_ptr<const PersonMo
   changed_.notify_all();
 }
 
+void MasterRegistration::ReleasePerson(int character) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto slot = slots_.find(character);
+  if (slot != slots_.end()) slot->second.model = nullptr;
+}
+
 std::shared_ptr<const PersonTopics> MasterRegistration::TopicsOf(int character) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto slot = slots_.find(character);
@@ -119,6 +142,7 @@ void MasterRegistration::WantTransforms() {
 BridgeStatus MasterRegistration::status() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   BridgeStatus status = status_;
+  status.rejected_calls = RejectedXmlRpc();
   const auto add = [&](const std::string& prefix, const PersonTopics* topics) {
     if (topics == nullptr) return;
     for (auto& [topic, counters] : topics->inputs->counters()) {
@@ -140,7 +164,22 @@ bool MasterRegistration::WaitForNext() {
   return !stopping_ && !status_.shutdown_requested;
 }
 
+// roscpp throws on values of wrong types, which no answer should contain (master_answers.h).
 void MasterRegistration::Run() {
+  const auto stop = [&](const std::string& error) {
+    spdlog::error("nothing is published to ROS any more: roscpp reported an error: {}", error);
+    SetReachable(false);
+  };
+  try {
+    RegisterRegularly();
+  } catch (const XmlRpc::XmlRpcException& error) {
+    stop(error.getMessage());
+  } catch (const std::exception& error) {
+    stop(error.what());
+  }
+}
+
+void MasterRegistration::RegisterRegularly() {
   do {
     bool answers = false;
     const bool is_known = MasterKnowsUs(answers);
@@ -160,10 +199,13 @@ void MasterRegistration::Run() {
     if (!RegisterAll()) continue;
     Subscribe();
     if (!is_known && was_registered_) {
-      spdlog::info("the ROS master was restarted: all topics are advertised again");
+      if (!std::exchange(master_forgot_us_, true)) {
+        spdlog::info("the ROS master was restarted: all topics are advertised again");
+      }
       const std::lock_guard<std::mutex> lock(mutex_);
       ++status_.master_returns;
     }
+    if (is_known) master_forgot_us_ = false;
     was_registered_ = true;
     SetParameters();
   } while (WaitForNext());
@@ -253,15 +295,24 @@ void MasterRegistration::Subscribe() {
 }
 
 ros::Subscriber MasterRegistration::SubscribeTransforms(const char* topic, bool is_static) {
-  using Event = ros::MessageEvent<const tf2_msgs::TFMessage>;
+  using Event = ros::MessageEvent<const BoundedMessage<tf2_msgs::TFMessage>>;
   ros::SubscribeOptions options;
   options.initByFullCallbackType<const Event&>(
-      topic, kSampleQueue, [take = wiring_.on_transforms, is_static](const Event& event) {
+      topic, kSampleQueue, [this, topic, is_static](const Event& event) {
+        const BoundedMessage<tf2_msgs::TFMessage>& bounded = *event.getConstMessage();
         if (event.getPublisherName() == ros::this_node::getName()) return;
-        take(*event.getConstMessage(), is_static);
+        if (!bounded.is_sound) return CountUnreadable(topic);
+        wiring_.on_transforms(bounded.message, is_static);
       });
   options.callback_queue = wiring_.queue;
   return node_->subscribe(options);
+}
+
+void MasterRegistration::CountUnreadable(const char* topic) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  InputCounters& counters = status_.inputs[topic];
+  ++counters.received;
+  ++counters.refused["is truncated or has a wrong length field"];
 }
 
 // roscpp registers a topic when it is advertised, and never again. So topics are registered at
@@ -299,26 +350,39 @@ void MasterRegistration::SetParameters() {
     has_arguments_ = true;
   }
   std::map<std::string, std::shared_ptr<const PersonModel>> models;
+  bool has_met_nobody = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    for (const auto& [character, slot] : slots_) models[slot.prefix + kDescription] = slot.model;
+    has_met_nobody = slots_.empty();
+    for (const auto& [character, slot] : slots_) {
+      if (slot.model != nullptr) models[slot.prefix + kDescription] = slot.model;
+    }
   }
-  if (models.empty() && !initial_urdf_.empty() && described_.count(kDescription) == 0) {
+  if (has_met_nobody && !initial_urdf_.empty() && described_.count(kDescription) == 0) {
+    if (initial_meshes_) initial_meshes_->Provide();
     if (!SetParameter(kDescription, initial_urdf_)) return;
-    described_[kDescription] = 0;
+    described_[kDescription] = {0, 0, initial_meshes_};
   }
   for (const auto& [name, model] : models) {
     const auto set = described_.find(name);
-    if (set != described_.end() && set->second == model->revision) continue;
-    // RViz reads the meshes whenever it likes. They stay as long as the slot has the model.
+    const std::int64_t now = MonotonicNanos();
+    if (set != described_.end() && (set->second.revision == model->revision ||
+                                    now - set->second.set_nanos < kDescribeEveryNanos)) {
+      continue;
+    }
     if (model->mesh_files) model->mesh_files->Provide();
     if (!SetParameter(name, model->urdf_xml)) return;
-    described_[name] = model->revision;
+    described_[name] = {model->revision, now, model->mesh_files};
   }
 }
 
 void MasterRegistration::SetReachable(bool reachable) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  const std::string problem = reachable ? "" : master_.problem();
+  if (std::exchange(master_problem_, problem) != problem && !problem.empty()) {
+    spdlog::warn("the server at {} does not answer as a ROS master: it {}; check ROS_MASTER_URI",
+                 status_.master_uri, problem);
+  }
   if (reachable == status_.master_reachable) return;
   status_.master_reachable = reachable;
   if (reachable) {

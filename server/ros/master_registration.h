@@ -50,9 +50,10 @@ struct InputWiring {
 
 class MasterRegistration {
  public:
-  /// `initial_urdf`: robot_description until the first person; "": none.
-  /// @pre ros::init was called.
-  MasterRegistration(std::string initial_urdf, bool with_tf, InputWiring wiring);
+  /// `initial_urdf`: robot_description until the first person, with the meshes that it names; "":
+  /// none. @pre ros::init was called.
+  MasterRegistration(std::string initial_urdf, std::shared_ptr<const MeshFiles> initial_meshes,
+                     bool with_tf, InputWiring wiring);
   ~MasterRegistration();  // unregisters the topics
   MasterRegistration(const MasterRegistration&) = delete;
   MasterRegistration& operator=(const MasterRegistration&) = delete;
@@ -61,6 +62,10 @@ class MasterRegistration {
   /// on, those of others `~<model>/joint_states`; `robot_description` follows the same rule. Never
   /// blocks; any thread.
   void SetPerson(int character, std::shared_ptr<const PersonModel> model);
+
+  /// Gives back the memory of a person who has left; the topics stay, for the person's return.
+  /// Never blocks; any thread.
+  void ReleasePerson(int character);
 
   /// Null until a master has answered. Never blocks; any thread.
   std::shared_ptr<const PersonTopics> TopicsOf(int character) const;
@@ -76,12 +81,13 @@ class MasterRegistration {
 
  private:
   struct Slot {
-    std::string prefix;  // "" or "<model>/"
-    std::shared_ptr<const PersonModel> model;
+    std::string prefix;                        // "" or "<model>/"
+    std::shared_ptr<const PersonModel> model;  // null: has left
     std::shared_ptr<const PersonTopics> topics;
   };
 
   void Run();
+  void RegisterRegularly();
   bool WaitForNext();
   bool MasterKnowsUs(bool& answers);
   void Start();
@@ -89,6 +95,7 @@ class MasterRegistration {
   std::shared_ptr<const PersonTopics> Advertise(const std::string& prefix);
   void Subscribe();
   ros::Subscriber SubscribeTransforms(const char* topic, bool is_static);
+  void CountUnreadable(const char* topic);  // on the thread of the queue
   template <class Message>
   ros::Publisher Topic(const std::string& name);
   bool RegisterAll();
@@ -97,7 +104,15 @@ class MasterRegistration {
   void SetReachable(bool reachable);
   void StopForGood(const char* reason);
 
+  // A description parameter that was set.
+  struct Description {
+    std::uint64_t revision = 0;              // 0: of initial_urdf_
+    std::int64_t set_nanos = 0;              // monotonic clock
+    std::shared_ptr<const MeshFiles> files;  // RViz reads them whenever it likes
+  };
+
   const std::string initial_urdf_;
+  const std::shared_ptr<const MeshFiles> initial_meshes_;
   const bool with_tf_;
   const InputWiring wiring_;
 
@@ -113,6 +128,7 @@ class MasterRegistration {
 
   // Used by the registration thread only.
   MasterClient master_;
+  std::string master_problem_;     // that was logged last
   std::optional<int> master_pid_;  // process id of the master that the following members refer to
   std::unique_ptr<ros::NodeHandle> node_;  // private names; null until a master has answered
   std::map<std::string, std::string> topic_types_;  // all advertised topics, by name
@@ -121,10 +137,10 @@ class MasterRegistration {
   std::map<std::string, ForceSubscriptions> inputs_;  // of these, those registered at this master
   std::vector<ros::Subscriber> transforms_;           // registered at this master
   std::vector<ros::Subscriber> markers_;              // registered at this master
-  std::map<std::string, std::uint64_t>
-      described_;                // description parameters that were set, with their revision
-  bool has_arguments_ = false;   // the `_name:=value` parameters were set at this master
-  bool was_registered_ = false;  // registered at least once, at any master
+  std::map<std::string, Description> described_;      // by name of the parameter
+  bool has_arguments_ = false;     // the `_name:=value` parameters were set at this master
+  bool was_registered_ = false;    // registered at least once, at any master
+  bool master_forgot_us_ = false;  // and still does: then it is not said each time
 
   std::thread thread_;  // last: it uses all other members
 };

@@ -9,7 +9,7 @@
 namespace kinescope::ros_bridge {
 
 // A launch file may still pass remappings; they have no effect here.
-void InitRos(int& argc, char** argv, const std::string& /*default_name*/) {
+void TakeRosArguments(int& argc, char** argv, const std::string& /*default_name*/) {
   char** const end = std::stable_partition(argv, argv + argc, [](const char* argument) {
     return std::strstr(argument, ":=") == nullptr;
   });

@@ -1,10 +1,12 @@
-/// Holds a message of a ROS topic as bytes. Array sizes in the message are untrusted, and roscpp
-/// allocates memory before it checks them. The functions here check them first. One thread.
+/// Decodes messages of ROS topics. Array sizes in a message are untrusted, and roscpp allocates
+/// memory before it checks them: a message of four bytes can take gigabytes. The types and
+/// functions here check them first. One thread.
 #pragma once
 
 #include <geometry_msgs/Transform.h>
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
+#include <ros/service_traits.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <xsens_mvn_ros_msgs/LinkStateArray.h>
@@ -35,6 +37,67 @@ struct RawMessage {
 
 inline constexpr std::size_t kLargestMessage = 16 << 20;  // bytes: 100,000 transforms
 
+/// Subscribes to a topic of `Message` without trusting its array sizes. To publishers and in the
+/// registration it is a `Message`.
+template <class Message>
+struct BoundedMessage {
+  Message message;
+  bool is_sound = false;  // false: it is truncated, too large, or has a wrong array size
+};
+
+/// Reads as roscpp's IStream, but lists grow while their elements are read: their memory is limited
+/// by the bytes that are there, not by the size that the message states.
+class BoundedStream : public ros::serialization::Stream {
+ public:
+  static constexpr ros::serialization::StreamType stream_type =
+      ros::serialization::stream_types::Input;
+
+  /// Reads only, but the base class requires writable bytes.
+  BoundedStream(const std::uint8_t* bytes, std::uint32_t size)
+      : Stream(const_cast<std::uint8_t*>(bytes), size) {}
+
+  /// The base class first computes an address behind the bytes, which may not exist.
+  std::uint8_t* advance(std::uint32_t size) {
+    if (size > getLength()) ros::serialization::throwStreamOverrun();
+    return Stream::advance(size);
+  }
+
+  template <class T>
+  void next(T& value) {
+    ros::serialization::Serializer<T>::read(*this, value);
+  }
+
+  template <class T, std::size_t size>
+  void next(boost::array<T, size>& values) {
+    for (T& value : values) next(value);
+  }
+
+  template <class T, class Allocator>
+  void next(std::vector<T, Allocator>& list) {
+    std::uint32_t count = 0;
+    next(count);
+    if (count > getLength()) ros::serialization::throwStreamOverrun();
+    for (std::uint32_t i = 0; i < count; ++i) {
+      if (i == list.size()) list.emplace_back();
+      next(list[i]);
+    }
+    list.resize(count);
+  }
+};
+
+/// False if the bytes are not all of a `Message`, whose contents are then unspecified.
+template <class Message>
+[[nodiscard]] bool ReadBounded(const std::uint8_t* bytes, std::size_t size, Message& message) {
+  if (size > kLargestMessage) return false;
+  try {
+    BoundedStream in(bytes, static_cast<std::uint32_t>(size));
+    in.next(message);
+    return true;
+  } catch (const ros::serialization::StreamOverrunException&) {
+    return false;
+  }
+}
+
 /// Why a pose is rejected, as the key of its counter: a number that is not finite, a position more
 /// than 1000 km away, a quaternion whose norm is off by more than 1e-3. Null if it is valid.
 [[nodiscard]] const char* DefectOf(const Eigen::Vector3d& position, const Eigen::Vector4d& xyzw);
@@ -63,8 +126,39 @@ struct Definition<kinescope::ros_bridge::RawMessage> {
   static const char* value() { return ""; }
   static const char* value(const kinescope::ros_bridge::RawMessage&) { return ""; }
 };
+template <class Message>
+struct IsMessage<kinescope::ros_bridge::BoundedMessage<Message>> : TrueType {};
+template <class Message>
+struct MD5Sum<kinescope::ros_bridge::BoundedMessage<Message>> {
+  static const char* value() { return MD5Sum<Message>::value(); }
+  static const char* value(const kinescope::ros_bridge::BoundedMessage<Message>&) {
+    return value();
+  }
+};
+template <class Message>
+struct DataType<kinescope::ros_bridge::BoundedMessage<Message>> {
+  static const char* value() { return DataType<Message>::value(); }
+  static const char* value(const kinescope::ros_bridge::BoundedMessage<Message>&) {
+    return value();
+  }
+};
+template <class Message>
+struct Definition<kinescope::ros_bridge::BoundedMessage<Message>> {
+  static const char* value() { return Definition<Message>::value(); }
+  static const char* value(const kinescope::ros_bridge::BoundedMessage<Message>&) {
+    return value();
+  }
+};
 }  // namespace message_traits
 namespace serialization {
+template <class Message>
+struct Serializer<kinescope::ros_bridge::BoundedMessage<Message>> {
+  template <class Stream>
+  static void read(Stream& stream, kinescope::ros_bridge::BoundedMessage<Message>& bounded) {
+    bounded.is_sound =
+        kinescope::ros_bridge::ReadBounded(stream.getData(), stream.getLength(), bounded.message);
+  }
+};
 template <>
 struct Serializer<kinescope::ros_bridge::RawMessage> {
   template <class Stream>
@@ -73,4 +167,14 @@ struct Serializer<kinescope::ros_bridge::RawMessage> {
   }
 };
 }  // namespace serialization
+namespace service_traits {
+template <class Request>
+struct MD5Sum<kinescope::ros_bridge::BoundedMessage<Request>> {
+  static const char* value() { return MD5Sum<Request>::value(); }
+};
+template <class Request>
+struct DataType<kinescope::ros_bridge::BoundedMessage<Request>> {
+  static const char* value() { return DataType<Request>::value(); }
+};
+}  // namespace service_traits
 }  // namespace ros

@@ -1,6 +1,6 @@
 /// Makes the model of a person (segment lengths, masses, URDF) from the options of the command and
-/// from what the stream says about the person. Writes no files: a model names its mesh
-/// files, and the sinks that need them have them written (core/mesh_files.h). Any thread.
+/// from what the stream says about the person. Writes no files: a model names its mesh files, and
+/// sinks whose readers are other programs have them written (core/mesh_files.h). Any thread.
 #pragma once
 
 #include <cstddef>

@@ -8,14 +8,34 @@
 
 namespace kinescope::app {
 
-PersonTracker::PersonTracker(const ModelFactory& models, Character character, std::size_t index)
-    : models_(models) {
-  person_.index = index;
+PersonTracker::PersonTracker(const ModelFactory& models, ModelMaker* maker, Character character,
+                             const Past& past)
+    : models_(models), maker_(maker), revision_(past.revision), exposure_(past.exposure) {
+  person_.index = past.index;
   person_.character = std::move(character);
-  model_ = models_.Make(person_, 1);
 }
 
-void PersonTracker::Remodel() { model_ = models_.Make(person_, model_->revision + 1); }
+// Brings the model up to date, or on the way. Changes while one is being made are in the next one,
+// all together.
+void PersonTracker::UpdateModel() {
+  if (model_ != nullptr && maker_ != nullptr) {
+    if (auto made = maker_->Take(person_.index)) SetModel(std::move(made));
+    if (!has_changed_ || !maker_->IsFree(person_.index)) return;
+    maker_->Ask(person_, ++revision_);
+    has_changed_ = false;
+  } else if (has_changed_) {
+    has_changed_ = false;
+    SetModel(models_.Make(person_, ++revision_));
+  }
+}
+
+void PersonTracker::SetModel(std::shared_ptr<const PersonModel> model) {
+  model_ = std::move(model);
+  if (!has_new_lengths_) return;
+  has_new_lengths_ = has_changed_;
+  floor_.Restart();  // found by the soles, which have just moved
+  worst_deviation_ = {};
+}
 
 void PersonTracker::SetCharacter(const Character& received) {
   Character character = received;
@@ -35,10 +55,8 @@ void PersonTracker::SetCharacter(const Character& received) {
   }
   const bool has_more_lengths = character.skeleton && !(same_body && same_extra);
   if (!has_more_lengths && same_color) return;
-  Remodel();
-  if (same_body) return;
-  floor_.Restart();  // found by the soles, which have just moved
-  worst_deviation_ = {};
+  if (!same_body) has_new_lengths_ = true;
+  has_changed_ = true;
 }
 
 // Scale data without points can have L5 a centimetre and more off where all poses have it (a tilted
@@ -66,8 +84,7 @@ bool PersonTracker::MeasureSkeleton(const BodySample& sample) {
   person_.lengths_are_of_poses = true;
   l5_is_checked_ = true;
   person_.l5_in_pelvis.reset();
-  floor_.Restart();
-  worst_deviation_ = {};
+  has_new_lengths_ = true;
   return true;
 }
 
@@ -129,7 +146,8 @@ void PersonTracker::Update(const BodySample& sample, const loads::LoadSettings& 
                            const loads::Measurements& measured, const Known& known) {
   const bool has_new_lengths = MeasureSkeleton(sample);
   const bool l5_has_moved = CheckL5(sample);
-  if (person_.worn.Notice(sample) || has_new_lengths || l5_has_moved) Remodel();
+  if (person_.worn.Notice(sample) || has_new_lengths || l5_has_moved) has_changed_ = true;
+  UpdateModel();
   PersonState state;
   state.character = sample.character;
   state.name = person_.character.name;

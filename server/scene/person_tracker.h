@@ -15,14 +15,24 @@
 #include "server/loads/foot_motion.h"
 #include "server/loads/load_estimator.h"
 #include "server/scene/model_factory.h"
+#include "server/scene/model_maker.h"
 #include "server/scene/recorded_forces.h"
 
 namespace kinescope::app {
 
 class PersonTracker {
  public:
-  /// `index`: in the order of appearance. `models` is borrowed for the lifetime.
-  PersonTracker(const ModelFactory& models, Character character, std::size_t index);
+  /// What stays of a person who has left for long, to be continued when the person returns.
+  struct Past {
+    std::size_t index = 0;       // in the order of appearance
+    std::uint64_t revision = 0;  // of the last model
+    loads::BandTimes exposure;
+  };
+
+  /// `models` and `maker` are borrowed for the lifetime. With a `maker`, a new model is used when
+  /// it is ready, except the first; null: it is made at once.
+  PersonTracker(const ModelFactory& models, ModelMaker* maker, Character character,
+                const Past& past);
 
   /// Takes over name, colour and scale data; the model changes with them.
   void SetCharacter(const Character& character);
@@ -43,9 +53,11 @@ class PersonTracker {
   const PersonState* state() const { return state_ ? &*state_ : nullptr; }
   /// Height of the ground under this person, world, m; absent before the first sample.
   std::optional<double> floor_z() const { return floor_z_; }
+  Past past() const { return {person_.index, revision_, exposure_}; }
 
  private:
-  void Remodel();
+  void UpdateModel();
+  void SetModel(std::shared_ptr<const PersonModel> model);
   bool CheckL5(const BodySample& sample);
   /// Takes the lengths from the poses as long as the source does not send them. True if they are
   /// new.
@@ -58,8 +70,12 @@ class PersonTracker {
                 PersonState& state);
 
   const ModelFactory& models_;
+  ModelMaker* const maker_;
   PersonDescription person_;
-  std::shared_ptr<const PersonModel> model_;  // never null
+  std::shared_ptr<const PersonModel> model_;  // null before the first sample
+  std::uint64_t revision_ = 0;                // of the newest model, made or asked for
+  bool has_changed_ = true;                   // person_, since a model was made or asked for
+  bool has_new_lengths_ = false;              // that model_ does not have yet
   bool l5_is_checked_ = false;                // against the first pose; see CheckL5
   SkeletonWatch watch_;
   urdf::JointAngles angles_{};

@@ -34,7 +34,7 @@ class RecordedForces {
   wrenches::WrenchTrack track_;
   const double period_secs_;
   std::optional<int> character_;  // set with the first sample
-  std::int64_t begin_nanos_ = 0;  // likewise
+  std::int64_t begin_nanos_ = 0;  // set with the first sample
   std::array<Eigen::Vector3d, wrenches::kWrenchBodyCount> last_points_;  // centres of pressure
 };
 

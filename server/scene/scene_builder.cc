@@ -1,6 +1,10 @@
 #include "server/scene/scene_builder.h"
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -36,6 +40,7 @@ SceneBuilder::SceneBuilder(SceneOptions options, std::string source, double nomi
       on_state_(std::move(on_state)),
       rate_(nominal_rate_hz) {
   SetLoads(options_.loads);
+  if (options_.makes_models_aside) maker_ = std::make_unique<ModelMaker>(models_);
   if (options_.wrenches) recorded_forces_.emplace(*options_.wrenches, nominal_rate_hz);
 }
 
@@ -71,48 +76,101 @@ void SceneBuilder::ForgetStoppedHands(PersonInputs& inputs) {
 
 void SceneBuilder::Start() { Publish(Liveness::kNoData); }
 
+// A description alone makes no person: a sender without poses costs nothing.
 void SceneBuilder::OnCharacter(const Character& character) {
-  if (!character.skeleton && !character.scaled_segments.empty()) {
-    clusters_[character.id] = character;
-    return;
-  }
-  const auto [person, is_new] =
-      people_.try_emplace(character.id, models_, character, people_.size());
-  if (!is_new) person->second.SetCharacter(character);
+  characters_[character.id] = character;
+  const bool is_of_objects = !character.skeleton && !character.scaled_segments.empty();
+  if (is_of_objects) return;
+  const auto person = people_.find(character.id);
+  if (person != people_.end()) person->second.SetCharacter(character);
 }
 
-PersonTracker& SceneBuilder::TrackerOf(const BodySample& sample) {
-  const auto known = people_.find(sample.character);
+PersonTracker& SceneBuilder::TrackerOf(int id) {
+  const auto known = people_.find(id);
   if (known != people_.end()) return known->second;
-  Character character;
-  character.id = sample.character;
-  return people_.try_emplace(sample.character, models_, character, people_.size()).first->second;
+  Character& character = characters_[id];
+  character.id = id;
+  const auto past = past_.try_emplace(id, PersonTracker::Past{past_.size(), 0, {}}).first;
+  return people_.try_emplace(id, models_, maker_.get(), character, past->second).first->second;
+}
+
+// People come and go; what each of them needs is given back.
+void SceneBuilder::ForgetThoseGone() {
+  constexpr std::int64_t kForgetAfter = 60 * kNanosPerSecond;
+  for (auto person = people_.begin(); person != people_.end();) {
+    const PersonState* const state = person->second.state();
+    const bool is_gone =
+        state != nullptr && current_.stamp_nanos - state->sample.stamp_nanos > kForgetAfter;
+    if (!is_gone) {
+      ++person;
+      continue;
+    }
+    past_.at(person->first) = person->second.past();
+    if (maker_) maker_->Forget(past_.at(person->first).index);
+    places_.Forget(person->first);
+    person = people_.erase(person);
+  }
+}
+
+void SceneBuilder::TakeTime(const BodySample& sample) {
+  current_.stamp_nanos = sample.stamp_nanos;
+  current_.arrival_nanos = sample.arrival_nanos;
+  current_.waited_nanos = waited_nanos_;
+}
+
+// Also after the clock was set back, and in recordings that follow each other.
+bool SceneBuilder::IsWithin(std::int64_t nanos, std::int64_t stamp_nanos) const {
+  return std::abs(current_.stamp_nanos - stamp_nanos) <= nanos;
+}
+
+bool SceneBuilder::IsPlausible(const BodySample& sample) {
+  auto why =
+      places_.WhyNot(sample.character, sample.segments[urdf::kPelvis].position, sample.stamp_nanos);
+  const auto known = left_out_.find(sample.character);
+  if (!why) {
+    if (known != left_out_.end()) left_out_.erase(known);
+    return true;
+  }
+  if (left_out_once_.insert(sample.character).second) {
+    const std::string& name = characters_[sample.character].name;
+    spdlog::warn("{} is left out: {}; such a place is not possible",
+                 name.empty() ? fmt::format("character {}", sample.character) : "'" + name + "'",
+                 why->text);
+  }
+  left_out_[sample.character] = {std::move(*why), sample.stamp_nanos};
+  // The stream goes on; a person alone is shown at the last plausible place for a second.
+  if (current_.liveness == Liveness::kNoData) return false;
+  TakeTime(sample);
+  Publish(Liveness::kLive);
+  return false;
 }
 
 void SceneBuilder::OnSample(const BodySample& sample, const loads::BodyMotion* motion) {
+  if (!IsPlausible(sample)) return;
   const auto inputs = inputs_.find(sample.character);
   static const PersonInputs kNoInputs;
   const PersonInputs& given = inputs == inputs_.end() ? kNoInputs : inputs->second;
   loads::LoadSettings settings = options_.loads;
   if (given.hand_load) settings.hands = *given.hand_load;
   const bool has_forces = recorded_forces_ && recorded_forces_->AreOf(sample);
-  TrackerOf(sample).Update(sample, settings, given.measured,
-                           {options_.floor_z, motion, has_forces ? &*recorded_forces_ : nullptr});
+  TrackerOf(sample.character)
+      .Update(sample, settings, given.measured,
+              {options_.floor_z, motion, has_forces ? &*recorded_forces_ : nullptr});
   rate_.Add(sample);
   current_.rate_hz = rate_.hz();
-  current_.stamp_nanos = sample.stamp_nanos;
   current_.counter = sample.counter;
   current_.time_code_millis = sample.time_code_millis;
-  current_.arrival_nanos = sample.arrival_nanos;
+  TakeTime(sample);
   const auto first = std::find_if(people_.begin(), people_.end(),
                                   [](const auto& entry) { return entry.second.floor_z(); });
   current_.floor_z = *first->second.floor_z();
   Publish(Liveness::kLive);
+  ForgetThoseGone();
 }
 
 // Objects alone are no motion to show: they wait for the next sample of a person.
 void SceneBuilder::OnObjects(const ObjectsSample& sample) {
-  const Character& cluster = clusters_[sample.character];
+  const Character& cluster = characters_[sample.character];
   std::vector<TrackedObject>& objects = objects_[sample.character];
   objects.clear();
   for (std::size_t i = 0; i < sample.poses.size(); ++i) {
@@ -131,10 +189,13 @@ void SceneBuilder::Publish(Liveness liveness) {
   current_.number += 1;
   current_.source = source_;
   const auto scene = std::make_shared<SceneState>(current_);
+  scene->people.reserve(people_.size());
   for (const auto& [id, person] : people_) {
     const PersonState* const state = person.state();
     if (state == nullptr) continue;
-    if (current_.stamp_nanos - state->sample.stamp_nanos > kGoneAfterNanos) continue;
+    if (!IsWithin(kGoneAfterNanos, state->sample.stamp_nanos)) continue;
+    const auto left_out = left_out_.find(id);
+    if (left_out != left_out_.end() && left_out->second.doubt.is_of_person) continue;
     scene->people.push_back(*state);
     if (liveness == Liveness::kLive) continue;
     constexpr std::string_view kStopped = "the stream stopped";  // old loads must not look valid
@@ -147,9 +208,13 @@ void SceneBuilder::Publish(Liveness liveness) {
   }
   for (const auto& [id, cluster] : objects_) {
     for (const TrackedObject& object : cluster) {
-      if (current_.stamp_nanos - object.stamp_nanos > kGoneAfterNanos) continue;
+      if (!IsWithin(kGoneAfterNanos, object.stamp_nanos)) continue;
       scene->objects.push_back(object);
     }
+  }
+  for (const auto& [id, left_out] : left_out_) {
+    if (!IsWithin(kGoneAfterNanos, left_out.stamp_nanos)) continue;
+    scene->left_out.push_back({id, characters_[id].name, left_out.doubt.text});
   }
   on_state_(scene);
 }
@@ -159,9 +224,17 @@ void SceneBuilder::SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> ma
   if (current_.liveness != Liveness::kLive) Publish(current_.liveness);
 }
 
+void SceneBuilder::OnCaughtUp() {
+  waited_nanos_ = 0;
+  if (current_.waited_nanos == 0) return;
+  current_.waited_nanos = 0;
+  if (current_.liveness != Liveness::kNoData) Publish(current_.liveness);
+}
+
 void SceneBuilder::Tick(std::int64_t monotonic_nanos) {
   if (current_.liveness != Liveness::kLive || current_.arrival_nanos == 0) return;
-  const double silent_secs = Secs(monotonic_nanos - current_.arrival_nanos);
+  // Since it was processed: samples that wait in an overloaded machine are no silence.
+  const double silent_secs = Secs(monotonic_nanos - current_.arrival_nanos - current_.waited_nanos);
   if (silent_secs >= options_.stale_secs) MarkStale();
 }
 

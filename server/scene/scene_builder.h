@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,9 @@
 #include "core/source.h"
 #include "server/loads/load_settings.h"
 #include "server/scene/model_factory.h"
+#include "server/scene/model_maker.h"
 #include "server/scene/person_tracker.h"
+#include "server/scene/plausible_places.h"
 #include "server/scene/rate_meter.h"
 #include "server/scene/recorded_forces.h"
 #include "server/scene/sample_smoother.h"
@@ -30,6 +33,9 @@ struct SceneOptions : ModelSettings {
   std::optional<double> floor_z;  // of the floor, world, m; absent: it is found
   /// Measured forces of a recording, on the first person; in place of SetMeasurements().
   std::optional<wrenches::WrenchSettings> wrenches;
+  /// Changed bodies are made on a thread of their own and used when they are ready, so that they
+  /// never delay a live stream. Otherwise states depend only on the samples.
+  bool makes_models_aside = false;
 };
 
 class SceneBuilder : public SampleSink, public SmoothSampleSink {
@@ -65,6 +71,13 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// Sets the external markers from the next sample on; at once while no samples arrive.
   void SetMarkers(std::vector<std::shared_ptr<const SceneMarker>> markers);
 
+  /// How long the next samples waited in this machine before they were processed, ns; part of the
+  /// states.
+  void SetWaited(std::int64_t nanos) { waited_nanos_ = nanos; }
+
+  /// Nothing waits any more: what is shown is the newest.
+  void OnCaughtUp();
+
   /// Call it at least every 0.1 s with the monotonic clock while a live source is read: it detects
   /// that no samples arrive.
   void Tick(std::int64_t monotonic_nanos);
@@ -80,20 +93,36 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
     loads::Measurements measured;
   };
 
-  PersonTracker& TrackerOf(const BodySample& sample);
+  PersonTracker& TrackerOf(int id);
+  bool IsPlausible(const BodySample& sample);
+  void TakeTime(const BodySample& sample);
+  bool IsWithin(std::int64_t nanos, std::int64_t stamp_nanos) const;
+  void ForgetThoseGone();
   static void ForgetStoppedHands(PersonInputs& inputs);
   void Publish(Liveness liveness);
 
+  struct LeftOut {
+    PlausiblePlaces::Doubt doubt;
+    std::int64_t stamp_nanos = 0;
+  };
+
   SceneOptions options_;
   const ModelFactory models_;
+  std::unique_ptr<ModelMaker> maker_;  // null: models are made at once
   std::string source_;
   OnState on_state_;
   std::optional<RecordedForces> recorded_forces_;
-  std::map<int, PersonTracker> people_;  // by character id; bounded by the source
-  std::map<int, PersonInputs> inputs_;   // by character id; bounded by the source
-  std::map<int, Character> clusters_;    // groups of tracked objects, by character id; bounded by
-                                         // the source
+  PlausiblePlaces places_;
+  // By character id, of which a source has a few hundred at most:
+  std::map<int, PersonTracker> people_;      // with a sample in the last minute
+  std::map<int, PersonTracker::Past> past_;  // of all people so far
+  std::map<int, Character> characters_;      // as the source described them; people and groups of
+                                             // tracked objects
+  std::map<int, PersonInputs> inputs_;
+  std::map<int, LeftOut> left_out_;                    // now
+  std::set<int> left_out_once_;                        // said once
   std::map<int, std::vector<TrackedObject>> objects_;  // of the newest sample of each group
+  std::int64_t waited_nanos_ = 0;                      // see SetWaited()
   RateMeter rate_;
   SceneState current_;  // without its people, which Publish adds
 };

@@ -132,8 +132,12 @@ SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& load
 SceneOptions ToShownSceneOptions(const PersonOptions& person, const LoadOptions& loads,
                                  double stale_secs) {
   SceneOptions scene = ToSceneOptions(person, loads, stale_secs);
-  if (scene.appearance.has_meshes()) scene.mesh_cache = MeshCache::OfUser();
+  if (scene.appearance.has_meshes()) scene.mesh_cache = MeshCache::InMemory();
   return scene;
+}
+
+void UseMeshFiles(MeshCache::Lifetime lifetime, SceneOptions& scene) {
+  if (scene.mesh_cache) scene.mesh_cache = MeshCache::OfUser(lifetime);
 }
 
 }  // namespace kinescope::app

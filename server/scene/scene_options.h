@@ -62,10 +62,12 @@ options::Number StaleSecs();
 /// Reads the meshes of the person. @throws UsageError naming option, value and what was expected.
 SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& loads = {},
                             double stale_secs = SceneOptions().stale_secs);
-/// For commands that show the people or publish their URDF: with the mesh cache of the user, if the
-/// people need one and it can be written.
+/// For commands that show the people: with their meshes, in memory.
 SceneOptions ToShownSceneOptions(const PersonOptions& person, const LoadOptions& loads = {},
                                  double stale_secs = SceneOptions().stale_secs);
+/// For commands that pass the URDF of the people on to other programs: its meshes may become files
+/// of the user's cache. Without a folder for them the people consist of primitives.
+void UseMeshFiles(MeshCache::Lifetime lifetime, SceneOptions& scene);
 loads::LoadSettings ToLoadSettings(const LoadOptions& loads);
 
 }  // namespace kinescope::app

@@ -1,16 +1,33 @@
 #include "server/scene/scene_reader.h"
 
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "core/scene_interpolation.h"
 #include "core/system/check.h"
+#include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "core/system/stop_signal.h"
 #include "server/source/open_source.h"
+#include "server/source/scheme.h"
 
 namespace kinescope::app {
+
+void CheckReach(const std::string& option, double secs, const std::string& url) {
+  if (!IsSubjectUrl(url) || secs <= kSubjectLatestSecs) return;
+  throw UsageError(fmt::format("{}: {} is generated motion; expected at most {} s after its start",
+                               option, url, kSubjectLatestSecs));
+}
+
+bool IsWithinLength(std::int64_t begin_nanos, std::int64_t stamp_nanos,
+                    std::optional<double> length_secs) {
+  constexpr double kRounding = 1e-6;  // s
+  return !length_secs || Secs(stamp_nanos - begin_nanos) <= *length_secs + kRounding;
+}
 
 SceneReader::SceneReader(std::unique_ptr<Source> source, const std::string& url,
                          const SceneOptions& options)
@@ -75,6 +92,7 @@ std::shared_ptr<const SceneState> SceneReader::Next() {
     const auto state =
         source_->Poll(is_live() ? kBetweenChecks : std::chrono::milliseconds(0), smoother_);
     ended_ = state == Source::State::kEnded;
+    if (is_live()) WarnIfNothingComes();
     if (!ended_ && is_live() && StopRequested()) {
       ReadRest();
       ended_ = true;
@@ -82,9 +100,19 @@ std::shared_ptr<const SceneState> SceneReader::Next() {
     if (ended_) smoother_.End();
   }
   if (ready_.empty()) return nullptr;
+  is_waiting_ = false;
   auto state = std::move(ready_.front());
   ready_.pop_front();
   return state;
+}
+
+void SceneReader::WarnIfNothingComes() {
+  constexpr std::int64_t kPatienceSecs = 4;  // a state comes up to two seconds after its sample
+  if (!is_waiting_ || !ready_.empty()) return;
+  if (MonotonicNanos() < started_nanos_ + kPatienceSecs * kNanosPerSecond) return;
+  is_waiting_ = false;
+  spdlog::warn("{}: no pose of a person within {} s; check the stream with `kinescope inspect {}`",
+               source_->description(), kPatienceSecs, url_);
 }
 
 std::shared_ptr<const SceneState> SceneReader::Stale() {

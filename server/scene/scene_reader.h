@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/source.h"
+#include "core/system/clocks.h"
 #include "server/scene/sample_smoother.h"
 #include "server/scene/scene_builder.h"
 #include "server/source/open_source.h"
@@ -20,6 +21,18 @@ namespace kinescope::app {
 /// The latest time of a recording that an option may set, s after its first sample: ten days,
 /// longer than any recording and far below the range of nanoseconds in 64 bits.
 inline constexpr double kLatestSecs = 864'000;
+/// The latest sample: that of the latest time at the highest sample rate.
+inline constexpr double kLatestSample = kLatestSecs * 1000;
+
+/// To be called before a time that a user has set is looked for: the built-in subject has no end,
+/// and would be generated until then. `option`: "--time=800000".
+/// @throws UsageError with the option and the latest time of the built-in subject.
+void CheckReach(const std::string& option, double secs, const std::string& url);
+
+/// Whether a sample belongs to the first `length_secs` of a motion that begins at `begin_nanos`,
+/// the one at the end included; rounded stamps do not decide. nullopt: all of it.
+bool IsWithinLength(std::int64_t begin_nanos, std::int64_t stamp_nanos,
+                    std::optional<double> length_secs);
 
 /// The motion of recordings is filtered without lag, up to two seconds ahead of the state.
 class SceneReader {
@@ -64,6 +77,7 @@ class SceneReader {
 
   SceneReader(std::unique_ptr<Source> source, const std::string& url, const SceneOptions& options);
   void ReadRest();
+  void WarnIfNothingComes();
 
   const std::string url_;
   const double cutoff_hz_;
@@ -75,6 +89,8 @@ class SceneReader {
   FanOut builders_;  // builder_ and others_
   SampleSmoother smoother_;
   bool ended_ = false;
+  const std::int64_t started_nanos_ = MonotonicNanos();
+  bool is_waiting_ = true;  // for the first state, and without a warning
 };
 
 /// Computes the scene at ascending times: reads states as needed and interpolates between them. One

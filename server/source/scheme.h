@@ -33,5 +33,7 @@ inline constexpr double kSubjectClipSecs = 10;
 inline constexpr double kSubjectLoadsSecs = 8;    // one lift
 inline constexpr double kSubjectPrescanSecs = 5;  // for a camera that depends on the whole motion
 inline constexpr double kInspectSecs = 5;
+// The latest time of it that an option may set, s: everything before is generated, too.
+inline constexpr double kSubjectLatestSecs = 3600;
 
 }  // namespace kinescope::app

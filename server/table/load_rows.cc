@@ -114,7 +114,7 @@ void VisitBody(const PersonState& person, CellSink& cells) {
   cells.Text("metric_reason", forces.why_other_metric);
   cells.Whole("is_dynamic", forces.is_dynamic ? 1 : 0);
   cells.Text("static_reason", forces.why_static);
-  cells.Text("filter", !forces.is_dynamic ? "" : forces.is_zero_phase ? "zero-phase" : "causal");
+  cells.Text("filter", FilterName(forces));
   cells.Number("delay_s", forces.delay_secs);
   cells.Number("floor_z_m", forces.floor_z);
   Vector("com", "m", forces.com_of_model, cells);

@@ -1,7 +1,11 @@
 #include "server/table/output_file.h"
 
+#include <cerrno>
 #include <cstdio>
-#include <stdexcept>
+#include <system_error>
+
+#include "core/system/standard_streams.h"
+#include "core/system/utf8.h"
 
 namespace kinescope::app {
 
@@ -18,18 +22,29 @@ void OutputFile::Finish() {
   Flush();
   if (file_) {
     file_->Commit();
-  } else if (std::fflush(stdout) != 0) {
-    throw std::runtime_error("cannot write to standard output");
+  } else {
+    FlushStandardOutput();
   }
 }
 
 void OutputFile::Flush() {
   if (file_) {
     file_->Write(buffer_.data(), buffer_.size());
-  } else if (std::fwrite(buffer_.data(), 1, buffer_.size(), stdout) != buffer_.size()) {
-    throw std::runtime_error("cannot write to standard output");
+  } else {
+    const std::string printable = PrintableLines(buffer_);
+    if (std::fwrite(printable.data(), 1, printable.size(), stdout) != printable.size()) {
+      FailOfStandardOutput(errno);
+    }
   }
   buffer_.clear();
+}
+
+std::filesystem::path PlaceOfOutput(const std::string& path) {
+  std::error_code error;
+  const auto absolute = std::filesystem::absolute(path);
+  auto place = std::filesystem::weakly_canonical(absolute, error);
+  if (error) place = absolute.lexically_normal();
+  return place.has_filename() ? place : place.parent_path();
 }
 
 }  // namespace kinescope::app

@@ -2,6 +2,7 @@
 /// complete, or to standard output. One thread.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -26,5 +27,9 @@ class OutputFile {
   std::optional<render::NewFile> file_;
   std::string buffer_;
 };
+
+/// Absolute and without links: equal for equal files, however their paths are spelt. The file need
+/// not exist.
+std::filesystem::path PlaceOfOutput(const std::string& path);
 
 }  // namespace kinescope::app

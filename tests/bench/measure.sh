@@ -35,9 +35,12 @@ if command -v rosmaster >/dev/null && [ -x "$build/tests/bench/ros_latency" ]; t
   /usr/bin/python3 "$(command -v rosmaster)" --core -p "$master_port" >/dev/null 2>&1 & children+=($!)
   until (: >"/dev/tcp/127.0.0.1/$master_port") 2>/dev/null; do sleep 0.1; done
 fi
-"$kinescope" serve --source "udp://127.0.0.1:$udp_port" --http_port "$http_port" 2>"$work/server.log" & server=$!
-children+=("$server")
-until grep -q 'page at' "$work/server.log"; do kill -0 "$server"; done
+start_server() {  # [options]
+  "$kinescope" serve --source "udp://127.0.0.1:$udp_port" --http_port "$http_port" "$@" 2>"$work/server.log" & server=$!
+  children+=("$server")
+  until grep -q 'page at' "$work/server.log"; do kill -0 "$server"; done
+}
+start_server
 measure_viewers() {  # VIEWERS [pictures]
   local before; before=$(cpu_ticks "$server")
   echo "$1 viewer(s) ${2:-}: $("$build/tests/bench/page_viewers" "$http_port" "$1" 10 ${2:+"$2"} | paste -sd';')" \
@@ -58,6 +61,13 @@ if [ -x "$build/tests/bench/ros_latency" ]; then
   echo "at 240 Hz, sample received to ROS subscriber: $("$build/tests/bench/ros_latency" /kinescope/joint_states 2400)"
   echo "  server CPU $(( $(cpu_ticks "$server") - before ))/1000 of a core, $(rss_mb "$server") MB"
 fi
+kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true
+start_server --ros off
+"$kinescope" stream demo:walk --characters 4 --rate_hz 240 --to "udp://127.0.0.1:$udp_port" 2>/dev/null & children+=($!)
+"$build/tests/bench/page_viewers" "$http_port" 1 2 pictures >/dev/null  # bodies and shaders are made
+echo "four people at 240 Hz, walking:"
+measure_viewers 1
+measure_viewers 1 pictures
 kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true
 types=01,02,03,12,13,20,21,22,23,24,25
 "$kinescope" record "udp://127.0.0.1:$udp_port" --out "$work/take.pcap" --seconds 8 --json >"$work/take.json" 2>"$work/record.log" & recorder=$!

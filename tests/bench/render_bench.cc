@@ -24,12 +24,16 @@ using kinescope::testing::Posture;
 // A person who sways, so that no two pictures are the same.
 class Sway {
  public:
+  explicit Sway(int people = 1) {
+    for (int i = 1; i < people; ++i) {
+      state_.people.push_back(state_.people[0]);
+      state_.people.back().character = i;
+      Shift(state_.people.back(), {0, 0.9 * i, 0});
+    }
+  }
   const SceneState& Next() {
     ++step_;
-    const Eigen::Vector3d shift(0, 0.002 * std::sin(0.1 * step_), 0);
-    PersonState& person = state_.people[0];
-    for (urdf::Pose& pose : person.links) pose.position += shift;
-    for (JointLoad& load : person.loads) load.position += shift;
+    for (PersonState& person : state_.people) Shift(person, {0, 0.002 * std::sin(0.1 * step_), 0});
     state_.counter += 1;
     state_.time_code_millis += 16;
     return state_;
@@ -37,6 +41,11 @@ class Sway {
   const SceneState& state() const { return state_; }
 
  private:
+  static void Shift(PersonState& person, const Eigen::Vector3d& by) {
+    for (urdf::Pose& pose : person.links) pose.position += by;
+    for (JointLoad& load : person.loads) load.position += by;
+  }
+
   SceneState state_ = MixedScene(Posture::kStanding);
   int step_ = 0;
 };
@@ -49,10 +58,11 @@ void SetRate(benchmark::State& run) {
 void Draw(benchmark::State& run, bool moves) {
   const auto renderer = MakeRenderer();
   run.SetLabel(renderer->renderer_string());
-  Sway sway;
+  Sway sway(static_cast<int>(run.range(2)));
   PictureSpec view;
   view.supersample = static_cast<int>(run.range(0));
   view.overlays = run.range(1) != 0;
+  if (run.range(3) != 0) view.look.detail = Detail::kBySize;
   Camera camera = NamedCamera("three_quarter", sway.state());
   Image image;
   for (int i = 0; i < 3; ++i) renderer->RenderInto(image, sway.Next(), camera, view);
@@ -186,17 +196,21 @@ void H264(benchmark::State& run) {
 }
 
 BENCHMARK(DrawStandingCamera)
-    ->ArgNames({"supersample", "overlays"})
-    ->Args({1, 0})
-    ->Args({1, 1})
-    ->Args({2, 1})
+    ->ArgNames({"supersample", "overlays", "people", "by_size"})
+    ->Args({1, 0, 1, 0})
+    ->Args({1, 1, 1, 0})
+    ->Args({1, 1, 4, 0})
+    ->Args({1, 1, 4, 1})
+    ->Args({2, 1, 1, 0})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK(DrawMovingCamera)
-    ->ArgNames({"supersample", "overlays"})
-    ->Args({1, 0})
-    ->Args({2, 0})
+    ->ArgNames({"supersample", "overlays", "people", "by_size"})
+    ->Args({1, 0, 1, 0})
+    ->Args({1, 1, 4, 0})
+    ->Args({1, 1, 4, 1})
+    ->Args({2, 0, 1, 0})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();

@@ -277,7 +277,7 @@ test('an HTML answer of a proxy is reported, and the rest of the page works', as
 });
 
 test('the page requires a token and removes it from the address', async () => {
-  const guarded = await startFixture(['--token', 's3cret']);
+  const guarded = await startFixture(['--token', 's3cret-of-the-lab']);
   const denied = await openPage(guarded.url.replace(/\?.*/, ''));
   assert.match(await text(denied.page, 'body'), /token/);
   await denied.close();

@@ -1,7 +1,9 @@
 // Writes the saved corpus: `make_corpus tests/fuzz/corpus`. Everything in it is made by our own
 // encoder, from seeded values, so that it can be made again.
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -11,6 +13,7 @@
 
 #include "server/mvn/byte_order.h"
 #include "server/mvn/encode.h"
+#include "tests/fuzz/bag_builder.h"
 #include "tests/server/mvn/file/capture_builder.h"
 #include "tests/server/mvn/file/synthetic_mvnx.h"
 #include "tests/server/mvn/mvn_testing.h"
@@ -262,6 +265,169 @@ void WriteLoads(const fs::path& folder) {
   Write(folder / "tiny", numbers(31, {1e-300, 0, 5e-324}));
 }
 
+// Each value that is read by a parser of its own, and what such a parser may trip over.
+void WriteOptions(const fs::path& folder) {
+  const std::pair<const char*, const char*> texts[] = {
+      {"background", "#1A2b3C"},
+      {"body_model", "primitive"},
+      {"camera", "1,2,3:0,0,1;front;keys.yaml"},
+      {"class_limits", "0.3,0.6"},
+      {"end", "864000"},
+      {"extra_mass", "head:1.5@0,0,0.12"},
+      {"fps", "30000/1001"},
+      {"ghost", "demo:lift@2.5"},
+      {"hand_load", "right:5;left:2.5@0,0.01,-0.2"},
+      {"orbit", "turn"},
+      {"overlay", "+plot,-legend"},
+      {"plot", "l5_s1,right_knee"},
+      {"quantities", "poses,loads"},
+      {"robot", "a.urdf@1,-2,90;b@c.urdf"},
+      {"sample", "864000000"},
+      {"show", "scale"},
+      {"size", "1280x720"},
+      {"tool", "right:hammer.stl@0,0,0"},
+      {"views", "2x2:front,left,top,1,2,3:0,0,1"},
+      {"wrench_bodies", "1:LeftFoot,2:RightFoot"},
+      {"wrench_place", "1,2,90"},
+      {"time", "1e-320"},
+      {"fov", "+-30"},
+      {"hand_load", "right:1e999@,,"},
+      {"views", "99999999999x1:"},
+      {"size", "0x99999999999999999999"},
+      {"robot", "@@;;@1,2,3,4"},
+      {"out", ";a;;b;;"},
+  };
+  int number = 0;
+  for (const auto& [name, text] : texts) {
+    Write(folder / (std::to_string(number++) + "_" + name), std::string(name) + "=" + text);
+  }
+}
+
+void WriteYaml(const fs::path& options, const fs::path& keys) {
+  Write(options / "case",
+        "source: demo:lift\ntime: 2.5\nstate: no data\ncamera: front\nsize: 640x360\n"
+        "overlay: [a]\n");
+  Write(options / "good",
+        "source: demo:lift\ntime: 2.5\nstate: no data\ncamera: front\nsize: 640x360\nfov: 40\n");
+  Write(options / "alias", "time: &a [1]\nsize: *a\n");
+  Write(options / "deep", "time: " + std::string(2000, '['));
+  Write(options / "twice", "time: 1\ntime: 2\n? [a]\n: b\n");
+  Write(keys / "every_field",
+        "keys:\n- {time: 0, camera: front}\n- {time: 1.5, camera: top, fov: 45, ease: linear}\n"
+        "- {time: 2, position: [3, -2, 1.5], target: [0, 0, 1], fov: 60, ease: hold}\n");
+  Write(keys / "laughs", "a: &a [x, x]\nb: &b [*a, *a]\nkeys: [*b, *b]\n");
+  Write(keys / "deep", "keys: " + std::string(2000, '['));
+  Write(keys / "not_finite", "keys: [{time: .inf, position: [.nan, 1e999, 0], target: [0, 0, 0]}]");
+}
+
+void WriteBags(const fs::path& folder) {
+  using namespace fuzz;
+  // Messages out of order, of a topic that is read and one that is not, and of none.
+  std::string records = BagConnectionRecord(0, "/tf", "tf2_msgs/TFMessage") +
+                        BagConnectionRecord(1, "/chatter", "std_msgs/String");
+  for (const std::uint32_t seconds : {3U, 1U, 2U}) {
+    records += BagMessageRecord(0, seconds, std::string(20, 't')) +
+               BagMessageRecord(1, seconds, "text") + BagMessageRecord(7, seconds, "nobody's");
+  }
+  const std::string index = BagRecord(4, {{"ver", Little(1, 4)}, {"conn", Little(0, 4)}}, "index") +
+                            BagRecord(6, {{"ver", Little(1, 4)}}, "chunk info");
+  for (const char* compression : {"none", "bz2", "lz4"}) {
+    const std::string chunk = BagChunk(compression, records);
+    const std::string bag = BagHeader(200) + chunk + chunk + index;
+    Write(folder / compression, bag);
+    Write(folder / (std::string(compression) + "_cut"), bag.substr(0, bag.size() / 2));
+    Write(folder / (std::string(compression) + "_active"),
+          BagHeader(0) + chunk +
+              BagRecord(5, {{"compression", compression}, {"size", Little(0, 4)}}, "") +
+              BagPacked(compression, records));
+    std::string damaged = bag;
+    damaged[BagHeader(200).size() + chunk.size() / 2] ^= 0x40;
+    Write(folder / (std::string(compression) + "_damaged"), damaged);
+  }
+  Write(folder / "without_chunks", BagHeader(0) + records);
+  Write(folder / "chunk_in_chunk", BagHeader(9) + BagChunk("lz4", BagChunk("none", records)));
+  Write(folder / "encrypted",
+        "#ROSBAG V2.0\n" + BagRecord(3, {{"index_pos", Little(9, 8)}, {"encryptor", "aes"}}, ""));
+  Write(folder / "unknown_compression",
+        BagHeader(9) + BagRecord(5, {{"compression", "zip"}, {"size", Little(9, 4)}}, records));
+}
+
+// Little-endian, as ROS serialises.
+class RosBytes {
+ public:
+  explicit RosBytes(char kind) : bytes_(1, kind) {}  // see marker_fuzz.cc
+  RosBytes& Count(std::uint32_t value) { return Append(fuzz::Little(value, 4)); }
+  RosBytes& Text(const std::string& text) {
+    return Count(static_cast<std::uint32_t>(text.size())).Append(text);
+  }
+  RosBytes& Byte(int value) { return Append(std::string(1, static_cast<char>(value))); }
+  template <class Real>
+  RosBytes& Reals(const std::vector<Real>& values) {
+    for (const Real value : values) {
+      std::string raw(sizeof(value), '\0');
+      std::memcpy(raw.data(), &value, sizeof(value));
+      Append(raw);
+    }
+    return *this;
+  }
+  RosBytes& Header(const std::string& frame) { return Count(1).Count(2).Count(3).Text(frame); }
+  RosBytes& Marker(std::uint32_t id, std::uint32_t type, std::uint32_t points) {
+    Header("world").Text("walls").Count(id).Count(type).Count(0);
+    Reals<double>({1, 2, 3, 0, 0, 0, 1, 0.5, 0.5, 0.5}).Reals<float>({1, 0, 0, 1});
+    Count(0).Count(0).Byte(0).Count(points);
+    for (std::uint32_t i = 0; i < points; ++i) Reals<double>({0.0 + i, 1, 2});
+    Count(points);
+    for (std::uint32_t i = 0; i < points; ++i) Reals<float>({0, 1, 0, 1});
+    return Text("door").Text("package://walls/door.stl").Byte(1);
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  RosBytes& Append(const std::string& more) {
+    bytes_ += more;
+    return *this;
+  }
+  std::string bytes_;
+};
+
+void WriteMarkers(const fs::path& folder) {
+  constexpr std::uint32_t kMarkerTypes = 12;
+  RosBytes all('\1');
+  all.Count(kMarkerTypes);
+  for (std::uint32_t type = 0; type < kMarkerTypes; ++type) all.Marker(type, type, 3);
+  Write(folder / "markers", all.bytes());
+  const std::string one = RosBytes('\0').Marker(1, 4, 3).bytes();
+  Write(folder / "marker", one);
+  Write(folder / "marker_cut", one.substr(0, one.size() - 30));
+  Write(folder / "not_finite",
+        RosBytes('\0')
+            .Header("")
+            .Text("")
+            .Count(0)
+            .Count(1)
+            .Count(0)
+            .Reals<double>({std::numeric_limits<double>::quiet_NaN(), 1e300, 0, 0, 0, 0, 0})
+            .bytes());
+  Write(folder / "transforms", RosBytes('\2')
+                                   .Count(1)
+                                   .Header("world")
+                                   .Text("pelvis")
+                                   .Reals<double>({1, 2, 3, 0, 0, 0, 1})
+                                   .bytes());
+  Write(folder / "nothing", RosBytes('\0').bytes());
+  Write(folder / "many_transforms", RosBytes('\2').Count(0x02000000).bytes());
+  Write(folder / "joint_states", RosBytes('\4')
+                                     .Header("")
+                                     .Count(1)
+                                     .Text("jRightKnee_roty")
+                                     .Count(1)
+                                     .Reals<double>({1})
+                                     .Count(0)
+                                     .Count(1)
+                                     .Reals<double>({2})
+                                     .bytes());
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -278,6 +444,10 @@ int main(int argc, char** argv) {
   WriteCaptures(folder / "pcap");
   RandomValues streams(21);
   WriteStreams(folder / "framing", streams);
+  WriteBags(folder / "bag");
+  WriteMarkers(folder / "marker");
   WriteLoads(folder / "loads");
+  WriteOptions(folder / "options");
+  WriteYaml(folder / "yaml_options", folder / "camera_keys");
   return 0;
 }

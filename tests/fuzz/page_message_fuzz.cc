@@ -23,9 +23,11 @@ class Client : public http::HubClient {
   bool wants_pictures() const override { return wants_; }
   bool OnSeen(http::Slot, std::uint64_t) override { return true; }
   http::ClientCounters counters() const override { return {}; }
+  const std::string& address() const override { return address_; }
 
  private:
   bool wants_ = false;
+  const std::string address_ = "127.0.0.1";
 };
 
 class Feed : public http::PictureFeed {

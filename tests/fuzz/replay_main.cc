@@ -11,17 +11,35 @@
 
 // tests/fuzz/CMakeLists.txt renames LLVMFuzzerTestOneInput of each source.
 using Entry = int(const std::uint8_t* data, std::size_t size);
-extern "C" Entry Fuzz_assembler, Fuzz_datagram, Fuzz_framing, Fuzz_http_target, Fuzz_loads,
-    Fuzz_mesh_file, Fuzz_mvnx, Fuzz_page_message, Fuzz_pcap, Fuzz_scale, Fuzz_urdf, Fuzz_wrenches;
+extern "C" Entry Fuzz_assembler, Fuzz_bag, Fuzz_camera_keys, Fuzz_datagram, Fuzz_framing,
+    Fuzz_http_target, Fuzz_loads, Fuzz_mesh_file, Fuzz_mvnx, Fuzz_options, Fuzz_page_message,
+    Fuzz_pcap, Fuzz_scale, Fuzz_urdf, Fuzz_websocket, Fuzz_wrenches, Fuzz_yaml_options;
+#ifdef KINESCOPE_WITH_ROS
+extern "C" Entry Fuzz_marker;
+#endif
 
 int main(int argc, char** argv) {
   const std::map<std::string, Entry*> entries = {
-      {"assembler", &Fuzz_assembler}, {"datagram", &Fuzz_datagram},
-      {"framing", &Fuzz_framing},     {"http_target", &Fuzz_http_target},
-      {"loads", &Fuzz_loads},         {"mesh_file", &Fuzz_mesh_file},
-      {"mvnx", &Fuzz_mvnx},           {"page_message", &Fuzz_page_message},
-      {"pcap", &Fuzz_pcap},           {"scale", &Fuzz_scale},
-      {"urdf", &Fuzz_urdf},           {"wrenches", &Fuzz_wrenches},
+      {"assembler", &Fuzz_assembler},
+      {"bag", &Fuzz_bag},
+      {"camera_keys", &Fuzz_camera_keys},
+      {"datagram", &Fuzz_datagram},
+      {"framing", &Fuzz_framing},
+      {"http_target", &Fuzz_http_target},
+      {"loads", &Fuzz_loads},
+      {"mesh_file", &Fuzz_mesh_file},
+      {"mvnx", &Fuzz_mvnx},
+      {"options", &Fuzz_options},
+      {"page_message", &Fuzz_page_message},
+      {"pcap", &Fuzz_pcap},
+      {"scale", &Fuzz_scale},
+      {"urdf", &Fuzz_urdf},
+      {"websocket", &Fuzz_websocket},
+      {"wrenches", &Fuzz_wrenches},
+      {"yaml_options", &Fuzz_yaml_options},
+#ifdef KINESCOPE_WITH_ROS
+      {"marker", &Fuzz_marker},
+#endif
   };
   const auto entry = argc == 3 ? entries.find(argv[1]) : entries.end();
   if (entry == entries.end()) {

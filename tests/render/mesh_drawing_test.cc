@@ -130,14 +130,30 @@ TEST_F(MeshDrawing, ShowsEveryFileFormatAtTheLink) {
   EXPECT_THAT(log_, ::testing::IsEmpty());
 }
 
-TEST_F(MeshDrawing, RequestsTheMeshFilesOfAModelBeforeReadingThem) {
-  SceneState state = HeadFromFile((folder_ / "cube.stl").string());
+TEST_F(MeshDrawing, ReadsTheMeshesOfAPersonFromMemory) {
+  SceneState state = HeadFromFile(Write("cube.stl", CubeStl()).string());
+  const Camera camera = NamedCamera("front", state);
+  const Image from_file = renderer_->Render(state, camera, spec_);
+  std::filesystem::remove(folder_ / "cube.stl");
+  auto model = std::make_shared<PersonModel>(*state.people[0].model);
+  const auto files =
+      std::make_shared<kinescope::testing::MeshFileOnDemand>(folder_ / "cube.stl", CubeStl());
+  model->mesh_files = files;
+  model->revision += 1;
+  state.people[0].model = model;
+  EXPECT_TRUE(Compare(renderer_->Render(state, camera, spec_), from_file).equal());
+  EXPECT_THAT(log_, ::testing::IsEmpty());
+  EXPECT_FALSE(files->is_provided());
+}
+
+TEST_F(MeshDrawing, NamesAMeshThatAPersonDoesNotHave) {
+  SceneState state = HeadFromFile((folder_ / "sphere.stl").string());
   auto model = std::make_shared<PersonModel>(*state.people[0].model);
   model->mesh_files =
       std::make_shared<kinescope::testing::MeshFileOnDemand>(folder_ / "cube.stl", CubeStl());
   state.people[0].model = model;
   renderer_->Render(state, NamedCamera("front", state), spec_);
-  EXPECT_THAT(log_, ::testing::IsEmpty());
+  EXPECT_THAT(log_, ::testing::ElementsAre(::testing::HasSubstr("sphere.stl")));
 }
 
 TEST_F(MeshDrawing, AppliesTheScaleOfTheUrdf) {

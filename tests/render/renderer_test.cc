@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <link.h>
 
+#include <algorithm>
 #include <cmath>
 #include <condition_variable>
 #include <cstdlib>
@@ -13,11 +14,13 @@
 #include <mutex>
 #include <thread>
 
+#include "core/person_links.h"
 #include "core/system/errors.h"
 #include "render/camera/spheres.h"
 #include "render/image/compare.h"
 #include "render/watchdog.h"
 #include "tests/render/test_scene.h"
+#include "urdf/body_surface.h"
 
 namespace kinescope::render {
 namespace {
@@ -53,6 +56,43 @@ int DifferenceAt(const Image& a, const Image& b, const Camera& camera,
     largest = std::max(largest, std::abs(a.rgba.at(i) - b.rgba.at(i)));
   }
   return largest;
+}
+
+// The smooth body's meshes, in memory.
+class SmoothBody : public MeshFiles {
+ public:
+  explicit SmoothBody(const urdf::Skeleton& skeleton) : skeleton_(skeleton) {}
+  std::shared_ptr<const std::string> Content(const std::string& name) const override {
+    for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+      if (name != std::to_string(segment) + ".stl") continue;
+      return std::make_shared<const std::string>(
+          urdf::ToBinaryStl(urdf::SegmentMesh(skeleton_, segment)));
+    }
+    return nullptr;
+  }
+  bool Provide() const override { return false; }
+
+ private:
+  const urdf::Skeleton skeleton_;
+};
+
+SceneState SceneWithSmoothBody() {
+  SceneState state = MixedScene(Posture::kArmsForward);
+  auto model = std::make_shared<PersonModel>(*state.people[0].model);
+  const std::vector<std::string> names = VisibleLinks(model->human);
+  for (urdf::Link& link : model->robot.links) {
+    const auto name = std::find(names.begin(), names.end(), link.name);
+    link.visuals.clear();
+    if (name == names.end()) continue;
+    urdf::Visual visual;
+    visual.geometry.kind = urdf::Geometry::Kind::kMesh;
+    visual.geometry.mesh_uri = "file:///" + std::to_string(name - names.begin()) + ".stl";
+    visual.geometry.size = {1, 1, 1};
+    link.visuals.push_back(visual);
+  }
+  model->mesh_files = std::make_shared<SmoothBody>(model->human.skeleton);
+  state.people[0].model = model;
+  return state;
 }
 
 // Without spheres and marks, so that only the body can be what is seen.
@@ -233,6 +273,26 @@ TEST(Renderer, ShowsAChangedModelAtOnce) {
   changed->revision = 2;
   state.people[0].model = changed;
   EXPECT_GT(Compare(before, renderer->Render(state, camera, SmallView())).pixels, 500);
+}
+
+// Live pictures: with fewer triangles, discs for domes and another program for the floor.
+TEST(Renderer, LooksTheSameWithDetailBySize) {
+  const auto renderer = MakeRenderer();
+  const SceneState state = SceneWithSmoothBody();
+  for (const char* name : {"three_quarter", "front", "top"}) {
+    const Camera camera = NamedCamera(name, state);
+    PictureSpec view = SmallView();
+    view.width = 640;
+    view.height = 480;
+    const Image full = renderer->Render(state, camera, view);
+    view.look.detail = Detail::kBySize;
+    const Image by_size = renderer->Render(state, camera, view);
+    EXPECT_GT(Compare(full, by_size, 0).pixels, 100) << name << ": it is another picture";
+    const Comparison seen = Compare(full, by_size, 48);
+    EXPECT_LT(seen.pixels, 640 * 480 / 400) << name << ": " << Describe(seen, by_size);
+    view.look.detail = Detail::kFull;
+    EXPECT_EQ(renderer->Render(state, camera, view).rgba, full.rgba) << name;
+  }
 }
 
 TEST(Renderer, SmoothsEdgesAndChangesNothingElseWhenSupersampling) {
@@ -473,7 +533,8 @@ TEST(Renderer, SetsTheInstructionSetUnlessTheUserChoseOne) {
   MakeRenderer();
   ASSERT_NE(std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"), nullptr);
   EXPECT_STREQ(std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"), "sse4.1");
-  ::setenv("GALLIUM_OVERRIDE_CPU_CAPS", "avx", 1);
+  ::unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");
+  PreferSpeed();
   MakeRenderer();
   EXPECT_STREQ(std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"), "avx");
   ::unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");

@@ -173,10 +173,15 @@ TEST_F(Backend, MeasuresEachBackEndAndSurvivesDriversThatHangOrCrash) {
   EXPECT_EQ(found.at("hardware").at("devices").size(), app::FindGpus().size());
 
   std::ofstream(hang_) << "crash\n";
-  const ProgramResult crash = Kinescope({"probe", "--json"}, HangingDriver());
+  auto environment = HangingDriver();
+  environment.insert(environment.end(), {"TMPDIR=/nowhere", "ROS_MASTER_URI=nowhere"});
+  const ProgramResult crash = Kinescope({"probe", "--json"}, environment);
   EXPECT_EQ(crash.exit_code, 1) << "nothing draws";
-  EXPECT_THAT(nlohmann::json::parse(crash.out).at("backends").at("osmesa").at("reason"),
-              HasSubstr("crashed"));
+  const auto problems = nlohmann::json::parse(crash.out);
+  EXPECT_THAT(problems.at("backends").at("osmesa").at("reason"), HasSubstr("crashed"));
+  EXPECT_THAT(problems.at("encoders").at("h264").at("reason"),
+              HasSubstr("TMPDIR=/nowhere: is not a folder"));
+  EXPECT_THAT(problems.at("ros").at("reason"), HasSubstr("ROS_MASTER_URI=nowhere: expected http"));
   std::ofstream(hang_).flush();
   const ProgramResult hang = Kinescope({"probe", "--json", "--limit_secs", "1"}, HangingDriver());
   EXPECT_EQ(hang.exit_code, 1);

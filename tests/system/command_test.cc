@@ -106,6 +106,34 @@ TEST(Command, RejectsInvalidSources) {
   EXPECT_FALSE(fs::exists(out));
 }
 
+// The built-in subject has no end: it would be generated until then.
+TEST(Command, RejectsTimesBeyondReachBeforeItReads) {
+  const TempFolder folder;
+  const std::string png = folder / "a.png", clip = folder / "a.mp4", csv = folder / "a.csv";
+  const auto draw = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"render", "demo:walk", "--size", "16x16"});
+    return Kinescope(more);
+  };
+  const std::string reach = "demo:walk is generated motion; expected at most 3600 s";
+  ExpectRefusal(draw({"--out", png, "--time", "3601"}), "--time=3601: " + reach);
+  ExpectRefusal(draw({"--out", png, "--sample", "432001"}), "--sample=432001: " + reach);
+  ExpectRefusal(draw({"--out", clip, "--start", "800000"}), "--start=800000: " + reach);
+  ExpectRefusal(draw({"--out", clip, "--seconds", "864000"}), "--seconds=864000: " + reach);
+  ExpectRefusal(draw({"--out", clip, "--start", "3000", "--seconds", "601"}), "--seconds=601: ");
+  ExpectRefusal(draw({"--out", clip, "--end", "4000"}), "--end=4000: " + reach);
+  ExpectRefusal(draw({"--out", png, "--ghost", "demo:lift@800000"}),
+                "--ghost=demo:lift@800000: demo:lift is generated motion; expected at most 3600 s");
+  ExpectRefusal(Kinescope({"loads", "demo:walk", "--csv", csv, "--seconds", "3601"}),
+                "--seconds=3601: " + reach);
+  ExpectRefusal(Kinescope({"convert", "demo:walk", "--out", csv, "--seconds", "864000"}),
+                "--seconds=864000: " + reach);
+  ExpectRefusal(draw({"--out", png, "--sample", "2000000000"}),
+                "--sample=2000000000: expected a whole number from 0 to 864000000");
+  ExpectRefusal(draw({"--out", png, "--time", "1000000"}),
+                "--time=1000000: expected a number from 0 to 864000 s");
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
 TEST(Command, RejectsPortsThatAreInUse) {
   const TakenPort tcp(SOCK_STREAM), udp(SOCK_DGRAM);
   ExpectRefusal(
@@ -175,6 +203,32 @@ TEST(Command, RejectsInvalidOutputs) {
     ExpectRefusal(Kinescope({"render", "demo:lift", "--out", "a.png", "--size", size}), size);
   }
   ExpectRefusal(Kinescope({"golden", "check", "/nowhere"}), "/nowhere");
+}
+
+TEST(Command, NeverReplacesItsSource) {
+  const TempFolder folder;
+  const std::string take = folder / "take.mvnx", link = folder / "link.csv";
+  ASSERT_EQ(Kinescope({"convert", "demo:lift", "--seconds", "0.1", "--out", take}).exit_code, 0);
+  fs::create_hard_link(take, link);
+  fs::copy_file(take, folder / "a.png.json");
+  const auto size = fs::file_size(take);
+  const std::vector<std::vector<std::string>> commands = {
+      {"loads", take, "--csv", take},
+      {"loads", take, "--csv", link},
+      {"loads", take, "--json", folder.path() / "." / "take.mvnx"},
+      {"convert", take, "--out", take},
+      {"record", take, "--force", "--out", take + ".pcap"}};
+  fs::create_symlink(take, take + ".pcap");
+  for (const auto& arguments : commands) {
+    ExpectRefusal(Kinescope(arguments), "output and source are the same file");
+    EXPECT_EQ(fs::file_size(take), size);
+  }
+  const std::string png = folder / "a.png";
+  ExpectRefusal(Kinescope({"render", png + ".json", "--out", png, "--time", "0"}),
+                "output and source are the same file");
+  ExpectRefusal(Kinescope({"render", take, "--out", png, "--time", "0"}),
+                "is not a record of pictures");
+  EXPECT_EQ(fs::file_size(png + ".json"), size);
 }
 
 // "| `urdf check` | one object per | members |" of docs/json.md: the members.
@@ -335,6 +389,8 @@ TEST(Command, WritesAUrdfThatItsOwnCheckAccepts) {
   const ProgramResult check = Kinescope({"urdf", "check", file});
   EXPECT_EQ(check.exit_code, 0) << check.err;
   EXPECT_THAT(check.out, HasSubstr("67 links, 66 joints, 75.000 kg"));
+  const std::string text = testing::ReadFile(file);
+  EXPECT_EQ(Kinescope({"urdf", "--height", "1.62", "--out", "-"}).out, text);
   std::ofstream(file) << "<robot/>";
   EXPECT_EQ(Kinescope({"urdf", "check", file}).exit_code, 1);
 }

@@ -290,11 +290,12 @@ class LiveConvert {
                             testing::KinescopePath(), arguments)}) {
     pid_ = static_cast<pid_t>(std::stol(testing::RestOfLine(shell_, "pid ")));
     const std::string line = testing::RestOfLine(shell_, "reading ");
-    url_ = line.substr(0, line.find(' '));
+    url_ = line.substr(0, line.find(';'));
   }
   ~LiveConvert() { kill(pid_, SIGKILL); }
 
   const std::string& url() const { return url_; }
+  void WaitFor(const std::string& text) { testing::RestOfLine(shell_, text); }
   int Stop() {
     kill(pid_, SIGINT);
     return std::stoi(testing::RestOfLine(shell_, "exit "));
@@ -334,10 +335,27 @@ TEST(Convert, CompletesTheFilesOfALiveStreamOnCtrlC) {
   EXPECT_EQ(CsvTable(ReadFile(table)).rows.size(), given.samples.size());
 }
 
-TEST(Convert, LeavesNoFileWithoutASample) {
+// At 100 Hz a suit of 240 Hz counts 2, 3, 2, 3, 2 from sample to sample.
+TEST(Convert, KnowsTheRateOfAStreamWhoseCounterHasAlternatingSteps) {
+  const TempFolder folder;
+  const std::string live = folder / "live.mvnx";
+  LiveConvert convert(fmt::format("--out '{}'", live));
+  const ProgramResult sent = Kinescope({"stream", "demo:walk", "--rate_hz", "240", "--stream_hz",
+                                        "100", "--seconds", "1.3", "--to", convert.url()});
+  ASSERT_EQ(sent.exit_code, 0) << sent.err;
+  EXPECT_EQ(convert.Stop(), 0);
+  EXPECT_THAT(ReadFile(live), HasSubstr("frameRate=\"100\""));
+  const std::vector<BodySample> samples = SamplesOf(live).samples;
+  ASSERT_EQ(samples.size(), 130U);
+  EXPECT_EQ(samples.back().counter - samples.front().counter, 129U) << "there are holes";
+}
+
+TEST(Convert, LeavesNoFileWithoutASampleAndAdvisesWhileItWaits) {
   const TempFolder folder;
   const std::string path = folder / "nobody.mvnx";
-  LiveConvert convert(fmt::format("--out '{}'", path));
+  LiveConvert convert(fmt::format("--seconds 1 --out '{}'", path));
+  convert.WaitFor(
+      "no pose of a person within 4 s; check the stream with `kinescope inspect udp://");
   EXPECT_EQ(convert.Stop(), 2);
   EXPECT_FALSE(fs::exists(path));
 }
@@ -368,6 +386,9 @@ TEST(Convert, RefusesWhatItCannotWriteBeforeItReads) {
   ExpectRefusal(Convert({"demo:walk", "--out", csv, "--out", csv}), "is given twice");
   ExpectRefusal(Convert({"demo:walk", "--out", folder / "none/a.csv"}),
                 "No such file or directory");
+  for (const char* name : {"none/a.csv", "none/a.mvnx"}) {
+    ExpectRefusal(Convert({folder / "missing.mvnx", "--out", folder / name}), name);
+  }
   ExpectRefusal(Convert({"demo:walk", "--out", csv, "--quantities", "angle"}), "nearest: angles");
   ExpectRefusal(Convert({"demo:walk", "--out", csv, "--quantities", "trackers"}),
                 "demo:walk has none of them");

@@ -20,15 +20,16 @@ import tempfile
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM, SETUP, RECORDING = sys.argv[1:4]
 DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/json.md", "docs/loads.md", "docs/motion.md", "docs/pictures.md", "docs/urdf.md",
-             "tests/bench/README.md"]
+             "tests/bench/README.md", "tests/soak/README.md"]
 # Document -> first words of its commands that this test never runs.
 NEVER_RUN = {
     "README.md": ["./demo", "./check"],
     "CONTRIBUTING.md": ["./check", "./check", "cmake", "cmake", "build/fuzz/tests/fuzz/datagram_fuzz"],
     "docs/ros.md": ["kinescope inspect ros:", "kinescope urdf ros:", "rosservice"],
-    "docs/http.md": ["curl", "curl", "curl"],
+    "docs/http.md": ["curl", "curl", "curl", "curl"],
     "tests/bench/README.md": ["tests/bench/measure.sh", "build/dev/tests/bench/mvn_bench", "build/dev/tests/bench/loads_bench",
                               "build/dev/tests/bench/render_bench", "tests/bench/rviz_peer.sh", "build/dev/tests/bench/memory_flat"],
+    "tests/soak/README.md": ["tests/soak/soak.py"],
 }
 os.environ["ROS_MASTER_URI"] = "http://127.0.0.1:1"  # leaves a running ROS master alone
 passed, skipped, failed = 0, 0, 0

@@ -423,7 +423,7 @@ TEST(LoadsCommand, RejectsOneFileForTwoOutputs) {
 
 TEST(LoadsCommand, LeavesNoFilesWhenItIsStopped) {
   const TempFolder folder;
-  testing::Process child({testing::KinescopePath(), "loads", "demo:walk", "--seconds", "100000",
+  testing::Process child({testing::KinescopePath(), "loads", "demo:walk", "--seconds", "3600",
                           "--csv", "-", "--json", folder / "loads.json"});
   ASSERT_TRUE(child.ReadLine(std::chrono::seconds(60)));  // it has begun to write
   child.Signal(SIGINT);

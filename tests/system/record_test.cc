@@ -4,11 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -211,9 +213,12 @@ TEST(Record, EndsAfterTheGivenTime) {
   TempFolder folder;
   const ProgramResult result =
       Record({"udp://127.0.0.1:0", "--seconds", "0.2", "--json", "--out", folder / "take.pcap"});
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(nlohmann::json::parse(result.out)["datagrams"], 0);
-  EXPECT_THAT(result.err, HasSubstr("recorded 0 datagrams"));
+  EXPECT_EQ(result.exit_code, 1) << "nothing was received: " << result.err;
+  const auto summary = nlohmann::json::parse(result.out);
+  EXPECT_EQ(summary["datagrams"], 0);
+  EXPECT_TRUE(summary["files"].empty());
+  EXPECT_THAT(result.err, HasSubstr("nothing was recorded"));
+  EXPECT_TRUE(folder.Names().empty()) << "in the way of the next attempt";
 }
 
 // Two people for some seconds as raw datagrams, as a file.
@@ -349,6 +354,28 @@ TEST(Record, KeepsCompletePacketsOnAFullDisk) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("take.pcap: recording stopped"),
                                 HasSubstr("No space left on device"), HasSubstr("kept")));
   ExpectWholePackets(folder / "take.pcap", 256 * 1024, datagrams);
+}
+
+TEST(RecordCommand, LosesNothingOfASuitBesideAFloodOfHostileDatagrams) {
+  const TempFolder folder;
+  const fs::path path = folder.path() / "take.pcap";
+  Recording recording("udp://127.0.0.1:0", "--out " + Quoted(path.string()) + " --seconds 60");
+  const std::string port = recording.url().substr(recording.url().rfind(':') + 1);
+  const Process hostile({KINESCOPE_HOSTILE_SENDERS, port, "all", "5000", "60"});
+  const ProgramResult suit =
+      testing::Kinescope({"stream", "demo:walk", "--rate_hz", "240", "--seconds", "2", "--json",
+                          "--to", recording.url()});
+  ASSERT_EQ(suit.exit_code, 0) << suit.err;
+  const auto sent = nlohmann::json::parse(suit.out).at("datagrams").get<std::size_t>();
+  recording.Signal(SIGINT);
+  EXPECT_EQ(recording.ExitCode(), 0);
+  const KeepingSink take = ReadBack(path);
+  EXPECT_GT(take.datagrams.size(), sent + 5000);
+  std::map<std::uint16_t, std::size_t> by_port;
+  for (const auto& datagram : take.datagrams) ++by_port[datagram.from.port];
+  EXPECT_TRUE(std::any_of(by_port.begin(), by_port.end(),
+                          [&](const auto& sender) { return sender.second == sent; }))
+      << "no sender has " << sent;
 }
 
 }  // namespace

@@ -14,18 +14,23 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
+#include "core/system/not_source.h"
 #include "core/system/stop_signal.h"
 #include "core/system/words.h"
 #include "server/app/commands.h"
+#include "server/app/convert/beginning_rate.h"
 #include "server/app/convert/frame_index.h"
 #include "server/app/convert/motion_file.h"
+#include "server/app/print.h"
 #include "server/app/progress.h"
 #include "server/options/option_json.h"
 #include "server/options/option_list.h"
+#include "server/scene/new_samples.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
 #include "server/source/source_identity.h"
+#include "server/table/output_file.h"
 
 namespace kinescope::app {
 namespace {
@@ -109,16 +114,13 @@ void CheckOutputs(const ConvertOptions& options) {
       throw UsageError(
           fmt::format("--out={}: expected a name that ends in {}", path, MotionFormatNames()));
     }
-    std::error_code ignored;
-    if (fs::equivalent(*options.source, path, ignored)) {
-      throw UsageError("--out=" + path +
-                       ": output and source are the same file; choose another name");
-    }
-    const fs::path place = fs::weakly_canonical(fs::absolute(path), ignored);
+    CheckIsNotSource(*options.source, path, "--out=" + path);
+    const fs::path place = PlaceOfOutput(path);
     if (std::find(taken.begin(), taken.end(), place) != taken.end()) {
       throw UsageError("--out=" + path + " is given twice; give each output its own name");
     }
     taken.push_back(place);
+    const OutputFile probe(path);  // a folder that takes no file is known before the work
   }
 }
 
@@ -138,58 +140,6 @@ nlohmann::ordered_json ProvenanceOf(ConvertOptions& options) {
           {"options", values}};
 }
 
-/// Says which people of a scene have a new sample: a scene has all of them.
-class NewSamples {
- public:
-  bool IsNew(const PersonState& person) {
-    const std::pair<std::int64_t, std::uint32_t> now = {person.sample.stamp_nanos,
-                                                        person.sample.counter};
-    const auto [found, is_first] = last_.try_emplace(person.character, now);
-    if (!is_first && found->second == now) return false;
-    found->second = now;
-    return true;
-  }
-
- private:
-  std::map<int, std::pair<std::int64_t, std::uint32_t>> last_;  // by character
-};
-
-// The first second of one person.
-struct Beginning {
-  std::vector<std::int64_t> stamps;
-  std::vector<std::int64_t> time_codes;
-  std::vector<std::uint32_t> counters;
-
-  void Add(const BodySample& sample) {
-    stamps.push_back(sample.stamp_nanos);
-    time_codes.push_back(sample.time_code_millis);
-    counters.push_back(sample.counter);
-  }
-};
-
-// s from the first to the last: by the sender's clock, which does not tremble, else by the stamps.
-double LengthOf(const Beginning& person) {
-  constexpr double kClockMayDiffer = 0.2;
-  const double stamped = Secs(person.stamps.back() - person.stamps.front());
-  const double sent =
-      1e-3 * static_cast<double>(person.time_codes.back() - person.time_codes.front());
-  return std::abs(sent - stamped) <= kClockMayDiffer * stamped ? sent : stamped;
-}
-
-// Whole numbers where a clock trembles around one; 0 for a single sample.
-double MeasuredRate(const Beginning& person, std::uint32_t step) {
-  const double secs = person.stamps.empty() ? 0 : LengthOf(person);
-  if (!(secs > 0)) return 0;
-  const double frames =
-      person.counters.back() > person.counters.front()
-          ? static_cast<double>(person.counters.back() - person.counters.front()) / step
-          : static_cast<double>(person.stamps.size() - 1);
-  const double rate = frames / secs;
-  const double whole = std::round(rate);
-  constexpr double kTremble = 0.005;
-  return whole >= 1 && std::abs(rate - whole) <= kTremble * whole ? whole : rate;
-}
-
 class Conversion {
  public:
   explicit Conversion(ConvertOptions& options)
@@ -199,6 +149,8 @@ class Conversion {
                                          ToSceneOptions(options.person, options.loads),
                                          SourceSettings{*options.rate_hz, {}})) {
     if (options_.seconds) {
+      CheckReach(fmt::format("--seconds={}", *options_.seconds), *options_.seconds,
+                 *options_.source);
       length_ = *options_.seconds;
     } else if (IsSubjectUrl(*options_.source)) {
       length_ = kSubjectClipSecs;
@@ -207,7 +159,7 @@ class Conversion {
 
   void Run() {
     if (reader_.is_live()) {
-      spdlog::info("reading {} ; Ctrl-C completes {}", reader_.description(),
+      spdlog::info("reading {}; Ctrl-C completes {}", reader_.description(),
                    options_.out->size() == 1 ? "the file" : "the files");
     }
     {
@@ -218,8 +170,7 @@ class Conversion {
           throw std::runtime_error("interrupted; nothing was written");
         }
         if (!begin_nanos_) begin_nanos_ = scene->stamp_nanos;
-        // A hair, so that rounded stamps do not decide.
-        if (length_ && Secs(scene->stamp_nanos - *begin_nanos_) > *length_ + 1e-6) break;
+        if (!IsWithinLength(*begin_nanos_, scene->stamp_nanos, length_)) break;
         Take(scene);
         progress.Step();
       }
@@ -228,24 +179,22 @@ class Conversion {
     for (const auto& file : files_) file->Finish();
   }
 
-  void Print() const {
+  void PrintSummary() const {
     for (const auto& file : files_) {
-      for (const std::string& path : file->paths()) fmt::print("{}: written\n", path);
+      for (const std::string& path : file->paths()) Print("{}: written\n", path);
     }
-    fmt::print("{} {}, {} {}, {:.2f} s{}\n", samples_, samples_ == 1 ? "sample" : "samples",
-               people_.size(), people_.size() == 1 ? "person" : "people",
-               Secs(last_nanos_ - *begin_nanos_),
-               rate_hz_ > 0 ? fmt::format(" at {:.6g} Hz", rate_hz_) : "");
+    Print("{}, {}, {:.2f} s{}\n", Counted(samples_, "sample"),
+          Counted(people_.size(), "person", "people"), Secs(last_nanos_ - *begin_nanos_),
+          rate_hz_ > 0 ? fmt::format(" at {:.6g} Hz", rate_hz_) : "");
     for (const auto& [character, index] : people_) {
       if (index.holes() == 0) continue;
       const FrameIndex::Hole& longest = *index.longest_hole();
-      fmt::print(
-          "person {}: {} samples are missing in {} {}; the longest: {:.2f} s after {:.2f} s\n",
-          character, index.missing_frames(), index.holes(), index.holes() == 1 ? "hole" : "holes",
-          longest.secs, longest.from_secs);
+      Print("person {}: {} samples are missing in {}; the longest: {:.2f} s after {:.2f} s\n",
+            character, index.missing_frames(), Counted(index.holes(), "hole"), longest.secs,
+            longest.from_secs);
     }
     for (const auto& file : files_) {
-      for (const std::string& note : file->notes()) fmt::print("{}\n", note);
+      for (const std::string& note : file->notes()) Print("{}\n", note);
     }
   }
 
@@ -263,7 +212,7 @@ class Conversion {
     MotionOutline outline;
     outline.source = provenance_.at("source").at("name");
     outline.layout = *options_.layout;
-    Beginning beginning;
+    BeginningRate beginning;
     std::optional<int> first;
     NewSamples fresh;
     for (const auto& scene : head_) {
@@ -278,8 +227,8 @@ class Conversion {
       }
     }
     if (!first) throw SourceError(*options_.source + ": contains no sample of a person");
-    counter_step_ = outline.counter_step = CounterStepOf(beginning.counters);
-    rate_hz_ = reader_.rate_hz() > 0 ? reader_.rate_hz() : MeasuredRate(beginning, counter_step_);
+    counter_step_ = beginning.counter_step();
+    rate_hz_ = reader_.rate_hz() > 0 ? reader_.rate_hz() : beginning.rate_hz();
     outline.rate_hz = rate_hz_;
     outline.begin_nanos = *begin_nanos_;
     Choose(outline);
@@ -313,9 +262,9 @@ class Conversion {
       if (!fresh_.IsNew(person)) continue;
       ++samples_;
       last_nanos_ = person.sample.stamp_nanos;
-      people_.try_emplace(person.character, rate_hz_, counter_step_)
-          .first->second.Next(person.sample);
-      for (const auto& file : files_) file->Add(person);
+      const std::int64_t frame = people_.try_emplace(person.character, rate_hz_, counter_step_)
+                                     .first->second.Next(person.sample);
+      for (const auto& file : files_) file->Add(person, frame);
     }
   }
 
@@ -326,7 +275,7 @@ class Conversion {
   std::optional<std::int64_t> begin_nanos_;
   std::vector<std::shared_ptr<const SceneState>> head_;  // before the files begin
   double rate_hz_ = 0;
-  std::uint32_t counter_step_ = 1;
+  double counter_step_ = 1;
   std::vector<std::unique_ptr<MotionFile>> files_;
   NewSamples fresh_;
   std::map<int, FrameIndex> people_;  // by character
@@ -338,7 +287,7 @@ void Convert(ConvertOptions& options) {
   CheckOutputs(options);
   Conversion conversion(options);
   conversion.Run();
-  conversion.Print();
+  conversion.PrintSummary();
 }
 
 }  // namespace

@@ -4,15 +4,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "core/body_sample.h"
 
 namespace kinescope::app {
-
-/// The step of the sample counters: a suit of 240 Hz that sends 60 samples a second counts 4 from
-/// one to the next. 1 if the counters do not tell.
-std::uint32_t CounterStepOf(const std::vector<std::uint32_t>& counters);
 
 class FrameIndex {
  public:
@@ -21,8 +16,9 @@ class FrameIndex {
     std::uint64_t frames = 0;
   };
 
-  /// `rate_hz`: frames per second. `step`: of the counters per frame.
-  FrameIndex(double rate_hz, std::uint32_t step) : rate_hz_(rate_hz), step_(step) {}
+  /// `rate_hz`: frames per second. `step`: of the counters per frame; a fraction if steps
+  /// alternate.
+  FrameIndex(double rate_hz, double step) : rate_hz_(rate_hz), step_(step) {}
 
   /// The frame of the next sample, from 0, larger than the one before: by its counter, and by its
   /// stamp where the counter starts over.
@@ -34,7 +30,7 @@ class FrameIndex {
 
  private:
   const double rate_hz_;
-  const std::uint32_t step_;
+  const double step_;
   std::optional<std::int64_t> index_;
   std::int64_t first_stamp_ = 0, last_stamp_ = 0;
   std::uint32_t last_counter_ = 0;

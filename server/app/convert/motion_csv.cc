@@ -88,7 +88,7 @@ class MotionCsv : public MotionFile {
   MotionCsv(const std::string& path, const MotionOutline& outline)
       : path_(path), outline_(outline), provenance_(outline.provenance), out_(path) {}
 
-  void Add(const PersonState& person) override {
+  void Add(const PersonState& person, std::int64_t /*frame*/) override {
     if (!has_header_) WriteHeader(person);
     if (outline_.layout == TableLayout::kWide) {
       CsvRow row(out_.buffer());

@@ -23,10 +23,9 @@ enum class TableLayout { kWide, kLong };
 struct MotionOutline {
   std::string source;                         // name of the file or stream
   double rate_hz = 0;                         // samples per second; 0: unknown, of a single sample
-  std::uint32_t counter_step = 1;             // of the sample counters, from one sample to the next
   std::int64_t begin_nanos = 0;               // stamp of the first sample: time 0
   QuantitySet quantities;                     // that were asked for and that the source has
-  std::bitset<urdf::kSegmentCount> trackers;  // of anybody
+  std::bitset<urdf::kSegmentCount> trackers;  // of any person
   bool has_foot_contacts = false;
   std::string provenance;  // JSON, in ASCII
   TableLayout layout = TableLayout::kWide;
@@ -40,8 +39,9 @@ class MotionFile {
   MotionFile(const MotionFile&) = delete;
   MotionFile& operator=(const MotionFile&) = delete;
 
-  /// The next sample of any person.
-  virtual void Add(const PersonState& person) = 0;
+  /// The next sample of any person. `frame`: its number at the constant rate of the file, per
+  /// person from 0; missing samples are counted.
+  virtual void Add(const PersonState& person, std::int64_t frame) = 0;
   virtual void Finish() = 0;
   /// The files, and one sentence for each thing that the format could not hold. Valid after
   /// Finish().

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "server/app/convert/frame_index.h"
 #include "server/mvn/file/mvnx_writer.h"
 #include "server/table/output_file.h"
 
@@ -47,18 +46,16 @@ class PersonMvnx {
       : path_(path),
         out_(path),
         writer_(SubjectOf(first, outline)),
-        index_(outline.rate_hz, outline.counter_step),
         skeleton_(first.model->human.skeleton) {
     writer_.AppendHead(out_.buffer());
   }
 
-  void Add(const PersonState& person) {
-    const std::int64_t index = index_.Next(person.sample);
+  void Add(const PersonState& person, std::int64_t frame) {
     if (!IsFinite(person.sample)) {
       ++unfit_;
       return;
     }
-    writer_.AppendFrame(person.sample, index, out_.buffer());
+    writer_.AppendFrame(person.sample, frame, out_.buffer());
     out_.FlushWhenLarge();
     has_other_parts_ |= person.sample.fingers_and_props.present.any();
     has_rates_ |= HasRates(person.sample);
@@ -92,7 +89,6 @@ class PersonMvnx {
   const std::string path_;
   OutputFile out_;
   mvn::MvnxWriter writer_;
-  FrameIndex index_;
   const urdf::Skeleton skeleton_;
   std::uint64_t unfit_ = 0;
   bool has_other_parts_ = false, has_rates_ = false, lengths_changed_ = false;
@@ -101,16 +97,16 @@ class PersonMvnx {
 class MotionMvnx : public MotionFile {
  public:
   MotionMvnx(std::string path, const MotionOutline& outline)
-      : path_(std::move(path)), outline_(outline), probe_(path_) {}
+      : path_(std::move(path)), outline_(outline) {}
 
-  void Add(const PersonState& person) override {
+  void Add(const PersonState& person, std::int64_t frame) override {
     auto found = people_.find(person.character);
     if (found == people_.end()) {
       auto file = std::make_unique<PersonMvnx>(PathOf(people_.size()), person, outline_);
       found = people_.emplace(person.character, std::move(file)).first;
       order_.push_back(found->second.get());
     }
-    found->second->Add(person);
+    found->second->Add(person, frame);
   }
 
   void Finish() override {
@@ -138,7 +134,6 @@ class MotionMvnx : public MotionFile {
 
   const std::string path_;
   const MotionOutline outline_;
-  const render::NewFile probe_;  // a folder that takes no file is known before the work
   std::map<int, std::unique_ptr<PersonMvnx>> people_;
   std::vector<PersonMvnx*> order_;
 };

@@ -184,9 +184,7 @@ class LoadCells : public CellSink {
 void VisitLoads(const PersonState& person, MotionCells& cells) {
   const BodyForces& forces = person.forces;
   cells.Text({"", "metric", "", ""}, Name(forces.metric));
-  cells.Text({"", "filter", "", ""}, !forces.is_dynamic     ? ""
-                                     : forces.is_zero_phase ? "zero-phase"
-                                                            : "causal");
+  cells.Text({"", "filter", "", ""}, FilterName(forces));
   cells.Number({"", "delay", "", "s"}, forces.delay_secs);
   cells.Number({"right_hand", "load", "", "kg"}, forces.hands[urdf::kRight].mass_kg);
   cells.Number({"left_hand", "load", "", "kg"}, forces.hands[urdf::kLeft].mass_kg);

@@ -16,7 +16,7 @@ namespace kinescope::app {
 enum class Quantity {
   kPoses,          // position and orientation of each *segment* frame
   kVelocities,     // linear and angular, of each segment's origin
-  kAccelerations,  // likewise
+  kAccelerations,  // linear and angular, of each segment's origin
   kAngles,         // of the joints, ZXY and XZY
   kErgonomic,      // the six ergonomic angles, ZXY and XZY
   kCom,            // with velocity and acceleration

@@ -23,6 +23,8 @@ options::PixelSize PixelSizeOfCases() { return {640, 360}; }
 
 SceneState SceneOf(const GoldenCase& golden_case, const SceneOptions& options,
                    RenderPlanner& planner) {
+  CheckReach(fmt::format("golden case {}: time: {}", golden_case.name, *golden_case.time),
+             *golden_case.time, *golden_case.source);
   SceneReader reader(*golden_case.source, options);
   if (*golden_case.state == Liveness::kNoData) return *reader.Empty();
   SceneTimeline timeline(reader);

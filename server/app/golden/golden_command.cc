@@ -12,6 +12,7 @@
 
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
+#include "core/system/stop_signal.h"
 #include "render/image/compare.h"
 #include "render/image/new_file.h"
 #include "render/image/png_file.h"
@@ -19,6 +20,7 @@
 #include "server/app/commands.h"
 #include "server/app/golden/golden_case.h"
 #include "server/app/golden/golden_objects.h"
+#include "server/app/print.h"
 #include "server/options/option_list.h"
 #include "server/picture/backend.h"
 
@@ -103,26 +105,32 @@ std::vector<std::string> Check(const GoldenOptions& options, const GoldenCase& g
   return problems;
 }
 
+void StopIfRequested(std::size_t finished, std::size_t all) {
+  if (!StopRequested()) return;
+  throw std::runtime_error(fmt::format("interrupted after {} of {} cases", finished, all));
+}
+
 int CheckAll(const GoldenOptions& options) {
   const auto renderer = StartRenderer(options.backend);
   int failed = 0;
   const std::vector<GoldenCase> cases = CasesOf(options);
+  std::size_t finished = 0;
   for (const GoldenCase& golden_case : cases) {
+    StopIfRequested(finished++, cases.size());
     const std::vector<std::string> problems = Check(options, golden_case, *renderer);
     failed += !problems.empty();
     if (*options.json) {
       const nlohmann::json line = {
           {"case", golden_case.name}, {"same", problems.empty()}, {"problems", problems}};
-      fmt::print("{}\n", JsonText(line));
+      Print("{}\n", JsonText(line));
       continue;
     }
-    fmt::print("{:<24} {}\n", golden_case.name, problems.empty() ? "same" : "DIFFERS");
-    if (!problems.empty() && !golden_case.why->empty())
-      fmt::print("  purpose: {}\n", *golden_case.why);
-    for (const std::string& problem : problems) fmt::print("  {}\n", problem);
+    Print("{:<24} {}\n", golden_case.name, problems.empty() ? "same" : "DIFFERS");
+    if (!problems.empty() && !golden_case.why->empty()) Print("  purpose: {}\n", *golden_case.why);
+    for (const std::string& problem : problems) Print("  {}\n", problem);
   }
   if (!*options.json && failed > 0) {
-    fmt::print(
+    Print(
         "{} of {} differ; see {}/<case>.actual.png and .diff.png\n"
         "To accept: check the pictures, then run `kinescope golden update {} <case>`\n",
         failed, cases.size(), *options.out, *options.folder);
@@ -132,7 +140,10 @@ int CheckAll(const GoldenOptions& options) {
 
 void UpdateAll(const GoldenOptions& options) {
   const auto renderer = StartRenderer(options.backend);
-  for (const GoldenCase& golden_case : CasesOf(options)) {
+  const std::vector<GoldenCase> cases = CasesOf(options);
+  std::size_t finished = 0;
+  for (const GoldenCase& golden_case : cases) {
+    StopIfRequested(finished++, cases.size());
     const GoldenDrawing drawing = Draw(golden_case, *renderer);
     const auto wrong = render::FindSphereMismatches(drawing.image, drawing.spheres);
     if (!wrong.empty()) {
@@ -142,7 +153,7 @@ void UpdateAll(const GoldenOptions& options) {
     }
     render::WritePng(ImagePath(*options.folder, golden_case), drawing.image);
     render::WriteNewFile(ObjectsPath(*options.folder, golden_case), ToJson(drawing.spheres));
-    fmt::print("{:<24} written; check the picture\n", golden_case.name);
+    Print("{:<24} written; check the picture\n", golden_case.name);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "server/app/commands.h"
 #include "server/app/inspect/floor_seeker.h"
 #include "server/app/inspect/inspection_report.h"
+#include "server/app/print.h"
 #include "server/app/progress.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/recording.h"
@@ -28,12 +29,13 @@ namespace kinescope::app {
 namespace {
 
 struct InspectOptions {
-  options::Text source;
+  options::Text source, from;
   options::Number seconds{kInspectSecs, {0, 86'400, "s", true}};
   options::Flag json;
 
   void List(options::OptionList& option) {
     option("source", source, "stream or recording to examine: " + SourceKinds());
+    option("from", from, "machines that may send, such as 192.168.1.20,10.0.0.0/8; not given: all");
     option("seconds", seconds, "time to listen to a live stream");
     option("json", json, "print the result as JSON (docs/inspect.md)");
   }
@@ -192,7 +194,9 @@ mvn::InspectionReport Inspect(const InspectOptions& options) {
   switch (KindOfSource(*options.source)) {
     case SourceKind::kUdp:
     case SourceKind::kTcp:
-      report = InspectDatagrams(*mvn::OpenDatagrams(*options.source), *options.seconds);
+      report =
+          InspectDatagrams(*mvn::OpenDatagrams(mvn::ReceivingFrom(*options.source, *options.from)),
+                           *options.seconds);
       report.format = KindOfSource(*options.source) == SourceKind::kUdp ? "UDP" : "TCP";
       break;
     case SourceKind::kSubject:
@@ -210,7 +214,7 @@ mvn::InspectionReport Inspect(const InspectOptions& options) {
 
 bool Run(const InspectOptions& options) {
   const mvn::InspectionReport report = Inspect(options);
-  fmt::print("{}", *options.json ? ReportJson(report) : ReportText(report));
+  PrintText(stdout, *options.json ? ReportJson(report) : ReportText(report));
   return report.CanBeShown();
 }
 

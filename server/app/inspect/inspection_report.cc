@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/system/clocks.h"
+#include "core/system/utf8.h"
 
 namespace kinescope::app {
 namespace {
@@ -17,14 +18,6 @@ namespace {
 using mvn::CharacterKind;
 using mvn::CharacterReport;
 using mvn::InspectionReport;
-
-// Names and reasons come from outside: nothing of them may steer a terminal.
-std::string Shown(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
-  }
-  return text;
-}
 
 std::string Seconds(std::int64_t nanos) {
   return fmt::format("{:.2f} s", static_cast<double>(nanos) * 1e-9);
@@ -74,7 +67,7 @@ void Line(std::string& out, std::string_view name, std::string_view value) {
 }
 
 void Head(const InspectionReport& report, std::string& out) {
-  out += Shown(report.source) + "\n";
+  out += PrintableLine(report.source) + "\n";
   Line(out, "format", report.format);
   if (report.begin_wall_nanos != 0) {
     Line(out, "time",
@@ -139,7 +132,7 @@ std::string Segments(const CharacterReport& character) {
     parts.push_back(Count(static_cast<std::uint64_t>(character.objects), "object", "objects"));
   }
   std::string text = Joined(parts);
-  if (!character.names.empty()) text += ": " + Shown(Joined(character.names));
+  if (!character.names.empty()) text += ": " + PrintableLine(Joined(character.names));
   return text;
 }
 
@@ -203,7 +196,7 @@ void Types(const CharacterReport& character, std::string& out) {
 
 void Person(const CharacterReport& character, const InspectionReport& report, std::string& out) {
   out += fmt::format("\n{} {}", KindTitle(character.kind), character.id);
-  if (!character.name.empty()) out += fmt::format(" '{}'", Shown(character.name));
+  if (!character.name.empty()) out += fmt::format(" '{}'", PrintableLine(character.name));
   if (!character.sender.empty()) out += " from " + character.sender;
   out += "\n";
   if (character.color_rgb) Line(out, "colour", fmt::format("#{:06x}", *character.color_rgb));
@@ -245,7 +238,7 @@ void Person(const CharacterReport& character, const InspectionReport& report, st
 void Errors(const InspectionReport& report, std::string& out) {
   if (!report.errors.empty()) out += "\nNot used\n";
   for (const mvn::ErrorReport& error : report.errors) {
-    out += fmt::format("  {:>8}  {}\n", error.count, Shown(error.reason));
+    out += fmt::format("  {:>8}  {}\n", error.count, PrintableLine(error.reason));
     if (!report.has_datagrams) continue;
     std::string first = fmt::format("first at {}", Seconds(error.at_nanos));
     if (!error.sender.empty()) first += ", from " + error.sender;
@@ -261,7 +254,7 @@ void Errors(const InspectionReport& report, std::string& out) {
   }
   if (!report.ignored.empty()) out += "\nNot needed\n";
   for (const auto& [what, count] : report.ignored) {
-    out += fmt::format("  {:>8}  {}\n", count, Shown(what));
+    out += fmt::format("  {:>8}  {}\n", count, PrintableLine(what));
   }
 }
 

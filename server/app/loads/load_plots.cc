@@ -10,6 +10,7 @@
 #include "core/system/stop_signal.h"
 #include "render/image/new_file.h"
 #include "render/image/png_file.h"
+#include "server/app/loads/trial_intervals.h"
 #include "server/loads/gap.h"
 #include "server/loads/joint_score.h"
 #include "server/table/load_rows.h"
@@ -56,24 +57,12 @@ Points CurveOf(const LoadTrial& trial, Value&& value) {
   return points;
 }
 
-// Intervals of one class. The time between samples that are far apart is unknown.
 std::vector<render::PlotClassInterval> ClassTimelineOf(const LoadTrial& trial, std::size_t joint) {
   std::vector<render::PlotClassInterval> timeline;
-  const auto add = [&](double from, double to, LoadClass load_class) {
-    if (!timeline.empty() && timeline.back().load_class == load_class) {
-      timeline.back().to = to;
-    } else {
-      timeline.push_back({from, to, load_class});
-    }
-  };
-  const std::vector<TrialSample>& samples = trial.curves();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double from = trial.SecsOf(samples[i].stamp_nanos);
-    const double next = i + 1 < samples.size() ? trial.SecsOf(samples[i + 1].stamp_nanos) : from;
-    if (next < from) continue;
-    const double to = std::min(next, from + loads::kLongestGapSecs);
-    add(from, to, samples[i].joints[joint].band);
-    if (to < next) add(to, next, LoadClass::kUnknown);
+  for (const auto& [from, to, load_class] :
+       IntervalsOf(trial, LoadClass::kUnknown,
+                   [joint](const TrialSample& sample) { return sample.joints[joint].band; })) {
+    timeline.push_back({from, to, load_class});
   }
   return timeline;
 }

@@ -10,7 +10,6 @@
 #include "server/app/loads/report_pdf.h"
 #include "server/app/loads/report_pictures.h"
 #include "server/source/scheme.h"
-#include "server/source/source_identity.h"
 
 namespace kinescope::app {
 namespace {
@@ -56,9 +55,9 @@ void CheckReportName(const std::string& path) {
   }
 }
 
-ReportOrigin OriginOf(const std::string& source, const options::OptionList& options) {
+ReportOrigin OriginOf(const std::string& source, const SourceIdentity& identity,
+                      const options::OptionList& options) {
   ReportOrigin origin;
-  const SourceIdentity identity = IdentityOf(source);
   if (IsSubjectUrl(source)) {
     origin.digest = "generated motion, no file";
   } else if (identity.digest) {

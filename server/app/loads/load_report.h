@@ -15,6 +15,7 @@
 #include "server/app/loads/sensitivity.h"
 #include "server/options/option_list.h"
 #include "server/picture/backend.h"
+#include "server/source/source_identity.h"
 
 namespace kinescope::app {
 
@@ -23,9 +24,9 @@ namespace kinescope::app {
 /// program that makes it.
 void CheckReportName(const std::string& path);
 
-/// `options`: those of the command, with the ways in which they were set. Reads the source for its
-/// hash if it is a file. @throws SourceError.
-ReportOrigin OriginOf(const std::string& source, const options::OptionList& options);
+/// `options`: those of the command, with the ways in which they were set.
+ReportOrigin OriginOf(const std::string& source, const SourceIdentity& identity,
+                      const options::OptionList& options);
 
 /// What the further runs say about a person, by character.
 using SensitivityRows = std::function<std::vector<SensitivityRow>(int character)>;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/system/utf8.h"
 #include "server/app/loads/load_summary.h"
 #include "server/table/load_rows.h"
 
@@ -93,8 +94,8 @@ json ValueJson(const std::optional<ValueSummary>& value) {
 }  // namespace
 
 std::string SummaryText(const TrialSummary& summary) {
-  std::string text = fmt::format("{}, {}: {} samples, {:.2f} s\n", summary.source, summary.title,
-                                 summary.samples, summary.secs);
+  std::string text = fmt::format("{}, {}: {} samples, {:.2f} s\n", PrintableLine(summary.source),
+                                 PrintableLine(summary.title), summary.samples, summary.secs);
   for (const Fact& fact : summary.facts) {
     text +=
         fmt::format("  {:<14} {}{}\n", fact.label, fact.value, fact.is_assumed ? " (assumed)" : "");

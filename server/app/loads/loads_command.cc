@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "core/system/not_source.h"
 #include "core/system/stop_signal.h"
 #include "server/app/commands.h"
 #include "server/app/loads/load_files.h"
@@ -21,14 +21,17 @@
 #include "server/app/loads/load_summary.h"
 #include "server/app/loads/load_trial.h"
 #include "server/app/loads/sensitivity.h"
+#include "server/app/print.h"
 #include "server/app/progress.h"
 #include "server/options/option_json.h"
 #include "server/options/option_list.h"
 #include "server/picture/backend.h"
+#include "server/scene/new_samples.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
 #include "server/source/scheme.h"
 #include "server/source/source_identity.h"
+#include "server/table/output_file.h"
 
 namespace kinescope::app {
 namespace {
@@ -38,7 +41,7 @@ struct LoadsOptions {
   options::Choice<Layout> layout{{{"wide", Layout::kWide}, {"long", Layout::kLong}}, Layout::kWide};
   options::Choice<bool> joints{{{"scored", false}, {"all", true}}, false};
   options::Choice<bool> columns{{{"usual", false}, {"all", true}}, false};
-  options::Optional<options::Number> seconds{options::Number(0, {0, 1e6, "s", true})};
+  options::Optional<options::Number> seconds{options::Number(0, {0, kLatestSecs, "s", true})};
   PersonOptions person;
   LoadOptions loads;
   BackendOptions backend;
@@ -119,10 +122,10 @@ class Recording {
     while (const auto scene = reader_.Next()) {
       if (StopRequested()) Interrupted();
       if (!begin_nanos_) begin_nanos_ = scene->stamp_nanos;
-      const double secs = Secs(scene->stamp_nanos - *begin_nanos_);
-      // A hair, so that rounded stamps do not decide; the last sample is the one at the end.
-      if (length_secs_ && secs > *length_secs_ + 1e-6) break;
-      for (const PersonState& person : scene->people) AddIfNew(scene, person);
+      if (!IsWithinLength(*begin_nanos_, scene->stamp_nanos, length_secs_)) break;
+      for (const PersonState& person : scene->people) {
+        if (fresh_.IsNew(person)) Add(scene, person);
+      }
       progress.Step();
     }
     for (auto& [character, trial] : trials_) trial.Finish();
@@ -141,21 +144,17 @@ class Recording {
 
  private:
   static std::optional<double> LengthOf(const LoadsOptions& options) {
-    if (options.seconds) return *options.seconds;
+    if (options.seconds) {
+      CheckReach(fmt::format("--seconds={}", *options.seconds), *options.seconds, *options.source);
+      return *options.seconds;
+    }
     if (IsSubjectUrl(*options.source)) return kSubjectLoadsSecs;
     return std::nullopt;
   }
 
-  // A scene has all people; only one of them has a new sample.
-  void AddIfNew(const std::shared_ptr<const SceneState>& scene, const PersonState& person) {
-    const auto [found, is_first] =
-        trials_.try_emplace(person.character, options_.wants_plots(), *begin_nanos_, meter_);
-    LoadTrial& trial = found->second;
-    if (!is_first && trial.newest().sample.stamp_nanos == person.sample.stamp_nanos &&
-        trial.newest().sample.counter == person.sample.counter) {
-      return;
-    }
-    trial.Add(scene, person);
+  void Add(const std::shared_ptr<const SceneState>& scene, const PersonState& person) {
+    trials_.try_emplace(person.character, options_.wants_plots(), *begin_nanos_, meter_)
+        .first->second.Add(scene, person);
     if (sensitivity_) sensitivity_->AddAsComputed(person);
     for (const auto& file : files_) file->Add(person, *begin_nanos_);
   }
@@ -167,19 +166,11 @@ class Recording {
   std::optional<Sensitivity> sensitivity_;  // for the report
   std::vector<std::unique_ptr<LoadFile>> files_;
   std::optional<std::int64_t> begin_nanos_;
+  NewSamples fresh_;
   std::map<int, LoadTrial> trials_;  // by character
 };
 
-// The same for the same file, however it is spelt.
-std::filesystem::path PlaceOfOutput(const std::string& path) {
-  std::error_code error;
-  const auto absolute = std::filesystem::absolute(path);
-  auto place = std::filesystem::weakly_canonical(absolute, error);
-  if (error) place = absolute.lexically_normal();
-  return place.has_filename() ? place : place.parent_path();
-}
-
-void CheckOutputsDiffer(const LoadsOptions& options) {
+void CheckOutputs(const LoadsOptions& options) {
   const auto unless_stdout = [](const std::string& path) { return path == "-" ? "" : path; };
   const std::pair<const char*, std::string> outputs[] = {{"csv", unless_stdout(*options.csv)},
                                                          {"json", unless_stdout(*options.json)},
@@ -189,6 +180,7 @@ void CheckOutputsDiffer(const LoadsOptions& options) {
   for (const auto& [name, path] : outputs) {
     if (path.empty()) continue;
     const std::string given = fmt::format("--{}={}", name, path);
+    CheckIsNotSource(*options.source, path, given);
     const auto [other, is_new] = taken.insert({PlaceOfOutput(path), given});
     if (is_new) continue;
     throw UsageError(fmt::format("{} and {} write to the same file; give each output its own name",
@@ -202,15 +194,14 @@ void CheckArguments(const LoadsOptions& options) {
         "--csv=- and --json=-: only one output can go to standard output; give the other one a "
         "file name");
   }
-  CheckOutputsDiffer(options);
+  CheckOutputs(options);
   if (!options.report->empty()) CheckReportName(*options.report);
 }
 
 nlohmann::json ReportOf(const Recording& recording, const TrialContext& context,
-                        LoadsOptions& options) {
+                        const SourceIdentity& identity, LoadsOptions& options) {
   options::OptionList inputs;
   options.loads.List(inputs);
-  const SourceIdentity identity = IdentityOf(*options.source);
   const nlohmann::json hash =
       identity.digest ? nlohmann::json(identity.digest->sha256) : nlohmann::json(nullptr);
   nlohmann::json people = nlohmann::json::array();
@@ -228,7 +219,7 @@ nlohmann::json ReportOf(const Recording& recording, const TrialContext& context,
 
 void PrintWritten(const LoadsOptions& options) {
   for (const options::Text* out : {&options.csv, &options.json, &options.plots, &options.report}) {
-    if (!(*out)->empty()) fmt::print("{}: written\n", **out);
+    if (!(*out)->empty()) Print("{}: written\n", **out);
   }
 }
 
@@ -244,24 +235,28 @@ bool Loads(LoadsOptions& options, const options::OptionList& list) {
   }
 
   const bool has_stdout = *options.csv == "-" || *options.json == "-";
+  std::optional<SourceIdentity> identity;  // takes as long as reading the source once more
+  if (!options.json->empty() || !options.report->empty()) identity = IdentityOf(*options.source);
   if (!options.plots->empty()) WritePlots(recording.trials(), context, *options.plots);
   if (!options.report->empty()) {
     const auto sensitivity = [&](int character) { return recording.SensitivityOf(character); };
-    WriteReport(recording.trials(), context, OriginOf(*options.source, list), sensitivity,
-                options.backend, *options.report);
+    WriteReport(recording.trials(), context, OriginOf(*options.source, *identity, list),
+                sensitivity, options.backend, *options.report);
   }
-  recording.Finish(ReportOf(recording, context, options));
+  recording.Finish(options.json->empty() ? nlohmann::json()
+                                         : ReportOf(recording, context, *identity, options));
   bool knows_anything = false;
   for (const auto& [character, trial] : recording.trials()) {
     knows_anything = knows_anything || trial.knows_anything();
-    if (!has_stdout) fmt::print("{}\n", SummaryText(SummaryOf(trial, context)));
+    if (!has_stdout) PrintText(stdout, SummaryText(SummaryOf(trial, context)) + "\n");
   }
   if (!has_stdout) PrintWritten(options);
   if (has_stdout && !knows_anything) {
-    fmt::print(
+    PrintText(
         stderr,
-        "kinescope: no load could be computed from {}; for the causes see the reason columns\n",
-        *options.source);
+        fmt::format(
+            "kinescope: no load could be computed from {}; for the causes see the reason columns\n",
+            *options.source));
   }
   return knows_anything;
 }

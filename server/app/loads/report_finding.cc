@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/system/words.h"
 #include "server/app/loads/report_text.h"
 #include "server/loads/joint_score.h"
 
@@ -44,9 +45,8 @@ std::string AboveSentence(const LoadTrial& trial, const TrialContext& context, s
   const std::uint64_t above = SamplesAbove(exposure, limit), all = trial.samples();
   const double longest_secs = exposure.above[limit].longest_secs;
   return fmt::format(
-      "{} was above a ratio of {:.2f} for {} % of the trial ({} of {} {}){}.", JointWord(joint),
-      context.scene.loads.meter.up[limit], PercentText(above, all), above, all,
-      all == 1 ? "sample" : "samples",
+      "{} was above a ratio of {:.2f} for {} % of the trial ({} of {}){}.", JointWord(joint),
+      context.scene.loads.meter.up[limit], PercentText(above, all), above, Counted(all, "sample"),
       longest_secs > 0 ? fmt::format(", at most {:.2f} s at a time", longest_secs) : "");
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/system/words.h"
 #include "server/app/loads/html.h"
 #include "server/app/loads/report_figures.h"
 #include "server/app/loads/report_finding.h"
@@ -86,8 +87,8 @@ std::string HeadHtml(const ReportPage& page) {
   const PersonState& person = trial.newest();
   std::string who = fmt::format("Person {}", person.character);
   if (!person.name.empty()) who += fmt::format(", “{}”", Shortened(person.name, kBodyPt, kNameMm));
-  std::string line = fmt::format("{} · {:.2f} s, {} {}", who, trial.secs(), trial.samples(),
-                                 trial.samples() == 1 ? "sample" : "samples");
+  std::string line =
+      fmt::format("{} · {:.2f} s, {}", who, trial.secs(), Counted(trial.samples(), "sample"));
   if (context.rate_hz > 0) line += fmt::format(" at {:g} Hz", context.rate_hz);
   if (trial.newest().sample.has_time_of_day) {
     const std::string time = IsoTime(trial.curves().front().stamp_nanos);

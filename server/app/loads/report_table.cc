@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/system/words.h"
 #include "server/app/loads/html.h"
 #include "server/app/loads/report_figures.h"
 #include "server/app/loads/report_text.h"
@@ -96,10 +97,9 @@ std::string ExposureLegend(const LoadTrial& trial, const TrialContext& context) 
     legend += fmt::format("{} {} &nbsp; ", StateKey(band), Name(band));
   }
   legend += fmt::format(
-      "% and number of samples; each row adds up to {} {}. Percentiles: nearest rank, of the known "
+      "% and number of samples; each row adds up to {}. Percentiles: nearest rank, of the known "
       "ratios. A rise counts again after the ratio was below {:.3g}.",
-      trial.samples(), trial.samples() == 1 ? "sample" : "samples",
-      context.scene.loads.meter.down[1]);
+      Counted(trial.samples(), "sample"), context.scene.loads.meter.down[1]);
   if (trial.secs() > 0 && trial.secs() < kMinuteSecs) {
     legend += fmt::format(" † extrapolated from {:.2f} s.", trial.secs());
   }

@@ -37,29 +37,6 @@ double WidthOf(const std::u32string& text, double size_pt) {
   return thousandths / 1000 * size_pt * kMmPerPoint;
 }
 
-std::string ToUtf8(const std::u32string& text) {
-  std::string bytes;
-  const auto add = [&](std::uint32_t byte) { bytes += static_cast<char>(byte); };
-  for (const std::uint32_t c : text) {
-    if (c < 0x80) {
-      add(c);
-    } else if (c < 0x800) {
-      add(0xC0 | c >> 6);
-      add(0x80 | (c & 0x3F));
-    } else if (c < 0x10000) {
-      add(0xE0 | c >> 12);
-      add(0x80 | (c >> 6 & 0x3F));
-      add(0x80 | (c & 0x3F));
-    } else {
-      add(0xF0 | c >> 18);
-      add(0x80 | (c >> 12 & 0x3F));
-      add(0x80 | (c >> 6 & 0x3F));
-      add(0x80 | (c & 0x3F));
-    }
-  }
-  return bytes;
-}
-
 constexpr std::size_t kTrunkJoints = 3;  // before the pairs, in kScoredJoints
 
 }  // namespace
@@ -109,13 +86,13 @@ double TextWidthMm(std::string_view text, double size_pt) {
 
 std::string Shortened(std::string_view text, double size_pt, double width_mm) {
   std::u32string characters = DecodeUtf8(text);
-  if (WidthOf(characters, size_pt) <= width_mm) return ToUtf8(characters);
+  if (WidthOf(characters, size_pt) <= width_mm) return EncodeUtf8(characters);
   constexpr char32_t kEllipsis = 0x2026;
   while (!characters.empty() && WidthOf(characters + kEllipsis, size_pt) > width_mm) {
     characters.pop_back();
   }
   while (!characters.empty() && characters.back() == U' ') characters.pop_back();
-  return ToUtf8(characters + kEllipsis);
+  return EncodeUtf8(characters + kEllipsis);
 }
 
 }  // namespace kinescope::app

@@ -13,10 +13,9 @@
 namespace kinescope::app {
 namespace {
 
-constexpr double kVariedShare = 0.1;      // of body mass and hand loads
-constexpr double kLeastVariedKg = 1;      // of hand loads
-constexpr double kSupposedHandKg = 5;     // where the hand load is unknown
-constexpr double kLengthRounding = 1e-6;  // s, of stamps
+constexpr double kVariedShare = 0.1;   // of body mass and hand loads
+constexpr double kLeastVariedKg = 1;   // of hand loads
+constexpr double kSupposedHandKg = 5;  // where the hand load is unknown
 
 void VaryMass(const SceneOptions& scene, std::vector<Variation>& variations) {
   for (const double sign : {-1.0, 1.0}) {
@@ -125,18 +124,9 @@ void Sensitivity::Add(const SceneState& scene, Run& run) const {
   if (scene.liveness != Liveness::kLive) return;
   if (!run.begin_nanos) run.begin_nanos = scene.stamp_nanos;
   // The reader is ahead of the trial, which ends there.
-  const double secs = Secs(scene.stamp_nanos - *run.begin_nanos);
-  if (length_secs_ && secs > *length_secs_ + kLengthRounding) return;
-  for (const PersonState& state : scene.people) {
-    const auto [found, is_first] = run.people.try_emplace(state.character);
-    Person& person = found->second;
-    const BodySample& sample = state.sample;
-    if (!is_first && person.stamp_nanos == sample.stamp_nanos && person.counter == sample.counter) {
-      continue;
-    }
-    person.stamp_nanos = sample.stamp_nanos;
-    person.counter = sample.counter;
-    person.tally.Add(state);
+  if (!IsWithinLength(*run.begin_nanos, scene.stamp_nanos, length_secs_)) return;
+  for (const PersonState& person : scene.people) {
+    if (run.fresh.IsNew(person)) run.people[person.character].Add(person);
   }
 }
 
@@ -147,7 +137,7 @@ std::vector<SensitivityRow> Sensitivity::RowsOf(int character) const {
   rows.push_back(computed->second.Row("as computed"));
   for (const Run& run : runs_) {
     const auto person = run.people.find(character);
-    if (person != run.people.end()) rows.push_back(person->second.tally.Row(run.label));
+    if (person != run.people.end()) rows.push_back(person->second.Row(run.label));
   }
   return rows;
 }

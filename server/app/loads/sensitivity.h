@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "server/scene/new_samples.h"
 #include "server/scene/scene_builder.h"
 #include "server/scene/scene_reader.h"
 
@@ -68,15 +69,11 @@ class Sensitivity {
   std::vector<SensitivityRow> RowsOf(int character) const;
 
  private:
-  struct Person {
-    LoadTally tally;
-    std::int64_t stamp_nanos = 0;
-    std::uint32_t counter = 0;
-  };
   struct Run {
     std::string label;
     std::optional<std::int64_t> begin_nanos;
-    std::map<int, Person> people;  // by character
+    NewSamples fresh;
+    std::map<int, LoadTally> people;  // by character
   };
   void Add(const SceneState& scene, Run& run) const;
 

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "server/loads/gap.h"
 #include "server/table/load_rows.h"
 
 namespace kinescope::app {
@@ -18,29 +17,6 @@ constexpr std::size_t kMostJointRows = 8;
 constexpr Rgb kBarInk = {0.52, 0.56, 0.62}, kShareInk = {0.80, 0.82, 0.84},
               kEdgeInk = {0.34, 0.36, 0.40};
 
-// A sample lasts until the next one, before a gap half a second; the gap is unknown.
-template <class StateOf>
-std::vector<RowInterval> IntervalsOf(const LoadTrial& trial, StateOf&& state_of) {
-  std::vector<RowInterval> intervals;
-  const auto add = [&](double from, double to, RowState state) {
-    if (!intervals.empty() && intervals.back().state == state) {
-      intervals.back().to = to;
-    } else {
-      intervals.push_back({from, to, state});
-    }
-  };
-  const std::vector<TrialSample>& samples = trial.curves();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double from = trial.SecsOf(samples[i].stamp_nanos);
-    const double next = i + 1 < samples.size() ? trial.SecsOf(samples[i + 1].stamp_nanos) : from;
-    if (next < from) continue;
-    const double to = std::min(next, from + loads::kLongestGapSecs);
-    add(from, to, state_of(samples[i]));
-    if (to < next) add(to, next, RowState::kUnknown);
-  }
-  return intervals;
-}
-
 TimelineRow JointRow(const LoadTrial& trial, std::size_t joint) {
   std::string name(ScoredLabel(joint));
   const auto replace = [&](std::string_view long_word, std::string_view short_word) {
@@ -50,7 +26,8 @@ TimelineRow JointRow(const LoadTrial& trial, std::size_t joint) {
   replace("Right ", "R ");
   replace("Left ", "L ");
   replace(" (T1/C7)", "");
-  return {std::move(name), LoadClass::kHigh, IntervalsOf(trial, [joint](const TrialSample& sample) {
+  return {std::move(name), LoadClass::kHigh,
+          IntervalsOf(trial, RowState::kUnknown, [joint](const TrialSample& sample) {
             const LoadClass band = sample.joints[joint].band;
             return band == LoadClass::kUnknown ? RowState::kUnknown
                    : band == LoadClass::kHigh  ? RowState::kOn
@@ -61,7 +38,7 @@ TimelineRow JointRow(const LoadTrial& trial, std::size_t joint) {
 void AddFootRows(const LoadTrial& trial, std::vector<TimelineRow>& rows) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     rows.push_back({side == urdf::kRight ? "R foot" : "L foot", LoadClass::kUnknown,
-                    IntervalsOf(trial, [side](const TrialSample& sample) {
+                    IntervalsOf(trial, RowState::kUnknown, [side](const TrialSample& sample) {
                       if (!sample.is_ground_known) return RowState::kUnknown;
                       return sample.foot_on_floor[static_cast<std::size_t>(side)] ? RowState::kOn
                                                                                   : RowState::kOff;
@@ -75,7 +52,7 @@ void AddHandRow(const LoadTrial& trial, std::vector<TimelineRow>& rows) {
   for (const TrialSample& sample : trial.curves()) most = std::max(most, sample.hands_kg);
   if (most < kLeastKg) return;
   rows.push_back({fmt::format("hands {:.3g} kg", most), LoadClass::kUnknown,
-                  IntervalsOf(trial, [](const TrialSample& sample) {
+                  IntervalsOf(trial, RowState::kUnknown, [](const TrialSample& sample) {
                     return sample.hands_kg >= kLeastKg ? RowState::kOn : RowState::kOff;
                   })});
 }
@@ -98,7 +75,7 @@ void AddJointRows(const LoadTrial& trial, std::vector<TimelineRow>& rows) {
     if (has_row[i]) rows.push_back(JointRow(trial, i));
   }
   TimelineRow others{high.empty() ? "unknown" : "others", LoadClass::kHigh,
-                     IntervalsOf(trial, [&](const TrialSample& sample) {
+                     IntervalsOf(trial, RowState::kUnknown, [&](const TrialSample& sample) {
                        for (std::size_t i = 0; i < sample.joints.size(); ++i) {
                          if (!has_row[i] && sample.joints[i].band == LoadClass::kUnknown) {
                            return RowState::kUnknown;

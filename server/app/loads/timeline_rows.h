@@ -8,6 +8,7 @@
 #include "core/load_class.h"
 #include "server/app/loads/load_trial.h"
 #include "server/app/loads/svg.h"
+#include "server/app/loads/trial_intervals.h"
 
 namespace kinescope::app {
 
@@ -20,10 +21,7 @@ struct TimeScale {
 
 enum class RowState { kOff, kOn, kUnknown };
 
-struct RowInterval {
-  double from = 0, to = 0;  // s
-  RowState state = RowState::kOff;
-};
+using RowInterval = TrialInterval<RowState>;
 
 struct TimelineRow {
   std::string name;

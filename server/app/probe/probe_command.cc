@@ -2,16 +2,17 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
+#include "core/system/scratch_folder.h"
 #include "render/renderer.h"
 #include "render/video.h"
 #include "server/app/commands.h"
+#include "server/app/print.h"
 #include "server/picture/backend.h"
 #include "server/picture/backend_probe.h"
 #include "server/ros/bridge.h"
@@ -35,11 +36,23 @@ Report ProbeEncoder(const Encoder& encoder) {
   try {  // never finished, so it leaves nothing behind
     render::VideoOptions options;
     options.alpha = false;  // known, so that the encoder is opened before the first picture
-    render::MakeVideoWriter(std::filesystem::temp_directory_path() / encoder.file, 64, 64, options);
+    render::MakeVideoWriter(TempFolderPath() / encoder.file, 64, 64, options);
     return {{"works", true}};
   } catch (const std::exception& error) {
     return {{"works", false}, {"reason", error.what()}};
   }
+}
+
+Report ProbeRos() {
+  Report ros = {{"built", ros_bridge::BuiltWithRos()}, {"master_reachable", false}};
+  try {
+    ros["master_uri"] = ros_bridge::MasterUri();
+    ros["master_reachable"] = ros_bridge::MasterIsReachable();
+  } catch (const UsageError& error) {
+    ros["master_uri"] = "";
+    ros["reason"] = error.what();
+  }
+  return ros;
 }
 
 // Whether there is a GPU, and whether one of our back-ends reaches it.
@@ -56,35 +69,37 @@ Report Hardware(const Report& backends) {
 }
 
 void PrintText(const Report& found) {
-  fmt::print("Kinescope {}\n", KINESCOPE_VERSION);
+  Print("Kinescope {}\n", KINESCOPE_VERSION);
   for (const std::string& name : render::BackendNames()) {
     const Report& backend = found["backends"][name];
     if (!backend["works"]) {
-      fmt::print("{:<11}{}\n", name, backend["reason"].get<std::string>());
+      Print("{:<11}{}\n", name, backend["reason"].get<std::string>());
       continue;
     }
-    fmt::print("{:<11}works: {}, OpenGL {}, {:.0f} frames/s, first frame after {:.2f} s\n", name,
-               backend["renderer"].get<std::string>(), backend["gl_version"].get<std::string>(),
-               backend["pictures_per_second"].get<double>(),
-               backend["first_picture_seconds"].get<double>());
+    Print("{:<11}works: {}, OpenGL {}, {:.0f} frames/s, first frame after {:.2f} s\n", name,
+          backend["renderer"].get<std::string>(), backend["gl_version"].get<std::string>(),
+          backend["pictures_per_second"].get<double>(),
+          backend["first_picture_seconds"].get<double>());
   }
   const Report& hardware = found["hardware"];
   const auto devices = hardware["devices"].get<std::vector<std::string>>();
   const auto remark = hardware["remark"].get<std::string>();
-  fmt::print("GPU        {}{}{}\n",
-             devices.empty() ? "none found" : fmt::format("{}", fmt::join(devices, ", ")),
-             remark.empty() ? "" : "; ", remark);
+  Print("GPU        {}{}{}\n",
+        devices.empty() ? "none found" : fmt::format("{}", fmt::join(devices, ", ")),
+        remark.empty() ? "" : "; ", remark);
   for (const Encoder& each : kEncoders) {
     const Report& encoder = found["encoders"][each.key];
-    fmt::print("{:<11}{}\n", each.name,
-               encoder["works"] ? "works" : encoder["reason"].get<std::string>());
+    Print("{:<11}{}\n", each.name,
+          encoder["works"] ? "works" : encoder["reason"].get<std::string>());
   }
   const Report& ros = found["ros"];
   if (!ros["built"]) {
-    fmt::print("ROS        not built in\n");
+    Print("ROS        not built in\n");
+  } else if (ros.contains("reason")) {
+    Print("ROS        {}\n", ros["reason"].get<std::string>());
   } else {
-    fmt::print("ROS        {} {}\n", ros["master_uri"].get<std::string>(),
-               ros["master_reachable"] ? "is reachable" : "is not reachable");
+    Print("ROS        {} {}\n", ros["master_uri"].get<std::string>(),
+          ros["master_reachable"] ? "is reachable" : "is not reachable");
   }
 }
 
@@ -100,11 +115,9 @@ int Probe(bool as_json, double limit_secs) {
   }
   found["hardware"] = Hardware(found["backends"]);
   for (const Encoder& each : kEncoders) found["encoders"][each.key] = ProbeEncoder(each);
-  found["ros"] = {{"built", ros_bridge::BuiltWithRos()},
-                  {"master_uri", ros_bridge::MasterUri()},
-                  {"master_reachable", ros_bridge::MasterIsReachable()}};
+  found["ros"] = ProbeRos();
   if (as_json) {
-    fmt::print("{}\n", JsonText(found));
+    Print("{}\n", JsonText(found));
   } else {
     PrintText(found);
   }
@@ -136,7 +149,7 @@ Command ProbeCommand() {
   command.footer = "Exit code: 0 a back-end works, 1 none works, 2 error.";
   command.run = [values](options::OptionList&) {
     if (values->draw_with->empty()) return Probe(*values->json, *values->limit_secs);
-    fmt::print("{}\n", JsonText(ToJson(MeasureBackend(*values->draw_with))));
+    Print("{}\n", JsonText(ToJson(MeasureBackend(*values->draw_with))));
     return 0;
   };
   return command;

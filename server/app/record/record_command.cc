@@ -3,7 +3,6 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -14,10 +13,14 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
+#include "core/system/not_source.h"
 #include "core/system/stop_signal.h"
+#include "core/system/words.h"
 #include "server/app/commands.h"
+#include "server/app/print.h"
 #include "server/mvn/assembler.h"
 #include "server/mvn/file/pcap_recorder.h"
+#include "server/mvn/inspect/inspection.h"
 #include "server/mvn/open.h"
 
 namespace kinescope::app {
@@ -29,13 +32,14 @@ constexpr double kBytesPerMb = 1e6;
 constexpr std::int64_t kStatusEveryNanos = 250'000'000;
 
 struct RecordOptions {
-  options::Text source, out;
+  options::Text source, from, out;
   options::Number rotate_mb{0, {0, 1e9, "MB", false, "0: one file"}};
   options::Number seconds{0, {0, 1e9, "s", false, "0: until Ctrl-C or the end of the file"}};
   options::Flag force, json;
 
   void List(options::OptionList& option) {
     option("source", source, "udp://[address]:port, tcp://[address]:port, a capture or a .bin");
+    option("from", from, "machines that may send, such as 192.168.1.20,10.0.0.0/8; not given: all");
     option("out", out, "file to write, .pcap; an existing one is replaced only with --force");
     option("rotate_mb", rotate_mb, "size at which the next file (take-0002.pcap) begins");
     option("seconds", seconds, "length of the recording");
@@ -113,9 +117,9 @@ class StatusLine {
     samples_ = statistics.samples();
     const auto file = recorder.counters();
     const std::string line =
-        fmt::format("{:.0f} datagrams/s, {} people, {:.0f} samples/s, {}, {:.1f} MB", datagrams,
-                    statistics.people(), samples, LostText(transport, file),
-                    static_cast<double>(file.bytes) / kBytesPerMb);
+        fmt::format("{:.0f} datagrams/s, {}, {:.0f} samples/s, {}, {:.1f} MB", datagrams,
+                    Counted(statistics.people(), "person", "people"), samples,
+                    LostText(transport, file), static_cast<double>(file.bytes) / kBytesPerMb);
     fmt::print(stderr, "\r{:<100}", line);
     std::fflush(stderr);
     drawn_ = true;
@@ -126,7 +130,7 @@ class StatusLine {
   bool drawn_ = false;
   std::int64_t drawn_nanos_ = MonotonicNanos();
   std::uint64_t datagrams_ = 0;  // when it was drawn last
-  std::uint64_t samples_ = 0;    // likewise
+  std::uint64_t samples_ = 0;    // when it was drawn last
 };
 
 void CheckRecordOptions(const RecordOptions& options) {
@@ -135,14 +139,10 @@ void CheckRecordOptions(const RecordOptions& options) {
     throw UsageError(fmt::format("--rotate_mb={}: expected 0 (one file) or {} to 1e9 MB",
                                  *options.rotate_mb, kMinMb));
   }
-  std::error_code ignored;  // equivalent() minds files that are not there
   if (fs::path(*options.out).extension() != ".pcap") {
     throw UsageError("--out=" + *options.out + ": expected a name that ends in .pcap");
   }
-  if (fs::equivalent(*options.source, *options.out, ignored)) {
-    throw UsageError("--out=" + *options.out +
-                     ": output and source are the same file; choose another name");
-  }
+  CheckIsNotSource(*options.source, *options.out, "--out=" + *options.out);
 }
 
 void Summarise(const RecordOptions& options, const StreamStatistics& statistics,
@@ -151,13 +151,18 @@ void Summarise(const RecordOptions& options, const StreamStatistics& statistics,
   const std::string files = file.files.size() == 1
                                 ? file.files.front()
                                 : fmt::format("{} to {}", file.files.front(), file.files.back());
-  spdlog::info("recorded {} datagrams in {:.1f} s ({} samples, {} people) to {}, {:.1f} MB; {}",
-               file.datagrams, statistics.seconds(), statistics.samples(), statistics.people(),
-               files, static_cast<double>(file.bytes) / kBytesPerMb, LostText(transport, file));
+  const bool has_any = statistics.datagrams() > 0;
+  if (has_any) {
+    spdlog::info("recorded {} in {:.1f} s ({}, {}) to {}, {:.1f} MB; {}",
+                 Counted(file.datagrams, "datagram"), statistics.seconds(),
+                 Counted(statistics.samples(), "sample"),
+                 Counted(statistics.people(), "person", "people"), files,
+                 static_cast<double>(file.bytes) / kBytesPerMb, LostText(transport, file));
+  }
   if (!*options.json) return;
   const nlohmann::ordered_json summary = {
       {"source", *options.source},
-      {"files", file.files},
+      {"files", has_any ? file.files : std::vector<std::string>()},
       {"bytes", file.bytes},
       {"datagrams", file.datagrams},
       {"samples", statistics.samples()},
@@ -170,18 +175,34 @@ void Summarise(const RecordOptions& options, const StreamStatistics& statistics,
       {"incomplete_packets", transport.incomplete_packets},
       {"other_packets", transport.other_packets},
   };
-  fmt::print("{}\n", JsonText(summary));
+  Print("{}\n", JsonText(summary));
 }
 
-void Record(const RecordOptions& options) {
+// A file without a packet would stand in the way of the next attempt.
+void RemoveEmpty(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    std::error_code ignored;
+    if (fs::is_regular_file(fs::symlink_status(file, ignored))) fs::remove(file, ignored);
+  }
+}
+
+// Says what `inspect` would: where it listened, and what to check.
+void ReportNothing(const mvn::DatagramSource& source, double secs) {
+  const mvn::InspectionReport report = mvn::Inspection(source.is_live()).Report(source);
+  const std::string waited = source.is_live() ? fmt::format(" within {:.1f} s", secs) : "";
+  spdlog::error("nothing was recorded from {}{}, and no file is left: {}", source.description(),
+                waited, fmt::join(report.advice, "; "));
+}
+
+// @return whether anything was recorded.
+bool Record(const RecordOptions& options) {
   CheckRecordOptions(options);
-  const auto source = mvn::OpenDatagrams(*options.source);
+  const auto source = mvn::OpenDatagrams(mvn::ReceivingFrom(*options.source, *options.from));
   if (source == nullptr) {
     throw SourceError(*options.source +
                       ": only MVN datagrams can be recorded; send this source with kinescope "
                       "stream and record the stream");
   }
-  std::signal(SIGPIPE, SIG_IGN);  // a pipe that is not read any more is an error of writing
   mvn::PcapWriterSettings settings;
   settings.path = *options.out;
   settings.rotate_bytes = static_cast<std::uint64_t>(*options.rotate_mb * kBytesPerMb);
@@ -190,9 +211,9 @@ void Record(const RecordOptions& options) {
   mvn::PcapRecorder recorder(settings, source->is_live() ? WhenFull::kDrop : WhenFull::kWait);
   StreamStatistics statistics(recorder);
   spdlog::info("recording {} to {}", source->description(), *options.out);
+  const std::int64_t start = MonotonicNanos();
   {
     StatusLine status;
-    const std::int64_t start = MonotonicNanos();
     const auto is_over = [&](std::int64_t now) {
       if (*options.seconds <= 0) return false;
       const double live = Secs(now - start);
@@ -211,6 +232,10 @@ void Record(const RecordOptions& options) {
   statistics.Flush();
   recorder.Finish();
   Summarise(options, statistics, source->counters(), recorder);
+  if (statistics.datagrams() > 0) return true;
+  RemoveEmpty(recorder.counters().files);
+  ReportNothing(*source, Secs(MonotonicNanos() - start));
+  return false;
 }
 
 }  // namespace
@@ -227,10 +252,8 @@ Command RecordCommand() {
   values->List(command.options);
   command.positionals = {"source"};
   command.required = {"source", "out"};
-  command.run = [values](options::OptionList&) {
-    Record(*values);
-    return 0;
-  };
+  command.footer = "Exit code: 0 recorded, 1 nothing was received, 2 error.";
+  command.run = [values](options::OptionList&) { return Record(*values) ? 0 : 1; };
   return command;
 }
 

@@ -48,7 +48,7 @@ class DrawPool::ImagePool : public std::enable_shared_from_this<ImagePool> {
   std::mutex mutex_;
   std::condition_variable returned_;
   std::size_t left_;                                 // guarded by mutex_
-  std::vector<std::unique_ptr<DrawnPicture>> used_;  // likewise
+  std::vector<std::unique_ptr<DrawnPicture>> used_;  // guarded by mutex_
 };
 
 DrawPool::DrawPool(int jobs, std::size_t most_pictures, MakeRenderer make)

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "core/system/errors.h"
+#include "core/system/not_source.h"
+#include "server/app/render/provenance_files.h"
 #include "server/source/scheme.h"
 
 namespace kinescope::app {
@@ -131,6 +133,32 @@ void CheckNames(const std::vector<SourcePlan>& plans) {
   }
 }
 
+// The record beside an output may replace an older record, but no source and nothing else.
+void CheckRecord(const RenderOptions& options, const Output& output) {
+  const std::string record = SidecarOf(output.path);
+  for (const std::string& source : *options.sources) {
+    CheckIsNotSource(source, record, fmt::format("--out={}: its record {}", output.path, record));
+  }
+  if (*options.force || !fs::exists(record)) return;
+  const auto old = ReadSidecar(output.path);
+  if (old && old->is_object() && old->contains("pictures")) return;
+  throw UsageError(
+      fmt::format("--out={}: {} exists and is not a record of pictures; choose another name, or "
+                  "give --no_sidecar or --force",
+                  output.path, record));
+}
+
+void CheckReplaced(const RenderOptions& options, const std::vector<SourcePlan>& plans) {
+  for (const SourcePlan& plan : plans) {
+    for (const Output& output : plan.outputs) {
+      for (const std::string& source : *options.sources) {
+        CheckIsNotSource(source, PathOfPicture(output.path, 0), "--out=" + output.path);
+      }
+      if (!*options.no_sidecar) CheckRecord(options, output);
+    }
+  }
+}
+
 // Options that nothing to be made would heed are mistakes.
 void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans) {
   bool has_still = false, has_clip = false, has_crf = false, has_quality = false, has_mp4 = false;
@@ -220,6 +248,7 @@ std::vector<SourcePlan> PlanOutputs(const RenderOptions& options) {
     plans.push_back(std::move(plan));
   }
   CheckNames(plans);
+  CheckReplaced(options, plans);
   CheckUse(options, plans);
   return plans;
 }

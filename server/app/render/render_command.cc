@@ -9,6 +9,7 @@
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
 #include "server/app/commands.h"
+#include "server/app/print.h"
 #include "server/app/render/output_plan.h"
 #include "server/app/render/render_options.h"
 #include "server/app/render/render_run.h"
@@ -30,16 +31,16 @@ void PrintResult(const OutputResult& result, bool as_json) {
         line["pictures_per_second"] = static_cast<double>(result.drawn) / result.took_secs;
       }
     }
-    fmt::print("{}\n", JsonText(line));
+    Print("{}\n", JsonText(line));
     return;
   }
   if (result.drawn == 0) {
-    fmt::print("{}: up to date, skipped (--force renders it again)\n", result.out);
+    Print("{}: up to date, skipped (--force renders it again)\n", result.out);
     return;
   }
   const long kept = result.pictures - result.drawn;
-  fmt::print("{}: {} picture{}{}\n", result.out, result.pictures, result.pictures == 1 ? "" : "s",
-             kept > 0 ? fmt::format(", {} of them skipped (up to date)", kept) : "");
+  Print("{}: {} picture{}{}\n", result.out, result.pictures, result.pictures == 1 ? "" : "s",
+        kept > 0 ? fmt::format(", {} of them skipped (up to date)", kept) : "");
 }
 
 void Render(const RenderOptions& options) {

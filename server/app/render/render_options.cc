@@ -65,7 +65,7 @@ std::int64_t ToNanos(double secs) { return std::llround(secs * 1e9); }
 }  // namespace
 
 MomentOptions::MomentOptions()
-    : sample(Whole(0, {0, 1e15})),
+    : sample(Whole(0, {0, kLatestSample})),
       time(Number(0, {0, kLatestSecs, "s"})),
       overlay_layer(options::Choice<render::LayerFormat>(
           {{"svg", render::LayerFormat::kSvg}, {"pdf", render::LayerFormat::kPdf}},

@@ -43,6 +43,7 @@ class RenderRun {
         provenance_(options, plan.source, pool.info()),
         check_(provenance_, settings),
         additions_(options.view, options.backend, people_) {
+    CheckMoments();
     for (const Output& output : plan.outputs) AddOutput(output);
     Prescan();
   }
@@ -63,6 +64,22 @@ class RenderRun {
   }
 
  private:
+  void CheckMoments() const {
+    const auto check = [this](const char* option, double given, double secs) {
+      CheckReach(fmt::format("--{}={}", option, given), secs, plan_.source);
+    };
+    const MomentOptions& still = options_.moment;
+    const ClipOptions& clip = options_.clip;
+    if (still.sample) {
+      const auto sample = static_cast<double>(*still.sample);
+      check("sample", sample, sample / reader_.rate_hz());
+    }
+    if (still.time) check("time", *still.time, *still.time);
+    check("start", *clip.start, *clip.start);
+    if (clip.seconds) check("seconds", *clip.seconds, *clip.start + *clip.seconds);
+    if (clip.end) check("end", *clip.end, *clip.end);
+  }
+
   void AddOutput(const Output& output) {
     const bool is_up_to_date = check_.IsUpToDate(output);
     if (output.kind == OutputKind::kStill) {

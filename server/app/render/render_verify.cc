@@ -17,6 +17,7 @@
 #include "core/system/sha256.h"
 #include "render/image/compare.h"
 #include "render/image/png_file.h"
+#include "server/app/print.h"
 #include "server/app/render/picture_comparison.h"
 #include "server/app/render/provenance.h"
 #include "server/app/render/provenance_comparison.h"
@@ -125,13 +126,13 @@ void PrintVerdict(const std::string& file, const Verdict& verdict,
       line.update({{"picture", verdict.picture}, {"how", verdict.how}, {"diff", diff}});
       if (!corrections.empty()) line["corrected_since"] = corrections;
     }
-    fmt::print("{}\n", JsonText(line));
+    Print("{}\n", JsonText(line));
   } else if (verdict.same) {
-    fmt::print("{}: same{}\n", file, verdict.same_bytes ? ", byte for byte" : " pictures");
+    Print("{}: same{}\n", file, verdict.same_bytes ? ", byte for byte" : " pictures");
   } else {
-    fmt::print("{}: DIFFERS, picture {}: {}{}{}{}\n", file, verdict.picture, verdict.how,
-               corrections.empty() ? "" : "; rendered by an earlier version, in which ",
-               fmt::join(corrections, ", and "), diff.empty() ? "" : "; see " + diff);
+    Print("{}: DIFFERS, picture {}: {}{}{}{}\n", file, verdict.picture, verdict.how,
+          corrections.empty() ? "" : "; rendered by an earlier version, in which ",
+          fmt::join(corrections, ", and "), diff.empty() ? "" : "; see " + diff);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/system/clocks.h"
 #include "core/system/json_text.h"
 
 namespace kinescope::app {
@@ -64,14 +65,23 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
                             const std::optional<DrawingStatus>& pictures,
-                            const std::optional<DrawingStatus>& view) {
+                            const std::optional<DrawingStatus>& view, std::uint64_t skipped) {
   json out;
   out["version"] = KINESCOPE_VERSION;
   if (state) {
-    out["source"] = {{"url", state->source},
-                     {"liveness", Name(state->liveness)},
-                     {"rate_hz", state->rate_hz},
-                     {"counter", state->counter}};
+    out["source"] = {
+        {"url", state->source},
+        {"liveness", Name(state->liveness)},
+        {"rate_hz", state->rate_hz},
+        {"counter", state->counter},
+        {"behind_secs",
+         state->waited_nanos > kOverloadNanos ? json(Secs(state->waited_nanos)) : json(0)},
+        {"skipped", skipped},
+        {"left_out", json::array()}};
+    for (const LeftOutPerson& person : state->left_out) {
+      out["source"]["left_out"].push_back(
+          {{"character", person.character}, {"name", person.name}, {"reason", person.why}});
+    }
   }
   if (counters) {
     out["source"]["datagrams"] = counters->datagrams;
@@ -95,6 +105,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
         {"master_uri", ros->master_uri},         {"master_reachable", ros->master_reachable},
         {"published", ros->published},           {"missed", ros->missed},
         {"master_returns", ros->master_returns}, {"inputs", json::object()}};
+    out["ros"]["rejected_calls"] = ros->rejected_calls;
     for (const auto& [topic, input] : ros->inputs) out["ros"]["inputs"][topic] = ToJson(input);
   }
   out["pictures"] = nullptr;

@@ -2,6 +2,7 @@
 /// thread.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,11 +14,12 @@
 
 namespace kinescope::app {
 
-/// Null or nullopt: that part does not exist.
+/// Null or nullopt: that part does not exist. `skipped`: samples, to catch up with the stream.
 std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
                             const std::optional<DrawingStatus>& pictures,
-                            const std::optional<DrawingStatus>& view = {});
+                            const std::optional<DrawingStatus>& view = {},
+                            std::uint64_t skipped = 0);
 
 }  // namespace kinescope::app

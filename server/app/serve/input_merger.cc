@@ -1,5 +1,7 @@
 #include "server/app/serve/input_merger.h"
 
+#include "core/system/clocks.h"
+
 namespace kinescope::app {
 
 void InputMerger::TakeInputs() {
@@ -10,8 +12,29 @@ void InputMerger::TakeInputs() {
 }
 
 void InputMerger::OnSample(const BodySample& sample) {
+  const std::int64_t now = MonotonicNanos();
+  const std::int64_t waited = Overload::WaitedNanos(sample, now);
+  has_samples_ = true;
+  if (!overload_.Admit(sample.character, waited, now)) {
+    skipped_.insert_or_assign(sample.character, sample);
+    return;
+  }
+  skipped_.erase(sample.character);
+  Process(sample, waited);
+}
+
+void InputMerger::Process(const BodySample& sample, std::int64_t waited_nanos) {
   TakeInputs();
+  builder_.SetWaited(waited_nanos);
   builder_.OnSample(sample);
+}
+
+void InputMerger::AfterPoll() {
+  if (std::exchange(has_samples_, false)) return;
+  for (const auto& [character, sample] : skipped_) Process(sample, 0);
+  skipped_.clear();
+  overload_.OnIdle(MonotonicNanos());
+  builder_.OnCaughtUp();
 }
 
 void InputMerger::OnHandLoad(int character, const HandLoad& load) {

@@ -2,13 +2,16 @@
 /// loads, measurements and markers. Reading thread only.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "core/source.h"
 #include "server/app/serve/hand_load_mailbox.h"
+#include "server/app/serve/overload.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
 
@@ -20,15 +23,20 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   using OnSubscribers = std::function<void(int count)>;
 
   /// `ros` and `on_subscribers` may be null.
-  InputMerger(SceneBuilder& builder, HandLoadMailbox& hand_loads, ros_bridge::RosBridge* ros,
-              OnSubscribers on_subscribers = nullptr)
+  InputMerger(SceneBuilder& builder, Overload& overload, HandLoadMailbox& hand_loads,
+              ros_bridge::RosBridge* ros, OnSubscribers on_subscribers = nullptr)
       : builder_(builder),
+        overload_(overload),
         hand_loads_(hand_loads),
         ros_(ros),
         on_subscribers_(std::move(on_subscribers)) {}
 
   /// Call it also while no samples arrive, because ROS services wait for their answer.
   void TakeInputs();
+
+  /// Call it after each Poll. If it had no sample, none waits any more: those that were skipped to
+  /// catch up are the newest, and are shown.
+  void AfterPoll();
 
   void OnCharacter(const Character& character) override { builder_.OnCharacter(character); }
   void OnSample(const BodySample& sample) override;
@@ -39,11 +47,15 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   void OnMeasurements(int character, const Measurements& measured) override;
   void OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& markers) override;
   void OnViewListeners(int count) override;
+  void Process(const BodySample& sample, std::int64_t waited_nanos);
 
   SceneBuilder& builder_;
+  Overload& overload_;
   HandLoadMailbox& hand_loads_;
   ros_bridge::RosBridge* const ros_;
   const OnSubscribers on_subscribers_;
+  bool has_samples_ = false;           // since the last AfterPoll
+  std::map<int, BodySample> skipped_;  // the newest of each character, if it was skipped
 };
 
 }  // namespace kinescope::app

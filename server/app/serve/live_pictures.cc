@@ -25,13 +25,15 @@ LivePictures::LivePictures(const LivePictureSettings& settings, RendererFactory 
     : moves_(settings.moves),
       pictures_(pictures),
       camera_(settings.camera.name()),
-      loop_({"picture", settings.width, settings.height, settings.rate_hz}, settings.camera,
-            std::move(make_renderer), first,
+      live_({"picture", settings.width, settings.height, settings.rate_hz}, settings.camera,
+            make_renderer, first,
             [this](const render::Image& image, const SceneState& state, const render::Camera&) {
               Publish(image, state);
-            }) {
+            }),
+      snapshots_({"snapshot", settings.width, settings.height, settings.rate_hz}, settings.camera,
+                 std::move(make_renderer), first, nullptr) {
   // The first viewer receives a picture at once.
-  Publish(loop_.Request({settings.width, settings.height, 1, "", true}).get(), *first);
+  Publish(live_.Request(LiveView(settings.width, settings.height)).get(), *first);
 }
 
 void LivePictures::Publish(const render::Image& image, const SceneState& state) {
@@ -45,7 +47,7 @@ void LivePictures::Publish(const render::Image& image, const SceneState& state) 
 bool LivePictures::SetCamera(const std::string& camera) {
   if (!IsNamedCamera(camera)) return false;
   // The selected camera is not started again.
-  if (camera != camera_) loop_.SetCamera(CameraController(ParseCamera(camera), moves_));
+  if (camera != camera_) live_.SetCamera(CameraController(ParseCamera(camera), moves_));
   camera_ = camera;
   return true;
 }
@@ -57,7 +59,22 @@ std::vector<std::uint8_t> LivePictures::SnapshotPng(const std::string& camera, i
     if (!IsNamedCamera(camera)) throw UsageError("camera=" + camera + ": unknown camera");
     named.emplace(ParseCamera(camera), CameraOptions());
   }
-  return render::EncodePng(loop_.Request({width, height, 2, "", true}, std::move(named)).get());
+  const render::PictureSpec view{width, height, 2, "", true};
+  return render::EncodePng(
+      (named
+           ? snapshots_.Request(view, std::move(named))
+           : snapshots_.RequestAimed(view, [this](double aspect) { return live_.AimLive(aspect); }))
+          .get());
+}
+
+DrawingStatus LivePictures::status() const {
+  DrawingStatus status = live_.status();
+  DrawingStatus snapshots = snapshots_.status();
+  status.drawn += snapshots.drawn;
+  status.hangs = status.hangs || snapshots.hangs;
+  if (status.last_error.empty()) status.last_error = std::move(snapshots.last_error);
+  if (snapshots.drawn_at > status.drawn_at) status.problems = std::move(snapshots.problems);
+  return status;
 }
 
 }  // namespace kinescope::app

@@ -1,6 +1,8 @@
 /// Renders the pictures of the page: the live picture as JPEG, while it has viewers, and snapshots
-/// as PNG. A camera that a viewer selects keeps the camera options of the live picture. A snapshot
-/// without a camera is taken by the camera of the live picture; a named camera has no options.
+/// as PNG, on a thread and with a renderer of their own, so that a large one does not delay the
+/// live picture; that renderer is made for the first snapshot. A camera that a viewer selects keeps
+/// the camera options of the live picture. A snapshot without a camera is taken by the camera of
+/// the live picture; a named camera has no options.
 #pragma once
 
 #include <cstdint>
@@ -37,13 +39,17 @@ class LivePictures : public http::PictureFeed {
                const std::shared_ptr<const SceneState>& first, Latest<http::Picture>& pictures);
 
   /// Any thread; never waits for rendering.
-  void OnState(std::shared_ptr<const SceneState> state) { loop_.OnState(std::move(state)); }
+  void OnState(std::shared_ptr<const SceneState> state) {
+    snapshots_.OnState(state);
+    live_.OnState(std::move(state));
+  }
 
-  void SetViewers(int count) override { loop_.SetViewers(count); }
+  void SetViewers(int count) override { live_.SetViewers(count); }
   [[nodiscard]] bool SetCamera(const std::string& camera) override;
   std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width, int height) override;
 
-  DrawingStatus status() const { return loop_.status(); }
+  /// Of the live picture and the snapshots together.
+  DrawingStatus status() const;
 
  private:
   void Publish(const render::Image& image, const SceneState& state);
@@ -51,7 +57,9 @@ class LivePictures : public http::PictureFeed {
   const CameraOptions moves_;
   Latest<http::Picture>& pictures_;
   std::string camera_;  // name of the live picture's; used by the thread that calls SetCamera
-  DrawingLoop loop_;    // last: it uses all other members
+  // Last: they use all other members.
+  DrawingLoop live_;
+  DrawingLoop snapshots_;  // it asks live_ for its camera
 };
 
 }  // namespace kinescope::app

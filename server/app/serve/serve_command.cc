@@ -1,9 +1,12 @@
 // `kinescope serve` and `kinescope bridge`: a source, live, to ROS, pictures and page.
+#include <unistd.h>
+
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "server/app/commands.h"
+#include "server/app/serve/page_token.h"
 #include "server/app/serve/serve_config.h"
 #include "server/app/serve/serve_options.h"
 #include "server/app/serve/server.h"
@@ -43,7 +46,15 @@ Command Make(const char* name, const char* about, bool with_page) {
       "line, ROS parameter, --config file.";
   command.run = [values, with_page](options::OptionList& list) {
     ReadParameters(*values, list);
-    Server(MakeServeConfig(*values, with_page)).Run();
+    for (const char* which : {"token", "token_file"}) {
+      const options::Option* option = list.Find(which);
+      if (option != nullptr) CheckTokenIsGiven(option->given_as, option->value->ToText());
+    }
+    if (const options::Option* token = list.Find("token")) values->token_given_as = token->given_as;
+    ServeConfig config = MakeServeConfig(*values, with_page);
+    // A terminal is read by the person who opens the page; anything else may be a log that stays.
+    config.shows_token = ::isatty(STDERR_FILENO) == 1;
+    Server(config).Run();
     return 0;
   };
   return command;

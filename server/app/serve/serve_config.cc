@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "core/system/errors.h"
 #include "core/system/install_paths.h"
 #include "render/camera/camera.h"
+#include "server/app/serve/page_token.h"
 #include "server/loads/hand_loads.h"
+#include "server/mvn/open.h"
 #include "server/ros/source/graph_source.h"
 
 namespace kinescope::app {
@@ -22,14 +26,13 @@ std::vector<http::CameraView> CameraViews() {
 
 http::CameraFraming FramingOfCameras() {
   const render::GroupFraming& framing = render::kGroupFraming;
-  return {framing.min_width_m, framing.margin_m, framing.narrowest_aspect};
+  return {framing.min_width_m, framing.margin_m, framing.narrowest_aspect, framing.reach_m};
 }
 
 http::HttpConfig PageOf(const ServeOptions& options) {
   http::HttpConfig config;
   config.bind_ip = *options.bind_ip;
   config.port = static_cast<int>(*options.http_port);
-  config.token = *options.token;
   config.web_root = FindResource("web");
   config.cameras = CameraViews();
   config.framing = FramingOfCameras();
@@ -78,15 +81,19 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
   ServeConfig config;
   config.source_url =
       *options.udp_port == 0 ? *options.source : fmt::format("udp://:{}", *options.udp_port);
+  config.source_url = mvn::ReceivingFrom(config.source_url, *options.from);
+  config.source_reach = mvn::DescribeReach(config.source_url);
   config.loop = *options.loop;
   config.source.stream.stamps = *options.stamps;
   config.scene = ToShownSceneOptions(options.person, options.loads, *options.stale_secs);
+  config.scene.makes_models_aside = true;
   config.ros_mode = *options.ros;
   if (config.ros_mode == ros_bridge::RosMode::kOff ||
       (config.ros_mode == ros_bridge::RosMode::kAuto && !ros_bridge::BuiltWithRos())) {
     return config;
   }
   config.ros = BridgeOf(options);
+  UseMeshFiles(MeshCache::Lifetime::kProcess, config.scene);
   if (ros_bridge::IsGraphUrl(config.source_url) && config.ros->tf != "off") {
     // The frames of these people are on /tf already. With a second publisher they would jump
     // between two poses, and Kinescope would receive its own.
@@ -105,6 +112,12 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
   ServeConfig config = BridgeConfigOf(options);
   if (!with_page) return config;
   config.page = PageOf(options);
+  const PageToken token = FindPageToken({*options.token, options.token_given_as},
+                                        *options.token_file, std::getenv(kTokenVariable));
+  config.page->token = token.text;
+  if (!token.origin.empty()) config.page->token_origin = token.origin;
+  config.how_to_see_token = token.how_to_see;
+  config.notes.insert(config.notes.end(), token.notes.begin(), token.notes.end());
   http::CheckConfig(*config.page);
   config.backend = options.backend;
   if (*options.pictures) config.pictures = pictures;

@@ -19,6 +19,7 @@ namespace kinescope::app {
 /// nullopt: that part is off.
 struct ServeConfig {
   std::string source_url;
+  std::string source_reach;  // who can send to it, for the log; "": no sender, it does not listen
   bool loop = false;
   SourceSettings source;
   SceneOptions scene;
@@ -28,11 +29,14 @@ struct ServeConfig {
   std::optional<LivePictureSettings> pictures;
   std::optional<RosCameraSettings> ros_camera;  // only with `pictures` and `ros`
   std::optional<http::HttpConfig> page;         // without its callbacks
+  std::string how_to_see_token;                 // command that prints the token of the page, or ""
+  bool shows_token = false;                     // in the log, which is a terminal and no file
   std::vector<std::string> notes;  // parts that other options switched off, for the log
 };
 
 /// Checks all options before anything starts, also those of parts that are off; opens no source and
-/// no port, but reads the files that options name. `with_page`: `serve`; else `bridge`.
+/// no port, but reads the files that options name, and makes a missing file of --token_file.
+/// `with_page`: `serve`; else `bridge`.
 /// @throws UsageError naming the option.
 ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page);
 

@@ -87,6 +87,9 @@ ServeOptions::ServeOptions()
 void ServeOptions::ListBridge(options::OptionList& option) {
   option.Group("The source");
   option("source", source, "source of the people: " + SourceKinds());
+  option("from", from,
+         "machines that may send: addresses and networks with commas in between, such as "
+         "192.168.1.20,10.0.0.0/8; not given: all. Only for udp: and tcp:");
   option("udp_port", udp_port, "short for --source udp://:PORT");
   option.HasNoEffect("source", "with --udp_port", [this] { return *udp_port != 0; });
   option("loop", loop, "start a file again at its end");
@@ -117,9 +120,16 @@ void ServeOptions::ListBridge(options::OptionList& option) {
 void ServeOptions::List(options::OptionList& option) {
   ListBridge(option);
   option.Group("The page");
-  option("bind_ip", bind_ip, "address of the page; 0.0.0.0 opens it to the network (set --token)");
+  option("bind_ip", bind_ip,
+         "address of the page; 0.0.0.0 opens it to the network (set --token_file)");
   option("http_port", http_port, "TCP port of the page");
-  option("token", token, "password of the page; required unless it is served to this machine only");
+  option("token_file", token_file,
+         "file with the token of the page, its password: at least 16 letters, digits and -._~; a "
+         "missing file is made with a random token. Required unless the page is served to this "
+         "machine only");
+  option("token", token,
+         "the token itself, which the list of processes then shows; prefer --token_file or the "
+         "environment variable KINESCOPE_TOKEN");
   option.Group("Pictures");
   option("pictures", pictures, "whether the server draws pictures");
   option("camera", camera, "where the camera stands");

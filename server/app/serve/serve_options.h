@@ -26,7 +26,7 @@ class FactorValue : public options::ValueOf<double> {
 struct ServeOptions {
   ServeOptions();
 
-  options::Text source;
+  options::Text source, from;
   options::Whole udp_port;  // 0: as `source` says
   options::Flag loop;
   options::Choice<mvn::Stamps> stamps;
@@ -41,7 +41,8 @@ struct ServeOptions {
   // page and pictures
   options::Text bind_ip;
   options::Whole http_port;
-  options::Text token;
+  options::Text token, token_file;
+  std::string token_given_as = "--token";  // as messages name it: "~token", "file.yaml:3: token"
   options::Switch pictures;
   CamerasValue camera;
   CameraOptions camera_moves;

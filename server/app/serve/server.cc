@@ -19,12 +19,13 @@ namespace {
 constexpr std::chrono::milliseconds kPollTimeout(50);
 constexpr std::int64_t kCountersPeriodNanos = 500'000'000;
 
-void LogReceiveBuffer(const Source& source) {
+void LogListening(const Source& source, const std::string& reach) {
+  if (reach.empty()) return;
   const auto transport = source.counters().transport;
   const auto buffer = transport.find("receive_buffer_bytes");
-  if (buffer == transport.end()) return;
-  spdlog::info("listening at {}, receive buffer {:.1f} MB", source.description(),
-               static_cast<double>(buffer->second) * 1e-6);
+  const std::uint64_t bytes = buffer == transport.end() ? 0 : buffer->second;
+  spdlog::info("listening at {}: {}; receive buffer {:.1f} MB", source.description(), reach,
+               static_cast<double>(bytes) * 1e-6);
 }
 
 // Of a part that may be off.
@@ -37,24 +38,29 @@ auto StatusOf(const std::unique_ptr<Part>& part) {
 
 Server::Server(const ServeConfig& config)
     : start_nanos_(MonotonicNanos()),
+      listener_(config.page ? std::make_unique<http::Listener>(*config.page) : nullptr),
       source_(OpenAtTrueRate(config.source_url, config.loop, config.source)),
+      overload_(/*may_skip=*/!config.ros),
       builder_(config.scene, source_->description(), source_->nominal_rate_hz(),
                [this](const std::shared_ptr<const SceneState>& state) { OnState(state); }) {
   for (const std::string& note : config.notes) spdlog::info("{}", note);
+  LogListening(*source_, config.source_reach);
   if (config.ros) StartRos(*config.ros, config.ros_mode);
   builder_.Start();  // the first state; pictures and page need one
   if (config.pictures) StartPictures(config);
-  if (config.page) StartPage(*config.page);
+  if (config.page) StartPage(config);
+  listener_.reset();
 }
 
 void Server::StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode) {
-  initial_model_ = builder_.InitialModel();
-  if (initial_model_->mesh_files) initial_model_->mesh_files->Provide();
-  config.initial_urdf = initial_model_->urdf_xml;
+  const auto model = builder_.InitialModel();
+  config.initial_urdf = model->urdf_xml;
+  config.initial_meshes = model->mesh_files;
   ros_ = ros_bridge::MakeRosBridge(config, mode);
 }
 
 void Server::StartPictures(const ServeConfig& config) {
+  render::PreferSpeed();
   const RendererFactory make_renderer = RenderersOf(config.backend);
   live_pictures_ =
       std::make_unique<LivePictures>(*config.pictures, make_renderer, states_.Get(), pictures_);
@@ -66,12 +72,20 @@ void Server::StartPictures(const ServeConfig& config) {
       [this](const ros_bridge::RosImage& image) { ros_->PublishView(image); });
 }
 
-void Server::StartPage(http::HttpConfig config) {
-  config.set_hand_load = [this](int character, const HandLoad& load) {
+void Server::StartPage(const ServeConfig& config) {
+  http::HttpConfig page = *config.page;
+  page.set_hand_load = [this](int character, const HandLoad& load) {
     return hand_loads_.Put(character, load);
   };
-  page_.emplace(config, states_, pictures_, live_pictures_.get(), [this] { return Diagnostics(); });
-  spdlog::info("page at {}", page_->url());
+  page.warn = [](const std::string& line) { spdlog::warn("{}", line); };
+  page_.emplace(page, *listener_, states_, pictures_, live_pictures_.get(),
+                [this] { return Diagnostics(); });
+  const bool is_whole = config.shows_token || page_->url() == page_->url_for_log();
+  spdlog::info("page at {}{}", is_whole ? page_->url() : page_->url_for_log(),
+               is_whole ? ""
+               : config.how_to_see_token.empty()
+                   ? " (the token is shortened)"
+                   : " (the token is shortened; to see it: " + config.how_to_see_token + ")");
 }
 
 void Server::OnState(const std::shared_ptr<const SceneState>& state) {
@@ -84,17 +98,17 @@ void Server::OnState(const std::shared_ptr<const SceneState>& state) {
 
 std::string Server::Diagnostics() const {
   return DiagnosticsJson(states_.Get(), counters_.Get(), StatusOf(ros_), StatusOf(live_pictures_),
-                         StatusOf(ros_camera_));
+                         StatusOf(ros_camera_), overload_.skipped());
 }
 
 void Server::Run() {
-  LogReceiveBuffer(*source_);
-  InputMerger inputs(builder_, hand_loads_, ros_.get(), [this](int count) {
+  InputMerger inputs(builder_, overload_, hand_loads_, ros_.get(), [this](int count) {
     if (ros_camera_) ros_camera_->SetSubscribers(count);
   });
   while (!StopRequested()) {
     const Source::State state = source_->Poll(kPollTimeout, inputs);
     inputs.TakeInputs();
+    inputs.AfterPoll();
     OnTime(MonotonicNanos());
     if (ros_ && ros_->status().shutdown_requested) {
       spdlog::info("shut down through ROS");
@@ -114,6 +128,7 @@ void Server::OnTime(std::int64_t now_nanos) {
   const auto counters = std::make_shared<const SourceCounters>(source_->counters());
   counters_.Publish(counters);
   missing_pose_warning_.OnCounters(*counters, source_->description(), now_nanos);
+  crowd_warning_.OnCounters(*counters);
 }
 
 }  // namespace kinescope::app

@@ -10,10 +10,12 @@
 #include "core/scene_state.h"
 #include "core/source.h"
 #include "core/system/latest.h"
+#include "server/app/serve/crowd_warning.h"
 #include "server/app/serve/hand_load_mailbox.h"
 #include "server/app/serve/live_pictures.h"
 #include "server/app/serve/liveness_log.h"
 #include "server/app/serve/missing_pose_warning.h"
+#include "server/app/serve/overload.h"
 #include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/serve_config.h"
 #include "server/http/server.h"
@@ -38,24 +40,27 @@ class Server {
  private:
   void StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode);
   void StartPictures(const ServeConfig& config);
-  void StartPage(http::HttpConfig config);
+  void StartPage(const ServeConfig& config);
   void OnState(const std::shared_ptr<const SceneState>& state);
   void OnTime(std::int64_t now_nanos);  // between polls
   std::string Diagnostics() const;      // on the page's thread
 
   const std::int64_t start_nanos_;
+  std::unique_ptr<http::Listener> listener_;  // before everything that takes time; until the page
+                                              // has it
   const std::unique_ptr<Source> source_;
   // Between threads:
   Latest<SceneState> states_;        // reading thread -> page
   Latest<SourceCounters> counters_;  // reading thread -> page
   Latest<http::Picture> pictures_;   // drawing thread -> page
   HandLoadMailbox hand_loads_;       // page -> reading thread
+  Overload overload_;                // its count: reading thread -> page
   // Used by the reading thread only:
   LivenessLog liveness_log_;
   MissingPoseWarning missing_pose_warning_;
+  CrowdWarning crowd_warning_;
   std::int64_t counters_due_nanos_ = 0;
   SceneBuilder builder_;
-  std::shared_ptr<const PersonModel> initial_model_;  // its mesh files stay as long as this does
   // Outputs, null if off; each uses only members above it.
   std::unique_ptr<LivePictures> live_pictures_;
   std::unique_ptr<ros_bridge::RosBridge> ros_;

@@ -14,6 +14,7 @@
 #include "core/system/errors.h"
 #include "core/system/json_text.h"
 #include "server/app/commands.h"
+#include "server/app/print.h"
 #include "server/app/stream/stream_feed.h"
 #include "server/app/stream/stream_transmission.h"
 #include "server/source/open_source.h"
@@ -203,8 +204,14 @@ nlohmann::json Summary(const StreamOptions& o, const Feed& feed, const Transmiss
 }
 
 void LogSummary(const nlohmann::json& summary) {
+  const auto unsent = summary["unsent"].get<std::uint64_t>();
+  const auto datagrams = summary["datagrams"].get<std::uint64_t>();
+  if (unsent > 0 && unsent == datagrams) {
+    spdlog::error("sent nothing: no receiver took one of {} datagrams", datagrams);
+    return;
+  }
   spdlog::info("sent {} samples in {} datagrams, {:.1f} MB, in {:.1f} s",
-               summary["samples"].get<std::uint64_t>(), summary["datagrams"].get<std::uint64_t>(),
+               summary["samples"].get<std::uint64_t>(), datagrams,
                summary["bytes"].get<double>() * 1e-6, summary["seconds"].get<double>());
   for (const auto& [name, fault] : summary["faults"].items()) {
     std::string line = fmt::format("fault {}: {} times, {} datagrams", name,
@@ -217,13 +224,13 @@ void LogSummary(const nlohmann::json& summary) {
     }
     spdlog::info("{}", line);
   }
-  const auto unsent = summary["unsent"].get<std::uint64_t>();
   if (unsent > 0) {
     spdlog::warn("{} datagrams not sent: no receiver connected, or receiver too slow", unsent);
   }
 }
 
-void Stream(const StreamOptions& o) {
+// @return whether anything was sent.
+bool Stream(const StreamOptions& o) {
   const FeedSettings settings = ToFeed(o);
   const auto feed = OpenFeed(settings);
   const auto sender = mvn::OpenSender(*o.to);
@@ -233,7 +240,8 @@ void Stream(const StreamOptions& o) {
   transmission.Run(*o.seconds);
   const nlohmann::json summary = Summary(o, *feed, transmission, *sender, *o.fault, faults);
   LogSummary(summary);
-  if (*o.json) fmt::print("{}\n", JsonText(summary));
+  if (*o.json) Print("{}\n", JsonText(summary));
+  return transmission.datagrams() == 0 || sender->datagrams_unsent() < transmission.datagrams();
 }
 
 }  // namespace
@@ -247,10 +255,7 @@ Command StreamCommand() {
   command.positionals = {"source"};
   command.required = {"source"};
   command.footer = kMore;
-  command.run = [values](options::OptionList&) {
-    Stream(*values);
-    return 0;
-  };
+  command.run = [values](options::OptionList&) { return Stream(*values) ? 0 : 1; };
   return command;
 }
 

@@ -14,6 +14,7 @@
 #include "core/system/stop_signal.h"
 #include "render/image/new_file.h"
 #include "server/app/commands.h"
+#include "server/app/print.h"
 #include "server/app/urdf/person_export.h"
 #include "server/app/urdf/urdf_picture.h"
 #include "server/app/urdf/urdf_report.h"
@@ -41,7 +42,7 @@ struct WriteOptions {
     option("source", source,
            "person to write: " + SourceKinds() + "; default: the default body of --height");
     option("out", out,
-           "FILE.urdf, or a folder for person.urdf and meshes/; default: standard output");
+           "FILE.urdf, or a folder for person.urdf and meshes/; default, and -: standard output");
     option("package", package,
            "name of the ROS package that the folder is: meshes are written as package://NAME/...");
     option("gazebo", gazebo,
@@ -158,16 +159,18 @@ void Write(const WriteOptions& options) {
     urdf::HumanModel human = ModelOf(*options.source, scene)->human;
     human.mass_inside_joints = *options.gazebo;
     const bool has_meshes = WriteFolder(std::move(human), scene.appearance, options);
-    fmt::print("{}: person.urdf{}\n", *options.out, has_meshes ? " and its meshes" : "");
+    Print("{}: person.urdf{}\n", *options.out, has_meshes ? " and its meshes" : "");
     return;
   }
-  const auto model = ModelOf(*options.source, ToShownSceneOptions(options.person));
+  SceneOptions scene = ToShownSceneOptions(options.person);
+  UseMeshFiles(MeshCache::Lifetime::kUser, scene);
+  const auto model = ModelOf(*options.source, scene);
   if (model->mesh_files) model->mesh_files->Provide();
   urdf::HumanModel human = model->human;
   human.mass_inside_joints = *options.gazebo;
   const std::string xml = urdf::WriteUrdf(human);
   if (options.out->empty()) {
-    fmt::print("{}", xml);
+    PrintText(stdout, xml);
     return;
   }
   try {
@@ -175,14 +178,14 @@ void Write(const WriteOptions& options) {
   } catch (const std::runtime_error& error) {
     throw UsageError(fmt::format("--out={}: {}", *options.out, error.what()));
   }
-  fmt::print("{}: written\n", *options.out);
+  Print("{}: written\n", *options.out);
 }
 
 bool Check(const UrdfCheckOptions& options) {
   const urdf::UrdfReport report = urdf::CheckUrdf(
       ReadUrdfFile(*options.file), urdf::MakeMeshSearch(*options.file, *options.package_path));
-  fmt::print("{}", *options.json ? UrdfReportJson(*options.file, report)
-                                 : UrdfReportText(*options.file, report));
+  PrintText(stdout, *options.json ? UrdfReportJson(*options.file, report)
+                                  : UrdfReportText(*options.file, report));
   return report.is_usable();
 }
 
@@ -225,6 +228,7 @@ Command UrdfCommand() {
   values->List(command.options);
   command.positionals = {"source"};
   command.run = [values](options::OptionList&) {
+    if (*values->out == "-") values->out = std::string();
     Write(*values);
     return 0;
   };

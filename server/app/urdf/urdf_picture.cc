@@ -12,6 +12,7 @@
 #include "render/camera/camera.h"
 #include "render/image/png_file.h"
 #include "render/renderer.h"
+#include "server/app/print.h"
 #include "server/picture/camera_json.h"
 #include "server/picture/render_planner.h"
 #include "server/scene/robot_source.h"
@@ -24,8 +25,8 @@ void PrintPicture(const UrdfPictureOptions& options, const RobotState& robot,
   if (!*options.json) {
     const std::string boxes =
         problems.empty() ? "" : fmt::format(", {} mesh files missing or rejected", problems.size());
-    fmt::print("{}: robot '{}', {} links{}\n", *options.out, robot.name, robot.model->links.size(),
-               boxes);
+    Print("{}: robot '{}', {} links{}\n", *options.out, robot.name, robot.model->links.size(),
+          boxes);
     return;
   }
   const nlohmann::ordered_json json = {
@@ -37,7 +38,7 @@ void PrintPicture(const UrdfPictureOptions& options, const RobotState& robot,
       {"camera", ToJson(camera)},
       {"problems", problems},
   };
-  fmt::print("{}\n", JsonText(json));
+  Print("{}\n", JsonText(json));
 }
 
 // The picture shows what was asked for; the robot could not stand like that.

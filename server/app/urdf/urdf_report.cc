@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/system/json_text.h"
+#include "core/system/words.h"
 
 namespace kinescope::app {
 namespace {
@@ -15,10 +16,6 @@ using urdf::UrdfProblem;
 using urdf::UrdfReport;
 
 constexpr int kMaxAlike = 3;
-
-std::string Counted(std::size_t count, const std::string& what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
 
 std::string VerdictText(const UrdfReport& report) {
   const auto count = [&](UrdfProblem::Kind kind) {

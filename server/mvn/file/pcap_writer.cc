@@ -14,6 +14,7 @@
 #include "core/system/check.h"
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "core/system/words.h"
 #include "server/mvn/file/packet.h"
 
 namespace kinescope::mvn {
@@ -24,10 +25,6 @@ namespace fs = std::filesystem;
 constexpr std::size_t kFlushBytes = 64 * 1024;
 constexpr int kLongestPacket = 1 << 18;                              // the limit of libpcap
 constexpr std::int64_t kLatestNanos = 0xFFFFFFFF * kNanosPerSecond;  // the limit of the format
-
-std::string Number(std::uint64_t count, const char* noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
 
 [[noreturn]] void RefuseToCreate(const fs::path& path, int error) {
   const char* way_out = "";
@@ -211,7 +208,7 @@ void PcapWriter::Try(Action&& action) {
     }
     std::string kept = "nothing was recorded";
     if (datagrams() > 0) {
-      kept = "kept and readable: " + Number(datagrams(), "datagram") + " in " + files_.front();
+      kept = "kept and readable: " + Counted(datagrams(), "datagram") + " in " + files_.front();
       if (files_.size() > 1) kept += " to " + files_.back();
     }
     throw SourceError(path + ": recording stopped: " + std::strerror(error.code().value()) + "; " +

@@ -79,7 +79,12 @@ std::vector<std::string> AdviceFor(const CharacterReport& character, bool has_sc
 
 std::vector<std::string> AdviceFor(const InspectionReport& report) {
   std::vector<std::string> advice;
-  if (report.has_datagrams && report.datagrams == 0) {
+  const std::uint64_t strangers = report.transport ? report.transport->strangers : 0;
+  if (strangers > 0) {
+    advice.push_back(std::to_string(strangers) +
+                     " datagrams or connections of senders that --from does not admit were "
+                     "rejected; the log names the first: if it is the suit, correct --from");
+  } else if (report.has_datagrams && report.datagrams == 0) {
     advice.push_back(report.is_live
                          ? "no datagrams received: in MVN, Options, Network Streamer, add this "
                            "machine's address and this port; open the port in the firewall"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <stdexcept>
 
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
@@ -71,25 +72,51 @@ void ParseHostAndPort(std::string_view url, std::string_view rest, NetUrl& parse
   if (!rest.empty()) parsed.port = ParsePort(url, rest.substr(1));
 }
 
-NetUrl::Mode ParseMode(std::string_view url, std::string_view query, const NetUrl& parsed) {
+NetUrl::Mode ModeWithoutQuery(const NetUrl& parsed) {
+  const bool listens = parsed.protocol == Protocol::kUdp || IsAnyAddress(parsed.host);
+  return listens ? NetUrl::Mode::kListen : NetUrl::Mode::kConnect;
+}
+
+// `word`: of a query, such as "listen".
+NetUrl::Mode ParseMode(std::string_view url, std::string_view word, const NetUrl& parsed) {
   using Mode = NetUrl::Mode;
-  if (query.empty()) {
-    const bool listens = parsed.protocol == Protocol::kUdp || IsAnyAddress(parsed.host);
-    return listens ? Mode::kListen : Mode::kConnect;
-  }
-  if (query != "?listen" && query != "?connect") {
-    RefuseUrl(url,
-              "unknown query '" + std::string(query) + "'; expected ?listen, ?connect or nothing");
+  if (word != "listen" && word != "connect") {
+    RefuseUrl(url, "unknown query '?" + std::string(word) +
+                       "'; expected ?listen, ?connect, ?from=ADDRESS/n or nothing");
   }
   if (parsed.protocol == Protocol::kUdp) {
-    RefuseUrl(url, "UDP has no connections; remove '" + std::string(query) + "', or use tcp://");
+    RefuseUrl(url, "UDP has no connections; remove '?" + std::string(word) + "', or use tcp://");
   }
-  if (query == "?listen") return Mode::kListen;
+  if (word == "listen") return Mode::kListen;
   if (IsAnyAddress(parsed.host)) {
     RefuseUrl(
         url, "the host is missing; expected a host to connect to, such as tcp://192.168.1.20:9763");
   }
   return Mode::kConnect;
+}
+
+// `query`: "?listen&from=10.0.0.0/8", or empty.
+void ParseQuery(std::string_view url, std::string_view query, NetUrl& parsed) {
+  constexpr std::string_view kFrom = "from=";
+  parsed.mode = ModeWithoutQuery(parsed);
+  while (!query.empty()) {
+    query.remove_prefix(1);  // ? or &
+    const std::string_view word = query.substr(0, query.find('&'));
+    query.remove_prefix(word.size());
+    if (!StartsWith(word, kFrom)) {
+      parsed.mode = ParseMode(url, word, parsed);
+      continue;
+    }
+    parsed.from_text = word.substr(kFrom.size());
+    try {
+      parsed.from = AllowedSenders(parsed.from_text);
+    } catch (const std::invalid_argument& error) {
+      RefuseUrl(url, "from=" + std::string(error.what()));
+    }
+  }
+  if (parsed.mode == NetUrl::Mode::kConnect && !parsed.from.are_all()) {
+    RefuseUrl(url, "connects to one machine, so from= has no meaning; remove it, or add ?listen");
+  }
 }
 
 }  // namespace
@@ -111,7 +138,7 @@ NetUrl ParseNetUrl(std::string_view url) {
   const std::string_view rest = url.substr(kPrefixBytes);
   const std::size_t query = std::min(rest.find('?'), rest.size());
   ParseHostAndPort(url, rest.substr(0, query), parsed);
-  parsed.mode = ParseMode(url, rest.substr(query), parsed);
+  ParseQuery(url, rest.substr(query), parsed);
   return parsed;
 }
 

@@ -139,6 +139,23 @@ SocketAddress PeerAddress(const Socket& socket) {
   return address;
 }
 
+bool IsLoopback(const SocketAddress& address) {
+  if (address.storage.ss_family == AF_INET6) {
+    return IN6_IS_ADDR_LOOPBACK(&reinterpret_cast<const sockaddr_in6&>(address.storage).sin6_addr);
+  }
+  constexpr std::uint32_t kLoopbackNet = 127;
+  const auto& ip = reinterpret_cast<const sockaddr_in&>(address.storage);
+  return ntohl(ip.sin_addr.s_addr) >> 24 == kLoopbackNet;
+}
+
+bool IsUnspecified(const SocketAddress& address) {
+  if (address.storage.ss_family == AF_INET6) {
+    return IN6_IS_ADDR_UNSPECIFIED(
+        &reinterpret_cast<const sockaddr_in6&>(address.storage).sin6_addr);
+  }
+  return reinterpret_cast<const sockaddr_in&>(address.storage).sin_addr.s_addr == INADDR_ANY;
+}
+
 Endpoint EndpointOf(const SocketAddress& address) {
   Endpoint endpoint;
   if (address.storage.ss_family == AF_INET6) {

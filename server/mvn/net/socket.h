@@ -57,6 +57,11 @@ Socket BindToListen(const NetUrl& url, const std::string& text);
 SocketAddress LocalAddress(const Socket& socket);
 SocketAddress PeerAddress(const Socket& socket);
 
+/// Whether only this machine has it ("127.0.0.1", "::1"), and whether it means every address of
+/// this machine.
+bool IsLoopback(const SocketAddress& address);
+bool IsUnspecified(const SocketAddress& address);
+
 /// IPv4 is mapped into IPv6.
 Endpoint EndpointOf(const SocketAddress& address);
 

@@ -5,11 +5,15 @@
 #include <time.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <utility>
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "server/mvn/datagram.h"
+#include "server/mvn/giving_way.h"
+#include "server/mvn/net/arrival_clock.h"
 #include "server/mvn/stream_framer.h"
 
 namespace kinescope::mvn {
@@ -29,17 +33,36 @@ struct TcpDatagrams::Connection {
   Socket socket;
   ReceivedDatagram datagram;  // the one that is delivered; both ends are the same for all
   StreamFramer framer;
+  ArrivalClock clock{ReadClocks()};
   bool has_ended = false;
+  // Receive times, monotonic clock; 0: never.
+  std::int64_t opened_nanos = 0, datagram_nanos = 0, body_nanos = 0;
 
   void HandOn(DatagramSink& sink) {
     while (const auto bytes = framer.Next()) {
       datagram.bytes = *bytes;
+      datagram_nanos = datagram.arrival.monotonic_nanos;
+      NoticeBody();
       sink.OnDatagram(datagram);
     }
   }
+
+  // Looked for a few times a second, so that it costs nothing.
+  void NoticeBody() {
+    constexpr std::int64_t kLookAgain = 200 * kNanosPerMilli;
+    if (datagram_nanos - body_nanos < kLookAgain) return;
+    const auto message = ParseDatagram(datagram.bytes);
+    if (message && HasWholeBody(*message)) body_nanos = datagram_nanos;
+  }
+
+  bool IsIdle(std::int64_t now, const Patience& patience) const {
+    return datagram_nanos == 0 ? now - opened_nanos > patience.first_datagram
+                               : now - datagram_nanos > patience.next_datagram;
+  }
 };
 
-TcpDatagrams::TcpDatagrams(const std::string& url) : description_(url), buffer_(kReadBytes, '\0') {
+TcpDatagrams::TcpDatagrams(const std::string& url, const Patience& patience)
+    : patience_(patience), description_(url), buffer_(kReadBytes, '\0') {
   const NetUrl parsed = ParseNetUrl(url);
   connections_.reserve(kMaxConnections);
   descriptors_.reserve(kMaxConnections + 1);
@@ -48,7 +71,9 @@ TcpDatagrams::TcpDatagrams(const std::string& url) : description_(url), buffer_(
     connector_.emplace(parsed, url);
     return;
   }
+  from_ = parsed.from;
   listener_ = BindToListen(parsed, url);
+  StampArrivals(listener_);  // and what its connections receive
   const SocketAddress bound = LocalAddress(listener_);
   description_ = FormatUrl(Protocol::kTcp, bound);
   port_ = EndpointOf(bound).port;
@@ -102,10 +127,11 @@ DatagramSource::State TcpDatagrams::Poll(std::chrono::nanoseconds timeout, Datag
     }
   }
   const std::int64_t now = ReadClocks().monotonic_nanos;
+  if (!connector_) EndIdle(now);
   RemoveEnded(now);
   if (connector_) {
     Socket made = connector_->Advance(now);
-    if (made.is_open()) Add(std::move(made));
+    if (made.is_open()) Add(std::move(made), now);
   } else if (descriptors_.back().revents != 0) {
     AcceptAll(now);
   }
@@ -117,7 +143,7 @@ void TcpDatagrams::AcceptAll(std::int64_t now) {
     Socket newcomer(accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     if (newcomer.is_open()) {
       ConfigureConnection(newcomer);
-      Add(std::move(newcomer));
+      Add(std::move(newcomer), now);
       continue;
     }
     if (errno == EAGAIN || errno == EWOULDBLOCK) return;
@@ -133,28 +159,66 @@ void TcpDatagrams::AcceptAll(std::int64_t now) {
   }
 }
 
-void TcpDatagrams::Add(Socket socket) {
-  if (connections_.size() >= kMaxConnections) {
+// Ends the connection that gives way, if there is one.
+bool TcpDatagrams::MakeRoom(const Endpoint& newcomer, std::int64_t now) {
+  if (connections_.size() < kMaxConnections) return true;
+  std::vector<PlaceHolder> holders;
+  for (const auto& connection : connections_) {
+    const bool has_body =
+        connection->body_nanos != 0 && now - connection->body_nanos < patience_.next_body;
+    holders.push_back({connection->datagram.from, has_body, connection->datagram_nanos != 0,
+                       connection->opened_nanos});
+  }
+  // The address of a connection is certain, so what it will send need not be known.
+  const auto index = WhoGivesWay(holders, newcomer, true);
+  if (!index) return false;
+  const auto victim = connections_.begin() + static_cast<std::ptrdiff_t>(*index);
+  Remember(**victim);
+  ++counters_.connections_ended;
+  connections_.erase(victim);
+  return true;
+}
+
+void TcpDatagrams::Add(Socket socket, std::int64_t now) {
+  const Endpoint sender = EndpointOf(PeerAddress(socket));
+  if (!from_.Allow(sender)) {
+    if (counters_.strangers++ == 0) WarnOfStranger(description_, sender);
+    return;
+  }
+  if (!MakeRoom(sender, now)) {
     if (counters_.connections_refused++ == 0) {
       spdlog::warn("{}: more than {} connections; {} and all further ones are rejected",
-                   description_, kMaxConnections, Format(EndpointOf(PeerAddress(socket))));
+                   description_, kMaxConnections, Format(sender));
     }
     return;
   }
   auto connection = std::make_unique<Connection>();
-  connection->datagram.from = EndpointOf(PeerAddress(socket));
+  connection->opened_nanos = now;
+  connection->datagram.from = sender;
   connection->datagram.to = EndpointOf(LocalAddress(socket));
   counters_.receive_buffer_bytes = ReceiveBufferBytes(socket);
   ++counters_.connections;
+  StampArrivals(socket);
   connection->socket = std::move(socket);
   connections_.push_back(std::move(connection));
 }
 
-// Reads once; returns whether there may be more to read.
+// Reads once: bytes that arrived together have the receive time of the last of them. Returns
+// whether there may be more to read.
 bool TcpDatagrams::Read(Connection& connection, DatagramSink& sink) {
-  const ssize_t size = recv(connection.socket.get(), buffer_.data(), buffer_.size(), MSG_DONTWAIT);
+  iovec vector{buffer_.data(), buffer_.size()};
+  alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(timespec))> control{};
+  msghdr message{};
+  message.msg_iov = &vector;
+  message.msg_iovlen = 1;
+  message.msg_control = control.data();
+  message.msg_controllen = control.size();
+  const ssize_t size = recvmsg(connection.socket.get(), &message, MSG_DONTWAIT);
   if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR)) return false;
-  connection.datagram.arrival = ReadClocks();
+  const Arrival now = ReadClocks();
+  connection.clock.Read(now);
+  if (clock_.Read(now) != 0) ++counters_.clock_steps;
+  connection.datagram.arrival = connection.clock.ArrivalOf(KernelStampOf(message));
   if (size > 0) {
     connection.framer.Append(std::string_view(buffer_).substr(0, static_cast<std::size_t>(size)));
   } else {
@@ -165,12 +229,28 @@ bool TcpDatagrams::Read(Connection& connection, DatagramSink& sink) {
   return size == static_cast<ssize_t>(buffer_.size());
 }
 
+void TcpDatagrams::EndIdle(std::int64_t now) {
+  const auto is_idle = [&](const auto& connection) {
+    if (connection->has_ended || !connection->IsIdle(now, patience_)) return false;
+    Remember(*connection);
+    ++counters_.connections_ended;
+    return true;
+  };
+  connections_.erase(std::remove_if(connections_.begin(), connections_.end(), is_idle),
+                     connections_.end());
+}
+
+// Counters outlive their connection.
+void TcpDatagrams::Remember(const Connection& connection) {
+  counters_.resyncs += connection.framer.resyncs();
+  counters_.skipped_bytes += connection.framer.skipped_bytes();
+}
+
 void TcpDatagrams::RemoveEnded(std::int64_t now) {
   const auto has_ended = [](const auto& connection) { return connection->has_ended; };
   for (const auto& connection : connections_) {
     if (!connection->has_ended) continue;
-    counters_.resyncs += connection->framer.resyncs();
-    counters_.skipped_bytes += connection->framer.skipped_bytes();
+    Remember(*connection);
     ++counters_.connections_lost;
     if (connector_) connector_->Restart(now);
   }

@@ -13,22 +13,31 @@
 #include <vector>
 
 #include "server/mvn/datagram_source.h"
+#include "server/mvn/net/arrival_clock.h"
 #include "server/mvn/net/socket.h"
 #include "server/mvn/net/tcp_connector.h"
 
 namespace kinescope::mvn {
 
-/// The receive time is when the bytes were read, on both clocks. `from` and `to` are the ends of
+/// The receive time is the kernel's time stamp of the bytes. `from` and `to` are the ends of
 /// the connection.
 class TcpDatagrams : public DatagramSource {
  public:
-  /// Further connections are rejected: closed at once.
+  /// A further connection takes the place of one that gives way (giving_way.h); without such a one
+  /// it is rejected: closed at once.
   static constexpr std::size_t kMaxConnections = 16;
+
+  /// How long the sender of a connection that was accepted may take, ns.
+  struct Patience {
+    std::int64_t first_datagram = 60'000'000'000, next_datagram = 600'000'000'000;  // else it ends
+    std::int64_t next_body = 3'000'000'000;  // else it counts as one that has none
+  };
 
   /// Listens at once; or resolves the host and starts to connect with the first Poll(). It is not
   /// an error if the other end does not exist yet.
   /// @throws SourceError: see ParseNetUrl(), BindToListen() and ResolveToSend().
-  explicit TcpDatagrams(const std::string& url);
+  explicit TcpDatagrams(const std::string& url) : TcpDatagrams(url, Patience()) {}
+  TcpDatagrams(const std::string& url, const Patience& patience);
   ~TcpDatagrams() override;
 
   /// Reads once from each connection with data; kMore if one may have more. Returns early when a
@@ -47,15 +56,21 @@ class TcpDatagrams : public DatagramSource {
   void CollectDescriptors(std::int64_t now);
   std::int64_t Deadline(std::int64_t now, std::chrono::nanoseconds timeout) const;
   void AcceptAll(std::int64_t now);
-  void Add(Socket socket);
+  void Add(Socket socket, std::int64_t now);
+  [[nodiscard]] bool MakeRoom(const Endpoint& newcomer, std::int64_t now);
   [[nodiscard]] bool Read(Connection& connection, DatagramSink& sink);
+  void EndIdle(std::int64_t now);
   void RemoveEnded(std::int64_t now);
+  void Remember(const Connection& connection);
 
+  const Patience patience_;
   std::string description_;
+  AllowedSenders from_;
   std::uint16_t port_ = 0;
   Socket listener_;                        // when listening
   std::optional<TcpConnector> connector_;  // when connecting
   std::int64_t accept_again_nanos_ = 0;    // monotonic clock; accepting fails before
+  ArrivalClock clock_{ReadClocks()};       // for its steps; each connection has one for its stamps
   std::vector<std::unique_ptr<Connection>> connections_;
   std::vector<pollfd> descriptors_;  // to wait for: connections in their order, then listener_ or
                                      // connector_

@@ -1,7 +1,9 @@
 #include "server/mvn/net/udp_datagrams.h"
 
+#include <linux/sock_diag.h>
 #include <netinet/in.h>
 #include <poll.h>
+#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <time.h>
 
@@ -37,9 +39,9 @@ bool ReadControl(const cmsghdr& control, int level, int type, Value& value) {
 
 // Buffers for recvmmsg; made once, used for every read.
 struct UdpDatagrams::Batch {
-  static constexpr std::size_t kControlBytes =
-      CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t)) +
-      CMSG_SPACE(sizeof(in_pktinfo)) + CMSG_SPACE(sizeof(in6_pktinfo));
+  static constexpr std::size_t kControlBytes = CMSG_SPACE(sizeof(timespec)) +
+                                               CMSG_SPACE(sizeof(in_pktinfo)) +
+                                               CMSG_SPACE(sizeof(in6_pktinfo));
 
   struct Slot {
     std::array<char, kLargestDatagram> bytes;
@@ -70,7 +72,10 @@ struct UdpDatagrams::Batch {
 };
 
 UdpDatagrams::UdpDatagrams(const std::string& url)
-    : socket_(BindToListen(ParseNetUrl(url), url)), batch_(std::make_unique<Batch>()) {
+    : from_(ParseNetUrl(url).from),
+      socket_(BindToListen(ParseNetUrl(url), url)),
+      clock_(ReadClocks()),
+      batch_(std::make_unique<Batch>()) {
   const SocketAddress bound = LocalAddress(socket_);
   description_ = FormatUrl(Protocol::kUdp, bound);
   local_ = EndpointOf(bound);
@@ -90,11 +95,10 @@ void UdpDatagrams::Configure() {
     setsockopt(socket_.get(), SOL_SOCKET, SO_RCVBUF, &wanted, sizeof wanted);
   }
   counters_.receive_buffer_bytes = ReceiveBufferBytes(socket_);
-  // Options that may fail: without them drops are not counted, receive times include scheduling
-  // delays, and a socket that listens on all addresses does not know the destination of a datagram.
+  // Options that may fail: without them receive times include scheduling delays, and a socket that
+  // listens on all addresses does not know the destination of a datagram.
+  StampArrivals(socket_);
   const int on = 1;
-  setsockopt(socket_.get(), SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
-  setsockopt(socket_.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   if (LocalAddress(socket_).storage.ss_family == AF_INET6) {
     setsockopt(socket_.get(), IPPROTO_IPV6, IPV6_RECVPKTINFO, &on, sizeof on);
   } else {
@@ -114,28 +118,15 @@ bool UdpDatagrams::WaitForInput(std::chrono::nanoseconds timeout) {
   return ready > 0;
 }
 
-// Reads the receive time of one datagram from the kernel's stamp, its destination address, and the
-// kernel's count of lost ones.
-void UdpDatagrams::ReadAncillary(const void* message_header, const Arrival& now) {
+// Reads the receive time of one datagram from the kernel's stamp, and its destination address.
+void UdpDatagrams::ReadAncillary(const void* message_header) {
   msghdr header = *static_cast<const msghdr*>(message_header);
-  batch_->datagram.arrival = now;
   batch_->datagram.to = local_;
   for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr;
        control = CMSG_NXTHDR(&header, control)) {
-    timespec stamp{};
-    std::uint32_t overflow = 0;
     in_pktinfo ipv4{};
     in6_pktinfo ipv6{};
-    if (ReadControl(*control, SOL_SOCKET, SO_TIMESTAMPNS, stamp)) {
-      // The wall clock may have been set in between: then the kernel's stamp cannot be used.
-      const std::int64_t queued = now.wall_nanos - (stamp.tv_sec * kNanosPerSecond + stamp.tv_nsec);
-      if (queued >= 0 && queued < kNanosPerSecond) {
-        batch_->datagram.arrival = {now.monotonic_nanos - queued, now.wall_nanos - queued};
-      }
-    } else if (ReadControl(*control, SOL_SOCKET, SO_RXQ_OVFL, overflow)) {
-      counters_.kernel_drops += overflow - last_overflow_;
-      last_overflow_ = overflow;
-    } else if (ReadControl(*control, IPPROTO_IP, IP_PKTINFO, ipv4)) {
+    if (ReadControl(*control, IPPROTO_IP, IP_PKTINFO, ipv4)) {
       SocketAddress address;
       auto& ip = reinterpret_cast<sockaddr_in&>(address.storage);
       ip.sin_family = AF_INET;
@@ -145,6 +136,7 @@ void UdpDatagrams::ReadAncillary(const void* message_header, const Arrival& now)
       std::memcpy(batch_->datagram.to.address.data(), &ipv6.ipi6_addr, sizeof ipv6.ipi6_addr);
     }
   }
+  batch_->datagram.arrival = clock_.ArrivalOf(KernelStampOf(header));
 }
 
 // Returns the number of datagrams read; 0 if there are none.
@@ -156,13 +148,18 @@ int UdpDatagrams::ReadBatch(DatagramSink& sink) {
     if (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR) return 0;
     throw SourceError(description_ + ": reading failed: " + ErrorText(errno));
   }
-  const Arrival now = ReadClocks();
+  if (const std::int64_t set_by = clock_.Read(ReadClocks()); set_by != 0) {
+    ++counters_.clock_steps;
+    spdlog::warn("the clock of this machine was set by {:+.3f} s; stamps are on the new clock",
+                 Secs(set_by));
+  }
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    ReadAncillary(&batch_->headers[i].msg_hdr, now);
     batch_->datagram.from = EndpointOf(batch_->slots[i].sender);
-    Arrival& arrival = batch_->datagram.arrival;
-    arrival.monotonic_nanos = std::max(arrival.monotonic_nanos, last_arrival_nanos_);
-    last_arrival_nanos_ = arrival.monotonic_nanos;
+    if (!from_.Allow(batch_->datagram.from)) {
+      if (counters_.strangers++ == 0) WarnOfStranger(description_, batch_->datagram.from);
+      continue;
+    }
+    ReadAncillary(&batch_->headers[i].msg_hdr);
     batch_->datagram.bytes =
         std::string_view(batch_->slots[i].bytes.data(), batch_->headers[i].msg_len);
     sink.OnDatagram(batch_->datagram);
@@ -176,6 +173,18 @@ DatagramSource::State UdpDatagrams::Poll(std::chrono::nanoseconds timeout, Datag
     if (ReadBatch(sink) < static_cast<int>(kBatchSize)) return State::kIdle;
   }
   return State::kMore;
+}
+
+// Asked for and not sent with the datagrams: those carry the count only after the loss, so one at
+// the end of a flood would never be counted.
+TransportCounters UdpDatagrams::counters() const {
+  TransportCounters counters = counters_;
+  std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
+  socklen_t size = sizeof memory;
+  if (getsockopt(socket_.get(), SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0) {
+    counters.kernel_drops = memory[SK_MEMINFO_DROPS];
+  }
+  return counters;
 }
 
 std::unique_ptr<DatagramSource> OpenUdpDatagrams(const std::string& url) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "server/mvn/datagram_source.h"
+#include "server/mvn/net/arrival_clock.h"
 #include "server/mvn/net/socket.h"
 
 namespace kinescope::mvn {
@@ -21,7 +22,7 @@ class UdpDatagrams : public DatagramSource {
 
   /// kMore after the maximum number of datagrams per call, since more may be available.
   [[nodiscard]] State Poll(std::chrono::nanoseconds timeout, DatagramSink& sink) override;
-  TransportCounters counters() const override { return counters_; }
+  TransportCounters counters() const override;
   std::string description() const override { return description_; }
   bool is_live() const override { return true; }
 
@@ -33,14 +34,14 @@ class UdpDatagrams : public DatagramSource {
   void Configure();
   [[nodiscard]] bool WaitForInput(std::chrono::nanoseconds timeout);
   int ReadBatch(DatagramSink& sink);
-  void ReadAncillary(const void* message_header, const Arrival& now);
+  void ReadAncillary(const void* message_header);
 
+  AllowedSenders from_;
   Socket socket_;
   std::string description_;
   Endpoint local_;  // address zero if it listens on all addresses
   TransportCounters counters_;
-  std::uint32_t last_overflow_ = 0;      // the kernel's counter, which wraps
-  std::int64_t last_arrival_nanos_ = 0;  // monotonic clock: never goes back, although stamps may
+  ArrivalClock clock_;
   std::unique_ptr<Batch> batch_;
 };
 

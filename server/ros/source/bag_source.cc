@@ -1,18 +1,16 @@
 #include "server/ros/source/bag_source.h"
 
-#include <ros/serialization.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
+#include <ros/message_traits.h>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <map>
-#include <vector>
 
 #include "core/system/errors.h"
 #include "server/ros/raw_message.h"
-#include "server/ros/source/bag_file.h"
+#include "server/ros/source/bag_messages.h"
 #include "server/ros/source/transform_people.h"
-#include "server/ros/stamp.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -35,55 +33,32 @@ struct Appearances {
 
 class BagSource : public Source {
  public:
-  explicit BagSource(const std::string& path) : name_(path), file_(path) {
-    Guard([&] { Open(); });
+  explicit BagSource(const std::string& path) : name_(path), messages_(OpenBagFile(path), IsUsed) {
+    ReadNames();
   }
 
-  State Poll(std::chrono::milliseconds /*timeout*/, SampleSink& sink) override {
-    State state = State::kMore;
-    Guard([&] { state = Read(sink); });
-    return state;
-  }
+  State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
 
-  SourceCounters counters() const override { return counters_; }
+  SourceCounters counters() const override;
   std::string description() const override { return name_; }
   bool is_live() const override { return false; }
   double nominal_rate_hz() const override { return rate_hz_; }
 
  private:
-  void Open();
-  void ReadNames();
-  State Read(SampleSink& sink);
-  /// False if nothing of it can be used; counts the reason.
-  bool Decode(const rosbag::MessageInstance& instance);
-  void Reject(const char* reason) { ++counters_.rejected[reason]; }
-
-  // Converts exceptions of rosbag to one line.
-  template <class Function>
-  void Guard(Function function) {
-    const auto fail = [&](const std::string& what) {
-      return SourceError("bag '" + name_ + "': " + what);
-    };
-    try {
-      function();
-    } catch (const SourceError&) {
-      throw;
-    } catch (const rosbag::BagUnindexedException&) {
-      throw fail("was not closed when it was recorded; `rosbag reindex` repairs it");
-    } catch (const rosbag::BagFormatException& error) {
-      throw fail(std::string("is damaged (") + error.what() + "); `rosbag fix` may repair it");
-    } catch (const std::exception& error) {
-      throw fail(std::string("is truncated or damaged (") + error.what() +
-                 "); `rosbag reindex` may repair it");
-    }
+  static bool IsUsed(const BagConnection& connection) {
+    return IsMoving(connection.topic) || IsStatic(connection.topic);
   }
 
+  void ReadNames();
+  /// @throws SourceError unless the bag ends as it should, or is only truncated.
+  void CheckEnding(const BagMessages& messages) const;
+  /// Why nothing of `message` can be used, or null; otherwise it is in message_.
+  const char* Decode(const BagMessage& message);
+  void Take(const BagMessage& message, SampleSink& sink);
+  State End();
+
   const std::string name_;
-  BagFile file_;
-  rosbag::Bag bag_;
-  std::unique_ptr<rosbag::View> view_;  // of /tf and /tf_static
-  rosbag::View::iterator next_;
-  std::vector<std::uint8_t> buffer_;
+  BagMessages messages_;
   tf2_msgs::TFMessage message_;
   TransformPeople people_{0};
   bool has_ended_ = false;
@@ -91,45 +66,25 @@ class BagSource : public Source {
   double rate_hz_ = 0;
 };
 
-void BagSource::Open() {
-  bag_.open(file_.path(), rosbag::bagmode::Read);
-  rosbag::View everything(bag_);
-  std::map<std::string, const rosbag::ConnectionInfo*> topics;
-  for (const rosbag::ConnectionInfo* connection : everything.getConnections()) {
-    topics.emplace(connection->topic, connection);
-  }
-  std::vector<std::string> used;
-  bool has_transforms = false;
-  for (const auto& [topic, connection] : topics) {
-    has_transforms = has_transforms || IsMoving(topic);
-    if (IsMoving(topic) || IsStatic(topic)) {
-      used.push_back(topic);
-      continue;
-    }
-    const std::uint64_t messages = rosbag::View(bag_, rosbag::TopicQuery(topic)).size();
-    counters_.ignored["topic " + topic + " (" + connection->datatype + ")"] = messages;
-    counters_.datagrams += messages;
-  }
-  if (!has_transforms) {
-    throw SourceError("bag '" + name_ +
-                      "': contains no /tf topic, so no poses; record it with `rosbag record /tf`");
-  }
-  view_ = std::make_unique<rosbag::View>(bag_, rosbag::TopicQuery(used));
-  const SourceCounters before = counters_;
-  ReadNames();
-  counters_ = before;  // the same messages will be read again as samples
-  next_ = view_->begin();
+SourceError ErrorIn(const std::string& name, const std::string& what) {
+  return SourceError("bag '" + name + "': " + what);
 }
 
 void BagSource::ReadNames() {
+  BagMessages ahead(OpenBagFile(name_), IsUsed);
   std::map<std::string, Appearances> appearances;
   std::int64_t end = 0;
-  for (const rosbag::MessageInstance& instance : *view_) {
-    const std::int64_t now = ToNanos(instance.getTime());
+  bool has_ended = true;
+  BagMessage message;
+  while (ahead.Next(message)) {
+    const std::int64_t now = message.recorded_nanos;
     if (end == 0) end = now + kNamesNanos;
     if (now > end && people_.people().empty()) people_.FindPeople();
-    if (now > end && !people_.people().empty()) break;
-    if (!Decode(instance)) continue;
+    if (now > end && !people_.people().empty()) {
+      has_ended = false;
+      break;
+    }
+    if (Decode(message) != nullptr) continue;
     for (const geometry_msgs::TransformStamped& transform : message_.transforms) {
       if (!people_.AddName(transform.child_frame_id)) continue;
       Appearances& of_frame = appearances[WithoutSlash(transform.child_frame_id)];
@@ -139,9 +94,18 @@ void BagSource::ReadNames() {
   }
   people_.FindPeople();
   if (people_.people().empty()) {
-    throw SourceError("bag '" + name_ +
-                      "': no person found on /tf; expected 23 frames with segment names, such as "
-                      "skeleton_pelvis, skeleton_l5, ..., skeleton_left_toe");
+    if (has_ended) CheckEnding(ahead);
+    if (ahead.ending().kind == BagReader::Ending::Kind::kTruncated && has_ended) {
+      throw ErrorIn(name_,
+                    fmt::format("was not closed or is truncated, and has no person on /tf in "
+                                "its {} complete messages; record or copy it again",
+                                ahead.read()));
+    }
+    throw ErrorIn(name_, ahead.HasTopic(IsMoving)
+                             ? "no person found on /tf; expected 23 frames with segment names, "
+                               "such as skeleton_pelvis, skeleton_l5, ..., skeleton_left_toe"
+                             : "contains no /tf topic, so no poses; record it with `rosbag record "
+                               "/tf`");
   }
   const Appearances& pelvis = appearances[people_.people().front().frames[urdf::kPelvis]];
   if (pelvis.count < 2 || pelvis.last_nanos <= pelvis.first_nanos) return;
@@ -149,46 +113,81 @@ void BagSource::ReadNames() {
              static_cast<double>(pelvis.last_nanos - pelvis.first_nanos);
 }
 
-Source::State BagSource::Read(SampleSink& sink) {
+void BagSource::CheckEnding(const BagMessages& messages) const {
+  const BagReader::Ending& ending = messages.ending();
+  switch (ending.kind) {
+    case BagReader::Ending::Kind::kClosed:
+    case BagReader::Ending::Kind::kTruncated: return;
+    case BagReader::Ending::Kind::kDamaged:
+      throw ErrorIn(name_, fmt::format("is damaged after {} messages ({}); `rosbag reindex` may "
+                                       "repair it",
+                                       messages.read(), ending.reason));
+    case BagReader::Ending::Kind::kUnreadable:
+      throw ErrorIn(name_, fmt::format("cannot be read after {} messages ({}); copy it again from "
+                                       "its origin",
+                                       messages.read(), ending.reason));
+    case BagReader::Ending::Kind::kEncrypted:
+      throw ErrorIn(name_, "is encrypted; decrypt it with `rosbag decrypt`");
+  }
+}
+
+Source::State BagSource::Poll(std::chrono::milliseconds /*timeout*/, SampleSink& sink) {
+  if (has_ended_) return State::kEnded;
   const std::uint64_t samples_before = counters_.samples;
+  BagMessage message;
   for (int i = 0; i < kMessagesPerPoll && counters_.samples == samples_before; ++i) {
-    if (next_ == view_->end()) {
-      if (has_ended_) return State::kEnded;
-      has_ended_ = true;
-      people_.End(counters_);
-      return State::kEnded;
-    }
-    const rosbag::MessageInstance& instance = *next_;
-    ++counters_.datagrams;
-    counters_.bytes += instance.size();
-    if (Decode(instance)) {
-      if (IsStatic(instance.getTopic())) {
-        people_.TakeStatic(message_, counters_);
-      } else {
-        people_.Take(message_, {ToNanos(instance.getTime()), 0}, counters_, sink);
-      }
-    }
-    ++next_;
+    if (!messages_.Next(message)) return End();
+    Take(message, sink);
   }
   return State::kMore;
 }
 
-bool BagSource::Decode(const rosbag::MessageInstance& instance) {
+Source::State BagSource::End() {
+  has_ended_ = true;
+  people_.End(counters_);
+  CheckEnding(messages_);
+  if (messages_.ending().kind == BagReader::Ending::Kind::kTruncated) {
+    spdlog::warn(
+        "bag '{}' was not closed or is truncated (the recorder was probably killed); {} complete "
+        "messages were read",
+        name_, messages_.read());
+  }
+  return State::kEnded;
+}
+
+void BagSource::Take(const BagMessage& message, SampleSink& sink) {
+  ++counters_.datagrams;
+  counters_.bytes += message.size;
+  if (const char* const defect = Decode(message)) {
+    ++counters_.rejected[defect];
+  } else if (IsStatic(message.connection->topic)) {
+    people_.TakeStatic(message_, counters_);
+  } else {
+    people_.Take(message_, {message.recorded_nanos, 0}, counters_, sink);
+  }
+}
+
+SourceCounters BagSource::counters() const {
+  SourceCounters counters = counters_;
+  for (const auto& [topic, messages] : messages_.others()) {
+    counters.ignored["topic " + topic] += messages;
+    counters.datagrams += messages;
+  }
+  for (const auto& [defect, records] : messages_.defects()) {
+    counters.rejected[defect] += records;
+    counters.datagrams += records;
+  }
+  return counters;
+}
+
+const char* BagSource::Decode(const BagMessage& message) {
   // tf/tfMessage in old recordings is the same message with another name.
-  if (instance.getMD5Sum() != ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
-    Reject(kOtherType);
-    return false;
+  if (message.connection->md5sum != ros::message_traits::md5sum<tf2_msgs::TFMessage>()) {
+    return kOtherType;
   }
-  if (instance.size() > kLargestMessage) {
-    Reject(kUnreadableTransforms);
-    return false;
-  }
-  buffer_.resize(instance.size());
-  ros::serialization::OStream to_buffer(buffer_.data(), instance.size());
-  instance.write(to_buffer);
-  if (kinescope::ros_bridge::Decode(buffer_, message_)) return true;
-  Reject(kUnreadableTransforms);
-  return false;
+  const bool is_whole = message.bytes.size() == message.size;  // not too large to be delivered
+  return is_whole && kinescope::ros_bridge::Decode(message.bytes, message_) ? nullptr
+                                                                            : kUnreadableTransforms;
 }
 
 }  // namespace

@@ -9,9 +9,16 @@
 
 namespace kinescope::ros_bridge {
 
-/// `path`: a bag, also compressed as .xz, .gz, .bz2 or .zst (decompressed to a temporary file,
-/// because reading a bag requires seeking). Its chunks may be uncompressed, bz2 or lz4.
+/// `path`: a bag of format 2.0, also compressed as .xz, .gz, .bz2, .zst or .lz4. Its chunks may be
+/// uncompressed, bz2 or lz4. It is decompressed while it is read, into memory of a limited size and
+/// no temporary file.
 ///
+/// - The end of the bag is not needed: one that was not closed (`.bag.active`) or is truncated is
+///   read up to its last complete message, with a warning. Damaged records are counted by reason in
+///   `rejected`. If a length is damaged, reading goes on with the next chunk; if there is none,
+///   Poll() throws after the samples before the damage.
+/// - Messages are used in the order of their recorded time, also if they are stored in another one
+///   (bag_messages.h).
 /// - Frames are found by name, with any prefix or suffix (people_frames.h), in the first ten
 ///   seconds of /tf, which are read on opening; people who appear later are found later. Every pose
 ///   is relative to the root frame of the person's own tree, flat or chained; frames of /tf_static
@@ -26,7 +33,9 @@ namespace kinescope::ros_bridge {
 /// - counter = sample number, from 0; time code = time since the person's first sample. A bag has
 ///   no derivatives and no CoM; the Character has a skeleton, measured on the first sample, and
 ///   again when the lengths change permanently (skeleton_watch.h).
-/// - counters(): a datagram is a message; other topics are counted in `ignored` by name, unread.
+/// - counters(): a datagram is a message, or a damaged record; other topics are counted in
+/// `ignored`
+///   by name when they are passed, unread.
 ///
 /// A source is used by one thread.
 /// @throws SourceError with the file, the error and the remedy; so does Poll().

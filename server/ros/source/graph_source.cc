@@ -1,6 +1,5 @@
 #include "server/ros/source/graph_source.h"
 
-#include <ros/init.h>
 #include <ros/names.h>
 #include <ros/network.h>
 #include <ros/this_node.h>
@@ -12,6 +11,7 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
+#include "server/ros/init.h"
 #include "server/ros/names.h"
 #include "server/ros/source/link_states_person.h"
 #include "server/ros/source/live_topics.h"
@@ -154,7 +154,7 @@ class GraphSource : public Source {
 bool IsGraphUrl(std::string_view url) { return url.substr(0, kScheme.size()) == kScheme; }
 
 std::unique_ptr<Source> OpenGraph(const std::string& url) {
-  KINESCOPE_CHECK(ros::isInitialized());
+  InitRos();
   const std::string topic = ToTopic(url);
   RefuseNameOfAnother(url);
   return std::make_unique<GraphSource>(topic);

@@ -28,7 +28,7 @@ bool IsGraphUrl(std::string_view url);
 ///   `rosnode kill` ends the source.
 ///
 /// A source is used by one thread. Make one per process, destroy it after a RosBridge.
-/// @pre InitRos was called.
+/// Starts roscpp, unless it was started before.
 /// @throws SourceError if the topic name is invalid or one of Kinescope's own, or if another node
 /// has this node's name: starting would shut it down.
 std::unique_ptr<Source> OpenGraph(const std::string& url);

@@ -6,11 +6,15 @@
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 #include <spdlog/spdlog.h>
+#include <xmlrpcpp/XmlRpcException.h>
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "server/ros/init.h"
+#include "server/ros/tcpros_limits.h"
+#include "server/ros/xmlrpc_limits.h"
 
 namespace kinescope::ros_bridge {
 namespace {
@@ -20,6 +24,10 @@ using XmlRpc::XmlRpcValue;
 // Length of the queue before the oldest message is dropped. /tf is shared: two seconds of a person
 // at 240 Hz with one message per transform.
 constexpr std::uint32_t kSegmentQueue = 2 * 240 * urdf::kSegmentCount;
+
+// The messages that are left then are passed on by the next call: a publisher that floods must not
+// keep the reading thread from its other work.
+constexpr std::chrono::milliseconds kLongestTake(20);
 
 std::set<std::string> Strings(XmlRpcValue& list) {
   std::set<std::string> strings;
@@ -39,6 +47,8 @@ LiveTopics::LiveTopics(std::vector<std::string> topics, std::string description,
       on_message_(std::move(on_message)) {
   // Otherwise roscpp would retry without limit if the master stops while a topic is registered.
   ros::master::setRetryTimeout(ros::WallDuration(1));
+  LimitXmlRpcCalls(kMasterPatience);
+  LimitTcprosMessages(kLargestMessage);
   thread_ = std::thread([this] { Run(); });
 }
 
@@ -48,12 +58,18 @@ LiveTopics::~LiveTopics() {
     stopping_ = true;
   }
   changed_.notify_all();
+  HurryRoscpp();
   thread_.join();
   if (node_) LeaveRos();  // before the subscribers, each of which would unregister itself
 }
 
 void LiveTopics::Take(std::chrono::milliseconds timeout) {
-  queue_.callAvailable(ros::WallDuration(std::chrono::duration<double>(timeout).count()));
+  const auto start = std::chrono::steady_clock::now();
+  ros::WallDuration wait(std::chrono::duration<double>(timeout).count());
+  while (queue_.callOne(wait) == ros::CallbackQueue::Called &&
+         std::chrono::steady_clock::now() - start < timeout + kLongestTake) {
+    wait = ros::WallDuration(0);
+  }
 }
 
 LiveTopics::Status LiveTopics::status() const {
@@ -61,7 +77,18 @@ LiveTopics::Status LiveTopics::status() const {
   return status_;
 }
 
+// roscpp throws on values of wrong types, which no answer should contain (master_answers.h).
 void LiveTopics::Run() {
+  try {
+    AskRegularly();
+  } catch (const XmlRpc::XmlRpcException& error) {
+    StopForGood("an error of roscpp: " + error.getMessage());
+  } catch (const std::exception& error) {
+    StopForGood(std::string("an error of roscpp: ") + error.what());
+  }
+}
+
+void LiveTopics::AskRegularly() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stopping_ && !status_.shutdown_requested) {
     lock.unlock();
@@ -74,10 +101,13 @@ void LiveTopics::Run() {
 void LiveTopics::Ask() {
   const std::string our_uri = node_ ? ros::XMLRPCManager::instance()->getServerURI() : "";
   const RegistrationState state = master_.AskRegistration(our_uri, kMasterPatience);
-  if ((node_ && !ros::ok()) || state == RegistrationState::kNameTaken) return StopForGood();
+  if ((node_ && !ros::ok()) || state == RegistrationState::kNameTaken) {
+    return StopForGood("rosnode kill, or another node named " + ros::this_node::getName());
+  }
   SetMasterAnswers(state != RegistrationState::kNoAnswer);
   if (state == RegistrationState::kNoAnswer) return;
-  if (!node_) Start();
+  if (!node_) node_ = std::make_unique<ros::NodeHandle>();
+  SubscribeMissing();
   // Registering again has no effect on a registered node. A master that has forgotten only the
   // subscription cannot be distinguished from one that knows it.
   for (const std::string& topic : topics_) Register(topic);
@@ -88,15 +118,17 @@ void LiveTopics::Ask() {
   status_.publishers = publishers;
 }
 
-void LiveTopics::Start() {
-  node_ = std::make_unique<ros::NodeHandle>();
+// roscpp makes no subscription if the master does not accept it.
+void LiveTopics::SubscribeMissing() {
+  subscribers_.resize(topics_.size());
   for (std::size_t i = 0; i < topics_.size(); ++i) {
+    if (subscribers_[i]) continue;
     ros::SubscribeOptions options;
     options.initByFullCallbackType<const Event&>(
         topics_[i], kSegmentQueue, [this, i](const Event& event) { on_message_(i, event); });
     options.callback_queue = &queue_;
     options.transport_hints = ros::TransportHints().tcpNoDelay();
-    subscribers_.push_back(node_->subscribe(options));
+    subscribers_[i] = node_->subscribe(options);
   }
 }
 
@@ -162,6 +194,12 @@ std::set<std::string> LiveTopics::ConnectedPublishers(const std::string& topic,
 
 void LiveTopics::SetMasterAnswers(bool answers) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  const std::string problem = answers ? "" : master_.problem();
+  if (std::exchange(master_problem_, problem) != problem && !problem.empty()) {
+    spdlog::warn(
+        "{}: the server at {} does not answer as a ROS master: it {}; check ROS_MASTER_URI",
+        description_, ros::master::getURI(), problem);
+  }
   if (has_asked_ && answers == status_.master_answers) return;
   const bool was_asked = std::exchange(has_asked_, true);
   status_.master_answers = answers;
@@ -171,16 +209,15 @@ void LiveTopics::SetMasterAnswers(bool answers) {
   } else if (was_asked) {
     spdlog::warn("{}: the ROS master at {} does not answer; existing connections stay open",
                  description_, ros::master::getURI());
-  } else {
+  } else if (problem.empty()) {
     spdlog::info("{}: waiting for a ROS master at {}", description_, ros::master::getURI());
   }
 }
 
-void LiveTopics::StopForGood() {
+void LiveTopics::StopForGood(const std::string& reason) {
   const std::lock_guard<std::mutex> lock(mutex_);
   status_.shutdown_requested = true;
-  spdlog::warn("{}: stopped by rosnode kill, or by another node named {}", description_,
-               ros::this_node::getName());
+  spdlog::warn("{}: stopped by {}", description_, reason);
 }
 
 }  // namespace kinescope::ros_bridge

@@ -34,8 +34,8 @@ class LiveTopics {
   struct Status {
     bool master_answers = false;      // at the last check; checked once a second
     std::size_t publishers = 0;       // connected, over all topics
-    bool shutdown_requested = false;  // `rosnode kill`, or another node took this node's name: no
-                                      // more messages
+    bool shutdown_requested = false;  // `rosnode kill`, another node took this node's name, or
+                                      // roscpp failed: no more messages
   };
 
   /// Subscribes to `topics`, which are resolved names; `on_message` gets the index of the topic.
@@ -47,14 +47,16 @@ class LiveTopics {
   LiveTopics(const LiveTopics&) = delete;
   LiveTopics& operator=(const LiveTopics&) = delete;
 
-  /// Waits at most `timeout` for messages and passes on those received. Called by one thread.
+  /// Waits at most `timeout` for messages and passes on those received, for a limited time: the
+  /// rest is left to the next call. Called by one thread.
   void Take(std::chrono::milliseconds timeout);
   Status status() const;  // any thread
 
  private:
   void Run();
+  void AskRegularly();
   void Ask();
-  void Start();
+  void SubscribeMissing();
   /// Registers the subscription at the master, and tells this node the publishers that it is not
   /// yet connected to.
   void Register(const std::string& topic);
@@ -64,7 +66,7 @@ class LiveTopics {
   std::set<std::string> Orphans(const std::string& topic, const std::set<std::string>& heard,
                                 const std::set<std::string>& known);
   void SetMasterAnswers(bool answers);
-  void StopForGood();
+  void StopForGood(const std::string& reason);
 
   const std::vector<std::string> topics_;
   const std::string description_;
@@ -80,6 +82,7 @@ class LiveTopics {
 
   // Used by the separate thread only.
   MasterClient master_;
+  std::string master_problem_;             // that was logged last
   std::unique_ptr<ros::NodeHandle> node_;  // null until a master has answered
   std::vector<ros::Subscriber> subscribers_;
   /// By topic: connected publishers that this master does not know, because they started before it

@@ -5,7 +5,7 @@ import { aim, groundOf } from '../../../web/cameras.js';
 
 const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
 const top = { name: 'top', position: [0, 0, 5.6], target: [0, 0, 1], up: [1, 0, 0], vertical_fov_rad: 0.5 };
-const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 4 / 3 };
+const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 4 / 3, reach_m: 50 };
 const here = { middle: [0, 0, 0], radius: 0 };
 const near = (actual, expected) =>
   actual.forEach((v, i) => assert.ok(Math.abs(v - expected[i]) < 1e-9, `${actual} instead of ${expected}`));
@@ -45,6 +45,7 @@ test('the camera above the person leans slightly, so that the up direction is de
 });
 
 test('the ground point is the middle of the people', () => {
-  assert.deepEqual(groundOf([], 0), here);
-  assert.deepEqual(groundOf([[0, 0, 0.9], [2, 0, 1]], -0.5), { middle: [1, 0, -0.5], radius: 1 });
+  assert.deepEqual(groundOf([], 0, 50), here);
+  assert.deepEqual(groundOf([[0, 0, 0.9], [2, 0, 1]], -0.5, 50), { middle: [1, 0, -0.5], radius: 1 });
+  assert.deepEqual(groundOf([[990, 0, 1], [2, 0, 1]], 0, 50), { middle: [2, 0, 0], radius: 0 }, 'one who is far hides none');
 });

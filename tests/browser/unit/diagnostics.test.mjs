@@ -8,6 +8,13 @@ test('there are no lines without problems', () => {
   assert.deepEqual(problemLines({ pictures: { problems: [], last_error: '' }, source: { rejected: {} } }, []), []);
 });
 
+test('everybody who is left out is listed with the reason', () => {
+  const left_out = [{ character: 3, name: '', reason: '900 km from the others' },
+    { character: 4, name: 'Eve', reason: '2.0 km from where it was' }];
+  assert.deepEqual(problemLines({ source: { left_out } }, []),
+    ['Character 3 is left out: 900 km from the others', 'Eve is left out: 2.0 km from where it was']);
+});
+
 test('problems of the picture are listed before rejected datagrams', () => {
   const told = {
     pictures: { problems: ['mesh hand.stl: no such file'], last_error: 'out of memory' },

@@ -10,7 +10,8 @@ const person = {
     secs_in_band: { low: 1, medium: 2, high: 0, unknown: 0 } }],
 };
 const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, people: [person],
-  objects: [{ character: 9, number: 2, name: 'cart' }] };
+  objects: [{ character: 9, number: 2, name: 'cart' }],
+  left_out: [{ character: 7, name: 'Eve', reason: '900 km from the others' }] };
 const palette = {
   classes: ['unknown', 'low', 'medium', 'high'].map((name) => ({ name, color: rgb })),
   cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, object: rgb, axes: [rgb, rgb, rgb],
@@ -82,7 +83,7 @@ test('a model without a colour for every class is rejected', () => {
 });
 
 test('cameras are read as numbers and rejected if invalid', () => {
-  const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 1.3 };
+  const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 1.3, reach_m: 50 };
   const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
   assert.deepEqual(readCameras({ cameras: [front], framing, live: 'front', has_pictures: true }, 'api/cameras'),
     { cameras: [front], framing, live: 'front' });
@@ -93,7 +94,7 @@ test('cameras are read as numbers and rejected if invalid', () => {
 test('diagnostics of parts that do not run are absent', () => {
   assert.deepEqual(readDiagnostics({}, ''), { pictures: undefined, source: undefined });
   assert.equal(readDiagnostics({ pictures: null }, '').pictures, null);
-  assert.deepEqual(readDiagnostics({ source: { rejected: { 'cut short': 2 } } }, '').source, { rejected: { 'cut short': 2 } });
+  assert.deepEqual(readDiagnostics({ source: { rejected: { 'cut short': 2 } } }, '').source?.rejected, { 'cut short': 2 });
   assert.throws(() => readDiagnostics({ source: { rejected: { 'cut short': 'often' } } }, 'api/diagnostics'),
     /"often" as api\/diagnostics\.source\.rejected\["cut short"\]; expected a number/);
 });

@@ -48,3 +48,16 @@ test('every thrown value has a message', () => {
   assert.equal(messageOf(new Error('why')), 'why');
   assert.equal(messageOf('why'), 'why');
 });
+
+test('every request has the header that only this page can set, and keeps its own', async () => {
+  const sent = [];
+  globalThis.fetch = async (route, options) => {
+    sent.push(options.headers);
+    return new Response('{}');
+  };
+  await ask('api/state', (value) => value);
+  await request('snapshot.png');
+  await request('api/hand_load', { method: 'POST', headers: { 'Content-Type': 'application/json' } });
+  const ours = { 'X-Kinescope-Page': '1' };
+  assert.deepEqual(sent, [ours, ours, { 'Content-Type': 'application/json', ...ours }]);
+});

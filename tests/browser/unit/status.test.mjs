@@ -1,9 +1,9 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { statusOf, OLD_MILLIS, SILENCE_MILLIS } from '../../../web/status.js';
+import { statusOf, leftOutText, BEHIND_MILLIS, OLD_MILLIS, SILENCE_MILLIS } from '../../../web/status.js';
 
 const good = { connected: true, everConnected: true, silentMillis: 20, liveness: 'live', ageMillis: 8,
-  source: 'udp://:9763', reason: '' };
+  waitedMillis: 0, source: 'udp://:9763', reason: '' };
 const level = (change) => statusOf({ ...good, ...change }).level;
 
 test('the status is live only if every condition is met', () => {
@@ -16,6 +16,22 @@ test('a stale stream is shown as stale with its age', () => {
   const status = statusOf({ ...good, liveness: 'stale', ageMillis: 3210 });
   assert.equal(status.word, 'Stale');
   assert.match(status.banner, /3\.2 s ago/);
+});
+
+test('an overloaded server is named with its delay, and never live', () => {
+  const status = statusOf({ ...good, ageMillis: 3700, waitedMillis: 3700 });
+  assert.deepEqual([status.level, status.word, status.banner],
+    ['stale', 'Behind', 'The server is too busy: behind by 3.7 s']);
+  assert.equal(level({ waitedMillis: BEHIND_MILLIS }), 'live');
+  assert.equal(statusOf({ ...good, liveness: 'stale', waitedMillis: 3700 }).word, 'Stale', 'the stream has stopped');
+});
+
+test('people who are left out are named with the reason', () => {
+  assert.equal(leftOutText([]), '');
+  const far = { character: 3, name: '', reason: '900 km from the others' };
+  assert.equal(leftOutText([far]), 'Character 3 is left out: 900 km from the others');
+  assert.equal(leftOutText([{ ...far, name: 'Eve' }]), 'Eve is left out: 900 km from the others');
+  assert.equal(leftOutText([far, { ...far, character: 4 }]), '2 people are left out: 900 km from the others');
 });
 
 test('the status becomes stale when the last sample is old', () => {

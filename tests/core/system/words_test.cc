@@ -16,6 +16,14 @@ TEST(Nearest, IsTheMostSimilarName) {
   EXPECT_EQ(Nearest(std::string(10'000, 'f'), cameras), "");
 }
 
+TEST(Counted, HasTheWordForOneAndForOthers) {
+  EXPECT_EQ(Counted(0, "person", "people"), "0 people");
+  EXPECT_EQ(Counted(1, "person", "people"), "1 person");
+  EXPECT_EQ(Counted(2, "person", "people"), "2 people");
+  EXPECT_EQ(Counted(1, "sample"), "1 sample");
+  EXPECT_EQ(Counted(2, "sample"), "2 samples");
+}
+
 TEST(Alternatives, AreReadAsASentence) {
   EXPECT_EQ(Alternatives({"a"}), "a");
   EXPECT_EQ(Alternatives({"a", "b"}), "a or b");

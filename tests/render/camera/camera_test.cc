@@ -117,6 +117,17 @@ SceneState StandingAt(double x, double y) {
   return testing::SceneWith(testing::Posture::kStanding, LoadClass::kLow, x, y);
 }
 
+TEST(GroundExtent, IsThatOfThePeopleWhoCanBeSeenTogether) {
+  SceneState state = StandingAt(1, 0);
+  const double x = GroundExtentOf(state).middle.x();
+  state.people.push_back(StandingAt(-900, 0).people[0]);
+  EXPECT_EQ(GroundExtentOf(state).middle.x(), x) << "one who is far hides none";
+  EXPECT_EQ(GroundExtentOf(state).radius, 0);
+  state.people.push_back(StandingAt(31, 0).people[0]);
+  EXPECT_NEAR(GroundExtentOf(state).middle.x(), x + 15, 1e-9);
+  EXPECT_NEAR(GroundExtentOf(state).radius, 15, 1e-9);
+}
+
 TEST(SmoothedGroundExtent, StaysConstantUntilAPersonWalksAway) {
   SmoothedGroundExtent steady;
   const auto x_at = [&](double x) { return steady.Follow(StandingAt(x, 0)).middle.x(); };

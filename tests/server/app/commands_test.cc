@@ -7,9 +7,11 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "core/system/errors.h"
+#include "server/options/yaml_options.h"
 #include "server/picture/backend_probe.h"
 #include "tests/temp_folder.h"
 
@@ -103,6 +105,42 @@ TEST(Commands, LoadsAndProbeLeaveTheMeshCacheEmpty) {
   EXPECT_TRUE(MeasureBackend("osmesa").works);
   EXPECT_FALSE(std::filesystem::exists(cache / "kinescope")) << "after probe";
   unsetenv("XDG_CACHE_HOME");
+}
+
+std::string ErrorOfRunning(const std::string& name, const std::string& yaml_file) {
+  for (Command& command : AllCommands()) {
+    if (command.name != name) continue;
+    options::YamlOptions(yaml_file).SetAll(command.options);
+    try {
+      command.run(command.options);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+  }
+  return "";
+}
+
+TEST(Commands, ServeNamesTheLineThatHasABadTokenButNotTheToken) {
+  const testing::TempFolder folder;
+  const std::string file = (folder / "lab.yaml").string();
+  for (const char* token : {"s3cret", "s3cret s3cret s3cret"}) {
+    std::ofstream(file) << "ros: off\npictures: off\ntoken: " << token << "\n";
+    EXPECT_THAT(ErrorOfRunning("serve", file),
+                AllOf(StartsWith(file + ":3: token: "), Not(HasSubstr("s3cret"))));
+  }
+}
+
+TEST(CommandLine, DoesNotRepeatTheValueOfAnUnknownOption) {
+  std::vector<std::string> words = {"kinescope", "serve", "--tokn=s3cret-of-the-lab"};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  try {
+    RunCommandLine(static_cast<int>(arguments.size()), arguments.data(), AllCommands());
+    FAIL() << "unknown option";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), AllOf(HasSubstr("unknown option '--tokn'; nearest: --token"),
+                                    Not(HasSubstr("s3cret"))));
+  }
 }
 
 }  // namespace

@@ -5,8 +5,10 @@
 namespace kinescope::http {
 namespace {
 
-Access Check(const std::string& token, const std::string& target, const std::string& cookies) {
-  return CheckToken(token, "kinescope_80", *ParseTarget(target), cookies);
+Access Check(const std::string& token, const std::string& target, const std::string& cookies,
+             const std::string& authorization = "") {
+  return CheckToken(token,
+                    FindTokens(*ParseTarget(target), authorization, cookies, "kinescope_80"));
 }
 
 TEST(Access, IsOpenWithoutToken) { EXPECT_EQ(Check("", "/", ""), Access::kOpen); }
@@ -16,6 +18,37 @@ TEST(Access, AcceptsTheTokenFromQueryOrCookie) {
   EXPECT_EQ(Check("abc", "/", "kinescope_80=abc"), Access::kByCookie);
   EXPECT_EQ(Check("abc", "/", "a=b;  kinescope_80=abc ; c=d"), Access::kByCookie);
   EXPECT_EQ(Check("abc", "/?token=old", "kinescope_80=abc"), Access::kByCookie);
+}
+
+// A page on another port of the same host can set cookies of our name for longer paths.
+TEST(Access, AcceptsTheTokenFromAnyOfSeveralCookiesOfItsName) {
+  EXPECT_EQ(Check("abc", "/", "kinescope_80=old; kinescope_80=abc"), Access::kByCookie);
+  EXPECT_EQ(Check("abc", "/", "kinescope_80=abc;kinescope_80=old"), Access::kByCookie);
+  EXPECT_EQ(Check("abc", "/", "kinescope_80=old; kinescope_80=older"), Access::kDenied);
+}
+
+TEST(Access, AcceptsTheTokenAsABearerToken) {
+  EXPECT_EQ(Check("abc", "/", "", "Bearer abc"), Access::kByHeader);
+  EXPECT_EQ(Check("abc", "/", "kinescope_80=old", "bearer  abc "), Access::kByHeader);
+  for (const char* authorization : {"abc", "Bearer", "Bearer ", "Bearer abcd", "Basic abc"}) {
+    EXPECT_EQ(Check("abc", "/", "", authorization), Access::kDenied) << authorization;
+  }
+}
+
+TEST(Access, MakesTokensThatCannotBeGuessed) {
+  const std::string token = RandomToken();
+  EXPECT_GE(token.size(), 2 * kMinTokenLength);
+  EXPECT_TRUE(FitsIntoCookie(token));
+  EXPECT_NE(RandomToken(), token);
+  EXPECT_EQ(Shortened("0123456789abcdef"), "0123...");
+}
+
+TEST(Access, KnowsRequestsOfOtherSites) {
+  for (const char* site : {"", "same-origin", "none"})
+    EXPECT_FALSE(IsFromAnotherSite(site)) << site;
+  for (const char* site : {"cross-site", "same-site", "anything"}) {
+    EXPECT_TRUE(IsFromAnotherSite(site)) << site;
+  }
 }
 
 TEST(Access, IsDeniedForAnythingElse) {

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/palette.h"
+#include "tests/mesh_file_on_demand.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/worn.h"
 
@@ -19,6 +21,15 @@ SceneState Scene(const std::string& mesh_folder = "", int people = 1) {
   return testing::MakeScene(41, 3.25, 5'000'000'000, testing::MakePersonModel(7, mesh_folder),
                             people);
 }
+
+// Each file contains its own name.
+class FilesOfNames : public MeshFiles {
+ public:
+  std::shared_ptr<const std::string> Content(const std::string& name) const override {
+    return std::make_shared<const std::string>(name);
+  }
+  bool Provide() const override { return false; }
+};
 
 TEST(ModelJson, HasEverySegmentWithTheVisualsOfItsLink) {
   const SceneState state = Scene();
@@ -42,7 +53,9 @@ TEST(ModelJson, HasEverySegmentWithTheVisualsOfItsLink) {
 TEST(ModelJson, HasTheFingersOfAGlovedHandInsteadOfTheHand) {
   SceneState state = Scene();
   PersonState& person = state.people[0];
-  const auto model = kinescope::testing::WornModel(*person.model, "/tmp/some meshes");
+  auto model = std::make_shared<PersonModel>(
+      *kinescope::testing::WornModel(*person.model, "/tmp/some meshes"));
+  model->mesh_files = std::make_shared<FilesOfNames>();
   kinescope::testing::Wear(person, 0.3, model);
   const json links = json::parse(ModelJson(&state))["people"][0]["links"];
   ASSERT_EQ(links.size(), 23u + 40 + 2);
@@ -59,8 +72,8 @@ TEST(ModelJson, HasTheFingersOfAGlovedHandInsteadOfTheHand) {
       const auto n = std::stoul(url.substr(url.rfind('/') + 1));
       const auto file = FindMesh(&state, 0, 7, n);
       ASSERT_TRUE(file) << url;
-      EXPECT_EQ("skeleton_" + file->stem().string(), link["name"]);
-      files.insert(file->string());
+      EXPECT_EQ("skeleton_" + *file, link["name"].get<std::string>() + ".stl");
+      files.insert(*file);
     }
   }
   EXPECT_EQ(files.size(), 23u - 2 + 40);
@@ -72,6 +85,14 @@ TEST(DetailsJson, NamesTheTrackedObjects) {
   const json objects = json::parse(DetailsJson(&state, "front", true))["details"]["objects"];
   ASSERT_EQ(objects.size(), 2u);
   EXPECT_EQ(objects[0], (json{{"character", 4}, {"number", 2}, {"name", "HTC Vive"}}));
+}
+
+TEST(DetailsJson, NamesThoseWhoAreLeftOut) {
+  SceneState state = Scene();
+  state.left_out = {{7, "Eve", "900 km from the others"}};
+  const json details = json::parse(DetailsJson(&state, "front", true))["details"];
+  EXPECT_EQ(details["left_out"],
+            (json{{{"character", 7}, {"name", "Eve"}, {"reason", "900 km from the others"}}}));
 }
 
 TEST(ModelJson, DescribesVisualsAsInTheUrdf) {
@@ -156,36 +177,46 @@ TEST(DetailsJson, IsEqualForEqualStates) {
 
 TEST(CamerasJson, ContainsTheParametersOfEveryView) {
   const json told =
-      json::parse(CamerasJson(testing::MakeCameras(), {1.5, 0.5, 1.25}, "front", false));
+      json::parse(CamerasJson(testing::MakeCameras(), {1.5, 0.5, 1.25, 40}, "front", false));
   EXPECT_EQ(told["live"], "front");
   EXPECT_EQ(told["has_pictures"], false);
   ASSERT_EQ(told["cameras"].size(), 7u);
   EXPECT_EQ(told["cameras"][0]["name"], "front");
   EXPECT_GT(told["cameras"][0]["position"][0], 4.0) << "front is seen from +x";
-  EXPECT_EQ(told["framing"],
-            (json{{"min_width_m", 1.5}, {"margin_m", 0.5}, {"narrowest_aspect", 1.25}}));
+  EXPECT_EQ(
+      told["framing"],
+      (json{{"min_width_m", 1.5}, {"margin_m", 0.5}, {"narrowest_aspect", 1.25}, {"reach_m", 40}}));
 }
 
-TEST(FindMesh, FindsOnlyStlFilesOfTheModel) {
-  const SceneState state = Scene("/tmp/some meshes");
+// A person with the mesh of the pelvis; the URDF names those of all 23 segments.
+SceneState SceneWithPelvis(const std::string& mesh_folder) {
+  auto model = std::make_shared<PersonModel>(*testing::MakePersonModel(7, mesh_folder));
+  model->mesh_files = std::make_shared<kinescope::testing::MeshFileOnDemand>(
+      mesh_folder + "/pelvis.stl", "an STL file");
+  SceneState state = Scene();
+  state.people[0].model = model;
+  return state;
+}
+
+TEST(FindMesh, FindsOnlyMeshesOfTheModel) {
+  const SceneState state = SceneWithPelvis("/some meshes");
   const auto first = FindMesh(&state, 0, 7, 0);
   ASSERT_TRUE(first);
-  EXPECT_EQ(*first, "/tmp/some meshes/pelvis.stl")
-      << "a blank is %20 in the URI, and one again here";
-  EXPECT_TRUE(FindMesh(&state, 0, 7, 22));
+  EXPECT_EQ(*first, "an STL file");
+  EXPECT_FALSE(FindMesh(&state, 0, 7, 1)) << "named, but not of this set";
   EXPECT_FALSE(FindMesh(&state, 0, 7, 23)) << "there are only 23";
   EXPECT_FALSE(FindMesh(&state, 1, 7, 0)) << "no such person";
   EXPECT_FALSE(FindMesh(&state, 0, 6, 0)) << "an old revision";
   EXPECT_FALSE(FindMesh(nullptr, 0, 7, 0));
 }
 
-TEST(FindMesh, RejectsEverythingExceptLocalStlFiles) {
+TEST(FindMesh, ReadsNoFiles) {
   for (const char* uri :
-       {"package://robot/a.stl", "http://elsewhere/a.stl", "/etc/a.stl", "file://etc/a.stl",
-        "file:///etc/passwd", "file:///etc/a.stl%00", "file:///a%zz.stl", "file://", ""}) {
-    auto model = std::make_shared<PersonModel>(*testing::MakePersonModel(7, "/tmp"));
+       {"package://robot/a.stl", "http://elsewhere/a.stl", "/etc/passwd", "file:///etc/passwd",
+        "file:///etc/passwd/", "file:///etc/..", "file://", ""}) {
+    SceneState state = SceneWithPelvis("/some meshes");
+    auto model = std::make_shared<PersonModel>(*state.people[0].model);
     model->robot.links[0].visuals[0].geometry.mesh_uri = uri;
-    SceneState state = Scene();
     state.people[0].model = model;
     EXPECT_FALSE(FindMesh(&state, 0, 7, 0)) << uri;
   }

@@ -86,11 +86,12 @@ TEST(HandLoadRoute, RejectsOtherOriginsTypesAndMethodsAndCountsThem) {
 }
 
 TEST(HandLoadRoute, NeedsTheTokenAndAPerson) {
-  TestServer site("s3cret");
+  TestServer site("s3cret-of-the-lab");
   EXPECT_EQ(Post(site, kFive).status, 401);
-  EXPECT_EQ(Post(site, kFive, {}, "/api/hand_load?token=s3cret").status, 409) << "nobody is here";
+  EXPECT_EQ(Post(site, kFive, {}, "/api/hand_load?token=s3cret-of-the-lab").status, 409)
+      << "nobody is here";
   site.PublishState(1);
-  EXPECT_EQ(Post(site, kFive, {}, "/api/hand_load?token=s3cret").status, 200);
+  EXPECT_EQ(Post(site, kFive, {}, "/api/hand_load?token=s3cret-of-the-lab").status, 200);
   EXPECT_EQ(site.Told().size(), 1u);
 }
 

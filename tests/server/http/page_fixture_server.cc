@@ -73,6 +73,7 @@ json Numbers(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()};
 
 json Describe() {
   SceneState state = MakeScene(41, 3.25, 5'000'000'000, MakePersonModel(7), 2);
+  state.waited_nanos = 120'000'000;
   kinescope::testing::Wear(state.people[1]);
   state.objects = {{9, 22, "cart", {{1, -2, 0.5}, {0.5, -0.5, 0.5, 0.5}}, 5}};
   json people = json::array();
@@ -145,6 +146,7 @@ json Describe() {
             {"rateHz", 60},
             {"viewers", 3},
             {"floor", state.floor_z},
+            {"waitedMillis", state.waited_nanos / 1'000'000},
             {"people", people},
             {"objects", objects}}},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},

@@ -100,6 +100,7 @@ void ExpectPerson(Reader& in, const PersonState& person) {
 TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
   SceneState state = Scene(2);
   state.floor_z = -0.75;
+  state.waited_nanos = 3'719'000'000;
   const Bytes bytes = EncodeState(state, 5'004'000'000, 3);
   Reader in(bytes);
   EXPECT_EQ(in.Get<std::uint8_t>(), 1);
@@ -115,7 +116,8 @@ TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
   EXPECT_EQ(in.Get<float>(), 60);
   EXPECT_EQ(in.Get<std::uint32_t>(), 3);
   EXPECT_EQ(in.Get<float>(), -0.75);
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(in.Get<std::uint8_t>(), 0) << "objects, padding";
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(in.Get<std::uint8_t>(), 0) << "objects, padding";
+  EXPECT_EQ(in.Get<std::uint16_t>(), 371) << "waited, in 10 ms";
   for (const PersonState& person : state.people) ExpectPerson(in, person);
   EXPECT_TRUE(in.AtEnd());
 }

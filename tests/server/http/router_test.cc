@@ -88,6 +88,13 @@ class RouterTest : public ::testing::Test {
     return site;
   }
 
+  Router::Site GuardedSite() {
+    Router::Site site = SiteOf();
+    site.token = "s3cret";
+    site.guesses = &guesses_;
+    return site;
+  }
+
   Answer Get(const std::string& target) { return Router(SiteOf()).Route(RequestOf("GET", target)); }
   Answer Send(const Request& request) { return Router(SiteOf()).Route(request); }
 
@@ -101,6 +108,7 @@ class RouterTest : public ::testing::Test {
   Latest<SceneState> states_;
   std::map<int, HandLoad> held_;
   std::map<std::string, int> refusals_;
+  GuessGuard guesses_{nullptr};
 };
 
 TEST_F(RouterTest, AnswersEveryRouteInItsFormat) {
@@ -116,7 +124,7 @@ TEST_F(RouterTest, AnswersEveryRouteInItsFormat) {
                              Route{"/api/model", "application/json", "no-store"},
                              Route{"/api/cameras", "application/json", "no-store"},
                              Route{"/api/diagnostics", "application/json", "no-store"},
-                             Route{"/api/mesh/0/7/0", "model/stl", "private, max-age=3600"},
+                             Route{"/api/mesh/0/7/0", "model/stl", "no-cache"},
                              Route{"/snapshot.png", "image/png", "no-store"}}) {
     const Answer answer = Get(route.target);
     EXPECT_EQ(answer.status, 200) << route.target << ": " << answer.body;
@@ -126,16 +134,29 @@ TEST_F(RouterTest, AnswersEveryRouteInItsFormat) {
   EXPECT_THAT(refusals_, IsEmpty());
 }
 
-TEST_F(RouterTest, RequestsTheMeshFilesOfAModelBeforeServingOne) {
+TEST_F(RouterTest, ServesMeshesFromMemoryWithoutWritingFiles) {
   auto model = std::make_shared<PersonModel>(*MakePersonModel(8, meshes_.path().string()));
-  const std::string uri = model->robot.links.front().visuals.front().geometry.mesh_uri;
-  const std::filesystem::path path = uri.substr(std::string("file://").size());
-  std::filesystem::remove(path);
-  model->mesh_files = std::make_shared<kinescope::testing::MeshFileOnDemand>(path, "an STL file");
+  fs::remove(meshes_ / "pelvis.stl");
+  const auto files =
+      std::make_shared<kinescope::testing::MeshFileOnDemand>(meshes_ / "pelvis.stl", "an STL file");
+  model->mesh_files = files;
   states_.Publish(std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, model, 1)));
-  const Answer answer = Get("/api/mesh/0/8/0");
-  EXPECT_EQ(answer.status, 200) << answer.body;
-  EXPECT_EQ(answer.file, path);
+  EXPECT_EQ(Get("/api/mesh/0/8/0").body, "an STL file");
+  EXPECT_EQ(Get("/api/mesh/0/8/1").status, 404) << "named, but not of this set";
+  EXPECT_FALSE(files->is_provided());
+}
+
+// A guessable folder for temporary files belongs to everybody.
+TEST_F(RouterTest, ServesNoFileThatSomebodyElsePlaced) {
+  auto model = std::make_shared<PersonModel>(*MakePersonModel(8, meshes_.path().string()));
+  model->mesh_files =
+      std::make_shared<kinescope::testing::MeshFileOnDemand>(meshes_ / "pelvis.stl", "an STL file");
+  fs::remove(meshes_ / "pelvis.stl");
+  fs::create_symlink("/etc/passwd", meshes_ / "pelvis.stl");
+  fs::create_symlink("/etc/passwd", meshes_ / "l5.stl");
+  states_.Publish(std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, model, 1)));
+  EXPECT_EQ(Get("/api/mesh/0/8/0").body, "an STL file");
+  EXPECT_EQ(Get("/api/mesh/0/8/1").status, 404);
 }
 
 TEST_F(RouterTest, AnswersWithTheNewestStateOrWithoutData) {
@@ -226,8 +247,8 @@ TEST_F(RouterTest, SendsAFileUnlessTheClientHasIt) {
 TEST_F(RouterTest, ServesMeshesOfTheNewestModelUpToALimit) {
   EXPECT_EQ(Get("/api/mesh/0/7/0").status, 404) << "no state yet";
   PublishPeople(2);
-  EXPECT_EQ(Get("/api/mesh/0/7/0").file.value_or(""), meshes_ / "pelvis.stl");
-  EXPECT_EQ(Get("/api/mesh/1/7/0").file.value_or(""), meshes_ / "pelvis.stl");
+  EXPECT_EQ(Get("/api/mesh/0/7/0").body, "solid pelvis");
+  EXPECT_EQ(Get("/api/mesh/1/7/0").body, "solid pelvis");
   for (const char* target :
        {"/api/mesh/2/7/0", "/api/mesh/0/6/0", "/api/mesh/0/8/0", "/api/mesh/0/7/1",
         "/api/mesh/0/7/9999", "/api/mesh/18446744073709551615/7/0", "/api/mesh/4294967296/7/0"}) {
@@ -248,6 +269,23 @@ TEST_F(RouterTest, ServesMeshesOfTheNewestModelUpToALimit) {
   fs::remove(meshes_ / "pelvis.stl");
   fs::create_directory(meshes_ / "pelvis.stl");
   EXPECT_EQ(Get("/api/mesh/0/7/0").status, 404) << "a folder";
+}
+
+// Revisions begin at 1 in each process.
+TEST_F(RouterTest, SendsAMeshAgainOnlyIfItIsThatOfAnotherBody) {
+  PublishPeople(1);
+  const Answer first = Get("/api/mesh/0/7/0");
+  const std::string tag = HeaderOf(first, "ETag");
+  EXPECT_FALSE(tag.empty());
+  Request again = RequestOf("GET", "/api/mesh/0/7/0");
+  again.if_none_match = tag;
+  const Answer same = Send(again);
+  EXPECT_EQ(same.status, 304);
+  EXPECT_EQ(same.body, "");
+  EXPECT_EQ(HeaderOf(same, "ETag"), tag);
+  WriteText(meshes_ / "pelvis.stl", "solid PELVIS");  // after a restart, with another person
+  EXPECT_EQ(Send(again).status, 200);
+  EXPECT_EQ(Send(again).body, "solid PELVIS");
 }
 
 TEST_F(RouterTest, AcceptsSnapshotSizesFrom16To4096) {
@@ -340,6 +378,126 @@ TEST_F(RouterTest, RequiresTheTokenAtEveryAddress) {
   EXPECT_EQ(router.Route(post).status, 200);
   EXPECT_EQ(router.RefuseWebSocket(RequestOf("GET", "/ws")).value_or(Answer()).status, 401);
   EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/ws?token=s3cret")));
+}
+
+TEST_F(RouterTest, AcceptsABearerTokenWithoutSettingACookie) {
+  Router::Site site = SiteOf();
+  site.token = "s3cret";
+  Request request = RequestOf("GET", "/snapshot.png");
+  request.authorization = "Bearer s3cret";
+  EXPECT_EQ(Router(site).Route(request).status, 200);
+  EXPECT_EQ(HeaderOf(Router(site).Route(request), "Set-Cookie"), "");
+  request.authorization = "Bearer wrong";
+  EXPECT_EQ(Router(site).Route(request).status, 401);
+  EXPECT_EQ(HeaderOf(Router(site).Route(request), "WWW-Authenticate"), "Bearer");
+}
+
+TEST_F(RouterTest, SetsASecureCookieBehindATlsProxy) {
+  Router::Site site = SiteOf();
+  site.token = "s3cret";
+  Request request = RequestOf("GET", "/?token=s3cret");
+  request.forwarded_proto = "https";
+  EXPECT_THAT(HeaderOf(Router(site).Route(request), "Set-Cookie"), HasSubstr("; Secure"));
+  request.forwarded_proto = "http";
+  EXPECT_THAT(HeaderOf(Router(site).Route(request), "Set-Cookie"),
+              ::testing::Not(HasSubstr("Secure")));
+}
+
+TEST_F(RouterTest, SlowsDownWrongTokensButNeverTheRightOne) {
+  const Router router(GuardedSite());
+  const auto status = [&](const std::string& token, const std::string& address) {
+    Request request = RequestOf("GET", "/?token=" + token);
+    request.address = address;
+    return router.Route(request).status;
+  };
+  for (int i = 0; i < GuessGuard::kAtOnce; ++i) {
+    EXPECT_EQ(status("guess" + std::to_string(i), "10.0.0.7"), 401) << i;
+  }
+  EXPECT_EQ(status("another", "10.0.0.7"), 429);
+  EXPECT_EQ(status("s3cret", "10.0.0.7"), 200) << "others do not lock out the owner of the token";
+  EXPECT_EQ(status("guess3", "10.0.0.7"), 401) << "the same again tells nothing new";
+  EXPECT_EQ(status("s3cret", "10.0.0.8"), 200);
+  Request socket = RequestOf("GET", "/ws?token=s3cret");
+  socket.address = "10.0.0.7";
+  EXPECT_FALSE(router.RefuseWebSocket(socket));
+}
+
+TEST_F(RouterTest, CountsEveryTokenOfARequestAsAGuessUnlessOneIsRight) {
+  const Router router(GuardedSite());
+  Request request = RequestOf("GET", "/");
+  std::string wrong;
+  for (int i = 0; i < 2 * GuessGuard::kAtOnce; ++i) {
+    wrong += std::string(kCookie) + "=guess" + std::to_string(i) + "; ";
+  }
+  request.cookies = wrong + kCookie + "=s3cret";
+  EXPECT_EQ(router.Route(request).status, 200);
+  Request other = RequestOf("GET", "/?token=mistyped");
+  EXPECT_EQ(router.Route(other).status, 401) << "nothing was counted so far";
+  request.cookies = wrong;
+  EXPECT_EQ(router.Route(request).status, 429);
+}
+
+// A page of another site can make the browser of a user send any token.
+TEST_F(RouterTest, CountsNoTokensThatAnotherSiteMakesABrowserSend) {
+  const Router router(GuardedSite());
+  for (int i = 0; i < 2 * GuessGuard::kAtOnce; ++i) {
+    const std::string query = "?token=guess" + std::to_string(i);
+    Request image = RequestOf("GET", "/snapshot.png" + query);
+    image.sec_fetch_site = "cross-site";
+    EXPECT_EQ(router.Route(image).status, 403);
+    Request script = RequestOf("GET", "/app.js" + query);
+    script.sec_fetch_site = "same-site";
+    EXPECT_EQ(router.Route(script).status, 401);
+    Request socket = RequestOf("GET", "/ws" + query);
+    socket.origin = "http://evil.example";
+    const auto refusal = router.RefuseWebSocket(socket);
+    ASSERT_TRUE(refusal);
+    EXPECT_EQ(refusal->status, 403);
+    EXPECT_THAT(ErrorIn(*refusal), AllOf(HasSubstr("evil.example"), HasSubstr("localhost:8080")));
+  }
+  EXPECT_EQ(router.Route(RequestOf("GET", "/?token=mistyped")).status, 401);
+}
+
+TEST_F(RouterTest, RejectsCostlyRequestsOfOtherSites) {
+  PublishPeople(1);
+  for (const char* target : {"/snapshot.png", "/api/model", "/api/mesh/0/7/0"}) {
+    Request request = RequestOf("GET", target);
+    for (const char* site : {"", "none", "same-origin"}) {
+      request.sec_fetch_site = site;
+      EXPECT_EQ(Send(request).status, 200) << target << " " << site;
+    }
+    for (const char* site : {"cross-site", "same-site"}) {
+      request.sec_fetch_site = site;
+      const Answer answer = Send(request);
+      EXPECT_EQ(answer.status, 403) << target << " " << site;
+      EXPECT_THAT(ErrorIn(answer), HasSubstr(site));
+    }
+  }
+  Request link = RequestOf("GET", "/");
+  link.sec_fetch_site = "cross-site";
+  EXPECT_EQ(Send(link).status, 200) << "a link to the page";
+  EXPECT_EQ(refusals_["another site"], 6);
+}
+
+TEST_F(RouterTest, RequiresMoreThanACookieForASnapshotWithoutSecFetchSite) {
+  Router::Site site = SiteOf();
+  site.token = "s3cret";
+  const Router router(site);
+  Request request = RequestOf("GET", "/snapshot.png");
+  request.cookies = std::string(kCookie) + "=s3cret";
+  EXPECT_EQ(router.Route(request).status, 403) << "an image in a page on another port";
+  Request from_page = request, by_token = request, over_tls = request;
+  from_page.page_header = "1";
+  EXPECT_EQ(router.Route(from_page).status, 200);
+  by_token.target += "?token=s3cret";
+  EXPECT_EQ(router.Route(by_token).status, 200);
+  over_tls.sec_fetch_site = "same-origin";
+  EXPECT_EQ(router.Route(over_tls).status, 200);
+  Request image = request, link = request;
+  image.accept = "image/avif,image/webp,*/*;q=0.8";
+  EXPECT_EQ(router.Route(image).status, 403);
+  link.accept = "text/html,application/xhtml+xml,*/*;q=0.8";
+  EXPECT_EQ(router.Route(link).status, 200) << "the link of the page without scripts";
 }
 
 TEST_F(RouterTest, ServesOnlyThisMachineWithoutAToken) {

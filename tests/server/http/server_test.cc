@@ -3,9 +3,14 @@
 
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <string>
+#include <vector>
 
+#include "server/http/connections.h"
+#include "server/http/guess_guard.h"
 #include "tests/server/http/test_server.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::http::testing {
 namespace {
@@ -119,6 +124,12 @@ TEST(HttpServer, AnswersInvalidRequestsAndContinues) {
   EXPECT_THAT(Exchange(port, "GET / HTTP/1.1\r\nHost: localhost\r\nX: " + std::string(10000, 'a') +
                                  "\r\n\r\n"),
               StartsWith("HTTP/1.1 431"));
+  EXPECT_THAT(OpenConnection(port, "GET / HTTP/1.1\r\nX: " + std::string(8192, 'a')).ReadToEnd(),
+              HasSubstr("more than 8192 bytes; send fewer cookies or shorter headers"));
+  EXPECT_THAT(
+      OpenConnection(port, "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 4097\r\n\r\n")
+          .ReadToEnd(),
+      HasSubstr("body of 4097 bytes: at most 4096 are accepted; send a smaller one"));
   EXPECT_THAT(
       Exchange(port, "GET /" + std::string(3000, 'a') + " HTTP/1.1\r\nHost: localhost\r\n\r\n"),
       StartsWith("HTTP/1.1 400"));
@@ -190,26 +201,28 @@ TEST(HttpServer, SurvivesDiagnosticsThatFail) {
 }
 
 TEST(HttpServer, RequiresTheTokenForEveryRoute) {
-  const TestServer site("s3cret");
-  EXPECT_THAT(site.server.url(), HasSubstr("/?token=s3cret"));
-  const std::string cookie = "kinescope_" + std::to_string(site.server.port()) + "=s3cret";
+  const TestServer site("s3cret-of-the-lab");
+  EXPECT_THAT(site.server.url(), HasSubstr("/?token=s3cret-of-the-lab"));
+  const std::string cookie =
+      "kinescope_" + std::to_string(site.server.port()) + "=s3cret-of-the-lab";
   for (const char* target :
        {"/", "/app.js", "/api/state", "/api/model", "/api/cameras", "/api/diagnostics",
         "/snapshot.png", "/api/mesh/0/7/0", "/lib/three/three.module.js", "/nothing", "/ws"}) {
     EXPECT_EQ(site.Get(target).status, 401) << target;
     EXPECT_EQ(site.Get(target + "?token=wrong"s).status, 401) << target;
-    EXPECT_EQ(site.Get(target, {{"Cookie", "kinescope_1=s3cret"}}).status, 401) << target;
+    EXPECT_EQ(site.Get(target, {{"Cookie", "kinescope_1=s3cret-of-the-lab"}}).status, 401)
+        << target;
     EXPECT_NE(site.Get(target, {{"Cookie", cookie}}).status, 401) << target;
-    EXPECT_NE(site.Get(target + "?token=s3cret"s).status, 401) << target;
+    EXPECT_NE(site.Get(target + "?token=s3cret-of-the-lab"s).status, 401) << target;
   }
-  const Response first = site.Get("/?token=s3cret");
+  const Response first = site.Get("/?token=s3cret-of-the-lab");
   EXPECT_EQ(first.headers.at("set-cookie"), cookie + "; Path=/; HttpOnly; SameSite=Strict");
   EXPECT_EQ(site.Get("/", {{"Cookie", cookie}}).headers.count("set-cookie"), 0u);
 }
 
 TEST(HttpServer, AcceptsAnyHostNameWithAToken) {
-  const TestServer site("s3cret");
-  EXPECT_EQ(site.Get("/?token=s3cret", {{"Host", "lab.example:8080"}}).status, 200);
+  const TestServer site("s3cret-of-the-lab");
+  EXPECT_EQ(site.Get("/?token=s3cret-of-the-lab", {{"Host", "lab.example:8080"}}).status, 200);
 }
 
 TEST(HttpServer, AcceptsOnlyNamesOfThisMachineWithoutAToken) {
@@ -236,6 +249,18 @@ TEST(HttpServer, ReportsAPortInUseWithARemedy) {
   }
 }
 
+TEST(HttpServer, ReportsAnAddressThatThisMachineDoesNotHave) {
+  HttpConfig config = TestServer::MakeConfig("0123456789abcdef");
+  config.bind_ip = "192.0.2.1";  // for documents only: no machine has it
+  try {
+    const Listener listener(config);
+    FAIL() << "an address of another machine";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), StartsWith("--bind_ip=192.0.2.1: "));
+    EXPECT_THAT(error.what(), Not(HasSubstr("another port")));
+  }
+}
+
 TEST(HttpServer, RejectsUnsafeAndInvalidConfigurations) {
   Latest<SceneState> states;
   Latest<Picture> pictures;
@@ -247,20 +272,180 @@ TEST(HttpServer, RejectsUnsafeAndInvalidConfigurations) {
   };
   EXPECT_THROW(start("0.0.0.0", "", 0), UsageError);
   EXPECT_THROW(start("::", "", 0), UsageError);
-  EXPECT_THROW(start("not.an.ip", "a", 0), UsageError);
+  EXPECT_THROW(start("not.an.ip", "0123456789abcdef", 0), UsageError);
   EXPECT_THROW(start("127.0.0.1", "two words", 0), UsageError);
   EXPECT_THROW(start("127.0.0.1", "", 70000), UsageError);
   EXPECT_THROW(start("127.0.0.1", "", -1), UsageError);
-  EXPECT_NO_THROW(start("0.0.0.0", "a", 0));
+  EXPECT_NO_THROW(start("0.0.0.0", "0123456789abcdef", 0));
+}
+
+TEST(HttpServer, RejectsAShortTokenAndOffersARandomOne) {
+  HttpConfig config = TestServer::MakeConfig("0123456789abcde");
+  config.token_origin = "--token_file=here";
+  try {
+    CheckConfig(config);
+    FAIL() << "15 characters";
+  } catch (const UsageError& error) {
+    const std::string line = error.what();
+    EXPECT_THAT(line, StartsWith("--token_file=here: "));
+    EXPECT_EQ(line.find(config.token), std::string::npos) << "never the token itself";
+    config.token = line.substr(line.rfind(' ') + 1);
+    EXPECT_NO_THROW(CheckConfig(config)) << config.token;
+  }
+}
+
+TEST(HttpServer, RejectsSeveralHosts) {
+  const TestServer site;
+  const int port = site.server.port();
+  const std::string get = "GET /api/state HTTP/1.1\r\n";
+  EXPECT_THAT(Exchange(port, get + "Host: localhost\r\nHost: evil.example\r\n\r\n"),
+              StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(Exchange(port, get + "\r\n"), StartsWith("HTTP/1.1 400"));
+  EXPECT_THAT(Exchange(port, get + "Host: localhost\r\n\r\n"), StartsWith("HTTP/1.1 200"));
+}
+
+TEST(HttpServer, AcceptsHeadersOfUpTo64Lines) {
+  const TestServer site;
+  const auto with_lines = [](int count) {
+    std::string lines;
+    for (int i = 1; i < count; ++i) lines += "X: " + std::to_string(i) + "\r\n";
+    return "GET /api/state HTTP/1.1\r\nHost: localhost\r\n" + lines + "\r\n";
+  };
+  EXPECT_THAT(Exchange(site.server.port(), with_lines(64)), StartsWith("HTTP/1.1 200"));
+  EXPECT_THAT(Exchange(site.server.port(), with_lines(65)), StartsWith("HTTP/1.1 431"));
+}
+
+TEST(HttpServer, ServesOthersBesideConnectionsThatNeverFinishTheirRequest) {
+  const TestServer site;
+  std::vector<OpenConnection> slow;
+  for (std::size_t i = 0; i < Connections::kMax + 44; ++i) {
+    slow.emplace_back(site.server.port(), "GET / HTTP/1.1\r\nHost: localhost\r\n");
+  }
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(site.Get("/api/state").status, 200) << i;
+  EXPECT_EQ(slow.front().ReadToEnd(), "") << "the oldest made room";
+}
+
+TEST(HttpServer, ServesOthersBesideConnectionsThatDoNotReadTheirAnswers) {
+  const TestServer site;
+  std::string requests;
+  for (int i = 0; i < 200; ++i) requests += "GET /nothing HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  std::vector<OpenConnection> deaf;
+  for (std::size_t i = 0; i < Connections::kMax; ++i) {
+    const std::string from = "127.0.1." + std::to_string(1 + i / Connections::kMaxPerAddress);
+    deaf.emplace_back(site.server.port(), requests, /*receive_buffer_bytes=*/2304, from);
+  }
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(site.Get("/api/state").status, 200) << i;
+  EXPECT_EQ(Fetch(site.server.port(), "/api/state", {}, "GET", "", "127.0.1.1").status, 200)
+      << "one of an address that has used up its share";
+}
+
+TEST(HttpServer, ClosesFirstAConnectionWhoseLastTokenWasWrong) {
+  const TestServer site("s3cret-of-the-lab");
+  const std::string right = "/api/diagnostics?token=s3cret-of-the-lab";
+  const auto get = [](const std::string& target, const std::string& header = "") {
+    return "GET " + target + " HTTP/1.1\r\nHost: localhost\r\n" + header + "\r\n";
+  };
+  std::vector<OpenConnection> all;
+  for (std::size_t i = 0; i < Connections::kMaxPerAddress; ++i) {
+    all.emplace_back(site.server.port(), get(right));
+  }
+  all.back().Send(get("/api/diagnostics?token=wrong"));
+  std::size_t asked = 0, requests = 0;
+  while (requests < all.size() + 1 + asked) {
+    ++asked;
+    const Response answer = Fetch(site.server.port(), right, {}, "GET", "", "127.0.0.2");
+    requests = answer.json()["http"]["requests"];
+  }
+  EXPECT_EQ(site.Get(right).status, 200);
+  all.front().Send(get(right, "Connection: close\r\n"));
+  EXPECT_THAT(all.front().ReadToEnd(), HasSubstr("Connection: close")) << "the oldest is open";
+}
+
+TEST(HttpServer, LimitsTheTimeOfAWholeResponse) {
+  PatienceLimits impatient;
+  impatient.response = std::chrono::milliseconds(20);
+  impatient.write_window = std::chrono::hours(1);
+  const kinescope::testing::TempFolder meshes;
+  std::ofstream(meshes.path() / "pelvis.stl") << std::string(32u << 20, 'x');
+  TestServer site("", true, meshes.path().string(), impatient);
+  site.PublishState(1);
+  OpenConnection deaf(site.server.port(), "GET /api/mesh/0/7/0 HTTP/1.1\r\nHost: localhost\r\n\r\n",
+                      2304);
+  while (site.HttpCounters()["rejected"].value("response not read", 0) < 1) {
+  }
+  EXPECT_LT(deaf.ReadToEnd().size(), 32u << 20);
+}
+
+TEST(HttpServer, DisconnectsClientsThatDoNotFinishTheirRequestInTime) {
+  PatienceLimits impatient;
+  impatient.header = impatient.body = impatient.next_request = std::chrono::milliseconds(20);
+  const TestServer site("", true, "", impatient);
+  const int port = site.server.port();
+  EXPECT_EQ(OpenConnection(port, "").ReadToEnd(), "");
+  EXPECT_EQ(OpenConnection(port, "GET / HTTP/1.1\r\nHost:").ReadToEnd(), "");
+  EXPECT_EQ(OpenConnection(port,
+                           "POST /api/hand_load HTTP/1.1\r\nHost: localhost\r\n"
+                           "Content-Type: application/json\r\nContent-Length: 20\r\n\r\n{")
+                .ReadToEnd(),
+            "");
+  EXPECT_THAT(
+      OpenConnection(port, "GET /api/state HTTP/1.1\r\nHost: localhost\r\n\r\n").ReadToEnd(),
+      StartsWith("HTTP/1.1 200"))
+      << "and no second request";
+}
+
+TEST(HttpServer, AnswersRequestsThatArriveTogether) {
+  const TestServer site;
+  const std::string get = "GET /api/state HTTP/1.1\r\nHost: localhost\r\n";
+  OpenConnection client(site.server.port(), get + "\r\n" + get + "Connection: close\r\n\r\n");
+  const std::string answers = client.ReadToEnd();
+  EXPECT_NE(answers.find("HTTP/1.1 200", 1), std::string::npos) << answers;
+}
+
+TEST(HttpServer, SlowsDownAndReportsGuessesOfTheToken) {
+  std::mutex mutex;
+  std::vector<std::string> log;
+  HttpConfig config = TestServer::MakeConfig("s3cret-of-the-lab");
+  config.warn = [&](const std::string& line) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    log.push_back(line);
+  };
+  Latest<SceneState> states;
+  Latest<Picture> pictures;
+  const HttpServer server(config, states, pictures, nullptr, nullptr);
+  Response answer;
+  for (int i = 0; i < GuessGuard::kAtOnce + 10 && answer.status != 429; ++i) {
+    answer = Fetch(server.port(), "/?token=guess" + std::to_string(i));
+  }
+  EXPECT_EQ(answer.status, 429);
+  EXPECT_EQ(answer.headers.at("retry-after"), "1");
+  const std::lock_guard<std::mutex> lock(mutex);
+  ASSERT_EQ(log.size(), 1u);
+  EXPECT_EQ(log.front(), "page: 1 wrong token from 127.0.0.1");
+}
+
+TEST(HttpServer, SlowsDownGuessesAlsoAfterTheRightTokenOnTheSameConnection) {
+  const TestServer site("s3cret-of-the-lab");
+  const auto get = [](const std::string& token, const std::string& header = "") {
+    return "GET /api/state?token=" + token + " HTTP/1.1\r\nHost: localhost\r\n" + header + "\r\n";
+  };
+  std::string requests = get("s3cret-of-the-lab");
+  for (int i = 0; i < GuessGuard::kAtOnce + 10; ++i) requests += get("guess" + std::to_string(i));
+  requests += get("s3cret-of-the-lab", "Connection: close\r\n");
+  const std::string answers = OpenConnection(site.server.port(), requests).ReadToEnd();
+  EXPECT_THAT(answers, HasSubstr("HTTP/1.1 429"));
+  EXPECT_THAT(answers.substr(answers.rfind("HTTP/1.1")), StartsWith("HTTP/1.1 200"));
 }
 
 TEST(HttpServer, ReportsAUrlThatCanBeOpened) {
   Latest<SceneState> states;
   Latest<Picture> pictures;
-  HttpConfig config = TestServer::MakeConfig("abc");
+  HttpConfig config = TestServer::MakeConfig("0123456789abcdef");
   config.bind_ip = "0.0.0.0";
   const HttpServer server(config, states, pictures, nullptr, nullptr);
-  EXPECT_EQ(server.url(), "http://localhost:" + std::to_string(server.port()) + "/?token=abc");
+  const std::string url = "http://localhost:" + std::to_string(server.port()) + "/?token=";
+  EXPECT_EQ(server.url(), url + "0123456789abcdef");
+  EXPECT_EQ(server.url_for_log(), url + "0123...");
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace kinescope::http::testing {
 namespace {
 
 using namespace std::string_literals;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 TEST(Snapshot, IsRenderedAsRequested) {
@@ -68,20 +69,90 @@ TEST(Snapshot, IsRejectedIfTheShortQueueIsFull) {
   site.feed.Hold(true);
   std::atomic<int> drawn{0};
   std::vector<std::thread> waiting;
-  const auto ask = [&] {
-    waiting.emplace_back([&] { drawn += site.Get("/snapshot.png").status == 200 ? 1 : 0; });
+  const auto get = [&](const std::string& target, int client) {
+    return Fetch(site.server.port(), target, {}, "GET", "", "127.0.2." + std::to_string(client));
   };
-  ask();
+  const auto ask = [&](int client) {
+    waiting.emplace_back(
+        [&, client] { drawn += get("/snapshot.png", client).status == 200 ? 1 : 0; });
+  };
+  ask(1);
   ASSERT_TRUE(site.feed.WaitUntilDrawing());
-  for (std::size_t i = 0; i < SnapshotWorker::kMaxWaiting; ++i) ask();
-  while (site.HttpCounters()["snapshots"] < SnapshotWorker::kMaxWaiting + 1) {
+  constexpr int kMaxWaiting = static_cast<int>(SnapshotWorker::kMaxWaiting);
+  for (int i = 0; i < kMaxWaiting; ++i) ask(1 + i / 2);
+  while (site.HttpCounters()["snapshots"] < kMaxWaiting + 1) {
   }
-  const Response refused = site.Get("/snapshot.png");
+  const std::string largest = "/snapshot.png?width=4096&height=4096";
+  const Response refused = get(largest, 9);
   EXPECT_EQ(refused.status, 503);
   EXPECT_EQ(refused.headers.at("retry-after"), "1");
   site.feed.Hold(false);
   for (std::thread& thread : waiting) thread.join();
-  EXPECT_EQ(drawn, SnapshotWorker::kMaxWaiting + 1);
+  EXPECT_EQ(drawn, kMaxWaiting + 1);
+  EXPECT_EQ(get(largest, 9).status, 200) << "the rejected one costs nothing";
+}
+
+TEST(Snapshot, IsRejectedIfTwoOfItsAddressWait) {
+  TestServer site;
+  site.feed.Hold(true);
+  const std::string request = "GET /snapshot.png HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  const OpenConnection first(site.server.port(), request);
+  ASSERT_TRUE(site.feed.WaitUntilDrawing());
+  const OpenConnection second(site.server.port(), request), third(site.server.port(), request);
+  while (site.HttpCounters()["snapshots"] < 3) {
+  }
+  const Response refused = site.Get("/snapshot.png");
+  EXPECT_EQ(refused.status, 429);
+  EXPECT_EQ(refused.headers.at("retry-after"), "1");
+  EXPECT_THAT(refused.json()["error"].get<std::string>(), HasSubstr("2 snapshots"));
+  site.feed.Hold(false);
+}
+
+TEST(Snapshot, IsNotRenderedForAClientThatHasLeft) {
+  TestServer site;
+  site.feed.Hold(true);
+  std::thread patient([&] { EXPECT_EQ(site.Get("/snapshot.png").status, 200); });
+  ASSERT_TRUE(site.feed.WaitUntilDrawing());
+  {
+    const OpenConnection impatient(site.server.port(),
+                                   "GET /snapshot.png HTTP/1.1\r\nHost: localhost\r\n\r\n");
+    while (site.HttpCounters()["snapshots"] < 2) {
+    }
+  }
+  while (site.HttpCounters()["rejected"].value("abandoned", 0) < 1) {
+  }
+  site.feed.Hold(false);
+  patient.join();
+  EXPECT_EQ(site.Get("/snapshot.png").status, 200);
+  EXPECT_EQ(site.feed.drawn(), 2) << "the first and the last";
+}
+
+// As "nc -N" and "socat" do.
+TEST(Snapshot, IsSentToAClientThatHasOnlyFinishedSending) {
+  TestServer site;
+  site.feed.Hold(true);
+  const std::string request = "GET /snapshot.png HTTP/1.1\r\nHost: localhost\r\n";
+  const OpenConnection first(site.server.port(), request + "\r\n");
+  ASSERT_TRUE(site.feed.WaitUntilDrawing());
+  OpenConnection half_closed(site.server.port(), request + "Connection: close\r\n\r\n");
+  half_closed.FinishSending();
+  while (site.HttpCounters()["snapshots"] < 2) {
+  }
+  EXPECT_EQ(site.HttpCounters()["rejected"].value("abandoned", 0), 0);
+  site.feed.Hold(false);
+  EXPECT_THAT(half_closed.ReadToEnd(), HasSubstr("HTTP/1.1 200"));
+}
+
+TEST(Snapshot, IsPostponedIfItsAddressHasUsedUpItsPixels) {
+  const TestServer site;
+  const std::string largest = "/snapshot.png?width=4096&height=4096";
+  EXPECT_EQ(site.Get(largest).status, 200);
+  const Response refused = site.Get(largest);
+  EXPECT_EQ(refused.status, 429);
+  EXPECT_GE(std::stoi(refused.headers.at("retry-after")), 1);
+  EXPECT_THAT(refused.json()["error"].get<std::string>(),
+              AllOf(HasSubstr("4096x4096"), HasSubstr("try again in"), HasSubstr("1920x1080")));
+  EXPECT_EQ(site.Get("/snapshot.png?width=1920&height=1080").status, 200) << "as the page's";
 }
 
 TEST(Snapshot, InProgressDoesNotPreventTheServerFromStopping) {

@@ -39,13 +39,22 @@ tcp::endpoint Local(int port) {
   return {asio::ip::address_v4::loopback(), static_cast<unsigned short>(port)};
 }
 
+void Connect(tcp::socket& socket, int port, int receive_buffer_bytes, const std::string& from) {
+  socket.open(tcp::v4());
+  if (!from.empty()) socket.bind({asio::ip::make_address(from), 0});
+  if (receive_buffer_bytes > 0) {
+    socket.set_option(asio::socket_base::receive_buffer_size(receive_buffer_bytes));
+  }
+  socket.connect(Local(port));
+}
+
 }  // namespace
 
 Response Fetch(int port, const std::string& target, const Headers& headers,
-               const std::string& method, const std::string& body) {
+               const std::string& method, const std::string& body, const std::string& from) {
   asio::io_context io;
   beast::tcp_stream stream(io);
-  stream.connect(Local(port));
+  Connect(stream.socket(), port, 0, from);
   bhttp::request<bhttp::string_body> request;
   request.version(11);
   request.method_string(method);
@@ -94,20 +103,47 @@ std::string Exchange(int port, const std::string& bytes, std::size_t enough) {
   return answer;
 }
 
+struct OpenConnection::Impl {
+  asio::io_context io;
+  tcp::socket socket{io};
+};
+
+OpenConnection::OpenConnection(int port, const std::string& bytes, int receive_buffer_bytes,
+                               const std::string& from)
+    : impl_(std::make_unique<Impl>()) {
+  Connect(impl_->socket, port, receive_buffer_bytes, from);
+  Send(bytes);
+}
+
+OpenConnection::~OpenConnection() = default;
+OpenConnection::OpenConnection(OpenConnection&&) noexcept = default;
+OpenConnection& OpenConnection::operator=(OpenConnection&&) noexcept = default;
+
+void OpenConnection::Send(const std::string& bytes) {
+  Error ignored;
+  asio::write(impl_->socket, asio::buffer(bytes), ignored);
+}
+
+void OpenConnection::FinishSending() { impl_->socket.shutdown(tcp::socket::shutdown_send); }
+
+std::string OpenConnection::ReadToEnd() {
+  std::string answer;
+  bool done = false;
+  asio::async_read(impl_->socket, asio::dynamic_buffer(answer),
+                   [&](Error, std::size_t) { done = true; });
+  Finish(impl_->io, done, "the end of a connection");
+  return answer;
+}
+
 struct WsClient::Impl {
   asio::io_context io;
   websocket::stream<beast::tcp_stream> socket{io};
 };
 
 WsClient::WsClient(int port, const std::string& target, const Headers& headers,
-                   int receive_buffer_bytes)
+                   int receive_buffer_bytes, const std::string& from)
     : impl_(std::make_unique<Impl>()) {
-  tcp::socket& tcp_socket = beast::get_lowest_layer(impl_->socket).socket();
-  tcp_socket.open(tcp::v4());
-  if (receive_buffer_bytes > 0) {
-    tcp_socket.set_option(asio::socket_base::receive_buffer_size(receive_buffer_bytes));
-  }
-  tcp_socket.connect(Local(port));
+  Connect(beast::get_lowest_layer(impl_->socket).socket(), port, receive_buffer_bytes, from);
   impl_->socket.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
     for (const auto& [name, value] : headers) request.set(name, value);
   }));
@@ -187,6 +223,13 @@ void WsClient::Send(const std::string& text) {
 void WsClient::SendBinary(const std::string& bytes) {
   impl_->socket.binary(true);
   impl_->socket.write(asio::buffer(bytes));
+}
+
+void WsClient::SendPing() { impl_->socket.ping({}); }
+void WsClient::SendPong() { impl_->socket.pong({}); }
+
+void WsClient::SendRaw(const std::string& bytes) {
+  asio::write(beast::get_lowest_layer(impl_->socket).socket(), asio::buffer(bytes));
 }
 
 }  // namespace kinescope::http::testing

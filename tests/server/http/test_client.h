@@ -21,18 +21,40 @@ struct Response {
   nlohmann::json json() const { return nlohmann::json::parse(body); }
 };
 
-/// One request on a connection of its own. `target` is sent as it is.
+/// One request on a connection of its own. `target` is sent as it is. `from`: the address of this
+/// client, of 127.0.0.0/8.
 Response Fetch(int port, const std::string& target, const Headers& headers = {},
-               const std::string& method = "GET", const std::string& body = "");
+               const std::string& method = "GET", const std::string& body = "",
+               const std::string& from = "");
 
 /// Sends `bytes`, then reads until the server closes the connection or `enough` bytes came.
 std::string Exchange(int port, const std::string& bytes, std::size_t enough = 12);
 
+/// A connection that sent `bytes` and stays open.
+class OpenConnection {
+ public:
+  OpenConnection(int port, const std::string& bytes, int receive_buffer_bytes = 0,
+                 const std::string& from = "");
+  ~OpenConnection();
+  OpenConnection(OpenConnection&&) noexcept;
+  OpenConnection& operator=(OpenConnection&&) noexcept;
+
+  void Send(const std::string& bytes);
+  void FinishSending();
+  /// What comes until the server closes the connection.
+  std::string ReadToEnd();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 class WsClient {
  public:
+  /// `from`: the address of this client, of 127.0.0.0/8.
   /// @throws std::runtime_error with the HTTP status when the server refuses.
   explicit WsClient(int port, const std::string& target = "/ws", const Headers& headers = {},
-                    int receive_buffer_bytes = 0);
+                    int receive_buffer_bytes = 0, const std::string& from = "");
   ~WsClient();
 
   struct Message {
@@ -55,6 +77,10 @@ class WsClient {
 
   void Send(const std::string& text);
   void SendBinary(const std::string& bytes);
+  void SendPing();
+  void SendPong();
+  /// Frames as they are, not encoded.
+  void SendRaw(const std::string& bytes);
 
  private:
   struct Impl;

@@ -2,12 +2,34 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace kinescope::http::testing {
 namespace {
 
 using Eigen::Vector3d;
+
+// Those that tests write into a folder.
+class MeshesInFolder : public MeshFiles {
+ public:
+  explicit MeshesInFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  std::shared_ptr<const std::string> Content(const std::string& name) const override {
+    if (!std::filesystem::is_regular_file(folder_ / name)) return nullptr;
+    std::string content(std::filesystem::file_size(folder_ / name), '\0');
+    std::ifstream(folder_ / name, std::ios::binary)
+        .read(content.data(), static_cast<std::streamsize>(content.size()));
+    return std::make_shared<const std::string>(std::move(content));
+  }
+  bool Provide() const override { return true; }
+
+ private:
+  const std::filesystem::path folder_;
+};
 
 constexpr std::array<int, 15> kJoints = {
     urdf::jL5S1,         urdf::jT9T8,       urdf::jT1C7,      urdf::jRightShoulder,
@@ -124,6 +146,7 @@ std::shared_ptr<const PersonModel> MakePersonModel(std::uint64_t revision,
   model->human.skeleton = urdf::DefaultSkeleton(1.75);
   model->human.body = urdf::MakeBodyParameters(model->description, model->human.skeleton);
   model->human.mesh_folder = mesh_folder;
+  if (!mesh_folder.empty()) model->mesh_files = std::make_shared<MeshesInFolder>(mesh_folder);
   model->urdf_xml = urdf::WriteUrdf(model->human);
   model->robot = urdf::ParseUrdf(model->urdf_xml);
   return model;

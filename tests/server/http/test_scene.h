@@ -12,7 +12,7 @@
 
 namespace kinescope::http::testing {
 
-/// `mesh_folder`: as HumanModel's.
+/// `mesh_folder`: as HumanModel's; the page gets the files that are there.
 std::shared_ptr<const PersonModel> MakePersonModel(std::uint64_t revision = 1,
                                                    const std::string& mesh_folder = "");
 

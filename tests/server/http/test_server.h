@@ -60,6 +60,10 @@ class FakeFeed final : public PictureFeed {
     const std::lock_guard<std::mutex> lock(mutex_);
     return camera_;
   }
+  int drawn() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return drawing_;
+  }
 
  private:
   bool Wait(const std::function<bool()>& condition) {
@@ -77,8 +81,9 @@ class FakeFeed final : public PictureFeed {
 
 struct TestServer {
   explicit TestServer(const std::string& token = "", bool with_feed = true,
-                      const std::string& mesh_folder = "")
-      : model(MakePersonModel(7, mesh_folder)),
+                      const std::string& mesh_folder = "", const PatienceLimits& limits = {})
+      : patience(limits),
+        model(MakePersonModel(7, mesh_folder)),
         server(ConfigWithLoads(token), states, pictures, with_feed ? &feed : nullptr,
                [] { return std::string(R"({"source": {"datagrams": 5}})"); }) {}
 
@@ -95,6 +100,7 @@ struct TestServer {
 
   HttpConfig ConfigWithLoads(const std::string& token) {
     HttpConfig config = MakeConfig(token);
+    config.patience = patience;
     config.set_hand_load = [this](int character, const HandLoad& load) {
       const std::lock_guard<std::mutex> lock(mutex);
       if (load.mass_kg[urdf::kRight] > 100) return std::string("nobody holds that");
@@ -123,6 +129,7 @@ struct TestServer {
   }
   nlohmann::json HttpCounters() const { return Get("/api/diagnostics").json()["http"]; }
 
+  const PatienceLimits patience;
   std::mutex mutex;
   std::map<int, HandLoad> told;  // guarded by mutex
   FakeFeed feed;

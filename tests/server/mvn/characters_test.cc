@@ -1,6 +1,7 @@
 // Who is who in a stream: names, skeletons, several characters and senders.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "tests/server/mvn/assembler_fixture.h"
@@ -166,17 +167,152 @@ TEST_F(CharactersTest, TreatsTwoActiveSendersOfOneMachineAsTwoPeople) {
 }
 
 TEST_F(CharactersTest, KeepsALimitedNumberOfStreams) {
+  const auto rejected = [this] { return counters().rejected[Text(Reason::kTooManyStreams)]; };
+  constexpr std::uint64_t kEach = 3 * 5;  // datagrams
   for (std::uint16_t port = 1; port <= 100; ++port) {
     sender_ = Sender(static_cast<std::uint8_t>(port), port);
-    Send(Datagrams(1)[0]);
+    for (std::uint32_t counter = 1; counter <= 3; ++counter) Send(Datagrams(counter));
   }
-  EXPECT_EQ(counters().rejected.at(Text(Reason::kTooManyStreams)), 100U - Assembler::kMaxStreams);
+  EXPECT_EQ(rejected(), (100 - Assembler::kMaxStreams) * kEach);
   Wait(4000 * kMilli);
   sender_ = Sender(200);
   Send(Datagrams(1)[0]);
-  EXPECT_EQ(counters().rejected.at(Text(Reason::kTooManyStreams)), 100U - Assembler::kMaxStreams)
-      << "a silent one makes room";
+  EXPECT_EQ(rejected(), (100 - Assembler::kMaxStreams) * kEach) << "a silent one makes room";
   ExpectAllAccountedFor();
+}
+
+class LockOutTest : public testing::AssemblerTest {
+ protected:
+  // Keeps every place busy with datagrams that have no body.
+  void SendFromFalseSenders() {
+    for (std::uint8_t i = 0; i < Assembler::kMaxStreams; ++i) {
+      sender_ = Sender(9, static_cast<std::uint16_t>(100 + i));
+      Character character;
+      character.id = i;
+      character.name = "nobody";
+      Send(EncodeCharacter(character).front());
+    }
+  }
+  // How many of its 60 samples a suit gets through that sends poses only, at 60 Hz, beside
+  // `attack`.
+  template <class Attack>
+  std::size_t SamplesOfASuitBeside(const Attack& attack, const Endpoint& suit = Sender(1)) {
+    for (std::uint32_t counter = 1; counter <= 60; ++counter) {
+      attack();
+      sender_ = suit;
+      Send(Datagrams(counter, 77).front());
+      Wait(1000 * kMilli / 60);
+    }
+    const auto is_mine = [](const BodySample& sample) { return sample.character == 77; };
+    return static_cast<std::size_t>(
+        std::count_if(sink_.samples.begin(), sink_.samples.end(), is_mine));
+  }
+};
+
+TEST_F(LockOutTest, ASuitTakesThePlaceOfSendersWithoutABody) {
+  for (int i = 0; i < 500; ++i) {
+    SendFromFalseSenders();
+    Wait(kPeriod);
+  }
+  EXPECT_GE(SamplesOfASuitBeside([this] { SendFromFalseSenders(); }), 55U);
+  ExpectAllAccountedFor();
+}
+
+TEST_F(LockOutTest, ASuitTakesThePlaceOfSendersThatOnceHadABody) {
+  for (std::uint32_t counter = 1; counter <= 3; ++counter) {
+    for (std::uint8_t i = 0; i < Assembler::kMaxStreams; ++i) {
+      sender_ = Sender(9, static_cast<std::uint16_t>(100 + i));
+      Send(Datagrams(counter, i));
+    }
+    Wait(kPeriod);
+  }
+  for (int i = 0; i < 40; ++i) {
+    SendFromFalseSenders();
+    Wait(100 * kMilli);
+  }
+  sink_.samples.clear();
+  EXPECT_GE(SamplesOfASuitBeside([this] { SendFromFalseSenders(); }), 55U);
+}
+
+TEST_F(LockOutTest, ASuitTakesPlaceAmongThousandsOfSendersOfOneDatagramEach) {
+  std::uint16_t port = 1000;
+  const auto attack = [&] {
+    for (int i = 0; i < 80; ++i) {
+      sender_ = Sender(9, ++port);
+      Send(Datagrams(5).front());
+    }
+  };
+  attack();
+  EXPECT_GE(SamplesOfASuitBeside(attack), 55U);
+}
+
+TEST_F(LockOutTest, ASuitTakesPlaceBesideOneSenderOfManyCharacters) {
+  int character = 0;
+  const auto attack = [&] {
+    for (int i = 0; i < 40; ++i) {
+      sender_ = Sender(9, 5);
+      Send(Datagrams(5, ++character % 255).front());
+    }
+  };
+  for (int i = 0; i < 10; ++i) attack();
+  EXPECT_GE(SamplesOfASuitBeside(attack), 55U);
+  sink_.samples.clear();
+  Wait(4000 * kMilli);
+  for (int i = 0; i < 10; ++i) attack();
+  EXPECT_GE(SamplesOfASuitBeside(attack, Sender(9, 6)), 55U) << "of the same machine";
+}
+
+TEST_F(LockOutTest, ASuitTakesThePlaceOfOneSenderOfSixteenPeople) {
+  std::uint32_t now = 0;
+  const auto attack = [&] {
+    if (now++ % 60 != 0) return;  // as seldom as possible
+    for (std::uint32_t counter = now; counter <= now + 2; ++counter) {
+      for (std::uint8_t i = 0; i < Assembler::kMaxStreams; ++i) {
+        sender_ = Sender(9, 5);
+        Send(Datagrams(counter, i));
+      }
+    }
+  };
+  attack();
+  EXPECT_GE(SamplesOfASuitBeside(attack), 55U);
+}
+
+TEST_F(LockOutTest, TwoSuitsOfOneMachineAreNotDisplacedByManyMachines) {
+  std::uint8_t machine = 20;
+  for (std::uint32_t counter = 1; counter <= 120; ++counter) {
+    for (const int character : {1, 2}) {
+      sender_ = Sender(1);
+      Send(Datagrams(counter, character));
+    }
+    for (int i = 0; i < 40; ++i) {
+      sender_ = Sender(static_cast<std::uint8_t>(20 + ++machine % 200));
+      Send(Datagrams(counter, 9));
+    }
+    Wait(kPeriod);
+  }
+  for (const int character : {1, 2}) {
+    EXPECT_GE(std::count_if(sink_.samples.begin(), sink_.samples.end(),
+                            [&](const BodySample& s) { return s.character == character; }),
+              118);
+  }
+}
+
+TEST_F(LockOutTest, PeopleAreNotReplacedByStrangers) {
+  for (std::uint32_t counter = 1; counter <= 120; ++counter) {
+    for (std::uint8_t i = 0; i < Assembler::kMaxStreams; ++i) {
+      sender_ = Sender(static_cast<std::uint8_t>(10 + i));
+      Send(Datagrams(counter, i));
+    }
+    if (counter > 3) {  // once the people have shown themselves
+      sender_ = Sender(99, static_cast<std::uint16_t>(counter));
+      Send(Datagrams(1, 200));
+    }
+    Wait(kPeriod);
+  }
+  EXPECT_GE(sink_.samples.size(), 118 * Assembler::kMaxStreams);
+  for (const BodySample& sample : sink_.samples) {
+    EXPECT_LT(sample.character, static_cast<int>(Assembler::kMaxStreams));
+  }
 }
 
 TEST_F(CharactersTest, AnnouncesACharacterBeforeItsFirstSample) {

@@ -95,6 +95,21 @@ TEST_F(OptionListTest, ReportsFileAndLineOfAnUnreadableFile) {
               HasSubstr("options.yaml:1: tf: expected one value"));
   EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\nmass: 80\ntf: flat\n")).SetAll(list_); }),
               HasSubstr("options.yaml:3: tf: given twice, first in line 1"));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\n[mass]: 80\n")).SetAll(list_); }),
+              HasSubstr("options.yaml:2: expected the name of an option before ':'"));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\n---\nmass: 80\n")); }),
+              HasSubstr("not valid YAML (a second document; remove the line '---' before it)"));
+}
+
+// A short file must not stand for a very long one.
+TEST_F(OptionListTest, RejectsYamlThatIsTooLongTooDeepOrRepeatsItself) {
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: " + std::string(1 << 20, 'x'))); }),
+              HasSubstr("options.yaml:1: not valid YAML (too long; at most 1048576 bytes)"));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions("/dev/zero"); }), HasSubstr("too long"));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: tree\nmass: " + std::string(100'000, '['))); }),
+              HasSubstr("options.yaml:2: not valid YAML (too many levels; at most 16)"));
+  EXPECT_THAT(ErrorOf([&] { YamlOptions(Write("tf: &a [x, x]\nmass: [*a, *a]\n")); }),
+              HasSubstr("options.yaml:2: not valid YAML (alias; write the value itself)"));
 }
 
 TEST_F(OptionListTest, AcceptsAFormerNameWithAWarning) {
@@ -119,6 +134,16 @@ TEST_F(OptionListTest, RejectsAnOptionWithoutEffectUnlessARosParameterSetIt) {
   EXPECT_EQ(ErrorOf([&] { list_.CheckEffects(); }), "--mass=80: has no effect with --tf=off");
   list_.Set(*list_.Find("tf"), "tf", {"flat"}, Channel::kCommandLine);
   list_.CheckEffects();
+}
+
+TEST_F(OptionListTest, NamesTheLineThatSetAnOptionWithoutEffect) {
+  list_.HasNoEffect("mass", "with --tf=off", [this] { return *values_.tf == 2; });
+  const std::string path = Write("tf: off\nmass: 80\n");
+  YamlOptions(path).SetAll(list_);
+  EXPECT_EQ(ErrorOf([&] { list_.CheckEffects(); }),
+            path + ":2: mass=80: has no effect with --tf=off");
+  EXPECT_EQ(list_.Find("mass")->given_as, path + ":2: mass");
+  EXPECT_EQ(list_.Find("loop")->given_as, "");
 }
 
 TEST_F(OptionListTest, LeavesOutRemovedOptionsAndTheirConditions) {

@@ -45,6 +45,8 @@ TEST(Value, PrintsTheTextThatItReads) {
   Texts again;
   again.Parse(texts.ToText());
   EXPECT_THAT(*again, ElementsAre("a", "b"));
+  again.Parse(";a;;b;");
+  EXPECT_THAT(*again, ElementsAre("a", "b")) << "an empty text is none";
 }
 
 TEST(Number, IsDescribedWithItsUnitAndItsOpenRange) {

@@ -116,6 +116,13 @@ TEST_F(CameraKeys, AreLimitedToAThousandInAMegabyte) {
   EXPECT_THAT(ErrorOfText(std::string((1 << 20) + 1, '#')), HasSubstr("at most 1048576"));
 }
 
+TEST_F(CameraKeys, HaveNoAliasesAndNoDeepLists) {
+  EXPECT_THAT(ErrorOfText("a: &a [x, x]\nkeys: [*a, *a]\n"),
+              HasSubstr(path_ + ": line 2: alias; write the value itself"));
+  EXPECT_THAT(ErrorOf("- " + std::string(100'000, '[')),
+              HasSubstr(path_ + ": line 2: too many levels; at most 16"));
+}
+
 TEST_F(CameraKeys, AreRejectedFromAnUnreadableFile) {
   EXPECT_THROW(ReadCameraKeys(folder_ / "none.yaml"), UsageError);
   EXPECT_THROW(ReadCameraKeys(folder_.path()), UsageError);

@@ -103,7 +103,7 @@ TEST(RenderPlanner, RejectsAnInvalidTimeOfAReferencePose) {
 
 // In a process of its own, whose flag stays set and which ends if it reads on.
 TEST(ShotsDeathTest, EndOnCtrlCWhileReadingAReferencePose) {
-  const auto options = testing::With<ViewOptions>({{"ghost", "demo:lift@864000"}});
+  const auto options = testing::With<ViewOptions>({{"ghost", "demo:lift@3600"}});
   const auto read = [&] {
     alarm(20);
     CatchStopSignals();

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "server/ros/bridge.h"
+#include "server/ros/init.h"
 #include "server/ros/master_client.h"
 #include "tests/free_port.h"
 #include "tests/process.h"
@@ -47,7 +48,8 @@ class RosBridgeWithMaster : public ::testing::Test {
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     int argc = static_cast<int>(argv.size());
-    InitRos(argc, argv.data(), "kinescope");
+    TakeRosArguments(argc, argv.data(), "kinescope");
+    InitRos();
     argv.resize(static_cast<std::size_t>(argc));
     remaining_.assign(argv.begin(), argv.end());
   }

@@ -20,7 +20,7 @@ TEST(WithoutRos, RemappingsAreRemovedFromTheArguments) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   int argc = static_cast<int>(argv.size());
-  InitRos(argc, argv.data(), "kinescope");
+  TakeRosArguments(argc, argv.data(), "kinescope");
   ASSERT_EQ(argc, 4);
   EXPECT_STREQ(argv[0], "kinescope");
   EXPECT_STREQ(argv[1], "serve");

@@ -68,6 +68,38 @@ TEST_F(RosBridgeWithMaster, PublishesDescriptionsOfAllPeopleAndUpdatesChangedOne
                   "/kinescope/joint_states", "/kinescope/link_states", "/kinescope/markers"));
 }
 
+// A sender may change the body with every sample; each one that is described has its meshes
+// written.
+TEST_F(RosBridgeWithMaster, WritesTheMeshesOfAtMostOneBodyPerSecond) {
+  StartMaster();
+  MakeBridge();
+  const TempFolder folder;
+  const auto parameter = [] {
+    XmlRpc::XmlRpcValue arguments;
+    arguments[0] = "/robot_description";
+    MasterReply reply = MasterClient().Call("getParam", arguments);
+    return reply.code == MasterReply::Code::kGood ? static_cast<std::string>(reply.value)
+                                                  : std::string();
+  };
+  const auto start = Clock::now();
+  std::vector<std::shared_ptr<MeshFileOnDemand>> meshes;
+  std::string newest;
+  for (int i = 0; i < 50; ++i) {
+    auto model = std::make_shared<PersonModel>(*MakeModel("skeleton", 1.5 + 0.01 * i, i + 1));
+    meshes.push_back(std::make_shared<MeshFileOnDemand>(folder / "head.stl", "an STL file"));
+    model->mesh_files = meshes.back();
+    newest = model->urdf_xml;
+    Publish(SceneWith(MakePerson(model, Posture(0), 1, 1)));
+    parameter();  // the bridge has the time of a call, too
+  }
+  EXPECT_TRUE(Within(kTestPatience, [&] { return parameter() == newest; }));
+  const auto written = std::count_if(meshes.begin(), meshes.end(),
+                                     [](const auto& each) { return each->is_provided(); });
+  const double secs = std::chrono::duration<double>(Clock::now() - start).count();
+  EXPECT_LE(written, 2 + secs);
+  EXPECT_TRUE(meshes.back()->is_provided());
+}
+
 TEST_F(RosBridgeWithMaster, ReadsPrivateParametersOfAnyScalarTypeAndPrefersTheCommandLine) {
   EXPECT_THAT(remaining_, ElementsAre("test", "left", "right"));
   StartMaster();

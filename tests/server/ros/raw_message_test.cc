@@ -1,12 +1,16 @@
 #include "server/ros/raw_message.h"
 
 #include <gtest/gtest.h>
+#include <kinescope/JointLoadArray.h>
+#include <kinescope/SetHandLoad.h>
+#include <sensor_msgs/JointState.h>
 
 #include <random>
 
 #include "server/ros/link_states.h"
 #include "server/ros/names.h"
 #include "server/ros/transforms.h"
+#include "tests/heap_in_use.h"
 #include "tests/server/ros/test_person.h"
 
 namespace kinescope::ros_bridge {
@@ -107,6 +111,56 @@ TEST(RawMessage, IsRejectedBeforeAllocationIfItsCountsDoNotFit) {
   bytes[15] = 0xFF;  // a frame_id longer than the message
   EXPECT_FALSE(Decode(bytes, states));
   EXPECT_EQ(states.states.capacity(), 0U);
+}
+
+// As roscpp decodes a message for a subscriber, and a request for a service.
+template <class Message>
+bool Receive(std::vector<std::uint8_t> bytes, BoundedMessage<Message>& received) {
+  ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::deserialize(in, received);
+  return received.is_sound;
+}
+
+TEST(BoundedMessage, HasTheTypeOfItsMessage) {
+  using Bounded = BoundedMessage<sensor_msgs::JointState>;
+  EXPECT_STREQ(ros::message_traits::md5sum<Bounded>(),
+               ros::message_traits::md5sum<sensor_msgs::JointState>());
+  EXPECT_STREQ(ros::message_traits::datatype<Bounded>(), "sensor_msgs/JointState");
+  using Request = kinescope_ros::SetHandLoad::Request;
+  EXPECT_STREQ(ros::service_traits::md5sum<BoundedMessage<Request>>(),
+               ros::service_traits::md5sum<Request>());
+  EXPECT_STREQ(ros::service_traits::datatype<BoundedMessage<Request>>(), "kinescope/SetHandLoad");
+}
+
+TEST(BoundedMessage, IsReceivedAsItWasSent) {
+  sensor_msgs::JointState sent;
+  sent.header.frame_id = "world";
+  sent.name = {"jRightKnee_roty", "jLeftKnee_roty"};
+  sent.effort = {1.5, -2};
+  BoundedMessage<sensor_msgs::JointState> received;
+  ASSERT_TRUE(Receive(BytesOf(sent), received));
+  EXPECT_EQ(BytesOf(received.message), BytesOf(sent));
+}
+
+// roscpp's own deserialisation reserves what the count says, before it misses the first element.
+TEST(BoundedMessage, TakesNoMemoryForElementsThatAreNotThere) {
+  const std::vector<std::uint8_t> header(16, 0);
+  std::vector<std::uint8_t> bytes = header;
+  for (const std::uint8_t byte : {0x00, 0x00, 0x00, 0x02})
+    bytes.push_back(byte);  // 32 million names
+  testing::LargestAllocation();
+  BoundedMessage<sensor_msgs::JointState> states;
+  EXPECT_FALSE(Receive(bytes, states));
+  BoundedMessage<tf2_msgs::TFMessage> transforms;
+  EXPECT_FALSE(Receive({0x00, 0x00, 0x00, 0x02}, transforms));
+  BoundedMessage<kinescope_ros::JointLoadArray> loads;
+  bytes.insert(bytes.begin() + 16, 0);  // its metric
+  EXPECT_FALSE(Receive(bytes, loads));
+  BoundedMessage<kinescope_ros::SetHandLoad::Request> request;
+  bytes.assign(24, 0);
+  for (const std::uint8_t byte : {0x00, 0x00, 0x00, 0x02}) bytes.push_back(byte);
+  EXPECT_FALSE(Receive(bytes, request));
+  EXPECT_LT(testing::LargestAllocation(), 1U << 20U);
 }
 
 TEST(RawMessage, IsReadOrRejectedWithRandomBytes) {

@@ -2,12 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <set>
+#include <string>
+#include <thread>
 #include <vector>
 
 #include "server/subject/subject.h"
@@ -96,6 +101,19 @@ TEST(SceneBuilder, BecomesStaleWhenTheStreamStopsAndLiveWhenItContinues) {
   EXPECT_EQ(built.last().liveness, Liveness::kLive);
 }
 
+TEST(SceneBuilder, IsNotStaleWhileOldSamplesAreProcessed) {
+  Built built;
+  constexpr std::int64_t kWaited = 3'700'000'000;
+  BodySample sample = SampleOf("lift", 2);
+  built.builder.SetWaited(kWaited);
+  built.builder.OnSample(sample);
+  built.builder.Tick(sample.arrival_nanos + kWaited + 400'000'000);
+  EXPECT_EQ(built.last().liveness, Liveness::kLive);
+  EXPECT_EQ(built.last().waited_nanos, kWaited);
+  built.builder.Tick(sample.arrival_nanos + kWaited + 500'000'000);
+  EXPECT_EQ(built.last().liveness, Liveness::kStale);
+}
+
 TEST(SceneBuilder, UpdatesTheBodyWhenScaleDataArrive) {
   Built built;
   built.builder.OnSample(SampleOf("n_pose", 0));
@@ -112,6 +130,219 @@ TEST(SceneBuilder, UpdatesTheBodyWhenScaleDataArrive) {
   built.builder.OnCharacter(tall);
   built.builder.OnSample(SampleOf("n_pose", 0.2));
   EXPECT_EQ(built.last().people.at(0).model, person.model) << "the same body again is no news";
+}
+
+// Everything that a stream says about a body, changed with every sample.
+Character Restless(int i) {
+  Character character;
+  character.name = "N" + std::to_string(i);
+  character.color_rgb = static_cast<std::uint32_t>(i * 7919 % 0x1000000);
+  character.skeleton = urdf::DefaultSkeleton(1.6 + 0.0005 * (i % 500));
+  return character;
+}
+
+TEST(SceneBuilder, MakesChangedBodiesAsideAndUsesTheNewestWhenItIsReady) {
+  SceneOptions options;
+  options.makes_models_aside = true;
+  Built built(options);
+  constexpr int kSamples = 400;
+  std::set<const PersonModel*> models;
+  for (int i = 0; i <= kSamples; ++i) {
+    built.builder.OnCharacter(Restless(i));
+    built.builder.OnSample(SampleOf("n_pose", 0.001 * i));
+    models.insert(built.last().people.at(0).model.get());
+    EXPECT_EQ(built.last().people.at(0).name, Restless(i).name) << "a name needs no model";
+  }
+  // One at once, one ordered with the next sample, others only after a pause.
+  EXPECT_LE(models.size(), 20U) << "of " << kSamples << " bodies";
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto height = [&] { return built.last().people.at(0).model->human.skeleton.height; };
+  for (int i = 1; height() != Restless(kSamples).skeleton->height; ++i) {
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "still " << height() << " m";
+    built.builder.OnSample(SampleOf("n_pose", 0.001 * (kSamples + i)));
+    std::this_thread::yield();
+  }
+  EXPECT_EQ(built.last().people.at(0).model->color_rgb, Restless(kSamples).color_rgb);
+}
+
+TEST(SceneBuilder, KeepsGlovesOutUntilTheBodyHasThem) {
+  SceneOptions options;
+  options.makes_models_aside = true;
+  Built built(options);
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  BodySample gloved = SampleOf("n_pose", 0.01);
+  for (std::size_t i = 0; i < gloved.fingers_and_props.poses.size(); ++i) {
+    gloved.fingers_and_props.present.set(i);
+    gloved.fingers_and_props.poses[i].position = gloved.segments[urdf::kRightHand].position;
+  }
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  do {
+    ASSERT_LT(std::chrono::steady_clock::now(), deadline);
+    gloved.stamp_nanos += 1'000'000;
+    built.builder.OnSample(gloved);
+    const PersonState& person = built.last().people.at(0);
+    for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+      EXPECT_EQ(person.gloves[side].has_value(), person.model->human.gloves[side].has_value());
+    }
+    for (std::size_t prop = 0; prop < kMaxProps; ++prop) {
+      EXPECT_EQ(person.props[prop].has_value(), person.model->human.props.test(prop));
+    }
+    std::this_thread::yield();
+  } while (!built.last().people.at(0).gloves[urdf::kRight]);
+}
+
+TEST(SceneBuilder, MakesNoPersonOfADescriptionAlone) {
+  Built built;
+  for (int i = 0; i < 256; ++i) {
+    Character character = Restless(i);
+    character.id = i;
+    built.builder.OnCharacter(character);
+  }
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  ASSERT_EQ(built.last().people.size(), 1U);
+  EXPECT_EQ(built.last().people[0].name, "N0");
+  EXPECT_EQ(built.last().people[0].model->human.model_name, "skeleton") << "the first to appear";
+}
+
+BodySample Moved(BodySample sample, int character, double x) {
+  sample.character = character;
+  for (SegmentState& segment : sample.segments) segment.position.x() += x;
+  return sample;
+}
+
+TEST(SceneBuilder, LeavesOutWhoeverIsFarFromTheOthersAndSaysSo) {
+  Built built;
+  Character eve;
+  eve.id = 1;
+  eve.name = "Eve";
+  built.builder.OnCharacter(eve);
+  built.builder.OnSample(Moved(SampleOf("n_pose", 0), 1, 900e3));  // alone: anybody may be anywhere
+  EXPECT_EQ(built.last().people.size(), 1U);
+  built.builder.OnSample(SampleOf("n_pose", 0.01));
+  built.builder.OnSample(Moved(SampleOf("n_pose", 0.02), 1, 900e3));
+  for (double secs = 1; secs < 3; secs += 0.1) {
+    built.builder.OnSample(SampleOf("n_pose", secs));
+    built.builder.OnSample(Moved(SampleOf("n_pose", secs + 0.05), 1, 900e3));
+    ASSERT_EQ(built.last().people.size(), 1U) << secs;
+    EXPECT_EQ(built.last().people[0].character, 0) << "nearer to the origin";
+    ASSERT_EQ(built.last().left_out.size(), 1U);
+    EXPECT_EQ(built.last().left_out[0].name, "Eve");
+    EXPECT_EQ(built.last().left_out[0].why, "900 km from the others");
+  }
+  built.builder.OnSample(Moved(SampleOf("n_pose", 3.1), 1, 2));
+  built.builder.OnSample(SampleOf("n_pose", 3.2));
+  EXPECT_TRUE(built.last().left_out.empty());
+  EXPECT_EQ(built.last().people.size(), 2U) << "never was at 900 km";
+}
+
+TEST(SceneBuilder, FollowsAPersonWhoStaysFarAway) {
+  Built built;
+  for (int i = 0; i < 10; ++i) built.builder.OnSample(SampleOf("n_pose", 0.1 * i));
+  for (int i = 10; i < 39; ++i) {
+    built.builder.OnSample(Moved(SampleOf("n_pose", 0.1 * i), 0, 5e3));
+    ASSERT_EQ(built.last().left_out.size(), 1U) << i;
+    EXPECT_EQ(built.last().left_out[0].why, "5.0 km from where it was");
+    EXPECT_EQ(built.last().liveness, Liveness::kLive) << "samples come";
+    EXPECT_EQ(built.last().people.size(), i <= 19 ? 1U : 0U) << "shown there for a second";
+  }
+  built.builder.OnSample(Moved(SampleOf("n_pose", 4.1), 0, 5e3));
+  EXPECT_TRUE(built.last().left_out.empty()) << "it has stayed";
+  EXPECT_GT(built.last().people.at(0).links[0].position.x(), 4e3);
+}
+
+TEST(SceneBuilder, LosesNothingAfterAWrongFirstPosition) {
+  Built recording;
+  recording.builder.OnSample(Moved(SampleOf("n_pose", 0), 0, 5e3));
+  recording.builder.OnSample(SampleOf("n_pose", 0.1));
+  EXPECT_TRUE(recording.last().left_out.empty());
+  EXPECT_LT(recording.last().people.at(0).links[0].position.x(), 1);
+  Built live;  // somebody used the suit's number, and has gone
+  for (int i = 0; i < 10; ++i) {
+    live.builder.OnSample(Moved(SampleOf("n_pose", 0.01 * i), 0, 900e3));
+  }
+  live.builder.OnSample(SampleOf("n_pose", 4));
+  EXPECT_TRUE(live.last().left_out.empty());
+  EXPECT_LT(live.last().people.at(0).links[0].position.x(), 1);
+}
+
+TEST(SceneBuilder, RemovesThoseGoneAlsoAfterTheClockWasSetBack) {
+  Built built;
+  BodySample gone = SampleOf("n_pose", 7200);
+  gone.character = 1;
+  built.builder.OnSample(gone);
+  built.builder.OnSample(SampleOf("n_pose", 3600));
+  ASSERT_EQ(built.last().people.size(), 1U);
+  EXPECT_EQ(built.last().people[0].character, 0);
+}
+
+TEST(SceneBuilder, ShowsNoOldBodyOfAPersonWhoReturns) {
+  SceneOptions options;
+  options.makes_models_aside = true;
+  Built built(options);
+  built.builder.OnSample(SampleOf("n_pose", 0));
+  built.builder.OnCharacter(Restless(1));
+  built.builder.OnSample(SampleOf("n_pose", 0.1));  // orders a body, and leaves
+  BodySample other = SampleOf("n_pose", 100);
+  other.character = 5;
+  built.builder.OnSample(other);
+  built.builder.OnCharacter(Restless(2));
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
+  for (int i = 0; std::chrono::steady_clock::now() < deadline; ++i) {
+    built.builder.OnSample(SampleOf("n_pose", 101 + 0.001 * i));
+    ASSERT_EQ(built.last().people.at(0).model->color_rgb, Restless(2).color_rgb);
+  }
+}
+
+TEST(SceneBuilder, LeavesOutOneWrongPositionOfAPersonAlone) {
+  Built built;
+  for (int i = 0; i < 3; ++i) built.builder.OnSample(SampleOf("n_pose", 0.1 * i));
+  built.builder.OnSample(Moved(SampleOf("n_pose", 0.3), 0, 900e3));
+  EXPECT_LT(built.last().people.at(0).links[0].position.x(), 1);
+  ASSERT_EQ(built.last().left_out.size(), 1U);
+  built.builder.OnSample(SampleOf("n_pose", 0.4));
+  EXPECT_TRUE(built.last().left_out.empty());
+  EXPECT_LT(built.last().people.at(0).links[0].position.x(), 1);
+}
+
+TEST(SceneBuilder, IsNotTalkedOutOfAPersonByTheMajority) {
+  Built built;
+  for (double secs = 0; secs < 1; secs += 0.1) {
+    for (int i = 0; i < 10; ++i) {
+      built.builder.OnSample(Moved(SampleOf("n_pose", secs + 0.01), 1 + i, 50e3 + i));
+    }
+    built.builder.OnSample(SampleOf("n_pose", secs));
+  }
+  EXPECT_EQ(built.last().left_out.size(), 10U);
+  ASSERT_FALSE(built.last().people.empty());
+  EXPECT_EQ(built.last().people[0].character, 0);
+}
+
+TEST(SceneBuilder, GivesBackTheMemoryOfPeopleWhoLeftAndKnowsThemWhenTheyReturn) {
+  Built built;
+  const auto stay = [&](int character, double from, double to) {
+    for (double secs = from; secs < to; secs += 0.1) {
+      BodySample sample = SampleOf("t_pose", secs);
+      sample.character = character;
+      built.builder.OnSample(sample);
+    }
+    built.states.erase(built.states.begin(), built.states.end() - 1);
+  };
+  stay(0, 0, 5);
+  const auto secs_of = [&] {
+    const auto& band = built.last().people.at(0).loads.at(0).band_secs;
+    return std::accumulate(band.begin(), band.end(), 0.0);
+  };
+  EXPECT_NEAR(secs_of(), 4.9, 0.2);
+  const std::weak_ptr<const PersonModel> model = built.last().people.at(0).model;
+  const std::uint64_t revision = built.last().people.at(0).model->revision;
+  stay(1, 5, 8);
+  EXPECT_FALSE(model.expired()) << "may come back";
+  stay(1, 66, 67);
+  EXPECT_TRUE(model.expired());
+  stay(0, 67, 69);
+  EXPECT_EQ(built.last().people.at(0).model->human.model_name, "skeleton") << "as before";
+  EXPECT_NEAR(secs_of(), 6.8, 0.4) << "exposure goes on";
+  EXPECT_GT(built.last().people.at(0).model->revision, revision) << "sinks must not mistake it";
 }
 
 TEST(SceneBuilder, DistinguishesTwoPeople) {

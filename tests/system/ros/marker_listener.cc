@@ -72,7 +72,7 @@ void Listen(const std::string& topics) {
 }  // namespace kinescope
 
 int main(int argc, char** argv) {
-  kinescope::ros_bridge::InitRos(argc, argv, "marker_listener");
+  kinescope::ros_bridge::TakeRosArguments(argc, argv, "marker_listener");
   if (argc != 2) return 2;
   kinescope::Listen(argv[1]);
 }

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
@@ -22,7 +23,6 @@
 #include <vector>
 
 #include "server/ros/names.h"
-#include "server/ros/source/bag_file.h"
 #include "server/ros/source/bag_source.h"
 #include "server/ros/transforms.h"
 #include "tests/recording_sink.h"
@@ -31,6 +31,7 @@
 #include "tests/system/kinescope_path.h"
 #include "tests/system/ros/ros_fixture.h"
 #include "tests/system/run_program.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope {
 namespace {
@@ -179,8 +180,11 @@ TEST_F(RosSource, ReceivesTheSamplesOfAReplayedBag) {
     return publisher.getNumSubscribers() > 0 && subscribers_.back().getNumPublishers() > 0;
   }));
 
-  const ros_bridge::BagFile file(path);
-  const rosbag::Bag bag(file.path(), rosbag::bagmode::Read);
+  const testing::TempFolder folder;
+  const std::string unpacked = folder / "recording.bag";
+  std::filesystem::copy(path, unpacked + ".xz");
+  ASSERT_EQ(RunProgram({"/usr/bin/xz", "-d", unpacked + ".xz"}).exit_code, 0);
+  const rosbag::Bag bag(unpacked, rosbag::bagmode::Read);
   rosbag::View recording(bag, rosbag::TopicQuery("/tf"));
   const auto start = Clock::now();
   for (const rosbag::MessageInstance& message : recording) {

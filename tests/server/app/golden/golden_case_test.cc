@@ -43,6 +43,18 @@ TEST_F(GoldenCaseFile, RejectsAnInvalidTime) {
   EXPECT_EQ(Complaint("source: demo:lift\ntime: 864000\n"), "");
 }
 
+TEST_F(GoldenCaseFile, RejectsATimeThatTheBuiltInSubjectReachesTooLate) {
+  const GoldenCase golden_case = Load("source: demo:lift\ntime: 864000\nsize: 16x16\n");
+  kinescope::testing::FakeRenderer renderer;
+  try {
+    Draw(golden_case, renderer);
+    ADD_FAILURE() << "it was drawn";
+  } catch (const UsageError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("golden case case: time: 864000: demo:lift is generated "
+                                        "motion; expected at most 3600 s"));
+  }
+}
+
 TEST_F(GoldenCaseFile, HasItsMeasuredForcesBesideIt) {
   const GoldenCase golden_case =
       Load("source: demo:lift\nsize: 16x16\ntime: 0.05\nwrenches: forces.csv\n");

@@ -278,7 +278,7 @@ TEST(LoadPlots, ContainOneSvgPathPerCurve) {
   };
   const std::string svg = render::ToSvg(JointPlot(trial, TrialContext(), kElbowIndex));
   EXPECT_EQ(paths_with(svg, "5"), 2) << "y: the curve and its sample in the legend";
-  EXPECT_EQ(paths_with(svg, "1.2"), 2) << "z, likewise";
+  EXPECT_EQ(paths_with(svg, "1.2"), 2) << "of z";
   EXPECT_EQ(paths_with(svg, "3"), 2) << "the limits of the classes";
 }
 

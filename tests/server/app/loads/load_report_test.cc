@@ -305,13 +305,15 @@ TEST(LoadReport, TellsHowToRepeatItWithoutTheFoldersOfThisMachine) {
   const auto set = [&](const char* name, const std::string& text) {
     list.Set(*list.Find(name), name, {text}, options::Channel::kCommandLine);
   };
-  set("csv", "/home/me/loads.csv");
+  set("csv", (folder / "loads.csv").string());
   set("mass", "82.5");
-  const ReportOrigin origin = OriginOf((folder / "take one.mvnx").string(), list);
+  const std::string take = (folder / "take one.mvnx").string();
+  const ReportOrigin origin = OriginOf(take, IdentityOf(take), list);
   EXPECT_EQ(origin.command, "kinescope loads 'take one.mvnx' --mass 82.5 --report page.html");
   EXPECT_EQ(origin.digest,
             "sha256 ed7002b439e9ac845f22357d822bac1444730fbdb6016d3ec9432297b9ec9f73, 7 bytes");
-  EXPECT_EQ(OriginOf("demo:lift", list).digest, "generated motion, no file");
+  EXPECT_EQ(OriginOf("demo:lift", IdentityOf("demo:lift"), list).digest,
+            "generated motion, no file");
 }
 
 std::string WriteReportError(const std::filesystem::path& path) {

@@ -52,11 +52,13 @@ TEST(DiagnosticsJson, ReportsADriverThatDoesNotRespondForPicturesAndRosView) {
   EXPECT_EQ(status["view"]["driver_hung"], true);
 }
 
-TEST(DiagnosticsJson, CountsRejectedMessagesOfEachInputByReason) {
+TEST(DiagnosticsJson, CountsRejectedMessagesAndCallsByReason) {
   ros_bridge::BridgeStatus ros;
+  ros.rejected_calls["more than 4 MiB"] = 2;
   ros.inputs["hand_wrench/right"].refused["not a number"] = 3;
   const json status = json::parse(DiagnosticsJson(nullptr, nullptr, ros, {}));
   EXPECT_EQ(status["ros"]["inputs"]["hand_wrench/right"]["rejected"]["not a number"], 3);
+  EXPECT_EQ(status["ros"]["rejected_calls"]["more than 4 MiB"], 2);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/system/clocks.h"
 #include "server/loads/joint_score.h"
 #include "server/subject/subject.h"
 
@@ -42,7 +43,7 @@ class Wired {
   explicit Wired(ros_bridge::RosBridge* ros = nullptr)
       : builder({}, "test", 0,
                 [this](std::shared_ptr<const SceneState> state) { last = std::move(state); }),
-        sink(builder, hand_loads, ros, [this](int count) { subscribers = count; }) {}
+        sink(builder, overload, hand_loads, ros, [this](int count) { subscribers = count; }) {}
 
   // A second of samples: longer than ramps and held peaks.
   const SceneState& RunOneSecond(const std::vector<int>& characters = {0}) {
@@ -56,6 +57,7 @@ class Wired {
   std::shared_ptr<const SceneState> last;
   HandLoadMailbox hand_loads;
   SceneBuilder builder;
+  Overload overload{/*may_skip=*/false};
   InputMerger sink;
   int subscribers = 0;  // of the ROS camera
   double now = 0;
@@ -205,6 +207,29 @@ TEST(Exposure, IsContainedInTheStates) {
   for (const double secs : shoulder.band_secs) sum += secs;
   EXPECT_NEAR(sum, 2 - 1.0 / 60, 0.01);
   EXPECT_GT(shoulder.band_secs[static_cast<std::size_t>(LoadClass::kMedium)], 1);
+}
+
+TEST(Samples, OfWhichTheNewestWasSkippedAreShownWhenNoneWaitsAnyMore) {
+  std::shared_ptr<const SceneState> last;
+  SceneBuilder builder({}, "test", 0,
+                       [&](std::shared_ptr<const SceneState> state) { last = std::move(state); });
+  Overload overload(/*may_skip=*/true);
+  HandLoadMailbox hand_loads;
+  InputMerger sink(builder, overload, hand_loads, nullptr);
+  const std::int64_t long_ago = MonotonicNanos() - 3 * kNanosPerSecond;
+  BodySample sample = TPose(1);
+  for (int i = 0; i < 10; ++i) {
+    sample.counter = 100 + i;
+    sample.stamp_nanos += kNanosPerSecond / 240;
+    sample.arrival_nanos = long_ago + i;
+    sink.OnSample(sample);
+  }
+  sink.AfterPoll();
+  ASSERT_LT(last->counter, 109U) << "skipped";
+  EXPECT_GT(last->waited_nanos, kOverloadNanos);
+  sink.AfterPoll();
+  EXPECT_EQ(last->counter, 109U);
+  EXPECT_EQ(last->waited_nanos, 0) << "up to date";
 }
 
 }  // namespace

@@ -7,11 +7,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <future>
+#include <memory>
 #include <string>
+#include <thread>
 
 #include "core/system/errors.h"
 #include "render/image/png_file.h"
 #include "tests/render/test_scene.h"
+#include "tests/server/picture/fake_renderer.h"
 
 namespace kinescope::app {
 namespace {
@@ -150,6 +154,40 @@ std::vector<std::uint8_t> PngBy(const std::string& camera, const CameraOptions& 
   CameraController controller(ParseCamera(camera), moves);
   return render::EncodePng(render::MakeRenderer()->Render(*scene, controller.Aim(*scene, 64.0 / 48),
                                                           {64, 48, 2, "", true}));
+}
+
+TEST(LivePictures, GoOnWhileASnapshotIsRendered) {
+  std::promise<void> begun, released;
+  const std::shared_future<void> release = released.get_future().share();
+  const RendererFactory make_renderer = [&](const auto&) {
+    return std::make_unique<testing::FakeRenderer>([&](render::Image&, const SceneState&,
+                                                       const render::Camera&,
+                                                       const render::PictureSpec& spec) {
+      if (spec.width != 48) return;
+      begun.set_value();
+      release.wait();
+    });
+  };
+  LivePictureSettings settings;
+  settings.width = 96;
+  settings.height = 64;
+  settings.rate_hz = kAtOnceHz;
+  Latest<http::Picture> pictures;
+  LivePictures live(settings, make_renderer, NumberedScene(1), pictures);
+  std::uint64_t seen = 0;
+  pictures.WaitNewer(seen, kPicturePatience);
+  std::thread client([&] { live.SnapshotPng("front", 48, 32); });
+  begun.get_future().wait();
+  live.SetViewers(1);
+  live.OnState(NumberedScene(2));
+  std::shared_ptr<const http::Picture> picture;
+  do {
+    picture = pictures.WaitNewer(seen, kPicturePatience);
+  } while (picture && picture->state_number < 2);
+  EXPECT_TRUE(picture) << "the live picture waits for the snapshot";
+  EXPECT_EQ(live.status().problems, std::vector<std::string>());
+  released.set_value();
+  client.join();
 }
 
 TEST_F(LivePicturesTest, UsesTheLiveOptionsForSnapshotsWithoutACamera) {

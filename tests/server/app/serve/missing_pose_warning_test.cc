@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "server/app/serve/crowd_warning.h"
 #include "tests/captured_log.h"
 
 namespace kinescope::app {
@@ -28,6 +29,19 @@ TEST(MissingPoseWarning, ReportsTheMostFrequentReasonOnceAfterTwoSeconds) {
   EXPECT_EQ(log.text(),
             "warning: 240 datagrams from udp://:9763, but no complete pose: no MXTP id string. For "
             "details run `kinescope inspect udp://:9763`\n");
+}
+
+TEST(CrowdWarning, NamesTheLimitOnce) {
+  const testing::CapturedLog log;
+  CrowdWarning warning;
+  warning.OnCounters(DatagramsWithoutPose());
+  EXPECT_EQ(log.text(), "");
+  SourceCounters counters;
+  counters.rejected = {{"too many senders or characters", 40}};
+  for (int i = 0; i < 3; ++i) warning.OnCounters(counters);
+  EXPECT_EQ(log.text(),
+            "warning: all 16 places for people are taken; 40 datagrams of further senders were "
+            "rejected so far. --from ADDRESS admits only some senders\n");
 }
 
 TEST(MissingPoseWarning, CountsTheTimeFromTheFirstDatagrams) {

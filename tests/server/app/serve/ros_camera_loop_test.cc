@@ -65,8 +65,7 @@ TEST(RosCameraLoop, SendsThePictureOfARendererAndTheCalibrationOfItsCamera) {
   const Sent sent = first.Get();
   EXPECT_EQ(sent.stamp_nanos, 7);
   const render::Camera camera = render::NamedCamera("front", *state);
-  EXPECT_TRUE(sent.rgba ==
-              render::MakeRenderer()->Render(*state, camera, {96, 64, 1, "", true}).rgba)
+  EXPECT_TRUE(sent.rgba == render::MakeRenderer()->Render(*state, camera, LiveView(96, 64)).rgba)
       << "not the same bytes";
   const Pinhole pinhole = PinholeOf(camera, 64);
   EXPECT_EQ(sent.focal_px, pinhole.focal_px);

@@ -9,12 +9,14 @@
 #include "tests/captured_log.h"
 #include "tests/server/http/test_client.h"
 #include "tests/server/options_testing.h"
+#include "tests/temp_folder.h"
 
 namespace kinescope::app {
 namespace {
 
 using http::testing::Fetch;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 ServeConfig ConfigOf(testing::Settings settings) {
   settings.insert(settings.end(), {{"source", "demo:t_pose"}, {"ros", "off"}});
@@ -38,6 +40,31 @@ TEST(Server, AnswersBeforeItRunsAndReportsNullForPartsThatAreOff) {
   EXPECT_TRUE(diagnostics.at("pictures").is_null());
   EXPECT_TRUE(diagnostics.at("view").is_null());
   EXPECT_EQ(Fetch(port, "/snapshot.png").status, 503);
+}
+
+TEST(Server, LogsTheTokenWholeOnlyOnATerminal) {
+  const testing::TempFolder folder;
+  const std::string file = (folder.path() / "token").string();
+  ServeConfig config = ConfigOf({{"http_port", "0"}, {"pictures", "off"}, {"token_file", file}});
+  const std::string token = config.page->token;
+  {
+    const testing::CapturedLog log;
+    const Server server(config);
+    EXPECT_THAT(log.text(), HasSubstr("/?token=" + token.substr(0, 4) +
+                                      "... (the token is "
+                                      "shortened; to see it: cat " +
+                                      file + ")"));
+    EXPECT_THAT(log.text(), Not(HasSubstr(token)));
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(Fetch(PortIn(log), "/?token=a-wrong-guess" + std::to_string(i)).status, 401);
+    }
+    EXPECT_THAT(log.text(), HasSubstr("page: 1 wrong token from 127.0.0.1"));
+    EXPECT_THAT(log.text(), Not(HasSubstr("a-wrong-guess")));
+  }
+  const testing::CapturedLog log;
+  config.shows_token = true;
+  const Server server(config);
+  EXPECT_THAT(log.text(), HasSubstr("/?token=" + token));
 }
 
 TEST(Server, RejectsAPortInUseAndLeavesTheFirstServerRunning) {

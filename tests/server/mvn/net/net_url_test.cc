@@ -72,6 +72,35 @@ TEST(NetUrl, ReportsInvalidPartsWithTheExpectedFormat) {
   EXPECT_THAT(error_of("tcp://[::]:9763?connect"), HasSubstr("the host is missing"));
 }
 
+Endpoint At(const char* url) { return EndpointOf(ResolveToListen(ParseNetUrl(url), url)); }
+
+TEST(NetUrl, AdmitsOnlyTheMachinesItNames) {
+  const Endpoint near = At("udp://192.168.1.20"), far = At("udp://192.168.2.20");
+  const Endpoint local = At("udp://[fe80::17]"), global = At("udp://[2001:db8::17]");
+  const auto from = [](const char* url) { return ParseNetUrl(url).from; };
+  EXPECT_TRUE(from("udp://:9763").Allow(far));
+  EXPECT_TRUE(from("udp://:9763?from=192.168.1.20").Allow(near));
+  EXPECT_FALSE(from("udp://:9763?from=192.168.1.20").Allow(far));
+  EXPECT_TRUE(from("udp://:9763?from=10.0.0.0/8,192.168.0.0/22").Allow(far));
+  EXPECT_FALSE(from("udp://:9763?from=10.0.0.0/8,192.168.0.0/23").Allow(far));
+  EXPECT_TRUE(from("udp://:9763?from=0.0.0.0/0").Allow(far));
+  EXPECT_FALSE(from("udp://:9763?from=0.0.0.0/0").Allow(global)) << "every IPv4 address";
+  EXPECT_TRUE(from("tcp://[::]?listen&from=fe80::/10").Allow(local));
+  EXPECT_FALSE(from("tcp://[::]?from=fe80::/10&listen").Allow(global));
+}
+
+TEST(NetUrl, ReportsSendersThatAreNoAddresses) {
+  for (const char* wrong : {"", "suit-pc", "10.0.0.0/33", "10.0.0.0/", "10.0.0.0/8x", "fe80::/129",
+                            "10.0.0.1,", "10.0.0.0/-1"}) {
+    const std::string url = std::string("udp://:9763?from=") + wrong;
+    EXPECT_THAT(ErrorOf([&] { ParseNetUrl(url); }),
+                HasSubstr("is not an address or network; expected such as"))
+        << url;
+  }
+  EXPECT_THAT(ErrorOf([&] { ParseNetUrl("tcp://suit-pc?from=10.0.0.1"); }),
+              HasSubstr("connects to one machine"));
+}
+
 TEST(NetUrl, DistinguishesNetworkAddressesFromFiles) {
   EXPECT_TRUE(IsNetUrl("udp://:9763"));
   EXPECT_TRUE(IsNetUrl("tcp:9763"));

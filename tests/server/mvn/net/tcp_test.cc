@@ -5,6 +5,7 @@
 
 #include <map>
 #include <memory>
+#include <thread>
 
 #include "server/mvn/net/tcp_datagrams.h"
 #include "tests/sanitized.h"
@@ -161,23 +162,86 @@ TEST(TcpDatagrams, AreFoundBetweenForeignText) {
 }
 
 TEST(TcpDatagrams, RejectConnectionsBeyondTheirLimit) {
-  TcpDatagrams source(kListenOnLoopback);
+  constexpr std::int64_t kLong = 1'000'000'000'000;  // this machine may be slow
+  TcpDatagrams source(kListenOnLoopback, {kLong, kLong, kLong});
   RecordingDatagrams sink;
   std::vector<std::unique_ptr<Client>> clients;
-  for (std::size_t i = 0; i < TcpDatagrams::kMaxConnections + 2; ++i) {
-    clients.push_back(std::make_unique<Client>(source.description()));
-  }
+  const auto connect = [&](std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      clients.push_back(std::make_unique<Client>(source.description()));
+      clients.back()->Send(Pose(1));
+    }
+  };
+  connect(TcpDatagrams::kMaxConnections);
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 16; }));
+  connect(2);
   ASSERT_TRUE(PollUntil(source, sink, [&] { return source.counters().connections_refused == 2; }));
   EXPECT_EQ(source.counters().connections_open, static_cast<int>(TcpDatagrams::kMaxConnections));
   char byte = 0;
-  EXPECT_EQ(recv(clients.back()->socket().get(), &byte, 1, 0), 0) << "the newcomer is told at once";
-  clients.front()->Send(Pose(1));
-  ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 1; }));
+  EXPECT_LE(recv(clients.back()->socket().get(), &byte, 1, 0), 0) << "the newcomer is told at once";
+  clients.front()->Send(Pose(2));
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 17; }));
   clients.front()->Close();
   ASSERT_TRUE(PollUntil(source, sink, [&] { return source.counters().connections_lost == 1; }));
   Client takes_the_place(source.description());
   takes_the_place.Send(Pose(2));
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 18; }));
+}
+
+TEST(TcpDatagrams, EndConnectionsThatSendNothing) {
+  TcpDatagrams::Patience patience;
+  patience.first_datagram = 50'000'000;
+  TcpDatagrams source(kListenOnLoopback, patience);
+  RecordingDatagrams sink;
+  Client silent(source.description()), drips(source.description()), suit(source.description());
+  drips.Send("M");
+  suit.Send(Pose(1));
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return source.counters().connections_ended == 2; }));
+  EXPECT_EQ(source.counters().connections_open, 1);
+  suit.Send(Pose(2));
   ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 2; }));
+  EXPECT_EQ(source.counters().connections_lost, 0U) << "they did not leave by themselves";
+}
+
+TEST(TcpDatagrams, GiveASuitThePlaceOfWhoeverSendsNoBody) {
+  TcpDatagrams source(kListenOnLoopback);
+  RecordingDatagrams sink;
+  Client first_suit(source.description());
+  first_suit.Send(Pose(1));
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 1; }));
+  std::vector<std::unique_ptr<Client>> idle;
+  for (std::size_t i = 1; i < TcpDatagrams::kMaxConnections; ++i) {
+    idle.push_back(std::make_unique<Client>(source.description()));
+  }
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return source.counters().connections == 16; }));
+  Client suit(source.description());
+  suit.Send(Pose(2));
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 2; }));
+  EXPECT_EQ(source.counters().connections_ended, 1U);
+  EXPECT_EQ(source.counters().connections_refused, 0U);
+  first_suit.Send(Pose(3));
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 3; }));
+}
+
+TEST(TcpDatagrams, KeepTheirReceiveTimeWhenTheReaderIsLate) {
+  TcpDatagrams source(kListenOnLoopback);
+  RecordingDatagrams sink;
+  Client client(source.description());
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return source.counters().connections == 1; }));
+  client.Send(Pose(1));
+  const Arrival sent = ReadClocks();
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // the reader is busy elsewhere
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return sink.all.size() == 1; }));
+  constexpr std::int64_t kSlack = 20'000'000;  // the two clocks are read one after the other
+  EXPECT_LE(sink.all[0].arrival.monotonic_nanos, sent.monotonic_nanos + kSlack);
+}
+
+TEST(TcpDatagrams, OfStrangersAreNotReadIfOnlySomeMachinesMaySend) {
+  TcpDatagrams source("tcp://127.0.0.1:0?listen&from=10.0.0.0/8");
+  RecordingDatagrams sink;
+  Client stranger(source.description());
+  ASSERT_TRUE(PollUntil(source, sink, [&] { return source.counters().strangers == 1; }));
+  EXPECT_EQ(source.counters().connections, 0U);
 }
 
 TEST(TcpDatagrams, OfAFastSenderAreReadInLimitedBatches) {

@@ -1,0 +1,64 @@
+#include "render/shape/coarser_mesh.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+
+#include "core/system/check.h"
+
+namespace kinescope::render {
+namespace {
+
+// Each part at a place of its own. meshoptimizer takes vertices at the same place for one, and
+// those of a left and a right limb often are: it would leave them all as they are.
+std::vector<Eigen::Vector3f> PartsApart(const urdf::Mesh& mesh) {
+  float size = 0;
+  for (const Eigen::Vector3f& position : mesh.positions) {
+    size = std::max(size, position.cwiseAbs().maxCoeff());
+  }
+  std::vector<Eigen::Vector3f> apart = mesh.positions;
+  for (std::size_t i = 0; i < apart.size(); ++i) apart[i].x() += 3 * size * mesh.parts[i];
+  return apart;
+}
+
+// The vertices that are used, in the order of their use.
+template <class T>
+std::vector<T> Remapped(const std::vector<T>& values, std::size_t count,
+                        const std::vector<unsigned>& remap) {
+  std::vector<T> used(count);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (remap[i] != ~0U) used[remap[i]] = values[i];
+  }
+  return used;
+}
+
+}  // namespace
+
+urdf::Mesh CoarserMesh(const urdf::Mesh& mesh, double error_m) {
+  KINESCOPE_CHECK(error_m > 0);
+  const std::size_t vertices = mesh.positions.size();
+  if (mesh.triangles.empty()) return mesh;
+  const std::vector<Eigen::Vector3f> apart = PartsApart(mesh);
+  const float* const positions = apart.front().data();
+  constexpr std::size_t kStride = sizeof(apart.front());
+  const float scale = meshopt_simplifyScale(positions, vertices, kStride);
+  if (!(scale > 0)) return mesh;
+  std::vector<std::uint32_t> triangles(mesh.triangles.size());
+  triangles.resize(meshopt_simplify(triangles.data(), mesh.triangles.data(), mesh.triangles.size(),
+                                    positions, vertices, kStride, 0,
+                                    static_cast<float>(error_m) / scale, 0, nullptr));
+  meshopt_optimizeVertexCache(triangles.data(), triangles.data(), triangles.size(), vertices);
+  std::vector<unsigned> remap(vertices);
+  const std::size_t count =
+      meshopt_optimizeVertexFetchRemap(remap.data(), triangles.data(), triangles.size(), vertices);
+  meshopt_remapIndexBuffer(triangles.data(), triangles.data(), triangles.size(), remap.data());
+  urdf::Mesh coarser;
+  coarser.positions = Remapped(mesh.positions, count, remap);
+  coarser.normals = Remapped(mesh.normals, count, remap);
+  coarser.colors = Remapped(mesh.colors, count, remap);
+  coarser.parts = Remapped(mesh.parts, count, remap);
+  coarser.triangles = std::move(triangles);
+  return coarser;
+}
+
+}  // namespace kinescope::render

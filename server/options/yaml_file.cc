@@ -1,0 +1,72 @@
+#include "server/options/yaml_file.h"
+
+#include <yaml-cpp/eventhandler.h>
+
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+namespace kinescope::options {
+namespace {
+
+// Reads a document without keeping anything of it.
+class YamlLimits : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (std::exchange(has_begun_, true)) {
+      throw YAML::ParserException(mark, "a second document; remove the line '---' before it");
+    }
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    throw YAML::ParserException(mark, "alias; write the value itself");
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    Enter(mark);
+  }
+  void OnSequenceEnd() override { --depth_; }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    Enter(mark);
+  }
+  void OnMapEnd() override { --depth_; }
+
+ private:
+  void Enter(const YAML::Mark& mark) {
+    constexpr int kDeepest = 16;
+    if (++depth_ > kDeepest) throw YAML::ParserException(mark, "too many levels; at most 16");
+  }
+
+  int depth_ = 0;
+  bool has_begun_ = false;
+};
+
+}  // namespace
+
+YAML::Node ParseYaml(const std::string& text) {
+  if (text.size() > kMaxYamlBytes) {
+    throw YAML::ParserException(YAML::Mark(),
+                                "too long; at most " + std::to_string(kMaxYamlBytes) + " bytes");
+  }
+  std::istringstream stream(text);
+  YamlLimits limits;
+  YAML::Parser parser(stream);
+  while (parser.HandleNextDocument(limits)) {
+  }
+  return YAML::Load(text);
+}
+
+YAML::Node LoadYaml(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text(kMaxYamlBytes + 1, '\0');  // it may be a pipe or a device without an end
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.empty() && !file.eof()) throw YAML::BadFile(path);
+  return ParseYaml(text);
+}
+
+}  // namespace kinescope::options

@@ -1,0 +1,20 @@
+/// Reads YAML files. Their content is untrusted: size and depth are bounded, and there are no
+/// aliases, with which a short file stands for a very long one. Pure functions; any thread.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <cstddef>
+#include <string>
+
+namespace kinescope::options {
+
+inline constexpr std::size_t kMaxYamlBytes = 1 << 20;
+
+/// The only document of `text`. @throws YAML::Exception with the line and the reason.
+YAML::Node ParseYaml(const std::string& text);
+
+/// As ParseYaml(). @throws YAML::BadFile, too, if `path` cannot be read.
+YAML::Node LoadYaml(const std::string& path);
+
+}  // namespace kinescope::options

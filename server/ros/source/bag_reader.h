@@ -1,0 +1,130 @@
+/// Reads the records of a ROS 1 bag (format 2.0) from front to back. No ROS types; one thread.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/system/decompressor.h"
+#include "core/system/input_file.h"
+
+namespace kinescope::ros_bridge {
+
+struct BagRecordHeader;
+
+/// A topic as one node published it.
+struct BagConnection {
+  std::string topic;
+  std::string type;    // "tf2_msgs/TFMessage"
+  std::string md5sum;  // of the type's definition
+};
+
+struct BagMessage {
+  const BagConnection* connection = nullptr;  // of the reader
+  std::int64_t recorded_nanos = 0;            // since the Unix epoch
+  std::size_t size = 0;                       // bytes, as the bag states it
+  std::vector<std::uint8_t> bytes;            // empty if the message was not wanted or is too large
+};
+
+/// Opens `path` for a BagReader: as InputFile, but a file that is not compressed can seek, so that
+/// large messages are skipped unread.
+/// @throws SourceError with `path` and the remedy, also if it is not a ROS 1 bag.
+InputFile OpenBagFile(const std::string& path);
+
+/// Needs neither the index nor the end of a bag, so that it also reads one that was not closed, is
+/// truncated, or is compressed as a whole. Memory is limited, whatever the lengths in the file
+/// state: chunks are decompressed while they are read, and messages that are not wanted are
+/// skipped.
+///
+/// A damaged record is counted in defects(). If it has a wrong length, reading goes on with the
+/// next chunk: where this one ends, or where the header of a chunk is found.
+class BagReader {
+ public:
+  static constexpr std::size_t kLargestMessage = 16 << 20;  // bytes; larger ones are not delivered
+  static constexpr std::size_t kMaxConnections = 65536;
+
+  using IsWanted = std::function<bool(const BagConnection&)>;
+
+  BagReader(InputFile file, IsWanted is_wanted);
+
+  /// The next message in the order of the file, wanted or not. False at the end; see ending().
+  [[nodiscard]] bool Next(BagMessage& message);
+
+  struct Ending {
+    enum class Kind {
+      kClosed,      // the index follows the last message
+      kTruncated,   // the file ends earlier: it was not closed, or not copied completely
+      kDamaged,     // the position of the next record is unknown
+      kUnreadable,  // the system or the decompression of the file failed
+      kEncrypted,
+    };
+    Kind kind = Kind::kClosed;
+    std::string reason;  // of kDamaged and kUnreadable
+  };
+  /// Valid after Next() returned false.
+  const Ending& ending() const { return ending_; }
+
+  /// Connections so far, by the number that the bag gives them.
+  const std::map<std::uint32_t, BagConnection>& connections() const { return connections_; }
+  /// Damaged records by reason.
+  const std::map<std::string, std::uint64_t>& defects() const { return defects_; }
+
+ private:
+  // The chunk that is being read. Its end in the file is known, whatever its records contain.
+  struct Chunk {
+    std::uint64_t left = 0;                  // bytes, decompressed
+    std::uint64_t left_in_file = 0;          // bytes, as stored
+    std::unique_ptr<Decompressor> unpacker;  // null: not compressed
+  };
+
+  /// One record; true if it is a message.
+  bool ReadRecord(BagMessage& message);
+  bool ReadMessage(const BagRecordHeader& header, std::uint32_t size, BagMessage& message);
+  void ReadConnection(const BagRecordHeader& header, std::uint32_t size);
+  void OpenChunk(const BagRecordHeader& header, std::uint32_t size);
+  void CloseChunk();
+
+  // False: the rest of the record is not there; that has been noted.
+  bool Read(void* to, std::size_t size);
+  bool ReadUnpacked(char* to, std::size_t size);
+  bool ReadFile(void* to, std::size_t size);
+  bool Skip(std::uint64_t size);
+  bool SkipInFile(std::uint64_t size);
+  ssize_t ReadPacked(const void** bytes);        // the next compressed bytes of the chunk
+  std::size_t Take(void* to, std::size_t size);  // bytes of the file; fewer at its end
+  bool IsAtEnd();
+  /// Goes on to where the next chunk begins; false if there is none.
+  bool FindChunk();
+
+  void Count(const char* reason) { ++defects_[reason]; }
+  /// The position of the next record is unknown: counts that, and goes on with the next chunk.
+  void LoseFraming(const char* reason);
+  void EndOfFile();
+  void End(Ending::Kind kind, std::string reason = "");
+
+  InputFile file_;
+  const IsWanted is_wanted_;
+  bool can_seek_ = false;
+  std::uint64_t file_size_ = 0;  // if it can seek
+  std::uint64_t at_ = 0;         // bytes of the file that were read
+  std::uint64_t index_at_ = 0;   // as the bag states it; 0: not closed
+  std::optional<Chunk> chunk_;
+  std::string ahead_;                // bytes of the file that FindChunk() read too far
+  std::size_t ahead_read_ = 0;       // of them, that were read again
+  std::vector<char> packed_;         // what ReadPacked() returned
+  std::vector<std::uint8_t> bytes_;  // of a header or connection
+  std::map<std::uint32_t, BagConnection> connections_;
+  std::size_t connection_bytes_ = 0;
+  std::map<std::string, std::uint64_t> defects_;
+  bool has_ended_ = false;
+  Ending ending_;
+};
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,80 @@
+// Any bytes as messages of the topics that Kinescope subscribes to: markers (first byte 0 or 1),
+// transforms, link states, joint states and joint loads. They are rejected, or have no more in them
+// than their bytes; markers that are accepted can be rendered.
+#include <kinescope/JointLoadArray.h>
+#include <sensor_msgs/JointState.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/system/check.h"
+#include "server/ros/marker_input.h"
+#include "server/ros/raw_message.h"
+
+namespace {
+
+using namespace kinescope;
+using namespace kinescope::ros_bridge;
+
+void CheckMarkers(const std::vector<visualization_msgs::Marker>& markers) {
+  MarkerStore store;
+  std::int64_t now = 0;
+  for (const visualization_msgs::Marker& marker : markers) {
+    now += 200'000'000;
+    if (const auto refusal = store.Apply(0, marker, now)) {
+      KINESCOPE_CHECK(*refusal->kind != '\0' && !refusal->text.empty());
+    }
+    // The pose of a frame is that of its message, as far as this knows; every other frame is lost.
+    static_cast<void>(store.Update(now, [](const std::string& frame, std::int64_t) {
+      return frame.size() % 2 == 0 ? std::optional<urdf::Pose>(urdf::Pose{}) : std::nullopt;
+    }));
+    for (const MarkerStore::Lost& lost : store.TakeLost()) KINESCOPE_CHECK(!lost.text.empty());
+  }
+  KINESCOPE_CHECK(store.markers().size() <= kMaxMarkers);
+  for (const std::shared_ptr<const SceneMarker>& marker : store.markers()) {
+    KINESCOPE_CHECK(!FindDefect(*marker));
+    KINESCOPE_CHECK(marker->points.size() <= kMaxMarkerPoints);
+    KINESCOPE_CHECK(marker->text.size() <= kMaxMarkerText);
+  }
+}
+
+template <class Message>
+bool Read(const std::vector<std::uint8_t>& bytes, Message& message) {
+  if (!ReadBounded(bytes.data(), bytes.size(), message)) return false;
+  KINESCOPE_CHECK(ros::serialization::serializationLength(message) <= bytes.size());
+  return true;
+}
+
+template <class Message>
+void Read(const std::vector<std::uint8_t>& bytes) {
+  Message message;
+  Read(bytes, message);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::vector<std::uint8_t> bytes(data + 1, data + size);
+  switch (data[0] % 6) {
+    case 0: {
+      visualization_msgs::Marker marker;
+      if (Read(bytes, marker)) CheckMarkers({marker});
+      break;
+    }
+    case 1: {
+      visualization_msgs::MarkerArray array;
+      if (Read(bytes, array)) CheckMarkers(array.markers);
+      break;
+    }
+    case 2: Read<tf2_msgs::TFMessage>(bytes); break;
+    case 3: Read<xsens_mvn_ros_msgs::LinkStateArray>(bytes); break;
+    case 4: Read<sensor_msgs::JointState>(bytes); break;
+    default: Read<kinescope_ros::JointLoadArray>(bytes); break;
+  }
+  return 0;
+}
