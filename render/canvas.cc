@@ -25,34 +25,52 @@ struct Canvas::Paint {
 };
 
 void Canvas::Blend(int x, int y, const Paint& paint, double coverage) {
+  BlendRow(x, x, y, paint, coverage);
+}
+
+void Canvas::BlendRow(int first_x, int last_x, int y, const Paint& paint, double coverage) {
   const auto weight = static_cast<int>(std::lround(paint.alpha * coverage));
   if (weight == 0) return;
   std::uint8_t* pixel = &image_.rgba[4 * (static_cast<std::size_t>(part_.y + y) *
                                               static_cast<std::size_t>(image_.width) +
-                                          static_cast<std::size_t>(part_.x + x))];
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    pixel[channel] = static_cast<std::uint8_t>(
-        (pixel[channel] * (256 - weight) + paint.levels[channel] * weight + 128) / 256);
+                                          static_cast<std::size_t>(part_.x + first_x))];
+  for (int x = first_x; x <= last_x; ++x, pixel += 4) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      pixel[channel] = static_cast<std::uint8_t>(
+          (pixel[channel] * (256 - weight) + paint.levels[channel] * weight + 128) / 256);
+    }
   }
 }
 
 template <class Coverage>
 void Canvas::Fill(double left, double top, double right, double bottom, const Ink& ink,
-                  Coverage&& coverage) {
+                  Coverage&& coverage, const std::function<Columns(double y)>& whole) {
   const Paint paint(ink);
   const int first_x = std::max(0, static_cast<int>(std::floor(left - 1)));
   const int last_x = std::min(part_.width - 1, static_cast<int>(std::ceil(right + 1)));
   const int first_y = std::max(0, static_cast<int>(std::floor(top - 1)));
   const int last_y = std::min(part_.height - 1, static_cast<int>(std::ceil(bottom + 1)));
   for (int y = first_y; y <= last_y; ++y) {
-    for (int x = first_x; x <= last_x; ++x) Blend(x, y, paint, coverage(x + 0.5, y + 0.5));
+    const auto blend = [&](int from, int to) {
+      for (int x = from; x <= to; ++x) Blend(x, y, paint, coverage(x + 0.5, y + 0.5));
+    };
+    const Columns inside = whole ? whole(y + 0.5) : Columns();
+    const int first_whole = std::max(first_x, static_cast<int>(std::ceil(inside.first)));
+    const int last_whole = std::min(last_x, static_cast<int>(std::floor(inside.last)) - 1);
+    if (first_whole > last_whole) {
+      blend(first_x, last_x);
+      continue;
+    }
+    blend(first_x, first_whole - 1);
+    BlendRow(first_whole, last_whole, y, paint, 1);
+    blend(last_whole + 1, last_x);
   }
 }
 
 void Canvas::RoundedBox(double x, double y, double width, double height, double radius,
                         const Ink& ink) {
   const double center_x = x + width / 2, center_y = y + height / 2;
-  Fill(x, y, x + width, y + height, ink, [&](double px, double py) {
+  const auto coverage = [&](double px, double py) {
     const double out_x = std::abs(px - center_x) - (width / 2 - radius);
     const double out_y = std::abs(py - center_y) - (height / 2 - radius);
     // Most pixels are clear of the corners, and need no root.
@@ -60,7 +78,14 @@ void Canvas::RoundedBox(double x, double y, double width, double height, double 
     const double distance =
         is_corner ? std::sqrt(out_x * out_x + out_y * out_y) : std::max(out_x, out_y);
     return EdgeCoverage(radius - distance);
-  });
+  };
+  // Most are not even near the edge.
+  const double corner = std::max(radius, 1.0);
+  const auto whole = [&](double py) -> Columns {
+    const bool is_inside = std::abs(py - center_y) < height / 2 - 1;
+    return is_inside ? Columns{x + corner, x + width - corner} : Columns();
+  };
+  Fill(x, y, x + width, y + height, ink, coverage, whole);
 }
 
 void Canvas::Disc(double x, double y, double radius, const Ink& ink) {

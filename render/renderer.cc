@@ -129,7 +129,10 @@ std::chrono::milliseconds LimitOf(const PictureSpec& spec) {
       static_cast<std::chrono::milliseconds::rep>(1000 * (kSecs + kSecsPerPixel * pixels)));
 }
 
-void PreferSpeed() { ::setenv("GALLIUM_OVERRIDE_CPU_CAPS", "avx", 0); }
+void PreferSpeed() {
+  ::setenv("GALLIUM_OVERRIDE_CPU_CAPS", "avx", 0);
+  ::setenv("LP_NUM_THREADS", "1", 0);
+}
 
 std::unique_ptr<Renderer> MakeRenderer(RendererSettings settings) {
   const auto& names = BackendNames();

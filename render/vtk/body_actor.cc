@@ -25,8 +25,10 @@ double Permitted(double error_m) {
 }  // namespace
 
 void BodyActor::AddActor(double error_m, Group& group) const {
-  auto actor =
-      std::make_unique<PartActor>(pass_, PartActor::Light::kLit, static_cast<int>(group.count));
+  // A surface that is seen from its back is lit from there, pixel by pixel.
+  const bool is_small = error_m > 0 && group.mesh.is_closed;
+  const auto light = is_small ? PartActor::Light::kLitAtVertices : PartActor::Light::kLit;
+  auto actor = std::make_unique<PartActor>(pass_, light, static_cast<int>(group.count));
   actor->SetMesh(error_m > 0 ? CoarserMesh(group.mesh.mesh, error_m) : group.mesh.mesh);
   actor->SetCulling(group.mesh.is_closed);
   group.actors[error_m] = std::move(actor);

@@ -19,6 +19,11 @@ ShaderText PartText(PartActor::Light light) {
 )";
   text.fragment_declarations = "in vec4 tintVS;\nin float skyVS;\nin vec2 partVS;\n";
   switch (light) {
+    case PartActor::Light::kLitAtVertices:
+      text.vertex_declarations += kLitFunction;
+      text.vertex += "  tintVS.rgb = Lit(tintVS.rgb, normalize(normalVCVSOutput), skyVS);\n";
+      text.fragment = "gl_FragData[0] = tintVS;\n";
+      break;
     case PartActor::Light::kLit:
       text.fragment =
           "gl_FragData[0] = vec4(Lit(tintVS.rgb, normalVCVSOutput, skyVS), tintVS.a);\n";

@@ -14,6 +14,7 @@ class PartActor {
  public:
   enum class Light {
     kLit,
+    kLitAtVertices,  // as kLit where triangles are a few pixels wide, for a fraction of the time
     kFlat,
     kSoft,  // unlit, fades out from the part's origin to radius 1 around its z axis
   };

@@ -23,7 +23,8 @@ enum MarkPart {
   kComLine,
   kCopEdge,
   kCopDisc,
-  kSupportEdge,  // the first of as many as a polygon may have
+  kSupportEdge,                    // the first of as many as a polygon may have
+  kGhostMarkParts = kSupportEdge,  // the support polygon does not shine through shoes
   kMarkParts = kSupportEdge + static_cast<int>(kMaxSupportPoints)
 };
 
@@ -47,7 +48,8 @@ urdf::Mesh PersonShadow() {
   return all;
 }
 
-urdf::Mesh MarkMesh() {
+// The first `parts` of MarkPart.
+urdf::Mesh MarkMesh(int parts) {
   urdf::Mesh all;
   const auto add = [&](const urdf::Mesh& mesh, const Rgb& rgb, MarkPart part) {
     const std::size_t first = all.positions.size();
@@ -58,7 +60,7 @@ urdf::Mesh MarkMesh() {
   add(urdf::CylinderMesh(1, 1), kComColor, kComLine);
   add(urdf::DiscMesh(kMarkCorners), {1, 1, 1}, kCopEdge);
   add(urdf::DiscMesh(kMarkCorners), kCopColor, kCopDisc);
-  for (int edge = kSupportEdge; edge < kMarkParts; ++edge) {
+  for (int edge = kSupportEdge; edge < parts; ++edge) {
     add(urdf::BoxMesh({1, 1, 1}), kSupportColor, static_cast<MarkPart>(edge));
   }
   return all;
@@ -101,14 +103,14 @@ Eigen::Affine3d Edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
 PersonActors::PersonActors()
     : shadow_(Pass::kBlended, PartActor::Light::kSoft, kShadowParts),
       held_(Pass::kSolid, PartActor::Light::kLit, kHeldParts),
-      ghost_marks_(Pass::kGhost, PartActor::Light::kFlat, kMarkParts),
+      ghost_marks_(Pass::kGhost, PartActor::Light::kFlat, kGhostMarkParts),
       marks_(Pass::kSolid, PartActor::Light::kFlat, kMarkParts),
       ghost_spheres_(Pass::kGhost, kGhostBodyOpacity),
       spheres_(Pass::kSolid, 1) {
   shadow_.SetMesh(PersonShadow());
-  marks_.SetMesh(MarkMesh());
+  marks_.SetMesh(MarkMesh(kMarkParts));
   held_.SetMesh(HeldMesh());
-  ghost_marks_.SetMesh(MarkMesh());
+  ghost_marks_.SetMesh(MarkMesh(kGhostMarkParts));
   ghost_marks_.SetOpacity(static_cast<float>(kGhostBodyOpacity));
 }
 
@@ -211,7 +213,8 @@ void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera,
                       ColorOf(load.load_class), rim});
   }
   for (PartActor* marks : {&marks_, &ghost_marks_}) {
-    for (int part = 0; part < kMarkParts; ++part) marks->Hide(part);
+    const bool is_ghost = marks == &ghost_marks_;
+    for (int part = 0; part < (is_ghost ? kGhostMarkParts : kMarkParts); ++part) marks->Hide(part);
     if (person.com) {
       const Eigen::Vector3d& com = *person.com;
       marks->Place(kComRing, At(com.x(), com.y(), 0.004, 0.062 * size));
@@ -221,7 +224,7 @@ void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera,
       marks->Place(kCopEdge, At(person.cop->x(), person.cop->y(), 0.006, 0.046 * size));
       marks->Place(kCopDisc, At(person.cop->x(), person.cop->y(), 0.008, 0.038 * size));
     }
-    if (marks == &marks_) {  // the border does not shine through shoes
+    if (!is_ghost) {
       const SupportPolygon& support = person.forces.support;
       for (std::size_t i = 0; i < support.size && support.size > 1; ++i) {
         marks->Place(kSupportEdge + static_cast<int>(i),

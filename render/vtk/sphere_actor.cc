@@ -59,7 +59,7 @@ urdf::Mesh DomeMesh() {
 // In its place where it is small: its rim, filled with as large triangles as possible. llvmpipe
 // shades 4 x 4 pixels for a triangle that covers one.
 urdf::Mesh DiscMesh() {
-  constexpr std::uint32_t kCorners = 24;
+  constexpr std::uint32_t kCorners = 16;
   urdf::Mesh mesh;
   for (std::uint32_t i = 0; i < kCorners; ++i) {
     const double angle = 2 * M_PI * i / kCorners;

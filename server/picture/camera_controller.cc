@@ -114,9 +114,8 @@ const render::GroundExtent& CameraController::Follow(const SceneState& state, do
   return followed_;
 }
 
-render::Camera CameraController::Aim(const SceneState& state, double aspect) {
-  const double secs = SecsOf(state);
-  const render::GroundExtent& ground = follow_secs_ ? Follow(state, secs) : steady_.Follow(state);
+render::Camera CameraController::AimAt(const render::GroundExtent& ground, const SceneState& state,
+                                       double secs, double aspect) const {
   render::Camera camera = Placed(state, ground, secs);
   if (place_ && follow_secs_) {
     const Eigen::Vector3d shift = ground.middle - first_middle_;
@@ -124,6 +123,19 @@ render::Camera CameraController::Aim(const SceneState& state, double aspect) {
     camera.target += shift;
   }
   return Finished(camera, state, secs, aspect);
+}
+
+render::Camera CameraController::Aim(const SceneState& state, double aspect) {
+  const double secs = SecsOf(state);
+  return AimAt(follow_secs_ ? Follow(state, secs) : steady_.Follow(state), state, secs, aspect);
+}
+
+render::Camera CameraController::AimLive(const SceneState& state, double live_aspect,
+                                         double aspect) {
+  const double secs = SecsOf(state);
+  if (follow_secs_) return AimAt(Follow(state, secs), state, secs, aspect);
+  const render::GroundExtent& held = held_.Follow(state, secs, live_aspect);
+  return AimAt(aspect < live_aspect ? render::GroundExtentOf(state) : held, state, secs, aspect);
 }
 
 render::Camera CameraController::Only(const SceneState& state, double secs, double aspect) const {

@@ -10,6 +10,7 @@
 
 #include "core/scene_state.h"
 #include "render/camera/camera.h"
+#include "render/camera/held_extent.h"
 #include "server/picture/camera_keys.h"
 #include "server/picture/camera_options.h"
 
@@ -30,9 +31,15 @@ class CameraController {
   /// Call it for every state of a live source, so that time runs while no pictures are taken.
   void StartTime(const SceneState& state);
 
-  /// Once per picture, in order. Time is that of the states' stamps.
+  /// Once per picture of a clip, in order. Time is that of the states' stamps.
   /// @param aspect width / height of the picture
   render::Camera Aim(const SceneState& state, double aspect);
+
+  /// The same for live pictures, whose future is not known: the camera stands still as long as it
+  /// can (HeldGroundExtent). A narrower picture than the live one, which would lack who is at its
+  /// sides, is aimed at the people.
+  /// @param live_aspect of the live picture, for which the camera stands still
+  render::Camera AimLive(const SceneState& state, double live_aspect, double aspect);
 
   /// For one picture alone, `secs` after the clip's start: nothing lags.
   render::Camera Only(const SceneState& state, double secs, double aspect) const;
@@ -46,6 +53,8 @@ class CameraController {
                         double secs) const;
   render::Camera Finished(render::Camera camera, const SceneState& state, double secs,
                           double aspect) const;
+  render::Camera AimAt(const render::GroundExtent& ground, const SceneState& state, double secs,
+                       double aspect) const;
   double SecsOf(const SceneState& state);
   const render::GroundExtent& Follow(const SceneState& state, double secs);
 
@@ -63,6 +72,7 @@ class CameraController {
   // Of the pictures so far:
   std::optional<std::int64_t> start_nanos_;
   render::SmoothedGroundExtent steady_;
+  render::HeldGroundExtent held_;
   render::GroundExtent followed_;  // where the lagging camera is
   bool has_met_ = false;           // a person to follow
   Eigen::Vector3d first_middle_ = Eigen::Vector3d::Zero();

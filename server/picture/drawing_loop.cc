@@ -92,9 +92,13 @@ std::future<render::Image> DrawingLoop::RequestAimed(const render::PictureSpec& 
   return Enqueue({view, std::nullopt, std::move(aim), {}});
 }
 
+double DrawingLoop::LiveAspect() const {
+  return AspectOf(LiveView(settings_.width, settings_.height));
+}
+
 render::Camera DrawingLoop::AimLive(double aspect) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return camera_.Aim(*state_, aspect);
+  return camera_.AimLive(*state_, LiveAspect(), aspect);
 }
 
 std::future<render::Image> DrawingLoop::Enqueue(Order order) {
@@ -152,7 +156,7 @@ void DrawingLoop::DrawLive(std::unique_lock<std::mutex>& lock) {
   next_live_ = begin + period_;
   const std::shared_ptr<const SceneState> state = state_;
   const render::PictureSpec view = LiveView(settings_.width, settings_.height);
-  const render::Camera camera = camera_.Aim(*state, AspectOf(view));
+  const render::Camera camera = camera_.AimLive(*state, LiveAspect(), LiveAspect());
   lock.unlock();
   std::string error;
   Clock::time_point drawn = begin;
@@ -188,7 +192,7 @@ void DrawingLoop::DrawOrder(std::unique_lock<std::mutex>& lock) {
   if (order.camera) {
     camera = order.camera->Only(*state, 0, aspect);
   } else if (!order.aim) {
-    camera = camera_.Aim(*state, aspect);
+    camera = camera_.AimLive(*state, LiveAspect(), aspect);
   }
   lock.unlock();
   render::Image image;

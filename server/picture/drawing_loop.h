@@ -96,6 +96,7 @@ class DrawingLoop {
     std::promise<render::Image> picture;
   };
 
+  double LiveAspect() const;
   std::future<render::Image> Enqueue(Order order);
   void Run();
   // Called with `lock` held, which they release while they wait or draw.

@@ -64,7 +64,7 @@ fi
 kill "${children[@]}" 2>/dev/null || true; wait 2>/dev/null || true
 start_server --ros off
 "$kinescope" stream demo:walk --characters 4 --rate_hz 240 --to "udp://127.0.0.1:$udp_port" 2>/dev/null & children+=($!)
-"$build/tests/bench/page_viewers" "$http_port" 1 2 pictures >/dev/null  # bodies and shaders are made
+"$build/tests/bench/page_viewers" "$http_port" 1 14 pictures >/dev/null  # bodies and shaders are made, the camera has seen a lap
 echo "four people at 240 Hz, walking:"
 measure_viewers 1
 measure_viewers 1 pictures

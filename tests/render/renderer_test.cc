@@ -537,7 +537,9 @@ TEST(Renderer, SetsTheInstructionSetUnlessTheUserChoseOne) {
   PreferSpeed();
   MakeRenderer();
   EXPECT_STREQ(std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"), "avx");
+  EXPECT_STREQ(std::getenv("LP_NUM_THREADS"), "1");
   ::unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");
+  ::unsetenv("LP_NUM_THREADS");
 }
 
 TEST(RendererDeathTest, EndsTheProcessWhenUsedOnAnotherThread) {

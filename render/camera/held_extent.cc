@@ -1,0 +1,132 @@
+#include "render/camera/held_extent.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace kinescope::render {
+namespace {
+
+constexpr double kMemory = 10;     // s
+constexpr double kInterval = 0.1;  // s, between places that are remembered
+constexpr double kAhead = 0.5;     // s, that the camera looks ahead to start in time
+constexpr double kSlack = 0.3;     // m, of the margin, that people may use up by then
+constexpr double kTolerance =
+    0.05;  // m, so that those who go round at the edge of what is visible do not move it
+constexpr double kSmaller = 1.35;  // times that people may be smaller so that the camera can stand
+constexpr double kNearer = 0.8;    // of the shown height: then it is worth to come nearer
+
+// Of a glide: a critically damped spring, which neither jerks nor overshoots.
+constexpr double kStiffness = 4;        // 1/s; half of the way takes 0.42 s
+constexpr double kArrived = 0.005;      // m
+constexpr double kArrivedSpeed = 0.01;  // m/s
+
+double ShownHeight(const GroundExtent& aimed) { return ShownHeight(NamedCameraAt("front", aimed)); }
+
+// The radius within which people are in a picture that is aimed at `aimed`. Named cameras leave
+// room for groups in narrow pictures, so a wide one shows more.
+double VisibleRadius(const GroundExtent& aimed, double aspect) {
+  const double half_width = 0.5 * aspect * ShownHeight({aimed.middle, 0});
+  const double of_group = (aimed.radius + kGroupFraming.margin_m) *
+                          std::max(1.0, aspect / kGroupFraming.narrowest_aspect);
+  return std::max(half_width, of_group) - kGroupFraming.margin_m;
+}
+
+bool Contains(const GroundExtent& aimed, const GroundExtent& people, double aspect,
+              double slack = 0) {
+  const double away = (people.middle - aimed.middle).norm();
+  return away + people.radius <= VisibleRadius(aimed, aspect) + slack;
+}
+
+// The nearest aim at the middle of `recent` that shows all of it; at least as wide as for `people`.
+GroundExtent Around(const GroundExtent& recent, const GroundExtent& people, double aspect) {
+  const GroundExtent nearest{recent.middle, people.radius};
+  if (Contains(nearest, recent, aspect)) return nearest;
+  const double share = std::min(1.0, kGroupFraming.narrowest_aspect / aspect);
+  const double margin = kGroupFraming.margin_m;
+  return {recent.middle, std::max(people.radius, share * (recent.radius + margin) - margin)};
+}
+
+}  // namespace
+
+void HeldGroundExtent::Remember(const GroundExtent& people, double secs) {
+  if (!seen_.empty() && secs < seen_.back().secs) seen_.clear();
+  if (seen_.empty() || secs - seen_.back().secs >= kInterval) seen_.push_back({secs, people});
+  while (secs - seen_.front().secs > kMemory) seen_.pop_front();
+}
+
+GroundExtent HeldGroundExtent::Recent() const {
+  Eigen::AlignedBox3d box;
+  for (const Seen& seen : seen_) {
+    const Eigen::Vector3d reach(seen.people.radius, seen.people.radius, 0);
+    box.extend(Eigen::Vector3d(seen.people.middle - reach));
+    box.extend(Eigen::Vector3d(seen.people.middle + reach));
+  }
+  GroundExtent recent{box.center(), 0};
+  for (const Seen& seen : seen_) {
+    const double away = (seen.people.middle - recent.middle).norm();
+    recent.radius = std::max(recent.radius, away + seen.people.radius);
+  }
+  return recent;
+}
+
+// m/s, of the people's middle over the last half second.
+Eigen::Vector3d HeldGroundExtent::Velocity() const {
+  const Seen& last = seen_.back();
+  const auto first = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& seen) {
+    return last.secs - seen.secs < 0.5 + kInterval;
+  });
+  if (last.secs - first->secs < kInterval) return Eigen::Vector3d::Zero();
+  return (last.people.middle - first->people.middle) / (last.secs - first->secs);
+}
+
+// The exact motion of the spring during `dt`, so that the number of pictures does not matter.
+void HeldGroundExtent::Glide(const GroundExtent& goal, double dt) {
+  const double decay = std::exp(-kStiffness * dt);
+  const auto glide = [&](auto& value, auto& speed, const auto& to) {
+    const auto away = (value - to).eval(), pull = (speed + kStiffness * away).eval();
+    value = to + decay * (away + dt * pull);
+    speed = decay * (speed - kStiffness * dt * pull);
+  };
+  glide(held_.middle, speed_.middle, goal.middle);
+  using Number = Eigen::Array<double, 1, 1>;
+  Number radius(held_.radius), speed(speed_.radius);
+  glide(radius, speed, Number(goal.radius));
+  held_.radius = radius.value();
+  speed_.radius = speed.value();
+  const bool has_arrived = (held_.middle - goal.middle).norm() < kArrived &&
+                           std::abs(held_.radius - goal.radius) < kArrived &&
+                           speed_.middle.norm() < kArrivedSpeed &&
+                           std::abs(speed_.radius) < kArrivedSpeed;
+  if (!has_arrived) return;
+  is_gliding_ = false;
+  speed_ = {};
+}
+
+const GroundExtent& HeldGroundExtent::Follow(const SceneState& state, double secs, double aspect) {
+  const GroundExtent people = GroundExtentOf(state);
+  const double dt = std::max(0.0, secs - at_secs_);
+  at_secs_ = secs;
+  if (!has_people_) {
+    has_people_ = !state.people.empty();
+    held_ = people;
+  }
+  if (state.people.empty()) return held_;
+  Remember(people, secs);
+  const Eigen::Vector3d velocity = Velocity();
+  const GroundExtent ahead{people.middle + kAhead * velocity, people.radius};
+  const GroundExtent still = Around(Recent(), people, aspect);
+  const bool can_stand = ShownHeight(still) <= kSmaller * ShownHeight(people) &&
+                         Contains(still, ahead, aspect, kSlack);
+  // A spring that follows a steady motion lags by twice its time constant.
+  const GroundExtent along{people.middle + 2 / kStiffness * velocity, people.radius};
+  const GroundExtent& goal = can_stand ? still : along;
+  const bool is_far = ShownHeight(goal) < kNearer * ShownHeight(held_);
+  const bool leaves =
+      !Contains(held_, people, aspect, kTolerance) || !Contains(held_, ahead, aspect, kSlack);
+  is_gliding_ = is_gliding_ || is_far || leaves;
+  if (is_gliding_) Glide(goal, dt);
+  return held_;
+}
+
+}  // namespace kinescope::render
