@@ -80,7 +80,8 @@ class LayerPainter : public Painter {
 };
 
 /// @throws RenderError if the module or its font is missing.
-std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, LayerFormat format);
+std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, double width_mm,
+                                               LayerFormat format);
 
 struct PlotModule {
   ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotClassInterval, PlotMark,
@@ -88,7 +89,8 @@ struct PlotModule {
       abi;
   std::string (*svg)(const Plot& plot);
   Image (*image)(const Plot& plot, double px_per_pt);
-  std::unique_ptr<LayerPainter> (*layer)(int width_px, int height_px, LayerFormat format);
+  std::unique_ptr<LayerPainter> (*layer)(int width_px, int height_px, double width_mm,
+                                         LayerFormat format);
 };
 
 /// Names of the entries of the modules: `extern "C"` functions without arguments.

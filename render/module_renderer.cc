@@ -117,7 +117,7 @@ std::string ModuleRenderer::DoOverlayLayer(const SceneState& state, const Camera
   std::vector<DrawnView> views = ViewsOf(lifted.camera(), lifted.spec());
   KINESCOPE_CHECK(views.size() == drawn_.size());  // of the picture drawn last
   for (std::size_t i = 0; i < views.size(); ++i) views[i].labels = drawn_[i].labels;
-  const auto painter = MakeLayerPainter(spec.width, spec.height, format);
+  const auto painter = MakeLayerPainter(spec.width, spec.height, spec.print.width_mm, format);
   overlay_.Paint(*painter, lifted.state(), views, lifted.spec());
   return painter->Finish();
 }

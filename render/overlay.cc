@@ -16,9 +16,27 @@ namespace {
 constexpr Rgb kWarningLamp{0.90, 0.60, 0.05};
 constexpr double kTimeCodeLine = 22;  // of a picture 720 px high, from its baseline to the sample's
 
+constexpr double kSpreadInPrint = 0.35;
+
 // Then there is no stream to tell of, and no load.
 bool HasOnlyRobots(const SceneState& state) {
   return state.people.empty() && !state.robots.empty();
+}
+
+// Of the sizes for a picture that is 720 px high.
+double ScaleOf(const PictureSpec& spec) {
+  if (!spec.print.is_known()) {
+    return std::max(0.5, std::min(spec.height / 720.0, spec.width / 1000.0));
+  }
+  // Whole pixels, as fonts have them.
+  return std::ceil(spec.print.text_pt * spec.print.PixelsPerPoint(spec.width) - 1e-6) / kSmallSize;
+}
+
+// Whether the texts of a legend or a title would cover the people.
+bool IsSmall(const PictureSpec& spec, double scale) {
+  if (!spec.print.is_known()) return spec.width < 300 || spec.height < 160;
+  const double text = scale * kSmallSize;
+  return spec.width < 24 * text || spec.height < 12 * text;
 }
 
 }  // namespace
@@ -45,7 +63,7 @@ OverlayFonts& Overlay::fonts() {
 
 void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
                     const PictureSpec& spec) {
-  const double scale = std::max(0.5, std::min(spec.height / 720.0, spec.width / 1000.0));
+  const double scale = ScaleOf(spec);
   const double frame_code =
       spec.parts.frame_code ? FrameCodeLayoutOf(spec.width, spec.height).height() : 0;
   Page page{painter,
@@ -55,7 +73,8 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
             static_cast<double>(spec.height),
             scale,
             spec.height - frame_code,
-            spec.width < 300 || spec.height < 160};
+            IsSmall(spec, scale),
+            spec.print.is_known() ? kSpreadInPrint : 1.0};
   const Page whole = page;
   for (const DrawnView& each : drawn) {
     painter.Enter(each.tile);

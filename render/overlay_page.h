@@ -68,11 +68,15 @@ struct OverlayPage {
   const Inks& inks;
   OverlayFonts& fonts;
   double width, height, scale;
-  double bottom;  // height minus the frame code at the bottom
-  bool is_small;  // room only for a status indicator without text, and banners
+  double bottom;      // height minus the frame code at the bottom
+  bool is_small;      // room only for a status indicator without text, and banners
+  double spread = 1;  // of the sizes of texts: 1 on screens; in print, where all are read, less
 
   double Px(double at_720) const { return at_720 * scale; }
-  int FontPx(double at_720) const { return std::max(8, static_cast<int>(std::lround(Px(at_720)))); }
+  int FontPx(double at_720) const {
+    const double spread_size = kSmallSize + spread * (at_720 - kSmallSize);
+    return std::max(8, static_cast<int>(std::lround(Px(spread_size))));
+  }
   double right() const { return width - Px(kMargin); }
 };
 

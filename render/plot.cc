@@ -20,8 +20,9 @@ Image ToImage(const Plot& plot, double px_per_pt) {
   return OpenPlotModule().image(plot, px_per_pt);
 }
 
-std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, LayerFormat format) {
-  return OpenPlotModule().layer(width_px, height_px, format);
+std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, double width_mm,
+                                               LayerFormat format) {
+  return OpenPlotModule().layer(width_px, height_px, width_mm, format);
 }
 
 }  // namespace kinescope::render

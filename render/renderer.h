@@ -33,6 +33,18 @@ struct Pane {
   Camera camera;
 };
 
+/// How large a picture is printed.
+struct PrintSize {
+  double width_mm = 0;  // 0: not known; texts follow the height of the picture then
+  double text_pt = 7;   // the smallest text, at that width
+
+  bool is_known() const { return width_mm > 0; }
+  /// Of a picture that is `width_px` wide. @pre is_known()
+  double PixelsPerPoint(int width_px) const { return width_px / (width_mm / 25.4 * 72); }
+  /// 0 if it is not known.
+  double PixelsPerMetre(int width_px) const { return is_known() ? 1000 * width_px / width_mm : 0; }
+};
+
 struct PictureSpec {
   int width = kDefaultPictureWidth;    // px, kMinPictureSide to kMaxPictureSide
   int height = kDefaultPictureHeight;  // px, kMinPictureSide to kMaxPictureSide
@@ -47,6 +59,7 @@ struct PictureSpec {
   std::shared_ptr<const LoadCurves> load_curves = nullptr;
   double plot_secs = 0;
   SceneLook look = {};  // theme, background, visible elements
+  PrintSize print = {};
 };
 
 enum class LayerFormat { kSvg, kPdf };

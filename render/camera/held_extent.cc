@@ -7,12 +7,12 @@
 namespace kinescope::render {
 namespace {
 
-constexpr double kMemory = 10;     // s
-constexpr double kInterval = 0.1;  // s, between places that are remembered
-constexpr double kAhead = 0.5;     // s, that the camera looks ahead to start in time
-constexpr double kSlack = 0.3;     // m, of the margin, that people may use up by then
-constexpr double kTolerance =
-    0.05;  // m, so that those who go round at the edge of what is visible do not move it
+constexpr double kMemory = 10;       // s
+constexpr double kFastest = 3;       // m/s
+constexpr double kInterval = 0.1;    // s, between places that are remembered
+constexpr double kAhead = 0.5;       // s, that the camera looks ahead to start in time
+constexpr double kSlack = 0.3;       // m, of the margin, that people may use up by then
+constexpr double kTolerance = 0.05;  // m, for those who go round at the edge of the picture
 constexpr double kSmaller = 1.35;  // times that people may be smaller so that the camera can stand
 constexpr double kNearer = 0.8;    // of the shown height: then it is worth to come nearer
 
@@ -40,7 +40,7 @@ bool Contains(const GroundExtent& aimed, const GroundExtent& people, double aspe
 
 // The nearest aim at the middle of `recent` that shows all of it; at least as wide as for `people`.
 GroundExtent Around(const GroundExtent& recent, const GroundExtent& people, double aspect) {
-  const GroundExtent nearest{recent.middle, people.radius};
+  GroundExtent nearest{recent.middle, people.radius};
   if (Contains(nearest, recent, aspect)) return nearest;
   const double share = std::min(1.0, kGroupFraming.narrowest_aspect / aspect);
   const double margin = kGroupFraming.margin_m;
@@ -77,7 +77,10 @@ Eigen::Vector3d HeldGroundExtent::Velocity() const {
     return last.secs - seen.secs < 0.5 + kInterval;
   });
   if (last.secs - first->secs < kInterval) return Eigen::Vector3d::Zero();
-  return (last.people.middle - first->people.middle) / (last.secs - first->secs);
+  const Eigen::Vector3d velocity =
+      (last.people.middle - first->people.middle) / (last.secs - first->secs);
+  // Who is faster has not run, but was put elsewhere, or has come or gone.
+  return velocity * (kFastest / std::max(velocity.norm(), kFastest));
 }
 
 // The exact motion of the spring during `dt`, so that the number of pictures does not matter.

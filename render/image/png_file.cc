@@ -3,6 +3,7 @@
 #include <png.h>
 
 #include <cerrno>
+#include <cmath>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -40,6 +41,7 @@ void IgnoreWarning(png_structp, png_const_charp) {}
 struct EncodeJob {
   const Image* image;
   bool has_alpha;
+  png_uint_32 px_per_m;  // 0: not known
   std::vector<png_text>* texts;
   std::vector<png_bytep>* rows;
 };
@@ -56,6 +58,9 @@ bool RunEncoder(png_structp png, png_infop info, const EncodeJob& job) {
   // bytes.
   png_set_compression_level(png, 3);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  if (job.px_per_m > 0) {
+    png_set_pHYs(png, info, job.px_per_m, job.px_per_m, PNG_RESOLUTION_METER);
+  }
   if (!job.texts->empty()) {
     png_set_text(png, info, job.texts->data(), static_cast<int>(job.texts->size()));
   }
@@ -99,7 +104,8 @@ std::vector<std::uint8_t> ReadWhole(const std::filesystem::path& path) {
 }  // namespace
 
 std::vector<std::uint8_t> EncodePng(const Image& image,
-                                    const std::map<std::string, std::string>& text) {
+                                    const std::map<std::string, std::string>& text,
+                                    double px_per_m) {
   KINESCOPE_CHECK(image.width > 0 && image.height > 0);
   KINESCOPE_CHECK(image.rgba.size() == 4 * static_cast<std::size_t>(image.width) *
                                            static_cast<std::size_t>(image.height));
@@ -119,7 +125,9 @@ std::vector<std::uint8_t> EncodePng(const Image& image,
   bool done = false;
   if (info != nullptr) {
     png_set_write_fn(png, &out, Append, nullptr);
-    done = RunEncoder(png, info, {&image, !IsOpaque(image), &texts, &rows});
+    done = RunEncoder(
+        png, info,
+        {&image, !IsOpaque(image), static_cast<png_uint_32>(std::lround(px_per_m)), &texts, &rows});
   }
   png_destroy_write_struct(&png, &info);
   if (!done) throw std::runtime_error("libpng cannot encode the picture: " + message);
@@ -127,8 +135,8 @@ std::vector<std::uint8_t> EncodePng(const Image& image,
 }
 
 void WritePng(const std::filesystem::path& path, const Image& image,
-              const std::map<std::string, std::string>& text) {
-  const std::vector<std::uint8_t> bytes = EncodePng(image, text);
+              const std::map<std::string, std::string>& text, double px_per_m) {
+  const std::vector<std::uint8_t> bytes = EncodePng(image, text, px_per_m);
   NewFile file(path);
   file.Write(bytes.data(), bytes.size());
   file.Commit();

@@ -14,11 +14,13 @@ namespace kinescope::render {
 
 /// RGB (without alpha if every pixel is opaque); `text` becomes tEXt chunks. The file gets its name
 /// only when complete.
+/// @param px_per_m  where it is printed (chunk pHYs); 0: not known
 /// @throws std::runtime_error with the path and the reason.
 void WritePng(const std::filesystem::path& path, const Image& image,
-              const std::map<std::string, std::string>& text = {});
+              const std::map<std::string, std::string>& text = {}, double px_per_m = 0);
 std::vector<std::uint8_t> EncodePng(const Image& image,
-                                    const std::map<std::string, std::string>& text = {});
+                                    const std::map<std::string, std::string>& text = {},
+                                    double px_per_m = 0);
 
 /// @throws std::runtime_error with the path and the reason.
 Image ReadPng(const std::filesystem::path& path);

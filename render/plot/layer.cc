@@ -15,7 +15,10 @@
 namespace kinescope::render::plot {
 namespace {
 
-constexpr double kPtPerPx = 72.0 / 96;  // as CSS has it, so that both formats are equally large
+// As CSS has it, so that both formats are equally large.
+constexpr double kPxPerInch = 96;
+
+constexpr double kMmPerInch = 25.4, kPtPerInch = 72;
 
 cairo_status_t AppendLayer(void* to, const unsigned char* data, unsigned int size) {
   static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
@@ -24,19 +27,25 @@ cairo_status_t AppendLayer(void* to, const unsigned char* data, unsigned int siz
 
 class CairoLayer : public LayerPainter {
  public:
-  CairoLayer(int width_px, int height_px, LayerFormat format) : format_(format) {
-    if (format == LayerFormat::kSvg) {
-      surface_ = cairo_svg_surface_create_for_stream(&AppendLayer, &bytes_, width_px, height_px);
-      cairo_svg_surface_set_document_unit(surface_, CAIRO_SVG_UNIT_PX);
-    } else {
-      surface_ = cairo_pdf_surface_create_for_stream(&AppendLayer, &bytes_, kPtPerPx * width_px,
-                                                     kPtPerPx * height_px);
+  CairoLayer(int width_px, int height_px, double width_mm, LayerFormat format) : format_(format) {
+    const bool is_pdf = format == LayerFormat::kPdf;
+    const bool is_printed = width_mm > 0;
+    const double px_per_inch = is_printed ? width_px / width_mm * kMmPerInch : kPxPerInch;
+    const double units_per_inch = is_pdf ? kPtPerInch : is_printed ? kMmPerInch : kPxPerInch;
+    const double units_per_px = units_per_inch / px_per_inch;
+    const double width = units_per_px * width_px, height = units_per_px * height_px;
+    if (is_pdf) {
+      surface_ = cairo_pdf_surface_create_for_stream(&AppendLayer, &bytes_, width, height);
       // Otherwise the time of day: the same picture is to be the same bytes.
       cairo_pdf_surface_set_metadata(surface_, CAIRO_PDF_METADATA_CREATE_DATE,
                                      "1970-01-01T00:00:00Z");
+    } else {
+      surface_ = cairo_svg_surface_create_for_stream(&AppendLayer, &bytes_, width, height);
+      cairo_svg_surface_set_document_unit(surface_,
+                                          is_printed ? CAIRO_SVG_UNIT_MM : CAIRO_SVG_UNIT_PX);
     }
     context_ = cairo_create(surface_);
-    if (format == LayerFormat::kPdf) cairo_scale(context_, kPtPerPx, kPtPerPx);
+    if (units_per_px != 1) cairo_scale(context_, units_per_px, units_per_px);
     cairo_font_options_t* options = cairo_font_options_create();
     cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -139,8 +148,9 @@ class CairoLayer : public LayerPainter {
 
 }  // namespace
 
-std::unique_ptr<LayerPainter> MakeLayer(int width_px, int height_px, LayerFormat format) {
-  return std::make_unique<CairoLayer>(width_px, height_px, format);
+std::unique_ptr<LayerPainter> MakeLayer(int width_px, int height_px, double width_mm,
+                                        LayerFormat format) {
+  return std::make_unique<CairoLayer>(width_px, height_px, width_mm, format);
 }
 
 }  // namespace kinescope::render::plot

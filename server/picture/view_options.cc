@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/picture_limits.h"
+#include "core/system/errors.h"
 #include "server/options/text.h"
 #include "server/picture/trails.h"
 #include "server/scene/robot_source.h"
@@ -21,6 +22,7 @@ using options::BadValue;
 
 constexpr std::size_t kMaxViews = 16, kMaxPlots = 8, kMaxTrails = 24, kMaxRobots = 64;
 constexpr double kFarthestRobot = 1000;  // m
+constexpr double kMmPerInch = 25.4;
 
 constexpr std::array<std::pair<const char*, const char*>, 4> kGrids = {{
     {"2x1", "front,right"},
@@ -310,6 +312,9 @@ std::vector<std::filesystem::path> RobotsValue::Files() const {
 
 ViewOptions::ViewOptions(std::size_t most_cameras)
     : size({kDefaultPictureWidth, kDefaultPictureHeight}),
+      width_mm(options::Number(80, {5, 5000, "mm"})),
+      dpi(options::Number(300, {10, 4800, "pixels per inch"})),
+      text_pt(render::PrintSize().text_pt, {1, 200, "pt"}),
       camera(most_cameras),
       supersample(SupersampleWords(), 2),
       plot(Joined(ScoredJointNames()), kMaxPlots, ScoredJointNamed),
@@ -325,6 +330,9 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
 void ViewOptions::List(options::OptionList& option) {
   option.Group("The picture");
   option("size", size, "size of the picture");
+  option("width_mm", width_mm, "width of the picture as it is printed");
+  option("dpi", dpi, "pixels per inch in print: sets the size, with the aspect ratio of --size");
+  option("text_pt", text_pt, "smallest text in print");
   option("camera", camera, "where the camera stands");
   option("views", views, "several views in one picture");
   moves.List(option);
@@ -343,8 +351,11 @@ void ViewOptions::List(options::OptionList& option) {
   option("ghost", ghost, "a translucent second body to compare with");
   option("ghost_opacity", ghost_opacity, "opacity of the ghost");
   option("robot", robot, "robot that stands on the floor beside the people; may be repeated");
+  for (const char* name : {"dpi", "text_pt"}) {
+    option.HasNoEffect(name, "without --width_mm", [this] { return !width_mm; });
+  }
   const auto no_overlays_at_all = [this] { return *no_overlays; };
-  for (const char* name : {"title", "overlay", "plot"}) {
+  for (const char* name : {"title", "overlay", "plot", "text_pt"}) {
     option.HasNoEffect(name, "with --no_overlays", no_overlays_at_all);
   }
   option.HasNoEffect("title", "unless --overlay includes title",
@@ -354,10 +365,33 @@ void ViewOptions::List(options::OptionList& option) {
                      [this] { return ghost->kind == GhostSource::Kind::kNone; });
 }
 
+namespace {
+
+// px
+options::PixelSize SizeOf(const ViewOptions& options) {
+  if (!options.width_mm || !options.dpi) return *options.size;
+  const double scale = *options.width_mm / kMmPerInch * *options.dpi / options.size->width;
+  const options::PixelSize size{static_cast<int>(std::lround(scale * options.size->width)),
+                                static_cast<int>(std::lround(scale * options.size->height))};
+  const auto is_possible = [](int side) {
+    return side >= options::Size::kMin && side <= options::Size::kMax;
+  };
+  if (is_possible(size.width) && is_possible(size.height)) return size;
+  throw UsageError(
+      fmt::format("--width_mm={} at --dpi={} is a picture of {} x {} px; expected {} to {} px each "
+                  "way: change one of them",
+                  options.width_mm.ToText(), options.dpi.ToText(), size.width, size.height,
+                  options::Size::kMin, options::Size::kMax));
+}
+
+}  // namespace
+
 render::PictureSpec ToPictureSpec(const ViewOptions& options) {
   render::PictureSpec spec;
-  spec.width = options.size->width;
-  spec.height = options.size->height;
+  const options::PixelSize size = SizeOf(options);
+  spec.width = size.width;
+  spec.height = size.height;
+  if (options.width_mm) spec.print = {*options.width_mm, *options.text_pt};
   spec.supersample = *options.supersample;
   spec.title = *options.title;
   spec.overlays = !*options.no_overlays;

@@ -123,6 +123,8 @@ struct ViewOptions {
   explicit ViewOptions(std::size_t most_cameras = 1);
 
   options::Size size;
+  options::Optional<options::Number> width_mm, dpi;
+  options::Number text_pt;
   CamerasValue camera;
   ViewsValue views;
   CameraOptions moves;
@@ -144,7 +146,8 @@ struct ViewOptions {
   void List(options::OptionList& option);
 };
 
-/// Without cameras.
+/// Without cameras. @throws UsageError if the picture would be too large or too small for its width
+/// in print.
 render::PictureSpec ToPictureSpec(const ViewOptions& options);
 
 }  // namespace kinescope::app

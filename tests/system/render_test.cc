@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -301,6 +302,69 @@ TEST_F(RenderCommand, VerifiesOneFrameOfASequenceWithAPlotOfTheWholeSequence) {
                 "--json"}));
   const ProgramResult result = Verify(Path("2.png"));
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+}
+
+// Pixels per metre in the chunk pHYs of a PNG; 0 without one.
+long PixelsPerMetreIn(const std::string& png) {
+  const std::size_t at = png.find("pHYs");
+  if (at == std::string::npos) return 0;
+  long value = 0;
+  for (std::size_t i = 4; i < 8; ++i) value = 256 * value + static_cast<unsigned char>(png[at + i]);
+  return value;
+}
+
+// As poppler finds the words in the PDF of the overlays.
+TEST_F(RenderCommand, MakesAFigureOfAWidthInPrintWithReadableTexts) {
+  constexpr double kSmallest = 7;  // pt
+  for (const char* dpi : {"150", "300", "1200"}) {
+    Lines(Render({"--out", Path("a.png"), "--size", "1280x720", "--width_mm", "80", "--dpi", dpi,
+                  "--title", "Lifting", "--overlay", "+scale,+plot", "--plot", "l5_s1",
+                  "--overlay_layer", "pdf", "--json"},
+                 "demo:lift"));
+    const render::Image image = render::ReadPng(Path("a.png"));
+    EXPECT_EQ(image.width, std::lround(80 / 25.4 * std::stod(dpi)));
+    EXPECT_NEAR(image.height, image.width * 720.0 / 1280, 1);
+    EXPECT_NEAR(static_cast<double>(PixelsPerMetreIn(ReadFile(Path("a.png")))), image.width / 0.080,
+                0.5);
+    const ProgramResult words = RunProgram({"/usr/bin/pdftotext", "-bbox", Path("a.pdf"), "-"});
+    ASSERT_EQ(words.exit_code, 0) << words.err;
+    const auto value = [](const std::string& line, const std::string& name) {
+      const std::size_t at = line.find(name + "=\"");
+      return at == std::string::npos ? NAN : std::stod(line.substr(at + name.size() + 2));
+    };
+    std::istringstream lines(words.out);
+    int count = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find("<page") != std::string::npos) {
+        EXPECT_NEAR(value(line, "width"), 80 / 25.4 * 72, 0.01);
+      }
+      if (line.find("<word") == std::string::npos) continue;
+      constexpr double kBox = 1.164;  // of DejaVu Sans: ascent and descent, em
+      EXPECT_GE((value(line, "yMax") - value(line, "yMin")) / kBox, kSmallest - 0.01) << line;
+      ++count;
+    }
+    EXPECT_GT(count, 10);
+  }
+}
+
+TEST_F(RenderCommand, KeepsTheSizeInPixelsWithAWidthInPrintAlone) {
+  Lines(Render({"--out", Path("a.png"), "--size", "800x600", "--width_mm", "100", "--json"}));
+  EXPECT_EQ(PixelsPerMetreIn(ReadFile(Path("a.png"))), 8000);
+  EXPECT_EQ(render::ReadPng(Path("a.png")).width, 800);
+  const ProgramResult verified = Verify(Path("a.png"));
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+  Lines(Render({"--out", Path("b.png"), "--json"}));
+  EXPECT_EQ(PixelsPerMetreIn(ReadFile(Path("b.png"))), 0);
+}
+
+TEST_F(RenderCommand, NamesAnImpossibleWidthInPrint) {
+  const ProgramResult large =
+      Render({"--out", Path("a.png"), "--width_mm", "1000", "--dpi", "1200"});
+  EXPECT_EQ(large.exit_code, 2);
+  EXPECT_THAT(large.err, AllOf(HasSubstr("--width_mm=1000"), HasSubstr("--dpi=1200"),
+                               HasSubstr("47244 x"), HasSubstr("px each way")));
+  const ProgramResult alone = Render({"--out", Path("a.png"), "--dpi", "300"});
+  EXPECT_THAT(alone.err, AllOf(HasSubstr("dpi"), HasSubstr("without --width_mm")));
 }
 
 TEST_F(RenderCommand, NamesAChangedFileWithInvalidUtf8) {

@@ -17,9 +17,11 @@ struct Item {
 
 class PngSink : public OutputSink {
  public:
-  PngSink(std::string path, int threads, MetadataOf metadata, std::string layer_path)
+  PngSink(std::string path, int threads, MetadataOf metadata, std::string layer_path,
+          double px_per_m)
       : path_(std::move(path)),
         layer_path_(std::move(layer_path)),
+        px_per_m_(px_per_m),
         metadata_(std::move(metadata)),
         threads_(threads, [this](Item& item) { Write(item); }) {}
 
@@ -33,10 +35,12 @@ class PngSink : public OutputSink {
   void Write(const Item& item) const {
     const DrawnPicture& picture = *item.picture.get();
     if (!layer_path_.empty()) render::WriteNewFile(layer_path_, picture.layer);
-    render::WritePng(PathOfPicture(path_, item.k), picture, metadata_(item.camera, item.k));
+    render::WritePng(PathOfPicture(path_, item.k), picture, metadata_(item.camera, item.k),
+                     px_per_m_);
   }
 
   const std::string path_, layer_path_;
+  const double px_per_m_;
   const MetadataOf metadata_;
   WriterThreads<Item> threads_;  // last: it uses the others
 };
@@ -76,8 +80,8 @@ class ClipSink : public OutputSink {
 }  // namespace
 
 std::unique_ptr<OutputSink> MakePngSink(const std::string& path, int threads, MetadataOf metadata,
-                                        const std::string& layer_path) {
-  return std::make_unique<PngSink>(path, threads, std::move(metadata), layer_path);
+                                        const std::string& layer_path, double px_per_m) {
+  return std::make_unique<PngSink>(path, threads, std::move(metadata), layer_path, px_per_m);
 }
 
 std::unique_ptr<OutputSink> MakeClipSink(const std::string& path, const render::PictureSpec& spec,

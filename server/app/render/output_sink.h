@@ -35,9 +35,9 @@ class OutputSink {
 };
 
 /// One PNG, or a sequence of them on `threads` threads. `layer_path`: the vector file of the
-/// overlays of one picture (DrawnPicture::layer); "": none.
+/// overlays of one picture (DrawnPicture::layer); "": none. `px_per_m`: as WritePng.
 std::unique_ptr<OutputSink> MakePngSink(const std::string& path, int threads, MetadataOf metadata,
-                                        const std::string& layer_path = {});
+                                        const std::string& layer_path = {}, double px_per_m = 0);
 
 /// A clip on its own thread. `options`: without metadata.
 /// @throws the exceptions of MakeVideoWriter, here and from Put.

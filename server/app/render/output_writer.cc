@@ -41,8 +41,8 @@ OutputWriter::OutputWriter(const RunContext& run, Output output, bool is_up_to_d
     if (pictures.is_number_integer()) result_.pictures = pictures.get<long>();
   }
   if (output_.kind == OutputKind::kClip && !is_up_to_date) {
-    const options::Size& size = run.options.view.size;
-    render::MakeVideoWriter(output_.path, size->width, size->height, PackingOf(run, output_));
+    const render::PictureSpec spec = ToPictureSpec(run.options.view);
+    render::MakeVideoWriter(output_.path, spec.width, spec.height, PackingOf(run, output_));
   }
 }
 
@@ -59,14 +59,16 @@ std::unique_ptr<OutputSink> OutputWriter::MakeSink() const {
   const MetadataOf metadata = [this](const render::Camera& camera, long k) {
     return MetadataFor(camera, k);
   };
+  const render::PictureSpec spec = ToPictureSpec(run_.options.view);
+  const double px_per_m = spec.print.PixelsPerMetre(spec.width);
   switch (output_.kind) {
     case OutputKind::kStill:
-      return MakePngSink(output_.path, 1, metadata, LayerPathOf(run_, output_));
-    case OutputKind::kSequence: return MakePngSink(output_.path, run_.settings.jobs, metadata);
+      return MakePngSink(output_.path, 1, metadata, LayerPathOf(run_, output_), px_per_m);
+    case OutputKind::kSequence:
+      return MakePngSink(output_.path, run_.settings.jobs, metadata, "", px_per_m);
     case OutputKind::kClip: break;
   }
-  return MakeClipSink(output_.path, ToPictureSpec(run_.options.view), PackingOf(run_, output_),
-                      metadata);
+  return MakeClipSink(output_.path, spec, PackingOf(run_, output_), metadata);
 }
 
 // On the threads of the sink.

@@ -78,7 +78,7 @@ std::vector<std::string> CorrectionsSince(const Json& then) {
         "a picture of a sequence did not contain the length of the sequence, on which its plot or "
         "camera depends (verify the whole sequence)");
   }
-  if (then.value("format", "") == "mp4" && options.view.size->width % 128 != 0) {
+  if (then.value("format", "") == "mp4" && ToPictureSpec(options.view).width % 128 != 0) {
     clauses.emplace_back(
         "x264 used its macroblock tree also for clips whose width is not a multiple of 128, with "
         "undefined results");

@@ -113,7 +113,7 @@ void DrawUrdf(const UrdfPictureOptions& options) {
   facts["Software"] = "Kinescope " KINESCOPE_VERSION;
   facts["Source"] = std::filesystem::path(*options.file).filename().string();
   facts["Camera"] = options.view.camera.ToText();
-  render::WritePng(*options.out, image, facts);
+  render::WritePng(*options.out, image, facts, request.spec.print.PixelsPerMetre(image.width));
   PrintPicture(options, request.state.robots.front(), request.camera, renderer->problems());
 }
 
