@@ -16,7 +16,7 @@ namespace {
 constexpr Rgb kWarningLamp{0.90, 0.60, 0.05};
 constexpr double kTimeCodeLine = 22;  // of a picture 720 px high, from its baseline to the sample's
 
-constexpr double kSpreadInPrint = 0.35;
+constexpr double kSpreadInPrint = 0.35;  // a title is a quarter larger than the legend there
 
 // Then there is no stream to tell of, and no load.
 bool HasOnlyRobots(const SceneState& state) {

@@ -33,6 +33,8 @@ struct Pane {
   Camera camera;
 };
 
+inline constexpr double kMmPerInch = 25.4, kPointsPerInch = 72;
+
 /// How large a picture is printed.
 struct PrintSize {
   double width_mm = 0;  // 0: not known; texts follow the height of the picture then
@@ -40,7 +42,9 @@ struct PrintSize {
 
   bool is_known() const { return width_mm > 0; }
   /// Of a picture that is `width_px` wide. @pre is_known()
-  double PixelsPerPoint(int width_px) const { return width_px / (width_mm / 25.4 * 72); }
+  double PixelsPerPoint(int width_px) const {
+    return width_px / (width_mm / kMmPerInch * kPointsPerInch);
+  }
   /// 0 if it is not known.
   double PixelsPerMetre(int width_px) const { return is_known() ? 1000 * width_px / width_mm : 0; }
 };

@@ -9,7 +9,7 @@ namespace {
 // C0, DEL and C1.
 bool IsControl(char32_t c) { return c < 0x20 || (c >= 0x7F && c < 0xA0); }
 
-// Embeddings, overrides and isolates: what is read is then not what is there.
+// Characters that change the direction of writing: a reader sees another text than the bytes say.
 bool IsReversing(char32_t c) {
   return (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069);
 }

@@ -86,17 +86,15 @@ Eigen::Vector3d HeldGroundExtent::Velocity() const {
 // The exact motion of the spring during `dt`, so that the number of pictures does not matter.
 void HeldGroundExtent::Glide(const GroundExtent& goal, double dt) {
   const double decay = std::exp(-kStiffness * dt);
-  const auto glide = [&](auto& value, auto& speed, const auto& to) {
-    const auto away = (value - to).eval(), pull = (speed + kStiffness * away).eval();
+  const auto glide = [&](double& value, double& speed, double to) {
+    const double away = value - to, pull = speed + kStiffness * away;
     value = to + decay * (away + dt * pull);
     speed = decay * (speed - kStiffness * dt * pull);
   };
-  glide(held_.middle, speed_.middle, goal.middle);
-  using Number = Eigen::Array<double, 1, 1>;
-  Number radius(held_.radius), speed(speed_.radius);
-  glide(radius, speed, Number(goal.radius));
-  held_.radius = radius.value();
-  speed_.radius = speed.value();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    glide(held_.middle[axis], speed_.middle[axis], goal.middle[axis]);
+  }
+  glide(held_.radius, speed_.radius, goal.radius);
   const bool has_arrived = (held_.middle - goal.middle).norm() < kArrived &&
                            std::abs(held_.radius - goal.radius) < kArrived &&
                            speed_.middle.norm() < kArrivedSpeed &&

@@ -18,8 +18,6 @@ namespace {
 // As CSS has it, so that both formats are equally large.
 constexpr double kPxPerInch = 96;
 
-constexpr double kMmPerInch = 25.4, kPtPerInch = 72;
-
 cairo_status_t AppendLayer(void* to, const unsigned char* data, unsigned int size) {
   static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
   return CAIRO_STATUS_SUCCESS;
@@ -31,7 +29,7 @@ class CairoLayer : public LayerPainter {
     const bool is_pdf = format == LayerFormat::kPdf;
     const bool is_printed = width_mm > 0;
     const double px_per_inch = is_printed ? width_px / width_mm * kMmPerInch : kPxPerInch;
-    const double units_per_inch = is_pdf ? kPtPerInch : is_printed ? kMmPerInch : kPxPerInch;
+    const double units_per_inch = is_pdf ? kPointsPerInch : is_printed ? kMmPerInch : kPxPerInch;
     const double units_per_px = units_per_inch / px_per_inch;
     const double width = units_per_px * width_px, height = units_per_px * height_px;
     if (is_pdf) {

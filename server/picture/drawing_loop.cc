@@ -93,7 +93,7 @@ std::future<render::Image> DrawingLoop::RequestAimed(const render::PictureSpec& 
 }
 
 double DrawingLoop::LiveAspect() const {
-  return AspectOf(LiveView(settings_.width, settings_.height));
+  return static_cast<double>(settings_.width) / settings_.height;
 }
 
 render::Camera DrawingLoop::AimLive(double aspect) {

@@ -22,7 +22,6 @@ using options::BadValue;
 
 constexpr std::size_t kMaxViews = 16, kMaxPlots = 8, kMaxTrails = 24, kMaxRobots = 64;
 constexpr double kFarthestRobot = 1000;  // m
-constexpr double kMmPerInch = 25.4;
 
 constexpr std::array<std::pair<const char*, const char*>, 4> kGrids = {{
     {"2x1", "front,right"},
@@ -370,7 +369,7 @@ namespace {
 // px
 options::PixelSize SizeOf(const ViewOptions& options) {
   if (!options.width_mm || !options.dpi) return *options.size;
-  const double scale = *options.width_mm / kMmPerInch * *options.dpi / options.size->width;
+  const double scale = *options.width_mm / render::kMmPerInch * *options.dpi / options.size->width;
   const options::PixelSize size{static_cast<int>(std::lround(scale * options.size->width)),
                                 static_cast<int>(std::lround(scale * options.size->height))};
   const auto is_possible = [](int side) {

@@ -1,11 +1,8 @@
 // What a user sees who gets it wrong, and the files that a user gets who gets it right.
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -25,6 +22,7 @@
 #include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
+#include "tests/taken_port.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope {
@@ -38,30 +36,8 @@ using testing::ProgramResult;
 using testing::RestOfLine;
 using testing::RunProgram;
 using testing::SharedData;
+using testing::TakenPort;
 using testing::TempFolder;
-
-// A port that is taken, by us.
-class TakenPort {
- public:
-  explicit TakenPort(int type) : fd_(socket(AF_INET, type, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof(address);
-    bind(fd_, reinterpret_cast<sockaddr*>(&address), size);
-    if (type == SOCK_STREAM) listen(fd_, 1);
-    getsockname(fd_, reinterpret_cast<sockaddr*>(&address), &size);
-    number_ = ntohs(address.sin_port);
-  }
-  ~TakenPort() { close(fd_); }
-  TakenPort(const TakenPort&) = delete;
-  TakenPort& operator=(const TakenPort&) = delete;
-  std::string number() const { return std::to_string(number_); }
-
- private:
-  int fd_;
-  int number_ = 0;
-};
 
 TEST(Command, RejectsUnknownCommandsOptionsAndValuesByName) {
   ExpectRefusal(Kinescope({"frobnicate"}), "frobnicate");

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -17,6 +15,7 @@
 #include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
 #include "tests/system/run_program.h"
+#include "tests/taken_port.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope {
@@ -30,6 +29,7 @@ using testing::Kinescope;
 using testing::ProgramResult;
 using testing::RestOfLine;
 using testing::RunProgram;
+using testing::TakenPort;
 using testing::TempFolder;
 
 // `{}` in `script` is the program.
@@ -37,29 +37,6 @@ ProgramResult InShell(const std::string& script, const std::vector<std::string>&
   return RunProgram({"/bin/bash", "-c", fmt::format(script, testing::KinescopePath())},
                     environment);
 }
-
-// A port on this machine that another program uses.
-class UsedPort {
- public:
-  UsedPort() : socket_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof(address);
-    bind(socket_, reinterpret_cast<sockaddr*>(&address), size);
-    listen(socket_, 1);
-    getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
-    number_ = ntohs(address.sin_port);
-  }
-  ~UsedPort() { close(socket_); }
-  UsedPort(const UsedPort&) = delete;
-  UsedPort& operator=(const UsedPort&) = delete;
-  std::string number() const { return std::to_string(number_); }
-
- private:
-  int socket_;
-  int number_ = 0;
-};
 
 // Of no account: not even root can create it.
 constexpr char kNoHome[] = "HOME=/proc/nothere";
@@ -215,7 +192,7 @@ TEST(Service, PicturesWriteOnlyCompiledShadersIntoTheCacheOfTheService) {
 }
 
 TEST(Service, APortInUseIsReportedBeforeTheFirstPicture) {
-  const UsedPort used;
+  const TakenPort used(SOCK_STREAM);
   ExpectRefusal(Kinescope({"serve", "--source", "demo:lift", "--http_port", used.number(), "--ros",
                            "off", "--picture_size", "64x48"}),
                 used.number());

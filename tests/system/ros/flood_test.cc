@@ -26,7 +26,7 @@ class Flood : public testing::RosProgram {
 TEST_F(Flood, LosesNoSampleOfAPersonBesideHostileDatagramsOfEveryKind) {
   if (IsSkipped() || HasFatalFailure()) return;
   constexpr double kRateHz = 240;
-  constexpr std::size_t kSamples = 480;
+  constexpr std::size_t kSamples = 480, kDatagrams = 10'000;
   const auto server =
       Start("serve --source udp://127.0.0.1:0 --http_port 0 --ros required --stale_secs 60");
   const std::string address = WaitForAddress(*server);
@@ -39,13 +39,17 @@ TEST_F(Flood, LosesNoSampleOfAPersonBesideHostileDatagramsOfEveryKind) {
   stamps_.clear();
   const std::string port = address.substr(address.rfind(':') + 1);
   const Process hostile({KINESCOPE_HOSTILE_SENDERS, port, "all", "5000", "60"});
-  ASSERT_TRUE(Spin([this] { return stamps_.size() > kSamples; }));
-
-  const auto diagnostics =
-      nlohmann::json::parse(RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out);
-  const auto& source = diagnostics.at("source");
+  // Those far away are named as long as none of their samples from a possible place is newer.
+  nlohmann::json source;
+  bool were_named = false;
+  ASSERT_TRUE(Spin([&] {
+    if (stamps_.size() <= kSamples) return false;
+    source = nlohmann::json::parse(
+        RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out)["source"];
+    were_named = were_named || !source.at("left_out").empty();
+    return were_named && source.at("datagrams").get<std::size_t>() > kDatagrams;
+  })) << source;
   const std::size_t drops = source.at("transport").value("kernel_drops", std::size_t{0});
-  EXPECT_GT(source.at("datagrams").get<std::size_t>(), 4 * kSamples * 5) << "there was a flood";
   std::size_t missing = 0;
   for (std::size_t i = 1; i < stamps_.size(); ++i) {
     const double periods = (stamps_[i] - stamps_[i - 1]) * kRateHz;
@@ -53,7 +57,6 @@ TEST_F(Flood, LosesNoSampleOfAPersonBesideHostileDatagramsOfEveryKind) {
     missing += periods > 1.5 ? static_cast<std::size_t>(periods - 0.5) : 0;
   }
   EXPECT_LE(missing, drops) << "what was lost is counted";
-  EXPECT_EQ(diagnostics.at("source").at("left_out").empty(), false) << "those far away are named";
 }
 
 }  // namespace
