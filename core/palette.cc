@@ -8,20 +8,27 @@
 namespace kinescope {
 namespace {
 
-// By urdf::JointGroup, of a body 1.75 m tall, m: just larger than the limb at that joint, so that
-// the sphere shows.
-constexpr std::array<double, urdf::kJointGroupCount> kBaseRadius = {
-    0.065,  // spine
-    0.048,  // neck
-    0.046,  // clavicle
-    0.056,  // shoulder
-    0.046,  // elbow
-    0.038,  // wrist
-    0.064,  // hip
-    0.058,  // knee
-    0.046,  // ankle
-    0.046,  // ball of the foot
+// By urdf::JointGroup, of a body 1.75 m tall.
+struct SphereSize {
+  double limb;   // half of the limb's least thickness at the joint, m: the class high is as large
+  double depth;  // m, from the joint's centre to beyond the skin, clothes and tools on it
 };
+constexpr std::array<SphereSize, urdf::kJointGroupCount> kSizes = {{
+    {0.080, 0.150},   // spine
+    {0.052, 0.096},   // neck
+    {0.050, 0.096},   // clavicle
+    {0.051, 0.112},   // shoulder
+    {0.038, 0.092},   // elbow
+    {0.0225, 0.076},  // wrist
+    {0.072, 0.140},   // hip
+    {0.053, 0.116},   // knee
+    {0.034, 0.092},   // ankle
+    {0.022, 0.080},   // ball of the foot
+}};
+
+const SphereSize& SizeOf(int joint) { return kSizes[urdf::At(urdf::JointGroupOf(joint))]; }
+
+double Scale(double height) { return height > 0 ? height / urdf::kReferenceHeight : 1; }
 
 }  // namespace
 
@@ -36,12 +43,13 @@ Rgb ColorOf(LoadClass load_class) {
 }
 
 double SphereRadius(int joint, LoadClass load_class, double height) {
-  double factor = 0.8;  // unknown: smaller than any real class
-  if (load_class == LoadClass::kLow) factor = 1.0;
-  if (load_class == LoadClass::kMedium) factor = 1.2;
-  if (load_class == LoadClass::kHigh) factor = 1.4;
-  const double radius = kBaseRadius[urdf::At(urdf::JointGroupOf(joint))];
-  return radius * factor * (height > 0 ? height / urdf::kReferenceHeight : 1.0);
+  double share = 0.57;  // unknown: smaller than any real class
+  if (load_class == LoadClass::kLow) share = 0.71;
+  if (load_class == LoadClass::kMedium) share = 0.85;
+  if (load_class == LoadClass::kHigh) share = 1;
+  return SizeOf(joint).limb * share * Scale(height);
 }
+
+double SphereDepth(int joint, double height) { return SizeOf(joint).depth * Scale(height); }
 
 }  // namespace kinescope

@@ -23,14 +23,24 @@ inline constexpr Rgb kSupportColor = {0.36, 0.49, 0.71};
 inline constexpr double kMetresPerNewton = 1e-3;
 inline constexpr double kMinForceShown = 20;  // N; below it the arrow is a dot
 inline constexpr Rgb kBodyColor = {0.78, 0.80, 0.84};
+/// Of a person rendered as a skin: quiet, and at least 20 (CIEDE2000) from every load class.
+inline constexpr Rgb kSuitColor = {0.70, 0.73, 0.78};
+inline constexpr Rgb kTrousersColor = {0.53, 0.56, 0.61};
+inline constexpr Rgb kShoesColor = {0.06, 0.07, 0.08};
+inline constexpr Rgb kBareColor = {0.86, 0.84, 0.81};
 inline constexpr Rgb kStaleBodyColor = {0.55, 0.55, 0.55};
 inline constexpr Rgb kObjectColor = {0.42, 0.46, 0.54};  // tracked objects and props
 /// Of the x, y and z axis of a frame: the hues of RViz, paler than any load class.
 inline constexpr std::array<Rgb, 3> kAxisColors = {
     {{0.86, 0.42, 0.42}, {0.44, 0.72, 0.44}, {0.42, 0.50, 0.86}}};
 
-/// Radius of the load sphere of `joint`, m. It grows with the class, so that the order is visible
-/// without colour. `height`: stature of the person, m.
+/// Radius of the load sphere of `joint`, m: no sphere is wider than the limb around it, and each
+/// class is at least 15 % larger than the one below, so that the order is visible without colour.
+/// `height`: stature of the person, m.
 double SphereRadius(int joint, LoadClass load_class, double height);
+
+/// How far before its joint a load sphere counts as being, m: it is drawn over the skin around it,
+/// and is hidden by other limbs.
+double SphereDepth(int joint, double height);
 
 }  // namespace kinescope

@@ -70,6 +70,8 @@ struct PersonModel {
   /// Those that urdf_xml names, in a folder of their own; null without any. The files themselves
   /// exist after Provide() only.
   std::shared_ptr<const MeshFiles> mesh_files;
+  /// The body's visuals are the built-in surface, so that it can be rendered as one skin.
+  bool has_built_in_surface = false;
 };
 
 /// All segments of a gloved hand. A segment that the sample lacks keeps its last joint angles.

@@ -74,6 +74,13 @@ enum class Detail {
   kBySize,  // with fewer triangles where the difference is below a pixel: for live pictures
 };
 
+/// What people are rendered as. A body of the user's own (custom meshes, primitives) is always that
+/// of its URDF.
+enum class Figure {
+  kSkin,  // one continuous surface in a suit
+  kUrdf,  // the rigid parts of the URDF, as RViz shows them
+};
+
 struct SceneLook {
   Theme theme = Theme::kLight;
   std::optional<Rgb> background;  // replaces that of the theme
@@ -83,6 +90,7 @@ struct SceneLook {
   bool is_transparent = false;
   bool floor = true;
   Detail detail = Detail::kFull;
+  Figure figure = Figure::kUrdf;
   ScenePartSet shown;
   std::vector<Trail> trails;
   std::vector<Ghost> ghosts;

@@ -23,7 +23,8 @@ EXCEPTIONS = {
 
 # Third-party headers, by the beginning of their name: the library and the folders that may include them ("/*": all subfolders).
 LIBRARIES = {
-    r"Eigen/": ("Eigen", {"urdf", "urdf/mesh", "urdf/robot", "core", "server/mvn", "server/subject",
+    r"CGAL/": ("CGAL", {"urdf/skin/make"}),
+    r"Eigen/": ("Eigen", {"urdf", "urdf/mesh", "urdf/robot", "urdf/skin", "urdf/skin/make", "core", "server/mvn", "server/subject",
                           "server/loads", "server/wrenches", "server/ros", "server/http", "server/body", "server/picture",
                           "render/camera", "render/shape", "render/vtk"}),
     r"fmt/": ("fmt", {"urdf", "urdf/robot", "server/loads", "server/mvn/file", "server/options", "server/body",

@@ -102,7 +102,7 @@ std::string Visuals(const HumanModel& human, const std::string& name,
 std::string ToolVisual(const HumanModel& human, int segment) {
   for (const Side side : {kRight, kLeft}) {
     if (segment != HandSegmentOf(side) || !human.tools.test(side)) continue;
-    return MeshVisual(human.tool_folder, ToolFileName(side), "tool");
+    return MeshVisual(human.tool_folder, ToolFileName(side), kToolMaterial);
   }
   return "";
 }
@@ -329,7 +329,8 @@ std::string WriteUrdf(const HumanModel& human) {
     text += "  <material name=\"glove\"><color rgba=\"0.55 0.60 0.68 1\"/></material>\n";
   }
   if (human.tools.any()) {
-    text += "  <material name=\"tool\"><color rgba=\"0.23 0.26 0.31 1\"/></material>\n";
+    text += "  <material name=\"" + std::string(kToolMaterial) +
+            "\"><color rgba=\"0.23 0.26 0.31 1\"/></material>\n";
   }
   if (human.props.any()) {
     text += "  <material name=\"prop\"><color rgba=\"0.42 0.46 0.54 1\"/></material>\n";

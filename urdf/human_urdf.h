@@ -49,6 +49,9 @@ struct HumanModel {
   std::array<double, 3> body_rgb = {0.78, 0.80, 0.84};  // sRGB, 0..1
 };
 
+/// Material of a tool's visual.
+inline constexpr const char* kToolMaterial = "tool";
+
 /// `<model>_<link>`, such as "skeleton_right_forearm".
 std::string LinkName(const std::string& model_name, int segment);
 /// `<model>_<joint>_<axis>`, axis 0 1 2 = x y z, such as "skeleton_right_elbow_y".

@@ -5,6 +5,7 @@ import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
 
 const OCCLUDED_OPACITY = 0.45;  // of markers that are visible through the body
+const SPHERE_DEPTH = 0.11;      // m, by which a sphere counts as nearer than its joint's centre
 const RIM = 1.14;               // radius of the dark rim of the class "high", as a multiple of the sphere's radius
 const CREASE = 0.7;             // rad; edges with a smaller angle are shaded smooth
 const MARKER_LIFT = 0.004;      // m above the floor, so that disc and floor do not flicker
@@ -23,11 +24,28 @@ const SHARED = new Set([unitSphere, unitBox, unitCylinder]);
 /** @param {number[]} rgb  sRGB 0..1 */
 export const toColor = (rgb) => new THREE.Color().setRGB(rgb[0], rgb[1], rgb[2], THREE.SRGBColorSpace);
 
+/** Makes what `material` draws count as nearer by `depth` than its centre: a load sphere is drawn over the limb around
+ *  it, and is hidden by other limbs.
+ *  @template {THREE.Material} T
+ *  @param {T} material
+ *  @param {number} depth  m
+ *  @returns {T} */
+function nearer(material, depth) {
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
+      vec3 center = modelViewMatrix[3].xyz;
+      vec4 before = projectionMatrix * vec4(center * (1.0 - ${depth.toFixed(4)} / length(center)), 1.0);
+      gl_Position.z = before.z / before.w * gl_Position.w;`);
+  };
+  material.customProgramCacheKey = () => `nearer ${depth}`;
+  return material;
+}
+
 /** Two materials: opaque where the marker is unobstructed, and translucent without depth test, so that it is visible
  *  through the body.
  *  @param {THREE.Color} color */
 function makeMarkerMaterial(color) {
-  const solid = new THREE.MeshStandardMaterial({ color, roughness: 0.55 });
+  const solid = nearer(new THREE.MeshStandardMaterial({ color, roughness: 0.55 }), SPHERE_DEPTH);
   const occluded = new THREE.MeshBasicMaterial({
     color, transparent: true, opacity: OCCLUDED_OPACITY, depthTest: false, depthWrite: false,
   });
@@ -51,7 +69,7 @@ export function makeMarkerMaterials(palette) {
   return {
     classes: Object.fromEntries(
       palette.classes.map(({ name, color }) => [name, makeMarkerMaterial(toColor(color))])),
-    rim: new THREE.MeshBasicMaterial({ color: 0x2a0608, side: THREE.BackSide }),
+    rim: nearer(new THREE.MeshBasicMaterial({ color: 0x2a0608, side: THREE.BackSide }), SPHERE_DEPTH - 0.01),
     com: makeMarkerMaterial(toColor(palette.com)),
     cop: new THREE.MeshBasicMaterial({ color: toColor(palette.cop) }),
     line: new THREE.LineBasicMaterial({ color: toColor(palette.com) }),

@@ -34,23 +34,30 @@ std::vector<T> Remapped(const std::vector<T>& values, std::size_t count,
 
 }  // namespace
 
-urdf::Mesh CoarserMesh(const urdf::Mesh& mesh, double error_m) {
+std::vector<std::uint32_t> CoarserTriangles(const std::vector<Eigen::Vector3f>& positions,
+                                            const std::vector<std::uint32_t>& triangles,
+                                            double error_m) {
   KINESCOPE_CHECK(error_m > 0);
-  const std::size_t vertices = mesh.positions.size();
+  if (triangles.empty()) return triangles;
+  const float* const first = positions.front().data();
+  constexpr std::size_t kStride = sizeof(positions.front());
+  const float scale = meshopt_simplifyScale(first, positions.size(), kStride);
+  if (!(scale > 0)) return triangles;
+  std::vector<std::uint32_t> coarser(triangles.size());
+  coarser.resize(meshopt_simplify(coarser.data(), triangles.data(), triangles.size(), first,
+                                  positions.size(), kStride, 0, static_cast<float>(error_m) / scale,
+                                  0, nullptr));
+  meshopt_optimizeVertexCache(coarser.data(), coarser.data(), coarser.size(), positions.size());
+  return coarser;
+}
+
+urdf::Mesh CoarserMesh(const urdf::Mesh& mesh, double error_m) {
   if (mesh.triangles.empty()) return mesh;
-  const std::vector<Eigen::Vector3f> apart = PartsApart(mesh);
-  const float* const positions = apart.front().data();
-  constexpr std::size_t kStride = sizeof(apart.front());
-  const float scale = meshopt_simplifyScale(positions, vertices, kStride);
-  if (!(scale > 0)) return mesh;
-  std::vector<std::uint32_t> triangles(mesh.triangles.size());
-  triangles.resize(meshopt_simplify(triangles.data(), mesh.triangles.data(), mesh.triangles.size(),
-                                    positions, vertices, kStride, 0,
-                                    static_cast<float>(error_m) / scale, 0, nullptr));
-  meshopt_optimizeVertexCache(triangles.data(), triangles.data(), triangles.size(), vertices);
-  std::vector<unsigned> remap(vertices);
-  const std::size_t count =
-      meshopt_optimizeVertexFetchRemap(remap.data(), triangles.data(), triangles.size(), vertices);
+  std::vector<std::uint32_t> triangles =
+      CoarserTriangles(PartsApart(mesh), mesh.triangles, error_m);
+  std::vector<unsigned> remap(mesh.positions.size());
+  const std::size_t count = meshopt_optimizeVertexFetchRemap(
+      remap.data(), triangles.data(), triangles.size(), mesh.positions.size());
   meshopt_remapIndexBuffer(triangles.data(), triangles.data(), triangles.size(), remap.data());
   urdf::Mesh coarser;
   coarser.positions = Remapped(mesh.positions, count, remap);

@@ -35,7 +35,7 @@ void BodyActor::AddActor(double error_m, Group& group) const {
   if (group.is_fixed) group.mesh.mesh = urdf::Mesh();
 }
 
-void BodyActor::Load(const PersonModel& model, OnceLog& log) {
+void BodyActor::Load(const PersonModel& model, bool is_skin, OnceLog& log) {
   groups_.clear();
   problems_.clear();
   VisualReader reader(model.mesh_files, urdf::ShapeDetail::Body());
@@ -50,7 +50,9 @@ void BodyActor::Load(const PersonModel& model, OnceLog& log) {
         return each.name == names[first + part];
       });
       if (link == links.end()) continue;
+      const bool is_worn = first + part >= names.size() - model.human.props.count();
       for (const urdf::Visual& visual : link->visuals) {
+        if (is_skin && !is_worn && visual.material != urdf::kToolMaterial) continue;
         reader.Add(visual, static_cast<int>(part), group.mesh);
       }
     }
@@ -73,14 +75,23 @@ void BodyActor::Show(PartActor& actor, const Group& group, const std::vector<urd
   actor.Commit();
 }
 
-bool BodyActor::Update(const PersonState& person, const Eigen::Vector4f& override_color,
-                       double error_m, OnceLog& log, std::vector<Label>& labels) {
-  const bool is_new = model_ != person.model || revision_ != person.model->revision;
+bool BodyActor::Update(const PersonState& person, Figure figure,
+                       const Eigen::Vector4f& override_color, double error_m, OnceLog& log,
+                       std::vector<Label>& labels) {
+  const bool is_skin = figure == Figure::kSkin && person.model->has_built_in_surface;
+  const bool is_new =
+      model_ != person.model || revision_ != person.model->revision || is_skin_ != is_skin;
   bool is_changed = is_new;
   if (is_new) {
-    Load(*person.model, log);
+    Load(*person.model, is_skin, log);
+    is_skin_ = is_skin;
     model_ = person.model;
     revision_ = person.model->revision;
+  }
+  skin_.SetVisible(is_visible_ && is_skin);
+  if (is_skin) {
+    const bool is_other = skin_.Update(person, override_color, opacity_, Permitted(error_m));
+    is_changed = is_changed || is_other;
   }
   const std::vector<urdf::Pose> poses = VisibleLinkPoses(person);
   for (Group& group : groups_) {
@@ -104,6 +115,7 @@ bool BodyActor::Update(const PersonState& person, const Eigen::Vector4f& overrid
 
 std::vector<vtkActor*> BodyActor::actors() {
   std::vector<vtkActor*> actors;
+  if (is_skin_) actors = skin_.actors();
   for (Group& group : groups_) {
     for (const auto& [error, actor] : group.actors) actors.push_back(actor->actor());
   }

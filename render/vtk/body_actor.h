@@ -1,5 +1,6 @@
-/// Renders a person's body: the visuals of every visible link, fingers and props included. A new
-/// pose changes matrices; a new model changes the meshes.
+/// Renders a person's body: as one skin with what is worn and held, or the visuals of every visible
+/// link, fingers and props included. A new pose changes matrices and the skin; a new model changes
+/// the meshes.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +11,29 @@
 
 #include "core/scene_state.h"
 #include "render/module.h"
+#include "render/scene_look.h"
 #include "render/shape/once_log.h"
 #include "render/shape/visual_mesh.h"
 #include "render/vtk/part_actor.h"
+#include "render/vtk/skin_actor.h"
 
 namespace kinescope::render {
 
 class BodyActor {
  public:
-  explicit BodyActor(Pass pass = Pass::kSolid) : pass_(pass) {}
+  explicit BodyActor(Pass pass = Pass::kSolid) : pass_(pass), skin_(pass) {}
 
   /// Adds the names of missing meshes to `labels`. `override_color`: see PartActor. `error_m`: how
   /// far the drawn surface may be from the model's; 0: not at all.
   /// @return whether the list of actors has changed.
-  bool Update(const PersonState& person, const Eigen::Vector4f& override_color, double error_m,
-              OnceLog& log, std::vector<Label>& labels);
+  bool Update(const PersonState& person, Figure figure, const Eigen::Vector4f& override_color,
+              double error_m, OnceLog& log, std::vector<Label>& labels);
 
   /// Meshes that are replaced by boxes.
   const std::vector<std::string>& problems() const { return problems_; }
   std::vector<vtkActor*> actors();
+  /// Those of the newest Update as a skin; null: it was none.
+  const skin::Capsules* limbs() const { return is_skin_ ? &skin_.capsules() : nullptr; }
   /// Takes effect with the next Update.
   void SetVisible(bool is_visible) { is_visible_ = is_visible; }
   /// 0..1; takes effect with the next Update.
@@ -43,7 +48,7 @@ class BodyActor {
                                                           // one of them is visible
     std::size_t first = 0, count = 0;                     // of VisibleLinks
   };
-  void Load(const PersonModel& model, OnceLog& log);
+  void Load(const PersonModel& model, bool is_skin, OnceLog& log);
   void AddActor(double error_m, Group& group) const;
   void Show(PartActor& actor, const Group& group, const std::vector<urdf::Pose>& poses,
             const Eigen::Vector4f& override_color);
@@ -54,6 +59,8 @@ class BodyActor {
   std::shared_ptr<const PersonModel> model_;  // the loaded model; held, so that its address is not
                                               // reused
   std::uint64_t revision_ = 0;
+  bool is_skin_ = false;  // else all visuals are in the groups
+  SkinActor skin_;
   bool is_visible_ = true;
   std::vector<std::string> problems_;
 };

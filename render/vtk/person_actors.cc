@@ -119,9 +119,10 @@ bool PersonActors::Update(const PersonState& person, Liveness liveness, const Ca
                           std::vector<Label>& labels) {
   const bool is_stale = liveness == Liveness::kStale;
   body_.SetVisible(look.Shows(ScenePart::kBody));
-  bool is_changed = body_.Update(
-      person, is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()),
-      kUnseen * metres_per_pixel, log, labels);
+  bool is_changed =
+      body_.Update(person, look.figure,
+                   is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()),
+                   kUnseen * metres_per_pixel, log, labels);
   is_changed = UpdateAxes(person, look) || is_changed;
   UpdateShadow(person, look);
   UpdateMarks(person, camera, metres_per_pixel);
@@ -167,8 +168,12 @@ bool PersonActors::UpdateAxes(const PersonState& person, const SceneLook& look) 
 
 // Not where a lamp would cast them, but what tells the eye where the person stands.
 void PersonActors::UpdateShadow(const PersonState& person, const SceneLook& look) {
-  shadow_.actor()->SetVisibility(look.Shows(ScenePart::kShadows));
-  if (!look.Shows(ScenePart::kShadows)) return;
+  const bool is_shown = look.Shows(ScenePart::kShadows);
+  const skin::Capsules* const limbs = body_.limbs();
+  shadow_.actor()->SetVisibility(is_shown && limbs == nullptr);
+  floor_shadow_.SetVisible(is_shown && limbs != nullptr);
+  if (!is_shown) return;
+  if (limbs != nullptr) return floor_shadow_.Cast(*limbs, ColorsOf(look.theme).shadow);
   shadow_.SetOverride(Color(ColorsOf(look.theme).shadow));
   const urdf::Skeleton& skeleton = person.model->human.skeleton;
   const double size = skeleton.height / urdf::kReferenceHeight;
@@ -210,7 +215,7 @@ void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera,
                        : load.load_class == LoadClass::kUnknown ? -0.8
                                                                 : 0.0;
     looks_.push_back({load.position, SphereRadius(load.joint, load.load_class, height),
-                      ColorOf(load.load_class), rim});
+                      SphereDepth(load.joint, height), ColorOf(load.load_class), rim});
   }
   for (PartActor* marks : {&marks_, &ghost_marks_}) {
     const bool is_ghost = marks == &ghost_marks_;
@@ -233,7 +238,7 @@ void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera,
     }
     marks->Commit();
   }
-  if (person.com) looks_.push_back({*person.com, 0.034 * size, kComColor, 0});
+  if (person.com) looks_.push_back({*person.com, 0.034 * size, 0.068 * size, kComColor, 0});
   double largest = 0;
   for (const SphereLook& look : looks_) largest = std::max(largest, look.radius);
   const bool is_small =

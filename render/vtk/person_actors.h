@@ -11,6 +11,7 @@
 #include "render/shape/once_log.h"
 #include "render/vtk/axes_actor.h"
 #include "render/vtk/body_actor.h"
+#include "render/vtk/floor_shadow.h"
 #include "render/vtk/force_arrows.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/sphere_actor.h"
@@ -32,7 +33,7 @@ class PersonActors {
   const std::vector<std::string>& problems() const { return body_.problems(); }
 
   // In rendering order; the shadows of all people come before the bodies of all people, and so on.
-  vtkActor* shadow() { return shadow_.actor(); }
+  std::vector<vtkActor*> shadows() { return {shadow_.actor(), floor_shadow_.actor()}; }
   std::vector<vtkActor*> bodies() { return body_.actors(); }
   std::vector<vtkActor*> ghosts();
   std::vector<vtkActor*> marks();
@@ -45,6 +46,7 @@ class PersonActors {
   void UpdateHeld(const PersonState& person, Liveness liveness);
 
   BodyActor body_;
+  FloorShadow floor_shadow_;  // of the skin; that of rigid parts is `shadow_`
   ForceArrows forces_;
   std::unique_ptr<AxesActor> frames_, joint_axes_;  // null: hidden
   PartActor shadow_, held_, ghost_marks_, marks_;

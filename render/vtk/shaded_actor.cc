@@ -1,7 +1,6 @@
 #include "render/vtk/shaded_actor.h"
 
 #include <vtkCellArray.h>
-#include <vtkFloatArray.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -9,24 +8,9 @@
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
 
+#include "render/vtk/float_array.h"
+
 namespace kinescope::render {
-namespace {
-
-template <class T>
-vtkNew<vtkFloatArray> ToArray(const char* name, int components, const std::vector<T>& values) {
-  static_assert(sizeof(T) % sizeof(float) == 0);
-  vtkNew<vtkFloatArray> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  const auto* from = reinterpret_cast<const float*>(values.data());
-  const auto count = static_cast<vtkIdType>(values.size()) * components;
-  float* to = array->WritePointer(0, count);
-  std::copy(from, from + count, to);
-  return array;
-}
-
-}  // namespace
-
 const char* const kLitFunction = R"(
 vec3 Lit(vec3 color, vec3 normal, float sky) {
   float key = max(dot(normal, vec3(-0.439, 0.634, 0.637)), 0.0);
@@ -37,14 +21,22 @@ vec3 Lit(vec3 color, vec3 normal, float sky) {
 }
 )";
 
-ShadedActor::ShadedActor(Pass pass, const ShaderText& text) {
+ShadedActor::ShadedActor(Pass pass, const ShaderText& text)
+    : ShadedActor(pass, text, {{"part", 1}, {"tint", 4}}) {}
+
+ShadedActor::ShadedActor(Pass pass, const ShaderText& text,
+                         const std::vector<VertexAttribute>& attributes) {
   mapper_->ScalarVisibilityOff();
   // Otherwise large coordinates are moved and scaled behind the back of our vertex shader.
   mapper_->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
-  mapper_->MapDataArrayToVertexAttribute("part", "part", vtkDataObject::FIELD_ASSOCIATION_POINTS,
-                                         -1);
-  mapper_->MapDataArrayToVertexAttribute("tint", "tint", vtkDataObject::FIELD_ASSOCIATION_POINTS,
-                                         -1);
+  std::string declarations;
+  for (const VertexAttribute& attribute : attributes) {
+    const char* const name = attribute.name.c_str();
+    mapper_->MapDataArrayToVertexAttribute(name, name, vtkDataObject::FIELD_ASSOCIATION_POINTS, -1);
+    const std::string type =
+        attribute.components == 1 ? "float" : "vec" + std::to_string(attribute.components);
+    declarations += "in " + type + " " + attribute.name + ";\n";
+  }
   actor_->SetMapper(mapper_);
   actor_->SetPass(pass);
   actor_->ForceOpaqueOn();
@@ -57,8 +49,7 @@ ShadedActor::ShadedActor(Pass pass, const ShaderText& text) {
     return std::string(token) + "\n" + more;
   };
   shader->AddVertexShaderReplacement(
-      "//VTK::Color::Dec", true,
-      with("//VTK::Color::Dec", "in float part;\nin vec4 tint;\n" + text.vertex_declarations),
+      "//VTK::Color::Dec", true, with("//VTK::Color::Dec", declarations + text.vertex_declarations),
       false);
   shader->AddVertexShaderReplacement("//VTK::CustomEnd::Impl", true,
                                      with("//VTK::CustomEnd::Impl", text.vertex), false);
@@ -80,18 +71,20 @@ vtkUniforms& ShadedActor::uniforms() {
 void ShadedActor::SetMesh(const urdf::Mesh& mesh) {
   vtkNew<vtkPolyData> data;
   vtkNew<vtkPoints> points;
-  points->SetData(ToArray("position", 3, mesh.positions));
+  points->SetData(ToFloatArray("position", 3, mesh.positions));
   data->SetPoints(points);
-  data->GetPointData()->SetNormals(ToArray("Normals", 3, mesh.normals));
-  data->GetPointData()->AddArray(ToArray("part", 1, mesh.parts));
-  data->GetPointData()->AddArray(ToArray("tint", 4, mesh.colors));
+  data->GetPointData()->SetNormals(ToFloatArray("Normals", 3, mesh.normals));
+  data->GetPointData()->AddArray(ToFloatArray("part", 1, mesh.parts));
+  data->GetPointData()->AddArray(ToFloatArray("tint", 4, mesh.colors));
   vtkNew<vtkCellArray> cells;
   for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
     const vtkIdType corners[] = {mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]};
     cells->InsertNextCell(3, corners);
   }
   data->SetPolys(cells);
-  mapper_->SetInputData(data);
+  SetData(data);
 }
+
+void ShadedActor::SetData(vtkPolyData* data) { mapper_->SetInputData(data); }
 
 }  // namespace kinescope::render

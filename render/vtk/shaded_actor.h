@@ -8,14 +8,17 @@
 #include <vtkUniforms.h>
 
 #include <string>
+#include <vector>
 
 #include "render/vtk/pass_actor.h"
 #include "urdf/mesh/mesh.h"
 
+class vtkPolyData;
+
 namespace kinescope::render {
 
 /// GLSL that is inserted into VTK's shaders. `vertex` sets gl_Position and normalVCVSOutput from
-/// vertexMC, normalMC, part, tint and uniforms. `fragment` sets gl_FragData[0] from
+/// vertexMC, normalMC, the attributes and uniforms. `fragment` sets gl_FragData[0] from
 /// normalVCVSOutput (unit, towards the camera) and the outputs of `vertex`.
 struct ShaderText {
   std::string vertex_declarations;
@@ -24,14 +27,26 @@ struct ShaderText {
   std::string fragment;
 };
 
+/// A property of the vertices: floats, by its name in the shader and in the point data.
+struct VertexAttribute {
+  std::string name;
+  int components = 1;  // 1 to 4
+};
+
 class ShadedActor {
  public:
+  /// For urdf::Mesh: with `float part` and `vec4 tint`.
   ShadedActor(Pass pass, const ShaderText& text);
+  /// For SetData.
+  ShadedActor(Pass pass, const ShaderText& text, const std::vector<VertexAttribute>& attributes);
   ShadedActor(const ShadedActor&) = delete;
   ShadedActor& operator=(const ShadedActor&) = delete;
 
   /// Uploads `mesh`; expensive, so call it rarely.
   void SetMesh(const urdf::Mesh& mesh);
+  /// Triangles with normals and the attributes, as float arrays. Arrays that are `Modified()` are
+  /// uploaded again.
+  void SetData(vtkPolyData* data);
   /// Skips triangles that face away: correct for closed surfaces. Initially on.
   void SetCulling(bool is_on);
   /// VTK declares them in the vertex shader; the fragment shader declares those that it uses

@@ -12,11 +12,6 @@
 namespace kinescope::render {
 namespace {
 
-// Radii by which a sphere counts as nearer than its centre when it meets body and other spheres. A
-// joint's sphere is only little thicker than the limb around it: without this it would be cut up by
-// skin and clothes. One depth for the whole sphere: it is in front as a whole, or shines through.
-constexpr float kTowardsEye = 2.0f;
-
 // Unit dome around +z. Its corners only give outline and depth: normals are computed per pixel.
 urdf::Mesh DomeMesh() {
   struct Ring {
@@ -103,7 +98,7 @@ out float skyVS;
   vec3 outward = side * vertexMC.x + above * vertexMC.y + toEye * vertexMC.z;
   vec3 onBall = ball.xyz + ball.w * outward;
   gl_Position = MCDCMatrix * vec4(onBall, 1.0);
-  vec4 nearer = MCDCMatrix * vec4(ball.xyz + towardsEye * ball.w * toEye, 1.0);
+  vec4 nearer = MCDCMatrix * vec4(ball.xyz + depths[whichVS] * toEye, 1.0);
   gl_Position.z = nearer.z / nearer.w * gl_Position.w;
   domeVS = vertexMC.xyz;
   worldVS = onBall;
@@ -197,7 +192,6 @@ SphereActor::SphereActor(Pass pass, double opacity)
   coarse_.SetMesh(Each(DiscMesh()));
   for (ShadedActor* domes : {&fine_, &coarse_}) {
     domes->uniforms().SetUniformf("sphereOpacity", static_cast<float>(opacity));
-    domes->uniforms().SetUniformf("towardsEye", kTowardsEye);
   }
   Show({}, Camera(), true);
   Show({}, Camera(), false);
@@ -210,6 +204,7 @@ void SphereActor::Show(const std::vector<SphereLook>& spheres, const Camera& cam
   coarse_.actor()->SetVisibility(is_small && !spheres.empty());
   float balls[kSphereCapacity][4] = {};
   float looks[kSphereCapacity][4] = {};
+  float depths[kSphereCapacity] = {};
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       balls[i][axis] = static_cast<float>(spheres[i].center[static_cast<Eigen::Index>(axis)]);
@@ -217,10 +212,12 @@ void SphereActor::Show(const std::vector<SphereLook>& spheres, const Camera& cam
     }
     balls[i][3] = static_cast<float>(spheres[i].radius);
     looks[i][3] = static_cast<float>(spheres[i].rim);
+    depths[i] = static_cast<float>(spheres[i].depth);
   }
   vtkUniforms& uniforms = (is_small ? coarse_ : fine_).uniforms();
   uniforms.SetUniform4fv("balls", kSphereCapacity, balls);
   uniforms.SetUniform4fv("looks", kSphereCapacity, looks);
+  uniforms.SetUniform1fv("depths", kSphereCapacity, depths);
   // Without perspective all rays are parallel: nearly so from an eye far behind the camera, and
   // near enough for a float.
   constexpr double kFarEye = 1000;  // m

@@ -17,6 +17,8 @@ inline constexpr int kSphereCapacity = 16;
 struct SphereLook {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // world, m
   double radius = 0;                                 // m; 0 hides it
+  double depth = 0;  // m, by which it counts as nearer than its centre when it meets body and other
+                     // spheres: it is in front as a whole, or shines through
   Rgb color = {0, 0, 0};
   double rim = 0;  // weight of the outer ring: 0..1 dark, 0..-1 white
 };

@@ -100,7 +100,6 @@ void PersonOptions::List(options::OptionList& option) {
       "body_model", body_model,
       "surface of the body; a FOLDER has STL, DAE, OBJ or GLB files named after segments, such as "
       "RightForeArm.stl");
-  option.Formerly("figure");
   option("tool", tool,
          "mesh (STL, DAE, OBJ or GLB) of a held tool, its origin at the grip unless placed; "
          "--hand_load sets its mass");

@@ -8,6 +8,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "urdf/heading.h"
 
 namespace kinescope::app {
 namespace {
@@ -25,6 +26,7 @@ CameraController::CameraController(const CameraChoice& camera, const CameraOptio
       is_one_turn_(options.orbit->is_one_turn),
       orbit_rad_per_sec_(options.orbit->degrees_per_sec * M_PI / 180),
       fit_(*options.fit) {
+  if (options.camera_frame) frame_ = *options.camera_frame;
   if (camera.is_key_file) keys_ = ReadCameraKeys(camera_);
   if (options.fov) {
     fov_rad_ = *options.fov * M_PI / 180;
@@ -49,14 +51,20 @@ void CameraController::Prescan(const SceneState& state) {
   if (!box.isEmpty()) clip_box_.extend(box);
 }
 
+// Turned with the person; -0 would change the last bits of a camera that is not.
+render::Camera CameraController::NamedAt(const std::string& name,
+                                         const render::GroundExtent& ground) const {
+  const render::Camera camera = render::NamedCameraAt(name, ground);
+  return heading_rad_.value_or(0) == 0 ? camera : render::Turned(camera, *heading_rad_);
+}
+
 // Where it stands but for orbit and frame.
 render::Camera CameraController::Placed(const SceneState& state, const render::GroundExtent& ground,
                                         double secs) const {
   if (!keys_.empty()) {
     std::vector<render::CameraKey> keys;
     for (const CameraKeySpec& spec : keys_) {
-      render::Camera camera =
-          spec.name.empty() ? spec.place : render::NamedCameraAt(spec.name, ground);
+      render::Camera camera = spec.name.empty() ? spec.place : NamedAt(spec.name, ground);
       if (!spec.name.empty() && spec.fov_rad) camera = render::WithFov(camera, *spec.fov_rad);
       keys.push_back({spec.secs, camera, spec.ease});
     }
@@ -64,11 +72,10 @@ render::Camera CameraController::Placed(const SceneState& state, const render::G
   }
   if (place_) return *place_;
   // Only the direction counts then; wherever people are, it is the same to the last bit.
-  if (fit_ == Fit::kClip) return render::NamedCameraAt(camera_, {});
+  if (fit_ == Fit::kClip) return NamedAt(camera_, {});
   // Robots have no ground: the view is as large as they are.
   const bool is_of_robots = state.people.empty() && !state.robots.empty();
-  return is_of_robots ? render::NamedCamera(camera_, state)
-                      : render::NamedCameraAt(camera_, ground);
+  return is_of_robots ? render::NamedCamera(camera_, state) : NamedAt(camera_, ground);
 }
 
 // With lens, turn and frame, which are the same for all.
@@ -114,6 +121,27 @@ const render::GroundExtent& CameraController::Follow(const SceneState& state, do
   return followed_;
 }
 
+// In CameraFrame::kPerson with a lag, so that a turning person does not throw the picture about.
+void CameraController::FollowHeading(const SceneState& state, double secs, CameraFrame frame) {
+  constexpr double kLagSecs = 0.7;
+  if (frame == CameraFrame::kWorld || state.people.empty()) return;
+  if (heading_rad_ && frame == CameraFrame::kStart) return;
+  const std::optional<double> now = urdf::HeadingOf(state.people.front().links);
+  if (!now) return;
+  if (frame == CameraFrame::kStart) {
+    // Nearly along the floor's lines is meant to be along them: a walking pelvis turns by that
+    // much.
+    constexpr double kRight = M_PI / 2, kNearly = 8 * M_PI / 180;
+    const double along = kRight * std::round(*now / kRight);
+    heading_rad_ = std::abs(*now - along) < kNearly ? along : *now;
+    return;
+  }
+  const double way = std::remainder(*now - heading_rad_.value_or(*now), 2 * M_PI);
+  const double dt = std::max(0.0, secs - heading_at_secs_);
+  heading_rad_ = heading_rad_ ? *heading_rad_ + way * (1 - std::exp(-dt / kLagSecs)) : *now;
+  heading_at_secs_ = secs;
+}
+
 render::Camera CameraController::AimAt(const render::GroundExtent& ground, const SceneState& state,
                                        double secs, double aspect) const {
   render::Camera camera = Placed(state, ground, secs);
@@ -127,19 +155,26 @@ render::Camera CameraController::AimAt(const render::GroundExtent& ground, const
 
 render::Camera CameraController::Aim(const SceneState& state, double aspect) {
   const double secs = SecsOf(state);
+  FollowHeading(state, secs, frame_.value_or(CameraFrame::kStart));
   return AimAt(follow_secs_ ? Follow(state, secs) : steady_.Follow(state), state, secs, aspect);
 }
 
 render::Camera CameraController::AimLive(const SceneState& state, double live_aspect,
                                          double aspect) {
   const double secs = SecsOf(state);
+  // The page and RViz show the world's views.
+  FollowHeading(state, secs, frame_.value_or(CameraFrame::kWorld));
   if (follow_secs_) return AimAt(Follow(state, secs), state, secs, aspect);
   const render::GroundExtent& held = held_.Follow(state, secs, live_aspect);
   return AimAt(aspect < live_aspect ? render::GroundExtentOf(state) : held, state, secs, aspect);
 }
 
 render::Camera CameraController::Only(const SceneState& state, double secs, double aspect) const {
-  return Finished(Placed(state, render::GroundExtentOf(state), secs), state, secs, aspect);
+  CameraController alone = *this;
+  alone.heading_rad_.reset();
+  alone.FollowHeading(state, secs, frame_.value_or(CameraFrame::kStart));
+  return alone.Finished(alone.Placed(state, render::GroundExtentOf(state), secs), state, secs,
+                        aspect);
 }
 
 }  // namespace kinescope::app

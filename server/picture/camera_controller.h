@@ -49,6 +49,7 @@ class CameraController {
 
  private:
   bool IsNamed() const { return !place_ && keys_.empty(); }
+  render::Camera NamedAt(const std::string& name, const render::GroundExtent& ground) const;
   render::Camera Placed(const SceneState& state, const render::GroundExtent& ground,
                         double secs) const;
   render::Camera Finished(render::Camera camera, const SceneState& state, double secs,
@@ -57,6 +58,7 @@ class CameraController {
                        double aspect) const;
   double SecsOf(const SceneState& state);
   const render::GroundExtent& Follow(const SceneState& state, double secs);
+  void FollowHeading(const SceneState& state, double secs, CameraFrame frame);
 
   std::string camera_;
   std::optional<render::Camera> place_;
@@ -65,6 +67,7 @@ class CameraController {
   std::optional<double> fov_rad_, follow_secs_;
   double orbit_rad_per_sec_ = 0;
   Fit fit_ = Fit::kOff;
+  std::optional<CameraFrame> frame_;
   // Of the prescan:
   Eigen::AlignedBox3d clip_box_;
   std::optional<std::int64_t> prescan_start_nanos_;
@@ -77,6 +80,8 @@ class CameraController {
   bool has_met_ = false;           // a person to follow
   Eigen::Vector3d first_middle_ = Eigen::Vector3d::Zero();
   double followed_at_secs_ = 0;
+  std::optional<double> heading_rad_;  // by which named cameras are turned
+  double heading_at_secs_ = 0;
 };
 
 }  // namespace kinescope::app

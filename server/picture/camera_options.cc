@@ -99,7 +99,11 @@ CameraOptions::CameraOptions()
     : projection({{"perspective", false}, {"orthographic", true}}, false),
       fov(Number(30, {1, 150, "degrees"})),
       follow(Number(0, {0, 60, "s"})),
-      fit({{"off", Fit::kOff}, {"now", Fit::kNow}, {"clip", Fit::kClip}}, Fit::kOff) {}
+      fit({{"off", Fit::kOff}, {"now", Fit::kNow}, {"clip", Fit::kClip}}, Fit::kOff),
+      camera_frame(options::Choice<CameraFrame>({{"start", CameraFrame::kStart},
+                                                 {"person", CameraFrame::kPerson},
+                                                 {"world", CameraFrame::kWorld}},
+                                                CameraFrame::kStart)) {}
 
 void CameraOptions::List(options::OptionList& option) {
   option("projection", projection, "how depth is shown");
@@ -109,6 +113,10 @@ void CameraOptions::List(options::OptionList& option) {
       "follow", follow,
       "time constant with which the camera follows the people; not given: only when they leave the "
       "middle");
+  option("camera_frame", camera_frame,
+         "what named cameras are turned with, so that front sees the face: start (the first "
+         "person's heading at the first picture), person (in each picture) or world; not given: "
+         "start, but world in live pictures");
   option(
       "fit", fit,
       "field of view in which everything shown fills the picture: off, now (chosen anew for each "

@@ -55,6 +55,14 @@ class OrbitValue : public options::ValueOf<Orbit> {
 
 enum class Fit { kOff, kNow, kClip };
 
+/// What the named cameras are turned with: "front" sees the person's face, or looks along the
+/// world's x axis.
+enum class CameraFrame {
+  kStart,   // the person's heading at the first picture
+  kPerson,  // the person's heading in each picture
+  kWorld,
+};
+
 struct CameraOptions {
   CameraOptions();
 
@@ -63,6 +71,7 @@ struct CameraOptions {
   OrbitValue orbit;
   options::Optional<options::Number> follow;  // s of lag
   options::Choice<Fit> fit;
+  options::Optional<options::Choice<CameraFrame>> camera_frame;  // none: see CameraController
 
   void List(options::OptionList& option);
 };

@@ -317,6 +317,8 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
       camera(most_cameras),
       supersample(SupersampleWords(), 2),
       plot(Joined(ScoredJointNames()), kMaxPlots, ScoredJointNamed),
+      figure({{"skin", render::Figure::kSkin}, {"urdf", render::Figure::kUrdf}},
+             render::Figure::kUrdf),
       theme({{"light", render::Theme::kLight}, {"dark", render::Theme::kDark}},
             render::Theme::kLight),
       floor(true),
@@ -340,6 +342,7 @@ void ViewOptions::List(options::OptionList& option) {
   option("overlay", overlay, "texts and plots over the picture; default: " + DefaultOverlays());
   option("plot", plot, "joints whose loads are plotted over time");
   option("no_overlays", no_overlays, "no text or plot over the picture");
+  option("figure", figure, "people as one skin, or as the rigid parts of the URDF that RViz shows");
   option("theme", theme, "colours of floor and background");
   option("background", background, "colour of the background");
   option("floor", floor, "whether the floor is drawn");
@@ -398,6 +401,7 @@ render::PictureSpec ToPictureSpec(const ViewOptions& options) {
   // Naming joints shows the plot, unless --overlay decides.
   if (!options.plot->empty() && !options.overlay.names_plot()) spec.parts.plot = true;
   render::SceneLook& look = spec.look;
+  look.figure = *options.figure;
   look.theme = *options.theme;
   look.is_transparent = options.background->is_transparent;
   look.background = options.background->color;

@@ -133,6 +133,7 @@ struct ViewOptions {
   OverlayValue overlay;
   options::List<int> plot;  // urdf::Joint
   options::Flag no_overlays;
+  options::Choice<render::Figure> figure;
   options::Choice<render::Theme> theme;
   BackgroundValue background;
   options::Switch floor;

@@ -41,6 +41,7 @@ std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& p
   human.body = urdf::MakeBodyParameters(settings_.body, human.skeleton);
   human.body_rgb = BodyColor(person.character.color_rgb, person.index);
   person.worn.AddTo(person.character, human);
+  model->has_built_in_surface = settings_.appearance.is_smooth && !settings_.appearance.custom;
   if (settings_.mesh_cache && settings_.appearance.has_meshes()) NameMeshes(*model);
   model->urdf_xml = urdf::WriteUrdf(human);
   model->robot = urdf::ParseUrdf(model->urdf_xml);

@@ -98,6 +98,15 @@ Json Provenance::Of(const Output& output, std::optional<long> number) const {
   return result;
 }
 
+namespace {
+
+// --figure means something else since schema 2.
+std::string NameSince(int schema, const std::string& name) {
+  return schema == 1 && name == "figure" ? "body_model" : name;
+}
+
+}  // namespace
+
 RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
   const int schema = provenance.value("schema", 0);
   if (schema < 1 || schema > kProvenanceSchema ||
@@ -106,7 +115,10 @@ RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
         fmt::format("provenance from an unknown program or a newer Kinescope ({})",
                     provenance.value("kinescope", "unknown")));
   }
-  const Json& values = provenance.at("options");
+  Json values = Json::object();
+  for (const auto& [name, value] : provenance.at("options").items()) {
+    values[NameSince(schema, name)] = value;
+  }
   const auto lookup = [&values](const std::string& name) -> std::optional<options::Found> {
     const auto found = values.find(name);
     if (found == values.end() || found->empty()) return std::nullopt;
@@ -135,7 +147,8 @@ std::vector<std::string> UnknownOptionsOf(const Json& provenance) {
   return unknown;
 }
 
-std::string PresentNameOf(const std::string& name) {
+std::string PresentNameOf(const std::string& former_name, int schema) {
+  const std::string name = NameSince(schema, former_name);
   RenderOptions options;
   options::OptionList list = DecidingOptions(options);
   const options::Option* const option = list.Find(name);

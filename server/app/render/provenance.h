@@ -47,8 +47,9 @@ RenderOptions OptionsOf(const Json& provenance, const std::string& path);
 /// The options in `provenance` that this version does not know.
 std::vector<std::string> UnknownOptionsOf(const Json& provenance);
 
-/// The present name of an option; `name` itself if there is none.
-std::string PresentNameOf(const std::string& name);
+/// The present name of an option of a provenance with this schema; `former_name` itself if there is
+/// none.
+std::string PresentNameOf(const std::string& former_name, int schema);
 
 /// Whether each picture depends on the length of the clip or sequence: its plot shows all of it, or
 /// its camera makes one turn or fits all of it.

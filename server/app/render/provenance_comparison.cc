@@ -15,8 +15,8 @@ std::map<InputName, std::string> HashesOfInputs(const Json& provenance) {
   // Through text, so that names that are not UTF-8 are as they are after reading.
   const Json read = Json::parse(ToText(provenance));
   for (const Json& input : read.value("inputs", Json::array())) {
-    hashes[{PresentNameOf(input.value("option", "")), input.value("name", "")}] =
-        input.value("sha256", "");
+    const std::string option = PresentNameOf(input.value("option", ""), read.value("schema", 0));
+    hashes[{option, input.value("name", "")}] = input.value("sha256", "");
   }
   return hashes;
 }

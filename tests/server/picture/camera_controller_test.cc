@@ -70,6 +70,56 @@ TEST(CameraController, KeepsACameraGivenByCoordinatesFixedOrFollowsThePerson) {
   EXPECT_NEAR((along.Aim(SceneAt(1, 2), kAspect).position - Vector3d(5, -2, 1.5)).norm(), 0, 1e-9);
 }
 
+// A person at the origin who has turned to the left.
+SceneState TurnedScene(double degrees, double secs = 0) {
+  SceneState state = SceneAt(secs, 0);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(degrees * M_PI / 180, Vector3d::UnitZ()));
+  for (urdf::Pose& link : state.people[0].links) {
+    link = {turn * link.position, turn * link.orientation};
+  }
+  return state;
+}
+
+// From which the camera sees its target, degrees about z.
+double Side(const render::Camera& camera) {
+  const Vector3d away = camera.position - camera.target;
+  return std::atan2(away.y(), away.x()) * 180 / M_PI;
+}
+
+TEST(CameraController, SeesTheFaceOfAPersonWhoTurnedBeforeTheFirstPicture) {
+  CameraController controller(ParseCamera("front"), {});
+  EXPECT_NEAR(Side(controller.Aim(TurnedScene(130), kAspect)), 130, 0.5);
+  EXPECT_NEAR(Side(controller.Aim(TurnedScene(20, 1), kAspect)), 130, 0.5) << "it stays there";
+  EXPECT_NEAR(Side(controller.Only(TurnedScene(-60), 0, kAspect)), -60, 0.5) << "one alone";
+  EXPECT_NEAR(Side(CameraController(ParseCamera("left"), {}).Aim(TurnedScene(130), kAspect)),
+              130 + 90 - 360, 0.5);
+  CameraController nearly(ParseCamera("front"), {});
+  EXPECT_NEAR(Side(nearly.Aim(TurnedScene(95), kAspect)), 90, 1e-6) << "along the floor's lines";
+}
+
+TEST(CameraController, TurnsWithThePersonOrNotAtAllOnRequest) {
+  CameraOptions options;
+  options.camera_frame = CameraFrame::kWorld;
+  EXPECT_NEAR(Side(CameraController(ParseCamera("front"), options).Aim(TurnedScene(130), kAspect)),
+              0, 1e-6);
+  options.camera_frame = CameraFrame::kPerson;
+  CameraController controller(ParseCamera("front"), options);
+  EXPECT_NEAR(Side(controller.Aim(TurnedScene(30), kAspect)), 30, 0.5);
+  const double soon = Side(controller.Aim(TurnedScene(70, 0.2), kAspect));
+  EXPECT_GT(soon, 35);
+  EXPECT_LT(soon, 50);
+  EXPECT_NEAR(Side(controller.Aim(TurnedScene(70, 9), kAspect)), 70, 0.5);
+}
+
+TEST(CameraController, ShowsTheWorldsViewsLiveUnlessAFrameIsGiven) {
+  CameraController controller(ParseCamera("front"), {});
+  EXPECT_NEAR(Side(controller.AimLive(TurnedScene(130), kAspect, kAspect)), 0, 1e-6);
+  CameraOptions options;
+  options.camera_frame = CameraFrame::kStart;
+  CameraController started(ParseCamera("front"), options);
+  EXPECT_NEAR(Side(started.AimLive(TurnedScene(130), kAspect, kAspect)), 130, 0.5);
+}
+
 TEST(CameraController, MakesOneRevolutionPerClip) {
   CameraOptions options;
   options.orbit.Parse("turn");

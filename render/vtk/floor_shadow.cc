@@ -1,0 +1,98 @@
+#include "render/vtk/floor_shadow.h"
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/vtk/float_array.h"
+
+namespace kinescope::render {
+namespace {
+
+constexpr int kSide = 56;              // points
+constexpr float kStep = 0.05f;         // m
+constexpr float kAboveFloor = 0.002f;  // m
+constexpr float kDarkest = 0.8f;
+
+ShaderText ShadowText() {
+  ShaderText text;
+  text.vertex_declarations = "out float shadeVS;\n";
+  text.vertex =
+      "  gl_Position = MCDCMatrix * vertexMC;\n"
+      "  normalVCVSOutput = vec3(0.0, 0.0, 1.0);\n"
+      "  shadeVS = shade;\n";
+  text.fragment_declarations = "in float shadeVS;\nuniform vec3 shadowColor;\n";
+  text.fragment = "gl_FragData[0] = vec4(shadowColor, shadeVS);\n";
+  return text;
+}
+
+}  // namespace
+
+FloorShadow::FloorShadow()
+    : shaded_(Pass::kBlended, ShadowText(), {{"shade", 1}}),
+      points_(static_cast<std::size_t>(kSide) * kSide, Eigen::Vector3f::Zero()) {
+  vtkNew<vtkCellArray> cells;
+  for (vtkIdType row = 0; row + 1 < kSide; ++row) {
+    for (vtkIdType column = 0; column + 1 < kSide; ++column) {
+      const vtkIdType a = row * kSide + column, b = a + 1, c = a + kSide + 1, d = a + kSide;
+      const vtkIdType corners[2][3] = {{a, b, c}, {a, c, d}};
+      for (const auto& triangle : corners) cells->InsertNextCell(3, triangle);
+    }
+  }
+  const std::vector<float> none(points_.size(), 0);
+  CopyInto(positions_, 3, points_);
+  CopyInto(shade_, 1, none);
+  shade_->SetName("shade");
+  vtkNew<vtkPoints> points;
+  points->SetData(positions_);
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->GetPointData()->SetNormals(ToFloatArray(
+      "Normals", 3, std::vector<Eigen::Vector3f>(points_.size(), Eigen::Vector3f::UnitZ())));
+  data->GetPointData()->AddArray(shade_);
+  data->SetPolys(cells);
+  shaded_.SetData(data);
+}
+
+void FloorShadow::Cast(const skin::Capsules& limbs, const Rgb& color) {
+  Eigen::Vector2f lowest = limbs.front().start.head<2>(), highest = lowest;
+  for (const skin::Capsule& limb : limbs) {
+    for (const Eigen::Vector3f& end : {limb.start, limb.end}) {
+      lowest = lowest.cwiseMin(end.head<2>());
+      highest = highest.cwiseMax(end.head<2>());
+    }
+  }
+  const Eigen::Vector2f middle = 0.5f * (lowest + highest);
+  const auto first = [&](int axis) {
+    return (std::round(middle[axis] / kStep) - 0.5f * (kSide - 1)) * kStep;
+  };
+  for (int row = 0; row < kSide; ++row) {
+    for (int column = 0; column < kSide; ++column) {
+      points_[static_cast<std::size_t>(row * kSide + column)] = {
+          first(0) + static_cast<float>(column) * kStep, first(1) + static_cast<float>(row) * kStep,
+          kAboveFloor};
+    }
+  }
+  skin::SetOpenSky(points_, limbs, open_);
+  constexpr float kUnseen = 0.05f;  // beyond the grid
+  for (float& open : open_) {
+    // As if light came from the cloudy part of the sky only: it makes the shadow three times as
+    // deep.
+    const float covered = 1 - open * open * open;
+    open = kDarkest * std::max(0.0f, (covered - kUnseen) / (1 - kUnseen));
+  }
+  CopyInto(positions_, 3, points_);
+  CopyInto(shade_, 1, open_);
+  const float rgb[3] = {static_cast<float>(color[0]), static_cast<float>(color[1]),
+                        static_cast<float>(color[2])};
+  shaded_.uniforms().SetUniform3f("shadowColor", rgb);
+}
+
+void FloorShadow::SetVisible(bool is_visible) { shaded_.actor()->SetVisibility(is_visible); }
+
+}  // namespace kinescope::render

@@ -1,0 +1,189 @@
+#include "render/vtk/skin_actor.h"
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+
+#include "core/palette.h"
+#include "core/person_links.h"
+#include "render/shape/coarser_mesh.h"
+#include "render/vtk/float_array.h"
+#include "urdf/skin/outfit.h"
+
+namespace kinescope::render {
+namespace {
+
+// Soft light as from a clouded sky, less where limbs cover it, and a lamp over the viewer's left
+// shoulder. It scales all channels equally, because hues carry meaning.
+constexpr char kLitSkinFunction[] = R"(
+float LightOnSkin(vec3 normal, vec2 sky) {
+  float key = max(dot(normal, vec3(-0.439, 0.634, 0.637)) + 0.12, 0.0) / 1.12;
+  float fill = max(dot(normal, vec3(0.816, 0.102, 0.569)) + 0.5, 0.0) / 1.5;
+  float edge = 1.0 - max(normal.z, 0.0);
+  float light = sky.y * (0.44 + 0.20 * sky.x + 0.16 * fill) + (0.35 + 0.65 * sky.y) * 0.50 * key;
+  return light * (1.0 - 0.32 * edge * edge * edge);
+}
+)";
+
+// Borders are signed distances: crisp at any zoom, and one pixel soft.
+constexpr char kSuitFunction[] = R"(
+vec3 Suit(vec4 borders) {
+  vec4 soft = 0.7 * fwidth(borders) + 1e-6;
+  vec4 inside = smoothstep(-soft, soft, borders);
+  vec3 color = mix(topColor, bandColor, inside.w);
+  color = mix(color, trousersColor, inside.x);
+  color = mix(color, shoesColor, inside.z);
+  return mix(color, bareColor, inside.y);
+}
+)";
+
+ShaderText SkinText(bool is_small) {
+  ShaderText text;
+  text.vertex_declarations = "out vec4 bordersVS;\nout vec2 skyVS;\n";
+  text.vertex = R"(
+  gl_Position = MCDCMatrix * vertexMC;
+  normalVCVSOutput = normalMatrix * normalMC;
+  skyVS = vec2(0.5 + 0.5 * normalMC.z, openSky);
+  bordersVS = borders;
+)";
+  text.fragment_declarations =
+      "in vec4 bordersVS;\nin vec2 skyVS;\n"
+      "uniform vec3 topColor;\nuniform vec3 trousersColor;\nuniform vec3 shoesColor;\n"
+      "uniform vec3 bareColor;\nuniform vec3 bandColor;\nuniform vec4 overrideColor;\n"
+      "uniform float opacityFactor;\n";
+  text.fragment_declarations += kSuitFunction;
+  if (is_small) {  // lit where triangles are a few pixels wide
+    text.vertex_declarations += "out float lightVS;\n";
+    text.vertex_declarations += kLitSkinFunction;
+    text.vertex += "  lightVS = LightOnSkin(normalize(normalVCVSOutput), skyVS);\n";
+    text.fragment_declarations += "in float lightVS;\n";
+    text.fragment =
+        "vec3 suit = mix(Suit(bordersVS), overrideColor.rgb, overrideColor.a);\n"
+        "gl_FragData[0] = vec4(suit * lightVS, opacityFactor);\n";
+    return text;
+  }
+  text.fragment_declarations += kLitSkinFunction;
+  text.fragment =
+      "vec3 suit = mix(Suit(bordersVS), overrideColor.rgb, overrideColor.a);\n"
+      "float light = LightOnSkin(normalVCVSOutput, skyVS);\n"
+      "gl_FragData[0] = vec4(suit * light, opacityFactor);\n";
+  return text;
+}
+
+std::vector<std::uint32_t> Indices(const std::vector<skin::Triangle>& triangles) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(3 * triangles.size());
+  for (const skin::Triangle& triangle : triangles) {
+    indices.insert(indices.end(), triangle.begin(), triangle.end());
+  }
+  return indices;
+}
+
+bool AreEqual(const std::vector<urdf::Pose>& a, const std::vector<urdf::Pose>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
+    return x.position == y.position && x.orientation.coeffs() == y.orientation.coeffs();
+  });
+}
+
+}  // namespace
+
+void SkinActor::Load(const PersonModel& model) {
+  const urdf::HumanModel& human = model.human;
+  build_ = skin::BuildOf(model.description.sex == urdf::Sex::kFemale, human.skeleton.height,
+                         model.description.mass_kg);
+  std::array<const urdf::HandSkeleton*, 2> gloves{};
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    if (human.gloves[side]) gloves[side] = &*human.gloves[side];
+  }
+  const skin::SkinTemplate& built_in = skin::BuiltInSkin();
+  skin_ = std::make_unique<skin::PersonSkin>(built_in, build_, human.skeleton, gloves);
+  CopyInto(borders_, 4, skin::OutfitOf(built_in, build_));
+  borders_->SetName("borders");
+  limbs_ = skin::LimbRunsOf(built_in.weights);
+  shown_.clear();
+}
+
+void SkinActor::Move(const PersonState& person) {
+  std::vector<urdf::Pose> poses = VisibleLinkPoses(person);
+  if (AreEqual(poses, shown_)) return;
+  std::array<const urdf::FingerPoses*, 2> fingers{};
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    if (person.gloves[side]) fingers[side] = &person.gloves[side]->links;
+  }
+  skin_->Pose(person.links, fingers, surface_);
+  capsules_ = skin::CapsulesOf(model_->human.skeleton, build_, person.links);
+  skin::SetOpenSky(surface_.positions, surface_.normals, limbs_, capsules_, open_);
+  CopyInto(open_sky_, 1, open_);
+  open_sky_->SetName("openSky");
+  CopyInto(positions_, 3, surface_.positions);
+  CopyInto(normals_, 3, surface_.normals);
+  shown_ = std::move(poses);
+}
+
+void SkinActor::AddLevel(double error_m) {
+  const std::vector<std::uint32_t> all = Indices(skin_->triangles());
+  const std::vector<std::uint32_t> triangles =
+      error_m > 0 ? CoarserTriangles(skin_->rest(), all, error_m) : all;
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    const vtkIdType corners[] = {triangles[i], triangles[i + 1], triangles[i + 2]};
+    cells->InsertNextCell(3, corners);
+  }
+  vtkNew<vtkPoints> points;
+  points->SetData(positions_);
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->GetPointData()->SetNormals(normals_);
+  data->GetPointData()->AddArray(borders_);
+  data->GetPointData()->AddArray(open_sky_);
+  data->SetPolys(cells);
+  auto shaded = std::make_unique<ShadedActor>(
+      pass_, SkinText(error_m > 0), std::vector<VertexAttribute>{{"borders", 4}, {"openSky", 1}});
+  shaded->SetData(data);
+  levels_[error_m] = std::move(shaded);
+}
+
+bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& override_color,
+                       double opacity, double error_m) {
+  bool is_changed = false;
+  if (model_ != person.model || revision_ != person.model->revision) {
+    model_ = person.model;
+    revision_ = person.model->revision;
+    levels_.clear();
+    Load(*model_);
+    is_changed = true;
+  }
+  Move(person);
+  if (levels_.count(error_m) == 0) {
+    AddLevel(error_m);
+    is_changed = true;
+  }
+  for (const auto& [error, shaded] : levels_) {
+    shaded->actor()->SetVisibility(is_visible_ && error == error_m);
+  }
+  vtkUniforms& uniforms = levels_[error_m]->uniforms();
+  const auto set = [&](const char* name, const Rgb& rgb) {
+    const float color[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+                            static_cast<float>(rgb[2])};
+    uniforms.SetUniform3f(name, color);
+  };
+  set("topColor", kSuitColor);
+  set("trousersColor", kTrousersColor);
+  set("shoesColor", kShoesColor);
+  set("bareColor", kBareColor);
+  const bool has_own_color = model_->human.body_rgb != kBodyColor;
+  set("bandColor", has_own_color ? model_->human.body_rgb : kSuitColor);
+  uniforms.SetUniform4f("overrideColor", override_color.data());
+  uniforms.SetUniformf("opacityFactor", static_cast<float>(opacity));
+  return is_changed;
+}
+
+std::vector<vtkActor*> SkinActor::actors() {
+  std::vector<vtkActor*> actors;
+  for (const auto& [error, shaded] : levels_) actors.push_back(shaded->actor());
+  return actors;
+}
+
+}  // namespace kinescope::render

@@ -1,0 +1,55 @@
+/// Renders a person as one skinned surface in a suit (urdf/skin). A new pose moves its vertices; a
+/// new model makes a new surface.
+#pragma once
+
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "core/scene_state.h"
+#include "render/vtk/shaded_actor.h"
+#include "urdf/skin/occlusion.h"
+#include "urdf/skin/person_skin.h"
+
+namespace kinescope::render {
+
+class SkinActor {
+ public:
+  explicit SkinActor(Pass pass = Pass::kSolid) : pass_(pass) {}
+
+  /// `override_color`, `opacity`: see PartActor. `error_m`: how far the drawn surface may be from
+  /// the skin; 0: not at all.
+  /// @return whether the list of actors has changed.
+  bool Update(const PersonState& person, const Eigen::Vector4f& override_color, double opacity,
+              double error_m);
+  void SetVisible(bool is_visible) { is_visible_ = is_visible; }
+  std::vector<vtkActor*> actors();
+  /// Of the newest Update: what casts shadows.
+  const skin::Capsules& capsules() const { return capsules_; }
+
+ private:
+  void Load(const PersonModel& model);
+  void Move(const PersonState& person);
+  void AddLevel(double error_m);
+
+  const Pass pass_;
+  bool is_visible_ = true;
+  std::shared_ptr<const PersonModel> model_;  // the loaded one
+  std::uint64_t revision_ = 0;
+  std::unique_ptr<skin::PersonSkin> skin_;
+  skin::PersonSkin::Surface surface_;
+  std::vector<skin::LimbRun> limbs_;
+  std::vector<float> open_;
+  skin::Capsules capsules_;
+  skin::Build build_;
+  vtkNew<vtkFloatArray> positions_, normals_, borders_, open_sky_;
+  std::vector<urdf::Pose> shown_;                          // the poses of `surface_`
+  std::map<double, std::unique_ptr<ShadedActor>> levels_;  // by their error, m; all share the
+                                                           // vertices
+};
+
+}  // namespace kinescope::render

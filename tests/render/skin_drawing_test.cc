@@ -1,0 +1,96 @@
+// A person drawn as one skin, tested by what the picture shows.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/color_difference.h"
+#include "core/palette.h"
+#include "render/image/compare.h"
+#include "render/renderer.h"
+#include "tests/render/test_scene.h"
+#include "tests/worn.h"
+
+namespace kinescope::render {
+namespace {
+
+using kinescope::testing::Posture;
+
+constexpr int kWidth = 480, kHeight = 480;
+
+SceneState Person(Posture posture = Posture::kStanding, bool is_built_in = true) {
+  SceneState state = kinescope::testing::SceneWith(posture);
+  PersonState& person = state.people[0];
+  person.loads.clear();
+  person.com.reset();
+  person.cop.reset();
+  auto model = std::make_shared<PersonModel>(*person.model);
+  model->has_built_in_surface = is_built_in;
+  person.model = model;
+  return state;
+}
+
+class SkinDrawing : public ::testing::Test {
+ protected:
+  SkinDrawing() {
+    spec_.width = kWidth;
+    spec_.height = kHeight;
+    spec_.overlays = false;
+    spec_.look.figure = Figure::kSkin;
+    spec_.look.floor = false;
+  }
+  Image Draw(const SceneState& state) { return renderer_->Render(state, Front(), spec_); }
+  static Camera Front() {
+    Camera camera;
+    camera.position = {4, 0, 1};
+    camera.target = {0, 0, 1};
+    return camera;
+  }
+
+  std::unique_ptr<Renderer> renderer_ = MakeRenderer();
+  PictureSpec spec_;
+};
+
+TEST_F(SkinDrawing, DrawsTheBuiltInBodyAsASkinAndOthersAsTheirUrdf) {
+  const SceneState own = Person(Posture::kStanding, false);
+  const Image skin = Draw(Person()), others = Draw(own);
+  spec_.look.figure = Figure::kUrdf;
+  EXPECT_FALSE(Compare(skin, Draw(Person())).equal());
+  EXPECT_TRUE(Compare(others, Draw(own)).equal());
+}
+
+TEST_F(SkinDrawing, GivesTheSameBytesWhateverWasDrawnBefore) {
+  const Image first = Draw(Person());
+  Draw(Person(Posture::kDeepBend));
+  EXPECT_TRUE(Compare(first, Draw(Person())).equal());
+  EXPECT_TRUE(Compare(first, MakeRenderer()->Render(Person(), Front(), spec_)).equal());
+}
+
+TEST_F(SkinDrawing, MovesTheFingersOfGloves) {
+  const auto gloved = [](double bend) {
+    SceneState state = Person();
+    kinescope::testing::Wear(state.people[0], bend);
+    auto model = std::make_shared<PersonModel>(*state.people[0].model);
+    model->has_built_in_surface = true;
+    state.people[0].model = model;
+    return state;
+  };
+  EXPECT_FALSE(Compare(Draw(gloved(0.1)), Draw(gloved(0.9))).equal());
+}
+
+TEST_F(SkinDrawing, HidesTheBodyOnRequest) {
+  spec_.look.shown.Set(ScenePart::kBody, false);
+  spec_.look.shown.Set(ScenePart::kShadows, false);
+  const Image empty = Draw(Person());
+  EXPECT_TRUE(Compare(empty, Draw(Person(Posture::kDeepBend))).equal());
+}
+
+TEST(SuitColors, AreFarFromEveryLoadClass) {
+  for (const Rgb& color : {kSuitColor, kTrousersColor, kShoesColor, kBareColor}) {
+    for (const LoadClass load :
+         {LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh, LoadClass::kUnknown}) {
+      EXPECT_GE(ColorDifference(color, ColorOf(load)), 20);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kinescope::render

@@ -1,0 +1,341 @@
+// The skin as its users measure it: closed, as heavy and wide as people are, and as voluminous when
+// a joint bends.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "urdf/skin/frames.h"
+#include "urdf/skin/occlusion.h"
+#include "urdf/skin/outfit.h"
+#include "urdf/skin/person_skin.h"
+
+namespace kinescope::skin {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using urdf::At;
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+PersonSkin SkinOf(bool is_woman, double height, double mass) {
+  return PersonSkin(BuiltInSkin(), BuildOf(is_woman, height, mass), urdf::DefaultSkeleton(height));
+}
+
+urdf::LinkPoses Posed(const urdf::Skeleton& skeleton, const urdf::JointAngles& angles) {
+  return urdf::ForwardKinematics(skeleton, {}, angles);
+}
+
+// The bind pose, with one joint turned further.
+urdf::LinkPoses BentAt(int joint, const Vector3d& axis, double degrees) {
+  urdf::LinkPoses links = BindPoseOf(urdf::DefaultSkeleton()).links;
+  const int child = urdf::ChildOf(joint);
+  const urdf::Pose center = links[At(child)];
+  const Vector3d world_axis = center.orientation * axis;
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(degrees * kDegree, world_axis));
+  std::vector<bool> moves(urdf::kSegmentCount, false);
+  moves[At(child)] = true;
+  for (int segment = child; segment < urdf::kSegmentCount; ++segment) {
+    const int parent = urdf::kSegments[At(segment)].parent;
+    if (parent >= 0 && moves[At(parent)]) moves[At(segment)] = true;
+    if (!moves[At(segment)]) continue;
+    urdf::Pose& link = links[At(segment)];
+    link.position = center.position + turn * (link.position - center.position);
+    link.orientation = turn * link.orientation;
+  }
+  return links;
+}
+
+// Of the tissue around a joint of the reference person: how much more volume it has when bent.
+// Where the surface overlaps itself, it counts twice.
+double VolumeChange(int joint, const Vector3d& axis, double degrees) {
+  const PersonSkin skin = SkinOf(false, 1.75, 75);
+  const Vector3f center = skin.bind().links[At(urdf::ChildOf(joint))].position.cast<float>();
+  double tissue = 0;  // within reach of the joint
+  constexpr float kReach = 0.16f;
+  for (const Triangle& t : skin.triangles()) {
+    const Vector3f a = skin.rest()[t[0]] - center, b = skin.rest()[t[1]] - center,
+                   c = skin.rest()[t[2]] - center;
+    if (std::max({a.norm(), b.norm(), c.norm()}) < kReach) tissue += a.dot(b.cross(c)) / 6;
+  }
+  PersonSkin::Surface rest, bent;
+  skin.Pose(skin.bind().links, {}, rest);
+  skin.Pose(BentAt(joint, axis, degrees), {}, bent);
+  return (Volume(bent.positions, skin.triangles()) - Volume(rest.positions, skin.triangles())) /
+         tissue;
+}
+
+bool IsArm(std::size_t vertex) {
+  const Limb limb = LimbOf(BuiltInSkin().weights[vertex]);
+  return limb >= kRightUpperArmLimb && limb <= kLeftHandLimb;
+}
+
+// The perimeter of the convex hull of a section in the bind pose, as a tape measures it: of the
+// trunk or of a left limb.
+double Girth(const PersonSkin& skin, int segment, double along, bool is_limb) {
+  const urdf::Pose& link = skin.bind().links[At(segment)];
+  const Eigen::Quaterniond to_link = link.orientation.conjugate();
+  const bool is_arm = segment >= urdf::kLeftUpperArm && segment <= urdf::kLeftForeArm;
+  std::vector<Eigen::Vector2d> points;
+  for (const Triangle& t : skin.triangles()) {
+    for (std::size_t side = 0; side < 3; ++side) {
+      const Vector3d a = to_link * (skin.rest()[t[side]].cast<double>() - link.position);
+      const Vector3d b = to_link * (skin.rest()[t[(side + 1) % 3]].cast<double>() - link.position);
+      if ((a.z() < along) == (b.z() < along)) continue;
+      const Vector3d p = a + (along - a.z()) / (b.z() - a.z()) * (b - a);
+      const bool is_own = is_limb ? (link.position + link.orientation * p).y() > 0.002 &&
+                                        p.head<2>().norm() < (is_arm ? 0.09 : 0.15)
+                                  : !IsArm(t[side]);
+      if (is_own) points.emplace_back(p.x(), p.y());
+    }
+  }
+  std::sort(points.begin(), points.end(), [](const auto& a, const auto& b) {
+    return std::make_pair(a.x(), a.y()) < std::make_pair(b.x(), b.y());
+  });
+  std::vector<Eigen::Vector2d> hull;
+  for (int half = 0; half < 2; ++half) {
+    const std::size_t first = hull.size();
+    for (const auto& p : points) {
+      const auto turns = [&] {
+        const Eigen::Vector2d u = hull.back() - hull[hull.size() - 2], v = p - hull.back();
+        return u.x() * v.y() - u.y() * v.x();
+      };
+      while (hull.size() >= first + 2 && turns() <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  double girth = 0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    girth += (hull[(i + 1) % hull.size()] - hull[i]).norm();
+  }
+  return girth;
+}
+
+// The largest or smallest between two heights in the link, m.
+double Extreme(const PersonSkin& skin, int segment, double from, double to, bool is_largest) {
+  const bool is_limb = segment != urdf::kPelvis;
+  double extreme = is_largest ? 0 : 9;
+  for (double at = from; at <= to; at += 0.01) {
+    const double girth = Girth(skin, segment, at, is_limb);
+    extreme = is_largest ? std::max(extreme, girth) : std::min(extreme, girth);
+  }
+  return extreme;
+}
+
+struct Tape {
+  const char* what;
+  int segment;
+  double from, to;  // for a stature of 1.75 m
+  bool is_largest;
+  // ANSUR II, mm and mm/kg (own regression; 1.75 m and 75 kg, 1.62 m and 62 kg). Biceps and
+  // forearm are measured flexed there, 6 and 4 % more than relaxed.
+  double man, man_per_kg, woman, woman_per_kg;
+};
+constexpr Tape kTapes[] = {
+    {"chest", urdf::kPelvis, 0.29, 0.34, true, 995, 6.23, 908, 7.27},
+    {"waist", urdf::kPelvis, 0.13, 0.22, false, 860, 7.96, 813, 9.08},
+    {"seat", urdf::kPelvis, -0.05, 0.05, true, 964, 5.35, 983, 6.86},
+    {"thigh", urdf::kLeftUpperLeg, -0.16, -0.12, true, 583, 4.1, 588, 5.1},
+    {"calf", urdf::kLeftLowerLeg, -0.20, -0.08, true, 373, 1.9, 361, 2.2},
+    {"ankle", urdf::kLeftLowerLeg, -0.41, -0.30, false, 222, 0.7, 211, 0.8},
+    {"upper arm", urdf::kLeftUpperArm, -0.21, -0.15, true, 315, 2.16, 274, 2.63},
+    {"forearm", urdf::kLeftForeArm, -0.12, -0.05, true, 284, 1.25, 246, 1.44},
+    {"wrist", urdf::kLeftForeArm, -0.26, -0.20, false, 172, 0.4, 152, 0.4},
+};
+
+TEST(PersonSkin, IsOneClosedSurface) {
+  const SkinTemplate& skin = BuiltInSkin();
+  std::map<std::pair<int, int>, int> edges;
+  for (const Triangle& t : skin.triangles) {
+    for (std::size_t side = 0; side < 3; ++side) ++edges[{t[side], t[(side + 1) % 3]}];
+  }
+  for (const auto& [edge, count] : edges) {
+    ASSERT_EQ(count, 1);
+    ASSERT_EQ(edges.count({edge.second, edge.first}), 1u);
+  }
+  // Euler's formula for a body without holes.
+  EXPECT_EQ(skin.size() + skin.triangles.size(), edges.size() / 2 + 2);
+}
+
+TEST(PersonSkin, HasTheGirthsOfTheirSexStatureAndMass) {
+  for (const auto& [is_woman, mass] :
+       {std::pair(false, 62.0), {false, 75.0}, {false, 105.0}, {true, 62.0}, {true, 85.0}}) {
+    const double height = is_woman ? 1.62 : 1.75;
+    const PersonSkin skin = SkinOf(is_woman, height, mass);
+    for (const Tape& tape : kTapes) {
+      const double expected = is_woman ? tape.woman + tape.woman_per_kg * (mass - 62)
+                                       : tape.man + tape.man_per_kg * (mass - 75);
+      const double size = height / 1.75;
+      const double girth =
+          1000 * Extreme(skin, tape.segment, size * tape.from, size * tape.to, tape.is_largest);
+      EXPECT_NEAR(girth / expected, 1, 0.065)
+          << tape.what << " of a " << (is_woman ? "woman" : "man") << " of " << mass
+          << " kg: " << girth << " mm, expected " << expected;
+    }
+    EXPECT_NEAR(1000 * Volume(skin.rest(), skin.triangles()) / mass, 0.95, 0.04);  // litres a kg
+  }
+}
+
+TEST(PersonSkin, KeepsItsVolumeWhereAJointBends) {
+  EXPECT_NEAR(VolumeChange(urdf::jLeftElbow, {0, -1, 0}, 150), 0, 0.10);
+  EXPECT_NEAR(VolumeChange(urdf::jLeftKnee, {0, 1, 0}, 150), 0, 0.10);
+  EXPECT_NEAR(VolumeChange(urdf::jLeftHip, {0, -1, 0}, 120), 0, 0.10);
+  EXPECT_NEAR(VolumeChange(urdf::jLeftWrist, {1, 0, 0}, 80), 0, 0.10);
+  EXPECT_NEAR(VolumeChange(urdf::jT9T8, {0, 1, 0}, 30), 0, 0.10);
+  EXPECT_NEAR(VolumeChange(urdf::jT9T8, {0, 0, 1}, 30), 0, 0.10);
+}
+
+TEST(PersonSkin, FitsTheMeasuredLengths) {
+  urdf::Skeleton skeleton = urdf::DefaultSkeleton(1.9);
+  skeleton.origin_in_parent[urdf::kLeftForeArm].z() *= 1.2;
+  skeleton.origin_in_parent[urdf::kRightLowerLeg].z() *= 0.8;
+  const PersonSkin skin(BuiltInSkin(), {}, skeleton);
+  const urdf::LinkPoses links = Posed(skeleton, {});
+  PersonSkin::Surface surface;
+  skin.Pose(links, {}, surface);
+  const auto reach = [&](const Vector3d& from, const Vector3d& direction) {
+    double farthest = 0;
+    for (const Vector3f& p : surface.positions) {
+      farthest = std::max(farthest, (p.cast<double>() - from).dot(direction));
+    }
+    return farthest;
+  };
+  const Vector3d& head = links[urdf::kHead].position;
+  EXPECT_NEAR(reach(head, Vector3d::UnitZ()), skeleton.head_top_in_head.z(), 0.012);
+  const urdf::Pose& left_foot = links[urdf::kLeftFoot];
+  EXPECT_NEAR(reach(left_foot.position, -Vector3d::UnitZ()),
+              -skeleton.heel_in_foot[urdf::kLeft].z(), 0.006);
+}
+
+TEST(PersonSkin, MovesWithThePersonAsAWhole) {
+  const PersonSkin skin = SkinOf(true, 1.62, 62);
+  urdf::LinkPoses links = skin.bind().links;
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(2, Vector3d(1, 2, 3).normalized()));
+  const Vector3d away(3, -2, 1);
+  for (urdf::Pose& link : links) link = {turn * link.position + away, turn * link.orientation};
+  PersonSkin::Surface surface;
+  skin.Pose(links, {}, surface);
+  for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+    const Vector3d expected = turn * skin.rest()[i].cast<double>() + away;
+    ASSERT_LT((surface.positions[i].cast<double>() - expected).norm(), 1e-4);
+    ASSERT_NEAR(surface.normals[i].norm(), 1, 1e-4);
+  }
+}
+
+TEST(PersonSkin, ClosesTheHandOfAGlove) {
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
+  const urdf::HandSkeleton hand = urdf::DefaultHand(urdf::kLeft, 0.19);
+  const PersonSkin skin(BuiltInSkin(), {}, skeleton, {nullptr, &hand});
+  const urdf::LinkPoses links = Posed(skeleton, {});
+  urdf::FingerAngles fist{};
+  for (int finger = 1; finger < urdf::kFingersPerHand; ++finger) {
+    if (urdf::PlaceInRay(finger) > 0) fist[At(finger)].x() = -1.3;
+  }
+  const urdf::FingerPoses fingers = urdf::CompleteHand(hand, links[urdf::kLeftHand], {}, {}, fist);
+  PersonSkin::Surface open, closed;
+  skin.Pose(links, {}, open);
+  skin.Pose(links, {nullptr, &fingers}, closed);
+  const auto length = [&](const PersonSkin::Surface& surface) {
+    float longest = 0;
+    for (std::size_t i = 0; i < surface.positions.size(); ++i) {
+      if (LimbOf(BuiltInSkin().weights[i]) != kLeftHandLimb) continue;
+      const Vector3f wrist = links[urdf::kLeftHand].position.cast<float>();
+      longest = std::max(longest, (wrist - surface.positions[i]).z());
+    }
+    return longest;
+  };
+  EXPECT_GT(length(open), 0.17f);
+  EXPECT_LT(length(closed), 0.13f);
+}
+
+TEST(SkinTemplate, ReadsWhatItWrites) {
+  const std::string bytes = ToBytes(BuiltInSkin());
+  const SkinTemplate again = FromBytes(bytes);
+  EXPECT_EQ(ToBytes(again), bytes);
+}
+
+TEST(SkinTemplate, RejectsWhatIsNoSkin) {
+  const std::string bytes = ToBytes(BuiltInSkin());
+  EXPECT_THROW(FromBytes(""), std::runtime_error);
+  EXPECT_THROW(FromBytes("Skim" + bytes.substr(4)), std::runtime_error);
+  EXPECT_THROW(FromBytes(bytes.substr(0, 8)), std::runtime_error);
+  EXPECT_THROW(FromBytes(bytes.substr(0, bytes.size() - 1)), std::runtime_error);
+}
+
+TEST(BuildOf, FollowsTheBodyMassIndex) {
+  EXPECT_NEAR(BuildOf(false, 1.75, 75).heavy, 0, 1e-9);
+  EXPECT_NEAR(BuildOf(false, 1.75, 105).heavy, 1, 1e-9);
+  EXPECT_NEAR(BuildOf(true, 1.62, 62).heavy, 0, 1e-9);
+  EXPECT_EQ(BuildOf(true, 1.62, 62).woman, 1);
+  // What no longer looks like a person is drawn as the nearest that does.
+  EXPECT_EQ(BuildOf(false, 1.75, 300).heavy, 1.6);
+  EXPECT_EQ(BuildOf(false, 2.3, 20).heavy, -0.45);
+}
+
+TEST(OpenSky, IsLessBetweenArmAndTrunkAndBetweenTheLegs) {
+  const PersonSkin skin = SkinOf(false, 1.75, 75);
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
+  const urdf::LinkPoses links = Posed(skeleton, {});
+  PersonSkin::Surface surface;
+  skin.Pose(links, {}, surface);
+  std::vector<float> open;
+  SetOpenSky(surface.positions, surface.normals, LimbRunsOf(BuiltInSkin().weights),
+             CapsulesOf(skeleton, {}, links), open);
+  const auto nearest = [&](const Vector3d& place, const Vector3d& looks) {
+    std::size_t best = 0;
+    double least = 9;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      if (surface.normals[i].cast<double>().dot(looks) < 0.7) continue;
+      const double away = (surface.positions[i].cast<double>() - place).norm();
+      if (away < least) best = i;
+      least = std::min(least, away);
+    }
+    return open[best];
+  };
+  const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY();
+  EXPECT_GT(nearest(links[urdf::kT8].position + 0.1 * x, x), 0.9f);          // chest
+  EXPECT_LT(nearest(links[urdf::kLeftHand].position - 0.03 * y, -y), 0.8f);  // wrist, hip beside
+  EXPECT_LT(nearest(links[urdf::kLeftLowerLeg].position - 0.05 * y, -y), 0.85f);
+  EXPECT_GT(nearest(links[urdf::kHead].position + Vector3d(0, 0, 0.19), Vector3d::UnitZ()), 0.95f);
+}
+
+TEST(OpenSky, IsLessOnTheFloorNearTheFeet) {
+  const urdf::Skeleton skeleton = urdf::DefaultSkeleton();
+  const urdf::LinkPoses links = Posed(skeleton, {});
+  const Vector3f foot = links[urdf::kLeftFoot].position.cast<float>();
+  std::vector<float> open;
+  SetOpenSky({foot + Vector3f(0.05f, 0, -0.08f), foot + Vector3f(2, 0, -0.08f)},
+             CapsulesOf(skeleton, {}, links), open);
+  EXPECT_LT(open[0], 0.6f);
+  EXPECT_GT(open[1], 0.95f);
+}
+
+TEST(OutfitOf, HasTrousersBelowTheBeltAndBareHands) {
+  const SkinTemplate& skin = BuiltInSkin();
+  const std::vector<Borders> outfit = OutfitOf(skin, {});
+  const BindPose bind = BindPoseOf(urdf::DefaultSkeleton());
+  for (std::size_t i = 0; i < skin.size(); ++i) {
+    const Vector3d p = skin.corners[0][i].cast<double>();
+    const auto is_near = [&](int segment, double reach) {
+      return (p - bind.links[At(segment)].position).norm() < reach;
+    };
+    if (is_near(urdf::kLeftLowerLeg, 0.2)) EXPECT_GT(outfit[i].trousers, 0) << p.transpose();
+    if (is_near(urdf::kLeftForeArm, 0.2)) EXPECT_LT(outfit[i].trousers, 0) << p.transpose();
+    if (is_near(urdf::kRightToe, 0.06)) EXPECT_GT(outfit[i].shoes, 0) << p.transpose();
+    const bool is_hand = LimbOf(skin.weights[i]) == kLeftHandLimb && is_near(urdf::kLeftHand, 0.2);
+    if (is_hand && !is_near(urdf::kLeftHand, 0.05)) EXPECT_GT(outfit[i].bare, 0) << p.transpose();
+    if (is_near(urdf::kT12, 0.12)) EXPECT_LT(outfit[i].bare, 0) << p.transpose();
+  }
+}
+
+}  // namespace
+}  // namespace kinescope::skin

@@ -1,0 +1,223 @@
+#include "urdf/skin/frames.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kinescope::skin {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr double kPi = 3.14159265358979323846;
+
+Quaterniond Turn(double degrees, const Vector3d& axis) {
+  return Quaterniond(Eigen::AngleAxisd(degrees * kPi / 180, axis.normalized()));
+}
+
+// The middle of the joint's range, seen from hanging.
+Quaterniond MiddleOfRange(int segment) {
+  switch (segment) {
+    case urdf::kRightUpperArm: return Turn(75, {-1, -1, 0});
+    case urdf::kLeftUpperArm: return Turn(75, {1, -1, 0});
+    case urdf::kRightUpperLeg:
+    case urdf::kLeftUpperLeg: return Turn(-45, Vector3d::UnitY());
+    default: return Quaterniond::Identity();
+  }
+}
+
+double TwistAngle(const Quaterniond& rotation) {
+  return std::remainder(2 * std::atan2(rotation.z(), rotation.w()), 2 * kPi);
+}
+
+struct SwingAndTwist {
+  Quaterniond swing, twist;  // parent_from_child = swing * twist; twist: about the bone (z)
+};
+
+// The smallest swing from hanging is natural low down, and has no meaning straight up. The smallest
+// swing from the middle of the range has its blind spot out of reach, but twists a raised arm. So
+// the first goes over to the second while the bone rises.
+SwingAndTwist Split(int segment, const Quaterniond& parent_from_child) {
+  if (TwistFrames(segment) == 0) return {parent_from_child, Quaterniond::Identity()};
+  constexpr double kBegins = 60 * kPi / 180, kEnds = 150 * kPi / 180;
+  const Vector3d bone = parent_from_child * Vector3d::UnitZ();
+  const Quaterniond middle = MiddleOfRange(segment);
+  const Quaterniond far = Quaterniond::FromTwoVectors(middle * Vector3d::UnitZ(), bone) * middle;
+  const double risen = std::acos(std::clamp(bone.z(), -1.0, 1.0));
+  Quaterniond swing = far;
+  if (risen < kEnds) {
+    const Quaterniond near = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), bone);
+    const double t = std::clamp((risen - kBegins) / (kEnds - kBegins), 0.0, 1.0);
+    const double angle = t * t * (3 - 2 * t) * TwistAngle(near.conjugate() * far);
+    swing = near * Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
+  }
+  const double twist = TwistAngle(swing.conjugate() * parent_from_child);
+  return {swing, Quaterniond(Eigen::AngleAxisd(twist, Vector3d::UnitZ()))};
+}
+
+// Bone lies under the skin of a bent elbow and knee: their frames move outwards.
+Vector3d BoneOffset(const Frame& frame, double angle) {
+  double most = 0;  // m, forward, at 180 degrees
+  switch (frame.segment) {
+    case urdf::kRightForeArm:
+    case urdf::kLeftForeArm: most = -0.012; break;
+    case urdf::kRightLowerLeg:
+    case urdf::kLeftLowerLeg: most = 0.009; break;
+    default: return Vector3d::Zero();
+  }
+  const double from_middle = 2 * frame.share - 1;
+  return {0.5 * most * (1 - std::cos(angle)) * (1 - from_middle * from_middle), 0, 0};
+}
+
+// Frames, and where those of each segment begin.
+struct FrameList {
+  std::vector<Frame> all;
+  std::array<int, urdf::kSegmentCount> swing{}, twist{};
+  std::array<std::array<int, urdf::kFingersPerHand>, 2> finger{};
+};
+
+const FrameList& List() {
+  static const FrameList kList = [] {
+    FrameList list;
+    for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+      list.all.push_back({FrameKind::kSegment, segment, 1, -1});
+    }
+    for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+      list.swing[urdf::At(segment)] = static_cast<int>(list.all.size());
+      const int swings = SwingFrames(segment), twists = TwistFrames(segment);
+      for (int i = 1; i <= swings; ++i) {
+        list.all.push_back({FrameKind::kSwing, segment, static_cast<double>(i) / (swings + 1), -1});
+      }
+      list.twist[urdf::At(segment)] = static_cast<int>(list.all.size());
+      for (int i = 0; i < twists; ++i) {
+        list.all.push_back({FrameKind::kTwist, segment, static_cast<double>(i) / twists, -1});
+      }
+    }
+    for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+      for (int finger = 0; finger < urdf::kFingersPerHand; ++finger) {
+        list.finger[side][urdf::At(finger)] = static_cast<int>(list.all.size());
+        if (!HasFrames(finger)) continue;
+        const int hand = urdf::HandSegmentOf(side);
+        list.all.push_back({FrameKind::kFinger, hand, 1, finger});
+        list.all.push_back({FrameKind::kHalfFinger, hand, 0.5, finger});
+      }
+    }
+    return list;
+  }();
+  return kList;
+}
+
+}  // namespace
+
+int SwingFrames(int segment) {
+  switch (segment) {
+    case urdf::kRightUpperArm:
+    case urdf::kLeftUpperArm: return 4;
+    case urdf::kRightUpperLeg:
+    case urdf::kLeftUpperLeg: return 3;
+    case urdf::kRightForeArm:
+    case urdf::kLeftForeArm:
+    case urdf::kRightLowerLeg:
+    case urdf::kLeftLowerLeg: return 5;
+    case urdf::kRightHand:
+    case urdf::kLeftHand:
+    case urdf::kRightFoot:
+    case urdf::kLeftFoot: return 2;
+    case urdf::kRightToe:
+    case urdf::kLeftToe:
+    case urdf::kNeck:
+    case urdf::kHead: return 1;
+    default: return 0;
+  }
+}
+
+int TwistFrames(int segment) {
+  switch (segment) {
+    case urdf::kRightUpperArm:
+    case urdf::kLeftUpperArm: return 4;
+    case urdf::kRightForeArm:
+    case urdf::kLeftForeArm: return 5;
+    case urdf::kRightUpperLeg:
+    case urdf::kLeftUpperLeg: return 3;
+    default: return 0;
+  }
+}
+
+bool HasFrames(int finger) {
+  return finger > 0 && (urdf::RayOf(finger) == 0 || urdf::PlaceInRay(finger) > 0);
+}
+
+const std::vector<Frame>& Frames() { return List().all; }
+int SegmentFrame(int segment) { return segment; }
+int SwingFrame(int segment, int step) { return List().swing[urdf::At(segment)] + step; }
+int TwistFrame(int segment, int step) { return List().twist[urdf::At(segment)] + step; }
+int FingerFrame(int hand, int finger, bool is_half) {
+  const urdf::Side side = hand == urdf::kLeftHand ? urdf::kLeft : urdf::kRight;
+  return List().finger[side][urdf::At(finger)] + (is_half ? 1 : 0);
+}
+
+std::vector<urdf::Pose> FramePoses(const urdf::LinkPoses& links,
+                                   const std::array<const urdf::FingerPoses*, 2>& fingers,
+                                   const BindPose& bind) {
+  std::array<SwingAndTwist, urdf::kSegmentCount> joints;
+  for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
+    const urdf::Pose& parent = links[urdf::At(urdf::kSegments[urdf::At(segment)].parent)];
+    joints[urdf::At(segment)] =
+        Split(segment, parent.orientation.conjugate() * links[urdf::At(segment)].orientation);
+  }
+  std::array<urdf::FingerPoses, 2> hands;
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    if (fingers[side] != nullptr) {
+      hands[side] = *fingers[side];
+      continue;
+    }
+    const auto hand = urdf::At(urdf::HandSegmentOf(side));
+    for (std::size_t i = 0; i < hands[side].size(); ++i) {
+      const urdf::Pose in_hand = Relative(bind.links[hand], bind.fingers[side][i]);
+      hands[side][i] = {links[hand].position + links[hand].orientation * in_hand.position,
+                        links[hand].orientation * in_hand.orientation};
+    }
+  }
+  std::vector<urdf::Pose> poses;
+  poses.reserve(Frames().size());
+  for (const Frame& frame : Frames()) {
+    const urdf::Pose& link = links[urdf::At(frame.segment)];
+    const int parent = urdf::kSegments[urdf::At(frame.segment)].parent;
+    const SwingAndTwist& joint = joints[urdf::At(frame.segment)];
+    switch (frame.kind) {
+      case FrameKind::kSegment: poses.push_back(link); break;
+      case FrameKind::kSwing: {
+        const Quaterniond& up = links[urdf::At(parent)].orientation;
+        const Quaterniond identity = Quaterniond::Identity();
+        const double angle = 2 * std::acos(std::min(1.0, std::abs(joint.swing.w())));
+        poses.push_back(
+            {link.position + up * identity.slerp(0.5, joint.swing) * BoneOffset(frame, angle),
+             up * identity.slerp(frame.share, joint.swing)});
+        break;
+      }
+      case FrameKind::kTwist:
+        poses.push_back(
+            {link.position, links[urdf::At(parent)].orientation * joint.swing *
+                                Quaterniond::Identity().slerp(frame.share, joint.twist)});
+        break;
+      case FrameKind::kFinger:
+      case FrameKind::kHalfFinger: {
+        const urdf::FingerPoses& hand =
+            hands[frame.segment == urdf::kLeftHand ? urdf::kLeft : urdf::kRight];
+        const urdf::Pose& finger = hand[urdf::At(frame.finger)];
+        if (frame.kind == FrameKind::kFinger) {
+          poses.push_back(finger);
+          break;
+        }
+        const int before = urdf::kFingerParents[urdf::At(frame.finger)];
+        const Quaterniond& up =
+            HasFrames(before) ? hand[urdf::At(before)].orientation : link.orientation;
+        poses.push_back({finger.position, up.slerp(0.5, finger.orientation)});
+        break;
+      }
+    }
+  }
+  return poses;
+}
+
+}  // namespace kinescope::skin

@@ -1,0 +1,22 @@
+/// What the person wears: borders between colours, as signed distances, so that they are crisp at
+/// any zoom. Pure functions, any thread.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "urdf/skin/skin_template.h"
+
+namespace kinescope::skin {
+
+/// How far a vertex is inside of each, m, within +-kFarthestBorder: trousers, bare skin (head and
+/// hands), shoes, bands around chest and upper arms.
+struct Borders {
+  float trousers = 0, bare = 0, shoes = 0, bands = 0;
+};
+inline constexpr float kFarthestBorder = 0.05f;
+
+/// Of each vertex of `skin`.
+std::vector<Borders> OutfitOf(const SkinTemplate& skin, const Build& build);
+
+}  // namespace kinescope::skin
