@@ -56,7 +56,7 @@ LIBRARIES = {
     r"vtk\w+\.h": ("VTK", {"render/vtk"}),
     r"(GL|EGL)/": ("VTK", {"render/vtk"}),  # OpenGL, as used by VTK, and EGL
     r"assimp/": ("assimp", {"urdf/mesh"}),
-    r"meshoptimizer\.h": ("meshoptimizer", {"render/shape"}),
+    r"meshoptimizer\.h": ("meshoptimizer", {"render/shape", "urdf/skin/make"}),
 }
 STANDARD = re.compile(r"[a-z_]+$|(stdlib|stdio|string|math|errno|time|signal|limits)\.h$")
 SYSTEM = re.compile(r"(sys|netinet|arpa|linux)/|(dlfcn|fcntl|malloc|netdb|poll|pwd|spawn|unistd|pthread)\.h$")

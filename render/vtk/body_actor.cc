@@ -76,7 +76,7 @@ void BodyActor::Show(PartActor& actor, const Group& group, const std::vector<urd
 }
 
 bool BodyActor::Update(const PersonState& person, Figure figure,
-                       const Eigen::Vector4f& override_color, double error_m, OnceLog& log,
+                       const Eigen::Vector4f& override_color, const Error& error, OnceLog& log,
                        std::vector<Label>& labels) {
   const bool is_skin = figure == Figure::kSkin && person.model->has_built_in_surface;
   const bool is_new =
@@ -90,18 +90,19 @@ bool BodyActor::Update(const PersonState& person, Figure figure,
   }
   skin_.SetVisible(is_visible_ && is_skin);
   if (is_skin) {
-    const bool is_other = skin_.Update(person, override_color, opacity_, Permitted(error_m));
+    const bool is_other =
+        skin_.Update(person, override_color, opacity_, error.skin, error.parts > 0);
     is_changed = is_changed || is_other;
   }
   const std::vector<urdf::Pose> poses = VisibleLinkPoses(person);
   for (Group& group : groups_) {
-    const double shown = group.is_fixed ? 0 : Permitted(error_m);
+    const double shown = group.is_fixed ? 0 : Permitted(error.parts);
     if (group.actors.count(shown) == 0) {
       AddActor(shown, group);
       is_changed = true;
     }
-    for (const auto& [error, actor] : group.actors) {
-      actor->actor()->SetVisibility(is_visible_ && error == shown);
+    for (const auto& [of, actor] : group.actors) {
+      actor->actor()->SetVisibility(is_visible_ && of == shown);
     }
     Show(*group.actors[shown], group, poses, override_color);
     for (const VisualMesh::Placeholder& placeholder : group.mesh.placeholders) {

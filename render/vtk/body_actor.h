@@ -23,11 +23,16 @@ class BodyActor {
  public:
   explicit BodyActor(Pass pass = Pass::kSolid) : pass_(pass), skin_(pass) {}
 
-  /// Adds the names of missing meshes to `labels`. `override_color`: see PartActor. `error_m`: how
-  /// far the drawn surface may be from the model's; 0: not at all.
+  /// How far the drawn surface may be from the model's, m; 0: not at all.
+  struct Error {
+    double parts = 0;  // of the URDF; also lit at the vertices then
+    double skin = 0;
+  };
+
+  /// Adds the names of missing meshes to `labels`. `override_color`: see PartActor.
   /// @return whether the list of actors has changed.
   bool Update(const PersonState& person, Figure figure, const Eigen::Vector4f& override_color,
-              double error_m, OnceLog& log, std::vector<Label>& labels);
+              const Error& error, OnceLog& log, std::vector<Label>& labels);
 
   /// Meshes that are replaced by boxes.
   const std::vector<std::string>& problems() const { return problems_; }

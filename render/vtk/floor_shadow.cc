@@ -7,15 +7,14 @@
 #include <vtkPolyData.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "render/vtk/float_array.h"
 
 namespace kinescope::render {
 namespace {
 
-constexpr int kSide = 56;              // points
-constexpr float kStep = 0.05f;         // m
+constexpr int kSide = 44;              // points
+constexpr float kMargin = 0.45f;       // m, around the limbs
 constexpr float kAboveFloor = 0.002f;  // m
 constexpr float kDarkest = 0.8f;
 
@@ -67,24 +66,29 @@ void FloorShadow::Cast(const skin::Capsules& limbs, const Rgb& color) {
       highest = highest.cwiseMax(end.head<2>());
     }
   }
-  const Eigen::Vector2f middle = 0.5f * (lowest + highest);
-  const auto first = [&](int axis) {
-    return (std::round(middle[axis] / kStep) - 0.5f * (kSide - 1)) * kStep;
-  };
+  // No larger than the shadow: pixels cost more than points.
+  const Eigen::Vector2f first = lowest.array() - kMargin;
+  const Eigen::Vector2f step = ((highest - lowest).array() + 2 * kMargin) / (kSide - 1);
   for (int row = 0; row < kSide; ++row) {
     for (int column = 0; column < kSide; ++column) {
       points_[static_cast<std::size_t>(row * kSide + column)] = {
-          first(0) + static_cast<float>(column) * kStep, first(1) + static_cast<float>(row) * kStep,
-          kAboveFloor};
+          first.x() + static_cast<float>(column) * step.x(),
+          first.y() + static_cast<float>(row) * step.y(), kAboveFloor};
     }
   }
   skin::SetOpenSky(points_, limbs, open_);
-  constexpr float kUnseen = 0.05f;  // beyond the grid
-  for (float& open : open_) {
-    // As if light came from the cloudy part of the sky only: it makes the shadow three times as
-    // deep.
-    const float covered = 1 - open * open * open;
-    open = kDarkest * std::max(0.0f, (covered - kUnseen) / (1 - kUnseen));
+  // As if light came from the cloudy part of the sky only: it makes the shadow three times as deep.
+  // It ends before the grid does.
+  const auto fade = [](int i) {
+    const float inside = static_cast<float>(std::min(i, kSide - 1 - i)) / (0.25f * kSide);
+    return std::min(1.0f, inside);
+  };
+  for (int row = 0; row < kSide; ++row) {
+    for (int column = 0; column < kSide; ++column) {
+      float& open = open_[static_cast<std::size_t>(row * kSide + column)];
+      const float left = fade(row) * fade(column);
+      open = kDarkest * (1 - open * open * open) * left * left;
+    }
   }
   CopyInto(positions_, 3, points_);
   CopyInto(shade_, 1, open_);

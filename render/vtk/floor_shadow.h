@@ -23,7 +23,7 @@ class FloorShadow {
 
  private:
   ShadedActor shaded_;
-  std::vector<Eigen::Vector3f> points_;  // of a grid that goes with the person, in whole steps
+  std::vector<Eigen::Vector3f> points_;  // of a grid around the person
   std::vector<float> open_;
   vtkNew<vtkFloatArray> positions_, shade_;
 };

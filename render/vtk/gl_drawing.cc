@@ -188,11 +188,9 @@ class GlDrawing : public Drawing {
     is_changed = ghosts_.Update(look, once_, labels) || is_changed;
     for (const PersonState& person : state.people) {
       PersonActors& actors = *people_.at(person.character);
-      const double metres_per_pixel =
-          look.detail == Detail::kFull ? 0 : MetresPerPixel(person, camera, height);
-      is_changed =
-          actors.Update(person, state.liveness, camera, look, metres_per_pixel, once_, labels) ||
-          is_changed;
+      is_changed = actors.Update(person, state.liveness, camera, look,
+                                 MetresPerPixel(person, camera, height), once_, labels) ||
+                   is_changed;
     }
     if (is_changed || !is_listed_) ListActors();
     is_listed_ = true;

@@ -11,8 +11,9 @@
 namespace kinescope::render {
 namespace {
 
-// px, by which the outline of a body may be wrong where fewer triangles are drawn.
-constexpr double kUnseen = 1;
+// px, by which the outline of a body may be wrong where fewer triangles are drawn; of a skin also
+// where it is drawn in full detail.
+constexpr double kUnseen = 1, kUnseenInFullDetail = 0.2;
 
 constexpr double kGhostBodyOpacity = 0.45;
 constexpr int kMarkCorners = 32;
@@ -118,14 +119,17 @@ bool PersonActors::Update(const PersonState& person, Liveness liveness, const Ca
                           const SceneLook& look, double metres_per_pixel, OnceLog& log,
                           std::vector<Label>& labels) {
   const bool is_stale = liveness == Liveness::kStale;
+  const bool is_full = look.detail == Detail::kFull;
   body_.SetVisible(look.Shows(ScenePart::kBody));
   bool is_changed =
       body_.Update(person, look.figure,
                    is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()),
-                   kUnseen * metres_per_pixel, log, labels);
+                   {is_full ? 0 : kUnseen * metres_per_pixel,
+                    (is_full ? kUnseenInFullDetail : kUnseen) * metres_per_pixel},
+                   log, labels);
   is_changed = UpdateAxes(person, look) || is_changed;
   UpdateShadow(person, look);
-  UpdateMarks(person, camera, metres_per_pixel);
+  UpdateMarks(person, camera, is_full ? 0 : metres_per_pixel);
   forces_.Show(person, look.Shows(ScenePart::kScale) ? &labels : nullptr);
   UpdateHeld(person, liveness);
   return is_changed;

@@ -22,8 +22,8 @@ class PersonActors {
  public:
   PersonActors();
 
-  /// Adds the names of missing meshes to `labels`. `metres_per_pixel`: where it
-  /// is nearest to the camera; what is smaller than a pixel may be left out. 0: nothing may be.
+  /// Adds the names of missing meshes to `labels`. `metres_per_pixel`: where the person is nearest
+  /// to the camera.
   /// @return whether the list of actors has changed.
   bool Update(const PersonState& person, Liveness liveness, const Camera& camera,
               const SceneLook& look, double metres_per_pixel, OnceLog& log,

@@ -30,8 +30,7 @@ float LightOnSkin(vec3 normal, vec2 sky) {
 // Borders are signed distances: crisp at any zoom, and one pixel soft.
 constexpr char kSuitFunction[] = R"(
 vec3 Suit(vec4 borders) {
-  vec4 soft = 0.7 * fwidth(borders) + 1e-6;
-  vec4 inside = smoothstep(-soft, soft, borders);
+  vec4 inside = clamp(borders / (fwidth(borders) + 1e-6) + 0.5, 0.0, 1.0);
   vec3 color = mix(topColor, bandColor, inside.w);
   color = mix(color, trousersColor, inside.x);
   color = mix(color, shoesColor, inside.z);
@@ -39,7 +38,7 @@ vec3 Suit(vec4 borders) {
 }
 )";
 
-ShaderText SkinText(bool is_small) {
+ShaderText SkinText(bool is_lit_at_vertices) {
   ShaderText text;
   text.vertex_declarations = "out vec4 bordersVS;\nout vec2 skyVS;\n";
   text.vertex = R"(
@@ -54,7 +53,7 @@ ShaderText SkinText(bool is_small) {
       "uniform vec3 bareColor;\nuniform vec3 bandColor;\nuniform vec4 overrideColor;\n"
       "uniform float opacityFactor;\n";
   text.fragment_declarations += kSuitFunction;
-  if (is_small) {  // lit where triangles are a few pixels wide
+  if (is_lit_at_vertices) {
     text.vertex_declarations += "out float lightVS;\n";
     text.vertex_declarations += kLitSkinFunction;
     text.vertex += "  lightVS = LightOnSkin(normalize(normalVCVSOutput), skyVS);\n";
@@ -79,6 +78,15 @@ std::vector<std::uint32_t> Indices(const std::vector<skin::Triangle>& triangles)
     indices.insert(indices.end(), triangle.begin(), triangle.end());
   }
   return indices;
+}
+
+// That of the coarsest mesh that may be shown.
+double Permitted(double error_m) {
+  double permitted = 0;
+  for (const double error : {0.0003, 0.0006, 0.001, 0.002, 0.004, 0.006, 0.010}) {
+    if (error <= error_m) permitted = error;
+  }
+  return permitted;
 }
 
 bool AreEqual(const std::vector<urdf::Pose>& a, const std::vector<urdf::Pose>& b) {
@@ -122,7 +130,8 @@ void SkinActor::Move(const PersonState& person) {
   shown_ = std::move(poses);
 }
 
-void SkinActor::AddLevel(double error_m) {
+void SkinActor::AddLevel(const Level& level) {
+  const auto& [error_m, is_lit_at_vertices] = level;
   const std::vector<std::uint32_t> all = Indices(skin_->triangles());
   const std::vector<std::uint32_t> triangles =
       error_m > 0 ? CoarserTriangles(skin_->rest(), all, error_m) : all;
@@ -139,15 +148,17 @@ void SkinActor::AddLevel(double error_m) {
   data->GetPointData()->AddArray(borders_);
   data->GetPointData()->AddArray(open_sky_);
   data->SetPolys(cells);
-  auto shaded = std::make_unique<ShadedActor>(
-      pass_, SkinText(error_m > 0), std::vector<VertexAttribute>{{"borders", 4}, {"openSky", 1}});
+  auto shaded =
+      std::make_unique<ShadedActor>(pass_, SkinText(is_lit_at_vertices),
+                                    std::vector<VertexAttribute>{{"borders", 4}, {"openSky", 1}});
   shaded->SetData(data);
-  levels_[error_m] = std::move(shaded);
+  levels_[level] = std::move(shaded);
 }
 
 bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& override_color,
-                       double opacity, double error_m) {
+                       double opacity, double error_m, bool is_lit_at_vertices) {
   bool is_changed = false;
+  const Level level(Permitted(error_m), is_lit_at_vertices);
   if (model_ != person.model || revision_ != person.model->revision) {
     model_ = person.model;
     revision_ = person.model->revision;
@@ -156,14 +167,14 @@ bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& overrid
     is_changed = true;
   }
   Move(person);
-  if (levels_.count(error_m) == 0) {
-    AddLevel(error_m);
+  if (levels_.count(level) == 0) {
+    AddLevel(level);
     is_changed = true;
   }
-  for (const auto& [error, shaded] : levels_) {
-    shaded->actor()->SetVisibility(is_visible_ && error == error_m);
+  for (const auto& [each, shaded] : levels_) {
+    shaded->actor()->SetVisibility(is_visible_ && each == level);
   }
-  vtkUniforms& uniforms = levels_[error_m]->uniforms();
+  vtkUniforms& uniforms = levels_[level]->uniforms();
   const auto set = [&](const char* name, const Rgb& rgb) {
     const float color[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
                             static_cast<float>(rgb[2])};
@@ -182,7 +193,7 @@ bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& overrid
 
 std::vector<vtkActor*> SkinActor::actors() {
   std::vector<vtkActor*> actors;
-  for (const auto& [error, shaded] : levels_) actors.push_back(shaded->actor());
+  for (const auto& [level, shaded] : levels_) actors.push_back(shaded->actor());
   return actors;
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/scene_state.h"
@@ -22,10 +23,10 @@ class SkinActor {
   explicit SkinActor(Pass pass = Pass::kSolid) : pass_(pass) {}
 
   /// `override_color`, `opacity`: see PartActor. `error_m`: how far the drawn surface may be from
-  /// the skin; 0: not at all.
+  /// the skin; 0: not at all. `is_lit_at_vertices`: as well, where triangles are a few pixels wide.
   /// @return whether the list of actors has changed.
   bool Update(const PersonState& person, const Eigen::Vector4f& override_color, double opacity,
-              double error_m);
+              double error_m, bool is_lit_at_vertices);
   void SetVisible(bool is_visible) { is_visible_ = is_visible; }
   std::vector<vtkActor*> actors();
   /// Of the newest Update: what casts shadows.
@@ -34,7 +35,8 @@ class SkinActor {
  private:
   void Load(const PersonModel& model);
   void Move(const PersonState& person);
-  void AddLevel(double error_m);
+  using Level = std::pair<double, bool>;  // error, m; lit at its vertices
+  void AddLevel(const Level& level);
 
   const Pass pass_;
   bool is_visible_ = true;
@@ -47,9 +49,8 @@ class SkinActor {
   skin::Capsules capsules_;
   skin::Build build_;
   vtkNew<vtkFloatArray> positions_, normals_, borders_, open_sky_;
-  std::vector<urdf::Pose> shown_;                          // the poses of `surface_`
-  std::map<double, std::unique_ptr<ShadedActor>> levels_;  // by their error, m; all share the
-                                                           // vertices
+  std::vector<urdf::Pose> shown_;                         // the poses of `surface_`
+  std::map<Level, std::unique_ptr<ShadedActor>> levels_;  // all share the vertices
 };
 
 }  // namespace kinescope::render

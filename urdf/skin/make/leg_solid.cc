@@ -59,7 +59,9 @@ double LegSolid::operator()(const Point& q) const {
   leg.Add(Ellipsoid(k, {-0.033, -0.022, -0.145}, {0.034, 0.031, 0.090}), 0.024);
   leg.Add(Ellipsoid(k, {-0.034, 0.021, -0.130}, {0.033, 0.029, 0.082}), 0.024);
   leg.Add(RoundCone(k, {-0.030, 0, -0.260}, {-0.038, 0, -0.425}, 0.020, 0.0095), 0.022);
-  const double thigh = Mix(0.019, 0.022, woman), knee = Mix(0.010, 0.014, woman);
+  // Thighs that grew inwards would become one below the crotch.
+  const double inner = Ramp(0.02, -0.05, q.y()) * Ramp(-0.30, -0.16, q.z());
+  const double thigh = Mix(0.024, 0.027, woman) * (1 - inner), knee = Mix(0.010, 0.014, woman);
   const double growth = q.z() > -kKnee ? Mix(thigh, knee, Ramp(-0.15, -0.42, q.z()))
                                        : Mix(knee, 0.003, Ramp(-0.60, -0.86, q.z()));
   return leg.value() - build_.heavy * growth;

@@ -47,13 +47,22 @@ double TrunkSolid::Growth(const Point& p) const {
   static constexpr Place kPlaces[] = {
       {-0.08, 0.014, 0.014}, {0.00, 0.024, 0.024}, {0.07, 0.042, 0.029}, {0.14, 0.053, 0.034},
       {0.21, 0.048, 0.032},  {0.28, 0.031, 0.022}, {0.36, 0.019, 0.016}, {0.46, 0.008, 0.008}};
+  // Cubic Hermite curves; the ends are level.
+  const double z = std::clamp(p.z(), std::begin(kPlaces)->z, std::prev(std::end(kPlaces))->z);
   const Place* above = std::begin(kPlaces) + 1;
-  while (above + 1 < std::end(kPlaces) && above->z < p.z()) ++above;
+  while (above->z < z) ++above;
   const Place& below = above[-1];
-  const double t = Ramp(below.z, above->z, p.z());
+  const double length = above->z - below.z, t = (z - below.z) / length, t2 = t * t, t3 = t2 * t;
+  const auto at = [&](double Place::*of) {
+    const auto slope = [&](const Place* place) {
+      if (place == std::begin(kPlaces) || place + 1 == std::end(kPlaces)) return 0.0;
+      return (place[1].*of - place[-1].*of) / (place[1].z - place[-1].z);
+    };
+    return (2 * t3 - 3 * t2 + 1) * (below.*of) + (t3 - 2 * t2 + t) * length * slope(&below) +
+           (3 * t2 - 2 * t3) * (above->*of) + (t3 - t2) * length * slope(above);
+  };
   const double front = Ramp(-0.06, 0.10, p.x());
-  const double man =
-      Mix(Mix(below.around, above->around, t), Mix(below.front, above->front, t), front);
+  const double man = Mix(at(&Place::around), at(&Place::front), front);
   return man * (1 + 0.20 * build_.woman);
 }
 

@@ -290,7 +290,7 @@ VertexWeights WeightsAt(const Point& p, const Fields& f, const Limbs& own,
     AddFingers(f, own.hand, own.rays, weights);
   } else if (leg > 0) {
     // On the midline both thighs pull alike.
-    const double other = 0.5 * Ramp(0.035, 0, std::abs(p.y())) * Ramp(-0.15, -0.09, p.z());
+    const double other = 0.5 * Ramp(0.028, 0, std::abs(p.y())) * Ramp(-0.22, -0.16, p.z());
     trunk = own.leg.Add(leg, 1 - other, weights);
     if (other > 0) trunk += other_side.leg.Add(leg, other, weights);
   }
