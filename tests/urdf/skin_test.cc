@@ -216,6 +216,21 @@ TEST(PersonSkin, FitsTheMeasuredLengths) {
               -skeleton.heel_in_foot[urdf::kLeft].z(), 0.006);
 }
 
+TEST(PersonSkin, StaysFiniteForImpossibleSkeletons) {
+  urdf::Skeleton flat = urdf::DefaultSkeleton();
+  for (Vector3d& origin : flat.origin_in_parent) origin.setZero();
+  urdf::Skeleton unknown = urdf::DefaultSkeleton();
+  unknown.height = 0;
+  for (const urdf::Skeleton& skeleton :
+       {flat, unknown, urdf::DefaultSkeleton(0.5), urdf::DefaultSkeleton(2.5), urdf::Skeleton()}) {
+    const PersonSkin skin(BuiltInSkin(), BuildOf(true, skeleton.height, 300), skeleton);
+    PersonSkin::Surface surface;
+    skin.Pose(Posed(skeleton, {}), {}, surface);
+    for (const Vector3f& p : surface.positions) ASSERT_TRUE(p.allFinite());
+    for (const Vector3f& normal : surface.normals) ASSERT_NEAR(normal.norm(), 1, 1e-3);
+  }
+}
+
 TEST(PersonSkin, MovesWithThePersonAsAWhole) {
   const PersonSkin skin = SkinOf(true, 1.62, 62);
   urdf::LinkPoses links = skin.bind().links;
@@ -279,6 +294,7 @@ TEST(BuildOf, FollowsTheBodyMassIndex) {
   // What no longer looks like a person is drawn as the nearest that does.
   EXPECT_EQ(BuildOf(false, 1.75, 300).heavy, 1.6);
   EXPECT_EQ(BuildOf(false, 2.3, 20).heavy, -0.45);
+  EXPECT_EQ(BuildOf(false, 0, 75).heavy, 0) << "unknown stature";
 }
 
 TEST(OpenSky, IsLessBetweenArmAndTrunkAndBetweenTheLegs) {

@@ -113,7 +113,7 @@ bool Matters(const Capsule& capsule, const Vector3f& center, float reach) {
 
 Capsules CapsulesOf(const urdf::Skeleton& skeleton, const Build& build,
                     const urdf::LinkPoses& links) {
-  const double size = skeleton.height / urdf::kReferenceHeight;
+  const double size = skeleton.height > 0 ? skeleton.height / urdf::kReferenceHeight : 1;
   const double more = 1 + 0.16 * build.heavy;
   const auto end_of = [&](int segment) {
     const urdf::Pose& link = links[At(segment)];

@@ -56,8 +56,8 @@ Matrix3d Stretch(const Vector3d& bone, const Vector3d& other, double girth) {
   return Eigen::Quaterniond::FromTwoVectors(bone, other).toRotationMatrix() * scale;
 }
 
-Matrix3d StretchOf(int segment, const urdf::Skeleton& from, const urdf::Skeleton& to) {
-  const double girth = to.height / from.height;
+Matrix3d StretchOf(int segment, const urdf::Skeleton& from, const urdf::Skeleton& to,
+                   double girth) {
   switch (segment) {
     case urdf::kPelvis: {  // up to L5, and out to the hips
       const Vector3d& hip = from.origin_in_parent[urdf::kLeftUpperLeg];
@@ -106,12 +106,13 @@ std::vector<Affine> RefitFrames(const BindPose& from, const BindPose& to,
                                 const urdf::Skeleton& from_skeleton,
                                 const urdf::Skeleton& to_skeleton,
                                 const std::array<const urdf::HandSkeleton*, 2>& gloves) {
+  const double stature = to_skeleton.height > 0 ? to_skeleton.height : from_skeleton.height;
+  const double girth = stature / from_skeleton.height;
   std::array<Affine, urdf::kSegmentCount> segments;
   for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
-    segments[At(segment)] = Refit(StretchOf(segment, from_skeleton, to_skeleton),
+    segments[At(segment)] = Refit(StretchOf(segment, from_skeleton, to_skeleton, girth),
                                   from.links[At(segment)], to.links[At(segment)]);
   }
-  const double girth = to_skeleton.height / from_skeleton.height;
   const auto finger_refit = [&](urdf::Side side, int finger) {
     const int hand = urdf::HandSegmentOf(side);
     const auto length = [&](const urdf::Skeleton& of) { return urdf::EndOf(of, hand).norm(); };

@@ -21,6 +21,7 @@ extern const char kinescope_skin_end[];
 namespace kinescope::skin {
 
 Build BuildOf(bool is_woman, double height, double mass) {
+  if (!(height > 0)) return {is_woman ? 1.0 : 0.0, 0};
   const double reference = is_woman ? 62 / (1.62 * 1.62) : 75 / (1.75 * 1.75);  // kg/m^2
   const double index = mass / (height * height);
   const double more = (index - reference) * urdf::kReferenceHeight * urdf::kReferenceHeight;

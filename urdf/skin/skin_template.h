@@ -21,7 +21,7 @@ struct Build {
 inline constexpr double kHeavyKilograms = 30;
 
 /// Of a person of this stature, m, and mass, kg. Equal body mass indices give equal builds; within
-/// what still looks like a person, -0.45 to 1.6.
+/// what still looks like a person, -0.45 to 1.6. An unknown stature (0) gives the average build.
 Build BuildOf(bool is_woman, double height, double mass);
 
 inline constexpr std::size_t kInfluences = 4;

@@ -70,7 +70,7 @@ void SetRays(const BindPose& bind, const Point& p, Fields& fields) {
   }
 }
 
-// `p` as if on the left. The ramps are those that looked right in all poses of the contact sheet.
+// `p` as if on the left. The ramps are those that looked right in nine postures.
 Fields FieldsAt(const BodySolid& body, const Point& point) {
   const BindPose& bind = body.bind();
   const Point p(point.x(), std::abs(point.y()), point.z());
