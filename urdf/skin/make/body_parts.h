@@ -2,6 +2,8 @@
 /// the frame named, of the left side, m.
 #pragma once
 
+#include <array>
+
 #include "urdf/skin/make/body_solid.h"
 #include "urdf/skin/make/solid.h"
 

@@ -1,8 +1,6 @@
 #include "urdf/skin/make/solid.h"
 
 #include <Eigen/Geometry>
-#include <array>
-#include <cmath>
 #include <utility>
 
 namespace kinescope::skin {
