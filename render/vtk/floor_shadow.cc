@@ -18,6 +18,10 @@ constexpr float kMargin = 0.45f;       // m, around the limbs
 constexpr float kAboveFloor = 0.002f;  // m
 constexpr float kDarkest = 0.8f;
 
+constexpr std::size_t PointAt(int row, int column) {
+  return static_cast<std::size_t>(row) * kSide + static_cast<std::size_t>(column);
+}
+
 ShaderText ShadowText() {
   ShaderText text;
   text.vertex_declarations = "out float shadeVS;\n";
@@ -71,9 +75,8 @@ void FloorShadow::Cast(const skin::Capsules& limbs, const Rgb& color) {
   const Eigen::Vector2f step = ((highest - lowest).array() + 2 * kMargin) / (kSide - 1);
   for (int row = 0; row < kSide; ++row) {
     for (int column = 0; column < kSide; ++column) {
-      points_[static_cast<std::size_t>(row * kSide + column)] = {
-          first.x() + static_cast<float>(column) * step.x(),
-          first.y() + static_cast<float>(row) * step.y(), kAboveFloor};
+      points_[PointAt(row, column)] = {first.x() + static_cast<float>(column) * step.x(),
+                                       first.y() + static_cast<float>(row) * step.y(), kAboveFloor};
     }
   }
   skin::SetOpenSky(points_, limbs, open_);
@@ -85,7 +88,7 @@ void FloorShadow::Cast(const skin::Capsules& limbs, const Rgb& color) {
   };
   for (int row = 0; row < kSide; ++row) {
     for (int column = 0; column < kSide; ++column) {
-      float& open = open_[static_cast<std::size_t>(row * kSide + column)];
+      float& open = open_[PointAt(row, column)];
       const float left = fade(row) * fade(column);
       open = kDarkest * (1 - open * open * open) * left * left;
     }
