@@ -51,6 +51,14 @@ std::vector<std::uint32_t> CoarserTriangles(const std::vector<Eigen::Vector3f>& 
   return coarser;
 }
 
+double PermittedError(std::initializer_list<double> errors, double error_m) {
+  double permitted = 0;
+  for (const double error : errors) {
+    if (error <= error_m) permitted = error;
+  }
+  return permitted;
+}
+
 urdf::Mesh CoarserMesh(const urdf::Mesh& mesh, double error_m) {
   if (mesh.triangles.empty()) return mesh;
   std::vector<std::uint32_t> triangles =

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "urdf/mesh/mesh.h"
@@ -17,6 +18,10 @@ namespace kinescope::render {
 std::vector<std::uint32_t> CoarserTriangles(const std::vector<Eigen::Vector3f>& positions,
                                             const std::vector<std::uint32_t>& triangles,
                                             double error_m);
+
+/// The largest of `errors`, ascending, that is not above `error_m`; 0 if all are. Meshes are made
+/// for a few errors only, because each is kept.
+double PermittedError(std::initializer_list<double> errors, double error_m);
 
 /// `mesh` with CoarserTriangles() and the vertices that they use: those keep their normals, colours
 /// and parts.

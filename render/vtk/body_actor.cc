@@ -10,17 +10,7 @@
 namespace kinescope::render {
 namespace {
 
-constexpr double kErrors[] = {0.001, 0.002, 0.004, 0.006, 0.010};  // m, of the coarser meshes
 constexpr std::size_t kMostTriangles = 200'000;  // of a mesh that is worth the time to make them
-
-// That of the coarsest mesh that may be shown.
-double Permitted(double error_m) {
-  double permitted = 0;
-  for (const double error : kErrors) {
-    if (error <= error_m) permitted = error;
-  }
-  return permitted;
-}
 
 }  // namespace
 
@@ -96,7 +86,8 @@ bool BodyActor::Update(const PersonState& person, Figure figure,
   }
   const std::vector<urdf::Pose> poses = VisibleLinkPoses(person);
   for (Group& group : groups_) {
-    const double shown = group.is_fixed ? 0 : Permitted(error.parts);
+    const double shown =
+        group.is_fixed ? 0 : PermittedError({0.001, 0.002, 0.004, 0.006, 0.010}, error.parts);
     if (group.actors.count(shown) == 0) {
       AddActor(shown, group);
       is_changed = true;

@@ -1,12 +1,9 @@
 #include "render/vtk/floor_shadow.h"
 
 #include <vtkActor.h>
-#include <vtkCellArray.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 
 #include <algorithm>
+#include <cstdint>
 
 #include "render/vtk/float_array.h"
 
@@ -39,27 +36,19 @@ ShaderText ShadowText() {
 FloorShadow::FloorShadow()
     : shaded_(Pass::kBlended, ShadowText(), {{"shade", 1}}),
       points_(static_cast<std::size_t>(kSide) * kSide, Eigen::Vector3f::Zero()) {
-  vtkNew<vtkCellArray> cells;
-  for (vtkIdType row = 0; row + 1 < kSide; ++row) {
-    for (vtkIdType column = 0; column + 1 < kSide; ++column) {
-      const vtkIdType a = row * kSide + column, b = a + 1, c = a + kSide + 1, d = a + kSide;
-      const vtkIdType corners[2][3] = {{a, b, c}, {a, c, d}};
-      for (const auto& triangle : corners) cells->InsertNextCell(3, triangle);
+  std::vector<std::uint32_t> triangles;
+  for (std::uint32_t row = 0; row + 1 < kSide; ++row) {
+    for (std::uint32_t column = 0; column + 1 < kSide; ++column) {
+      const std::uint32_t a = row * kSide + column, b = a + 1, c = a + kSide + 1, d = a + kSide;
+      triangles.insert(triangles.end(), {a, b, c, a, c, d});
     }
   }
   const std::vector<float> none(points_.size(), 0);
   CopyInto(positions_, 3, points_);
   CopyInto(shade_, 1, none);
   shade_->SetName("shade");
-  vtkNew<vtkPoints> points;
-  points->SetData(positions_);
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->GetPointData()->SetNormals(ToFloatArray(
-      "Normals", 3, std::vector<Eigen::Vector3f>(points_.size(), Eigen::Vector3f::UnitZ())));
-  data->GetPointData()->AddArray(shade_);
-  data->SetPolys(cells);
-  shaded_.SetData(data);
+  const std::vector<Eigen::Vector3f> up(points_.size(), Eigen::Vector3f::UnitZ());
+  shaded_.SetSurface(positions_, ToFloatArray("Normals", 3, up), {shade_}, triangles);
 }
 
 void FloorShadow::Cast(const skin::Capsules& limbs, const Rgb& color) {
@@ -95,11 +84,7 @@ void FloorShadow::Cast(const skin::Capsules& limbs, const Rgb& color) {
   }
   CopyInto(positions_, 3, points_);
   CopyInto(shade_, 1, open_);
-  const float rgb[3] = {static_cast<float>(color[0]), static_cast<float>(color[1]),
-                        static_cast<float>(color[2])};
-  shaded_.uniforms().SetUniform3f("shadowColor", rgb);
+  shaded_.SetColor("shadowColor", color);
 }
-
-void FloorShadow::SetVisible(bool is_visible) { shaded_.actor()->SetVisibility(is_visible); }
 
 }  // namespace kinescope::render

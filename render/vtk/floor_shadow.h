@@ -18,7 +18,6 @@ class FloorShadow {
   FloorShadow();
 
   void Cast(const skin::Capsules& limbs, const Rgb& color);
-  void SetVisible(bool is_visible);
   vtkActor* actor() { return shaded_.actor(); }
 
  private:

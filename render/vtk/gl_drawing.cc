@@ -217,9 +217,7 @@ class GlDrawing : public Drawing {
   void ListActors() {
     people_layer_->RemoveAllViewProps();
     const auto add = [&](vtkActor* actor) { people_layer_->AddActor(actor); };
-    for (const auto& [id, person] : people_) {
-      for (vtkActor* shadow : person->shadows()) add(shadow);
-    }
+    for (const auto& [id, person] : people_) add(person->shadow());
     for (const auto& robot : robots_) add(robot->shadow());
     for (const auto& [id, person] : people_) {
       for (vtkActor* body : person->bodies()) add(body);

@@ -128,7 +128,7 @@ bool PersonActors::Update(const PersonState& person, Liveness liveness, const Ca
                     (is_full ? kUnseenInFullDetail : kUnseen) * metres_per_pixel},
                    log, labels);
   is_changed = UpdateAxes(person, look) || is_changed;
-  UpdateShadow(person, look);
+  is_changed = UpdateShadow(person, look) || is_changed;
   UpdateMarks(person, camera, is_full ? 0 : metres_per_pixel);
   forces_.Show(person, look.Shows(ScenePart::kScale) ? &labels : nullptr);
   UpdateHeld(person, liveness);
@@ -170,15 +170,27 @@ bool PersonActors::UpdateAxes(const PersonState& person, const SceneLook& look) 
   return is_changed;
 }
 
-// Not where a lamp would cast them, but what tells the eye where the person stands.
-void PersonActors::UpdateShadow(const PersonState& person, const SceneLook& look) {
-  const bool is_shown = look.Shows(ScenePart::kShadows);
+// @return whether there is another one now.
+bool PersonActors::UpdateShadow(const PersonState& person, const SceneLook& look) {
   const skin::Capsules* const limbs = body_.limbs();
-  shadow_.actor()->SetVisibility(is_shown && limbs == nullptr);
-  floor_shadow_.SetVisible(is_shown && limbs != nullptr);
-  if (!is_shown) return;
-  if (limbs != nullptr) return floor_shadow_.Cast(*limbs, ColorsOf(look.theme).shadow);
-  shadow_.SetOverride(Color(ColorsOf(look.theme).shadow));
+  const bool is_changed = (limbs != nullptr) != (floor_shadow_ != nullptr);
+  if (limbs == nullptr) floor_shadow_.reset();
+  if (limbs != nullptr && floor_shadow_ == nullptr) floor_shadow_ = std::make_unique<FloorShadow>();
+  const bool is_shown = look.Shows(ScenePart::kShadows);
+  shadow()->SetVisibility(is_shown);
+  if (!is_shown) return is_changed;
+  const Rgb& color = ColorsOf(look.theme).shadow;
+  if (limbs != nullptr) {
+    floor_shadow_->Cast(*limbs, color);
+    return is_changed;
+  }
+  shadow_.SetOverride(Color(color));
+  PlaceShadow(person);
+  return is_changed;
+}
+
+// Not where a lamp would cast them, but what tells the eye where the person stands.
+void PersonActors::PlaceShadow(const PersonState& person) {
   const urdf::Skeleton& skeleton = person.model->human.skeleton;
   const double size = skeleton.height / urdf::kReferenceHeight;
   const Eigen::Vector3d middle =

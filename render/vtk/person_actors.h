@@ -33,20 +33,21 @@ class PersonActors {
   const std::vector<std::string>& problems() const { return body_.problems(); }
 
   // In rendering order; the shadows of all people come before the bodies of all people, and so on.
-  std::vector<vtkActor*> shadows() { return {shadow_.actor(), floor_shadow_.actor()}; }
+  vtkActor* shadow() { return floor_shadow_ ? floor_shadow_->actor() : shadow_.actor(); }
   std::vector<vtkActor*> bodies() { return body_.actors(); }
   std::vector<vtkActor*> ghosts();
   std::vector<vtkActor*> marks();
   vtkActor* held() { return held_.actor(); }
 
  private:
-  void UpdateShadow(const PersonState& person, const SceneLook& look);
+  bool UpdateShadow(const PersonState& person, const SceneLook& look);
+  void PlaceShadow(const PersonState& person);
   bool UpdateAxes(const PersonState& person, const SceneLook& look);
   void UpdateMarks(const PersonState& person, const Camera& camera, double metres_per_pixel);
   void UpdateHeld(const PersonState& person, Liveness liveness);
 
   BodyActor body_;
-  FloorShadow floor_shadow_;  // of the skin; that of rigid parts is `shadow_`
+  std::unique_ptr<FloorShadow> floor_shadow_;  // of the skin; null: `shadow_` is shown
   ForceArrows forces_;
   std::unique_ptr<AxesActor> frames_, joint_axes_;  // null: hidden
   PartActor shadow_, held_, ghost_marks_, marks_;

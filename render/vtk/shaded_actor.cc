@@ -68,23 +68,36 @@ vtkUniforms& ShadedActor::uniforms() {
   return *actor_->GetShaderProperty()->GetVertexCustomUniforms();
 }
 
+void ShadedActor::SetColor(const char* name, const Rgb& rgb) {
+  const float color[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
+                          static_cast<float>(rgb[2])};
+  uniforms().SetUniform3f(name, color);
+}
+
 void ShadedActor::SetMesh(const urdf::Mesh& mesh) {
+  const auto positions = ToFloatArray("position", 3, mesh.positions);
+  const auto normals = ToFloatArray("Normals", 3, mesh.normals);
+  const auto parts = ToFloatArray("part", 1, mesh.parts);
+  const auto tints = ToFloatArray("tint", 4, mesh.colors);
+  SetSurface(positions, normals, {parts, tints}, mesh.triangles);
+}
+
+void ShadedActor::SetSurface(vtkFloatArray* positions, vtkFloatArray* normals,
+                             const std::vector<vtkFloatArray*>& attributes,
+                             const std::vector<std::uint32_t>& triangles) {
   vtkNew<vtkPolyData> data;
   vtkNew<vtkPoints> points;
-  points->SetData(ToFloatArray("position", 3, mesh.positions));
+  points->SetData(positions);
   data->SetPoints(points);
-  data->GetPointData()->SetNormals(ToFloatArray("Normals", 3, mesh.normals));
-  data->GetPointData()->AddArray(ToFloatArray("part", 1, mesh.parts));
-  data->GetPointData()->AddArray(ToFloatArray("tint", 4, mesh.colors));
+  data->GetPointData()->SetNormals(normals);
+  for (vtkFloatArray* attribute : attributes) data->GetPointData()->AddArray(attribute);
   vtkNew<vtkCellArray> cells;
-  for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
-    const vtkIdType corners[] = {mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]};
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    const vtkIdType corners[] = {triangles[i], triangles[i + 1], triangles[i + 2]};
     cells->InsertNextCell(3, corners);
   }
   data->SetPolys(cells);
-  SetData(data);
+  mapper_->SetInputData(data);
 }
-
-void ShadedActor::SetData(vtkPolyData* data) { mapper_->SetInputData(data); }
 
 }  // namespace kinescope::render

@@ -7,13 +7,15 @@
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkUniforms.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "core/palette.h"
 #include "render/vtk/pass_actor.h"
 #include "urdf/mesh/mesh.h"
 
-class vtkPolyData;
+class vtkFloatArray;
 
 namespace kinescope::render {
 
@@ -37,21 +39,25 @@ class ShadedActor {
  public:
   /// For urdf::Mesh: with `float part` and `vec4 tint`.
   ShadedActor(Pass pass, const ShaderText& text);
-  /// For SetData.
+  /// For SetSurface.
   ShadedActor(Pass pass, const ShaderText& text, const std::vector<VertexAttribute>& attributes);
   ShadedActor(const ShadedActor&) = delete;
   ShadedActor& operator=(const ShadedActor&) = delete;
 
   /// Uploads `mesh`; expensive, so call it rarely.
   void SetMesh(const urdf::Mesh& mesh);
-  /// Triangles with normals and the attributes, as float arrays. Arrays that are `Modified()` are
-  /// uploaded again.
-  void SetData(vtkPolyData* data);
+  /// Triangles (three vertices each) with normals and the attributes, which have names. Arrays that
+  /// are `Modified()` are uploaded again.
+  void SetSurface(vtkFloatArray* positions, vtkFloatArray* normals,
+                  const std::vector<vtkFloatArray*>& attributes,
+                  const std::vector<std::uint32_t>& triangles);
   /// Skips triangles that face away: correct for closed surfaces. Initially on.
   void SetCulling(bool is_on);
   /// VTK declares them in the vertex shader; the fragment shader declares those that it uses
   /// itself.
   vtkUniforms& uniforms();
+  /// A uniform vec3.
+  void SetColor(const char* name, const Rgb& rgb);
   vtkActor* actor() { return actor_; }
 
  private:

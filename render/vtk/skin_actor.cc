@@ -1,10 +1,6 @@
 #include "render/vtk/skin_actor.h"
 
 #include <vtkActor.h>
-#include <vtkCellArray.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 
 #include "core/palette.h"
 #include "core/person_links.h"
@@ -80,15 +76,6 @@ std::vector<std::uint32_t> Indices(const std::vector<skin::Triangle>& triangles)
   return indices;
 }
 
-// That of the coarsest mesh that may be shown.
-double Permitted(double error_m) {
-  double permitted = 0;
-  for (const double error : {0.0003, 0.0006, 0.001, 0.002, 0.004, 0.006, 0.010}) {
-    if (error <= error_m) permitted = error;
-  }
-  return permitted;
-}
-
 bool AreEqual(const std::vector<urdf::Pose>& a, const std::vector<urdf::Pose>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
     return x.position == y.position && x.orientation.coeffs() == y.orientation.coeffs();
@@ -135,30 +122,18 @@ void SkinActor::AddLevel(const Level& level) {
   const std::vector<std::uint32_t> all = Indices(skin_->triangles());
   const std::vector<std::uint32_t> triangles =
       error_m > 0 ? CoarserTriangles(skin_->rest(), all, error_m) : all;
-  vtkNew<vtkCellArray> cells;
-  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
-    const vtkIdType corners[] = {triangles[i], triangles[i + 1], triangles[i + 2]};
-    cells->InsertNextCell(3, corners);
-  }
-  vtkNew<vtkPoints> points;
-  points->SetData(positions_);
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->GetPointData()->SetNormals(normals_);
-  data->GetPointData()->AddArray(borders_);
-  data->GetPointData()->AddArray(open_sky_);
-  data->SetPolys(cells);
   auto shaded =
       std::make_unique<ShadedActor>(pass_, SkinText(is_lit_at_vertices),
                                     std::vector<VertexAttribute>{{"borders", 4}, {"openSky", 1}});
-  shaded->SetData(data);
+  shaded->SetSurface(positions_, normals_, {borders_, open_sky_}, triangles);
   levels_[level] = std::move(shaded);
 }
 
 bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& override_color,
                        double opacity, double error_m, bool is_lit_at_vertices) {
   bool is_changed = false;
-  const Level level(Permitted(error_m), is_lit_at_vertices);
+  const Level level(PermittedError({0.0003, 0.0006, 0.001, 0.002, 0.004, 0.006, 0.010}, error_m),
+                    is_lit_at_vertices);
   if (model_ != person.model || revision_ != person.model->revision) {
     model_ = person.model;
     revision_ = person.model->revision;
@@ -171,23 +146,18 @@ bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& overrid
     AddLevel(level);
     is_changed = true;
   }
-  for (const auto& [each, shaded] : levels_) {
-    shaded->actor()->SetVisibility(is_visible_ && each == level);
+  for (const auto& [each, other] : levels_) {
+    other->actor()->SetVisibility(is_visible_ && each == level);
   }
-  vtkUniforms& uniforms = levels_[level]->uniforms();
-  const auto set = [&](const char* name, const Rgb& rgb) {
-    const float color[3] = {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
-                            static_cast<float>(rgb[2])};
-    uniforms.SetUniform3f(name, color);
-  };
-  set("topColor", kSuitColor);
-  set("trousersColor", kTrousersColor);
-  set("shoesColor", kShoesColor);
-  set("bareColor", kBareColor);
+  ShadedActor& shaded = *levels_[level];
+  shaded.SetColor("topColor", kSuitColor);
+  shaded.SetColor("trousersColor", kTrousersColor);
+  shaded.SetColor("shoesColor", kShoesColor);
+  shaded.SetColor("bareColor", kBareColor);
   const bool has_own_color = model_->human.body_rgb != kBodyColor;
-  set("bandColor", has_own_color ? model_->human.body_rgb : kSuitColor);
-  uniforms.SetUniform4f("overrideColor", override_color.data());
-  uniforms.SetUniformf("opacityFactor", static_cast<float>(opacity));
+  shaded.SetColor("bandColor", has_own_color ? model_->human.body_rgb : kSuitColor);
+  shaded.uniforms().SetUniform4f("overrideColor", override_color.data());
+  shaded.uniforms().SetUniformf("opacityFactor", static_cast<float>(opacity));
   return is_changed;
 }
 

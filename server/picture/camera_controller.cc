@@ -17,6 +17,11 @@ double SecsBetween(std::int64_t from_nanos, std::int64_t to_nanos) {
   return Secs(to_nanos - from_nanos);
 }
 
+// Of a first-order lag: the share of the way to go that is gone in `dt`, however often it is asked.
+double ShareGone(double dt_secs, double lag_secs) {
+  return lag_secs > 0 ? 1 - std::exp(-std::max(0.0, dt_secs) / lag_secs) : 1;
+}
+
 }  // namespace
 
 CameraController::CameraController(const CameraChoice& camera, const CameraOptions& options)
@@ -103,8 +108,6 @@ double CameraController::SecsOf(const SceneState& state) {
   return start_nanos_ ? std::max(0.0, SecsBetween(*start_nanos_, state.stamp_nanos)) : 0;
 }
 
-// A first-order lag: of the way to go, the share 1 - exp(-dt / lag) is gone in dt, however often
-// it is asked.
 const render::GroundExtent& CameraController::Follow(const SceneState& state, double secs) {
   const render::GroundExtent now = render::GroundExtentOf(state);
   if (!has_met_) {
@@ -112,8 +115,7 @@ const render::GroundExtent& CameraController::Follow(const SceneState& state, do
     followed_ = now;
     first_middle_ = now.middle;
   } else if (!state.people.empty()) {
-    const double dt = std::max(0.0, secs - followed_at_secs_);
-    const double share = *follow_secs_ > 0 ? 1 - std::exp(-dt / *follow_secs_) : 1;
+    const double share = ShareGone(secs - followed_at_secs_, *follow_secs_);
     followed_.middle += share * (now.middle - followed_.middle);
     followed_.radius += share * (now.radius - followed_.radius);
   }
@@ -136,9 +138,9 @@ void CameraController::FollowHeading(const SceneState& state, double secs, Camer
     heading_rad_ = std::abs(*now - along) < kNearly ? along : *now;
     return;
   }
-  const double way = std::remainder(*now - heading_rad_.value_or(*now), 2 * M_PI);
-  const double dt = std::max(0.0, secs - heading_at_secs_);
-  heading_rad_ = heading_rad_ ? *heading_rad_ + way * (1 - std::exp(-dt / kLagSecs)) : *now;
+  const double before = heading_rad_.value_or(*now);
+  const double way = std::remainder(*now - before, 2 * M_PI);
+  heading_rad_ = before + way * ShareGone(secs - heading_at_secs_, kLagSecs);
   heading_at_secs_ = secs;
 }
 

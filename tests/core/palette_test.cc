@@ -28,8 +28,7 @@ double HalfThickness(const skin::PersonSkin& skin, int joint) {
   const urdf::Pose& link = skin.bind().links[urdf::At(urdf::ChildOf(joint))];
   std::vector<Eigen::Vector3d> section;
   for (const Eigen::Vector3f& vertex : skin.rest()) {
-    const Eigen::Vector3d p =
-        link.orientation.conjugate() * (vertex.cast<double>() - link.position);
+    const Eigen::Vector3d p = skin::InLink(link, vertex.cast<double>());
     if (std::abs(p.z()) < 0.006 && p.head<2>().norm() < 0.1) section.push_back(p);
   }
   double least = 1;

@@ -12,16 +12,15 @@
 namespace kinescope::render {
 namespace {
 
+using kinescope::testing::BodyAlone;
+using kinescope::testing::FrontCamera;
 using kinescope::testing::Posture;
 
 constexpr int kWidth = 480, kHeight = 480;
 
 SceneState Person(Posture posture = Posture::kStanding, bool is_built_in = true) {
-  SceneState state = kinescope::testing::SceneWith(posture);
+  SceneState state = BodyAlone(posture);
   PersonState& person = state.people[0];
-  person.loads.clear();
-  person.com.reset();
-  person.cop.reset();
   auto model = std::make_shared<PersonModel>(*person.model);
   model->has_built_in_surface = is_built_in;
   person.model = model;
@@ -37,13 +36,7 @@ class SkinDrawing : public ::testing::Test {
     spec_.look.figure = Figure::kSkin;
     spec_.look.floor = false;
   }
-  Image Draw(const SceneState& state) { return renderer_->Render(state, Front(), spec_); }
-  static Camera Front() {
-    Camera camera;
-    camera.position = {4, 0, 1};
-    camera.target = {0, 0, 1};
-    return camera;
-  }
+  Image Draw(const SceneState& state) { return renderer_->Render(state, FrontCamera(), spec_); }
 
   std::unique_ptr<Renderer> renderer_ = MakeRenderer();
   PictureSpec spec_;
@@ -61,7 +54,7 @@ TEST_F(SkinDrawing, GivesTheSameBytesWhateverWasDrawnBefore) {
   const Image first = Draw(Person());
   Draw(Person(Posture::kDeepBend));
   EXPECT_TRUE(Compare(first, Draw(Person())).equal());
-  EXPECT_TRUE(Compare(first, MakeRenderer()->Render(Person(), Front(), spec_)).equal());
+  EXPECT_TRUE(Compare(first, MakeRenderer()->Render(Person(), FrontCamera(), spec_)).equal());
 }
 
 TEST_F(SkinDrawing, MovesTheFingersOfGloves) {

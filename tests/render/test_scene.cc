@@ -136,6 +136,22 @@ SceneState MixedScene(Posture posture) {
   return state;
 }
 
+SceneState BodyAlone(Posture posture) {
+  SceneState state = SceneWith(posture);
+  PersonState& person = state.people[0];
+  person.loads.clear();
+  person.com.reset();
+  person.cop.reset();
+  return state;
+}
+
+render::Camera FrontCamera() {
+  render::Camera camera;
+  camera.position = {4, 0, 1};
+  camera.target = {0, 0, 1};
+  return camera;
+}
+
 JointLoad& LoadOf(SceneState& state, int joint) {
   for (JointLoad& load : state.people.at(0).loads) {
     if (load.joint == joint) return load;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/scene_state.h"
+#include "render/camera/camera.h"
 
 namespace kinescope::testing {
 
@@ -24,6 +25,12 @@ SceneState SceneWith(Posture posture, LoadClass load_class = LoadClass::kLow, do
 
 /// The same with classes as a worker lifting something would have them: all of them occur.
 SceneState MixedScene(Posture posture);
+
+/// The same without loads, centre of mass and centre of pressure: the body alone.
+SceneState BodyAlone(Posture posture = Posture::kStanding);
+
+/// Sees all of it from the front.
+render::Camera FrontCamera();
 
 /// The load of `joint` in the first person; it must be there.
 JointLoad& LoadOf(SceneState& state, int joint);

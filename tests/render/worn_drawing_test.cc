@@ -12,29 +12,21 @@
 namespace kinescope::render {
 namespace {
 
-using kinescope::testing::Posture;
+using kinescope::testing::BodyAlone;
+using kinescope::testing::FrontCamera;
 using kinescope::testing::Wear;
 
 constexpr int kWidth = 640, kHeight = 480;
 
-SceneState Standing() {
-  SceneState state = kinescope::testing::SceneWith(Posture::kStanding);
-  PersonState& person = state.people[0];
-  person.loads.clear();
-  person.com.reset();
-  person.cop.reset();
-  return state;
-}
-
 SceneState Gloved(double bend = 0.3) {
-  SceneState state = Standing();
+  SceneState state = BodyAlone();
   Wear(state.people[0], bend);
   return state;
 }
 
 // Without what is drawn of both hands.
 SceneState Handless() {
-  SceneState state = Standing();
+  SceneState state = BodyAlone();
   auto model = std::make_shared<PersonModel>(*state.people[0].model);
   for (urdf::Link& link : model->robot.links) {
     if (link.name == "skeleton_right_hand" || link.name == "skeleton_left_hand") {
@@ -52,15 +44,9 @@ class WornDrawing : public ::testing::Test {
     spec_.height = kHeight;
     spec_.overlays = false;
   }
-  Image Draw(const SceneState& state) { return renderer_->Render(state, Front(), spec_); }
+  Image Draw(const SceneState& state) { return renderer_->Render(state, FrontCamera(), spec_); }
   Comparison Change(const SceneState& before, const SceneState& after) {
     return Compare(Draw(before), Draw(after));
-  }
-  static Camera Front() {
-    Camera camera;
-    camera.position = {4, 0, 1};
-    camera.target = {0, 0, 1};
-    return camera;
   }
 
   std::unique_ptr<Renderer> renderer_ = MakeRenderer();
@@ -89,8 +75,8 @@ TEST_F(WornDrawing, ShowsAFingerAtItsPose) {
   const Eigen::Vector3d was = pose.position, is(0, 0.9, 1.6);
   pose.position = is;
   const Comparison change = Change(before, after);
-  const Projected from = Project(was, Front(), kWidth, kHeight);
-  const Projected to = Project(is, Front(), kWidth, kHeight);
+  const Projected from = Project(was, FrontCamera(), kWidth, kHeight);
+  const Projected to = Project(is, FrontCamera(), kWidth, kHeight);
   EXPECT_NEAR(change.top, to.y_px, 4);
   EXPECT_NEAR(change.bottom, from.y_px, 6);
   EXPECT_NEAR(change.right, to.x_px, 4);
@@ -101,16 +87,16 @@ TEST_F(WornDrawing, ShowsBentFingers) {
   EXPECT_GT(change.pixels, 100);
   const PersonState person = Gloved(0).people[0];
   const Projected wrist =
-      Project(person.links[urdf::kRightHand].position, Front(), kWidth, kHeight);
+      Project(person.links[urdf::kRightHand].position, FrontCamera(), kWidth, kHeight);
   EXPECT_GT(change.top, wrist.y_px) << "all below the wrists";
 }
 
 TEST_F(WornDrawing, AddsAndRemovesGlovesWhileThePersonStays) {
-  EXPECT_TRUE(Compare(Draw(Standing()), Draw(Standing())).equal());
-  const Image bare = Draw(Standing());
+  EXPECT_TRUE(Compare(Draw(BodyAlone()), Draw(BodyAlone())).equal());
+  const Image bare = Draw(BodyAlone());
   const Image gloved = Draw(Gloved());
   EXPECT_GT(Compare(bare, gloved).pixels, 300);
-  EXPECT_TRUE(Compare(bare, Draw(Standing())).equal());
+  EXPECT_TRUE(Compare(bare, Draw(BodyAlone())).equal());
   EXPECT_TRUE(Compare(gloved, Draw(Gloved())).equal());
 }
 
@@ -120,7 +106,7 @@ TEST_F(WornDrawing, ShowsAPropAsABoxAtItsPose) {
   SceneState after = Gloved();
   const Eigen::Vector3d at = after.people[0].props[0]->pose.position;
   const Comparison change = Change(before, after);
-  const Projected seen = Project(at, Front(), kWidth, kHeight);
+  const Projected seen = Project(at, FrontCamera(), kWidth, kHeight);
   EXPECT_NEAR((change.left + change.right) / 2.0, seen.x_px, 3);
   EXPECT_NEAR(change.right - change.left, 0.06 * seen.px_per_m, 4);
 }
@@ -129,19 +115,20 @@ TEST_F(WornDrawing, ShowsAStaleGloveAndPropInGrey) {
   SceneState state = Gloved();
   state.liveness = Liveness::kStale;
   const Image stale = Draw(state);
-  const Projected at = Project(state.people[0].props[2]->pose.position, Front(), kWidth, kHeight);
+  const Projected at =
+      Project(state.people[0].props[2]->pose.position, FrontCamera(), kWidth, kHeight);
   const auto pixel = static_cast<std::size_t>(
       4 * (static_cast<int>(at.y_px) * kWidth + static_cast<int>(at.x_px)));
   EXPECT_NEAR(stale.rgba[pixel], stale.rgba[pixel + 2], 12) << "a live prop is bluish";
 }
 
 TEST_F(WornDrawing, ShowsATrackedObjectAsABoxWithItsName) {
-  const SceneState before = Standing();
+  const SceneState before = BodyAlone();
   SceneState after = before;
   const Eigen::Vector3d at(0, 0.8, 1.2);
   after.objects.push_back({4, 0, "HTC Vive 1", {at, Eigen::Quaterniond::Identity()}, 5});
   const Comparison change = Change(before, after);
-  const Projected seen = Project(at, Front(), kWidth, kHeight);
+  const Projected seen = Project(at, FrontCamera(), kWidth, kHeight);
   EXPECT_NEAR(change.bottom, seen.y_px + 0.025 * seen.px_per_m, 3);
   EXPECT_NEAR(change.top, seen.y_px - 0.15 * seen.px_per_m, 3) << "its z axis";
   EXPECT_NEAR(change.right, seen.x_px + 0.15 * seen.px_per_m, 3) << "its y axis";
@@ -152,17 +139,17 @@ TEST_F(WornDrawing, ShowsATrackedObjectAsABoxWithItsName) {
 }
 
 TEST_F(WornDrawing, ShowsAnyNumberOfObjects) {
-  SceneState state = Standing();
+  SceneState state = BodyAlone();
   for (int i = 0; i < 70; ++i) {
     state.objects.push_back({4 + i / 23, i % 23, "", {{0, -1.0 + 0.03 * i, 0.3}, {1, 0, 0, 0}}, 5});
   }
   SceneState fewer = state;
   fewer.objects.pop_back();
   const Comparison last = Change(fewer, state);
-  const Projected at = Project(state.objects.back().pose.position, Front(), kWidth, kHeight);
+  const Projected at = Project(state.objects.back().pose.position, FrontCamera(), kWidth, kHeight);
   EXPECT_NEAR(last.right, at.x_px + 0.15 * at.px_per_m, 4);
   fewer.objects.clear();
-  EXPECT_TRUE(Compare(Draw(Standing()), Draw(fewer)).equal());
+  EXPECT_TRUE(Compare(Draw(BodyAlone()), Draw(fewer)).equal());
 }
 
 // Where the legs are not measured, the floor is wherever the soles are.
@@ -181,7 +168,7 @@ TEST_F(WornDrawing, MovesEverythingWithTheFloor) {
     if (prop) prop->pose.position += down;
   }
   low.objects[0].pose.position += down;
-  Camera camera = Front();
+  Camera camera = FrontCamera();
   camera.position += down;
   camera.target += down;
   EXPECT_TRUE(Compare(Draw(state), renderer_->Render(low, camera, spec_)).equal());

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,6 +26,17 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 
 PersonSkin SkinOf(bool is_woman, double height, double mass) {
   return PersonSkin(BuiltInSkin(), BuildOf(is_woman, height, mass), urdf::DefaultSkeleton(height));
+}
+
+// Of a closed surface, m^3; where it overlaps itself, it counts twice.
+double Volume(const std::vector<Vector3f>& positions, const std::vector<Triangle>& triangles) {
+  double volume = 0;
+  for (const Triangle& t : triangles) {
+    const Vector3d a = positions[t[0]].cast<double>(), b = positions[t[1]].cast<double>(),
+                   c = positions[t[2]].cast<double>();
+    volume += a.dot(b.cross(c)) / 6;
+  }
+  return volume;
 }
 
 urdf::LinkPoses Posed(const urdf::Skeleton& skeleton, const urdf::JointAngles& angles) {
@@ -81,13 +91,12 @@ bool IsArm(std::size_t vertex) {
 // trunk or of a left limb.
 double Girth(const PersonSkin& skin, int segment, double along, bool is_limb) {
   const urdf::Pose& link = skin.bind().links[At(segment)];
-  const Eigen::Quaterniond to_link = link.orientation.conjugate();
   const bool is_arm = segment >= urdf::kLeftUpperArm && segment <= urdf::kLeftForeArm;
   std::vector<Eigen::Vector2d> points;
   for (const Triangle& t : skin.triangles()) {
     for (std::size_t side = 0; side < 3; ++side) {
-      const Vector3d a = to_link * (skin.rest()[t[side]].cast<double>() - link.position);
-      const Vector3d b = to_link * (skin.rest()[t[(side + 1) % 3]].cast<double>() - link.position);
+      const Vector3d a = InLink(link, skin.rest()[t[side]].cast<double>());
+      const Vector3d b = InLink(link, skin.rest()[t[(side + 1) % 3]].cast<double>());
       if ((a.z() < along) == (b.z() < along)) continue;
       const Vector3d p = a + (along - a.z()) / (b.z() - a.z()) * (b - a);
       const bool is_own = is_limb ? (link.position + link.orientation * p).y() > 0.002 &&

@@ -1,11 +1,13 @@
 #include "urdf/skin/bind_pose.h"
 
+#include <cmath>
+
 namespace kinescope::skin {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = 0.017453292519943295;
+constexpr double kDegree = M_PI / 180;
 constexpr double kArmsOut = 42 * kDegree, kLegsOut = 7 * kDegree;
 
 // Towards the palm, rad; a relaxed hand.

@@ -3,6 +3,7 @@
 /// Pure functions, any thread.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 
 #include "urdf/hand.h"
@@ -20,5 +21,10 @@ struct BindPose {
 /// Of a person with these lengths. `hands`: their gloved hands, else those of an average adult.
 BindPose BindPoseOf(const urdf::Skeleton& skeleton,
                     const std::array<const urdf::HandSkeleton*, 2>& hands = {});
+
+/// A point of the world in the frame of `link`.
+inline Eigen::Vector3d InLink(const urdf::Pose& link, const Eigen::Vector3d& p) {
+  return link.orientation.conjugate() * (p - link.position);
+}
 
 }  // namespace kinescope::skin

@@ -9,10 +9,8 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-constexpr double kPi = 3.14159265358979323846;
-
 Quaterniond Turn(double degrees, const Vector3d& axis) {
-  return Quaterniond(Eigen::AngleAxisd(degrees * kPi / 180, axis.normalized()));
+  return Quaterniond(Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()));
 }
 
 // The middle of the joint's range, seen from hanging.
@@ -27,7 +25,7 @@ Quaterniond MiddleOfRange(int segment) {
 }
 
 double TwistAngle(const Quaterniond& rotation) {
-  return std::remainder(2 * std::atan2(rotation.z(), rotation.w()), 2 * kPi);
+  return std::remainder(2 * std::atan2(rotation.z(), rotation.w()), 2 * M_PI);
 }
 
 struct SwingAndTwist {
@@ -39,7 +37,7 @@ struct SwingAndTwist {
 // the first goes over to the second while the bone rises.
 SwingAndTwist Split(int segment, const Quaterniond& parent_from_child) {
   if (TwistFrames(segment) == 0) return {parent_from_child, Quaterniond::Identity()};
-  constexpr double kBegins = 60 * kPi / 180, kEnds = 150 * kPi / 180;
+  constexpr double kBegins = 60 * M_PI / 180, kEnds = 150 * M_PI / 180;
   const Vector3d bone = parent_from_child * Vector3d::UnitZ();
   const Quaterniond middle = MiddleOfRange(segment);
   const Quaterniond far = Quaterniond::FromTwoVectors(middle * Vector3d::UnitZ(), bone) * middle;

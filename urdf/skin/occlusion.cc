@@ -100,6 +100,30 @@ void Cover(const Points& p, const Capsule& capsule, bool is_joined, Block& open)
   open *= 1 - covered * ((distance / radius - 1) * kFadesIn).max(0.0f).min(1.0f);
 }
 
+// Calls `cover(points, left)` for all points from `first` on, a block at a time; the last block
+// repeats its last point.
+template <class Position, class Normal, class CoverPoints>
+void ForBlocks(std::size_t first, std::size_t count, const Position& position_of,
+               const Normal& normal_of, const CoverPoints& cover, std::vector<float>& open) {
+  const std::size_t end = first + count;
+  for (; first < end; first += kBlock) {
+    Points points;
+    for (Eigen::Index k = 0; k < kBlock; ++k) {
+      const std::size_t i = std::min(first + static_cast<std::size_t>(k), end - 1);
+      const Vector3f position = position_of(i), normal = normal_of(i);
+      points.x[k] = position.x();
+      points.y[k] = position.y();
+      points.z[k] = position.z();
+      points.normal_x[k] = normal.x();
+      points.normal_y[k] = normal.y();
+      points.normal_z[k] = normal.z();
+    }
+    Block left = Block::Ones();
+    cover(points, left);
+    std::copy_n(left.data(), std::min<std::size_t>(kBlock, end - first), open.data() + first);
+  }
+}
+
 // Farther off, a capsule covers less than a hundredth.
 bool Matters(const Capsule& capsule, const Vector3f& center, float reach) {
   const float radius = std::max(capsule.start_radius, capsule.end_radius);
@@ -198,45 +222,26 @@ void SetOpenSky(const std::vector<Vector3f>& positions, const std::vector<Vector
         others.emplace_back(&capsules[limb], AreJoined(run.limb, static_cast<Limb>(limb)));
       }
     }
-    const std::size_t last = run.first + run.count - 1;
-    for (std::size_t first = run.first; first <= last; first += kBlock) {
-      Points points;
-      for (Eigen::Index k = 0; k < kBlock; ++k) {
-        const std::size_t i = std::min(first + static_cast<std::size_t>(k), last);
-        points.x[k] = positions[i].x();
-        points.y[k] = positions[i].y();
-        points.z[k] = positions[i].z();
-        points.normal_x[k] = normals[i].x();
-        points.normal_y[k] = normals[i].y();
-        points.normal_z[k] = normals[i].z();
-      }
-      Block left = Block::Ones();
-      for (const auto& [other, is_joined] : others) Cover(points, *other, is_joined, left);
-      const std::size_t count = std::min<std::size_t>(kBlock, last + 1 - first);
-      std::copy(left.data(), left.data() + count, open.data() + first);
-    }
+    ForBlocks(
+        run.first, run.count, [&](std::size_t i) { return positions[i]; },
+        [&](std::size_t i) { return normals[i]; },
+        [&](const Points& points, Block& left) {
+          for (const auto& [other, is_joined] : others) Cover(points, *other, is_joined, left);
+        },
+        open);
   }
 }
 
 void SetOpenSky(const std::vector<Vector3f>& floor, const Capsules& capsules,
                 std::vector<float>& open) {
   open.resize(floor.size());
-  for (std::size_t first = 0; first < floor.size(); first += kBlock) {
-    Points points;
-    for (Eigen::Index k = 0; k < kBlock; ++k) {
-      const Vector3f& p = floor[std::min(first + static_cast<std::size_t>(k), floor.size() - 1)];
-      points.x[k] = p.x();
-      points.y[k] = p.y();
-      points.z[k] = p.z();
-    }
-    points.normal_x.setZero();
-    points.normal_y.setZero();
-    points.normal_z.setOnes();
-    Block left = Block::Ones();
-    for (const Capsule& capsule : capsules) Cover(points, capsule, false, left);
-    const std::size_t count = std::min<std::size_t>(kBlock, floor.size() - first);
-    std::copy(left.data(), left.data() + count, open.data() + first);
-  }
+  ForBlocks(
+      0, floor.size(), [&](std::size_t i) { return floor[i]; },
+      [](std::size_t) { return Vector3f(Vector3f::UnitZ()); },
+      [&](const Points& points, Block& left) {
+        for (const Capsule& capsule : capsules) Cover(points, capsule, false, left);
+      },
+      open);
 }
 
 }  // namespace kinescope::skin

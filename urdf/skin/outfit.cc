@@ -11,10 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d In(const urdf::Pose& link, const Vector3d& p) {
-  return link.orientation.conjugate() * (p - link.position);
-}
-
 // Whether arm or hand carry most of the vertex.
 bool IsOfArm(const VertexWeights& vertex) {
   int of_arm = 0;
@@ -45,8 +41,8 @@ std::vector<Borders> OutfitOf(const SkinTemplate& skin, const Build& build) {
     Vector3d p = positions[i].cast<double>();
     p.y() = std::abs(p.y());
     const bool is_arm = IsOfArm(skin.weights[i]);
-    const Vector3d in_arm = In(bind.links[urdf::kLeftUpperArm], p);
-    const Vector3d in_hand = In(bind.links[urdf::kLeftHand], p);
+    const Vector3d in_arm = InLink(bind.links[urdf::kLeftUpperArm], p);
+    const Vector3d in_hand = InLink(bind.links[urdf::kLeftHand], p);
     const Vector3d in_foot = p - bind.links[urdf::kLeftFoot].position;
     const double above_collar =
         p.z() - bind.links[urdf::kNeck].position.z() + 0.55 * p.x() - kCollar;

@@ -147,6 +147,21 @@ std::vector<Affine> RefitFrames(const BindPose& from, const BindPose& to,
   return all;
 }
 
+// The mean of the triangles of each vertex, by area.
+void SetNormals(const std::vector<Vector3f>& positions, const std::vector<Triangle>& triangles,
+                std::vector<Vector3f>& normals) {
+  normals.assign(positions.size(), Vector3f::Zero());
+  for (const Triangle& t : triangles) {
+    const Vector3f& a = positions[t[0]];
+    const Vector3f normal = (positions[t[1]] - a).cross(positions[t[2]] - a);
+    for (const std::uint16_t corner : t) normals[corner] += normal;
+  }
+  for (Vector3f& normal : normals) {
+    const float length = normal.norm();
+    normal = length > 0 ? Vector3f(normal / length) : Vector3f::UnitZ();
+  }
+}
+
 }  // namespace
 
 PersonSkin::PersonSkin(const SkinTemplate& skin, const Build& build, const urdf::Skeleton& skeleton,
@@ -172,30 +187,6 @@ void PersonSkin::Pose(const urdf::LinkPoses& links,
   }
   Carry(skin_.weights, frames, rest_, surface.positions);
   SetNormals(surface.positions, skin_.triangles, surface.normals);
-}
-
-double Volume(const std::vector<Vector3f>& positions, const std::vector<Triangle>& triangles) {
-  double volume = 0;
-  for (const Triangle& t : triangles) {
-    const Vector3d a = positions[t[0]].cast<double>(), b = positions[t[1]].cast<double>(),
-                   c = positions[t[2]].cast<double>();
-    volume += a.dot(b.cross(c)) / 6;
-  }
-  return volume;
-}
-
-void SetNormals(const std::vector<Vector3f>& positions, const std::vector<Triangle>& triangles,
-                std::vector<Vector3f>& normals) {
-  normals.assign(positions.size(), Vector3f::Zero());
-  for (const Triangle& t : triangles) {
-    const Vector3f& a = positions[t[0]];
-    const Vector3f normal = (positions[t[1]] - a).cross(positions[t[2]] - a);
-    for (const std::uint16_t corner : t) normals[corner] += normal;
-  }
-  for (Vector3f& normal : normals) {
-    const float length = normal.norm();
-    normal = length > 0 ? Vector3f(normal / length) : Vector3f::UnitZ();
-  }
 }
 
 }  // namespace kinescope::skin

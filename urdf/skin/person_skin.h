@@ -40,12 +40,4 @@ class PersonSkin {
   std::vector<Eigen::Vector3f> rest_;
 };
 
-/// Of a closed surface: the enclosed volume, m^3; where it overlaps itself, it counts twice.
-double Volume(const std::vector<Eigen::Vector3f>& positions,
-              const std::vector<Triangle>& triangles);
-
-/// Unit normals of the vertices: the mean of their triangles', by area.
-void SetNormals(const std::vector<Eigen::Vector3f>& positions,
-                const std::vector<Triangle>& triangles, std::vector<Eigen::Vector3f>& normals);
-
 }  // namespace kinescope::skin

@@ -49,6 +49,11 @@ options::OptionList DecidingOptions(RenderOptions& options) {
   return list;
 }
 
+// --figure means something else since schema 2.
+std::string NameSince(int schema, const std::string& name) {
+  return schema == 1 && name == "figure" ? "body_model" : name;
+}
+
 }  // namespace
 
 Provenance::Provenance(const RenderOptions& options, const std::string& source,
@@ -97,15 +102,6 @@ Json Provenance::Of(const Output& output, std::optional<long> number) const {
   result["options"] = std::move(values);
   return result;
 }
-
-namespace {
-
-// --figure means something else since schema 2.
-std::string NameSince(int schema, const std::string& name) {
-  return schema == 1 && name == "figure" ? "body_model" : name;
-}
-
-}  // namespace
 
 RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
   const int schema = provenance.value("schema", 0);

@@ -39,7 +39,7 @@ class TrunkSolid {
   Loft loft_;
 };
 
-/// Link frame of the upper arm; `elbow_down`: that of the forearm is the same in the bind pose.
+/// Link frame of the upper arm; the forearm is straight below it in the bind pose.
 class ArmSolid {
  public:
   explicit ArmSolid(const Build& build);

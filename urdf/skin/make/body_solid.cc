@@ -5,14 +5,6 @@
 #include "urdf/skin/make/body_parts.h"
 
 namespace kinescope::skin {
-namespace {
-
-Point ToLink(const urdf::Pose& link, const Point& p) {
-  return link.orientation.conjugate() * (p - link.position);
-}
-
-}  // namespace
-
 struct BodySolid::Shape {
   Shape(const Build& of, const BindPose& bind)
       : build(of),
@@ -27,20 +19,20 @@ struct BodySolid::Shape {
         head_link(bind.links[urdf::kHead]) {}
 
   double Arm(const Point& p) const {
-    Joined all(arm(ToLink(shoulder_link, p)));
-    const Point in_hand = ToLink(hand_link, p);
+    Joined all(arm(InLink(shoulder_link, p)));
+    const Point in_hand = InLink(hand_link, p);
     if (in_hand.z() < 0.06) all.Add(hand(in_hand), 0.012);
     return all.value();
   }
   double Leg(const Point& p) const {
-    Joined all(leg(ToLink(thigh_link, p)));
-    const Point in_foot = ToLink(foot_link, p);
+    Joined all(leg(InLink(thigh_link, p)));
+    const Point in_foot = InLink(foot_link, p);
     if (in_foot.z() < 0.12) all.Add(FootSolid(in_foot, build), 0.026);
     return all.value();
   }
   double Head(const Point& p) const {
     Joined all(NeckSolid(p, build));
-    all.Add(HeadSolid(ToLink(head_link, p), build), 0.018);
+    all.Add(HeadSolid(InLink(head_link, p), build), 0.018);
     return all.value();
   }
 

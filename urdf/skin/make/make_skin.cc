@@ -30,6 +30,7 @@ using kinescope::skin::Build;
 using kinescope::skin::Point;
 using kinescope::skin::SkinTemplate;
 using kinescope::skin::Triangle;
+using kinescope::skin::VertexWeights;
 namespace urdf = kinescope::urdf;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -83,6 +84,7 @@ class EdgeLength {
 
 struct Surface {
   std::vector<Point> vertices;
+  std::vector<VertexWeights> sorted;
   std::vector<Triangle> triangles;
 };
 
@@ -120,19 +122,21 @@ Surface MeshOf(const BodySolid& body) {
 }
 
 // So that the vertices of a limb follow each other.
-void SortByLimb(const BodySolid& body, Surface& surface) {
-  const auto weights = MakeWeights(body, surface.vertices, surface.triangles);
+void SortByLimb(Surface& surface, std::vector<VertexWeights>& weights) {
   std::vector<std::uint16_t> order(surface.vertices.size()), place(order.size());
   std::iota(order.begin(), order.end(), std::uint16_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::uint16_t a, std::uint16_t b) {
     return LimbOf(weights[a]) < LimbOf(weights[b]);
   });
   std::vector<Point> vertices;
+  std::vector<VertexWeights> sorted;
   for (std::size_t i = 0; i < order.size(); ++i) {
     place[order[i]] = static_cast<std::uint16_t>(i);
     vertices.push_back(surface.vertices[order[i]]);
+    sorted.push_back(weights[order[i]]);
   }
   surface.vertices = std::move(vertices);
+  weights = std::move(sorted);
   for (Triangle& triangle : surface.triangles) {
     for (std::uint16_t& corner : triangle) corner = place[corner];
   }
@@ -178,16 +182,16 @@ int main(int argc, char** argv) {
                  count, surface.triangles.size());
     return 1;
   }
-  SortByLimb(middle, surface);
-  SortForCache(surface);
   SkinTemplate skin;
+  skin.weights = MakeWeights(middle, surface.vertices, surface.triangles);
+  SortByLimb(surface, skin.weights);
+  SortForCache(surface);
   for (std::size_t corner = 0; corner < SkinTemplate::kCorners; ++corner) {
     const Build build{static_cast<double>(corner % 2), static_cast<double>(corner / 2)};
     for (const Point& p : Follow(surface.vertices, kMiddle, build)) {
       skin.corners[corner].push_back(p.cast<float>());
     }
   }
-  skin.weights = MakeWeights(middle, surface.vertices, surface.triangles);
   skin.triangles = surface.triangles;
   std::ofstream file(argv[1], std::ios::binary);
   file << ToBytes(skin);

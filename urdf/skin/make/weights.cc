@@ -36,10 +36,6 @@ enum Field : std::size_t {
 };
 using Fields = std::array<double, kFieldCount>;
 
-Point In(const urdf::Pose& link, const Point& p) {
-  return link.orientation.conjugate() * (p - link.position);
-}
-
 // How far `p` is along its ray: each joint counts 1. 0 outside of its ray.
 void SetRays(const BindPose& bind, const Point& p, Fields& fields) {
   const urdf::FingerPoses& fingers = bind.fingers[urdf::kLeft];
@@ -93,9 +89,9 @@ Fields FieldsAt(const BodySolid& body, const Point& point) {
   const bool may_be_arm = p.y() > 0.07 && p.z() > -0.25;  // thighs are as far out as armpits
   const double is_arm = may_be_arm ? Ramp(-0.035, 0.030, parts.trunk - parts.arm) : 0;
   if (is_arm > 0) {
-    const Point a = In(bind.links[urdf::kLeftUpperArm], p);
-    const Point e = In(bind.links[urdf::kLeftForeArm], p);
-    const Point w = In(bind.links[urdf::kLeftHand], p);
+    const Point a = InLink(bind.links[urdf::kLeftUpperArm], p);
+    const Point e = InLink(bind.links[urdf::kLeftForeArm], p);
+    const Point w = InLink(bind.links[urdf::kLeftHand], p);
     const auto linear = [](double from, double to, double x) {
       return std::clamp((x - from) / (to - from), 0.0, 1.0);
     };
@@ -109,10 +105,10 @@ Fields FieldsAt(const BodySolid& body, const Point& point) {
   }
   if (is_arm <= 0.5) {
     const Point h = p - bind.links[urdf::kLeftUpperLeg].position;
-    const Point t = In(bind.links[urdf::kLeftUpperLeg], p);
-    const Point k = In(bind.links[urdf::kLeftLowerLeg], p);
-    const Point a = In(bind.links[urdf::kLeftFoot], p);
-    const Point b = In(bind.links[urdf::kLeftToe], p);
+    const Point t = InLink(bind.links[urdf::kLeftUpperLeg], p);
+    const Point k = InLink(bind.links[urdf::kLeftLowerLeg], p);
+    const Point a = InLink(bind.links[urdf::kLeftFoot], p);
+    const Point b = InLink(bind.links[urdf::kLeftToe], p);
     const double groin = h.dot(Point(0, 0.50, -0.866)), behind = Ramp(0.02, -0.08, p.x());
     const double beside_midline = Ramp(-0.004, 0.066, p.y() + 1.2 * std::max(0.0, -0.085 - p.z()));
     f[kPastHip] = Ramp(-0.060 - 0.030 * behind, 0.080 + 0.045 * behind, groin) * beside_midline;
