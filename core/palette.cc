@@ -14,7 +14,7 @@ struct SphereSize {
   double depth;  // m, from the joint's centre to beyond the skin, clothes and tools on it
 };
 constexpr std::array<SphereSize, urdf::kJointGroupCount> kSizes = {{
-    {0.080, 0.150},   // spine
+    {0.080, 0.190},   // spine
     {0.052, 0.096},   // neck
     {0.050, 0.096},   // clavicle
     {0.051, 0.112},   // shoulder

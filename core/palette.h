@@ -8,10 +8,9 @@
 #include <array>
 
 #include "core/scene_state.h"
+#include "core/suit_colors.h"
 
 namespace kinescope {
-
-using Rgb = std::array<double, 3>;
 
 /// Low: bluish green; medium: orange; high: dark red; unknown: slate grey.
 Rgb ColorOf(LoadClass load_class);
@@ -23,11 +22,6 @@ inline constexpr Rgb kSupportColor = {0.36, 0.49, 0.71};
 inline constexpr double kMetresPerNewton = 1e-3;
 inline constexpr double kMinForceShown = 20;  // N; below it the arrow is a dot
 inline constexpr Rgb kBodyColor = {0.78, 0.80, 0.84};
-/// Of a person rendered as a skin: quiet, and at least 20 (CIEDE2000) from every load class.
-inline constexpr Rgb kSuitColor = {0.70, 0.73, 0.78};
-inline constexpr Rgb kTrousersColor = {0.53, 0.56, 0.61};
-inline constexpr Rgb kShoesColor = {0.06, 0.07, 0.08};
-inline constexpr Rgb kBareColor = {0.86, 0.84, 0.81};
 inline constexpr Rgb kStaleBodyColor = {0.55, 0.55, 0.55};
 inline constexpr Rgb kObjectColor = {0.42, 0.46, 0.54};  // tracked objects and props
 /// Of the x, y and z axis of a frame: the hues of RViz, paler than any load class.

@@ -20,6 +20,12 @@ std::vector<std::string> VisibleLinks(const urdf::HumanModel& human) {
   return names;
 }
 
+bool IsOfBody(const urdf::HumanModel& human, std::size_t link, const urdf::Visual& visual) {
+  std::size_t fingers = 0;
+  for (const auto& glove : human.gloves) fingers += glove ? urdf::kFingersPerHand : 0;
+  return link < urdf::kSegmentCount + fingers && visual.material != urdf::kToolMaterial;
+}
+
 std::vector<urdf::Pose> VisibleLinkPoses(const PersonState& person) {
   const urdf::HumanModel& human = person.model->human;
   std::vector<urdf::Pose> poses(person.links.begin(), person.links.end());

@@ -13,6 +13,10 @@ namespace kinescope {
 /// Link names, as in the URDF.
 std::vector<std::string> VisibleLinks(const urdf::HumanModel& human);
 
+/// Whether the visual is a part of the body's surface, which a skin replaces; else it is held or
+/// worn. `link`: its place in VisibleLinks(human).
+bool IsOfBody(const urdf::HumanModel& human, std::size_t link, const urdf::Visual& visual);
+
 /// world_from_link of each of VisibleLinks(person.model->human).
 std::vector<urdf::Pose> VisibleLinkPoses(const PersonState& person);
 

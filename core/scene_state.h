@@ -19,6 +19,7 @@
 #include "core/load_class.h"
 #include "core/mesh_files.h"
 #include "core/scene_marker.h"
+#include "core/suit_colors.h"
 #include "urdf/human_urdf.h"
 #include "urdf/kinematics.h"
 #include "urdf/rigid_deviation.h"
@@ -72,6 +73,7 @@ struct PersonModel {
   std::shared_ptr<const MeshFiles> mesh_files;
   /// The body's visuals are the built-in surface, so that it can be rendered as one skin.
   bool has_built_in_surface = false;
+  SuitColors suit;  // of the skin
 };
 
 /// All segments of a gloved hand. A segment that the sample lacks keeps its last joint angles.

@@ -15,14 +15,16 @@ tile() {
   "$program" render "$@" --title "$title" --size 640x360 --no_sidecar --out "$file" > /dev/null
   tiles+=("$file")
 }
-at() { tile "$1" demo:lift --time "$2" --fit now "${@:3}"; }
+at() { tile "$1" demo:lift --time "$2" "${@:3}"; }
 
 for camera in front back left right top iso three_quarter; do
   at "camera $camera" 2.9 --camera $camera --hand_load both:8 --overlay=-legend,-time,-status
 done
 at "orthographic, with a scale" 2.9 --camera right --projection orthographic --overlay title,scale
-tile "room for arms overhead, where nothing is fitted" demo:lift --time 1.4 --overlay title
+tile "always the same distance: --fit off" demo:lift --time 1.4 --fit off --overlay title
 tile "four views" demo:walk --time 3.3 --views 2x2 --overlay title,names
+at "the rigid parts of the URDF, as in RViz" 2.9 --figure urdf --overlay title
+at "a colour of one's own" 2.9 --body_color "#5b8bd0" --overlay title
 at "dark" 2.9 --theme dark --hand_load both:8
 at "white, without floor" 2.9 --background white --floor off --hand_load both:8 --overlay title
 at "no load in the hands" 2.9

@@ -14,47 +14,12 @@ namespace kinescope::render {
 namespace {
 
 constexpr Rgb kWarningLamp{0.90, 0.60, 0.05};
-constexpr double kTimeCodeLine = 22;  // of a picture 720 px high, from its baseline to the sample's
-
-constexpr double kSpreadInPrint = 0.35;  // a title is a quarter larger than the legend there
-
 // Then there is no stream to tell of, and no load.
 bool HasOnlyRobots(const SceneState& state) {
   return state.people.empty() && !state.robots.empty();
 }
 
-// Of the sizes for a picture that is 720 px high.
-double ScaleOf(const PictureSpec& spec) {
-  if (!spec.print.is_known()) {
-    return std::max(0.5, std::min(spec.height / 720.0, spec.width / 1000.0));
-  }
-  // Whole pixels, as fonts have them.
-  return std::ceil(spec.print.text_pt * spec.print.PixelsPerPoint(spec.width) - 1e-6) / kSmallSize;
-}
-
-// Whether the texts of a legend or a title would cover the people.
-bool IsSmall(const PictureSpec& spec, double scale) {
-  if (!spec.print.is_known()) return spec.width < 300 || spec.height < 160;
-  const double text = scale * kSmallSize;
-  return spec.width < 24 * text || spec.height < 12 * text;
-}
-
 }  // namespace
-
-std::string Shorten(const std::string& text, Font& font, int size_px, double width) {
-  const double room = width - font.Width("…", size_px);
-  double used = 0;
-  std::size_t fits = 0;  // bytes, together with an ellipsis
-  for (std::size_t at = 0; at < text.size();) {
-    std::size_t next = at + 1;
-    while (next < text.size() && (static_cast<unsigned char>(text[next]) & 0xC0) == 0x80) ++next;
-    used += font.Width(std::string_view(text).substr(at, next - at), size_px);
-    if (used > width) return fits > 0 ? text.substr(0, fits) + "…" : "";
-    if (used <= room) fits = next;
-    at = next;
-  }
-  return text;
-}
 
 OverlayFonts& Overlay::fonts() {
   if (!fonts_) fonts_ = std::make_unique<OverlayFonts>();
@@ -63,19 +28,8 @@ OverlayFonts& Overlay::fonts() {
 
 void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
                     const PictureSpec& spec) {
-  const double scale = ScaleOf(spec);
-  const double frame_code =
-      spec.parts.frame_code ? FrameCodeLayoutOf(spec.width, spec.height).height() : 0;
-  Page page{painter,
-            InksOf(spec),
-            fonts(),
-            static_cast<double>(spec.width),
-            static_cast<double>(spec.height),
-            scale,
-            spec.height - frame_code,
-            IsSmall(spec, scale),
-            spec.print.is_known() ? kSpreadInPrint : 1.0};
-  const Page whole = page;
+  Page page(SizesOf(spec, fonts()), painter, InksOf(spec));
+  const OverlaySizes whole = page;
   for (const DrawnView& each : drawn) {
     painter.Enter(each.tile);
     page.width = each.tile.width;
@@ -128,7 +82,7 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec
     if (parts.plot && spec.load_curves != nullptr) {
       const double below = page.Px(kMargin) + page.Px(4 * kTitleSize);
       PaintPlot(page, *spec.load_curves, state.class_limits, spec.plot_secs,
-                page.Px(kMargin) + 1.8 * page.FontPx(kTextSize), page.bottom - below);
+                RoomOfPlot(page, 0).top, page.bottom - below);
     }
   }
   if (!parts.banner) return;

@@ -62,7 +62,7 @@ struct LegendLayout {
   double width, height;
 };
 
-LegendLayout MeasureLegend(const OverlayPage& page, std::size_t rows, std::size_t notes) {
+LegendLayout MeasureLegend(const OverlaySizes& page, std::size_t rows, std::size_t notes) {
   OverlayFonts& f = page.fonts;
   LegendLayout layout{page.FontPx(kSmallSize), page.Px(21), page.Px(12), page.Px(24), 0, 0};
   layout.width = 2 * layout.pad + layout.column +
@@ -88,6 +88,13 @@ void PaintSymbol(OverlayPage& page, const LegendRow& row, double x, double y) {
   page.canvas.Disc(x, y, row.has_rim ? 0.76 * radius : radius, row.ink);
 }
 
+bool IsWide(const LegendLayout& layout, const OverlaySizes& page) {
+  return layout.width > kWidestLegend * page.width;
+}
+
+// Of the legend's one line.
+constexpr double kShortLine = 1.8;  // of its text's size
+
 // For small pictures: the classes alone, in one line, so that the person is not covered.
 void PaintShortLegend(OverlayPage& page, const SceneState& state) {
   const std::string medium = fmt::format("{:.3g}", 100 * state.class_limits[0]);
@@ -104,8 +111,8 @@ void PaintShortLegend(OverlayPage& page, const SceneState& state) {
     width += 1.2 * size + page.fonts.regular.Width(text, size) + pad;
   }
   double x = page.Px(kMargin);
-  const double top = page.bottom - page.Px(kMargin) - 1.8 * size;
-  page.canvas.RoundedBox(x, top, width, 1.8 * size, page.Px(8), page.inks.panel);
+  const double top = page.bottom - page.Px(kMargin) - kShortLine * size;
+  page.canvas.RoundedBox(x, top, width, kShortLine * size, page.Px(8), page.inks.panel);
   for (const auto& [load_class, text] : classes) {
     const double y = top + 0.9 * size;
     if (load_class == LoadClass::kHigh) {
@@ -144,12 +151,22 @@ std::vector<LegendRow> LegendOf(const SceneState& state, const SceneLook& look) 
   return rows;
 }
 
+LegendRoom RoomOfLegend(const OverlaySizes& sizes, const SceneLook& look) {
+  constexpr std::size_t kNotes = 2;
+  const std::size_t symbols = LegendOf({}, look).size() + (look.Shows(ScenePart::kForces) ? 1 : 0);
+  if (symbols == 0) return {};
+  const LegendLayout layout = MeasureLegend(sizes, symbols, kNotes);
+  const double margins = 2 * sizes.Px(kMargin);
+  if (!IsWide(layout, sizes)) return {layout.width + margins, layout.height + margins};
+  return {sizes.width, kShortLine * sizes.FontPx(kSmallSize) + margins};
+}
+
 void PaintLegend(OverlayPage& page, const SceneState& state, const SceneLook& look) {
   const std::vector<LegendRow> rows = LegendOf(state, look);
   if (rows.empty()) return;
   const std::vector<std::string> notes = LegendNotes(state);
   const LegendLayout layout = MeasureLegend(page, rows.size(), notes.size());
-  if (layout.width > kWidestLegend * page.width) return PaintShortLegend(page, state);
+  if (IsWide(layout, page)) return PaintShortLegend(page, state);
 
   OverlayFonts& f = page.fonts;
   const int size = layout.font;

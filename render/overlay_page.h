@@ -56,6 +56,7 @@ inline const Inks& InksOf(const PictureSpec& spec) {
 
 // Sizes in px for a picture 720 px high; all scale with the height.
 inline constexpr double kMargin = 20, kTitleSize = 22, kTextSize = 15, kSmallSize = 13;
+inline constexpr double kTimeCodeLine = 22;  // from the time code's baseline to the sample's
 
 struct OverlayFonts {
   Font regular{"DejaVuSans.ttf"};
@@ -63,9 +64,7 @@ struct OverlayFonts {
 };
 
 /// Coordinates are relative to the corner of the painted area: a picture, or one view of several.
-struct OverlayPage {
-  Painter& canvas;
-  const Inks& inks;
+struct OverlaySizes {
   OverlayFonts& fonts;
   double width, height, scale;
   double bottom;      // height minus the frame code at the bottom
@@ -78,6 +77,17 @@ struct OverlayPage {
     return std::max(8, static_cast<int>(std::lround(Px(spread_size))));
   }
   double right() const { return width - Px(kMargin); }
+};
+
+/// Of the whole picture.
+OverlaySizes SizesOf(const PictureSpec& spec, OverlayFonts& fonts);
+
+struct OverlayPage : OverlaySizes {
+  OverlayPage(const OverlaySizes& sizes, Painter& painter, const Inks& used_inks)
+      : OverlaySizes(sizes), canvas(painter), inks(used_inks) {}
+
+  Painter& canvas;
+  const Inks& inks;
 };
 
 /// `text`, shortened with an ellipsis if necessary. Reads only as much as fits: names are untrusted

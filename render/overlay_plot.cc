@@ -130,26 +130,49 @@ void PaintRow(OverlayPage& page, const Frame& frame, const LoadCurve& curve, dou
   }
 }
 
+// px; text has a least size, so rows follow it and not the picture alone.
+struct RowSizes {
+  double head, foot, pad, row;
+
+  double PanelHeight(std::size_t rows, double gap) const {
+    return 2 * pad + static_cast<double>(rows) * row - gap + foot;
+  }
+};
+RowSizes RowSizesOf(const OverlaySizes& page) {
+  const int size = page.FontPx(kSmallSize);
+  const double head = std::max(page.Px(kHead), 1.3 * size);
+  return {head, std::max(page.Px(kFoot), 1.2 * size), page.Px(kPad),
+          head + page.Px(kAxes) + page.Px(kGap)};
+}
+
+double PanelWidth(const OverlaySizes& page) {
+  const int size = page.FontPx(kSmallSize);
+  return std::max(std::min(page.Px(kWidth), kNarrowest * page.width),
+                  std::min(12.0 * size, 0.5 * page.width));
+}
+
 }  // namespace
+
+PlotRoom RoomOfPlot(const OverlaySizes& sizes, std::size_t rows) {
+  const double top = sizes.Px(kMargin) + 1.8 * sizes.FontPx(kTextSize);
+  return {top, PanelWidth(sizes), RowSizesOf(sizes).PanelHeight(rows, sizes.Px(kGap))};
+}
 
 void PaintPlot(OverlayPage& page, const LoadCurves& loads,
                const std::array<double, 2>& class_limits, double now_secs, double top,
                double bottom) {
   if (loads.curves.empty()) return;
   const int size = page.FontPx(kSmallSize);
-  // Text has a least size, so rows follow it and not the picture alone.
-  const double head = std::max(page.Px(kHead), 1.3 * size),
-               foot = std::max(page.Px(kFoot), 1.2 * size);
-  const double pad = page.Px(kPad), row = head + page.Px(kAxes) + page.Px(kGap);
+  const RowSizes sizes = RowSizesOf(page);
+  const auto [head, foot, pad, row] = sizes;
   const double room = bottom - top - 2 * pad - foot + page.Px(kGap);
   const auto rows = std::min(loads.curves.size(),
                              static_cast<std::size_t>(std::max(0.0, std::floor(room / row))));
   if (rows == 0) return;
   const std::size_t hidden = loads.curves.size() - rows;
-  const double width = std::max(std::min(page.Px(kWidth), kNarrowest * page.width),
-                                std::min(12.0 * size, 0.5 * page.width));
+  const double width = PanelWidth(page);
   const double left = std::round(page.right() - width);
-  const double panel_height = 2 * pad + static_cast<double>(rows) * row - page.Px(kGap) + foot;
+  const double panel_height = sizes.PanelHeight(rows, page.Px(kGap));
   page.canvas.RoundedBox(left, top, width, panel_height, page.Px(8), page.inks.panel);
   Frame frame{std::round(left + pad),
               0,

@@ -3,11 +3,18 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "render/load_curves.h"
 #include "render/overlay_page.h"
 
 namespace kinescope::render {
+
+/// Of its panel for `rows` curves, px.
+struct PlotRoom {
+  double top = 0, width = 0, height = 0;
+};
+PlotRoom RoomOfPlot(const OverlaySizes& sizes, std::size_t rows);
 
 /// At the upper right, between `top` and `bottom`, px. Rows without room are omitted, and the last
 /// row shows their number. `class_limits`: SceneState::class_limits.

@@ -90,7 +90,7 @@ struct SceneLook {
   bool is_transparent = false;
   bool floor = true;
   Detail detail = Detail::kFull;
-  Figure figure = Figure::kUrdf;
+  Figure figure = Figure::kSkin;
   ScenePartSet shown;
   std::vector<Trail> trails;
   std::vector<Ghost> ghosts;

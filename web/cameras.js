@@ -32,19 +32,20 @@ export function groundOf(pelvises, floor, reach) {
 /** Position and target of the camera that shows `view` of the people on `ground`.
  *  @param {CameraView} view
  *  @param {Framing} framing
- *  @param {{middle: number[], radius: number}} ground
+ *  @param {{middle: number[], radius: number, height: number}} ground  height: that the view shows, m
  *  @param {number} aspect  width / height of the canvas
  *  @returns {Aim} */
 export function aim(view, framing, ground, aspect) {
   const half = Math.tan(view.vertical_fov_rad / 2);
+  const size = ground.height / framing.height_m;
   let offset = subtract(view.position, view.target);
-  const extent = Math.max(length(offset) * half, (ground.radius + framing.margin_m) / framing.narrowest_aspect);
+  const extent = Math.max(size * length(offset) * half, (ground.radius + framing.margin_m) / framing.narrowest_aspect);
   const distance = extent / half + ground.radius;
   const widened = Math.max(1, framing.min_width_m / (2 * distance * half * aspect));
   offset = scale(offset, (distance * widened) / length(offset));
   const isPole = Math.hypot(offset[0], offset[1]) < POLE_TILT * length(offset);
   if (isPole) offset = subtract(offset, scale(view.up, POLE_TILT * length(offset)));
-  const target = add(ground.middle, view.target);
+  const target = add(ground.middle, scale(view.target, size));
   return {
     position: add(target, offset),
     target,

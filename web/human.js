@@ -1,8 +1,12 @@
-// The person in the view: the links of /api/model at the streamed poses, load spheres, CoM, CoP, support polygon and
-// hand loads. World frame: z up, metres.
+// The person in the view: the skin, the links of /api/model at the streamed poses, load spheres, CoM, CoP, support
+// polygon and hand loads. World frame: z up, metres.
 import * as THREE from 'three';
 import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { toCreasedNormals } from 'three/addons/utils/BufferGeometryUtils.js';
+import { toColor } from './colors.js';
+import { request } from './server_api.js';
+import { SkinnedBody } from './skin.js';
+import { readSkin } from './skin_buffer.js';
 
 const OCCLUDED_OPACITY = 0.45;  // of markers that are visible through the body
 const SPHERE_DEPTH = 0.11;      // m, by which a sphere counts as nearer than its joint's centre
@@ -20,9 +24,6 @@ const SHARED = new Set([unitSphere, unitBox, unitCylinder]);
 
 /** @typedef {import('./messages.js').Visual} Visual
  *  @typedef {import('./messages.js').Palette} Palette */
-
-/** @param {number[]} rgb  sRGB 0..1 */
-export const toColor = (rgb) => new THREE.Color().setRGB(rgb[0], rgb[1], rgb[2], THREE.SRGBColorSpace);
 
 /** Makes what `material` draws count as nearer by `depth` than its centre: a load sphere is drawn over the limb around
  *  it, and is hidden by other limbs.
@@ -85,6 +86,9 @@ const hasGeometry = (part) => part instanceof THREE.Mesh || part instanceof THRE
 export class Human {
   group = new THREE.Group();
   /** @type {string[]} */ failedMeshes = [];
+  #skin = /** @type {SkinnedBody|null} */ (null);
+  #isDisposed = false;
+  #last = /** @type {{links: import('./skin_frames.js').Pose[], isLive: boolean}|null} */ (null);
   #links = /** @type {THREE.Group[]} */ ([]);
   #materials = /** @type {Map<string, {material: THREE.MeshStandardMaterial, live: THREE.Color}>} */ (new Map());
   #held = /** @type {THREE.Mesh[]} */ ([]);
@@ -105,6 +109,7 @@ export class Human {
       this.#links.push(group);
       this.group.add(group);
     }
+    if (model.skin !== null) this.#loadSkin(model.skin, onChange);
     this.com = markerMesh(unitSphere, markers.com);
     this.com.scale.setScalar(0.03);
     this.comLine = new THREE.Line(
@@ -122,6 +127,8 @@ export class Human {
     for (const { material, live } of this.#materials.values()) {
       material.color.copy(isLive ? live : this.staleColor);
     }
+    this.#last = { links: person.links, isLive };
+    this.#skin?.update(person.links, isLive);
     person.links.forEach(({ position, quaternion }, i) => {
       this.#links[i]?.position.fromArray(position);
       this.#links[i]?.quaternion.fromArray(quaternion);
@@ -132,12 +139,36 @@ export class Human {
     this.#updateHeld(person);
   }
 
+  /** Before it is drawn.
+   *  @param {THREE.WebGLRenderer} renderer */
+  pose(renderer) {
+    this.#skin?.pose(renderer);
+  }
+
   dispose() {
+    this.#isDisposed = true;
+    this.#skin?.dispose();
     this.group.removeFromParent();
     this.group.traverse((part) => {
       if (hasGeometry(part) && !SHARED.has(part.geometry)) part.geometry.dispose();
     });
     for (const { material } of this.#materials.values()) material.dispose();
+  }
+
+  /** @param {string} url  an absolute path; the page may be served below another path
+   *  @param {() => void} onChange */
+  async #loadSkin(url, onChange) {
+    try {
+      const answer = await request(url.slice(1));
+      const skin = readSkin(await answer.arrayBuffer(), url);
+      if (this.#isDisposed) return;
+      this.#skin = new SkinnedBody(skin, this.staleColor);
+      if (this.#last) this.#skin.update(this.#last.links, this.#last.isLive);
+      this.group.add(this.#skin.mesh);
+    } catch {
+      this.failedMeshes.push(url);
+    }
+    onChange();
   }
 
   /** @param {import('./state_codec.js').Person} person

@@ -142,7 +142,7 @@ const readVisual = object({
   quaternion: numbers(4), rgba: orNull(numbers(4)), mesh: optional(string),
 });
 const readPersonModel = object({
-  character: number, revision: number, links: listOf(object({ visuals: listOf(readVisual) })),
+  character: number, revision: number, skin: orNull(string), links: listOf(object({ visuals: listOf(readVisual) })),
 });
 const readClassColors = listOf(object({ name: oneOf(LOAD_CLASSES), color: rgb }));
 const readPalette = object({
@@ -167,7 +167,9 @@ export const readModel = object({
 const readCameraView = object({
   name: string, position: numbers(3), target: numbers(3), up: numbers(3), vertical_fov_rad: number,
 });
-const readFraming = object({ min_width_m: number, margin_m: number, narrowest_aspect: number, reach_m: number });
+const readFraming = object({
+  min_width_m: number, margin_m: number, narrowest_aspect: number, reach_m: number, height_m: number,
+});
 export const readCameras = object({ cameras: listOf(readCameraView), framing: readFraming, live: string });
 /** @typedef {ReturnType<typeof readCameraView>} CameraView  of a person at the origin
  *  @typedef {ReturnType<typeof readFraming>} Framing  of several people and of narrow views; docs/http.md

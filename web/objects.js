@@ -1,8 +1,8 @@
 // Tracked objects: each is a small block with the axes of its frame and its name, because its appearance is not
 // streamed. World frame: z up, metres.
 import * as THREE from 'three';
+import { toColor } from './colors.js';
 import { labelText } from './format.js';
-import { toColor } from './human.js';
 
 const BLOCK = 0.05;
 const AXIS_LENGTH = 0.15;

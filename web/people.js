@@ -35,6 +35,12 @@ export class People {
     return this.#people.get(character)?.human.revision === revision;
   }
 
+  /** Before they are drawn.
+   *  @param {THREE.WebGLRenderer} renderer */
+  pose(renderer) {
+    for (const { human } of this.#people.values()) if (human.group.visible) human.pose(renderer);
+  }
+
   get size() {
     return this.#people.size;
   }

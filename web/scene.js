@@ -3,6 +3,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { aim, groundOf } from './cameras.js';
+import { HeldHeight } from './held_height.js';
 import { makeMarkerMaterials } from './human.js';
 import { ObjectMarkers } from './objects.js';
 import { People } from './people.js';
@@ -27,6 +28,8 @@ export class Scene {
   #objects = /** @type {ObjectMarkers|null} */ (null);
   #objectNames = /** @type {import('./messages.js').ObjectName[]} */ ([]);
   #ground = { middle: [0, 0, 0], radius: 0 };
+  #heldHeight = new HeldHeight();
+  #height = /** @type {number|null} */ (null);  // that the view shows, m; null: no person came yet
   #followed = [0, 0, 0];
   #view = /** @type {import('./messages.js').CameraView|null} */ (null);  // null: selected by hand, or not received yet
   #framing = /** @type {import('./messages.js').Framing|null} */ (null);
@@ -95,6 +98,8 @@ export class Scene {
     if (state.people.length > 0) {
       const pelvises = state.people.map(({ links }) => links[0].position);
       this.#ground = groundOf(pelvises, state.floor, this.#framing?.reach_m ?? Infinity);
+      const needed = Math.max(...state.people.map(({ viewHeight }) => viewHeight));
+      this.#show(this.#heldHeight.follow(needed, state.sentMicros / 1e6));
     }
     this.#dirty = true;
   }
@@ -119,6 +124,7 @@ export class Scene {
     if (!this.#dirty) return false;
     this.#dirty = false;
     this.#adaptQuality(elapsed);
+    this.#people.pose(this.renderer);
     this.renderer.render(this.#scene, this.#camera);
     return true;
   }
@@ -126,7 +132,8 @@ export class Scene {
   /** Moves the camera to the named view, if there is one. */
   #aim() {
     if (this.#view === null || this.#framing === null) return;
-    const ground = { middle: this.#followed, radius: this.#ground.radius };
+    const height = this.#height ?? this.#framing.height_m;
+    const ground = { middle: this.#followed, radius: this.#ground.radius, height };
     const { position, target, fovDegrees } = aim(this.#view, this.#framing, ground, this.#camera.aspect);
     this.#camera.fov = fovDegrees;
     this.#objects?.setFieldOfView(fovDegrees);
@@ -136,6 +143,14 @@ export class Scene {
     this.controls.update();
     this.#placeFloor();
     this.#dirty = true;
+  }
+
+  /** Goes nearer or farther, unless the user moves the camera by hand.
+   *  @param {number} height  that the view shows, m */
+  #show(height) {
+    if (height === this.#height) return;
+    this.#height = height;
+    this.#aim();
   }
 
   /** @param {number} seconds  since the last frame */

@@ -18,9 +18,10 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *  @typedef {{character: number, revision: number, com: number[]|null, cop: number[]|null,
  *    comSource: 'mvn'|'body_model', massIsAssumed: boolean, isDynamic: boolean, groundIsMeasured: boolean,
  *    leans: boolean, comDisagrees: boolean, compression: number, margin: number,
- *    comMinusMvn: number, heldKg: number[], metric: (typeof METRIC)[number],
+ *    comMinusMvn: number, heldKg: number[], metric: (typeof METRIC)[number], viewHeight: number,
  *    links: Pose[], loads: Load[], support: number[][], held: Solid[]}} Person
- *    compression (N), margin and comMinusMvn (m): NaN if unknown; heldKg: right, left
+ *    compression (N), margin and comMinusMvn (m): NaN if unknown; heldKg: right, left; viewHeight: that a view shows
+ *    so that the person fills most of it, m
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
  *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, stateNumber: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
@@ -147,9 +148,10 @@ function readPersonHeader(bytes) {
   const heldKg = bytes.floats(2);
   const cornerCount = bytes.u8();
   const metric = METRIC[bytes.u8()] ?? 'total';
-  bytes.skip(2);
+  const viewHeight = bytes.u16() / 1000;
   return {
     character, linkCount, loadCount, solidCount, cornerCount, revision, compression, margin, comMinusMvn, heldKg, metric,
+    viewHeight,
     com: flags & 1 ? com : null,
     cop: flags & 2 ? cop : null,
     ...traitsOf(flags),

@@ -16,8 +16,7 @@ namespace {
 glm::dvec3 ToGlm(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 // Where everything that one wants to see of a standing adult fits: soles to fingers overhead.
-constexpr double kTargetHeight = 1.06;  // m
-constexpr double kReach = 2.50;         // m, of the vertical that must be visible
+constexpr double kTargetHeight = 1.06;  // m, where GroupFraming::height_m is shown
 
 constexpr double kLeash = 0.35;  // m, that people may go before a steady camera follows
 constexpr double kSlack = 0.5;   // m, by which a group may draw together before it comes nearer
@@ -61,26 +60,33 @@ const std::vector<std::string>& CameraNames() {
   return names;
 }
 
-GroundExtent GroundExtentOf(const SceneState& state) {
-  if (state.people.empty()) return {Eigen::Vector3d(0, 0, state.floor_z), 0};
-  std::vector<Eigen::Vector3d> places;
-  for (const PersonState& person : state.people) {
-    const Eigen::Vector3d& pelvis = person.links[urdf::kPelvis].position;
-    places.emplace_back(pelvis.x(), pelvis.y(), state.floor_z);
-  }
-  const auto to_origin = [](const Eigen::Vector3d& place) { return place.head<2>().norm(); };
-  const Eigen::Vector3d nearest =
-      *std::min_element(places.begin(), places.end(),
-                        [&](const auto& a, const auto& b) { return to_origin(a) < to_origin(b); });
-  const auto is_far = [&](const Eigen::Vector3d& place) {
-    return (place - nearest).norm() > kGroupFraming.reach_m;
+std::vector<const PersonState*> FramedPeople(const SceneState& state) {
+  const auto place = [](const PersonState& person) {
+    return Eigen::Vector2d(person.links[urdf::kPelvis].position.head<2>());
   };
-  places.erase(std::remove_if(places.begin(), places.end(), is_far), places.end());
+  const auto nearest = std::min_element(
+      state.people.begin(), state.people.end(),
+      [&](const auto& a, const auto& b) { return place(a).norm() < place(b).norm(); });
+  std::vector<const PersonState*> framed;
+  for (const PersonState& person : state.people) {
+    if ((place(person) - place(*nearest)).norm() > kGroupFraming.reach_m) continue;
+    framed.push_back(&person);
+  }
+  return framed;
+}
+
+GroundExtent GroundExtentOf(const SceneState& state) {
+  const std::vector<const PersonState*> people = FramedPeople(state);
+  if (people.empty()) return {Eigen::Vector3d(0, 0, state.floor_z), 0};
+  const auto place = [&](const PersonState* person) {
+    const Eigen::Vector3d& pelvis = person->links[urdf::kPelvis].position;
+    return Eigen::Vector3d(pelvis.x(), pelvis.y(), state.floor_z);
+  };
   GroundExtent about;
-  for (const Eigen::Vector3d& place : places) about.middle += place;
-  about.middle /= static_cast<double>(places.size());
-  for (const Eigen::Vector3d& place : places) {
-    about.radius = std::max(about.radius, (place - about.middle).norm());
+  for (const PersonState* person : people) about.middle += place(person);
+  about.middle /= static_cast<double>(people.size());
+  for (const PersonState* person : people) {
+    about.radius = std::max(about.radius, (place(person) - about.middle).norm());
   }
   return about;
 }
@@ -89,12 +95,14 @@ Camera NamedCameraAt(const std::string& name, const GroundExtent& about) {
   for (const auto& [known, direction] : Directions()) {
     if (known != name) continue;
     Camera camera;
-    camera.target = about.middle + Eigen::Vector3d(0, 0, kTargetHeight);
+    const double size = about.height / kGroupFraming.height_m;
+    camera.target = about.middle + Eigen::Vector3d(0, 0, size * kTargetHeight);
     camera.up = direction.up;
     // Pictures are wider than high, so a group may stand wider than a person is tall; its nearest
     // member comes closer than its middle.
     const double half_width = about.radius + kGroupFraming.margin_m;
-    const double half_extent = std::max(0.5 * kReach, half_width / kGroupFraming.narrowest_aspect);
+    const double half_extent =
+        std::max(0.5 * about.height, half_width / kGroupFraming.narrowest_aspect);
     const double distance = half_extent / std::tan(0.5 * camera.vertical_fov_rad) + about.radius;
     camera.position = camera.target + distance * direction.to_camera;
     camera.far_m = std::max(camera.far_m, 4 * distance);

@@ -40,8 +40,9 @@ struct GroupFraming {
                              // a little beside them
   double margin_m = 0.7;     // beside the outermost person of a group
   double narrowest_aspect = 4.0 / 3;  // width / height of a picture that a group must fit into
-  double reach_m = 50;  // of a group, from the person nearest to the origin: farther people would
-                        // make all too small to see, and may be out of the picture
+  double reach_m = 50;    // of a group, from the person nearest to the origin: farther people would
+                          // make all too small to see, and may be out of the picture
+  double height_m = 2.5;  // visible around the target: a standing adult with arms overhead
 };
 inline constexpr GroupFraming kGroupFraming;
 
@@ -50,8 +51,11 @@ inline constexpr GroupFraming kGroupFraming;
 struct GroundExtent {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();  // world, m
   double radius = 0;                                 // m
+  double height = GroupFraming().height_m;           // m, of what the picture shows
 };
 GroundExtent GroundExtentOf(const SceneState& state);
+/// The people whom cameras frame: those within GroupFraming::reach_m. They belong to `state`.
+std::vector<const PersonState*> FramedPeople(const SceneState& state);
 
 /// The named camera aimed at `about`, as if people stood there. @throws as NamedCamera.
 Camera NamedCameraAt(const std::string& name, const GroundExtent& about);
@@ -70,13 +74,6 @@ double ShownHeight(const Camera& camera);
 
 /// Rotated about the vertical through its target, counter-clockwise seen from above.
 [[nodiscard]] Camera Turned(const Camera& camera, double angle_rad);
-
-/// Box around all visible people, objects and robots, world, m; empty without any.
-Eigen::AlignedBox3d BoxOf(const SceneState& state);
-
-/// `camera` moved, without rotation, so that `box` fits into its picture with a margin. @pre
-/// !box.isEmpty()
-[[nodiscard]] Camera Framing(const Camera& camera, const Eigen::AlignedBox3d& box, double aspect);
 
 /// GroundExtent with a dead zone: it does not move while the people stay near the picture centre,
 /// and follows them smoothly when they leave it. A floor that stands still is more pleasant to

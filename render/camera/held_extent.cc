@@ -26,7 +26,7 @@ double ShownHeight(const GroundExtent& aimed) { return ShownHeight(NamedCameraAt
 // The radius within which people are in a picture that is aimed at `aimed`. Named cameras leave
 // room for groups in narrow pictures, so a wide one shows more.
 double VisibleRadius(const GroundExtent& aimed, double aspect) {
-  const double half_width = 0.5 * aspect * ShownHeight({aimed.middle, 0});
+  const double half_width = 0.5 * aspect * ShownHeight({aimed.middle, 0, aimed.height});
   const double of_group = (aimed.radius + kGroupFraming.margin_m) *
                           std::max(1.0, aspect / kGroupFraming.narrowest_aspect);
   return std::max(half_width, of_group) - kGroupFraming.margin_m;
@@ -40,11 +40,12 @@ bool Contains(const GroundExtent& aimed, const GroundExtent& people, double aspe
 
 // The nearest aim at the middle of `recent` that shows all of it; at least as wide as for `people`.
 GroundExtent Around(const GroundExtent& recent, const GroundExtent& people, double aspect) {
-  GroundExtent nearest{recent.middle, people.radius};
+  GroundExtent nearest{recent.middle, people.radius, people.height};
   if (Contains(nearest, recent, aspect)) return nearest;
   const double share = std::min(1.0, kGroupFraming.narrowest_aspect / aspect);
   const double margin = kGroupFraming.margin_m;
-  return {recent.middle, std::max(people.radius, share * (recent.radius + margin) - margin)};
+  return {recent.middle, std::max(people.radius, share * (recent.radius + margin) - margin),
+          people.height};
 }
 
 }  // namespace
@@ -104,8 +105,10 @@ void HeldGroundExtent::Glide(const GroundExtent& goal, double dt) {
   speed_ = {};
 }
 
-const GroundExtent& HeldGroundExtent::Follow(const SceneState& state, double secs, double aspect) {
-  const GroundExtent people = GroundExtentOf(state);
+const GroundExtent& HeldGroundExtent::Follow(const SceneState& state, double secs, double aspect,
+                                             double height) {
+  GroundExtent people = GroundExtentOf(state);
+  people.height = held_.height = height;
   const double dt = std::max(0.0, secs - at_secs_);
   at_secs_ = secs;
   if (!has_people_) {
@@ -115,12 +118,12 @@ const GroundExtent& HeldGroundExtent::Follow(const SceneState& state, double sec
   if (state.people.empty()) return held_;
   Remember(people, secs);
   const Eigen::Vector3d velocity = Velocity();
-  const GroundExtent ahead{people.middle + kAhead * velocity, people.radius};
+  const GroundExtent ahead{people.middle + kAhead * velocity, people.radius, height};
   const GroundExtent still = Around(Recent(), people, aspect);
   const bool can_stand = ShownHeight(still) <= kSmaller * ShownHeight(people) &&
                          Contains(still, ahead, aspect, kSlack);
   // A spring that follows a steady motion lags by twice its time constant.
-  const GroundExtent along{people.middle + 2 / kStiffness * velocity, people.radius};
+  const GroundExtent along{people.middle + 2 / kStiffness * velocity, people.radius, height};
   const GroundExtent& goal = can_stand ? still : along;
   const bool is_far = ShownHeight(goal) < kNearer * ShownHeight(held_);
   const bool leaves =

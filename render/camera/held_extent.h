@@ -18,7 +18,9 @@ class HeldGroundExtent {
   /// Call it once per picture.
   /// @param secs    of the picture; if it goes back, what was before is forgotten
   /// @param aspect  width / height of the picture
-  const GroundExtent& Follow(const SceneState& state, double secs, double aspect);
+  /// @param height  of what the picture shows, m
+  const GroundExtent& Follow(const SceneState& state, double secs, double aspect,
+                             double height = kGroupFraming.height_m);
 
  private:
   struct Seen {

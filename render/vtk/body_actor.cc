@@ -40,9 +40,8 @@ void BodyActor::Load(const PersonModel& model, bool is_skin, OnceLog& log) {
         return each.name == names[first + part];
       });
       if (link == links.end()) continue;
-      const bool is_worn = first + part >= names.size() - model.human.props.count();
       for (const urdf::Visual& visual : link->visuals) {
-        if (is_skin && !is_worn && visual.material != urdf::kToolMaterial) continue;
+        if (is_skin && IsOfBody(model.human, first + part, visual)) continue;
         reader.Add(visual, static_cast<int>(part), group.mesh);
       }
     }

@@ -150,12 +150,12 @@ bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& overrid
     other->actor()->SetVisibility(is_visible_ && each == level);
   }
   ShadedActor& shaded = *levels_[level];
-  shaded.SetColor("topColor", kSuitColor);
-  shaded.SetColor("trousersColor", kTrousersColor);
-  shaded.SetColor("shoesColor", kShoesColor);
-  shaded.SetColor("bareColor", kBareColor);
-  const bool has_own_color = model_->human.body_rgb != kBodyColor;
-  shaded.SetColor("bandColor", has_own_color ? model_->human.body_rgb : kSuitColor);
+  const SuitColors& colors = model_->suit;
+  shaded.SetColor("topColor", colors.top);
+  shaded.SetColor("trousersColor", colors.trousers);
+  shaded.SetColor("shoesColor", colors.shoes);
+  shaded.SetColor("bareColor", colors.bare);
+  shaded.SetColor("bandColor", colors.band);
   shaded.uniforms().SetUniform4f("overrideColor", override_color.data());
   shaded.uniforms().SetUniformf("opacityFactor", static_cast<float>(opacity));
   return is_changed;

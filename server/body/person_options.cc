@@ -61,6 +61,11 @@ std::vector<std::filesystem::path> BodyModelValue::Files() const {
                                : FilesOfCustomBody(value_.folder);
 }
 
+void BodyColorValue::Parse(const std::string& text) {
+  value_ = ColorFromHex(text);
+  if (!value_ && text != "suit") RefuseText();
+}
+
 PersonOptions::PersonOptions()
     : model_name("skeleton", "letters, digits and _", IsModelName),
       sex(Choice<urdf::Sex>({{"male", urdf::Sex::kMale}, {"female", urdf::Sex::kFemale}},
@@ -100,6 +105,10 @@ void PersonOptions::List(options::OptionList& option) {
       "body_model", body_model,
       "surface of the body; a FOLDER has STL, DAE, OBJ or GLB files named after segments, such as "
       "RightForeArm.stl");
+  option("body_color", body_color,
+         fmt::format("colour of the suit, at least {} (CIEDE2000) from the colour of each load "
+                     "class; suit: quiet greys, and bands in the colour that the suit sends",
+                     kMinContrast));
   option("tool", tool,
          "mesh (STL, DAE, OBJ or GLB) of a held tool, its origin at the grip unless placed; "
          "--hand_load sets its mass");
@@ -111,6 +120,17 @@ void PersonOptions::List(options::OptionList& option) {
       "mesh_frame", mesh_frame,
       "arm meshes point: segment (along y, as in the T-pose), link (along -z, as in the N-pose), "
       "auto (whichever of the two is the longer side of the mesh)");
+}
+
+std::optional<Rgb> ToBodyColor(const PersonOptions& person) {
+  const std::optional<Rgb>& color = *person.body_color;
+  const auto near = color ? FindNearClass(*color) : std::nullopt;
+  if (!near) return color;
+  throw UsageError(
+      fmt::format("--body_color={}: looks like the colour of the load class {} (CIEDE2000 {:.1f}, "
+                  "at least {} expected); the most similar colour that does not: {}",
+                  person.body_color.ToText(), Name(near->load_class), near->difference,
+                  kMinContrast, ToHex(NearestSafeColor(*color))));
 }
 
 BodyAppearance ToAppearance(const PersonOptions& person) {

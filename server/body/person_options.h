@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/suit_colors.h"
 #include "server/body/body_meshes.h"
 #include "server/body/hand_tools.h"
 #include "server/options/option_list.h"
@@ -32,6 +34,17 @@ class BodyModelValue : public options::ValueOf<BodyModelSource> {
   std::vector<std::filesystem::path> Files() const override;
 };
 
+/// suit or #RRGGBB.
+class BodyColorValue : public options::ValueOf<std::optional<Rgb>> {
+ public:
+  BodyColorValue() : ValueOf(std::nullopt) {}
+
+  void Parse(const std::string& text) override;
+  std::string ToText() const override { return value_ ? ToHex(*value_) : "suit"; }
+  std::string Expected() const override { return "suit or #RRGGBB"; }
+  std::vector<std::string> Names() const override { return {"suit"}; }
+};
+
 struct PersonOptions {
   PersonOptions();
 
@@ -41,6 +54,7 @@ struct PersonOptions {
   options::Choice<urdf::BodyTable> body_table;
   options::List<urdf::AddedMass> extra_mass;
   BodyModelValue body_model;
+  BodyColorValue body_color;
   ToolsValue tool;
   options::Choice<double> mesh_units;  // m
   options::Choice<bool> mesh_up;       // true: y
@@ -52,6 +66,8 @@ struct PersonOptions {
 
 /// @throws UsageError naming option, value and what was expected, where values do not fit together.
 urdf::BodyDescription ToBody(const PersonOptions& person);
+/// @throws UsageError for a colour that could be mistaken for that of a load class.
+std::optional<Rgb> ToBodyColor(const PersonOptions& person);
 /// Reads the meshes. @throws UsageError naming the file.
 BodyAppearance ToAppearance(const PersonOptions& person);
 

@@ -164,9 +164,14 @@ json VisualToJson(const urdf::Visual& visual, const std::string& mesh_url) {
   return entry;
 }
 
+std::string SkinUrl(const PersonState& person) {
+  return "/api/skin/" + std::to_string(person.character) + "/" +
+         std::to_string(person.model->revision);
+}
+
 // In the order of the streamed poses. Links that only carry a joint axis have no visuals and are
 // omitted.
-json LinksToJson(const PersonState& person) {
+json LinksToJson(const PersonState& person, bool is_skin) {
   const PersonModel& model = *person.model;
   json links = json::array();
   const std::vector<std::string> names = VisibleLinks(model.human);
@@ -182,8 +187,9 @@ json LinksToJson(const PersonState& person) {
       const std::string url = mesh_folder + std::to_string(mesh_number);
       mesh_number += IsMesh(visual) ? 1 : 0;
       if (found == names.end()) continue;
-      links[static_cast<std::size_t>(found - names.begin())]["visuals"].push_back(
-          VisualToJson(visual, url));
+      const auto place = static_cast<std::size_t>(found - names.begin());
+      if (is_skin && IsOfBody(model.human, place, visual)) continue;
+      links[place]["visuals"].push_back(VisualToJson(visual, url));
     }
   }
   return links;
@@ -226,18 +232,20 @@ std::string StateJson(const SceneState* state, std::int64_t now_nanos) {
                {"objects", std::move(objects)}});
 }
 
-std::string ModelJson(const SceneState* state) {
+std::string ModelJson(const SceneState* state, bool draws_skins) {
   json people = json::array();
   for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
     const PersonState& person = state->people[i];
     const urdf::BodyDescription& body = person.model->description;
+    const bool is_skin = draws_skins && person.model->has_built_in_surface;
     people.push_back({{"character", person.character},
                       {"name", person.name},
                       {"revision", person.model->revision},
                       {"height_m", person.model->human.skeleton.height},
                       {"mass_kg", body.mass_kg},
                       {"mass_is_assumed", body.mass_is_assumed},
-                      {"links", LinksToJson(person)}});
+                      {"skin", is_skin ? json(SkinUrl(person)) : json(nullptr)},
+                      {"links", LinksToJson(person, is_skin)}});
   }
   json joints = json::array();
   for (const urdf::JointInfo& joint : urdf::kJoints) {
@@ -273,7 +281,8 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFram
                 {{"min_width_m", framing.min_width_m},
                  {"margin_m", framing.margin_m},
                  {"narrowest_aspect", framing.narrowest_aspect},
-                 {"reach_m", framing.reach_m}}},
+                 {"reach_m", framing.reach_m},
+                 {"height_m", framing.height_m}}},
                {"live", live_camera},
                {"has_pictures", has_pictures}});
 }
@@ -324,6 +333,16 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
                  {"people", std::move(people)},
                  {"objects", std::move(objects)},
                  {"left_out", std::move(left_out)}}}});
+}
+
+std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,
+                                                     std::uint64_t revision) {
+  for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
+    const PersonState& person = state->people[i];
+    if (person.character != character || person.model->revision != revision) continue;
+    return person.model->has_built_in_surface ? person.model : nullptr;
+  }
+  return nullptr;
 }
 
 std::shared_ptr<const std::string> FindMesh(const SceneState* state, int character,

@@ -18,8 +18,10 @@ namespace kinescope::http {
 std::string StateJson(const SceneState* state, std::int64_t now_nanos);
 
 /// /api/model: the data needed to render each person at the streamed link poses, and the names and
-/// colours that the page shows. Meshes are given by their URL on this server.
-std::string ModelJson(const SceneState* state);
+/// colours that the page shows. Skins and meshes are given by their URL on this server.
+/// `draws_skins`: people with the built-in surface are a skin, and have no parts but what they hold
+/// and wear.
+std::string ModelJson(const SceneState* state, bool draws_skins);
 
 /// /api/cameras.
 std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFraming& framing,
@@ -28,6 +30,11 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFram
 /// The WebSocket message "details": texts and values that change seldom. Equal inputs give equal
 /// text.
 std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures);
+
+/// The person's model for /api/skin/<person>/<revision>. Null unless the revision is the current
+/// one and the model has a skin.
+std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,
+                                                     std::uint64_t revision);
 
 /// The STL file for /api/mesh/<person>/<revision>/<n>: the n-th mesh visual of that person's model,
 /// from memory. Null unless it is one of the model's own meshes and the revision is the current

@@ -9,6 +9,7 @@
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "core/person_links.h"
+#include "core/person_outline.h"
 #include "core/system/check.h"
 #include "core/system/json_text.h"
 
@@ -88,7 +89,7 @@ void PutObject(Writer& out, const TrackedObject& object) {
   PutPose(out, object.pose);
 }
 
-void PutPerson(Writer& out, const PersonState& person) {
+void PutPerson(Writer& out, const PersonState& person, double floor_z) {
   KINESCOPE_CHECK(person.model != nullptr);
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const BodyForces& forces = person.forces;
@@ -114,7 +115,7 @@ void PutPerson(Writer& out, const PersonState& person) {
   for (const HandForce& hand : forces.hands) out.PutFloat(hand.mass_kg);
   out.Put(CountByte(forces.support.size));
   out.Put(static_cast<std::uint8_t>(forces.metric));
-  out.Put(std::uint16_t{0});
+  out.Put(static_cast<std::uint16_t>(std::lround(1000 * HeightFor(person, floor_z))));
   for (const urdf::Pose& link : links) PutPose(out, link);
   const double height = person.model->human.skeleton.height;
   for (std::size_t i = 0; i < loads; ++i) PutLoad(out, person.loads[i], height);
@@ -157,7 +158,7 @@ Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) 
   out.Put(std::uint8_t{0});
   out.Put(WaitedUnits(state.waited_nanos));
   KINESCOPE_CHECK(out.size() == kStateHeaderBytes);
-  for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i]);
+  for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i], state.floor_z);
   for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);
   return out.Take();
 }

@@ -1,6 +1,7 @@
 #include "server/http/router.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -35,6 +36,42 @@ std::optional<Number> ParseNumber(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+// The numbers of "<route>1/2/3"; nullopt unless there are exactly `kCount`.
+template <std::size_t kCount>
+std::optional<std::array<std::uint64_t, kCount>> NumbersOf(std::string_view path,
+                                                           std::string_view route) {
+  std::array<std::uint64_t, kCount> numbers{};
+  std::string_view rest = path.substr(route.size());
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const std::size_t slash = rest.find('/');
+    const bool is_last = i + 1 == kCount;
+    const auto number = ParseNumber<std::uint64_t>(rest.substr(0, slash));
+    if (!number || is_last != (slash == std::string_view::npos)) return std::nullopt;
+    numbers[i] = *number;
+    if (!is_last) rest.remove_prefix(slash + 1);
+  }
+  return numbers;
+}
+
+int ToCharacter(std::uint64_t number) {
+  return static_cast<int>(std::min<std::uint64_t>(number, INT32_MAX));
+}
+
+// Another process of this server has other bodies at the same addresses, so browsers ask again.
+Answer AnswerOfModel(const std::string& content, const char* type, const Request& request) {
+  Answer answer;
+  answer.content_type = type;
+  const std::string tag = EntityTagOf(content);
+  answer.headers.emplace_back("Cache-Control", "no-cache");
+  answer.headers.emplace_back("ETag", tag);
+  if (request.if_none_match == tag) {
+    answer.status = 304;
+  } else {
+    answer.body = content;
+  }
+  return answer;
 }
 
 Answer JsonAnswer(std::string body) {
@@ -205,6 +242,7 @@ Answer Router::RouteAdmitted(const Target& target, const Request& request) const
   }
   if (target.path == kSnapshotPath) return Snapshot(target);
   if (StartsWith(target.path, "/api/mesh/")) return Mesh(target.path, request);
+  if (StartsWith(target.path, "/api/skin/")) return Skin(target.path, request);
   if (StartsWith(target.path, "/api/")) {
     return Refuse(404, "unknown address", "unknown route; expected one of " + ApiPaths());
   }
@@ -216,7 +254,7 @@ Answer Router::State(const Request& /*request*/) const {
 }
 
 Answer Router::Model(const Request& /*request*/) const {
-  return JsonAnswer(ModelJson(site_.states->Get().get()));
+  return JsonAnswer(ModelJson(site_.states->Get().get(), site_.draws_skins));
 }
 
 Answer Router::Diagnostics(const Request& /*request*/) const {
@@ -268,35 +306,29 @@ Answer Router::SetHandLoad(const Request& request) const {
 }
 
 Answer Router::Mesh(const std::string& path, const Request& request) const {
-  std::string_view rest = std::string_view(path).substr(std::string_view("/api/mesh/").size());
-  std::vector<std::optional<std::uint64_t>> numbers;
-  while (numbers.size() < 4) {
-    const std::size_t slash = rest.find('/');
-    numbers.push_back(ParseNumber<std::uint64_t>(rest.substr(0, slash)));
-    if (slash == std::string_view::npos) break;
-    rest.remove_prefix(slash + 1);
-  }
-  if (numbers.size() != 3 || !numbers[0] || !numbers[1] || !numbers[2]) {
+  const auto numbers = NumbersOf<3>(path, "/api/mesh/");
+  if (!numbers) {
     return Refuse(404, "unknown address", "expected /api/mesh/<person>/<revision>/<n>");
   }
+  const auto [person, revision, n] = *numbers;
   const std::shared_ptr<const SceneState> state = site_.states->Get();
-  const auto person = static_cast<int>(std::min<std::uint64_t>(*numbers[0], INT32_MAX));
-  const auto mesh = FindMesh(state.get(), person, *numbers[1], *numbers[2]);
+  const auto mesh = FindMesh(state.get(), ToCharacter(person), revision, n);
   if (!mesh || mesh->size() > kMaxMeshBytes) {
     return Refuse(404, "no such mesh", "the newest model does not contain this STL file");
   }
-  Answer answer;
-  answer.content_type = "model/stl";
-  // Another process of this server has other bodies at the same addresses, so browsers ask again.
-  const std::string tag = EntityTagOf(*mesh);
-  answer.headers.emplace_back("Cache-Control", "no-cache");
-  answer.headers.emplace_back("ETag", tag);
-  if (request.if_none_match == tag) {
-    answer.status = 304;
-  } else {
-    answer.body = *mesh;
+  return AnswerOfModel(*mesh, "model/stl", request);
+}
+
+Answer Router::Skin(const std::string& path, const Request& request) const {
+  const auto numbers = NumbersOf<2>(path, "/api/skin/");
+  if (!numbers) return Refuse(404, "unknown address", "expected /api/skin/<person>/<revision>");
+  const auto [person, revision] = *numbers;
+  const std::shared_ptr<const SceneState> state = site_.states->Get();
+  const auto model = FindModelWithSkin(state.get(), ToCharacter(person), revision);
+  if (!model) {
+    return Refuse(404, "no such skin", "this is not the newest model, or it is made of parts");
   }
-  return answer;
+  return AnswerOfModel(*skins_.Of(model), "application/octet-stream", request);
 }
 
 Answer Router::Snapshot(const Target& target) const {

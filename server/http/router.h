@@ -16,6 +16,7 @@
 #include "server/http/answer.h"
 #include "server/http/guess_guard.h"
 #include "server/http/server.h"
+#include "server/http/skin_buffer.h"
 #include "server/http/static_files.h"
 #include "server/http/target.h"
 
@@ -29,6 +30,7 @@ class Router {
     std::vector<CameraView> cameras;
     CameraFraming framing;
     bool has_pictures = false;
+    bool draws_skins = false;
     const StaticFiles* files = nullptr;
     const Latest<SceneState>* states = nullptr;
     std::function<std::string(int character, const HandLoad&)> set_hand_load;  // may be null
@@ -77,10 +79,12 @@ class Router {
   Answer Cameras(const Request& request) const;
   Answer SetHandLoad(const Request& request) const;
   Answer Mesh(const std::string& path, const Request& request) const;
+  Answer Skin(const std::string& path, const Request& request) const;
   Answer Snapshot(const Target& target) const;
   Answer File(const std::string& path, const Request& request) const;
 
   Site site_;
+  mutable SkinBuffers skins_;
 };
 
 }  // namespace kinescope::http

@@ -207,6 +207,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.cameras = config_.cameras;
   site.framing = config_.framing;
   site.has_pictures = feed_ != nullptr;
+  site.draws_skins = config_.draws_skins;
   site.files = &files_;
   site.states = &states_;
   site.set_hand_load = config_.set_hand_load;

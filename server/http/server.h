@@ -42,6 +42,7 @@ struct CameraFraming {
   double margin_m = 0;          // beside the outermost person of a group
   double narrowest_aspect = 1;  // width / height of a picture that a group must fit into
   double reach_m = 0;           // of a group, from the person nearest to the origin
+  double height_m = 0;          // that `cameras` show
 };
 
 /// Renders for the server. Implemented in server/app; any thread may call it. SetViewers and
@@ -79,6 +80,7 @@ struct HttpConfig {
   std::filesystem::path web_root;        // folder with index.html
   std::vector<CameraView> cameras;       // in display order
   CameraFraming framing;                 // of `cameras`
+  bool draws_skins = true;               // people with the built-in surface, on the page
   std::string camera;                    // of the live picture at the start; one of `cameras`
   /// Sets the hand load of `character`: returns "" or why it is rejected. Called on the server's
   /// thread, must return at once. Null: hand loads cannot be set over HTTP.

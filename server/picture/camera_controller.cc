@@ -22,9 +22,16 @@ double ShareGone(double dt_secs, double lag_secs) {
   return lag_secs > 0 ? 1 - std::exp(-std::max(0.0, dt_secs) / lag_secs) : 1;
 }
 
+std::vector<Ball> ShownBalls(const SceneState& state, const std::vector<Ball>& beside) {
+  std::vector<Ball> balls = render::BallsOf(state);
+  balls.insert(balls.end(), beside.begin(), beside.end());
+  return balls;
+}
+
 }  // namespace
 
-CameraController::CameraController(const CameraChoice& camera, const CameraOptions& options)
+CameraController::CameraController(const CameraChoice& camera, const CameraOptions& options,
+                                   Fit fit)
     : camera_(camera.text),
       place_(camera.place),
       is_orthographic_(*options.projection),
@@ -38,6 +45,8 @@ CameraController::CameraController(const CameraChoice& camera, const CameraOptio
     if (place_) place_->vertical_fov_rad = *fov_rad_;
   }
   if (options.follow) follow_secs_ = *options.follow;
+  holds_height_ = fit_ == Fit::kAuto && fit == Fit::kOff && IsNamed();
+  if (fit_ == Fit::kAuto) fit_ = IsNamed() ? fit : Fit::kOff;
   if (fit_ != Fit::kOff && !keys_.empty()) {
     throw UsageError("--fit=" + options.fit.ToText() +
                      ": the file of keys sets the camera's position; leave one of them out");
@@ -49,11 +58,18 @@ std::string CameraController::name() const {
   return keys_.empty() ? camera_ : std::filesystem::path(camera_).filename().string();
 }
 
-void CameraController::Prescan(const SceneState& state) {
+void CameraController::Prescan(const SceneState& state, const std::vector<Ball>& beside) {
   if (!prescan_start_nanos_) prescan_start_nanos_ = state.stamp_nanos;
-  clip_secs_ = std::max(clip_secs_, SecsBetween(*prescan_start_nanos_, state.stamp_nanos));
-  const Eigen::AlignedBox3d box = render::BoxOf(state);
-  if (!box.isEmpty()) clip_box_.extend(box);
+  const double secs = SecsBetween(*prescan_start_nanos_, state.stamp_nanos);
+  clip_secs_ = std::max(clip_secs_, secs);
+  constexpr double kInterval = 1.0 / 30;  // s, in which nothing moves far
+  if (fit_ != Fit::kClip || secs < next_prescan_secs_) return;
+  next_prescan_secs_ = secs + kInterval;
+  const Eigen::Vector3d middle = prescan_follower_.Follow(state, secs, follow_secs_).middle;
+  for (const Ball& ball : ShownBalls(state, beside)) {
+    clip_.Add(ball);
+    clip_around_people_.Add({ball.center - middle, ball.radius});
+  }
 }
 
 // Turned with the person; -0 would change the last bits of a camera that is not.
@@ -83,18 +99,33 @@ render::Camera CameraController::Placed(const SceneState& state, const render::G
   return is_of_robots ? render::NamedCamera(camera_, state) : NamedAt(camera_, ground);
 }
 
+// It stands still unless people would be much smaller for it; then it goes with them.
+render::Camera CameraController::ForClip(const render::Camera& camera,
+                                         const render::GroundExtent& ground, double aspect) const {
+  constexpr double kMuchSmaller = 1.3;
+  const render::Camera still = render::Framing(camera, clip_.balls(), aspect, free_area_);
+  render::Camera with_people =
+      render::Framing(camera, clip_around_people_.balls(), aspect, free_area_);
+  if (render::ShownHeight(still) < kMuchSmaller * render::ShownHeight(with_people)) return still;
+  with_people.position += ground.middle;
+  with_people.target += ground.middle;
+  return with_people;
+}
+
 // With lens, turn and frame, which are the same for all.
-render::Camera CameraController::Finished(render::Camera camera, const SceneState& state,
-                                          double secs, double aspect) const {
+render::Camera CameraController::Finished(render::Camera camera, const render::GroundExtent& ground,
+                                          const SceneState& state, double secs, double aspect,
+                                          const std::vector<Ball>& beside) const {
   if (fov_rad_ && IsNamed()) camera = render::WithFov(camera, *fov_rad_);
   if (is_orthographic_) camera = render::Orthographic(camera);
   const double turn_rate =
       is_one_turn_ && clip_secs_ > 0 ? 2 * M_PI / clip_secs_ : orbit_rad_per_sec_;
   if (turn_rate != 0) camera = render::Turned(camera, turn_rate * secs);
-  const Eigen::AlignedBox3d box = fit_ == Fit::kNow    ? render::BoxOf(state)
-                                  : fit_ == Fit::kClip ? clip_box_
-                                                       : Eigen::AlignedBox3d();
-  if (!box.isEmpty()) return render::Framing(camera, box, aspect);
+  if (fit_ == Fit::kClip && !clip_.balls().empty()) return ForClip(camera, ground, aspect);
+  if (fit_ == Fit::kNow) {
+    const std::vector<Ball> shown = ShownBalls(state, beside);
+    if (!shown.empty()) return render::Framing(camera, shown, aspect, free_area_);
+  }
   // A given position or lens is kept; a named camera keeps the person in the picture.
   return IsNamed() ? render::ForAspect(camera, aspect) : camera;
 }
@@ -108,19 +139,21 @@ double CameraController::SecsOf(const SceneState& state) {
   return start_nanos_ ? std::max(0.0, SecsBetween(*start_nanos_, state.stamp_nanos)) : 0;
 }
 
-const render::GroundExtent& CameraController::Follow(const SceneState& state, double secs) {
+const render::GroundExtent& CameraController::Follower::Follow(const SceneState& state, double secs,
+                                                               std::optional<double> lag_secs) {
+  if (!lag_secs) return steady.Follow(state);
   const render::GroundExtent now = render::GroundExtentOf(state);
-  if (!has_met_) {
-    has_met_ = !state.people.empty();
-    followed_ = now;
-    first_middle_ = now.middle;
+  if (!has_met) {
+    has_met = !state.people.empty();
+    followed = now;
+    first_middle = now.middle;
   } else if (!state.people.empty()) {
-    const double share = ShareGone(secs - followed_at_secs_, *follow_secs_);
-    followed_.middle += share * (now.middle - followed_.middle);
-    followed_.radius += share * (now.radius - followed_.radius);
+    const double share = ShareGone(secs - at_secs, *lag_secs);
+    followed.middle += share * (now.middle - followed.middle);
+    followed.radius += share * (now.radius - followed.radius);
   }
-  followed_at_secs_ = secs;
-  return followed_;
+  at_secs = secs;
+  return followed;
 }
 
 // In CameraFrame::kPerson with a lag, so that a turning person does not throw the picture about.
@@ -145,38 +178,58 @@ void CameraController::FollowHeading(const SceneState& state, double secs, Camer
 }
 
 render::Camera CameraController::AimAt(const render::GroundExtent& ground, const SceneState& state,
-                                       double secs, double aspect) const {
+                                       double secs, double aspect,
+                                       const std::vector<Ball>& beside) const {
   render::Camera camera = Placed(state, ground, secs);
   if (place_ && follow_secs_) {
-    const Eigen::Vector3d shift = ground.middle - first_middle_;
+    const Eigen::Vector3d shift = ground.middle - follower_.first_middle;
     camera.position += shift;
     camera.target += shift;
   }
-  return Finished(camera, state, secs, aspect);
+  return Finished(camera, ground, state, secs, aspect, beside);
 }
 
-render::Camera CameraController::Aim(const SceneState& state, double aspect) {
+// m, of what the picture shows.
+double CameraController::HeldHeight(const SceneState& state, double secs) {
+  return holds_height_ ? held_height_.Follow(render::NeededHeight(state), secs)
+                       : render::kGroupFraming.height_m;
+}
+
+render::Camera CameraController::Aim(const SceneState& state, double aspect,
+                                     const std::vector<Ball>& beside) {
   const double secs = SecsOf(state);
   FollowHeading(state, secs, frame_.value_or(CameraFrame::kStart));
-  return AimAt(follow_secs_ ? Follow(state, secs) : steady_.Follow(state), state, secs, aspect);
+  render::GroundExtent ground = follower_.Follow(state, secs, follow_secs_);
+  ground.height = HeldHeight(state, secs);
+  return AimAt(ground, state, secs, aspect, beside);
 }
 
 render::Camera CameraController::AimLive(const SceneState& state, double live_aspect,
                                          double aspect) {
   const double secs = SecsOf(state);
+  const double height = HeldHeight(state, secs);
   // The page and RViz show the world's views.
   FollowHeading(state, secs, frame_.value_or(CameraFrame::kWorld));
-  if (follow_secs_) return AimAt(Follow(state, secs), state, secs, aspect);
-  const render::GroundExtent& held = held_.Follow(state, secs, live_aspect);
-  return AimAt(aspect < live_aspect ? render::GroundExtentOf(state) : held, state, secs, aspect);
+  if (follow_secs_) {
+    render::GroundExtent followed = follower_.Follow(state, secs, follow_secs_);
+    followed.height = height;
+    return AimAt(followed, state, secs, aspect, {});
+  }
+  const render::GroundExtent& held = held_.Follow(state, secs, live_aspect, height);
+  if (aspect >= live_aspect) return AimAt(held, state, secs, aspect, {});
+  render::GroundExtent around = render::GroundExtentOf(state);
+  around.height = height;
+  return AimAt(around, state, secs, aspect, {});
 }
 
-render::Camera CameraController::Only(const SceneState& state, double secs, double aspect) const {
+render::Camera CameraController::Only(const SceneState& state, double secs, double aspect,
+                                      const std::vector<Ball>& beside) const {
   CameraController alone = *this;
   alone.heading_rad_.reset();
   alone.FollowHeading(state, secs, frame_.value_or(CameraFrame::kStart));
-  return alone.Finished(alone.Placed(state, render::GroundExtentOf(state), secs), state, secs,
-                        aspect);
+  render::GroundExtent ground = render::GroundExtentOf(state);
+  if (holds_height_) ground.height = render::NeededHeight(state);
+  return alone.Finished(alone.Placed(state, ground, secs), ground, state, secs, aspect, beside);
 }
 
 }  // namespace kinescope::app

@@ -2,7 +2,7 @@
 /// besides (turning, following, framing). One thread.
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,7 +10,9 @@
 
 #include "core/scene_state.h"
 #include "render/camera/camera.h"
+#include "render/camera/framing.h"
 #include "render/camera/held_extent.h"
+#include "render/camera/held_height.h"
 #include "server/picture/camera_keys.h"
 #include "server/picture/camera_options.h"
 
@@ -18,14 +20,19 @@ namespace kinescope::app {
 
 class CameraController {
  public:
+  /// `fit`: what Fit::kAuto means for a named camera; given places and paths are kept.
   /// @throws UsageError naming the file of keys and what is wrong in it, or options that do not fit
   /// together.
-  CameraController(const CameraChoice& camera, const CameraOptions& options);
+  CameraController(const CameraChoice& camera, const CameraOptions& options, Fit fit = Fit::kOff);
+
+  /// Where the pictures have room for people; without it: everywhere.
+  void SetFreeArea(const render::FreeArea& area) { free_area_ = area; }
 
   /// Whether Aim needs to know the whole clip before its first picture.
   bool needs_prescan() const { return fit_ == Fit::kClip || is_one_turn_; }
-  /// Once for every scene of the clip, in order, before the first Aim.
-  void Prescan(const SceneState& state);
+  /// Once for every scene of the clip, in order, before the first Aim. `beside`: what is shown
+  /// besides the scene.
+  void Prescan(const SceneState& state, const std::vector<Ball>& beside = {});
 
   /// Time begins with the first state that has a stamp and was passed to this function or to Aim.
   /// Call it for every state of a live source, so that time runs while no pictures are taken.
@@ -33,7 +40,7 @@ class CameraController {
 
   /// Once per picture of a clip, in order. Time is that of the states' stamps.
   /// @param aspect width / height of the picture
-  render::Camera Aim(const SceneState& state, double aspect);
+  render::Camera Aim(const SceneState& state, double aspect, const std::vector<Ball>& beside = {});
 
   /// The same for live pictures, whose future is not known: the camera stands still as long as it
   /// can (HeldGroundExtent). A narrower picture than the live one, which would lack who is at its
@@ -42,22 +49,38 @@ class CameraController {
   render::Camera AimLive(const SceneState& state, double live_aspect, double aspect);
 
   /// For one picture alone, `secs` after the clip's start: nothing lags.
-  render::Camera Only(const SceneState& state, double secs, double aspect) const;
+  render::Camera Only(const SceneState& state, double secs, double aspect,
+                      const std::vector<Ball>& beside = {}) const;
 
   /// "front"; of fixed places and paths: "" and the file's name.
   std::string name() const;
 
  private:
+  // What the camera is aimed at, scene after scene.
+  struct Follower {
+    render::SmoothedGroundExtent steady;
+    render::GroundExtent followed;  // where the lagging camera is
+    bool has_met = false;           // a person to follow
+    Eigen::Vector3d first_middle = Eigen::Vector3d::Zero();
+    double at_secs = 0;
+
+    const render::GroundExtent& Follow(const SceneState& state, double secs,
+                                       std::optional<double> lag_secs);
+  };
+
   bool IsNamed() const { return !place_ && keys_.empty(); }
   render::Camera NamedAt(const std::string& name, const render::GroundExtent& ground) const;
   render::Camera Placed(const SceneState& state, const render::GroundExtent& ground,
                         double secs) const;
-  render::Camera Finished(render::Camera camera, const SceneState& state, double secs,
-                          double aspect) const;
+  render::Camera Finished(render::Camera camera, const render::GroundExtent& ground,
+                          const SceneState& state, double secs, double aspect,
+                          const std::vector<Ball>& beside) const;
+  render::Camera ForClip(const render::Camera& camera, const render::GroundExtent& ground,
+                         double aspect) const;
   render::Camera AimAt(const render::GroundExtent& ground, const SceneState& state, double secs,
-                       double aspect) const;
+                       double aspect, const std::vector<Ball>& beside) const;
   double SecsOf(const SceneState& state);
-  const render::GroundExtent& Follow(const SceneState& state, double secs);
+  double HeldHeight(const SceneState& state, double secs);
   void FollowHeading(const SceneState& state, double secs, CameraFrame frame);
 
   std::string camera_;
@@ -67,19 +90,19 @@ class CameraController {
   std::optional<double> fov_rad_, follow_secs_;
   double orbit_rad_per_sec_ = 0;
   Fit fit_ = Fit::kOff;
+  bool holds_height_ = false;  // of an automatic fit whose future is not known
+  render::FreeArea free_area_;
   std::optional<CameraFrame> frame_;
   // Of the prescan:
-  Eigen::AlignedBox3d clip_box_;
+  Follower prescan_follower_;
+  render::BallHull clip_, clip_around_people_;  // world; relative to what the camera follows
   std::optional<std::int64_t> prescan_start_nanos_;
-  double clip_secs_ = 0;
+  double clip_secs_ = 0, next_prescan_secs_ = 0;
   // Of the pictures so far:
   std::optional<std::int64_t> start_nanos_;
-  render::SmoothedGroundExtent steady_;
+  Follower follower_;
   render::HeldGroundExtent held_;
-  render::GroundExtent followed_;  // where the lagging camera is
-  bool has_met_ = false;           // a person to follow
-  Eigen::Vector3d first_middle_ = Eigen::Vector3d::Zero();
-  double followed_at_secs_ = 0;
+  render::HeldHeight held_height_;
   std::optional<double> heading_rad_;  // by which named cameras are turned
   double heading_at_secs_ = 0;
 };

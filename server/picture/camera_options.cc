@@ -99,7 +99,8 @@ CameraOptions::CameraOptions()
     : projection({{"perspective", false}, {"orthographic", true}}, false),
       fov(Number(30, {1, 150, "degrees"})),
       follow(Number(0, {0, 60, "s"})),
-      fit({{"off", Fit::kOff}, {"now", Fit::kNow}, {"clip", Fit::kClip}}, Fit::kOff),
+      fit({{"auto", Fit::kAuto}, {"off", Fit::kOff}, {"now", Fit::kNow}, {"clip", Fit::kClip}},
+          Fit::kAuto),
       camera_frame(options::Choice<CameraFrame>({{"start", CameraFrame::kStart},
                                                  {"person", CameraFrame::kPerson},
                                                  {"world", CameraFrame::kWorld}},
@@ -117,10 +118,12 @@ void CameraOptions::List(options::OptionList& option) {
          "what named cameras are turned with, so that front sees the face: start (the first "
          "person's heading at the first picture), person (in each picture) or world; not given: "
          "start, but world in live pictures");
-  option(
-      "fit", fit,
-      "field of view in which everything shown fills the picture: off, now (chosen anew for each "
-      "picture) or clip (one for the whole clip)");
+  option("fit", fit,
+         "how close a named camera comes, so that everything shown fills the free part of the "
+         "picture: "
+         "now (chosen anew for each picture), clip (one for the whole clip; it stands still unless "
+         "the "
+         "people go far), off, or auto: now for stills, clip for clips of recordings, else off");
 }
 
 }  // namespace kinescope::app

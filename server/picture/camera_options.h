@@ -53,7 +53,7 @@ class OrbitValue : public options::ValueOf<Orbit> {
   std::vector<std::string> Names() const override { return {"turn"}; }
 };
 
-enum class Fit { kOff, kNow, kClip };
+enum class Fit { kAuto, kOff, kNow, kClip };
 
 /// What the named cameras are turned with: "front" sees the person's face, or looks along the
 /// world's x axis.

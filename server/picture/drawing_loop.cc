@@ -155,7 +155,8 @@ void DrawingLoop::DrawLive(std::unique_lock<std::mutex>& lock) {
   // neither after a pause nor after a picture that came late.
   next_live_ = begin + period_;
   const std::shared_ptr<const SceneState> state = state_;
-  const render::PictureSpec view = LiveView(settings_.width, settings_.height);
+  render::PictureSpec view = LiveView(settings_.width, settings_.height);
+  view.look.figure = settings_.figure;
   const render::Camera camera = camera_.AimLive(*state, LiveAspect(), LiveAspect());
   lock.unlock();
   std::string error;
@@ -186,6 +187,7 @@ void DrawingLoop::DrawOrder(std::unique_lock<std::mutex>& lock) {
   Order order = std::move(orders_.front());
   orders_.pop_front();
   in_hand_ = std::move(order.picture);
+  order.view.look.figure = settings_.figure;
   const std::shared_ptr<const SceneState> state = state_;
   const double aspect = AspectOf(order.view);
   std::optional<render::Camera> camera;

@@ -28,7 +28,8 @@ struct DrawingSettings {
   std::string name = "picture";  // begins the lines in the log
   int width = 1280;              // of the live picture, px
   int height = 720;
-  double rate_hz = 30;  // maximum frame rate of the live picture
+  double rate_hz = 30;                                 // maximum frame rate of the live picture
+  render::Figure figure = render::SceneLook().figure;  // of all pictures
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 

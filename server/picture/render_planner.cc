@@ -6,18 +6,19 @@
 #include "core/system/clocks.h"
 #include "core/system/stop_signal.h"
 #include "render/multi_view.h"
+#include "render/overlay_free_area.h"
 
 namespace kinescope::app {
 namespace {
 
 constexpr double kWindowSecs = 10;  // of a plot without a prescan
 
-std::vector<CameraController> CamerasOf(const ViewOptions& options, const ViewGrid& grid) {
+std::vector<CameraController> CamerasOf(const ViewOptions& options, const ViewGrid& grid, Fit fit) {
   const CameraChoice& given = options.camera->front();
-  if (grid.cameras.empty()) return {CameraController(given, options.moves)};
+  if (grid.cameras.empty()) return {CameraController(given, options.moves, fit)};
   std::vector<CameraController> cameras;
   for (const std::string& camera : grid.cameras) {
-    cameras.emplace_back(camera == "camera" ? given : ParseCamera(camera), options.moves);
+    cameras.emplace_back(camera == "camera" ? given : ParseCamera(camera), options.moves, fit);
   }
   return cameras;
 }
@@ -33,12 +34,12 @@ RenderPlanner::RenderPlanner(const ViewOptions& options, const BackendOptions& b
                              const SceneOptions& people)
     : RenderPlanner(options, SceneAdditions(options, backend, people)) {}
 
-RenderPlanner::RenderPlanner(const ViewOptions& options, SceneAdditions additions)
+RenderPlanner::RenderPlanner(const ViewOptions& options, SceneAdditions additions, Fit fit)
     : spec_(ToPictureSpec(options)), additions_(std::move(additions)), loads_(*options.plot) {
   const ViewGrid& grid = *options.views;
-  cameras_ = CamerasOf(options, grid);
+  cameras_ = CamerasOf(options, grid, fit);
   if (grid.cameras.empty()) {
-    aspects_ = {static_cast<double>(spec_.width) / spec_.height};
+    SetViews({{0, 0, spec_.width, spec_.height}}, options.plot->size());
     return;
   }
   spec_.pane_columns = grid.columns;
@@ -47,9 +48,16 @@ RenderPlanner::RenderPlanner(const ViewOptions& options, SceneAdditions addition
     std::replace(name.begin(), name.end(), '_', ' ');
     spec_.panes.push_back({name, {}});
   }
-  for (const render::Tile& tile : render::PaneTiles(
-           spec_.width, spec_.height, static_cast<int>(cameras_.size()), spec_.pane_columns)) {
-    aspects_.push_back(static_cast<double>(tile.width) / tile.height);
+  SetViews(render::PaneTiles(spec_.width, spec_.height, static_cast<int>(cameras_.size()),
+                             spec_.pane_columns),
+           options.plot->size());
+}
+
+void RenderPlanner::SetViews(const std::vector<render::Tile>& views, std::size_t curves) {
+  const std::vector<render::FreeArea> areas = render::FreeAreasOf(spec_, views, curves);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    aspects_.push_back(static_cast<double>(views[i].width) / views[i].height);
+    cameras_[i].SetFreeArea(areas[i]);
   }
 }
 
@@ -60,7 +68,8 @@ bool RenderPlanner::needs_prescan() const {
 }
 
 void RenderPlanner::Prescan(const SceneState& state) {
-  for (CameraController& camera : cameras_) camera.Prescan(state);
+  const std::vector<Ball> beside = additions_.BallsBeside(state);
+  for (CameraController& camera : cameras_) camera.Prescan(state, beside);
   if (!loads_.is_empty()) loads_.Add(state, SecsSince(prescan_start_nanos_, state));
 }
 
@@ -78,9 +87,10 @@ RenderRequest RenderPlanner::With(SceneState state, std::vector<render::Camera> 
 RenderRequest RenderPlanner::Next(SceneState state) {
   const double secs = SecsSince(start_nanos_, state);
   additions_.Remember(state);
+  const std::vector<Ball> beside = additions_.BallsBeside(state);
   std::vector<render::Camera> cameras;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    cameras.push_back(cameras_[i].Aim(state, aspects_[i]));
+    cameras.push_back(cameras_[i].Aim(state, aspects_[i], beside));
   }
   if (loads_.is_empty()) return With(std::move(state), std::move(cameras), secs, additions_);
   std::shared_ptr<const render::LoadCurves> curves;
@@ -97,9 +107,10 @@ RenderRequest RenderPlanner::Next(SceneState state) {
 }
 
 RenderRequest RenderPlanner::Only(SceneState state, double secs) const {
+  const std::vector<Ball> beside = additions_.BallsBeside(state);
   std::vector<render::Camera> cameras;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    cameras.push_back(cameras_[i].Only(state, secs, aspects_[i]));
+    cameras.push_back(cameras_[i].Only(state, secs, aspects_[i], beside));
   }
   PlotBuffer loads = loads_;
   if (!prescan_start_nanos_) loads.Add(state, secs);

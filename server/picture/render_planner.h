@@ -4,6 +4,7 @@
 /// is a value for any thread.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 
 #include "core/scene_state.h"
 #include "render/camera/camera.h"
+#include "render/camera/tile.h"
 #include "render/renderer.h"
 #include "server/picture/camera_controller.h"
 #include "server/picture/plot_buffer.h"
@@ -37,7 +39,8 @@ class RenderPlanner {
   explicit RenderPlanner(const ViewOptions& options, const BackendOptions& backend = {},
                          const SceneOptions& people = {});
   /// With `additions` shared by several planners, so that files are read and robots measured once.
-  RenderPlanner(const ViewOptions& options, SceneAdditions additions);
+  /// `fit`: what --fit=auto means.
+  RenderPlanner(const ViewOptions& options, SceneAdditions additions, Fit fit = Fit::kNow);
 
   /// Whether the first picture requires the whole clip: one revolution over the clip, a frame
   /// around all of it, a plot of all of it. Without a first pass they use the available data: no
@@ -61,6 +64,7 @@ class RenderPlanner {
   const render::PictureSpec& spec() const { return spec_; }
 
  private:
+  void SetViews(const std::vector<render::Tile>& views, std::size_t curves);
   RenderRequest With(SceneState state, std::vector<render::Camera> cameras, double secs,
                      const SceneAdditions& additions) const;
 

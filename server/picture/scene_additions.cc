@@ -55,7 +55,18 @@ SceneAdditions::SceneAdditions(const ViewOptions& options, const BackendOptions&
 void SceneAdditions::AddTo(SceneState& state, render::SceneLook& look) const {
   look.trails = trails_.Make();
   look.ghosts = ghost_.Make(state);
-  const Eigen::Vector3d up(0, 0, state.floor_z);
+  AddRobotsTo(state, state.floor_z);
+}
+
+std::vector<Ball> SceneAdditions::BallsBeside(const SceneState& state) const {
+  SceneState beside;
+  for (render::Ghost& ghost : ghost_.Make(state)) beside.people.push_back(std::move(ghost.person));
+  AddRobotsTo(beside, state.floor_z);
+  return render::BallsOf(beside);
+}
+
+void SceneAdditions::AddRobotsTo(SceneState& state, double floor_z) const {
+  const Eigen::Vector3d up(0, 0, floor_z);
   for (const RobotState& robot : robots_) {
     state.robots.push_back(robot);
     for (Eigen::Isometry3d& link : state.robots.back().world_from_link) link.pretranslate(up);

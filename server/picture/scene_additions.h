@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "render/camera/framing.h"
 #include "render/scene_look.h"
 #include "server/picture/backend.h"
 #include "server/picture/ghost_pose.h"
@@ -29,10 +30,15 @@ class SceneAdditions {
   /// Adds the next scene, whether or not it becomes a picture.
   void Remember(const SceneState& state) { trails_.Remember(state); }
 
+  /// What AddTo() adds beside the people of `state`, for the camera.
+  std::vector<Ball> BallsBeside(const SceneState& state) const;
+
   /// Adds robots to `state` and the rest to `look`; `state` is the last one passed to Remember.
   void AddTo(SceneState& state, render::SceneLook& look) const;
 
  private:
+  void AddRobotsTo(SceneState& state, double floor_z) const;
+
   Trails trails_;
   GhostPose ghost_;
   std::vector<RobotState> robots_;  // standing on z = 0

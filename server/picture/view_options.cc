@@ -211,14 +211,10 @@ void BackgroundValue::Parse(const std::string& text) {
   Background background;
   background.is_transparent = text == "transparent";
   if (text != "theme" && text != "transparent") {
-    const std::string hex = text == "white" ? "#ffffff" : text == "black" ? "#000000" : text;
-    const bool is_hex = hex.size() == 7 && hex[0] == '#' &&
-                        hex.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-    if (!is_hex) RefuseText();
-    const auto channel = [&](std::size_t at) {
-      return std::stoi(hex.substr(at, 2), nullptr, 16) / 255.0;
-    };
-    background.color = Rgb{channel(1), channel(3), channel(5)};
+    background.color = ColorFromHex(text == "white"   ? "#ffffff"
+                                    : text == "black" ? "#000000"
+                                                      : text);
+    if (!background.color) RefuseText();
   }
   value_ = background;
   text_ = text;
@@ -317,8 +313,6 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
       camera(most_cameras),
       supersample(SupersampleWords(), 2),
       plot(Joined(ScoredJointNames()), kMaxPlots, ScoredJointNamed),
-      figure({{"skin", render::Figure::kSkin}, {"urdf", render::Figure::kUrdf}},
-             render::Figure::kUrdf),
       theme({{"light", render::Theme::kLight}, {"dark", render::Theme::kDark}},
             render::Theme::kLight),
       floor(true),
@@ -342,7 +336,7 @@ void ViewOptions::List(options::OptionList& option) {
   option("overlay", overlay, "texts and plots over the picture; default: " + DefaultOverlays());
   option("plot", plot, "joints whose loads are plotted over time");
   option("no_overlays", no_overlays, "no text or plot over the picture");
-  option("figure", figure, "people as one skin, or as the rigid parts of the URDF that RViz shows");
+  option("figure", figure, kFigureHelp);
   option("theme", theme, "colours of floor and background");
   option("background", background, "colour of the background");
   option("floor", floor, "whether the floor is drawn");

@@ -9,6 +9,7 @@
 #include "render/renderer.h"
 #include "server/options/option_list.h"
 #include "server/picture/camera_options.h"
+#include "server/picture/figure_value.h"
 
 namespace kinescope::app {
 
@@ -133,7 +134,7 @@ struct ViewOptions {
   OverlayValue overlay;
   options::List<int> plot;  // urdf::Joint
   options::Flag no_overlays;
-  options::Choice<render::Figure> figure;
+  FigureValue figure;
   options::Choice<render::Theme> theme;
   BackgroundValue background;
   options::Switch floor;

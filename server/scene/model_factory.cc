@@ -39,7 +39,9 @@ std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& p
   human.skeleton = person.character.skeleton.value_or(urdf::DefaultSkeleton(settings_.height_m));
   if (person.l5_in_pelvis) human.skeleton.origin_in_parent[urdf::kL5] = *person.l5_in_pelvis;
   human.body = urdf::MakeBodyParameters(settings_.body, human.skeleton);
-  human.body_rgb = BodyColor(person.character.color_rgb, person.index);
+  const Rgb own = BodyColor(person.character.color_rgb, person.index);
+  human.body_rgb = settings_.body_color.value_or(own);
+  model->suit = SuitOf(own, settings_.body_color);
   person.worn.AddTo(person.character, human);
   model->has_built_in_surface = settings_.appearance.is_smooth && !settings_.appearance.custom;
   if (settings_.mesh_cache && settings_.appearance.has_meshes()) NameMeshes(*model);

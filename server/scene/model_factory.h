@@ -23,6 +23,7 @@ struct ModelSettings {
                                            // lengths, m
   bool height_is_assumed = true;           // the default value
   BodyAppearance appearance;
+  std::optional<Rgb> body_color;  // of --body_color; none: BodyColor(), and a quiet suit
   /// Where the URDF says that meshes are. Null: the body consists of primitives, without tools, for
   /// commands that draw no person.
   std::shared_ptr<const MeshCache> mesh_cache;

@@ -126,6 +126,7 @@ SceneOptions ToSceneOptions(const PersonOptions& person, const LoadOptions& load
   scene.height_m = person.height.value_or(scene.height_m);
   scene.stale_secs = stale_secs;
   scene.appearance = ToAppearance(person);
+  scene.body_color = ToBodyColor(person);
   return scene;
 }
 

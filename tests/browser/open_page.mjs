@@ -141,8 +141,11 @@ export async function saveScreenshot(page, name) {
  *  on it are on the picture too, as a person would see them.
  *  @param {any} page
  *  @param {string} selector */
-export async function pixelsOf(page, selector) {
-  const png = await page.locator(selector).screenshot();
+export const pixelsOf = async (page, selector) => pixelsOfPng(page, await page.locator(selector).screenshot());
+
+/** @param {any} page  decodes it
+ *  @param {Buffer} png */
+export async function pixelsOfPng(page, png) {
   const { width, height, base64 } = await page.evaluate(async (text) => {
     const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
     const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));

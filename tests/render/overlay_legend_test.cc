@@ -50,7 +50,7 @@ class TextRecorder : public Painter {
 TextRecorder PaintedLegend(const SceneState& state, double width_px) {
   TextRecorder painter;
   OverlayFonts fonts;
-  OverlayPage page{painter, kLightInks, fonts, width_px, 720, 1, 720, false};
+  OverlayPage page({fonts, width_px, 720, 1, 720, false}, painter, kLightInks);
   PaintLegend(page, state, SceneLook());
   return painter;
 }

@@ -77,7 +77,8 @@ TEST_F(SkinDrawing, HidesTheBodyOnRequest) {
 }
 
 TEST(SuitColors, AreFarFromEveryLoadClass) {
-  for (const Rgb& color : {kSuitColor, kTrousersColor, kShoesColor, kBareColor}) {
+  const SuitColors suit;
+  for (const Rgb& color : {suit.top, suit.trousers, suit.shoes, suit.bare, suit.band}) {
     for (const LoadClass load :
          {LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh, LoadClass::kUnknown}) {
       EXPECT_GE(ColorDifference(color, ColorOf(load)), 20);

@@ -127,7 +127,7 @@ TEST_F(RenderCommand, WritesTheSameBytesWithAnyNumberOfJobs) {
 // after it.
 TEST_F(RenderCommand, ShowsTheTimeOfEachFrameNumberDividedByTheFrameRate) {
   Lines(Render({"--out", Path("a.mp4"), "--fps", "29.97", "--seconds", "0.5", "--camera", "right",
-                "--no_overlays", "--size", "320x240", "--json"}));
+                "--no_overlays", "--fit", "off", "--size", "320x240", "--json"}));
   const std::vector<render::Image> clip = Decode(Path("a.mp4"));
   ASSERT_EQ(clip.size(), 15u);
 
@@ -138,6 +138,7 @@ TEST_F(RenderCommand, ShowsTheTimeOfEachFrameNumberDividedByTheFrameRate) {
   view.camera.Parse("right");
   view.supersample = 1;
   view.no_overlays = true;
+  view.moves.fit = app::Fit::kOff;
   app::RenderPlanner planner(view);
   const auto renderer = render::MakeRenderer();
   std::vector<render::Image> expected;
@@ -196,8 +197,8 @@ TEST_F(RenderCommand, ResumesAnInterruptedRun) {
                           "\"$0\" \"$@\" 2>&1 & child=$!; trap 'kill -INT $child' TERM; "
                           "wait $child; wait $child; echo code $?",
                           testing::KinescopePath(), "render", "demo:walk", "--size", "160x96",
-                          "--supersample", "1", "--out", pattern, "--out", Path("a.mp4"),
-                          "--seconds", "1000"});
+                          "--supersample", "1", "--fit", "off", "--out", pattern, "--out",
+                          Path("a.mp4"), "--seconds", "1000"});
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (!fs::exists(Path("0003.png")) && std::chrono::steady_clock::now() < deadline) {
       std::this_thread::yield();
@@ -215,7 +216,7 @@ TEST_F(RenderCommand, ResumesAnInterruptedRun) {
     EXPECT_NO_THROW(render::ReadPng(Path(name)));
   }
   const std::size_t wanted = names.size() + 4;
-  const auto lines = Lines(Render({"--out", pattern, "--seconds",
+  const auto lines = Lines(Render({"--out", pattern, "--fit", "off", "--seconds",
                                    fmt::format("{}", static_cast<double>(wanted) / 30), "--json"}));
   EXPECT_EQ(lines.at(0).at("pictures"), wanted);
   EXPECT_LT(lines.at(0).at("drawn"), wanted);
@@ -281,8 +282,8 @@ TEST_F(RenderCommand, VerifiesItsFilesAndReportsDifferences) {
 // The record of the first version: texts of all options, former names of options and words.
 TEST_F(RenderCommand, VerifiesAPictureOfTheFirstVersion) {
   Lines(Render({"--out", Path("a.png"), "--sample", "30", "--overlay", "title,status,frame_code",
-                "--show", "link_frames,joint_axes", "--body_model", "primitive", "--no_sidecar",
-                "--json"}));
+                "--show", "link_frames,joint_axes", "--body_model", "primitive", "--fit", "off",
+                "--camera_frame", "world", "--no_sidecar", "--json"}));
   std::ofstream(Path("a.png.json")) << R"({
     "kinescope": "0.1.0", "schema": 1, "source": {"name": "demo:walk"}, "inputs": [],
     "renderer": ")" << app::ReadEmbedded(Path("a.png"))->value("renderer", "")

@@ -13,17 +13,6 @@ Quaterniond Turn(double degrees, const Vector3d& axis) {
   return Quaterniond(Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()));
 }
 
-// The middle of the joint's range, seen from hanging.
-Quaterniond MiddleOfRange(int segment) {
-  switch (segment) {
-    case urdf::kRightUpperArm: return Turn(75, {-1, -1, 0});
-    case urdf::kLeftUpperArm: return Turn(75, {1, -1, 0});
-    case urdf::kRightUpperLeg:
-    case urdf::kLeftUpperLeg: return Turn(-45, Vector3d::UnitY());
-    default: return Quaterniond::Identity();
-  }
-}
-
 double TwistAngle(const Quaterniond& rotation) {
   return std::remainder(2 * std::atan2(rotation.z(), rotation.w()), 2 * M_PI);
 }
@@ -37,15 +26,15 @@ struct SwingAndTwist {
 // the first goes over to the second while the bone rises.
 SwingAndTwist Split(int segment, const Quaterniond& parent_from_child) {
   if (TwistFrames(segment) == 0) return {parent_from_child, Quaterniond::Identity()};
-  constexpr double kBegins = 60 * M_PI / 180, kEnds = 150 * M_PI / 180;
   const Vector3d bone = parent_from_child * Vector3d::UnitZ();
   const Quaterniond middle = MiddleOfRange(segment);
   const Quaterniond far = Quaterniond::FromTwoVectors(middle * Vector3d::UnitZ(), bone) * middle;
   const double risen = std::acos(std::clamp(bone.z(), -1.0, 1.0));
   Quaterniond swing = far;
-  if (risen < kEnds) {
+  if (risen < kMiddleSwingFrom) {
     const Quaterniond near = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), bone);
-    const double t = std::clamp((risen - kBegins) / (kEnds - kBegins), 0.0, 1.0);
+    const double t = std::clamp(
+        (risen - kNaturalSwingUntil) / (kMiddleSwingFrom - kNaturalSwingUntil), 0.0, 1.0);
     const double angle = t * t * (3 - 2 * t) * TwistAngle(near.conjugate() * far);
     swing = near * Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
   }
@@ -53,18 +42,8 @@ SwingAndTwist Split(int segment, const Quaterniond& parent_from_child) {
   return {swing, Quaterniond(Eigen::AngleAxisd(twist, Vector3d::UnitZ()))};
 }
 
-// Bone lies under the skin of a bent elbow and knee: their frames move outwards.
 Vector3d BoneOffset(const Frame& frame, double angle) {
-  double most = 0;  // m, forward, at 180 degrees
-  switch (frame.segment) {
-    case urdf::kRightForeArm:
-    case urdf::kLeftForeArm: most = -0.012; break;
-    case urdf::kRightLowerLeg:
-    case urdf::kLeftLowerLeg: most = 0.009; break;
-    default: return Vector3d::Zero();
-  }
-  const double from_middle = 2 * frame.share - 1;
-  return {0.5 * most * (1 - std::cos(angle)) * (1 - from_middle * from_middle), 0, 0};
+  return {0.5 * FarthestBoneOffset(frame) * (1 - std::cos(angle)), 0, 0};
 }
 
 // Frames, and where those of each segment begin.
@@ -152,6 +131,29 @@ int TwistFrame(int segment, int step) { return List().twist[urdf::At(segment)] +
 int FingerFrame(int hand, int finger, bool is_half) {
   const urdf::Side side = hand == urdf::kLeftHand ? urdf::kLeft : urdf::kRight;
   return List().finger[side][urdf::At(finger)] + (is_half ? 1 : 0);
+}
+
+Quaterniond MiddleOfRange(int segment) {
+  switch (segment) {
+    case urdf::kRightUpperArm: return Turn(75, {-1, -1, 0});
+    case urdf::kLeftUpperArm: return Turn(75, {1, -1, 0});
+    case urdf::kRightUpperLeg:
+    case urdf::kLeftUpperLeg: return Turn(-45, Vector3d::UnitY());
+    default: return Quaterniond::Identity();
+  }
+}
+
+double FarthestBoneOffset(const Frame& frame) {
+  double most = 0;  // of the frame in the middle of the joint
+  switch (frame.segment) {
+    case urdf::kRightForeArm:
+    case urdf::kLeftForeArm: most = -0.012; break;
+    case urdf::kRightLowerLeg:
+    case urdf::kLeftLowerLeg: most = 0.009; break;
+    default: break;
+  }
+  const double from_middle = 2 * frame.share - 1;
+  return most * (1 - from_middle * from_middle);
 }
 
 std::vector<urdf::Pose> FramePoses(const urdf::LinkPoses& links,

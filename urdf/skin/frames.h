@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "urdf/hand.h"
@@ -45,6 +46,15 @@ int TwistFrames(int segment);
 /// Whether the finger segment has frames: thumb and phalanges do, carpus and other metacarpals move
 /// with the hand.
 bool HasFrames(int finger);
+
+/// Of a joint with twist frames: the middle of its range, seen from hanging.
+Eigen::Quaterniond MiddleOfRange(int segment);
+/// Rad, by which such a bone has risen: its swing is the smallest from hanging up to the first, and
+/// the smallest from the middle of its range beyond the second.
+inline constexpr double kNaturalSwingUntil = 60 * M_PI / 180, kMiddleSwingFrom = 150 * M_PI / 180;
+/// Where bone lies under the skin of a bent joint: how far the swing frame would move outwards at
+/// 180 degrees, m, forward (x). It moves by that times (1 - cos(bend)) / 2.
+double FarthestBoneOffset(const Frame& frame);
 
 /// world_from_frame. `fingers`: of gloved hands; null: they keep those of `bind` in the hand.
 std::vector<urdf::Pose> FramePoses(const urdf::LinkPoses& links,

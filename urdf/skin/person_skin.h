@@ -32,6 +32,8 @@ class PersonSkin {
   /// In the person's own bind pose.
   const std::vector<Eigen::Vector3f>& rest() const { return rest_; }
   const BindPose& bind() const { return bind_; }
+  /// The frames of the bind pose, in the order of Frames().
+  const std::vector<urdf::Pose>& bind_frames() const { return bind_frames_; }
 
  private:
   const SkinTemplate& skin_;

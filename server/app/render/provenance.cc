@@ -115,6 +115,11 @@ RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
   for (const auto& [name, value] : provenance.at("options").items()) {
     values[NameSince(schema, name)] = value;
   }
+  if (!values.contains("figure")) {  // of a version before skins and headings
+    values["figure"] = "urdf";
+    values["camera_frame"] = "world";
+    if (!values.contains("fit")) values["fit"] = "off";
+  }
   const auto lookup = [&values](const std::string& name) -> std::optional<options::Found> {
     const auto found = values.find(name);
     if (found == values.end() || found->empty()) return std::nullopt;
@@ -152,7 +157,8 @@ std::string PresentNameOf(const std::string& former_name, int schema) {
 }
 
 bool DependsOnWholeClip(const ViewOptions& options) {
-  return !options.plot->empty() || *options.moves.fit == Fit::kClip ||
+  const Fit fit = *options.moves.fit;  // auto: of a clip
+  return !options.plot->empty() || fit == Fit::kClip || fit == Fit::kAuto ||
          options.moves.orbit->is_one_turn;
 }
 

@@ -85,24 +85,27 @@ class RenderRun {
     if (output.kind == OutputKind::kStill) {
       const auto& layer = options_.moment.overlay_layer;
       const auto format = layer ? std::optional(*layer) : std::nullopt;
-      StillTask& task = TaskOf(stills_, output.camera, [&](RenderPlanner planner) {
+      StillTask& task = TaskOf(stills_, output.camera, Fit::kNow, [&](RenderPlanner planner) {
         return StillTask(std::move(planner), format);
       });
       AddWriter(output, is_up_to_date, task);
     } else {
-      ClipTask& task = TaskOf(clips_, output.camera,
+      // A source that can be read only once has no first pass.
+      const Fit fit = provenance_.is_repeatable() ? Fit::kClip : Fit::kOff;
+      ClipTask& task = TaskOf(clips_, output.camera, fit,
                               [](RenderPlanner planner) { return ClipTask(std::move(planner)); });
       AddWriter(output, is_up_to_date, task);
     }
   }
 
   template <class Task, class MakeTask>
-  Task& TaskOf(std::map<std::string, Task>& tasks, const std::string& camera, MakeTask make) {
+  Task& TaskOf(std::map<std::string, Task>& tasks, const std::string& camera, Fit fit,
+               MakeTask make) {
     const auto found = tasks.find(camera);
     if (found != tasks.end()) return found->second;
     ViewOptions view = options_.view;
     view.camera.Parse(camera);
-    return tasks.emplace(camera, make(RenderPlanner(view, additions_))).first->second;
+    return tasks.emplace(camera, make(RenderPlanner(view, additions_, fit))).first->second;
   }
 
   template <class Task>

@@ -25,13 +25,13 @@ LivePictures::LivePictures(const LivePictureSettings& settings, RendererFactory 
     : moves_(settings.moves),
       pictures_(pictures),
       camera_(settings.camera.name()),
-      live_({"picture", settings.width, settings.height, settings.rate_hz}, settings.camera,
-            make_renderer, first,
+      live_({"picture", settings.width, settings.height, settings.rate_hz, settings.figure},
+            settings.camera, make_renderer, first,
             [this](const render::Image& image, const SceneState& state, const render::Camera&) {
               Publish(image, state);
             }),
-      snapshots_({"snapshot", settings.width, settings.height, settings.rate_hz}, settings.camera,
-                 std::move(make_renderer), first, nullptr) {
+      snapshots_({"snapshot", settings.width, settings.height, settings.rate_hz, settings.figure},
+                 settings.camera, std::move(make_renderer), first, nullptr) {
   // The first viewer receives a picture at once.
   Publish(live_.Request(LiveView(settings.width, settings.height)).get(), *first);
 }
@@ -54,12 +54,12 @@ bool LivePictures::SetCamera(const std::string& camera) {
 
 std::vector<std::uint8_t> LivePictures::SnapshotPng(const std::string& camera, int width,
                                                     int height) {
+  const render::PictureSpec view{width, height, 2, "", true};
   std::optional<CameraController> named;
   if (!camera.empty()) {
     if (!IsNamedCamera(camera)) throw UsageError("camera=" + camera + ": unknown camera");
     named.emplace(ParseCamera(camera), CameraOptions());
   }
-  const render::PictureSpec view{width, height, 2, "", true};
   return render::EncodePng(
       (named
            ? snapshots_.Request(view, std::move(named))

@@ -28,6 +28,7 @@ struct LivePictureSettings {
   int width = 1280;
   int height = 720;
   double rate_hz = 30;  // maximum frame rate
+  render::Figure figure = render::SceneLook().figure;
 };
 
 class LivePictures : public http::PictureFeed {

@@ -23,6 +23,7 @@ struct RosCameraSettings {
   int width = 1280;
   int height = 720;
   double rate_hz = 30;  // maximum frame rate
+  render::Figure figure = render::SceneLook().figure;
 };
 
 class RosCameraLoop {

@@ -26,7 +26,8 @@ std::vector<http::CameraView> CameraViews() {
 
 http::CameraFraming FramingOfCameras() {
   const render::GroupFraming& framing = render::kGroupFraming;
-  return {framing.min_width_m, framing.margin_m, framing.narrowest_aspect, framing.reach_m};
+  return {framing.min_width_m, framing.margin_m, framing.narrowest_aspect, framing.reach_m,
+          framing.height_m};
 }
 
 http::HttpConfig PageOf(const ServeOptions& options) {
@@ -37,6 +38,7 @@ http::HttpConfig PageOf(const ServeOptions& options) {
   config.cameras = CameraViews();
   config.framing = FramingOfCameras();
   config.camera = options.camera->front().text;
+  config.draws_skins = *options.figure == render::Figure::kSkin;
   return config;
 }
 
@@ -52,6 +54,7 @@ LivePictureSettings LivePicturesOf(const ServeOptions& options) {
   pictures.width = options.picture_size->width;
   pictures.height = options.picture_size->height;
   pictures.rate_hz = *options.picture_rate_hz;
+  pictures.figure = *options.figure;
   return pictures;
 }
 
@@ -63,6 +66,7 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
   settings.width = options.ros_view_size->width;
   settings.height = options.ros_view_size->height;
   settings.rate_hz = *options.ros_view_rate_hz;
+  settings.figure = *options.figure;
   return settings;
 }
 

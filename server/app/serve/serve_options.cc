@@ -130,7 +130,8 @@ void ServeOptions::List(options::OptionList& option) {
   option("token", token,
          "the token itself, which the list of processes then shows; prefer --token_file or the "
          "environment variable KINESCOPE_TOKEN");
-  option.Group("Pictures");
+  option.Group("Page and pictures");
+  option("figure", figure, kFigureHelp);
   option("pictures", pictures, "whether the server draws pictures");
   option("camera", camera, "where the camera stands");
   camera_moves.List(option);

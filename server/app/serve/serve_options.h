@@ -6,6 +6,7 @@
 #include "server/options/option_list.h"
 #include "server/picture/backend.h"
 #include "server/picture/camera_options.h"
+#include "server/picture/figure_value.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_options.h"
 #include "server/source/open_source.h"
@@ -43,6 +44,7 @@ struct ServeOptions {
   options::Whole http_port;
   options::Text token, token_file;
   std::string token_given_as = "--token";  // as messages name it: "~token", "file.yaml:3: token"
+  FigureValue figure;
   options::Switch pictures;
   CamerasValue camera;
   CameraOptions camera_moves;

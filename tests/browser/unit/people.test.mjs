@@ -10,7 +10,7 @@ const palette = {
   cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, object: rgb, axes: [rgb, rgb, rgb],
 };
 const box = { kind: 'box', size: [0.1, 0.1, 0.1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null };
-const modelOf = (character, revision = 1) => ({ character, revision, links: [{ visuals: [box] }] });
+const modelOf = (character, revision = 1) => ({ character, revision, skin: null, links: [{ visuals: [box] }] });
 const personOf = (character) => ({ character, links: [{ position: [0, 0, 1], quaternion: [0, 0, 0, 1] }],
   loads: [], support: [], held: [], com: null, cop: null });
 const stateOf = (seconds, ...characters) =>

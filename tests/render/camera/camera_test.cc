@@ -181,27 +181,6 @@ TEST(Camera, ShowsBothArmsInANarrowPicture) {
   }
 }
 
-TEST(Camera, FramesTheBoundsInAFullPictureWithoutCuttingThem) {
-  const Eigen::AlignedBox3d box(Vector3d(-1, 2, 0), Vector3d(0.5, 3, 1.8));
-  for (const std::string& name : CameraNames()) {
-    for (const bool is_flat : {false, true}) {
-      Camera camera = NamedCamera(name, SceneState());
-      if (is_flat) camera = Orthographic(camera);
-      const Camera framed = Framing(camera, box, 16.0 / 9);
-      double left = 640, right = 0, top = 360, bottom = 0;
-      for (int i = 0; i < 8; ++i) {
-        const Projected corner =
-            Project(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)), framed, 640, 360);
-        EXPECT_GT(corner.depth_m, 0);
-        left = std::min(left, corner.x_px), right = std::max(right, corner.x_px);
-        top = std::min(top, corner.y_px), bottom = std::max(bottom, corner.y_px);
-      }
-      EXPECT_TRUE(left > 0 && right < 640 && top > 0 && bottom < 360) << name;
-      EXPECT_TRUE(right - left > 0.85 * 640 || bottom - top > 0.85 * 360) << name;
-    }
-  }
-}
-
 TEST(CameraPath, CirclesThePersonAndStandsStillAtBothEnds) {
   const Camera front = NamedCamera("front", SceneState());
   const std::vector<CameraKey> keys = {{1, front, Ease::kLinear},

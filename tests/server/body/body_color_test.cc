@@ -37,6 +37,38 @@ TEST(BodyColor, DistinguishesPeopleAndKeepsTheClassesReadable) {
   EXPECT_EQ(BodyColor({}, kBodyColors), BodyColor({}, 0));
 }
 
+TEST(BodyColor, OfAnOptionIsRefusedWhereItLooksLikeALoadClassWithOneThatDoesNot) {
+  int refused = 0;
+  for (std::uint32_t rgb = 0; rgb <= 0xFFFFFF; rgb += 0x0A0B07) {
+    const auto channel = [&](int shift) { return (rgb >> shift & 0xFF) / 255.0; };
+    const Rgb color = {channel(16), channel(8), channel(0)};
+    const auto near = FindNearClass(color);
+    ASSERT_EQ(near.has_value(),
+              std::min(NearestClass(color), ColorDifference(color, ColorOf(LoadClass::kUnknown))) <
+                  kMinContrast);
+    refused += near ? 1 : 0;
+    if (!near) {
+      ASSERT_EQ(NearestSafeColor(color), color);
+      const SuitColors suit = SuitOf(kBodyColor, color);
+      EXPECT_EQ(suit.top, color);
+      EXPECT_FALSE(FindNearClass(suit.trousers)) << ToHex(color) << ' ' << ToHex(suit.trousers);
+      continue;
+    }
+    const Rgb safe = NearestSafeColor(color);
+    EXPECT_FALSE(FindNearClass(safe)) << ToHex(color);
+    EXPECT_LT(ColorDifference(color, safe), 30) << ToHex(color) << ' ' << ToHex(safe);
+  }
+  EXPECT_GT(refused, 3);
+}
+
+TEST(BodyColor, TintsTheBandsOfASuitOnly) {
+  const Rgb own = BodyColor(0xFF0000, 0);
+  const SuitColors suit = SuitOf(own, std::nullopt);
+  EXPECT_EQ(suit.band, own);
+  EXPECT_EQ(suit.top, SuitColors().top);
+  EXPECT_EQ(SuitOf(kBodyColor, std::nullopt).band, SuitColors().top) << "no colour of its own";
+}
+
 TEST(BodyColor, IsMutedIfAPersonalColourHidesTheClasses) {
   for (std::uint32_t r = 0; r <= 0xFF; r += 0x11) {
     for (std::uint32_t g = 0; g <= 0xFF; g += 0x11) {

@@ -33,7 +33,7 @@ class FilesOfNames : public MeshFiles {
 
 TEST(ModelJson, HasEverySegmentWithTheVisualsOfItsLink) {
   const SceneState state = Scene();
-  const json model = json::parse(ModelJson(&state));
+  const json model = json::parse(ModelJson(&state, true));
   ASSERT_EQ(model["people"].size(), 1u);
   const json& person = model["people"][0];
   EXPECT_EQ(person["revision"], 7);
@@ -57,7 +57,7 @@ TEST(ModelJson, HasTheFingersOfAGlovedHandInsteadOfTheHand) {
       *kinescope::testing::WornModel(*person.model, "/tmp/some meshes"));
   model->mesh_files = std::make_shared<FilesOfNames>();
   kinescope::testing::Wear(person, 0.3, model);
-  const json links = json::parse(ModelJson(&state))["people"][0]["links"];
+  const json links = json::parse(ModelJson(&state, true))["people"][0]["links"];
   ASSERT_EQ(links.size(), 23u + 40 + 2);
   EXPECT_TRUE(links[urdf::kRightHand]["visuals"].empty());
   EXPECT_EQ(links[23]["name"], "skeleton_right_carpus");
@@ -98,7 +98,7 @@ TEST(DetailsJson, NamesThoseWhoAreLeftOut) {
 TEST(ModelJson, DescribesVisualsAsInTheUrdf) {
   const SceneState state = Scene();
   const urdf::RobotModel& robot = state.people[0].model->robot;
-  const json model = json::parse(ModelJson(&state));
+  const json model = json::parse(ModelJson(&state, true));
   const json& told = model["people"][0]["links"][urdf::kPelvis]["visuals"][0];
   ASSERT_EQ(robot.links[0].name, "skeleton_pelvis");
   const urdf::Visual& visual = robot.links[0].visuals[0];
@@ -111,8 +111,31 @@ TEST(ModelJson, DescribesVisualsAsInTheUrdf) {
   EXPECT_EQ(told["quaternion"].size(), 4u);
 }
 
+TEST(ModelJson, ReplacesThePartsOfTheBodyByTheUrlOfItsSkin) {
+  auto model = std::make_shared<PersonModel>(*testing::MakePersonModel(9));
+  SceneState state = testing::MakeScene(1, 0, 1, model);
+  const auto person = [&](bool draws_skins) -> json {
+    return json::parse(ModelJson(&state, draws_skins))["people"][0];
+  };
+  const auto visuals = [](const json& of) {
+    std::size_t count = 0;
+    for (const json& link : of["links"]) count += link["visuals"].size();
+    return count;
+  };
+  EXPECT_TRUE(person(true)["skin"].is_null()) << "it has no built-in surface";
+  const std::size_t all = visuals(person(true));
+  model->has_built_in_surface = true;
+  EXPECT_EQ(person(true)["skin"], "/api/skin/0/9");
+  EXPECT_EQ(visuals(person(true)), 0u);
+  EXPECT_TRUE(person(false)["skin"].is_null());
+  EXPECT_EQ(visuals(person(false)), all);
+  kinescope::testing::Wear(state.people[0]);
+  EXPECT_GT(visuals(person(true)), 0u) << "props are no part of the body";
+  EXPECT_LT(visuals(person(true)), visuals(person(false)));
+}
+
 TEST(ModelJson, ContainsThePaletteOfTheOtherSinks) {
-  const json palette = json::parse(ModelJson(nullptr))["palette"];
+  const json palette = json::parse(ModelJson(nullptr, true))["palette"];
   EXPECT_EQ(palette["cop"], json(kCopColor));
   EXPECT_EQ(palette["com"], json(kComColor));
   EXPECT_EQ(palette["body"], json(kBodyColor));
@@ -128,7 +151,7 @@ TEST(ModelJson, ContainsThePaletteOfTheOtherSinks) {
 }
 
 TEST(ModelJson, NamesAllJoints) {
-  const json joints = json::parse(ModelJson(nullptr))["joints"];
+  const json joints = json::parse(ModelJson(nullptr, true))["joints"];
   ASSERT_EQ(joints.size(), static_cast<std::size_t>(urdf::kJointCount));
   EXPECT_EQ(joints[urdf::jRightElbow]["label"], "Right elbow");
 }
@@ -153,7 +176,7 @@ TEST(Json, ReplacesInvalidUtf8InNames) {
   state.people[0].name = "\xFF\xFE<b>";
   state.source = "udp://\x80";
   for (const std::string& text :
-       {StateJson(&state, 0), ModelJson(&state), DetailsJson(&state, "front", true)}) {
+       {StateJson(&state, 0), ModelJson(&state, true), DetailsJson(&state, "front", true)}) {
     EXPECT_TRUE(json::accept(text)) << text;
   }
 }
@@ -177,15 +200,17 @@ TEST(DetailsJson, IsEqualForEqualStates) {
 
 TEST(CamerasJson, ContainsTheParametersOfEveryView) {
   const json told =
-      json::parse(CamerasJson(testing::MakeCameras(), {1.5, 0.5, 1.25, 40}, "front", false));
+      json::parse(CamerasJson(testing::MakeCameras(), {1.5, 0.5, 1.25, 40, 2.5}, "front", false));
   EXPECT_EQ(told["live"], "front");
   EXPECT_EQ(told["has_pictures"], false);
   ASSERT_EQ(told["cameras"].size(), 7u);
   EXPECT_EQ(told["cameras"][0]["name"], "front");
   EXPECT_GT(told["cameras"][0]["position"][0], 4.0) << "front is seen from +x";
-  EXPECT_EQ(
-      told["framing"],
-      (json{{"min_width_m", 1.5}, {"margin_m", 0.5}, {"narrowest_aspect", 1.25}, {"reach_m", 40}}));
+  EXPECT_EQ(told["framing"], (json{{"min_width_m", 1.5},
+                                   {"margin_m", 0.5},
+                                   {"narrowest_aspect", 1.25},
+                                   {"reach_m", 40},
+                                   {"height_m", 2.5}}));
 }
 
 // A person with the mesh of the pelvis; the URDF names those of all 23 segments.

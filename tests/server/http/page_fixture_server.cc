@@ -15,24 +15,30 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <string>
 
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "core/person_links.h"
+#include "core/person_outline.h"
 #include "core/system/clocks.h"
 #include "core/system/install_paths.h"
 #include "server/http/api.h"
 #include "server/http/protocol.h"
 #include "server/http/server.h"
+#include "server/http/skin_buffer.h"
 #include "tests/server/http/plain_pictures.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/worn.h"
+#include "urdf/skin/bind_pose.h"
+#include "urdf/skin/frames.h"
 
 namespace kinescope::http::testing {
 namespace {
 
 using nlohmann::json;
+using urdf::At;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::nanoseconds kPeriod{1'000'000'000 / 60};
@@ -70,6 +76,49 @@ std::string Hex(const Bytes& bytes) {
 json Numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 json Numbers(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+
+// The buffer of the person's skin, and the frames for random postures as the server computes them.
+json SkinToJson(const PersonState& person) {
+  PersonModel model = *person.model;
+  model.has_built_in_surface = true;
+  const urdf::Skeleton& skeleton = model.human.skeleton;
+  const std::string buffer = SkinBuffer(model);
+  std::mt19937 random(7);
+  const auto angle = [&](double most) {
+    return most * (static_cast<double>(random()) / 2147483648.0 - 1);
+  };
+  json postures = json::array();
+  for (int i = 0; i < 12; ++i) {
+    urdf::JointAngles angles{};
+    for (Eigen::Vector3d& joint : angles) joint = {angle(2.4), angle(2.4), angle(2.4)};
+    PersonState moved = person;
+    moved.links = urdf::ForwardKinematics(skeleton, {{1, 2, 3}, {0.5, 0.5, -0.5, 0.5}}, angles);
+    std::array<const urdf::FingerPoses*, 2> fingers{};
+    std::array<const urdf::HandSkeleton*, 2> gloves{};
+    for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+      if (!moved.gloves[side]) continue;
+      gloves[side] = &*model.human.gloves[side];
+      urdf::FingerAngles bend{};
+      for (Eigen::Vector3d& joint : bend) joint = {angle(0.9), angle(0.4), 0};
+      urdf::FingerPoses& links = moved.gloves[side]->links;
+      links = urdf::CompleteHand(*gloves[side], moved.links[At(urdf::HandSegmentOf(side))], {}, {},
+                                 bend);
+      fingers[side] = &links;
+    }
+    json links = json::array(), frames = json::array();
+    for (const urdf::Pose& link : VisibleLinkPoses(moved)) {
+      links.push_back(
+          {{"position", Numbers(link.position)}, {"quaternion", Numbers(link.orientation)}});
+    }
+    const skin::BindPose bind = skin::BindPoseOf(skeleton, gloves);
+    for (const urdf::Pose& frame : skin::FramePoses(moved.links, fingers, bind)) {
+      frames.push_back(
+          {{"position", Numbers(frame.position)}, {"rotation", Numbers(frame.orientation)}});
+    }
+    postures.push_back({{"links", links}, {"frames", frames}});
+  }
+  return {{"hex", Hex({buffer.begin(), buffer.end()})}, {"postures", postures}};
+}
 
 json Describe() {
   SceneState state = MakeScene(41, 3.25, 5'000'000'000, MakePersonModel(7), 2);
@@ -122,6 +171,7 @@ json Describe() {
                       {"comMinusMvn", nullptr},
                       {"heldKg", {5, 0}},
                       {"metric", "total"},
+                      {"viewHeight", std::round(1000 * HeightFor(person, state.floor_z)) / 1000},
                       {"support", support},
                       {"held", held},
                       {"links", links},
@@ -149,8 +199,9 @@ json Describe() {
             {"waitedMillis", state.waited_nanos / 1'000'000},
             {"people", people},
             {"objects", objects}}},
+          {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},
-          {"class_limits", json::parse(ModelJson(&state))["class_limits"]}};
+          {"class_limits", json::parse(ModelJson(&state, true))["class_limits"]}};
 }
 
 // What the tests ask for over standard input.

@@ -8,6 +8,7 @@
 
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
+#include "core/person_outline.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/worn.h"
 
@@ -48,7 +49,7 @@ SceneState Scene(int people = 1) {
   return testing::MakeScene(41, 3.25, 5'000'000'000, testing::MakePersonModel(7), people);
 }
 
-void ExpectPerson(Reader& in, const PersonState& person) {
+void ExpectPerson(Reader& in, const PersonState& person, double floor_z) {
   EXPECT_EQ(in.Get<std::int32_t>(), person.character);
   EXPECT_EQ(in.Get<std::uint8_t>(), 1 | 2 | 8 | 16) << "CoM, CoP, assumed mass, dynamic";
   EXPECT_EQ(in.Get<std::uint8_t>(), urdf::kSegmentCount);
@@ -66,7 +67,7 @@ void ExpectPerson(Reader& in, const PersonState& person) {
   const SupportPolygon& support = person.forces.support;
   EXPECT_EQ(in.Get<std::uint8_t>(), support.size);
   EXPECT_EQ(in.Get<std::uint8_t>(), static_cast<int>(LoadMetric::kTotal));
-  EXPECT_EQ(in.Get<std::uint16_t>(), 0);
+  EXPECT_NEAR(in.Get<std::uint16_t>(), 1000 * HeightFor(person, floor_z), 0.5);
   for (const urdf::Pose& link : person.links) {
     EXPECT_LT((in.GetVector() - link.position).norm(), 1e-6);
     const float x = in.Get<float>(), y = in.Get<float>(), z = in.Get<float>(), w = in.Get<float>();
@@ -118,7 +119,7 @@ TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
   EXPECT_EQ(in.Get<float>(), -0.75);
   for (int i = 0; i < 2; ++i) EXPECT_EQ(in.Get<std::uint8_t>(), 0) << "objects, padding";
   EXPECT_EQ(in.Get<std::uint16_t>(), 371) << "waited, in 10 ms";
-  for (const PersonState& person : state.people) ExpectPerson(in, person);
+  for (const PersonState& person : state.people) ExpectPerson(in, person, state.floor_z);
   EXPECT_TRUE(in.AtEnd());
 }
 

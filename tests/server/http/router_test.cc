@@ -146,6 +146,27 @@ TEST_F(RouterTest, ServesMeshesFromMemoryWithoutWritingFiles) {
   EXPECT_FALSE(files->is_provided());
 }
 
+TEST_F(RouterTest, ServesTheSkinOfTheNewestModelUnlessItIsMadeOfParts) {
+  auto parts = std::make_shared<PersonModel>(*MakePersonModel(8));
+  states_.Publish(std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, parts, 1)));
+  EXPECT_THAT(ErrorIn(Get("/api/skin/0/8")), HasSubstr("made of parts"));
+  auto model = std::make_shared<PersonModel>(*parts);
+  model->has_built_in_surface = true;
+  states_.Publish(std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, model, 1)));
+  const Answer skin = Get("/api/skin/0/8");
+  EXPECT_EQ(skin.status, 200);
+  EXPECT_EQ(skin.content_type, "application/octet-stream");
+  EXPECT_LE(skin.body.size(), 600'000u);
+  Request again = RequestOf("GET", "/api/skin/0/8");
+  again.if_none_match = HeaderOf(skin, "ETag");
+  EXPECT_EQ(Send(again).status, 304);
+  EXPECT_TRUE(Send(again).body.empty());
+  for (const char* target : {"/api/skin/0/7", "/api/skin/1/8", "/api/skin/18446744073709551615/8",
+                             "/api/skin/0", "/api/skin/0/8/0", "/api/skin/a/8", "/api/skin/0/-8"}) {
+    EXPECT_EQ(Get(target).status, 404) << target;
+  }
+}
+
 // A guessable folder for temporary files belongs to everybody.
 TEST_F(RouterTest, ServesNoFileThatSomebodyElsePlaced) {
   auto model = std::make_shared<PersonModel>(*MakePersonModel(8, meshes_.path().string()));

@@ -135,20 +135,54 @@ TEST(CameraController, MakesOneRevolutionPerClip) {
   EXPECT_NEAR((last.position - first.position).norm(), 0, 1e-9);
 }
 
-TEST(CameraController, FramesTheWholeClipWithAFixedCamera) {
+void ExpectAllShown(const SceneState& state, const render::Camera& camera) {
+  for (const urdf::Pose& link : state.people[0].links) {
+    const render::Projected at = render::Project(link.position, camera, 1600, 900);
+    EXPECT_TRUE(at.x_px > 0 && at.x_px < 1600 && at.y_px > 0 && at.y_px < 900);
+  }
+}
+
+TEST(CameraController, FramesTheWholeClipWithACameraThatStandsStill) {
   CameraOptions options;
   options.fit = Fit::kClip;
   CameraController controller(ParseCamera("left"), options);
-  for (const double x : {-2.0, 0.0, 3.0}) controller.Prescan(SceneAt(x + 2, x));
-  const render::Camera camera = controller.Aim(SceneAt(0, -2), kAspect);
-  EXPECT_EQ(controller.Aim(SceneAt(5, 3), kAspect).position, camera.position);
-  for (const double x : {-2.0, 3.0}) {
-    const SceneState state = SceneAt(0, x);
-    for (const urdf::Pose& link : state.people[0].links) {
-      const render::Projected at = render::Project(link.position, camera, 1600, 900);
-      EXPECT_TRUE(at.x_px > 0 && at.x_px < 1600 && at.y_px > 0 && at.y_px < 900);
-    }
+  for (const double x : {-0.4, 0.0, 0.5}) controller.Prescan(SceneAt(x + 2, x));
+  const render::Camera camera = controller.Aim(SceneAt(0, -0.4), kAspect);
+  EXPECT_EQ(controller.Aim(SceneAt(5, 0.5), kAspect).position, camera.position);
+  for (const double x : {-0.4, 0.5}) ExpectAllShown(SceneAt(0, x), camera);
+}
+
+TEST(CameraController, GoesAtOneDistanceWithPeopleWhoWouldBeMuchSmallerOtherwise) {
+  CameraController controller(ParseCamera("left"), {}, Fit::kClip);
+  for (double x = -3; x < 9; x += 0.1) controller.Prescan(SceneAt(x + 3, x));
+  const render::Camera first = controller.Aim(SceneAt(0, -3), kAspect);
+  for (double x = -3; x < 9; x += 0.1) {
+    const SceneState scene = SceneAt(x + 3, x);
+    const render::Camera camera = controller.Aim(scene, kAspect);
+    EXPECT_NEAR(render::ShownHeight(camera), render::ShownHeight(first), 1e-9);
+    ExpectAllShown(scene, camera);
   }
+  EXPECT_LT(render::ShownHeight(first), 3);
+}
+
+TEST(CameraController, FitsByItselfOnlyWhatIsNamed) {
+  const SceneState scene = SceneAt(0, 0);
+  CameraOptions off;
+  off.fit = Fit::kOff;
+  const render::Camera far = CameraController(ParseCamera("front"), off).Only(scene, 0, kAspect);
+  const render::Camera near =
+      CameraController(ParseCamera("front"), {}, Fit::kNow).Only(scene, 0, kAspect);
+  EXPECT_LT(render::ShownHeight(near), 0.95 * render::ShownHeight(far));
+  const CameraController placed(ParseCamera("9,8,7:0,0,1"), {}, Fit::kNow);
+  EXPECT_EQ(placed.Only(scene, 0, kAspect).position, Vector3d(9, 8, 7));
+}
+
+TEST(CameraController, KeepsBesideThePersonWhatIsAddedToThePicture) {
+  const SceneState scene = SceneAt(0, 0);
+  const CameraController controller(ParseCamera("front"), {}, Fit::kNow);
+  const render::Camera alone = controller.Only(scene, 0, kAspect);
+  const render::Camera both = controller.Only(scene, 0, kAspect, {{Vector3d(0, 0, 3), 0.1}});
+  EXPECT_GT(render::ShownHeight(both), 1.4 * render::ShownHeight(alone));
 }
 
 TEST(CameraController, AcceptsNamedCamerasInKeyframes) {
@@ -214,7 +248,7 @@ TEST(CameraController, RejectsInvalidCameraOptions) {
   EXPECT_THAT(error("fov", "200"), HasSubstr("from 1 to 150 degrees"));
   EXPECT_THAT(error("follow", "-1"), HasSubstr("--follow=-1"));
   EXPECT_THAT(error("projection", "fisheye"), HasSubstr("perspective or orthographic"));
-  EXPECT_THAT(error("fit", "tight"), HasSubstr("off, now or clip"));
+  EXPECT_THAT(error("fit", "tight"), HasSubstr("auto, off, now or clip"));
 }
 
 }  // namespace

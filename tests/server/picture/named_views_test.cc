@@ -29,6 +29,7 @@ TEST(NamedViews, MatchTheViewsThatThePageTestsUse) {
   EXPECT_EQ(framing.at("min_width_m").get<double>(), render::kGroupFraming.min_width_m);
   EXPECT_EQ(framing.at("margin_m").get<double>(), render::kGroupFraming.margin_m);
   EXPECT_EQ(framing.at("narrowest_aspect").get<double>(), render::kGroupFraming.narrowest_aspect);
+  EXPECT_EQ(framing.at("height_m").get<double>(), render::kGroupFraming.height_m);
   std::map<std::string, int> views;
   for (const auto& view : page.at("views")) {
     const std::string name = view.at("name");

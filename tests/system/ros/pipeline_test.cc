@@ -21,6 +21,7 @@
 #include <set>
 
 #include "render/camera/camera.h"
+#include "render/camera/held_height.h"
 #include "render/image/png_file.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
@@ -180,7 +181,9 @@ TEST_F(Pipeline, ShowsThePersonAtTheStatesPositionAndOnThePage) {
   app::SceneBuilder builder({}, "", 0, [&](const auto& newest) { state = newest; });
   builder.OnCharacter(subject::MakeMotion("t_pose")->character());
   builder.OnSample(subject::MakeMotion("t_pose")->At(0));
-  const render::Camera camera = render::NamedCamera("front", *state);
+  render::GroundExtent ground = render::GroundExtentOf(*state);
+  ground.height = render::NeededHeight(*state);
+  const render::Camera camera = render::NamedCameraAt("front", ground);
   const auto project = [&](const Eigen::Vector3d& point) {
     return render::Project(point, camera, image.width, image.height);
   };

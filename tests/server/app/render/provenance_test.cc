@@ -153,14 +153,18 @@ TEST(Provenance, ReadsTheFirstSchemaWithItsFormerNamesAndValues) {
   options::OptionList list;
   untouched.List(list);
   for (const options::Option& option : list) {
-    // --figure was another option then.
+    // These have other defaults since then; --figure was another option.
     if (option.name == "size" || option.name == "out" || option.name == "figure") continue;
+    if (option.name == "fit" || option.name == "camera_frame") continue;
     if (SchemaOne({}).at("options").value(option.name, Json("")).is_string()) {
       EXPECT_EQ(OptionText(plain, option.name),
                 option.former_name == "frame" ? "100" : option.value->ToText())
           << option.name << " has the default of that version";
     }
   }
+  EXPECT_EQ(*plain.view.moves.fit, Fit::kOff);
+  EXPECT_EQ(*plain.view.figure, render::Figure::kUrdf) << "there was no skin";
+  EXPECT_EQ(plain.view.moves.camera_frame.value_or(CameraFrame::kStart), CameraFrame::kWorld);
   const RenderOptions options = OptionsOf(SchemaOne({{"overlay", "+scale,+strip,-lamp"},
                                                      {"show", "frames,axes"},
                                                      {"hide", "held"},

@@ -64,7 +64,8 @@ TEST(RosCameraLoop, SendsThePictureOfARendererAndTheCalibrationOfItsCamera) {
   loop.SetSubscribers(1);
   const Sent sent = first.Get();
   EXPECT_EQ(sent.stamp_nanos, 7);
-  const render::Camera camera = render::NamedCamera("front", *state);
+  const render::Camera camera =
+      CameraController(ParseCamera("front"), {}).AimLive(*state, 96.0 / 64, 96.0 / 64);
   EXPECT_TRUE(sent.rgba == render::MakeRenderer()->Render(*state, camera, LiveView(96, 64)).rgba)
       << "not the same bytes";
   const Pinhole pinhole = PinholeOf(camera, 64);

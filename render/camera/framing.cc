@@ -1,0 +1,249 @@
+#include "render/camera/framing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/system/check.h"
+#include "render/camera/camera_matrices.h"
+
+namespace kinescope::render {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr int kDirections = 240;  // of a hull: neighbours are 15 degrees apart
+
+constexpr double kObject = 0.12;  // m, of a tracked object, whose shape is not known
+
+// Axes of the camera: right, up, forward; rows of view_from_world.
+Eigen::Matrix3d AxesOf(const Camera& camera) {
+  const glm::dmat4 view = ViewFromWorld(camera);
+  Eigen::Matrix3d axes;
+  for (int axis = 0; axis < 3; ++axis) {
+    axes(0, axis) = view[axis][0];
+    axes(1, axis) = view[axis][1];
+    axes(2, axis) = -view[axis][2];
+  }
+  return axes;
+}
+
+// A free area in the picture: x to the right, y up, -1..1 at its edges.
+struct Window {
+  double left = -1, right = 1, down = -1, up = 1;
+};
+
+Window WindowOf(const PictureRect& rect) {
+  return {2 * rect.left - 1, 2 * rect.right - 1, 1 - 2 * rect.bottom, 1 - 2 * rect.top};
+}
+
+// The middle part of it that is to be filled.
+Window Filled(const Window& window) {
+  const double x = 0.5 * (1 - kFilled) * (window.right - window.left);
+  const double y = 0.5 * (1 - kFilled) * (window.up - window.down);
+  return {window.left + x, window.right - x, window.down + y, window.up - y};
+}
+
+// Where the eye is on one side's axis, and its depth, if all balls are between two planes through
+// it with the slopes low (negative: to that side) and high.
+struct Seat {
+  double low_side, high_side;  // of the planes at depth 0
+  double low, high;
+
+  double depth() const { return -(high_side - low_side) / (high - low); }
+  double At(double depth) const {
+    return 0.5 * (high_side + high * depth + low_side + low * depth);
+  }
+};
+
+// `balls`: in the camera's axes.
+Seat SeatOf(const std::vector<Ball>& balls, int axis, double low, double high) {
+  Seat seat{1e300, -1e300, low, high};
+  const double above = std::hypot(1, high), below = std::hypot(1, low);
+  for (const Ball& ball : balls) {
+    const double side = ball.center[axis], depth = ball.center.z();
+    seat.high_side = std::max(seat.high_side, side - high * depth + ball.radius * above);
+    seat.low_side = std::min(seat.low_side, side - low * depth - ball.radius * below);
+  }
+  return seat;
+}
+
+// The camera in its own axes.
+struct Place {
+  Vector3d eye;
+  double ortho_height = 0;  // m; 0: perspective
+  double slope = 0;         // of half the picture's height
+
+  // The larger, the smaller things are.
+  double smallness(double depth) const { return ortho_height > 0 ? ortho_height : depth - eye.z(); }
+};
+
+Place PlaceOf(const Camera& camera, const std::vector<Ball>& balls, double aspect,
+              const Window& window) {
+  if (camera.is_orthographic()) {
+    Vector3d low = Vector3d::Constant(1e300), high = -low;
+    for (const Ball& ball : balls) {
+      low = low.cwiseMin(ball.center - Vector3d::Constant(ball.radius));
+      high = high.cwiseMax(ball.center + Vector3d::Constant(ball.radius));
+    }
+    const Vector3d size = high - low, middle = 0.5 * (low + high);
+    Place place;
+    place.ortho_height = std::max({2 * size.y() / (window.up - window.down),
+                                   2 * size.x() / (aspect * (window.right - window.left)), 0.02});
+    const double half = 0.5 * place.ortho_height;
+    place.eye = {middle.x() - half * aspect * 0.5 * (window.left + window.right),
+                 middle.y() - half * 0.5 * (window.down + window.up),
+                 middle.z() - std::max(2 * place.ortho_height, size.z())};
+    return place;
+  }
+  const double slope = std::tan(0.5 * camera.vertical_fov_rad);
+  const Seat across = SeatOf(balls, 0, slope * aspect * window.left, slope * aspect * window.right);
+  const Seat upright = SeatOf(balls, 1, slope * window.down, slope * window.up);
+  const double depth = std::min(across.depth(), upright.depth());
+  return {{across.At(depth), upright.At(depth), depth}, 0, slope};
+}
+
+// What of the picture a ball covers.
+Window ShownAt(const Place& place, const Ball& ball, double aspect) {
+  const Vector3d from_eye = ball.center - place.eye;
+  const double half = place.ortho_height > 0 ? 0.5 * place.ortho_height
+                                             : place.slope * std::max(from_eye.z(), 1e-6);
+  const double x = from_eye.x() / (half * aspect), y = from_eye.y() / half;
+  const double across = ball.radius / (half * aspect), upright = ball.radius / half;
+  return {x - across, x + across, y - upright, y + upright};
+}
+
+bool Overlaps(const Window& a, const Window& b) {
+  return a.left < b.right && b.left < a.right && a.down < b.up && b.down < a.up;
+}
+
+bool Covers(const Place& place, const std::vector<Ball>& balls, double aspect,
+            const Window& corner) {
+  return std::any_of(balls.begin(), balls.end(), [&](const Ball& ball) {
+    return Overlaps(ShownAt(place, ball, aspect), corner);
+  });
+}
+
+// `window` without a corner: beside it, or above or below it.
+Window Beside(Window window, const Window& corner) {
+  if (corner.left + corner.right < 0) {
+    window.left = std::max(window.left, corner.right);
+  } else {
+    window.right = std::min(window.right, corner.left);
+  }
+  return window;
+}
+Window AboveOrBelow(Window window, const Window& corner) {
+  if (corner.down + corner.up < 0) {
+    window.down = std::max(window.down, corner.up);
+  } else {
+    window.up = std::min(window.up, corner.down);
+  }
+  return window;
+}
+
+// Beside or above each corner that is in the way: whichever shows things larger. `depth`: of their
+// middle.
+Place BestPlace(const Camera& camera, const std::vector<Ball>& balls, double aspect,
+                const Window& whole, std::vector<Window> corners, double depth) {
+  Place best = PlaceOf(camera, balls, aspect, Filled(whole));
+  std::vector<Window> hit;
+  while (true) {
+    const auto in_the_way = std::find_if(corners.begin(), corners.end(), [&](const Window& corner) {
+      return Covers(best, balls, aspect, corner);
+    });
+    if (in_the_way == corners.end()) return best;
+    hit.push_back(*in_the_way);
+    corners.erase(in_the_way);
+    bool is_first = true;
+    for (unsigned choice = 0; choice < 1U << hit.size(); ++choice) {
+      Window window = whole;
+      for (std::size_t i = 0; i < hit.size(); ++i) {
+        const bool is_beside = (choice >> i & 1U) == 0;
+        window = is_beside ? Beside(window, hit[i]) : AboveOrBelow(window, hit[i]);
+      }
+      if (window.right - window.left < 0.1 || window.up - window.down < 0.1) continue;
+      const Place place = PlaceOf(camera, balls, aspect, Filled(window));
+      if (!is_first && place.smallness(depth) >= best.smallness(depth)) continue;
+      best = place;
+      is_first = false;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Ball> BallsOf(const SceneState& state) {
+  std::vector<Ball> balls;
+  for (const PersonState* person : FramedPeople(state)) {
+    const std::vector<Ball> of_person = BallsOf(*person);
+    balls.insert(balls.end(), of_person.begin(), of_person.end());
+  }
+  for (const TrackedObject& object : state.objects)
+    balls.push_back({object.pose.position, kObject});
+  for (const RobotState& robot : state.robots) {
+    if (robot.bounds.isEmpty()) {
+      for (const Eigen::Isometry3d& link : robot.world_from_link) {
+        balls.push_back({link.translation(), 0});
+      }
+      continue;
+    }
+    for (int i = 0; i < 8; ++i) {
+      balls.push_back({robot.bounds.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)), 0});
+    }
+  }
+  balls.erase(std::remove_if(balls.begin(), balls.end(),
+                             [](const Ball& ball) {
+                               return !ball.center.allFinite() || !std::isfinite(ball.radius);
+                             }),
+              balls.end());
+  return balls;
+}
+
+BallHull::BallHull() : farthest_(kDirections) {
+  // Evenly spread on a sphere: Fibonacci's lattice.
+  const double golden = M_PI * (3 - std::sqrt(5));
+  for (int i = 0; i < kDirections; ++i) {
+    const double z = 1 - (2.0 * i + 1) / kDirections, ring = std::sqrt(1 - z * z);
+    directions_.emplace_back(ring * std::cos(golden * i), ring * std::sin(golden * i), z);
+  }
+}
+
+void BallHull::Add(const Ball& ball) {
+  for (std::size_t i = 0; i < directions_.size(); ++i) {
+    Ball& farthest = farthest_[i];
+    if (is_empty_ ||
+        directions_[i].dot(ball.center - farthest.center) + ball.radius > farthest.radius) {
+      farthest = ball;
+    }
+  }
+  is_empty_ = false;
+}
+
+std::vector<Ball> BallHull::balls() const { return is_empty_ ? std::vector<Ball>() : farthest_; }
+
+Camera Framing(const Camera& camera, const std::vector<Ball>& balls, double aspect,
+               const FreeArea& area) {
+  KINESCOPE_CHECK(!balls.empty() && aspect > 0);
+  const Eigen::Matrix3d axes = AxesOf(camera);
+  std::vector<Ball> seen;  // in the camera's axes
+  Vector3d low = Vector3d::Constant(1e300), high = -low;
+  for (const Ball& ball : balls) {
+    seen.push_back({axes * ball.center, ball.radius});
+    low = low.cwiseMin(seen.back().center);
+    high = high.cwiseMax(seen.back().center);
+  }
+  const double middle = 0.5 * (low.z() + high.z());
+  std::vector<Window> corners;
+  for (const PictureRect& corner : area.corners) corners.push_back(WindowOf(corner));
+  const Place best = BestPlace(camera, seen, aspect, WindowOf(area.free), corners, middle);
+  Camera framed = camera;
+  if (best.ortho_height > 0) framed.ortho_height_m = best.ortho_height;
+  const double distance = std::max(middle - best.eye.z(), 0.02);
+  framed.position = axes.transpose() * best.eye;
+  framed.target = framed.position + distance * axes.row(2).transpose();
+  framed.near_m = std::min(camera.near_m, 0.02 * distance);
+  framed.far_m = std::max(camera.far_m, 4 * distance);
+  return framed;
+}
+
+}  // namespace kinescope::render

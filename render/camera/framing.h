@@ -1,0 +1,51 @@
+/// What a picture must show, and the camera that shows it as large as the picture allows. World,
+/// metres. Pure functions, any thread.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/person_outline.h"
+#include "core/scene_state.h"
+#include "render/camera/camera.h"
+
+namespace kinescope::render {
+
+/// Balls whose common hull is around all visible people, what they hold, objects and robots; empty
+/// without any. People who are not framed (GroupFraming::reach_m) are left out.
+std::vector<Ball> BallsOf(const SceneState& state);
+
+/// The balls of many moments, but only those that may touch a side of a picture.
+class BallHull {
+ public:
+  BallHull();
+  void Add(const Ball& ball);
+  /// Empty if none was added.
+  std::vector<Ball> balls() const;
+
+ private:
+  std::vector<Eigen::Vector3d> directions_;
+  std::vector<Ball> farthest_;  // by direction
+  bool is_empty_ = true;
+};
+
+/// A rectangle in a picture, as shares of its width and height; from the left and from the top.
+struct PictureRect {
+  double left = 0, top = 0, right = 1, bottom = 1;
+};
+
+/// Where a picture has room for people.
+struct FreeArea {
+  PictureRect free;                  // between what goes from side to side
+  std::vector<PictureRect> corners;  // covered parts of it: a legend, a time code
+};
+
+/// `camera` moved, without rotation, so that the balls fill most of the free area's height or
+/// width, and none of them is in a covered corner. @pre !balls.empty(), aspect > 0 (width / height)
+[[nodiscard]] Camera Framing(const Camera& camera, const std::vector<Ball>& balls, double aspect,
+                             const FreeArea& area = {});
+
+/// Share of the free height or width that Framing() fills.
+inline constexpr double kFilled = 0.85;
+
+}  // namespace kinescope::render

@@ -1,0 +1,18 @@
+/// Where the overlays of a picture leave room for people. Pure function, any thread.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "render/camera/framing.h"
+#include "render/camera/tile.h"
+#include "render/renderer.h"
+
+namespace kinescope::render {
+
+/// Of each view, in its own picture. `curves`: in the plot. @throws RenderError if a font is
+/// missing.
+std::vector<FreeArea> FreeAreasOf(const PictureSpec& spec, const std::vector<Tile>& views,
+                                  std::size_t curves);
+
+}  // namespace kinescope::render

@@ -1,0 +1,167 @@
+#include "server/http/skin_buffer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/system/json_text.h"
+#include "urdf/skin/frames.h"
+#include "urdf/skin/outfit.h"
+#include "urdf/skin/person_skin.h"
+#include "urdf/skin/skin_template.h"
+
+namespace kinescope::http {
+namespace {
+
+using nlohmann::json;
+using urdf::At;
+
+template <class T>
+void Append(std::string& bytes, const std::vector<T>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), sizeof(T) * values.size());
+}
+
+// The place of a finger in VisibleLinks(); of a bare hand: -1.
+int LinkOfFinger(const urdf::HumanModel& human, urdf::Side side, int finger) {
+  if (!human.gloves[side]) return -1;
+  const bool is_second = side == urdf::kLeft && human.gloves[urdf::kRight];
+  return urdf::kSegmentCount + (is_second ? urdf::kFingersPerHand : 0) + finger;
+}
+
+// A column for each member, because 153 objects would take longer to send than the vertices.
+json FramesToJson(const urdf::HumanModel& human) {
+  json kinds = json::array(), links = json::array(), parents = json::array(),
+       shares = json::array(), offsets = json::array();
+  const auto add = [&](const char* kind, int link, int parent, double share, double offset) {
+    kinds.push_back(kind);
+    links.push_back(link);
+    parents.push_back(parent);
+    shares.push_back(std::round(share * 1e6) / 1e6);
+    offsets.push_back(std::round(offset * 1e6) / 1e6);
+  };
+  for (const skin::Frame& frame : skin::Frames()) {
+    const int parent = urdf::kSegments[At(frame.segment)].parent;
+    switch (frame.kind) {
+      case skin::FrameKind::kSegment: add("link", frame.segment, -1, 1, 0); continue;
+      case skin::FrameKind::kSwing:
+        add("swing", frame.segment, parent, frame.share, skin::FarthestBoneOffset(frame));
+        continue;
+      case skin::FrameKind::kTwist: add("twist", frame.segment, parent, frame.share, 0); continue;
+      case skin::FrameKind::kFinger:
+      case skin::FrameKind::kHalfFinger: break;
+    }
+    const auto side = frame.segment == urdf::kLeftHand ? urdf::kLeft : urdf::kRight;
+    const int link = LinkOfFinger(human, side, frame.finger);
+    const int before = urdf::kFingerParents[At(frame.finger)];
+    if (link < 0) {
+      add("fixed", frame.segment, -1, 1, 0);
+    } else if (frame.kind == skin::FrameKind::kFinger) {
+      add("link", link, -1, 1, 0);
+    } else {
+      add("half", link, skin::HasFrames(before) ? LinkOfFinger(human, side, before) : frame.segment,
+          0.5, 0);
+    }
+  }
+  return {{"kinds", std::move(kinds)},
+          {"links", std::move(links)},
+          {"parents", std::move(parents)},
+          {"shares", std::move(shares)},
+          {"offsets_m", std::move(offsets)}};
+}
+
+// [x, y, z, w] by link, for those whose twist is spread.
+json MiddlesToJson() {
+  json middles = json::object();
+  for (int segment = 0; segment < urdf::kSegmentCount; ++segment) {
+    if (skin::TwistFrames(segment) == 0) continue;
+    const Eigen::Quaterniond middle = skin::MiddleOfRange(segment);
+    middles[std::to_string(segment)] = {middle.x(), middle.y(), middle.z(), middle.w()};
+  }
+  return middles;
+}
+
+template <class Vector>
+void AppendSteps(const Vector& values, float step, std::vector<std::int16_t>& steps) {
+  for (const float value : values) {
+    steps.push_back(static_cast<std::int16_t>(std::lround(value / step)));
+  }
+}
+
+}  // namespace
+
+std::string SkinBuffer(const PersonModel& model) {
+  const urdf::HumanModel& human = model.human;
+  const skin::SkinTemplate& built_in = skin::BuiltInSkin();
+  const skin::Build build = skin::BuildOf(model.description.sex == urdf::Sex::kFemale,
+                                          human.skeleton.height, model.description.mass_kg);
+  std::array<const urdf::HandSkeleton*, 2> gloves{};
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    if (human.gloves[side]) gloves[side] = &*human.gloves[side];
+  }
+  const skin::PersonSkin skin(built_in, build, human.skeleton, gloves);
+
+  float farthest = 0;
+  for (const Eigen::Vector3f& p : skin.rest())
+    farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
+  const float step = std::max(farthest, 1e-3f) / INT16_MAX;
+  const float border_step = skin::kFarthestBorder / INT8_MAX;
+  std::vector<std::int16_t> positions;
+  positions.reserve(3 * skin.rest().size());
+  for (const Eigen::Vector3f& p : skin.rest()) AppendSteps(p, step, positions);
+  std::vector<std::int8_t> borders;
+  borders.reserve(4 * built_in.size());
+  for (const skin::Borders& border : skin::OutfitOf(built_in, build)) {
+    for (const float inside : {border.trousers, border.bare, border.shoes, border.bands}) {
+      borders.push_back(static_cast<std::int8_t>(std::lround(inside / border_step)));
+    }
+  }
+  std::vector<float> bind;
+  for (const urdf::Pose& frame : skin.bind_frames()) {
+    for (const double value : frame.position) bind.push_back(static_cast<float>(value));
+    for (const double value : frame.orientation.coeffs()) bind.push_back(static_cast<float>(value));
+  }
+
+  const SuitColors& colors = model.suit;
+  const std::string header = JsonText(json{{"vertices", built_in.size()},
+                                           {"triangles", built_in.triangles.size()},
+                                           {"position_step_m", step},
+                                           {"border_step_m", border_step},
+                                           {"frames", FramesToJson(human)},
+                                           {"middles", MiddlesToJson()},
+                                           {"natural_until_rad", skin::kNaturalSwingUntil},
+                                           {"middle_from_rad", skin::kMiddleSwingFrom},
+                                           {"colors",
+                                            {{"top", colors.top},
+                                             {"trousers", colors.trousers},
+                                             {"shoes", colors.shoes},
+                                             {"bare", colors.bare},
+                                             {"band", colors.band}}}});
+  const std::string blanks((4 - header.size() % 4) % 4, ' ');
+  std::string bytes;
+  Append(bytes,
+         std::vector<std::uint32_t>{static_cast<std::uint32_t>(header.size() + blanks.size())});
+  bytes += header + blanks;
+  Append(bytes, bind);
+  Append(bytes, built_in.weights);
+  Append(bytes, borders);
+  Append(bytes, positions);
+  Append(bytes, built_in.triangles);
+  return bytes;
+}
+
+std::shared_ptr<const std::string> SkinBuffers::Of(
+    const std::shared_ptr<const PersonModel>& model) {
+  made_.erase(std::remove_if(made_.begin(), made_.end(),
+                             [](const Made& made) { return made.model.expired(); }),
+              made_.end());
+  for (const Made& made : made_) {
+    if (made.model.lock() == model) return made.buffer;
+  }
+  made_.push_back({model, std::make_shared<const std::string>(SkinBuffer(*model))});
+  return made_.back().buffer;
+}
+
+}  // namespace kinescope::http

@@ -1,0 +1,32 @@
+/// Writes the skin of a person for the page (docs/http.md): vertices, weights and clothes, and how
+/// the frames that carry them follow from the streamed link poses.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/scene_state.h"
+
+namespace kinescope::http {
+
+/// Little-endian: the length of a JSON header (u32), the header, blanks up to a multiple of 4, then
+/// the arrays that it counts. Metres; the person's bind pose with the pelvis at the origin, z up.
+/// Any thread. @pre model.has_built_in_surface
+std::string SkinBuffer(const PersonModel& model);
+
+/// The buffers that were asked for, as long as their models are in use. One thread.
+class SkinBuffers {
+ public:
+  /// Never null.
+  std::shared_ptr<const std::string> Of(const std::shared_ptr<const PersonModel>& model);
+
+ private:
+  struct Made {
+    std::weak_ptr<const PersonModel> model;
+    std::shared_ptr<const std::string> buffer;
+  };
+  std::vector<Made> made_;
+};
+
+}  // namespace kinescope::http

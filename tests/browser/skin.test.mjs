@@ -1,0 +1,165 @@
+// The person on the page and in the server's pictures is the same surface: what the skin covers, pixel by pixel.
+import assert from 'node:assert/strict';
+import { execFileSync, spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
+import { after, before, test as nodeTest } from 'node:test';
+import { aim, groundOf } from '../../web/cameras.js';
+import { decodeState } from '../../web/state_codec.js';
+import { closeBrowser, openPage, pixelsOf, pixelsOfPng, saveScreenshot } from './open_page.mjs';
+
+const LONG = { timeout: 60000 };  // only a failure takes so long
+const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
+const kinescope = process.env.KINESCOPE;
+let folder;
+before(async () => { folder = await mkdtemp(join(tmpdir(), 'kinescope-skin-')); });
+after(async () => {
+  await closeBrowser();
+  await rm(folder, { recursive: true });
+});
+
+/** A recording of nothing but the posture of `motion` after `seconds`. */
+async function record(motion, seconds, person) {
+  const file = join(folder, `${motion}.mvnx`);
+  execFileSync(kinescope, ['convert', `demo:${motion}`, '--seconds', `${seconds}`, '--rate_hz', '60', ...person, '--out', file],
+    { stdio: 'ignore' });
+  const xml = await readFile(file, 'utf8');
+  const frames = [...xml.matchAll(/<frame [^>]*type="normal"[^]*?<\/frame>/g)];
+  const last = frames.at(-1)[0].replace(/^<frame [^>]*>/, '');
+  await writeFile(file, xml.replace(/(<frame [^>]*type="normal"[^>]*>)[^]*?<\/frame>/g, `$1${last}`));
+  return file;
+}
+
+/** Serves it; the page then shows its last sample. */
+async function serve(file, person) {
+  const args = ['serve', '--source', file, ...person, '--ros', 'off', '--pictures', 'off', '--http_port', '0'];
+  const child = spawn(kinescope, args, { stdio: ['ignore', 'ignore', 'pipe'] });
+  const lines = createInterface({ input: child.stderr });
+  let url = null;
+  for await (const line of lines) {
+    url = /page at (\S+)/.exec(line)?.[1];
+    if (url) break;
+  }
+  child.stderr.resume();
+  assert.ok(url, 'the server ended before it served');
+  return {
+    url,
+    async stop() {
+      child.kill('SIGTERM');
+      if (child.exitCode === null) await once(child, 'exit');
+    },
+  };
+}
+
+/** Pixels that differ visibly. */
+function mask(one, other) {
+  assert.deepEqual([one.width, one.height], [other.width, other.height]);
+  const covered = new Uint8Array(one.width * one.height);
+  for (let i = 0; i < covered.length; ++i) {
+    const difference = [0, 1, 2].map((k) => Math.abs(one.data[4 * i + k] - other.data[4 * i + k]));
+    covered[i] = Math.max(...difference) > 12 ? 1 : 0;
+  }
+  return covered;
+}
+
+/** Covered by both, as a share of what is covered by either; without the pixels of `leftOut`. */
+function overlap(one, other, leftOut) {
+  let both = 0, either = 0;
+  one.forEach((covered, i) => {
+    if (leftOut[i]) return;
+    both += covered & other[i];
+    either += covered | other[i];
+  });
+  return { share: both / either, either };
+}
+
+/** The page's camera, by its own functions from what the server sends: as options of `render`. */
+async function cameraOf(page, name, { width, height }) {
+  const bytes = await page.evaluate(() => new Promise((resolve) => {
+    const socket = new WebSocket(new URL('ws', location.href.replace(/^http/, 'ws')));
+    socket.binaryType = 'arraybuffer';
+    socket.onmessage = ({ data }) => {
+      if (typeof data === 'string') return;
+      resolve([...new Uint8Array(data)]);
+      socket.close();
+    };
+  }));
+  const { people, floor } = decodeState(Uint8Array.from(bytes).buffer);
+  const { cameras, framing } = await page.evaluate(async () => (await fetch('api/cameras')).json());
+  const ground = { ...groundOf(people.map(({ links }) => links[0].position), floor, framing.reach_m),
+    height: people[0].viewHeight };
+  const { position, target, fovDegrees } = aim(cameras.find((each) => each.name === name), framing, ground, width / height);
+  return ['--camera', `${position.join()}:${target.join()}`, '--fov', `${fovDegrees}`];
+}
+
+/** What the server draws of the same sample from the same camera. */
+async function serverPixels(page, file, camera, { width, height }, hidden, person) {
+  const out = join(folder, 'server.png');
+  execFileSync(kinescope, ['render', file, '--time', '0', ...camera, '--size', `${width}x${height}`, '--no_overlays', '--floor', 'off', '--background', 'black', '--hide', hidden, ...person, '--out', out],
+  { stdio: 'ignore' });
+  return pixelsOfPng(page, await readFile(out));
+}
+
+// Everything but the body.
+const REST = 'loads,com,cop,support,forces,hand_loads,shadows';
+
+for (const { motion, seconds, camera, person } of [
+  { motion: 'squat', seconds: 1.2, camera: 'left', person: [] },
+  { motion: 'lift', seconds: 1, camera: 'three_quarter', person: ['--sex', 'female', '--mass', '60', '--height', '1.64'] },
+  { motion: 'overhead', seconds: 1.5, camera: 'front', person: ['--mass', '105'] },
+  { motion: 'sit', seconds: 0.1, camera: 'iso', person: [] },
+]) {
+  test(`the skin of ${motion} covers the same pixels on the page and in the server's picture`, async () => {
+    const file = await record(motion, seconds, person);
+    const site = await serve(file, person);
+    const open = async (hasSkin) => {
+      const visit = await openPage(site.url, {
+        colorScheme: 'dark',
+        beforeLoad: async (page) => {
+          if (!hasSkin) await page.route('**/api/skin/**', (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' }));
+        },
+      });
+      const { page } = visit;
+      await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Stale', null, LONG);
+      await page.locator(`#cameras button[data-camera="${camera}"]`).click();
+      await page.evaluate(() => {
+        for (const over of document.querySelectorAll('.stage > :not(.view)')) over.style.visibility = 'hidden';
+      });
+      return visit;
+    };
+    const visit = await open(true);
+    const bare = await open(false);
+    const settled = async ({ page }) => {
+      // Until two pictures in a row are equal: the camera has arrived and the skin is there.
+      const view = () => pixelsOf(page, '#view');
+      let last = await view();
+      for (;;) {
+        const next = await view();
+        if (next.data.equals(last.data)) return next;
+        last = next;
+      }
+    };
+    await visit.page.waitForFunction(() => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
+      /api\/skin/.test(name) && responseEnd > 0), null, LONG);
+    const [shown, empty] = [await settled(visit), await settled(bare)];
+    const onPage = mask(shown, empty);
+    const size = { width: shown.width, height: shown.height };
+    const sameCamera = await cameraOf(visit.page, camera, size);
+    const drawn = [];
+    for (const hidden of [REST, `${REST},body`, REST.replace('loads,', '')]) {
+      drawn.push(await serverPixels(visit.page, file, sameCamera, size, hidden, person));
+    }
+    const [body, nothing, withLoads] = drawn;
+    const inPicture = mask(body, nothing);
+    await saveScreenshot(visit.page, `skin_${motion}`);
+    const { share, either } = overlap(onPage, inPicture, mask(body, withLoads));
+    assert.ok(either > 0.02 * onPage.length, `${either} pixels`);
+    assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels are covered by both`);
+    await visit.close();
+    await bare.close();
+    await site.stop();
+  });
+}

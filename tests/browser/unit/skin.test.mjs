@@ -1,0 +1,96 @@
+// The skin as the C++ encoder has just written it (page_fixture_server describe), and its frames for random postures:
+// person 0 with bare hands, person 1 with gloves.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import test from 'node:test';
+import { readSkin } from '../../../web/skin_buffer.js';
+import { framesOf } from '../../../web/skin_frames.js';
+import { neighboursOf } from '../../../web/skin_surface.js';
+
+const program = process.env.KINESCOPE_PAGE_FIXTURE;
+if (!program) throw new Error('set KINESCOPE_PAGE_FIXTURE to the built page_fixture_server; ctest does it');
+const told = JSON.parse(execFileSync(program, ['describe'], { encoding: 'utf8', maxBuffer: 1 << 26 }));
+const buffers = told.skins.map(({ hex }) => Uint8Array.from(Buffer.from(hex, 'hex')).buffer);
+
+/** Largest distance of positions, m, and of rotations, rad. */
+function farthest(frames, expected) {
+  let position = 0, rotation = 0;
+  frames.forEach((frame, i) => {
+    position = Math.max(position, Math.hypot(...frame.position.toArray().map((v, k) => v - expected[i].position[k])));
+    const dot = frame.rotation.toArray().reduce((sum, v, k) => sum + v * expected[i].rotation[k], 0);
+    rotation = Math.max(rotation, 2 * Math.acos(Math.min(1, Math.abs(dot))));
+  });
+  return { position, rotation };
+}
+
+test('the frames of random postures equal those of the server', () => {
+  told.skins.forEach(({ postures }, person) => {
+    const { rig } = readSkin(buffers[person], 'skin');
+    for (const { links, frames } of postures) {
+      const { position, rotation } = farthest(framesOf(rig, links), frames);
+      // Bare fingers come from the bind pose, which is sent as float32.
+      assert.ok(position < 2e-6 && rotation < 2e-3, `person ${person}: ${position} m, ${rotation} rad`);
+    }
+  });
+});
+
+test('the frames of the bind pose leave the vertices in place', () => {
+  for (const buffer of buffers) {
+    const { rig } = readSkin(buffer, 'skin');
+    const links = [];
+    rig.frames.forEach(({ kind, link }, i) => {
+      const { position, rotation } = rig.bind[i];
+      if (kind === 'link') links[link] = { position: position.toArray(), quaternion: rotation.toArray() };
+    });
+    // Carpus and metacarpals have no frame of their own.
+    for (let i = 0; i < links.length; ++i) links[i] ??= links[0];
+    const expected = rig.bind.map(({ position, rotation }) => ({ position: position.toArray(), rotation: rotation.toArray() }));
+    const { position, rotation } = farthest(framesOf(rig, links), expected);
+    assert.ok(position < 1e-6 && rotation < 2e-3, `${position} m, ${rotation} rad`);
+  }
+});
+
+test('a skin takes at most 600 kB, is as tall as a person, and its weights are whole', () => {
+  for (const buffer of buffers) {
+    assert.ok(buffer.byteLength <= 600000, `${buffer.byteLength} bytes`);
+    const { positions, weights, triangles, indices } = readSkin(buffer, 'skin');
+    const heights = positions.filter((_, i) => i % 3 === 2);
+    const tall = heights.reduce((most, z) => Math.max(most, z)) - heights.reduce((least, z) => Math.min(least, z));
+    assert.ok(tall > 1.65 && tall < 1.85, `${tall} m`);
+    assert.equal(indices.length, weights.length);
+    for (let i = 0; i < weights.length; i += 4) {
+      assert.equal(weights[i] + weights[i + 1] + weights[i + 2] + weights[i + 3], 255, `vertex ${i / 4}`);
+    }
+    assert.ok(triangles.length > 3 * 30000);
+  }
+});
+
+test('a truncated or altered skin is rejected', () => {
+  const [whole] = buffers;
+  for (const size of [0, 3, 4, 100, 5000, whole.byteLength - 1]) {
+    assert.throws(() => readSkin(whole.slice(0, size), 'api/skin/0/1'), /api\/skin\/0\/1.*reload the page/, `${size} bytes`);
+  }
+  const header = new DataView(whole).getUint32(0, true);
+  const altered = (at, value) => {
+    const copy = new Uint8Array(whole.slice(0));
+    copy[at] = value;
+    return copy.buffer;
+  };
+  const { rig, positions } = readSkin(whole, 'skin');
+  const influences = 4 + header + 28 * rig.frames.length;
+  assert.throws(() => readSkin(altered(influences, 255), 'skin'), /frame that does not exist/);
+  const triangles = influences + 6 * positions.length;
+  assert.throws(() => readSkin(altered(triangles + 1, 255), 'skin'), /corner that is no vertex/);
+});
+
+test('the vertices around a vertex go once around it', () => {
+  const octahedron = Uint16Array.from([0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5]);
+  const { ring, first } = neighboursOf(octahedron, 6);
+  const around = ring.subarray(first[4], first[5]);
+  const start = around.indexOf(0);
+  assert.deepEqual([0, 1, 2, 3].map((i) => around[(start + i) % 4]), [0, 2, 1, 3], 'counter-clockwise from outside');
+  assert.throws(() => neighboursOf(octahedron.subarray(3), 6), /gap/);
+  const { triangles, positions } = readSkin(buffers[0], 'skin');
+  const whole = neighboursOf(triangles, positions.length / 3);
+  assert.equal(whole.ring.length, triangles.length, 'as many neighbours as corners: the skin is closed');
+});

@@ -1,0 +1,121 @@
+// A person as one skinned surface: the vertices, weights and clothes of the server's pictures. World frame: z up,
+// metres.
+import * as THREE from 'three';
+import { toColor } from './colors.js';
+import { framesOf } from './skin_frames.js';
+import { POSED_VERTEX, SkinSurface } from './skin_surface.js';
+
+const ONE = new THREE.Vector3(1, 1, 1);
+
+// As in the server's pictures (render/vtk/skin_actor.cc): light as from a clouded sky and a lamp over the viewer's left
+// shoulder, equal for all channels, because hues carry meaning; colours whose borders are distances, crisp at any zoom.
+const SUIT = `
+  uniform vec3 topColor, trousersColor, shoesColor, bareColor, bandColor, staleColor;
+  uniform float stale;
+  varying vec4 suitBorders;
+  varying vec3 suitNormal;
+  varying float suitUp;
+  vec3 suit() {
+    vec4 inside = clamp(suitBorders / (fwidth(suitBorders) + 1e-6) + 0.5, 0.0, 1.0);
+    vec3 color = mix(topColor, bandColor, inside.w);
+    color = mix(color, trousersColor, inside.x);
+    color = mix(color, shoesColor, inside.z);
+    return mix(mix(color, bareColor, inside.y), staleColor, stale);
+  }
+  float lightOnSkin(vec3 normal, float up) {
+    float key = max(dot(normal, vec3(-0.439, 0.634, 0.637)) + 0.12, 0.0) / 1.12;
+    float fill = max(dot(normal, vec3(0.816, 0.102, 0.569)) + 0.5, 0.0) / 1.5;
+    float edge = 1.0 - max(normal.z, 0.0);
+    return (0.44 + 0.20 * up + 0.16 * fill + 0.50 * key) * (1.0 - 0.32 * edge * edge * edge);
+  }`;
+
+/** @param {{vertexShader: string}} shader
+ *  @param {string} declarations  GLSL */
+function usePosedVertices(shader, declarations = '') {
+  shader.vertexShader = shader.vertexShader
+    .replace('#include <common>', `#include <common>${POSED_VERTEX}${declarations}`)
+    .replace('#include <begin_vertex>', 'vec3 transformed = posed(posedPositions);');
+}
+
+export class SkinnedBody {
+  mesh;
+  #rig;
+  #surface;
+  #fromBind;
+  #stale = { value: 0 };
+
+  /** @param {import('./skin_buffer.js').Skin} skin
+   *  @param {THREE.Color} staleColor */
+  constructor(skin, staleColor) {
+    this.#rig = skin.rig;
+    this.#surface = new SkinSurface(skin);
+    this.#fromBind = skin.rig.bind.map(({ position, rotation }) =>
+      new THREE.Matrix4().compose(position, rotation, ONE).invert());
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(skin.positions, 3));
+    geometry.setAttribute('borders', new THREE.BufferAttribute(skin.borders, 4));
+    geometry.setIndex(new THREE.BufferAttribute(skin.triangles, 1));
+    this.mesh = new THREE.Mesh(geometry, this.#material(skin, staleColor));
+    this.mesh.customDepthMaterial = this.#depthMaterial();
+    this.mesh.frustumCulled = false;  // its bounds move with the frames
+    this.mesh.castShadow = true;  // only onto the floor: on the body itself shadows would disturb the shading
+  }
+
+  /** @param {import('./skin_frames.js').Pose[]} links  of all links, as they are streamed
+   *  @param {boolean} isLive */
+  update(links, isLive) {
+    this.#stale.value = isLive ? 0 : 1;
+    this.#surface.setFrames(framesOf(this.#rig, links).map(({ position, rotation }, i) =>
+      new THREE.Matrix4().compose(position, rotation, ONE).multiply(this.#fromBind[i])));
+  }
+
+  /** Before it is drawn.
+   *  @param {THREE.WebGLRenderer} renderer */
+  pose(renderer) {
+    this.#surface.pose(renderer);
+  }
+
+  dispose() {
+    this.mesh.geometry.dispose();
+    this.mesh.material.dispose();
+    this.mesh.customDepthMaterial?.dispose();
+    this.#surface.dispose();
+  }
+
+  /** @param {import('./skin_buffer.js').Skin} skin
+   *  @param {THREE.Color} staleColor */
+  #material({ colors, borderStep }, staleColor) {
+    const material = new THREE.MeshBasicMaterial();
+    material.onBeforeCompile = (shader) => {
+      for (const [name, color] of Object.entries(colors)) shader.uniforms[`${name}Color`] = { value: toColor(color) };
+      Object.assign(shader.uniforms, this.#surface.uniforms,
+        { staleColor: { value: staleColor }, borderStep: { value: borderStep }, stale: this.#stale });
+      usePosedVertices(shader, `
+        attribute vec4 borders;
+        uniform float borderStep;
+        varying vec4 suitBorders;
+        varying vec3 suitNormal;
+        varying float suitUp;`);
+      shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
+        vec3 posedNormal = posed(posedNormals);
+        suitBorders = borderStep * borders;
+        suitNormal = mat3(modelViewMatrix) * posedNormal;
+        suitUp = 0.5 + 0.5 * posedNormal.z;`);
+      shader.fragmentShader = shader.fragmentShader
+        .replace('#include <common>', `#include <common>${SUIT}`)
+        .replace('#include <color_fragment>', '#include <color_fragment>\n  diffuseColor.rgb = suit();')
+        .replace('#include <fog_fragment>', `gl_FragColor.rgb *= lightOnSkin(normalize(suitNormal), suitUp);
+          #include <fog_fragment>`);
+    };
+    return material;
+  }
+
+  #depthMaterial() {
+    const material = new THREE.MeshDepthMaterial({ depthPacking: THREE.RGBADepthPacking });
+    material.onBeforeCompile = (shader) => {
+      Object.assign(shader.uniforms, this.#surface.uniforms);
+      usePosedVertices(shader);
+    };
+    return material;
+  }
+}

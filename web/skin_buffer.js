@@ -1,0 +1,93 @@
+// Reads the skin of a person as the server sends it (docs/http.md): a JSON header and little-endian arrays. Counts are
+// checked before anything is read.
+import * as THREE from 'three';
+import { listOf, number, object, oneOf, recordOf } from './messages.js';
+
+const KINDS = /** @type {const} */ (['link', 'swing', 'twist', 'half', 'fixed']);
+const MOST_FRAMES = 256;  // their numbers are bytes
+const MOST_VERTICES = 65536;
+const rgb = listOf(number, 3);
+
+const readHeader = object({
+  vertices: number, triangles: number, position_step_m: number, border_step_m: number,
+  natural_until_rad: number, middle_from_rad: number, middles: recordOf(listOf(number, 4)),
+  frames: object({
+    kinds: listOf(oneOf(KINDS)), links: listOf(number), parents: listOf(number), shares: listOf(number),
+    offsets_m: listOf(number),
+  }),
+  colors: object({ top: rgb, trousers: rgb, shoes: rgb, bare: rgb, band: rgb }),
+});
+
+/** @typedef {{kind: (typeof KINDS)[number], link: number, parent: number, share: number, offset: number}} FrameRule
+ *  @typedef {{frames: FrameRule[], middles: Map<number, THREE.Quaternion>, naturalUntil: number, middleFrom: number,
+ *    bind: import('./skin_frames.js').Frame[], inHand: import('./skin_frames.js').Frame[]}} Rig
+ *    bind: the frames of the pose of the vertices; inHand: the same in the frame of their link
+ *  @typedef {ReturnType<typeof readHeader>['colors']} SuitColors  sRGB 0..1
+ *  @typedef {{rig: Rig, colors: SuitColors, positions: Float32Array, indices: Uint8Array, weights: Uint8Array,
+ *    borders: Int8Array, borderStep: number, triangles: Uint16Array}} Skin
+ *    positions: m; indices and weights: four of each vertex, weights sum up to 255; borders: distances in steps, m */
+
+/** @param {ArrayBuffer} buffer
+ *  @param {string} route  for the error
+ *  @returns {Skin}
+ *  @throws {Error} if it is truncated or has another shape */
+export function readSkin(buffer, route) {
+  const reject = (/** @type {string} */ what) => {
+    throw new Error(`${route}: ${what}; reload the page`);
+  };
+  const headerSize = buffer.byteLength < 4 ? Infinity : new DataView(buffer).getUint32(0, true);
+  if (4 + headerSize > buffer.byteLength || headerSize % 4 !== 0) reject(`${buffer.byteLength} bytes are no skin`);
+  /** @type {unknown} */
+  const document = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, headerSize)));
+  const header = readHeader(document, route);
+  const { vertices, triangles, frames: { kinds, links, parents, shares, offsets_m } } = header;
+  const count = kinds.length;
+  if ([links, parents, shares, offsets_m].some(({ length }) => length !== count) || count > MOST_FRAMES) {
+    reject('the columns of the frames differ in length');
+  }
+  if (!Number.isInteger(vertices) || vertices < 0 || vertices > MOST_VERTICES || !Number.isInteger(triangles)
+    || triangles < 0) reject(`${vertices} vertices and ${triangles} triangles`);
+  let at = 4 + headerSize;
+  const wanted = at + 28 * count + 18 * vertices + 6 * triangles;
+  if (buffer.byteLength !== wanted) reject(`${buffer.byteLength} bytes instead of ${wanted}`);
+  const take = (/** @type {number} */ bytes) => {
+    at += bytes;
+    return at - bytes;
+  };
+  const bindValues = new Float32Array(buffer, take(28 * count), 7 * count);
+  const influences = new Uint8Array(buffer, take(8 * vertices), 8 * vertices);
+  const borders = new Int8Array(buffer, take(4 * vertices), 4 * vertices);
+  const steps = new Int16Array(buffer, take(6 * vertices), 3 * vertices);
+  const corners = new Uint16Array(buffer, take(6 * triangles), 3 * triangles);
+  if (corners.some((corner) => corner >= vertices)) reject('a triangle has a corner that is no vertex');
+  const indices = new Uint8Array(4 * vertices), weights = new Uint8Array(4 * vertices);
+  for (let i = 0; i < vertices; ++i) {
+    indices.set(influences.subarray(8 * i, 8 * i + 4), 4 * i);
+    weights.set(influences.subarray(8 * i + 4, 8 * i + 8), 4 * i);
+  }
+  if (indices.some((index) => index >= count)) reject('a vertex hangs on a frame that does not exist');
+  const bind = kinds.map((_, i) => ({
+    position: new THREE.Vector3().fromArray(bindValues, 7 * i),
+    rotation: new THREE.Quaternion().fromArray(bindValues, 7 * i + 3),
+  }));
+  const frames = kinds.map((kind, i) => ({
+    kind, link: links[i], parent: parents[i], share: shares[i], offset: offsets_m[i],
+  }));
+  const middles = new Map(Object.entries(header.middles).map(
+    ([link, values]) => /** @type {const} */ ([Number(link), new THREE.Quaternion().fromArray(values)])));
+  const inHand = bind.map(({ position, rotation }, i) => {
+    // The first frames are those of the segments themselves.
+    const hand = bind[frames[i].link] ?? bind[i];
+    const back = hand.rotation.clone().conjugate();
+    return {
+      position: position.clone().sub(hand.position).applyQuaternion(back), rotation: back.clone().multiply(rotation),
+    };
+  });
+  return {
+    rig: {
+      frames, middles, bind, inHand, naturalUntil: header.natural_until_rad, middleFrom: header.middle_from_rad,
+    },
+    colors: header.colors, indices, weights, borders, borderStep: header.border_step_m, triangles: corners,
+    positions: Float32Array.from(steps, (step) => header.position_step_m * step),
+  };
+}

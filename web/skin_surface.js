@@ -1,0 +1,214 @@
+// Poses a skin on the graphics card: a pass that writes the position of each vertex into a texture, and one that writes
+// its normal, the mean of the triangles around it by area, as the server does. Materials read both textures. They hold
+// the bits of floats as integers, because every WebGL 2 can draw into those.
+import * as THREE from 'three';
+
+const WIDTH = 256;  // of the textures, texels
+const RING_WIDTH = 1024;
+const MOST_NEIGHBOURS = 64;
+
+/** GLSL: the posed position and normal of the vertex `gl_VertexID`, in the uniforms of SkinSurface. */
+export const POSED_VERTEX = `
+  uniform highp usampler2D posedPositions, posedNormals;
+  vec3 posed(highp usampler2D values) {
+    return uintBitsToFloat(texelFetch(values, ivec2(gl_VertexID % ${WIDTH}, gl_VertexID / ${WIDTH}), 0).xyz);
+  }`;
+
+const FULL_SCREEN = `
+  void main() {
+    gl_Position = vec4(4.0 * float(gl_VertexID & 1) - 1.0, 4.0 * float(gl_VertexID >> 1) - 1.0, 0.0, 1.0);
+  }`;
+
+const POSITIONS = `
+  uniform highp sampler2D rest, frames;
+  uniform sampler2D indices, weights;
+  out highp uvec4 bits;
+  void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec4 bound = vec4(texelFetch(rest, at, 0).xyz, 1.0);
+    vec4 index = 255.0 * texelFetch(indices, at, 0), weight = texelFetch(weights, at, 0);
+    vec3 sum = vec3(0.0);
+    for (int k = 0; k < 4; ++k) {
+      int frame = int(index[k] + 0.5);
+      sum += weight[k] * vec3(dot(texelFetch(frames, ivec2(0, frame), 0), bound),
+                              dot(texelFetch(frames, ivec2(1, frame), 0), bound),
+                              dot(texelFetch(frames, ivec2(2, frame), 0), bound));
+    }
+    bits = uvec4(floatBitsToUint(sum), 0u);
+  }`;
+
+const NORMALS = `
+  uniform highp sampler2D rest;
+  uniform highp usampler2D posedPositions, ring;
+  out highp uvec4 bits;
+  vec3 positionOf(int vertex) {
+    return uintBitsToFloat(texelFetch(posedPositions, ivec2(vertex % ${WIDTH}, vertex / ${WIDTH}), 0).xyz);
+  }
+  vec3 edgeTo(int place, vec3 from) {
+    return positionOf(int(texelFetch(ring, ivec2(place % ${RING_WIDTH}, place / ${RING_WIDTH}), 0).x)) - from;
+  }
+  void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    int places = int(texelFetch(rest, at, 0).w);
+    int first = places / ${MOST_NEIGHBOURS}, count = places % ${MOST_NEIGHBOURS};
+    vec3 own = positionOf(at.y * ${WIDTH} + at.x), sum = vec3(0.0);
+    if (count > 0) {
+      vec3 before = edgeTo(first + count - 1, own);
+      for (int i = 0; i < count; ++i) {
+        vec3 next = edgeTo(first + i, own);
+        sum += cross(before, next);
+        before = next;
+      }
+    }
+    bits = uvec4(floatBitsToUint(normalize(sum + vec3(0.0, 0.0, 1e-20))), 0u);
+  }`;
+
+/** The vertices around each vertex, counter-clockwise from outside, one vertex after another.
+ *  @param {Uint16Array} triangles  of a closed surface
+ *  @param {number} vertices
+ *  @returns {{ring: Uint16Array, first: Uint32Array}}  first: where each begins, and the end
+ *  @throws {Error} if the surface is not closed */
+export function neighboursOf(triangles, vertices) {
+  // The triangles a, b, c around a: b is followed by c.
+  const first = new Uint32Array(vertices + 1);
+  triangles.forEach((corner) => { first[corner + 1] += 1; });
+  for (let i = 0; i < vertices; ++i) first[i + 1] += first[i];
+  const from = new Uint16Array(triangles.length), to = new Uint16Array(triangles.length);
+  const filled = first.slice();
+  for (let t = 0; t < triangles.length; t += 3) {
+    for (let i = 0; i < 3; ++i) {
+      const place = filled[triangles[t + i]]++;
+      from[place] = triangles[t + (i + 1) % 3];
+      to[place] = triangles[t + (i + 2) % 3];
+    }
+  }
+  const ring = new Uint16Array(triangles.length);
+  for (let vertex = 0; vertex < vertices; ++vertex) {
+    let next = from[first[vertex]];
+    for (let place = first[vertex]; place < first[vertex + 1]; ++place) {
+      ring[place] = next;
+      const step = from.subarray(first[vertex], first[vertex + 1]).indexOf(next);
+      if (step < 0) throw new Error(`the triangles around vertex ${vertex} of the skin have a gap; reload the page`);
+      next = to[first[vertex] + step];
+    }
+    if (first[vertex + 1] - first[vertex] >= MOST_NEIGHBOURS) {
+      throw new Error(`vertex ${vertex} of the skin has too many neighbours; reload the page`);
+    }
+  }
+  return { ring, first };
+}
+
+/** @template {Float32Array|Uint8Array|Uint16Array} T
+ *  @param {T} values
+ *  @param {T} padded  as long as the texture
+ *  @param {number} width
+ *  @param {{format: THREE.PixelFormat, type: THREE.TextureDataType, internalFormat: THREE.PixelFormatGPU|null}} kind */
+function texture(values, padded, width, { format, type, internalFormat }) {
+  padded.set(values);
+  const texels = format === THREE.RGBAFormat ? padded.length / 4 : padded.length;
+  const made = new THREE.DataTexture(padded, width, texels / width, format, type);
+  if (internalFormat) made.internalFormat = internalFormat;
+  made.needsUpdate = true;
+  return made;
+}
+
+const FLOATS = { format: THREE.RGBAFormat, type: THREE.FloatType, internalFormat: null };
+const BYTES = { format: THREE.RGBAFormat, type: THREE.UnsignedByteType, internalFormat: null };
+const SHORTS = /** @type {const} */ (
+  { format: THREE.RedIntegerFormat, type: THREE.UnsignedShortType, internalFormat: 'R16UI' });
+
+/** @param {number} rows */
+const target = (rows) => new THREE.WebGLRenderTarget(WIDTH, rows, {
+  format: THREE.RGBAIntegerFormat, type: THREE.UnsignedIntType, internalFormat: 'RGBA32UI', depthBuffer: false,
+  minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter, generateMipmaps: false,
+});
+
+export class SkinSurface {
+  /** Of materials with POSED_VERTEX. */
+  uniforms;
+  #positions;
+  #normals;
+  #frames;
+  #textures;
+  #passes;
+  #screen = new THREE.Mesh(new THREE.BufferGeometry().setAttribute(
+    'position', new THREE.BufferAttribute(new Float32Array(9), 3)));
+  #camera = new THREE.Camera();
+  #isPosed = false;
+
+  /** @param {import('./skin_buffer.js').Skin} skin */
+  constructor({ rig, positions, indices, weights, triangles }) {
+    const vertices = positions.length / 3;
+    const rows = Math.ceil(vertices / WIDTH);
+    const { ring, first } = neighboursOf(triangles, vertices);
+    const rest = new Float32Array(4 * WIDTH * rows);
+    for (let i = 0; i < vertices; ++i) {
+      rest.set(positions.subarray(3 * i, 3 * i + 3), 4 * i);
+      rest[4 * i + 3] = MOST_NEIGHBOURS * first[i] + first[i + 1] - first[i];  // below 2^24: exact
+    }
+    this.#frames = texture(new Float32Array(), new Float32Array(12 * rig.frames.length), 3, FLOATS);
+    const bytes = () => new Uint8Array(4 * WIDTH * rows);
+    this.#textures = {
+      rest: texture(rest, rest, WIDTH, FLOATS), frames: this.#frames,
+      indices: texture(indices, bytes(), WIDTH, BYTES), weights: texture(weights, bytes(), WIDTH, BYTES),
+      ring: texture(ring, new Uint16Array(RING_WIDTH * Math.ceil(ring.length / RING_WIDTH)), RING_WIDTH, SHORTS),
+    };
+    this.#positions = target(rows);
+    this.#normals = target(rows);
+    this.uniforms = {
+      posedPositions: { value: this.#positions.texture }, posedNormals: { value: this.#normals.texture },
+    };
+    const { rest: restTexture, ring: ringTexture, ...others } = this.#textures;
+    const pass = (/** @type {string} */ fragmentShader, /** @type {Record<string, THREE.Texture>} */ textures) =>
+      new THREE.ShaderMaterial({
+        glslVersion: THREE.GLSL3, vertexShader: FULL_SCREEN, fragmentShader, depthTest: false, depthWrite: false,
+        blending: THREE.NoBlending,
+        uniforms: Object.fromEntries(Object.entries(textures).map(([name, value]) => [name, { value }])),
+      });
+    this.#passes = [
+      { material: pass(POSITIONS, { rest: restTexture, ...others }), into: this.#positions },
+      {
+        material: pass(NORMALS, { rest: restTexture, ring: ringTexture, posedPositions: this.#positions.texture }),
+        into: this.#normals,
+      },
+    ];
+    this.#screen.frustumCulled = false;
+  }
+
+  /** @param {Iterable<THREE.Matrix4>} matrices  world_from_bind of each frame */
+  setFrames(matrices) {
+    const rows = /** @type {Float32Array} */ (this.#frames.image.data);
+    let at = 0;
+    for (const { elements: e } of matrices) {
+      for (let row = 0; row < 3; ++row, at += 4) rows.set([e[row], e[row + 4], e[row + 8], e[row + 12]], at);
+    }
+    this.#frames.needsUpdate = true;
+    this.#isPosed = false;
+  }
+
+  /** Before the skin is drawn; does nothing if no frame has moved.
+   *  @param {THREE.WebGLRenderer} renderer */
+  pose(renderer) {
+    if (this.#isPosed) return;
+    this.#isPosed = true;
+    const { autoClear } = renderer;
+    const before = renderer.getRenderTarget();
+    renderer.autoClear = false;  // integers cannot be cleared by a colour
+    for (const { material, into } of this.#passes) {
+      this.#screen.material = material;
+      renderer.setRenderTarget(into);
+      renderer.render(this.#screen, this.#camera);
+    }
+    renderer.setRenderTarget(before);
+    renderer.autoClear = autoClear;
+  }
+
+  dispose() {
+    for (const each of Object.values(this.#textures)) each.dispose();
+    for (const { material, into } of this.#passes) {
+      material.dispose();
+      into.dispose();
+    }
+    this.#screen.geometry.dispose();
+  }
+}
