@@ -7,6 +7,7 @@
 
 #include "core/system/errors.h"
 #include "core/system/starts_with.h"
+#include "server/body/body_color.h"
 
 namespace kinescope::app {
 namespace {

@@ -103,7 +103,7 @@ render::Camera CameraController::Placed(const SceneState& state, const render::G
 render::Camera CameraController::ForClip(const render::Camera& camera,
                                          const render::GroundExtent& ground, double aspect) const {
   constexpr double kMuchSmaller = 1.3;
-  const render::Camera still = render::Framing(camera, clip_.balls(), aspect, free_area_);
+  render::Camera still = render::Framing(camera, clip_.balls(), aspect, free_area_);
   render::Camera with_people =
       render::Framing(camera, clip_around_people_.balls(), aspect, free_area_);
   if (render::ShownHeight(still) < kMuchSmaller * render::ShownHeight(with_people)) return still;
