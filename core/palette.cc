@@ -26,7 +26,7 @@ constexpr std::array<SphereSize, urdf::kJointGroupCount> kSizes = {{
     {0.022, 0.080},   // ball of the foot
 }};
 
-const SphereSize& SizeOf(int joint) { return kSizes[urdf::At(urdf::JointGroupOf(joint))]; }
+const SphereSize& SpheresOf(int joint) { return kSizes[urdf::At(urdf::JointGroupOf(joint))]; }
 
 double Scale(double height) { return height > 0 ? height / urdf::kReferenceHeight : 1; }
 
@@ -42,14 +42,30 @@ Rgb ColorOf(LoadClass load_class) {
   return {0.30, 0.33, 0.39};
 }
 
-double SphereRadius(int joint, LoadClass load_class, double height) {
-  double share = 0.57;  // unknown: smaller than any real class
-  if (load_class == LoadClass::kLow) share = 0.71;
-  if (load_class == LoadClass::kMedium) share = 0.85;
-  if (load_class == LoadClass::kHigh) share = 1;
-  return SizeOf(joint).limb * share * Scale(height);
+double SizeOf(LoadClass load_class) {
+  switch (load_class) {
+    case LoadClass::kLow: return 0.71;
+    case LoadClass::kMedium: return 0.85;
+    case LoadClass::kHigh: return 1;
+    case LoadClass::kUnknown: break;
+  }
+  return 0.57;
 }
 
-double SphereDepth(int joint, double height) { return SizeOf(joint).depth * Scale(height); }
+double RimOf(LoadClass load_class) {
+  switch (load_class) {
+    case LoadClass::kHigh: return 1;
+    case LoadClass::kUnknown: return -0.8;
+    case LoadClass::kLow:
+    case LoadClass::kMedium: break;
+  }
+  return 0;
+}
+
+double SphereRadius(int joint, LoadClass load_class, double height) {
+  return SpheresOf(joint).limb * SizeOf(load_class) * Scale(height);
+}
+
+double SphereDepth(int joint, double height) { return SpheresOf(joint).depth * Scale(height); }
 
 }  // namespace kinescope

@@ -22,14 +22,21 @@ inline constexpr Rgb kSupportColor = {0.36, 0.49, 0.71};
 inline constexpr double kMetresPerNewton = 1e-3;
 inline constexpr double kMinForceShown = 20;  // N; below it the arrow is a dot
 inline constexpr Rgb kBodyColor = {0.78, 0.80, 0.84};
+inline constexpr Rgb kClayColor = {0.72, 0.69, 0.65};  // of --style clay
 inline constexpr Rgb kStaleBodyColor = {0.55, 0.55, 0.55};
 inline constexpr Rgb kObjectColor = {0.42, 0.46, 0.54};  // tracked objects and props
 /// Of the x, y and z axis of a frame: the hues of RViz, paler than any load class.
 inline constexpr std::array<Rgb, 3> kAxisColors = {
     {{0.86, 0.42, 0.42}, {0.44, 0.72, 0.44}, {0.42, 0.50, 0.86}}};
 
-/// Radius of the load sphere of `joint`, m: no sphere is wider than the limb around it, and each
-/// class is at least 15 % larger than the one below, so that the order is visible without colour.
+/// How large the mark of a class is, as a share of that of the class high; each is at least 15 %
+/// larger than the one below, so that the order is visible without colour. Unknown is the smallest.
+double SizeOf(LoadClass load_class);
+
+/// The rim of the mark of a class: above 0 dark, below 0 white, the value is its opacity; 0: none.
+double RimOf(LoadClass load_class);
+
+/// Radius of the load sphere of `joint`, m: no sphere is wider than the limb around it.
 /// `height`: stature of the person, m.
 double SphereRadius(int joint, LoadClass load_class, double height);
 

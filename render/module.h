@@ -11,6 +11,7 @@
 #include "core/system/module_loader.h"
 #include "render/camera/camera.h"
 #include "render/image/image.h"
+#include "render/line_drawing.h"
 #include "render/painter.h"
 #include "render/plot.h"
 #include "render/renderer.h"
@@ -41,13 +42,19 @@ struct Label {
   double opacity = 1;
 };
 
+/// What is painted over a drawing.
+struct DrawnScene {
+  std::vector<Label> labels;
+  std::vector<DrawnLine> lines;  // of Style::kLine
+};
+
 /// The 3-D picture without overlays. Belongs to the thread that made it.
 class Drawing {
  public:
   virtual ~Drawing() = default;
-  /// Fills `image`, which has its size already, and `labels`. @throws RenderError.
+  /// Fills `image`, which has its size already, and `drawn`. @throws RenderError.
   virtual void Draw(const SceneState& state, const Camera& camera, const SceneLook& look,
-                    int supersample, Image& image, std::vector<Label>& labels) = 0;
+                    int supersample, Image& image, DrawnScene& drawn) = 0;
   /// Box around the rendered shapes of `robot`, world, m; empty if there are none.
   virtual Eigen::AlignedBox3d Bounds(const RobotState& robot) = 0;
   /// The elements that the newest picture replaces by labelled boxes, one line each.
@@ -59,7 +66,7 @@ struct DrawingModule {
   ModuleAbi<SceneState, PersonState, PersonModel, urdf::Landmark, urdf::AddedMass, JointLoad,
             TrackedObject, LeftOutPerson, RobotState, urdf::RobotModel, urdf::Link, urdf::Visual,
             urdf::Collision, urdf::RobotJoint, urdf::MeshSearch, SceneMarker, Camera, SceneLook,
-            Trail, Ghost, Image, Label, Driver>
+            Trail, Ghost, Image, Label, DrawnLine, Driver>
       abi;
   /// `backend`: one of those in the module.
   std::unique_ptr<Drawing> (*make)(const std::string& backend, const LogLine& log);

@@ -62,6 +62,14 @@ std::vector<DrawnView> ViewsOf(const Camera& camera, const PictureSpec& spec) {
   return views;
 }
 
+void PaintLinesOf(Painter& painter, const std::vector<DrawnView>& views, const PictureSpec& spec) {
+  for (const DrawnView& view : views) {
+    painter.Enter(view.tile);
+    PaintLines(painter, view.scene.lines, spec);
+  }
+  painter.Enter({0, 0, spec.width, spec.height});
+}
+
 }  // namespace
 
 ModuleRenderer::ModuleRenderer(const DrawingModule& module, RendererSettings settings)
@@ -116,8 +124,9 @@ std::string ModuleRenderer::DoOverlayLayer(const SceneState& state, const Camera
   const Lifted lifted(Drawable(state, kept), camera, spec);
   std::vector<DrawnView> views = ViewsOf(lifted.camera(), lifted.spec());
   KINESCOPE_CHECK(views.size() == drawn_.size());  // of the picture drawn last
-  for (std::size_t i = 0; i < views.size(); ++i) views[i].labels = drawn_[i].labels;
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].scene = drawn_[i].scene;
   const auto painter = MakeLayerPainter(spec.width, spec.height, spec.print.width_mm, format);
+  PaintLinesOf(*painter, views, lifted.spec());
   overlay_.Paint(*painter, lifted.state(), views, lifted.spec());
   return painter->Finish();
 }
@@ -129,7 +138,7 @@ void ModuleRenderer::DrawWatched(const SceneState& state, DrawnView& drawn, cons
                            std::to_string(spec.height) + " px by back-end " + settings_.backend,
                        LimitOfPicture(spec));
   });
-  drawing_->Draw(state, drawn.camera, spec.look, spec.supersample, image, drawn.labels);
+  drawing_->Draw(state, drawn.camera, spec.look, spec.supersample, image, drawn.scene);
 }
 
 void ModuleRenderer::RenderOpaque(Image& image, const SceneState& state, const Camera& camera,
@@ -148,8 +157,9 @@ void ModuleRenderer::RenderOpaque(Image& image, const SceneState& state, const C
       CopyInto(image, part_, each.tile);
     }
   }
-  if (!spec.overlays) return;
   Canvas canvas(image);
+  if (spec.lines) PaintLinesOf(canvas, drawn_, spec);
+  if (!spec.overlays) return;
   overlay_.Paint(canvas, state, drawn_, spec);
 }
 

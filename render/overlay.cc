@@ -50,7 +50,7 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
 
 void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& drawn,
                         const PictureSpec& spec, bool has_time_code) {
-  PaintNames(page, state, drawn.camera, spec.parts.names, drawn.labels);
+  PaintNames(page, state, drawn.camera, spec.parts.names, drawn.scene.labels);
   if (page.is_small) return;
   const double margin = page.Px(kMargin);
   if (spec.parts.scale) {

@@ -23,8 +23,8 @@ namespace kinescope::render {
 struct DrawnView {
   Tile tile;
   Camera camera;
-  std::string name;           // "" if it is the only view
-  std::vector<Label> labels;  // painted at their positions in the world
+  std::string name;  // "" if it is the only view
+  DrawnScene scene;
 };
 
 class Overlay {

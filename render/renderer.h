@@ -55,6 +55,7 @@ struct PictureSpec {
   int supersample = 1;   // one of kSupersampleFactors: of pixels drawn, in each direction
   std::string title;     // upper left; "": none
   bool overlays = true;  // legend, time code, banner
+  bool lines = true;     // those of Style::kLine; false: they are left to OverlayLayer
   OverlayParts parts = {};
   /// Several views in one picture, row by row (multi_view.h); they replace the camera argument.
   std::vector<Pane> panes = {};
@@ -95,8 +96,8 @@ class Renderer {
   void RenderInto(Image& image, const SceneState& state, const Camera& camera,
                   const PictureSpec& spec);
 
-  /// The overlays of the picture rendered last, alone and as vectors, in its size (SVG: px; PDF: 96
-  /// px per inch). Pass the arguments of that picture; the layer is made whether or not
+  /// The overlays and lines of the picture rendered last, alone and as vectors, in its size (SVG:
+  /// px; PDF: 96 px per inch). Pass the arguments of that picture; the layer is made whether or not
   /// view.overlays is set. Equal arguments give equal bytes.
   std::string OverlayLayer(const SceneState& state, const Camera& camera, const PictureSpec& spec,
                            LayerFormat format);

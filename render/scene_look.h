@@ -81,6 +81,20 @@ enum class Figure {
   kUrdf,  // the rigid parts of the URDF, as RViz shows them
 };
 
+/// Where the classes of joint loads are shown. On people without a skin: as spheres.
+enum class LoadsShown {
+  kSpheres,
+  kSkin,  // as regions of the skin around the joints, hatched where the class is unknown
+  kBoth,
+};
+
+/// How bodies are drawn.
+enum class Style {
+  kMatte,  // a suit in soft light
+  kClay,   // one colour, in soft light
+  kLine,   // outlines, folds and the borders of the suit as lines
+};
+
 struct SceneLook {
   Theme theme = Theme::kLight;
   std::optional<Rgb> background;  // replaces that of the theme
@@ -91,6 +105,8 @@ struct SceneLook {
   bool floor = true;
   Detail detail = Detail::kFull;
   Figure figure = Figure::kSkin;
+  LoadsShown loads = LoadsShown::kSpheres;
+  Style style = Style::kMatte;
   ScenePartSet shown;
   std::vector<Trail> trails;
   std::vector<Ghost> ghosts;
@@ -105,6 +121,10 @@ struct ThemeColors {
 };
 
 const ThemeColors& ColorsOf(Theme theme);
+/// What bodies are filled with in Style::kLine. Not the background, which may be transparent.
+inline Rgb PaperOf(Theme theme) {
+  return theme == Theme::kDark ? ColorsOf(theme).background : Rgb{1, 1, 1};
+}
 inline const Rgb& BackgroundOf(const SceneLook& look) {
   return look.background ? *look.background : ColorsOf(look.theme).background;
 }

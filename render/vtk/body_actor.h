@@ -29,9 +29,15 @@ class BodyActor {
     double skin = 0;
   };
 
+  struct Look {
+    Figure figure = Figure::kSkin;
+    bool has_loads = false;  // on the skin
+    bool is_flat = false;    // the skin is drawn without light
+  };
+
   /// Adds the names of missing meshes to `labels`. `override_color`: see PartActor.
   /// @return whether the list of actors has changed.
-  bool Update(const PersonState& person, Figure figure, const Eigen::Vector4f& override_color,
+  bool Update(const PersonState& person, const Look& look, const Eigen::Vector4f& override_color,
               const Error& error, OnceLog& log, std::vector<Label>& labels);
 
   /// Meshes that are replaced by boxes.
@@ -39,6 +45,10 @@ class BodyActor {
   std::vector<vtkActor*> actors();
   /// Those of the newest Update as a skin; null: it was none.
   const skin::Capsules* limbs() const { return is_skin_ ? &skin_.capsules() : nullptr; }
+  /// Those of the newest Update as a skin.
+  void AddLines(const Camera& camera, std::vector<SpaceLine>& lines) const {
+    if (is_skin_) skin_.AddLines(camera, lines);
+  }
   /// Takes effect with the next Update.
   void SetVisible(bool is_visible) { is_visible_ = is_visible; }
   /// 0..1; takes effect with the next Update.

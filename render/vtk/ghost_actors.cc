@@ -18,7 +18,7 @@ bool GhostActors::Update(const SceneLook& look, OnceLog& log, std::vector<Label>
     if (bodies_[i] == nullptr) bodies_[i] = std::make_unique<BodyActor>(Pass::kVeil);
     bodies_[i]->SetOpacity(ghosts[i].opacity);
     is_changed =
-        bodies_[i]->Update(ghosts[i].person, look.figure, tint, {}, log, labels) || is_changed;
+        bodies_[i]->Update(ghosts[i].person, {look.figure}, tint, {}, log, labels) || is_changed;
   }
   return is_changed;
 }

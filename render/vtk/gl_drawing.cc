@@ -133,19 +133,23 @@ class GlDrawing : public Drawing {
   }
 
   void Draw(const SceneState& state, const Camera& camera, const SceneLook& look, int supersample,
-            Image& image, std::vector<Label>& labels) override {
+            Image& image, DrawnScene& drawn) override {
     const VtkLogScope scope(log_);
     context_->MakeCurrent();
-    UpdateLook(look, camera, labels);
-    UpdateActors(state, camera, look, image.height * supersample, labels);
+    UpdateLook(look, camera, drawn.labels);
+    UpdateActors(state, camera, look, image.height * supersample, drawn.labels);
     AimCamera(camera);
+    VisibleLines lines(look.style == Style::kLine ? Lines(camera) : std::vector<SpaceLine>(),
+                       camera, image.width, image.height);
     const int step = kLargestTile / supersample;
     for (int y = 0; y < image.height; y += step) {
       for (int x = 0; x < image.width; x += step) {
         const Tile tile{x, y, std::min(step, image.width - x), std::min(step, image.height - y)};
         DrawTile(tile, camera, supersample, image);
+        if (!lines.is_empty()) lines.Judge(tile, supersample, ReadDepth());
       }
     }
+    drawn.lines = lines.Take();
   }
 
  private:
@@ -239,6 +243,12 @@ class GlDrawing : public Drawing {
     for (vtkActor* ghost : ghosts_.actors()) add(ghost);
   }
 
+  std::vector<SpaceLine> Lines(const Camera& camera) const {
+    std::vector<SpaceLine> lines;
+    for (const auto& [character, person] : people_) person->AddLines(camera, lines);
+    return lines;
+  }
+
   void AimCamera(const Camera& camera) {
     // Rows of the view matrix are the camera's axes; ours never lacks an upward one.
     const glm::dmat4 view = ViewFromWorld(camera);
@@ -322,6 +332,19 @@ class GlDrawing : public Drawing {
                         " px; try a smaller picture");
     }
     if (!can_invert_) TurnUpsideDown(rgba, width, height);
+  }
+
+  // Of the tile drawn last, from below.
+  std::vector<float> ReadDepth() {
+    const int* const size = window_->GetSize();
+    std::vector<float> depth(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]));
+    vtkOpenGLState* gl = window_->GetState();
+    gl->PushReadFramebufferBinding();
+    window_->GetRenderFramebuffer()->Bind(GL_READ_FRAMEBUFFER);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(0, 0, size[0], size[1], GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
+    gl->PopReadFramebufferBinding();
+    return depth;
   }
 
   LogLine log_;

@@ -81,6 +81,18 @@ urdf::Mesh HeldMesh() {
   return all;
 }
 
+// What replaces the colours of a body, and its share.
+Eigen::Vector4f TintOf(const SceneLook& look, bool is_stale) {
+  constexpr float kPaper = 0.88f;  // the borders of the suit stay visible
+  if (is_stale) return Color(kStaleBodyColor);
+  switch (look.style) {
+    case Style::kClay: return Color(kClayColor);
+    case Style::kLine: return Color(PaperOf(look.theme), kPaper);
+    case Style::kMatte: break;
+  }
+  return Eigen::Vector4f::Zero();
+}
+
 Eigen::Affine3d At(double x, double y, double z, double scale_xy, double scale_z = 1) {
   Eigen::Affine3d place = Eigen::Affine3d::Identity();
   place.translate(Eigen::Vector3d(x, y, z));
@@ -121,15 +133,16 @@ bool PersonActors::Update(const PersonState& person, Liveness liveness, const Ca
   const bool is_stale = liveness == Liveness::kStale;
   const bool is_full = look.detail == Detail::kFull;
   body_.SetVisible(look.Shows(ScenePart::kBody));
-  bool is_changed =
-      body_.Update(person, look.figure,
-                   is_stale ? Color(kStaleBodyColor) : Eigen::Vector4f(Eigen::Vector4f::Zero()),
-                   {is_full ? 0 : kUnseen * metres_per_pixel,
-                    (is_full ? kUnseenInFullDetail : kUnseen) * metres_per_pixel},
-                   log, labels);
+  bool is_changed = body_.Update(
+      person, {look.figure, look.loads != LoadsShown::kSpheres, look.style == Style::kLine},
+      TintOf(look, is_stale),
+      {is_full ? 0 : kUnseen * metres_per_pixel,
+       (is_full ? kUnseenInFullDetail : kUnseen) * metres_per_pixel},
+      log, labels);
   is_changed = UpdateAxes(person, look) || is_changed;
   is_changed = UpdateShadow(person, look) || is_changed;
-  UpdateMarks(person, camera, is_full ? 0 : metres_per_pixel);
+  const bool has_spheres = look.loads != LoadsShown::kSkin || body_.limbs() == nullptr;
+  UpdateMarks(person, has_spheres, camera, is_full ? 0 : metres_per_pixel);
   forces_.Show(person, look.Shows(ScenePart::kScale) ? &labels : nullptr);
   UpdateHeld(person, liveness);
   return is_changed;
@@ -220,18 +233,17 @@ void PersonActors::PlaceShadow(const PersonState& person) {
   shadow_.Commit();
 }
 
-void PersonActors::UpdateMarks(const PersonState& person, const Camera& camera,
+void PersonActors::UpdateMarks(const PersonState& person, bool has_spheres, const Camera& camera,
                                double metres_per_pixel) {
   const double height = person.model->human.skeleton.height;
   const double size = height > 0 ? height / urdf::kReferenceHeight : 1;
   looks_.clear();
   for (const JointLoad& load : person.loads) {
-    if (looks_.size() + 1 == kSphereCapacity) break;  // the last one is for the centre of mass
-    const double rim = load.load_class == LoadClass::kHigh      ? 1.0
-                       : load.load_class == LoadClass::kUnknown ? -0.8
-                                                                : 0.0;
+    if (!has_spheres || looks_.size() + 1 == kSphereCapacity)
+      break;  // the last one is for the centre of mass
     looks_.push_back({load.position, SphereRadius(load.joint, load.load_class, height),
-                      SphereDepth(load.joint, height), ColorOf(load.load_class), rim});
+                      SphereDepth(load.joint, height), ColorOf(load.load_class),
+                      RimOf(load.load_class)});
   }
   for (PartActor* marks : {&marks_, &ghost_marks_}) {
     const bool is_ghost = marks == &ghost_marks_;

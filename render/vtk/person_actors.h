@@ -32,6 +32,10 @@ class PersonActors {
   /// Meshes that are replaced by boxes.
   const std::vector<std::string>& problems() const { return body_.problems(); }
 
+  void AddLines(const Camera& camera, std::vector<SpaceLine>& lines) const {
+    body_.AddLines(camera, lines);
+  }
+
   // In rendering order; the shadows of all people come before the bodies of all people, and so on.
   vtkActor* shadow() { return floor_shadow_ ? floor_shadow_->actor() : shadow_.actor(); }
   std::vector<vtkActor*> bodies() { return body_.actors(); }
@@ -43,7 +47,8 @@ class PersonActors {
   bool UpdateShadow(const PersonState& person, const SceneLook& look);
   void PlaceShadow(const PersonState& person);
   bool UpdateAxes(const PersonState& person, const SceneLook& look);
-  void UpdateMarks(const PersonState& person, const Camera& camera, double metres_per_pixel);
+  void UpdateMarks(const PersonState& person, bool has_spheres, const Camera& camera,
+                   double metres_per_pixel);
   void UpdateHeld(const PersonState& person, Liveness liveness);
 
   BodyActor body_;

@@ -2,70 +2,17 @@
 
 #include <vtkActor.h>
 
+#include <algorithm>
+
 #include "core/palette.h"
 #include "core/person_links.h"
 #include "render/shape/coarser_mesh.h"
 #include "render/vtk/float_array.h"
-#include "urdf/skin/outfit.h"
+#include "urdf/segments.h"
+#include "urdf/skin/load_regions.h"
 
 namespace kinescope::render {
 namespace {
-
-// Soft light as from a clouded sky, less where limbs cover it, and a lamp over the viewer's left
-// shoulder. It scales all channels equally, because hues carry meaning.
-constexpr char kLitSkinFunction[] = R"(
-float LightOnSkin(vec3 normal, vec2 sky) {
-  float key = max(dot(normal, vec3(-0.439, 0.634, 0.637)) + 0.12, 0.0) / 1.12;
-  float fill = max(dot(normal, vec3(0.816, 0.102, 0.569)) + 0.5, 0.0) / 1.5;
-  float edge = 1.0 - max(normal.z, 0.0);
-  float light = sky.y * (0.44 + 0.20 * sky.x + 0.16 * fill) + (0.35 + 0.65 * sky.y) * 0.50 * key;
-  return light * (1.0 - 0.32 * edge * edge * edge);
-}
-)";
-
-// Borders are signed distances: crisp at any zoom, and one pixel soft.
-constexpr char kSuitFunction[] = R"(
-vec3 Suit(vec4 borders) {
-  vec4 inside = clamp(borders / (fwidth(borders) + 1e-6) + 0.5, 0.0, 1.0);
-  vec3 color = mix(topColor, bandColor, inside.w);
-  color = mix(color, trousersColor, inside.x);
-  color = mix(color, shoesColor, inside.z);
-  return mix(color, bareColor, inside.y);
-}
-)";
-
-ShaderText SkinText(bool is_lit_at_vertices) {
-  ShaderText text;
-  text.vertex_declarations = "out vec4 bordersVS;\nout vec2 skyVS;\n";
-  text.vertex = R"(
-  gl_Position = MCDCMatrix * vertexMC;
-  normalVCVSOutput = normalMatrix * normalMC;
-  skyVS = vec2(0.5 + 0.5 * normalMC.z, openSky);
-  bordersVS = borders;
-)";
-  text.fragment_declarations =
-      "in vec4 bordersVS;\nin vec2 skyVS;\n"
-      "uniform vec3 topColor;\nuniform vec3 trousersColor;\nuniform vec3 shoesColor;\n"
-      "uniform vec3 bareColor;\nuniform vec3 bandColor;\nuniform vec4 overrideColor;\n"
-      "uniform float opacityFactor;\n";
-  text.fragment_declarations += kSuitFunction;
-  if (is_lit_at_vertices) {
-    text.vertex_declarations += "out float lightVS;\n";
-    text.vertex_declarations += kLitSkinFunction;
-    text.vertex += "  lightVS = LightOnSkin(normalize(normalVCVSOutput), skyVS);\n";
-    text.fragment_declarations += "in float lightVS;\n";
-    text.fragment =
-        "vec3 suit = mix(Suit(bordersVS), overrideColor.rgb, overrideColor.a);\n"
-        "gl_FragData[0] = vec4(suit * lightVS, opacityFactor);\n";
-    return text;
-  }
-  text.fragment_declarations += kLitSkinFunction;
-  text.fragment =
-      "vec3 suit = mix(Suit(bordersVS), overrideColor.rgb, overrideColor.a);\n"
-      "float light = LightOnSkin(normalVCVSOutput, skyVS);\n"
-      "gl_FragData[0] = vec4(suit * light, opacityFactor);\n";
-  return text;
-}
 
 std::vector<std::uint32_t> Indices(const std::vector<skin::Triangle>& triangles) {
   std::vector<std::uint32_t> indices;
@@ -94,8 +41,10 @@ void SkinActor::Load(const PersonModel& model) {
   }
   const skin::SkinTemplate& built_in = skin::BuiltInSkin();
   skin_ = std::make_unique<skin::PersonSkin>(built_in, build_, human.skeleton, gloves);
-  CopyInto(borders_, 4, skin::OutfitOf(built_in, build_));
+  suit_ = skin::OutfitOf(built_in, build_);
+  CopyInto(borders_, 4, suit_);
   borders_->SetName("borders");
+  regions_->Initialize();
   limbs_ = skin::LimbRunsOf(built_in.weights);
   shown_.clear();
 }
@@ -118,22 +67,60 @@ void SkinActor::Move(const PersonState& person) {
 }
 
 void SkinActor::AddLevel(const Level& level) {
-  const auto& [error_m, is_lit_at_vertices] = level;
+  const auto& [error_m, shading] = level;
   const std::vector<std::uint32_t> all = Indices(skin_->triangles());
   const std::vector<std::uint32_t> triangles =
       error_m > 0 ? CoarserTriangles(skin_->rest(), all, error_m) : all;
-  auto shaded =
-      std::make_unique<ShadedActor>(pass_, SkinText(is_lit_at_vertices),
-                                    std::vector<VertexAttribute>{{"borders", 4}, {"openSky", 1}});
-  shaded->SetSurface(positions_, normals_, {borders_, open_sky_}, triangles);
+  auto shaded = std::make_unique<ShadedActor>(pass_, SkinText(shading), SkinAttributes(shading));
+  std::vector<vtkFloatArray*> attributes = {borders_, open_sky_};
+  if (shading.has_loads) {
+    if (regions_->GetNumberOfTuples() == 0) FindRegions();
+    attributes.push_back(regions_);
+  }
+  shaded->SetSurface(positions_, normals_, attributes, triangles);
   levels_[level] = std::move(shaded);
 }
 
+void SkinActor::FindRegions() {
+  const std::vector<skin::LoadRegion> regions =
+      skin::LoadRegionsOf(skin_->rest(), skin::BuiltInSkin().weights, skin_->triangles(),
+                          skin_->bind(), model_->human.skeleton.height);
+  std::vector<Eigen::Vector3f> values;
+  values.reserve(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    values.emplace_back(regions[i].inside, regions[i].joint,
+                        skin_->rest()[i].dot(Eigen::Vector3f::Constant(0.577f)));
+  }
+  CopyInto(regions_, 3, values);
+  regions_->SetName("region");
+}
+
+void SkinActor::ShowLoads(const std::vector<JointLoad>& loads, ShadedActor& shaded) {
+  constexpr float kHidden = 2;
+  constexpr int kCount = static_cast<int>(urdf::kScoredJointCount);
+  float looks[kCount][4] = {}, rims[kCount] = {};
+  for (float(&look)[4] : looks) look[3] = kHidden;
+  for (const JointLoad& load : loads) {
+    const auto found =
+        std::find(urdf::kScoredJoints.begin(), urdf::kScoredJoints.end(), load.joint);
+    if (found == urdf::kScoredJoints.end()) continue;
+    const auto index = found - urdf::kScoredJoints.begin();
+    const Rgb color = ColorOf(load.load_class);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      looks[index][channel] = static_cast<float>(color[channel]);
+    }
+    looks[index][3] = static_cast<float>(1 - SizeOf(load.load_class));
+    rims[index] = static_cast<float>(RimOf(load.load_class));
+  }
+  shaded.uniforms().SetUniform4fv("regionLook", kCount, looks);
+  shaded.uniforms().SetUniform1fv("regionRim", kCount, rims);
+}
+
 bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& override_color,
-                       double opacity, double error_m, bool is_lit_at_vertices) {
+                       double opacity, double error_m, const SkinShading& shading) {
   bool is_changed = false;
   const Level level(PermittedError({0.0003, 0.0006, 0.001, 0.002, 0.004, 0.006, 0.010}, error_m),
-                    is_lit_at_vertices);
+                    shading);
   if (model_ != person.model || revision_ != person.model->revision) {
     model_ = person.model;
     revision_ = person.model->revision;
@@ -147,7 +134,7 @@ bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& overrid
     is_changed = true;
   }
   for (const auto& [each, other] : levels_) {
-    other->actor()->SetVisibility(is_visible_ && each == level);
+    other->actor()->SetVisibility(is_visible_ && other == levels_[level]);
   }
   ShadedActor& shaded = *levels_[level];
   const SuitColors& colors = model_->suit;
@@ -158,7 +145,32 @@ bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& overrid
   shaded.SetColor("bandColor", colors.band);
   shaded.uniforms().SetUniform4f("overrideColor", override_color.data());
   shaded.uniforms().SetUniformf("opacityFactor", static_cast<float>(opacity));
+  if (shading.has_loads) ShowLoads(person.loads, shaded);
   return is_changed;
+}
+
+void SkinActor::AddLines(const Camera& camera, std::vector<SpaceLine>& lines) const {
+  if (!is_visible_) return;
+  const std::vector<std::uint32_t> triangles = Indices(skin_->triangles());
+  std::vector<float> values(surface_.positions.size());
+  const auto add = [&](LineKind kind) {
+    for (SurfaceLine& line : ZeroLines(surface_.positions, triangles, values)) {
+      lines.push_back({std::move(line), kind});
+    }
+  };
+  const Eigen::Vector3f eye = camera.position.cast<float>();
+  const Eigen::Vector3f back = (camera.position - camera.target).cast<float>();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const Eigen::Vector3f to_eye =
+        camera.is_orthographic() ? back : Eigen::Vector3f(eye - surface_.positions[i]);
+    values[i] = surface_.normals[i].dot(to_eye);
+  }
+  add(LineKind::kOutline);
+  for (float skin::Borders::*const border : {&skin::Borders::trousers, &skin::Borders::bare,
+                                             &skin::Borders::shoes, &skin::Borders::bands}) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = suit_[i].*border;
+    add(LineKind::kBorder);
+  }
 }
 
 std::vector<vtkActor*> SkinActor::actors() {

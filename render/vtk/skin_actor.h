@@ -12,8 +12,11 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "render/shape/visible_lines.h"
 #include "render/vtk/shaded_actor.h"
+#include "render/vtk/skin_shader.h"
 #include "urdf/skin/occlusion.h"
+#include "urdf/skin/outfit.h"
 #include "urdf/skin/person_skin.h"
 
 namespace kinescope::render {
@@ -23,20 +26,24 @@ class SkinActor {
   explicit SkinActor(Pass pass = Pass::kSolid) : pass_(pass) {}
 
   /// `override_color`, `opacity`: see PartActor. `error_m`: how far the drawn surface may be from
-  /// the skin; 0: not at all. `is_lit_at_vertices`: as well, where triangles are a few pixels wide.
+  /// the skin; 0: not at all.
   /// @return whether the list of actors has changed.
   bool Update(const PersonState& person, const Eigen::Vector4f& override_color, double opacity,
-              double error_m, bool is_lit_at_vertices);
+              double error_m, const SkinShading& shading);
   void SetVisible(bool is_visible) { is_visible_ = is_visible; }
   std::vector<vtkActor*> actors();
+  /// Of the newest Update: outlines as seen by `camera`, and the borders of the suit.
+  void AddLines(const Camera& camera, std::vector<SpaceLine>& lines) const;
   /// Of the newest Update: what casts shadows.
   const skin::Capsules& capsules() const { return capsules_; }
 
  private:
   void Load(const PersonModel& model);
   void Move(const PersonState& person);
-  using Level = std::pair<double, bool>;  // error, m; lit at its vertices
+  using Level = std::pair<double, SkinShading>;  // error, m
   void AddLevel(const Level& level);
+  void FindRegions();
+  static void ShowLoads(const std::vector<JointLoad>& loads, ShadedActor& shaded);
 
   const Pass pass_;
   bool is_visible_ = true;
@@ -48,7 +55,9 @@ class SkinActor {
   std::vector<float> open_;
   skin::Capsules capsules_;
   skin::Build build_;
+  std::vector<skin::Borders> suit_;
   vtkNew<vtkFloatArray> positions_, normals_, borders_, open_sky_;
+  vtkNew<vtkFloatArray> regions_;                         // empty until loads are shown
   std::vector<urdf::Pose> shown_;                         // the poses of `surface_`
   std::map<Level, std::unique_ptr<ShadedActor>> levels_;  // all share the vertices
 };

@@ -313,6 +313,14 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
       camera(most_cameras),
       supersample(SupersampleWords(), 2),
       plot(Joined(ScoredJointNames()), kMaxPlots, ScoredJointNamed),
+      style({{"matte", render::Style::kMatte},
+             {"clay", render::Style::kClay},
+             {"line", render::Style::kLine}},
+            render::SceneLook().style),
+      loads({{"spheres", render::LoadsShown::kSpheres},
+             {"skin", render::LoadsShown::kSkin},
+             {"both", render::LoadsShown::kBoth}},
+            render::SceneLook().loads),
       theme({{"light", render::Theme::kLight}, {"dark", render::Theme::kDark}},
             render::Theme::kLight),
       floor(true),
@@ -337,6 +345,9 @@ void ViewOptions::List(options::OptionList& option) {
   option("plot", plot, "joints whose loads are plotted over time");
   option("no_overlays", no_overlays, "no text or plot over the picture");
   option("figure", figure, kFigureHelp);
+  option("style", style, "how bodies are drawn: in a suit, in one colour, or as lines");
+  option("loads", loads,
+         "where the classes of joint loads are shown: as spheres, as regions of the skin, or both");
   option("theme", theme, "colours of floor and background");
   option("background", background, "colour of the background");
   option("floor", floor, "whether the floor is drawn");
@@ -356,6 +367,8 @@ void ViewOptions::List(options::OptionList& option) {
   }
   option.HasNoEffect("title", "unless --overlay includes title",
                      [this] { return !overlay->title; });
+  option.HasNoEffect("loads", "with --figure urdf",
+                     [this] { return *figure == render::Figure::kUrdf; });
   option.HasNoEffect("trail_secs", "without --trail", [this] { return trail->empty(); });
   option.HasNoEffect("ghost_opacity", "without --ghost",
                      [this] { return ghost->kind == GhostSource::Kind::kNone; });
@@ -396,6 +409,8 @@ render::PictureSpec ToPictureSpec(const ViewOptions& options) {
   if (!options.plot->empty() && !options.overlay.names_plot()) spec.parts.plot = true;
   render::SceneLook& look = spec.look;
   look.figure = *options.figure;
+  look.style = *options.style;
+  look.loads = *options.loads;
   look.theme = *options.theme;
   look.is_transparent = options.background->is_transparent;
   look.background = options.background->color;

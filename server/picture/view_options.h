@@ -135,6 +135,8 @@ struct ViewOptions {
   options::List<int> plot;  // urdf::Joint
   options::Flag no_overlays;
   FigureValue figure;
+  options::Choice<render::Style> style;
+  options::Choice<render::LoadsShown> loads;
   options::Choice<render::Theme> theme;
   BackgroundValue background;
   options::Switch floor;

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/color_difference.h"
 #include "core/palette.h"
 #include "render/image/compare.h"
@@ -74,6 +76,140 @@ TEST_F(SkinDrawing, HidesTheBodyOnRequest) {
   spec_.look.shown.Set(ScenePart::kShadows, false);
   const Image empty = Draw(Person());
   EXPECT_TRUE(Compare(empty, Draw(Person(Posture::kDeepBend))).equal());
+}
+
+int CountOf(const Image& image, const Rgb& color, double farthest) {
+  int count = 0;
+  for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4) {
+    const Rgb pixel = {image.rgba[i] / 255.0, image.rgba[i + 1] / 255.0, image.rgba[i + 2] / 255.0};
+    count += ColorDifference(pixel, color) < farthest ? 1 : 0;
+  }
+  return count;
+}
+
+class LoadsOnSkin : public SkinDrawing {
+ protected:
+  SceneState Loaded(LoadClass load_class) {
+    SceneState state = kinescope::testing::SceneWith(Posture::kStanding, load_class);
+    auto model = std::make_shared<PersonModel>(*state.people[0].model);
+    model->has_built_in_surface = true;
+    state.people[0].model = model;
+    state.people[0].com.reset();
+    state.people[0].cop.reset();
+    return state;
+  }
+  Image DrawWith(LoadsShown loads, const SceneState& state) {
+    spec_.look.loads = loads;
+    return Draw(state);
+  }
+};
+
+TEST_F(LoadsOnSkin, AreInTheColourOfTheClassAndLargerForAHigherOne) {
+  int smaller = 0;
+  for (const LoadClass each : {LoadClass::kLow, LoadClass::kMedium, LoadClass::kHigh}) {
+    const int count = CountOf(DrawWith(LoadsShown::kSkin, Loaded(each)), ColorOf(each), 15);
+    EXPECT_GT(count, smaller) << Name(each);
+    EXPECT_GT(count, 1500) << Name(each);
+    smaller = count;
+  }
+}
+
+TEST_F(LoadsOnSkin, AreHatchedWhereTheyAreUnknown) {
+  // Every row through a knee has several stripes.
+  const Image unknown = DrawWith(LoadsShown::kSkin, Loaded(LoadClass::kUnknown));
+  int most = 0;
+  for (int y = 0; y < kHeight; ++y) {
+    int changes = 0;
+    bool was = false;
+    for (int x = 0; x < kWidth; ++x) {
+      const std::size_t i =
+          4 * (static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x));
+      const Rgb pixel = {unknown.rgba[i] / 255.0, unknown.rgba[i + 1] / 255.0,
+                         unknown.rgba[i + 2] / 255.0};
+      const bool is = ColorDifference(pixel, ColorOf(LoadClass::kUnknown)) < 12;
+      changes += is != was ? 1 : 0;
+      was = is;
+    }
+    most = std::max(most, changes);
+  }
+  EXPECT_GE(most, 8);
+}
+
+TEST_F(LoadsOnSkin, ReplaceTheSpheresOrStandBesideThem) {
+  const SceneState state = Loaded(LoadClass::kHigh);
+  const Image spheres = DrawWith(LoadsShown::kSpheres, state);
+  const Image both = DrawWith(LoadsShown::kBoth, state), skin = DrawWith(LoadsShown::kSkin, state);
+  EXPECT_FALSE(Compare(spheres, both).equal());
+  EXPECT_FALSE(Compare(skin, both).equal());
+  // Without a skin there are spheres in any case.
+  SceneState other = state;
+  auto model = std::make_shared<PersonModel>(*state.people[0].model);
+  model->has_built_in_surface = false;
+  other.people[0].model = model;
+  EXPECT_TRUE(
+      Compare(DrawWith(LoadsShown::kSpheres, other), DrawWith(LoadsShown::kSkin, other)).equal());
+}
+
+TEST_F(LoadsOnSkin, AreHiddenOnRequest) {
+  spec_.look.shown.Set(ScenePart::kLoads, false);
+  const SceneState state = Loaded(LoadClass::kHigh);
+  EXPECT_TRUE(
+      Compare(DrawWith(LoadsShown::kBoth, state), DrawWith(LoadsShown::kSpheres, state)).equal());
+}
+
+TEST_F(SkinDrawing, OfClayHasOneColour) {
+  spec_.look.style = Style::kClay;
+  SceneState state = Person();
+  const Image image = Draw(state);
+  auto model = std::make_shared<PersonModel>(*state.people[0].model);
+  model->suit.trousers = model->suit.top = {0.9, 0.1, 0.1};
+  state.people[0].model = model;
+  EXPECT_TRUE(Compare(image, Draw(state)).equal());
+}
+
+// The outline and nothing else is dark.
+TEST_F(SkinDrawing, OfLinesIsAnOutlineOnPaper) {
+  spec_.look.style = Style::kLine;
+  spec_.look.shown.Set(ScenePart::kShadows, false);
+  const Rgb ink = {0.13, 0.15, 0.19};
+  const Image image = Draw(Person());
+  const int dark = CountOf(image, ink, 25);
+  EXPECT_GT(dark, 1000);
+  EXPECT_GT(CountOf(image, {1, 1, 1}, 6), 5 * dark);
+  spec_.lines = false;
+  EXPECT_EQ(CountOf(Draw(Person()), ink, 25), 0);
+}
+
+TEST_F(SkinDrawing, OfLinesIsTheSameBesideLargerPicturesAndOtherStyles) {
+  spec_.look.style = Style::kLine;
+  const Image first = Draw(Person());
+  spec_.look.style = Style::kMatte;
+  Draw(Person(Posture::kDeepBend));
+  spec_.look.style = Style::kLine;
+  EXPECT_TRUE(Compare(first, Draw(Person())).equal());
+}
+
+TEST_F(SkinDrawing, OfLinesHasThemAsVectors) {
+  spec_.look.style = Style::kLine;
+  spec_.lines = false;
+  spec_.parts = {};
+  Draw(Person());
+  const std::string lines =
+      renderer_->OverlayLayer(Person(), FrontCamera(), spec_, LayerFormat::kSvg);
+  spec_.look.style = Style::kMatte;
+  Draw(Person());
+  const std::string none =
+      renderer_->OverlayLayer(Person(), FrontCamera(), spec_, LayerFormat::kSvg);
+  const auto paths = [](const std::string& svg) {
+    std::size_t count = 0;
+    for (std::size_t at = svg.find("<path"); at != std::string::npos;
+         at = svg.find("<path", at + 1))
+      ++count;
+    return count;
+  };
+  EXPECT_GT(paths(lines), paths(none) + 10);
+  EXPECT_LT(lines.size(), 300'000u);
+  EXPECT_EQ(lines.find("<image"), std::string::npos);
 }
 
 TEST(SuitColors, AreFarFromEveryLoadClass) {

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "urdf/skin/frames.h"
+#include "urdf/skin/load_regions.h"
 #include "urdf/skin/occlusion.h"
 #include "urdf/skin/outfit.h"
 #include "urdf/skin/person_skin.h"
@@ -359,6 +361,46 @@ TEST(OutfitOf, HasTrousersBelowTheBeltAndBareHands) {
     const bool is_hand = LimbOf(skin.weights[i]) == kLeftHandLimb && is_near(urdf::kLeftHand, 0.2);
     if (is_hand && !is_near(urdf::kLeftHand, 0.05)) EXPECT_GT(outfit[i].bare, 0) << p.transpose();
     if (is_near(urdf::kT12, 0.12)) EXPECT_LT(outfit[i].bare, 0) << p.transpose();
+  }
+}
+
+// Where the border of a region is drawn between two vertices, their joint must be the same.
+TEST(LoadRegions, KeepADistanceFromEachOther) {
+  for (const bool is_woman : {false, true}) {
+    const double height = is_woman ? 1.55 : 1.85;
+    const PersonSkin skin = SkinOf(is_woman, height, is_woman ? 50 : 100);
+    const std::vector<LoadRegion> regions =
+        LoadRegionsOf(skin.rest(), BuiltInSkin().weights, skin.triangles(), skin.bind(), height);
+    for (const Triangle& t : skin.triangles()) {
+      if (regions[t[0]].joint == regions[t[1]].joint && regions[t[1]].joint == regions[t[2]].joint)
+        continue;
+      std::ostringstream where;
+      for (const std::uint16_t corner : t) {
+        where << urdf::kJoints[At(urdf::kScoredJoints[regions[corner].joint])].label << " "
+              << regions[corner].inside << " at " << skin.rest()[corner].transpose() << "\n";
+      }
+      for (const std::uint16_t corner : t) EXPECT_LT(regions[corner].inside, 0) << where.str();
+      if (HasFailure()) return;
+    }
+  }
+}
+
+TEST(LoadRegions, CoverSkinAroundEveryJointFromAllSides) {
+  const PersonSkin skin = SkinOf(false, 1.75, 75);
+  const std::vector<LoadRegion> regions =
+      LoadRegionsOf(skin.rest(), BuiltInSkin().weights, skin.triangles(), skin.bind(), 1.75);
+  PersonSkin::Surface rest;
+  skin.Pose(skin.bind().links, {}, rest);
+  const double unknown = 1 - 0.57;  // from where the smallest class is drawn
+  for (std::size_t joint = 0; joint < urdf::kScoredJointCount; ++joint) {
+    bool is_seen_from_front = false, is_seen_from_back = false;
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      if (regions[i].joint != joint || regions[i].inside < unknown) continue;
+      is_seen_from_front = is_seen_from_front || rest.normals[i].x() > 0.3;
+      is_seen_from_back = is_seen_from_back || rest.normals[i].x() < -0.3;
+    }
+    EXPECT_TRUE(is_seen_from_front && is_seen_from_back)
+        << urdf::kJoints[At(urdf::kScoredJoints[joint])].label;
   }
 }
 

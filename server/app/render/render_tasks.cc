@@ -11,6 +11,7 @@ void StillTask::Draw(const SceneState& scene, double secs, DrawPool& pool, Progr
   if (layer_) {
     request.layer = layer_;
     request.spec.overlays = false;
+    request.spec.lines = false;
   }
   const render::Camera camera = request.camera;
   const FuturePicture picture = pool.Draw(std::move(request));

@@ -1,0 +1,23 @@
+/// Lines on a surface, as an illustrator draws them: where a function of its vertices changes its
+/// sign. Pure functions, any thread.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace kinescope::render {
+
+/// `is_loop`: the last point is joined to the first.
+struct SurfaceLine {
+  std::vector<Eigen::Vector3f> points;  // as the surface, m
+  bool is_loop = false;
+};
+
+/// Where `values`, one per vertex and interpolated between them, are 0. On a closed surface all
+/// lines are loops. `triangles`: three vertices each.
+std::vector<SurfaceLine> ZeroLines(const std::vector<Eigen::Vector3f>& positions,
+                                   const std::vector<std::uint32_t>& triangles,
+                                   const std::vector<float>& values);
+
+}  // namespace kinescope::render

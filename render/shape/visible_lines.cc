@@ -1,0 +1,170 @@
+#include "render/shape/visible_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec4.hpp>
+
+#include "render/camera/camera_matrices.h"
+
+namespace kinescope::render {
+namespace {
+
+constexpr double kNearer = 0.012;    // m: lines are before the surface that they are on
+constexpr double kStep = 1.5;        // px between samples
+constexpr std::size_t kGap = 3;      // samples: shorter gaps in a line are closed,
+constexpr double kShortest = 0.008;  // of the picture's height: shorter lines are left out
+constexpr double kFlatness = 0.12;   // px, by which a drawn line may miss its samples
+
+using Point = std::pair<double, double>;
+
+double Distance(const Point& a, const Point& b) {
+  return std::hypot(a.first - b.first, a.second - b.second);
+}
+
+double DistanceToLine(const Point& p, const Point& a, const Point& b) {
+  const double length = Distance(a, b);
+  if (length < 1e-9) return Distance(p, a);
+  return std::abs((b.first - a.first) * (p.second - a.second) -
+                  (b.second - a.second) * (p.first - a.first)) /
+         length;
+}
+
+// Marks the points that are needed between `first` and `last` (Douglas and Peucker, 1973).
+void Keep(const std::vector<Point>& points, std::size_t first, std::size_t last,
+          std::vector<bool>& is_kept) {
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{first, last}};
+  while (!open.empty()) {
+    const auto [from, to] = open.back();
+    open.pop_back();
+    double farthest = kFlatness;
+    std::size_t at = from;
+    for (std::size_t i = from + 1; i < to; ++i) {
+      const double distance = DistanceToLine(points[i], points[from], points[to]);
+      if (distance > farthest) farthest = distance, at = i;
+    }
+    if (at == from) continue;
+    is_kept[at] = true;
+    open.emplace_back(from, at);
+    open.emplace_back(at, to);
+  }
+}
+
+std::vector<Point> Simplified(const std::vector<Point>& points) {
+  std::vector<bool> is_kept(points.size(), false);
+  const std::size_t last = points.size() - 1, middle = last / 2;  // a loop has no length
+  for (const std::size_t corner : {std::size_t{0}, middle, last}) is_kept[corner] = true;
+  Keep(points, 0, middle, is_kept);
+  Keep(points, middle, last, is_kept);
+  std::vector<Point> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (is_kept[i]) kept.push_back(points[i]);
+  }
+  return kept;
+}
+
+}  // namespace
+
+VisibleLines::VisibleLines(const std::vector<SpaceLine>& lines, const Camera& camera, int width,
+                           int height)
+    : shortest_(kShortest * height) {
+  const glm::dmat4 view = ViewFromWorld(camera);
+  const glm::dmat4 clip = ClipFromView(camera, static_cast<double>(width) / height);
+  const auto sample = [&](const Eigen::Vector3f& p) -> Sample {
+    glm::dvec4 in_view = view * glm::dvec4(p.x(), p.y(), p.z(), 1);
+    const double distance = camera.is_orthographic() ? 1 : std::max(-in_view.z, 1e-6);
+    const double nearer = kNearer / distance;
+    if (camera.is_orthographic()) {
+      in_view.z += kNearer;
+    } else {
+      in_view = glm::dvec4((1 - nearer) * glm::dvec3(in_view), 1);
+    }
+    const glm::dvec4 at = clip * in_view;
+    if (at.w <= 0) return {0, 0, -1};
+    return {(0.5 + 0.5 * at.x / at.w) * width, (0.5 - 0.5 * at.y / at.w) * height,
+            0.5 + 0.5 * at.z / at.w};
+  };
+  for (const SpaceLine& each : lines) {
+    Track track{{}, each.kind, each.line.is_loop};
+    const auto& points = each.line.points;
+    const std::size_t ends = points.size() + (each.line.is_loop ? 1 : 0);
+    for (std::size_t i = 0; i < ends; ++i) {
+      const Sample next = sample(points[i % points.size()]);
+      if (!track.samples.empty()) {
+        const Sample from = track.samples.back();
+        const double length = std::hypot(next.x - from.x, next.y - from.y);
+        const int steps = static_cast<int>(std::min(length / kStep, 1000.0));
+        for (int step = 1; step < steps; ++step) {
+          const double t = static_cast<double>(step) / steps;
+          track.samples.push_back({from.x + t * (next.x - from.x), from.y + t * (next.y - from.y),
+                                   from.depth + t * (next.depth - from.depth)});
+        }
+      }
+      track.samples.push_back(next);
+    }
+    tracks_.push_back(std::move(track));
+  }
+}
+
+void VisibleLines::Judge(const Tile& part, int supersample, const std::vector<float>& depth) {
+  const int columns = part.width * supersample, rows = part.height * supersample;
+  const auto farthest_near = [&](int x, int y) {
+    float farthest = 0;
+    for (int row = std::max(0, y - 1); row <= std::min(rows - 1, y + 1); ++row) {
+      for (int column = std::max(0, x - 1); column <= std::min(columns - 1, x + 1); ++column) {
+        farthest = std::max(
+            farthest, depth[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                            static_cast<std::size_t>(column)]);
+      }
+    }
+    return static_cast<double>(farthest);
+  };
+  for (Track& track : tracks_) {
+    for (Sample& sample : track.samples) {
+      const double x = (sample.x - part.x) * supersample;
+      const double y = rows - (sample.y - part.y) * supersample;
+      const bool is_inside = x >= 0 && x < columns && y >= 0 && y < rows;
+      if (!is_inside || sample.depth < 0 || sample.depth > 1) continue;
+      sample.is_seen = sample.depth <= farthest_near(static_cast<int>(x), static_cast<int>(y));
+    }
+  }
+}
+
+std::vector<DrawnLine> VisibleLines::Take() const {
+  std::vector<DrawnLine> lines;
+  for (const Track& track : tracks_) {
+    // A loop begins where it is hidden, so that no seen part of it is cut.
+    const auto& samples = track.samples;
+    std::size_t first = 0;
+    while (track.is_loop && first < samples.size() && samples[first].is_seen) ++first;
+    if (first == samples.size()) first = 0;
+    std::vector<Point> run;
+    std::size_t hidden = 0;
+    const auto end_run = [&] {
+      double length = 0;
+      for (std::size_t i = 1; i < run.size(); ++i) length += Distance(run[i - 1], run[i]);
+      if (run.size() > 1 && length >= shortest_) lines.push_back({Simplified(run), track.kind});
+      run.clear();
+    };
+    std::vector<Point> gap;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Sample& sample = samples[(first + i) % samples.size()];
+      if (sample.is_seen) {
+        run.insert(run.end(), gap.begin(), gap.end());
+        gap.clear();
+        run.emplace_back(sample.x, sample.y);
+        hidden = 0;
+        continue;
+      }
+      if (!run.empty() && ++hidden <= kGap) {
+        gap.emplace_back(sample.x, sample.y);
+        continue;
+      }
+      gap.clear();
+      end_run();
+    }
+    end_run();
+  }
+  return lines;
+}
+
+}  // namespace kinescope::render

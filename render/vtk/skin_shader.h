@@ -1,0 +1,27 @@
+/// GLSL of the skin: a suit, loads around the joints, and the light on them.
+#pragma once
+
+#include <vector>
+
+#include "render/vtk/shaded_actor.h"
+
+namespace kinescope::render {
+
+struct SkinShading {
+  bool is_lit_at_vertices = false;  // enough where triangles are a few pixels wide
+  bool has_loads = false;           // shows loads as regions of the skin
+  bool is_flat = false;             // without light, for drawings of lines
+
+  bool operator<(const SkinShading& other) const;
+};
+
+/// Uniforms of all: `topColor`, `trousersColor`, `shoesColor`, `bareColor`, `bandColor`,
+/// `overrideColor` (rgb, share), `opacityFactor`. With loads, by index of urdf::kScoredJoints:
+/// `regionLook` (rgb; from how far inside the region begins, 2: hidden), `regionRim` (as the rim of
+/// a load sphere; negative: also hatched).
+ShaderText SkinText(const SkinShading& shading);
+/// What `SkinText` reads: `borders`, `openSky` and, with loads, `region` (inside, joint, place
+/// across the hatching in m).
+std::vector<VertexAttribute> SkinAttributes(const SkinShading& shading);
+
+}  // namespace kinescope::render

@@ -1,0 +1,29 @@
+/// Where the load of a joint is shown on the skin: the region around each joint whose load is
+/// computed. Pure functions, any thread.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "urdf/skin/bind_pose.h"
+#include "urdf/skin/skin_template.h"
+
+namespace kinescope::skin {
+
+/// Of a vertex.
+struct LoadRegion {
+  std::uint8_t joint = 0;  // index of urdf::kScoredJoints: the nearest region's
+  /// How far the vertex is inside of it: 1 in its middle, 0 on its border, -1 at most. Wherever a
+  /// triangle's vertices have different joints, all of them are outside.
+  float inside = -1;
+};
+
+/// Limbs have a band around the joint, shoulders and hips what is within a ball, the trunk a belt.
+/// `rest`: positions in the bind pose `bind`, m, of a person of stature `height`, m (0: average).
+std::vector<LoadRegion> LoadRegionsOf(const std::vector<Eigen::Vector3f>& rest,
+                                      const std::vector<VertexWeights>& weights,
+                                      const std::vector<Triangle>& triangles, const BindPose& bind,
+                                      double height);
+
+}  // namespace kinescope::skin
