@@ -1,11 +1,45 @@
 #!/usr/bin/env bash
 # Draws docs/contact_sheet.jpg: every camera, theme, overlay and part of the scene in one picture.
 # docs/contact_sheet.sh [PROGRAM]   (needs imagemagick)
+# docs/contact_sheet.sh --postures FOLDER [PROGRAM]
+#   draws a man and a woman in fourteen postures from four cameras, at 800 px, and FOLDER/sheet.jpg of them all: to look at
+#   after every change of the skin
 set -euo pipefail
+
+# draw_postures FOLDER
+draw_postures() {
+  local out=$1 tiles=() sex camera sample height
+  mkdir -p "$out"
+  for sex in male female; do
+    height=$([ $sex = male ] && echo 1.75 || echo 1.62)
+    "$program" convert demo:t_pose --seconds 0.01 --sex $sex --height "$height" --out "$folder/t_pose.mvnx" > /dev/null
+    mapfile -t names < <(docs/postures.py "$folder/t_pose.mvnx" "$folder/$sex.mvnx")
+    for sample in "${!names[@]}"; do
+      for camera in front right back three_quarter; do
+        "$program" render "$folder/$sex.mvnx" --sex $sex --sample "$sample" --camera $camera --size 800x800 --no_overlays \
+          --hide loads,com,cop,support,forces --no_sidecar --out "$out/${names[sample]}-$sex-$camera.png" > /dev/null
+      done
+    done
+  done
+  for sample in "${!names[@]}"; do
+    tiles+=("$out/${names[sample]}"-{male,female}-{front,right,back,three_quarter}.png)
+  done
+  montage "${tiles[@]}" -tile 8x -geometry 300x300+2+2 -background '#8a9099' -quality 88 "$out/sheet.jpg"
+}
+
+postures=''
+if [ "${1:-}" = --postures ]; then
+  postures=$(realpath "${2:?expected a folder after --postures}")
+  shift 2
+fi
 cd "$(dirname "$0")/.."
 program=${1:-build/dev/bin/kinescope}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+if [ -n "$postures" ]; then
+  draw_postures "$postures"
+  exit
+fi
 tiles=()
 
 # tile TITLE SOURCE OPTION...
@@ -41,4 +75,4 @@ cp golden_images/stale_front.png "$folder/stale.png"
 cp golden_images/no_data.png "$folder/no_data.png"
 tiles+=("$folder/stale.png" "$folder/no_data.png")
 
-montage "${tiles[@]}" -tile 4x -geometry 480x270+4+4 -background '#8a9099' -quality 88 docs/contact_sheet.jpg
+montage "${tiles[@]}" -tile 4x -geometry 480x270+4+4 -background '#8a9099' -quality 80 docs/contact_sheet.jpg

@@ -10,16 +10,17 @@ const rgb = listOf(number, 3);
 
 const readHeader = object({
   vertices: number, triangles: number, position_step_m: number, border_step_m: number,
-  natural_until_rad: number, middle_from_rad: number, middles: recordOf(listOf(number, 4)),
+  own_plane_until_rad: number, middle_share: number, middles: recordOf(listOf(number, 4)),
   frames: object({
     kinds: listOf(oneOf(KINDS)), links: listOf(number), parents: listOf(number), shares: listOf(number),
-    offsets_m: listOf(number),
+    into_bend_m: listOf(number), up_bone_m: listOf(number),
   }),
   colors: object({ top: rgb, trousers: rgb, shoes: rgb, bare: rgb, band: rgb }),
 });
 
-/** @typedef {{kind: (typeof KINDS)[number], link: number, parent: number, share: number, offset: number}} FrameRule
- *  @typedef {{frames: FrameRule[], middles: Map<number, THREE.Quaternion>, naturalUntil: number, middleFrom: number,
+/** @typedef {{kind: (typeof KINDS)[number], link: number, parent: number, share: number, intoBend: number,
+ *    upBone: number}} FrameRule
+ *  @typedef {{frames: FrameRule[], middles: Map<number, THREE.Quaternion>, ownPlaneUntil: number, middleShare: number,
  *    bind: import('./skin_frames.js').Frame[], inHand: import('./skin_frames.js').Frame[]}} Rig
  *    bind: the frames of the pose of the vertices; inHand: the same in the frame of their link
  *  @typedef {ReturnType<typeof readHeader>['colors']} SuitColors  sRGB 0..1
@@ -40,9 +41,10 @@ export function readSkin(buffer, route) {
   /** @type {unknown} */
   const document = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, headerSize)));
   const header = readHeader(document, route);
-  const { vertices, triangles, frames: { kinds, links, parents, shares, offsets_m } } = header;
+  const { vertices, triangles, frames: { kinds, links, parents, shares, into_bend_m, up_bone_m } } = header;
   const count = kinds.length;
-  if ([links, parents, shares, offsets_m].some(({ length }) => length !== count) || count > MOST_FRAMES) {
+  const columns = [links, parents, shares, into_bend_m, up_bone_m];
+  if (columns.some(({ length }) => length !== count) || count > MOST_FRAMES) {
     reject('the columns of the frames differ in length');
   }
   if (!Number.isInteger(vertices) || vertices < 0 || vertices > MOST_VERTICES || !Number.isInteger(triangles)
@@ -71,7 +73,7 @@ export function readSkin(buffer, route) {
     rotation: new THREE.Quaternion().fromArray(bindValues, 7 * i + 3),
   }));
   const frames = kinds.map((kind, i) => ({
-    kind, link: links[i], parent: parents[i], share: shares[i], offset: offsets_m[i],
+    kind, link: links[i], parent: parents[i], share: shares[i], intoBend: into_bend_m[i], upBone: up_bone_m[i],
   }));
   const middles = new Map(Object.entries(header.middles).map(
     ([link, values]) => /** @type {const} */ ([Number(link), new THREE.Quaternion().fromArray(values)])));
@@ -85,7 +87,7 @@ export function readSkin(buffer, route) {
   });
   return {
     rig: {
-      frames, middles, bind, inHand, naturalUntil: header.natural_until_rad, middleFrom: header.middle_from_rad,
+      frames, middles, bind, inHand, ownPlaneUntil: header.own_plane_until_rad, middleShare: header.middle_share,
     },
     colors: header.colors, indices, weights, borders, borderStep: header.border_step_m, triangles: corners,
     positions: Float32Array.from(steps, (step) => header.position_step_m * step),

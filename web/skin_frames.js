@@ -24,29 +24,31 @@ const aboutZ = (angle) => new THREE.Quaternion().setFromAxisAngle(Z, angle);
  *  @param {THREE.Vector3} to  unit */
 const swingTo = (from, to) => new THREE.Quaternion().setFromUnitVectors(from, to);
 
-/** parent_from_child = swing * twist. Low down it is the smallest swing from hanging; the one from the middle of the
- *  joint's range takes over while the bone rises.
- *  @param {THREE.Quaternion} rotation  parent_from_child
- *  @param {THREE.Quaternion|undefined} middle  undefined: the joint has no twist of its own
- *  @param {Rig} rig */
-function split(rotation, middle, { naturalUntil, middleFrom }) {
-  if (!middle) return { swing: rotation, twist: IDENTITY };
-  const bone = Z.clone().applyQuaternion(rotation);
-  const far = swingTo(Z.clone().applyQuaternion(middle), bone).multiply(middle);
-  const risen = Math.acos(Math.min(1, Math.max(-1, bone.z)));
-  let swing = far;
-  if (risen < middleFrom) {
-    const near = swingTo(Z, bone);
-    const t = Math.min(1, Math.max(0, (risen - naturalUntil) / (middleFrom - naturalUntil)));
-    const angle = t * t * (3 - 2 * t) * twistAngle(near.clone().conjugate().multiply(far));
-    swing = near.multiply(aboutZ(angle));
-  }
-  return { swing, twist: aboutZ(twistAngle(swing.clone().conjugate().multiply(rotation))) };
-}
-
 /** @param {THREE.Quaternion} rotation
  *  @param {number} share */
 const partOf = (rotation, share) => IDENTITY.clone().slerp(rotation, share);
+
+/** parent_from_child = rise * rest * twist. The bone rises in its own plane; straight up that plane could be any, so it
+ *  goes over to that of the middle of the joint's range.
+ *  @param {THREE.Quaternion} rotation  parent_from_child
+ *  @param {THREE.Quaternion|undefined} middle  undefined: the joint has no twist of its own
+ *  @param {Rig} rig */
+function split(rotation, middle, { ownPlaneUntil, middleShare }) {
+  const bone = Z.clone().applyQuaternion(rotation);
+  const risen = Math.acos(Math.min(1, Math.max(-1, bone.z)));
+  const t = Math.min(1, Math.max(0, (risen - ownPlaneUntil) / (Math.PI - ownPlaneUntil)));
+  const plane = Z.clone().applyQuaternion(middle ?? IDENTITY).multiplyScalar(middleShare * t * t * (3 - 2 * t)).add(bone);
+  const towards = new THREE.Vector3(-plane.x, -plane.y, 0);
+  if (towards.length() > 1e-9) towards.normalize();
+  else towards.set(1, 0, 0);
+  if (!middle) return { risen, towards, rise: rotation, rest: IDENTITY, twist: IDENTITY };
+  const rise = new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(towards.y, -towards.x, 0), risen);
+  const swing = swingTo(Z.clone().applyQuaternion(rise), bone).multiply(rise);
+  return {
+    risen, towards, rise, rest: rise.clone().conjugate().multiply(swing),
+    twist: aboutZ(twistAngle(swing.clone().conjugate().multiply(rotation))),
+  };
+}
 
 /** All frames in the order of the rig.
  *  @param {Rig} rig
@@ -65,7 +67,7 @@ export function framesOf(rig, poses) {
     joints.set(link, joint);
     return joint;
   };
-  return rig.frames.map(({ kind, link, parent, share, offset }, i) => {
+  return rig.frames.map(({ kind, link, parent, share, intoBend, upBone }, i) => {
     const own = links[link];
     if (kind === 'link') return own;
     if (kind === 'fixed') {
@@ -77,13 +79,12 @@ export function framesOf(rig, poses) {
     }
     const up = links[parent].rotation;
     if (kind === 'half') return { position: own.position, rotation: up.clone().slerp(own.rotation, share) };
-    const { swing, twist } = jointOf(link, up);
-    if (kind === 'twist') {
-      return { position: own.position, rotation: up.clone().multiply(swing).multiply(partOf(twist, share)) };
-    }
-    const cosine = Math.cos(2 * Math.acos(Math.min(1, Math.abs(swing.w))));
-    const outwards = new THREE.Vector3(0.5 * offset * (1 - cosine), 0, 0)
-      .applyQuaternion(up.clone().multiply(partOf(swing, 0.5)));
-    return { position: outwards.add(own.position), rotation: up.clone().multiply(partOf(swing, share)) };
+    const { risen, towards, rise, rest, twist } = jointOf(link, up);
+    const swung = (/** @type {number} */ part) => up.clone().multiply(partOf(rise, part)).multiply(partOf(rest, part));
+    if (kind === 'twist') return { position: own.position, rotation: swung(1).multiply(partOf(twist, share)) };
+    const bent = 0.5 * (1 - Math.cos(risen));
+    const move = towards.clone().multiplyScalar(bent * intoBend).addScaledVector(Z, bent * bent * upBone)
+      .applyQuaternion(up.clone().multiply(partOf(rise, 0.5)));
+    return { position: move.add(own.position), rotation: swung(share) };
   });
 }

@@ -34,22 +34,24 @@ int LinkOfFinger(const urdf::HumanModel& human, urdf::Side side, int finger) {
 // A column for each member, because 153 objects would take longer to send than the vertices.
 json FramesToJson(const urdf::HumanModel& human) {
   json kinds = json::array(), links = json::array(), parents = json::array(),
-       shares = json::array(), offsets = json::array();
-  const auto add = [&](const char* kind, int link, int parent, double share, double offset) {
+       shares = json::array(), into_bend = json::array(), up_bone = json::array();
+  const auto add = [&](const char* kind, int link, int parent, double share,
+                       const skin::FarthestMove& move) {
     kinds.push_back(kind);
     links.push_back(link);
     parents.push_back(parent);
     shares.push_back(std::round(share * 1e6) / 1e6);
-    offsets.push_back(std::round(offset * 1e6) / 1e6);
+    into_bend.push_back(std::round(move.into_bend * 1e6) / 1e6);
+    up_bone.push_back(std::round(move.up_bone * 1e6) / 1e6);
   };
   for (const skin::Frame& frame : skin::Frames()) {
     const int parent = urdf::kSegments[At(frame.segment)].parent;
     switch (frame.kind) {
-      case skin::FrameKind::kSegment: add("link", frame.segment, -1, 1, 0); continue;
+      case skin::FrameKind::kSegment: add("link", frame.segment, -1, 1, {}); continue;
       case skin::FrameKind::kSwing:
-        add("swing", frame.segment, parent, frame.share, skin::FarthestBoneOffset(frame));
+        add("swing", frame.segment, parent, frame.share, skin::FarthestMoveOf(frame));
         continue;
-      case skin::FrameKind::kTwist: add("twist", frame.segment, parent, frame.share, 0); continue;
+      case skin::FrameKind::kTwist: add("twist", frame.segment, parent, frame.share, {}); continue;
       case skin::FrameKind::kFinger:
       case skin::FrameKind::kHalfFinger: break;
     }
@@ -57,19 +59,17 @@ json FramesToJson(const urdf::HumanModel& human) {
     const int link = LinkOfFinger(human, side, frame.finger);
     const int before = urdf::kFingerParents[At(frame.finger)];
     if (link < 0) {
-      add("fixed", frame.segment, -1, 1, 0);
+      add("fixed", frame.segment, -1, 1, {});
     } else if (frame.kind == skin::FrameKind::kFinger) {
-      add("link", link, -1, 1, 0);
+      add("link", link, -1, 1, {});
     } else {
       add("half", link, skin::HasFrames(before) ? LinkOfFinger(human, side, before) : frame.segment,
-          0.5, 0);
+          0.5, {});
     }
   }
-  return {{"kinds", std::move(kinds)},
-          {"links", std::move(links)},
-          {"parents", std::move(parents)},
-          {"shares", std::move(shares)},
-          {"offsets_m", std::move(offsets)}};
+  return {{"kinds", std::move(kinds)},           {"links", std::move(links)},
+          {"parents", std::move(parents)},       {"shares", std::move(shares)},
+          {"into_bend_m", std::move(into_bend)}, {"up_bone_m", std::move(up_bone)}};
 }
 
 // [x, y, z, w] by link, for those whose twist is spread.
@@ -131,8 +131,8 @@ std::string SkinBuffer(const PersonModel& model) {
                                            {"border_step_m", border_step},
                                            {"frames", FramesToJson(human)},
                                            {"middles", MiddlesToJson()},
-                                           {"natural_until_rad", skin::kNaturalSwingUntil},
-                                           {"middle_from_rad", skin::kMiddleSwingFrom},
+                                           {"own_plane_until_rad", skin::kOwnPlaneUntil},
+                                           {"middle_share", skin::kMiddleShare},
                                            {"colors",
                                             {{"top", colors.top},
                                              {"trousers", colors.trousers},

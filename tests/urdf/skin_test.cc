@@ -1,5 +1,4 @@
-// The skin as its users measure it: closed, as heavy and wide as people are, and as voluminous when
-// a joint bends.
+// The skin as its users measure it: closed, as heavy and wide as people are.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/urdf/skin_postures.h"
 #include "urdf/skin/frames.h"
 #include "urdf/skin/load_regions.h"
 #include "urdf/skin/occlusion.h"
@@ -23,12 +23,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 using urdf::At;
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
-PersonSkin SkinOf(bool is_woman, double height, double mass) {
-  return PersonSkin(BuiltInSkin(), BuildOf(is_woman, height, mass), urdf::DefaultSkeleton(height));
-}
 
 // Of a closed surface, m^3; where it overlaps itself, it counts twice.
 double Volume(const std::vector<Vector3f>& positions, const std::vector<Triangle>& triangles) {
@@ -43,45 +37,6 @@ double Volume(const std::vector<Vector3f>& positions, const std::vector<Triangle
 
 urdf::LinkPoses Posed(const urdf::Skeleton& skeleton, const urdf::JointAngles& angles) {
   return urdf::ForwardKinematics(skeleton, {}, angles);
-}
-
-// The bind pose, with one joint turned further.
-urdf::LinkPoses BentAt(int joint, const Vector3d& axis, double degrees) {
-  urdf::LinkPoses links = BindPoseOf(urdf::DefaultSkeleton()).links;
-  const int child = urdf::ChildOf(joint);
-  const urdf::Pose center = links[At(child)];
-  const Vector3d world_axis = center.orientation * axis;
-  const Eigen::Quaterniond turn(Eigen::AngleAxisd(degrees * kDegree, world_axis));
-  std::vector<bool> moves(urdf::kSegmentCount, false);
-  moves[At(child)] = true;
-  for (int segment = child; segment < urdf::kSegmentCount; ++segment) {
-    const int parent = urdf::kSegments[At(segment)].parent;
-    if (parent >= 0 && moves[At(parent)]) moves[At(segment)] = true;
-    if (!moves[At(segment)]) continue;
-    urdf::Pose& link = links[At(segment)];
-    link.position = center.position + turn * (link.position - center.position);
-    link.orientation = turn * link.orientation;
-  }
-  return links;
-}
-
-// Of the tissue around a joint of the reference person: how much more volume it has when bent.
-// Where the surface overlaps itself, it counts twice.
-double VolumeChange(int joint, const Vector3d& axis, double degrees) {
-  const PersonSkin skin = SkinOf(false, 1.75, 75);
-  const Vector3f center = skin.bind().links[At(urdf::ChildOf(joint))].position.cast<float>();
-  double tissue = 0;  // within reach of the joint
-  constexpr float kReach = 0.16f;
-  for (const Triangle& t : skin.triangles()) {
-    const Vector3f a = skin.rest()[t[0]] - center, b = skin.rest()[t[1]] - center,
-                   c = skin.rest()[t[2]] - center;
-    if (std::max({a.norm(), b.norm(), c.norm()}) < kReach) tissue += a.dot(b.cross(c)) / 6;
-  }
-  PersonSkin::Surface rest, bent;
-  skin.Pose(skin.bind().links, {}, rest);
-  skin.Pose(BentAt(joint, axis, degrees), {}, bent);
-  return (Volume(bent.positions, skin.triangles()) - Volume(rest.positions, skin.triangles())) /
-         tissue;
 }
 
 bool IsArm(std::size_t vertex) {
@@ -194,15 +149,6 @@ TEST(PersonSkin, HasTheGirthsOfTheirSexStatureAndMass) {
     }
     EXPECT_NEAR(1000 * Volume(skin.rest(), skin.triangles()) / mass, 0.95, 0.04);  // litres a kg
   }
-}
-
-TEST(PersonSkin, KeepsItsVolumeWhereAJointBends) {
-  EXPECT_NEAR(VolumeChange(urdf::jLeftElbow, {0, -1, 0}, 150), 0, 0.10);
-  EXPECT_NEAR(VolumeChange(urdf::jLeftKnee, {0, 1, 0}, 150), 0, 0.10);
-  EXPECT_NEAR(VolumeChange(urdf::jLeftHip, {0, -1, 0}, 120), 0, 0.10);
-  EXPECT_NEAR(VolumeChange(urdf::jLeftWrist, {1, 0, 0}, 80), 0, 0.10);
-  EXPECT_NEAR(VolumeChange(urdf::jT9T8, {0, 1, 0}, 30), 0, 0.10);
-  EXPECT_NEAR(VolumeChange(urdf::jT9T8, {0, 0, 1}, 30), 0, 0.10);
 }
 
 TEST(PersonSkin, FitsTheMeasuredLengths) {

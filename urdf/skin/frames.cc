@@ -17,33 +17,52 @@ double TwistAngle(const Quaterniond& rotation) {
   return std::remainder(2 * std::atan2(rotation.z(), rotation.w()), 2 * M_PI);
 }
 
-struct SwingAndTwist {
-  Quaterniond swing, twist;  // parent_from_child = swing * twist; twist: about the bone (z)
+// parent_from_child = swing * twist; twist: about the bone (z).
+struct JointTurn {
+  double risen = 0;                      // of the bone, from hanging, rad
+  Vector3d towards = Vector3d::UnitX();  // level, unit: where it rises to
+  Quaterniond rise, rest;                // swing = rise * rest; rise: about a level axis
+  Quaterniond twist = Quaterniond::Identity();
+
+  // As far as `share` of the swing.
+  Quaterniond PartOfSwing(double share) const {
+    const Quaterniond identity = Quaterniond::Identity();
+    return identity.slerp(share, rise) * identity.slerp(share, rest);
+  }
 };
 
-// The smallest swing from hanging is natural low down, and has no meaning straight up. The smallest
-// swing from the middle of the range has its blind spot out of reach, but twists a raised arm. So
-// the first goes over to the second while the bone rises.
-SwingAndTwist Split(int segment, const Quaterniond& parent_from_child) {
-  if (TwistFrames(segment) == 0) return {parent_from_child, Quaterniond::Identity()};
+// The bone rises in its own plane, as the muscles above the joint do, and has no twist then.
+// Straight up that plane could be any, so it goes over to that of the middle of the range.
+JointTurn Split(int segment, const Quaterniond& parent_from_child) {
+  JointTurn turn;
   const Vector3d bone = parent_from_child * Vector3d::UnitZ();
-  const Quaterniond middle = MiddleOfRange(segment);
-  const Quaterniond far = Quaterniond::FromTwoVectors(middle * Vector3d::UnitZ(), bone) * middle;
-  const double risen = std::acos(std::clamp(bone.z(), -1.0, 1.0));
-  Quaterniond swing = far;
-  if (risen < kMiddleSwingFrom) {
-    const Quaterniond near = Quaterniond::FromTwoVectors(Vector3d::UnitZ(), bone);
-    const double t = std::clamp(
-        (risen - kNaturalSwingUntil) / (kMiddleSwingFrom - kNaturalSwingUntil), 0.0, 1.0);
-    const double angle = t * t * (3 - 2 * t) * TwistAngle(near.conjugate() * far);
-    swing = near * Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()));
+  turn.risen = std::acos(std::clamp(bone.z(), -1.0, 1.0));
+  const double t = std::clamp((turn.risen - kOwnPlaneUntil) / (M_PI - kOwnPlaneUntil), 0.0, 1.0);
+  const Vector3d middle = MiddleOfRange(segment) * Vector3d::UnitZ();
+  const Vector3d plane = bone + kMiddleShare * t * t * (3 - 2 * t) * middle;
+  const Vector3d level(-plane.x(), -plane.y(), 0);
+  if (level.norm() > 1e-9) turn.towards = level.normalized();
+  if (TwistFrames(segment) == 0) {
+    turn.rise = parent_from_child;
+    turn.rest = Quaterniond::Identity();
+    return turn;
   }
-  const double twist = TwistAngle(swing.conjugate() * parent_from_child);
-  return {swing, Quaterniond(Eigen::AngleAxisd(twist, Vector3d::UnitZ()))};
+  const Vector3d axis(turn.towards.y(), -turn.towards.x(), 0);
+  turn.rise = Quaterniond(Eigen::AngleAxisd(turn.risen, axis));
+  const Quaterniond swing =
+      Quaterniond::FromTwoVectors(turn.rise * Vector3d::UnitZ(), bone) * turn.rise;
+  turn.rest = turn.rise.conjugate() * swing;
+  turn.twist = Quaterniond(
+      Eigen::AngleAxisd(TwistAngle(swing.conjugate() * parent_from_child), Vector3d::UnitZ()));
+  return turn;
 }
 
-Vector3d BoneOffset(const Frame& frame, double angle) {
-  return {0.5 * FarthestBoneOffset(frame) * (1 - std::cos(angle)), 0, 0};
+Vector3d MoveOf(const Frame& frame, const JointTurn& turn) {
+  const double bent = 0.5 * (1 - std::cos(turn.risen));
+  const FarthestMove most = FarthestMoveOf(frame);
+  const Vector3d move =
+      bent * most.into_bend * turn.towards + bent * bent * most.up_bone * Vector3d::UnitZ();
+  return Quaterniond::Identity().slerp(0.5, turn.rise) * move;
 }
 
 // Frames, and where those of each segment begin.
@@ -143,23 +162,27 @@ Quaterniond MiddleOfRange(int segment) {
   }
 }
 
-double FarthestBoneOffset(const Frame& frame) {
-  double most = 0;  // of the frame in the middle of the joint
+FarthestMove FarthestMoveOf(const Frame& frame) {
+  FarthestMove move;  // of the frame in the middle of the joint
   switch (frame.segment) {
+    case urdf::kRightUpperArm:
+    case urdf::kLeftUpperArm: move.up_bone = 0.050; break;
     case urdf::kRightForeArm:
-    case urdf::kLeftForeArm: most = -0.012; break;
+    case urdf::kLeftForeArm: move.into_bend = -0.012; break;
+    case urdf::kRightUpperLeg:
+    case urdf::kLeftUpperLeg: move.into_bend = 0.020; break;
     case urdf::kRightLowerLeg:
-    case urdf::kLeftLowerLeg: most = 0.009; break;
+    case urdf::kLeftLowerLeg: move.into_bend = -0.009; break;
     default: break;
   }
-  const double from_middle = 2 * frame.share - 1;
-  return most * (1 - from_middle * from_middle);
+  const double from_middle = 2 * frame.share - 1, share = 1 - from_middle * from_middle;
+  return {share * move.into_bend, share * move.up_bone};
 }
 
 std::vector<urdf::Pose> FramePoses(const urdf::LinkPoses& links,
                                    const std::array<const urdf::FingerPoses*, 2>& fingers,
                                    const BindPose& bind) {
-  std::array<SwingAndTwist, urdf::kSegmentCount> joints;
+  std::array<JointTurn, urdf::kSegmentCount> joints;
   for (int segment = 1; segment < urdf::kSegmentCount; ++segment) {
     const urdf::Pose& parent = links[urdf::At(urdf::kSegments[urdf::At(segment)].parent)];
     joints[urdf::At(segment)] =
@@ -183,21 +206,18 @@ std::vector<urdf::Pose> FramePoses(const urdf::LinkPoses& links,
   for (const Frame& frame : Frames()) {
     const urdf::Pose& link = links[urdf::At(frame.segment)];
     const int parent = urdf::kSegments[urdf::At(frame.segment)].parent;
-    const SwingAndTwist& joint = joints[urdf::At(frame.segment)];
+    const JointTurn& joint = joints[urdf::At(frame.segment)];
     switch (frame.kind) {
       case FrameKind::kSegment: poses.push_back(link); break;
       case FrameKind::kSwing: {
         const Quaterniond& up = links[urdf::At(parent)].orientation;
-        const Quaterniond identity = Quaterniond::Identity();
-        const double angle = 2 * std::acos(std::min(1.0, std::abs(joint.swing.w())));
         poses.push_back(
-            {link.position + up * identity.slerp(0.5, joint.swing) * BoneOffset(frame, angle),
-             up * identity.slerp(frame.share, joint.swing)});
+            {link.position + up * MoveOf(frame, joint), up * joint.PartOfSwing(frame.share)});
         break;
       }
       case FrameKind::kTwist:
         poses.push_back(
-            {link.position, links[urdf::At(parent)].orientation * joint.swing *
+            {link.position, links[urdf::At(parent)].orientation * joint.PartOfSwing(1) *
                                 Quaterniond::Identity().slerp(frame.share, joint.twist)});
         break;
       case FrameKind::kFinger:

@@ -49,12 +49,17 @@ bool HasFrames(int finger);
 
 /// Of a joint with twist frames: the middle of its range, seen from hanging.
 Eigen::Quaterniond MiddleOfRange(int segment);
-/// Rad, by which such a bone has risen: its swing is the smallest from hanging up to the first, and
-/// the smallest from the middle of its range beyond the second.
-inline constexpr double kNaturalSwingUntil = 60 * M_PI / 180, kMiddleSwingFrom = 150 * M_PI / 180;
-/// Where bone lies under the skin of a bent joint: how far the swing frame would move outwards at
-/// 180 degrees, m, forward (x). It moves by that times (1 - cos(bend)) / 2.
-double FarthestBoneOffset(const Frame& frame);
+/// A bone swings in the vertical plane of its parent in which it points. Risen by more than the
+/// first, rad, the middle of its range counts for that plane too, straight up by the second.
+inline constexpr double kOwnPlaneUntil = 60 * M_PI / 180, kMiddleShare = 0.2;
+
+/// How far a swing frame leaves its joint when that is bent by 180 degrees, m, in the axes of the
+/// joint turned half: the bone of an elbow stands out, the armpit of a raised arm draws in.
+struct FarthestMove {
+  double into_bend = 0;  // to the hollow side; grows with (1 - cos(bend)) / 2
+  double up_bone = 0;    // from the bone's end to its joint; with the square of that
+};
+FarthestMove FarthestMoveOf(const Frame& frame);
 
 /// world_from_frame. `fingers`: of gloved hands; null: they keep those of `bind` in the hand.
 std::vector<urdf::Pose> FramePoses(const urdf::LinkPoses& links,

@@ -66,6 +66,14 @@ void SetRays(const BindPose& bind, const Point& p, Fields& fields) {
   }
 }
 
+// Rad; at most 1e-4 off (Abramowitz and Stegun 4.4.45).
+double AngleOf(double cosine) {
+  const double x = std::min(std::abs(cosine), 1.0);
+  const double angle =
+      std::sqrt(1 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - 0.0187293 * x)));
+  return cosine < 0 ? M_PI - angle : angle;
+}
+
 // `p` as if on the left. The ramps are those that looked right in nine postures.
 Fields FieldsAt(const BodySolid& body, const Point& point) {
   const BindPose& bind = body.bind();
@@ -95,8 +103,12 @@ Fields FieldsAt(const BodySolid& body, const Point& point) {
     const auto linear = [](double from, double to, double x) {
       return std::clamp((x - from) / (to - from), 0.0, 1.0);
     };
-    // Linear, and reaching onto the trunk: otherwise the deltoid folds into a sleeve.
-    f[kPastShoulder] = is_arm * linear(-0.052, 0.070 + 0.045 * Ramp(-0.010, 0.045, a.y()), -a.z());
+    // Linear, and reaching onto the trunk: otherwise the deltoid folds into a sleeve. Above the
+    // joint by angle, as a fan: raising the arm closes it, and none of its ribs overtakes another.
+    const double below = linear(-0.052, 0.070 + 0.045 * Ramp(-0.010, 0.045, a.y()), -a.z());
+    const double fan =
+        Mix(1 - std::min(AngleOf(-a.z() / a.norm()) / 2.4, 1.0), 1, Ramp(0.05, 0.22, -a.z()));
+    f[kPastShoulder] = is_arm * Mix(below, fan, Ramp(-0.035, 0.010, a.y()));
     f[kAlongUpperArm] = is_arm * linear(0.100, 0.250, -a.z());
     f[kPastElbow] = is_arm * Ramp(-0.046, 0.046, -e.z());
     f[kAlongForeArm] = is_arm * linear(0.040, 0.220, -e.z());
