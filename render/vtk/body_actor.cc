@@ -64,10 +64,10 @@ void BodyActor::Show(PartActor& actor, const Group& group, const std::vector<urd
   actor.Commit();
 }
 
-bool BodyActor::Update(const PersonState& person, Figure figure,
+bool BodyActor::Update(const PersonState& person, const Figure& figure,
                        const Eigen::Vector4f& override_color, const Error& error, OnceLog& log,
                        std::vector<Label>& labels) {
-  const bool is_skin = figure == Figure::kSkin && person.model->has_built_in_surface;
+  const bool is_skin = figure.kind == Figure::kSkin && person.model->has_built_in_surface;
   const bool is_new =
       model_ != person.model || revision_ != person.model->revision || is_skin_ != is_skin;
   bool is_changed = is_new;
@@ -79,8 +79,8 @@ bool BodyActor::Update(const PersonState& person, Figure figure,
   }
   skin_.SetVisible(is_visible_ && is_skin);
   if (is_skin) {
-    const bool is_other =
-        skin_.Update(person, override_color, opacity_, error.skin, error.parts > 0);
+    const bool is_other = skin_.Update(person, figure.own_skin, override_color, opacity_,
+                                       error.skin, error.parts > 0);
     is_changed = is_changed || is_other;
   }
   const std::vector<urdf::Pose> poses = VisibleLinkPoses(person);

@@ -31,8 +31,9 @@ class BodyActor {
 
   /// Adds the names of missing meshes to `labels`. `override_color`: see PartActor.
   /// @return whether the list of actors has changed.
-  bool Update(const PersonState& person, Figure figure, const Eigen::Vector4f& override_color,
-              const Error& error, OnceLog& log, std::vector<Label>& labels);
+  bool Update(const PersonState& person, const Figure& figure,
+              const Eigen::Vector4f& override_color, const Error& error, OnceLog& log,
+              std::vector<Label>& labels);
 
   /// Meshes that are replaced by boxes.
   const std::vector<std::string>& problems() const { return problems_; }

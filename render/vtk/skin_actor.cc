@@ -34,34 +34,37 @@ vec3 Suit(vec4 borders) {
 }
 )";
 
-ShaderText SkinText(bool is_lit_at_vertices) {
+// A skin of the user's own has a colour at each vertex.
+constexpr char kPaintFunction[] = "vec3 Suit(vec4 color) { return color.rgb; }\n";
+
+ShaderText SkinText(bool is_suit, bool is_lit_at_vertices) {
   ShaderText text;
-  text.vertex_declarations = "out vec4 bordersVS;\nout vec2 skyVS;\n";
+  text.vertex_declarations = "out vec4 paintVS;\nout vec2 skyVS;\n";
   text.vertex = R"(
   gl_Position = MCDCMatrix * vertexMC;
   normalVCVSOutput = normalMatrix * normalMC;
   skyVS = vec2(0.5 + 0.5 * normalMC.z, openSky);
-  bordersVS = borders;
+  paintVS = paint;
 )";
   text.fragment_declarations =
-      "in vec4 bordersVS;\nin vec2 skyVS;\n"
+      "in vec4 paintVS;\nin vec2 skyVS;\n"
       "uniform vec3 topColor;\nuniform vec3 trousersColor;\nuniform vec3 shoesColor;\n"
       "uniform vec3 bareColor;\nuniform vec3 bandColor;\nuniform vec4 overrideColor;\n"
       "uniform float opacityFactor;\n";
-  text.fragment_declarations += kSuitFunction;
+  text.fragment_declarations += is_suit ? kSuitFunction : kPaintFunction;
   if (is_lit_at_vertices) {
     text.vertex_declarations += "out float lightVS;\n";
     text.vertex_declarations += kLitSkinFunction;
     text.vertex += "  lightVS = LightOnSkin(normalize(normalVCVSOutput), skyVS);\n";
     text.fragment_declarations += "in float lightVS;\n";
     text.fragment =
-        "vec3 suit = mix(Suit(bordersVS), overrideColor.rgb, overrideColor.a);\n"
+        "vec3 suit = mix(Suit(paintVS), overrideColor.rgb, overrideColor.a);\n"
         "gl_FragData[0] = vec4(suit * lightVS, opacityFactor);\n";
     return text;
   }
   text.fragment_declarations += kLitSkinFunction;
   text.fragment =
-      "vec3 suit = mix(Suit(bordersVS), overrideColor.rgb, overrideColor.a);\n"
+      "vec3 suit = mix(Suit(paintVS), overrideColor.rgb, overrideColor.a);\n"
       "float light = LightOnSkin(normalVCVSOutput, skyVS);\n"
       "gl_FragData[0] = vec4(suit * light, opacityFactor);\n";
   return text;
@@ -74,6 +77,15 @@ std::vector<std::uint32_t> Indices(const std::vector<skin::Triangle>& triangles)
     indices.insert(indices.end(), triangle.begin(), triangle.end());
   }
   return indices;
+}
+
+std::vector<Eigen::Vector4f> ToFloats(const std::vector<skin::SkinTemplate::Color>& colors) {
+  std::vector<Eigen::Vector4f> floats;
+  floats.reserve(colors.size());
+  for (const auto& color : colors) {
+    floats.push_back(Eigen::Vector4f(color[0], color[1], color[2], color[3]) / 255);
+  }
+  return floats;
 }
 
 bool AreEqual(const std::vector<urdf::Pose>& a, const std::vector<urdf::Pose>& b) {
@@ -92,11 +104,15 @@ void SkinActor::Load(const PersonModel& model) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     if (human.gloves[side]) gloves[side] = &*human.gloves[side];
   }
-  const skin::SkinTemplate& built_in = skin::BuiltInSkin();
-  skin_ = std::make_unique<skin::PersonSkin>(built_in, build_, human.skeleton, gloves);
-  CopyInto(borders_, 4, skin::OutfitOf(built_in, build_));
-  borders_->SetName("borders");
-  limbs_ = skin::LimbRunsOf(built_in.weights);
+  const skin::SkinTemplate& of = own_ ? *own_ : skin::BuiltInSkin();
+  skin_ = std::make_unique<skin::PersonSkin>(of, build_, human.skeleton, gloves);
+  if (of.colors.empty()) {
+    CopyInto(paint_, 4, skin::OutfitOf(of, build_));
+  } else {
+    CopyInto(paint_, 4, ToFloats(of.colors));
+  }
+  paint_->SetName("paint");
+  limbs_ = skin::LimbRunsOf(of.weights);
   shown_.clear();
 }
 
@@ -123,18 +139,22 @@ void SkinActor::AddLevel(const Level& level) {
   const std::vector<std::uint32_t> triangles =
       error_m > 0 ? CoarserTriangles(skin_->rest(), all, error_m) : all;
   auto shaded =
-      std::make_unique<ShadedActor>(pass_, SkinText(is_lit_at_vertices),
-                                    std::vector<VertexAttribute>{{"borders", 4}, {"openSky", 1}});
-  shaded->SetSurface(positions_, normals_, {borders_, open_sky_}, triangles);
+      std::make_unique<ShadedActor>(pass_, SkinText(!own_, is_lit_at_vertices),
+                                    std::vector<VertexAttribute>{{"paint", 4}, {"openSky", 1}});
+  shaded->SetSurface(positions_, normals_, {paint_, open_sky_}, triangles);
+  if (own_) shaded->SetCulling(!own_->is_two_sided);
   levels_[level] = std::move(shaded);
 }
 
-bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& override_color,
-                       double opacity, double error_m, bool is_lit_at_vertices) {
+bool SkinActor::Update(const PersonState& person,
+                       const std::shared_ptr<const skin::SkinTemplate>& own,
+                       const Eigen::Vector4f& override_color, double opacity, double error_m,
+                       bool is_lit_at_vertices) {
   bool is_changed = false;
   const Level level(PermittedError({0.0003, 0.0006, 0.001, 0.002, 0.004, 0.006, 0.010}, error_m),
                     is_lit_at_vertices);
-  if (model_ != person.model || revision_ != person.model->revision) {
+  if (model_ != person.model || revision_ != person.model->revision || own_ != own) {
+    own_ = own;
     model_ = person.model;
     revision_ = person.model->revision;
     levels_.clear();
@@ -150,12 +170,14 @@ bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& overrid
     other->actor()->SetVisibility(is_visible_ && each == level);
   }
   ShadedActor& shaded = *levels_[level];
-  const SuitColors& colors = model_->suit;
-  shaded.SetColor("topColor", colors.top);
-  shaded.SetColor("trousersColor", colors.trousers);
-  shaded.SetColor("shoesColor", colors.shoes);
-  shaded.SetColor("bareColor", colors.bare);
-  shaded.SetColor("bandColor", colors.band);
+  if (!own_) {
+    const SuitColors& colors = model_->suit;
+    shaded.SetColor("topColor", colors.top);
+    shaded.SetColor("trousersColor", colors.trousers);
+    shaded.SetColor("shoesColor", colors.shoes);
+    shaded.SetColor("bareColor", colors.bare);
+    shaded.SetColor("bandColor", colors.band);
+  }
   shaded.uniforms().SetUniform4f("overrideColor", override_color.data());
   shaded.uniforms().SetUniformf("opacityFactor", static_cast<float>(opacity));
   return is_changed;

@@ -395,7 +395,7 @@ render::PictureSpec ToPictureSpec(const ViewOptions& options) {
   // Naming joints shows the plot, unless --overlay decides.
   if (!options.plot->empty() && !options.overlay.names_plot()) spec.parts.plot = true;
   render::SceneLook& look = spec.look;
-  look.figure = *options.figure;
+  look.figure = options.figure.Load();
   look.theme = *options.theme;
   look.is_transparent = options.background->is_transparent;
   look.background = options.background->color;
