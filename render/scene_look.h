@@ -4,12 +4,17 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/palette.h"
 #include "core/scene_state.h"
+
+namespace kinescope::skin {
+struct SkinTemplate;  // urdf/skin/skin_template.h
+}
 
 namespace kinescope::render {
 
@@ -76,9 +81,18 @@ enum class Detail {
 
 /// What people are rendered as. A body of the user's own (custom meshes, primitives) is always that
 /// of its URDF.
-enum class Figure {
-  kSkin,  // one continuous surface in a suit
-  kUrdf,  // the rigid parts of the URDF, as RViz shows them
+struct Figure {
+  enum Kind {
+    kSkin,  // one continuous surface
+    kUrdf,  // the rigid parts of the URDF, as RViz shows them
+  };
+  Kind kind = kSkin;
+  std::shared_ptr<const skin::SkinTemplate> own_skin;  // null: the built-in one, in a suit
+
+  Figure(Kind of_kind = kSkin) : kind(of_kind) {}  // NOLINT(google-explicit-constructor)
+  bool operator==(const Figure& other) const {
+    return kind == other.kind && own_skin == other.own_skin;
+  }
 };
 
 /// Where the classes of joint loads are shown. On people without a skin: as spheres.

@@ -10,18 +10,28 @@ const ONE = new THREE.Vector3(1, 1, 1);
 // As in the server's pictures (render/vtk/skin_actor.cc): light as from a clouded sky and a lamp over the viewer's left
 // shoulder, equal for all channels, because hues carry meaning; colours whose borders are distances, crisp at any zoom.
 const SUIT = `
-  uniform vec3 topColor, trousersColor, shoesColor, bareColor, bandColor, staleColor;
-  uniform float stale;
-  varying vec4 suitBorders;
-  varying vec3 suitNormal;
-  varying float suitUp;
-  vec3 suit() {
-    vec4 inside = clamp(suitBorders / (fwidth(suitBorders) + 1e-6) + 0.5, 0.0, 1.0);
+  uniform vec3 topColor, trousersColor, shoesColor, bareColor, bandColor;
+  uniform float borderStep;
+  vec3 paintedColor(vec4 paint) {
+    vec4 borders = borderStep * paint;
+    vec4 inside = clamp(borders / (fwidth(borders) + 1e-6) + 0.5, 0.0, 1.0);
     vec3 color = mix(topColor, bandColor, inside.w);
     color = mix(color, trousersColor, inside.x);
     color = mix(color, shoesColor, inside.z);
-    return mix(mix(color, bareColor, inside.y), staleColor, stale);
-  }
+    return mix(color, bareColor, inside.y);
+  }`;
+// A skin of the user's own has a colour at each vertex, sRGB.
+const OWN_COLORS = `
+  vec3 paintedColor(vec4 paint) {
+    vec3 color = paint.rgb / 255.0;
+    return mix(pow((color + 0.055) / 1.055, vec3(2.4)), color / 12.92, step(color, vec3(0.04045)));
+  }`;
+const LIGHT = `
+  uniform vec3 staleColor;
+  uniform float stale;
+  varying vec4 suitPaint;
+  varying vec3 suitNormal;
+  varying float suitUp;
   float lightOnSkin(vec3 normal, float up) {
     float key = max(dot(normal, vec3(-0.439, 0.634, 0.637)) + 0.12, 0.0) / 1.12;
     float fill = max(dot(normal, vec3(0.816, 0.102, 0.569)) + 0.5, 0.0) / 1.5;
@@ -53,7 +63,7 @@ export class SkinnedBody {
       new THREE.Matrix4().compose(position, rotation, ONE).invert());
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(skin.positions, 3));
-    geometry.setAttribute('borders', new THREE.BufferAttribute(skin.borders, 4));
+    geometry.setAttribute('paint', new THREE.BufferAttribute(skin.paint, 4));
     geometry.setIndex(new THREE.BufferAttribute(skin.triangles, 1));
     this.mesh = new THREE.Mesh(geometry, this.#material(skin, staleColor));
     this.mesh.customDepthMaterial = this.#depthMaterial();
@@ -84,27 +94,27 @@ export class SkinnedBody {
 
   /** @param {import('./skin_buffer.js').Skin} skin
    *  @param {THREE.Color} staleColor */
-  #material({ colors, borderStep }, staleColor) {
-    const material = new THREE.MeshBasicMaterial();
+  #material({ colors, borderStep, paint, isTwoSided }, staleColor) {
+    const paintedColor = paint instanceof Int8Array ? SUIT : OWN_COLORS;
+    const material = new THREE.MeshBasicMaterial({ side: isTwoSided ? THREE.DoubleSide : THREE.FrontSide });
     material.onBeforeCompile = (shader) => {
       for (const [name, color] of Object.entries(colors)) shader.uniforms[`${name}Color`] = { value: toColor(color) };
       Object.assign(shader.uniforms, this.#surface.uniforms,
         { staleColor: { value: staleColor }, borderStep: { value: borderStep }, stale: this.#stale });
       usePosedVertices(shader, `
-        attribute vec4 borders;
-        uniform float borderStep;
-        varying vec4 suitBorders;
+        attribute vec4 paint;
+        varying vec4 suitPaint;
         varying vec3 suitNormal;
         varying float suitUp;`);
       shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
         vec3 posedNormal = posed(posedNormals);
-        suitBorders = borderStep * borders;
+        suitPaint = paint;
         suitNormal = mat3(modelViewMatrix) * posedNormal;
         suitUp = 0.5 + 0.5 * posedNormal.z;`);
       shader.fragmentShader = shader.fragmentShader
-        .replace('#include <common>', `#include <common>${SUIT}`)
-        .replace('#include <color_fragment>', '#include <color_fragment>\n  diffuseColor.rgb = suit();')
-        .replace('#include <fog_fragment>', `gl_FragColor.rgb *= lightOnSkin(normalize(suitNormal), suitUp);
+        .replace('#include <common>', `#include <common>${LIGHT}${paintedColor}`)
+        .replace('#include <color_fragment>', '#include <color_fragment>\n  diffuseColor.rgb = mix(paintedColor(suitPaint), staleColor, stale);')
+        .replace('#include <fog_fragment>', `gl_FragColor.rgb *= lightOnSkin(normalize(gl_FrontFacing ? suitNormal : -suitNormal), suitUp);
           #include <fog_fragment>`);
     };
     return material;

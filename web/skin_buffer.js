@@ -1,15 +1,17 @@
 // Reads the skin of a person as the server sends it (docs/http.md): a JSON header and little-endian arrays. Counts are
 // checked before anything is read.
 import * as THREE from 'three';
-import { listOf, number, object, oneOf, recordOf } from './messages.js';
+import { boolean, listOf, number, object, oneOf, recordOf } from './messages.js';
 
 const KINDS = /** @type {const} */ (['link', 'swing', 'twist', 'half', 'fixed']);
 const MOST_FRAMES = 256;  // their numbers are bytes
 const MOST_VERTICES = 65536;
+const PAINTS = /** @type {const} */ (['suit', 'colors']);
 const rgb = listOf(number, 3);
 
 const readHeader = object({
   vertices: number, triangles: number, position_step_m: number, border_step_m: number,
+  paint: oneOf(PAINTS), two_sided: boolean,
   own_plane_until_rad: number, middle_share: number, middles: recordOf(listOf(number, 4)),
   frames: object({
     kinds: listOf(oneOf(KINDS)), links: listOf(number), parents: listOf(number), shares: listOf(number),
@@ -25,8 +27,9 @@ const readHeader = object({
  *    bind: the frames of the pose of the vertices; inHand: the same in the frame of their link
  *  @typedef {ReturnType<typeof readHeader>['colors']} SuitColors  sRGB 0..1
  *  @typedef {{rig: Rig, colors: SuitColors, positions: Float32Array, indices: Uint8Array, weights: Uint8Array,
- *    borders: Int8Array, borderStep: number, triangles: Uint16Array}} Skin
- *    positions: m; indices and weights: four of each vertex, weights sum up to 255; borders: distances in steps, m */
+ *    paint: Int8Array|Uint8Array, borderStep: number, isTwoSided: boolean, triangles: Uint16Array}} Skin
+ *    positions: m; indices and weights: four of each vertex, weights sum up to 255; paint: four of each vertex, of a
+ *    suit (Int8Array) distances in steps, m, else its colour */
 
 /** @param {ArrayBuffer} buffer
  *  @param {string} route  for the error
@@ -58,7 +61,8 @@ export function readSkin(buffer, route) {
   };
   const bindValues = new Float32Array(buffer, take(28 * count), 7 * count);
   const influences = new Uint8Array(buffer, take(8 * vertices), 8 * vertices);
-  const borders = new Int8Array(buffer, take(4 * vertices), 4 * vertices);
+  const Paint = header.paint === 'suit' ? Int8Array : Uint8Array;
+  const paint = new Paint(buffer, take(4 * vertices), 4 * vertices);
   const steps = new Int16Array(buffer, take(6 * vertices), 3 * vertices);
   const corners = new Uint16Array(buffer, take(6 * triangles), 3 * triangles);
   if (corners.some((corner) => corner >= vertices)) reject('a triangle has a corner that is no vertex');
@@ -89,7 +93,8 @@ export function readSkin(buffer, route) {
     rig: {
       frames, middles, bind, inHand, ownPlaneUntil: header.own_plane_until_rad, middleShare: header.middle_share,
     },
-    colors: header.colors, indices, weights, borders, borderStep: header.border_step_m, triangles: corners,
+    colors: header.colors, indices, weights, paint, borderStep: header.border_step_m,
+    isTwoSided: header.two_sided, triangles: corners,
     positions: Float32Array.from(steps, (step) => header.position_step_m * step),
   };
 }

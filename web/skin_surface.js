@@ -5,7 +5,6 @@ import * as THREE from 'three';
 
 const WIDTH = 256;  // of the textures, texels
 const RING_WIDTH = 1024;
-const MOST_NEIGHBOURS = 64;
 
 /** GLSL: the posed position and normal of the vertex `gl_VertexID`, in the uniforms of SkinSurface. */
 export const POSED_VERTEX = `
@@ -49,13 +48,14 @@ const NORMALS = `
   }
   void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    int places = int(texelFetch(rest, at, 0).w);
-    int first = places / ${MOST_NEIGHBOURS}, count = places % ${MOST_NEIGHBOURS};
-    vec3 own = positionOf(at.y * ${WIDTH} + at.x), sum = vec3(0.0);
-    if (count > 0) {
-      vec3 before = edgeTo(first + count - 1, own);
-      for (int i = 0; i < count; ++i) {
-        vec3 next = edgeTo(first + i, own);
+    int vertex = at.y * ${WIDTH} + at.x;
+    int first = int(texelFetch(rest, at, 0).w);
+    int end = int(texelFetch(rest, ivec2((vertex + 1) % ${WIDTH}, (vertex + 1) / ${WIDTH}), 0).w);
+    vec3 own = positionOf(vertex), sum = vec3(0.0);
+    if (first < end) {
+      vec3 before = edgeTo(end - 1, own);
+      for (int place = first; place < end; ++place) {
+        vec3 next = edgeTo(place, own);
         sum += cross(before, next);
         before = next;
       }
@@ -63,18 +63,18 @@ const NORMALS = `
     bits = uvec4(floatBitsToUint(normalize(sum + vec3(0.0, 0.0, 1e-20))), 0u);
   }`;
 
-/** The vertices around each vertex, counter-clockwise from outside, one vertex after another.
- *  @param {Uint16Array} triangles  of a closed surface
+/** The vertices around each vertex, counter-clockwise from outside, one vertex after another. Where the triangles
+ *  around a vertex do not close, the vertex itself stands in the gap: its edge is zero and adds nothing to the normal.
+ *  @param {Uint16Array} triangles
  *  @param {number} vertices
- *  @returns {{ring: Uint16Array, first: Uint32Array}}  first: where each begins, and the end
- *  @throws {Error} if the surface is not closed */
+ *  @returns {{ring: Uint16Array, first: Uint32Array}}  first: where each begins, and the end */
 export function neighboursOf(triangles, vertices) {
   // The triangles a, b, c around a: b is followed by c.
-  const first = new Uint32Array(vertices + 1);
-  triangles.forEach((corner) => { first[corner + 1] += 1; });
-  for (let i = 0; i < vertices; ++i) first[i + 1] += first[i];
+  const begin = new Uint32Array(vertices + 1);
+  triangles.forEach((corner) => { begin[corner + 1] += 1; });
+  for (let i = 0; i < vertices; ++i) begin[i + 1] += begin[i];
   const from = new Uint16Array(triangles.length), to = new Uint16Array(triangles.length);
-  const filled = first.slice();
+  const filled = begin.slice();
   for (let t = 0; t < triangles.length; t += 3) {
     for (let i = 0; i < 3; ++i) {
       const place = filled[triangles[t + i]]++;
@@ -82,20 +82,59 @@ export function neighboursOf(triangles, vertices) {
       to[place] = triangles[t + (i + 2) % 3];
     }
   }
-  const ring = new Uint16Array(triangles.length);
+  // At most three for each triangle: from, to and a gap.
+  const ring = new Uint16Array(3 * triangles.length);
+  const first = new Uint32Array(vertices + 1);
+  let end = 0;
   for (let vertex = 0; vertex < vertices; ++vertex) {
-    let next = from[first[vertex]];
-    for (let place = first[vertex]; place < first[vertex + 1]; ++place) {
-      ring[place] = next;
-      const step = from.subarray(first[vertex], first[vertex + 1]).indexOf(next);
-      if (step < 0) throw new Error(`the triangles around vertex ${vertex} of the skin have a gap; reload the page`);
-      next = to[first[vertex] + step];
+    first[vertex] = end;
+    end = putRing(vertex, from.subarray(begin[vertex], begin[vertex + 1]), to.subarray(begin[vertex], begin[vertex + 1]),
+      ring, end);
+  }
+  first[vertices] = end;
+  return { ring: ring.slice(0, end), first };
+}
+
+/** @param {number} vertex
+ *  @param {Uint16Array} from  of its triangles
+ *  @param {Uint16Array} to
+ *  @param {Uint16Array} ring  is written
+ *  @param {number} end  of what has been written
+ *  @returns {number} the new end */
+function putRing(vertex, from, to, ring, end) {
+  /** @type {Map<number, number>} */
+  const byFrom = new Map();
+  from.forEach((corner, i) => { if (!byFrom.has(corner)) byFrom.set(corner, i); });
+  const begins = new Set(from);
+  to.forEach((corner) => begins.delete(corner));
+  // A closed ring begins anywhere; others where no triangle leads to.
+  const open = begins.size > 0 || byFrom.size < from.length;
+  const used = new Uint8Array(from.length);
+  const follow = (/** @type {number} */ start) => {
+    let count = 0;
+    for (let i = /** @type {number|undefined} */ (start); i !== undefined && !used[i]; i = byFrom.get(to[i])) {
+      used[i] = 1;
+      ring[end++] = from[i];
+      count += 1;
+      start = i;
     }
-    if (first[vertex + 1] - first[vertex] >= MOST_NEIGHBOURS) {
-      throw new Error(`vertex ${vertex} of the skin has too many neighbours; reload the page`);
+    return { last: to[start], count };
+  };
+  if (!open) {
+    const before = end;
+    if (from.length > 0 && follow(0).count === from.length) return end;
+    end = before;
+    used.fill(0);
+  }
+  for (const starts of [[...begins].map((corner) => byFrom.get(corner) ?? 0), from.keys()]) {
+    for (const start of starts) {
+      if (used[start]) continue;
+      ring[end++] = vertex;
+      const { last } = follow(start);
+      ring[end++] = last;
     }
   }
-  return { ring, first };
+  return end;
 }
 
 /** @template {Float32Array|Uint8Array|Uint16Array} T
@@ -139,12 +178,12 @@ export class SkinSurface {
   /** @param {import('./skin_buffer.js').Skin} skin */
   constructor({ rig, positions, indices, weights, triangles }) {
     const vertices = positions.length / 3;
-    const rows = Math.ceil(vertices / WIDTH);
+    const rows = Math.ceil((vertices + 1) / WIDTH);  // one more, for where the last ring ends
     const { ring, first } = neighboursOf(triangles, vertices);
     const rest = new Float32Array(4 * WIDTH * rows);
-    for (let i = 0; i < vertices; ++i) {
+    for (let i = 0; i <= vertices; ++i) {
       rest.set(positions.subarray(3 * i, 3 * i + 3), 4 * i);
-      rest[4 * i + 3] = MOST_NEIGHBOURS * first[i] + first[i + 1] - first[i];  // below 2^24: exact
+      rest[4 * i + 3] = first[i];  // below 2^24: exact
     }
     this.#frames = texture(new Float32Array(), new Float32Array(12 * rig.frames.length), 3, FLOATS);
     const bytes = () => new Uint8Array(4 * WIDTH * rows);

@@ -67,7 +67,7 @@ void BodyActor::Show(PartActor& actor, const Group& group, const std::vector<urd
 bool BodyActor::Update(const PersonState& person, const Look& look,
                        const Eigen::Vector4f& override_color, const Error& error, OnceLog& log,
                        std::vector<Label>& labels) {
-  const bool is_skin = look.figure == Figure::kSkin && person.model->has_built_in_surface;
+  const bool is_skin = look.figure.kind == Figure::kSkin && person.model->has_built_in_surface;
   const bool is_new =
       model_ != person.model || revision_ != person.model->revision || is_skin_ != is_skin;
   bool is_changed = is_new;
@@ -79,9 +79,9 @@ bool BodyActor::Update(const PersonState& person, const Look& look,
   }
   skin_.SetVisible(is_visible_ && is_skin);
   if (is_skin) {
-    const bool is_other =
-        skin_.Update(person, override_color, opacity_, error.skin,
-                     {error.parts > 0 && !look.is_flat, look.has_loads, look.is_flat});
+    const bool is_other = skin_.Update(
+        person, look.figure.own_skin, override_color, opacity_, error.skin,
+        {error.parts > 0 && !look.is_flat, look.has_loads, look.is_flat, !look.figure.own_skin});
     is_changed = is_changed || is_other;
   }
   const std::vector<urdf::Pose> poses = VisibleLinkPoses(person);

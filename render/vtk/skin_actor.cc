@@ -23,6 +23,15 @@ std::vector<std::uint32_t> Indices(const std::vector<skin::Triangle>& triangles)
   return indices;
 }
 
+std::vector<Eigen::Vector4f> ToFloats(const std::vector<skin::SkinTemplate::Color>& colors) {
+  std::vector<Eigen::Vector4f> floats;
+  floats.reserve(colors.size());
+  for (const auto& color : colors) {
+    floats.push_back(Eigen::Vector4f(color[0], color[1], color[2], color[3]) / 255);
+  }
+  return floats;
+}
+
 bool AreEqual(const std::vector<urdf::Pose>& a, const std::vector<urdf::Pose>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
     return x.position == y.position && x.orientation.coeffs() == y.orientation.coeffs();
@@ -39,13 +48,18 @@ void SkinActor::Load(const PersonModel& model) {
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     if (human.gloves[side]) gloves[side] = &*human.gloves[side];
   }
-  const skin::SkinTemplate& built_in = skin::BuiltInSkin();
-  skin_ = std::make_unique<skin::PersonSkin>(built_in, build_, human.skeleton, gloves);
-  suit_ = skin::OutfitOf(built_in, build_);
-  CopyInto(borders_, 4, suit_);
-  borders_->SetName("borders");
+  const skin::SkinTemplate& of = own_ ? *own_ : skin::BuiltInSkin();
+  skin_ = std::make_unique<skin::PersonSkin>(of, build_, human.skeleton, gloves);
+  suit_.clear();
+  if (of.colors.empty()) {
+    suit_ = skin::OutfitOf(of, build_);
+    CopyInto(paint_, 4, suit_);
+  } else {
+    CopyInto(paint_, 4, ToFloats(of.colors));
+  }
+  paint_->SetName("paint");
   regions_->Initialize();
-  limbs_ = skin::LimbRunsOf(built_in.weights);
+  limbs_ = skin::LimbRunsOf(of.weights);
   shown_.clear();
 }
 
@@ -72,19 +86,21 @@ void SkinActor::AddLevel(const Level& level) {
   const std::vector<std::uint32_t> triangles =
       error_m > 0 ? CoarserTriangles(skin_->rest(), all, error_m) : all;
   auto shaded = std::make_unique<ShadedActor>(pass_, SkinText(shading), SkinAttributes(shading));
-  std::vector<vtkFloatArray*> attributes = {borders_, open_sky_};
+  std::vector<vtkFloatArray*> attributes = {paint_, open_sky_};
   if (shading.has_loads) {
     if (regions_->GetNumberOfTuples() == 0) FindRegions();
     attributes.push_back(regions_);
   }
   shaded->SetSurface(positions_, normals_, attributes, triangles);
+  if (own_) shaded->SetCulling(!own_->is_two_sided);
   levels_[level] = std::move(shaded);
 }
 
 void SkinActor::FindRegions() {
+  const skin::SkinTemplate& of = own_ ? *own_ : skin::BuiltInSkin();
   const std::vector<skin::LoadRegion> regions =
-      skin::LoadRegionsOf(skin_->rest(), skin::BuiltInSkin().weights, skin_->triangles(),
-                          skin_->bind(), model_->human.skeleton.height);
+      skin::LoadRegionsOf(skin_->rest(), of.weights, skin_->triangles(), skin_->bind(),
+                          model_->human.skeleton.height);
   std::vector<Eigen::Vector3f> values;
   values.reserve(regions.size());
   for (std::size_t i = 0; i < regions.size(); ++i) {
@@ -116,12 +132,15 @@ void SkinActor::ShowLoads(const std::vector<JointLoad>& loads, ShadedActor& shad
   shaded.uniforms().SetUniform1fv("regionRim", kCount, rims);
 }
 
-bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& override_color,
-                       double opacity, double error_m, const SkinShading& shading) {
+bool SkinActor::Update(const PersonState& person,
+                       const std::shared_ptr<const skin::SkinTemplate>& own,
+                       const Eigen::Vector4f& override_color, double opacity, double error_m,
+                       const SkinShading& shading) {
   bool is_changed = false;
   const Level level(PermittedError({0.0003, 0.0006, 0.001, 0.002, 0.004, 0.006, 0.010}, error_m),
                     shading);
-  if (model_ != person.model || revision_ != person.model->revision) {
+  if (model_ != person.model || revision_ != person.model->revision || own_ != own) {
+    own_ = own;
     model_ = person.model;
     revision_ = person.model->revision;
     levels_.clear();
@@ -137,12 +156,14 @@ bool SkinActor::Update(const PersonState& person, const Eigen::Vector4f& overrid
     other->actor()->SetVisibility(is_visible_ && other == levels_[level]);
   }
   ShadedActor& shaded = *levels_[level];
-  const SuitColors& colors = model_->suit;
-  shaded.SetColor("topColor", colors.top);
-  shaded.SetColor("trousersColor", colors.trousers);
-  shaded.SetColor("shoesColor", colors.shoes);
-  shaded.SetColor("bareColor", colors.bare);
-  shaded.SetColor("bandColor", colors.band);
+  if (!own_) {
+    const SuitColors& colors = model_->suit;
+    shaded.SetColor("topColor", colors.top);
+    shaded.SetColor("trousersColor", colors.trousers);
+    shaded.SetColor("shoesColor", colors.shoes);
+    shaded.SetColor("bareColor", colors.bare);
+    shaded.SetColor("bandColor", colors.band);
+  }
   shaded.uniforms().SetUniform4f("overrideColor", override_color.data());
   shaded.uniforms().SetUniformf("opacityFactor", static_cast<float>(opacity));
   if (shading.has_loads) ShowLoads(person.loads, shaded);
@@ -166,6 +187,7 @@ void SkinActor::AddLines(const Camera& camera, std::vector<SpaceLine>& lines) co
     values[i] = surface_.normals[i].dot(to_eye);
   }
   add(LineKind::kOutline);
+  if (suit_.empty()) return;
   for (float skin::Borders::*const border : {&skin::Borders::trousers, &skin::Borders::bare,
                                              &skin::Borders::shoes, &skin::Borders::bands}) {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = suit_[i].*border;

@@ -31,6 +31,9 @@ vec3 Suit(vec4 borders) {
 }
 )";
 
+// A skin of the user's own has a colour at each vertex.
+constexpr char kPaintFunction[] = "vec3 Suit(vec4 color) { return color.rgb; }\n";
+
 // A region is as large, and has the rim, that the sphere of its class has; hatched where the class
 // is unknown. Returns its colour and its share of the pixel.
 constexpr char kRegionFunction[] = R"(
@@ -51,26 +54,26 @@ vec4 Region(vec3 region) {
 }  // namespace
 
 bool SkinShading::operator<(const SkinShading& other) const {
-  return std::tie(is_lit_at_vertices, has_loads, is_flat) <
-         std::tie(other.is_lit_at_vertices, other.has_loads, other.is_flat);
+  return std::tie(is_lit_at_vertices, has_loads, is_flat, is_suit) <
+         std::tie(other.is_lit_at_vertices, other.has_loads, other.is_flat, other.is_suit);
 }
 
 ShaderText SkinText(const SkinShading& shading) {
   ShaderText text;
-  text.vertex_declarations = "out vec4 bordersVS;\nout vec2 skyVS;\n";
+  text.vertex_declarations = "out vec4 paintVS;\nout vec2 skyVS;\n";
   text.vertex = R"(
   gl_Position = MCDCMatrix * vertexMC;
   normalVCVSOutput = normalMatrix * normalMC;
   skyVS = vec2(0.5 + 0.5 * normalMC.z, openSky);
-  bordersVS = borders;
+  paintVS = paint;
 )";
   text.fragment_declarations =
-      "in vec4 bordersVS;\nin vec2 skyVS;\n"
+      "in vec4 paintVS;\nin vec2 skyVS;\n"
       "uniform vec3 topColor;\nuniform vec3 trousersColor;\nuniform vec3 shoesColor;\n"
       "uniform vec3 bareColor;\nuniform vec3 bandColor;\nuniform vec4 overrideColor;\n"
       "uniform float opacityFactor;\n";
-  text.fragment_declarations += kSuitFunction;
-  text.fragment = "vec3 suit = mix(Suit(bordersVS), overrideColor.rgb, overrideColor.a);\n";
+  text.fragment_declarations += shading.is_suit ? kSuitFunction : kPaintFunction;
+  text.fragment = "vec3 suit = mix(Suit(paintVS), overrideColor.rgb, overrideColor.a);\n";
   if (shading.is_flat) {
     text.fragment += "float light = 1.0;\n";
   } else if (shading.is_lit_at_vertices) {
@@ -101,7 +104,7 @@ ShaderText SkinText(const SkinShading& shading) {
 }
 
 std::vector<VertexAttribute> SkinAttributes(const SkinShading& shading) {
-  std::vector<VertexAttribute> attributes = {{"borders", 4}, {"openSky", 1}};
+  std::vector<VertexAttribute> attributes = {{"paint", 4}, {"openSky", 1}};
   if (shading.has_loads) attributes.push_back({"region", 3});
   return attributes;
 }

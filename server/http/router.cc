@@ -328,7 +328,8 @@ Answer Router::Skin(const std::string& path, const Request& request) const {
   if (!model) {
     return Refuse(404, "no such skin", "this is not the newest model, or it is made of parts");
   }
-  return AnswerOfModel(*skins_.Of(model), "application/octet-stream", request);
+  return AnswerOfModel(*skins_.Of(model, site_.own_skin.get()), "application/octet-stream",
+                       request);
 }
 
 Answer Router::Snapshot(const Target& target) const {

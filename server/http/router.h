@@ -31,6 +31,7 @@ class Router {
     CameraFraming framing;
     bool has_pictures = false;
     bool draws_skins = false;
+    std::shared_ptr<const skin::SkinTemplate> own_skin;  // null: the built-in one
     const StaticFiles* files = nullptr;
     const Latest<SceneState>* states = nullptr;
     std::function<std::string(int character, const HandLoad&)> set_hand_load;  // may be null

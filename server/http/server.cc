@@ -208,6 +208,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.framing = config_.framing;
   site.has_pictures = feed_ != nullptr;
   site.draws_skins = config_.draws_skins;
+  site.own_skin = config_.own_skin;
   site.files = &files_;
   site.states = &states_;
   site.set_hand_load = config_.set_hand_load;

@@ -16,6 +16,7 @@
 #include "core/force_inputs.h"
 #include "core/scene_state.h"
 #include "core/system/latest.h"
+#include "urdf/skin/skin_template.h"
 
 namespace kinescope::http {
 
@@ -81,7 +82,8 @@ struct HttpConfig {
   std::vector<CameraView> cameras;       // in display order
   CameraFraming framing;                 // of `cameras`
   bool draws_skins = true;               // people with the built-in surface, on the page
-  std::string camera;                    // of the live picture at the start; one of `cameras`
+  std::shared_ptr<const skin::SkinTemplate> own_skin;  // instead of the built-in one; or null
+  std::string camera;  // of the live picture at the start; one of `cameras`
   /// Sets the hand load of `character`: returns "" or why it is rejected. Called on the server's
   /// thread, must return at once. Null: hand loads cannot be set over HTTP.
   std::function<std::string(int character, const HandLoad& load)> set_hand_load;

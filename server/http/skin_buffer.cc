@@ -90,33 +90,44 @@ void AppendSteps(const Vector& values, float step, std::vector<std::int16_t>& st
   }
 }
 
+constexpr float kBorderStep = skin::kFarthestBorder / INT8_MAX;
+
+std::vector<std::int8_t> BordersInSteps(const std::vector<skin::Borders>& all) {
+  std::vector<std::int8_t> steps;
+  steps.reserve(4 * all.size());
+  for (const skin::Borders& border : all) {
+    for (const float inside : {border.trousers, border.bare, border.shoes, border.bands}) {
+      steps.push_back(static_cast<std::int8_t>(std::lround(inside / kBorderStep)));
+    }
+  }
+  return steps;
+}
+
 }  // namespace
 
-std::string SkinBuffer(const PersonModel& model) {
+std::string SkinBuffer(const PersonModel& model, const skin::SkinTemplate* own) {
   const urdf::HumanModel& human = model.human;
-  const skin::SkinTemplate& built_in = skin::BuiltInSkin();
+  const skin::SkinTemplate& of = own != nullptr ? *own : skin::BuiltInSkin();
   const skin::Build build = skin::BuildOf(model.description.sex == urdf::Sex::kFemale,
                                           human.skeleton.height, model.description.mass_kg);
   std::array<const urdf::HandSkeleton*, 2> gloves{};
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
     if (human.gloves[side]) gloves[side] = &*human.gloves[side];
   }
-  const skin::PersonSkin skin(built_in, build, human.skeleton, gloves);
+  const skin::PersonSkin skin(of, build, human.skeleton, gloves);
 
   float farthest = 0;
   for (const Eigen::Vector3f& p : skin.rest())
     farthest = std::max(farthest, p.cwiseAbs().maxCoeff());
   const float step = std::max(farthest, 1e-3f) / INT16_MAX;
-  const float border_step = skin::kFarthestBorder / INT8_MAX;
   std::vector<std::int16_t> positions;
   positions.reserve(3 * skin.rest().size());
   for (const Eigen::Vector3f& p : skin.rest()) AppendSteps(p, step, positions);
-  std::vector<std::int8_t> borders;
-  borders.reserve(4 * built_in.size());
-  for (const skin::Borders& border : skin::OutfitOf(built_in, build)) {
-    for (const float inside : {border.trousers, border.bare, border.shoes, border.bands}) {
-      borders.push_back(static_cast<std::int8_t>(std::lround(inside / border_step)));
-    }
+  std::string paint;  // four bytes of each vertex
+  if (of.colors.empty()) {
+    Append(paint, BordersInSteps(skin::OutfitOf(of, build)));
+  } else {
+    Append(paint, of.colors);
   }
   std::vector<float> bind;
   for (const urdf::Pose& frame : skin.bind_frames()) {
@@ -125,10 +136,12 @@ std::string SkinBuffer(const PersonModel& model) {
   }
 
   const SuitColors& colors = model.suit;
-  const std::string header = JsonText(json{{"vertices", built_in.size()},
-                                           {"triangles", built_in.triangles.size()},
+  const std::string header = JsonText(json{{"vertices", of.size()},
+                                           {"triangles", of.triangles.size()},
                                            {"position_step_m", step},
-                                           {"border_step_m", border_step},
+                                           {"border_step_m", kBorderStep},
+                                           {"paint", of.colors.empty() ? "suit" : "colors"},
+                                           {"two_sided", of.is_two_sided},
                                            {"frames", FramesToJson(human)},
                                            {"middles", MiddlesToJson()},
                                            {"own_plane_until_rad", skin::kOwnPlaneUntil},
@@ -145,22 +158,22 @@ std::string SkinBuffer(const PersonModel& model) {
          std::vector<std::uint32_t>{static_cast<std::uint32_t>(header.size() + blanks.size())});
   bytes += header + blanks;
   Append(bytes, bind);
-  Append(bytes, built_in.weights);
-  Append(bytes, borders);
+  Append(bytes, of.weights);
+  bytes += paint;
   Append(bytes, positions);
-  Append(bytes, built_in.triangles);
+  Append(bytes, of.triangles);
   return bytes;
 }
 
-std::shared_ptr<const std::string> SkinBuffers::Of(
-    const std::shared_ptr<const PersonModel>& model) {
+std::shared_ptr<const std::string> SkinBuffers::Of(const std::shared_ptr<const PersonModel>& model,
+                                                   const skin::SkinTemplate* own) {
   made_.erase(std::remove_if(made_.begin(), made_.end(),
                              [](const Made& made) { return made.model.expired(); }),
               made_.end());
   for (const Made& made : made_) {
     if (made.model.lock() == model) return made.buffer;
   }
-  made_.push_back({model, std::make_shared<const std::string>(SkinBuffer(*model))});
+  made_.push_back({model, std::make_shared<const std::string>(SkinBuffer(*model, own))});
   return made_.back().buffer;
 }
 

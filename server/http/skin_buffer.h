@@ -1,5 +1,5 @@
-/// Writes the skin of a person for the page (docs/http.md): vertices, weights and clothes, and how
-/// the frames that carry them follow from the streamed link poses.
+/// Writes the skin of a person for the page (docs/http.md): vertices, weights, clothes or colours,
+/// and how the frames that carry them follow from the streamed link poses.
 #pragma once
 
 #include <memory>
@@ -7,19 +7,21 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "urdf/skin/skin_template.h"
 
 namespace kinescope::http {
 
 /// Little-endian: the length of a JSON header (u32), the header, blanks up to a multiple of 4, then
 /// the arrays that it counts. Metres; the person's bind pose with the pelvis at the origin, z up.
-/// Any thread. @pre model.has_built_in_surface
-std::string SkinBuffer(const PersonModel& model);
+/// `own`: instead of the built-in skin; or null. Any thread. @pre model.has_built_in_surface
+std::string SkinBuffer(const PersonModel& model, const skin::SkinTemplate* own);
 
 /// The buffers that were asked for, as long as their models are in use. One thread.
 class SkinBuffers {
  public:
-  /// Never null.
-  std::shared_ptr<const std::string> Of(const std::shared_ptr<const PersonModel>& model);
+  /// Never null. `own`: always the same.
+  std::shared_ptr<const std::string> Of(const std::shared_ptr<const PersonModel>& model,
+                                        const skin::SkinTemplate* own);
 
  private:
   struct Made {

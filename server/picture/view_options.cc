@@ -408,7 +408,7 @@ render::PictureSpec ToPictureSpec(const ViewOptions& options) {
   // Naming joints shows the plot, unless --overlay decides.
   if (!options.plot->empty() && !options.overlay.names_plot()) spec.parts.plot = true;
   render::SceneLook& look = spec.look;
-  look.figure = *options.figure;
+  look.figure = options.figure.Load();
   look.style = *options.style;
   look.loads = *options.loads;
   look.theme = *options.theme;

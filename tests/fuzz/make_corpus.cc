@@ -17,6 +17,7 @@
 #include "tests/server/mvn/file/capture_builder.h"
 #include "tests/server/mvn/file/synthetic_mvnx.h"
 #include "tests/server/mvn/mvn_testing.h"
+#include "tests/urdf/rig/rig_samples.h"
 
 namespace {
 
@@ -428,6 +429,43 @@ void WriteMarkers(const fs::path& folder) {
                                      .bytes());
 }
 
+void WriteRigs(const fs::path& folder) {
+  using testing::BoneNames;
+  testing::RigSample sample;
+  sample.rings = 2;
+  for (const auto& [name, names] :
+       {std::pair("vrm1", BoneNames::kVrm1), std::pair("vrm0", BoneNames::kVrm0),
+        std::pair("mixamo", BoneNames::kMixamo), std::pair("mvn", BoneNames::kMvn)}) {
+    sample.names = names;
+    Write(folder / name, testing::RigGlb(sample));
+  }
+  sample.names = BoneNames::kMixamo;
+  const std::string whole = testing::RigGlb(sample);
+  Write(folder / "torn", whole.substr(0, whole.size() / 2));
+  std::string lies = whole;
+  lies[14] = '\x7f';  // of the JSON part's length
+  Write(folder / "lies", lies);
+  sample.missing = {8};
+  Write(folder / "no_forearm", testing::RigGlb(sample));
+  sample.missing = {};
+  const auto edited = [&](const char* name, auto edit) {
+    sample.edit = [&](nlohmann::json& document, std::string& binary) { edit(document, binary); };
+    Write(folder / name, testing::RigGlb(sample));
+  };
+  using nlohmann::json;
+  edited("circle", [](json& document, std::string&) { document["nodes"][5]["children"] = {0}; });
+  edited("no_weights", [](json& document, std::string& binary) {
+    const std::size_t at = document["bufferViews"][2]["byteOffset"];
+    binary.replace(at, 16, 16, '\0');
+  });
+  edited("nan", [](json&, std::string& binary) { binary.replace(0, 4, 4, '\xff'); });
+  edited("elsewhere",
+         [](json& document, std::string&) { document["buffers"][0]["uri"] = "other.bin"; });
+  edited("no_length", [](json& document, std::string&) {
+    document["nodes"][8]["translation"] = {0, 0, 0};
+  });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -445,6 +483,7 @@ int main(int argc, char** argv) {
   RandomValues streams(21);
   WriteStreams(folder / "framing", streams);
   WriteBags(folder / "bag");
+  WriteRigs(folder / "rig");
   WriteMarkers(folder / "marker");
   WriteLoads(folder / "loads");
   WriteOptions(folder / "options");

@@ -13,7 +13,7 @@
 using Entry = int(const std::uint8_t* data, std::size_t size);
 extern "C" Entry Fuzz_assembler, Fuzz_bag, Fuzz_camera_keys, Fuzz_datagram, Fuzz_framing,
     Fuzz_http_target, Fuzz_loads, Fuzz_mesh_file, Fuzz_mvnx, Fuzz_options, Fuzz_page_message,
-    Fuzz_pcap, Fuzz_scale, Fuzz_urdf, Fuzz_websocket, Fuzz_wrenches, Fuzz_yaml_options;
+    Fuzz_pcap, Fuzz_rig, Fuzz_scale, Fuzz_urdf, Fuzz_websocket, Fuzz_wrenches, Fuzz_yaml_options;
 #ifdef KINESCOPE_WITH_ROS
 extern "C" Entry Fuzz_marker;
 #endif
@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
       {"options", &Fuzz_options},
       {"page_message", &Fuzz_page_message},
       {"pcap", &Fuzz_pcap},
+      {"rig", &Fuzz_rig},
       {"scale", &Fuzz_scale},
       {"urdf", &Fuzz_urdf},
       {"websocket", &Fuzz_websocket},

@@ -9,7 +9,10 @@
 #include "render/image/compare.h"
 #include "render/renderer.h"
 #include "tests/render/test_scene.h"
+#include "tests/urdf/rig/rig_samples.h"
 #include "tests/worn.h"
+#include "urdf/rig/rig.h"
+#include "urdf/rig/rigged_skin.h"
 
 namespace kinescope::render {
 namespace {
@@ -69,6 +72,22 @@ TEST_F(SkinDrawing, MovesTheFingersOfGloves) {
     return state;
   };
   EXPECT_FALSE(Compare(Draw(gloved(0.1)), Draw(gloved(0.9))).equal());
+}
+
+TEST_F(SkinDrawing, DrawsARiggedPersonOfTheUsers) {
+  const Image built_in = Draw(Person());
+  kinescope::testing::RigSample sample;
+  auto own = std::make_shared<skin::SkinTemplate>(
+      rig::SkinOf(rig::ReadRig(kinescope::testing::RigGlb(sample))));
+  spec_.look.figure.own_skin = own;
+  const Image blue = Draw(Person());
+  EXPECT_FALSE(Compare(built_in, blue).equal());
+  EXPECT_TRUE(Compare(blue, Draw(Person())).equal());
+  for (auto& color : own->colors) color = {250, 250, 250, 255};
+  spec_.look.figure.own_skin = std::make_shared<skin::SkinTemplate>(*own);
+  EXPECT_FALSE(Compare(blue, Draw(Person())).equal()) << "another skin of the same person";
+  spec_.look.figure = Figure::kSkin;
+  EXPECT_TRUE(Compare(built_in, Draw(Person())).equal());
 }
 
 TEST_F(SkinDrawing, HidesTheBodyOnRequest) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 
 #include "urdf/mesh/mesh_file.h"
 #include "urdf/mesh/stl_gate.h"
+#include "urdf/rig/glb_container.h"
 #include "urdf/robot/xml_outline.h"
 
 namespace kinescope::urdf {
@@ -20,15 +20,8 @@ namespace {
 using nlohmann::json;
 using Fault = std::runtime_error;
 
-constexpr std::size_t kMaxNodes = 20'000;        // of a scene, instances counted
-constexpr int kMaxDepth = 100;                   // of nodes and of JSON
-constexpr std::size_t kMaxJsonBytes = 8u << 20;  // numbers are in the binary part
-
-std::uint32_t GlbWord(const std::string& bytes, std::size_t at) {  // little-endian
-  std::uint32_t word = 0;
-  for (std::size_t i = 4; i-- > 0;) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
-  return word;
-}
+constexpr std::size_t kMaxNodes = 20'000;  // of a scene, instances counted
+constexpr int kMaxDepth = 100;             // of nodes
 
 // Nodes that hold nodes: how many there are once every reference is followed.
 class NodeGraph {
@@ -134,20 +127,6 @@ void CheckDae(const std::string& bytes) {
       });
   graph.Check();
   CheckIndices(bytes);
-}
-
-// The depth alone: brackets within strings do not count.
-void CheckJsonDepth(std::string_view text) {
-  int depth = 0;
-  bool is_string = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (c == '"') is_string = !is_string;
-    if (is_string && c == '\\') ++i;
-    if (is_string) continue;
-    if ((c == '[' || c == '{') && ++depth > kMaxDepth) throw Fault("its JSON is nested too deeply");
-    if (c == ']' || c == '}') --depth;
-  }
 }
 
 std::uint64_t Unsigned(const json& object, const char* name, std::uint64_t otherwise) {
@@ -258,36 +237,11 @@ void CheckReferences(const json& document) {
 }
 
 void CheckGlb(const std::string& bytes) {
-  constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-  constexpr std::uint32_t kJson = 0x4E4F534A;
-  if (bytes.size() < kHeader + kChunkHeader || bytes.compare(0, 4, "glTF") != 0) {
-    throw Fault("not a GLB: it does not begin with 'glTF'");
-  }
-  if (GlbWord(bytes, 4) != 2)
-    throw Fault("GLB version " + std::to_string(GlbWord(bytes, 4)) + "; expected 2");
-  const std::uint64_t json_bytes = GlbWord(bytes, kHeader);
-  if (GlbWord(bytes, 8) > bytes.size() || GlbWord(bytes, kHeader + 4) != kJson ||
-      json_bytes > bytes.size() - kHeader - kChunkHeader) {
-    throw Fault("it declares " + std::to_string(GlbWord(bytes, 8)) + " bytes and " +
-                std::to_string(json_bytes) + " of JSON, but has " + std::to_string(bytes.size()));
-  }
-  const std::size_t binary = kHeader + kChunkHeader + json_bytes;
-  std::uint64_t binary_bytes = 0;
-  if (bytes.size() - binary >= kChunkHeader) {
-    binary_bytes = GlbWord(bytes, binary);
-    if (binary_bytes > bytes.size() - binary - kChunkHeader) {
-      throw Fault("its binary part declares " + std::to_string(binary_bytes) +
-                  " bytes, but the file ends before");
-    }
-  }
-  if (json_bytes > kMaxJsonBytes) throw Fault("its JSON part is too large");
-  const auto text = std::string_view(bytes).substr(kHeader + kChunkHeader, json_bytes);
-  CheckJsonDepth(text);
-  const json document = json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (!document.is_object()) throw Fault("its JSON part is not an object");
+  const GlbChunks chunks = SplitGlb(bytes);
+  const json document = ParseGlbJson(chunks.json);
   const json extensions = document.value("extensionsRequired", json::array());
   if (!extensions.empty()) throw Fault("unsupported extension: " + extensions.dump().substr(0, 80));
-  CheckBuffers(document, binary_bytes);
+  CheckBuffers(document, chunks.binary.size());
   CheckReferences(document);
 }
 

@@ -29,6 +29,7 @@ Build BuildOf(bool is_woman, double height, double mass) {
 }
 
 std::vector<Eigen::Vector3f> SkinTemplate::Blend(const Build& build) const {
+  if (corners[1].empty()) return corners[0];
   const auto woman = static_cast<float>(build.woman), heavy = static_cast<float>(build.heavy);
   const std::array<float, kCorners> share = {(1 - woman) * (1 - heavy), woman * (1 - heavy),
                                              (1 - woman) * heavy, woman * heavy};

@@ -1,6 +1,7 @@
-/// The skin of all people, as it is made when the program is built (urdf/skin/make): one closed
-/// surface in the bind pose of a person of kReferenceHeight, for four builds, and the frames that
-/// carry each vertex. Plain data and pure functions, any thread.
+/// The skin of all people: a surface in the bind pose of a person of kReferenceHeight, and the
+/// frames that carry each vertex. The built-in one is made when the program is built
+/// (urdf/skin/make): closed, and for four builds. One of the user's own (urdf/rig) has colours.
+/// Plain data and pure functions, any thread.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,10 +35,14 @@ struct VertexWeights {
 using Triangle = std::array<std::uint16_t, 3>;  // counter-clockwise from outside
 
 struct SkinTemplate {
-  static constexpr std::size_t kCorners = 4;                   // man, woman, heavy man, heavy woman
-  std::array<std::vector<Eigen::Vector3f>, kCorners> corners;  // positions, m
+  static constexpr std::size_t kCorners = 4;  // man, woman, heavy man, heavy woman
+  /// Positions, m. Of a skin that is the same for all builds, only the first.
+  std::array<std::vector<Eigen::Vector3f>, kCorners> corners;
   std::vector<VertexWeights> weights;
   std::vector<Triangle> triangles;
+  using Color = std::array<std::uint8_t, 4>;  // sRGB and 255
+  std::vector<Color> colors;                  // of each vertex; empty: it wears a suit (outfit.h)
+  bool is_two_sided = false;                  // triangles are also seen from behind
 
   std::size_t size() const { return weights.size(); }
   /// Positions of a person of `build`, m.

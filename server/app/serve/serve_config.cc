@@ -38,7 +38,9 @@ http::HttpConfig PageOf(const ServeOptions& options) {
   config.cameras = CameraViews();
   config.framing = FramingOfCameras();
   config.camera = options.camera->front().text;
-  config.draws_skins = *options.figure == render::Figure::kSkin;
+  const render::Figure figure = options.figure.Load();
+  config.draws_skins = figure.kind == render::Figure::kSkin;
+  config.own_skin = figure.own_skin;
   return config;
 }
 
@@ -54,7 +56,7 @@ LivePictureSettings LivePicturesOf(const ServeOptions& options) {
   pictures.width = options.picture_size->width;
   pictures.height = options.picture_size->height;
   pictures.rate_hz = *options.picture_rate_hz;
-  pictures.figure = *options.figure;
+  pictures.figure = options.figure.Load();
   return pictures;
 }
 
@@ -66,7 +68,7 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
   settings.width = options.ros_view_size->width;
   settings.height = options.ros_view_size->height;
   settings.rate_hz = *options.ros_view_rate_hz;
-  settings.figure = *options.figure;
+  settings.figure = options.figure.Load();
   return settings;
 }
 

@@ -16,6 +16,7 @@
 #include "server/app/commands.h"
 #include "server/app/print.h"
 #include "server/app/urdf/person_export.h"
+#include "server/app/urdf/skin_export.h"
 #include "server/app/urdf/urdf_picture.h"
 #include "server/app/urdf/urdf_report.h"
 #include "server/body/body_meshes.h"
@@ -42,7 +43,8 @@ struct WriteOptions {
     option("source", source,
            "person to write: " + SourceKinds() + "; default: the default body of --height");
     option("out", out,
-           "FILE.urdf, or a folder for person.urdf and meshes/; default, and -: standard output");
+           "FILE.urdf; FILE.glb for the skin with its skeleton, in the bind pose; or a folder for "
+           "person.urdf and meshes/; default, and -: standard output");
     option("package", package,
            "name of the ROS package that the folder is: meshes are written as package://NAME/...");
     option("gazebo", gazebo,
@@ -137,7 +139,29 @@ bool WriteFolder(urdf::HumanModel human, const BodyAppearance& appearance,
   return !files.body.empty() || !files.tools.empty();
 }
 
+void WriteFile(const std::string& out, const std::string& content) {
+  try {
+    render::WriteNewFile(out, content);
+  } catch (const std::runtime_error& error) {
+    throw UsageError(fmt::format("--out={}: {}", out, error.what()));
+  }
+  Print("{}: written\n", out);
+}
+
+void WriteSkin(const WriteOptions& options) {
+  if (!options.package->empty() || *options.gazebo) {
+    throw UsageError("--out=" + *options.out + ": a skin has no --package and no --gazebo");
+  }
+  const Model model = ModelOf(*options.source, ToSceneOptions(options.person));
+  if (!model->has_built_in_surface) {
+    throw UsageError("--out=" + *options.out +
+                     ": only the built-in body has a skin; expected --body_model smooth");
+  }
+  WriteFile(*options.out, SkinGlbOf(*model));
+}
+
 void Write(const WriteOptions& options) {
+  if (fs::path(*options.out).extension() == ".glb") return WriteSkin(options);
   const bool is_folder = !options.out->empty() && !IsFileName(*options.out);
   if (!options.package->empty() && !is_folder) {
     throw UsageError("--package=" + *options.package +
@@ -147,7 +171,7 @@ void Write(const WriteOptions& options) {
   if (is_folder && looks_like_file) {
     throw UsageError(
         "--out=" + *options.out +
-        ": expected NAME.urdf, NAME.xml, or a folder (a new folder has no point in its "
+        ": expected NAME.urdf, NAME.xml, NAME.glb, or a folder (a new folder has no point in its "
         "name)");
   }
   if (is_folder && fs::is_regular_file(*options.out)) {
@@ -173,12 +197,7 @@ void Write(const WriteOptions& options) {
     PrintText(stdout, xml);
     return;
   }
-  try {
-    render::WriteNewFile(*options.out, xml);
-  } catch (const std::runtime_error& error) {
-    throw UsageError(fmt::format("--out={}: {}", *options.out, error.what()));
-  }
-  Print("{}: written\n", *options.out);
+  WriteFile(*options.out, xml);
 }
 
 bool Check(const UrdfCheckOptions& options) {

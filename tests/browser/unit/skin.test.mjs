@@ -83,14 +83,53 @@ test('a truncated or altered skin is rejected', () => {
   assert.throws(() => readSkin(altered(triangles + 1, 255), 'skin'), /corner that is no vertex/);
 });
 
+test('a rigged person of the user has colours, and need not be closed', () => {
+  const buffer = Uint8Array.from(Buffer.from(told.own_skin.hex, 'hex')).buffer;
+  const skin = readSkin(buffer, 'skin');
+  assert.equal(skin.positions.length, 3 * told.own_skin.vertices);
+  assert.ok(skin.paint instanceof Uint8Array && skin.isTwoSided);
+  assert.deepEqual([...skin.paint.subarray(0, 4)], told.own_skin.first_color);
+  const { ring, first } = neighboursOf(skin.triangles, told.own_skin.vertices);
+  assert.ok(ring.length > skin.triangles.length, 'there is a gap');
+  assert.equal(first[told.own_skin.vertices], ring.length);
+});
+
 test('the vertices around a vertex go once around it', () => {
   const octahedron = Uint16Array.from([0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5]);
   const { ring, first } = neighboursOf(octahedron, 6);
   const around = ring.subarray(first[4], first[5]);
   const start = around.indexOf(0);
   assert.deepEqual([0, 1, 2, 3].map((i) => around[(start + i) % 4]), [0, 2, 1, 3], 'counter-clockwise from outside');
-  assert.throws(() => neighboursOf(octahedron.subarray(3), 6), /gap/);
   const { triangles, positions } = readSkin(buffers[0], 'skin');
   const whole = neighboursOf(triangles, positions.length / 3);
   assert.equal(whole.ring.length, triangles.length, 'as many neighbours as corners: the skin is closed');
+});
+
+/** The normal of a vertex as the shader sums it up over its ring, and as the mean of its triangles by area. */
+function normalsOf(triangles, positions, vertex) {
+  const at = (/** @type {number} */ i) => positions[i].map((/** @type {number} */ v, /** @type {number} */ k) => v - positions[vertex][k]);
+  const cross = ([a, b, c], [d, e, f]) => [b * f - c * e, c * d - a * f, a * e - b * d];
+  const sum = (total, each) => total.map((v, k) => v + each[k]);
+  const { ring, first } = neighboursOf(triangles, positions.length);
+  const around = [...ring.subarray(first[vertex], first[vertex + 1])];
+  const ofRing = around.reduce((total, next, i) => sum(total, cross(at(around.at(i - 1)), at(next))), [0, 0, 0]);
+  let mean = [0, 0, 0];
+  for (let t = 0; t < triangles.length; t += 3) {
+    const place = [0, 1, 2].find((i) => triangles[t + i] === vertex);
+    if (place === undefined) continue;
+    mean = sum(mean, cross(at(triangles[t + (place + 1) % 3]), at(triangles[t + (place + 2) % 3])));
+  }
+  return { ofRing, mean };
+}
+
+test('normals are right where a surface of the user ends, meets itself or has triangles twice', () => {
+  const positions = [[0, 0, 0], [1, 0, 0.1], [0, 1, 0.2], [-1, 0, 0.3], [0, -1, -0.2], [1, 1, 0.5], [-1, 1, 0.7]];
+  for (const triangles of [
+    [0, 1, 2], [0, 1, 2, 0, 2, 3], [0, 2, 3, 0, 1, 2], [0, 1, 2, 0, 3, 4], [0, 1, 2, 0, 1, 2],
+    [0, 1, 2, 0, 2, 1], [0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1], [0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 1, 0, 5, 6],
+    [0, 1, 2, 0, 1, 5, 0, 3, 2], [1, 2, 3],
+  ]) {
+    const { ofRing, mean } = normalsOf(Uint16Array.from(triangles), positions, 0);
+    ofRing.forEach((v, k) => assert.ok(Math.abs(v - mean[k]) < 1e-12, `${triangles}: ${ofRing} instead of ${mean}`));
+  }
 });

@@ -30,7 +30,10 @@
 #include "server/http/skin_buffer.h"
 #include "tests/server/http/plain_pictures.h"
 #include "tests/server/http/test_scene.h"
+#include "tests/urdf/rig/rig_samples.h"
 #include "tests/worn.h"
+#include "urdf/rig/rig.h"
+#include "urdf/rig/rigged_skin.h"
 #include "urdf/skin/bind_pose.h"
 #include "urdf/skin/frames.h"
 
@@ -82,7 +85,7 @@ json SkinToJson(const PersonState& person) {
   PersonModel model = *person.model;
   model.has_built_in_surface = true;
   const urdf::Skeleton& skeleton = model.human.skeleton;
-  const std::string buffer = SkinBuffer(model);
+  const std::string buffer = SkinBuffer(model, nullptr);
   std::mt19937 random(7);
   const auto angle = [&](double most) {
     return most * (static_cast<double>(random()) / 2147483648.0 - 1);
@@ -118,6 +121,23 @@ json SkinToJson(const PersonState& person) {
     postures.push_back({{"links", links}, {"frames", frames}});
   }
   return {{"hex", Hex({buffer.begin(), buffer.end()})}, {"postures", postures}};
+}
+
+// As for `--figure skin:FILE`; it is not closed, and seen from both sides.
+json OwnSkinToJson(const PersonState& person) {
+  kinescope::testing::RigSample sample;
+  sample.edit = [](json& document, std::string&) {
+    document["materials"][0]["doubleSided"] = true;
+    json& corners = document["accessors"][3];
+    corners["count"] = corners["count"].get<std::size_t>() - 3;
+  };
+  const skin::SkinTemplate own = rig::SkinOf(rig::ReadRig(kinescope::testing::RigGlb(sample)));
+  PersonModel model = *person.model;
+  model.has_built_in_surface = true;
+  const std::string buffer = SkinBuffer(model, &own);
+  return {{"hex", Hex({buffer.begin(), buffer.end()})},
+          {"vertices", own.size()},
+          {"first_color", own.colors.front()}};
 }
 
 json Describe() {
@@ -200,6 +220,7 @@ json Describe() {
             {"people", people},
             {"objects", objects}}},
           {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},
+          {"own_skin", OwnSkinToJson(state.people[0])},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},
           {"class_limits", json::parse(ModelJson(&state, true))["class_limits"]}};
 }

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <fstream>
 
+#include "core/system/errors.h"
 #include "server/picture/render_planner.h"
 #include "tests/render/test_scene.h"
 #include "tests/server/options_testing.h"
 #include "tests/temp_folder.h"
+#include "tests/urdf/rig/rig_samples.h"
 
 namespace kinescope::app {
 namespace {
@@ -50,6 +52,33 @@ TEST(ViewOptions, AcceptRowsOfCamerasAsViews) {
   EXPECT_THAT(Error("views", "front/left,top"), HasSubstr("row 2 has 2"));
   EXPECT_THAT(Error("views", "front,top//left,right"), HasSubstr("row 2 has 0"));
   EXPECT_THAT(Error("views", "front,nowhere"), HasSubstr("front, back"));
+}
+
+TEST(ViewOptions, TakeARiggedPersonOfTheUsersAsFigure) {
+  const testing::TempFolder folder;
+  const std::string file = folder / "person.glb";
+  std::ofstream(file, std::ios::binary) << testing::RigGlb();
+  const auto options = testing::With<ViewOptions>({{"figure", "skin:" + file}});
+  EXPECT_EQ(options.figure.ToText(), "skin:" + file);
+  EXPECT_THAT(options.figure.Files(), ElementsAre(file));
+  const render::PictureSpec spec = ToPictureSpec(options);
+  ASSERT_TRUE(spec.look.figure.own_skin);
+  EXPECT_EQ(spec.look.figure, ToPictureSpec(ViewOptions(options)).look.figure) << "read once";
+  EXPECT_FALSE(
+      ToPictureSpec(testing::With<ViewOptions>({{"figure", "skin"}})).look.figure.own_skin);
+  EXPECT_THAT(Error("figure", "skin:"), HasSubstr("expected skin, skin:FILE.glb or urdf"));
+  EXPECT_THAT(Error("figure", "sikn"), HasSubstr("nearest: skin"));
+  std::ofstream(file, std::ios::binary) << "no GLB";
+  for (const auto& [name, why] :
+       {std::pair(file, "not a GLB"), std::pair((folder / "none.glb").string(), "no such file")}) {
+    const auto wrong = testing::With<ViewOptions>({{"figure", "skin:" + name}});
+    try {
+      ToPictureSpec(wrong);
+      FAIL() << name;
+    } catch (const UsageError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("--figure=skin:" + name + ": " + why));
+    }
+  }
 }
 
 TEST(ViewOptions, AcceptOnlyJointsWithALoadForPlots) {

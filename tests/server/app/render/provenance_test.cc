@@ -87,13 +87,16 @@ TEST(Provenance, ContainsTheHashesOfTheSourceAndOfInputFiles) {
   EXPECT_FALSE(DecideTheSame(first, Sample(options, folder / "take.mvnx")));
 }
 
-TEST(Provenance, ChangesWithTheFilesOfRobotsAndReferencePoses) {
+TEST(Provenance, ChangesWithTheFilesOfRobotsReferencePosesAndRigs) {
   const testing::TempFolder folder;
-  const std::string urdf = folder / "r.urdf", ghost = folder / "take.mvnx";
+  const std::string urdf = folder / "r.urdf", ghost = folder / "take.mvnx",
+                    glb = folder / "person.glb";
+  std::ofstream(glb) << "before";
   std::ofstream(urdf) << "<robot name='before'><link name='a'/></robot>";
   std::ofstream(ghost) << "before";
   for (const auto& [name, text, file] :
-       {std::tuple("robot", urdf + "@1,0", urdf), std::tuple("ghost", ghost + "@2", ghost)}) {
+       {std::tuple("robot", urdf + "@1,0", urdf), std::tuple("ghost", ghost + "@2", ghost),
+        std::tuple("figure", "skin:" + glb, glb)}) {
     const auto options = testing::With<RenderOptions>({{name, text}});
     const Json first = Sample(options);
     ASSERT_EQ(first.at("inputs").size(), 1u) << first.at("inputs");

@@ -1,0 +1,206 @@
+#include "urdf/rig/skin_glb.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "urdf/rig/frame_names.h"
+#include "urdf/segments.h"
+#include "urdf/skin/frames.h"
+
+namespace kinescope::rig {
+namespace {
+
+using Eigen::Affine3d;
+using nlohmann::json;
+using urdf::At;
+
+constexpr int kUnsignedByteComponent = 5121, kUnsignedShortComponent = 5123, kFloatComponent = 5126;
+
+// x forward, y left, z up to x left, y up, z forward.
+const Eigen::Matrix3d& FileAxes() {
+  static const Eigen::Matrix3d kAxes = (Eigen::Matrix3d() << 0, 1, 0, 0, 0, 1, 1, 0, 0).finished();
+  return kAxes;
+}
+
+// The segment that a frame's bone hangs on; -1: none.
+int ParentOf(int frame) {
+  const skin::Frame& of = skin::Frames()[At(frame)];
+  switch (of.kind) {
+    case skin::FrameKind::kSegment:
+    case skin::FrameKind::kSwing: return urdf::kSegments[At(of.segment)].parent;
+    default: return of.segment;
+  }
+}
+
+double ToLinear(std::uint8_t channel) {
+  const double srgb = channel / 255.0;
+  return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4);
+}
+
+class SkinWriter {
+ public:
+  SkinWriter(const skin::PersonSkin& person, const skin::SkinTemplate& of,
+             const std::vector<skin::SkinTemplate::Color>& colors)
+      : person_(person), of_(of), colors_(colors) {
+    float lowest = 0;
+    for (const Eigen::Vector3f& p : person.rest()) lowest = std::min(lowest, p.z());
+    lift_ = -static_cast<double>(lowest);
+  }
+
+  std::string Write() {
+    document_["asset"] = {{"version", "2.0"}, {"generator", "Kinescope"}};
+    document_["scene"] = 0;
+    AddBones();
+    AddSurface();
+    document_["buffers"] = {{{"byteLength", binary_.size()}}};
+    return Packed();
+  }
+
+ private:
+  Affine3d WorldOf(int frame) const {
+    const urdf::Pose& pose = person_.bind_frames()[At(frame)];
+    Affine3d world = Affine3d::Identity();
+    world.linear() = FileAxes() * pose.orientation.toRotationMatrix();
+    world.translation() = FileAxes() * (pose.position + Eigen::Vector3d(0, 0, lift_));
+    return world;
+  }
+
+  void AddBones() {
+    json nodes = json::array(), bones = json::array();
+    std::vector<float> binds;
+    const int frames = static_cast<int>(skin::Frames().size());
+    for (int frame = 0; frame < frames; ++frame) {
+      const int parent = ParentOf(frame);
+      const Affine3d world = WorldOf(frame);
+      const Affine3d local = parent < 0 ? world : WorldOf(parent).inverse() * world;
+      const Eigen::Quaterniond turn(local.linear());
+      nodes.push_back({{"name", NameOfFrame(frame)},
+                       {"translation", std::vector<double>(local.translation().begin(),
+                                                           local.translation().end())},
+                       {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}}});
+      bones.push_back(frame);
+      const Eigen::Matrix4d bind = world.inverse().matrix();
+      for (int k = 0; k < 16; ++k) binds.push_back(static_cast<float>(bind(k % 4, k / 4)));
+    }
+    for (int frame = 1; frame < frames; ++frame) {
+      nodes[At(ParentOf(frame))]["children"].push_back(frame);
+    }
+    nodes.push_back({{"name", "Person"}, {"mesh", 0}, {"skin", 0}});
+    document_["nodes"] = std::move(nodes);
+    document_["scenes"] = {{{"nodes", {0, frames}}}};
+    document_["skins"] = {{{"joints", std::move(bones)},
+                           {"skeleton", 0},
+                           {"inverseBindMatrices", Add(binds, kFloatComponent, "MAT4", 16)}}};
+  }
+
+  void AddSurface() {
+    std::vector<float> positions;
+    Eigen::Vector3f least = Eigen::Vector3f::Constant(1e9f), most = -least;
+    for (const Eigen::Vector3f& p : person_.rest()) {
+      const Eigen::Vector3f at =
+          (FileAxes() * (p.cast<double>() + Eigen::Vector3d(0, 0, lift_))).cast<float>();
+      positions.insert(positions.end(), at.begin(), at.end());
+      least = least.cwiseMin(at);
+      most = most.cwiseMax(at);
+    }
+    skin::PersonSkin::Surface surface;
+    person_.Pose(person_.bind().links, {&person_.bind().fingers[0], &person_.bind().fingers[1]},
+                 surface);
+    std::vector<float> normals;
+    for (const Eigen::Vector3f& n : surface.normals) {
+      const Eigen::Vector3f turned = FileAxes().cast<float>() * n;
+      normals.insert(normals.end(), turned.begin(), turned.end());
+    }
+    std::vector<std::uint8_t> joints, weights;
+    for (const skin::VertexWeights& vertex : of_.weights) {
+      for (std::size_t k = 0; k < skin::kInfluences;
+           ++k) {  // unused ones are bone 0, as glTF wants
+        joints.push_back(vertex.weights[k] > 0 ? vertex.frames[k] : std::uint8_t{0});
+        weights.push_back(vertex.weights[k]);
+      }
+    }
+    const json attributes = {{"POSITION", Add(positions, kFloatComponent, "VEC3", 3)},
+                             {"NORMAL", Add(normals, kFloatComponent, "VEC3", 3)},
+                             {"JOINTS_0", Add(joints, kUnsignedByteComponent, "VEC4", 4)},
+                             {"WEIGHTS_0", Add(weights, kUnsignedByteComponent, "VEC4", 4)}};
+    document_["accessors"][attributes["WEIGHTS_0"].get<std::size_t>()]["normalized"] = true;
+    json& of_positions = document_["accessors"][attributes["POSITION"].get<std::size_t>()];
+    of_positions["min"] = std::vector<float>(least.begin(), least.end());
+    of_positions["max"] = std::vector<float>(most.begin(), most.end());
+    // A part for each colour.
+    std::map<skin::SkinTemplate::Color, std::vector<std::uint16_t>> parts;
+    for (std::size_t i = 0; i < of_.triangles.size(); ++i) {
+      std::vector<std::uint16_t>& part = parts[colors_[i]];
+      part.insert(part.end(), of_.triangles[i].begin(), of_.triangles[i].end());
+    }
+    json primitives = json::array();
+    for (const auto& [color, corners] : parts) {
+      document_["materials"].push_back(
+          {{"pbrMetallicRoughness",
+            {{"baseColorFactor", {ToLinear(color[0]), ToLinear(color[1]), ToLinear(color[2]), 1}},
+             {"metallicFactor", 0},
+             {"roughnessFactor", 0.8}}}});
+      primitives.push_back({{"attributes", attributes},
+                            {"indices", Add(corners, kUnsignedShortComponent, "SCALAR", 1)},
+                            {"material", document_["materials"].size() - 1}});
+    }
+    document_["meshes"] = {{{"name", "Person"}, {"primitives", std::move(primitives)}}};
+  }
+
+  // @return the accessor
+  template <class T>
+  std::size_t Add(const std::vector<T>& values, int component, const char* type,
+                  std::size_t per_element) {
+    const std::size_t bytes = sizeof(T) * values.size();
+    document_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}});
+    binary_.append(reinterpret_cast<const char*>(values.data()), bytes);
+    binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
+    document_["accessors"].push_back({{"bufferView", document_["bufferViews"].size() - 1},
+                                      {"componentType", component},
+                                      {"count", values.size() / per_element},
+                                      {"type", type}});
+    return document_["accessors"].size() - 1;
+  }
+
+  std::string Packed() const {
+    std::string text = document_.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string glb = "glTF";
+    const auto word = [&](std::size_t value) {
+      const auto bits = static_cast<std::uint32_t>(value);
+      glb.append(reinterpret_cast<const char*>(&bits), sizeof bits);
+    };
+    constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+    constexpr std::uint32_t kVersion = 2, kJson = 0x4E4F534A, kBinary = 0x004E4942;
+    word(kVersion);
+    word(kHeader + kChunkHeader + text.size() + kChunkHeader + binary_.size());
+    word(text.size());
+    word(kJson);
+    glb += text;
+    word(binary_.size());
+    word(kBinary);
+    return glb + binary_;
+  }
+
+  const skin::PersonSkin& person_;
+  const skin::SkinTemplate& of_;
+  const std::vector<skin::SkinTemplate::Color>& colors_;
+  double lift_ = 0;  // so that the soles are on the floor, m
+  json document_;
+  std::string binary_;
+};
+
+}  // namespace
+
+std::string WriteSkinGlb(const skin::PersonSkin& person, const skin::SkinTemplate& of,
+                         const std::vector<skin::SkinTemplate::Color>& colors) {
+  return SkinWriter(person, of, colors).Write();
+}
+
+}  // namespace kinescope::rig
