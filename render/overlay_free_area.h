@@ -6,6 +6,7 @@
 
 #include "render/camera/framing.h"
 #include "render/camera/tile.h"
+#include "render/legend.h"
 #include "render/renderer.h"
 
 namespace kinescope::render {
