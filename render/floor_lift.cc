@@ -1,5 +1,9 @@
 #include "render/floor_lift.h"
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+
 namespace kinescope::render {
 namespace {
 
@@ -22,16 +26,19 @@ void Lift(PersonState& person, const Eigen::Vector3d& lift) {
   if (person.cop) *person.cop += lift;
 }
 
-}  // namespace
+void Lift(Camera& camera, const Eigen::Vector3d& lift) {
+  camera.position += lift;
+  camera.target += lift;
+}
 
-void LiftToFloor(SceneState& state, Camera& camera, PictureSpec& spec) {
-  const Eigen::Vector3d lift(0, 0, -state.floor_z);
-  const auto raise = [&](Camera& each) {
-    each.position += lift;
-    each.target += lift;
-  };
-  raise(camera);
-  for (Pane& pane : spec.panes) raise(pane.camera);
+void Lift(std::vector<Trail>& trails, std::vector<Ghost>& ghosts, const Eigen::Vector3d& lift) {
+  for (Trail& trail : trails) {
+    for (Eigen::Vector3d& point : trail.points) point += lift;
+  }
+  for (Ghost& ghost : ghosts) Lift(ghost.person, lift);
+}
+
+void Lift(SceneState& state, const Eigen::Vector3d& lift) {
   for (PersonState& person : state.people) Lift(person, lift);
   for (TrackedObject& object : state.objects) object.pose.position += lift;
   for (RobotState& robot : state.robots) {
@@ -42,11 +49,36 @@ void LiftToFloor(SceneState& state, Camera& camera, PictureSpec& spec) {
     lifted->pose.position += lift;
     marker = std::move(lifted);
   }
-  for (Trail& trail : spec.look.trails) {
-    for (Eigen::Vector3d& point : trail.points) point += lift;
-  }
-  for (Ghost& ghost : spec.look.ghosts) Lift(ghost.person, lift);
   state.floor_z = 0;
+}
+
+Eigen::Vector3d LiftOf(const SceneState& state) { return {0, 0, -state.floor_z}; }
+
+void LiftPane(Pane& pane, const Eigen::Vector3d& of_picture) {
+  if (pane.scene == nullptr) return Lift(pane.camera, of_picture);
+  const Eigen::Vector3d lift = LiftOf(pane.scene->state);
+  Lift(pane.camera, lift);
+  auto scene = std::make_shared<PaneScene>(*pane.scene);
+  Lift(scene->state, lift);
+  Lift(scene->trails, scene->ghosts, lift);
+  pane.scene = std::move(scene);
+}
+
+}  // namespace
+
+bool IsLifted(const SceneState& state, const PictureSpec& spec) {
+  return state.floor_z == 0 &&
+         std::all_of(spec.panes.begin(), spec.panes.end(), [](const Pane& pane) {
+           return pane.scene == nullptr || pane.scene->state.floor_z == 0;
+         });
+}
+
+void LiftToFloor(SceneState& state, Camera& camera, PictureSpec& spec) {
+  const Eigen::Vector3d lift = LiftOf(state);
+  Lift(camera, lift);
+  for (Pane& pane : spec.panes) LiftPane(pane, lift);
+  Lift(spec.look.trails, spec.look.ghosts, lift);
+  Lift(state, lift);
 }
 
 }  // namespace kinescope::render

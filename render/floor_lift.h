@@ -7,6 +7,9 @@
 
 namespace kinescope::render {
 
+/// Whether the floor is there already, in all views. Pure function, any thread.
+bool IsLifted(const SceneState& state, const PictureSpec& spec);
+
 /// Moves everything vertically so that the floor is at z = 0. Pure function, any thread.
 void LiftToFloor(SceneState& state, Camera& camera, PictureSpec& spec);
 

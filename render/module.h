@@ -86,9 +86,10 @@ class LayerPainter : public Painter {
   virtual std::string Finish() = 0;
 };
 
+/// `below`: pixels under what is painted; nullptr: none. SVG has none.
 /// @throws RenderError if the module or its font is missing.
 std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, double width_mm,
-                                               LayerFormat format);
+                                               LayerFormat format, const Image* below);
 
 struct PlotModule {
   ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotClassInterval, PlotMark,
@@ -97,7 +98,7 @@ struct PlotModule {
   std::string (*svg)(const Plot& plot);
   Image (*image)(const Plot& plot, double px_per_pt);
   std::unique_ptr<LayerPainter> (*layer)(int width_px, int height_px, double width_mm,
-                                         LayerFormat format);
+                                         LayerFormat format, const Image* below);
 };
 
 /// Names of the entries of the modules: `extern "C"` functions without arguments.

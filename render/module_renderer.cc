@@ -30,7 +30,7 @@ class Lifted {
  public:
   Lifted(const SceneState& state, const Camera& camera, const PictureSpec& spec)
       : state_(state), camera_(camera), spec_(spec) {
-    if (state.floor_z == 0) return;
+    if (IsLifted(state, spec)) return;
     raised_.emplace(Raised{state, camera, spec});
     LiftToFloor(raised_->state, raised_->camera, raised_->spec);
   }
@@ -52,12 +52,13 @@ class Lifted {
 };
 
 std::vector<DrawnView> ViewsOf(const Camera& camera, const PictureSpec& spec) {
-  if (spec.panes.empty()) return {{{0, 0, spec.width, spec.height}, camera, "", {}}};
+  if (spec.panes.empty()) return {{spec.SceneTile(), camera, "", {}}};
   const auto tiles =
-      PaneTiles(spec.width, spec.height, static_cast<int>(spec.panes.size()), spec.pane_columns);
+      PaneTiles(spec.SceneTile(), static_cast<int>(spec.panes.size()), spec.pane_columns);
   std::vector<DrawnView> views;
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    views.push_back({tiles[i], spec.panes[i].camera, spec.panes[i].name, {}});
+    const Pane& pane = spec.panes[i];
+    views.push_back({tiles[i], pane.camera, pane.name, {}, pane.scene});
   }
   return views;
 }
@@ -65,7 +66,7 @@ std::vector<DrawnView> ViewsOf(const Camera& camera, const PictureSpec& spec) {
 void PaintLinesOf(Painter& painter, const std::vector<DrawnView>& views, const PictureSpec& spec) {
   for (const DrawnView& view : views) {
     painter.Enter(view.tile);
-    PaintLines(painter, view.scene.lines, spec);
+    PaintLines(painter, view.painted.lines, spec);
   }
   painter.Enter({0, 0, spec.width, spec.height});
 }
@@ -97,20 +98,35 @@ std::chrono::milliseconds ModuleRenderer::LimitOfPicture(const PictureSpec& spec
   return settings_.limit.count() > 0 ? settings_.limit : LimitOf(spec);
 }
 
-const SceneState& ModuleRenderer::Drawable(const SceneState& state,
-                                           std::optional<SceneState>& kept) {
+ModuleRenderer::Finite::Finite(const SceneState& given_state, const PictureSpec& given_spec,
+                               std::vector<std::string>& skipped)
+    : given_state_(given_state),
+      given_spec_(given_spec),
+      kept_state_(WithoutNonFinite(given_state, skipped)) {
+  for (std::size_t i = 0; i < given_spec.panes.size(); ++i) {
+    const auto& scene = given_spec.panes[i].scene;
+    if (scene == nullptr) continue;
+    auto kept = WithoutNonFinite(scene->state, skipped);
+    if (!kept) continue;
+    if (!kept_spec_) kept_spec_ = given_spec;
+    kept_spec_->panes[i].scene = std::make_shared<const PaneScene>(
+        PaneScene{std::move(*kept), scene->trails, scene->ghosts});
+  }
+}
+
+ModuleRenderer::Finite ModuleRenderer::Drawable(const SceneState& state, const PictureSpec& spec) {
   skipped_.clear();
-  kept = WithoutNonFinite(state, skipped_);
+  Finite finite(state, spec, skipped_);
   for (const std::string& line : skipped_) {
     if (said_.insert(line).second) settings_.log(line);
   }
-  return kept ? *kept : state;
+  return finite;
 }
 
 void ModuleRenderer::DoRender(Image& image, const SceneState& state, const Camera& camera,
                               const PictureSpec& spec) {
-  std::optional<SceneState> kept;
-  const Lifted lifted(Drawable(state, kept), camera, spec);
+  const Finite finite = Drawable(state, spec);
+  const Lifted lifted(finite.state(), camera, finite.spec());
   if (lifted.spec().look.is_transparent) {
     RenderTransparent(image, lifted.state(), lifted.camera(), lifted.spec());
   } else {
@@ -120,25 +136,42 @@ void ModuleRenderer::DoRender(Image& image, const SceneState& state, const Camer
 
 std::string ModuleRenderer::DoOverlayLayer(const SceneState& state, const Camera& camera,
                                            const PictureSpec& spec, LayerFormat format) {
-  std::optional<SceneState> kept;
-  const Lifted lifted(Drawable(state, kept), camera, spec);
+  const Finite finite = Drawable(state, spec);
+  const Lifted lifted(finite.state(), camera, finite.spec());
+  if (format == LayerFormat::kPdfPage) {
+    PictureSpec below = spec;
+    below.overlays = below.lines = false;
+    SetSize(below_layer_, spec.width, spec.height);
+    DoRender(below_layer_, state, camera, below);
+  }
   std::vector<DrawnView> views = ViewsOf(lifted.camera(), lifted.spec());
   KINESCOPE_CHECK(views.size() == drawn_.size());  // of the picture drawn last
-  for (std::size_t i = 0; i < views.size(); ++i) views[i].scene = drawn_[i].scene;
-  const auto painter = MakeLayerPainter(spec.width, spec.height, spec.print.width_mm, format);
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].painted = drawn_[i].painted;
+  const auto painter = MakeLayerPainter(spec.width, spec.height, spec.print.width_mm, format,
+                                        format == LayerFormat::kPdfPage ? &below_layer_ : nullptr);
   PaintLinesOf(*painter, views, lifted.spec());
   overlay_.Paint(*painter, lifted.state(), views, lifted.spec());
   return painter->Finish();
 }
 
 void ModuleRenderer::DrawWatched(const SceneState& state, DrawnView& drawn, const PictureSpec& spec,
-                                 Image& image) {
+                                 const SceneLook& look, Image& image) {
   const Watchdog::Work work(watchdog_, LimitOfPicture(spec), [this, &spec] {
     return TookTooLong("a picture of " + std::to_string(spec.width) + " x " +
                            std::to_string(spec.height) + " px by back-end " + settings_.backend,
                        LimitOfPicture(spec));
   });
-  drawing_->Draw(state, drawn.camera, spec.look, spec.supersample, image, drawn.scene);
+  drawing_->Draw(state, drawn.camera, look, spec.supersample, image, drawn.painted);
+}
+
+void ModuleRenderer::DrawView(const SceneState& state, DrawnView& drawn, const PictureSpec& spec,
+                              Image& image) {
+  if (drawn.scene == nullptr) return DrawWatched(state, drawn, spec, spec.look, image);
+  SceneLook look = spec.look;
+  look.trails = drawn.scene->trails;
+  look.ghosts = drawn.scene->ghosts;
+  DrawWatched(HidesAnything(look) ? Without(drawn.scene->state, look) : drawn.scene->state, drawn,
+              spec, look, image);
 }
 
 void ModuleRenderer::RenderOpaque(Image& image, const SceneState& state, const Camera& camera,
@@ -147,13 +180,14 @@ void ModuleRenderer::RenderOpaque(Image& image, const SceneState& state, const C
   if (HidesAnything(spec.look)) shown = Without(state, spec.look);
   const SceneState& scene = shown ? *shown : state;
   drawn_ = ViewsOf(camera, spec);
-  if (drawn_.size() == 1) {
-    DrawWatched(scene, drawn_.front(), spec, image);
+  if (drawn_.size() == 1 && !spec.scene) {
+    DrawView(scene, drawn_.front(), spec, image);
   } else {
-    FillWith(image, InksOf(spec).separator.color);
+    FillWith(image, {0, 0, image.width, image.height}, BackgroundOf(spec.look));
+    if (drawn_.size() > 1) FillWith(image, spec.SceneTile(), InksOf(spec).separator.color);
     for (DrawnView& each : drawn_) {
       SetSize(part_, each.tile.width, each.tile.height);
-      DrawWatched(scene, each, spec, part_);
+      DrawView(scene, each, spec, part_);
       CopyInto(image, part_, each.tile);
     }
   }

@@ -37,9 +37,25 @@ class ModuleRenderer : public Renderer {
   void RenderTransparent(Image& image, const SceneState& state, const Camera& camera,
                          const PictureSpec& spec);
   void DrawWatched(const SceneState& state, DrawnView& drawn, const PictureSpec& spec,
-                   Image& image);
-  // `state`, or the part of it that can be rendered, in `kept`.
-  const SceneState& Drawable(const SceneState& state, std::optional<SceneState>& kept);
+                   const SceneLook& look, Image& image);
+  // `state`, unless the view has a scene of its own.
+  void DrawView(const SceneState& state, DrawnView& drawn, const PictureSpec& spec, Image& image);
+
+  // The arguments of a picture, or the part of them that can be rendered.
+  class Finite {
+   public:
+    Finite(const SceneState& given_state, const PictureSpec& given_spec,
+           std::vector<std::string>& skipped);
+    const SceneState& state() const { return kept_state_ ? *kept_state_ : given_state_; }
+    const PictureSpec& spec() const { return kept_spec_ ? *kept_spec_ : given_spec_; }
+
+   private:
+    const SceneState& given_state_;
+    const PictureSpec& given_spec_;
+    std::optional<SceneState> kept_state_;
+    std::optional<PictureSpec> kept_spec_;
+  };
+  Finite Drawable(const SceneState& state, const PictureSpec& spec);
   std::chrono::milliseconds LimitOfPicture(const PictureSpec& spec) const;
 
   const RendererSettings settings_;
@@ -51,6 +67,7 @@ class ModuleRenderer : public Renderer {
   std::set<std::string> said_;
   Image part_;  // one of several views
   Image over_black_;
+  Image below_layer_;
 };
 
 }  // namespace kinescope::render

@@ -40,6 +40,15 @@ std::vector<Tile> PaneTiles(int width_px, int height_px, int count, int columns)
   return tiles;
 }
 
+std::vector<Tile> PaneTiles(const Tile& scene, int count, int columns) {
+  std::vector<Tile> tiles = PaneTiles(scene.width, scene.height, count, columns);
+  for (Tile& tile : tiles) {
+    tile.x += scene.x;
+    tile.y += scene.y;
+  }
+  return tiles;
+}
+
 void CopyInto(Image& whole, const Image& part, const Tile& tile) {
   KINESCOPE_CHECK(part.width == tile.width && part.height == tile.height);
   KINESCOPE_CHECK(tile.x >= 0 && tile.x + tile.width <= whole.width);
@@ -53,10 +62,16 @@ void CopyInto(Image& whole, const Image& part, const Tile& tile) {
   }
 }
 
-void FillWith(Image& image, const std::array<double, 3>& color) {
-  for (std::size_t i = 0; i < image.rgba.size(); ++i) {
-    image.rgba[i] =
-        i % 4 == 3 ? 255 : static_cast<std::uint8_t>(std::lround(255 * color.at(i % 4)));
+void FillWith(Image& image, const Tile& tile, const std::array<double, 3>& color) {
+  KINESCOPE_CHECK(tile.x >= 0 && tile.x + tile.width <= image.width);
+  KINESCOPE_CHECK(tile.y >= 0 && tile.y + tile.height <= image.height);
+  std::array<std::uint8_t, 4> pixel = {0, 0, 0, 255};
+  for (std::size_t i = 0; i < 3; ++i) {
+    pixel.at(i) = static_cast<std::uint8_t>(std::lround(255 * color.at(i)));
+  }
+  for (int y = tile.y; y < tile.y + tile.height; ++y) {
+    auto to = image.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y) * image.width + tile.x);
+    for (int x = 0; x < tile.width; ++x) to = std::copy(pixel.begin(), pixel.end(), to);
   }
 }
 

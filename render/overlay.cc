@@ -7,6 +7,7 @@
 #include "core/system/clocks.h"
 #include "render/frame_code.h"
 #include "render/overlay_legend.h"
+#include "render/overlay_legend_beside.h"
 #include "render/overlay_plot.h"
 #include "render/overlay_scale.h"
 
@@ -36,13 +37,22 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
     page.height = each.tile.height;
     page.bottom = std::min(page.height, whole.bottom - each.tile.y);
     const bool is_last = &each == &drawn.back();
-    PaintView(page, state, each, spec, is_last && spec.parts.time && !HasOnlyRobots(state));
+    const SceneState& shown = each.scene != nullptr ? each.scene->state : state;
+    PaintView(page, shown, each, spec, is_last && spec.parts.time && !HasOnlyRobots(state));
   }
-  painter.Enter({0, 0, spec.width, spec.height});
+  const Tile picture{0, 0, spec.width, spec.height}, scene = spec.SceneTile();
+  painter.Enter(picture);
   page.width = whole.width;
   page.height = whole.height;
   page.bottom = whole.bottom;
+  PaintHead(page, state, spec);
+  if (spec.scene && spec.parts.legend) PaintLegendBeside(page, spec);
+  painter.Enter(scene);
+  page.width = scene.width;
+  page.height = scene.height;
+  page.bottom = std::min(page.height, whole.bottom - scene.y);
   PaintAround(page, state, spec);
+  painter.Enter(picture);
   if (spec.parts.frame_code && state.liveness != Liveness::kNoData) {
     PaintFrameCode(painter, spec.width, spec.height, {state.counter, state.time_code_millis});
   }
@@ -50,7 +60,7 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
 
 void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& drawn,
                         const PictureSpec& spec, bool has_time_code) {
-  PaintNames(page, state, drawn.camera, spec.parts.names, drawn.scene.labels);
+  PaintNames(page, state, drawn.camera, spec.parts.names, drawn.painted.labels);
   if (page.is_small) return;
   const double margin = page.Px(kMargin);
   if (spec.parts.scale) {
@@ -71,13 +81,20 @@ void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& dr
                    page.inks.text);
 }
 
+void Overlay::PaintHead(Page& page, const SceneState& state, const PictureSpec& spec) {
+  if (spec.parts.title && !page.is_small) PaintTitle(page, state, spec);
+  if (spec.parts.status && !HasOnlyRobots(state)) PaintLamp(page, state);
+}
+
 void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec& spec) {
   const OverlayParts& parts = spec.parts;
-  if (parts.title && !page.is_small) PaintTitle(page, state, spec);
   if (HasOnlyRobots(state)) return;
-  if (parts.status) PaintLamp(page, state);
   if (!page.is_small) {
-    if (parts.legend) PaintLegend(page, state, spec.look);
+    if (parts.legend && !spec.scene) {
+      PaintLegend(
+          page, spec.legend_content != nullptr ? *spec.legend_content : LegendOf(state, spec.look),
+          state.class_limits);
+    }
     if (parts.time && state.liveness != Liveness::kNoData) PaintTimeCode(page, state);
     if (parts.plot && spec.load_curves != nullptr) {
       const double below = page.Px(kMargin) + page.Px(4 * kTitleSize);

@@ -23,8 +23,9 @@ namespace kinescope::render {
 struct DrawnView {
   Tile tile;
   Camera camera;
-  std::string name;  // "" if it is the only view
-  DrawnScene scene;
+  std::string name;                                  // "" if it is the only view
+  DrawnScene painted;                                // over the drawing
+  std::shared_ptr<const PaneScene> scene = nullptr;  // of this view; nullptr: the picture's
 };
 
 class Overlay {
@@ -39,6 +40,9 @@ class Overlay {
 
   void PaintView(Page& page, const SceneState& state, const DrawnView& drawn,
                  const PictureSpec& spec, bool has_time_code);
+  // Title and status, over the whole picture.
+  void PaintHead(Page& page, const SceneState& state, const PictureSpec& spec);
+  // What is over the scene, in all views.
   void PaintAround(Page& page, const SceneState& state, const PictureSpec& spec);
   void PaintLamp(Page& page, const SceneState& state);
   void PaintTitle(Page& page, const SceneState& state, const PictureSpec& spec);

@@ -9,24 +9,25 @@
 namespace kinescope::render {
 namespace {
 
-// px of the whole picture.
+// px of the scene, whose corner is that of the picture.
 struct Covered {
   double left, top, right, bottom;
 };
 
-std::vector<Covered> CoveredBy(const PictureSpec& spec, std::size_t curves) {
+std::vector<Covered> CoveredBy(const PictureSpec& spec, std::size_t curves,
+                               const LegendContent& legend) {
   std::vector<Covered> covered;
   if (!spec.overlays) return covered;
   OverlayFonts fonts;
-  const OverlaySizes sizes = SizesOf(spec, fonts);
+  const OverlaySizes sizes = SizesOfScene(spec, fonts);
   const double margin = sizes.Px(kMargin);
   if (sizes.bottom < sizes.height) covered.push_back({0, sizes.bottom, sizes.width, sizes.height});
   if (sizes.is_small) return covered;
   if (spec.parts.status || (spec.parts.title && !spec.title.empty())) {
     covered.push_back({0, 0, sizes.width, margin + 1.3 * sizes.FontPx(kTitleSize)});
   }
-  if (spec.parts.legend) {
-    const LegendRoom room = RoomOfLegend(sizes, spec.look);
+  if (spec.parts.legend && !spec.scene) {
+    const LegendRoom room = RoomOfLegend(sizes, spec.look, legend);
     if (room.height > 0) {
       covered.push_back({0, sizes.bottom - room.height, room.width, sizes.height});
     }
@@ -60,8 +61,8 @@ void CutOut(const PictureRect& covered, FreeArea& area) {
 }  // namespace
 
 std::vector<FreeArea> FreeAreasOf(const PictureSpec& spec, const std::vector<Tile>& views,
-                                  std::size_t curves) {
-  const std::vector<Covered> all = CoveredBy(spec, curves);
+                                  std::size_t curves, const LegendContent& legend) {
+  const std::vector<Covered> all = CoveredBy(spec, curves, legend);
   std::vector<FreeArea> areas;
   for (const Tile& view : views) {
     FreeArea& area = areas.emplace_back();

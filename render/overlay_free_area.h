@@ -6,13 +6,14 @@
 
 #include "render/camera/framing.h"
 #include "render/camera/tile.h"
+#include "render/legend.h"
 #include "render/renderer.h"
 
 namespace kinescope::render {
 
-/// Of each view, in its own picture. `curves`: in the plot. @throws RenderError if a font is
-/// missing.
+/// Of each view, in its own picture. `curves`: in the plot. `legend`: entries of a legend inside
+/// that are known before the pictures are. @throws RenderError if a font is missing.
 std::vector<FreeArea> FreeAreasOf(const PictureSpec& spec, const std::vector<Tile>& views,
-                                  std::size_t curves);
+                                  std::size_t curves, const LegendContent& legend = {});
 
 }  // namespace kinescope::render

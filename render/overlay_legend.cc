@@ -3,57 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include "core/palette.h"
 
 namespace kinescope::render {
 namespace {
 
-constexpr double kWidestLegend = 0.3;  // of the picture: a person is in its middle
-constexpr const char* kLegendTitle = "Joint load, % of capacity";
-
-// Whether the body mass of any person is assumed: the loads are only as good as that assumption.
-const PersonState* WithAssumedMass(const SceneState& state) {
-  for (const PersonState& person : state.people) {
-    if (!person.loads.empty() && person.model->description.mass_is_assumed) return &person;
-  }
-  return nullptr;
-}
-
-// What the ratios are of, and from what: of the first person who has any.
-std::string MetricOf(const SceneState& state) {
-  for (const PersonState& person : state.people) {
-    if (person.loads.empty()) continue;
-    const BodyForces& forces = person.forces;
-    std::string text = Name(forces.metric);
-    if (forces.metric != LoadMetric::kExternal)
-      text += forces.is_dynamic ? ", dynamic" : ", static";
-    return text;
-  }
-  return "";
-}
-
-bool HasForceOnAFoot(const SceneState& state) {
-  return std::any_of(state.people.begin(), state.people.end(), [](const PersonState& person) {
-    return std::any_of(
-        person.forces.feet.begin(), person.forces.feet.end(),
-        [](const FootForce& foot) { return foot.touches_floor && foot.force.norm() > 0; });
-  });
-}
-
-// The lines below the rows, in fainter ink.
-std::vector<std::string> LegendNotes(const SceneState& state) {
-  std::vector<std::string> notes;
-  if (std::string metric = MetricOf(state); !metric.empty()) notes.push_back(std::move(metric));
-  if (const PersonState* assumed = WithAssumedMass(state)) {
-    char text[64];
-    std::snprintf(text, sizeof text, "body mass assumed: %.0f kg",
-                  assumed->model->description.mass_kg);
-    notes.emplace_back(text);
-  }
-  return notes;
-}
+constexpr double kWidestLegend = 0.3;   // of the picture: a person is in its middle
+constexpr double kHighestLegend = 0.7;  // of the picture
+constexpr double kRimWidth = 0.24;      // of a sphere's radius
+constexpr Ink kWhite = {{1, 1, 1}, 1};
 
 // px
 struct LegendLayout {
@@ -74,31 +36,34 @@ LegendLayout MeasureLegend(const OverlaySizes& page, std::size_t rows, std::size
   return layout;
 }
 
-// Centred at x, y, px.
-void PaintSymbol(OverlayPage& page, const LegendRow& row, double x, double y) {
-  if (row.is_arrow) {
-    const double half = page.Px(6);
-    page.canvas.Polyline({{x, y + half}, {x, y - half}}, page.Px(2), row.ink);
-    page.canvas.Polyline(
-        {{x - 0.6 * half, y - 0.3 * half}, {x, y - half}, {x + 0.6 * half, y - 0.3 * half}},
-        page.Px(2), row.ink);
-  }
-  const double radius = page.Px(row.radius);
-  if (row.has_rim) page.canvas.Disc(x, y, radius, page.inks.rim);
-  page.canvas.Disc(x, y, row.has_rim ? 0.76 * radius : radius, row.ink);
-}
-
 bool IsWide(const LegendLayout& layout, const OverlaySizes& page) {
   return layout.width > kWidestLegend * page.width;
+}
+
+// Without the last additions, if they have no room; the last one left counts them.
+std::vector<LegendRow> RowsWithRoom(const LegendContent& content, const OverlaySizes& page) {
+  std::vector<LegendRow> rows = content.rows;
+  std::size_t hidden = 0;
+  while (!rows.empty() && rows.back().is_addition() &&
+         MeasureLegend(page, rows.size(), content.notes.size()).height >
+             kHighestLegend * page.bottom) {
+    rows.pop_back();
+    ++hidden;
+  }
+  if (hidden > 0 && !rows.empty() && rows.back().is_addition()) {
+    rows.back() = {
+        {{0, 0, 0}, 0}, 0, fmt::format("+ {} more", hidden + 1), "", LegendRow::Symbol::kBox};
+  }
+  return rows;
 }
 
 // Of the legend's one line.
 constexpr double kShortLine = 1.8;  // of its text's size
 
 // For small pictures: the classes alone, in one line, so that the person is not covered.
-void PaintShortLegend(OverlayPage& page, const SceneState& state) {
-  const std::string medium = fmt::format("{:.3g}", 100 * state.class_limits[0]);
-  const std::string high = fmt::format("{:.3g}", 100 * state.class_limits[1]);
+void PaintShortLegend(OverlayPage& page, const std::array<double, 2>& class_limits) {
+  const std::string medium = fmt::format("{:.3g}", 100 * class_limits[0]);
+  const std::string high = fmt::format("{:.3g}", 100 * class_limits[1]);
   const std::array<std::pair<LoadClass, std::string>, 3> classes = {{
       {LoadClass::kLow, "≤ " + medium},
       {LoadClass::kMedium, "≤ " + high},
@@ -125,66 +90,96 @@ void PaintShortLegend(OverlayPage& page, const SceneState& state) {
   }
 }
 
-}  // namespace
-
-std::vector<LegendRow> LegendOf(const SceneState& state, const SceneLook& look) {
-  std::vector<LegendRow> rows;
-  const auto add = [&](ScenePart part, const Rgb& color, double radius, const char* name,
-                       const std::string& range, bool has_rim = false) {
-    if (look.Shows(part)) rows.push_back({{color, 1}, radius, has_rim, name, range, false});
-  };
-  const std::string medium = fmt::format("{:.3g} %", 100 * state.class_limits[0]);
-  const std::string high = fmt::format("{:.3g} %", 100 * state.class_limits[1]);
-  const auto add_class = [&](LoadClass load_class, double radius, const char* name,
-                             const std::string& range, bool has_rim = false) {
-    add(ScenePart::kLoads, ColorOf(load_class), radius, name, range, has_rim);
-  };
-  add_class(LoadClass::kLow, 6.0, "low", "≤ " + medium);
-  add_class(LoadClass::kMedium, 7.2, "medium", "≤ " + high);
-  add_class(LoadClass::kHigh, 8.4, "high", "> " + high, true);
-  add_class(LoadClass::kUnknown, 4.8, "no data", "–");
-  add(ScenePart::kCom, kComColor, 5.0, "centre of mass", "");
-  add(ScenePart::kCop, kCopColor, 5.0, "centre of pressure", "");
-  if (HasForceOnAFoot(state) && look.Shows(ScenePart::kForces)) {
-    rows.push_back({{kCopColor, 1}, 0, false, "force on a foot", "1 m/kN", /*is_arrow=*/true});
-  }
-  return rows;
+void PaintDisc(OverlayPage& page, const LegendRow& row, double x, double y) {
+  const double radius = page.Px(row.radius), outline = std::max(0.8, page.Px(0.8));
+  const bool is_ghost = row.symbol == LegendRow::Symbol::kGhost;
+  // A rim like the panel, or a translucent body, needs an edge to be seen.
+  const bool is_light = page.inks.panel.color[0] > 0.5;
+  const bool needs_edge = is_ghost || (row.rim == SphereRim::kWhite && is_light) ||
+                          (row.rim == SphereRim::kDark && !is_light);
+  if (needs_edge) page.canvas.Ring(x, y, radius, radius + outline, page.inks.faint_text);
+  if (row.rim == SphereRim::kNone) return page.canvas.Disc(x, y, radius, row.ink);
+  page.canvas.Disc(x, y, radius, row.rim == SphereRim::kDark ? page.inks.rim : kWhite);
+  page.canvas.Disc(x, y, (1 - kRimWidth) * radius, row.ink);
 }
 
-LegendRoom RoomOfLegend(const OverlaySizes& sizes, const SceneLook& look) {
+}  // namespace
+
+void PaintLegendSymbol(OverlayPage& page, const LegendRow& row, double x, double y) {
+  switch (row.symbol) {
+    case LegendRow::Symbol::kArrow: {
+      const double half = page.Px(6);
+      page.canvas.Polyline({{x, y + half}, {x, y - half}}, page.Px(2), row.ink);
+      page.canvas.Polyline(
+          {{x - 0.6 * half, y - 0.3 * half}, {x, y - half}, {x + 0.6 * half, y - 0.3 * half}},
+          page.Px(2), row.ink);
+      return;
+    }
+    case LegendRow::Symbol::kLine: {
+      const double half = page.Px(row.radius);
+      page.canvas.Polyline({{x - half, y}, {x + half, y}}, page.Px(3), row.ink);
+      return;
+    }
+    case LegendRow::Symbol::kBox: {
+      const double half = page.Px(row.radius), edge = half + std::max(0.8, page.Px(0.8));
+      const bool is_light = page.inks.panel.color[0] > 0.5;
+      if (!is_light && row.ink.alpha > 0) {  // a hand load is as dark as the dark theme
+        page.canvas.RoundedBox(x - edge, y - edge, 2 * edge, 2 * edge, page.Px(1.5),
+                               page.inks.faint_text);
+      }
+      page.canvas.RoundedBox(x - half, y - half, 2 * half, 2 * half, page.Px(1.5), row.ink);
+      return;
+    }
+    case LegendRow::Symbol::kDisc:
+    case LegendRow::Symbol::kGhost: PaintDisc(page, row, x, y);
+  }
+}
+
+LegendRoom RoomOfLegend(const OverlaySizes& sizes, const SceneLook& look,
+                        const LegendContent& additions) {
   constexpr std::size_t kNotes = 2;
-  const std::size_t symbols = LegendOf({}, look).size() + (look.Shows(ScenePart::kForces) ? 1 : 0);
-  if (symbols == 0) return {};
-  const LegendLayout layout = MeasureLegend(sizes, symbols, kNotes);
+  LegendContent content = LegendOf({}, look);
+  if (look.Shows(ScenePart::kForces)) {
+    content.rows.push_back({{}, 0, "", "", LegendRow::Symbol::kArrow});
+  }
+  if (content.rows.empty() && additions.rows.empty()) return {};
+  content.notes.resize(kNotes);
+  for (const LegendRow& row : additions.rows) {
+    if (row.is_addition()) content.rows.push_back(row);
+  }
+  const LegendLayout layout = MeasureLegend(sizes, RowsWithRoom(content, sizes).size(), kNotes);
   const double margins = 2 * sizes.Px(kMargin);
   if (!IsWide(layout, sizes)) return {layout.width + margins, layout.height + margins};
   return {sizes.width, kShortLine * sizes.FontPx(kSmallSize) + margins};
 }
 
-void PaintLegend(OverlayPage& page, const SceneState& state, const SceneLook& look) {
-  const std::vector<LegendRow> rows = LegendOf(state, look);
+void PaintLegend(OverlayPage& page, const LegendContent& content,
+                 const std::array<double, 2>& class_limits) {
+  const std::vector<LegendRow> rows = RowsWithRoom(content, page);
   if (rows.empty()) return;
-  const std::vector<std::string> notes = LegendNotes(state);
-  const LegendLayout layout = MeasureLegend(page, rows.size(), notes.size());
-  if (IsWide(layout, page)) return PaintShortLegend(page, state);
-
+  const LegendLayout layout = MeasureLegend(page, rows.size(), content.notes.size());
+  if (IsWide(layout, page)) {
+    if (content.has_classes()) PaintShortLegend(page, class_limits);
+    return;
+  }
   OverlayFonts& f = page.fonts;
   const int size = layout.font;
   const double left = page.Px(kMargin), top = page.bottom - page.Px(kMargin) - layout.height;
-  const double text_left = left + layout.pad;
+  const double text_left = left + layout.pad, right = left + layout.width - layout.pad;
   page.canvas.RoundedBox(left, top, layout.width, layout.height, page.Px(8), page.inks.panel);
   double baseline = top + layout.pad + 0.8 * size;
-  page.canvas.Text(text_left, baseline, kLegendTitle, f.bold, size, page.inks.text);
+  page.canvas.Text(text_left, baseline, content.title, f.bold, size, page.inks.text);
   for (const LegendRow& row : rows) {
     baseline += layout.line;
-    PaintSymbol(page, row, text_left + 0.36 * layout.column, baseline - 0.36 * size);
-    page.canvas.Text(text_left + layout.column, baseline, row.name, f.regular, size,
-                     page.inks.text);
-    const double range_left = left + layout.width - layout.pad - f.regular.Width(row.range, size);
+    PaintLegendSymbol(page, row, text_left + 0.36 * layout.column, baseline - 0.36 * size);
+    const double range_left = right - f.regular.Width(row.range, size);
+    const double room = range_left - text_left - layout.column;
+    page.canvas.Text(text_left + layout.column, baseline, Shorten(row.name, f.regular, size, room),
+                     f.regular, size, page.inks.text);
     page.canvas.Text(range_left, baseline, row.range, f.regular, size, page.inks.text);
   }
   baseline += 0.5 * layout.line;
-  for (const std::string& note : notes) {
+  for (const std::string& note : content.notes) {
     baseline += layout.line;
     page.canvas.Text(text_left, baseline, note, f.regular, size, page.inks.faint_text);
   }

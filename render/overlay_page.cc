@@ -25,6 +25,8 @@ bool IsSmall(const PictureSpec& spec, double scale) {
 
 }  // namespace
 
+bool HasRoomForTexts(const PictureSpec& spec) { return !IsSmall(spec, ScaleOf(spec)); }
+
 OverlaySizes SizesOf(const PictureSpec& spec, OverlayFonts& fonts) {
   const double scale = ScaleOf(spec);
   const double frame_code =
@@ -36,6 +38,15 @@ OverlaySizes SizesOf(const PictureSpec& spec, OverlayFonts& fonts) {
           spec.height - frame_code,
           IsSmall(spec, scale),
           spec.print.is_known() ? kSpreadInPrint : 1.0};
+}
+
+OverlaySizes SizesOfScene(const PictureSpec& spec, OverlayFonts& fonts) {
+  OverlaySizes sizes = SizesOf(spec, fonts);
+  const Tile scene = spec.SceneTile();
+  sizes.width = scene.width;
+  sizes.height = scene.height;
+  sizes.bottom = std::min(sizes.height, sizes.bottom - scene.y);
+  return sizes;
 }
 
 std::string Shorten(const std::string& text, Font& font, int size_px, double width) {

@@ -81,6 +81,8 @@ struct OverlaySizes {
 
 /// Of the whole picture.
 OverlaySizes SizesOf(const PictureSpec& spec, OverlayFonts& fonts);
+/// Of the part that shows the scene, with the texts of the whole picture.
+OverlaySizes SizesOfScene(const PictureSpec& spec, OverlayFonts& fonts);
 
 struct OverlayPage : OverlaySizes {
   OverlayPage(const OverlaySizes& sizes, Painter& painter, const Inks& used_inks)

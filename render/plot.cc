@@ -21,8 +21,8 @@ Image ToImage(const Plot& plot, double px_per_pt) {
 }
 
 std::unique_ptr<LayerPainter> MakeLayerPainter(int width_px, int height_px, double width_mm,
-                                               LayerFormat format) {
-  return OpenPlotModule().layer(width_px, height_px, width_mm, format);
+                                               LayerFormat format, const Image* below) {
+  return OpenPlotModule().layer(width_px, height_px, width_mm, format, below);
 }
 
 }  // namespace kinescope::render

@@ -38,6 +38,10 @@ void CheckSpec(const PictureSpec& spec) {
   if (std::find(factors.begin(), factors.end(), spec.supersample) == factors.end()) {
     throw UsageError("--supersample=" + std::to_string(spec.supersample) + ": expected 1, 2 or 4");
   }
+  const Tile scene = spec.SceneTile();
+  KINESCOPE_CHECK(scene.x >= 0 && scene.y >= 0 && scene.width > 0 && scene.height > 0);
+  KINESCOPE_CHECK(scene.x + scene.width <= spec.width && scene.y + scene.height <= spec.height);
+  KINESCOPE_CHECK(!spec.scene || spec.legend_content != nullptr);
 }
 
 void CheckCamera(const Camera& camera) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,7 +14,9 @@
 #include "core/picture_limits.h"
 #include "core/scene_state.h"
 #include "render/camera/camera.h"
+#include "render/camera/tile.h"
 #include "render/image/image.h"
+#include "render/legend.h"
 #include "render/load_curves.h"
 #include "render/overlay_parts.h"
 #include "render/scene_look.h"
@@ -27,10 +30,18 @@ class RenderError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a view shows that is of a moment of its own.
+struct PaneScene {
+  SceneState state;
+  std::vector<Trail> trails;
+  std::vector<Ghost> ghosts;
+};
+
 /// One of several views in a picture.
 struct Pane {
   std::string name;  // shown in the view; "": none
   Camera camera;
+  std::shared_ptr<const PaneScene> scene = nullptr;  // nullptr: the picture's
 };
 
 inline constexpr double kMmPerInch = 25.4, kPointsPerInch = 72;
@@ -49,6 +60,13 @@ struct PrintSize {
   double PixelsPerMetre(int width_px) const { return is_known() ? 1000 * width_px / width_mm : 0; }
 };
 
+/// Where the legend is, if OverlayParts::legend is on.
+enum class LegendPlace {
+  kInside,   // over the scene
+  kBelow,    // in a strip under it
+  kOutside,  // in a column to its right
+};
+
 struct PictureSpec {
   int width = kDefaultPictureWidth;    // px, kMinPictureSide to kMaxPictureSide
   int height = kDefaultPictureHeight;  // px, kMinPictureSide to kMaxPictureSide
@@ -65,9 +83,25 @@ struct PictureSpec {
   double plot_secs = 0;
   SceneLook look = {};  // theme, background, visible elements
   PrintSize print = {};
+  LegendPlace legend = LegendPlace::kInside;
+  /// What the legend lists; nullptr: what the picture shows. Fixed for a whole clip by
+  /// PlaceLegend().
+  std::shared_ptr<const LegendContent> legend_content = nullptr;
+  /// The part of the picture that shows the scene; nullopt: all of it. The rest has the colour of
+  /// the background. PlaceLegend() sets it.
+  std::optional<Tile> scene = std::nullopt;
+
+  Tile SceneTile() const { return scene.value_or(Tile{0, 0, width, height}); }
 };
 
-enum class LayerFormat { kSvg, kPdf };
+/// Whether texts have room. If not, only the status indicator, names and banners are painted.
+bool HasRoomForTexts(const PictureSpec& spec);
+
+enum class LayerFormat {
+  kSvg,
+  kPdf,
+  kPdfPage,  // with the picture under it, as pixels
+};
 
 /// Receives one line without a line end: a missing mesh (once), a warning of the driver.
 using LogLine = std::function<void(const std::string&)>;
@@ -98,7 +132,8 @@ class Renderer {
 
   /// The overlays and lines of the picture rendered last, alone and as vectors, in its size (SVG:
   /// px; PDF: 96 px per inch). Pass the arguments of that picture; the layer is made whether or not
-  /// view.overlays is set. Equal arguments give equal bytes.
+  /// view.overlays is set. Equal arguments give equal bytes. With LayerFormat::kPdfPage the picture
+  /// is rendered again, without overlays and lines.
   std::string OverlayLayer(const SceneState& state, const Camera& camera, const PictureSpec& spec,
                            LayerFormat format);
 

@@ -65,12 +65,14 @@ class ScenePartSet {
 struct Trail {
   std::vector<Eigen::Vector3d> points;
   Rgb color = {0, 0, 0};
+  std::string name = {};  // of the point, for the legend; "": no entry
 };
 
 /// A reference pose: a second, translucent body.
 struct Ghost {
   PersonState person;
   double opacity = 0.35;  // 0..1
+  std::string name = {};  // for the legend; "": no entry
 };
 
 /// How finely bodies are rendered.

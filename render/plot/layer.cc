@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <string>
 #include <utility>
 
@@ -23,10 +25,37 @@ cairo_status_t AppendLayer(void* to, const unsigned char* data, unsigned int siz
   return CAIRO_STATUS_SUCCESS;
 }
 
+// As Cairo has pixels: native-endian ARGB, colours multiplied by alpha.
+std::uint32_t CairoPixel(const std::uint8_t* rgba) {
+  const std::uint32_t alpha = rgba[3];
+  const auto multiplied = [&](std::uint32_t value) { return (value * alpha + 127) / 255; };
+  return alpha << 24 | multiplied(rgba[0]) << 16 | multiplied(rgba[1]) << 8 | multiplied(rgba[2]);
+}
+
+void PaintBelow(cairo_t* context, const Image& image) {
+  cairo_surface_t* surface =
+      cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height);
+  unsigned char* const to = cairo_image_surface_get_data(surface);
+  if (to != nullptr) {
+    cairo_surface_flush(surface);
+    const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface));
+    const auto width = static_cast<std::size_t>(image.width);
+    for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) {
+      const std::uint32_t pixel = CairoPixel(&image.rgba[4 * i]);
+      std::memcpy(to + i / width * stride + 4 * (i % width), &pixel, sizeof pixel);
+    }
+    cairo_surface_mark_dirty(surface);
+  }
+  cairo_set_source_surface(context, surface, 0, 0);  // the context keeps an error of the surface
+  cairo_paint(context);
+  cairo_surface_destroy(surface);
+}
+
 class CairoLayer : public LayerPainter {
  public:
-  CairoLayer(int width_px, int height_px, double width_mm, LayerFormat format) : format_(format) {
-    const bool is_pdf = format == LayerFormat::kPdf;
+  CairoLayer(int width_px, int height_px, double width_mm, LayerFormat format, const Image* below)
+      : format_(format) {
+    const bool is_pdf = format != LayerFormat::kSvg;
     const bool is_printed = width_mm > 0;
     const double px_per_inch = is_printed ? width_px / width_mm * kMmPerInch : kPxPerInch;
     const double units_per_inch = is_pdf ? kPointsPerInch : is_printed ? kMmPerInch : kPxPerInch;
@@ -44,6 +73,7 @@ class CairoLayer : public LayerPainter {
     }
     context_ = cairo_create(surface_);
     if (units_per_px != 1) cairo_scale(context_, units_per_px, units_per_px);
+    if (below != nullptr) PaintBelow(context_, *below);
     cairo_font_options_t* options = cairo_font_options_create();
     cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -147,8 +177,8 @@ class CairoLayer : public LayerPainter {
 }  // namespace
 
 std::unique_ptr<LayerPainter> MakeLayer(int width_px, int height_px, double width_mm,
-                                        LayerFormat format) {
-  return std::make_unique<CairoLayer>(width_px, height_px, width_mm, format);
+                                        LayerFormat format, const Image* below) {
+  return std::make_unique<CairoLayer>(width_px, height_px, width_mm, format, below);
 }
 
 }  // namespace kinescope::render::plot

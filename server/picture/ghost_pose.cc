@@ -1,6 +1,10 @@
 #include "server/picture/ghost_pose.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <filesystem>
+#include <string>
 
 #include "core/system/errors.h"
 #include "server/scene/scene_reader.h"
@@ -60,10 +64,22 @@ PersonState NeutralPose(PersonState person, bool is_t_pose, double floor_z) {
   return person;
 }
 
+std::string NameOf(const GhostSource& ghost) {
+  switch (ghost.kind) {
+    case GhostSource::Kind::kNPose: return "N-pose";
+    case GhostSource::Kind::kTPose: return "T-pose";
+    case GhostSource::Kind::kMoment:
+      return fmt::format("{}, {} s", std::filesystem::path(ghost.source).filename().string(),
+                         ghost.secs);
+    case GhostSource::Kind::kNone: break;
+  }
+  return "";
+}
+
 }  // namespace
 
 GhostPose::GhostPose(const GhostValue& ghost, double opacity, const SceneOptions& options)
-    : kind_(ghost->kind), opacity_(opacity) {
+    : kind_(ghost->kind), opacity_(opacity), name_(NameOf(*ghost)) {
   if (kind_ == GhostSource::Kind::kMoment) recorded_ = ReadMoment(ghost, options);
 }
 
@@ -71,12 +87,12 @@ std::vector<render::Ghost> GhostPose::Make(const SceneState& state) const {
   std::vector<render::Ghost> ghosts;
   if (kind_ == GhostSource::Kind::kNone) return ghosts;
   if (kind_ == GhostSource::Kind::kMoment) {
-    for (const PersonState& person : recorded_) ghosts.push_back({person, opacity_});
+    for (const PersonState& person : recorded_) ghosts.push_back({person, opacity_, name_});
     return ghosts;
   }
   for (const PersonState& person : state.people) {
     ghosts.push_back(
-        {NeutralPose(person, kind_ == GhostSource::Kind::kTPose, state.floor_z), opacity_});
+        {NeutralPose(person, kind_ == GhostSource::Kind::kTPose, state.floor_z), opacity_, name_});
   }
   return ghosts;
 }

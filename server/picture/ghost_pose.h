@@ -2,6 +2,7 @@
 /// moment of a recording. Read once, by the constructor; then any thread may ask.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/scene_state.h"
@@ -27,6 +28,7 @@ class GhostPose {
  private:
   GhostSource::Kind kind_;
   double opacity_;
+  std::string name_;  // for legends
   std::vector<PersonState> recorded_;
 };
 

@@ -12,8 +12,10 @@
 
 #include "core/scene_state.h"
 #include "render/camera/camera.h"
-#include "render/camera/tile.h"
+#include "render/camera/framing.h"
+#include "render/legend.h"
 #include "render/renderer.h"
+#include "render/scene_look.h"
 #include "server/picture/camera_controller.h"
 #include "server/picture/plot_buffer.h"
 #include "server/picture/scene_additions.h"
@@ -23,7 +25,7 @@
 namespace kinescope::app {
 
 /// Everything that one picture depends on. With several views, the cameras are in spec.panes, and
-/// `camera` is the first of them.
+/// `camera` is the first of them; with several moments, `state` is the first view's.
 struct RenderRequest {
   SceneState state;
   render::Camera camera;
@@ -39,12 +41,13 @@ class RenderPlanner {
   explicit RenderPlanner(const ViewOptions& options, const BackendOptions& backend = {},
                          const SceneOptions& people = {});
   /// With `additions` shared by several planners, so that files are read and robots measured once.
-  /// `fit`: what --fit=auto means.
+  /// `fit`: what --fit=auto means; Fit::kClip: of a clip that can be read twice.
   RenderPlanner(const ViewOptions& options, SceneAdditions additions, Fit fit = Fit::kNow);
 
   /// Whether the first picture requires the whole clip: one revolution over the clip, a frame
-  /// around all of it, a plot of all of it. Without a first pass they use the available data: no
-  /// revolution, no frame, a plot of the newest seconds.
+  /// around all of it, a plot of all of it, a legend beside all of it. Without a first pass they
+  /// use the available data: no revolution, no frame, a plot of the newest seconds, a legend of the
+  /// first picture.
   bool needs_prescan() const;
   /// First pass: call it for every scene of the clip, in order, before the first request.
   void Prescan(const SceneState& state);
@@ -56,6 +59,13 @@ class RenderPlanner {
   /// passed to Remember before.
   RenderRequest Only(SceneState state, double secs = 0) const;
 
+  /// The times that ViewsValue names, s after the first sample, each once, in ascending order;
+  /// empty without.
+  std::vector<double> moment_times() const { return grid_.TimesInOrder(); }
+  /// The scene at the next of these times. Then Moments() is the picture of all of them.
+  void AddMoment(SceneState state);
+  RenderRequest Moments() const;
+
   /// Adds a scene before the first picture; in order. Needed if history_secs() > 0.
   void Remember(const SceneState& state) { additions_.Remember(state); }
   /// Length of the history that a picture shows, s.
@@ -64,18 +74,37 @@ class RenderPlanner {
   const render::PictureSpec& spec() const { return spec_; }
 
  private:
-  void SetViews(const std::vector<render::Tile>& views, std::size_t curves);
-  RenderRequest With(SceneState state, std::vector<render::Camera> cameras, double secs,
-                     const SceneAdditions& additions) const;
+  // The places of scene, views and legend.
+  struct Layout {
+    render::PictureSpec spec;
+    std::vector<double> aspects;  // of the views, width / height
+    std::vector<render::FreeArea> free_areas;
+  };
+  struct Moment {
+    SceneState state;
+    render::SceneLook look;
+    std::vector<Ball> beside;
+  };
 
-  render::PictureSpec spec_;
+  Layout LayoutFor(const render::LegendContent& legend) const;
+  std::vector<CameraController> CamerasFor(const Layout& layout) const;
+  void CollectLegend(const SceneState& state);
+  RenderRequest With(Layout layout, SceneState state, render::SceneLook look,
+                     std::vector<render::Camera> cameras, double secs) const;
+
+  render::PictureSpec spec_;  // its views have no cameras yet
+  ViewGrid grid_;
+  std::size_t curves_;                     // of the plot
   std::vector<CameraController> cameras_;  // one, or one per view
-  std::vector<double> aspects_;            // of the views, width / height
   SceneAdditions additions_;
   PlotBuffer loads_;  // of the first pass, or else of the scenes so far
   std::optional<std::int64_t> start_nanos_, prescan_start_nanos_;
   // Of the first pass, made with the first request.
   std::shared_ptr<const render::LoadCurves> whole_;
+  bool prescans_legend_ = false;
+  render::LegendContent legend_;  // of the first pass, or else of the first picture
+  std::optional<Layout> layout_;  // of a clip, made with the first request
+  std::vector<Moment> moments_;
 };
 
 /// Performs the first pass for `planners` that need it: reads `source` up to `seconds` after its
@@ -85,6 +114,7 @@ void PrescanClip(const std::vector<RenderPlanner*>& planners, SceneReader& sourc
                  std::optional<double> seconds);
 
 /// Passes to `planner` the history that a picture at `secs` needs. @pre as SceneTimeline::At
-void RememberBefore(double secs, SceneTimeline& timeline, RenderPlanner& planner);
+/// `after`: s, up to where it has it already.
+void RememberBefore(double secs, SceneTimeline& timeline, RenderPlanner& planner, double after = 0);
 
 }  // namespace kinescope::app

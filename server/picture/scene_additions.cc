@@ -58,6 +58,12 @@ void SceneAdditions::AddTo(SceneState& state, render::SceneLook& look) const {
   AddRobotsTo(state, state.floor_z);
 }
 
+void SceneAdditions::AddNamesTo(SceneState& state, render::SceneLook& look) const {
+  look.trails = trails_.WithoutPoints();
+  look.ghosts = ghost_.Make(state);
+  AddRobotsTo(state, state.floor_z);
+}
+
 std::vector<Ball> SceneAdditions::BallsBeside(const SceneState& state) const {
   SceneState beside;
   for (render::Ghost& ghost : ghost_.Make(state)) beside.people.push_back(std::move(ghost.person));

@@ -36,6 +36,10 @@ class SceneAdditions {
   /// Adds robots to `state` and the rest to `look`; `state` is the last one passed to Remember.
   void AddTo(SceneState& state, render::SceneLook& look) const;
 
+  /// For a legend: what AddTo() may add to the pictures of a clip that begins with `state`. Trails
+  /// have no points.
+  void AddNamesTo(SceneState& state, render::SceneLook& look) const;
+
  private:
   void AddRobotsTo(SceneState& state, double floor_z) const;
 

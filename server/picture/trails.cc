@@ -1,5 +1,6 @@
 #include "server/picture/trails.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -12,13 +13,21 @@ namespace {
 constexpr std::array<Rgb, 4> kColors = {
     {{0.20, 0.45, 0.80}, {0.62, 0.44, 0.22}, {0.50, 0.53, 0.58}, {0.45, 0.72, 0.92}}};
 
+// "right hand"
+std::string NameOfTrack(int segment) {
+  if (segment < 0) return "centre of mass";
+  std::string name(urdf::kSegments[urdf::At(segment)].link_name);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
 }  // namespace
 
 Trails::Trails(const std::vector<int>& tracks, double secs) : secs_(secs) {
   KINESCOPE_CHECK(secs > 0 && secs <= kMaxSecs);
   for (const int segment : tracks) {
-    tracks_.push_back(
-        {segment, segment < 0 ? kComColor : kColors[tracks_.size() % kColors.size()]});
+    tracks_.push_back({segment, segment < 0 ? kComColor : kColors[tracks_.size() % kColors.size()],
+                       NameOfTrack(segment)});
   }
 }
 
@@ -55,10 +64,17 @@ std::vector<render::Trail> Trails::Make() const {
     for (std::size_t i = 0; i < tracks.size(); ++i) {
       render::Trail trail;
       trail.color = tracks_[i].color;
+      trail.name = tracks_[i].name;
       for (const Point& point : tracks[i]) trail.points.push_back(point.position);
       if (trail.points.size() > 1) trails.push_back(std::move(trail));
     }
   }
+  return trails;
+}
+
+std::vector<render::Trail> Trails::WithoutPoints() const {
+  std::vector<render::Trail> trails;
+  for (const Track& track : tracks_) trails.push_back({{}, track.color, track.name});
   return trails;
 }
 

@@ -28,10 +28,14 @@ class Trails {
   /// As of the last scene, of every person who was in it.
   std::vector<render::Trail> Make() const;
 
+  /// Names and colours alone, of all tracks.
+  std::vector<render::Trail> WithoutPoints() const;
+
  private:
   struct Track {
     int segment = -1;  // urdf::Segment; -1: the centre of mass
     Rgb color;
+    std::string name;
   };
   struct Point {
     std::int64_t stamp_nanos;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "core/picture_limits.h"
@@ -105,6 +107,34 @@ std::string Joined(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, ","));
 }
 
+constexpr std::string_view kTimes = "time:";
+
+// One row of views: numbers with commas between.
+void AppendTimes(const std::string& row, std::vector<double>& times) {
+  for (std::size_t begin = 0; begin <= row.size();) {
+    const std::size_t end = std::min(row.find(',', begin), row.size());
+    const std::string text = row.substr(begin, end - begin);
+    begin = end + 1;
+    const std::optional<double> secs = options::ParseNumber(text);
+    if (!secs || *secs < 0 || *secs > kLatestSecs) {
+      throw BadValue(
+          fmt::format("'{}' is not a time; expected 0 to {:.0f} s after the first sample, such as "
+                      "time:0,0.5,1",
+                      text, kLatestSecs),
+          "");
+    }
+    times.push_back(*secs);
+  }
+}
+
+// One row of views.
+void AppendCameras(const std::string& row, std::vector<std::string>& cameras) {
+  for (const std::string& camera : options::SplitItems(row)) {
+    if (camera != "camera") ParseCamera(camera);
+    cameras.push_back(camera);
+  }
+}
+
 std::vector<std::string> GridNames() {
   std::vector<std::string> names;
   names.reserve(kGrids.size());
@@ -164,32 +194,43 @@ std::vector<std::string> OverlayValue::Names() const {
 
 bool OverlayValue::names_plot() const { return text_.find("plot") != std::string::npos; }
 
+std::vector<double> ViewGrid::TimesInOrder() const {
+  std::vector<double> ordered = times;
+  std::sort(ordered.begin(), ordered.end());
+  ordered.erase(std::unique(ordered.begin(), ordered.end()), ordered.end());
+  return ordered;
+}
+
 void ViewsValue::Parse(const std::string& text) {
   std::string rest = text;
   for (const auto& [name, cameras] : kGrids) {
     if (text == name) rest = cameras;
   }
+  const bool has_times = rest.compare(0, kTimes.size(), kTimes) == 0;
+  if (has_times) rest.erase(0, kTimes.size());
+  const char* const what = has_times ? "times" : "cameras";
   ViewGrid grid;
-  for (int row = 1; !rest.empty(); ++row) {
+  for (int row = 1; !rest.empty() || (has_times && row == 1); ++row) {
     const std::size_t slash = std::min(rest.find('/'), rest.size());
-    const std::vector<std::string> cameras = options::SplitItems(rest.substr(0, slash));
+    const std::string items = rest.substr(0, slash);
     const bool is_last = slash == rest.size();
     rest.erase(0, slash + 1);
-    const int count = static_cast<int>(cameras.size());
+    const std::size_t before = grid.cameras.size() + grid.times.size();
+    if (has_times) {
+      AppendTimes(items, grid.times);
+    } else {
+      AppendCameras(items, grid.cameras);
+    }
+    const int count = static_cast<int>(grid.cameras.size() + grid.times.size() - before);
     if (row == 1) grid.columns = std::max(count, 1);
     if (count == 0 || count > grid.columns || (count < grid.columns && !is_last)) {
-      throw BadValue(
-          fmt::format("row {} has {} cameras; expected {}, only the last row may have fewer", row,
-                      count, grid.columns));
-    }
-    for (const std::string& camera : cameras) {
-      if (camera != "camera") ParseCamera(camera);
-      grid.cameras.push_back(camera);
+      throw BadValue(fmt::format("row {} has {} {}; expected {}, only the last row may have fewer",
+                                 row, count, what, grid.columns));
     }
   }
-  if (grid.cameras.size() > kMaxViews) {
-    throw BadValue(
-        fmt::format("has {} views; expected at most {}", grid.cameras.size(), kMaxViews));
+  const std::size_t views = grid.cameras.size() + grid.times.size();
+  if (views > kMaxViews) {
+    throw BadValue(fmt::format("has {} views; expected at most {}", views, kMaxViews));
   }
   value_ = std::move(grid);
   text_ = text;
@@ -198,7 +239,8 @@ void ViewsValue::Parse(const std::string& text) {
 std::string ViewsValue::Expected() const {
   return fmt::format("{}", fmt::join(GridNames(), ", ")) +
          ", or cameras with , between and / between rows, such as "
-         "front,right/top,camera (camera: the one of --camera)";
+         "front,right/top,camera (camera: the one of --camera), or moments of one camera, such as "
+         "time:0,0.5/1,1.5 (s after the first sample)";
 }
 
 std::vector<std::string> ViewsValue::Names() const {
@@ -312,6 +354,11 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
       text_pt(render::PrintSize().text_pt, {1, 200, "pt"}),
       camera(most_cameras),
       supersample(SupersampleWords(), 2),
+      legend({{"inside", LegendChoice::kInside},
+              {"outside", LegendChoice::kOutside},
+              {"below", LegendChoice::kBelow},
+              {"off", LegendChoice::kOff}},
+             LegendChoice::kInside),
       plot(Joined(ScoredJointNames()), kMaxPlots, ScoredJointNamed),
       style({{"matte", render::Style::kMatte},
              {"clay", render::Style::kClay},
@@ -342,6 +389,9 @@ void ViewOptions::List(options::OptionList& option) {
   option("supersample", supersample, "pixels drawn per pixel of the picture, each way");
   option("title", title, "text in the upper left corner");
   option("overlay", overlay, "texts and plots over the picture; default: " + DefaultOverlays());
+  option("legend", legend,
+         "place of the legend: over the scene, in a column to its right, in a strip under it, or "
+         "none");
   option("plot", plot, "joints whose loads are plotted over time");
   option("no_overlays", no_overlays, "no text or plot over the picture");
   option("figure", figure, kFigureHelp);
@@ -362,13 +412,15 @@ void ViewOptions::List(options::OptionList& option) {
     option.HasNoEffect(name, "without --width_mm", [this] { return !width_mm; });
   }
   const auto no_overlays_at_all = [this] { return *no_overlays; };
-  for (const char* name : {"title", "overlay", "plot", "text_pt"}) {
+  for (const char* name : {"title", "overlay", "legend", "plot", "text_pt"}) {
     option.HasNoEffect(name, "with --no_overlays", no_overlays_at_all);
   }
   option.HasNoEffect("title", "unless --overlay includes title",
                      [this] { return !overlay->title; });
   option.HasNoEffect("loads", "with --figure urdf",
                      [this] { return *figure == render::Figure::kUrdf; });
+  option.HasNoEffect("legend", "unless --overlay includes legend",
+                     [this] { return !overlay->legend; });
   option.HasNoEffect("trail_secs", "without --trail", [this] { return trail->empty(); });
   option.HasNoEffect("ghost_opacity", "without --ghost",
                      [this] { return ghost->kind == GhostSource::Kind::kNone; });
@@ -393,9 +445,33 @@ options::PixelSize SizeOf(const ViewOptions& options) {
                   options::Size::kMin, options::Size::kMax));
 }
 
+// Each view names its own time; what is over all of them cannot have one.
+void CheckMomentViews(const ViewOptions& options) {
+  if (!options.views->has_times()) return;
+  const auto refuse = [&](const std::string& what) {
+    throw UsageError(
+        fmt::format("--views={}: several moments have no common {}; leave one of them out",
+                    options.views.ToText(), what));
+  };
+  if (!options.plot->empty()) refuse("cursor for --plot=" + options.plot.ToText());
+  if (!*options.no_overlays && options.overlay->frame_code) refuse("frame code (--overlay)");
+}
+
+void CheckPrintedTexts(const render::PictureSpec& spec) {
+  const render::OverlayParts& parts = spec.parts;
+  const bool has_texts = spec.overlays && (parts.legend || parts.time || parts.scale ||
+                                           parts.plot || (parts.title && !spec.title.empty()));
+  if (!spec.print.is_known() || !has_texts || render::HasRoomForTexts(spec)) return;
+  throw UsageError(fmt::format(
+      "--width_mm={}: the picture is too narrow or too low for texts of --text_pt={}; use a larger "
+      "width, a smaller --text_pt, or --no_overlays",
+      spec.print.width_mm, spec.print.text_pt));
+}
+
 }  // namespace
 
 render::PictureSpec ToPictureSpec(const ViewOptions& options) {
+  CheckMomentViews(options);
   render::PictureSpec spec;
   const options::PixelSize size = SizeOf(options);
   spec.width = size.width;
@@ -405,8 +481,15 @@ render::PictureSpec ToPictureSpec(const ViewOptions& options) {
   spec.title = *options.title;
   spec.overlays = !*options.no_overlays;
   spec.parts = *options.overlay;
+  if (options.views->has_times()) spec.parts.time = false;  // each view has its own
   // Naming joints shows the plot, unless --overlay decides.
   if (!options.plot->empty() && !options.overlay.names_plot()) spec.parts.plot = true;
+  switch (*options.legend) {
+    case LegendChoice::kOff: spec.parts.legend = false; break;
+    case LegendChoice::kOutside: spec.legend = render::LegendPlace::kOutside; break;
+    case LegendChoice::kBelow: spec.legend = render::LegendPlace::kBelow; break;
+    case LegendChoice::kInside: break;
+  }
   render::SceneLook& look = spec.look;
   look.figure = options.figure.Load();
   look.style = *options.style;
@@ -417,6 +500,7 @@ render::PictureSpec ToPictureSpec(const ViewOptions& options) {
   look.floor = *options.floor;
   for (const render::ScenePart part : *options.show) look.shown.Set(part, true);
   for (const render::ScenePart part : *options.hide) look.shown.Set(part, false);
+  CheckPrintedTexts(spec);
   return spec;
 }
 

@@ -32,10 +32,16 @@ class OverlayValue : public options::ValueOf<render::OverlayParts> {
   std::vector<options::FormerWord> former_words_;
 };
 
-/// Several views in one picture, row by row; none: one view.
+/// Several views in one picture, row by row: of several cameras, or of several moments; none: one
+/// view.
 struct ViewGrid {
   std::vector<std::string> cameras;  // names; "camera": the one of --camera
+  std::vector<double> times;         // s after the first sample, of the camera of --camera
   int columns = 1;                   // of all rows but a shorter last one
+
+  bool has_times() const { return !times.empty(); }
+  /// Each once, in ascending order.
+  std::vector<double> TimesInOrder() const;
 };
 
 class ViewsValue : public options::ValueOf<ViewGrid> {
@@ -119,6 +125,8 @@ class RobotsValue : public options::ValueOf<std::vector<RobotPlace>> {
   std::vector<std::string> texts_;
 };
 
+enum class LegendChoice { kInside, kOutside, kBelow, kOff };
+
 struct ViewOptions {
   /// `most_cameras`: of the commands that draw one picture, 1.
   explicit ViewOptions(std::size_t most_cameras = 1);
@@ -132,6 +140,7 @@ struct ViewOptions {
   options::Choice<int> supersample;  // times as many pixels each way
   options::Text title;
   OverlayValue overlay;
+  options::Choice<LegendChoice> legend;
   options::List<int> plot;  // urdf::Joint
   options::Flag no_overlays;
   FigureValue figure;

@@ -297,6 +297,7 @@ void WriteOptions(const fs::path& folder) {
       {"size", "0x99999999999999999999"},
       {"robot", "@@;;@1,2,3,4"},
       {"out", ";a;;b;;"},
+      {"views", "time:0,0.5/1,1e-320"},
   };
   int number = 0;
   for (const auto& [name, text] : texts) {

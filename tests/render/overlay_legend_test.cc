@@ -17,7 +17,6 @@ using kinescope::testing::SceneWith;
 using ::testing::Contains;
 using ::testing::Each;
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
@@ -51,7 +50,7 @@ TextRecorder PaintedLegend(const SceneState& state, double width_px) {
   TextRecorder painter;
   OverlayFonts fonts;
   OverlayPage page({fonts, width_px, 720, 1, 720, false}, painter, kLightInks);
-  PaintLegend(page, state, SceneLook());
+  PaintLegend(page, LegendOf(state, SceneLook()), state.class_limits);
   return painter;
 }
 
@@ -64,12 +63,12 @@ std::vector<std::string> NamesOf(const std::vector<LegendRow>& rows) {
 TEST(OverlayLegend, NamesTheLimitsOfTheClasses) {
   SceneState state = SceneWith(Posture::kStanding);
   state.class_limits = {0.1, 0.255};
-  const std::vector<LegendRow> rows = LegendOf(state, SceneLook());
+  const std::vector<LegendRow> rows = LegendOf(state, SceneLook()).rows;
   ASSERT_GE(rows.size(), 4u);
   EXPECT_EQ(rows[0].range, "≤ 10 %");
   EXPECT_EQ(rows[1].range, "≤ 25.5 %");
   EXPECT_EQ(rows[2].range, "> 25.5 %");
-  EXPECT_TRUE(rows[2].has_rim) << "the high class differs in shape, too";
+  EXPECT_EQ(rows[2].rim, SphereRim::kDark) << "the high class differs in shape, too";
 }
 
 TEST(OverlayLegend, HasNoRowForAHiddenElement) {
@@ -77,9 +76,10 @@ TEST(OverlayLegend, HasNoRowForAHiddenElement) {
   SceneLook look;
   for (const ScenePart part : {ScenePart::kCom, ScenePart::kCop}) look.shown.Set(part, true);
   look.shown.Set(ScenePart::kLoads, false);
-  EXPECT_THAT(NamesOf(LegendOf(state, look)), ElementsAre("centre of mass", "centre of pressure"));
+  EXPECT_THAT(NamesOf(LegendOf(state, look).rows),
+              ElementsAre("centre of mass", "centre of pressure"));
   for (const ScenePart part : {ScenePart::kCom, ScenePart::kCop}) look.shown.Set(part, false);
-  EXPECT_THAT(LegendOf(state, look), IsEmpty());
+  EXPECT_TRUE(LegendOf(state, look).is_empty());
 }
 
 TEST(OverlayLegend, ExplainsForceArrowsIfAForceActsOnAFoot) {
@@ -90,11 +90,11 @@ TEST(OverlayLegend, ExplainsForceArrowsIfAForceActsOnAFoot) {
   foot = {};
   foot.force = {0, 0, 400};
   state.people[0].forces.feet[1] = {};
-  EXPECT_THAT(NamesOf(LegendOf(state, look)), Not(Contains("force on a foot")));
+  EXPECT_THAT(NamesOf(LegendOf(state, look).rows), Not(Contains("force on a foot")));
   foot.touches_floor = true;
-  const std::vector<LegendRow> rows = LegendOf(state, look);
+  const std::vector<LegendRow> rows = LegendOf(state, look).rows;
   EXPECT_EQ(rows.back().name, "force on a foot");
-  EXPECT_TRUE(rows.back().is_arrow);
+  EXPECT_EQ(rows.back().symbol, LegendRow::Symbol::kArrow);
 }
 
 TEST(OverlayLegend, CoversAtMostThreeTenthsOfThePictureOrShowsTheClassesOnly) {

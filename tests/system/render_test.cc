@@ -314,9 +314,37 @@ long PixelsPerMetreIn(const std::string& png) {
   return value;
 }
 
-// As poppler finds the words in the PDF of the overlays.
+// Of the words that poppler finds in a PDF.
+struct PdfWords {
+  int count = 0;
+  double least_pt = 1e9;  // size of their font
+  double page_width_pt = 0, page_height_pt = 0;
+};
+PdfWords WordsOfPdf(const std::string& path) {
+  const ProgramResult words = RunProgram({"/usr/bin/pdftotext", "-bbox", path, "-"});
+  EXPECT_EQ(words.exit_code, 0) << words.err;
+  const auto value = [](const std::string& line, const std::string& name) {
+    const std::size_t at = line.find(name + "=\"");
+    return at == std::string::npos ? NAN : std::stod(line.substr(at + name.size() + 2));
+  };
+  PdfWords found;
+  std::istringstream lines(words.out);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("<page") != std::string::npos) {
+      found.page_width_pt = value(line, "width");
+      found.page_height_pt = value(line, "height");
+    }
+    if (line.find("<word") == std::string::npos) continue;
+    constexpr double kBox = 1.164;  // of DejaVu Sans: ascent and descent, em
+    found.least_pt = std::min(found.least_pt, (value(line, "yMax") - value(line, "yMin")) / kBox);
+    ++found.count;
+  }
+  return found;
+}
+
+constexpr double kSmallestPt = 7;
+
 TEST_F(RenderCommand, MakesAFigureOfAWidthInPrintWithReadableTexts) {
-  constexpr double kSmallest = 7;  // pt
   for (const char* dpi : {"150", "300", "1200"}) {
     Lines(Render({"--out", Path("a.png"), "--size", "1280x720", "--width_mm", "80", "--dpi", dpi,
                   "--title", "Lifting", "--overlay", "+scale,+plot", "--plot", "l5_s1",
@@ -327,25 +355,74 @@ TEST_F(RenderCommand, MakesAFigureOfAWidthInPrintWithReadableTexts) {
     EXPECT_NEAR(image.height, image.width * 720.0 / 1280, 1);
     EXPECT_NEAR(static_cast<double>(PixelsPerMetreIn(ReadFile(Path("a.png")))), image.width / 0.080,
                 0.5);
-    const ProgramResult words = RunProgram({"/usr/bin/pdftotext", "-bbox", Path("a.pdf"), "-"});
-    ASSERT_EQ(words.exit_code, 0) << words.err;
-    const auto value = [](const std::string& line, const std::string& name) {
-      const std::size_t at = line.find(name + "=\"");
-      return at == std::string::npos ? NAN : std::stod(line.substr(at + name.size() + 2));
-    };
-    std::istringstream lines(words.out);
-    int count = 0;
-    for (std::string line; std::getline(lines, line);) {
-      if (line.find("<page") != std::string::npos) {
-        EXPECT_NEAR(value(line, "width"), 80 / 25.4 * 72, 0.01);
-      }
-      if (line.find("<word") == std::string::npos) continue;
-      constexpr double kBox = 1.164;  // of DejaVu Sans: ascent and descent, em
-      EXPECT_GE((value(line, "yMax") - value(line, "yMin")) / kBox, kSmallest - 0.01) << line;
-      ++count;
-    }
-    EXPECT_GT(count, 10);
+    const PdfWords words = WordsOfPdf(Path("a.pdf"));
+    EXPECT_NEAR(words.page_width_pt, 80 / 25.4 * 72, 0.01);
+    EXPECT_GE(words.least_pt, kSmallestPt - 0.01);
+    EXPECT_GT(words.count, 10);
   }
+}
+
+// The command of docs/pictures.md, on the page where its reader has it.
+TEST_F(RenderCommand, MakesAJournalFigureWhoseTextsAreReadableOnAnA4Page) {
+  Lines(Render({"--out", Path("figure.png"), "--views", "time:0,1.3,2.4", "--legend", "below",
+                "--overlay", "legend", "--background", "white", "--size", "1200x1050", "--width_mm",
+                "80", "--dpi", "300", "--overlay_layer", "pdf_page", "--json"},
+               "demo:lift"));
+  const PdfWords figure = WordsOfPdf(Path("figure.pdf"));
+  EXPECT_NEAR(figure.page_width_pt, 80 / 25.4 * 72, 0.01);
+  // As a printer places it: neither scaled nor turned.
+  const ProgramResult printed = RunProgram({"/usr/bin/pdftocairo", "-pdf", "-paper", "A4",
+                                            "-noshrink", Path("figure.pdf"), Path("a4.pdf")});
+  ASSERT_EQ(printed.exit_code, 0) << printed.err;
+  const PdfWords page = WordsOfPdf(Path("a4.pdf"));
+  const auto [narrow, wide] = std::minmax(page.page_width_pt, page.page_height_pt);
+  EXPECT_NEAR(narrow, 210 / 25.4 * 72, 1) << "upright or across";
+  EXPECT_NEAR(wide, 297 / 25.4 * 72, 1);
+  EXPECT_EQ(page.count, figure.count);
+  EXPECT_GT(page.count, 15);
+  EXPECT_GE(page.least_pt, kSmallestPt - 0.01);
+  const ProgramResult text = RunProgram({"/usr/bin/pdftotext", Path("a4.pdf"), "-"});
+  EXPECT_THAT(text.out, AllOf(HasSubstr("1.3 s"), HasSubstr("Joint load"), HasSubstr("no data")));
+  const ProgramResult images = RunProgram({"/usr/bin/pdfimages", "-list", Path("a4.pdf")});
+  EXPECT_THAT(images.out, HasSubstr("945")) << "80 mm at 300 dpi: " << images.out;
+  // The PNG beside it is the same figure.
+  EXPECT_EQ(Verify(Path("figure.png")).exit_code, 0);
+}
+
+TEST_F(RenderCommand, ShowsSeveralMomentsAndVerifiesThem) {
+  Lines(Render({"--out", Path("a.png"), "--views", "time:0,0.5/1", "--trail", "right_hand",
+                "--overlay_layer", "svg", "--size", "480x360", "--legend", "outside", "--json"}));
+  EXPECT_THAT(ReadFile(Path("a.svg")), HasSubstr("<svg"));
+  const ProgramResult verified = Verify(Path("a.png"));
+  EXPECT_EQ(verified.exit_code, 0) << verified.out << verified.err;
+  const auto error = [&](const std::vector<std::string>& more, const std::string& out) {
+    std::vector<std::string> arguments = {"--out", Path(out)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = Render(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  EXPECT_THAT(error({"--views", "time:0,1"}, "b.mp4"),
+              AllOf(HasSubstr("--views=time:0,1"), HasSubstr("one still picture")));
+  EXPECT_THAT(error({"--views", "time:0,1", "--time", "2"}, "b.png"),
+              HasSubstr("leave out --time"));
+  EXPECT_FALSE(fs::exists(Path("b.png")));
+}
+
+TEST_F(RenderCommand, NamesAMomentAfterTheEndOfTheRecording) {
+  KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
+  const ProgramResult late = Render({"--out", Path("a.png"), "--views", "time:0,5000"},
+                                    testing::SharedData("mvnx/test_mocap.mvnx"));
+  EXPECT_EQ(late.exit_code, 2);
+  EXPECT_THAT(late.err, AllOf(HasSubstr("--views=time:0,5000"), HasSubstr("ends before 5000 s")));
+}
+
+TEST_F(RenderCommand, KeepsTheLegendBelowInClipsAndSequences) {
+  Lines(Render({"--out", Path("a.mp4"), "--out", Path("%d.png"), "--seconds", "0.1", "--size",
+                "320x240", "--legend", "below", "--trail", "right_hand", "--json"}));
+  EXPECT_EQ(render::ReadPng(Path("0.png")).height, 240);
+  EXPECT_EQ(Verify(Path("a.mp4")).exit_code, 0);
+  EXPECT_EQ(Verify(Path("1.png")).exit_code, 0);
 }
 
 TEST_F(RenderCommand, KeepsTheSizeInPixelsWithAWidthInPrintAlone) {

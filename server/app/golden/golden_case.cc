@@ -38,28 +38,58 @@ SceneState SceneOf(const GoldenCase& golden_case, const SceneOptions& options,
   return *golden_case.state == Liveness::kStale ? *reader.Stale() : *scene;
 }
 
+// Of several moments, each in its view.
+RenderRequest RequestOfMoments(const GoldenCase& golden_case, const SceneOptions& options,
+                               RenderPlanner& planner) {
+  const std::string where =
+      fmt::format("golden case {}: views: {}", golden_case.name, golden_case.view.views.ToText());
+  if (*golden_case.state != Liveness::kLive || *golden_case.time != 0) {
+    throw UsageError(where + ": names the moments; leave out time and state");
+  }
+  SceneReader reader(*golden_case.source, options);
+  SceneTimeline timeline(reader);
+  double before = 0;
+  for (const double secs : planner.moment_times()) {
+    CheckReach(where, secs, *golden_case.source);
+    RememberBefore(secs, timeline, planner, before);
+    std::optional<SceneState> scene = timeline.At(secs);
+    if (!scene) {
+      throw UsageError(
+          fmt::format("{}: source {} ends before {} s", where, *golden_case.source, secs));
+    }
+    planner.AddMoment(*std::move(scene));
+    before = secs;
+  }
+  return planner.Moments();
+}
+
 std::vector<render::SphereInPicture> SpheresOf(const RenderRequest& request) {
   const render::PictureSpec& spec = request.spec;
-  const SceneState shown = render::Without(request.state, spec.look);
-  if (spec.panes.empty()) {
-    return render::LocateSpheres(shown, request.camera, spec.width, spec.height);
-  }
+  const auto spheres_of = [&](const SceneState& state, const render::Camera& camera,
+                              const render::Tile& tile) {
+    auto spheres =
+        render::LocateSpheres(render::Without(state, spec.look), camera, tile.width, tile.height);
+    for (render::SphereInPicture& sphere : spheres) {
+      sphere.x_px += tile.x;
+      sphere.y_px += tile.y;
+    }
+    return spheres;
+  };
+  if (spec.panes.empty()) return spheres_of(request.state, request.camera, spec.SceneTile());
   std::vector<render::SphereInPicture> all;
-  const auto tiles = render::PaneTiles(spec.width, spec.height, static_cast<int>(spec.panes.size()),
-                                       spec.pane_columns);
+  const auto tiles =
+      render::PaneTiles(spec.SceneTile(), static_cast<int>(spec.panes.size()), spec.pane_columns);
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     const render::Tile& tile = tiles[i];
     const render::Pane& pane = spec.panes[i];
-    for (render::SphereInPicture& sphere :
-         render::LocateSpheres(shown, pane.camera, tile.width, tile.height)) {
+    const SceneState& state = pane.scene != nullptr ? pane.scene->state : request.state;
+    for (render::SphereInPicture& sphere : spheres_of(state, pane.camera, tile)) {
       const double r = sphere.radius_px;
-      if (sphere.x_px < r || sphere.x_px > tile.width - r || sphere.y_px < r ||
-          sphere.y_px > tile.height - r) {
+      if (sphere.x_px < tile.x + r || sphere.x_px > tile.x + tile.width - r ||
+          sphere.y_px < tile.y + r || sphere.y_px > tile.y + tile.height - r) {
         continue;
       }
       sphere.joint = pane.name + "/" + sphere.joint;
-      sphere.x_px += tile.x;
-      sphere.y_px += tile.y;
       all.push_back(std::move(sphere));
     }
   }
@@ -130,7 +160,9 @@ GoldenDrawing Draw(const GoldenCase& golden_case, render::Renderer& renderer) {
     PrescanClip({&planner}, reader, kSubjectPrescanSecs);
   }
   const RenderRequest request =
-      planner.Only(SceneOf(golden_case, options, planner), *golden_case.time);
+      golden_case.view.views->has_times()
+          ? RequestOfMoments(golden_case, options, planner)
+          : planner.Only(SceneOf(golden_case, options, planner), *golden_case.time);
   GoldenDrawing drawing;
   drawing.image = renderer.Render(request.state, request.camera, request.spec);
   drawing.spheres = SpheresOf(request);

@@ -171,6 +171,12 @@ void CheckUse(const RenderOptions& options, const std::vector<SourcePlan>& plans
     }
   }
   const MomentOptions& moment = options.moment;
+  if (options.view.views->has_times() && (has_clip || moment.sample || moment.time)) {
+    throw UsageError(fmt::format(
+        "--views={}: names the moments of one still picture; {}", options.view.views.ToText(),
+        has_clip ? "give --out only names that end in .png, without a number pattern"
+                 : "leave out --time and --sample"));
+  }
   if (moment.sample && moment.time) {
     throw UsageError("--sample and --time both select the picture; give only one of them");
   }

@@ -21,11 +21,12 @@ render::VideoOptions PackingOf(const RunContext& run, const Output& output) {
   return options;
 }
 
-// The file of the overlays as vectors; "" if they stay in the picture.
+// The file of the overlays as vectors; "" without.
 std::string LayerPathOf(const RunContext& run, const Output& output) {
   const auto& layer = run.options.moment.overlay_layer;
   if (!layer) return "";
-  return std::filesystem::path(output.path).replace_extension(layer.ToText());
+  const bool is_svg = *layer == render::LayerFormat::kSvg;
+  return std::filesystem::path(output.path).replace_extension(is_svg ? "svg" : "pdf");
 }
 
 }  // namespace

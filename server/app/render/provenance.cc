@@ -158,7 +158,9 @@ std::string PresentNameOf(const std::string& former_name, int schema) {
 
 bool DependsOnWholeClip(const ViewOptions& options) {
   const Fit fit = *options.moves.fit;  // auto: of a clip
-  return !options.plot->empty() || fit == Fit::kClip || fit == Fit::kAuto ||
+  const bool is_legend_beside =
+      *options.legend == LegendChoice::kBelow || *options.legend == LegendChoice::kOutside;
+  return !options.plot->empty() || is_legend_beside || fit == Fit::kClip || fit == Fit::kAuto ||
          options.moves.orbit->is_one_turn;
 }
 

@@ -67,16 +67,19 @@ std::int64_t ToNanos(double secs) { return std::llround(secs * 1e9); }
 MomentOptions::MomentOptions()
     : sample(Whole(0, {0, kLatestSample})),
       time(Number(0, {0, kLatestSecs, "s"})),
-      overlay_layer(options::Choice<render::LayerFormat>(
-          {{"svg", render::LayerFormat::kSvg}, {"pdf", render::LayerFormat::kPdf}},
-          render::LayerFormat::kSvg)) {}
+      overlay_layer(
+          options::Choice<render::LayerFormat>({{"svg", render::LayerFormat::kSvg},
+                                                {"pdf", render::LayerFormat::kPdf},
+                                                {"pdf_page", render::LayerFormat::kPdfPage}},
+                                               render::LayerFormat::kSvg)) {}
 
 void MomentOptions::List(options::OptionList& option) {
   option("sample", sample, "index of the sample that one picture shows, from 0 (the default)");
   option.Formerly("frame");
   option("time", time, "time that one picture shows, after the first sample; between samples too");
   option("overlay_layer", overlay_layer,
-         "format of a second file beside one picture, with the texts and plots over it as vectors");
+         "format of a second file beside one picture, with the texts and plots over it as vectors; "
+         "pdf_page: with the picture under them, which is then complete in both files");
 }
 
 void FrameRateValue::Parse(const std::string& text) {

@@ -51,8 +51,12 @@ class RenderRun {
   std::vector<OutputResult> Run() {
     if (HasStills() || HasClips()) {
       progress_.emplace("pictures:", static_cast<int>(CountPictures()));
-      if (HasClips() || (HasStills() && options_.moment.time)) RenderAtTimes();
-      if (HasStills() && !options_.moment.time) ReadUpToStill();
+      if (HasMoments()) {
+        RenderMoments();
+      } else {
+        if (HasClips() || (HasStills() && options_.moment.time)) RenderAtTimes();
+        if (HasStills() && !options_.moment.time) ReadUpToStill();
+      }
       for (OutputWriter& writer : writers_) writer.Finish(clip_pictures_);
     }
     std::vector<OutputResult> results;
@@ -75,6 +79,9 @@ class RenderRun {
       check("sample", sample, sample / reader_.rate_hz());
     }
     if (still.time) check("time", *still.time, *still.time);
+    for (const double secs : options_.view.views->TimesInOrder()) {
+      CheckReach(fmt::format("--views={}", options_.view.views.ToText()), secs, plan_.source);
+    }
     check("start", *clip.start, *clip.start);
     if (clip.seconds) check("seconds", *clip.seconds, *clip.start + *clip.seconds);
     if (clip.end) check("end", *clip.end, *clip.end);
@@ -115,6 +122,7 @@ class RenderRun {
     if (!is_up_to_date) task.AddOutput(writer);
   }
 
+  bool HasMoments() const { return options_.view.views->has_times(); }
   bool HasStills() const { return HasOutputs(stills_); }
   bool HasClips() const { return HasOutputs(clips_); }
 
@@ -184,7 +192,7 @@ class RenderRun {
     newest_nanos_ = state->stamp_nanos;
     if (still_is_rendered_) return state;
     for (auto& [camera, task] : stills_) task.Remember(*state);
-    if (!options_.moment.time && number == options_.moment.sample.value_or(0L)) {
+    if (!HasMoments() && !options_.moment.time && number == options_.moment.sample.value_or(0L)) {
       RenderStills(*state);
     }
     return state;
@@ -218,6 +226,25 @@ class RenderRun {
         CheckHasPictures();
         moments.EndClip();
       }
+    }
+  }
+
+  // One picture of several moments. (Clips have none: output_plan.cc.)
+  void RenderMoments() {
+    SceneTimeline timeline([this] { return Next(); });
+    for (const double secs : options_.view.views->TimesInOrder()) {
+      const auto scene = timeline.At(secs);
+      if (!scene) {
+        throw UsageError(fmt::format("--views={}: {} ends before {} s, at {:.3f} s",
+                                     options_.view.views.ToText(), plan_.source, secs,
+                                     Secs(newest_nanos_ - start_nanos_.value_or(0))));
+      }
+      for (auto& [camera, task] : stills_) {
+        if (task.HasOutputs()) task.planner().AddMoment(*scene);
+      }
+    }
+    for (auto& [camera, task] : stills_) {
+      if (task.HasOutputs()) task.DrawMoments(pool_, *progress_);
     }
   }
 

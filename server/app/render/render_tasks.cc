@@ -1,5 +1,7 @@
 #include "server/app/render/render_tasks.h"
 
+#include <cstdint>
+
 namespace kinescope::app {
 
 void StillTask::Remember(const SceneState& scene) {
@@ -7,16 +9,26 @@ void StillTask::Remember(const SceneState& scene) {
 }
 
 void StillTask::Draw(const SceneState& scene, double secs, DrawPool& pool, Progress& progress) {
-  RenderRequest request = planner_.Only(scene, secs);
+  Draw(planner_.Only(scene, secs), pool, progress);
+}
+
+void StillTask::DrawMoments(DrawPool& pool, Progress& progress) {
+  Draw(planner_.Moments(), pool, progress);
+}
+
+void StillTask::Draw(RenderRequest request, DrawPool& pool, Progress& progress) {
   if (layer_) {
     request.layer = layer_;
-    request.spec.overlays = false;
-    request.spec.lines = false;
+    if (*layer_ != render::LayerFormat::kPdfPage) {
+      request.spec.overlays = false;
+      request.spec.lines = false;
+    }
   }
   const render::Camera camera = request.camera;
+  const std::uint32_t counter = request.state.counter;
   const FuturePicture picture = pool.Draw(std::move(request));
   for (OutputWriter* const writer : writers_) {
-    writer->SetCounter(scene.counter);
+    writer->SetCounter(counter);
     writer->Put(0, picture, camera);
     progress.Step();
   }

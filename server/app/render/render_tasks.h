@@ -18,7 +18,7 @@ namespace kinescope::app {
 /// One picture. It does not follow what a clip of the same camera does before it.
 class StillTask {
  public:
-  /// `layer`: the format of its overlays as a vector file, if they are not part of the picture.
+  /// `layer`: the format of its overlays as a vector file, if there is one.
   StillTask(RenderPlanner planner, std::optional<render::LayerFormat> layer)
       : planner_(std::move(planner)), layer_(layer) {}
 
@@ -33,7 +33,12 @@ class StillTask {
   /// room for one alone.
   void Draw(const SceneState& scene, double secs, DrawPool& pool, Progress& progress);
 
+  /// The picture of all moments that RenderPlanner::AddMoment got.
+  void DrawMoments(DrawPool& pool, Progress& progress);
+
  private:
+  void Draw(RenderRequest request, DrawPool& pool, Progress& progress);
+
   RenderPlanner planner_;
   std::optional<render::LayerFormat> layer_;
   std::vector<OutputWriter*> writers_;

@@ -139,5 +139,107 @@ TEST(RenderPlanner, PutsRobotsOnTheFloorAtTheirGivenPlaces) {
   EXPECT_GT(shown.robots[1].bounds.min().y(), 1) << "beside whoever is in the middle";
 }
 
+RenderRequest MomentsOf(const char* views, const char* source,
+                        const std::vector<std::pair<std::string, std::string>>& more = {}) {
+  std::vector<std::pair<std::string, std::string>> values = more;
+  values.emplace_back("views", views);
+  RenderPlanner planner(testing::With<ViewOptions>(values));
+  SceneReader reader(source, SceneOptions());
+  SceneTimeline timeline(reader);
+  for (const double secs : planner.moment_times()) planner.AddMoment(timeline.At(secs).value());
+  return planner.Moments();
+}
+
+TEST(RenderPlanner, ShowsMomentsInTheGivenOrderWithOneScale) {
+  for (const char* source : {"demo:lift", "demo:walk"}) {
+    const RenderRequest request = MomentsOf("time:1.5,0/0.5", source);
+    ASSERT_EQ(request.spec.panes.size(), 3u);
+    EXPECT_EQ(request.spec.pane_columns, 2);
+    EXPECT_EQ(request.spec.panes[0].name, "1.5 s");
+    EXPECT_EQ(request.spec.panes[1].name, "0 s");
+    EXPECT_EQ(request.spec.panes[2].name, "0.5 s");
+    EXPECT_FALSE(request.spec.parts.time) << "each view has its own";
+    const auto stamp = [&](std::size_t i) {
+      return request.spec.panes[i].scene->state.stamp_nanos;
+    };
+    EXPECT_EQ(stamp(0) - stamp(1), 1'500'000'000);
+    EXPECT_EQ(request.state.stamp_nanos, stamp(0)) << "the first view's";
+    const auto distance = [&](std::size_t i) {
+      const render::Camera& camera = request.spec.panes[i].camera;
+      return (camera.position - camera.target).norm();
+    };
+    EXPECT_NEAR(distance(0), distance(1), 1e-9);
+    EXPECT_NEAR(distance(0), distance(2), 1e-9);
+    const Eigen::Vector3d ahead =
+        request.spec.panes[0].camera.target - request.spec.panes[0].camera.position;
+    const Eigen::Vector3d ahead_later =
+        request.spec.panes[2].camera.target - request.spec.panes[2].camera.position;
+    EXPECT_NEAR((ahead - ahead_later).norm(), 0, 1e-9) << "seen from the same side";
+  }
+}
+
+TEST(RenderPlanner, GivesEachMomentItsOwnTrail) {
+  const auto options = testing::With<ViewOptions>(
+      {{"views", "time:0.5,1"}, {"trail", "right_hand"}, {"trail_secs", "10"}});
+  RenderPlanner planner(options);
+  SceneReader reader("demo:lift", SceneOptions());
+  SceneTimeline timeline(reader);
+  double before = 0;
+  for (const double secs : planner.moment_times()) {
+    RememberBefore(secs, timeline, planner, before);
+    planner.AddMoment(timeline.At(secs).value());
+    before = secs;
+  }
+  const RenderRequest request = planner.Moments();
+  const auto points = [&](std::size_t i) {
+    return request.spec.panes[i].scene->trails.at(0).points.size();
+  };
+  EXPECT_EQ(points(0), 31u) << "60 a second and now";
+  EXPECT_EQ(points(1), 61u);
+}
+
+TEST(RenderPlanner, RejectsMomentsWithoutARecording) {
+  const RenderPlanner planner(testing::With<ViewOptions>({{"views", "time:0,1"}}));
+  EXPECT_THROW(planner.Only(Scenes("demo:lift", 1).front()), UsageError);
+}
+
+TEST(RenderPlanner, KeepsTheSceneClearOfALegendBelow) {
+  const SceneState scene = Scenes("demo:lift", 1).front();
+  const auto request = [&](const char* place) {
+    return RenderPlanner(testing::With<ViewOptions>({{"legend", place}, {"ghost", "n_pose"}}))
+        .Only(scene);
+  };
+  const RenderRequest inside = request("inside"), below = request("below");
+  EXPECT_FALSE(inside.spec.scene.has_value());
+  ASSERT_TRUE(below.spec.scene.has_value());
+  EXPECT_EQ(below.spec.scene->width, below.spec.width);
+  const auto& rows = below.spec.legend_content->rows;
+  EXPECT_EQ(rows.back().name, "N-pose");
+  for (const Ball& ball : render::BallsOf(scene)) {
+    const render::Tile& tile = *below.spec.scene;
+    const render::Projected at =
+        render::Project(ball.center, below.camera, tile.width, tile.height);
+    EXPECT_GT(at.y_px, 0);
+    EXPECT_LT(at.y_px, tile.height);
+  }
+}
+
+TEST(RenderPlanner, KeepsTheLegendOfAClip) {
+  RenderPlanner planner(
+      testing::With<ViewOptions>({{"legend", "below"}, {"trail", "right_hand"}}),
+      SceneAdditions(testing::With<ViewOptions>({{"trail", "right_hand"}}), {}, {}), Fit::kClip);
+  EXPECT_TRUE(planner.needs_prescan());
+  const std::vector<SceneState> scenes = Scenes("demo:lift", 8);
+  for (const SceneState& scene : scenes) planner.Prescan(scene);
+  const RenderRequest first = planner.Next(scenes[0]);
+  ASSERT_TRUE(first.spec.scene.has_value());
+  EXPECT_TRUE(first.spec.look.trails.empty());
+  EXPECT_EQ(first.spec.legend_content->rows.back().name, "path: right hand")
+      << "the trail begins later";
+  const RenderRequest later = planner.Next(scenes[7]);
+  EXPECT_EQ(later.spec.scene->height, first.spec.scene->height);
+  EXPECT_EQ(later.spec.legend_content->rows.size(), first.spec.legend_content->rows.size());
+}
+
 }  // namespace
 }  // namespace kinescope::app

@@ -81,6 +81,55 @@ TEST(ViewOptions, TakeARiggedPersonOfTheUsersAsFigure) {
   }
 }
 
+TEST(ViewOptions, AcceptRowsOfTimesAsViews) {
+  const ViewGrid grid = Grid("time:0,0.5/1,0");
+  EXPECT_THAT(grid.times, ElementsAre(0, 0.5, 1, 0));
+  EXPECT_THAT(grid.TimesInOrder(), ElementsAre(0, 0.5, 1));
+  EXPECT_EQ(grid.columns, 2);
+  EXPECT_TRUE(grid.cameras.empty());
+  for (const char* text : {"time:", "time:0,", "time:nan", "time:0,-1", "time:1e9", "time:0/x",
+                           "time:0//1", "time:front"}) {
+    EXPECT_THAT(Error("views", text), HasSubstr("is not a time; expected 0 to 864000 s")) << text;
+  }
+  EXPECT_THAT(Error("views", "time:0/1,2"), HasSubstr("row 2 has 2 times; expected 1"));
+  std::string many = "time:0";
+  for (int i = 1; i < 17; ++i) many += "," + std::to_string(i);
+  EXPECT_THAT(Error("views", many), HasSubstr("has 17 views; expected at most 16"));
+}
+
+TEST(ViewOptions, RejectWhatSeveralMomentsHaveNotInCommon) {
+  const auto error = [](const char* name, const char* text) -> std::string {
+    try {
+      ToPictureSpec(testing::With<ViewOptions>({{"views", "time:0,1"}, {name, text}}));
+    } catch (const UsageError& refused) {
+      return refused.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error("plot", "l5_s1"), HasSubstr("--plot=l5_s1"));
+  EXPECT_THAT(error("overlay", "frame_code"), HasSubstr("frame code"));
+  EXPECT_EQ(error("legend", "below"), "");
+}
+
+TEST(ViewOptions, PlaceTheLegend) {
+  const auto spec = [](const char* place) {
+    return ToPictureSpec(testing::With<ViewOptions>({{"legend", place}}));
+  };
+  EXPECT_FALSE(spec("off").parts.legend);
+  EXPECT_EQ(spec("below").legend, render::LegendPlace::kBelow);
+  EXPECT_EQ(spec("outside").legend, render::LegendPlace::kOutside);
+  EXPECT_EQ(spec("inside").legend, render::LegendPlace::kInside);
+  EXPECT_THAT(Error("legend", "belwo"),
+              HasSubstr("expected inside, outside, below or off; nearest: below"));
+}
+
+TEST(ViewOptions, RejectAWidthInPrintAtWhichNoTextFits) {
+  const auto narrow = testing::With<ViewOptions>({{"width_mm", "20"}});
+  EXPECT_THROW(ToPictureSpec(narrow), UsageError);
+  const auto bare = testing::With<ViewOptions>({{"width_mm", "20"}, {"no_overlays", "true"}});
+  EXPECT_NO_THROW(ToPictureSpec(bare));
+}
+
 TEST(ViewOptions, AcceptOnlyJointsWithALoadForPlots) {
   EXPECT_THAT(*testing::With<ViewOptions>({{"plot", "l5_s1,right_elbow"}}).plot,
               ElementsAre(urdf::jL5S1, urdf::jRightElbow));
