@@ -123,6 +123,7 @@ json SkinToJson(const PersonState& person) {
 json Describe() {
   SceneState state = MakeScene(41, 3.25, 5'000'000'000, MakePersonModel(7), 2);
   state.waited_nanos = 120'000'000;
+  state.view_heading = -2.25;
   kinescope::testing::Wear(state.people[1]);
   state.objects = {{9, 22, "cart", {{1, -2, 0.5}, {0.5, -0.5, 0.5, 0.5}}, 5}};
   json people = json::array();
@@ -197,6 +198,7 @@ json Describe() {
             {"viewers", 3},
             {"floor", state.floor_z},
             {"waitedMillis", state.waited_nanos / 1'000'000},
+            {"viewHeading", state.view_heading},
             {"people", people},
             {"objects", objects}}},
           {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},
