@@ -9,6 +9,8 @@
 
 #include "core/system/json_text.h"
 #include "urdf/skin/frames.h"
+#include "urdf/skin/limbs.h"
+#include "urdf/skin/occlusion.h"
 #include "urdf/skin/outfit.h"
 #include "urdf/skin/person_skin.h"
 #include "urdf/skin/skin_template.h"
@@ -24,6 +26,8 @@ void Append(std::string& bytes, const std::vector<T>& values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), sizeof(T) * values.size());
 }
 
+double Micro(double value) { return std::round(value * 1e6) / 1e6; }
+
 // The place of a finger in VisibleLinks(); of a bare hand: -1.
 int LinkOfFinger(const urdf::HumanModel& human, urdf::Side side, int finger) {
   if (!human.gloves[side]) return -1;
@@ -34,16 +38,17 @@ int LinkOfFinger(const urdf::HumanModel& human, urdf::Side side, int finger) {
 // A column for each member, because 153 objects would take longer to send than the vertices.
 json FramesToJson(const urdf::HumanModel& human) {
   json kinds = json::array(), links = json::array(), parents = json::array(),
-       shares = json::array(), offsets = json::array();
+       shares = json::array(), offsets = json::array(), limbs = json::array();
   const auto add = [&](const char* kind, int link, int parent, double share, double offset) {
     kinds.push_back(kind);
     links.push_back(link);
     parents.push_back(parent);
-    shares.push_back(std::round(share * 1e6) / 1e6);
-    offsets.push_back(std::round(offset * 1e6) / 1e6);
+    shares.push_back(Micro(share));
+    offsets.push_back(Micro(offset));
   };
   for (const skin::Frame& frame : skin::Frames()) {
     const int parent = urdf::kSegments[At(frame.segment)].parent;
+    limbs.push_back(skin::LimbOfSegment(frame.segment));
     switch (frame.kind) {
       case skin::FrameKind::kSegment: add("link", frame.segment, -1, 1, 0); continue;
       case skin::FrameKind::kSwing:
@@ -65,11 +70,38 @@ json FramesToJson(const urdf::HumanModel& human) {
           0.5, 0);
     }
   }
-  return {{"kinds", std::move(kinds)},
-          {"links", std::move(links)},
-          {"parents", std::move(parents)},
-          {"shares", std::move(shares)},
-          {"offsets_m", std::move(offsets)}};
+  return {{"kinds", std::move(kinds)},       {"links", std::move(links)},
+          {"parents", std::move(parents)},   {"shares", std::move(shares)},
+          {"offsets_m", std::move(offsets)}, {"limbs", std::move(limbs)}};
+}
+
+// The capsules that cover the sky. Two ends each, one after the other.
+json LimbsToJson(const urdf::Skeleton& skeleton, const skin::Build& build) {
+  json links = json::array(), points = json::array(), radii = json::array(), whole = json::array(),
+       joined = json::array();
+  const skin::LimbShapes shapes = skin::LimbShapesOf(skeleton, build);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    for (const skin::LimbEnd& end : {shapes[i].start, shapes[i].end}) {
+      links.push_back(end.segment);
+      radii.push_back(Micro(end.radius));
+      for (const double value : end.point) points.push_back(Micro(value));
+    }
+    json whole_here = json::array(), joined_here = json::array();
+    for (std::size_t by = 0; by < shapes.size(); ++by) {
+      switch (skin::CoveringOf(static_cast<skin::Limb>(i), static_cast<skin::Limb>(by))) {
+        case skin::Covering::kNone: break;
+        case skin::Covering::kJoined: joined_here.push_back(by); break;
+        case skin::Covering::kWhole: whole_here.push_back(by); break;
+      }
+    }
+    whole.push_back(std::move(whole_here));
+    joined.push_back(std::move(joined_here));
+  }
+  return {{"links", std::move(links)},
+          {"points_m", std::move(points)},
+          {"radii_m", std::move(radii)},
+          {"covered_by", std::move(whole)},
+          {"covered_by_joined", std::move(joined)}};
 }
 
 // [x, y, z, w] by link, for those whose twist is spread.
@@ -130,6 +162,7 @@ std::string SkinBuffer(const PersonModel& model) {
                                            {"position_step_m", step},
                                            {"border_step_m", border_step},
                                            {"frames", FramesToJson(human)},
+                                           {"limbs", LimbsToJson(human.skeleton, build)},
                                            {"middles", MiddlesToJson()},
                                            {"natural_until_rad", skin::kNaturalSwingUntil},
                                            {"middle_from_rad", skin::kMiddleSwingFrom},
