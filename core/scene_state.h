@@ -160,7 +160,10 @@ struct SceneState {
   std::int64_t waited_nanos = 0;
   double rate_hz = 0;  // samples per second over the last second (file: nominal)
   std::array<double, 2> class_limits = kDefaultClassLimits;
-  double floor_z = 0;                   // height of the ground, world, m
+  double floor_z = 0;  // height of the ground, world, m
+  /// By which the named cameras of live pictures and of the page are turned about z, rad; 0 in
+  /// scenes of files. Their "front" looks from there.
+  double view_heading = 0;
   std::string source;                   // "udp://0.0.0.0:9763"
   std::vector<PersonState> people;      // one per character with a sample in the last second
   std::vector<LeftOutPerson> left_out;  // with a sample in the last second that is implausible

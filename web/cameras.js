@@ -1,5 +1,5 @@
-// Named views: the numbers come from the server (/api/cameras), so that a name shows the same view in page, picture
-// and video. World frame: z up, metres. Pure functions.
+// Named views: the numbers come from the server (/api/cameras), so that a name shows the same view in page and
+// picture. World frame: z up, metres. Pure functions.
 
 /** @typedef {import('./messages.js').CameraView} CameraView
  *  @typedef {import('./messages.js').Framing} Framing
@@ -11,6 +11,11 @@ const POLE_TILT = 1e-3;
 const add = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.map((v, i) => v + b[i]);
 const subtract = (/** @type {number[]} */ a, /** @type {number[]} */ b) => a.map((v, i) => v - b[i]);
 const scale = (/** @type {number[]} */ a, /** @type {number} */ k) => a.map((v) => v * k);
+/** About z, counter-clockwise seen from above.
+ *  @param {number[]} a
+ *  @param {number} angle  rad */
+const turned = ([x, y, z], angle) =>
+  [x * Math.cos(angle) - y * Math.sin(angle), x * Math.sin(angle) + y * Math.cos(angle), z];
 const length = (/** @type {number[]} */ a) => Math.hypot(...a);
 
 /** Middle of the people on the floor, and the distance of the outermost person from it. People who are farther than
@@ -32,19 +37,20 @@ export function groundOf(pelvises, floor, reach) {
 /** Position and target of the camera that shows `view` of the people on `ground`.
  *  @param {CameraView} view
  *  @param {Framing} framing
- *  @param {{middle: number[], radius: number, height: number}} ground  height: that the view shows, m
+ *  @param {{middle: number[], radius: number, height: number, heading: number}} ground  height: that the view shows, m;
+ *    heading: by which it is turned, rad
  *  @param {number} aspect  width / height of the canvas
  *  @returns {Aim} */
 export function aim(view, framing, ground, aspect) {
   const half = Math.tan(view.vertical_fov_rad / 2);
   const size = ground.height / framing.height_m;
-  let offset = subtract(view.position, view.target);
+  let offset = turned(subtract(view.position, view.target), ground.heading);
   const extent = Math.max(size * length(offset) * half, (ground.radius + framing.margin_m) / framing.narrowest_aspect);
   const distance = extent / half + ground.radius;
   const widened = Math.max(1, framing.min_width_m / (2 * distance * half * aspect));
   offset = scale(offset, (distance * widened) / length(offset));
   const isPole = Math.hypot(offset[0], offset[1]) < POLE_TILT * length(offset);
-  if (isPole) offset = subtract(offset, scale(view.up, POLE_TILT * length(offset)));
+  if (isPole) offset = subtract(offset, scale(turned(view.up, ground.heading), POLE_TILT * length(offset)));
   const target = add(ground.middle, scale(view.target, size));
   return {
     position: add(target, offset),

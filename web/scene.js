@@ -29,6 +29,7 @@ export class Scene {
   #objectNames = /** @type {import('./messages.js').ObjectName[]} */ ([]);
   #ground = { middle: [0, 0, 0], radius: 0 };
   #heldHeight = new HeldHeight();
+  #heading = 0;  // by which named views are turned, rad
   #height = /** @type {number|null} */ (null);  // that the view shows, m; null: no person came yet
   #followed = [0, 0, 0];
   #view = /** @type {import('./messages.js').CameraView|null} */ (null);  // null: selected by hand, or not received yet
@@ -99,7 +100,7 @@ export class Scene {
       const pelvises = state.people.map(({ links }) => links[0].position);
       this.#ground = groundOf(pelvises, state.floor, this.#framing?.reach_m ?? Infinity);
       const needed = Math.max(...state.people.map(({ viewHeight }) => viewHeight));
-      this.#show(this.#heldHeight.follow(needed, state.sentMicros / 1e6));
+      this.#show(this.#heldHeight.follow(needed, state.sentMicros / 1e6), state.viewHeading);
     }
     this.#dirty = true;
   }
@@ -133,7 +134,7 @@ export class Scene {
   #aim() {
     if (this.#view === null || this.#framing === null) return;
     const height = this.#height ?? this.#framing.height_m;
-    const ground = { middle: this.#followed, radius: this.#ground.radius, height };
+    const ground = { middle: this.#followed, radius: this.#ground.radius, height, heading: this.#heading };
     const { position, target, fovDegrees } = aim(this.#view, this.#framing, ground, this.#camera.aspect);
     this.#camera.fov = fovDegrees;
     this.#objects?.setFieldOfView(fovDegrees);
@@ -145,11 +146,13 @@ export class Scene {
     this.#dirty = true;
   }
 
-  /** Goes nearer or farther, unless the user moves the camera by hand.
-   *  @param {number} height  that the view shows, m */
-  #show(height) {
-    if (height === this.#height) return;
+  /** Goes nearer or farther and turns, unless the user moves the camera by hand.
+   *  @param {number} height  that the view shows, m
+   *  @param {number} heading  by which named views are turned, rad */
+  #show(height, heading) {
+    if (height === this.#height && heading === this.#heading) return;
     this.#height = height;
+    this.#heading = heading;
     this.#aim();
   }
 

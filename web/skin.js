@@ -7,8 +7,9 @@ import { POSED_VERTEX, SkinSurface } from './skin_surface.js';
 
 const ONE = new THREE.Vector3(1, 1, 1);
 
-// As in the server's pictures (render/vtk/skin_actor.cc): light as from a clouded sky and a lamp over the viewer's left
-// shoulder, equal for all channels, because hues carry meaning; colours whose borders are distances, crisp at any zoom.
+// As in the server's pictures (render/vtk/skin_actor.cc): light as from a clouded sky, less where limbs cover it, and a
+// lamp over the viewer's left shoulder, equal for all channels, because hues carry meaning; colours whose borders are
+// distances, crisp at any zoom.
 const SUIT = `
   uniform vec3 topColor, trousersColor, shoesColor, bareColor, bandColor;
   uniform float borderStep;
@@ -31,12 +32,13 @@ const LIGHT = `
   uniform float stale;
   varying vec4 suitPaint;
   varying vec3 suitNormal;
-  varying float suitUp;
-  float lightOnSkin(vec3 normal, float up) {
+  varying vec2 suitSky;
+  float lightOnSkin(vec3 normal, vec2 sky) {
     float key = max(dot(normal, vec3(-0.439, 0.634, 0.637)) + 0.12, 0.0) / 1.12;
     float fill = max(dot(normal, vec3(0.816, 0.102, 0.569)) + 0.5, 0.0) / 1.5;
     float edge = 1.0 - max(normal.z, 0.0);
-    return (0.44 + 0.20 * up + 0.16 * fill + 0.50 * key) * (1.0 - 0.32 * edge * edge * edge);
+    float light = sky.y * (0.44 + 0.20 * sky.x + 0.16 * fill) + (0.35 + 0.65 * sky.y) * 0.50 * key;
+    return light * (1.0 - 0.32 * edge * edge * edge);
   }`;
 
 /** @param {{vertexShader: string}} shader
@@ -44,7 +46,7 @@ const LIGHT = `
 function usePosedVertices(shader, declarations = '') {
   shader.vertexShader = shader.vertexShader
     .replace('#include <common>', `#include <common>${POSED_VERTEX}${declarations}`)
-    .replace('#include <begin_vertex>', 'vec3 transformed = posed(posedPositions);');
+    .replace('#include <begin_vertex>', 'vec3 transformed = posed(posedPositions).xyz;');
 }
 
 export class SkinnedBody {
@@ -75,8 +77,8 @@ export class SkinnedBody {
    *  @param {boolean} isLive */
   update(links, isLive) {
     this.#stale.value = isLive ? 0 : 1;
-    this.#surface.setFrames(framesOf(this.#rig, links).map(({ position, rotation }, i) =>
-      new THREE.Matrix4().compose(position, rotation, ONE).multiply(this.#fromBind[i])));
+    this.#surface.setPosture(framesOf(this.#rig, links).map(({ position, rotation }, i) =>
+      new THREE.Matrix4().compose(position, rotation, ONE).multiply(this.#fromBind[i])), links);
   }
 
   /** Before it is drawn.
@@ -105,16 +107,16 @@ export class SkinnedBody {
         attribute vec4 paint;
         varying vec4 suitPaint;
         varying vec3 suitNormal;
-        varying float suitUp;`);
+        varying vec2 suitSky;`);
       shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
-        vec3 posedNormal = posed(posedNormals);
+        vec4 posedNormal = posed(posedNormals);
         suitPaint = paint;
-        suitNormal = mat3(modelViewMatrix) * posedNormal;
-        suitUp = 0.5 + 0.5 * posedNormal.z;`);
+        suitNormal = mat3(modelViewMatrix) * posedNormal.xyz;
+        suitSky = vec2(0.5 + 0.5 * posedNormal.z, posedNormal.w);`);
       shader.fragmentShader = shader.fragmentShader
         .replace('#include <common>', `#include <common>${LIGHT}${paintedColor}`)
         .replace('#include <color_fragment>', '#include <color_fragment>\n  diffuseColor.rgb = mix(paintedColor(suitPaint), staleColor, stale);')
-        .replace('#include <fog_fragment>', `gl_FragColor.rgb *= lightOnSkin(normalize(gl_FrontFacing ? suitNormal : -suitNormal), suitUp);
+        .replace('#include <fog_fragment>', `gl_FragColor.rgb *= lightOnSkin(normalize(gl_FrontFacing ? suitNormal : -suitNormal), suitSky);
           #include <fog_fragment>`);
     };
     return material;

@@ -7,6 +7,7 @@ const KINDS = /** @type {const} */ (['link', 'swing', 'twist', 'half', 'fixed'])
 const MOST_FRAMES = 256;  // their numbers are bytes
 const MOST_VERTICES = 65536;
 const PAINTS = /** @type {const} */ (['suit', 'colors']);
+const MOST_LIMBS = 32;  // bits of a number
 const rgb = listOf(number, 3);
 
 const readHeader = object({
@@ -15,7 +16,11 @@ const readHeader = object({
   own_plane_until_rad: number, middle_share: number, middles: recordOf(listOf(number, 4)),
   frames: object({
     kinds: listOf(oneOf(KINDS)), links: listOf(number), parents: listOf(number), shares: listOf(number),
-    into_bend_m: listOf(number), up_bone_m: listOf(number),
+    into_bend_m: listOf(number), up_bone_m: listOf(number), limbs: listOf(number),
+  }),
+  limbs: object({
+    links: listOf(number), points_m: listOf(number), radii_m: listOf(number), covered_by: listOf(listOf(number)),
+    covered_by_joined: listOf(listOf(number)),
   }),
   colors: object({ top: rgb, trousers: rgb, shoes: rgb, bare: rgb, band: rgb }),
 });
@@ -23,13 +28,27 @@ const readHeader = object({
 /** @typedef {{kind: (typeof KINDS)[number], link: number, parent: number, share: number, intoBend: number,
  *    upBone: number}} FrameRule
  *  @typedef {{frames: FrameRule[], middles: Map<number, THREE.Quaternion>, ownPlaneUntil: number, middleShare: number,
- *    bind: import('./skin_frames.js').Frame[], inHand: import('./skin_frames.js').Frame[]}} Rig
+ *    bind: import('./skin_frames.js').Frame[], inHand: import('./skin_frames.js').Frame[],
+ *    limbs: import('./skin_limbs.js').Limb[], limbOfFrame: number[]}} Rig
  *    bind: the frames of the pose of the vertices; inHand: the same in the frame of their link
  *  @typedef {ReturnType<typeof readHeader>['colors']} SuitColors  sRGB 0..1
  *  @typedef {{rig: Rig, colors: SuitColors, positions: Float32Array, indices: Uint8Array, weights: Uint8Array,
  *    paint: Int8Array|Uint8Array, borderStep: number, isTwoSided: boolean, triangles: Uint16Array}} Skin
  *    positions: m; indices and weights: four of each vertex, weights sum up to 255; paint: four of each vertex, of a
  *    suit (Int8Array) distances in steps, m, else its colour */
+
+/** Of columns with two ends of each limb; none if they differ in length.
+ *  @param {ReturnType<typeof readHeader>['limbs']} columns
+ *  @returns {import('./skin_limbs.js').Limb[]} */
+function limbsOf({ links, points_m, radii_m, covered_by, covered_by_joined }) {
+  const count = covered_by.length;
+  if (covered_by_joined.length !== count || links.length !== 2 * count || radii_m.length !== 2 * count
+    || points_m.length !== 6 * count) return [];
+  const end = (/** @type {number} */ i) =>
+    ({ link: links[i], point: new THREE.Vector3().fromArray(points_m, 3 * i), radius: radii_m[i] });
+  return covered_by.map((whole, i) =>
+    ({ start: end(2 * i), end: end(2 * i + 1), joined: covered_by_joined[i], whole }));
+}
 
 /** @param {ArrayBuffer} buffer
  *  @param {string} route  for the error
@@ -44,12 +63,16 @@ export function readSkin(buffer, route) {
   /** @type {unknown} */
   const document = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, headerSize)));
   const header = readHeader(document, route);
-  const { vertices, triangles, frames: { kinds, links, parents, shares, into_bend_m, up_bone_m } } = header;
+  const { vertices, triangles, frames: { kinds, links, parents, shares, into_bend_m, up_bone_m, limbs: limbOfFrame } } = header;
   const count = kinds.length;
-  const columns = [links, parents, shares, into_bend_m, up_bone_m];
+  const columns = [links, parents, shares, into_bend_m, up_bone_m, limbOfFrame];
   if (columns.some(({ length }) => length !== count) || count > MOST_FRAMES) {
     reject('the columns of the frames differ in length');
   }
+  const limbs = limbsOf(header.limbs);
+  const isLimb = (/** @type {number} */ limb) => Number.isInteger(limb) && limb >= 0 && limb < limbs.length;
+  if (limbs.length > MOST_LIMBS || !limbOfFrame.every(isLimb)
+    || !limbs.every(({ joined, whole }) => [...joined, ...whole].every(isLimb))) reject('it has unknown limbs');
   if (!Number.isInteger(vertices) || vertices < 0 || vertices > MOST_VERTICES || !Number.isInteger(triangles)
     || triangles < 0) reject(`${vertices} vertices and ${triangles} triangles`);
   let at = 4 + headerSize;
@@ -91,7 +114,8 @@ export function readSkin(buffer, route) {
   });
   return {
     rig: {
-      frames, middles, bind, inHand, ownPlaneUntil: header.own_plane_until_rad, middleShare: header.middle_share,
+      frames, middles, bind, inHand, limbs, limbOfFrame, ownPlaneUntil: header.own_plane_until_rad,
+      middleShare: header.middle_share,
     },
     colors: header.colors, indices, weights, paint, borderStep: header.border_step_m,
     isTwoSided: header.two_sided, triangles: corners,

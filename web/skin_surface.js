@@ -1,16 +1,18 @@
 // Poses a skin on the graphics card: a pass that writes the position of each vertex into a texture, and one that writes
-// its normal, the mean of the triangles around it by area, as the server does. Materials read both textures. They hold
-// the bits of floats as integers, because every WebGL 2 can draw into those.
+// its normal, the mean of the triangles around it by area, and how much of the sky it sees, as the server does. Materials
+// read both textures. They hold the bits of floats as integers, because every WebGL 2 can draw into those.
 import * as THREE from 'three';
+import { coversOf, emptyCapsules, limbsOfVertices, openSky, setCapsules } from './skin_limbs.js';
 
 const WIDTH = 256;  // of the textures, texels
 const RING_WIDTH = 1024;
 
-/** GLSL: the posed position and normal of the vertex `gl_VertexID`, in the uniforms of SkinSurface. */
+/** GLSL: the posed position of the vertex `gl_VertexID`, and its normal with the share of the sky that no limb covers,
+ *  in the uniforms of SkinSurface. */
 export const POSED_VERTEX = `
   uniform highp usampler2D posedPositions, posedNormals;
-  vec3 posed(highp usampler2D values) {
-    return uintBitsToFloat(texelFetch(values, ivec2(gl_VertexID % ${WIDTH}, gl_VertexID / ${WIDTH}), 0).xyz);
+  vec4 posed(highp usampler2D values) {
+    return uintBitsToFloat(texelFetch(values, ivec2(gl_VertexID % ${WIDTH}, gl_VertexID / ${WIDTH}), 0));
   }`;
 
 const FULL_SCREEN = `
@@ -36,10 +38,12 @@ const POSITIONS = `
     bits = uvec4(floatBitsToUint(sum), 0u);
   }`;
 
-const NORMALS = `
+/** @param {number} limbs */
+const normals = (limbs) => `
   uniform highp sampler2D rest;
+  uniform sampler2D limbs;
   uniform highp usampler2D posedPositions, ring;
-  out highp uvec4 bits;
+  out highp uvec4 bits;${openSky(limbs)}
   vec3 positionOf(int vertex) {
     return uintBitsToFloat(texelFetch(posedPositions, ivec2(vertex % ${WIDTH}, vertex / ${WIDTH}), 0).xyz);
   }
@@ -60,7 +64,9 @@ const NORMALS = `
         before = next;
       }
     }
-    bits = uvec4(floatBitsToUint(normalize(sum + vec3(0.0, 0.0, 1e-20))), 0u);
+    vec3 normal = normalize(sum + vec3(0.0, 0.0, 1e-20));
+    int limb = int(255.0 * texelFetch(limbs, at, 0).x + 0.5);
+    bits = floatBitsToUint(vec4(normal, openSky(own, normal, limb)));
   }`;
 
 /** The vertices around each vertex, counter-clockwise from outside, one vertex after another. Where the triangles
@@ -153,6 +159,7 @@ function texture(values, padded, width, { format, type, internalFormat }) {
 
 const FLOATS = { format: THREE.RGBAFormat, type: THREE.FloatType, internalFormat: null };
 const BYTES = { format: THREE.RGBAFormat, type: THREE.UnsignedByteType, internalFormat: null };
+const BYTE = { format: THREE.RedFormat, type: THREE.UnsignedByteType, internalFormat: null };
 const SHORTS = /** @type {const} */ (
   { format: THREE.RedIntegerFormat, type: THREE.UnsignedShortType, internalFormat: 'R16UI' });
 
@@ -167,7 +174,9 @@ export class SkinSurface {
   uniforms;
   #positions;
   #normals;
+  #limbs;
   #frames;
+  #capsules;
   #textures;
   #passes;
   #screen = new THREE.Mesh(new THREE.BufferGeometry().setAttribute(
@@ -186,10 +195,13 @@ export class SkinSurface {
       rest[4 * i + 3] = first[i];  // below 2^24: exact
     }
     this.#frames = texture(new Float32Array(), new Float32Array(12 * rig.frames.length), 3, FLOATS);
+    this.#limbs = rig.limbs;
+    this.#capsules = emptyCapsules(rig.limbs);
     const bytes = () => new Uint8Array(4 * WIDTH * rows);
     this.#textures = {
       rest: texture(rest, rest, WIDTH, FLOATS), frames: this.#frames,
       indices: texture(indices, bytes(), WIDTH, BYTES), weights: texture(weights, bytes(), WIDTH, BYTES),
+      limbs: texture(limbsOfVertices(indices, weights, rig.limbOfFrame), new Uint8Array(WIDTH * rows), WIDTH, BYTE),
       ring: texture(ring, new Uint16Array(RING_WIDTH * Math.ceil(ring.length / RING_WIDTH)), RING_WIDTH, SHORTS),
     };
     this.#positions = target(rows);
@@ -197,31 +209,37 @@ export class SkinSurface {
     this.uniforms = {
       posedPositions: { value: this.#positions.texture }, posedNormals: { value: this.#normals.texture },
     };
-    const { rest: restTexture, ring: ringTexture, ...others } = this.#textures;
-    const pass = (/** @type {string} */ fragmentShader, /** @type {Record<string, THREE.Texture>} */ textures) =>
+    const { rest: restTexture, ring: ringTexture, limbs, ...others } = this.#textures;
+    const pass = (/** @type {string} */ fragmentShader,
+      /** @type {Record<string, THREE.Texture|Float32Array|Uint32Array>} */ values) =>
       new THREE.ShaderMaterial({
         glslVersion: THREE.GLSL3, vertexShader: FULL_SCREEN, fragmentShader, depthTest: false, depthWrite: false,
         blending: THREE.NoBlending,
-        uniforms: Object.fromEntries(Object.entries(textures).map(([name, value]) => [name, { value }])),
+        uniforms: Object.fromEntries(Object.entries(values).map(([name, value]) => [name, { value }])),
       });
     this.#passes = [
       { material: pass(POSITIONS, { rest: restTexture, ...others }), into: this.#positions },
       {
-        material: pass(NORMALS, { rest: restTexture, ring: ringTexture, posedPositions: this.#positions.texture }),
+        material: pass(normals(rig.limbs.length), {
+          rest: restTexture, ring: ringTexture, limbs, posedPositions: this.#positions.texture,
+          capsules: this.#capsules, covers: coversOf(rig.limbs),
+        }),
         into: this.#normals,
       },
     ];
     this.#screen.frustumCulled = false;
   }
 
-  /** @param {Iterable<THREE.Matrix4>} matrices  world_from_bind of each frame */
-  setFrames(matrices) {
+  /** @param {Iterable<THREE.Matrix4>} matrices  world_from_bind of each frame
+   *  @param {import('./skin_frames.js').Pose[]} links  of all links, as they are streamed */
+  setPosture(matrices, links) {
     const rows = /** @type {Float32Array} */ (this.#frames.image.data);
     let at = 0;
     for (const { elements: e } of matrices) {
       for (let row = 0; row < 3; ++row, at += 4) rows.set([e[row], e[row + 4], e[row + 8], e[row + 12]], at);
     }
     this.#frames.needsUpdate = true;
+    setCapsules(this.#limbs, links, this.#capsules);
     this.#isPosed = false;
   }
 

@@ -1,7 +1,7 @@
 // Reads the binary messages of the WebSocket. docs/http.md has the layout; server/http/protocol.cc writes them.
 
 export const KIND = { state: 1, picture: 2 };
-export const VERSION = 2;
+export const VERSION = 3;
 
 // Names by their number in a message.
 const LIVENESS = /** @type {const} */ (['no data', 'live', 'stale']);
@@ -25,8 +25,9 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
  *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, stateNumber: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
- *    rateHz: number, viewers: number, floor: number, waitedMillis: number, people: Person[],
- *    objects: TrackedObject[]}} State  arrivalMicros 0: unknown; waitedMillis: in the server's machine
+ *    rateHz: number, viewers: number, floor: number, waitedMillis: number, viewHeading: number, people: Person[],
+ *    objects: TrackedObject[]}} State  arrivalMicros 0: unknown; waitedMillis: in the server's machine; viewHeading: by
+ *    which named views are turned about z, rad
  */
 
 /** The kind of a message; throws if the server uses another version of the protocol.
@@ -116,9 +117,11 @@ function readStateHeader(bytes) {
   const objectCount = bytes.u8();
   bytes.skip(1);
   const waitedMillis = 10 * bytes.u16();
+  const viewHeading = bytes.f32();
+  bytes.skip(4);
   return {
     liveness, peopleCount, counter, stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis, rateHz,
-    viewers, floor, objectCount, waitedMillis,
+    viewers, floor, objectCount, waitedMillis, viewHeading,
   };
 }
 

@@ -157,6 +157,8 @@ Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) 
   out.Put(objects);
   out.Put(std::uint8_t{0});
   out.Put(WaitedUnits(state.waited_nanos));
+  out.PutFloat(state.view_heading);
+  out.Put(std::uint32_t{0});
   KINESCOPE_CHECK(out.size() == kStateHeaderBytes);
   for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i], state.floor_z);
   for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);

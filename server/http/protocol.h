@@ -21,8 +21,8 @@ using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to ever
 /// First byte of a binary message.
 enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2 };
 
-inline constexpr std::uint8_t kProtocolVersion = 2;
-inline constexpr std::size_t kStateHeaderBytes = 64;
+inline constexpr std::uint8_t kProtocolVersion = 3;
+inline constexpr std::size_t kStateHeaderBytes = 72;
 inline constexpr std::size_t kPersonHeaderBytes = 64;
 inline constexpr std::size_t kLinkBytes = 28;
 inline constexpr std::size_t kLoadBytes = 28;

@@ -9,6 +9,8 @@
 
 #include "core/system/json_text.h"
 #include "urdf/skin/frames.h"
+#include "urdf/skin/limbs.h"
+#include "urdf/skin/occlusion.h"
 #include "urdf/skin/outfit.h"
 #include "urdf/skin/person_skin.h"
 #include "urdf/skin/skin_template.h"
@@ -24,6 +26,8 @@ void Append(std::string& bytes, const std::vector<T>& values) {
   bytes.append(reinterpret_cast<const char*>(values.data()), sizeof(T) * values.size());
 }
 
+double Micro(double value) { return std::round(value * 1e6) / 1e6; }
+
 // The place of a finger in VisibleLinks(); of a bare hand: -1.
 int LinkOfFinger(const urdf::HumanModel& human, urdf::Side side, int finger) {
   if (!human.gloves[side]) return -1;
@@ -34,18 +38,20 @@ int LinkOfFinger(const urdf::HumanModel& human, urdf::Side side, int finger) {
 // A column for each member, because 153 objects would take longer to send than the vertices.
 json FramesToJson(const urdf::HumanModel& human) {
   json kinds = json::array(), links = json::array(), parents = json::array(),
-       shares = json::array(), into_bend = json::array(), up_bone = json::array();
+       shares = json::array(), into_bend = json::array(), up_bone = json::array(),
+       limbs = json::array();
   const auto add = [&](const char* kind, int link, int parent, double share,
                        const skin::FarthestMove& move) {
     kinds.push_back(kind);
     links.push_back(link);
     parents.push_back(parent);
-    shares.push_back(std::round(share * 1e6) / 1e6);
-    into_bend.push_back(std::round(move.into_bend * 1e6) / 1e6);
-    up_bone.push_back(std::round(move.up_bone * 1e6) / 1e6);
+    shares.push_back(Micro(share));
+    into_bend.push_back(Micro(move.into_bend));
+    up_bone.push_back(Micro(move.up_bone));
   };
   for (const skin::Frame& frame : skin::Frames()) {
     const int parent = urdf::kSegments[At(frame.segment)].parent;
+    limbs.push_back(skin::LimbOfSegment(frame.segment));
     switch (frame.kind) {
       case skin::FrameKind::kSegment: add("link", frame.segment, -1, 1, {}); continue;
       case skin::FrameKind::kSwing:
@@ -69,7 +75,37 @@ json FramesToJson(const urdf::HumanModel& human) {
   }
   return {{"kinds", std::move(kinds)},           {"links", std::move(links)},
           {"parents", std::move(parents)},       {"shares", std::move(shares)},
-          {"into_bend_m", std::move(into_bend)}, {"up_bone_m", std::move(up_bone)}};
+          {"into_bend_m", std::move(into_bend)}, {"up_bone_m", std::move(up_bone)},
+          {"limbs", std::move(limbs)}};
+}
+
+// The capsules that cover the sky. Two ends each, one after the other.
+json LimbsToJson(const urdf::Skeleton& skeleton, const skin::Build& build) {
+  json links = json::array(), points = json::array(), radii = json::array(), whole = json::array(),
+       joined = json::array();
+  const skin::LimbShapes shapes = skin::LimbShapesOf(skeleton, build);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    for (const skin::LimbEnd& end : {shapes[i].start, shapes[i].end}) {
+      links.push_back(end.segment);
+      radii.push_back(Micro(end.radius));
+      for (const double value : end.point) points.push_back(Micro(value));
+    }
+    json whole_here = json::array(), joined_here = json::array();
+    for (std::size_t by = 0; by < shapes.size(); ++by) {
+      switch (skin::CoveringOf(static_cast<skin::Limb>(i), static_cast<skin::Limb>(by))) {
+        case skin::Covering::kNone: break;
+        case skin::Covering::kJoined: joined_here.push_back(by); break;
+        case skin::Covering::kWhole: whole_here.push_back(by); break;
+      }
+    }
+    whole.push_back(std::move(whole_here));
+    joined.push_back(std::move(joined_here));
+  }
+  return {{"links", std::move(links)},
+          {"points_m", std::move(points)},
+          {"radii_m", std::move(radii)},
+          {"covered_by", std::move(whole)},
+          {"covered_by_joined", std::move(joined)}};
 }
 
 // [x, y, z, w] by link, for those whose twist is spread.
@@ -143,6 +179,7 @@ std::string SkinBuffer(const PersonModel& model, const skin::SkinTemplate* own) 
                                            {"paint", of.colors.empty() ? "suit" : "colors"},
                                            {"two_sided", of.is_two_sided},
                                            {"frames", FramesToJson(human)},
+                                           {"limbs", LimbsToJson(human.skeleton, build)},
                                            {"middles", MiddlesToJson()},
                                            {"own_plane_until_rad", skin::kOwnPlaneUntil},
                                            {"middle_share", skin::kMiddleShare},

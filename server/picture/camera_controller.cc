@@ -37,8 +37,8 @@ CameraController::CameraController(const CameraChoice& camera, const CameraOptio
       is_orthographic_(*options.projection),
       is_one_turn_(options.orbit->is_one_turn),
       orbit_rad_per_sec_(options.orbit->degrees_per_sec * M_PI / 180),
-      fit_(*options.fit) {
-  if (options.camera_frame) frame_ = *options.camera_frame;
+      fit_(*options.fit),
+      frame_(*options.camera_frame) {
   if (camera.is_key_file) keys_ = ReadCameraKeys(camera_);
   if (options.fov) {
     fov_rad_ = *options.fov * M_PI / 180;
@@ -157,18 +157,14 @@ const render::GroundExtent& CameraController::Follower::Follow(const SceneState&
 }
 
 // In CameraFrame::kPerson with a lag, so that a turning person does not throw the picture about.
-void CameraController::FollowHeading(const SceneState& state, double secs, CameraFrame frame) {
+void CameraController::FollowHeading(const SceneState& state, double secs) {
   constexpr double kLagSecs = 0.7;
-  if (frame == CameraFrame::kWorld || state.people.empty()) return;
-  if (heading_rad_ && frame == CameraFrame::kStart) return;
+  if (frame_ == CameraFrame::kWorld || state.people.empty()) return;
+  if (heading_rad_ && frame_ == CameraFrame::kStart) return;
   const std::optional<double> now = urdf::HeadingOf(state.people.front().links);
   if (!now) return;
-  if (frame == CameraFrame::kStart) {
-    // Nearly along the floor's lines is meant to be along them: a walking pelvis turns by that
-    // much.
-    constexpr double kRight = M_PI / 2, kNearly = 8 * M_PI / 180;
-    const double along = kRight * std::round(*now / kRight);
-    heading_rad_ = std::abs(*now - along) < kNearly ? along : *now;
+  if (frame_ == CameraFrame::kStart) {
+    heading_rad_ = AlongFloorLines(*now);
     return;
   }
   const double before = heading_rad_.value_or(*now);
@@ -198,7 +194,7 @@ double CameraController::HeldHeight(const SceneState& state, double secs) {
 render::Camera CameraController::Aim(const SceneState& state, double aspect,
                                      const std::vector<Ball>& beside) {
   const double secs = SecsOf(state);
-  FollowHeading(state, secs, frame_.value_or(CameraFrame::kStart));
+  FollowHeading(state, secs);
   render::GroundExtent ground = follower_.Follow(state, secs, follow_secs_);
   ground.height = HeldHeight(state, secs);
   return AimAt(ground, state, secs, aspect, beside);
@@ -208,8 +204,7 @@ render::Camera CameraController::AimLive(const SceneState& state, double live_as
                                          double aspect) {
   const double secs = SecsOf(state);
   const double height = HeldHeight(state, secs);
-  // The page and RViz show the world's views.
-  FollowHeading(state, secs, frame_.value_or(CameraFrame::kWorld));
+  heading_rad_ = LiveHeading(state);
   if (follow_secs_) {
     render::GroundExtent followed = follower_.Follow(state, secs, follow_secs_);
     followed.height = height;
@@ -222,14 +217,30 @@ render::Camera CameraController::AimLive(const SceneState& state, double live_as
   return AimAt(around, state, secs, aspect, {});
 }
 
+// As the page has it, which the state is sent to.
+double CameraController::LiveHeading(const SceneState& state) const {
+  return frame_ == CameraFrame::kWorld ? 0 : state.view_heading;
+}
+
+render::Camera CameraController::Alone(const SceneState& state, double secs, double aspect,
+                                       const std::vector<Ball>& beside) const {
+  render::GroundExtent ground = render::GroundExtentOf(state);
+  if (holds_height_) ground.height = render::NeededHeight(state);
+  return Finished(Placed(state, ground, secs), ground, state, secs, aspect, beside);
+}
+
+render::Camera CameraController::OnlyLive(const SceneState& state, double aspect) const {
+  CameraController alone = *this;
+  alone.heading_rad_ = LiveHeading(state);
+  return alone.Alone(state, 0, aspect, {});
+}
+
 render::Camera CameraController::Only(const SceneState& state, double secs, double aspect,
                                       const std::vector<Ball>& beside) const {
   CameraController alone = *this;
   alone.heading_rad_.reset();
-  alone.FollowHeading(state, secs, frame_.value_or(CameraFrame::kStart));
-  render::GroundExtent ground = render::GroundExtentOf(state);
-  if (holds_height_) ground.height = render::NeededHeight(state);
-  return alone.Finished(alone.Placed(state, ground, secs), ground, state, secs, aspect, beside);
+  alone.FollowHeading(state, secs);
+  return alone.Alone(state, secs, aspect, beside);
 }
 
 }  // namespace kinescope::app

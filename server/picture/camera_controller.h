@@ -48,6 +48,9 @@ class CameraController {
   /// @param live_aspect of the live picture, for which the camera stands still
   render::Camera AimLive(const SceneState& state, double live_aspect, double aspect);
 
+  /// For one live picture alone, which has the heading of all live pictures.
+  render::Camera OnlyLive(const SceneState& state, double aspect) const;
+
   /// For one picture alone, `secs` after the clip's start: nothing lags.
   render::Camera Only(const SceneState& state, double secs, double aspect,
                       const std::vector<Ball>& beside = {}) const;
@@ -81,7 +84,10 @@ class CameraController {
                        double aspect, const std::vector<Ball>& beside) const;
   double SecsOf(const SceneState& state);
   double HeldHeight(const SceneState& state, double secs);
-  void FollowHeading(const SceneState& state, double secs, CameraFrame frame);
+  void FollowHeading(const SceneState& state, double secs);
+  double LiveHeading(const SceneState& state) const;
+  render::Camera Alone(const SceneState& state, double secs, double aspect,
+                       const std::vector<Ball>& beside) const;
 
   std::string camera_;
   std::optional<render::Camera> place_;
@@ -92,7 +98,7 @@ class CameraController {
   Fit fit_ = Fit::kOff;
   bool holds_height_ = false;  // of an automatic fit whose future is not known
   render::FreeArea free_area_;
-  std::optional<CameraFrame> frame_;
+  CameraFrame frame_ = CameraFrame::kStart;
   // Of the prescan:
   Follower prescan_follower_;
   render::BallHull clip_, clip_around_people_;  // world; relative to what the camera follows

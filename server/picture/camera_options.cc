@@ -101,10 +101,10 @@ CameraOptions::CameraOptions()
       follow(Number(0, {0, 60, "s"})),
       fit({{"auto", Fit::kAuto}, {"off", Fit::kOff}, {"now", Fit::kNow}, {"clip", Fit::kClip}},
           Fit::kAuto),
-      camera_frame(options::Choice<CameraFrame>({{"start", CameraFrame::kStart},
-                                                 {"person", CameraFrame::kPerson},
-                                                 {"world", CameraFrame::kWorld}},
-                                                CameraFrame::kStart)) {}
+      camera_frame({{"start", CameraFrame::kStart},
+                    {"person", CameraFrame::kPerson},
+                    {"world", CameraFrame::kWorld}},
+                   CameraFrame::kStart) {}
 
 void CameraOptions::List(options::OptionList& option) {
   option("projection", projection, "how depth is shown");
@@ -116,8 +116,8 @@ void CameraOptions::List(options::OptionList& option) {
       "middle");
   option("camera_frame", camera_frame,
          "what named cameras are turned with, so that front sees the face: start (the first "
-         "person's heading at the first picture), person (in each picture) or world; not given: "
-         "start, but world in live pictures");
+         "person's heading at the first picture; live: when they first stood), person (their "
+         "heading now) or world");
   option("fit", fit,
          "how close a named camera comes, so that everything shown fills the free part of the "
          "picture: "

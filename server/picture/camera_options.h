@@ -8,6 +8,7 @@
 
 #include "render/camera/camera.h"
 #include "server/options/option_list.h"
+#include "server/scene/held_heading.h"
 
 namespace kinescope::app {
 
@@ -55,14 +56,6 @@ class OrbitValue : public options::ValueOf<Orbit> {
 
 enum class Fit { kAuto, kOff, kNow, kClip };
 
-/// What the named cameras are turned with: "front" sees the person's face, or looks along the
-/// world's x axis.
-enum class CameraFrame {
-  kStart,   // the person's heading at the first picture
-  kPerson,  // the person's heading in each picture
-  kWorld,
-};
-
 struct CameraOptions {
   CameraOptions();
 
@@ -71,7 +64,7 @@ struct CameraOptions {
   OrbitValue orbit;
   options::Optional<options::Number> follow;  // s of lag
   options::Choice<Fit> fit;
-  options::Optional<options::Choice<CameraFrame>> camera_frame;  // none: see CameraController
+  options::Choice<CameraFrame> camera_frame;
 
   void List(options::OptionList& option);
 };

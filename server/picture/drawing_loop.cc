@@ -192,7 +192,7 @@ void DrawingLoop::DrawOrder(std::unique_lock<std::mutex>& lock) {
   const double aspect = AspectOf(order.view);
   std::optional<render::Camera> camera;
   if (order.camera) {
-    camera = order.camera->Only(*state, 0, aspect);
+    camera = order.camera->OnlyLive(*state, aspect);
   } else if (!order.aim) {
     camera = camera_.AimLive(*state, LiveAspect(), aspect);
   }

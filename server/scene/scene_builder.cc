@@ -38,6 +38,7 @@ SceneBuilder::SceneBuilder(SceneOptions options, std::string source, double nomi
       models_(options_),
       source_(std::move(source)),
       on_state_(std::move(on_state)),
+      view_heading_(options_.view_frame),
       rate_(nominal_rate_hz) {
   SetLoads(options_.loads);
   if (options_.makes_models_aside) maker_ = std::make_unique<ModelMaker>(models_);
@@ -205,6 +206,9 @@ void SceneBuilder::Publish(Liveness liveness) {
       load.band_secs = band_secs;
     }
     MakeUnknown(kStopped, scene->people.back().forces);
+  }
+  if (!scene->people.empty()) {
+    scene->view_heading = current_.view_heading = view_heading_.Follow(scene->people.front());
   }
   for (const auto& [id, cluster] : objects_) {
     for (const TrackedObject& object : cluster) {

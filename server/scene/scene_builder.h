@@ -16,6 +16,7 @@
 #include "core/scene_state.h"
 #include "core/source.h"
 #include "server/loads/load_settings.h"
+#include "server/scene/held_heading.h"
 #include "server/scene/model_factory.h"
 #include "server/scene/model_maker.h"
 #include "server/scene/person_tracker.h"
@@ -36,6 +37,8 @@ struct SceneOptions : ModelSettings {
   /// Changed bodies are made on a thread of their own and used when they are ready, so that they
   /// never delay a live stream. Otherwise states depend only on the samples.
   bool makes_models_aside = false;
+  /// Of SceneState::view_heading.
+  CameraFrame view_frame = CameraFrame::kWorld;
 };
 
 class SceneBuilder : public SampleSink, public SmoothSampleSink {
@@ -123,6 +126,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   std::set<int> left_out_once_;                        // said once
   std::map<int, std::vector<TrackedObject>> objects_;  // of the newest sample of each group
   std::int64_t waited_nanos_ = 0;                      // see SetWaited()
+  HeldHeading view_heading_;
   RateMeter rate_;
   SceneState current_;  // without its people, which Publish adds
 };

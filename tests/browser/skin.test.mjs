@@ -21,21 +21,33 @@ after(async () => {
   await rm(folder, { recursive: true });
 });
 
+/** Half a turn about the world's z axis: quaternions (w, x, y, z) and points in the text of a frame. */
+function turnedAround(frame) {
+  const turned = (tag, size, turn) => (text) => text.replace(new RegExp(`(<${tag}>)([^<]*)`), (_, opened, values) => {
+    const numbers = values.trim().split(/\s+/).map(Number);
+    const parts = Array.from({ length: numbers.length / size }, (__, i) => turn(numbers.slice(size * i, size * i + size)));
+    return opened + parts.flat().join(' ');
+  });
+  const ofPoints = ([x, y, z]) => [-x, -y, z];
+  return [turned('orientation', 4, ([w, x, y, z]) => [-z, -y, x, w]), turned('position', 3, ofPoints),
+    turned('centerOfMass', 3, ofPoints)].reduce((text, turn) => turn(text), frame);
+}
+
 /** A recording of nothing but the posture of `motion` after `seconds`. */
-async function record(motion, seconds, person) {
-  const file = join(folder, `${motion}.mvnx`);
+async function record(motion, seconds, person, change = (frame) => frame) {
+  const file = join(folder, `${motion}${change.name}.mvnx`);
   execFileSync(kinescope, ['convert', `demo:${motion}`, '--seconds', `${seconds}`, '--rate_hz', '60', ...person, '--out', file],
     { stdio: 'ignore' });
   const xml = await readFile(file, 'utf8');
   const frames = [...xml.matchAll(/<frame [^>]*type="normal"[^]*?<\/frame>/g)];
-  const last = frames.at(-1)[0].replace(/^<frame [^>]*>/, '');
+  const last = change(frames.at(-1)[0].replace(/^<frame [^>]*>/, ''));
   await writeFile(file, xml.replace(/(<frame [^>]*type="normal"[^>]*>)[^]*?<\/frame>/g, `$1${last}`));
   return file;
 }
 
 /** Serves it; the page then shows its last sample. */
-async function serve(file, person) {
-  const args = ['serve', '--source', file, ...person, '--ros', 'off', '--pictures', 'off', '--http_port', '0'];
+async function serve(file, options) {
+  const args = ['serve', '--source', file, '--ros', 'off', '--http_port', '0', ...options];
   const child = spawn(kinescope, args, { stdio: ['ignore', 'ignore', 'pipe'] });
   const lines = createInterface({ input: child.stderr });
   let url = null;
@@ -87,24 +99,61 @@ async function cameraOf(page, name, { width, height }) {
       socket.close();
     };
   }));
-  const { people, floor } = decodeState(Uint8Array.from(bytes).buffer);
+  const { people, floor, viewHeading: heading } = decodeState(Uint8Array.from(bytes).buffer);
   const { cameras, framing } = await page.evaluate(async () => (await fetch('api/cameras')).json());
   const ground = { ...groundOf(people.map(({ links }) => links[0].position), floor, framing.reach_m),
-    height: people[0].viewHeight };
+    height: people[0].viewHeight, heading };
   const { position, target, fovDegrees } = aim(cameras.find((each) => each.name === name), framing, ground, width / height);
   return ['--camera', `${position.join()}:${target.join()}`, '--fov', `${fovDegrees}`];
 }
 
 /** What the server draws of the same sample from the same camera. */
-async function serverPixels(page, file, camera, { width, height }, hidden, person) {
+async function serverPixels(page, file, camera, { width, height }, options) {
   const out = join(folder, 'server.png');
-  execFileSync(kinescope, ['render', file, '--time', '0', ...camera, '--size', `${width}x${height}`, '--no_overlays', '--floor', 'off', '--background', 'black', '--hide', hidden, ...person, '--out', out],
-  { stdio: 'ignore' });
+  execFileSync(kinescope, ['render', file, '--time', '0', ...camera, '--size', `${width}x${height}`, '--no_overlays', ...options, '--out', out],
+    { stdio: 'ignore' });
   return pixelsOfPng(page, await readFile(out));
 }
 
 // Everything but the body.
-const REST = 'loads,com,cop,support,forces,hand_loads,shadows';
+const MARKS = 'loads,com,cop,support,forces,hand_loads', REST = `${MARKS},shadows`;
+const PLAIN = ['--floor', 'off', '--background', 'black', '--hide'];
+
+/** The named view on the page, and which of its pixels are skin. */
+async function lookAt(site, camera) {
+  const open = async (hasSkin) => {
+    const visit = await openPage(site.url, {
+      colorScheme: 'dark',
+      beforeLoad: async (page) => {
+        if (!hasSkin) await page.route('**/api/skin/**', (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' }));
+      },
+    });
+    const { page } = visit;
+    await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Stale', null, LONG);
+    await page.locator(`#cameras button[data-camera="${camera}"]`).click();
+    await page.evaluate(() => {
+      for (const over of document.querySelectorAll('.stage > :not(.view)')) over.style.visibility = 'hidden';
+    });
+    return visit;
+  };
+  const visit = await open(true);
+  const bare = await open(false);
+  const settled = async ({ page }) => {
+    // Until two pictures in a row are equal: the camera has arrived and the skin is there.
+    const view = () => pixelsOf(page, '#view');
+    let last = await view();
+    for (;;) {
+      const next = await view();
+      if (next.data.equals(last.data)) return next;
+      last = next;
+    }
+  };
+  await visit.page.waitForFunction(() => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
+    /api\/skin/.test(name) && responseEnd > 0), null, LONG);
+  const [shown, empty] = [await settled(visit), await settled(bare)];
+  await bare.close();
+  return { page: visit.page, skin: mask(shown, empty), size: { width: shown.width, height: shown.height }, close: visit.close };
+}
 
 for (const { motion, seconds, camera, person } of [
   { motion: 'squat', seconds: 1.2, camera: 'left', person: [] },
@@ -114,52 +163,65 @@ for (const { motion, seconds, camera, person } of [
 ]) {
   test(`the skin of ${motion} covers the same pixels on the page and in the server's picture`, async () => {
     const file = await record(motion, seconds, person);
-    const site = await serve(file, person);
-    const open = async (hasSkin) => {
-      const visit = await openPage(site.url, {
-        colorScheme: 'dark',
-        beforeLoad: async (page) => {
-          if (!hasSkin) await page.route('**/api/skin/**', (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' }));
-        },
-      });
-      const { page } = visit;
-      await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Stale', null, LONG);
-      await page.locator(`#cameras button[data-camera="${camera}"]`).click();
-      await page.evaluate(() => {
-        for (const over of document.querySelectorAll('.stage > :not(.view)')) over.style.visibility = 'hidden';
-      });
-      return visit;
-    };
-    const visit = await open(true);
-    const bare = await open(false);
-    const settled = async ({ page }) => {
-      // Until two pictures in a row are equal: the camera has arrived and the skin is there.
-      const view = () => pixelsOf(page, '#view');
-      let last = await view();
-      for (;;) {
-        const next = await view();
-        if (next.data.equals(last.data)) return next;
-        last = next;
-      }
-    };
-    await visit.page.waitForFunction(() => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
-      /api\/skin/.test(name) && responseEnd > 0), null, LONG);
-    const [shown, empty] = [await settled(visit), await settled(bare)];
-    const onPage = mask(shown, empty);
-    const size = { width: shown.width, height: shown.height };
-    const sameCamera = await cameraOf(visit.page, camera, size);
+    const site = await serve(file, [...person, '--pictures', 'off']);
+    const { page, skin: onPage, size, close } = await lookAt(site, camera);
+    const sameCamera = await cameraOf(page, camera, size);
     const drawn = [];
     for (const hidden of [REST, `${REST},body`, REST.replace('loads,', '')]) {
-      drawn.push(await serverPixels(visit.page, file, sameCamera, size, hidden, person));
+      drawn.push(await serverPixels(page, file, sameCamera, size, [...PLAIN, hidden, ...person]));
     }
     const [body, nothing, withLoads] = drawn;
     const inPicture = mask(body, nothing);
-    await saveScreenshot(visit.page, `skin_${motion}`);
+    await saveScreenshot(page, `skin_${motion}`);
     const { share, either } = overlap(onPage, inPicture, mask(body, withLoads));
     assert.ok(either > 0.02 * onPage.length, `${either} pixels`);
     assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels are covered by both`);
-    await visit.close();
-    await bare.close();
+    await close();
     await site.stop();
   });
 }
+
+/** Pixels outside of the rectangle around what is covered, and a little more. */
+function outsideOf(covered, { width, height }) {
+  const MARGIN = 8;  // px
+  let [left, top, right, bottom] = [width, height, 0, 0];
+  covered.forEach((isCovered, i) => {
+    if (!isCovered) return;
+    const x = i % width, y = Math.floor(i / width);
+    [left, top, right, bottom] = [Math.min(left, x), Math.min(top, y), Math.max(right, x), Math.max(bottom, y)];
+  });
+  return covered.map((_, i) => {
+    const x = i % width, y = Math.floor(i / width);
+    return x < left - MARGIN || x > right + MARGIN || y < top - MARGIN || y > bottom + MARGIN ? 1 : 0;
+  });
+}
+
+test('a person who faces -x is shown from the front, on the page and in a snapshot', async () => {
+  const motion = 'walk', camera = 'front', nothing = new Uint8Array(1 << 24);
+  const straight = await serve(await record(motion, 0.9, []), ['--pictures', 'off']);
+  const expected = await lookAt(straight, camera);
+  await expected.close();
+  await straight.stop();
+  const file = await record(motion, 0.9, [], turnedAround);
+  const site = await serve(file, ['--pictures', 'off']);
+  const { page, skin: onPage, size, close } = await lookAt(site, camera);
+  await saveScreenshot(page, 'skin_turned');
+  const same = overlap(onPage, expected.skin, nothing);
+  assert.ok(same.either > 0.02 * onPage.length, `${same.either} pixels`);
+  assert.ok(same.share >= 0.95, `${same.share.toFixed(4)} of the pixels on the page are those of a person who faces x`);
+  const live = await serve(file, ['--loop', '--picture_size', '64x64']);  // a stale picture has a banner
+  const png = await fetch(`${live.url}snapshot.png?camera=${camera}&width=${size.width}&height=${size.height}`);
+  const snapshot = await pixelsOfPng(page, Buffer.from(await png.arrayBuffer()));
+  await live.stop();
+  const sameCamera = await cameraOf(page, camera, size);
+  const drawn = [];
+  for (const options of [[], ['--hide', MARKS], ['--hide', `body,${MARKS}`]]) {
+    drawn.push(await serverPixels(page, file, sameCamera, size, options));
+  }
+  const [marked, unmarked, empty] = drawn;
+  const outside = outsideOf(onPage, size), marks = mask(marked, unmarked);
+  const { share } = overlap(onPage, mask(snapshot, empty), outside.map((isOutside, i) => isOutside | marks[i]));
+  assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels are covered on the page and in the snapshot`);
+  await close();
+  await site.stop();
+});

@@ -1,73 +1,16 @@
 #include "urdf/skin/occlusion.h"
 
 #include <algorithm>
-#include <bitset>
 #include <utility>
 
 #include "urdf/skin/frames.h"
+#include "urdf/skin/limbs.h"
 
 namespace kinescope::skin {
 namespace {
 
 using Eigen::Vector3f;
 using urdf::At;
-
-Limb LimbOfSegment(int segment) {
-  switch (segment) {
-    case urdf::kPelvis: return kPelvisLimb;
-    case urdf::kL5:
-    case urdf::kL3: return kBellyLimb;
-    case urdf::kNeck: return kNeckLimb;
-    case urdf::kHead: return kHeadLimb;
-    case urdf::kRightUpperArm: return kRightUpperArmLimb;
-    case urdf::kRightForeArm: return kRightForeArmLimb;
-    case urdf::kRightHand: return kRightHandLimb;
-    case urdf::kLeftUpperArm: return kLeftUpperArmLimb;
-    case urdf::kLeftForeArm: return kLeftForeArmLimb;
-    case urdf::kLeftHand: return kLeftHandLimb;
-    case urdf::kRightUpperLeg: return kRightThighLimb;
-    case urdf::kRightLowerLeg: return kRightShankLimb;
-    case urdf::kRightFoot:
-    case urdf::kRightToe: return kRightFootLimb;
-    case urdf::kLeftUpperLeg: return kLeftThighLimb;
-    case urdf::kLeftLowerLeg: return kLeftShankLimb;
-    case urdf::kLeftFoot:
-    case urdf::kLeftToe: return kLeftFootLimb;
-    default: return kChestLimb;  // T12, T8, shoulders
-  }
-}
-
-// Those that do not cover each other, because their surfaces go over into one another.
-std::bitset<kLimbs> Merged(Limb limb) {
-  std::bitset<kLimbs> merged;
-  merged.set(limb);
-  const auto with = [&](std::initializer_list<Limb> others) {
-    for (const Limb other : others) merged.set(other);
-  };
-  switch (limb) {
-    case kPelvisLimb: with({kBellyLimb, kChestLimb, kRightThighLimb, kLeftThighLimb}); break;
-    case kBellyLimb: with({kPelvisLimb, kChestLimb}); break;
-    case kChestLimb: with({kPelvisLimb, kBellyLimb, kNeckLimb}); break;
-    case kNeckLimb: with({kChestLimb, kHeadLimb}); break;
-    case kHeadLimb: with({kNeckLimb}); break;
-    case kRightThighLimb:
-    case kLeftThighLimb: with({kPelvisLimb}); break;
-    case kRightHandLimb: with({kRightForeArmLimb}); break;
-    case kLeftHandLimb: with({kLeftForeArmLimb}); break;
-    case kRightFootLimb: with({kRightShankLimb}); break;
-    case kLeftFootLimb: with({kLeftShankLimb}); break;
-    default: break;
-  }
-  return merged;
-}
-
-// Those that are joined: what lies on the one is skin of the other.
-bool AreJoined(Limb a, Limb b) {
-  if (a > b) std::swap(a, b);
-  const bool is_arm = b == kRightUpperArmLimb || b == kLeftUpperArmLimb;
-  const bool is_first_of_limb = is_arm || b == kRightThighLimb || b == kLeftThighLimb;
-  return is_first_of_limb ? a == (is_arm ? kChestLimb : kPelvisLimb) : b == a + 1;
-}
 
 // Vertices at a time, as many as the processor's registers like.
 constexpr Eigen::Index kBlock = 16;
@@ -137,49 +80,16 @@ bool Matters(const Capsule& capsule, const Vector3f& center, float reach) {
 
 Capsules CapsulesOf(const urdf::Skeleton& skeleton, const Build& build,
                     const urdf::LinkPoses& links) {
-  const double size = skeleton.height > 0 ? skeleton.height / urdf::kReferenceHeight : 1;
-  const double more = 1 + 0.16 * build.heavy;
-  const auto end_of = [&](int segment) {
-    const urdf::Pose& link = links[At(segment)];
-    return Eigen::Vector3d(link.position + link.orientation * urdf::EndOf(skeleton, segment));
+  const LimbShapes shapes = LimbShapesOf(skeleton, build);
+  const auto place = [&](const LimbEnd& end) {
+    const urdf::Pose& link = links[At(end.segment)];
+    return Vector3f((link.position + link.orientation * end.point).cast<float>());
   };
-  const auto capsule = [&](const Eigen::Vector3d& start, const Eigen::Vector3d& end,
-                           double start_radius, double end_radius) {
-    return Capsule{start.cast<float>(), end.cast<float>(),
-                   static_cast<float>(size * more * start_radius),
-                   static_cast<float>(size * more * end_radius)};
-  };
-  const auto along = [&](int segment, double start_radius, double end_radius) {
-    return capsule(links[At(segment)].position, end_of(segment), start_radius, end_radius);
-  };
-  const auto at = [&](int segment) { return links[At(segment)].position; };
   Capsules all;
-  all[kPelvisLimb] = capsule(at(urdf::kPelvis), at(urdf::kL5), 0.130, 0.120);
-  all[kBellyLimb] = capsule(at(urdf::kL5), at(urdf::kT12), 0.115, 0.115);
-  all[kChestLimb] =
-      capsule(at(urdf::kT12), 0.4 * at(urdf::kT8) + 0.6 * at(urdf::kNeck), 0.125, 0.110);
-  all[kNeckLimb] = along(urdf::kNeck, 0.055, 0.052);
-  const urdf::Pose& head = links[urdf::kHead];
-  const double head_length = skeleton.head_top_in_head.norm();
-  const auto in_head = [&](double x, double z) {
-    return Eigen::Vector3d(head.position +
-                           head.orientation * Eigen::Vector3d(x, 0, z) * head_length);
-  };
-  all[kHeadLimb] = capsule(in_head(0.10, 0.15), in_head(0, 0.55), 0.062, 0.082);
-  for (const bool is_left : {false, true}) {
-    const int hand = is_left ? urdf::kLeftHand : urdf::kRightHand;
-    const int foot = is_left ? urdf::kLeftFoot : urdf::kRightFoot;
-    const auto arm = static_cast<std::size_t>(is_left ? kLeftUpperArmLimb : kRightUpperArmLimb);
-    const auto leg = static_cast<std::size_t>(is_left ? kLeftThighLimb : kRightThighLimb);
-    all[arm] = along(hand - 2, 0.050, 0.040);
-    all[arm + 1] = along(hand - 1, 0.040, 0.028);
-    all[arm + 2] = along(hand, 0.030, 0.022);
-    all[leg] = along(foot - 2, 0.085, 0.058);
-    all[leg + 1] = along(foot - 1, 0.055, 0.036);
-    const urdf::Pose& ankle = links[At(foot)];
-    const Eigen::Vector3d below =
-        ankle.position + ankle.orientation * Eigen::Vector3d(-0.02, 0, -0.045) * size;
-    all[leg + 2] = capsule(below, end_of(foot + 1), 0.034, 0.020);
+  for (std::size_t i = 0; i < kLimbs; ++i) {
+    const auto& [start, end] = shapes[i];
+    all[i] = {place(start), place(end), static_cast<float>(start.radius),
+              static_cast<float>(end.radius)};
   }
   return all;
 }
@@ -213,13 +123,13 @@ void SetOpenSky(const std::vector<Vector3f>& positions, const std::vector<Vector
       lowest = lowest.cwiseMin(positions[i]);
       highest = highest.cwiseMax(positions[i]);
     }
-    const std::bitset<kLimbs> merged = Merged(run.limb);
     std::vector<std::pair<const Capsule*, bool>> others;  // and whether it is joined
     for (std::size_t limb = 0; limb < kLimbs; ++limb) {
       const float reach = 0.5f * (highest - lowest).norm();
-      if (merged.test(limb)) continue;
+      const Covering covering = CoveringOf(run.limb, static_cast<Limb>(limb));
+      if (covering == Covering::kNone) continue;
       if (Matters(capsules[limb], 0.5f * (lowest + highest), reach)) {
-        others.emplace_back(&capsules[limb], AreJoined(run.limb, static_cast<Limb>(limb)));
+        others.emplace_back(&capsules[limb], covering == Covering::kJoined);
       }
     }
     ForBlocks(

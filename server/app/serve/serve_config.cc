@@ -64,7 +64,9 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
   RosCameraSettings settings;
   const CameraChoice& camera =
       options.ros_view_camera ? (*options.ros_view_camera).front() : options.camera->front();
-  settings.camera = CameraController(camera, {});
+  CameraOptions options_of_ros;
+  options_of_ros.camera_frame = CameraFrame::kWorld;  // as RViz's views
+  settings.camera = CameraController(camera, options_of_ros);
   settings.width = options.ros_view_size->width;
   settings.height = options.ros_view_size->height;
   settings.rate_hz = *options.ros_view_rate_hz;
@@ -93,6 +95,7 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
   config.source.stream.stamps = *options.stamps;
   config.scene = ToShownSceneOptions(options.person, options.loads, *options.stale_secs);
   config.scene.makes_models_aside = true;
+  config.scene.view_frame = *options.camera_moves.camera_frame;
   config.ros_mode = *options.ros;
   if (config.ros_mode == ros_bridge::RosMode::kOff ||
       (config.ros_mode == ros_bridge::RosMode::kAuto && !ros_bridge::BuiltWithRos())) {

@@ -5,6 +5,7 @@ import { execFileSync } from 'node:child_process';
 import test from 'node:test';
 import { readSkin } from '../../../web/skin_buffer.js';
 import { framesOf } from '../../../web/skin_frames.js';
+import { capsulesOf, limbsOfVertices } from '../../../web/skin_limbs.js';
 import { neighboursOf } from '../../../web/skin_surface.js';
 
 const program = process.env.KINESCOPE_PAGE_FIXTURE;
@@ -92,6 +93,47 @@ test('a rigged person of the user has colours, and need not be closed', () => {
   const { ring, first } = neighboursOf(skin.triangles, told.own_skin.vertices);
   assert.ok(ring.length > skin.triangles.length, 'there is a gap');
   assert.equal(first[told.own_skin.vertices], ring.length);
+});
+
+/** The skin with another header. */
+function withHeader(whole, change) {
+  const size = new DataView(whole).getUint32(0, true);
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(whole, 4, size)));
+  change(header);
+  const text = JSON.stringify(header);
+  const bytes = new TextEncoder().encode(text.padEnd(4 * Math.ceil(text.length / 4)));
+  const other = new Uint8Array(4 + bytes.length + whole.byteLength - 4 - size);
+  new DataView(other.buffer).setUint32(0, bytes.length, true);
+  other.set(bytes, 4);
+  other.set(new Uint8Array(whole, 4 + size), 4 + bytes.length);
+  return other.buffer;
+}
+
+test('every limb has vertices that follow each other, and capsules move with the links', () => {
+  const { rig: { limbs, limbOfFrame }, indices, weights } = readSkin(buffers[0], 'skin');
+  const ofVertices = limbsOfVertices(indices, weights, limbOfFrame);
+  assert.equal(new Set(ofVertices).size, limbs.length);
+  const runs = ofVertices.filter((limb, i) => limb !== ofVertices[i - 1]).length;
+  assert.ok(runs < 3 * limbs.length, `${runs} runs of ${limbs.length} limbs`);
+  const [{ links }] = told.skins[0].postures;
+  const moved = links.map(({ position: [x, y, z], quaternion }) => ({ position: [x + 1, y, z], quaternion }));
+  const before = capsulesOf(limbs, links), after = capsulesOf(limbs, moved);
+  before.forEach(({ start, end, startRadius }, i) => {
+    assert.ok(startRadius > 0.01 && start.distanceTo(end) > 0.02 && start.distanceTo(end) < 0.7, `limb ${i}`);
+    assert.ok(Math.abs(after[i].end.x - end.x - 1) < 1e-9);
+  });
+});
+
+test('a skin with unknown limbs is rejected', () => {
+  const [whole] = buffers;
+  assert.ok(readSkin(withHeader(whole, () => {}), 'skin'));
+  for (const change of [
+    (header) => { header.frames.limbs[3] = 17; },
+    (header) => { header.frames.limbs[3] = 0.5; },
+    (header) => { header.limbs.covered_by[2].push(-1); },
+    (header) => { header.limbs.radii_m.pop(); },
+    (header) => { header.limbs.covered_by = []; },
+  ]) assert.throws(() => readSkin(withHeader(whole, change), 'skin'), /unknown limbs; reload/);
 });
 
 test('the vertices around a vertex go once around it', () => {

@@ -9,6 +9,8 @@ const program = process.env.KINESCOPE_PAGE_FIXTURE;
 if (!program) throw new Error('set KINESCOPE_PAGE_FIXTURE to the built page_fixture_server; ctest does it');
 const told = JSON.parse(execFileSync(program, ['describe'], { encoding: 'utf8', maxBuffer: 1 << 24 }));
 
+const HEADER = 72;  // bytes
+
 const toBuffer = (hex) => Uint8Array.from(Buffer.from(hex, 'hex')).buffer;
 const state = toBuffer(told.hex);
 
@@ -45,12 +47,12 @@ test('a state with extra bytes is rejected', () => {
 });
 
 test('a person without links is rejected', () => {
-  const other = new Uint8Array(128);
-  other.set(new Uint8Array(state.slice(0, 128)));
+  const other = new Uint8Array(HEADER + 64);
+  other.set(new Uint8Array(state.slice(0, HEADER + 64)));
   other[3] = 1;       // people
   other[60] = 0;      // objects
-  other.set([0, 0, 0], 64 + 5);  // links, loads, solids
-  other[64 + 60] = 0;            // corners
+  other.set([0, 0, 0], HEADER + 5);  // links, loads, solids
+  other[HEADER + 60] = 0;            // corners
   assert.throws(() => decodeState(other.buffer), /without links/);
 });
 
@@ -63,7 +65,7 @@ test('the error for another protocol version contains the instruction to reload'
 
 test('unknown classes of a newer server are read as unknown', () => {
   const other = new Uint8Array(state.slice(0));
-  const firstLoad = 64 + 64 + 28 * 23;
+  const firstLoad = HEADER + 64 + 28 * 23;
   other[firstLoad + 1] = 200;
   assert.equal(decodeState(other.buffer).people[0].loads[0].loadClass, 'unknown');
 });

@@ -36,6 +36,8 @@
 #include "urdf/rig/rigged_skin.h"
 #include "urdf/skin/bind_pose.h"
 #include "urdf/skin/frames.h"
+#include "urdf/skin/occlusion.h"
+#include "urdf/skin/person_skin.h"
 
 namespace kinescope::http::testing {
 namespace {
@@ -45,6 +47,7 @@ using urdf::At;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::nanoseconds kPeriod{1'000'000'000 / 60};
+constexpr std::size_t kSkyStep = 29;  // of vertices
 
 class PlainFeed final : public PictureFeed {
  public:
@@ -80,7 +83,26 @@ json Numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 json Numbers(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 
-// The buffer of the person's skin, and the frames for random postures as the server computes them.
+// The share of the sky over some of the vertices, in order.
+json OpenSkyToJson(const PersonModel& model, const PersonState& person,
+                   const std::array<const urdf::HandSkeleton*, 2>& gloves,
+                   const std::array<const urdf::FingerPoses*, 2>& fingers) {
+  const urdf::Skeleton& skeleton = model.human.skeleton;
+  const skin::Build build = skin::BuildOf(model.description.sex == urdf::Sex::kFemale,
+                                          skeleton.height, model.description.mass_kg);
+  const skin::SkinTemplate& built_in = skin::BuiltInSkin();
+  skin::PersonSkin::Surface surface;
+  skin::PersonSkin(built_in, build, skeleton, gloves).Pose(person.links, fingers, surface);
+  std::vector<float> open;
+  skin::SetOpenSky(surface.positions, surface.normals, skin::LimbRunsOf(built_in.weights),
+                   skin::CapsulesOf(skeleton, build, person.links), open);
+  json some = json::array();
+  for (std::size_t i = 0; i < open.size(); i += kSkyStep) some.push_back(open[i]);
+  return some;
+}
+
+// The buffer of the person's skin, and frames and sky for random postures as the server computes
+// them.
 json SkinToJson(const PersonState& person) {
   PersonModel model = *person.model;
   model.has_built_in_surface = true;
@@ -118,9 +140,12 @@ json SkinToJson(const PersonState& person) {
       frames.push_back(
           {{"position", Numbers(frame.position)}, {"rotation", Numbers(frame.orientation)}});
     }
-    postures.push_back({{"links", links}, {"frames", frames}});
+    postures.push_back({{"links", links},
+                        {"frames", frames},
+                        {"open", OpenSkyToJson(model, moved, gloves, fingers)}});
   }
-  return {{"hex", Hex({buffer.begin(), buffer.end()})}, {"postures", postures}};
+  return {
+      {"hex", Hex({buffer.begin(), buffer.end()})}, {"sky_step", kSkyStep}, {"postures", postures}};
 }
 
 // As for `--figure skin:FILE`; it is not closed, and seen from both sides.
@@ -143,6 +168,7 @@ json OwnSkinToJson(const PersonState& person) {
 json Describe() {
   SceneState state = MakeScene(41, 3.25, 5'000'000'000, MakePersonModel(7), 2);
   state.waited_nanos = 120'000'000;
+  state.view_heading = -2.25;
   kinescope::testing::Wear(state.people[1]);
   state.objects = {{9, 22, "cart", {{1, -2, 0.5}, {0.5, -0.5, 0.5, 0.5}}, 5}};
   json people = json::array();
@@ -217,6 +243,7 @@ json Describe() {
             {"viewers", 3},
             {"floor", state.floor_z},
             {"waitedMillis", state.waited_nanos / 1'000'000},
+            {"viewHeading", state.view_heading},
             {"people", people},
             {"objects", objects}}},
           {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},

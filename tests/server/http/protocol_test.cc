@@ -102,6 +102,7 @@ TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
   SceneState state = Scene(2);
   state.floor_z = -0.75;
   state.waited_nanos = 3'719'000'000;
+  state.view_heading = -2.5;
   const Bytes bytes = EncodeState(state, 5'004'000'000, 3);
   Reader in(bytes);
   EXPECT_EQ(in.Get<std::uint8_t>(), 1);
@@ -119,6 +120,8 @@ TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
   EXPECT_EQ(in.Get<float>(), -0.75);
   for (int i = 0; i < 2; ++i) EXPECT_EQ(in.Get<std::uint8_t>(), 0) << "objects, padding";
   EXPECT_EQ(in.Get<std::uint16_t>(), 371) << "waited, in 10 ms";
+  EXPECT_EQ(in.Get<float>(), -2.5);
+  EXPECT_EQ(in.Get<std::uint32_t>(), 0) << "padding";
   for (const PersonState& person : state.people) ExpectPerson(in, person, state.floor_z);
   EXPECT_TRUE(in.AtEnd());
 }

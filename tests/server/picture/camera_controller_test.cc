@@ -111,13 +111,18 @@ TEST(CameraController, TurnsWithThePersonOrNotAtAllOnRequest) {
   EXPECT_NEAR(Side(controller.Aim(TurnedScene(70, 9), kAspect)), 70, 0.5);
 }
 
-TEST(CameraController, ShowsTheWorldsViewsLiveUnlessAFrameIsGiven) {
+TEST(CameraController, TurnsLivePicturesByTheHeadingThatThePageHas) {
+  SceneState state = TurnedScene(130);
+  state.view_heading = 40 * M_PI / 180;
   CameraController controller(ParseCamera("front"), {});
-  EXPECT_NEAR(Side(controller.AimLive(TurnedScene(130), kAspect, kAspect)), 0, 1e-6);
+  EXPECT_NEAR(Side(controller.AimLive(state, kAspect, kAspect)), 40, 1e-6);
+  EXPECT_NEAR(Side(controller.OnlyLive(state, kAspect)), 40, 1e-6);
+  EXPECT_NEAR(Side(controller.AimLive(state, kAspect, 0.5)), 40, 1e-6) << "a narrow snapshot";
   CameraOptions options;
-  options.camera_frame = CameraFrame::kStart;
-  CameraController started(ParseCamera("front"), options);
-  EXPECT_NEAR(Side(started.AimLive(TurnedScene(130), kAspect, kAspect)), 130, 0.5);
+  options.camera_frame = CameraFrame::kWorld;
+  CameraController in_world(ParseCamera("front"), options);
+  EXPECT_NEAR(Side(in_world.AimLive(state, kAspect, kAspect)), 0, 1e-6);
+  EXPECT_NEAR(Side(in_world.OnlyLive(state, kAspect)), 0, 1e-6);
 }
 
 TEST(CameraController, MakesOneRevolutionPerClip) {

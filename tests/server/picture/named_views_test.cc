@@ -33,9 +33,10 @@ TEST(NamedViews, MatchTheViewsThatThePageTestsUse) {
   std::map<std::string, int> views;
   for (const auto& view : page.at("views")) {
     const std::string name = view.at("name");
+    const render::Camera of_group =
+        render::NamedCameraAt(name, {Vector3d::Zero(), view.at("radius").get<double>()});
     const render::Camera camera = render::ForAspect(
-        render::NamedCameraAt(name, {Vector3d::Zero(), view.at("radius").get<double>()}),
-        view.at("aspect").get<double>());
+        render::Turned(of_group, view.value("heading", 0.0)), view.at("aspect").get<double>());
     EXPECT_NEAR((camera.position - ToVector(view.at("position"))).norm(), 0, 1e-5) << view;
     EXPECT_NEAR((camera.target - ToVector(view.at("target"))).norm(), 0, 1e-9) << view;
     EXPECT_NEAR((camera.up - ToVector(view.at("up"))).norm(), 0, 1e-9) << view;

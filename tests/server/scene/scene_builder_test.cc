@@ -50,6 +50,30 @@ TEST(SceneBuilder, ReportsNoDataBeforeTheFirstSample) {
   EXPECT_EQ(built.last().source, "test");
 }
 
+TEST(SceneBuilder, HasTheHeadingOfLiveViewsInEveryState) {
+  const auto turned = [](double secs) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(M_PI, Vector3d::UnitZ()));
+    BodySample sample = SampleOf("lift", secs);
+    for (auto& segment : sample.segments) {
+      segment.position = turn * segment.position;
+      segment.orientation = turn * segment.orientation;
+    }
+    return sample;
+  };
+  Built of_files;
+  of_files.builder.OnSample(turned(0));
+  EXPECT_EQ(of_files.last().view_heading, 0);
+  SceneOptions options;
+  options.view_frame = CameraFrame::kStart;
+  Built live(options);
+  live.builder.Start();
+  EXPECT_EQ(live.last().view_heading, 0);
+  for (const double secs : {0.0, 0.1, 0.2}) live.builder.OnSample(turned(secs));
+  EXPECT_NEAR(std::abs(live.last().view_heading), M_PI, 1e-9);
+  live.builder.MarkStale();
+  EXPECT_NEAR(std::abs(live.last().view_heading), M_PI, 1e-9);
+}
+
 TEST(SceneBuilder, ConvertsTheArmsOfTheStreamToLinkFrames) {
   Built built;
   built.builder.OnSample(SampleOf("n_pose", 0));

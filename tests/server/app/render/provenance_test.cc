@@ -167,7 +167,7 @@ TEST(Provenance, ReadsTheFirstSchemaWithItsFormerNamesAndValues) {
   }
   EXPECT_EQ(*plain.view.moves.fit, Fit::kOff);
   EXPECT_EQ(*plain.view.figure, render::Figure::kUrdf) << "there was no skin";
-  EXPECT_EQ(plain.view.moves.camera_frame.value_or(CameraFrame::kStart), CameraFrame::kWorld);
+  EXPECT_EQ(*plain.view.moves.camera_frame, CameraFrame::kWorld);
   const RenderOptions options = OptionsOf(SchemaOne({{"overlay", "+scale,+strip,-lamp"},
                                                      {"show", "frames,axes"},
                                                      {"hide", "held"},

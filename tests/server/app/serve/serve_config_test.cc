@@ -94,6 +94,20 @@ TEST(ServeConfig, AppliesNoOptionsOfTheLivePictureToTheRosCamera) {
   EXPECT_EQ(camera.vertical_fov_rad, render::NamedCamera("front", nobody).vertical_fov_rad);
 }
 
+TEST(ServeConfig, TurnsThePageAndItsPicturesWithThePersonAndTheRosCameraNever) {
+  EXPECT_EQ(ConfigOf({}).scene.view_frame, CameraFrame::kStart);
+  const ServeConfig config = ConfigOf({{"ros", "required"}, {"camera_frame", "person"}});
+  EXPECT_EQ(config.scene.view_frame, CameraFrame::kPerson);
+  SceneState turned;
+  turned.view_heading = 1;
+  const auto moves = [&](const CameraController& camera) {
+    const Eigen::Vector3d before = camera.OnlyLive(SceneState(), 1).position;
+    return (camera.OnlyLive(turned, 1).position - before).norm();
+  };
+  EXPECT_GT(moves(config.pictures->camera), 1);
+  EXPECT_EQ(moves(config.ros_camera->camera), 0);
+}
+
 TEST(ServeConfig, DoesNotRepublishFramesOfARosGraph) {
   const testing::Settings graph = {{"source", "ros:"}, {"ros", "required"}};
   const ServeConfig config = ConfigOf(graph);

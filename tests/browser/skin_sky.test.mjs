@@ -1,0 +1,60 @@
+// How limbs cover the sky over the skin: what the page computes on the graphics card, and what the server computes.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { after, test } from 'node:test';
+import { closeBrowser, openPage, startFixture } from './open_page.mjs';
+
+after(closeBrowser);
+
+/** In the page: the open sky over all vertices in each posture, read from where the skin's material reads it. */
+async function skyOnPage({ hex, postures }) {
+  const here = (file) => import(new URL(file, location.href).href);
+  const [THREE, { readSkin }, { framesOf }, { SkinSurface }] = [
+    await import('three'), await here('skin_buffer.js'), await here('skin_frames.js'), await here('skin_surface.js')];
+  const bytes = Uint8Array.from(hex.match(/../g), (digits) => parseInt(digits, 16));
+  const skin = readSkin(bytes.buffer, 'skin');
+  const surface = new SkinSurface(skin);
+  const renderer = new THREE.WebGLRenderer();
+  const gl = renderer.getContext();
+  const one = new THREE.Vector3(1, 1, 1);
+  const matrix = ({ position, rotation }) => new THREE.Matrix4().compose(position, rotation, one);
+  const fromBind = skin.rig.bind.map((frame) => matrix(frame).invert());
+  return postures.map(({ links }) => {
+    surface.setPosture(framesOf(skin.rig, links).map((frame, i) => matrix(frame).multiply(fromBind[i])), links);
+    surface.pose(renderer);
+    const normals = surface.uniforms.posedNormals.value;
+    const { width, height } = normals.image;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
+    const { __webglTexture: texture } = renderer.properties.get(normals);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
+    const bits = new Uint32Array(4 * width * height);
+    gl.readPixels(0, 0, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_INT, bits);
+    renderer.resetState();
+    const values = new Float32Array(bits.buffer);
+    return Array.from({ length: skin.positions.length / 3 }, (_, i) => values[4 * i + 3]);
+  });
+}
+
+test('limbs cover as much of the sky on the page as in pictures of the server', async () => {
+  const told = JSON.parse(execFileSync(process.env.KINESCOPE_PAGE_FIXTURE, ['describe'],
+    { encoding: 'utf8', maxBuffer: 1 << 26 }));
+  const site = await startFixture();
+  const { page, close } = await openPage(site.url);
+  for (const { hex, postures, sky_step: step } of told.skins) {
+    const shown = await page.evaluate(skyOnPage, { hex, postures: postures.map(({ links }) => ({ links })) });
+    postures.forEach(({ open }, posture) => {
+      let farthest = 0, sum = 0, covered = 0;
+      open.forEach((expected, i) => {
+        const difference = Math.abs(shown[posture][step * i] - expected);
+        farthest = Math.max(farthest, difference);
+        sum += difference;
+        covered += expected < 0.9 ? 1 : 0;
+      });
+      const { length } = open;
+      assert.ok(covered > 0.05 * length, `posture ${posture} covers only ${covered} of ${length}`);
+      assert.ok(farthest < 0.03 && sum / length < 0.003, `posture ${posture}: ${farthest}, on average ${sum / length}`);
+    });
+  }
+  await close();
+  await site.stop();
+});
