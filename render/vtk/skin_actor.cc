@@ -98,9 +98,8 @@ void SkinActor::AddLevel(const Level& level) {
 
 void SkinActor::FindRegions() {
   const skin::SkinTemplate& of = own_ ? *own_ : skin::BuiltInSkin();
-  const std::vector<skin::LoadRegion> regions =
-      skin::LoadRegionsOf(skin_->rest(), of.weights, skin_->triangles(), skin_->bind(),
-                          model_->human.skeleton.height);
+  const std::vector<skin::LoadRegion> regions = skin::LoadRegionsOf(
+      skin_->rest(), of.weights, skin_->triangles(), skin_->bind(), model_->human.skeleton.height);
   std::vector<Eigen::Vector3f> values;
   values.reserve(regions.size());
   for (std::size_t i = 0; i < regions.size(); ++i) {

@@ -58,7 +58,7 @@ class SkinActor {
   std::vector<float> open_;
   skin::Capsules capsules_;
   skin::Build build_;
-  std::vector<skin::Borders> suit_;  // of the built-in skin
+  std::vector<skin::Borders> suit_;                               // of the built-in skin
   vtkNew<vtkFloatArray> positions_, normals_, paint_, open_sky_;  // paint: borders or colours
   vtkNew<vtkFloatArray> regions_;                                 // empty until loads are shown
   std::vector<urdf::Pose> shown_;                                 // the poses of `surface_`

@@ -21,8 +21,8 @@ struct SkinShading {
 /// `regionLook` (rgb; from how far inside the region begins, 2: hidden), `regionRim` (as the rim of
 /// a load sphere; negative: also hatched).
 ShaderText SkinText(const SkinShading& shading);
-/// What `SkinText` reads: `paint` (borders of the suit or a colour), `openSky` and, with loads, `region` (inside, joint, place
-/// across the hatching in m).
+/// What `SkinText` reads: `paint` (borders of the suit or a colour), `openSky` and, with loads,
+/// `region` (inside, joint, place across the hatching in m).
 std::vector<VertexAttribute> SkinAttributes(const SkinShading& shading);
 
 }  // namespace kinescope::render

@@ -73,9 +73,12 @@ json FramesToJson(const urdf::HumanModel& human) {
           0.5, {});
     }
   }
-  return {{"kinds", std::move(kinds)},           {"links", std::move(links)},
-          {"parents", std::move(parents)},       {"shares", std::move(shares)},
-          {"into_bend_m", std::move(into_bend)}, {"up_bone_m", std::move(up_bone)},
+  return {{"kinds", std::move(kinds)},
+          {"links", std::move(links)},
+          {"parents", std::move(parents)},
+          {"shares", std::move(shares)},
+          {"into_bend_m", std::move(into_bend)},
+          {"up_bone_m", std::move(up_bone)},
           {"limbs", std::move(limbs)}};
 }
 

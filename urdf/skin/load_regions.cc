@@ -10,29 +10,29 @@ namespace {
 
 using Eigen::Vector3d;
 
-enum class Limb { kTrunk, kRightArm, kLeftArm, kRightLeg, kLeftLeg };
-constexpr std::size_t kLimbs = 5;
+enum class Part { kTrunk, kRightArm, kLeftArm, kRightLeg, kLeftLeg };
+constexpr std::size_t kParts = 5;
 
-bool IsArm(Limb limb) { return limb == Limb::kRightArm || limb == Limb::kLeftArm; }
+bool IsArm(Part part) { return part == Part::kRightArm || part == Part::kLeftArm; }
 
-Limb LimbOf(int segment) {
-  if (segment >= urdf::kRightUpperArm && segment <= urdf::kRightHand) return Limb::kRightArm;
-  if (segment >= urdf::kLeftUpperArm && segment <= urdf::kLeftHand) return Limb::kLeftArm;
-  if (segment >= urdf::kRightUpperLeg && segment <= urdf::kRightToe) return Limb::kRightLeg;
-  if (segment >= urdf::kLeftUpperLeg && segment <= urdf::kLeftToe) return Limb::kLeftLeg;
-  return Limb::kTrunk;
+Part PartOf(int segment) {
+  if (segment >= urdf::kRightUpperArm && segment <= urdf::kRightHand) return Part::kRightArm;
+  if (segment >= urdf::kLeftUpperArm && segment <= urdf::kLeftHand) return Part::kLeftArm;
+  if (segment >= urdf::kRightUpperLeg && segment <= urdf::kRightToe) return Part::kRightLeg;
+  if (segment >= urdf::kLeftUpperLeg && segment <= urdf::kLeftToe) return Part::kLeftLeg;
+  return Part::kTrunk;
 }
 
 // The one that carries nearly all of the vertex; else the trunk.
-Limb LimbOf(const VertexWeights& vertex) {
+Part PartOf(const VertexWeights& vertex) {
   constexpr int kNearlyAll = 230;  // of 255
-  std::array<int, kLimbs> shares{};
+  std::array<int, kParts> shares{};
   for (std::size_t i = 0; i < kInfluences; ++i) {
-    const Limb limb = LimbOf(Frames()[vertex.frames[i]].segment);
-    shares[static_cast<std::size_t>(limb)] += vertex.weights[i];
+    const Part part = PartOf(Frames()[vertex.frames[i]].segment);
+    shares[static_cast<std::size_t>(part)] += vertex.weights[i];
   }
   const auto largest = std::max_element(shares.begin(), shares.end());
-  return *largest < kNearlyAll ? Limb::kTrunk : static_cast<Limb>(largest - shares.begin());
+  return *largest < kNearlyAll ? Part::kTrunk : static_cast<Part>(largest - shares.begin());
 }
 
 // Half widths, m, of a person of kReferenceHeight.
@@ -44,18 +44,18 @@ const Vector3d kDeltoid(0, 0.060, -0.026), kTrochanter(0, 0.085, -0.058);
 constexpr double kAboveL5S1 = 0.026, kBelowT9T8 = 0.080, kAboveT1C7 = 0.036;
 
 // The distance inside the region of `joint`, as a share of the region's own half width.
-double Inside(int joint, Limb limb, const Vector3d& p, const BindPose& bind, double scale) {
+double Inside(int joint, Part part, const Vector3d& p, const BindPose& bind, double scale) {
   const int segment = urdf::ChildOf(joint);
   const urdf::Pose& link = bind.links[urdf::At(segment)];
-  const Limb own = LimbOf(segment);
+  const Part own = PartOf(segment);
   const auto band = [&](double from_middle, double half) {
-    const bool is_around = own == Limb::kTrunk ? !IsArm(limb) : limb == own;
+    const bool is_around = own == Part::kTrunk ? !IsArm(part) : part == own;
     return is_around ? 1 - std::abs(from_middle) / (half * scale) : -1;
   };
   const auto ball = [&](const Vector3d& middle, double radius) {
     const double outward = urdf::IsLeftJoint(joint) ? 1 : -1;
     const Vector3d center = link.position + scale * middle.cwiseProduct(Vector3d(1, outward, 1));
-    return limb == own || limb == Limb::kTrunk ? 1 - (p - center).norm() / (radius * scale) : -1;
+    return part == own || part == Part::kTrunk ? 1 - (p - center).norm() / (radius * scale) : -1;
   };
   const Vector3d in_link = InLink(link, p), from = p - link.position;
   switch (urdf::JointGroupOf(joint)) {
@@ -96,10 +96,10 @@ std::vector<LoadRegion> LoadRegionsOf(const std::vector<Eigen::Vector3f>& rest,
   const double scale = height > 0 ? height / urdf::kReferenceHeight : 1;
   std::vector<LoadRegion> regions(rest.size());
   for (std::size_t i = 0; i < rest.size(); ++i) {
-    const Limb limb = LimbOf(weights[i]);
+    const Part part = PartOf(weights[i]);
     for (std::size_t joint = 0; joint < urdf::kScoredJointCount; ++joint) {
       const double inside =
-          Inside(urdf::kScoredJoints[joint], limb, rest[i].cast<double>(), bind, scale);
+          Inside(urdf::kScoredJoints[joint], part, rest[i].cast<double>(), bind, scale);
       if (inside > regions[i].inside) {
         regions[i] = {static_cast<std::uint8_t>(joint), static_cast<float>(inside)};
       }
