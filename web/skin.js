@@ -36,7 +36,7 @@ const SUIT = `
 function usePosedVertices(shader, declarations = '') {
   shader.vertexShader = shader.vertexShader
     .replace('#include <common>', `#include <common>${POSED_VERTEX}${declarations}`)
-    .replace('#include <begin_vertex>', 'vec3 transformed = posed(posedPositions).xyz;');
+    .replace('#include <begin_vertex>', 'vec3 transformed = posed(posedPositions);');
 }
 
 export class SkinnedBody {
@@ -99,10 +99,10 @@ export class SkinnedBody {
         varying vec3 suitNormal;
         varying vec2 suitSky;`);
       shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
-        vec4 posedNormal = posed(posedNormals);
+        vec3 posedNormal = posed(posedNormals);
         suitBorders = borderStep * borders;
-        suitNormal = mat3(modelViewMatrix) * posedNormal.xyz;
-        suitSky = vec2(0.5 + 0.5 * posedNormal.z, posedNormal.w);`);
+        suitNormal = mat3(modelViewMatrix) * posedNormal;
+        suitSky = vec2(0.5 + 0.5 * posedNormal.z, posed(posedSky).x);`);
       shader.fragmentShader = shader.fragmentShader
         .replace('#include <common>', `#include <common>${SUIT}`)
         .replace('#include <color_fragment>', '#include <color_fragment>\n  diffuseColor.rgb = suit();')
