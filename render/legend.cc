@@ -138,9 +138,9 @@ void AddThings(const SceneState& state, const SceneLook& look, std::vector<Legen
 
 }  // namespace
 
-SphereRim RimOf(LoadClass load_class) {
-  if (load_class == LoadClass::kHigh) return SphereRim::kDark;
-  return load_class == LoadClass::kUnknown ? SphereRim::kWhite : SphereRim::kNone;
+SphereRim SphereRimOf(LoadClass load_class) {
+  const double rim = RimOf(load_class);
+  return rim > 0 ? SphereRim::kDark : rim < 0 ? SphereRim::kWhite : SphereRim::kNone;
 }
 
 bool LegendRow::operator==(const LegendRow& other) const {
@@ -169,7 +169,7 @@ LegendContent LegendOf(const SceneState& state, const SceneLook& look) {
                             name,
                             range,
                             LegendRow::Symbol::kDisc,
-                            RimOf(load_class)});
+                            SphereRimOf(load_class)});
   };
   if (look.Shows(ScenePart::kLoads)) {
     content.title = kLegendTitle;

@@ -14,7 +14,7 @@ namespace kinescope::render {
 
 /// Of a load sphere: its outer quarter. A second code beside the colour, for grey print.
 enum class SphereRim { kNone, kDark, kWhite };
-SphereRim RimOf(LoadClass load_class);
+SphereRim SphereRimOf(LoadClass load_class);
 
 struct LegendRow {
   enum class Symbol { kDisc, kArrow, kLine, kBox, kGhost };

@@ -46,7 +46,7 @@ const LIGHT = `
 function usePosedVertices(shader, declarations = '') {
   shader.vertexShader = shader.vertexShader
     .replace('#include <common>', `#include <common>${POSED_VERTEX}${declarations}`)
-    .replace('#include <begin_vertex>', 'vec3 transformed = posed(posedPositions).xyz;');
+    .replace('#include <begin_vertex>', 'vec3 transformed = posed(posedPositions);');
 }
 
 export class SkinnedBody {
@@ -109,10 +109,10 @@ export class SkinnedBody {
         varying vec3 suitNormal;
         varying vec2 suitSky;`);
       shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
-        vec4 posedNormal = posed(posedNormals);
+        vec3 posedNormal = posed(posedNormals);
         suitPaint = paint;
-        suitNormal = mat3(modelViewMatrix) * posedNormal.xyz;
-        suitSky = vec2(0.5 + 0.5 * posedNormal.z, posedNormal.w);`);
+        suitNormal = mat3(modelViewMatrix) * posedNormal;
+        suitSky = vec2(0.5 + 0.5 * posedNormal.z, posed(posedSky).x);`);
       shader.fragmentShader = shader.fragmentShader
         .replace('#include <common>', `#include <common>${LIGHT}${paintedColor}`)
         .replace('#include <color_fragment>', '#include <color_fragment>\n  diffuseColor.rgb = mix(paintedColor(suitPaint), staleColor, stale);')

@@ -1,18 +1,21 @@
-// Poses a skin on the graphics card: a pass that writes the position of each vertex into a texture, and one that writes
-// its normal, the mean of the triangles around it by area, and how much of the sky it sees, as the server does. Materials
-// read both textures. They hold the bits of floats as integers, because every WebGL 2 can draw into those.
+// Poses a skin on the graphics card: a pass that writes the position of each vertex into a texture, one that writes its
+// normal, the mean of the triangles around it by area, and one that writes how much of the sky it sees, as the server
+// does. Materials read these textures. They hold the bits of floats as integers, because every WebGL 2 can draw into
+// those.
 import * as THREE from 'three';
 import { coversOf, emptyCapsules, limbsOfVertices, openSky, setCapsules } from './skin_limbs.js';
 
 const WIDTH = 256;  // of the textures, texels
 const RING_WIDTH = 1024;
+/** The sky is computed for every third posture: it changes slowly, and takes a software renderer longer than all else. */
+const SKY_PERIOD = 3;
 
-/** GLSL: the posed position of the vertex `gl_VertexID`, and its normal with the share of the sky that no limb covers,
- *  in the uniforms of SkinSurface. */
+/** GLSL: the posed position and normal of the vertex `gl_VertexID`, and the share of the sky that no limb covers (x), in
+ *  the uniforms of SkinSurface. */
 export const POSED_VERTEX = `
-  uniform highp usampler2D posedPositions, posedNormals;
-  vec4 posed(highp usampler2D values) {
-    return uintBitsToFloat(texelFetch(values, ivec2(gl_VertexID % ${WIDTH}, gl_VertexID / ${WIDTH}), 0));
+  uniform highp usampler2D posedPositions, posedNormals, posedSky;
+  vec3 posed(highp usampler2D values) {
+    return uintBitsToFloat(texelFetch(values, ivec2(gl_VertexID % ${WIDTH}, gl_VertexID / ${WIDTH}), 0).xyz);
   }`;
 
 const FULL_SCREEN = `
@@ -38,12 +41,10 @@ const POSITIONS = `
     bits = uvec4(floatBitsToUint(sum), 0u);
   }`;
 
-/** @param {number} limbs */
-const normals = (limbs) => `
+const NORMALS = `
   uniform highp sampler2D rest;
-  uniform sampler2D limbs;
   uniform highp usampler2D posedPositions, ring;
-  out highp uvec4 bits;${openSky(limbs)}
+  out highp uvec4 bits;
   vec3 positionOf(int vertex) {
     return uintBitsToFloat(texelFetch(posedPositions, ivec2(vertex % ${WIDTH}, vertex / ${WIDTH}), 0).xyz);
   }
@@ -64,9 +65,20 @@ const normals = (limbs) => `
         before = next;
       }
     }
-    vec3 normal = normalize(sum + vec3(0.0, 0.0, 1e-20));
+    bits = uvec4(floatBitsToUint(normalize(sum + vec3(0.0, 0.0, 1e-20))), 0u);
+  }`;
+
+/** @param {number} limbs */
+const skyOf = (limbs) => `
+  uniform sampler2D limbs;
+  uniform highp usampler2D posedPositions, posedNormals;
+  out highp uvec4 bits;${openSky(limbs)}
+  void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec3 position = uintBitsToFloat(texelFetch(posedPositions, at, 0).xyz);
+    vec3 normal = uintBitsToFloat(texelFetch(posedNormals, at, 0).xyz);
     int limb = int(255.0 * texelFetch(limbs, at, 0).x + 0.5);
-    bits = floatBitsToUint(vec4(normal, openSky(own, normal, limb)));
+    bits = uvec4(floatBitsToUint(openSky(position, normal, limb)), 0u, 0u, 0u);
   }`;
 
 /** The vertices around each vertex, counter-clockwise from outside, one vertex after another. Where the triangles
@@ -174,6 +186,8 @@ export class SkinSurface {
   uniforms;
   #positions;
   #normals;
+  #sky;
+  #posed = 0;  // postures
   #limbs;
   #frames;
   #capsules;
@@ -206,8 +220,10 @@ export class SkinSurface {
     };
     this.#positions = target(rows);
     this.#normals = target(rows);
+    this.#sky = target(rows);
     this.uniforms = {
       posedPositions: { value: this.#positions.texture }, posedNormals: { value: this.#normals.texture },
+      posedSky: { value: this.#sky.texture },
     };
     const { rest: restTexture, ring: ringTexture, limbs, ...others } = this.#textures;
     const pass = (/** @type {string} */ fragmentShader,
@@ -220,11 +236,15 @@ export class SkinSurface {
     this.#passes = [
       { material: pass(POSITIONS, { rest: restTexture, ...others }), into: this.#positions },
       {
-        material: pass(normals(rig.limbs.length), {
-          rest: restTexture, ring: ringTexture, limbs, posedPositions: this.#positions.texture,
+        material: pass(NORMALS, { rest: restTexture, ring: ringTexture, posedPositions: this.#positions.texture }),
+        into: this.#normals,
+      },
+      {
+        material: pass(skyOf(rig.limbs.length), {
+          limbs, posedPositions: this.#positions.texture, posedNormals: this.#normals.texture,
           capsules: this.#capsules, covers: coversOf(rig.limbs),
         }),
-        into: this.#normals,
+        into: this.#sky,
       },
     ];
     this.#screen.frustumCulled = false;
@@ -251,7 +271,8 @@ export class SkinSurface {
     const { autoClear } = renderer;
     const before = renderer.getRenderTarget();
     renderer.autoClear = false;  // integers cannot be cleared by a colour
-    for (const { material, into } of this.#passes) {
+    const hasSky = this.#posed++ % SKY_PERIOD === 0;
+    for (const { material, into } of hasSky ? this.#passes : this.#passes.slice(0, 2)) {
       this.#screen.material = material;
       renderer.setRenderTarget(into);
       renderer.render(this.#screen, this.#camera);

@@ -20,18 +20,20 @@ async function skyOnPage({ hex, postures }) {
   const matrix = ({ position, rotation }) => new THREE.Matrix4().compose(position, rotation, one);
   const fromBind = skin.rig.bind.map((frame) => matrix(frame).invert());
   return postures.map(({ links }) => {
-    surface.setPosture(framesOf(skin.rig, links).map((frame, i) => matrix(frame).multiply(fromBind[i])), links);
-    surface.pose(renderer);
-    const normals = surface.uniforms.posedNormals.value;
-    const { width, height } = normals.image;
+    for (let i = 0; i < 3; ++i) {  // the sky is computed for every third posture
+      surface.setPosture(framesOf(skin.rig, links).map((frame, k) => matrix(frame).multiply(fromBind[k])), links);
+      surface.pose(renderer);
+    }
+    const sky = surface.uniforms.posedSky.value;
+    const { width, height } = sky.image;
     gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
-    const { __webglTexture: texture } = renderer.properties.get(normals);
+    const { __webglTexture: texture } = renderer.properties.get(sky);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
     const bits = new Uint32Array(4 * width * height);
     gl.readPixels(0, 0, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_INT, bits);
     renderer.resetState();
     const values = new Float32Array(bits.buffer);
-    return Array.from({ length: skin.positions.length / 3 }, (_, i) => values[4 * i + 3]);
+    return Array.from({ length: skin.positions.length / 3 }, (_, i) => values[4 * i]);
   });
 }
 
