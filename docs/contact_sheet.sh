@@ -59,6 +59,12 @@ tile "always the same distance: --fit off" demo:lift --time 1.4 --fit off --over
 tile "four views" demo:walk --time 3.3 --views 2x2 --overlay title,names
 at "the rigid parts of the URDF, as in RViz" 2.9 --figure urdf --overlay title
 at "a colour of one's own" 2.9 --body_color "#5b8bd0" --overlay title
+at "load on the skin" 2.9 --loads skin --overlay title
+at "one colour" 2.9 --style clay --overlay title
+at "lines" 2.9 --style line --overlay title
+at "lines and load, white" 1.2 --style line --loads skin --background white --floor off --hide com,cop,support,forces --overlay title
+tile "three moments" demo:lift --views time:0,1.2,2.9 --legend below --overlay title,legend
+at "legend outside" 2.9 --legend outside --overlay title,legend
 at "dark" 2.9 --theme dark --hand_load both:8
 at "white, without floor" 2.9 --background white --floor off --hand_load both:8 --overlay title
 at "no load in the hands" 2.9
