@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/vec4.hpp>
-
-#include "render/camera/camera_matrices.h"
 
 namespace kinescope::render {
 namespace {
@@ -49,6 +46,13 @@ void Keep(const std::vector<Point>& points, std::size_t first, std::size_t last,
   }
 }
 
+// Along the view axis, of a depth that OpenGL has drawn.
+double MetresOf(double depth, const Camera& camera) {
+  const double range = camera.far_m - camera.near_m;
+  if (camera.is_orthographic()) return camera.near_m + depth * range;
+  return camera.near_m * camera.far_m / (camera.far_m - depth * range);
+}
+
 std::vector<Point> Simplified(const std::vector<Point>& points) {
   std::vector<bool> is_kept(points.size(), false);
   const std::size_t last = points.size() - 1, middle = last / 2;  // a loop has no length
@@ -66,22 +70,10 @@ std::vector<Point> Simplified(const std::vector<Point>& points) {
 
 VisibleLines::VisibleLines(const std::vector<SpaceLine>& lines, const Camera& camera, int width,
                            int height)
-    : shortest_(kShortest * height) {
-  const glm::dmat4 view = ViewFromWorld(camera);
-  const glm::dmat4 clip = ClipFromView(camera, static_cast<double>(width) / height);
+    : camera_(camera), shortest_(kShortest * height) {
   const auto sample = [&](const Eigen::Vector3f& p) -> Sample {
-    glm::dvec4 in_view = view * glm::dvec4(p.x(), p.y(), p.z(), 1);
-    const double distance = camera.is_orthographic() ? 1 : std::max(-in_view.z, 1e-6);
-    const double nearer = kNearer / distance;
-    if (camera.is_orthographic()) {
-      in_view.z += kNearer;
-    } else {
-      in_view = glm::dvec4((1 - nearer) * glm::dvec3(in_view), 1);
-    }
-    const glm::dvec4 at = clip * in_view;
-    if (at.w <= 0) return {0, 0, -1};
-    return {(0.5 + 0.5 * at.x / at.w) * width, (0.5 - 0.5 * at.y / at.w) * height,
-            0.5 + 0.5 * at.z / at.w};
+    const Projected at = Project(p.cast<double>(), camera, width, height);
+    return {at.x_px, at.y_px, at.depth_m - kNearer};
   };
   for (const SpaceLine& each : lines) {
     Track track{{}, each.kind, each.line.is_loop};
@@ -96,7 +88,7 @@ VisibleLines::VisibleLines(const std::vector<SpaceLine>& lines, const Camera& ca
         for (int step = 1; step < steps; ++step) {
           const double t = static_cast<double>(step) / steps;
           track.samples.push_back({from.x + t * (next.x - from.x), from.y + t * (next.y - from.y),
-                                   from.depth + t * (next.depth - from.depth)});
+                                   from.depth_m + t * (next.depth_m - from.depth_m)});
         }
       }
       track.samples.push_back(next);
@@ -116,15 +108,15 @@ void VisibleLines::Judge(const Tile& part, int supersample, const std::vector<fl
                             static_cast<std::size_t>(column)]);
       }
     }
-    return static_cast<double>(farthest);
+    return MetresOf(farthest, camera_);
   };
   for (Track& track : tracks_) {
     for (Sample& sample : track.samples) {
       const double x = (sample.x - part.x) * supersample;
       const double y = rows - (sample.y - part.y) * supersample;
       const bool is_inside = x >= 0 && x < columns && y >= 0 && y < rows;
-      if (!is_inside || sample.depth < 0 || sample.depth > 1) continue;
-      sample.is_seen = sample.depth <= farthest_near(static_cast<int>(x), static_cast<int>(y));
+      if (!is_inside || sample.depth_m < camera_.near_m) continue;
+      sample.is_seen = sample.depth_m <= farthest_near(static_cast<int>(x), static_cast<int>(y));
     }
   }
 }

@@ -32,8 +32,8 @@ class VisibleLines {
 
  private:
   struct Sample {
-    double x, y;   // px, y downwards
-    double depth;  // 0..1; outside: behind the camera
+    double x, y;     // px, y downwards
+    double depth_m;  // along the view axis
     bool is_seen = false;
   };
   struct Track {
@@ -41,6 +41,7 @@ class VisibleLines {
     LineKind kind;
     bool is_loop;
   };
+  Camera camera_;
   double shortest_;  // px, of a line that is drawn
   std::vector<Track> tracks_;
 };

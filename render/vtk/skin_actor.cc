@@ -8,7 +8,6 @@
 #include "core/person_links.h"
 #include "render/shape/coarser_mesh.h"
 #include "render/vtk/float_array.h"
-#include "urdf/segments.h"
 #include "urdf/skin/load_regions.h"
 
 namespace kinescope::render {
@@ -112,20 +111,18 @@ void SkinActor::FindRegions() {
 
 void SkinActor::ShowLoads(const std::vector<JointLoad>& loads, ShadedActor& shaded) {
   constexpr float kHidden = 2;
-  constexpr int kCount = static_cast<int>(urdf::kScoredJointCount);
+  constexpr int kCount = static_cast<int>(skin::kRegions);
   float looks[kCount][4] = {}, rims[kCount] = {};
   for (float(&look)[4] : looks) look[3] = kHidden;
   for (const JointLoad& load : loads) {
-    const auto found =
-        std::find(urdf::kScoredJoints.begin(), urdf::kScoredJoints.end(), load.joint);
-    if (found == urdf::kScoredJoints.end()) continue;
-    const auto index = found - urdf::kScoredJoints.begin();
+    const auto region = skin::RegionOf(load.joint);
+    if (!region) continue;
     const Rgb color = ColorOf(load.load_class);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      looks[index][channel] = static_cast<float>(color[channel]);
+      looks[*region][channel] = static_cast<float>(color[channel]);
     }
-    looks[index][3] = static_cast<float>(1 - SizeOf(load.load_class));
-    rims[index] = static_cast<float>(RimOf(load.load_class));
+    looks[*region][3] = static_cast<float>(1 - SizeOf(load.load_class));
+    rims[*region] = static_cast<float>(RimOf(load.load_class));
   }
   shaded.uniforms().SetUniform4fv("regionLook", kCount, looks);
   shaded.uniforms().SetUniform1fv("regionRim", kCount, rims);

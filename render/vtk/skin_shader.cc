@@ -3,7 +3,7 @@
 #include <string>
 #include <tuple>
 
-#include "urdf/segments.h"
+#include "urdf/skin/load_regions.h"
 
 namespace kinescope::render {
 namespace {
@@ -88,7 +88,7 @@ ShaderText SkinText(const SkinShading& shading) {
   }
   text.fragment += "vec3 color = suit * light;\n";
   if (shading.has_loads) {
-    const std::string count = "[" + std::to_string(urdf::kScoredJointCount) + "];\n";
+    const std::string count = "[" + std::to_string(skin::kRegions) + "];\n";
     text.vertex_declarations += "out vec3 regionVS;\n";
     text.vertex += "  regionVS = region;\n";
     text.fragment_declarations +=

@@ -17,7 +17,7 @@ struct SkinShading {
 };
 
 /// Uniforms of all: `topColor`, `trousersColor`, `shoesColor`, `bareColor`, `bandColor`,
-/// `overrideColor` (rgb, share), `opacityFactor`. With loads, by index of urdf::kScoredJoints:
+/// `overrideColor` (rgb, share), `opacityFactor`. With loads, by region (skin::RegionOf):
 /// `regionLook` (rgb; from how far inside the region begins, 2: hidden), `regionRim` (as the rim of
 /// a load sphere; negative: also hatched).
 ShaderText SkinText(const SkinShading& shading);

@@ -43,6 +43,7 @@ class MarkerDrawing : public ::testing::Test {
   MarkerDrawing() {
     spec_.width = kWidth;
     spec_.height = kHeight;
+    spec_.parts.legend = false;  // which names the markers
     std::ofstream(folder_ / "box.stl", std::ios::binary) << kinescope::testing::BoxStl();
   }
   std::vector<SceneMarker> All() const {

@@ -1,6 +1,7 @@
 #include "urdf/skin/load_regions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "urdf/skin/frames.h"
@@ -35,16 +36,15 @@ Part PartOf(const VertexWeights& vertex) {
   return *largest < kNearlyAll ? Part::kTrunk : static_cast<Part>(largest - shares.begin());
 }
 
-// Half widths, m, of a person of kReferenceHeight.
-constexpr double kLowBelt = 0.036, kChest = 0.032, kCollar = 0.027, kShoulder = 0.088,
-                 kElbow = 0.048, kWrist = 0.030, kHip = 0.104, kKnee = 0.066, kAnkle = 0.034;
-// The middle of a region, in the axes of the world, y outwards, from the joint: on the deltoid, on
-// the greater trochanter; above the iliac crest, below the armpits, above the collar.
-const Vector3d kDeltoid(0, 0.060, -0.026), kTrochanter(0, 0.085, -0.058);
-constexpr double kAboveL5S1 = 0.026, kBelowT9T8 = 0.080, kAboveT1C7 = 0.036;
-
 // The distance inside the region of `joint`, as a share of the region's own half width.
 double Inside(int joint, Part part, const Vector3d& p, const BindPose& bind, double scale) {
+  // Half widths, m, of a person of kReferenceHeight.
+  constexpr double kLowBelt = 0.036, kChest = 0.032, kCollar = 0.027, kShoulder = 0.088,
+                   kElbow = 0.048, kWrist = 0.030, kHip = 0.104, kKnee = 0.066, kAnkle = 0.034;
+  // The middle of a region, in the axes of the world, y outwards, from the joint: on the deltoid,
+  // on the greater trochanter; above the iliac crest, below the armpits, above the collar.
+  static const Vector3d kDeltoid(0, 0.060, -0.026), kTrochanter(0, 0.085, -0.058);
+  constexpr double kAboveL5S1 = 0.026, kBelowT9T8 = 0.080, kAboveT1C7 = 0.036;
   const int segment = urdf::ChildOf(joint);
   const urdf::Pose& link = bind.links[urdf::At(segment)];
   const Part own = PartOf(segment);
@@ -88,6 +88,13 @@ void KeepApart(const Triangle& t, std::vector<LoadRegion>& regions) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> RegionOf(int joint) {
+  const auto& joints = urdf::kScoredJoints;
+  const auto found = std::find(joints.begin(), joints.end(), joint);
+  if (found == joints.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - joints.begin());
+}
 
 std::vector<LoadRegion> LoadRegionsOf(const std::vector<Eigen::Vector3f>& rest,
                                       const std::vector<VertexWeights>& weights,

@@ -3,17 +3,24 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "urdf/segments.h"
 #include "urdf/skin/bind_pose.h"
 #include "urdf/skin/skin_template.h"
 
 namespace kinescope::skin {
 
+inline constexpr std::size_t kRegions = urdf::kScoredJointCount;
+/// Index of the region of `joint` (urdf::Joint); nullopt if its load is not computed.
+std::optional<std::size_t> RegionOf(int joint);
+
 /// Of a vertex.
 struct LoadRegion {
-  std::uint8_t joint = 0;  // index of urdf::kScoredJoints: the nearest region's
+  std::uint8_t joint = 0;  // index of urdf::kScoredJoints, of the nearest region
   /// How far the vertex is inside of it: 1 in its middle, 0 on its border, -1 at most. Wherever a
   /// triangle's vertices have different joints, all of them are outside.
   float inside = -1;

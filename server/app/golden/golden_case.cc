@@ -125,6 +125,10 @@ GoldenCase LoadGoldenCase(const fs::path& yaml) {
   options::YamlOptions(yaml.string()).SetAll(list);
   for (const std::string& warning : list.warnings()) spdlog::warn(warning);
   if (golden_case.source->empty()) throw UsageError(yaml.string() + ": source is missing");
+  if (*golden_case.view.loads == render::LoadsShown::kSkin) {
+    throw UsageError(yaml.string() +
+                     ": loads: skin hides the load spheres, which are compared; use both");
+  }
   if (!IsSubjectUrl(*golden_case.source)) {
     golden_case.source = (yaml.parent_path() / *golden_case.source).string();
   }

@@ -43,6 +43,11 @@ TEST_F(GoldenCaseFile, RejectsAnInvalidTime) {
   EXPECT_EQ(Complaint("source: demo:lift\ntime: 864000\n"), "");
 }
 
+TEST_F(GoldenCaseFile, RejectsACaseWithoutTheSpheresThatAreCompared) {
+  EXPECT_THAT(Complaint("source: demo:lift\nloads: skin\n"), HasSubstr("use both"));
+  EXPECT_EQ(Complaint("source: demo:lift\nloads: both\n"), "");
+}
+
 TEST_F(GoldenCaseFile, RejectsATimeThatTheBuiltInSubjectReachesTooLate) {
   const GoldenCase golden_case = Load("source: demo:lift\ntime: 864000\nsize: 16x16\n");
   kinescope::testing::FakeRenderer renderer;
