@@ -66,7 +66,7 @@ struct DrawingModule {
   ModuleAbi<SceneState, PersonState, PersonModel, urdf::Landmark, urdf::AddedMass, JointLoad,
             TrackedObject, LeftOutPerson, RobotState, urdf::RobotModel, urdf::Link, urdf::Visual,
             urdf::Collision, urdf::RobotJoint, urdf::MeshSearch, SceneMarker, Camera, SceneLook,
-            Trail, Ghost, Image, Label, DrawnLine, Driver>
+            Trail, Ghost, Image, Label, DrawnLine, DrawnScene, Driver>
       abi;
   /// `backend`: one of those in the module.
   std::unique_ptr<Drawing> (*make)(const std::string& backend, const LogLine& log);
