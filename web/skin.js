@@ -115,7 +115,8 @@ export class SkinnedBody {
         suitSky = vec2(0.5 + 0.5 * posedNormal.z, posed(posedSky).x);`);
       shader.fragmentShader = shader.fragmentShader
         .replace('#include <common>', `#include <common>${LIGHT}${paintedColor}`)
-        .replace('#include <color_fragment>', '#include <color_fragment>\n  diffuseColor.rgb = mix(paintedColor(suitPaint), staleColor, stale);')
+        .replace('#include <color_fragment>', `#include <color_fragment>
+          diffuseColor.rgb = mix(paintedColor(suitPaint), staleColor, stale);`)
         .replace('#include <fog_fragment>', `gl_FragColor.rgb *= lightOnSkin(normalize(gl_FrontFacing ? suitNormal : -suitNormal), suitSky);
           #include <fog_fragment>`);
     };
