@@ -14,11 +14,6 @@ namespace {
 constexpr std::size_t kMostNames = 4;  // of robots, and of markers; the others are counted
 constexpr double kBoxRadius = 5, kLineRadius = 8;
 
-// Then there is no stream to tell of, and no load.
-bool HasNoPeopleButRobots(const SceneState& state) {
-  return state.people.empty() && !state.robots.empty();
-}
-
 // Whether the body mass of any person is assumed: the loads are only as good as that assumption.
 const PersonState* WithAssumedMass(const SceneState& state) {
   for (const PersonState& person : state.people) {
@@ -138,6 +133,10 @@ void AddThings(const SceneState& state, const SceneLook& look, std::vector<Legen
 
 }  // namespace
 
+bool HasOnlyRobots(const SceneState& state) {
+  return state.people.empty() && !state.robots.empty();
+}
+
 SphereRim SphereRimOf(LoadClass load_class) {
   const double rim = RimOf(load_class);
   return rim > 0 ? SphereRim::kDark : rim < 0 ? SphereRim::kWhite : SphereRim::kNone;
@@ -159,7 +158,7 @@ void LegendContent::Add(const LegendContent& other) {
 
 LegendContent LegendOf(const SceneState& state, const SceneLook& look) {
   LegendContent content;
-  if (HasNoPeopleButRobots(state)) return content;
+  if (HasOnlyRobots(state)) return content;
   const std::string medium = fmt::format("{:.3g} %", 100 * state.class_limits[0]);
   const std::string high = fmt::format("{:.3g} %", 100 * state.class_limits[1]);
   const auto add_class = [&](LoadClass load_class, double radius, const char* name,

@@ -12,6 +12,9 @@
 
 namespace kinescope::render {
 
+/// Then there is no stream to tell of, and no load.
+bool HasOnlyRobots(const SceneState& state);
+
 /// Of a load sphere: its outer quarter. A second code beside the colour, for grey print.
 enum class SphereRim { kNone, kDark, kWhite };
 SphereRim SphereRimOf(LoadClass load_class);

@@ -6,6 +6,7 @@
 
 #include "core/system/clocks.h"
 #include "render/frame_code.h"
+#include "render/legend.h"
 #include "render/overlay_legend.h"
 #include "render/overlay_legend_beside.h"
 #include "render/overlay_plot.h"
@@ -15,10 +16,6 @@ namespace kinescope::render {
 namespace {
 
 constexpr Rgb kWarningLamp{0.90, 0.60, 0.05};
-// Then there is no stream to tell of, and no load.
-bool HasOnlyRobots(const SceneState& state) {
-  return state.people.empty() && !state.robots.empty();
-}
 
 }  // namespace
 

@@ -74,7 +74,7 @@ std::vector<FreeArea> FreeAreasOf(const PictureSpec& spec, const std::vector<Til
       const bool is_there = covered.left < covered.right && covered.top < covered.bottom;
       if (is_there) CutOut(covered, area);
     }
-    // The name of a view is below its upper edge, or below what is there.
+    // The name of a view is at its upper edge, or below the overlays at that edge.
     if (views.size() > 1 && spec.overlays) {
       OverlayFonts fonts;
       area.free.top += 2.2 * SizesOf(spec, fonts).FontPx(kSmallSize) / view.height;

@@ -123,22 +123,20 @@ bool Covers(const Place& place, const std::vector<Ball>& balls, double aspect,
   });
 }
 
-// `window` without a corner: beside it, or above or below it.
-Window Beside(Window window, const Window& corner) {
-  if (corner.left + corner.right < 0) {
-    window.left = std::max(window.left, corner.right);
+// `window` without a corner, along one axis: `low` and `high` are its ends.
+Window Past(const Window& corner, double Window::*low, double Window::*high, Window window) {
+  if (corner.*low + corner.*high < 0) {
+    window.*low = std::max(window.*low, corner.*high);
   } else {
-    window.right = std::min(window.right, corner.left);
+    window.*high = std::min(window.*high, corner.*low);
   }
   return window;
 }
-Window AboveOrBelow(Window window, const Window& corner) {
-  if (corner.down + corner.up < 0) {
-    window.down = std::max(window.down, corner.up);
-  } else {
-    window.up = std::min(window.up, corner.down);
-  }
-  return window;
+Window Beside(const Window& window, const Window& corner) {
+  return Past(corner, &Window::left, &Window::right, window);
+}
+Window AboveOrBelow(const Window& window, const Window& corner) {
+  return Past(corner, &Window::down, &Window::up, window);
 }
 
 // Beside or above each corner that is in the way: whichever shows things larger. `depth`: of their

@@ -32,17 +32,17 @@ void Join(std::vector<Node>& nodes, std::size_t a, std::size_t b) {
 // From `first` along the links to the end.
 SurfaceLine LineFrom(std::vector<Node>& nodes, std::size_t first) {
   SurfaceLine line;
-  std::size_t at = first;
+  std::size_t at = first, last = first;
   while (at != kNone && !nodes[at].is_taken) {
     nodes[at].is_taken = true;
     line.points.push_back(nodes[at].point);
     const auto& beside = nodes[at].beside;
     const bool is_first_free = beside[0] != kNone && !nodes[beside[0]].is_taken;
-    const std::size_t next = is_first_free ? beside[0] : beside[1];
-    const bool is_back = next != kNone && nodes[next].is_taken;
-    line.is_loop = is_back && line.points.size() > 2 && (beside[0] == first || beside[1] == first);
-    at = next;
+    last = at;
+    at = is_first_free ? beside[0] : beside[1];
   }
+  const auto& beside = nodes[last].beside;
+  line.is_loop = line.points.size() > 2 && (beside[0] == first || beside[1] == first);
   return line;
 }
 

@@ -239,8 +239,8 @@ void PersonActors::UpdateMarks(const PersonState& person, bool has_spheres, cons
   const double size = height > 0 ? height / urdf::kReferenceHeight : 1;
   looks_.clear();
   for (const JointLoad& load : person.loads) {
-    if (!has_spheres || looks_.size() + 1 == kSphereCapacity)
-      break;  // the last one is for the centre of mass
+    // The last one is for the centre of mass.
+    if (!has_spheres || looks_.size() + 1 == kSphereCapacity) break;
     looks_.push_back({load.position, SphereRadius(load.joint, load.load_class, height),
                       SphereDepth(load.joint, height), ColorOf(load.load_class),
                       RimOf(load.load_class)});

@@ -148,10 +148,10 @@ bool SkinActor::Update(const PersonState& person,
     AddLevel(level);
     is_changed = true;
   }
-  for (const auto& [each, other] : levels_) {
-    other->actor()->SetVisibility(is_visible_ && other == levels_[level]);
-  }
   ShadedActor& shaded = *levels_[level];
+  for (const auto& [each, other] : levels_) {
+    other->actor()->SetVisibility(is_visible_ && other.get() == &shaded);
+  }
   if (!own_) {
     const SuitColors& colors = model_->suit;
     shaded.SetColor("topColor", colors.top);
