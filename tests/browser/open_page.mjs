@@ -47,8 +47,18 @@ async function within(millis, what, work) {
   }
 }
 
+const running = new Set();  // programs that a test has not stopped
+
+/** What a failed test leaves would keep Node from ending: it ends with `closeBrowser`.
+ *  @param {import('node:child_process').ChildProcess} child */
+export function endWithTests(child) {
+  running.add(child);
+  child.once('exit', () => running.delete(child));
+}
+
 /** Call once when all tests are through. */
 export async function closeBrowser() {
+  for (const child of running) child.kill('SIGKILL');
   if (browser) await within(PATIENCE_MILLIS, 'closing Chromium', browser.close());
   browser = null;
 }
@@ -58,6 +68,7 @@ export async function closeBrowser() {
  *  @param {string[]} args */
 export async function startServer(program, args = []) {
   const child = spawn(program, args, { stdio: ['pipe', 'pipe', 'inherit'] });
+  endWithTests(child);
   const lines = createInterface({ input: child.stdout });
   const timer = setTimeout(() => child.kill('SIGKILL'), PATIENCE_MILLIS);
   const [line] = await Promise.race([

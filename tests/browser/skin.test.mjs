@@ -9,7 +9,7 @@ import { createInterface } from 'node:readline';
 import { after, before, test as nodeTest } from 'node:test';
 import { aim, groundOf } from '../../web/cameras.js';
 import { decodeState } from '../../web/state_codec.js';
-import { closeBrowser, openPage, pixelsOf, pixelsOfPng, saveScreenshot } from './open_page.mjs';
+import { closeBrowser, endWithTests, openPage, pixelsOf, pixelsOfPng, saveScreenshot } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -49,6 +49,7 @@ async function record(motion, seconds, person, change = (frame) => frame) {
 async function serve(file, options) {
   const args = ['serve', '--source', file, '--ros', 'off', '--http_port', '0', ...options];
   const child = spawn(kinescope, args, { stdio: ['ignore', 'ignore', 'pipe'] });
+  endWithTests(child);
   const lines = createInterface({ input: child.stderr });
   let url = null;
   for await (const line of lines) {
@@ -210,6 +211,10 @@ test('a person who faces -x is shown from the front, on the page and in a snapsh
   assert.ok(same.either > 0.02 * onPage.length, `${same.either} pixels`);
   assert.ok(same.share >= 0.95, `${same.share.toFixed(4)} of the pixels on the page are those of a person who faces x`);
   const live = await serve(file, ['--loop', '--picture_size', '64x64']);  // a stale picture has a banner
+  const watcher = await openPage(live.url);
+  // Before the first sample, a snapshot has no person.
+  await watcher.page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live', null, LONG);
+  await watcher.close();
   const png = await fetch(`${live.url}snapshot.png?camera=${camera}&width=${size.width}&height=${size.height}`);
   const snapshot = await pixelsOfPng(page, Buffer.from(await png.arrayBuffer()));
   await live.stop();
