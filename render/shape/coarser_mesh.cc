@@ -36,7 +36,7 @@ std::vector<T> Remapped(const std::vector<T>& values, std::size_t count,
 
 std::vector<std::uint32_t> CoarserTriangles(const std::vector<Eigen::Vector3f>& positions,
                                             const std::vector<std::uint32_t>& triangles,
-                                            double error_m) {
+                                            double error_m, OpenEdge edge) {
   KINESCOPE_CHECK(error_m > 0);
   if (triangles.empty()) return triangles;
   const float* const first = positions.front().data();
@@ -46,7 +46,8 @@ std::vector<std::uint32_t> CoarserTriangles(const std::vector<Eigen::Vector3f>& 
   std::vector<std::uint32_t> coarser(triangles.size());
   coarser.resize(meshopt_simplify(coarser.data(), triangles.data(), triangles.size(), first,
                                   positions.size(), kStride, 0, static_cast<float>(error_m) / scale,
-                                  0, nullptr));
+                                  edge == OpenEdge::kStays ? meshopt_SimplifyLockBorder : 0,
+                                  nullptr));
   meshopt_optimizeVertexCache(coarser.data(), coarser.data(), coarser.size(), positions.size());
   return coarser;
 }

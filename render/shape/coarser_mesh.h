@@ -15,9 +15,11 @@ namespace kinescope::render {
 /// and Heckbert 1997, as meshoptimizer does it), in an order that is fast to render. Vertices at
 /// the same place count as one. Takes milliseconds for a body.
 /// @param error_m how far the surface may move, m, > 0
+/// @param edge whether edges of a single triangle may move
+enum class OpenEdge { kMoves, kStays };
 std::vector<std::uint32_t> CoarserTriangles(const std::vector<Eigen::Vector3f>& positions,
                                             const std::vector<std::uint32_t>& triangles,
-                                            double error_m);
+                                            double error_m, OpenEdge edge = OpenEdge::kMoves);
 
 /// The largest of `errors`, ascending, that is not above `error_m`; 0 if all are. Meshes are made
 /// for a few errors only, because each is kept.

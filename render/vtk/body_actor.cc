@@ -81,7 +81,7 @@ bool BodyActor::Update(const PersonState& person, const Look& look,
   if (is_skin) {
     const bool is_other = skin_.Update(
         person, look.figure.own_skin, override_color, opacity_, error.skin,
-        {error.parts > 0 && !look.is_flat, look.has_loads, look.is_flat, !look.figure.own_skin});
+        {error.is_far && !look.is_flat, look.has_loads, look.is_flat, !look.figure.own_skin});
     is_changed = is_changed || is_other;
   }
   const std::vector<urdf::Pose> poses = VisibleLinkPoses(person);

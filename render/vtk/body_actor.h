@@ -27,6 +27,7 @@ class BodyActor {
   struct Error {
     double parts = 0;  // of the URDF; also lit at the vertices then
     double skin = 0;
+    bool is_far = false;  // the skin's triangles are a few pixels wide
   };
 
   struct Look {

@@ -10,7 +10,7 @@
 namespace kinescope::render {
 namespace {
 
-constexpr int kSide = 44;              // points
+constexpr int kSide = 30;              // points
 constexpr float kMargin = 0.45f;       // m, around the limbs
 constexpr float kAboveFloor = 0.002f;  // m
 constexpr float kDarkest = 0.8f;

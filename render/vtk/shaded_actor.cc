@@ -1,6 +1,7 @@
 #include "render/vtk/shaded_actor.h"
 
 #include <vtkCellArray.h>
+#include <vtkObjectFactory.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -20,6 +21,13 @@ vec3 Lit(vec3 color, vec3 normal, float sky) {
   return color * light * (1.0 - 0.42 * edge * edge * edge);
 }
 )";
+
+vtkStandardNewMacro(SurfaceMapper)
+
+    void SurfaceMapper::BuildIBO(vtkRenderer* renderer, vtkActor* actor, vtkPolyData* data) {
+  TempState.Clear();  // of what the vertices depend on
+  vtkOpenGLPolyDataMapper::BuildIBO(renderer, actor, data);
+}
 
 ShadedActor::ShadedActor(Pass pass, const ShaderText& text)
     : ShadedActor(pass, text, {{"part", 1}, {"tint", 4}}) {}

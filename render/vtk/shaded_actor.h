@@ -35,6 +35,15 @@ struct VertexAttribute {
   int components = 1;  // 1 to 4
 };
 
+/// Keeps the indices of a surface whose vertices have moved. VTK 9.1 makes and uploads them again.
+class SurfaceMapper : public vtkOpenGLPolyDataMapper {
+ public:
+  static SurfaceMapper* New();
+
+ protected:
+  void BuildIBO(vtkRenderer* renderer, vtkActor* actor, vtkPolyData* data) override;
+};
+
 class ShadedActor {
  public:
   /// For urdf::Mesh: with `float part` and `vec4 tint`.
@@ -61,7 +70,7 @@ class ShadedActor {
   vtkActor* actor() { return actor_; }
 
  private:
-  vtkNew<vtkOpenGLPolyDataMapper> mapper_;
+  vtkNew<SurfaceMapper> mapper_;
   vtkNew<PassActor> actor_;
 };
 

@@ -2,22 +2,17 @@
 /// user's own. A new pose moves its vertices; a new model makes a new surface.
 #pragma once
 
-#include <vtkFloatArray.h>
-#include <vtkNew.h>
-
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "core/scene_state.h"
 #include "render/shape/visible_lines.h"
 #include "render/vtk/shaded_actor.h"
 #include "render/vtk/skin_shader.h"
+#include "render/vtk/skin_surface.h"
 #include "urdf/skin/occlusion.h"
-#include "urdf/skin/outfit.h"
-#include "urdf/skin/person_skin.h"
 
 namespace kinescope::render {
 
@@ -27,7 +22,7 @@ class SkinActor {
 
   /// `own`: instead of the built-in skin; or null. `override_color`, `opacity`: see PartActor.
   /// `error_m`: how far the drawn surface may be from the skin; 0: not at all. `shading.is_suit`:
-  /// without `own`.
+  /// without `own`. `shading.has_borders` is ignored.
   /// @return whether the list of actors has changed.
   bool Update(const PersonState& person, const std::shared_ptr<const skin::SkinTemplate>& own,
               const Eigen::Vector4f& override_color, double opacity, double error_m,
@@ -40,29 +35,26 @@ class SkinActor {
   const skin::Capsules& capsules() const { return capsules_; }
 
  private:
-  void Load(const PersonModel& model);
-  void Move(const PersonState& person);
-  using Level = std::pair<double, SkinShading>;  // error, m
-  void AddLevel(const Level& level);
-  void FindRegions();
-  static void ShowLoads(const std::vector<JointLoad>& loads, ShadedActor& shaded);
+  using Actors = std::vector<std::unique_ptr<ShadedActor>>;
+  // The skin with some of its triangles; the actors share its vertices.
+  struct Level {
+    std::unique_ptr<SkinSurface> surface;
+    std::map<SkinShading, Actors> actors;
+  };
+  std::unique_ptr<SkinSurface> SurfaceWithin(double error_m) const;
+  void AddActors(const SkinShading& shading, Level& level) const;
+  void Show(const PersonState& person, const Eigen::Vector4f& override_color, double opacity,
+            const SkinShading& shading, ShadedActor& shaded) const;
 
   const Pass pass_;
   bool is_visible_ = true;
   std::shared_ptr<const PersonModel> model_;  // the loaded one
   std::uint64_t revision_ = 0;
   std::shared_ptr<const skin::SkinTemplate> own_;  // null: the built-in one
-  std::unique_ptr<skin::PersonSkin> skin_;
-  skin::PersonSkin::Surface surface_;
-  std::vector<skin::LimbRun> limbs_;
-  std::vector<float> open_;
-  skin::Capsules capsules_;
   skin::Build build_;
-  std::vector<skin::Borders> suit_;                               // of the built-in skin
-  vtkNew<vtkFloatArray> positions_, normals_, paint_, open_sky_;  // paint: borders or colours
-  vtkNew<vtkFloatArray> regions_;                                 // empty until loads are shown
-  std::vector<urdf::Pose> shown_;                                 // the poses of `surface_`
-  std::map<Level, std::unique_ptr<ShadedActor>> levels_;          // all share the vertices
+  skin::Capsules capsules_;
+  std::map<double, Level> levels_;  // by error, m
+  const Level* shown_ = nullptr;
 };
 
 }  // namespace kinescope::render

@@ -21,7 +21,7 @@ float LightOnSkin(vec3 normal, vec2 sky) {
 )";
 
 // Borders are signed distances: crisp at any zoom, and one pixel soft.
-constexpr char kSuitFunction[] = R"(
+constexpr char kBordersFunction[] = R"(
 vec3 Suit(vec4 borders) {
   vec4 inside = clamp(borders / (fwidth(borders) + 1e-6) + 0.5, 0.0, 1.0);
   vec3 color = mix(topColor, bandColor, inside.w);
@@ -31,8 +31,22 @@ vec3 Suit(vec4 borders) {
 }
 )";
 
+// Where no border is near, without what borders cost at each pixel.
+constexpr char kSuitFunction[] = R"(
+vec3 Suit(vec4 borders) {
+  if (borders.y > 0.0) return bareColor;
+  if (borders.z > 0.0) return shoesColor;
+  if (borders.x > 0.0) return trousersColor;
+  return borders.w > 0.0 ? bandColor : topColor;
+}
+)";
+
 // A skin of the user's own has a colour at each vertex.
 constexpr char kPaintFunction[] = "vec3 Suit(vec4 color) { return color.rgb; }\n";
+
+constexpr char kSuitUniforms[] =
+    "uniform vec3 topColor;\nuniform vec3 trousersColor;\nuniform vec3 shoesColor;\n"
+    "uniform vec3 bareColor;\nuniform vec3 bandColor;\nuniform vec4 overrideColor;\n";
 
 // A region is as large, and has the rim, that the sphere of its class has; hatched where the class
 // is unknown. Returns its colour and its share of the pixel.
@@ -54,49 +68,58 @@ vec4 Region(vec3 region) {
 }  // namespace
 
 bool SkinShading::operator<(const SkinShading& other) const {
-  return std::tie(is_lit_at_vertices, has_loads, is_flat, is_suit) <
-         std::tie(other.is_lit_at_vertices, other.has_loads, other.is_flat, other.is_suit);
+  return std::tie(is_lit_at_vertices, has_loads, is_flat, is_suit, has_borders) <
+         std::tie(other.is_lit_at_vertices, other.has_loads, other.is_flat, other.is_suit,
+                  other.has_borders);
 }
 
 ShaderText SkinText(const SkinShading& shading) {
+  constexpr char kSuit[] = "vec3 suit = mix(Suit(paint), overrideColor.rgb, overrideColor.a);\n";
   ShaderText text;
-  text.vertex_declarations = "out vec4 paintVS;\nout vec2 skyVS;\n";
   text.vertex = R"(
   gl_Position = MCDCMatrix * vertexMC;
   normalVCVSOutput = normalMatrix * normalMC;
-  skyVS = vec2(0.5 + 0.5 * normalMC.z, openSky);
-  paintVS = paint;
 )";
-  text.fragment_declarations =
-      "in vec4 paintVS;\nin vec2 skyVS;\n"
-      "uniform vec3 topColor;\nuniform vec3 trousersColor;\nuniform vec3 shoesColor;\n"
-      "uniform vec3 bareColor;\nuniform vec3 bandColor;\nuniform vec4 overrideColor;\n"
-      "uniform float opacityFactor;\n";
-  text.fragment_declarations += shading.is_suit ? kSuitFunction : kPaintFunction;
-  text.fragment = "vec3 suit = mix(Suit(paintVS), overrideColor.rgb, overrideColor.a);\n";
+  text.fragment_declarations = "uniform float opacityFactor;\n";
+  const auto pass_on = [&](const std::string& type, const std::string& name) {
+    text.vertex_declarations += "out " + type + " " + name + "VS;\n";
+    text.vertex += name + "VS = " + name + ";\n";
+    text.fragment_declarations += "in " + type + " " + name + "VS;\n";
+    text.fragment += type + " " + name + " = " + name + "VS;\n";
+  };
+  if (shading.has_borders) {
+    pass_on("vec4", "paint");
+    text.fragment_declarations += kSuitUniforms;
+    text.fragment_declarations += kBordersFunction;
+    text.fragment += kSuit;
+  } else {
+    text.vertex_declarations += shading.is_suit ? kSuitFunction : kPaintFunction;
+    text.vertex += kSuit;
+    pass_on("vec3", "suit");
+  }
+  constexpr char kSky[] = "vec2 sky = vec2(0.5 + 0.5 * normalMC.z, openSky);\n";
   if (shading.is_flat) {
     text.fragment += "float light = 1.0;\n";
   } else if (shading.is_lit_at_vertices) {
-    text.vertex_declarations += "out float lightVS;\n";
     text.vertex_declarations += kLitSkinFunction;
-    text.vertex += "  lightVS = LightOnSkin(normalize(normalVCVSOutput), skyVS);\n";
-    text.fragment_declarations += "in float lightVS;\n";
-    text.fragment += "float light = lightVS;\n";
+    text.vertex += kSky;
+    text.vertex += "float light = LightOnSkin(normalize(normalVCVSOutput), sky);\n";
+    pass_on("float", "light");
   } else {
+    text.vertex += kSky;
+    pass_on("vec2", "sky");
     text.fragment_declarations += kLitSkinFunction;
-    text.fragment += "float light = LightOnSkin(normalVCVSOutput, skyVS);\n";
+    text.fragment += "float light = LightOnSkin(normalVCVSOutput, sky);\n";
   }
   text.fragment += "vec3 color = suit * light;\n";
   if (shading.has_loads) {
     const std::string count = "[" + std::to_string(skin::kRegions) + "];\n";
-    text.vertex_declarations += "out vec3 regionVS;\n";
-    text.vertex += "  regionVS = region;\n";
+    pass_on("vec3", "region");
     text.fragment_declarations +=
-        "in vec3 regionVS;\nuniform vec4 regionLook" + count + "uniform float regionRim" + count;
-    text.fragment_declarations += kRegionFunction;
+        "uniform vec4 regionLook" + count + "uniform float regionRim" + count + kRegionFunction;
     // Between pure hue and full light, as on a sphere: a class reads the same on the dark side.
     text.fragment +=
-        "vec4 load = Region(regionVS);\n"
+        "vec4 load = Region(region);\n"
         "color = mix(color, load.rgb * mix(1.0, light, 0.75), load.a);\n";
   }
   text.fragment += "gl_FragData[0] = vec4(color, opacityFactor);\n";

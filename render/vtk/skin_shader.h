@@ -12,6 +12,7 @@ struct SkinShading {
   bool has_loads = false;           // shows loads as regions of the skin
   bool is_flat = false;             // without light, for drawings of lines
   bool is_suit = true;              // else each vertex has a colour
+  bool has_borders = false;         // the colour of the suit changes within a triangle
 
   bool operator<(const SkinShading& other) const;
 };

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 
 #include "render/image/png_file.h"
 #include "render/renderer.h"
@@ -24,7 +25,12 @@ using kinescope::testing::Posture;
 // A person who sways, so that no two pictures are the same.
 class Sway {
  public:
-  explicit Sway(int people = 1) {
+  explicit Sway(int people = 1, bool is_skin = false) {
+    if (is_skin) {
+      const auto model = std::make_shared<PersonModel>(*state_.people[0].model);
+      model->has_built_in_surface = true;
+      state_.people[0].model = model;
+    }
     for (int i = 1; i < people; ++i) {
       state_.people.push_back(state_.people[0]);
       state_.people.back().character = i;
@@ -58,7 +64,7 @@ void SetRate(benchmark::State& run) {
 void Draw(benchmark::State& run, bool moves) {
   const auto renderer = MakeRenderer();
   run.SetLabel(renderer->renderer_string());
-  Sway sway(static_cast<int>(run.range(2)));
+  Sway sway(static_cast<int>(run.range(2)), run.range(4) != 0);
   PictureSpec view;
   view.supersample = static_cast<int>(run.range(0));
   view.overlays = run.range(1) != 0;
@@ -196,21 +202,25 @@ void H264(benchmark::State& run) {
 }
 
 BENCHMARK(DrawStandingCamera)
-    ->ArgNames({"supersample", "overlays", "people", "by_size"})
-    ->Args({1, 0, 1, 0})
-    ->Args({1, 1, 1, 0})
-    ->Args({1, 1, 4, 0})
-    ->Args({1, 1, 4, 1})
-    ->Args({2, 1, 1, 0})
+    ->ArgNames({"supersample", "overlays", "people", "by_size", "skin"})
+    ->Args({1, 0, 1, 0, 0})
+    ->Args({1, 0, 1, 0, 1})
+    ->Args({1, 0, 1, 1, 1})
+    ->Args({1, 1, 1, 0, 0})
+    ->Args({1, 1, 4, 0, 0})
+    ->Args({1, 1, 4, 1, 0})
+    ->Args({1, 1, 4, 1, 1})
+    ->Args({2, 1, 1, 0, 0})
+    ->Args({2, 1, 1, 0, 1})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();
 BENCHMARK(DrawMovingCamera)
-    ->ArgNames({"supersample", "overlays", "people", "by_size"})
-    ->Args({1, 0, 1, 0})
-    ->Args({1, 1, 4, 0})
-    ->Args({1, 1, 4, 1})
-    ->Args({2, 0, 1, 0})
+    ->ArgNames({"supersample", "overlays", "people", "by_size", "skin"})
+    ->Args({1, 0, 1, 0, 0})
+    ->Args({1, 1, 4, 0, 0})
+    ->Args({1, 1, 4, 1, 0})
+    ->Args({2, 0, 1, 0, 0})
     ->Unit(benchmark::kMillisecond)
     ->MeasureProcessCPUTime()
     ->UseRealTime();

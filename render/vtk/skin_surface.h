@@ -1,0 +1,51 @@
+/// The vertices of one person's skin in VTK's arrays. A new pose moves them.
+#pragma once
+
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/scene_state.h"
+#include "urdf/skin/occlusion.h"
+#include "urdf/skin/outfit.h"
+#include "urdf/skin/person_skin.h"
+
+namespace kinescope::render {
+
+class SkinSurface {
+ public:
+  SkinSurface(std::shared_ptr<const skin::SkinTemplate> skin, const skin::Build& build,
+              const PersonModel& model);
+
+  /// To `person`, of the same model.
+  void Move(const PersonState& person, const skin::Capsules& capsules);
+
+  vtkFloatArray* positions() { return positions_; }
+  vtkFloatArray* normals() { return normals_; }
+  /// `paint` (borders of the suit or a colour) and `openSky`; with loads also `region`.
+  std::vector<vtkFloatArray*> attributes(bool has_loads);
+  const std::vector<skin::Triangle>& triangles() const { return skin_->triangles; }
+  /// Of the suit at each vertex; empty: vertices have colours.
+  const std::vector<skin::Borders>& suit() const { return suit_; }
+  /// As moved.
+  const skin::PersonSkin::Surface& surface() const { return surface_; }
+
+ private:
+  void FindRegions();
+
+  const std::shared_ptr<const skin::SkinTemplate> skin_;
+  const skin::PersonSkin person_;
+  const double stature_;
+  const std::vector<skin::LimbRun> limbs_;
+  std::vector<skin::Borders> suit_;
+  skin::PersonSkin::Surface surface_;
+  std::vector<float> open_;
+  vtkNew<vtkFloatArray> positions_, normals_, paint_, open_sky_;
+  vtkNew<vtkFloatArray> regions_;  // empty until loads are shown
+  std::vector<urdf::Pose> shown_;  // the poses of `surface_`
+};
+
+}  // namespace kinescope::render
