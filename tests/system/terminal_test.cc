@@ -73,15 +73,14 @@ TEST(Terminal, ShowsHowFarTheFirstPassOfAClipIs) {
   const TempFolder folder;
   const std::vector<std::string> command = {"render", "demo:lift", "--seconds", "0.2",  "--fps",
                                             "10",     "--size",    "64x64",     "--out"};
-  std::string line = "'" + testing::KinescopePath() + "'";
-  for (const std::string& word : command) line += " " + word;
-  const ProgramResult shown = testing::RunProgram(
-      {"/usr/bin/script", "-qec", line + " '" + (folder / "shown.mp4") + "'", "/dev/null"});
+  const std::string line = fmt::format("'{}' {} '{}'", testing::KinescopePath(),
+                                       fmt::join(command, " "), std::string(folder / "shown.mp4"));
+  const ProgramResult shown = testing::RunProgram({"/usr/bin/script", "-qec", line, "/dev/null"});
   EXPECT_EQ(shown.exit_code, 0) << shown.out;
   EXPECT_THAT(shown.out, HasSubstr("first pass, samples: 25 of 25, "));
   EXPECT_LT(shown.out.find("first pass"), shown.out.find("pictures: 1 of 2")) << shown.out;
   std::vector<std::string> piped = command;
-  piped.push_back(folder / "piped.mp4");
+  piped.emplace_back(folder / "piped.mp4");
   EXPECT_THAT(Kinescope(piped).err, Not(HasSubstr("first pass")));
 }
 
