@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "core/hand_load_shape.h"
@@ -87,6 +88,31 @@ Rgb ColorOfRobot(const RobotState& robot) {
   return kBodyColor;
 }
 
+// What the style makes of a colour of the body and what it holds.
+Rgb Drawn(const Rgb& color, const SceneLook& look) {
+  switch (look.style) {
+    case Style::kClay: return kClayColor;
+    case Style::kLine: return PaperOf(look.theme);
+    case Style::kMatte: break;
+  }
+  return color;
+}
+
+// Of the first one; nullopt if no person holds any.
+std::optional<Rgb> ColorOfTool(const SceneState& state) {
+  for (const PersonState& person : state.people) {
+    if (!person.model->human.tools.any()) continue;
+    for (const urdf::Link& link : person.model->robot.links) {
+      for (const urdf::Visual& visual : link.visuals) {
+        if (visual.material != urdf::kToolMaterial) continue;
+        return visual.rgba ? Rgb{(*visual.rgba)[0], (*visual.rgba)[1], (*visual.rgba)[2]}
+                           : kBodyColor;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 void AddTrailsAndGhosts(const SceneLook& look, std::vector<LegendRow>& rows) {
   NamedRows trails, ghosts;
   for (const Trail& trail : look.trails) {
@@ -107,6 +133,9 @@ void AddThings(const SceneState& state, const SceneLook& look, std::vector<Legen
     rows.push_back({{color, 1}, kBoxRadius, name, "", LegendRow::Symbol::kBox});
   };
   if (look.Shows(ScenePart::kHeld) && HasHandLoad(state)) add_box(kHandLoadColor, "hand load");
+  if (const auto color = ColorOfTool(state); color && look.Shows(ScenePart::kBody)) {
+    add_box(Drawn(*color, look), "tool in the hand");
+  }
   if (look.Shows(ScenePart::kObjects) && !state.objects.empty()) {
     add_box(kObjectColor, "tracked object");
   }

@@ -7,6 +7,7 @@
 #include "core/system/clocks.h"
 #include "render/frame_code.h"
 #include "render/legend.h"
+#include "render/overlay_backdrop.h"
 #include "render/overlay_legend.h"
 #include "render/overlay_legend_beside.h"
 #include "render/overlay_plot.h"
@@ -16,6 +17,9 @@ namespace kinescope::render {
 namespace {
 
 constexpr Rgb kWarningLamp{0.90, 0.60, 0.05};
+
+// The same page with other colours.
+OverlayPage With(const OverlayPage& page, const Inks& inks) { return {page, page.canvas, inks}; }
 
 }  // namespace
 
@@ -27,6 +31,7 @@ OverlayFonts& Overlay::fonts() {
 void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector<DrawnView>& drawn,
                     const PictureSpec& spec) {
   Page page(SizesOf(spec, fonts()), painter, InksOf(spec));
+  const Backdrop backdrop(spec, drawn);
   const OverlaySizes whole = page;
   for (const DrawnView& each : drawn) {
     painter.Enter(each.tile);
@@ -35,20 +40,24 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
     page.bottom = std::min(page.height, whole.bottom - each.tile.y);
     const bool is_last = &each == &drawn.back();
     const SceneState& shown = each.scene != nullptr ? each.scene->state : state;
-    PaintView(page, shown, each, spec, is_last && spec.parts.time && !HasOnlyRobots(state));
+    PaintView(page, shown, each, spec, backdrop,
+              is_last && spec.parts.time && !HasOnlyRobots(state));
   }
   const Tile picture{0, 0, spec.width, spec.height}, scene = spec.SceneTile();
   painter.Enter(picture);
   page.width = whole.width;
   page.height = whole.height;
   page.bottom = whole.bottom;
-  PaintHead(page, state, spec);
-  if (spec.scene && spec.parts.legend) PaintLegendBeside(page, spec);
+  PaintHead(page, state, spec, backdrop);
+  if (spec.scene && spec.parts.legend) {
+    Page beside = With(page, backdrop.InksBesideScene());
+    PaintLegendBeside(beside, spec);
+  }
   painter.Enter(scene);
   page.width = scene.width;
   page.height = scene.height;
   page.bottom = std::min(page.height, whole.bottom - scene.y);
-  PaintAround(page, state, spec);
+  PaintAround(page, state, spec, backdrop);
   painter.Enter(picture);
   if (spec.parts.frame_code && state.liveness != Liveness::kNoData) {
     PaintFrameCode(painter, spec.width, spec.height, {state.counter, state.time_code_millis});
@@ -56,14 +65,16 @@ void Overlay::Paint(Painter& painter, const SceneState& state, const std::vector
 }
 
 void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& drawn,
-                        const PictureSpec& spec, bool has_time_code) {
+                        const PictureSpec& spec, const Backdrop& backdrop, bool has_time_code) {
   PaintNames(page, state, drawn.camera, spec.parts.names, drawn.painted.labels);
   if (page.is_small) return;
   const double margin = page.Px(kMargin);
   if (spec.parts.scale) {
     const double time_code =
         has_time_code ? page.Px(kTimeCodeLine) + 1.3 * page.FontPx(kTitleSize) : 0;
-    PaintScaleBar(page, drawn.camera, margin + time_code);
+    Page over = With(page, backdrop.InksAt(drawn.tile.x + page.right() - margin,
+                                           drawn.tile.y + page.bottom - margin - time_code));
+    PaintScaleBar(over, drawn.camera, margin + time_code);
   }
   if (drawn.name.empty()) return;
   // In the upper middle, where no feet are; in the top row below title and lamp.
@@ -78,12 +89,21 @@ void Overlay::PaintView(Page& page, const SceneState& state, const DrawnView& dr
                    page.inks.text);
 }
 
-void Overlay::PaintHead(Page& page, const SceneState& state, const PictureSpec& spec) {
-  if (spec.parts.title && !page.is_small) PaintTitle(page, state, spec);
-  if (spec.parts.status && !HasOnlyRobots(state)) PaintLamp(page, state);
+void Overlay::PaintHead(Page& page, const SceneState& state, const PictureSpec& spec,
+                        const Backdrop& backdrop) {
+  const double left = 2 * page.Px(kMargin), top = 1.5 * page.Px(kMargin);
+  if (spec.parts.title && !page.is_small) {
+    Page over = With(page, backdrop.InksAt(left, top));
+    PaintTitle(over, state, spec);
+  }
+  if (spec.parts.status && !HasOnlyRobots(state)) {
+    Page over = With(page, backdrop.InksAt(page.width - left, top));
+    PaintLamp(over, state);
+  }
 }
 
-void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec& spec) {
+void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec& spec,
+                          const Backdrop& backdrop) {
   const OverlayParts& parts = spec.parts;
   if (HasOnlyRobots(state)) return;
   if (!page.is_small) {
@@ -92,7 +112,13 @@ void Overlay::PaintAround(Page& page, const SceneState& state, const PictureSpec
           page, spec.legend_content != nullptr ? *spec.legend_content : LegendOf(state, spec.look),
           state.class_limits);
     }
-    if (parts.time && state.liveness != Liveness::kNoData) PaintTimeCode(page, state);
+    if (parts.time && state.liveness != Liveness::kNoData) {
+      const Tile scene = spec.SceneTile();
+      const double margin = page.Px(kMargin);
+      Page over = With(page, backdrop.InksAt(scene.x + page.right() - margin,
+                                             scene.y + page.bottom - 1.5 * margin));
+      PaintTimeCode(over, state);
+    }
     if (parts.plot && spec.load_curves != nullptr) {
       const double below = page.Px(kMargin) + page.Px(4 * kTitleSize);
       PaintPlot(page, *spec.load_curves, state.class_limits, spec.plot_secs,

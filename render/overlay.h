@@ -19,6 +19,8 @@
 
 namespace kinescope::render {
 
+class Backdrop;  // render/overlay_backdrop.h
+
 /// One rendered view of the scene within a picture.
 struct DrawnView {
   Tile tile;
@@ -39,11 +41,13 @@ class Overlay {
   OverlayFonts& fonts();  // opened when first needed
 
   void PaintView(Page& page, const SceneState& state, const DrawnView& drawn,
-                 const PictureSpec& spec, bool has_time_code);
+                 const PictureSpec& spec, const Backdrop& backdrop, bool has_time_code);
   // Title and status, over the whole picture.
-  void PaintHead(Page& page, const SceneState& state, const PictureSpec& spec);
+  void PaintHead(Page& page, const SceneState& state, const PictureSpec& spec,
+                 const Backdrop& backdrop);
   // What is over the scene, in all views.
-  void PaintAround(Page& page, const SceneState& state, const PictureSpec& spec);
+  void PaintAround(Page& page, const SceneState& state, const PictureSpec& spec,
+                   const Backdrop& backdrop);
   void PaintLamp(Page& page, const SceneState& state);
   void PaintTitle(Page& page, const SceneState& state, const PictureSpec& spec);
   void PaintTimeCode(Page& page, const SceneState& state);

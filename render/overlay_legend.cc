@@ -16,6 +16,7 @@ constexpr double kWidestLegend = 0.3;   // of the picture: a person is in its mi
 constexpr double kHighestLegend = 0.7;  // of the picture
 constexpr double kRimWidth = 0.24;      // of a sphere's radius
 constexpr Ink kWhite = {{1, 1, 1}, 1};
+constexpr double kPale = 0.85;  // the least of its channels: a light panel hides it
 
 // px
 struct LegendLayout {
@@ -123,7 +124,10 @@ void PaintLegendSymbol(OverlayPage& page, const LegendRow& row, double x, double
     case LegendRow::Symbol::kBox: {
       const double half = page.Px(row.radius), edge = half + std::max(0.8, page.Px(0.8));
       const bool is_light = page.inks.panel.color[0] > 0.5;
-      if (!is_light && row.ink.alpha > 0) {  // a hand load is as dark as the dark theme
+      const Rgb& color = row.ink.color;
+      const bool is_pale = std::min({color[0], color[1], color[2]}) > kPale;
+      // A hand load is as dark as the dark theme, and paper as light as the light one.
+      if ((!is_light || is_pale) && row.ink.alpha > 0) {
         page.canvas.RoundedBox(x - edge, y - edge, 2 * edge, 2 * edge, page.Px(1.5),
                                page.inks.faint_text);
       }

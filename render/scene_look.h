@@ -137,6 +137,16 @@ struct ThemeColors {
 };
 
 const ThemeColors& ColorsOf(Theme theme);
+/// m, from the camera's target; the floor has faded into the background there.
+inline constexpr double kFloorReach = 9;
+/// The share of the floor's colour at a distance from the camera's target, m; the rest is that of
+/// the background.
+inline double FloorShare(double distance_m) {
+  // A disc with corners comes a little closer than its radius.
+  const double share = distance_m / (0.98 * kFloorReach);
+  const double fade = share < 1 ? 1 - share * share : 0;
+  return fade * fade;
+}
 /// What bodies are filled with in Style::kLine. Not the background, which may be transparent.
 inline Rgb PaperOf(Theme theme) {
   return theme == Theme::kDark ? ColorsOf(theme).background : Rgb{1, 1, 1};

@@ -6,6 +6,7 @@ import { findElements } from './elements.js';
 import { cameraLabel, hexColor, shortCameraLabel } from './format.js';
 import { mountHandLoad } from './hand_load.js';
 import { leftOutText, statusOf } from './status.js';
+import { mountLoadsShown } from './loads_shown.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { readCameras, readDiagnostics, readModel } from './messages.js';
 import { PicturePanel } from './picture_panel.js';
@@ -61,6 +62,7 @@ const picture = new PicturePanel({
 const handLoad = mountHandLoad({
   form: elements['hand-load'], person: elements['hand-person'], hand: elements.hand, mass: elements['hand-kg'],
 }, showNotice);
+const loadsShown = mountLoadsShown(elements['loads-shown'], applyLook);
 // Pictures cost the server rendering time and a phone its data volume. On a small screen the user switches them on.
 elements['picture-on'].checked = scene === null || matchMedia('(min-width: 900px)').matches;
 requestAnimationFrame(onFrame);
@@ -156,10 +158,16 @@ async function loadModel(now) {
     applyPalette(model.palette);
     applyClassLimits(model.class_limits);
     scene?.setModel(model);
-    if (state) scene?.update(state, statusNow().level === 'live');
+    applyLook();
   } catch (error) {
     showNotice(`Could not load the body model: ${messageOf(error)}`);
   }
+}
+
+function applyLook() {
+  if (model === null) return;
+  scene?.setLook({ ...model.look, loads: loadsShown(model.look.loads) });
+  if (state) scene?.update(state, statusNow().level === 'live');
 }
 
 /** Requested at long intervals, and only while the page is visible. */
@@ -254,6 +262,7 @@ function showReadings() {
   setText('time-code', readings.timeCode);
   setText('viewers', readings.viewers);
   setText('source', details.source);
+  elements['loads-shown'].hidden = !scene?.hasSkins;  // without a skin there is nothing to choose
   showPeople(isLive);
 }
 

@@ -88,7 +88,8 @@ export class Human {
   /** @type {string[]} */ failedMeshes = [];
   #skin = /** @type {SkinnedBody|null} */ (null);
   #isDisposed = false;
-  #last = /** @type {{links: import('./skin_frames.js').Pose[], isLive: boolean}|null} */ (null);
+  #look;
+  #last = /** @type {{person: import('./state_codec.js').Person, isLive: boolean}|null} */ (null);
   #links = /** @type {THREE.Group[]} */ ([]);
   #materials = /** @type {Map<string, {material: THREE.MeshStandardMaterial, live: THREE.Color}>} */ (new Map());
   #held = /** @type {THREE.Mesh[]} */ ([]);
@@ -97,12 +98,15 @@ export class Human {
   /** @param {import('./messages.js').PersonModel} model
    *  @param {Palette} palette
    *  @param {ReturnType<typeof makeMarkerMaterials>} markers
+   *  @param {import('./messages.js').Look} look
    *  @param {() => void} onChange  called whenever a mesh has been loaded */
-  constructor(model, palette, markers, onChange) {
+  constructor(model, palette, markers, look, onChange) {
+    this.#look = look;
     this.palette = palette;
     this.markers = markers;
     this.revision = model.revision;
     this.staleColor = toColor(palette.stale_body);
+    this.clayColor = toColor(palette.clay);
     for (const link of model.links) {
       const group = new THREE.Group();
       for (const visual of link.visuals) this.#addVisual(group, visual, onChange);
@@ -124,11 +128,10 @@ export class Human {
    *  @param {boolean} isLive
    *  @param {number} floor  height of the floor, m */
   update(person, isLive, floor) {
-    for (const { material, live } of this.#materials.values()) {
-      material.color.copy(isLive ? live : this.staleColor);
-    }
-    this.#last = { links: person.links, isLive };
-    this.#skin?.update(person.links, isLive);
+    const color = this.#bodyColor(isLive);
+    for (const { material, live } of this.#materials.values()) material.color.copy(color ?? live);
+    this.#last = { person, isLive };
+    this.#updateSkin(person, isLive);
     person.links.forEach(({ position, quaternion }, i) => {
       this.#links[i]?.position.fromArray(position);
       this.#links[i]?.quaternion.fromArray(quaternion);
@@ -137,6 +140,15 @@ export class Human {
     this.#updatePoints(person, isLive, floor);
     this.#updateSupport(person, isLive, floor);
     this.#updateHeld(person);
+  }
+
+  /** @param {import('./messages.js').Look} look  from the next update on */
+  setLook(look) {
+    this.#look = look;
+  }
+
+  get hasSkin() {
+    return this.#skin !== null;
   }
 
   /** Before it is drawn.
@@ -162,8 +174,11 @@ export class Human {
       const answer = await request(url.slice(1));
       const skin = readSkin(await answer.arrayBuffer(), url);
       if (this.#isDisposed) return;
-      this.#skin = new SkinnedBody(skin, this.staleColor);
-      if (this.#last) this.#skin.update(this.#last.links, this.#last.isLive);
+      this.#skin = new SkinnedBody(skin, this.palette);
+      if (this.#last) {
+        this.#updateSkin(this.#last.person, this.#last.isLive);
+        this.#updateSpheres(this.#last.person, this.#last.isLive);
+      }
       this.group.add(this.#skin.mesh);
     } catch {
       this.failedMeshes.push(url);
@@ -171,9 +186,27 @@ export class Human {
     onChange();
   }
 
+  /** That replaces those of body and clothes; null: none.
+   *  @param {boolean} isLive */
+  #bodyColor(isLive) {
+    if (!isLive) return this.staleColor;
+    return this.#look.style === 'clay' ? this.clayColor : null;
+  }
+
   /** @param {import('./state_codec.js').Person} person
    *  @param {boolean} isLive */
+  #updateSkin(person, isLive) {
+    this.#skin?.update(person.links, this.#bodyColor(isLive));
+    const isOnSkin = this.#look.loads !== 'spheres';
+    this.#skin?.showLoads(isOnSkin ? person.loads.map(({ joint, loadClass }) =>
+      ({ joint, loadClass: isLive ? loadClass : 'unknown' })) : null);
+  }
+
+  /** People without a skin keep them.
+   *  @param {import('./state_codec.js').Person} person
+   *  @param {boolean} isLive */
   #updateSpheres(person, isLive) {
+    const hasSpheres = this.#skin === null || this.#look.loads !== 'skin';
     for (const load of person.loads) {
       const sphere = this.#spheres.get(load.joint) ?? this.#addSphere(load.joint);
       const loadClass = isLive ? load.loadClass : 'unknown';
@@ -186,7 +219,7 @@ export class Human {
       sphere.group.scale.setScalar(load.radius);
     }
     for (const [joint, { group }] of this.#spheres) {
-      group.visible = person.loads.some((load) => load.joint === joint);
+      group.visible = hasSpheres && person.loads.some((load) => load.joint === joint);
     }
   }
 

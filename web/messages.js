@@ -144,7 +144,7 @@ const readVisual = object({
 const readPersonModel = object({
   character: number, revision: number, skin: orNull(string), links: listOf(object({ visuals: listOf(readVisual) })),
 });
-const readClassColors = listOf(object({ name: oneOf(LOAD_CLASSES), color: rgb }));
+const readClassColors = listOf(object({ name: oneOf(LOAD_CLASSES), color: rgb, size: number, rim: number }));
 const readPalette = object({
   /** @type {Reader<ReturnType<typeof readClassColors>>} */
   classes: (value, path) => {
@@ -152,15 +152,19 @@ const readPalette = object({
     const missing = LOAD_CLASSES.find((wanted) => !colors.some(({ name }) => name === wanted));
     return missing ? reject(value, path, `a colour of the class ${missing}`) : colors;
   },
-  cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, object: rgb, axes: listOf(rgb, 3),
+  cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, clay: rgb, object: rgb, axes: listOf(rgb, 3),
 });
+/** Where the classes of joint loads are shown, and how bodies are drawn: the values of --loads and --style. */
+export const LOADS_SHOWN = /** @type {const} */ (['spheres', 'skin', 'both']);
+const readLook = object({ loads: oneOf(LOADS_SHOWN), style: oneOf(['matte', 'clay', 'line']) });
 export const readModel = object({
-  people: listOf(readPersonModel), joints: listOf(object({ label: string })), class_limits: numbers(2),
+  people: listOf(readPersonModel), joints: listOf(object({ label: string })), class_limits: numbers(2), look: readLook,
   palette: readPalette,
 });
 /** @typedef {ReturnType<typeof readVisual>} Visual
  *  @typedef {ReturnType<typeof readPersonModel>} PersonModel
  *  @typedef {ReturnType<typeof readPalette>} Palette  sRGB 0..1
+ *  @typedef {ReturnType<typeof readLook>} Look
  *  @typedef {ReturnType<typeof readModel>} Model */
 
 // /api/cameras

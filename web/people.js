@@ -11,6 +11,8 @@ export class People {
   group = new THREE.Group();
   #people = /** @type {Map<number, {human: Human, seenMicros: number|null}>} */ (new Map());
 
+  #look = /** @type {import('./messages.js').Look} */ ({ loads: 'spheres', style: 'matte' });
+
   /** @param {() => void} onChange  called whenever a mesh has been loaded */
   constructor(onChange) {
     this.onChange = onChange;
@@ -23,10 +25,21 @@ export class People {
     for (const model of models) {
       if (this.has(model.character, model.revision)) continue;
       this.#people.get(model.character)?.human.dispose();
-      const human = new Human(model, palette, markers, this.onChange);
+      const human = new Human(model, palette, markers, this.#look, this.onChange);
       this.#people.set(model.character, { human, seenMicros: null });
       this.group.add(human.group);
     }
+  }
+
+  /** @param {import('./messages.js').Look} look  from the next update on */
+  setLook(look) {
+    this.#look = look;
+    for (const { human } of this.#people.values()) human.setLook(look);
+  }
+
+  /** Whether anybody is drawn as a skin. */
+  get hasSkins() {
+    return [...this.#people.values()].some(({ human }) => human.hasSkin);
   }
 
   /** @param {number} character

@@ -74,6 +74,16 @@ export class Scene {
     this.#dirty = true;
   }
 
+  /** @param {import('./messages.js').Look} look  from the next update on */
+  setLook(look) {
+    this.#people.setLook(look);
+  }
+
+  /** Whether anybody is drawn as a skin. */
+  get hasSkins() {
+    return this.#people.hasSkins;
+  }
+
   /** @param {import('./state_codec.js').Person} person */
   hasModelOf(person) {
     return this.#people.has(person.character, person.revision);

@@ -3,6 +3,7 @@
 import * as THREE from 'three';
 import { toColor } from './colors.js';
 import { framesOf } from './skin_frames.js';
+import { REGION_FLOATS, regionsOf } from './skin_regions.js';
 import { POSED_VERTEX, SkinSurface } from './skin_surface.js';
 
 const ONE = new THREE.Vector3(1, 1, 1);
@@ -27,9 +28,28 @@ const OWN_COLORS = `
     vec3 color = paint.rgb / 255.0;
     return mix(pow((color + 0.055) / 1.055, vec3(2.4)), color / 12.92, step(color, vec3(0.04045)));
   }`;
+// A region is as large, and has the rim, that the sphere of its class has; hatched where the class is unknown. The
+// result: its colour and its share of the pixel.
+const REGIONS = (/** @type {number} */ count) => `
+  uniform vec4 regionLook[${count}];
+  uniform float regionRim[${count}];
+  varying vec3 skinRegion;
+  vec4 regionOf(vec3 region) {
+    int joint = int(region.y + 0.5);
+    vec4 look = regionLook[joint];
+    float rim = regionRim[joint];
+    float soft = fwidth(region.x) + 1e-6;
+    float share = clamp((region.x - look.a) / soft + 0.5, 0.0, 1.0);
+    float onRim = 1.0 - clamp((region.x - look.a - 0.14) / soft + 0.5, 0.0, 1.0);
+    vec3 color = mix(look.rgb, rim > 0.0 ? vec3(0.15, 0.02, 0.02) : vec3(1.0), abs(rim) * onRim);
+    float across = region.z / 0.014;
+    float stripe = clamp((abs(fract(across) - 0.5) - 0.25) / (fwidth(across) + 1e-6) + 0.5, 0.0, 1.0);
+    return vec4(color, share * (rim < 0.0 ? max(stripe, onRim) : 1.0));
+  }`;
+const HIDDEN = 2;  // further inside than any vertex is
 const LIGHT = `
-  uniform vec3 staleColor;
-  uniform float stale;
+  uniform vec3 overrideColor;
+  uniform float overrideShare;
   varying vec4 suitPaint;
   varying vec3 suitNormal;
   varying vec2 suitSky;
@@ -54,12 +74,20 @@ export class SkinnedBody {
   #rig;
   #surface;
   #fromBind;
-  #stale = { value: 0 };
+  #skin;
+  #palette;
+  #override = { color: { value: new THREE.Color() }, share: { value: 0 } };
+  #regionLook;
+  #regionRim;
 
   /** @param {import('./skin_buffer.js').Skin} skin
-   *  @param {THREE.Color} staleColor */
-  constructor(skin, staleColor) {
+   *  @param {import('./messages.js').Palette} palette */
+  constructor(skin, palette) {
     this.#rig = skin.rig;
+    this.#skin = skin;
+    this.#palette = palette;
+    this.#regionLook = { value: skin.rig.regions.shapes.map(() => new THREE.Vector4(0, 0, 0, HIDDEN)) };
+    this.#regionRim = { value: skin.rig.regions.shapes.map(() => 0) };
     this.#surface = new SkinSurface(skin);
     this.#fromBind = skin.rig.bind.map(({ position, rotation }) =>
       new THREE.Matrix4().compose(position, rotation, ONE).invert());
@@ -67,18 +95,43 @@ export class SkinnedBody {
     geometry.setAttribute('position', new THREE.BufferAttribute(skin.positions, 3));
     geometry.setAttribute('paint', new THREE.BufferAttribute(skin.paint, 4));
     geometry.setIndex(new THREE.BufferAttribute(skin.triangles, 1));
-    this.mesh = new THREE.Mesh(geometry, this.#material(skin, staleColor));
+    this.mesh = new THREE.Mesh(geometry, this.#material(skin));
     this.mesh.customDepthMaterial = this.#depthMaterial();
     this.mesh.frustumCulled = false;  // its bounds move with the frames
     this.mesh.castShadow = true;  // only onto the floor: on the body itself shadows would disturb the shading
   }
 
   /** @param {import('./skin_frames.js').Pose[]} links  of all links, as they are streamed
-   *  @param {boolean} isLive */
-  update(links, isLive) {
-    this.#stale.value = isLive ? 0 : 1;
+   *  @param {THREE.Color|null} color  instead of those of the suit */
+  update(links, color) {
+    this.#override.share.value = color ? 1 : 0;
+    if (color) this.#override.color.value = color;
     this.#surface.setPosture(framesOf(this.#rig, links).map(({ position, rotation }, i) =>
       new THREE.Matrix4().compose(position, rotation, ONE).multiply(this.#fromBind[i])), links);
+  }
+
+  /** Shows loads as regions around their joints.
+   *  @param {{joint: number, loadClass: import('./messages.js').LoadClass}[]|null} loads  null: none, which costs
+   *    nothing */
+  showLoads(loads) {
+    const { shapes } = this.#rig.regions;
+    const { material, geometry } = this.mesh;
+    const isShown = loads !== null && shapes.length > 0;
+    if (isShown && !geometry.hasAttribute('region')) {
+      geometry.setAttribute('region', new THREE.BufferAttribute(regionsOf(this.#skin), REGION_FLOATS));
+    }
+    if (isShown !== ('LOADS_ON_SKIN' in (material.defines ?? {}))) {
+      material.defines = isShown ? { LOADS_ON_SKIN: '' } : {};
+      material.needsUpdate = true;
+    }
+    if (!isShown) return;
+    shapes.forEach(({ joint }, i) => {
+      const load = loads.find((each) => each.joint === joint);
+      const look = this.#palette.classes.find(({ name }) => name === load?.loadClass);
+      const [red, green, blue] = look?.color ?? [0, 0, 0];
+      this.#regionLook.value[i].set(red, green, blue, look ? 1 - look.size : HIDDEN);
+      this.#regionRim.value[i] = look?.rim ?? 0;
+    });
   }
 
   /** Before it is drawn.
@@ -94,30 +147,47 @@ export class SkinnedBody {
     this.#surface.dispose();
   }
 
-  /** @param {import('./skin_buffer.js').Skin} skin
-   *  @param {THREE.Color} staleColor */
-  #material({ colors, borderStep, paint, isTwoSided }, staleColor) {
+  /** @param {import('./skin_buffer.js').Skin} skin */
+  #material({ rig, colors, borderStep, paint, isTwoSided }) {
     const paintedColor = paint instanceof Int8Array ? SUIT : OWN_COLORS;
     const material = new THREE.MeshBasicMaterial({ side: isTwoSided ? THREE.DoubleSide : THREE.FrontSide });
     material.onBeforeCompile = (shader) => {
       for (const [name, color] of Object.entries(colors)) shader.uniforms[`${name}Color`] = { value: toColor(color) };
       Object.assign(shader.uniforms, this.#surface.uniforms,
-        { staleColor: { value: staleColor }, borderStep: { value: borderStep }, stale: this.#stale });
+        { overrideColor: this.#override.color, overrideShare: this.#override.share, borderStep: { value: borderStep },
+          regionLook: this.#regionLook, regionRim: this.#regionRim });
       usePosedVertices(shader, `
         attribute vec4 paint;
         varying vec4 suitPaint;
         varying vec3 suitNormal;
-        varying vec2 suitSky;`);
+        varying vec2 suitSky;
+        #ifdef LOADS_ON_SKIN
+          attribute vec3 region;
+          varying vec3 skinRegion;
+        #endif`);
       shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
         vec3 posedNormal = posed(posedNormals);
         suitPaint = paint;
         suitNormal = mat3(modelViewMatrix) * posedNormal;
-        suitSky = vec2(0.5 + 0.5 * posedNormal.z, posed(posedSky).x);`);
+        suitSky = vec2(0.5 + 0.5 * posedNormal.z, posed(posedSky).x);
+        #ifdef LOADS_ON_SKIN
+          skinRegion = region;
+        #endif`);
       shader.fragmentShader = shader.fragmentShader
-        .replace('#include <common>', `#include <common>${LIGHT}${paintedColor}`)
+        .replace('#include <common>', `#include <common>${LIGHT}${paintedColor}
+          #ifdef LOADS_ON_SKIN
+            ${REGIONS(rig.regions.shapes.length)}
+          #endif`)
         .replace('#include <color_fragment>', `#include <color_fragment>
-          diffuseColor.rgb = mix(paintedColor(suitPaint), staleColor, stale);`)
-        .replace('#include <fog_fragment>', `gl_FragColor.rgb *= lightOnSkin(normalize(gl_FrontFacing ? suitNormal : -suitNormal), suitSky);
+          diffuseColor.rgb = mix(paintedColor(suitPaint), overrideColor, overrideShare);`)
+        // Between pure hue and full light, as on a sphere: a class reads the same on the dark side.
+        .replace('#include <fog_fragment>', `
+          float lightHere = lightOnSkin(normalize(gl_FrontFacing ? suitNormal : -suitNormal), suitSky);
+          gl_FragColor.rgb *= lightHere;
+          #ifdef LOADS_ON_SKIN
+            vec4 loadHere = regionOf(skinRegion);
+            gl_FragColor.rgb = mix(gl_FragColor.rgb, loadHere.rgb * mix(1.0, lightHere, 0.75), loadHere.a);
+          #endif
           #include <fog_fragment>`);
     };
     return material;

@@ -8,6 +8,8 @@ const MOST_FRAMES = 256;  // their numbers are bytes
 const MOST_VERTICES = 65536;
 const PAINTS = /** @type {const} */ (['suit', 'colors']);
 const MOST_LIMBS = 32;  // bits of a number
+const MOST_PARTS = 16;
+const MOST_REGIONS = 64;  // as the shader has place for
 const rgb = listOf(number, 3);
 
 const readHeader = object({
@@ -16,11 +18,15 @@ const readHeader = object({
   own_plane_until_rad: number, middle_share: number, middles: recordOf(listOf(number, 4)),
   frames: object({
     kinds: listOf(oneOf(KINDS)), links: listOf(number), parents: listOf(number), shares: listOf(number),
-    into_bend_m: listOf(number), up_bone_m: listOf(number), limbs: listOf(number),
+    into_bend_m: listOf(number), up_bone_m: listOf(number), limbs: listOf(number), parts: listOf(number),
   }),
   limbs: object({
     links: listOf(number), points_m: listOf(number), radii_m: listOf(number), covered_by: listOf(listOf(number)),
     covered_by_joined: listOf(listOf(number)),
+  }),
+  regions: object({
+    joints: listOf(number), balls: listOf(boolean), parts: listOf(number), middles_m: listOf(number),
+    directions: listOf(number), half_widths_m: listOf(number), least_weight: number,
   }),
   colors: object({ top: rgb, trousers: rgb, shoes: rgb, bare: rgb, band: rgb }),
 });
@@ -29,8 +35,10 @@ const readHeader = object({
  *    upBone: number}} FrameRule
  *  @typedef {{frames: FrameRule[], middles: Map<number, THREE.Quaternion>, ownPlaneUntil: number, middleShare: number,
  *    bind: import('./skin_frames.js').Frame[], inHand: import('./skin_frames.js').Frame[],
- *    limbs: import('./skin_limbs.js').Limb[], limbOfFrame: number[]}} Rig
- *    bind: the frames of the pose of the vertices; inHand: the same in the frame of their link
+ *    limbs: import('./skin_limbs.js').Limb[], limbOfFrame: number[],
+ *    regions: {shapes: import('./skin_regions.js').RegionShape[], partOfFrame: number[], leastWeight: number}}} Rig
+ *    bind: the frames of the pose of the vertices; inHand: the same in the frame of their link; leastWeight: of 255, by
+ *    which a vertex belongs to one part of the body
  *  @typedef {ReturnType<typeof readHeader>['colors']} SuitColors  sRGB 0..1
  *  @typedef {{rig: Rig, colors: SuitColors, positions: Float32Array, indices: Uint8Array, weights: Uint8Array,
  *    paint: Int8Array|Uint8Array, borderStep: number, isTwoSided: boolean, triangles: Uint16Array}} Skin
@@ -50,11 +58,25 @@ function limbsOf({ links, points_m, radii_m, covered_by, covered_by_joined }) {
     ({ start: end(2 * i), end: end(2 * i + 1), joined: covered_by_joined[i], whole }));
 }
 
+/** Null if the columns differ in length.
+ *  @param {ReturnType<typeof readHeader>['regions']} columns
+ *  @returns {import('./skin_regions.js').RegionShape[]|null} */
+function regionsOf({ joints, balls, parts, middles_m, directions, half_widths_m }) {
+  const count = joints.length;
+  if ([balls, parts, half_widths_m].some(({ length }) => length !== count)
+    || [middles_m, directions].some(({ length }) => length !== 3 * count)) return null;
+  return joints.map((joint, i) => ({
+    joint, isBall: balls[i], parts: parts[i], middle: middles_m.slice(3 * i, 3 * i + 3),
+    direction: directions.slice(3 * i, 3 * i + 3), halfWidth: half_widths_m[i],
+  }));
+}
+
 /** @param {ArrayBuffer} buffer
  *  @param {string} route  for the error
  *  @returns {Skin}
  *  @throws {Error} if it is truncated or has another shape */
 export function readSkin(buffer, route) {
+  /** @returns {never} */
   const reject = (/** @type {string} */ what) => {
     throw new Error(`${route}: ${what}; reload the page`);
   };
@@ -63,9 +85,9 @@ export function readSkin(buffer, route) {
   /** @type {unknown} */
   const document = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, headerSize)));
   const header = readHeader(document, route);
-  const { vertices, triangles, frames: { kinds, links, parents, shares, into_bend_m, up_bone_m, limbs: limbOfFrame } } = header;
+  const { vertices, triangles, frames: { kinds, links, parents, shares, into_bend_m, up_bone_m, limbs: limbOfFrame, parts: partOfFrame } } = header;
   const count = kinds.length;
-  const columns = [links, parents, shares, into_bend_m, up_bone_m, limbOfFrame];
+  const columns = [links, parents, shares, into_bend_m, up_bone_m, limbOfFrame, partOfFrame];
   if (columns.some(({ length }) => length !== count) || count > MOST_FRAMES) {
     reject('the columns of the frames differ in length');
   }
@@ -73,6 +95,10 @@ export function readSkin(buffer, route) {
   const isLimb = (/** @type {number} */ limb) => Number.isInteger(limb) && limb >= 0 && limb < limbs.length;
   if (limbs.length > MOST_LIMBS || !limbOfFrame.every(isLimb)
     || !limbs.every(({ joined, whole }) => [...joined, ...whole].every(isLimb))) reject('it has unknown limbs');
+  const shapes = regionsOf(header.regions);
+  const isPart = (/** @type {number} */ part) => Number.isInteger(part) && part >= 0 && part < MOST_PARTS;
+  if (shapes === null || shapes.length > MOST_REGIONS || !partOfFrame.every(isPart)
+    || !shapes.every(({ halfWidth }) => halfWidth > 0)) return reject('it has unknown regions');
   if (!Number.isInteger(vertices) || vertices < 0 || vertices > MOST_VERTICES || !Number.isInteger(triangles)
     || triangles < 0) reject(`${vertices} vertices and ${triangles} triangles`);
   let at = 4 + headerSize;
@@ -115,7 +141,7 @@ export function readSkin(buffer, route) {
   return {
     rig: {
       frames, middles, bind, inHand, limbs, limbOfFrame, ownPlaneUntil: header.own_plane_until_rad,
-      middleShare: header.middle_share,
+      middleShare: header.middle_share, regions: { shapes, partOfFrame, leastWeight: header.regions.least_weight },
     },
     colors: header.colors, indices, weights, paint, borderStep: header.border_step_m,
     isTwoSided: header.two_sided, triangles: corners,

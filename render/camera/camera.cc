@@ -211,4 +211,21 @@ Projected Project(const Eigen::Vector3d& point_in_world, const Camera& camera, i
   return projected;
 }
 
+std::optional<Eigen::Vector2d> FloorPointAt(double x_px, double y_px, const Camera& camera,
+                                            int width_px, int height_px) {
+  const double aspect = static_cast<double>(width_px) / height_px;
+  const glm::dmat4 world_from_clip =
+      glm::inverse(ClipFromView(camera, aspect) * ViewFromWorld(camera));
+  const auto at_depth = [&](double depth) -> Eigen::Vector3d {
+    const glm::dvec4 p =
+        world_from_clip * glm::dvec4(2 * x_px / width_px - 1, 1 - 2 * y_px / height_px, depth, 1);
+    return Eigen::Vector3d(p.x, p.y, p.z) / p.w;
+  };
+  const Eigen::Vector3d near = at_depth(-1), ray = at_depth(1) - near;
+  const double along = -near.z() / ray.z();
+  if (!(near.z() > 0 && along > 0 && std::isfinite(along))) return std::nullopt;
+  const Eigen::Vector3d point = near + along * ray;
+  return Eigen::Vector2d(point.x(), point.y());
+}
+
 }  // namespace kinescope::render

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -98,5 +99,10 @@ struct Projected {
 
 Projected Project(const Eigen::Vector3d& point_in_world, const Camera& camera, int width_px,
                   int height_px);
+
+/// The point of the floor (z = 0, without end) that is seen at `x_px`, `y_px`; nullopt where the
+/// camera sees none, or sees it from below.
+std::optional<Eigen::Vector2d> FloorPointAt(double x_px, double y_px, const Camera& camera,
+                                            int width_px, int height_px);
 
 }  // namespace kinescope::render

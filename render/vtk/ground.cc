@@ -12,8 +12,6 @@ std::string Constant(const char* name, const Rgb& color) {
          std::to_string(color[1]) + ", " + std::to_string(color[2]) + ");\n";
 }
 
-constexpr double kFloorReach = 9;  // m; the floor has faded into the background there
-
 // Lines are computed per pixel and averaged over it, so they neither flicker nor break up far away.
 // It covers half the picture: every operation here counts, so the theme's colours are constants (as
 // uniforms they cost a fifth of a picture whose camera moves).

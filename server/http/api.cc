@@ -198,7 +198,10 @@ json LinksToJson(const PersonState& person, bool is_skin) {
 json ClassesToJson() {
   json classes = json::array();
   for (const LoadClass load_class : kLoadClasses) {
-    classes.push_back({{"name", Name(load_class)}, {"color", ToJson(ColorOf(load_class))}});
+    classes.push_back({{"name", Name(load_class)},
+                       {"color", ToJson(ColorOf(load_class))},
+                       {"size", SizeOf(load_class)},
+                       {"rim", RimOf(load_class)}});
   }
   return classes;
 }
@@ -232,12 +235,12 @@ std::string StateJson(const SceneState* state, std::int64_t now_nanos) {
                {"objects", std::move(objects)}});
 }
 
-std::string ModelJson(const SceneState* state, bool draws_skins) {
+std::string ModelJson(const SceneState* state, const PageLook& look) {
   json people = json::array();
   for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
     const PersonState& person = state->people[i];
     const urdf::BodyDescription& body = person.model->description;
-    const bool is_skin = draws_skins && person.model->has_built_in_surface;
+    const bool is_skin = look.draws_skins && person.model->has_built_in_surface;
     people.push_back({{"character", person.character},
                       {"name", person.name},
                       {"revision", person.model->revision},
@@ -254,6 +257,7 @@ std::string ModelJson(const SceneState* state, bool draws_skins) {
   return Text({{"people", std::move(people)},
                {"joints", std::move(joints)},
                {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
+               {"look", {{"loads", look.loads}, {"style", look.style}}},
                {"palette",
                 {{"classes", ClassesToJson()},
                  {"object", ToJson(kObjectColor)},
@@ -263,6 +267,7 @@ std::string ModelJson(const SceneState* state, bool draws_skins) {
                  {"support", ToJson(kSupportColor)},
                  {"held", ToJson(kHandLoadColor)},
                  {"body", ToJson(kBodyColor)},
+                 {"clay", ToJson(kClayColor)},
                  {"stale_body", ToJson(kStaleBodyColor)}}}});
 }
 

@@ -19,9 +19,8 @@ std::string StateJson(const SceneState* state, std::int64_t now_nanos);
 
 /// /api/model: the data needed to render each person at the streamed link poses, and the names and
 /// colours that the page shows. Skins and meshes are given by their URL on this server.
-/// `draws_skins`: people with the built-in surface are a skin, and have no parts but what they hold
-/// and wear.
-std::string ModelJson(const SceneState* state, bool draws_skins);
+/// A skin has no parts but what the person holds and wears.
+std::string ModelJson(const SceneState* state, const PageLook& look);
 
 /// /api/cameras.
 std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFraming& framing,

@@ -254,7 +254,7 @@ Answer Router::State(const Request& /*request*/) const {
 }
 
 Answer Router::Model(const Request& /*request*/) const {
-  return JsonAnswer(ModelJson(site_.states->Get().get(), site_.draws_skins));
+  return JsonAnswer(ModelJson(site_.states->Get().get(), site_.look));
 }
 
 Answer Router::Diagnostics(const Request& /*request*/) const {

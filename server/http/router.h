@@ -31,7 +31,7 @@ class Router {
     std::vector<CameraView> cameras;
     CameraFraming framing;
     bool has_pictures = false;
-    bool draws_skins = false;
+    PageLook look;
     std::shared_ptr<const skin::SkinTemplate> own_skin;  // null: the built-in one
     const StaticFiles* files = nullptr;
     const Latest<SceneState>* states = nullptr;

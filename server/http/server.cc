@@ -207,7 +207,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.cameras = config_.cameras;
   site.framing = config_.framing;
   site.has_pictures = feed_ != nullptr;
-  site.draws_skins = config_.draws_skins;
+  site.look = config_.look;
   site.own_skin = config_.own_skin;
   site.files = &files_;
   site.states = &states_;

@@ -37,6 +37,13 @@ struct CameraView {
   double vertical_fov_rad = 0.52;
 };
 
+/// How the page draws people, until its viewer chooses.
+struct PageLook {
+  bool draws_skins = true;        // of people with the built-in surface; else parts
+  std::string loads = "spheres";  // where load classes are shown: or "skin", "both"
+  std::string style = "matte";    // or "clay", "line"
+};
+
 /// Numbers by which every camera frames several people and narrow pictures.
 struct CameraFraming {
   double min_width_m = 0;       // visible around the target in any picture
@@ -77,11 +84,11 @@ struct HttpConfig {
   std::string bind_ip = "127.0.0.1";
   int port = 8080;    // 0: any free port
   std::string token;  // required as ?token=, Authorization: Bearer or cookie unless empty
-  std::string token_origin = "--token";  // where it was set, for messages about it
-  std::filesystem::path web_root;        // folder with index.html
-  std::vector<CameraView> cameras;       // in display order
-  CameraFraming framing;                 // of `cameras`
-  bool draws_skins = true;               // people with the built-in surface, on the page
+  std::string token_origin = "--token";                // where it was set, for messages about it
+  std::filesystem::path web_root;                      // folder with index.html
+  std::vector<CameraView> cameras;                     // in display order
+  CameraFraming framing;                               // of `cameras`
+  PageLook look;                                       // of people, on the page
   std::shared_ptr<const skin::SkinTemplate> own_skin;  // instead of the built-in one; or null
   std::string camera;  // of the live picture at the start; one of `cameras`
   /// Sets the hand load of `character`: returns "" or why it is rejected. Called on the server's

@@ -10,6 +10,7 @@
 #include "core/system/json_text.h"
 #include "urdf/skin/frames.h"
 #include "urdf/skin/limbs.h"
+#include "urdf/skin/load_regions.h"
 #include "urdf/skin/occlusion.h"
 #include "urdf/skin/outfit.h"
 #include "urdf/skin/person_skin.h"
@@ -39,7 +40,7 @@ int LinkOfFinger(const urdf::HumanModel& human, urdf::Side side, int finger) {
 json FramesToJson(const urdf::HumanModel& human) {
   json kinds = json::array(), links = json::array(), parents = json::array(),
        shares = json::array(), into_bend = json::array(), up_bone = json::array(),
-       limbs = json::array();
+       limbs = json::array(), parts = json::array();
   const auto add = [&](const char* kind, int link, int parent, double share,
                        const skin::FarthestMove& move) {
     kinds.push_back(kind);
@@ -52,6 +53,7 @@ json FramesToJson(const urdf::HumanModel& human) {
   for (const skin::Frame& frame : skin::Frames()) {
     const int parent = urdf::kSegments[At(frame.segment)].parent;
     limbs.push_back(skin::LimbOfSegment(frame.segment));
+    parts.push_back(static_cast<int>(skin::BodyPartOf(frame.segment)));
     switch (frame.kind) {
       case skin::FrameKind::kSegment: add("link", frame.segment, -1, 1, {}); continue;
       case skin::FrameKind::kSwing:
@@ -73,13 +75,10 @@ json FramesToJson(const urdf::HumanModel& human) {
           0.5, {});
     }
   }
-  return {{"kinds", std::move(kinds)},
-          {"links", std::move(links)},
-          {"parents", std::move(parents)},
-          {"shares", std::move(shares)},
-          {"into_bend_m", std::move(into_bend)},
-          {"up_bone_m", std::move(up_bone)},
-          {"limbs", std::move(limbs)}};
+  return {{"kinds", std::move(kinds)},           {"links", std::move(links)},
+          {"parents", std::move(parents)},       {"shares", std::move(shares)},
+          {"into_bend_m", std::move(into_bend)}, {"up_bone_m", std::move(up_bone)},
+          {"limbs", std::move(limbs)},           {"parts", std::move(parts)}};
 }
 
 // The capsules that cover the sky. Two ends each, one after the other.
@@ -109,6 +108,26 @@ json LimbsToJson(const urdf::Skeleton& skeleton, const skin::Build& build) {
           {"radii_m", std::move(radii)},
           {"covered_by", std::move(whole)},
           {"covered_by_joined", std::move(joined)}};
+}
+
+// The regions of joint loads. A byte or two of each vertex would take more than the page may load.
+json RegionsToJson(const skin::BindPose& bind, double height) {
+  json joints = json::array(), balls = json::array(), parts = json::array(),
+       middles = json::array(), directions = json::array(), half_widths = json::array();
+  const skin::RegionShapes shapes = skin::RegionShapesOf(bind, height);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const skin::RegionShape& shape = shapes[i];
+    joints.push_back(urdf::kScoredJoints[i]);
+    balls.push_back(shape.is_ball);
+    parts.push_back(shape.parts.to_ulong());
+    for (const double value : shape.middle) middles.push_back(Micro(value));
+    for (const double value : shape.direction) directions.push_back(Micro(value));
+    half_widths.push_back(Micro(shape.half_width));
+  }
+  return {{"joints", std::move(joints)},         {"balls", std::move(balls)},
+          {"parts", std::move(parts)},           {"middles_m", std::move(middles)},
+          {"directions", std::move(directions)}, {"half_widths_m", std::move(half_widths)},
+          {"least_weight", skin::kPartWeight}};
 }
 
 // [x, y, z, w] by link, for those whose twist is spread.
@@ -175,23 +194,25 @@ std::string SkinBuffer(const PersonModel& model, const skin::SkinTemplate* own) 
   }
 
   const SuitColors& colors = model.suit;
-  const std::string header = JsonText(json{{"vertices", of.size()},
-                                           {"triangles", of.triangles.size()},
-                                           {"position_step_m", step},
-                                           {"border_step_m", kBorderStep},
-                                           {"paint", of.colors.empty() ? "suit" : "colors"},
-                                           {"two_sided", of.is_two_sided},
-                                           {"frames", FramesToJson(human)},
-                                           {"limbs", LimbsToJson(human.skeleton, build)},
-                                           {"middles", MiddlesToJson()},
-                                           {"own_plane_until_rad", skin::kOwnPlaneUntil},
-                                           {"middle_share", skin::kMiddleShare},
-                                           {"colors",
-                                            {{"top", colors.top},
-                                             {"trousers", colors.trousers},
-                                             {"shoes", colors.shoes},
-                                             {"bare", colors.bare},
-                                             {"band", colors.band}}}});
+  const std::string header =
+      JsonText(json{{"vertices", of.size()},
+                    {"triangles", of.triangles.size()},
+                    {"position_step_m", step},
+                    {"border_step_m", kBorderStep},
+                    {"paint", of.colors.empty() ? "suit" : "colors"},
+                    {"two_sided", of.is_two_sided},
+                    {"frames", FramesToJson(human)},
+                    {"limbs", LimbsToJson(human.skeleton, build)},
+                    {"regions", RegionsToJson(skin.bind(), human.skeleton.height)},
+                    {"middles", MiddlesToJson()},
+                    {"own_plane_until_rad", skin::kOwnPlaneUntil},
+                    {"middle_share", skin::kMiddleShare},
+                    {"colors",
+                     {{"top", colors.top},
+                      {"trousers", colors.trousers},
+                      {"shoes", colors.shoes},
+                      {"bare", colors.bare},
+                      {"band", colors.band}}}});
   const std::string blanks((4 - header.size() % 4) % 4, ' ');
   std::string bytes;
   Append(bytes,

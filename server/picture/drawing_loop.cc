@@ -156,7 +156,7 @@ void DrawingLoop::DrawLive(std::unique_lock<std::mutex>& lock) {
   next_live_ = begin + period_;
   const std::shared_ptr<const SceneState> state = state_;
   render::PictureSpec view = LiveView(settings_.width, settings_.height);
-  view.look.figure = settings_.figure;
+  settings_.people.ApplyTo(view.look);
   const render::Camera camera = camera_.AimLive(*state, LiveAspect(), LiveAspect());
   lock.unlock();
   std::string error;
@@ -187,7 +187,7 @@ void DrawingLoop::DrawOrder(std::unique_lock<std::mutex>& lock) {
   Order order = std::move(orders_.front());
   orders_.pop_front();
   in_hand_ = std::move(order.picture);
-  order.view.look.figure = settings_.figure;
+  settings_.people.ApplyTo(order.view.look);
   const std::shared_ptr<const SceneState> state = state_;
   const double aspect = AspectOf(order.view);
   std::optional<render::Camera> camera;

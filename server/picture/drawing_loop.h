@@ -21,6 +21,7 @@
 #include "render/renderer.h"
 #include "server/picture/backend.h"
 #include "server/picture/camera_controller.h"
+#include "server/picture/people_look.h"
 
 namespace kinescope::app {
 
@@ -28,8 +29,8 @@ struct DrawingSettings {
   std::string name = "picture";  // begins the lines in the log
   int width = 1280;              // of the live picture, px
   int height = 720;
-  double rate_hz = 30;                                 // maximum frame rate of the live picture
-  render::Figure figure = render::SceneLook().figure;  // of all pictures
+  double rate_hz = 30;     // maximum frame rate of the live picture
+  PeopleLook people = {};  // of all pictures
   std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 

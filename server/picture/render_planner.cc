@@ -236,13 +236,14 @@ RenderRequest RenderPlanner::Moments() const {
 }
 
 void PrescanClip(const std::vector<RenderPlanner*>& planners, SceneReader& source,
-                 std::optional<double> seconds) {
+                 std::optional<double> seconds, const std::function<void()>& on_scene) {
   std::optional<std::int64_t> start_nanos;
   while (const auto state = source.Next()) {
     if (StopRequested()) return;
     const double secs = SecsSince(start_nanos, *state);
     if (seconds && secs > *seconds) return;
     for (RenderPlanner* planner : planners) planner->Prescan(*state);
+    on_scene();
   }
 }
 

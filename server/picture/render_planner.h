@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -108,10 +109,11 @@ class RenderPlanner {
 };
 
 /// Performs the first pass for `planners` that need it: reads `source` up to `seconds` after its
-/// first scene.
+/// first scene. `on_scene` is called after each one.
 /// @throws as SceneReader.
-void PrescanClip(const std::vector<RenderPlanner*>& planners, SceneReader& source,
-                 std::optional<double> seconds);
+void PrescanClip(
+    const std::vector<RenderPlanner*>& planners, SceneReader& source, std::optional<double> seconds,
+    const std::function<void()>& on_scene = [] {});
 
 /// Passes to `planner` the history that a picture at `secs` needs. @pre as SceneTimeline::At
 /// `after`: s, up to where it has it already.

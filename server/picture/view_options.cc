@@ -360,14 +360,6 @@ ViewOptions::ViewOptions(std::size_t most_cameras)
               {"off", LegendChoice::kOff}},
              LegendChoice::kInside),
       plot(Joined(ScoredJointNames()), kMaxPlots, ScoredJointNamed),
-      style({{"matte", render::Style::kMatte},
-             {"clay", render::Style::kClay},
-             {"line", render::Style::kLine}},
-            render::SceneLook().style),
-      loads({{"spheres", render::LoadsShown::kSpheres},
-             {"skin", render::LoadsShown::kSkin},
-             {"both", render::LoadsShown::kBoth}},
-            render::SceneLook().loads),
       theme({{"light", render::Theme::kLight}, {"dark", render::Theme::kDark}},
             render::Theme::kLight),
       floor(true),
@@ -394,10 +386,7 @@ void ViewOptions::List(options::OptionList& option) {
          "none");
   option("plot", plot, "joints whose loads are plotted over time");
   option("no_overlays", no_overlays, "no text or plot over the picture");
-  option("figure", figure, kFigureHelp);
-  option("style", style, "how bodies are drawn: in a suit, in one colour, or as lines");
-  option("loads", loads,
-         "where the classes of joint loads are shown: as spheres, as regions of the skin, or both");
+  ListPeopleLook(option, figure, style, loads);
   option("theme", theme, "colours of floor and background");
   option("background", background, "colour of the background");
   option("floor", floor, "whether the floor is drawn");
@@ -417,8 +406,6 @@ void ViewOptions::List(options::OptionList& option) {
   }
   option.HasNoEffect("title", "unless --overlay includes title",
                      [this] { return !overlay->title; });
-  option.HasNoEffect("loads", "with --figure urdf",
-                     [this] { return *figure == render::Figure::kUrdf; });
   option.HasNoEffect("legend", "unless --overlay includes legend",
                      [this] { return !overlay->legend; });
   option.HasNoEffect("trail_secs", "without --trail", [this] { return trail->empty(); });
@@ -491,9 +478,7 @@ render::PictureSpec ToPictureSpec(const ViewOptions& options) {
     case LegendChoice::kInside: break;
   }
   render::SceneLook& look = spec.look;
-  look.figure = options.figure.Load();
-  look.style = *options.style;
-  look.loads = *options.loads;
+  LoadPeopleLook(options.figure, options.style, options.loads).ApplyTo(look);
   look.theme = *options.theme;
   look.is_transparent = options.background->is_transparent;
   look.background = options.background->color;

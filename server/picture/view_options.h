@@ -10,6 +10,7 @@
 #include "server/options/option_list.h"
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
+#include "server/picture/people_look.h"
 
 namespace kinescope::app {
 
@@ -144,8 +145,8 @@ struct ViewOptions {
   options::List<int> plot;  // urdf::Joint
   options::Flag no_overlays;
   FigureValue figure;
-  options::Choice<render::Style> style;
-  options::Choice<render::LoadsShown> loads;
+  StyleValue style;
+  LoadsShownValue loads;
   options::Choice<render::Theme> theme;
   BackgroundValue background;
   options::Switch floor;

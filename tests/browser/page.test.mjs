@@ -162,6 +162,13 @@ test('the page detects a server that ends or does not respond', async () => {
   await close();
 });
 
+test('without a skin there is no choice where loads are shown', async () => {
+  const { page, close } = await openLive();
+  await page.waitForFunction(() => document.querySelectorAll('#loads li').length === 15, null, LONG);
+  assert.equal(await page.locator('#loads-shown').isVisible(), false);
+  await close();
+});
+
 test('the named cameras rotate the view until the user moves it', async () => {
   const { page, close } = await openLive();
   await page.locator('#cameras button').first().waitFor(LONG);

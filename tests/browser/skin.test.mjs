@@ -9,7 +9,8 @@ import { createInterface } from 'node:readline';
 import { after, before, test as nodeTest } from 'node:test';
 import { aim, groundOf } from '../../web/cameras.js';
 import { decodeState } from '../../web/state_codec.js';
-import { closeBrowser, endWithTests, openPage, pixelsOf, pixelsOfPng, saveScreenshot } from './open_page.mjs';
+import { closeBrowser, DESKTOP, endWithTests, openPage, PHONE, pixelsOf, pixelsOfPng, saveScreenshot }
+  from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -120,6 +121,17 @@ async function serverPixels(page, file, camera, { width, height }, options) {
 const MARKS = 'loads,com,cop,support,forces,hand_loads', REST = `${MARKS},shadows`;
 const PLAIN = ['--floor', 'off', '--background', 'black', '--hide'];
 
+/** Until two pictures of the view in a row are equal: the camera has arrived and the skin is there. */
+async function settled(page) {
+  const view = () => pixelsOf(page, '#view');
+  let last = await view();
+  for (;;) {
+    const next = await view();
+    if (next.data.equals(last.data)) return next;
+    last = next;
+  }
+}
+
 /** The named view on the page, and which of its pixels are skin. */
 async function lookAt(site, camera) {
   const open = async (hasSkin) => {
@@ -139,19 +151,9 @@ async function lookAt(site, camera) {
   };
   const visit = await open(true);
   const bare = await open(false);
-  const settled = async ({ page }) => {
-    // Until two pictures in a row are equal: the camera has arrived and the skin is there.
-    const view = () => pixelsOf(page, '#view');
-    let last = await view();
-    for (;;) {
-      const next = await view();
-      if (next.data.equals(last.data)) return next;
-      last = next;
-    }
-  };
   await visit.page.waitForFunction(() => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
     /api\/skin/.test(name) && responseEnd > 0), null, LONG);
-  const [shown, empty] = [await settled(visit), await settled(bare)];
+  const [shown, empty] = [await settled(visit.page), await settled(bare.page)];
   await bare.close();
   return { page: visit.page, skin: mask(shown, empty), size: { width: shown.width, height: shown.height }, close: visit.close };
 }
@@ -228,5 +230,78 @@ test('a person who faces -x is shown from the front, on the page and in a snapsh
   const { share } = overlap(onPage, mask(snapshot, empty), outside.map((isOutside, i) => isOutside | marks[i]));
   assert.ok(share >= 0.95, `${share.toFixed(4)} of the pixels are covered on the page and in the snapshot`);
   await close();
+  await site.stop();
+});
+
+/** Where a load class is shown: nothing else on a person is as colourful. */
+function colourful({ width, height, data }) {
+  const covered = new Uint8Array(width * height);
+  for (let i = 0; i < covered.length; ++i) {
+    const channels = [0, 1, 2].map((k) => data[4 * i + k]);
+    covered[i] = Math.max(...channels) - Math.min(...channels) > 60 ? 1 : 0;
+  }
+  return covered;
+}
+
+test('loads lie on the same pixels of the skin on the page and in the picture of the server', async () => {
+  const file = await record('lift', 1, []);
+  const site = await serve(file, ['--loop', '--loads', 'skin', '--style', 'clay', '--pictures', 'off']);
+  const { page, problems, close } = await openPage(site.url, { colorScheme: 'dark' });
+  await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live', null, LONG);
+  const choice = page.getByLabel('Where joint loads are shown');
+  await choice.waitFor(LONG);
+  assert.equal(await choice.inputValue(), 'skin', 'as the server was started');
+  await page.locator('#cameras button[data-camera="right"]').click();
+  const onlyView = (isOnly) => page.evaluate((hidden) => {
+    for (const over of document.querySelectorAll('.stage > :not(.view)')) over.style.visibility = hidden ? 'hidden' : '';
+  }, isOnly);
+  await onlyView(true);
+  const shown = await settled(page);
+  const size = { width: shown.width, height: shown.height };
+  await saveScreenshot(page, 'skin_loads');
+  const options = ['--loads', 'skin', '--style', 'clay', ...PLAIN, REST.replace('loads,', '')];
+  const drawn = await serverPixels(page, file, await cameraOf(page, 'right', size), size, options);
+  const points = colourful(await serverPixels(page, file, await cameraOf(page, 'right', size), size,
+    [...PLAIN, `${REST.replace('loads,', '')},loads,body`]));
+  // Centre of mass and pressure are drawn on the page only.
+  const isMark = (pixels) => pixels.data.reduce((marks, _, at) => {
+    if (at % 4 === 0 && pixels.data[at + 2] > 1.3 * pixels.data[at + 1]) marks[at / 4] = 1;
+    return marks;
+  }, new Uint8Array(size.width * size.height));
+  assert.equal(points.reduce((sum, each) => sum + each, 0), 0, 'nothing else is colourful');
+  const { share, either } = overlap(colourful(shown), colourful(drawn), isMark(shown));
+  assert.ok(either > 0.002 * shown.width * shown.height, `${either} pixels`);
+  assert.ok(share >= 0.85, `${share.toFixed(4)} of the colourful pixels are so in both`);
+  await onlyView(false);
+  await choice.focus();
+  await page.keyboard.press('ArrowUp');
+  assert.equal(await choice.inputValue(), 'spheres', 'by the keyboard');
+  await onlyView(true);
+  const spheres = await settled(page);
+  assert.ok(overlap(colourful(spheres), colourful(drawn), isMark(spheres)).share < 0.6);
+  await saveScreenshot(page, 'skin_spheres');
+  assert.deepEqual(problems, []);
+  await close();
+  await site.stop();
+});
+
+test('the choice where loads are shown has room beside everything else', async () => {
+  const site = await serve(await record('walk', 0.9, []), ['--loop', '--loads', 'both', '--pictures', 'off']);
+  for (const [name, viewport] of Object.entries({ desktop: DESKTOP, phone: PHONE })) {
+    const { page, close } = await openPage(site.url, { viewport });
+    await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live', null, LONG);
+    await page.getByLabel('Where joint loads are shown').waitFor(LONG);
+    await settled(page);
+    await saveScreenshot(page, `skin_both_${name}`);
+    const boxOf = (selector) => page.locator(selector).boundingBox();
+    const own = await boxOf('#loads-shown'), stage = await boxOf('.stage');
+    assert.ok(own.x > stage.x && own.x + own.width < stage.x + stage.width && own.y > stage.y, name);
+    for (const other of ['#cameras', '.points']) {
+      const { x, y, width, height } = await boxOf(other);
+      assert.ok(x >= own.x + own.width || own.x >= x + width || y >= own.y + own.height || own.y >= y + height,
+        `${name}: it overlaps ${other}`);
+    }
+    await close();
+  }
   await site.stop();
 });

@@ -83,6 +83,28 @@ TEST(Legend, ListsOnlyWhatThePictureShowsWithItsColours) {
                     Not(Contains("marker goal"))));
 }
 
+TEST(Legend, NamesToolsInTheHandsWithTheColourOfThoseThatAreDrawn) {
+  SceneState state = SceneWith(Posture::kStanding);
+  const std::size_t plain = LegendOf(state, SceneLook()).rows.size();
+  auto model = std::make_shared<PersonModel>(*state.people[0].model);
+  model->human.tools.set(urdf::kRight).set(urdf::kLeft);
+  for (urdf::Link& link : model->robot.links) {
+    if (link.name.find("_hand") == std::string::npos) continue;
+    urdf::Visual& tool = link.visuals.emplace_back();
+    tool.material = urdf::kToolMaterial;
+    tool.rgba = Eigen::Vector4d(0.1, 0.2, 0.3, 1);
+  }
+  state.people[0].model = model;
+  const LegendContent content = LegendOf(state, SceneLook());
+  EXPECT_EQ(content.rows.size(), plain + 1) << "one entry for both hands";
+  EXPECT_EQ(RowNamed(content, "tool in the hand").ink.color, (Rgb{0.1, 0.2, 0.3}));
+  EXPECT_TRUE(RowNamed(content, "tool in the hand").is_addition());
+  SceneLook without_body;
+  without_body.shown.Set(ScenePart::kBody, false);
+  EXPECT_THAT(NamesOf(LegendOf(state, without_body)), Not(Contains("tool in the hand")))
+      << "tools are hidden with the body";
+}
+
 TEST(Legend, CountsRobotsBeyondTheFirstFew) {
   SceneState state = SceneWith(Posture::kStanding);
   for (int i = 0; i < 60; ++i) state.robots.push_back(Robot(std::to_string(i)));

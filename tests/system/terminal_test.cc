@@ -12,6 +12,7 @@
 #include "tests/server/mvn/mvn_testing.h"
 #include "tests/system/kinescope_path.h"
 #include "tests/system/kinescope_program.h"
+#include "tests/system/run_program.h"
 #include "tests/temp_folder.h"
 
 namespace kinescope {
@@ -20,6 +21,7 @@ namespace {
 using testing::ExpectRefusal;
 using ::testing::HasSubstr;
 using testing::Kinescope;
+using ::testing::Not;
 using testing::Process;
 using testing::ProgramResult;
 using testing::TempFolder;
@@ -65,6 +67,21 @@ std::string EvilTake(const TempFolder& folder) {
     }
   }
   return path;
+}
+
+TEST(Terminal, ShowsHowFarTheFirstPassOfAClipIs) {
+  const TempFolder folder;
+  const std::vector<std::string> command = {"render", "demo:lift", "--seconds", "0.2",  "--fps",
+                                            "10",     "--size",    "64x64",     "--out"};
+  const std::string line = fmt::format("'{}' {} '{}'", testing::KinescopePath(),
+                                       fmt::join(command, " "), std::string(folder / "shown.mp4"));
+  const ProgramResult shown = testing::RunProgram({"/usr/bin/script", "-qec", line, "/dev/null"});
+  EXPECT_EQ(shown.exit_code, 0) << shown.out;
+  EXPECT_THAT(shown.out, HasSubstr("first pass, samples: 25 of 25, "));
+  EXPECT_LT(shown.out.find("first pass"), shown.out.find("pictures: 1 of 2")) << shown.out;
+  std::vector<std::string> piped = command;
+  piped.emplace_back(folder / "piped.mp4");
+  EXPECT_THAT(Kinescope(piped).err, Not(HasSubstr("first pass")));
 }
 
 TEST(Terminal, IsNotSteeredByNamesInFiles) {

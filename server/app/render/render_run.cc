@@ -154,7 +154,10 @@ class RenderRun {
     if (grid_.length_nanos) end = Secs(grid_.start_nanos + *grid_.length_nanos);
     if (end && options_.moment.time) end = std::max(*end, *options_.moment.time);
     SceneReader reader(plan_.source, people_);
-    PrescanClip(planners, reader, end);
+    // With the samples at both ends.
+    const int samples = end ? static_cast<int>(*end * reader.rate_hz() + 1e-6) + 1 : 0;
+    Progress progress("first pass, samples:", samples);
+    PrescanClip(planners, reader, end, [&progress] { progress.Step(); });
   }
 
   // For the progress line; 0: unknown.

@@ -19,6 +19,7 @@
 #include "server/picture/camera_controller.h"
 #include "server/picture/camera_options.h"
 #include "server/picture/drawing_loop.h"
+#include "server/picture/people_look.h"
 
 namespace kinescope::app {
 
@@ -28,7 +29,7 @@ struct LivePictureSettings {
   int width = 1280;
   int height = 720;
   double rate_hz = 30;  // maximum frame rate
-  render::Figure figure = render::SceneLook().figure;
+  PeopleLook people = {};
 };
 
 class LivePictures : public http::PictureFeed {

@@ -13,6 +13,7 @@
 #include "server/picture/backend.h"
 #include "server/picture/camera_controller.h"
 #include "server/picture/drawing_loop.h"
+#include "server/picture/people_look.h"
 #include "server/ros/bridge.h"
 
 namespace kinescope::app {
@@ -23,7 +24,7 @@ struct RosCameraSettings {
   int width = 1280;
   int height = 720;
   double rate_hz = 30;  // maximum frame rate
-  render::Figure figure = render::SceneLook().figure;
+  PeopleLook people = {};
 };
 
 class RosCameraLoop {

@@ -39,7 +39,8 @@ http::HttpConfig PageOf(const ServeOptions& options) {
   config.framing = FramingOfCameras();
   config.camera = options.camera->front().text;
   const render::Figure figure = options.figure.Load();
-  config.draws_skins = figure.kind == render::Figure::kSkin;
+  config.look = {figure.kind == render::Figure::kSkin, options.loads_shown.ToText(),
+                 options.style.ToText()};
   config.own_skin = figure.own_skin;
   return config;
 }
@@ -56,7 +57,7 @@ LivePictureSettings LivePicturesOf(const ServeOptions& options) {
   pictures.width = options.picture_size->width;
   pictures.height = options.picture_size->height;
   pictures.rate_hz = *options.picture_rate_hz;
-  pictures.figure = options.figure.Load();
+  pictures.people = LoadPeopleLook(options.figure, options.style, options.loads_shown);
   return pictures;
 }
 
@@ -70,7 +71,7 @@ RosCameraSettings RosCameraOf(const ServeOptions& options) {
   settings.width = options.ros_view_size->width;
   settings.height = options.ros_view_size->height;
   settings.rate_hz = *options.ros_view_rate_hz;
-  settings.figure = options.figure.Load();
+  settings.people = LoadPeopleLook(options.figure, options.style, options.loads_shown);
   return settings;
 }
 

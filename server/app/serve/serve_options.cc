@@ -131,7 +131,7 @@ void ServeOptions::List(options::OptionList& option) {
          "the token itself, which the list of processes then shows; prefer --token_file or the "
          "environment variable KINESCOPE_TOKEN");
   option.Group("Page and pictures");
-  option("figure", figure, kFigureHelp);
+  ListPeopleLook(option, figure, style, loads_shown);
   option("pictures", pictures, "whether the server draws pictures");
   option("camera", camera, "where the camera stands");
   camera_moves.List(option);

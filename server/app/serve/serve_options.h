@@ -7,6 +7,7 @@
 #include "server/picture/backend.h"
 #include "server/picture/camera_options.h"
 #include "server/picture/figure_value.h"
+#include "server/picture/people_look.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_options.h"
 #include "server/source/open_source.h"
@@ -45,6 +46,8 @@ struct ServeOptions {
   options::Text token, token_file;
   std::string token_given_as = "--token";  // as messages name it: "~token", "file.yaml:3: token"
   FigureValue figure;
+  StyleValue style;
+  LoadsShownValue loads_shown;  // --loads
   options::Switch pictures;
   CamerasValue camera;
   CameraOptions camera_moves;

@@ -13,13 +13,14 @@ const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, pe
   objects: [{ character: 9, number: 2, name: 'cart' }],
   left_out: [{ character: 7, name: 'Eve', reason: '900 km from the others' }] };
 const palette = {
-  classes: ['unknown', 'low', 'medium', 'high'].map((name) => ({ name, color: rgb })),
-  cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, object: rgb, axes: [rgb, rgb, rgb],
+  classes: ['unknown', 'low', 'medium', 'high'].map((name) => ({ name, color: rgb, size: 0.8, rim: 0 })),
+  cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, clay: rgb, object: rgb, axes: [rgb, rgb, rgb],
 };
 const visual = { kind: 'mesh', size: [1, 1, 1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null,
   mesh: '/api/mesh/0/1/0' };
 const model = { people: [{ character: 0, revision: 1, skin: '/api/skin/0/1', links: [{ visuals: [visual] }] }],
-  joints: [{ label: 'L5/S1' }], class_limits: [0.3, 0.6], palette };
+  joints: [{ label: 'L5/S1' }], class_limits: [0.3, 0.6], look: { loads: 'both', style: 'clay' },
+  palette };
 
 /** A copy of `value` whose member at `path` ("people.0.name") is `other`. */
 function changed(value, path, other) {

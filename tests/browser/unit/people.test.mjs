@@ -1,13 +1,14 @@
 // Bodies of made-up people, with the real three.js; nothing is drawn.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { toColor } from '../../../web/colors.js';
 import { makeMarkerMaterials } from '../../../web/human.js';
 import { People } from '../../../web/people.js';
 
 const rgb = [0.5, 0.5, 0.5];
 const palette = {
-  classes: ['low', 'medium', 'high', 'unknown'].map((name) => ({ name, color: rgb })),
-  cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, object: rgb, axes: [rgb, rgb, rgb],
+  classes: ['low', 'medium', 'high', 'unknown'].map((name) => ({ name, color: rgb, size: 0.8, rim: 0 })),
+  cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, clay: [0.4, 0.3, 0.2], object: rgb, axes: [rgb, rgb, rgb],
 };
 const box = { kind: 'box', size: [0.1, 0.1, 0.1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null };
 const modelOf = (character, revision = 1) => ({ character, revision, skin: null, links: [{ visuals: [box] }] });
@@ -75,4 +76,30 @@ test('a new revision replaces the body and releases the old one', () => {
   assert.deepEqual(disposed, [{ geometries: 0, materials: 0 }, { geometries: 1, materials: 1 }]);
   assert.equal(people.group.children.length, 2);
   assert.equal(people.has(1, 2), true);
+});
+
+test('bodies of style clay have its colour, and those without live data that of stale ones', () => {
+  const { people } = twoPeople();
+  const limb = people.group.children[0].children[0].children[0].children[0];
+  const colorOf = (look, isLive) => {
+    people.setLook(look);
+    people.update(stateOf(100, 0, 1), isLive);
+    return limb.material.color.clone();
+  };
+  const matte = { loads: 'spheres', style: 'matte' }, clay = { ...matte, style: 'clay' };
+  assert.deepEqual(colorOf(clay, true), toColor(palette.clay));
+  assert.deepEqual(colorOf(clay, false), toColor(palette.stale_body));
+  assert.deepEqual(colorOf(matte, true), toColor(palette.body));
+  assert.deepEqual(colorOf({ ...matte, style: 'line' }, true), toColor(palette.body), 'the page draws no lines');
+});
+
+test('people without a skin keep their load spheres', () => {
+  const { people } = twoPeople();
+  const state = stateOf(100, 0);
+  state.people[0].loads = [{ joint: 3, loadClass: 'high', radius: 0.05, position: [0, 0, 1] }];
+  people.setLook({ loads: 'skin', style: 'matte' });
+  people.update(state, true);
+  const sphere = people.group.children[0].children.at(-1);
+  assert.ok(sphere.visible && sphere.scale.x === 0.05);
+  assert.equal(people.hasSkins, false);
 });

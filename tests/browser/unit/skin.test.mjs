@@ -6,6 +6,7 @@ import test from 'node:test';
 import { readSkin } from '../../../web/skin_buffer.js';
 import { framesOf } from '../../../web/skin_frames.js';
 import { capsulesOf, limbsOfVertices } from '../../../web/skin_limbs.js';
+import { REGION_FLOATS, regionsOf } from '../../../web/skin_regions.js';
 import { neighboursOf } from '../../../web/skin_surface.js';
 
 const program = process.env.KINESCOPE_PAGE_FIXTURE;
@@ -134,6 +135,59 @@ test('a skin with unknown limbs is rejected', () => {
     (header) => { header.limbs.radii_m.pop(); },
     (header) => { header.limbs.covered_by = []; },
   ]) assert.throws(() => readSkin(withHeader(whole, change), 'skin'), /unknown limbs; reload/);
+});
+
+test('loads are shown on the same regions of the skin as in pictures of the server', () => {
+  told.skins.forEach(({ regions }, person) => {
+    const skin = readSkin(buffers[person], 'skin');
+    const { shapes } = skin.rig.regions;
+    const values = regionsOf(skin);
+    assert.equal(values.length, REGION_FLOATS * regions.inside.length);
+    const seen = new Map();
+    let farthest = 0;
+    regions.inside.forEach((inside, vertex) => {
+      const [here, region] = values.subarray(REGION_FLOATS * vertex);
+      farthest = Math.max(farthest, Math.abs(here - inside));
+      if (inside < 0.05) return;
+      const { joint } = shapes[region];
+      assert.equal(joint, regions.joints[vertex], `person ${person}, vertex ${vertex}`);
+      seen.set(joint, (seen.get(joint) ?? 0) + 1);
+    });
+    // Vertices are sent in steps of 30 µm; the narrowest region has a half width of 27 mm.
+    assert.ok(farthest < 0.003, `person ${person}: ${farthest}`);
+    assert.equal(seen.size, shapes.length);
+    for (const [joint, count] of seen) assert.ok(count > 40, `joint ${joint} has ${count} vertices`);
+  });
+});
+
+test('wherever the corners of a triangle have different regions, all of them are outside', () => {
+  const shape = { isBall: true, parts: 1, direction: [0, 0, 0], halfWidth: 1 };
+  const shapes = [{ ...shape, joint: 4, middle: [0, 0, 0] }, { ...shape, joint: 9, middle: [1.5, 0, 0] }];
+  const values = regionsOf({
+    rig: { regions: { shapes, partOfFrame: [0, 1], leastWeight: 230 } },
+    positions: Float32Array.from([0, 0, 0, 0.5, 0, 0, 1.4, 0, 0, 0.1, 0, 0, 0.1, 0, 0]),
+    indices: Uint8Array.from({ length: 20 }, (_, i) => (i === 16 ? 1 : 0)),
+    weights: Uint8Array.from({ length: 20 }, (_, i) => (i % 4 === 0 ? 255 : 0)),
+    triangles: Uint16Array.from([0, 1, 3, 1, 2, 3]),
+  });
+  const inside = [0, 1, 2, 3, 4].map((i) => Number(values[REGION_FLOATS * i].toFixed(2)));
+  assert.deepEqual(inside, [1, -0.01, -0.01, -0.01, -1], 'the last vertex belongs to a part without regions');
+  assert.deepEqual([0, 2].map((i) => values[REGION_FLOATS * i + 1]), [0, 1]);
+});
+
+test('a skin with unknown regions is rejected', () => {
+  for (const change of [
+    (header) => { header.frames.parts[3] = 16; },
+    (header) => { header.frames.parts[3] = -1; },
+    (header) => { header.regions.parts.pop(); },
+    (header) => { header.regions.middles_m.pop(); },
+    (header) => { header.regions.half_widths_m[2] = 0; },
+    (header) => { header.regions.joints = []; },
+    (header) => { for (const key of Object.keys(header.regions)) if (key !== 'least_weight') {
+      const size = header.regions[key].length / header.regions.half_widths_m.length;
+      header.regions[key] = Array(65 * size).fill(header.regions[key][0]);
+    } },
+  ]) assert.throws(() => readSkin(withHeader(buffers[0], change), 'skin'), /unknown regions; reload/);
 });
 
 test('the vertices around a vertex go once around it', () => {

@@ -228,5 +228,28 @@ TEST(Camera, ProjectsATileLikeItsPartOfThePicture) {
   EXPECT_NEAR((1 - clip.y / clip.w) / 2 * tile.height, whole.y_px - tile.y, 1e-9);
 }
 
+TEST(Camera, FindsTheFloorWhereAPointOfItIsProjected) {
+  for (const std::string& name : CameraNames()) {
+    for (const double ortho_height_m : {0.0, 2.5}) {
+      Camera camera = NamedCamera(name, SceneState());
+      camera.ortho_height_m = ortho_height_m;
+      for (const Eigen::Vector3d& point :
+           {Eigen::Vector3d(0.4, -0.3, 0), Eigen::Vector3d(-1, 2, 0)}) {
+        const Projected at = Project(point, camera, 640, 360);
+        ASSERT_GT(at.depth_m, 0);
+        const auto found = FloorPointAt(at.x_px, at.y_px, camera, 640, 360);
+        ASSERT_TRUE(found) << name;
+        EXPECT_LT((*found - point.head<2>()).norm(), 1e-3) << name;
+      }
+    }
+  }
+  EXPECT_FALSE(FloorPointAt(320, 0, NamedCamera("front", SceneState()), 640, 360))
+      << "above the horizon";
+  Camera below;
+  below.position = {3, 0, -1};
+  below.target = {0, 0, -1};
+  EXPECT_FALSE(FloorPointAt(320, 20, below, 640, 360));
+}
+
 }  // namespace
 }  // namespace kinescope::render

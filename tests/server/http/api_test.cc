@@ -33,7 +33,7 @@ class FilesOfNames : public MeshFiles {
 
 TEST(ModelJson, HasEverySegmentWithTheVisualsOfItsLink) {
   const SceneState state = Scene();
-  const json model = json::parse(ModelJson(&state, true));
+  const json model = json::parse(ModelJson(&state, {}));
   ASSERT_EQ(model["people"].size(), 1u);
   const json& person = model["people"][0];
   EXPECT_EQ(person["revision"], 7);
@@ -57,7 +57,7 @@ TEST(ModelJson, HasTheFingersOfAGlovedHandInsteadOfTheHand) {
       *kinescope::testing::WornModel(*person.model, "/tmp/some meshes"));
   model->mesh_files = std::make_shared<FilesOfNames>();
   kinescope::testing::Wear(person, 0.3, model);
-  const json links = json::parse(ModelJson(&state, true))["people"][0]["links"];
+  const json links = json::parse(ModelJson(&state, {}))["people"][0]["links"];
   ASSERT_EQ(links.size(), 23u + 40 + 2);
   EXPECT_TRUE(links[urdf::kRightHand]["visuals"].empty());
   EXPECT_EQ(links[23]["name"], "skeleton_right_carpus");
@@ -98,7 +98,7 @@ TEST(DetailsJson, NamesThoseWhoAreLeftOut) {
 TEST(ModelJson, DescribesVisualsAsInTheUrdf) {
   const SceneState state = Scene();
   const urdf::RobotModel& robot = state.people[0].model->robot;
-  const json model = json::parse(ModelJson(&state, true));
+  const json model = json::parse(ModelJson(&state, {}));
   const json& told = model["people"][0]["links"][urdf::kPelvis]["visuals"][0];
   ASSERT_EQ(robot.links[0].name, "skeleton_pelvis");
   const urdf::Visual& visual = robot.links[0].visuals[0];
@@ -115,7 +115,7 @@ TEST(ModelJson, ReplacesThePartsOfTheBodyByTheUrlOfItsSkin) {
   auto model = std::make_shared<PersonModel>(*testing::MakePersonModel(9));
   SceneState state = testing::MakeScene(1, 0, 1, model);
   const auto person = [&](bool draws_skins) -> json {
-    return json::parse(ModelJson(&state, draws_skins))["people"][0];
+    return json::parse(ModelJson(&state, {draws_skins}))["people"][0];
   };
   const auto visuals = [](const json& of) {
     std::size_t count = 0;
@@ -135,7 +135,7 @@ TEST(ModelJson, ReplacesThePartsOfTheBodyByTheUrlOfItsSkin) {
 }
 
 TEST(ModelJson, ContainsThePaletteOfTheOtherSinks) {
-  const json palette = json::parse(ModelJson(nullptr, true))["palette"];
+  const json palette = json::parse(ModelJson(nullptr, {}))["palette"];
   EXPECT_EQ(palette["cop"], json(kCopColor));
   EXPECT_EQ(palette["com"], json(kComColor));
   EXPECT_EQ(palette["body"], json(kBodyColor));
@@ -147,11 +147,21 @@ TEST(ModelJson, ContainsThePaletteOfTheOtherSinks) {
     const auto load_class = static_cast<LoadClass>(i);
     EXPECT_EQ(palette["classes"][static_cast<std::size_t>(i)]["name"], Name(load_class));
     EXPECT_EQ(palette["classes"][static_cast<std::size_t>(i)]["color"], json(ColorOf(load_class)));
+    EXPECT_EQ(palette["classes"][static_cast<std::size_t>(i)]["size"], SizeOf(load_class));
+    EXPECT_EQ(palette["classes"][static_cast<std::size_t>(i)]["rim"], RimOf(load_class));
   }
+  EXPECT_EQ(palette["clay"], json(kClayColor));
+}
+
+TEST(ModelJson, HasTheLookThatTheServerWasStartedWith) {
+  EXPECT_EQ(json::parse(ModelJson(nullptr, {}))["look"],
+            (json{{"loads", "spheres"}, {"style", "matte"}}));
+  EXPECT_EQ(json::parse(ModelJson(nullptr, {true, "both", "clay"}))["look"],
+            (json{{"loads", "both"}, {"style", "clay"}}));
 }
 
 TEST(ModelJson, NamesAllJoints) {
-  const json joints = json::parse(ModelJson(nullptr, true))["joints"];
+  const json joints = json::parse(ModelJson(nullptr, {}))["joints"];
   ASSERT_EQ(joints.size(), static_cast<std::size_t>(urdf::kJointCount));
   EXPECT_EQ(joints[urdf::jRightElbow]["label"], "Right elbow");
 }
@@ -176,7 +186,7 @@ TEST(Json, ReplacesInvalidUtf8InNames) {
   state.people[0].name = "\xFF\xFE<b>";
   state.source = "udp://\x80";
   for (const std::string& text :
-       {StateJson(&state, 0), ModelJson(&state, true), DetailsJson(&state, "front", true)}) {
+       {StateJson(&state, 0), ModelJson(&state, {}), DetailsJson(&state, "front", true)}) {
     EXPECT_TRUE(json::accept(text)) << text;
   }
 }

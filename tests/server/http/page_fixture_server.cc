@@ -36,6 +36,7 @@
 #include "urdf/rig/rigged_skin.h"
 #include "urdf/skin/bind_pose.h"
 #include "urdf/skin/frames.h"
+#include "urdf/skin/load_regions.h"
 #include "urdf/skin/occlusion.h"
 #include "urdf/skin/person_skin.h"
 
@@ -101,6 +102,23 @@ json OpenSkyToJson(const PersonModel& model, const PersonState& person,
   return some;
 }
 
+// Region and place in it of all vertices, in order.
+json RegionsToJson(const PersonModel& model,
+                   const std::array<const urdf::HandSkeleton*, 2>& gloves) {
+  const urdf::Skeleton& skeleton = model.human.skeleton;
+  const skin::Build build = skin::BuildOf(model.description.sex == urdf::Sex::kFemale,
+                                          skeleton.height, model.description.mass_kg);
+  const skin::SkinTemplate& built_in = skin::BuiltInSkin();
+  const skin::PersonSkin skin(built_in, build, skeleton, gloves);
+  json joints = json::array(), inside = json::array();
+  for (const skin::LoadRegion& region : skin::LoadRegionsOf(
+           skin.rest(), built_in.weights, skin.triangles(), skin.bind(), skeleton.height)) {
+    joints.push_back(urdf::kScoredJoints[region.joint]);
+    inside.push_back(std::round(1e4 * region.inside) / 1e4);
+  }
+  return {{"joints", std::move(joints)}, {"inside", std::move(inside)}};
+}
+
 // The buffer of the person's skin, and frames and sky for random postures as the server computes
 // them.
 json SkinToJson(const PersonState& person) {
@@ -144,8 +162,14 @@ json SkinToJson(const PersonState& person) {
                         {"frames", frames},
                         {"open", OpenSkyToJson(model, moved, gloves, fingers)}});
   }
-  return {
-      {"hex", Hex({buffer.begin(), buffer.end()})}, {"sky_step", kSkyStep}, {"postures", postures}};
+  std::array<const urdf::HandSkeleton*, 2> gloves{};
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    if (person.gloves[side]) gloves[side] = &*model.human.gloves[side];
+  }
+  return {{"hex", Hex({buffer.begin(), buffer.end()})},
+          {"sky_step", kSkyStep},
+          {"regions", RegionsToJson(model, gloves)},
+          {"postures", postures}};
 }
 
 // As for `--figure skin:FILE`; it is not closed, and seen from both sides.
@@ -249,7 +273,7 @@ json Describe() {
           {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},
           {"own_skin", OwnSkinToJson(state.people[0])},
           {"picture_hex", Hex(EncodePicture({{0xFF, 0xD8, 0xFF}, 41, 5'000'000'000}))},
-          {"class_limits", json::parse(ModelJson(&state, true))["class_limits"]}};
+          {"class_limits", json::parse(ModelJson(&state, {}))["class_limits"]}};
 }
 
 // What the tests ask for over standard input.

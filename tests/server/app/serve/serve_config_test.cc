@@ -108,6 +108,21 @@ TEST(ServeConfig, TurnsThePageAndItsPicturesWithThePersonAndTheRosCameraNever) {
   EXPECT_EQ(moves(config.ros_camera->camera), 0);
 }
 
+TEST(ServeConfig, DrawsPeopleAlikeInAllPicturesAndOnThePage) {
+  const ServeConfig plain = ConfigOf({});
+  EXPECT_EQ(plain.pictures->people.style, render::Style::kMatte);
+  EXPECT_EQ(plain.page->look.loads, "spheres");
+  const ServeConfig config = ConfigOf({{"ros", "required"}, {"loads", "both"}, {"style", "clay"}});
+  EXPECT_EQ(config.pictures->people.loads, render::LoadsShown::kBoth);
+  EXPECT_EQ(config.pictures->people.style, render::Style::kClay);
+  EXPECT_EQ(config.ros_camera->people.loads, render::LoadsShown::kBoth);
+  EXPECT_EQ(config.ros_camera->people.style, render::Style::kClay);
+  EXPECT_EQ(config.page->look.loads, "both");
+  EXPECT_EQ(config.page->look.style, "clay");
+  EXPECT_TRUE(config.page->look.draws_skins);
+  EXPECT_FALSE(ConfigOf({{"figure", "urdf"}}).page->look.draws_skins);
+}
+
 TEST(ServeConfig, DoesNotRepublishFramesOfARosGraph) {
   const testing::Settings graph = {{"source", "ros:"}, {"ros", "required"}};
   const ServeConfig config = ConfigOf(graph);

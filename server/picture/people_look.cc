@@ -1,0 +1,38 @@
+#include "server/picture/people_look.h"
+
+namespace kinescope::app {
+
+StyleValue::StyleValue()
+    : Choice({{"matte", render::Style::kMatte},
+              {"clay", render::Style::kClay},
+              {"line", render::Style::kLine}},
+             render::SceneLook().style) {}
+
+LoadsShownValue::LoadsShownValue()
+    : Choice({{"spheres", render::LoadsShown::kSpheres},
+              {"skin", render::LoadsShown::kSkin},
+              {"both", render::LoadsShown::kBoth}},
+             render::SceneLook().loads) {}
+
+void ListPeopleLook(options::OptionList& option, FigureValue& figure, StyleValue& style,
+                    LoadsShownValue& loads) {
+  option("figure", figure, kFigureHelp);
+  option("style", style, "how bodies are drawn: in a suit, in one colour, or as lines");
+  option("loads", loads,
+         "where the classes of joint loads are shown: as spheres, as regions of the skin, or both");
+  option.HasNoEffect("loads", "with --figure urdf",
+                     [&figure] { return *figure == render::Figure::kUrdf; });
+}
+
+void PeopleLook::ApplyTo(render::SceneLook& look) const {
+  look.figure = figure;
+  look.style = style;
+  look.loads = loads;
+}
+
+PeopleLook LoadPeopleLook(const FigureValue& figure, const StyleValue& style,
+                          const LoadsShownValue& loads) {
+  return {figure.Load(), *style, *loads};
+}
+
+}  // namespace kinescope::app
