@@ -137,6 +137,11 @@ std::optional<SceneState> SceneTimeline::At(double secs) {
   return AtNanos(std::llround(secs * 1e9));
 }
 
+double SceneTimeline::NewestSecs() const {
+  const auto& newest = after_ ? after_ : before_;
+  return newest ? Secs(newest->stamp_nanos - start_nanos_) : 0;
+}
+
 std::optional<SceneState> SceneTimeline::AtNanos(std::int64_t nanos) {
   const std::int64_t stamp = start_nanos_ + nanos;
   while (after_ && after_->stamp_nanos < stamp) {

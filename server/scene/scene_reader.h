@@ -108,6 +108,9 @@ class SceneTimeline {
   /// @pre 0 <= secs <= kLatestSecs, not before the time of the last call.
   std::optional<SceneState> At(double secs);
   std::optional<SceneState> AtNanos(std::int64_t nanos);
+  /// The newest state that was read, s after the first sample: the end of the source, after
+  /// nullopt.
+  double NewestSecs() const;
 
  private:
   ReadNext next_;

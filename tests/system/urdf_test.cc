@@ -169,6 +169,49 @@ TEST_F(UrdfCommand, GivesEveryLinkAMassForGazebo) {
   }
 }
 
+TEST_F(UrdfCommand, WritesTheSkinOfAMoment) {
+  const std::string take = At("take.mvnx");
+  ASSERT_EQ(testing::Kinescope({"convert", "demo:lift", "--seconds", "1", "--out", take}).exit_code,
+            0);
+  const auto written = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--out", At("person.glb")});
+    const ProgramResult result = Urdf(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return ReadFile(At("person.glb"));
+  };
+  const std::string bind = written({take}), start = written({take, "--time", "0"}),
+                    later = written({take, "--time", "0.9"});
+  EXPECT_NE(bind, start);
+  EXPECT_NE(start, later);
+  EXPECT_THAT(later, HasSubstr("\"skins\""));
+  EXPECT_THAT(written({take, "--time", "0.9", "--no_skeleton"}), Not(HasSubstr("\"skins\"")));
+}
+
+TEST_F(UrdfCommand, RejectsATimeThatTheFileCannotShow) {
+  const std::string take = At("take.mvnx");
+  ASSERT_EQ(testing::Kinescope({"convert", "demo:lift", "--seconds", "1", "--out", take}).exit_code,
+            0);
+  const auto refusal = [&](const std::vector<std::string>& arguments) {
+    const ProgramResult result = Urdf(arguments);
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(At("a.glb")));
+    return result.err;
+  };
+  EXPECT_THAT(refusal({take, "--time", "1.5", "--out", At("a.glb")}),
+              HasSubstr("--time=1.5: " + take + " ends before this time, at 1.000 s"));
+  EXPECT_THAT(refusal({"demo:lift", "--time", "-1", "--out", At("a.glb")}),
+              HasSubstr("--time=-1: expected a number from 0 to 864000 s"));
+  EXPECT_THAT(refusal({"demo:lift", "--time", "800000", "--out", At("a.glb")}),
+              HasSubstr("--time=800000: demo:lift is generated motion"));
+  EXPECT_THAT(refusal({"--time", "1", "--out", At("a.glb")}),
+              HasSubstr("--time=1: needs a source"));
+  EXPECT_THAT(refusal({take, "--time", "1", "--out", At("a.urdf")}),
+              HasSubstr("--time=1: needs --out FILE.glb"));
+  EXPECT_THAT(refusal({take, "--no_skeleton", "--out", At("a.urdf")}),
+              HasSubstr("--no_skeleton: needs --out FILE.glb"));
+}
+
 TEST_F(UrdfCommand, ReportsFileLineAndElementOfAProblem) {
   const std::string file = Write("r.urdf", kArm);
   const ProgramResult missing = Urdf({"check", file});

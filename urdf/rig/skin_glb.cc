@@ -20,6 +20,7 @@ using nlohmann::json;
 using urdf::At;
 
 constexpr int kUnsignedByteComponent = 5121, kUnsignedShortComponent = 5123, kFloatComponent = 5126;
+constexpr int kOfVertices = 34962, kOfIndices = 34963;  // targets of buffer views
 
 // x forward, y left, z up to x left, y up, z forward.
 const Eigen::Matrix3d& FileAxes() {
@@ -45,46 +46,64 @@ double ToLinear(std::uint8_t channel) {
 class SkinWriter {
  public:
   SkinWriter(const skin::PersonSkin& person, const skin::SkinTemplate& of,
-             const std::vector<skin::SkinTemplate::Color>& colors)
-      : person_(person), of_(of), colors_(colors) {
+             const std::vector<skin::SkinTemplate::Color>& colors, const SkinGlbOptions& options)
+      : person_(person), of_(of), colors_(colors), options_(options) {
+    if (options.posture) {
+      bind_place_ = options.posture->links[urdf::kPelvis].position;
+      return;
+    }
     float lowest = 0;
     for (const Eigen::Vector3f& p : person.rest()) lowest = std::min(lowest, p.z());
-    lift_ = -static_cast<double>(lowest);
+    bind_place_.z() = -static_cast<double>(lowest);
   }
 
   std::string Write() {
     document_["asset"] = {{"version", "2.0"}, {"generator", "Kinescope"}};
     document_["scene"] = 0;
-    AddBones();
+    if (options_.has_skeleton) {
+      AddBones();
+    } else {
+      document_["nodes"] = {{{"name", "Person"}, {"mesh", 0}}};
+      document_["scenes"] = {{{"nodes", {0}}}};
+    }
     AddSurface();
     document_["buffers"] = {{{"byteLength", binary_.size()}}};
     return Packed();
   }
 
  private:
-  Affine3d WorldOf(int frame) const {
-    const urdf::Pose& pose = person_.bind_frames()[At(frame)];
+  static Affine3d InFile(const urdf::Pose& pose, const Eigen::Vector3d& place) {
     Affine3d world = Affine3d::Identity();
     world.linear() = FileAxes() * pose.orientation.toRotationMatrix();
-    world.translation() = FileAxes() * (pose.position + Eigen::Vector3d(0, 0, lift_));
+    world.translation() = FileAxes() * (pose.position + place);
     return world;
   }
+  Affine3d BindOf(int frame) const { return InFile(person_.bind_frames()[At(frame)], bind_place_); }
 
   void AddBones() {
     json nodes = json::array(), bones = json::array();
     std::vector<float> binds;
     const int frames = static_cast<int>(skin::Frames().size());
+    std::vector<Affine3d> shown;
+    if (options_.posture) {
+      for (const urdf::Pose& pose :
+           skin::FramePoses(options_.posture->links, options_.posture->fingers, person_.bind())) {
+        shown.push_back(InFile(pose, Eigen::Vector3d::Zero()));
+      }
+    } else {
+      for (int frame = 0; frame < frames; ++frame) shown.push_back(BindOf(frame));
+    }
     for (int frame = 0; frame < frames; ++frame) {
       const int parent = ParentOf(frame);
-      const Affine3d world = WorldOf(frame);
-      const Affine3d local = parent < 0 ? world : WorldOf(parent).inverse() * world;
+      const Affine3d& world = shown[At(frame)];
+      const Affine3d local = parent < 0 ? world : shown[At(parent)].inverse() * world;
       const Eigen::Quaterniond turn(local.linear());
       nodes.push_back({{"name", NameOfFrame(frame)},
                        {"translation", std::vector<double>(local.translation().begin(),
                                                            local.translation().end())},
                        {"rotation", {turn.x(), turn.y(), turn.z(), turn.w()}}});
       bones.push_back(frame);
-      const Eigen::Matrix4d bind = world.inverse().matrix();
+      const Eigen::Matrix4d bind = BindOf(frame).inverse().matrix();
       for (int k = 0; k < 16; ++k) binds.push_back(static_cast<float>(bind(k % 4, k / 4)));
     }
     for (int frame = 1; frame < frames; ++frame) {
@@ -95,40 +114,35 @@ class SkinWriter {
     document_["scenes"] = {{{"nodes", {0, frames}}}};
     document_["skins"] = {{{"joints", std::move(bones)},
                            {"skeleton", 0},
-                           {"inverseBindMatrices", Add(binds, kFloatComponent, "MAT4", 16)}}};
+                           {"inverseBindMatrices", Add(binds, {kFloatComponent, "MAT4", 16})}}};
   }
 
   void AddSurface() {
-    std::vector<float> positions;
+    const bool is_posed = options_.posture && !options_.has_skeleton;
+    const skin::BindPose& bind = person_.bind();
+    skin::PersonSkin::Surface surface;
+    if (is_posed) {
+      person_.Pose(options_.posture->links, options_.posture->fingers, surface);
+    } else {
+      person_.Pose(bind.links, {&bind.fingers[0], &bind.fingers[1]}, surface);
+      surface.positions = person_.rest();
+    }
+    std::vector<float> positions, normals;
     Eigen::Vector3f least = Eigen::Vector3f::Constant(1e9f), most = -least;
-    for (const Eigen::Vector3f& p : person_.rest()) {
-      const Eigen::Vector3f at =
-          (FileAxes() * (p.cast<double>() + Eigen::Vector3d(0, 0, lift_))).cast<float>();
+    const Eigen::Vector3d place = is_posed ? Eigen::Vector3d(0, 0, 0) : bind_place_;
+    for (const Eigen::Vector3f& p : surface.positions) {
+      const Eigen::Vector3f at = (FileAxes() * (p.cast<double>() + place)).cast<float>();
       positions.insert(positions.end(), at.begin(), at.end());
       least = least.cwiseMin(at);
       most = most.cwiseMax(at);
     }
-    skin::PersonSkin::Surface surface;
-    person_.Pose(person_.bind().links, {&person_.bind().fingers[0], &person_.bind().fingers[1]},
-                 surface);
-    std::vector<float> normals;
     for (const Eigen::Vector3f& n : surface.normals) {
       const Eigen::Vector3f turned = FileAxes().cast<float>() * n;
       normals.insert(normals.end(), turned.begin(), turned.end());
     }
-    std::vector<std::uint8_t> joints, weights;
-    for (const skin::VertexWeights& vertex : of_.weights) {
-      for (std::size_t k = 0; k < skin::kInfluences;
-           ++k) {  // unused ones are bone 0, as glTF wants
-        joints.push_back(vertex.weights[k] > 0 ? vertex.frames[k] : std::uint8_t{0});
-        weights.push_back(vertex.weights[k]);
-      }
-    }
-    const json attributes = {{"POSITION", Add(positions, kFloatComponent, "VEC3", 3)},
-                             {"NORMAL", Add(normals, kFloatComponent, "VEC3", 3)},
-                             {"JOINTS_0", Add(joints, kUnsignedByteComponent, "VEC4", 4)},
-                             {"WEIGHTS_0", Add(weights, kUnsignedByteComponent, "VEC4", 4)}};
-    document_["accessors"][attributes["WEIGHTS_0"].get<std::size_t>()]["normalized"] = true;
+    json attributes = {{"POSITION", Add(positions, {kFloatComponent, "VEC3", 3, kOfVertices})},
+                       {"NORMAL", Add(normals, {kFloatComponent, "VEC3", 3, kOfVertices})}};
+    if (options_.has_skeleton) AddWeights(attributes);
     json& of_positions = document_["accessors"][attributes["POSITION"].get<std::size_t>()];
     of_positions["min"] = std::vector<float>(least.begin(), least.end());
     of_positions["max"] = std::vector<float>(most.begin(), most.end());
@@ -145,26 +159,47 @@ class SkinWriter {
             {{"baseColorFactor", {ToLinear(color[0]), ToLinear(color[1]), ToLinear(color[2]), 1}},
              {"metallicFactor", 0},
              {"roughnessFactor", 0.8}}}});
-      primitives.push_back({{"attributes", attributes},
-                            {"indices", Add(corners, kUnsignedShortComponent, "SCALAR", 1)},
-                            {"material", document_["materials"].size() - 1}});
+      primitives.push_back(
+          {{"attributes", attributes},
+           {"indices", Add(corners, {kUnsignedShortComponent, "SCALAR", 1, kOfIndices})},
+           {"material", document_["materials"].size() - 1}});
     }
     document_["meshes"] = {{{"name", "Person"}, {"primitives", std::move(primitives)}}};
   }
 
+  void AddWeights(json& attributes) {
+    std::vector<std::uint8_t> joints, weights;
+    for (const skin::VertexWeights& vertex : of_.weights) {
+      for (std::size_t k = 0; k < skin::kInfluences;
+           ++k) {  // unused ones are bone 0, as glTF wants
+        joints.push_back(vertex.weights[k] > 0 ? vertex.frames[k] : std::uint8_t{0});
+        weights.push_back(vertex.weights[k]);
+      }
+    }
+    attributes["JOINTS_0"] = Add(joints, {kUnsignedByteComponent, "VEC4", 4, kOfVertices});
+    attributes["WEIGHTS_0"] = Add(weights, {kUnsignedByteComponent, "VEC4", 4, kOfVertices});
+    document_["accessors"][attributes["WEIGHTS_0"].get<std::size_t>()]["normalized"] = true;
+  }
+
+  struct Kind {
+    int component = 0;
+    const char* type = "";
+    std::size_t per_element = 1;
+    int target = 0;  // 0: none
+  };
   // @return the accessor
   template <class T>
-  std::size_t Add(const std::vector<T>& values, int component, const char* type,
-                  std::size_t per_element) {
+  std::size_t Add(const std::vector<T>& values, const Kind& kind) {
     const std::size_t bytes = sizeof(T) * values.size();
-    document_["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}});
+    json view = {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes}};
+    if (kind.target != 0) view["target"] = kind.target;
+    document_["bufferViews"].push_back(std::move(view));
     binary_.append(reinterpret_cast<const char*>(values.data()), bytes);
     binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
     document_["accessors"].push_back({{"bufferView", document_["bufferViews"].size() - 1},
-                                      {"componentType", component},
-                                      {"count", values.size() / per_element},
-                                      {"type", type}});
+                                      {"componentType", kind.component},
+                                      {"count", values.size() / kind.per_element},
+                                      {"type", kind.type}});
     return document_["accessors"].size() - 1;
   }
 
@@ -191,7 +226,9 @@ class SkinWriter {
   const skin::PersonSkin& person_;
   const skin::SkinTemplate& of_;
   const std::vector<skin::SkinTemplate::Color>& colors_;
-  double lift_ = 0;  // so that the soles are on the floor, m
+  const SkinGlbOptions& options_;
+  /// Of the bind pose's pelvis, world, m: without a posture, so that the soles are on the floor.
+  Eigen::Vector3d bind_place_ = Eigen::Vector3d::Zero();
   json document_;
   std::string binary_;
 };
@@ -199,8 +236,9 @@ class SkinWriter {
 }  // namespace
 
 std::string WriteSkinGlb(const skin::PersonSkin& person, const skin::SkinTemplate& of,
-                         const std::vector<skin::SkinTemplate::Color>& colors) {
-  return SkinWriter(person, of, colors).Write();
+                         const std::vector<skin::SkinTemplate::Color>& colors,
+                         const SkinGlbOptions& options) {
+  return SkinWriter(person, of, colors, options).Write();
 }
 
 }  // namespace kinescope::rig

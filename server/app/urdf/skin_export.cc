@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "urdf/rig/skin_glb.h"
@@ -30,9 +31,7 @@ const Rgb& ColorAt(const skin::Borders& inside, const SuitColors& suit) {
   return inside.bands > 0 ? suit.band : suit.top;
 }
 
-}  // namespace
-
-std::string SkinGlbOf(const PersonModel& model) {
+std::string WriteGlb(const PersonModel& model, const rig::SkinGlbOptions& options) {
   const urdf::HumanModel& human = model.human;
   const skin::Build build = skin::BuildOf(model.description.sex == urdf::Sex::kFemale,
                                           human.skeleton.height, model.description.mass_kg);
@@ -56,7 +55,21 @@ std::string SkinGlbOf(const PersonModel& model) {
     colors.push_back(ToBytes(ColorAt(sum, model.suit)));
   }
   return rig::WriteSkinGlb(skin::PersonSkin(built_in, build, human.skeleton, gloves), built_in,
-                           colors);
+                           colors, options);
+}
+
+}  // namespace
+
+std::string SkinGlbOf(const PersonModel& model, bool has_skeleton) {
+  return WriteGlb(model, {std::nullopt, has_skeleton});
+}
+
+std::string PosedSkinGlbOf(const PersonState& person, bool has_skeleton) {
+  rig::SkinPosture posture{person.links, {}};
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    if (person.gloves[side]) posture.fingers[side] = &person.gloves[side]->links;
+  }
+  return WriteGlb(*person.model, {posture, has_skeleton});
 }
 
 }  // namespace kinescope::app

@@ -36,15 +36,21 @@ using Model = std::shared_ptr<const PersonModel>;
 
 struct WriteOptions {
   options::Text source, out, package;
-  options::Flag gazebo;
+  options::Optional<options::Number> time{options::Number(0, {0, kLatestSecs, "s"})};
+  options::Flag no_skeleton, gazebo;
   PersonOptions person;
 
   void List(options::OptionList& option) {
     option("source", source,
            "person to write: " + SourceKinds() + "; default: the default body of --height");
-    option("out", out,
-           "FILE.urdf; FILE.glb for the skin with its skeleton, in the bind pose; or a folder for "
-           "person.urdf and meshes/; default, and -: standard output");
+    option(
+        "out", out,
+        "FILE.urdf; FILE.glb for the skin with its skeleton, in the bind pose or that of --time; "
+        "or a folder for person.urdf and meshes/; default, and -: standard output");
+    option("time", time,
+           "time after the first sample whose posture a FILE.glb shows; not given: the bind pose");
+    option("no_skeleton", no_skeleton,
+           "write the surface without bones and weights to FILE.glb, for viewers without skinning");
     option("package", package,
            "name of the ROS package that the folder is: meshes are written as package://NAME/...");
     option("gazebo", gazebo,
@@ -119,6 +125,26 @@ Model ModelOf(const std::string& source, const SceneOptions& scene) {
   return state->people.front().model;
 }
 
+// Of the first person of that moment; between samples too.
+PersonState PersonAt(const std::string& source, double secs, const SceneOptions& scene) {
+  const std::string option = fmt::format("--time={}", secs);
+  if (source.empty()) {
+    throw UsageError(option + ": needs a source, such as demo:lift or a recording");
+  }
+  CheckReach(option, secs, source);
+  SceneReader reader(source, scene);
+  SceneTimeline timeline(reader);
+  auto state = timeline.At(secs);
+  if (!state) {
+    throw UsageError(fmt::format("{}: {} ends before this time, at {:.3f} s", option, source,
+                                 timeline.NewestSecs()));
+  }
+  if (state->people.empty()) {
+    throw UsageError(fmt::format("{}: {} has no person at this time", option, source));
+  }
+  return std::move(state->people.front());
+}
+
 // A name that ends as a URDF does is a file, anything else a folder.
 bool IsFileName(const fs::path& out) {
   return out.extension() == ".urdf" || out.extension() == ".xml";
@@ -152,16 +178,29 @@ void WriteSkin(const WriteOptions& options) {
   if (!options.package->empty() || *options.gazebo) {
     throw UsageError("--out=" + *options.out + ": a skin has no --package and no --gazebo");
   }
-  const Model model = ModelOf(*options.source, ToSceneOptions(options.person));
-  if (!model->has_built_in_surface) {
+  const SceneOptions scene = ToSceneOptions(options.person);
+  const auto check = [&](const PersonModel& model) {
+    if (model.has_built_in_surface) return;
     throw UsageError("--out=" + *options.out +
                      ": only the built-in body has a skin; expected --body_model smooth");
+  };
+  if (options.time) {
+    const PersonState person = PersonAt(*options.source, *options.time, scene);
+    check(*person.model);
+    return WriteFile(*options.out, PosedSkinGlbOf(person, !*options.no_skeleton));
   }
-  WriteFile(*options.out, SkinGlbOf(*model));
+  const Model model = ModelOf(*options.source, scene);
+  check(*model);
+  WriteFile(*options.out, SkinGlbOf(*model, !*options.no_skeleton));
 }
 
 void Write(const WriteOptions& options) {
   if (fs::path(*options.out).extension() == ".glb") return WriteSkin(options);
+  if (options.time) {
+    throw UsageError(
+        fmt::format("--time={}: needs --out FILE.glb; a URDF has no posture", *options.time));
+  }
+  if (*options.no_skeleton) throw UsageError("--no_skeleton: needs --out FILE.glb");
   const bool is_folder = !options.out->empty() && !IsFileName(*options.out);
   if (!options.package->empty() && !is_folder) {
     throw UsageError("--package=" + *options.package +

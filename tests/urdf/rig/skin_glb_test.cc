@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 
+#include "tests/urdf/skin_postures.h"
+#include "urdf/rig/glb_container.h"
+#include "urdf/rig/glb_values.h"
 #include "urdf/rig/rig.h"
 #include "urdf/rig/rigged_skin.h"
 
@@ -16,10 +20,16 @@ using Eigen::Vector3f;
 using skin::PersonSkin;
 using skin::SkinTemplate;
 
-std::string Written(const urdf::Skeleton& skeleton) {
+// In one colour, so that the triangles keep their order.
+std::string Written(const PersonSkin& person, const SkinGlbOptions& options = {}) {
   const SkinTemplate& built_in = skin::BuiltInSkin();
-  return WriteSkinGlb(PersonSkin(built_in, {}, skeleton), built_in,
-                      std::vector<SkinTemplate::Color>(built_in.triangles.size(), {184, 176, 166}));
+  return WriteSkinGlb(person, built_in,
+                      std::vector<SkinTemplate::Color>(built_in.triangles.size(), {184, 176, 166}),
+                      options);
+}
+
+std::string Written(const urdf::Skeleton& skeleton) {
+  return Written(PersonSkin(skin::BuiltInSkin(), {}, skeleton));
 }
 
 // Of each vertex of `of`, the one of `among` that is nearest to it, and at most 4 mm away.
@@ -83,6 +93,93 @@ TEST(SkinGlb, FitsItsOwnPersonAgain) {
   const SkinTemplate read = SkinOf(ReadRig(Written(skeleton)));
   const PersonSkin ours(skin::BuiltInSkin(), {}, skeleton), again(read, {}, skeleton);
   EXPECT_LT(FarthestInPostures(ours, again, skeleton), 0.002);
+}
+
+// A woman with gloves who squats away from the origin, with the right fist closed.
+class PosedSkinGlb : public ::testing::Test {
+ protected:
+  PosedSkinGlb() {
+    urdf::JointAngles angles{};
+    for (const int hip : {urdf::jRightHip, urdf::jLeftHip}) angles[urdf::At(hip)].y() = -1.8;
+    for (const int knee : {urdf::jRightKnee, urdf::jLeftKnee}) angles[urdf::At(knee)].y() = 1.9;
+    angles[urdf::At(urdf::jRightElbow)].y() = -2.2;
+    angles[urdf::At(urdf::jLeftShoulder)].x() = 2.4;
+    posture_.links = urdf::ForwardKinematics(
+        skeleton_, {{3.5, -2, 0.6}, Eigen::Quaterniond(Eigen::AngleAxisd(2, Vector3d::UnitZ()))},
+        angles);
+    for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+      urdf::FingerAngles bends{};
+      for (Vector3d& bend : bends) bend.x() = side == urdf::kRight ? 1.1 : 0;
+      fingers_[side] = urdf::CompleteHand(
+          hands_[side], posture_.links[urdf::At(urdf::HandSegmentOf(side))], {}, {}, bends);
+      posture_.fingers[side] = &fingers_[side];
+    }
+    person_.Pose(posture_.links, posture_.fingers, surface_);
+  }
+
+  // x of the file is y of the world, y is z, z is x.
+  static Vector3f InFile(const Vector3f& p) { return {p.y(), p.z(), p.x()}; }
+
+  using Vector3d = Eigen::Vector3d;
+  const urdf::Skeleton skeleton_ = urdf::DefaultSkeleton(1.62);
+  const std::array<urdf::HandSkeleton, 2> hands_ = {
+      urdf::DefaultHand(urdf::kRight, urdf::EndOf(skeleton_, urdf::kRightHand).norm()),
+      urdf::DefaultHand(urdf::kLeft, urdf::EndOf(skeleton_, urdf::kLeftHand).norm())};
+  const PersonSkin person_{
+      skin::BuiltInSkin(), skin::BuildOf(true, 1.62, 62), skeleton_, {&hands_[0], &hands_[1]}};
+  std::array<urdf::FingerPoses, 2> fingers_{};
+  SkinPosture posture_;
+  PersonSkin::Surface surface_;
+};
+
+TEST_F(PosedSkinGlb, ShowsThePostureAtItsPlace) {
+  const Rig rig = ReadRig(Written(person_, {posture_}));
+  const auto& triangles = skin::BuiltInSkin().triangles;
+  ASSERT_EQ(rig.triangles.size(), triangles.size());
+  float farthest = 0;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Vector3f shown = rig.vertices[rig.triangles[i][corner]].position.cast<float>();
+      const Vector3f ours = InFile(surface_.positions[triangles[i][corner]]);
+      farthest = std::max(farthest, (shown - ours).norm());
+    }
+  }
+  EXPECT_LT(farthest, 0.0001f);  // m
+}
+
+TEST_F(PosedSkinGlb, KeepsTheBindPoseAtThePlaceOfThePerson) {
+  const std::string posed = Written(person_, {posture_});
+  const auto json = urdf::ParseGlbJson(urdf::SplitGlb(posed).json);
+  const Accessor positions(json, urdf::SplitGlb(posed).binary,
+                           json["meshes"][0]["primitives"][0]["attributes"]["POSITION"], "VEC3");
+  ASSERT_EQ(positions.count(), person_.rest().size());
+  const Vector3f pelvis = posture_.links[urdf::kPelvis].position.cast<float>();
+  for (std::size_t i = 0; i < positions.count(); ++i) {
+    const Vector3f at = InFile(person_.rest()[i] + pelvis);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      ASSERT_NEAR(positions.Number(i, axis), at[static_cast<Eigen::Index>(axis)], 1e-5);
+    }
+  }
+}
+
+TEST_F(PosedSkinGlb, HasThePosedSurfaceItselfWithoutASkeleton) {
+  const std::string plain = Written(person_, {posture_, false});
+  const auto json = urdf::ParseGlbJson(urdf::SplitGlb(plain).json);
+  EXPECT_FALSE(json.contains("skins"));
+  EXPECT_EQ(json["nodes"].size(), 1u);
+  const auto& part = json["meshes"][0]["primitives"][0]["attributes"];
+  EXPECT_EQ(part.size(), 2u) << part;
+  const Accessor positions(json, urdf::SplitGlb(plain).binary, part["POSITION"], "VEC3");
+  const Accessor normals(json, urdf::SplitGlb(plain).binary, part["NORMAL"], "VEC3");
+  ASSERT_EQ(positions.count(), surface_.positions.size());
+  for (std::size_t i = 0; i < positions.count(); ++i) {
+    const Vector3f at = InFile(surface_.positions[i]), normal = InFile(surface_.normals[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<Eigen::Index>(axis);
+      ASSERT_NEAR(positions.Number(i, axis), at[k], 1e-5);
+      ASSERT_NEAR(normals.Number(i, axis), normal[k], 1e-5);
+    }
+  }
 }
 
 }  // namespace
