@@ -83,7 +83,7 @@ export function framesOf(rig, poses) {
     const swung = (/** @type {number} */ part) => up.clone().multiply(partOf(rise, part)).multiply(partOf(rest, part));
     if (kind === 'twist') return { position: own.position, rotation: swung(1).multiply(partOf(twist, share)) };
     const bent = 0.5 * (1 - Math.cos(risen));
-    const move = towards.clone().multiplyScalar(bent * intoBend).addScaledVector(Z, bent * bent * upBone)
+    const move = towards.clone().multiplyScalar(bent * intoBend).addScaledVector(Z, risen / Math.PI * upBone)
       .applyQuaternion(up.clone().multiply(partOf(rise, 0.5)));
     return { position: move.add(own.position), rotation: swung(share) };
   });

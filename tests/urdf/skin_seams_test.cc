@@ -26,6 +26,8 @@ using Positions = std::vector<Vector3f>;
 // Of pixels, 2 m a side.
 constexpr int kSide = 640;
 constexpr float kPixel = 2.0f / kSide;  // m
+// From the midline out, in the bind pose, m.
+constexpr float kFingers = 0.58f;
 
 struct Pixel {
   float depth = -std::numeric_limits<float>::infinity();  // towards the viewer, m
@@ -108,7 +110,9 @@ Seams SeamsOf(const PersonSkin& skin, const Positions& posed) {
       for (const std::size_t next : {i + 1, i + kSide}) {
         if (next >= picture.size() || !picture[next].is_body()) continue;
         const Pixel& there = picture[next];
-        const bool are_neighbours = (here.bind - there.bind).norm() < 0.040f;
+        // Fingers are side by side in the bind pose, but in front of each other in many a view.
+        const bool is_finger = std::abs(here.bind.y()) > kFingers;
+        const bool are_neighbours = !is_finger && (here.bind - there.bind).norm() < 0.040f;
         if (!are_neighbours) continue;
         if (here.normal.dot(there.normal) < crease) ++creases;
         const bool face_viewer = std::min(here.normal.z(), there.normal.z()) > 0.4f;
@@ -164,9 +168,10 @@ std::map<std::string, urdf::JointAngles> Postures() {
   return postures;
 }
 
-// How much more than the bind pose itself, whose lips and fingers count, a posture may have.
-// Creases are also folds as people have them, in groins and hollows of knees.
-constexpr double kMoreSteps = 0.3, kMoreCreases = 2.0;
+// How much more than the bind pose itself, whose lips and ears count, a posture may have. Both are
+// also folds as people have them: the most steps are in the groins of a squatting man (0.46), the
+// creases in hollows of knees, too.
+constexpr double kMoreSteps = 0.55, kMoreCreases = 2.0;
 
 urdf::LinkPoses Posed(const urdf::JointAngles& angles) {
   return urdf::ForwardKinematics(urdf::DefaultSkeleton(), {}, angles);

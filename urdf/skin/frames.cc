@@ -61,7 +61,7 @@ Vector3d MoveOf(const Frame& frame, const JointTurn& turn) {
   const double bent = 0.5 * (1 - std::cos(turn.risen));
   const FarthestMove most = FarthestMoveOf(frame);
   const Vector3d move =
-      bent * most.into_bend * turn.towards + bent * bent * most.up_bone * Vector3d::UnitZ();
+      bent * most.into_bend * turn.towards + turn.risen / M_PI * most.up_bone * Vector3d::UnitZ();
   return Quaterniond::Identity().slerp(0.5, turn.rise) * move;
 }
 
@@ -166,7 +166,7 @@ FarthestMove FarthestMoveOf(const Frame& frame) {
   FarthestMove move;  // of the frame in the middle of the joint
   switch (frame.segment) {
     case urdf::kRightUpperArm:
-    case urdf::kLeftUpperArm: move.up_bone = 0.050; break;
+    case urdf::kLeftUpperArm: move.up_bone = 0.060; break;
     case urdf::kRightForeArm:
     case urdf::kLeftForeArm: move.into_bend = -0.012; break;
     case urdf::kRightUpperLeg:

@@ -54,10 +54,10 @@ Eigen::Quaterniond MiddleOfRange(int segment);
 inline constexpr double kOwnPlaneUntil = 60 * M_PI / 180, kMiddleShare = 0.2;
 
 /// How far a swing frame leaves its joint when that is bent by 180 degrees, m, in the axes of the
-/// joint turned half: the bone of an elbow stands out, the armpit of a raised arm draws in.
+/// joint turned half: the bone of an elbow stands out, the shoulder rises with its arm.
 struct FarthestMove {
   double into_bend = 0;  // to the hollow side; grows with (1 - cos(bend)) / 2
-  double up_bone = 0;    // from the bone's end to its joint; with the square of that
+  double up_bone = 0;    // from the bone's end to its joint; grows with the bend
 };
 FarthestMove FarthestMoveOf(const Frame& frame);
 

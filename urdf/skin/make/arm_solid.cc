@@ -9,7 +9,7 @@ struct ArmSection {
 };
 constexpr double kElbow = 0.300;
 constexpr ArmSection kArmSections[] = {
-    {0.020, 0.046, 0.046, 0.046, 0.046, 0},     {0.080, 0.049, 0.049, 0.046, 0.047, 0},
+    {0.045, 0.047, 0.047, 0.046, 0.046, 0},     {0.080, 0.049, 0.049, 0.046, 0.047, 0},
     {0.140, 0.048, 0.049, 0.041, 0.044, 0.001}, {0.190, 0.046, 0.048, 0.037, 0.041, 0.001},
     {0.240, 0.041, 0.043, 0.036, 0.039, 0},     {0.280, 0.037, 0.039, 0.038, 0.040, 0},
     {0.305, 0.036, 0.038, 0.040, 0.040, 0},     {0.340, 0.041, 0.038, 0.042, 0.039, 0.003},
@@ -26,7 +26,7 @@ Loft ArmLoft(const Build& build) {
     sections.push_back({s.down, size * s.forward, size * s.back, size * s.outward, size * s.inward,
                         s.center, 0, 0});
   }
-  return Loft(std::move(sections), 0.045, 0.020);
+  return Loft(std::move(sections), 0.062, 0.020);
 }
 
 }  // namespace
@@ -36,14 +36,14 @@ ArmSolid::ArmSolid(const Build& build) : build_(build), loft_(ArmLoft(build)) {}
 double ArmSolid::operator()(const Point& q) const {
   const double size = 1 - 0.11 * build_.woman;  // of the muscles
   Joined arm(loft_(q.x(), q.y(), -q.z()));
-  // Deltoid: middle, all around, front and back.
-  arm.Add(RoundCone(q, {0, -0.001, -0.026}, {0.002, 0.008, -0.130}, 0.0465 * size, 0.0370 * size),
-          0.034);
-  arm.Add(Ellipsoid(q, {0, 0.012, -0.066}, {0.0490 * size, 0.0390 * size, 0.078}), 0.030);
-  arm.Add(RoundCone(q, {0.022, 0.004, -0.034}, {0.014, 0.012, -0.115}, 0.0310 * size, 0.022 * size),
+  // Deltoid: middle, all around, front and back. Its end goes over into the arm without a step.
+  arm.Add(RoundCone(q, {0, -0.001, -0.036}, {0.002, 0.006, -0.170}, 0.0465 * size, 0.0310 * size),
+          0.018);
+  arm.Add(Ellipsoid(q, {0, 0.010, -0.078}, {0.0490 * size, 0.0410 * size, 0.104}), 0.018);
+  arm.Add(RoundCone(q, {0.022, 0.004, -0.042}, {0.014, 0.010, -0.135}, 0.0310 * size, 0.022 * size),
           0.026);
   arm.Add(
-      RoundCone(q, {-0.024, 0.004, -0.036}, {-0.014, 0.012, -0.115}, 0.0320 * size, 0.022 * size),
+      RoundCone(q, {-0.024, 0.004, -0.044}, {-0.014, 0.010, -0.135}, 0.0320 * size, 0.022 * size),
       0.026);
   // Biceps and triceps.
   arm.Add(Ellipsoid(q, {0.021, -0.004, -0.178}, {0.0300 * size, 0.0310 * size, 0.074}), 0.022);

@@ -59,16 +59,16 @@ double BodySolid::operator()(const Point& point) const {
     if (p.z() > 0.20) {
       Joined girdle(shape_->trunk.Girdle(p));
       if (p.y() < 0.06) girdle.Add(shape_->trunk.Girdle(other), 0.03);
-      body.Add(girdle.value(), 0.045);
+      body.Add(girdle.value(), 0.060);
     }
-    if (p.z() > 0.38) body.Add(shape_->Head(p), 0.030);
+    if (p.z() > 0.38) body.Add(shape_->Head(p), 0.045);
   }
   if (p.z() < 0.24) {
     Joined leg(shape_->Leg(p));
     if (p.y() < 0.06) leg.Add(shape_->Leg(other), 0.012);
     body.Add(leg.value(), 0.055);
   }
-  if (p.y() > 0.07) body.Add(shape_->Arm(p), 0.034);
+  if (p.y() > 0.07) body.Add(shape_->Arm(p), 0.048 + 0.014 * shape_->build.woman);
   return body.value();
 }
 

@@ -53,9 +53,12 @@ class EdgeLength {
     };
     near(urdf::kLeftHand, {0, 0, -0.10}, 0.11, 0.16, 0.0050);
     near(urdf::kLeftForeArm, {0, 0, 0}, 0.07, 0.12, 0.0085);
+    near(urdf::kLeftForeArm, {-0.03, 0, 0}, 0.03, 0.06, 0.0065);
     near(urdf::kLeftUpperArm, {0, 0, 0}, 0.10, 0.20, 0.010);
     near(urdf::kLeftLowerLeg, {0, 0, 0}, 0.09, 0.16, 0.010);
+    near(urdf::kLeftLowerLeg, {0.05, 0, 0}, 0.03, 0.06, 0.0070);
     near(urdf::kLeftUpperLeg, {0, 0, 0}, 0.12, 0.22, 0.012);
+    near(urdf::kLeftUpperLeg, {0.08, -0.01, 0}, 0.06, 0.11, 0.0090);
     near(urdf::kLeftFoot, {0, 0, -0.05}, 0.16, 0.20, 0.010);
     near(urdf::kHead, {0, 0, 0.08}, 0.16, 0.22, 0.010);
     near(urdf::kHead, {0.10, 0, 0.035}, 0.036, 0.14, 0.0026);
@@ -73,7 +76,7 @@ class EdgeLength {
   }
 
  private:
-  static constexpr double kCoarse = 0.016;  // m
+  static constexpr double kCoarse = 0.0165;  // m
   struct Place {
     Point at;
     double inner, outer;  // between them the length grows to kCoarse, m

@@ -107,9 +107,9 @@ Fields FieldsAt(const BodySolid& body, const Point& point) {
     // joint by angle, as a fan: raising the arm closes it, and none of its ribs overtakes another.
     const double below = linear(-0.052, 0.070 + 0.045 * Ramp(-0.010, 0.045, a.y()), -a.z());
     const double fan =
-        Mix(1 - std::min(AngleOf(-a.z() / a.norm()) / 2.4, 1.0), 1, Ramp(0.05, 0.22, -a.z()));
+        Mix(1 - std::min(AngleOf(-a.z() / a.norm()) / 2.4, 1.0), 1, Ramp(0.04, 0.165, -a.z()));
     f[kPastShoulder] = is_arm * Mix(below, fan, Ramp(-0.035, 0.010, a.y()));
-    f[kAlongUpperArm] = is_arm * linear(0.100, 0.250, -a.z());
+    f[kAlongUpperArm] = is_arm * linear(0.160, 0.280, -a.z());
     f[kPastElbow] = is_arm * Ramp(-0.046, 0.046, -e.z());
     f[kAlongForeArm] = is_arm * linear(0.040, 0.220, -e.z());
     f[kPastWrist] = is_arm * Ramp(-0.024, 0.020, -w.z());
@@ -122,7 +122,7 @@ Fields FieldsAt(const BodySolid& body, const Point& point) {
     const Point a = InLink(bind.links[urdf::kLeftFoot], p);
     const Point b = InLink(bind.links[urdf::kLeftToe], p);
     const double groin = h.dot(Point(0, 0.50, -0.866)), behind = Ramp(0.02, -0.08, p.x());
-    const double beside_midline = Ramp(-0.004, 0.066, p.y() + 1.2 * std::max(0.0, -0.085 - p.z()));
+    const double beside_midline = Ramp(-0.006, 0.080, p.y() + 1.2 * std::max(0.0, -0.085 - p.z()));
     f[kPastHip] = Ramp(-0.060 - 0.030 * behind, 0.080 + 0.045 * behind, groin) * beside_midline;
     f[kAlongThigh] = std::clamp((-t.z() - 0.070) / 0.300, 0.0, 1.0);
     if (p.z() < -0.12) {
@@ -287,7 +287,7 @@ VertexWeights WeightsAt(const Point& p, const Fields& f, const Limbs& own,
                         const Limbs& other_side) {
   std::map<int, double> weights;
   // From a joint on, the limb follows what lies beyond it.
-  const double arm = f[kPastShoulder] + f[kAlongUpperArm] * Ramp(0.70, 1, f[kPastShoulder]) +
+  const double arm = f[kPastShoulder] + f[kAlongUpperArm] * Ramp(0.90, 1, f[kPastShoulder]) +
                      f[kPastElbow] + f[kAlongForeArm] + f[kPastWrist];
   const double is_past_knee = f[kPastKnee] > 0.99 ? 1 : 0;
   const double leg = f[kPastHip] + f[kAlongThigh] * Ramp(0.70, 1, f[kPastHip]) + f[kPastKnee] +
@@ -334,7 +334,7 @@ std::vector<VertexWeights> MakeWeights(const BodySolid& body, const std::vector<
   for (const Point& vertex : vertices) fields.push_back(FieldsAt(body, vertex));
   const Evener even(vertices, triangles);
   constexpr std::pair<std::size_t, int> kRounds[] = {
-      {kPastShoulder, 10}, {kPastHip, 10},      {kGirdle, 12},   {kPastNeck, 6},
+      {kPastShoulder, 10}, {kPastHip, 14},      {kGirdle, 12},   {kPastNeck, 6},
       {kPastHead, 3},      {kAlongUpperArm, 4}, {kPastAnkle, 3}, {kRay, 2},
       {kRay + 1, 2},       {kRay + 2, 2},       {kRay + 3, 2},   {kRay + 4, 2}};
   for (const auto& [field, rounds] : kRounds) even(fields, field, rounds);
