@@ -85,7 +85,8 @@ export function readSkin(buffer, route) {
   /** @type {unknown} */
   const document = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, headerSize)));
   const header = readHeader(document, route);
-  const { vertices, triangles, frames: { kinds, links, parents, shares, into_bend_m, up_bone_m, limbs: limbOfFrame, parts: partOfFrame } } = header;
+  const { vertices, triangles } = header;
+  const { kinds, links, parents, shares, into_bend_m, up_bone_m, limbs: limbOfFrame, parts: partOfFrame } = header.frames;
   const count = kinds.length;
   const columns = [links, parents, shares, into_bend_m, up_bone_m, limbOfFrame, partOfFrame];
   if (columns.some(({ length }) => length !== count) || count > MOST_FRAMES) {
