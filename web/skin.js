@@ -39,7 +39,7 @@ const REGIONS = (/** @type {number} */ count) => `
     vec4 look = regionLook[joint];
     float rim = regionRim[joint];
     float soft = fwidth(region.x) + 1e-6;
-    float share = clamp((region.x - look.a) / soft + 0.5, 0.0, 1.0);
+    float share = look.a > 1.0 ? 0.0 : clamp((region.x - look.a) / soft + 0.5, 0.0, 1.0);
     float onRim = 1.0 - clamp((region.x - look.a - 0.14) / soft + 0.5, 0.0, 1.0);
     vec3 color = mix(look.rgb, rim > 0.0 ? vec3(0.15, 0.02, 0.02) : vec3(1.0), abs(rim) * onRim);
     float across = region.z / 0.014;

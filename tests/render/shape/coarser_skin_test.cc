@@ -49,8 +49,9 @@ TEST(CoarserSkin, StaysClosedAroundTrianglesThatAreKept) {
     for (std::size_t i = 0; i < 3; ++i) ++edges[{triangle[i], triangle[(i + 1) % 3]}];
   }
   for (const auto& [edge, count] : edges) {
-    ASSERT_EQ(count, 1);
-    ASSERT_EQ(edges.count({edge.second, edge.first}), 1U) << "an edge of a single triangle";
+    const auto back = edges.find({edge.second, edge.first});
+    ASSERT_NE(back, edges.end()) << "an edge of a single triangle";
+    ASSERT_EQ(back->second, count);
   }
   const auto& triangles = skin::BuiltInSkin().triangles;
   EXPECT_GT(std::count_if(triangles.begin(), triangles.end(), IsHem), 100);
