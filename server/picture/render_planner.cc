@@ -171,7 +171,7 @@ RenderRequest RenderPlanner::Next(SceneState state) {
   return request;
 }
 
-RenderRequest RenderPlanner::Only(SceneState state, double secs) const {
+RenderRequest RenderPlanner::Only(const SceneState& state, double secs) const {
   if (grid_.has_times()) {
     throw UsageError("--views=time: needs a recording; there is only one moment to show");
   }

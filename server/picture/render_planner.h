@@ -58,7 +58,7 @@ class RenderPlanner {
 
   /// A single picture, `secs` after the start of the recording. Trails are those of the scenes
   /// passed to Remember before.
-  RenderRequest Only(SceneState state, double secs = 0) const;
+  RenderRequest Only(const SceneState& state, double secs = 0) const;
 
   /// The times that ViewsValue names, s after the first sample, each once, in ascending order;
   /// empty without.

@@ -107,7 +107,7 @@ void DrawUrdf(const UrdfPictureOptions& options) {
     throw SourceError(*options.file + ": has no <visual>, so there is nothing to draw");
   }
   StandOnFloor(robot);
-  const RenderRequest request = planner.Only(std::move(scene));
+  const RenderRequest request = planner.Only(scene);
   const render::Image image = renderer->Render(request.state, request.camera, request.spec);
   std::map<std::string, std::string> facts = DrawnBy(*renderer);
   facts["Software"] = "Kinescope " KINESCOPE_VERSION;
