@@ -14,8 +14,8 @@ namespace {
 // px, by which the outline of a body may be wrong where fewer triangles are drawn; of a skin also
 // where it is drawn in full detail, but not by lines.
 constexpr double kUnseen = 1, kUnseenInFullDetail = 0.3;
-// m per px. Then the light at the vertices of the skin, 1 cm apart, differs by at most 8 of 255 in
-// a few pixels from the light at each pixel, and costs less.
+// m per px. Then the light at the vertices of the skin, 1 cm apart, costs less than light at each
+// pixel, and differs from it by more than 8 of 255 in a few pixels of a picture only.
 constexpr double kFar = 0.0008;
 
 constexpr double kGhostBodyOpacity = 0.45;
