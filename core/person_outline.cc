@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/hand_load_shape.h"
+#include "core/skin_inputs.h"
 #include "urdf/skin/occlusion.h"
 
 namespace kinescope {
@@ -19,9 +20,7 @@ constexpr double kBeyondLimb = 0.02;  // m
 std::vector<Ball> BallsOf(const PersonState& person) {
   std::vector<Ball> balls;
   const urdf::Skeleton& skeleton = person.model->human.skeleton;
-  const auto& body = person.model->description;
-  const skin::Build build =
-      skin::BuildOf(body.sex == urdf::Sex::kFemale, skeleton.height, body.mass_kg);
+  const skin::Build build = BuildOf(*person.model);
   for (const skin::Capsule& limb : skin::CapsulesOf(skeleton, build, person.links)) {
     balls.push_back({limb.start.cast<double>(), limb.start_radius + kBeyondLimb});
     balls.push_back({limb.end.cast<double>(), limb.end_radius + kBeyondLimb});

@@ -139,11 +139,12 @@ struct ThemeColors {
 const ThemeColors& ColorsOf(Theme theme);
 /// m, from the camera's target; the floor has faded into the background there.
 inline constexpr double kFloorReach = 9;
+/// m; a disc with corners comes a little closer than its radius.
+inline constexpr double kFloorEnd = 0.98 * kFloorReach;
 /// The share of the floor's colour at a distance from the camera's target, m; the rest is that of
 /// the background.
 inline double FloorShare(double distance_m) {
-  // A disc with corners comes a little closer than its radius.
-  const double share = distance_m / (0.98 * kFloorReach);
+  const double share = distance_m / kFloorEnd;
   const double fade = share < 1 ? 1 - share * share : 0;
   return fade * fade;
 }

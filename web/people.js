@@ -37,7 +37,7 @@ export class People {
     for (const { human } of this.#people.values()) human.setLook(look);
   }
 
-  /** Whether anybody is drawn as a skin. */
+  /** Whether any person is drawn as a skin. */
   get hasSkins() {
     return [...this.#people.values()].some(({ human }) => human.hasSkin);
   }

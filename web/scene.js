@@ -79,7 +79,7 @@ export class Scene {
     this.#people.setLook(look);
   }
 
-  /** Whether anybody is drawn as a skin. */
+  /** Whether any person is drawn as a skin. */
   get hasSkins() {
     return this.#people.hasSkins;
   }

@@ -11,12 +11,13 @@
 
 namespace kinescope::render {
 
+/// Edges of a single triangle.
+enum class OpenEdge { kMoves, kStays };
+
 /// As few of `triangles` (three vertices each) as the error permits, by collapsing edges (Garland
 /// and Heckbert 1997, as meshoptimizer does it), in an order that is fast to render. Vertices at
 /// the same place count as one. Takes milliseconds for a body.
 /// @param error_m how far the surface may move, m, > 0
-/// @param edge whether edges of a single triangle may move
-enum class OpenEdge { kMoves, kStays };
 std::vector<std::uint32_t> CoarserTriangles(const std::vector<Eigen::Vector3f>& positions,
                                             const std::vector<std::uint32_t>& triangles,
                                             double error_m, OpenEdge edge = OpenEdge::kMoves);

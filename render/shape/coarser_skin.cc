@@ -1,5 +1,6 @@
 #include "render/shape/coarser_skin.h"
 
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 
@@ -16,7 +17,7 @@ using skin::Triangle;
 // As people work: what is round then needs triangles, though it may be flat in the bind pose.
 std::vector<Eigen::Vector3f> BentPositions(const SkinTemplate& skin, const skin::Build& build,
                                            const urdf::Skeleton& skeleton) {
-  constexpr double kDegree = 0.017453292519943295;
+  constexpr double kDegree = M_PI / 180;
   urdf::JointAngles angles{};
   const auto bend = [&](std::initializer_list<int> joints, double degrees) {
     for (const int joint : joints) angles[urdf::At(joint)].y() = kDegree * degrees;

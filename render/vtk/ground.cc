@@ -110,8 +110,7 @@ void Ground::SetLook(const SceneLook& look) {
 }
 
 void Ground::SetFocus(const Eigen::Vector3d& focus) {
-  // A disc with corners comes a little closer than its radius.
-  SetUniform("focus", {focus.x(), focus.y(), 1 / (0.98 * kFloorReach)});
+  SetUniform("focus", {focus.x(), focus.y(), 1 / kFloorEnd});
 }
 
 void Ground::SetUniform(const char* name, const Eigen::Vector3d& value) {

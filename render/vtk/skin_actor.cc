@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/palette.h"
+#include "core/skin_inputs.h"
 #include "render/shape/coarser_mesh.h"
 #include "render/shape/coarser_skin.h"
 #include "urdf/skin/load_regions.h"
@@ -111,13 +112,11 @@ bool SkinActor::Update(const PersonState& person,
                        const Eigen::Vector4f& override_color, double opacity, double error_m,
                        const SkinShading& shading) {
   bool is_changed = false;
-  const urdf::Skeleton& skeleton = person.model->human.skeleton;
   if (model_ != person.model || revision_ != person.model->revision || own_ != own) {
     own_ = own;
     model_ = person.model;
     revision_ = person.model->revision;
-    build_ = skin::BuildOf(model_->description.sex == urdf::Sex::kFemale, skeleton.height,
-                           model_->description.mass_kg);
+    build_ = BuildOf(*model_);
     levels_.clear();
     is_changed = true;
   }
@@ -125,7 +124,7 @@ bool SkinActor::Update(const PersonState& person,
       PermittedError({0.0003, 0.0006, 0.0008, 0.001, 0.002, 0.004, 0.006, 0.010}, error_m);
   Level& level = levels_[error];
   if (!level.surface) level.surface = SurfaceWithin(error);
-  capsules_ = skin::CapsulesOf(skeleton, build_, person.links);
+  capsules_ = skin::CapsulesOf(model_->human.skeleton, build_, person.links);
   level.surface->Move(person, capsules_);
   if (level.actors.count(shading) == 0) {
     AddActors(shading, level);

@@ -1,10 +1,10 @@
 #include "render/vtk/skin_surface.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "core/person_links.h"
+#include "core/skin_inputs.h"
 #include "render/vtk/float_array.h"
 #include "urdf/skin/load_regions.h"
 
@@ -24,14 +24,6 @@ bool AreEqual(const std::vector<urdf::Pose>& a, const std::vector<urdf::Pose>& b
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
     return x.position == y.position && x.orientation.coeffs() == y.orientation.coeffs();
   });
-}
-
-std::array<const urdf::HandSkeleton*, 2> GlovesOf(const urdf::HumanModel& human) {
-  std::array<const urdf::HandSkeleton*, 2> gloves{};
-  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-    if (human.gloves[side]) gloves[side] = &*human.gloves[side];
-  }
-  return gloves;
 }
 
 }  // namespace
@@ -56,11 +48,7 @@ SkinSurface::SkinSurface(std::shared_ptr<const skin::SkinTemplate> skin, const s
 void SkinSurface::Move(const PersonState& person, const skin::Capsules& capsules) {
   std::vector<urdf::Pose> poses = VisibleLinkPoses(person);
   if (AreEqual(poses, shown_)) return;
-  std::array<const urdf::FingerPoses*, 2> fingers{};
-  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-    if (person.gloves[side]) fingers[side] = &person.gloves[side]->links;
-  }
-  person_.Pose(person.links, fingers, surface_);
+  person_.Pose(person.links, FingersOf(person), surface_);
   skin::SetOpenSky(surface_.positions, surface_.normals, limbs_, capsules, open_);
   CopyInto(open_sky_, 1, open_);
   CopyInto(positions_, 3, surface_.positions);

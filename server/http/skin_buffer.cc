@@ -1,12 +1,12 @@
 #include "server/http/skin_buffer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/skin_inputs.h"
 #include "core/system/json_text.h"
 #include "urdf/skin/frames.h"
 #include "urdf/skin/limbs.h"
@@ -166,13 +166,8 @@ std::vector<std::int8_t> BordersInSteps(const std::vector<skin::Borders>& all) {
 std::string SkinBuffer(const PersonModel& model, const skin::SkinTemplate* own) {
   const urdf::HumanModel& human = model.human;
   const skin::SkinTemplate& of = own != nullptr ? *own : skin::BuiltInSkin();
-  const skin::Build build = skin::BuildOf(model.description.sex == urdf::Sex::kFemale,
-                                          human.skeleton.height, model.description.mass_kg);
-  std::array<const urdf::HandSkeleton*, 2> gloves{};
-  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-    if (human.gloves[side]) gloves[side] = &*human.gloves[side];
-  }
-  const skin::PersonSkin skin(of, build, human.skeleton, gloves);
+  const skin::Build build = BuildOf(model);
+  const skin::PersonSkin skin(of, build, human.skeleton, GlovesOf(human));
 
   float farthest = 0;
   for (const Eigen::Vector3f& p : skin.rest())

@@ -17,17 +17,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using urdf::At;
 
-// Of a closed surface, m^3; where it overlaps itself, it counts twice.
-double Volume(const std::vector<Vector3f>& positions, const std::vector<Triangle>& triangles) {
-  double volume = 0;
-  for (const Triangle& t : triangles) {
-    const Vector3d a = positions[t[0]].cast<double>(), b = positions[t[1]].cast<double>(),
-                   c = positions[t[2]].cast<double>();
-    volume += a.dot(b.cross(c)) / 6;
-  }
-  return volume;
-}
-
 bool IsArm(std::size_t vertex) {
   const Limb limb = LimbOf(BuiltInSkin().weights[vertex]);
   return limb >= kRightUpperArmLimb && limb <= kLeftHandLimb;
@@ -122,7 +111,8 @@ TEST(PersonSkin, HasTheGirthsOfTheirSexStatureAndMass) {
           << tape.what << " of a " << (is_woman ? "woman" : "man") << " of " << mass
           << " kg: " << girth << " mm, expected " << expected;
     }
-    EXPECT_NEAR(1000 * Volume(skin.rest(), skin.triangles()) / mass, 0.95, 0.04);  // litres a kg
+    EXPECT_NEAR(1000 * SignedVolume(skin.rest(), skin.triangles()) / mass, 0.95,
+                0.04);  // litres a kg
   }
 }
 

@@ -60,4 +60,16 @@ inline std::vector<Eigen::Vector3f> PosedAsRigidParts(const PersonSkin& skin,
   return positions;
 }
 
+/// Of a closed surface, m^3; where it overlaps itself, it counts twice.
+inline double SignedVolume(const std::vector<Eigen::Vector3f>& positions,
+                           const std::vector<Triangle>& triangles) {
+  double volume = 0;
+  for (const Triangle& t : triangles) {
+    const Eigen::Vector3d a = positions[t[0]].cast<double>(), b = positions[t[1]].cast<double>(),
+                          c = positions[t[2]].cast<double>();
+    volume += a.dot(b.cross(c)) / 6;
+  }
+  return volume;
+}
+
 }  // namespace kinescope::skin

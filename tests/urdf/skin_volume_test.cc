@@ -15,18 +15,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using urdf::At;
 
-// Of a closed surface, m^3; where it overlaps itself, it counts twice.
-double SignedVolume(const std::vector<Vector3f>& positions,
-                    const std::vector<Triangle>& triangles) {
-  double volume = 0;
-  for (const Triangle& t : triangles) {
-    const Vector3d a = positions[t[0]].cast<double>(), b = positions[t[1]].cast<double>(),
-                   c = positions[t[2]].cast<double>();
-    volume += a.dot(b.cross(c)) / 6;
-  }
-  return volume;
-}
-
 // Of the tissue within reach of a joint: how much more volume it has when bent.
 // Where the surface overlaps itself, it counts twice.
 double VolumeChange(const PersonSkin& skin, int joint, const Vector3d& axis, double degrees,

@@ -1,10 +1,10 @@
 #include "server/app/urdf/skin_export.h"
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
 
+#include "core/skin_inputs.h"
 #include "urdf/rig/skin_glb.h"
 #include "urdf/skin/outfit.h"
 #include "urdf/skin/person_skin.h"
@@ -33,12 +33,7 @@ const Rgb& ColorAt(const skin::Borders& inside, const SuitColors& suit) {
 
 std::string WriteGlb(const PersonModel& model, const rig::SkinGlbOptions& options) {
   const urdf::HumanModel& human = model.human;
-  const skin::Build build = skin::BuildOf(model.description.sex == urdf::Sex::kFemale,
-                                          human.skeleton.height, model.description.mass_kg);
-  std::array<const urdf::HandSkeleton*, 2> gloves{};
-  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-    if (human.gloves[side]) gloves[side] = &*human.gloves[side];
-  }
+  const skin::Build build = BuildOf(model);
   const skin::SkinTemplate& built_in = skin::BuiltInSkin();
   const std::vector<skin::Borders> borders = skin::OutfitOf(built_in, build);
   std::vector<Color> colors;
@@ -54,8 +49,8 @@ std::string WriteGlb(const PersonModel& model, const rig::SkinGlbOptions& option
     }
     colors.push_back(ToBytes(ColorAt(sum, model.suit)));
   }
-  return rig::WriteSkinGlb(skin::PersonSkin(built_in, build, human.skeleton, gloves), built_in,
-                           colors, options);
+  return rig::WriteSkinGlb(skin::PersonSkin(built_in, build, human.skeleton, GlovesOf(human)),
+                           built_in, colors, options);
 }
 
 }  // namespace
@@ -65,10 +60,7 @@ std::string SkinGlbOf(const PersonModel& model, bool has_skeleton) {
 }
 
 std::string PosedSkinGlbOf(const PersonState& person, bool has_skeleton) {
-  rig::SkinPosture posture{person.links, {}};
-  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-    if (person.gloves[side]) posture.fingers[side] = &person.gloves[side]->links;
-  }
+  const rig::SkinPosture posture{person.links, FingersOf(person)};
   return WriteGlb(*person.model, {posture, has_skeleton});
 }
 

@@ -22,6 +22,7 @@
 #include "core/palette.h"
 #include "core/person_links.h"
 #include "core/person_outline.h"
+#include "core/skin_inputs.h"
 #include "core/system/clocks.h"
 #include "core/system/install_paths.h"
 #include "server/http/api.h"
@@ -89,8 +90,7 @@ json OpenSkyToJson(const PersonModel& model, const PersonState& person,
                    const std::array<const urdf::HandSkeleton*, 2>& gloves,
                    const std::array<const urdf::FingerPoses*, 2>& fingers) {
   const urdf::Skeleton& skeleton = model.human.skeleton;
-  const skin::Build build = skin::BuildOf(model.description.sex == urdf::Sex::kFemale,
-                                          skeleton.height, model.description.mass_kg);
+  const skin::Build build = BuildOf(model);
   const skin::SkinTemplate& built_in = skin::BuiltInSkin();
   skin::PersonSkin::Surface surface;
   skin::PersonSkin(built_in, build, skeleton, gloves).Pose(person.links, fingers, surface);
@@ -106,8 +106,7 @@ json OpenSkyToJson(const PersonModel& model, const PersonState& person,
 json RegionsToJson(const PersonModel& model,
                    const std::array<const urdf::HandSkeleton*, 2>& gloves) {
   const urdf::Skeleton& skeleton = model.human.skeleton;
-  const skin::Build build = skin::BuildOf(model.description.sex == urdf::Sex::kFemale,
-                                          skeleton.height, model.description.mass_kg);
+  const skin::Build build = BuildOf(model);
   const skin::SkinTemplate& built_in = skin::BuiltInSkin();
   const skin::PersonSkin skin(built_in, build, skeleton, gloves);
   json joints = json::array(), inside = json::array();
