@@ -26,6 +26,14 @@ struct Driver {
   std::string gl_version;  // GL_VERSION
 };
 
+/// Whether a driver of this GL_RENDERER draws on the processor.
+inline bool IsSoftware(const std::string& renderer) {
+  for (const char* name : {"llvmpipe", "softpipe", "swrast"}) {
+    if (renderer.find(name) != std::string::npos) return true;
+  }
+  return false;
+}
+
 /// Text at a position in the world, painted by the overlay.
 struct Label {
   enum class Kind {
@@ -66,10 +74,11 @@ struct DrawingModule {
   ModuleAbi<SceneState, PersonState, PersonModel, urdf::Landmark, urdf::AddedMass, JointLoad,
             TrackedObject, LeftOutPerson, RobotState, urdf::RobotModel, urdf::Link, urdf::Visual,
             urdf::Collision, urdf::RobotJoint, urdf::MeshSearch, SceneMarker, Camera, SceneLook,
-            Trail, Ghost, Image, Label, DrawnLine, DrawnScene, Driver>
+            Trail, Ghost, Image, Label, DrawnLine, DrawnScene, Driver, RegionSettings>
       abi;
   /// `backend`: one of those in the module.
-  std::unique_ptr<Drawing> (*make)(const std::string& backend, const LogLine& log);
+  std::unique_ptr<Drawing> (*make)(const std::string& backend, const LogLine& log,
+                                   const RegionSettings& regions);
 };
 
 struct VideoModule {

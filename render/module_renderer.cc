@@ -12,13 +12,6 @@
 namespace kinescope::render {
 namespace {
 
-bool IsSoftware(const std::string& renderer) {
-  for (const char* name : {"llvmpipe", "softpipe", "swrast"}) {
-    if (renderer.find(name) != std::string::npos) return true;
-  }
-  return false;
-}
-
 std::string TookTooLong(const std::string& what, std::chrono::milliseconds limit) {
   return what + " has taken more than " + std::to_string(limit.count()) +
          " ms: the OpenGL driver does not respond; try another --backend, or raise "
@@ -79,7 +72,7 @@ ModuleRenderer::ModuleRenderer(const DrawingModule& module, RendererSettings set
   const Watchdog::Work work(watchdog_, LimitOf(PictureSpec()), [this] {
     return TookTooLong("starting back-end " + settings_.backend, LimitOf(PictureSpec()));
   });
-  drawing_ = module.make(settings_.backend, settings_.log);
+  drawing_ = module.make(settings_.backend, settings_.log, settings_.regions);
 }
 
 RendererInfo ModuleRenderer::info() const {

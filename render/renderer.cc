@@ -149,6 +149,9 @@ std::unique_ptr<Renderer> MakeRenderer(RendererSettings settings) {
   KeepFreedMemory();
   if (settings.backend == "egl") ::setenv("LIBGL_ALWAYS_SOFTWARE", "1", 0);
   if (!settings.log) settings.log = ToStderr;
+  if (const char* every = std::getenv("KINESCOPE_CHECK_REGIONS")) {
+    settings.regions.check_every = std::atoi(every);
+  }
   const std::string cache_note = PrepareShaderCache();
   if (!cache_note.empty()) settings.log(cache_note);
   const DrawingModule& module = OnlyModule(settings.backend);

@@ -170,6 +170,17 @@ const std::vector<std::string>& BackendNames();
 /// back-end that will be used.
 bool HasBackend(const std::string& backend);
 
+/// While the camera stands still, software back-ends draw only the part of a picture that may
+/// differ from its floor. The bytes are the same.
+struct RegionSettings {
+  bool is_off = false;  // draws every picture whole
+  /// To find an actor that is drawn outside of the part that it reports: every n-th of these
+  /// pictures is also drawn whole. If it differs, rendering throws RenderError with the actor's
+  /// name. 0: none is.
+  int check_every = 0;
+  double margin_px = 1;  // around what actors report; tests of the check take some away
+};
+
 struct RendererSettings {
   std::string backend = "osmesa";
   /// Called on the renderer's thread only; by default lines go to stderr. Receives the warnings of
@@ -177,6 +188,7 @@ struct RendererSettings {
   LogLine log;
   /// For RendererInfo: why a better back-end was not used; "": nothing to report.
   std::string note;
+  RegionSettings regions = {};  // KINESCOPE_CHECK_REGIONS in the environment sets check_every
   /// Time limit of the driver per picture; 0: LimitOf() it.
   std::chrono::milliseconds limit{0};
   /// Called on another thread when the limit is exceeded. A driver cannot be interrupted, so the

@@ -88,4 +88,9 @@ std::vector<vtkActor*> AxesActor::ghosts() {
   return {ghost_[0]->actor(), ghost_[1]->actor(), ghost_[2]->actor()};
 }
 
+// The ghosts are where the solids are.
+void AxesActor::AddTo(PictureRegion& region) const {
+  for (const auto& actor : solid_) actor->AddTo(region);
+}
+
 }  // namespace kinescope::render

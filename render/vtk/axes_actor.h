@@ -22,6 +22,7 @@ class AxesActor {
   void Show(const PersonState& person);
   std::vector<vtkActor*> solids();
   std::vector<vtkActor*> ghosts();
+  void AddTo(PictureRegion& region) const;
 
  private:
   const Kind kind_;

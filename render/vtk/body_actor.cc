@@ -105,6 +105,13 @@ bool BodyActor::Update(const PersonState& person, const Look& look,
   return is_changed;
 }
 
+void BodyActor::AddTo(PictureRegion& region) const {
+  if (is_skin_) skin_.AddTo(region);
+  for (const Group& group : groups_) {
+    for (const auto& [error, actor] : group.actors) actor->AddTo(region);
+  }
+}
+
 std::vector<vtkActor*> BodyActor::actors() {
   std::vector<vtkActor*> actors;
   if (is_skin_) actors = skin_.actors();

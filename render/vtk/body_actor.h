@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "render/camera/picture_region.h"
 #include "render/module.h"
 #include "render/scene_look.h"
 #include "render/shape/once_log.h"
@@ -50,6 +51,8 @@ class BodyActor {
   void AddLines(const Camera& camera, std::vector<SpaceLine>& lines) const {
     if (is_skin_) skin_.AddLines(camera, lines);
   }
+  /// Of the newest Update, if it is visible.
+  void AddTo(PictureRegion& region) const;
   /// Takes effect with the next Update.
   void SetVisible(bool is_visible) { is_visible_ = is_visible; }
   /// 0..1; takes effect with the next Update.

@@ -31,6 +31,12 @@ void FloorCache::Prepare(const Key& key) {
   floor_->SetDraw(step_ != Step::kReuse);
 }
 
+void FloorCache::PrepareParts(const std::vector<Tile>& parts) {
+  step_ = Step::kReuseParts;
+  parts_ = parts;
+  floor_->DrawOff();
+}
+
 void FloorCache::OnPeopleStart(vtkObject*, unsigned long, void* self, void*) {
   static_cast<FloorCache*>(self)->Copy();
 }
@@ -38,6 +44,7 @@ void FloorCache::OnPeopleStart(vtkObject*, unsigned long, void* self, void*) {
 // Called when the floor has been drawn, or would have been, and the people have not.
 void FloorCache::Copy() {
   if (step_ == Step::kDraw) return;
+  if (step_ == Step::kReuseParts) return CopyParts();
   const int* size = window_->GetSize();
   const int width = size[0], height = size[1];
   vtkOpenGLState* state = window_->GetState();
@@ -54,6 +61,21 @@ void FloorCache::Copy() {
     state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
   }
   glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  state->PopFramebufferBindings();
+}
+
+void FloorCache::CopyParts() {
+  vtkOpenGLState* state = window_->GetState();
+  const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
+  state->vtkglDisable(GL_SCISSOR_TEST);
+  state->PushFramebufferBindings();
+  window_->GetRenderFramebuffer()->Bind(GL_DRAW_FRAMEBUFFER);
+  state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
+  for (const Tile& part : parts_) {
+    const int right = part.x + part.width, top = part.y + part.height;
+    glBlitFramebuffer(part.x, part.y, right, top, part.x, part.y, right, top, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+  }
   state->PopFramebufferBindings();
 }
 

@@ -3,6 +3,7 @@
 #include <vtkActor.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "render/vtk/float_array.h"
@@ -13,7 +14,7 @@ namespace {
 constexpr int kSide = 30;              // points
 constexpr float kMargin = 0.45f;       // m, around the limbs
 constexpr float kAboveFloor = 0.002f;  // m
-constexpr float kDarkest = 0.8f;
+constexpr float kDarkest = 0.8f, kUnseen = 0.01f;
 
 constexpr std::size_t PointAt(int row, int column) {
   return static_cast<std::size_t>(row) * kSide + static_cast<std::size_t>(column);
@@ -36,19 +37,12 @@ ShaderText ShadowText() {
 FloorShadow::FloorShadow()
     : shaded_(Pass::kBlended, ShadowText(), {{"shade", 1}}),
       points_(static_cast<std::size_t>(kSide) * kSide, Eigen::Vector3f::Zero()) {
-  std::vector<std::uint32_t> triangles;
-  for (std::uint32_t row = 0; row + 1 < kSide; ++row) {
-    for (std::uint32_t column = 0; column + 1 < kSide; ++column) {
-      const std::uint32_t a = row * kSide + column, b = a + 1, c = a + kSide + 1, d = a + kSide;
-      triangles.insert(triangles.end(), {a, b, c, a, c, d});
-    }
-  }
   const std::vector<float> none(points_.size(), 0);
   CopyInto(positions_, 3, points_);
   CopyInto(shade_, 1, none);
   shade_->SetName("shade");
   const std::vector<Eigen::Vector3f> up(points_.size(), Eigen::Vector3f::UnitZ());
-  shaded_.SetSurface(positions_, ToFloatArray("Normals", 3, up), {shade_}, triangles);
+  shaded_.SetSurface(positions_, ToFloatArray("Normals", 3, up), {shade_}, {});
 }
 
 void FloorShadow::Cast(const skin::Capsules& limbs, const Rgb& color) {
@@ -79,12 +73,28 @@ void FloorShadow::Cast(const skin::Capsules& limbs, const Rgb& color) {
     for (int column = 0; column < kSide; ++column) {
       float& open = open_[PointAt(row, column)];
       const float left = fade(row) * fade(column);
-      open = kDarkest * (1 - open * open * open) * left * left;
+      open = std::max(0.0f, kDarkest * (1 - open * open * open) * left * left - kUnseen);
     }
   }
+  // Pixels of no shadow cost as much as others.
+  shown_.clear();
+  for (int row = 0; row + 1 < kSide; ++row) {
+    for (int column = 0; column + 1 < kSide; ++column) {
+      const std::size_t a = PointAt(row, column), b = a + 1, c = a + kSide + 1, d = a + kSide;
+      if (open_[a] + open_[b] + open_[c] + open_[d] == 0) continue;
+      for (const std::size_t corner : {a, b, c, a, c, d}) {
+        shown_.push_back(static_cast<std::uint32_t>(corner));
+      }
+    }
+  }
+  shaded_.SetTriangles(shown_);
   CopyInto(positions_, 3, points_);
   CopyInto(shade_, 1, open_);
   shaded_.SetColor("shadowColor", color);
+}
+
+void FloorShadow::AddTo(PictureRegion& region) const {
+  if (shaded_.is_visible()) region.AddTriangles(points_, shown_);
 }
 
 }  // namespace kinescope::render

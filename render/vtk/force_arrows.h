@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "render/camera/picture_region.h"
 #include "render/module.h"
 #include "render/vtk/part_actor.h"
 
@@ -17,6 +18,8 @@ class ForceArrows {
   void Show(const PersonState& person, std::vector<Label>* labels);
 
   vtkActor* solid() { return solid_.actor(); }
+  /// The ghost is where the solid is.
+  void AddTo(PictureRegion& region) const { solid_.AddTo(region); }
   vtkActor* ghost() { return ghost_.actor(); }  // where another element is in front of it
 
  private:

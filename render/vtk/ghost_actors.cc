@@ -31,4 +31,8 @@ std::vector<vtkActor*> GhostActors::actors() {
   return actors;
 }
 
+void GhostActors::AddTo(PictureRegion& region) const {
+  for (const auto& body : bodies_) body->AddTo(region);
+}
+
 }  // namespace kinescope::render

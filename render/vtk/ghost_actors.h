@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "render/camera/picture_region.h"
 #include "render/module.h"
 #include "render/scene_look.h"
 #include "render/vtk/body_actor.h"
@@ -15,6 +16,7 @@ class GhostActors {
   /// Adds the names of missing meshes to `labels`. @return whether the list of actors has changed.
   bool Update(const SceneLook& look, OnceLog& log, std::vector<Label>& labels);
   std::vector<vtkActor*> actors();
+  void AddTo(PictureRegion& region) const;
 
  private:
   std::vector<std::unique_ptr<BodyActor>> bodies_;

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <glm/mat4x4.hpp>
 #include <map>
 #include <mutex>
@@ -19,6 +20,7 @@
 #include <vector>
 
 #include "render/camera/camera_matrices.h"
+#include "render/camera/picture_region.h"
 #include "render/image/resample.h"
 #include "render/shape/floor_scale.h"
 #include "render/vtk/floor_cache.h"
@@ -60,9 +62,15 @@ void TurnUpsideDown(std::uint8_t* rgba, int width, int height) {
   for (; top < bottom; top += row, bottom -= row) std::swap_ranges(top, top + row, bottom);
 }
 
+std::string TextOf(GLenum name) {
+  const auto* found = reinterpret_cast<const char*>(glGetString(name));
+  return found != nullptr ? found : "unknown";
+}
+
 class GlDrawing : public Drawing {
  public:
-  GlDrawing(const std::string& backend, LogLine log) : log_(std::move(log)), once_(log_) {
+  GlDrawing(const std::string& backend, LogLine log, const RegionSettings& regions)
+      : regions_(regions), log_(std::move(log)), once_(log_) {
     const VtkLogScope scope(log_);
     const std::lock_guard<std::mutex> lock(creation);
     context_ = MakeGlContext(backend);
@@ -86,6 +94,7 @@ class GlDrawing : public Drawing {
     people_layer_->SetLayer(1);
     window_->Render();  // of nothing: initialises GLEW, under the lock
     LogGlMessages(once_);
+    is_software_ = IsSoftware(TextOf(GL_RENDERER));
     can_invert_ = GLEW_MESA_pack_invert != 0;
     ground_ = std::make_unique<Ground>();
     markers_ = std::make_unique<MarkerActors>();
@@ -105,11 +114,7 @@ class GlDrawing : public Drawing {
 
   Driver driver() const override {
     context_->MakeCurrent();
-    const auto text = [](GLenum name) {
-      const auto* found = reinterpret_cast<const char*>(glGetString(name));
-      return std::string(found != nullptr ? found : "unknown");
-    };
-    return {text(GL_RENDERER), text(GL_VERSION)};
+    return {TextOf(GL_RENDERER), TextOf(GL_VERSION)};
   }
 
   Eigen::AlignedBox3d Bounds(const RobotState& robot) override {
@@ -142,10 +147,14 @@ class GlDrawing : public Drawing {
     VisibleLines lines(look.style == Style::kLine ? Lines(camera) : std::vector<SpaceLine>(),
                        camera, image.width, image.height);
     const int step = kLargestTile / supersample;
+    if (image.width <= step && image.height <= step && lines.is_empty()) {
+      return DrawWhatChanges(camera, supersample, image);
+    }
     for (int y = 0; y < image.height; y += step) {
       for (int x = 0; x < image.width; x += step) {
         const Tile tile{x, y, std::min(step, image.width - x), std::min(step, image.height - y)};
-        DrawTile(tile, camera, supersample, image);
+        AimAt(tile, camera, image);
+        DrawTile(tile, FloorKey(camera, tile, supersample), supersample, image);
         if (!lines.is_empty()) lines.Judge(tile, supersample, ReadDepth());
       }
     }
@@ -220,27 +229,34 @@ class GlDrawing : public Drawing {
 
   void ListActors() {
     people_layer_->RemoveAllViewProps();
-    const auto add = [&](vtkActor* actor) { people_layer_->AddActor(actor); };
-    for (const auto& [id, person] : people_) add(person->shadow());
-    for (const auto& robot : robots_) add(robot->shadow());
+    names_.clear();
+    const auto add = [&](vtkActor* actor, const std::string& name) {
+      people_layer_->AddActor(actor);
+      names_.emplace_back(actor, name);
+    };
+    const auto of = [](const char* what, int id) {
+      return std::string(what) + " of person " + std::to_string(id);
+    };
+    for (const auto& [id, person] : people_) add(person->shadow(), of("shadow", id));
+    for (const auto& robot : robots_) add(robot->shadow(), "shadow of a robot");
     for (const auto& [id, person] : people_) {
-      for (vtkActor* body : person->bodies()) add(body);
-      add(person->held());
+      for (vtkActor* body : person->bodies()) add(body, of("body", id));
+      add(person->held(), of("load in the hands", id));
     }
-    for (vtkActor* object : objects_.actors()) add(object);
+    for (vtkActor* object : objects_.actors()) add(object, "objects");
     for (const auto& robot : robots_) {
-      for (vtkActor* body : robot->bodies()) add(body);
+      for (vtkActor* body : robot->bodies()) add(body, "body of a robot");
     }
-    add(markers_->solid());
-    add(trails_->actor());
+    add(markers_->solid(), "markers");
+    add(trails_->actor(), "trails");
     for (const auto& [id, person] : people_) {
-      for (vtkActor* ghost : person->ghosts()) add(ghost);
+      for (vtkActor* ghost : person->ghosts()) add(ghost, of("hidden marks", id));
     }
     for (const auto& [id, person] : people_) {
-      for (vtkActor* mark : person->marks()) add(mark);
+      for (vtkActor* mark : person->marks()) add(mark, of("marks", id));
     }
-    add(markers_->blended());
-    for (vtkActor* ghost : ghosts_.actors()) add(ghost);
+    add(markers_->blended(), "translucent markers");
+    for (vtkActor* ghost : ghosts_.actors()) add(ghost, "reference poses");
   }
 
   std::vector<SpaceLine> Lines(const Camera& camera) const {
@@ -258,7 +274,7 @@ class GlDrawing : public Drawing {
     camera_->SetParallelProjection(camera.is_orthographic() ? 1 : 0);  // shaders of VTK ask
   }
 
-  void DrawTile(const Tile& tile, const Camera& camera, int supersample, Image& image) {
+  void AimAt(const Tile& tile, const Camera& camera, const Image& image) {
     const double aspect = static_cast<double>(image.width) / image.height;
     const glm::dmat4 clip =
         TileFromClip(tile, image.width, image.height) * ClipFromView(camera, aspect);
@@ -267,29 +283,122 @@ class GlDrawing : public Drawing {
         projection_->SetElement(row, column, clip[column][row]);
     }
     camera_->Modified();
-    const int width = tile.width * supersample, height = tile.height * supersample;
-    window_->SetSize(width, height);
-    floor_cache_->Prepare(FloorKey(camera, width, height));
-    window_->Render();
-    const bool is_whole =
-        supersample == 1 && tile.width == image.width && tile.height == image.height;
-    if (is_whole) {
-      ReadPixels(0, width, height, image.rgba.data());
-      return;
+  }
+
+  // A picture that is one tile.
+  void DrawWhatChanges(const Camera& camera, int supersample, Image& image) {
+    const Tile whole{0, 0, image.width, image.height};
+    AimAt(whole, camera, image);
+    const FloorCache::Key key = FloorKey(camera, whole, supersample);
+    if (regions_.is_off || !is_software_ || !floor_cache_->Has(key)) {
+      return DrawTile(whole, key, supersample, image);
     }
-    // In bands that stay in the second-level cache until they are averaged, instead of 15 MB at
-    // once (tests/bench/README.md).
-    const int band = std::max(1, kBandBytes / (4 * width * supersample));  // rows of the picture
-    large_.resize(4 * static_cast<std::size_t>(width) *
-                  static_cast<std::size_t>(std::min(band, tile.height) * supersample));
-    for (int y = 0; y < tile.height; y += band) {
-      const int rows = std::min(band, tile.height - y);
-      ReadPixels(height - (y + rows) * supersample, width, rows * supersample, large_.data());
-      AverageInto(large_.data(), tile.width, rows, supersample, image, tile.x, tile.y + y);
+    PictureRegion region(camera, image.width, image.height, regions_.margin_px);
+    AddTo(region);
+    if (region.is_everything()) return DrawTile(whole, key, supersample, image);
+    if (plate_key_ != key) {
+      SetSize(plate_, image.width, image.height);
+      ReadPart(floor_cache_->framebuffer(), whole, whole, supersample, plate_);
+      plate_key_ = key;
+    }
+    image.rgba = plate_.rgba;
+    DrawParts(region.Rectangles(), supersample, image);
+    ++pictures_in_parts_;
+    if (regions_.check_every > 0 && pictures_in_parts_ % regions_.check_every == 0) {
+      CheckParts(key, supersample, image);
     }
   }
 
-  FloorCache::Key FloorKey(const Camera& camera, int width, int height) const {
+  // @throws RenderError if `image`, drawn in parts, differs from the same drawn whole.
+  void CheckParts(const FloorCache::Key& key, int supersample, const Image& image) {
+    const Tile tile{0, 0, image.width, image.height};
+    Image whole;
+    SetSize(whole, image.width, image.height);
+    DrawTile(tile, key, supersample, whole);
+    const auto differs = std::mismatch(whole.rgba.begin(), whole.rgba.end(), image.rgba.begin());
+    if (differs.first == whole.rgba.end()) return;
+    const std::ptrdiff_t pixel = (differs.first - whole.rgba.begin()) / 4;
+    std::string said;
+    Image without;
+    SetSize(without, image.width, image.height);
+    for (const auto& [actor, name] : names_) {
+      if (!actor->GetVisibility()) continue;
+      actor->VisibilityOff();
+      DrawTile(tile, key, supersample, without);
+      actor->VisibilityOn();
+      const bool is_there =
+          !std::equal(whole.rgba.begin() + 4 * pixel, whole.rgba.begin() + 4 * pixel + 4,
+                      without.rgba.begin() + 4 * pixel);
+      if (is_there && said.find(name) == std::string::npos)
+        said += (said.empty() ? "" : ", ") + name;
+    }
+    throw RenderError("the part of the picture that was drawn is too small: at column " +
+                      std::to_string(pixel % image.width) + ", row " +
+                      std::to_string(pixel / image.width) + " there is also: " + said);
+  }
+
+  void AddTo(PictureRegion& region) const {
+    for (const auto& [character, person] : people_) person->AddTo(region);
+    for (const auto& robot : robots_) robot->AddTo(region);
+    objects_.AddTo(region);
+    markers_->AddTo(region);
+    trails_->AddTo(region);
+    ghosts_.AddTo(region);
+  }
+
+  // `parts` of a picture that is one tile; the rest of it is finished.
+  void DrawParts(const std::vector<Tile>& parts, int supersample, Image& image) {
+    const Tile whole{0, 0, image.width, image.height};
+    std::vector<Tile> drawn;
+    for (const Tile& part : parts) drawn.push_back(Drawn(part, whole, supersample));
+    window_->SetSize(image.width * supersample, image.height * supersample);
+    floor_cache_->PrepareParts(drawn);
+    window_->Render();
+    for (const Tile& part : parts) {
+      ReadPart(window_->GetRenderFramebuffer()->GetFBOIndex(), whole, part, supersample, image);
+    }
+  }
+
+  void DrawTile(const Tile& tile, const FloorCache::Key& key, int supersample, Image& image) {
+    window_->SetSize(tile.width * supersample, tile.height * supersample);
+    floor_cache_->Prepare(key);
+    window_->Render();
+    ReadPart(window_->GetRenderFramebuffer()->GetFBOIndex(), tile, tile, supersample, image);
+  }
+
+  // Where `part` of a picture is in a framebuffer with `tile` of it: px, from below.
+  static Tile Drawn(const Tile& part, const Tile& tile, int supersample) {
+    return {(part.x - tile.x) * supersample,
+            (tile.y + tile.height - part.y - part.height) * supersample, part.width * supersample,
+            part.height * supersample};
+  }
+
+  // Averages it, too.
+  void ReadPart(unsigned framebuffer, const Tile& tile, const Tile& part, int supersample,
+                Image& image) {
+    vtkOpenGLState* gl = window_->GetState();
+    gl->PushReadFramebufferBinding();
+    gl->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
+    if (supersample == 1 && part.width == image.width) {
+      const auto first = 4 * static_cast<std::ptrdiff_t>(part.y) * image.width;
+      ReadPixels(Drawn(part, tile, 1), image.rgba.data() + first);
+    } else {
+      // In bands that stay in the second-level cache until they are averaged, instead of 15 MB at
+      // once (tests/bench/README.md).
+      const int row_bytes = 4 * part.width * supersample * supersample;  // of the picture's rows
+      const int band = std::clamp(kBandBytes / row_bytes, 1, part.height);
+      large_.resize(static_cast<std::size_t>(band) * static_cast<std::size_t>(row_bytes));
+      for (int y = 0; y < part.height; y += band) {
+        const Tile rows{part.x, part.y + y, part.width, std::min(band, part.height - y)};
+        ReadPixels(Drawn(rows, tile, supersample), large_.data());
+        AverageInto(large_.data(), rows.width, rows.height, supersample, image, rows.x, rows.y);
+      }
+    }
+    gl->PopReadFramebufferBinding();
+  }
+
+  FloorCache::Key FloorKey(const Camera& camera, const Tile& tile, int supersample) const {
     FloorCache::Key key{};
     const double* matrix = projection_->GetData();
     std::copy(matrix, matrix + 16, key.begin());
@@ -303,8 +412,8 @@ class GlDrawing : public Drawing {
                            up.x(),
                            up.y(),
                            up.z(),
-                           static_cast<double>(width),
-                           static_cast<double>(height)};
+                           static_cast<double>(tile.width * supersample),
+                           static_cast<double>(tile.height * supersample)};
     static_assert(16 + std::size(rest) + std::tuple_size_v<decltype(floor_look_)> ==
                   std::tuple_size_v<FloorCache::Key>);
     const auto end = std::copy(std::begin(rest), std::end(rest), key.begin() + 16);
@@ -312,26 +421,20 @@ class GlDrawing : public Drawing {
     return key;
   }
 
-  // Straight from VTK's framebuffer into the picture: its own way copies twice, and GL's rows start
-  // at the bottom, which Mesa turns round while it copies; with other drivers we do.
-  // `bottom`: the first row, in GL's count.
-  void ReadPixels(int bottom, int width, int height, std::uint8_t* rgba) {
-    vtkOpenGLState* gl = window_->GetState();
-    gl->PushReadFramebufferBinding();
-    window_->GetRenderFramebuffer()->Bind(GL_READ_FRAMEBUFFER);
-    window_->GetRenderFramebuffer()->ActivateReadBuffer(0);
+  // Straight from the bound framebuffer into the picture: VTK's own way copies twice, and GL's rows
+  // start at the bottom, which Mesa turns round while it copies; with other drivers we do.
+  void ReadPixels(const Tile& from, std::uint8_t* rgba) {
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
     if (can_invert_) glPixelStorei(GL_PACK_INVERT_MESA, 1);
-    glReadPixels(0, bottom, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+    glReadPixels(from.x, from.y, from.width, from.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
     if (can_invert_) glPixelStorei(GL_PACK_INVERT_MESA, 0);
-    gl->PopReadFramebufferBinding();
     const GLenum error = glGetError();
     if (error != GL_NO_ERROR) {
       throw RenderError("OpenGL error " + std::to_string(error) + " while drawing " +
-                        std::to_string(width) + " x " + std::to_string(height) +
+                        std::to_string(from.width) + " x " + std::to_string(from.height) +
                         " px; try a smaller picture");
     }
-    if (!can_invert_) TurnUpsideDown(rgba, width, height);
+    if (!can_invert_) TurnUpsideDown(rgba, from.width, from.height);
   }
 
   // Of the tile drawn last, from below.
@@ -347,6 +450,7 @@ class GlDrawing : public Drawing {
     return depth;
   }
 
+  const RegionSettings regions_;
   LogLine log_;
   OnceLog once_;
   std::unique_ptr<GlContext> context_;  // outlives everything that follows
@@ -367,13 +471,19 @@ class GlDrawing : public Drawing {
   std::vector<std::unique_ptr<RobotActors>> robots_;  // in the order of the state
   std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet
   std::vector<std::uint8_t> large_;
+  std::vector<std::pair<vtkActor*, std::string>> names_;  // of the people layer, for people
+  Image plate_;                                           // the floor alone
+  int pictures_in_parts_ = 0;
+  FloorCache::Key plate_key_{};
+  bool is_software_ = false;
   bool can_invert_ = false;  // MESA_pack_invert
 };
 
 }  // namespace
 
-std::unique_ptr<Drawing> MakeGlDrawing(const std::string& backend, const LogLine& log) {
-  return std::make_unique<GlDrawing>(backend, log);
+std::unique_ptr<Drawing> MakeGlDrawing(const std::string& backend, const LogLine& log,
+                                       const RegionSettings& regions) {
+  return std::make_unique<GlDrawing>(backend, log, regions);
 }
 
 }  // namespace kinescope::render

@@ -10,6 +10,7 @@
 namespace kinescope::render {
 
 /// @throws RenderError if there is no context of `backend`.
-std::unique_ptr<Drawing> MakeGlDrawing(const std::string& backend, const LogLine& log);
+std::unique_ptr<Drawing> MakeGlDrawing(const std::string& backend, const LogLine& log,
+                                       const RegionSettings& regions);
 
 }  // namespace kinescope::render

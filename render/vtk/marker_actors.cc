@@ -77,6 +77,7 @@ void MarkerActors::AddMesh(const SceneMarker& marker, urdf::Mesh& to) {
 void MarkerActors::Build() {
   problems_.clear();
   labels_.clear();
+  boxes_.clear();
   triangles_ = 0;
   is_closed_ = true;
   urdf::Mesh solid, blended;
@@ -105,17 +106,18 @@ void MarkerActors::Build() {
       continue;
     }
     urdf::Mesh& to = IsTranslucent(*marker) ? blended : solid;
+    const std::size_t first = to.positions.size();
     if (marker->type == MarkerType::kMesh) {
       AddMesh(*marker, to);
-      continue;
-    }
-    const std::size_t more = TriangleCount(*marker);
-    if (triangles_ + more > kMaxMarkerTriangles) {
+    } else if (const std::size_t more = TriangleCount(*marker);
+               triangles_ + more > kMaxMarkerTriangles) {
       refuse("all markers together have too many triangles");
-      continue;
+    } else {
+      triangles_ += more;
+      AppendMarker(*marker, to);
     }
-    triangles_ += more;
-    AppendMarker(*marker, to);
+    Eigen::AlignedBox3f& box = boxes_.emplace_back();
+    for (std::size_t i = first; i < to.positions.size(); ++i) box.extend(to.positions[i]);
   }
   if (problems_.size() > kMaxProblems) {
     const std::size_t more = problems_.size() - kMaxProblems;
@@ -137,6 +139,10 @@ void MarkerActors::Update(const std::vector<std::shared_ptr<const SceneMarker>>&
     for (const std::string& problem : problems_) log(problem);
   }
   labels.insert(labels.end(), labels_.begin(), labels_.end());
+}
+
+void MarkerActors::AddTo(PictureRegion& region) const {
+  for (const Eigen::AlignedBox3f& box : boxes_) region.AddBox(box);
 }
 
 }  // namespace kinescope::render

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "render/camera/picture_region.h"
 #include "render/module.h"
 #include "render/shape/once_log.h"
 #include "render/shape/visual_mesh.h"
@@ -28,6 +29,7 @@ class MarkerActors {
   const std::vector<std::string>& problems() const { return problems_; }
   vtkActor* solid() { return solid_.actor(); }
   vtkActor* blended() { return blended_.actor(); }
+  void AddTo(PictureRegion& region) const;
 
  private:
   void Build();
@@ -37,6 +39,7 @@ class MarkerActors {
   PartActor solid_, blended_;
   std::vector<std::shared_ptr<const SceneMarker>> markers_;  // those that are built; held, so that
                                                              // their addresses are not reused
+  std::vector<Eigen::AlignedBox3f> boxes_;                   // around each of them, world
   std::vector<Label> labels_;
   std::vector<std::string> problems_;
   std::map<std::string, VisualMesh> meshes_;  // by URI

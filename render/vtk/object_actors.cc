@@ -74,4 +74,8 @@ std::vector<vtkActor*> ObjectActors::actors() {
   return actors;
 }
 
+void ObjectActors::AddTo(PictureRegion& region) const {
+  for (const auto& group : groups_) group->AddTo(region);
+}
+
 }  // namespace kinescope::render

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "render/camera/picture_region.h"
 #include "render/module.h"
 #include "render/vtk/part_actor.h"
 
@@ -17,6 +18,7 @@ class ObjectActors {
   bool Update(const std::vector<TrackedObject>& objects, Liveness liveness,
               std::vector<Label>& labels);
   std::vector<vtkActor*> actors();
+  void AddTo(PictureRegion& region) const;
 
  private:
   std::vector<std::unique_ptr<PartActor>> groups_;  // each with the objects of one draw call

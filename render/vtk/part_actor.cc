@@ -47,6 +47,21 @@ PartActor::PartActor(Pass pass, Light light, int part_count)
   Commit();  // the uniforms' declarations become part of the shader
 }
 
+void PartActor::SetMesh(const urdf::Mesh& mesh) {
+  boxes_.assign(world_from_part_.size(), Eigen::AlignedBox3f());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    boxes_.at(static_cast<std::size_t>(mesh.parts[i])).extend(mesh.positions[i]);
+  }
+  shaded_.SetMesh(mesh);
+}
+
+void PartActor::AddTo(PictureRegion& region) const {
+  if (!shaded_.is_visible()) return;
+  for (std::size_t part = 0; part < boxes_.size(); ++part) {
+    if (!world_from_part_[part].isZero(0)) region.AddBox(boxes_[part], world_from_part_[part]);
+  }
+}
+
 void PartActor::Place(int part, const Eigen::Affine3d& world_from_part) {
   world_from_part_.at(static_cast<std::size_t>(part)) = world_from_part.matrix().cast<float>();
 }

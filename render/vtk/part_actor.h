@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "render/camera/picture_region.h"
 #include "render/vtk/shaded_actor.h"
 
 namespace kinescope::render {
@@ -24,7 +25,7 @@ class PartActor {
   /// @pre 1 <= part_count <= kMaxParts
   PartActor(Pass pass, Light light, int part_count);
 
-  void SetMesh(const urdf::Mesh& mesh) { shaded_.SetMesh(mesh); }
+  void SetMesh(const urdf::Mesh& mesh);
   void SetCulling(bool is_on) { shaded_.SetCulling(is_on); }
 
   /// world_from_part. Hidden parts have a zero matrix. Takes effect with Commit.
@@ -38,10 +39,13 @@ class PartActor {
   void Commit();
 
   vtkActor* actor() { return shaded_.actor(); }
+  /// Of the parts as placed, if the actor is visible.
+  void AddTo(PictureRegion& region) const;
 
  private:
   ShadedActor shaded_;
   std::vector<Eigen::Matrix4f> world_from_part_;
+  std::vector<Eigen::AlignedBox3f> boxes_;  // by part, in its frame
   Eigen::Vector4f override_ = Eigen::Vector4f::Zero();
   float opacity_ = 1;
 };

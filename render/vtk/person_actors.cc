@@ -296,4 +296,21 @@ void PersonActors::UpdateHeld(const PersonState& person, Liveness liveness) {
   held_.Commit();
 }
 
+// Ghosts are where the solids are.
+void PersonActors::AddTo(PictureRegion& region) const {
+  body_.AddTo(region);
+  if (floor_shadow_) {
+    floor_shadow_->AddTo(region);
+  } else {
+    shadow_.AddTo(region);
+  }
+  held_.AddTo(region);
+  marks_.AddTo(region);
+  spheres_.AddTo(region);
+  forces_.AddTo(region);
+  for (const auto* axes : {&frames_, &joint_axes_}) {
+    if (*axes != nullptr) (*axes)->AddTo(region);
+  }
+}
+
 }  // namespace kinescope::render

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "render/camera/picture_region.h"
 #include "render/module.h"
 #include "render/scene_look.h"
 #include "render/shape/once_log.h"
@@ -42,6 +43,8 @@ class PersonActors {
   std::vector<vtkActor*> ghosts();
   std::vector<vtkActor*> marks();
   vtkActor* held() { return held_.actor(); }
+  /// Of all of them that are visible.
+  void AddTo(PictureRegion& region) const;
 
  private:
   bool UpdateShadow(const PersonState& person, const SceneLook& look);

@@ -149,4 +149,9 @@ void RobotActors::UpdateShadow(const Eigen::AlignedBox3d& around) {
   shadow_.Commit();
 }
 
+void RobotActors::AddTo(PictureRegion& region) const {
+  shadow_.AddTo(region);
+  for (const Group& group : groups_) group.actor->AddTo(region);
+}
+
 }  // namespace kinescope::render

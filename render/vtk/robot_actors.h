@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "render/camera/picture_region.h"
 #include "render/module.h"
 #include "render/scene_look.h"
 #include "render/shape/once_log.h"
@@ -34,6 +35,7 @@ class RobotActors {
 
   vtkActor* shadow() { return shadow_.actor(); }
   std::vector<vtkActor*> bodies();
+  void AddTo(PictureRegion& region) const;
 
  private:
   // The links of one draw call.

@@ -5,7 +5,6 @@
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkShaderProperty.h>
 
@@ -72,6 +71,8 @@ ShadedActor::ShadedActor(Pass pass, const ShaderText& text,
 
 void ShadedActor::SetCulling(bool is_on) { actor_->GetProperty()->SetBackfaceCulling(is_on); }
 
+bool ShadedActor::is_visible() const { return actor_->GetVisibility() != 0; }
+
 vtkUniforms& ShadedActor::uniforms() {
   return *actor_->GetShaderProperty()->GetVertexCustomUniforms();
 }
@@ -93,19 +94,23 @@ void ShadedActor::SetMesh(const urdf::Mesh& mesh) {
 void ShadedActor::SetSurface(vtkFloatArray* positions, vtkFloatArray* normals,
                              const std::vector<vtkFloatArray*>& attributes,
                              const std::vector<std::uint32_t>& triangles) {
-  vtkNew<vtkPolyData> data;
+  data_->Initialize();
   vtkNew<vtkPoints> points;
   points->SetData(positions);
-  data->SetPoints(points);
-  data->GetPointData()->SetNormals(normals);
-  for (vtkFloatArray* attribute : attributes) data->GetPointData()->AddArray(attribute);
+  data_->SetPoints(points);
+  data_->GetPointData()->SetNormals(normals);
+  for (vtkFloatArray* attribute : attributes) data_->GetPointData()->AddArray(attribute);
+  SetTriangles(triangles);
+  mapper_->SetInputData(data_);
+}
+
+void ShadedActor::SetTriangles(const std::vector<std::uint32_t>& triangles) {
   vtkNew<vtkCellArray> cells;
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
     const vtkIdType corners[] = {triangles[i], triangles[i + 1], triangles[i + 2]};
     cells->InsertNextCell(3, corners);
   }
-  data->SetPolys(cells);
-  mapper_->SetInputData(data);
+  data_->SetPolys(cells);
 }
 
 }  // namespace kinescope::render

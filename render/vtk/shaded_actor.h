@@ -5,6 +5,7 @@
 
 #include <vtkNew.h>
 #include <vtkOpenGLPolyDataMapper.h>
+#include <vtkPolyData.h>
 #include <vtkUniforms.h>
 
 #include <cstdint>
@@ -60,6 +61,8 @@ class ShadedActor {
   void SetSurface(vtkFloatArray* positions, vtkFloatArray* normals,
                   const std::vector<vtkFloatArray*>& attributes,
                   const std::vector<std::uint32_t>& triangles);
+  /// Other triangles between the vertices of SetSurface().
+  void SetTriangles(const std::vector<std::uint32_t>& triangles);
   /// Skips triangles that face away: correct for closed surfaces. Initially on.
   void SetCulling(bool is_on);
   /// VTK declares them in the vertex shader; the fragment shader declares those that it uses
@@ -68,8 +71,10 @@ class ShadedActor {
   /// A uniform vec3.
   void SetColor(const char* name, const Rgb& rgb);
   vtkActor* actor() { return actor_; }
+  bool is_visible() const;
 
  private:
+  vtkNew<vtkPolyData> data_;
   vtkNew<SurfaceMapper> mapper_;
   vtkNew<PassActor> actor_;
 };

@@ -143,6 +143,12 @@ bool SkinActor::Update(const PersonState& person,
   return is_changed;
 }
 
+void SkinActor::AddTo(PictureRegion& region) const {
+  if (!is_visible_ || shown_ == nullptr) return;
+  const std::vector<skin::Triangle>& triangles = shown_->surface->triangles();
+  region.AddTriangles(shown_->surface->surface().positions, triangles);
+}
+
 void SkinActor::AddLines(const Camera& camera, std::vector<SpaceLine>& lines) const {
   if (!is_visible_) return;
   const std::vector<std::uint32_t> triangles = Indices(shown_->surface->triangles());

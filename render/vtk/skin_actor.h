@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "render/camera/picture_region.h"
 #include "render/shape/visible_lines.h"
 #include "render/vtk/shaded_actor.h"
 #include "render/vtk/skin_shader.h"
@@ -29,6 +30,8 @@ class SkinActor {
               const SkinShading& shading);
   void SetVisible(bool is_visible) { is_visible_ = is_visible; }
   std::vector<vtkActor*> actors();
+  /// Of the newest Update, if it is visible.
+  void AddTo(PictureRegion& region) const;
   /// Of the newest Update: outlines as seen by `camera`, and the borders of the suit.
   void AddLines(const Camera& camera, std::vector<SpaceLine>& lines) const;
   /// Of the newest Update: what casts shadows.

@@ -202,6 +202,12 @@ void SphereActor::Show(const std::vector<SphereLook>& spheres, const Camera& cam
   KINESCOPE_CHECK(spheres.size() <= kSphereCapacity);
   fine_.actor()->SetVisibility(!is_small && !spheres.empty());
   coarse_.actor()->SetVisibility(is_small && !spheres.empty());
+  boxes_.clear();
+  for (const SphereLook& sphere : spheres) {
+    const Eigen::Vector3d reach = Eigen::Vector3d::Constant(sphere.radius);
+    boxes_.emplace_back((sphere.center - reach).cast<float>(),
+                        (sphere.center + reach).cast<float>());
+  }
   float balls[kSphereCapacity][4] = {};
   float looks[kSphereCapacity][4] = {};
   float depths[kSphereCapacity] = {};
@@ -236,6 +242,11 @@ void SphereActor::Show(const std::vector<SphereLook>& spheres, const Camera& cam
   const float up[] = {static_cast<float>(view[0][1]), static_cast<float>(view[1][1]),
                       static_cast<float>(view[2][1])};
   uniforms.SetUniform3f("cameraUp", up);
+}
+
+void SphereActor::AddTo(PictureRegion& region) const {
+  if (!fine_.is_visible() && !coarse_.is_visible()) return;
+  for (const Eigen::AlignedBox3f& box : boxes_) region.AddBox(box);
 }
 
 }  // namespace kinescope::render

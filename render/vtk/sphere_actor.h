@@ -2,12 +2,13 @@
 /// size with few triangles, and its rim is a ring in the picture from every side.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <vector>
 
 #include "core/palette.h"
 #include "render/camera/camera.h"
+#include "render/camera/picture_region.h"
 #include "render/vtk/shaded_actor.h"
 
 namespace kinescope::render {
@@ -32,11 +33,14 @@ class SphereActor {
   void Show(const std::vector<SphereLook>& spheres, const Camera& camera, bool is_small);
   static constexpr double kSmallRadius = 30;
 
+  /// Of the spheres of the newest Show.
+  void AddTo(PictureRegion& region) const;
   std::array<vtkActor*, 2> actors() { return {fine_.actor(), coarse_.actor()}; }
 
  private:
   Pass pass_;
-  ShadedActor fine_, coarse_;  // one of them is drawn
+  ShadedActor fine_, coarse_;               // one of them is drawn
+  std::vector<Eigen::AlignedBox3f> boxes_;  // around the spheres, world
 };
 
 }  // namespace kinescope::render

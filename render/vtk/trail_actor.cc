@@ -13,7 +13,7 @@ constexpr int kSides = 8;
 }  // namespace
 
 void TrailActor::Show(const std::vector<Trail>& trails) {
-  urdf::Mesh mesh;
+  mesh_ = urdf::Mesh();
   for (const Trail& trail : trails) {
     const Eigen::Vector4f color(static_cast<float>(trail.color[0]),
                                 static_cast<float>(trail.color[1]),
@@ -24,13 +24,17 @@ void TrailActor::Show(const std::vector<Trail>& trails) {
       const double share = (static_cast<double>(i) + 1) / static_cast<double>(trail.points.size());
       points.push_back({trail.points[i], kOldRadius + share * (kNewRadius - kOldRadius), color});
     }
-    AppendTube(points, kSides, 0, mesh);
+    AppendTube(points, kSides, 0, mesh_);
   }
-  part_.actor()->SetVisibility(!mesh.triangles.empty());
-  if (mesh.triangles.empty()) return;
-  part_.SetMesh(mesh);
+  part_.actor()->SetVisibility(!mesh_.triangles.empty());
+  if (mesh_.triangles.empty()) return;
+  part_.SetMesh(mesh_);
   part_.Place(0, Eigen::Affine3d::Identity());
   part_.Commit();
+}
+
+void TrailActor::AddTo(PictureRegion& region) const {
+  region.AddTriangles(mesh_.positions, mesh_.triangles);
 }
 
 }  // namespace kinescope::render

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "render/camera/picture_region.h"
 #include "render/scene_look.h"
 #include "render/vtk/part_actor.h"
 
@@ -14,9 +15,11 @@ class TrailActor {
   TrailActor() : part_(Pass::kSolid, PartActor::Light::kLit, 1) {}
   void Show(const std::vector<Trail>& trails);
   vtkActor* actor() { return part_.actor(); }
+  void AddTo(PictureRegion& region) const;
 
  private:
   PartActor part_;
+  urdf::Mesh mesh_;  // world
 };
 
 }  // namespace kinescope::render
