@@ -19,86 +19,93 @@ FloorCache::FloorCache(vtkOpenGLRenderWindow* window, vtkRenderer* floor, vtkRen
 
 FloorCache::~FloorCache() {
   people_->RemoveObserver(observer_);
-  Release();
+  Release(picture_);
+  Release(full_);
 }
 
-void FloorCache::Prepare(const Key& key) {
+void FloorCache::Prepare(const Key& key, int supersample, const std::vector<Tile>& parts) {
   // Kept from the second picture on: a camera that moves should not pay for copies.
   const bool is_same = key == key_;
   is_kept_ = is_kept_ && is_same;
   step_ = !is_same ? Step::kDraw : is_kept_ ? Step::kReuse : Step::kDrawAndKeep;
   key_ = key;
+  supersample_ = supersample;
+  parts_ = parts;
   floor_->SetDraw(step_ != Step::kReuse);
+  floor_->SetViewport(0, 0, 1.0 / supersample, 1.0 / supersample);
 }
 
-void FloorCache::PrepareParts(const std::vector<Tile>& parts) {
-  step_ = Step::kReuseParts;
-  parts_ = parts;
-  floor_->DrawOff();
+unsigned FloorCache::framebuffer() const {
+  if (supersample_ > 1) return picture_.framebuffer;
+  return is_kept_ ? full_.framebuffer : 0;
 }
 
 void FloorCache::OnPeopleStart(vtkObject*, unsigned long, void* self, void*) {
-  static_cast<FloorCache*>(self)->Copy();
+  static_cast<FloorCache*>(self)->PutFloor();
 }
 
 // Called when the floor has been drawn, or would have been, and the people have not.
-void FloorCache::Copy() {
-  if (step_ == Step::kDraw) return;
-  if (step_ == Step::kReuseParts) return CopyParts();
+void FloorCache::PutFloor() {
   const int* size = window_->GetSize();
-  const int width = size[0], height = size[1];
+  const Tile whole{0, 0, size[0], size[1]};
+  const unsigned window = window_->GetRenderFramebuffer()->GetFBOIndex();
   vtkOpenGLState* state = window_->GetState();
   const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
   state->vtkglDisable(GL_SCISSOR_TEST);
   state->PushFramebufferBindings();
+  const int scale = supersample_;
+  const bool is_larger = scale > 1;
+  if (step_ != Step::kReuse && is_larger) {
+    const Tile picture{0, 0, whole.width / scale, whole.height / scale};
+    Allocate(picture.width, picture.height, picture_);
+    Copy(window, 1, picture_.framebuffer, picture);
+  }
   if (step_ == Step::kDrawAndKeep) {
-    Allocate(width, height);
-    window_->GetRenderFramebuffer()->Bind(GL_READ_FRAMEBUFFER);
-    state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
+    Allocate(whole.width, whole.height, full_);
+    Copy(is_larger ? picture_.framebuffer : window, scale, full_.framebuffer, whole);
     is_kept_ = true;
-  } else {
-    window_->GetRenderFramebuffer()->Bind(GL_DRAW_FRAMEBUFFER);
-    state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
   }
-  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-  state->PopFramebufferBindings();
-}
-
-void FloorCache::CopyParts() {
-  vtkOpenGLState* state = window_->GetState();
-  const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
-  state->vtkglDisable(GL_SCISSOR_TEST);
-  state->PushFramebufferBindings();
-  window_->GetRenderFramebuffer()->Bind(GL_DRAW_FRAMEBUFFER);
-  state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_);
   for (const Tile& part : parts_) {
-    const int right = part.x + part.width, top = part.y + part.height;
-    glBlitFramebuffer(part.x, part.y, right, top, part.x, part.y, right, top, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
+    if (is_kept_) {
+      Copy(full_.framebuffer, 1, window, part);
+    } else if (is_larger) {
+      Copy(picture_.framebuffer, scale, window, part);
+    }
   }
   state->PopFramebufferBindings();
 }
 
-void FloorCache::Allocate(int width, int height) {
-  if (texture_ != 0 && width == width_ && height == height_) return;
-  Release();
+// `part`: of the target, which is `smaller` times as large.
+void FloorCache::Copy(unsigned from, int smaller, unsigned to, const Tile& part) {
   vtkOpenGLState* state = window_->GetState();
-  glGenTextures(1, &texture_);
-  glBindTexture(GL_TEXTURE_2D, texture_);
+  state->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+  state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
+  const int right = part.x + part.width, top = part.y + part.height;
+  glBlitFramebuffer(part.x / smaller, part.y / smaller, right / smaller, top / smaller, part.x,
+                    part.y, right, top, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void FloorCache::Allocate(int width, int height, Target& target) {
+  if (target.texture != 0 && width == target.width && height == target.height) return;
+  Release(target);
+  vtkOpenGLState* state = window_->GetState();
+  glGenTextures(1, &target.texture);
+  glBindTexture(GL_TEXTURE_2D, target.texture);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   glBindTexture(GL_TEXTURE_2D, 0);
-  glGenFramebuffers(1, &framebuffer_);
-  state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
-  glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
-  width_ = width;
-  height_ = height;
+  glGenFramebuffers(1, &target.framebuffer);
+  state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer);
+  glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.texture,
+                         0);
+  target.width = width;
+  target.height = height;
 }
 
-void FloorCache::Release() {
-  if (texture_ == 0) return;
-  glDeleteFramebuffers(1, &framebuffer_);
-  glDeleteTextures(1, &texture_);
-  framebuffer_ = texture_ = 0;
+void FloorCache::Release(Target& target) {
+  if (target.texture == 0) return;
+  glDeleteFramebuffers(1, &target.framebuffer);
+  glDeleteTextures(1, &target.texture);
+  target = Target();
 }
 
 }  // namespace kinescope::render

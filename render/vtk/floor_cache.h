@@ -1,6 +1,6 @@
-/// Caches the rendered floor while the camera stands still, as in most streams: the floor covers
-/// half of every picture and costs as much as the rest. The picture is the same, byte for byte.
-/// With the floor at hand, only parts of a picture need to be drawn.
+/// Puts the floor under the people, in the same window. It is drawn at the size of the picture,
+/// also where people are drawn larger and averaged: its shader averages itself. While the camera
+/// stands still it is drawn once. Only parts of the window need it.
 #pragma once
 
 #include <vtkNew.h>
@@ -29,23 +29,25 @@ class FloorCache {
   FloorCache(const FloorCache&) = delete;
   FloorCache& operator=(const FloorCache&) = delete;
 
-  /// Whether the floor of `key` is in the cache.
-  bool Has(const Key& key) const { return is_kept_ && key == key_; }
-  /// Call it before each Render of the window, after its size is set.
-  void Prepare(const Key& key);
-  /// In place of Prepare(): the window keeps what it has, except in `parts` (px of the window, from
-  /// below), which get the floor. What Render draws elsewhere is not to be used. @pre Has(key)
-  void PrepareParts(const std::vector<Tile>& parts);
-  /// GL's name of the framebuffer with the floor. @pre Has() its key
-  unsigned framebuffer() const { return framebuffer_; }
+  /// Call it before each Render of the window, whose size is `supersample` times the picture's.
+  /// What Render leaves outside of `parts` (px of the window, from below) is not to be used.
+  void Prepare(const Key& key, int supersample, const std::vector<Tile>& parts);
+  /// GL's name of a framebuffer with the floor of the newest Render at the size of the picture; 0:
+  /// it has been drawn in the window only.
+  unsigned framebuffer() const;
 
  private:
-  enum class Step { kDraw, kDrawAndKeep, kReuse, kReuseParts };
+  enum class Step { kDraw, kDrawAndKeep, kReuse };
+  // A texture that can be drawn into.
+  struct Target {
+    unsigned framebuffer = 0, texture = 0;  // GL names, 0: none
+    int width = 0, height = 0;              // px
+  };
   static void OnPeopleStart(vtkObject*, unsigned long, void* self, void*);
-  void Copy();
-  void CopyParts();
-  void Allocate(int width, int height);
-  void Release();
+  void PutFloor();
+  void Copy(unsigned from, int smaller, unsigned to, const Tile& part);
+  void Allocate(int width, int height, Target& target);
+  static void Release(Target& target);
 
   vtkOpenGLRenderWindow* const window_;
   vtkRenderer* const floor_;
@@ -54,10 +56,11 @@ class FloorCache {
   unsigned long observer_ = 0;
   Step step_ = Step::kDraw;
   Key key_{};
+  int supersample_ = 1;
   std::vector<Tile> parts_;
-  bool is_kept_ = false;                    // the texture contains the floor of key_
-  unsigned framebuffer_ = 0, texture_ = 0;  // GL names, 0: none
-  int width_ = 0, height_ = 0;              // px, of the texture
+  bool is_kept_ = false;  // `full_` has the floor of key_
+  Target picture_;        // at the size of the picture, if people are drawn larger
+  Target full_;           // at the size of the window
 };
 
 }  // namespace kinescope::render

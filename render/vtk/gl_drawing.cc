@@ -53,6 +53,16 @@ double MetresPerPixel(const PersonState& person, const Camera& camera, int heigh
   return place.depth_m > 0 && place.px_per_m > 0 ? 1 / place.px_per_m : 0;
 }
 
+Tile Intersection(const Tile& a, const Tile& b) {
+  const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
+  return {x, y, std::min(a.x + a.width, b.x + b.width) - x,
+          std::min(a.y + a.height, b.y + b.height) - y};
+}
+
+bool IsSame(const Tile& a, const Tile& b) {
+  return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
+}
+
 std::mutex creation;  // GLEW's table of functions and VTK's factories are the process'
 
 void TurnUpsideDown(std::uint8_t* rgba, int width, int height) {
@@ -146,18 +156,17 @@ class GlDrawing : public Drawing {
     AimCamera(camera);
     VisibleLines lines(look.style == Style::kLine ? Lines(camera) : std::vector<SpaceLine>(),
                        camera, image.width, image.height);
+    const std::vector<Tile> parts =
+        lines.is_empty() ? Parts(camera, image) : std::vector<Tile>{WholeOf(image)};
     const int step = kLargestTile / supersample;
-    if (image.width <= step && image.height <= step && lines.is_empty()) {
-      return DrawWhatChanges(camera, supersample, image);
-    }
     for (int y = 0; y < image.height; y += step) {
       for (int x = 0; x < image.width; x += step) {
         const Tile tile{x, y, std::min(step, image.width - x), std::min(step, image.height - y)};
-        AimAt(tile, camera, image);
-        DrawTile(tile, FloorKey(camera, tile, supersample), supersample, image);
+        DrawTile(tile, parts, camera, supersample, image);
         if (!lines.is_empty()) lines.Judge(tile, supersample, ReadDepth());
       }
     }
+    CheckParts(parts, camera, supersample, image);
     drawn.lines = lines.Take();
   }
 
@@ -285,56 +294,14 @@ class GlDrawing : public Drawing {
     camera_->Modified();
   }
 
-  // A picture that is one tile.
-  void DrawWhatChanges(const Camera& camera, int supersample, Image& image) {
-    const Tile whole{0, 0, image.width, image.height};
-    AimAt(whole, camera, image);
-    const FloorCache::Key key = FloorKey(camera, whole, supersample);
-    if (regions_.is_off || !is_software_ || !floor_cache_->Has(key)) {
-      return DrawTile(whole, key, supersample, image);
-    }
+  static Tile WholeOf(const Image& image) { return {0, 0, image.width, image.height}; }
+
+  // Those that may differ from the floor.
+  std::vector<Tile> Parts(const Camera& camera, const Image& image) const {
+    if (regions_.is_off || !is_software_) return {WholeOf(image)};
     PictureRegion region(camera, image.width, image.height, regions_.margin_px);
     AddTo(region);
-    if (region.is_everything()) return DrawTile(whole, key, supersample, image);
-    if (plate_key_ != key) {
-      SetSize(plate_, image.width, image.height);
-      ReadPart(floor_cache_->framebuffer(), whole, whole, supersample, plate_);
-      plate_key_ = key;
-    }
-    image.rgba = plate_.rgba;
-    DrawParts(region.Rectangles(), supersample, image);
-    ++pictures_in_parts_;
-    if (regions_.check_every > 0 && pictures_in_parts_ % regions_.check_every == 0) {
-      CheckParts(key, supersample, image);
-    }
-  }
-
-  // @throws RenderError if `image`, drawn in parts, differs from the same drawn whole.
-  void CheckParts(const FloorCache::Key& key, int supersample, const Image& image) {
-    const Tile tile{0, 0, image.width, image.height};
-    Image whole;
-    SetSize(whole, image.width, image.height);
-    DrawTile(tile, key, supersample, whole);
-    const auto differs = std::mismatch(whole.rgba.begin(), whole.rgba.end(), image.rgba.begin());
-    if (differs.first == whole.rgba.end()) return;
-    const std::ptrdiff_t pixel = (differs.first - whole.rgba.begin()) / 4;
-    std::string said;
-    Image without;
-    SetSize(without, image.width, image.height);
-    for (const auto& [actor, name] : names_) {
-      if (!actor->GetVisibility()) continue;
-      actor->VisibilityOff();
-      DrawTile(tile, key, supersample, without);
-      actor->VisibilityOn();
-      const bool is_there =
-          !std::equal(whole.rgba.begin() + 4 * pixel, whole.rgba.begin() + 4 * pixel + 4,
-                      without.rgba.begin() + 4 * pixel);
-      if (is_there && said.find(name) == std::string::npos)
-        said += (said.empty() ? "" : ", ") + name;
-    }
-    throw RenderError("the part of the picture that was drawn is too small: at column " +
-                      std::to_string(pixel % image.width) + ", row " +
-                      std::to_string(pixel / image.width) + " there is also: " + said);
+    return region.Rectangles();
   }
 
   void AddTo(PictureRegion& region) const {
@@ -346,24 +313,61 @@ class GlDrawing : public Drawing {
     ghosts_.AddTo(region);
   }
 
-  // `parts` of a picture that is one tile; the rest of it is finished.
-  void DrawParts(const std::vector<Tile>& parts, int supersample, Image& image) {
-    const Tile whole{0, 0, image.width, image.height};
-    std::vector<Tile> drawn;
-    for (const Tile& part : parts) drawn.push_back(Drawn(part, whole, supersample));
-    window_->SetSize(image.width * supersample, image.height * supersample);
-    floor_cache_->PrepareParts(drawn);
-    window_->Render();
-    for (const Tile& part : parts) {
-      ReadPart(window_->GetRenderFramebuffer()->GetFBOIndex(), whole, part, supersample, image);
+  // @throws RenderError if `image`, of which `parts` were drawn, differs from the same drawn whole.
+  void CheckParts(const std::vector<Tile>& parts, const Camera& camera, int supersample,
+                  const Image& image) {
+    if (regions_.check_every == 0 || ++checkable_ % regions_.check_every != 0) return;
+    const int step = kLargestTile / supersample;
+    if (image.width > step || image.height > step) return;
+    const Tile tile = WholeOf(image);
+    const auto draw = [&](Image& into) {
+      SetSize(into, image.width, image.height);
+      DrawTile(tile, {tile}, camera, supersample, into);
+    };
+    Image whole, without;
+    draw(whole);
+    const auto differs = std::mismatch(whole.rgba.begin(), whole.rgba.end(), image.rgba.begin());
+    if (differs.first == whole.rgba.end()) return;
+    const std::ptrdiff_t pixel = (differs.first - whole.rgba.begin()) / 4;
+    std::string said;
+    for (const auto& [actor, name] : names_) {
+      if (!actor->GetVisibility()) continue;
+      actor->VisibilityOff();
+      draw(without);
+      actor->VisibilityOn();
+      const auto at = whole.rgba.begin() + 4 * pixel;
+      const bool is_there = !std::equal(at, at + 4, without.rgba.begin() + 4 * pixel);
+      if (is_there && said.find(name) == std::string::npos) {
+        said += (said.empty() ? "" : ", ") + name;
+      }
     }
+    throw RenderError("the part of the picture that was drawn is too small (" +
+                      std::to_string(parts.size()) + " rectangles): at column " +
+                      std::to_string(pixel % image.width) + ", row " +
+                      std::to_string(pixel / image.width) + " there is also: " + said);
   }
 
-  void DrawTile(const Tile& tile, const FloorCache::Key& key, int supersample, Image& image) {
+  // The `parts` of the picture that are in `tile`; around them it gets the floor.
+  void DrawTile(const Tile& tile, const std::vector<Tile>& parts, const Camera& camera,
+                int supersample, Image& image) {
+    AimAt(tile, camera, image);
+    std::vector<Tile> here, drawn;
+    for (const Tile& part : parts) {
+      const Tile shared = Intersection(part, tile);
+      if (shared.width <= 0 || shared.height <= 0) continue;
+      here.push_back(shared);
+      drawn.push_back(Drawn(shared, tile, supersample));
+    }
+    const FloorCache::Key key = FloorKey(camera, tile, supersample);
     window_->SetSize(tile.width * supersample, tile.height * supersample);
-    floor_cache_->Prepare(key);
+    floor_cache_->Prepare(key, supersample, drawn);
     window_->Render();
-    ReadPart(window_->GetRenderFramebuffer()->GetFBOIndex(), tile, tile, supersample, image);
+    const unsigned people = window_->GetRenderFramebuffer()->GetFBOIndex();
+    const unsigned floor = floor_cache_->framebuffer();
+    const bool is_whole = here.size() == 1 && IsSame(here.front(), tile);
+    if (is_whole || floor == 0) return ReadPart(people, tile, tile, supersample, image);
+    ReadPart(floor, tile, tile, 1, image);
+    for (const Tile& part : here) ReadPart(people, tile, part, supersample, image);
   }
 
   // Where `part` of a picture is in a framebuffer with `tile` of it: px, from below.
@@ -472,9 +476,7 @@ class GlDrawing : public Drawing {
   std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet
   std::vector<std::uint8_t> large_;
   std::vector<std::pair<vtkActor*, std::string>> names_;  // of the people layer, for people
-  Image plate_;                                           // the floor alone
-  int pictures_in_parts_ = 0;
-  FloorCache::Key plate_key_{};
+  int checkable_ = 0;                                     // pictures
   bool is_software_ = false;
   bool can_invert_ = false;  // MESA_pack_invert
 };

@@ -12,8 +12,9 @@ std::string Constant(const char* name, const Rgb& color) {
          std::to_string(color[1]) + ", " + std::to_string(color[2]) + ");\n";
 }
 
-// Lines are computed per pixel and averaged over it, so they neither flicker nor break up far away.
-// It covers half the picture: every operation here counts, so the theme's colours are constants (as
+// Each pixel has the share of it that lines cover, so they neither flicker nor break up far away,
+// and drawing it larger and averaging gains nothing (58 to 61 dB against four times as large). It
+// covers half the picture: every operation here counts, so the theme's colours are constants (as
 // uniforms they cost a fifth of a picture whose camera moves).
 ShaderText FloorText(Theme theme, Detail detail) {
   ShaderText text;
@@ -33,8 +34,8 @@ uniform vec3 background;
 // `cell`: pixels from one line to the next, in both directions; `width`: half a line's, in cells.
 float Lines(vec2 at, vec2 cell, float width) {
   vec2 away = abs(fract(at - 0.5) - 0.5) * cell;
-  vec2 drawn = max(width * cell, 1.0);
-  vec2 lines = clamp(drawn - away + 0.5, 0.0, 1.0) * min(width * cell, 1.0);
+  vec2 reach = width * cell;
+  vec2 lines = clamp(reach + 0.5 - away, vec2(0.0), min(2.0 * reach, 1.0));
   lines = mix(vec2(2.0 * width), lines, clamp(0.4 * cell - 0.8, 0.0, 1.0));
   return max(lines.x, lines.y);
 }
@@ -48,7 +49,7 @@ float Lines(vec2 at, vec2 cell, float width) {
   vec2 metres = line0 * 0.25;
   vec2 isWhole = vec2(equal(metres, floor(metres)));
   vec2 width = cell * (0.012 + 0.012 * isWhole);
-  vec2 lines = clamp(max(width, 1.0) + 0.5 - abs(at - line0) * cell, 0.0, 1.0) * min(width, 1.0);
+  vec2 lines = clamp(width + 0.5 - abs(at - line0) * cell, vec2(0.0), min(2.0 * width, 1.0));
   vec2 whole = lines * isWhole;
   vec2 others = lines - whole;
   float sharp = clamp(0.4 * min(cell.x, cell.y) - 0.8, 0.0, 1.0);
@@ -60,7 +61,8 @@ float Lines(vec2 at, vec2 cell, float width) {
   gl_FragData[0] = vec4(background + (fade * fade) * (color - background), 1.0);
 )";
   text.fragment = R"(
-  vec2 perMetre = 1.0 / fwidth(floorVS);
+  vec2 dx = dFdx(floorVS), dy = dFdy(floorVS);
+  vec2 perMetre = inversesqrt(dx * dx + dy * dy);
   vec2 away = (floorVS - focus.xy) * focus.z;
   float fade = max(1.0 - dot(away, away), 0.0);
   fade *= fade;
