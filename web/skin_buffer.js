@@ -10,7 +10,9 @@ const PAINTS = /** @type {const} */ (['suit', 'colors']);
 const MOST_LIMBS = 32;  // bits of a number
 const MOST_PARTS = 16;
 const MOST_REGIONS = 64;  // as the shader has place for
+const MOST_FOLDS = 16;
 const rgb = listOf(number, 3);
+const vector = listOf(number, 3), growth = listOf(number, 2);
 
 const readHeader = object({
   vertices: number, triangles: number, position_step_m: number, border_step_m: number,
@@ -24,6 +26,14 @@ const readHeader = object({
     links: listOf(number), points_m: listOf(number), radii_m: listOf(number), covered_by: listOf(listOf(number)),
     covered_by_joined: listOf(listOf(number)),
   }),
+  folds: object({
+    shapes: listOf(object({
+      link: number, before: listOf(number), frame: number, center_m: vector, normal: vector, across: vector,
+      inwards: vector, pressed_m: growth, bulging_m: growth, outwards: vector, beside_midline_m: growth,
+      softness_m: number, bulge: number, bulges: growth,
+    })),
+    contact: growth, bulge_reach_m: number,
+  }),
   regions: object({
     joints: listOf(number), balls: listOf(boolean), parts: listOf(number), middles_m: listOf(number),
     directions: listOf(number), half_widths_m: listOf(number), least_weight: number,
@@ -35,7 +45,7 @@ const readHeader = object({
  *    upBone: number}} FrameRule
  *  @typedef {{frames: FrameRule[], middles: Map<number, THREE.Quaternion>, ownPlaneUntil: number, middleShare: number,
  *    bind: import('./skin_frames.js').Frame[], inHand: import('./skin_frames.js').Frame[],
- *    limbs: import('./skin_limbs.js').Limb[], limbOfFrame: number[],
+ *    limbs: import('./skin_limbs.js').Limb[], limbOfFrame: number[], folds: import('./skin_folds.js').Folds,
  *    regions: {shapes: import('./skin_regions.js').RegionShape[], partOfFrame: number[], leastWeight: number}}} Rig
  *    bind: the frames of the pose of the vertices; inHand: the same in the frame of their link; leastWeight: of 255, by
  *    which a vertex belongs to one part of the body
@@ -100,6 +110,10 @@ export function readSkin(buffer, route) {
   const isPart = (/** @type {number} */ part) => Number.isInteger(part) && part >= 0 && part < MOST_PARTS;
   if (shapes === null || shapes.length > MOST_REGIONS || !partOfFrame.every(isPart)
     || !shapes.every(({ halfWidth }) => halfWidth > 0)) return reject('it has unknown regions');
+  const isFrame = (/** @type {number} */ frame) => Number.isInteger(frame) && frame >= 0 && frame < count;
+  const { folds } = header;
+  if (folds.shapes.length > MOST_FOLDS || !folds.shapes.every(({ link, before, frame }) =>
+    before.length > 0 && [frame, link, ...before].every(isFrame))) reject('it has unknown folds');
   if (!Number.isInteger(vertices) || vertices < 0 || vertices > MOST_VERTICES || !Number.isInteger(triangles)
     || triangles < 0) reject(`${vertices} vertices and ${triangles} triangles`);
   let at = 4 + headerSize;
@@ -141,7 +155,7 @@ export function readSkin(buffer, route) {
   });
   return {
     rig: {
-      frames, middles, bind, inHand, limbs, limbOfFrame, ownPlaneUntil: header.own_plane_until_rad,
+      frames, middles, bind, inHand, limbs, limbOfFrame, folds, ownPlaneUntil: header.own_plane_until_rad,
       middleShare: header.middle_share, regions: { shapes, partOfFrame, leastWeight: header.regions.least_weight },
     },
     colors: header.colors, indices, weights, paint, borderStep: header.border_step_m,

@@ -3,6 +3,7 @@
 // does. Materials read these textures. They hold the bits of floats as integers, because every WebGL 2 can draw into
 // those.
 import * as THREE from 'three';
+import { emptyPlanes, foldsOfVertices, pressed, setPlanes } from './skin_folds.js';
 import { coversOf, emptyCapsules, limbsOfVertices, openSky, setCapsules } from './skin_limbs.js';
 
 const WIDTH = 256;  // of the textures, texels
@@ -23,10 +24,13 @@ const FULL_SCREEN = `
     gl_Position = vec4(4.0 * float(gl_VertexID & 1) - 1.0, 4.0 * float(gl_VertexID >> 1) - 1.0, 0.0, 1.0);
   }`;
 
-const POSITIONS = `
+/** @param {import('./skin_folds.js').Folds} folds
+ *  @param {number} most  folds of a vertex
+ *  @param {number} rows */
+const positionsOf = (folds, most, rows) => `
   uniform highp sampler2D rest, frames;
   uniform sampler2D indices, weights;
-  out highp uvec4 bits;
+  out highp uvec4 bits;${pressed(folds, most)}
   void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 bound = vec4(texelFetch(rest, at, 0).xyz, 1.0);
@@ -38,7 +42,7 @@ const POSITIONS = `
                               dot(texelFetch(frames, ivec2(1, frame), 0), bound),
                               dot(texelFetch(frames, ivec2(2, frame), 0), bound));
     }
-    bits = uvec4(floatBitsToUint(sum), 0u);
+    bits = uvec4(floatBitsToUint(pressed(sum, at, ${rows})), 0u);
   }`;
 
 const NORMALS = `
@@ -189,6 +193,8 @@ export class SkinSurface {
   #sky;
   #posed = 0;  // postures
   #limbs;
+  #folds;
+  #planes;
   #frames;
   #capsules;
   #textures;
@@ -199,7 +205,8 @@ export class SkinSurface {
   #isPosed = false;
 
   /** @param {import('./skin_buffer.js').Skin} skin */
-  constructor({ rig, positions, indices, weights, triangles }) {
+  constructor(skin) {
+    const { rig, positions, indices, weights, triangles } = skin;
     const vertices = positions.length / 3;
     const rows = Math.ceil((vertices + 1) / WIDTH);  // one more, for where the last ring ends
     const { ring, first } = neighboursOf(triangles, vertices);
@@ -210,11 +217,19 @@ export class SkinSurface {
     }
     this.#frames = texture(new Float32Array(), new Float32Array(12 * rig.frames.length), 3, FLOATS);
     this.#limbs = rig.limbs;
+    this.#folds = rig.folds;
+    this.#planes = emptyPlanes(rig.folds);
+    const { values: foldValues, most } = foldsOfVertices(skin);
+    const folds = new Float32Array(4 * WIDTH * rows * most);
+    for (let k = 0; k < most; ++k) {
+      folds.set(foldValues.subarray(4 * k * vertices, 4 * (k + 1) * vertices), 4 * k * WIDTH * rows);
+    }
     this.#capsules = emptyCapsules(rig.limbs);
     const bytes = () => new Uint8Array(4 * WIDTH * rows);
     this.#textures = {
       rest: texture(rest, rest, WIDTH, FLOATS), frames: this.#frames,
       indices: texture(indices, bytes(), WIDTH, BYTES), weights: texture(weights, bytes(), WIDTH, BYTES),
+      folds: texture(folds, folds, WIDTH, FLOATS),
       limbs: texture(limbsOfVertices(indices, weights, rig.limbOfFrame), new Uint8Array(WIDTH * rows), WIDTH, BYTE),
       ring: texture(ring, new Uint16Array(RING_WIDTH * Math.ceil(ring.length / RING_WIDTH)), RING_WIDTH, SHORTS),
     };
@@ -234,7 +249,10 @@ export class SkinSurface {
         uniforms: Object.fromEntries(Object.entries(values).map(([name, value]) => [name, { value }])),
       });
     this.#passes = [
-      { material: pass(POSITIONS, { rest: restTexture, ...others }), into: this.#positions },
+      {
+        material: pass(positionsOf(rig.folds, most, rows), { rest: restTexture, planes: this.#planes, ...others }),
+        into: this.#positions,
+      },
       {
         material: pass(NORMALS, { rest: restTexture, ring: ringTexture, posedPositions: this.#positions.texture }),
         into: this.#normals,
@@ -250,7 +268,7 @@ export class SkinSurface {
     this.#screen.frustumCulled = false;
   }
 
-  /** @param {Iterable<THREE.Matrix4>} matrices  world_from_bind of each frame
+  /** @param {THREE.Matrix4[]} matrices  world_from_bind of each frame
    *  @param {import('./skin_frames.js').Pose[]} links  of all links, as they are streamed */
   setPosture(matrices, links) {
     const rows = /** @type {Float32Array} */ (this.#frames.image.data);
@@ -260,6 +278,7 @@ export class SkinSurface {
     }
     this.#frames.needsUpdate = true;
     setCapsules(this.#limbs, links, this.#capsules);
+    setPlanes(this.#folds, matrices, links, this.#planes);
     this.#isPosed = false;
   }
 

@@ -8,6 +8,7 @@
 
 #include "core/skin_inputs.h"
 #include "core/system/json_text.h"
+#include "urdf/skin/contact.h"
 #include "urdf/skin/frames.h"
 #include "urdf/skin/limbs.h"
 #include "urdf/skin/load_regions.h"
@@ -130,6 +131,34 @@ json RegionsToJson(const skin::BindPose& bind, double height) {
           {"least_weight", skin::kPartWeight}};
 }
 
+// The folds at which flesh meets.
+json FoldsToJson(const skin::BindPose& bind, double height) {
+  json folds = json::array();
+  const auto vector = [](const Eigen::Vector3d& v) {
+    return json{Micro(v.x()), Micro(v.y()), Micro(v.z())};
+  };
+  const auto growth = [](const skin::Growth& of) { return json{Micro(of.from), Micro(of.to)}; };
+  for (const skin::FoldShape& fold : skin::FoldsOf(bind, height)) {
+    folds.push_back({{"link", fold.segment},
+                     {"before", fold.before},
+                     {"frame", fold.frame},
+                     {"center_m", vector(fold.center)},
+                     {"normal", vector(fold.normal)},
+                     {"across", vector(fold.across)},
+                     {"inwards", vector(fold.inwards)},
+                     {"pressed_m", growth(fold.pressed)},
+                     {"bulging_m", growth(fold.bulging)},
+                     {"outwards", vector(fold.outwards)},
+                     {"beside_midline_m", growth(fold.beside_midline)},
+                     {"softness_m", Micro(fold.softness)},
+                     {"bulge", fold.bulge},
+                     {"bulges", growth(fold.bulges)}});
+  }
+  return {{"shapes", std::move(folds)},
+          {"contact", growth(skin::kContact)},
+          {"bulge_reach_m", Micro(static_cast<double>(skin::kBulgeReach))}};
+}
+
 // [x, y, z, w] by link, for those whose twist is spread.
 json MiddlesToJson() {
   json middles = json::object();
@@ -199,6 +228,7 @@ std::string SkinBuffer(const PersonModel& model, const skin::SkinTemplate* own) 
                     {"frames", FramesToJson(human)},
                     {"limbs", LimbsToJson(human.skeleton, build)},
                     {"regions", RegionsToJson(skin.bind(), human.skeleton.height)},
+                    {"folds", FoldsToJson(skin.bind(), human.skeleton.height)},
                     {"middles", MiddlesToJson()},
                     {"own_plane_until_rad", skin::kOwnPlaneUntil},
                     {"middle_share", skin::kMiddleShare},

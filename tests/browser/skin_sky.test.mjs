@@ -1,4 +1,5 @@
-// How limbs cover the sky over the skin: what the page computes on the graphics card, and what the server computes.
+// Where the skin is and how limbs cover the sky over it: what the page computes on the graphics card, and what the
+// server computes.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { after, test } from 'node:test';
@@ -6,8 +7,9 @@ import { closeBrowser, openPage, startFixture } from './open_page.mjs';
 
 after(closeBrowser);
 
-/** In the page: the open sky over all vertices in each posture, read from where the skin's material reads it. */
-async function skyOnPage({ hex, postures }) {
+/** In the page: places of all vertices and the open sky over them in each posture, read from where the skin's material
+ *  reads them. */
+async function surfaceOnPage({ hex, postures }) {
   const here = (file) => import(new URL(file, location.href).href);
   const [THREE, { readSkin }, { framesOf }, { SkinSurface }] = [
     await import('three'), await here('skin_buffer.js'), await here('skin_frames.js'), await here('skin_surface.js')];
@@ -24,30 +26,36 @@ async function skyOnPage({ hex, postures }) {
       surface.setPosture(framesOf(skin.rig, links).map((frame, k) => matrix(frame).multiply(fromBind[k])), links);
       surface.pose(renderer);
     }
-    const sky = surface.uniforms.posedSky.value;
-    const { width, height } = sky.image;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
-    const { __webglTexture: texture } = renderer.properties.get(sky);
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
-    const bits = new Uint32Array(4 * width * height);
-    gl.readPixels(0, 0, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_INT, bits);
-    renderer.resetState();
-    const values = new Float32Array(bits.buffer);
-    return Array.from({ length: skin.positions.length / 3 }, (_, i) => values[4 * i]);
+    const read = (target) => {
+      const { width, height } = target.image;
+      gl.bindFramebuffer(gl.FRAMEBUFFER, gl.createFramebuffer());
+      const { __webglTexture: texture } = renderer.properties.get(target);
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
+      const bits = new Uint32Array(4 * width * height);
+      gl.readPixels(0, 0, width, height, gl.RGBA_INTEGER, gl.UNSIGNED_INT, bits);
+      renderer.resetState();
+      return new Float32Array(bits.buffer);
+    };
+    const vertices = Array.from({ length: skin.positions.length / 3 }, (_, i) => i);
+    const sky = read(surface.uniforms.posedSky.value), places = read(surface.uniforms.posedPositions.value);
+    return { open: vertices.map((i) => sky[4 * i]), places: vertices.map((i) => [...places.subarray(4 * i, 4 * i + 3)]) };
   });
 }
 
-test('limbs cover as much of the sky on the page as in pictures of the server', async () => {
+test('the skin lies on the page where it does in pictures of the server, and limbs cover as much of the sky', async () => {
   const told = JSON.parse(execFileSync(process.env.KINESCOPE_PAGE_FIXTURE, ['describe'],
     { encoding: 'utf8', maxBuffer: 1 << 26 }));
   const site = await startFixture();
   const { page, close } = await openPage(site.url);
   for (const { hex, postures, sky_step: step } of told.skins) {
-    const shown = await page.evaluate(skyOnPage, { hex, postures: postures.map(({ links }) => ({ links })) });
-    postures.forEach(({ open }, posture) => {
+    const shown = await page.evaluate(surfaceOnPage, { hex, postures: postures.map(({ links }) => ({ links })) });
+    postures.forEach(({ surface: { open, places } }, posture) => {
+      const away = (i) => Math.hypot(...shown[posture].places[step * i].map((value, k) => value - places[3 * i + k]));
+      const off = open.reduce((most, _, i) => Math.max(most, away(i)), 0);
+      assert.ok(off < 0.0005, `posture ${posture}: ${off} m beside its place`);
       let farthest = 0, sum = 0, covered = 0;
       open.forEach((expected, i) => {
-        const difference = Math.abs(shown[posture][step * i] - expected);
+        const difference = Math.abs(shown[posture].open[step * i] - expected);
         farthest = Math.max(farthest, difference);
         sum += difference;
         covered += expected < 0.9 ? 1 : 0;

@@ -37,9 +37,12 @@ double VolumeChange(const PersonSkin& skin, int joint, const Vector3d& axis, dou
 TEST(SkinVolume, KeepsItsVolumeWhereAJointBends) {
   for (const bool is_woman : {false, true}) {
     const PersonSkin skin = SkinOf(is_woman, 1.75, is_woman ? 72.4 : 75);
-    EXPECT_NEAR(VolumeChange(skin, urdf::jLeftElbow, {0, -1, 0}, 150), 0, 0.10);
-    EXPECT_NEAR(VolumeChange(skin, urdf::jLeftKnee, {0, 1, 0}, 150), 0, 0.10);
-    EXPECT_NEAR(VolumeChange(skin, urdf::jLeftHip, {0, -1, 0}, 120), 0, 0.10);
+    for (const double degrees : {60.0, 90.0, 105.0, 120.0, 135.0, 150.0}) {
+      EXPECT_NEAR(VolumeChange(skin, urdf::jLeftElbow, {0, -1, 0}, degrees), 0, 0.10) << degrees;
+      EXPECT_NEAR(VolumeChange(skin, urdf::jLeftKnee, {0, 1, 0}, degrees), 0, 0.10) << degrees;
+      if (degrees > 120) continue;
+      EXPECT_NEAR(VolumeChange(skin, urdf::jLeftHip, {0, -1, 0}, degrees), 0, 0.10) << degrees;
+    }
     EXPECT_NEAR(VolumeChange(skin, urdf::jLeftWrist, {1, 0, 0}, 80), 0, 0.10);
     EXPECT_NEAR(VolumeChange(skin, urdf::jT9T8, {0, 1, 0}, 30), 0, 0.10);
     EXPECT_NEAR(VolumeChange(skin, urdf::jT9T8, {0, 0, 1}, 30), 0, 0.10);

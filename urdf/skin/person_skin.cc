@@ -1,6 +1,7 @@
 #include "urdf/skin/person_skin.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "urdf/skin/frames.h"
@@ -147,6 +148,36 @@ std::vector<Affine> RefitFrames(const BindPose& from, const BindPose& to,
   return all;
 }
 
+// The cosine of the bend of a joint.
+double BendOf(const urdf::LinkPoses& links, int segment) {
+  const urdf::Pose& parent = links[At(urdf::kSegments[At(segment)].parent)];
+  const Vector3d z = Vector3d::UnitZ();
+  return (parent.orientation * z).dot(links[At(segment)].orientation * z);
+}
+
+// Presses flesh that is past the plane of a fold back to it, and widens flesh that is near it.
+void Press(const FoldShape& fold, const std::vector<FoldVertex>& vertices, const Affine& frame,
+           double bend, std::vector<Vector3f>& positions) {
+  const auto contact = static_cast<float>(kContact.At(bend));
+  const auto bulges = static_cast<float>(fold.bulges.At(bend));
+  if (contact == 0 && bulges == 0) return;
+  const Eigen::Matrix3f turn = frame.linear.topRows<3>();
+  const Vector3f normal = turn * fold.normal.cast<float>(),
+                 across = turn * fold.across.cast<float>(),
+                 center = turn * fold.center.cast<float>() + frame.offset.head<3>();
+  const auto softness = static_cast<float>(fold.softness);
+  for (const FoldVertex& of : vertices) {
+    Vector3f& p = positions[of.vertex];
+    const Vector3f from_center = p - center;
+    const float before = normal.dot(from_center);
+    const float above = (of.side > 0 ? before : -before) - of.floor;
+    const float past = std::max(-above, 0.0f);
+    const float press = past * past / (softness + past);  // all but what stays past the plane
+    const float wider = of.bulge * kBulgeReach / (kBulgeReach + std::max(above, 0.0f));
+    p += contact * of.side * press * normal + bulges * wider * across.dot(from_center) * across;
+  }
+}
+
 // The mean of the triangles of each vertex, by area.
 void SetNormals(const std::vector<Vector3f>& positions, const std::vector<Triangle>& triangles,
                 std::vector<Vector3f>& normals) {
@@ -172,6 +203,10 @@ PersonSkin::PersonSkin(const SkinTemplate& skin, const Build& build, const urdf:
   Carry(skin_.weights, RefitFrames(reference_bind, bind_, reference, skeleton, gloves),
         skin_.Blend(build), rest_);
   bind_frames_ = FramePoses(bind_.links, {&bind_.fingers[0], &bind_.fingers[1]}, bind_);
+  folds_ = FoldsOf(bind_, skeleton.height);
+  for (std::size_t i = 0; i < kFolds; ++i) {
+    fold_vertices_[i] = VerticesOf(folds_[i], rest_, skin_.weights);
+  }
 }
 
 void PersonSkin::Pose(const urdf::LinkPoses& links,
@@ -186,6 +221,10 @@ void PersonSkin::Pose(const urdf::LinkPoses& links,
     frames.push_back(ToAffine(turn, now[i].position - turn * bind_frames_[i].position));
   }
   Carry(skin_.weights, frames, rest_, surface.positions);
+  for (std::size_t i = 0; i < kFolds; ++i) {
+    Press(folds_[i], fold_vertices_[i], frames[At(folds_[i].frame)],
+          BendOf(links, folds_[i].segment), surface.positions);
+  }
   SetNormals(surface.positions, skin_.triangles, surface.normals);
 }
 

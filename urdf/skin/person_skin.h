@@ -1,6 +1,7 @@
 /// The skin of one person: the template of their build, fitted to their measured lengths, and posed
-/// by linear blending of the frames (frames.h). Every frame turns about a measured joint centre.
-/// World, metres. Immutable once made; Pose() may be called by one thread at a time.
+/// by linear blending of the frames (frames.h); folds press against each other (contact.h). Every
+/// frame turns about a measured joint centre. World, metres. Immutable once made; Pose() may be
+/// called by one thread at a time.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,6 +12,7 @@
 #include "urdf/kinematics.h"
 #include "urdf/skeleton.h"
 #include "urdf/skin/bind_pose.h"
+#include "urdf/skin/contact.h"
 #include "urdf/skin/skin_template.h"
 
 namespace kinescope::skin {
@@ -40,6 +42,8 @@ class PersonSkin {
   BindPose bind_;
   std::vector<urdf::Pose> bind_frames_;
   std::vector<Eigen::Vector3f> rest_;
+  std::array<FoldShape, kFolds> folds_;
+  std::array<std::vector<FoldVertex>, kFolds> fold_vertices_;
 };
 
 }  // namespace kinescope::skin

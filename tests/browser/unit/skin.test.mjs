@@ -3,7 +3,9 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import test from 'node:test';
+import { Matrix4 } from '../../../web/node_modules/three/build/three.module.js';
 import { readSkin } from '../../../web/skin_buffer.js';
+import { emptyPlanes, foldsOfVertices, setPlanes } from '../../../web/skin_folds.js';
 import { framesOf } from '../../../web/skin_frames.js';
 import { capsulesOf, limbsOfVertices } from '../../../web/skin_limbs.js';
 import { REGION_FLOATS, regionsOf } from '../../../web/skin_regions.js';
@@ -123,6 +125,39 @@ test('every limb has vertices that follow each other, and capsules move with the
     assert.ok(startRadius > 0.01 && start.distanceTo(end) > 0.02 && start.distanceTo(end) < 0.7, `limb ${i}`);
     assert.ok(Math.abs(after[i].end.x - end.x - 1) < 1e-9);
   });
+});
+
+test('folds take the flesh of both sides, press it only where joints bend far, and each vertex has few', () => {
+  const skin = readSkin(buffers[0], 'skin');
+  const { folds, bind } = skin.rig;
+  const vertices = skin.positions.length / 3;
+  const { values, most } = foldsOfVertices(skin);
+  assert.ok(most >= 2 && most <= 4, `${most} folds of a vertex`);
+  const sides = folds.shapes.map(() => [0, 0]);
+  for (let i = 0; i < vertices * most; ++i) {
+    const [fold, side, floor, bulge] = values.subarray(4 * i, 4 * i + 4);
+    assert.ok(Math.abs(side) <= 1 && floor <= 0 && bulge >= 0 && bulge < 0.3, `vertex ${i % vertices}`);
+    if (Math.abs(side) > 0.9) sides[fold][side > 0 ? 0 : 1] += 1;
+  }
+  assert.ok(sides.flat().every((count) => count > 40), `${sides}`);
+  const [{ links }] = told.skins[0].postures;
+  const planes = emptyPlanes(folds);
+  const straight = links.map(({ position }) => ({ position, quaternion: [0, 0, 0, 1] }));
+  setPlanes(folds, bind.map(() => new Matrix4()), straight, planes);
+  folds.shapes.forEach((_, i) => assert.deepEqual([planes[12 * i + 7], planes[12 * i + 11]], [0, 0]));
+});
+
+test('a skin with unknown folds is rejected', () => {
+  for (const change of [
+    ({ shapes }) => { shapes[0].frame = 256; },
+    ({ shapes }) => { shapes[1].link = -1; },
+    ({ shapes }) => { shapes[2].before = []; },
+    ({ shapes }) => { shapes[3].before = [0.5]; },
+    (folds) => { folds.shapes = Array(17).fill(folds.shapes[0]); },
+  ]) {
+    const buffer = withHeader(buffers[0], ({ folds }) => change(folds));
+    assert.throws(() => readSkin(buffer, 'skin'), /unknown folds/, `${change}`);
+  }
 });
 
 test('a skin with unknown limbs is rejected', () => {

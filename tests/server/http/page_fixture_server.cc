@@ -85,8 +85,8 @@ json Numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 json Numbers(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 
-// The share of the sky over some of the vertices, in order.
-json OpenSkyToJson(const PersonModel& model, const PersonState& person,
+// Some of the vertices in order: their places, and the share of the sky over them.
+json SurfaceToJson(const PersonModel& model, const PersonState& person,
                    const std::array<const urdf::HandSkeleton*, 2>& gloves,
                    const std::array<const urdf::FingerPoses*, 2>& fingers) {
   const urdf::Skeleton& skeleton = model.human.skeleton;
@@ -97,9 +97,14 @@ json OpenSkyToJson(const PersonModel& model, const PersonState& person,
   std::vector<float> open;
   skin::SetOpenSky(surface.positions, surface.normals, skin::LimbRunsOf(built_in.weights),
                    skin::CapsulesOf(skeleton, build, person.links), open);
-  json some = json::array();
-  for (std::size_t i = 0; i < open.size(); i += kSkyStep) some.push_back(open[i]);
-  return some;
+  json some_open = json::array(), places = json::array();
+  for (std::size_t i = 0; i < open.size(); i += kSkyStep) {
+    some_open.push_back(open[i]);
+    for (const float value : surface.positions[i]) {
+      places.push_back(std::round(1e5 * static_cast<double>(value)) / 1e5);
+    }
+  }
+  return {{"open", std::move(some_open)}, {"places", std::move(places)}};
 }
 
 // Region and place in it of all vertices, in order.
@@ -159,7 +164,7 @@ json SkinToJson(const PersonState& person) {
     }
     postures.push_back({{"links", links},
                         {"frames", frames},
-                        {"open", OpenSkyToJson(model, moved, gloves, fingers)}});
+                        {"surface", SurfaceToJson(model, moved, gloves, fingers)}});
   }
   std::array<const urdf::HandSkeleton*, 2> gloves{};
   for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {

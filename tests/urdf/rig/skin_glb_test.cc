@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -12,6 +13,7 @@
 #include "urdf/rig/glb_values.h"
 #include "urdf/rig/rig.h"
 #include "urdf/rig/rigged_skin.h"
+#include "urdf/skin/contact.h"
 
 namespace kinescope::rig {
 namespace {
@@ -132,13 +134,22 @@ class PosedSkinGlb : public ::testing::Test {
   PersonSkin::Surface surface_;
 };
 
+// Viewers blend bones; they do not flatten the flesh in folds.
 TEST_F(PosedSkinGlb, ShowsThePostureAtItsPlace) {
+  std::vector<bool> is_in_fold(person_.rest().size(), false);
+  for (const skin::FoldShape& fold : skin::FoldsOf(person_.bind(), skeleton_.height)) {
+    for (const auto& of : VerticesOf(fold, person_.rest(), skin::BuiltInSkin().weights)) {
+      is_in_fold[of.vertex] = true;
+    }
+  }
+  EXPECT_LT(std::count(is_in_fold.begin(), is_in_fold.end(), true), 9000);
   const Rig rig = ReadRig(Written(person_, {posture_}));
   const auto& triangles = skin::BuiltInSkin().triangles;
   ASSERT_EQ(rig.triangles.size(), triangles.size());
   float farthest = 0;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
+      if (is_in_fold[triangles[i][corner]]) continue;
       const Vector3f shown = rig.vertices[rig.triangles[i][corner]].position.cast<float>();
       const Vector3f ours = InFile(surface_.positions[triangles[i][corner]]);
       farthest = std::max(farthest, (shown - ours).norm());
