@@ -20,7 +20,7 @@ namespace kinescope::render {
 class FloorCache {
  public:
   /// All values that the floor's pixels depend on.
-  using Key = std::array<double, 33>;
+  using Key = std::array<double, 32>;
 
   /// `floor` is rendered first, `people` over it, in the same window. All are borrowed. GL objects
   /// are created and deleted while the context of the window is current.

@@ -176,12 +176,9 @@ class GlDrawing : public Drawing {
     floor_layer_->SetBackground(background[0], background[1], background[2]);
     ground_->SetFocus(camera.target);
     ground_->SetLook(look);
-    floor_look_ = {background[0],
-                   background[1],
-                   background[2],
+    floor_look_ = {background[0], background[1], background[2],
                    static_cast<double>(look.theme == Theme::kDark),
-                   static_cast<double>(look.floor),
-                   static_cast<double>(look.detail)};
+                   static_cast<double>(look.floor)};
     if (look.Shows(ScenePart::kScale) && look.floor) AddFloorScale(camera, labels);
   }
 
@@ -470,7 +467,7 @@ class GlDrawing : public Drawing {
   std::unique_ptr<MarkerActors> markers_;
   std::unique_ptr<TrailActor> trails_;
   GhostActors ghosts_;
-  std::array<double, 6> floor_look_{};  // what of it the floor's pixels depend on
+  std::array<double, 5> floor_look_{};  // what of it the floor's pixels depend on
   bool is_listed_ = false;
   std::vector<std::unique_ptr<RobotActors>> robots_;  // in the order of the state
   std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet

@@ -16,18 +16,17 @@ class Ground {
   void SetFocus(const Eigen::Vector3d& focus);
   /// Shows the floor of the theme, or none.
   void SetLook(const SceneLook& look);
-  std::array<vtkActor*, 4> actors();
+  std::array<vtkActor*, 2> actors();
 
  private:
   void SetUniform(const char* name, const Eigen::Vector3d& value);
 
   struct Floor {
-    Floor(Theme theme_of, Detail detail_of);
+    explicit Floor(Theme theme_of);
     Theme theme;
-    Detail detail;
     ShadedActor actor;
   };
-  std::array<Floor, 4> floors_;
+  std::array<Floor, 2> floors_;
 };
 
 }  // namespace kinescope::render
