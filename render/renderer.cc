@@ -102,6 +102,7 @@ void Renderer::RenderInto(Image& image, const SceneState& state, const Camera& c
   for (const Pane& pane : spec.panes) CheckCamera(pane.camera);
   SetSize(image, spec.width, spec.height);
   DoRender(image, state, camera, spec);
+  image.is_opaque = !spec.look.is_transparent;
 }
 
 std::string Renderer::OverlayLayer(const SceneState& state, const Camera& camera,

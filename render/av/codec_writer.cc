@@ -14,6 +14,7 @@ extern "C" {
 #include "render/av/hidden_color.h"
 #include "render/av/libav.h"
 #include "render/image/new_file.h"
+#include "render/image/yuv.h"
 
 namespace kinescope::render::av {
 namespace {
@@ -63,13 +64,6 @@ Recipe RecipeOf(ClipFormat format) {
           {}};
 }
 
-bool IsOpaque(const Image& image) {
-  // Without a way out in the middle the compiler looks at many pixels at a time.
-  std::uint8_t all = 255;
-  for (std::size_t at = 3; at < image.rgba.size(); at += 4) all &= image.rgba[at];
-  return all == 255;
-}
-
 class CodecWriter : public VideoWriter {
  public:
   CodecWriter(const std::filesystem::path& path, ClipFormat format, int width, int height,
@@ -94,10 +88,11 @@ class CodecWriter : public VideoWriter {
     if (has_alpha_) {
       glass_ = image;
       HideColors(glass_);
+      CopyAlpha(glass_, frame_->data[3], frame_->linesize[3]);
     }
-    const std::uint8_t* rows[] = {has_alpha_ ? glass_.rgba.data() : image.rgba.data()};
-    const int strides[] = {4 * image.width};
-    sws_scale(scaler_.get(), rows, strides, 0, image.height, frame_->data, frame_->linesize);
+    ToYuv(has_alpha_ ? glass_ : image, 0, 0, width_, height_,
+          {frame_->data[0], frame_->data[1], frame_->data[2], frame_->linesize[0],
+           frame_->linesize[1], frame_->linesize[2]});
     frame_->pts = next_++;
     Encode(frame_.get());
   }
@@ -127,7 +122,7 @@ class CodecWriter : public VideoWriter {
     has_alpha_ = has_alpha;
     OpenEncoder();
     OpenContainer();
-    OpenScaler();
+    frame_ = MakeFrame(codec_->pix_fmt, width_, height_, path_);
   }
 
   void OpenEncoder() {
@@ -183,16 +178,6 @@ class CodecWriter : public VideoWriter {
     Check(result, "write", path_);
   }
 
-  void OpenScaler() {
-    frame_ = MakeFrame(codec_->pix_fmt, width_, height_, path_);
-    scaler_.reset(sws_getContext(width_, height_, AV_PIX_FMT_RGBA, width_, height_, codec_->pix_fmt,
-                                 SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT, nullptr, nullptr,
-                                 nullptr));
-    if (!scaler_) Check(AVERROR(EINVAL), "convert the colours of", path_);
-    const int* bt709 = sws_getCoefficients(SWS_CS_ITU709);
-    sws_setColorspaceDetails(scaler_.get(), bt709, 1, bt709, 0, 0, 1 << 16, 1 << 16);
-  }
-
   void Encode(const AVFrame* frame) {
     Check(avcodec_send_frame(codec_.get(), frame), "encode", path_);
     while (true) {
@@ -220,7 +205,6 @@ class CodecWriter : public VideoWriter {
   OutputFormat format_;
   AVStream* stream_ = nullptr;  // belongs to format_
   Frame frame_;
-  Scaler scaler_;
   Image glass_;            // the picture in hand, with alpha
   std::int64_t next_ = 0;  // index of the next picture
 };
