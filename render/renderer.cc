@@ -134,9 +134,11 @@ std::chrono::milliseconds LimitOf(const PictureSpec& spec) {
       static_cast<std::chrono::milliseconds::rep>(1000 * (kSecs + kSecsPerPixel * pixels)));
 }
 
+void UseFillingThreads(int count) { ::setenv("LP_NUM_THREADS", std::to_string(count).c_str(), 0); }
+
 void PreferSpeed() {
   ::setenv("GALLIUM_OVERRIDE_CPU_CAPS", "avx", 0);
-  ::setenv("LP_NUM_THREADS", "1", 0);
+  UseFillingThreads(1);
 }
 
 std::unique_ptr<Renderer> MakeRenderer(RendererSettings settings) {
