@@ -102,6 +102,7 @@ void Renderer::RenderInto(Image& image, const SceneState& state, const Camera& c
   for (const Pane& pane : spec.panes) CheckCamera(pane.camera);
   SetSize(image, spec.width, spec.height);
   DoRender(image, state, camera, spec);
+  image.is_opaque = !spec.look.is_transparent;
 }
 
 std::string Renderer::OverlayLayer(const SceneState& state, const Camera& camera,
@@ -133,9 +134,11 @@ std::chrono::milliseconds LimitOf(const PictureSpec& spec) {
       static_cast<std::chrono::milliseconds::rep>(1000 * (kSecs + kSecsPerPixel * pixels)));
 }
 
+void UseFillingThreads(int count) { ::setenv("LP_NUM_THREADS", std::to_string(count).c_str(), 0); }
+
 void PreferSpeed() {
   ::setenv("GALLIUM_OVERRIDE_CPU_CAPS", "avx", 0);
-  ::setenv("LP_NUM_THREADS", "1", 0);
+  UseFillingThreads(1);
 }
 
 std::unique_ptr<Renderer> MakeRenderer(RendererSettings settings) {

@@ -200,6 +200,11 @@ struct RendererSettings {
 /// driver counts as hanging.
 std::chrono::milliseconds LimitOf(const PictureSpec& spec);
 
+/// The number of threads on which llvmpipe fills pixels for one renderer, beside the thread that
+/// draws; 0: that thread fills them. Sets LP_NUM_THREADS in the environment unless it is set. Does
+/// not change a pixel. Call it before the first renderer of the process.
+void UseFillingThreads(int count);
+
 /// For pictures that are looked at and not compared: llvmpipe may use AVX where the processor has
 /// it, which takes a seventh of the time off; a few pixels differ by one level then. It has one
 /// thread beside ours: more save little time, and cost a twelfth more to wake up. Sets

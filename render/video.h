@@ -28,6 +28,10 @@ enum class ClipFormat { kMp4, kWebm, kWebp, kGif };
 /// By the extension; nullopt for any other. A .webp is always a clip here.
 std::optional<ClipFormat> ClipFormatOf(const std::filesystem::path& path);
 
+/// Generation of the settings of the encoders of .mp4 and .webm. 1: of files whose provenance names
+/// none, with a key picture every 2 s.
+inline constexpr int kClipEncoding = 2;
+
 struct VideoOptions {
   FrameRate rate;  // .gif: at most 50 per second, the limit of browsers
   /// Constant quality of .mp4 (0, lossless, to 51; default 18) and .webm (0 to 63; default 24).
@@ -37,6 +41,8 @@ struct VideoOptions {
   /// Whether the file keeps transparency. .webm and .webp support it; .gif only fully transparent
   /// or opaque pixels. Absent: if the first frame has any.
   std::optional<bool> alpha;
+  /// 1 to kClipEncoding; earlier ones make the clips of earlier versions again.
+  int encoding = kClipEncoding;
   /// "title", "comment"; every format stores both, .gif only the comment.
   std::map<std::string, std::string> metadata;
 };

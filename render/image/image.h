@@ -11,12 +11,25 @@ struct Image {
   int width = 0;                   // px
   int height = 0;                  // px
   std::vector<std::uint8_t> rgba;  // (height, width, 4)
+  /// Whether every pixel is known to be opaque. Set by the function that draws it, so that writers
+  /// of files need not search.
+  bool is_opaque = false;
 };
+
+/// Whether every pixel is opaque: searches `image` if that is not known.
+inline bool IsOpaque(const Image& image) {
+  if (image.is_opaque) return true;
+  // Without a way out in the middle the compiler looks at many pixels at a time.
+  std::uint8_t all = 255;
+  for (std::size_t at = 3; at < image.rgba.size(); at += 4) all &= image.rgba[at];
+  return all == 255;
+}
 
 /// Sets the size and reuses the memory. The caller must write all pixels afterwards.
 inline void SetSize(Image& image, int width, int height) {
   image.width = width;
   image.height = height;
+  image.is_opaque = false;
   image.rgba.resize(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
 }
 

@@ -20,13 +20,6 @@ namespace {
 
 constexpr png_uint_32 kMaxSide = 16384;  // px; larger is no picture of ours
 
-bool IsOpaque(const Image& image) {
-  for (std::size_t at = 3; at < image.rgba.size(); at += 4) {
-    if (image.rgba[at] != 255) return false;
-  }
-  return true;
-}
-
 void Append(png_structp png, png_bytep data, png_size_t size) {
   auto* out = static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
   out->insert(out->end(), data, data + size);

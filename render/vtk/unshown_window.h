@@ -1,17 +1,20 @@
 /// The render window of pictures that are read from memory. VTK copies the colours and depths of
-/// each picture to a second framebuffer, for a display, which does not exist here. One thread.
+/// each picture to a second framebuffer, for a display, which does not exist here: this window does
+/// not, and leaves that framebuffer as small as the first picture. One thread.
 #pragma once
 
 #include <vtkGenericOpenGLRenderWindow.h>
 
 namespace kinescope::render {
 
+/// Render a first, small picture to create the framebuffers. The context is not VTK's.
 class UnshownWindow : public vtkGenericOpenGLRenderWindow {
  public:
   static UnshownWindow* New();
   UnshownWindow(const UnshownWindow&) = delete;
   void operator=(const UnshownWindow&) = delete;
 
+  void Start() override;
   void Frame() override {}
 
  protected:

@@ -91,6 +91,9 @@ TEST_F(SceneLookDrawing, MatchesTheOpaquePictureWhenATransparentOneIsLaidOverWhi
       white.look.background = Rgb{1, 1, 1};
       spec.look.is_transparent = true;
       const Image over = Draw(white), clear = Draw(spec);
+      EXPECT_TRUE(over.is_opaque);
+      EXPECT_TRUE(IsOpaque(Image{over.width, over.height, over.rgba})) << "searched";
+      EXPECT_FALSE(clear.is_opaque);
       int covered = 0, empty = 0, soft = 0, worst = 0;
       for (std::size_t at = 0; at < clear.rgba.size(); at += 4) {
         const int alpha = clear.rgba[at + 3];

@@ -60,6 +60,7 @@ struct Clip {
   AVColorRange range{};
   AVPixelFormat pixel_format{};
   std::vector<Image> frames;
+  std::vector<int> keys;  // indices of the frames that a player can begin with
   std::vector<double> times_secs;
 };
 
@@ -109,6 +110,7 @@ Clip ReadClip(const std::filesystem::path& path) {
     avcodec_send_packet(decoder, has_more ? packet : nullptr);
     av_packet_unref(packet);
     while (avcodec_receive_frame(decoder, frame) >= 0) {
+      if (frame->key_frame != 0) clip.keys.push_back(static_cast<int>(clip.frames.size()));
       clip.frames.push_back(ToRgb(*frame));
       clip.times_secs.push_back(static_cast<double>(frame->pts) * av_q2d(stream->time_base));
     }
@@ -149,6 +151,23 @@ TEST(Video, ContainsEveryFrameInOrderAndInColour) {
     EXPECT_NEAR(field[1], 140, 4);
     EXPECT_NEAR(field[2], 0, 4);
   }
+}
+
+TEST(Video, HasAKeyPictureWhereSeekingNeedsOne) {
+  const TempFolder folder;
+  const auto keys = [&](int frames, FrameRate rate, int encoding) {
+    VideoOptions options;
+    options.rate = rate;
+    options.encoding = encoding;
+    const auto video = MakeVideoWriter(folder / "clip.mp4", 32, 32, options);
+    for (int k = 0; k < frames; ++k) video->Add(Frame(0, 32, 32));
+    video->Finish();
+    return ReadClip(folder / "clip.mp4").keys;
+  };
+  EXPECT_EQ(keys(310, {30, 1}, kClipEncoding), (std::vector<int>{0, 150, 300}));
+  EXPECT_EQ(keys(12, {1, 1}, kClipEncoding), (std::vector<int>{0, 5, 10}));
+  EXPECT_EQ(keys(310, {240, 1}, kClipEncoding), (std::vector<int>{0, 250}));
+  EXPECT_EQ(keys(130, {30, 1}, 1), (std::vector<int>{0, 60, 120})) << "of earlier versions";
 }
 
 TEST(Video, HasTheColourTagsThatPlayersNeed) {

@@ -123,18 +123,35 @@ void DrawPool::Work(std::promise<render::RendererInfo>* started) {
   }
 }
 
-int DefaultJobs() {
+int CoresHere() { return static_cast<int>(std::max(1u, std::thread::hardware_concurrency())); }
+
+int DefaultJobs(int cores, const render::PictureSpec& spec) {
   // llvmpipe fills pixels on threads of its own, but nothing of what comes before and after them;
-  // a second picture does, and from there on the encoders want their share.
-  const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
-  return static_cast<int>(std::clamp(cores / 2, std::min(cores, 2u), 8u));
+  // another picture does. Each renderer has three textures of what is drawn at once:
+  // colour, depth, and the floor that is kept.
+  constexpr int kMostJobs = 8;
+  constexpr std::int64_t kTextures = 3, kMaxBytes = std::int64_t{350} << 20, kLargestSide = 4096;
+  const auto side = [&](int px) {
+    return std::min(std::int64_t{px} * spec.supersample, kLargestSide);
+  };
+  const std::int64_t bytes = kTextures * 4 * side(spec.width) * side(spec.height);
+  const int fitting =
+      static_cast<int>(std::clamp(kMaxBytes / bytes, std::int64_t{1}, std::int64_t{kMostJobs}));
+  return std::clamp(cores / 2, 1, fitting);
+}
+
+int FillingThreads(int cores, int jobs) {
+  // The thread that draws waits for them. By default llvmpipe takes one per core for each renderer,
+  // which costs a twelfth more to wake up.
+  constexpr int kMost = 8;
+  return std::clamp(cores / jobs, 1, kMost);
 }
 
 std::size_t MostPictures(int jobs, int width, int height) {
-  constexpr std::size_t kMaxBytes = 512u << 20;
+  constexpr std::size_t kMaxBytes = 64u << 20;
   const std::size_t bytes = 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   const auto threads = static_cast<std::size_t>(jobs);
-  return std::clamp(kMaxBytes / bytes, threads + 1, 3 * threads + 4);
+  return std::clamp(kMaxBytes / bytes, threads + 1, 2 * threads + 1);
 }
 
 }  // namespace kinescope::app

@@ -4,6 +4,7 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <future>
@@ -69,10 +70,18 @@ class DrawPool {
   std::vector<std::thread> threads_;
 };
 
-/// The number of threads that renders fastest on this machine, and the number of pictures of a size
-/// that `jobs` threads and the encoders behind them may hold: several per thread, up to half a
-/// gigabyte.
-int DefaultJobs();
+/// The number of cores of this machine.
+int CoresHere();
+
+/// The number of threads that draw pictures like `spec` without wasting time of so many cores; the
+/// textures of all of them stay below 350 MB, if one alone does.
+int DefaultJobs(int cores, const render::PictureSpec& spec);
+
+/// For render::UseFillingThreads.
+int FillingThreads(int cores, int jobs);
+
+/// The number of pictures of a size that `jobs` threads and the encoders behind them may hold: two
+/// per thread and one more, up to 64 MiB, but always one more than threads.
 std::size_t MostPictures(int jobs, int width, int height);
 
 }  // namespace kinescope::app

@@ -16,6 +16,7 @@ render::VideoOptions PackingOf(const RunContext& run, const Output& output) {
   if (HasCrf(output.path) && run.options.pack.crf) {
     options.crf = static_cast<int>(*run.options.pack.crf);
   }
+  options.encoding = run.options.pack.encoding;
   options.quality = static_cast<int>(*run.options.pack.quality);
   options.alpha = run.options.view.background->is_transparent;
   return options;
@@ -66,7 +67,8 @@ std::unique_ptr<OutputSink> OutputWriter::MakeSink() const {
     case OutputKind::kStill:
       return MakePngSink(output_.path, 1, metadata, LayerPathOf(run_, output_), px_per_m);
     case OutputKind::kSequence:
-      return MakePngSink(output_.path, run_.settings.jobs, metadata, "", px_per_m);
+      // Compressing a picture may take longer than drawing it.
+      return MakePngSink(output_.path, run_.settings.jobs + 1, metadata, "", px_per_m);
     case OutputKind::kClip: break;
   }
   return MakeClipSink(output_.path, spec, PackingOf(run_, output_), metadata);

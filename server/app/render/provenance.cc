@@ -54,6 +54,15 @@ std::string NameSince(int schema, const std::string& name) {
   return schema == 1 && name == "figure" ? "body_model" : name;
 }
 
+// Earlier versions did not name it.
+int EncodingOf(const Json& provenance) {
+  const int encoding = provenance.value("encoding", 1);
+  if (encoding >= 1 && encoding <= render::kClipEncoding) return encoding;
+  throw std::runtime_error(
+      fmt::format("provenance from a newer Kinescope ({}): encoding {}; expected 1 to {}",
+                  provenance.value("kinescope", "unknown"), encoding, render::kClipEncoding));
+}
+
 }  // namespace
 
 Provenance::Provenance(const RenderOptions& options, const std::string& source,
@@ -90,6 +99,7 @@ Json Provenance::Of(const Output& output, std::optional<long> number) const {
   copy.loads.List(list);
   Json values = options::ValuesOf(list);
   if (HasCrf(output.path)) {
+    result["encoding"] = copy.pack.encoding;
     if (copy.pack.crf) values["crf"] = *copy.pack.crf;
   } else if (output.kind == OutputKind::kClip) {
     values["quality"] = *copy.pack.quality;
@@ -131,6 +141,7 @@ RenderOptions OptionsOf(const Json& provenance, const std::string& path) {
   RenderOptions options;
   options::OptionList list = DecidingOptions(options);
   options::SetFrom(lookup, options::Channel::kFile, list);
+  options.pack.encoding = EncodingOf(provenance);
   // A .gif names a quality, too, which it does not have.
   if (!HasQuality(path)) options.pack.quality = *PackOptions().quality;
   options.outs = std::vector<std::string>{path};

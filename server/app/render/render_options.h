@@ -55,6 +55,7 @@ struct PackOptions {
 
   options::Optional<options::Whole> crf;
   options::Whole quality;
+  int encoding = render::kClipEncoding;  // no option: of the file that is verified
 
   void List(options::OptionList& option);
 };

@@ -321,6 +321,7 @@ std::vector<OutputResult> RenderSource(const RenderOptions& options, const Sourc
 
 std::unique_ptr<DrawPool> MakeDrawPool(int jobs, const render::PictureSpec& spec,
                                        const BackendOptions& backend) {
+  render::UseFillingThreads(FillingThreads(CoresHere(), jobs));
   const BackendChoice choice = ChooseBackend(backend);
   if (!choice.note.empty()) spdlog::warn("pictures: {}", choice.note);
   return std::make_unique<DrawPool>(

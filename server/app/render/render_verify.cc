@@ -147,9 +147,10 @@ int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions
   options.backend = given.backend;
   const std::vector<SourcePlan> plans = PlanOutputs(options);
   RunSettings settings;
-  settings.jobs = *given.jobs > 0 ? static_cast<int>(*given.jobs) : DefaultJobs();
+  const render::PictureSpec spec = ToPictureSpec(options.view);
+  settings.jobs = *given.jobs > 0 ? static_cast<int>(*given.jobs) : DefaultJobs(CoresHere(), spec);
   if (is_one) DrawOnly(then.at("number").get<long>(), options, settings);
-  const auto pool = MakeDrawPool(settings.jobs, ToPictureSpec(options.view), options.backend);
+  const auto pool = MakeDrawPool(settings.jobs, spec, options.backend);
   const auto results = RenderSource(options, plans.front(), settings, *pool);
   const Provenance now(options, options.sources->front(), pool->info());
   NoteDifferences(then, now.Of(plans.front().outputs.front()), file);

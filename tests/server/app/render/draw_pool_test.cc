@@ -141,11 +141,34 @@ TEST(DrawPool, WaitsAtItsEndOnlyForThePictureInProgress) {
 }
 
 TEST(DrawPool, HasAPictureLimitFromThreadsAndMemory) {
-  EXPECT_EQ(MostPictures(2, 160, 90), 10u);
-  EXPECT_EQ(MostPictures(2, 3840, 2160), 10u);
-  EXPECT_EQ(MostPictures(1, 8192, 4096), 4u) << "128 MiB each";
+  EXPECT_EQ(MostPictures(1, 160, 90), 3u);
+  EXPECT_EQ(MostPictures(1, 3840, 2160), 2u);
+  EXPECT_EQ(MostPictures(1, 8192, 4096), 2u) << "128 MiB each";
   EXPECT_EQ(MostPictures(8, 8192, 8192), 9u);
-  EXPECT_GE(DefaultJobs(), 1);
+}
+
+TEST(DrawPool, HasAsManyThreadsAsCoresAndTexturesAllow) {
+  const auto jobs = [](int cores, int width, int height, int supersample) {
+    render::PictureSpec spec;
+    spec.width = width;
+    spec.height = height;
+    spec.supersample = supersample;
+    return DefaultJobs(cores, spec);
+  };
+  EXPECT_EQ(jobs(1, 1280, 720, 2), 1);
+  EXPECT_EQ(jobs(2, 1280, 720, 2), 1);
+  EXPECT_EQ(jobs(8, 1280, 720, 2), 4);
+  EXPECT_EQ(jobs(64, 1280, 720, 2), 8);
+  EXPECT_EQ(jobs(64, 1920, 1080, 2), 3);
+  EXPECT_EQ(jobs(64, 3840, 2160, 2), 1) << "of 4096 x 4096 px at once";
+  EXPECT_EQ(jobs(64, 8192, 8192, 4), 1);
+  EXPECT_GE(CoresHere(), 1);
+
+  EXPECT_EQ(FillingThreads(1, 1), 1);
+  EXPECT_EQ(FillingThreads(2, 1), 2);
+  EXPECT_EQ(FillingThreads(8, 4), 2);
+  EXPECT_EQ(FillingThreads(8, 16), 1);
+  EXPECT_EQ(FillingThreads(64, 1), 8);
 }
 
 }  // namespace

@@ -20,6 +20,18 @@ Json Sample(const RenderOptions& options, const std::string& source = "demo:lift
   return Provenance(options, source, renderer).Of({"a.mp4", OutputKind::kClip, "top"});
 }
 
+TEST(Provenance, NamesTheEncodingSoThatClipsOfEarlierVersionsCanBeMadeAgain) {
+  Json clip = Sample(RenderOptions());
+  EXPECT_EQ(clip.at("encoding"), render::kClipEncoding);
+  EXPECT_EQ(OptionsOf(clip, "b.mp4").pack.encoding, render::kClipEncoding);
+  clip.erase("encoding");
+  EXPECT_EQ(OptionsOf(clip, "b.mp4").pack.encoding, 1);
+  for (const int unknown : {0, render::kClipEncoding + 1}) {
+    clip["encoding"] = unknown;
+    EXPECT_THROW(OptionsOf(clip, "b.mp4"), std::runtime_error) << unknown;
+  }
+}
+
 TEST(Provenance, RestoresTheOptionsOfItsPicture) {
   const auto options = testing::With<RenderOptions>({{"fps", "30000/1001"},
                                                      {"start", "0.1"},
