@@ -38,19 +38,24 @@ std::vector<Ball> BallsOf(const PersonState& person) {
   return balls;
 }
 
-double HeightFor(const PersonState& person, double floor_z) {
+ViewRoom RoomFor(const PersonState& person, double floor_z) {
   constexpr double kLeast = 0.9, kMost = 3.4;  // m
-  // What comes towards the camera is larger in perspective.
-  constexpr double kTowards = 0.3;  // of how far it comes
+  // How much lower and higher than at the target something seems to be that is 1 m nearer or
+  // farther: named cameras look down by 6 to 14 degrees, and what is near is larger.
+  constexpr double kLower = 0.4, kHigher = 0.1;
+  constexpr double kNarrowest = 4.0 / 3, kWidthFill = 0.85;  // of a picture
   const Eigen::Vector2d place = person.links[urdf::kPelvis].position.head<2>();
-  double highest = 0, farthest = 0;
+  double above = 0, below = 0, farthest = 0;
   for (const Ball& ball : BallsOf(person)) {
-    const double side = (ball.center.head<2>() - place).norm() + ball.radius;
-    highest = std::max(highest, ball.center.z() + ball.radius - floor_z);
-    farthest = std::max(farthest, side);
+    const double away = (ball.center.head<2>() - place).norm();
+    const double z = ball.center.z() - floor_z;
+    above = std::max(above, z + ball.radius + kHigher * away);
+    below = std::max(below, kLower * away - (z - ball.radius));
+    farthest = std::max(farthest, away + ball.radius);
   }
-  const double needed = std::max(highest, 2 * farthest) + kTowards * farthest;
-  return std::clamp(needed / kLiveFill, kLeast, kMost);
+  const double height =
+      std::max((above + below) / kLiveFill, 2 * farthest / kNarrowest / kWidthFill);
+  return {std::clamp(height, kLeast, kMost), std::min(below, kMost)};
 }
 
 }  // namespace kinescope

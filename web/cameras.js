@@ -37,8 +37,9 @@ export function groundOf(pelvises, floor, reach) {
 /** Position and target of the camera that shows `view` of the people on `ground`.
  *  @param {CameraView} view
  *  @param {Framing} framing
- *  @param {{middle: number[], radius: number, height: number, heading: number}} ground  height: that the view shows, m;
- *    heading: by which it is turned, rad
+ *  @param {{middle: number[], radius: number, height: number, below: number, heading: number}} ground  height: that the view
+ *    shows, m; below: by which what comes towards the camera seems to be below the floor, m; heading: by which it is
+ *    turned, rad
  *  @param {number} aspect  width / height of the canvas
  *  @returns {Aim} */
 export function aim(view, framing, ground, aspect) {
@@ -51,7 +52,8 @@ export function aim(view, framing, ground, aspect) {
   offset = scale(offset, (distance * widened) / length(offset));
   const isPole = Math.hypot(offset[0], offset[1]) < POLE_TILT * length(offset);
   if (isPole) offset = subtract(offset, scale(turned(view.up, ground.heading), POLE_TILT * length(offset)));
-  const target = add(ground.middle, scale(view.target, size));
+  const lowered = Math.max(0, ground.below - framing.spare_below * ground.height);
+  const target = add(add(ground.middle, scale(view.target, size)), [0, 0, -lowered]);
   return {
     position: add(target, offset),
     target,

@@ -173,6 +173,7 @@ const readCameraView = object({
 });
 const readFraming = object({
   min_width_m: number, margin_m: number, narrowest_aspect: number, reach_m: number, height_m: number,
+  spare_below: number,
 });
 export const readCameras = object({ cameras: listOf(readCameraView), framing: readFraming, live: string });
 /** @typedef {ReturnType<typeof readCameraView>} CameraView  of a person at the origin

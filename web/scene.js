@@ -3,7 +3,7 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { aim, groundOf } from './cameras.js';
-import { HeldHeight } from './held_height.js';
+import { HeldRoom } from './held_room.js';
 import { makeMarkerMaterials } from './human.js';
 import { ObjectMarkers } from './objects.js';
 import { People } from './people.js';
@@ -28,9 +28,10 @@ export class Scene {
   #objects = /** @type {ObjectMarkers|null} */ (null);
   #objectNames = /** @type {import('./messages.js').ObjectName[]} */ ([]);
   #ground = { middle: [0, 0, 0], radius: 0 };
-  #heldHeight = new HeldHeight();
+  #heldRoom = new HeldRoom();
   #heading = 0;  // by which named views are turned, rad
-  #height = /** @type {number|null} */ (null);  // that the view shows, m; null: no person came yet
+  // What the view shows; null: no person came yet.
+  #room = /** @type {import('./held_room.js').ViewRoom|null} */ (null);
   #followed = [0, 0, 0];
   #view = /** @type {import('./messages.js').CameraView|null} */ (null);  // null: selected by hand, or not received yet
   #framing = /** @type {import('./messages.js').Framing|null} */ (null);
@@ -109,8 +110,9 @@ export class Scene {
     if (state.people.length > 0) {
       const pelvises = state.people.map(({ links }) => links[0].position);
       this.#ground = groundOf(pelvises, state.floor, this.#framing?.reach_m ?? Infinity);
-      const needed = Math.max(...state.people.map(({ viewHeight }) => viewHeight));
-      this.#show(this.#heldHeight.follow(needed, state.sentMicros / 1e6), state.viewHeading);
+      const height = Math.max(...state.people.map(({ viewHeight }) => viewHeight));
+      const needed = { height, below: state.viewBelow };
+      this.#show(this.#heldRoom.follow(needed, state.sentMicros / 1e6), state.viewHeading);
     }
     this.#dirty = true;
   }
@@ -143,8 +145,8 @@ export class Scene {
   /** Moves the camera to the named view, if there is one. */
   #aim() {
     if (this.#view === null || this.#framing === null) return;
-    const height = this.#height ?? this.#framing.height_m;
-    const ground = { middle: this.#followed, radius: this.#ground.radius, height, heading: this.#heading };
+    const room = this.#room ?? { height: this.#framing.height_m, below: 0 };
+    const ground = { middle: this.#followed, radius: this.#ground.radius, ...room, heading: this.#heading };
     const { position, target, fovDegrees } = aim(this.#view, this.#framing, ground, this.#camera.aspect);
     this.#camera.fov = fovDegrees;
     this.#objects?.setFieldOfView(fovDegrees);
@@ -157,11 +159,12 @@ export class Scene {
   }
 
   /** Goes nearer or farther and turns, unless the user moves the camera by hand.
-   *  @param {number} height  that the view shows, m
+   *  @param {import('./held_room.js').ViewRoom} room
    *  @param {number} heading  by which named views are turned, rad */
-  #show(height, heading) {
-    if (height === this.#height && heading === this.#heading) return;
-    this.#height = height;
+  #show(room, heading) {
+    const { height, below } = this.#room ?? {};
+    if (room.height === height && room.below === below && heading === this.#heading) return;
+    this.#room = room;
     this.#heading = heading;
     this.#aim();
   }

@@ -25,9 +25,9 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *  @typedef {Pose & {character: number, number: number}} TrackedObject
  *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, stateNumber: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
- *    rateHz: number, viewers: number, floor: number, waitedMillis: number, viewHeading: number, people: Person[],
- *    objects: TrackedObject[]}} State  arrivalMicros 0: unknown; waitedMillis: in the server's machine; viewHeading: by
- *    which named views are turned about z, rad
+ *    rateHz: number, viewers: number, floor: number, waitedMillis: number, viewHeading: number, viewBelow: number,
+ *    people: Person[], objects: TrackedObject[]}} State  arrivalMicros 0: unknown; waitedMillis: in the server's machine;
+ *    viewHeading: by which named views are turned about z, rad; viewBelow: by which people seem to be below the floor, m
  */
 
 /** The kind of a message; throws if the server uses another version of the protocol.
@@ -118,10 +118,10 @@ function readStateHeader(bytes) {
   bytes.skip(1);
   const waitedMillis = 10 * bytes.u16();
   const viewHeading = bytes.f32();
-  bytes.skip(4);
+  const viewBelow = bytes.f32();
   return {
     liveness, peopleCount, counter, stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis, rateHz,
-    viewers, floor, objectCount, waitedMillis, viewHeading,
+    viewers, floor, objectCount, waitedMillis, viewHeading, viewBelow,
   };
 }
 

@@ -96,7 +96,8 @@ Camera NamedCameraAt(const std::string& name, const GroundExtent& about) {
     if (known != name) continue;
     Camera camera;
     const double size = about.height / kGroupFraming.height_m;
-    camera.target = about.middle + Eigen::Vector3d(0, 0, size * kTargetHeight);
+    const double lowered = std::max(0.0, about.below - kGroupFraming.spare_below * about.height);
+    camera.target = about.middle + Eigen::Vector3d(0, 0, size * kTargetHeight - lowered);
     camera.up = direction.up;
     // Pictures are wider than high, so a group may stand wider than a person is tall; its nearest
     // member comes closer than its middle.

@@ -40,12 +40,12 @@ bool Contains(const GroundExtent& aimed, const GroundExtent& people, double aspe
 
 // The nearest aim at the middle of `recent` that shows all of it; at least as wide as for `people`.
 GroundExtent Around(const GroundExtent& recent, const GroundExtent& people, double aspect) {
-  GroundExtent nearest{recent.middle, people.radius, people.height};
+  GroundExtent nearest{recent.middle, people.radius, people.height, people.below};
   if (Contains(nearest, recent, aspect)) return nearest;
   const double share = std::min(1.0, kGroupFraming.narrowest_aspect / aspect);
   const double margin = kGroupFraming.margin_m;
   return {recent.middle, std::max(people.radius, share * (recent.radius + margin) - margin),
-          people.height};
+          people.height, people.below};
 }
 
 }  // namespace
@@ -106,9 +106,10 @@ void HeldGroundExtent::Glide(const GroundExtent& goal, double dt) {
 }
 
 const GroundExtent& HeldGroundExtent::Follow(const SceneState& state, double secs, double aspect,
-                                             double height) {
+                                             const ViewRoom& room) {
   GroundExtent people = GroundExtentOf(state);
-  people.height = held_.height = height;
+  people.height = held_.height = room.height;
+  people.below = held_.below = room.below;
   const double dt = std::max(0.0, secs - at_secs_);
   at_secs_ = secs;
   if (!has_people_) {
@@ -118,12 +119,14 @@ const GroundExtent& HeldGroundExtent::Follow(const SceneState& state, double sec
   if (state.people.empty()) return held_;
   Remember(people, secs);
   const Eigen::Vector3d velocity = Velocity();
-  const GroundExtent ahead{people.middle + kAhead * velocity, people.radius, height};
+  const GroundExtent ahead{people.middle + kAhead * velocity, people.radius, room.height,
+                           room.below};
   const GroundExtent still = Around(Recent(), people, aspect);
   const bool can_stand = ShownHeight(still) <= kSmaller * ShownHeight(people) &&
                          Contains(still, ahead, aspect, kSlack);
   // A spring that follows a steady motion lags by twice its time constant.
-  const GroundExtent along{people.middle + 2 / kStiffness * velocity, people.radius, height};
+  const GroundExtent along{people.middle + 2 / kStiffness * velocity, people.radius, room.height,
+                           room.below};
   const GroundExtent& goal = can_stand ? still : along;
   const bool is_far = ShownHeight(goal) < kNearer * ShownHeight(held_);
   const bool leaves =

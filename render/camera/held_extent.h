@@ -4,6 +4,7 @@
 
 #include <deque>
 
+#include "core/person_outline.h"
 #include "core/scene_state.h"
 #include "render/camera/camera.h"
 
@@ -18,9 +19,9 @@ class HeldGroundExtent {
   /// Call it once per picture.
   /// @param secs    of the picture; if it goes back, what was before is forgotten
   /// @param aspect  width / height of the picture
-  /// @param height  of what the picture shows, m
+  /// @param room    what the picture shows
   const GroundExtent& Follow(const SceneState& state, double secs, double aspect,
-                             double height = kGroupFraming.height_m);
+                             const ViewRoom& room = {kGroupFraming.height_m, 0});
 
  private:
   struct Seen {

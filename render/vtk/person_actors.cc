@@ -13,7 +13,7 @@ namespace {
 
 // px, by which the outline of a body may be wrong where fewer triangles are drawn; of a skin also
 // where it is drawn in full detail, but not by lines.
-constexpr double kUnseen = 1, kUnseenInFullDetail = 0.3;
+constexpr double kUnseen = 1, kUnseenInFullDetail = 0.5;
 // m per px. Then the light at the vertices of the skin, 1 cm apart, costs less than light at each
 // pixel, and differs from it by more than 8 of 255 in a few pixels of a picture only.
 constexpr double kFar = 0.0008;

@@ -59,14 +59,17 @@ std::unique_ptr<SkinSurface> SkinActor::SurfaceWithin(double error_m) const {
   constexpr double kFineBorders = 0.001;  // m: with no more error, borders stay as they are
   std::shared_ptr<const skin::SkinTemplate> of = own_;
   if (of == nullptr) of = {std::shared_ptr<void>(), &skin::BuiltInSkin()};
+  FineNormals normals;
   if (error_m > 0) {
     std::vector<skin::Borders> suit;
     if (of->colors.empty() && error_m <= kFineBorders) suit = skin::OutfitOf(*of, build_);
-    of = std::make_shared<skin::SkinTemplate>(
-        CoarserSkin(*of, build_, model_->human.skeleton, error_m,
-                    [&](const skin::Triangle& triangle) { return HasBorder(suit, triangle); }));
+    CoarserSkin coarser =
+        MakeCoarserSkin(*of, build_, model_->human.skeleton, error_m,
+                        [&](const skin::Triangle& triangle) { return HasBorder(suit, triangle); });
+    of = std::make_shared<skin::SkinTemplate>(std::move(coarser.skin));
+    normals = std::move(coarser.normals);
   }
-  return std::make_unique<SkinSurface>(std::move(of), build_, *model_);
+  return std::make_unique<SkinSurface>(std::move(of), std::move(normals), build_, *model_);
 }
 
 void SkinActor::AddActors(const SkinShading& shading, Level& level) const {
@@ -121,7 +124,7 @@ bool SkinActor::Update(const PersonState& person,
     is_changed = true;
   }
   const double error =
-      PermittedError({0.0003, 0.0006, 0.0008, 0.001, 0.002, 0.004, 0.006, 0.010}, error_m);
+      PermittedError({0.0003, 0.0006, 0.001, 0.0014, 0.002, 0.003, 0.004, 0.006, 0.010}, error_m);
   Level& level = levels_[error];
   if (!level.surface) level.surface = SurfaceWithin(error);
   capsules_ = skin::CapsulesOf(model_->human.skeleton, build_, person.links);

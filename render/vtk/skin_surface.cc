@@ -28,9 +28,10 @@ bool AreEqual(const std::vector<urdf::Pose>& a, const std::vector<urdf::Pose>& b
 
 }  // namespace
 
-SkinSurface::SkinSurface(std::shared_ptr<const skin::SkinTemplate> skin, const skin::Build& build,
-                         const PersonModel& model)
+SkinSurface::SkinSurface(std::shared_ptr<const skin::SkinTemplate> skin, FineNormals fine_normals,
+                         const skin::Build& build, const PersonModel& model)
     : skin_(std::move(skin)),
+      fine_normals_(std::move(fine_normals)),
       person_(*skin_, build, model.human.skeleton, GlovesOf(model.human)),
       stature_(model.human.skeleton.height),
       limbs_(skin::LimbRunsOf(skin_->weights)) {
@@ -49,6 +50,7 @@ void SkinSurface::Move(const PersonState& person, const skin::Capsules& capsules
   std::vector<urdf::Pose> poses = VisibleLinkPoses(person);
   if (AreEqual(poses, shown_)) return;
   person_.Pose(person.links, FingersOf(person), surface_);
+  fine_normals_.Apply(surface_);
   skin::SetOpenSky(surface_.positions, surface_.normals, limbs_, capsules, open_);
   CopyInto(open_sky_, 1, open_);
   CopyInto(positions_, 3, surface_.positions);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "render/shape/fine_normals.h"
 #include "urdf/skin/occlusion.h"
 #include "urdf/skin/outfit.h"
 #include "urdf/skin/person_skin.h"
@@ -17,8 +18,9 @@ namespace kinescope::render {
 
 class SkinSurface {
  public:
-  SkinSurface(std::shared_ptr<const skin::SkinTemplate> skin, const skin::Build& build,
-              const PersonModel& model);
+  /// `fine_normals`: where `skin` is a coarser one.
+  SkinSurface(std::shared_ptr<const skin::SkinTemplate> skin, FineNormals fine_normals,
+              const skin::Build& build, const PersonModel& model);
 
   /// To `person`, of the same model.
   void Move(const PersonState& person, const skin::Capsules& capsules);
@@ -37,6 +39,7 @@ class SkinSurface {
   void FindRegions();
 
   const std::shared_ptr<const skin::SkinTemplate> skin_;
+  const FineNormals fine_normals_;
   const skin::PersonSkin person_;
   const double stature_;
   const std::vector<skin::LimbRun> limbs_;

@@ -287,7 +287,8 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFram
                  {"margin_m", framing.margin_m},
                  {"narrowest_aspect", framing.narrowest_aspect},
                  {"reach_m", framing.reach_m},
-                 {"height_m", framing.height_m}}},
+                 {"height_m", framing.height_m},
+                 {"spare_below", framing.spare_below}}},
                {"live", live_camera},
                {"has_pictures", has_pictures}});
 }

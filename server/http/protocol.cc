@@ -89,7 +89,7 @@ void PutObject(Writer& out, const TrackedObject& object) {
   PutPose(out, object.pose);
 }
 
-void PutPerson(Writer& out, const PersonState& person, double floor_z) {
+void PutPerson(Writer& out, const PersonState& person, double view_height) {
   KINESCOPE_CHECK(person.model != nullptr);
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   const BodyForces& forces = person.forces;
@@ -115,7 +115,7 @@ void PutPerson(Writer& out, const PersonState& person, double floor_z) {
   for (const HandForce& hand : forces.hands) out.PutFloat(hand.mass_kg);
   out.Put(CountByte(forces.support.size));
   out.Put(static_cast<std::uint8_t>(forces.metric));
-  out.Put(static_cast<std::uint16_t>(std::lround(1000 * HeightFor(person, floor_z))));
+  out.Put(static_cast<std::uint16_t>(std::lround(1000 * view_height)));
   for (const urdf::Pose& link : links) PutPose(out, link);
   const double height = person.model->human.skeleton.height;
   for (std::size_t i = 0; i < loads; ++i) PutLoad(out, person.loads[i], height);
@@ -158,9 +158,15 @@ Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) 
   out.Put(std::uint8_t{0});
   out.Put(WaitedUnits(state.waited_nanos));
   out.PutFloat(state.view_heading);
-  out.Put(std::uint32_t{0});
+  std::vector<ViewRoom> rooms;
+  double below = 0;
+  for (std::size_t i = 0; i < people; ++i) {
+    rooms.push_back(RoomFor(state.people[i], state.floor_z));
+    below = std::max(below, rooms.back().below);
+  }
+  out.PutFloat(below);
   KINESCOPE_CHECK(out.size() == kStateHeaderBytes);
-  for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i], state.floor_z);
+  for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i], rooms[i].height);
   for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);
   return out.Take();
 }

@@ -22,6 +22,11 @@ double ShareGone(double dt_secs, double lag_secs) {
   return lag_secs > 0 ? 1 - std::exp(-std::max(0.0, dt_secs) / lag_secs) : 1;
 }
 
+void Show(const ViewRoom& room, render::GroundExtent& ground) {
+  ground.height = room.height;
+  ground.below = room.below;
+}
+
 std::vector<Ball> ShownBalls(const SceneState& state, const std::vector<Ball>& beside) {
   std::vector<Ball> balls = render::BallsOf(state);
   balls.insert(balls.end(), beside.begin(), beside.end());
@@ -45,7 +50,7 @@ CameraController::CameraController(const CameraChoice& camera, const CameraOptio
     if (place_) place_->vertical_fov_rad = *fov_rad_;
   }
   if (options.follow) follow_secs_ = *options.follow;
-  holds_height_ = fit_ == Fit::kAuto && fit == Fit::kOff && IsNamed();
+  holds_room_ = fit_ == Fit::kAuto && fit == Fit::kOff && IsNamed();
   if (fit_ == Fit::kAuto) fit_ = IsNamed() ? fit : Fit::kOff;
   if (fit_ != Fit::kOff && !keys_.empty()) {
     throw UsageError("--fit=" + options.fit.ToText() +
@@ -185,10 +190,9 @@ render::Camera CameraController::AimAt(const render::GroundExtent& ground, const
   return Finished(camera, ground, state, secs, aspect, beside);
 }
 
-// m, of what the picture shows.
-double CameraController::HeldHeight(const SceneState& state, double secs) {
-  return holds_height_ ? held_height_.Follow(render::NeededHeight(state), secs)
-                       : render::kGroupFraming.height_m;
+ViewRoom CameraController::HeldRoom(const SceneState& state, double secs) {
+  return holds_room_ ? held_room_.Follow(render::NeededRoom(state), secs)
+                     : ViewRoom{render::kGroupFraming.height_m, 0};
 }
 
 render::Camera CameraController::Aim(const SceneState& state, double aspect,
@@ -196,24 +200,24 @@ render::Camera CameraController::Aim(const SceneState& state, double aspect,
   const double secs = SecsOf(state);
   FollowHeading(state, secs);
   render::GroundExtent ground = follower_.Follow(state, secs, follow_secs_);
-  ground.height = HeldHeight(state, secs);
+  Show(HeldRoom(state, secs), ground);
   return AimAt(ground, state, secs, aspect, beside);
 }
 
 render::Camera CameraController::AimLive(const SceneState& state, double live_aspect,
                                          double aspect) {
   const double secs = SecsOf(state);
-  const double height = HeldHeight(state, secs);
+  const ViewRoom room = HeldRoom(state, secs);
   heading_rad_ = LiveHeading(state);
   if (follow_secs_) {
     render::GroundExtent followed = follower_.Follow(state, secs, follow_secs_);
-    followed.height = height;
+    Show(room, followed);
     return AimAt(followed, state, secs, aspect, {});
   }
-  const render::GroundExtent& held = held_.Follow(state, secs, live_aspect, height);
+  const render::GroundExtent& held = held_.Follow(state, secs, live_aspect, room);
   if (aspect >= live_aspect) return AimAt(held, state, secs, aspect, {});
   render::GroundExtent around = render::GroundExtentOf(state);
-  around.height = height;
+  Show(room, around);
   return AimAt(around, state, secs, aspect, {});
 }
 
@@ -225,7 +229,7 @@ double CameraController::LiveHeading(const SceneState& state) const {
 render::Camera CameraController::Alone(const SceneState& state, double secs, double aspect,
                                        const std::vector<Ball>& beside) const {
   render::GroundExtent ground = render::GroundExtentOf(state);
-  if (holds_height_) ground.height = render::NeededHeight(state);
+  if (holds_room_) Show(render::NeededRoom(state), ground);
   return Finished(Placed(state, ground, secs), ground, state, secs, aspect, beside);
 }
 

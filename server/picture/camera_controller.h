@@ -12,7 +12,7 @@
 #include "render/camera/camera.h"
 #include "render/camera/framing.h"
 #include "render/camera/held_extent.h"
-#include "render/camera/held_height.h"
+#include "render/camera/held_room.h"
 #include "server/picture/camera_keys.h"
 #include "server/picture/camera_options.h"
 
@@ -83,7 +83,7 @@ class CameraController {
   render::Camera AimAt(const render::GroundExtent& ground, const SceneState& state, double secs,
                        double aspect, const std::vector<Ball>& beside) const;
   double SecsOf(const SceneState& state);
-  double HeldHeight(const SceneState& state, double secs);
+  ViewRoom HeldRoom(const SceneState& state, double secs);
   void FollowHeading(const SceneState& state, double secs);
   double LiveHeading(const SceneState& state) const;
   render::Camera Alone(const SceneState& state, double secs, double aspect,
@@ -96,7 +96,7 @@ class CameraController {
   std::optional<double> fov_rad_, follow_secs_;
   double orbit_rad_per_sec_ = 0;
   Fit fit_ = Fit::kOff;
-  bool holds_height_ = false;  // of an automatic fit whose future is not known
+  bool holds_room_ = false;  // of an automatic fit whose future is not known
   render::FreeArea free_area_;
   CameraFrame frame_ = CameraFrame::kStart;
   // Of the prescan:
@@ -108,7 +108,7 @@ class CameraController {
   std::optional<std::int64_t> start_nanos_;
   Follower follower_;
   render::HeldGroundExtent held_;
-  render::HeldHeight held_height_;
+  render::HeldRoom held_room_;
   std::optional<double> heading_rad_;  // by which named cameras are turned
   double heading_at_secs_ = 0;
 };

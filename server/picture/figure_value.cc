@@ -43,6 +43,10 @@ std::vector<std::filesystem::path> FigureValue::Files() const {
   return {file_};
 }
 
+void FigureValue::SetFolder(const std::filesystem::path& folder) {
+  if (!file_.empty()) file_ = (folder / file_).string();
+}
+
 render::Figure FigureValue::Load() const {
   render::Figure figure = value_;
   if (!own_) return figure;

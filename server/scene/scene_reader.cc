@@ -16,6 +16,15 @@
 #include "server/source/scheme.h"
 
 namespace kinescope::app {
+namespace {
+
+// The built-in subject is as tall as the person is said to be.
+SourceSettings WithHeight(SourceSettings settings, const SceneOptions& options) {
+  settings.subject_height_m = options.height_m;
+  return settings;
+}
+
+}  // namespace
 
 void CheckReach(const std::string& option, double secs, const std::string& url) {
   if (!IsSubjectUrl(url) || secs <= kSubjectLatestSecs) return;
@@ -44,7 +53,7 @@ SceneReader::SceneReader(std::unique_ptr<Source> source, const std::string& url,
 }
 
 SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
-    : SceneReader(OpenSource(url), url, options) {
+    : SceneReader(OpenSource(url, WithHeight({}, options)), url, options) {
   if (source_->is_live()) {
     throw UsageError("source '" + url +
                      "': this command cannot read a live stream; record the stream first "
@@ -54,7 +63,7 @@ SceneReader::SceneReader(const std::string& url, const SceneOptions& options)
 
 SceneReader SceneReader::OfAnySource(const std::string& url, const SceneOptions& options,
                                      const SourceSettings& settings) {
-  return SceneReader(OpenSource(url, settings), url, options);
+  return SceneReader(OpenSource(url, WithHeight(settings, options)), url, options);
 }
 
 // What has arrived before the stop is read.

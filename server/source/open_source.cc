@@ -51,7 +51,8 @@ std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings&
     case SourceKind::kTcp: return mvn::OpenStream(mvn::OpenDatagrams(url), settings.stream);
     case SourceKind::kGraph: return ros_bridge::OpenGraph(url);
     case SourceKind::kSubject:
-      return subject::OpenSubject(WithoutScheme(url), settings.subject_rate_hz, 0);
+      return subject::OpenSubject(WithoutScheme(url), settings.subject_rate_hz, 0,
+                                  settings.subject_height_m);
     case SourceKind::kFile: break;
   }
   return OpenFile(url, settings);

@@ -7,6 +7,7 @@
 #include "core/source.h"
 #include "server/mvn/open.h"
 #include "server/source/scheme.h"
+#include "urdf/skeleton.h"
 
 namespace kinescope::app {
 
@@ -15,7 +16,8 @@ inline constexpr double kSubjectRateHz = 120;
 
 struct SourceSettings {
   double subject_rate_hz = kSubjectRateHz;  // samples per second of `demo:`
-  mvn::StreamSettings stream;               // for sources of datagrams
+  double subject_height_m = urdf::kDefaultHeight;
+  mvn::StreamSettings stream;  // for sources of datagrams
 };
 
 /// `demo:lift`, `udp://:9763`, `tcp://:9763`, `file.mvnx`, `take.pcap`, `take.bin.xz`, `walk.bag`,

@@ -64,8 +64,8 @@ class BuiltInMotion final : public Motion {
 
 class SubjectSource final : public Source {
  public:
-  SubjectSource(const std::string& motion, double rate_hz, double seconds)
-      : motion_(MakeMotion(motion)),
+  SubjectSource(const std::string& motion, double rate_hz, double seconds, double height_m)
+      : motion_(MakeMotion(motion, height_m)),
         description_("demo:" + motion),
         rate_hz_(rate_hz),
         endless_(seconds == 0),
@@ -112,7 +112,8 @@ std::unique_ptr<Motion> MakeMotion(const std::string& name, double height_m) {
   return std::make_unique<BuiltInMotion>(name, height_m);
 }
 
-std::unique_ptr<Source> OpenSubject(const std::string& motion, double rate_hz, double seconds) {
+std::unique_ptr<Source> OpenSubject(const std::string& motion, double rate_hz, double seconds,
+                                    double height_m) {
   const auto refuse = [&](const char* what, double value, const char* expected) {
     std::ostringstream message;
     message << "demo:" << motion << ": " << what << " " << value << ": expected " << expected;
@@ -121,7 +122,7 @@ std::unique_ptr<Source> OpenSubject(const std::string& motion, double rate_hz, d
   if (!(rate_hz > 0 && rate_hz <= kHighestRateHz))
     refuse("rate", rate_hz, "more than 0, at most 10000 Hz");
   if (!(seconds >= 0 && seconds <= 1e9)) refuse("duration", seconds, "0 (endless) to 1e9 s");
-  return std::make_unique<SubjectSource>(motion, rate_hz, seconds);
+  return std::make_unique<SubjectSource>(motion, rate_hz, seconds, height_m);
 }
 
 }  // namespace kinescope::subject

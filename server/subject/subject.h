@@ -38,6 +38,7 @@ std::unique_ptr<Motion> MakeMotion(const std::string& name, double height_m = ur
 /// `demo:lift` as a source of `rate_hz` samples per second that ends after `seconds` (0: never). It
 /// is not live: each Poll() returns the next sample at once.
 /// @throws SourceError as above, and for rates outside (0, 10000] or a negative duration.
-std::unique_ptr<Source> OpenSubject(const std::string& motion, double rate_hz, double seconds);
+std::unique_ptr<Source> OpenSubject(const std::string& motion, double rate_hz, double seconds,
+                                    double height_m = urdf::kDefaultHeight);
 
 }  // namespace kinescope::subject

@@ -101,10 +101,10 @@ async function cameraOf(page, name, { width, height }) {
       socket.close();
     };
   }));
-  const { people, floor, viewHeading: heading } = decodeState(Uint8Array.from(bytes).buffer);
+  const { people, floor, viewHeading: heading, viewBelow: below } = decodeState(Uint8Array.from(bytes).buffer);
   const { cameras, framing } = await page.evaluate(async () => (await fetch('api/cameras')).json());
   const ground = { ...groundOf(people.map(({ links }) => links[0].position), floor, framing.reach_m),
-    height: people[0].viewHeight, heading };
+    height: people[0].viewHeight, below, heading };
   const { position, target, fovDegrees } = aim(cameras.find((each) => each.name === name), framing, ground, width / height);
   return ['--camera', `${position.join()}:${target.join()}`, '--fov', `${fovDegrees}`];
 }
@@ -300,6 +300,19 @@ test('the choice where loads are shown has room beside everything else', async (
       const { x, y, width, height } = await boxOf(other);
       assert.ok(x >= own.x + own.width || own.x >= x + width || y >= own.y + own.height || own.y >= y + height,
         `${name}: it overlaps ${other}`);
+    }
+    for (const words of ['The stream has stopped: last sample received 12 s ago', 'long '.repeat(30)]) {
+      const covered = await page.evaluate((text) => {
+        const banner = document.getElementById('banner');
+        banner.hidden = false;
+        banner.textContent = text;
+        const own = banner.getBoundingClientRect();
+        return ['#loads-shown', '#cameras', '.points'].filter((selector) => {
+          const other = document.querySelector(selector).getBoundingClientRect();
+          return own.left < other.right && other.left < own.right && own.top < other.bottom && other.top < own.bottom;
+        });
+      }, words);
+      assert.deepEqual(covered, [], `${name}: a banner covers controls`);
     }
     await close();
   }

@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "urdf/rig/frame_names.h"
+#include "urdf/rig/usual_names.h"
 #include "urdf/skeleton.h"
 #include "urdf/skin/frames.h"
 
@@ -143,34 +148,41 @@ std::string NamesOf(const Role& role, std::optional<urdf::Side> side) {
                      urdf::kSegments[At(OnSide(role.segment, *side))].mvn_name);
 }
 
-void CheckComplete(const Bones& bones, bool has_spine, const Rig& rig) {
-  std::vector<std::string> missing;
-  for (const Role& role : kMiddleRoles) {
-    const bool is_there = role.segment == kSpine ? has_spine : bones.node_of[At(role.segment)] >= 0;
-    if (role.is_required && !is_there) missing.push_back(NamesOf(role, std::nullopt));
+// Of joints only, because names without a standard say less. The first of two with one name counts.
+std::map<int, Meaning> MeaningsByUsualNames(const Rig& rig) {
+  std::map<int, Meaning> found;
+  std::set<std::string> taken;
+  int first_of_spine = -1;
+  for (std::size_t i = 0; i < rig.nodes.size(); ++i) {
+    if (!rig.nodes[i].is_joint) continue;
+    const auto meaning = Meanings().find(UsualName(rig.nodes[i].name));
+    if (meaning == Meanings().end()) continue;
+    const bool is_spine = meaning->second.role == kSpine;
+    if (!taken.insert(meaning->first).second && !is_spine) continue;
+    found[static_cast<int>(i)] = meaning->second;
+    if (is_spine && first_of_spine < 0) first_of_spine = static_cast<int>(i);
   }
-  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
-    for (const Role& role : kSideRoles) {
-      if (role.is_required && bones.node_of[At(OnSide(role.segment, side))] < 0) {
-        missing.push_back(NamesOf(role, side));
-      }
-    }
+  // Blender's spine begins with the hips.
+  if (taken.count("hips") == 0 && first_of_spine >= 0) {
+    found[first_of_spine] = {urdf::kPelvis, urdf::kRight};
   }
-  if (missing.empty()) return;
-  throw std::runtime_error(fmt::format(
-      "the rig has no bone {}; its bones are {}; rename them, or give them VRM's humanoid names",
-      fmt::join(missing, ", "), BonesOf(rig)));
+  return found;
 }
 
-}  // namespace
-
-Bones FindBones(const Rig& rig) {
+// Which segment each node is, T8 for all bones of a spine with names of its own; -1: none.
+struct Assignment {
   Bones bones;
+  std::vector<int> own;
+  bool has_spine = false;
+};
+
+Assignment Assign(const Rig& rig, const std::map<int, Meaning>& meanings) {
+  Assignment assignment;
+  auto& [bones, own, has_spine] = assignment;
   bones.node_of.fill(-1);
   bones.frame_of.assign(rig.nodes.size(), -1);
-  std::vector<int> own(rig.nodes.size(), -1);
-  bool has_spine = false;
-  for (const auto& [node, meaning] : MeaningsOf(rig)) {
+  own.assign(rig.nodes.size(), -1);
+  for (const auto& [node, meaning] : meanings) {
     if (meaning.role == kMiddleFinger) {
       bones.middle_finger[meaning.side] = node;
       continue;
@@ -181,7 +193,49 @@ Bones FindBones(const Rig& rig) {
     own[At(node)] = meaning.role == kSpine ? urdf::kT8 : meaning.role;
     bones.node_of[At(own[At(node)])] = node;
   }
-  CheckComplete(bones, has_spine, rig);
+  return assignment;
+}
+
+std::vector<std::string> MissingOf(const Assignment& assignment) {
+  const std::array<int, urdf::kSegmentCount>& node_of = assignment.bones.node_of;
+  std::vector<std::string> missing;
+  for (const Role& role : kMiddleRoles) {
+    const bool is_there =
+        role.segment == kSpine ? assignment.has_spine : node_of[At(role.segment)] >= 0;
+    if (role.is_required && !is_there) missing.push_back(NamesOf(role, std::nullopt));
+  }
+  for (const urdf::Side side : {urdf::kRight, urdf::kLeft}) {
+    for (const Role& role : kSideRoles) {
+      if (role.is_required && node_of[At(OnSide(role.segment, side))] < 0) {
+        missing.push_back(NamesOf(role, side));
+      }
+    }
+  }
+  return missing;
+}
+
+// @throws std::runtime_error naming the bones that are missing by the better of both ways.
+Assignment Assigned(const Rig& rig) {
+  Assignment assignment = Assign(rig, MeaningsOf(rig));
+  std::vector<std::string> missing = MissingOf(assignment);
+  if (!missing.empty() && rig.humanoid.empty()) {
+    Assignment by_usual_names = Assign(rig, MeaningsByUsualNames(rig));
+    std::vector<std::string> still_missing = MissingOf(by_usual_names);
+    if (still_missing.size() < missing.size()) {
+      missing = std::move(still_missing);
+      assignment = std::move(by_usual_names);
+    }
+  }
+  if (missing.empty()) return assignment;
+  throw std::runtime_error(fmt::format(
+      "the rig has no bone {}; its bones are {}; rename them, or give them VRM's humanoid names",
+      fmt::join(missing, ", "), BonesOf(rig)));
+}
+
+}  // namespace
+
+Bones FindBones(const Rig& rig) {
+  auto [bones, own, has_spine] = Assigned(rig);
   bones.has_spine_of_mvn = true;
   for (const int segment : {urdf::kL5, urdf::kL3, urdf::kT12, urdf::kT8}) {
     bones.has_spine_of_mvn = bones.has_spine_of_mvn && bones.node_of[At(segment)] >= 0;

@@ -1,5 +1,5 @@
-/// Which bones of a rig are which segments of the body, by the names of VRM, Mixamo or MVN. Pure
-/// functions, any thread.
+/// Which bones of a rig are which segments of the body, by the names of VRM, Mixamo or MVN, else by
+/// usual ones (UsualName). Pure functions, any thread.
 #pragma once
 
 #include <array>

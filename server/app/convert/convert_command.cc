@@ -140,14 +140,19 @@ nlohmann::ordered_json ProvenanceOf(ConvertOptions& options) {
           {"options", values}};
 }
 
+SourceSettings SettingsOf(const ConvertOptions& options) {
+  SourceSettings settings;
+  settings.subject_rate_hz = *options.rate_hz;
+  return settings;
+}
+
 class Conversion {
  public:
   explicit Conversion(ConvertOptions& options)
       : options_(options),
         provenance_(ProvenanceOf(options)),
-        reader_(SceneReader::OfAnySource(*options.source,
-                                         ToSceneOptions(options.person, options.loads),
-                                         SourceSettings{*options.rate_hz, {}})) {
+        reader_(SceneReader::OfAnySource(
+            *options.source, ToSceneOptions(options.person, options.loads), SettingsOf(options))) {
     if (options_.seconds) {
       CheckReach(fmt::format("--seconds={}", *options_.seconds), *options_.seconds,
                  *options_.source);

@@ -26,8 +26,8 @@ std::vector<http::CameraView> CameraViews() {
 
 http::CameraFraming FramingOfCameras() {
   const render::GroupFraming& framing = render::kGroupFraming;
-  return {framing.min_width_m, framing.margin_m, framing.narrowest_aspect, framing.reach_m,
-          framing.height_m};
+  return {framing.min_width_m, framing.margin_m, framing.narrowest_aspect,
+          framing.reach_m,     framing.height_m, framing.spare_below};
 }
 
 http::HttpConfig PageOf(const ServeOptions& options) {
@@ -95,6 +95,7 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
   config.loop = *options.loop;
   config.source.stream.stamps = *options.stamps;
   config.scene = ToShownSceneOptions(options.person, options.loads, *options.stale_secs);
+  config.source.subject_height_m = config.scene.height_m;
   config.scene.makes_models_aside = true;
   config.scene.view_frame = *options.camera_moves.camera_frame;
   config.ros_mode = *options.ros;

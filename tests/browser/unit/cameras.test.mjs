@@ -5,8 +5,9 @@ import { aim, groundOf } from '../../../web/cameras.js';
 
 const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
 const top = { name: 'top', position: [0, 0, 5.6], target: [0, 0, 1], up: [1, 0, 0], vertical_fov_rad: 0.5 };
-const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 4 / 3, reach_m: 50, height_m: 2.5 };
-const here = { middle: [0, 0, 0], radius: 0, height: 2.5, heading: 0 };
+const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 4 / 3, reach_m: 50, height_m: 2.5,
+  spare_below: 0.036 };
+const here = { middle: [0, 0, 0], radius: 0, height: 2.5, below: 0, heading: 0 };
 const near = (actual, expected) =>
   actual.forEach((v, i) => assert.ok(Math.abs(v - expected[i]) < 1e-9, `${actual} instead of ${expected}`));
 const distance = ({ position, target }) => Math.hypot(...position.map((v, i) => v - target[i]));
@@ -31,6 +32,13 @@ test('each named view matches the server picture of one person, of one who has t
     near(target, view.target);
     assert.ok(Math.abs(fovDegrees - (view.vertical_fov_rad * 180) / Math.PI) < 1e-9);
   }
+});
+
+test('the view is lowered for what seems to be below the floor', () => {
+  const { position, target } = aim(front, framing, { ...here, below: 0.036 * 2.5 + 0.2 }, 1.5);
+  near(target, [0, 0, 0.8]);
+  near(position, [4.6, 0, 1.3]);
+  near(aim(front, framing, { ...here, below: 0.05 }, 1.5).target, [0, 0, 1]);
 });
 
 test('a narrow screen shows both arms', () => {

@@ -84,7 +84,7 @@ test('a model without a colour for every class is rejected', () => {
 });
 
 test('cameras are read as numbers and rejected if invalid', () => {
-  const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 1.3, reach_m: 50, height_m: 2.5 };
+  const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 1.3, reach_m: 50, height_m: 2.5, spare_below: 0.036 };
   const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
   assert.deepEqual(readCameras({ cameras: [front], framing, live: 'front', has_pictures: true }, 'api/cameras'),
     { cameras: [front], framing, live: 'front' });

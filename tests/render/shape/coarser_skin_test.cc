@@ -25,7 +25,9 @@ bool IsHem(const skin::Triangle& triangle) {
 }
 
 skin::SkinTemplate Coarser(const std::function<bool(const skin::Triangle&)>& is_kept) {
-  return CoarserSkin(skin::BuiltInSkin(), skin::Build(), urdf::DefaultSkeleton(), kError, is_kept);
+  return MakeCoarserSkin(skin::BuiltInSkin(), skin::Build(), urdf::DefaultSkeleton(), kError,
+                         is_kept)
+      .skin;
 }
 
 TEST(CoarserSkin, HasFewerTrianglesAndOnlyTheirVertices) {

@@ -209,8 +209,8 @@ TEST(DetailsJson, IsEqualForEqualStates) {
 }
 
 TEST(CamerasJson, ContainsTheParametersOfEveryView) {
-  const json told =
-      json::parse(CamerasJson(testing::MakeCameras(), {1.5, 0.5, 1.25, 40, 2.5}, "front", false));
+  const json told = json::parse(
+      CamerasJson(testing::MakeCameras(), {1.5, 0.5, 1.25, 40, 2.5, 0.036}, "front", false));
   EXPECT_EQ(told["live"], "front");
   EXPECT_EQ(told["has_pictures"], false);
   ASSERT_EQ(told["cameras"].size(), 7u);
@@ -220,7 +220,8 @@ TEST(CamerasJson, ContainsTheParametersOfEveryView) {
                                    {"margin_m", 0.5},
                                    {"narrowest_aspect", 1.25},
                                    {"reach_m", 40},
-                                   {"height_m", 2.5}}));
+                                   {"height_m", 2.5},
+                                   {"spare_below", 0.036}}));
 }
 
 // A person with the mesh of the pelvis; the URDF names those of all 23 segments.

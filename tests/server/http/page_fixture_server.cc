@@ -230,26 +230,31 @@ json Describe() {
                       {"quaternion", {q.x(), q.y(), q.z(), q.w()}},
                       {"size", Numbers(solid.size)}});
     }
-    people.push_back({{"character", person.character},
-                      {"revision", 7},
-                      {"com", Numbers(*person.com)},
-                      {"cop", Numbers(*person.cop)},
-                      {"comSource", "mvn"},
-                      {"massIsAssumed", true},
-                      {"isDynamic", true},
-                      {"groundIsMeasured", false},
-                      {"leans", false},
-                      {"comDisagrees", false},
-                      {"compression", person.forces.lumbar->compression},
-                      {"margin", *person.forces.margin_of_stability},
-                      {"comMinusMvn", nullptr},
-                      {"heldKg", {5, 0}},
-                      {"metric", "total"},
-                      {"viewHeight", std::round(1000 * HeightFor(person, state.floor_z)) / 1000},
-                      {"support", support},
-                      {"held", held},
-                      {"links", links},
-                      {"loads", loads}});
+    people.push_back(
+        {{"character", person.character},
+         {"revision", 7},
+         {"com", Numbers(*person.com)},
+         {"cop", Numbers(*person.cop)},
+         {"comSource", "mvn"},
+         {"massIsAssumed", true},
+         {"isDynamic", true},
+         {"groundIsMeasured", false},
+         {"leans", false},
+         {"comDisagrees", false},
+         {"compression", person.forces.lumbar->compression},
+         {"margin", *person.forces.margin_of_stability},
+         {"comMinusMvn", nullptr},
+         {"heldKg", {5, 0}},
+         {"metric", "total"},
+         {"viewHeight", std::round(1000 * RoomFor(person, state.floor_z).height) / 1000},
+         {"support", support},
+         {"held", held},
+         {"links", links},
+         {"loads", loads}});
+  }
+  double below = 0;
+  for (const PersonState& person : state.people) {
+    below = std::max(below, RoomFor(person, state.floor_z).below);
   }
   json objects = json::array();
   for (const TrackedObject& object : state.objects) {
@@ -272,6 +277,7 @@ json Describe() {
             {"floor", state.floor_z},
             {"waitedMillis", state.waited_nanos / 1'000'000},
             {"viewHeading", state.view_heading},
+            {"viewBelow", static_cast<float>(below)},
             {"people", people},
             {"objects", objects}}},
           {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},

@@ -3,10 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <memory>
+#include <string>
 
+#include "core/person_outline.h"
 #include "core/system/errors.h"
+#include "server/scene/scene_builder.h"
+#include "server/subject/subject.h"
 #include "tests/render/test_scene.h"
 #include "tests/temp_folder.h"
 
@@ -123,6 +130,96 @@ TEST(CameraController, TurnsLivePicturesByTheHeadingThatThePageHas) {
   CameraController in_world(ParseCamera("front"), options);
   EXPECT_NEAR(Side(in_world.AimLive(state, kAspect, kAspect)), 0, 1e-6);
   EXPECT_NEAR(Side(in_world.OnlyLive(state, kAspect)), 0, 1e-6);
+}
+
+// Of a picture, as shares of its height and width.
+struct Span {
+  double top = 1, bottom = 0, left = 1, right = 0;
+  double height() const { return bottom - top; }
+};
+
+Span SpanOf(const SceneState& state, const render::Camera& camera) {
+  Span span;
+  for (const Ball& ball : BallsOf(state.people[0])) {
+    const render::Projected at = render::Project(ball.center, camera, 1280, 720);
+    const double radius = at.px_per_m * ball.radius;
+    span.top = std::min(span.top, (at.y_px - radius) / 720);
+    span.bottom = std::max(span.bottom, (at.y_px + radius) / 720);
+    span.left = std::min(span.left, (at.x_px - radius) / 1280);
+    span.right = std::max(span.right, (at.x_px + radius) / 1280);
+  }
+  return span;
+}
+
+// A take of several built-in motions, one after another.
+class LiveTake {
+ public:
+  explicit LiveTake(const std::string& camera, const CameraOptions& options = {})
+      : controller_(ParseCamera(camera), options) {}
+
+  /// @param check of each picture: the time since the motion began, what it shows and its height
+  void Play(const std::string& motion, double secs,
+            const std::function<void(double, const Span&, double)>& check) {
+    std::shared_ptr<const SceneState> newest;
+    SceneBuilder builder({}, "", 0, [&](const auto& state) { newest = state; });
+    const auto subject = subject::MakeMotion(motion);
+    builder.OnCharacter(subject->character());
+    for (double at = 0; at < secs; at += 0.1, secs_ += 0.1) {
+      builder.OnSample(subject->At(at));
+      SceneState state = *newest;
+      state.stamp_nanos = 5'000'000'000 + std::llround(1e9 * secs_);
+      const render::Camera camera = controller_.AimLive(state, kAspect, kAspect);
+      check(at, SpanOf(state, camera), render::ShownHeight(camera));
+    }
+  }
+
+ private:
+  CameraController controller_;
+  double secs_ = 0;
+};
+
+constexpr double kFreeHeight = 0.93;  // of the picture, below the title
+
+TEST(CameraController, FillsALivePictureInEveryPosture) {
+  for (const char* camera : {"front", "left", "three_quarter"}) {
+    LiveTake take(camera);
+    for (const char* motion : {"n_pose", "squat", "n_pose", "overhead", "sit", "t_pose"}) {
+      SCOPED_TRACE(std::string(camera) + " " + motion);
+      take.Play(motion, 9, [&](double secs, const Span& span, double) {
+        constexpr double kRoomMade = 1, kSettled = 6;  // s
+        if (secs > kRoomMade) {
+          EXPECT_GT(span.top, 0.05) << secs;
+          EXPECT_LT(span.bottom, 1) << secs;
+          EXPECT_GT(span.left, 0) << secs;
+          EXPECT_LT(span.right, 1) << secs;
+        }
+        if (secs < kSettled) return;
+        EXPECT_GT(span.height() / kFreeHeight, 0.58) << secs;
+        EXPECT_LT(span.height() / kFreeHeight, 0.88) << secs;
+      });
+    }
+  }
+}
+
+TEST(CameraController, DoesNotZoomWhileAPersonWalks) {
+  CameraOptions options;
+  options.follow = 0.5;  // else a camera that stands still shows all the ground they walked on
+  LiveTake take("three_quarter", options);
+  double least = 1e9, most = 0;
+  take.Play("walk", 20, [&](double secs, const Span&, double height) {
+    if (secs < 1) return;
+    least = std::min(least, height);
+    most = std::max(most, height);
+  });
+  EXPECT_LT(most / least, 1.03);
+}
+
+TEST(CameraController, CutsNothingOffAPersonWhoLiftsABoxAgainAndAgain) {
+  LiveTake take("front");
+  take.Play("lift", 40, [&](double secs, const Span& span, double) {
+    EXPECT_GT(span.top, 0.05) << secs;
+    EXPECT_LT(span.bottom, 1.01) << secs;
+  });
 }
 
 TEST(CameraController, MakesOneRevolutionPerClip) {

@@ -51,6 +51,18 @@ TEST(SceneReader, ComputesTheSameSamplesUnderOtherOptions) {
   }
 }
 
+TEST(SceneReader, LetsTheBuiltInSubjectBeAsTallAsThePersonIsSaidToBe) {
+  SceneOptions small;
+  small.height_m = 1.62;
+  SceneReader reader("demo:t_pose", small), average("demo:t_pose", {});
+  const auto top = [](SceneReader& of) {
+    const PersonState person = of.Next()->people.at(0);
+    EXPECT_TRUE(person.model->lengths_are_measured);
+    return person.links[urdf::kHead].position.z();
+  };
+  EXPECT_NEAR(top(reader) / top(average), 1.62 / 1.75, 0.01);
+}
+
 TEST(SceneReader, RejectsALiveStream) {
   EXPECT_THROW(SceneReader("udp://127.0.0.1:0", {}), UsageError);
 }

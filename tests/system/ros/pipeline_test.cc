@@ -21,7 +21,7 @@
 #include <set>
 
 #include "render/camera/camera.h"
-#include "render/camera/held_height.h"
+#include "render/camera/held_room.h"
 #include "render/image/png_file.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
@@ -182,7 +182,9 @@ TEST_F(Pipeline, ShowsThePersonAtTheStatesPositionAndOnThePage) {
   builder.OnCharacter(subject::MakeMotion("t_pose")->character());
   builder.OnSample(subject::MakeMotion("t_pose")->At(0));
   render::GroundExtent ground = render::GroundExtentOf(*state);
-  ground.height = render::NeededHeight(*state);
+  const ViewRoom room = render::NeededRoom(*state);
+  ground.height = room.height;
+  ground.below = room.below;
   const render::Camera camera = render::NamedCameraAt("front", ground);
   const auto project = [&](const Eigen::Vector3d& point) {
     return render::Project(point, camera, image.width, image.height);

@@ -10,9 +10,12 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/urdf/rig/rig_samples.h"
 #include "urdf/rig/rig.h"
+#include "urdf/rig/usual_names.h"
 #include "urdf/skin/frames.h"
 #include "urdf/skin/occlusion.h"
 #include "urdf/skin/person_skin.h"
@@ -179,6 +182,62 @@ TEST(RiggedSkin, TakesRigsWithoutClavicleNeckAndToes) {
   sample.missing = {2, 3, 4, 6, 13, 14, 21};
   const SkinTemplate whole = Read(), lacking = Read(sample);
   EXPECT_LT(Farthest(whole, lacking), 0.12);
+}
+
+using Names = std::vector<std::pair<std::string, std::string>>;
+
+// A rig whose bones have other names than Mixamo's: each beginning is replaced by the first pair
+// that fits.
+SkinTemplate ReadRenamed(const Names& names, const std::string& left, const std::string& right) {
+  return Read(Edited([=](json& document, std::string&) {
+    for (json& node : document["nodes"]) {
+      const std::string name = node["name"];
+      for (const auto& [mixamo, other] : names) {
+        if (name == "mixamorig:" + mixamo) node["name"] = other;
+        if (name == "mixamorig:Left" + mixamo)
+          node["name"] = std::string(other).replace(other.find('?'), 1, left);
+        if (name == "mixamorig:Right" + mixamo)
+          node["name"] = std::string(other).replace(other.find('?'), 1, right);
+      }
+    }
+  }));
+}
+
+TEST(RiggedSkin, TakesNamesThatBlenderMaxAndUnrealGive) {
+  const SkinTemplate mixamo = Read();
+  const Names unreal = {
+      {"Hips", "pelvis"},         {"Spine", "spine_01"}, {"Spine1", "spine_02"},
+      {"Spine2", "spine_03"},     {"Neck", "neck_01"},   {"Head", "head"},
+      {"Shoulder", "clavicle_?"}, {"Arm", "upperarm_?"}, {"ForeArm", "lowerarm_?"},
+      {"Hand", "hand_?"},         {"UpLeg", "thigh_?"},  {"Leg", "calf_?"},
+      {"Foot", "foot_?"},         {"ToeBase", "ball_?"}};
+  EXPECT_LT(Farthest(mixamo, ReadRenamed(unreal, "l", "r")), 1e-4);
+  const Names max = {
+      {"Hips", "Bip01 Pelvis"},         {"Spine", "Bip01 Spine"},    {"Spine1", "Bip01 Spine1"},
+      {"Spine2", "Bip01 Spine2"},       {"Neck", "Bip01 Neck"},      {"Head", "Bip01 Head"},
+      {"Shoulder", "Bip01 ? Clavicle"}, {"Arm", "Bip01 ? UpperArm"}, {"ForeArm", "Bip01 ? Forearm"},
+      {"Hand", "Bip01 ? Hand"},         {"UpLeg", "Bip01 ? Thigh"},  {"Leg", "Bip01 ? Calf"},
+      {"Foot", "Bip01 ? Foot"},         {"ToeBase", "Bip01 ? Toe0"}};
+  EXPECT_LT(Farthest(mixamo, ReadRenamed(max, "L", "R")), 1e-4);
+  const Names blender = {
+      {"Hips", "DEF-spine"},          {"Spine", "DEF-spine.001"}, {"Spine1", "DEF-spine.002"},
+      {"Spine2", "DEF-spine.003"},    {"Neck", "DEF-spine.004"},  {"Head", "DEF-spine.006"},
+      {"Shoulder", "DEF-shoulder.?"}, {"Arm", "DEF-upper_arm.?"}, {"ForeArm", "DEF-forearm.?"},
+      {"Hand", "DEF-hand.?"},         {"UpLeg", "DEF-thigh.?"},   {"Leg", "DEF-shin.?"},
+      {"Foot", "DEF-foot.?"},         {"ToeBase", "DEF-toe.?"}};
+  EXPECT_LT(Farthest(mixamo, ReadRenamed(blender, "L", "R")), 1e-4);
+}
+
+TEST(UsualName, IsThatOfABoneOfTheBodyOnly) {
+  EXPECT_EQ(rig::UsualName("CC_Base_L_Upperarm"), "leftupperarm");
+  EXPECT_EQ(rig::UsualName("B_Knee_Right"), "rightlowerleg");
+  EXPECT_EQ(rig::UsualName("ValveBiped.Bip01_Head"), "head");
+  for (const char* const other :
+       {"upperarm_twist_01_l", "DEF-upper_arm.L.001", "ik_hand_r", "HindLeg_L_01", "Eye_Left", "",
+        "Left_hand_Right", "spine_0001", "root"}) {
+    EXPECT_EQ(rig::UsualName(other), "") << other;
+  }
+  EXPECT_EQ(rig::UsualName(std::string(1000, 'l')), "");
 }
 
 TEST(RiggedSkin, NamesTheMissingBones) {

@@ -76,6 +76,14 @@ TEST_F(GoldenCaseFile, HasItsMeasuredForcesBesideIt) {
   EXPECT_TRUE(is_measured);
 }
 
+TEST_F(GoldenCaseFile, HasItsPersonBesideIt) {
+  EXPECT_EQ(Load("source: demo:lift\nfigure: skin:person.glb\n").view.figure.ToText(),
+            "skin:" + std::string(folder_ / "person.glb"));
+  EXPECT_EQ(Load("source: demo:lift\nfigure: skin:/a/person.glb\n").view.figure.ToText(),
+            "skin:/a/person.glb");
+  EXPECT_EQ(Load("source: demo:lift\nfigure: urdf\n").view.figure.ToText(), "urdf");
+}
+
 TEST_F(GoldenCaseFile, GivesTheReferencePoseTheAppearanceOfThePerson) {
   const GoldenCase golden_case =
       Load("source: demo:lift\nghost: demo:lift@1\nbody_model: primitive\nsize: 16x16\n");
