@@ -191,7 +191,9 @@ void ExpectSinksToAgree(const Motion& motion, bool with_pictures) {
   SCOPED_TRACE(motion.source + " at " + std::to_string(motion.rate_hz));
   app::SceneOptions options;
   options.loads.hands = loads::ParseHandLoad("both:10");
-  auto reader = app::SceneReader::OfAnySource(motion.source, options, {motion.rate_hz, {}});
+  app::SourceSettings settings;
+  settings.subject_rate_hz = motion.rate_hz;
+  auto reader = app::SceneReader::OfAnySource(motion.source, options, settings);
   const auto renderer = with_pictures ? app::StartRenderer({}) : nullptr;
   std::int64_t begin = 0;
   std::array<std::uint64_t, kLoadClassCount> seen{};
