@@ -27,8 +27,8 @@ constexpr int kEncoderThreads = 4;
 constexpr int kX264Threads = 2, kX264ThreadsOfLarge = 1;
 constexpr int kLargePx = 1920 * 1088;
 
-// Whoever seeks decodes the pictures since the key picture before: at most a quarter of a second of
-// work. A clip with one every 2 s is a fifth larger (tests/bench/README.md).
+// To seek, a player decodes the pictures since the key picture before: at most a quarter of a
+// second of work. A clip with one every 2 s is a fifth larger (tests/bench/README.md).
 constexpr double kKeySecs = 5, kFormerKeySecs = 2;
 constexpr int kMostFromKeyToKey = 250;
 

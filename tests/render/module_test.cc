@@ -19,7 +19,7 @@ struct TableOfOneType {
 };
 struct TableWithAnotherImage {
   struct LargerImage : Image {
-    int depth = 0;
+    double depth[2] = {};  // more than the padding at its end
   };
   ModuleAbi<Plot, PlotPanel, PlotBand, PlotGap, PlotLimit, PlotCurve, PlotClassInterval, PlotMark,
             PlotSwatch, PlotText, LargerImage, Ink, Tile, Font, Glyph>

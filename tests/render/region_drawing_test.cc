@@ -39,26 +39,27 @@ TEST(RegionDrawing, GivesTheBytesOfWholePictures) {
   }
 }
 
-// The third picture of a camera is the first with the floor of before.
-std::unique_ptr<Renderer> AfterTwoPictures(const RegionSettings& regions, const PictureSpec& spec) {
-  auto renderer = With(regions);
-  for (int i = 0; i < 2; ++i) {
-    renderer->Render(MixedScene(Posture::kStanding), FrontCamera(), spec);
+PictureSpec OfSize(int width, int height) {
+  PictureSpec spec;
+  spec.width = width;
+  spec.height = height;
+  return spec;
+}
+
+// The floor is kept from the second picture of a camera on.
+void RenderThrice(Renderer& renderer, const PictureSpec& spec) {
+  for (const Posture posture : {Posture::kStanding, Posture::kStanding, Posture::kDeepBend}) {
+    renderer.Render(MixedScene(posture), FrontCamera(), spec);
   }
-  return renderer;
 }
 
 TEST(RegionDrawing, FindsAnActorThatIsOutsideOfItsPart) {
-  PictureSpec spec;
-  spec.width = spec.height = 320;
   RegionSettings regions;
   regions.check_every = 1;
-  const SceneState state = MixedScene(Posture::kDeepBend);
-  AfterTwoPictures(regions, spec)->Render(state, FrontCamera(), spec);
+  RenderThrice(*With(regions), OfSize(320, 320));
   regions.margin_px = -60;
-  const auto renderer = AfterTwoPictures(regions, spec);
   try {
-    renderer->Render(state, FrontCamera(), spec);
+    RenderThrice(*With(regions), OfSize(320, 320));
     FAIL() << "nothing was found";
   } catch (const RenderError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("person 0"));
@@ -66,14 +67,13 @@ TEST(RegionDrawing, FindsAnActorThatIsOutsideOfItsPart) {
 }
 
 TEST(RegionDrawing, LeavesNothingOfThePictureBefore) {
-  PictureSpec spec;
-  spec.width = 333;
-  spec.height = 250;
-  SceneState nobody;
-  nobody.liveness = Liveness::kLive;
-  const auto renderer = AfterTwoPictures({}, spec);
-  const Image floor = MakeRenderer()->Render(nobody, FrontCamera(), spec);
-  EXPECT_TRUE(Compare(floor, renderer->Render(nobody, FrontCamera(), spec)).equal());
+  const PictureSpec spec = OfSize(333, 250);
+  SceneState empty;
+  empty.liveness = Liveness::kLive;
+  const auto renderer = With({});
+  RenderThrice(*renderer, spec);
+  const Image floor = MakeRenderer()->Render(empty, FrontCamera(), spec);
+  EXPECT_TRUE(Compare(floor, renderer->Render(empty, FrontCamera(), spec)).equal());
 }
 
 }  // namespace
