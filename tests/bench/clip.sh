@@ -47,6 +47,7 @@ for ((round = 0; round < rounds; ++round)); do
   render "default clip, 1280x720, 2x supersampled"
   render "without supersampling" --supersample 1
   render "1920x1080" --size 1920x1080
+  render "camera goes round, 12 degrees per second" --orbit 12
 done
 show $((30 * secs))
 
