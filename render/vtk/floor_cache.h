@@ -38,15 +38,17 @@ class FloorCache {
 
  private:
   enum class Step { kDraw, kDrawAndKeep, kReuse };
-  // A texture that can be drawn into.
+  // Textures that can be drawn into.
   struct Target {
-    unsigned framebuffer = 0, texture = 0;  // GL names, 0: none
-    int width = 0, height = 0;              // px
+    unsigned framebuffer = 0, texture = 0, depth = 0;  // GL names, 0: none
+    int width = 0, height = 0;                         // px
   };
   static void OnPeopleStart(vtkObject*, unsigned long, void* self, void*);
   void PutFloor();
   void Copy(unsigned from, int smaller, unsigned to, const Tile& part);
-  void Allocate(int width, int height, Target& target);
+  void ClearDepth(unsigned of, const Tile& part);
+  void Allocate(int width, int height, bool has_depth, Target& target);
+  void AddDepth(int width, int height, Target& target);
   static void Release(Target& target);
 
   vtkOpenGLRenderWindow* const window_;
@@ -61,6 +63,7 @@ class FloorCache {
   bool is_kept_ = false;  // `full_` has the floor of key_
   Target picture_;        // at the size of the picture, if people are drawn larger
   Target full_;           // at the size of the window
+  Target far_;            // a strip with the greatest depth
 };
 
 }  // namespace kinescope::render
