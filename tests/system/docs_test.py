@@ -28,7 +28,8 @@ NEVER_RUN = {
     "docs/ros.md": ["kinescope inspect ros:", "kinescope urdf ros:", "rosservice"],
     "docs/http.md": ["curl", "curl", "curl", "curl"],
     "tests/bench/README.md": ["tests/bench/measure.sh", "build/dev/tests/bench/mvn_bench", "build/dev/tests/bench/loads_bench",
-                              "build/dev/tests/bench/render_bench", "tests/bench/clip.sh", "tests/bench/rviz_peer.sh",
+                              "build/dev/tests/bench/render_bench", "tests/bench/clip.sh", "tests/bench/memory_parts.py",
+                              "tests/bench/rviz_peer.sh",
                               "build/dev/tests/bench/growth", "build/dev/tests/bench/memory_flat"],
     "tests/soak/README.md": ["tests/soak/soak.py"],
 }
