@@ -55,6 +55,10 @@ class Source {
   /// @throws SourceError if it cannot continue (a truncated file, a socket that fails).
   [[nodiscard]] virtual State Poll(std::chrono::milliseconds timeout, SampleSink& sink) = 0;
 
+  /// Of a live source that is not read any more: delivers the samples that still wait for a part of
+  /// them.
+  virtual void Flush(SampleSink&) {}
+
   virtual SourceCounters counters() const = 0;
   virtual std::string description() const = 0;  // "udp://0.0.0.0:9763", for messages
   virtual bool is_live() const = 0;  // true: samples arrive in real time; false: as fast as polled

@@ -72,7 +72,7 @@ Assembler::Stream* Assembler::AddStream(const Newcomer& newcomer, SampleSink& si
   if (!MakeRoom(newcomer, sink)) return nullptr;
   streams_.push_back(std::make_unique<Stream>(
       Stream{newcomer.sender, newcomer.character, newcomer.now,
-             CharacterStream(FreeId(newcomer.character), stamps_, tally_)}));
+             CharacterStream(FreeId(newcomer.character), settings_, tally_)}));
   return streams_.back().get();
 }
 

@@ -7,9 +7,9 @@
 ///   22, or 01. A complete 02 of a few segments that are not a body is a sample of tracked objects.
 ///   Anything else is rejected.
 /// - It is delivered as soon as it has every type that this stream normally sends. Otherwise it is
-///   delivered when the next counter has every type that it has, or 1.5 periods of the stream after
-///   its first datagram. The normal types are learnt, and follow when a type is switched on or off.
-///   So a datagram may arrive a few places late, also among those of the next sample.
+///   delivered when the next counter has every type that it has, or when it has waited as long as
+///   Delivery says. The normal types are learnt, and follow when a type is switched on or off. So a
+///   datagram may arrive a few places late, also among those of the next sample.
 /// - Samples of one character are delivered in the order of their counter. A datagram for a
 ///   delivered sample is `late`, repeated bytes are a `duplicate`.
 /// - A header may contradict the stream: its counter and time code do not match, or its place is
@@ -42,14 +42,14 @@
 #include "server/mvn/character_stream.h"
 #include "server/mvn/datagram.h"
 #include "server/mvn/endpoint.h"
-#include "server/mvn/stamps.h"
+#include "server/mvn/stream_settings.h"
 #include "server/mvn/tally.h"
 
 namespace kinescope::mvn {
 
 class Assembler {
  public:
-  explicit Assembler(Stamps stamps = Stamps::kFitted) : stamps_(stamps) {}
+  explicit Assembler(StreamSettings settings = {}) : settings_(settings) {}
   Assembler(const Assembler&) = delete;  // streams point to the tally
   Assembler& operator=(const Assembler&) = delete;
 
@@ -114,7 +114,7 @@ class Assembler {
   bool HasKnocked(const Newcomer& newcomer);
   void DiscardUnconfirmed(std::int64_t now);
 
-  Stamps stamps_;
+  StreamSettings settings_;
   Tally tally_;
   Streams streams_;            // at most kMaxStreams, the oldest first
   std::vector<Trial> trials_;  // at most kMaxStreams

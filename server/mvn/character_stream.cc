@@ -13,6 +13,7 @@ constexpr double kPatienceInPeriods = 1.5;
 constexpr double kMinPatience = 5e6;
 constexpr double kMaxPatience = 100e6;
 constexpr double kFirstPatience = 50e6;  // until the period is known
+constexpr std::int64_t kPatienceOfFiles = 1'000'000'000;
 
 constexpr std::int32_t kMaxFramesReordered = 120;  // half a second at 240 Hz
 constexpr int kPlacesReordered = 3;
@@ -364,10 +365,11 @@ void CharacterStream::Finish(OpenSample& open, SampleSink& sink) {
 std::int64_t CharacterStream::StampOf(const PendingSample& sample) {
   const std::int64_t fitted =
       clock_.Stamp(sample.counter(), sample.time_code_millis(), sample.first_arrival());
-  return stamps_ == Stamps::kFitted ? fitted : sample.first_arrival().wall_nanos;
+  return settings_.stamps == Stamps::kFitted ? fitted : sample.first_arrival().wall_nanos;
 }
 
 std::int64_t CharacterStream::PatienceNanos() const {
+  if (settings_.delivery == Delivery::kComplete) return kPatienceOfFiles;
   return static_cast<std::int64_t>(
       period_nanos_ ? std::clamp(kPatienceInPeriods * *period_nanos_, kMinPatience, kMaxPatience)
                     : kFirstPatience);

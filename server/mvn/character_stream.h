@@ -14,8 +14,8 @@
 #include "server/mvn/learnt_types.h"
 #include "server/mvn/pending_sample.h"
 #include "server/mvn/scale_group.h"
-#include "server/mvn/stamps.h"
 #include "server/mvn/stream_line.h"
+#include "server/mvn/stream_settings.h"
 #include "server/mvn/tally.h"
 
 namespace kinescope::mvn {
@@ -23,7 +23,8 @@ namespace kinescope::mvn {
 class CharacterStream {
  public:
   /// `id`: for samples and character; `tally` must outlive this object.
-  CharacterStream(int id, Stamps stamps, Tally& tally) : tally_(&tally), stamps_(stamps) {
+  CharacterStream(int id, StreamSettings settings, Tally& tally)
+      : tally_(&tally), settings_(settings) {
     character_.id = id;
   }
 
@@ -107,7 +108,7 @@ class CharacterStream {
   void AnnounceOnce(SampleSink& sink);
 
   Tally* tally_;
-  Stamps stamps_;
+  StreamSettings settings_;
   Character character_;
   bool wants_announcement_ = true;
   ScaleGroup scale_;

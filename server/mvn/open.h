@@ -9,13 +9,9 @@
 
 #include "core/source.h"
 #include "server/mvn/datagram_source.h"
-#include "server/mvn/stamps.h"
+#include "server/mvn/stream_settings.h"
 
 namespace kinescope::mvn {
-
-struct StreamSettings {
-  Stamps stamps = Stamps::kFitted;
-};
 
 /// The datagrams of `url`, or null if it is not a stream of datagrams (an MVNX file, demo:lift,
 /// ros:).

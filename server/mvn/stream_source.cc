@@ -13,8 +13,8 @@ using std::chrono::nanoseconds;
 
 }  // namespace
 
-StreamSource::StreamSource(std::unique_ptr<DatagramSource> datagrams, Stamps stamps)
-    : datagrams_(std::move(datagrams)), assembler_(stamps) {}
+StreamSource::StreamSource(std::unique_ptr<DatagramSource> datagrams, StreamSettings settings)
+    : datagrams_(std::move(datagrams)), assembler_(settings) {}
 
 void StreamSource::OnDatagram(const ReceivedDatagram& datagram) {
   // In a capture the packets define the time, so samples that fall due between two packets are
@@ -41,21 +41,24 @@ void StreamSource::OnObjects(const ObjectsSample& sample) {
 Source::State StreamSource::Poll(std::chrono::milliseconds timeout, SampleSink& sink) {
   sink_ = &sink;
   nanoseconds wait = timeout;
+  const std::int64_t begin_nanos = is_live() ? MonotonicNanos() : 0;
   if (is_live()) {
     if (const auto deadline = assembler_.deadline_nanos()) {
-      wait = std::clamp(nanoseconds(*deadline - MonotonicNanos()), nanoseconds(0), wait);
+      wait = std::clamp(nanoseconds(*deadline - begin_nanos), nanoseconds(0), wait);
     }
   }
-  switch (datagrams_->Poll(wait, *this)) {
-    // The rest of an overdue sample may wait in the socket, so the time is that of its datagrams.
-    case DatagramSource::State::kMore:
-      if (is_live()) assembler_.Expire(newest_arrival_nanos_, sink);
-      break;
-    case DatagramSource::State::kIdle:
-      if (is_live()) assembler_.Expire(MonotonicNanos(), sink);
-      break;
-    case DatagramSource::State::kEnded: assembler_.Flush(*this); return State::kEnded;
+  const std::uint64_t known = assembler_.tally().datagrams;
+  if (datagrams_->Poll(wait, *this) == DatagramSource::State::kEnded) {
+    assembler_.Flush(*this);
+    return State::kEnded;
   }
+  if (!is_live()) return State::kMore;
+  // This thread may be interrupted at any point while datagrams fill the socket, so a sample is
+  // overdue only by the time of what was read, or of a wait in which nothing came.
+  const bool is_idle = assembler_.tally().datagrams == known;
+  assembler_.Expire(
+      is_idle ? std::min(MonotonicNanos(), begin_nanos + wait.count()) : newest_arrival_nanos_,
+      sink);
   return State::kMore;
 }
 
@@ -69,7 +72,7 @@ SourceCounters StreamSource::counters() const {
 
 std::unique_ptr<Source> OpenStream(std::unique_ptr<DatagramSource> datagrams,
                                    const StreamSettings& settings) {
-  return std::make_unique<StreamSource>(std::move(datagrams), settings.stamps);
+  return std::make_unique<StreamSource>(std::move(datagrams), settings);
 }
 
 }  // namespace kinescope::mvn

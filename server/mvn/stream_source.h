@@ -17,9 +17,10 @@ namespace kinescope::mvn {
 ///   independent of the machine. arrival_nanos is 0, as for every file.
 class StreamSource : public Source, private DatagramSink, private SampleSink {
  public:
-  StreamSource(std::unique_ptr<DatagramSource> datagrams, Stamps stamps);
+  StreamSource(std::unique_ptr<DatagramSource> datagrams, StreamSettings settings);
 
   [[nodiscard]] State Poll(std::chrono::milliseconds timeout, SampleSink& sink) override;
+  void Flush(SampleSink& sink) override { assembler_.Flush(sink); }
   SourceCounters counters() const override;
   std::string description() const override { return datagrams_->description(); }
   bool is_live() const override { return datagrams_->is_live(); }

@@ -73,6 +73,7 @@ void SceneReader::ReadRest() {
     before = source_->counters().datagrams;
     if (source_->Poll(std::chrono::milliseconds(0), smoother_) == Source::State::kEnded) return;
   } while (source_->counters().datagrams > before);
+  source_->Flush(smoother_);
 }
 
 void SceneReader::Also(const SceneOptions& options, SceneBuilder::OnState on_state) {

@@ -42,7 +42,7 @@ struct CheckingSink : SampleSink {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   mvn::ByteReader in({reinterpret_cast<const char*>(data), size});
-  mvn::Assembler assembler;
+  mvn::Assembler assembler({mvn::Stamps::kFitted, mvn::Delivery::kPrompt});
   CheckingSink sink;
   std::int64_t now = 1'000'000'000;
   std::uint8_t sender = 0, wait = 0;

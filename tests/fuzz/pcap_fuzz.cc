@@ -29,7 +29,7 @@ struct CheckingSink : mvn::DatagramSink, SampleSink {
   void OnCharacter(const Character&) override {}
   void OnSample(const BodySample& sample) override { fuzz::CheckSample(sample); }
 
-  mvn::Assembler assembler;
+  mvn::Assembler assembler{{mvn::Stamps::kFitted, mvn::Delivery::kPrompt}};
   std::int64_t newest = 0;
 };
 

@@ -79,7 +79,7 @@ class StreamStatistics : public mvn::DatagramSink, private SampleSink {
   }
 
   mvn::DatagramSink& next_;
-  mvn::Assembler assembler_;
+  mvn::Assembler assembler_{{mvn::Stamps::kFitted, mvn::Delivery::kPrompt}};
   std::uint64_t datagrams_ = 0;
   std::uint64_t samples_ = 0;
   std::set<int> people_;  // the assembler keeps at most 16 apart

@@ -93,7 +93,7 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
   config.source_url = mvn::ReceivingFrom(config.source_url, *options.from);
   config.source_reach = mvn::DescribeReach(config.source_url);
   config.loop = *options.loop;
-  config.source.stream.stamps = *options.stamps;
+  config.source.stream = {*options.stamps, mvn::Delivery::kPrompt};
   config.scene = ToShownSceneOptions(options.person, options.loads, *options.stale_secs);
   config.source.subject_height_m = config.scene.height_m;
   config.scene.makes_models_aside = true;

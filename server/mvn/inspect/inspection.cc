@@ -138,7 +138,7 @@ class Inspection::Stream {
   bool has_old_header_ = false;
   std::map<Type, TypeTally> types_;
   FrameTrack frames_;
-  Assembler assembler_;
+  Assembler assembler_{{Stamps::kFitted, Delivery::kPrompt}};  // as the server assembles it
   CharacterTally tally_;
   std::uint64_t incomplete_ = 0;
   std::array<std::uint64_t, kReasonCount> join_errors_seen_{};

@@ -69,7 +69,7 @@ class AssemblerTest : public ::testing::Test {
   }
 
   RandomValues random_{4};
-  Assembler assembler_;
+  Assembler assembler_{{Stamps::kFitted, Delivery::kPrompt}};
   RecordingSink sink_;
   Endpoint sender_ = Sender(1);
   std::int64_t now_ = 5'000'000'000;

@@ -227,6 +227,28 @@ TEST_F(AssemblerTest, CountsADatagramOfAnOlderSampleAsLate) {
   ExpectAllAccountedFor();
 }
 
+// A sender that pauses within a sample: a robot cannot wait for it, a file can.
+TEST_F(AssemblerTest, WaitsForTheRestOfASampleAsTheDeliverySays) {
+  for (const Delivery delivery : {Delivery::kPrompt, Delivery::kComplete}) {
+    Assembler assembler({Stamps::kFitted, delivery});
+    testing::RecordingSink sink;
+    for (std::uint32_t counter = 1; counter <= 20; ++counter) {
+      const auto datagrams = Datagrams(counter);
+      for (const std::string& datagram : datagrams) {
+        const bool is_lost = counter == 15 && &datagram == &datagrams[2];
+        if (!is_lost) assembler.Add(sender_, datagram, now(), sink);
+        if (counter == 10 && &datagram == &datagrams[1]) Wait(300 * kMilli);
+        assembler.Expire(now_, sink);
+      }
+      Wait(kPeriod);
+    }
+    const bool is_complete = delivery == Delivery::kComplete;
+    EXPECT_EQ(assembler.counters().late, is_complete ? 0U : 3U);
+    EXPECT_EQ(assembler.counters().incomplete, is_complete ? 1U : 2U);
+    EXPECT_EQ(sink.samples.size(), 20U) << "a lost datagram holds up two samples at most";
+  }
+}
+
 TEST_F(AssemblerTest, CountsALostSampleButNoConstantCounterStepAsGap) {
   // 240 Hz captured, 60 Hz sent.
   for (std::uint32_t counter = 100; counter < 180; counter += 4) {
@@ -412,7 +434,7 @@ TEST_F(AssemblerTest, DeliversGlovesPropsTrackersAndTimeOfDay) {
 }
 
 TEST_F(AssemblerTest, UsesReceiveTimesAsTimeStampsOnRequest) {
-  Assembler assembler(Stamps::kArrival);
+  Assembler assembler({Stamps::kArrival, Delivery::kPrompt});
   for (std::uint32_t counter = 1; counter < 40; ++counter) {
     const std::int64_t jitter = random_.Integer(0, 3) * kMilli;
     now_ += jitter;

@@ -348,7 +348,7 @@ class FaultyStream : private SampleSink {
   static constexpr std::size_t kLongestNoted = 64;
 
   FaultInjector faults_;
-  Assembler assembler_;
+  Assembler assembler_{{Stamps::kFitted, Delivery::kPrompt}};
   Character character_;
 
   std::vector<Fate> fates_;

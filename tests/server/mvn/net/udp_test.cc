@@ -237,6 +237,40 @@ TEST(UdpStream, DeliversEverySampleOfASenderOnce) {
   SendAndReceiveEverySampleOnce("udp://127.0.0.1:0");
 }
 
+TEST(UdpStream, GivesWholeSamplesOfASenderThatPausesWithinThem) {
+  auto datagrams = OpenDatagrams("udp://127.0.0.1:0");
+  const auto sender = OpenSender(datagrams->description());
+  const auto source = OpenStream(std::move(datagrams));
+  RecordingSink sink;
+  RandomValues random(17);
+  for (std::uint32_t counter = 1; counter <= 12; ++counter) {
+    int sent = 0;
+    for (const std::string& datagram : EncodeSample(RandomSample(random, counter))) {
+      sender->Send(datagram);
+      ASSERT_EQ(source->Poll(milliseconds(0), sink), Source::State::kMore);
+      if (counter != 10 || ++sent != 2) continue;
+      for (int i = 0; i < 10; ++i) {  // the pause
+        ASSERT_EQ(source->Poll(milliseconds(20), sink), Source::State::kMore);
+      }
+    }
+  }
+  ASSERT_TRUE(PollUntil(*source, sink, [&] { return sink.samples.size() >= 12; }));
+  EXPECT_EQ(source->counters().incomplete + source->counters().late, 0U);
+}
+
+TEST(UdpStream, FlushesTheSampleThatWaits) {
+  auto datagrams = OpenDatagrams("udp://127.0.0.1:0");
+  const auto sender = OpenSender(datagrams->description());
+  const auto source = OpenStream(std::move(datagrams));
+  RecordingSink sink;
+  RandomValues random(19);
+  sender->Send(EncodeSample(RandomSample(random, 1))[0]);
+  ASSERT_TRUE(PollUntil(*source, sink, [&] { return source->counters().datagrams == 1; }));
+  EXPECT_TRUE(sink.samples.empty());
+  source->Flush(sink);
+  EXPECT_EQ(sink.samples.size(), 1U);
+}
+
 TEST(UdpStream, ReceivesOverIpv6) {
   if (!testing::HasIpv6()) GTEST_SKIP() << "this machine has no IPv6 loopback address";
   SendAndReceiveEverySampleOnce("udp://[::1]:0");
