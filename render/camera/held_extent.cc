@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/camera/spring.h"
+
 namespace kinescope::render {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr double kTolerance = 0.05;  // m, for those who go round at the edge of
 constexpr double kSmaller = 1.35;  // times that people may be smaller so that the camera can stand
 constexpr double kNearer = 0.8;    // of the shown height: then it is worth to come nearer
 
-// Of a glide: a critically damped spring, which neither jerks nor overshoots.
+// Of a glide.
 constexpr double kStiffness = 4;        // 1/s; half of the way takes 0.42 s
 constexpr double kArrived = 0.005;      // m
 constexpr double kArrivedSpeed = 0.01;  // m/s
@@ -84,18 +86,11 @@ Eigen::Vector3d HeldGroundExtent::Velocity() const {
   return velocity * (kFastest / std::max(velocity.norm(), kFastest));
 }
 
-// The exact motion of the spring during `dt`, so that the number of pictures does not matter.
-void HeldGroundExtent::Glide(const GroundExtent& goal, double dt) {
-  const double decay = std::exp(-kStiffness * dt);
-  const auto glide = [&](double& value, double& speed, double to) {
-    const double away = value - to, pull = speed + kStiffness * away;
-    value = to + decay * (away + dt * pull);
-    speed = decay * (speed - kStiffness * dt * pull);
-  };
+void HeldGroundExtent::GlideTo(const GroundExtent& goal, double dt) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    glide(held_.middle[axis], speed_.middle[axis], goal.middle[axis]);
+    Glide(held_.middle[axis], speed_.middle[axis], goal.middle[axis], kStiffness, dt);
   }
-  glide(held_.radius, speed_.radius, goal.radius);
+  Glide(held_.radius, speed_.radius, goal.radius, kStiffness, dt);
   const bool has_arrived = (held_.middle - goal.middle).norm() < kArrived &&
                            std::abs(held_.radius - goal.radius) < kArrived &&
                            speed_.middle.norm() < kArrivedSpeed &&
@@ -132,7 +127,7 @@ const GroundExtent& HeldGroundExtent::Follow(const SceneState& state, double sec
   const bool leaves =
       !Contains(held_, people, aspect, kTolerance) || !Contains(held_, ahead, aspect, kSlack);
   is_gliding_ = is_gliding_ || is_far || leaves;
-  if (is_gliding_) Glide(goal, dt);
+  if (is_gliding_) GlideTo(goal, dt);
   return held_;
 }
 

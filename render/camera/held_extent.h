@@ -33,7 +33,7 @@ class HeldGroundExtent {
   /// Around all that is remembered.
   GroundExtent Recent() const;
   Eigen::Vector3d Velocity() const;
-  void Glide(const GroundExtent& goal, double dt);
+  void GlideTo(const GroundExtent& goal, double dt);
 
   std::deque<Seen> seen_;  // the oldest first
   bool has_people_ = false, is_gliding_ = false;

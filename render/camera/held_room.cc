@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/camera/camera.h"
+#include "render/camera/spring.h"
 
 namespace kinescope::render {
 namespace {
@@ -15,7 +16,7 @@ constexpr double kRegret = 10;          // s after coming nearer, in which going
 constexpr double kBack = 0.9;           // of the height from which it came nearer
 constexpr double kRoomInterval = 0.1;   // s, between rooms that are remembered
 constexpr double kRoomArrived = 0.005;  // m and m/s
-// Of a glide: a critically damped spring. More room is needed sooner than less.
+// Of a glide. More room is needed sooner than less.
 constexpr double kQuick = 4, kSlow = 1.5;  // 1/s
 
 ViewRoom Union(const ViewRoom& a, const ViewRoom& b) {
@@ -57,14 +58,10 @@ void HeldRoom::LearnToWait(const ViewRoom& goal, bool is_too_much, double secs) 
   wait_ = is_soon ? std::min(2 * wait_, kLongWait) : kShortWait;
 }
 
-// The exact motion of the spring during `dt`, so that the number of pictures does not matter.
-void HeldRoom::Glide(const ViewRoom& goal, double dt) {
+void HeldRoom::GlideTo(const ViewRoom& goal, double dt) {
   const double stiffness = goal.height < held_.height ? kSlow : kQuick;
-  const double decay = std::exp(-stiffness * dt);
   const auto glide = [&](double& value, double& speed, double to) {
-    const double away = value - to, pull = speed + stiffness * away;
-    value = to + decay * (away + dt * pull);
-    speed = decay * (speed - stiffness * dt * pull);
+    Glide(value, speed, to, stiffness, dt);
     return std::abs(value - to) < kRoomArrived && std::abs(speed) < kRoomArrived;
   };
   const bool is_high = glide(held_.height, speed_.height, goal.height);
@@ -89,7 +86,7 @@ ViewRoom HeldRoom::Follow(const ViewRoom& needed, double secs) {
   const bool is_too_much = fill < kLeastFill;
   LearnToWait(goal, is_too_much, secs);
   is_gliding_ = is_gliding_ || is_too_little || is_too_much;
-  if (is_gliding_) Glide(goal, dt);
+  if (is_gliding_) GlideTo(goal, dt);
   return held_;
 }
 

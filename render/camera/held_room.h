@@ -30,7 +30,7 @@ class HeldRoom {
 
   ViewRoom Recent(const ViewRoom& needed, double secs);
   void LearnToWait(const ViewRoom& goal, bool is_too_much, double secs);
-  void Glide(const ViewRoom& goal, double dt);
+  void GlideTo(const ViewRoom& goal, double dt);
 
   std::deque<Seen> seen_;  // the oldest first
   ViewRoom held_, speed_;  // speed_: m/s

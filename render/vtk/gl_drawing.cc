@@ -7,7 +7,6 @@
 #include <vtkNew.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLRenderer.h>
-#include <vtkOpenGLState.h>
 #include <vtkRendererCollection.h>
 
 #include <algorithm>
@@ -21,7 +20,6 @@
 
 #include "render/camera/camera_matrices.h"
 #include "render/camera/picture_region.h"
-#include "render/image/resample.h"
 #include "render/shape/floor_scale.h"
 #include "render/vtk/floor_cache.h"
 #include "render/vtk/ghost_actors.h"
@@ -31,6 +29,7 @@
 #include "render/vtk/marker_actors.h"
 #include "render/vtk/object_actors.h"
 #include "render/vtk/person_actors.h"
+#include "render/vtk/pixel_reader.h"
 #include "render/vtk/robot_actors.h"
 #include "render/vtk/trail_actor.h"
 #include "render/vtk/unshown_window.h"
@@ -41,8 +40,6 @@ namespace {
 // px, drawn at once; larger pictures are put together from tiles. Bounds the memory that VTK
 // and Mesa need for a picture, and keeps clear of the largest texture.
 constexpr int kLargestTile = 4096;
-
-constexpr int kBandBytes = 1 << 18;
 
 // At the nearest that any of the person can be; 0: so near that it does not matter.
 double MetresPerPixel(const PersonState& person, const Camera& camera, int height) {
@@ -64,13 +61,6 @@ bool IsSame(const Tile& a, const Tile& b) {
 }
 
 std::mutex creation;  // GLEW's table of functions and VTK's factories are the process'
-
-void TurnUpsideDown(std::uint8_t* rgba, int width, int height) {
-  const std::size_t row = 4 * static_cast<std::size_t>(width);
-  std::uint8_t* top = rgba;
-  std::uint8_t* bottom = rgba + row * static_cast<std::size_t>(height - 1);
-  for (; top < bottom; top += row, bottom -= row) std::swap_ranges(top, top + row, bottom);
-}
 
 std::string TextOf(GLenum name) {
   const auto* found = reinterpret_cast<const char*>(glGetString(name));
@@ -105,7 +95,7 @@ class GlDrawing : public Drawing {
     window_->Render();  // of nothing: initialises GLEW, under the lock
     LogGlMessages(once_);
     is_software_ = IsSoftware(TextOf(GL_RENDERER));
-    can_invert_ = GLEW_MESA_pack_invert != 0;
+    pixels_ = std::make_unique<PixelReader>(window_);
     ground_ = std::make_unique<Ground>();
     markers_ = std::make_unique<MarkerActors>();
     trails_ = std::make_unique<TrailActor>();
@@ -163,7 +153,7 @@ class GlDrawing : public Drawing {
       for (int x = 0; x < image.width; x += step) {
         const Tile tile{x, y, std::min(step, image.width - x), std::min(step, image.height - y)};
         DrawTile(tile, parts, camera, supersample, image);
-        if (!lines.is_empty()) lines.Judge(tile, supersample, ReadDepth());
+        if (!lines.is_empty()) lines.Judge(tile, supersample, pixels_->ReadDepth());
       }
     }
     CheckParts(parts, camera, supersample, image);
@@ -362,41 +352,9 @@ class GlDrawing : public Drawing {
     const unsigned people = window_->GetRenderFramebuffer()->GetFBOIndex();
     const unsigned floor = floor_cache_->framebuffer();
     const bool is_whole = here.size() == 1 && IsSame(here.front(), tile);
-    if (is_whole || floor == 0) return ReadPart(people, tile, tile, supersample, image);
-    ReadPart(floor, tile, tile, 1, image);
-    for (const Tile& part : here) ReadPart(people, tile, part, supersample, image);
-  }
-
-  // Where `part` of a picture is in a framebuffer with `tile` of it: px, from below.
-  static Tile Drawn(const Tile& part, const Tile& tile, int supersample) {
-    return {(part.x - tile.x) * supersample,
-            (tile.y + tile.height - part.y - part.height) * supersample, part.width * supersample,
-            part.height * supersample};
-  }
-
-  // Averages it, too.
-  void ReadPart(unsigned framebuffer, const Tile& tile, const Tile& part, int supersample,
-                Image& image) {
-    vtkOpenGLState* gl = window_->GetState();
-    gl->PushReadFramebufferBinding();
-    gl->vtkglBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
-    glReadBuffer(GL_COLOR_ATTACHMENT0);
-    if (supersample == 1 && part.width == image.width) {
-      const auto first = 4 * static_cast<std::ptrdiff_t>(part.y) * image.width;
-      ReadPixels(Drawn(part, tile, 1), image.rgba.data() + first);
-    } else {
-      // In bands that stay in the second-level cache until they are averaged, instead of 15 MB at
-      // once (tests/bench/README.md).
-      const int row_bytes = 4 * part.width * supersample * supersample;  // of the picture's rows
-      const int band = std::clamp(kBandBytes / row_bytes, 1, part.height);
-      large_.resize(static_cast<std::size_t>(band) * static_cast<std::size_t>(row_bytes));
-      for (int y = 0; y < part.height; y += band) {
-        const Tile rows{part.x, part.y + y, part.width, std::min(band, part.height - y)};
-        ReadPixels(Drawn(rows, tile, supersample), large_.data());
-        AverageInto(large_.data(), rows.width, rows.height, supersample, image, rows.x, rows.y);
-      }
-    }
-    gl->PopReadFramebufferBinding();
+    if (is_whole || floor == 0) return pixels_->Read(people, tile, tile, supersample, image);
+    pixels_->Read(floor, tile, tile, 1, image);
+    for (const Tile& part : here) pixels_->Read(people, tile, part, supersample, image);
   }
 
   FloorCache::Key FloorKey(const Camera& camera, const Tile& tile, int supersample) const {
@@ -422,35 +380,6 @@ class GlDrawing : public Drawing {
     return key;
   }
 
-  // Straight from the bound framebuffer into the picture: VTK's own way copies twice, and GL's rows
-  // start at the bottom, which Mesa turns round while it copies; with other drivers we do.
-  void ReadPixels(const Tile& from, std::uint8_t* rgba) {
-    glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    if (can_invert_) glPixelStorei(GL_PACK_INVERT_MESA, 1);
-    glReadPixels(from.x, from.y, from.width, from.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
-    if (can_invert_) glPixelStorei(GL_PACK_INVERT_MESA, 0);
-    const GLenum error = glGetError();
-    if (error != GL_NO_ERROR) {
-      throw RenderError("OpenGL error " + std::to_string(error) + " while drawing " +
-                        std::to_string(from.width) + " x " + std::to_string(from.height) +
-                        " px; try a smaller picture");
-    }
-    if (!can_invert_) TurnUpsideDown(rgba, from.width, from.height);
-  }
-
-  // Of the tile drawn last, from below.
-  std::vector<float> ReadDepth() {
-    const int* const size = window_->GetSize();
-    std::vector<float> depth(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]));
-    vtkOpenGLState* gl = window_->GetState();
-    gl->PushReadFramebufferBinding();
-    window_->GetRenderFramebuffer()->Bind(GL_READ_FRAMEBUFFER);
-    glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glReadPixels(0, 0, size[0], size[1], GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
-    gl->PopReadFramebufferBinding();
-    return depth;
-  }
-
   const RegionSettings regions_;
   LogLine log_;
   OnceLog once_;
@@ -462,6 +391,7 @@ class GlDrawing : public Drawing {
   vtkNew<vtkMatrix4x4> projection_;
   std::unique_ptr<Ground> ground_;
   std::unique_ptr<FloorCache> floor_cache_;
+  std::unique_ptr<PixelReader> pixels_;
   std::map<int, std::unique_ptr<PersonActors>> people_;
   ObjectActors objects_;
   std::unique_ptr<MarkerActors> markers_;
@@ -469,13 +399,11 @@ class GlDrawing : public Drawing {
   GhostActors ghosts_;
   std::array<double, 5> floor_look_{};  // what of it the floor's pixels depend on
   bool is_listed_ = false;
-  std::vector<std::unique_ptr<RobotActors>> robots_;  // in the order of the state
-  std::unique_ptr<RobotActors> spare_;                // measured, not drawn yet
-  std::vector<std::uint8_t> large_;
+  std::vector<std::unique_ptr<RobotActors>> robots_;      // in the order of the state
+  std::unique_ptr<RobotActors> spare_;                    // measured, not drawn yet
   std::vector<std::pair<vtkActor*, std::string>> names_;  // of the people layer, for people
   int checkable_ = 0;                                     // pictures
   bool is_software_ = false;
-  bool can_invert_ = false;  // MESA_pack_invert
 };
 
 }  // namespace

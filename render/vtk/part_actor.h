@@ -39,6 +39,8 @@ class PartActor {
   void Commit();
 
   vtkActor* actor() { return shaded_.actor(); }
+  /// Around each part, in its frame; empty: the mesh has nothing of it.
+  const std::vector<Eigen::AlignedBox3f>& boxes() const { return boxes_; }
   /// Of the parts as placed, if the actor is visible.
   void AddTo(PictureRegion& region) const;
 

@@ -42,11 +42,6 @@ void RobotActors::AddGroup(VisualMesh mesh, std::vector<std::size_t> links, bool
   const auto pass = is_translucent ? Pass::kBlended : Pass::kSolid;
   group.actor =
       std::make_unique<PartActor>(pass, PartActor::Light::kLit, static_cast<int>(links.size()));
-  group.link_boxes.resize(links.size());
-  for (std::size_t i = 0; i < mesh.mesh.positions.size(); ++i) {
-    group.link_boxes[static_cast<std::size_t>(mesh.mesh.parts[i])].extend(
-        mesh.mesh.positions[i].cast<double>());
-  }
   group.actor->SetMesh(mesh.mesh);
   group.actor->SetCulling(mesh.is_closed);
   group.links = std::move(links);
@@ -105,7 +100,7 @@ bool RobotActors::Update(const RobotState& robot, const SceneLook& look, OnceLog
       }
       const Eigen::Isometry3d& pose = robot.world_from_link[link];
       group.actor->Place(index, Eigen::Affine3d(pose.matrix()));
-      around.extend(group.link_boxes[part].transformed(pose));
+      around.extend(group.actor->boxes()[part].cast<double>().transformed(pose));
     }
     group.actor->Commit();
     for (const VisualMesh::Placeholder& placeholder : group.placeholders) {

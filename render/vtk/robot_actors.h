@@ -41,10 +41,9 @@ class RobotActors {
   // The links of one draw call.
   struct Group {
     std::unique_ptr<PartActor> actor;
-    std::vector<std::size_t> links;               // by part
-    std::vector<Eigen::AlignedBox3d> link_boxes;  // by part, in the link's frame
-    std::vector<Eigen::Vector3f> positions;       // vertices of the mesh
-    std::vector<float> parts;                     // the part of each vertex
+    std::vector<std::size_t> links;          // by part
+    std::vector<Eigen::Vector3f> positions;  // vertices of the mesh
+    std::vector<float> parts;                // the part of each vertex
     std::vector<VisualMesh::Placeholder> placeholders;
   };
   void Load(const RobotState& robot, OnceLog& log);

@@ -18,6 +18,7 @@
 #include "render/renderer.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
+#include "tests/bench/cpu_time.h"
 
 namespace {
 
@@ -29,15 +30,6 @@ struct Case {
 struct Cost {
   double cpu_ms = 0, peak_mb = 0;
 };
-
-double CpuMillis() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto millis = [](const timeval& time) {
-    return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
-  };
-  return millis(usage.ru_utime) + millis(usage.ru_stime);
-}
 
 // As far apart as people at work, in rows.
 SceneState Crowd(const SceneState& one, int people) {
@@ -82,10 +74,10 @@ Cost Measure(const Case& of) {
   const auto renderer = render::MakeRenderer();
   render::Image image;
   for (int i = 0; i < kFirst; ++i) renderer->RenderInto(image, states.front(), camera, spec);
-  const double before = CpuMillis();
+  const double before = CpuSecs();
   for (const SceneState& state : states) renderer->RenderInto(image, state, camera, spec);
   Cost cost;
-  cost.cpu_ms = (CpuMillis() - before) / kPictures;
+  cost.cpu_ms = 1000 * (CpuSecs() - before) / kPictures;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   cost.peak_mb = static_cast<double>(usage.ru_maxrss) / 1024;

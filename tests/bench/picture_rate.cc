@@ -1,8 +1,6 @@
 // What a moving person costs Kinescope, for comparison with RViz by rviz_peer.sh, from the same
 // camera. Usage: picture_rate SECONDS [skin|urdf [back-end]]. CPU time is of all threads, memory
 // that of this process, which draws only.
-#include <sys/resource.h>
-
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -14,19 +12,11 @@
 #include "render/renderer.h"
 #include "server/scene/scene_options.h"
 #include "server/scene/scene_reader.h"
+#include "tests/bench/cpu_time.h"
 
 namespace {
 
 using namespace kinescope;
-
-double CpuSecs() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto secs = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return secs(usage.ru_utime) + secs(usage.ru_stime);
-}
 
 double ResidentMegabytes() {
   std::ifstream status("/proc/self/status");

@@ -140,6 +140,10 @@ int DefaultJobs(int cores, const render::PictureSpec& spec) {
   return std::clamp(cores / 2, 1, fitting);
 }
 
+int JobsFor(std::int64_t asked, const render::PictureSpec& spec) {
+  return asked > 0 ? static_cast<int>(asked) : DefaultJobs(CoresHere(), spec);
+}
+
 int FillingThreads(int cores, int jobs) {
   // The thread that draws waits for them. By default llvmpipe takes one per core for each renderer,
   // which costs a twelfth more to wake up.

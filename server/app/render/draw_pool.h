@@ -77,6 +77,9 @@ int CoresHere();
 /// textures of all of them stay below 350 MB, if one alone does.
 int DefaultJobs(int cores, const render::PictureSpec& spec);
 
+/// `asked` (--jobs), or, if it is 0, DefaultJobs() of this machine.
+int JobsFor(std::int64_t asked, const render::PictureSpec& spec);
+
 /// For render::UseFillingThreads.
 int FillingThreads(int cores, int jobs);
 

@@ -54,8 +54,7 @@ void Render(const RenderOptions& options) {
   const render::PictureSpec spec = ToPictureSpec(options.view);
   ToTimeGrid(options.clip, false);  // refuses contradictions before a renderer is made
   RunSettings settings;
-  settings.jobs =
-      *options.jobs > 0 ? static_cast<int>(*options.jobs) : DefaultJobs(CoresHere(), spec);
+  settings.jobs = JobsFor(*options.jobs, spec);
   settings.force = *options.force;
   settings.sidecar = !*options.no_sidecar;
   const auto pool = MakeDrawPool(settings.jobs, spec, options.backend);

@@ -148,7 +148,7 @@ int VerifyAgainst(const Json& then, const std::string& file, const RenderOptions
   const std::vector<SourcePlan> plans = PlanOutputs(options);
   RunSettings settings;
   const render::PictureSpec spec = ToPictureSpec(options.view);
-  settings.jobs = *given.jobs > 0 ? static_cast<int>(*given.jobs) : DefaultJobs(CoresHere(), spec);
+  settings.jobs = JobsFor(*given.jobs, spec);
   if (is_one) DrawOnly(then.at("number").get<long>(), options, settings);
   const auto pool = MakeDrawPool(settings.jobs, spec, options.backend);
   const auto results = RenderSource(options, plans.front(), settings, *pool);
