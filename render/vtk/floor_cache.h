@@ -1,19 +1,14 @@
-/// Puts the floor under the people, in the same window. It is drawn at the size of the picture,
-/// also where people are drawn larger and averaged: its shader averages itself. While the camera
-/// stands still it is drawn once. Only parts of the window need it.
+/// Keeps the pixels of floors that are drawn again and again: those of the views and tiles of one
+/// picture, while their cameras stand still. Knows no GL. One thread.
 #pragma once
 
-#include <vtkNew.h>
-
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "render/camera/tile.h"
-
-class vtkCallbackCommand;
-class vtkObject;
-class vtkOpenGLRenderWindow;
-class vtkRenderer;
+#include "render/image/image.h"
 
 namespace kinescope::render {
 
@@ -22,48 +17,42 @@ class FloorCache {
   /// All values that the floor's pixels depend on.
   using Key = std::array<double, 32>;
 
-  /// `floor` is rendered first, `people` over it, in the same window. All are borrowed. GL objects
-  /// are created and deleted while the context of the window is current.
-  FloorCache(vtkOpenGLRenderWindow* window, vtkRenderer* floor, vtkRenderer* people);
-  ~FloorCache();
-  FloorCache(const FloorCache&) = delete;
-  FloorCache& operator=(const FloorCache&) = delete;
+  /// A floor that is not asked for in this many calls of Find() is forgotten: more than one picture
+  /// has tiles and views, so that all of a picture are kept, and those of former cameras go.
+  static constexpr std::uint64_t kLongest = 64;
+  /// Enough for the floor of a picture of 4096 x 4096 px.
+  static constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
-  /// Call it before each Render of the window, whose size is `supersample` times the picture's.
-  /// What Render leaves outside of `parts` (px of the window, from below) is not to be used.
-  void Prepare(const Key& key, int supersample, const std::vector<Tile>& parts);
-  /// GL's name of a framebuffer with the floor of the newest Render at the size of the picture; 0:
-  /// it has been drawn in the window only.
-  unsigned framebuffer() const;
+  /// `most_bytes`: of all floors that are kept.
+  explicit FloorCache(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
+
+  /// Copies the floor of `key` into `tile` of `image`, if it is kept. Call it once for each tile
+  /// that is drawn. @return whether it was.
+  /// @pre all tiles of one key are of one size
+  bool Find(const Key& key, const Tile& tile, Image& image);
+
+  /// What Find() did not find has been drawn into `tile` of `image`. It is kept from its second
+  /// time on, because a camera that moves should not pay for copies. Where there is no room, it
+  /// takes the place of floors that nothing asked for between its two times: floors of one picture
+  /// that is too large do not drive each other out.
+  void Keep(const Key& key, const Tile& tile, const Image& image);
+
+  std::size_t bytes() const { return bytes_; }
 
  private:
-  enum class Step { kDraw, kDrawAndKeep, kReuse };
-  // Textures that can be drawn into.
-  struct Target {
-    unsigned framebuffer = 0, texture = 0, depth = 0;  // GL names, 0: none
-    int width = 0, height = 0;                         // px
+  struct Entry {
+    Key key{};
+    std::uint64_t used = 0, used_before = 0;  // calls of Find(); 0: never
+    std::vector<std::uint8_t> rgba;           // empty: not kept
   };
-  static void OnPeopleStart(vtkObject*, unsigned long, void* self, void*);
-  void PutFloor();
-  void Copy(unsigned from, int smaller, unsigned to, const Tile& part);
-  void ClearDepth(unsigned of, const Tile& part);
-  void Allocate(int width, int height, bool has_depth, Target& target);
-  void AddDepth(int width, int height, Target& target);
-  static void Release(Target& target);
+  void ForgetOld();
+  bool MakeRoom(std::size_t bytes, std::uint64_t since);
+  void Drop(Entry& entry);
 
-  vtkOpenGLRenderWindow* const window_;
-  vtkRenderer* const floor_;
-  vtkRenderer* const people_;
-  vtkNew<vtkCallbackCommand> on_start_;
-  unsigned long observer_ = 0;
-  Step step_ = Step::kDraw;
-  Key key_{};
-  int supersample_ = 1;
-  std::vector<Tile> parts_;
-  bool is_kept_ = false;  // `full_` has the floor of key_
-  Target picture_;        // at the size of the picture, if people are drawn larger
-  Target full_;           // at the size of the window
-  Target far_;            // a strip with the greatest depth
+  const std::size_t most_bytes_;
+  std::vector<Entry> entries_;  // few: each was asked for in the last kLongest calls
+  std::uint64_t now_ = 0;       // calls of Find()
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace kinescope::render

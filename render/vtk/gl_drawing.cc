@@ -5,7 +5,6 @@
 #include <vtkCullerCollection.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLRenderer.h>
 #include <vtkRendererCollection.h>
 
@@ -18,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/system/check.h"
 #include "render/camera/camera_matrices.h"
 #include "render/camera/picture_region.h"
 #include "render/shape/floor_scale.h"
@@ -31,6 +31,7 @@
 #include "render/vtk/person_actors.h"
 #include "render/vtk/pixel_reader.h"
 #include "render/vtk/robot_actors.h"
+#include "render/vtk/tile_window.h"
 #include "render/vtk/trail_actor.h"
 #include "render/vtk/unshown_window.h"
 
@@ -48,16 +49,6 @@ double MetresPerPixel(const PersonState& person, const Camera& camera, int heigh
   const Eigen::Vector3d nearest = person.links[urdf::kPelvis].position + kReach * to_camera;
   const Projected place = Project(nearest, camera, height, height);
   return place.depth_m > 0 && place.px_per_m > 0 ? 1 / place.px_per_m : 0;
-}
-
-Tile Intersection(const Tile& a, const Tile& b) {
-  const int x = std::max(a.x, b.x), y = std::max(a.y, b.y);
-  return {x, y, std::min(a.x + a.width, b.x + b.width) - x,
-          std::min(a.y + a.height, b.y + b.height) - y};
-}
-
-bool IsSame(const Tile& a, const Tile& b) {
-  return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
 }
 
 std::mutex creation;  // GLEW's table of functions and VTK's factories are the process'
@@ -100,13 +91,13 @@ class GlDrawing : public Drawing {
     markers_ = std::make_unique<MarkerActors>();
     trails_ = std::make_unique<TrailActor>();
     for (vtkActor* floor : ground_->actors()) floor_layer_->AddActor(floor);
-    floor_cache_ = std::make_unique<FloorCache>(window_, floor_layer_, people_layer_);
+    tiles_ = std::make_unique<TileWindow>(window_, floor_layer_, people_layer_);
   }
 
   ~GlDrawing() override {
     const VtkLogScope scope(log_);
     context_->MakeCurrent();
-    floor_cache_.reset();
+    tiles_.reset();
     floor_layer_->RemoveAllViewProps();
     people_layer_->RemoveAllViewProps();
     window_->Finalize();
@@ -148,14 +139,11 @@ class GlDrawing : public Drawing {
                        camera, image.width, image.height);
     const std::vector<Tile> parts =
         lines.is_empty() ? Parts(camera, image) : std::vector<Tile>{WholeOf(image)};
-    const int step = kLargestTile / supersample;
-    for (int y = 0; y < image.height; y += step) {
-      for (int x = 0; x < image.width; x += step) {
-        const Tile tile{x, y, std::min(step, image.width - x), std::min(step, image.height - y)};
-        DrawTile(tile, parts, camera, supersample, image);
-        if (!lines.is_empty()) lines.Judge(tile, supersample, pixels_->ReadDepth());
-      }
-    }
+    DrawTiles(parts, camera, supersample, image, [&](const Tile& tile) {
+      if (lines.is_empty()) return;
+      lines.Judge(tile, supersample,
+                  pixels_->ReadDepth(tile.width * supersample, tile.height * supersample));
+    });
     CheckParts(parts, camera, supersample, image);
     drawn.lines = lines.Take();
   }
@@ -304,12 +292,9 @@ class GlDrawing : public Drawing {
   void CheckParts(const std::vector<Tile>& parts, const Camera& camera, int supersample,
                   const Image& image) {
     if (regions_.check_every == 0 || ++checkable_ % regions_.check_every != 0) return;
-    const int step = kLargestTile / supersample;
-    if (image.width > step || image.height > step) return;
-    const Tile tile = WholeOf(image);
     const auto draw = [&](Image& into) {
       SetSize(into, image.width, image.height);
-      DrawTile(tile, {tile}, camera, supersample, into);
+      DrawTiles({WholeOf(image)}, camera, supersample, into, [](const Tile&) {});
     };
     Image whole, without;
     draw(whole);
@@ -334,49 +319,65 @@ class GlDrawing : public Drawing {
                       std::to_string(pixel / image.width) + " there is also: " + said);
   }
 
-  // The `parts` of the picture that are in `tile`; around them it gets the floor.
-  void DrawTile(const Tile& tile, const std::vector<Tile>& parts, const Camera& camera,
-                int supersample, Image& image) {
-    AimAt(tile, camera, image);
-    std::vector<Tile> here, drawn;
-    for (const Tile& part : parts) {
-      const Tile shared = Intersection(part, tile);
-      if (shared.width <= 0 || shared.height <= 0) continue;
-      here.push_back(shared);
-      drawn.push_back(Drawn(shared, tile, supersample));
+  // The `parts` of a picture; around them it gets the floor. `on_drawn`: called after each tile.
+  template <class OnDrawn>
+  void DrawTiles(const std::vector<Tile>& parts, const Camera& camera, int supersample,
+                 Image& image, const OnDrawn& on_drawn) {
+    const int step = kLargestTile / supersample;
+    for (int y = 0; y < image.height; y += step) {
+      for (int x = 0; x < image.width; x += step) {
+        const Tile tile{x, y, std::min(step, image.width - x), std::min(step, image.height - y)};
+        AimAt(tile, camera, image);
+        tiles_->Begin(tile.width, tile.height, supersample);
+        if (regions_.is_off || !is_software_) {
+          DrawWhole(tile, supersample, image);
+        } else {
+          DrawParts(tile, parts, FloorKey(camera, tile), supersample, image);
+        }
+        on_drawn(tile);
+      }
     }
-    const FloorCache::Key key = FloorKey(camera, tile, supersample);
-    window_->SetSize(tile.width * supersample, tile.height * supersample);
-    floor_cache_->Prepare(key, supersample, drawn);
-    window_->Render();
-    const unsigned people = window_->GetRenderFramebuffer()->GetFBOIndex();
-    const unsigned floor = floor_cache_->framebuffer();
-    const bool is_whole = here.size() == 1 && IsSame(here.front(), tile);
-    if (is_whole || floor == 0) return pixels_->Read(people, tile, tile, supersample, image);
-    pixels_->Read(floor, tile, tile, 1, image);
-    for (const Tile& part : here) pixels_->Read(people, tile, part, supersample, image);
   }
 
-  FloorCache::Key FloorKey(const Camera& camera, const Tile& tile, int supersample) const {
+  void DrawWhole(const Tile& tile, int supersample, Image& image) {
+    tiles_->DrawFloor();
+    tiles_->EnlargeFloor();
+    tiles_->DrawPeople();
+    pixels_->Read(tiles_->framebuffer(), tile, tile, supersample, image);
+  }
+
+  void DrawParts(const Tile& tile, const std::vector<Tile>& parts, const FloorCache::Key& key,
+                 int supersample, Image& image) {
+    std::vector<Tile> here;
+    for (const Tile& part : parts) {
+      const Tile shared = Intersection(part, tile);
+      if (!IsEmpty(shared)) here.push_back(shared);
+    }
+    if (!floors_.Find(key, tile, image)) {
+      tiles_->DrawFloor();
+      pixels_->Read(tiles_->floor_framebuffer(), tile, tile, 1, image);
+      floors_.Keep(key, tile, image);
+    }
+    if (here.empty()) return;
+    tiles_->PutFloor(image, tile, here);
+    tiles_->DrawPeople();
+    for (const Tile& part : here) {
+      pixels_->Read(tiles_->framebuffer(), tile, part, supersample, image);
+    }
+  }
+
+  // The floor of a picture is the same however much larger people are drawn.
+  FloorCache::Key FloorKey(const Camera& camera, const Tile& tile) const {
     FloorCache::Key key{};
-    const double* matrix = projection_->GetData();
-    std::copy(matrix, matrix + 16, key.begin());
-    const Eigen::Vector3d up = Eigen::Vector3d::Map(camera_->GetViewUp());
-    const double rest[] = {camera.position.x(),
-                           camera.position.y(),
-                           camera.position.z(),
-                           camera.target.x(),
-                           camera.target.y(),
-                           camera.target.z(),
-                           up.x(),
-                           up.y(),
-                           up.z(),
-                           static_cast<double>(tile.width * supersample),
-                           static_cast<double>(tile.height * supersample)};
-    static_assert(16 + std::size(rest) + std::tuple_size_v<decltype(floor_look_)> ==
-                  std::tuple_size_v<FloorCache::Key>);
-    const auto end = std::copy(std::begin(rest), std::end(rest), key.begin() + 16);
-    std::copy(floor_look_.begin(), floor_look_.end(), end);
+    auto end = std::copy_n(projection_->GetData(), 16, key.begin());
+    const auto add = [&](const Eigen::Vector3d& of) { end = std::copy_n(of.data(), 3, end); };
+    add(camera.position);
+    add(camera.target);
+    add(Eigen::Vector3d::Map(camera_->GetViewUp()));
+    *end++ = tile.width;
+    *end++ = tile.height;
+    end = std::copy(floor_look_.begin(), floor_look_.end(), end);
+    KINESCOPE_CHECK(end == key.end());
     return key;
   }
 
@@ -390,7 +391,8 @@ class GlDrawing : public Drawing {
   vtkNew<vtkCamera> camera_;
   vtkNew<vtkMatrix4x4> projection_;
   std::unique_ptr<Ground> ground_;
-  std::unique_ptr<FloorCache> floor_cache_;
+  std::unique_ptr<TileWindow> tiles_;
+  FloorCache floors_;
   std::unique_ptr<PixelReader> pixels_;
   std::map<int, std::unique_ptr<PersonActors>> people_;
   ObjectActors objects_;

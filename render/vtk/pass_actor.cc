@@ -15,6 +15,7 @@ vtkStandardNewMacro(PassActor)
   const vtkOpenGLState::ScopedglDepthMask mask(state);
   const vtkOpenGLState::ScopedglDepthFunc function(state);
   const vtkOpenGLState::ScopedglEnableDisable blend(state, GL_BLEND);
+  const vtkOpenGLState::ScopedglEnableDisable depth(state, GL_DEPTH_TEST);
   // Blending costs software GL a second memory access and arithmetic for every pixel.
   const bool has_opacity = pass_ != Pass::kBackdrop && pass_ != Pass::kSolid;
   if (pass_ == Pass::kVeil) {  // its nearest surface first, as depth alone
@@ -25,6 +26,7 @@ vtkStandardNewMacro(PassActor)
     mapper->Render(renderer, this);
   }
   state->SetEnumState(GL_BLEND, has_opacity);
+  state->SetEnumState(GL_DEPTH_TEST, pass_ != Pass::kBackdrop);  // it is drawn first
   state->vtkglDepthMask(pass_ == Pass::kSolid ? GL_TRUE : GL_FALSE);
   state->vtkglDepthFunc(pass_ == Pass::kGhost ? GL_GREATER : GL_LEQUAL);
   mapper->Render(renderer, this);

@@ -24,11 +24,12 @@ class PixelReader {
   /// `part` of it to its place in `image`. @throws RenderError.
   void Read(unsigned framebuffer, const Tile& tile, const Tile& part, int supersample,
             Image& image);
-  /// All depths of the picture that the window rendered last, from below.
-  std::vector<float> ReadDepth();
+  /// All depths of what the window rendered last, of which it shows `width` x `height` px, from
+  /// below.
+  std::vector<float> ReadDepth(int width, int height);
 
  private:
-  void ReadPixels(const Tile& from, std::uint8_t* rgba);
+  void ReadPixels(const Tile& from, std::uint8_t* rgba, int row_px);
 
   vtkOpenGLRenderWindow* const window_;
   const bool can_invert_;  // MESA_pack_invert

@@ -21,10 +21,16 @@ void UnshownWindow::Start() {
   gl->Initialize(this);
   gl->vtkglEnable(GL_BLEND);
   gl->vtkglBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  RenderFramebuffer->Resize(Size[0], Size[1]);
   gl->PushFramebufferBindings();
+  if (target_ != 0) {
+    gl->vtkglBindFramebuffer(GL_FRAMEBUFFER, target_);
+    return;
+  }
+  RenderFramebuffer->Resize(Size[0], Size[1]);
   RenderFramebuffer->Bind();
   RenderFramebuffer->ActivateDrawBuffer(0);
 }
+
+unsigned UnshownWindow::framebuffer() { return RenderFramebuffer->GetFBOIndex(); }
 
 }  // namespace kinescope::render

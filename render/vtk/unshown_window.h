@@ -14,12 +14,21 @@ class UnshownWindow : public vtkGenericOpenGLRenderWindow {
   UnshownWindow(const UnshownWindow&) = delete;
   void operator=(const UnshownWindow&) = delete;
 
+  /// Renders into `framebuffer` (GL's name) from now on, 0: into the window's own. It is at least
+  /// as large as the viewports of the layers that are rendered.
+  void SetTarget(unsigned framebuffer) { target_ = framebuffer; }
+  /// GL's name of the window's own framebuffer.
+  unsigned framebuffer();
+
   void Start() override;
   void Frame() override {}
 
  protected:
   UnshownWindow() = default;
   ~UnshownWindow() override = default;
+
+ private:
+  unsigned target_ = 0;
 };
 
 }  // namespace kinescope::render

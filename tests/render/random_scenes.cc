@@ -73,7 +73,16 @@ RandomScenes::View RandomScenes::NextView(int largest_px) {
         render::ScenePart::kBody, render::ScenePart::kScale}) {
     look.shown.Set(part, Chance(0.5));
   }
-  render::Camera& camera = view.camera;
+  view.camera = RandomCamera();
+  if (Chance(0.15)) {
+    for (int i = 2 + Below(3); i > 0; --i) view.spec.panes.push_back({"view", RandomCamera()});
+    view.spec.pane_columns = 2;
+  }
+  return view;
+}
+
+render::Camera RandomScenes::RandomCamera() {
+  render::Camera camera;
   camera.target = {Uniform(-0.5, 0.5), Uniform(-0.5, 0.5), Uniform(0.5, 1.2)};
   const double distance = Chance(0.1) ? Uniform(0.3, 1) : Uniform(2, 8);
   const double around = Uniform(-M_PI, M_PI), above = Uniform(-0.1, 1.4);
@@ -82,7 +91,7 @@ RandomScenes::View RandomScenes::NextView(int largest_px) {
                                           std::sin(around) * std::cos(above), std::sin(above));
   camera.vertical_fov_rad = Uniform(0.2, 1.2);
   if (Chance(0.2)) camera = render::Orthographic(camera);
-  return view;
+  return camera;
 }
 
 PersonState RandomScenes::Person(int character) {

@@ -17,7 +17,7 @@ class RandomScenes {
   /// Equal seeds give equal scenes.
   explicit RandomScenes(unsigned seed);
 
-  /// A view: camera, size, look and overlays. Sides of `largest_px` at most.
+  /// A view: camera or several of them, size, look and overlays. Sides of `largest_px` at most.
   struct View {
     render::Camera camera;
     render::PictureSpec spec;
@@ -31,6 +31,7 @@ class RandomScenes {
   bool Chance(double share);
   int Below(int count);
   Eigen::Vector3d Place();
+  render::Camera RandomCamera();
   PersonState Person(int character);
   std::shared_ptr<const SceneMarker> Marker(int id);
   RobotState Robot();

@@ -76,5 +76,36 @@ TEST(RegionDrawing, LeavesNothingOfThePictureBefore) {
   EXPECT_TRUE(Compare(floor, renderer->Render(empty, FrontCamera(), spec)).equal());
 }
 
+std::vector<PictureSpec> TiledAndOtherSizes() {
+  PictureSpec wide = OfSize(1100, 40);  // drawn as tiles of 1024 and 76 px
+  wide.supersample = 4;
+  PictureSpec high = OfSize(40, 2100);
+  high.supersample = 2;
+  // The same pixels drawn, in other pictures.
+  PictureSpec small = OfSize(160, 90), large = OfSize(320, 180);
+  small.supersample = 2;
+  PictureSpec views = OfSize(321, 240);  // of unequal size
+  for (const char* name : {"front", "left", "top"}) {
+    views.panes.push_back({name, NamedCamera(name, MixedScene(Posture::kStanding))});
+  }
+  views.pane_columns = 2;
+  return {wide, large, small, views, high};
+}
+
+TEST(RegionDrawing, IsTheSameInTilesViewsAndAllSizesInTurn) {
+  RegionSettings off;
+  off.is_off = true;
+  const auto parts = With({});
+  for (int round = 0; round < 2; ++round) {
+    for (const PictureSpec& spec : TiledAndOtherSizes()) {
+      RenderThrice(*parts, spec);
+      const SceneState state = MixedScene(Posture::kArmsForward);
+      const Image expected = With(off)->Render(state, FrontCamera(), spec);
+      EXPECT_TRUE(Compare(expected, parts->Render(state, FrontCamera(), spec)).equal())
+          << spec.width << " x " << spec.height << " px, round " << round;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kinescope::render
