@@ -1,5 +1,6 @@
 #include "render/camera/camera.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
@@ -227,6 +228,23 @@ std::optional<Eigen::Vector2d> FloorPointAt(double x_px, double y_px, const Came
   if (!(near.z() > 0 && along > 0 && std::isfinite(along))) return std::nullopt;
   const Eigen::Vector3d point = near + along * ray;
   return Eigen::Vector2d(point.x(), point.y());
+}
+
+std::optional<Eigen::Matrix3d> PlaneFromPicture(const Camera& camera, int width_px, int height_px,
+                                                double z_m) {
+  const double aspect = static_cast<double>(width_px) / height_px;
+  const glm::dmat4 clip_from_world = ClipFromView(camera, aspect) * ViewFromWorld(camera);
+  Eigen::Matrix3d clip_from_plane, clip_from_picture;
+  constexpr int kRows[] = {0, 1, 3};  // x, y, w
+  for (int i = 0; i < 3; ++i) {
+    const int row = kRows[i];
+    clip_from_plane.row(i) << clip_from_world[0][row], clip_from_world[1][row],
+        z_m * clip_from_world[2][row] + clip_from_world[3][row];
+  }
+  // The corners of a square on the plane go round the same way where it is seen from above.
+  if (!(clip_from_plane.determinant() > 0)) return std::nullopt;
+  clip_from_picture << 2.0 / width_px, 0, -1, 0, -2.0 / height_px, 1, 0, 0, 1;
+  return Eigen::Matrix3d(clip_from_plane.inverse() * clip_from_picture);
 }
 
 }  // namespace kinescope::render

@@ -108,4 +108,10 @@ Projected Project(const Eigen::Vector3d& point_in_world, const Camera& camera, i
 std::optional<Eigen::Vector2d> FloorPointAt(double x_px, double y_px, const Camera& camera,
                                             int width_px, int height_px);
 
+/// From a pixel (x, y, 1), from the upper left corner, to the point of the horizontal plane at the
+/// height `z_m` that is seen there: (x, y, 1), world, m, times a factor that is positive in front
+/// of the camera. nullopt where the plane is seen from below, or along it.
+std::optional<Eigen::Matrix3d> PlaneFromPicture(const Camera& camera, int width_px, int height_px,
+                                                double z_m);
+
 }  // namespace kinescope::render

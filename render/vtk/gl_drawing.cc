@@ -154,6 +154,7 @@ class GlDrawing : public Drawing {
     floor_layer_->SetBackground(background[0], background[1], background[2]);
     ground_->SetFocus(camera.target);
     ground_->SetLook(look);
+    shadow_color_ = ColorsOf(look.theme).shadow;
     floor_look_ = {background[0], background[1], background[2],
                    static_cast<double>(look.theme == Theme::kDark),
                    static_cast<double>(look.floor)};
@@ -330,39 +331,58 @@ class GlDrawing : public Drawing {
         AimAt(tile, camera, image);
         tiles_->Begin(tile.width, tile.height, supersample);
         if (regions_.is_off || !is_software_) {
-          DrawWhole(tile, supersample, image);
+          DrawWhole(tile, camera, supersample, image);
         } else {
-          DrawParts(tile, parts, FloorKey(camera, tile), supersample, image);
+          DrawParts(tile, parts, camera, supersample, image);
         }
         on_drawn(tile);
       }
     }
   }
 
-  void DrawWhole(const Tile& tile, int supersample, Image& image) {
+  void DrawWhole(const Tile& tile, const Camera& camera, int supersample, Image& image) {
     tiles_->DrawFloor();
+    if (HasFloorShadows()) {
+      pixels_->Read(tiles_->floor_framebuffer(), tile, tile, 1, image);
+      BlendShadows(tile, camera, image);
+      tiles_->ReplaceFloor(image, tile);
+    }
     tiles_->EnlargeFloor();
     tiles_->DrawPeople();
     pixels_->Read(tiles_->framebuffer(), tile, tile, supersample, image);
   }
 
-  void DrawParts(const Tile& tile, const std::vector<Tile>& parts, const FloorCache::Key& key,
+  void DrawParts(const Tile& tile, const std::vector<Tile>& parts, const Camera& camera,
                  int supersample, Image& image) {
     std::vector<Tile> here;
     for (const Tile& part : parts) {
       const Tile shared = Intersection(part, tile);
       if (!IsEmpty(shared)) here.push_back(shared);
     }
+    const FloorCache::Key key = FloorKey(camera, tile);
     if (!floors_.Find(key, tile, image)) {
       tiles_->DrawFloor();
       pixels_->Read(tiles_->floor_framebuffer(), tile, tile, 1, image);
       floors_.Keep(key, tile, image);
     }
+    BlendShadows(tile, camera, image);
     if (here.empty()) return;
     tiles_->PutFloor(image, tile, here);
     tiles_->DrawPeople();
     for (const Tile& part : here) {
       pixels_->Read(tiles_->framebuffer(), tile, part, supersample, image);
+    }
+  }
+
+  bool HasFloorShadows() const {
+    return std::any_of(people_.begin(), people_.end(),
+                       [](const auto& each) { return each.second->floor_shadow() != nullptr; });
+  }
+
+  void BlendShadows(const Tile& tile, const Camera& camera, Image& image) const {
+    for (const auto& [character, person] : people_) {
+      const FloorShadow* const shadow = person->floor_shadow();
+      if (shadow != nullptr) shadow->BlendInto(image, tile, camera, shadow_color_);
     }
   }
 
@@ -399,6 +419,7 @@ class GlDrawing : public Drawing {
   std::unique_ptr<MarkerActors> markers_;
   std::unique_ptr<TrailActor> trails_;
   GhostActors ghosts_;
+  Rgb shadow_color_ = {};
   std::array<double, 5> floor_look_{};  // what of it the floor's pixels depend on
   bool is_listed_ = false;
   std::vector<std::unique_ptr<RobotActors>> robots_;      // in the order of the state

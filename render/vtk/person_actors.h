@@ -9,10 +9,10 @@
 #include "render/camera/picture_region.h"
 #include "render/module.h"
 #include "render/scene_look.h"
+#include "render/shape/floor_shadow.h"
 #include "render/shape/once_log.h"
 #include "render/vtk/axes_actor.h"
 #include "render/vtk/body_actor.h"
-#include "render/vtk/floor_shadow.h"
 #include "render/vtk/force_arrows.h"
 #include "render/vtk/part_actor.h"
 #include "render/vtk/sphere_actor.h"
@@ -38,7 +38,9 @@ class PersonActors {
   }
 
   // In rendering order; the shadows of all people come before the bodies of all people, and so on.
-  vtkActor* shadow() { return floor_shadow_ ? floor_shadow_->actor() : shadow_.actor(); }
+  vtkActor* shadow() { return shadow_.actor(); }
+  /// Of a skin, to be blended into the floor; null: shadow() is shown, or none.
+  const FloorShadow* floor_shadow() const { return has_floor_shadow_ ? &floor_shadow_ : nullptr; }
   std::vector<vtkActor*> bodies() { return body_.actors(); }
   std::vector<vtkActor*> ghosts();
   std::vector<vtkActor*> marks();
@@ -47,7 +49,7 @@ class PersonActors {
   void AddTo(PictureRegion& region) const;
 
  private:
-  bool UpdateShadow(const PersonState& person, const SceneLook& look);
+  void UpdateShadow(const PersonState& person, const SceneLook& look);
   void PlaceShadow(const PersonState& person);
   bool UpdateAxes(const PersonState& person, const SceneLook& look);
   void UpdateMarks(const PersonState& person, bool has_spheres, const Camera& camera,
@@ -55,7 +57,8 @@ class PersonActors {
   void UpdateHeld(const PersonState& person, Liveness liveness);
 
   BodyActor body_;
-  std::unique_ptr<FloorShadow> floor_shadow_;  // of the skin; null: `shadow_` is shown
+  FloorShadow floor_shadow_;
+  bool has_floor_shadow_ = false;
   ForceArrows forces_;
   std::unique_ptr<AxesActor> frames_, joint_axes_;  // null: hidden
   PartActor shadow_, held_, ghost_marks_, marks_;

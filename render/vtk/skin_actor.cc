@@ -56,7 +56,7 @@ void ShowLoads(const std::vector<JointLoad>& loads, ShadedActor& shaded) {
 }  // namespace
 
 std::unique_ptr<SkinSurface> SkinActor::SurfaceWithin(double error_m) const {
-  constexpr double kFineBorders = 0.001;  // m: with no more error, borders stay as they are
+  constexpr double kFineBorders = 0.002;  // m: with no more error, borders stay as they are
   std::shared_ptr<const skin::SkinTemplate> of = own_;
   if (of == nullptr) of = {std::shared_ptr<void>(), &skin::BuiltInSkin()};
   FineNormals normals;
@@ -123,8 +123,8 @@ bool SkinActor::Update(const PersonState& person,
     levels_.clear();
     is_changed = true;
   }
-  const double error =
-      PermittedError({0.0003, 0.0006, 0.001, 0.0014, 0.002, 0.003, 0.004, 0.006, 0.010}, error_m);
+  const double error = PermittedError(
+      {0.0003, 0.0006, 0.0008, 0.001, 0.0014, 0.002, 0.003, 0.004, 0.006, 0.010}, error_m);
   Level& level = levels_[error];
   if (!level.surface) level.surface = SurfaceWithin(error);
   capsules_ = skin::CapsulesOf(model_->human.skeleton, build_, person.links);

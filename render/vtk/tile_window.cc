@@ -50,7 +50,7 @@ void TileWindow::Begin(int width, int height, int supersample) {
   const double right = 1.0 * width / size_.width(), top = 1.0 * height / size_.height();
   floor_->SetViewport(0, 0, right, top);
   people_->SetViewport(0, 0, supersample * right, supersample * top);
-  is_depth_cleared_ = is_floor_there_ = false;
+  is_depth_cleared_ = false;
 }
 
 unsigned TileWindow::framebuffer() const { return window_->framebuffer(); }
@@ -62,8 +62,7 @@ unsigned TileWindow::floor_framebuffer() const {
 void TileWindow::DrawFloor() {
   vtkOpenGLState* state = window_->GetState();
   state->PushFramebufferBindings();
-  is_floor_there_ = supersample_ == 1;
-  if (!is_floor_there_) Reserve(small_size_.width(), small_size_.height(), false, small_);
+  if (supersample_ > 1) Reserve(small_size_.width(), small_size_.height(), false, small_);
   state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, floor_framebuffer());
   // All of it: llvmpipe draws a rectangle where a part is to be cleared, which takes as long as a
   // third of the floor.
@@ -97,17 +96,25 @@ void TileWindow::PutFloor(const Image& image, const Tile& tile, const std::vecto
   for (const Tile& part : parts) ClearDepth(Drawn(part, tile, supersample_));
   state->PopFramebufferBindings();
   is_depth_cleared_ = true;
-  if (is_floor_there_) return;
-  glBindTexture(GL_TEXTURE_2D,
-                window_->GetRenderFramebuffer()->GetColorAttachmentAsTextureObject(0)->GetHandle());
-  for (const Tile& part : parts) Upload(image, tile, part);
+  glBindTexture(GL_TEXTURE_2D, WindowTexture());
+  for (const Tile& part : parts) Upload(image, tile, part, supersample_);
   glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+void TileWindow::ReplaceFloor(const Image& image, const Tile& tile) {
+  glBindTexture(GL_TEXTURE_2D, supersample_ == 1 ? WindowTexture() : small_.color);
+  Upload(image, tile, tile, 1);
+  glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+unsigned TileWindow::WindowTexture() const {
+  return window_->GetRenderFramebuffer()->GetColorAttachmentAsTextureObject(0)->GetHandle();
 }
 
 // By hand: Mesa's llvmpipe takes several times as long to enlarge, and copies within GL are no
 // faster than from here.
-void TileWindow::Upload(const Image& image, const Tile& tile, const Tile& part) {
-  const int scale = supersample_, large_width = part.width * scale;
+void TileWindow::Upload(const Image& image, const Tile& tile, const Tile& part, int scale) {
+  const int large_width = part.width * scale;
   const auto line = static_cast<std::size_t>(large_width);
   const int most = static_cast<int>(kBandPixels / (line * static_cast<std::size_t>(scale)));
   const int band = std::clamp(most, 1, part.height);  // rows of the picture
@@ -142,7 +149,7 @@ void TileWindow::ClearDepth(const Tile& part) {
 }
 
 void TileWindow::EnlargeFloor() {
-  if (is_floor_there_) return;
+  if (supersample_ == 1) return;
   vtkOpenGLState* state = window_->GetState();
   const vtkOpenGLState::ScopedglEnableDisable scissor(state, GL_SCISSOR_TEST);
   state->vtkglDisable(GL_SCISSOR_TEST);

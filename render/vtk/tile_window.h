@@ -33,7 +33,10 @@ class TileWindow {
   /// Puts the floor of `tile`, which is in `image` already, under `parts` of it (px of the picture)
   /// and takes away what was there.
   void PutFloor(const Image& image, const Tile& tile, const std::vector<Tile>& parts);
-  /// In place of PutFloor(), without leaving GL: puts what DrawFloor() has drawn under all.
+  /// In place of PutFloor(), where GL is fast: replaces what DrawFloor() has drawn by the floor of
+  /// `tile`, which is in `image`.
+  void ReplaceFloor(const Image& image, const Tile& tile);
+  /// And puts it under all.
   void EnlargeFloor();
   /// Over the floor, into framebuffer().
   void DrawPeople();
@@ -48,7 +51,8 @@ class TileWindow {
     unsigned framebuffer = 0, color = 0, depth = 0;  // GL names, 0: none
     int width = 0, height = 0;                       // px
   };
-  void Upload(const Image& image, const Tile& tile, const Tile& part);
+  void Upload(const Image& image, const Tile& tile, const Tile& part, int scale);
+  unsigned WindowTexture() const;
   void ClearDepth(const Tile& part);
   void Reserve(int width, int height, bool has_depth, Target& target);
   static void AddColor(Target& target);
@@ -58,10 +62,10 @@ class TileWindow {
   UnshownWindow* const window_;
   vtkRenderer* const floor_;
   vtkRenderer* const people_;
-  HeldSize size_, small_size_;                              // of the window, of the floor
-  int width_ = 0, height_ = 0, supersample_ = 1;            // of the tile
-  bool is_depth_cleared_ = false, is_floor_there_ = false;  // in the window
-  Target far_;                                              // a strip with the greatest depth
+  HeldSize size_, small_size_;                    // of the window, of the floor
+  int width_ = 0, height_ = 0, supersample_ = 1;  // of the tile
+  bool is_depth_cleared_ = false;                 // in the window
+  Target far_;                                    // a strip with the greatest depth
   Target small_;  // the floor where people are drawn larger; without depth
   std::vector<std::uint32_t> band_;
 };

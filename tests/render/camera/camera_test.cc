@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <glm/vec4.hpp>
 
@@ -249,6 +250,36 @@ TEST(Camera, FindsTheFloorWhereAPointOfItIsProjected) {
   below.position = {3, 0, -1};
   below.target = {0, 0, -1};
   EXPECT_FALSE(FloorPointAt(320, 20, below, 640, 360));
+}
+
+TEST(Camera, FindsThePlaneThatPixelsShow) {
+  std::vector<Camera> cameras;
+  for (const std::string& name : CameraNames()) {
+    cameras.push_back(NamedCamera(name, SceneState()));
+    cameras.push_back(Orthographic(Turned(cameras.back(), 0.3)));
+  }
+  int seen = 0;
+  for (const Camera& camera : cameras) {
+    for (const double height : {0.0, 0.4}) {
+      const auto plane = PlaneFromPicture(camera, 640, 360, height);
+      if (!plane) continue;
+      ++seen;
+      for (const Eigen::Vector2d& at : {Eigen::Vector2d(0.2, -0.3), Eigen::Vector2d(-0.9, 0.1)}) {
+        const Projected pixel = Project({at.x(), at.y(), height}, camera, 640, 360);
+        const Eigen::Vector3d found = *plane * Eigen::Vector3d(pixel.x_px, pixel.y_px, 1);
+        EXPECT_GT(found.z(), 0);
+        EXPECT_LT((found.hnormalized() - at).norm(), 1e-9);
+      }
+    }
+  }
+  EXPECT_GT(seen, 20);
+  Camera low;
+  low.position = {3, 0, 0.5};
+  low.target = {0, 0, 0.5};
+  EXPECT_TRUE(PlaneFromPicture(low, 640, 360, 0));
+  EXPECT_FALSE(PlaneFromPicture(low, 640, 360, 0.6)) << "from below";
+  const auto plane = PlaneFromPicture(low, 640, 360, 0);
+  EXPECT_LT((*plane * Eigen::Vector3d(320, 100, 1)).z(), 0) << "above the horizon";
 }
 
 }  // namespace
