@@ -13,8 +13,6 @@ namespace {
 constexpr float kMargin = 0.45f;       // m, around the limbs
 constexpr float kAboveFloor = 0.002f;  // m
 constexpr float kDarkest = 0.8f, kUnseen = 0.01f;
-constexpr int kRun = 16;  // px, computed from one start; runs begin at multiples of it
-
 // Where a function of a column, a + b * x, is not negative: narrows `from` to `to`.
 void KeepPositive(double a, double b, double& from, double& to) {
   const double zero = -a / b;
@@ -24,6 +22,19 @@ void KeepPositive(double a, double b, double& from, double& to) {
     to = std::min(to, zero);
   } else if (!(a >= 0)) {
     to = from;
+  }
+}
+
+// The first `count` of a run of pixels. Alpha stays.
+void Blend(const std::array<float, FloorShadow::kRun>& shades, const std::array<float, 4>& dark,
+           std::size_t count, std::uint8_t* rgba) {
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t channel = 0; channel < 4; ++channel) {
+      const auto lit = static_cast<float>(rgba[4 * i + channel]);
+      const float by = channel == 3 ? 0 : shades[i];
+      rgba[4 * i + channel] =
+          static_cast<std::uint8_t>(static_cast<int>(lit + by * (dark[channel] - lit) + 0.5f));
+    }
   }
 }
 
@@ -65,11 +76,23 @@ void FloorShadow::Cast(const skin::Capsules& limbs) {
       shade_[at++] = std::max(0.0f, kDarkest * (1 - open * open * open) * left * left - kUnseen);
     }
   }
+  FindShade();
 }
 
-// A column or row, which rounding may have led out of the points; 0 if it is not a number.
-float FloorShadow::Among(float points) {
-  return std::min(static_cast<float>(kSide - 1) - 1e-4f, std::max(0.0f, points));
+// As far as the points beside those with shade.
+void FloorShadow::FindShade() {
+  least_ = {kSide, kSide};
+  most_ = {-1, -1};
+  for (int row = 0; row < kSide; ++row) {
+    for (int column = 0; column < kSide; ++column) {
+      if (shade_[static_cast<std::size_t>(row * kSide + column)] <= 0) continue;
+      const std::array<int, 2> here = {column, row};
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        least_[axis] = std::min(least_[axis], std::max(0, here[axis] - 1));
+        most_[axis] = std::max(most_[axis], std::min(kSide - 1, here[axis] + 1));
+      }
+    }
+  }
 }
 
 void FloorShadow::BlendInto(Image& image, const Tile& within, const Camera& camera,
@@ -83,51 +106,63 @@ void FloorShadow::BlendInto(Image& image, const Tile& within, const Camera& came
   }
   // Of a pixel: column and row among the points, both times `depth`, and that.
   const Eigen::Matrix3d points = points_from_floor * *floor_from_picture;
-  const std::array<float, 3> dark = {static_cast<float>(255 * color[0]),
+  const Eigen::Vector3d each = points.col(0);
+  const std::array<float, 4> dark = {static_cast<float>(255 * color[0]),
                                      static_cast<float>(255 * color[1]),
-                                     static_cast<float>(255 * color[2])};
-  const Eigen::Vector3f along = points.col(0).cast<float>();
+                                     static_cast<float>(255 * color[2]), 0};
   for (int y = within.y; y < within.y + within.height; ++y) {
     const auto at = [&](double x) -> Eigen::Vector3d {
       return points * Eigen::Vector3d(x + 0.5, y + 0.5, 1);
     };
     double from = within.x, to = within.x + within.width;
-    const Eigen::Vector3d zero = at(0), each = points.col(0);
-    constexpr double kEnd = kSide - 1;
+    const Eigen::Vector3d zero = at(0);
     for (int axis = 0; axis < 2; ++axis) {
-      KeepPositive(zero[axis], each[axis], from, to);
-      KeepPositive(kEnd * zero[2] - zero[axis], kEnd * each[2] - each[axis], from, to);
+      const double least = least_[static_cast<std::size_t>(axis)];
+      const double most = most_[static_cast<std::size_t>(axis)];
+      KeepPositive(zero[axis] - least * zero[2], each[axis] - least * each[2], from, to);
+      KeepPositive(most * zero[2] - zero[axis], most * each[2] - each[axis], from, to);
     }
     KeepPositive(zero[2], each[2], from, to);
     if (!(from < to)) continue;
     const int first = static_cast<int>(std::ceil(from)), end = static_cast<int>(std::ceil(to));
     for (int run = first - first % kRun; run < end; run += kRun) {
-      const Eigen::Vector3f start = at(run).cast<float>();
-      std::array<float, kRun> columns, rows;
+      Shades shades = ShadesOf(at(run).cast<float>(), each.cast<float>());
       for (int i = 0; i < kRun; ++i) {
-        const float steps = static_cast<float>(i), depth = start[2] + steps * along[2];
-        columns[static_cast<std::size_t>(i)] = (start[0] + steps * along[0]) / depth;
-        rows[static_cast<std::size_t>(i)] = (start[1] + steps * along[1]) / depth;
+        if (run + i < first || run + i >= end) shades[static_cast<std::size_t>(i)] = 0;
       }
-      for (int x = std::max(run, first); x < std::min(run + kRun, end); ++x) {
-        const auto i = static_cast<std::size_t>(x - run);
-        const float column = Among(columns[i]), row = Among(rows[i]);
-        const auto left = static_cast<std::size_t>(column), above = static_cast<std::size_t>(row);
-        const float* const near = shade_.data() + above * kSide + left;
-        const float right = column - static_cast<float>(left);
-        const float upper = near[0] + right * (near[1] - near[0]);
-        const float lower = near[kSide] + right * (near[kSide + 1] - near[kSide]);
-        const float shade = upper + (row - static_cast<float>(above)) * (lower - upper);
-        if (!(shade > 0)) continue;
-        std::uint8_t* const pixel =
-            image.rgba.data() + 4 * (static_cast<std::ptrdiff_t>(y) * image.width + x);
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-          const auto lit = static_cast<float>(pixel[channel]);
-          pixel[channel] = static_cast<std::uint8_t>(lit + shade * (dark[channel] - lit) + 0.5f);
-        }
-      }
+      const auto count = static_cast<std::size_t>(std::min(kRun, image.width - run));
+      Blend(shades, dark, count,
+            image.rgba.data() + 4 * (static_cast<std::ptrdiff_t>(y) * image.width + run));
     }
   }
+}
+
+// Of pixels beside each other, from `start` in steps of `along`: column and row, times depth, and
+// that.
+FloorShadow::Shades FloorShadow::ShadesOf(const Eigen::Vector3f& start,
+                                          const Eigen::Vector3f& along) const {
+  constexpr float kLast = static_cast<float>(kSide - 1) - 1e-4f;
+  std::array<int, kRun> places;
+  std::array<float, kRun> right, below;
+  for (std::size_t i = 0; i < kRun; ++i) {
+    const auto steps = static_cast<float>(i);
+    const float depth = start[2] + steps * along[2];
+    // Rounding may lead out of the points; 0 of what is not a number.
+    const float column = std::min(kLast, std::max(0.0f, (start[0] + steps * along[0]) / depth));
+    const float row = std::min(kLast, std::max(0.0f, (start[1] + steps * along[1]) / depth));
+    const int left = static_cast<int>(column), above = static_cast<int>(row);
+    places[i] = above * kSide + left;
+    right[i] = column - static_cast<float>(left);
+    below[i] = row - static_cast<float>(above);
+  }
+  Shades shades;
+  for (std::size_t i = 0; i < kRun; ++i) {
+    const float* const near = shade_.data() + places[i];
+    const float upper = near[0] + right[i] * (near[1] - near[0]);
+    const float lower = near[kSide] + right[i] * (near[kSide + 1] - near[kSide]);
+    shades[i] = upper + below[i] * (lower - upper);
+  }
+  return shades;
 }
 
 }  // namespace kinescope::render

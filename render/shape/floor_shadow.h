@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,13 +27,20 @@ class FloorShadow {
   /// is. The same pixels change in the same way whatever else is within.
   void BlendInto(Image& image, const Tile& within, const Camera& camera, const Rgb& color) const;
 
+  static constexpr int kRun = 16;  // px, computed from one start; runs begin at multiples of it
+
  private:
+  using Shades = std::array<float, kRun>;
+  void FindShade();
+  Shades ShadesOf(const Eigen::Vector3f& start, const Eigen::Vector3f& along) const;
+
   static constexpr int kSide = 30;  // points
-  static float Among(float points);
 
   std::vector<Eigen::Vector3f> points_;             // (kSide, kSide), world, m
   Eigen::Vector2f first_ = {0, 0}, step_ = {1, 1};  // m, of the points
   std::vector<float> shade_;                        // at each point, 0 to 1
+  // Columns and rows beyond which there is no shade.
+  std::array<int, 2> least_ = {0, 0}, most_ = {0, 0};
 };
 
 }  // namespace kinescope::render
