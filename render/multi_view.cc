@@ -53,6 +53,7 @@ void CopyInto(Image& whole, const Image& part, const Tile& tile) {
   KINESCOPE_CHECK(part.width == tile.width && part.height == tile.height);
   KINESCOPE_CHECK(tile.x >= 0 && tile.x + tile.width <= whole.width);
   KINESCOPE_CHECK(tile.y >= 0 && tile.y + tile.height <= whole.height);
+  whole.floor = nullptr;
   const auto row_bytes = 4 * static_cast<std::ptrdiff_t>(tile.width);
   for (int row = 0; row < tile.height; ++row) {
     const auto from = part.rgba.begin() + row * row_bytes;
@@ -69,6 +70,7 @@ void FillWith(Image& image, const Tile& tile, const std::array<double, 3>& color
   for (std::size_t i = 0; i < 3; ++i) {
     pixel.at(i) = static_cast<std::uint8_t>(std::lround(255 * color.at(i)));
   }
+  image.floor = nullptr;
   for (int y = tile.y; y < tile.y + tile.height; ++y) {
     auto to = image.rgba.begin() + 4 * (static_cast<std::ptrdiff_t>(y) * image.width + tile.x);
     for (int x = 0; x < tile.width; ++x) to = std::copy(pixel.begin(), pixel.end(), to);

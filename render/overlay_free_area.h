@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/camera/framing.h"
-#include "render/camera/tile.h"
+#include "render/image/tile.h"
 #include "render/legend.h"
 #include "render/renderer.h"
 

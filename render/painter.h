@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/palette.h"
-#include "render/camera/tile.h"
 #include "render/font.h"
+#include "render/image/tile.h"
 
 namespace kinescope::render {
 

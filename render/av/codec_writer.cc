@@ -99,9 +99,7 @@ class CodecWriter : public VideoWriter {
       HideColors(glass_);
       CopyAlpha(glass_, frame_->data[3], frame_->linesize[3]);
     }
-    ToYuv(has_alpha_ ? glass_ : image, 0, 0, width_, height_,
-          {frame_->data[0], frame_->data[1], frame_->data[2], frame_->linesize[0],
-           frame_->linesize[1], frame_->linesize[2]});
+    Convert(has_alpha_ ? glass_ : image);
     frame_->pts = next_++;
     Encode(frame_.get());
   }
@@ -132,6 +130,22 @@ class CodecWriter : public VideoWriter {
     OpenEncoder();
     OpenContainer();
     frame_ = MakeFrame(codec_->pix_fmt, width_, height_, path_);
+  }
+
+  // Only where the picture before, whose planes the frame still has, or this one are not floor.
+  void Convert(const Image& image) {
+    const YuvPlanes planes = {frame_->data[0],     frame_->data[1],     frame_->data[2],
+                              frame_->linesize[0], frame_->linesize[1], frame_->linesize[2]};
+    if (image.floor != nullptr && image.floor == floor_) {
+      changed_.Add(image.changed);
+      for (const Tile& part : changed_.Rectangles()) {
+        ToYuv(image, part.x, part.y, part.width, part.height, planes);
+      }
+    } else {
+      ToYuv(image, 0, 0, width_, height_, planes);
+    }
+    floor_ = image.floor;
+    changed_ = image.changed;
   }
 
   bool is_x264() const { return std::string_view(recipe_.encoder) == "libx264"; }
@@ -240,6 +254,9 @@ class CodecWriter : public VideoWriter {
   OutputFormat format_;
   AVStream* stream_ = nullptr;  // belongs to format_
   Frame frame_;
+  // Of the picture before, which the frame has.
+  std::shared_ptr<const std::vector<std::uint8_t>> floor_;
+  CellSet changed_;
   Image glass_;            // the picture in hand, with alpha
   std::int64_t next_ = 0;  // index of the next picture
 };

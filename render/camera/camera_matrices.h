@@ -5,7 +5,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "render/camera/camera.h"
-#include "render/camera/tile.h"
+#include "render/image/tile.h"
 
 namespace kinescope::render {
 

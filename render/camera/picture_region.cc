@@ -8,10 +8,6 @@
 namespace kinescope::render {
 namespace {
 
-constexpr int CellsOf(int pixels) {
-  return (pixels + PictureRegion::kCell - 1) / PictureRegion::kCell;
-}
-
 Eigen::Matrix4f ClipFromWorld(const Camera& camera, int width, int height) {
   const double aspect = static_cast<double>(width) / height;
   const glm::dmat4 matrix = ClipFromView(camera, aspect) * ViewFromWorld(camera);
@@ -30,14 +26,12 @@ PictureRegion::PictureRegion(const Camera& camera, int width, int height, double
     : width_(width),
       height_(height),
       margin_(static_cast<float>(margin)),
-      columns_(CellsOf(width)),
-      rows_(CellsOf(height)),
       clip_from_world_(ClipFromWorld(camera, width, height)),
-      cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)) {}
+      cells_(width, height) {}
 
 void PictureRegion::AddEverything() {
   is_everything_ = true;
-  std::fill(cells_.begin(), cells_.end(), std::uint8_t{1});
+  cells_.AddEverything();
 }
 
 bool PictureRegion::Find(const Eigen::Vector4f& clip, Place& place) const {
@@ -49,18 +43,12 @@ bool PictureRegion::Find(const Eigen::Vector4f& clip, Place& place) const {
 }
 
 void PictureRegion::AddAround(float left, float top, float right, float bottom) {
-  const auto cell = [](float pixel, int count) {
-    const float last = static_cast<float>(count * kCell);
-    return static_cast<int>(std::clamp(pixel, -1.0f, last) + kCell) / kCell - 1;
+  const auto pixel = [](float place, int size) {  // -1 and `size`: outside
+    return static_cast<int>(std::clamp(place, -1.0f, static_cast<float>(size)) + 1) - 1;
   };
-  const int first_column = std::max(0, cell(left - margin_, columns_));
-  const int last_column = std::min(columns_ - 1, cell(right + margin_, columns_));
-  const int first_row = std::max(0, cell(top - margin_, rows_));
-  const int last_row = std::min(rows_ - 1, cell(bottom + margin_, rows_));
-  for (int row = first_row; row <= last_row; ++row) {
-    const auto line = cells_.begin() + static_cast<std::ptrdiff_t>(row) * columns_;
-    for (int column = first_column; column <= last_column; ++column) line[column] = 1;
-  }
+  const int x = pixel(left - margin_, width_), y = pixel(top - margin_, height_);
+  cells_.Add(
+      {x, y, pixel(right + margin_, width_) - x + 1, pixel(bottom + margin_, height_) - y + 1});
 }
 
 void PictureRegion::AddBox(const Eigen::AlignedBox3f& box, const Eigen::Matrix4f& world_from_box) {
@@ -100,34 +88,6 @@ void PictureRegion::AddTriangles(const std::vector<Eigen::Vector3f>& positions,
   for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
     AddTriangle(corners[i], corners[i + 1], corners[i + 2]);
   }
-}
-
-std::vector<Tile> PictureRegion::Rectangles() const {
-  std::vector<Tile> all;
-  std::vector<std::size_t> above, here;  // rectangles that end with the row above, with this row
-  for (int row = 0; row < rows_; ++row) {
-    here.clear();
-    const int y = row * kCell, height = std::min(kCell, height_ - y);
-    const auto line = cells_.begin() + static_cast<std::ptrdiff_t>(row) * columns_;
-    for (int column = 0; column < columns_; ++column) {
-      if (line[column] == 0) continue;
-      const int first = column;
-      while (column < columns_ && line[column] != 0) ++column;
-      const int x = first * kCell, width = std::min(column * kCell, width_) - x;
-      const auto same = std::find_if(above.begin(), above.end(), [&](std::size_t each) {
-        return all[each].x == x && all[each].width == width;
-      });
-      if (same != above.end()) {
-        all[*same].height += height;
-        here.push_back(*same);
-      } else {
-        here.push_back(all.size());
-        all.push_back({x, y, width, height});
-      }
-    }
-    above.swap(here);
-  }
-  return all;
 }
 
 }  // namespace kinescope::render

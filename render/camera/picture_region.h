@@ -10,15 +10,12 @@
 #include <vector>
 
 #include "render/camera/camera.h"
-#include "render/camera/tile.h"
+#include "render/image/cell_set.h"
 
 namespace kinescope::render {
 
 class PictureRegion {
  public:
-  /// px, the sides of the squares of which a region consists: those of a macroblock of a clip.
-  static constexpr int kCell = 16;
-
   /// Nothing of a picture of `width` x `height` px that `camera` sees. `margin`: px, around all
   /// that is added, because positions are rounded to floats here and, in another order, by GL.
   PictureRegion(const Camera& camera, int width, int height, double margin);
@@ -38,8 +35,8 @@ class PictureRegion {
                     const std::vector<std::uint32_t>& corners);
 
   bool is_everything() const { return is_everything_; }
-  /// Covers the region; no two of them overlap. Those of few cells: each costs a call to GL.
-  std::vector<Tile> Rectangles() const;
+  /// Covers the region; no two of them overlap.
+  std::vector<Tile> Rectangles() const { return cells_.Rectangles(); }
 
  private:
   // px, from the upper left corner.
@@ -55,11 +52,10 @@ class PictureRegion {
 
   int width_, height_;  // px
   float margin_;        // px
-  int columns_, rows_;  // cells
   Eigen::Matrix4f clip_from_world_;
   bool is_everything_ = false;
-  std::vector<std::uint8_t> cells_;  // row by row; 1: in the region
-  std::vector<Place> places_;        // of FindAll
+  CellSet cells_;
+  std::vector<Place> places_;  // of FindAll
 };
 
 }  // namespace kinescope::render

@@ -3,7 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
+
+#include "render/image/cell_set.h"
 
 namespace kinescope::render {
 
@@ -14,6 +17,13 @@ struct Image {
   /// Whether every pixel is known to be opaque. Set by the function that draws it, so that writers
   /// of files need not search.
   bool is_opaque = false;
+
+  /// The pixels, as `rgba` has them, that this picture has but in the squares of `changed`; null
+  /// where that is not known. Pictures with one floor differ in no other squares, so that the
+  /// others need be neither copied nor encoded again. What draws on a picture adds to `changed`, or
+  /// sets `floor` to null.
+  std::shared_ptr<const std::vector<std::uint8_t>> floor = nullptr;
+  CellSet changed = {};
 };
 
 /// Whether every pixel is opaque: searches `image` if that is not known.
@@ -27,6 +37,7 @@ inline bool IsOpaque(const Image& image) {
 
 /// Sets the size and reuses the memory. The caller must write all pixels afterwards.
 inline void SetSize(Image& image, int width, int height) {
+  if (image.width != width || image.height != height) image.floor = nullptr;
   image.width = width;
   image.height = height;
   image.is_opaque = false;

@@ -8,6 +8,7 @@ namespace kinescope::render {
 
 void MatteOut(Image& picture, const Image& over_black) {
   KINESCOPE_CHECK(picture.width == over_black.width && picture.height == over_black.height);
+  picture.floor = nullptr;
   for (std::size_t at = 0; at < picture.rgba.size(); at += 4) {
     std::uint8_t* white = &picture.rgba[at];
     const std::uint8_t* black = &over_black.rgba[at];

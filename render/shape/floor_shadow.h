@@ -10,8 +10,8 @@
 
 #include "core/palette.h"
 #include "render/camera/camera.h"
-#include "render/camera/tile.h"
 #include "render/image/image.h"
+#include "render/image/tile.h"
 #include "urdf/skin/occlusion.h"
 
 namespace kinescope::render {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/camera/camera.h"
-#include "render/camera/tile.h"
+#include "render/image/tile.h"
 #include "render/line_drawing.h"
 #include "render/shape/surface_lines.h"
 

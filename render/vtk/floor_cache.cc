@@ -1,8 +1,7 @@
 #include "render/vtk/floor_cache.h"
 
 #include <algorithm>
-
-#include "core/system/check.h"
+#include <utility>
 
 namespace kinescope::render {
 namespace {
@@ -19,38 +18,33 @@ std::ptrdiff_t OffsetOf(const Tile& tile, int row, const Image& image) {
 
 }  // namespace
 
-bool FloorCache::Find(const Key& key, const Tile& tile, Image& image) {
+FloorCache::Pixels FloorCache::Find(const Key& key) {
   ++now_;
   ForgetOld();
   auto found = std::find_if(entries_.begin(), entries_.end(),
                             [&](const Entry& entry) { return entry.key == key; });
   if (found == entries_.end()) {
-    entries_.push_back({key, now_, 0, {}});
-    return false;
+    entries_.push_back({key, now_, 0, nullptr});
+    return nullptr;
   }
   found->used_before = found->used;
   found->used = now_;
-  if (found->rgba.empty()) return false;
-  KINESCOPE_CHECK(found->rgba.size() == BytesOf(tile));
-  const auto row_bytes = static_cast<std::ptrdiff_t>(RowBytes(tile));
-  for (int row = 0; row < tile.height; ++row) {
-    const auto from = found->rgba.begin() + row * row_bytes;
-    std::copy(from, from + row_bytes, image.rgba.begin() + OffsetOf(tile, row, image));
-  }
-  return true;
+  return found->rgba;
 }
 
-void FloorCache::Keep(const Key& key, const Tile& tile, const Image& image) {
+FloorCache::Pixels FloorCache::Keep(const Key& key, const Tile& tile, const Image& image) {
   const auto found = std::find_if(entries_.begin(), entries_.end(),
                                   [&](const Entry& entry) { return entry.key == key; });
-  if (found == entries_.end() || found->used_before == 0 || !found->rgba.empty()) return;
-  if (!MakeRoom(BytesOf(tile), found->used_before)) return;
-  found->rgba.reserve(BytesOf(tile));
+  if (found == entries_.end() || found->used_before == 0 || found->rgba != nullptr) return nullptr;
+  if (!MakeRoom(BytesOf(tile), found->used_before)) return nullptr;
+  auto pixels = std::make_shared<std::vector<std::uint8_t>>();
+  pixels->reserve(BytesOf(tile));
   for (int row = 0; row < tile.height; ++row) {
     const auto from = image.rgba.begin() + OffsetOf(tile, row, image);
-    found->rgba.insert(found->rgba.end(), from, from + static_cast<std::ptrdiff_t>(RowBytes(tile)));
+    pixels->insert(pixels->end(), from, from + static_cast<std::ptrdiff_t>(RowBytes(tile)));
   }
-  bytes_ += found->rgba.size();
+  bytes_ += pixels->size();
+  return found->rgba = std::move(pixels);
 }
 
 void FloorCache::ForgetOld() {
@@ -67,7 +61,7 @@ bool FloorCache::MakeRoom(std::size_t bytes, std::uint64_t since) {
   while (!has_room()) {
     Entry* oldest = nullptr;
     for (Entry& entry : entries_) {
-      if (entry.rgba.empty() || entry.used >= since) continue;
+      if (entry.rgba == nullptr || entry.used >= since) continue;
       if (oldest == nullptr || entry.used < oldest->used) oldest = &entry;
     }
     if (oldest == nullptr) return false;
@@ -77,8 +71,18 @@ bool FloorCache::MakeRoom(std::size_t bytes, std::uint64_t since) {
 }
 
 void FloorCache::Drop(Entry& entry) {
-  bytes_ -= entry.rgba.size();
-  entry.rgba = {};
+  if (entry.rgba != nullptr) bytes_ -= entry.rgba->size();
+  entry.rgba = nullptr;
+}
+
+void CopyFloor(const std::vector<std::uint8_t>& floor, const Tile& tile, const Tile& part,
+               Image& image) {
+  for (int row = 0; row < part.height; ++row) {
+    const auto from =
+        floor.begin() +
+        4 * (static_cast<std::ptrdiff_t>(part.y - tile.y + row) * tile.width + part.x - tile.x);
+    std::copy_n(from, RowBytes(part), image.rgba.begin() + OffsetOf(part, row, image));
+  }
 }
 
 }  // namespace kinescope::render

@@ -5,10 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
-#include "render/camera/tile.h"
 #include "render/image/image.h"
+#include "render/image/tile.h"
 
 namespace kinescope::render {
 
@@ -26,16 +27,17 @@ class FloorCache {
   /// `most_bytes`: of all floors that are kept.
   explicit FloorCache(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
 
-  /// Copies the floor of `key` into `tile` of `image`, if it is kept. Call it once for each tile
-  /// that is drawn. @return whether it was.
-  /// @pre all tiles of one key are of one size
-  bool Find(const Key& key, const Tile& tile, Image& image);
+  /// The pixels of one tile: RGBA, its rows from the top, without padding.
+  using Pixels = std::shared_ptr<const std::vector<std::uint8_t>>;
+
+  /// The floor of `key`, or null. Call it once for each tile that is drawn.
+  Pixels Find(const Key& key);
 
   /// What Find() did not find has been drawn into `tile` of `image`. It is kept from its second
   /// time on, because a camera that moves should not pay for copies. Where there is no room, it
   /// takes the place of floors that nothing asked for between its two times: floors of one picture
-  /// that is too large do not drive each other out.
-  void Keep(const Key& key, const Tile& tile, const Image& image);
+  /// that is too large do not drive each other out. @return what is kept, or null
+  Pixels Keep(const Key& key, const Tile& tile, const Image& image);
 
   std::size_t bytes() const { return bytes_; }
 
@@ -43,7 +45,7 @@ class FloorCache {
   struct Entry {
     Key key{};
     std::uint64_t used = 0, used_before = 0;  // calls of Find(); 0: never
-    std::vector<std::uint8_t> rgba;           // empty: not kept
+    Pixels rgba;                              // null: not kept
   };
   void ForgetOld();
   bool MakeRoom(std::size_t bytes, std::uint64_t since);
@@ -54,5 +56,10 @@ class FloorCache {
   std::uint64_t now_ = 0;       // calls of Find()
   std::size_t bytes_ = 0;
 };
+
+/// Copies `part` of the floor of `tile` into `image`. px of the picture; `part` is inside of
+/// `tile`.
+void CopyFloor(const std::vector<std::uint8_t>& floor, const Tile& tile, const Tile& part,
+               Image& image);
 
 }  // namespace kinescope::render

@@ -341,6 +341,7 @@ class GlDrawing : public Drawing {
   }
 
   void DrawWhole(const Tile& tile, const Camera& camera, int supersample, Image& image) {
+    image.floor = nullptr;
     tiles_->DrawFloor();
     if (HasFloorShadows()) {
       pixels_->Read(tiles_->floor_framebuffer(), tile, tile, 1, image);
@@ -359,19 +360,33 @@ class GlDrawing : public Drawing {
       const Tile shared = Intersection(part, tile);
       if (!IsEmpty(shared)) here.push_back(shared);
     }
-    const FloorCache::Key key = FloorKey(camera, tile);
-    if (!floors_.Find(key, tile, image)) {
-      tiles_->DrawFloor();
-      pixels_->Read(tiles_->floor_framebuffer(), tile, tile, 1, image);
-      floors_.Keep(key, tile, image);
-    }
+    GetFloor(tile, camera, image);
     BlendShadows(tile, camera, image);
     if (here.empty()) return;
     tiles_->PutFloor(image, tile, here);
     tiles_->DrawPeople();
     for (const Tile& part : here) {
       pixels_->Read(tiles_->framebuffer(), tile, part, supersample, image);
+      image.changed.Add(part);
     }
+  }
+
+  // What `image` has of the same floor is not copied again.
+  void GetFloor(const Tile& tile, const Camera& camera, Image& image) {
+    const FloorCache::Key key = FloorKey(camera, tile);
+    FloorCache::Pixels floor = floors_.Find(key);
+    if (floor != nullptr && floor == image.floor) {
+      for (const Tile& part : image.changed.Rectangles()) CopyFloor(*floor, tile, part, image);
+    } else if (floor != nullptr) {
+      CopyFloor(*floor, tile, tile, image);
+    } else {
+      tiles_->DrawFloor();
+      pixels_->Read(tiles_->floor_framebuffer(), tile, tile, 1, image);
+      floor = floors_.Keep(key, tile, image);
+    }
+    const bool is_whole = tile.width == image.width && tile.height == image.height;
+    image.floor = is_whole ? std::move(floor) : nullptr;
+    image.changed = CellSet(image.width, image.height);
   }
 
   bool HasFloorShadows() const {

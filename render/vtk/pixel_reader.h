@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/camera/tile.h"
 #include "render/image/image.h"
+#include "render/image/tile.h"
 
 class vtkOpenGLRenderWindow;
 

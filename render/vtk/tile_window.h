@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "render/camera/tile.h"
 #include "render/image/image.h"
+#include "render/image/tile.h"
 #include "render/vtk/held_size.h"
 
 class vtkRenderer;

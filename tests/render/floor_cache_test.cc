@@ -20,15 +20,16 @@ class Floors {
     const Tile tile{1, 2, width, height};
     SetSize(image_, width + 3, height + 3);
     std::fill(image_.rgba.begin(), image_.rgba.end(), std::uint8_t{0});
-    const bool is_found = cache.Find(key, tile, image_);
-    if (is_found) {
+    const FloorCache::Pixels found = cache.Find(key);
+    if (found != nullptr) {
+      CopyFloor(*found, tile, tile, image_);
       EXPECT_EQ(CountOf(number), 4 * width * height) << "bytes of the floor " << number;
       EXPECT_EQ(First(tile), number) << "at its place";
     } else {
       std::fill(image_.rgba.begin(), image_.rgba.end(), static_cast<std::uint8_t>(number));
       cache.Keep(key, tile, image_);
     }
-    return !is_found;
+    return found == nullptr;
   }
 
   /// How many of `count` floors were drawn, one after the other.
@@ -57,6 +58,23 @@ TEST(FloorCache, KeepsThoseOfAllViewsFromTheSecondPictureOn) {
   EXPECT_EQ(floors.DrawAll(12), 12);
   for (int picture = 0; picture < 20; ++picture) EXPECT_EQ(floors.DrawAll(12), 0);
   EXPECT_EQ(floors.cache.bytes(), 12U * 4 * 8 * 8);
+}
+
+TEST(FloorCache, CopiesAPartToItsPlace) {
+  const Tile tile{10, 20, 6, 4}, part{12, 21, 3, 2};
+  std::vector<std::uint8_t> floor(4 * 6 * 4);
+  for (std::size_t i = 0; i < floor.size(); ++i) floor[i] = static_cast<std::uint8_t>(1 + i);
+  Image image;
+  SetSize(image, 40, 30);
+  CopyFloor(floor, tile, part, image);
+  const auto at = [&](int x, int y) {
+    return image.rgba[4 * static_cast<std::size_t>(y * image.width + x)];
+  };
+  EXPECT_EQ(at(12, 21), floor[4 * (6 + 2)]);
+  EXPECT_EQ(at(14, 22), floor[4 * (2 * 6 + 4)]);
+  EXPECT_EQ(image.rgba.size() - static_cast<std::size_t>(std::count(
+                                    image.rgba.begin(), image.rgba.end(), std::uint8_t{0})),
+            4U * 3 * 2);
 }
 
 TEST(FloorCache, ForgetsThoseOfFormerCameras) {

@@ -343,6 +343,33 @@ TEST(Video, HasTheSameBytesForTheSameFrames) {
   EXPECT_EQ(ReadFile(folder / "a.mp4"), ReadFile(folder / "b.mp4"));
 }
 
+// A square that goes over a still floor.
+TEST(Video, HasTheSameBytesIfTheFloorOfItsFramesIsKnown) {
+  const TempFolder folder;
+  const Image still = Frame(3);
+  const auto floor = std::make_shared<const std::vector<std::uint8_t>>(still.rgba);
+  const auto write = [&](const char* name, bool is_known) {
+    const auto writer = MakeVideoWriter(folder / name, kWidth, kHeight, VideoOptions());
+    for (int k = 0; k < 30; ++k) {
+      Image image = still;
+      const Tile square{7 * k, 5 * k, 31, 40};
+      for (int y = square.y; y < square.y + square.height && y < kHeight; ++y) {
+        const auto row = image.rgba.begin() + 4 * (y * kWidth + square.x);
+        std::fill(row, row + 4 * square.width, static_cast<std::uint8_t>(200 + k));
+        for (int x = 0; x < square.width; ++x) row[4 * x + 3] = 255;
+      }
+      image.changed = CellSet(kWidth, kHeight);
+      image.changed.Add(square);
+      const bool is_of_another = k == 12;  // a camera that moved for once
+      if (is_known && !is_of_another) image.floor = floor;
+      writer->Add(image);
+    }
+    writer->Finish();
+    return ReadFile(folder / name);
+  };
+  EXPECT_TRUE(write("known.mp4", true) == write("unknown.mp4", false));
+}
+
 TEST(Video, PrintsNothingToStandardError) {
   const TempFolder folder;
   ::testing::internal::CaptureStderr();
