@@ -182,11 +182,6 @@ int main(int argc, char** argv) {
     plot.panels.push_back(std::move(cpu));
     plot.panels.push_back(std::move(memory));
   }
-  for (std::size_t which = 0; which < 2; ++which) {
-    const double x = 46 + 60.0 * static_cast<double>(which);
-    plot.swatches.push_back({x, 6, 8, 8, colors[which]});
-    plot.texts.push_back({x + 11, 13, which == 0 ? "1x" : "2x supersampled"});
-  }
   if (argc > 1) std::ofstream(argv[1]) << render::ToSvg(plot);
   return 0;
 }
