@@ -62,8 +62,8 @@ std::vector<std::string> CorrectionsSince(const Json& then) {
   std::vector<std::string> clauses;
   if (then.value("loads", Json::object()).contains("low_pass_secs")) {
     clauses.emplace_back(
-        "the classes of load spheres, and the numbers in plots, came from different filters (now: "
-        "--shown)");
+        "load spheres were larger, and their classes and the numbers in plots came from different "
+        "filters (now: --shown)");
   }
   if (then.value("schema", 0) >= 2) return clauses;
   const RenderOptions options = OptionsOf(then, "a." + then.value("format", ""));
