@@ -155,6 +155,7 @@ struct SceneState {
   std::uint32_t counter = 0;          // of the newest sample
   std::int64_t time_code_millis = 0;  // of the newest sample, ms
   std::int64_t arrival_nanos = 0;     // receive time, monotonic clock; 0 for files
+  std::int64_t made_nanos = 0;        // when a server took this state up, monotonic clock; else 0
   /// How long the newest sample waited in this machine before it was processed, ns; 0 for files.
   /// More than kOverloadNanos: this machine is overloaded, and all that is shown is that old.
   std::int64_t waited_nanos = 0;

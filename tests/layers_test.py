@@ -48,6 +48,7 @@ LIBRARIES = {
     r"png\.h": ("libpng", {"render/image"}),
     r"jpeglib\.h": ("libjpeg-turbo", {"render/image"}),
     r"zlib\.h": ("zlib", {"render"}),
+    r"zstd\.h": ("zstd", {"server/history"}),
     r"ft2build\.h|freetype/": ("FreeType", {"render"}),
     r"glm/": ("GLM", {"render/camera", "render/vtk"}),
     r"lib(av|sw)\w+/": ("libav", {"render/av"}),

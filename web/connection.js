@@ -12,6 +12,7 @@ const FIRST_PING_MILLIS = 150;
 const STATES_PER_REPORT = 4;  // the server sends up to 12 states beyond the last one reported as received
 
 /** @typedef {{onState: (buffer: ArrayBuffer) => void, onPicture: (buffer: ArrayBuffer) => void,
+ *    onPast: (buffer: ArrayBuffer) => void,
  *    onDetails: (details: import('./messages.js').Details) => void, onError: (reason: string) => void,
  *    onOpen: () => void}} Handlers */
 
@@ -119,6 +120,8 @@ export class Connection {
       this.#pictures += 1;
       this.send({ seen_pictures: this.#pictures });
       this.handlers.onPicture(data);
+    } else if (kind === KIND.past) {
+      this.handlers.onPast(data);
     }
   }
 

@@ -11,6 +11,8 @@ export const ELEMENTS = /** @type {const} */ ({
   'save-picture': 'button',
   'hand-load': 'form', 'hand-person': 'select', 'hand': 'select', 'hand-kg': 'input',
   'loads': 'ol', 'legend': 'ul', 'loads-hint': 'p',
+  'transport': 'section', 'play': 'button', 'step-back': 'button', 'step-forward': 'button', 'speed': 'select',
+  'moment': 'input', 'oldest': 'span', 'go-live': 'button',
   'diagnostics': 'section', 'problems': 'ul',
 });
 

@@ -26,6 +26,15 @@ export function age(seconds) {
   return seconds < 7200 ? `${Math.floor(seconds / 60)} min` : `${Math.floor(seconds / 3600)} h`;
 }
 
+/** 12400 -> "−12.4 s", 133000 -> "−2:13 min".
+ *  @param {number} millis  by which something is behind */
+export function lag(millis) {
+  const tenths = Math.round(Math.max(0, millis) / 100);
+  if (tenths < 600) return `−${(tenths / 10).toFixed(1)} s`;
+  const seconds = Math.round(tenths / 10);
+  return `−${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, '0')} min`;
+}
+
 /** @param {number} ratio of capacity; NaN where unknown */
 export const percent = (ratio) => (Number.isFinite(ratio) ? `${Math.round(100 * ratio)} %` : '–');
 

@@ -10,6 +10,7 @@ const SAVED_SIZE = { width: 1920, height: 1080 };
 
 export class PicturePanel {
   hasPictures = true;
+  #isLive = true;  // whether the page shows the live state, as the picture does
   #url = '';
   #isLoading = false;
   /** @type {Uint8Array<ArrayBuffer>|null} */ #next = null;  // JPEG
@@ -30,10 +31,23 @@ export class PicturePanel {
 
   /** Requests pictures from the server, or stops them; call it also after a new connection. */
   ask() {
-    const isOn = this.parts.on.checked && this.hasPictures;
+    const isOn = this.#isShown && this.hasPictures;
     this.send({ pictures: isOn });
     if (!isOn) this.parts.image.hidden = true;
+    this.parts.save.disabled = !this.hasPictures || !this.#isLive;
     this.#explain();
+  }
+
+  /** While the viewer looks back, there is no picture: it would be of another moment.
+   *  @param {boolean} isLive */
+  setLive(isLive) {
+    if (isLive === this.#isLive) return;
+    this.#isLive = isLive;
+    this.ask();
+  }
+
+  get #isShown() {
+    return this.parts.on.checked && this.#isLive;
   }
 
   /** @param {{name: string}[]} cameras */
@@ -50,7 +64,7 @@ export class PicturePanel {
       this.ask();
     }
     this.parts.on.disabled = !this.hasPictures;
-    this.parts.save.disabled = !this.hasPictures;
+    this.parts.save.disabled = !this.hasPictures || !this.#isLive;
     // All viewers share the live picture: another viewer may have selected its camera.
     if (document.activeElement !== this.parts.camera) this.parts.camera.value = details.camera;
     this.#explain();
@@ -59,7 +73,7 @@ export class PicturePanel {
   /** Shows a picture. While one is being decoded, only the latest of the following pictures is kept.
    *  @param {ArrayBuffer} buffer */
   show(buffer) {
-    if (this.parts.on.checked) this.#showJpeg(decodePicture(buffer).jpeg);
+    if (this.#isShown) this.#showJpeg(decodePicture(buffer).jpeg);
   }
 
   /** @param {Uint8Array<ArrayBuffer>} jpeg */
@@ -76,16 +90,17 @@ export class PicturePanel {
 
   #onShown() {
     this.#isLoading = false;
-    this.parts.image.hidden = !this.parts.on.checked;
+    this.parts.image.hidden = !this.#isShown;
     this.#explain();
     const next = this.#next;
     this.#next = null;
-    if (next && this.parts.on.checked) this.#showJpeg(next);
+    if (next && this.#isShown) this.#showJpeg(next);
   }
 
   #explain() {
     const { on, image, note } = this.parts;
     if (!this.hasPictures) note.textContent = 'This server does not render pictures.';
+    else if (!this.#isLive) note.textContent = 'The server\u2019s picture is live only.';
     else if (!on.checked) note.textContent = 'Live picture is off.';
     else note.textContent = 'Waiting for a picture';
     note.hidden = !image.hidden;
@@ -105,7 +120,7 @@ export class PicturePanel {
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10000);
     } finally {
-      save.disabled = false;
+      save.disabled = !this.#isLive;
     }
   }
 }

@@ -1,7 +1,7 @@
 // Reads the binary messages of the WebSocket. docs/http.md has the layout; server/http/protocol.cc writes them.
 
-export const KIND = { state: 1, picture: 2 };
-export const VERSION = 3;
+export const KIND = { state: 1, picture: 2, past: 3 };
+export const VERSION = 4;
 
 // Names by their number in a message.
 const LIVENESS = /** @type {const} */ (['no data', 'live', 'stale']);
@@ -26,8 +26,10 @@ const SOLID_KIND = /** @type {const} */ (['box', 'cylinder']);
  *  @typedef {{liveness: (typeof LIVENESS)[number], counter: number, stateNumber: number,
  *    sentMicros: number, arrivalMicros: number, stampMicros: number, timeCodeMillis: number,
  *    rateHz: number, viewers: number, floor: number, waitedMillis: number, viewHeading: number, viewBelow: number,
- *    people: Person[], objects: TrackedObject[]}} State  arrivalMicros 0: unknown; waitedMillis: in the server's machine;
- *    viewHeading: by which named views are turned about z, rad; viewBelow: by which people seem to be below the floor, m
+ *    madeMicros: number, oldestMicros: number, oldestNumber: number, people: Person[], objects: TrackedObject[]}} State
+ *    arrivalMicros 0: unknown; waitedMillis: in the server's machine; viewHeading: by which named views are turned about
+ *    z, rad; viewBelow: by which people seem to be below the floor, m;
+ *    madeMicros: its moment in the server's history, oldestMicros, oldestNumber: of the first state in it, 0: none
  */
 
 /** The kind of a message; throws if the server uses another version of the protocol.
@@ -104,6 +106,23 @@ export function decodePicture(buffer) {
   return { stateNumber: bytes.f64(), arrivalMicros: bytes.f64(), jpeg: new Uint8Array(buffer, bytes.skip(0)) };
 }
 
+/** The answer to a request for a former state.
+ *  @param {ArrayBuffer} buffer
+ *  @returns {{id: number, state: State, details: string}}  details: a text message */
+export function decodePast(buffer) {
+  const bytes = new Bytes(buffer);
+  bytes.skip(4);
+  const id = bytes.u32();
+  const stateBytes = bytes.u32(), detailsBytes = bytes.u32();
+  const state = bytes.skip(stateBytes), details = bytes.skip(detailsBytes);
+  bytes.end();
+  return {
+    id,
+    state: decodeState(buffer.slice(state, state + stateBytes)),
+    details: new TextDecoder().decode(new Uint8Array(buffer, details, detailsBytes)),
+  };
+}
+
 /** @param {Bytes} bytes */
 function readStateHeader(bytes) {
   bytes.skip(2);  // kind and version
@@ -119,9 +138,10 @@ function readStateHeader(bytes) {
   const waitedMillis = 10 * bytes.u16();
   const viewHeading = bytes.f32();
   const viewBelow = bytes.f32();
+  const [madeMicros, oldestMicros, oldestNumber] = bytes.list(3, () => bytes.f64());
   return {
     liveness, peopleCount, counter, stateNumber, sentMicros, arrivalMicros, stampMicros, timeCodeMillis, rateHz,
-    viewers, floor, objectCount, waitedMillis, viewHeading, viewBelow,
+    viewers, floor, objectCount, waitedMillis, viewHeading, viewBelow, madeMicros, oldestMicros, oldestNumber,
   };
 }
 

@@ -1,6 +1,6 @@
 // The status indicator. One pure function decides, from the newest state and from the connection: a page without a
 // connection must not show "live" any longer.
-import { age } from './format.js';
+import { age, lag } from './format.js';
 
 /** Time without a message after which the server counts as disconnected: several times kHeartbeat of
  *  server/http/hub.h. */
@@ -12,16 +12,29 @@ export const OLD_MILLIS = 2000;
  *  core/scene_state.h. */
 export const BEHIND_MILLIS = 250;
 
-/** @typedef {'live'|'stale'|'no-data'|'disconnected'|'wait'} Level
+/** @typedef {'live'|'behind'|'stale'|'no-data'|'disconnected'|'wait'} Level
  *  @typedef {{level: Level, word: string, banner: string}} Status  banner "": none
  *  @typedef {{connected: boolean, everConnected: boolean, silentMillis: number,
  *    liveness: 'no data'|'live'|'stale'|null, ageMillis: number|null, waitedMillis: number,
- *    source: string, reason: string}} Situation  reason: why the server rejected the connection; "" otherwise
+ *    source: string, reason: string, behindMillis?: number|null, isGone?: boolean}} Situation  reason: why the server rejected the
+ *    connection; "" otherwise; behindMillis: by which the viewer looks back; null or absent: not; isGone: the moment
+ *    that the viewer wants to see is no longer kept
  */
+
+/** Of a viewer who looks back, the word says so, and the banner what is wrong with the live stream.
+ *  @param {Situation} now
+ *  @returns {Status} */
+export function statusOf(now) {
+  const live = streamStatusOf(now);
+  if (now.behindMillis === undefined || now.behindMillis === null || live.level === 'wait') return live;
+  const gone = now.isGone ? 'This moment is no longer kept: you see the oldest one' : '';
+  const trouble = live.level === 'live' ? gone : `Live stream: ${live.word}. ${live.banner}`;
+  return { level: 'behind', word: `Behind ${lag(now.behindMillis)}`, banner: trouble };
+}
 
 /** @param {Situation} now
  *  @returns {Status} */
-export function statusOf(now) {
+function streamStatusOf(now) {
   if (!now.connected || now.silentMillis > SILENCE_MILLIS) return disconnected(now);
   if (now.liveness === null) return { level: 'wait', word: 'Connecting', banner: '' };
   if (now.liveness === 'no data') {
@@ -30,7 +43,7 @@ export function statusOf(now) {
   }
   if (now.liveness === 'live' && now.waitedMillis > BEHIND_MILLIS) {
     const banner = `The server is too busy: behind by ${age(now.waitedMillis / 1000)}`;
-    return { level: 'stale', word: 'Behind', banner };
+    return { level: 'stale', word: 'Overloaded', banner };
   }
   const isOld = now.ageMillis !== null && now.ageMillis > OLD_MILLIS;
   if (now.liveness === 'stale' || isOld) {

@@ -48,6 +48,8 @@ struct Answer {
 };
 
 /// The reason if a picture or its camera is requested from a server without a renderer.
+inline constexpr char kNoHistory[] =
+    "this server keeps no former states (--history_minutes=0), or none came yet";
 inline constexpr char kNoRenderer[] = "this server renders no pictures (--pictures=off)";
 
 /// {"error": reason}: the form of every error under /api and /snapshot.png.

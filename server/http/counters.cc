@@ -35,6 +35,7 @@ std::string WithHttpCounters(const std::string& diagnostics, const Counters& cou
                       {"failures", counters.failures},
                       {"websockets_opened", counters.opened},
                       {"states_encoded", counters.states_encoded},
+                      {"past_states_encoded", counters.past_states_encoded},
                       {"pictures_encoded", counters.pictures_encoded},
                       {"clients", std::move(connected)},
                       {"closed_clients", std::move(closed)}};

@@ -24,6 +24,7 @@ struct Counters {
                                                   // reasons
   std::uint64_t opened = 0;                       // WebSockets
   std::uint64_t states_encoded = 0;
+  std::uint64_t past_states_encoded = 0;
   std::uint64_t pictures_encoded = 0;
   ClientCounters closed;       // sums over closed connections
   std::uint64_t failures = 0;  // exceptions that ended a request

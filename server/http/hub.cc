@@ -19,10 +19,11 @@ SharedBytes Share(Bytes bytes) { return std::make_shared<const Bytes>(std::move(
 }  // namespace
 
 Hub::Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, PictureFeed* feed,
-         std::string camera, Counters& counters)
+         const history::History* history, std::string camera, Counters& counters)
     : states_(states),
       pictures_(pictures),
       feed_(feed),
+      history_(history),
       camera_(std::move(camera)),
       counters_(counters) {}
 
@@ -109,6 +110,7 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
   }
   if (command->pictures) SetPictures(client, *command->pictures);
   if (command->camera) SelectCamera(client, *command->camera);
+  if (command->look) LookBack(client, *command->look);
   if (command->ping) client.Offer(Slot::kPong, Share(EncodePong(*command->ping, NowNanos())));
 }
 
@@ -120,6 +122,25 @@ void Hub::SelectCamera(HubClient& client, const std::string& camera) {
   ++counters_.rejected[feed_ == nullptr ? "no renderer" : "unknown camera"];
   client.Offer(Slot::kError,
                Share(EncodeError(feed_ == nullptr ? kNoRenderer : "unknown camera " + camera)));
+}
+
+void Hub::LookBack(HubClient& client, const struct LookBack& wanted) {
+  const auto state = history_ == nullptr ? nullptr
+                     : wanted.number     ? history_->Numbered(*wanted.number)
+                                         : history_->At(wanted.nanos);
+  if (state == nullptr) {
+    ++counters_.rejected["no history"];
+    return client.Offer(Slot::kError, Share(EncodeError(kNoHistory)));
+  }
+  ++counters_.past_states_encoded;
+  const std::string details = DetailsJson(state.get(), camera_, feed_ != nullptr);
+  client.Offer(Slot::kPast, Share(EncodePast(wanted.id, *state, details, Moment())));
+}
+
+StateMoment Hub::Moment() const {
+  StateMoment moment{NowNanos(), client_count(), {}};
+  if (history_ != nullptr) moment.kept = history_->extent();
+  return moment;
 }
 
 void Hub::SetPictures(HubClient& client, bool wanted) {
@@ -149,7 +170,7 @@ std::vector<ClientCounters> Hub::client_counters() const {
 SharedBytes Hub::EncodeNewestState() const {
   static const SceneState kNothing;
   const std::shared_ptr<const SceneState> state = states_.Get();
-  return Share(EncodeState(state != nullptr ? *state : kNothing, NowNanos(), client_count()));
+  return Share(EncodeState(state != nullptr ? *state : kNothing, Moment()));
 }
 
 SharedBytes Hub::EncodeDetails() const {

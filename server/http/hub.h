@@ -21,9 +21,9 @@ namespace kinescope::http {
 
 /// Messages that wait for sending: one place per slot, so that a newer message replaces the older
 /// one.
-enum class Slot { kError, kPong, kDetails, kState, kPicture };
-inline constexpr int kSlotCount = 5;
-constexpr bool IsBinary(Slot slot) { return slot == Slot::kState || slot == Slot::kPicture; }
+enum class Slot { kError, kPong, kDetails, kState, kPast, kPicture };
+inline constexpr int kSlotCount = 6;
+constexpr bool IsBinary(Slot slot) { return slot >= Slot::kState; }
 
 class HubClient {
  public:
@@ -41,9 +41,9 @@ class Hub {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `feed` may be null. All references are borrowed.
+  /// `feed` and `history` may be null. All references are borrowed.
   Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, PictureFeed* feed,
-      std::string camera, Counters& counters);
+      const history::History* history, std::string camera, Counters& counters);
 
   /// Whether a client at `address` may join: while its address has fewer clients than there are
   /// free places. So one address takes at most half of all, and never the last one.
@@ -76,6 +76,8 @@ class Hub {
 
  private:
   void SelectCamera(HubClient& client, const std::string& camera);
+  void LookBack(HubClient& client, const LookBack& wanted);
+  [[nodiscard]] StateMoment Moment() const;
   void SetPictures(HubClient& client, bool wanted);
   [[nodiscard]] int CountOf(const std::string& address) const;
   void CountViewers();  // call after a client has changed whether it wants pictures
@@ -85,6 +87,7 @@ class Hub {
   const Latest<SceneState>& states_;
   const Latest<Picture>& pictures_;
   PictureFeed* const feed_;
+  const history::History* const history_;
   std::string camera_;  // of the live picture
   Counters& counters_;
   std::set<HubClient*> clients_;

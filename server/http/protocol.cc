@@ -137,7 +137,7 @@ Bytes ToBytes(const json& message) {
 
 }  // namespace
 
-Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) {
+Bytes EncodeState(const SceneState& state, const StateMoment& moment) {
   const std::uint8_t people = CountByte(state.people.size());
   const std::uint8_t objects = CountByte(state.objects.size());
   Writer out(kStateHeaderBytes + people * std::size_t{1400});
@@ -147,12 +147,12 @@ Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) 
   out.Put(people);
   out.Put(state.counter);
   out.PutDouble(static_cast<double>(state.number));
-  out.PutDouble(Micros(now_nanos));
+  out.PutDouble(Micros(moment.now_nanos));
   out.PutDouble(Micros(state.arrival_nanos));
   out.PutDouble(Micros(state.stamp_nanos));
   out.PutDouble(static_cast<double>(state.time_code_millis));
   out.PutFloat(state.rate_hz);
-  out.Put(static_cast<std::uint32_t>(viewers));
+  out.Put(static_cast<std::uint32_t>(moment.viewers));
   out.PutFloat(state.floor_z);
   out.Put(objects);
   out.Put(std::uint8_t{0});
@@ -165,9 +165,28 @@ Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers) 
     below = std::max(below, rooms.back().below);
   }
   out.PutFloat(below);
+  out.PutDouble(Micros(state.made_nanos));
+  const history::Extent kept = moment.kept.value_or(history::Extent{});
+  out.PutDouble(Micros(kept.first_nanos));
+  out.PutDouble(static_cast<double>(kept.first_number));
   KINESCOPE_CHECK(out.size() == kStateHeaderBytes);
   for (std::size_t i = 0; i < people; ++i) PutPerson(out, state.people[i], rooms[i].height);
   for (std::size_t i = 0; i < objects; ++i) PutObject(out, state.objects[i]);
+  return out.Take();
+}
+
+Bytes EncodePast(std::uint32_t id, const SceneState& state, const std::string& details,
+                 const StateMoment& moment) {
+  const Bytes encoded = EncodeState(state, moment);
+  Writer out(kPastHeaderBytes + encoded.size() + details.size());
+  out.Put(static_cast<std::uint8_t>(MessageKind::kPast));
+  out.Put(kProtocolVersion);
+  out.Put(std::uint16_t{0});
+  out.Put(id);
+  out.Put(static_cast<std::uint32_t>(encoded.size()));
+  out.Put(static_cast<std::uint32_t>(details.size()));
+  out.PutBytes(encoded);
+  out.PutBytes(Bytes(details.begin(), details.end()));
   return out.Take();
 }
 
@@ -184,6 +203,36 @@ Bytes EncodePicture(const Picture& picture) {
   return out.Take();
 }
 
+namespace {
+
+constexpr char kLookExpected[] =
+    "look: expected {\"id\": a count, \"micros\": a time of this server} or {\"id\": a count, "
+    "\"number\": that of a state}";
+
+std::optional<LookBack> ParseLookBack(const json& value) {
+  constexpr double kMaxMicros = 9e15;  // exact as a float64, and as nanoseconds
+  if (!value.is_object()) return std::nullopt;
+  const auto id = value.find("id"), micros = value.find("micros"), number = value.find("number");
+  if (value.size() != 2 || id == value.end() || !id->is_number_unsigned() ||
+      id->get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
+    return std::nullopt;
+  }
+  LookBack look;
+  look.id = id->get<std::uint32_t>();
+  if (number != value.end() && number->is_number_unsigned()) {
+    look.number = number->get<std::uint64_t>();
+    return look;
+  }
+  if (micros == value.end() || !micros->is_number() ||
+      !(std::abs(micros->get<double>()) < kMaxMicros)) {
+    return std::nullopt;
+  }
+  look.nanos = std::llround(1e3 * micros->get<double>());
+  return look;
+}
+
+}  // namespace
+
 tl::expected<ClientCommand, std::string> ParseCommand(std::string_view text) {
   const json message = json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!message.is_object()) return tl::unexpected(std::string("expected one JSON object"));
@@ -194,6 +243,9 @@ tl::expected<ClientCommand, std::string> ParseCommand(std::string_view text) {
     } else if (key == "camera" && value.is_string() &&
                value.get_ref<const std::string&>().size() <= kMaxCameraName) {
       command.camera = value.get<std::string>();
+    } else if (key == "look") {
+      command.look = ParseLookBack(value);
+      if (!command.look) return tl::unexpected(std::string(kLookExpected));
     } else if (key == "ping" && value.is_number()) {
       command.ping = value.get<double>();
     } else if (key == "seen_states" && value.is_number_unsigned()) {
@@ -202,7 +254,8 @@ tl::expected<ClientCommand, std::string> ParseCommand(std::string_view text) {
       command.seen_pictures = value.get<std::uint64_t>();
     } else {
       return tl::unexpected(
-          std::string("expected \"pictures\": true|false, \"camera\": a name, \"ping\": a number, "
+          std::string("expected \"pictures\": true|false, \"camera\": a name, \"look\": an object, "
+                      "\"ping\": a number, "
                       "\"seen_states\" or \"seen_pictures\": a count"));
     }
   }

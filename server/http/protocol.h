@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/scene_state.h"
+#include "server/history/history.h"
 #include "server/http/server.h"
 
 namespace kinescope::http {
@@ -19,10 +20,10 @@ using Bytes = std::vector<std::uint8_t>;
 using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to every client
 
 /// First byte of a binary message.
-enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2 };
+enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2, kPast = 3 };
 
-inline constexpr std::uint8_t kProtocolVersion = 3;
-inline constexpr std::size_t kStateHeaderBytes = 72;
+inline constexpr std::uint8_t kProtocolVersion = 4;
+inline constexpr std::size_t kStateHeaderBytes = 96;
 inline constexpr std::size_t kPersonHeaderBytes = 64;
 inline constexpr std::size_t kLinkBytes = 28;
 inline constexpr std::size_t kLoadBytes = 28;
@@ -30,19 +31,38 @@ inline constexpr std::size_t kCornerBytes = 8;
 inline constexpr std::size_t kSolidBytes = 44;
 inline constexpr std::size_t kObjectBytes = 36;
 inline constexpr std::size_t kPictureHeaderBytes = 24;
+inline constexpr std::size_t kPastHeaderBytes = 16;
 
-/// `now_nanos`: current time of the monotonic clock, so that the page can show the age of the
-/// state. At most 255 people, 255 loads per person and 255 tracked objects are sent. Links are
+/// What a message says beside its state.
+struct StateMoment {
+  std::int64_t now_nanos = 0;  // of the monotonic clock, so that the page can show the age
+  int viewers = 0;
+  std::optional<history::Extent> kept;  // that viewers can look back to
+};
+
+/// At most 255 people, 255 loads per person and 255 tracked objects are sent. Links are
 /// those of core/person_links.h.
-Bytes EncodeState(const SceneState& state, std::int64_t now_nanos, int viewers);
+Bytes EncodeState(const SceneState& state, const StateMoment& moment);
+
+/// The answer to LookBack `id`: a former state and the content of its message "details".
+Bytes EncodePast(std::uint32_t id, const SceneState& state, const std::string& details,
+                 const StateMoment& moment);
 
 Bytes EncodePicture(const Picture& picture);
+
+/// A request for a former state: the one of `number`, or the newest at `nanos`.
+struct LookBack {
+  std::uint32_t id = 0;    // of the client, returned unchanged
+  std::int64_t nanos = 0;  // SceneState::made_nanos
+  std::optional<std::uint64_t> number;
+};
 
 /// A command of a client: one JSON object with any of these members.
 struct ClientCommand {
   std::optional<bool> pictures;       // whether the client wants the live picture
   std::optional<std::string> camera;  // of the live picture
-  std::optional<double> ping;         // the client's clock; returned unchanged
+  std::optional<LookBack> look;
+  std::optional<double> ping;  // the client's clock; returned unchanged
   // Number of states and pictures that the client has processed since it connected. A client that
   // reports these is sent only a few messages ahead, because messages that wait in a browser cannot
   // be replaced by newer ones.

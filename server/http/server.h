@@ -16,6 +16,7 @@
 #include "core/force_inputs.h"
 #include "core/scene_state.h"
 #include "core/system/latest.h"
+#include "server/history/history.h"
 #include "urdf/skin/skin_template.h"
 
 namespace kinescope::http {
@@ -95,6 +96,8 @@ struct HttpConfig {
   /// Sets the hand load of `character`: returns "" or why it is rejected. Called on the server's
   /// thread, must return at once. Null: hand loads cannot be set over HTTP.
   std::function<std::string(int character, const HandLoad& load)> set_hand_load;
+  /// Where viewers look back; borrowed. Null: they cannot.
+  const history::History* history = nullptr;
   PatienceLimits patience;
   /// Receives lines for the log, on the server's thread. May be null.
   std::function<void(const std::string& line)> warn;

@@ -43,9 +43,10 @@ struct SceneOptions : ModelSettings {
 
 class SceneBuilder : public SampleSink, public SmoothSampleSink {
  public:
-  using OnState = std::function<void(std::shared_ptr<const SceneState>)>;
+  using OnState = std::function<void(std::shared_ptr<SceneState>)>;
 
-  /// `on_state` receives every new state, on the caller's thread. Start delivers the first one, "no
+  /// `on_state` receives every new state, on the caller's thread, and is the first to have it: it
+  /// may complete it. Start delivers the first one, "no
   /// data". @throws SourceError, UsageError if the file of measured forces is refused
   SceneBuilder(SceneOptions options, std::string source, double nominal_rate_hz, OnState on_state);
 

@@ -38,7 +38,7 @@ struct Said {
 using ByJoint = std::map<int, Said>;  // by urdf::Joint
 
 ByJoint OfPage(const SceneState& scene) {
-  const http::Bytes bytes = http::EncodeState(scene, 0, 1);
+  const http::Bytes bytes = http::EncodeState(scene, {0, 1, {}});
   const PersonState& person = scene.people.front();
   // The loads stand before the corners, solids and objects that follow them.
   ByJoint said;

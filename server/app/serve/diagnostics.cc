@@ -65,7 +65,8 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::shared_ptr<const SourceCounters>& counters,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
                             const std::optional<DrawingStatus>& pictures,
-                            const std::optional<DrawingStatus>& view, std::uint64_t skipped) {
+                            const std::optional<DrawingStatus>& view, std::uint64_t skipped,
+                            const history::History* history) {
   json out;
   out["version"] = KINESCOPE_VERSION;
   if (state) {
@@ -128,6 +129,13 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                    {"draw_millis", view->draw_millis}, {"send_millis", view->deliver_millis},
                    {"last_error", view->last_error},   {"driver_hung", view->hangs},
                    {"problems", view->problems}};
+  }
+  out["history"] = nullptr;
+  if (history != nullptr) {
+    const history::Extent kept = history->extent().value_or(history::Extent{});
+    out["history"] = {{"secs", Secs(kept.last_nanos - kept.first_nanos)},
+                      {"states", kept.last_number - kept.first_number + 1},
+                      {"bytes", history->bytes()}};
   }
   // A file name need not be UTF-8.
   return JsonText(out);

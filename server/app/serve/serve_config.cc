@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "core/system/errors.h"
@@ -123,6 +124,10 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
   ServeConfig config = BridgeConfigOf(options);
   if (!with_page) return config;
   config.page = PageOf(options);
+  if (*options.history_minutes > 0) {
+    config.history.emplace();
+    config.history->nanos = std::llround(*options.history_minutes * 60e9);
+  }
   const PageToken token = FindPageToken({*options.token, options.token_given_as},
                                         *options.token_file, std::getenv(kTokenVariable));
   config.page->token = token.text;

@@ -8,6 +8,7 @@
 #include "server/app/serve/live_pictures.h"
 #include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/serve_options.h"
+#include "server/history/history.h"
 #include "server/http/server.h"
 #include "server/picture/backend.h"
 #include "server/ros/bridge.h"
@@ -27,10 +28,11 @@ struct ServeConfig {
   std::optional<ros_bridge::BridgeConfig> ros;  // initial_urdf is known when the scene builder is
   BackendOptions backend;
   std::optional<LivePictureSettings> pictures;
-  std::optional<RosCameraSettings> ros_camera;  // only with `pictures` and `ros`
-  std::optional<http::HttpConfig> page;         // without its callbacks
-  std::string how_to_see_token;                 // command that prints the token of the page, or ""
-  bool shows_token = false;                     // in the log, which is a terminal and no file
+  std::optional<RosCameraSettings> ros_camera;    // only with `pictures` and `ros`
+  std::optional<history::HistoryLimits> history;  // only with `page`
+  std::optional<http::HttpConfig> page;           // without its callbacks
+  std::string how_to_see_token;    // command that prints the token of the page, or ""
+  bool shows_token = false;        // in the log, which is a terminal and no file
   std::vector<std::string> notes;  // parts that other options switched off, for the log
 };
 

@@ -74,6 +74,7 @@ ServeOptions::ServeOptions()
       joint_angle_source(Words({"computed", "streamed"}), "computed"),
       bind_ip("127.0.0.1"),
       http_port(8080, {0, 65535, "", false, "0: a free one, which is printed"}),
+      history_minutes(10, {0, 60, "min"}),
       pictures(true),
       camera(1),
       picture_size({kDefaultPictureWidth, kDefaultPictureHeight}),
@@ -130,6 +131,9 @@ void ServeOptions::List(options::OptionList& option) {
   option("token", token,
          "the token itself, which the list of processes then shows; prefer --token_file or the "
          "environment variable KINESCOPE_TOKEN");
+  option("history_minutes", history_minutes,
+         "time that viewers of the page can look back; 0: none. Of a stream that needs more than "
+         "500 MB for it, less is kept");
   option.Group("Page and pictures");
   ListPeopleLook(option, figure, style, loads_shown);
   option("pictures", pictures, "whether the server draws pictures");

@@ -44,6 +44,7 @@ struct ServeOptions {
   options::Text bind_ip;
   options::Whole http_port;
   options::Text token, token_file;
+  options::Number history_minutes;
   std::string token_given_as = "--token";  // as messages name it: "~token", "file.yaml:3: token"
   FigureValue figure;
   StyleValue style;

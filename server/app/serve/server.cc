@@ -40,9 +40,10 @@ Server::Server(const ServeConfig& config)
     : start_nanos_(MonotonicNanos()),
       listener_(config.page ? std::make_unique<http::Listener>(*config.page) : nullptr),
       source_(OpenAtTrueRate(config.source_url, config.loop, config.source)),
+      history_(config.history ? std::make_unique<history::History>(*config.history) : nullptr),
       overload_(/*may_skip=*/!config.ros),
       builder_(config.scene, source_->description(), source_->nominal_rate_hz(),
-               [this](const std::shared_ptr<const SceneState>& state) { OnState(state); }) {
+               [this](const std::shared_ptr<SceneState>& state) { OnState(state); }) {
   for (const std::string& note : config.notes) spdlog::info("{}", note);
   LogListening(*source_, config.source_reach);
   if (config.ros) StartRos(*config.ros, config.ros_mode);
@@ -77,6 +78,7 @@ void Server::StartPage(const ServeConfig& config) {
   page.set_hand_load = [this](int character, const HandLoad& load) {
     return hand_loads_.Put(character, load);
   };
+  page.history = history_.get();
   page.warn = [](const std::string& line) { spdlog::warn("{}", line); };
   page_.emplace(page, *listener_, states_, pictures_, live_pictures_.get(),
                 [this] { return Diagnostics(); });
@@ -88,9 +90,11 @@ void Server::StartPage(const ServeConfig& config) {
                    : " (the token is shortened; to see it: " + config.how_to_see_token + ")");
 }
 
-void Server::OnState(const std::shared_ptr<const SceneState>& state) {
+void Server::OnState(const std::shared_ptr<SceneState>& state) {
+  state->made_nanos = MonotonicNanos();
   if (ros_) ros_->Publish(*state);
   states_.Publish(state);
+  if (history_) history_->Add(state);
   if (live_pictures_) live_pictures_->OnState(state);
   if (ros_camera_) ros_camera_->OnState(state);
   liveness_log_.OnState(*state);
@@ -98,7 +102,7 @@ void Server::OnState(const std::shared_ptr<const SceneState>& state) {
 
 std::string Server::Diagnostics() const {
   return DiagnosticsJson(states_.Get(), counters_.Get(), StatusOf(ros_), StatusOf(live_pictures_),
-                         StatusOf(ros_camera_), overload_.skipped());
+                         StatusOf(ros_camera_), overload_.skipped(), history_.get());
 }
 
 void Server::Run() {

@@ -18,6 +18,7 @@
 #include "server/app/serve/overload.h"
 #include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/serve_config.h"
+#include "server/history/history.h"
 #include "server/http/server.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
@@ -41,7 +42,7 @@ class Server {
   void StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode);
   void StartPictures(const ServeConfig& config);
   void StartPage(const ServeConfig& config);
-  void OnState(const std::shared_ptr<const SceneState>& state);
+  void OnState(const std::shared_ptr<SceneState>& state);
   void OnTime(std::int64_t now_nanos);  // between polls
   std::string Diagnostics() const;      // on the page's thread
 
@@ -50,11 +51,12 @@ class Server {
                                               // has it
   const std::unique_ptr<Source> source_;
   // Between threads:
-  Latest<SceneState> states_;        // reading thread -> page
-  Latest<SourceCounters> counters_;  // reading thread -> page
-  Latest<http::Picture> pictures_;   // drawing thread -> page
-  HandLoadMailbox hand_loads_;       // page -> reading thread
-  Overload overload_;                // its count: reading thread -> page
+  Latest<SceneState> states_;                        // reading thread -> page
+  Latest<SourceCounters> counters_;                  // reading thread -> page
+  Latest<http::Picture> pictures_;                   // drawing thread -> page
+  HandLoadMailbox hand_loads_;                       // page -> reading thread
+  const std::unique_ptr<history::History> history_;  // reading thread -> page; null: off
+  Overload overload_;                                // its count: reading thread -> page
   // Used by the reading thread only:
   LivenessLog liveness_log_;
   MissingPoseWarning missing_pose_warning_;

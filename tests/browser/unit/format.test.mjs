@@ -13,6 +13,8 @@ table('latencies', [[format.latency(4.21), '4.2 ms'], [format.latency(9.96), '10
 table('time codes', [[format.timeCode(0), '00:00:00.000'], [format.timeCode(83456), '00:01:23.456'],
   [format.timeCode(86399999), '23:59:59.999'], [format.timeCode(360000000), '100:00:00.000'], [format.timeCode(-1), '–'],
   [format.timeCode(NaN), '–']]);
+table('lags', [[format.lag(0), '−0.0 s'], [format.lag(12_449), '−12.4 s'], [format.lag(59_960), '−1:00 min'],
+  [format.lag(133_400), '−2:13 min'], [format.lag(-5), '−0.0 s']]);
 table('ages', [[format.age(0.44), '0.4 s'], [format.age(12.7), '12 s'], [format.age(185), '3 min'],
   [format.age(7300), '2 h']]);
 table('percentages', [[format.percent(0.256), '26 %'], [format.percent(1.4), '140 %'], [format.percent(NaN), '–']]);

@@ -2,14 +2,14 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import test from 'node:test';
-import { decodePicture, decodeState, KIND, messageKind } from '../../../web/state_codec.js';
+import { decodePast, decodePicture, decodeState, KIND, messageKind } from '../../../web/state_codec.js';
 import { legendWords } from '../../../web/load_list.js';
 
 const program = process.env.KINESCOPE_PAGE_FIXTURE;
 if (!program) throw new Error('set KINESCOPE_PAGE_FIXTURE to the built page_fixture_server; ctest does it');
 const told = JSON.parse(execFileSync(program, ['describe'], { encoding: 'utf8', maxBuffer: 1 << 24 }));
 
-const HEADER = 72;  // bytes
+const HEADER = 96;  // bytes
 
 const toBuffer = (hex) => Uint8Array.from(Buffer.from(hex, 'hex')).buffer;
 const state = toBuffer(told.hex);
@@ -32,6 +32,18 @@ function assertClose(actual, expected, path = 'state') {
 test('a state of two people, gloves and an object is decoded as the server encoded it', () => {
   assert.equal(messageKind(state), KIND.state);
   assertClose(decodeState(state), told.state);
+});
+
+test('a former state comes with the id of its request and its details', () => {
+  const past = toBuffer(told.past_hex);
+  assert.equal(messageKind(past), KIND.past);
+  const { id, state: former, details } = decodePast(past);
+  assert.equal(id, 7);
+  assertClose(former, told.state);
+  assert.equal(details, '{"details": 5}');
+  for (const size of [7, 15, 20, past.byteLength - 1]) {
+    assert.throws(() => decodePast(past.slice(0, size)), /truncated/, `taken at ${size} bytes`);
+  }
 });
 
 test('every truncated state is rejected', () => {

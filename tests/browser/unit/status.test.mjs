@@ -21,9 +21,18 @@ test('a stale stream is shown as stale with its age', () => {
 test('an overloaded server is named with its delay, and never live', () => {
   const status = statusOf({ ...good, ageMillis: 3700, waitedMillis: 3700 });
   assert.deepEqual([status.level, status.word, status.banner],
-    ['stale', 'Behind', 'The server is too busy: behind by 3.7 s']);
+    ['stale', 'Overloaded', 'The server is too busy: behind by 3.7 s']);
   assert.equal(level({ waitedMillis: BEHIND_MILLIS }), 'live');
   assert.equal(statusOf({ ...good, liveness: 'stale', waitedMillis: 3700 }).word, 'Stale', 'the stream has stopped');
+});
+
+test('a viewer who looks back is told so, and what is wrong with the live stream', () => {
+  const behind = { ...good, behindMillis: 12_400 };
+  assert.deepEqual(statusOf(behind), { level: 'behind', word: 'Behind −12.4 s', banner: '' });
+  assert.match(statusOf({ ...behind, isGone: true }).banner, /no longer kept/);
+  assert.match(statusOf({ ...behind, liveness: 'stale', isGone: true }).banner, /^Live stream: Stale\. The stream has/);
+  assert.match(statusOf({ ...behind, connected: false }).banner, /^Live stream: Disconnected\./);
+  assert.equal(statusOf({ ...good, behindMillis: null }).word, 'Live');
 });
 
 test('people who are left out are named with the reason', () => {

@@ -197,6 +197,7 @@ json Describe() {
   SceneState state = MakeScene(41, 3.25, 5'000'000'000, MakePersonModel(7), 2);
   state.waited_nanos = 120'000'000;
   state.view_heading = -2.25;
+  state.made_nanos = 5'001'000'000;
   kinescope::testing::Wear(state.people[1]);
   state.objects = {{9, 22, "cart", {{1, -2, 0.5}, {0.5, -0.5, 0.5, 0.5}}, 5}};
   json people = json::array();
@@ -263,7 +264,9 @@ json Describe() {
                        {"position", Numbers(object.pose.position)},
                        {"quaternion", Numbers(object.pose.orientation)}});
   }
-  return {{"hex", Hex(EncodeState(state, 5'004'000'000, 3))},
+  const StateMoment moment = {5'004'000'000, 3, history::Extent{2'000'000'000, 0, 12, 0}};
+  return {{"hex", Hex(EncodeState(state, moment))},
+          {"past_hex", Hex(EncodePast(7, state, R"({"details": 5})", moment))},
           {"state",
            {{"liveness", "live"},
             {"counter", state.counter},
@@ -278,6 +281,9 @@ json Describe() {
             {"waitedMillis", state.waited_nanos / 1'000'000},
             {"viewHeading", state.view_heading},
             {"viewBelow", static_cast<float>(below)},
+            {"madeMicros", state.made_nanos / 1000},
+            {"oldestMicros", 2'000'000},
+            {"oldestNumber", 12},
             {"people", people},
             {"objects", objects}}},
           {"skins", {SkinToJson(state.people[0]), SkinToJson(state.people[1])}},
@@ -381,6 +387,8 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
   };
   Latest<SceneState> states;
   Latest<Picture> pictures;
+  history::History history;
+  config.history = &history;
   HttpServer server(config, states, pictures, feed, [&] { return options.diagnostics; });
   std::cout << json{{"url", server.url()}}.dump() << std::endl;
   const auto model = MakePersonModel(1, options.mesh_folder);
@@ -400,7 +408,10 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
       const std::lock_guard<std::mutex> lock(told.mutex);
       Hold(told.loads, state);
     }
-    states.Publish(std::make_shared<const SceneState>(state));
+    state.made_nanos = MonotonicNanos();
+    const auto published = std::make_shared<const SceneState>(state);
+    states.Publish(published);
+    history.Add(published);
     if (feed != nullptr && feed->viewers() > 0 && state.number % 4 == 0) {
       pictures.Publish(std::make_shared<const Picture>(
           Picture{PlainJpeg(640, 360, {40, 90, 160}), state.number, state.arrival_nanos}));

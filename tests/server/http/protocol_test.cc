@@ -107,7 +107,9 @@ TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
   for (const PersonState& person : state.people) {
     below = std::max(below, RoomFor(person, state.floor_z).below);
   }
-  const Bytes bytes = EncodeState(state, 5'004'000'000, 3);
+  state.made_nanos = 5'001'000'000;
+  const history::Extent kept = {2'000'000'000, 5'001'000'000, 12, 41};
+  const Bytes bytes = EncodeState(state, {5'004'000'000, 3, kept});
   Reader in(bytes);
   EXPECT_EQ(in.Get<std::uint8_t>(), 1);
   EXPECT_EQ(in.Get<std::uint8_t>(), kProtocolVersion);
@@ -126,6 +128,9 @@ TEST(StateMessage, HasEveryFieldAtItsDocumentedPlace) {
   EXPECT_EQ(in.Get<std::uint16_t>(), 371) << "waited, in 10 ms";
   EXPECT_EQ(in.Get<float>(), -2.5);
   EXPECT_FLOAT_EQ(in.Get<float>(), static_cast<float>(below));
+  EXPECT_EQ(in.Get<double>(), 5'001'000);
+  EXPECT_EQ(in.Get<double>(), 2'000'000);
+  EXPECT_EQ(in.Get<double>(), 12);
   for (const PersonState& person : state.people) ExpectPerson(in, person, state.floor_z);
   EXPECT_TRUE(in.AtEnd());
 }
@@ -134,9 +139,9 @@ TEST(StateMessage, HasFingersAndPropsInTheOrderOfTheModel) {
   SceneState state = Scene();
   PersonState& person = state.people[0];
   kinescope::testing::Wear(person);
-  const Bytes bytes = EncodeState(state, 0, 1);
+  const Bytes bytes = EncodeState(state, {0, 1, {}});
   EXPECT_EQ(bytes[kStateHeaderBytes + 5], 23 + 40 + 2);
-  const Bytes bare = EncodeState(Scene(), 0, 1);
+  const Bytes bare = EncodeState(Scene(), {0, 1, {}});
   EXPECT_EQ(bytes.size(), bare.size() + 42 * kLinkBytes);
   const auto position_of = [&](std::size_t link) {
     const std::size_t at = kStateHeaderBytes + kPersonHeaderBytes + link * kLinkBytes;
@@ -151,10 +156,10 @@ TEST(StateMessage, HasFingersAndPropsInTheOrderOfTheModel) {
 
 TEST(StateMessage, HasTrackedObjectsAfterThePeople) {
   SceneState state = Scene();
-  const std::size_t people = EncodeState(state, 0, 1).size();
+  const std::size_t people = EncodeState(state, {0, 1, {}}).size();
   const urdf::Pose pose{{1, -2, 0.5}, Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5)};
   state.objects = {{4, 0, "tool", pose, 5}, {-4, 22, "cart", pose, 5}};
-  const Bytes bytes = EncodeState(state, 0, 1);
+  const Bytes bytes = EncodeState(state, {0, 1, {}});
   EXPECT_EQ(bytes[60], 2);
   ASSERT_EQ(bytes.size(), people + 2 * kObjectBytes);
   const Bytes second(bytes.end() - static_cast<std::ptrdiff_t>(kObjectBytes), bytes.end());
@@ -165,24 +170,24 @@ TEST(StateMessage, HasTrackedObjectsAfterThePeople) {
   EXPECT_EQ(in.GetVector(), pose.position);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(in.Get<float>(), pose.orientation.coeffs()[i]);
   state.objects.resize(300, state.objects.front());
-  EXPECT_EQ(EncodeState(state, 0, 1)[60], 255);
-  EXPECT_EQ(EncodeState(state, 0, 1).size(), people + 255 * kObjectBytes);
+  EXPECT_EQ(EncodeState(state, {0, 1, {}})[60], 255);
+  EXPECT_EQ(EncodeState(state, {0, 1, {}}).size(), people + 255 * kObjectBytes);
 }
 
 TEST(StateMessage, OfOnePersonWithALoadStaysBelow1500Bytes) {
-  EXPECT_LT(EncodeState(Scene(), 0, 1).size(), 1500u);
+  EXPECT_LT(EncodeState(Scene(), {0, 1, {}}).size(), 1500u);
 }
 
 TEST(StateMessage, ConsistsOfItsHeaderWithoutPeople) {
-  EXPECT_EQ(EncodeState(SceneState(), 0, 0).size(), kStateHeaderBytes);
+  EXPECT_EQ(EncodeState(SceneState(), {0, 0, {}}).size(), kStateHeaderBytes);
 }
 
 TEST(StateMessage, ContainsAtMost255People) {
   SceneState state = Scene();
   state.people.resize(300, state.people.front());
-  const Bytes bytes = EncodeState(state, 0, 1);
+  const Bytes bytes = EncodeState(state, {0, 1, {}});
   EXPECT_EQ(bytes[3], 255);
-  const std::size_t person_bytes = EncodeState(Scene(), 0, 1).size() - kStateHeaderBytes;
+  const std::size_t person_bytes = EncodeState(Scene(), {0, 1, {}}).size() - kStateHeaderBytes;
   EXPECT_EQ(bytes.size(), kStateHeaderBytes + 255 * person_bytes);
 }
 
@@ -190,7 +195,7 @@ TEST(StateMessage, MarksMissingValues) {
   SceneState state = Scene();
   state.people[0].com.reset();
   state.people[0].cop.reset();
-  EXPECT_EQ(EncodeState(state, 0, 1)[kStateHeaderBytes + 4] & 3, 0);
+  EXPECT_EQ(EncodeState(state, {0, 1, {}})[kStateHeaderBytes + 4] & 3, 0);
 }
 
 TEST(PictureMessage, ContainsTheNumberOfItsState) {

@@ -196,6 +196,13 @@ WsClient::Message WsClient::ReceivePicture() {
   }
 }
 
+WsClient::Message WsClient::ReceivePast() {
+  while (true) {
+    Message message = Receive();
+    if (message.IsPast()) return message;
+  }
+}
+
 nlohmann::json WsClient::ReceiveText(const std::string& key) {
   while (true) {
     const Message message = Receive();

@@ -63,12 +63,14 @@ class WsClient {
     nlohmann::json json() const { return nlohmann::json::parse(bytes.begin(), bytes.end()); }
     bool IsState() const { return !is_text && !bytes.empty() && bytes[0] == 1; }
     bool IsPicture() const { return !is_text && !bytes.empty() && bytes[0] == 2; }
+    bool IsPast() const { return !is_text && !bytes.empty() && bytes[0] == 3; }
     std::uint64_t state_number() const;  // of a state or a picture
   };
 
   Message Receive();
   Message ReceiveState();
   Message ReceivePicture();
+  Message ReceivePast();
   /// The next text message that has `key`.
   nlohmann::json ReceiveText(const std::string& key);
   /// True once the server has closed the connection; what comes before is dropped. False after

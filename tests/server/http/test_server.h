@@ -101,6 +101,7 @@ struct TestServer {
   HttpConfig ConfigWithLoads(const std::string& token) {
     HttpConfig config = MakeConfig(token);
     config.patience = patience;
+    config.history = &history;
     config.set_hand_load = [this](int character, const HandLoad& load) {
       const std::lock_guard<std::mutex> lock(mutex);
       if (load.mass_kg[urdf::kRight] > 100) return std::string("nobody holds that");
@@ -115,8 +116,11 @@ struct TestServer {
   }
 
   void PublishState(std::uint64_t number) {
-    states.Publish(std::make_shared<const SceneState>(
-        MakeScene(number, static_cast<double>(number) / 60, MonotonicNanos(), model)));
+    auto state = std::make_shared<SceneState>(
+        MakeScene(number, static_cast<double>(number) / 60, MonotonicNanos(), model));
+    state->made_nanos = state->arrival_nanos;
+    states.Publish(state);
+    history.Add(std::move(state));
   }
   void PublishPicture(std::uint64_t number, std::size_t size) {
     Picture picture;
@@ -135,6 +139,7 @@ struct TestServer {
   FakeFeed feed;
   Latest<SceneState> states;
   Latest<Picture> pictures;
+  history::History history;
   std::shared_ptr<const PersonModel> model;
   HttpServer server;
 };

@@ -87,6 +87,68 @@ TEST(WebSocket, RepeatsAnOldStateSoThatClientsDetectADeadServer) {
   }
 }
 
+// The answer to a request for a former state, taken apart as docs/http.md has it.
+struct Past {
+  explicit Past(const WsClient::Message& message) {
+    std::uint32_t sizes[2];
+    std::memcpy(&id, message.bytes.data() + 4, sizeof id);
+    std::memcpy(sizes, message.bytes.data() + 8, sizeof sizes);
+    EXPECT_EQ(message.bytes.size(), kPastHeaderBytes + sizes[0] + sizes[1]);
+    const auto from = message.bytes.begin() + kPastHeaderBytes;
+    state.bytes.assign(from, from + sizes[0]);
+    details = nlohmann::json::parse(from + sizes[0], message.bytes.end())["details"];
+  }
+  std::uint32_t id = 0;
+  WsClient::Message state;
+  nlohmann::json details;
+};
+
+double MadeMicros(const WsClient::Message& state) {
+  double value = 0;
+  std::memcpy(&value, state.bytes.data() + 72, sizeof value);
+  return value;
+}
+
+TEST(WebSocket, ShowsFormerStatesToThoseWhoAsk) {
+  TestServer site;
+  WsClient viewer(site.server.port()), other(site.server.port());
+  for (std::uint64_t number = 5; number <= 300; ++number) PublishAndSee(site, other, number);
+  viewer.Send(R"({"look": {"id": 17, "number": 20}})");
+  const Past past(viewer.ReceivePast());
+  EXPECT_EQ(past.id, 17u);
+  EXPECT_EQ(past.state.state_number(), 20u);
+  EXPECT_EQ(past.details["people"][0]["loads"][0]["channel"], "flexion");
+  // By the time that it says of itself, and a little later.
+  const std::string micros = std::to_string(MadeMicros(past.state) + 1);
+  viewer.Send(R"({"look": {"id": 18, "micros": )" + micros + "}}");
+  EXPECT_EQ(Past(viewer.ReceivePast()).state.state_number(), 20u);
+  viewer.Send(R"({"look": {"id": 19, "micros": 0}})");
+  EXPECT_EQ(Past(viewer.ReceivePast()).state.state_number(), 5u) << "the oldest";
+  viewer.Send(R"({"look": {"id": 20, "number": 1000}})");
+  EXPECT_EQ(Past(viewer.ReceivePast()).state.state_number(), 300u) << "the newest";
+  site.PublishState(301);
+  while (viewer.ReceiveState().state_number() != 301) {
+  }
+  EXPECT_EQ(site.HttpCounters()["past_states_encoded"], 4);
+}
+
+TEST(WebSocket, RefusesMomentsThatAreNone) {
+  TestServer site;
+  WsClient viewer(site.server.port());
+  viewer.Send(R"({"look": {"id": 1, "number": 1}})");
+  EXPECT_THAT(viewer.ReceiveText("error")["error"], HasSubstr("none came yet"));
+  for (const char* look :
+       {R"(5)", R"({})", R"({"id": 1})", R"({"id": -1, "number": 5})", R"({"id": 1, "number": -5})",
+        R"({"id": 1, "micros": "now"})", R"({"id": 1, "micros": 1e30})",
+        R"({"id": 1, "micros": 5, "number": 5})", R"({"id": 4294967296, "number": 5})"}) {
+    viewer.Send(std::string(R"({"look": )") + look + "}");
+    EXPECT_THAT(viewer.ReceiveText("error")["error"], HasSubstr("look: expected")) << look;
+  }
+  site.PublishState(2);
+  viewer.Send(R"({"look": {"id": 1, "number": 1}})");
+  EXPECT_EQ(Past(viewer.ReceivePast()).state.state_number(), 2u);
+}
+
 TEST(WebSocket, LimitsTheRateOfStates) {
   TestServer site;
   const auto start = std::chrono::steady_clock::now();

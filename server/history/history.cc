@@ -1,0 +1,171 @@
+#include "server/history/history.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace kinescope::history {
+namespace {
+
+constexpr std::size_t kStatesPerChunk = 120;  // half a second of a fast stream
+constexpr std::size_t kUnpackedChunks = 8;    // viewers at other moments unpack theirs again
+
+struct ByTime {
+  using Value = std::int64_t;
+  static Value Of(const SceneState& state) { return state.made_nanos; }
+  static Value Of(const Chunk::Rows& rows, std::size_t row) { return rows.made_nanos(row); }
+  static Value First(const Chunk& chunk) { return chunk.first_nanos(); }
+};
+
+struct ByNumber {
+  using Value = std::uint64_t;
+  static Value Of(const SceneState& state) { return state.number; }
+  static Value Of(const Chunk::Rows& rows, std::size_t row) { return rows.number(row); }
+  static Value First(const Chunk& chunk) { return chunk.first_number(); }
+};
+
+}  // namespace
+
+History::History(HistoryLimits limits) : limits_(limits), worker_([this] { Work(); }) {}
+
+History::~History() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_ending_ = true;
+  }
+  changed_.notify_all();
+  worker_.join();
+}
+
+void History::Add(std::shared_ptr<const SceneState> state) {
+  bool is_complete = false;
+  {
+    const std::lock_guard lock(mutex_);
+    open_.push_back(std::move(state));
+    Forget();
+    CountRun();
+    is_complete = IsRunComplete();
+  }
+  if (is_complete) changed_.notify_all();
+}
+
+// Of states that were not looked at yet: comparing all of them for each new one would take longer
+// than compressing them.
+void History::CountRun() {
+  while (run_ < open_.size() && run_ < kStatesPerChunk && SameForm(*open_.front(), *open_[run_])) {
+    ++run_;
+  }
+}
+
+bool History::IsRunComplete() const { return run_ == kStatesPerChunk || run_ < open_.size(); }
+
+void History::Work() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] { return is_ending_ || IsRunComplete(); });
+    if (is_ending_) return;
+    const auto end = open_.begin() + static_cast<std::ptrdiff_t>(run_);
+    const States states(open_.begin(), end);
+    const auto before = chunks_.empty() ? nullptr : chunks_.back();
+    is_working_ = true;
+    lock.unlock();
+    auto chunk = std::make_shared<const Chunk>(states, before.get());
+    lock.lock();
+    is_working_ = false;
+    open_.erase(open_.begin(), open_.begin() + static_cast<std::ptrdiff_t>(states.size()));
+    run_ = 0;
+    CountRun();
+    bytes_ += chunk->bytes();
+    chunks_.push_back(std::move(chunk));
+    Forget();
+    changed_.notify_all();
+  }
+}
+
+void History::Forget() {
+  const std::int64_t oldest = open_.empty() ? chunks_.back()->last_nanos() - limits_.nanos
+                                            : open_.back()->made_nanos - limits_.nanos;
+  while (!chunks_.empty() && (chunks_.front()->last_nanos() < oldest || bytes_ > limits_.bytes)) {
+    bytes_ -= chunks_.front()->bytes();
+    chunks_.pop_front();
+  }
+}
+
+std::optional<Extent> History::extent() const {
+  const std::lock_guard lock(mutex_);
+  if (chunks_.empty() && open_.empty()) return std::nullopt;
+  Extent extent;
+  if (!open_.empty()) {
+    extent = {open_.front()->made_nanos, open_.back()->made_nanos, open_.front()->number,
+              open_.back()->number};
+  } else {
+    extent.last_nanos = chunks_.back()->last_nanos();
+    extent.last_number = chunks_.back()->last_number();
+  }
+  if (!chunks_.empty()) {
+    extent.first_nanos = chunks_.front()->first_nanos();
+    extent.first_number = chunks_.front()->first_number();
+  }
+  return extent;
+}
+
+std::size_t History::bytes() const {
+  const std::lock_guard lock(mutex_);
+  return bytes_;
+}
+
+// The newest state whose key is at most `wanted`, else the oldest one.
+template <class Key>
+std::shared_ptr<const SceneState> History::Find(typename Key::Value wanted) const {
+  std::shared_ptr<const Chunk> chunk;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!open_.empty() && (chunks_.empty() || Key::Of(*open_.front()) <= wanted)) {
+      const auto after =
+          std::upper_bound(open_.begin(), open_.end(), wanted,
+                           [](auto value, const auto& each) { return value < Key::Of(*each); });
+      return after == open_.begin() ? *after : *std::prev(after);
+    }
+    if (chunks_.empty()) return nullptr;
+    const auto after =
+        std::upper_bound(chunks_.begin(), chunks_.end(), wanted,
+                         [](auto value, const auto& each) { return value < Key::First(*each); });
+    chunk = after == chunks_.begin() ? *after : *std::prev(after);
+  }
+  const auto rows = Unpacked(chunk);
+  std::size_t row = 0;
+  while (row + 1 < rows->count() && Key::Of(*rows, row + 1) <= wanted) ++row;
+  return chunk->At(*rows, row);
+}
+
+std::shared_ptr<const Chunk::Rows> History::Unpacked(
+    const std::shared_ptr<const Chunk>& chunk) const {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::find_if(unpacked_.begin(), unpacked_.end(),
+                                    [&](const auto& each) { return each.first == chunk; });
+    if (found != unpacked_.end()) {
+      unpacked_.splice(unpacked_.begin(), unpacked_, found);
+      return found->second;
+    }
+  }
+  auto rows = std::make_shared<const Chunk::Rows>(chunk->Unpack());
+  const std::lock_guard lock(mutex_);
+  unpacked_.emplace_front(chunk, rows);
+  if (unpacked_.size() > kUnpackedChunks) unpacked_.pop_back();
+  return rows;
+}
+
+std::shared_ptr<const SceneState> History::At(std::int64_t nanos) const {
+  return Find<ByTime>(nanos);
+}
+
+std::shared_ptr<const SceneState> History::Numbered(std::uint64_t number) const {
+  return Find<ByNumber>(number);
+}
+
+void History::Settle() const {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return !is_working_ && !IsRunComplete(); });
+}
+
+}  // namespace kinescope::history

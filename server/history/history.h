@@ -1,0 +1,82 @@
+/// The last minutes of all states, so that each viewer can look back while the stream goes on.
+/// States are compressed on a thread of its own; adding one costs a pointer. Any thread.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "core/scene_state.h"
+#include "server/history/chunk.h"
+
+namespace kinescope::history {
+
+struct HistoryLimits {
+  std::int64_t nanos = 600'000'000'000;        // older states are forgotten
+  std::size_t bytes = std::size_t{500} << 20;  // and the oldest of more than that
+};
+
+/// The states that are kept: a first and a last one, by SceneState::made_nanos and number.
+struct Extent {
+  std::int64_t first_nanos = 0, last_nanos = 0;
+  std::uint64_t first_number = 0, last_number = 0;
+};
+
+class History {
+ public:
+  explicit History(HistoryLimits limits = {});
+  ~History();
+  History(const History&) = delete;
+  History& operator=(const History&) = delete;
+
+  /// @pre number and made_nanos are not below those of the state before.
+  void Add(std::shared_ptr<const SceneState> state);
+
+  /// nullopt before the first state.
+  std::optional<Extent> extent() const;
+  std::size_t bytes() const;  // of the compressed states
+
+  /// The newest state that was made at or before `nanos`; the oldest kept one if all are newer.
+  /// Null before the first state.
+  std::shared_ptr<const SceneState> At(std::int64_t nanos) const;
+  /// The state of this number; the nearest kept one if it is gone, or not there yet.
+  std::shared_ptr<const SceneState> Numbered(std::uint64_t number) const;
+
+  /// Waits until no more states can be compressed. For tests and figures.
+  void Settle() const;
+
+ private:
+  using States = std::vector<std::shared_ptr<const SceneState>>;
+  using Chunks = std::deque<std::shared_ptr<const Chunk>>;
+
+  void Work();
+  void CountRun();
+  bool IsRunComplete() const;
+  void Forget();
+  template <class Key>
+  std::shared_ptr<const SceneState> Find(typename Key::Value wanted) const;
+  std::shared_ptr<const Chunk::Rows> Unpacked(const std::shared_ptr<const Chunk>& chunk) const;
+
+  const HistoryLimits limits_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable changed_;
+  // Guarded by mutex_:
+  Chunks chunks_;
+  std::deque<std::shared_ptr<const SceneState>> open_;  // newer than all chunks
+  std::size_t run_ = 0;  // states at the front of `open_` that are of one form
+  std::size_t bytes_ = 0;
+  bool is_working_ = false, is_ending_ = false;
+  // Of those looked at of late, the newest first.
+  mutable std::list<std::pair<std::shared_ptr<const Chunk>, std::shared_ptr<const Chunk::Rows>>>
+      unpacked_;
+  std::thread worker_;
+};
+
+}  // namespace kinescope::history

@@ -1,0 +1,170 @@
+// Looking back: each viewer has a time of their own, while the stream goes on.
+import assert from 'node:assert/strict';
+import { after, before, test as nodeTest } from 'node:test';
+import { closeBrowser, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
+
+const LONG = { timeout: 60000 };  // only a failure takes so long
+const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
+let site;
+before(async () => {
+  site = await startFixture();
+  site.say('people 1');
+  site.say('live');
+});
+after(async () => {
+  await site.stop();
+  await closeBrowser();
+});
+
+const text = (page, id) => page.textContent(`#${id}`);
+const sampleOf = async (page) => Number(await text(page, 'sample'));
+const statusIs = (page, pattern) => page.waitForFunction(
+  (source) => new RegExp(source).test(document.getElementById('status-word').textContent), pattern.source, LONG);
+const sampleIs = (page, number) => page.waitForFunction(
+  (wanted) => document.getElementById('sample').textContent === String(wanted), number, LONG);
+
+/** Until the server has `seconds` of history. */
+async function openLive(seconds = 1, options = {}) {
+  const visit = await openPage(site.url, options);
+  await statusIs(visit.page, /^Live$/);
+  await visit.page.waitForFunction(
+    (least) => Number(document.getElementById('moment').min) < -least, seconds, LONG);
+  return visit;
+}
+
+test('a paused page stays at its sample while the stream goes on, says so, and steps by samples', async () => {
+  const { page, problems, close } = await openLive();
+  await page.keyboard.press('Space');
+  await statusIs(page, /^Behind −\d+\.\d s$/);
+  const sample = await sampleOf(page);
+  assert.equal(await page.getAttribute('body', 'data-time'), 'behind');
+  await statusIs(page, /^Behind −[1-9]/);
+  assert.equal(await sampleOf(page), sample);
+  assert.match(await page.title(), /^Behind −/);
+  await page.keyboard.press('ArrowLeft');
+  await sampleIs(page, sample - 1);
+  await page.keyboard.press('ArrowLeft');
+  await sampleIs(page, sample - 2);
+  await page.click('#step-forward');
+  await sampleIs(page, sample - 1);
+  assert.match(await text(page, 'picture-note'), /live only/);
+  await saveScreenshot(page, 'behind_desktop');
+  await page.keyboard.press('Escape');
+  await statusIs(page, /^Live$/);
+  await page.waitForFunction((n) => Number(document.getElementById('sample').textContent) > n + 60, sample, LONG);
+  assert.equal(await page.getAttribute('body', 'data-time'), 'live');
+  assert.deepEqual(problems, []);
+  await close();
+});
+
+test('Escape and the lamp return to live within a tenth of a second', async () => {
+  const { page, close } = await openLive();
+  for (const act of [() => page.keyboard.press('Escape'), () => page.click('#status')]) {
+    await page.click('#play');
+    await statusIs(page, /^Behind/);
+    await page.evaluate(() => {
+      const word = document.getElementById('status-word');
+      for (const kind of ['keydown', 'click']) {
+        addEventListener(kind, () => { window.askedAt ??= performance.now(); }, { capture: true, once: true });
+      }
+      window.askedAt = window.liveAt = undefined;
+      new MutationObserver(() => { if (word.textContent === 'Live') window.liveAt ??= performance.now(); })
+        .observe(word, { childList: true, characterData: true, subtree: true });
+    });
+    await act();
+    await page.waitForFunction(() => window.liveAt !== undefined, null, LONG);
+    const took = await page.evaluate(() => window.liveAt - window.askedAt);
+    assert.ok(took < 100, `${took} ms`);
+  }
+  await close();
+});
+
+test('two viewers are at different moments, and a third is live', async () => {
+  const [one, two, three] = [await openLive(), await openLive(2), await openLive()];
+  await one.page.keyboard.press('Space');
+  await statusIs(one.page, /^Behind/);
+  await two.page.keyboard.press('Home');
+  await statusIs(two.page, /^Behind/);
+  const first = await sampleOf(one.page);
+  await two.page.waitForFunction(
+    (newer) => Number(document.getElementById('sample').textContent) < newer, first, LONG);
+  await three.page.waitForFunction(
+    (older) => Number(document.getElementById('sample').textContent) > older + 30, first, LONG);
+  assert.equal(await sampleOf(one.page), first);
+  assert.equal(await text(three.page, 'status-word'), 'Live');
+  for (const each of [one, two, three]) await each.close();
+});
+
+test('playing goes on from the pause at the speed that is chosen, and catches up at 8 times', async () => {
+  const { page, close } = await openLive(3);
+  await page.keyboard.press('Home');
+  await statusIs(page, /^Behind/);
+  const start = await sampleOf(page);
+  await page.keyboard.press('Space');
+  await page.waitForFunction((n) => Number(document.getElementById('sample').textContent) > n + 20, start, LONG);
+  await statusIs(page, /^Behind/);
+  await page.selectOption('#speed', '8');
+  await statusIs(page, /^Live$/);
+  assert.equal(await page.inputValue('#speed'), '1');
+  await page.selectOption('#speed', '0.5');
+  await statusIs(page, /^Behind −0\.[3-9]/);
+  await close();
+});
+
+test('a link shows the same moment to another viewer', async () => {
+  const { page, close } = await openLive();
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => new URL(location.href).searchParams.has('t'), null, LONG);
+  const sample = await sampleOf(page);
+  const other = await openPage(page.url());
+  await statusIs(other.page, /^Behind/);
+  await sampleIs(other.page, sample);
+  await page.keyboard.press('End');
+  await page.waitForFunction(() => !new URL(location.href).searchParams.has('t'), null, LONG);
+  const late = await openPage(`${site.url}?t=99999999`);
+  await late.page.waitForFunction(
+    () => /not on this server/.test(document.getElementById('banner').textContent), null, LONG);
+  for (const each of [{ close }, other, late]) await each.close();
+});
+
+test('who looks back is told that the live stream has stopped', async () => {
+  const { page, close } = await openLive();
+  await page.keyboard.press('Space');
+  await statusIs(page, /^Behind/);
+  site.say('stale');
+  await page.waitForFunction(
+    () => /^Live stream: Stale\./.test(document.getElementById('banner').textContent), null, LONG);
+  site.say('live');
+  await page.waitForFunction(() => document.getElementById('banner').hidden, null, LONG);
+  await close();
+});
+
+test('keys that belong to a field or a button are left to it', async () => {
+  const { page, close } = await openLive();
+  await page.focus('#hand-kg');
+  await page.keyboard.press('ArrowLeft');
+  await page.keyboard.press('Space');
+  await page.focus('#step-back');
+  await page.keyboard.press('Space');
+  await statusIs(page, /^Behind/);
+  const sample = await sampleOf(page);
+  await page.keyboard.press('Space');
+  await sampleIs(page, sample - 1);
+  await close();
+});
+
+test('on a phone the transport is in reach and covers nothing of the person', async () => {
+  const { page, close } = await openLive(1, { viewport: PHONE });
+  await page.click('#play');
+  await statusIs(page, /^Behind/);
+  const boxes = await page.evaluate(() => ['play', 'step-back', 'step-forward', 'moment', 'go-live'].map((id) => {
+    const { top, bottom, left, right } = document.getElementById(id).getBoundingClientRect();
+    return { id, top, bottom, left, right };
+  }));
+  for (const { id, top, bottom, left, right } of boxes) {
+    assert.ok(top > 422 && bottom <= 844 && left >= 0 && right <= 390, `${id}: ${[top, bottom, left, right]}`);
+    if (id !== 'moment') assert.ok(bottom - top >= 44 && right - left >= 44, `${id} is too small for a finger`);
+  }
+  await saveScreenshot(page, 'behind_phone');
+  await close();
+});

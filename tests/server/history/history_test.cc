@@ -1,0 +1,157 @@
+#include "server/history/history.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "tests/server/http/test_scene.h"
+
+namespace kinescope::history {
+namespace {
+
+using http::testing::MakePersonModel;
+using http::testing::MakeScene;
+
+constexpr std::int64_t kStep = 1'000'000'000 / 240;  // ns
+
+std::shared_ptr<SceneState> StateAt(std::uint64_t number, int people = 1) {
+  static const auto model = MakePersonModel();
+  const auto nanos = static_cast<std::int64_t>(number) * kStep;
+  auto state = std::make_shared<SceneState>(
+      MakeScene(number, static_cast<double>(nanos) * 1e-9, nanos, model, people));
+  state->made_nanos = nanos + 1000;
+  return state;
+}
+
+void Fill(History& history, std::uint64_t first, std::uint64_t last, int people = 1) {
+  for (std::uint64_t number = first; number <= last; ++number) {
+    history.Add(StateAt(number, people));
+  }
+  history.Settle();
+}
+
+void ExpectSamePose(const urdf::Pose& a, const urdf::Pose& b) {
+  EXPECT_LT((a.position - b.position).norm(), 1e-5);
+  EXPECT_LT(a.orientation.angularDistance(b.orientation), 1e-4);
+}
+
+TEST(History, GivesBackWhatPicturesAndTablesShow) {
+  History history;
+  Fill(history, 1, 130);
+  const auto was = StateAt(57);
+  const auto is = history.Numbered(57);
+  ASSERT_NE(is, nullptr);
+  EXPECT_EQ(is->number, 57u);
+  EXPECT_EQ(is->stamp_nanos, was->stamp_nanos);
+  EXPECT_EQ(is->arrival_nanos, was->arrival_nanos);
+  EXPECT_EQ(is->counter, was->counter);
+  EXPECT_EQ(is->liveness, Liveness::kLive);
+  EXPECT_EQ(is->source, was->source);
+  ASSERT_EQ(is->people.size(), 1u);
+  const PersonState &a = was->people[0], &b = is->people[0];
+  EXPECT_EQ(b.name, "Demo");
+  EXPECT_EQ(b.model, a.model) << "shared, not copied";
+  for (std::size_t i = 0; i < a.links.size(); ++i) ExpectSamePose(a.links[i], b.links[i]);
+  EXPECT_LT((*a.com - *b.com).norm(), 1e-5);
+  EXPECT_LT((*a.cop - *b.cop).norm(), 1e-5);
+  ASSERT_EQ(b.loads.size(), a.loads.size());
+  for (std::size_t i = 0; i < a.loads.size(); ++i) {
+    const JointLoad &x = a.loads[i], &y = b.loads[i];
+    EXPECT_EQ(y.joint, x.joint);
+    EXPECT_EQ(y.load_class, x.load_class);
+    EXPECT_EQ(y.channel, x.channel);
+    EXPECT_EQ(y.reason, x.reason);
+    EXPECT_EQ(std::isnan(y.shown_ratio), std::isnan(x.shown_ratio));
+    EXPECT_NEAR(std::isnan(y.shown_ratio) ? 0 : y.shown_ratio,
+                std::isnan(x.shown_ratio) ? 0 : x.shown_ratio, 1e-5);
+    EXPECT_LT((y.position - x.position).norm(), 1e-5);
+  }
+  EXPECT_EQ(b.forces.support.size, 4u);
+  EXPECT_NEAR(b.forces.lumbar->compression, 2150, 0.1);
+  EXPECT_NEAR(*b.forces.margin_of_stability, 0.083, 1e-5);
+  EXPECT_EQ(b.forces.stated_hand_load.alone_kg[urdf::kRight], 5);
+  EXPECT_FALSE(b.forces.com_minus_mvn);
+}
+
+TEST(History, FindsEveryStateByItsNumberAndByTime) {
+  History history;
+  EXPECT_EQ(history.At(5), nullptr);
+  EXPECT_EQ(history.Numbered(5), nullptr);
+  EXPECT_FALSE(history.extent());
+  Fill(history, 10, 400);
+  for (std::uint64_t number = 10; number <= 400; ++number) {
+    const auto nanos = static_cast<std::int64_t>(number) * kStep + 1000;
+    ASSERT_EQ(history.Numbered(number)->number, number);
+    ASSERT_EQ(history.At(nanos)->number, number);
+    ASSERT_EQ(history.At(nanos + kStep - 1)->number, number);
+  }
+  EXPECT_EQ(history.At(0)->number, 10u) << "the oldest, of a moment that is gone";
+  EXPECT_EQ(history.Numbered(3)->number, 10u);
+  EXPECT_EQ(history.Numbered(500)->number, 400u) << "the newest, of one that is not there yet";
+  const auto extent = history.extent();
+  ASSERT_TRUE(extent);
+  EXPECT_EQ(extent->first_number, 10u);
+  EXPECT_EQ(extent->last_number, 400u);
+  EXPECT_EQ(extent->last_nanos, 400 * kStep + 1000);
+}
+
+TEST(History, KeepsPeopleWhoComeAndGo) {
+  History history;
+  Fill(history, 1, 30, 1);
+  Fill(history, 31, 50, 3);
+  Fill(history, 51, 60, 2);
+  Fill(history, 61, 300, 0);
+  EXPECT_EQ(history.Numbered(30)->people.size(), 1u);
+  EXPECT_EQ(history.Numbered(31)->people.size(), 3u);
+  EXPECT_EQ(history.Numbered(50)->people.size(), 3u);
+  EXPECT_EQ(history.Numbered(55)->people.size(), 2u);
+  EXPECT_EQ(history.Numbered(200)->people.size(), 0u);
+}
+
+TEST(History, ForgetsWhatIsTooOldOrTooMuch) {
+  HistoryLimits limits;
+  limits.nanos = 2'000'000'000;
+  History brief(limits);
+  Fill(brief, 1, 1200);
+  EXPECT_GT(brief.extent()->first_number, 1200u - 480 - 121);
+  EXPECT_LE(brief.extent()->first_number, 1200u - 480);
+  EXPECT_EQ(brief.Numbered(1)->number, brief.extent()->first_number);
+
+  History whole;
+  Fill(whole, 1, 1200);
+  limits = HistoryLimits();
+  limits.bytes = whole.bytes() / 2;
+  History small(limits);
+  Fill(small, 1, 1200);
+  EXPECT_LE(small.bytes(), limits.bytes);
+  EXPECT_GT(small.extent()->first_number, 240u);
+  EXPECT_LT(small.extent()->first_number, 961u);
+}
+
+TEST(History, TakesLittleRoom) {
+  History history;
+  Fill(history, 1, 480, 4);
+  // Of a smooth motion; tests/bench/README.md has that of a stream.
+  EXPECT_LT(history.bytes(), 480 * 4 * sizeof(PersonState) / 20);
+}
+
+TEST(History, ServesReadersWhileStatesCome) {
+  History history;
+  history.Add(StateAt(1));
+  std::thread reader([&] {
+    for (std::uint64_t number = 1; number < 900;) {
+      const auto extent = history.extent();
+      number = extent->last_number;
+      const auto found = history.Numbered(extent->first_number + number / 2);
+      ASSERT_NE(found, nullptr);
+      ASSERT_LE(found->number, history.extent()->last_number);
+    }
+  });
+  for (std::uint64_t number = 2; number <= 900; ++number) history.Add(StateAt(number));
+  reader.join();
+}
+
+}  // namespace
+}  // namespace kinescope::history

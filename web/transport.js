@@ -1,0 +1,91 @@
+// The bar below the view: pause, steps, speed, a slider over all moments that the server has, and back to live; with
+// the keys for them.
+import { lag } from './format.js';
+import { SPEEDS } from './viewer_time.js';
+
+const STEP_MILLIS = 1000, PAGE_MILLIS = 10_000;
+
+/** @typedef {import('./viewer_time.js').Kept} Kept
+ *  @typedef {{bar: HTMLElement, play: HTMLButtonElement, back: HTMLButtonElement, forward: HTMLButtonElement,
+ *    speed: HTMLSelectElement, slider: HTMLInputElement, oldest: HTMLElement, live: HTMLButtonElement}} Parts
+ *  @typedef {{kept: () => Kept|null, shown: () => number|null, step: (by: number) => void, changed: () => void}} Page
+ *    kept: null without a history; shown: the moment on the screen; step: by so many samples; changed: called after
+ *    every change of the viewer's time */
+
+/** @param {Parts} parts
+ *  @param {import('./viewer_time.js').ViewerTime} time
+ *  @param {Page} page
+ *  @returns {(now: number) => void}  shows where the viewer is; call it several times a second */
+export function mountTransport(parts, time, page) {
+  parts.speed.replaceChildren(...SPEEDS.map((speed) => new Option(`${speed} ×`, String(speed), speed === 1, speed === 1)));
+
+  /** @param {(now: number, kept: Kept) => void} act */
+  const change = (act) => {
+    const kept = page.kept();
+    if (kept === null) return;
+    act(performance.now(), kept);
+    page.changed();
+  };
+  const pauseOrPlay = () => change((now, kept) => {
+    if (time.isPlaying) time.pause(now, kept, page.shown() ?? undefined);
+    else time.play(now, kept);
+  });
+  const goLive = () => change(() => time.goLive());
+  /** @param {number} by  samples */
+  const step = (by) => change((now, kept) => {
+    time.pause(now, kept, page.shown() ?? undefined);
+    page.step(by);
+  });
+  /** @param {number} millis */
+  const skip = (millis) => change((now, kept) => time.seek(time.momentAt(now, kept) + millis, now, kept));
+
+  parts.play.addEventListener('click', pauseOrPlay);
+  parts.back.addEventListener('click', () => step(-1));
+  parts.forward.addEventListener('click', () => step(1));
+  parts.live.addEventListener('click', goLive);
+  parts.speed.addEventListener('change', () =>
+    change((now, kept) => time.setSpeed(Number(parts.speed.value), now, kept)));
+  parts.slider.addEventListener('input', () => change((now, kept) => {
+    time.seek(kept.newest + 1000 * Number(parts.slider.value), now, kept);
+  }));
+
+  /** @type {Record<string, () => void>} */
+  const keys = {
+    ' ': pauseOrPlay, 'ArrowLeft': () => step(-1), 'ArrowRight': () => step(1),
+    'Shift+ArrowLeft': () => skip(-STEP_MILLIS), 'Shift+ArrowRight': () => skip(STEP_MILLIS),
+    'PageUp': () => skip(-PAGE_MILLIS), 'PageDown': () => skip(PAGE_MILLIS),
+    'Home': () => change((now, kept) => time.seek(kept.oldest, now, kept)),
+    'Escape': goLive, 'End': goLive,
+  };
+  document.addEventListener('keydown', (event) => {
+    const act = keys[`${event.shiftKey ? 'Shift+' : ''}${event.key}`];
+    if (!act || event.ctrlKey || event.altKey || event.metaKey || isForOther(event)) return;
+    event.preventDefault();
+    act();
+  });
+
+  return (now) => {
+    const kept = page.kept();
+    parts.bar.hidden = kept === null;
+    if (kept === null) return;
+    const behind = kept.newest - time.momentAt(now, kept), length = kept.newest - kept.oldest;
+    parts.play.dataset.act = time.isPlaying ? 'pause' : 'play';
+    parts.play.ariaLabel = time.isPlaying ? 'Pause' : 'Play';
+    parts.live.disabled = time.isLive;
+    parts.speed.value = String(time.speed);
+    parts.slider.min = (-length / 1000).toFixed(3);
+    parts.slider.max = '0';
+    parts.slider.value = (-behind / 1000).toFixed(3);
+    parts.slider.setAttribute('aria-valuetext', time.isLive ? 'live' : lag(behind));
+    parts.oldest.textContent = lag(length);
+  };
+}
+
+/** Whether the key belongs to what has the focus: a field, a list, a button that Space presses.
+ *  @param {KeyboardEvent} event */
+function isForOther({ target, key }) {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target instanceof HTMLInputElement && target.type === 'range') return false;
+  if (target.matches('input:not([type=checkbox]), select, textarea, [contenteditable]')) return true;
+  return key === ' ' && target.matches('button, input, summary, a[href]');
+}
