@@ -3,9 +3,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "core/system/check.h"
+#include "server/history/history.h"
 #include "server/http/hand_load_order.h"
 #include "server/http/hub.h"
 
@@ -37,6 +40,19 @@ class Feed : public http::PictureFeed {
   std::vector<std::uint8_t> SnapshotPng(const std::string&, int, int) override { return {}; }
 };
 
+// What clients look back to.
+const history::History& Past() {
+  static history::History history;
+  if (history.extent()) return history;
+  for (std::uint64_t number = 5; number < 9; ++number) {
+    auto state = std::make_shared<SceneState>();
+    state->number = number;
+    state->made_nanos = 1000 * static_cast<std::int64_t>(number);
+    history.Add(std::move(state));
+  }
+  return history;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -44,7 +60,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Latest<http::Picture> pictures;
   Feed feed;
   http::Counters counters;
-  http::Hub hub(states, pictures, &feed, "iso", counters);
+  http::Hub hub(states, pictures, &feed, &Past(), "iso", counters);
   Client client;
   KINESCOPE_CHECK(hub.Join(client));
   hub.OnMessage(client, {reinterpret_cast<const char*>(data), size});

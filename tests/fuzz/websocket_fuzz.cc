@@ -91,7 +91,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Latest<http::Picture> pictures;
   CountingFeed feed;
   http::Counters counters;
-  http::Hub hub(states, pictures, &feed, "iso", counters);
+  http::Hub hub(states, pictures, &feed, nullptr, "iso", counters);
   boost::asio::io_context io{1};
   std::string received;
   const auto run = [&] {

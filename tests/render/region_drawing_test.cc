@@ -2,6 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "render/image/compare.h"
 #include "render/renderer.h"
 #include "tests/render/random_scenes.h"
@@ -76,6 +83,88 @@ TEST(RegionDrawing, LeavesNothingOfThePictureBefore) {
   RenderThrice(*renderer, spec);
   const Image floor = MakeRenderer()->Render(empty, FrontCamera(), spec);
   EXPECT_TRUE(Compare(floor, renderer->Render(empty, FrontCamera(), spec)).equal());
+}
+
+struct Extreme {
+  std::string name;
+  SceneState state = MixedScene(Posture::kStanding);
+  PictureSpec spec = OfSize(333, 250);
+  Camera camera = FrontCamera();
+};
+
+std::shared_ptr<const SceneMarker> MarkerOf(MarkerType type, const Eigen::Vector3d& scale,
+                                            const Eigen::Vector3d& position) {
+  SceneMarker marker;
+  marker.type = type;
+  marker.text = "a label that runs out of the picture on both of its sides, and on";
+  marker.scale = scale;
+  marker.pose.position = position;
+  marker.color = {0.2, 0.5, 0.9, 0.6};
+  return std::make_shared<const SceneMarker>(marker);
+}
+
+std::vector<Extreme> Extremes() {
+  std::vector<Extreme> all;
+  const auto add = [&](const char* name) -> Extreme& {
+    all.push_back({});
+    all.back().name = name;
+    return all.back();
+  };
+  using Eigen::Vector3d;
+  add("a marker of the size of the world").state.markers = {
+      MarkerOf(MarkerType::kSphere, Vector3d::Constant(1e4), Vector3d::Zero())};
+  add("a marker larger than floats like").state.markers = {
+      MarkerOf(MarkerType::kCube, Vector3d::Constant(1e12), Vector3d(5e11, 0, 0))};
+  add("a marker on the camera").state.markers = {
+      MarkerOf(MarkerType::kCube, Vector3d::Constant(0.5), FrontCamera().position)};
+  add("a label that runs out of the picture").state.markers = {
+      MarkerOf(MarkerType::kText, Vector3d(0, 0, 0.3), Vector3d(0, 1.2, 1)),
+      MarkerOf(MarkerType::kText, Vector3d(0, 0, 40), Vector3d(-3, 0, 1))};
+  Trail hour{{}, {0.1, 0.4, 0.7}, "hand"};
+  for (int i = 0; i < 36'000; ++i) {
+    const double t = 0.1 * i;
+    hour.points.emplace_back(2 * std::cos(0.01 * t), 2 * std::sin(0.013 * t), 1 + std::sin(t));
+  }
+  add("a trail of an hour").spec.look.trails = {hour};
+  Extreme& far = add("people at the far plane and behind the camera");
+  for (const Vector3d& by : {Vector3d(-95, 3, 0), Vector3d(-4000, 0, 0), Vector3d(60, 0, 0)}) {
+    PersonState person = MixedScene(Posture::kDeepBend).people[0];
+    person.character = static_cast<int>(far.state.people.size());
+    for (urdf::Pose& pose : person.links) pose.position += by;
+    for (JointLoad& load : person.loads) load.position += by;
+    far.state.people.push_back(std::move(person));
+  }
+  add("a region larger than the picture").camera.vertical_fov_rad = 0.02;
+  add("the smallest picture").spec = OfSize(kMinPictureSide, kMinPictureSide);
+  add("not a multiple of 16, odd").spec = OfSize(271, 163);
+  const std::size_t count = all.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    all.push_back(all[i]);
+    all[i].spec.overlays = false;
+    all.back().spec.supersample = 2;
+  }
+  return all;
+}
+
+TEST(RegionDrawing, GivesTheBytesOfWholePicturesOfWhatIsNotOrdinary) {
+  RegionSettings off;
+  off.is_off = true;
+  const auto whole = With(off), parts = With({});
+  Image image;
+  for (Extreme& extreme : Extremes()) {
+    PictureSpec calm_spec = extreme.spec;
+    calm_spec.look.trails.clear();
+    const SceneState calm = MixedScene(Posture::kDeepBend);
+    for (int picture = 0; picture < 6; ++picture) {  // it comes and goes
+      const bool is_calm = picture % 2 == 1;
+      const SceneState& state = is_calm ? calm : extreme.state;
+      const PictureSpec& spec = is_calm ? calm_spec : extreme.spec;
+      parts->RenderInto(image, state, extreme.camera, spec);
+      const Image expected = whole->Render(state, extreme.camera, spec);
+      ASSERT_TRUE(Compare(expected, image).equal())
+          << extreme.name << ", " << spec.supersample << "x, picture " << picture;
+    }
+  }
 }
 
 std::vector<PictureSpec> TiledAndOtherSizes() {
