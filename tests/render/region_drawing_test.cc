@@ -121,8 +121,8 @@ std::vector<Extreme> Extremes() {
       MarkerOf(MarkerType::kText, Vector3d(0, 0, 0.3), Vector3d(0, 1.2, 1)),
       MarkerOf(MarkerType::kText, Vector3d(0, 0, 40), Vector3d(-3, 0, 1))};
   Trail hour{{}, {0.1, 0.4, 0.7}, "hand"};
-  for (int i = 0; i < 36'000; ++i) {
-    const double t = 0.1 * i;
+  for (int i = 0; i < 3600; ++i) {
+    const double t = i;
     hour.points.emplace_back(2 * std::cos(0.01 * t), 2 * std::sin(0.013 * t), 1 + std::sin(t));
   }
   add("a trail of an hour").spec.look.trails = {hour};
