@@ -7,7 +7,9 @@ namespace kinescope::history {
 namespace {
 
 constexpr std::size_t kStatesPerChunk = 120;  // half a second of a fast stream
-constexpr std::size_t kUnpackedChunks = 8;    // viewers at other moments unpack theirs again
+// On a machine that is too busy to compress them: 10 KB for each person and state.
+constexpr std::size_t kMostOpen = 5 * kStatesPerChunk;
+constexpr std::size_t kUnpackedChunks = 8;  // viewers at other moments unpack theirs again
 
 struct ByTime {
   using Value = std::int64_t;
@@ -40,6 +42,10 @@ void History::Add(std::shared_ptr<const SceneState> state) {
   bool is_complete = false;
   {
     const std::lock_guard lock(mutex_);
+    if (open_.size() >= kMostOpen) {
+      ++left_out_;
+      return;
+    }
     open_.push_back(std::move(state));
     Forget();
     CountRun();
@@ -106,6 +112,11 @@ std::optional<Extent> History::extent() const {
     extent.first_number = chunks_.front()->first_number();
   }
   return extent;
+}
+
+std::uint64_t History::left_out() const {
+  const std::lock_guard lock(mutex_);
+  return left_out_;
 }
 
 std::size_t History::bytes() const {

@@ -36,12 +36,14 @@ class History {
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
+  /// If more states wait for compression than should, this one is left out and counted.
   /// @pre number and made_nanos are not below those of the state before.
   void Add(std::shared_ptr<const SceneState> state);
 
   /// nullopt before the first state.
   std::optional<Extent> extent() const;
-  std::size_t bytes() const;  // of the compressed states
+  std::size_t bytes() const;       // of the compressed states
+  std::uint64_t left_out() const;  // states that were not kept
 
   /// The newest state that was made at or before `nanos`; the oldest kept one if all are newer.
   /// Null before the first state.
@@ -72,6 +74,7 @@ class History {
   std::deque<std::shared_ptr<const SceneState>> open_;  // newer than all chunks
   std::size_t run_ = 0;  // states at the front of `open_` that are of one form
   std::size_t bytes_ = 0;
+  std::uint64_t left_out_ = 0;
   bool is_working_ = false, is_ending_ = false;
   // Of those looked at of late, the newest first.
   mutable std::list<std::pair<std::shared_ptr<const Chunk>, std::shared_ptr<const Chunk::Rows>>>

@@ -135,7 +135,8 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
     const history::Extent kept = history->extent().value_or(history::Extent{});
     out["history"] = {{"secs", Secs(kept.last_nanos - kept.first_nanos)},
                       {"states", kept.last_number - kept.first_number + 1},
-                      {"bytes", history->bytes()}};
+                      {"bytes", history->bytes()},
+                      {"left_out", history->left_out()}};
   }
   // A file name need not be UTF-8.
   return JsonText(out);
