@@ -8,7 +8,7 @@ import { closeBrowser, DESKTOP, openPage } from '../tests/browser/open_page.mjs'
 
 const fileOf = (path) => fileURLToPath(new URL(path, import.meta.url));
 const program = process.argv[2] ?? fileOf('../build/dev/bin/kinescope');
-const server = spawn(program, ['serve', 'demo:lift', '--hand', 'both:8', '--mass', '75', '--ros', 'off', '--http_port', '0'],
+const server = spawn(program, ['serve', 'demo:lift', '--hand_load', 'both:8', '--mass', '75', '--ros', 'off', '--http_port', '0'],
   { stdio: ['ignore', 'ignore', 'pipe'] });
 try {
   const url = await urlOf(server);

@@ -28,12 +28,13 @@ void KeepPositive(double a, double b, double& from, double& to) {
 // The first `count` of a run of pixels. Alpha stays.
 void Blend(const std::array<float, FloorShadow::kRun>& shades, const std::array<float, 4>& dark,
            std::size_t count, std::uint8_t* rgba) {
+  constexpr float kHalf = 0.5f;  // a level, so that levels are rounded
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t channel = 0; channel < 4; ++channel) {
       const auto lit = static_cast<float>(rgba[4 * i + channel]);
       const float by = channel == 3 ? 0 : shades[i];
       rgba[4 * i + channel] =
-          static_cast<std::uint8_t>(static_cast<int>(lit + by * (dark[channel] - lit) + 0.5f));
+          static_cast<std::uint8_t>(static_cast<int>(lit + by * (dark[channel] - lit) + kHalf));
     }
   }
 }
@@ -85,7 +86,8 @@ void FloorShadow::FindShade() {
   most_ = {-1, -1};
   for (int row = 0; row < kSide; ++row) {
     for (int column = 0; column < kSide; ++column) {
-      if (shade_[static_cast<std::size_t>(row * kSide + column)] <= 0) continue;
+      if (shade_[static_cast<std::size_t>(row) * kSide + static_cast<std::size_t>(column)] <= 0)
+        continue;
       const std::array<int, 2> here = {column, row};
       for (std::size_t axis = 0; axis < 2; ++axis) {
         least_[axis] = std::min(least_[axis], std::max(0, here[axis] - 1));

@@ -231,7 +231,7 @@ Chunk::Chunk(const std::vector<std::shared_ptr<const SceneState>>& states, const
   packed_.resize(size);
   packed_.shrink_to_fit();
   texts_.shrink_to_fit();
-  bytes_ = sizeof *this + packed_.size() + texts_.size() * sizeof texts_.front();
+  bytes_ = sizeof *this + packed_.size() + texts_.size() * sizeof(std::string_view);
   if (before == nullptr || before->form_ != form_) bytes_ += RoomOf(*form_);
 }
 
