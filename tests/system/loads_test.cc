@@ -225,6 +225,17 @@ TEST(LoadsCommand, NamesThePackageThatPdfNeedsBeforeTheWorkBegins) {
   EXPECT_THAT(folder.Names(), ::testing::IsEmpty());
 }
 
+// WeasyPrint unloads Pango at its end, whether or not a thread of Pango's still has to begin.
+TEST(LoadsCommand, WritesAPdfAlthoughTheConverterEndsBeforeItsThreads) {
+  const TempFolder folder;
+  const std::string path = folder / "report.pdf";
+  const ProgramResult result = testing::RunProgram(
+      {testing::KinescopePath(), "loads", "demo:lift", "--seconds", "1", "--report", path},
+      {"LD_PRELOAD=" KINESCOPE_LATE_FONT_THREADS});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(ReadFile(path), ::testing::StartsWith("%PDF"));
+}
+
 TEST(LoadsCommand, ReportsWhyLegLoadsOfAnUpperBodyRecordingAreUnknown) {
   KINESCOPE_NEEDS_SHARED_DATA("mvnx/test_mocap.mvnx");
   const std::string take = SharedData("mvnx/test_mocap.mvnx");

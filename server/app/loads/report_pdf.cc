@@ -22,6 +22,15 @@ namespace {
 constexpr const char* kConverter = "weasyprint";
 constexpr std::chrono::minutes kConverterLimit{5};  // some seconds per page are usual
 
+// The preloaded library stays to the very end: Python unloads Pango when it ends, and a thread of
+// Pango's that has yet to begin would crash the converter after its work is done. One that is not
+// found is a warning of the loader's.
+std::string Preloading(const char* library) {
+  const char* const given = std::getenv("LD_PRELOAD");
+  return fmt::format("LD_PRELOAD={}{}{}", library, given == nullptr ? "" : ":",
+                     given == nullptr ? "" : given);
+}
+
 std::string LastLineOf(const std::string& text) {
   const std::size_t end = text.find_last_not_of(" \r\n");
   if (end == std::string::npos) return "no message";
@@ -63,9 +72,10 @@ std::string HtmlToPdf(const std::string& converter, std::string_view html) {
   to.close();
   if (!to) throw std::runtime_error(page.string() + ": cannot be written; is the disk full?");
   // Fonts in the PDF have a time of modification, which would be now.
-  const ChildResult result = RunChild(
-      {"/usr/bin/env", "SOURCE_DATE_EPOCH=0", converter, "--quiet", page.string(), pdf.string()},
-      kConverterLimit);
+  const ChildResult result =
+      RunChild({"/usr/bin/env", "SOURCE_DATE_EPOCH=0", Preloading("libpangoft2-1.0.so.0"),
+                converter, "--quiet", page.string(), pdf.string()},
+               kConverterLimit);
   std::ifstream from(pdf, std::ios::binary);
   std::string bytes(std::istreambuf_iterator<char>(from), {});
   if (StopRequested()) throw std::runtime_error("interrupted; the report was not written");
