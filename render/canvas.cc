@@ -31,9 +31,7 @@ void Canvas::Blend(int x, int y, const Paint& paint, double coverage) {
 void Canvas::BlendRow(int first_x, int last_x, int y, const Paint& paint, double coverage) {
   const auto weight = static_cast<int>(std::lround(paint.alpha * coverage));
   if (weight == 0) return;
-  if (image_.floor != nullptr) {
-    image_.changed.Add({part_.x + first_x, part_.y + y, last_x - first_x + 1, 1});
-  }
+  MarkChanged(image_, {part_.x + first_x, part_.y + y, last_x - first_x + 1, 1});
   std::uint8_t* pixel = &image_.rgba[4 * (static_cast<std::size_t>(part_.y + y) *
                                               static_cast<std::size_t>(image_.width) +
                                           static_cast<std::size_t>(part_.x + first_x))];

@@ -34,7 +34,7 @@ export class PicturePanel {
     const isOn = this.#isShown && this.hasPictures;
     this.send({ pictures: isOn });
     if (!isOn) this.parts.image.hidden = true;
-    this.parts.save.disabled = !this.hasPictures || !this.#isLive;
+    this.#permitSaving();
     this.#explain();
   }
 
@@ -44,6 +44,10 @@ export class PicturePanel {
     if (isLive === this.#isLive) return;
     this.#isLive = isLive;
     this.ask();
+  }
+
+  #permitSaving() {
+    this.parts.save.disabled = !this.hasPictures || !this.#isLive;
   }
 
   get #isShown() {
@@ -64,7 +68,7 @@ export class PicturePanel {
       this.ask();
     }
     this.parts.on.disabled = !this.hasPictures;
-    this.parts.save.disabled = !this.hasPictures || !this.#isLive;
+    this.#permitSaving();
     // All viewers share the live picture: another viewer may have selected its camera.
     if (document.activeElement !== this.parts.camera) this.parts.camera.value = details.camera;
     this.#explain();
@@ -120,7 +124,7 @@ export class PicturePanel {
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10000);
     } finally {
-      save.disabled = !this.#isLive;
+      this.#permitSaving();
     }
   }
 }

@@ -255,7 +255,7 @@ class CodecWriter : public VideoWriter {
   AVStream* stream_ = nullptr;  // belongs to format_
   Frame frame_;
   // Of the picture before, which the frame has.
-  std::shared_ptr<const std::vector<std::uint8_t>> floor_;
+  SharedPixels floor_;
   CellSet changed_;
   Image glass_;            // the picture in hand, with alpha
   std::int64_t next_ = 0;  // index of the next picture

@@ -10,6 +10,9 @@
 
 namespace kinescope::render {
 
+/// The pixels of a picture or of a part of it, as `Image::rgba` has them, which several share.
+using SharedPixels = std::shared_ptr<const std::vector<std::uint8_t>>;
+
 struct Image {
   int width = 0;                   // px
   int height = 0;                  // px
@@ -20,11 +23,16 @@ struct Image {
 
   /// The pixels, as `rgba` has them, that this picture has but in the squares of `changed`; null
   /// where that is not known. Pictures with one floor differ in no other squares, so that the
-  /// others need be neither copied nor encoded again. What draws on a picture adds to `changed`, or
-  /// sets `floor` to null.
-  std::shared_ptr<const std::vector<std::uint8_t>> floor = nullptr;
+  /// others need be neither copied nor encoded again. What draws on a picture calls MarkChanged(),
+  /// or sets `floor` to null.
+  SharedPixels floor = nullptr;
   CellSet changed = {};
 };
+
+/// Pixels of `tile` are no longer those of the floor.
+inline void MarkChanged(Image& image, const Tile& tile) {
+  if (image.floor != nullptr) image.changed.Add(tile);
+}
 
 /// Whether every pixel is opaque: searches `image` if that is not known.
 inline bool IsOpaque(const Image& image) {

@@ -127,7 +127,7 @@ void FloorShadow::BlendInto(Image& image, const Tile& within, const Camera& came
     KeepPositive(zero[2], each[2], from, to);
     if (!(from < to)) continue;
     const int first = static_cast<int>(std::ceil(from)), end = static_cast<int>(std::ceil(to));
-    if (image.floor != nullptr) image.changed.Add({first, y, end - first, 1});
+    MarkChanged(image, {first, y, end - first, 1});
     for (int run = first - first % kRun; run < end; run += kRun) {
       Shades shades = ShadesOf(at(run).cast<float>(), each.cast<float>());
       for (int i = 0; i < kRun; ++i) {

@@ -18,7 +18,7 @@ std::ptrdiff_t OffsetOf(const Tile& tile, int row, const Image& image) {
 
 }  // namespace
 
-FloorCache::Pixels FloorCache::Find(const Key& key) {
+SharedPixels FloorCache::Find(const Key& key) {
   ++now_;
   ForgetOld();
   auto found = std::find_if(entries_.begin(), entries_.end(),
@@ -32,7 +32,7 @@ FloorCache::Pixels FloorCache::Find(const Key& key) {
   return found->rgba;
 }
 
-FloorCache::Pixels FloorCache::Keep(const Key& key, const Tile& tile, const Image& image) {
+SharedPixels FloorCache::Keep(const Key& key, const Tile& tile, const Image& image) {
   const auto found = std::find_if(entries_.begin(), entries_.end(),
                                   [&](const Entry& entry) { return entry.key == key; });
   if (found == entries_.end() || found->used_before == 0 || found->rgba != nullptr) return nullptr;

@@ -27,17 +27,14 @@ class FloorCache {
   /// `most_bytes`: of all floors that are kept.
   explicit FloorCache(std::size_t most_bytes = kMostBytes) : most_bytes_(most_bytes) {}
 
-  /// The pixels of one tile: RGBA, its rows from the top, without padding.
-  using Pixels = std::shared_ptr<const std::vector<std::uint8_t>>;
-
-  /// The floor of `key`, or null. Call it once for each tile that is drawn.
-  Pixels Find(const Key& key);
+  /// The floor of `key`, the pixels of its tile; or null. Call it once for each tile that is drawn.
+  SharedPixels Find(const Key& key);
 
   /// What Find() did not find has been drawn into `tile` of `image`. It is kept from its second
   /// time on, because a camera that moves should not pay for copies. Where there is no room, it
   /// takes the place of floors that nothing asked for between its two times: floors of one picture
   /// that is too large do not drive each other out. @return what is kept, or null
-  Pixels Keep(const Key& key, const Tile& tile, const Image& image);
+  SharedPixels Keep(const Key& key, const Tile& tile, const Image& image);
 
   std::size_t bytes() const { return bytes_; }
 
@@ -45,7 +42,7 @@ class FloorCache {
   struct Entry {
     Key key{};
     std::uint64_t used = 0, used_before = 0;  // calls of Find(); 0: never
-    Pixels rgba;                              // null: not kept
+    SharedPixels rgba;                        // null: not kept
   };
   void ForgetOld();
   bool MakeRoom(std::size_t bytes, std::uint64_t since);

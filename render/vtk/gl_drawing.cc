@@ -367,14 +367,14 @@ class GlDrawing : public Drawing {
     tiles_->DrawPeople();
     for (const Tile& part : here) {
       pixels_->Read(tiles_->framebuffer(), tile, part, supersample, image);
-      image.changed.Add(part);
+      MarkChanged(image, part);
     }
   }
 
   // What `image` has of the same floor is not copied again.
   void GetFloor(const Tile& tile, const Camera& camera, Image& image) {
     const FloorCache::Key key = FloorKey(camera, tile);
-    FloorCache::Pixels floor = floors_.Find(key);
+    SharedPixels floor = floors_.Find(key);
     if (floor != nullptr && floor == image.floor) {
       for (const Tile& part : image.changed.Rectangles()) CopyFloor(*floor, tile, part, image);
     } else if (floor != nullptr) {

@@ -1,4 +1,4 @@
-/// Some successive states of one form, in a tenth of their room. Immutable; any thread.
+/// Some successive states of one form, compressed. Immutable; any thread.
 #pragma once
 
 #include <cstddef>

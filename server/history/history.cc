@@ -54,8 +54,7 @@ void History::Add(std::shared_ptr<const SceneState> state) {
   if (is_complete) changed_.notify_all();
 }
 
-// Of states that were not looked at yet: comparing all of them for each new one would take longer
-// than compressing them.
+// Looks at each state once, not at all that wait for each new one.
 void History::CountRun() {
   while (run_ < open_.size() && run_ < kStatesPerChunk && SameForm(*open_.front(), *open_[run_])) {
     ++run_;

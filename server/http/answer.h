@@ -47,9 +47,10 @@ struct Answer {
   bool needs_body = false;       // nothing is sent: the request is routed again with its body
 };
 
-/// The reason if a picture or its camera is requested from a server without a renderer.
+/// The reason if a former state is requested where there is none.
 inline constexpr char kNoHistory[] =
     "this server keeps no former states (--history_minutes=0), or none came yet";
+/// The reason if a picture or its camera is requested from a server without a renderer.
 inline constexpr char kNoRenderer[] = "this server renders no pictures (--pictures=off)";
 
 /// {"error": reason}: the form of every error under /api and /snapshot.png.

@@ -20,7 +20,7 @@ class Floors {
     const Tile tile{1, 2, width, height};
     SetSize(image_, width + 3, height + 3);
     std::fill(image_.rgba.begin(), image_.rgba.end(), std::uint8_t{0});
-    const FloorCache::Pixels found = cache.Find(key);
+    const SharedPixels found = cache.Find(key);
     if (found != nullptr) {
       CopyFloor(*found, tile, tile, image_);
       EXPECT_EQ(CountOf(number), 4 * width * height) << "bytes of the floor " << number;

@@ -29,10 +29,14 @@ std::unique_ptr<Renderer> With(const RegionSettings& regions) {
   return MakeRenderer(std::move(settings));
 }
 
-TEST(RegionDrawing, GivesTheBytesOfWholePictures) {
+std::unique_ptr<Renderer> Whole() {
   RegionSettings off;
   off.is_off = true;
-  const auto whole = With(off), parts = With({});
+  return With(off);
+}
+
+TEST(RegionDrawing, GivesTheBytesOfWholePictures) {
+  const auto whole = Whole(), parts = With({});
   constexpr int kViews = 4, kPictures = 6, kLargest = 320;
   RandomScenes scenes(1);
   std::array<Image, 2> drawn;  // in turns, as those of a clip: what they have already stays
@@ -147,9 +151,7 @@ std::vector<Extreme> Extremes() {
 }
 
 TEST(RegionDrawing, GivesTheBytesOfWholePicturesOfWhatIsNotOrdinary) {
-  RegionSettings off;
-  off.is_off = true;
-  const auto whole = With(off), parts = With({});
+  const auto whole = Whole(), parts = With({});
   Image image;
   for (Extreme& extreme : Extremes()) {
     PictureSpec calm_spec = extreme.spec;
@@ -184,14 +186,12 @@ std::vector<PictureSpec> TiledAndOtherSizes() {
 }
 
 TEST(RegionDrawing, IsTheSameInTilesViewsAndAllSizesInTurn) {
-  RegionSettings off;
-  off.is_off = true;
   const auto parts = With({});
   for (int round = 0; round < 2; ++round) {
     for (const PictureSpec& spec : TiledAndOtherSizes()) {
       RenderThrice(*parts, spec);
       const SceneState state = MixedScene(Posture::kArmsForward);
-      const Image expected = With(off)->Render(state, FrontCamera(), spec);
+      const Image expected = Whole()->Render(state, FrontCamera(), spec);
       EXPECT_TRUE(Compare(expected, parts->Render(state, FrontCamera(), spec)).equal())
           << spec.width << " x " << spec.height << " px, round " << round;
     }

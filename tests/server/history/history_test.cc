@@ -133,7 +133,7 @@ TEST(History, ForgetsWhatIsTooOldOrTooMuch) {
 TEST(History, TakesLittleRoom) {
   History history;
   Fill(history, 1, 480, 4);
-  // Of a smooth motion; tests/bench/README.md has that of a stream.
+  // Of a smooth motion; tests/bench/README.md has that of a live server.
   EXPECT_LT(history.bytes(), 480 * 4 * sizeof(PersonState) / 20);
 }
 
