@@ -5,9 +5,11 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/body_sample.h"
+#include "core/playback.h"
 
 namespace kinescope {
 
@@ -66,6 +68,10 @@ class Source {
   /// Samples per second as the source states it (a file, the subject); 0 if only the receive times
   /// show it.
   virtual double nominal_rate_hz() const { return 0; }
+
+  /// Of a source that is played at its true rate, once its first sample has been delivered: when it
+  /// began, and the time of a round once that is known.
+  virtual std::optional<Playback> playback() const { return std::nullopt; }
 
  protected:
   Source() = default;

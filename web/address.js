@@ -11,14 +11,14 @@ export function shownIn(url) {
   return { micros: Number.isFinite(seconds) && seconds >= 0 ? 1e6 * seconds : null };
 }
 
-/** The moment is rounded up to milliseconds, so that the sample that is shown is not after it.
+/** The moment is rounded up to microseconds, so that the sample that is shown is not after it.
  *  @param {URL} url
  *  @param {Shown} shown
  *  @returns {URL} */
 export function withShown(url, { micros }) {
   const next = new URL(url);
   if (micros === null) next.searchParams.delete('t');
-  else next.searchParams.set('t', (Math.ceil(micros / 1000) / 1000).toFixed(3));
+  else next.searchParams.set('t', (Math.ceil(micros) / 1e6).toFixed(6));
   return next;
 }
 

@@ -1,53 +1,42 @@
 // Connects the parts of the page: connection -> scene, readings, load list, picture.
-import { forgetToken, showInAddress, shownIn } from './address.js';
+import { forgetToken, shownIn } from './address.js';
 import { RecentValues } from './clock.js';
 import { Connection } from './connection.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
 import { cameraLabel, hexColor, shortCameraLabel } from './format.js';
 import { mountHandLoad } from './hand_load.js';
-import { LookBack } from './look_back.js';
 import { leftOutText, statusOf } from './status.js';
 import { mountLoadsShown } from './loads_shown.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
-import { readCameras, readDiagnostics, readModel, readTextMessage } from './messages.js';
+import { readCameras, readDiagnostics, readModel } from './messages.js';
 import { PicturePanel } from './picture_panel.js';
 import { meshesText, readingsOf, streamReadingsOf } from './readings.js';
 import { Scene } from './scene.js';
 import { ask, messageOf } from './server_api.js';
-import { decodePast, decodeState } from './state_codec.js';
+import { Shown } from './shown.js';
+import { decodeState } from './state_codec.js';
 import { mountTransport } from './transport.js';
-import { ViewerTime } from './viewer_time.js';
 
 const READINGS_MILLIS = 150;  // faster changes cannot be read
 const NOTICE_MILLIS = 6000;
 const MODEL_RETRY_MILLIS = 1000;
 const DIAGNOSTICS_MILLIS = 3000;
-const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per second
 const START_VIEW = 'three_quarter';
 
 const elements = findElements(document);
 
-/** @type {import('./state_codec.js').State|null} */
-let state = null;  // the live one
 /** @type {ArrayBuffer|null} */
 let newest = null;  // not decoded yet: of the states received between two frames, only the last one is decoded
 let stateChangedAt = 0;  // browser clock, last time its number grew
-/** @type {import('./messages.js').Details} */
-let details = { source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [] };
 /** @type {import('./messages.js').Model|null} */
 let model = null;
 let modelAskedAt = -Infinity;
 let notice = { text: '', until: 0 };
-const time = new ViewerTime();
-// What a viewer who looks back sees; null: live.
-/** @type {{state: import('./state_codec.js').State, details: import('./messages.js').Details}|null} */
-let past = null;
-let askedMicros = NaN;  // of the moment last asked for
-let addressAt = 0;
-let linkedMicros = shownIn(new URL(location.href)).micros;  // of the address with which the page was opened
+const shown = new Shown({
+  send: (command) => connection.send(command), notice: showNotice, changed: onTimeChanged, arrived: updateScene,
+}, shownIn(new URL(location.href)).micros);
 forgetToken();
-const lookBack = new LookBack((command) => connection.send(command));
 const latencies = new RecentValues();
 
 const scene = makeScene();
@@ -56,9 +45,9 @@ const showProblems = mountDiagnostics(elements.diagnostics, elements.problems);
 const connection = new Connection({
   onState: (buffer) => { newest = buffer; },
   onPicture: (buffer) => picture.show(buffer),
-  onPast,
-  onDetails(newDetails) {
-    details = newDetails;
+  onPast: (buffer) => shown.onPast(buffer),
+  onDetails(details) {
+    shown.setNewestDetails(details);
     picture.setDetails(details);
     scene?.setObjectNames(details.objects);
     handLoad.setPeople(details.people);
@@ -79,10 +68,10 @@ const handLoad = mountHandLoad({
 const showTransport = mountTransport({
   bar: elements.transport, play: elements.play, back: elements['step-back'], forward: elements['step-forward'],
   speed: elements.speed, slider: elements.moment, oldest: elements.oldest, live: elements['go-live'],
-}, time, { kept, shown: () => millisOf(shown()), step: stepBy, changed: onTimeChanged });
+}, shown);
 elements.status.addEventListener('click', () => {
-  time.goLive();
-  onTimeChanged();
+  shown.time.goLive();
+  shown.onTimeChanged();
 });
 const loadsShown = mountLoadsShown(elements['loads-shown'], applyLook);
 // Pictures cost the server rendering time and a phone its data volume. On a small screen the user switches them on.
@@ -113,11 +102,12 @@ function showNotice(text) {
 function onFrame(now) {
   requestAnimationFrame(onFrame);
   const isNewSample = takeNewest(now);
-  askForMoment(now);
-  if (scene?.draw(now) !== true || !isNewSample || state === null || past !== null) return;
+  shown.ask(now);
+  const { newest } = shown;
+  if (scene?.draw(now) !== true || !isNewSample || newest === null || !shown.isNewest) return;
   const serverNow = connection.clock.at(performance.now());
-  if (state.arrivalMicros > 0 && serverNow !== null && state.liveness === 'live') {
-    latencies.add(serverNow - state.arrivalMicros / 1000, performance.now());
+  if (newest.arrivalMicros > 0 && serverNow !== null && newest.liveness === 'live') {
+    latencies.add(serverNow - newest.arrivalMicros / 1000, performance.now());
   }
 }
 
@@ -127,107 +117,36 @@ function takeNewest(now) {
   if (newest === null) return false;
   const buffer = newest;
   newest = null;
-  const before = state?.stateNumber;
+  const before = shown.newest?.stateNumber;
   try {
-    state = decodeState(buffer);
+    shown.setNewest(decodeState(buffer));
   } catch (error) {
     showNotice(messageOf(error));
     return false;
   }
-  if (state.stateNumber !== before) stateChangedAt = now;
-  if (linkedMicros !== null) goToLinkedMoment();
-  if (past === null) updateScene();
-  if (model === null || state.people.some((person) => scene && !scene.hasModelOf(person))) loadModel(now);
-  return state.stateNumber !== before;
+  const state = shown.newest, isNew = state?.stateNumber !== before;
+  if (isNew) stateChangedAt = now;
+  if (shown.isNewest) updateScene();
+  if (model === null || state?.people.some((person) => scene && !scene.hasModelOf(person))) loadModel(now);
+  return isNew;
 }
 
-/** What the viewer sees: the live state, or a former one. */
-const shown = () => past?.state ?? state;
-
-/** @param {import('./state_codec.js').State|null} of
- *  @returns {number|null} its moment in the server's history */
-const millisOf = (of) => (of ? of.madeMicros / 1000 : null);
-
-/** @returns {import('./viewer_time.js').Kept|null} null: the server keeps none */
-function kept() {
-  if (state === null || state.oldestMicros === 0) return null;
-  return { oldest: state.oldestMicros / 1000, newest: state.madeMicros / 1000 };
-}
-
-/** Whether what is shown was live at its moment. */
-const wasLive = () => (past ? past.state.liveness === 'live' : statusNow().level === 'live');
+/** Whether what is shown is of now, or was when it was the newest. */
+const wasFresh = () => (shown.isNewest ? statusNow().isFresh : shown.state?.liveness === 'live');
 
 function updateScene() {
-  const now = shown();
-  if (now) scene?.update(now, wasLive());
+  if (shown.state) scene?.update(shown.state, wasFresh());
 }
 
 function onTimeChanged() {
-  const isLive = time.isLive;
-  if (isLive && past === null) return;
-  document.body.dataset.time = isLive ? 'live' : 'behind';
-  picture.setLive(isLive);
-  if (isLive) {
-    showInAddress({ micros: null });
-    past = null;
-    askedMicros = NaN;
-    lookBack.stop();
-  } else if (past === null && state) {
-    past = { state, details };  // stays on the screen until the server has answered
-    latencies.clear();
-  }
+  picture.setNewest(shown.isNewest);
+  if (!shown.isNewest) latencies.clear();
   updateScene();
   showReadings();
 }
 
-/** The address was copied from that of another viewer. */
-function goToLinkedMoment() {
-  const range = kept(), moment = (linkedMicros ?? 0) / 1000;
-  linkedMicros = null;
-  if (range === null) return showNotice('This server keeps no former moments: this is live');
-  if (moment > range.newest) return showNotice('The moment of this link is not on this server: this is live');
-  if (moment < range.oldest) showNotice('The moment of this link is no longer kept: this is the oldest one');
-  time.seek(moment, performance.now(), range);
-  onTimeChanged();
-}
-
-/** @param {number} now */
-function askForMoment(now) {
-  const range = kept();
-  if (time.isLive || range === null) return;
-  const micros = Math.round(1000 * time.momentAt(now, range));
-  if (time.isLive) return onTimeChanged();  // it has caught up
-  if (micros === askedMicros) return;
-  askedMicros = micros;
-  lookBack.ask({ micros }, now);
-}
-
-/** @param {number} samples */
-function stepBy(samples) {
-  const from = shown(), range = kept();
-  if (from === null || range === null) return;
-  askedMicros = Math.round(1000 * time.momentAt(performance.now(), range));  // the answer says where the step leads
-  lookBack.ask({ number: Math.max(0, from.stateNumber + samples) }, performance.now());
-}
-
-/** @param {ArrayBuffer} buffer */
-function onPast(buffer) {
-  const now = performance.now();
-  const answer = decodePast(buffer);
-  if (!lookBack.onAnswer(answer.id, now) || past === null) return;
-  const message = readTextMessage(answer.details);
-  past = { state: answer.state, details: message && 'details' in message ? message.details : details };
-  const range = kept();
-  if (!time.isPlaying && range) {
-    // To the sample itself, so that a step leads to another one.
-    if (!time.isGone(now, range)) time.pause(now, range, answer.state.madeMicros / 1000);
-    askedMicros = Math.round(answer.state.madeMicros);
-  }
-  updateScene();
-}
-
 function statusNow() {
-  const now = performance.now();
+  const now = performance.now(), state = shown.newest;
   const serverNow = connection.clock.at(now);
   /** @type {number|null} */
   let ageMillis = null;
@@ -243,24 +162,13 @@ function statusNow() {
     liveness: state?.liveness ?? null,
     ageMillis,
     waitedMillis: state?.waitedMillis ?? 0,
-    source: details.source,
+    source: shown.newestDetails.source,
     reason: connection.rejection,
-    behindMillis: behindMillis(now),
-    isGone: isGone(now),
+    behindMillis: shown.behindMillis(now),
+    isGone: shown.isGone(now),
+    recording: shown.newestDetails.recording,
+    stampMicros: shown.state?.stampMicros,
   });
-}
-
-/** @param {number} now
- *  @returns {number|null} by which the viewer looks back; null: not */
-function behindMillis(now) {
-  const range = kept();
-  return time.isLive || range === null ? null : range.newest - time.momentAt(now, range);
-}
-
-/** @param {number} now */
-function isGone(now) {
-  const range = kept();
-  return range !== null && time.isGone(now, range);
 }
 
 /** @param {number} now */
@@ -366,31 +274,28 @@ function showReadings() {
   const now = performance.now();
   if (document.hidden) takeNewest(now);  // a hidden page has no animation frames, but its title still shows the status
   const status = statusNow();
-  const isLive = status.level === 'live';
   if (elements.status.dataset.level !== status.level) updateScene();
   showStatus(status, now);
   showTransport(now);
-  if (past !== null && !time.isPlaying && now - addressAt > ADDRESS_MILLIS) {
-    addressAt = now;
-    showInAddress({ micros: past.state.madeMicros });
-  }
-  if (!isLive) latencies.clear();
-  const readings = streamReadingsOf(shown(), latencies.summary(now), isLive || past !== null);
+  shown.keepAddress(now);
+  document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';
+  if (!status.isFresh || !shown.isNewest) latencies.clear();
+  const readings = streamReadingsOf(shown.state, latencies.summary(now), wasFresh());
   setText('rate', readings.rate);
   setText('latency', readings.latency);
   setText('latency-p95', readings.latencyP95);
   setText('sample', readings.sample);
   setText('time-code', readings.timeCode);
   setText('viewers', readings.viewers);
-  setText('source', details.source);
+  setText('source', shown.details.source);
   elements['loads-shown'].hidden = !scene?.hasSkins;  // without a skin there is nothing to choose
-  showPeople(wasLive());
+  showPeople(wasFresh());
 }
 
 /** @param {import('./status.js').Status} status
  *  @param {number} now */
 function showStatus(status, now) {
-  const banner = (now < notice.until && notice.text) || status.banner || leftOutText(details.left_out)
+  const banner = (now < notice.until && notice.text) || status.banner || leftOutText(shown.newestDetails.left_out)
     || meshesText(scene?.failedMeshes.length ?? 0);
   elements.status.dataset.level = status.level;
   setText('status-word', status.word);
@@ -400,15 +305,15 @@ function showStatus(status, now) {
   elements.banner.dataset.level = status.level;
 }
 
-/** @param {boolean} isLive  whether what is shown is, or was */
-function showPeople(isLive) {
-  const now = shown(), texts = past?.details ?? details;
+/** @param {boolean} isFresh  whether what is shown is, or was */
+function showPeople(isFresh) {
+  const now = shown.state, texts = shown.details;
   if (now === null || model === null) return;
   const rows = rowsOf(now, model.joints, texts);
-  showLoads(isLive ? rows : rows.map(asUnknown));
+  showLoads(isFresh ? rows : rows.map(asUnknown));
   const selected = handLoad.selected();
   const person = now.people.find(({ character }) => character === selected?.character) ?? now.people[0];
-  const readings = readingsOf(person, texts.people.find(({ character }) => character === person?.character), isLive);
+  const readings = readingsOf(person, texts.people.find(({ character }) => character === person?.character), isFresh);
   setText('loads-hint', readings.hint);
   elements['loads-hint'].title = readings.hint;
   elements['loads-hint'].classList.toggle('warn', readings.isDoubtful);

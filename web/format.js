@@ -35,6 +35,17 @@ export function lag(millis) {
   return `−${Math.floor(seconds / 60)}:${String(seconds % 60).padStart(2, '0')} min`;
 }
 
+/** A place in a recording: 42000 -> "0:42.0".
+ *  @param {number} seconds
+ *  @param {number} [digits]  after the point */
+export function place(seconds, digits = 1) {
+  const step = 10 ** digits, whole = Math.max(0, Math.round(seconds * step)) / step;
+  const minutes = Math.floor(whole / 60), hours = Math.floor(minutes / 60);
+  const two = (/** @type {number|string} */ n) => String(n).padStart(2, '0');
+  const rest = (whole - 60 * minutes).toFixed(digits).padStart(digits > 0 ? 3 + digits : 2, '0');
+  return hours > 0 ? `${hours}:${two(minutes % 60)}:${rest}` : `${minutes}:${rest}`;
+}
+
 /** @param {number} ratio of capacity; NaN where unknown */
 export const percent = (ratio) => (Number.isFinite(ratio) ? `${Math.round(100 * ratio)} %` : '–');
 

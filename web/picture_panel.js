@@ -10,7 +10,7 @@ const SAVED_SIZE = { width: 1920, height: 1080 };
 
 export class PicturePanel {
   hasPictures = true;
-  #isLive = true;  // whether the page shows the live state, as the picture does
+  #isNewest = true;  // whether the page shows the newest state, as the picture does
   #url = '';
   #isLoading = false;
   /** @type {Uint8Array<ArrayBuffer>|null} */ #next = null;  // JPEG
@@ -39,19 +39,19 @@ export class PicturePanel {
   }
 
   /** While the viewer looks back, there is no picture: it would be of another moment.
-   *  @param {boolean} isLive */
-  setLive(isLive) {
-    if (isLive === this.#isLive) return;
-    this.#isLive = isLive;
+   *  @param {boolean} isNewest */
+  setNewest(isNewest) {
+    if (isNewest === this.#isNewest) return;
+    this.#isNewest = isNewest;
     this.ask();
   }
 
   #permitSaving() {
-    this.parts.save.disabled = !this.hasPictures || !this.#isLive;
+    this.parts.save.disabled = !this.hasPictures || !this.#isNewest;
   }
 
   get #isShown() {
-    return this.parts.on.checked && this.#isLive;
+    return this.parts.on.checked && this.#isNewest;
   }
 
   /** @param {{name: string}[]} cameras */
@@ -104,8 +104,8 @@ export class PicturePanel {
   #explain() {
     const { on, image, note } = this.parts;
     if (!this.hasPictures) note.textContent = 'This server does not render pictures.';
-    else if (!this.#isLive) note.textContent = 'The server\u2019s picture is live only.';
-    else if (!on.checked) note.textContent = 'Live picture is off.';
+    else if (!this.#isNewest) note.textContent = 'The server\u2019s picture shows the newest sample only.';
+    else if (!on.checked) note.textContent = 'The picture is off.';
     else note.textContent = 'Waiting for a picture';
     note.hidden = !image.hidden;
   }

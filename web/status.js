@@ -1,6 +1,6 @@
 // The status indicator. One pure function decides, from the newest state and from the connection: a page without a
 // connection must not show "live" any longer.
-import { age, lag } from './format.js';
+import { age, lag, place } from './format.js';
 
 /** Time without a message after which the server counts as disconnected: several times kHeartbeat of
  *  server/http/hub.h. */
@@ -12,28 +12,56 @@ export const OLD_MILLIS = 2000;
  *  core/scene_state.h. */
 export const BEHIND_MILLIS = 250;
 
-/** @typedef {'live'|'behind'|'stale'|'no-data'|'disconnected'|'wait'} Level
- *  @typedef {{level: Level, word: string, banner: string}} Status  banner "": none
+/** @typedef {'live'|'recording'|'behind'|'stale'|'no-data'|'disconnected'|'wait'} Level
+ *  @typedef {{level: Level, word: string, banner: string, isFresh: boolean}} Status  banner "": none; isFresh: the newest
+ *    sample is of now
  *  @typedef {{connected: boolean, everConnected: boolean, silentMillis: number,
  *    liveness: 'no data'|'live'|'stale'|null, ageMillis: number|null, waitedMillis: number,
- *    source: string, reason: string, behindMillis?: number|null, isGone?: boolean}} Situation  reason: why the server rejected the
- *    connection; "" otherwise; behindMillis: by which the viewer looks back; null or absent: not; isGone: the moment
- *    that the viewer wants to see is no longer kept
+ *    source: string, reason: string, behindMillis?: number|null, isGone?: boolean,
+ *    recording?: import('./messages.js').Recording|null, stampMicros?: number}} Situation  reason: why the server
+ *    rejected the connection; "" otherwise; behindMillis: by which the viewer looks back; null or absent: not; isGone: the
+ *    moment that the viewer wants to see is no longer kept; recording: null or absent: the stream is live; stampMicros: of
+ *    the sample on the screen
  */
 
 /** Of a viewer who looks back, the word says so, and the banner what is wrong with the live stream.
  *  @param {Situation} now
  *  @returns {Status} */
 export function statusOf(now) {
-  const live = streamStatusOf(now);
-  if (now.behindMillis === undefined || now.behindMillis === null || live.level === 'wait') return live;
-  const gone = now.isGone ? 'This moment is no longer kept: you see the oldest one' : '';
-  const trouble = live.level === 'live' ? gone : `Live stream: ${live.word}. ${live.banner}`;
-  return { level: 'behind', word: `Behind ${lag(now.behindMillis)}`, banner: trouble };
+  const stream = streamStatusOf(now), isFresh = stream.level === 'live';
+  const isBehind = now.behindMillis !== undefined && now.behindMillis !== null;
+  if (now.recording && (isFresh || isBehind)) return { ...recordingStatusOf(now, stream), isFresh };
+  if (!isBehind || stream.level === 'wait') return { ...stream, isFresh };
+  const trouble = isFresh ? goneText(now) : `Live stream: ${stream.word}. ${stream.banner}`;
+  return { level: 'behind', word: `Behind ${lag(now.behindMillis ?? 0)}`, banner: trouble, isFresh };
+}
+
+/** @param {Situation} now */
+const goneText = (now) => (now.isGone ? 'This moment is no longer kept: you see the oldest one' : '');
+
+/** A recording is never live. At its end, it is no trouble that no more samples come.
+ *  @param {Situation} now
+ *  @param {{level: Level, word: string, banner: string}} stream */
+function recordingStatusOf(now, stream) {
+  const { recording, stampMicros = 0 } = now;
+  const length = recording?.length_secs ?? null;
+  const word = `Recording ${place(placeIn(recording, stampMicros))}${length === null ? '' : ` of ${place(length, 0)}`}`;
+  const isOver = recording?.ended_micros !== null && now.connected && now.silentMillis <= SILENCE_MILLIS;
+  const trouble = stream.level === 'live' || isOver ? goneText(now) : `${stream.word}. ${stream.banner}`;
+  return { level: /** @type {Level} */ ('recording'), word, banner: trouble };
+}
+
+/** @param {import('./messages.js').Recording|null|undefined} recording
+ *  @param {number} stampMicros  of a sample
+ *  @returns {number} s from the beginning of the recording */
+export function placeIn(recording, stampMicros) {
+  if (!recording) return 0;
+  const seconds = Math.max(0, (stampMicros - recording.start_micros) / 1e6);
+  return recording.round_secs ? seconds % recording.round_secs : seconds;
 }
 
 /** @param {Situation} now
- *  @returns {Status} */
+ *  @returns {{level: Level, word: string, banner: string}} */
 function streamStatusOf(now) {
   if (!now.connected || now.silentMillis > SILENCE_MILLIS) return disconnected(now);
   if (now.liveness === null) return { level: 'wait', word: 'Connecting', banner: '' };
@@ -65,7 +93,7 @@ export function leftOutText(people) {
 }
 
 /** @param {Situation} now
- *  @returns {Status} */
+ *  @returns {{level: Level, word: string, banner: string}} */
 function disconnected(now) {
   if (now.reason) return { level: 'disconnected', word: 'Rejected', banner: now.reason };
   if (!now.everConnected) return { level: 'wait', word: 'Connecting', banner: 'Connecting to the server' };

@@ -8,33 +8,31 @@ const STEP_MILLIS = 1000, PAGE_MILLIS = 10_000;
 /** @typedef {import('./viewer_time.js').Kept} Kept
  *  @typedef {{bar: HTMLElement, play: HTMLButtonElement, back: HTMLButtonElement, forward: HTMLButtonElement,
  *    speed: HTMLSelectElement, slider: HTMLInputElement, oldest: HTMLElement, live: HTMLButtonElement}} Parts
- *  @typedef {{kept: () => Kept|null, shown: () => number|null, step: (by: number) => void, changed: () => void}} Page
- *    kept: null without a history; shown: the moment on the screen; step: by so many samples; changed: called after
- *    every change of the viewer's time */
+ */
 
 /** @param {Parts} parts
- *  @param {import('./viewer_time.js').ViewerTime} time
- *  @param {Page} page
+ *  @param {import('./shown.js').Shown} shown
  *  @returns {(now: number) => void}  shows where the viewer is; call it several times a second */
-export function mountTransport(parts, time, page) {
+export function mountTransport(parts, shown) {
+  const { time } = shown;
   parts.speed.replaceChildren(...SPEEDS.map((speed) => new Option(`${speed} ×`, String(speed), speed === 1, speed === 1)));
 
   /** @param {(now: number, kept: Kept) => void} act */
   const change = (act) => {
-    const kept = page.kept();
+    const kept = shown.kept();
     if (kept === null) return;
     act(performance.now(), kept);
-    page.changed();
+    shown.onTimeChanged();
   };
   const pauseOrPlay = () => change((now, kept) => {
-    if (time.isPlaying) time.pause(now, kept, page.shown() ?? undefined);
+    if (time.isPlaying) time.pause(now, kept, shown.millis ?? undefined);
     else time.play(now, kept);
   });
   const goLive = () => change(() => time.goLive());
-  /** @param {number} by  samples */
+  /** @param {1|-1} by  sample */
   const step = (by) => change((now, kept) => {
-    time.pause(now, kept, page.shown() ?? undefined);
-    page.step(by);
+    time.pause(now, kept, shown.millis ?? undefined);
+    shown.stepBy(by);
   });
   /** @param {number} millis */
   const skip = (millis) => change((now, kept) => time.seek(time.momentAt(now, kept) + millis, now, kept));
@@ -65,13 +63,14 @@ export function mountTransport(parts, time, page) {
   });
 
   return (now) => {
-    const kept = page.kept();
+    const kept = shown.kept();
     parts.bar.hidden = kept === null;
     if (kept === null) return;
     const behind = kept.newest - time.momentAt(now, kept), length = kept.newest - kept.oldest;
     parts.play.dataset.act = time.isPlaying ? 'pause' : 'play';
     parts.play.ariaLabel = time.isPlaying ? 'Pause' : 'Play';
-    parts.live.disabled = time.isLive;
+    parts.live.disabled = behind === 0;
+    parts.live.textContent = shown.newestDetails.recording ? 'End' : 'Live';
     parts.speed.value = String(time.speed);
     parts.slider.min = (-length / 1000).toFixed(3);
     parts.slider.max = '0';

@@ -7,7 +7,8 @@ const CAUGHT_UP_MILLIS = 50;
 /** More than the oldest moments are apart that a page hears of: who goes to the oldest one stays there. */
 const GONE_MILLIS = 1000;
 
-/** @typedef {{oldest: number, newest: number}} Kept  moments that the server has */
+/** @typedef {{oldest: number, newest: number, hasEnded?: boolean}} Kept  moments that the server has; hasEnded: no newer
+ *    ones will come, as after the end of a recording */
 
 export class ViewerTime {
   /** @type {{moment: number, since: number, isPlaying: boolean}|null} */ #behind = null;  // null: live
@@ -23,11 +24,15 @@ export class ViewerTime {
   }
 
   /** The moment that is to be shown. A moment that is no longer kept becomes the oldest; playing faster than time
-   *  until the newest makes it live again.
+   *  until the newest makes it live again. What has ended is not live: it is paused at its end.
    *  @param {number} now
    *  @param {Kept} kept */
   momentAt(now, kept) {
     const wanted = this.#wantedAt(now);
+    if (kept.hasEnded && (wanted === null || (this.isPlaying && wanted >= kept.newest))) {
+      this.#behind = { moment: kept.newest, since: now, isPlaying: false };
+      return kept.newest;
+    }
     if (wanted === null) return kept.newest;
     if (this.isPlaying && this.speed > 1 && wanted > kept.newest - CAUGHT_UP_MILLIS) {
       this.goLive();
@@ -59,12 +64,13 @@ export class ViewerTime {
     this.#behind = { moment: clamp(shown ?? this.momentAt(now, kept), kept), since: now, isPlaying: false };
   }
 
-  /** From where it is paused. Live, nothing changes.
+  /** From where it is paused; from the oldest moment if that is the end. Live, nothing changes.
    *  @param {number} now
    *  @param {Kept} kept */
   play(now, kept) {
     if (this.#behind === null) return;
-    this.#behind = { moment: this.momentAt(now, kept), since: now, isPlaying: true };
+    const moment = this.momentAt(now, kept), isAtEnd = kept.hasEnded && moment >= kept.newest;
+    this.#behind = { moment: isAtEnd ? kept.oldest : moment, since: now, isPlaying: true };
   }
 
   /** To a moment, paused there if it was live or paused.

@@ -293,8 +293,23 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFram
                {"has_pictures", has_pictures}});
 }
 
-std::string DetailsJson(const SceneState* state, const std::string& live_camera,
-                        bool has_pictures) {
+namespace {
+
+json RecordingToJson(const Playback& playback) {
+  const auto secs_or_null = [](const std::optional<std::int64_t>& nanos) {
+    return nanos ? json(1e-9 * static_cast<double>(*nanos)) : json();
+  };
+  const auto micros = [](std::int64_t nanos) { return 1e-3 * static_cast<double>(nanos); };
+  return {{"start_micros", micros(playback.start_nanos)},
+          {"length_secs", secs_or_null(playback.length_nanos)},
+          {"round_secs", secs_or_null(playback.round_nanos)},
+          {"ended_micros", playback.ended_nanos ? json(micros(*playback.ended_nanos)) : json()}};
+}
+
+}  // namespace
+
+std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures,
+                        const Playback* playback) {
   json people = json::array();
   for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
     const PersonState& person = state->people[i];
@@ -338,7 +353,8 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
                  {"has_pictures", has_pictures},
                  {"people", std::move(people)},
                  {"objects", std::move(objects)},
-                 {"left_out", std::move(left_out)}}}});
+                 {"left_out", std::move(left_out)},
+                 {"recording", playback != nullptr ? RecordingToJson(*playback) : json()}}}});
 }
 
 std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,

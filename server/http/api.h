@@ -27,8 +27,9 @@ std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFram
                         const std::string& live_camera, bool has_pictures);
 
 /// The WebSocket message "details": texts and values that change seldom. Equal inputs give equal
-/// text.
-std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures);
+/// text. `playback`: null if the stream is live.
+std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures,
+                        const Playback* playback = nullptr);
 
 /// The person's model for /api/skin/<person>/<revision>. Null unless the revision is the current
 /// one and the model has a skin.

@@ -19,13 +19,15 @@ SharedBytes Share(Bytes bytes) { return std::make_shared<const Bytes>(std::move(
 }  // namespace
 
 Hub::Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, PictureFeed* feed,
-         const history::History* history, std::string camera, Counters& counters)
+         const history::History* history, std::string camera, Counters& counters,
+         GetPlayback playback)
     : states_(states),
       pictures_(pictures),
       feed_(feed),
       history_(history),
       camera_(std::move(camera)),
-      counters_(counters) {}
+      counters_(counters),
+      playback_(std::move(playback)) {}
 
 int Hub::CountOf(const std::string& address) const {
   return static_cast<int>(
@@ -133,8 +135,7 @@ void Hub::LookBack(HubClient& client, const struct LookBack& wanted) {
     return client.Offer(Slot::kError, Share(EncodeError(kNoHistory)));
   }
   ++counters_.past_states_encoded;
-  const std::string details = DetailsJson(state.get(), camera_, feed_ != nullptr);
-  client.Offer(Slot::kPast, Share(EncodePast(wanted.id, *state, details, Moment())));
+  client.Offer(Slot::kPast, Share(EncodePast(wanted.id, *state, DetailsOf(state.get()), Moment())));
 }
 
 StateMoment Hub::Moment() const {
@@ -175,8 +176,13 @@ SharedBytes Hub::EncodeNewestState() const {
 
 SharedBytes Hub::EncodeDetails() const {
   const std::shared_ptr<const SceneState> state = states_.Get();
-  const std::string text = DetailsJson(state.get(), camera_, feed_ != nullptr);
+  const std::string text = DetailsOf(state.get());
   return Share(Bytes(text.begin(), text.end()));
+}
+
+std::string Hub::DetailsOf(const SceneState* state) const {
+  const auto playback = playback_ ? playback_() : nullptr;
+  return DetailsJson(state, camera_, feed_ != nullptr, playback.get());
 }
 
 }  // namespace kinescope::http

@@ -5,12 +5,14 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/playback.h"
 #include "core/scene_state.h"
 #include "core/system/latest.h"
 #include "server/http/counters.h"
@@ -41,9 +43,12 @@ class Hub {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// `feed` and `history` may be null. All references are borrowed.
+  using GetPlayback = std::function<std::shared_ptr<const Playback>()>;
+
+  /// `feed`, `history` and `playback` may be null. All references are borrowed.
   Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, PictureFeed* feed,
-      const history::History* history, std::string camera, Counters& counters);
+      const history::History* history, std::string camera, Counters& counters,
+      GetPlayback playback = nullptr);
 
   /// Whether a client at `address` may join: while its address has fewer clients than there are
   /// free places. So one address takes at most half of all, and never the last one.
@@ -83,6 +88,7 @@ class Hub {
   void CountViewers();  // call after a client has changed whether it wants pictures
   SharedBytes EncodeNewestState() const;
   SharedBytes EncodeDetails() const;
+  std::string DetailsOf(const SceneState* state) const;
 
   const Latest<SceneState>& states_;
   const Latest<Picture>& pictures_;
@@ -90,6 +96,7 @@ class Hub {
   const history::History* const history_;
   std::string camera_;  // of the live picture
   Counters& counters_;
+  const GetPlayback playback_;
   std::set<HubClient*> clients_;
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_

@@ -166,7 +166,7 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
       feed_(feed),
       program_diagnostics_(std::move(program_diagnostics)),
       files_(config.web_root),
-      hub_(states, pictures, feed, config.history, config.camera, counters_),
+      hub_(states, pictures, feed, config.history, config.camera, counters_, config.playback),
       guesses_(config.warn),
       pixels_(Clock::now()),
       acceptor_(io_, asio::ip::make_address(config.bind_ip).is_v6() ? tcp::v6() : tcp::v4(),

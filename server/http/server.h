@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/force_inputs.h"
+#include "core/playback.h"
 #include "core/scene_state.h"
 #include "core/system/latest.h"
 #include "server/history/history.h"
@@ -98,6 +99,9 @@ struct HttpConfig {
   std::function<std::string(int character, const HandLoad& load)> set_hand_load;
   /// Where viewers look back; borrowed. Null: they cannot.
   const history::History* history = nullptr;
+  /// Of the recording that is played; null: the stream is live. Called on the server's thread. May
+  /// be null.
+  std::function<std::shared_ptr<const Playback>()> playback;
   PatienceLimits patience;
   /// Receives lines for the log, on the server's thread. May be null.
   std::function<void(const std::string& line)> warn;

@@ -100,6 +100,7 @@ void PacedSource::EndRound() {
   const double rate = source_->nominal_rate_hz();
   if (rate > 0) period = static_cast<std::int64_t>(1e9 / rate);
   round_offset_ = last_played_ + period;
+  ++rounds_;
   is_round_empty_ = true;
   for (auto& [id, track] : tracks_) {
     track.samples = 0;
@@ -148,6 +149,14 @@ Source::State PacedSource::Poll(std::chrono::milliseconds timeout, SampleSink& s
     HandOn(next.mapped(), moment, sink);
   }
   return State::kMore;
+}
+
+std::optional<Playback> PacedSource::playback() const {
+  if (!has_started_) return std::nullopt;
+  Playback playback;
+  playback.start_nanos = start_wall_;
+  if (rounds_ > 0) playback.round_nanos = round_offset_ / rounds_;
+  return playback;
 }
 
 SourceCounters PacedSource::counters() const {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -34,6 +35,7 @@ class PacedSource : public Source, private SampleSink {
   std::string description() const override { return source_->description(); }
   bool is_live() const override { return true; }
   double nominal_rate_hz() const override { return source_->nominal_rate_hz(); }
+  std::optional<Playback> playback() const override;
 
  private:
   // Read but not due yet. In queued samples the stamp is the played time.
@@ -74,6 +76,7 @@ class PacedSource : public Source, private SampleSink {
   bool is_round_empty_ = true;
   std::int64_t first_stamp_ = 0;   // of this round
   std::int64_t round_offset_ = 0;  // played time before this round
+  std::int64_t rounds_ = 0;        // before this one
   std::int64_t last_played_ = 0;   // of the newest sample read
   bool has_started_ = false;
   std::int64_t start_monotonic_ = 0;

@@ -1,7 +1,14 @@
 // Looking back: each viewer has a time of their own, while the stream goes on.
 import assert from 'node:assert/strict';
+import { execFile, spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { mkdtemp, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { createInterface } from 'node:readline';
 import { after, before, test as nodeTest } from 'node:test';
-import { closeBrowser, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
+import { promisify } from 'node:util';
+import { closeBrowser, endWithTests, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -47,7 +54,7 @@ test('a paused page stays at its sample while the stream goes on, says so, and s
   await sampleIs(page, sample - 2);
   await page.click('#step-forward');
   await sampleIs(page, sample - 1);
-  assert.match(await text(page, 'picture-note'), /live only/);
+  assert.match(await text(page, 'picture-note'), /newest sample only/);
   await saveScreenshot(page, 'behind_desktop');
   await page.keyboard.press('Escape');
   await statusIs(page, /^Live$/);
@@ -151,6 +158,54 @@ test('keys that belong to a field or a button are left to it', async () => {
   await page.keyboard.press('Space');
   await sampleIs(page, sample - 1);
   await close();
+});
+
+/** `kinescope serve` with this source on a port of its own. */
+async function serve(source, args = []) {
+  const child = spawn(process.env.KINESCOPE, ['serve', source, '--http_port', '0', '--pictures', 'off', '--ros', 'off',
+    ...args], { stdio: ['ignore', 'ignore', 'pipe'] });
+  endWithTests(child);
+  for await (const line of createInterface({ input: child.stderr })) {
+    const found = line.match(/page at (http:\S+)/);
+    if (found) return { url: found[1], stop: () => { child.kill('SIGINT'); return once(child, 'exit'); } };
+  }
+  throw new Error('kinescope serve ended before it served a page');
+}
+
+test('a recording is never called live: the page says where in it the viewer is, and stops at its end', async () => {
+  const folder = await mkdtemp(join(tmpdir(), 'kinescope-time-'));
+  const file = join(folder, 'walk.mvnx');
+  await promisify(execFile)(process.env.KINESCOPE, ['convert', 'demo:walk', '--seconds', '4', '--out', file]);
+  const server = await serve(file);
+  const { page, problems, close } = await openPage(server.url, { beforeLoad: (fresh) => fresh.addInitScript(() => {
+    window.words = [];
+    addEventListener('DOMContentLoaded', () => {
+      const word = document.getElementById('status-word');
+      new MutationObserver(() => window.words.push(word.textContent))
+        .observe(word, { childList: true, characterData: true, subtree: true });
+    });
+  }) });
+  await statusIs(page, /^Recording 0:04\.0 of 0:04$/);
+  await page.waitForFunction(() => document.getElementById('play').dataset.act === 'play', null, LONG);
+  // The loads of the last sample stay, although no more samples come.
+  await page.waitForFunction(() => /low|medium|high/.test(document.getElementById('loads').textContent), null, LONG);
+  const last = await sampleOf(page);
+  await page.keyboard.press('ArrowLeft');
+  await sampleIs(page, last - 1);
+  await page.keyboard.press('Escape');
+  await sampleIs(page, last);
+  await page.keyboard.press('Space');
+  await statusIs(page, /^Recording 0:0[1-3]\.\d of 0:04$/);
+  await saveScreenshot(page, 'recording_desktop');
+  await page.setViewportSize(PHONE);
+  await saveScreenshot(page, 'recording_phone');
+  await statusIs(page, /^Recording 0:04\.0 of 0:04$/);
+  const words = await page.evaluate(() => window.words);
+  assert.deepEqual(words.filter((word) => !/^(Connecting|No data|Recording [\d:.]+( of 0:04)?)$/.test(word)), []);
+  assert.deepEqual(problems, []);
+  await close();
+  await server.stop();
+  await rm(folder, { recursive: true });
 });
 
 test('on a phone the transport is in reach and covers nothing of the person', async () => {

@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <filesystem>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -28,6 +30,21 @@ void LogListening(const Source& source, const std::string& reach) {
                static_cast<double>(bytes) * 1e-6);
 }
 
+// The motion of the built-in subject is made, not recorded.
+bool IsRecording(const ServeConfig& config) {
+  return KindOfSource(config.source_url) == SourceKind::kFile;
+}
+
+// Null for what cannot be read twice: a pipe.
+std::unique_ptr<RecordingLength> LengthOf(const ServeConfig& config) {
+  std::error_code ignored;
+  if (!IsRecording(config) || !std::filesystem::is_regular_file(config.source_url, ignored)) {
+    return nullptr;
+  }
+  return std::make_unique<RecordingLength>(
+      [url = config.source_url, settings = config.source] { return OpenSource(url, settings); });
+}
+
 // Of a part that may be off.
 template <class Part>
 auto StatusOf(const std::unique_ptr<Part>& part) {
@@ -42,6 +59,8 @@ Server::Server(const ServeConfig& config)
       source_(OpenAtTrueRate(config.source_url, config.loop, config.source)),
       history_(config.history ? std::make_unique<history::History>(*config.history) : nullptr),
       overload_(/*may_skip=*/!config.ros),
+      is_recording_(IsRecording(config)),
+      length_(LengthOf(config)),
       builder_(config.scene, source_->description(), source_->nominal_rate_hz(),
                [this](const std::shared_ptr<SceneState>& state) { OnState(state); }) {
   for (const std::string& note : config.notes) spdlog::info("{}", note);
@@ -79,6 +98,7 @@ void Server::StartPage(const ServeConfig& config) {
     return hand_loads_.Put(character, load);
   };
   page.history = history_.get();
+  page.playback = [this] { return playback_.Get(); };
   page.warn = [](const std::string& line) { spdlog::warn("{}", line); };
   page_.emplace(page, *listener_, states_, pictures_, live_pictures_.get(),
                 [this] { return Diagnostics(); });
@@ -114,6 +134,7 @@ void Server::Run() {
     inputs.TakeInputs();
     inputs.AfterPoll();
     OnTime(MonotonicNanos());
+    UpdatePlayback(state == Source::State::kEnded);
     if (ros_ && ros_->status().shutdown_requested) {
       spdlog::info("shut down through ROS");
       break;
@@ -123,6 +144,19 @@ void Server::Run() {
     std::this_thread::sleep_for(kPollTimeout);  // the page stays up
   }
   spdlog::info("stopping");
+}
+
+void Server::UpdatePlayback(bool has_ended) {
+  if (!is_recording_) return;
+  std::optional<Playback> now = source_->playback();
+  if (!now) return;
+  const std::shared_ptr<const Playback> before = playback_.Get();
+  if (length_ != nullptr) now->length_nanos = length_->nanos();
+  if (before != nullptr) now->ended_nanos = before->ended_nanos;
+  if (has_ended && !now->ended_nanos) now->ended_nanos = states_.Get()->made_nanos;
+  if (before == nullptr || *before != *now) {
+    playback_.Publish(std::make_shared<const Playback>(*now));
+  }
 }
 
 void Server::OnTime(std::int64_t now_nanos) {

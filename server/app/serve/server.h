@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "core/playback.h"
 #include "core/scene_state.h"
 #include "core/source.h"
 #include "core/system/latest.h"
@@ -22,6 +23,7 @@
 #include "server/http/server.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
+#include "server/source/recording_length.h"
 
 namespace kinescope::app {
 
@@ -44,7 +46,8 @@ class Server {
   void StartPage(const ServeConfig& config);
   void OnState(const std::shared_ptr<SceneState>& state);
   void OnTime(std::int64_t now_nanos);  // between polls
-  std::string Diagnostics() const;      // on the page's thread
+  void UpdatePlayback(bool has_ended);
+  std::string Diagnostics() const;  // on the page's thread
 
   const std::int64_t start_nanos_;
   std::unique_ptr<http::Listener> listener_;  // before everything that takes time; until the page
@@ -53,11 +56,14 @@ class Server {
   // Between threads:
   Latest<SceneState> states_;                        // reading thread -> page
   Latest<SourceCounters> counters_;                  // reading thread -> page
+  Latest<Playback> playback_;                        // reading thread -> page; null: live
   Latest<http::Picture> pictures_;                   // drawing thread -> page
   HandLoadMailbox hand_loads_;                       // page -> reading thread
   const std::unique_ptr<history::History> history_;  // reading thread -> page; null: off
   Overload overload_;                                // its count: reading thread -> page
   // Used by the reading thread only:
+  const bool is_recording_;                        // else live, or the built-in subject
+  const std::unique_ptr<RecordingLength> length_;  // null: it cannot be found
   LivenessLog liveness_log_;
   MissingPoseWarning missing_pose_warning_;
   CrowdWarning crowd_warning_;

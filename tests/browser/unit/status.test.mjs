@@ -28,11 +28,24 @@ test('an overloaded server is named with its delay, and never live', () => {
 
 test('a viewer who looks back is told so, and what is wrong with the live stream', () => {
   const behind = { ...good, behindMillis: 12_400 };
-  assert.deepEqual(statusOf(behind), { level: 'behind', word: 'Behind −12.4 s', banner: '' });
+  assert.deepEqual(statusOf(behind), { level: 'behind', word: 'Behind −12.4 s', banner: '', isFresh: true });
   assert.match(statusOf({ ...behind, isGone: true }).banner, /no longer kept/);
   assert.match(statusOf({ ...behind, liveness: 'stale', isGone: true }).banner, /^Live stream: Stale\. The stream has/);
   assert.match(statusOf({ ...behind, connected: false }).banner, /^Live stream: Disconnected\./);
   assert.equal(statusOf({ ...good, behindMillis: null }).word, 'Live');
+});
+
+test('a recording is never live: the status says where in it the viewer is', () => {
+  const recording = { start_micros: 5e6, length_secs: 190.04, round_secs: null, ended_micros: null };
+  const plays = { ...good, recording, stampMicros: 47e6 };
+  assert.deepEqual(statusOf(plays), { level: 'recording', word: 'Recording 0:42.0 of 3:10', banner: '', isFresh: true });
+  assert.equal(statusOf({ ...plays, recording: { ...recording, length_secs: null } }).word, 'Recording 0:42.0');
+  assert.equal(statusOf({ ...plays, recording: { ...recording, round_secs: 40 } }).word, 'Recording 0:02.0 of 3:10');
+  assert.equal(statusOf({ ...plays, behindMillis: 3000 }).word, 'Recording 0:42.0 of 3:10');
+  assert.match(statusOf({ ...plays, behindMillis: 3000, isGone: true }).banner, /no longer kept/);
+  const over = { ...plays, recording: { ...recording, ended_micros: 9e6 }, behindMillis: 0, liveness: 'stale' };
+  assert.deepEqual(statusOf(over), { level: 'recording', word: 'Recording 0:42.0 of 3:10', banner: '', isFresh: false });
+  assert.match(statusOf({ ...over, connected: false }).banner, /^Disconnected\. No connection/);
 });
 
 test('people who are left out are named with the reason', () => {
@@ -62,5 +75,5 @@ test('the status before the first connection is waiting, or rejected with the re
   const start = { ...good, connected: false, everConnected: false, liveness: null };
   assert.equal(statusOf(start).level, 'wait');
   assert.deepEqual(statusOf({ ...start, reason: 'no token' }),
-    { level: 'disconnected', word: 'Rejected', banner: 'no token' });
+    { level: 'disconnected', word: 'Rejected', banner: 'no token', isFresh: false });
 });

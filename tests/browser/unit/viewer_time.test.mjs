@@ -60,3 +60,19 @@ test('a slider at its right end does not make a view live, and a moment that is 
   assert.equal(time.isLive, true);
   assert.equal(time.isGone(0, kept), false);
 });
+
+test('what has ended is not live: it is paused at its end, and plays from the beginning', () => {
+  const time = new ViewerTime(), ended = { ...kept, hasEnded: true };
+  assert.equal(time.momentAt(0, ended), 601_000);
+  assert.deepEqual([time.isLive, time.isPlaying], [false, false]);
+  time.play(1000, ended);
+  assert.equal(time.momentAt(1500, ended), 1500);
+  time.goLive();
+  assert.equal(time.momentAt(2000, ended), 601_000);
+  assert.equal(time.isLive, false);
+  time.seek(600_900, 3000, ended);
+  time.setSpeed(8, 3000, ended);
+  time.play(3000, ended);
+  assert.equal(time.momentAt(3100, ended), 601_000);
+  assert.deepEqual([time.isLive, time.isPlaying], [false, false]);
+});

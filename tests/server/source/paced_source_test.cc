@@ -48,6 +48,18 @@ struct Collector : SampleSink {
   std::vector<BodySample> samples;
 };
 
+TEST(PacedSource, KnowsWhenItBeganAndTheTimeOfARound) {
+  PacedSource source(std::make_unique<ShortFile>(), [] { return std::make_unique<ShortFile>(); });
+  EXPECT_FALSE(source.playback()) << "nothing was delivered";
+  Collector collector;
+  while (collector.samples.size() < 5) (void)source.Poll(milliseconds(1000), collector);
+  const auto playback = source.playback();
+  ASSERT_TRUE(playback);
+  EXPECT_EQ(playback->start_nanos, collector.samples[0].stamp_nanos);
+  EXPECT_EQ(playback->round_nanos, 6'000'000) << "4 ms, and 2 ms to the next round";
+  EXPECT_EQ(collector.samples[4].stamp_nanos - playback->start_nanos, 8'000'000);
+}
+
 TEST(PacedSource, DeliversEverySampleOnceAndNotTooEarly) {
   PacedSource source(std::make_unique<ShortFile>());
   Collector collector;

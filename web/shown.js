@@ -1,0 +1,185 @@
+// What a viewer sees: the newest state, or a former one that the server has kept, each with the texts of its moment.
+import { showInAddress } from './address.js';
+import { LookBack } from './look_back.js';
+import { readTextMessage } from './messages.js';
+import { decodePast } from './state_codec.js';
+import { ViewerTime } from './viewer_time.js';
+
+const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per second
+
+/** @typedef {import('./state_codec.js').State} State
+ *  @typedef {import('./messages.js').Details} Details
+ *  @typedef {import('./viewer_time.js').Kept} Kept
+ *  @typedef {{send: (command: object) => void, notice: (text: string) => void, changed: () => void,
+ *    arrived: () => void}} Page  changed: the viewer has gone to another time, or begun to follow it again; arrived:
+ *    another former state is to be drawn */
+
+/** Rounded up, so that the sample of the moment is not after it.
+ *  @param {number} millis */
+const microsOf = (millis) => Math.ceil(1000 * millis);
+
+export class Shown {
+  time = new ViewerTime();
+  /** @type {State|null} */ #newest = null;
+  /** @type {Details} */ #newestDetails = {
+    source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [], recording: null,
+  };
+  /** @type {{state: State, details: Details}|null} */ #past = null;
+  #askedMicros = NaN;  // of the moment last asked for
+  /** @type {{by: number, from: State}|null} */ #step = null;  // under way
+  #addressAt = 0;
+  /** @type {number|null} */ #linkedMicros;
+  /** @type {Page} */ #page;
+  /** @type {LookBack} */ #lookBack;
+
+  /** @param {Page} page
+   *  @param {number|null} linkedMicros  the moment of the address with which the page was opened; null: none */
+  constructor(page, linkedMicros) {
+    this.#page = page;
+    this.#linkedMicros = linkedMicros;
+    this.#lookBack = new LookBack(page.send);
+  }
+
+  /** @param {State} state  the newest one */
+  setNewest(state) {
+    this.#newest = state;
+    if (this.#linkedMicros !== null) this.#goToLinkedMoment(this.#linkedMicros);
+  }
+
+  /** @param {Details} details  of the newest state */
+  setNewestDetails(details) {
+    this.#newestDetails = details;
+  }
+
+  get newest() { return this.#newest; }
+
+  get newestDetails() { return this.#newestDetails; }
+
+  get state() { return this.#past?.state ?? this.#newest; }
+
+  get details() { return this.#past?.details ?? this.#newestDetails; }
+
+  get isNewest() { return this.#past === null; }
+
+  /** @returns {number|null} the moment of what is shown, ms of the server's clock */
+  get millis() {
+    return this.state ? this.state.madeMicros / 1000 : null;
+  }
+
+  /** @returns {Kept|null} null: the server keeps none */
+  kept() {
+    const newest = this.#newest, ended = this.#newestDetails.recording?.ended_micros ?? null;
+    if (newest === null || newest.oldestMicros === 0) return null;
+    return { oldest: newest.oldestMicros / 1000, newest: (ended ?? newest.madeMicros) / 1000, hasEnded: ended !== null };
+  }
+
+  /** Call it after every change of `time`. */
+  onTimeChanged() {
+    const range = this.kept();
+    if (range?.hasEnded) this.time.momentAt(performance.now(), range);  // which is not live
+    if (this.time.isLive) {
+      if (this.#past === null) return;
+      showInAddress({ micros: null });
+      this.#past = null;
+      this.#askedMicros = NaN;
+      this.#lookBack.stop();
+    } else if (this.#past === null && this.#newest) {
+      // Stays on the screen until the server has answered.
+      this.#past = { state: this.#newest, details: this.#newestDetails };
+    }
+    this.#page.changed();
+  }
+
+  /** Asks the server for the state of the viewer's moment; call it for every drawing.
+   *  @param {number} now */
+  ask(now) {
+    const range = this.kept();
+    if (range === null || (this.time.isLive && !range.hasEnded)) return;
+    const wasLive = this.time.isLive;
+    const micros = microsOf(this.time.momentAt(now, range));
+    if (this.time.isLive !== wasLive) this.onTimeChanged();  // it has caught up, or the recording has ended
+    if (this.time.isLive || micros === this.#askedMicros) return;
+    this.#askedMicros = micros;
+    this.#lookBack.ask({ micros }, now);
+  }
+
+  /** @param {1|-1} by  sample */
+  stepBy(by) {
+    const from = this.state, range = this.kept();
+    if (from === null || range === null) return;
+    const now = performance.now();
+    this.#askedMicros = microsOf(this.time.momentAt(now, range));  // the answer says where the step leads
+    this.#step = { by, from };
+    this.#askNextTo(from, now);
+  }
+
+  /** @param {State} state
+   *  @param {number} now */
+  #askNextTo(state, now) {
+    this.#lookBack.ask({ number: Math.max(0, state.stateNumber + (this.#step?.by ?? 0)) }, now);
+  }
+
+  /** @param {ArrayBuffer} buffer  an answer of the server */
+  onPast(buffer) {
+    const now = performance.now();
+    const answer = decodePast(buffer);
+    if (!this.#lookBack.onAnswer(answer.id, now) || this.#past === null) return;
+    if (this.#isStillThere(answer.state)) return this.#askNextTo(answer.state, now);
+    const message = readTextMessage(answer.details);
+    const details = message && 'details' in message ? message.details : this.#newestDetails;
+    this.#past = { state: answer.state, details };
+    const range = this.kept();
+    if (!this.time.isPlaying && range) {
+      // To the sample itself, so that a step leads to another one.
+      if (!this.time.isGone(now, range)) this.time.pause(now, range, answer.state.madeMicros / 1000);
+      this.#askedMicros = microsOf(answer.state.madeMicros / 1000);
+    }
+    this.#page.arrived();
+  }
+
+  /** Whether the state has the sample that the step began at: a sample may have several states, such as one more when
+   *  the stream stopped.
+   *  @param {State} state */
+  #isStillThere(state) {
+    const step = this.#step;
+    const isThere = step !== null && state.stampMicros === step.from.stampMicros && state.counter === step.from.counter
+      && Math.sign(state.stateNumber - step.from.stateNumber) === step.by;
+    if (isThere) this.#step = { by: step.by, from: state };
+    else this.#step = null;
+    return isThere;
+  }
+
+  /** @param {number} now
+   *  @returns {number|null} by which the viewer looks back, ms; null: not */
+  behindMillis(now) {
+    const range = this.kept();
+    return this.time.isLive || range === null ? null : range.newest - this.time.momentAt(now, range);
+  }
+
+  /** Whether the moment that the viewer wants to see is no longer kept.
+   *  @param {number} now */
+  isGone(now) {
+    const range = this.kept();
+    return range !== null && this.time.isGone(now, range);
+  }
+
+  /** Puts the moment of a paused viewer into the address.
+   *  @param {number} now */
+  keepAddress(now) {
+    if (this.#past === null || this.time.isPlaying || now - this.#addressAt < ADDRESS_MILLIS) return;
+    this.#addressAt = now;
+    showInAddress({ micros: this.#past.state.madeMicros });
+  }
+
+  /** The address was copied from that of another viewer.
+   *  @param {number} micros */
+  #goToLinkedMoment(micros) {
+    this.#linkedMicros = null;
+    const range = this.kept(), moment = micros / 1000, { notice } = this.#page;
+    if (range === null) return notice('This server keeps no former moments: you see the newest one');
+    if (moment > range.newest) return notice('The moment of this link is not on this server: you see the newest one');
+    if (moment < range.oldest) notice('The moment of this link is no longer kept: you see the oldest one');
+    this.time.seek(moment, performance.now(), range);
+    this.onTimeChanged();
+  }
+}
