@@ -13,6 +13,7 @@
 #include "core/system/words.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"
+#include "server/http/token_page.h"
 
 namespace kinescope::http {
 namespace {
@@ -112,20 +113,30 @@ std::optional<Answer> Router::RefuseStranger(const Request& request, const Targe
   if (is_guess && site_.guesses != nullptr) {
     const int secs = CountGuesses(request, given);
     if (secs > 0) {
-      Answer answer = Refuse(429, "too many wrong tokens",
-                             "wrong token, and too many of them from " + request.address +
-                                 "; open the URL of the running server, with its token, or try " +
-                                 "another one in " + std::to_string(secs) + " s");
+      Answer answer = AskForToken(
+          429, "too many wrong tokens",
+          "wrong token, and too many of them from " + request.address +
+              "; open the URL of the running server, with its token, or try another one in " +
+              std::to_string(secs) + " s",
+          request, target);
       answer.headers.emplace_back("Retry-After", std::to_string(secs));
       return answer;
     }
   }
-  Answer answer =
-      Refuse(401, "no token",
-             given.any() ? "wrong token; open the URL of the running server, with its token"
-                         : "token missing; open the URL of the server, which ends with ?token=...");
+  Answer answer = AskForToken(
+      401, "no token",
+      given.any() ? "wrong token; open the URL of the running server, with its token"
+                  : "token missing; open the URL of the server, which ends with ?token=...",
+      request, target);
   answer.headers.emplace_back("WWW-Authenticate", "Bearer");
   return answer;
+}
+
+Answer Router::AskForToken(int status, const char* kind, const std::string& reason,
+                           const Request& request, const Target& target) const {
+  Answer answer = Refuse(status, kind, reason);
+  if (request.accept.find("text/html") == std::string::npos) return answer;
+  return TokenPage(status, reason, target);
 }
 
 // Each token of the request is a guess. Returns as GuessGuard::OnWrong.

@@ -69,6 +69,9 @@ class Router {
   [[nodiscard]] Answer Refuse(int status, const char* kind, const std::string& reason) const;
   [[nodiscard]] std::optional<Answer> RefuseStranger(const Request& request, const Target& target,
                                                      Admission* admission) const;
+  /// As Refuse, but browsers receive a page with a field for the token.
+  [[nodiscard]] Answer AskForToken(int status, const char* kind, const std::string& reason,
+                                   const Request& request, const Target& target) const;
   [[nodiscard]] int CountGuesses(const Request& request, const GivenTokens& given) const;
   [[nodiscard]] std::optional<Answer> RefuseOtherSite(const Request& request,
                                                       const Target& target) const;

@@ -431,7 +431,7 @@ TEST_F(RouterTest, SlowsDownWrongTokensButNeverTheRightOne) {
     request.address = address;
     return router.Route(request).status;
   };
-  for (int i = 0; i < GuessGuard::kAtOnce; ++i) {
+  for (std::size_t i = 0; i < GuessGuard::kPerMinute; ++i) {
     EXPECT_EQ(status("guess" + std::to_string(i), "10.0.0.7"), 401) << i;
   }
   EXPECT_EQ(status("another", "10.0.0.7"), 429);
@@ -447,7 +447,7 @@ TEST_F(RouterTest, CountsEveryTokenOfARequestAsAGuessUnlessOneIsRight) {
   const Router router(GuardedSite());
   Request request = RequestOf("GET", "/");
   std::string wrong;
-  for (int i = 0; i < 2 * GuessGuard::kAtOnce; ++i) {
+  for (std::size_t i = 0; i < 2 * GuessGuard::kPerMinute; ++i) {
     wrong += std::string(kCookie) + "=guess" + std::to_string(i) + "; ";
   }
   request.cookies = wrong + kCookie + "=s3cret";
@@ -461,7 +461,7 @@ TEST_F(RouterTest, CountsEveryTokenOfARequestAsAGuessUnlessOneIsRight) {
 // A page of another site can make the browser of a user send any token.
 TEST_F(RouterTest, CountsNoTokensThatAnotherSiteMakesABrowserSend) {
   const Router router(GuardedSite());
-  for (int i = 0; i < 2 * GuessGuard::kAtOnce; ++i) {
+  for (std::size_t i = 0; i < 2 * GuessGuard::kPerMinute; ++i) {
     const std::string query = "?token=guess" + std::to_string(i);
     Request image = RequestOf("GET", "/snapshot.png" + query);
     image.sec_fetch_site = "cross-site";
