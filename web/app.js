@@ -11,6 +11,7 @@ import { mountLoadsShown } from './loads_shown.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { readCameras, readDiagnostics, readModel } from './messages.js';
 import { PicturePanel } from './picture_panel.js';
+import { mountRole } from './role.js';
 import { meshesText, readingsOf, streamReadingsOf } from './readings.js';
 import { Scene } from './scene.js';
 import { ask, messageOf } from './server_api.js';
@@ -41,6 +42,7 @@ const latencies = new RecentValues();
 
 const scene = makeScene();
 const showLoads = mountLoadList(elements.loads);
+const loadRole = mountRole(elements.role, showNotice);
 const showProblems = mountDiagnostics(elements.diagnostics, elements.problems);
 const connection = new Connection({
   onState: (buffer) => { newest = buffer; },
@@ -55,6 +57,7 @@ const connection = new Connection({
   onError: showNotice,
   onOpen() {
     picture.ask();
+    loadRole();
     loadCameras();
   },
 });

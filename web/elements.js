@@ -4,7 +4,7 @@
 export const ELEMENTS = /** @type {const} */ ({
   'status': 'div', 'status-word': 'span', 'banner': 'p',
   'rate': 'dd', 'latency': 'span', 'latency-p95': 'small', 'sample': 'dd', 'time-code': 'dd',
-  'source': 'span', 'viewers': 'span',
+  'source': 'span', 'viewers': 'span', 'role': 'span',
   'view': 'div', 'cameras': 'div', 'loads-shown': 'select',
   'com': 'dd', 'cop': 'dd', 'support': 'dd', 'compression-row': 'div', 'compression': 'dd',
   'picture-image': 'img', 'picture-note': 'p', 'picture-on': 'input', 'picture-camera': 'select',

@@ -48,6 +48,14 @@ std::optional<std::string> FindBearer(std::string_view authorization) {
   return std::string(Trim(authorization.substr(kScheme.size())));
 }
 
+// nullopt: of neither token. Both are compared, so that the time does not tell which one is near.
+std::optional<Role> RoleOf(const std::string& text, const PageTokens& tokens) {
+  const bool is_operator = EqualInConstantTime(text, tokens.of_operator);
+  const bool is_viewer = EqualInConstantTime(text, tokens.of_viewer) && !tokens.of_viewer.empty();
+  if (is_operator) return Role::kOperator;
+  return is_viewer ? std::optional(Role::kViewer) : std::nullopt;
+}
+
 bool IsAlphaNumeric(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
@@ -64,13 +72,19 @@ GivenTokens FindTokens(const Target& target, std::string_view authorization,
   return given;
 }
 
-Access CheckToken(const std::string& token, const GivenTokens& given) {
-  if (token.empty()) return Access::kOpen;
-  const auto is_right = [&](const std::string& text) { return EqualInConstantTime(text, token); };
-  if (given.query && is_right(*given.query)) return Access::kByQuery;
-  if (given.header && is_right(*given.header)) return Access::kByHeader;
-  return std::any_of(given.cookies.begin(), given.cookies.end(), is_right) ? Access::kByCookie
-                                                                           : Access::kDenied;
+Admission CheckToken(const PageTokens& tokens, const GivenTokens& given) {
+  if (tokens.of_operator.empty()) return {Access::kOpen, Role::kOperator};
+  if (given.query) {
+    if (const auto role = RoleOf(*given.query, tokens)) return {Access::kByQuery, *role};
+  }
+  if (given.header) {
+    if (const auto role = RoleOf(*given.header, tokens)) return {Access::kByHeader, *role};
+  }
+  std::optional<Role> highest;
+  for (const std::string& cookie : given.cookies) {
+    highest = std::max(highest, RoleOf(cookie, tokens));  // nullopt is the least
+  }
+  return highest ? Admission{Access::kByCookie, *highest} : Admission{};
 }
 
 bool FitsIntoCookie(std::string_view token) {

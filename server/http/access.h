@@ -1,5 +1,5 @@
-/// Access control: token check, and which origins may open the WebSocket. Pure functions, any
-/// thread.
+/// Access control: token check, the role that a token gives, and which origins may open the
+/// WebSocket. Pure functions, any thread.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/http/role.h"
 #include "server/http/target.h"
 
 namespace kinescope::http {
@@ -32,8 +33,21 @@ struct GivenTokens {
 [[nodiscard]] GivenTokens FindTokens(const Target& target, std::string_view authorization,
                                      std::string_view cookies, std::string_view cookie_name);
 
-/// The comparison takes the same time for every wrong token.
-[[nodiscard]] Access CheckToken(const std::string& token, const GivenTokens& given);
+/// The tokens of a server.
+struct PageTokens {
+  std::string of_operator;  // "": none is required, every client is an operator
+  std::string of_viewer;    // "": there are no viewers; never without that of the operator
+};
+
+struct Admission {
+  Access access = Access::kDenied;
+  Role role = Role::kViewer;  // of a client that is not denied
+};
+
+/// A token in the request decides before a cookie, so that a link gives the role of its token. Of
+/// several cookies the highest role counts. The comparison takes the same time for every wrong
+/// token.
+[[nodiscard]] Admission CheckToken(const PageTokens& tokens, const GivenTokens& given);
 
 /// Shorter tokens can be guessed.
 inline constexpr std::size_t kMinTokenLength = 16;

@@ -9,17 +9,24 @@ namespace kinescope::http {
 namespace {
 
 constexpr std::size_t kRemembered = 32;  // wrong tokens of one address
+constexpr std::chrono::minutes kGuessWindow{1};
 constexpr std::chrono::minutes kLinePause{1};
 
 }  // namespace
 
 GuessGuard::Guesses& GuessGuard::Of(const std::string& address, Clock::time_point now) {
-  return addresses_.At(
-      address,
-      [&] {
-        return Guesses{Bucket(kAtOnce, 1, now), {}, 0};
-      },
-      [&](Guesses& guesses) { return guesses.left.IsFull(now); });
+  const auto forget_old = [&](Guesses& guesses) {
+    auto& counted = guesses.counted;
+    while (!counted.empty() && now - counted.front() >= kGuessWindow) counted.pop_front();
+  };
+  Guesses& guesses = addresses_.At(
+      address, [] { return Guesses{}; },
+      [&](Guesses& each) {
+        forget_old(each);
+        return each.counted.empty();
+      });
+  forget_old(guesses);
+  return guesses;
 }
 
 int GuessGuard::OnWrong(const std::string& address, std::string_view wrong, Clock::time_point now) {
@@ -30,9 +37,11 @@ int GuessGuard::OnWrong(const std::string& address, std::string_view wrong, Cloc
   if (std::exchange(guesses.line, line_) != line_) ++address_count_;
   last_address_ = address;
   Report(now);
-  const double secs = guesses.left.WaitFor(1, now).count();
-  if (secs > 0) return static_cast<int>(std::ceil(secs));
-  guesses.left.Take(1, now);
+  if (guesses.counted.size() >= kPerMinute) {
+    const std::chrono::duration<double> wait = guesses.counted.front() + kGuessWindow - now;
+    return static_cast<int>(std::ceil(wait.count()));
+  }
+  guesses.counted.push_back(now);
   guesses.seen.push_back(hash);
   if (guesses.seen.size() > kRemembered) guesses.seen.pop_front();
   return 0;

@@ -1,5 +1,5 @@
-/// Slows down and reports wrong tokens. An address may send kAtOnce different ones, then one per
-/// second; the same one again is no guess: pages with the cookie of an earlier token repeat it. The
+/// Slows down and reports wrong tokens. An address may send kPerMinute different ones in any
+/// minute; the same one again is no guess: pages with the cookie of an earlier token repeat it. The
 /// right token is never slowed down, or a guesser could lock out its owner. A token is safe because
 /// it is long (kMinTokenLength). Time is an argument. Server's thread only.
 #pragma once
@@ -18,7 +18,7 @@ namespace kinescope::http {
 
 class GuessGuard {
  public:
-  static constexpr int kAtOnce = 20;
+  static constexpr std::size_t kPerMinute = 10;
 
   /// `warn` receives a line about wrong tokens, never the token, at most once per minute.
   explicit GuessGuard(std::function<void(const std::string&)> warn) : warn_(std::move(warn)) {}
@@ -32,10 +32,11 @@ class GuessGuard {
 
  private:
   struct Guesses {
-    Bucket left;
-    std::deque<std::size_t> seen;  // hashes of the last wrong tokens
-    std::uint64_t line = 0;        // the last line that counts this address
+    std::deque<Clock::time_point> counted;  // of the last minute, the oldest first
+    std::deque<std::size_t> seen;           // hashes of the last wrong tokens
+    std::uint64_t line = 0;                 // the last line that counts this address
   };
+  /// What was counted for `address`, without what is older than a minute.
   Guesses& Of(const std::string& address, Clock::time_point now);
 
   std::function<void(const std::string&)> warn_;

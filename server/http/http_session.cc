@@ -167,7 +167,8 @@ void HttpSession::Respond() {
 }
 
 void HttpSession::BecomeWebSocket() {
-  if (auto refusal = shared_.router->RefuseWebSocket(request_)) {
+  Role role = Role::kViewer;
+  if (auto refusal = shared_.router->RefuseWebSocket(request_, &role)) {
     return Send(*std::move(refusal));
   }
   if (!shared_.hub->HasPlaceFor(connection_.address)) {
@@ -175,7 +176,7 @@ void HttpSession::BecomeWebSocket() {
     return Send(ErrorAnswer(503, shared_.hub->WhyNoPlaceFor(connection_.address)));
   }
   shared_.connections.Remove(connection_);
-  std::make_shared<WsSession>(std::move(stream_), connection_.address, *shared_.hub,
+  std::make_shared<WsSession>(std::move(stream_), connection_.address, role, *shared_.hub,
                               shared_.next_client_id++)
       ->Accept(parser_->get());
 }

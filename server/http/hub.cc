@@ -103,6 +103,11 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
     ++counters_.rejected["bad message"];
     return client.Offer(Slot::kError, Share(EncodeError(command.error())));
   }
+  if (!MayAct(client.role(), command->least)) {
+    ++counters_.rejected["not an operator"];
+    const std::string why = WhyNotPermitted('"' + command->needs_least + '"', client.role());
+    return client.Offer(Slot::kError, Share(EncodeError(why)));
+  }
   if ((command->seen_states && !client.OnSeen(Slot::kState, *command->seen_states)) ||
       (command->seen_pictures && !client.OnSeen(Slot::kPicture, *command->seen_pictures))) {
     ++counters_.rejected["bad message"];

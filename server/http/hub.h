@@ -17,6 +17,7 @@
 #include "core/system/latest.h"
 #include "server/http/counters.h"
 #include "server/http/protocol.h"
+#include "server/http/role.h"
 #include "server/http/server.h"
 
 namespace kinescope::http {
@@ -37,6 +38,7 @@ class HubClient {
   [[nodiscard]] virtual bool OnSeen(Slot slot, std::uint64_t count) = 0;
   virtual ClientCounters counters() const = 0;
   virtual const std::string& address() const = 0;  // of the client's machine
+  virtual Role role() const = 0;
 };
 
 class Hub {
@@ -68,7 +70,8 @@ class Hub {
   /// that the server runs and how old the state is, and sends changed details.
   void Tick(Clock::time_point now);
 
-  /// Processes a message of `client`. Answers are sent to this client, a change of camera to all.
+  /// Processes a message of `client`. Answers are sent to this client, a change of camera to all. A
+  /// message with a command that the client's role does not permit has no effect.
   void OnMessage(HubClient& client, std::string_view text);
 
   int client_count() const { return client_count_; }  // any thread

@@ -1,10 +1,13 @@
 #include "server/http/protocol.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
@@ -205,10 +208,6 @@ Bytes EncodePicture(const Picture& picture) {
 
 namespace {
 
-constexpr char kLookExpected[] =
-    "look: expected {\"id\": a count, \"micros\": a time of this server} or {\"id\": a count, "
-    "\"number\": that of a state}";
-
 std::optional<LookBack> ParseLookBack(const json& value) {
   constexpr double kMaxMicros = 9e15;  // exact as a float64, and as nanoseconds
   if (!value.is_object()) return std::nullopt;
@@ -231,32 +230,94 @@ std::optional<LookBack> ParseLookBack(const json& value) {
   return look;
 }
 
+std::optional<std::string> ParseName(const json& value) {
+  const bool fits =
+      value.is_string() && value.get_ref<const std::string&>().size() <= kMaxCameraName;
+  return fits ? std::optional(value.get<std::string>()) : std::nullopt;
+}
+
+std::optional<std::uint64_t> ParseCount(const json& value) {
+  return value.is_number_unsigned() ? std::optional(value.get<std::uint64_t>()) : std::nullopt;
+}
+
+std::optional<bool> ParseFlag(const json& value) {
+  return value.is_boolean() ? std::optional(value.get<bool>()) : std::nullopt;
+}
+
+std::optional<double> ParseAnyNumber(const json& value) {
+  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+}
+
+// False: `value` is not of the kind.
+template <class Value>
+bool Store(std::optional<Value> value, std::optional<Value>& member) {
+  member = std::move(value);
+  return member.has_value();
+}
+
+struct CommandKind {
+  const char* name;
+  Role least;
+  const char* expected;
+  const char* example;  // a valid value
+  bool (*read)(const json& value, ClientCommand& command);
+};
+
+// A new command: a line here, and one in docs/http.md.
+constexpr std::array<CommandKind, 6> kCommandKinds = {{
+    {"pictures", Role::kViewer, "true or false", "true",
+     [](const json& value, ClientCommand& c) { return Store(ParseFlag(value), c.pictures); }},
+    {"camera", Role::kOperator, "a name", "\"front\"",
+     [](const json& value, ClientCommand& c) { return Store(ParseName(value), c.camera); }},
+    {"look", Role::kViewer,
+     "{\"id\": a count, \"micros\": a time of this server} or {\"id\": a count, \"number\": that "
+     "of a state}",
+     R"({"id": 1, "number": 0})",
+     [](const json& value, ClientCommand& c) { return Store(ParseLookBack(value), c.look); }},
+    {"ping", Role::kViewer, "a number", "1",
+     [](const json& value, ClientCommand& c) { return Store(ParseAnyNumber(value), c.ping); }},
+    {"seen_states", Role::kViewer, "a count", "0",
+     [](const json& value, ClientCommand& c) { return Store(ParseCount(value), c.seen_states); }},
+    {"seen_pictures", Role::kViewer, "a count", "0",
+     [](const json& value, ClientCommand& c) { return Store(ParseCount(value), c.seen_pictures); }},
+}};
+
+std::string KnownCommands() {
+  std::string text;
+  for (const CommandKind& kind : kCommandKinds) {
+    text += std::string(text.empty() ? "" : ", ") + '"' + kind.name + '"';
+  }
+  return text;
+}
+
 }  // namespace
+
+std::vector<CommandInfo> Commands() {
+  std::vector<CommandInfo> commands;
+  for (const CommandKind& kind : kCommandKinds) {
+    commands.push_back(
+        {kind.name, kind.least, std::string("{\"") + kind.name + "\": " + kind.example + "}"});
+  }
+  return commands;
+}
 
 tl::expected<ClientCommand, std::string> ParseCommand(std::string_view text) {
   const json message = json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!message.is_object()) return tl::unexpected(std::string("expected one JSON object"));
   ClientCommand command;
   for (const auto& [key, value] : message.items()) {
-    if (key == "pictures" && value.is_boolean()) {
-      command.pictures = value.get<bool>();
-    } else if (key == "camera" && value.is_string() &&
-               value.get_ref<const std::string&>().size() <= kMaxCameraName) {
-      command.camera = value.get<std::string>();
-    } else if (key == "look") {
-      command.look = ParseLookBack(value);
-      if (!command.look) return tl::unexpected(std::string(kLookExpected));
-    } else if (key == "ping" && value.is_number()) {
-      command.ping = value.get<double>();
-    } else if (key == "seen_states" && value.is_number_unsigned()) {
-      command.seen_states = value.get<std::uint64_t>();
-    } else if (key == "seen_pictures" && value.is_number_unsigned()) {
-      command.seen_pictures = value.get<std::uint64_t>();
-    } else {
-      return tl::unexpected(
-          std::string("expected \"pictures\": true|false, \"camera\": a name, \"look\": an object, "
-                      "\"ping\": a number, "
-                      "\"seen_states\" or \"seen_pictures\": a count"));
+    const auto* const kind =
+        std::find_if(kCommandKinds.begin(), kCommandKinds.end(),
+                     [&, &name = key](const CommandKind& each) { return name == each.name; });
+    if (kind == kCommandKinds.end()) {
+      return tl::unexpected("unknown command; expected one of " + KnownCommands());
+    }
+    if (!kind->read(value, command)) {
+      return tl::unexpected(std::string(kind->name) + ": expected " + kind->expected);
+    }
+    if (kind->least > command.least) {
+      command.least = kind->least;
+      command.needs_least = kind->name;
     }
   }
   return command;

@@ -12,6 +12,7 @@
 
 #include "core/scene_state.h"
 #include "server/history/history.h"
+#include "server/http/role.h"
 #include "server/http/server.h"
 
 namespace kinescope::http {
@@ -57,8 +58,19 @@ struct LookBack {
   std::optional<std::uint64_t> number;
 };
 
+/// A member of a command, and who may send it.
+struct CommandInfo {
+  std::string name;
+  Role least;           // a command that changes what others see: kOperator
+  std::string example;  // a valid command with this member only
+};
+/// All of them, for messages and tests.
+[[nodiscard]] std::vector<CommandInfo> Commands();
+
 /// A command of a client: one JSON object with any of these members.
 struct ClientCommand {
+  Role least = Role::kViewer;         // that all of its members need
+  std::string needs_least;            // the first member that needs it; "": there is none
   std::optional<bool> pictures;       // whether the client wants the live picture
   std::optional<std::string> camera;  // of the live picture
   std::optional<LookBack> look;

@@ -13,6 +13,7 @@
 #include "core/system/words.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"
+#include "server/http/token_page.h"
 
 namespace kinescope::http {
 namespace {
@@ -95,37 +96,47 @@ Answer Router::Refuse(int status, const char* kind, const std::string& reason) c
 }
 
 std::optional<Answer> Router::RefuseStranger(const Request& request, const Target& target,
-                                             Access* access) const {
-  *access = Access::kOpen;
-  if (site_.token.empty()) {
+                                             Admission* admission) const {
+  *admission = {Access::kOpen, Role::kOperator};
+  if (site_.tokens.of_operator.empty()) {
     if (NamesThisMachine(request.host)) return std::nullopt;
     return Refuse(403, "unknown host",
                   "no token is set, so only requests to localhost or 127.0.0.1 are accepted");
   }
   const GivenTokens given =
       FindTokens(target, request.authorization, request.cookies, site_.cookie_name);
-  *access = CheckToken(site_.token, given);
-  if (*access != Access::kDenied) return std::nullopt;
+  *admission = CheckToken(site_.tokens, given);
+  if (admission->access != Access::kDenied) return std::nullopt;
   // What another site makes a browser send does not use up the share of its user.
   const bool is_guess = given.any() && !IsFromAnotherSite(request.sec_fetch_site) &&
                         IsSameOrigin(request.origin, request.host);
   if (is_guess && site_.guesses != nullptr) {
     const int secs = CountGuesses(request, given);
     if (secs > 0) {
-      Answer answer = Refuse(429, "too many wrong tokens",
-                             "wrong token, and too many of them from " + request.address +
-                                 "; open the URL of the running server, with its token, or try " +
-                                 "another one in " + std::to_string(secs) + " s");
+      Answer answer = AskForToken(
+          429, "too many wrong tokens",
+          "wrong token, and too many of them from " + request.address +
+              "; open the URL of the running server, with its token, or try another one in " +
+              std::to_string(secs) + " s",
+          request, target);
       answer.headers.emplace_back("Retry-After", std::to_string(secs));
       return answer;
     }
   }
-  Answer answer =
-      Refuse(401, "no token",
-             given.any() ? "wrong token; open the URL of the running server, with its token"
-                         : "token missing; open the URL of the server, which ends with ?token=...");
+  Answer answer = AskForToken(
+      401, "no token",
+      given.any() ? "wrong token; open the URL of the running server, with its token"
+                  : "token missing; open the URL of the server, which ends with ?token=...",
+      request, target);
   answer.headers.emplace_back("WWW-Authenticate", "Bearer");
   return answer;
+}
+
+Answer Router::AskForToken(int status, const char* kind, const std::string& reason,
+                           const Request& request, const Target& target) const {
+  Answer answer = Refuse(status, kind, reason);
+  if (request.accept.find("text/html") == std::string::npos) return answer;
+  return TokenPage(status, reason, target);
 }
 
 // Each token of the request is a guess. Returns as GuessGuard::OnWrong.
@@ -173,13 +184,22 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
 }
 
 // A new route: a line here, and one in docs/http.md.
-const std::array<Router::ApiRoute, 5> Router::kApiRoutes = {{
-    {"/api/state", Method::kGet, &Router::State},
-    {"/api/model", Method::kGet, &Router::Model},
-    {"/api/cameras", Method::kGet, &Router::Cameras},
-    {"/api/diagnostics", Method::kGet, &Router::Diagnostics},
-    {"/api/hand_load", Method::kPost, &Router::SetHandLoad},
+const std::array<Router::ApiRoute, 6> Router::kApiRoutes = {{
+    {"/api/session", Method::kGet, Role::kViewer, &Router::Session},
+    {"/api/state", Method::kGet, Role::kViewer, &Router::State},
+    {"/api/model", Method::kGet, Role::kViewer, &Router::Model},
+    {"/api/cameras", Method::kGet, Role::kViewer, &Router::Cameras},
+    {"/api/diagnostics", Method::kGet, Role::kViewer, &Router::Diagnostics},
+    {"/api/hand_load", Method::kPost, Role::kOperator, &Router::SetHandLoad},
 }};
+
+std::vector<Router::RouteInfo> Router::ApiRoutes() {
+  std::vector<RouteInfo> routes;
+  for (const ApiRoute& route : kApiRoutes) {
+    routes.push_back({route.path, route.method == Method::kPost ? "POST" : "GET", route.least});
+  }
+  return routes;
+}
 
 const Router::ApiRoute* Router::FindApi(const std::string& path) {
   const auto* const found = std::find_if(kApiRoutes.begin(), kApiRoutes.end(),
@@ -200,8 +220,9 @@ Answer Router::Route(const Request& request) const {
   const auto target = ParseTarget(request.target);
   if (!target) return Refuse(400, "bad address", target.error());
   if (auto refusal = RefuseOtherSite(request, *target)) return *std::move(refusal);
-  Access access = Access::kDenied;
-  if (auto refusal = RefuseStranger(request, *target, &access)) return *std::move(refusal);
+  Admission admission;
+  if (auto refusal = RefuseStranger(request, *target, &admission)) return *std::move(refusal);
+  const auto [access, role] = admission;
   if (auto refusal = RefuseBareCookie(request, *target, access)) return *std::move(refusal);
   const ApiRoute* const api = FindApi(target->path);
   const bool posts = api != nullptr && api->method == Method::kPost;
@@ -211,23 +232,31 @@ Answer Router::Route(const Request& request) const {
     answer.headers.emplace_back("Allow", allowed);
     return answer;
   }
-  Answer answer = api != nullptr ? (this->*api->answer)(request) : RouteAdmitted(*target, request);
+  if (api != nullptr && !MayAct(role, api->least)) {
+    return Refuse(403, "not an operator",
+                  WhyNotPermitted(request.method + " " + target->path, role));
+  }
+  Answer answer =
+      api != nullptr ? (this->*api->answer)(request, role) : RouteAdmitted(*target, request);
   answer.to_token_holder = access != Access::kOpen;
   if (access == Access::kByQuery && !posts) {
     // A client that forges this header only spoils its own cookie, so that any proxy may set it.
     const char* const secure = request.forwarded_proto == "https" ? "; Secure" : "";
-    answer.headers.emplace_back("Set-Cookie", site_.cookie_name + "=" + site_.token +
+    const std::string& token =
+        role == Role::kOperator ? site_.tokens.of_operator : site_.tokens.of_viewer;
+    answer.headers.emplace_back("Set-Cookie", site_.cookie_name + "=" + token +
                                                   "; Path=/; HttpOnly; SameSite=Strict" + secure);
   }
   return answer;
 }
 
-std::optional<Answer> Router::RefuseWebSocket(const Request& request) const {
+std::optional<Answer> Router::RefuseWebSocket(const Request& request, Role* role) const {
   const auto target = ParseTarget(request.target);
   if (!target) return Refuse(400, "bad address", target.error());
   if (auto refusal = RefuseForeignOrigin(request, "open its WebSocket")) return refusal;
-  Access access = Access::kDenied;
-  if (auto refusal = RefuseStranger(request, *target, &access)) return refusal;
+  Admission admission;
+  if (auto refusal = RefuseStranger(request, *target, &admission)) return refusal;
+  if (role != nullptr) *role = admission.role;
   if (target->path != kWebSocketPath) {
     return Refuse(404, "unknown address", "the WebSocket is at /ws");
   }
@@ -249,26 +278,30 @@ Answer Router::RouteAdmitted(const Target& target, const Request& request) const
   return File(target.path, request);
 }
 
-Answer Router::State(const Request& /*request*/) const {
+Answer Router::Session(const Request& /*request*/, Role role) const {
+  return JsonAnswer(JsonText(nlohmann::json{{"role", Name(role)}}));
+}
+
+Answer Router::State(const Request& /*request*/, Role /*role*/) const {
   return JsonAnswer(StateJson(site_.states->Get().get(), MonotonicNanos()));
 }
 
-Answer Router::Model(const Request& /*request*/) const {
+Answer Router::Model(const Request& /*request*/, Role /*role*/) const {
   return JsonAnswer(ModelJson(site_.states->Get().get(), site_.look));
 }
 
-Answer Router::Diagnostics(const Request& /*request*/) const {
+Answer Router::Diagnostics(const Request& /*request*/, Role /*role*/) const {
   return JsonAnswer(site_.diagnostics());
 }
 
-Answer Router::Cameras(const Request& /*request*/) const {
+Answer Router::Cameras(const Request& /*request*/, Role /*role*/) const {
   return JsonAnswer(
       CamerasJson(site_.cameras, site_.framing, site_.live_camera(), site_.has_pictures));
 }
 
 // A foreign page can make a browser send anything that a form could send. JSON is not possible: for
 // it the browser asks first, and is rejected.
-Answer Router::SetHandLoad(const Request& request) const {
+Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
   if (auto refusal = RefuseForeignOrigin(request, "set hand loads")) return *std::move(refusal);
   const std::string type = request.content_type.substr(0, request.content_type.find(';'));
   if (type != "application/json") {

@@ -16,6 +16,7 @@
 #include "server/http/access.h"
 #include "server/http/answer.h"
 #include "server/http/guess_guard.h"
+#include "server/http/role.h"
 #include "server/http/server.h"
 #include "server/http/skin_buffer.h"
 #include "server/http/static_files.h"
@@ -26,7 +27,7 @@ namespace kinescope::http {
 class Router {
  public:
   struct Site {
-    std::string token;
+    PageTokens tokens;
     std::string cookie_name;
     std::vector<CameraView> cameras;
     CameraFraming framing;
@@ -47,8 +48,19 @@ class Router {
   /// request, all else is judged first: the answer is final unless it is Answer::needs_body.
   [[nodiscard]] Answer Route(const Request& request) const;
 
-  /// Whether the request may open a WebSocket: nullopt, or the answer that rejects it.
-  [[nodiscard]] std::optional<Answer> RefuseWebSocket(const Request& request) const;
+  /// Whether the request may open a WebSocket: nullopt, or the answer that rejects it. `role`, if
+  /// not null, receives the role of an accepted client.
+  [[nodiscard]] std::optional<Answer> RefuseWebSocket(const Request& request,
+                                                      Role* role = nullptr) const;
+
+  /// A route under /api of a fixed address.
+  struct RouteInfo {
+    std::string path;
+    std::string method;  // "GET" (HEAD, too) or "POST"
+    Role least;          // that may use it
+  };
+  /// All of them, for messages and tests.
+  static std::vector<RouteInfo> ApiRoutes();
 
   static constexpr const char* kWebSocketPath = "/ws";
 
@@ -56,7 +68,10 @@ class Router {
   Answer RouteAdmitted(const Target& target, const Request& request) const;
   [[nodiscard]] Answer Refuse(int status, const char* kind, const std::string& reason) const;
   [[nodiscard]] std::optional<Answer> RefuseStranger(const Request& request, const Target& target,
-                                                     Access* access) const;
+                                                     Admission* admission) const;
+  /// As Refuse, but browsers receive a page with a field for the token.
+  [[nodiscard]] Answer AskForToken(int status, const char* kind, const std::string& reason,
+                                   const Request& request, const Target& target) const;
   [[nodiscard]] int CountGuesses(const Request& request, const GivenTokens& given) const;
   [[nodiscard]] std::optional<Answer> RefuseOtherSite(const Request& request,
                                                       const Target& target) const;
@@ -68,18 +83,20 @@ class Router {
   struct ApiRoute {
     const char* path;
     Method method;
-    Answer (Router::*answer)(const Request&) const;
+    Role least;  // a route that changes anything: kOperator
+    Answer (Router::*answer)(const Request&, Role) const;
   };
-  static const std::array<ApiRoute, 5> kApiRoutes;
+  static const std::array<ApiRoute, 6> kApiRoutes;
   /// Null if there is no such route.
   static const ApiRoute* FindApi(const std::string& path);
   static std::string ApiPaths();
 
-  Answer State(const Request& request) const;
-  Answer Model(const Request& request) const;
-  Answer Diagnostics(const Request& request) const;
-  Answer Cameras(const Request& request) const;
-  Answer SetHandLoad(const Request& request) const;
+  Answer Session(const Request& request, Role role) const;
+  Answer State(const Request& request, Role role) const;
+  Answer Model(const Request& request, Role role) const;
+  Answer Diagnostics(const Request& request, Role role) const;
+  Answer Cameras(const Request& request, Role role) const;
+  Answer SetHandLoad(const Request& request, Role role) const;
   Answer Mesh(const std::string& path, const Request& request) const;
   Answer Skin(const std::string& path, const Request& request) const;
   Answer Snapshot(const Target& target) const;

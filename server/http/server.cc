@@ -50,6 +50,17 @@ void KeepKernelQueueShort(tcp::socket& socket) {
   socket.set_option(tcp::no_delay(true), ignored);
 }
 
+void CheckTokenText(const std::string& token, const std::string& origin) {
+  if (!FitsIntoCookie(token)) {
+    throw UsageError(origin + ": expected only letters, digits and -._~");
+  }
+  if (!token.empty() && token.size() < kMinTokenLength) {
+    throw UsageError(origin + ": a token of " + std::to_string(token.size()) +
+                     " characters can be guessed; use " + std::to_string(kMinTokenLength) +
+                     " or more, such as these random ones: " + RandomToken());
+  }
+}
+
 }  // namespace
 
 void CheckConfig(const HttpConfig& config) {
@@ -69,13 +80,17 @@ void CheckConfig(const HttpConfig& config) {
         ": an address that other machines can reach needs a token; set --token_file=FILE, which is "
         "made with a random token if it is missing, or use 127.0.0.1");
   }
-  if (!FitsIntoCookie(config.token)) {
-    throw UsageError(config.token_origin + ": expected only letters, digits and -._~");
+  CheckTokenText(config.token, config.token_origin);
+  CheckTokenText(config.viewer_token, config.viewer_token_origin);
+  if (config.viewer_token.empty()) return;
+  if (config.token.empty()) {
+    throw UsageError(config.viewer_token_origin +
+                     ": viewers have a token only if the operator has one; set --token_file=FILE, "
+                     "too, which is made with a random token if it is missing");
   }
-  if (!config.token.empty() && config.token.size() < kMinTokenLength) {
-    throw UsageError(config.token_origin + ": a token of " + std::to_string(config.token.size()) +
-                     " characters can be guessed; use " + std::to_string(kMinTokenLength) +
-                     " or more, such as these random ones: " + RandomToken());
+  if (config.viewer_token == config.token) {
+    throw UsageError(config.viewer_token_origin + ": the same token as that of " +
+                     config.token_origin + ", so viewers would be operators; choose another");
   }
 }
 
@@ -201,7 +216,7 @@ HttpServer::Impl::~Impl() {
 
 Router::Site HttpServer::Impl::MakeSite() {
   Router::Site site;
-  site.token = config_.token;
+  site.tokens = {config_.token, config_.viewer_token};
   // Cookies ignore ports: without the number, two servers on one machine would share a cookie.
   site.cookie_name = "kinescope_" + std::to_string(port_);
   site.cameras = config_.cameras;
@@ -325,6 +340,10 @@ int HttpServer::port() const { return impl_->port_; }
 
 namespace {
 
+const std::string& TokenOf(const HttpConfig& config, Role role) {
+  return role == Role::kOperator ? config.token : config.viewer_token;
+}
+
 std::string UrlOf(const HttpConfig& config, int port, const std::string& token) {
   const std::string& ip = config.bind_ip;
   // 0.0.0.0 cannot be opened; on this machine it means localhost.
@@ -335,12 +354,12 @@ std::string UrlOf(const HttpConfig& config, int port, const std::string& token) 
 
 }  // namespace
 
-std::string HttpServer::url() const {
-  return UrlOf(impl_->config_, impl_->port_, impl_->config_.token);
+std::string HttpServer::url(Role role) const {
+  return UrlOf(impl_->config_, impl_->port_, TokenOf(impl_->config_, role));
 }
 
-std::string HttpServer::url_for_log() const {
-  const std::string& token = impl_->config_.token;
+std::string HttpServer::url_for_log(Role role) const {
+  const std::string& token = TokenOf(impl_->config_, role);
   return UrlOf(impl_->config_, impl_->port_, token.empty() ? "" : Shortened(token));
 }
 

@@ -18,6 +18,7 @@
 #include "core/scene_state.h"
 #include "core/system/latest.h"
 #include "server/history/history.h"
+#include "server/http/role.h"
 #include "urdf/skin/skin_template.h"
 
 namespace kinescope::http {
@@ -85,9 +86,13 @@ struct PatienceLimits {
 
 struct HttpConfig {
   std::string bind_ip = "127.0.0.1";
-  int port = 8080;    // 0: any free port
-  std::string token;  // required as ?token=, Authorization: Bearer or cookie unless empty
-  std::string token_origin = "--token";                // where it was set, for messages about it
+  int port = 8080;  // 0: any free port
+  /// Required as ?token=, Authorization: Bearer or cookie, unless empty. Its owner is an operator.
+  std::string token;
+  std::string token_origin = "--token";  // where it was set, for messages about it
+  /// Its owner may look and not change anything. Empty: none; without `token` it must be.
+  std::string viewer_token;
+  std::string viewer_token_origin = "--viewer_token";
   std::filesystem::path web_root;                      // folder with index.html
   std::vector<CameraView> cameras;                     // in display order
   CameraFraming framing;                               // of `cameras`
@@ -149,10 +154,12 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  int port() const;                 // the actual port
-  std::string url() const;          // with the token, ready to open
-  std::string url_for_log() const;  // with a part of the token
-  int clients() const;              // open WebSockets
+  int port() const;  // the actual port
+  /// With the token of `role`, ready to open.
+  std::string url(Role role = Role::kOperator) const;
+  /// The same with a part of the token.
+  std::string url_for_log(Role role = Role::kOperator) const;
+  int clients() const;  // open WebSockets
 
  private:
   struct Impl;

@@ -40,9 +40,10 @@ bool IsFlooded(Bucket& bucket) {
 
 }  // namespace
 
-WsSession::WsSession(Stream stream, std::string address, Hub& hub, std::uint64_t id)
+WsSession::WsSession(Stream stream, std::string address, Role role, Hub& hub, std::uint64_t id)
     : socket_(std::move(stream)),
       address_(std::move(address)),
+      role_(role),
       hub_(hub),
       messages_(kMaxMessagesPerSecond, kMaxMessagesPerSecond, Clock::now()),
       control_frames_(kMaxControlFramesPerSecond, kMaxControlFramesPerSecond, Clock::now()) {

@@ -25,7 +25,7 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
   using Upgrade = boost::beast::http::request<boost::beast::http::string_body>;
 
   /// `hub` is borrowed and must outlive the session.
-  WsSession(Stream stream, std::string address, Hub& hub, std::uint64_t id);
+  WsSession(Stream stream, std::string address, Role role, Hub& hub, std::uint64_t id);
   ~WsSession() override;
 
   /// Accepts the connection; from here on the session keeps itself alive.
@@ -37,6 +37,7 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
   [[nodiscard]] bool OnSeen(Slot slot, std::uint64_t count) override;
   ClientCounters counters() const override { return counters_; }
   const std::string& address() const override { return address_; }
+  Role role() const override { return role_; }
 
  private:
   void Read();
@@ -49,6 +50,7 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
 
   boost::beast::websocket::stream<Stream> socket_;
   const std::string address_;
+  const Role role_;
   Hub& hub_;
   ClientCounters counters_;
   boost::beast::flat_buffer incoming_;

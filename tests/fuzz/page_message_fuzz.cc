@@ -18,6 +18,7 @@ using namespace kinescope;
 
 class Client : public http::HubClient {
  public:
+  explicit Client(http::Role role) : role_(role) {}
   void Offer(http::Slot, http::SharedBytes message) override {
     KINESCOPE_CHECK(message != nullptr);
     KINESCOPE_CHECK(message->size() < 65536);
@@ -27,9 +28,11 @@ class Client : public http::HubClient {
   bool OnSeen(http::Slot, std::uint64_t) override { return true; }
   http::ClientCounters counters() const override { return {}; }
   const std::string& address() const override { return address_; }
+  http::Role role() const override { return role_; }
 
  private:
   bool wants_ = false;
+  const http::Role role_;
   const std::string address_ = "127.0.0.1";
 };
 
@@ -61,10 +64,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Feed feed;
   http::Counters counters;
   http::Hub hub(states, pictures, &feed, &Past(), "iso", counters);
-  Client client;
-  KINESCOPE_CHECK(hub.Join(client));
-  hub.OnMessage(client, {reinterpret_cast<const char*>(data), size});
-  hub.Leave(client);
+  for (const http::Role role : {http::Role::kViewer, http::Role::kOperator}) {
+    Client client(role);
+    KINESCOPE_CHECK(hub.Join(client));
+    hub.OnMessage(client, {reinterpret_cast<const char*>(data), size});
+    hub.Leave(client);
+    KINESCOPE_CHECK(role == http::Role::kOperator || hub.camera() == "iso");
+  }
   // The same bytes as the body of POST /api/hand_load.
   const auto order = http::ParseHandLoadOrder({reinterpret_cast<const char*>(data), size});
   if (order) {

@@ -19,7 +19,7 @@ constexpr mode_t kForThisUser = S_IRUSR | S_IWUSR;
 constexpr ssize_t kMaxFileBytes = 4096;
 
 // False if the file exists.
-bool MakeTokenFile(const std::string& file) {
+bool MakeTokenFile(const std::string& origin, const std::string& file) {
   const int descriptor =
       ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kForThisUser);
   if (descriptor < 0 && errno == EEXIST) return false;
@@ -30,8 +30,8 @@ bool MakeTokenFile(const std::string& file) {
   if (descriptor >= 0) ::close(descriptor);
   if (is_written) return true;
   if (descriptor >= 0) ::unlink(file.c_str());
-  throw UsageError(fmt::format("--token_file={}: cannot make this file: {}; choose another", file,
-                               std::strerror(reason)));
+  throw UsageError(
+      fmt::format("{}: cannot make this file: {}; choose another", origin, std::strerror(reason)));
 }
 
 struct SmallFile {
@@ -40,12 +40,11 @@ struct SmallFile {
 };
 
 // A pipe or a device could let the start wait for ever.
-SmallFile ReadSmallFile(const std::string& file) {
+SmallFile ReadSmallFile(const std::string& origin, const std::string& file) {
   const auto refuse = [&](const std::string& reason) -> SmallFile {
-    throw UsageError(fmt::format(
-        "--token_file={}: cannot read a token: {}; expected a file with the token in its first "
-        "line",
-        file, reason));
+    throw UsageError(
+        fmt::format("{}: cannot read a token: {}; expected a file with the token in its first line",
+                    origin, reason));
   };
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return refuse(std::strerror(errno));
@@ -64,14 +63,14 @@ SmallFile ReadSmallFile(const std::string& file) {
   return {std::move(content), (status.st_mode & (S_IRGRP | S_IROTH)) != 0};
 }
 
-PageToken FromFile(const std::string& file) {
+PageToken FromFile(const TokenNames& names, const std::string& file) {
   PageToken token;
-  token.origin = "--token_file=" + file;
+  token.origin = fmt::format("--{}_file={}", names.option, file);
   token.how_to_see = "cat " + file;
-  if (MakeTokenFile(file)) {
+  if (MakeTokenFile(token.origin, file)) {
     token.notes.push_back(fmt::format("{}: made with a random token", token.origin));
   }
-  const SmallFile found = ReadSmallFile(file);
+  const SmallFile found = ReadSmallFile(token.origin, file);
   token.text = found.content.substr(0, found.content.find('\n'));
   while (!token.text.empty() && std::strchr(" \t\r", token.text.back()) != nullptr) {
     token.text.pop_back();
@@ -92,34 +91,38 @@ PageToken FromFile(const std::string& file) {
 }
 
 // Who may see the token at `origin`, for the log; "": not known.
-std::string WhoSees(const std::string& origin) {
-  const char* const who = origin == "--token"
+std::string WhoSees(const TokenNames& names, const std::string& origin) {
+  const std::string option = names.option;
+  const char* const who = origin == "--" + option
                               ? "every user of this machine, in the list of processes,"
-                          : origin == "~token" ? "everyone who reaches the ROS master"
-                                               : nullptr;
+                          : origin == "~" + option ? "everyone who reaches the ROS master"
+                                                   : nullptr;
   if (who == nullptr) return "";
-  return fmt::format("{}: {} can see the token; prefer --token_file or the environment variable {}",
-                     origin, who, kTokenVariable);
+  return fmt::format("{}: {} can see the token; prefer --{}_file or the environment variable {}",
+                     origin, who, option, names.variable);
 }
 
 }  // namespace
 
-PageToken FindPageToken(const TokenOption& option, const std::string& file, const char* variable) {
+PageToken FindPageToken(const TokenNames& names, const TokenOption& option, const std::string& file,
+                        const char* variable) {
+  const std::string origin =
+      option.origin.empty() ? fmt::format("--{}", names.option) : option.origin;
   if (!option.text.empty() && !file.empty()) {
-    throw UsageError(fmt::format("{} and --token_file set the same token; remove {}", option.origin,
-                                 option.origin));
+    throw UsageError(fmt::format("{} and --{}_file set the same token; remove {}", origin,
+                                 names.option, origin));
   }
-  if (!file.empty()) return FromFile(file);
+  if (!file.empty()) return FromFile(names, file);
   PageToken token;
   if (!option.text.empty()) {
     token.text = option.text;
-    token.origin = option.origin;
-    const std::string note = WhoSees(option.origin);
+    token.origin = origin;
+    const std::string note = WhoSees(names, origin);
     if (!note.empty()) token.notes.push_back(note);
   } else if (variable != nullptr && *variable != '\0') {
     token.text = variable;
-    token.origin = kTokenVariable;
-    token.how_to_see = std::string("echo $") + kTokenVariable;
+    token.origin = names.variable;
+    token.how_to_see = std::string("echo $") + names.variable;
   }
   return token;
 }

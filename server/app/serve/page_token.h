@@ -1,5 +1,5 @@
-/// The token of the page: from an option, a file or the environment. Only the last two keep it out
-/// of the list of processes.
+/// The tokens of the page, the operator's and the viewers': each from an option, a file or the
+/// environment. Only the last two keep it out of the list of processes.
 #pragma once
 
 #include <string>
@@ -7,8 +7,13 @@
 
 namespace kinescope::app {
 
-/// The environment variable that is used if no option sets the token.
-inline constexpr char kTokenVariable[] = "KINESCOPE_TOKEN";
+/// Where a token may be set.
+struct TokenNames {
+  const char* option;    // without "--"; its file has "_file" after it
+  const char* variable;  // environment variable, used if no option sets the token
+};
+inline constexpr TokenNames kOperatorToken{"token", "KINESCOPE_TOKEN"};
+inline constexpr TokenNames kViewerToken{"viewer_token", "KINESCOPE_VIEWER_TOKEN"};
 
 struct PageToken {
   std::string text;                // "": none
@@ -19,16 +24,17 @@ struct PageToken {
 
 /// The value of the option itself.
 struct TokenOption {
-  std::string text;                // "": not given
-  std::string origin = "--token";  // "--token", "~token" or "file.yaml:3: token"
+  std::string text;    // "": not given
+  std::string origin;  // "--token", "~token" or "file.yaml:3: token"; "": "--token"
 };
 
 /// @param file of --token_file; "": not given. A missing file is made with a random token, readable
 ///   by this user only.
-/// @param variable value of kTokenVariable; null: not set
+/// @param variable value of `names.variable`; null: not set
 /// @throws UsageError if both options are given, or for a file that can be neither read nor made or
 ///   that holds no token. No message contains a token.
-PageToken FindPageToken(const TokenOption& option, const std::string& file, const char* variable);
+PageToken FindPageToken(const TokenNames& names, const TokenOption& option, const std::string& file,
+                        const char* variable);
 
 /// An empty value of an option that was given is a mistake, such as --token_file "$UNSET", and
 /// would leave the page without a token. An empty ROS parameter is none: launch files set every

@@ -46,11 +46,14 @@ Command Make(const char* name, const char* about, bool with_page) {
       "line, ROS parameter, --config file.";
   command.run = [values, with_page](options::OptionList& list) {
     ReadParameters(*values, list);
-    for (const char* which : {"token", "token_file"}) {
+    for (const char* which : {"token", "token_file", "viewer_token", "viewer_token_file"}) {
       const options::Option* option = list.Find(which);
       if (option != nullptr) CheckTokenIsGiven(option->given_as, option->value->ToText());
     }
     if (const options::Option* token = list.Find("token")) values->token_given_as = token->given_as;
+    if (const options::Option* token = list.Find("viewer_token")) {
+      values->viewer_token_given_as = token->given_as;
+    }
     ServeConfig config = MakeServeConfig(*values, with_page);
     // A terminal is read by the person who opens the page; anything else may be a log that stays.
     config.shows_token = ::isatty(STDERR_FILENO) == 1;

@@ -128,12 +128,20 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
     config.history.emplace();
     config.history->nanos = std::llround(*options.history_minutes * 60e9);
   }
-  const PageToken token = FindPageToken({*options.token, options.token_given_as},
-                                        *options.token_file, std::getenv(kTokenVariable));
+  const PageToken token = FindPageToken(kOperatorToken, {*options.token, options.token_given_as},
+                                        *options.token_file, std::getenv(kOperatorToken.variable));
   config.page->token = token.text;
   if (!token.origin.empty()) config.page->token_origin = token.origin;
   config.how_to_see_token = token.how_to_see;
-  config.notes.insert(config.notes.end(), token.notes.begin(), token.notes.end());
+  const PageToken viewer_token =
+      FindPageToken(kViewerToken, {*options.viewer_token, options.viewer_token_given_as},
+                    *options.viewer_token_file, std::getenv(kViewerToken.variable));
+  config.page->viewer_token = viewer_token.text;
+  if (!viewer_token.origin.empty()) config.page->viewer_token_origin = viewer_token.origin;
+  config.how_to_see_viewer_token = viewer_token.how_to_see;
+  for (const PageToken& each : {token, viewer_token}) {
+    config.notes.insert(config.notes.end(), each.notes.begin(), each.notes.end());
+  }
   http::CheckConfig(*config.page);
   config.backend = options.backend;
   if (*options.pictures) config.pictures = pictures;

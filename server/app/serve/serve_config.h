@@ -31,7 +31,8 @@ struct ServeConfig {
   std::optional<RosCameraSettings> ros_camera;    // only with `pictures` and `ros`
   std::optional<history::HistoryLimits> history;  // only with `page`
   std::optional<http::HttpConfig> page;           // without its callbacks
-  std::string how_to_see_token;    // command that prints the token of the page, or ""
+  // Commands that print the tokens of the page, or "".
+  std::string how_to_see_token, how_to_see_viewer_token;
   bool shows_token = false;        // in the log, which is a terminal and no file
   std::vector<std::string> notes;  // parts that other options switched off, for the log
 };

@@ -124,13 +124,20 @@ void ServeOptions::List(options::OptionList& option) {
   option("bind_ip", bind_ip,
          "address of the page; 0.0.0.0 opens it to the network (set --token_file)");
   option("http_port", http_port, "TCP port of the page");
-  option("token_file", token_file,
-         "file with the token of the page, its password: at least 16 letters, digits and -._~; a "
-         "missing file is made with a random token. Required unless the page is served to this "
-         "machine only");
+  option(
+      "token_file", token_file,
+      "file with the operator's token of the page, its password: at least 16 letters, digits and "
+      "-._~; a missing file is made with a random token. Required unless the page is served to "
+      "this machine only");
   option("token", token,
          "the token itself, which the list of processes then shows; prefer --token_file or the "
          "environment variable KINESCOPE_TOKEN");
+  option("viewer_token_file", viewer_token_file,
+         "file with the token of viewers, who see everything and change nothing, beside the "
+         "operator's token; a missing file is made with a random token");
+  option("viewer_token", viewer_token,
+         "the token of viewers itself, which the list of processes then shows; prefer "
+         "--viewer_token_file or the environment variable KINESCOPE_VIEWER_TOKEN");
   option("history_minutes", history_minutes,
          "time that viewers of the page can look back; 0: none. Of a stream that needs more than "
          "500 MB for it, less is kept");

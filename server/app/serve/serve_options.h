@@ -43,9 +43,10 @@ struct ServeOptions {
   // page and pictures
   options::Text bind_ip;
   options::Whole http_port;
-  options::Text token, token_file;
+  options::Text token, token_file, viewer_token, viewer_token_file;
   options::Number history_minutes;
-  std::string token_given_as = "--token";  // as messages name it: "~token", "file.yaml:3: token"
+  // As messages name them: "~token", "file.yaml:3: token"; "": not given.
+  std::string token_given_as, viewer_token_given_as;
   FigureValue figure;
   StyleValue style;
   LoadsShownValue loads_shown;  // --loads

@@ -45,6 +45,17 @@ std::unique_ptr<RecordingLength> LengthOf(const ServeConfig& config) {
       [url = config.source_url, settings = config.source] { return OpenSource(url, settings); });
 }
 
+// With the token of `role`, whole if `shows_token`. `how_to_see`: command that prints it, or "".
+void LogPage(const char* what, const http::HttpServer& page, http::Role role, bool shows_token,
+             const std::string& how_to_see) {
+  const std::string url = page.url(role), shortened = page.url_for_log(role);
+  const bool is_whole = shows_token || url == shortened;
+  spdlog::info("{} at {}{}", what, is_whole ? url : shortened,
+               is_whole             ? ""
+               : how_to_see.empty() ? " (the token is shortened)"
+                                    : " (the token is shortened; to see it: " + how_to_see + ")");
+}
+
 // Of a part that may be off.
 template <class Part>
 auto StatusOf(const std::unique_ptr<Part>& part) {
@@ -102,12 +113,10 @@ void Server::StartPage(const ServeConfig& config) {
   page.warn = [](const std::string& line) { spdlog::warn("{}", line); };
   page_.emplace(page, *listener_, states_, pictures_, live_pictures_.get(),
                 [this] { return Diagnostics(); });
-  const bool is_whole = config.shows_token || page_->url() == page_->url_for_log();
-  spdlog::info("page at {}{}", is_whole ? page_->url() : page_->url_for_log(),
-               is_whole ? ""
-               : config.how_to_see_token.empty()
-                   ? " (the token is shortened)"
-                   : " (the token is shortened; to see it: " + config.how_to_see_token + ")");
+  LogPage("page", *page_, http::Role::kOperator, config.shows_token, config.how_to_see_token);
+  if (page.viewer_token.empty()) return;
+  LogPage("page for viewers", *page_, http::Role::kViewer, config.shows_token,
+          config.how_to_see_viewer_token);
 }
 
 void Server::OnState(const std::shared_ptr<SceneState>& state) {

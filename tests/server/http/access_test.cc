@@ -7,8 +7,17 @@ namespace {
 
 Access Check(const std::string& token, const std::string& target, const std::string& cookies,
              const std::string& authorization = "") {
-  return CheckToken(token,
-                    FindTokens(*ParseTarget(target), authorization, cookies, "kinescope_80"));
+  return CheckToken({token, ""},
+                    FindTokens(*ParseTarget(target), authorization, cookies, "kinescope_80"))
+      .access;
+}
+
+// The role that "op" or "view" gives; "": denied.
+std::string RoleFor(const std::string& target, const std::string& cookies,
+                    const std::string& authorization = "") {
+  const Admission admission = CheckToken(
+      {"op", "view"}, FindTokens(*ParseTarget(target), authorization, cookies, "kinescope_80"));
+  return admission.access == Access::kDenied ? "" : std::string(Name(admission.role));
 }
 
 TEST(Access, IsOpenWithoutToken) { EXPECT_EQ(Check("", "/", ""), Access::kOpen); }
@@ -32,6 +41,28 @@ TEST(Access, AcceptsTheTokenAsABearerToken) {
   EXPECT_EQ(Check("abc", "/", "kinescope_80=old", "bearer  abc "), Access::kByHeader);
   for (const char* authorization : {"abc", "Bearer", "Bearer ", "Bearer abcd", "Basic abc"}) {
     EXPECT_EQ(Check("abc", "/", "", authorization), Access::kDenied) << authorization;
+  }
+}
+
+TEST(Access, GivesTheRoleOfTheToken) {
+  EXPECT_EQ(RoleFor("/?token=op", ""), "operator");
+  EXPECT_EQ(RoleFor("/?token=view", ""), "viewer");
+  EXPECT_EQ(RoleFor("/", "", "Bearer view"), "viewer");
+  EXPECT_EQ(RoleFor("/", "kinescope_80=view"), "viewer");
+  EXPECT_EQ(RoleFor("/", "kinescope_80=view; kinescope_80=op"), "operator") << "the highest";
+  EXPECT_EQ(RoleFor("/?token=view", "kinescope_80=op"), "viewer") << "a link gives its own role";
+  EXPECT_EQ(RoleFor("/?token=other", "kinescope_80=view"), "viewer");
+  EXPECT_EQ(RoleFor("/?token=other", ""), "");
+  EXPECT_EQ(RoleFor("/", ""), "");
+  EXPECT_EQ(CheckToken({}, {}).role, Role::kOperator) << "no token is set";
+}
+
+// Without a token of viewers, an empty token is not theirs.
+TEST(Access, HasNoViewersWithoutTheirToken) {
+  for (const char* target : {"/?token=", "/?token=view"}) {
+    EXPECT_EQ(CheckToken({"op", ""}, FindTokens(*ParseTarget(target), "", "", "c")).access,
+              Access::kDenied)
+        << target;
   }
 }
 

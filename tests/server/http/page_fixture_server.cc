@@ -1,4 +1,5 @@
-// page_fixture_server [--token T] [--no-pictures] [--meshes FOLDER] [--worn] [--diagnostics JSON]:
+// page_fixture_server [--token T [--viewer_token T]] [--no-pictures] [--meshes FOLDER] [--worn]
+// [--diagnostics JSON]:
 // --worn: gloves and props on everybody, and a tracked object. Prints one line of JSON with its
 // "url", then obeys lines on its standard input until that ends:
 //   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
@@ -390,7 +391,8 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
   history::History history;
   config.history = &history;
   HttpServer server(config, states, pictures, feed, [&] { return options.diagnostics; });
-  std::cout << json{{"url", server.url()}}.dump() << std::endl;
+  std::cout << json{{"url", server.url()}, {"viewer_url", server.url(Role::kViewer)}}.dump()
+            << std::endl;
   const auto model = MakePersonModel(1, options.mesh_folder);
   const auto worn_model =
       options.worn ? kinescope::testing::WornModel(*model, options.mesh_folder) : nullptr;
@@ -433,6 +435,9 @@ int Main(const std::vector<std::string>& arguments) {
     if (arguments[i] == "describe") return std::puts(Describe().dump().c_str()) < 0 ? 1 : 0;
     if (arguments[i] == "--no-pictures") used_feed = nullptr;
     if (arguments[i] == "--token" && i + 1 < arguments.size()) config.token = arguments[++i];
+    if (arguments[i] == "--viewer_token" && i + 1 < arguments.size()) {
+      config.viewer_token = arguments[++i];
+    }
     if (arguments[i] == "--meshes" && i + 1 < arguments.size())
       options.mesh_folder = arguments[++i];
     if (arguments[i] == "--worn") options.worn = true;

@@ -1,5 +1,6 @@
 #include "server/http/protocol.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -235,6 +236,29 @@ TEST(ClientCommand, IsRejectedIfItIsInvalid) {
     const auto command = ParseCommand(text);
     EXPECT_FALSE(command) << text;
     EXPECT_TRUE(command || !command.error().empty()) << text;
+  }
+}
+
+TEST(ClientCommand, NeedsTheRoleOfItsMostPowerfulMember) {
+  const auto looks = ParseCommand(R"({"look": {"id": 1, "number": 0}, "pictures": true})");
+  ASSERT_TRUE(looks) << looks.error();
+  EXPECT_EQ(looks->least, Role::kViewer) << "a viewer looks back alone";
+  const auto both = ParseCommand(R"({"ping": 1, "camera": "front"})");
+  ASSERT_TRUE(both) << both.error();
+  EXPECT_EQ(both->least, Role::kOperator);
+  EXPECT_EQ(both->needs_least, "camera");
+}
+
+TEST(ClientCommand, ThatIsInvalidIsExplained) {
+  EXPECT_EQ(ParseCommand(R"({"camera": 3})").error(), "camera: expected a name");
+  EXPECT_THAT(ParseCommand(R"({"kamera": "front"})").error(), ::testing::HasSubstr("\"camera\""));
+}
+
+TEST(ClientCommand, IsListedWithAValidExample) {
+  for (const CommandInfo& info : Commands()) {
+    const auto command = ParseCommand(info.example);
+    ASSERT_TRUE(command) << info.example << ": " << command.error();
+    EXPECT_EQ(command->least, info.least) << info.example;
   }
 }
 

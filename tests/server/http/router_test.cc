@@ -90,7 +90,7 @@ class RouterTest : public ::testing::Test {
 
   Router::Site GuardedSite() {
     Router::Site site = SiteOf();
-    site.token = "s3cret";
+    site.tokens.of_operator = "s3cret";
     site.guesses = &guesses_;
     return site;
   }
@@ -208,8 +208,8 @@ TEST_F(RouterTest, ListsTheKnownAddressesForAnUnknownOne) {
   expect_unknown("/api/mesh/0", "/api/mesh/<person>/<revision>/<n>");
   EXPECT_EQ(refusals_["unknown address"], 6);
   for (const char* target : {"/api/", "/api/nothing", "/api/state/", "/api/hand_loads"}) {
-    for (const char* route :
-         {"/api/state", "/api/model", "/api/cameras", "/api/diagnostics", "/api/hand_load"}) {
+    for (const char* route : {"/api/session", "/api/state", "/api/model", "/api/cameras",
+                              "/api/diagnostics", "/api/hand_load"}) {
       expect_unknown(target, route);
     }
   }
@@ -375,7 +375,7 @@ TEST_F(RouterTest, OpensTheWebSocketForItsOwnPageOnly) {
 TEST_F(RouterTest, RequiresTheTokenAtEveryAddress) {
   PublishPeople(1);
   Router::Site site = SiteOf();
-  site.token = "s3cret";
+  site.tokens.of_operator = "s3cret";
   const Router router(site);
   for (const char* target : {"/", "/api/state", "/api/mesh/0/7/0", "/snapshot.png", "/ws", "/no"}) {
     for (const char* query : {"", "?token=", "?token=s3cre", "?token=s3cretx", "?Token=s3cret"}) {
@@ -403,7 +403,7 @@ TEST_F(RouterTest, RequiresTheTokenAtEveryAddress) {
 
 TEST_F(RouterTest, AcceptsABearerTokenWithoutSettingACookie) {
   Router::Site site = SiteOf();
-  site.token = "s3cret";
+  site.tokens.of_operator = "s3cret";
   Request request = RequestOf("GET", "/snapshot.png");
   request.authorization = "Bearer s3cret";
   EXPECT_EQ(Router(site).Route(request).status, 200);
@@ -415,7 +415,7 @@ TEST_F(RouterTest, AcceptsABearerTokenWithoutSettingACookie) {
 
 TEST_F(RouterTest, SetsASecureCookieBehindATlsProxy) {
   Router::Site site = SiteOf();
-  site.token = "s3cret";
+  site.tokens.of_operator = "s3cret";
   Request request = RequestOf("GET", "/?token=s3cret");
   request.forwarded_proto = "https";
   EXPECT_THAT(HeaderOf(Router(site).Route(request), "Set-Cookie"), HasSubstr("; Secure"));
@@ -431,7 +431,7 @@ TEST_F(RouterTest, SlowsDownWrongTokensButNeverTheRightOne) {
     request.address = address;
     return router.Route(request).status;
   };
-  for (int i = 0; i < GuessGuard::kAtOnce; ++i) {
+  for (std::size_t i = 0; i < GuessGuard::kPerMinute; ++i) {
     EXPECT_EQ(status("guess" + std::to_string(i), "10.0.0.7"), 401) << i;
   }
   EXPECT_EQ(status("another", "10.0.0.7"), 429);
@@ -447,7 +447,7 @@ TEST_F(RouterTest, CountsEveryTokenOfARequestAsAGuessUnlessOneIsRight) {
   const Router router(GuardedSite());
   Request request = RequestOf("GET", "/");
   std::string wrong;
-  for (int i = 0; i < 2 * GuessGuard::kAtOnce; ++i) {
+  for (std::size_t i = 0; i < 2 * GuessGuard::kPerMinute; ++i) {
     wrong += std::string(kCookie) + "=guess" + std::to_string(i) + "; ";
   }
   request.cookies = wrong + kCookie + "=s3cret";
@@ -461,7 +461,7 @@ TEST_F(RouterTest, CountsEveryTokenOfARequestAsAGuessUnlessOneIsRight) {
 // A page of another site can make the browser of a user send any token.
 TEST_F(RouterTest, CountsNoTokensThatAnotherSiteMakesABrowserSend) {
   const Router router(GuardedSite());
-  for (int i = 0; i < 2 * GuessGuard::kAtOnce; ++i) {
+  for (std::size_t i = 0; i < 2 * GuessGuard::kPerMinute; ++i) {
     const std::string query = "?token=guess" + std::to_string(i);
     Request image = RequestOf("GET", "/snapshot.png" + query);
     image.sec_fetch_site = "cross-site";
@@ -502,7 +502,7 @@ TEST_F(RouterTest, RejectsCostlyRequestsOfOtherSites) {
 
 TEST_F(RouterTest, RequiresMoreThanACookieForASnapshotWithoutSecFetchSite) {
   Router::Site site = SiteOf();
-  site.token = "s3cret";
+  site.tokens.of_operator = "s3cret";
   const Router router(site);
   Request request = RequestOf("GET", "/snapshot.png");
   request.cookies = std::string(kCookie) + "=s3cret";

@@ -255,15 +255,20 @@ TEST(ClientAddress, IsOneForEachNetworkOfIpV6AndEachAddressOfIpV4) {
   EXPECT_EQ(of("::1"), "::1");
 }
 
-TEST(GuessGuard, LetsAnAddressGuessOncePerSecondAfterAFewWrongTokens) {
+TEST(GuessGuard, LetsAnAddressGuessTenTimesInAnyMinute) {
   GuessGuard guard(nullptr);
-  for (int i = 0; i < GuessGuard::kAtOnce; ++i) {
-    EXPECT_EQ(guard.OnWrong("a", std::to_string(i), kNoon), 0) << i;
-  }
-  EXPECT_EQ(guard.OnWrong("a", "another", kNoon), 1);
-  EXPECT_EQ(guard.OnWrong("b", "another", kNoon), 0) << "another address";
-  EXPECT_EQ(guard.OnWrong("a", "again", kNoon + seconds(1)), 0);
-  EXPECT_EQ(guard.OnWrong("a", "once more", kNoon + seconds(1)), 1);
+  auto guess = [&, number = 0](const std::string& address, int secs) mutable {
+    return guard.OnWrong(address, std::to_string(++number), kNoon + seconds(secs));
+  };
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(guess("a", 3 * i), 0) << i;
+  EXPECT_EQ(guess("a", 27), 33) << "the first of the ten is a minute old then";
+  EXPECT_EQ(guess("b", 27), 0) << "another address";
+  EXPECT_EQ(guess("a", 59), 1);
+  EXPECT_EQ(guess("a", 60), 0);
+  EXPECT_EQ(guess("a", 60), 3) << "the second of the ten";
+  int accepted = 0;
+  for (int secs = 200; secs < 260; ++secs) accepted += guess("a", secs) == 0 ? 1 : 0;
+  EXPECT_EQ(accepted, 10);
 }
 
 TEST(GuessGuard, CountsTheSameWrongTokenOnce) {

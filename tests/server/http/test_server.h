@@ -80,6 +80,7 @@ class FakeFeed final : public PictureFeed {
 };
 
 struct TestServer {
+  static constexpr char kViewerToken[] = "v1ewer-of-the-lab";  // of a server with a token
   explicit TestServer(const std::string& token = "", bool with_feed = true,
                       const std::string& mesh_folder = "", const PatienceLimits& limits = {})
       : patience(limits),
@@ -100,6 +101,7 @@ struct TestServer {
 
   HttpConfig ConfigWithLoads(const std::string& token) {
     HttpConfig config = MakeConfig(token);
+    if (!token.empty()) config.viewer_token = kViewerToken;
     config.patience = patience;
     config.history = &history;
     config.set_hand_load = [this](int character, const HandLoad& load) {

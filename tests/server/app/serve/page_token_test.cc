@@ -24,7 +24,7 @@ constexpr char kLongEnough[] = "0123456789abcdef";
 
 std::string ErrorOf(const std::string& option, const std::string& file) {
   try {
-    FindPageToken({option}, file, nullptr);
+    FindPageToken(kOperatorToken, {option, ""}, file, nullptr);
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -43,7 +43,8 @@ class PageTokenTest : public ::testing::Test {
 };
 
 TEST_F(PageTokenTest, ComesFromTheFirstLineOfItsFile) {
-  const PageToken token = FindPageToken({}, Write("0123456789abcdef \r\nmore\n"), "ignored");
+  const PageToken token =
+      FindPageToken(kOperatorToken, {}, Write("0123456789abcdef \r\nmore\n"), "ignored");
   EXPECT_EQ(token.text, kLongEnough);
   EXPECT_THAT(token.origin, HasSubstr("--token_file="));
   EXPECT_THAT(token.how_to_see, HasSubstr("cat "));
@@ -52,24 +53,24 @@ TEST_F(PageTokenTest, ComesFromTheFirstLineOfItsFile) {
 
 TEST_F(PageTokenTest, OfAMissingFileIsRandomAndStaysTheSame) {
   const std::string path = (folder_.path() / "made").string();
-  const PageToken made = FindPageToken({}, path, nullptr);
+  const PageToken made = FindPageToken(kOperatorToken, {}, path, nullptr);
   EXPECT_GE(made.text.size(), 32u);
   EXPECT_THAT(made.notes, ElementsAre(HasSubstr("made with a random token")));
   EXPECT_EQ(fs::status(path).permissions(), fs::perms::owner_read | fs::perms::owner_write);
-  const PageToken again = FindPageToken({}, path, nullptr);
+  const PageToken again = FindPageToken(kOperatorToken, {}, path, nullptr);
   EXPECT_EQ(again.text, made.text);
   EXPECT_THAT(again.notes, IsEmpty());
 }
 
 TEST_F(PageTokenTest, ThatOtherUsersCanReadIsReported) {
   const auto perms = fs::perms::owner_read | fs::perms::others_read;
-  EXPECT_THAT(FindPageToken({}, Write(kLongEnough, perms), nullptr).notes,
+  EXPECT_THAT(FindPageToken(kOperatorToken, {}, Write(kLongEnough, perms), nullptr).notes,
               ElementsAre(HasSubstr("chmod 600")));
 }
 
 TEST_F(PageTokenTest, IsReportedToBeVisibleAccordingToWhereItWasGiven) {
   const auto given_as = [](const std::string& origin) {
-    return FindPageToken({kLongEnough, origin}, "", nullptr);
+    return FindPageToken(kOperatorToken, {kLongEnough, origin}, "", nullptr);
   };
   EXPECT_THAT(given_as("--token").notes,
               ElementsAre(AllOf(StartsWith("--token: "), HasSubstr("processes"))));
@@ -80,11 +81,23 @@ TEST_F(PageTokenTest, IsReportedToBeVisibleAccordingToWhereItWasGiven) {
 }
 
 TEST_F(PageTokenTest, ComesFromTheEnvironmentIfNoOptionIsGiven) {
-  EXPECT_EQ(FindPageToken({}, "", kLongEnough).text, kLongEnough);
-  EXPECT_EQ(FindPageToken({}, "", kLongEnough).origin, "KINESCOPE_TOKEN");
-  EXPECT_EQ(FindPageToken({"of-the-option"}, "", kLongEnough).text, "of-the-option");
-  EXPECT_EQ(FindPageToken({}, "", "").text, "");
-  EXPECT_EQ(FindPageToken({}, "", nullptr).text, "");
+  EXPECT_EQ(FindPageToken(kOperatorToken, {}, "", kLongEnough).text, kLongEnough);
+  EXPECT_EQ(FindPageToken(kOperatorToken, {}, "", kLongEnough).origin, "KINESCOPE_TOKEN");
+  EXPECT_EQ(FindPageToken(kOperatorToken, {"of-the-option", ""}, "", kLongEnough).text,
+            "of-the-option");
+  EXPECT_EQ(FindPageToken(kOperatorToken, {}, "", "").text, "");
+  EXPECT_EQ(FindPageToken(kOperatorToken, {}, "", nullptr).text, "");
+}
+
+TEST_F(PageTokenTest, OfViewersHasNamesOfItsOwn) {
+  EXPECT_EQ(FindPageToken(kViewerToken, {}, "", kLongEnough).origin, "KINESCOPE_VIEWER_TOKEN");
+  const std::string path = Write(kLongEnough);
+  EXPECT_EQ(FindPageToken(kViewerToken, {}, path, nullptr).origin, "--viewer_token_file=" + path);
+  const PageToken given = FindPageToken(kViewerToken, {kLongEnough, ""}, "", nullptr);
+  EXPECT_EQ(given.origin, "--viewer_token");
+  EXPECT_THAT(given.notes, ElementsAre(AllOf(StartsWith("--viewer_token: "),
+                                             HasSubstr("prefer --viewer_token_file"),
+                                             HasSubstr("KINESCOPE_VIEWER_TOKEN"))));
 }
 
 std::string ErrorOfValue(const std::string& given_as, const std::string& value) {

@@ -67,6 +67,45 @@ TEST(Server, LogsTheTokenWholeOnlyOnATerminal) {
   EXPECT_THAT(log.text(), HasSubstr("/?token=" + token));
 }
 
+TEST(Server, HasATokenForViewersBesideThatOfTheOperator) {
+  const testing::TempFolder folder;
+  const std::string file = (folder.path() / "token").string();
+  const std::string viewer_file = (folder.path() / "viewer").string();
+  const ServeConfig config = ConfigOf({{"http_port", "0"},
+                                       {"pictures", "off"},
+                                       {"token_file", file},
+                                       {"viewer_token_file", viewer_file}});
+  const testing::CapturedLog log;
+  const Server server(config);
+  EXPECT_THAT(log.text(), HasSubstr("page for viewers at http://"));
+  EXPECT_THAT(log.text(), HasSubstr("to see it: cat " + viewer_file + ")"));
+  EXPECT_THAT(log.text(), Not(HasSubstr(config.page->viewer_token)));
+  const auto role_of = [&](const std::string& token) {
+    return Fetch(PortIn(log), "/api/session?token=" + token).json().at("role");
+  };
+  EXPECT_EQ(role_of(config.page->viewer_token), "viewer");
+  EXPECT_EQ(role_of(config.page->token), "operator");
+}
+
+TEST(Server, ExplainsATokenOfViewersThatCannotBeUsed) {
+  const auto error_of = [](const testing::Settings& values) -> std::string {
+    try {
+      ConfigOf(values);
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(error_of({{"viewer_token", "0123456789abcdef"}}),
+              HasSubstr("--viewer_token: viewers have a token only if the operator has one"));
+  EXPECT_THAT(error_of({{"viewer_token", "0123456789abcdef"}, {"token", "0123456789abcdef"}}),
+              HasSubstr("--viewer_token: the same token as that of --token"));
+  const std::string shorter =
+      error_of({{"viewer_token", "0123456789abcde"}, {"token", "0123456789abcdef"}});
+  EXPECT_THAT(shorter, HasSubstr("--viewer_token: a token of 15 characters can be guessed"));
+  EXPECT_THAT(shorter, Not(HasSubstr("0123456789abcde")));
+}
+
 TEST(Server, RejectsAPortInUseAndLeavesTheFirstServerRunning) {
   const testing::CapturedLog log;
   const Server first(ConfigOf({{"http_port", "0"}, {"picture_size", "64x48"}}));
