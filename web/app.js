@@ -1,6 +1,7 @@
 // Connects the parts of the page: connection -> scene, readings, load list, picture.
 import { forgetToken, showInAddress, shownIn } from './address.js';
 import { RecentValues } from './clock.js';
+import { Charts } from './charts.js';
 import { Connection } from './connection.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
@@ -76,10 +77,20 @@ const picture = new PicturePanel({
 const handLoad = mountHandLoad({
   form: elements['hand-load'], person: elements['hand-person'], hand: elements.hand, mass: elements['hand-kg'],
 }, showNotice);
+const charts = new Charts(elements, time, {
+  kept, live: () => state, shown: () => shown(), model: () => model, details: () => details, failed: showNotice,
+  seek(millis) {
+    const range = kept();
+    if (range === null) return;
+    time.seek(millis, performance.now(), range);
+    onTimeChanged();
+  },
+});
 const showTransport = mountTransport({
   bar: elements.transport, play: elements.play, back: elements['step-back'], forward: elements['step-forward'],
   speed: elements.speed, slider: elements.moment, oldest: elements.oldest, live: elements['go-live'],
-}, time, { kept, shown: () => millisOf(shown()), step: stepBy, changed: onTimeChanged });
+}, time, { kept, shown: () => millisOf(shown()), step: stepBy, changed: onTimeChanged,
+  wordsAt: (moment) => charts.wordsAt(moment) });
 elements.status.addEventListener('click', () => {
   time.goLive();
   onTimeChanged();
@@ -370,6 +381,7 @@ function showReadings() {
   if (elements.status.dataset.level !== status.level) updateScene();
   showStatus(status, now);
   showTransport(now);
+  charts.update(now);
   if (past !== null && !time.isPlaying && now - addressAt > ADDRESS_MILLIS) {
     addressAt = now;
     showInAddress({ micros: past.state.madeMicros });

@@ -1,5 +1,5 @@
-// The bar below the view: pause, steps, speed, a slider over all moments that the server has, and back to live; with
-// the keys for them.
+// The bar below the view: pause, steps, speed, a slider over all moments that the server has (strip.js draws what lies
+// under it), and back to live; with the keys for them.
 import { lag } from './format.js';
 import { SPEEDS } from './viewer_time.js';
 
@@ -8,9 +8,10 @@ const STEP_MILLIS = 1000, PAGE_MILLIS = 10_000;
 /** @typedef {import('./viewer_time.js').Kept} Kept
  *  @typedef {{bar: HTMLElement, play: HTMLButtonElement, back: HTMLButtonElement, forward: HTMLButtonElement,
  *    speed: HTMLSelectElement, slider: HTMLInputElement, oldest: HTMLElement, live: HTMLButtonElement}} Parts
- *  @typedef {{kept: () => Kept|null, shown: () => number|null, step: (by: number) => void, changed: () => void}} Page
+ *  @typedef {{kept: () => Kept|null, shown: () => number|null, step: (by: number) => void, changed: () => void,
+ *    wordsAt: (moment: number) => string}} Page
  *    kept: null without a history; shown: the moment on the screen; step: by so many samples; changed: called after
- *    every change of the viewer's time */
+ *    every change of the viewer's time; wordsAt: what the strip shows at a moment, for screen readers */
 
 /** @param {Parts} parts
  *  @param {import('./viewer_time.js').ViewerTime} time
@@ -76,7 +77,9 @@ export function mountTransport(parts, time, page) {
     parts.slider.min = (-length / 1000).toFixed(3);
     parts.slider.max = '0';
     parts.slider.value = (-behind / 1000).toFixed(3);
-    parts.slider.setAttribute('aria-valuetext', time.isLive ? 'live' : lag(behind));
+    // Live, the classes would be read aloud all the time.
+    const where = time.isLive ? 'live' : [lag(behind), page.wordsAt(kept.newest - behind)].filter(Boolean).join(', ');
+    if (parts.slider.getAttribute('aria-valuetext') !== where) parts.slider.setAttribute('aria-valuetext', where);
     parts.oldest.textContent = lag(length);
   };
 }
