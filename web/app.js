@@ -1,6 +1,7 @@
 // Connects the parts of the page: connection -> scene, readings, load list, picture.
 import { forgetToken, shownIn } from './address.js';
 import { RecentValues } from './clock.js';
+import { Charts } from './charts.js';
 import { Connection } from './connection.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
@@ -68,10 +69,11 @@ const picture = new PicturePanel({
 const handLoad = mountHandLoad({
   form: elements['hand-load'], person: elements['hand-person'], hand: elements.hand, mass: elements['hand-kg'],
 }, showNotice);
+const charts = new Charts(elements, shown, { model: () => model, failed: showNotice });
 const showTransport = mountTransport({
   bar: elements.transport, play: elements.play, back: elements['step-back'], forward: elements['step-forward'],
   speed: elements.speed, slider: elements.moment, oldest: elements.oldest, live: elements['go-live'],
-}, shown);
+}, shown, (moment) => charts.wordsAt(moment));
 elements.status.addEventListener('click', () => {
   shown.time.goLive();
   shown.onTimeChanged();
@@ -280,6 +282,7 @@ function showReadings() {
   if (elements.status.dataset.level !== status.level) updateScene();
   showStatus(status, now);
   showTransport(now);
+  charts.update(now);
   shown.keepAddress(now);
   document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';
   if (!status.isFresh || !shown.isNewest) latencies.clear();

@@ -44,7 +44,7 @@ export const listOf = (entry, count) => (value, path) => {
   return value.map((/** @type {unknown} */ each, i) => entry(each, `${path}[${i}]`));
 };
 
-/** @param {number} count */
+/** @param {number} [count] */
 const numbers = (count) => listOf(number, count);
 
 /** @template T
@@ -163,7 +163,8 @@ const readPalette = object({
 export const LOADS_SHOWN = /** @type {const} */ (['spheres', 'skin', 'both']);
 const readLook = object({ loads: oneOf(LOADS_SHOWN), style: oneOf(['matte', 'clay', 'line']) });
 export const readModel = object({
-  people: listOf(readPersonModel), joints: listOf(object({ label: string })), class_limits: numbers(2), look: readLook,
+  people: listOf(readPersonModel), joints: listOf(object({ name: string, label: string })), class_limits: numbers(2),
+  compression_limits_n: numbers(2), look: readLook,
   palette: readPalette,
 });
 /** @typedef {ReturnType<typeof readVisual>} Visual
@@ -171,6 +172,13 @@ export const readModel = object({
  *  @typedef {ReturnType<typeof readPalette>} Palette  sRGB 0..1
  *  @typedef {ReturnType<typeof readLook>} Look
  *  @typedef {ReturnType<typeof readModel>} Model */
+
+// /api/series
+const readColumns = listOf(numberOrNull);
+export const readSeries = object({
+  samples: numbers(), keys: recordOf(object({ min: readColumns, max: readColumns, last: readColumns })),
+});
+/** @typedef {ReturnType<typeof readSeries>} SeriesAnswer */
 
 // /api/cameras
 const readCameraView = object({

@@ -73,6 +73,14 @@ export class Shown {
     return { oldest: newest.oldestMicros / 1000, newest: (ended ?? newest.madeMicros) / 1000, hasEnded: ended !== null };
   }
 
+  /** @param {number} millis  a moment of the server's clock */
+  seek(millis) {
+    const range = this.kept();
+    if (range === null) return;
+    this.time.seek(millis, performance.now(), range);
+    this.onTimeChanged();
+  }
+
   /** Call it after every change of `time`. */
   onTimeChanged() {
     const range = this.kept();
@@ -179,7 +187,6 @@ export class Shown {
     if (range === null) return notice('This server keeps no former moments: you see the newest one');
     if (moment > range.newest) return notice('The moment of this link is not on this server: you see the newest one');
     if (moment < range.oldest) notice('The moment of this link is no longer kept: you see the oldest one');
-    this.time.seek(moment, performance.now(), range);
-    this.onTimeChanged();
+    this.seek(moment);
   }
 }

@@ -1,5 +1,5 @@
-// The bar below the view: pause, steps, speed, a slider over all moments that the server has, and back to live; with
-// the keys for them.
+// The bar below the view: pause, steps, speed, a slider over all moments that the server has (strip.js draws what lies
+// under it), and back to live; with the keys for them.
 import { lag } from './format.js';
 import { SPEEDS } from './viewer_time.js';
 
@@ -12,8 +12,9 @@ const STEP_MILLIS = 1000, PAGE_MILLIS = 10_000;
 
 /** @param {Parts} parts
  *  @param {import('./shown.js').Shown} shown
+ *  @param {(moment: number) => string} wordsAt  what the strip shows at a moment, for screen readers
  *  @returns {(now: number) => void}  shows where the viewer is; call it several times a second */
-export function mountTransport(parts, shown) {
+export function mountTransport(parts, shown, wordsAt) {
   const { time } = shown;
   parts.speed.replaceChildren(...SPEEDS.map((speed) => new Option(`${speed} ×`, String(speed), speed === 1, speed === 1)));
 
@@ -75,7 +76,9 @@ export function mountTransport(parts, shown) {
     parts.slider.min = (-length / 1000).toFixed(3);
     parts.slider.max = '0';
     parts.slider.value = (-behind / 1000).toFixed(3);
-    parts.slider.setAttribute('aria-valuetext', time.isLive ? 'live' : lag(behind));
+    // Live, the classes would be read aloud all the time.
+    const where = time.isLive ? 'live' : [lag(behind), wordsAt(kept.newest - behind)].filter(Boolean).join(', ');
+    if (parts.slider.getAttribute('aria-valuetext') !== where) parts.slider.setAttribute('aria-valuetext', where);
     parts.oldest.textContent = lag(length);
   };
 }

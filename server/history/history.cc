@@ -27,7 +27,8 @@ struct ByNumber {
 
 }  // namespace
 
-History::History(HistoryLimits limits) : limits_(limits), worker_([this] { Work(); }) {}
+History::History(HistoryLimits limits)
+    : limits_(limits), series_({limits.nanos, limits.series_bytes}), worker_([this] { Work(); }) {}
 
 History::~History() {
   {
@@ -39,6 +40,7 @@ History::~History() {
 }
 
 void History::Add(std::shared_ptr<const SceneState> state) {
+  series_.Add(*state);
   bool is_complete = false;
   {
     const std::lock_guard lock(mutex_);

@@ -16,12 +16,14 @@
 
 #include "core/scene_state.h"
 #include "server/history/chunk.h"
+#include "server/history/series.h"
 
 namespace kinescope::history {
 
 struct HistoryLimits {
-  std::int64_t nanos = 600'000'000'000;        // older states are forgotten
-  std::size_t bytes = std::size_t{500} << 20;  // and the oldest of more than that
+  std::int64_t nanos = 600'000'000'000;             // older states are forgotten
+  std::size_t bytes = std::size_t{500} << 20;       // and the oldest of more than that
+  std::size_t series_bytes = SeriesLimits().bytes;  // of the series, beside the states
 };
 
 /// The states that are kept: a first and a last one, by SceneState::made_nanos and number.
@@ -52,6 +54,9 @@ class History {
   /// The state of this number; the nearest kept one if it is gone, or not there yet.
   std::shared_ptr<const SceneState> Numbered(std::uint64_t number) const;
 
+  /// Of all states that were added, also of those that were left out.
+  const Series& series() const { return series_; }
+
   /// Waits until no more states can be compressed. For tests and figures.
   void Settle() const;
 
@@ -68,6 +73,7 @@ class History {
   std::shared_ptr<const Chunk::Rows> Unpacked(const std::shared_ptr<const Chunk>& chunk) const;
 
   const HistoryLimits limits_;
+  Series series_;
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   // Guarded by mutex_:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/compression_limits.h"
 #include "core/hand_load_shape.h"
 #include "core/palette.h"
 #include "core/person_links.h"
@@ -257,6 +258,7 @@ std::string ModelJson(const SceneState* state, const PageLook& look) {
   return Text({{"people", std::move(people)},
                {"joints", std::move(joints)},
                {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
+               {"compression_limits_n", kCompressionLimits},
                {"look", {{"loads", look.loads}, {"style", look.style}}},
                {"palette",
                 {{"classes", ClassesToJson()},

@@ -32,7 +32,7 @@ constexpr std::size_t kMinBytesPerWindow = 80'000;
 // The hash is that of the import map in web/index.html, the page's only inline script;
 // tests/browser/unit/page_policy.test.mjs checks that they match.
 constexpr const char* kContentSecurityPolicy =
-    "default-src 'none'; script-src 'self' 'sha256-uknlmCvJjd+nbrhlRIsCSC5zFnRlkEkfP97X3yNRuBk='; "
+    "default-src 'none'; script-src 'self' 'sha256-E6EF4F1d0+NeY75jeKyUVt8uDavrRTp6S7qv8k9BjNI='; "
     "style-src 'self'; "
     "img-src 'self' blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'";

@@ -13,6 +13,7 @@
 #include "core/system/words.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"
+#include "server/http/series_json.h"
 #include "server/http/token_page.h"
 
 namespace kinescope::http {
@@ -152,6 +153,24 @@ int Router::CountGuesses(const Request& request, const GivenTokens& given) const
   return secs;
 }
 
+Answer Router::Series(const Request& request, Role /*role*/) const {
+  if (site_.history == nullptr) return Refuse(503, "no history", kNoHistory);
+  const auto target = ParseTarget(request.target);
+  if (!target) return Refuse(400, "bad address", target.error());
+  const auto question = ParseSeriesQuestion(target->query);
+  if (!question) return Refuse(400, "bad series", question.error());
+  const history::Series& series = site_.history->series();
+  const auto answer = series.Ask(*question);
+  if (answer) return JsonAnswer(SeriesJson(*question, *answer));
+  std::string known;
+  for (const int character : series.characters()) {
+    known += (known.empty() ? "" : ", ") + std::to_string(character);
+  }
+  return Refuse(404, "no person",
+                "person=" + std::to_string(question->character) + ": no samples are kept; " +
+                    (known.empty() ? "no person has been in the stream yet" : "expected " + known));
+}
+
 // A foreign page can make a browser request pictures and data. It can neither read them nor add a
 // header or the token, but rendering and sending them costs time.
 std::optional<Answer> Router::RefuseOtherSite(const Request& request, const Target& target) const {
@@ -184,12 +203,13 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
 }
 
 // A new route: a line here, and one in docs/http.md.
-const std::array<Router::ApiRoute, 6> Router::kApiRoutes = {{
+const std::array<Router::ApiRoute, 7> Router::kApiRoutes = {{
     {"/api/session", Method::kGet, Role::kViewer, &Router::Session},
     {"/api/state", Method::kGet, Role::kViewer, &Router::State},
     {"/api/model", Method::kGet, Role::kViewer, &Router::Model},
     {"/api/cameras", Method::kGet, Role::kViewer, &Router::Cameras},
     {"/api/diagnostics", Method::kGet, Role::kViewer, &Router::Diagnostics},
+    {"/api/series", Method::kGet, Role::kViewer, &Router::Series},
     {"/api/hand_load", Method::kPost, Role::kOperator, &Router::SetHandLoad},
 }};
 
@@ -407,7 +427,7 @@ Answer Router::File(const std::string& path, const Request& request) const {
   if (file == nullptr || tag.empty()) {
     const bool is_library = StartsWith(path, "/lib/");
     return Refuse(404, "unknown address",
-                  is_library ? "three.js is not installed; run npm ci --prefix web"
+                  is_library ? "this library is not installed; run npm ci --prefix web"
                              : "no page at this address");
   }
   Answer answer;

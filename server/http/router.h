@@ -13,6 +13,7 @@
 
 #include "core/scene_state.h"
 #include "core/system/latest.h"
+#include "server/history/history.h"
 #include "server/http/access.h"
 #include "server/http/answer.h"
 #include "server/http/guess_guard.h"
@@ -36,6 +37,7 @@ class Router {
     std::shared_ptr<const skin::SkinTemplate> own_skin;  // null: the built-in one
     const StaticFiles* files = nullptr;
     const Latest<SceneState>* states = nullptr;
+    const history::History* history = nullptr;  // may be null: none is kept
     std::function<std::string(int character, const HandLoad&)> set_hand_load;  // may be null
     std::function<std::string()> diagnostics;  // the complete JSON, with the part of the server
     std::function<std::string()> live_camera;
@@ -86,7 +88,7 @@ class Router {
     Role least;  // a route that changes anything: kOperator
     Answer (Router::*answer)(const Request&, Role) const;
   };
-  static const std::array<ApiRoute, 6> kApiRoutes;
+  static const std::array<ApiRoute, 7> kApiRoutes;
   /// Null if there is no such route.
   static const ApiRoute* FindApi(const std::string& path);
   static std::string ApiPaths();
@@ -96,6 +98,7 @@ class Router {
   Answer Model(const Request& request, Role role) const;
   Answer Diagnostics(const Request& request, Role role) const;
   Answer Cameras(const Request& request, Role role) const;
+  Answer Series(const Request& request, Role role) const;
   Answer SetHandLoad(const Request& request, Role role) const;
   Answer Mesh(const std::string& path, const Request& request) const;
   Answer Skin(const std::string& path, const Request& request) const;

@@ -221,6 +221,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.cookie_name = "kinescope_" + std::to_string(port_);
   site.cameras = config_.cameras;
   site.framing = config_.framing;
+  site.history = config_.history;
   site.has_pictures = feed_ != nullptr;
   site.look = config_.look;
   site.own_skin = config_.own_skin;

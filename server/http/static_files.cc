@@ -55,6 +55,8 @@ const std::vector<Library>& Libraries() {
       {"/lib/three/addons/loaders/STLLoader.js", "three/examples/jsm/loaders/STLLoader.js"},
       {"/lib/three/addons/utils/BufferGeometryUtils.js",
        "three/examples/jsm/utils/BufferGeometryUtils.js"},
+      {"/lib/uplot/uPlot.esm.js", "uplot/dist/uPlot.esm.js"},
+      {"/lib/uplot/uPlot.min.css", "uplot/dist/uPlot.min.css"},
   };
   return kLibraries;
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/body_forces.h"
+#include "core/compression_limits.h"
 #include "core/load_class.h"
 #include "urdf/body_parameters.h"
 #include "urdf/kinematics.h"
@@ -54,8 +55,7 @@ Score ScoreNorm(int joint, const Eigen::Vector3d& moment, const urdf::LinkPoses&
 LumbarLoad LumbarLoadOf(const Eigen::Vector3d& force, const Eigen::Vector3d& moment,
                         const urdf::LinkPoses& links, double lever_arm_m = 0.06);
 
-/// N: the action limit and the upper limit (NIOSH 1981; joint-loads.md 4.4).
-constexpr std::array<double, 2> kCompressionLimits = {3400, 6400};
+using kinescope::kCompressionLimits;
 
 /// Lumbar load on the scale of ratios: the first of the class `limits` at the action limit of
 /// 3400 N, the second at the upper limit of 6400 N (NIOSH 1981), linear between and beyond. Shear

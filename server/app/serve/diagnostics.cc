@@ -136,6 +136,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
     out["history"] = {{"secs", Secs(kept.last_nanos - kept.first_nanos)},
                       {"states", kept.last_number - kept.first_number + 1},
                       {"bytes", history->bytes()},
+                      {"series_bytes", history->series().bytes()},
                       {"left_out", history->left_out()}};
   }
   // A file name need not be UTF-8.

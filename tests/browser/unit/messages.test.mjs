@@ -20,7 +20,7 @@ const palette = {
 const visual = { kind: 'mesh', size: [1, 1, 1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null,
   mesh: '/api/mesh/0/1/0' };
 const model = { people: [{ character: 0, revision: 1, skin: '/api/skin/0/1', links: [{ visuals: [visual] }] }],
-  joints: [{ label: 'L5/S1' }], class_limits: [0.3, 0.6], look: { loads: 'both', style: 'clay' },
+  joints: [{ name: 'l5_s1', label: 'L5/S1' }], class_limits: [0.3, 0.6], compression_limits_n: [3400, 6400], look: { loads: 'both', style: 'clay' },
   palette };
 
 /** A copy of `value` whose member at `path` ("people.0.name") is `other`. */

@@ -9,6 +9,7 @@ import { SILENCE_MILLIS } from '../../../web/status.js';
 const root = new URL('../../../', import.meta.url);
 const read = (name) => readFileSync(new URL(name, root), 'utf8');
 const modules = readdirSync(new URL('web/', root)).filter((name) => name.endsWith('.js'));
+const sheets = readdirSync(new URL('web/', root)).filter((name) => name.endsWith('.css'));
 const html = read('web/index.html');
 
 test('the content security policy contains the current hash of the import map', () => {
@@ -32,13 +33,13 @@ test('the server provides every library that the modules import', () => {
 
 test('the installation contains every library file that the server provides', () => {
   const installed = read('web/CMakeLists.txt');
-  for (const [, path] of read('server/http/static_files.cc').matchAll(/"three\/([^"]+)"/g)) {
+  for (const [, path] of read('server/http/static_files.cc').matchAll(/"(?:three|uplot)\/([^"]+)"/g)) {
     assert.ok(installed.includes(path), `web/CMakeLists.txt does not install ${path}`);
   }
 });
 
 test('the page loads nothing from other sites', () => {
-  for (const name of [...modules, 'index.html', 'style.css']) {
+  for (const name of [...modules, 'index.html', ...sheets]) {
     assert.doesNotMatch(read(`web/${name}`), /(https?|wss?):\/\/|@import|[ :]url\(/, name);
   }
 });
@@ -67,7 +68,7 @@ test('the page waits for several heartbeats before it calls the server disconnec
 });
 
 test('no line of the page is longer than 140 characters', () => {
-  const long = [...modules, 'index.html', 'style.css'].flatMap((name) => read(`web/${name}`).split('\n')
+  const long = [...modules, 'index.html', ...sheets].flatMap((name) => read(`web/${name}`).split('\n')
     .flatMap((line, i) => (line.length > 140 ? [`${name}:${i + 1}`] : [])));
   assert.deepEqual(long, []);
 });

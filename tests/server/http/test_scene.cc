@@ -157,13 +157,19 @@ SceneState MakeScene(std::uint64_t number, double seconds, std::int64_t arrival_
   SceneState state;
   state.liveness = Liveness::kLive;
   state.number = number;
-  state.counter = static_cast<std::uint32_t>(60 * seconds);
+  state.counter = static_cast<std::uint32_t>(60 * seconds + 1e-6);
   state.time_code_millis = static_cast<std::int64_t>(1000 * seconds);
   state.stamp_nanos = 1700000000000000000 + static_cast<std::int64_t>(1e9 * seconds);
   state.arrival_nanos = arrival_nanos;
   state.rate_hz = 60;
   state.source = "udp://0.0.0.0:9763";
-  for (int i = 0; i < people; ++i) state.people.push_back(MakePerson(i, seconds, model));
+  for (int i = 0; i < people; ++i) {
+    state.people.push_back(MakePerson(i, seconds, model));
+    BodySample& sample = state.people.back().sample;
+    sample.character = i;
+    sample.counter = state.counter;
+    sample.stamp_nanos = state.stamp_nanos;
+  }
   return state;
 }
 

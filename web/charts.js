@@ -1,0 +1,85 @@
+// The strip of time and the plots: gives them what is on the screen, and loads what they lack.
+import { personLabel } from './format.js';
+import { Plots } from './plots.js';
+import { Feed } from './series.js';
+import { Strip } from './strip.js';
+import { mountTabs } from './tabs.js';
+import { WallClock } from './wall_clock.js';
+
+/** @typedef {import('./state_codec.js').State} State
+ *  @typedef {{model: () => import('./messages.js').Model|null, failed: (text: string) => void}} Page
+ *    failed: shows why something did not work */
+
+export class Charts {
+  #feed = new Feed();
+  #clock = new WallClock();
+  #newest = NaN;
+  /** @type {{character: number, label: string}[]} */ #people = [];  // all who were in the stream since the page was opened
+
+  /** @param {import('./elements.js').Elements} elements
+   *  @param {import('./shown.js').Shown} shown
+   *  @param {Page} page */
+  constructor(elements, shown, page) {
+    this.shown = shown;
+    this.page = page;
+    this.strip = new Strip({ canvas: elements['strip-rows'], slider: elements.moment });
+    this.plots = new Plots({
+      panel: elements.plots, windows: elements['plot-window'], person: elements['plot-person'],
+      joints: elements['plot-joints'], chosen: elements['plot-chosen'], list: elements['plot-list'],
+      plan: elements['floor-plan'], dash: elements['dash-sample'], csv: elements['plot-csv'], png: elements['plot-png'],
+    }, { seek: (micros) => shown.seek(micros / 1000), source: () => shown.newestDetails.source, failed: page.failed });
+    mountTabs(elements.tabs, elements.side);
+  }
+
+  /** The worst classes at a moment in words.
+   *  @param {number} millis */
+  wordsAt(millis) {
+    return this.strip.wordsAt(this.#people, 1000 * millis);
+  }
+
+  /** Call it several times a second.
+   *  @param {number} now  browser's clock, ms */
+  update(now) {
+    const kept = this.shown.kept(), model = this.page.model(), live = this.shown.newest, { time } = this.shown;
+    if (kept === null || live === null || document.hidden) return;
+    if (kept.newest !== this.#newest) this.#clock.add(kept.newest, Date.now());
+    this.#newest = kept.newest;
+    this.#meet(live);
+    const when = {
+      oldest: 1000 * kept.oldest, newest: 1000 * kept.newest, moment: 1000 * time.momentAt(now, kept),
+      isLive: time.isLive, wallMillis: (/** @type {number} */ micros) => this.#clock.at(micros),
+    };
+    if (model !== null) this.#showPlots(when, model, live);
+    this.strip.draw(this.#people, when);
+    this.#feed.update([...this.plots.wanted(when), ...this.strip.wanted(this.#people, when)], when.newest, now)
+      .then((reason) => { if (reason) this.page.failed(reason); });
+  }
+
+  /** Keeps those who are in the stream, and those who left while the strip still shows them.
+   *  @param {State} live */
+  #meet(live) {
+    const names = this.shown.newestDetails.people;
+    for (const { character } of live.people) {
+      const label = personLabel({ character, name: names.find((each) => each.character === character)?.name ?? '' });
+      const known = this.#people.find((each) => each.character === character);
+      if (known) known.label = label;
+      else this.#people = [...this.#people, { character, label }].sort((a, b) => a.character - b.character);
+    }
+    this.#people = this.#people.filter(({ character }) =>
+      live.people.some((each) => each.character === character) || this.strip.hasSamplesOf(character));
+  }
+
+  /** @param {import('./plots.js').When} when
+   *  @param {import('./messages.js').Model} model
+   *  @param {State} live */
+  #showPlots(when, model, live) {
+    const first = live.people[0] ?? this.shown.state?.people[0];
+    if (first) this.plots.setJoints(first.loads.map(({ joint }) => model.joints[joint]), model.class_limits, model.compression_limits_n);
+    this.plots.setPeople(this.shown.newestDetails.people);
+    const shown = this.shown.state;
+    const person = shown?.people.find(({ character }) => character === this.plots.character);
+    this.plots.draw(when, {
+      com: person?.com ?? null, cop: person?.cop ?? null, support: person?.support ?? [], heading: shown?.viewHeading ?? 0,
+    });
+  }
+}
