@@ -1,8 +1,10 @@
 // The strip of time and the plots: gives them what is on the screen, and loads what they lack.
+import { BodyMap } from './body_map.js';
 import { personLabel } from './format.js';
 import { Plots } from './plots.js';
 import { Feed } from './series.js';
 import { Strip } from './strip.js';
+import { showPeople } from './people_choice.js';
 import { mountTabs } from './tabs.js';
 import { WallClock } from './wall_clock.js';
 
@@ -30,6 +32,11 @@ export class Charts {
       joints: elements['plot-joints'], chosen: elements['plot-chosen'], list: elements['plot-list'],
       plan: elements['floor-plan'], dash: elements['dash-sample'], csv: elements['plot-csv'], png: elements['plot-png'],
     }, { seek: (micros) => page.seek(micros / 1000), source: () => page.details().source, failed: page.failed });
+    this.person = elements['body-person'];
+    this.body = new BodyMap({
+      panel: elements['body-map'], mark: elements['body-mark'],
+      middle: elements['body-middle'], right: elements['body-right'], left: elements['body-left'],
+    }, (name) => this.plots.toggle(name));
     mountTabs(elements.tabs, elements.side);
   }
 
@@ -78,10 +85,24 @@ export class Charts {
     const first = live.people[0] ?? this.page.shown()?.people[0];
     if (first) this.plots.setJoints(first.loads.map(({ joint }) => model.joints[joint]), model.class_limits, model.compression_limits_n);
     this.plots.setPeople(this.page.details().people);
+    this.#showBody(model);
     const shown = this.page.shown();
     const person = shown?.people.find(({ character }) => character === this.plots.character);
     this.plots.draw(when, {
       com: person?.com ?? null, cop: person?.cop ?? null, support: person?.support ?? [], heading: shown?.viewHeading ?? 0,
     });
+  }
+
+  /** @param {import('./messages.js').Model} model */
+  #showBody(model) {
+    const shown = this.page.shown(), { people } = this.page.details();
+    showPeople(this.person, people);
+    const person = shown?.people.find(({ character }) => String(character) === this.person.value) ?? shown?.people[0];
+    if (!shown || !person) return;
+    const words = people.find(({ character }) => character === person.character);
+    this.body.show(shown.madeMicros, person.loads.map((load) => ({
+      ...model.joints[load.joint], loadClass: load.loadClass, ratio: load.ratio,
+      secs: words?.loads.find(({ joint }) => joint === load.joint)?.secs_in_band,
+    })), this.plots.chosen);
   }
 }
