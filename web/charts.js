@@ -1,8 +1,10 @@
 // The strip of time and the plots: gives them what is on the screen, and loads what they lack.
+import { BodyMap } from './body_map.js';
 import { personLabel } from './format.js';
 import { Plots } from './plots.js';
 import { Feed } from './series.js';
 import { Strip } from './strip.js';
+import { showPeople } from './people_choice.js';
 import { mountTabs } from './tabs.js';
 import { WallClock } from './wall_clock.js';
 
@@ -28,6 +30,11 @@ export class Charts {
       joints: elements['plot-joints'], chosen: elements['plot-chosen'], list: elements['plot-list'],
       plan: elements['floor-plan'], dash: elements['dash-sample'], csv: elements['plot-csv'], png: elements['plot-png'],
     }, { seek: (micros) => shown.seek(micros / 1000), source: () => shown.newestDetails.source, failed: page.failed });
+    this.person = elements['body-person'];
+    this.body = new BodyMap({
+      panel: elements['body-map'], mark: elements['body-mark'],
+      middle: elements['body-middle'], right: elements['body-right'], left: elements['body-left'],
+    }, (name) => this.plots.toggle(name));
     mountTabs(elements.tabs, elements.side);
   }
 
@@ -76,10 +83,24 @@ export class Charts {
     const first = live.people[0] ?? this.shown.state?.people[0];
     if (first) this.plots.setJoints(first.loads.map(({ joint }) => model.joints[joint]), model.class_limits, model.compression_limits_n);
     this.plots.setPeople(this.shown.newestDetails.people);
+    this.#showBody(model);
     const shown = this.shown.state;
     const person = shown?.people.find(({ character }) => character === this.plots.character);
     this.plots.draw(when, {
       com: person?.com ?? null, cop: person?.cop ?? null, support: person?.support ?? [], heading: shown?.viewHeading ?? 0,
     });
+  }
+
+  /** @param {import('./messages.js').Model} model */
+  #showBody(model) {
+    const shown = this.shown.state, { people } = this.shown.details;
+    showPeople(this.person, people);
+    const person = shown?.people.find(({ character }) => String(character) === this.person.value) ?? shown?.people[0];
+    if (!shown || !person) return;
+    const words = people.find(({ character }) => character === person.character);
+    this.body.show(shown.madeMicros, person.loads.map((load) => ({
+      ...model.joints[load.joint], loadClass: load.loadClass, ratio: load.ratio,
+      secs: words?.loads.find(({ joint }) => joint === load.joint)?.secs_in_band,
+    })), this.plots.chosen);
   }
 }

@@ -13,6 +13,8 @@ export const ELEMENTS = /** @type {const} */ ({
   'loads': 'ol', 'legend': 'ul', 'loads-hint': 'p',
   'transport': 'section', 'play': 'button', 'step-back': 'button', 'step-forward': 'button', 'speed': 'select',
   'moment': 'input', 'oldest': 'span', 'go-live': 'button',
+  'body-map': 'section', 'body-person': 'select', 'body-middle': 'div', 'body-right': 'div', 'body-left': 'div',
+  'body-mark': 'template',
   'strip-rows': 'canvas', 'tabs': 'div', 'side': 'aside',
   'plots': 'section', 'plot-window': 'div', 'plot-person': 'select', 'plot-joints': 'div', 'plot-chosen': 'span',
   'plot-list': 'div', 'floor-plan': 'canvas', 'dash-sample': 'template', 'plot-csv': 'button', 'plot-png': 'button',

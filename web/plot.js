@@ -9,9 +9,10 @@ const AXIS_PX = 44, CLOCK_PX = 22, LINE_PX = 1.75;
 const SHARED_CURSOR = 'time';
 
 /** @typedef {{key: string, name: string}} Line
- *  @typedef {{id: string, title: string, unit: string, factor: number, digits: number, least: number[], height: number}} Kind
+ *  @typedef {{id: string, title: string, unit: string, factor: number, digits: number, least: number[], height: number,
+ *    hint?: string}} Kind
  *    factor: of the server's unit; least: range that the axis always has, in `unit`
- *  @typedef {{value: number, name: string, tone: string}} Limit  in the plot's unit; tone: of the class colour
+ *  @typedef {{value: number, tone: string}} Limit  in the plot's unit; tone: of the class colour
  *  @typedef {{from: number, to: number, moment: number, wallMillis: (micros: number) => number}} Window  µs
  *  @typedef {{onSeek: (micros: number) => void, onHover: (micros: number|null) => void}} Events */
 
@@ -213,16 +214,11 @@ export class Plot {
     const pxRatio = ctx.canvas.width / width;
     const { from, to, moment } = this.#window;
     ctx.save();
-    ctx.font = `${11 * pxRatio}px ${getComputedStyle(this.box).fontFamily}`;
-    ctx.textAlign = 'left';
-    for (const { value, name, tone } of this.#limits) {
+    for (const { value, tone } of this.#limits) {
       const y = valToPos(value, 'y', true);
       if (y < bbox.top) continue;
       ctx.fillStyle = this.#color(tone);
       ctx.fillRect(bbox.left, y - pxRatio / 2, bbox.width, pxRatio);
-      ctx.fillStyle = this.#color('quiet');
-      ctx.textBaseline = y > bbox.top + 14 * pxRatio ? 'bottom' : 'top';
-      ctx.fillText(name, bbox.left + 5 * pxRatio, y + (ctx.textBaseline === 'top' ? 2 : -1) * pxRatio);
     }
     if (moment >= from && moment <= to) {
       const x = Math.min(bbox.left + bbox.width - pxRatio, valToPos(moment, 'x', true));
@@ -233,6 +229,7 @@ export class Plot {
   }
 }
 
+const EDGE = 0.07;
 const CLOCK_STEPS_SECS = [1, 2, 5, 10, 20, 60, 120, 300, 600];
 
 /** @param {Window} window
@@ -244,8 +241,9 @@ const clockStep = ({ from, to }) => 1000 * (CLOCK_STEPS_SECS.find((secs) => (to 
  *  @returns {number[]} µs */
 function clockSplits(window) {
   const step = clockStep(window), offset = window.wallMillis(0);
+  const end = window.wallMillis(window.to) - EDGE * (window.to - window.from) / 1000;  // a label there would be cut
   const splits = [];
-  for (let wall = Math.ceil(window.wallMillis(window.from) / step) * step; wall < window.wallMillis(window.to); wall += step) {
+  for (let wall = Math.ceil(window.wallMillis(window.from) / step) * step; wall < end; wall += step) {
     splits.push(1000 * (wall - offset));
   }
   return splits;

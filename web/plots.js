@@ -5,6 +5,7 @@ import { personLabel } from './format.js';
 import { DASHES, Plot } from './plot.js';
 import { csvOf, download, fileNameOf, pictureOf } from './plot_files.js';
 import { PlotWindow, WINDOWS_SECS, windowName } from './plot_window.js';
+import { showPeople } from './people_choice.js';
 import { GAP_MICROS, Series } from './series.js';
 
 const COLUMNS = 400;  // of a window
@@ -15,7 +16,8 @@ const PLACES = ['com_x', 'com_y', 'cop_x', 'cop_y'];
 
 /** @type {import('./plot.js').Kind[]} */
 export const KINDS = [
-  { id: 'loads', title: 'Joint loads', unit: '% of capacity', factor: 100, digits: 0, least: [0, 80], height: 146 },
+  { id: 'loads', title: 'Joint loads', unit: '% of capacity', factor: 100, digits: 0, least: [0, 80], height: 146,
+    hint: 'The load of each sample. The list of loads and the spheres hold a peak for a moment.' },
   { id: 'compression', title: 'L5/S1 compression', unit: 'kN', factor: 1e-3, digits: 2, least: [0, 4], height: 70 },
   { id: 'margin', title: 'Margin of stability', unit: 'cm', factor: 100, digits: 1, least: [0, 10], height: 70 },
   { id: 'rate', title: 'Rate', unit: 'Hz', factor: 1, digits: 1, least: [0, 60], height: 48 },
@@ -40,6 +42,7 @@ export const shortJoint = (label) => label.replace(/^Right /, 'R ').replace(/^Le
 class Figure {
   element = document.createElement('figure');
   #lines = document.createElement('ul');
+  #note = document.createElement('small');
   /** @type {HTMLElement[]} */ #values = [];
 
   /** @param {import('./plot.js').Kind} kind
@@ -50,6 +53,8 @@ class Figure {
     this.dash = dash;
     const caption = document.createElement('figcaption'), title = document.createElement('b');
     title.textContent = `${kind.title}, ${kind.unit}`;
+    title.append(this.#note);
+    if (kind.hint) caption.title = kind.hint;
     caption.append(title, this.#lines);
     const box = document.createElement('div');
     box.className = 'plot';
@@ -70,6 +75,15 @@ class Figure {
       entry.append(this.#values[i]);
       return entry;
     }));
+  }
+
+  /** @param {string} text */
+  setNote(text) {
+    this.#note.textContent = ` · ${text}`;
+  }
+
+  get title() {
+    return `${this.kind.title}, ${this.kind.unit}${this.#note.textContent}`;
   }
 
   /** @param {number} index  of a line */
@@ -148,11 +162,11 @@ export class Plots {
     this.#joints = joints;
     const [mediumFrom, highFrom] = classLimits.map((limit) => 100 * limit);
     this.#figureOf('loads').plot.setLimits([
-      { value: mediumFrom, name: '', tone: 'class-medium' }, { value: highFrom, name: '', tone: 'class-high' }]);
+      { value: mediumFrom, tone: 'class-medium' }, { value: highFrom, tone: 'class-high' }]);
     const [action, upper] = compressionLimits.map((limit) => limit / 1000);
     this.#figureOf('compression').plot.setLimits([
-      { value: action, name: `action limit ${action}`, tone: 'class-medium' },
-      { value: upper, name: `upper limit ${upper}`, tone: 'class-high' }]);
+      { value: action, tone: 'class-medium' }, { value: upper, tone: 'class-high' }]);
+    this.#figureOf('compression').setNote(`limits ${action} and ${upper}`);
     this.parts.joints.replaceChildren(...joints.map((joint) => this.#jointBox(joint)));
     this.#setLines();
   }
@@ -174,6 +188,19 @@ export class Plots {
     box.addEventListener('change', () => this.#chooseJoints());
     text.append(box, label);
     return text;
+  }
+
+  get chosen() {
+    return this.#chosen;
+  }
+
+  /** Adds a joint, in the place of the oldest one if there is no line left, or takes it away.
+   *  @param {string} name */
+  toggle(name) {
+    const others = this.#chosen.filter((each) => each !== name);
+    this.#chosen = others.length < this.#chosen.length ? others : [...others.slice(1 - MOST_LINES), name];
+    for (const box of this.#boxes()) box.checked = this.#chosen.includes(box.value);
+    this.#setLines();
   }
 
   #boxes() {
@@ -200,14 +227,8 @@ export class Plots {
 
   /** @param {Person[]} people */
   setPeople(people) {
-    const same = people.length === this.#people.length
-      && people.every(({ character, name }, i) => character === this.#people[i].character && name === this.#people[i].name);
-    if (same) return;
     this.#people = people;
-    const { person } = this.parts, before = person.value;
-    person.replaceChildren(...people.map((each) => new Option(personLabel(each), String(each.character))));
-    if (people.some(({ character }) => String(character) === before)) person.value = before;
-    person.hidden = people.length < 2;
+    showPeople(this.parts.person, people);
   }
 
   get #person() {
@@ -280,9 +301,9 @@ export class Plots {
     const { from, to } = this.window.at(when);
     const about = { person: personLabel(person), source: this.page.source(), from, to, wallMillis: when.wallMillis };
     try {
-      const file = kind === 'csv' ? csvOf(series, about) : await pictureOf(this.figures.map(({ plot, kind: of }) => ({
-        title: `${of.title}, ${of.unit}`, canvas: plot.canvas, lines: plot.lines,
-      })), about, this.parts.panel);
+      const parts = [...this.figures.map(({ title, plot }) => ({ title, canvas: plot.canvas, lines: plot.lines })),
+        { title: 'CoM and CoP on the floor, from above', canvas: this.parts.plan, lines: [] }];
+      const file = kind === 'csv' ? csvOf(series, about) : await pictureOf(parts, about, this.parts.panel);
       download(file, fileNameOf(about, kind));
     } catch (error) {
       this.page.failed(`Could not save the plots: ${error instanceof Error ? error.message : error}`);

@@ -55,8 +55,6 @@ Score ScoreNorm(int joint, const Eigen::Vector3d& moment, const urdf::LinkPoses&
 LumbarLoad LumbarLoadOf(const Eigen::Vector3d& force, const Eigen::Vector3d& moment,
                         const urdf::LinkPoses& links, double lever_arm_m = 0.06);
 
-using kinescope::kCompressionLimits;
-
 /// Lumbar load on the scale of ratios: the first of the class `limits` at the action limit of
 /// 3400 N, the second at the upper limit of 6400 N (NIOSH 1981), linear between and beyond. Shear
 /// has one limit, 1000 N at the first, and alone never exceeds the second.

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { after, before, test as nodeTest } from 'node:test';
-import { closeBrowser, countPixels, openPage, PHONE, pixelsOf, pixelsOfPng, saveScreenshot, startFixture } from './open_page.mjs';
+import { closeBrowser, countPixels, openPage, PHONE, pixelsOf, pixelsOfPng, saveFile, saveScreenshot, startFixture } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -218,6 +218,7 @@ test('the plots are saved as CSV and as a picture with person and trial', async 
   assert.equal(last[0], 'Demo');
   assert.equal(last[1], 'udp://0.0.0.0:9763');
   const png = await save('#plot-png');
+  await saveFile('plots_saved.png', png.bytes);
   assert.match(png.name, /^kinescope_Demo_20\d\d-.*\.png$/);
   const picture = await pixelsOfPng(page, png.bytes);
   assert.ok(picture.width > 380 && picture.height > 380, `${picture.width} x ${picture.height}`);
@@ -231,6 +232,8 @@ test('tabs are reached by keys, and keys of the time do not reach them', async (
   const { page, close } = await openLive(1);
   await page.focus('#tab-loads');
   await page.keyboard.press('ArrowRight');
+  assert.equal(await page.getAttribute('#tab-body', 'aria-selected'), 'true');
+  await page.keyboard.press('ArrowRight');
   assert.equal(await page.getAttribute('#tab-plots', 'aria-selected'), 'true');
   assert.equal(await page.isVisible('#plots'), true);
   assert.equal(await page.isVisible('#loads'), false);
@@ -241,13 +244,17 @@ test('tabs are reached by keys, and keys of the time do not reach them', async (
   await close();
 });
 
-test('on a phone the strip is above the buttons and the plots fit', async () => {
-  const { page, problems, close } = await openPlots({ viewport: PHONE, colorScheme: 'dark' });
+test('on a phone the strip is above the buttons, a finger moves the time, and the plots fit', async () => {
+  const { page, problems, close } = await openPlots({ viewport: PHONE, colorScheme: 'dark', context: { hasTouch: true } });
   const strip = await page.locator('.strip').boundingBox(), play = await page.locator('#play').boundingBox();
   assert.ok(strip.y + strip.height <= play.y);
   assert.ok(strip.height >= 44 && strip.width > 330);
   const live = await page.locator('#go-live').boundingBox();
   assert.ok(Math.abs(live.y - play.y) < 2, 'the buttons are in one row');
+  await page.touchscreen.tap(strip.x + strip.width * 0.7, strip.y + strip.height / 2);
+  await statusIs(page, /^Behind/);
+  await page.click('#go-live');
+  await statusIs(page, /^Live$/);
   await page.locator('#plots').scrollIntoViewIfNeeded();
   const wide = await page.evaluate(() => document.documentElement.scrollWidth);
   assert.equal(wide, 390, 'nothing is wider than the screen');
@@ -256,12 +263,40 @@ test('on a phone the strip is above the buttons and the plots fit', async () => 
   await close();
 });
 
-test('a wide page shows loads and plots at once, without tabs', async () => {
+test('a wide page shows plots beside loads or body', async () => {
   const { page, close } = await openLive(2, { viewport: { width: 1920, height: 1080 }, colorScheme: 'dark' });
   assert.equal(await page.isVisible('#plots'), true);
   assert.equal(await page.isVisible('#loads'), true);
-  assert.equal(await page.isVisible('#tabs'), false);
+  assert.equal(await page.isVisible('#tab-plots'), false);
   await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output').textContent === '2.15', null, LONG);
+  await page.click('#tab-body');
+  assert.equal(await page.isVisible('#loads'), false);
+  assert.equal(await page.isVisible('#body-map'), true);
   await saveScreenshot(page, 'plots_wide');
+  await close();
+});
+
+test('the map of the body shows class, percent and exposure of each joint, and a press plots the joint', async () => {
+  const { page, problems, close } = await openLive(2);
+  await page.click('#tab-body');
+  await page.waitForFunction(() => document.querySelectorAll('#body-map button').length === 15, null, LONG);
+  const button = (name) => page.locator(`#body-map button[data-joint="${name}"]`);
+  assert.equal(await button('l5_s1').getAttribute('data-class'), 'high');
+  assert.match(await button('l5_s1').getAttribute('aria-label'), /^L5\/S1, high, (8[89]|9[012]) %.*; plot$/);
+  assert.equal(await button('left_ankle').getAttribute('data-class'), 'unknown');
+  assert.equal(await button('left_ankle').locator('.ratio').textContent(), '–');
+  const hrefs = await page.locator('#body-marks use').evaluateAll((all) => all.map((use) => use.getAttribute('href')));
+  assert.deepEqual([...new Set(hrefs)].sort(), ['#shape-high', '#shape-low', '#shape-medium', '#shape-unknown']);
+  // The person's right is on the left.
+  const [right, left] = [await button('right_knee').boundingBox(), await button('left_knee').boundingBox()];
+  assert.ok(right.x < left.x);
+  assert.equal(await button('left_knee').getAttribute('aria-pressed'), 'false');
+  await button('left_knee').click();
+  await page.waitForFunction(() => document.querySelector('[data-joint="left_knee"]').ariaPressed === 'true', null, LONG);
+  assert.equal(await page.locator('#plot-chosen').textContent(), 'L5/S1, R shoulder, R knee, L knee');
+  await button('l5_s1').click();
+  await page.waitForFunction(() => document.querySelector('[data-joint="l5_s1"]').ariaPressed === 'false', null, LONG);
+  await saveScreenshot(page, 'body_map');
+  assert.deepEqual(problems, []);
   await close();
 });

@@ -6,7 +6,7 @@
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { existsSync } from 'node:fs';
-import { mkdir } from 'node:fs/promises';
+import { mkdir, writeFile } from 'node:fs/promises';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
 
@@ -141,11 +141,16 @@ export async function openPage(url, options = {}) {
 }
 
 /** Writes a picture of the page into out/browser of the build or the folder KINESCOPE_SCREENSHOTS. */
-export async function saveScreenshot(page, name) {
+export const saveScreenshot = async (page, name) => saveFile(`${name}.png`, await page.screenshot());
+
+/** Into the same folder.
+ *  @param {string} name
+ *  @param {Buffer} bytes */
+export async function saveFile(name, bytes) {
   const folder = process.env.KINESCOPE_SCREENSHOTS
     ?? fileURLToPath(new URL('../../out/browser', import.meta.url));
   await mkdir(folder, { recursive: true });
-  await page.screenshot({ path: `${folder}/${name}.png` });
+  await writeFile(`${folder}/${name}`, bytes);
 }
 
 /** What is drawn in `selector`, as pixels: {width, height, data} with RGBA bytes. Overlays that lie

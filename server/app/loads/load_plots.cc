@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/compression_limits.h"
 #include "core/system/errors.h"
 #include "core/system/stop_signal.h"
 #include "render/image/new_file.h"
@@ -136,8 +137,8 @@ PlotPanel CompressionPanel(const LoadTrial& trial) {
   constexpr double kNewtonsPerKilo = 1000;
   PlotPanel panel;
   SetTime(trial, panel);
-  const double action = loads::kCompressionLimits[0] / kNewtonsPerKilo;
-  const double upper = loads::kCompressionLimits[1] / kNewtonsPerKilo;
+  const double action = kCompressionLimits[0] / kNewtonsPerKilo;
+  const double upper = kCompressionLimits[1] / kNewtonsPerKilo;
   constexpr double kEnd = 1e9;
   panel.bands = {{-kEnd, action, Tint(LoadClass::kLow), "low"},
                  {action, upper, Tint(LoadClass::kMedium), fmt::format("> {:g} kN", action)},

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/compression_limits.h"
 #include "core/system/json_text.h"
 #include "server/loads/joint_score.h"
 #include "server/table/load_rows.h"
@@ -113,8 +114,8 @@ void NoteCompression(const LoadTrial& trial, std::vector<std::string>& notes) {
   notes.push_back(fmt::format(
       "L5/S1 compression: {:.0f} N on average, {:.0f} N at most (at {:.2f} s); above {:g} N for "
       "{:.2f} s, above {:g} N for {:.2f} s. Single-equivalent-muscle model, accuracy about 25 %.",
-      spine.mean(), spine.most, trial.SecsOf(spine.at_nanos), loads::kCompressionLimits[0],
-      trial.compression_secs()[0], loads::kCompressionLimits[1], trial.compression_secs()[1]));
+      spine.mean(), spine.most, trial.SecsOf(spine.at_nanos), kCompressionLimits[0],
+      trial.compression_secs()[0], kCompressionLimits[1], trial.compression_secs()[1]));
 }
 
 bool IsStatic(const LoadTrial& trial, const loads::LoadSettings& settings) {

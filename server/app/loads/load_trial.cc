@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/compression_limits.h"
 #include "core/system/check.h"
 #include "core/system/clocks.h"
 #include "server/loads/joint_score.h"
@@ -108,8 +109,8 @@ void LoadTrial::CountTime(const PersonState& last, double secs) {
     most_delay_secs_ = std::max(most_delay_secs_, forces.delay_secs);
   }
   if (!forces.lumbar) return;
-  if (forces.lumbar->compression > loads::kCompressionLimits[0]) compression_secs_[0] += secs;
-  if (forces.lumbar->compression > loads::kCompressionLimits[1]) compression_secs_[1] += secs;
+  if (forces.lumbar->compression > kCompressionLimits[0]) compression_secs_[0] += secs;
+  if (forces.lumbar->compression > kCompressionLimits[1]) compression_secs_[1] += secs;
 }
 
 void LoadTrial::KeepCurve(const PersonState& person) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/compression_limits.h"
 #include "core/system/words.h"
 #include "server/app/loads/report_text.h"
 #include "server/loads/joint_score.h"
@@ -88,7 +89,7 @@ std::string UnknownSentence(const LoadTrial& trial) {
 }  // namespace
 
 std::string CompressionSentence(double peak_newtons) {
-  const auto [action, upper] = loads::kCompressionLimits;
+  const auto [action, upper] = kCompressionLimits;
   constexpr double kPercent = 100 * kCompressionUncertainty;
   const double low = (1 - kCompressionUncertainty) * peak_newtons;
   const double high = (1 + kCompressionUncertainty) * peak_newtons;

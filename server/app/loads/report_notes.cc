@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/compression_limits.h"
 #include "server/app/loads/report_finding.h"
 #include "server/app/loads/report_text.h"
 #include "server/loads/joint_score.h"
@@ -183,11 +184,11 @@ std::string MethodText(const LoadTrial& trial, const TrialContext& context) {
     text += fmt::format(
         "the larger ratio of moment and compression counts; {:g} N is {:g}, {:g} N is {:g} "
         "(NIOSH 1981).",
-        loads::kCompressionLimits[0], up[0], loads::kCompressionLimits[1], up[1]);
+        kCompressionLimits[0], up[0], kCompressionLimits[1], up[1]);
   } else {
     text +=
         fmt::format("its ratio is that of the moment alone; limits {:g} and {:g} N (NIOSH 1981).",
-                    loads::kCompressionLimits[0], loads::kCompressionLimits[1]);
+                    kCompressionLimits[0], kCompressionLimits[1]);
   }
   return text;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/compression_limits.h"
 #include "core/system/words.h"
 #include "server/app/loads/html.h"
 #include "server/app/loads/report_figures.h"
@@ -191,11 +192,11 @@ std::string SensitivitySentence(const Comparison& runs) {
   for (const SensitivityRow& row : rows) {
     if (row.compressions == 0) continue;
     ++known;
-    if (row.peak_compression > loads::kCompressionLimits[0]) ++above;
+    if (row.peak_compression > kCompressionLimits[0]) ++above;
   }
   if (known > 0) {
     text += fmt::format(" Peak compression is above {:g} N in {} of {} rows.",
-                        loads::kCompressionLimits[0], above, known);
+                        kCompressionLimits[0], above, known);
   }
   return text;
 }
@@ -232,7 +233,7 @@ std::string SensitivityTable(const std::vector<SensitivityRow>& rows,
   }
   html += fmt::format(
       "<th>compr.<br>peak,<br>N</th><th>above<br>{:g} N,<br>%</th></tr></thead><tbody>\n",
-      loads::kCompressionLimits[0]);
+      kCompressionLimits[0]);
   for (const SensitivityRow& row : rows) {
     html +=
         fmt::format("<tr{}><th>{}</th>{}</tr>\n", &row == &rows.front() ? " class=\"base\"" : "",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/compression_limits.h"
 #include "core/system/clocks.h"
 #include "server/loads/exposure.h"
 #include "server/loads/joint_score.h"
@@ -94,7 +95,7 @@ void LoadTally::Add(const PersonState& person) {
   if (!person.forces.lumbar) return;
   const double compression = person.forces.lumbar->compression;
   ++row_.compressions;
-  if (compression > loads::kCompressionLimits[0]) ++row_.above_action_limit;
+  if (compression > kCompressionLimits[0]) ++row_.above_action_limit;
   row_.peak_compression = std::fmax(row_.peak_compression, compression);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/compression_limits.h"
 #include "render/plot.h"
 #include "server/app/loads/report_figures.h"
 #include "server/app/loads/report_finding.h"
@@ -67,8 +68,8 @@ class CompressionPanel {
   CompressionPanel(const LoadTrial& trial, const TimeScale& scale, double bottom)
       : trial_(trial), scale_(scale), bottom_(bottom) {
     const double peak = trial.compression().count > 0 ? trial.compression().most / kKilo : 0;
-    top_kn_ = std::max(1.08 * loads::kCompressionLimits[1] / kKilo,
-                       1.05 * (1 + kCompressionUncertainty) * peak);
+    top_kn_ =
+        std::max(1.08 * kCompressionLimits[1] / kKilo, 1.05 * (1 + kCompressionUncertainty) * peak);
   }
 
   void Draw(SvgDrawing& drawing) const {
@@ -80,7 +81,7 @@ class CompressionPanel {
                    {SvgAnchor::kEnd});
     }
     DrawCurve(drawing);
-    for (const double limit : loads::kCompressionLimits) {
+    for (const double limit : kCompressionLimits) {
       const double y = Y(limit / kKilo);
       drawing.Line({{kAxisLeft, y}, {kAxisRight, y}}, {{1, 1, 1}, 0.5, ""});  // over dense curves
       drawing.Line({{kAxisLeft, y}, {kAxisRight, y}}, {SvgStroke().color, 0.22, "1.2 0.8"});
@@ -137,7 +138,7 @@ class CompressionPanel {
     const double middle = std::clamp(x, kAxisLeft + half + 1, kAxisRight - half - 1);
     double baseline =
         std::max(Y((1 + kCompressionUncertainty) * kilonewtons) - 0.8, kCurveTop + kSvgTextMm);
-    for (const double limit : loads::kCompressionLimits) {  // not across a line
+    for (const double limit : kCompressionLimits) {  // not across a line
       const double line = Y(limit / kKilo);
       if (line < baseline - kSvgTextMm || line > baseline + 0.5) continue;
       const bool fits_above = line - 0.7 - kSvgTextMm > kCurveTop;
