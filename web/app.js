@@ -9,6 +9,8 @@ import { cameraLabel, hexColor, shortCameraLabel } from './format.js';
 import { mountHandLoad } from './hand_load.js';
 import { leftOutText, statusOf } from './status.js';
 import { mountLoadsShown } from './loads_shown.js';
+import { MarkPad } from './mark_pad.js';
+import { Marks } from './marks.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { readCameras, readDiagnostics, readModel } from './messages.js';
 import { PicturePanel } from './picture_panel.js';
@@ -74,6 +76,12 @@ const showTransport = mountTransport({
   bar: elements.transport, play: elements.play, back: elements['step-back'], forward: elements['step-forward'],
   speed: elements.speed, slider: elements.moment, oldest: elements.oldest, live: elements['go-live'],
 }, shown, (moment) => charts.wordsAt(moment));
+const marks = new Marks(() => charts.strip.setMarks(flagsOf(marks)));
+const markPad = new MarkPad({
+  pad: elements['mark-pad'], buttons: elements['mark-buttons'], form: elements['mark-form'], text: elements['mark-text'],
+  said: elements['mark-said'], undo: elements['mark-undo'], list: elements['mark-list'], earlier: elements['mark-earlier'],
+  home: elements.transport, phone: elements['mark-place'],
+}, marks, shown, { notice: showNotice, isViewer: () => elements.role.dataset.role === 'viewer' });
 elements.status.addEventListener('click', () => {
   shown.time.goLive();
   shown.onTimeChanged();
@@ -193,6 +201,24 @@ async function loadModel(now) {
   }
 }
 
+/** @param {number} now */
+async function loadMarks(now) {
+  const revision = shown.newestDetails.marks_revision;
+  elements['mark-pad'].hidden = revision === null;
+  if (revision === null) return;
+  try {
+    await marks.update(revision, now);
+  } catch (error) {
+    showNotice(`Could not load the marks: ${messageOf(error)}`);
+  }
+}
+
+/** What the strip shows of the marks whose moments it may have.
+ *  @param {Marks} of */
+const flagsOf = (of) => of.list().filter((mark) => of.isOfThisRun(mark)).map((mark) => ({
+  micros: mark.at.micros, endMicros: mark.end?.micros ?? null, label: mark.button > 0 ? String(mark.button) : '✎',
+}));
+
 function applyLook() {
   if (model === null) return;
   scene?.setLook({ ...model.look, loads: loadsShown(model.look.loads) });
@@ -283,6 +309,8 @@ function showReadings() {
   showStatus(status, now);
   showTransport(now);
   charts.update(now);
+  loadMarks(now);
+  markPad.update(now);
   shown.keepAddress(now);
   document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';
   if (!status.isFresh || !shown.isNewest) latencies.clear();

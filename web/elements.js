@@ -13,6 +13,8 @@ export const ELEMENTS = /** @type {const} */ ({
   'loads': 'ol', 'legend': 'ul', 'loads-hint': 'p',
   'transport': 'section', 'play': 'button', 'step-back': 'button', 'step-forward': 'button', 'speed': 'select',
   'moment': 'input', 'oldest': 'span', 'go-live': 'button',
+  'mark-pad': 'div', 'mark-buttons': 'div', 'mark-form': 'form', 'mark-text': 'input', 'mark-said': 'p',
+  'mark-undo': 'button', 'marks': 'section', 'mark-list': 'ol', 'mark-earlier': 'p', 'mark-place': 'div',
   'body-map': 'section', 'body-person': 'select', 'body-middle': 'div', 'body-right': 'div', 'body-left': 'div',
   'body-mark': 'template',
   'strip-rows': 'canvas', 'tabs': 'div', 'side': 'aside',

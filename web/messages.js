@@ -107,6 +107,7 @@ const readRecording = object({
 const readDetails = object({
   source: string, camera: string, has_pictures: boolean, people: listOf(readPersonDetails),
   objects: listOf(readObjectName), left_out: listOf(readLeftOut), recording: orNull(readRecording),
+  marks_revision: numberOrNull,
 });
 /** @typedef {ReturnType<typeof readSecs>} Secs  time in each class so far, s
  *  @typedef {ReturnType<typeof readHandLoad>} HandLoad
@@ -140,6 +141,15 @@ export function readTextMessage(text) {
   if ('error' in message) return { error: string(message.error, 'error') };
   return null;
 }
+
+// /api/marks and /api/mark
+const readMoment = object({ state: number, micros: number, stamp_micros: number, time_code_millis: number, counter: number });
+export const readMark = object({
+  id: number, revision: number, run_micros: number, button: number, text: string, role: string, at: readMoment,
+  end: orNull(readMoment), is_open: boolean, is_removed: boolean, behind_secs: number,
+});
+export const readMarks = object({ names: listOf(string), run_micros: number, revision: number, marks: listOf(readMark) });
+/** @typedef {ReturnType<typeof readMark>} Mark */
 
 // /api/model
 const readVisual = object({

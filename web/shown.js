@@ -22,7 +22,7 @@ export class Shown {
   time = new ViewerTime();
   /** @type {State|null} */ #newest = null;
   /** @type {Details} */ #newestDetails = {
-    source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [], recording: null,
+    source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [], recording: null, marks_revision: null,
   };
   /** @type {{state: State, details: Details}|null} */ #past = null;
   #askedMicros = NaN;  // of the moment last asked for
@@ -78,6 +78,15 @@ export class Shown {
     const range = this.kept();
     if (range === null) return;
     this.time.seek(millis, performance.now(), range);
+    this.onTimeChanged();
+  }
+
+  /** As seek(), and stays there.
+   *  @param {number} millis */
+  pauseAt(millis) {
+    const range = this.kept();
+    if (range === null) return;
+    this.time.pause(performance.now(), range, millis);
     this.onTimeChanged();
   }
 

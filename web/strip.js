@@ -15,7 +15,7 @@ const MEDIUM_LEAST = 0.22, MEDIUM_MOST = 0.6, MEDIUM_JOINTS = 10;  // a medium c
 const MOST_LOSS = 0.08;  // fills the row
 
 /** @typedef {{high: number, medium: number, isUnknown: boolean, loss: number}} Look  numbers of joints; share of samples
- *  @typedef {{micros: number, label: string}} Mark
+ *  @typedef {{micros: number, endMicros: number|null, label: string}} Mark  endMicros: of a span
  *  @typedef {{label: string, series: Series[]}} Row
  *  @typedef {{oldest: number, newest: number, moment: number, isLive: boolean, wallMillis: (micros: number) => number}} When
  *    µs of the server's clock; wallMillis: of a moment, by the browser's clock */
@@ -315,7 +315,12 @@ class Painter {
     this.#label('Marks', MARKS_PX / 2);
     context.font = `700 11px ${this.font}`;
     context.textAlign = 'center';
-    for (const { micros, label } of marks) {
+    for (const { micros, endMicros, label } of marks) {
+      if (endMicros !== null && endMicros > when.oldest) {
+        const from = Math.max(xOf(micros), xOf(when.oldest));
+        this.#use('quiet');
+        context.fillRect(from, MARKS_PX - 4, Math.max(2, xOf(endMicros) - from), 3);
+      }
       if (micros < when.oldest || micros > when.newest) continue;
       const x = Math.round(xOf(micros)), text = [...label].slice(0, 2).join('') || '•';
       this.#use('quiet');

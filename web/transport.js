@@ -1,6 +1,7 @@
 // The bar below the view: pause, steps, speed, a slider over all moments that the server has (strip.js draws what lies
 // under it), and back to live; with the keys for them.
 import { lag } from './format.js';
+import { isForOther } from './keys.js';
 import { SPEEDS } from './viewer_time.js';
 
 const STEP_MILLIS = 1000, PAGE_MILLIS = 10_000;
@@ -81,13 +82,4 @@ export function mountTransport(parts, shown, wordsAt) {
     if (parts.slider.getAttribute('aria-valuetext') !== where) parts.slider.setAttribute('aria-valuetext', where);
     parts.oldest.textContent = lag(length);
   };
-}
-
-/** Whether the key belongs to what has the focus: a field, a list, a button that Space presses.
- *  @param {KeyboardEvent} event */
-function isForOther({ target, key }) {
-  if (!(target instanceof HTMLElement)) return false;
-  if (target instanceof HTMLInputElement && target.type === 'range') return false;
-  if (target.matches('input:not([type=checkbox]), select, textarea, [contenteditable]')) return true;
-  return key === ' ' && target.matches('button, input, summary, a[href]');
 }

@@ -50,6 +50,9 @@ struct Answer {
 /// The reason if a former state is requested where there is none.
 inline constexpr char kNoHistory[] =
     "this server keeps no former states (--history_minutes=0), or none came yet";
+/// The reason if marks are requested where none can be set.
+inline constexpr char kNoMarks[] =
+    "nothing can be marked on this server: it keeps no former states (--history_minutes=0)";
 /// The reason if a picture or its camera is requested from a server without a renderer.
 inline constexpr char kNoRenderer[] = "this server renders no pictures (--pictures=off)";
 

@@ -311,7 +311,7 @@ json RecordingToJson(const Playback& playback) {
 }  // namespace
 
 std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures,
-                        const Playback* playback) {
+                        const DetailsExtras& extras) {
   json people = json::array();
   for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
     const PersonState& person = state->people[i];
@@ -349,14 +349,16 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
     left_out.push_back(
         {{"character", person.character}, {"name", person.name}, {"reason", person.why}});
   }
-  return Text({{"details",
-                {{"source", state != nullptr ? state->source : std::string()},
-                 {"camera", live_camera},
-                 {"has_pictures", has_pictures},
-                 {"people", std::move(people)},
-                 {"objects", std::move(objects)},
-                 {"left_out", std::move(left_out)},
-                 {"recording", playback != nullptr ? RecordingToJson(*playback) : json()}}}});
+  return Text(
+      {{"details",
+        {{"source", state != nullptr ? state->source : std::string()},
+         {"camera", live_camera},
+         {"has_pictures", has_pictures},
+         {"people", std::move(people)},
+         {"objects", std::move(objects)},
+         {"left_out", std::move(left_out)},
+         {"recording", extras.playback ? RecordingToJson(*extras.playback) : json()},
+         {"marks_revision", extras.marks_revision ? json(*extras.marks_revision) : json()}}}});
 }
 
 std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,

@@ -26,10 +26,16 @@ std::string ModelJson(const SceneState* state, const PageLook& look);
 std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFraming& framing,
                         const std::string& live_camera, bool has_pictures);
 
+/// What does not belong to a state.
+struct DetailsExtras {
+  std::shared_ptr<const Playback> playback;     // null: the stream is live
+  std::optional<std::uint64_t> marks_revision;  // nullopt: nothing can be marked
+};
+
 /// The WebSocket message "details": texts and values that change seldom. Equal inputs give equal
-/// text. `playback`: null if the stream is live.
+/// text.
 std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures,
-                        const Playback* playback = nullptr);
+                        const DetailsExtras& extras = {});
 
 /// The person's model for /api/skin/<person>/<revision>. Null unless the revision is the current
 /// one and the model has a skin.

@@ -20,14 +20,15 @@ SharedBytes Share(Bytes bytes) { return std::make_shared<const Bytes>(std::move(
 
 Hub::Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, PictureFeed* feed,
          const history::History* history, std::string camera, Counters& counters,
-         GetPlayback playback)
+         GetPlayback playback, const marks::MarkBook* marks)
     : states_(states),
       pictures_(pictures),
       feed_(feed),
       history_(history),
       camera_(std::move(camera)),
       counters_(counters),
-      playback_(std::move(playback)) {}
+      playback_(std::move(playback)),
+      marks_(marks) {}
 
 int Hub::CountOf(const std::string& address) const {
   return static_cast<int>(
@@ -186,8 +187,10 @@ SharedBytes Hub::EncodeDetails() const {
 }
 
 std::string Hub::DetailsOf(const SceneState* state) const {
-  const auto playback = playback_ ? playback_() : nullptr;
-  return DetailsJson(state, camera_, feed_ != nullptr, playback.get());
+  DetailsExtras extras;
+  extras.playback = playback_ ? playback_() : nullptr;
+  if (marks_ != nullptr && history_ != nullptr) extras.marks_revision = marks_->revision();
+  return DetailsJson(state, camera_, feed_ != nullptr, extras);
 }
 
 }  // namespace kinescope::http

@@ -47,10 +47,10 @@ class Hub {
 
   using GetPlayback = std::function<std::shared_ptr<const Playback>()>;
 
-  /// `feed`, `history` and `playback` may be null. All references are borrowed.
+  /// `feed`, `history`, `playback` and `marks` may be null. All references are borrowed.
   Hub(const Latest<SceneState>& states, const Latest<Picture>& pictures, PictureFeed* feed,
       const history::History* history, std::string camera, Counters& counters,
-      GetPlayback playback = nullptr);
+      GetPlayback playback = nullptr, const marks::MarkBook* marks = nullptr);
 
   /// Whether a client at `address` may join: while its address has fewer clients than there are
   /// free places. So one address takes at most half of all, and never the last one.
@@ -100,6 +100,7 @@ class Hub {
   std::string camera_;  // of the live picture
   Counters& counters_;
   const GetPlayback playback_;
+  const marks::MarkBook* const marks_;
   std::set<HubClient*> clients_;
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_

@@ -203,7 +203,7 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
 }
 
 // A new route: a line here, and one in docs/http.md.
-const std::array<Router::ApiRoute, 7> Router::kApiRoutes = {{
+const std::array<Router::ApiRoute, 9> Router::kApiRoutes = {{
     {"/api/session", Method::kGet, Role::kViewer, &Router::Session},
     {"/api/state", Method::kGet, Role::kViewer, &Router::State},
     {"/api/model", Method::kGet, Role::kViewer, &Router::Model},
@@ -211,6 +211,8 @@ const std::array<Router::ApiRoute, 7> Router::kApiRoutes = {{
     {"/api/diagnostics", Method::kGet, Role::kViewer, &Router::Diagnostics},
     {"/api/series", Method::kGet, Role::kViewer, &Router::Series},
     {"/api/hand_load", Method::kPost, Role::kOperator, &Router::SetHandLoad},
+    {"/api/marks", Method::kGet, Role::kViewer, &Router::Marks},
+    {"/api/mark", Method::kPost, Role::kOperator, &Router::SetMark},
 }};
 
 std::vector<Router::RouteInfo> Router::ApiRoutes() {
@@ -321,12 +323,15 @@ Answer Router::Cameras(const Request& /*request*/, Role /*role*/) const {
 
 // A foreign page can make a browser send anything that a form could send. JSON is not possible: for
 // it the browser asks first, and is rejected.
-Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
-  if (auto refusal = RefuseForeignOrigin(request, "set hand loads")) return *std::move(refusal);
+std::optional<Answer> Router::RefuseUnlessJson(const Request& request, const char* what) const {
+  if (auto refusal = RefuseForeignOrigin(request, what)) return refusal;
   const std::string type = request.content_type.substr(0, request.content_type.find(';'));
-  if (type != "application/json") {
-    return Refuse(415, "bad content type", "expected Content-Type: application/json");
-  }
+  if (type == "application/json") return std::nullopt;
+  return Refuse(415, "bad content type", "expected Content-Type: application/json");
+}
+
+Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
+  if (auto refusal = RefuseUnlessJson(request, "set hand loads")) return *std::move(refusal);
   if (!site_.set_hand_load)
     return Refuse(503, "no hand loads", "this server does not accept hand loads");
   if (!request.body) {

@@ -38,6 +38,7 @@ class Router {
     const StaticFiles* files = nullptr;
     const Latest<SceneState>* states = nullptr;
     const history::History* history = nullptr;  // may be null: none is kept
+    marks::MarkBook* marks = nullptr;           // may be null: nothing can be marked
     std::function<std::string(int character, const HandLoad&)> set_hand_load;  // may be null
     std::function<std::string()> diagnostics;  // the complete JSON, with the part of the server
     std::function<std::string()> live_camera;
@@ -88,7 +89,7 @@ class Router {
     Role least;  // a route that changes anything: kOperator
     Answer (Router::*answer)(const Request&, Role) const;
   };
-  static const std::array<ApiRoute, 7> kApiRoutes;
+  static const std::array<ApiRoute, 9> kApiRoutes;
   /// Null if there is no such route.
   static const ApiRoute* FindApi(const std::string& path);
   static std::string ApiPaths();
@@ -100,6 +101,13 @@ class Router {
   Answer Cameras(const Request& request, Role role) const;
   Answer Series(const Request& request, Role role) const;
   Answer SetHandLoad(const Request& request, Role role) const;
+  /// Nullopt: the request is one of the page of this server, or of no page, and has JSON.
+  [[nodiscard]] std::optional<Answer> RefuseUnlessJson(const Request& request,
+                                                       const char* what) const;
+  // router_marks.cc
+  Answer Marks(const Request& request, Role role) const;
+  Answer SetMark(const Request& request, Role role) const;
+  [[nodiscard]] Answer RefuseMoment(std::uint64_t wanted, const SceneState* nearest) const;
   Answer Mesh(const std::string& path, const Request& request) const;
   Answer Skin(const std::string& path, const Request& request) const;
   Answer Snapshot(const Target& target) const;

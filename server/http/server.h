@@ -19,6 +19,7 @@
 #include "core/system/latest.h"
 #include "server/history/history.h"
 #include "server/http/role.h"
+#include "server/marks/mark_book.h"
 #include "urdf/skin/skin_template.h"
 
 namespace kinescope::http {
@@ -107,6 +108,8 @@ struct HttpConfig {
   /// Of the recording that is played; null: the stream is live. Called on the server's thread. May
   /// be null.
   std::function<std::shared_ptr<const Playback>()> playback;
+  /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.
+  marks::MarkBook* marks = nullptr;
   PatienceLimits patience;
   /// Receives lines for the log, on the server's thread. May be null.
   std::function<void(const std::string& line)> warn;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 #include "core/system/errors.h"
 #include "core/system/install_paths.h"
@@ -11,6 +12,7 @@
 #include "server/app/serve/page_token.h"
 #include "server/loads/hand_loads.h"
 #include "server/mvn/open.h"
+#include "server/options/text.h"
 #include "server/ros/source/graph_source.h"
 
 namespace kinescope::app {
@@ -44,6 +46,12 @@ http::HttpConfig PageOf(const ServeOptions& options) {
                  options.style.ToText()};
   config.own_skin = figure.own_skin;
   return config;
+}
+
+marks::BookSettings MarksOf(const ServeOptions& options) {
+  const std::string file = *options.marks_file;
+  return {file.empty() ? marks::DefaultMarkFile() : std::filesystem::path(file),
+          options::SplitItems(*options.mark_names)};
 }
 
 LivePictureSettings LivePicturesOf(const ServeOptions& options) {
@@ -127,6 +135,7 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
   if (*options.history_minutes > 0) {
     config.history.emplace();
     config.history->nanos = std::llround(*options.history_minutes * 60e9);
+    config.marks = MarksOf(options);
   }
   const PageToken token = FindPageToken(kOperatorToken, {*options.token, options.token_given_as},
                                         *options.token_file, std::getenv(kOperatorToken.variable));

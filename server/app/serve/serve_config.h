@@ -10,6 +10,7 @@
 #include "server/app/serve/serve_options.h"
 #include "server/history/history.h"
 #include "server/http/server.h"
+#include "server/marks/mark_book.h"
 #include "server/picture/backend.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
@@ -30,6 +31,7 @@ struct ServeConfig {
   std::optional<LivePictureSettings> pictures;
   std::optional<RosCameraSettings> ros_camera;    // only with `pictures` and `ros`
   std::optional<history::HistoryLimits> history;  // only with `page`
+  std::optional<marks::BookSettings> marks;       // only with `history`
   std::optional<http::HttpConfig> page;           // without its callbacks
   // Commands that print the tokens of the page, or "".
   std::string how_to_see_token, how_to_see_viewer_token;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/picture_limits.h"
+#include "core/system/utf8.h"
+#include "server/marks/mark_book.h"
 #include "server/options/text.h"
 
 namespace kinescope::app {
@@ -44,6 +46,16 @@ bool AreTopicNames(const std::string& text) {
   return names.size() <= kMaxMarkerTopics && std::all_of(names.begin(), names.end(), IsTopicName);
 }
 
+bool AreMarkNames(const std::string& text) {
+  constexpr std::size_t kLongest = 40;  // characters, so that a button has room for it
+  const std::vector<std::string> names = options::SplitItems(text);
+  return names.size() <= marks::kButtons &&
+         std::all_of(names.begin(), names.end(), [](const std::string& name) {
+           return !name.empty() && PrintableLine(name) == name &&
+                  DecodeUtf8(name).size() <= kLongest;
+         });
+}
+
 }  // namespace
 
 void FactorValue::Parse(const std::string& text) {
@@ -75,6 +87,8 @@ ServeOptions::ServeOptions()
       bind_ip("127.0.0.1"),
       http_port(8080, {0, 65535, "", false, "0: a free one, which is printed"}),
       history_minutes(10, {0, 60, "min"}),
+      mark_names("grasp,lift,place,release,step,slip,talk,pain,discard",
+                 "up to nine names with commas between", AreMarkNames),
       pictures(true),
       camera(1),
       picture_size({kDefaultPictureWidth, kDefaultPictureHeight}),
@@ -141,6 +155,11 @@ void ServeOptions::List(options::OptionList& option) {
   option("history_minutes", history_minutes,
          "time that viewers of the page can look back; 0: none. Of a stream that needs more than "
          "500 MB for it, less is kept");
+  option("mark_names", mark_names,
+         "what the marks of the keys 1 to 9 of the page are called; needs a history");
+  option("marks_file", marks_file,
+         "JSON Lines file that marks are added to; default: a new file of each start, in "
+         "~/.local/state/kinescope or the state folder of the service");
   option.Group("Page and pictures");
   ListPeopleLook(option, figure, style, loads_shown);
   option("pictures", pictures, "whether the server draws pictures");

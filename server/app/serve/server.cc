@@ -69,6 +69,7 @@ Server::Server(const ServeConfig& config)
       listener_(config.page ? std::make_unique<http::Listener>(*config.page) : nullptr),
       source_(OpenAtTrueRate(config.source_url, config.loop, config.source)),
       history_(config.history ? std::make_unique<history::History>(*config.history) : nullptr),
+      marks_(config.marks ? std::make_unique<marks::MarkBook>(*config.marks) : nullptr),
       overload_(/*may_skip=*/!config.ros),
       is_recording_(IsRecording(config)),
       length_(LengthOf(config)),
@@ -76,6 +77,10 @@ Server::Server(const ServeConfig& config)
                [this](const std::shared_ptr<SceneState>& state) { OnState(state); }) {
   for (const std::string& note : config.notes) spdlog::info("{}", note);
   LogListening(*source_, config.source_reach);
+  if (marks_ && marks_->unread_lines() > 0) {
+    spdlog::warn("{}: {} lines are no marks; they stay in the file", marks_->file().string(),
+                 marks_->unread_lines());
+  }
   if (config.ros) StartRos(*config.ros, config.ros_mode);
   builder_.Start();  // the first state; pictures and page need one
   if (config.pictures) StartPictures(config);
@@ -109,6 +114,7 @@ void Server::StartPage(const ServeConfig& config) {
     return hand_loads_.Put(character, load);
   };
   page.history = history_.get();
+  page.marks = marks_.get();
   page.playback = [this] { return playback_.Get(); };
   page.warn = [](const std::string& line) { spdlog::warn("{}", line); };
   page_.emplace(page, *listener_, states_, pictures_, live_pictures_.get(),

@@ -21,6 +21,7 @@
 #include "server/app/serve/serve_config.h"
 #include "server/history/history.h"
 #include "server/http/server.h"
+#include "server/marks/mark_book.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
 #include "server/source/recording_length.h"
@@ -60,6 +61,7 @@ class Server {
   Latest<http::Picture> pictures_;                   // drawing thread -> page
   HandLoadMailbox hand_loads_;                       // page -> reading thread
   const std::unique_ptr<history::History> history_;  // reading thread -> page; null: off
+  const std::unique_ptr<marks::MarkBook> marks_;     // page's thread; null: off
   Overload overload_;                                // its count: reading thread -> page
   // Used by the reading thread only:
   const bool is_recording_;                        // else live, or the built-in subject

@@ -12,7 +12,8 @@ const person = {
 const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, people: [person],
   objects: [{ character: 9, number: 2, name: 'cart' }],
   left_out: [{ character: 7, name: 'Eve', reason: '900 km from the others' }],
-  recording: { start_micros: 1.5, length_secs: 190.5, round_secs: null, ended_micros: null } };
+  recording: { start_micros: 1.5, length_secs: 190.5, round_secs: null, ended_micros: null },
+  marks_revision: 7 };
 const palette = {
   classes: ['unknown', 'low', 'medium', 'high'].map((name) => ({ name, color: rgb, size: 0.8, rim: 0 })),
   cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, clay: rgb, object: rgb, axes: [rgb, rgb, rgb],

@@ -1,5 +1,5 @@
 // page_fixture_server [--token T [--viewer_token T]] [--no-pictures] [--meshes FOLDER] [--worn]
-// [--diagnostics JSON]:
+// [--diagnostics JSON] [--marks_file FILE]:
 // --worn: gloves and props on everybody, and a tracked object. Prints one line of JSON with its
 // "url", then obeys lines on its standard input until that ends:
 //   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
@@ -26,6 +26,7 @@
 #include "core/skin_inputs.h"
 #include "core/system/clocks.h"
 #include "core/system/install_paths.h"
+#include "core/system/scratch_folder.h"
 #include "server/http/api.h"
 #include "server/http/protocol.h"
 #include "server/http/server.h"
@@ -354,6 +355,7 @@ struct Options {
   std::string mesh_folder;
   std::string diagnostics = "{}";
   bool worn = false;
+  std::filesystem::path marks_file;  // empty: one of this run
 };
 
 void AddWorn(SceneState& state, const std::shared_ptr<const PersonModel>& model) {
@@ -390,6 +392,11 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
   Latest<Picture> pictures;
   history::History history;
   config.history = &history;
+  const ScratchFolder folder;
+  marks::MarkBook book(
+      {options.marks_file.empty() ? folder / "marks.jsonl" : options.marks_file,
+       {"grasp", "lift", "place", "release", "step", "slip", "talk", "pain", "discard"}});
+  config.marks = &book;
   HttpServer server(config, states, pictures, feed, [&] { return options.diagnostics; });
   std::cout << json{{"url", server.url()}, {"viewer_url", server.url(Role::kViewer)}}.dump()
             << std::endl;
@@ -441,6 +448,9 @@ int Main(const std::vector<std::string>& arguments) {
     if (arguments[i] == "--meshes" && i + 1 < arguments.size())
       options.mesh_folder = arguments[++i];
     if (arguments[i] == "--worn") options.worn = true;
+    if (arguments[i] == "--marks_file" && i + 1 < arguments.size()) {
+      options.marks_file = arguments[++i];
+    }
     if (arguments[i] == "--diagnostics" && i + 1 < arguments.size()) {
       options.diagnostics = arguments[++i];
     }

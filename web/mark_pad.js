@@ -1,0 +1,210 @@
+// Where marks are set and listed: nine buttons and their keys, free text, undo, and the list, in which a click shows
+// the moment of a mark.
+import { lag, place, timeCode } from './format.js';
+import { isForOther } from './keys.js';
+import { messageOf } from './server_api.js';
+import { placeIn } from './status.js';
+
+const MOST_LISTED = 200;  // the newest ones
+const SAID_MILLIS = 6000;  // that Undo is offered
+
+/** @typedef {import('./messages.js').Mark} Mark
+ *  @typedef {{pad: HTMLElement, buttons: HTMLElement, form: HTMLFormElement, text: HTMLInputElement, said: HTMLElement,
+ *    undo: HTMLButtonElement, list: HTMLElement, earlier: HTMLElement, home: HTMLElement, phone: HTMLElement}} Parts
+ *    said: what has just been marked; home, phone: where the pad is on a wide page, and on a phone */
+
+export class MarkPad {
+  #saidUntil = -Infinity;
+  #drawn = '';
+
+  /** @param {Parts} parts
+   *  @param {import('./marks.js').Marks} marks
+   *  @param {import('./shown.js').Shown} shown
+   *  @param {{notice: (text: string) => void, isViewer: () => boolean}} page */
+  constructor(parts, marks, shown, { notice, isViewer }) {
+    this.parts = parts;
+    this.marks = marks;
+    this.shown = shown;
+    this.notice = notice;
+    this.isViewer = isViewer;
+    parts.form.addEventListener('submit', (event) => {
+      event.preventDefault();
+      const text = parts.text.value.trim();
+      if (text === '') return;
+      this.#mark({ text }).then((isKept) => { if (isKept) parts.text.value = ''; });
+      parts.text.blur();  // so that the keys work again
+    });
+    parts.undo.addEventListener('click', () => this.#undo());
+    document.addEventListener('keydown', (event) => this.#onKey(event));
+    const phone = matchMedia('(max-width: 899px)');
+    const settle = () => (phone.matches ? parts.phone : parts.home).append(parts.pad);
+    phone.addEventListener('change', settle);
+    settle();
+  }
+
+  /** @param {KeyboardEvent} event */
+  #onKey(event) {
+    if (event.altKey || event.metaKey || event.repeat || isForOther(event)) return;
+    if (event.ctrlKey) {
+      if (event.key === 'z') this.#act(event, () => this.#undo());
+      return;
+    }
+    const digit = Number(/^(?:Digit|Numpad)([1-9])$/.exec(event.code)?.[1] ?? 0);
+    if (digit > 0 && digit <= this.marks.names.length) this.#act(event, () => this.#press(digit, event.shiftKey));
+    else if (event.key === 'm' || event.key === 'M') this.#act(event, () => this.parts.text.focus());
+    else if (event.key === '[') this.#act(event, () => this.#goToNeighbour(-1));
+    else if (event.key === ']') this.#act(event, () => this.#goToNeighbour(1));
+  }
+
+  /** @param {KeyboardEvent} event
+   *  @param {() => void} act */
+  #act(event, act) {
+    event.preventDefault();
+    act();
+  }
+
+  /** A press with Shift begins a span; the next press of the same button with Shift ends it.
+   *  @param {number} button
+   *  @param {boolean} isSpan */
+  #press(button, isSpan) {
+    const open = isSpan ? this.marks.openSpan(button) : null;
+    return open ? this.#tell((state) => this.marks.end(open, state)) : this.#mark({ button, is_span: isSpan });
+  }
+
+  /** @param {{button?: number, text?: string, is_span?: boolean}} what */
+  #mark(what) {
+    return this.#tell((state) => this.marks.add({ state, ...what }));
+  }
+
+  /** @param {(state: number) => Promise<Mark>} send  gets the number of the state on the screen
+   *  @returns {Promise<boolean>}  whether the mark is kept */
+  async #tell(send) {
+    const { state } = this.shown;
+    if (state === null || state.liveness === 'no data') {
+      this.notice('Nothing to mark: no sample has come yet');
+      return false;
+    }
+    try {
+      const mark = await send(state.stateNumber);
+      this.#say(`${mark.is_open ? 'Span begins' : mark.end ? 'Span' : 'Marked'}: “${mark.text}” at sample ${mark.at.counter}`
+        + `${mark.end ? ` to ${mark.end.counter}` : ''}${seenText(mark)}`);
+      return true;
+    } catch (error) {
+      this.notice(`The mark was not set: ${messageOf(error)}`);
+      return false;
+    }
+  }
+
+  async #undo() {
+    const mark = this.marks.lastOwn;
+    if (mark === null) return this.notice('Nothing to undo: this page has set no mark that is still there');
+    await this.#remove(mark);
+  }
+
+  /** @param {Mark} mark */
+  async #remove(mark) {
+    try {
+      await this.marks.remove(mark);
+      this.#say(`Removed: “${mark.text}” at sample ${mark.at.counter}`);
+    } catch (error) {
+      this.notice(`The mark was not removed: ${messageOf(error)}`);
+    }
+  }
+
+  /** @param {string} text */
+  #say(text) {
+    this.parts.said.textContent = text;
+    this.#saidUntil = performance.now() + SAID_MILLIS;
+  }
+
+  /** @param {1|-1} by  next or previous mark */
+  #goToNeighbour(by) {
+    const at = this.shown.millis;
+    if (at === null) return;
+    const others = this.marks.list().filter((mark) => this.marks.isOfThisRun(mark)
+      && Math.sign(mark.at.micros - Math.floor(1000 * at)) === by);
+    const next = by > 0 ? others[0] : others.at(-1);
+    if (next) this.#goTo(next);
+    else this.notice(by > 0 ? 'There is no later mark' : 'There is no earlier mark');
+  }
+
+  /** @param {Mark} mark */
+  #goTo(mark) {
+    const kept = this.shown.kept();
+    if (kept === null) return;
+    if (!this.marks.isOfThisRun(mark)) return this.notice('This mark is of an earlier start of the server, whose samples are gone');
+    if (mark.at.micros / 1000 < kept.oldest) return this.notice('The moment of this mark is no longer kept');
+    this.shown.pauseAt((mark.at.micros + 1) / 1000);  // rounded down to µs
+  }
+
+  /** Shows what there is; call it several times a second.
+   *  @param {number} now */
+  update(now) {
+    const { parts, marks, shown } = this;
+    parts.undo.disabled = marks.lastOwn === null;
+    if (now > this.#saidUntil && parts.said.textContent !== '') parts.said.textContent = '';
+    const list = marks.list(), { recording } = shown.newestDetails;
+    const drawn = JSON.stringify([marks.names, recording?.start_micros, this.isViewer(), list]);
+    if (drawn === this.#drawn) return;
+    this.#drawn = drawn;
+    this.#showButtons();
+    parts.earlier.hidden = list.length <= MOST_LISTED;
+    parts.earlier.textContent = `${list.length - MOST_LISTED} earlier marks are in the file`;
+    parts.list.replaceChildren(...list.slice(-MOST_LISTED).reverse().map((mark) => this.#entry(mark)));
+  }
+
+  #showButtons() {
+    const { buttons } = this.parts, { names } = this.marks;
+    if (buttons.childElementCount !== names.length) {
+      buttons.replaceChildren(...names.map((name, i) => {
+        const button = document.createElement('button'), key = document.createElement('kbd'), label = document.createElement('span');
+        button.type = 'button';
+        key.textContent = String(i + 1);
+        label.textContent = name;
+        button.append(key, label);
+        button.title = `Mark “${name}” (${i + 1}); a span: Shift+${i + 1}, and again at its end`;
+        button.addEventListener('click', (event) => this.#press(i + 1, event.shiftKey));
+        return button;
+      }));
+    }
+    [...buttons.children].forEach((button, i) => {
+      button.classList.toggle('open', this.marks.openSpan(i + 1) !== null);
+    });
+  }
+
+  /** @param {Mark} mark */
+  #entry(mark) {
+    const item = document.createElement('li'), go = document.createElement('button'), remove = document.createElement('button');
+    const key = document.createElement('kbd'), name = document.createElement('span'), when = document.createElement('small');
+    key.textContent = mark.button > 0 ? String(mark.button) : '✎';
+    name.textContent = mark.text;
+    when.textContent = this.#whenText(mark);
+    go.type = remove.type = 'button';
+    go.append(key, name, when);
+    go.className = 'go';
+    go.title = 'Show this moment';
+    go.addEventListener('click', () => this.#goTo(mark));
+    remove.textContent = '×';
+    remove.ariaLabel = `Remove the mark “${mark.text}”`;
+    remove.title = 'Remove';
+    remove.addEventListener('click', () => this.#remove(mark));
+    const gate = document.createElement('fieldset');
+    gate.className = 'gate';
+    gate.disabled = this.isViewer();
+    gate.append(remove);
+    item.append(go, gate);
+    return item;
+  }
+
+  /** @param {Mark} mark */
+  #whenText(mark) {
+    const { recording } = this.shown.newestDetails;
+    const at = recording ? place(placeIn(recording, mark.at.stamp_micros)) : timeCode(mark.at.time_code_millis);
+    const length = mark.end ? ` · ${((mark.end.micros - mark.at.micros) / 1e6).toFixed(1)} s` : mark.is_open ? ' · open' : '';
+    return `${at} · sample ${mark.at.counter}${length} · ${mark.role}${seenText(mark)}`;
+  }
+}
+
+/** @param {Mark} mark
+ *  @returns {string} how far its author looked back; "" for less than that a person notices */
+const seenText = ({ behind_secs: behind }) => (behind < 0.5 ? '' : `, seen ${lag(1000 * behind)}`);
