@@ -168,7 +168,7 @@ void Series::AddPerson(const SceneState& state, const PersonState& person) {
   track.liveness = state.liveness;
   if (track.blocks.empty() || track.blocks.back()->count == kBlockRows ||
       state.made_nanos - track.blocks.back()->first_nanos > kLongestBlock) {
-    track.blocks.push_back(std::make_unique<Block>());
+    track.blocks.push_back(std::make_shared<Block>());
     ++blocks_;
   }
   track.blocks.back()->Put(state.made_nanos, ValuesOf(state, person, loss));
@@ -194,6 +194,24 @@ void Series::Forget(std::int64_t now_nanos) {
   }
 }
 
+std::vector<std::shared_ptr<const Series::Block>> Series::BlocksOf(
+    const SeriesQuestion& question) const {
+  std::vector<std::shared_ptr<const Block>> found;
+  const std::lock_guard lock(mutex_);
+  const auto track = tracks_.find(question.character);
+  if (track == tracks_.end()) return found;
+  const auto& blocks = track->second.blocks;
+  auto each = std::lower_bound(blocks.begin(), blocks.end(), question.from_nanos,
+                               [](const std::shared_ptr<Block>& block, std::int64_t nanos) {
+                                 return block->nanos(block->count - 1) < nanos;
+                               });
+  for (; each != blocks.end() && (*each)->first_nanos < question.until_nanos; ++each) {
+    const bool may_grow = *each == blocks.back();
+    found.push_back(may_grow ? std::make_shared<const Block>(**each) : *each);
+  }
+  return found;
+}
+
 std::optional<SeriesAnswer> Series::Ask(const SeriesQuestion& question) const {
   const std::int64_t from = question.from_nanos, until = question.until_nanos;
   const auto columns = static_cast<std::int64_t>(question.columns);
@@ -204,19 +222,13 @@ std::optional<SeriesAnswer> Series::Ask(const SeriesQuestion& question) const {
     const std::int64_t column = (nanos - from) / 1000 * columns / width;
     return static_cast<std::size_t>(std::min(column, columns - 1));
   };
+  if (!Has(question.character)) return std::nullopt;
+  const auto blocks = BlocksOf(question);
   SeriesAnswer answer;
   answer.samples.resize(question.columns);
   answer.by_key.assign(question.keys.size(), std::vector<SeriesColumn>(question.columns));
-  const std::lock_guard lock(mutex_);
-  const auto track = tracks_.find(question.character);
-  if (track == tracks_.end()) return std::nullopt;
-  const auto& blocks = track->second.blocks;
-  auto each = std::lower_bound(blocks.begin(), blocks.end(), from,
-                               [](const std::unique_ptr<Block>& block, std::int64_t nanos) {
-                                 return block->nanos(block->count - 1) < nanos;
-                               });
-  for (; each != blocks.end() && (*each)->first_nanos < until; ++each) {
-    const Block& block = **each;
+  for (const std::shared_ptr<const Block>& each : blocks) {
+    const Block& block = *each;
     const std::int64_t first = block.first_nanos, last = block.nanos(block.count - 1);
     if (first >= from && last < until && column_at(first) == column_at(last)) {
       const std::size_t column = column_at(first);
@@ -238,6 +250,11 @@ std::optional<SeriesAnswer> Series::Ask(const SeriesQuestion& question) const {
     }
   }
   return answer;
+}
+
+bool Series::Has(int character) const {
+  const std::lock_guard lock(mutex_);
+  return tracks_.count(character) > 0;
 }
 
 std::vector<int> Series::characters() const {

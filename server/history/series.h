@@ -128,13 +128,17 @@ class Series {
   };
 
   struct Track {
-    std::deque<std::unique_ptr<Block>> blocks;
+    std::deque<std::shared_ptr<Block>> blocks;  // all but the last one are full and constant
     LossMeter loss;
     std::uint32_t counter = 0;
     std::int64_t stamp_nanos = 0;
     Liveness liveness = Liveness::kNoData;
   };
 
+  bool Has(int character) const;
+  /// Blocks with samples of the time of `question`; the last one may be a copy. So a reader holds
+  /// the lock for microseconds, and never delays the stream. Empty for an unknown person.
+  std::vector<std::shared_ptr<const Block>> BlocksOf(const SeriesQuestion& question) const;
   void AddPerson(const SceneState& state, const PersonState& person);
   void Forget(std::int64_t now_nanos);
 
