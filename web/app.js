@@ -7,7 +7,7 @@ import { findElements } from './elements.js';
 import { cameraLabel, hexColor, shortCameraLabel } from './format.js';
 import { mountHandLoad } from './hand_load.js';
 import { LookBack } from './look_back.js';
-import { leftOutText, statusOf } from './status.js';
+import { leftOutText, showsLive, statusOf } from './status.js';
 import { mountLoadsShown } from './loads_shown.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { readCameras, readDiagnostics, readModel, readTextMessage } from './messages.js';
@@ -17,6 +17,7 @@ import { meshesText, readingsOf, streamReadingsOf } from './readings.js';
 import { Scene } from './scene.js';
 import { ask, messageOf } from './server_api.js';
 import { decodePast, decodeState } from './state_codec.js';
+import { StreamPanel } from './stream_panel.js';
 import { mountTransport } from './transport.js';
 import { ViewerTime } from './viewer_time.js';
 
@@ -54,6 +55,7 @@ const latencies = new RecentValues();
 const scene = makeScene();
 const showLoads = mountLoadList(elements.loads);
 const loadRole = mountRole(elements.role, showNotice);
+const stream = new StreamPanel({ details: elements.stream, line: elements['stream-line'], rows: elements['stream-rows'] });
 const showProblems = mountDiagnostics(elements.diagnostics, elements.problems);
 const connection = new Connection({
   onState: (buffer) => { newest = buffer; },
@@ -65,6 +67,7 @@ const connection = new Connection({
     scene?.setObjectNames(details.objects);
     handLoad.setPeople(details.people);
   },
+  onStream: (health) => stream.set(health),
   onError: showNotice,
   onOpen() {
     picture.ask();
@@ -158,7 +161,7 @@ function kept() {
 }
 
 /** Whether what is shown was live at its moment. */
-const wasLive = () => (past ? past.state.liveness === 'live' : statusNow().level === 'live');
+const wasLive = () => (past ? past.state.liveness === 'live' : showsLive(statusNow().level));
 
 function updateScene() {
   const now = shown();
@@ -229,22 +232,23 @@ function onPast(buffer) {
   updateScene();
 }
 
+/** @param {number} now
+ *  @returns {number|null} of the newest sample; null: not known */
+function ageMillisAt(now) {
+  const serverNow = connection.clock.at(now);
+  if (state && state.arrivalMicros > 0 && serverNow !== null) return serverNow - state.arrivalMicros / 1000;
+  return state && state.liveness === 'stale' ? now - stateChangedAt : null;
+}
+
 function statusNow() {
   const now = performance.now();
-  const serverNow = connection.clock.at(now);
-  /** @type {number|null} */
-  let ageMillis = null;
-  if (state && state.arrivalMicros > 0 && serverNow !== null) {
-    ageMillis = serverNow - state.arrivalMicros / 1000;
-  } else if (state && state.liveness === 'stale') {
-    ageMillis = now - stateChangedAt;
-  }
   return statusOf({
     connected: connection.connected,
     everConnected: connection.everConnected,
     silentMillis: connection.silentMillis(now),
     liveness: state?.liveness ?? null,
-    ageMillis,
+    ageMillis: ageMillisAt(now),
+    ...stream.lossAt(now),
     waitedMillis: state?.waitedMillis ?? 0,
     source: details.source,
     reason: connection.rejection,
@@ -369,10 +373,11 @@ function showReadings() {
   const now = performance.now();
   if (document.hidden) takeNewest(now);  // a hidden page has no animation frames, but its title still shows the status
   const status = statusNow();
-  const isLive = status.level === 'live';
+  const isLive = showsLive(status.level);
   if (elements.status.dataset.level !== status.level) updateScene();
   showStatus(status, now);
   showTransport(now);
+  stream.show(now, ageMillisAt(now), connection.clock.at(now));
   if (past !== null && !time.isPlaying && now - addressAt > ADDRESS_MILLIS) {
     addressAt = now;
     showInAddress({ micros: past.state.madeMicros });
@@ -397,6 +402,7 @@ function showStatus(status, now) {
     || meshesText(scene?.failedMeshes.length ?? 0);
   elements.status.dataset.level = status.level;
   setText('status-word', status.word);
+  setText('status-note', status.note);
   document.title = `${status.word} · Kinescope`;
   setText('banner', banner);
   elements.banner.hidden = banner === '';

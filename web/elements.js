@@ -2,7 +2,7 @@
 
 /** id -> tag */
 export const ELEMENTS = /** @type {const} */ ({
-  'status': 'div', 'status-word': 'span', 'banner': 'p',
+  'status': 'div', 'status-word': 'span', 'status-note': 'span', 'banner': 'p',
   'rate': 'dd', 'latency': 'span', 'latency-p95': 'small', 'sample': 'dd', 'time-code': 'dd',
   'source': 'span', 'viewers': 'span', 'role': 'span',
   'view': 'div', 'cameras': 'div', 'loads-shown': 'select',
@@ -13,6 +13,7 @@ export const ELEMENTS = /** @type {const} */ ({
   'loads': 'ol', 'legend': 'ul', 'loads-hint': 'p',
   'transport': 'section', 'play': 'button', 'step-back': 'button', 'step-forward': 'button', 'speed': 'select',
   'moment': 'input', 'oldest': 'span', 'go-live': 'button',
+  'stream': 'details', 'stream-line': 'span', 'stream-rows': 'tbody',
   'diagnostics': 'section', 'problems': 'ul',
 });
 

@@ -103,6 +103,9 @@ struct HttpConfig {
   std::function<std::string(int character, const HandLoad& load)> set_hand_load;
   /// Where viewers look back; borrowed. Null: they cannot.
   const history::History* history = nullptr;
+  /// The health of the stream as a JSON object, for the message "stream"; "": not known yet. Called
+  /// on the server's thread while clients are connected, must return at once. May be null.
+  std::function<std::string()> stream;
   PatienceLimits patience;
   /// Receives lines for the log, on the server's thread. May be null.
   std::function<void(const std::string& line)> warn;

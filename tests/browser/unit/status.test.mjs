@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { statusOf, leftOutText, BEHIND_MILLIS, OLD_MILLIS, SILENCE_MILLIS } from '../../../web/status.js';
+import { showsLive, statusOf, leftOutText, BEHIND_MILLIS, OLD_MILLIS, SILENCE_MILLIS } from '../../../web/status.js';
 
 const good = { connected: true, everConnected: true, silentMillis: 20, liveness: 'live', ageMillis: 8,
   waitedMillis: 0, source: 'udp://:9763', reason: '' };
@@ -28,11 +28,24 @@ test('an overloaded server is named with its delay, and never live', () => {
 
 test('a viewer who looks back is told so, and what is wrong with the live stream', () => {
   const behind = { ...good, behindMillis: 12_400 };
-  assert.deepEqual(statusOf(behind), { level: 'behind', word: 'Behind −12.4 s', banner: '' });
+  assert.deepEqual(statusOf(behind), { level: 'behind', word: 'Behind −12.4 s', note: 'Esc returns to live', banner: '' });
   assert.match(statusOf({ ...behind, isGone: true }).banner, /no longer kept/);
   assert.match(statusOf({ ...behind, liveness: 'stale', isGone: true }).banner, /^Live stream: Stale\. The stream has/);
   assert.match(statusOf({ ...behind, connected: false }).banner, /^Live stream: Disconnected\./);
   assert.equal(statusOf({ ...good, behindMillis: null }).word, 'Live');
+});
+
+test('losing data is a state of its own, whose figure the second line explains', () => {
+  assert.equal(statusOf({ ...good, loss: 0.003 }).note, '0.3 % lost in the last 10 s');
+  assert.equal(level({ loss: 0.054, isLosing: false }), 'live', 'not yet, or no longer');
+  const losing = { ...good, loss: 0.0543, isLosing: true };
+  const { level: state, word, note } = statusOf(losing);
+  assert.deepEqual([state, word, note], ['losing', 'Losing data 5.4 %', 'lost in the last 10 s']);
+  assert.equal(showsLive(state), true);
+  assert.equal(statusOf({ ...losing, liveness: 'stale' }).level, 'stale', 'what misleads more if it is missed');
+  assert.equal(statusOf({ ...losing, connected: false }).level, 'disconnected');
+  const behind = statusOf({ ...losing, behindMillis: 2000 });
+  assert.deepEqual([behind.level, behind.note], ['behind', 'live stream: Losing data 5.4 %']);
 });
 
 test('people who are left out are named with the reason', () => {
@@ -62,5 +75,5 @@ test('the status before the first connection is waiting, or rejected with the re
   const start = { ...good, connected: false, everConnected: false, liveness: null };
   assert.equal(statusOf(start).level, 'wait');
   assert.deepEqual(statusOf({ ...start, reason: 'no token' }),
-    { level: 'disconnected', word: 'Rejected', banner: 'no token' });
+    { level: 'disconnected', word: 'Rejected', note: 'by the server', banner: 'no token' });
 });
