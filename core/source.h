@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/body_sample.h"
+#include "core/duration_histogram.h"
 #include "core/playback.h"
 
 namespace kinescope {
@@ -24,12 +25,16 @@ struct SourceCounters {
   std::uint64_t duplicates = 0;
   std::uint64_t late = 0;          // datagrams of a sample that was already delivered
   std::uint64_t counter_gaps = 0;  // steps of the sample counter above the usual step
+  std::uint64_t lost = 0;          // samples that never came, as the counter shows
   std::uint64_t restarts = 0;      // the counter started over
   std::uint64_t outliers = 0;      // inconsistent counter or character, not confirmed by another
                                    // datagram
   std::map<std::string, std::uint64_t> types;     // datagrams read, by type: "02"
   std::map<std::string, std::uint64_t> ignored;   // valid but not needed: "frame of type tpose"
   std::map<std::string, std::uint64_t> rejected;  // invalid, by reason: "no MXTP id string"
+  /// Of the samples: by how much each came later than the fastest ones of the seconds before, by
+  /// the sender's clock. Empty for a source without such a clock.
+  DurationHistogram delays;
   /// Counters of the transport, such as "receive_buffer_bytes" or "connections_open"; empty without
   /// a transport.
   std::map<std::string, std::uint64_t> transport;

@@ -20,6 +20,7 @@ import { Scene } from './scene.js';
 import { ask, messageOf } from './server_api.js';
 import { Shown } from './shown.js';
 import { decodeState } from './state_codec.js';
+import { StreamPanel } from './stream_panel.js';
 import { mountTransport } from './transport.js';
 
 const READINGS_MILLIS = 150;  // faster changes cannot be read
@@ -46,6 +47,7 @@ const latencies = new RecentValues();
 const scene = makeScene();
 const showLoads = mountLoadList(elements.loads);
 const loadRole = mountRole(elements.role, showNotice);
+const stream = new StreamPanel({ details: elements.stream, line: elements['stream-line'], rows: elements['stream-rows'] });
 const showProblems = mountDiagnostics(elements.diagnostics, elements.problems);
 const connection = new Connection({
   onState: (buffer) => { newest = buffer; },
@@ -57,6 +59,7 @@ const connection = new Connection({
     scene?.setObjectNames(details.objects);
     handLoad.setPeople(details.people);
   },
+  onStream: (health) => stream.set(health),
   onError: showNotice,
   onOpen() {
     picture.ask();
@@ -158,22 +161,23 @@ function onTimeChanged() {
   showReadings();
 }
 
+/** @param {number} now
+ *  @returns {number|null} of the newest sample; null: not known */
+function ageMillisAt(now) {
+  const state = shown.newest, serverNow = connection.clock.at(now);
+  if (state && state.arrivalMicros > 0 && serverNow !== null) return serverNow - state.arrivalMicros / 1000;
+  return state && state.liveness === 'stale' ? now - stateChangedAt : null;
+}
+
 function statusNow() {
   const now = performance.now(), state = shown.newest;
-  const serverNow = connection.clock.at(now);
-  /** @type {number|null} */
-  let ageMillis = null;
-  if (state && state.arrivalMicros > 0 && serverNow !== null) {
-    ageMillis = serverNow - state.arrivalMicros / 1000;
-  } else if (state && state.liveness === 'stale') {
-    ageMillis = now - stateChangedAt;
-  }
   return statusOf({
     connected: connection.connected,
     everConnected: connection.everConnected,
     silentMillis: connection.silentMillis(now),
     liveness: state?.liveness ?? null,
-    ageMillis,
+    ageMillis: ageMillisAt(now),
+    ...stream.lossAt(now),
     waitedMillis: state?.waitedMillis ?? 0,
     source: shown.newestDetails.source,
     reason: connection.rejection,
@@ -308,6 +312,7 @@ function showReadings() {
   if (elements.status.dataset.level !== status.level) updateScene();
   showStatus(status, now);
   showTransport(now);
+  stream.show(now, ageMillisAt(now), connection.clock.at(now));
   charts.update(now);
   loadMarks(now);
   markPad.update(now);
@@ -333,6 +338,7 @@ function showStatus(status, now) {
     || meshesText(scene?.failedMeshes.length ?? 0);
   elements.status.dataset.level = status.level;
   setText('status-word', status.word);
+  setText('status-note', status.note);
   document.title = `${status.word} · Kinescope`;
   setText('banner', banner);
   elements.banner.hidden = banner === '';

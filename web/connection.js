@@ -13,7 +13,8 @@ const STATES_PER_REPORT = 4;  // the server sends up to 12 states beyond the las
 
 /** @typedef {{onState: (buffer: ArrayBuffer) => void, onPicture: (buffer: ArrayBuffer) => void,
  *    onPast: (buffer: ArrayBuffer) => void,
- *    onDetails: (details: import('./messages.js').Details) => void, onError: (reason: string) => void,
+ *    onDetails: (details: import('./messages.js').Details) => void,
+ *    onStream: (stream: import('./messages.js').StreamHealth) => void, onError: (reason: string) => void,
  *    onOpen: () => void}} Handlers */
 
 export class Connection {
@@ -132,6 +133,8 @@ export class Connection {
       this.clock.addPing(message.pong, this.lastMessageAt, message.server_micros / 1000);
     } else if ('details' in message) {
       this.handlers.onDetails(message.details);
+    } else if ('stream' in message) {
+      this.handlers.onStream(message.stream);
     } else {
       this.handlers.onError(message.error);
     }

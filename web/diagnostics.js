@@ -1,4 +1,5 @@
-// Problems of the server and of this page. The panel is visible only if there are any.
+// Problems that the server and this page have now. The panel is visible only if there are any. What the stream had is in
+// the panel "Stream".
 
 import { nameOfLeftOut } from './status.js';
 
@@ -15,9 +16,6 @@ export function problemLines(diagnostics, failedMeshes) {
   for (const problem of pictures?.problems ?? []) lines.push(`Missing or replaced in the server picture: ${problem}`);
   for (const mesh of failedMeshes) lines.push(`This page could not load: ${mesh}`);
   for (const person of source?.left_out ?? []) lines.push(`${nameOfLeftOut(person)} is left out: ${person.reason}`);
-  for (const [reason, count] of Object.entries(source?.rejected ?? {})) {
-    lines.push(`${count} ${count === 1 ? 'datagram' : 'datagrams'} rejected: ${reason}`);
-  }
   const all = [...new Set(lines)];
   if (all.length <= MOST_LINES) return all;
   return [...all.slice(0, MOST_LINES - 1), `and ${all.length - MOST_LINES + 1} more, see /api/diagnostics`];

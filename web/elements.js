@@ -2,7 +2,7 @@
 
 /** id -> tag */
 export const ELEMENTS = /** @type {const} */ ({
-  'status': 'div', 'status-word': 'span', 'banner': 'p',
+  'status': 'div', 'status-word': 'span', 'status-note': 'span', 'banner': 'p',
   'rate': 'dd', 'latency': 'span', 'latency-p95': 'small', 'sample': 'dd', 'time-code': 'dd',
   'source': 'span', 'viewers': 'span', 'role': 'span',
   'view': 'div', 'cameras': 'div', 'loads-shown': 'select',
@@ -20,6 +20,7 @@ export const ELEMENTS = /** @type {const} */ ({
   'strip-rows': 'canvas', 'tabs': 'div', 'side': 'aside',
   'plots': 'section', 'plot-window': 'div', 'plot-person': 'select', 'plot-joints': 'div', 'plot-chosen': 'span',
   'plot-list': 'div', 'floor-plan': 'canvas', 'dash-sample': 'template', 'plot-csv': 'button', 'plot-png': 'button',
+  'stream': 'details', 'stream-line': 'span', 'stream-rows': 'tbody',
   'diagnostics': 'section', 'problems': 'ul',
 });
 

@@ -118,9 +118,20 @@ const readDetails = object({
  *    the time after which it begins anew, null: not known, or not repeated; the moment of its last sample, null: it plays
  *  @typedef {ReturnType<typeof readDetails>} Details */
 
+const readStreamEvents = { count: number, count_10s: number, last_micros: numberOrNull };
+const readStream = object({
+  samples: number, lost: number, loss_10s: numberOrNull, loss: numberOrNull, jitter_ms: numberOrNull,
+  gaps: object(readStreamEvents), incomplete: object(readStreamEvents),
+  rejected: listOf(object({ ...readStreamEvents, reason: string })),
+});
+/** @typedef {{count: number, count_10s: number, last_micros: number|null}} StreamEvents  in all, in the last 10 s, and
+ *    when last, in µs of the server's clock; null: never
+ *  @typedef {ReturnType<typeof readStream>} StreamHealth  losses as shares of the samples that were lost or
+ *    incomplete; null: no samples */
+
 const readPong = object({ pong: number, server_micros: number });
 
-/** @typedef {{pong: number, server_micros: number}|{details: Details}|{error: string}} TextMessage */
+/** @typedef {{pong: number, server_micros: number}|{details: Details}|{stream: StreamHealth}|{error: string}} TextMessage */
 
 /** @param {string} text
  *  @returns {unknown} */
@@ -138,6 +149,7 @@ export function readTextMessage(text) {
   const message = members(parseJson(text), 'a message');
   if ('pong' in message) return readPong(message, 'a message');
   if ('details' in message) return { details: readDetails(message.details, 'details') };
+  if ('stream' in message) return { stream: readStream(message.stream, 'stream') };
   if ('error' in message) return { error: string(message.error, 'error') };
   return null;
 }
@@ -206,7 +218,7 @@ export const readCameras = object({ cameras: listOf(readCameraView), framing: re
 /** /api/diagnostics: parts of the server that are not running are absent or null. */
 export const readDiagnostics = object({
   pictures: optional(orNull(object({ problems: optional(listOf(string)), last_error: optional(string) }))),
-  source: optional(object({ rejected: optional(recordOf(number)), left_out: optional(listOf(readLeftOut)) })),
+  source: optional(object({ left_out: optional(listOf(readLeftOut)) })),
 });
 /** @typedef {ReturnType<typeof readDiagnostics>} Diagnostics */
 

@@ -54,6 +54,7 @@ bool Hub::Join(HubClient& client) {
   ++counters_.opened;
   client.Offer(Slot::kDetails, EncodeDetails());
   client.Offer(Slot::kState, EncodeNewestState());
+  if (stream_ != nullptr) client.Offer(Slot::kStream, stream_);
   return true;
 }
 
@@ -96,6 +97,15 @@ void Hub::Tick(Clock::time_point now) {
   if (details_ != nullptr && *details == *details_) return;
   details_ = std::move(details);
   for (HubClient* const client : clients_) client->Offer(Slot::kDetails, details_);
+}
+
+void Hub::SendStream(const std::string& health) {
+  if (health.empty()) return;
+  const std::string text = R"({"stream":)" + health + "}";
+  Bytes message(text.begin(), text.end());
+  if (stream_ != nullptr && *stream_ == message) return;
+  stream_ = Share(std::move(message));
+  for (HubClient* const client : clients_) client->Offer(Slot::kStream, stream_);
 }
 
 void Hub::OnMessage(HubClient& client, std::string_view text) {

@@ -24,8 +24,8 @@ namespace kinescope::http {
 
 /// Messages that wait for sending: one place per slot, so that a newer message replaces the older
 /// one.
-enum class Slot { kError, kPong, kDetails, kState, kPast, kPicture };
-inline constexpr int kSlotCount = 6;
+enum class Slot { kError, kPong, kDetails, kStream, kState, kPast, kPicture };
+inline constexpr int kSlotCount = 7;
 constexpr bool IsBinary(Slot slot) { return slot >= Slot::kState; }
 
 class HubClient {
@@ -70,6 +70,10 @@ class Hub {
   /// that the server runs and how old the state is, and sends changed details.
   void Tick(Clock::time_point now);
 
+  /// Sends the health of the stream, a JSON object, to all clients if it has changed, and to those
+  /// who join later. "": not known yet.
+  void SendStream(const std::string& health);
+
   /// Processes a message of `client`. Answers are sent to this client, a change of camera to all. A
   /// message with a command that the client's role does not permit has no effect.
   void OnMessage(HubClient& client, std::string_view text);
@@ -105,6 +109,7 @@ class Hub {
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_
   SharedBytes details_;               // as last sent to all clients
+  SharedBytes stream_;                // likewise; null before the first
   SharedBytes picture_;               // as last sent to all viewers; null without any
   Clock::time_point state_sent_at_{};
 };

@@ -292,6 +292,7 @@ void HttpServer::Impl::ArmTick() {
     ArmTick();
     const auto now = std::chrono::steady_clock::now();
     hub_.Tick(now);
+    if (config_.stream && hub_.client_count() > 0) hub_.SendStream(config_.stream());
     guesses_.Report(now);
   });
 }

@@ -110,6 +110,9 @@ struct HttpConfig {
   std::function<std::shared_ptr<const Playback>()> playback;
   /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.
   marks::MarkBook* marks = nullptr;
+  /// The health of the stream as a JSON object, for the message "stream"; "": not known yet. Called
+  /// on the server's thread while clients are connected, must return at once. May be null.
+  std::function<std::string()> stream;
   PatienceLimits patience;
   /// Receives lines for the log, on the server's thread. May be null.
   std::function<void(const std::string& line)> warn;

@@ -332,6 +332,7 @@ void CharacterStream::Finish(OpenSample& open, SampleSink& sink) {
     const auto step = static_cast<std::uint32_t>(Ahead(sample.counter(), *closed_));
     if (steps_.IsGap(step)) ++tally_->counter_gaps;
     steps_.Add(step);
+    tally_->lost += losses_.Add(step);
   }
   closed_ = sample.counter();
   history_.Add(sample);
@@ -365,6 +366,7 @@ void CharacterStream::Finish(OpenSample& open, SampleSink& sink) {
 std::int64_t CharacterStream::StampOf(const PendingSample& sample) {
   const std::int64_t fitted =
       clock_.Stamp(sample.counter(), sample.time_code_millis(), sample.first_arrival());
+  tally_->delays.Add(std::max<std::int64_t>(sample.first_arrival().wall_nanos - fitted, 0));
   return settings_.stamps == Stamps::kFitted ? fitted : sample.first_arrival().wall_nanos;
 }
 

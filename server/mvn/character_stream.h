@@ -12,6 +12,7 @@
 #include "server/mvn/clock_fit.h"
 #include "server/mvn/closed_samples.h"
 #include "server/mvn/learnt_types.h"
+#include "server/mvn/loss_meter.h"
 #include "server/mvn/pending_sample.h"
 #include "server/mvn/scale_group.h"
 #include "server/mvn/stream_line.h"
@@ -124,6 +125,7 @@ class CharacterStream {
   ClosedSamples history_;
   TimeCodeLine line_;
   StepMeter steps_;
+  LossMeter losses_;
   std::optional<Doubtful> doubtful_;
   std::uint32_t repeated_counter_ = 0;  // largest counter in a series of late and repeated ones
   int repeated_length_ = 0;

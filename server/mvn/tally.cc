@@ -11,6 +11,8 @@ SourceCounters Tally::ToCounters() const {
   counters.duplicates = duplicates;
   counters.late = late;
   counters.counter_gaps = counter_gaps;
+  counters.lost = lost;
+  counters.delays = delays;
   counters.restarts = restarts;
   counters.outliers = outliers;
   for (std::size_t type = 0; type < types.size(); ++type) {

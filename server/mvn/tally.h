@@ -18,11 +18,13 @@ struct Tally {
   std::uint64_t duplicates = 0;
   std::uint64_t late = 0;
   std::uint64_t counter_gaps = 0;
+  std::uint64_t lost = 0;
   std::uint64_t restarts = 0;
   std::uint64_t outliers = 0;
   std::uint64_t mismatched_ids = 0;        // items whose place contradicts their id; not datagrams
   std::array<std::uint64_t, 100> types{};  // datagrams read, by message type
   std::array<std::uint64_t, kReasonCount> rejected{};
+  DurationHistogram delays;         // as in SourceCounters
   std::uint64_t in_samples = 0;     // datagrams of delivered samples
   std::uint64_t in_characters = 0;  // types 12 and 13 that were used
 

@@ -22,6 +22,8 @@ void AddUp(SourceCounters& sum, const SourceCounters& more) {
   sum.duplicates += more.duplicates;
   sum.late += more.late;
   sum.counter_gaps += more.counter_gaps;
+  sum.lost += more.lost;
+  sum.delays.AddAll(more.delays);
   sum.restarts += more.restarts;
   sum.outliers += more.outliers;
   for (const auto& [type, count] : more.types) sum.types[type] += count;

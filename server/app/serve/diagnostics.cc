@@ -66,7 +66,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
                             const std::optional<DrawingStatus>& pictures,
                             const std::optional<DrawingStatus>& view, std::uint64_t skipped,
-                            const history::History* history) {
+                            const history::History* history, const StreamHealth* stream) {
   json out;
   out["version"] = KINESCOPE_VERSION;
   if (state) {
@@ -92,6 +92,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
     out["source"]["duplicates"] = counters->duplicates;
     out["source"]["late"] = counters->late;
     out["source"]["counter_gaps"] = counters->counter_gaps;
+    out["source"]["lost"] = counters->lost;
     out["source"]["restarts"] = counters->restarts;
     out["source"]["outliers"] = counters->outliers;
     out["source"]["types"] = counters->types;
@@ -99,6 +100,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
     out["source"]["rejected"] = counters->rejected;
     out["source"]["transport"] = counters->transport;
   }
+  out["stream"] = stream != nullptr ? json::parse(StreamHealthJson(*stream)) : json(nullptr);
   if (state) out["loads"] = LoadsOf(*state);
   out["ros"] = nullptr;
   if (ros) {

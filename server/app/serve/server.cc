@@ -116,6 +116,10 @@ void Server::StartPage(const ServeConfig& config) {
   page.history = history_.get();
   page.marks = marks_.get();
   page.playback = [this] { return playback_.Get(); };
+  page.stream = [this] {
+    const auto stream = stream_.Get();
+    return stream ? StreamHealthJson(*stream) : std::string();
+  };
   page.warn = [](const std::string& line) { spdlog::warn("{}", line); };
   page_.emplace(page, *listener_, states_, pictures_, live_pictures_.get(),
                 [this] { return Diagnostics(); });
@@ -137,7 +141,8 @@ void Server::OnState(const std::shared_ptr<SceneState>& state) {
 
 std::string Server::Diagnostics() const {
   return DiagnosticsJson(states_.Get(), counters_.Get(), StatusOf(ros_), StatusOf(live_pictures_),
-                         StatusOf(ros_camera_), overload_.skipped(), history_.get());
+                         StatusOf(ros_camera_), overload_.skipped(), history_.get(),
+                         stream_.Get().get());
 }
 
 void Server::Run() {
@@ -180,6 +185,8 @@ void Server::OnTime(std::int64_t now_nanos) {
   counters_due_nanos_ = now_nanos + kCountersPeriodNanos;
   const auto counters = std::make_shared<const SourceCounters>(source_->counters());
   counters_.Publish(counters);
+  stream_meter_.OnCounters(*counters, now_nanos);
+  stream_.Publish(std::make_shared<const StreamHealth>(stream_meter_.health()));
   missing_pose_warning_.OnCounters(*counters, source_->description(), now_nanos);
   crowd_warning_.OnCounters(*counters);
 }

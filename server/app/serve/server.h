@@ -19,6 +19,7 @@
 #include "server/app/serve/overload.h"
 #include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/serve_config.h"
+#include "server/app/serve/stream_health.h"
 #include "server/history/history.h"
 #include "server/http/server.h"
 #include "server/marks/mark_book.h"
@@ -58,6 +59,7 @@ class Server {
   Latest<SceneState> states_;                        // reading thread -> page
   Latest<SourceCounters> counters_;                  // reading thread -> page
   Latest<Playback> playback_;                        // reading thread -> page; null: live
+  Latest<StreamHealth> stream_;                      // reading thread -> page
   Latest<http::Picture> pictures_;                   // drawing thread -> page
   HandLoadMailbox hand_loads_;                       // page -> reading thread
   const std::unique_ptr<history::History> history_;  // reading thread -> page; null: off
@@ -69,6 +71,7 @@ class Server {
   LivenessLog liveness_log_;
   MissingPoseWarning missing_pose_warning_;
   CrowdWarning crowd_warning_;
+  StreamHealthMeter stream_meter_;
   std::int64_t counters_due_nanos_ = 0;
   SceneBuilder builder_;
   // Outputs, null if off; each uses only members above it.

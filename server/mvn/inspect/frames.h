@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "core/duration_histogram.h"
 #include "server/mvn/arrival.h"
 #include "server/mvn/clock_fit.h"
-#include "server/mvn/inspect/histogram.h"
 #include "server/mvn/stream_line.h"
 
 namespace kinescope::mvn {

@@ -97,7 +97,14 @@ test('cameras are read as numbers and rejected if invalid', () => {
 test('diagnostics of parts that do not run are absent', () => {
   assert.deepEqual(readDiagnostics({}, ''), { pictures: undefined, source: undefined });
   assert.equal(readDiagnostics({ pictures: null }, '').pictures, null);
-  assert.deepEqual(readDiagnostics({ source: { rejected: { 'cut short': 2 } } }, '').source?.rejected, { 'cut short': 2 });
-  assert.throws(() => readDiagnostics({ source: { rejected: { 'cut short': 'often' } } }, 'api/diagnostics'),
-    /"often" as api\/diagnostics\.source\.rejected\["cut short"\]; expected a number/);
+  assert.throws(() => readDiagnostics({ source: { left_out: [{ character: 3 }] } }, 'api/diagnostics'),
+    /nothing as api\/diagnostics\.source\.left_out\[0\]\.name; expected a text/);
+});
+
+test('the health of the stream is read with its events, and rejected if it is invalid', () => {
+  const gaps = { count: 3, count_10s: 1, last_micros: 5e6 };
+  const stream = { samples: 60, lost: 2, loss_10s: null, loss: 0.03, jitter_ms: 1.5, gaps, incomplete: gaps, rejected: [{ ...gaps, reason: 'cut short' }] };
+  assert.deepEqual(readTextMessage(JSON.stringify({ stream: { ...stream, later: 1 } })), { stream });
+  assert.throws(() => readTextMessage(JSON.stringify({ stream: { ...stream, gaps: { ...gaps, count: 'often' } } })),
+    /"often" as stream\.gaps\.count; expected a number/);
 });

@@ -28,7 +28,7 @@ test('an overloaded server is named with its delay, and never live', () => {
 
 test('a viewer who looks back is told so, and what is wrong with the live stream', () => {
   const behind = { ...good, behindMillis: 12_400 };
-  assert.deepEqual(statusOf(behind), { level: 'behind', word: 'Behind −12.4 s', banner: '', isFresh: true });
+  assert.deepEqual(statusOf(behind), { level: 'behind', word: 'Behind −12.4 s', note: 'Esc returns to live', banner: '', isFresh: true });
   assert.match(statusOf({ ...behind, isGone: true }).banner, /no longer kept/);
   assert.match(statusOf({ ...behind, liveness: 'stale', isGone: true }).banner, /^Live stream: Stale\. The stream has/);
   assert.match(statusOf({ ...behind, connected: false }).banner, /^Live stream: Disconnected\./);
@@ -38,14 +38,27 @@ test('a viewer who looks back is told so, and what is wrong with the live stream
 test('a recording is never live: the status says where in it the viewer is', () => {
   const recording = { start_micros: 5e6, length_secs: 190.04, round_secs: null, ended_micros: null };
   const plays = { ...good, recording, stampMicros: 47e6 };
-  assert.deepEqual(statusOf(plays), { level: 'recording', word: 'Recording 0:42.0 of 3:10', banner: '', isFresh: true });
+  assert.deepEqual(statusOf(plays), { level: 'recording', word: 'Recording 0:42.0 of 3:10', note: 'plays', banner: '', isFresh: true });
   assert.equal(statusOf({ ...plays, recording: { ...recording, length_secs: null } }).word, 'Recording 0:42.0');
   assert.equal(statusOf({ ...plays, recording: { ...recording, round_secs: 40 } }).word, 'Recording 0:02.0 of 3:10');
   assert.equal(statusOf({ ...plays, behindMillis: 3000 }).word, 'Recording 0:42.0 of 3:10');
   assert.match(statusOf({ ...plays, behindMillis: 3000, isGone: true }).banner, /no longer kept/);
   const over = { ...plays, recording: { ...recording, ended_micros: 9e6 }, behindMillis: 0, liveness: 'stale' };
-  assert.deepEqual(statusOf(over), { level: 'recording', word: 'Recording 0:42.0 of 3:10', banner: '', isFresh: false });
+  assert.deepEqual(statusOf(over), { level: 'recording', word: 'Recording 0:42.0 of 3:10', note: 'ended', banner: '', isFresh: false });
   assert.match(statusOf({ ...over, connected: false }).banner, /^Disconnected\. No connection/);
+});
+
+test('losing data is a state of its own, whose figure the second line explains', () => {
+  assert.equal(statusOf({ ...good, loss: 0.003 }).note, '0.3 % lost or incomplete in the last 10 s');
+  assert.equal(level({ loss: 0.054, isLosing: false }), 'live', 'not yet, or no longer');
+  const losing = { ...good, loss: 0.0543, isLosing: true };
+  const { level: state, word, note } = statusOf(losing);
+  assert.deepEqual([state, word, note], ['losing', 'Losing data 5.4 %', 'lost or incomplete in the last 10 s']);
+  assert.equal(statusOf(losing).isFresh, true);
+  assert.equal(statusOf({ ...losing, liveness: 'stale' }).level, 'stale', 'what misleads more if it is missed');
+  assert.equal(statusOf({ ...losing, connected: false }).level, 'disconnected');
+  const behind = statusOf({ ...losing, behindMillis: 2000 });
+  assert.deepEqual([behind.level, behind.note], ['behind', 'live stream: Losing data 5.4 %']);
 });
 
 test('people who are left out are named with the reason', () => {
@@ -75,5 +88,5 @@ test('the status before the first connection is waiting, or rejected with the re
   const start = { ...good, connected: false, everConnected: false, liveness: null };
   assert.equal(statusOf(start).level, 'wait');
   assert.deepEqual(statusOf({ ...start, reason: 'no token' }),
-    { level: 'disconnected', word: 'Rejected', banner: 'no token', isFresh: false });
+    { level: 'disconnected', word: 'Rejected', note: 'by the server', banner: 'no token', isFresh: false });
 });

@@ -4,6 +4,7 @@
 // "url", then obeys lines on its standard input until that ends:
 //   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
 //   people <n>              how many persons it shows
+//   stream <JSON>           the health of the stream
 // page_fixture_server describe: prints one state as the server encodes it (hex) beside what it
 // means, and the limits of the load classes, for the page's unit tests.
 #include <poll.h>
@@ -317,16 +318,26 @@ class Orders {
     }
   }
 
+  std::string stream() const {  // any thread
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return stream_;
+  }
+
  private:
   void Obey(const std::string& line) {
     changed = true;
     if (line.rfind("people ", 0) == 0) {
       people = std::stoi(line.substr(7));
+    } else if (line.rfind("stream ", 0) == 0) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      stream_ = line.substr(7);
     } else {
       mode = line;
     }
   }
   std::string pending_;  // of a line that has not come to its end
+  mutable std::mutex mutex_;
+  std::string stream_;  // guarded by mutex_
 };
 
 SceneState NextState(const Orders& orders, const SceneState& last,
@@ -397,6 +408,8 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
       {options.marks_file.empty() ? folder / "marks.jsonl" : options.marks_file,
        {"grasp", "lift", "place", "release", "step", "slip", "talk", "pain", "discard"}});
   config.marks = &book;
+  Orders orders;
+  config.stream = [&orders] { return orders.stream(); };
   HttpServer server(config, states, pictures, feed, [&] { return options.diagnostics; });
   std::cout << json{{"url", server.url()}, {"viewer_url", server.url(Role::kViewer)}}.dump()
             << std::endl;
@@ -404,7 +417,6 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
   const auto worn_model =
       options.worn ? kinescope::testing::WornModel(*model, options.mesh_folder) : nullptr;
   SceneState state;
-  Orders orders;
   const auto began = Clock::now();
   for (auto due = began; !orders.ended; due = std::max(due + kPeriod, Clock::now() - kPeriod)) {
     orders.WaitUntil(due);

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstring>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -426,6 +427,30 @@ TEST(WebSocket, ClosesWhenTheServerStops) {
   client.ReceiveState();
   site.reset();
   EXPECT_TRUE(client.WaitForClose());
+}
+
+TEST(WebSocket, TellsTheHealthOfTheStreamWhenItChangesAndToThoseWhoJoinLater) {
+  std::mutex mutex;
+  std::string health;  // guarded by mutex
+  const auto set = [&](const std::string& text) {
+    const std::lock_guard<std::mutex> lock(mutex);
+    health = text;
+  };
+  Latest<SceneState> states;
+  Latest<Picture> pictures;
+  HttpConfig config = TestServer::MakeConfig("");
+  config.stream = [&] {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return health;
+  };
+  const HttpServer server(config, states, pictures, nullptr, nullptr);
+  WsClient client(server.port());
+  set(R"({"lost":1})");
+  EXPECT_EQ(client.ReceiveText("stream")["stream"]["lost"], 1);
+  WsClient late(server.port());
+  EXPECT_EQ(late.ReceiveText("stream")["stream"]["lost"], 1);
+  set(R"({"lost":2})");
+  EXPECT_EQ(client.ReceiveText("stream")["stream"]["lost"], 2) << "each value once";
 }
 
 }  // namespace

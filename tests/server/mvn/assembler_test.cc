@@ -258,6 +258,29 @@ TEST_F(AssemblerTest, CountsALostSampleButNoConstantCounterStepAsGap) {
   EXPECT_EQ(counters().counter_gaps, 1U);
 }
 
+TEST_F(AssemblerTest, CountsHowManySamplesAreLost) {
+  for (std::uint32_t counter = 100; counter < 600; counter += 4) {  // 240 Hz captured, 60 Hz sent
+    const bool is_lost = counter == 400 || (counter >= 500 && counter < 520);
+    if (!is_lost) Send(Datagrams(counter));
+    Wait(4 * kPeriod);
+  }
+  EXPECT_EQ(counters().lost, 6U);
+  EXPECT_EQ(counters().counter_gaps, 2U);
+}
+
+TEST_F(AssemblerTest, MeasuresByHowMuchSamplesComeLate) {
+  for (std::uint32_t counter = 4; counter <= 2000; counter += 4) {
+    const std::int64_t late = counter % 20 == 0 ? 8 * kMilli : 0;
+    Wait(late);
+    Send(Datagrams(counter));
+    Wait(4 * kPeriod - late);
+  }
+  const DurationHistogram delays = counters().delays;
+  EXPECT_GE(delays.total(), 499U);
+  EXPECT_LT(delays.PercentileNanos(0.7), 1 * kMilli);
+  EXPECT_NEAR(static_cast<double>(delays.PercentileNanos(0.95)), 8e6, 1e6);
+}
+
 TEST_F(AssemblerTest, CountsNoAlternatingCounterStepAsGap) {
   std::uint32_t counter = 0;  // 240 Hz captured, 100 Hz sent: steps of 2 and 3
   for (int i = 0; i < 100; ++i) {

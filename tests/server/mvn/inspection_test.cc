@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/duration_histogram.h"
 #include "server/mvn/encode.h"
-#include "server/mvn/inspect/histogram.h"
 #include "server/mvn/open.h"
 #include "server/subject/subject.h"
 #include "tests/server/mvn/mvn_testing.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace kinescope::mvn {
+namespace kinescope {
 
 class DurationHistogram {
  public:
@@ -32,6 +32,20 @@ class DurationHistogram {
     return longest_;
   }
 
+  void AddAll(const DurationHistogram& more) {
+    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += more.counts_[i];
+    total_ += more.total_;
+    longest_ = std::max(longest_, more.longest_);
+  }
+  /// What was added since `earlier`, a former value of this histogram. Its longest_nanos() is that
+  /// of all.
+  DurationHistogram Since(const DurationHistogram& earlier) const {
+    DurationHistogram since = *this;
+    for (std::size_t i = 0; i < counts_.size(); ++i) since.counts_[i] -= earlier.counts_[i];
+    since.total_ -= earlier.total_;
+    return since;
+  }
+
  private:
   static constexpr int kPerDoubling = 32;
   static constexpr double kSmallest = 1'000;     // ns; shorter ones are one class
@@ -52,4 +66,4 @@ class DurationHistogram {
   std::int64_t longest_ = 0;
 };
 
-}  // namespace kinescope::mvn
+}  // namespace kinescope
