@@ -88,9 +88,9 @@ function streamStatusOf(now) {
   }
   const loss = now.loss ?? null;
   if (now.isLosing && loss !== null) {
-    return { level: 'losing', word: `Losing data ${lossText(loss)}`, note: 'lost or incomplete in the last 10 s', banner: '' };
+    return { level: 'losing', word: `Losing data ${lossText(loss)}`, note: 'lost or incomplete in 10 s', banner: '' };
   }
-  const note = loss === null ? 'the newest sample' : `${lossText(loss)} lost or incomplete in the last 10 s`;
+  const note = loss === null ? 'the newest sample' : `${lossText(loss)} lost or incomplete`;
   return { level: 'live', word: 'Live', note, banner: '' };
 }
 

@@ -311,7 +311,7 @@ class Painter {
 
   /** @param {Mark[]} marks */
   #flags(marks) {
-    const { context, frame: { when, xOf } } = this;
+    const { context, frame: { when, xOf, right } } = this;
     this.#label('Marks', MARKS_PX / 2);
     context.font = `700 11px ${this.font}`;
     context.textAlign = 'center';
@@ -325,9 +325,10 @@ class Painter {
       const x = Math.round(xOf(micros)), text = [...label].slice(0, 2).join('') || '•';
       this.#use('quiet');
       context.fillRect(x - 1, 1, 2, MARKS_PX - 1);
-      context.fillRect(x, 1, 6 + 7 * [...text].length, MARKS_PX - 4);
+      const wide = 6 + 7 * [...text].length, left = Math.min(x, right - wide);
+      context.fillRect(left, 1, wide, MARKS_PX - 4);
       this.#use('panel');
-      context.fillText(text, x + 3 + 3.5 * [...text].length, MARKS_PX / 2);
+      context.fillText(text, left + wide / 2, MARKS_PX / 2);
     }
   }
 }

@@ -223,6 +223,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.cameras = config_.cameras;
   site.framing = config_.framing;
   site.history = config_.history;
+  site.marks = config_.marks;
   site.has_pictures = feed_ != nullptr;
   site.look = config_.look;
   site.own_skin = config_.own_skin;

@@ -12,8 +12,9 @@
 // tests/fuzz/CMakeLists.txt renames LLVMFuzzerTestOneInput of each source.
 using Entry = int(const std::uint8_t* data, std::size_t size);
 extern "C" Entry Fuzz_assembler, Fuzz_bag, Fuzz_camera_keys, Fuzz_datagram, Fuzz_framing,
-    Fuzz_http_target, Fuzz_loads, Fuzz_mesh_file, Fuzz_mvnx, Fuzz_options, Fuzz_page_message,
-    Fuzz_pcap, Fuzz_rig, Fuzz_scale, Fuzz_urdf, Fuzz_websocket, Fuzz_wrenches, Fuzz_yaml_options;
+    Fuzz_http_target, Fuzz_loads, Fuzz_marks, Fuzz_mesh_file, Fuzz_mvnx, Fuzz_options,
+    Fuzz_page_message, Fuzz_pcap, Fuzz_rig, Fuzz_scale, Fuzz_urdf, Fuzz_websocket, Fuzz_wrenches,
+    Fuzz_yaml_options;
 #ifdef KINESCOPE_WITH_ROS
 extern "C" Entry Fuzz_marker;
 #endif
@@ -27,6 +28,7 @@ int main(int argc, char** argv) {
       {"framing", &Fuzz_framing},
       {"http_target", &Fuzz_http_target},
       {"loads", &Fuzz_loads},
+      {"marks", &Fuzz_marks},
       {"mesh_file", &Fuzz_mesh_file},
       {"mvnx", &Fuzz_mvnx},
       {"options", &Fuzz_options},

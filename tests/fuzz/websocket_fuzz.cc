@@ -106,7 +106,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   {
     boost::asio::ip::tcp::socket socket(io);
     socket.assign(boost::asio::ip::tcp::v4(), sockets[0]);
-    std::make_shared<http::WsSession>(http::Stream(std::move(socket)), "127.0.0.1", hub, 1)
+    std::make_shared<http::WsSession>(http::Stream(std::move(socket)), "127.0.0.1",
+                                      http::Role::kOperator, hub, 1)
         ->Accept(UpgradeRequest());
   }
   run();

@@ -49,11 +49,11 @@ test('a recording is never live: the status says where in it the viewer is', () 
 });
 
 test('losing data is a state of its own, whose figure the second line explains', () => {
-  assert.equal(statusOf({ ...good, loss: 0.003 }).note, '0.3 % lost or incomplete in the last 10 s');
+  assert.equal(statusOf({ ...good, loss: 0.003 }).note, '0.3 % lost or incomplete');
   assert.equal(level({ loss: 0.054, isLosing: false }), 'live', 'not yet, or no longer');
   const losing = { ...good, loss: 0.0543, isLosing: true };
   const { level: state, word, note } = statusOf(losing);
-  assert.deepEqual([state, word, note], ['losing', 'Losing data 5.4 %', 'lost or incomplete in the last 10 s']);
+  assert.deepEqual([state, word, note], ['losing', 'Losing data 5.4 %', 'lost or incomplete in 10 s']);
   assert.equal(statusOf(losing).isFresh, true);
   assert.equal(statusOf({ ...losing, liveness: 'stale' }).level, 'stale', 'what misleads more if it is missed');
   assert.equal(statusOf({ ...losing, connected: false }).level, 'disconnected');

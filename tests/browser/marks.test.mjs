@@ -1,0 +1,136 @@
+// Marks: operators set them by key, button and text; each has the sample that was on the screen.
+import assert from 'node:assert/strict';
+import { mkdtemp, readFile, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test as nodeTest } from 'node:test';
+import { closeBrowser, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
+
+const LONG = { timeout: 60000 };  // only a failure takes so long
+const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
+const OPERATOR = '0perator-of-the-lab', VIEWER = 'v1ewer-of-the-lab';
+let site, folder, file;
+const start = async () => {
+  site = await startFixture(['--token', OPERATOR, '--viewer_token', VIEWER, '--marks_file', file]);
+  site.say('people 1');
+  site.say('live');
+};
+before(async () => {
+  folder = await mkdtemp(join(tmpdir(), 'kinescope-marks-'));
+  file = join(folder, 'marks.jsonl');
+  await start();
+});
+after(async () => {
+  await site.stop();
+  await closeBrowser();
+  await rm(folder, { recursive: true });
+});
+
+async function open(url, options) {
+  const visit = await openPage(url, options);
+  await visit.page.waitForFunction(() => document.querySelectorAll('#mark-buttons button').length === 9, null, LONG);
+  await visit.page.waitForFunction(() => Number(document.getElementById('moment').min) < -1, null, LONG);
+  await visit.page.waitForFunction(() => document.getElementById('role').dataset.role !== undefined, null, LONG);
+  return visit;
+}
+const lines = async () => (await readFile(file, 'utf8')).trim().split('\n').map((line) => JSON.parse(line));
+const saidIs = (page, pattern) => page.waitForFunction(
+  (source) => new RegExp(source).test(document.getElementById('mark-said').textContent), pattern.source, LONG);
+const entries = (page) => page.$$eval('#mark-list .go', (all) => all.map((each) => each.querySelector('span').textContent));
+const entriesAre = (page, texts) => page.waitForFunction((wanted) => JSON.stringify(
+  [...document.querySelectorAll('#mark-list .go span')].map((each) => each.textContent)) === wanted, JSON.stringify(texts), LONG);
+
+test('a key marks the sample on the screen, also of a viewer of former moments, and survives kill -9', async () => {
+  const { page, problems, close } = await open(site.url);
+  await page.keyboard.press('Space');
+  await page.waitForFunction(() => document.body.dataset.time === 'behind', null, LONG);
+  const sample = Number(await page.textContent('#sample'));
+  await page.keyboard.press('2');
+  await saidIs(page, new RegExp(`^Marked: “lift” at sample ${sample}`));
+  await site.kill();
+  const [mark] = await lines();
+  assert.deepEqual([mark.button, mark.text, mark.role, mark.at.counter], [2, 'lift', 'operator', sample]);
+  await page.waitForFunction(() => /Disconnected/.test(document.getElementById('status-note').textContent), null, LONG);
+  await page.keyboard.press('3');
+  await page.waitForFunction(() => /^The mark was not set: no connection/.test(document.getElementById('banner').textContent), null, LONG);
+  assert.deepEqual(problems.filter((line) => !/WebSocket|ERR_CONNECTION_REFUSED|failed: /.test(line)), []);
+  await close();
+  await start();
+});
+
+test('a live mark is of the sample that is drawn, within one', async () => {
+  const { page, close } = await open(site.url);
+  // The text of the sample changes a few times a second: pressed with it, the key is of the same sample.
+  const seen = await page.evaluate(() => new Promise((resolve) => {
+    const sample = document.getElementById('sample');
+    new MutationObserver((_, observer) => {
+      observer.disconnect();
+      document.body.dispatchEvent(new KeyboardEvent('keydown', { key: '1', code: 'Digit1', bubbles: true }));
+      resolve(Number(sample.textContent));
+    }).observe(sample, { childList: true, characterData: true, subtree: true });
+  }));
+  await saidIs(page, /^Marked: “grasp”/);
+  const { at } = (await lines()).at(-1);
+  assert.ok(Math.abs(at.counter - seen) <= 1, `marked ${at.counter}, seen ${seen}`);
+  await close();
+});
+
+test('spans, free text, undo, and a list in which a click shows the moment', async () => {
+  const { page, problems, close } = await open(site.url);
+  await page.click('#tab-marks');
+  const earlier = await entries(page);
+  await page.keyboard.press('Shift+Digit5');
+  await saidIs(page, /^Span begins: “step”/);
+  await page.waitForFunction(() => document.querySelector('#mark-buttons button:nth-child(5)').classList.contains('open'), null, LONG);
+  await page.keyboard.press('Shift+Digit5');
+  await saidIs(page, /^Span: “step” at sample \d+ to \d+/);
+  await page.keyboard.press('m');
+  await page.keyboard.type('<b>belt</b> slipped 1');
+  await page.keyboard.press('Enter');
+  await saidIs(page, /belt/);
+  await entriesAre(page, ['<b>belt</b> slipped 1', 'step', ...earlier]);
+  await page.keyboard.press('4');
+  await saidIs(page, /^Marked: “release”/);
+  await page.keyboard.press('Control+z');
+  await saidIs(page, /^Removed: “release”/);
+  await entriesAre(page, ['<b>belt</b> slipped 1', 'step', ...earlier]);
+  const marked = (await lines()).find(({ text }) => text.includes('belt'));
+  await page.click('#mark-list li:first-child .go');
+  await page.waitForFunction((n) => document.getElementById('sample').textContent === String(n), marked.at.counter, LONG);
+  await page.keyboard.press('[');
+  const span = (await lines()).findLast(({ text, end }) => text === 'step' && end !== null);
+  await page.waitForFunction((n) => document.getElementById('sample').textContent === String(n), span.at.counter, LONG);
+  await saveScreenshot(page, 'marks_desktop');
+  assert.deepEqual(problems, []);
+  await close();
+});
+
+test('a viewer sees marks as they are set, and cannot set one', async () => {
+  const operator = await open(site.url), viewer = await open(site.viewer_url);
+  await viewer.page.click('#tab-marks');
+  await operator.page.click('#mark-buttons button:nth-child(8)');
+  await viewer.page.waitForFunction(
+    () => document.querySelector('#mark-list .go span')?.textContent === 'pain', null, LONG);
+  const count = (await lines()).length;
+  assert.ok(await viewer.page.locator('#mark-buttons button').first().isDisabled());
+  assert.ok(await viewer.page.locator('#mark-list fieldset button').first().isDisabled());
+  await viewer.page.keyboard.press('6');
+  await viewer.page.waitForFunction(
+    () => /^The mark was not set: .*operator/.test(document.getElementById('banner').textContent), null, LONG);
+  assert.equal((await lines()).length, count);
+  await operator.close();
+  await viewer.close();
+});
+
+test('on a phone the buttons of marks are in reach of a thumb', async () => {
+  const { page, close } = await open(site.url, { viewport: PHONE });
+  await page.click('#tab-marks');
+  const button = page.locator('#mark-buttons button').first();
+  await button.scrollIntoViewIfNeeded();
+  const { width, height } = await button.boundingBox();
+  assert.ok(width >= 44 && height >= 44, `${width} x ${height}`);
+  await button.click();
+  await saidIs(page, /^Marked: “grasp”/);
+  await saveScreenshot(page, 'marks_phone');
+  await close();
+});
