@@ -48,10 +48,11 @@ bool AreTopicNames(const std::string& text) {
 
 bool AreMarkNames(const std::string& text) {
   constexpr std::size_t kLongest = 40;  // characters, so that a button has room for it
+  const auto is_letter = [](unsigned char byte) { return std::isalnum(byte) != 0 || byte >= 0x80; };
   const std::vector<std::string> names = options::SplitItems(text);
   return names.size() <= marks::kButtons &&
-         std::all_of(names.begin(), names.end(), [](const std::string& name) {
-           return !name.empty() && PrintableLine(name) == name &&
+         std::all_of(names.begin(), names.end(), [&](const std::string& name) {
+           return std::any_of(name.begin(), name.end(), is_letter) && PrintableLine(name) == name &&
                   DecodeUtf8(name).size() <= kLongest;
          });
 }
@@ -87,8 +88,10 @@ ServeOptions::ServeOptions()
       bind_ip("127.0.0.1"),
       http_port(8080, {0, 65535, "", false, "0: a free one, which is printed"}),
       history_minutes(10, {0, 60, "min"}),
-      mark_names("grasp,lift,place,release,step,slip,talk,pain,discard",
-                 "up to nine names with commas between", AreMarkNames),
+      mark_names(
+          "grasp,lift,place,release,step,slip,talk,pain,discard",
+          "up to nine names with commas between, each of 1 to 40 characters with a letter or digit",
+          AreMarkNames),
       pictures(true),
       camera(1),
       picture_size({kDefaultPictureWidth, kDefaultPictureHeight}),

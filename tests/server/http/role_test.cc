@@ -11,8 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "server/history/history.h"
 #include "server/http/hub.h"
 #include "server/http/router.h"
+#include "server/marks/mark_book.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/server/http/test_server.h"
 #include "tests/temp_folder.h"
@@ -32,8 +34,10 @@ std::string TokenOf(Role role) { return role == Role::kOperator ? kOperatorToken
 class RoleOfRouteTest : public ::testing::Test {
  protected:
   RoleOfRouteTest() {
-    states_.Publish(
-        std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, MakePersonModel(7), 1)));
+    const auto state =
+        std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, MakePersonModel(7), 1));
+    states_.Publish(state);
+    history_.Add(state);
   }
 
   Router MakeRouter() {
@@ -45,6 +49,8 @@ class RoleOfRouteTest : public ::testing::Test {
     site.has_pictures = true;
     site.files = &files_;
     site.states = &states_;
+    site.history = &history_;
+    site.marks = &marks_;
     site.set_hand_load = [this](int, const HandLoad&) {
       ++changes_;
       return std::string();
@@ -59,6 +65,9 @@ class RoleOfRouteTest : public ::testing::Test {
     Request request;
     request.method = route.method;
     request.target = route.path;
+    if (route.path == "/api/series") {  // has no answer without a question
+      request.target += "?person=0&keys=l5_s1&from=0&to=1000000&columns=2";
+    }
     request.host = "lab.example";
     request.authorization = "Bearer " + TokenOf(role);
     request.content_type = "application/json";
@@ -68,6 +77,8 @@ class RoleOfRouteTest : public ::testing::Test {
   kinescope::testing::TempFolder web_;
   StaticFiles files_{web_.path()};
   Latest<SceneState> states_;
+  history::History history_;
+  marks::MarkBook marks_{{web_ / "marks.jsonl", {"lift"}}};
   int changes_ = 0;
   std::map<std::string, int> refusals_;
 };
@@ -94,11 +105,13 @@ TEST_F(RoleOfRouteTest, DecidesWhichRoutesOfTheTableAViewerMayUse) {
     EXPECT_THAT(answer.body, AllOf(HasSubstr(route.method + " " + route.path), HasSubstr("viewer"),
                                    HasSubstr("operator's token")));
     Request with_body = request;
-    with_body.body = R"({"right_kg": 5})";
+    with_body.body =
+        route.path == "/api/mark" ? R"({"state": 12, "button": 1})" : R"({"right_kg": 5})";
     EXPECT_EQ(router.Route(with_body).status, 403) << route.path;
   }
   EXPECT_GT(refused, 0);
   EXPECT_EQ(changes_, 0);
+  EXPECT_EQ(marks_.revision(), 0U);
   EXPECT_EQ(refusals_["not an operator"], 2 * refused);
 }
 
