@@ -195,7 +195,7 @@ test('a click on a plot goes to that moment, and hovering shows the values of an
 
 test('up to four joints of one of the people are plotted', async () => {
   const { page, close } = await openPlots();
-  await page.click('summary');
+  await page.click('#plots summary');
   const box = (name) => page.locator(`#plot-joints input[value="${name}"]`);
   await box('left_elbow').check();
   assert.equal(await page.locator('[data-plot="loads"] li').count(), 4);

@@ -142,7 +142,7 @@ async function lookAt(site, camera) {
       },
     });
     const { page } = visit;
-    await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Stale', null, LONG);
+    await page.waitForFunction(() => document.getElementById('status-note').textContent === 'ended', null, LONG);
     await page.locator(`#cameras button[data-camera="${camera}"]`).click();
     await page.evaluate(() => {
       for (const over of document.querySelectorAll('.stage > :not(.view)')) over.style.visibility = 'hidden';
@@ -215,7 +215,7 @@ test('a person who faces -x is shown from the front, on the page and in a snapsh
   const live = await serve(file, ['--loop', '--picture_size', '64x64']);  // a stale picture has a banner
   const watcher = await openPage(live.url);
   // Before the first sample, a snapshot has no person.
-  await watcher.page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live', null, LONG);
+  await watcher.page.waitForFunction(() => document.getElementById('status-word').textContent.startsWith('Recording'), null, LONG);
   await watcher.close();
   const png = await fetch(`${live.url}snapshot.png?camera=${camera}&width=${size.width}&height=${size.height}`);
   const snapshot = await pixelsOfPng(page, Buffer.from(await png.arrayBuffer()));
@@ -247,7 +247,7 @@ test('loads lie on the same pixels of the skin on the page and in the picture of
   const file = await record('lift', 1, []);
   const site = await serve(file, ['--loop', '--loads', 'skin', '--style', 'clay', '--pictures', 'off']);
   const { page, problems, close } = await openPage(site.url, { colorScheme: 'dark' });
-  await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live', null, LONG);
+  await page.waitForFunction(() => document.getElementById('status-word').textContent.startsWith('Recording'), null, LONG);
   const choice = page.getByLabel('Where joint loads are shown');
   await choice.waitFor(LONG);
   assert.equal(await choice.inputValue(), 'skin', 'as the server was started');
@@ -289,7 +289,7 @@ test('the choice where loads are shown has room beside everything else', async (
   const site = await serve(await record('walk', 0.9, []), ['--loop', '--loads', 'both', '--pictures', 'off']);
   for (const [name, viewport] of Object.entries({ desktop: DESKTOP, phone: PHONE })) {
     const { page, close } = await openPage(site.url, { viewport });
-    await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live', null, LONG);
+    await page.waitForFunction(() => document.getElementById('status-word').textContent.startsWith('Recording'), null, LONG);
     await page.getByLabel('Where joint loads are shown').waitFor(LONG);
     await settled(page);
     await saveScreenshot(page, `skin_both_${name}`);

@@ -26,7 +26,7 @@ NEVER_RUN = {
     "README.md": ["./demo", "./check"],
     "CONTRIBUTING.md": ["./check", "./check", "cmake", "cmake", "build/fuzz/tests/fuzz/datagram_fuzz"],
     "docs/ros.md": ["kinescope inspect ros:", "kinescope urdf ros:", "rosservice"],
-    "docs/http.md": ["curl", "curl", "curl", "curl", "curl"],
+    "docs/http.md": ["curl", "curl", "curl", "curl", "curl", "curl", "curl"],
     "tests/bench/README.md": ["tests/bench/measure.sh", "build/dev/tests/bench/mvn_bench", "build/dev/tests/bench/loads_bench",
                               "build/dev/tests/bench/render_bench", "tests/bench/clip.sh", "tests/bench/memory_parts.py",
                               "tests/bench/rviz_peer.sh",
