@@ -2,6 +2,7 @@
 /// checked before anything is allocated. Pure functions, any thread.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <tl/expected.hpp>

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <string>
 #include <tl/expected.hpp>
+#include <utility>
 #include <vector>
 
 #include "server/marks/mark.h"
