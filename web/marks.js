@@ -65,7 +65,10 @@ export class Marks {
         }
         this.#runMicros = answer.run_micros;
         this.names = answer.names;
-        for (const mark of answer.marks) this.#put(mark);
+        for (const mark of answer.marks) {
+          this.#put(mark);
+          this.#revision = Math.max(this.#revision, mark.revision);
+        }
         isComplete = answer.marks.length === 0 || this.#revision >= answer.revision;
         if (isComplete) this.#revision = answer.revision;
         this.#retryAt = -Infinity;
@@ -103,8 +106,7 @@ export class Marks {
   async #send(order) {
     const answer = await request('api/mark', { method: 'POST', headers: HEADERS, body: JSON.stringify(order) });
     const mark = readMark(await answer.json(), 'api/mark');
-    if (mark.is_removed) this.#marks.delete(mark.id);
-    else this.#marks.set(mark.id, mark);
+    this.#put(mark);
     this.changed();
     return mark;
   }
@@ -113,7 +115,6 @@ export class Marks {
   #put(mark) {
     if (mark.is_removed) this.#marks.delete(mark.id);
     else this.#marks.set(mark.id, mark);
-    this.#revision = Math.max(this.#revision, mark.revision);
   }
 
   /** @param {number} runMicros */

@@ -56,6 +56,12 @@ inline constexpr char kNoMarks[] =
 /// The reason if a picture or its camera is requested from a server without a renderer.
 inline constexpr char kNoRenderer[] = "this server renders no pictures (--pictures=off)";
 
+/// JSON that no cache keeps.
+[[nodiscard]] Answer JsonAnswer(std::string body);
+
+/// Routes the request again with its body, which has not been read.
+[[nodiscard]] Answer AskForBody();
+
 /// {"error": reason}: the form of every error under /api and /snapshot.png.
 [[nodiscard]] Answer ErrorAnswer(int status, const std::string& reason);
 

@@ -109,7 +109,7 @@ class Hub {
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_
   SharedBytes details_;               // as last sent to all clients
-  SharedBytes stream_;                // likewise; null before the first
+  SharedBytes stream_;                // as last sent to all clients; null before the first
   SharedBytes picture_;               // as last sent to all viewers; null without any
   Clock::time_point state_sent_at_{};
 };

@@ -76,6 +76,8 @@ Answer AnswerOfModel(const std::string& content, const char* type, const Request
   return answer;
 }
 
+}  // namespace
+
 Answer JsonAnswer(std::string body) {
   Answer answer;
   answer.body = std::move(body);
@@ -83,7 +85,11 @@ Answer JsonAnswer(std::string body) {
   return answer;
 }
 
-}  // namespace
+Answer AskForBody() {
+  Answer answer;
+  answer.needs_body = true;
+  return answer;
+}
 
 Answer ErrorAnswer(int status, const std::string& reason) {
   Answer answer = JsonAnswer(JsonText(nlohmann::json{{"error", reason}}));
@@ -334,11 +340,7 @@ Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
   if (auto refusal = RefuseUnlessJson(request, "set hand loads")) return *std::move(refusal);
   if (!site_.set_hand_load)
     return Refuse(503, "no hand loads", "this server does not accept hand loads");
-  if (!request.body) {
-    Answer answer;
-    answer.needs_body = true;
-    return answer;
-  }
+  if (!request.body) return AskForBody();
   const auto order = ParseHandLoadOrder(*request.body);
   if (!order) return Refuse(400, "bad hand load", order.error());
   const std::shared_ptr<const SceneState> state = site_.states->Get();

@@ -16,13 +16,6 @@ using nlohmann::json;
 
 constexpr std::size_t kMarksPerAnswer = 2000;  // about 1 MB
 
-Answer MarksAnswer(const json& value) {
-  Answer answer;
-  answer.body = JsonText(value);
-  answer.headers.emplace_back("Cache-Control", "no-store");
-  return answer;
-}
-
 }  // namespace
 
 Answer Router::Marks(const Request& request, Role role) const {
@@ -47,17 +40,13 @@ Answer Router::Marks(const Request& request, Role role) const {
                  {"marks", std::move(marks)}};
   // A viewer need not know the folders of this machine.
   if (role == Role::kOperator) answer["file"] = site_.marks->file().string();
-  return MarksAnswer(answer);
+  return JsonAnswer(JsonText(answer));
 }
 
 Answer Router::SetMark(const Request& request, Role role) const {
   if (auto refusal = RefuseUnlessJson(request, "set marks")) return *std::move(refusal);
   if (site_.marks == nullptr || site_.history == nullptr) return Refuse(503, "no marks", kNoMarks);
-  if (!request.body) {
-    Answer answer;
-    answer.needs_body = true;
-    return answer;
-  }
+  if (!request.body) return AskForBody();
   const auto order = ParseMarkOrder(*request.body);
   if (!order) return Refuse(400, "bad mark", order.error());
   marks::Moment moment;
@@ -78,7 +67,7 @@ Answer Router::SetMark(const Request& request, Role role) const {
     result = order->state ? site_.marks->End(*order->id, moment) : site_.marks->Remove(*order->id);
   }
   if (!result) return Refuse(409, "mark not kept", result.error());
-  return MarksAnswer(ToJson(*result));
+  return JsonAnswer(JsonText(ToJson(*result)));
 }
 
 // `nearest`: the kept state whose number is the nearest, or null.

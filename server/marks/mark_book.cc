@@ -25,11 +25,8 @@ std::string MarkBook::OpenFile() {
   file_.emplace(*std::move(file));
   for (Mark& mark : lines) {
     if (marks_.size() >= kMostMarks && marks_.count(mark.id) == 0) break;
-    mark.revision = ++revision_;
-    const auto before = marks_.find(mark.id);
-    if (before != marks_.end()) changes_.erase(before->second.revision);
-    changes_[mark.revision] = mark.id;
-    marks_.insert_or_assign(mark.id, std::move(mark));
+    mark.revision = revision_ + 1;
+    Store(std::move(mark));
   }
   return "";
 }
@@ -98,7 +95,12 @@ MarkBook::Result MarkBook::Keep(Mark mark) {
   mark.revision = revision_ + 1;
   const std::string problem = file_->Append(mark);
   if (!problem.empty()) return tl::unexpected(problem);
-  ++revision_;
+  return Store(std::move(mark));
+}
+
+// In the place of the former one of its id. @pre its revision is the next one
+const Mark& MarkBook::Store(Mark mark) {
+  revision_ = mark.revision;
   const auto before = marks_.find(mark.id);
   if (before != marks_.end()) changes_.erase(before->second.revision);
   changes_[mark.revision] = mark.id;

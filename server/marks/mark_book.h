@@ -59,6 +59,7 @@ class MarkBook {
 
  private:
   Result Keep(Mark mark);
+  const Mark& Store(Mark mark);
   std::string OpenFile();
 
   const BookSettings settings_;
