@@ -223,6 +223,7 @@ const std::array<Router::ApiRoute, 9> Router::kApiRoutes = {{
 
 std::vector<Router::RouteInfo> Router::ApiRoutes() {
   std::vector<RouteInfo> routes;
+  routes.reserve(kApiRoutes.size());
   for (const ApiRoute& route : kApiRoutes) {
     routes.push_back({route.path, route.method == Method::kPost ? "POST" : "GET", route.least});
   }
