@@ -13,6 +13,7 @@
 #include "core/system/words.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"
+#include "server/http/protocol.h"
 #include "server/http/series_json.h"
 #include "server/http/token_page.h"
 
@@ -21,10 +22,16 @@ namespace {
 
 constexpr int kMaxPixels = 4096;
 constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
-constexpr char kSnapshotPath[] = "/snapshot.png";
+constexpr char kSnapshotPath[] = "/api/v1/snapshot.png";
 
-bool IsCostly(const Target& target) {
-  return target.path == kSnapshotPath || StartsWith(target.path, "/api/");
+bool IsCostly(const Target& target) { return StartsWith(target.path, "/api/v1/"); }
+
+// Addresses of before version 1, which bookmarks and scripts may still have.
+std::string NewAddress(const std::string& path) {
+  if (path == "/snapshot.png") return kSnapshotPath;
+  if (path == "/ws") return Router::kWebSocketPath;
+  if (StartsWith(path, "/api/") && !StartsWith(path, "/api/v1/")) return "/api/v1" + path.substr(4);
+  return "";
 }
 
 std::string EntityTagOf(const std::string& content) {
@@ -210,15 +217,15 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
 
 // A new route: a line here, and one in docs/http.md.
 const std::array<Router::ApiRoute, 9> Router::kApiRoutes = {{
-    {"/api/session", Method::kGet, Role::kViewer, &Router::Session},
-    {"/api/state", Method::kGet, Role::kViewer, &Router::State},
-    {"/api/model", Method::kGet, Role::kViewer, &Router::Model},
-    {"/api/cameras", Method::kGet, Role::kViewer, &Router::Cameras},
-    {"/api/diagnostics", Method::kGet, Role::kViewer, &Router::Diagnostics},
-    {"/api/series", Method::kGet, Role::kViewer, &Router::Series},
-    {"/api/hand_load", Method::kPost, Role::kOperator, &Router::SetHandLoad},
-    {"/api/marks", Method::kGet, Role::kViewer, &Router::Marks},
-    {"/api/mark", Method::kPost, Role::kOperator, &Router::SetMark},
+    {"/api/v1/session", Method::kGet, Role::kViewer, &Router::Session},
+    {"/api/v1/state", Method::kGet, Role::kViewer, &Router::State},
+    {"/api/v1/model", Method::kGet, Role::kViewer, &Router::Model},
+    {"/api/v1/cameras", Method::kGet, Role::kViewer, &Router::Cameras},
+    {"/api/v1/diagnostics", Method::kGet, Role::kViewer, &Router::Diagnostics},
+    {"/api/v1/series", Method::kGet, Role::kViewer, &Router::Series},
+    {"/api/v1/hand_load", Method::kPost, Role::kOperator, &Router::SetHandLoad},
+    {"/api/v1/marks", Method::kGet, Role::kViewer, &Router::Marks},
+    {"/api/v1/mark", Method::kPost, Role::kOperator, &Router::SetMark},
 }};
 
 std::vector<Router::RouteInfo> Router::ApiRoutes() {
@@ -253,6 +260,7 @@ Answer Router::Route(const Request& request) const {
   if (auto refusal = RefuseStranger(request, *target, &admission)) return *std::move(refusal);
   const auto [access, role] = admission;
   if (auto refusal = RefuseBareCookie(request, *target, access)) return *std::move(refusal);
+  if (auto refusal = RefuseOldAddress(target->path)) return *std::move(refusal);
   const ApiRoute* const api = FindApi(target->path);
   const bool posts = api != nullptr && api->method == Method::kPost;
   if (posts ? request.method != "POST" : request.method != "GET" && request.method != "HEAD") {
@@ -287,9 +295,21 @@ std::optional<Answer> Router::RefuseWebSocket(const Request& request, Role* role
   if (auto refusal = RefuseStranger(request, *target, &admission)) return refusal;
   if (role != nullptr) *role = admission.role;
   if (target->path != kWebSocketPath) {
-    return Refuse(404, "unknown address", "the WebSocket is at /ws");
+    return Refuse(404, "unknown address", std::string("the WebSocket is at ") + kWebSocketPath);
+  }
+  if (!CanRead(request.socket_protocols)) {
+    return Refuse(400, "other protocol",
+                  "Sec-WebSocket-Protocol: " + request.socket_protocols + ": this server sends " +
+                      SocketProtocol() + "; reload the page, or use a client of this version");
   }
   return std::nullopt;
+}
+
+std::optional<Answer> Router::RefuseOldAddress(const std::string& path) const {
+  const std::string address = NewAddress(path);
+  if (address.empty()) return std::nullopt;
+  return Refuse(404, "old address",
+                path + ": the address is now " + address + "; docs/http.md has all");
 }
 
 Answer Router::RouteAdmitted(const Target& target, const Request& request) const {
@@ -299,16 +319,16 @@ Answer Router::RouteAdmitted(const Target& target, const Request& request) const
     return answer;
   }
   if (target.path == kSnapshotPath) return Snapshot(target);
-  if (StartsWith(target.path, "/api/mesh/")) return Mesh(target.path, request);
-  if (StartsWith(target.path, "/api/skin/")) return Skin(target.path, request);
-  if (StartsWith(target.path, "/api/")) {
+  if (StartsWith(target.path, "/api/v1/mesh/")) return Mesh(target.path, request);
+  if (StartsWith(target.path, "/api/v1/skin/")) return Skin(target.path, request);
+  if (StartsWith(target.path, "/api/v1/")) {
     return Refuse(404, "unknown address", "unknown route; expected one of " + ApiPaths());
   }
   return File(target.path, request);
 }
 
 Answer Router::Session(const Request& /*request*/, Role role) const {
-  return JsonAnswer(JsonText(nlohmann::json{{"role", Name(role)}}));
+  return JsonAnswer(JsonText(nlohmann::json{{"role", Name(role)}, {"socket", SocketProtocol()}}));
 }
 
 Answer Router::State(const Request& /*request*/, Role /*role*/) const {
@@ -367,9 +387,9 @@ Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
 }
 
 Answer Router::Mesh(const std::string& path, const Request& request) const {
-  const auto numbers = NumbersOf<3>(path, "/api/mesh/");
+  const auto numbers = NumbersOf<3>(path, "/api/v1/mesh/");
   if (!numbers) {
-    return Refuse(404, "unknown address", "expected /api/mesh/<person>/<revision>/<n>");
+    return Refuse(404, "unknown address", "expected /api/v1/mesh/<person>/<revision>/<n>");
   }
   const auto [person, revision, n] = *numbers;
   const std::shared_ptr<const SceneState> state = site_.states->Get();
@@ -381,8 +401,8 @@ Answer Router::Mesh(const std::string& path, const Request& request) const {
 }
 
 Answer Router::Skin(const std::string& path, const Request& request) const {
-  const auto numbers = NumbersOf<2>(path, "/api/skin/");
-  if (!numbers) return Refuse(404, "unknown address", "expected /api/skin/<person>/<revision>");
+  const auto numbers = NumbersOf<2>(path, "/api/v1/skin/");
+  if (!numbers) return Refuse(404, "unknown address", "expected /api/v1/skin/<person>/<revision>");
   const auto [person, revision] = *numbers;
   const std::shared_ptr<const SceneState> state = site_.states->Get();
   const auto model = FindModelWithSkin(state.get(), ToCharacter(person), revision);

@@ -65,7 +65,7 @@ class Router {
   /// All of them, for messages and tests.
   static std::vector<RouteInfo> ApiRoutes();
 
-  static constexpr const char* kWebSocketPath = "/ws";
+  static constexpr const char* kWebSocketPath = "/api/v1/ws";
 
  private:
   Answer RouteAdmitted(const Target& target, const Request& request) const;
@@ -80,6 +80,7 @@ class Router {
                                                       const Target& target) const;
   [[nodiscard]] std::optional<Answer> RefuseBareCookie(const Request& request, const Target& target,
                                                        Access access) const;
+  [[nodiscard]] std::optional<Answer> RefuseOldAddress(const std::string& path) const;
   [[nodiscard]] std::optional<Answer> RefuseForeignOrigin(const Request& request,
                                                           const char* what) const;
   enum class Method { kGet, kPost };  // GET: HEAD, too

@@ -65,7 +65,7 @@ class RoleOfRouteTest : public ::testing::Test {
     Request request;
     request.method = route.method;
     request.target = route.path;
-    if (route.path == "/api/series") {  // has no answer without a question
+    if (route.path == "/api/v1/series") {  // has no answer without a question
       request.target += "?person=0&keys=l5_s1&from=0&to=1000000&columns=2";
     }
     request.host = "lab.example";
@@ -106,7 +106,7 @@ TEST_F(RoleOfRouteTest, DecidesWhichRoutesOfTheTableAViewerMayUse) {
                                    HasSubstr("operator's token")));
     Request with_body = request;
     with_body.body =
-        route.path == "/api/mark" ? R"({"state": 12, "button": 1})" : R"({"right_kg": 5})";
+        route.path == "/api/v1/mark" ? R"({"state": 12, "button": 1})" : R"({"right_kg": 5})";
     EXPECT_EQ(router.Route(with_body).status, 403) << route.path;
   }
   EXPECT_GT(refused, 0);
@@ -128,14 +128,14 @@ TEST_F(RoleOfRouteTest, PermitsEveryRouteToAnOperator) {
 TEST_F(RoleOfRouteTest, IsToldToThePage) {
   const Router router = MakeRouter();
   for (const Role role : {Role::kViewer, Role::kOperator}) {
-    const Answer answer = router.Route(RequestOf({"/api/session", "GET", role}, role));
+    const Answer answer = router.Route(RequestOf({"/api/v1/session", "GET", role}, role));
     EXPECT_EQ(nlohmann::json::parse(answer.body).at("role"), Name(role));
   }
 }
 
 TEST_F(RoleOfRouteTest, StaysInTheCookieOfItsToken) {
   const Router router = MakeRouter();
-  Request request = RequestOf({"/api/session", "GET", Role::kViewer}, Role::kViewer);
+  Request request = RequestOf({"/api/v1/session", "GET", Role::kViewer}, Role::kViewer);
   request.authorization.clear();
   request.target += std::string("?token=") + kViewerToken;
   std::string cookie;
@@ -143,7 +143,7 @@ TEST_F(RoleOfRouteTest, StaysInTheCookieOfItsToken) {
     if (name == "Set-Cookie") cookie = value.substr(0, value.find(';'));
   }
   EXPECT_EQ(cookie, std::string("kinescope_80=") + kViewerToken);
-  request.target = "/api/session";
+  request.target = "/api/v1/session";
   request.cookies = cookie;
   EXPECT_EQ(nlohmann::json::parse(router.Route(request).body).at("role"), "viewer");
 }
@@ -152,7 +152,7 @@ TEST_F(RoleOfRouteTest, IsThatOfTheWebSocket) {
   const Router router = MakeRouter();
   for (const Role role : {Role::kViewer, Role::kOperator}) {
     Role found = role == Role::kViewer ? Role::kOperator : Role::kViewer;
-    EXPECT_FALSE(router.RefuseWebSocket(RequestOf({"/ws", "GET", role}, role), &found));
+    EXPECT_FALSE(router.RefuseWebSocket(RequestOf({"/api/v1/ws", "GET", role}, role), &found));
     EXPECT_EQ(found, role);
   }
 }
@@ -246,7 +246,7 @@ TEST(RoleOfClient, ComesFromTheTokenWithWhichItConnected) {
   TestServer site(kOperatorToken);
   // The answer to "ping" comes with every permitted message, and an error with another.
   const auto ask = [&](Role role, const std::string& key) {
-    WsClient client(site.server.port(), "/ws?token=" + TokenOf(role));
+    WsClient client(site.server.port(), "/api/v1/ws?token=" + TokenOf(role));
     client.Send(R"({"camera": "front", "ping": 1})");
     return client.ReceiveText(key).dump();
   };
