@@ -38,14 +38,14 @@ struct DetailsExtras {
 std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures,
                         const DetailsExtras& extras = {});
 
-/// The person's model for /api/v1/skin/<person>/<revision>. Null unless the revision is the current
+/// The person's model for /api/v1/skin/{person}/{revision}. Null unless the revision is the current
 /// one and the model has a skin.
 std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,
                                                      std::uint64_t revision);
 
-/// The STL file for /api/v1/mesh/<person>/<revision>/<n>: the n-th mesh visual of that person's
-/// model, from memory. Null unless it is one of the model's own meshes and the revision is the
-/// current one.
+/// The STL file for /api/v1/mesh/{person}/{revision}/{number}: the n-th mesh visual of that
+/// person's model, from memory. Null unless it is one of the model's own meshes and the revision is
+/// the current one.
 std::shared_ptr<const std::string> FindMesh(const SceneState* state, int character,
                                             std::uint64_t revision, std::size_t n);
 

@@ -56,9 +56,9 @@ class Router {
   [[nodiscard]] std::optional<Answer> RefuseWebSocket(const Request& request,
                                                       Role* role = nullptr) const;
 
-  /// A route under /api of a fixed address.
+  /// A route under /api.
   struct RouteInfo {
-    std::string path;
+    std::string path;    // "{...}" stands for any segment
     std::string method;  // "GET" (HEAD, too) or "POST"
     Role least;          // that may use it
   };
@@ -85,12 +85,12 @@ class Router {
                                                           const char* what) const;
   enum class Method { kGet, kPost };  // GET: HEAD, too
   struct ApiRoute {
-    const char* path;
+    const char* path;  // "{...}" stands for any segment
     Method method;
     Role least;  // a route that changes anything: kOperator
     Answer (Router::*answer)(const Request&, Role) const;
   };
-  static const std::array<ApiRoute, 9> kApiRoutes;
+  static const std::array<ApiRoute, 14> kApiRoutes;
   /// Null if there is no such route.
   static const ApiRoute* FindApi(const std::string& path);
   static std::string ApiPaths();
@@ -109,9 +109,11 @@ class Router {
   Answer Marks(const Request& request, Role role) const;
   Answer SetMark(const Request& request, Role role) const;
   [[nodiscard]] Answer RefuseMoment(std::uint64_t wanted, const SceneState* nearest) const;
-  Answer Mesh(const std::string& path, const Request& request) const;
-  Answer Skin(const std::string& path, const Request& request) const;
-  Answer Snapshot(const Target& target) const;
+  Answer Mesh(const Request& request, Role role) const;
+  Answer Skin(const Request& request, Role role) const;
+  Answer Snapshot(const Request& request, Role role) const;
+  Answer OpenApi(const Request& request, Role role) const;
+  Answer AskForUpgrade(const Request& request, Role role) const;
   Answer File(const std::string& path, const Request& request) const;
 
   Site site_;

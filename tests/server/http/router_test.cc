@@ -207,7 +207,7 @@ TEST_F(RouterTest, ListsTheKnownAddressesForAnUnknownOne) {
   expect_unknown("/API/state", "no page at this address");
   expect_unknown("/api", "no page at this address");
   expect_unknown("/lib/three/three.module.js", "npm ci --prefix web");
-  expect_unknown("/api/v1/mesh/0", "/api/v1/mesh/<person>/<revision>/<n>");
+  expect_unknown("/api/v1/mesh/0", "/api/v1/mesh/{person}/{revision}/{number}");
   EXPECT_EQ(refusals_["unknown address"], 6);
   for (const char* target :
        {"/api/v1/", "/api/v1/nothing", "/api/v1/state/", "/api/v1/hand_loads"}) {
@@ -286,7 +286,8 @@ TEST_F(RouterTest, ServesMeshesOfTheNewestModelUpToALimit) {
        {"/api/v1/mesh/0/7", "/api/v1/mesh/0/7/0/0", "/api/v1/mesh/0/7/", "/api/v1/mesh/a/7/0",
         "/api/v1/mesh/-0/7/0", "/api/v1/mesh/+0/7/0", "/api/v1/mesh/0x0/7/0",
         "/api/v1/mesh/0/7/0.0", "/api/v1/mesh/18446744073709551616/7/0"}) {
-    EXPECT_THAT(ErrorIn(Get(target)), HasSubstr("/api/v1/mesh/<person>/<revision>/<n>")) << target;
+    EXPECT_THAT(ErrorIn(Get(target)), HasSubstr("/api/v1/mesh/{person}/{revision}/{number}"))
+        << target;
   }
   fs::resize_file(meshes_ / "pelvis.stl", kLargestMesh);
   EXPECT_EQ(Get("/api/v1/mesh/0/7/0").status, 200);
