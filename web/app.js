@@ -206,7 +206,7 @@ async function loadModel(now) {
   if (now - modelAskedAt < MODEL_RETRY_MILLIS) return;
   modelAskedAt = now;
   try {
-    const newModel = await ask('api/model', readModel);
+    const newModel = await ask('api/v1/model', readModel);
     if (newModel === null) return;
     model = newModel;
     applyPalette(model.palette);
@@ -256,7 +256,7 @@ function applyLook() {
 async function loadDiagnostics() {
   if (document.hidden) return;
   try {
-    const diagnostics = await ask('api/diagnostics', readDiagnostics);
+    const diagnostics = await ask('api/v1/diagnostics', readDiagnostics);
     if (diagnostics) showProblems(problemLines(diagnostics, scene?.failedMeshes ?? []));
   } catch (error) {
     showProblems([`Could not load the diagnostics: ${messageOf(error)}`]);
@@ -283,7 +283,7 @@ function applyClassLimits([mediumFrom, highFrom]) {
 
 async function loadCameras() {
   try {
-    const answer = await ask('api/cameras', readCameras);
+    const answer = await ask('api/v1/cameras', readCameras);
     if (answer) showCameras(answer);
   } catch (error) {
     showNotice(`Could not load the cameras: ${messageOf(error)}`);

@@ -1,8 +1,8 @@
 // The page's only connection: one WebSocket for state, pictures and commands. It reconnects automatically.
 import { ServerClock } from './clock.js';
-import { readTextMessage } from './messages.js';
+import { readSession, readTextMessage } from './messages.js';
 import { messageOf, ownRejectionOf } from './server_api.js';
-import { KIND, messageKind } from './state_codec.js';
+import { KIND, messageKind, SOCKET_PROTOCOL } from './state_codec.js';
 
 const FIRST_RETRY_MILLIS = 400;
 const LAST_RETRY_MILLIS = 4000;
@@ -56,10 +56,10 @@ export class Connection {
   }
 
   #open() {
-    const url = new URL('ws', location.href);
+    const url = new URL('api/v1/ws', location.href);
     url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
     url.search = '';
-    const socket = new WebSocket(url);
+    const socket = new WebSocket(url, SOCKET_PROTOCOL);
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => this.#onOpen();
     socket.onmessage = (event) => this.#onMessage(event.data);
@@ -144,11 +144,14 @@ export class Connection {
   }
 }
 
-// A rejected WebSocket has no reason; the answer to a plain request has one.
+// A rejected WebSocket has no reason; the answers to plain requests have one.
 async function askWhyRejected() {
   try {
-    const answer = await fetch('api/cameras');
-    return answer.ok ? '' : await ownRejectionOf(answer) ?? '';
+    const answer = await fetch('api/v1/session');
+    if (!answer.ok) return await ownRejectionOf(answer) ?? '';
+    const { socket } = readSession(await answer.json(), 'api/v1/session');
+    return socket === SOCKET_PROTOCOL ? ''
+      : `the server sends ${socket} and this page reads ${SOCKET_PROTOCOL}; reload the page`;
   } catch {
     return '';  // no server reachable
   }

@@ -73,6 +73,6 @@ function showPeople(list, people) {
 
 /** @param {number} person
  *  @param {HandLoad} load */
-const sendHandLoad = (person, load) => request('api/hand_load', {
+const sendHandLoad = (person, load) => request('api/v1/hand_load', {
   method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ person, ...load }),
 });

@@ -57,7 +57,7 @@ export class Marks {
     this.#retryAt = now + RETRY_MILLIS;
     try {
       for (let isComplete = false; !isComplete;) {
-        const answer = await ask(`api/marks?after=${Math.max(0, this.#revision)}`, readMarks);
+        const answer = await ask(`api/v1/marks?after=${Math.max(0, this.#revision)}`, readMarks);
         if (answer === null) return;
         if (answer.run_micros !== this.#runMicros && this.#runMicros !== 0) {
           this.#forget(answer.run_micros);  // another server: its revisions count from the beginning
@@ -104,8 +104,8 @@ export class Marks {
   /** @param {object} order
    *  @returns {Promise<Mark>} */
   async #send(order) {
-    const answer = await request('api/mark', { method: 'POST', headers: HEADERS, body: JSON.stringify(order) });
-    const mark = readMark(await answer.json(), 'api/mark');
+    const answer = await request('api/v1/mark', { method: 'POST', headers: HEADERS, body: JSON.stringify(order) });
+    const mark = readMark(await answer.json(), 'api/v1/mark');
     this.#put(mark);
     this.changed();
     return mark;

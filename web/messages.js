@@ -156,7 +156,7 @@ export function readTextMessage(text) {
   return null;
 }
 
-// /api/marks and /api/mark
+// /api/v1/marks and /api/v1/mark
 const readMoment = object({ state: number, micros: number, stamp_micros: number, time_code_millis: number, counter: number });
 export const readMark = object({
   id: number, revision: number, run_micros: number, button: number, text: string, role: string, at: readMoment,
@@ -165,7 +165,7 @@ export const readMark = object({
 export const readMarks = object({ names: listOf(string), run_micros: number, revision: number, marks: listOf(readMark) });
 /** @typedef {ReturnType<typeof readMark>} Mark */
 
-// /api/alarms and the message "alarms"
+// /api/v1/alarms and the message "alarms"
 /** From the highest. */
 export const PRIORITIES = /** @type {const} */ (['high', 'medium', 'low']);
 const readAlarmMoment = object({ state: number, micros: number, stamp_micros: number });
@@ -184,7 +184,7 @@ export const readAlarmLog = object({ alarms: listOf(readAlarm) });
  *  @typedef {ReturnType<typeof readShownAlarms>} ShownAlarms  those that are on or wait for being acknowledged; how many
  *    there are; the one that began last */
 
-// /api/model
+// /api/v1/model
 const readVisual = object({
   kind: oneOf(['box', 'cylinder', 'sphere', 'mesh']), size: numbers(3), position: numbers(3),
   quaternion: numbers(4), rgba: orNull(numbers(4)), mesh: optional(string),
@@ -216,14 +216,14 @@ export const readModel = object({
  *  @typedef {ReturnType<typeof readLook>} Look
  *  @typedef {ReturnType<typeof readModel>} Model */
 
-// /api/series
+// /api/v1/series
 const readColumns = listOf(numberOrNull);
 export const readSeries = object({
   samples: numbers(), keys: recordOf(object({ min: readColumns, max: readColumns, last: readColumns })),
 });
 /** @typedef {ReturnType<typeof readSeries>} SeriesAnswer */
 
-// /api/cameras
+// /api/v1/cameras
 const readCameraView = object({
   name: string, position: numbers(3), target: numbers(3), up: numbers(3), vertical_fov_rad: number,
 });
@@ -236,12 +236,15 @@ export const readCameras = object({ cameras: listOf(readCameraView), framing: re
  *  @typedef {ReturnType<typeof readFraming>} Framing  of several people and of narrow views; docs/http.md
  *  @typedef {ReturnType<typeof readCameras>} Cameras */
 
-/** /api/diagnostics: parts of the server that are not running are absent or null. */
+/** /api/v1/diagnostics: parts of the server that are not running are absent or null. */
 export const readDiagnostics = object({
   pictures: optional(orNull(object({ problems: optional(listOf(string)), last_error: optional(string) }))),
   source: optional(object({ left_out: optional(listOf(readLeftOut)) })),
 });
 /** @typedef {ReturnType<typeof readDiagnostics>} Diagnostics */
+
+/** /api/v1/session: what this client may do, and the subprotocol of the WebSocket. */
+export const readSession = object({ role: oneOf(/** @type {const} */ (['viewer', 'operator'])), socket: string });
 
 /** The answer to any rejected request. */
 export const readRejection = object({ error: string });

@@ -117,7 +117,7 @@ export class PicturePanel {
       const query = new URLSearchParams({
         camera: camera.value, width: String(SAVED_SIZE.width), height: String(SAVED_SIZE.height),
       });
-      const answer = await request(`snapshot.png?${query}`);
+      const answer = await request(`api/v1/snapshot.png?${query}`);
       const link = document.createElement('a');
       link.href = URL.createObjectURL(await answer.blob());
       link.download = `kinescope_${camera.value}_${new Date().toISOString().replace(/[:.]/g, '-')}.png`;

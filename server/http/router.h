@@ -57,16 +57,16 @@ class Router {
   [[nodiscard]] std::optional<Answer> RefuseWebSocket(const Request& request,
                                                       Role* role = nullptr) const;
 
-  /// A route under /api of a fixed address.
+  /// A route under /api.
   struct RouteInfo {
-    std::string path;
+    std::string path;    // "{...}" stands for any segment
     std::string method;  // "GET" (HEAD, too) or "POST"
     Role least;          // that may use it
   };
   /// All of them, for messages and tests.
   static std::vector<RouteInfo> ApiRoutes();
 
-  static constexpr const char* kWebSocketPath = "/ws";
+  static constexpr const char* kWebSocketPath = "/api/v1/ws";
 
  private:
   Answer RouteAdmitted(const Target& target, const Request& request) const;
@@ -81,16 +81,17 @@ class Router {
                                                       const Target& target) const;
   [[nodiscard]] std::optional<Answer> RefuseBareCookie(const Request& request, const Target& target,
                                                        Access access) const;
+  [[nodiscard]] std::optional<Answer> RefuseOldAddress(const std::string& path) const;
   [[nodiscard]] std::optional<Answer> RefuseForeignOrigin(const Request& request,
                                                           const char* what) const;
   enum class Method { kGet, kPost };  // GET: HEAD, too
   struct ApiRoute {
-    const char* path;
+    const char* path;  // "{...}" stands for any segment
     Method method;
     Role least;  // a route that changes anything: kOperator
     Answer (Router::*answer)(const Request&, Role) const;
   };
-  static const std::array<ApiRoute, 11> kApiRoutes;
+  static const std::array<ApiRoute, 16> kApiRoutes;
   /// Null if there is no such route.
   static const ApiRoute* FindApi(const std::string& path);
   static std::string ApiPaths();
@@ -112,9 +113,12 @@ class Router {
   // router_alarms.cc
   Answer Alarms(const Request& request, Role role) const;
   Answer Acknowledge(const Request& request, Role role) const;
-  Answer Mesh(const std::string& path, const Request& request) const;
-  Answer Skin(const std::string& path, const Request& request) const;
-  Answer Snapshot(const Target& target) const;
+  // router.cc
+  Answer Mesh(const Request& request, Role role) const;
+  Answer Skin(const Request& request, Role role) const;
+  Answer Snapshot(const Request& request, Role role) const;
+  Answer OpenApi(const Request& request, Role role) const;
+  Answer AskForUpgrade(const Request& request, Role role) const;
   Answer File(const std::string& path, const Request& request) const;
 
   Site site_;

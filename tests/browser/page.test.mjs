@@ -95,7 +95,7 @@ test('the highest loads are listed first, as words and numbers', async () => {
 
 test('the class colours equal the palette of the server', async () => {
   const { page, close } = await openLive();
-  const { palette } = await page.evaluate(() => fetch('api/model').then((answer) => answer.json()));
+  const { palette } = await page.evaluate(() => fetch('api/v1/model').then((answer) => answer.json()));
   for (const { name, color } of palette.classes) {
     const shown = await page.evaluate((n) => getComputedStyle(document.documentElement).getPropertyValue(`--class-${n}`), name);
     const hex = `#${color.map((v) => Math.round(255 * v).toString(16).padStart(2, '0')).join('')}`;
@@ -106,7 +106,7 @@ test('the class colours equal the palette of the server', async () => {
 
 test('bars and legend show the class limits of the server', async () => {
   const { page, close } = await openLive({
-    beforeLoad: (fresh) => fresh.route('**/api/model', async (request) => {
+    beforeLoad: (fresh) => fresh.route('**/api/v1/model', async (request) => {
       const answer = await request.fetch();
       await request.fulfill({ response: answer, json: { ...await answer.json(), class_limits: [0.15, 0.4] } });
     }),
@@ -212,7 +212,7 @@ test('a hand load is set and shown, and rejected if it is impossible', async () 
   await page.fill('#hand-kg', '0');
   await page.click('#hand-load button');
   await page.waitForFunction(() => !document.getElementById('loads-hint').textContent.includes('right'), null, LONG);
-  assert.ok(problems.every((line) => /400|api\/hand_load/.test(line)), problems.join());
+  assert.ok(problems.every((line) => /400|api\/v1\/hand_load/.test(line)), problems.join());
   await close();
 });
 
@@ -233,7 +233,7 @@ test('the server picture is shown on request and saved at full size', async () =
   await image.waitFor({ state: 'visible', ...LONG });
   await page.waitForFunction(() => document.getElementById('picture-image').naturalWidth === 640, null, LONG);
   await page.selectOption('#picture-camera', 'iso');
-  await page.waitForFunction(() => fetch('api/cameras').then((a) => a.json()).then(({ live }) => live === 'iso'), null, LONG);
+  await page.waitForFunction(() => fetch('api/v1/cameras').then((a) => a.json()).then(({ live }) => live === 'iso'), null, LONG);
   const waiting = page.waitForEvent('download', LONG);
   await page.click('#save-picture');
   const download = await waiting;
@@ -272,7 +272,7 @@ test('an HTML answer of a proxy is reported, and the rest of the page works', as
   const { page, problems, close } = await openLive({
     beforeLoad: async (fresh) => {
       for (const route of ['diagnostics', 'cameras']) {
-        await fresh.route(`**/api/${route}`, (request) => request.fulfill({ contentType: 'text/html', body: '<h1>Hi</h1>' }));
+        await fresh.route(`**/api/v1/${route}`, (request) => request.fulfill({ contentType: 'text/html', body: '<h1>Hi</h1>' }));
       }
     },
   });
@@ -293,7 +293,7 @@ test('the page requires a token and removes it from the address', async () => {
   assert.equal(new URL(page.url()).search, '');
   // A request that the reload cuts short counts as failed.
   await page.waitForFunction(() => performance.getEntriesByType('resource')
-    .some(({ name, responseEnd }) => name.endsWith('/api/model') && responseEnd > 0), null, LONG);
+    .some(({ name, responseEnd }) => name.endsWith('/api/v1/model') && responseEnd > 0), null, LONG);
   await page.reload();
   await statusIs(page, 'Live');
   assert.deepEqual(problems, []);
@@ -314,7 +314,7 @@ function boxStl([x, y, z]) {
 async function linksOf(url) {
   const until = Date.now() + LONG.timeout;
   while (Date.now() < until) {
-    const { people } = await fetch(`${url}api/model`).then((answer) => answer.json());
+    const { people } = await fetch(`${url}api/v1/model`).then((answer) => answer.json());
     if (people.length > 0) return people[0].links;
   }
   assert.fail('nobody came');
@@ -333,7 +333,7 @@ test('a body of mesh files is shown, and missing files are counted', async () =>
   const isBody = (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) < 30 && g > 90 && g < 215;
   await seePixels(page, 'body', isBody, 2000);
   assert.equal(missing, 'pelvis');
-  assert.ok(problems.length > 0 && problems.every((line) => /404|api\/mesh\/0\/1\/0$/.test(line)), problems.join());
+  assert.ok(problems.length > 0 && problems.every((line) => /404|api\/v1\/mesh\/0\/1\/0$/.test(line)), problems.join());
   await close();
   await meshed.stop();
   await rm(folder, { recursive: true });
@@ -373,7 +373,7 @@ test('the page shows gloves and props and names problems of the server picture',
   const until = Date.now() + LONG.timeout;
   while (await aboveLoads(page) < 400) assert.ok(Date.now() < until, 'no props above the loads');
   await page.waitForFunction(() => performance.getEntriesByType('resource')
-    .filter(({ name }) => name.includes('/api/mesh/')).length === 61, null, LONG);
+    .filter(({ name }) => name.includes('/api/v1/mesh/')).length === 61, null, LONG);
   await page.locator('#diagnostics').waitFor({ state: 'visible', ...LONG });
   assert.deepEqual(await page.$$eval('#problems li', (all) => all.map((line) => line.textContent)),
     ['Missing or replaced in the server picture: mesh package://arm/hand.stl: package <b>arm</b> is not found']);

@@ -106,6 +106,7 @@ void Server::StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode)
   config.initial_urdf = model->urdf_xml;
   config.initial_meshes = model->mesh_files;
   ros_ = ros_bridge::MakeRosBridge(config, mode);
+  if (ros_) ros_news_ = std::make_unique<RosNews>(*ros_, alarms_, marks_.get(), states_);
 }
 
 void Server::StartPictures(const ServeConfig& config) {
@@ -157,6 +158,7 @@ void Server::OnState(const std::shared_ptr<SceneState>& state) {
 void Server::OnAlarm(const alarms::Alarm& alarm, alarms::Change change) const {
   spdlog::info("alarm {} {}: {}", alarm.rule.name, Name(change), Describe(alarm));
   if (webhook_) webhook_->Send(alarms::NewsJson(alarm, change));
+  if (ros_news_) ros_news_->OnAlarm();
 }
 
 std::string Server::Diagnostics() const {
@@ -166,9 +168,12 @@ std::string Server::Diagnostics() const {
 }
 
 void Server::Run() {
-  InputMerger inputs(builder_, overload_, hand_loads_, ros_.get(), [this](int count) {
-    if (ros_camera_) ros_camera_->SetSubscribers(count);
-  });
+  InputMerger inputs(
+      builder_, overload_, hand_loads_, ros_.get(),
+      [this](int count) {
+        if (ros_camera_) ros_camera_->SetSubscribers(count);
+      },
+      [this](const std::string& text) { ros_news_->OnMark(text); });
   while (!StopRequested()) {
     const Source::State state = source_->Poll(kPollTimeout, inputs);
     inputs.TakeInputs();
@@ -202,6 +207,7 @@ void Server::UpdatePlayback(bool has_ended) {
 void Server::OnTime(std::int64_t now_nanos) {
   builder_.Tick(now_nanos);
   alarms_.OnTime(now_nanos, stream_meter_.health().recent_loss);
+  if (ros_news_) ros_news_->OnTime(now_nanos, stream_meter_.health());
   if (now_nanos < counters_due_nanos_) return;
   counters_due_nanos_ = now_nanos + kCountersPeriodNanos;
   const auto counters = std::make_shared<const SourceCounters>(source_->counters());

@@ -20,6 +20,7 @@
 #include "server/app/serve/missing_pose_warning.h"
 #include "server/app/serve/overload.h"
 #include "server/app/serve/ros_camera_loop.h"
+#include "server/app/serve/ros_news.h"
 #include "server/app/serve/serve_config.h"
 #include "server/app/serve/stream_health.h"
 #include "server/history/history.h"
@@ -82,6 +83,7 @@ class Server {
   // Outputs, null if off; each uses only members above it.
   std::unique_ptr<LivePictures> live_pictures_;
   std::unique_ptr<ros_bridge::RosBridge> ros_;
+  std::unique_ptr<RosNews> ros_news_;  // with ros_
   std::unique_ptr<RosCameraLoop> ros_camera_;
   std::optional<http::HttpServer> page_;
 };

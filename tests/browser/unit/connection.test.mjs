@@ -9,13 +9,13 @@ class FakeSocket {
   static newest = null;
   readyState = FakeSocket.OPEN;
   sent = [];
-  constructor() { FakeSocket.newest = this; }
+  constructor(url, protocol) { Object.assign(this, { url, protocol }); FakeSocket.newest = this; }
   send(text) { this.sent.push(JSON.parse(text)); }
   close() { this.onclose(); }
   receive(data) { this.onmessage({ data }); }
 }
 
-const real = { WebSocket: globalThis.WebSocket, location: globalThis.location };
+const real = { WebSocket: globalThis.WebSocket, location: globalThis.location, fetch: globalThis.fetch };
 beforeEach(() => { Object.assign(globalThis, { WebSocket: FakeSocket, location: { href: 'http://localhost:8080/' } }); });
 afterEach(() => { Object.assign(globalThis, real); });
 
@@ -54,5 +54,23 @@ test('a pong sets the clock', (t) => {
   const { ping } = socket.sent.find((message) => 'ping' in message);
   socket.receive(JSON.stringify({ pong: ping, server_micros: 1000 * (ping + 5000) }));
   assert.ok(Math.abs(connection.clock.offset - 5000) < 1000, `${connection.clock.offset} ms`);
+  connection.close();
+});
+
+test('the WebSocket offers the version that the page reads, and a server of another one is named', async (t) => {
+  holdTimers(t, ['setTimeout']);
+  const { socket, connection } = open();
+  assert.equal(`${socket.url}`, 'ws://localhost:8080/api/v1/ws');
+  assert.equal(socket.protocol, 'kinescope.v4');
+  const rejectionBy = async (answer) => {
+    globalThis.fetch = async () => answer;
+    await FakeSocket.newest.onclose();
+    return connection.rejection;
+  };
+  const session = (name) => Response.json({ role: 'viewer', socket: name });
+  assert.equal(await rejectionBy(session('kinescope.v5')),
+    'the server sends kinescope.v5 and this page reads kinescope.v4; reload the page');
+  assert.equal(await rejectionBy(session('kinescope.v4')), '', 'not the version: it tries again');
+  assert.equal(await rejectionBy(Response.json({ error: 'token missing' }, { status: 401 })), 'token missing');
   connection.close();
 });

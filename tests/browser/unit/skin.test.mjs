@@ -72,7 +72,7 @@ test('a skin takes at most 600 kB, is as tall as a person, and its weights are w
 test('a truncated or altered skin is rejected', () => {
   const [whole] = buffers;
   for (const size of [0, 3, 4, 100, 5000, whole.byteLength - 1]) {
-    assert.throws(() => readSkin(whole.slice(0, size), 'api/skin/0/1'), /api\/skin\/0\/1.*reload the page/, `${size} bytes`);
+    assert.throws(() => readSkin(whole.slice(0, size), 'api/v1/skin/0/1'), /api\/v1\/skin\/0\/1.*reload the page/, `${size} bytes`);
   }
   const header = new DataView(whole).getUint32(0, true);
   const altered = (at, value) => {
