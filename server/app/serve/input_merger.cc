@@ -49,6 +49,10 @@ void InputMerger::OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>
   builder_.SetMarkers(markers);
 }
 
+void InputMerger::OnMark(const std::string& text) {
+  if (on_mark_) on_mark_(text);
+}
+
 void InputMerger::OnViewListeners(int count) {
   if (on_subscribers_) on_subscribers_(count);
 }
