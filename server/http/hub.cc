@@ -55,6 +55,7 @@ bool Hub::Join(HubClient& client) {
   client.Offer(Slot::kDetails, EncodeDetails());
   client.Offer(Slot::kState, EncodeNewestState());
   if (stream_ != nullptr) client.Offer(Slot::kStream, stream_);
+  if (controls_ != nullptr) client.Offer(Slot::kControls, controls_);
   return true;
 }
 
@@ -100,12 +101,20 @@ void Hub::Tick(Clock::time_point now) {
 }
 
 void Hub::SendStream(const std::string& health) {
-  if (health.empty()) return;
-  const std::string text = R"({"stream":)" + health + "}";
+  if (!health.empty()) SendChanged(Slot::kStream, "stream", health, stream_);
+}
+
+void Hub::SendControls(const std::string& status) {
+  SendChanged(Slot::kControls, "controls", status, controls_);
+}
+
+// `value`: JSON. `last`: as it was sent before.
+void Hub::SendChanged(Slot slot, const char* name, const std::string& value, SharedBytes& last) {
+  const std::string text = "{\"" + std::string(name) + "\":" + value + "}";
   Bytes message(text.begin(), text.end());
-  if (stream_ != nullptr && *stream_ == message) return;
-  stream_ = Share(std::move(message));
-  for (HubClient* const client : clients_) client->Offer(Slot::kStream, stream_);
+  if (last != nullptr && *last == message) return;
+  last = Share(std::move(message));
+  for (HubClient* const client : clients_) client->Offer(slot, last);
 }
 
 void Hub::OnMessage(HubClient& client, std::string_view text) {
@@ -134,7 +143,8 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
 
 void Hub::SelectCamera(HubClient& client, const std::string& camera) {
   if (feed_ != nullptr && feed_->SetCamera(camera)) {
-    camera_ = camera;
+    const std::string before = std::exchange(camera_, camera);
+    if (on_camera_ && before != camera) on_camera_(before, camera, client.role());
     return;
   }
   ++counters_.rejected[feed_ == nullptr ? "no renderer" : "unknown camera"];

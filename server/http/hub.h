@@ -24,8 +24,8 @@ namespace kinescope::http {
 
 /// Messages that wait for sending: one place per slot, so that a newer message replaces the older
 /// one.
-enum class Slot { kError, kPong, kDetails, kStream, kState, kPast, kPicture };
-inline constexpr int kSlotCount = 7;
+enum class Slot { kError, kPong, kDetails, kStream, kControls, kState, kPast, kPicture };
+inline constexpr int kSlotCount = 8;
 constexpr bool IsBinary(Slot slot) { return slot >= Slot::kState; }
 
 class HubClient {
@@ -73,6 +73,13 @@ class Hub {
   /// Sends the health of the stream, a JSON object, to all clients if it has changed, and to those
   /// who join later. "": not known yet.
   void SendStream(const std::string& health);
+  /// The same with the state of the controls.
+  void SendControls(const std::string& status);
+
+  /// `on_camera` is called when a client has changed the camera of the live picture.
+  using OnCamera =
+      std::function<void(const std::string& before, const std::string& after, Role role)>;
+  void SetOnCamera(OnCamera on_camera) { on_camera_ = std::move(on_camera); }
 
   /// Processes a message of `client`. Answers are sent to this client, a change of camera to all. A
   /// message with a command that the client's role does not permit has no effect.
@@ -92,6 +99,7 @@ class Hub {
   [[nodiscard]] StateMoment Moment() const;
   void SetPictures(HubClient& client, bool wanted);
   [[nodiscard]] int CountOf(const std::string& address) const;
+  void SendChanged(Slot slot, const char* name, const std::string& value, SharedBytes& last);
   void CountViewers();  // call after a client has changed whether it wants pictures
   SharedBytes EncodeNewestState() const;
   SharedBytes EncodeDetails() const;
@@ -105,11 +113,13 @@ class Hub {
   Counters& counters_;
   const GetPlayback playback_;
   const marks::MarkBook* const marks_;
+  OnCamera on_camera_;  // may be null
   std::set<HubClient*> clients_;
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_
   SharedBytes details_;               // as last sent to all clients
   SharedBytes stream_;                // as last sent to all clients; null before the first
+  SharedBytes controls_;              // as last sent to all clients; null before the first
   SharedBytes picture_;               // as last sent to all viewers; null without any
   Clock::time_point state_sent_at_{};
 };

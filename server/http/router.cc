@@ -209,7 +209,7 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
 }
 
 // A new route: a line here, and one in docs/http.md.
-const std::array<Router::ApiRoute, 9> Router::kApiRoutes = {{
+const std::array<Router::ApiRoute, 16> Router::kApiRoutes = {{
     {"/api/session", Method::kGet, Role::kViewer, &Router::Session},
     {"/api/state", Method::kGet, Role::kViewer, &Router::State},
     {"/api/model", Method::kGet, Role::kViewer, &Router::Model},
@@ -219,6 +219,13 @@ const std::array<Router::ApiRoute, 9> Router::kApiRoutes = {{
     {"/api/hand_load", Method::kPost, Role::kOperator, &Router::SetHandLoad},
     {"/api/marks", Method::kGet, Role::kViewer, &Router::Marks},
     {"/api/mark", Method::kPost, Role::kOperator, &Router::SetMark},
+    {"/api/controls", Method::kGet, Role::kViewer, &Router::ControlStatus},
+    {"/api/files", Method::kGet, Role::kViewer, &Router::Files},
+    {"/api/recording", Method::kPost, Role::kOperator, &Router::Record},
+    {"/api/clip", Method::kPost, Role::kOperator, &Router::Clip},
+    {"/api/person", Method::kPost, Role::kOperator, &Router::SetPerson},
+    {"/api/class_limits", Method::kPost, Role::kOperator, &Router::SetClassLimits},
+    {"/api/trial", Method::kPost, Role::kOperator, &Router::RunTrial},
 }};
 
 std::vector<Router::RouteInfo> Router::ApiRoutes() {
@@ -266,7 +273,7 @@ Answer Router::Route(const Request& request) const {
                   WhyNotPermitted(request.method + " " + target->path, role));
   }
   Answer answer =
-      api != nullptr ? (this->*api->answer)(request, role) : RouteAdmitted(*target, request);
+      api != nullptr ? (this->*api->answer)(request, role) : RouteAdmitted(*target, request, role);
   answer.to_token_holder = access != Access::kOpen;
   if (access == Access::kByQuery && !posts) {
     // A client that forges this header only spoils its own cookie, so that any proxy may set it.
@@ -292,7 +299,7 @@ std::optional<Answer> Router::RefuseWebSocket(const Request& request, Role* role
   return std::nullopt;
 }
 
-Answer Router::RouteAdmitted(const Target& target, const Request& request) const {
+Answer Router::RouteAdmitted(const Target& target, const Request& request, Role role) const {
   if (target.path == kWebSocketPath) {
     Answer answer = Refuse(426, "no upgrade", "this route accepts WebSocket connections only");
     answer.headers.emplace_back("Upgrade", "websocket");
@@ -301,6 +308,7 @@ Answer Router::RouteAdmitted(const Target& target, const Request& request) const
   if (target.path == kSnapshotPath) return Snapshot(target);
   if (StartsWith(target.path, "/api/mesh/")) return Mesh(target.path, request);
   if (StartsWith(target.path, "/api/skin/")) return Skin(target.path, request);
+  if (StartsWith(target.path, kFilePath)) return Download(target.path, request, role);
   if (StartsWith(target.path, "/api/")) {
     return Refuse(404, "unknown address", "unknown route; expected one of " + ApiPaths());
   }
@@ -337,7 +345,7 @@ std::optional<Answer> Router::RefuseUnlessJson(const Request& request, const cha
   return Refuse(415, "bad content type", "expected Content-Type: application/json");
 }
 
-Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
+Answer Router::SetHandLoad(const Request& request, Role role) const {
   if (auto refusal = RefuseUnlessJson(request, "set hand loads")) return *std::move(refusal);
   if (!site_.set_hand_load)
     return Refuse(503, "no hand loads", "this server does not accept hand loads");
@@ -360,6 +368,7 @@ Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
   }
   const std::string wrong = site_.set_hand_load(character, order->load);
   if (!wrong.empty()) return Refuse(400, "bad hand load", wrong);
+  if (site_.controls != nullptr) site_.controls->OnHandLoad(character, order->load, role);
   return JsonAnswer(JsonText(nlohmann::json{{"person", character},
                                             {"right_kg", order->load.mass_kg[urdf::kRight]},
                                             {"left_kg", order->load.mass_kg[urdf::kLeft]},

@@ -18,6 +18,7 @@
 #include "core/scene_state.h"
 #include "core/system/latest.h"
 #include "server/history/history.h"
+#include "server/http/controls.h"
 #include "server/http/role.h"
 #include "server/marks/mark_book.h"
 #include "urdf/skin/skin_template.h"
@@ -110,6 +111,8 @@ struct HttpConfig {
   std::function<std::shared_ptr<const Playback>()> playback;
   /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.
   marks::MarkBook* marks = nullptr;
+  /// What operators do; borrowed. Null: the page has no controls.
+  Controls* controls = nullptr;
   /// The health of the stream as a JSON object, for the message "stream"; "": not known yet. Called
   /// on the server's thread while clients are connected, must return at once. May be null.
   std::function<std::string()> stream;

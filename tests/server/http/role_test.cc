@@ -15,6 +15,7 @@
 #include "server/http/hub.h"
 #include "server/http/router.h"
 #include "server/marks/mark_book.h"
+#include "tests/server/http/fake_controls.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/server/http/test_server.h"
 #include "tests/temp_folder.h"
@@ -51,6 +52,7 @@ class RoleOfRouteTest : public ::testing::Test {
     site.states = &states_;
     site.history = &history_;
     site.marks = &marks_;
+    site.controls = &controls_;
     site.set_hand_load = [this](int, const HandLoad&) {
       ++changes_;
       return std::string();
@@ -79,6 +81,7 @@ class RoleOfRouteTest : public ::testing::Test {
   Latest<SceneState> states_;
   history::History history_;
   marks::MarkBook marks_{{web_ / "marks.jsonl", {"lift"}}};
+  FakeControls controls_;
   int changes_ = 0;
   std::map<std::string, int> refusals_;
 };
@@ -111,6 +114,7 @@ TEST_F(RoleOfRouteTest, DecidesWhichRoutesOfTheTableAViewerMayUse) {
   }
   EXPECT_GT(refused, 0);
   EXPECT_EQ(changes_, 0);
+  EXPECT_THAT(controls_.orders(), IsEmpty());
   EXPECT_EQ(marks_.revision(), 0U);
   EXPECT_EQ(refusals_["not an operator"], 2 * refused);
 }
