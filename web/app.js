@@ -66,6 +66,7 @@ const connection = new Connection({
   onError: showNotice,
   onOpen() {
     picture.ask();
+    controls.forget();
     loadRole().then(() => controls.setViewer(elements.role.dataset.role === 'viewer'));
     loadCameras();
   },

@@ -32,8 +32,11 @@ export const readControls = object({
   people: listOf(readPerson), class_limits: object({ value: listOf(number, 2), from: readOrigin }), files_revision: number,
 });
 export const readFiles = object({
-  revision: number, files: listOf(object({ name: string, bytes: number, modified_micros: number })), trials: listOf(readTrial),
+  revision: number, run_micros: number, trials: listOf(readTrial),
+  files: listOf(object({ name: string, bytes: number, modified_micros: number })),
 });
+/** The answer to an order to make clip and report. */
+export const readMade = object({ refused: listOf(string) });
 /** @typedef {ReturnType<typeof readTrial>} Trial
  *  @typedef {ReturnType<typeof readJob>} Job
  *  @typedef {(typeof ORIGINS)[number]} Origin  where a value comes from

@@ -1,4 +1,5 @@
 // The trials of a study: person, condition and number, Start and Stop, and the list, with clip and report by a click.
+import { readMade } from './control_messages.js';
 import { nextNumber, trialTitle } from './control_texts.js';
 import { place } from './format.js';
 
@@ -16,13 +17,16 @@ export class ControlTrials {
   #running = null;
   /** @type {Trial[]} */
   #trials = [];
+  #runMicros = 0;  // of the server's start: the moments of its trials may still be kept
   #isNumberTyped = false;
   #drawn = '';
 
   /** @param {Parts} parts
    *  @param {SendOrder} order
-   *  @param {(name: string, text: string) => Node} link  to a file */
-  constructor(parts, order, link) {
+   *  @param {(name: string, text: string) => Node} link  to a file
+   *  @param {(text: string) => void} notice */
+  constructor(parts, order, link, notice) {
+    this.notice = notice;
     this.parts = parts;
     this.order = order;
     this.link = link;
@@ -66,7 +70,10 @@ export class ControlTrials {
   show(state, files) {
     const { parts } = this;
     this.#running = state.trial;
-    if (files) this.#trials = files.trials;
+    if (files) {
+      this.#trials = files.trials;
+      this.#runMicros = files.run_micros;
+    }
     parts.run.textContent = state.trial ? 'Stop' : 'Start';
     parts.run.dataset.act = state.trial ? 'stop' : 'start';
     for (const field of [parts.person, parts.condition, parts.number]) field.disabled = state.trial !== null;
@@ -84,6 +91,16 @@ export class ControlTrials {
     this.#drawn = drawn;
     const ended = this.#trials.filter(({ trial }) => trial !== state.trial?.trial);
     parts.list.replaceChildren(...ended.slice(-MOST_LISTED).reverse().map((trial) => this.#entry(trial, names, state)));
+  }
+
+  /** @param {Trial} trial
+   *  @param {boolean} clip  whether there may be one */
+  async #make({ trial, has_recording: report }, clip) {
+    const answer = await this.order('api/trial', { trial, ...clip && { clip }, ...report && { report } }, 'make clip and report');
+    if (answer === null) return false;
+    const { refused } = readMade(answer, 'api/trial');
+    if (refused.length > 0) this.notice(`Not all was made: ${refused.join('; ')}`);
+    return true;
   }
 
   /** @param {Trial} trial
@@ -106,11 +123,11 @@ export class ControlTrials {
       && (file === `${trial.trial}.mp4` || file === `${trial.trial}.html`));
     make.type = 'button';
     make.textContent = isMaking ? 'Making …' : 'Clip and report';
-    make.disabled = isMaking || trial.to_micros === null;
+    const clip = state.clips.why_not === '' && trial.to_micros !== null && trial.run_micros === this.#runMicros;
+    make.disabled = isMaking || (!clip && !trial.has_recording);
     make.addEventListener('click', () => {
       make.disabled = true;
-      this.order('api/trial', { trial: trial.trial, clip: state.clips.why_not === '', report: trial.has_recording },
-        'make clip and report').then((answer) => { if (answer === null) make.disabled = false; });
+      this.#make(trial, clip).then((isOrdered) => { make.disabled = isOrdered; });
     });
     item.append(title, make, problem, files);
     return item;

@@ -29,7 +29,7 @@ export class Controls {
     this.trials = new ControlTrials({
       form: elements['trial-form'], person: elements['trial-person'], condition: elements['trial-condition'],
       number: elements['trial-number'], run: elements['trial-run'], note: elements['trial-note'], list: elements['trial-list'],
-    }, order, link);
+    }, order, link, notice);
     this.parts = [
       mountRecording({
         form: elements['recording-form'], label: elements['recording-label'], run: elements['recording-run'],
@@ -55,6 +55,11 @@ export class Controls {
   /** @param {boolean} isViewer  who may not download */
   setViewer(isViewer) {
     this.#isViewer = isViewer;
+  }
+
+  /** After a connection: perhaps another server. */
+  forget() {
+    this.#files = null;
   }
 
   /** @param {unknown} message  "controls" of the WebSocket */

@@ -27,10 +27,17 @@ std::string Text(const json& object, const char* name) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
+// In ns; 0 for what no clock shows, so that differences are numbers.
+std::int64_t NanosOf(const json& object, const char* name) {
+  constexpr std::int64_t kMostMicros = 4'000'000'000'000'000;  // 126 years
+  const std::int64_t micros = Whole(object, name);
+  return micros >= 0 && micros <= kMostMicros ? 1000 * micros : 0;
+}
+
 TrialMoment MomentOf(const json& object) {
   if (!object.is_object()) return {};
-  return {static_cast<std::uint64_t>(Whole(object, "state")), 1000 * Whole(object, "micros"),
-          1000 * Whole(object, "stamp_micros")};
+  return {static_cast<std::uint64_t>(Whole(object, "state")), NanosOf(object, "micros"),
+          NanosOf(object, "stamp_micros")};
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <utility>
+#include <vector>
 
 #include "core/system/clocks.h"
 #include "core/system/json_text.h"
@@ -21,10 +22,6 @@ using nlohmann::json;
 constexpr std::int64_t kStatusEvery = kNanosPerSecond / 2;
 constexpr std::size_t kMostFiles = 1000;                   // listed
 constexpr double kShortestClip = 0.1, kLongestClip = 600;  // s
-
-tl::unexpected<ControlRefusal> Refuse(int status, std::string reason) {
-  return tl::unexpected(ControlRefusal{status, std::move(reason)});
-}
 
 std::string Kilograms(double mass) { return fmt::format("{:g} kg", mass); }
 
@@ -57,10 +54,6 @@ const PersonState* FindPerson(const SceneState* state, int character) {
   return nullptr;
 }
 
-recording::TrialMoment ToTrialMoment(const marks::Moment& moment) {
-  return {moment.state, moment.made_nanos, moment.stamp_nanos};
-}
-
 // --hand_load; without the places of loads that are not at the grip.
 std::string HandLoadOption(const HandLoad& load) {
   std::string text;
@@ -84,12 +77,6 @@ ControlDesk::ControlDesk(DeskParts parts)
 
 ControlDesk::~ControlDesk() {
   if (running_) StopTrial();
-}
-
-std::string ControlDesk::WhyNoTrial() const {
-  return parts_.history == nullptr
-             ? "no trials: this server keeps no former states (--history_minutes=0)"
-             : "";
 }
 
 ControlStatus ControlDesk::Look() {
@@ -134,7 +121,8 @@ std::string ControlDesk::FilesJson(http::Role role) {
   const std::string folder = http::MayAct(role, http::Role::kOperator)
                                  ? std::filesystem::absolute(parts_.folder.path()).string()
                                  : std::string();
-  return FilesToJson(folder, files_revision_, parts_.folder.List(kMostFiles), trials_.trials());
+  return FilesToJson(folder, files_revision_, RunMicros(), parts_.folder.List(kMostFiles),
+                     trials_.trials());
 }
 
 std::optional<std::filesystem::path> ControlDesk::FindFile(const std::string& name) const {
@@ -142,13 +130,13 @@ std::optional<std::filesystem::path> ControlDesk::FindFile(const std::string& na
 }
 
 ControlDesk::Result ControlDesk::Record(const http::RecordingOrder& order, http::Role role) {
-  if (parts_.recorder == nullptr) return Refuse(409, parts_.why_no_recording);
-  if (running_) return Refuse(409, "a trial runs and is recorded; stop the trial first");
+  if (parts_.recorder == nullptr) return RefuseOrder(409, parts_.why_no_recording);
+  if (running_) return RefuseOrder(409, "a trial runs and is recorded; stop the trial first");
   status_due_nanos_ = 0;
   const std::string before = parts_.recorder->status().file;
   if (!order.run) {
     if (parts_.recorder->status().state != recording::RawRecorder::State::kOn) {
-      return Refuse(409, "nothing is recorded now");
+      return RefuseOrder(409, "nothing is recorded now");
     }
     parts_.recorder->Stop();
     log_.Note(http::Name(role), "recording", before, "stopped");
@@ -157,7 +145,7 @@ ControlDesk::Result ControlDesk::Record(const http::RecordingOrder& order, http:
   const std::string stem =
       parts_.folder.FreeStem(recording::NamePart(order.label, "recording") + "_" + TimeName());
   const std::string wrong = parts_.recorder->Start(stem);
-  if (!wrong.empty()) return Refuse(409, wrong);
+  if (!wrong.empty()) return RefuseOrder(409, wrong);
   was_recording_ = true;
   ++files_revision_;
   log_.Note(http::Name(role), "recording", "off", stem + ".pcap");
@@ -167,7 +155,7 @@ ControlDesk::Result ControlDesk::Record(const http::RecordingOrder& order, http:
 tl::expected<ClipSpan, ControlRefusal> ControlDesk::SpanOf(const http::ClipOrder& order) const {
   const auto extent = parts_.history->extent();
   const marks::Moment now = log_.Now();
-  if (!extent || now.state == 0) return Refuse(409, "no sample has come yet");
+  if (!extent || now.state == 0) return RefuseOrder(409, "no sample has come yet");
   const auto too_long = [](double secs) {
     return fmt::format("a clip of {:.1f} s; expected {} to {} s", secs, kShortestClip,
                        kLongestClip);
@@ -176,25 +164,27 @@ tl::expected<ClipSpan, ControlRefusal> ControlDesk::SpanOf(const http::ClipOrder
   if (order.from_micros) {
     const ClipSpan span = {1000 * *order.from_micros, 1000 * *order.to_micros};
     const double secs = Secs(span.to_nanos - span.from_nanos);
-    if (!(secs >= kShortestClip && secs <= kLongestClip)) return Refuse(400, too_long(secs));
+    if (!(secs >= kShortestClip && secs <= kLongestClip)) return RefuseOrder(400, too_long(secs));
     if (span.to_nanos > now.made_nanos + kNanosPerSecond) {
-      return Refuse(409, "the end of this clip has not come yet; ask for the next seconds instead");
+      return RefuseOrder(409,
+                         "the end of this clip has not come yet; ask for the next seconds instead");
     }
     if (span.from_nanos < extent->first_nanos) {
-      return Refuse(410, fmt::format("the beginning of this clip is no longer kept: {:.1f} s are "
+      return RefuseOrder(410,
+                         fmt::format("the beginning of this clip is no longer kept: {:.1f} s are "
                                      "(--history_minutes)",
                                      kept));
     }
     return span;
   }
   const double secs = order.last_secs.value_or(order.next_secs.value_or(0));
-  if (!(secs >= kShortestClip && secs <= kLongestClip)) return Refuse(400, too_long(secs));
+  if (!(secs >= kShortestClip && secs <= kLongestClip)) return RefuseOrder(400, too_long(secs));
   const auto nanos = static_cast<std::int64_t>(secs * 1e9);
   if (order.next_secs) return ClipSpan{now.made_nanos, now.made_nanos + nanos};
   if (now.made_nanos - nanos < extent->first_nanos) {
-    return Refuse(410, fmt::format("the last {:g} s are more than is kept: {:.1f} s "
-                                   "(--history_minutes)",
-                                   secs, kept));
+    return RefuseOrder(410, fmt::format("the last {:g} s are more than is kept: {:.1f} s "
+                                        "(--history_minutes)",
+                                        secs, kept));
   }
   return ClipSpan{now.made_nanos - nanos, now.made_nanos};
 }
@@ -219,36 +209,36 @@ ControlDesk::Result ControlDesk::Clip(const http::ClipOrder& order, http::Role /
   status_due_nanos_ = 0;
   if (order.cancel) {
     if (workshop_.Cancel(*order.cancel)) return JsonText(json{{"id", *order.cancel}});
-    return Refuse(409, "job " + std::to_string(*order.cancel) + " does not wait or run");
+    return RefuseOrder(409, "job " + std::to_string(*order.cancel) + " does not wait or run");
   }
-  if (parts_.clips == nullptr) return Refuse(503, parts_.why_no_clips);
+  if (parts_.clips == nullptr) return RefuseOrder(503, parts_.why_no_clips);
   const auto& cameras = render::CameraNames();
   const std::string camera = order.camera.empty() ? camera_ : order.camera;
   if (std::find(cameras.begin(), cameras.end(), camera) == cameras.end() && !order.camera.empty()) {
-    return Refuse(400, "camera " + camera + ": unknown camera");
+    return RefuseOrder(400, "camera " + camera + ": unknown camera");
   }
   const auto span = SpanOf(order);
   if (!span) return tl::unexpected(span.error());
   const std::string name = parts_.folder.FreeStem("clip_" + TimeName()) + ".mp4";
   const auto added = AddClip(*span, camera, "", name);
-  if (!added) return Refuse(409, added.error());
+  if (!added) return RefuseOrder(409, added.error());
   return JsonText(json{{"id", *added}, {"file", name}});
 }
 
 ControlDesk::Result ControlDesk::SetPerson(const http::PersonOrder& order, http::Role role) {
   const auto state = parts_.states.Get();
   if (state == nullptr || state->people.empty()) {
-    return Refuse(409, "no person in the stream yet");
+    return RefuseOrder(409, "no person in the stream yet");
   }
   if (!order.person && state->people.size() > 1) {
-    return Refuse(400, "several persons in the stream; set \"person\"");
+    return RefuseOrder(400, "several persons in the stream; set \"person\"");
   }
   const int character = order.person.value_or(state->people.front().character);
   const PersonState* const person = FindPerson(state.get(), character);
-  if (person == nullptr) return Refuse(404, "unknown person " + std::to_string(character));
+  if (person == nullptr) return RefuseOrder(404, "unknown person " + std::to_string(character));
   const PersonChange& change = order.change;
   const std::string wrong = FindDefect(change);
-  if (!wrong.empty()) return Refuse(400, wrong);
+  if (!wrong.empty()) return RefuseOrder(400, wrong);
   const PersonModel& model = *person->model;
   PersonChange& stated = stated_[character];
   const std::string who = NameOf(*person), by(http::Name(role));
@@ -290,7 +280,7 @@ ControlDesk::Result ControlDesk::SetClassLimits(const std::array<double, 2>& lim
   try {
     value.Parse(text);
   } catch (const options::BadValue&) {
-    return Refuse(400, "class limits " + text + ": expected " + value.Expected());
+    return RefuseOrder(400, "class limits " + text + ": expected " + value.Expected());
   }
   log_.Note(http::Name(role), "class limits", PercentText(ClassLimitsNow()), PercentText(limits));
   class_limits_ = *value;
@@ -347,126 +337,6 @@ OptionTexts ControlDesk::OptionsNow() const {
   const HandLoad load = HandLoadOf(character);
   if (load.is_known) SetOption(options, "hand_load", HandLoadOption(load));
   return options;
-}
-
-ControlDesk::Result ControlDesk::RunTrial(const http::TrialOrder& order, http::Role role) {
-  const std::string why_not = WhyNoTrial();
-  if (!why_not.empty()) return Refuse(503, why_not);
-  status_due_nanos_ = 0;
-  switch (order.act) {
-    case http::TrialOrder::Act::kStart: return StartTrial(order, role);
-    case http::TrialOrder::Act::kStop: return StopTrial();
-    case http::TrialOrder::Act::kMake: break;
-  }
-  return MakeOfTrial(order);
-}
-
-ControlDesk::Result ControlDesk::StartTrial(const http::TrialOrder& order, http::Role role) {
-  if (running_) {
-    return Refuse(409, "a trial runs already: " + TitleOf(*running_) + "; stop it first");
-  }
-  const marks::Moment now = log_.Now();
-  if (now.state == 0) return Refuse(409, "no sample has come yet: a trial begins with one");
-  const std::string wrong = parts_.folder.Prepare();
-  if (!wrong.empty()) return Refuse(409, wrong);
-  recording::Trial trial;
-  trial.person = order.person;
-  trial.condition = order.condition;
-  trial.number = order.number;
-  trial.stem = parts_.folder.FreeStem(
-      fmt::format("{}_{}_{:03}", recording::NamePart(order.person, "person"),
-                  recording::NamePart(order.condition, "condition"), order.number));
-  trial.run_micros = parts_.marks != nullptr ? parts_.marks->run_micros() : start_micros_;
-  trial.started_micros = WallNanos() / 1000;
-  trial.options = ToLines(OptionsNow());
-  if (parts_.recorder != nullptr) {
-    const std::string problem = parts_.recorder->Start(trial.stem);
-    if (!problem.empty()) return Refuse(409, problem);
-    trial.has_recording = true;
-    was_recording_ = true;
-  } else {
-    trial.recording_problem = parts_.why_no_recording;
-  }
-  trial.from = ToTrialMoment(now);
-  trial.mark = log_.BeginTrial(http::Name(role), TitleOf(trial));
-  const std::string unwritten = trials_.Put(trial);
-  if (!unwritten.empty()) {
-    if (parts_.recorder != nullptr) parts_.recorder->Stop();
-    return Refuse(409, unwritten);
-  }
-  running_ = trial;
-  ++files_revision_;
-  return JsonText(json{{"trial", trial.stem}});
-}
-
-ControlDesk::Result ControlDesk::StopTrial() {
-  if (!running_) return Refuse(409, "no trial runs");
-  recording::Trial trial = *std::exchange(running_, std::nullopt);
-  if (trial.has_recording) {
-    parts_.recorder->Stop();
-    const auto status = parts_.recorder->status();
-    trial.recording_problem = status.problem;
-    if (status.dropped > 0) {
-      trial.recording_problem = std::to_string(status.dropped) +
-                                " datagrams were not recorded: "
-                                "the disk was too slow";
-    }
-  }
-  trial.to = ToTrialMoment(log_.Now());
-  if (trial.mark) log_.EndTrial(*trial.mark);
-  ++files_revision_;
-  const std::string unwritten = trials_.Put(trial);
-  if (!unwritten.empty())
-    return Refuse(409, "the trial was stopped, but not written: " + unwritten);
-  return JsonText(json{{"trial", trial.stem}, {"secs", LengthSecs(trial)}});
-}
-
-ControlDesk::Result ControlDesk::MakeOfTrial(const http::TrialOrder& order) {
-  const recording::Trial* const trial = trials_.Find(order.trial);
-  if (trial == nullptr) return Refuse(404, "no trial " + order.trial);
-  if (running_ && running_->stem == trial->stem) {
-    return Refuse(409, "this trial runs; stop it first");
-  }
-  std::string wrong = order.report ? AddTrialReport(*trial) : "";
-  if (wrong.empty() && order.clip) wrong = AddTrialClip(*trial);
-  if (!wrong.empty()) return Refuse(409, wrong);
-  return JsonText(json{{"trial", trial->stem}});
-}
-
-// "" or why not.
-std::string ControlDesk::AddTrialClip(const recording::Trial& trial) {
-  if (parts_.clips == nullptr) return parts_.why_no_clips;
-  const std::int64_t run = parts_.marks != nullptr ? parts_.marks->run_micros() : start_micros_;
-  if (!trial.to || trial.run_micros != run) {
-    return "this trial is of an earlier start of the server, whose states are gone; render the "
-           "clip "
-           "from its recording";
-  }
-  http::ClipOrder order;
-  order.from_micros = trial.from.made_nanos / 1000;
-  order.to_micros = trial.to->made_nanos / 1000;
-  const auto span = SpanOf(order);
-  if (!span) return span.error().reason;
-  const auto added = AddClip(*span, camera_, TitleOf(trial), trial.stem + ".mp4");
-  return added ? "" : added.error();
-}
-
-std::string ControlDesk::AddTrialReport(const recording::Trial& trial) {
-  const auto recording = parts_.folder.Find(trial.stem + ".pcap");
-  if (!recording) {
-    return "no report: there is no recording of this trial" +
-           (trial.recording_problem.empty() ? std::string() : "; " + trial.recording_problem);
-  }
-  const std::string name = trial.stem + ".html";
-  const auto added =
-      workshop_.Add("report", name,
-                    [this, recording = *recording, report = parts_.folder.path() / name,
-                     options = OptionsFromLines(trial.options)](Workshop::Progress& progress) {
-                      if (parts_.recorder != nullptr)
-                        parts_.recorder->AwaitSaved(recording.filename().string());
-                      MakeReport(recording, report, options, progress);
-                    });
-  return added ? "" : added.error();
 }
 
 }  // namespace kinescope::app

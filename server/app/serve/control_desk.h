@@ -11,6 +11,8 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <tl/expected.hpp>
+#include <utility>
 
 #include "core/playback.h"
 #include "core/scene_state.h"
@@ -45,6 +47,10 @@ struct DeskParts {
   HandLoad first_hand_load;                    // of all people, as the server was started
 };
 
+inline tl::unexpected<http::ControlRefusal> RefuseOrder(int status, std::string reason) {
+  return tl::unexpected(http::ControlRefusal{status, std::move(reason)});
+}
+
 class ControlDesk : public http::Controls {
  public:
   explicit ControlDesk(DeskParts parts);
@@ -77,6 +83,7 @@ class ControlDesk : public http::Controls {
                                                    const std::string& title,
                                                    const std::string& name);
   std::string WhyNoTrial() const;
+  std::int64_t RunMicros() const;
   OptionTexts OptionsNow() const;
   std::array<double, 2> ClassLimitsNow() const;
   HandLoad HandLoadOf(int character) const;

@@ -132,7 +132,7 @@ std::string ToJson(const ControlStatus& status) {
                        {"files_revision", status.files_revision}});
 }
 
-std::string FilesToJson(const std::string& folder, std::uint64_t revision,
+std::string FilesToJson(const std::string& folder, std::uint64_t revision, std::int64_t run_micros,
                         const std::vector<recording::FileEntry>& files,
                         const std::vector<recording::Trial>& trials) {
   json entries = json::array(), list = json::array();
@@ -141,8 +141,10 @@ std::string FilesToJson(const std::string& folder, std::uint64_t revision,
         {{"name", file.name}, {"bytes", file.bytes}, {"modified_micros", file.modified_micros}});
   }
   for (const recording::Trial& trial : trials) list.push_back(TrialToJson(trial));
-  json answer = {
-      {"revision", revision}, {"files", std::move(entries)}, {"trials", std::move(list)}};
+  json answer = {{"revision", revision},
+                 {"run_micros", run_micros},
+                 {"files", std::move(entries)},
+                 {"trials", std::move(list)}};
   if (!folder.empty()) answer["folder"] = folder;
   return JsonText(answer);
 }

@@ -44,8 +44,9 @@ struct ControlStatus {
 
 std::string ToJson(const ControlStatus& status);
 
-/// Of /api/files. `folder`: "" leaves it out.
-std::string FilesToJson(const std::string& folder, std::uint64_t revision,
+/// Of /api/files. `folder`: "" leaves it out. `run_micros`: of the trials whose moments may be
+/// kept.
+std::string FilesToJson(const std::string& folder, std::uint64_t revision, std::int64_t run_micros,
                         const std::vector<recording::FileEntry>& files,
                         const std::vector<recording::Trial>& trials);
 

@@ -4,12 +4,14 @@
 // "url", then obeys lines on its standard input until that ends:
 //   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
 //   people <n>              how many persons it shows
+//   limits <medium> <high>  the class limits of its states
 //   stream <JSON>           the health of the stream
 // page_fixture_server describe: prints one state as the server encodes it (hex) beside what it
 // means, and the limits of the load classes, for the page's unit tests.
 #include <poll.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -18,6 +20,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <sstream>
 #include <string>
 
 #include "core/hand_load_shape.h"
@@ -300,6 +303,7 @@ class Orders {
  public:
   std::string mode = "live";
   int people = 1;
+  std::array<double, 2> class_limits = kDefaultClassLimits;
   bool changed = true;
   bool ended = false;
 
@@ -328,6 +332,8 @@ class Orders {
     changed = true;
     if (line.rfind("people ", 0) == 0) {
       people = std::stoi(line.substr(7));
+    } else if (line.rfind("limits ", 0) == 0) {
+      std::istringstream(line.substr(7)) >> class_limits[0] >> class_limits[1];
     } else if (line.rfind("stream ", 0) == 0) {
       const std::lock_guard<std::mutex> lock(mutex_);
       stream_ = line.substr(7);
@@ -359,6 +365,7 @@ SceneState NextState(const Orders& orders, const SceneState& last,
     }
   }
   next.number = last.number + 1;
+  next.class_limits = orders.class_limits;
   return next;
 }
 
