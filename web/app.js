@@ -1,5 +1,7 @@
 // Connects the parts of the page: connection -> scene, readings, load list, picture.
 import { forgetToken, shownIn } from './address.js';
+import { AlarmPanel } from './alarm_panel.js';
+import { Alarms } from './alarms.js';
 import { RecentValues } from './clock.js';
 import { Charts } from './charts.js';
 import { Connection } from './connection.js';
@@ -63,6 +65,7 @@ const connection = new Connection({
   },
   onStream: (health) => stream.set(health),
   onControls: (message) => controls.onMessage(message),
+  onAlarms: (state) => alarms.set(state),
   onError: showNotice,
   onOpen() {
     picture.ask();
@@ -90,6 +93,16 @@ const markPad = new MarkPad({
   home: elements.transport, phone: elements['mark-place'],
 }, marks, shown, { notice: showNotice, isViewer: () => elements.role.dataset.role === 'viewer' });
 const controls = new Controls(elements, shown, showNotice);
+const alarms = new Alarms();
+const alarmPanel = new AlarmPanel({
+  area: elements.alarm, stars: elements['alarm-stars'], head: elements['alarm-head'], detail: elements['alarm-detail'],
+  told: elements['alarm-told'], acknowledge: elements.acknowledge, sound: elements['alarm-sound'],
+  show: elements['alarm-show'], tab: elements['tab-alarms'], list: elements['alarm-list'], rate: elements['alarm-rate'],
+  test: elements['alarm-test'],
+}, alarms, shown, {
+  notice: showNotice, jointLabel: (name) => model?.joints.find((joint) => joint.name === name)?.label ?? name,
+  wallMillis: (micros) => charts.wallMillis(micros), newestMicros: () => shown.newest?.madeMicros ?? 0,
+});
 elements.status.addEventListener('click', () => {
   shown.time.goLive();
   shown.onTimeChanged();
@@ -221,6 +234,16 @@ async function loadMarks(now) {
   }
 }
 
+/** @param {number} now */
+async function loadAlarms(now) {
+  try {
+    await alarms.update(now);
+    charts.strip.setAlarms(alarms.log());
+  } catch (error) {
+    showNotice(`Could not load the alarms: ${messageOf(error)}`);
+  }
+}
+
 /** What the strip shows of the marks whose moments it may have.
  *  @param {Marks} of */
 const flagsOf = (of) => of.list().filter((mark) => of.isOfThisRun(mark)).map((mark) => ({
@@ -324,6 +347,8 @@ function showReadings() {
   charts.update(now);
   loadMarks(now);
   markPad.update(now);
+  loadAlarms(now);
+  alarmPanel.update(now);
   shown.keepAddress(now);
   document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';
   if (!status.isFresh || !shown.isNewest) latencies.clear();

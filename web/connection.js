@@ -15,7 +15,7 @@ const STATES_PER_REPORT = 4;  // the server sends up to 12 states beyond the las
  *    onPast: (buffer: ArrayBuffer) => void,
  *    onDetails: (details: import('./messages.js').Details) => void,
  *    onStream: (stream: import('./messages.js').StreamHealth) => void, onControls: (controls: unknown) => void,
- *    onError: (reason: string) => void,
+ *    onAlarms: (alarms: import('./messages.js').ShownAlarms) => void, onError: (reason: string) => void,
  *    onOpen: () => void}} Handlers */
 
 export class Connection {
@@ -138,6 +138,8 @@ export class Connection {
       this.handlers.onStream(message.stream);
     } else if ('controls' in message) {
       this.handlers.onControls(message.controls);
+    } else if ('alarms' in message) {
+      this.handlers.onAlarms(message.alarms);
     } else {
       this.handlers.onError(message.error);
     }

@@ -54,8 +54,7 @@ bool Hub::Join(HubClient& client) {
   ++counters_.opened;
   client.Offer(Slot::kDetails, EncodeDetails());
   client.Offer(Slot::kState, EncodeNewestState());
-  if (stream_ != nullptr) client.Offer(Slot::kStream, stream_);
-  if (controls_ != nullptr) client.Offer(Slot::kControls, controls_);
+  for (const auto& [slot, message] : news_) client.Offer(slot, message);
   return true;
 }
 
@@ -100,18 +99,14 @@ void Hub::Tick(Clock::time_point now) {
   for (HubClient* const client : clients_) client->Offer(Slot::kDetails, details_);
 }
 
-void Hub::SendStream(const std::string& health) {
-  if (!health.empty()) SendChanged(Slot::kStream, "stream", health, stream_);
-}
-
-void Hub::SendControls(const std::string& status) {
-  SendChanged(Slot::kControls, "controls", status, controls_);
-}
-
-// `value`: JSON. `last`: as it was sent before.
-void Hub::SendChanged(Slot slot, const char* name, const std::string& value, SharedBytes& last) {
-  const std::string text = "{\"" + std::string(name) + "\":" + value + "}";
+void Hub::SendNews(Slot slot, const std::string& news) {
+  if (news.empty()) return;
+  const char* const name = slot == Slot::kAlarms     ? "alarms"
+                           : slot == Slot::kControls ? "controls"
+                                                     : "stream";
+  const std::string text = "{\"" + std::string(name) + "\":" + news + "}";
   Bytes message(text.begin(), text.end());
+  SharedBytes& last = news_[slot];
   if (last != nullptr && *last == message) return;
   last = Share(std::move(message));
   for (HubClient* const client : clients_) client->Offer(slot, last);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -24,8 +25,8 @@ namespace kinescope::http {
 
 /// Messages that wait for sending: one place per slot, so that a newer message replaces the older
 /// one.
-enum class Slot { kError, kPong, kDetails, kStream, kControls, kState, kPast, kPicture };
-inline constexpr int kSlotCount = 8;
+enum class Slot { kError, kPong, kDetails, kStream, kAlarms, kControls, kState, kPast, kPicture };
+inline constexpr int kSlotCount = 9;
 constexpr bool IsBinary(Slot slot) { return slot >= Slot::kState; }
 
 class HubClient {
@@ -70,11 +71,9 @@ class Hub {
   /// that the server runs and how old the state is, and sends changed details.
   void Tick(Clock::time_point now);
 
-  /// Sends the health of the stream, a JSON object, to all clients if it has changed, and to those
-  /// who join later. "": not known yet.
-  void SendStream(const std::string& health);
-  /// The same with the state of the controls.
-  void SendControls(const std::string& status);
+  /// Sends the health of the stream, the alarms, or the state of the controls, to all clients if it
+  /// has changed, and to those who join later. `news`: a JSON object; "": not known yet.
+  void SendNews(Slot slot, const std::string& news);
 
   /// `on_camera` is called when a client has changed the camera of the live picture.
   using OnCamera =
@@ -99,7 +98,6 @@ class Hub {
   [[nodiscard]] StateMoment Moment() const;
   void SetPictures(HubClient& client, bool wanted);
   [[nodiscard]] int CountOf(const std::string& address) const;
-  void SendChanged(Slot slot, const char* name, const std::string& value, SharedBytes& last);
   void CountViewers();  // call after a client has changed whether it wants pictures
   SharedBytes EncodeNewestState() const;
   SharedBytes EncodeDetails() const;
@@ -118,8 +116,7 @@ class Hub {
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_
   SharedBytes details_;               // as last sent to all clients
-  SharedBytes stream_;                // as last sent to all clients; null before the first
-  SharedBytes controls_;              // as last sent to all clients; null before the first
+  std::map<Slot, SharedBytes> news_;  // as last sent to all clients
   SharedBytes picture_;               // as last sent to all viewers; null without any
   Clock::time_point state_sent_at_{};
 };

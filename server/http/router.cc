@@ -209,7 +209,7 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
 }
 
 // A new route: a line here, and one in docs/http.md.
-const std::array<Router::ApiRoute, 16> Router::kApiRoutes = {{
+const std::array<Router::ApiRoute, 18> Router::kApiRoutes = {{
     {"/api/session", Method::kGet, Role::kViewer, &Router::Session},
     {"/api/state", Method::kGet, Role::kViewer, &Router::State},
     {"/api/model", Method::kGet, Role::kViewer, &Router::Model},
@@ -226,6 +226,8 @@ const std::array<Router::ApiRoute, 16> Router::kApiRoutes = {{
     {"/api/person", Method::kPost, Role::kOperator, &Router::SetPerson},
     {"/api/class_limits", Method::kPost, Role::kOperator, &Router::SetClassLimits},
     {"/api/trial", Method::kPost, Role::kOperator, &Router::RunTrial},
+    {"/api/alarms", Method::kGet, Role::kViewer, &Router::Alarms},
+    {"/api/acknowledge", Method::kPost, Role::kOperator, &Router::Acknowledge},
 }};
 
 std::vector<Router::RouteInfo> Router::ApiRoutes() {

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/system/errors.h"
+#include "server/alarms/alarm_json.h"
 #include "server/http/access.h"
 #include "server/http/client_address.h"
 #include "server/http/http_session.h"
@@ -230,6 +231,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.history = config_.history;
   site.marks = config_.marks;
   site.controls = config_.controls;
+  site.alarms = config_.alarms;
   site.has_pictures = feed_ != nullptr;
   site.look = config_.look;
   site.own_skin = config_.own_skin;
@@ -299,9 +301,14 @@ void HttpServer::Impl::ArmTick() {
     ArmTick();
     const auto now = std::chrono::steady_clock::now();
     hub_.Tick(now);
-    if (config_.stream && hub_.client_count() > 0) hub_.SendStream(config_.stream());
-    if (config_.controls != nullptr && hub_.client_count() > 0) {
-      hub_.SendControls(config_.controls->StatusJson());
+    if (hub_.client_count() > 0) {
+      if (config_.stream) hub_.SendNews(Slot::kStream, config_.stream());
+      if (config_.alarms != nullptr) {
+        hub_.SendNews(Slot::kAlarms, alarms::ShownJson(*config_.alarms));
+      }
+      if (config_.controls != nullptr) {
+        hub_.SendNews(Slot::kControls, config_.controls->StatusJson());
+      }
     }
     guesses_.Report(now);
   });

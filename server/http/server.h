@@ -17,6 +17,7 @@
 #include "core/playback.h"
 #include "core/scene_state.h"
 #include "core/system/latest.h"
+#include "server/alarms/alarms.h"
 #include "server/history/history.h"
 #include "server/http/controls.h"
 #include "server/http/role.h"
@@ -113,6 +114,8 @@ struct HttpConfig {
   marks::MarkBook* marks = nullptr;
   /// What operators do; borrowed. Null: the page has no controls.
   Controls* controls = nullptr;
+  /// What people are warned of; borrowed. Null: nothing.
+  alarms::Alarms* alarms = nullptr;
   /// The health of the stream as a JSON object, for the message "stream"; "": not known yet. Called
   /// on the server's thread while clients are connected, must return at once. May be null.
   std::function<std::string()> stream;
