@@ -5,6 +5,7 @@ import { Alarms } from './alarms.js';
 import { RecentValues } from './clock.js';
 import { Charts } from './charts.js';
 import { Connection } from './connection.js';
+import { Controls } from './controls.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
 import { cameraLabel, hexColor, shortCameraLabel } from './format.js';
@@ -12,7 +13,7 @@ import { mountHandLoad } from './hand_load.js';
 import { leftOutText, statusOf } from './status.js';
 import { mountLoadsShown } from './loads_shown.js';
 import { MarkPad } from './mark_pad.js';
-import { Marks } from './marks.js';
+import { Marks, symbolOf } from './marks.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { readCameras, readDiagnostics, readModel } from './messages.js';
 import { PicturePanel } from './picture_panel.js';
@@ -39,6 +40,7 @@ let stateChangedAt = 0;  // browser clock, last time its number grew
 /** @type {import('./messages.js').Model|null} */
 let model = null;
 let modelAskedAt = -Infinity;
+let classLimits = '';  // as they are shown
 let notice = { text: '', until: 0 };
 const shown = new Shown({
   send: (command) => connection.send(command), notice: showNotice, changed: onTimeChanged, arrived: updateScene,
@@ -62,11 +64,13 @@ const connection = new Connection({
     handLoad.setPeople(details.people);
   },
   onStream: (health) => stream.set(health),
+  onControls: (message) => controls.onMessage(message),
   onAlarms: (state) => alarms.set(state),
   onError: showNotice,
   onOpen() {
     picture.ask();
-    loadRole();
+    controls.forget();
+    loadRole().then(() => controls.setViewer(elements.role.dataset.role === 'viewer'));
     loadCameras();
   },
 });
@@ -88,6 +92,7 @@ const markPad = new MarkPad({
   said: elements['mark-said'], undo: elements['mark-undo'], list: elements['mark-list'], earlier: elements['mark-earlier'],
   home: elements.transport, phone: elements['mark-place'],
 }, marks, shown, { notice: showNotice, isViewer: () => elements.role.dataset.role === 'viewer' });
+const controls = new Controls(elements, shown, showNotice);
 const alarms = new Alarms();
 const alarmPanel = new AlarmPanel({
   area: elements.alarm, stars: elements['alarm-stars'], head: elements['alarm-head'], detail: elements['alarm-detail'],
@@ -210,7 +215,6 @@ async function loadModel(now) {
     if (newModel === null) return;
     model = newModel;
     applyPalette(model.palette);
-    applyClassLimits(model.class_limits);
     scene?.setModel(model);
     applyLook();
   } catch (error) {
@@ -243,7 +247,7 @@ async function loadAlarms(now) {
 /** What the strip shows of the marks whose moments it may have.
  *  @param {Marks} of */
 const flagsOf = (of) => of.list().filter((mark) => of.isOfThisRun(mark)).map((mark) => ({
-  micros: mark.at.micros, endMicros: mark.end?.micros ?? null, label: mark.button > 0 ? String(mark.button) : '✎',
+  micros: mark.at.micros, endMicros: mark.end?.micros ?? null, label: symbolOf(mark),
 }));
 
 function applyLook() {
@@ -274,7 +278,11 @@ function applyPalette(palette) {
 }
 
 /** @param {number[]} limits  the load ratios at which a load becomes medium and high */
-function applyClassLimits([mediumFrom, highFrom]) {
+function applyClassLimits(limits) {
+  const now = limits.join();
+  if (now === classLimits) return;
+  classLimits = now;
+  const [mediumFrom, highFrom] = limits;
   const style = document.documentElement.style;
   style.setProperty('--medium-from', String(mediumFrom));
   style.setProperty('--high-from', String(highFrom));
@@ -374,6 +382,7 @@ function showStatus(status, now) {
 function showPeople(isFresh) {
   const now = shown.state, texts = shown.details;
   if (now === null || model === null) return;
+  applyClassLimits(texts.class_limits);
   const rows = rowsOf(now, model.joints, texts);
   showLoads(isFresh ? rows : rows.map(asUnknown));
   const selected = handLoad.selected();

@@ -14,7 +14,7 @@ const STATES_PER_REPORT = 4;  // the server sends up to 12 states beyond the las
 /** @typedef {{onState: (buffer: ArrayBuffer) => void, onPicture: (buffer: ArrayBuffer) => void,
  *    onPast: (buffer: ArrayBuffer) => void,
  *    onDetails: (details: import('./messages.js').Details) => void,
- *    onStream: (stream: import('./messages.js').StreamHealth) => void,
+ *    onStream: (stream: import('./messages.js').StreamHealth) => void, onControls: (controls: unknown) => void,
  *    onAlarms: (alarms: import('./messages.js').ShownAlarms) => void, onError: (reason: string) => void,
  *    onOpen: () => void}} Handlers */
 
@@ -136,6 +136,8 @@ export class Connection {
       this.handlers.onDetails(message.details);
     } else if ('stream' in message) {
       this.handlers.onStream(message.stream);
+    } else if ('controls' in message) {
+      this.handlers.onControls(message.controls);
     } else if ('alarms' in message) {
       this.handlers.onAlarms(message.alarms);
     } else {

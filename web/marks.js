@@ -9,6 +9,10 @@ import { readMark, readMarks } from './messages.js';
 const RETRY_MILLIS = 3000;
 const HEADERS = { 'Content-Type': 'application/json' };
 
+/** Of a mark in lists and on the strip: the key of its button, ¶ free text, ✎ a change, ▶ a trial.
+ *  @param {Mark} mark */
+export const symbolOf = ({ button, kind }) => (button > 0 ? String(button) : { mark: '¶', change: '✎', trial: '▶' }[kind]);
+
 export class Marks {
   /** @type {Map<number, Mark>} */ #marks = new Map();  // by id; without those that were removed
   #revision = -1;  // of what is here; -1: nothing was loaded yet

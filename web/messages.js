@@ -107,7 +107,7 @@ const readRecording = object({
 const readDetails = object({
   source: string, camera: string, has_pictures: boolean, people: listOf(readPersonDetails),
   objects: listOf(readObjectName), left_out: listOf(readLeftOut), recording: orNull(readRecording),
-  marks_revision: numberOrNull,
+  marks_revision: numberOrNull, class_limits: numbers(2),
 });
 /** @typedef {ReturnType<typeof readSecs>} Secs  time in each class so far, s
  *  @typedef {ReturnType<typeof readHandLoad>} HandLoad
@@ -132,7 +132,7 @@ const readStream = object({
 const readPong = object({ pong: number, server_micros: number });
 
 /** @typedef {{pong: number, server_micros: number}|{details: Details}|{stream: StreamHealth}|{alarms: ShownAlarms}
- *    |{error: string}} TextMessage */
+ *    |{controls: unknown}|{error: string}} TextMessage */
 
 /** @param {string} text
  *  @returns {unknown} */
@@ -151,6 +151,7 @@ export function readTextMessage(text) {
   if ('pong' in message) return readPong(message, 'a message');
   if ('details' in message) return { details: readDetails(message.details, 'details') };
   if ('stream' in message) return { stream: readStream(message.stream, 'stream') };
+  if ('controls' in message) return { controls: message.controls };  // read by control_messages.js
   if ('alarms' in message) return { alarms: readShownAlarms(message.alarms, 'alarms') };
   if ('error' in message) return { error: string(message.error, 'error') };
   return null;
@@ -158,8 +159,9 @@ export function readTextMessage(text) {
 
 // /api/v1/marks and /api/v1/mark
 const readMoment = object({ state: number, micros: number, stamp_micros: number, time_code_millis: number, counter: number });
+const MARK_KINDS = /** @type {const} */ (['mark', 'change', 'trial']);
 export const readMark = object({
-  id: number, revision: number, run_micros: number, button: number, text: string, role: string, at: readMoment,
+  id: number, revision: number, run_micros: number, kind: oneOf(MARK_KINDS), button: number, text: string, role: string, at: readMoment,
   end: orNull(readMoment), is_open: boolean, is_removed: boolean, behind_secs: number,
 });
 export const readMarks = object({ names: listOf(string), run_micros: number, revision: number, marks: listOf(readMark) });

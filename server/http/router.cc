@@ -24,6 +24,7 @@ namespace {
 constexpr int kMaxPixels = 4096;
 constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
 constexpr char kSnapshotPath[] = "/api/v1/snapshot.png";
+constexpr char kFilePath[] = "/api/v1/file/{name}";
 constexpr char kMeshPath[] = "/api/v1/mesh/{person}/{revision}/{number}";
 constexpr char kSkinPath[] = "/api/v1/skin/{person}/{revision}";
 
@@ -240,7 +241,7 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
 }
 
 // A new route: a line here, one in docs/http.md, and its description in docs/openapi.json.
-const std::array<Router::ApiRoute, 16> Router::kApiRoutes = {{
+const std::array<Router::ApiRoute, 24> Router::kApiRoutes = {{
     {"/api/v1/session", Method::kGet, Role::kViewer, &Router::Session},
     {"/api/v1/state", Method::kGet, Role::kViewer, &Router::State},
     {"/api/v1/model", Method::kGet, Role::kViewer, &Router::Model},
@@ -252,6 +253,14 @@ const std::array<Router::ApiRoute, 16> Router::kApiRoutes = {{
     {"/api/v1/mark", Method::kPost, Role::kOperator, &Router::SetMark},
     {"/api/v1/alarms", Method::kGet, Role::kViewer, &Router::Alarms},
     {"/api/v1/acknowledge", Method::kPost, Role::kOperator, &Router::Acknowledge},
+    {"/api/v1/controls", Method::kGet, Role::kViewer, &Router::ControlStatus},
+    {"/api/v1/files", Method::kGet, Role::kViewer, &Router::Files},
+    {"/api/v1/recording", Method::kPost, Role::kOperator, &Router::Record},
+    {"/api/v1/clip", Method::kPost, Role::kOperator, &Router::Clip},
+    {"/api/v1/person", Method::kPost, Role::kOperator, &Router::SetPerson},
+    {"/api/v1/class_limits", Method::kPost, Role::kOperator, &Router::SetClassLimits},
+    {"/api/v1/trial", Method::kPost, Role::kOperator, &Router::RunTrial},
+    {kFilePath, Method::kGet, Role::kOperator, &Router::Download},
     {kMeshPath, Method::kGet, Role::kViewer, &Router::Mesh},
     {kSkinPath, Method::kGet, Role::kViewer, &Router::Skin},
     {kSnapshotPath, Method::kGet, Role::kViewer, &Router::Snapshot},
@@ -391,7 +400,7 @@ std::optional<Answer> Router::RefuseUnlessJson(const Request& request, const cha
   return Refuse(415, "bad content type", "expected Content-Type: application/json");
 }
 
-Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
+Answer Router::SetHandLoad(const Request& request, Role role) const {
   if (auto refusal = RefuseUnlessJson(request, "set hand loads")) return *std::move(refusal);
   if (!site_.set_hand_load)
     return Refuse(503, "no hand loads", "this server does not accept hand loads");
@@ -414,6 +423,7 @@ Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
   }
   const std::string wrong = site_.set_hand_load(character, order->load);
   if (!wrong.empty()) return Refuse(400, "bad hand load", wrong);
+  if (site_.controls != nullptr) site_.controls->OnHandLoad(character, order->load, role);
   return JsonAnswer(JsonText(nlohmann::json{{"person", character},
                                             {"right_kg", order->load.mass_kg[urdf::kRight]},
                                             {"left_kg", order->load.mass_kg[urdf::kLeft]},

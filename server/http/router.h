@@ -16,6 +16,7 @@
 #include "server/history/history.h"
 #include "server/http/access.h"
 #include "server/http/answer.h"
+#include "server/http/controls.h"
 #include "server/http/guess_guard.h"
 #include "server/http/role.h"
 #include "server/http/server.h"
@@ -39,6 +40,7 @@ class Router {
     const Latest<SceneState>* states = nullptr;
     const history::History* history = nullptr;  // may be null: none is kept
     marks::MarkBook* marks = nullptr;           // may be null: nothing can be marked
+    Controls* controls = nullptr;               // may be null
     alarms::Alarms* alarms = nullptr;           // may be null: nothing is watched
     std::function<std::string(int character, const HandLoad&)> set_hand_load;  // may be null
     std::function<std::string()> diagnostics;  // the complete JSON, with the part of the server
@@ -91,7 +93,7 @@ class Router {
     Role least;  // a route that changes anything: kOperator
     Answer (Router::*answer)(const Request&, Role) const;
   };
-  static const std::array<ApiRoute, 16> kApiRoutes;
+  static const std::array<ApiRoute, 24> kApiRoutes;
   /// Null if there is no such route.
   static const ApiRoute* FindApi(const std::string& path);
   static std::string ApiPaths();
@@ -110,6 +112,17 @@ class Router {
   Answer Marks(const Request& request, Role role) const;
   Answer SetMark(const Request& request, Role role) const;
   [[nodiscard]] Answer RefuseMoment(std::uint64_t wanted, const SceneState* nearest) const;
+  // router_controls.cc
+  template <class Parse, class CarryOut>
+  Answer Order(const Request& request, const char* what, Parse parse, CarryOut carry_out) const;
+  Answer ControlStatus(const Request& request, Role role) const;
+  Answer Files(const Request& request, Role role) const;
+  Answer Record(const Request& request, Role role) const;
+  Answer Clip(const Request& request, Role role) const;
+  Answer SetPerson(const Request& request, Role role) const;
+  Answer SetClassLimits(const Request& request, Role role) const;
+  Answer RunTrial(const Request& request, Role role) const;
+  Answer Download(const Request& request, Role role) const;
   // router_alarms.cc
   Answer Alarms(const Request& request, Role role) const;
   Answer Acknowledge(const Request& request, Role role) const;

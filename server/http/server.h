@@ -19,6 +19,7 @@
 #include "core/system/latest.h"
 #include "server/alarms/alarms.h"
 #include "server/history/history.h"
+#include "server/http/controls.h"
 #include "server/http/role.h"
 #include "server/marks/mark_book.h"
 #include "urdf/skin/skin_template.h"
@@ -111,6 +112,8 @@ struct HttpConfig {
   std::function<std::shared_ptr<const Playback>()> playback;
   /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.
   marks::MarkBook* marks = nullptr;
+  /// What operators do; borrowed. Null: the page has no controls.
+  Controls* controls = nullptr;
   /// What people are warned of; borrowed. Null: nothing.
   alarms::Alarms* alarms = nullptr;
   /// The health of the stream as a JSON object, for the message "stream"; "": not known yet. Called

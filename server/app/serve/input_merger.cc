@@ -9,6 +9,7 @@ void InputMerger::TakeInputs() {
   for (const auto& [character, load] : hand_loads_.TakeAll()) {
     builder_.SetHandLoad(character, load);
   }
+  if (changes_ != nullptr) changes_->PassTo(builder_);
 }
 
 void InputMerger::OnSample(const BodySample& sample) {
@@ -39,6 +40,7 @@ void InputMerger::AfterPoll() {
 
 void InputMerger::OnHandLoad(int character, const HandLoad& load) {
   builder_.SetHandLoad(character, load);
+  if (on_hand_load_) on_hand_load_(character, load);
 }
 
 void InputMerger::OnMeasurements(int character, const Measurements& measured) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/source.h"
+#include "server/app/serve/change_mailbox.h"
 #include "server/app/serve/hand_load_mailbox.h"
 #include "server/app/serve/overload.h"
 #include "server/ros/bridge.h"
@@ -25,15 +26,21 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   /// Receives the texts of `~mark`.
   using OnText = std::function<void(const std::string& text)>;
 
-  /// `ros` and the functions may be null.
+  /// Receives the hand loads that came over ROS.
+  using OnRosHandLoad = std::function<void(int character, const HandLoad& load)>;
+
+  /// `ros`, `changes` and the functions may be null.
   InputMerger(SceneBuilder& builder, Overload& overload, HandLoadMailbox& hand_loads,
               ros_bridge::RosBridge* ros, OnSubscribers on_subscribers = nullptr,
+              ChangeMailbox* changes = nullptr, OnRosHandLoad on_hand_load = nullptr,
               OnText on_mark = nullptr)
       : builder_(builder),
         overload_(overload),
         hand_loads_(hand_loads),
         ros_(ros),
         on_subscribers_(std::move(on_subscribers)),
+        changes_(changes),
+        on_hand_load_(std::move(on_hand_load)),
         on_mark_(std::move(on_mark)) {}
 
   /// Call it also while no samples arrive, because ROS services wait for their answer.
@@ -60,6 +67,8 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   HandLoadMailbox& hand_loads_;
   ros_bridge::RosBridge* const ros_;
   const OnSubscribers on_subscribers_;
+  ChangeMailbox* const changes_;
+  const OnRosHandLoad on_hand_load_;
   const OnText on_mark_;
   bool has_samples_ = false;           // since the last AfterPoll
   std::map<int, BodySample> skipped_;  // the newest of each character, if it was skipped
