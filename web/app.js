@@ -4,7 +4,7 @@ import { AlarmPanel } from './alarm_panel.js';
 import { Alarms } from './alarms.js';
 import { RecentValues } from './clock.js';
 import { Charts } from './charts.js';
-import { Connection } from './connection.js';
+import { KinescopeClient } from './client.js';
 import { Controls } from './controls.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
@@ -22,7 +22,6 @@ import { meshesText, readingsOf, streamReadingsOf } from './readings.js';
 import { Scene } from './scene.js';
 import { ask, messageOf } from './server_api.js';
 import { Shown } from './shown.js';
-import { decodeState } from './state_codec.js';
 import { StreamPanel } from './stream_panel.js';
 import { mountTransport } from './transport.js';
 
@@ -34,8 +33,6 @@ const START_VIEW = 'three_quarter';
 
 const elements = findElements(document);
 
-/** @type {ArrayBuffer|null} */
-let newest = null;  // not decoded yet: of the states received between two frames, only the last one is decoded
 let stateChangedAt = 0;  // browser clock, last time its number grew
 /** @type {import('./messages.js').Model|null} */
 let model = null;
@@ -53,10 +50,9 @@ const showLoads = mountLoadList(elements.loads);
 const loadRole = mountRole(elements.role, showNotice);
 const stream = new StreamPanel({ details: elements.stream, line: elements['stream-line'], rows: elements['stream-rows'] });
 const showProblems = mountDiagnostics(elements.diagnostics, elements.problems);
-const connection = new Connection({
-  onState: (buffer) => { newest = buffer; },
-  onPicture: (buffer) => picture.show(buffer),
-  onPast: (buffer) => shown.onPast(buffer),
+const connection = new KinescopeClient({  // without onState: of the states between two frames, only the last one is decoded
+  onPicture: ({ jpeg }) => picture.show(jpeg),
+  onPast: (past) => shown.onPast(past),
   onDetails(details) {
     shown.setNewestDetails(details);
     picture.setDetails(details);
@@ -148,12 +144,11 @@ function onFrame(now) {
 /** @param {number} now
  *  @returns {boolean} whether the state has another sample than before */
 function takeNewest(now) {
-  if (newest === null) return false;
-  const buffer = newest;
-  newest = null;
   const before = shown.newest?.stateNumber;
   try {
-    shown.setNewest(decodeState(buffer));
+    const newest = connection.takeState();
+    if (newest === null) return false;
+    shown.setNewest(newest);
   } catch (error) {
     showNotice(messageOf(error));
     return false;

@@ -1,7 +1,6 @@
 // The picture rendered by the server, next to the view of the page. It equals the pictures in PNG, video and CI.
 import { shortCameraLabel } from './format.js';
 import { messageOf, request } from './server_api.js';
-import { decodePicture } from './state_codec.js';
 
 const SAVED_SIZE = { width: 1920, height: 1080 };
 
@@ -75,9 +74,9 @@ export class PicturePanel {
   }
 
   /** Shows a picture. While one is being decoded, only the latest of the following pictures is kept.
-   *  @param {ArrayBuffer} buffer */
-  show(buffer) {
-    if (this.#isShown) this.#showJpeg(decodePicture(buffer).jpeg);
+   *  @param {Uint8Array<ArrayBuffer>} jpeg */
+  show(jpeg) {
+    if (this.#isShown) this.#showJpeg(jpeg);
   }
 
   /** @param {Uint8Array<ArrayBuffer>} jpeg */

@@ -2,7 +2,6 @@
 import { showInAddress } from './address.js';
 import { LookBack } from './look_back.js';
 import { readTextMessage } from './messages.js';
-import { decodePast } from './state_codec.js';
 import { ViewerTime } from './viewer_time.js';
 
 const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per second
@@ -137,10 +136,9 @@ export class Shown {
     this.#lookBack.ask({ number: Math.max(0, state.stateNumber + (this.#step?.by ?? 0)) }, now);
   }
 
-  /** @param {ArrayBuffer} buffer  an answer of the server */
-  onPast(buffer) {
+  /** @param {ReturnType<typeof import('./state_codec.js').decodePast>} answer  of the server */
+  onPast(answer) {
     const now = performance.now();
-    const answer = decodePast(buffer);
     if (!this.#lookBack.onAnswer(answer.id, now) || this.#past === null) return;
     if (this.#isStillThere(answer.state)) return this.#askNextTo(answer.state, now);
     const message = readTextMessage(answer.details);

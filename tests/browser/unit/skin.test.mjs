@@ -1,7 +1,6 @@
 // The skin as the C++ encoder has just written it (page_fixture_server describe), and its frames for random postures:
 // person 0 with bare hands, person 1 with gloves.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import test from 'node:test';
 import { Matrix4 } from '../../../web/node_modules/three/build/three.module.js';
 import { readSkin } from '../../../web/skin_buffer.js';
@@ -10,11 +9,9 @@ import { framesOf } from '../../../web/skin_frames.js';
 import { capsulesOf, limbsOfVertices } from '../../../web/skin_limbs.js';
 import { REGION_FLOATS, regionsOf } from '../../../web/skin_regions.js';
 import { neighboursOf } from '../../../web/skin_surface.js';
+import { toBuffer, told } from './told_by_server.mjs';
 
-const program = process.env.KINESCOPE_PAGE_FIXTURE;
-if (!program) throw new Error('set KINESCOPE_PAGE_FIXTURE to the built page_fixture_server; ctest does it');
-const told = JSON.parse(execFileSync(program, ['describe'], { encoding: 'utf8', maxBuffer: 1 << 26 }));
-const buffers = told.skins.map(({ hex }) => Uint8Array.from(Buffer.from(hex, 'hex')).buffer);
+const buffers = told.skins.map(({ hex }) => toBuffer(hex));
 
 /** Largest distance of positions, m, and of rotations, rad. */
 function farthest(frames, expected) {
@@ -88,7 +85,7 @@ test('a truncated or altered skin is rejected', () => {
 });
 
 test('a rigged person of the user has colours, and need not be closed', () => {
-  const buffer = Uint8Array.from(Buffer.from(told.own_skin.hex, 'hex')).buffer;
+  const buffer = toBuffer(told.own_skin.hex);
   const skin = readSkin(buffer, 'skin');
   assert.equal(skin.positions.length, 3 * told.own_skin.vertices);
   assert.ok(skin.paint instanceof Uint8Array && skin.isTwoSided);
