@@ -1,5 +1,7 @@
 // Connects the parts of the page: connection -> scene, readings, load list, picture.
 import { forgetToken, showInAddress, shownIn } from './address.js';
+import { AlarmPanel } from './alarm_panel.js';
+import { Alarms } from './alarms.js';
 import { Announcer } from './announcer.js';
 import { CameraBar } from './camera_bar.js';
 import { Charts } from './charts.js';
@@ -85,6 +87,7 @@ const connection = new Connection({
     handLoad.setPeople(details.people);
   },
   onStream: (health) => stream.set(health),
+  onAlarms: (state) => alarms.set(state),
   onError: showNotice,
   onOpen() {
     picture.ask();
@@ -111,6 +114,16 @@ const markPad = new MarkPad({
   pad: elements['mark-pad'], buttons: elements['mark-buttons'], form: elements['mark-form'], text: elements['mark-text'],
   said: elements['mark-said'], undo: elements['mark-undo'], list: elements['mark-list'], earlier: elements['mark-earlier'],
 }, marks, shown, { notice: showNotice, isViewer: () => elements.role.dataset.role === 'viewer' }, keys);
+const alarms = new Alarms();
+const alarmPanel = new AlarmPanel({
+  area: elements.alarm, stars: elements['alarm-stars'], head: elements['alarm-head'], detail: elements['alarm-detail'],
+  told: elements['alarm-told'], acknowledge: elements.acknowledge, sound: elements['alarm-sound'],
+  show: elements['alarm-show'], tab: elements['tab-alarms'], list: elements['alarm-list'], rate: elements['alarm-rate'],
+  test: elements['alarm-test'],
+}, alarms, shown, {
+  notice: showNotice, jointLabel: (name) => model?.joints.find((joint) => joint.name === name)?.label ?? name,
+  wallMillis: (micros) => charts.wallMillis(micros), newestMicros: () => shown.newest?.madeMicros ?? 0, canPress: layout.hasControls,
+}, keys);
 elements.status.addEventListener('click', () => {
   shown.time.goLive();
   shown.onTimeChanged();
@@ -299,6 +312,16 @@ async function loadMarks(now) {
   }
 }
 
+/** @param {number} now */
+async function loadAlarms(now) {
+  try {
+    await alarms.update(now);
+    charts.strip.setAlarms(alarms.log());
+  } catch (error) {
+    showNotice(`Could not load the alarms: ${messageOf(error)}`);
+  }
+}
+
 /** What the strip shows of the marks whose moments it may have.
  *  @param {Marks} of */
 const flagsOf = (of) => of.list().filter((mark) => of.isOfThisRun(mark)).map((mark) => ({
@@ -371,6 +394,8 @@ function showReadings() {
   picture.setLost(status.level === 'disconnected' ? 'The server does not answer' : '');
   loadMarks(now);
   markPad.update(now);
+  loadAlarms(now);
+  alarmPanel.update(now);
   shown.keepAddress(now);
   document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';
   if (!status.isFresh || !shown.isNewest) latencies.clear();

@@ -42,6 +42,12 @@ export class Charts {
     return this.strip.wordsAt(this.#people, 1000 * millis);
   }
 
+  /** @param {number} micros  a moment of the server's clock
+   *  @returns {number}  ms of the browser's clock */
+  wallMillis(micros) {
+    return this.#clock.at(micros);
+  }
+
   /** Call it several times a second.
    *  @param {number} now  browser's clock, ms */
   update(now) {

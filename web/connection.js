@@ -14,7 +14,8 @@ const STATES_PER_REPORT = 4;  // the server sends up to 12 states beyond the las
 /** @typedef {{onState: (buffer: ArrayBuffer) => void, onPicture: (buffer: ArrayBuffer) => void,
  *    onPast: (buffer: ArrayBuffer) => void,
  *    onDetails: (details: import('./messages.js').Details) => void,
- *    onStream: (stream: import('./messages.js').StreamHealth) => void, onError: (reason: string) => void,
+ *    onStream: (stream: import('./messages.js').StreamHealth) => void,
+ *    onAlarms: (alarms: import('./messages.js').ShownAlarms) => void, onError: (reason: string) => void,
  *    onOpen: () => void}} Handlers */
 
 export class Connection {
@@ -135,6 +136,8 @@ export class Connection {
       this.handlers.onDetails(message.details);
     } else if ('stream' in message) {
       this.handlers.onStream(message.stream);
+    } else if ('alarms' in message) {
+      this.handlers.onAlarms(message.alarms);
     } else {
       this.handlers.onError(message.error);
     }

@@ -131,7 +131,8 @@ const readStream = object({
 
 const readPong = object({ pong: number, server_micros: number });
 
-/** @typedef {{pong: number, server_micros: number}|{details: Details}|{stream: StreamHealth}|{error: string}} TextMessage */
+/** @typedef {{pong: number, server_micros: number}|{details: Details}|{stream: StreamHealth}|{alarms: ShownAlarms}
+ *    |{error: string}} TextMessage */
 
 /** @param {string} text
  *  @returns {unknown} */
@@ -150,6 +151,7 @@ export function readTextMessage(text) {
   if ('pong' in message) return readPong(message, 'a message');
   if ('details' in message) return { details: readDetails(message.details, 'details') };
   if ('stream' in message) return { stream: readStream(message.stream, 'stream') };
+  if ('alarms' in message) return { alarms: readShownAlarms(message.alarms, 'alarms') };
   if ('error' in message) return { error: string(message.error, 'error') };
   return null;
 }
@@ -162,6 +164,25 @@ export const readMark = object({
 });
 export const readMarks = object({ names: listOf(string), run_micros: number, revision: number, marks: listOf(readMark) });
 /** @typedef {ReturnType<typeof readMark>} Mark */
+
+// /api/alarms and the message "alarms"
+/** From the highest. */
+export const PRIORITIES = /** @type {const} */ (['high', 'medium', 'low']);
+const readAlarmMoment = object({ state: number, micros: number, stamp_micros: number });
+/** @type {Reader<number|string>}  a class is a word */
+const readAlarmValue = (value, path) => (typeof value === 'string' ? value : number(value, path));
+const readAlarm = object({
+  id: number, rule: string, priority: oneOf(PRIORITIES), quantity: string, unit: string, limit: readAlarmValue,
+  person: numberOrNull, name: string, joint: orNull(string), value: readAlarmValue, worst: readAlarmValue,
+  times: number, began: readAlarmMoment, over: orNull(readAlarmMoment), is_on: boolean, is_shown: boolean,
+  acknowledged: orNull(object({ role: string, micros: number })),
+});
+const readShownAlarms = object({ shown: listOf(readAlarm), count: number, last: orNull(readAlarm) });
+export const readAlarmLog = object({ alarms: listOf(readAlarm) });
+/** @typedef {(typeof PRIORITIES)[number]} Priority
+ *  @typedef {ReturnType<typeof readAlarm>} Alarm
+ *  @typedef {ReturnType<typeof readShownAlarms>} ShownAlarms  those that are on or wait for being acknowledged; how many
+ *    there are; the one that began last */
 
 // /api/model
 const readVisual = object({

@@ -54,7 +54,7 @@ bool Hub::Join(HubClient& client) {
   ++counters_.opened;
   client.Offer(Slot::kDetails, EncodeDetails());
   client.Offer(Slot::kState, EncodeNewestState());
-  if (stream_ != nullptr) client.Offer(Slot::kStream, stream_);
+  for (const auto& [slot, message] : news_) client.Offer(slot, message);
   return true;
 }
 
@@ -99,13 +99,15 @@ void Hub::Tick(Clock::time_point now) {
   for (HubClient* const client : clients_) client->Offer(Slot::kDetails, details_);
 }
 
-void Hub::SendStream(const std::string& health) {
-  if (health.empty()) return;
-  const std::string text = R"({"stream":)" + health + "}";
+void Hub::SendNews(Slot slot, const std::string& news) {
+  if (news.empty()) return;
+  const std::string text =
+      std::string(slot == Slot::kAlarms ? R"({"alarms":)" : R"({"stream":)") + news + "}";
   Bytes message(text.begin(), text.end());
-  if (stream_ != nullptr && *stream_ == message) return;
-  stream_ = Share(std::move(message));
-  for (HubClient* const client : clients_) client->Offer(Slot::kStream, stream_);
+  SharedBytes& last = news_[slot];
+  if (last != nullptr && *last == message) return;
+  last = Share(std::move(message));
+  for (HubClient* const client : clients_) client->Offer(slot, last);
 }
 
 void Hub::OnMessage(HubClient& client, std::string_view text) {

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -24,8 +25,8 @@ namespace kinescope::http {
 
 /// Messages that wait for sending: one place per slot, so that a newer message replaces the older
 /// one.
-enum class Slot { kError, kPong, kDetails, kStream, kState, kPast, kPicture };
-inline constexpr int kSlotCount = 7;
+enum class Slot { kError, kPong, kDetails, kStream, kAlarms, kState, kPast, kPicture };
+inline constexpr int kSlotCount = 8;
 constexpr bool IsBinary(Slot slot) { return slot >= Slot::kState; }
 
 class HubClient {
@@ -72,9 +73,9 @@ class Hub {
   /// that the server runs and how old the state is, and sends changed details.
   void Tick(Clock::time_point now);
 
-  /// Sends the health of the stream, a JSON object, to all clients if it has changed, and to those
-  /// who join later. "": not known yet.
-  void SendStream(const std::string& health);
+  /// Sends the health of the stream, or the alarms, to all clients if it has changed, and to those
+  /// who join later. `news`: a JSON object; "": not known yet.
+  void SendNews(Slot slot, const std::string& news);
 
   /// Processes a message of `client`. Answers are sent to this client, a change of camera to all. A
   /// message with a command that the client's role does not permit has no effect.
@@ -113,7 +114,7 @@ class Hub {
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_
   bool is_dark_ = false;              // the live picture, as reported to feed_
   SharedBytes details_;               // as last sent to all clients
-  SharedBytes stream_;                // as last sent to all clients; null before the first
+  std::map<Slot, SharedBytes> news_;  // as last sent to all clients
   SharedBytes picture_;               // as last sent to all viewers; null without any
   Clock::time_point state_sent_at_{};
 };

@@ -209,7 +209,7 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
 }
 
 // A new route: a line here, and one in docs/http.md.
-const std::array<Router::ApiRoute, 9> Router::kApiRoutes = {{
+const std::array<Router::ApiRoute, 11> Router::kApiRoutes = {{
     {"/api/session", Method::kGet, Role::kViewer, &Router::Session},
     {"/api/state", Method::kGet, Role::kViewer, &Router::State},
     {"/api/model", Method::kGet, Role::kViewer, &Router::Model},
@@ -219,6 +219,8 @@ const std::array<Router::ApiRoute, 9> Router::kApiRoutes = {{
     {"/api/hand_load", Method::kPost, Role::kOperator, &Router::SetHandLoad},
     {"/api/marks", Method::kGet, Role::kViewer, &Router::Marks},
     {"/api/mark", Method::kPost, Role::kOperator, &Router::SetMark},
+    {"/api/alarms", Method::kGet, Role::kViewer, &Router::Alarms},
+    {"/api/acknowledge", Method::kPost, Role::kOperator, &Router::Acknowledge},
 }};
 
 std::vector<Router::RouteInfo> Router::ApiRoutes() {

@@ -39,6 +39,7 @@ class Router {
     const Latest<SceneState>* states = nullptr;
     const history::History* history = nullptr;  // may be null: none is kept
     marks::MarkBook* marks = nullptr;           // may be null: nothing can be marked
+    alarms::Alarms* alarms = nullptr;           // may be null: nothing is watched
     std::function<std::string(int character, const HandLoad&)> set_hand_load;  // may be null
     std::function<std::string()> diagnostics;  // the complete JSON, with the part of the server
     std::function<std::string()> live_camera;
@@ -89,7 +90,7 @@ class Router {
     Role least;  // a route that changes anything: kOperator
     Answer (Router::*answer)(const Request&, Role) const;
   };
-  static const std::array<ApiRoute, 9> kApiRoutes;
+  static const std::array<ApiRoute, 11> kApiRoutes;
   /// Null if there is no such route.
   static const ApiRoute* FindApi(const std::string& path);
   static std::string ApiPaths();
@@ -108,6 +109,9 @@ class Router {
   Answer Marks(const Request& request, Role role) const;
   Answer SetMark(const Request& request, Role role) const;
   [[nodiscard]] Answer RefuseMoment(std::uint64_t wanted, const SceneState* nearest) const;
+  // router_alarms.cc
+  Answer Alarms(const Request& request, Role role) const;
+  Answer Acknowledge(const Request& request, Role role) const;
   Answer Mesh(const std::string& path, const Request& request) const;
   Answer Skin(const std::string& path, const Request& request) const;
   Answer Snapshot(const Target& target) const;

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/system/errors.h"
+#include "server/alarms/alarm_json.h"
 #include "server/http/access.h"
 #include "server/http/client_address.h"
 #include "server/http/http_session.h"
@@ -224,6 +225,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.framing = config_.framing;
   site.history = config_.history;
   site.marks = config_.marks;
+  site.alarms = config_.alarms;
   site.has_pictures = feed_ != nullptr;
   site.look = config_.look;
   site.own_skin = config_.own_skin;
@@ -293,7 +295,12 @@ void HttpServer::Impl::ArmTick() {
     ArmTick();
     const auto now = std::chrono::steady_clock::now();
     hub_.Tick(now);
-    if (config_.stream && hub_.client_count() > 0) hub_.SendStream(config_.stream());
+    if (hub_.client_count() > 0) {
+      if (config_.stream) hub_.SendNews(Slot::kStream, config_.stream());
+      if (config_.alarms != nullptr) {
+        hub_.SendNews(Slot::kAlarms, alarms::ShownJson(*config_.alarms));
+      }
+    }
     guesses_.Report(now);
   });
 }

@@ -17,6 +17,7 @@
 #include "core/playback.h"
 #include "core/scene_state.h"
 #include "core/system/latest.h"
+#include "server/alarms/alarms.h"
 #include "server/history/history.h"
 #include "server/http/role.h"
 #include "server/http/snapshot_request.h"
@@ -112,6 +113,8 @@ struct HttpConfig {
   std::function<std::shared_ptr<const Playback>()> playback;
   /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.
   marks::MarkBook* marks = nullptr;
+  /// What people are warned of; borrowed. Null: nothing.
+  alarms::Alarms* alarms = nullptr;
   /// The health of the stream as a JSON object, for the message "stream"; "": not known yet. Called
   /// on the server's thread while clients are connected, must return at once. May be null.
   std::function<std::string()> stream;

@@ -9,6 +9,7 @@
 #include "core/system/errors.h"
 #include "core/system/install_paths.h"
 #include "render/camera/camera.h"
+#include "server/alarms/rule_file.h"
 #include "server/app/serve/page_token.h"
 #include "server/loads/hand_loads.h"
 #include "server/mvn/open.h"
@@ -106,6 +107,7 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
   config.scene = ToShownSceneOptions(options.person, options.loads, *options.stale_secs);
   config.source.subject_height_m = config.scene.height_m;
   config.scene.makes_models_aside = true;
+  config.alarms = alarms::LoadRules(*options.alarms);
   config.scene.view_frame = *options.camera_moves.camera_frame;
   config.ros_mode = *options.ros;
   if (config.ros_mode == ros_bridge::RosMode::kOff ||

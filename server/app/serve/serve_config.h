@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "server/alarms/rule.h"
 #include "server/app/serve/live_pictures.h"
 #include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/serve_options.h"
@@ -25,6 +26,7 @@ struct ServeConfig {
   bool loop = false;
   SourceSettings source;
   SceneOptions scene;
+  alarms::Rules alarms;
   ros_bridge::RosMode ros_mode = ros_bridge::RosMode::kAuto;
   std::optional<ros_bridge::BridgeConfig> ros;  // initial_urdf is known when the scene builder is
   BackendOptions backend;

@@ -33,6 +33,7 @@ struct ServeOptions {
   options::Flag loop;
   options::Choice<mvn::Stamps> stamps;
   options::Number stale_secs;
+  options::Text alarms;
   PersonOptions person;
   LoadOptions loads;
   // ROS

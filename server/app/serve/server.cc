@@ -10,6 +10,7 @@
 
 #include "core/system/clocks.h"
 #include "core/system/stop_signal.h"
+#include "server/alarms/alarm_json.h"
 #include "server/app/serve/diagnostics.h"
 #include "server/app/serve/input_merger.h"
 #include "server/source/open_source.h"
@@ -33,6 +34,14 @@ void LogListening(const Source& source, const std::string& reach) {
 // The motion of the built-in subject is made, not recorded.
 bool IsRecording(const ServeConfig& config) {
   return KindOfSource(config.source_url) == SourceKind::kFile;
+}
+
+std::unique_ptr<alarms::Webhook> WebhookOf(const ServeConfig& config) {
+  if (config.alarms.webhook.empty()) return nullptr;
+  alarms::Webhook::Settings settings;
+  settings.url = config.alarms.webhook;
+  settings.warn = [](const std::string& line) { spdlog::warn("{}", line); };
+  return std::make_unique<alarms::Webhook>(std::move(settings));
 }
 
 // Null for what cannot be read twice: a pipe.
@@ -70,6 +79,10 @@ Server::Server(const ServeConfig& config)
       source_(OpenAtTrueRate(config.source_url, config.loop, config.source)),
       history_(config.history ? std::make_unique<history::History>(*config.history) : nullptr),
       marks_(config.marks ? std::make_unique<marks::MarkBook>(*config.marks) : nullptr),
+      webhook_(WebhookOf(config)),
+      alarms_(
+          config.alarms, IsLiveUrl(config.source_url),
+          [this](const alarms::Alarm& alarm, alarms::Change change) { OnAlarm(alarm, change); }),
       overload_(/*may_skip=*/!config.ros),
       is_recording_(IsRecording(config)),
       length_(LengthOf(config)),
@@ -115,6 +128,7 @@ void Server::StartPage(const ServeConfig& config) {
   };
   page.history = history_.get();
   page.marks = marks_.get();
+  page.alarms = &alarms_;
   page.playback = [this] { return playback_.Get(); };
   page.stream = [this] {
     const auto stream = stream_.Get();
@@ -131,6 +145,7 @@ void Server::StartPage(const ServeConfig& config) {
 
 void Server::OnState(const std::shared_ptr<SceneState>& state) {
   state->made_nanos = MonotonicNanos();
+  alarms_.OnState(*state);
   if (ros_) ros_->Publish(*state);
   states_.Publish(state);
   if (history_) history_->Add(state);
@@ -139,10 +154,15 @@ void Server::OnState(const std::shared_ptr<SceneState>& state) {
   liveness_log_.OnState(*state);
 }
 
+void Server::OnAlarm(const alarms::Alarm& alarm, alarms::Change change) const {
+  spdlog::info("alarm {} {}: {}", alarm.rule.name, Name(change), Describe(alarm));
+  if (webhook_) webhook_->Send(alarms::NewsJson(alarm, change));
+}
+
 std::string Server::Diagnostics() const {
   return DiagnosticsJson(states_.Get(), counters_.Get(), StatusOf(ros_), StatusOf(live_pictures_),
                          StatusOf(ros_camera_), overload_.skipped(), history_.get(),
-                         stream_.Get().get());
+                         stream_.Get().get(), webhook_.get());
 }
 
 void Server::Run() {
@@ -181,6 +201,7 @@ void Server::UpdatePlayback(bool has_ended) {
 
 void Server::OnTime(std::int64_t now_nanos) {
   builder_.Tick(now_nanos);
+  alarms_.OnTime(now_nanos, stream_meter_.health().recent_loss);
   if (now_nanos < counters_due_nanos_) return;
   counters_due_nanos_ = now_nanos + kCountersPeriodNanos;
   const auto counters = std::make_shared<const SourceCounters>(source_->counters());

@@ -11,6 +11,8 @@
 #include "core/scene_state.h"
 #include "core/source.h"
 #include "core/system/latest.h"
+#include "server/alarms/alarms.h"
+#include "server/alarms/webhook.h"
 #include "server/app/serve/crowd_warning.h"
 #include "server/app/serve/hand_load_mailbox.h"
 #include "server/app/serve/live_pictures.h"
@@ -49,6 +51,7 @@ class Server {
   void OnState(const std::shared_ptr<SceneState>& state);
   void OnTime(std::int64_t now_nanos);  // between polls
   void UpdatePlayback(bool has_ended);
+  void OnAlarm(const alarms::Alarm& alarm, alarms::Change change) const;
   std::string Diagnostics() const;  // on the page's thread
 
   const std::int64_t start_nanos_;
@@ -64,6 +67,8 @@ class Server {
   HandLoadMailbox hand_loads_;                       // page -> reading thread
   const std::unique_ptr<history::History> history_;  // reading thread -> page; null: off
   const std::unique_ptr<marks::MarkBook> marks_;     // page's thread; null: off
+  const std::unique_ptr<alarms::Webhook> webhook_;   // both threads; null: off
+  alarms::Alarms alarms_;                            // both threads
   Overload overload_;                                // its count: reading thread -> page
   // Used by the reading thread only:
   const bool is_recording_;                        // else live, or the built-in subject

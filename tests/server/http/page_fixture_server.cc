@@ -1,10 +1,11 @@
 // page_fixture_server [--token T [--viewer_token T]] [--no-pictures] [--meshes FOLDER] [--worn]
-// [--diagnostics JSON] [--marks_file FILE]:
+// [--diagnostics JSON] [--marks_file FILE] [--alarms FILE]:
 // --worn: gloves and props on everybody, and a tracked object. Prints one line of JSON with its
 // "url", then obeys lines on its standard input until that ends:
 //   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
 //   people <n>              how many persons it shows
 //   stream <JSON>           the health of the stream
+//   compression <n>         of each person's L5/S1, N
 // page_fixture_server describe: prints one state as the server encodes it (hex) beside what it
 // means, and the limits of the load classes, for the page's unit tests.
 #include <poll.h>
@@ -18,6 +19,7 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -29,6 +31,8 @@
 #include "core/system/clocks.h"
 #include "core/system/install_paths.h"
 #include "core/system/scratch_folder.h"
+#include "server/alarms/alarms.h"
+#include "server/alarms/rule_file.h"
 #include "server/http/api.h"
 #include "server/http/protocol.h"
 #include "server/http/server.h"
@@ -315,6 +319,7 @@ class Orders {
  public:
   std::string mode = "live";
   int people = 1;
+  double compression = 2150;
   bool changed = true;
   bool ended = false;
 
@@ -343,6 +348,8 @@ class Orders {
     changed = true;
     if (line.rfind("people ", 0) == 0) {
       people = std::stoi(line.substr(7));
+    } else if (line.rfind("compression ", 0) == 0) {
+      compression = std::stod(line.substr(12));
     } else if (line.rfind("stream ", 0) == 0) {
       const std::lock_guard<std::mutex> lock(mutex_);
       stream_ = line.substr(7);
@@ -360,6 +367,9 @@ SceneState NextState(const Orders& orders, const SceneState& last,
   SceneState next = last;
   if (orders.mode == "live") {
     next = MakeScene(last.number, seconds, MonotonicNanos(), model, orders.people);
+    for (PersonState& person : next.people) {
+      person.forces.lumbar->compression = orders.compression;
+    }
   } else if (orders.mode == "nodata") {
     next = SceneState();
     next.source = "udp://0.0.0.0:9763";
@@ -382,6 +392,7 @@ struct Options {
   std::string diagnostics = "{}";
   bool worn = false;
   std::filesystem::path marks_file;  // empty: one of this run
+  std::string alarms;                // file of rules; "": nothing is watched
 };
 
 void AddWorn(SceneState& state, const std::shared_ptr<const PersonModel>& model) {
@@ -423,6 +434,10 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
       {options.marks_file.empty() ? folder / "marks.jsonl" : options.marks_file,
        {"grasp", "lift", "place", "release", "step", "slip", "talk", "pain", "discard"}});
   config.marks = &book;
+  std::optional<alarms::Alarms> watched;
+  if (!options.alarms.empty()) {
+    config.alarms = &watched.emplace(alarms::LoadRules(options.alarms), /*is_live=*/true);
+  }
   Orders orders;
   config.stream = [&orders] { return orders.stream(); };
   HttpServer server(config, states, pictures, feed, [&] { return options.diagnostics; });
@@ -435,6 +450,7 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
   const auto began = Clock::now();
   for (auto due = began; !orders.ended; due = std::max(due + kPeriod, Clock::now() - kPeriod)) {
     orders.WaitUntil(due);
+    if (watched) watched->OnTime(MonotonicNanos(), std::nullopt);
     if (orders.mode != "live" && !orders.changed) continue;
     orders.changed = false;
     const double seconds = std::chrono::duration<double>(due - began).count();
@@ -446,6 +462,7 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
     }
     state.made_nanos = MonotonicNanos();
     const auto published = std::make_shared<const SceneState>(state);
+    if (watched) watched->OnState(state);
     states.Publish(published);
     history.Add(published);
     if (feed != nullptr && feed->viewers() > 0 && state.number % 4 == 0) {
@@ -478,6 +495,7 @@ int Main(const std::vector<std::string>& arguments) {
     if (arguments[i] == "--marks_file" && i + 1 < arguments.size()) {
       options.marks_file = arguments[++i];
     }
+    if (arguments[i] == "--alarms" && i + 1 < arguments.size()) options.alarms = arguments[++i];
     if (arguments[i] == "--diagnostics" && i + 1 < arguments.size()) {
       options.diagnostics = arguments[++i];
     }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "server/alarms/alarms.h"
 #include "server/history/history.h"
 #include "server/http/hub.h"
 #include "server/http/router.h"
@@ -57,6 +58,7 @@ class RoleOfRouteTest : public ::testing::Test {
     };
     site.diagnostics = [] { return std::string("{}"); };
     site.live_camera = [] { return std::string("iso"); };
+    site.alarms = &alarms_;
     site.count_refusal = [this](const std::string& reason) { ++refusals_[reason]; };
     return Router(site);
   }
@@ -79,6 +81,7 @@ class RoleOfRouteTest : public ::testing::Test {
   Latest<SceneState> states_;
   history::History history_;
   marks::MarkBook marks_{{web_ / "marks.jsonl", {"lift"}}};
+  alarms::Alarms alarms_{{}, /*is_live=*/true};
   int changes_ = 0;
   std::map<std::string, int> refusals_;
 };
