@@ -13,7 +13,7 @@ const server = spawn(program, ['serve', 'demo:lift', '--hand_load', 'both:8', '-
 try {
   const url = await urlOf(server);
   const visit = await openPage(`${url}?quality=fine`, { viewport: DESKTOP });
-  await visit.page.locator('#picture-image').waitFor({ state: 'visible' });
+  await visit.page.waitForFunction(() => /\d %/.test(document.querySelector('.person .ratio')?.textContent ?? ''));
   await visit.page.waitForFunction(() => document.getElementById('latency-p95').textContent !== '');
   await straightening(url);
   server.kill('SIGSTOP');  // view and list then show the same sample

@@ -3,7 +3,6 @@ import { isNew } from './alarms.js';
 import { AlarmSound } from './alarm_sound.js';
 import { detailText, headline, lengthText, limitText, stars, valueText } from './alarm_text.js';
 import { clockText } from './strip.js';
-import { isForOther } from './keys.js';
 import { messageOf } from './server_api.js';
 
 const MOST_LISTED = 200;
@@ -14,7 +13,7 @@ const MANY = 2, TOO_MANY = 10;  // in ten minutes
  *    acknowledge: HTMLButtonElement, sound: HTMLButtonElement, show: HTMLButtonElement, tab: HTMLElement, list: HTMLElement,
  *    rate: HTMLElement, test: HTMLButtonElement}} Parts  told: what screen readers say when an alarm begins
  *  @typedef {{notice: (text: string) => void, jointLabel: (name: string) => string, wallMillis: (micros: number) => number,
- *    newestMicros: () => number}} Page */
+ *    newestMicros: () => number, canPress: boolean}} Page  canPress: whether a press on the line shows its moment */
 
 export class AlarmPanel {
   #sound = new AlarmSound();
@@ -24,8 +23,9 @@ export class AlarmPanel {
   /** @param {Parts} parts
    *  @param {import('./alarms.js').Alarms} alarms
    *  @param {import('./shown.js').Shown} shown
-   *  @param {Page} page */
-  constructor(parts, alarms, shown, page) {
+   *  @param {Page} page
+   *  @param {import('./keys.js').Keys} keys */
+  constructor(parts, alarms, shown, page, keys) {
     this.parts = parts;
     this.alarms = alarms;
     this.shown = shown;
@@ -40,11 +40,8 @@ export class AlarmPanel {
       this.#sound.arm();
       this.#sound.play('high');
     });
-    document.addEventListener('keydown', (event) => {
-      if (event.ctrlKey || event.altKey || event.metaKey || event.repeat || isForOther(event)) return;
-      if (event.key === 'a' || event.key === 'A') this.#acknowledge();
-      else if (event.key === 's' || event.key === 'S') this.#mute();
-    });
+    keys.add('Alarms', 'A', 'Acknowledge all that are shown', () => { this.#acknowledge(); });
+    keys.add('Alarms', 'S', 'Mute for two minutes, or sound again', () => this.#mute());
   }
 
   #highest() {
@@ -97,7 +94,7 @@ export class AlarmPanel {
     setText(parts.head, first ? headline(first, page.jointLabel) : 'No alarm');
     setText(parts.detail, first ? detailText(first, alarms.count - 1, micros)
       : last ? `last: ${headline(last, page.jointLabel)}, ${clockText(page.wallMillis(last.began.micros), 1)}` : 'none since the start');
-    parts.show.disabled = first === null && last === null;
+    parts.show.disabled = !page.canPress || (first === null && last === null);
     parts.acknowledge.hidden = first === null || !isNew(first);
     const newest = Math.max(0, ...alarms.shown.filter(isNew).map(({ id }) => id));
     if (newest > this.#told && first) {

@@ -17,7 +17,7 @@ const LEAST_TREND = 0.05;  // of the capacity
 
 /** @typedef {{name: string, label: string, loadClass: import('./messages.js').LoadClass, ratio: number,
  *    secs?: import('./messages.js').Secs}} Joint
- *  @typedef {{element: HTMLButtonElement, mark: Element, ratio: HTMLElement, trend: HTMLElement, shares: HTMLElement[]}} Row */
+ *  @typedef {{element: HTMLElement, mark: Element, ratio: HTMLElement, trend: HTMLElement, shares: HTMLElement[]}} Row */
 
 /** Which way the loads go: compares with those a second before. */
 export class Trend {
@@ -46,7 +46,7 @@ export class BodyMap {
 
   /** @param {{panel: HTMLElement, mark: HTMLTemplateElement, middle: HTMLElement, right: HTMLElement,
    *    left: HTMLElement}} parts  mark: template of a <g>; the lists get a button for each joint
-   *  @param {(name: string) => void} onPress */
+   *  @param {((name: string) => void)|null} onPress  null: the joints cannot be pressed */
   constructor(parts, onPress) {
     const marks = parts.panel.querySelector('#body-marks');
     if (marks === null) throw new Error('the map of the body has no place for its marks');
@@ -92,7 +92,7 @@ export class BodyMap {
    *  @param {string} name
    *  @returns {Row} */
   #rowOf(mark, label, name) {
-    const element = document.createElement('button');
+    const { onPress } = this, element = document.createElement(onPress ? 'button' : 'div');
     const [title, ratio, trend, bar] = ['joint-name', 'ratio', 'trend', 'exposure'].map((className) => {
       const part = document.createElement('span');
       part.className = className;
@@ -104,12 +104,13 @@ export class BodyMap {
       share.dataset.class = loadClass;
       return share;
     });
-    element.type = 'button';
+    if (element instanceof HTMLButtonElement) element.type = 'button';
+    element.classList.add('joint-card');
     element.dataset.joint = name;
     title.textContent = label.replace(/^(?:Right|Left) (.)/, (_, /** @type {string} */ first) => first.toUpperCase());
     bar.append(...shares);
     element.append(title, ratio, trend, bar);
-    for (const part of [element, mark]) part.addEventListener('click', () => this.onPress(name));
+    if (onPress) for (const part of [element, mark]) part.addEventListener('click', () => onPress(name));
     return { element, mark, ratio, trend, shares };
   }
 
@@ -124,9 +125,10 @@ export class BodyMap {
     ratio.textContent = percent(value);
     arrow.textContent = trend;
     exposureShares(secs).forEach((share, i) => { shares[i].style.flexGrow = share.toFixed(3); });
+    element.title = exposureText(secs);
+    if (!this.onPress) return;
     element.ariaPressed = String(isPlotted);
     const words = [label, loadClass, percent(value), trend === '▲' ? 'rising' : trend === '▼' ? 'falling' : '', exposureText(secs)];
     element.ariaLabel = `${words.filter(Boolean).join(', ')}; plot`;
-    element.title = exposureText(secs);
   }
 }

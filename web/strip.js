@@ -2,9 +2,11 @@
 // of their samples, told by height besides colour: low is a base line, medium 22 to 60 % of the row by the number of
 // joints, high the whole row, unknown hatched. Below are lost samples and gaps, and the clock.
 import { Series } from './series.js';
+import { theme } from './theme.js';
 
 export const STRIP_KEYS = /** @type {const} */ (['high_joints', 'medium_joints', 'unknown_joints', 'loss']);
 const COLUMN_PX = 2, GUTTER_PX = 58, RIGHT_PX = 8, AXIS_PX = 16, MARKS_PX = 18, LOSS_PX = 13, ALARMS_PX = 8;
+const LOW_PX = 60;  // below this height the rows of people have all of it
 const MOST_ROWS = 6;  // the last one has the worst of all further people
 /** The strip covers one of these times, so that it does not move with each sample while the history grows. */
 const SPANS_SECS = [10, 20, 30, 60, 120, 180, 300, 600, 900, 1200, 1800, 2700, 3600];
@@ -74,7 +76,7 @@ export class Strip {
   /** @param {{canvas: HTMLCanvasElement, slider: HTMLInputElement}} parts  the slider lies over the kept moments */
   constructor(parts) {
     this.parts = parts;
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { this.#drawn = ''; });
+    theme?.follow(() => { this.#drawn = ''; });
   }
 
   /** Flags in a row of their own, which is there from the first call on.
@@ -190,15 +192,15 @@ class Painter {
   paint(rows, marks, alarms) {
     const { context, frame } = this;
     context.textBaseline = 'middle';
-    const top = marks === null ? 0 : MARKS_PX, bottom = frame.height - AXIS_PX;
-    const losses = bottom - LOSS_PX - ALARMS_PX;
+    const isLow = frame.height < LOW_PX, bottom = frame.height - AXIS_PX;
+    const top = marks === null || isLow ? 0 : MARKS_PX, losses = isLow ? bottom : bottom - LOSS_PX - ALARMS_PX;
     const each = (losses - top) / Math.max(1, rows.length);
     rows.forEach((row, i) => this.#row(row, top + i * each + 1, each - 3));
-    this.#losses(rows, losses, LOSS_PX - 2);
-    this.#alarms(alarms, bottom - ALARMS_PX);
+    if (!isLow) this.#losses(rows, losses, LOSS_PX - 2);
+    if (!isLow) this.#alarms(alarms, bottom - ALARMS_PX);
     this.#clock(bottom);
     this.#playhead(bottom);
-    if (marks !== null) this.#flags(marks);
+    if (marks !== null && !isLow) this.#flags(marks);
   }
 
   /** @param {string} text

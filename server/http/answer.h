@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/picture_limits.h"
+#include "server/http/snapshot_request.h"
 
 namespace kinescope::http {
 
@@ -29,12 +29,6 @@ struct Request {
   std::string socket_protocols;  // Sec-WebSocket-Protocol: what the client can read, or ""
   std::string address;           // of the client, without port
   std::chrono::steady_clock::time_point received_at{};
-};
-
-struct SnapshotRequest {
-  std::string camera;                  // "": that of the live picture
-  int width = kDefaultPictureWidth;    // px
-  int height = kDefaultPictureHeight;  // px
 };
 
 struct Answer {

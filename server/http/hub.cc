@@ -130,7 +130,9 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
         Slot::kError,
         Share(EncodeError("seen_states or seen_pictures is larger than the number sent")));
   }
+  if (command->dark) client.SetWantsDark(*command->dark);
   if (command->pictures) SetPictures(client, *command->pictures);
+  if (command->dark) ChooseTheme();
   if (command->camera) SelectCamera(client, *command->camera);
   if (command->look) LookBack(client, *command->look);
   if (command->ping) client.Offer(Slot::kPong, Share(EncodePong(*command->ping, NowNanos())));
@@ -172,7 +174,21 @@ void Hub::SetPictures(HubClient& client, bool wanted) {
   if (wanted && picture_ != nullptr) client.Offer(Slot::kPicture, picture_);
 }
 
+// All share one picture: it is dark while no viewer has a light page.
+void Hub::ChooseTheme() {
+  const auto watches = [](const HubClient* client) { return client->wants_pictures(); };
+  const auto is_light = [&](const HubClient* client) {
+    return watches(client) && !client->wants_dark();
+  };
+  const bool is_dark = std::any_of(clients_.begin(), clients_.end(), watches) &&
+                       std::none_of(clients_.begin(), clients_.end(), is_light);
+  if (is_dark == is_dark_) return;
+  is_dark_ = is_dark;
+  if (feed_ != nullptr) feed_->SetDark(is_dark);
+}
+
 void Hub::CountViewers() {
+  ChooseTheme();
   const int viewers =
       static_cast<int>(std::count_if(clients_.begin(), clients_.end(), [](const HubClient* client) {
         return client->wants_pictures();

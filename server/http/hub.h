@@ -35,6 +35,8 @@ class HubClient {
   virtual void Offer(Slot slot, SharedBytes message) = 0;
   virtual void SetWantsPictures(bool wanted) = 0;
   virtual bool wants_pictures() const = 0;
+  virtual void SetWantsDark(bool wanted) = 0;
+  virtual bool wants_dark() const = 0;  // of the live picture
   /// Acknowledges `count` messages in `slot`; false if fewer were sent.
   [[nodiscard]] virtual bool OnSeen(Slot slot, std::uint64_t count) = 0;
   virtual ClientCounters counters() const = 0;
@@ -98,6 +100,7 @@ class Hub {
   [[nodiscard]] StateMoment Moment() const;
   void SetPictures(HubClient& client, bool wanted);
   [[nodiscard]] int CountOf(const std::string& address) const;
+  void ChooseTheme();
   void CountViewers();  // call after a client has changed whether it wants pictures
   SharedBytes EncodeNewestState() const;
   SharedBytes EncodeDetails() const;
@@ -115,6 +118,7 @@ class Hub {
   std::set<HubClient*> clients_;
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_
+  bool is_dark_ = false;              // the live picture, as reported to feed_
   SharedBytes details_;               // as last sent to all clients
   std::map<Slot, SharedBytes> news_;  // as last sent to all clients
   SharedBytes picture_;               // as last sent to all viewers; null without any

@@ -264,9 +264,11 @@ struct CommandKind {
 };
 
 // A new command: a line here, and one in docs/http.md.
-constexpr std::array<CommandKind, 6> kCommandKinds = {{
+constexpr std::array<CommandKind, 7> kCommandKinds = {{
     {"pictures", Role::kViewer, "true or false", "true",
      [](const json& value, ClientCommand& c) { return Store(ParseFlag(value), c.pictures); }},
+    {"dark", Role::kViewer, "true or false", "true",
+     [](const json& value, ClientCommand& c) { return Store(ParseFlag(value), c.dark); }},
     {"camera", Role::kOperator, "a name", "\"front\"",
      [](const json& value, ClientCommand& c) { return Store(ParseName(value), c.camera); }},
     {"look", Role::kViewer,

@@ -80,6 +80,7 @@ struct ClientCommand {
   Role least = Role::kViewer;         // that all of its members need
   std::string needs_least;            // the first member that needs it; "": there is none
   std::optional<bool> pictures;       // whether the client wants the live picture
+  std::optional<bool> dark;           // and whether it wants it dark
   std::optional<std::string> camera;  // of the live picture
   std::optional<LookBack> look;
   std::optional<double> ping;  // the client's clock; returned unchanged

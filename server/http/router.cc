@@ -465,13 +465,18 @@ Answer Router::Snapshot(const Request& request, Role /*role*/) const {
       snapshot.camera = value;
       continue;
     }
+    if (name == "theme" && (value == "light" || value == "dark")) {
+      snapshot.is_dark = value == "dark";
+      continue;
+    }
     int* const pixels = name == "width"    ? &snapshot.width
                         : name == "height" ? &snapshot.height
                                            : nullptr;
     const auto number = ParseNumber<int>(value);
     if (pixels == nullptr || !number || *number < kMinPictureSide || *number > kMaxPixels) {
       return Refuse(400, "bad snapshot",
-                    name + "=" + value + ": expected camera=<name>, width= and height= from " +
+                    name + "=" + value +
+                        ": expected camera=<name>, theme=light or dark, width= and height= from " +
                         std::to_string(kMinPictureSide) + " to " + std::to_string(kMaxPixels));
     }
     *pixels = *number;

@@ -21,6 +21,7 @@
 #include "server/history/history.h"
 #include "server/http/controls.h"
 #include "server/http/role.h"
+#include "server/http/snapshot_request.h"
 #include "server/marks/mark_book.h"
 #include "urdf/skin/skin_template.h"
 
@@ -60,9 +61,9 @@ struct CameraFraming {
   double spare_below = 0;       // of the height; people lower than that lower the target
 };
 
-/// Renders for the server. Implemented in server/app; any thread may call it. SetViewers and
-/// SetCamera are called on the server's thread (SetViewers(0) also by the destructor) and must
-/// return at once; SnapshotPng is called on a separate thread.
+/// Renders for the server. Implemented in server/app; any thread may call it. SetViewers,
+/// SetCamera and SetDark are called on the server's thread (SetViewers(0) also by the destructor)
+/// and must return at once; SnapshotPng is called on a separate thread.
 class PictureFeed {
  public:
   virtual ~PictureFeed() = default;
@@ -70,10 +71,11 @@ class PictureFeed {
   virtual void SetViewers(int count) = 0;
   /// Selects the named camera of the live picture. False for an unknown name.
   [[nodiscard]] virtual bool SetCamera(const std::string& camera) = 0;
-  /// Renders one picture of the newest state as PNG; blocks until it is done. Empty camera: that of
-  /// the live picture. @throws std::exception with one line for the client.
-  virtual std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width,
-                                                int height) = 0;
+  /// The theme of the live picture: dark while all of its viewers want it so.
+  virtual void SetDark(bool is_dark) = 0;
+  /// Renders one picture of the newest state as PNG; blocks until it is done.
+  /// @throws std::exception with one line for the client.
+  virtual std::vector<std::uint8_t> SnapshotPng(const SnapshotRequest& request) = 0;
 };
 
 /// How long the server waits for a client.

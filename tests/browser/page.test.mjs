@@ -230,6 +230,8 @@ test('the page shows metric, load mode and assumptions beside the loads', async 
 test('the server picture is shown on request and saved at full size', async () => {
   const { page, problems, close } = await openLive();
   const image = page.locator('#picture-image');
+  assert.equal(await image.isVisible(), false, 'it costs nothing until it is looked at');
+  await page.click('#tab-picture');
   await image.waitFor({ state: 'visible', ...LONG });
   await page.waitForFunction(() => document.getElementById('picture-image').naturalWidth === 640, null, LONG);
   await page.selectOption('#picture-camera', 'iso');
@@ -436,7 +438,7 @@ for (const [name, viewport, colorScheme] of [
       .map((part) => `${part.className || part.id || part.tagName}: ${part.textContent}`));
     assert.deepEqual(cut, []);
     if (viewport === DESKTOP) {
-      const all = await page.locator('#loads').evaluate((list) => list.scrollHeight - list.clientHeight);
+      const all = await page.locator('.load-list').evaluate((list) => list.scrollHeight - list.clientHeight);
       assert.ok(all <= 0, `the load list needs ${all} px more`);
     }
     await saveScreenshot(page, `live_${name}`);

@@ -25,6 +25,7 @@ for (const [name, viewport, colorScheme] of [
     const { page, problems, close } = await openPage(site.viewer_url, { viewport, colorScheme });
     await roleIs(page, 'viewer');
     for (const selector of GATED) {
+      await page.click(selector.startsWith('#picture') ? '#tab-picture' : '#tab-loads');
       const control = page.locator(selector);
       assert.ok(await control.isVisible(), selector);
       assert.ok(await control.isDisabled(), selector);
@@ -57,6 +58,7 @@ test('a viewer may look back, and an operator may change what all see', async ()
   const operator = await openPage(site.url);
   await roleIs(operator.page, 'operator');
   for (const selector of [...GATED, ...CONTROLS]) assert.ok(await operator.page.locator(selector).isEnabled(), selector);
+  await operator.page.click('#tab-picture');
   await operator.page.selectOption('#picture-camera', 'iso');
   await viewer.page.waitForFunction(() => document.getElementById('picture-camera').value === 'iso', null, LONG);
   assert.deepEqual([...viewer.problems, ...operator.problems], []);

@@ -50,6 +50,7 @@ for (const [name, viewport, colorScheme] of [
     assert.deepEqual([after.x, after.y, after.width, after.height], [before.x, before.y, before.width, before.height], 'nothing jumps');
     const words = await page.$$eval('#loads .word', (parts) => parts.map((part) => part.textContent));
     assert.ok(words.includes('high'), 'the newest sample is shown as one that is new');
+    await page.click('#tab-loads');
     await page.locator('#stream summary').focus();
     await page.keyboard.press('Enter');
     await page.waitForFunction(() => document.querySelectorAll('#stream-rows tr').length === 7, null, LONG);

@@ -30,7 +30,8 @@ class CountingFeed : public http::PictureFeed {
  public:
   void SetViewers(int count) override { viewers = count; }
   bool SetCamera(const std::string& camera) override { return camera == "front"; }
-  std::vector<std::uint8_t> SnapshotPng(const std::string&, int, int) override { return {}; }
+  void SetDark(bool) override {}
+  std::vector<std::uint8_t> SnapshotPng(const http::SnapshotRequest&) override { return {}; }
 
   int viewers = 0;
 };

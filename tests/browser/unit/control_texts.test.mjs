@@ -51,5 +51,5 @@ test('a job says how far it is, or why it failed', () => {
 
 test('messages of another shape are rejected with their path', () => {
   assert.throws(() => readControls({ recording: { ...recording, state: 'paused' } }, 'controls'), /controls\.recording\.state/);
-  assert.throws(() => readFiles({ revision: 1, files: [{ name: 'a' }], trials: [] }, 'api/v1/files'), /api\/files\.files\[0\]\.bytes/);
+  assert.throws(() => readFiles({ revision: 1, run_micros: 1, files: [{ name: 'a' }], trials: [] }, 'api/v1/files'), /api\/v1\/files\.files\[0\]\.bytes/);
 });

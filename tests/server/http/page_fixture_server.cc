@@ -68,8 +68,16 @@ class PlainFeed final : public PictureFeed {
     viewers_ = count;
   }
   bool SetCamera(const std::string& camera) override { return camera != "nowhere"; }
-  std::vector<std::uint8_t> SnapshotPng(const std::string&, int width, int height) override {
-    return PlainPng(width, height, {40, 90, 160});
+  void SetDark(bool is_dark) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_dark_ = is_dark;
+  }
+  std::vector<std::uint8_t> SnapshotPng(const SnapshotRequest& request) override {
+    return PlainPng(request.width, request.height, ColorOf(request.is_dark));
+  }
+  std::array<std::uint8_t, 3> color() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ColorOf(is_dark_);
   }
   int viewers() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -77,8 +85,14 @@ class PlainFeed final : public PictureFeed {
   }
 
  private:
+  static std::array<std::uint8_t, 3> ColorOf(bool is_dark) {
+    return is_dark ? std::array<std::uint8_t, 3>{10, 20, 40}
+                   : std::array<std::uint8_t, 3>{40, 90, 160};
+  }
+
   mutable std::mutex mutex_;
   int viewers_ = 0;
+  bool is_dark_ = false;
 };
 
 std::string Hex(const Bytes& bytes) {
@@ -459,7 +473,7 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
     history.Add(published);
     if (feed != nullptr && feed->viewers() > 0 && state.number % 4 == 0) {
       pictures.Publish(std::make_shared<const Picture>(
-          Picture{PlainJpeg(640, 360, {40, 90, 160}), state.number, state.arrival_nanos}));
+          Picture{PlainJpeg(640, 360, feed->color()), state.number, state.arrival_nanos}));
     }
   }
 }

@@ -184,6 +184,8 @@ class FakeClient final : public HubClient {
   }
   void SetWantsPictures(bool wanted) override { wants_ = wanted; }
   bool wants_pictures() const override { return wants_; }
+  void SetWantsDark(bool wanted) override { dark_ = wanted; }
+  bool wants_dark() const override { return dark_; }
   bool OnSeen(Slot, std::uint64_t) override { return true; }
   ClientCounters counters() const override { return {}; }
   const std::string& address() const override { return address_; }
@@ -194,6 +196,7 @@ class FakeClient final : public HubClient {
   const Role role_;
   const std::string address_ = "10.0.0.7";
   bool wants_ = false;
+  bool dark_ = false;
   std::vector<std::string> errors_;
 };
 
@@ -220,6 +223,23 @@ std::vector<std::string> ErrorsOf(Shared& shared, Role role, const std::string& 
   shared.hub.OnMessage(client, text);
   shared.hub.Leave(client);
   return client.errors();
+}
+
+TEST(ThemeOfTheLivePicture, IsDarkWhileAllOfItsViewersWantItSo) {
+  Shared shared;
+  FakeClient dark(Role::kViewer), light(Role::kViewer);
+  ASSERT_TRUE(shared.hub.Join(dark) && shared.hub.Join(light));
+  shared.hub.OnMessage(dark, R"({"dark": true})");
+  EXPECT_FALSE(shared.feed.is_dark()) << "it watches no picture yet";
+  shared.hub.OnMessage(dark, R"({"pictures": true})");
+  EXPECT_TRUE(shared.feed.is_dark());
+  shared.hub.OnMessage(light, R"({"pictures": true})");
+  EXPECT_FALSE(shared.feed.is_dark());
+  shared.hub.Leave(light);
+  EXPECT_TRUE(shared.feed.is_dark());
+  shared.hub.OnMessage(dark, R"({"dark": false})");
+  EXPECT_FALSE(shared.feed.is_dark());
+  shared.hub.Leave(dark);
 }
 
 TEST(RoleOfCommand, IsThatOfAnOperatorIfItChangesWhatOthersSee) {

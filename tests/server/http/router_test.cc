@@ -326,8 +326,12 @@ TEST_F(RouterTest, AcceptsSnapshotSizesFrom16To4096) {
   EXPECT_EQ(asked.snapshot->camera, "top");
   EXPECT_EQ(asked.snapshot->width, 16);
   EXPECT_EQ(asked.snapshot->height, 4096);
-  for (const char* query : {"width=15", "width=4097", "height=15", "height=4097", "width=-64",
-                            "width=64.0", "width=", "width", "height=99999999999", "size=64x64"}) {
+  EXPECT_FALSE(asked.snapshot->is_dark);
+  EXPECT_TRUE(Get("/api/v1/snapshot.png?theme=dark").snapshot->is_dark);
+  EXPECT_FALSE(Get("/api/v1/snapshot.png?theme=light").snapshot->is_dark);
+  for (const char* query :
+       {"width=15", "width=4097", "height=15", "height=4097", "width=-64", "width=64.0",
+        "width=", "width", "height=99999999999", "size=64x64", "theme=pink"}) {
     const Answer answer = Get(std::string("/api/v1/snapshot.png?") + query);
     EXPECT_EQ(answer.status, 400) << query;
     EXPECT_FALSE(answer.snapshot) << query;
@@ -335,7 +339,7 @@ TEST_F(RouterTest, AcceptsSnapshotSizesFrom16To4096) {
   }
   EXPECT_THAT(ErrorIn(Get("/api/v1/snapshot.png?camera=fron")),
               AllOf(HasSubstr("camera=fron"), HasSubstr("expected front")));
-  EXPECT_EQ(refusals_["bad snapshot"], 11);
+  EXPECT_EQ(refusals_["bad snapshot"], 12);
 }
 
 TEST_F(RouterTest, HasNoSnapshotWithoutARenderer) {
