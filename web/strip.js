@@ -6,7 +6,7 @@ import { theme } from './theme.js';
 
 export const STRIP_KEYS = /** @type {const} */ (['high_joints', 'medium_joints', 'unknown_joints', 'loss']);
 const COLUMN_PX = 2, GUTTER_PX = 58, RIGHT_PX = 8, AXIS_PX = 16, MARKS_PX = 18, LOSS_PX = 13, ALARMS_PX = 8;
-const LOW_PX = 60;  // below this height the rows of people have all of it
+const LOW_PX = 64;  // below this height people and alarms have all of it
 const MOST_ROWS = 6;  // the last one has the worst of all further people
 /** The strip covers one of these times, so that it does not move with each sample while the history grows. */
 const SPANS_SECS = [10, 20, 30, 60, 120, 180, 300, 600, 900, 1200, 1800, 2700, 3600];
@@ -193,11 +193,11 @@ class Painter {
     const { context, frame } = this;
     context.textBaseline = 'middle';
     const isLow = frame.height < LOW_PX, bottom = frame.height - AXIS_PX;
-    const top = marks === null || isLow ? 0 : MARKS_PX, losses = isLow ? bottom : bottom - LOSS_PX - ALARMS_PX;
+    const top = marks === null || isLow ? 0 : MARKS_PX, losses = bottom - ALARMS_PX - (isLow ? 0 : LOSS_PX);
     const each = (losses - top) / Math.max(1, rows.length);
     rows.forEach((row, i) => this.#row(row, top + i * each + 1, each - 3));
     if (!isLow) this.#losses(rows, losses, LOSS_PX - 2);
-    if (!isLow) this.#alarms(alarms, bottom - ALARMS_PX);
+    this.#alarms(alarms, bottom - ALARMS_PX);
     this.#clock(bottom);
     this.#playhead(bottom);
     if (marks !== null && !isLow) this.#flags(marks);

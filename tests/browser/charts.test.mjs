@@ -291,7 +291,8 @@ test('the map of the body shows class, percent and exposure of each joint, and a
   await page.waitForFunction(() => document.querySelectorAll('#body-map .joint-card').length === 15, null, LONG);
   const button = (name) => page.locator(`#body-map .joint-card[data-joint="${name}"]`);
   assert.equal(await button('l5_s1').getAttribute('data-class'), 'high');
-  assert.match(await button('l5_s1').getAttribute('aria-label'), /^L5\/S1, high, (8[89]|9[012]) %.*; plot$/);
+  assert.match(await button('l5_s1').textContent(), /^L5\/S1, high, (8[89]|9[012]) %.*; plot$/);
+  assert.match(await button('right_knee').textContent(), /^Right Knee, (low|medium), \d+ %.*; plot$/);
   assert.equal(await button('left_ankle').getAttribute('data-class'), 'unknown');
   assert.equal(await button('left_ankle').locator('.ratio').textContent(), '–');
   const hrefs = await page.locator('#body-marks use').evaluateAll((all) => all.map((use) => use.getAttribute('href')));

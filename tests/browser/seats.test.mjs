@@ -60,21 +60,21 @@ test('the 3-D view is turned, moved and zoomed by keys, and its arrows do not mo
 
 test('all controls of the desk are reached by Tab, and the focus is seen on each', async () => {
   const { page, close } = await open();
-  const wanted = await page.evaluate(() => [...document.querySelectorAll('button, select, input, summary, canvas[tabindex="0"]')]
-    .filter((part) => part.checkVisibility() && !part.disabled && part.tabIndex >= 0).length);
-  const seen = new Set();
-  for (let i = 0; i < wanted + 10; ++i) {
+  await page.evaluate(() => {
+    window.toReach = new Set([...document.querySelectorAll('button, select, input, summary, canvas[tabindex="0"]')]
+      .filter((part) => part.checkVisibility() && !part.disabled && part.tabIndex >= 0));
+  });
+  for (let i = 0; i < 80; ++i) {
     await page.keyboard.press('Tab');
-    const { name, isSeen } = await page.evaluate(() => {
+    const { isSeen, what } = await page.evaluate(() => {
       const part = document.activeElement, { outlineStyle, outlineWidth } = getComputedStyle(part);
-      part.dataset.visited ??= String(Math.random());
-      return { name: part.matches('button, select, input, summary, canvas') ? part.dataset.visited : null,
+      window.toReach.delete(part);
+      return { what: part.outerHTML.slice(0, 120),
         isSeen: part === document.body || (outlineStyle !== 'none' && parseFloat(outlineWidth) >= 2) };
     });
-    if (name) seen.add(name);
-    assert.ok(isSeen, await page.evaluate(() => document.activeElement.outerHTML.slice(0, 120)));
+    assert.ok(isSeen, what);
   }
-  assert.equal(seen.size, wanted);
+  assert.deepEqual(await page.evaluate(() => [...window.toReach].map((part) => part.outerHTML.slice(0, 120))), []);
   await close();
 });
 
@@ -123,7 +123,7 @@ test('screen readers hear of a new state of the lamp once, and not of each sampl
   const said = await page.evaluate(() => window.said);
   assert.equal(said.filter((text) => /^Behind/.test(text)).length, 1, said.join(' | '));
   const regions = await page.$$eval('[aria-live], [role="status"], [role="alert"], [role="log"]', (all) => all.map(({ id }) => id));
-  assert.deepEqual(regions.filter((id) => !['announcer', 'mark-said', 'alarm-said'].includes(id)), []);
+  assert.deepEqual(regions.filter((id) => !['announcer', 'mark-said', 'alarm-told'].includes(id)), []);
   await close();
 });
 
@@ -221,7 +221,7 @@ for (const [name, options] of [['desk', {}], ['phone', { viewport: PHONE, colorS
     await page.waitForFunction(() => document.querySelector('#cameras [aria-pressed="true"]').dataset.camera === 'top'
       && document.getElementById('picture-camera').value === 'top', null, LONG);
     await saveScreenshot(page, `no_webgl_${name}`);
-    assert.deepEqual(problems, []);
+    assert.deepEqual(problems.filter((line) => !/Error creating WebGL context/.test(line)), []);
     await close();
   });
 }
