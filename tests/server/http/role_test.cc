@@ -120,8 +120,8 @@ TEST_F(RoleOfRouteTest, DecidesWhichRoutesOfTheTableAViewerMayUse) {
     ++refused;
     EXPECT_EQ(answer.status, 403) << route.path;
     EXPECT_FALSE(answer.needs_body) << route.path << ": refused before its body is read";
-    EXPECT_THAT(answer.body, AllOf(HasSubstr(route.method + " " + request.target), HasSubstr("viewer"),
-                                   HasSubstr("operator's token")));
+    EXPECT_THAT(answer.body, AllOf(HasSubstr(route.method + " " + request.target),
+                                   HasSubstr("viewer"), HasSubstr("operator's token")));
     Request with_body = request;
     with_body.body =
         route.path == "/api/v1/mark" ? R"({"state": 12, "button": 1})" : R"({"right_kg": 5})";

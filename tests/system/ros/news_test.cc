@@ -1,5 +1,5 @@
-// Diagnostics, alarms and marks over ROS, with everything real: a master, `kinescope serve`, and this
-// test as the one who listens and marks.
+// Diagnostics, alarms and marks over ROS, with everything real: a master, `kinescope serve`, and
+// this test as the one who listens and marks.
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,10 +33,11 @@ class NewsOverRos : public testing::RosProgram {
     port_ = std::stoi(url.substr(colon + 1));
   }
   void HearDiagnostics() {
-    Hear<diagnostic_msgs::DiagnosticArray>(
-        "/diagnostics", [this](const diagnostic_msgs::DiagnosticArray& message) {
-          for (const auto& status : message.status) diagnoses_[status.name] = status;
-        });
+    Hear<diagnostic_msgs::DiagnosticArray>("/diagnostics",
+                                           [this](const diagnostic_msgs::DiagnosticArray& message) {
+                                             for (const auto& status : message.status)
+                                               diagnoses_[status.name] = status;
+                                           });
   }
   json Post(const std::string& target, const json& body) const {
     return Fetch(port_, target, {{"Content-Type", "application/json"}}, "POST", body.dump()).json();
@@ -83,9 +84,8 @@ TEST_F(NewsOverRos, MarksComeFromRosAndAreHeardThere) {
     message.data = text;
     out.publish(message);
   };
-  for (const std::string& text :
-       {std::string("belt <b>slipped</b>"), std::string(" "), std::string(300, 'x'),
-        std::string("2")}) {
+  for (const std::string& text : {std::string("belt <b>slipped</b>"), std::string(" "),
+                                  std::string(300, 'x'), std::string("2")}) {
     mark(text);
   }
   ASSERT_TRUE(Spin([&] { return heard.size() == 2; })) << heard.size();
