@@ -41,7 +41,7 @@ async function urlOf({ stderr }) {
  *  @param {string} url */
 async function straightening(url) {
   for (;;) {
-    const { people } = await fetch(new URL('api/state', url)).then((answer) => answer.json());
+    const { people } = await fetch(new URL('api/v1/state', url)).then((answer) => answer.json());
     const back = people[0]?.loads.find(({ joint }) => joint === 'l5_s1');
     if (back?.class === 'high' && people[0].com[2] > 0.7) return;
   }

@@ -64,7 +64,7 @@ export class Alarms {
     if (this.#wanted === this.#loaded || now - this.#askedAt < LEAST_PAUSE_MILLIS) return;
     this.#askedAt = now;
     const wanted = this.#wanted;
-    const answer = await ask('api/alarms', readAlarmLog);
+    const answer = await ask('api/v1/alarms', readAlarmLog);
     if (answer === null) return;
     this.#log = answer.alarms;
     this.#loaded = wanted;
@@ -73,6 +73,6 @@ export class Alarms {
   /** @param {Alarm} alarm
    *  @throws {Error} with the reason if the server refuses */
   async acknowledge({ id }) {
-    await request('api/acknowledge', { method: 'POST', headers: HEADERS, body: JSON.stringify({ id }) });
+    await request('api/v1/acknowledge', { method: 'POST', headers: HEADERS, body: JSON.stringify({ id }) });
   }
 }

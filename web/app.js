@@ -6,8 +6,9 @@ import { Announcer } from './announcer.js';
 import { CameraBar } from './camera_bar.js';
 import { Charts } from './charts.js';
 import { ChosenPerson } from './chosen_person.js';
+import { KinescopeClient } from './client.js';
 import { RecentValues } from './clock.js';
-import { Connection } from './connection.js';
+import { Controls } from './controls.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
 import { hexColor, percent } from './format.js';
@@ -20,7 +21,7 @@ import { mountLinkButton } from './link_button.js';
 import { leftOutText, statusOf } from './status.js';
 import { mountLoadsShown } from './loads_shown.js';
 import { MarkPad } from './mark_pad.js';
-import { Marks } from './marks.js';
+import { Marks, symbolOf } from './marks.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { readCameras, readDiagnostics, readModel } from './messages.js';
 import { PersonCards } from './person_cards.js';
@@ -31,7 +32,6 @@ import { meshesText, readingsOf, streamReadingsOf } from './readings.js';
 import { Scene } from './scene.js';
 import { ask, messageOf } from './server_api.js';
 import { Shown } from './shown.js';
-import { decodeState } from './state_codec.js';
 import { StreamPanel } from './stream_panel.js';
 import { Tabs } from './tabs.js';
 import { theme } from './theme.js';
@@ -46,12 +46,11 @@ const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per
 
 const elements = findElements(document);
 
-/** @type {ArrayBuffer|null} */
-let newest = null;  // not decoded yet: of the states received between two frames, only the last one is decoded
 let stateChangedAt = 0;  // browser clock, last time its number grew
 /** @type {import('./messages.js').Model|null} */
 let model = null;
 let modelAskedAt = -Infinity;
+let classLimits = '';  // as they are shown
 let notice = { text: '', until: 0 };
 const linked = shownIn(new URL(location.href));
 theme?.choose(linked.theme);
@@ -75,10 +74,9 @@ const showLoads = mountLoadList(elements.loads);
 const loadRole = mountRole(elements.role, showNotice);
 const stream = new StreamPanel({ details: elements.stream, line: elements['stream-line'], rows: elements['stream-rows'] });
 const showProblems = mountDiagnostics(elements.diagnostics, elements.problems);
-const connection = new Connection({
-  onState: (buffer) => { newest = buffer; },
-  onPicture: (buffer) => picture.show(buffer),
-  onPast: (buffer) => shown.onPast(buffer),
+const connection = new KinescopeClient({  // without onState: of the states between two frames, only the last one is decoded
+  onPicture: ({ jpeg }) => picture.show(jpeg),
+  onPast: (past) => shown.onPast(past),
   onDetails(details) {
     shown.setNewestDetails(details);
     picture.setDetails(details);
@@ -87,11 +85,13 @@ const connection = new Connection({
     handLoad.setPeople(details.people);
   },
   onStream: (health) => stream.set(health),
+  onControls: (message) => controls.onMessage(message),
   onAlarms: (state) => alarms.set(state),
   onError: showNotice,
   onOpen() {
     picture.ask();
-    loadRole();
+    controls.forget();
+    loadRole().then(() => controls.setViewer(elements.role.dataset.role === 'viewer'));
     loadCameras();
   },
 });
@@ -114,6 +114,7 @@ const markPad = new MarkPad({
   pad: elements['mark-pad'], buttons: elements['mark-buttons'], form: elements['mark-form'], text: elements['mark-text'],
   said: elements['mark-said'], undo: elements['mark-undo'], list: elements['mark-list'], earlier: elements['mark-earlier'],
 }, marks, shown, { notice: showNotice, isViewer: () => elements.role.dataset.role === 'viewer' }, keys);
+const controls = new Controls(elements, shown, showNotice);
 const alarms = new Alarms();
 const alarmPanel = new AlarmPanel({
   area: elements.alarm, stars: elements['alarm-stars'], head: elements['alarm-head'], detail: elements['alarm-detail'],
@@ -139,12 +140,15 @@ if (linked.tab) tabs.choose(linked.tab);
 scene?.setControls(layout.hasControls);
 const copyLink = mountLinkButton(elements['copy-link'], () => ({ ...addressNow(), micros: shown.state?.madeMicros ?? null }), showNotice);
 addKeys();
+const lists = [elements['hand-person'], elements['control-person']];
 person.follow(() => {
-  const option = String(person.wanted);
-  if ([...elements['hand-person'].options].some(({ value }) => value === option)) elements['hand-person'].value = option;
+  for (const list of lists) {
+    if ([...list.options].some(({ value }) => value === String(person.wanted))) list.value = String(person.wanted);
+  }
+  controls.refresh();
   showReadings();
 });
-elements['hand-person'].addEventListener('change', () => person.choose(Number(elements['hand-person'].value)));
+for (const list of lists) list.addEventListener('change', () => { if (list.value !== '') person.choose(Number(list.value)); });
 setInterval(() => showInAddress(addressNow()), ADDRESS_MILLIS);
 requestAnimationFrame(onFrame);
 setInterval(showReadings, READINGS_MILLIS);
@@ -225,12 +229,11 @@ function onFrame(now) {
 /** @param {number} now
  *  @returns {boolean} whether the state has another sample than before */
 function takeNewest(now) {
-  if (newest === null) return false;
-  const buffer = newest;
-  newest = null;
   const before = shown.newest?.stateNumber;
   try {
-    shown.setNewest(decodeState(buffer));
+    const newest = connection.takeState();
+    if (newest === null) return false;
+    shown.setNewest(newest);
   } catch (error) {
     showNotice(messageOf(error));
     return false;
@@ -288,11 +291,10 @@ async function loadModel(now) {
   if (now - modelAskedAt < MODEL_RETRY_MILLIS) return;
   modelAskedAt = now;
   try {
-    const newModel = await ask('api/model', readModel);
+    const newModel = await ask('api/v1/model', readModel);
     if (newModel === null) return;
     model = newModel;
     applyPalette(model.palette);
-    applyClassLimits(model.class_limits);
     scene?.setModel(model);
     applyLook();
   } catch (error) {
@@ -325,7 +327,7 @@ async function loadAlarms(now) {
 /** What the strip shows of the marks whose moments it may have.
  *  @param {Marks} of */
 const flagsOf = (of) => of.list().filter((mark) => of.isOfThisRun(mark)).map((mark) => ({
-  micros: mark.at.micros, endMicros: mark.end?.micros ?? null, label: mark.button > 0 ? String(mark.button) : '✎',
+  micros: mark.at.micros, endMicros: mark.end?.micros ?? null, label: symbolOf(mark),
 }));
 
 function applyLook() {
@@ -338,7 +340,7 @@ function applyLook() {
 async function loadDiagnostics() {
   if (document.hidden) return;
   try {
-    const diagnostics = await ask('api/diagnostics', readDiagnostics);
+    const diagnostics = await ask('api/v1/diagnostics', readDiagnostics);
     if (diagnostics) showProblems(problemLines(diagnostics, scene?.failedMeshes ?? []));
   } catch (error) {
     showProblems([`Could not load the diagnostics: ${messageOf(error)}`]);
@@ -356,7 +358,11 @@ function applyPalette(palette) {
 }
 
 /** @param {number[]} limits  the load ratios at which a load becomes medium and high */
-function applyClassLimits([mediumFrom, highFrom]) {
+function applyClassLimits(limits) {
+  const now = limits.join();
+  if (now === classLimits) return;
+  classLimits = now;
+  const [mediumFrom, highFrom] = limits;
   const style = document.documentElement.style;
   style.setProperty('--medium-from', String(mediumFrom));
   style.setProperty('--high-from', String(highFrom));
@@ -367,7 +373,7 @@ function applyClassLimits([mediumFrom, highFrom]) {
 
 async function loadCameras() {
   try {
-    const answer = await ask('api/cameras', readCameras);
+    const answer = await ask('api/v1/cameras', readCameras);
     if (answer) showCameras(answer);
   } catch (error) {
     showNotice(`Could not load the cameras: ${messageOf(error)}`);
@@ -431,6 +437,7 @@ function showStatus(status, now) {
 function showPeople(isFresh) {
   const now = shown.state, texts = shown.details;
   if (now === null || model === null) return;
+  applyClassLimits(texts.class_limits);
   const rows = rowsOf(now, model.joints, texts);
   const fresh = isFresh ? rows : rows.map(asUnknown);
   showLoads(fresh);

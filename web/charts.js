@@ -85,7 +85,8 @@ export class Charts {
    *  @param {State} live */
   #showPlots(when, model, live) {
     const first = live.people[0] ?? this.shown.state?.people[0];
-    if (first) this.plots.setJoints(first.loads.map(({ joint }) => model.joints[joint]), model.class_limits, model.compression_limits_n);
+    const { class_limits: limits } = this.shown.details;
+    if (first) this.plots.setJoints(first.loads.map(({ joint }) => model.joints[joint]), limits, model.compression_limits_n);
     this.plots.setPeople(this.shown.newestDetails.people);
     this.#showBody(model);
     const shown = this.shown.state;

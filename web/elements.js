@@ -29,6 +29,16 @@ export const ELEMENTS = /** @type {const} */ ({
   'plot-list': 'div', 'floor-plan': 'canvas', 'dash-sample': 'template', 'plot-csv': 'button', 'plot-png': 'button',
   'stream': 'details', 'stream-line': 'span', 'stream-rows': 'tbody',
   'diagnostics': 'section', 'problems': 'ul',
+  'tab-controls': 'button', 'control-person': 'select',
+  'trial-form': 'form', 'trial-person': 'input', 'trial-condition': 'input', 'trial-number': 'input', 'trial-run': 'button',
+  'trial-note': 'p', 'trial-list': 'ol',
+  'recording-form': 'form', 'recording-label': 'input', 'recording-run': 'button', 'recording-note': 'p',
+  'clip-form': 'form', 'clip-secs': 'input', 'clip-last': 'button', 'clip-next': 'button', 'clip-begin': 'button',
+  'clip-end': 'button', 'clip-note': 'p', 'job-list': 'ul',
+  'person-form': 'form', 'person-name': 'input', 'person-mass': 'input', 'person-sex': 'select', 'person-height': 'input',
+  'person-note': 'p',
+  'hands-form': 'form', 'hands-right': 'input', 'hands-left': 'input', 'hands-both': 'input', 'hands-note': 'p',
+  'limits-form': 'form', 'limits-medium': 'input', 'limits-high': 'input', 'limits-note': 'p', 'file-list': 'ul',
 });
 
 /** @typedef {{[Id in keyof typeof ELEMENTS]: HTMLElementTagNameMap[(typeof ELEMENTS)[Id]]}} Elements */

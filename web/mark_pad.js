@@ -1,6 +1,7 @@
 // Where marks are set and listed: nine buttons and their keys, free text, undo, and the list, in which a click shows
 // the moment of a mark.
 import { lag, place, timeCode } from './format.js';
+import { symbolOf } from './marks.js';
 import { messageOf } from './server_api.js';
 import { placeIn } from './status.js';
 
@@ -166,7 +167,8 @@ export class MarkPad {
   #entry(mark) {
     const item = document.createElement('li'), go = document.createElement('button'), remove = document.createElement('button');
     const key = document.createElement('kbd'), name = document.createElement('span'), when = document.createElement('small');
-    key.textContent = mark.button > 0 ? String(mark.button) : '✎';
+    key.textContent = symbolOf(mark);
+    item.dataset.kind = mark.kind;
     name.textContent = mark.text;
     when.textContent = this.#whenText(mark);
     go.type = remove.type = 'button';
@@ -182,6 +184,7 @@ export class MarkPad {
     gate.className = 'gate';
     gate.disabled = this.isViewer();
     gate.append(remove);
+    gate.hidden = mark.kind === 'change';  // a change is not undone by forgetting it
     item.append(go, gate);
     return item;
   }

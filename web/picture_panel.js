@@ -1,7 +1,6 @@
 // The picture rendered by the server, next to the view of the page. It equals the pictures in PNG, video and CI.
 import { shortCameraLabel } from './format.js';
 import { messageOf, request } from './server_api.js';
-import { decodePicture } from './state_codec.js';
 
 const SAVED_SIZE = { width: 1920, height: 1080 };
 
@@ -105,9 +104,9 @@ export class PicturePanel {
   }
 
   /** Shows a picture. While one is being decoded, only the latest of the following pictures is kept.
-   *  @param {ArrayBuffer} buffer */
-  show(buffer) {
-    if (this.#isShown) this.#showJpeg(decodePicture(buffer).jpeg);
+   *  @param {Uint8Array<ArrayBuffer>} jpeg */
+  show(jpeg) {
+    if (this.#isShown) this.#showJpeg(jpeg);
   }
 
   /** @param {Uint8Array<ArrayBuffer>} jpeg */
@@ -152,7 +151,7 @@ export class PicturePanel {
       const query = new URLSearchParams({
         camera: camera.value, theme: this.#isDark ? 'dark' : 'light', width: String(SAVED_SIZE.width), height: String(SAVED_SIZE.height),
       });
-      const answer = await request(`snapshot.png?${query}`);
+      const answer = await request(`api/v1/snapshot.png?${query}`);
       const link = document.createElement('a');
       link.href = URL.createObjectURL(await answer.blob());
       link.download = `kinescope_${camera.value}_${new Date().toISOString().replace(/[:.]/g, '-')}.png`;

@@ -24,9 +24,10 @@ struct Request {
   std::string authorization;
   std::string accept;
   std::string sec_fetch_site;
-  std::string page_header;      // X-Kinescope-Page, which only our page and other programs can set
-  std::string forwarded_proto;  // X-Forwarded-Proto
-  std::string address;          // of the client, without port
+  std::string page_header;       // X-Kinescope-Page, which only our page and other programs can set
+  std::string forwarded_proto;   // X-Forwarded-Proto
+  std::string socket_protocols;  // Sec-WebSocket-Protocol: what the client can read, or ""
+  std::string address;           // of the client, without port
   std::chrono::steady_clock::time_point received_at{};
 };
 
@@ -56,7 +57,7 @@ inline constexpr char kNoRenderer[] = "this server renders no pictures (--pictur
 /// Routes the request again with its body, which has not been read.
 [[nodiscard]] Answer AskForBody();
 
-/// {"error": reason}: the form of every error under /api and /snapshot.png.
+/// {"error": reason}: the form of every error under /api.
 [[nodiscard]] Answer ErrorAnswer(int status, const std::string& reason);
 
 }  // namespace kinescope::http

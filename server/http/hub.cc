@@ -101,8 +101,10 @@ void Hub::Tick(Clock::time_point now) {
 
 void Hub::SendNews(Slot slot, const std::string& news) {
   if (news.empty()) return;
-  const std::string text =
-      std::string(slot == Slot::kAlarms ? R"({"alarms":)" : R"({"stream":)") + news + "}";
+  const char* const name = slot == Slot::kAlarms     ? "alarms"
+                           : slot == Slot::kControls ? "controls"
+                                                     : "stream";
+  const std::string text = "{\"" + std::string(name) + "\":" + news + "}";
   Bytes message(text.begin(), text.end());
   SharedBytes& last = news_[slot];
   if (last != nullptr && *last == message) return;
@@ -138,7 +140,8 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
 
 void Hub::SelectCamera(HubClient& client, const std::string& camera) {
   if (feed_ != nullptr && feed_->SetCamera(camera)) {
-    camera_ = camera;
+    const std::string before = std::exchange(camera_, camera);
+    if (on_camera_ && before != camera) on_camera_(before, camera, client.role());
     return;
   }
   ++counters_.rejected[feed_ == nullptr ? "no renderer" : "unknown camera"];

@@ -25,8 +25,8 @@ namespace kinescope::http {
 
 /// Messages that wait for sending: one place per slot, so that a newer message replaces the older
 /// one.
-enum class Slot { kError, kPong, kDetails, kStream, kAlarms, kState, kPast, kPicture };
-inline constexpr int kSlotCount = 8;
+enum class Slot { kError, kPong, kDetails, kStream, kAlarms, kControls, kState, kPast, kPicture };
+inline constexpr int kSlotCount = 9;
 constexpr bool IsBinary(Slot slot) { return slot >= Slot::kState; }
 
 class HubClient {
@@ -73,9 +73,14 @@ class Hub {
   /// that the server runs and how old the state is, and sends changed details.
   void Tick(Clock::time_point now);
 
-  /// Sends the health of the stream, or the alarms, to all clients if it has changed, and to those
-  /// who join later. `news`: a JSON object; "": not known yet.
+  /// Sends the health of the stream, the alarms, or the state of the controls, to all clients if it
+  /// has changed, and to those who join later. `news`: a JSON object; "": not known yet.
   void SendNews(Slot slot, const std::string& news);
+
+  /// `on_camera` is called when a client has changed the camera of the live picture.
+  using OnCamera =
+      std::function<void(const std::string& before, const std::string& after, Role role)>;
+  void SetOnCamera(OnCamera on_camera) { on_camera_ = std::move(on_camera); }
 
   /// Processes a message of `client`. Answers are sent to this client, a change of camera to all. A
   /// message with a command that the client's role does not permit has no effect.
@@ -109,6 +114,7 @@ class Hub {
   Counters& counters_;
   const GetPlayback playback_;
   const marks::MarkBook* const marks_;
+  OnCamera on_camera_;  // may be null
   std::set<HubClient*> clients_;
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_

@@ -331,4 +331,22 @@ Bytes EncodePong(double ping, std::int64_t now_nanos) {
 
 Bytes EncodeError(const std::string& reason) { return ToBytes({{"error", reason}}); }
 
+std::string SocketProtocol() {
+  return "kinescope.v" + std::to_string(static_cast<int>(kProtocolVersion));
+}
+
+bool CanRead(std::string_view offered_protocols) {
+  if (offered_protocols.empty()) return true;
+  const std::string wanted = SocketProtocol();
+  while (!offered_protocols.empty()) {
+    const std::size_t end = offered_protocols.find(',');
+    std::string_view name = offered_protocols.substr(0, end);
+    offered_protocols.remove_prefix(end == std::string_view::npos ? name.size() : end + 1);
+    while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
+    while (!name.empty() && name.back() == ' ') name.remove_suffix(1);
+    if (name == wanted) return true;
+  }
+  return false;
+}
+
 }  // namespace kinescope::http

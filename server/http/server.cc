@@ -191,6 +191,11 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
   port_ = acceptor_.local_endpoint().port();
   if (feed_ != nullptr) snapshots_.emplace(*feed_);
   router_.emplace(MakeSite());
+  if (config.controls != nullptr) {
+    hub_.SetOnCamera(
+        [controls = config.controls](const std::string& before, const std::string& after,
+                                     Role role) { controls->OnCamera(before, after, role); });
+  }
   shared_.router = &*router_;
   shared_.hub = &hub_;
   shared_.counters = &counters_;
@@ -225,6 +230,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.framing = config_.framing;
   site.history = config_.history;
   site.marks = config_.marks;
+  site.controls = config_.controls;
   site.alarms = config_.alarms;
   site.has_pictures = feed_ != nullptr;
   site.look = config_.look;
@@ -299,6 +305,9 @@ void HttpServer::Impl::ArmTick() {
       if (config_.stream) hub_.SendNews(Slot::kStream, config_.stream());
       if (config_.alarms != nullptr) {
         hub_.SendNews(Slot::kAlarms, alarms::ShownJson(*config_.alarms));
+      }
+      if (config_.controls != nullptr) {
+        hub_.SendNews(Slot::kControls, config_.controls->StatusJson());
       }
     }
     guesses_.Report(now);

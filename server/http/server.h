@@ -1,7 +1,7 @@
 /// Serves the web page and its live data: HTTP and WebSocket on one port (docs/http.md). It has its
 /// own thread; every public function may be called from any thread. Per client only the newest
 /// state and picture are kept, so a slow viewer does not affect others. No input from a client can
-/// stop the server: it is answered, counted under "http" in /api/diagnostics, or both.
+/// stop the server: it is answered, counted under "http" in /api/v1/diagnostics, or both.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,6 +19,7 @@
 #include "core/system/latest.h"
 #include "server/alarms/alarms.h"
 #include "server/history/history.h"
+#include "server/http/controls.h"
 #include "server/http/role.h"
 #include "server/http/snapshot_request.h"
 #include "server/marks/mark_book.h"
@@ -113,6 +114,8 @@ struct HttpConfig {
   std::function<std::shared_ptr<const Playback>()> playback;
   /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.
   marks::MarkBook* marks = nullptr;
+  /// What operators do; borrowed. Null: the page has no controls.
+  Controls* controls = nullptr;
   /// What people are warned of; borrowed. Null: nothing.
   alarms::Alarms* alarms = nullptr;
   /// The health of the stream as a JSON object, for the message "stream"; "": not known yet. Called
@@ -150,10 +153,10 @@ inline constexpr int kMaxClients = 128;
 class HttpServer {
  public:
   /// Listens when the constructor returns. It publishes new values of `states` and `pictures`.
-  /// `diagnostics` returns the JSON object of /api/diagnostics, to which the server adds the member
-  /// "http"; it is called on the server's thread. All references are borrowed and must outlive the
-  /// server. `feed` may be null (no renderer): the page then reports this.
-  /// `listener`: of the same config; it has served its purpose then.
+  /// `diagnostics` returns the JSON object of /api/v1/diagnostics, to which the server adds the
+  /// member "http"; it is called on the server's thread. All references are borrowed and must
+  /// outlive the server. `feed` may be null (no renderer): the page then reports this. `listener`:
+  /// of the same config; it has served its purpose then.
   HttpServer(const HttpConfig& config, Listener& listener, Latest<SceneState>& states,
              Latest<Picture>& pictures, PictureFeed* feed,
              std::function<std::string()> diagnostics);

@@ -85,7 +85,7 @@ test('a click shows the moment when the alarm began, not the end of its delay', 
   await alarmIs(page, 'on');
   site.say('compression 2000');
   await alarmIs(page, 'over');
-  const { began } = (await page.evaluate(async () => (await fetch('api/alarms')).json())).alarms[0];
+  const { began } = (await page.evaluate(async () => (await fetch('api/v1/alarms')).json())).alarms[0];
   await page.click('#alarm-show');
   await page.waitForFunction(() => document.body.dataset.time === 'behind', null, LONG);
   await page.waitForFunction((micros) => Math.abs(1e6 * Number(new URL(location.href).searchParams.get('t')) - micros) < 10,
@@ -105,7 +105,7 @@ test('a viewer sees and hears alarms, and cannot acknowledge them', async () => 
   await page.keyboard.press('a');
   const answer = await page.evaluate(async () => {
     const headers = { 'Content-Type': 'application/json' };
-    return (await fetch('api/acknowledge', { method: 'POST', headers, body: '{"id": 1}' })).status;
+    return (await fetch('api/v1/acknowledge', { method: 'POST', headers, body: '{"id": 1}' })).status;
   });
   assert.equal(answer, 403);
   await alarmIs(page, 'on');

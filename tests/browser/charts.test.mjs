@@ -125,7 +125,7 @@ test('a person who comes has a row of their own', async () => {
 
 test('the strip asks only for what is new, a few times a second, and not while the page is hidden', async () => {
   const { page, requests, close } = await openLive(3);
-  const series = () => requests.filter((url) => url.includes('/api/series'));
+  const series = () => requests.filter((url) => url.includes('/api/v1/series'));
   const began = performance.now(), before = series().length;
   await page.waitForFunction(() => (window.framesSeen = (window.framesSeen ?? 0) + 1) > 60, null, { ...LONG, polling: 50 });
   const secs = (performance.now() - began) / 1000, asked = series().slice(before);
@@ -205,7 +205,7 @@ test('up to four joints of one of the people are plotted', async () => {
   await box('right_knee').uncheck();
   assert.equal(await box('left_hip').isDisabled(), false);
   assert.equal(await page.textContent('#plot-chosen'), 'L5/S1, R shoulder, L elbow');
-  const asked = page.waitForRequest((request) => /api\/series\?person=1&keys=l5_s1%2Cright_shoulder%2Cleft_elbow/.test(request.url()));
+  const asked = page.waitForRequest((request) => /api\/v1\/series\?person=1&keys=l5_s1%2Cright_shoulder%2Cleft_elbow/.test(request.url()));
   await page.click('.person[data-character="1"]');
   await asked;
   await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output').textContent === '2.15', null, LONG);

@@ -75,7 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     hub.Leave(client);
     KINESCOPE_CHECK(role == http::Role::kOperator || hub.camera() == "iso");
   }
-  // The same bytes as the body of POST /api/hand_load.
+  // The same bytes as the body of POST /api/v1/hand_load.
   const auto order = http::ParseHandLoadOrder({reinterpret_cast<const char*>(data), size});
   if (order) {
     const HandLoad& load = order->load;

@@ -38,7 +38,7 @@ class CountingFeed : public http::PictureFeed {
 
 http::WsSession::Upgrade UpgradeRequest() {
   namespace bhttp = boost::beast::http;
-  http::WsSession::Upgrade request{bhttp::verb::get, "/ws", 11};
+  http::WsSession::Upgrade request{bhttp::verb::get, "/api/v1/ws", 11};
   request.set(bhttp::field::host, "localhost");
   request.set(bhttp::field::upgrade, "websocket");
   request.set(bhttp::field::connection, "upgrade");

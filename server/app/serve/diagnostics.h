@@ -1,4 +1,4 @@
-/// Writes the program status as the JSON of /api/diagnostics (docs/http.md). Pure function, any
+/// Writes the program status as the JSON of /api/v1/diagnostics (docs/http.md). Pure function, any
 /// thread.
 #pragma once
 

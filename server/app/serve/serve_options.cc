@@ -165,6 +165,9 @@ void ServeOptions::List(options::OptionList& option) {
   option("marks_file", marks_file,
          "JSON Lines file that marks are added to; default: a new file of each start, in "
          "~/.local/state/kinescope or the state folder of the service");
+  option("recordings_folder", recordings_folder,
+         "existing folder for what is recorded, rendered and reported from the page; default: "
+         "recordings, in ~/.local/state/kinescope or the state folder of the service");
   option.Group("Page and pictures");
   ListPeopleLook(option, figure, style, loads_shown);
   option("pictures", pictures, "whether the server draws pictures");

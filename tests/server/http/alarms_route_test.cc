@@ -1,4 +1,4 @@
-// /api/alarms and /api/acknowledge, without a socket: what they answer and what they reject.
+// /api/v1/alarms and /api/v1/acknowledge, without a socket: what they answer and what they reject.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ class AlarmsRouteTest : public ::testing::Test {
     return Router(std::move(site)).Route(request);
   }
   Answer Acknowledge(const std::string& body, const std::string& token = kToken) {
-    return Ask("POST", "/api/acknowledge", token, body);
+    return Ask("POST", "/api/v1/acknowledge", token, body);
   }
 
   alarms::Alarms alarms_{
@@ -58,7 +58,7 @@ class AlarmsRouteTest : public ::testing::Test {
 };
 
 TEST_F(AlarmsRouteTest, TellsRulesAndAlarmsToViewers) {
-  const json answer = json::parse(Ask("GET", "/api/alarms", kViewerToken).body);
+  const json answer = json::parse(Ask("GET", "/api/v1/alarms", kViewerToken).body);
   ASSERT_EQ(answer["rules"].size(), 2u);
   EXPECT_EQ(answer["rules"][0]["above"], 2000);
   EXPECT_EQ(answer["rules"][1]["name"], "lost");
@@ -91,7 +91,7 @@ TEST_F(AlarmsRouteTest, RejectsViewersAndWhatIsNoAcknowledgement) {
 
 TEST_F(AlarmsRouteTest, SaysSoIfNothingIsWatched) {
   has_alarms_ = false;
-  EXPECT_EQ(Ask("GET", "/api/alarms", kToken).status, 503);
+  EXPECT_EQ(Ask("GET", "/api/v1/alarms", kToken).status, 503);
   EXPECT_EQ(Acknowledge(R"({"id": 1})").status, 503);
 }
 

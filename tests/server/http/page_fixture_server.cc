@@ -4,6 +4,7 @@
 // "url", then obeys lines on its standard input until that ends:
 //   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
 //   people <n>              how many persons it shows
+//   limits <medium> <high>  the class limits of its states
 //   stream <JSON>           the health of the stream
 //   compression <n>         of each person's L5/S1, N
 // page_fixture_server describe: prints one state as the server encodes it (hex) beside what it
@@ -21,6 +22,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
+#include <sstream>
 #include <string>
 
 #include "core/hand_load_shape.h"
@@ -319,6 +321,7 @@ class Orders {
  public:
   std::string mode = "live";
   int people = 1;
+  std::array<double, 2> class_limits = kDefaultClassLimits;
   double compression = 2150;
   bool changed = true;
   bool ended = false;
@@ -348,6 +351,8 @@ class Orders {
     changed = true;
     if (line.rfind("people ", 0) == 0) {
       people = std::stoi(line.substr(7));
+    } else if (line.rfind("limits ", 0) == 0) {
+      std::istringstream(line.substr(7)) >> class_limits[0] >> class_limits[1];
     } else if (line.rfind("compression ", 0) == 0) {
       compression = std::stod(line.substr(12));
     } else if (line.rfind("stream ", 0) == 0) {
@@ -384,6 +389,7 @@ SceneState NextState(const Orders& orders, const SceneState& last,
     }
   }
   next.number = last.number + 1;
+  next.class_limits = orders.class_limits;
   return next;
 }
 

@@ -144,7 +144,7 @@ struct TestServer {
   Response Get(const std::string& target, const Headers& headers = {}) const {
     return Fetch(server.port(), target, headers);
   }
-  nlohmann::json HttpCounters() const { return Get("/api/diagnostics").json()["http"]; }
+  nlohmann::json HttpCounters() const { return Get("/api/v1/diagnostics").json()["http"]; }
 
   const PatienceLimits patience;
   std::mutex mutex;
