@@ -140,12 +140,15 @@ if (linked.tab) tabs.choose(linked.tab);
 scene?.setControls(layout.hasControls);
 const copyLink = mountLinkButton(elements['copy-link'], () => ({ ...addressNow(), micros: shown.state?.madeMicros ?? null }), showNotice);
 addKeys();
+const lists = [elements['hand-person'], elements['control-person']];
 person.follow(() => {
-  const option = String(person.wanted);
-  if ([...elements['hand-person'].options].some(({ value }) => value === option)) elements['hand-person'].value = option;
+  for (const list of lists) {
+    if ([...list.options].some(({ value }) => value === String(person.wanted))) list.value = String(person.wanted);
+  }
+  controls.refresh();
   showReadings();
 });
-elements['hand-person'].addEventListener('change', () => person.choose(Number(elements['hand-person'].value)));
+for (const list of lists) list.addEventListener('change', () => { if (list.value !== '') person.choose(Number(list.value)); });
 setInterval(() => showInAddress(addressNow()), ADDRESS_MILLIS);
 requestAnimationFrame(onFrame);
 setInterval(showReadings, READINGS_MILLIS);

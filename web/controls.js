@@ -69,6 +69,11 @@ export class Controls {
     this.#load();
   }
 
+  /** After another person was chosen. */
+  refresh() {
+    this.#show();
+  }
+
   #show() {
     const state = this.#state;
     if (state === null) return;

@@ -35,8 +35,8 @@ async function open(query, colorScheme, viewport, people = 2) {
 
 for (const colorScheme of ['light', 'dark']) {
   for (const [name, viewport, tabs] of [
-    ['desk', DESKTOP, ['loads', 'body', 'plots', 'marks', 'alarms', 'picture']],
-    ['phone', PHONE, ['view', 'loads', 'body', 'plots', 'marks', 'alarms', 'picture', 'more']]]) {
+    ['desk', DESKTOP, ['loads', 'body', 'plots', 'marks', 'alarms', 'controls', 'picture']],
+    ['phone', PHONE, ['view', 'loads', 'body', 'plots', 'marks', 'alarms', 'controls', 'picture', 'more']]]) {
     test(`every panel of the ${colorScheme} ${name}`, async () => {
       const { page, close } = await open(`?view=${name}`, colorScheme, viewport);
       for (const tab of tabs) {

@@ -50,11 +50,11 @@ for (const people of [1, 3]) {
     await page.waitForFunction(() => document.querySelectorAll('#mark-buttons button').length === 9, null, LONG);
     const view = await boxOf(page, '#view');
     assert.ok(view.height >= 640, `the view is ${view.height} px high`);
-    for (const tab of ['body', 'plots', 'marks', 'alarms', 'picture', 'loads']) {
+    for (const tab of ['body', 'plots', 'marks', 'alarms', 'controls', 'picture', 'loads']) {
       await page.click(`#tab-${tab}`);
       const out = await page.evaluate(() => [...document.querySelectorAll('button, select, input, summary')].filter((part) => {
         const { left, right, top, bottom, width } = part.getBoundingClientRect();
-        const scrolls = part.closest('.load-list, .mark-list, .plot-list, .body-map');
+        const scrolls = part.closest('.load-list, .mark-list, .plot-list, .body-map, .control-list');
         return part.checkVisibility() && width > 0 && !scrolls && (left < 0 || right > innerWidth || top < 0 || bottom > innerHeight);
       }).map((part) => part.id || part.textContent));
       assert.deepEqual(out, [], tab);
@@ -164,7 +164,7 @@ test('a kiosk has lamp, view, body map, strip and one sentence, and nothing to p
 
 /** What can be pressed on this page of the phone, outside of lists and maps that are content themselves. */
 const pressed = (page) => page.evaluate(() => [...document.querySelectorAll('button, select, input')]
-  .filter((part) => part.checkVisibility() && !part.closest('#side-loads, #body-map, #plots, .mark-list, #picture, #alarms, #alarm'))
+  .filter((part) => part.checkVisibility() && !part.closest('#side-loads, #body-map, #plots, .mark-list, #picture, #alarms, #alarm, #controls'))
   .map((part) => {
     const { left, right, top, bottom, width, height } = part.getBoundingClientRect();
     const inRow = part.closest('.tabs, .people') !== null;  // these rows can be moved sideways
@@ -178,7 +178,7 @@ for (const [name, viewport, colorScheme, people] of [
     const { page, problems, close } = await open('', people, { viewport, colorScheme });
     await page.waitForFunction(() => document.querySelectorAll('#mark-buttons button').length === 9, null, LONG);
     const third = viewport.height === PHONE.height ? viewport.height * 2 / 3 : viewport.height / 2;
-    for (const tab of ['view', 'loads', 'body', 'plots', 'marks', 'alarms', 'picture', 'more']) {
+    for (const tab of ['view', 'loads', 'body', 'plots', 'marks', 'alarms', 'controls', 'picture', 'more']) {
       await page.click(`#tab-${tab}`);
       for (const { what, inRow, top, bottom, left, right, width, height } of await pressed(page)) {
         assert.ok(width >= 43.5 && height >= 43.5, `${tab}: ${what} is ${width} x ${height}`);
