@@ -123,8 +123,10 @@ export class ControlTrials {
       && (file === `${trial.trial}.mp4` || file === `${trial.trial}.html`));
     make.type = 'button';
     make.textContent = isMaking ? 'Making …' : 'Clip and report';
-    const clip = state.clips.why_not === '' && trial.to_micros !== null && trial.run_micros === this.#runMicros;
-    make.disabled = isMaking || (!clip && !trial.has_recording);
+    const isOfThisRun = trial.run_micros === this.#runMicros, isEnded = trial.to_micros !== null;
+    const clip = state.clips.why_not === '' && isEnded && isOfThisRun;
+    // One of this run that has no end yet has just been stopped: its end comes with the next list.
+    make.disabled = isMaking || (isOfThisRun && !isEnded) || (!clip && !trial.has_recording);
     make.addEventListener('click', () => {
       make.disabled = true;
       this.#make(trial, clip).then((isOrdered) => { make.disabled = isOrdered; });

@@ -133,7 +133,7 @@ TEST_F(ControlsRouteTest, SendFilesToOperatorsAsDownloads) {
   EXPECT_EQ(refused.status, 403);
   EXPECT_FALSE(refused.file);
   EXPECT_EQ(Ask("GET", "/api/file/other.mp4").status, 404);
-  EXPECT_EQ(Ask("GET", "/api/file/..%2fS07_lift_001.mp4").status, 404);
+  EXPECT_EQ(Ask("GET", "/api/file/..%2fS07_lift_001.mp4").status, 400);
   EXPECT_EQ(Ask("POST", "/api/file/S07_lift_001.mp4").status, 405);
 }
 

@@ -124,12 +124,15 @@ TEST_F(MarkBookTest, TellsWhatHasChanged) {
 }
 
 TEST_F(MarkBookTest, KeepsWhatAnOperatorChanged) {
-  MarkBook book = Open();
-  NewMark change = Text("mass of S07: 75 kg → 82 kg");
-  change.kind = Kind::kChange;
-  const auto kept = book.Add(change);
-  ASSERT_TRUE(kept);
-  EXPECT_THAT(book.Remove(kept->id).error(), HasSubstr("tells what an operator changed; it stays"));
+  {
+    MarkBook book = Open();
+    NewMark change = Text("mass of S07: 75 kg → 82 kg");
+    change.kind = Kind::kChange;
+    const auto kept = book.Add(change);
+    ASSERT_TRUE(kept);
+    EXPECT_THAT(book.Remove(kept->id).error(),
+                HasSubstr("tells what an operator changed; it stays"));
+  }
   const MarkBook again = Open();
   ASSERT_EQ(again.ChangedAfter(0, 10).size(), 1U);
   EXPECT_EQ(again.ChangedAfter(0, 10)[0].kind, Kind::kChange);
@@ -215,7 +218,8 @@ TEST(MarkJson, AcceptsNoOtherShape) {
     if (name == "window_stamp_micros") continue;  // made of the others
     auto other = whole;
     other.erase(name);
-    EXPECT_FALSE(ReadMark(other.dump())) << "without " << name;
+    const bool may_be_absent = name == "kind";  // in the files of earlier versions
+    EXPECT_EQ(ReadMark(other.dump()).has_value(), may_be_absent) << "without " << name;
     other[name] = {1, 2};
     EXPECT_FALSE(ReadMark(other.dump())) << name;
   }
