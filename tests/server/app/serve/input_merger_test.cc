@@ -181,6 +181,8 @@ class TellingBridge : public ros_bridge::RosBridge {
  public:
   void Publish(const SceneState&) override {}
   void PublishView(const ros_bridge::RosImage&) override {}
+  void PublishDiagnostics(const std::vector<ros_bridge::Diagnosis>& /*all*/) override {}
+  bool PublishMark(const ros_bridge::RosMark& /*mark*/) override { return true; }
   void TakeInputs(ros_bridge::InputSink& sink) override {
     if (measured) sink.OnMeasurements(0, *measured);
     if (load) sink.OnHandLoad(0, *load);
