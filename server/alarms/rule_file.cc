@@ -195,6 +195,7 @@ class Reader {
              "3400, for: 0.5}");
     }
     std::vector<std::string> quantities;
+    quantities.reserve(kQuantities.size());
     for (const QuantityInfo& each : kQuantities) quantities.emplace_back(Name(each.quantity));
     const QuantityInfo& info = kQuantities[Choice(node["value"], "value", quantities)];
     CheckKeys(node, KeysOf(info.quantity));

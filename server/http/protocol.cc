@@ -296,6 +296,7 @@ std::string KnownCommands() {
 
 std::vector<CommandInfo> Commands() {
   std::vector<CommandInfo> commands;
+  commands.reserve(kCommandKinds.size());
   for (const CommandKind& kind : kCommandKinds) {
     commands.push_back(
         {kind.name, kind.least, std::string("{\"") + kind.name + "\": " + kind.example + "}"});

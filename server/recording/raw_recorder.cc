@@ -53,7 +53,7 @@ std::string RawRecorder::Start(const std::string& stem) {
              ", is still being saved; try again in a second";
     }
   }
-  const std::string wrong = folder_.Prepare();
+  std::string wrong = folder_.Prepare();
   if (!wrong.empty()) return wrong;
   const auto free = folder_.free_bytes();
   if (free && *free < spare_bytes_) {
