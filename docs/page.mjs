@@ -13,7 +13,7 @@ const server = spawn(program, ['serve', 'demo:lift', '--hand_load', 'both:8', '-
 try {
   const url = await urlOf(server);
   const visit = await openPage(`${url}?quality=fine`, { viewport: DESKTOP });
-  await visit.page.locator('#picture-image').waitFor({ state: 'visible' });
+  await visit.page.waitForFunction(() => /\d %/.test(document.querySelector('.person .ratio')?.textContent ?? ''));
   await visit.page.waitForFunction(() => document.getElementById('latency-p95').textContent !== '');
   await straightening(url);
   server.kill('SIGSTOP');  // view and list then show the same sample
@@ -41,7 +41,7 @@ async function urlOf({ stderr }) {
  *  @param {string} url */
 async function straightening(url) {
   for (;;) {
-    const { people } = await fetch(new URL('api/state', url)).then((answer) => answer.json());
+    const { people } = await fetch(new URL('api/v1/state', url)).then((answer) => answer.json());
     const back = people[0]?.loads.find(({ joint }) => joint === 'l5_s1');
     if (back?.class === 'high' && people[0].com[2] > 0.7) return;
   }

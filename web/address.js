@@ -1,24 +1,58 @@
-// The address of the page holds what it shows, so that a link shows another person the same. Pure but for the two
-// functions at the end.
+// The address of the page holds what it shows, so that a link shows another person the same. Pure but for what is at the
+// end.
+import { LAYOUTS } from './layout.js';
+import { THEMES } from './theme.js';
 
-/** @typedef {{micros: number|null}} Shown  micros: the moment of a viewer who looks back; null: live */
+/** @typedef {{micros: number|null, person: number|null, joints: string[]|null, camera: string|null, tab: string|null,
+ *    window: number|null, view: import('./layout.js').LayoutName|null, theme: import('./theme.js').ThemeName|null}} Shown
+ *    micros: the moment of a viewer who looks back, null: live; person: character; joints: that are plotted; camera: name,
+ *    or place (orbit.js); window: time that the plots show, s. Null otherwise: as the page has it by itself */
 
-/** @param {URL} url
+const JOINT = /^[a-z0-9_]{1,40}$/, NAME = /^[a-z_]{1,40}$/, MOST_JOINTS = 15;
+
+/** @param {string|null} text
+ *  @returns {number|null} */
+const numberOf = (text) => (text === null || text.trim() === '' || !Number.isFinite(Number(text)) ? null : Number(text));
+
+/** Values that are none are ignored: the address may come from anywhere.
+ *  @param {URL} url
  *  @returns {Shown} */
 export function shownIn(url) {
-  const text = url.searchParams.get('t');
-  const seconds = text === null || text === '' ? NaN : Number(text);
-  return { micros: Number.isFinite(seconds) && seconds >= 0 ? 1e6 * seconds : null };
+  const of = (/** @type {string} */ name) => url.searchParams.get(name);
+  const seconds = numberOf(of('t')), person = numberOf(of('person')), window = numberOf(of('window'));
+  const joints = (of('joint') ?? '').split(',').filter((name) => JOINT.test(name)).slice(0, MOST_JOINTS);
+  const camera = of('camera') ?? '', tab = of('tab') ?? '';
+  return {
+    micros: seconds !== null && seconds >= 0 ? 1e6 * seconds : null,
+    person: person !== null && Number.isInteger(person) ? person : null,
+    joints: joints.length > 0 ? joints : null,
+    camera: NAME.test(camera) || /^[-\d.,]{1,120}$/.test(camera) ? camera : null,
+    tab: NAME.test(tab) ? tab : null,
+    window: window !== null && window > 0 ? window : null,
+    view: LAYOUTS.find((name) => name === of('view')) ?? null,
+    theme: THEMES.find((name) => name === of('theme')) ?? null,
+  };
 }
 
-/** The moment is rounded up to microseconds, so that the sample that is shown is not after it.
+/** The moment is rounded up to microseconds, so that the sample that is shown is not after it. What `changes` does not
+ *  name stays.
  *  @param {URL} url
- *  @param {Shown} shown
+ *  @param {Partial<Shown>} changes
  *  @returns {URL} */
-export function withShown(url, { micros }) {
+export function withShown(url, changes) {
   const next = new URL(url);
-  if (micros === null) next.searchParams.delete('t');
-  else next.searchParams.set('t', (Math.ceil(micros) / 1e6).toFixed(6));
+  const { micros, joints } = changes;
+  /** @type {Record<string, string|number|null|undefined>} */
+  const texts = {
+    t: micros === undefined || micros === null ? micros : (Math.ceil(micros) / 1e6).toFixed(6),
+    person: changes.person, joint: joints === undefined || joints === null ? joints : joints.join(), camera: changes.camera,
+    tab: changes.tab, window: changes.window, view: changes.view, theme: changes.theme,
+  };
+  for (const [name, value] of Object.entries(texts)) {
+    if (value === null) next.searchParams.delete(name);
+    else if (value !== undefined) next.searchParams.set(name, String(value));
+  }
+  next.search = next.search.replaceAll('%2C', ',');  // lists that a person can read
   return next;
 }
 
@@ -30,8 +64,8 @@ export function forgetToken() {
   history.replaceState(null, '', url);
 }
 
-/** @param {Shown} shown */
-export function showInAddress(shown) {
-  const url = withShown(new URL(location.href), shown);
+/** @param {Partial<Shown>} changes */
+export function showInAddress(changes) {
+  const url = withShown(new URL(location.href), changes);
   if (url.href !== location.href) history.replaceState(null, '', url);
 }

@@ -1,69 +1,97 @@
 // Connects the parts of the page: connection -> scene, readings, load list, picture.
-import { forgetToken, shownIn } from './address.js';
-import { RecentValues } from './clock.js';
+import { forgetToken, showInAddress, shownIn } from './address.js';
+import { AlarmPanel } from './alarm_panel.js';
+import { Alarms } from './alarms.js';
+import { Announcer } from './announcer.js';
+import { CameraBar } from './camera_bar.js';
 import { Charts } from './charts.js';
-import { Connection } from './connection.js';
+import { ChosenPerson } from './chosen_person.js';
+import { KinescopeClient } from './client.js';
+import { RecentValues } from './clock.js';
+import { Controls } from './controls.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
-import { cameraLabel, hexColor, shortCameraLabel } from './format.js';
+import { hexColor, percent } from './format.js';
 import { mountHandLoad } from './hand_load.js';
+import { HeadNames } from './head_names.js';
+import { mountKeyMap } from './key_map.js';
+import { Keys } from './keys.js';
+import { Layout } from './layout.js';
+import { mountLinkButton } from './link_button.js';
 import { leftOutText, statusOf } from './status.js';
 import { mountLoadsShown } from './loads_shown.js';
 import { MarkPad } from './mark_pad.js';
-import { Marks } from './marks.js';
+import { Marks, symbolOf } from './marks.js';
 import { asUnknown, fillLegend, mountLoadList, rowsOf } from './load_list.js';
 import { readCameras, readDiagnostics, readModel } from './messages.js';
+import { PersonCards } from './person_cards.js';
 import { PicturePanel } from './picture_panel.js';
+import { FIRST_JOINTS } from './plots.js';
 import { mountRole } from './role.js';
 import { meshesText, readingsOf, streamReadingsOf } from './readings.js';
 import { Scene } from './scene.js';
 import { ask, messageOf } from './server_api.js';
 import { Shown } from './shown.js';
-import { decodeState } from './state_codec.js';
 import { StreamPanel } from './stream_panel.js';
+import { Tabs } from './tabs.js';
+import { theme } from './theme.js';
 import { mountTransport } from './transport.js';
+import { mountViewKeys } from './view_keys.js';
 
 const READINGS_MILLIS = 150;  // faster changes cannot be read
 const NOTICE_MILLIS = 6000;
 const MODEL_RETRY_MILLIS = 1000;
 const DIAGNOSTICS_MILLIS = 3000;
-const START_VIEW = 'three_quarter';
+const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per second
 
 const elements = findElements(document);
 
-/** @type {ArrayBuffer|null} */
-let newest = null;  // not decoded yet: of the states received between two frames, only the last one is decoded
 let stateChangedAt = 0;  // browser clock, last time its number grew
 /** @type {import('./messages.js').Model|null} */
 let model = null;
 let modelAskedAt = -Infinity;
+let classLimits = '';  // as they are shown
 let notice = { text: '', until: 0 };
+const linked = shownIn(new URL(location.href));
+theme?.choose(linked.theme);
+const layout = new Layout(linked.view, document.body);
+const keys = new Keys(document, () => layout.hasControls);
+const person = new ChosenPerson();
+person.choose(linked.person);
 const shown = new Shown({
   send: (command) => connection.send(command), notice: showNotice, changed: onTimeChanged, arrived: updateScene,
-}, shownIn(new URL(location.href)).micros);
+}, linked.micros);
 forgetToken();
 const latencies = new RecentValues();
 
 const scene = makeScene();
+const cameras = new CameraBar(elements.cameras, scene, linked.camera, (camera) => connection.send({ camera }));
+const headNames = new HeadNames(elements['head-names']);
+const cards = new PersonCards(elements.people, layout.hasControls ? (character) => person.choose(character) : null,
+  elements['class-shape'], layout.name === 'wall');
+const announcer = new Announcer(elements.announcer);
 const showLoads = mountLoadList(elements.loads);
 const loadRole = mountRole(elements.role, showNotice);
 const stream = new StreamPanel({ details: elements.stream, line: elements['stream-line'], rows: elements['stream-rows'] });
 const showProblems = mountDiagnostics(elements.diagnostics, elements.problems);
-const connection = new Connection({
-  onState: (buffer) => { newest = buffer; },
-  onPicture: (buffer) => picture.show(buffer),
-  onPast: (buffer) => shown.onPast(buffer),
+const connection = new KinescopeClient({  // without onState: of the states between two frames, only the last one is decoded
+  onPicture: ({ jpeg }) => picture.show(jpeg),
+  onPast: (past) => shown.onPast(past),
   onDetails(details) {
     shown.setNewestDetails(details);
     picture.setDetails(details);
+    if (scene === null) cameras.mark(details.camera);
     scene?.setObjectNames(details.objects);
     handLoad.setPeople(details.people);
   },
   onStream: (health) => stream.set(health),
+  onControls: (message) => controls.onMessage(message),
+  onAlarms: (state) => alarms.set(state),
   onError: showNotice,
   onOpen() {
     picture.ask();
-    loadRole();
+    controls.forget();
+    loadRole().then(() => controls.setViewer(elements.role.dataset.role === 'viewer'));
     loadCameras();
   },
 });
@@ -74,24 +102,54 @@ const picture = new PicturePanel({
 const handLoad = mountHandLoad({
   form: elements['hand-load'], person: elements['hand-person'], hand: elements.hand, mass: elements['hand-kg'],
 }, showNotice);
-const charts = new Charts(elements, shown, { model: () => model, failed: showNotice });
+const charts = new Charts(elements, shown, { model: () => model, failed: showNotice, person, canPress: layout.hasControls });
+if (linked.joints) charts.plots.choose(linked.joints);
+if (linked.window) charts.plots.chooseWindow(linked.window);
 const showTransport = mountTransport({
   bar: elements.transport, play: elements.play, back: elements['step-back'], forward: elements['step-forward'],
   speed: elements.speed, slider: elements.moment, oldest: elements.oldest, live: elements['go-live'],
-}, shown, (moment) => charts.wordsAt(moment));
+}, shown, (moment) => charts.wordsAt(moment), keys);
 const marks = new Marks(() => charts.strip.setMarks(flagsOf(marks)));
 const markPad = new MarkPad({
   pad: elements['mark-pad'], buttons: elements['mark-buttons'], form: elements['mark-form'], text: elements['mark-text'],
   said: elements['mark-said'], undo: elements['mark-undo'], list: elements['mark-list'], earlier: elements['mark-earlier'],
-  home: elements.transport, phone: elements['mark-place'],
-}, marks, shown, { notice: showNotice, isViewer: () => elements.role.dataset.role === 'viewer' });
+}, marks, shown, { notice: showNotice, isViewer: () => elements.role.dataset.role === 'viewer' }, keys);
+const controls = new Controls(elements, shown, showNotice);
+const alarms = new Alarms();
+const alarmPanel = new AlarmPanel({
+  area: elements.alarm, stars: elements['alarm-stars'], head: elements['alarm-head'], detail: elements['alarm-detail'],
+  told: elements['alarm-told'], acknowledge: elements.acknowledge, sound: elements['alarm-sound'],
+  show: elements['alarm-show'], tab: elements['tab-alarms'], list: elements['alarm-list'], rate: elements['alarm-rate'],
+  test: elements['alarm-test'],
+}, alarms, shown, {
+  notice: showNotice, jointLabel: (name) => model?.joints.find((joint) => joint.name === name)?.label ?? name,
+  wallMillis: (micros) => charts.wallMillis(micros), newestMicros: () => shown.newest?.madeMicros ?? 0, canPress: layout.hasControls,
+}, keys);
 elements.status.addEventListener('click', () => {
   shown.time.goLive();
   shown.onTimeChanged();
 });
 const loadsShown = mountLoadsShown(elements['loads-shown'], applyLook);
-// Pictures cost the server rendering time and a phone its data volume. On a small screen the user switches them on.
-elements['picture-on'].checked = scene === null || matchMedia('(min-width: 900px)').matches;
+const tabs = new Tabs(elements.tabs, [elements.side, document.body]);
+layout.follow((name) => {
+  placeTools(name === 'phone');
+  tabs.settle();
+});
+addEventListener('resize', () => tabs.settle());  // a wide page has the plots beside the others, without a tab
+if (linked.tab) tabs.choose(linked.tab);
+scene?.setControls(layout.hasControls);
+const copyLink = mountLinkButton(elements['copy-link'], () => ({ ...addressNow(), micros: shown.state?.madeMicros ?? null }), showNotice);
+addKeys();
+const lists = [elements['hand-person'], elements['control-person']];
+person.follow(() => {
+  for (const list of lists) {
+    if ([...list.options].some(({ value }) => value === String(person.wanted))) list.value = String(person.wanted);
+  }
+  controls.refresh();
+  showReadings();
+});
+for (const list of lists) list.addEventListener('change', () => { if (list.value !== '') person.choose(Number(list.value)); });
+setInterval(() => showInAddress(addressNow()), ADDRESS_MILLIS);
 requestAnimationFrame(onFrame);
 setInterval(showReadings, READINGS_MILLIS);
 setInterval(loadDiagnostics, DIAGNOSTICS_MILLIS);
@@ -99,14 +157,53 @@ loadDiagnostics();
 
 function makeScene() {
   try {
-    return new Scene(elements.view, { onOrbit: () => markView('') });
+    return new Scene(elements.view, { onOrbit: () => cameras.mark('') });
   } catch {
     const note = document.createElement('p');
     note.className = 'no-webgl';
     note.textContent = 'WebGL is not available. Showing the picture rendered by the server.';
-    elements.view.append(note);
+    elements.view.append(elements['picture-frame'], note);
+    elements.picture.classList.add('in-stage');
     return null;
   }
+}
+
+/** On a phone, what the header has no room for is a panel, in reach of a thumb.
+ *  @param {boolean} isPhone */
+function placeTools(isPhone) {
+  if (isPhone) elements.more.append(elements.about, elements.tools);
+  else document.querySelector('.topbar')?.append(elements.about, elements.tools);
+}
+
+/** What the address says of this page; null: as the page has it by itself. */
+function addressNow() {
+  const joints = charts.plots.chosen;
+  return {
+    person: person.wanted, camera: cameras.text, window: charts.plots.window.isFirst ? null : charts.plots.window.secs,
+    joints: joints.join() === FIRST_JOINTS.join() ? null : [...joints],
+    tab: tabs.isFirst ? null : tabs.name, view: linked.view, theme: theme?.wanted ?? null,
+  };
+}
+
+function addKeys() {
+  const people = () => shown.state?.people ?? [];
+  const toggleDark = () => theme?.choose(theme.name === 'dark' ? 'light' : 'dark');
+  const showDark = () => {
+    const isDark = theme?.name === 'dark';
+    elements.dark.ariaPressed = String(isDark);
+    picture.setDark(isDark);
+  };
+  cameras.addKeys(keys);
+  keys.add('View', 'P', 'The next person', () => person.step(people(), 1));
+  keys.add('View', 'Shift+P', 'The previous person', () => person.step(people(), -1));
+  keys.add('Page', 'D', 'Dark page, light page', toggleDark);
+  keys.add('Page', 'C', 'Copy a link to this moment', () => { copyLink(); });
+  if (scene) mountViewKeys(scene, keys);
+  mountKeyMap({ dialog: elements['key-map'], list: elements['key-list'], open: elements['show-keys'], close: elements['close-keys'],
+    characters: elements['character-keys'] }, keys);
+  elements.dark.addEventListener('click', toggleDark);
+  theme?.follow(showDark);
+  showDark();
 }
 
 /** @param {string} text */
@@ -120,7 +217,9 @@ function onFrame(now) {
   const isNewSample = takeNewest(now);
   shown.ask(now);
   const { newest } = shown;
-  if (scene?.draw(now) !== true || !isNewSample || newest === null || !shown.isNewest) return;
+  const isDrawn = scene?.draw(now) === true;
+  if (scene && isDrawn) headNames.show(scene.heads(), shown.details.people);
+  if (!isDrawn || !isNewSample || newest === null || !shown.isNewest) return;
   const serverNow = connection.clock.at(performance.now());
   if (newest.arrivalMicros > 0 && serverNow !== null && newest.liveness === 'live') {
     latencies.add(serverNow - newest.arrivalMicros / 1000, performance.now());
@@ -130,12 +229,11 @@ function onFrame(now) {
 /** @param {number} now
  *  @returns {boolean} whether the state has another sample than before */
 function takeNewest(now) {
-  if (newest === null) return false;
-  const buffer = newest;
-  newest = null;
   const before = shown.newest?.stateNumber;
   try {
-    shown.setNewest(decodeState(buffer));
+    const newest = connection.takeState();
+    if (newest === null) return false;
+    shown.setNewest(newest);
   } catch (error) {
     showNotice(messageOf(error));
     return false;
@@ -193,11 +291,10 @@ async function loadModel(now) {
   if (now - modelAskedAt < MODEL_RETRY_MILLIS) return;
   modelAskedAt = now;
   try {
-    const newModel = await ask('api/model', readModel);
+    const newModel = await ask('api/v1/model', readModel);
     if (newModel === null) return;
     model = newModel;
     applyPalette(model.palette);
-    applyClassLimits(model.class_limits);
     scene?.setModel(model);
     applyLook();
   } catch (error) {
@@ -217,10 +314,20 @@ async function loadMarks(now) {
   }
 }
 
+/** @param {number} now */
+async function loadAlarms(now) {
+  try {
+    await alarms.update(now);
+    charts.strip.setAlarms(alarms.log());
+  } catch (error) {
+    showNotice(`Could not load the alarms: ${messageOf(error)}`);
+  }
+}
+
 /** What the strip shows of the marks whose moments it may have.
  *  @param {Marks} of */
 const flagsOf = (of) => of.list().filter((mark) => of.isOfThisRun(mark)).map((mark) => ({
-  micros: mark.at.micros, endMicros: mark.end?.micros ?? null, label: mark.button > 0 ? String(mark.button) : '✎',
+  micros: mark.at.micros, endMicros: mark.end?.micros ?? null, label: symbolOf(mark),
 }));
 
 function applyLook() {
@@ -233,7 +340,7 @@ function applyLook() {
 async function loadDiagnostics() {
   if (document.hidden) return;
   try {
-    const diagnostics = await ask('api/diagnostics', readDiagnostics);
+    const diagnostics = await ask('api/v1/diagnostics', readDiagnostics);
     if (diagnostics) showProblems(problemLines(diagnostics, scene?.failedMeshes ?? []));
   } catch (error) {
     showProblems([`Could not load the diagnostics: ${messageOf(error)}`]);
@@ -251,16 +358,22 @@ function applyPalette(palette) {
 }
 
 /** @param {number[]} limits  the load ratios at which a load becomes medium and high */
-function applyClassLimits([mediumFrom, highFrom]) {
+function applyClassLimits(limits) {
+  const now = limits.join();
+  if (now === classLimits) return;
+  classLimits = now;
+  const [mediumFrom, highFrom] = limits;
   const style = document.documentElement.style;
   style.setProperty('--medium-from', String(mediumFrom));
   style.setProperty('--high-from', String(highFrom));
   fillLegend(elements.legend, [mediumFrom, highFrom]);
+  setText('kiosk-line', 'Percent of what a joint of a person of this size and sex can do: '
+    + `from ${percent(mediumFrom)} on the load is medium, from ${percent(highFrom)} on it is high.`);
 }
 
 async function loadCameras() {
   try {
-    const answer = await ask('api/cameras', readCameras);
+    const answer = await ask('api/v1/cameras', readCameras);
     if (answer) showCameras(answer);
   } catch (error) {
     showNotice(`Could not load the cameras: ${messageOf(error)}`);
@@ -268,41 +381,10 @@ async function loadCameras() {
 }
 
 /** @param {import('./messages.js').Cameras} answer */
-function showCameras({ cameras, framing, live }) {
-  picture.setCameras(cameras);
-  elements['picture-camera'].value = live;
-  if (elements.cameras.childElementCount > 0) return;  // a reconnection keeps the camera that the viewer selected
-  elements.cameras.replaceChildren(...cameras.map((view) => cameraButton(view, framing)));
-  const start = cameras.find(({ name }) => name === START_VIEW) ?? cameras[0];
-  if (start) chooseView(start, framing);
-}
-
-/** @param {import('./messages.js').CameraView} view
- *  @param {import('./messages.js').Framing} framing */
-function cameraButton(view, framing) {
-  const button = document.createElement('button');
-  button.type = 'button';
-  button.textContent = shortCameraLabel(view.name);
-  button.title = cameraLabel(view.name);
-  button.ariaLabel = cameraLabel(view.name);
-  button.dataset.camera = view.name;
-  button.ariaPressed = 'false';
-  button.addEventListener('click', () => chooseView(view, framing));
-  return button;
-}
-
-/** @param {import('./messages.js').CameraView} view
- *  @param {import('./messages.js').Framing} framing */
-function chooseView(view, framing) {
-  scene?.setView(view, framing);
-  markView(view.name);
-}
-
-/** @param {string} name  "" after the user rotated the view by hand */
-function markView(name) {
-  for (const button of elements.cameras.children) {
-    button.ariaPressed = String(button.getAttribute('data-camera') === name);
-  }
+function showCameras(answer) {
+  picture.setCameras(answer.cameras);
+  elements['picture-camera'].value = answer.live;
+  cameras.setCameras(answer);
 }
 
 function showReadings() {
@@ -314,8 +396,12 @@ function showReadings() {
   showTransport(now);
   stream.show(now, ageMillisAt(now), connection.clock.at(now));
   charts.update(now);
+  picture.setSeen(elements['picture-frame'].clientWidth > 0);
+  picture.setLost(status.level === 'disconnected' ? 'The server does not answer' : '');
   loadMarks(now);
   markPad.update(now);
+  loadAlarms(now);
+  alarmPanel.update(now);
   shown.keepAddress(now);
   document.body.dataset.time = status.level === 'recording' ? 'recording' : shown.isNewest ? 'live' : 'behind';
   if (!status.isFresh || !shown.isNewest) latencies.clear();
@@ -340,6 +426,8 @@ function showStatus(status, now) {
   setText('status-word', status.word);
   setText('status-note', status.note);
   document.title = `${status.word} · Kinescope`;
+  setText('clock', shown.isNewest ? new Date().toTimeString().slice(0, 8) : '');
+  announcer.showStatus(status, banner);
   setText('banner', banner);
   elements.banner.hidden = banner === '';
   elements.banner.dataset.level = status.level;
@@ -349,11 +437,14 @@ function showStatus(status, now) {
 function showPeople(isFresh) {
   const now = shown.state, texts = shown.details;
   if (now === null || model === null) return;
+  applyClassLimits(texts.class_limits);
   const rows = rowsOf(now, model.joints, texts);
-  showLoads(isFresh ? rows : rows.map(asUnknown));
-  const selected = handLoad.selected();
-  const person = now.people.find(({ character }) => character === selected?.character) ?? now.people[0];
-  const readings = readingsOf(person, texts.people.find(({ character }) => character === person?.character), isFresh);
+  const fresh = isFresh ? rows : rows.map(asUnknown);
+  showLoads(fresh);
+  const one = person.of(now.people);
+  cards.show(now, texts.people, fresh, one?.character, performance.now());
+  announcer.showClasses(fresh, isFresh && shown.isNewest, performance.now());
+  const readings = readingsOf(one, texts.people.find(({ character }) => character === one?.character), isFresh);
   setText('loads-hint', readings.hint);
   elements['loads-hint'].title = readings.hint;
   elements['loads-hint'].classList.toggle('warn', readings.isDoubtful);

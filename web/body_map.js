@@ -17,7 +17,8 @@ const LEAST_TREND = 0.05;  // of the capacity
 
 /** @typedef {{name: string, label: string, loadClass: import('./messages.js').LoadClass, ratio: number,
  *    secs?: import('./messages.js').Secs}} Joint
- *  @typedef {{element: HTMLButtonElement, mark: Element, ratio: HTMLElement, trend: HTMLElement, shares: HTMLElement[]}} Row */
+ *  @typedef {{element: HTMLElement, mark: Element, word: HTMLElement, ratio: HTMLElement, trend: HTMLElement, more: HTMLElement,
+ *    shares: HTMLElement[]}} Row  word, more: for screen readers */
 
 /** Which way the loads go: compares with those a second before. */
 export class Trend {
@@ -46,7 +47,7 @@ export class BodyMap {
 
   /** @param {{panel: HTMLElement, mark: HTMLTemplateElement, middle: HTMLElement, right: HTMLElement,
    *    left: HTMLElement}} parts  mark: template of a <g>; the lists get a button for each joint
-   *  @param {(name: string) => void} onPress */
+   *  @param {((name: string) => void)|null} onPress  null: the joints cannot be pressed */
   constructor(parts, onPress) {
     const marks = parts.panel.querySelector('#body-marks');
     if (marks === null) throw new Error('the map of the body has no place for its marks');
@@ -92,8 +93,9 @@ export class BodyMap {
    *  @param {string} name
    *  @returns {Row} */
   #rowOf(mark, label, name) {
-    const element = document.createElement('button');
-    const [title, ratio, trend, bar] = ['joint-name', 'ratio', 'trend', 'exposure'].map((className) => {
+    const { onPress } = this, element = document.createElement(onPress ? 'button' : 'div');
+    const [side, title, word, ratio, trend, more, bar] = [
+      'visually-hidden', 'joint-name', 'visually-hidden', 'ratio', 'trend', 'visually-hidden', 'exposure'].map((className) => {
       const part = document.createElement('span');
       part.className = className;
       return part;
@@ -104,29 +106,34 @@ export class BodyMap {
       share.dataset.class = loadClass;
       return share;
     });
-    element.type = 'button';
+    if (element instanceof HTMLButtonElement) element.type = 'button';
+    element.classList.add('joint-card');
     element.dataset.joint = name;
+    // What the place beside the figure says, and what its colour says, is there for screen readers as words.
+    side.textContent = /^(?:Right|Left) /.exec(label)?.[0] ?? '';
     title.textContent = label.replace(/^(?:Right|Left) (.)/, (_, /** @type {string} */ first) => first.toUpperCase());
+    trend.ariaHidden = 'true';
     bar.append(...shares);
-    element.append(title, ratio, trend, bar);
-    for (const part of [element, mark]) part.addEventListener('click', () => this.onPress(name));
-    return { element, mark, ratio, trend, shares };
+    element.append(side, title, word, ratio, trend, more, bar);
+    if (onPress) for (const part of [element, mark]) part.addEventListener('click', () => onPress(name));
+    return { element, mark, word, ratio, trend, more, shares };
   }
 
   /** @param {Row} row
    *  @param {Joint} joint
    *  @param {string} trend
    *  @param {boolean} isPlotted */
-  #fill({ element, mark, ratio, trend: arrow, shares }, { label, loadClass, ratio: value, secs }, trend, isPlotted) {
+  #fill({ element, mark, word, ratio, trend: arrow, more, shares }, { loadClass, ratio: value, secs }, trend, isPlotted) {
     element.dataset.class = loadClass;
     mark.setAttribute('data-class', loadClass);
     mark.querySelector('use')?.setAttribute('href', `#shape-${loadClass}`);
+    word.textContent = `, ${loadClass}, `;
     ratio.textContent = percent(value);
     arrow.textContent = trend;
+    const words = [trend === '▲' ? 'rising' : trend === '▼' ? 'falling' : '', exposureText(secs)].filter(Boolean);
+    more.textContent = [...words.map((text) => `, ${text}`), this.onPress ? '; plot' : ''].join('');
     exposureShares(secs).forEach((share, i) => { shares[i].style.flexGrow = share.toFixed(3); });
-    element.ariaPressed = String(isPlotted);
-    const words = [label, loadClass, percent(value), trend === '▲' ? 'rising' : trend === '▼' ? 'falling' : '', exposureText(secs)];
-    element.ariaLabel = `${words.filter(Boolean).join(', ')}; plot`;
     element.title = exposureText(secs);
+    if (this.onPress) element.ariaPressed = String(isPlotted);
   }
 }

@@ -1,4 +1,4 @@
-// Named views: the numbers come from the server (/api/cameras), so that a name shows the same view in page and
+// Named views: the numbers come from the server (/api/v1/cameras), so that a name shows the same view in page and
 // picture. World frame: z up, metres. Pure functions.
 
 /** @typedef {import('./messages.js').CameraView} CameraView

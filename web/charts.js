@@ -4,13 +4,12 @@ import { personLabel } from './format.js';
 import { Plots } from './plots.js';
 import { Feed } from './series.js';
 import { Strip } from './strip.js';
-import { showPeople } from './people_choice.js';
-import { mountTabs } from './tabs.js';
 import { WallClock } from './wall_clock.js';
 
 /** @typedef {import('./state_codec.js').State} State
- *  @typedef {{model: () => import('./messages.js').Model|null, failed: (text: string) => void}} Page
- *    failed: shows why something did not work */
+ *  @typedef {{model: () => import('./messages.js').Model|null, failed: (text: string) => void,
+ *    person: import('./chosen_person.js').ChosenPerson, canPress: boolean}} Page
+ *    failed: shows why something did not work; canPress: whether the joints of the map can be pressed */
 
 export class Charts {
   #feed = new Feed();
@@ -26,22 +25,27 @@ export class Charts {
     this.page = page;
     this.strip = new Strip({ canvas: elements['strip-rows'], slider: elements.moment });
     this.plots = new Plots({
-      panel: elements.plots, windows: elements['plot-window'], person: elements['plot-person'],
+      panel: elements.plots, windows: elements['plot-window'],
       joints: elements['plot-joints'], chosen: elements['plot-chosen'], list: elements['plot-list'],
       plan: elements['floor-plan'], dash: elements['dash-sample'], csv: elements['plot-csv'], png: elements['plot-png'],
-    }, { seek: (micros) => shown.seek(micros / 1000), source: () => shown.newestDetails.source, failed: page.failed });
-    this.person = elements['body-person'];
+    }, { seek: (micros) => shown.seek(micros / 1000), source: () => shown.newestDetails.source, failed: page.failed,
+      person: page.person });
     this.body = new BodyMap({
       panel: elements['body-map'], mark: elements['body-mark'],
       middle: elements['body-middle'], right: elements['body-right'], left: elements['body-left'],
-    }, (name) => this.plots.toggle(name));
-    mountTabs(elements.tabs, elements.side);
+    }, page.canPress ? (name) => this.plots.toggle(name) : null);
   }
 
   /** The worst classes at a moment in words.
    *  @param {number} millis */
   wordsAt(millis) {
     return this.strip.wordsAt(this.#people, 1000 * millis);
+  }
+
+  /** @param {number} micros  a moment of the server's clock
+   *  @returns {number}  ms of the browser's clock */
+  wallMillis(micros) {
+    return this.#clock.at(micros);
   }
 
   /** Call it several times a second.
@@ -81,7 +85,8 @@ export class Charts {
    *  @param {State} live */
   #showPlots(when, model, live) {
     const first = live.people[0] ?? this.shown.state?.people[0];
-    if (first) this.plots.setJoints(first.loads.map(({ joint }) => model.joints[joint]), model.class_limits, model.compression_limits_n);
+    const { class_limits: limits } = this.shown.details;
+    if (first) this.plots.setJoints(first.loads.map(({ joint }) => model.joints[joint]), limits, model.compression_limits_n);
     this.plots.setPeople(this.shown.newestDetails.people);
     this.#showBody(model);
     const shown = this.shown.state;
@@ -94,8 +99,7 @@ export class Charts {
   /** @param {import('./messages.js').Model} model */
   #showBody(model) {
     const shown = this.shown.state, { people } = this.shown.details;
-    showPeople(this.person, people);
-    const person = shown?.people.find(({ character }) => String(character) === this.person.value) ?? shown?.people[0];
+    const person = this.page.person.of(shown?.people ?? []);
     if (!shown || !person) return;
     const words = people.find(({ character }) => character === person.character);
     this.body.show(shown.madeMicros, person.loads.map((load) => ({

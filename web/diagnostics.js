@@ -18,7 +18,7 @@ export function problemLines(diagnostics, failedMeshes) {
   for (const person of source?.left_out ?? []) lines.push(`${nameOfLeftOut(person)} is left out: ${person.reason}`);
   const all = [...new Set(lines)];
   if (all.length <= MOST_LINES) return all;
-  return [...all.slice(0, MOST_LINES - 1), `and ${all.length - MOST_LINES + 1} more, see /api/diagnostics`];
+  return [...all.slice(0, MOST_LINES - 1), `and ${all.length - MOST_LINES + 1} more, see /api/v1/diagnostics`];
 }
 
 /** @param {HTMLElement} panel  hidden while there are no problems

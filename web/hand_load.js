@@ -6,15 +6,11 @@ import { messageOf, request } from './server_api.js';
  *  @typedef {import('./messages.js').PersonDetails} PersonDetails
  *  @typedef {{form: HTMLFormElement, person: HTMLSelectElement, hand: HTMLSelectElement, mass: HTMLInputElement}} Parts */
 
-/** The hand load with `kilograms` in `hand` ("right_kg", "left_kg", "both_kg"); the other masses are kept.
- *  @param {HandLoad|undefined} current
+/** The hand load with `kilograms` in `hand` ("right_kg", "left_kg", "both_kg") and nothing else: it replaces what is held.
  *  @param {string} hand
  *  @param {number} kilograms
  *  @returns {HandLoad} */
-export const withHand = (current, hand, kilograms) => ({
-  right_kg: current?.right_kg ?? 0, left_kg: current?.left_kg ?? 0, both_kg: current?.both_kg ?? 0,
-  [hand]: kilograms,
-});
+export const onlyIn = (hand, kilograms) => ({ right_kg: 0, left_kg: 0, both_kg: 0, [hand]: kilograms });
 
 /** "hand load 5 kg right, 2 kg left", or "" for empty hands.
  *  @param {HandLoad|undefined} current */
@@ -41,7 +37,7 @@ export function mountHandLoad({ form, person, hand, mass }, showNotice) {
     event.preventDefault();
     const target = selected();
     if (!target) return showNotice('No person in the stream');
-    const load = withHand(target.hand_load, hand.value, mass.valueAsNumber);
+    const load = onlyIn(hand.value, mass.valueAsNumber);
     try {
       await sendHandLoad(target.character, load);
     } catch (error) {
@@ -73,6 +69,6 @@ function showPeople(list, people) {
 
 /** @param {number} person
  *  @param {HandLoad} load */
-const sendHandLoad = (person, load) => request('api/hand_load', {
+const sendHandLoad = (person, load) => request('api/v1/hand_load', {
   method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ person, ...load }),
 });

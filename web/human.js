@@ -1,4 +1,4 @@
-// The person in the view: the skin, the links of /api/model at the streamed poses, load spheres, CoM, CoP, support
+// The person in the view: the skin, the links of /api/v1/model at the streamed poses, load spheres, CoM, CoP, support
 // polygon and hand loads. World frame: z up, metres.
 import * as THREE from 'three';
 import { STLLoader } from 'three/addons/loaders/STLLoader.js';

@@ -1,17 +1,17 @@
 // Where marks are set and listed: nine buttons and their keys, free text, undo, and the list, in which a click shows
 // the moment of a mark.
 import { lag, place, timeCode } from './format.js';
-import { isForOther } from './keys.js';
+import { symbolOf } from './marks.js';
 import { messageOf } from './server_api.js';
 import { placeIn } from './status.js';
 
 const MOST_LISTED = 200;  // the newest ones
+const MOST_BUTTONS = 9;
 const SAID_MILLIS = 6000;  // that Undo is offered
 
 /** @typedef {import('./messages.js').Mark} Mark
  *  @typedef {{pad: HTMLElement, buttons: HTMLElement, form: HTMLFormElement, text: HTMLInputElement, said: HTMLElement,
- *    undo: HTMLButtonElement, list: HTMLElement, earlier: HTMLElement, home: HTMLElement, phone: HTMLElement}} Parts
- *    said: what has just been marked; home, phone: where the pad is on a wide page, and on a phone */
+ *    undo: HTMLButtonElement, list: HTMLElement, earlier: HTMLElement}} Parts  said: what has just been marked */
 
 export class MarkPad {
   #saidUntil = -Infinity;
@@ -20,8 +20,9 @@ export class MarkPad {
   /** @param {Parts} parts
    *  @param {import('./marks.js').Marks} marks
    *  @param {import('./shown.js').Shown} shown
-   *  @param {{notice: (text: string) => void, isViewer: () => boolean}} page */
-  constructor(parts, marks, shown, { notice, isViewer }) {
+   *  @param {{notice: (text: string) => void, isViewer: () => boolean}} page
+   *  @param {import('./keys.js').Keys} keys */
+  constructor(parts, marks, shown, { notice, isViewer }, keys) {
     this.parts = parts;
     this.marks = marks;
     this.shown = shown;
@@ -35,32 +36,22 @@ export class MarkPad {
       parts.text.blur();  // so that the keys work again
     });
     parts.undo.addEventListener('click', () => this.#undo());
-    document.addEventListener('keydown', (event) => this.#onKey(event));
-    const phone = matchMedia('(max-width: 899px)');
-    const settle = () => (phone.matches ? parts.phone : parts.home).append(parts.pad);
-    phone.addEventListener('change', settle);
-    settle();
-  }
-
-  /** @param {KeyboardEvent} event */
-  #onKey(event) {
-    if (event.altKey || event.metaKey || event.repeat || isForOther(event)) return;
-    if (event.ctrlKey) {
-      if (event.key === 'z') this.#act(event, () => this.#undo());
-      return;
+    const digits = Array.from({ length: MOST_BUTTONS }, (_, i) => i + 1);
+    for (const [prefix, isSpan] of /** @type {const} */ ([['', false], ['Shift+', true]])) {
+      for (const digit of digits) keys.add('', `${prefix}${digit}`, '', () => this.#pressKey(digit, isSpan));
     }
-    const digit = Number(/^(?:Digit|Numpad)([1-9])$/.exec(event.code)?.[1] ?? 0);
-    if (digit > 0 && digit <= this.marks.names.length) this.#act(event, () => this.#press(digit, event.shiftKey));
-    else if (event.key === 'm' || event.key === 'M') this.#act(event, () => this.parts.text.focus());
-    else if (event.key === '[') this.#act(event, () => this.#goToNeighbour(-1));
-    else if (event.key === ']') this.#act(event, () => this.#goToNeighbour(1));
+    keys.add('Marks', ['1', '9'], 'Set a mark, by its button', null);
+    keys.add('Marks', ['Shift+1', 'Shift+9'], 'Begin a span; again: end it', null);
+    keys.add('Marks', 'M', 'Text of a mark', () => parts.text.focus());
+    keys.add('Marks', '[', 'The previous mark', () => this.#goToNeighbour(-1), { repeats: true });
+    keys.add('Marks', ']', 'The next mark', () => this.#goToNeighbour(1), { repeats: true });
+    keys.add('Marks', 'Ctrl+Z', 'Remove the last mark of this page', () => this.#undo());
   }
 
-  /** @param {KeyboardEvent} event
-   *  @param {() => void} act */
-  #act(event, act) {
-    event.preventDefault();
-    act();
+  /** @param {number} digit
+   *  @param {boolean} isSpan */
+  #pressKey(digit, isSpan) {
+    if (digit <= this.marks.names.length) this.#press(digit, isSpan);
   }
 
   /** A press with Shift begins a span; the next press of the same button with Shift ends it.
@@ -176,7 +167,8 @@ export class MarkPad {
   #entry(mark) {
     const item = document.createElement('li'), go = document.createElement('button'), remove = document.createElement('button');
     const key = document.createElement('kbd'), name = document.createElement('span'), when = document.createElement('small');
-    key.textContent = mark.button > 0 ? String(mark.button) : '✎';
+    key.textContent = symbolOf(mark);
+    item.dataset.kind = mark.kind;
     name.textContent = mark.text;
     when.textContent = this.#whenText(mark);
     go.type = remove.type = 'button';
@@ -192,6 +184,7 @@ export class MarkPad {
     gate.className = 'gate';
     gate.disabled = this.isViewer();
     gate.append(remove);
+    gate.hidden = mark.kind === 'change';  // a change is not undone by forgetting it
     item.append(go, gate);
     return item;
   }

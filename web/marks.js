@@ -9,6 +9,10 @@ import { readMark, readMarks } from './messages.js';
 const RETRY_MILLIS = 3000;
 const HEADERS = { 'Content-Type': 'application/json' };
 
+/** Of a mark in lists and on the strip: the key of its button, ¶ free text, ✎ a change, ▶ a trial.
+ *  @param {Mark} mark */
+export const symbolOf = ({ button, kind }) => (button > 0 ? String(button) : { mark: '¶', change: '✎', trial: '▶' }[kind]);
+
 export class Marks {
   /** @type {Map<number, Mark>} */ #marks = new Map();  // by id; without those that were removed
   #revision = -1;  // of what is here; -1: nothing was loaded yet
@@ -57,7 +61,7 @@ export class Marks {
     this.#retryAt = now + RETRY_MILLIS;
     try {
       for (let isComplete = false; !isComplete;) {
-        const answer = await ask(`api/marks?after=${Math.max(0, this.#revision)}`, readMarks);
+        const answer = await ask(`api/v1/marks?after=${Math.max(0, this.#revision)}`, readMarks);
         if (answer === null) return;
         if (answer.run_micros !== this.#runMicros && this.#runMicros !== 0) {
           this.#forget(answer.run_micros);  // another server: its revisions count from the beginning
@@ -104,8 +108,8 @@ export class Marks {
   /** @param {object} order
    *  @returns {Promise<Mark>} */
   async #send(order) {
-    const answer = await request('api/mark', { method: 'POST', headers: HEADERS, body: JSON.stringify(order) });
-    const mark = readMark(await answer.json(), 'api/mark');
+    const answer = await request('api/v1/mark', { method: 'POST', headers: HEADERS, body: JSON.stringify(order) });
+    const mark = readMark(await answer.json(), 'api/v1/mark');
     this.#put(mark);
     this.changed();
     return mark;

@@ -107,7 +107,7 @@ const readRecording = object({
 const readDetails = object({
   source: string, camera: string, has_pictures: boolean, people: listOf(readPersonDetails),
   objects: listOf(readObjectName), left_out: listOf(readLeftOut), recording: orNull(readRecording),
-  marks_revision: numberOrNull,
+  marks_revision: numberOrNull, class_limits: numbers(2),
 });
 /** @typedef {ReturnType<typeof readSecs>} Secs  time in each class so far, s
  *  @typedef {ReturnType<typeof readHandLoad>} HandLoad
@@ -131,7 +131,8 @@ const readStream = object({
 
 const readPong = object({ pong: number, server_micros: number });
 
-/** @typedef {{pong: number, server_micros: number}|{details: Details}|{stream: StreamHealth}|{error: string}} TextMessage */
+/** @typedef {{pong: number, server_micros: number}|{details: Details}|{stream: StreamHealth}|{alarms: ShownAlarms}
+ *    |{controls: unknown}|{error: string}} TextMessage */
 
 /** @param {string} text
  *  @returns {unknown} */
@@ -150,20 +151,42 @@ export function readTextMessage(text) {
   if ('pong' in message) return readPong(message, 'a message');
   if ('details' in message) return { details: readDetails(message.details, 'details') };
   if ('stream' in message) return { stream: readStream(message.stream, 'stream') };
+  if ('controls' in message) return { controls: message.controls };  // read by control_messages.js
+  if ('alarms' in message) return { alarms: readShownAlarms(message.alarms, 'alarms') };
   if ('error' in message) return { error: string(message.error, 'error') };
   return null;
 }
 
-// /api/marks and /api/mark
+// /api/v1/marks and /api/v1/mark
 const readMoment = object({ state: number, micros: number, stamp_micros: number, time_code_millis: number, counter: number });
+const MARK_KINDS = /** @type {const} */ (['mark', 'change', 'trial']);
 export const readMark = object({
-  id: number, revision: number, run_micros: number, button: number, text: string, role: string, at: readMoment,
+  id: number, revision: number, run_micros: number, kind: oneOf(MARK_KINDS), button: number, text: string, role: string, at: readMoment,
   end: orNull(readMoment), is_open: boolean, is_removed: boolean, behind_secs: number,
 });
 export const readMarks = object({ names: listOf(string), run_micros: number, revision: number, marks: listOf(readMark) });
 /** @typedef {ReturnType<typeof readMark>} Mark */
 
-// /api/model
+// /api/v1/alarms and the message "alarms"
+/** From the highest. */
+export const PRIORITIES = /** @type {const} */ (['high', 'medium', 'low']);
+const readAlarmMoment = object({ state: number, micros: number, stamp_micros: number });
+/** @type {Reader<number|string>}  a class is a word */
+const readAlarmValue = (value, path) => (typeof value === 'string' ? value : number(value, path));
+const readAlarm = object({
+  id: number, rule: string, priority: oneOf(PRIORITIES), quantity: string, unit: string, limit: readAlarmValue,
+  person: numberOrNull, name: string, joint: orNull(string), value: readAlarmValue, worst: readAlarmValue,
+  times: number, began: readAlarmMoment, over: orNull(readAlarmMoment), is_on: boolean, is_shown: boolean,
+  acknowledged: orNull(object({ role: string, micros: number })),
+});
+const readShownAlarms = object({ shown: listOf(readAlarm), count: number, last: orNull(readAlarm) });
+export const readAlarmLog = object({ alarms: listOf(readAlarm) });
+/** @typedef {(typeof PRIORITIES)[number]} Priority
+ *  @typedef {ReturnType<typeof readAlarm>} Alarm
+ *  @typedef {ReturnType<typeof readShownAlarms>} ShownAlarms  those that are on or wait for being acknowledged; how many
+ *    there are; the one that began last */
+
+// /api/v1/model
 const readVisual = object({
   kind: oneOf(['box', 'cylinder', 'sphere', 'mesh']), size: numbers(3), position: numbers(3),
   quaternion: numbers(4), rgba: orNull(numbers(4)), mesh: optional(string),
@@ -195,14 +218,14 @@ export const readModel = object({
  *  @typedef {ReturnType<typeof readLook>} Look
  *  @typedef {ReturnType<typeof readModel>} Model */
 
-// /api/series
+// /api/v1/series
 const readColumns = listOf(numberOrNull);
 export const readSeries = object({
   samples: numbers(), keys: recordOf(object({ min: readColumns, max: readColumns, last: readColumns })),
 });
 /** @typedef {ReturnType<typeof readSeries>} SeriesAnswer */
 
-// /api/cameras
+// /api/v1/cameras
 const readCameraView = object({
   name: string, position: numbers(3), target: numbers(3), up: numbers(3), vertical_fov_rad: number,
 });
@@ -215,12 +238,15 @@ export const readCameras = object({ cameras: listOf(readCameraView), framing: re
  *  @typedef {ReturnType<typeof readFraming>} Framing  of several people and of narrow views; docs/http.md
  *  @typedef {ReturnType<typeof readCameras>} Cameras */
 
-/** /api/diagnostics: parts of the server that are not running are absent or null. */
+/** /api/v1/diagnostics: parts of the server that are not running are absent or null. */
 export const readDiagnostics = object({
   pictures: optional(orNull(object({ problems: optional(listOf(string)), last_error: optional(string) }))),
   source: optional(object({ left_out: optional(listOf(readLeftOut)) })),
 });
 /** @typedef {ReturnType<typeof readDiagnostics>} Diagnostics */
+
+/** /api/v1/session: what this client may do, and the subprotocol of the WebSocket. */
+export const readSession = object({ role: oneOf(/** @type {const} */ (['viewer', 'operator'])), socket: string });
 
 /** The answer to any rejected request. */
 export const readRejection = object({ error: string });

@@ -1,7 +1,6 @@
 // The picture rendered by the server, next to the view of the page. It equals the pictures in PNG, video and CI.
 import { shortCameraLabel } from './format.js';
 import { messageOf, request } from './server_api.js';
-import { decodePicture } from './state_codec.js';
 
 const SAVED_SIZE = { width: 1920, height: 1080 };
 
@@ -14,6 +13,11 @@ export class PicturePanel {
   #url = '';
   #isLoading = false;
   /** @type {Uint8Array<ArrayBuffer>|null} */ #next = null;  // JPEG
+
+  #isDark = false;    // the page
+  #isSeen = false;    // the panel, or the stage that has its place
+  #lost = '';         // what became of the server; '': nothing
+  #came = '';         // when the picture on the screen came
 
   /** @param {Parts} parts
    *  @param {(command: object) => void} send
@@ -32,7 +36,7 @@ export class PicturePanel {
   /** Requests pictures from the server, or stops them; call it also after a new connection. */
   ask() {
     const isOn = this.#isShown && this.hasPictures;
-    this.send({ pictures: isOn });
+    this.send({ pictures: isOn, dark: this.#isDark });
     if (!isOn) this.parts.image.hidden = true;
     this.#permitSaving();
     this.#explain();
@@ -46,12 +50,37 @@ export class PicturePanel {
     this.ask();
   }
 
+  /** Pictures cost the server time to draw: they are asked for only while they are seen.
+   *  @param {boolean} isSeen */
+  setSeen(isSeen) {
+    if (isSeen === this.#isSeen) return;
+    this.#isSeen = isSeen;
+    this.ask();
+  }
+
+  /** The server's picture is as dark as the page; the live one only while all who watch it have a dark page.
+   *  @param {boolean} isDark */
+  setDark(isDark) {
+    if (isDark === this.#isDark) return;
+    this.#isDark = isDark;
+    this.send({ dark: isDark });
+  }
+
+  /** The last picture stays when the server is gone, and says so.
+   *  @param {string} lost  what became of the server; '': nothing */
+  setLost(lost) {
+    if (lost === this.#lost) return;
+    this.#lost = lost;
+    this.#permitSaving();
+    this.#explain();
+  }
+
   #permitSaving() {
-    this.parts.save.disabled = !this.hasPictures || !this.#isNewest;
+    this.parts.save.disabled = !this.hasPictures || !this.#isNewest || this.#lost !== '';
   }
 
   get #isShown() {
-    return this.parts.on.checked && this.#isNewest;
+    return this.parts.on.checked && this.#isNewest && this.#isSeen;
   }
 
   /** @param {{name: string}[]} cameras */
@@ -75,9 +104,9 @@ export class PicturePanel {
   }
 
   /** Shows a picture. While one is being decoded, only the latest of the following pictures is kept.
-   *  @param {ArrayBuffer} buffer */
-  show(buffer) {
-    if (this.#isShown) this.#showJpeg(decodePicture(buffer).jpeg);
+   *  @param {Uint8Array<ArrayBuffer>} jpeg */
+  show(jpeg) {
+    if (this.#isShown) this.#showJpeg(jpeg);
   }
 
   /** @param {Uint8Array<ArrayBuffer>} jpeg */
@@ -95,6 +124,7 @@ export class PicturePanel {
   #onShown() {
     this.#isLoading = false;
     this.parts.image.hidden = !this.#isShown;
+    this.#came = new Date().toTimeString().slice(0, 8);
     this.#explain();
     const next = this.#next;
     this.#next = null;
@@ -103,11 +133,15 @@ export class PicturePanel {
 
   #explain() {
     const { on, image, note } = this.parts;
-    if (!this.hasPictures) note.textContent = 'This server does not render pictures.';
+    const isOld = this.#lost !== '' && !image.hidden;
+    image.classList.toggle('old', isOld);
+    note.classList.toggle('over-picture', isOld);
+    if (isOld) note.textContent = `${this.#lost}. This picture is the last one, of ${this.#came}`;
+    else if (!this.hasPictures) note.textContent = 'This server does not render pictures.';
     else if (!this.#isNewest) note.textContent = 'The server\u2019s picture shows the newest sample only.';
     else if (!on.checked) note.textContent = 'The picture is off.';
     else note.textContent = 'Waiting for a picture';
-    note.hidden = !image.hidden;
+    note.hidden = !image.hidden && !isOld;
   }
 
   async #save() {
@@ -115,9 +149,9 @@ export class PicturePanel {
     save.disabled = true;
     try {
       const query = new URLSearchParams({
-        camera: camera.value, width: String(SAVED_SIZE.width), height: String(SAVED_SIZE.height),
+        camera: camera.value, theme: this.#isDark ? 'dark' : 'light', width: String(SAVED_SIZE.width), height: String(SAVED_SIZE.height),
       });
-      const answer = await request(`snapshot.png?${query}`);
+      const answer = await request(`api/v1/snapshot.png?${query}`);
       const link = document.createElement('a');
       link.href = URL.createObjectURL(await answer.blob());
       link.download = `kinescope_${camera.value}_${new Date().toISOString().replace(/[:.]/g, '-')}.png`;

@@ -3,13 +3,20 @@
 
 export const WINDOWS_SECS = /** @type {const} */ ([10, 30, 60, 300, 600]);
 
+const FIRST_SECS = 60;
+
 /** "10 s", "5 min".
  *  @param {number} secs */
 export const windowName = (secs) => (secs < 60 ? `${secs} s` : `${secs / 60} min`);
 
 export class PlotWindow {
   #to = NaN;  // NaN: where now or the moment is
-  secs = 60;
+  secs = FIRST_SECS;
+
+  /** Whether it is as long as in the beginning. */
+  get isFirst() {
+    return this.secs === FIRST_SECS;
+  }
 
   /** @param {number} secs  one of WINDOWS_SECS */
   setSecs(secs) {

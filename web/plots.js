@@ -5,13 +5,13 @@ import { personLabel } from './format.js';
 import { DASHES, Plot } from './plot.js';
 import { csvOf, download, fileNameOf, pictureOf } from './plot_files.js';
 import { PlotWindow, WINDOWS_SECS, windowName } from './plot_window.js';
-import { showPeople } from './people_choice.js';
 import { GAP_MICROS, Series } from './series.js';
+import { theme } from './theme.js';
 
 const COLUMNS = 400;  // of a window
 const LATE_MICROS = 2_000_000;  // by which what was loaded may be behind the moment on the screen
 const MOST_LINES = DASHES.length;
-const FIRST_JOINTS = ['l5_s1', 'right_shoulder', 'right_knee'];
+export const FIRST_JOINTS = ['l5_s1', 'right_shoulder', 'right_knee'];
 const PLACES = ['com_x', 'com_y', 'cop_x', 'cop_y'];
 
 /** @type {import('./plot.js').Kind[]} */
@@ -26,13 +26,13 @@ export const KINDS = [
 
 /** @typedef {import('./series.js').Wanted} Wanted
  *  @typedef {{oldest: number, newest: number, moment: number, isLive: boolean, wallMillis: (micros: number) => number}} When
- *  @typedef {{panel: HTMLElement, windows: HTMLElement, person: HTMLSelectElement, joints: HTMLElement,
+ *  @typedef {{panel: HTMLElement, windows: HTMLElement, joints: HTMLElement,
  *    chosen: HTMLElement, list: HTMLElement, plan: HTMLCanvasElement, dash: HTMLTemplateElement,
  *    csv: HTMLButtonElement, png: HTMLButtonElement}} Parts
  *  @typedef {{character: number, name: string}} Person
  *  @typedef {{name: string, label: string}} Joint
- *  @typedef {{seek: (micros: number) => void, source: () => string, failed: (text: string) => void}} Page
- *    source: the trial or recording, for files */
+ *  @typedef {{seek: (micros: number) => void, source: () => string, failed: (text: string) => void,
+ *    person: import('./chosen_person.js').ChosenPerson}} Page  source: the trial or recording, for files */
 
 /** "Right shoulder" -> "R shoulder".
  *  @param {string} label */
@@ -113,7 +113,7 @@ export class Plots {
   /** @type {Series|null} */ #series = null;
   /** @type {Joint[]} */ #joints = [];
   /** @type {Person[]} */ #people = [];
-  #chosen = FIRST_JOINTS;
+  /** @type {readonly string[]} */ #chosen = FIRST_JOINTS;
   /** @type {number|null} */ #hover = null;  // µs
   #drawn = '';
   /** @type {When|null} */ #when = null;
@@ -128,11 +128,10 @@ export class Plots {
     this.plan = new FloorPlan(parts.plan);
     parts.list.replaceChildren(...this.figures.map(({ element }) => element));
     parts.windows.replaceChildren(...WINDOWS_SECS.map((secs) => this.#windowButton(secs)));
-    parts.person.addEventListener('change', () => { this.#drawn = ''; });
     parts.csv.addEventListener('click', () => this.#save('csv'));
     parts.png.addEventListener('click', () => this.#save('png'));
     this.#setLines();
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+    theme?.follow(() => {
       for (const { plot } of this.figures) plot.recolor();
       this.#drawn = '';
     });
@@ -144,12 +143,17 @@ export class Plots {
     button.type = 'button';
     button.textContent = windowName(secs);
     button.ariaPressed = String(secs === this.window.secs);
-    button.addEventListener('click', () => {
-      this.window.setSecs(secs);
-      for (const each of this.parts.windows.children) each.ariaPressed = String(each === button);
-      this.#drawn = '';
-    });
+    button.addEventListener('click', () => this.chooseWindow(secs));
     return button;
+  }
+
+  /** @param {number} secs  one that has no button changes nothing */
+  chooseWindow(secs) {
+    const at = WINDOWS_SECS.findIndex((each) => each === secs);
+    if (at < 0) return;
+    this.window.setSecs(secs);
+    [...this.parts.windows.children].forEach((button, i) => { button.ariaPressed = String(i === at); });
+    this.#drawn = '';
   }
 
   /** @param {Joint[]} joints  with a load, in their order
@@ -160,6 +164,7 @@ export class Plots {
     if (limits === this.#limits) return;
     this.#limits = limits;
     this.#joints = joints;
+    this.#chosen = this.#chosen.filter((chosen) => joints.some(({ name }) => name === chosen));  // an address may name any
     const [mediumFrom, highFrom] = classLimits.map((limit) => 100 * limit);
     this.#figureOf('loads').plot.setLimits([
       { value: mediumFrom, tone: 'class-medium' }, { value: highFrom, tone: 'class-high' }]);
@@ -198,7 +203,12 @@ export class Plots {
    *  @param {string} name */
   toggle(name) {
     const others = this.#chosen.filter((each) => each !== name);
-    this.#chosen = others.length < this.#chosen.length ? others : [...others.slice(1 - MOST_LINES), name];
+    this.choose(others.length < this.#chosen.length ? others : [...others.slice(1 - MOST_LINES), name]);
+  }
+
+  /** @param {readonly string[]} names  of joints */
+  choose(names) {
+    this.#chosen = names.slice(0, MOST_LINES);
     for (const box of this.#boxes()) box.checked = this.#chosen.includes(box.value);
     this.#setLines();
   }
@@ -228,11 +238,10 @@ export class Plots {
   /** @param {Person[]} people */
   setPeople(people) {
     this.#people = people;
-    showPeople(this.parts.person, people);
   }
 
   get #person() {
-    return this.#people.find(({ character }) => String(character) === this.parts.person.value) ?? this.#people[0];
+    return this.page.person.of(this.#people);
   }
 
   get character() {
@@ -248,7 +257,7 @@ export class Plots {
    *  @returns {Wanted[]} */
   wanted(when) {
     const person = this.#person;
-    if (!this.isVisible || person === undefined) return [];
+    if (!this.isVisible || person === undefined || this.#joints.length === 0) return [];
     const width = 1e6 * this.window.secs / COLUMNS;
     const keys = [...this.#chosen, ...KINDS.slice(1).map(({ id }) => id), ...PLACES];
     const grid = { person: person.character, keys, width };

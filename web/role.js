@@ -1,11 +1,9 @@
 // The role of this page's token. Controls that change what others see are in <fieldset data-needs="operator">: a viewer
 // sees them disabled, with the reason. The server refuses anyway.
-import { object, oneOf } from './messages.js';
+import { readSession } from './messages.js';
 import { ask, messageOf } from './server_api.js';
 
 /** @typedef {'viewer'|'operator'} Role */
-
-const readSession = object({ role: oneOf(/** @type {const} */ (['viewer', 'operator'])) });
 
 /** Why a control is disabled. */
 export const WHY_DISABLED = 'Only operators can change this: open the page with the operator’s token';
@@ -32,7 +30,7 @@ function setGates(page, role) {
 export function mountRole(text, showNotice) {
   return async () => {
     try {
-      const session = await ask('api/session', readSession);
+      const session = await ask('api/v1/session', readSession);
       if (session === null) return;
       text.textContent = roleText(session.role);
       text.dataset.role = session.role;

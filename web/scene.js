@@ -6,7 +6,9 @@ import { aim, groundOf } from './cameras.js';
 import { HeldRoom } from './held_room.js';
 import { makeMarkerMaterials } from './human.js';
 import { ObjectMarkers } from './objects.js';
+import { placeText, shifted, turned, zoomed } from './orbit.js';
 import { People } from './people.js';
+import { theme } from './theme.js';
 
 const FOLLOW_SECONDS = 0.35;  // time constant with which the view follows a walking person
 // Until the server has sent its cameras.
@@ -14,6 +16,9 @@ const START_POSITION = [3.6, -2.8, 2.2];
 const START_TARGET = [0, 0, 1];
 const SLOW_FRAME_MILLIS = 45;
 const FRAMES_MEASURED = 24;
+const HEAD = 6;  // number of its link
+const HEAD_TOP = 0.3;  // m above its joint, with some air
+const DISTANCES = { least: 0.6, most: 30 };  // m, from the target
 
 export class Scene {
   #scene = new THREE.Scene();
@@ -35,6 +40,9 @@ export class Scene {
   #followed = [0, 0, 0];
   #view = /** @type {import('./messages.js').CameraView|null} */ (null);  // null: selected by hand, or not received yet
   #framing = /** @type {import('./messages.js').Framing|null} */ (null);
+  /** @type {{character: number, position: number[]}[]} */ #heads = [];
+  /** @type {import('./orbit.js').Place|null} */ #placeWanted = null;  // until the people are there
+  #isSeen = true;
   #dirty = true;
   #lastFrameAt = 0;
   #frameMillis = /** @type {number[]} */ ([]);
@@ -51,13 +59,11 @@ export class Scene {
     this.#camera.position.fromArray(START_POSITION);
     this.controls = makeControls(this.#camera, this.renderer.domElement);
     this.controls.addEventListener('change', () => { this.#dirty = true; });
-    this.controls.addEventListener('start', () => {
-      this.#view = null;
-      events.onOrbit();
-    });
+    this.events = events;
+    this.controls.addEventListener('start', () => this.#leaveView());
     this.#buildStage();
     new ResizeObserver(() => this.#resize()).observe(host);
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.#applyTheme());
+    theme?.follow(() => this.#applyTheme());
     this.#applyTheme();
     this.#resize();
   }
@@ -83,6 +89,18 @@ export class Scene {
   /** Whether any person is drawn as a skin. */
   get hasSkins() {
     return this.#people.hasSkins;
+  }
+
+  get canvas() {
+    return this.renderer.domElement;
+  }
+
+  /** @param {boolean} isOn  whether the camera can be moved, by pointer and keys */
+  setControls(isOn) {
+    this.controls.enabled = isOn;
+    this.canvas.tabIndex = isOn ? 0 : -1;
+    this.canvas.setAttribute('role', isOn ? 'application' : 'img');
+    this.canvas.ariaLabel = `The people in the stream, in 3-D${isOn ? ': arrows turn the view, + and − zoom' : ''}`;
   }
 
   /** @param {import('./state_codec.js').Person} person */
@@ -114,6 +132,8 @@ export class Scene {
       const needed = { height, below: state.viewBelow };
       this.#show(this.#heldRoom.follow(needed, state.sentMicros / 1e6), state.viewHeading);
     }
+    this.#heads = state.people.filter(({ links }) => links.length > HEAD)
+      .map(({ character, links }) => ({ character, position: links[HEAD].position }));
     this.#dirty = true;
   }
 
@@ -122,8 +142,81 @@ export class Scene {
   setView(view, framing) {
     this.#view = view;
     this.#framing = framing;
+    this.#placeWanted = null;
     this.#followed = this.#ground.middle;
     this.#aim();
+  }
+
+  /** Where the camera is, for the address; null: it shows a named view. */
+  get placeText() {
+    if (this.#view !== null) return null;
+    return placeText({ position: this.#camera.position.toArray(), target: this.controls.target.toArray() }, this.#followed);
+  }
+
+  /** As if the viewer had moved the camera there.
+   *  @param {import('./orbit.js').Place} place  from the middle of the people on the floor
+   *  @param {import('./messages.js').CameraView} view  whose field of view it has
+   *  @param {import('./messages.js').Framing} framing */
+  setPlace(place, view, framing) {
+    this.setView(view, framing);
+    this.#placeWanted = place;
+    this.#takePlace();
+  }
+
+  #takePlace() {
+    if (this.#placeWanted === null || this.#people.size === 0) return;
+    const { position, target } = this.#placeWanted;
+    this.#followed = this.#ground.middle;
+    this.#leaveView();
+    this.#move({ position: position.map((v, i) => v + this.#followed[i]), target: target.map((v, i) => v + this.#followed[i]) });
+  }
+
+  /** The viewer moves the camera by hand: it is no named view any more. */
+  #leaveView() {
+    this.#view = null;
+    this.#placeWanted = null;
+    this.events.onOrbit();
+  }
+
+  /** @param {import('./orbit.js').Place} place */
+  #move({ position, target }) {
+    this.#camera.position.fromArray(position);
+    this.controls.target.fromArray(target);
+    this.controls.update();
+    this.#dirty = true;
+  }
+
+  /** @param {(place: import('./orbit.js').Place) => import('./orbit.js').Place} change */
+  #moveByKey(change) {
+    this.#leaveView();
+    this.#move(change({ position: this.#camera.position.toArray(), target: this.controls.target.toArray() }));
+  }
+
+  /** @param {number} azimuth  rad
+   *  @param {number} elevation  rad */
+  turn(azimuth, elevation) {
+    this.#moveByKey((place) => turned(place, azimuth, elevation));
+  }
+
+  /** @param {number} factor  of the distance */
+  zoom(factor) {
+    this.#moveByKey((place) => zoomed(place, factor, DISTANCES));
+  }
+
+  /** @param {number} right  share of the distance
+   *  @param {number} up */
+  shift(right, up) {
+    this.#moveByKey((place) => shifted(place, right, up));
+  }
+
+  /** Where the tops of the heads are in the view, px; without those behind the camera.
+   *  @returns {import('./head_names.js').Head[]} */
+  heads() {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    return this.#heads.flatMap(({ character, position: [x, y, z] }) => {
+      const at = new THREE.Vector3(x, y, z + HEAD_TOP).project(this.#camera);
+      return at.z < 1 ? [{ character, x: (at.x + 1) / 2 * width, y: this.host.offsetTop + (1 - at.y) / 2 * height }] : [];
+    });
   }
 
   /** Draws the view if anything has changed since the last call.
@@ -134,8 +227,9 @@ export class Scene {
     this.#follow(elapsed / 1000);
     this.controls.update();
     this.#lastFrameAt = now;
-    if (!this.#dirty) return false;
+    if (!this.#dirty || !this.#isSeen) return false;
     this.#dirty = false;
+    this.#takePlace();
     this.#adaptQuality(elapsed);
     this.#people.pose(this.renderer);
     this.renderer.render(this.#scene, this.#camera);
@@ -222,7 +316,8 @@ export class Scene {
 
   #resize() {
     const { clientWidth: width, clientHeight: height } = this.host;
-    if (width === 0 || height === 0) return;
+    this.#isSeen = width > 0 && height > 0;
+    if (!this.#isSeen) return;
     this.renderer.setSize(width, height, false);
     this.#camera.aspect = width / height;
     this.#camera.updateProjectionMatrix();
@@ -256,8 +351,6 @@ function makeRenderer() {
   const renderer = new THREE.WebGLRenderer({ antialias: !isSoftware });
   renderer.shadowMap.enabled = !isSoftware;
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-  renderer.domElement.setAttribute('role', 'img');
-  renderer.domElement.setAttribute('aria-label', 'The people in the stream');
   return renderer;
 }
 
@@ -266,9 +359,9 @@ function makeRenderer() {
 function makeControls(camera, canvas) {
   const controls = new OrbitControls(camera, canvas);
   controls.target.fromArray(START_TARGET);
-  controls.enableDamping = true;
-  controls.minDistance = 0.6;
-  controls.maxDistance = 30;
+  controls.enableDamping = !matchMedia('(prefers-reduced-motion: reduce)').matches;
+  controls.minDistance = DISTANCES.least;
+  controls.maxDistance = DISTANCES.most;
   return controls;
 }
 

@@ -1,4 +1,4 @@
-// The numbers of past samples, /api/series: the smallest and largest value of each column of time. Columns lie on a
+// The numbers of past samples, /api/v1/series: the smallest and largest value of each column of time. Columns lie on a
 // fixed grid of the server's clock, so that a column that is over never changes, and only new ones are asked for.
 // Pure, but for `Feed`, which asks the server.
 import { readSeries } from './messages.js';
@@ -145,7 +145,7 @@ export function columnsOf(answer) {
 
 /** @param {Grid} grid
  *  @param {Span} span */
-export const routeOf = (grid, { first, end }) => `api/series?${new URLSearchParams({
+export const routeOf = (grid, { first, end }) => `api/v1/series?${new URLSearchParams({
   person: String(grid.person), keys: grid.keys.join(','), from: String(first * grid.width), to: String(end * grid.width),
   columns: String(end - first),
 })}`;

@@ -21,7 +21,7 @@ export async function ask(route, read) {
   return read(await jsonOf(answer, route), route);
 }
 
-/** @param {string} route
+/** @param {string|URL} route
  *  @param {RequestInit} [options]
  *  @returns {Promise<Response>}
  *  @throws {Error} if the server is unreachable or rejects the request */

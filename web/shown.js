@@ -2,7 +2,6 @@
 import { showInAddress } from './address.js';
 import { LookBack } from './look_back.js';
 import { readTextMessage } from './messages.js';
-import { decodePast } from './state_codec.js';
 import { ViewerTime } from './viewer_time.js';
 
 const ADDRESS_MILLIS = 500;  // browsers permit a few changes of the address per second
@@ -22,7 +21,8 @@ export class Shown {
   time = new ViewerTime();
   /** @type {State|null} */ #newest = null;
   /** @type {Details} */ #newestDetails = {
-    source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [], recording: null, marks_revision: null,
+    source: '', camera: '', has_pictures: true, people: [], objects: [], left_out: [], recording: null,
+    marks_revision: null, class_limits: [0.3, 0.6],
   };
   /** @type {{state: State, details: Details}|null} */ #past = null;
   #askedMicros = NaN;  // of the moment last asked for
@@ -136,10 +136,9 @@ export class Shown {
     this.#lookBack.ask({ number: Math.max(0, state.stateNumber + (this.#step?.by ?? 0)) }, now);
   }
 
-  /** @param {ArrayBuffer} buffer  an answer of the server */
-  onPast(buffer) {
+  /** @param {ReturnType<typeof import('./state_codec.js').decodePast>} answer  of the server */
+  onPast(answer) {
     const now = performance.now();
-    const answer = decodePast(buffer);
     if (!this.#lookBack.onAnswer(answer.id, now) || this.#past === null) return;
     if (this.#isStillThere(answer.state)) return this.#askNextTo(answer.state, now);
     const message = readTextMessage(answer.details);

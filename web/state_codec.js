@@ -3,6 +3,9 @@
 export const KIND = { state: 1, picture: 2, past: 3 };
 export const VERSION = 4;
 
+/** The name of this version among the subprotocols of a WebSocket. */
+export const SOCKET_PROTOCOL = `kinescope.v${VERSION}`;
+
 // Names by their number in a message.
 const LIVENESS = /** @type {const} */ (['no data', 'live', 'stale']);
 const LOAD_CLASS = /** @type {const} */ (['unknown', 'low', 'medium', 'high']);

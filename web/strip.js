@@ -2,9 +2,11 @@
 // of their samples, told by height besides colour: low is a base line, medium 22 to 60 % of the row by the number of
 // joints, high the whole row, unknown hatched. Below are lost samples and gaps, and the clock.
 import { Series } from './series.js';
+import { theme } from './theme.js';
 
 export const STRIP_KEYS = /** @type {const} */ (['high_joints', 'medium_joints', 'unknown_joints', 'loss']);
-const COLUMN_PX = 2, GUTTER_PX = 58, RIGHT_PX = 8, AXIS_PX = 16, MARKS_PX = 18, LOSS_PX = 13;
+const COLUMN_PX = 2, GUTTER_PX = 58, RIGHT_PX = 8, AXIS_PX = 16, MARKS_PX = 18, LOSS_PX = 13, ALARMS_PX = 8;
+const LOW_PX = 64;  // below this height people and alarms have all of it
 const MOST_ROWS = 6;  // the last one has the worst of all further people
 /** The strip covers one of these times, so that it does not move with each sample while the history grows. */
 const SPANS_SECS = [10, 20, 30, 60, 120, 180, 300, 600, 900, 1200, 1800, 2700, 3600];
@@ -17,6 +19,7 @@ const MOST_LOSS = 0.08;  // fills the row
 /** @typedef {{high: number, medium: number, isUnknown: boolean, loss: number}} Look  numbers of joints; share of samples
  *  @typedef {{micros: number, endMicros: number|null, label: string}} Mark  endMicros: of a span
  *  @typedef {{label: string, series: Series[]}} Row
+ *  @typedef {import('./messages.js').Alarm} Alarm
  *  @typedef {{oldest: number, newest: number, moment: number, isLive: boolean, wallMillis: (micros: number) => number}} When
  *    µs of the server's clock; wallMillis: of a moment, by the browser's clock */
 
@@ -67,18 +70,27 @@ export function heightOf({ high, medium }) {
 export class Strip {
   /** @type {Map<number, Series>} */ #series = new Map();  // by person
   /** @type {Mark[]|null} */ #marks = null;
+  /** @type {Alarm[]} */ #alarms = [];  // newest first
   #drawn = '';
 
   /** @param {{canvas: HTMLCanvasElement, slider: HTMLInputElement}} parts  the slider lies over the kept moments */
   constructor(parts) {
     this.parts = parts;
-    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { this.#drawn = ''; });
+    theme?.follow(() => { this.#drawn = ''; });
   }
 
   /** Flags in a row of their own, which is there from the first call on.
    *  @param {Mark[]} marks */
   setMarks(marks) {
     this.#marks = marks;
+    this.#drawn = '';
+  }
+
+  /** Bars over the time that they were on.
+   *  @param {Alarm[]} alarms  newest first */
+  setAlarms(alarms) {
+    if (JSON.stringify(alarms.map(signOf)) === JSON.stringify(this.#alarms.map(signOf))) return;
+    this.#alarms = alarms;
     this.#drawn = '';
   }
 
@@ -146,9 +158,13 @@ export class Strip {
     if (context === null) return;
     context.setTransform(dpr, 0, 0, dpr, 0, 0);
     context.clearRect(0, 0, width, height);
-    new Painter(context, getComputedStyle(canvas), { right, inner, height, span, when, xOf }).paint(rows, this.#marks);
+    new Painter(context, getComputedStyle(canvas), { right, inner, height, span, when, xOf }).paint(rows, this.#marks, this.#alarms);
   }
 }
+
+/** What of an alarm the strip shows.
+ *  @param {Alarm} alarm */
+const signOf = ({ id, over }) => [id, over?.micros ?? null];
 
 /** @typedef {{right: number, inner: number, height: number, span: number, when: When, xOf: (micros: number) => number}} Frame
  *    right: of the rows, px; inner: their width */
@@ -171,17 +187,20 @@ class Painter {
   }
 
   /** @param {Row[]} rows
-   *  @param {Mark[]|null} marks */
-  paint(rows, marks) {
+   *  @param {Mark[]|null} marks
+   *  @param {Alarm[]} alarms */
+  paint(rows, marks, alarms) {
     const { context, frame } = this;
     context.textBaseline = 'middle';
-    const top = marks === null ? 0 : MARKS_PX, bottom = frame.height - AXIS_PX;
-    const each = (bottom - LOSS_PX - top) / Math.max(1, rows.length);
+    const isLow = frame.height < LOW_PX, bottom = frame.height - AXIS_PX;
+    const top = marks === null || isLow ? 0 : MARKS_PX, losses = bottom - ALARMS_PX - (isLow ? 0 : LOSS_PX);
+    const each = (losses - top) / Math.max(1, rows.length);
     rows.forEach((row, i) => this.#row(row, top + i * each + 1, each - 3));
-    this.#losses(rows, bottom - LOSS_PX, LOSS_PX - 2);
+    if (!isLow) this.#losses(rows, losses, LOSS_PX - 2);
+    this.#alarms(alarms, bottom - ALARMS_PX);
     this.#clock(bottom);
     this.#playhead(bottom);
-    if (marks !== null) this.#flags(marks);
+    if (marks !== null && !isLow) this.#flags(marks);
   }
 
   /** @param {string} text
@@ -265,6 +284,19 @@ class Painter {
         for (let y = x % 4; y < height; y += 4) context.fillRect(x, top + y, COLUMN_PX, Math.min(2, height - y));
       }
     });
+  }
+
+  /** @param {Alarm[]} alarms
+   *  @param {number} top */
+  #alarms(alarms, top) {
+    const { context, frame: { when, xOf, right, inner } } = this;
+    for (const { began, over, priority } of [...alarms].reverse()) {
+      const until = over?.micros ?? when.newest;
+      if (until < when.oldest) continue;
+      const from = Math.max(right - inner, xOf(Math.max(began.micros, when.oldest)));
+      this.#use(`alarm-${priority}`);
+      context.fillRect(from, top + 1, Math.max(3, xOf(until) - from), ALARMS_PX - 3);
+    }
   }
 
   /** @param {number} top */

@@ -1,7 +1,6 @@
 // The bar below the view: pause, steps, speed, a slider over all moments that the server has (strip.js draws what lies
 // under it), and back to live; with the keys for them.
 import { lag } from './format.js';
-import { isForOther } from './keys.js';
 import { SPEEDS } from './viewer_time.js';
 
 const STEP_MILLIS = 1000, PAGE_MILLIS = 10_000;
@@ -14,8 +13,9 @@ const STEP_MILLIS = 1000, PAGE_MILLIS = 10_000;
 /** @param {Parts} parts
  *  @param {import('./shown.js').Shown} shown
  *  @param {(moment: number) => string} wordsAt  what the strip shows at a moment, for screen readers
+ *  @param {import('./keys.js').Keys} keys
  *  @returns {(now: number) => void}  shows where the viewer is; call it several times a second */
-export function mountTransport(parts, shown, wordsAt) {
+export function mountTransport(parts, shown, wordsAt, keys) {
   const { time } = shown;
   parts.speed.replaceChildren(...SPEEDS.map((speed) => new Option(`${speed} ×`, String(speed), speed === 1, speed === 1)));
 
@@ -39,6 +39,12 @@ export function mountTransport(parts, shown, wordsAt) {
   /** @param {number} millis */
   const skip = (millis) => change((now, kept) => time.seek(time.momentAt(now, kept) + millis, now, kept));
 
+  /** @param {1|-1} by  place in the list of speeds */
+  const changeSpeed = (by) => change((now, kept) => {
+    const next = SPEEDS[SPEEDS.findIndex((speed) => speed === time.speed) + by];
+    if (next !== undefined) time.setSpeed(next, now, kept);
+  });
+
   parts.play.addEventListener('click', pauseOrPlay);
   parts.back.addEventListener('click', () => step(-1));
   parts.forward.addEventListener('click', () => step(1));
@@ -49,20 +55,18 @@ export function mountTransport(parts, shown, wordsAt) {
     time.seek(kept.newest + 1000 * Number(parts.slider.value), now, kept);
   }));
 
-  /** @type {Record<string, () => void>} */
-  const keys = {
-    ' ': pauseOrPlay, 'ArrowLeft': () => step(-1), 'ArrowRight': () => step(1),
-    'Shift+ArrowLeft': () => skip(-STEP_MILLIS), 'Shift+ArrowRight': () => skip(STEP_MILLIS),
-    'PageUp': () => skip(-PAGE_MILLIS), 'PageDown': () => skip(PAGE_MILLIS),
-    'Home': () => change((now, kept) => time.seek(kept.oldest, now, kept)),
-    'Escape': goLive, 'End': goLive,
-  };
-  document.addEventListener('keydown', (event) => {
-    const act = keys[`${event.shiftKey ? 'Shift+' : ''}${event.key}`];
-    if (!act || event.ctrlKey || event.altKey || event.metaKey || isForOther(event)) return;
-    event.preventDefault();
-    act();
-  });
+  const held = { repeats: true };
+  keys.add('Time', 'Space', 'Pause or play', pauseOrPlay);
+  keys.add('Time', 'ArrowLeft', 'One sample back', () => step(-1), held);
+  keys.add('Time', 'ArrowRight', 'One sample forward', () => step(1), held);
+  keys.add('Time', 'Shift+ArrowLeft', 'One second back', () => skip(-STEP_MILLIS), held);
+  keys.add('Time', 'Shift+ArrowRight', 'One second forward', () => skip(STEP_MILLIS), held);
+  keys.add('Time', 'PageUp', 'Ten seconds back', () => skip(-PAGE_MILLIS), held);
+  keys.add('Time', 'PageDown', 'Ten seconds forward', () => skip(PAGE_MILLIS), held);
+  keys.add('Time', 'Home', 'The oldest sample', () => change((now, kept) => time.seek(kept.oldest, now, kept)));
+  keys.add('Time', ['Escape', 'End'], 'Live, or the end of a recording', goLive);
+  keys.add('Time', '<', 'Slower', () => changeSpeed(-1));
+  keys.add('Time', '>', 'Faster', () => changeSpeed(1));
 
   return (now) => {
     const kept = shown.kept();

@@ -35,7 +35,7 @@ const std::vector<std::string>& CameraNames();
 /// @throws UsageError with the requested camera and those that exist.
 Camera NamedCamera(const std::string& name, const SceneState& state);
 
-/// Numbers by which the named cameras frame people. The page receives them in /api/cameras.
+/// Numbers by which the named cameras frame people. The page receives them in /api/v1/cameras.
 struct GroupFraming {
   double min_width_m = 1.9;  // visible around the target in any picture: the arms of a T-pose and
                              // a little beside them

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/picture_limits.h"
+#include "server/http/snapshot_request.h"
 
 namespace kinescope::http {
 
@@ -24,16 +24,11 @@ struct Request {
   std::string authorization;
   std::string accept;
   std::string sec_fetch_site;
-  std::string page_header;      // X-Kinescope-Page, which only our page and other programs can set
-  std::string forwarded_proto;  // X-Forwarded-Proto
-  std::string address;          // of the client, without port
+  std::string page_header;       // X-Kinescope-Page, which only our page and other programs can set
+  std::string forwarded_proto;   // X-Forwarded-Proto
+  std::string socket_protocols;  // Sec-WebSocket-Protocol: what the client can read, or ""
+  std::string address;           // of the client, without port
   std::chrono::steady_clock::time_point received_at{};
-};
-
-struct SnapshotRequest {
-  std::string camera;                  // "": that of the live picture
-  int width = kDefaultPictureWidth;    // px
-  int height = kDefaultPictureHeight;  // px
 };
 
 struct Answer {
@@ -62,7 +57,7 @@ inline constexpr char kNoRenderer[] = "this server renders no pictures (--pictur
 /// Routes the request again with its body, which has not been read.
 [[nodiscard]] Answer AskForBody();
 
-/// {"error": reason}: the form of every error under /api and /snapshot.png.
+/// {"error": reason}: the form of every error under /api.
 [[nodiscard]] Answer ErrorAnswer(int status, const std::string& reason);
 
 }  // namespace kinescope::http

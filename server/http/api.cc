@@ -166,7 +166,7 @@ json VisualToJson(const urdf::Visual& visual, const std::string& mesh_url) {
 }
 
 std::string SkinUrl(const PersonState& person) {
-  return "/api/skin/" + std::to_string(person.character) + "/" +
+  return "/api/v1/skin/" + std::to_string(person.character) + "/" +
          std::to_string(person.model->revision);
 }
 
@@ -179,8 +179,8 @@ json LinksToJson(const PersonState& person, bool is_skin) {
   for (const std::string& name : names) {
     links.push_back({{"name", name}, {"visuals", json::array()}});
   }
-  const std::string mesh_folder =
-      "/api/mesh/" + std::to_string(person.character) + "/" + std::to_string(model.revision) + "/";
+  const std::string mesh_folder = "/api/v1/mesh/" + std::to_string(person.character) + "/" +
+                                  std::to_string(model.revision) + "/";
   std::size_t mesh_number = 0;
   for (const urdf::Link& link : model.robot.links) {
     const auto found = std::find(names.begin(), names.end(), link.name);
@@ -354,6 +354,7 @@ std::string DetailsJson(const SceneState* state, const std::string& live_camera,
         {{"source", state != nullptr ? state->source : std::string()},
          {"camera", live_camera},
          {"has_pictures", has_pictures},
+         {"class_limits", (state != nullptr ? *state : SceneState()).class_limits},
          {"people", std::move(people)},
          {"objects", std::move(objects)},
          {"left_out", std::move(left_out)},

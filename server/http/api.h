@@ -14,16 +14,16 @@
 
 namespace kinescope::http {
 
-/// /api/state: the newest state without poses. `now_nanos`: current time of the monotonic clock,
+/// /api/v1/state: the newest state without poses. `now_nanos`: current time of the monotonic clock,
 /// for the age.
 std::string StateJson(const SceneState* state, std::int64_t now_nanos);
 
-/// /api/model: the data needed to render each person at the streamed link poses, and the names and
-/// colours that the page shows. Skins and meshes are given by their URL on this server.
-/// A skin has no parts but what the person holds and wears.
+/// /api/v1/model: the data needed to render each person at the streamed link poses, and the names
+/// and colours that the page shows. Skins and meshes are given by their URL on this server. A skin
+/// has no parts but what the person holds and wears.
 std::string ModelJson(const SceneState* state, const PageLook& look);
 
-/// /api/cameras.
+/// /api/v1/cameras.
 std::string CamerasJson(const std::vector<CameraView>& cameras, const CameraFraming& framing,
                         const std::string& live_camera, bool has_pictures);
 
@@ -38,14 +38,14 @@ struct DetailsExtras {
 std::string DetailsJson(const SceneState* state, const std::string& live_camera, bool has_pictures,
                         const DetailsExtras& extras = {});
 
-/// The person's model for /api/skin/<person>/<revision>. Null unless the revision is the current
+/// The person's model for /api/v1/skin/{person}/{revision}. Null unless the revision is the current
 /// one and the model has a skin.
 std::shared_ptr<const PersonModel> FindModelWithSkin(const SceneState* state, int character,
                                                      std::uint64_t revision);
 
-/// The STL file for /api/mesh/<person>/<revision>/<n>: the n-th mesh visual of that person's model,
-/// from memory. Null unless it is one of the model's own meshes and the revision is the current
-/// one.
+/// The STL file for /api/v1/mesh/{person}/{revision}/{number}: the n-th mesh visual of that
+/// person's model, from memory. Null unless it is one of the model's own meshes and the revision is
+/// the current one.
 std::shared_ptr<const std::string> FindMesh(const SceneState* state, int character,
                                             std::uint64_t revision, std::size_t n);
 

@@ -1,4 +1,4 @@
-/// Counters of the server; shown under "http" in /api/diagnostics. Server's thread only.
+/// Counters of the server; shown under "http" in /api/v1/diagnostics. Server's thread only.
 #pragma once
 
 #include <cstdint>

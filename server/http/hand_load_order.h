@@ -1,4 +1,4 @@
-/// Parses the body of POST /api/hand_load (docs/http.md). Pure function, any thread.
+/// Parses the body of POST /api/v1/hand_load (docs/http.md). Pure function, any thread.
 #pragma once
 
 #include <optional>

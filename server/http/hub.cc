@@ -54,7 +54,7 @@ bool Hub::Join(HubClient& client) {
   ++counters_.opened;
   client.Offer(Slot::kDetails, EncodeDetails());
   client.Offer(Slot::kState, EncodeNewestState());
-  if (stream_ != nullptr) client.Offer(Slot::kStream, stream_);
+  for (const auto& [slot, message] : news_) client.Offer(slot, message);
   return true;
 }
 
@@ -99,13 +99,17 @@ void Hub::Tick(Clock::time_point now) {
   for (HubClient* const client : clients_) client->Offer(Slot::kDetails, details_);
 }
 
-void Hub::SendStream(const std::string& health) {
-  if (health.empty()) return;
-  const std::string text = R"({"stream":)" + health + "}";
+void Hub::SendNews(Slot slot, const std::string& news) {
+  if (news.empty()) return;
+  const char* const name = slot == Slot::kAlarms     ? "alarms"
+                           : slot == Slot::kControls ? "controls"
+                                                     : "stream";
+  const std::string text = "{\"" + std::string(name) + "\":" + news + "}";
   Bytes message(text.begin(), text.end());
-  if (stream_ != nullptr && *stream_ == message) return;
-  stream_ = Share(std::move(message));
-  for (HubClient* const client : clients_) client->Offer(Slot::kStream, stream_);
+  SharedBytes& last = news_[slot];
+  if (last != nullptr && *last == message) return;
+  last = Share(std::move(message));
+  for (HubClient* const client : clients_) client->Offer(slot, last);
 }
 
 void Hub::OnMessage(HubClient& client, std::string_view text) {
@@ -126,7 +130,9 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
         Slot::kError,
         Share(EncodeError("seen_states or seen_pictures is larger than the number sent")));
   }
+  if (command->dark) client.SetWantsDark(*command->dark);
   if (command->pictures) SetPictures(client, *command->pictures);
+  if (command->dark) ChooseTheme();
   if (command->camera) SelectCamera(client, *command->camera);
   if (command->look) LookBack(client, *command->look);
   if (command->ping) client.Offer(Slot::kPong, Share(EncodePong(*command->ping, NowNanos())));
@@ -134,7 +140,8 @@ void Hub::OnMessage(HubClient& client, std::string_view text) {
 
 void Hub::SelectCamera(HubClient& client, const std::string& camera) {
   if (feed_ != nullptr && feed_->SetCamera(camera)) {
-    camera_ = camera;
+    const std::string before = std::exchange(camera_, camera);
+    if (on_camera_ && before != camera) on_camera_(before, camera, client.role());
     return;
   }
   ++counters_.rejected[feed_ == nullptr ? "no renderer" : "unknown camera"];
@@ -167,7 +174,21 @@ void Hub::SetPictures(HubClient& client, bool wanted) {
   if (wanted && picture_ != nullptr) client.Offer(Slot::kPicture, picture_);
 }
 
+// All share one picture: it is dark while no viewer has a light page.
+void Hub::ChooseTheme() {
+  const auto watches = [](const HubClient* client) { return client->wants_pictures(); };
+  const auto is_light = [&](const HubClient* client) {
+    return watches(client) && !client->wants_dark();
+  };
+  const bool is_dark = std::any_of(clients_.begin(), clients_.end(), watches) &&
+                       std::none_of(clients_.begin(), clients_.end(), is_light);
+  if (is_dark == is_dark_) return;
+  is_dark_ = is_dark;
+  if (feed_ != nullptr) feed_->SetDark(is_dark);
+}
+
 void Hub::CountViewers() {
+  ChooseTheme();
   const int viewers =
       static_cast<int>(std::count_if(clients_.begin(), clients_.end(), [](const HubClient* client) {
         return client->wants_pictures();

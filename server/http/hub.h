@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -24,8 +25,8 @@ namespace kinescope::http {
 
 /// Messages that wait for sending: one place per slot, so that a newer message replaces the older
 /// one.
-enum class Slot { kError, kPong, kDetails, kStream, kState, kPast, kPicture };
-inline constexpr int kSlotCount = 7;
+enum class Slot { kError, kPong, kDetails, kStream, kAlarms, kControls, kState, kPast, kPicture };
+inline constexpr int kSlotCount = 9;
 constexpr bool IsBinary(Slot slot) { return slot >= Slot::kState; }
 
 class HubClient {
@@ -34,6 +35,8 @@ class HubClient {
   virtual void Offer(Slot slot, SharedBytes message) = 0;
   virtual void SetWantsPictures(bool wanted) = 0;
   virtual bool wants_pictures() const = 0;
+  virtual void SetWantsDark(bool wanted) = 0;
+  virtual bool wants_dark() const = 0;  // of the live picture
   /// Acknowledges `count` messages in `slot`; false if fewer were sent.
   [[nodiscard]] virtual bool OnSeen(Slot slot, std::uint64_t count) = 0;
   virtual ClientCounters counters() const = 0;
@@ -70,9 +73,14 @@ class Hub {
   /// that the server runs and how old the state is, and sends changed details.
   void Tick(Clock::time_point now);
 
-  /// Sends the health of the stream, a JSON object, to all clients if it has changed, and to those
-  /// who join later. "": not known yet.
-  void SendStream(const std::string& health);
+  /// Sends the health of the stream, the alarms, or the state of the controls, to all clients if it
+  /// has changed, and to those who join later. `news`: a JSON object; "": not known yet.
+  void SendNews(Slot slot, const std::string& news);
+
+  /// `on_camera` is called when a client has changed the camera of the live picture.
+  using OnCamera =
+      std::function<void(const std::string& before, const std::string& after, Role role)>;
+  void SetOnCamera(OnCamera on_camera) { on_camera_ = std::move(on_camera); }
 
   /// Processes a message of `client`. Answers are sent to this client, a change of camera to all. A
   /// message with a command that the client's role does not permit has no effect.
@@ -92,6 +100,7 @@ class Hub {
   [[nodiscard]] StateMoment Moment() const;
   void SetPictures(HubClient& client, bool wanted);
   [[nodiscard]] int CountOf(const std::string& address) const;
+  void ChooseTheme();
   void CountViewers();  // call after a client has changed whether it wants pictures
   SharedBytes EncodeNewestState() const;
   SharedBytes EncodeDetails() const;
@@ -105,11 +114,13 @@ class Hub {
   Counters& counters_;
   const GetPlayback playback_;
   const marks::MarkBook* const marks_;
+  OnCamera on_camera_;  // may be null
   std::set<HubClient*> clients_;
   std::atomic<int> client_count_{0};  // clients_.size(), readable on other threads
   int viewers_ = 0;                   // clients that want pictures, as reported to feed_
+  bool is_dark_ = false;              // the live picture, as reported to feed_
   SharedBytes details_;               // as last sent to all clients
-  SharedBytes stream_;                // as last sent to all clients; null before the first
+  std::map<Slot, SharedBytes> news_;  // as last sent to all clients
   SharedBytes picture_;               // as last sent to all viewers; null without any
   Clock::time_point state_sent_at_{};
 };

@@ -18,13 +18,14 @@ std::string Header(const IncomingRequest& request, Name name) {
   return {value.data(), value.size()};
 }
 
-std::string CookiesOf(const IncomingRequest& request) {
-  std::string cookies;
-  const auto [first, last] = request.equal_range(bhttp::field::cookie);
+// A header that may stand in several lines.
+std::string Joined(const IncomingRequest& request, bhttp::field name, const char* separator) {
+  std::string all;
+  const auto [first, last] = request.equal_range(name);
   for (auto line = first; line != last; ++line) {
-    cookies.append(cookies.empty() ? "" : "; ").append(line->value().data(), line->value().size());
+    all.append(all.empty() ? "" : separator).append(line->value().data(), line->value().size());
   }
-  return cookies;
+  return all;
 }
 
 // A body whose end we see elsewhere than a proxy does could hide a request.
@@ -95,7 +96,7 @@ Request ToRequest(const IncomingRequest& header, const std::string& address,
   request.target = std::string(header.target());
   request.host = Header(header, bhttp::field::host);
   request.origin = Header(header, bhttp::field::origin);
-  request.cookies = CookiesOf(header);
+  request.cookies = Joined(header, bhttp::field::cookie, "; ");
   request.if_none_match = Header(header, bhttp::field::if_none_match);
   request.content_type = Header(header, bhttp::field::content_type);
   request.authorization = Header(header, bhttp::field::authorization);
@@ -103,6 +104,7 @@ Request ToRequest(const IncomingRequest& header, const std::string& address,
   request.sec_fetch_site = Header(header, "Sec-Fetch-Site");
   request.page_header = Header(header, "X-Kinescope-Page");
   request.forwarded_proto = Header(header, "X-Forwarded-Proto");
+  request.socket_protocols = Joined(header, bhttp::field::sec_websocket_protocol, ", ");
   request.address = address;
   request.received_at = now;
   return request;

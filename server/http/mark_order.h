@@ -1,4 +1,4 @@
-/// The body of POST /api/mark (docs/http.md). Pure functions, any thread.
+/// The body of POST /api/v1/mark (docs/http.md). Pure functions, any thread.
 #pragma once
 
 #include <cstdint>

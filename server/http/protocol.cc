@@ -264,9 +264,11 @@ struct CommandKind {
 };
 
 // A new command: a line here, and one in docs/http.md.
-constexpr std::array<CommandKind, 6> kCommandKinds = {{
+constexpr std::array<CommandKind, 7> kCommandKinds = {{
     {"pictures", Role::kViewer, "true or false", "true",
      [](const json& value, ClientCommand& c) { return Store(ParseFlag(value), c.pictures); }},
+    {"dark", Role::kViewer, "true or false", "true",
+     [](const json& value, ClientCommand& c) { return Store(ParseFlag(value), c.dark); }},
     {"camera", Role::kOperator, "a name", "\"front\"",
      [](const json& value, ClientCommand& c) { return Store(ParseName(value), c.camera); }},
     {"look", Role::kViewer,
@@ -294,6 +296,7 @@ std::string KnownCommands() {
 
 std::vector<CommandInfo> Commands() {
   std::vector<CommandInfo> commands;
+  commands.reserve(kCommandKinds.size());
   for (const CommandKind& kind : kCommandKinds) {
     commands.push_back(
         {kind.name, kind.least, std::string("{\"") + kind.name + "\": " + kind.example + "}"});
@@ -328,5 +331,23 @@ Bytes EncodePong(double ping, std::int64_t now_nanos) {
 }
 
 Bytes EncodeError(const std::string& reason) { return ToBytes({{"error", reason}}); }
+
+std::string SocketProtocol() {
+  return "kinescope.v" + std::to_string(static_cast<int>(kProtocolVersion));
+}
+
+bool CanRead(std::string_view offered_protocols) {
+  if (offered_protocols.empty()) return true;
+  const std::string wanted = SocketProtocol();
+  while (!offered_protocols.empty()) {
+    const std::size_t end = offered_protocols.find(',');
+    std::string_view name = offered_protocols.substr(0, end);
+    offered_protocols.remove_prefix(end == std::string_view::npos ? name.size() : end + 1);
+    while (!name.empty() && name.front() == ' ') name.remove_prefix(1);
+    while (!name.empty() && name.back() == ' ') name.remove_suffix(1);
+    if (name == wanted) return true;
+  }
+  return false;
+}
 
 }  // namespace kinescope::http

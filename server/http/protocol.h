@@ -24,6 +24,14 @@ using SharedBytes = std::shared_ptr<const Bytes>;  // encoded once, sent to ever
 enum class MessageKind : std::uint8_t { kState = 1, kPicture = 2, kPast = 3 };
 
 inline constexpr std::uint8_t kProtocolVersion = 4;
+
+/// "kinescope.v4": the name of this version among the subprotocols of a WebSocket.
+[[nodiscard]] std::string SocketProtocol();
+
+/// Whether a client that offers these subprotocols (a list, separated by commas) can read the
+/// messages. One that offers none has to look at the version in each message.
+[[nodiscard]] bool CanRead(std::string_view offered_protocols);
+
 inline constexpr std::size_t kStateHeaderBytes = 96;
 inline constexpr std::size_t kPersonHeaderBytes = 64;
 inline constexpr std::size_t kLinkBytes = 28;
@@ -72,6 +80,7 @@ struct ClientCommand {
   Role least = Role::kViewer;         // that all of its members need
   std::string needs_least;            // the first member that needs it; "": there is none
   std::optional<bool> pictures;       // whether the client wants the live picture
+  std::optional<bool> dark;           // and whether it wants it dark
   std::optional<std::string> camera;  // of the live picture
   std::optional<LookBack> look;
   std::optional<double> ping;  // the client's clock; returned unchanged

@@ -13,6 +13,8 @@
 #include "core/system/words.h"
 #include "server/http/api.h"
 #include "server/http/hand_load_order.h"
+#include "server/http/open_api.h"
+#include "server/http/protocol.h"
 #include "server/http/series_json.h"
 #include "server/http/token_page.h"
 
@@ -21,10 +23,19 @@ namespace {
 
 constexpr int kMaxPixels = 4096;
 constexpr std::uintmax_t kMaxMeshBytes = 64u << 20;
-constexpr char kSnapshotPath[] = "/snapshot.png";
+constexpr char kSnapshotPath[] = "/api/v1/snapshot.png";
+constexpr char kFilePath[] = "/api/v1/file/{name}";
+constexpr char kMeshPath[] = "/api/v1/mesh/{person}/{revision}/{number}";
+constexpr char kSkinPath[] = "/api/v1/skin/{person}/{revision}";
 
-bool IsCostly(const Target& target) {
-  return target.path == kSnapshotPath || StartsWith(target.path, "/api/");
+bool IsCostly(const Target& target) { return StartsWith(target.path, "/api/v1/"); }
+
+// Addresses of before version 1, which bookmarks and scripts may still have.
+std::string NewAddress(const std::string& path) {
+  if (path == "/snapshot.png") return kSnapshotPath;
+  if (path == "/ws") return Router::kWebSocketPath;
+  if (StartsWith(path, "/api/") && !StartsWith(path, "/api/v1/")) return "/api/v1" + path.substr(4);
+  return "";
 }
 
 std::string EntityTagOf(const std::string& content) {
@@ -40,12 +51,33 @@ std::optional<Number> ParseNumber(std::string_view text) {
   return value;
 }
 
-// The numbers of "<route>1/2/3"; nullopt unless there are exactly `kCount`.
+// Removes the first segment from `path`, with its slash, and returns it.
+std::string_view TakeSegment(std::string_view& path) {
+  const std::string_view segment = path.substr(0, path.find('/'));
+  path.remove_prefix(std::min(path.size(), segment.size() + 1));
+  return segment;
+}
+
+// `path` begins with the fixed segments of `route`, and has as many as it.
+bool Matches(std::string_view path, std::string_view route) {
+  if (std::count(path.begin(), path.end(), '/') != std::count(route.begin(), route.end(), '/')) {
+    return false;
+  }
+  while (!route.empty() || !path.empty()) {
+    const std::string_view wanted = TakeSegment(route), given = TakeSegment(path);
+    const bool is_any = !wanted.empty() && wanted.front() == '{';
+    if (is_any ? given.empty() : given != wanted) return false;
+  }
+  return true;
+}
+
+// The numbers in the place of the "{...}" of `route`, which `path` matches; nullopt unless there
+// are exactly `kCount`.
 template <std::size_t kCount>
 std::optional<std::array<std::uint64_t, kCount>> NumbersOf(std::string_view path,
                                                            std::string_view route) {
   std::array<std::uint64_t, kCount> numbers{};
-  std::string_view rest = path.substr(route.size());
+  std::string_view rest = path.substr(route.find('{'));
   for (std::size_t i = 0; i < kCount; ++i) {
     const std::size_t slash = rest.find('/');
     const bool is_last = i + 1 == kCount;
@@ -208,17 +240,32 @@ std::optional<Answer> Router::RefuseForeignOrigin(const Request& request, const 
                     ". Behind a proxy, let it pass on the Host header");
 }
 
-// A new route: a line here, and one in docs/http.md.
-const std::array<Router::ApiRoute, 9> Router::kApiRoutes = {{
-    {"/api/session", Method::kGet, Role::kViewer, &Router::Session},
-    {"/api/state", Method::kGet, Role::kViewer, &Router::State},
-    {"/api/model", Method::kGet, Role::kViewer, &Router::Model},
-    {"/api/cameras", Method::kGet, Role::kViewer, &Router::Cameras},
-    {"/api/diagnostics", Method::kGet, Role::kViewer, &Router::Diagnostics},
-    {"/api/series", Method::kGet, Role::kViewer, &Router::Series},
-    {"/api/hand_load", Method::kPost, Role::kOperator, &Router::SetHandLoad},
-    {"/api/marks", Method::kGet, Role::kViewer, &Router::Marks},
-    {"/api/mark", Method::kPost, Role::kOperator, &Router::SetMark},
+// A new route: a line here, one in docs/http.md, and its description in docs/openapi.json.
+const std::array<Router::ApiRoute, 24> Router::kApiRoutes = {{
+    {"/api/v1/session", Method::kGet, Role::kViewer, &Router::Session},
+    {"/api/v1/state", Method::kGet, Role::kViewer, &Router::State},
+    {"/api/v1/model", Method::kGet, Role::kViewer, &Router::Model},
+    {"/api/v1/cameras", Method::kGet, Role::kViewer, &Router::Cameras},
+    {"/api/v1/diagnostics", Method::kGet, Role::kViewer, &Router::Diagnostics},
+    {"/api/v1/series", Method::kGet, Role::kViewer, &Router::Series},
+    {"/api/v1/hand_load", Method::kPost, Role::kOperator, &Router::SetHandLoad},
+    {"/api/v1/marks", Method::kGet, Role::kViewer, &Router::Marks},
+    {"/api/v1/mark", Method::kPost, Role::kOperator, &Router::SetMark},
+    {"/api/v1/alarms", Method::kGet, Role::kViewer, &Router::Alarms},
+    {"/api/v1/acknowledge", Method::kPost, Role::kOperator, &Router::Acknowledge},
+    {"/api/v1/controls", Method::kGet, Role::kViewer, &Router::ControlStatus},
+    {"/api/v1/files", Method::kGet, Role::kViewer, &Router::Files},
+    {"/api/v1/recording", Method::kPost, Role::kOperator, &Router::Record},
+    {"/api/v1/clip", Method::kPost, Role::kOperator, &Router::Clip},
+    {"/api/v1/person", Method::kPost, Role::kOperator, &Router::SetPerson},
+    {"/api/v1/class_limits", Method::kPost, Role::kOperator, &Router::SetClassLimits},
+    {"/api/v1/trial", Method::kPost, Role::kOperator, &Router::RunTrial},
+    {kFilePath, Method::kGet, Role::kOperator, &Router::Download},
+    {kMeshPath, Method::kGet, Role::kViewer, &Router::Mesh},
+    {kSkinPath, Method::kGet, Role::kViewer, &Router::Skin},
+    {kSnapshotPath, Method::kGet, Role::kViewer, &Router::Snapshot},
+    {kWebSocketPath, Method::kGet, Role::kViewer, &Router::AskForUpgrade},
+    {"/api/v1/openapi.json", Method::kGet, Role::kViewer, &Router::OpenApi},
 }};
 
 std::vector<Router::RouteInfo> Router::ApiRoutes() {
@@ -231,8 +278,9 @@ std::vector<Router::RouteInfo> Router::ApiRoutes() {
 }
 
 const Router::ApiRoute* Router::FindApi(const std::string& path) {
-  const auto* const found = std::find_if(kApiRoutes.begin(), kApiRoutes.end(),
-                                         [&](const ApiRoute& route) { return path == route.path; });
+  const auto* const found =
+      std::find_if(kApiRoutes.begin(), kApiRoutes.end(),
+                   [&](const ApiRoute& route) { return Matches(path, route.path); });
   return found == kApiRoutes.end() ? nullptr : found;
 }
 
@@ -253,6 +301,7 @@ Answer Router::Route(const Request& request) const {
   if (auto refusal = RefuseStranger(request, *target, &admission)) return *std::move(refusal);
   const auto [access, role] = admission;
   if (auto refusal = RefuseBareCookie(request, *target, access)) return *std::move(refusal);
+  if (auto refusal = RefuseOldAddress(target->path)) return *std::move(refusal);
   const ApiRoute* const api = FindApi(target->path);
   const bool posts = api != nullptr && api->method == Method::kPost;
   if (posts ? request.method != "POST" : request.method != "GET" && request.method != "HEAD") {
@@ -287,28 +336,42 @@ std::optional<Answer> Router::RefuseWebSocket(const Request& request, Role* role
   if (auto refusal = RefuseStranger(request, *target, &admission)) return refusal;
   if (role != nullptr) *role = admission.role;
   if (target->path != kWebSocketPath) {
-    return Refuse(404, "unknown address", "the WebSocket is at /ws");
+    return Refuse(404, "unknown address", std::string("the WebSocket is at ") + kWebSocketPath);
+  }
+  if (!CanRead(request.socket_protocols)) {
+    return Refuse(400, "other protocol",
+                  "Sec-WebSocket-Protocol: " + request.socket_protocols + ": this server sends " +
+                      SocketProtocol() + "; reload the page, or use a client of this version");
   }
   return std::nullopt;
 }
 
+std::optional<Answer> Router::RefuseOldAddress(const std::string& path) const {
+  const std::string address = NewAddress(path);
+  if (address.empty()) return std::nullopt;
+  return Refuse(404, "old address",
+                path + ": the address is now " + address + "; docs/http.md has all");
+}
+
 Answer Router::RouteAdmitted(const Target& target, const Request& request) const {
-  if (target.path == kWebSocketPath) {
-    Answer answer = Refuse(426, "no upgrade", "this route accepts WebSocket connections only");
-    answer.headers.emplace_back("Upgrade", "websocket");
-    return answer;
-  }
-  if (target.path == kSnapshotPath) return Snapshot(target);
-  if (StartsWith(target.path, "/api/mesh/")) return Mesh(target.path, request);
-  if (StartsWith(target.path, "/api/skin/")) return Skin(target.path, request);
-  if (StartsWith(target.path, "/api/")) {
+  if (StartsWith(target.path, "/api/v1/")) {
     return Refuse(404, "unknown address", "unknown route; expected one of " + ApiPaths());
   }
   return File(target.path, request);
 }
 
+Answer Router::AskForUpgrade(const Request& /*request*/, Role /*role*/) const {
+  Answer answer = Refuse(426, "no upgrade", "this route accepts WebSocket connections only");
+  answer.headers.emplace_back("Upgrade", "websocket");
+  return answer;
+}
+
+Answer Router::OpenApi(const Request& /*request*/, Role /*role*/) const {
+  return JsonAnswer(kOpenApi);
+}
+
 Answer Router::Session(const Request& /*request*/, Role role) const {
-  return JsonAnswer(JsonText(nlohmann::json{{"role", Name(role)}}));
+  return JsonAnswer(JsonText(nlohmann::json{{"role", Name(role)}, {"socket", SocketProtocol()}}));
 }
 
 Answer Router::State(const Request& /*request*/, Role /*role*/) const {
@@ -337,7 +400,7 @@ std::optional<Answer> Router::RefuseUnlessJson(const Request& request, const cha
   return Refuse(415, "bad content type", "expected Content-Type: application/json");
 }
 
-Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
+Answer Router::SetHandLoad(const Request& request, Role role) const {
   if (auto refusal = RefuseUnlessJson(request, "set hand loads")) return *std::move(refusal);
   if (!site_.set_hand_load)
     return Refuse(503, "no hand loads", "this server does not accept hand loads");
@@ -360,17 +423,16 @@ Answer Router::SetHandLoad(const Request& request, Role /*role*/) const {
   }
   const std::string wrong = site_.set_hand_load(character, order->load);
   if (!wrong.empty()) return Refuse(400, "bad hand load", wrong);
+  if (site_.controls != nullptr) site_.controls->OnHandLoad(character, order->load, role);
   return JsonAnswer(JsonText(nlohmann::json{{"person", character},
                                             {"right_kg", order->load.mass_kg[urdf::kRight]},
                                             {"left_kg", order->load.mass_kg[urdf::kLeft]},
                                             {"both_kg", order->load.both_kg}}));
 }
 
-Answer Router::Mesh(const std::string& path, const Request& request) const {
-  const auto numbers = NumbersOf<3>(path, "/api/mesh/");
-  if (!numbers) {
-    return Refuse(404, "unknown address", "expected /api/mesh/<person>/<revision>/<n>");
-  }
+Answer Router::Mesh(const Request& request, Role /*role*/) const {
+  const auto numbers = NumbersOf<3>(ParseTarget(request.target)->path, kMeshPath);
+  if (!numbers) return Refuse(404, "unknown address", std::string("expected ") + kMeshPath);
   const auto [person, revision, n] = *numbers;
   const std::shared_ptr<const SceneState> state = site_.states->Get();
   const auto mesh = FindMesh(state.get(), ToCharacter(person), revision, n);
@@ -380,9 +442,9 @@ Answer Router::Mesh(const std::string& path, const Request& request) const {
   return AnswerOfModel(*mesh, "model/stl", request);
 }
 
-Answer Router::Skin(const std::string& path, const Request& request) const {
-  const auto numbers = NumbersOf<2>(path, "/api/skin/");
-  if (!numbers) return Refuse(404, "unknown address", "expected /api/skin/<person>/<revision>");
+Answer Router::Skin(const Request& request, Role /*role*/) const {
+  const auto numbers = NumbersOf<2>(ParseTarget(request.target)->path, kSkinPath);
+  if (!numbers) return Refuse(404, "unknown address", std::string("expected ") + kSkinPath);
   const auto [person, revision] = *numbers;
   const std::shared_ptr<const SceneState> state = site_.states->Get();
   const auto model = FindModelWithSkin(state.get(), ToCharacter(person), revision);
@@ -393,13 +455,18 @@ Answer Router::Skin(const std::string& path, const Request& request) const {
                        request);
 }
 
-Answer Router::Snapshot(const Target& target) const {
+Answer Router::Snapshot(const Request& request, Role /*role*/) const {
   if (!site_.has_pictures) return Refuse(503, "no renderer", kNoRenderer);
   SnapshotRequest snapshot;
-  for (const auto& [name, value] : target.query) {
+  const auto target = ParseTarget(request.target);
+  for (const auto& [name, value] : target->query) {
     if (name == "token" || name == "t") continue;  // t: makes a URL unique for a cache
     if (name == "camera") {
       snapshot.camera = value;
+      continue;
+    }
+    if (name == "theme" && (value == "light" || value == "dark")) {
+      snapshot.is_dark = value == "dark";
       continue;
     }
     int* const pixels = name == "width"    ? &snapshot.width
@@ -408,7 +475,8 @@ Answer Router::Snapshot(const Target& target) const {
     const auto number = ParseNumber<int>(value);
     if (pixels == nullptr || !number || *number < kMinPictureSide || *number > kMaxPixels) {
       return Refuse(400, "bad snapshot",
-                    name + "=" + value + ": expected camera=<name>, width= and height= from " +
+                    name + "=" + value +
+                        ": expected camera=<name>, theme=light or dark, width= and height= from " +
                         std::to_string(kMinPictureSide) + " to " + std::to_string(kMaxPixels));
     }
     *pixels = *number;

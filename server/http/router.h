@@ -16,6 +16,7 @@
 #include "server/history/history.h"
 #include "server/http/access.h"
 #include "server/http/answer.h"
+#include "server/http/controls.h"
 #include "server/http/guess_guard.h"
 #include "server/http/role.h"
 #include "server/http/server.h"
@@ -39,6 +40,8 @@ class Router {
     const Latest<SceneState>* states = nullptr;
     const history::History* history = nullptr;  // may be null: none is kept
     marks::MarkBook* marks = nullptr;           // may be null: nothing can be marked
+    Controls* controls = nullptr;               // may be null
+    alarms::Alarms* alarms = nullptr;           // may be null: nothing is watched
     std::function<std::string(int character, const HandLoad&)> set_hand_load;  // may be null
     std::function<std::string()> diagnostics;  // the complete JSON, with the part of the server
     std::function<std::string()> live_camera;
@@ -56,16 +59,16 @@ class Router {
   [[nodiscard]] std::optional<Answer> RefuseWebSocket(const Request& request,
                                                       Role* role = nullptr) const;
 
-  /// A route under /api of a fixed address.
+  /// A route under /api.
   struct RouteInfo {
-    std::string path;
+    std::string path;    // "{...}" stands for any segment
     std::string method;  // "GET" (HEAD, too) or "POST"
     Role least;          // that may use it
   };
   /// All of them, for messages and tests.
   static std::vector<RouteInfo> ApiRoutes();
 
-  static constexpr const char* kWebSocketPath = "/ws";
+  static constexpr const char* kWebSocketPath = "/api/v1/ws";
 
  private:
   Answer RouteAdmitted(const Target& target, const Request& request) const;
@@ -80,16 +83,17 @@ class Router {
                                                       const Target& target) const;
   [[nodiscard]] std::optional<Answer> RefuseBareCookie(const Request& request, const Target& target,
                                                        Access access) const;
+  [[nodiscard]] std::optional<Answer> RefuseOldAddress(const std::string& path) const;
   [[nodiscard]] std::optional<Answer> RefuseForeignOrigin(const Request& request,
                                                           const char* what) const;
   enum class Method { kGet, kPost };  // GET: HEAD, too
   struct ApiRoute {
-    const char* path;
+    const char* path;  // "{...}" stands for any segment
     Method method;
     Role least;  // a route that changes anything: kOperator
     Answer (Router::*answer)(const Request&, Role) const;
   };
-  static const std::array<ApiRoute, 9> kApiRoutes;
+  static const std::array<ApiRoute, 24> kApiRoutes;
   /// Null if there is no such route.
   static const ApiRoute* FindApi(const std::string& path);
   static std::string ApiPaths();
@@ -108,9 +112,26 @@ class Router {
   Answer Marks(const Request& request, Role role) const;
   Answer SetMark(const Request& request, Role role) const;
   [[nodiscard]] Answer RefuseMoment(std::uint64_t wanted, const SceneState* nearest) const;
-  Answer Mesh(const std::string& path, const Request& request) const;
-  Answer Skin(const std::string& path, const Request& request) const;
-  Answer Snapshot(const Target& target) const;
+  // router_controls.cc
+  template <class Parse, class CarryOut>
+  Answer Order(const Request& request, const char* what, Parse parse, CarryOut carry_out) const;
+  Answer ControlStatus(const Request& request, Role role) const;
+  Answer Files(const Request& request, Role role) const;
+  Answer Record(const Request& request, Role role) const;
+  Answer Clip(const Request& request, Role role) const;
+  Answer SetPerson(const Request& request, Role role) const;
+  Answer SetClassLimits(const Request& request, Role role) const;
+  Answer RunTrial(const Request& request, Role role) const;
+  Answer Download(const Request& request, Role role) const;
+  // router_alarms.cc
+  Answer Alarms(const Request& request, Role role) const;
+  Answer Acknowledge(const Request& request, Role role) const;
+  // router.cc
+  Answer Mesh(const Request& request, Role role) const;
+  Answer Skin(const Request& request, Role role) const;
+  Answer Snapshot(const Request& request, Role role) const;
+  Answer OpenApi(const Request& request, Role role) const;
+  Answer AskForUpgrade(const Request& request, Role role) const;
   Answer File(const std::string& path, const Request& request) const;
 
   Site site_;

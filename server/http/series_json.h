@@ -1,5 +1,5 @@
-/// The query and the answer of /api/series (docs/http.md). The query is untrusted: every count is
-/// checked before anything is allocated. Pure functions, any thread.
+/// The query and the answer of /api/v1/series (docs/http.md). The query is untrusted: every count
+/// is checked before anything is allocated. Pure functions, any thread.
 #pragma once
 
 #include <cstdint>

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/system/errors.h"
+#include "server/alarms/alarm_json.h"
 #include "server/http/access.h"
 #include "server/http/client_address.h"
 #include "server/http/http_session.h"
@@ -190,6 +191,11 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
   port_ = acceptor_.local_endpoint().port();
   if (feed_ != nullptr) snapshots_.emplace(*feed_);
   router_.emplace(MakeSite());
+  if (config.controls != nullptr) {
+    hub_.SetOnCamera(
+        [controls = config.controls](const std::string& before, const std::string& after,
+                                     Role role) { controls->OnCamera(before, after, role); });
+  }
   shared_.router = &*router_;
   shared_.hub = &hub_;
   shared_.counters = &counters_;
@@ -224,6 +230,8 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.framing = config_.framing;
   site.history = config_.history;
   site.marks = config_.marks;
+  site.controls = config_.controls;
+  site.alarms = config_.alarms;
   site.has_pictures = feed_ != nullptr;
   site.look = config_.look;
   site.own_skin = config_.own_skin;
@@ -293,7 +301,15 @@ void HttpServer::Impl::ArmTick() {
     ArmTick();
     const auto now = std::chrono::steady_clock::now();
     hub_.Tick(now);
-    if (config_.stream && hub_.client_count() > 0) hub_.SendStream(config_.stream());
+    if (hub_.client_count() > 0) {
+      if (config_.stream) hub_.SendNews(Slot::kStream, config_.stream());
+      if (config_.alarms != nullptr) {
+        hub_.SendNews(Slot::kAlarms, alarms::ShownJson(*config_.alarms));
+      }
+      if (config_.controls != nullptr) {
+        hub_.SendNews(Slot::kControls, config_.controls->StatusJson());
+      }
+    }
     guesses_.Report(now);
   });
 }

@@ -1,7 +1,7 @@
 /// Serves the web page and its live data: HTTP and WebSocket on one port (docs/http.md). It has its
 /// own thread; every public function may be called from any thread. Per client only the newest
 /// state and picture are kept, so a slow viewer does not affect others. No input from a client can
-/// stop the server: it is answered, counted under "http" in /api/diagnostics, or both.
+/// stop the server: it is answered, counted under "http" in /api/v1/diagnostics, or both.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,11 @@
 #include "core/playback.h"
 #include "core/scene_state.h"
 #include "core/system/latest.h"
+#include "server/alarms/alarms.h"
 #include "server/history/history.h"
+#include "server/http/controls.h"
 #include "server/http/role.h"
+#include "server/http/snapshot_request.h"
 #include "server/marks/mark_book.h"
 #include "urdf/skin/skin_template.h"
 
@@ -58,9 +61,9 @@ struct CameraFraming {
   double spare_below = 0;       // of the height; people lower than that lower the target
 };
 
-/// Renders for the server. Implemented in server/app; any thread may call it. SetViewers and
-/// SetCamera are called on the server's thread (SetViewers(0) also by the destructor) and must
-/// return at once; SnapshotPng is called on a separate thread.
+/// Renders for the server. Implemented in server/app; any thread may call it. SetViewers,
+/// SetCamera and SetDark are called on the server's thread (SetViewers(0) also by the destructor)
+/// and must return at once; SnapshotPng is called on a separate thread.
 class PictureFeed {
  public:
   virtual ~PictureFeed() = default;
@@ -68,10 +71,11 @@ class PictureFeed {
   virtual void SetViewers(int count) = 0;
   /// Selects the named camera of the live picture. False for an unknown name.
   [[nodiscard]] virtual bool SetCamera(const std::string& camera) = 0;
-  /// Renders one picture of the newest state as PNG; blocks until it is done. Empty camera: that of
-  /// the live picture. @throws std::exception with one line for the client.
-  virtual std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width,
-                                                int height) = 0;
+  /// The theme of the live picture: dark while all of its viewers want it so.
+  virtual void SetDark(bool is_dark) = 0;
+  /// Renders one picture of the newest state as PNG; blocks until it is done.
+  /// @throws std::exception with one line for the client.
+  virtual std::vector<std::uint8_t> SnapshotPng(const SnapshotRequest& request) = 0;
 };
 
 /// How long the server waits for a client.
@@ -110,6 +114,10 @@ struct HttpConfig {
   std::function<std::shared_ptr<const Playback>()> playback;
   /// Where operators mark moments, which needs `history`; borrowed. Null: they cannot.
   marks::MarkBook* marks = nullptr;
+  /// What operators do; borrowed. Null: the page has no controls.
+  Controls* controls = nullptr;
+  /// What people are warned of; borrowed. Null: nothing.
+  alarms::Alarms* alarms = nullptr;
   /// The health of the stream as a JSON object, for the message "stream"; "": not known yet. Called
   /// on the server's thread while clients are connected, must return at once. May be null.
   std::function<std::string()> stream;
@@ -145,10 +153,10 @@ inline constexpr int kMaxClients = 128;
 class HttpServer {
  public:
   /// Listens when the constructor returns. It publishes new values of `states` and `pictures`.
-  /// `diagnostics` returns the JSON object of /api/diagnostics, to which the server adds the member
-  /// "http"; it is called on the server's thread. All references are borrowed and must outlive the
-  /// server. `feed` may be null (no renderer): the page then reports this.
-  /// `listener`: of the same config; it has served its purpose then.
+  /// `diagnostics` returns the JSON object of /api/v1/diagnostics, to which the server adds the
+  /// member "http"; it is called on the server's thread. All references are borrowed and must
+  /// outlive the server. `feed` may be null (no renderer): the page then reports this. `listener`:
+  /// of the same config; it has served its purpose then.
   HttpServer(const HttpConfig& config, Listener& listener, Latest<SceneState>& states,
              Latest<Picture>& pictures, PictureFeed* feed,
              std::function<std::string()> diagnostics);

@@ -12,7 +12,7 @@ namespace {
 SnapshotResult Draw(PictureFeed& feed, const SnapshotRequest& request, bool is_wanted) {
   if (!is_wanted) return tl::unexpected(SnapshotFailure{kAbandoned, "the client has left"});
   try {
-    return feed.SnapshotPng(request.camera, request.width, request.height);
+    return feed.SnapshotPng(request);
   } catch (const UsageError& error) {
     return tl::unexpected(SnapshotFailure{400, error.what()});
   } catch (const std::exception& error) {

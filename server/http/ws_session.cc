@@ -52,8 +52,6 @@ WsSession::WsSession(Stream stream, std::string address, Role role, Hub& hub, st
   socket_.next_layer().expires_never();
   socket_.next_layer().rate_policy().read_limit(kMaxBytesPerSecond);
   socket_.set_option(Timeouts());
-  socket_.set_option(websocket::stream_base::decorator(
-      [](websocket::response_type& response) { response.set("Server", "kinescope"); }));
   socket_.read_message_max(kMaxMessageBytes);
   // Called while a read of this session is in progress, so that the session exists.
   socket_.control_callback([this](websocket::frame_type, beast::string_view) { OnControlFrame(); });
@@ -63,6 +61,14 @@ WsSession::WsSession(Stream stream, std::string address, Role role, Hub& hub, st
 WsSession::~WsSession() { hub_.Leave(*this); }
 
 void WsSession::Accept(const Upgrade& request) {
+  const bool is_versioned = !request[beast::http::field::sec_websocket_protocol].empty();
+  socket_.set_option(
+      websocket::stream_base::decorator([is_versioned](websocket::response_type& response) {
+        response.set(beast::http::field::server, "kinescope");
+        if (is_versioned) {
+          response.set(beast::http::field::sec_websocket_protocol, SocketProtocol());
+        }
+      }));
   socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) return;
     self->open_ = true;

@@ -34,6 +34,8 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
   void Offer(Slot slot, SharedBytes message) override;
   void SetWantsPictures(bool wanted) override;
   bool wants_pictures() const override { return counters_.pictures; }
+  void SetWantsDark(bool wanted) override { wants_dark_ = wanted; }
+  bool wants_dark() const override { return wants_dark_; }
   [[nodiscard]] bool OnSeen(Slot slot, std::uint64_t count) override;
   ClientCounters counters() const override { return counters_; }
   const std::string& address() const override { return address_; }
@@ -53,6 +55,7 @@ class WsSession final : public HubClient, public std::enable_shared_from_this<Ws
   const Role role_;
   Hub& hub_;
   ClientCounters counters_;
+  bool wants_dark_ = false;
   boost::beast::flat_buffer incoming_;
   std::array<SharedBytes, kSlotCount> waiting_;  // by Slot
   SharedBytes sending_;                          // null: no message is being sent

@@ -16,11 +16,19 @@ struct Moment {
   std::uint32_t counter = 0;
 };
 
+/// What a mark is of.
+enum class Kind {
+  kMark,    // what a person saw
+  kChange,  // what an operator changed, with the old and the new value
+  kTrial,   // a trial, from start to stop
+};
+
 struct Mark {
   std::uint64_t id = 0;         // from 1, within its file
   std::uint64_t revision = 0;   // of the book when the mark was last changed
   std::int64_t run_micros = 0;  // when the server that has its moments was started, wall clock
-  int button = 0;               // 1 to 9; 0: free text
+  Kind kind = Kind::kMark;
+  int button = 0;  // 1 to 9; 0: free text
   std::string text;
   std::string role;  // of the author: "operator"
   Moment at;

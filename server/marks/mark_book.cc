@@ -1,12 +1,12 @@
 #include "server/marks/mark_book.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <ctime>
 #include <utility>
 
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
+#include "core/system/state_folder.h"
 
 namespace kinescope::marks {
 
@@ -49,6 +49,7 @@ MarkBook::Result MarkBook::Add(const NewMark& given) {
   }
   mark.id = marks_.empty() ? 1 : marks_.rbegin()->first + 1;
   mark.run_micros = run_micros_;
+  mark.kind = given.kind;
   mark.button = given.button;
   mark.role = given.role;
   mark.at = given.at;
@@ -79,6 +80,10 @@ MarkBook::Result MarkBook::Remove(std::uint64_t id) {
   const auto found = marks_.find(id);
   if (found == marks_.end() || found->second.is_removed) {
     return tl::unexpected("there is no mark " + std::to_string(id));
+  }
+  if (found->second.kind == Kind::kChange) {
+    return tl::unexpected("mark " + std::to_string(id) +
+                          " tells what an operator changed; it stays");
   }
   Mark mark = found->second;
   mark.is_removed = true;
@@ -129,25 +134,12 @@ int MarkBook::unread_lines() const {
 }
 
 std::filesystem::path DefaultMarkFile() {
-  const auto value = [](const char* name) {
-    const char* const text = std::getenv(name);
-    return std::string(text == nullptr ? "" : text);
-  };
-  std::filesystem::path folder;
-  const std::string service = value("STATE_DIRECTORY");  // several are separated by colons
-  if (!service.empty()) {
-    folder = service.substr(0, service.find(':'));
-  } else if (!value("XDG_STATE_HOME").empty()) {
-    folder = std::filesystem::path(value("XDG_STATE_HOME")) / "kinescope";
-  } else if (!value("HOME").empty()) {
-    folder = std::filesystem::path(value("HOME")) / ".local/state/kinescope";
-  }
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
   ::gmtime_r(&now, &parts);
   char name[48];
   std::strftime(name, sizeof name, "marks-%Y%m%dT%H%M%SZ.jsonl", &parts);
-  return folder / name;
+  return StateFolder() / name;
 }
 
 }  // namespace kinescope::marks

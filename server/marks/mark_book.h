@@ -32,6 +32,7 @@ struct NewMark {
   bool is_span = false;  // `at` is its beginning; End() sets its end
   Moment at;
   double behind_secs = 0;  // by which the author looks back
+  Kind kind = Kind::kMark;
 };
 
 class MarkBook {
@@ -72,9 +73,7 @@ class MarkBook {
   std::uint64_t revision_ = 0;
 };
 
-/// Where marks are kept if no option says it: a file of this start in the state folder of the
-/// service (STATE_DIRECTORY) or of the user (XDG_STATE_HOME, ~/.local/state); in the working folder
-/// without one.
+/// Where marks are kept if no option says it: a file of this start in StateFolder().
 std::filesystem::path DefaultMarkFile();
 
 }  // namespace kinescope::marks

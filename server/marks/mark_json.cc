@@ -1,13 +1,26 @@
 #include "server/marks/mark_json.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <type_traits>
+#include <utility>
 
 namespace kinescope::marks {
 namespace {
 
 using nlohmann::json;
+
+constexpr std::array<std::pair<Kind, const char*>, 3> kKinds = {
+    {{Kind::kMark, "mark"}, {Kind::kChange, "change"}, {Kind::kTrial, "trial"}}};
+
+const char* NameOf(Kind kind) {
+  return std::find_if(kKinds.begin(), kKinds.end(),
+                      [&](const auto& each) { return kind == each.first; })
+      ->second;
+}
 
 json ToJson(const Moment& moment) {
   return {{"state", moment.state},
@@ -61,6 +74,15 @@ class Reader {
     value = found->get<double>();
     if (!std::isfinite(value)) Fail();
   }
+  void Read(const char* name, Kind& kind) {  // absent in the files of earlier versions
+    if (!is_right_ || object_.find(name) == object_.end()) return;
+    std::string text;
+    Read(name, text);
+    const auto* const known = std::find_if(kKinds.begin(), kKinds.end(),
+                                           [&](const auto& each) { return text == each.second; });
+    if (known == kKinds.end()) return Fail();
+    kind = known->first;
+  }
   void Read(const char* name, Moment& moment) {
     const json* const found = Find(name);
     if (found == nullptr) return Fail();
@@ -98,6 +120,7 @@ json ToJson(const Mark& mark) {
   return {{"id", mark.id},
           {"revision", mark.revision},
           {"run_micros", mark.run_micros},
+          {"kind", NameOf(mark.kind)},
           {"button", mark.button},
           {"text", mark.text},
           {"role", mark.role},
@@ -118,6 +141,7 @@ std::optional<Mark> ReadMark(std::string_view line) {
   in.Read("id", mark.id);
   in.Read("revision", mark.revision);
   in.Read("run_micros", mark.run_micros);
+  in.Read("kind", mark.kind);
   in.Read("button", mark.button);
   in.Read("text", mark.text);
   in.Read("role", mark.role);

@@ -1,4 +1,5 @@
-/// A mark as a JSON object: a line of the file, an entry of /api/marks (docs/http.md). Any thread.
+/// A mark as a JSON object: a line of the file, an entry of /api/v1/marks (docs/http.md). Any
+/// thread.
 #pragma once
 
 #include <nlohmann/json.hpp>

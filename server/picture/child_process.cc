@@ -7,8 +7,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <stdexcept>
 
@@ -73,13 +75,16 @@ bool ReadSome(int from, std::string& to) {
 }
 
 // Until both streams end. @return whether they did in time.
-bool ReadAll(int out, int err, Clock::time_point deadline, ChildResult& result) {
+bool ReadAll(int out, int err, Clock::time_point deadline, const std::function<bool()>& is_wanted,
+             ChildResult& result) {
   std::array<pollfd, 2> wanted = {pollfd{out, POLLIN, 0}, pollfd{err, POLLIN, 0}};
   while (wanted[0].fd >= 0 || wanted[1].fd >= 0) {
     const auto left =
         std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now()).count();
-    if (left <= 0) return false;
-    if (::poll(wanted.data(), wanted.size(), static_cast<int>(left)) <= 0) continue;
+    if (left <= 0 || !is_wanted()) return false;
+    constexpr std::int64_t kLookEvery = 200;  // ms
+    const auto wait = static_cast<int>(std::min<std::int64_t>(left, kLookEvery));
+    if (::poll(wanted.data(), wanted.size(), wait) <= 0) continue;
     if (wanted[0].revents != 0 && !ReadSome(out, result.out)) wanted[0].fd = -1;
     if (wanted[1].revents != 0 && !ReadSome(err, result.err)) wanted[1].fd = -1;
   }
@@ -88,13 +93,15 @@ bool ReadAll(int out, int err, Clock::time_point deadline, ChildResult& result) 
 
 }  // namespace
 
-ChildResult RunChild(const std::vector<std::string>& command, std::chrono::milliseconds limit) {
+ChildResult RunChild(const std::vector<std::string>& command, std::chrono::milliseconds limit,
+                     const std::function<bool()>& is_wanted) {
   Pipe out, err;
   ChildResult result;
   const pid_t child = Start(command, out.writer(), err.writer());
   out.CloseWriter();
   err.CloseWriter();
-  result.was_too_slow = !ReadAll(out.reader(), err.reader(), Clock::now() + limit, result);
+  result.was_too_slow =
+      !ReadAll(out.reader(), err.reader(), Clock::now() + limit, is_wanted, result);
   // Also when both streams have ended: nothing if it exits, the end of one that closed them and
   // stays.
   ::kill(child, SIGKILL);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,10 @@ struct ChildResult {
 };
 
 /// `command[0]` is a path. The child has this process' environment and no standard input, and is
-/// killed after `limit`. @throws std::runtime_error if it cannot be started.
-[[nodiscard]] ChildResult RunChild(const std::vector<std::string>& command,
-                                   std::chrono::milliseconds limit);
+/// killed after `limit`, and soon after `is_wanted` has returned false. @throws std::runtime_error
+/// if it cannot be started.
+[[nodiscard]] ChildResult RunChild(
+    const std::vector<std::string>& command, std::chrono::milliseconds limit,
+    const std::function<bool()>& is_wanted = [] { return true; });
 
 }  // namespace kinescope::app

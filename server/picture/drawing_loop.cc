@@ -73,6 +73,15 @@ void DrawingLoop::SetViewers(int count) {
   wake_.notify_one();
 }
 
+void DrawingLoop::SetDark(bool is_dark) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    live_is_due_ = live_is_due_ || is_dark != is_dark_;
+    is_dark_ = is_dark;
+  }
+  wake_.notify_one();
+}
+
 void DrawingLoop::SetCamera(CameraController camera) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -157,6 +166,7 @@ void DrawingLoop::DrawLive(std::unique_lock<std::mutex>& lock) {
   const std::shared_ptr<const SceneState> state = state_;
   render::PictureSpec view = LiveView(settings_.width, settings_.height);
   settings_.people.ApplyTo(view.look);
+  if (is_dark_) view.look.theme = render::Theme::kDark;
   const render::Camera camera = camera_.AimLive(*state, LiveAspect(), LiveAspect());
   lock.unlock();
   std::string error;

@@ -76,6 +76,8 @@ class DrawingLoop {
   /// A new viewer receives a live picture as soon as the frame rate allows, even if the scene does
   /// not change.
   void SetViewers(int count);
+  /// The theme of the live picture.
+  void SetDark(bool is_dark);
   /// Cuts the live picture to `camera`.
   void SetCamera(CameraController camera);
   /// One picture of the newest state, beside the live ones; without `camera` by that of the live
@@ -123,7 +125,8 @@ class DrawingLoop {
   // Guarded by mutex_:
   std::shared_ptr<const SceneState> state_;
   CameraController camera_;   // of the live picture
-  bool live_is_due_ = false;  // the newest state, camera or viewer has no picture yet
+  bool live_is_due_ = false;  // the newest state, camera, theme or viewer has no picture yet
+  bool is_dark_ = false;      // the live picture
   bool stop_ = false;
   std::deque<Order> orders_;
   /// Of the order being drawn; answered by the thread that takes it: the drawing thread, or the

@@ -23,6 +23,7 @@
 #include "server/ros/master_client.h"
 #include "server/ros/master_registration.h"
 #include "server/ros/names.h"
+#include "server/ros/node_topics.h"
 #include "server/ros/ros_camera_topics.h"
 #include "server/ros/transforms.h"
 
@@ -66,8 +67,19 @@ class Bridge : public RosBridge {
     if (const auto view = registration_.View()) view->Publish(picture);
   }
 
+  void PublishDiagnostics(const std::vector<Diagnosis>& all) override {
+    if (const auto node = registration_.Node()) ros_bridge::PublishDiagnostics(all, *node);
+  }
+
+  bool PublishMark(const RosMark& mark) override {
+    const auto node = registration_.Node();
+    if (node) ros_bridge::PublishMark(mark, config_.reference_frame, *node);
+    return node != nullptr;
+  }
+
   void TakeInputs(InputSink& sink) override {
     queue_.callAvailable(ros::WallDuration(0));
+    for (const std::string& text : std::exchange(marks_in_, {})) sink.OnMark(text);
     if (view_listeners_) sink.OnViewListeners(*std::exchange(view_listeners_, std::nullopt));
     for (auto& [character, outlet] : outlets_) {
       if (outlet.topics) outlet.topics->inputs->Deliver(character, sink);
@@ -115,6 +127,7 @@ class Bridge : public RosBridge {
       transforms_->Add(message, is_static);
     };
     wiring.markers = markers_in_;
+    wiring.on_mark = [this](const std::string& text) { marks_in_.push_back(text); };
     if (!config_.with_view) return wiring;
     wiring.make_view = [this](const ros::NodeHandle& node) {
       return std::make_shared<RosCameraTopics>(node, queue_, config_.reference_frame,
@@ -218,6 +231,7 @@ class Bridge : public RosBridge {
   const BridgeConfig config_;
   ros::CallbackQueue queue_;           // called by the publishing thread
   std::optional<int> view_listeners_;  // publishing thread only; until passed on
+  std::vector<std::string> marks_in_;  // publishing thread only; until passed on
   const std::shared_ptr<TfTree> transforms_ = std::make_shared<TfTree>();  // publishing thread only
   const std::shared_ptr<MarkerInbox> markers_in_ = MakeMarkerInbox();      // null: no marker topics
   MasterRegistration registration_;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/force_inputs.h"
@@ -51,6 +52,26 @@ struct RosImage {
                         // picture; 0: not a pinhole camera
 };
 
+/// How one thing is, for `/diagnostics`.
+struct Diagnosis {
+  enum class Level : std::uint8_t { kOk = 0, kWarning = 1, kError = 2, kStale = 3 };
+  Level level = Level::kOk;
+  std::string name;     // of the thing: "stream"; the node's name is put before it
+  std::string message;  // one line
+  std::vector<std::pair<std::string, std::string>> values;
+};
+
+/// A mark, for `~marks`.
+struct RosMark {
+  std::uint64_t id = 0, revision = 0;
+  std::uint8_t button = 0;
+  std::string text, role;
+  std::int64_t stamp_nanos = 0;                 // of its sample
+  std::uint32_t counter = 0;                    // of its sample
+  std::optional<std::int64_t> end_stamp_nanos;  // of a span
+  bool is_open = false, is_removed = false;
+};
+
 /// Counters of one input topic.
 struct InputCounters {
   std::uint64_t received = 0, used = 0;
@@ -87,6 +108,8 @@ class InputSink {
   virtual void OnMeasurements(int character, const Measurements& measured) = 0;
   /// All current external markers, in the world frame; called when the list has changed.
   virtual void OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& /*markers*/) {}
+  /// A text on `~mark`: what the newest sample is to be marked with.
+  virtual void OnMark(const std::string& /*text*/) {}
   /// The number of subscribers of the view; each new one needs a picture at once.
   virtual void OnViewListeners(int /*count*/) {}
 };
@@ -109,6 +132,12 @@ class RosBridge {
   /// on the thread of Publish: before each sample, and regularly while none arrive.
   virtual void TakeInputs(InputSink& sink) = 0;
   virtual BridgeStatus status() const = 0;  // any thread
+
+  /// Publishes `all` on `/diagnostics`, or nothing until a master has answered. Never blocks; call
+  /// it on the thread of Publish, as PublishMark().
+  virtual void PublishDiagnostics(const std::vector<Diagnosis>& all) = 0;
+  /// Publishes a mark that is new or has changed. False until a master has answered.
+  virtual bool PublishMark(const RosMark& mark) = 0;
 
   /// Publishes a picture to the subscribers of the view. Call it on one thread, which may be any;
   /// never blocks on the master.

@@ -1,6 +1,8 @@
 #include "server/ros/master_registration.h"
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/PointStamped.h>
+#include <kinescope/Mark.h>
 #include <ros/init.h>
 #include <ros/master.h>
 #include <ros/names.h>
@@ -8,6 +10,7 @@
 #include <ros/xmlrpc_manager.h>
 #include <sensor_msgs/JointState.h>
 #include <spdlog/spdlog.h>
+#include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
 #include <xmlrpcpp/XmlRpcException.h>
@@ -34,6 +37,7 @@ using XmlRpc::XmlRpcValue;
 // Length of the queue of a slow subscriber before the oldest message is dropped: two seconds at 240
 // Hz.
 constexpr std::uint32_t kSampleQueue = 480;
+constexpr std::uint32_t kMarkQueue = 100;
 constexpr char kDescription[] = "robot_description";
 // A stream may change the body with every sample. Each one that is described has its meshes
 // written, so the newest one follows after this time.
@@ -129,6 +133,11 @@ std::shared_ptr<RosCameraTopics> MasterRegistration::View() const {
   return view_;
 }
 
+std::shared_ptr<const NodeTopics> MasterRegistration::Node() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return node_topics_;
+}
+
 void MasterRegistration::WantTransforms() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -193,6 +202,7 @@ void MasterRegistration::RegisterRegularly() {
       inputs_.clear();  // roscpp tells a subscriber to a master only once
       transforms_.clear();
       markers_.clear();
+      marks_.reset();
     }
     if (!node_) Start();
     AdvertiseMissing();
@@ -232,7 +242,11 @@ void MasterRegistration::Start() {
     view = wiring_.make_view(*node_);
     topic_types_.merge(view->TypesByTopic());
   }
+  auto node_topics = std::make_shared<NodeTopics>();
+  node_topics->diagnostics = Topic<diagnostic_msgs::DiagnosticArray>("/diagnostics");
+  node_topics->marks = Topic<kinescope_ros::Mark>("marks");
   const std::lock_guard<std::mutex> lock(mutex_);
+  node_topics_ = std::move(node_topics);
   view_ = std::move(view);
   first_topics_ = std::move(topics);
   for (auto& [character, slot] : slots_) {
@@ -285,6 +299,7 @@ void MasterRegistration::Subscribe() {
   if (wiring_.markers && markers_.empty()) {
     markers_ = SubscribeMarkers(*node_, *wiring_.queue, wiring_.markers);
   }
+  if (!marks_) marks_ = SubscribeMarks();
   bool wants_transforms = wiring_.markers != nullptr;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -292,6 +307,18 @@ void MasterRegistration::Subscribe() {
   }
   if (!wants_transforms || !transforms_.empty()) return;
   transforms_ = {SubscribeTransforms("/tf", false), SubscribeTransforms("/tf_static", true)};
+}
+
+ros::Subscriber MasterRegistration::SubscribeMarks() {
+  using Heard = BoundedMessage<std_msgs::String>;
+  auto options = ros::SubscribeOptions::create<Heard>(
+      "mark", kMarkQueue,
+      [this](const boost::shared_ptr<const Heard>& heard) {
+        if (!heard->is_sound) return CountUnreadable("mark");
+        wiring_.on_mark(heard->message.data);
+      },
+      ros::VoidConstPtr(), wiring_.queue);
+  return node_->subscribe(options);
 }
 
 ros::Subscriber MasterRegistration::SubscribeTransforms(const char* topic, bool is_static) {

@@ -27,6 +27,7 @@
 #include "server/ros/force_inbox.h"
 #include "server/ros/marker_topics.h"
 #include "server/ros/master_client.h"
+#include "server/ros/node_topics.h"
 #include "server/ros/ros_camera_topics.h"
 
 namespace kinescope::ros_bridge {
@@ -43,7 +44,8 @@ struct InputWiring {
   ros::CallbackQueue* queue = nullptr;  // must outlive the registration
   std::function<std::shared_ptr<ForceInbox>()> make_inbox;
   std::function<void(const tf2_msgs::TFMessage&, bool is_static)> on_transforms;  // of other nodes
-  std::shared_ptr<MarkerInbox> markers;  // null: no marker topics
+  std::shared_ptr<MarkerInbox> markers;                  // null: no marker topics
+  std::function<void(const std::string& text)> on_mark;  // of `~mark`
   std::function<std::shared_ptr<RosCameraTopics>(const ros::NodeHandle&)>
       make_view;  // null: no view
 };
@@ -73,6 +75,9 @@ class MasterRegistration {
   /// Null until a master has answered, and if there is no view. Never blocks; any thread.
   std::shared_ptr<RosCameraTopics> View() const;
 
+  /// Null until a master has answered. Never blocks; any thread.
+  std::shared_ptr<const NodeTopics> Node() const;
+
   /// Subscribes to /tf and /tf_static from now on. Never blocks; any thread.
   void WantTransforms();
 
@@ -94,6 +99,7 @@ class MasterRegistration {
   void AdvertiseMissing();
   std::shared_ptr<const PersonTopics> Advertise(const std::string& prefix);
   void Subscribe();
+  ros::Subscriber SubscribeMarks();
   ros::Subscriber SubscribeTransforms(const char* topic, bool is_static);
   void CountUnreadable(const char* topic);  // on the thread of the queue
   template <class Message>
@@ -121,6 +127,7 @@ class MasterRegistration {
   std::map<int, Slot> slots_;                         // guarded by mutex_
   std::shared_ptr<const PersonTopics> first_topics_;  // guarded by mutex_; of the first person
   std::shared_ptr<RosCameraTopics> view_;             // guarded by mutex_
+  std::shared_ptr<const NodeTopics> node_topics_;     // guarded by mutex_
   BridgeStatus status_;                               // guarded by mutex_
   bool has_work_ = false;                             // guarded by mutex_
   bool stopping_ = false;                             // guarded by mutex_
@@ -137,6 +144,7 @@ class MasterRegistration {
   std::map<std::string, ForceSubscriptions> inputs_;  // of these, those registered at this master
   std::vector<ros::Subscriber> transforms_;           // registered at this master
   std::vector<ros::Subscriber> markers_;              // registered at this master
+  std::optional<ros::Subscriber> marks_;              // registered at this master
   std::map<std::string, Description> described_;      // by name of the parameter
   bool has_arguments_ = false;     // the `_name:=value` parameters were set at this master
   bool was_registered_ = false;    // registered at least once, at any master

@@ -1,5 +1,7 @@
 #include "server/scene/model_factory.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "server/body/body_color.h"
@@ -24,11 +26,37 @@ void ModelFactory::NameMeshes(PersonModel& model) const {
   }
 }
 
+std::string FindDefect(const PersonChange& change) {
+  constexpr double kLeastHeight = 0.5, kMostHeight = 2.5;  // m, as --height
+  if (change.height_m && !(*change.height_m >= kLeastHeight && *change.height_m <= kMostHeight)) {
+    return fmt::format("stature of {} m; expected {} to {} m", *change.height_m, kLeastHeight,
+                       kMostHeight);
+  }
+  if (!change.mass_kg) return "";
+  urdf::BodyDescription body;
+  body.mass_kg = *change.mass_kg;
+  return urdf::FindDefect(body);
+}
+
+urdf::BodyDescription ModelFactory::BodyOf(const PersonChange& stated) const {
+  urdf::BodyDescription body = settings_.body;
+  if (stated.sex) {
+    body.sex = *stated.sex;
+    body.sex_is_assumed = false;
+    if (body.mass_is_assumed) body.mass_kg = urdf::DefaultMass(body.sex);
+  }
+  if (stated.mass_kg) {
+    body.mass_kg = *stated.mass_kg;
+    body.mass_is_assumed = false;
+  }
+  return body;
+}
+
 std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& person,
                                                       std::uint64_t revision) const {
   auto model = std::make_shared<PersonModel>();
   model->revision = revision;
-  model->description = settings_.body;
+  model->description = BodyOf(person.stated);
   model->lengths_are_measured = person.character.skeleton.has_value();
   model->lengths_are_of_poses = person.lengths_are_of_poses;
   model->landmarks = person.character.landmarks;
@@ -36,9 +64,10 @@ std::shared_ptr<const PersonModel> ModelFactory::Make(const PersonDescription& p
   urdf::HumanModel& human = model->human;
   human.model_name = settings_.model_name;
   if (person.index > 0) human.model_name += "_" + std::to_string(person.index);
-  human.skeleton = person.character.skeleton.value_or(urdf::DefaultSkeleton(settings_.height_m));
+  human.skeleton = person.character.skeleton.value_or(
+      urdf::DefaultSkeleton(person.stated.height_m.value_or(settings_.height_m)));
   if (person.l5_in_pelvis) human.skeleton.origin_in_parent[urdf::kL5] = *person.l5_in_pelvis;
-  human.body = urdf::MakeBodyParameters(settings_.body, human.skeleton);
+  human.body = urdf::MakeBodyParameters(model->description, human.skeleton);
   const Rgb own = BodyColor(person.character.color_rgb, person.index);
   human.body_rgb = settings_.body_color.value_or(own);
   model->suit = SuitOf(own, settings_.body_color);

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "core/person_change.h"
 #include "core/scene_state.h"
 #include "server/body/body_meshes.h"
 #include "server/body/gloves_and_props.h"
@@ -36,11 +37,19 @@ struct PersonDescription {
   bool lengths_are_of_poses = false;            // character.skeleton is measured, not sent
   std::optional<Eigen::Vector3d> l5_in_pelvis;  // m, link frame; overrides the scale data
   GlovesAndProps worn;
+  PersonChange stated;  // by an operator; overrides the options
 };
+
+/// Why `change` is invalid, with the value and the expected range; "" if it is valid.
+[[nodiscard]] std::string FindDefect(const PersonChange& change);
 
 class ModelFactory {
  public:
   explicit ModelFactory(ModelSettings settings);
+
+  /// The body of ModelSettings, as changed by `stated`. @post FindDefect() of it is "" if
+  /// FindDefect(stated) is
+  urdf::BodyDescription BodyOf(const PersonChange& stated) const;
 
   /// `revision`: one more than that of the person's model before, 1 for the first.
   std::shared_ptr<const PersonModel> Make(const PersonDescription& person,

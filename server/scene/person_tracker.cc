@@ -59,6 +59,16 @@ void PersonTracker::SetCharacter(const Character& received) {
   has_changed_ = true;
 }
 
+void PersonTracker::SetStated(const PersonChange& stated) {
+  const PersonChange& before = person_.stated;
+  const bool same_height = before.height_m == stated.height_m;
+  if (before.mass_kg != stated.mass_kg || before.sex != stated.sex || !same_height) {
+    has_changed_ = true;
+  }
+  if (!same_height && !person_.character.skeleton) has_new_lengths_ = true;
+  person_.stated = stated;
+}
+
 // Scale data without points can have L5 a centimetre and more off where all poses have it (a tilted
 // pelvis that the T-pose calls upright), and with it everything above. True when the poses are
 // followed.
@@ -150,7 +160,7 @@ void PersonTracker::Update(const BodySample& sample, const loads::LoadSettings& 
   UpdateModel();
   PersonState state;
   state.character = sample.character;
-  state.name = person_.character.name;
+  state.name = person_.stated.name.value_or(person_.character.name);
   state.model = model_;
   state.sample = sample;
   state.links = LinkPosesOf(sample);

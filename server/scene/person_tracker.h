@@ -37,6 +37,9 @@ class PersonTracker {
   /// Takes over name, colour and scale data; the model changes with them.
   void SetCharacter(const Character& character);
 
+  /// Replaces what was stated before. @pre FindDefect(stated) is ""
+  void SetStated(const PersonChange& stated);
+
   /// What is known beside the sample.
   struct Known {
     std::optional<double> floor_z;              // of the floor, world, m; absent: it is found

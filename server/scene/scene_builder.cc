@@ -66,6 +66,14 @@ void SceneBuilder::SetHandLoad(int character, const HandLoad& load) {
   ForgetStoppedHands(inputs);
 }
 
+void SceneBuilder::ChangePerson(int character, const PersonChange& change) {
+  KINESCOPE_CHECK(FindDefect(change).empty());
+  PersonChange& stated = inputs_[character].stated;
+  stated.Add(change);
+  const auto person = people_.find(character);
+  if (person != people_.end()) person->second.SetStated(stated);
+}
+
 // A sensor that has stopped leaves a hand's load unknown until the load is set.
 void SceneBuilder::ForgetStoppedHands(PersonInputs& inputs) {
   if (!inputs.hand_load) return;
@@ -92,7 +100,11 @@ PersonTracker& SceneBuilder::TrackerOf(int id) {
   Character& character = characters_[id];
   character.id = id;
   const auto past = past_.try_emplace(id, PersonTracker::Past{past_.size(), 0, {}}).first;
-  return people_.try_emplace(id, models_, maker_.get(), character, past->second).first->second;
+  PersonTracker& person =
+      people_.try_emplace(id, models_, maker_.get(), character, past->second).first->second;
+  const auto inputs = inputs_.find(id);
+  if (inputs != inputs_.end()) person.SetStated(inputs->second.stated);
+  return person;
 }
 
 // People come and go; what each of them needs is given back.
@@ -153,6 +165,7 @@ void SceneBuilder::OnSample(const BodySample& sample, const loads::BodyMotion* m
   const PersonInputs& given = inputs == inputs_.end() ? kNoInputs : inputs->second;
   loads::LoadSettings settings = options_.loads;
   if (given.hand_load) settings.hands = *given.hand_load;
+  if (given.stated.sex) settings.strength.sex = *given.stated.sex;
   const bool has_forces = recorded_forces_ && recorded_forces_->AreOf(sample);
   TrackerOf(sample.character)
       .Update(sample, settings, given.measured,

@@ -68,6 +68,10 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
   /// called before the character appears. @pre loads::FindDefect(load) is ""
   void SetHandLoad(int character, const HandLoad& load);
 
+  /// What `change` sets holds for `character` from the next samples on: its model is made first.
+  /// May be called before the character appears. @pre FindDefect(change) is ""
+  void ChangePerson(int character, const PersonChange& change);
+
   /// Sets the measured forces of `character`. Stamps are on the clock of the samples; expired
   /// measurements are ignored. May be called before the character appears.
   void SetMeasurements(int character, const loads::Measurements& measured);
@@ -95,6 +99,7 @@ class SceneBuilder : public SampleSink, public SmoothSampleSink {
     std::optional<HandLoad> hand_load;  // overrides the settings
     std::int64_t hand_load_nanos = 0;   // stamp of the newest sample when it was set
     loads::Measurements measured;
+    PersonChange stated;
   };
 
   PersonTracker& TrackerOf(int id);

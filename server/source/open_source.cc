@@ -8,6 +8,7 @@
 #include "core/system/words.h"
 #include "server/mvn/file/mvnx_source.h"
 #include "server/mvn/file/recording.h"
+#include "server/mvn/tapped_datagrams.h"
 #include "server/ros/source/bag_source.h"
 #include "server/ros/source/graph_source.h"
 #include "server/source/paced_source.h"
@@ -48,7 +49,8 @@ std::unique_ptr<Source> OpenFile(const std::string& path, const SourceSettings& 
 std::unique_ptr<Source> OpenSource(const std::string& url, const SourceSettings& settings) {
   switch (KindOfSource(url)) {
     case SourceKind::kUdp:
-    case SourceKind::kTcp: return mvn::OpenStream(mvn::OpenDatagrams(url), settings.stream);
+    case SourceKind::kTcp:
+      return mvn::OpenStream(mvn::Tapped(mvn::OpenDatagrams(url), settings.tap), settings.stream);
     case SourceKind::kGraph: return ros_bridge::OpenGraph(url);
     case SourceKind::kSubject:
       return subject::OpenSubject(WithoutScheme(url), settings.subject_rate_hz, 0,

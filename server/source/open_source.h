@@ -17,7 +17,8 @@ inline constexpr double kSubjectRateHz = 120;
 struct SourceSettings {
   double subject_rate_hz = kSubjectRateHz;  // samples per second of `demo:`
   double subject_height_m = urdf::kDefaultHeight;
-  mvn::StreamSettings stream;  // for sources of datagrams
+  mvn::StreamSettings stream;        // for sources of datagrams
+  mvn::DatagramSink* tap = nullptr;  // receives the datagrams of a live stream, too; borrowed
 };
 
 /// `demo:lift`, `udp://:9763`, `tcp://:9763`, `file.mvnx`, `take.pcap`, `take.bin.xz`, `walk.bag`,

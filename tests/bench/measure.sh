@@ -54,7 +54,7 @@ measure_viewers 20
 measure_viewers 1 pictures
 kill "$suit"; wait "$suit" 2>/dev/null || true
 # While the stream is live, the next sender would count as a second person instead of the same suit.
-until curl -sf "http://127.0.0.1:$http_port/api/state" | grep -q '"liveness":"stale"'; do :; done
+until curl -sf "http://127.0.0.1:$http_port/api/v1/state" | grep -q '"liveness":"stale"'; do :; done
 "$kinescope" stream demo:lift --rate_hz 240 --to "udp://127.0.0.1:$udp_port" 2>/dev/null & children+=($!)
 if [ -x "$build/tests/bench/ros_latency" ]; then
   before=$(cpu_ticks "$server")

@@ -140,6 +140,12 @@ export async function openPage(url, options = {}) {
   return { page, problems, requests, close: () => context.close() };
 }
 
+/** The lines of `problems` that the end of the server does not explain: each request under way fails,
+ *  refused, cut off or answered with nothing, as the moment has it.
+ *  @param {string[]} problems */
+export const besidesOutage = (problems) => problems.filter(
+  (line) => !/WebSocket|net::ERR_(CONNECTION_(REFUSED|RESET|CLOSED|ABORTED)|EMPTY_RESPONSE|SOCKET_NOT_CONNECTED)|^failed: /.test(line));
+
 /** Writes a picture of the page into out/browser of the build or the folder KINESCOPE_SCREENSHOTS. */
 export const saveScreenshot = async (page, name) => saveFile(`${name}.png`, await page.screenshot());
 

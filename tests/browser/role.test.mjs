@@ -16,6 +16,8 @@ after(async () => {
 const roleIs = (page, role) =>
   page.waitForFunction((wanted) => document.getElementById('role').dataset.role === wanted, role, LONG);
 const GATED = ['#picture-camera', '#hand', '#hand-kg', '#hand-load button'];
+const CONTROLS = ['#trial-person', '#trial-run', '#recording-run', '#clip-last', '#clip-next', '#clip-begin', '#person-mass', '#person-sex',
+  '#hands-right', '#hands-form button', '#limits-medium', '#limits-form button'];
 
 for (const [name, viewport, colorScheme] of [
   ['desktop', DESKTOP, 'light'], ['desktop_dark', DESKTOP, 'dark'], ['phone', PHONE, 'light'], ['phone_dark', PHONE, 'dark']]) {
@@ -23,12 +25,19 @@ for (const [name, viewport, colorScheme] of [
     const { page, problems, close } = await openPage(site.viewer_url, { viewport, colorScheme });
     await roleIs(page, 'viewer');
     for (const selector of GATED) {
+      await page.click(selector.startsWith('#picture') ? '#tab-picture' : '#tab-loads');
       const control = page.locator(selector);
       assert.ok(await control.isVisible(), selector);
       assert.ok(await control.isDisabled(), selector);
       assert.match(await control.evaluate((part) => part.closest('[title^="Only"]')?.title ?? ''), /operator’s token/, selector);
       assert.equal(await control.evaluate((part) => getComputedStyle(part).borderTopStyle), 'dashed', selector);
     }
+    await page.click('#tab-controls');
+    for (const selector of CONTROLS) {
+      assert.ok(await page.locator(selector).isVisible(), selector);
+      assert.ok(await page.locator(selector).isDisabled(), selector);
+    }
+    await page.click('#tab-loads');
     assert.match(await page.locator('#role').textContent(), /^Role: viewer\. .*operator’s token$/);
     const { scroll, client } = await page.evaluate(() => ({
       scroll: document.documentElement.scrollWidth, client: document.documentElement.clientWidth }));
@@ -48,7 +57,8 @@ test('a viewer may look back, and an operator may change what all see', async ()
   await viewer.page.waitForFunction(() => document.body.dataset.time === 'behind', null, LONG);
   const operator = await openPage(site.url);
   await roleIs(operator.page, 'operator');
-  for (const selector of GATED) assert.ok(await operator.page.locator(selector).isEnabled(), selector);
+  for (const selector of [...GATED, ...CONTROLS]) assert.ok(await operator.page.locator(selector).isEnabled(), selector);
+  await operator.page.click('#tab-picture');
   await operator.page.selectOption('#picture-camera', 'iso');
   await viewer.page.waitForFunction(() => document.getElementById('picture-camera').value === 'iso', null, LONG);
   assert.deepEqual([...viewer.problems, ...operator.problems], []);

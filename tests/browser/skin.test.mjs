@@ -93,7 +93,7 @@ function overlap(one, other, leftOut) {
 /** The page's camera, by its own functions from what the server sends: as options of `render`. */
 async function cameraOf(page, name, { width, height }) {
   const bytes = await page.evaluate(() => new Promise((resolve) => {
-    const socket = new WebSocket(new URL('ws', location.href.replace(/^http/, 'ws')));
+    const socket = new WebSocket(new URL('api/v1/ws', location.href.replace(/^http/, 'ws')));
     socket.binaryType = 'arraybuffer';
     socket.onmessage = ({ data }) => {
       if (typeof data === 'string') return;
@@ -102,7 +102,7 @@ async function cameraOf(page, name, { width, height }) {
     };
   }));
   const { people, floor, viewHeading: heading, viewBelow: below } = decodeState(Uint8Array.from(bytes).buffer);
-  const { cameras, framing } = await page.evaluate(async () => (await fetch('api/cameras')).json());
+  const { cameras, framing } = await page.evaluate(async () => (await fetch('api/v1/cameras')).json());
   const ground = { ...groundOf(people.map(({ links }) => links[0].position), floor, framing.reach_m),
     height: people[0].viewHeight, below, heading };
   const { position, target, fovDegrees } = aim(cameras.find((each) => each.name === name), framing, ground, width / height);
@@ -141,7 +141,7 @@ async function lookAt(site, camera) {
     const visit = await openPage(site.url, {
       colorScheme: 'dark', viewport: TALL,
       beforeLoad: async (page) => {
-        if (!hasSkin) await page.route('**/api/skin/**', (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' }));
+        if (!hasSkin) await page.route('**/api/v1/skin/**', (route) => route.fulfill({ status: 404, body: '{"error": "hidden"}' }));
       },
     });
     const { page } = visit;
@@ -155,7 +155,7 @@ async function lookAt(site, camera) {
   const visit = await open(true);
   const bare = await open(false);
   await visit.page.waitForFunction(() => performance.getEntriesByType('resource').some(({ name, responseEnd }) =>
-    /api\/skin/.test(name) && responseEnd > 0), null, LONG);
+    /api\/v1\/skin/.test(name) && responseEnd > 0), null, LONG);
   const [shown, empty] = [await settled(visit.page), await settled(bare.page)];
   await bare.close();
   return { page: visit.page, skin: mask(shown, empty), size: { width: shown.width, height: shown.height }, close: visit.close };
@@ -226,7 +226,7 @@ test('a person who faces -x is shown from the front, on the page and in a snapsh
   // Before the first sample, a snapshot has no person.
   await watcher.page.waitForFunction(() => document.getElementById('status-word').textContent.startsWith('Recording'), null, LONG);
   await watcher.close();
-  const png = await fetch(`${live.url}snapshot.png?camera=${camera}&width=${size.width}&height=${size.height}`);
+  const png = await fetch(`${live.url}api/v1/snapshot.png?camera=${camera}&width=${size.width}&height=${size.height}`);
   const snapshot = await pixelsOfPng(page, Buffer.from(await png.arrayBuffer()));
   await live.stop();
   const sameCamera = await cameraOf(page, camera, size);

@@ -28,7 +28,7 @@ for (const [name, viewport, colorScheme] of [
     await page.waitForFunction(() => document.getElementById('status-note').textContent === '0.0 % lost or incomplete', null, LONG);
     const before = await page.locator('#status').boundingBox();
     const { pong, server_micros: now } = await page.evaluate(() => new Promise((resolve) => {
-      const socket = new WebSocket(new URL('ws', location.href.replace('http', 'ws')));
+      const socket = new WebSocket(new URL('api/v1/ws', location.href.replace('http', 'ws')));
       socket.onopen = () => socket.send('{"ping": 1}');
       socket.onmessage = ({ data }) => {
         if (typeof data !== 'string' || !data.includes('pong')) return;
@@ -50,6 +50,7 @@ for (const [name, viewport, colorScheme] of [
     assert.deepEqual([after.x, after.y, after.width, after.height], [before.x, before.y, before.width, before.height], 'nothing jumps');
     const words = await page.$$eval('#loads .word', (parts) => parts.map((part) => part.textContent));
     assert.ok(words.includes('high'), 'the newest sample is shown as one that is new');
+    await page.click('#tab-loads');
     await page.locator('#stream summary').focus();
     await page.keyboard.press('Enter');
     await page.waitForFunction(() => document.querySelectorAll('#stream-rows tr').length === 7, null, LONG);

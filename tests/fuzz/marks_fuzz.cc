@@ -1,5 +1,5 @@
-// Any text as a line of a file of marks, as the body of POST /api/mark, and as the query of
-// /api/series: each is understood or refused with a reason, within its bounds.
+// Any text as a line of a file of marks, as the body of POST /api/v1/mark, and as the query of
+// /api/v1/series: each is understood or refused with a reason, within its bounds.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } else {
     KINESCOPE_CHECK(!order.error().empty() && order.error().find('\n') == std::string::npos);
   }
-  if (const auto target = http::ParseTarget("/api/series?" + text)) {
+  if (const auto target = http::ParseTarget("/api/v1/series?" + text)) {
     const auto question = http::ParseSeriesQuestion(target->query);
     KINESCOPE_CHECK(question || !question.error().empty());
     if (question) KINESCOPE_CHECK(question->columns <= http::kMostSeriesColumns);

@@ -25,6 +25,8 @@ class Client : public http::HubClient {
   }
   void SetWantsPictures(bool wanted) override { wants_ = wanted; }
   bool wants_pictures() const override { return wants_; }
+  void SetWantsDark(bool wanted) override { dark_ = wanted; }
+  bool wants_dark() const override { return dark_; }
   bool OnSeen(http::Slot, std::uint64_t) override { return true; }
   http::ClientCounters counters() const override { return {}; }
   const std::string& address() const override { return address_; }
@@ -32,6 +34,7 @@ class Client : public http::HubClient {
 
  private:
   bool wants_ = false;
+  bool dark_ = false;
   const http::Role role_;
   const std::string address_ = "127.0.0.1";
 };
@@ -40,7 +43,8 @@ class Feed : public http::PictureFeed {
  public:
   void SetViewers(int count) override { KINESCOPE_CHECK(count == 0 || count == 1); }
   bool SetCamera(const std::string& camera) override { return camera == "front"; }
-  std::vector<std::uint8_t> SnapshotPng(const std::string&, int, int) override { return {}; }
+  void SetDark(bool) override {}
+  std::vector<std::uint8_t> SnapshotPng(const http::SnapshotRequest&) override { return {}; }
 };
 
 // What clients look back to.
@@ -71,7 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     hub.Leave(client);
     KINESCOPE_CHECK(role == http::Role::kOperator || hub.camera() == "iso");
   }
-  // The same bytes as the body of POST /api/hand_load.
+  // The same bytes as the body of POST /api/v1/hand_load.
   const auto order = http::ParseHandLoadOrder({reinterpret_cast<const char*>(data), size});
   if (order) {
     const HandLoad& load = order->load;

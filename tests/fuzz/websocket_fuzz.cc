@@ -30,14 +30,15 @@ class CountingFeed : public http::PictureFeed {
  public:
   void SetViewers(int count) override { viewers = count; }
   bool SetCamera(const std::string& camera) override { return camera == "front"; }
-  std::vector<std::uint8_t> SnapshotPng(const std::string&, int, int) override { return {}; }
+  void SetDark(bool) override {}
+  std::vector<std::uint8_t> SnapshotPng(const http::SnapshotRequest&) override { return {}; }
 
   int viewers = 0;
 };
 
 http::WsSession::Upgrade UpgradeRequest() {
   namespace bhttp = boost::beast::http;
-  http::WsSession::Upgrade request{bhttp::verb::get, "/ws", 11};
+  http::WsSession::Upgrade request{bhttp::verb::get, "/api/v1/ws", 11};
   request.set(bhttp::field::host, "localhost");
   request.set(bhttp::field::upgrade, "websocket");
   request.set(bhttp::field::connection, "upgrade");

@@ -56,7 +56,7 @@ class Greedy(threading.Thread):
     def snapshot(self):
         try:
             client = http.client.HTTPConnection('127.0.0.1', self.port, timeout=10, source_address=STRANGER)
-            client.request('GET', '/snapshot.png?width=4096&height=4096')
+            client.request('GET', '/api/v1/snapshot.png?width=4096&height=4096')
             client.getresponse().read()
         except (OSError, http.client.HTTPException):
             pass
@@ -127,7 +127,7 @@ class Soak:
         self.greedy.start()
 
     def diagnostics(self):
-        with urllib.request.urlopen(f'http://127.0.0.1:{self.http}/api/diagnostics', timeout=30) as answer:
+        with urllib.request.urlopen(f'http://127.0.0.1:{self.http}/api/v1/diagnostics', timeout=30) as answer:
             return json.load(answer)
 
     def watch(self):
@@ -153,7 +153,7 @@ class Soak:
         time.sleep(4)
         there, asked = 0, 0
         while suit.poll() is None:
-            with urllib.request.urlopen(f'http://127.0.0.1:{self.http}/api/state', timeout=30) as answer:
+            with urllib.request.urlopen(f'http://127.0.0.1:{self.http}/api/v1/state', timeout=30) as answer:
                 names = [person.get('name') for person in json.load(answer)['people']]
             asked += 1
             there += names.count('Demo') >= 2

@@ -212,9 +212,9 @@ TEST_F(Backend, ReportsADriverThatDoesNotRespondAndContinuesAfterwards) {
   const std::string page = RestOfLine(server, "page at ");
   const int port = std::stoi(page.substr(page.rfind(':') + 1));
   const auto pictures = [&] {
-    return http::testing::Fetch(port, "/api/diagnostics").json().at("pictures");
+    return http::testing::Fetch(port, "/api/v1/diagnostics").json().at("pictures");
   };
-  const char* snapshot = "/snapshot.png?width=64&height=64";
+  const char* snapshot = "/api/v1/snapshot.png?width=64&height=64";
   ASSERT_EQ(http::testing::Fetch(port, snapshot).status, 200);
   EXPECT_FALSE(pictures().at("driver_hung").get<bool>());
   Hang();

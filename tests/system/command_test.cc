@@ -145,7 +145,7 @@ TEST(Command, CountsRejectedDatagramsByReasonAndContinues) {
   nlohmann::json source;
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
   do {
-    diagnostics = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
+    diagnostics = RunProgram({"/usr/bin/curl", "-sf", page + "api/v1/diagnostics"}).out;
     source = nlohmann::json::parse(diagnostics).at("source");
   } while (source.at("samples") <= 100 && std::chrono::steady_clock::now() < deadline);
   EXPECT_GT(source.at("samples"), 100) << diagnostics;

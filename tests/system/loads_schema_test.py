@@ -6,7 +6,6 @@ SHARED_DATA: folder of recordings; what needs one of them is reported as skipped
 Every output must be valid, also if no member but those of the schema were allowed: so a new member must be described.
 Every column must be described in docs/loads.md, and every described column must exist.
 """
-import copy
 import csv
 import json
 import pathlib
@@ -19,6 +18,8 @@ import threading
 
 import jsonschema
 
+from strict_schema import strict
+
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM, SHARED = sys.argv[1], pathlib.Path(sys.argv[2])
 SCHEMA = json.loads((TOP / "docs/loads.schema.json").read_text())
@@ -30,24 +31,6 @@ def fail(problem):
     global failed
     failed += 1
     print("FAILED  " + problem)
-
-
-def strict(schema):
-    """The same schema, without members that it does not describe."""
-    schema = copy.deepcopy(schema)
-
-    def close(part):
-        if isinstance(part, dict):
-            if "properties" in part:
-                part.setdefault("additionalProperties", False)
-            for value in part.values():
-                close(value)
-        elif isinstance(part, list):
-            for value in part:
-                close(value)
-
-    close(schema)
-    return schema
 
 
 def loads(*arguments, may_end_with=(0,)):

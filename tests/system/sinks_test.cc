@@ -212,7 +212,7 @@ void ExpectSinksToAgree(const Motion& motion, bool with_pictures) {
     ExpectSame(OfTopic(person), person, "topic");
 #endif
     const long every = std::lround(motion.rate_hz / 2);
-    if (k % every == 0) ExpectSame(OfDetails(*scene), person, "/api/state");
+    if (k % every == 0) ExpectSame(OfDetails(*scene), person, "/api/v1/state");
     if (renderer && k % every == every / 2) {
       const ByJoint drawn = OfPicture(*scene, *renderer);
       EXPECT_GE(drawn.size(), 5U) << "most spheres are alone in their place";

@@ -66,7 +66,8 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::optional<ros_bridge::BridgeStatus>& ros,
                             const std::optional<DrawingStatus>& pictures,
                             const std::optional<DrawingStatus>& view, std::uint64_t skipped,
-                            const history::History* history, const StreamHealth* stream) {
+                            const history::History* history, const StreamHealth* stream,
+                            const alarms::Webhook* webhook) {
   json out;
   out["version"] = KINESCOPE_VERSION;
   if (state) {
@@ -140,6 +141,14 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                       {"bytes", history->bytes()},
                       {"series_bytes", history->series().bytes()},
                       {"left_out", history->left_out()}};
+  }
+  out["webhook"] = nullptr;
+  if (webhook != nullptr) {
+    const alarms::WebhookCounters told = webhook->counters();
+    out["webhook"] = {{"delivered", told.delivered},
+                      {"failed", told.failed},
+                      {"dropped", told.dropped},
+                      {"last_error", told.last_error}};
   }
   // A file name need not be UTF-8.
   return JsonText(out);

@@ -1,4 +1,4 @@
-/// Writes the program status as the JSON of /api/diagnostics (docs/http.md). Pure function, any
+/// Writes the program status as the JSON of /api/v1/diagnostics (docs/http.md). Pure function, any
 /// thread.
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "core/scene_state.h"
 #include "core/source.h"
+#include "server/alarms/webhook.h"
 #include "server/app/serve/stream_health.h"
 #include "server/history/history.h"
 #include "server/picture/drawing_loop.h"
@@ -23,6 +24,7 @@ std::string DiagnosticsJson(const std::shared_ptr<const SceneState>& state,
                             const std::optional<DrawingStatus>& pictures,
                             const std::optional<DrawingStatus>& view = {},
                             std::uint64_t skipped = 0, const history::History* history = nullptr,
-                            const StreamHealth* stream = nullptr);
+                            const StreamHealth* stream = nullptr,
+                            const alarms::Webhook* webhook = nullptr);
 
 }  // namespace kinescope::app

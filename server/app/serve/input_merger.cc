@@ -9,6 +9,7 @@ void InputMerger::TakeInputs() {
   for (const auto& [character, load] : hand_loads_.TakeAll()) {
     builder_.SetHandLoad(character, load);
   }
+  if (changes_ != nullptr) changes_->PassTo(builder_);
 }
 
 void InputMerger::OnSample(const BodySample& sample) {
@@ -39,6 +40,7 @@ void InputMerger::AfterPoll() {
 
 void InputMerger::OnHandLoad(int character, const HandLoad& load) {
   builder_.SetHandLoad(character, load);
+  if (on_hand_load_) on_hand_load_(character, load);
 }
 
 void InputMerger::OnMeasurements(int character, const Measurements& measured) {
@@ -47,6 +49,10 @@ void InputMerger::OnMeasurements(int character, const Measurements& measured) {
 
 void InputMerger::OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& markers) {
   builder_.SetMarkers(markers);
+}
+
+void InputMerger::OnMark(const std::string& text) {
+  if (on_mark_) on_mark_(text);
 }
 
 void InputMerger::OnViewListeners(int count) {

@@ -6,10 +6,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "core/source.h"
+#include "server/app/serve/change_mailbox.h"
 #include "server/app/serve/hand_load_mailbox.h"
 #include "server/app/serve/overload.h"
 #include "server/ros/bridge.h"
@@ -21,15 +23,25 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
  public:
   /// Receives the number of subscribers of the ROS camera when it changes.
   using OnSubscribers = std::function<void(int count)>;
+  /// Receives the texts of `~mark`.
+  using OnText = std::function<void(const std::string& text)>;
 
-  /// `ros` and `on_subscribers` may be null.
+  /// Receives the hand loads that came over ROS.
+  using OnRosHandLoad = std::function<void(int character, const HandLoad& load)>;
+
+  /// `ros`, `changes` and the functions may be null.
   InputMerger(SceneBuilder& builder, Overload& overload, HandLoadMailbox& hand_loads,
-              ros_bridge::RosBridge* ros, OnSubscribers on_subscribers = nullptr)
+              ros_bridge::RosBridge* ros, OnSubscribers on_subscribers = nullptr,
+              ChangeMailbox* changes = nullptr, OnRosHandLoad on_hand_load = nullptr,
+              OnText on_mark = nullptr)
       : builder_(builder),
         overload_(overload),
         hand_loads_(hand_loads),
         ros_(ros),
-        on_subscribers_(std::move(on_subscribers)) {}
+        on_subscribers_(std::move(on_subscribers)),
+        changes_(changes),
+        on_hand_load_(std::move(on_hand_load)),
+        on_mark_(std::move(on_mark)) {}
 
   /// Call it also while no samples arrive, because ROS services wait for their answer.
   void TakeInputs();
@@ -47,6 +59,7 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   void OnMeasurements(int character, const Measurements& measured) override;
   void OnMarkers(const std::vector<std::shared_ptr<const SceneMarker>>& markers) override;
   void OnViewListeners(int count) override;
+  void OnMark(const std::string& text) override;
   void Process(const BodySample& sample, std::int64_t waited_nanos);
 
   SceneBuilder& builder_;
@@ -54,6 +67,9 @@ class InputMerger : public SampleSink, private ros_bridge::InputSink {
   HandLoadMailbox& hand_loads_;
   ros_bridge::RosBridge* const ros_;
   const OnSubscribers on_subscribers_;
+  ChangeMailbox* const changes_;
+  const OnRosHandLoad on_hand_load_;
+  const OnText on_mark_;
   bool has_samples_ = false;           // since the last AfterPoll
   std::map<int, BodySample> skipped_;  // the newest of each character, if it was skipped
 };

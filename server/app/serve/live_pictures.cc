@@ -52,9 +52,10 @@ bool LivePictures::SetCamera(const std::string& camera) {
   return true;
 }
 
-std::vector<std::uint8_t> LivePictures::SnapshotPng(const std::string& camera, int width,
-                                                    int height) {
-  const render::PictureSpec view{width, height, 2, "", true};
+std::vector<std::uint8_t> LivePictures::SnapshotPng(const http::SnapshotRequest& request) {
+  const std::string& camera = request.camera;
+  render::PictureSpec view{request.width, request.height, 2, "", true};
+  if (request.is_dark) view.look.theme = render::Theme::kDark;
   std::optional<CameraController> named;
   if (!camera.empty()) {
     if (!IsNamedCamera(camera)) throw UsageError("camera=" + camera + ": unknown camera");

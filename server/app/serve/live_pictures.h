@@ -48,7 +48,8 @@ class LivePictures : public http::PictureFeed {
 
   void SetViewers(int count) override { live_.SetViewers(count); }
   [[nodiscard]] bool SetCamera(const std::string& camera) override;
-  std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width, int height) override;
+  void SetDark(bool is_dark) override { live_.SetDark(is_dark); }
+  std::vector<std::uint8_t> SnapshotPng(const http::SnapshotRequest& request) override;
 
   /// Of the live picture and the snapshots together.
   DrawingStatus status() const;

@@ -8,7 +8,9 @@
 
 #include "core/system/errors.h"
 #include "core/system/install_paths.h"
+#include "core/system/state_folder.h"
 #include "render/camera/camera.h"
+#include "server/alarms/rule_file.h"
 #include "server/app/serve/page_token.h"
 #include "server/loads/hand_loads.h"
 #include "server/mvn/open.h"
@@ -52,6 +54,31 @@ marks::BookSettings MarksOf(const ServeOptions& options) {
   const std::string file = *options.marks_file;
   return {file.empty() ? marks::DefaultMarkFile() : std::filesystem::path(file),
           options::SplitItems(*options.mark_names)};
+}
+
+// A clip looks as the live picture does. Its codec needs even sides.
+ClipSettings ClipsOf(const ServeOptions& options, const SceneOptions& scene) {
+  ClipSettings clips;
+  const int width = options.picture_size->width / 2 * 2,
+            height = options.picture_size->height / 2 * 2;
+  clips.view.size.Parse(fmt::format("{}x{}", width, height));
+  clips.view.moves = options.camera_moves;
+  clips.view.figure = options.figure;
+  clips.view.style = options.style;
+  clips.view.loads = options.loads_shown;
+  clips.backend = options.backend;
+  clips.scene = scene;
+  return clips;
+}
+
+void AddRecordings(const ServeOptions& options, ServeConfig& config) {
+  const std::string folder = *options.recordings_folder;
+  config.recordings = folder.empty() ? StateFolder() / "recordings" : std::filesystem::path(folder);
+  config.may_make_recordings = folder.empty();
+  config.loads_options = LoadsOptionsOf(options.person, options.loads);
+  std::error_code ignored;
+  if (folder.empty() || std::filesystem::is_directory(folder, ignored)) return;
+  throw UsageError("--recordings_folder=" + folder + ": no such folder; make it first");
 }
 
 LivePictureSettings LivePicturesOf(const ServeOptions& options) {
@@ -106,6 +133,7 @@ ServeConfig BridgeConfigOf(const ServeOptions& options) {
   config.scene = ToShownSceneOptions(options.person, options.loads, *options.stale_secs);
   config.source.subject_height_m = config.scene.height_m;
   config.scene.makes_models_aside = true;
+  config.alarms = alarms::LoadRules(*options.alarms);
   config.scene.view_frame = *options.camera_moves.camera_frame;
   config.ros_mode = *options.ros;
   if (config.ros_mode == ros_bridge::RosMode::kOff ||
@@ -154,6 +182,8 @@ ServeConfig MakeServeConfig(const ServeOptions& options, bool with_page) {
   http::CheckConfig(*config.page);
   config.backend = options.backend;
   if (*options.pictures) config.pictures = pictures;
+  AddRecordings(options, config);
+  if (config.pictures && config.history) config.clips = ClipsOf(options, config.scene);
   if (!config.ros) return config;
   config.ros->markers = *options.marker_topics;
   if (!*options.ros_view) return config;

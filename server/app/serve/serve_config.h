@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "server/alarms/rule.h"
+#include "server/app/serve/clip_maker.h"
 #include "server/app/serve/live_pictures.h"
+#include "server/app/serve/report_maker.h"
 #include "server/app/serve/ros_camera_loop.h"
 #include "server/app/serve/serve_options.h"
 #include "server/history/history.h"
@@ -25,6 +28,7 @@ struct ServeConfig {
   bool loop = false;
   SourceSettings source;
   SceneOptions scene;
+  alarms::Rules alarms;
   ros_bridge::RosMode ros_mode = ros_bridge::RosMode::kAuto;
   std::optional<ros_bridge::BridgeConfig> ros;  // initial_urdf is known when the scene builder is
   BackendOptions backend;
@@ -33,6 +37,10 @@ struct ServeConfig {
   std::optional<history::HistoryLimits> history;  // only with `page`
   std::optional<marks::BookSettings> marks;       // only with `history`
   std::optional<http::HttpConfig> page;           // without its callbacks
+  std::optional<ClipSettings> clips;              // only with `history` and `pictures`
+  std::filesystem::path recordings;               // folder
+  bool may_make_recordings = true;                // the folder
+  OptionTexts loads_options;                      // of the reports
   // Commands that print the tokens of the page, or "".
   std::string how_to_see_token, how_to_see_viewer_token;
   bool shows_token = false;        // in the log, which is a terminal and no file

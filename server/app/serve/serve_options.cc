@@ -77,6 +77,7 @@ ServeOptions::ServeOptions()
       stamps({{"fitted", mvn::Stamps::kFitted}, {"arrival", mvn::Stamps::kArrival}},
              mvn::Stamps::kFitted),
       stale_secs(StaleSecs()),
+      alarms("default"),
       ros({{"auto", ros_bridge::RosMode::kAuto},
            {"off", ros_bridge::RosMode::kOff},
            {"required", ros_bridge::RosMode::kRequired}},
@@ -116,6 +117,7 @@ void ServeOptions::ListBridge(options::OptionList& option) {
       "time stamps of samples: fitted (arrival times smoothed by the sender's clock, which removes "
       "the jitter of the network) or arrival");
   option("stale_secs", stale_secs, "time without samples after which the stream is stale");
+  option("alarms", alarms, "YAML file with the rules of alarms (docs/alarms.md), or default");
   person.List(option);
   loads.List(option);
   option.Remove(WrenchOptionNames());  // sensors of a live session come over ROS
@@ -163,6 +165,9 @@ void ServeOptions::List(options::OptionList& option) {
   option("marks_file", marks_file,
          "JSON Lines file that marks are added to; default: a new file of each start, in "
          "~/.local/state/kinescope or the state folder of the service");
+  option("recordings_folder", recordings_folder,
+         "existing folder for what is recorded, rendered and reported from the page; default: "
+         "recordings, in ~/.local/state/kinescope or the state folder of the service");
   option.Group("Page and pictures");
   ListPeopleLook(option, figure, style, loads_shown);
   option("pictures", pictures, "whether the server draws pictures");

@@ -33,6 +33,7 @@ struct ServeOptions {
   options::Flag loop;
   options::Choice<mvn::Stamps> stamps;
   options::Number stale_secs;
+  options::Text alarms;
   PersonOptions person;
   LoadOptions loads;
   // ROS
@@ -45,7 +46,7 @@ struct ServeOptions {
   options::Whole http_port;
   options::Text token, token_file, viewer_token, viewer_token_file;
   options::Number history_minutes;
-  options::Text marks_file, mark_names;
+  options::Text marks_file, mark_names, recordings_folder;
   // As messages name them: "~token", "file.yaml:3: token"; "": not given.
   std::string token_given_as, viewer_token_given_as;
   FigureValue figure;

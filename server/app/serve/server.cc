@@ -10,8 +10,10 @@
 
 #include "core/system/clocks.h"
 #include "core/system/stop_signal.h"
+#include "server/alarms/alarm_json.h"
 #include "server/app/serve/diagnostics.h"
 #include "server/app/serve/input_merger.h"
+#include "server/http/answer.h"
 #include "server/source/open_source.h"
 
 namespace kinescope::app {
@@ -33,6 +35,28 @@ void LogListening(const Source& source, const std::string& reach) {
 // The motion of the built-in subject is made, not recorded.
 bool IsRecording(const ServeConfig& config) {
   return KindOfSource(config.source_url) == SourceKind::kFile;
+}
+
+// Null: nothing can be recorded.
+std::unique_ptr<recording::RawRecorder> RecorderOf(const ServeConfig& config,
+                                                   const recording::Folder& folder) {
+  const SourceKind kind = KindOfSource(config.source_url);
+  const bool has_datagrams = kind == SourceKind::kUdp || kind == SourceKind::kTcp;
+  if (!config.page || !has_datagrams) return nullptr;
+  return std::make_unique<recording::RawRecorder>(folder);
+}
+
+SourceSettings WithTap(SourceSettings settings, mvn::DatagramSink* tap) {
+  settings.tap = tap;
+  return settings;
+}
+
+std::unique_ptr<alarms::Webhook> WebhookOf(const ServeConfig& config) {
+  if (config.alarms.webhook.empty()) return nullptr;
+  alarms::Webhook::Settings settings;
+  settings.url = config.alarms.webhook;
+  settings.warn = [](const std::string& line) { spdlog::warn("{}", line); };
+  return std::make_unique<alarms::Webhook>(std::move(settings));
 }
 
 // Null for what cannot be read twice: a pipe.
@@ -67,9 +91,16 @@ auto StatusOf(const std::unique_ptr<Part>& part) {
 Server::Server(const ServeConfig& config)
     : start_nanos_(MonotonicNanos()),
       listener_(config.page ? std::make_unique<http::Listener>(*config.page) : nullptr),
-      source_(OpenAtTrueRate(config.source_url, config.loop, config.source)),
+      recordings_(config.recordings, config.may_make_recordings),
+      recorder_(RecorderOf(config, recordings_)),
+      source_(
+          OpenAtTrueRate(config.source_url, config.loop, WithTap(config.source, recorder_.get()))),
       history_(config.history ? std::make_unique<history::History>(*config.history) : nullptr),
       marks_(config.marks ? std::make_unique<marks::MarkBook>(*config.marks) : nullptr),
+      webhook_(WebhookOf(config)),
+      alarms_(
+          config.alarms, IsLiveUrl(config.source_url),
+          [this](const alarms::Alarm& alarm, alarms::Change change) { OnAlarm(alarm, change); }),
       overload_(/*may_skip=*/!config.ros),
       is_recording_(IsRecording(config)),
       length_(LengthOf(config)),
@@ -84,7 +115,10 @@ Server::Server(const ServeConfig& config)
   if (config.ros) StartRos(*config.ros, config.ros_mode);
   builder_.Start();  // the first state; pictures and page need one
   if (config.pictures) StartPictures(config);
-  if (config.page) StartPage(config);
+  if (config.page) {
+    StartControls(config);
+    StartPage(config);
+  }
   listener_.reset();
 }
 
@@ -93,6 +127,7 @@ void Server::StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode)
   config.initial_urdf = model->urdf_xml;
   config.initial_meshes = model->mesh_files;
   ros_ = ros_bridge::MakeRosBridge(config, mode);
+  if (ros_) ros_news_ = std::make_unique<RosNews>(*ros_, alarms_, marks_.get(), states_);
 }
 
 void Server::StartPictures(const ServeConfig& config) {
@@ -102,10 +137,25 @@ void Server::StartPictures(const ServeConfig& config) {
       std::make_unique<LivePictures>(*config.pictures, make_renderer, states_.Get(), pictures_);
   spdlog::info("first picture {:.2f} s after start, rendered by {}",
                Secs(MonotonicNanos() - start_nanos_), live_pictures_->status().renderer.renderer);
+  if (config.clips && history_) {
+    clips_ = std::make_unique<ClipMaker>(*config.clips, make_renderer, *history_);
+  }
   if (!config.ros_camera) return;
   ros_camera_ = std::make_unique<RosCameraLoop>(
       *config.ros_camera, make_renderer, states_.Get(),
       [this](const ros_bridge::RosImage& image) { ros_->PublishView(image); });
+}
+
+void Server::StartControls(const ServeConfig& config) {
+  const std::string why_no_recording =
+      recorder_
+          ? ""
+          : config.source_url + ": only a live stream over UDP or TCP can be recorded (--source)";
+  const std::string why_no_clips = clips_ ? "" : history_ ? http::kNoRenderer : http::kNoHistory;
+  desk_ = std::make_unique<ControlDesk>(DeskParts{states_, changes_, history_.get(), marks_.get(),
+                                                  recordings_, recorder_.get(), why_no_recording,
+                                                  clips_.get(), why_no_clips, config.page->camera,
+                                                  config.loads_options, config.scene.loads.hands});
 }
 
 void Server::StartPage(const ServeConfig& config) {
@@ -115,6 +165,8 @@ void Server::StartPage(const ServeConfig& config) {
   };
   page.history = history_.get();
   page.marks = marks_.get();
+  page.controls = desk_.get();
+  page.alarms = &alarms_;
   page.playback = [this] { return playback_.Get(); };
   page.stream = [this] {
     const auto stream = stream_.Get();
@@ -131,6 +183,7 @@ void Server::StartPage(const ServeConfig& config) {
 
 void Server::OnState(const std::shared_ptr<SceneState>& state) {
   state->made_nanos = MonotonicNanos();
+  alarms_.OnState(*state);
   if (ros_) ros_->Publish(*state);
   states_.Publish(state);
   if (history_) history_->Add(state);
@@ -139,16 +192,29 @@ void Server::OnState(const std::shared_ptr<SceneState>& state) {
   liveness_log_.OnState(*state);
 }
 
+void Server::OnAlarm(const alarms::Alarm& alarm, alarms::Change change) const {
+  spdlog::info("alarm {} {}: {}", alarm.rule.name, Name(change), Describe(alarm));
+  if (webhook_) webhook_->Send(alarms::NewsJson(alarm, change));
+  if (ros_news_) ros_news_->OnAlarm();
+}
+
 std::string Server::Diagnostics() const {
   return DiagnosticsJson(states_.Get(), counters_.Get(), StatusOf(ros_), StatusOf(live_pictures_),
                          StatusOf(ros_camera_), overload_.skipped(), history_.get(),
-                         stream_.Get().get());
+                         stream_.Get().get(), webhook_.get());
 }
 
 void Server::Run() {
-  InputMerger inputs(builder_, overload_, hand_loads_, ros_.get(), [this](int count) {
-    if (ros_camera_) ros_camera_->SetSubscribers(count);
-  });
+  InputMerger inputs(
+      builder_, overload_, hand_loads_, ros_.get(),
+      [this](int count) {
+        if (ros_camera_) ros_camera_->SetSubscribers(count);
+      },
+      &changes_,
+      [this](int character, const HandLoad& load) {
+        if (desk_) desk_->OnRosHandLoad(character, load);
+      },
+      [this](const std::string& text) { ros_news_->OnMark(text); });
   while (!StopRequested()) {
     const Source::State state = source_->Poll(kPollTimeout, inputs);
     inputs.TakeInputs();
@@ -181,6 +247,8 @@ void Server::UpdatePlayback(bool has_ended) {
 
 void Server::OnTime(std::int64_t now_nanos) {
   builder_.Tick(now_nanos);
+  alarms_.OnTime(now_nanos, stream_meter_.health().recent_loss);
+  if (ros_news_) ros_news_->OnTime(now_nanos, stream_meter_.health());
   if (now_nanos < counters_due_nanos_) return;
   counters_due_nanos_ = now_nanos + kCountersPeriodNanos;
   const auto counters = std::make_shared<const SourceCounters>(source_->counters());

@@ -11,6 +11,11 @@
 #include "core/scene_state.h"
 #include "core/source.h"
 #include "core/system/latest.h"
+#include "server/alarms/alarms.h"
+#include "server/alarms/webhook.h"
+#include "server/app/serve/change_mailbox.h"
+#include "server/app/serve/clip_maker.h"
+#include "server/app/serve/control_desk.h"
 #include "server/app/serve/crowd_warning.h"
 #include "server/app/serve/hand_load_mailbox.h"
 #include "server/app/serve/live_pictures.h"
@@ -18,11 +23,14 @@
 #include "server/app/serve/missing_pose_warning.h"
 #include "server/app/serve/overload.h"
 #include "server/app/serve/ros_camera_loop.h"
+#include "server/app/serve/ros_news.h"
 #include "server/app/serve/serve_config.h"
 #include "server/app/serve/stream_health.h"
 #include "server/history/history.h"
 #include "server/http/server.h"
 #include "server/marks/mark_book.h"
+#include "server/recording/folder.h"
+#include "server/recording/raw_recorder.h"
 #include "server/ros/bridge.h"
 #include "server/scene/scene_builder.h"
 #include "server/source/recording_length.h"
@@ -45,15 +53,19 @@ class Server {
  private:
   void StartRos(ros_bridge::BridgeConfig config, ros_bridge::RosMode mode);
   void StartPictures(const ServeConfig& config);
+  void StartControls(const ServeConfig& config);
   void StartPage(const ServeConfig& config);
   void OnState(const std::shared_ptr<SceneState>& state);
   void OnTime(std::int64_t now_nanos);  // between polls
   void UpdatePlayback(bool has_ended);
+  void OnAlarm(const alarms::Alarm& alarm, alarms::Change change) const;
   std::string Diagnostics() const;  // on the page's thread
 
   const std::int64_t start_nanos_;
   std::unique_ptr<http::Listener> listener_;  // before everything that takes time; until the page
                                               // has it
+  const recording::Folder recordings_;
+  const std::unique_ptr<recording::RawRecorder> recorder_;  // null: no live stream, or no page
   const std::unique_ptr<Source> source_;
   // Between threads:
   Latest<SceneState> states_;                        // reading thread -> page
@@ -62,8 +74,11 @@ class Server {
   Latest<StreamHealth> stream_;                      // reading thread -> page
   Latest<http::Picture> pictures_;                   // drawing thread -> page
   HandLoadMailbox hand_loads_;                       // page -> reading thread
+  ChangeMailbox changes_;                            // page -> reading thread
   const std::unique_ptr<history::History> history_;  // reading thread -> page; null: off
   const std::unique_ptr<marks::MarkBook> marks_;     // page's thread; null: off
+  const std::unique_ptr<alarms::Webhook> webhook_;   // both threads; null: off
+  alarms::Alarms alarms_;                            // both threads
   Overload overload_;                                // its count: reading thread -> page
   // Used by the reading thread only:
   const bool is_recording_;                        // else live, or the built-in subject
@@ -77,7 +92,10 @@ class Server {
   // Outputs, null if off; each uses only members above it.
   std::unique_ptr<LivePictures> live_pictures_;
   std::unique_ptr<ros_bridge::RosBridge> ros_;
+  std::unique_ptr<RosNews> ros_news_;  // with ros_
   std::unique_ptr<RosCameraLoop> ros_camera_;
+  std::unique_ptr<ClipMaker> clips_;
+  std::unique_ptr<ControlDesk> desk_;  // the page's thread
   std::optional<http::HttpServer> page_;
 };
 

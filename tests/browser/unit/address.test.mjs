@@ -17,3 +17,29 @@ test('a moment in the address is that of the sample shown, never one before it',
   }
   assert.equal(withShown(at('?t=5&camera=front'), { micros: null }).search, '?camera=front');
 });
+
+const ALL = { micros: 83_512_345_679, person: 2, joints: ['l5_s1', 'right_knee'], camera: 'front', tab: 'plots', window: 300,
+  view: 'phone', theme: 'dark' };
+
+test('all that a link says is read as it was written', () => {
+  for (const camera of ['front', '1.2,-3.4,1.5,0,0,1']) {
+    const url = withShown(at(''), { ...ALL, camera });
+    assert.deepEqual(shownIn(url), { ...ALL, camera });
+    assert.ok(!url.search.includes('%'), url.search);
+  }
+});
+
+test('what is not named stays, and null takes a value out', () => {
+  const url = withShown(at('?quality=fine'), ALL);
+  const next = withShown(url, { tab: 'body', camera: null });
+  assert.deepEqual(shownIn(next), { ...ALL, tab: 'body', camera: null });
+  assert.equal(withShown(url, Object.fromEntries(Object.keys(ALL).map((name) => [name, null]))).search, '?quality=fine');
+});
+
+test('values that are none are ignored', () => {
+  const none = { micros: null, person: null, joints: null, camera: null, tab: null, window: null, view: null, theme: null };
+  assert.deepEqual(shownIn(at('?t=x&person=1.5&joint=<b>,A&camera=<img>&tab=%00&window=-3&view=cinema&theme=pink')), none);
+  assert.deepEqual(shownIn(at('?t=&person=&joint=&camera=&tab=&window=&view=&theme=')), none);
+  assert.equal(shownIn(at(`?camera=${'a'.repeat(500)}`)).camera, null);
+  assert.equal(shownIn(at(`?joint=${Array(500).fill('neck').join()}`)).joints.length, 15);
+});

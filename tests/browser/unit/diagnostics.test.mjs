@@ -20,10 +20,10 @@ test('problems of the picture come first, and datagrams rejected once are no pro
     pictures: { problems: ['mesh hand.stl: no such file'], last_error: 'out of memory' },
     source: { rejected: { 'no MXTP id string': 2, 'cut short': 1 } },
   };
-  assert.deepEqual(problemLines(told, ['/api/mesh/0/1/0']), [
+  assert.deepEqual(problemLines(told, ['/api/v1/mesh/0/1/0']), [
     'Server rendering: out of memory',
     'Missing or replaced in the server picture: mesh hand.stl: no such file',
-    'This page could not load: /api/mesh/0/1/0',
+    'This page could not load: /api/v1/mesh/0/1/0',
   ]);
 });
 
@@ -31,5 +31,5 @@ test('equal lines appear once, and long lists are shortened', () => {
   const problems = Array.from({ length: 60 }, (_, i) => `mesh ${i % 40}`);
   const lines = problemLines({ pictures: { problems } }, []);
   assert.equal(lines.length, 12);
-  assert.match(lines[11], /^and 29 more, see \/api\/diagnostics$/);
+  assert.match(lines[11], /^and 29 more, see \/api\/v1\/diagnostics$/);
 });

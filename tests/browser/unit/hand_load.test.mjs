@@ -1,11 +1,10 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { handLoadText, withHand } from '../../../web/hand_load.js';
+import { handLoadText, onlyIn } from '../../../web/hand_load.js';
 
-test('setting one hand leaves the other unchanged', () => {
-  assert.deepEqual(withHand({ right_kg: 5, left_kg: 1, both_kg: 0 }, 'left_kg', 2.5),
-    { right_kg: 5, left_kg: 2.5, both_kg: 0 });
-  assert.deepEqual(withHand(undefined, 'both_kg', 10), { right_kg: 0, left_kg: 0, both_kg: 10 });
+test('setting one hand replaces all that is held', () => {
+  assert.deepEqual(onlyIn('left_kg', 2.5), { right_kg: 0, left_kg: 2.5, both_kg: 0 });
+  assert.deepEqual(onlyIn('both_kg', 10), { right_kg: 0, left_kg: 0, both_kg: 10 });
 });
 
 test('hand loads are described in words, and empty hands are omitted', () => {

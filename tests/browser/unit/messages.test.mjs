@@ -13,14 +13,14 @@ const details = { source: 'udp://:9763', camera: 'front', has_pictures: true, pe
   objects: [{ character: 9, number: 2, name: 'cart' }],
   left_out: [{ character: 7, name: 'Eve', reason: '900 km from the others' }],
   recording: { start_micros: 1.5, length_secs: 190.5, round_secs: null, ended_micros: null },
-  marks_revision: 7 };
+  marks_revision: 7, class_limits: [0.3, 0.6] };
 const palette = {
   classes: ['unknown', 'low', 'medium', 'high'].map((name) => ({ name, color: rgb, size: 0.8, rim: 0 })),
   cop: rgb, com: rgb, support: rgb, held: rgb, body: rgb, stale_body: rgb, clay: rgb, object: rgb, axes: [rgb, rgb, rgb],
 };
 const visual = { kind: 'mesh', size: [1, 1, 1], position: [0, 0, 0], quaternion: [0, 0, 0, 1], rgba: null,
-  mesh: '/api/mesh/0/1/0' };
-const model = { people: [{ character: 0, revision: 1, skin: '/api/skin/0/1', links: [{ visuals: [visual] }] }],
+  mesh: '/api/v1/mesh/0/1/0' };
+const model = { people: [{ character: 0, revision: 1, skin: '/api/v1/skin/0/1', links: [{ visuals: [visual] }] }],
   joints: [{ name: 'l5_s1', label: 'L5/S1' }], class_limits: [0.3, 0.6], compression_limits_n: [3400, 6400], look: { loads: 'both', style: 'clay' },
   palette };
 
@@ -44,7 +44,7 @@ test('valid messages of the server are returned unchanged', () => {
   assert.deepEqual(readTextMessage(JSON.stringify({ details })), { details });
   assert.deepEqual(readTextMessage('{"pong": 12.5, "server_micros": 5000}'), { pong: 12.5, server_micros: 5000 });
   assert.deepEqual(readTextMessage('{"error": "no camera \'x\'"}'), { error: 'no camera \'x\'' });
-  assert.deepEqual(readModel(model, 'api/model'), model);
+  assert.deepEqual(readModel(model, 'api/v1/model'), model);
 });
 
 test('unknown members are removed, and unknown messages are ignored', () => {
@@ -54,7 +54,7 @@ test('unknown members are removed, and unknown messages are ignored', () => {
 
 test('an invalid or missing member of the details or the model is rejected with its path', () => {
   for (const [whole, read] of [[{ details }, (value) => readTextMessage(JSON.stringify(value))],
-    [model, (value) => readModel(value, 'api/model')]]) {
+    [model, (value) => readModel(value, 'api/v1/model')]]) {
     const paths = pathsOf(whole);
     assert.ok(paths.length > 25, `${paths.length} members`);
     for (const path of paths) {
@@ -74,31 +74,31 @@ test('the error states the received value, its place and the expected type', () 
   assert.throws(() => readTextMessage('{"details": {}}'), /sent nothing as details\.source; expected a text/);
   assert.throws(() => readTextMessage('[1]'), /sent \[1\] as a message; expected an object/);
   assert.throws(() => readTextMessage('{"pong": 1}'), /sent nothing as a message\.server_micros; expected a number/);
-  assert.throws(() => readModel(changed(model, 'class_limits', [0.3]), 'api/model'),
-    /sent \[0\.3\] as api\/model\.class_limits; expected a list of 2/);
-  assert.throws(() => readModel(changed(model, 'palette.classes.2.name', 'mild'), 'api/model'),
+  assert.throws(() => readModel(changed(model, 'class_limits', [0.3]), 'api/v1/model'),
+    /sent \[0\.3\] as api\/v1\/model\.class_limits; expected a list of 2/);
+  assert.throws(() => readModel(changed(model, 'palette.classes.2.name', 'mild'), 'api/v1/model'),
     /sent "mild" as .*classes\[2\]\.name; expected low, medium, high, unknown/);
 });
 
 test('a model without a colour for every class is rejected', () => {
   const three = { ...model, palette: { ...palette, classes: palette.classes.slice(1) } };
-  assert.throws(() => readModel(three, 'api/model'), /palette\.classes; expected a colour of the class unknown/);
+  assert.throws(() => readModel(three, 'api/v1/model'), /palette\.classes; expected a colour of the class unknown/);
 });
 
 test('cameras are read as numbers and rejected if invalid', () => {
   const framing = { min_width_m: 1.9, margin_m: 0.7, narrowest_aspect: 1.3, reach_m: 50, height_m: 2.5, spare_below: 0.036 };
   const front = { name: 'front', position: [4.6, 0, 1.5], target: [0, 0, 1], up: [0, 0, 1], vertical_fov_rad: 0.5 };
-  assert.deepEqual(readCameras({ cameras: [front], framing, live: 'front', has_pictures: true }, 'api/cameras'),
+  assert.deepEqual(readCameras({ cameras: [front], framing, live: 'front', has_pictures: true }, 'api/v1/cameras'),
     { cameras: [front], framing, live: 'front' });
-  assert.throws(() => readCameras({ cameras: [{ ...front, up: [0, 1] }], framing, live: 'front' }, 'api/cameras'),
-    /\[0,1\] as api\/cameras\.cameras\[0\]\.up; expected a list of 3/);
+  assert.throws(() => readCameras({ cameras: [{ ...front, up: [0, 1] }], framing, live: 'front' }, 'api/v1/cameras'),
+    /\[0,1\] as api\/v1\/cameras\.cameras\[0\]\.up; expected a list of 3/);
 });
 
 test('diagnostics of parts that do not run are absent', () => {
   assert.deepEqual(readDiagnostics({}, ''), { pictures: undefined, source: undefined });
   assert.equal(readDiagnostics({ pictures: null }, '').pictures, null);
-  assert.throws(() => readDiagnostics({ source: { left_out: [{ character: 3 }] } }, 'api/diagnostics'),
-    /nothing as api\/diagnostics\.source\.left_out\[0\]\.name; expected a text/);
+  assert.throws(() => readDiagnostics({ source: { left_out: [{ character: 3 }] } }, 'api/v1/diagnostics'),
+    /nothing as api\/v1\/diagnostics\.source\.left_out\[0\]\.name; expected a text/);
 });
 
 test('the health of the stream is read with its events, and rejected if it is invalid', () => {

@@ -15,7 +15,7 @@ const filled = (first, end) => {
 
 test('a request names person, keys, times and columns', () => {
   assert.equal(routeOf(grid, { first: 10, end: 30 }),
-    'api/series?person=3&keys=rate%2Closs&from=1000000&to=3000000&columns=20');
+    'api/v1/series?person=3&keys=rate%2Closs&from=1000000&to=3000000&columns=20');
 });
 
 test('only what is new is asked for, from the first column that may still have grown', () => {

@@ -1,7 +1,6 @@
 // The skin as the C++ encoder has just written it (page_fixture_server describe), and its frames for random postures:
 // person 0 with bare hands, person 1 with gloves.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import test from 'node:test';
 import { Matrix4 } from '../../../web/node_modules/three/build/three.module.js';
 import { readSkin } from '../../../web/skin_buffer.js';
@@ -10,11 +9,9 @@ import { framesOf } from '../../../web/skin_frames.js';
 import { capsulesOf, limbsOfVertices } from '../../../web/skin_limbs.js';
 import { REGION_FLOATS, regionsOf } from '../../../web/skin_regions.js';
 import { neighboursOf } from '../../../web/skin_surface.js';
+import { toBuffer, told } from './told_by_server.mjs';
 
-const program = process.env.KINESCOPE_PAGE_FIXTURE;
-if (!program) throw new Error('set KINESCOPE_PAGE_FIXTURE to the built page_fixture_server; ctest does it');
-const told = JSON.parse(execFileSync(program, ['describe'], { encoding: 'utf8', maxBuffer: 1 << 26 }));
-const buffers = told.skins.map(({ hex }) => Uint8Array.from(Buffer.from(hex, 'hex')).buffer);
+const buffers = told.skins.map(({ hex }) => toBuffer(hex));
 
 /** Largest distance of positions, m, and of rotations, rad. */
 function farthest(frames, expected) {
@@ -72,7 +69,7 @@ test('a skin takes at most 600 kB, is as tall as a person, and its weights are w
 test('a truncated or altered skin is rejected', () => {
   const [whole] = buffers;
   for (const size of [0, 3, 4, 100, 5000, whole.byteLength - 1]) {
-    assert.throws(() => readSkin(whole.slice(0, size), 'api/skin/0/1'), /api\/skin\/0\/1.*reload the page/, `${size} bytes`);
+    assert.throws(() => readSkin(whole.slice(0, size), 'api/v1/skin/0/1'), /api\/v1\/skin\/0\/1.*reload the page/, `${size} bytes`);
   }
   const header = new DataView(whole).getUint32(0, true);
   const altered = (at, value) => {
@@ -88,7 +85,7 @@ test('a truncated or altered skin is rejected', () => {
 });
 
 test('a rigged person of the user has colours, and need not be closed', () => {
-  const buffer = Uint8Array.from(Buffer.from(told.own_skin.hex, 'hex')).buffer;
+  const buffer = toBuffer(told.own_skin.hex);
   const skin = readSkin(buffer, 'skin');
   assert.equal(skin.positions.length, 3 * told.own_skin.vertices);
   assert.ok(skin.paint instanceof Uint8Array && skin.isTwoSided);

@@ -1,18 +1,11 @@
 // Reads bytes that the C++ encoder has just written (page_fixture_server describe).
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import test from 'node:test';
 import { decodePast, decodePicture, decodeState, KIND, messageKind } from '../../../web/state_codec.js';
 import { legendWords } from '../../../web/load_list.js';
-
-const program = process.env.KINESCOPE_PAGE_FIXTURE;
-if (!program) throw new Error('set KINESCOPE_PAGE_FIXTURE to the built page_fixture_server; ctest does it');
-const told = JSON.parse(execFileSync(program, ['describe'], { encoding: 'utf8', maxBuffer: 1 << 24 }));
+import { stateMessage as state, toBuffer, told } from './told_by_server.mjs';
 
 const HEADER = 96;  // bytes
-
-const toBuffer = (hex) => Uint8Array.from(Buffer.from(hex, 'hex')).buffer;
-const state = toBuffer(told.hex);
 
 /** Equal within what float32 (and a radius in whole millimetres) can hold; null stands for NaN. */
 function assertClose(actual, expected, path = 'state') {

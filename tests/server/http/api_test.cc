@@ -125,7 +125,7 @@ TEST(ModelJson, ReplacesThePartsOfTheBodyByTheUrlOfItsSkin) {
   EXPECT_TRUE(person(true)["skin"].is_null()) << "it has no built-in surface";
   const std::size_t all = visuals(person(true));
   model->has_built_in_surface = true;
-  EXPECT_EQ(person(true)["skin"], "/api/skin/0/9");
+  EXPECT_EQ(person(true)["skin"], "/api/v1/skin/0/9");
   EXPECT_EQ(visuals(person(true)), 0u);
   EXPECT_TRUE(person(false)["skin"].is_null());
   EXPECT_EQ(visuals(person(false)), all);

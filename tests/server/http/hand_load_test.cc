@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 constexpr char kFive[] = R"({"right_kg": 5, "left_kg": 0.5})";
 
 Response Post(const TestServer& site, const std::string& body, Headers headers = {},
-              const std::string& target = "/api/hand_load") {
+              const std::string& target = "/api/v1/hand_load") {
   headers.try_emplace("Content-Type", "application/json");
   return Fetch(site.server.port(), target, headers, "POST", body);
 }
@@ -68,10 +68,10 @@ TEST(HandLoadRoute, RejectsOtherOriginsTypesAndMethodsAndCountsThem) {
   EXPECT_EQ(Post(site, kFive, {{"Content-Type", "text/plain"}}).status, 415)
       << "what any page's form could send";
   EXPECT_EQ(Post(site, kFive, {{"Content-Type", "application/json; charset=utf-8"}}).status, 200);
-  EXPECT_EQ(Post(site, kFive, {}, "/api/state").status, 405);
-  EXPECT_EQ(site.Get("/api/hand_load").status, 405);
-  EXPECT_EQ(site.Get("/api/hand_load").headers.at("allow"), "POST");
-  EXPECT_EQ(Fetch(site.server.port(), "/api/hand_load", {}, "OPTIONS").status, 405)
+  EXPECT_EQ(Post(site, kFive, {}, "/api/v1/state").status, 405);
+  EXPECT_EQ(site.Get("/api/v1/hand_load").status, 405);
+  EXPECT_EQ(site.Get("/api/v1/hand_load").headers.at("allow"), "POST");
+  EXPECT_EQ(Fetch(site.server.port(), "/api/v1/hand_load", {}, "OPTIONS").status, 405)
       << "a browser asks so for a foreign page";
   EXPECT_EQ(Post(site, "{}").status, 400);
   const Response too_heavy = Post(site, R"({"right_kg": 101})");
@@ -88,17 +88,17 @@ TEST(HandLoadRoute, RejectsOtherOriginsTypesAndMethodsAndCountsThem) {
 TEST(HandLoadRoute, NeedsTheTokenAndAPerson) {
   TestServer site("s3cret-of-the-lab");
   EXPECT_EQ(Post(site, kFive).status, 401);
-  EXPECT_EQ(Post(site, kFive, {}, "/api/hand_load?token=s3cret-of-the-lab").status, 409)
+  EXPECT_EQ(Post(site, kFive, {}, "/api/v1/hand_load?token=s3cret-of-the-lab").status, 409)
       << "nobody is here";
   site.PublishState(1);
-  EXPECT_EQ(Post(site, kFive, {}, "/api/hand_load?token=s3cret-of-the-lab").status, 200);
+  EXPECT_EQ(Post(site, kFive, {}, "/api/v1/hand_load?token=s3cret-of-the-lab").status, 200);
   EXPECT_EQ(site.Told().size(), 1u);
 }
 
 TEST(StateJson, ContainsTheInputsOfTheLoads) {
   TestServer site;
   site.PublishState(1);
-  const auto person = site.Get("/api/state").json()["people"][0];
+  const auto person = site.Get("/api/v1/state").json()["people"][0];
   const auto& forces = person["forces"];
   EXPECT_EQ(forces["metric"], "total");
   EXPECT_EQ(forces["mode"], "dynamic");

@@ -1,4 +1,4 @@
-// /api/marks and /api/mark, without a socket: what they answer and what they reject.
+// /api/v1/marks and /api/v1/mark, without a socket: what they answer and what they reject.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,14 +51,14 @@ class MarksRouteTest : public ::testing::Test {
   Answer Get(const std::string& query = "", const std::string& token = kToken) {
     Request request;
     request.method = "GET";
-    request.target = "/api/marks" + query;
+    request.target = "/api/v1/marks" + query;
     request.authorization = "Bearer " + token;
     return Ask(request);
   }
   Answer Post(const std::string& body) {
     Request request;
     request.method = "POST";
-    request.target = "/api/mark";
+    request.target = "/api/v1/mark";
     request.content_type = "application/json";
     request.body = body;
     return Ask(request);

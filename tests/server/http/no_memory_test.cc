@@ -11,11 +11,11 @@ namespace {
 
 TEST(HttpServerWithoutMemory, AcceptsConnectionsAfterAFailedAllocation) {
   const TestServer site;
-  ASSERT_EQ(site.Get("/api/state").status, 200);
+  ASSERT_EQ(site.Get("/api/v1/state").status, 200);
   // Of what the idle server's threads allocate, only a new connection is so large.
   kinescope::testing::FailNextAllocationElsewhere(512);
-  EXPECT_THROW(site.Get("/api/state"), std::exception) << "nothing has failed";
-  EXPECT_EQ(site.Get("/api/state").status, 200);
+  EXPECT_THROW(site.Get("/api/v1/state"), std::exception) << "nothing has failed";
+  EXPECT_EQ(site.Get("/api/v1/state").status, 200);
   EXPECT_EQ(site.HttpCounters().at("failures"), 1);
 }
 

@@ -1,15 +1,18 @@
 // page_fixture_server [--token T [--viewer_token T]] [--no-pictures] [--meshes FOLDER] [--worn]
-// [--diagnostics JSON] [--marks_file FILE]:
+// [--diagnostics JSON] [--marks_file FILE] [--alarms FILE]:
 // --worn: gloves and props on everybody, and a tracked object. Prints one line of JSON with its
 // "url", then obeys lines on its standard input until that ends:
 //   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
 //   people <n>              how many persons it shows
+//   limits <medium> <high>  the class limits of its states
 //   stream <JSON>           the health of the stream
+//   compression <n>         of each person's L5/S1, N
 // page_fixture_server describe: prints one state as the server encodes it (hex) beside what it
 // means, and the limits of the load classes, for the page's unit tests.
 #include <poll.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -17,7 +20,9 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
+#include <sstream>
 #include <string>
 
 #include "core/hand_load_shape.h"
@@ -28,6 +33,8 @@
 #include "core/system/clocks.h"
 #include "core/system/install_paths.h"
 #include "core/system/scratch_folder.h"
+#include "server/alarms/alarms.h"
+#include "server/alarms/rule_file.h"
 #include "server/http/api.h"
 #include "server/http/protocol.h"
 #include "server/http/server.h"
@@ -61,8 +68,16 @@ class PlainFeed final : public PictureFeed {
     viewers_ = count;
   }
   bool SetCamera(const std::string& camera) override { return camera != "nowhere"; }
-  std::vector<std::uint8_t> SnapshotPng(const std::string&, int width, int height) override {
-    return PlainPng(width, height, {40, 90, 160});
+  void SetDark(bool is_dark) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_dark_ = is_dark;
+  }
+  std::vector<std::uint8_t> SnapshotPng(const SnapshotRequest& request) override {
+    return PlainPng(request.width, request.height, ColorOf(request.is_dark));
+  }
+  std::array<std::uint8_t, 3> color() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return ColorOf(is_dark_);
   }
   int viewers() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -70,8 +85,14 @@ class PlainFeed final : public PictureFeed {
   }
 
  private:
+  static std::array<std::uint8_t, 3> ColorOf(bool is_dark) {
+    return is_dark ? std::array<std::uint8_t, 3>{10, 20, 40}
+                   : std::array<std::uint8_t, 3>{40, 90, 160};
+  }
+
   mutable std::mutex mutex_;
   int viewers_ = 0;
+  bool is_dark_ = false;
 };
 
 std::string Hex(const Bytes& bytes) {
@@ -300,6 +321,8 @@ class Orders {
  public:
   std::string mode = "live";
   int people = 1;
+  std::array<double, 2> class_limits = kDefaultClassLimits;
+  double compression = 2150;
   bool changed = true;
   bool ended = false;
 
@@ -328,6 +351,10 @@ class Orders {
     changed = true;
     if (line.rfind("people ", 0) == 0) {
       people = std::stoi(line.substr(7));
+    } else if (line.rfind("limits ", 0) == 0) {
+      std::istringstream(line.substr(7)) >> class_limits[0] >> class_limits[1];
+    } else if (line.rfind("compression ", 0) == 0) {
+      compression = std::stod(line.substr(12));
     } else if (line.rfind("stream ", 0) == 0) {
       const std::lock_guard<std::mutex> lock(mutex_);
       stream_ = line.substr(7);
@@ -345,6 +372,9 @@ SceneState NextState(const Orders& orders, const SceneState& last,
   SceneState next = last;
   if (orders.mode == "live") {
     next = MakeScene(last.number, seconds, MonotonicNanos(), model, orders.people);
+    for (PersonState& person : next.people) {
+      person.forces.lumbar->compression = orders.compression;
+    }
   } else if (orders.mode == "nodata") {
     next = SceneState();
     next.source = "udp://0.0.0.0:9763";
@@ -359,6 +389,7 @@ SceneState NextState(const Orders& orders, const SceneState& last,
     }
   }
   next.number = last.number + 1;
+  next.class_limits = orders.class_limits;
   return next;
 }
 
@@ -367,6 +398,7 @@ struct Options {
   std::string diagnostics = "{}";
   bool worn = false;
   std::filesystem::path marks_file;  // empty: one of this run
+  std::string alarms;                // file of rules; "": nothing is watched
 };
 
 void AddWorn(SceneState& state, const std::shared_ptr<const PersonModel>& model) {
@@ -408,6 +440,10 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
       {options.marks_file.empty() ? folder / "marks.jsonl" : options.marks_file,
        {"grasp", "lift", "place", "release", "step", "slip", "talk", "pain", "discard"}});
   config.marks = &book;
+  std::optional<alarms::Alarms> watched;
+  if (!options.alarms.empty()) {
+    config.alarms = &watched.emplace(alarms::LoadRules(options.alarms), /*is_live=*/true);
+  }
   Orders orders;
   config.stream = [&orders] { return orders.stream(); };
   HttpServer server(config, states, pictures, feed, [&] { return options.diagnostics; });
@@ -420,6 +456,7 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
   const auto began = Clock::now();
   for (auto due = began; !orders.ended; due = std::max(due + kPeriod, Clock::now() - kPeriod)) {
     orders.WaitUntil(due);
+    if (watched) watched->OnTime(MonotonicNanos(), std::nullopt);
     if (orders.mode != "live" && !orders.changed) continue;
     orders.changed = false;
     const double seconds = std::chrono::duration<double>(due - began).count();
@@ -431,11 +468,12 @@ void Serve(HttpConfig config, const Options& options, PlainFeed* feed) {
     }
     state.made_nanos = MonotonicNanos();
     const auto published = std::make_shared<const SceneState>(state);
+    if (watched) watched->OnState(state);
     states.Publish(published);
     history.Add(published);
     if (feed != nullptr && feed->viewers() > 0 && state.number % 4 == 0) {
       pictures.Publish(std::make_shared<const Picture>(
-          Picture{PlainJpeg(640, 360, {40, 90, 160}), state.number, state.arrival_nanos}));
+          Picture{PlainJpeg(640, 360, feed->color()), state.number, state.arrival_nanos}));
     }
   }
 }
@@ -463,6 +501,7 @@ int Main(const std::vector<std::string>& arguments) {
     if (arguments[i] == "--marks_file" && i + 1 < arguments.size()) {
       options.marks_file = arguments[++i];
     }
+    if (arguments[i] == "--alarms" && i + 1 < arguments.size()) options.alarms = arguments[++i];
     if (arguments[i] == "--diagnostics" && i + 1 < arguments.size()) {
       options.diagnostics = arguments[++i];
     }

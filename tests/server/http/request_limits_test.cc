@@ -28,7 +28,7 @@ std::string HeaderOf(const std::string& request_line, const std::string& lines) 
 
 std::string PostHeader(const std::string& lines, const std::string& token = kSecret) {
   return HeaderOf(
-      "POST /api/hand_load",
+      "POST /api/v1/hand_load",
       "Content-Type: application/json\r\nAuthorization: Bearer " + token + "\r\n" + lines);
 }
 
@@ -47,16 +47,16 @@ TEST(RequestLimits, AreJudgedByTheHeaderBeforeAnyOfTheBodyIsRead) {
     std::string header, status;
   };
   const std::string length = "Content-Length: 20\r\n", chunked = "Transfer-Encoding: chunked\r\n";
-  for (const auto& [header, status] :
-       std::vector<Case>{{PostHeader(length, "wrong-wrong-wrong"), "401"},
-                         {PostHeader(chunked, "wrong-wrong-wrong"), "401"},
-                         {HeaderOf("GET /api/state", chunked), "401"},
-                         {HeaderOf("GET /ws", chunked), "401"},
-                         {PostHeader("Origin: http://evil.example\r\n" + length), "403"},
-                         {HeaderOf("PUT /api/hand_load?token=s3cret-of-the-lab", length), "405"},
-                         {HeaderOf("POST /api/hand_load?token=s3cret-of-the-lab", length), "415"},
-                         {HeaderOf("GET /nothing?token=s3cret-of-the-lab", chunked), "404"},
-                         {HeaderOf("GET /api/state?token=s3cret-of-the-lab", length), "200"}}) {
+  for (const auto& [header, status] : std::vector<Case>{
+           {PostHeader(length, "wrong-wrong-wrong"), "401"},
+           {PostHeader(chunked, "wrong-wrong-wrong"), "401"},
+           {HeaderOf("GET /api/v1/state", chunked), "401"},
+           {HeaderOf("GET /api/v1/ws", chunked), "401"},
+           {PostHeader("Origin: http://evil.example\r\n" + length), "403"},
+           {HeaderOf("PUT /api/v1/hand_load?token=s3cret-of-the-lab", length), "405"},
+           {HeaderOf("POST /api/v1/hand_load?token=s3cret-of-the-lab", length), "415"},
+           {HeaderOf("GET /nothing?token=s3cret-of-the-lab", chunked), "404"},
+           {HeaderOf("GET /api/v1/state?token=s3cret-of-the-lab", length), "200"}}) {
     const std::string answer = OpenConnection(site.server.port(), header).ReadToEnd();
     EXPECT_THAT(answer, StartsWith("HTTP/1.1 " + status)) << header;
     EXPECT_THAT(answer, HasSubstr("Connection: close")) << "the body is never read: " << header;
@@ -98,30 +98,30 @@ TEST(RequestLimits, LetTheNextRequestFollowABody) {
       OpenConnection(
           site.server.port(),
           PostHeader("Content-Length: 15\r\n") + "{\"right_kg\": 5}" +
-              HeaderOf("GET /api/state?token=s3cret-of-the-lab", "Connection: close\r\n"))
+              HeaderOf("GET /api/v1/state?token=s3cret-of-the-lab", "Connection: close\r\n"))
           .ReadToEnd();
   EXPECT_EQ(AnswersIn(answers), 2) << answers;
 }
 
 TEST(RequestLimits, RejectFramingsThatAProxyMayReadDifferently) {
   const TestServer site("", true, "", Impatient());
-  const std::string hidden = "0\r\n\r\n" + HeaderOf("GET /api/cameras", "");
+  const std::string hidden = "0\r\n\r\n" + HeaderOf("GET /api/v1/cameras", "");
   for (const char* coding :
        {"xchunked", "gzip", "identity", "chunked, identity", "gzip, chunked", "\"chunked\"", ""}) {
     const std::string header =
-        HeaderOf("GET /api/state", "Transfer-Encoding: " + std::string(coding) + "\r\n");
+        HeaderOf("GET /api/v1/state", "Transfer-Encoding: " + std::string(coding) + "\r\n");
     const std::string answer = OpenConnection(site.server.port(), header + hidden).ReadToEnd();
     EXPECT_THAT(answer, StartsWith("HTTP/1.1 501")) << coding;
     EXPECT_EQ(AnswersIn(answer), 1) << coding;
   }
   for (const char* second : {"Content-Length: 5", "Transfer-Encoding: identity"}) {
-    const std::string header =
-        HeaderOf("GET /api/state", "Transfer-Encoding: chunked\r\n" + std::string(second) + "\r\n");
+    const std::string header = HeaderOf(
+        "GET /api/v1/state", "Transfer-Encoding: chunked\r\n" + std::string(second) + "\r\n");
     const std::string answer = OpenConnection(site.server.port(), header + hidden).ReadToEnd();
     EXPECT_THAT(answer, StartsWith("HTTP/1.1 400")) << second;
     EXPECT_EQ(AnswersIn(answer), 1) << second;
   }
-  const std::string old = "POST /api/hand_load HTTP/1.0\r\nTransfer-Encoding: chunked\r\n\r\n";
+  const std::string old = "POST /api/v1/hand_load HTTP/1.0\r\nTransfer-Encoding: chunked\r\n\r\n";
   EXPECT_THAT(OpenConnection(site.server.port(), old + hidden).ReadToEnd(),
               StartsWith("HTTP/1.0 400"));
 }
@@ -144,11 +144,11 @@ TEST(RequestLimits, FindTheTokenInAnyCookieHeader) {
   const std::string wrong = "Cookie: " + name + "=wrong\r\n";
   const std::string right = "Cookie: a=b; " + name + "=" + kSecret + "\r\n";
   for (const std::string& cookies : {wrong + right, right + wrong, "Cookie: a=b\r\n" + right}) {
-    EXPECT_THAT(Exchange(site.server.port(), HeaderOf("GET /api/state", cookies)),
+    EXPECT_THAT(Exchange(site.server.port(), HeaderOf("GET /api/v1/state", cookies)),
                 StartsWith("HTTP/1.1 200"))
         << cookies;
   }
-  EXPECT_THAT(Exchange(site.server.port(), HeaderOf("GET /api/state", wrong + wrong)),
+  EXPECT_THAT(Exchange(site.server.port(), HeaderOf("GET /api/v1/state", wrong + wrong)),
               StartsWith("HTTP/1.1 401"));
 }
 

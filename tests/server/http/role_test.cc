@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "server/alarms/alarms.h"
 #include "server/history/history.h"
 #include "server/http/hub.h"
 #include "server/http/router.h"
 #include "server/marks/mark_book.h"
+#include "tests/server/http/fake_controls.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/server/http/test_server.h"
 #include "tests/temp_folder.h"
@@ -51,12 +53,14 @@ class RoleOfRouteTest : public ::testing::Test {
     site.states = &states_;
     site.history = &history_;
     site.marks = &marks_;
+    site.controls = &controls_;
     site.set_hand_load = [this](int, const HandLoad&) {
       ++changes_;
       return std::string();
     };
     site.diagnostics = [] { return std::string("{}"); };
     site.live_camera = [] { return std::string("iso"); };
+    site.alarms = &alarms_;
     site.count_refusal = [this](const std::string& reason) { ++refusals_[reason]; };
     return Router(site);
   }
@@ -64,8 +68,12 @@ class RoleOfRouteTest : public ::testing::Test {
   static Request RequestOf(const Router::RouteInfo& route, Role role) {
     Request request;
     request.method = route.method;
-    request.target = route.path;
-    if (route.path == "/api/series") {  // has no answer without a question
+    for (std::size_t at = 0; at < route.path.size(); ++at) {
+      const bool is_variable = route.path[at] == '{';
+      request.target += is_variable ? '0' : route.path[at];
+      if (is_variable) at = route.path.find('}', at);
+    }
+    if (route.path == "/api/v1/series") {  // has no answer without a question
       request.target += "?person=0&keys=l5_s1&from=0&to=1000000&columns=2";
     }
     request.host = "lab.example";
@@ -74,18 +82,28 @@ class RoleOfRouteTest : public ::testing::Test {
     return request;
   }
 
+  // The answer to a client that may use the route.
+  static int StatusFor(const Router::RouteInfo& route) {
+    const bool is_model = route.path.find('{') != std::string::npos;  // of revision 0
+    return is_model ? 404 : route.path == Router::kWebSocketPath ? 426 : 200;
+  }
+
   kinescope::testing::TempFolder web_;
   StaticFiles files_{web_.path()};
   Latest<SceneState> states_;
   history::History history_;
   marks::MarkBook marks_{{web_ / "marks.jsonl", {"lift"}}};
+  FakeControls controls_;
+  alarms::Alarms alarms_{{}, /*is_live=*/true};
   int changes_ = 0;
   std::map<std::string, int> refusals_;
 };
 
 TEST_F(RoleOfRouteTest, IsThatOfAnOperatorForEveryRouteThatChangesAnything) {
   for (const Router::RouteInfo& route : Router::ApiRoutes()) {
-    EXPECT_EQ(route.least, route.method == "GET" ? Role::kViewer : Role::kOperator) << route.path;
+    // What is downloaded is the lab's.
+    const bool is_open = route.method == "GET" && route.path != "/api/v1/file/{name}";
+    EXPECT_EQ(route.least, is_open ? Role::kViewer : Role::kOperator) << route.path;
   }
 }
 
@@ -96,21 +114,22 @@ TEST_F(RoleOfRouteTest, DecidesWhichRoutesOfTheTableAViewerMayUse) {
     const Request request = RequestOf(route, Role::kViewer);  // its body is not read yet
     const Answer answer = router.Route(request);
     if (route.least == Role::kViewer) {
-      EXPECT_EQ(answer.status, 200) << route.path << ": " << answer.body;
+      EXPECT_EQ(answer.status, StatusFor(route)) << route.path << ": " << answer.body;
       continue;
     }
     ++refused;
     EXPECT_EQ(answer.status, 403) << route.path;
     EXPECT_FALSE(answer.needs_body) << route.path << ": refused before its body is read";
-    EXPECT_THAT(answer.body, AllOf(HasSubstr(route.method + " " + route.path), HasSubstr("viewer"),
-                                   HasSubstr("operator's token")));
+    EXPECT_THAT(answer.body, AllOf(HasSubstr(route.method + " " + request.target),
+                                   HasSubstr("viewer"), HasSubstr("operator's token")));
     Request with_body = request;
     with_body.body =
-        route.path == "/api/mark" ? R"({"state": 12, "button": 1})" : R"({"right_kg": 5})";
+        route.path == "/api/v1/mark" ? R"({"state": 12, "button": 1})" : R"({"right_kg": 5})";
     EXPECT_EQ(router.Route(with_body).status, 403) << route.path;
   }
   EXPECT_GT(refused, 0);
   EXPECT_EQ(changes_, 0);
+  EXPECT_THAT(controls_.orders(), IsEmpty());
   EXPECT_EQ(marks_.revision(), 0U);
   EXPECT_EQ(refusals_["not an operator"], 2 * refused);
 }
@@ -119,23 +138,23 @@ TEST_F(RoleOfRouteTest, PermitsEveryRouteToAnOperator) {
   const Router router = MakeRouter();
   for (const Router::RouteInfo& route : Router::ApiRoutes()) {
     const Answer answer = router.Route(RequestOf(route, Role::kOperator));
-    EXPECT_EQ(answer.status, 200) << route.path << ": " << answer.body;
+    EXPECT_EQ(answer.status, StatusFor(route)) << route.path << ": " << answer.body;
     EXPECT_EQ(answer.needs_body, route.method != "GET") << route.path;
   }
-  EXPECT_THAT(refusals_, IsEmpty());
+  EXPECT_EQ(refusals_["not an operator"], 0);
 }
 
 TEST_F(RoleOfRouteTest, IsToldToThePage) {
   const Router router = MakeRouter();
   for (const Role role : {Role::kViewer, Role::kOperator}) {
-    const Answer answer = router.Route(RequestOf({"/api/session", "GET", role}, role));
+    const Answer answer = router.Route(RequestOf({"/api/v1/session", "GET", role}, role));
     EXPECT_EQ(nlohmann::json::parse(answer.body).at("role"), Name(role));
   }
 }
 
 TEST_F(RoleOfRouteTest, StaysInTheCookieOfItsToken) {
   const Router router = MakeRouter();
-  Request request = RequestOf({"/api/session", "GET", Role::kViewer}, Role::kViewer);
+  Request request = RequestOf({"/api/v1/session", "GET", Role::kViewer}, Role::kViewer);
   request.authorization.clear();
   request.target += std::string("?token=") + kViewerToken;
   std::string cookie;
@@ -143,7 +162,7 @@ TEST_F(RoleOfRouteTest, StaysInTheCookieOfItsToken) {
     if (name == "Set-Cookie") cookie = value.substr(0, value.find(';'));
   }
   EXPECT_EQ(cookie, std::string("kinescope_80=") + kViewerToken);
-  request.target = "/api/session";
+  request.target = "/api/v1/session";
   request.cookies = cookie;
   EXPECT_EQ(nlohmann::json::parse(router.Route(request).body).at("role"), "viewer");
 }
@@ -152,7 +171,7 @@ TEST_F(RoleOfRouteTest, IsThatOfTheWebSocket) {
   const Router router = MakeRouter();
   for (const Role role : {Role::kViewer, Role::kOperator}) {
     Role found = role == Role::kViewer ? Role::kOperator : Role::kViewer;
-    EXPECT_FALSE(router.RefuseWebSocket(RequestOf({"/ws", "GET", role}, role), &found));
+    EXPECT_FALSE(router.RefuseWebSocket(RequestOf({"/api/v1/ws", "GET", role}, role), &found));
     EXPECT_EQ(found, role);
   }
 }
@@ -165,6 +184,8 @@ class FakeClient final : public HubClient {
   }
   void SetWantsPictures(bool wanted) override { wants_ = wanted; }
   bool wants_pictures() const override { return wants_; }
+  void SetWantsDark(bool wanted) override { dark_ = wanted; }
+  bool wants_dark() const override { return dark_; }
   bool OnSeen(Slot, std::uint64_t) override { return true; }
   ClientCounters counters() const override { return {}; }
   const std::string& address() const override { return address_; }
@@ -175,6 +196,7 @@ class FakeClient final : public HubClient {
   const Role role_;
   const std::string address_ = "10.0.0.7";
   bool wants_ = false;
+  bool dark_ = false;
   std::vector<std::string> errors_;
 };
 
@@ -201,6 +223,23 @@ std::vector<std::string> ErrorsOf(Shared& shared, Role role, const std::string& 
   shared.hub.OnMessage(client, text);
   shared.hub.Leave(client);
   return client.errors();
+}
+
+TEST(ThemeOfTheLivePicture, IsDarkWhileAllOfItsViewersWantItSo) {
+  Shared shared;
+  FakeClient dark(Role::kViewer), light(Role::kViewer);
+  ASSERT_TRUE(shared.hub.Join(dark) && shared.hub.Join(light));
+  shared.hub.OnMessage(dark, R"({"dark": true})");
+  EXPECT_FALSE(shared.feed.is_dark()) << "it watches no picture yet";
+  shared.hub.OnMessage(dark, R"({"pictures": true})");
+  EXPECT_TRUE(shared.feed.is_dark());
+  shared.hub.OnMessage(light, R"({"pictures": true})");
+  EXPECT_FALSE(shared.feed.is_dark());
+  shared.hub.Leave(light);
+  EXPECT_TRUE(shared.feed.is_dark());
+  shared.hub.OnMessage(dark, R"({"dark": false})");
+  EXPECT_FALSE(shared.feed.is_dark());
+  shared.hub.Leave(dark);
 }
 
 TEST(RoleOfCommand, IsThatOfAnOperatorIfItChangesWhatOthersSee) {
@@ -246,7 +285,7 @@ TEST(RoleOfClient, ComesFromTheTokenWithWhichItConnected) {
   TestServer site(kOperatorToken);
   // The answer to "ping" comes with every permitted message, and an error with another.
   const auto ask = [&](Role role, const std::string& key) {
-    WsClient client(site.server.port(), "/ws?token=" + TokenOf(role));
+    WsClient client(site.server.port(), "/api/v1/ws?token=" + TokenOf(role));
     client.Send(R"({"camera": "front", "ping": 1})");
     return client.ReceiveText(key).dump();
   };

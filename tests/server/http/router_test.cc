@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "server/http/protocol.h"
 #include "tests/mesh_file_on_demand.h"
 #include "tests/server/http/test_scene.h"
 #include "tests/temp_folder.h"
@@ -43,7 +44,7 @@ Request RequestOf(const std::string& method, const std::string& target) {
 }
 
 Request PostOf(const std::string& body) {
-  Request request = RequestOf("POST", "/api/hand_load");
+  Request request = RequestOf("POST", "/api/v1/hand_load");
   request.content_type = "application/json";
   request.body = body;
   return request;
@@ -120,12 +121,12 @@ TEST_F(RouterTest, AnswersEveryRouteInItsFormat) {
   };
   for (const Route& route : {Route{"/", "text/html; charset=utf-8", "no-cache"},
                              Route{"/app.js", "text/javascript; charset=utf-8", "no-cache"},
-                             Route{"/api/state", "application/json", "no-store"},
-                             Route{"/api/model", "application/json", "no-store"},
-                             Route{"/api/cameras", "application/json", "no-store"},
-                             Route{"/api/diagnostics", "application/json", "no-store"},
-                             Route{"/api/mesh/0/7/0", "model/stl", "no-cache"},
-                             Route{"/snapshot.png", "image/png", "no-store"}}) {
+                             Route{"/api/v1/state", "application/json", "no-store"},
+                             Route{"/api/v1/model", "application/json", "no-store"},
+                             Route{"/api/v1/cameras", "application/json", "no-store"},
+                             Route{"/api/v1/diagnostics", "application/json", "no-store"},
+                             Route{"/api/v1/mesh/0/7/0", "model/stl", "no-cache"},
+                             Route{"/api/v1/snapshot.png", "image/png", "no-store"}}) {
     const Answer answer = Get(route.target);
     EXPECT_EQ(answer.status, 200) << route.target << ": " << answer.body;
     EXPECT_EQ(answer.content_type, route.content_type) << route.target;
@@ -141,28 +142,29 @@ TEST_F(RouterTest, ServesMeshesFromMemoryWithoutWritingFiles) {
       std::make_shared<kinescope::testing::MeshFileOnDemand>(meshes_ / "pelvis.stl", "an STL file");
   model->mesh_files = files;
   states_.Publish(std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, model, 1)));
-  EXPECT_EQ(Get("/api/mesh/0/8/0").body, "an STL file");
-  EXPECT_EQ(Get("/api/mesh/0/8/1").status, 404) << "named, but not of this set";
+  EXPECT_EQ(Get("/api/v1/mesh/0/8/0").body, "an STL file");
+  EXPECT_EQ(Get("/api/v1/mesh/0/8/1").status, 404) << "named, but not of this set";
   EXPECT_FALSE(files->is_provided());
 }
 
 TEST_F(RouterTest, ServesTheSkinOfTheNewestModelUnlessItIsMadeOfParts) {
   auto parts = std::make_shared<PersonModel>(*MakePersonModel(8));
   states_.Publish(std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, parts, 1)));
-  EXPECT_THAT(ErrorIn(Get("/api/skin/0/8")), HasSubstr("made of parts"));
+  EXPECT_THAT(ErrorIn(Get("/api/v1/skin/0/8")), HasSubstr("made of parts"));
   auto model = std::make_shared<PersonModel>(*parts);
   model->has_built_in_surface = true;
   states_.Publish(std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, model, 1)));
-  const Answer skin = Get("/api/skin/0/8");
+  const Answer skin = Get("/api/v1/skin/0/8");
   EXPECT_EQ(skin.status, 200);
   EXPECT_EQ(skin.content_type, "application/octet-stream");
   EXPECT_LE(skin.body.size(), 600'000u);
-  Request again = RequestOf("GET", "/api/skin/0/8");
+  Request again = RequestOf("GET", "/api/v1/skin/0/8");
   again.if_none_match = HeaderOf(skin, "ETag");
   EXPECT_EQ(Send(again).status, 304);
   EXPECT_TRUE(Send(again).body.empty());
-  for (const char* target : {"/api/skin/0/7", "/api/skin/1/8", "/api/skin/18446744073709551615/8",
-                             "/api/skin/0", "/api/skin/0/8/0", "/api/skin/a/8", "/api/skin/0/-8"}) {
+  for (const char* target :
+       {"/api/v1/skin/0/7", "/api/v1/skin/1/8", "/api/v1/skin/18446744073709551615/8",
+        "/api/v1/skin/0", "/api/v1/skin/0/8/0", "/api/v1/skin/a/8", "/api/v1/skin/0/-8"}) {
     EXPECT_EQ(Get(target).status, 404) << target;
   }
 }
@@ -176,20 +178,20 @@ TEST_F(RouterTest, ServesNoFileThatSomebodyElsePlaced) {
   fs::create_symlink("/etc/passwd", meshes_ / "pelvis.stl");
   fs::create_symlink("/etc/passwd", meshes_ / "l5.stl");
   states_.Publish(std::make_shared<const SceneState>(MakeScene(12, 0.2, 1, model, 1)));
-  EXPECT_EQ(Get("/api/mesh/0/8/0").body, "an STL file");
-  EXPECT_EQ(Get("/api/mesh/0/8/1").status, 404);
+  EXPECT_EQ(Get("/api/v1/mesh/0/8/0").body, "an STL file");
+  EXPECT_EQ(Get("/api/v1/mesh/0/8/1").status, 404);
 }
 
 TEST_F(RouterTest, AnswersWithTheNewestStateOrWithoutData) {
-  EXPECT_EQ(nlohmann::json::parse(Get("/api/state").body).at("liveness"), "no data");
-  EXPECT_TRUE(nlohmann::json::parse(Get("/api/model").body).at("people").empty());
+  EXPECT_EQ(nlohmann::json::parse(Get("/api/v1/state").body).at("liveness"), "no data");
+  EXPECT_TRUE(nlohmann::json::parse(Get("/api/v1/model").body).at("people").empty());
   PublishPeople(2);
-  EXPECT_EQ(nlohmann::json::parse(Get("/api/state").body).at("state_number"), 12);
-  EXPECT_EQ(nlohmann::json::parse(Get("/api/model").body).at("people").size(), 2u);
-  const auto cameras = nlohmann::json::parse(Get("/api/cameras").body);
+  EXPECT_EQ(nlohmann::json::parse(Get("/api/v1/state").body).at("state_number"), 12);
+  EXPECT_EQ(nlohmann::json::parse(Get("/api/v1/model").body).at("people").size(), 2u);
+  const auto cameras = nlohmann::json::parse(Get("/api/v1/cameras").body);
   EXPECT_EQ(cameras.at("cameras").size(), MakeCameras().size());
   EXPECT_THAT(cameras.dump(), HasSubstr("iso"));
-  EXPECT_EQ(Get("/api/diagnostics").body, R"({"source": {}})");
+  EXPECT_EQ(Get("/api/v1/diagnostics").body, R"({"source": {}})");
 }
 
 TEST_F(RouterTest, ListsTheKnownAddressesForAnUnknownOne) {
@@ -205,18 +207,20 @@ TEST_F(RouterTest, ListsTheKnownAddressesForAnUnknownOne) {
   expect_unknown("/API/state", "no page at this address");
   expect_unknown("/api", "no page at this address");
   expect_unknown("/lib/three/three.module.js", "npm ci --prefix web");
-  expect_unknown("/api/mesh/0", "/api/mesh/<person>/<revision>/<n>");
+  expect_unknown("/api/v1/mesh/0", "/api/v1/mesh/{person}/{revision}/{number}");
   EXPECT_EQ(refusals_["unknown address"], 6);
-  for (const char* target : {"/api/", "/api/nothing", "/api/state/", "/api/hand_loads"}) {
-    for (const char* route : {"/api/session", "/api/state", "/api/model", "/api/cameras",
-                              "/api/diagnostics", "/api/hand_load"}) {
+  for (const char* target :
+       {"/api/v1/", "/api/v1/nothing", "/api/v1/state/", "/api/v1/hand_loads"}) {
+    for (const char* route : {"/api/v1/session", "/api/v1/state", "/api/v1/model",
+                              "/api/v1/cameras", "/api/v1/diagnostics", "/api/v1/hand_load"}) {
       expect_unknown(target, route);
     }
   }
 }
 
 TEST_F(RouterTest, AcceptsOnlyGetAndHead) {
-  for (const char* target : {"/", "/api/state", "/api/mesh/0/7/0", "/snapshot.png", "/nothing"}) {
+  for (const char* target :
+       {"/", "/api/v1/state", "/api/v1/mesh/0/7/0", "/api/v1/snapshot.png", "/nothing"}) {
     EXPECT_EQ(Send(RequestOf("HEAD", target)).status, Get(target).status) << target;
     for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS", "TRACE", "get", ""}) {
       const Answer answer = Send(RequestOf(method, target));
@@ -226,7 +230,7 @@ TEST_F(RouterTest, AcceptsOnlyGetAndHead) {
     }
   }
   for (const char* method : {"GET", "HEAD", "PUT", "DELETE"}) {
-    const Answer answer = Send(RequestOf(method, "/api/hand_load"));
+    const Answer answer = Send(RequestOf(method, "/api/v1/hand_load"));
     EXPECT_EQ(answer.status, 405) << method;
     EXPECT_EQ(HeaderOf(answer, "Allow"), "POST") << method;
   }
@@ -266,39 +270,41 @@ TEST_F(RouterTest, SendsAFileUnlessTheClientHasIt) {
 }
 
 TEST_F(RouterTest, ServesMeshesOfTheNewestModelUpToALimit) {
-  EXPECT_EQ(Get("/api/mesh/0/7/0").status, 404) << "no state yet";
+  EXPECT_EQ(Get("/api/v1/mesh/0/7/0").status, 404) << "no state yet";
   PublishPeople(2);
-  EXPECT_EQ(Get("/api/mesh/0/7/0").body, "solid pelvis");
-  EXPECT_EQ(Get("/api/mesh/1/7/0").body, "solid pelvis");
+  EXPECT_EQ(Get("/api/v1/mesh/0/7/0").body, "solid pelvis");
+  EXPECT_EQ(Get("/api/v1/mesh/1/7/0").body, "solid pelvis");
   for (const char* target :
-       {"/api/mesh/2/7/0", "/api/mesh/0/6/0", "/api/mesh/0/8/0", "/api/mesh/0/7/1",
-        "/api/mesh/0/7/9999", "/api/mesh/18446744073709551615/7/0", "/api/mesh/4294967296/7/0"}) {
+       {"/api/v1/mesh/2/7/0", "/api/v1/mesh/0/6/0", "/api/v1/mesh/0/8/0", "/api/v1/mesh/0/7/1",
+        "/api/v1/mesh/0/7/9999", "/api/v1/mesh/18446744073709551615/7/0",
+        "/api/v1/mesh/4294967296/7/0"}) {
     const Answer answer = Get(target);
     EXPECT_EQ(answer.status, 404) << target;
     EXPECT_THAT(ErrorIn(answer), HasSubstr("does not contain this STL file")) << target;
   }
   for (const char* target :
-       {"/api/mesh/0/7", "/api/mesh/0/7/0/0", "/api/mesh/0/7/", "/api/mesh/a/7/0",
-        "/api/mesh/-0/7/0", "/api/mesh/+0/7/0", "/api/mesh/0x0/7/0", "/api/mesh/0/7/0.0",
-        "/api/mesh/18446744073709551616/7/0"}) {
-    EXPECT_THAT(ErrorIn(Get(target)), HasSubstr("/api/mesh/<person>/<revision>/<n>")) << target;
+       {"/api/v1/mesh/0/7", "/api/v1/mesh/0/7/0/0", "/api/v1/mesh/0/7/", "/api/v1/mesh/a/7/0",
+        "/api/v1/mesh/-0/7/0", "/api/v1/mesh/+0/7/0", "/api/v1/mesh/0x0/7/0",
+        "/api/v1/mesh/0/7/0.0", "/api/v1/mesh/18446744073709551616/7/0"}) {
+    EXPECT_THAT(ErrorIn(Get(target)), HasSubstr("/api/v1/mesh/{person}/{revision}/{number}"))
+        << target;
   }
   fs::resize_file(meshes_ / "pelvis.stl", kLargestMesh);
-  EXPECT_EQ(Get("/api/mesh/0/7/0").status, 200);
+  EXPECT_EQ(Get("/api/v1/mesh/0/7/0").status, 200);
   fs::resize_file(meshes_ / "pelvis.stl", kLargestMesh + 1);
-  EXPECT_EQ(Get("/api/mesh/0/7/0").status, 404);
+  EXPECT_EQ(Get("/api/v1/mesh/0/7/0").status, 404);
   fs::remove(meshes_ / "pelvis.stl");
   fs::create_directory(meshes_ / "pelvis.stl");
-  EXPECT_EQ(Get("/api/mesh/0/7/0").status, 404) << "a folder";
+  EXPECT_EQ(Get("/api/v1/mesh/0/7/0").status, 404) << "a folder";
 }
 
 // Revisions begin at 1 in each process.
 TEST_F(RouterTest, SendsAMeshAgainOnlyIfItIsThatOfAnotherBody) {
   PublishPeople(1);
-  const Answer first = Get("/api/mesh/0/7/0");
+  const Answer first = Get("/api/v1/mesh/0/7/0");
   const std::string tag = HeaderOf(first, "ETag");
   EXPECT_FALSE(tag.empty());
-  Request again = RequestOf("GET", "/api/mesh/0/7/0");
+  Request again = RequestOf("GET", "/api/v1/mesh/0/7/0");
   again.if_none_match = tag;
   const Answer same = Send(again);
   EXPECT_EQ(same.status, 304);
@@ -310,53 +316,93 @@ TEST_F(RouterTest, SendsAMeshAgainOnlyIfItIsThatOfAnotherBody) {
 }
 
 TEST_F(RouterTest, AcceptsSnapshotSizesFrom16To4096) {
-  const Answer plain = Get("/snapshot.png");
+  const Answer plain = Get("/api/v1/snapshot.png");
   ASSERT_TRUE(plain.snapshot);
   EXPECT_EQ(plain.snapshot->camera, "");
   EXPECT_EQ(plain.snapshot->width, 1280);
   EXPECT_EQ(plain.snapshot->height, 720);
-  const Answer asked = Get("/snapshot.png?camera=top&width=16&height=4096&t=99");
+  const Answer asked = Get("/api/v1/snapshot.png?camera=top&width=16&height=4096&t=99");
   ASSERT_TRUE(asked.snapshot);
   EXPECT_EQ(asked.snapshot->camera, "top");
   EXPECT_EQ(asked.snapshot->width, 16);
   EXPECT_EQ(asked.snapshot->height, 4096);
-  for (const char* query : {"width=15", "width=4097", "height=15", "height=4097", "width=-64",
-                            "width=64.0", "width=", "width", "height=99999999999", "size=64x64"}) {
-    const Answer answer = Get(std::string("/snapshot.png?") + query);
+  EXPECT_FALSE(asked.snapshot->is_dark);
+  EXPECT_TRUE(Get("/api/v1/snapshot.png?theme=dark").snapshot->is_dark);
+  EXPECT_FALSE(Get("/api/v1/snapshot.png?theme=light").snapshot->is_dark);
+  for (const char* query :
+       {"width=15", "width=4097", "height=15", "height=4097", "width=-64", "width=64.0",
+        "width=", "width", "height=99999999999", "size=64x64", "theme=pink"}) {
+    const Answer answer = Get(std::string("/api/v1/snapshot.png?") + query);
     EXPECT_EQ(answer.status, 400) << query;
     EXPECT_FALSE(answer.snapshot) << query;
     EXPECT_THAT(ErrorIn(answer), HasSubstr("from 16 to 4096")) << query;
   }
-  EXPECT_THAT(ErrorIn(Get("/snapshot.png?camera=fron")),
+  EXPECT_THAT(ErrorIn(Get("/api/v1/snapshot.png?camera=fron")),
               AllOf(HasSubstr("camera=fron"), HasSubstr("expected front")));
-  EXPECT_EQ(refusals_["bad snapshot"], 11);
+  EXPECT_EQ(refusals_["bad snapshot"], 12);
 }
 
 TEST_F(RouterTest, HasNoSnapshotWithoutARenderer) {
   Router::Site site = SiteOf();
   site.has_pictures = false;
-  const Answer answer = Router(site).Route(RequestOf("GET", "/snapshot.png"));
+  const Answer answer = Router(site).Route(RequestOf("GET", "/api/v1/snapshot.png"));
   EXPECT_EQ(answer.status, 503);
   EXPECT_FALSE(answer.snapshot);
   EXPECT_THAT(refusals_, UnorderedElementsAre(Pair("no renderer", 1)));
 }
 
 TEST_F(RouterTest, RequiresAnUpgradeAtTheWebSocketAddress) {
-  const Answer answer = Get("/ws");
+  const Answer answer = Get("/api/v1/ws");
   EXPECT_EQ(answer.status, 426);
   EXPECT_EQ(HeaderOf(answer, "Upgrade"), "websocket");
   const Router router(SiteOf());
-  EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/ws")));
-  EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/ws?t=1")));
+  EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/api/v1/ws")));
+  EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/api/v1/ws?t=1")));
   const auto elsewhere = router.RefuseWebSocket(RequestOf("GET", "/"));
   ASSERT_TRUE(elsewhere);
   EXPECT_EQ(elsewhere->status, 404);
-  EXPECT_THAT(ErrorIn(*elsewhere), HasSubstr("/ws"));
+  EXPECT_THAT(ErrorIn(*elsewhere), HasSubstr("/api/v1/ws"));
+}
+
+TEST_F(RouterTest, NamesTheNewAddressAtEveryOldOne) {
+  for (const auto& [old, now] :
+       std::map<std::string, std::string>{{"/api/state", "/api/v1/state"},
+                                          {"/api/mesh/0/7/0", "/api/v1/mesh/0/7/0"},
+                                          {"/api/hand_load", "/api/v1/hand_load"},
+                                          {"/snapshot.png?camera=front", "/api/v1/snapshot.png"},
+                                          {"/ws", "/api/v1/ws"}}) {
+    for (const char* method : {"GET", "POST"}) {
+      const Answer answer = Send(RequestOf(method, old));
+      EXPECT_EQ(answer.status, 404) << old;
+      EXPECT_THAT(ErrorIn(answer), HasSubstr("the address is now " + now + ";")) << method;
+    }
+  }
+  EXPECT_EQ(refusals_["old address"], 10);
+}
+
+TEST_F(RouterTest, OpensTheWebSocketForClientsOfItsVersionOnly) {
+  const Router router(SiteOf());
+  Request request = RequestOf("GET", "/api/v1/ws");
+  const std::string ours = SocketProtocol();
+  EXPECT_EQ(nlohmann::json::parse(Get("/api/v1/session").body).at("socket"), ours);
+  for (const std::string& offered :
+       {std::string(), ours, ours + ", kinescope.v99", "kinescope.v99 ,  " + ours}) {
+    request.socket_protocols = offered;
+    EXPECT_FALSE(router.RefuseWebSocket(request)) << offered;
+  }
+  for (const char* offered : {"kinescope.v99", "chat", "kinescope.v", ",", "kinescope.v1, "}) {
+    request.socket_protocols = offered;
+    const auto refusal = router.RefuseWebSocket(request);
+    ASSERT_TRUE(refusal) << offered;
+    EXPECT_EQ(refusal->status, 400) << offered;
+    EXPECT_THAT(ErrorIn(*refusal), AllOf(HasSubstr(offered), HasSubstr(ours)));
+  }
+  EXPECT_EQ(refusals_["other protocol"], 5);
 }
 
 TEST_F(RouterTest, OpensTheWebSocketForItsOwnPageOnly) {
   const Router router(SiteOf());
-  Request request = RequestOf("GET", "/ws");
+  Request request = RequestOf("GET", "/api/v1/ws");
   request.origin = "http://localhost:8080";
   EXPECT_FALSE(router.RefuseWebSocket(request));
   for (const char* origin : {"http://localhost:8081", "http://evil.example", "null"}) {
@@ -377,7 +423,8 @@ TEST_F(RouterTest, RequiresTheTokenAtEveryAddress) {
   Router::Site site = SiteOf();
   site.tokens.of_operator = "s3cret";
   const Router router(site);
-  for (const char* target : {"/", "/api/state", "/api/mesh/0/7/0", "/snapshot.png", "/ws", "/no"}) {
+  for (const char* target :
+       {"/", "/api/v1/state", "/api/v1/mesh/0/7/0", "/api/v1/snapshot.png", "/api/v1/ws", "/no"}) {
     for (const char* query : {"", "?token=", "?token=s3cre", "?token=s3cretx", "?Token=s3cret"}) {
       const Answer answer = router.Route(RequestOf("GET", std::string(target) + query));
       EXPECT_EQ(answer.status, 401) << target << query;
@@ -397,14 +444,14 @@ TEST_F(RouterTest, RequiresTheTokenAtEveryAddress) {
   EXPECT_THAT(held_, IsEmpty());
   post.target += "?token=s3cret";
   EXPECT_EQ(router.Route(post).status, 200);
-  EXPECT_EQ(router.RefuseWebSocket(RequestOf("GET", "/ws")).value_or(Answer()).status, 401);
-  EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/ws?token=s3cret")));
+  EXPECT_EQ(router.RefuseWebSocket(RequestOf("GET", "/api/v1/ws")).value_or(Answer()).status, 401);
+  EXPECT_FALSE(router.RefuseWebSocket(RequestOf("GET", "/api/v1/ws?token=s3cret")));
 }
 
 TEST_F(RouterTest, AcceptsABearerTokenWithoutSettingACookie) {
   Router::Site site = SiteOf();
   site.tokens.of_operator = "s3cret";
-  Request request = RequestOf("GET", "/snapshot.png");
+  Request request = RequestOf("GET", "/api/v1/snapshot.png");
   request.authorization = "Bearer s3cret";
   EXPECT_EQ(Router(site).Route(request).status, 200);
   EXPECT_EQ(HeaderOf(Router(site).Route(request), "Set-Cookie"), "");
@@ -438,7 +485,7 @@ TEST_F(RouterTest, SlowsDownWrongTokensButNeverTheRightOne) {
   EXPECT_EQ(status("s3cret", "10.0.0.7"), 200) << "others do not lock out the owner of the token";
   EXPECT_EQ(status("guess3", "10.0.0.7"), 401) << "the same again tells nothing new";
   EXPECT_EQ(status("s3cret", "10.0.0.8"), 200);
-  Request socket = RequestOf("GET", "/ws?token=s3cret");
+  Request socket = RequestOf("GET", "/api/v1/ws?token=s3cret");
   socket.address = "10.0.0.7";
   EXPECT_FALSE(router.RefuseWebSocket(socket));
 }
@@ -463,13 +510,13 @@ TEST_F(RouterTest, CountsNoTokensThatAnotherSiteMakesABrowserSend) {
   const Router router(GuardedSite());
   for (std::size_t i = 0; i < 2 * GuessGuard::kPerMinute; ++i) {
     const std::string query = "?token=guess" + std::to_string(i);
-    Request image = RequestOf("GET", "/snapshot.png" + query);
+    Request image = RequestOf("GET", "/api/v1/snapshot.png" + query);
     image.sec_fetch_site = "cross-site";
     EXPECT_EQ(router.Route(image).status, 403);
     Request script = RequestOf("GET", "/app.js" + query);
     script.sec_fetch_site = "same-site";
     EXPECT_EQ(router.Route(script).status, 401);
-    Request socket = RequestOf("GET", "/ws" + query);
+    Request socket = RequestOf("GET", "/api/v1/ws" + query);
     socket.origin = "http://evil.example";
     const auto refusal = router.RefuseWebSocket(socket);
     ASSERT_TRUE(refusal);
@@ -481,7 +528,7 @@ TEST_F(RouterTest, CountsNoTokensThatAnotherSiteMakesABrowserSend) {
 
 TEST_F(RouterTest, RejectsCostlyRequestsOfOtherSites) {
   PublishPeople(1);
-  for (const char* target : {"/snapshot.png", "/api/model", "/api/mesh/0/7/0"}) {
+  for (const char* target : {"/api/v1/snapshot.png", "/api/v1/model", "/api/v1/mesh/0/7/0"}) {
     Request request = RequestOf("GET", target);
     for (const char* site : {"", "none", "same-origin"}) {
       request.sec_fetch_site = site;
@@ -504,7 +551,7 @@ TEST_F(RouterTest, RequiresMoreThanACookieForASnapshotWithoutSecFetchSite) {
   Router::Site site = SiteOf();
   site.tokens.of_operator = "s3cret";
   const Router router(site);
-  Request request = RequestOf("GET", "/snapshot.png");
+  Request request = RequestOf("GET", "/api/v1/snapshot.png");
   request.cookies = std::string(kCookie) + "=s3cret";
   EXPECT_EQ(router.Route(request).status, 403) << "an image in a page on another port";
   Request from_page = request, by_token = request, over_tls = request;
@@ -522,7 +569,7 @@ TEST_F(RouterTest, RequiresMoreThanACookieForASnapshotWithoutSecFetchSite) {
 }
 
 TEST_F(RouterTest, ServesOnlyThisMachineWithoutAToken) {
-  Request request = RequestOf("GET", "/api/state");
+  Request request = RequestOf("GET", "/api/v1/state");
   for (const char* host : {"", "example.org", "192.168.1.2:8080", "localhost.example.org"}) {
     request.host = host;
     EXPECT_EQ(Send(request).status, 403) << host;

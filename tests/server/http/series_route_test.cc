@@ -1,4 +1,4 @@
-// /api/series, without a socket: what it answers and what it rejects.
+// /api/v1/series, without a socket: what it answers and what it rejects.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ class SeriesRouteTest : public ::testing::Test {
     site.count_refusal = [this](const std::string& reason) { ++refusals_[reason]; };
     Request request;
     request.method = "GET";
-    request.target = "/api/series" + query;
+    request.target = "/api/v1/series" + query;
     request.host = "localhost:8080";
     return Router(std::move(site)).Route(request);
   }

@@ -38,7 +38,7 @@ TEST(HttpServer, ServesThePageUnchangedFromItsFolder) {
 
 TEST(HttpServer, ForbidsThePageToLoadFromOtherSites) {
   const TestServer site;
-  for (const char* target : {"/", "/app.js", "/api/state", "/nothing"}) {
+  for (const char* target : {"/", "/app.js", "/api/v1/state", "/nothing"}) {
     const Response response = site.Get(target);
     EXPECT_THAT(response.headers.at("content-security-policy"), StartsWith("default-src 'none'"));
     EXPECT_THAT(response.headers.at("content-security-policy"), Not(HasSubstr("http")));
@@ -61,7 +61,7 @@ TEST(HttpServer, AnswersHeadWithTheSizeOnly) {
   const Response head = Fetch(site.server.port(), "/app.js", {}, "HEAD");
   EXPECT_EQ(head.status, 200);
   EXPECT_EQ(head.headers.at("content-length"), std::to_string(FileText("web/app.js").size()));
-  EXPECT_EQ(Fetch(site.server.port(), "/api/state", {}, "HEAD").status, 200);
+  EXPECT_EQ(Fetch(site.server.port(), "/api/v1/state", {}, "HEAD").status, 200);
 }
 
 TEST(HttpServer, AnswersSeveralRequestsOnOneConnection) {
@@ -69,8 +69,8 @@ TEST(HttpServer, AnswersSeveralRequestsOnOneConnection) {
   const std::string host = "Host: localhost\r\n";
   const std::string answer =
       Exchange(site.server.port(),
-               "GET /api/cameras HTTP/1.1\r\n" + host + "\r\nGET /api/state HTTP/1.1\r\n" + host +
-                   "Connection: close\r\n\r\n",
+               "GET /api/v1/cameras HTTP/1.1\r\n" + host + "\r\nGET /api/v1/state HTTP/1.1\r\n" +
+                   host + "Connection: close\r\n\r\n",
                1 << 20);
   EXPECT_THAT(answer, HasSubstr("three_quarter"));
   EXPECT_THAT(answer, HasSubstr("liveness"));
@@ -102,14 +102,14 @@ TEST(HttpServer, RejectsEveryPathOutOfTheFolder) {
                                     "/file:///etc/passwd"s,
                                     "/app.js/"s,
                                     "/APP.JS"s,
-                                    "/api/mesh/0/7/0"s,
-                                    "/api/mesh/0/7/../../../etc/passwd"s,
-                                    "/api/mesh/0/7/%2e%2e"s,
-                                    "/api/mesh/-1/7/0"s,
-                                    "/api/mesh/0/7"s,
-                                    "/api/mesh/0/7/0/0"s,
-                                    "/api/mesh/99999999999999999999/7/0"s,
-                                    "/api/mesh/0x0/7/0"s}) {
+                                    "/api/v1/mesh/0/7/0"s,
+                                    "/api/v1/mesh/0/7/../../../etc/passwd"s,
+                                    "/api/v1/mesh/0/7/%2e%2e"s,
+                                    "/api/v1/mesh/-1/7/0"s,
+                                    "/api/v1/mesh/0/7"s,
+                                    "/api/v1/mesh/0/7/0/0"s,
+                                    "/api/v1/mesh/99999999999999999999/7/0"s,
+                                    "/api/v1/mesh/0x0/7/0"s}) {
     const Response response = site.Get(target);
     EXPECT_TRUE(response.status == 400 || response.status == 404)
         << target << ": " << response.status;
@@ -148,13 +148,13 @@ TEST(HttpServer, AnswersInvalidRequestsAndContinues) {
 
 TEST(HttpServer, ServesTheNewestState) {
   TestServer site;
-  EXPECT_EQ(site.Get("/api/state").json()["liveness"], "no data");
+  EXPECT_EQ(site.Get("/api/v1/state").json()["liveness"], "no data");
   site.PublishState(12);
-  const Response state = site.Get("/api/state");
+  const Response state = site.Get("/api/v1/state");
   EXPECT_EQ(state.json()["state_number"], 12);
   EXPECT_EQ(state.headers.at("cache-control"), "no-store");
-  EXPECT_EQ(site.Get("/api/model").json()["people"][0]["revision"], 7);
-  EXPECT_EQ(site.Get("/api/cameras").json()["cameras"].size(), 7u);
+  EXPECT_EQ(site.Get("/api/v1/model").json()["people"][0]["revision"], 7);
+  EXPECT_EQ(site.Get("/api/v1/cameras").json()["cameras"].size(), 7u);
 }
 
 TEST(HttpServer, ServesOnlyMeshesOfTheModel) {
@@ -163,23 +163,23 @@ TEST(HttpServer, ServesOnlyMeshesOfTheModel) {
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "pelvis.stl") << "solid pelvis";
   TestServer site("", true, folder.string());
-  EXPECT_EQ(site.Get("/api/mesh/0/7/0").status, 404) << "no state yet";
+  EXPECT_EQ(site.Get("/api/v1/mesh/0/7/0").status, 404) << "no state yet";
   site.PublishState(1);
-  const auto model = site.Get("/api/model").json();
+  const auto model = site.Get("/api/v1/model").json();
   const std::string url = model["people"][0]["links"][0]["visuals"][0]["mesh"];
-  EXPECT_EQ(url, "/api/mesh/0/7/0");
+  EXPECT_EQ(url, "/api/v1/mesh/0/7/0");
   const Response mesh = site.Get(url);
   EXPECT_EQ(mesh.status, 200);
   EXPECT_EQ(mesh.body, "solid pelvis");
   EXPECT_EQ(mesh.headers.at("content-type"), "model/stl");
-  EXPECT_EQ(site.Get("/api/mesh/0/7/1").status, 404) << "named, but not there";
-  EXPECT_EQ(site.Get("/api/mesh/0/6/0").status, 404) << "an older revision";
+  EXPECT_EQ(site.Get("/api/v1/mesh/0/7/1").status, 404) << "named, but not there";
+  EXPECT_EQ(site.Get("/api/v1/mesh/0/6/0").status, 404) << "an older revision";
 }
 
 TEST(HttpServer, AddsItsOwnPartToTheDiagnostics) {
   const TestServer site;
   site.Get("/nothing");
-  const auto diagnostics = site.Get("/api/diagnostics").json();
+  const auto diagnostics = site.Get("/api/v1/diagnostics").json();
   EXPECT_EQ(diagnostics["source"]["datagrams"], 5);
   EXPECT_EQ(diagnostics["http"]["rejected"]["unknown address"], 1);
   EXPECT_EQ(diagnostics["http"]["clients"].size(), 0u);
@@ -190,13 +190,13 @@ TEST(HttpServer, SurvivesDiagnosticsThatFail) {
   Latest<Picture> pictures;
   const HttpServer broken(TestServer::MakeConfig(""), states, pictures, nullptr,
                           []() -> std::string { throw std::runtime_error("no diagnosis"); });
-  EXPECT_EQ(Fetch(broken.port(), "/api/diagnostics").status, 500);
-  EXPECT_EQ(Fetch(broken.port(), "/api/state").status, 200);
+  EXPECT_EQ(Fetch(broken.port(), "/api/v1/diagnostics").status, 500);
+  EXPECT_EQ(Fetch(broken.port(), "/api/v1/state").status, 200);
   Latest<SceneState> other_states;
   Latest<Picture> other_pictures;
   const HttpServer odd(TestServer::MakeConfig(""), other_states, other_pictures, nullptr,
                        [] { return std::string("no JSON"); });
-  EXPECT_THAT(Fetch(odd.port(), "/api/diagnostics").json()["error"].get<std::string>(),
+  EXPECT_THAT(Fetch(odd.port(), "/api/v1/diagnostics").json()["error"].get<std::string>(),
               HasSubstr("not JSON"));
 }
 
@@ -205,9 +205,9 @@ TEST(HttpServer, RequiresTheTokenForEveryRoute) {
   EXPECT_THAT(site.server.url(), HasSubstr("/?token=s3cret-of-the-lab"));
   const std::string cookie =
       "kinescope_" + std::to_string(site.server.port()) + "=s3cret-of-the-lab";
-  for (const char* target :
-       {"/", "/app.js", "/api/state", "/api/model", "/api/cameras", "/api/diagnostics",
-        "/snapshot.png", "/api/mesh/0/7/0", "/lib/three/three.module.js", "/nothing", "/ws"}) {
+  for (const char* target : {"/", "/app.js", "/api/v1/state", "/api/v1/model", "/api/v1/cameras",
+                             "/api/v1/diagnostics", "/api/v1/snapshot.png", "/api/v1/mesh/0/7/0",
+                             "/lib/three/three.module.js", "/nothing", "/api/v1/ws"}) {
     EXPECT_EQ(site.Get(target).status, 401) << target;
     EXPECT_EQ(site.Get(target + "?token=wrong"s).status, 401) << target;
     EXPECT_EQ(site.Get(target, {{"Cookie", "kinescope_1=s3cret-of-the-lab"}}).status, 401)
@@ -227,8 +227,8 @@ TEST(HttpServer, AcceptsAnyHostNameWithAToken) {
 
 TEST(HttpServer, AcceptsOnlyNamesOfThisMachineWithoutAToken) {
   const TestServer site;
-  EXPECT_EQ(site.Get("/api/state", {{"Host", "localhost:1234"}}).status, 200);
-  EXPECT_EQ(site.Get("/api/state", {{"Host", "evil.example"}}).status, 403);
+  EXPECT_EQ(site.Get("/api/v1/state", {{"Host", "localhost:1234"}}).status, 200);
+  EXPECT_EQ(site.Get("/api/v1/state", {{"Host", "evil.example"}}).status, 403);
   EXPECT_EQ(site.Get("/", {{"Host", "127.0.0.1.evil.example:80"}}).status, 403);
 }
 
@@ -297,7 +297,7 @@ TEST(HttpServer, RejectsAShortTokenAndOffersARandomOne) {
 TEST(HttpServer, RejectsSeveralHosts) {
   const TestServer site;
   const int port = site.server.port();
-  const std::string get = "GET /api/state HTTP/1.1\r\n";
+  const std::string get = "GET /api/v1/state HTTP/1.1\r\n";
   EXPECT_THAT(Exchange(port, get + "Host: localhost\r\nHost: evil.example\r\n\r\n"),
               StartsWith("HTTP/1.1 400"));
   EXPECT_THAT(Exchange(port, get + "\r\n"), StartsWith("HTTP/1.1 400"));
@@ -309,7 +309,7 @@ TEST(HttpServer, AcceptsHeadersOfUpTo64Lines) {
   const auto with_lines = [](int count) {
     std::string lines;
     for (int i = 1; i < count; ++i) lines += "X: " + std::to_string(i) + "\r\n";
-    return "GET /api/state HTTP/1.1\r\nHost: localhost\r\n" + lines + "\r\n";
+    return "GET /api/v1/state HTTP/1.1\r\nHost: localhost\r\n" + lines + "\r\n";
   };
   EXPECT_THAT(Exchange(site.server.port(), with_lines(64)), StartsWith("HTTP/1.1 200"));
   EXPECT_THAT(Exchange(site.server.port(), with_lines(65)), StartsWith("HTTP/1.1 431"));
@@ -321,7 +321,7 @@ TEST(HttpServer, ServesOthersBesideConnectionsThatNeverFinishTheirRequest) {
   for (std::size_t i = 0; i < Connections::kMax + 44; ++i) {
     slow.emplace_back(site.server.port(), "GET / HTTP/1.1\r\nHost: localhost\r\n");
   }
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(site.Get("/api/state").status, 200) << i;
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(site.Get("/api/v1/state").status, 200) << i;
   EXPECT_EQ(slow.front().ReadToEnd(), "") << "the oldest made room";
 }
 
@@ -334,14 +334,14 @@ TEST(HttpServer, ServesOthersBesideConnectionsThatDoNotReadTheirAnswers) {
     const std::string from = "127.0.1." + std::to_string(1 + i / Connections::kMaxPerAddress);
     deaf.emplace_back(site.server.port(), requests, /*receive_buffer_bytes=*/2304, from);
   }
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(site.Get("/api/state").status, 200) << i;
-  EXPECT_EQ(Fetch(site.server.port(), "/api/state", {}, "GET", "", "127.0.1.1").status, 200)
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(site.Get("/api/v1/state").status, 200) << i;
+  EXPECT_EQ(Fetch(site.server.port(), "/api/v1/state", {}, "GET", "", "127.0.1.1").status, 200)
       << "one of an address that has used up its share";
 }
 
 TEST(HttpServer, ClosesFirstAConnectionWhoseLastTokenWasWrong) {
   const TestServer site("s3cret-of-the-lab");
-  const std::string right = "/api/diagnostics?token=s3cret-of-the-lab";
+  const std::string right = "/api/v1/diagnostics?token=s3cret-of-the-lab";
   const auto get = [](const std::string& target, const std::string& header = "") {
     return "GET " + target + " HTTP/1.1\r\nHost: localhost\r\n" + header + "\r\n";
   };
@@ -349,7 +349,7 @@ TEST(HttpServer, ClosesFirstAConnectionWhoseLastTokenWasWrong) {
   for (std::size_t i = 0; i < Connections::kMaxPerAddress; ++i) {
     all.emplace_back(site.server.port(), get(right));
   }
-  all.back().Send(get("/api/diagnostics?token=wrong"));
+  all.back().Send(get("/api/v1/diagnostics?token=wrong"));
   std::size_t asked = 0, requests = 0;
   while (requests < all.size() + 1 + asked) {
     ++asked;
@@ -369,8 +369,8 @@ TEST(HttpServer, LimitsTheTimeOfAWholeResponse) {
   std::ofstream(meshes.path() / "pelvis.stl") << std::string(32u << 20, 'x');
   TestServer site("", true, meshes.path().string(), impatient);
   site.PublishState(1);
-  OpenConnection deaf(site.server.port(), "GET /api/mesh/0/7/0 HTTP/1.1\r\nHost: localhost\r\n\r\n",
-                      2304);
+  OpenConnection deaf(site.server.port(),
+                      "GET /api/v1/mesh/0/7/0 HTTP/1.1\r\nHost: localhost\r\n\r\n", 2304);
   while (site.HttpCounters()["rejected"].value("response not read", 0) < 1) {
   }
   EXPECT_LT(deaf.ReadToEnd().size(), 32u << 20);
@@ -384,19 +384,19 @@ TEST(HttpServer, DisconnectsClientsThatDoNotFinishTheirRequestInTime) {
   EXPECT_EQ(OpenConnection(port, "").ReadToEnd(), "");
   EXPECT_EQ(OpenConnection(port, "GET / HTTP/1.1\r\nHost:").ReadToEnd(), "");
   EXPECT_EQ(OpenConnection(port,
-                           "POST /api/hand_load HTTP/1.1\r\nHost: localhost\r\n"
+                           "POST /api/v1/hand_load HTTP/1.1\r\nHost: localhost\r\n"
                            "Content-Type: application/json\r\nContent-Length: 20\r\n\r\n{")
                 .ReadToEnd(),
             "");
   EXPECT_THAT(
-      OpenConnection(port, "GET /api/state HTTP/1.1\r\nHost: localhost\r\n\r\n").ReadToEnd(),
+      OpenConnection(port, "GET /api/v1/state HTTP/1.1\r\nHost: localhost\r\n\r\n").ReadToEnd(),
       StartsWith("HTTP/1.1 200"))
       << "and no second request";
 }
 
 TEST(HttpServer, AnswersRequestsThatArriveTogether) {
   const TestServer site;
-  const std::string get = "GET /api/state HTTP/1.1\r\nHost: localhost\r\n";
+  const std::string get = "GET /api/v1/state HTTP/1.1\r\nHost: localhost\r\n";
   OpenConnection client(site.server.port(), get + "\r\n" + get + "Connection: close\r\n\r\n");
   const std::string answers = client.ReadToEnd();
   EXPECT_NE(answers.find("HTTP/1.1 200", 1), std::string::npos) << answers;
@@ -429,7 +429,8 @@ TEST(HttpServer, SlowsDownAndReportsGuessesOfTheToken) {
 TEST(HttpServer, SlowsDownGuessesAlsoAfterTheRightTokenOnTheSameConnection) {
   const TestServer site("s3cret-of-the-lab");
   const auto get = [](const std::string& token, const std::string& header = "") {
-    return "GET /api/state?token=" + token + " HTTP/1.1\r\nHost: localhost\r\n" + header + "\r\n";
+    return "GET /api/v1/state?token=" + token + " HTTP/1.1\r\nHost: localhost\r\n" + header +
+           "\r\n";
   };
   std::string requests = get("s3cret-of-the-lab");
   for (std::size_t i = 0; i < GuessGuard::kPerMinute + 10; ++i)

@@ -18,21 +18,21 @@ using ::testing::HasSubstr;
 
 TEST(Snapshot, IsRenderedAsRequested) {
   const TestServer site;
-  const Response picture = site.Get("/snapshot.png?camera=front&width=640&height=360");
+  const Response picture = site.Get("/api/v1/snapshot.png?camera=front&width=640&height=360");
   EXPECT_EQ(picture.status, 200);
   EXPECT_EQ(picture.body, "front 640x360");
   EXPECT_EQ(picture.headers.at("content-type"), "image/png");
   EXPECT_EQ(picture.headers.at("cache-control"), "no-store");
-  EXPECT_EQ(site.Get("/snapshot.png").body, " 1280x720");
+  EXPECT_EQ(site.Get("/api/v1/snapshot.png").body, " 1280x720");
 }
 
 TEST(Snapshot, AcceptsSizesFrom16To4096) {
   const TestServer site;
-  EXPECT_EQ(site.Get("/snapshot.png?width=16&height=4096").status, 200);
+  EXPECT_EQ(site.Get("/api/v1/snapshot.png?width=16&height=4096").status, 200);
   for (const char* query :
        {"width=15", "height=4097", "width=", "width=1e3", "width=-64", "width=64px",
         "width=99999999999", "colour=red", "camera=nowhere", "camera=../front"}) {
-    const Response response = site.Get("/snapshot.png?"s + query);
+    const Response response = site.Get("/api/v1/snapshot.png?"s + query);
     EXPECT_EQ(response.status, 400) << query;
     EXPECT_THAT(response.json().at("error").get<std::string>(), HasSubstr("=")) << query;
   }
@@ -40,22 +40,22 @@ TEST(Snapshot, AcceptsSizesFrom16To4096) {
 
 TEST(Snapshot, ReportsWhyItFailed) {
   const TestServer site;
-  const Response refused = site.Get("/snapshot.png?camera=iso");
+  const Response refused = site.Get("/api/v1/snapshot.png?camera=iso");
   EXPECT_EQ(refused.status, 400);
   EXPECT_EQ(refused.json()["error"], "iso is out of order");
-  const Response failed = site.Get("/snapshot.png?camera=back");
+  const Response failed = site.Get("/api/v1/snapshot.png?camera=back");
   EXPECT_EQ(failed.status, 503);
   EXPECT_EQ(failed.json()["error"], "the driver failed");
   const TestServer blind("", /*with_feed=*/false);
-  EXPECT_EQ(blind.Get("/snapshot.png").status, 503);
+  EXPECT_EQ(blind.Get("/api/v1/snapshot.png").status, 503);
 }
 
 TEST(Snapshot, DoesNotDelayOtherRequests) {
   TestServer site;
   site.feed.Hold(true);
-  std::thread slow([&] { EXPECT_EQ(site.Get("/snapshot.png?camera=front").status, 200); });
+  std::thread slow([&] { EXPECT_EQ(site.Get("/api/v1/snapshot.png?camera=front").status, 200); });
   EXPECT_TRUE(site.feed.WaitUntilDrawing());
-  EXPECT_EQ(site.Get("/api/state").status, 200);
+  EXPECT_EQ(site.Get("/api/v1/state").status, 200);
   WsClient client(site.server.port());
   site.PublishState(3);
   while (client.ReceiveState().state_number() != 3) {
@@ -74,7 +74,7 @@ TEST(Snapshot, IsRejectedIfTheShortQueueIsFull) {
   };
   const auto ask = [&](int client) {
     waiting.emplace_back(
-        [&, client] { drawn += get("/snapshot.png", client).status == 200 ? 1 : 0; });
+        [&, client] { drawn += get("/api/v1/snapshot.png", client).status == 200 ? 1 : 0; });
   };
   ask(1);
   ASSERT_TRUE(site.feed.WaitUntilDrawing());
@@ -82,7 +82,7 @@ TEST(Snapshot, IsRejectedIfTheShortQueueIsFull) {
   for (int i = 0; i < kMaxWaiting; ++i) ask(1 + i / 2);
   while (site.HttpCounters()["snapshots"] < kMaxWaiting + 1) {
   }
-  const std::string largest = "/snapshot.png?width=4096&height=4096";
+  const std::string largest = "/api/v1/snapshot.png?width=4096&height=4096";
   const Response refused = get(largest, 9);
   EXPECT_EQ(refused.status, 503);
   EXPECT_EQ(refused.headers.at("retry-after"), "1");
@@ -95,13 +95,13 @@ TEST(Snapshot, IsRejectedIfTheShortQueueIsFull) {
 TEST(Snapshot, IsRejectedIfTwoOfItsAddressWait) {
   TestServer site;
   site.feed.Hold(true);
-  const std::string request = "GET /snapshot.png HTTP/1.1\r\nHost: localhost\r\n\r\n";
+  const std::string request = "GET /api/v1/snapshot.png HTTP/1.1\r\nHost: localhost\r\n\r\n";
   const OpenConnection first(site.server.port(), request);
   ASSERT_TRUE(site.feed.WaitUntilDrawing());
   const OpenConnection second(site.server.port(), request), third(site.server.port(), request);
   while (site.HttpCounters()["snapshots"] < 3) {
   }
-  const Response refused = site.Get("/snapshot.png");
+  const Response refused = site.Get("/api/v1/snapshot.png");
   EXPECT_EQ(refused.status, 429);
   EXPECT_EQ(refused.headers.at("retry-after"), "1");
   EXPECT_THAT(refused.json()["error"].get<std::string>(), HasSubstr("2 snapshots"));
@@ -111,11 +111,11 @@ TEST(Snapshot, IsRejectedIfTwoOfItsAddressWait) {
 TEST(Snapshot, IsNotRenderedForAClientThatHasLeft) {
   TestServer site;
   site.feed.Hold(true);
-  std::thread patient([&] { EXPECT_EQ(site.Get("/snapshot.png").status, 200); });
+  std::thread patient([&] { EXPECT_EQ(site.Get("/api/v1/snapshot.png").status, 200); });
   ASSERT_TRUE(site.feed.WaitUntilDrawing());
   {
     const OpenConnection impatient(site.server.port(),
-                                   "GET /snapshot.png HTTP/1.1\r\nHost: localhost\r\n\r\n");
+                                   "GET /api/v1/snapshot.png HTTP/1.1\r\nHost: localhost\r\n\r\n");
     while (site.HttpCounters()["snapshots"] < 2) {
     }
   }
@@ -123,7 +123,7 @@ TEST(Snapshot, IsNotRenderedForAClientThatHasLeft) {
   }
   site.feed.Hold(false);
   patient.join();
-  EXPECT_EQ(site.Get("/snapshot.png").status, 200);
+  EXPECT_EQ(site.Get("/api/v1/snapshot.png").status, 200);
   EXPECT_EQ(site.feed.drawn(), 2) << "the first and the last";
 }
 
@@ -131,7 +131,7 @@ TEST(Snapshot, IsNotRenderedForAClientThatHasLeft) {
 TEST(Snapshot, IsSentToAClientThatHasOnlyFinishedSending) {
   TestServer site;
   site.feed.Hold(true);
-  const std::string request = "GET /snapshot.png HTTP/1.1\r\nHost: localhost\r\n";
+  const std::string request = "GET /api/v1/snapshot.png HTTP/1.1\r\nHost: localhost\r\n";
   const OpenConnection first(site.server.port(), request + "\r\n");
   ASSERT_TRUE(site.feed.WaitUntilDrawing());
   OpenConnection half_closed(site.server.port(), request + "Connection: close\r\n\r\n");
@@ -145,14 +145,14 @@ TEST(Snapshot, IsSentToAClientThatHasOnlyFinishedSending) {
 
 TEST(Snapshot, IsPostponedIfItsAddressHasUsedUpItsPixels) {
   const TestServer site;
-  const std::string largest = "/snapshot.png?width=4096&height=4096";
+  const std::string largest = "/api/v1/snapshot.png?width=4096&height=4096";
   EXPECT_EQ(site.Get(largest).status, 200);
   const Response refused = site.Get(largest);
   EXPECT_EQ(refused.status, 429);
   EXPECT_GE(std::stoi(refused.headers.at("retry-after")), 1);
   EXPECT_THAT(refused.json()["error"].get<std::string>(),
               AllOf(HasSubstr("4096x4096"), HasSubstr("try again in"), HasSubstr("1920x1080")));
-  EXPECT_EQ(site.Get("/snapshot.png?width=1920&height=1080").status, 200) << "as the page's";
+  EXPECT_EQ(site.Get("/api/v1/snapshot.png?width=1920&height=1080").status, 200) << "as the page's";
 }
 
 TEST(Snapshot, InProgressDoesNotPreventTheServerFromStopping) {
@@ -165,7 +165,7 @@ TEST(Snapshot, InProgressDoesNotPreventTheServerFromStopping) {
     feed.Hold(true);
     client = std::thread([port = server.port()] {
       try {
-        Fetch(port, "/snapshot.png");
+        Fetch(port, "/api/v1/snapshot.png");
       } catch (const std::exception&) {
         // Whether the picture or the end comes first is open; that all threads end is the point.
       }

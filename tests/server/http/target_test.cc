@@ -19,7 +19,7 @@ TEST(Target, IsDecodedIntoPathAndQuery) {
 
 TEST(Target, MayEndWithASlash) {
   EXPECT_EQ(ParseTarget("/")->path, "/");
-  EXPECT_EQ(ParseTarget("/api/")->path, "/api/");
+  EXPECT_EQ(ParseTarget("/api/v1/")->path, "/api/v1/");
 }
 
 TEST(Target, IsRejectedIfItMayBeUnsafe) {

@@ -138,6 +138,7 @@ std::string OpenConnection::ReadToEnd() {
 struct WsClient::Impl {
   asio::io_context io;
   websocket::stream<beast::tcp_stream> socket{io};
+  std::string protocol;
 };
 
 WsClient::WsClient(int port, const std::string& target, const Headers& headers,
@@ -158,7 +159,10 @@ WsClient::WsClient(int port, const std::string& target, const Headers& headers,
                                 });
   Finish(impl_->io, done, "the WebSocket handshake");
   if (failure) throw std::runtime_error("refused: " + std::to_string(response.result_int()));
+  impl_->protocol = std::string(response[bhttp::field::sec_websocket_protocol]);
 }
+
+const std::string& WsClient::protocol() const { return impl_->protocol; }
 
 WsClient::~WsClient() = default;
 

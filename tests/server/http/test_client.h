@@ -53,7 +53,7 @@ class WsClient {
  public:
   /// `from`: the address of this client, of 127.0.0.0/8.
   /// @throws std::runtime_error with the HTTP status when the server refuses.
-  explicit WsClient(int port, const std::string& target = "/ws", const Headers& headers = {},
+  explicit WsClient(int port, const std::string& target = "/api/v1/ws", const Headers& headers = {},
                     int receive_buffer_bytes = 0, const std::string& from = "");
   ~WsClient();
 
@@ -67,6 +67,8 @@ class WsClient {
     std::uint64_t state_number() const;  // of a state or a picture
   };
 
+  /// The subprotocol that the server has selected, or "".
+  const std::string& protocol() const;
   Message Receive();
   Message ReceiveState();
   Message ReceivePicture();

@@ -34,14 +34,20 @@ class FakeFeed final : public PictureFeed {
     camera_ = camera;
     return true;
   }
-  std::vector<std::uint8_t> SnapshotPng(const std::string& camera, int width, int height) override {
+  void SetDark(bool is_dark) override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_dark_ = is_dark;
+  }
+  std::vector<std::uint8_t> SnapshotPng(const SnapshotRequest& request) override {
+    const auto& [camera, width, height, is_dark] = request;
     std::unique_lock<std::mutex> lock(mutex_);
     ++drawing_;
     changed_.notify_all();
     changed_.wait(lock, [this] { return !held_; });
     if (camera == "iso") throw UsageError("iso is out of order");
     if (camera == "back") throw std::runtime_error("the driver failed");
-    const std::string text = camera + " " + std::to_string(width) + "x" + std::to_string(height);
+    const std::string text = camera + " " + std::to_string(width) + "x" + std::to_string(height) +
+                             (is_dark ? " dark" : "");
     return {text.begin(), text.end()};
   }
 
@@ -55,6 +61,10 @@ class FakeFeed final : public PictureFeed {
   }
   bool WaitForViewers(int count) {
     return Wait([this, count] { return viewers_ == count; });
+  }
+  bool is_dark() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return is_dark_;
   }
   std::string camera() {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -76,6 +86,7 @@ class FakeFeed final : public PictureFeed {
   int viewers_ = -1;
   int drawing_ = 0;
   bool held_ = false;
+  bool is_dark_ = false;
   std::string camera_;
 };
 
@@ -133,7 +144,7 @@ struct TestServer {
   Response Get(const std::string& target, const Headers& headers = {}) const {
     return Fetch(server.port(), target, headers);
   }
-  nlohmann::json HttpCounters() const { return Get("/api/diagnostics").json()["http"]; }
+  nlohmann::json HttpCounters() const { return Get("/api/v1/diagnostics").json()["http"]; }
 
   const PatienceLimits patience;
   std::mutex mutex;

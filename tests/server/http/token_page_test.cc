@@ -21,7 +21,7 @@ const std::string kBrowser = "text/html,application/xhtml+xml,*/*;q=0.8";
 
 TEST(TokenPage, IsForBrowsersAndJsonForOtherClients) {
   const TestServer site("s3cret-of-the-lab");
-  for (const char* target : {"/", "/api/state", "/snapshot.png", "/nothing"}) {
+  for (const char* target : {"/", "/api/v1/state", "/api/v1/snapshot.png", "/nothing"}) {
     const Response page = site.Get(target, {{"Accept", kBrowser}});
     EXPECT_EQ(page.status, 401) << target;
     EXPECT_EQ(page.headers.at("content-type"), "text/html; charset=utf-8") << target;

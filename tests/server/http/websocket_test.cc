@@ -223,7 +223,7 @@ TEST(WebSocket, SendsAPictureOnceThoughItsSubscriberSubscribesAgain) {
 
 TEST(WebSocket, SendsTheNewestStateWhenAClientReadsAgain) {
   TestServer site;
-  WsClient stalled(site.server.port(), "/ws", {}, /*receive_buffer_bytes=*/4096);
+  WsClient stalled(site.server.port(), "/api/v1/ws", {}, /*receive_buffer_bytes=*/4096);
   WsClient other(site.server.port());
   stalled.Send(R"({"pictures": true})");
   ASSERT_TRUE(site.feed.WaitForViewers(1));
@@ -251,7 +251,7 @@ TEST(WebSocket, SendsTheNewestStateWhenAClientReadsAgain) {
 
 TEST(WebSocket, KeepsOnlyOneStateForAStalledClient) {
   TestServer site;
-  WsClient stalled(site.server.port(), "/ws", {}, 4096), other(site.server.port());
+  WsClient stalled(site.server.port(), "/api/v1/ws", {}, 4096), other(site.server.port());
   stalled.ReceiveState();
   stalled.Send(R"({"pictures": true})");
   ASSERT_TRUE(site.feed.WaitForViewers(1));
@@ -311,10 +311,10 @@ TEST(WebSocket, ReportsACameraSelectedByOneClientToAll) {
   chooser.Send(R"({"camera": "iso"})");
   EXPECT_EQ(other.ReceiveText("details")["details"]["camera"], "iso");
   EXPECT_EQ(site.feed.camera(), "iso");
-  EXPECT_EQ(site.Get("/api/cameras").json()["live"], "iso");
+  EXPECT_EQ(site.Get("/api/v1/cameras").json()["live"], "iso");
   chooser.Send(R"({"camera": "nowhere"})");
   EXPECT_THAT(chooser.ReceiveText("error")["error"].get<std::string>(), HasSubstr("nowhere"));
-  EXPECT_EQ(site.Get("/api/cameras").json()["live"], "iso");
+  EXPECT_EQ(site.Get("/api/v1/cameras").json()["live"], "iso");
 }
 
 TEST(WebSocket, ReportsThatThereAreNoPicturesWhoseCameraCouldBeSelected) {
@@ -378,33 +378,45 @@ TEST(WebSocket, NeedsTheTokenAndThePageOfThisServer) {
   const int port = site.server.port();
   const std::string host = "127.0.0.1:" + std::to_string(port);
   const Headers cookie = {{"Cookie", "kinescope_" + std::to_string(port) + "=s3cret-of-the-lab"}};
-  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws"); }), "refused: 401");
-  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws?token=wrong"); }), "refused: 401");
-  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws?token=s3cret-of-the-lab"); }), "let in");
-  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws", cookie); }), "let in");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/api/v1/ws"); }), "refused: 401");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/api/v1/ws?token=wrong"); }), "refused: 401");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/api/v1/ws?token=s3cret-of-the-lab"); }), "let in");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/api/v1/ws", cookie); }), "let in");
   Headers from_here = cookie, from_elsewhere = cookie, from_file = cookie;
   from_here["Origin"] = "http://" + host;
   from_elsewhere["Origin"] = "http://evil.example";
   from_file["Origin"] = "null";
-  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws", from_here); }), "let in");
-  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws", from_elsewhere); }), "refused: 403");
-  EXPECT_EQ(Refusal([&] { WsClient(port, "/ws", from_file); }), "refused: 403");
-  EXPECT_EQ(Refusal([&] { WsClient(port, "/api/state", cookie); }), "refused: 404");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/api/v1/ws", from_here); }), "let in");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/api/v1/ws", from_elsewhere); }), "refused: 403");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/api/v1/ws", from_file); }), "refused: 403");
+  EXPECT_EQ(Refusal([&] { WsClient(port, "/api/v1/state", cookie); }), "refused: 404");
+}
+
+TEST(WebSocket, AgreesOnTheVersionOfItsMessages) {
+  const TestServer site;
+  const int port = site.server.port();
+  const auto connect = [&](const std::string& offered) {
+    return WsClient(port, "/api/v1/ws", {{"Sec-WebSocket-Protocol", offered}}).protocol();
+  };
+  EXPECT_EQ(connect("kinescope.v99, " + SocketProtocol()), SocketProtocol());
+  EXPECT_EQ(WsClient(port).protocol(), "") << "offers none";
+  EXPECT_EQ(Refusal([&] { connect("kinescope.v99"); }), "refused: 400");
 }
 
 TEST(WebSocket, AcceptsClientsUpToItsLimit) {
   TestServer site;
   std::vector<std::unique_ptr<WsClient>> clients;
   const auto connect = [&](const std::string& from) {
-    clients.push_back(std::make_unique<WsClient>(site.server.port(), "/ws", Headers(), 0, from));
+    clients.push_back(
+        std::make_unique<WsClient>(site.server.port(), "/api/v1/ws", Headers(), 0, from));
     clients.back()->ReceiveState();
   };
   for (int i = 0; i < kMaxClients / 2; ++i) connect("127.0.0.1");
   EXPECT_EQ(Refusal([&] { WsClient(site.server.port()); }), "refused: 503") << "half is its share";
-  const Response full = site.Get("/ws", {{"Connection", "Upgrade"},
-                                         {"Upgrade", "websocket"},
-                                         {"Sec-WebSocket-Key", "AAAAAAAAAAAAAAAAAAAAAA=="},
-                                         {"Sec-WebSocket-Version", "13"}});
+  const Response full = site.Get("/api/v1/ws", {{"Connection", "Upgrade"},
+                                                {"Upgrade", "websocket"},
+                                                {"Sec-WebSocket-Key", "AAAAAAAAAAAAAAAAAAAAAA=="},
+                                                {"Sec-WebSocket-Version", "13"}});
   EXPECT_THAT(full.json()["error"].get<std::string>(),
               AllOf(HasSubstr("64 WebSockets of 127.0.0.1"), HasSubstr("64 of 128 in all"),
                     HasSubstr("Close other pages")));

@@ -45,7 +45,7 @@ TEST_F(Flood, LosesNoSampleOfAPersonBesideHostileDatagramsOfEveryKind) {
   ASSERT_TRUE(Spin([&] {
     if (stamps_.size() <= kSamples) return false;
     source = nlohmann::json::parse(
-        RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out)["source"];
+        RunProgram({"/usr/bin/curl", "-sf", page + "api/v1/diagnostics"}).out)["source"];
     were_named = were_named || !source.at("left_out").empty();
     return were_named && source.at("datagrams").get<std::size_t>() > kDatagrams;
   })) << source;

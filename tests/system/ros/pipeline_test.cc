@@ -103,7 +103,7 @@ class Pipeline : public testing::RosProgram {
 
   // What the page's server says of the newest sample.
   nlohmann::json State() const {
-    return nlohmann::json::parse(RunProgram({"/usr/bin/curl", "-sf", page_ + "api/state"}).out);
+    return nlohmann::json::parse(RunProgram({"/usr/bin/curl", "-sf", page_ + "api/v1/state"}).out);
   }
 
   std::unique_ptr<Process> server_;
@@ -173,8 +173,9 @@ TEST_F(Pipeline, ShowsThePersonAtTheStatesPositionAndOnThePage) {
   WaitForLine(*server_, "live: ");
 
   const std::string png = folder_.path() / "snapshot.png";
-  const auto fetched = RunProgram(
-      {"/usr/bin/curl", "-sfo", png, page_ + "snapshot.png?camera=front&width=960&height=540"});
+  const auto fetched =
+      RunProgram({"/usr/bin/curl", "-sfo", png,
+                  page_ + "api/v1/snapshot.png?camera=front&width=960&height=540"});
   ASSERT_EQ(fetched.exit_code, 0) << fetched.err;
   const render::Image image = render::ReadPng(png);
   std::shared_ptr<const SceneState> state;

@@ -76,9 +76,9 @@ class RosSource : public testing::RosProgram {
     return count;
   }
 
-  // What /api/diagnostics says about the source.
+  // What /api/v1/diagnostics says about the source.
   static nlohmann::json SourceAt(const std::string& page) {
-    const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/diagnostics"}).out;
+    const auto text = RunProgram({"/usr/bin/curl", "-sf", page + "api/v1/diagnostics"}).out;
     return nlohmann::json::parse(text).value("source", nlohmann::json::object());
   }
 

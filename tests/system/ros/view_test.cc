@@ -44,7 +44,7 @@ class ViewOverRos : public testing::RosProgram {
     port_ = std::stoi(url.substr(colon + 1));
   }
   nlohmann::json Diagnostics(const std::string& part) const {
-    return Fetch(port_, "/api/diagnostics").json().at(part);
+    return Fetch(port_, "/api/v1/diagnostics").json().at(part);
   }
 
   // Frames by stamp, as they come.
@@ -152,10 +152,10 @@ TEST_F(ViewOverRos, IsRenderedAtItsRateOnlyWhileItHasSubscribers) {
   subscribers_.clear();
   ASSERT_TRUE(Spin([&] { return Diagnostics("view").at("listeners") == 0; }));
   const int drawn = drawn_now();
-  const auto state = Fetch(port_, "/api/state").json();
+  const auto state = Fetch(port_, "/api/v1/state").json();
   // More samples have come, and no picture of them.
   ASSERT_TRUE(Spin([&] {
-    return Fetch(port_, "/api/state").json().at("counter").get<int>() >
+    return Fetch(port_, "/api/v1/state").json().at("counter").get<int>() >
            state.at("counter").get<int>() + 100;
   }));
   EXPECT_LE(drawn_now(), drawn + 1) << "one was in hand";

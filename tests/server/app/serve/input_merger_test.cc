@@ -2,11 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "core/system/clocks.h"
+#include "server/app/serve/change_mailbox.h"
 #include "server/loads/joint_score.h"
 #include "server/subject/subject.h"
 
@@ -43,7 +45,9 @@ class Wired {
   explicit Wired(ros_bridge::RosBridge* ros = nullptr)
       : builder({}, "test", 0,
                 [this](std::shared_ptr<const SceneState> state) { last = std::move(state); }),
-        sink(builder, overload, hand_loads, ros, [this](int count) { subscribers = count; }) {}
+        sink(
+            builder, overload, hand_loads, ros, [this](int count) { subscribers = count; },
+            &changes) {}
 
   // A second of samples: longer than ramps and held peaks.
   const SceneState& RunOneSecond(const std::vector<int>& characters = {0}) {
@@ -56,6 +60,7 @@ class Wired {
 
   std::shared_ptr<const SceneState> last;
   HandLoadMailbox hand_loads;
+  ChangeMailbox changes;
   SceneBuilder builder;
   Overload overload{/*may_skip=*/false};
   InputMerger sink;
@@ -84,6 +89,84 @@ TEST(HandLoads, ApplyToOnePersonOnly) {
   EXPECT_EQ(scene.people[1].forces.hands[kRight].mass_kg, 3);
 }
 
+TEST(HandLoads, OfOneHandReplaceThoseOfBothAndAreNotAdded) {
+  Wired wired;
+  HandLoad both;
+  both.is_known = true;
+  both.both_kg = 10;
+  EXPECT_EQ(wired.hand_loads.Put(0, both), "");
+  const BodyForces held = wired.RunOneSecond().people[0].forces;
+  EXPECT_NEAR(held.hands[kRight].mass_kg + held.hands[urdf::kLeft].mass_kg, 10, 1e-9);
+  EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(5)), "");
+  const BodyForces& replaced = wired.RunOneSecond().people[0].forces;
+  EXPECT_NEAR(replaced.hands[kRight].mass_kg, 5, 1e-9);
+  EXPECT_NEAR(replaced.hands[urdf::kLeft].mass_kg, 0, 1e-9);
+  EXPECT_EQ(replaced.stated_hand_load.both_kg, 0);
+}
+
+TEST(Changes, ReachThePersonAndTheLimitsWithTheNextSamples) {
+  Wired wired;
+  wired.RunOneSecond({0, 1});
+  PersonChange change;
+  change.mass_kg = 90;
+  change.sex = urdf::Sex::kFemale;
+  change.name = "Ann";
+  wired.changes.Put(1, change);
+  wired.changes.Put({0.05, 0.1});
+  const SceneState& scene = wired.RunOneSecond({0, 1});
+  EXPECT_EQ(scene.class_limits, (std::array<double, 2>{0.05, 0.1}));
+  EXPECT_EQ(scene.people[0].model->description.mass_kg, 75);
+  EXPECT_TRUE(scene.people[0].model->description.mass_is_assumed);
+  const PersonState& ann = scene.people[1];
+  EXPECT_EQ(ann.name, "Ann");
+  EXPECT_EQ(ann.model->description.mass_kg, 90);
+  EXPECT_FALSE(ann.model->description.mass_is_assumed);
+  EXPECT_EQ(ann.model->description.sex, urdf::Sex::kFemale);
+  EXPECT_NEAR(urdf::TotalMass(ann.model->human.body), 90, 1e-9);
+  for (const PersonState& person : scene.people) {
+    for (const JointLoad& load : person.loads) {
+      if (!(load.shown_ratio > 0.2)) continue;
+      EXPECT_EQ(load.load_class, LoadClass::kHigh) << load.joint;
+    }
+  }
+  const double strength_of_men = LoadOf(scene.people[0], urdf::jRightShoulder).capacity;
+  EXPECT_LT(LoadOf(ann, urdf::jRightShoulder).capacity, strength_of_men);
+}
+
+TEST(Changes, OfTheSexChangeAMassThatIsAssumedAndNoOther) {
+  Wired wired;
+  wired.RunOneSecond();
+  PersonChange change;
+  change.sex = urdf::Sex::kFemale;
+  wired.changes.Put(0, change);
+  const urdf::BodyDescription assumed = wired.RunOneSecond().people[0].model->description;
+  EXPECT_EQ(assumed.mass_kg, urdf::DefaultMass(urdf::Sex::kFemale));
+  EXPECT_TRUE(assumed.mass_is_assumed);
+  change = {};
+  change.mass_kg = 70;
+  wired.changes.Put(0, change);
+  change = {};
+  change.sex = urdf::Sex::kMale;
+  wired.changes.Put(0, change);
+  const urdf::BodyDescription stated = wired.RunOneSecond().people[0].model->description;
+  EXPECT_EQ(stated.mass_kg, 70);
+  EXPECT_EQ(stated.sex, urdf::Sex::kMale);
+}
+
+TEST(Changes, OfAPersonAreCheckedAsTheOptionsAre) {
+  PersonChange change;
+  EXPECT_EQ(FindDefect(change), "");
+  change.mass_kg = 301;
+  EXPECT_NE(FindDefect(change), "");
+  change.mass_kg = std::nan("");
+  EXPECT_NE(FindDefect(change), "");
+  change.mass_kg = 80;
+  change.height_m = 0.4;
+  EXPECT_NE(FindDefect(change), "");
+  change.height_m = 1.8;
+  EXPECT_EQ(FindDefect(change), "");
+}
+
 TEST(HandLoads, ChangeNothingIfTheyAreRejected) {
   Wired wired;
   EXPECT_EQ(wired.hand_loads.Put(0, InRightHand(4)), "");
@@ -98,6 +181,8 @@ class TellingBridge : public ros_bridge::RosBridge {
  public:
   void Publish(const SceneState&) override {}
   void PublishView(const ros_bridge::RosImage&) override {}
+  void PublishDiagnostics(const std::vector<ros_bridge::Diagnosis>& /*all*/) override {}
+  bool PublishMark(const ros_bridge::RosMark& /*mark*/) override { return true; }
   void TakeInputs(ros_bridge::InputSink& sink) override {
     if (measured) sink.OnMeasurements(0, *measured);
     if (load) sink.OnHandLoad(0, *load);

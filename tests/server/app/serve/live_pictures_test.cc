@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <future>
 #include <memory>
 #include <string>
 #include <thread>
 
 #include "core/system/errors.h"
+#include "core/system/scratch_folder.h"
 #include "render/image/png_file.h"
 #include "tests/render/test_scene.h"
 #include "tests/server/picture/fake_renderer.h"
@@ -108,42 +110,66 @@ std::pair<int, int> SizeOfPng(const std::vector<std::uint8_t>& png) {
 TEST_F(LivePicturesTest, RendersSnapshotsOfAnySizeAndCameraBesideTheLivePicture) {
   Start();
   const auto live = Next()->jpeg;
-  const auto front = live_->SnapshotPng("front", 64, 48);
-  const auto top = live_->SnapshotPng("top", 64, 48);
+  const auto front = live_->SnapshotPng({"front", 64, 48});
+  const auto top = live_->SnapshotPng({"top", 64, 48});
   EXPECT_EQ(SizeOfPng(front), std::pair(64, 48));
   EXPECT_NE(front, top);
-  EXPECT_EQ(SizeOfPng(live_->SnapshotPng("top", 80, 20)), std::pair(80, 20));
-  EXPECT_EQ(live_->SnapshotPng("top", 64, 48), top) << "the same every time";
+  EXPECT_EQ(SizeOfPng(live_->SnapshotPng({"top", 80, 20})), std::pair(80, 20));
+  EXPECT_EQ(live_->SnapshotPng({"top", 64, 48}), top) << "the same every time";
   live_->SetViewers(1);
   EXPECT_EQ(Next()->jpeg, live);
 }
 
+// 0 to 255, of the left upper pixel: the background.
+int BrightnessOf(const std::vector<std::uint8_t>& png) {
+  const ScratchFolder folder;
+  const auto path = folder / "picture.png";
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(png.data()), static_cast<std::streamsize>(png.size()));
+  const render::Image image = render::ReadPng(path);
+  return (image.rgba[0] + image.rgba[1] + image.rgba[2]) / 3;
+}
+
+TEST_F(LivePicturesTest, HasAThemeForEachSnapshotAndOneForTheLivePicture) {
+  Start();
+  const auto light = Next()->jpeg;
+  EXPECT_GT(BrightnessOf(live_->SnapshotPng({"front", 64, 48})), 150);
+  EXPECT_LT(BrightnessOf(live_->SnapshotPng({"front", 64, 48, true})), 80);
+  live_->SetViewers(1);
+  EXPECT_EQ(Next()->jpeg, light);
+  live_->SetDark(true);
+  EXPECT_NE(Next()->jpeg, light);
+  EXPECT_GT(BrightnessOf(live_->SnapshotPng({"front", 64, 48})), 150) << "snapshots keep theirs";
+  live_->SetDark(false);
+  EXPECT_EQ(Next()->jpeg, light);
+}
+
 TEST_F(LivePicturesTest, UsesTheLiveCameraForSnapshotsWithoutACamera) {
   Start();
-  EXPECT_EQ(live_->SnapshotPng("", 64, 48), live_->SnapshotPng("front", 64, 48));
+  EXPECT_EQ(live_->SnapshotPng({"", 64, 48}), live_->SnapshotPng({"front", 64, 48}));
   EXPECT_TRUE(live_->SetCamera("top"));
-  EXPECT_EQ(live_->SnapshotPng("", 64, 48), live_->SnapshotPng("top", 64, 48));
+  EXPECT_EQ(live_->SnapshotPng({"", 64, 48}), live_->SnapshotPng({"top", 64, 48}));
 }
 
 TEST_F(LivePicturesTest, ShowsTheNewestStateInASnapshot) {
   Start();
-  const auto standing = live_->SnapshotPng("front", 64, 48);
+  const auto standing = live_->SnapshotPng({"front", 64, 48});
   auto bent = std::make_shared<SceneState>(testing::SceneWith(testing::Posture::kDeepBend));
   live_->OnState(bent);
-  EXPECT_NE(live_->SnapshotPng("front", 64, 48), standing);
+  EXPECT_NE(live_->SnapshotPng({"front", 64, 48}), standing);
 }
 
 TEST_F(LivePicturesTest, ReportsAnInvalidSnapshotOnlyToItsRequester) {
   Start();
   Next();
   try {
-    live_->SnapshotPng("upside_down", 64, 48);
+    live_->SnapshotPng({"upside_down", 64, 48});
     FAIL() << "a camera that does not exist";
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr("upside_down"));
   }
   EXPECT_EQ(live_->status().last_error, "");
-  EXPECT_EQ(SizeOfPng(live_->SnapshotPng("front", 64, 48)), std::pair(64, 48));
+  EXPECT_EQ(SizeOfPng(live_->SnapshotPng({"front", 64, 48})), std::pair(64, 48));
   live_->SetViewers(1);
   EXPECT_EQ(Next()->state_number, 1u);
 }
@@ -176,7 +202,7 @@ TEST(LivePictures, GoOnWhileASnapshotIsRendered) {
   LivePictures live(settings, make_renderer, NumberedScene(1), pictures);
   std::uint64_t seen = 0;
   pictures.WaitNewer(seen, kPicturePatience);
-  std::thread client([&] { live.SnapshotPng("front", 48, 32); });
+  std::thread client([&] { live.SnapshotPng({"front", 48, 32}); });
   begun.get_future().wait();
   live.SetViewers(1);
   live.OnState(NumberedScene(2));
@@ -195,10 +221,10 @@ TEST_F(LivePicturesTest, UsesTheLiveOptionsForSnapshotsWithoutACamera) {
   moves.projection = true;
   moves.fit = Fit::kNow;
   Start("left", moves);
-  EXPECT_EQ(live_->SnapshotPng("", 64, 48), PngBy("left", moves));
-  EXPECT_EQ(live_->SnapshotPng("left", 64, 48), PngBy("left", {})) << "a named one has none";
+  EXPECT_EQ(live_->SnapshotPng({"", 64, 48}), PngBy("left", moves));
+  EXPECT_EQ(live_->SnapshotPng({"left", 64, 48}), PngBy("left", {})) << "a named one has none";
   EXPECT_TRUE(live_->SetCamera("front"));
-  EXPECT_EQ(live_->SnapshotPng("", 64, 48), PngBy("front", moves)) << "they stay";
+  EXPECT_EQ(live_->SnapshotPng({"", 64, 48}), PngBy("front", moves)) << "they stay";
 }
 
 }  // namespace

@@ -58,8 +58,8 @@ class PictureProblems : public ::testing::Test {
   // After a picture of `scene`.
   nlohmann::json ProblemsWith(const SceneState& scene) {
     drawing_.OnState(std::make_shared<const SceneState>(scene));
-    EXPECT_EQ(Fetch(server_.port(), "/snapshot.png?width=64&height=64").status, 200);
-    return Fetch(server_.port(), "/api/diagnostics").json().at("pictures").at("problems");
+    EXPECT_EQ(Fetch(server_.port(), "/api/v1/snapshot.png?width=64&height=64").status, 200);
+    return Fetch(server_.port(), "/api/v1/diagnostics").json().at("pictures").at("problems");
   }
 
   Latest<SceneState> states_;

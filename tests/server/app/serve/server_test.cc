@@ -34,12 +34,12 @@ TEST(Server, AnswersBeforeItRunsAndReportsNullForPartsThatAreOff) {
   const testing::CapturedLog log;
   const Server server(ConfigOf({{"http_port", "0"}, {"pictures", "off"}}));
   const int port = PortIn(log);
-  const auto diagnostics = Fetch(port, "/api/diagnostics").json();
+  const auto diagnostics = Fetch(port, "/api/v1/diagnostics").json();
   EXPECT_EQ(diagnostics.at("source").at("liveness"), "no data");
   EXPECT_TRUE(diagnostics.at("ros").is_null());
   EXPECT_TRUE(diagnostics.at("pictures").is_null());
   EXPECT_TRUE(diagnostics.at("view").is_null());
-  EXPECT_EQ(Fetch(port, "/snapshot.png").status, 503);
+  EXPECT_EQ(Fetch(port, "/api/v1/snapshot.png").status, 503);
 }
 
 TEST(Server, LogsTheTokenWholeOnlyOnATerminal) {
@@ -81,7 +81,7 @@ TEST(Server, HasATokenForViewersBesideThatOfTheOperator) {
   EXPECT_THAT(log.text(), HasSubstr("to see it: cat " + viewer_file + ")"));
   EXPECT_THAT(log.text(), Not(HasSubstr(config.page->viewer_token)));
   const auto role_of = [&](const std::string& token) {
-    return Fetch(PortIn(log), "/api/session?token=" + token).json().at("role");
+    return Fetch(PortIn(log), "/api/v1/session?token=" + token).json().at("role");
   };
   EXPECT_EQ(role_of(config.page->viewer_token), "viewer");
   EXPECT_EQ(role_of(config.page->token), "operator");
@@ -117,7 +117,7 @@ TEST(Server, RejectsAPortInUseAndLeavesTheFirstServerRunning) {
   } catch (const UsageError& error) {
     EXPECT_THAT(error.what(), HasSubstr(std::to_string(port)));
   }
-  EXPECT_EQ(Fetch(port, "/snapshot.png?width=64&height=48").status, 200);
+  EXPECT_EQ(Fetch(port, "/api/v1/snapshot.png?width=64&height=48").status, 200);
 }
 
 }  // namespace

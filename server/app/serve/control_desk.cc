@@ -1,0 +1,342 @@
+#include "server/app/serve/control_desk.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+#include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/system/clocks.h"
+#include "core/system/json_text.h"
+#include "render/camera/camera.h"
+#include "server/scene/scene_options.h"
+
+namespace kinescope::app {
+namespace {
+
+using http::ControlRefusal;
+using nlohmann::json;
+
+constexpr std::int64_t kStatusEvery = kNanosPerSecond / 2;
+constexpr std::size_t kMostFiles = 1000;                   // listed
+constexpr double kShortestClip = 0.1, kLongestClip = 600;  // s
+
+std::string Kilograms(double mass) { return fmt::format("{:g} kg", mass); }
+
+const char* NameOf(urdf::Sex sex) { return sex == urdf::Sex::kFemale ? "female" : "male"; }
+
+std::string PercentText(const std::array<double, 2>& limits) {
+  return fmt::format("{:g} % and {:g} %", 100 * limits[0], 100 * limits[1]);
+}
+
+// "20261123T065549-123Z".
+std::string TimeName() {
+  const std::int64_t millis = WallNanos() / kNanosPerMilli;
+  const auto secs = static_cast<std::time_t>(millis / 1000);
+  std::tm parts{};
+  ::gmtime_r(&secs, &parts);
+  char name[32];
+  std::strftime(name, sizeof name, "%Y%m%dT%H%M%S", &parts);
+  return fmt::format("{}-{:03}Z", name, millis % 1000);
+}
+
+// As options and messages call a person.
+std::string NameOf(const PersonState& person) {
+  return person.name.empty() ? "person " + std::to_string(person.character) : person.name;
+}
+
+const PersonState* FindPerson(const SceneState* state, int character) {
+  for (std::size_t i = 0; state != nullptr && i < state->people.size(); ++i) {
+    if (state->people[i].character == character) return &state->people[i];
+  }
+  return nullptr;
+}
+
+// --hand_load; without the places of loads that are not at the grip.
+std::string HandLoadOption(const HandLoad& load) {
+  std::string text;
+  const auto add = [&text](const char* where, double kilograms) {
+    if (kilograms > 0) text += fmt::format("{}{}:{:g}", text.empty() ? "" : ",", where, kilograms);
+  };
+  add("right", load.mass_kg[urdf::kRight]);
+  add("left", load.mass_kg[urdf::kLeft]);
+  add("both", load.both_kg);
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+ControlDesk::ControlDesk(DeskParts parts)
+    : parts_(std::move(parts)),
+      start_micros_(WallNanos() / 1000),
+      log_(parts_.marks, parts_.states),
+      trials_(parts_.folder),
+      camera_(parts_.camera) {}
+
+ControlDesk::~ControlDesk() {
+  if (running_) StopTrial();
+}
+
+ControlStatus ControlDesk::Look() {
+  ControlStatus status;
+  status.why_no_recording = parts_.why_no_recording;
+  status.why_no_clips = parts_.why_no_clips;
+  status.why_no_trials = WhyNoTrial();
+  if (parts_.recorder != nullptr) status.recording = parts_.recorder->status();
+  if (const auto free = parts_.folder.free_bytes()) {
+    const auto spare = recording::RawRecorder::kSpareBytes;
+    status.free_bytes = *free > spare ? *free - spare : 0;
+  }
+  status.trial = running_;
+  status.jobs = workshop_.jobs();
+  status.state = parts_.states.Get();
+  status.stated = stated_;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status.held = held_;
+  }
+  status.first_held = {parts_.first_hand_load, start_micros_, "option"};
+  status.class_limits = ClassLimitsNow();
+  status.class_limits_are_set = class_limits_.has_value();
+  const bool is_recording = status.recording.state != recording::RawRecorder::State::kOff;
+  const std::uint64_t ended = workshop_.ended();
+  if (ended != jobs_seen_ended_ || (was_recording_ && !is_recording)) ++files_revision_;
+  jobs_seen_ended_ = ended;
+  was_recording_ = is_recording;
+  status.files_revision = files_revision_;
+  return status;
+}
+
+std::string ControlDesk::StatusJson() {
+  const std::int64_t now = MonotonicNanos();
+  if (now < status_due_nanos_) return status_;
+  status_due_nanos_ = now + kStatusEvery;
+  status_ = ToJson(Look());
+  return status_;
+}
+
+std::string ControlDesk::FilesJson(http::Role role) {
+  const std::string folder = http::MayAct(role, http::Role::kOperator)
+                                 ? std::filesystem::absolute(parts_.folder.path()).string()
+                                 : std::string();
+  return FilesToJson(folder, files_revision_, RunMicros(), parts_.folder.List(kMostFiles),
+                     trials_.trials());
+}
+
+std::optional<std::filesystem::path> ControlDesk::FindFile(const std::string& name) const {
+  return parts_.folder.Find(name);
+}
+
+ControlDesk::Result ControlDesk::Record(const http::RecordingOrder& order, http::Role role) {
+  if (parts_.recorder == nullptr) return RefuseOrder(409, parts_.why_no_recording);
+  if (running_) return RefuseOrder(409, "a trial runs and is recorded; stop the trial first");
+  status_due_nanos_ = 0;
+  const std::string before = parts_.recorder->status().file;
+  if (!order.run) {
+    if (parts_.recorder->status().state != recording::RawRecorder::State::kOn) {
+      return RefuseOrder(409, "nothing is recorded now");
+    }
+    parts_.recorder->Stop();
+    log_.Note(http::Name(role), "recording", before, "stopped");
+    return JsonText(json{{"file", before}});
+  }
+  const std::string stem =
+      parts_.folder.FreeStem(recording::NamePart(order.label, "recording") + "_" + TimeName());
+  const std::string wrong = parts_.recorder->Start(stem);
+  if (!wrong.empty()) return RefuseOrder(409, wrong);
+  was_recording_ = true;
+  ++files_revision_;
+  log_.Note(http::Name(role), "recording", "off", stem + ".pcap");
+  return JsonText(json{{"file", stem + ".pcap"}});
+}
+
+tl::expected<ClipSpan, ControlRefusal> ControlDesk::SpanOf(const http::ClipOrder& order) const {
+  const auto extent = parts_.history->extent();
+  const marks::Moment now = log_.Now();
+  if (!extent || now.state == 0) return RefuseOrder(409, "no sample has come yet");
+  const auto too_long = [](double secs) {
+    return fmt::format("a clip of {:.1f} s; expected {} to {} s", secs, kShortestClip,
+                       kLongestClip);
+  };
+  const double kept = Secs(now.made_nanos - extent->first_nanos);
+  if (order.from_micros) {
+    const ClipSpan span = {1000 * *order.from_micros, 1000 * *order.to_micros};
+    const double secs = Secs(span.to_nanos - span.from_nanos);
+    if (!(secs >= kShortestClip && secs <= kLongestClip)) return RefuseOrder(400, too_long(secs));
+    if (span.to_nanos > now.made_nanos + kNanosPerSecond) {
+      return RefuseOrder(409,
+                         "the end of this clip has not come yet; ask for the next seconds instead");
+    }
+    if (span.from_nanos < extent->first_nanos) {
+      return RefuseOrder(410,
+                         fmt::format("the beginning of this clip is no longer kept: {:.1f} s are "
+                                     "(--history_minutes)",
+                                     kept));
+    }
+    return span;
+  }
+  const double secs = order.last_secs.value_or(order.next_secs.value_or(0));
+  if (!(secs >= kShortestClip && secs <= kLongestClip)) return RefuseOrder(400, too_long(secs));
+  const auto nanos = static_cast<std::int64_t>(secs * 1e9);
+  if (order.next_secs) return ClipSpan{now.made_nanos, now.made_nanos + nanos};
+  if (now.made_nanos - nanos < extent->first_nanos) {
+    return RefuseOrder(410, fmt::format("the last {:g} s are more than is kept: {:.1f} s "
+                                        "(--history_minutes)",
+                                        secs, kept));
+  }
+  return ClipSpan{now.made_nanos - nanos, now.made_nanos};
+}
+
+tl::expected<std::uint64_t, std::string> ControlDesk::AddClip(const ClipSpan& span,
+                                                              const std::string& camera,
+                                                              const std::string& title,
+                                                              const std::string& name) {
+  std::string wrong = parts_.folder.Prepare();
+  const auto free = parts_.folder.free_bytes();
+  if (wrong.empty() && free && *free < recording::RawRecorder::kSpareBytes) {
+    wrong = "the disk is full; delete files, or choose another disk with --recordings_folder";
+  }
+  if (!wrong.empty()) return tl::unexpected(wrong);
+  const ClipMakerOrder order = {span, camera, title, parts_.folder.path() / name};
+  return workshop_.Add("clip", name, [this, order](Workshop::Progress& progress) {
+    parts_.clips->Make(order, progress);
+  });
+}
+
+ControlDesk::Result ControlDesk::Clip(const http::ClipOrder& order, http::Role /*role*/) {
+  status_due_nanos_ = 0;
+  if (order.cancel) {
+    if (workshop_.Cancel(*order.cancel)) return JsonText(json{{"id", *order.cancel}});
+    return RefuseOrder(409, "job " + std::to_string(*order.cancel) + " does not wait or run");
+  }
+  if (parts_.clips == nullptr) return RefuseOrder(503, parts_.why_no_clips);
+  const auto& cameras = render::CameraNames();
+  const std::string camera = order.camera.empty() ? camera_ : order.camera;
+  if (std::find(cameras.begin(), cameras.end(), camera) == cameras.end() && !order.camera.empty()) {
+    return RefuseOrder(400, "camera " + camera + ": unknown camera");
+  }
+  const auto span = SpanOf(order);
+  if (!span) return tl::unexpected(span.error());
+  const std::string name = parts_.folder.FreeStem("clip_" + TimeName()) + ".mp4";
+  const auto added = AddClip(*span, camera, "", name);
+  if (!added) return RefuseOrder(409, added.error());
+  return JsonText(json{{"id", *added}, {"file", name}});
+}
+
+ControlDesk::Result ControlDesk::SetPerson(const http::PersonOrder& order, http::Role role) {
+  const auto state = parts_.states.Get();
+  if (state == nullptr || state->people.empty()) {
+    return RefuseOrder(409, "no person in the stream yet");
+  }
+  if (!order.person && state->people.size() > 1) {
+    return RefuseOrder(400, "several persons in the stream; set \"person\"");
+  }
+  const int character = order.person.value_or(state->people.front().character);
+  const PersonState* const person = FindPerson(state.get(), character);
+  if (person == nullptr) return RefuseOrder(404, "unknown person " + std::to_string(character));
+  const PersonChange& change = order.change;
+  const std::string wrong = FindDefect(change);
+  if (!wrong.empty()) return RefuseOrder(400, wrong);
+  const PersonModel& model = *person->model;
+  PersonChange& stated = stated_[character];
+  const std::string who = NameOf(*person), by(http::Name(role));
+  const urdf::BodyDescription& body = model.description;
+  if (change.mass_kg) {
+    log_.Note(by, "mass of " + who, Kilograms(stated.mass_kg.value_or(body.mass_kg)),
+              Kilograms(*change.mass_kg));
+  }
+  if (change.sex) {
+    log_.Note(by, "sex of " + who, NameOf(stated.sex.value_or(body.sex)), NameOf(*change.sex));
+  }
+  if (change.height_m) {
+    const double before = stated.height_m.value_or(model.human.skeleton.height);
+    log_.Note(by, "stature of " + who, fmt::format("{:.3g} m", before),
+              fmt::format("{:.3g} m", *change.height_m));
+  }
+  if (change.name) log_.Note(by, "name of person " + std::to_string(character), who, *change.name);
+  stated.Add(change);
+  parts_.changes.Put(character, change);
+  status_due_nanos_ = 0;
+  json answer = {{"person", character}};
+  if (change.height_m && model.lengths_are_measured) {
+    answer["note"] = fmt::format(
+        "kept as stated; the body has the segment lengths of the stream, which give {:.2f} m",
+        model.human.skeleton.height);
+  }
+  return JsonText(answer);
+}
+
+std::array<double, 2> ControlDesk::ClassLimitsNow() const {
+  const auto state = parts_.states.Get();
+  return class_limits_.value_or(state != nullptr ? state->class_limits : kDefaultClassLimits);
+}
+
+ControlDesk::Result ControlDesk::SetClassLimits(const std::array<double, 2>& limits,
+                                                http::Role role) {
+  ClassLimitsValue value;
+  const std::string text = fmt::format("{},{}", limits[0], limits[1]);
+  try {
+    value.Parse(text);
+  } catch (const options::BadValue&) {
+    return RefuseOrder(400, "class limits " + text + ": expected " + value.Expected());
+  }
+  log_.Note(http::Name(role), "class limits", PercentText(ClassLimitsNow()), PercentText(limits));
+  class_limits_ = *value;
+  parts_.changes.Put(*value);
+  status_due_nanos_ = 0;
+  return JsonText(json{{"class_limits", *value}});
+}
+
+HandLoad ControlDesk::HandLoadOf(int character) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto held = held_.find(character);
+  return held != held_.end() ? held->second.load : parts_.first_hand_load;
+}
+
+void ControlDesk::OnHandLoad(int character, const HandLoad& load, http::Role role) {
+  const auto state = parts_.states.Get();
+  const PersonState* const person = FindPerson(state.get(), character);
+  const std::string who = person != nullptr ? NameOf(*person) : std::to_string(character);
+  log_.Note(http::Name(role), "hand load of " + who, TextOf(HandLoadOf(character)), TextOf(load));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  held_[character] = {load, WallNanos() / 1000, std::string(http::Name(role))};
+  status_due_nanos_ = 0;
+}
+
+void ControlDesk::OnRosHandLoad(int character, const HandLoad& load) {
+  constexpr std::size_t kMostPeople = 256;  // characters of a stream
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (held_.size() >= kMostPeople && held_.count(character) == 0) return;
+  held_[character] = {load, WallNanos() / 1000, "ROS"};
+}
+
+void ControlDesk::OnCamera(const std::string& before, const std::string& after, http::Role role) {
+  log_.Note(http::Name(role), "camera of the server picture", before, after);
+  camera_ = after;
+}
+
+OptionTexts ControlDesk::OptionsNow() const {
+  OptionTexts options = parts_.loads_options;
+  const auto state = parts_.states.Get();
+  if (class_limits_) {
+    SetOption(options, "class_limits",
+              fmt::format("{},{}", (*class_limits_)[0], (*class_limits_)[1]));
+  }
+  if (state == nullptr || state->people.empty()) return options;
+  // The report's options are those of all people in it: of the first one.
+  const int character = state->people.front().character;
+  const auto stated = stated_.find(character);
+  if (stated != stated_.end()) {
+    const PersonChange& change = stated->second;
+    if (change.mass_kg) SetOption(options, "mass", fmt::format("{}", *change.mass_kg));
+    if (change.sex) SetOption(options, "sex", NameOf(*change.sex));
+    if (change.height_m) SetOption(options, "height", fmt::format("{}", *change.height_m));
+  }
+  const HandLoad load = HandLoadOf(character);
+  if (load.is_known) SetOption(options, "hand_load", HandLoadOption(load));
+  return options;
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,136 @@
+#include "server/app/serve/ros_news.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "core/system/clocks.h"
+#include "core/system/utf8.h"
+#include "server/http/mark_order.h"
+
+namespace kinescope::app {
+namespace {
+
+using ros_bridge::Diagnosis;
+
+constexpr std::int64_t kDiagnoseEveryNanos = kNanosPerSecond;
+constexpr std::size_t kMarksPerCall = 100;
+
+std::string Percent(const std::optional<double>& share) {
+  return share ? fmt::format("{:.1f} %", *share * 100) : "unknown";
+}
+
+Diagnosis DiagnosisOfStream(const SceneState* state, const StreamHealth& stream) {
+  Diagnosis diagnosis;
+  diagnosis.name = "stream";
+  const bool is_live = state != nullptr && state->liveness == Liveness::kLive;
+  if (is_live) {
+    diagnosis.message = fmt::format("live, {:.1f} Hz", state->rate_hz);
+  } else {
+    diagnosis.level = Diagnosis::Level::kStale;
+    diagnosis.message = state == nullptr ? "no data" : Name(state->liveness);
+  }
+  diagnosis.values = {{"samples", std::to_string(stream.samples)},
+                      {"lost", std::to_string(stream.lost)},
+                      {"lost or incomplete in 10 s", Percent(stream.recent_loss)},
+                      {"gaps in 10 s", std::to_string(stream.gaps.recent)}};
+  if (state != nullptr) {
+    diagnosis.values.emplace_back("source", state->source);
+    diagnosis.values.emplace_back("people", std::to_string(state->people.size()));
+  }
+  return diagnosis;
+}
+
+// `shown`: by priority. The first one of the rule decides.
+Diagnosis DiagnosisOfRule(const alarms::Rule& rule, const std::vector<alarms::Alarm>& shown) {
+  Diagnosis diagnosis;
+  diagnosis.name = "alarm " + rule.name;
+  diagnosis.message = "no alarm";
+  for (const alarms::Alarm& alarm : shown) {
+    if (alarm.rule.name != rule.name) continue;
+    if (diagnosis.level == Diagnosis::Level::kOk) {
+      diagnosis.level = rule.priority == alarms::Priority::kHigh ? Diagnosis::Level::kError
+                                                                 : Diagnosis::Level::kWarning;
+      diagnosis.message = Describe(alarm);
+    }
+    const std::string whose = alarm.person.empty() ? "stream" : alarm.person;
+    const char* const how = alarm.acknowledged ? "acknowledged" : alarm.is_on() ? "on" : "over";
+    diagnosis.values.emplace_back(whose, fmt::format("{}: {}", how, Describe(alarm)));
+  }
+  return diagnosis;
+}
+
+ros_bridge::RosMark ForRos(const marks::Mark& mark) {
+  ros_bridge::RosMark out;
+  out.id = mark.id;
+  out.revision = mark.revision;
+  out.button = static_cast<std::uint8_t>(mark.button);
+  out.text = mark.text;
+  out.role = mark.role;
+  out.stamp_nanos = mark.at.stamp_nanos;
+  out.counter = mark.at.counter;
+  if (mark.end) out.end_stamp_nanos = mark.end->stamp_nanos;
+  out.is_open = mark.is_open;
+  out.is_removed = mark.is_removed;
+  return out;
+}
+
+}  // namespace
+
+std::vector<Diagnosis> DiagnosesOf(const SceneState* state, const StreamHealth& stream,
+                                   const alarms::Alarms& alarms) {
+  std::vector<Diagnosis> all = {DiagnosisOfStream(state, stream)};
+  const std::vector<alarms::Alarm> shown = alarms.shown();
+  for (const alarms::Rule& rule : alarms.rules().rules) {
+    all.push_back(DiagnosisOfRule(rule, shown));
+  }
+  return all;
+}
+
+RosNews::RosNews(ros_bridge::RosBridge& ros, const alarms::Alarms& alarms, marks::MarkBook* marks,
+                 const Latest<SceneState>& states)
+    : ros_(ros),
+      alarms_(alarms),
+      marks_(marks),
+      states_(states),
+      published_revision_(marks == nullptr ? 0 : marks->revision()) {}
+
+void RosNews::OnTime(std::int64_t now_nanos, const StreamHealth& stream) {
+  PublishMarks();
+  if (now_nanos - diagnosed_nanos_ < kDiagnoseEveryNanos && !is_due_) return;
+  is_due_ = false;
+  diagnosed_nanos_ = now_nanos;
+  ros_.PublishDiagnostics(DiagnosesOf(states_.Get().get(), stream, alarms_));
+}
+
+void RosNews::PublishMarks() {
+  if (marks_ == nullptr || marks_->revision() == published_revision_) return;
+  for (const marks::Mark& mark : marks_->ChangedAfter(published_revision_, kMarksPerCall)) {
+    if (!ros_.PublishMark(ForRos(mark))) return;
+    published_revision_ = mark.revision;
+  }
+}
+
+void RosNews::OnMark(const std::string& text) {
+  const auto state = states_.Get();
+  const std::string line = PrintableLine(text);
+  const std::size_t letters = DecodeUtf8(line).size();
+  const bool is_button = line.size() == 1 && line[0] >= '1' && line[0] <= '9';
+  const auto refuse = [&](const std::string& why) { spdlog::warn("~mark was not kept: {}", why); };
+  if (marks_ == nullptr) return refuse("this server keeps no history (--history_minutes)");
+  if (state == nullptr || state->stamp_nanos == 0) return refuse("no sample has come yet");
+  if (line.find_first_not_of(' ') == std::string::npos) return refuse("its text is empty");
+  if (letters > http::kLongestMark) {
+    return refuse(fmt::format("{} characters are more than {}", letters, http::kLongestMark));
+  }
+  marks::NewMark mark;
+  mark.button = is_button ? line[0] - '0' : 0;
+  mark.text = line;
+  mark.role = "ros";
+  mark.at = {state->number, state->made_nanos, state->stamp_nanos, state->time_code_millis,
+             state->counter};
+  if (const auto kept = marks_->Add(mark); !kept) refuse(kept.error());
+}
+
+}  // namespace kinescope::app

@@ -1,0 +1,48 @@
+/// What ROS hears beside the states: diagnostics of stream and alarms, and marks; and marks that
+/// come from ROS. Reading thread only, except where stated.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/scene_state.h"
+#include "core/system/latest.h"
+#include "server/alarms/alarms.h"
+#include "server/app/serve/stream_health.h"
+#include "server/marks/mark_book.h"
+#include "server/ros/bridge.h"
+
+namespace kinescope::app {
+
+/// One diagnosis of the stream, and one of each rule. `state` may be null.
+std::vector<ros_bridge::Diagnosis> DiagnosesOf(const SceneState* state, const StreamHealth& stream,
+                                               const alarms::Alarms& alarms);
+
+class RosNews {
+ public:
+  /// `marks` may be null. All references are borrowed.
+  RosNews(ros_bridge::RosBridge& ros, const alarms::Alarms& alarms, marks::MarkBook* marks,
+          const Latest<SceneState>& states);
+
+  /// An alarm has changed: its diagnosis is due. Any thread.
+  void OnAlarm() { is_due_ = true; }
+  /// Call it many times a second.
+  void OnTime(std::int64_t now_nanos, const StreamHealth& stream);
+  /// Marks the newest sample with a text of `~mark`; "1" to "9" mean the mark of that button.
+  void OnMark(const std::string& text);
+
+ private:
+  void PublishMarks();
+
+  ros_bridge::RosBridge& ros_;
+  const alarms::Alarms& alarms_;
+  marks::MarkBook* const marks_;
+  const Latest<SceneState>& states_;
+  std::atomic<bool> is_due_{true};
+  std::int64_t diagnosed_nanos_ = 0;
+  std::uint64_t published_revision_;  // of the marks
+};
+
+}  // namespace kinescope::app

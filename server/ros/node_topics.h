@@ -1,0 +1,22 @@
+/// The topics of the node that belong to no person: `/diagnostics`, `~marks` and `~mark`.
+#pragma once
+
+#include <ros/publisher.h>
+
+#include <string>
+#include <vector>
+
+#include "server/ros/bridge.h"
+
+namespace kinescope::ros_bridge {
+
+/// Any thread may publish.
+struct NodeTopics {
+  ros::Publisher diagnostics, marks;
+};
+
+/// Publishes nothing without subscribers.
+void PublishDiagnostics(const std::vector<Diagnosis>& all, const NodeTopics& topics);
+void PublishMark(const RosMark& mark, const std::string& reference_frame, const NodeTopics& topics);
+
+}  // namespace kinescope::ros_bridge

@@ -1,0 +1,109 @@
+// Diagnostics, alarms and marks over ROS, with everything real: a master, `kinescope serve`, and
+// this test as the one who listens and marks.
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <kinescope/Mark.h>
+#include <std_msgs/String.h>
+
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/server/http/test_client.h"
+#include "tests/system/ros/ros_fixture.h"
+
+namespace kinescope {
+namespace {
+
+using http::testing::Fetch;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+class NewsOverRos : public testing::RosProgram {
+ protected:
+  void StartServe(const std::string& options) {
+    setenv("XDG_STATE_HOME", folder_.path().c_str(), 1);
+    program_ =
+        Start("serve demo:lift --ros required --http_port 0 --pictures off --tf off " + options);
+    const std::string url = WaitForLine(*program_, "page at ");
+    const std::size_t colon = url.rfind(':');
+    ASSERT_NE(colon, std::string::npos) << url;
+    port_ = std::stoi(url.substr(colon + 1));
+  }
+  void HearDiagnostics() {
+    Hear<diagnostic_msgs::DiagnosticArray>("/diagnostics",
+                                           [this](const diagnostic_msgs::DiagnosticArray& message) {
+                                             for (const auto& status : message.status)
+                                               diagnoses_[status.name] = status;
+                                           });
+  }
+  json Post(const std::string& target, const json& body) const {
+    return Fetch(port_, target, {{"Content-Type", "application/json"}}, "POST", body.dump()).json();
+  }
+
+  std::unique_ptr<testing::Process> program_;
+  int port_ = 0;
+  std::map<std::string, diagnostic_msgs::DiagnosticStatus> diagnoses_;  // by name
+};
+
+TEST_F(NewsOverRos, DiagnosticsSayHowTheStreamIsAndWhichAlarmsAreOn) {
+  const std::string rules = (folder_ / "rules.yaml").string();
+  std::ofstream(rules) << "rules:\n"
+                          "  - {name: always, value: compression, above: 0, priority: high}\n"
+                          "  - {name: never, value: compression, above: 50000}\n";
+  StartServe("--alarms " + rules);
+  HearDiagnostics();
+  ASSERT_TRUE(Spin([&] { return diagnoses_["kinescope: alarm always"].level == 2; }));
+  EXPECT_THAT(diagnoses_["kinescope: alarm always"].message, HasSubstr("L5/S1 compression"));
+  EXPECT_EQ(diagnoses_["kinescope: alarm never"].level, 0);
+  EXPECT_EQ(diagnoses_["kinescope: alarm never"].message, "no alarm");
+  EXPECT_EQ(diagnoses_["kinescope: alarm lost"].level, 0);
+  ASSERT_TRUE(Spin([&] { return diagnoses_["kinescope: stream"].level == 0; }));
+  EXPECT_THAT(diagnoses_["kinescope: stream"].message, HasSubstr("live, "));
+  EXPECT_EQ(Post("/api/v1/acknowledge", {{"id", 1}})["acknowledged"]["role"], "operator");
+  EXPECT_TRUE(Spin([&] {
+    const auto& values = diagnoses_["kinescope: alarm always"].values;
+    return !values.empty() && values[0].value.rfind("acknowledged: ", 0) == 0;
+  }));
+}
+
+TEST_F(NewsOverRos, MarksComeFromRosAndAreHeardThere) {
+  StartServe("");
+  std::vector<kinescope_ros::Mark> heard;
+  Hear<kinescope_ros::Mark>("/kinescope/marks",
+                            [&](const kinescope_ros::Mark& mark) { heard.push_back(mark); });
+  ros::Publisher out = node_->advertise<std_msgs::String>("/kinescope/mark", 10);
+  ASSERT_TRUE(Spin([&] {
+    return out.getNumSubscribers() > 0 && subscribers_.front().getNumPublishers() > 0 &&
+           Fetch(port_, "/api/v1/state").json()["liveness"] == "live";
+  }));
+  const auto mark = [&](const std::string& text) {
+    std_msgs::String message;
+    message.data = text;
+    out.publish(message);
+  };
+  for (const std::string& text : {std::string("belt <b>slipped</b>"), std::string(" "),
+                                  std::string(300, 'x'), std::string("2")}) {
+    mark(text);
+  }
+  ASSERT_TRUE(Spin([&] { return heard.size() == 2; })) << heard.size();
+  EXPECT_EQ(heard[0].text, "belt <b>slipped</b>");
+  EXPECT_EQ(heard[0].button, 0);
+  EXPECT_EQ(heard[0].role, "ros");
+  EXPECT_FALSE(heard[0].is_span);
+  EXPECT_EQ(heard[1].text, "lift") << "the name of button 2";
+  EXPECT_EQ(heard[1].button, 2);
+  const json kept = Fetch(port_, "/api/v1/marks").json()["marks"];
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_EQ(kept[0]["at"]["counter"], heard[0].counter);
+  EXPECT_EQ(kept[0]["at"]["stamp_micros"], heard[0].header.stamp.toNSec() / 1000);
+  Post("/api/v1/mark", {{"id", heard[0].id}, {"remove", true}});
+  ASSERT_TRUE(Spin([&] { return heard.size() == 3; }));
+  EXPECT_TRUE(heard[2].is_removed);
+  EXPECT_EQ(heard[2].id, heard[0].id);
+}
+
+}  // namespace
+}  // namespace kinescope
