@@ -11,7 +11,7 @@ import { RecentValues } from './clock.js';
 import { Controls } from './controls.js';
 import { mountDiagnostics, problemLines } from './diagnostics.js';
 import { findElements } from './elements.js';
-import { hexColor, percent } from './format.js';
+import { hexColor, limitPercent } from './format.js';
 import { mountHandLoad } from './hand_load.js';
 import { HeadNames } from './head_names.js';
 import { mountKeyMap } from './key_map.js';
@@ -368,7 +368,7 @@ function applyClassLimits(limits) {
   style.setProperty('--high-from', String(highFrom));
   fillLegend(elements.legend, [mediumFrom, highFrom]);
   setText('kiosk-line', 'Percent of what a joint of a person of this size and sex can do: '
-    + `from ${percent(mediumFrom)} on the load is medium, from ${percent(highFrom)} on it is high.`);
+    + `from ${limitPercent(mediumFrom)} on the load is medium, from ${limitPercent(highFrom)} on it is high.`);
 }
 
 async function loadCameras() {

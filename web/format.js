@@ -49,6 +49,10 @@ export function place(seconds, digits = 1) {
 /** @param {number} ratio of capacity; NaN where unknown */
 export const percent = (ratio) => (Number.isFinite(ratio) ? `${Math.round(100 * ratio)} %` : '–');
 
+/** A limit as it was set, to a tenth of a percent.
+ *  @param {number} ratio */
+export const limitPercent = (ratio) => `${Number((100 * ratio).toFixed(1))} %`;
+
 /** @param {number} metres */
 export const centimetres = (metres) => `${(100 * metres).toFixed(1)} cm`;
 

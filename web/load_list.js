@@ -1,5 +1,5 @@
 // The list of joint loads, in order of severity.
-import { age, moment, percent, personLabel } from './format.js';
+import { age, limitPercent, moment, percent, personLabel } from './format.js';
 import { LOAD_CLASSES } from './messages.js';
 
 /** @typedef {import('./messages.js').LoadClass} LoadClass
@@ -174,8 +174,8 @@ class RowElements {
 export function legendWords(limits) {
   return [
     ['low', 'low'],
-    ['medium', `medium > ${percent(limits[0])}`],
-    ['high', `high > ${percent(limits[1])}`],
+    ['medium', `medium > ${limitPercent(limits[0])}`],
+    ['high', `high > ${limitPercent(limits[1])}`],
     ['unknown', 'unknown'],
   ];
 }

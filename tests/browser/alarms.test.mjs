@@ -4,7 +4,7 @@ import { mkdtemp, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test as nodeTest } from 'node:test';
-import { closeBrowser, DESKTOP, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -63,7 +63,7 @@ test('an alarm is shown with what, whose and how much, stays until an operator a
   site.say('compression 2000');
   await alarmIs(page, 'over');
   await headIs(page, / 5\.00 kN compression$/);  // the worst
-  await page.click('#tab-alarms');
+  await chooseTab(page, 'alarms');
   await page.waitForFunction(() => document.querySelectorAll('#alarm-list li').length === 1, null, LONG);
   assert.equal(await page.textContent('#tab-alarms'), 'Alarms (1)');
   assert.match(await page.textContent('#alarm-list small'), /lasted \d+\.\d s · .* · not acknowledged$/);

@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
 import { after, before, test as nodeTest } from 'node:test';
-import { closeBrowser, countPixels, openPage, PHONE, pixelsOf, pixelsOfPng, saveFile, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, countPixels, openPage, PHONE, pixelsOf, pixelsOfPng, saveFile, saveScreenshot, startFixture }
+  from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -150,7 +151,7 @@ test('the strip asks only for what is new, a few times a second, and not while t
 
 async function openPlots(options) {
   const visit = await openLive(3, options);
-  await visit.page.click('#tab-plots');
+  await chooseTab(visit.page, 'plots');
   await visit.page.waitForFunction(() => {
     const [value] = document.querySelectorAll('[data-plot="compression"] output');
     return value?.textContent === '2.15';
@@ -278,7 +279,7 @@ test('a wide page shows plots beside loads or body', async () => {
   assert.equal(await page.isVisible('#loads'), true);
   assert.equal(await page.isVisible('#tab-plots'), false);
   await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output').textContent === '2.15', null, LONG);
-  await page.click('#tab-body');
+  await chooseTab(page, 'body');
   assert.equal(await page.isVisible('#loads'), false);
   assert.equal(await page.isVisible('#body-map'), true);
   await saveScreenshot(page, 'plots_wide');
@@ -287,7 +288,7 @@ test('a wide page shows plots beside loads or body', async () => {
 
 test('the map of the body shows class, percent and exposure of each joint, and a press plots the joint', async () => {
   const { page, problems, close } = await openLive(2);
-  await page.click('#tab-body');
+  await chooseTab(page, 'body');
   await page.waitForFunction(() => document.querySelectorAll('#body-map .joint-card').length === 15, null, LONG);
   const button = (name) => page.locator(`#body-map .joint-card[data-joint="${name}"]`);
   assert.equal(await button('l5_s1').getAttribute('data-class'), 'high');

@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { after, before, test as nodeTest } from 'node:test';
 import { promisify } from 'node:util';
 import { startLab } from './lab.mjs';
-import { closeBrowser, openPage, PHONE, saveScreenshot } from './open_page.mjs';
+import { chooseTab, closeBrowser, openPage, PHONE, saveScreenshot } from './open_page.mjs';
 
 const run = promisify(execFile);
 const LONG = { timeout: 60000 };  // only a failure takes so long
@@ -31,7 +31,7 @@ after(async () => {
 async function openControls(url, options = {}) {
   const visit = await openPage(url, options);
   const { page } = visit;
-  await page.click('#tab-controls');
+  await chooseTab(page, 'controls');
   await page.waitForFunction(() => document.getElementById('limits-note').textContent !== '', null, LONG);
   return visit;
 }
@@ -63,9 +63,9 @@ function lengthOfMp4(bytes) {
 test('a study of 20 trials is run from the page alone', async () => {
   // Not larger than needed, without the server's picture: the view is drawn in software here.
   const { page, problems, close } = await openLive(lab.operator, { viewport: { width: 900, height: 640 } });
-  await page.click('#tab-loads');
+  await chooseTab(page, 'picture');
   await page.uncheck('#picture-on');
-  await page.click('#tab-controls');
+  await chooseTab(page, 'controls');
   const study = ['S07', 'S08'].flatMap((person) => ['lift', 'carry far'].map((condition) => ({ person, condition })));
   for (const { person, condition } of study) {
     await page.fill('#trial-person', person);
@@ -99,7 +99,7 @@ test('a study of 20 trials is run from the page alone', async () => {
       assert.deepEqual(inside.map(({ text }) => text), ['lift'], title);
       const about = JSON.parse(await readFile(join(recordings, `${stem}.json`), 'utf8'));
       assert.deepEqual([about.person, about.condition, about.number, about.recording_problem], [person, condition, number, '']);
-      assert.ok(Math.abs(about.length_secs - secs) < 0.001, title);
+      assert.ok(Math.abs(about.length_secs - secs) < 0.001, `${title}: ${secs} s, in its file ${about.length_secs} s`);
       const recorded = await inspect(join(recordings, `${stem}.pcap`));
       assert.ok(Math.abs(recorded.seconds - secs) < 0.3, `${title}: ${secs} s, recorded ${recorded.seconds} s`);
       const clip = lengthOfMp4(await readFile(join(recordings, `${stem}.mp4`)));
@@ -197,7 +197,7 @@ test('the person, the hand loads and the class limits are changed for all, and e
   await page.fill('#limits-medium', '50');
   await page.click('#limits-form button');
   await textIs(page, 'banner', /class limits 0\.5,0\.4: expected MEDIUM,HIGH: two rising numbers/);
-  await page.click('#tab-loads');
+  await chooseTab(page, 'picture');
   await page.selectOption('#picture-camera', 'top');
   const wanted = ['mass of Demo: 75 kg → 82.5 kg', 'sex of Demo: male → female', 'name of person 0: Demo → <b>Ann</b>',
     'hand load of <b>Ann</b>: unknown → 10 kg in both', 'hand load of <b>Ann</b>: 10 kg in both → 5 kg right',
@@ -205,7 +205,7 @@ test('the person, the hand loads and the class limits are changed for all, and e
   await page.waitForFunction(async (count) => (await (await fetch('api/v1/marks')).json()).marks
     .filter(({ kind, text }) => kind === 'change' && !text.startsWith('recording')).length === count, wanted.length, LONG);
   assert.deepEqual((await changesOf(page)).filter((text) => !text.startsWith('recording')), wanted);
-  await other.page.click('#tab-marks');
+  await chooseTab(other.page, 'marks');
   await other.page.waitForFunction(() => document.querySelector('#mark-list li[data-kind="change"] kbd')?.textContent === '✎'
     && document.querySelector('#mark-list li[data-kind="change"] fieldset').hidden, null, LONG);
   await saveScreenshot(other.page, 'change_marks_desktop');
@@ -239,10 +239,10 @@ test('a missing folder and a name that leads out of it are refused, and the stre
 test('a full disk ends a recording with a reason, what was recorded stays, and the stream goes on', async (t) => {
   const disk = join(folder, 'disk');
   await mkdir(disk);
-  const shell = (command) => `unshare --map-root-user --mount sh -c "mount -t tmpfs -o size=34m none ${disk} && ${command}"`;
+  const shell = (command) => `exec unshare --map-root-user --mount sh -c "mount -t tmpfs -o size=34m none ${disk} && ${command}"`;
   const isPermitted = await run('sh', ['-c', shell('true')]).then(() => true, () => false);
   if (!isPermitted) return t.skip('no file systems of our own here: unshare or mount is not permitted');
-  const small = await startLab({ folder, options: ['--recordings_folder', disk, '--marks_file', `${folder}/small.jsonl`], shell });
+  const small = await startLab({ folder, marks: 'small.jsonl', options: ['--recordings_folder', disk], shell });
   const fast = small.stream(['demo:lift', '--rate_hz', '240', '--seconds', '300']);
   const { page, close } = await openLive(small.operator);
   await page.click('#recording-run');
@@ -263,7 +263,7 @@ test('a full disk ends a recording with a reason, what was recorded stays, and t
 });
 
 test('a source that is not a live stream is not recorded, and its trials have clips', async () => {
-  const demo = await startLab({ source: 'demo:lift', folder, options: ['--recordings_folder', recordings] });
+  const demo = await startLab({ source: 'demo:lift', folder, marks: 'demo.jsonl', options: ['--recordings_folder', recordings] });
   const { page, close } = await openLive(demo.operator);
   await textIs(page, 'recording-note', /^Not possible: demo:lift: only a live stream over UDP or TCP can be recorded/);
   await page.fill('#trial-person', 'Nobody');

@@ -16,11 +16,11 @@ async function stop(child) {
   if (child.exitCode === null && child.signalCode === null) await once(child, 'exit');
 }
 
-/** @param {{source?: string, folder: string, options?: string[], shell?: (command: string) => string}} settings  shell: of
- *    a command line that runs the given one */
-export async function startLab({ source = 'udp://127.0.0.1:0', folder, options = [], shell }) {
+/** @param {{source?: string, folder: string, marks?: string, options?: string[], shell?: (command: string) => string}} settings
+ *    marks: a file in the folder; shell: of a command line that runs the given one */
+export async function startLab({ source = 'udp://127.0.0.1:0', folder, marks = 'marks.jsonl', options = [], shell }) {
   const command = [process.env.KINESCOPE, 'serve', source, '--ros', 'off', '--http_port', '0', '--token', OPERATOR,
-    '--viewer_token', VIEWER, '--marks_file', `${folder}/marks.jsonl`, '--picture_size', '320x180', ...options];
+    '--viewer_token', VIEWER, '--marks_file', `${folder}/${marks}`, '--picture_size', '320x180', ...options];
   const quoted = command.map((word) => `'${word}'`).join(' ');
   const child = shell ? spawn('sh', ['-c', shell(`exec ${quoted}`)], { stdio: ['ignore', 'ignore', 'pipe'] })
     : spawn(command[0], command.slice(1), { stdio: ['ignore', 'ignore', 'pipe'] });

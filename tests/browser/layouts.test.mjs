@@ -1,7 +1,8 @@
 // The four arrangements of the page: desk, phone, wall and kiosk, and the people in them.
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
-import { closeBrowser, DESKTOP, openPage, PHONE, pixelsOfPng, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, openPage, PHONE, pixelsOfPng, saveScreenshot, startFixture }
+  from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -44,14 +45,14 @@ test('the width decides between desk and phone, the address between all four', a
   }
 });
 
-for (const people of [1, 3]) {
-  test(`a desk of 1440 x 900 has a view of at least 640 px, and every control is in reach, with ${people}`, async () => {
-    const { page, problems, close } = await open('', people, { viewport: DESKTOP });
+for (const [width, height, least, people] of [[1440, 900, 640, 1], [1440, 900, 640, 3], [1280, 720, 400, 1], [900, 640, 300, 3]]) {
+  test(`a desk of ${width} x ${height} has a view of ${least} px or more, and every control is in reach, with ${people}`, async () => {
+    const { page, problems, close } = await open('', people, { viewport: { width, height } });
     await page.waitForFunction(() => document.querySelectorAll('#mark-buttons button').length === 9, null, LONG);
     const view = await boxOf(page, '#view');
-    assert.ok(view.height >= 640, `the view is ${view.height} px high`);
+    assert.ok(view.height >= least, `the view is ${view.height} px high`);
     for (const tab of ['body', 'plots', 'marks', 'alarms', 'controls', 'picture', 'loads']) {
-      await page.click(`#tab-${tab}`);
+      await chooseTab(page, tab);
       const out = await page.evaluate(() => [...document.querySelectorAll('button, select, input, summary')].filter((part) => {
         const { left, right, top, bottom, width } = part.getBoundingClientRect();
         const scrolls = part.closest('.load-list, .mark-list, .plot-list, .body-map, .control-list');
@@ -59,8 +60,17 @@ for (const people of [1, 3]) {
       }).map((part) => part.id || part.textContent));
       assert.deepEqual(out, [], tab);
     }
+    const crossed = await page.evaluate(() => {
+      const parts = ['#status', '#alarm', '.readings', '#about', '#tools', '#cameras', '.points', '#loads-shown'];
+      const boxes = parts.map((name) => document.querySelector(name).getBoundingClientRect());
+      return parts.flatMap((name, i) => parts.slice(i + 1).filter((_, k) => {
+        const one = boxes[i], two = boxes[i + 1 + k];
+        return one.left < two.right && two.left < one.right && one.top < two.bottom && two.top < one.bottom;
+      }).map((other) => `${name} and ${other}`));
+    });
+    assert.deepEqual(crossed, []);
     assert.equal(await isWide(page), false);
-    await saveScreenshot(page, `desk_${people}`);
+    await saveScreenshot(page, `desk_${width}_${people}`);
     assert.deepEqual(problems, []);
     await close();
   });
@@ -164,7 +174,7 @@ test('a kiosk has lamp, view, body map, strip and one sentence, and nothing to p
 
 /** What can be pressed on this page of the phone, outside of lists and maps that are content themselves. */
 const pressed = (page) => page.evaluate(() => [...document.querySelectorAll('button, select, input')]
-  .filter((part) => part.checkVisibility() && !part.closest('#side-loads, #body-map, #plots, .mark-list, #picture, #alarms, #alarm, #controls'))
+  .filter((part) => part.checkVisibility() && part.getBoundingClientRect().width > 1 && !part.closest('#side-loads, #body-map, #plots, .mark-list, #picture, #alarms, #alarm, #controls'))
   .map((part) => {
     const { left, right, top, bottom, width, height } = part.getBoundingClientRect();
     const inRow = part.closest('.tabs, .people') !== null;  // these rows can be moved sideways
@@ -179,7 +189,7 @@ for (const [name, viewport, colorScheme, people] of [
     await page.waitForFunction(() => document.querySelectorAll('#mark-buttons button').length === 9, null, LONG);
     const third = viewport.height === PHONE.height ? viewport.height * 2 / 3 : viewport.height / 2;
     for (const tab of ['view', 'loads', 'body', 'plots', 'marks', 'alarms', 'controls', 'picture', 'more']) {
-      await page.click(`#tab-${tab}`);
+      await chooseTab(page, tab);
       for (const { what, inRow, top, bottom, left, right, width, height } of await pressed(page)) {
         assert.ok(width >= 43.5 && height >= 43.5, `${tab}: ${what} is ${width} x ${height}`);
         assert.ok(top >= third - 1 && bottom <= viewport.height, `${tab}: ${what} is at ${top} to ${bottom}`);
@@ -190,7 +200,7 @@ for (const [name, viewport, colorScheme, people] of [
       assert.ok(panel >= 150, `${tab}: ${panel} px are left`);
       await saveScreenshot(page, `${name}_${tab}`);
     }
-    await page.click('#tab-view');
+    await chooseTab(page, 'view');
     const view = await boxOf(page, '#view canvas');
     const over = await page.evaluate(([x, y, width, height]) => {
       const covers = new Set();
@@ -211,10 +221,10 @@ for (const [name, viewport, colorScheme, people] of [
 
 test('the mark buttons of a phone are there with their page, and set marks', async () => {
   const { page, close } = await open('', 1, { viewport: PHONE });
-  await page.click('#tab-marks');
+  await chooseTab(page, 'marks');
   await page.click('#mark-buttons button:nth-child(3)');
   await page.waitForFunction(() => document.querySelector('#mark-list .go span')?.textContent === 'place', null, LONG);
-  await page.click('#tab-view');
+  await chooseTab(page, 'view');
   assert.equal(await isVisible(page, '#mark-buttons'), false);
   await close();
 });
@@ -231,7 +241,7 @@ test('each person has a card with name, colour and three numbers; a card chooses
   assert.equal(new Set(colors).size, 3);
   const asked = page.waitForRequest((request) => /api\/(v1\/)?series\?person=2&keys=l5_s1/.test(request.url()));
   await page.click('.person >> text=Demo 3');
-  await page.click('#tab-plots');
+  await chooseTab(page, 'plots');
   await asked;
   await page.waitForFunction(() => document.querySelectorAll('.person')[2].ariaPressed === 'true', null, LONG);
   assert.equal(await page.inputValue('#hand-person'), '2');

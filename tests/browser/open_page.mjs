@@ -140,6 +140,16 @@ export async function openPage(url, options = {}) {
   return { page, problems, requests, close: () => context.close() };
 }
 
+/** Presses the tab `name`; a phone has some under "More".
+ *  @param {any} page
+ *  @param {string} name */
+export async function chooseTab(page, name) {
+  await page.waitForSelector('#tabs [aria-selected="true"][tabindex="0"]', { state: 'attached' });  // the page has chosen one
+  const folded = await page.locator(`#tab-${name}`).evaluate((tab) => tab.getBoundingClientRect().width < 2);
+  if (folded) await page.click('#tab-more');
+  await page.click(`#tab-${name}`);
+}
+
 /** The lines of `problems` that the end of the server does not explain: each request under way fails,
  *  refused, cut off or answered with nothing, as the moment has it.
  *  @param {string[]} problems */

@@ -4,7 +4,7 @@ import { mkdtemp, readFile, rm, writeFile } from 'node:fs/promises';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test as nodeTest } from 'node:test';
-import { closeBrowser, countPixels, DESKTOP, openPage, PHONE, pixelsOf, saveScreenshot, startFixture }
+import { chooseTab, closeBrowser, countPixels, DESKTOP, openPage, PHONE, pixelsOf, saveScreenshot, startFixture }
   from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
@@ -231,7 +231,7 @@ test('the server picture is shown on request and saved at full size', async () =
   const { page, problems, close } = await openLive();
   const image = page.locator('#picture-image');
   assert.equal(await image.isVisible(), false, 'it costs nothing until it is looked at');
-  await page.click('#tab-picture');
+  await chooseTab(page, 'picture');
   await image.waitFor({ state: 'visible', ...LONG });
   await page.waitForFunction(() => document.getElementById('picture-image').naturalWidth === 640, null, LONG);
   await page.selectOption('#picture-camera', 'iso');

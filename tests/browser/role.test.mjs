@@ -1,7 +1,7 @@
 // Roles on the page: what a viewer sees, and what a browser without the right token sees.
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
-import { closeBrowser, DESKTOP, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -25,19 +25,19 @@ for (const [name, viewport, colorScheme] of [
     const { page, problems, close } = await openPage(site.viewer_url, { viewport, colorScheme });
     await roleIs(page, 'viewer');
     for (const selector of GATED) {
-      await page.click(selector.startsWith('#picture') ? '#tab-picture' : '#tab-loads');
+      await chooseTab(page, selector.startsWith('#picture') ? 'picture' : 'loads');
       const control = page.locator(selector);
       assert.ok(await control.isVisible(), selector);
       assert.ok(await control.isDisabled(), selector);
       assert.match(await control.evaluate((part) => part.closest('[title^="Only"]')?.title ?? ''), /operator’s token/, selector);
       assert.equal(await control.evaluate((part) => getComputedStyle(part).borderTopStyle), 'dashed', selector);
     }
-    await page.click('#tab-controls');
+    await chooseTab(page, 'controls');
     for (const selector of CONTROLS) {
       assert.ok(await page.locator(selector).isVisible(), selector);
       assert.ok(await page.locator(selector).isDisabled(), selector);
     }
-    await page.click('#tab-loads');
+    await chooseTab(page, 'loads');
     assert.match(await page.locator('#role').textContent(), /^Role: viewer\. .*operator’s token$/);
     const { scroll, client } = await page.evaluate(() => ({
       scroll: document.documentElement.scrollWidth, client: document.documentElement.clientWidth }));
@@ -58,7 +58,7 @@ test('a viewer may look back, and an operator may change what all see', async ()
   const operator = await openPage(site.url);
   await roleIs(operator.page, 'operator');
   for (const selector of [...GATED, ...CONTROLS]) assert.ok(await operator.page.locator(selector).isEnabled(), selector);
-  await operator.page.click('#tab-picture');
+  await chooseTab(operator.page, 'picture');
   await operator.page.selectOption('#picture-camera', 'iso');
   await viewer.page.waitForFunction(() => document.getElementById('picture-camera').value === 'iso', null, LONG);
   assert.deepEqual([...viewer.problems, ...operator.problems], []);

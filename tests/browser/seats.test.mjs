@@ -2,7 +2,7 @@
 // gone.
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
-import { closeBrowser, openPage, PHONE, pixelsOf, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, openPage, PHONE, pixelsOf, saveScreenshot, startFixture } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -145,9 +145,9 @@ test('a link shows another person the same moment, person, joints, camera, panel
   const one = await open('', { context: { permissions: ['clipboard-read', 'clipboard-write'] } });
   const { page } = one;
   await page.click('.person[data-character="1"]');
-  await page.click('#tab-body');
+  await chooseTab(page, 'body');
   await page.click('.joint-card[data-joint="left_knee"]');
-  await page.click('#tab-plots');
+  await chooseTab(page, 'plots');
   await page.click('#plot-window >> text=5 min');
   await page.keyboard.press('d');
   await page.focus('#view canvas');
@@ -203,7 +203,7 @@ test('a live page copies the moment of its sample, and its own address stays wit
 
 test('an address that is nonsense is a page as it begins', async () => {
   const { page, problems, close } = await open('?person=99&joint=nose,l5_s1&camera=1,2&tab=hidden&view=cinema&theme=pink&window=7');
-  await page.click('#tab-plots');
+  await chooseTab(page, 'plots');
   await page.waitForFunction(() => document.getElementById('plot-chosen').textContent === 'L5/S1', null, LONG);
   assert.deepEqual(await pressed(page), ['three_quarter']);
   assert.equal(await page.getAttribute('.person >> nth=0', 'aria-pressed'), 'true');
@@ -251,7 +251,7 @@ test('a dark page has a dark picture of the server, and the light page of anothe
   const two = await open('?theme=light&tab=picture');
   await isDark(one.page, false);
   await isDark(two.page, false);
-  await two.page.click('#tab-loads');
+  await chooseTab(two.page, 'loads');
   await isDark(one.page, true);
   await one.page.keyboard.press('d');
   await isDark(one.page, false);
@@ -263,7 +263,7 @@ test('a dark page has a dark picture of the server, and the light page of anothe
 test('when the server is gone, its last picture is grey and says so', async () => {
   const mortal = await startFixture();
   const { page, close } = await openPage(mortal.url);
-  await page.click('#tab-picture');
+  await chooseTab(page, 'picture');
   await page.locator('#picture-image').waitFor({ state: 'visible', ...LONG });
   await mortal.kill();
   await page.waitForFunction(() => /^The server does not answer\. This picture is the last one, of \d\d:\d\d:\d\d$/

@@ -1,7 +1,7 @@
 // The health of the stream on the page: the lamp's state "losing data", and the panel "Stream".
 import assert from 'node:assert/strict';
 import { after, before, test as nodeTest } from 'node:test';
-import { closeBrowser, DESKTOP, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
+import { chooseTab, closeBrowser, DESKTOP, openPage, PHONE, saveScreenshot, startFixture } from './open_page.mjs';
 
 const LONG = { timeout: 60000 };  // only a failure takes so long
 const test = (name, body) => nodeTest(name, { timeout: 120000 }, body);
@@ -50,7 +50,7 @@ for (const [name, viewport, colorScheme] of [
     assert.deepEqual([after.x, after.y, after.width, after.height], [before.x, before.y, before.width, before.height], 'nothing jumps');
     const words = await page.$$eval('#loads .word', (parts) => parts.map((part) => part.textContent));
     assert.ok(words.includes('high'), 'the newest sample is shown as one that is new');
-    await page.click('#tab-loads');
+    await chooseTab(page, 'loads');
     await page.locator('#stream summary').focus();
     await page.keyboard.press('Enter');
     await page.waitForFunction(() => document.querySelectorAll('#stream-rows tr').length === 7, null, LONG);

@@ -72,7 +72,7 @@ ControlDesk::Result ControlDesk::StartTrial(const http::TrialOrder& order, http:
     trial.recording_problem = parts_.why_no_recording;
   }
   trial.from = ToTrialMoment(now);
-  trial.mark = log_.BeginTrial(http::Name(role), TitleOf(trial));
+  trial.mark = log_.BeginTrial(http::Name(role), TitleOf(trial), now);
   const std::string unwritten = trials_.Put(trial);
   if (!unwritten.empty()) {
     if (parts_.recorder != nullptr) parts_.recorder->Stop();
@@ -92,12 +92,12 @@ ControlDesk::Result ControlDesk::StopTrial() {
     trial.recording_problem = status.problem;
     if (status.dropped > 0) {
       trial.recording_problem = std::to_string(status.dropped) +
-                                " datagrams were not recorded: "
-                                "the disk was too slow";
+                                " datagrams were not recorded: the disk was too slow";
     }
   }
-  trial.to = ToTrialMoment(log_.Now());
-  if (trial.mark) log_.EndTrial(*trial.mark);
+  const marks::Moment now = log_.Now();
+  trial.to = ToTrialMoment(now);
+  if (trial.mark) log_.EndTrial(*trial.mark, now);
   ++files_revision_;
   const std::string unwritten = trials_.Put(trial);
   if (!unwritten.empty())
@@ -126,8 +126,7 @@ std::string ControlDesk::AddTrialClip(const recording::Trial& trial) {
   if (parts_.clips == nullptr) return parts_.why_no_clips;
   if (!trial.to || trial.run_micros != RunMicros()) {
     return "this trial is of an earlier start of the server, whose states are gone; render the "
-           "clip "
-           "from its recording";
+           "clip from its recording";
   }
   http::ClipOrder order;
   order.from_micros = trial.from.made_nanos / 1000;

@@ -19,29 +19,30 @@ void OperatorLog::Note(std::string_view role, const std::string& what, const std
   mark.text = what + ": " + before + " → " + after;
   mark.role = role;
   mark.kind = marks::Kind::kChange;
+  mark.at = Now();
   Add(mark);
 }
 
 std::optional<std::uint64_t> OperatorLog::BeginTrial(std::string_view role,
-                                                     const std::string& title) {
+                                                     const std::string& title,
+                                                     const marks::Moment& at) {
   marks::NewMark mark;
   mark.text = title;
   mark.role = role;
   mark.is_span = true;
   mark.kind = marks::Kind::kTrial;
+  mark.at = at;
   return Add(mark);
 }
 
-void OperatorLog::EndTrial(std::uint64_t id) {
+void OperatorLog::EndTrial(std::uint64_t id, const marks::Moment& at) {
   if (book_ == nullptr) return;
-  const auto ended = book_->End(id, Now());
+  const auto ended = book_->End(id, at);
   if (!ended) spdlog::warn("the mark of the trial was not ended: {}", ended.error());
 }
 
-std::optional<std::uint64_t> OperatorLog::Add(const marks::NewMark& given) {
+std::optional<std::uint64_t> OperatorLog::Add(const marks::NewMark& mark) {
   if (book_ == nullptr) return std::nullopt;
-  marks::NewMark mark = given;
-  mark.at = Now();
   const auto kept = book_->Add(mark);
   if (kept) return kept->id;
   spdlog::warn("“{}” was not marked: {}", mark.text, kept.error());

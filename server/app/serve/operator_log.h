@@ -23,9 +23,10 @@ class OperatorLog {
   /// and the change holds all the same.
   void Note(std::string_view role, const std::string& what, const std::string& before,
             const std::string& after);
-  /// @return the id of the mark; nullopt if it was not kept
-  std::optional<std::uint64_t> BeginTrial(std::string_view role, const std::string& title);
-  void EndTrial(std::uint64_t id);
+  /// @return the id of the mark at that moment; nullopt if it was not kept
+  std::optional<std::uint64_t> BeginTrial(std::string_view role, const std::string& title,
+                                          const marks::Moment& at);
+  void EndTrial(std::uint64_t id, const marks::Moment& at);
 
   /// The newest sample; its state is 0 before the first.
   marks::Moment Now() const;
