@@ -6,6 +6,7 @@ import { byUrgency } from './load_list.js';
 import { shortJoint } from './plots.js';
 
 export const PERSON_COLORS = 6;
+const WALL_PEOPLE = 4;  // a wall has room for so many (layouts.css); alarms name the others, too
 
 /** @typedef {import('./load_list.js').Row} Row
  *  @typedef {import('./messages.js').LoadClass} LoadClass
@@ -178,6 +179,7 @@ export class PersonCards {
       if (!people.some((person) => person.character === character)) this.#cards.delete(character);
     }
     this.list.dataset.count = String(people.length);
+    this.list.dataset.more = people.length > WALL_PEOPLE ? `and ${people.length - WALL_PEOPLE} more, on the desk` : '';
     this.list.replaceChildren(...people.flatMap(({ character }) => this.#cards.get(character)?.element ?? []));
   }
 }

@@ -433,7 +433,7 @@ for (const [name, viewport, colorScheme] of [
     assert.ok(scroll <= client, `${scroll} px wide on ${client}`);
     const cut = await page.evaluate(() => [...document.querySelectorAll(
       '#status, .readings dd, button, select, #loads .label, #loads .word, #loads .ratio, #loads .note, #loads-hint, #legend li, h1, h2')]
-      .filter((part) => part.offsetParent && part.scrollWidth > part.clientWidth + 1 && getComputedStyle(part).display !== 'inline'
+      .filter((part) => part.offsetParent && part.clientWidth > 1 && part.scrollWidth > part.clientWidth + 1 && getComputedStyle(part).display !== 'inline'
         || part.getBoundingClientRect().right > innerWidth + 0.5)
       .map((part) => `${part.className || part.id || part.tagName}: ${part.textContent}`));
     assert.deepEqual(cut, []);

@@ -91,8 +91,8 @@ ControlDesk::Result ControlDesk::StopTrial() {
     const auto status = parts_.recorder->status();
     trial.recording_problem = status.problem;
     if (status.dropped > 0) {
-      trial.recording_problem = std::to_string(status.dropped) +
-                                " datagrams were not recorded: the disk was too slow";
+      trial.recording_problem =
+          std::to_string(status.dropped) + " datagrams were not recorded: the disk was too slow";
     }
   }
   const marks::Moment now = log_.Now();
