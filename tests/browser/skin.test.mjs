@@ -148,7 +148,7 @@ async function lookAt(site, camera) {
     await page.waitForFunction(() => document.getElementById('status-note').textContent === 'ended', null, LONG);
     await page.locator(`#cameras button[data-camera="${camera}"]`).click();
     await page.evaluate(() => {
-      for (const over of document.querySelectorAll('.stage > :not(.view)')) over.style.visibility = 'hidden';
+      for (const over of document.querySelectorAll('.stage > :not(.view), .banner')) over.style.visibility = 'hidden';
     });
     return visit;
   };
@@ -262,7 +262,7 @@ test('loads lie on the same pixels of the skin on the page and in the picture of
   assert.equal(await choice.inputValue(), 'skin', 'as the server was started');
   await page.locator('#cameras button[data-camera="right"]').click();
   const onlyView = (isOnly) => page.evaluate((hidden) => {
-    for (const over of document.querySelectorAll('.stage > :not(.view)')) over.style.visibility = hidden ? 'hidden' : '';
+    for (const over of document.querySelectorAll('.stage > :not(.view), .banner')) over.style.visibility = hidden ? 'hidden' : '';
   }, isOnly);
   await onlyView(true);
   const shown = await settled(page);
