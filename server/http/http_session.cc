@@ -3,7 +3,9 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/string.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/file_body.hpp>
@@ -16,6 +18,7 @@
 #include <string_view>
 #include <utility>
 
+#include "server/http/without_tls.h"
 #include "server/http/ws_session.h"
 
 namespace kinescope::http {
@@ -28,6 +31,10 @@ constexpr std::size_t kFirstBytes = 1024;
 constexpr std::size_t kMaxDiscardedBytes = 64 << 10;
 constexpr std::chrono::seconds kLongestDiscarding{1};
 constexpr std::size_t kMinBytesPerWindow = 80'000;
+constexpr std::string_view kInterim = "HTTP/1.1 100 Continue\r\n\r\n";
+constexpr char kTlsHandshake = 0x16;  // the first byte of a TLS client
+// Each costs the server a millisecond; a browser begins six.
+constexpr double kHandshakesAtOnce = 60, kHandshakesPerSecond = 10;
 
 // The hash is that of the import map in web/index.html, the page's only inline script;
 // tests/browser/unit/page_policy.test.mjs checks that they match.
@@ -77,6 +84,10 @@ void HttpSession::Read() {
   parser_->header_limit(kMaxHeaderBytes);
   parser_->body_limit(kMaxBodyBytes);
   Enter(Connection::Phase::kWaiting);
+  if (is_first_ && shared_.tls != nullptr) {
+    is_first_ = false;
+    return Greet();
+  }
   if (std::exchange(is_first_, false) || incoming_.size() > 0) return ReadHeader();
   stream_.expires_after(shared_.patience.next_request);
   stream_.async_read_some(incoming_.prepare(kFirstBytes),
@@ -85,6 +96,45 @@ void HttpSession::Read() {
                             self->incoming_.commit(bytes);
                             self->ReadHeader();
                           });
+}
+
+// On a port with TLS. A client that begins with something else is read as one of HTTP, and told.
+void HttpSession::Greet() {
+  stream_.expires_after(shared_.patience.header);
+  stream_.async_read_some(incoming_.prepare(kFirstBytes),
+                          [self = shared_from_this()](beast::error_code error, std::size_t bytes) {
+                            if (error) return;
+                            self->incoming_.commit(bytes);
+                            self->OnGreeting();
+                          });
+}
+
+void HttpSession::OnGreeting() {
+  is_plain_ = *static_cast<const char*>(incoming_.cdata().data()) != kTlsHandshake;
+  if (is_plain_) return ReadHeader();
+  if (!MayBeginTls()) {
+    ++shared_.counters->rejected["too many TLS handshakes"];
+    return;  // closed by its destructor
+  }
+  stream_.AsyncHandshake(*shared_.tls->context(), incoming_.cdata(),
+                         [self = shared_from_this()](beast::error_code error, std::size_t used) {
+                           if (error || used != self->incoming_.size()) {
+                             ++self->shared_.counters->rejected["TLS handshake failed"];
+                             return;
+                           }
+                           self->incoming_.clear();
+                           self->ReadHeader();
+                         });
+}
+
+bool HttpSession::MayBeginTls() {
+  const auto now = Clock::now();
+  Bucket& handshakes = shared_.handshakes.At(
+      connection_.address, [&] { return Bucket(kHandshakesAtOnce, kHandshakesPerSecond, now); },
+      [&](Bucket& bucket) { return bucket.IsFull(now); });
+  if (handshakes.WaitFor(1, now).count() > 0) return false;
+  handshakes.Take(1, now);
+  return true;
 }
 
 void HttpSession::ReadHeader() {
@@ -117,7 +167,19 @@ void HttpSession::ReadBody() {
   // Some clients wait a second for this before they send a body.
   const bool is_awaited = version_ >= 11 && incoming_.size() == 0 &&
                           beast::iequals(parser_->get()[bhttp::field::expect], "100-continue");
+  if (is_awaited && stream_.is_tls()) {
+    stream_.expires_after(shared_.patience.body);
+    return boost::asio::async_write(
+        stream_, boost::asio::buffer(kInterim),
+        [self = shared_from_this()](beast::error_code error, std::size_t) {
+          if (!error) self->ReadRest();
+        });
+  }
   if (is_awaited && !SendContinue()) return;
+  ReadRest();
+}
+
+void HttpSession::ReadRest() {
   stream_.expires_after(shared_.patience.body);
   bhttp::async_read(
       stream_, incoming_, *parser_,
@@ -158,6 +220,11 @@ void HttpSession::Handle() {
 }
 
 void HttpSession::Respond() {
+  if (is_plain_) {
+    keep_alive_ = false;
+    ++shared_.counters->rejected["no TLS"];
+    return Send(AnswerWithoutTls(request_));
+  }
   if (beast::websocket::is_upgrade(parser_->get())) return BecomeWebSocket();
   Answer answer = shared_.router->Route(request_);
   connection_.has_token = answer.to_token_holder;
@@ -212,7 +279,7 @@ void HttpSession::Draw(Answer answer) {
     ++shared_.counters->snapshots;
     Enter(Connection::Phase::kDrawing);
     stream_.expires_never();  // no time limit while a picture is rendered
-    return WatchForEnd(is_wanted);
+    return stream_.is_tls() ? WatchForEndOfTls(is_wanted) : WatchForEnd(is_wanted);
   }
   ++shared_.counters->rejected["too many snapshots"];
   Answer busy = submission == Submission::kShareFull
@@ -242,6 +309,20 @@ void HttpSession::WatchForEnd(const std::shared_ptr<std::atomic<bool>>& is_wante
                               });
 }
 
+// Only a read shows what TLS has received, and it may still wait when the picture has been sent: so
+// the connection ends then.
+void HttpSession::WatchForEndOfTls(const std::shared_ptr<std::atomic<bool>>& is_wanted) {
+  keep_alive_ = false;
+  is_watched_ = true;
+  stream_.async_read_some(incoming_.prepare(kFirstBytes),
+                          [self = shared_from_this(), is_wanted](beast::error_code error, std::size_t) {
+                            self->is_watched_ = false;
+                            if (!error || error == boost::asio::error::operation_aborted) return;
+                            *is_wanted = false;
+                            ++self->shared_.counters->rejected["abandoned"];
+                          });
+}
+
 // The client sends nothing more: it may have hung up, or wait for its picture. A byte tells: who
 // has hung up resets the connection. HTTP/1.1 allows an interim response, HTTP/1.0 does not.
 void HttpSession::WatchForReset(const std::shared_ptr<std::atomic<bool>>& is_wanted) {
@@ -257,7 +338,6 @@ void HttpSession::WatchForReset(const std::shared_ptr<std::atomic<bool>>& is_wan
 // The interim response, at once or not at all. False: the connection is closed, because a part of
 // it would have spoilt the answer.
 bool HttpSession::SendContinue() {
-  constexpr std::string_view kInterim = "HTTP/1.1 100 Continue\r\n\r\n";
   const ssize_t sent = ::send(stream_.socket().native_handle(), kInterim.data(), kInterim.size(),
                               MSG_NOSIGNAL | MSG_DONTWAIT);
   const bool is_cut = sent >= 0 && sent < static_cast<ssize_t>(kInterim.size());
@@ -336,12 +416,20 @@ void HttpSession::OnWriteFailed(beast::error_code error) {
 
 void HttpSession::OnWritten() {
   if (keep_alive_) return Read();
+  if (stream_.is_tls() && !is_watched_ && !is_unread_) return EndTls();
   beast::error_code ignored;
   stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
   if (!is_unread_) return;
   Enter(Connection::Phase::kWaiting);
   stream_.expires_after(kLongestDiscarding);
   Discard(kMaxDiscardedBytes);
+}
+
+// So that the client can tell the end from a connection that was cut.
+void HttpSession::EndTls() {
+  Enter(Connection::Phase::kWaiting);
+  stream_.expires_after(kLongestDiscarding);
+  stream_.AsyncShutdownTls([self = shared_from_this()](beast::error_code) {});
 }
 
 // Closing with unread bytes resets the connection: the client could lose the answer.

@@ -22,6 +22,7 @@
 #include "server/http/controls.h"
 #include "server/http/role.h"
 #include "server/http/snapshot_request.h"
+#include "server/http/tls_files.h"
 #include "server/marks/mark_book.h"
 #include "urdf/skin/skin_template.h"
 
@@ -98,6 +99,7 @@ struct HttpConfig {
   /// Its owner may look and not change anything. Empty: none; without `token` it must be.
   std::string viewer_token;
   std::string viewer_token_origin = "--viewer_token";
+  TlsFiles tls;
   std::filesystem::path web_root;                      // folder with index.html
   std::vector<CameraView> cameras;                     // in display order
   CameraFraming framing;                               // of `cameras`
@@ -126,7 +128,8 @@ struct HttpConfig {
   std::function<void(const std::string& line)> warn;
 };
 
-/// @throws UsageError for an address, port or token that cannot be used; listens nowhere.
+/// @throws UsageError for an address, port, token or certificate that cannot be used; listens
+/// nowhere.
 void CheckConfig(const HttpConfig& config);
 
 /// A port that is open already: connections wait in it until an HttpServer serves them. So a port
