@@ -18,6 +18,7 @@
 #include <string_view>
 #include <utility>
 
+#include "server/http/base_path.h"
 #include "server/http/without_tls.h"
 #include "server/http/ws_session.h"
 
@@ -154,13 +155,30 @@ void HttpSession::OnHeader(beast::error_code error) {
   if (has_body && beast::websocket::is_upgrade(request)) {
     return Reject({400, "the request for a WebSocket has a body; send it without"});
   }
-  request_ = ToRequest(request, connection_.address, Clock::now());
+  beast::error_code gone;
+  const auto peer = stream_.socket().remote_endpoint(gone).address();
+  if (gone) return;
+  request_ = ToRequest(request, peer, shared_.is_proxy, Clock::now());
+  connection_.address = request_.address;
   if (!has_body) request_.body.emplace();
   // Most answers do not need the body: then it is not read, and nothing that follows it either.
   is_unread_ = has_body;
   keep_alive_ = !has_body && parser_->keep_alive();
   ++shared_.counters->requests;
+  if (!is_plain_) {
+    auto target = WithoutBasePath(request_.target, shared_.base_path);
+    if (!target) return SendToBasePath();
+    request_.target = *std::move(target);
+  }
   Handle();
+}
+
+// "/lab3" is "/lab3/", with the query.
+void HttpSession::SendToBasePath() {
+  Answer answer = ErrorAnswer(308, "the page is at " + shared_.base_path + "/");
+  answer.headers.emplace_back(
+      "Location", shared_.base_path + "/" + request_.target.substr(shared_.base_path.size()));
+  Send(std::move(answer));
 }
 
 void HttpSession::ReadBody() {
@@ -314,13 +332,14 @@ void HttpSession::WatchForEnd(const std::shared_ptr<std::atomic<bool>>& is_wante
 void HttpSession::WatchForEndOfTls(const std::shared_ptr<std::atomic<bool>>& is_wanted) {
   keep_alive_ = false;
   is_watched_ = true;
-  stream_.async_read_some(incoming_.prepare(kFirstBytes),
-                          [self = shared_from_this(), is_wanted](beast::error_code error, std::size_t) {
-                            self->is_watched_ = false;
-                            if (!error || error == boost::asio::error::operation_aborted) return;
-                            *is_wanted = false;
-                            ++self->shared_.counters->rejected["abandoned"];
-                          });
+  stream_.async_read_some(
+      incoming_.prepare(kFirstBytes),
+      [self = shared_from_this(), is_wanted](beast::error_code error, std::size_t) {
+        self->is_watched_ = false;
+        if (!error || error == boost::asio::error::operation_aborted) return;
+        *is_wanted = false;
+        ++self->shared_.counters->rejected["abandoned"];
+      });
 }
 
 // The client sends nothing more: it may have hung up, or wait for its picture. A byte tells: who

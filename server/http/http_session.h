@@ -1,6 +1,7 @@
 /// Serves one HTTP connection, with TLS if the server has a certificate: reads requests, sends the
-/// answers of the router, and becomes a WebSocket on request. A request is judged by its header; its body is read only if the answer
-/// depends on it. Incoming data take at most the size of a header and a body. Server's thread only.
+/// answers of the router, and becomes a WebSocket on request. A request is judged by its header;
+/// its body is read only if the answer depends on it. Incoming data take at most the size of a
+/// header and a body. Server's thread only.
 #pragma once
 
 #include <atomic>
@@ -36,6 +37,8 @@ struct Shared {
   SnapshotWorker* snapshots = nullptr;  // null: no renderer
   PixelBudget* pixels = nullptr;
   TlsCertificate* tls = nullptr;  // null: the server does not encrypt
+  IsProxy is_proxy;               // null: no machine is
+  std::string base_path;          // "" or "/lab3"
   PerAddress<Bucket> handshakes;  // that a client may still begin
   Connections connections;
   PatienceLimits patience;
@@ -62,6 +65,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   [[nodiscard]] bool MayBeginTls();
   void ReadHeader();
   void OnHeader(boost::beast::error_code error);
+  void SendToBasePath();
   void ReadBody();
   void ReadRest();
   void OnBody(boost::beast::error_code error);
@@ -95,8 +99,8 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   bool is_first_ = true;          // no request has been answered yet
   bool is_head_ = false;
   bool keep_alive_ = false;
-  bool is_unread_ = false;  // the client may still send a part of the request
-  bool is_plain_ = false;   // the client sends HTTP to a port with TLS
+  bool is_unread_ = false;   // the client may still send a part of the request
+  bool is_plain_ = false;    // the client sends HTTP to a port with TLS
   bool is_watched_ = false;  // a read waits for the end of a TLS stream
   unsigned version_ = 11;
 };

@@ -18,6 +18,7 @@
 #include "core/system/errors.h"
 #include "server/alarms/alarm_json.h"
 #include "server/http/access.h"
+#include "server/http/base_path.h"
 #include "server/http/client_address.h"
 #include "server/http/http_session.h"
 #include "server/http/tls_certificate.h"
@@ -83,6 +84,7 @@ void CheckConfig(const HttpConfig& config) {
         "made with a random token if it is missing, or use 127.0.0.1");
   }
   if (config.tls.any()) TlsCertificate(config.tls, nullptr);
+  (void)CheckedBasePath(config.base_path);
   CheckTokenText(config.token, config.token_origin);
   CheckTokenText(config.viewer_token, config.viewer_token_origin);
   if (config.viewer_token.empty()) return;
@@ -205,6 +207,8 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
   shared_.counters = &counters_;
   shared_.pixels = &pixels_;
   shared_.tls = tls_ ? &*tls_ : nullptr;
+  shared_.is_proxy = config_.is_proxy;
+  shared_.base_path = CheckedBasePath(config_.base_path);
   shared_.patience = config_.patience;
   shared_.snapshots = snapshots_ ? &*snapshots_ : nullptr;
   Accept();
@@ -251,6 +255,7 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.count_refusal = [this](const std::string& reason) { ++counters_.rejected[reason]; };
   site.guesses = &guesses_;
   site.is_tls = tls_.has_value();
+  site.base_path = CheckedBasePath(config_.base_path);
   return site;
 }
 
@@ -375,7 +380,9 @@ std::string UrlOf(const HttpConfig& config, int port, const std::string& token) 
   const std::string& ip = config.bind_ip;
   // 0.0.0.0 cannot be opened; on this machine it means localhost.
   const bool is_any = ip == "0.0.0.0" || ip == "::";
-  const std::string url = (config.tls.any() ? "https://" : "http://") + Authority(is_any ? "localhost" : ip, port) + "/";
+  const std::string url = (config.tls.any() ? "https://" : "http://") +
+                          Authority(is_any ? "localhost" : ip, port) +
+                          CheckedBasePath(config.base_path) + "/";
   return token.empty() ? url : url + "?token=" + token;
 }
 

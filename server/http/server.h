@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -100,6 +101,11 @@ struct HttpConfig {
   std::string viewer_token;
   std::string viewer_token_origin = "--viewer_token";
   TlsFiles tls;
+  /// Whether X-Forwarded-For and X-Forwarded-Proto of the machine with this address (IPv6; IPv4 is
+  /// mapped into it) are believed. Null: of none.
+  std::function<bool(const std::array<std::uint8_t, 16>& address)> is_proxy;
+  /// The path under which a proxy offers the page, "/lab3"; requests come with it or without.
+  std::string base_path;
   std::filesystem::path web_root;                      // folder with index.html
   std::vector<CameraView> cameras;                     // in display order
   CameraFraming framing;                               // of `cameras`

@@ -39,11 +39,11 @@ using NamesPtr = std::unique_ptr<GENERAL_NAMES, Freeing<GENERAL_NAMES, GENERAL_N
 std::string ReadPem(const char* option, const std::filesystem::path& path) {
   const std::string what = std::string(option) + "=" + path.string() + ": ";
   if (std::filesystem::is_directory(path)) throw UsageError(what + "a folder; name the PEM file");
-  std::ifstream file(path, std::ios::binary);
   std::string text(kMaxPemBytes + 1, '\0');
   errno = 0;
+  std::ifstream file(path, std::ios::binary);
   if (!file.read(text.data(), static_cast<std::streamsize>(text.size())) && file.gcount() == 0) {
-    const std::string reason = errno != 0 ? std::strerror(errno) : "the file is empty";
+    const std::string reason = file.is_open() ? "the file is empty" : std::strerror(errno);
     throw UsageError(what + "cannot be read: " + reason +
                      "; name a PEM file that this user may read");
   }
@@ -73,9 +73,10 @@ void CheckText(const TlsFiles& files, const std::string& chain, const std::strin
               "no private key in it; expected PEM, which has a line -----BEGIN PRIVATE KEY-----");
   }
   if (Holds(key, "ENCRYPTED")) {
-    RefuseKey(files,
-              "the key has a passphrase, which a server cannot be asked for; remove it with openssl "
-              "pkey -in FILE -out NEW_FILE");
+    RefuseKey(
+        files,
+        "the key has a passphrase, which a server cannot be asked for; remove it with openssl "
+        "pkey -in FILE -out NEW_FILE");
   }
 }
 
@@ -145,8 +146,8 @@ std::shared_ptr<ssl::context> MakeContext(const TlsFiles& files) {
   auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
   SSL_CTX* const native = context->native_handle();
   SSL_CTX_set_min_proto_version(native, TLS1_2_VERSION);
-  SSL_CTX_set_options(native, SSL_OP_NO_COMPRESSION | SSL_OP_NO_RENEGOTIATION |
-                                  SSL_OP_CIPHER_SERVER_PREFERENCE);
+  SSL_CTX_set_options(
+      native, SSL_OP_NO_COMPRESSION | SSL_OP_NO_RENEGOTIATION | SSL_OP_CIPHER_SERVER_PREFERENCE);
   SSL_CTX_set_session_cache_mode(native, SSL_SESS_CACHE_OFF);
   error_code error;
   context->use_certificate_chain(boost::asio::buffer(chain), error);
@@ -154,8 +155,8 @@ std::shared_ptr<ssl::context> MakeContext(const TlsFiles& files) {
   // Without this, OpenSSL would ask for a passphrase on the terminal.
   context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return ""; });
   context->use_private_key(boost::asio::buffer(key), ssl::context::pem, error);
-  if (error && ERR_GET_REASON(static_cast<unsigned long>(error.value())) ==
-                   X509_R_KEY_VALUES_MISMATCH) {
+  if (error &&
+      ERR_GET_REASON(static_cast<unsigned long>(error.value())) == X509_R_KEY_VALUES_MISMATCH) {
     RefuseKey(files, "not the key of the certificate " + files.certificate.string() +
                          "; name the one with which it was requested");
   }
@@ -200,8 +201,7 @@ TlsCertificate::Stamps TlsCertificate::StampsOfFiles() const {
     struct stat facts {};
     if (::stat((i == 0 ? files_.certificate : files_.key).c_str(), &facts) != 0) continue;
     stamps[i] = {facts.st_mtim.tv_sec * 1'000'000'000 + facts.st_mtim.tv_nsec,
-                 static_cast<std::int64_t>(facts.st_size),
-                 static_cast<std::int64_t>(facts.st_ino)};
+                 static_cast<std::int64_t>(facts.st_size), static_cast<std::int64_t>(facts.st_ino)};
   }
   return stamps;
 }
@@ -223,7 +223,8 @@ void TlsCertificate::Check(std::chrono::steady_clock::time_point now) {
   try {
     Load();
     ++status_.reloads;
-    if (log_) log_("the new certificate of " + status_.names + " is in use, until " + status_.valid_until);
+    if (log_)
+      log_("the new certificate of " + status_.names + " is in use, until " + status_.valid_until);
   } catch (const std::exception& failure) {
     ++status_.failed_reloads;
     status_.last_error = failure.what();

@@ -5,8 +5,8 @@
 
 namespace kinescope::http {
 
-/// Leads to the same address with https, unless the request has a token: then it is refused, because
-/// the token was sent for all to read.
+/// Leads to the same address with https, unless the request has a token: then it is refused,
+/// because the token was sent for all to read.
 [[nodiscard]] Answer AnswerWithoutTls(const Request& request);
 
 }  // namespace kinescope::http

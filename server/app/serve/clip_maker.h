@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "server/app/serve/workshop.h"
 #include "server/history/history.h"

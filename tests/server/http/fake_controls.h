@@ -1,6 +1,9 @@
 /// Controls that note what they are ordered to do.
 #pragma once
 
+#include <array>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
