@@ -43,6 +43,7 @@ LIBRARIES = {
     r"nettle/": ("nettle", {"core/system"}),
     r"pcap/|pcap\.h": ("libpcap", {"server/mvn/file"}),
     r"boost/": ("Boost.Beast", {"server/http"}),
+    r"openssl/": ("OpenSSL", {"server/http"}),
     r"image_transport/": ("image_transport", {"server/ros"}),
     r"tf2(_msgs)?/": ("tf2", {"server/ros", "server/ros/source"}),
     r"(ros|xmlrpcpp|kinescope|\w+_msgs)/": ("roscpp and messages", {"server/ros", "server/ros/source"}),

@@ -25,9 +25,9 @@ struct Request {
   std::string accept;
   std::string sec_fetch_site;
   std::string page_header;       // X-Kinescope-Page, which only our page and other programs can set
-  std::string forwarded_proto;   // X-Forwarded-Proto
   std::string socket_protocols;  // Sec-WebSocket-Protocol: what the client can read, or ""
-  std::string address;           // of the client, without port
+  std::string address;           // of the client, without port; behind a proxy, as that says
+  bool is_encrypted = false;     // between the client and a proxy that is believed
   std::chrono::steady_clock::time_point received_at{};
 };
 

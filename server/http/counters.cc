@@ -18,10 +18,18 @@ json CounterJson(const ClientCounters& client) {
           {"pictures_dropped", client.pictures_dropped}};
 }
 
+json TlsJson(const TlsStatus& tls) {
+  return {{"names", tls.names},
+          {"valid_until", tls.valid_until},
+          {"reloads", tls.reloads},
+          {"failed_reloads", tls.failed_reloads},
+          {"last_error", tls.last_error}};
+}
+
 }  // namespace
 
 std::string WithHttpCounters(const std::string& diagnostics, const Counters& counters,
-                             const std::vector<ClientCounters>& clients) {
+                             const std::vector<ClientCounters>& clients, const TlsStatus* tls) {
   json document = json::parse(diagnostics, nullptr, /*allow_exceptions=*/false);
   if (!document.is_object()) document = {{"error", "internal error: the diagnostics are not JSON"}};
   json connected = json::array();
@@ -39,6 +47,7 @@ std::string WithHttpCounters(const std::string& diagnostics, const Counters& cou
                       {"pictures_encoded", counters.pictures_encoded},
                       {"clients", std::move(connected)},
                       {"closed_clients", std::move(closed)}};
+  document["http"]["tls"] = tls != nullptr ? TlsJson(*tls) : json(nullptr);
   return JsonText(document, 2);
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "server/http/tls_files.h"
+
 namespace kinescope::http {
 
 struct ClientCounters {
@@ -31,8 +33,9 @@ struct Counters {
 };
 
 /// `diagnostics` (a JSON object) with the member "http" added. A text that is not a JSON object is
-/// returned under "error", never thrown.
+/// returned under "error", never thrown. `tls`: null if the server does not encrypt.
 [[nodiscard]] std::string WithHttpCounters(const std::string& diagnostics, const Counters& counters,
-                                           const std::vector<ClientCounters>& clients);
+                                           const std::vector<ClientCounters>& clients,
+                                           const TlsStatus* tls);
 
 }  // namespace kinescope::http

@@ -3,7 +3,9 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/write.hpp>
 #include <boost/beast/core/string.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/file_body.hpp>
@@ -16,6 +18,8 @@
 #include <string_view>
 #include <utility>
 
+#include "server/http/base_path.h"
+#include "server/http/without_tls.h"
 #include "server/http/ws_session.h"
 
 namespace kinescope::http {
@@ -28,6 +32,10 @@ constexpr std::size_t kFirstBytes = 1024;
 constexpr std::size_t kMaxDiscardedBytes = 64 << 10;
 constexpr std::chrono::seconds kLongestDiscarding{1};
 constexpr std::size_t kMinBytesPerWindow = 80'000;
+constexpr std::string_view kInterim = "HTTP/1.1 100 Continue\r\n\r\n";
+constexpr char kTlsHandshake = 0x16;  // the first byte of a TLS client
+// Each costs the server a millisecond; a browser begins six.
+constexpr double kHandshakesAtOnce = 60, kHandshakesPerSecond = 10;
 
 // The hash is that of the import map in web/index.html, the page's only inline script;
 // tests/browser/unit/page_policy.test.mjs checks that they match.
@@ -77,6 +85,10 @@ void HttpSession::Read() {
   parser_->header_limit(kMaxHeaderBytes);
   parser_->body_limit(kMaxBodyBytes);
   Enter(Connection::Phase::kWaiting);
+  if (is_first_ && shared_.tls != nullptr) {
+    is_first_ = false;
+    return Greet();
+  }
   if (std::exchange(is_first_, false) || incoming_.size() > 0) return ReadHeader();
   stream_.expires_after(shared_.patience.next_request);
   stream_.async_read_some(incoming_.prepare(kFirstBytes),
@@ -85,6 +97,45 @@ void HttpSession::Read() {
                             self->incoming_.commit(bytes);
                             self->ReadHeader();
                           });
+}
+
+// On a port with TLS. A client that begins with something else is read as one of HTTP, and told.
+void HttpSession::Greet() {
+  stream_.expires_after(shared_.patience.header);
+  stream_.async_read_some(incoming_.prepare(kFirstBytes),
+                          [self = shared_from_this()](beast::error_code error, std::size_t bytes) {
+                            if (error) return;
+                            self->incoming_.commit(bytes);
+                            self->OnGreeting();
+                          });
+}
+
+void HttpSession::OnGreeting() {
+  is_plain_ = *static_cast<const char*>(incoming_.cdata().data()) != kTlsHandshake;
+  if (is_plain_) return ReadHeader();
+  if (!MayBeginTls()) {
+    ++shared_.counters->rejected["too many TLS handshakes"];
+    return;  // closed by its destructor
+  }
+  stream_.AsyncHandshake(*shared_.tls->context(), incoming_.cdata(),
+                         [self = shared_from_this()](beast::error_code error, std::size_t used) {
+                           if (error || used != self->incoming_.size()) {
+                             ++self->shared_.counters->rejected["TLS handshake failed"];
+                             return;
+                           }
+                           self->incoming_.clear();
+                           self->ReadHeader();
+                         });
+}
+
+bool HttpSession::MayBeginTls() {
+  const auto now = Clock::now();
+  Bucket& handshakes = shared_.handshakes.At(
+      connection_.address, [&] { return Bucket(kHandshakesAtOnce, kHandshakesPerSecond, now); },
+      [&](Bucket& bucket) { return bucket.IsFull(now); });
+  if (handshakes.WaitFor(1, now).count() > 0) return false;
+  handshakes.Take(1, now);
+  return true;
 }
 
 void HttpSession::ReadHeader() {
@@ -104,20 +155,49 @@ void HttpSession::OnHeader(beast::error_code error) {
   if (has_body && beast::websocket::is_upgrade(request)) {
     return Reject({400, "the request for a WebSocket has a body; send it without"});
   }
-  request_ = ToRequest(request, connection_.address, Clock::now());
+  beast::error_code gone;
+  const auto peer = stream_.socket().remote_endpoint(gone).address();
+  if (gone) return;
+  request_ = ToRequest(request, peer, shared_.is_proxy, Clock::now());
+  connection_.address = request_.address;
   if (!has_body) request_.body.emplace();
   // Most answers do not need the body: then it is not read, and nothing that follows it either.
   is_unread_ = has_body;
   keep_alive_ = !has_body && parser_->keep_alive();
   ++shared_.counters->requests;
+  if (!is_plain_) {
+    auto target = WithoutBasePath(request_.target, shared_.base_path);
+    if (!target) return SendToBasePath();
+    request_.target = *std::move(target);
+  }
   Handle();
+}
+
+// "/lab3" is "/lab3/", with the query.
+void HttpSession::SendToBasePath() {
+  Answer answer = ErrorAnswer(308, "the page is at " + shared_.base_path + "/");
+  answer.headers.emplace_back(
+      "Location", shared_.base_path + "/" + request_.target.substr(shared_.base_path.size()));
+  Send(std::move(answer));
 }
 
 void HttpSession::ReadBody() {
   // Some clients wait a second for this before they send a body.
   const bool is_awaited = version_ >= 11 && incoming_.size() == 0 &&
                           beast::iequals(parser_->get()[bhttp::field::expect], "100-continue");
+  if (is_awaited && stream_.is_tls()) {
+    stream_.expires_after(shared_.patience.body);
+    return boost::asio::async_write(
+        stream_, boost::asio::buffer(kInterim),
+        [self = shared_from_this()](beast::error_code error, std::size_t) {
+          if (!error) self->ReadRest();
+        });
+  }
   if (is_awaited && !SendContinue()) return;
+  ReadRest();
+}
+
+void HttpSession::ReadRest() {
   stream_.expires_after(shared_.patience.body);
   bhttp::async_read(
       stream_, incoming_, *parser_,
@@ -158,6 +238,11 @@ void HttpSession::Handle() {
 }
 
 void HttpSession::Respond() {
+  if (is_plain_) {
+    keep_alive_ = false;
+    ++shared_.counters->rejected["no TLS"];
+    return Send(AnswerWithoutTls(request_));
+  }
   if (beast::websocket::is_upgrade(parser_->get())) return BecomeWebSocket();
   Answer answer = shared_.router->Route(request_);
   connection_.has_token = answer.to_token_holder;
@@ -212,7 +297,7 @@ void HttpSession::Draw(Answer answer) {
     ++shared_.counters->snapshots;
     Enter(Connection::Phase::kDrawing);
     stream_.expires_never();  // no time limit while a picture is rendered
-    return WatchForEnd(is_wanted);
+    return stream_.is_tls() ? WatchForEndOfTls(is_wanted) : WatchForEnd(is_wanted);
   }
   ++shared_.counters->rejected["too many snapshots"];
   Answer busy = submission == Submission::kShareFull
@@ -242,6 +327,21 @@ void HttpSession::WatchForEnd(const std::shared_ptr<std::atomic<bool>>& is_wante
                               });
 }
 
+// Only a read shows what TLS has received, and it may still wait when the picture has been sent: so
+// the connection ends then.
+void HttpSession::WatchForEndOfTls(const std::shared_ptr<std::atomic<bool>>& is_wanted) {
+  keep_alive_ = false;
+  is_watched_ = true;
+  stream_.async_read_some(
+      incoming_.prepare(kFirstBytes),
+      [self = shared_from_this(), is_wanted](beast::error_code error, std::size_t) {
+        self->is_watched_ = false;
+        if (!error || error == boost::asio::error::operation_aborted) return;
+        *is_wanted = false;
+        ++self->shared_.counters->rejected["abandoned"];
+      });
+}
+
 // The client sends nothing more: it may have hung up, or wait for its picture. A byte tells: who
 // has hung up resets the connection. HTTP/1.1 allows an interim response, HTTP/1.0 does not.
 void HttpSession::WatchForReset(const std::shared_ptr<std::atomic<bool>>& is_wanted) {
@@ -257,7 +357,6 @@ void HttpSession::WatchForReset(const std::shared_ptr<std::atomic<bool>>& is_wan
 // The interim response, at once or not at all. False: the connection is closed, because a part of
 // it would have spoilt the answer.
 bool HttpSession::SendContinue() {
-  constexpr std::string_view kInterim = "HTTP/1.1 100 Continue\r\n\r\n";
   const ssize_t sent = ::send(stream_.socket().native_handle(), kInterim.data(), kInterim.size(),
                               MSG_NOSIGNAL | MSG_DONTWAIT);
   const bool is_cut = sent >= 0 && sent < static_cast<ssize_t>(kInterim.size());
@@ -336,12 +435,20 @@ void HttpSession::OnWriteFailed(beast::error_code error) {
 
 void HttpSession::OnWritten() {
   if (keep_alive_) return Read();
+  if (stream_.is_tls() && !is_watched_ && !is_unread_) return EndTls();
   beast::error_code ignored;
   stream_.socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
   if (!is_unread_) return;
   Enter(Connection::Phase::kWaiting);
   stream_.expires_after(kLongestDiscarding);
   Discard(kMaxDiscardedBytes);
+}
+
+// So that the client can tell the end from a connection that was cut.
+void HttpSession::EndTls() {
+  Enter(Connection::Phase::kWaiting);
+  stream_.expires_after(kLongestDiscarding);
+  stream_.AsyncShutdownTls([self = shared_from_this()](beast::error_code) {});
 }
 
 // Closing with unread bytes resets the connection: the client could lose the answer.

@@ -1,6 +1,7 @@
-/// Serves one HTTP connection: reads requests, sends the answers of the router, and becomes a
-/// WebSocket on request. A request is judged by its header; its body is read only if the answer
-/// depends on it. Incoming data take at most the size of a header and a body. Server's thread only.
+/// Serves one HTTP connection, with TLS if the server has a certificate: reads requests, sends the
+/// answers of the router, and becomes a WebSocket on request. A request is judged by its header;
+/// its body is read only if the answer depends on it. Incoming data take at most the size of a
+/// header and a body. Server's thread only.
 #pragma once
 
 #include <atomic>
@@ -15,6 +16,7 @@
 #include <string>
 
 #include "server/http/answer.h"
+#include "server/http/bucket.h"
 #include "server/http/connections.h"
 #include "server/http/counters.h"
 #include "server/http/hub.h"
@@ -23,6 +25,7 @@
 #include "server/http/router.h"
 #include "server/http/snapshot_worker.h"
 #include "server/http/stream.h"
+#include "server/http/tls_certificate.h"
 
 namespace kinescope::http {
 
@@ -33,6 +36,10 @@ struct Shared {
   Counters* counters = nullptr;
   SnapshotWorker* snapshots = nullptr;  // null: no renderer
   PixelBudget* pixels = nullptr;
+  TlsCertificate* tls = nullptr;  // null: the server does not encrypt
+  IsProxy is_proxy;               // null: no machine is
+  std::string base_path;          // "" or "/lab3"
+  PerAddress<Bucket> handshakes;  // that a client may still begin
   Connections connections;
   PatienceLimits patience;
   std::uint64_t next_client_id = 1;
@@ -53,9 +60,14 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   template <class Body>
   struct Outgoing;
 
+  void Greet();
+  void OnGreeting();
+  [[nodiscard]] bool MayBeginTls();
   void ReadHeader();
   void OnHeader(boost::beast::error_code error);
+  void SendToBasePath();
   void ReadBody();
+  void ReadRest();
   void OnBody(boost::beast::error_code error);
   void Reject(const RequestDefect& defect);
   void RejectUnreadable(boost::beast::error_code error);
@@ -66,6 +78,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void Draw(Answer answer);
   void WatchForEnd(const std::shared_ptr<std::atomic<bool>>& is_wanted);
   void WatchForReset(const std::shared_ptr<std::atomic<bool>>& is_wanted);
+  void WatchForEndOfTls(const std::shared_ptr<std::atomic<bool>>& is_wanted);
   [[nodiscard]] bool SendContinue();
   void Send(Answer answer);
   template <class Body>
@@ -74,6 +87,7 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   void WriteSome(std::shared_ptr<Outgoing<Body>> outgoing);
   void OnWriteFailed(boost::beast::error_code error);
   void OnWritten();
+  void EndTls();
   void Discard(std::size_t bytes_left);
 
   Stream stream_;
@@ -85,7 +99,9 @@ class HttpSession : public std::enable_shared_from_this<HttpSession> {
   bool is_first_ = true;          // no request has been answered yet
   bool is_head_ = false;
   bool keep_alive_ = false;
-  bool is_unread_ = false;  // the client may still send a part of the request
+  bool is_unread_ = false;   // the client may still send a part of the request
+  bool is_plain_ = false;    // the client sends HTTP to a port with TLS
+  bool is_watched_ = false;  // a read waits for the end of a TLS stream
   unsigned version_ = 11;
 };
 

@@ -19,7 +19,8 @@ std::string Header(const IncomingRequest& request, Name name) {
 }
 
 // A header that may stand in several lines.
-std::string Joined(const IncomingRequest& request, bhttp::field name, const char* separator) {
+template <class Name>
+std::string Joined(const IncomingRequest& request, Name name, const char* separator) {
   std::string all;
   const auto [first, last] = request.equal_range(name);
   for (auto line = first; line != last; ++line) {
@@ -89,8 +90,8 @@ std::optional<RequestDefect> FindDefect(beast::error_code error, const IncomingR
   return RequestDefect{status, ReasonOf(error, header)};
 }
 
-Request ToRequest(const IncomingRequest& header, const std::string& address,
-                  std::chrono::steady_clock::time_point now) {
+Request ToRequest(const IncomingRequest& header, const boost::asio::ip::address& peer,
+                  const IsProxy& is_proxy, std::chrono::steady_clock::time_point now) {
   Request request;
   request.method = std::string(header.method_string());
   request.target = std::string(header.target());
@@ -103,9 +104,9 @@ Request ToRequest(const IncomingRequest& header, const std::string& address,
   request.accept = Header(header, bhttp::field::accept);
   request.sec_fetch_site = Header(header, "Sec-Fetch-Site");
   request.page_header = Header(header, "X-Kinescope-Page");
-  request.forwarded_proto = Header(header, "X-Forwarded-Proto");
+  request.is_encrypted = Believes(is_proxy, peer) && Header(header, "X-Forwarded-Proto") == "https";
   request.socket_protocols = Joined(header, bhttp::field::sec_websocket_protocol, ", ");
-  request.address = address;
+  request.address = ClientBehind(is_proxy, peer, Joined(header, "X-Forwarded-For", ","));
   request.received_at = now;
   return request;
 }

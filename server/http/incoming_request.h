@@ -12,6 +12,7 @@
 #include <string>
 
 #include "server/http/answer.h"
+#include "server/http/forwarded.h"
 
 namespace kinescope::http {
 
@@ -36,8 +37,9 @@ struct RequestDefect {
 [[nodiscard]] std::optional<RequestDefect> FindDefect(boost::beast::error_code error,
                                                       const IncomingRequest& header);
 
-/// `header` without its body, as it came from the client at `address`.
-[[nodiscard]] Request ToRequest(const IncomingRequest& header, const std::string& address,
-                                std::chrono::steady_clock::time_point now);
+/// `header` without its body, as it came from `peer`. What a proxy says of its client is believed
+/// if `is_proxy` says so.
+[[nodiscard]] Request ToRequest(const IncomingRequest& header, const boost::asio::ip::address& peer,
+                                const IsProxy& is_proxy, std::chrono::steady_clock::time_point now);
 
 }  // namespace kinescope::http

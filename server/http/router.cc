@@ -318,12 +318,12 @@ Answer Router::Route(const Request& request) const {
       api != nullptr ? (this->*api->answer)(request, role) : RouteAdmitted(*target, request);
   answer.to_token_holder = access != Access::kOpen;
   if (access == Access::kByQuery && !posts) {
-    // A client that forges this header only spoils its own cookie, so that any proxy may set it.
-    const char* const secure = request.forwarded_proto == "https" ? "; Secure" : "";
+    const char* const secure = site_.is_tls || request.is_encrypted ? "; Secure" : "";
     const std::string& token =
         role == Role::kOperator ? site_.tokens.of_operator : site_.tokens.of_viewer;
     answer.headers.emplace_back("Set-Cookie", site_.cookie_name + "=" + token +
-                                                  "; Path=/; HttpOnly; SameSite=Strict" + secure);
+                                                  "; Path=" + site_.base_path +
+                                                  "/; HttpOnly; SameSite=Strict" + secure);
   }
   return answer;
 }

@@ -46,6 +46,8 @@ class Router {
     std::function<std::string()> diagnostics;  // the complete JSON, with the part of the server
     std::function<std::string()> live_camera;
     std::function<void(const std::string& reason)> count_refusal;
+    bool is_tls = false;            // the cookie is for TLS only then
+    std::string base_path;          // "" or "/lab3"; requests come without it
     GuessGuard* guesses = nullptr;  // may be null: wrong tokens are not slowed down
   };
   explicit Router(Site site) : site_(std::move(site)) {}

@@ -18,8 +18,10 @@
 #include "core/system/errors.h"
 #include "server/alarms/alarm_json.h"
 #include "server/http/access.h"
+#include "server/http/base_path.h"
 #include "server/http/client_address.h"
 #include "server/http/http_session.h"
+#include "server/http/tls_certificate.h"
 
 namespace kinescope::http {
 namespace {
@@ -81,6 +83,8 @@ void CheckConfig(const HttpConfig& config) {
         ": an address that other machines can reach needs a token; set --token_file=FILE, which is "
         "made with a random token if it is missing, or use 127.0.0.1");
   }
+  if (config.tls.any()) TlsCertificate(config.tls, nullptr);
+  (void)CheckedBasePath(config.base_path);
   CheckTokenText(config.token, config.token_origin);
   CheckTokenText(config.viewer_token, config.viewer_token_origin);
   if (config.viewer_token.empty()) return;
@@ -155,6 +159,7 @@ struct HttpServer::Impl {
   PixelBudget pixels_;
   std::optional<SnapshotWorker> snapshots_;
   std::optional<Router> router_;
+  std::optional<TlsCertificate> tls_;
   Shared shared_;
   asio::io_context io_{1};
   tcp::acceptor acceptor_;
@@ -190,6 +195,7 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
                 listener.Release()) {
   port_ = acceptor_.local_endpoint().port();
   if (feed_ != nullptr) snapshots_.emplace(*feed_);
+  if (config_.tls.any()) tls_.emplace(config_.tls, config_.warn);
   router_.emplace(MakeSite());
   if (config.controls != nullptr) {
     hub_.SetOnCamera(
@@ -200,6 +206,9 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
   shared_.hub = &hub_;
   shared_.counters = &counters_;
   shared_.pixels = &pixels_;
+  shared_.tls = tls_ ? &*tls_ : nullptr;
+  shared_.is_proxy = config_.is_proxy;
+  shared_.base_path = CheckedBasePath(config_.base_path);
   shared_.patience = config_.patience;
   shared_.snapshots = snapshots_ ? &*snapshots_ : nullptr;
   Accept();
@@ -240,11 +249,13 @@ Router::Site HttpServer::Impl::MakeSite() {
   site.set_hand_load = config_.set_hand_load;
   site.diagnostics = [this] {
     return WithHttpCounters(program_diagnostics_ ? program_diagnostics_() : "{}", counters_,
-                            hub_.client_counters());
+                            hub_.client_counters(), tls_ ? &tls_->status() : nullptr);
   };
   site.live_camera = [this] { return hub_.camera(); };
   site.count_refusal = [this](const std::string& reason) { ++counters_.rejected[reason]; };
   site.guesses = &guesses_;
+  site.is_tls = tls_.has_value();
+  site.base_path = CheckedBasePath(config_.base_path);
   return site;
 }
 
@@ -311,6 +322,7 @@ void HttpServer::Impl::ArmTick() {
       }
     }
     guesses_.Report(now);
+    if (tls_) tls_->Check(now);
   });
 }
 
@@ -368,7 +380,9 @@ std::string UrlOf(const HttpConfig& config, int port, const std::string& token) 
   const std::string& ip = config.bind_ip;
   // 0.0.0.0 cannot be opened; on this machine it means localhost.
   const bool is_any = ip == "0.0.0.0" || ip == "::";
-  const std::string url = "http://" + Authority(is_any ? "localhost" : ip, port) + "/";
+  const std::string url = (config.tls.any() ? "https://" : "http://") +
+                          Authority(is_any ? "localhost" : ip, port) +
+                          CheckedBasePath(config.base_path) + "/";
   return token.empty() ? url : url + "?token=" + token;
 }
 

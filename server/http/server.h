@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -22,6 +23,7 @@
 #include "server/http/controls.h"
 #include "server/http/role.h"
 #include "server/http/snapshot_request.h"
+#include "server/http/tls_files.h"
 #include "server/marks/mark_book.h"
 #include "urdf/skin/skin_template.h"
 
@@ -98,6 +100,12 @@ struct HttpConfig {
   /// Its owner may look and not change anything. Empty: none; without `token` it must be.
   std::string viewer_token;
   std::string viewer_token_origin = "--viewer_token";
+  TlsFiles tls;
+  /// Whether X-Forwarded-For and X-Forwarded-Proto of the machine with this address (IPv6; IPv4 is
+  /// mapped into it) are believed. Null: of none.
+  std::function<bool(const std::array<std::uint8_t, 16>& address)> is_proxy;
+  /// The path under which a proxy offers the page, "/lab3"; requests come with it or without.
+  std::string base_path;
   std::filesystem::path web_root;                      // folder with index.html
   std::vector<CameraView> cameras;                     // in display order
   CameraFraming framing;                               // of `cameras`
@@ -126,7 +134,8 @@ struct HttpConfig {
   std::function<void(const std::string& line)> warn;
 };
 
-/// @throws UsageError for an address, port or token that cannot be used; listens nowhere.
+/// @throws UsageError for an address, port, token or certificate that cannot be used; listens
+/// nowhere.
 void CheckConfig(const HttpConfig& config);
 
 /// A port that is open already: connections wait in it until an HttpServer serves them. So a port

@@ -41,9 +41,9 @@ start_server() {  # [options]
   until grep -q 'page at' "$work/server.log"; do kill -0 "$server"; done
 }
 start_server
-measure_viewers() {  # VIEWERS [pictures]
-  local before; before=$(cpu_ticks "$server")
-  echo "$1 viewer(s) ${2:-}: $("$build/tests/bench/page_viewers" "$http_port" "$1" 10 ${2:+"$2"} | paste -sd';')" \
+measure_viewers() {  # VIEWERS [pictures] [stalled=N] [back=N]
+  local before viewers=$1; shift; before=$(cpu_ticks "$server")
+  echo "$viewers viewer(s) $*: $("$build/tests/bench/page_viewers" "$http_port" "$viewers" 10 "$@" | paste -sd';')" \
        "server CPU $(( $(cpu_ticks "$server") - before ))/1000 of a core, $(rss_mb "$server") MB"
 }
 "$kinescope" stream demo:lift --rate_hz 60 --to "udp://127.0.0.1:$udp_port" 2>/dev/null & suit=$!
@@ -51,6 +51,7 @@ children+=("$suit")
 echo "at 60 Hz:"
 measure_viewers 1
 measure_viewers 20
+measure_viewers 20 stalled=1 back=5
 measure_viewers 1 pictures
 kill "$suit"; wait "$suit" 2>/dev/null || true
 # While the stream is live, the next sender would count as a second person instead of the same suit.

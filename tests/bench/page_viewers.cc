@@ -1,13 +1,16 @@
 // Sample in -> WebSocket client: connects N viewers to a running `kinescope serve` and prints how
 // long after its arrival at the server's socket each sample reached them. Same machine, same clock.
-//   page_viewers PORT VIEWERS SECONDS [pictures]
+//   page_viewers PORT VIEWERS SECONDS [pictures] [stalled=N] [back=N]
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -41,28 +44,54 @@ void Print(const char* what, std::vector<double>& millis, double seconds, int vi
               at(0.99));
 }
 
+int Usage() {
+  std::fprintf(stderr,
+               "page_viewers PORT VIEWERS SECONDS [pictures] [stalled=N] [back=N]\n"
+               "stalled, back: so many of the viewers stop reading, or look five seconds back\n");
+  return 2;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 4) {
-    std::fprintf(stderr, "page_viewers PORT VIEWERS SECONDS [pictures]\n");
-    return 2;
-  }
+  if (argc < 4) return Usage();
   const int port = std::atoi(argv[1]), viewers = std::atoi(argv[2]);
   const double seconds = std::atof(argv[3]);
+  int stalled = 0, back = 0;
+  bool with_pictures = false;
+  for (int i = 4; i < argc; ++i) {
+    if (std::strcmp(argv[i], "pictures") == 0) {
+      with_pictures = true;
+    } else if (std::sscanf(argv[i], "stalled=%d", &stalled) != 1 &&
+               std::sscanf(argv[i], "back=%d", &back) != 1) {
+      return Usage();
+    }
+  }
   std::mutex mutex;
   std::vector<double> states, pictures;  // ms, guarded by mutex
+  std::atomic<std::uint64_t> past{0};
   std::vector<std::thread> threads;
   for (int i = 0; i < viewers; ++i) {
-    threads.emplace_back([&] {
-      WsClient client(port);
-      if (argc > 4) client.Send("{\"pictures\":true}");
+    const bool is_stalled = i < stalled, looks_back = !is_stalled && i < stalled + back;
+    threads.emplace_back([&, is_stalled, looks_back] {
       const double end = NowMicros() + seconds * 1e6;
+      if (is_stalled) {
+        constexpr int kSmallBufferBytes = 4096;
+        const WsClient client(port, "/api/v1/ws", {}, kSmallBufferBytes);
+        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+        return;
+      }
+      WsClient client(port);
+      if (with_pictures) client.Send("{\"pictures\":true}");
       std::uint64_t last_state = 0;
-      std::uint64_t seen_states = 0, seen_pictures = 0;
+      std::uint64_t seen_states = 0, seen_pictures = 0, looks = 0;
       while (NowMicros() < end) {
         const auto message = client.Receive();
         if (message.is_text) continue;
+        if (message.IsPast()) {
+          ++past;
+          continue;
+        }
         const double late = (NowMicros() - ArrivalMicros(message)) / 1e3;
         // As the page does, so that the server goes on sending.
         (message.IsState() ? seen_states : seen_pictures) += 1;
@@ -70,13 +99,22 @@ int main(int argc, char** argv) {
                     ",\"seen_pictures\":" + std::to_string(seen_pictures) + "}");
         if (message.IsState() && message.state_number() == last_state) continue;  // a heartbeat
         if (message.IsState()) last_state = message.state_number();
+        if (looks_back && message.IsState()) {
+          client.Send("{\"look\":{\"id\":" + std::to_string(++looks) +
+                      ",\"micros\":" + std::to_string(std::llround(NowMicros() - 5e6)) + "}}");
+        }
+        if (looks_back) continue;
         const std::lock_guard<std::mutex> lock(mutex);
         (message.IsState() ? states : pictures).push_back(late);
       }
     });
   }
   for (std::thread& thread : threads) thread.join();
-  Print("states", states, seconds, viewers);
-  Print("pictures", pictures, seconds, viewers);
+  Print("states", states, seconds, viewers - stalled - back);
+  Print("pictures", pictures, seconds, viewers - stalled - back);
+  if (back > 0) {
+    std::printf("past: %.1f a second and viewer\n",
+                static_cast<double>(past) / seconds / static_cast<double>(back));
+  }
   return 0;
 }

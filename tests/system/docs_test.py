@@ -128,6 +128,11 @@ def try_kinescope(words, folder):
         problem = run([PROGRAM, "urdf", "--out", "person.urdf"], folder)
         if problem:
             return problem
+    if "--tls_certificate" in words:
+        problem = run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-subj", "/CN=lab",
+                       "-keyout", "lab.key", "-out", "lab.pem"], folder)
+        if problem:
+            return problem
     if "--wrenches" in words:
         write_forces(pathlib.Path(folder))
     if command in ("record", "inspect") and any(w.startswith("udp:") for w in words):
@@ -163,6 +168,8 @@ def attempt(line, words, folder):
         shell = f". {shlex.quote(SETUP)} && roslaunch --dump-params " + " ".join(words[1:])
         env_path = "/usr/bin:" + os.environ["PATH"]  # catkin runs python3 from PATH
         return run(["env", "PATH=" + env_path, "bash", "-c", shell], folder)
+    if name == "openssl":
+        return run(words, folder)
     if name in ("curl", "websocat", "rosservice"):
         return "never: the tests of the server and of the node make these requests"
     if any(w.startswith("ros:") for w in words):
@@ -189,6 +196,20 @@ for path in [*TOP.glob("*.md"), *TOP.glob("docs/*.md"), *TOP.glob("tests/*/*.md"
     name = str(path.relative_to(TOP))
     if name not in DOCUMENTS and re.search(r"^```(sh|bash)$", path.read_text(), re.M):
         fail(name, "contains commands, but is not in DOCUMENTS")
+
+TESTS = "\n".join(path.read_text() for kind in ("*.cc", "*.py") for path in (TOP / "tests").rglob(kind) if "node_modules" not in path.parts)
+for name in re.findall(r"`([^`]+)`(?=[^|`]*(?:`[^`]+`[^|`]*)*\|$)", (TOP / "docs/security.md").read_text(), re.M):
+    if re.fullmatch(r"[\w.]+\.test\.mjs", name):
+        found = (TOP / "tests/browser" / name).exists()
+    elif name.endswith("_fuzz"):
+        found = (TOP / "tests/fuzz" / (name + ".cc")).exists()
+    elif name.startswith("test_"):
+        found = f"def {name}(" in TESTS
+    else:
+        suite, _, case = name.partition(".")
+        found = re.search(rf"TEST(_F|_P)?\({suite},\s+{case}\)", TESTS) is not None
+    if not found:
+        fail("docs/security.md", f"there is no test {name}")
 
 for document in DOCUMENTS:
     if not (TOP / document).exists():

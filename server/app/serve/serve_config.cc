@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
+#include <stdexcept>
 
 #include "core/system/errors.h"
 #include "core/system/install_paths.h"
@@ -13,6 +17,7 @@
 #include "server/alarms/rule_file.h"
 #include "server/app/serve/page_token.h"
 #include "server/loads/hand_loads.h"
+#include "server/mvn/net/allowed_senders.h"
 #include "server/mvn/open.h"
 #include "server/options/text.h"
 #include "server/ros/source/graph_source.h"
@@ -35,10 +40,24 @@ http::CameraFraming FramingOfCameras() {
           framing.reach_m,     framing.height_m, framing.spare_below};
 }
 
+// @throws UsageError
+std::function<bool(const std::array<std::uint8_t, 16>&)> TrustedProxies(const std::string& text) {
+  try {
+    return [networks = mvn::AllowedSenders(text)](const std::array<std::uint8_t, 16>& address) {
+      return networks.Allow({address, 0});
+    };
+  } catch (const std::invalid_argument& failure) {
+    throw UsageError("--trusted_proxies=" + text + ": " + failure.what());
+  }
+}
+
 http::HttpConfig PageOf(const ServeOptions& options) {
   http::HttpConfig config;
   config.bind_ip = *options.bind_ip;
   config.port = static_cast<int>(*options.http_port);
+  config.tls = {*options.tls_certificate, *options.tls_key};
+  config.base_path = *options.base_path;
+  if (!options.trusted_proxies->empty()) config.is_proxy = TrustedProxies(*options.trusted_proxies);
   config.web_root = FindResource("web");
   config.cameras = CameraViews();
   config.framing = FramingOfCameras();

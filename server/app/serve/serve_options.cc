@@ -157,6 +157,14 @@ void ServeOptions::List(options::OptionList& option) {
   option("viewer_token", viewer_token,
          "the token of viewers itself, which the list of processes then shows; prefer "
          "--viewer_token_file or the environment variable KINESCOPE_VIEWER_TOKEN");
+  option("tls_certificate", tls_certificate,
+         "PEM file with a certificate for this machine, and those that confirm it: the page is "
+         "then served encrypted, at https://. A file that changes is read again");
+  option("tls_key", tls_key, "PEM file with the private key of --tls_certificate");
+  option("base_path", base_path, "path under which a reverse proxy offers the page, such as /lab3");
+  option("trusted_proxies", trusted_proxies,
+         "machines whose X-Forwarded-For and X-Forwarded-Proto are believed, such as 127.0.0.1 or "
+         "10.0.0.0/8; not given: none");
   option("history_minutes", history_minutes,
          "time that viewers of the page can look back; 0: none. Of a stream that needs more than "
          "500 MB for it, less is kept");

@@ -45,6 +45,7 @@ struct ServeOptions {
   options::Text bind_ip;
   options::Whole http_port;
   options::Text token, token_file, viewer_token, viewer_token_file;
+  options::Text tls_certificate, tls_key, base_path, trusted_proxies;
   options::Number history_minutes;
   options::Text marks_file, mark_names, recordings_folder;
   // As messages name them: "~token", "file.yaml:3: token"; "": not given.

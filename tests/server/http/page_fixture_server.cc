@@ -1,5 +1,6 @@
 // page_fixture_server [--token T [--viewer_token T]] [--no-pictures] [--meshes FOLDER] [--worn]
-// [--diagnostics JSON] [--marks_file FILE] [--alarms FILE]:
+// [--diagnostics JSON] [--marks_file FILE] [--alarms FILE] [--base_path PATH]
+// [--tls_certificate FILE --tls_key FILE]:
 // --worn: gloves and props on everybody, and a tracked object. Prints one line of JSON with its
 // "url", then obeys lines on its standard input until that ends:
 //   live | stale | nodata   what it publishes, 60 times a second (stale, nodata: once)
@@ -495,6 +496,12 @@ int Main(const std::vector<std::string>& arguments) {
     if (arguments[i] == "--viewer_token" && i + 1 < arguments.size()) {
       config.viewer_token = arguments[++i];
     }
+    if (arguments[i] == "--base_path" && i + 1 < arguments.size())
+      config.base_path = arguments[++i];
+    if (arguments[i] == "--tls_certificate" && i + 1 < arguments.size()) {
+      config.tls.certificate = arguments[++i];
+    }
+    if (arguments[i] == "--tls_key" && i + 1 < arguments.size()) config.tls.key = arguments[++i];
     if (arguments[i] == "--meshes" && i + 1 < arguments.size())
       options.mesh_folder = arguments[++i];
     if (arguments[i] == "--worn") options.worn = true;

@@ -464,9 +464,9 @@ TEST_F(RouterTest, SetsASecureCookieBehindATlsProxy) {
   Router::Site site = SiteOf();
   site.tokens.of_operator = "s3cret";
   Request request = RequestOf("GET", "/?token=s3cret");
-  request.forwarded_proto = "https";
+  request.is_encrypted = true;
   EXPECT_THAT(HeaderOf(Router(site).Route(request), "Set-Cookie"), HasSubstr("; Secure"));
-  request.forwarded_proto = "http";
+  request.is_encrypted = false;
   EXPECT_THAT(HeaderOf(Router(site).Route(request), "Set-Cookie"),
               ::testing::Not(HasSubstr("Secure")));
 }

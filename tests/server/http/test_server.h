@@ -93,10 +93,11 @@ class FakeFeed final : public PictureFeed {
 struct TestServer {
   static constexpr char kViewerToken[] = "v1ewer-of-the-lab";  // of a server with a token
   explicit TestServer(const std::string& token = "", bool with_feed = true,
-                      const std::string& mesh_folder = "", const PatienceLimits& limits = {})
+                      const std::string& mesh_folder = "", const PatienceLimits& limits = {},
+                      const std::function<void(HttpConfig&)>& change = nullptr)
       : patience(limits),
         model(MakePersonModel(7, mesh_folder)),
-        server(ConfigWithLoads(token), states, pictures, with_feed ? &feed : nullptr,
+        server(ConfigWithLoads(token, change), states, pictures, with_feed ? &feed : nullptr,
                [] { return std::string(R"({"source": {"datagrams": 5}})"); }) {}
 
   static HttpConfig MakeConfig(const std::string& token) {
@@ -110,7 +111,8 @@ struct TestServer {
     return config;
   }
 
-  HttpConfig ConfigWithLoads(const std::string& token) {
+  HttpConfig ConfigWithLoads(const std::string& token,
+                             const std::function<void(HttpConfig&)>& change) {
     HttpConfig config = MakeConfig(token);
     if (!token.empty()) config.viewer_token = kViewerToken;
     config.patience = patience;
@@ -121,6 +123,7 @@ struct TestServer {
       told[character] = load;
       return std::string();
     };
+    if (change) change(config);
     return config;
   }
   std::map<int, HandLoad> Told() {
