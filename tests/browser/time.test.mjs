@@ -175,7 +175,7 @@ async function serve(source, args = []) {
 test('a recording is never called live: the page says where in it the viewer is, and stops at its end', async () => {
   const folder = await mkdtemp(join(tmpdir(), 'kinescope-time-'));
   const file = join(folder, 'walk.mvnx');
-  await promisify(execFile)(process.env.KINESCOPE, ['convert', 'demo:walk', '--seconds', '4', '--out', file]);
+  await promisify(execFile)(process.env.KINESCOPE, ['convert', 'demo:walk', '--seconds', '8', '--out', file]);
   const server = await serve(file);
   const { page, problems, close } = await openPage(server.url, { beforeLoad: (fresh) => fresh.addInitScript(() => {
     window.words = [];
@@ -185,7 +185,7 @@ test('a recording is never called live: the page says where in it the viewer is,
         .observe(word, { childList: true, characterData: true, subtree: true });
     });
   }) });
-  await statusIs(page, /^Recording 0:04\.0 of 0:04$/);
+  await statusIs(page, /^Recording 0:08\.0 of 0:08$/);
   await page.waitForFunction(() => document.getElementById('play').dataset.act === 'play', null, LONG);
   // The loads of the last sample stay, although no more samples come.
   await page.waitForFunction(() => /low|medium|high/.test(document.getElementById('loads').textContent), null, LONG);
@@ -195,13 +195,13 @@ test('a recording is never called live: the page says where in it the viewer is,
   await page.keyboard.press('Escape');
   await sampleIs(page, last);
   await page.keyboard.press('Space');
-  await statusIs(page, /^Recording 0:0[1-3]\.\d of 0:04$/);
+  await statusIs(page, /^Recording 0:0[1-7]\.\d of 0:08$/);
   await saveScreenshot(page, 'recording_desktop');
   await page.setViewportSize(PHONE);
   await saveScreenshot(page, 'recording_phone');
-  await statusIs(page, /^Recording 0:04\.0 of 0:04$/);
+  await statusIs(page, /^Recording 0:08\.0 of 0:08$/);
   const words = await page.evaluate(() => window.words);
-  assert.deepEqual(words.filter((word) => !/^(Connecting|No data|Recording [\d:.]+( of 0:04)?)$/.test(word)), []);
+  assert.deepEqual(words.filter((word) => !/^(Connecting|No data|Recording [\d:.]+( of 0:08)?)$/.test(word)), []);
   assert.deepEqual(problems, []);
   await close();
   await server.stop();

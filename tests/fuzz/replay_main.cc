@@ -9,40 +9,18 @@
 #include <map>
 #include <string>
 
-// tests/fuzz/CMakeLists.txt renames LLVMFuzzerTestOneInput of each source.
+// tests/fuzz/CMakeLists.txt renames LLVMFuzzerTestOneInput of each source and writes the list
+// of them: FUZZ_ENTRY(name) a line.
 using Entry = int(const std::uint8_t* data, std::size_t size);
-extern "C" Entry Fuzz_assembler, Fuzz_bag, Fuzz_camera_keys, Fuzz_datagram, Fuzz_framing,
-    Fuzz_http_target, Fuzz_loads, Fuzz_marks, Fuzz_mesh_file, Fuzz_mvnx, Fuzz_options,
-    Fuzz_page_message, Fuzz_pcap, Fuzz_rig, Fuzz_scale, Fuzz_urdf, Fuzz_websocket, Fuzz_wrenches,
-    Fuzz_yaml_options;
-#ifdef KINESCOPE_WITH_ROS
-extern "C" Entry Fuzz_marker;
-#endif
+#define FUZZ_ENTRY(name) extern "C" Entry Fuzz_##name;
+#include "fuzz_entries.inc"
+#undef FUZZ_ENTRY
 
 int main(int argc, char** argv) {
   const std::map<std::string, Entry*> entries = {
-      {"assembler", &Fuzz_assembler},
-      {"bag", &Fuzz_bag},
-      {"camera_keys", &Fuzz_camera_keys},
-      {"datagram", &Fuzz_datagram},
-      {"framing", &Fuzz_framing},
-      {"http_target", &Fuzz_http_target},
-      {"loads", &Fuzz_loads},
-      {"marks", &Fuzz_marks},
-      {"mesh_file", &Fuzz_mesh_file},
-      {"mvnx", &Fuzz_mvnx},
-      {"options", &Fuzz_options},
-      {"page_message", &Fuzz_page_message},
-      {"pcap", &Fuzz_pcap},
-      {"rig", &Fuzz_rig},
-      {"scale", &Fuzz_scale},
-      {"urdf", &Fuzz_urdf},
-      {"websocket", &Fuzz_websocket},
-      {"wrenches", &Fuzz_wrenches},
-      {"yaml_options", &Fuzz_yaml_options},
-#ifdef KINESCOPE_WITH_ROS
-      {"marker", &Fuzz_marker},
-#endif
+#define FUZZ_ENTRY(name) {#name, &Fuzz_##name},
+#include "fuzz_entries.inc"
+#undef FUZZ_ENTRY
   };
   const auto entry = argc == 3 ? entries.find(argv[1]) : entries.end();
   if (entry == entries.end()) {
