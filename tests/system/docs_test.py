@@ -7,6 +7,7 @@ The test fails on a command that it cannot run, because documents may contain on
 document that is missing or has no commands, and on a command that is never run but not listed in NEVER_RUN.
 """
 import collections
+import json
 import os
 import pathlib
 import re
@@ -19,14 +20,14 @@ import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM, SETUP, RECORDING = sys.argv[1:4]
-DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/beside.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/json.md", "docs/loads.md", "docs/motion.md", "docs/pictures.md", "docs/urdf.md",
+DOCUMENTS = ["README.md", "CONTRIBUTING.md", "docs/alarms.md", "docs/beside.md", "docs/ros.md", "docs/http.md", "docs/inspect.md", "docs/json.md", "docs/loads.md", "docs/motion.md", "docs/pictures.md", "docs/urdf.md",
              "tests/bench/README.md", "tests/soak/README.md"]
 # Document -> first words of its commands that this test never runs.
 NEVER_RUN = {
     "README.md": ["./demo", "./check"],
     "CONTRIBUTING.md": ["./check", "./check", "cmake", "cmake", "build/fuzz/tests/fuzz/datagram_fuzz"],
     "docs/ros.md": ["kinescope inspect ros:", "kinescope urdf ros:", "rosservice"],
-    "docs/http.md": ["curl", "curl", "curl", "curl", "curl", "curl", "curl"],
+    "docs/http.md": ["node docs/watch.mjs"],
     "tests/bench/README.md": ["tests/bench/measure.sh", "build/dev/tests/bench/mvn_bench", "build/dev/tests/bench/loads_bench",
                               "build/dev/tests/bench/render_bench", "tests/bench/clip.sh", "tests/bench/memory_parts.py",
                               "tests/bench/rviz_peer.sh",
@@ -107,6 +108,43 @@ def write_forces(folder):
     (folder / "forces.mot").write_text("plates\nendheader\ntime\t" + "\t".join(labels) + "\n" + rows)
 
 
+def try_curl(line, folder):
+    """Makes the request of the document to a server with a simulated suit. What is written there as an address and as the
+    number of a state becomes that of this server."""
+    port = free_port(socket.SOCK_DGRAM)
+    words = [PROGRAM, "serve", "udp://127.0.0.1:" + port, "--http_port", "0"]
+    if "kinescope.token" in line:
+        (pathlib.Path(folder) / "kinescope.token").write_text("a-token-of-a-lab-1234\n")
+        words += ["--token_file", "kinescope.token"]
+    home = {**os.environ, "XDG_STATE_HOME": folder}
+    with subprocess.Popen(words, cwd=folder, env=home, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as server, \
+            subprocess.Popen([PROGRAM, "stream", "demo:lift", "--to", "udp://127.0.0.1:" + port], stdout=subprocess.DEVNULL,
+                             stderr=subprocess.DEVNULL) as suit:
+        try:
+            said = ""
+            for text in server.stdout:
+                said += text
+                if " live: " in text:
+                    break
+            url = re.search(r"page at (http://[\d.]+:\d+)", said)
+            if not url:
+                return f"the server does not start: {said}"
+            line = re.sub(r"http://[\d.]+:\d+", url[1], line)
+            if '"state":' in line:
+                state = json.loads(subprocess.run(["curl", "-s", url[1] + "/api/v1/state"], stdout=subprocess.PIPE, check=True).stdout)
+                line = re.sub(r'"state": \d+', f'"state": {state["state_number"]}', line)
+            return run(["bash", "-c", line.replace("curl ", "curl --fail-with-body ", 1)], folder)
+        finally:
+            server.kill()
+            suit.kill()
+
+
+def write_rules(folder):
+    """The rules which the document shows as its example."""
+    rules = re.search(r"^```yaml\n(.*?)^```", (TOP / "docs/alarms.md").read_text(), re.M | re.S)[1]
+    (pathlib.Path(folder) / "rules.yaml").write_text(rules)
+
+
 def try_kinescope(words, folder):
     words = [PROGRAM] + words[1:]
     command = words[1]
@@ -133,6 +171,8 @@ def try_kinescope(words, folder):
                        "-keyout", "lab.key", "-out", "lab.pem"], folder)
         if problem:
             return problem
+    if "rules.yaml" in words:
+        write_rules(folder)
     if "--wrenches" in words:
         write_forces(pathlib.Path(folder))
     if command in ("record", "inspect") and any(w.startswith("udp:") for w in words):
@@ -170,8 +210,12 @@ def attempt(line, words, folder):
         return run(["env", "PATH=" + env_path, "bash", "-c", shell], folder)
     if name == "openssl":
         return run(words, folder)
-    if name in ("curl", "websocat", "rosservice"):
-        return "never: the tests of the server and of the node make these requests"
+    if name == "curl":
+        return try_curl(line, folder)
+    if line.startswith("node docs/watch.mjs"):
+        return "never: client.test.mjs runs it"
+    if name == "rosservice":
+        return "never: the tests of the node make these requests"
     if any(w.startswith("ros:") for w in words):
         if words[1] != "serve":
             return "never: ros_source_test runs it with a ROS graph"
