@@ -28,17 +28,16 @@ ip::address ParseAddress(std::string_view text, boost::system::error_code& error
 
 }  // namespace
 
-bool Believes(const IsProxy& is_proxy, const ip::address& peer) {
-  if (!is_proxy) return false;
+bool Believes(const IpNetworks& proxies, const ip::address& peer) {
   const ip::address_v6 wide =
       peer.is_v4() ? ip::make_address_v6(ip::v4_mapped, peer.to_v4()) : peer.to_v6();
-  return is_proxy(wide.to_bytes());
+  return proxies.Has(wide.to_bytes());
 }
 
-std::string ClientBehind(const IsProxy& is_proxy, const ip::address& peer,
+std::string ClientBehind(const IpNetworks& proxies, const ip::address& peer,
                          std::string_view forwarded_for) {
   ip::address client = peer;
-  while (!forwarded_for.empty() && Believes(is_proxy, client)) {
+  while (!forwarded_for.empty() && Believes(proxies, client)) {
     const std::size_t comma = forwarded_for.rfind(',');
     const bool is_first = comma == std::string_view::npos;
     boost::system::error_code error;

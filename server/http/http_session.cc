@@ -158,7 +158,7 @@ void HttpSession::OnHeader(beast::error_code error) {
   beast::error_code gone;
   const auto peer = stream_.socket().remote_endpoint(gone).address();
   if (gone) return;
-  request_ = ToRequest(request, peer, shared_.is_proxy, Clock::now());
+  request_ = ToRequest(request, peer, shared_.proxies, Clock::now());
   connection_.address = request_.address;
   if (!has_body) request_.body.emplace();
   // Most answers do not need the body: then it is not read, and nothing that follows it either.

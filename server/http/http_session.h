@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 
+#include "core/system/ip_networks.h"
 #include "server/http/answer.h"
 #include "server/http/bucket.h"
 #include "server/http/connections.h"
@@ -37,7 +38,7 @@ struct Shared {
   SnapshotWorker* snapshots = nullptr;  // null: no renderer
   PixelBudget* pixels = nullptr;
   TlsCertificate* tls = nullptr;  // null: the server does not encrypt
-  IsProxy is_proxy;               // null: no machine is
+  IpNetworks proxies;             // whose X-Forwarded-* are believed
   std::string base_path;          // "" or "/lab3"
   PerAddress<Bucket> handshakes;  // that a client may still begin
   Connections connections;

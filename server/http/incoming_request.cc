@@ -91,7 +91,7 @@ std::optional<RequestDefect> FindDefect(beast::error_code error, const IncomingR
 }
 
 Request ToRequest(const IncomingRequest& header, const boost::asio::ip::address& peer,
-                  const IsProxy& is_proxy, std::chrono::steady_clock::time_point now) {
+                  const IpNetworks& proxies, std::chrono::steady_clock::time_point now) {
   Request request;
   request.method = std::string(header.method_string());
   request.target = std::string(header.target());
@@ -104,9 +104,9 @@ Request ToRequest(const IncomingRequest& header, const boost::asio::ip::address&
   request.accept = Header(header, bhttp::field::accept);
   request.sec_fetch_site = Header(header, "Sec-Fetch-Site");
   request.page_header = Header(header, "X-Kinescope-Page");
-  request.is_encrypted = Believes(is_proxy, peer) && Header(header, "X-Forwarded-Proto") == "https";
+  request.is_encrypted = Believes(proxies, peer) && Header(header, "X-Forwarded-Proto") == "https";
   request.socket_protocols = Joined(header, bhttp::field::sec_websocket_protocol, ", ");
-  request.address = ClientBehind(is_proxy, peer, Joined(header, "X-Forwarded-For", ","));
+  request.address = ClientBehind(proxies, peer, Joined(header, "X-Forwarded-For", ","));
   request.received_at = now;
   return request;
 }

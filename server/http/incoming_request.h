@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "core/system/ip_networks.h"
 #include "server/http/answer.h"
 #include "server/http/forwarded.h"
 
@@ -38,8 +39,9 @@ struct RequestDefect {
                                                       const IncomingRequest& header);
 
 /// `header` without its body, as it came from `peer`. What a proxy says of its client is believed
-/// if `is_proxy` says so.
+/// if it is one of `proxies`.
 [[nodiscard]] Request ToRequest(const IncomingRequest& header, const boost::asio::ip::address& peer,
-                                const IsProxy& is_proxy, std::chrono::steady_clock::time_point now);
+                                const IpNetworks& proxies,
+                                std::chrono::steady_clock::time_point now);
 
 }  // namespace kinescope::http

@@ -207,7 +207,7 @@ HttpServer::Impl::Impl(const HttpConfig& config, Listener& listener, Latest<Scen
   shared_.counters = &counters_;
   shared_.pixels = &pixels_;
   shared_.tls = tls_ ? &*tls_ : nullptr;
-  shared_.is_proxy = config_.is_proxy;
+  shared_.proxies = config_.trusted_proxies;
   shared_.base_path = CheckedBasePath(config_.base_path);
   shared_.patience = config_.patience;
   shared_.snapshots = snapshots_ ? &*snapshots_ : nullptr;

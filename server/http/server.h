@@ -5,7 +5,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "core/force_inputs.h"
 #include "core/playback.h"
 #include "core/scene_state.h"
+#include "core/system/ip_networks.h"
 #include "core/system/latest.h"
 #include "server/alarms/alarms.h"
 #include "server/history/history.h"
@@ -101,9 +101,7 @@ struct HttpConfig {
   std::string viewer_token;
   std::string viewer_token_origin = "--viewer_token";
   TlsFiles tls;
-  /// Whether X-Forwarded-For and X-Forwarded-Proto of the machine with this address (IPv6; IPv4 is
-  /// mapped into it) are believed. Null: of none.
-  std::function<bool(const std::array<std::uint8_t, 16>& address)> is_proxy;
+  IpNetworks trusted_proxies;  // whose X-Forwarded-For and X-Forwarded-Proto are believed
   /// The path under which a proxy offers the page, "/lab3"; requests come with it or without.
   std::string base_path;
   std::filesystem::path web_root;                      // folder with index.html

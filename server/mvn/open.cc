@@ -45,7 +45,7 @@ std::string DescribeReach(const std::string& url) {
   const NetUrl parsed = ParseNetUrl(url);
   if (parsed.mode != NetUrl::Mode::kListen) return "";
   const SocketAddress address = ResolveToListen(parsed, url);
-  const std::string senders = parsed.from.are_all()
+  const std::string senders = parsed.from.empty()
                                   ? "every sender (--from ADDRESS/n admits only some)"
                                   : "senders of " + parsed.from_text + " only";
   return (IsLoopback(address)      ? "reached from this machine only, accepts "

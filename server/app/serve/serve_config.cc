@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -12,12 +11,12 @@
 
 #include "core/system/errors.h"
 #include "core/system/install_paths.h"
+#include "core/system/ip_networks.h"
 #include "core/system/state_folder.h"
 #include "render/camera/camera.h"
 #include "server/alarms/rule_file.h"
 #include "server/app/serve/page_token.h"
 #include "server/loads/hand_loads.h"
-#include "server/mvn/net/allowed_senders.h"
 #include "server/mvn/open.h"
 #include "server/options/text.h"
 #include "server/ros/source/graph_source.h"
@@ -41,11 +40,10 @@ http::CameraFraming FramingOfCameras() {
 }
 
 // @throws UsageError
-std::function<bool(const std::array<std::uint8_t, 16>&)> TrustedProxies(const std::string& text) {
+IpNetworks TrustedProxies(const std::string& text) {
+  if (text.empty()) return {};
   try {
-    return [networks = mvn::AllowedSenders(text)](const std::array<std::uint8_t, 16>& address) {
-      return networks.Allow({address, 0});
-    };
+    return IpNetworks(text);
   } catch (const std::invalid_argument& failure) {
     throw UsageError("--trusted_proxies=" + text + ": " + failure.what());
   }
@@ -57,7 +55,7 @@ http::HttpConfig PageOf(const ServeOptions& options) {
   config.port = static_cast<int>(*options.http_port);
   config.tls = {*options.tls_certificate, *options.tls_key};
   config.base_path = *options.base_path;
-  if (!options.trusted_proxies->empty()) config.is_proxy = TrustedProxies(*options.trusted_proxies);
+  config.trusted_proxies = TrustedProxies(*options.trusted_proxies);
   config.web_root = FindResource("web");
   config.cameras = CameraViews();
   config.framing = FramingOfCameras();

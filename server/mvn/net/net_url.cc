@@ -109,12 +109,12 @@ void ParseQuery(std::string_view url, std::string_view query, NetUrl& parsed) {
     }
     parsed.from_text = word.substr(kFrom.size());
     try {
-      parsed.from = AllowedSenders(parsed.from_text);
+      parsed.from = IpNetworks(parsed.from_text);
     } catch (const std::invalid_argument& error) {
       RefuseUrl(url, "from=" + std::string(error.what()));
     }
   }
-  if (parsed.mode == NetUrl::Mode::kConnect && !parsed.from.are_all()) {
+  if (parsed.mode == NetUrl::Mode::kConnect && !parsed.from.empty()) {
     RefuseUrl(url, "connects to one machine, so from= has no meaning; remove it, or add ?listen");
   }
 }

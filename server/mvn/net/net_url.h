@@ -9,7 +9,7 @@
 ///   tcp://192.168.1.20:9763       a host: connects to it
 ///   tcp://127.0.0.1:9763?listen   waits for connections at this address only
 ///   tcp://suit-pc:9763?connect    connects; the same as without ?connect
-///   udp://:9763?from=10.0.0.0/8   receives from these machines only (allowed_senders.h)
+///   udp://:9763?from=10.0.0.0/8   receives from these machines only (core/system/ip_networks.h)
 ///   tcp://:9763?listen&from=...   several of these are separated by &
 ///
 /// "localhost" is 127.0.0.1, so that both ends mean the same address. A listener with port 0 gets a
@@ -20,7 +20,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/mvn/net/allowed_senders.h"
+#include "core/system/ip_networks.h"
 
 namespace kinescope::mvn {
 
@@ -36,7 +36,7 @@ struct NetUrl {
   std::string host;  // "" for all IPv4 addresses of this machine; no brackets
   std::uint16_t port = kDefaultPort;
   Mode mode = Mode::kListen;
-  AllowedSenders from;    // of a receiver
+  IpNetworks from;        // of a receiver; empty: all
   std::string from_text;  // as it was written; "": all senders
 };
 

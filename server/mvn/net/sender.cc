@@ -7,7 +7,7 @@ namespace kinescope::mvn {
 
 std::unique_ptr<DatagramSender> OpenSender(const std::string& url) {
   const NetUrl parsed = ParseNetUrl(url);
-  if (!parsed.from.are_all()) {
+  if (!parsed.from.empty()) {
     throw SourceError(url + ": from= is for receivers; remove it, or give it to the receiver");
   }
   return parsed.protocol == Protocol::kUdp ? OpenUdpSender(parsed, url)

@@ -13,6 +13,7 @@
 #include "core/system/errors.h"
 #include "server/mvn/datagram.h"
 #include "server/mvn/giving_way.h"
+#include "server/mvn/net/allowed_senders.h"
 #include "server/mvn/net/arrival_clock.h"
 #include "server/mvn/stream_framer.h"
 
@@ -181,7 +182,7 @@ bool TcpDatagrams::MakeRoom(const Endpoint& newcomer, std::int64_t now) {
 
 void TcpDatagrams::Add(Socket socket, std::int64_t now) {
   const Endpoint sender = EndpointOf(PeerAddress(socket));
-  if (!from_.Allow(sender)) {
+  if (!MaySend(from_, sender)) {
     if (counters_.strangers++ == 0) WarnOfStranger(description_, sender);
     return;
   }

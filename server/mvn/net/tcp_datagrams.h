@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "core/system/ip_networks.h"
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/net/arrival_clock.h"
 #include "server/mvn/net/socket.h"
@@ -65,7 +66,7 @@ class TcpDatagrams : public DatagramSource {
 
   const Patience patience_;
   std::string description_;
-  AllowedSenders from_;
+  IpNetworks from_;
   std::uint16_t port_ = 0;
   Socket listener_;                        // when listening
   std::optional<TcpConnector> connector_;  // when connecting

@@ -17,6 +17,7 @@
 #include "core/system/clocks.h"
 #include "core/system/errors.h"
 #include "server/mvn/datagram.h"
+#include "server/mvn/net/allowed_senders.h"
 
 namespace kinescope::mvn {
 namespace {
@@ -155,7 +156,7 @@ int UdpDatagrams::ReadBatch(DatagramSink& sink) {
   }
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     batch_->datagram.from = EndpointOf(batch_->slots[i].sender);
-    if (!from_.Allow(batch_->datagram.from)) {
+    if (!MaySend(from_, batch_->datagram.from)) {
       if (counters_.strangers++ == 0) WarnOfStranger(description_, batch_->datagram.from);
       continue;
     }

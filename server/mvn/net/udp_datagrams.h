@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "core/system/ip_networks.h"
 #include "server/mvn/datagram_source.h"
 #include "server/mvn/net/arrival_clock.h"
 #include "server/mvn/net/socket.h"
@@ -36,7 +37,7 @@ class UdpDatagrams : public DatagramSource {
   int ReadBatch(DatagramSink& sink);
   void ReadAncillary(const void* message_header);
 
-  AllowedSenders from_;
+  IpNetworks from_;
   Socket socket_;
   std::string description_;
   Endpoint local_;  // address zero if it listens on all addresses

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "core/system/ip_networks.h"
 #include "tests/server/http/test_server.h"
 
 namespace kinescope::http {
@@ -11,44 +12,41 @@ namespace {
 
 using boost::asio::ip::make_address;
 
-// 127.0.0.0/8 and 10.0.0.0/8.
-bool IsInLab(const std::array<std::uint8_t, 16>& address) {
-  return address[10] == 0xFF && (address[12] == 127 || address[12] == 10);
-}
+const IpNetworks kLab("127.0.0.0/8,10.0.0.0/8");
 
 TEST(Forwarded, IsNotBelievedOfStrangers) {
-  EXPECT_EQ(ClientBehind(nullptr, make_address("127.0.0.1"), "192.0.2.1"), "127.0.0.1");
-  EXPECT_EQ(ClientBehind(IsInLab, make_address("192.0.2.7"), "192.0.2.1"), "192.0.2.7");
-  EXPECT_FALSE(Believes(nullptr, make_address("127.0.0.1")));
-  EXPECT_FALSE(Believes(IsInLab, make_address("2001:db8::1")));
-  EXPECT_TRUE(Believes(IsInLab, make_address("::ffff:10.1.2.3")));
+  EXPECT_EQ(ClientBehind({}, make_address("127.0.0.1"), "192.0.2.1"), "127.0.0.1");
+  EXPECT_EQ(ClientBehind(kLab, make_address("192.0.2.7"), "192.0.2.1"), "192.0.2.7");
+  EXPECT_FALSE(Believes({}, make_address("127.0.0.1")));
+  EXPECT_FALSE(Believes(kLab, make_address("2001:db8::1")));
+  EXPECT_TRUE(Believes(kLab, make_address("::ffff:10.1.2.3")));
 }
 
 TEST(Forwarded, TheLastAddressThatIsNoProxyIsTheClient) {
   const auto proxy = make_address("127.0.0.1");
-  EXPECT_EQ(ClientBehind(IsInLab, proxy, "192.0.2.1"), "192.0.2.1");
-  EXPECT_EQ(ClientBehind(IsInLab, proxy, "192.0.2.1, 10.0.0.2"), "192.0.2.1");
-  EXPECT_EQ(ClientBehind(IsInLab, proxy, "198.51.100.9, 192.0.2.1 ,10.0.0.2"), "192.0.2.1")
+  EXPECT_EQ(ClientBehind(kLab, proxy, "192.0.2.1"), "192.0.2.1");
+  EXPECT_EQ(ClientBehind(kLab, proxy, "192.0.2.1, 10.0.0.2"), "192.0.2.1");
+  EXPECT_EQ(ClientBehind(kLab, proxy, "198.51.100.9, 192.0.2.1 ,10.0.0.2"), "192.0.2.1")
       << "the first was written by the client";
-  EXPECT_EQ(ClientBehind(IsInLab, proxy, "10.0.0.3,10.0.0.2"), "10.0.0.3");
-  EXPECT_EQ(ClientBehind(IsInLab, proxy, "192.0.2.1:4711"), "192.0.2.1");
-  EXPECT_EQ(ClientBehind(IsInLab, proxy, "[2001:db8:1:2:3::4]:4711"), "2001:db8:1:2::/64");
-  EXPECT_EQ(ClientBehind(IsInLab, proxy, "2001:db8:1:2:3::4"), "2001:db8:1:2::/64");
+  EXPECT_EQ(ClientBehind(kLab, proxy, "10.0.0.3,10.0.0.2"), "10.0.0.3");
+  EXPECT_EQ(ClientBehind(kLab, proxy, "192.0.2.1:4711"), "192.0.2.1");
+  EXPECT_EQ(ClientBehind(kLab, proxy, "[2001:db8:1:2:3::4]:4711"), "2001:db8:1:2::/64");
+  EXPECT_EQ(ClientBehind(kLab, proxy, "2001:db8:1:2:3::4"), "2001:db8:1:2::/64");
 }
 
 TEST(Forwarded, WhatIsNoAddressIsNotFollowed) {
   const auto proxy = make_address("127.0.0.1");
   for (const char* wrong : {"", " ", ",", "unknown", "_hidden", "[", "[]", "192.0.2.1;x", "1.2.3",
                             "\x80\xFF", "192.0.2.1,", "<script>"}) {
-    EXPECT_EQ(ClientBehind(IsInLab, proxy, wrong), "127.0.0.1") << wrong;
+    EXPECT_EQ(ClientBehind(kLab, proxy, wrong), "127.0.0.1") << wrong;
   }
-  EXPECT_EQ(ClientBehind(IsInLab, proxy, "192.0.2.1, unknown, 10.0.0.2"), "10.0.0.2");
-  EXPECT_EQ(ClientBehind(IsInLab, proxy, std::string(8000, ',')), "127.0.0.1");
+  EXPECT_EQ(ClientBehind(kLab, proxy, "192.0.2.1, unknown, 10.0.0.2"), "10.0.0.2");
+  EXPECT_EQ(ClientBehind(kLab, proxy, std::string(8000, ',')), "127.0.0.1");
 }
 
 TEST(Forwarded, WrongTokensAreCountedByTheClientBehindTheProxy) {
   testing::TestServer site("0perator-of-the-lab", true, "", {},
-                           [](HttpConfig& config) { config.is_proxy = IsInLab; });
+                           [](HttpConfig& config) { config.trusted_proxies = kLab; });
   const auto guess = [&](const std::string& client, int number) {
     return site
         .Get("/api/v1/state",
