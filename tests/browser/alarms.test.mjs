@@ -70,7 +70,7 @@ test('an alarm is shown with what, whose and how much, stays until an operator a
   await saveScreenshot(page, 'alarm_over_desktop');
   await page.keyboard.press('a');
   await alarmIs(page, 'none');
-  await page.waitForFunction(() => /acknowledged by operator$/.test(document.querySelector('#alarm-list small').textContent), null, LONG);
+  await page.waitForFunction(() => /acknowledged by operator$/.test(document.querySelector('#alarm-list small')?.textContent), null, LONG);
   assert.match(await page.textContent('#alarm-detail'), /^last: .* 5\.00 kN compression, \d\d:\d\d:\d\d$/);
   assert.deepEqual(problems, []);
   await close();

@@ -187,12 +187,12 @@ test('a click on a plot goes to that moment, and hovering shows the values of an
   await page.waitForFunction((before) => document.getElementById('sample').textContent !== before, first, LONG);
   assert.ok(Number(await page.textContent('#sample')) < Number(first));
   // Of all plots, also those that the pointer is not over: before the stream began there is no value.
-  await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output').textContent === '2.15', null, LONG);
+  await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output')?.textContent === '2.15', null, LONG);
   await page.click('#plot-window >> text=10 min');
   await page.mouse.move(over.x + over.width * 0.02, over.y + 20);
-  await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output').textContent === '–', null, LONG);
+  await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output')?.textContent === '–', null, LONG);
   await page.mouse.move(5, 5);
-  await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output').textContent === '2.15', null, LONG);
+  await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output')?.textContent === '2.15', null, LONG);
   await close();
 });
 
@@ -209,7 +209,7 @@ test('up to four joints of one of the people are plotted', async () => {
   const asked = page.waitForRequest((request) => /api\/v1\/series\?person=1&keys=l5_s1%2Cright_shoulder%2Cleft_elbow/.test(request.url()));
   await page.click('.person[data-character="1"]');
   await asked;
-  await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output').textContent === '2.15', null, LONG);
+  await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output')?.textContent === '2.15', null, LONG);
   await close();
 });
 
@@ -278,7 +278,7 @@ test('a wide page shows plots beside loads or body', async () => {
   assert.equal(await page.isVisible('#plots'), true);
   assert.equal(await page.isVisible('#loads'), true);
   assert.equal(await page.isVisible('#tab-plots'), false);
-  await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output').textContent === '2.15', null, LONG);
+  await page.waitForFunction(() => document.querySelector('[data-plot="compression"] output')?.textContent === '2.15', null, LONG);
   await chooseTab(page, 'body');
   assert.equal(await page.isVisible('#loads'), false);
   assert.equal(await page.isVisible('#body-map'), true);
@@ -303,10 +303,10 @@ test('the map of the body shows class, percent and exposure of each joint, and a
   assert.ok(right.x < left.x);
   assert.equal(await button('left_knee').getAttribute('aria-pressed'), 'false');
   await button('left_knee').click();
-  await page.waitForFunction(() => document.querySelector('[data-joint="left_knee"]').ariaPressed === 'true', null, LONG);
+  await page.waitForFunction(() => document.querySelector('[data-joint="left_knee"]')?.ariaPressed === 'true', null, LONG);
   assert.equal(await page.locator('#plot-chosen').textContent(), 'L5/S1, R shoulder, R knee, L knee');
   await button('l5_s1').click();
-  await page.waitForFunction(() => document.querySelector('[data-joint="l5_s1"]').ariaPressed === 'false', null, LONG);
+  await page.waitForFunction(() => document.querySelector('[data-joint="l5_s1"]')?.ariaPressed === 'false', null, LONG);
   await saveScreenshot(page, 'body_map');
   assert.deepEqual(problems, []);
   await close();

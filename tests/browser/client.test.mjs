@@ -41,7 +41,7 @@ test('the example for a page of the same host shows state and picture', async (t
   t.after(() => proxy.stop());
   const { page, problems, close } = await openPage(`${proxy.url}mine.html`);
   await page.waitForFunction(() => /^live: 1 person$/.test(document.title), null, LONG);
-  await page.waitForFunction(() => document.querySelector('img').naturalWidth > 100, null, LONG);
+  await page.waitForFunction(() => document.querySelector('img')?.naturalWidth > 100, null, LONG);
   assert.deepEqual(problems, []);
   await close();
 });

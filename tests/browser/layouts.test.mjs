@@ -145,7 +145,7 @@ test('the wall says in large words that the stream has stopped', async () => {
   const { page, close } = await open('?view=wall', 2, { viewport: WALL });
   site.say('stale');
   await page.waitForFunction(() => document.getElementById('status-word').textContent === 'Stale', null, LONG);
-  await page.waitForFunction(() => document.querySelector('.person .ratio').textContent === '–', null, LONG);
+  await page.waitForFunction(() => document.querySelector('.person .ratio')?.textContent === '–', null, LONG);
   const banner = await boxOf(page, '#banner'), card = await boxOf(page, '.person');
   assert.ok(banner.y + banner.height <= card.y, 'the banner covers no card');
   await saveScreenshot(page, 'wall_stale');

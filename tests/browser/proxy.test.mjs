@@ -26,12 +26,13 @@ async function startSite(options) {
   return site;
 }
 const isLive = (page) => page.waitForFunction(() => document.getElementById('status-word').textContent === 'Live'
-  && document.querySelectorAll('#loads li').length === 15, null, LONG);
+  && document.querySelectorAll('#loads li').length === 15 && document.querySelectorAll('#mark-buttons button').length === 9, null, LONG);
 
 for (const strips of [true, false]) {
-  test(`below a path of a proxy that ${strips ? 'takes the path off' : 'leaves the path'}`, async () => {
+  test(`below a path of a proxy that ${strips ? 'takes the path off' : 'leaves the path'}`, async (t) => {
     const site = await startSite(['--base_path', '/lab3']);
     const proxy = await startProxy(site.url, { prefix: '/lab3', strips });
+    t.after(() => proxy.stop());  // also after a failure: the process would not end
     const { page, problems, requests, close } = await openPage(`${proxy.url}?token=${TOKEN}`);
     await isLive(page);
     await page.keyboard.press('1');
@@ -44,7 +45,6 @@ for (const strips of [true, false]) {
     await saveScreenshot(page, `below_a_path_${strips}`);
     assert.deepEqual(problems.filter((line) => !line.startsWith('failed: ')), [], 'but for requests that the reload cut short');
     await close();
-    await proxy.stop();
     await site.stop();
   });
 }

@@ -163,7 +163,7 @@ test('a link shows another person the same moment, person, joints, camera, panel
   const two = await openPage(link);
   await two.page.waitForFunction((wanted) => document.getElementById('sample').textContent === wanted
     && /^Behind/.test(document.getElementById('status-word').textContent), sample, LONG);
-  await two.page.waitForFunction(() => document.querySelector('.person[data-character="1"]').ariaPressed === 'true', null, LONG);
+  await two.page.waitForFunction(() => document.querySelector('.person[data-character="1"]')?.ariaPressed === 'true', null, LONG);
   const what = (where) => where.evaluate(() => ({
     tab: document.getElementById('side').dataset.tab, joints: document.getElementById('plot-chosen').textContent,
     window: document.querySelector('#plot-window [aria-pressed="true"]').textContent,
@@ -218,7 +218,7 @@ for (const [name, options] of [['desk', {}], ['phone', { viewport: PHONE, colorS
     const view = await page.locator('#view').boundingBox(), picture = await page.locator('#picture-image').boundingBox();
     assert.ok(picture.width > 0.95 * view.width && picture.height > 0.95 * view.height);
     await page.click('[data-camera="top"]');
-    await page.waitForFunction(() => document.querySelector('#cameras [aria-pressed="true"]').dataset.camera === 'top'
+    await page.waitForFunction(() => document.querySelector('#cameras [aria-pressed="true"]')?.dataset.camera === 'top'
       && document.getElementById('picture-camera').value === 'top', null, LONG);
     await saveScreenshot(page, `no_webgl_${name}`);
     assert.deepEqual(problems.filter((line) => !/Error creating WebGL context/.test(line)), []);
