@@ -308,6 +308,7 @@ async function loadMarks(now) {
   elements['mark-pad'].hidden = revision === null;
   if (revision === null) return;
   try {
+    await markPad.sendWaiting(now);
     await marks.update(revision, now);
   } catch (error) {
     showNotice(`Could not load the marks: ${messageOf(error)}`);

@@ -67,8 +67,8 @@ export class MarkPad {
     return this.#tell((state) => this.marks.add({ state, ...what }));
   }
 
-  /** @param {(state: number) => Promise<Mark>} send  gets the number of the state on the screen
-   *  @returns {Promise<boolean>}  whether the mark is kept */
+  /** @param {(state: number) => Promise<Mark|null>} send  gets the number of the state on the screen
+   *  @returns {Promise<boolean>}  whether the mark is kept, or waits for the server */
   async #tell(send) {
     const { state } = this.shown;
     if (state === null || state.liveness === 'no data') {
@@ -77,13 +77,22 @@ export class MarkPad {
     }
     try {
       const mark = await send(state.stateNumber);
-      this.#say(`${mark.is_open ? 'Span begins' : mark.end ? 'Span' : 'Marked'}: “${mark.text}” at sample ${mark.at.counter}`
-        + `${mark.end ? ` to ${mark.end.counter}` : ''}${seenText(mark)}`);
+      if (mark === null) this.#say(waitText(this.marks.waiting));
+      else this.#say(`${doneText(mark)}${seenText(mark)}`);
       return true;
     } catch (error) {
       this.notice(`The mark was not set: ${messageOf(error)}`);
       return false;
     }
+  }
+
+  /** Those that were set while the server was away.
+   *  @param {number} now  browser's clock, ms */
+  async sendWaiting(now) {
+    const { kept, lost } = await this.marks.sendWaiting(now);
+    if (lost.length > 0) this.notice(`Not set while the server was away: ${lost.join('; ')}`);
+    if (kept.length === 1) this.#say(`Set now: ${doneText(kept[0])}`);
+    if (kept.length > 1) this.#say(`Set now: ${kept.length} marks that waited for the server`);
   }
 
   async #undo() {
@@ -133,6 +142,7 @@ export class MarkPad {
   update(now) {
     const { parts, marks, shown } = this;
     parts.undo.disabled = marks.lastOwn === null;
+    if (marks.waiting > 0) this.#say(waitText(marks.waiting));
     if (now > this.#saidUntil && parts.said.textContent !== '') parts.said.textContent = '';
     const list = marks.list(), { recording } = shown.newestDetails;
     const drawn = JSON.stringify([marks.names, recording?.start_micros, this.isViewer(), list]);
@@ -197,6 +207,13 @@ export class MarkPad {
     return `${at} · sample ${mark.at.counter}${length} · ${mark.role}${seenText(mark)}`;
   }
 }
+
+/** @param {number} count */
+const waitText = (count) => (count === 1 ? '1 mark waits for the server' : `${count} marks wait for the server`);
+
+/** @param {Mark} mark  that the server has kept */
+const doneText = (mark) => `${mark.is_open ? 'Span begins' : mark.end ? 'Span' : 'Marked'}: “${mark.text}” at sample ${mark.at.counter}`
+  + `${mark.end ? ` to ${mark.end.counter}` : ''}`;
 
 /** @param {Mark} mark
  *  @returns {string} how far its author looked back; "" for less than that a person notices */

@@ -1,5 +1,5 @@
 // The marks of the server: what they are, and how they are set, ended and removed.
-import { ask, request } from './server_api.js';
+import { ask, messageOf, NoConnection, request } from './server_api.js';
 import { readMark, readMarks } from './messages.js';
 
 /** @typedef {import('./messages.js').Mark} Mark
@@ -7,6 +7,7 @@ import { readMark, readMarks } from './messages.js';
  *    screen; button: from 1 */
 
 const RETRY_MILLIS = 3000;
+const MOST_WAITING = 500;  // that are set while the server is away
 const HEADERS = { 'Content-Type': 'application/json' };
 
 /** Of a mark in lists and on the strip: the key of its button, ¶ free text, ✎ a change, ▶ a trial.
@@ -20,6 +21,8 @@ export class Marks {
   #isLoading = false;
   #retryAt = -Infinity;  // ms; after an error
   /** @type {string[]} */ names = [];  // of the buttons
+  /** @type {{order: object, what: string, runMicros: number}[]} */ #waiting = [];  // for the server to come back
+  #isSending = false;  // of these
   /** @type {number[]} */ #mine = [];  // ids of those that this page has set, which it may undo
 
   /** @param {() => void} changed */
@@ -84,19 +87,50 @@ export class Marks {
   }
 
   /** @param {NewMark} mark
-   *  @returns {Promise<Mark>}
+   *  @returns {Promise<Mark|null>}  null: it waits, because the server is away
    *  @throws {Error} with the reason if the server did not keep it */
-  async add(mark) {
-    const kept = await this.#send(mark);
-    this.#mine.push(kept.id);
-    return kept;
+  add(mark) {
+    return this.#sendOrKeep(mark, mark.text ?? this.names[(mark.button ?? 0) - 1]);
   }
 
   /** @param {Mark} mark  a span
    *  @param {number} state
-   *  @returns {Promise<Mark>} */
+   *  @returns {Promise<Mark|null>}  as add() */
   end(mark, state) {
-    return this.#send({ id: mark.id, state });
+    return this.#sendOrKeep({ id: mark.id, state }, `the end of ${mark.text}`);
+  }
+
+  /** How many wait for the server. */
+  get waiting() {
+    return this.#waiting.length;
+  }
+
+  /** Sends those that wait, in their order; call it several times a second.
+   *  @param {number} now  browser's clock, ms
+   *  @returns {Promise<{kept: Mark[], lost: string[]}>}  lost: what was not kept, with the reason */
+  async sendWaiting(now) {
+    /** @type {{kept: Mark[], lost: string[]}} */ const result = { kept: [], lost: [] };
+    if (this.#isSending || this.#waiting.length === 0 || now < this.#retryAt) return result;
+    this.#isSending = true;
+    this.#retryAt = now + RETRY_MILLIS;
+    try {
+      const server = await ask(`api/v1/marks?after=${Math.max(0, this.#revision)}`, readMarks);
+      while (server !== null && this.#waiting.length > 0) {
+        const { order, what, runMicros } = this.#waiting[0];
+        try {
+          if (server.run_micros !== runMicros) throw new Error('the server was started again and has no longer its moment');
+          result.kept.push(await this.#send(order));
+        } catch (error) {
+          if (error instanceof NoConnection) break;
+          result.lost.push(`“${what}”: ${messageOf(error)}`);
+        }
+        this.#waiting.shift();
+      }
+      if (server !== null) this.#retryAt = -Infinity;
+    } finally {
+      this.#isSending = false;
+    }
+    return result;
   }
 
   /** @param {Mark} mark
@@ -106,10 +140,25 @@ export class Marks {
   }
 
   /** @param {object} order
+   *  @param {string} what
+   *  @returns {Promise<Mark|null>} */
+  async #sendOrKeep(order, what) {
+    try {
+      if (this.#waiting.length === 0) return await this.#send(order);
+    } catch (error) {
+      if (!(error instanceof NoConnection)) throw error;
+    }
+    if (this.#waiting.length >= MOST_WAITING) throw new NoConnection();
+    this.#waiting.push({ order, what, runMicros: this.#runMicros });
+    return null;
+  }
+
+  /** @param {object} order
    *  @returns {Promise<Mark>} */
   async #send(order) {
     const answer = await request('api/v1/mark', { method: 'POST', headers: HEADERS, body: JSON.stringify(order) });
     const mark = readMark(await answer.json(), 'api/v1/mark');
+    if (!this.#marks.has(mark.id)) this.#mine.push(mark.id);
     this.#put(mark);
     this.changed();
     return mark;

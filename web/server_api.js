@@ -5,6 +5,13 @@ import { readRejection } from './messages.js';
 /** @param {unknown} error  any thrown value */
 export const messageOf = (error) => (error instanceof Error ? error.message : String(error));
 
+/** The server cannot be reached: what was asked did not happen, and may be asked again. */
+export class NoConnection extends Error {
+  constructor() {
+    super('no connection to the server');
+  }
+}
+
 // A page of another site cannot add this header. It shows the server that its own page sends the request, also where
 // browsers send no Sec-Fetch-Site: without TLS, to other machines.
 const FROM_THIS_PAGE = { 'X-Kinescope-Page': '1' };
@@ -24,10 +31,11 @@ export async function ask(route, read) {
 /** @param {string|URL} route
  *  @param {RequestInit} [options]
  *  @returns {Promise<Response>}
- *  @throws {Error} if the server is unreachable or rejects the request */
+ *  @throws {NoConnection} if the server is unreachable
+ *  @throws {Error} if it rejects the request */
 export async function request(route, options) {
   const answer = await fetch(route, { ...options, headers: { ...options?.headers, ...FROM_THIS_PAGE } }).catch(() => null);
-  if (answer === null) throw new Error('no connection to the server');
+  if (answer === null) throw new NoConnection();
   if (!answer.ok) throw new Error(await rejectionOf(answer));
   return answer;
 }
